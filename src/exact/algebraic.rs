@@ -1,0 +1,260 @@
+//! Real algebraic numbers as (squarefree polynomial, isolating interval), and exact signs at them.
+
+use super::{Interval, Poly, Rational};
+use num_traits::One;
+use std::cmp::Ordering;
+
+/// The sign of a real number.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Sign {
+    /// Below zero.
+    Negative,
+    /// Exactly zero.
+    Zero,
+    /// Above zero.
+    Positive,
+}
+
+impl From<i8> for Sign {
+    fn from(value: i8) -> Self {
+        match value.cmp(&0) {
+            Ordering::Less => Sign::Negative,
+            Ordering::Equal => Sign::Zero,
+            Ordering::Greater => Sign::Positive,
+        }
+    }
+}
+
+/// A real algebraic number: the one root in `interval` of a squarefree primitive polynomial.
+///
+/// Invariant: either the interval is a point at which the polynomial vanishes, or the polynomial
+/// has exactly one root in it and opposite signs at its two ends. Refinement narrows the interval
+/// and may replace the polynomial by a factor; the number stays the same.
+///
+/// ```
+/// use mceip::exact::{nonnegative_roots, Poly, Sign};
+/// let mut root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0); // sqrt 2
+/// assert_eq!(root.sign_of(&Poly::from_ints(&[-2, 0, 1])), Sign::Zero);
+/// assert_eq!(root.sign_of(&Poly::from_ints(&[-141, 100])), Sign::Positive); // 1.41 < sqrt 2
+/// ```
+#[derive(Debug, Clone)]
+pub struct Algebraic {
+    poly: Poly,
+    interval: Interval,
+}
+
+impl Algebraic {
+    /// A rational number as an algebraic one.
+    pub fn rational(value: Rational) -> Self {
+        Algebraic { poly: Poly::linear_root(&value), interval: Interval::point(value) }
+    }
+
+    /// The root of a squarefree `poly` isolated by `interval`; the caller has isolated it.
+    pub(super) fn isolated(poly: Poly, interval: Interval) -> Self {
+        if interval.is_point() { Self::rational(interval.lo().clone()) } else { Algebraic { poly, interval } }
+    }
+
+    /// A squarefree polynomial that vanishes here.
+    pub fn poly(&self) -> &Poly {
+        &self.poly
+    }
+
+    /// The interval known to contain the number and no other root of [`Algebraic::poly`].
+    pub fn interval(&self) -> &Interval {
+        &self.interval
+    }
+
+    /// The exact value where the number is known to be rational.
+    pub fn as_rational(&self) -> Option<&Rational> {
+        self.interval.is_point().then(|| self.interval.lo())
+    }
+
+    /// Halves the isolating interval (no-op on a point).
+    pub fn refine(&mut self) {
+        if self.interval.is_point() {
+            return;
+        }
+        let mid = self.interval.mid();
+        let at_mid = self.poly.sign_at(&mid);
+        let (lo, hi) = (self.interval.lo().clone(), self.interval.hi().clone());
+        if at_mid == 0 {
+            *self = Self::rational(mid);
+            return;
+        }
+        let (lo, hi) = if at_mid == self.poly.sign_at(&lo) { (mid, hi) } else { (lo, mid) };
+        // lo <= hi: mid lies between the old ends.
+        self.interval = Interval::new(lo, hi).unwrap_or_else(|| self.interval.clone());
+    }
+
+    /// Refines until the interval is at most `width` wide.
+    pub fn refine_to(&mut self, width: &Rational) {
+        while self.interval.width() > *width {
+            self.refine();
+        }
+    }
+
+    /// The exact sign of `g` at this number.
+    ///
+    /// Zero is decided by gcd, never by a tolerance: if `g` vanishes here it shares a factor with
+    /// the defining polynomial, which then changes sign over the interval.
+    pub fn sign_of(&mut self, g: &Poly) -> Sign {
+        if let Some(value) = self.as_rational() {
+            return Sign::from(g.sign_at(value));
+        }
+        let quick = self.interval.horner(g).certain_sign();
+        if quick != 0 {
+            return Sign::from(quick);
+        }
+        if g.is_zero() || self.splits_off(g) {
+            return Sign::Zero;
+        }
+        loop {
+            if let Some(value) = self.as_rational() {
+                return Sign::from(g.sign_at(value));
+            }
+            match self.interval.horner(g).certain_sign() {
+                0 => self.refine(), // ends: g is not zero here and Horner converges with the width
+                s => return Sign::from(s),
+            }
+        }
+    }
+
+    /// Does `g` vanish here? If a proper factor of the polynomial shows either way, keep the
+    /// factor that vanishes here as the new, smaller polynomial (dynamic evaluation, Duval 1989).
+    fn splits_off(&mut self, g: &Poly) -> bool {
+        let h = self.poly.gcd(g);
+        if h.degree() == Some(0) {
+            return false;
+        }
+        let vanishes = h.sign_at(self.interval.lo()) != h.sign_at(self.interval.hi());
+        let factor = if vanishes { Some(h) } else { self.poly.exact_div(&h) };
+        if let Some(f) = factor {
+            self.poly = f.primitive();
+        }
+        vanishes
+    }
+
+    /// Looks for a rational value: a root u/v of a primitive polynomial has v dividing the lead, so
+    /// in an interval narrower than 1/(2 lead^2) only the fraction of least denominator can be it.
+    pub fn try_rational(&mut self) {
+        if self.interval.is_point() {
+            return;
+        }
+        let lead = Rational::from_integer(self.poly.leading());
+        self.refine_to(&(Rational::one() / (&lead * &lead * Rational::from_integer(2.into()))));
+        let simplest = simplest_between(self.interval.lo(), self.interval.hi());
+        if self.poly.sign_at(&simplest) == 0 {
+            *self = Self::rational(simplest);
+        }
+    }
+
+    /// Exact comparison with a rational.
+    pub fn cmp_rational(&mut self, value: &Rational) -> Ordering {
+        match self.sign_of(&Poly::linear_root(value)) {
+            Sign::Negative => Ordering::Less,
+            Sign::Zero => Ordering::Equal,
+            Sign::Positive => Ordering::Greater,
+        }
+    }
+
+    /// Exact comparison of two numbers; both may be refined.
+    pub fn cmp_exact(&mut self, other: &mut Algebraic) -> Ordering {
+        if self.equals(other) {
+            return Ordering::Equal;
+        }
+        loop {
+            if self.interval.hi() < other.interval.lo() {
+                return Ordering::Less;
+            }
+            if other.interval.hi() < self.interval.lo() {
+                return Ordering::Greater;
+            }
+            self.refine();
+            other.refine();
+            if self.interval.is_point() && other.interval.is_point() {
+                return self.interval.lo().cmp(other.interval.lo());
+            }
+        }
+    }
+
+    /// Are the two numbers equal?
+    pub fn equals(&mut self, other: &mut Algebraic) -> bool {
+        if let Some(v) = other.as_rational() {
+            return self.sign_of(&Poly::linear_root(v)) == Sign::Zero;
+        }
+        if let Some(v) = self.as_rational() {
+            return other.sign_of(&Poly::linear_root(v)) == Sign::Zero;
+        }
+        // `other`'s polynomial vanishes at self exactly if the gcd does; then self is one of
+        // other's conjugates, and it is other itself exactly if it lies in other's interval.
+        let polynomial = other.poly.clone();
+        self.sign_of(&polynomial) == Sign::Zero
+            && self.cmp_rational(other.interval.lo()) == Ordering::Greater
+            && self.cmp_rational(other.interval.hi()) == Ordering::Less
+    }
+}
+
+/// The fraction of least denominator in [lo, hi] (Stern-Brocot).
+fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
+    let floor = lo.floor();
+    if floor == *lo {
+        return floor;
+    }
+    let next = &floor + Rational::one();
+    if next <= *hi {
+        return next;
+    }
+    // Both lie strictly between floor and floor + 1: recurse on the reciprocals of the fractions.
+    floor.clone() + simplest_between(&(hi - &floor).recip(), &(lo - &floor).recip()).recip()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{nonnegative_roots, rational, whole};
+
+    fn sqrt(n: i64) -> Algebraic {
+        nonnegative_roots(&Poly::from_ints(&[-n, 0, 1])).remove(0)
+    }
+
+    #[test]
+    fn signs_are_exact_also_an_inch_from_zero() {
+        // 3363/2378 is a convergent of sqrt 2, below it by 6e-8.
+        let mut root = sqrt(2);
+        assert_eq!(root.sign_of(&Poly::from_ints(&[-3363, 2378])), Sign::Negative);
+        assert_eq!(root.sign_of(&Poly::from_ints(&[-1393, 985])), Sign::Positive);
+        assert_eq!(root.sign_of(&Poly::from_ints(&[4, 0, 0, 0, -1])), Sign::Zero);
+    }
+
+    #[test]
+    fn zero_tests_shrink_a_reducible_polynomial() {
+        let p = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-5, 0, 1]);
+        let mut root = nonnegative_roots(&p).remove(0);
+        assert_eq!(root.sign_of(&Poly::from_ints(&[-2, 0, 1])), Sign::Zero);
+        assert_eq!(root.poly(), &Poly::from_ints(&[-2, 0, 1]));
+        let mut larger = nonnegative_roots(&p).remove(1);
+        assert_eq!(larger.sign_of(&Poly::from_ints(&[-2, 0, 1])), Sign::Positive);
+    }
+
+    #[test]
+    fn equality_and_order_across_polynomials() {
+        let p = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-3, 1]);
+        let mut from_product = nonnegative_roots(&p).remove(0);
+        assert!(from_product.equals(&mut sqrt(2)));
+        assert!(!from_product.equals(&mut sqrt(3)));
+        assert_eq!(sqrt(2).cmp_exact(&mut sqrt(3)), Ordering::Less);
+        assert_eq!(sqrt(5).cmp_rational(&whole(2)), Ordering::Greater);
+        assert_eq!(sqrt(2).cmp_exact(&mut from_product), Ordering::Equal);
+    }
+
+    #[test]
+    fn rational_values_are_recognised() {
+        let p = &Poly::from_ints(&[-7, 3]) * &Poly::from_ints(&[-2, 0, 1]);
+        let mut root = nonnegative_roots(&p).remove(1);
+        root.try_rational();
+        assert_eq!(root.as_rational(), Some(&rational(7, 3)));
+        let mut irrational = sqrt(2);
+        irrational.try_rational();
+        assert_eq!(irrational.as_rational(), None);
+    }
+}

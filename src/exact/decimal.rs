@@ -1,0 +1,138 @@
+//! Decimals for people: correctly rounded at any number of significant digits.
+
+use super::{Algebraic, Integer, Poly, Rational};
+use num_traits::{Pow, Signed, Zero};
+
+/// The number rounded to `digits` significant digits, half away from zero, as a decimal string.
+///
+/// Correct rounding of an irrational number is decided by refining its interval until both ends
+/// round alike; a tie is only possible at a rational, which is tested exactly.
+///
+/// ```
+/// use mceip::exact::{nonnegative_roots, to_decimal, Poly};
+/// let mut root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
+/// assert_eq!(to_decimal(&mut root, &Poly::from_ints(&[0, 1]), 20), "1.4142135623730950488");
+/// ```
+///
+/// Rounds `value(number)` where `value` is an integer polynomial: pass `t` for the number itself.
+pub fn to_decimal(number: &mut Algebraic, value: &Poly, digits: usize) -> String {
+    if number.sign_of(value) == super::Sign::Zero {
+        return "0".into();
+    }
+    loop {
+        let image = number.interval().horner(value);
+        if image.certain_sign() != 0 {
+            let (lo, hi) = (round(image.lo(), digits), round(image.hi(), digits));
+            if lo == hi {
+                return lo;
+            }
+            if let Some(tie) = tie_between(image.lo(), image.hi(), digits) {
+                // value - tie vanishes here exactly when the number rounds from a tie.
+                let shifted = &value.scale(tie.denom()) - &Poly::constant(tie.numer().clone());
+                if number.sign_of(&shifted) == super::Sign::Zero {
+                    return round(&tie, digits);
+                }
+            }
+        }
+        number.refine();
+    }
+}
+
+/// A rational rounded to `digits` significant digits, half away from zero.
+pub(crate) fn round(value: &Rational, digits: usize) -> String {
+    if value.is_zero() {
+        return "0".into();
+    }
+    let digits = digits.max(1);
+    let mut exponent = decimal_exponent(&value.abs());
+    let mut mantissa = scaled(&value.abs(), digits as i64 - 1 - exponent).round().to_integer();
+    if mantissa.to_string().len() > digits {
+        exponent += 1; // 9.99 -> 10.0
+        mantissa /= 10;
+    }
+    let sign = if value.is_negative() { "-" } else { "" };
+    format!("{sign}{}", layout(&mantissa.to_string(), exponent))
+}
+
+/// The one rounding tie strictly between two close positive or two close negative numbers, if any.
+fn tie_between(lo: &Rational, hi: &Rational, digits: usize) -> Option<Rational> {
+    let exponent = decimal_exponent(&hi.abs());
+    let unit = digits.max(1) as i64 - 1 - exponent;
+    let half = Rational::new(1.into(), 2.into());
+    let tie = (scaled(lo, unit) - &half).ceil() + half;
+    let tie = scaled(&tie, -unit);
+    (lo <= &tie && &tie <= hi).then_some(tie)
+}
+
+/// floor(log10(value)) for value > 0.
+fn decimal_exponent(value: &Rational) -> i64 {
+    let guess = value.numer().to_string().len() as i64 - value.denom().to_string().len() as i64;
+    // The guess is off by at most one, downwards.
+    if *value < scaled(&Rational::from_integer(1.into()), guess) { guess - 1 } else { guess }
+}
+
+/// value * 10^k.
+fn scaled(value: &Rational, k: i64) -> Rational {
+    let power = Rational::from_integer(Integer::from(10).pow(k.unsigned_abs()));
+    if k >= 0 { value * power } else { value / power }
+}
+
+/// Digits with the decimal point where it belongs; scientific outside 1e-5 .. 1e21.
+fn layout(digits: &str, exponent: i64) -> String {
+    let trimmed = digits.trim_end_matches('0');
+    let trimmed = if trimmed.is_empty() { "0" } else { trimmed };
+    match exponent {
+        0..=20 => {
+            let point = exponent as usize + 1;
+            if trimmed.len() <= point {
+                format!("{trimmed}{}", "0".repeat(point - trimmed.len()))
+            } else {
+                format!("{}.{}", &trimmed[..point], &trimmed[point..])
+            }
+        }
+        -5..=-1 => format!("0.{}{trimmed}", "0".repeat((-exponent - 1) as usize)),
+        _ if trimmed.len() == 1 => format!("{trimmed}e{exponent}"),
+        _ => format!("{}.{}e{exponent}", &trimmed[..1], &trimmed[1..]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{nonnegative_roots, parse, rational};
+
+    #[test]
+    fn rationals_round_half_away_from_zero() {
+        for (text, digits, want) in [
+            ("1/3", 5, "0.33333"),
+            ("2/3", 5, "0.66667"),
+            ("12.345", 4, "12.35"),
+            ("-12.345", 4, "-12.35"),
+            ("999.96", 4, "1000"),
+            ("9.996", 3, "10"),
+            ("120000", 2, "120000"),
+            ("1e-9", 3, "1e-9"),
+            ("1.25e30", 3, "1.25e30"),
+            ("0.0001234", 2, "0.00012"),
+        ] {
+            assert_eq!(round(&parse(text).unwrap(), digits), want, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_tie_at_a_hidden_rational_terminates() {
+        // 1/8 as a root of a reducible polynomial: 2 digits is the tie 0.125.
+        let p = &Poly::linear_root(&rational(1, 8)) * &Poly::from_ints(&[-3, 0, 1]);
+        let mut root = nonnegative_roots(&p).remove(0);
+        assert_eq!(to_decimal(&mut root, &Poly::from_ints(&[0, 1]), 2), "0.13");
+    }
+
+    #[test]
+    fn printed_decimals_read_back_close() {
+        let mut root = nonnegative_roots(&Poly::from_ints(&[-7, 0, 3])).remove(0);
+        let text = to_decimal(&mut root, &Poly::from_ints(&[0, 1]), 17);
+        let read: Rational = parse(&text).unwrap();
+        let error: Rational = &read * &read * rational(3, 1) - rational(7, 1);
+        assert!(error.abs() < parse("1e-15").unwrap());
+    }
+}

@@ -1,0 +1,118 @@
+//! The border between doubles and rationals. The only file of `exact` that names `f64`;
+//! it converts, it never computes with floats.
+
+use super::{Integer, NumberError, Rational};
+use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
+
+/// The exact value of a finite double (a dyadic rational).
+///
+/// # Errors
+/// [`NumberError::NotFinite`] for NaN and the infinities.
+///
+/// ```
+/// use mceip::exact::{from_f64, parse};
+/// assert_ne!(from_f64(1.1).unwrap(), parse("1.1").unwrap());
+/// assert!(from_f64(f64::NAN).is_err());
+/// ```
+pub fn from_f64(value: f64) -> Result<Rational, NumberError> {
+    Rational::from_f64(value).filter(|_| value.is_finite()).ok_or_else(|| NumberError::NotFinite { text: value.to_string() })
+}
+
+/// The nearest double, ties to even; beyond the range of doubles the signed infinity.
+///
+/// Computed by integer division to 54 bits and a sticky bit, so it is the IEEE rounding of the
+/// exact value (`num-rational`'s own conversion rounds twice).
+pub fn to_f64(value: &Rational) -> f64 {
+    if value.is_zero() {
+        return 0.0;
+    }
+    let (num, den) = (value.numer().abs(), value.denom().clone());
+    // Scale to a quotient of at least 66 bits, then round once by the decimal-free conversion of
+    // a 128-bit integer with a sticky last bit: u128 -> f64 rounds to nearest even.
+    let shift = 66 - (num.bits() as i64 - den.bits() as i64);
+    let (num, den) = if shift >= 0 { (num << shift as u64, den) } else { (num, den << shift.unsigned_abs()) };
+    let (quotient, rest) = (&num / &den, &num % &den);
+    let magnitude = round_scaled(quotient, !rest.is_zero(), -shift);
+    // The sign bit, set by hand: this room computes nothing in floats.
+    f64::from_bits(magnitude.to_bits() | (u64::from(value.is_negative()) << 63))
+}
+
+/// `quotient * 2^exponent` (plus something below one unit if `sticky`), rounded once.
+fn round_scaled(quotient: Integer, sticky: bool, exponent: i64) -> f64 {
+    let bits = quotient.bits() as i64;
+    // Lowest exponent a bit of the result may have: subnormals stop at 2^-1074.
+    let keep = 53.min(bits + exponent + 1074);
+    let drop = bits - keep;
+    let (kept, below) = (&quotient >> drop as u64, &quotient % (Integer::from(1) << drop as u64));
+    let half = if drop > 0 { Integer::from(1) << (drop - 1) as u64 } else { Integer::zero() };
+    let odd = kept.bit(0);
+    let up = drop > 0 && (below > half || (below == half && (sticky || odd)));
+    let mantissa = (if up { kept + 1 } else { kept }).to_u64().unwrap_or(0); // at most 2^53
+    scale_by_two(mantissa, exponent + drop)
+}
+
+/// `mantissa * 2^exponent`, exact for mantissas of at most 53 bits in range; infinity above.
+fn scale_by_two(mantissa: u64, exponent: i64) -> f64 {
+    if mantissa == 0 {
+        return 0.0;
+    }
+    if exponent + 64 - i64::from(mantissa.leading_zeros()) > 1024 {
+        return f64::INFINITY;
+    }
+    // Shift the mantissa until it is either normalised to 53 bits or at the subnormal exponent.
+    let (mut m, mut e) = (mantissa, exponent);
+    while m < (1 << 52) && e > -1074 {
+        m <<= 1;
+        e -= 1;
+    }
+    while m >= (1 << 53) {
+        m >>= 1; // only 2^53 itself arrives here: exact
+        e += 1;
+    }
+    let biased = if m < (1 << 52) { 0 } else { (e + 1075) as u64 };
+    f64::from_bits((biased << 52) | (m & ((1 << 52) - 1)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{parse, rational};
+
+    #[test]
+    fn nearest_double_agrees_with_the_standard_parser() {
+        // Basis: Rust's own correctly rounded decimal parser, a different algorithm.
+        for text in [
+            "1.1",
+            "0.1",
+            "-2.5",
+            "1e-320",
+            "4.9e-324",
+            "2.4e-324",
+            "2.5e-324",
+            "1.7976931348623157e308",
+            "1e308",
+            "9007199254740993",
+            "9007199254740995",
+            "0.30000000000000004",
+            "5e-300",
+            "2.2250738585072011e-308",
+            "123456789.123456789",
+        ] {
+            let want: f64 = text.parse().unwrap();
+            assert_eq!(to_f64(&parse(text).unwrap()).to_bits(), want.to_bits(), "{text}");
+        }
+        assert_eq!(to_f64(&parse("1e400").unwrap()), f64::INFINITY);
+        assert_eq!(to_f64(&rational(1, 3)), 1.0 / 3.0);
+    }
+
+    #[test]
+    fn doubles_round_trip() {
+        for bits in [1u64, 0x000f_ffff_ffff_ffff, 0x3ff0_0000_0000_0001, 0x7fef_ffff_ffff_ffff, 0xbfb9_9999_9999_999a] {
+            let value = f64::from_bits(bits);
+            assert_eq!(to_f64(&from_f64(value).unwrap()).to_bits(), bits);
+        }
+        for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(from_f64(value).is_err());
+        }
+    }
+}

@@ -1,0 +1,123 @@
+//! Closed intervals with rational ends, and interval Horner: the enclosure a checker can afford.
+
+use super::{Poly, Rational};
+use num_traits::{Signed, Zero};
+
+/// The closed interval [lo, hi], lo <= hi.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Interval {
+    lo: Rational,
+    hi: Rational,
+}
+
+impl Interval {
+    /// The interval [lo, hi], or `None` if lo > hi.
+    pub fn new(lo: Rational, hi: Rational) -> Option<Self> {
+        (lo <= hi).then_some(Interval { lo, hi })
+    }
+
+    /// The interval [v, v].
+    pub fn point(v: Rational) -> Self {
+        Interval { lo: v.clone(), hi: v }
+    }
+
+    /// Lower end.
+    pub fn lo(&self) -> &Rational {
+        &self.lo
+    }
+
+    /// Upper end.
+    pub fn hi(&self) -> &Rational {
+        &self.hi
+    }
+
+    /// hi - lo.
+    pub fn width(&self) -> Rational {
+        &self.hi - &self.lo
+    }
+
+    /// Does the interval consist of one number?
+    pub fn is_point(&self) -> bool {
+        self.lo == self.hi
+    }
+
+    /// Midpoint.
+    pub fn mid(&self) -> Rational {
+        (&self.lo + &self.hi) / Rational::from_integer(2.into())
+    }
+
+    /// Is `v` in the closed interval?
+    pub fn contains(&self, v: &Rational) -> bool {
+        *v >= self.lo && *v <= self.hi
+    }
+
+    /// 1 if every number in it is positive, -1 if every one is negative, 0 if neither is certain.
+    pub fn certain_sign(&self) -> i8 {
+        if self.lo.is_positive() {
+            1
+        } else if self.hi.is_negative() {
+            -1
+        } else {
+            0
+        }
+    }
+
+    /// The smallest interval with every sum of a member of each.
+    pub fn add(&self, other: &Interval) -> Interval {
+        Interval { lo: &self.lo + &other.lo, hi: &self.hi + &other.hi }
+    }
+
+    /// The smallest interval with every product of a member of each.
+    pub fn mul(&self, other: &Interval) -> Interval {
+        let products = [&self.lo * &other.lo, &self.lo * &other.hi, &self.hi * &other.lo, &self.hi * &other.hi];
+        let (mut lo, mut hi) = (products[0].clone(), products[0].clone());
+        for p in &products[1..] {
+            if *p < lo {
+                lo = p.clone();
+            }
+            if *p > hi {
+                hi = p.clone();
+            }
+        }
+        Interval { lo, hi }
+    }
+
+    /// An interval that contains p(t) for every t in `self`, by Horner's rule.
+    ///
+    /// ```
+    /// use mceip::exact::{Interval, Poly, rational};
+    /// let t = Interval::new(rational(7, 5), rational(3, 2)).unwrap();
+    /// let image = t.horner(&Poly::from_ints(&[-2, 0, 1])); // t^2 - 2 changes sign here
+    /// assert_eq!(image.certain_sign(), 0);
+    /// assert_eq!(t.horner(&Poly::from_ints(&[-1, 1])).certain_sign(), 1);
+    /// ```
+    pub fn horner(&self, p: &Poly) -> Interval {
+        let mut value = Interval::point(Rational::zero());
+        for c in p.coeffs().iter().rev() {
+            value = value.mul(self).add(&Interval::point(Rational::from_integer(c.clone())));
+        }
+        value
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{rational, whole};
+
+    #[test]
+    fn horner_encloses_sampled_values() {
+        let p = Poly::from_ints(&[3, -4, 0, 1]);
+        let t = Interval::new(whole(-1), rational(3, 2)).unwrap();
+        let image = t.horner(&p);
+        for k in -10..=15 {
+            assert!(image.contains(&p.eval(&rational(k, 10))));
+        }
+        assert!(!image.contains(&whole(100)));
+    }
+
+    #[test]
+    fn reversed_ends_are_no_interval() {
+        assert_eq!(Interval::new(whole(1), whole(0)), None);
+    }
+}

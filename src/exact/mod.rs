@@ -1,0 +1,33 @@
+//! Exact arithmetic: rationals, matrices over Q, integer polynomials, real algebraic numbers.
+//!
+//! Everything here is decided without floats. `double` is the one file that converts to and from
+//! them. The rooms that decide truths (`oracle`, `check`) build on this one alone.
+
+mod algebraic;
+mod decimal;
+mod definite;
+mod dense;
+mod double;
+mod interval;
+mod kernel;
+
+mod poly;
+mod poly_gcd;
+mod quadratic;
+mod rational;
+mod roots;
+mod sparse;
+
+pub use algebraic::{Algebraic, Sign};
+pub use decimal::to_decimal;
+pub use definite::{DefiniteError, NotDefinite, positive_definite};
+pub use dense::Dense;
+pub use double::{from_f64, to_f64};
+pub use interval::Interval;
+pub use kernel::{determinant, kernel_at};
+
+pub use poly::Poly;
+pub use quadratic::Quadratic;
+pub use rational::{Integer, MAX_EXPONENT, MAX_SPELLING, NumberError, Rational, common_denominator, parse, rational, whole};
+pub use roots::{nonnegative_roots, roots_in};
+pub use sparse::Sparse;

@@ -1,0 +1,2 @@
+//! mceip
+pub mod exact;
