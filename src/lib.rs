@@ -1,2 +1,3 @@
 //! mceip
 pub mod exact;
+pub mod model;

@@ -1,0 +1,93 @@
+//! `mceip-problem/1`: reading and writing problem files, every number exactly as spelt.
+
+mod market;
+mod matrix;
+mod number;
+mod raw;
+mod write;
+
+pub use market::read_matrix_market;
+pub use number::Number;
+pub use write::{write_problem, write_sparse};
+
+use super::{ErrorLocation, ModelError, Problem};
+use std::path::Path;
+
+/// The format this program reads and writes.
+pub const PROBLEM_FORMAT: &str = "mceip-problem/1";
+/// Largest file that is read, in bytes.
+pub const MAX_FILE_BYTES: u64 = 1 << 30;
+/// Largest order of a matrix that is read.
+pub const MAX_ORDER: usize = 1_000_000;
+
+/// Reads a problem from JSON text; Matrix Market files it names are looked for in `folder`.
+///
+/// # Errors
+/// [`ModelError`] with the place, what was expected and what was found.
+///
+/// ```
+/// use mceip::model::file::read_problem;
+/// let text = r#"{"format": "mceip-problem/1", "unknown": "mu",
+///                "pencil": {"a": [["1.1"]], "b": [[-1]], "free": []}}"#;
+/// let problem = read_problem(text, std::path::Path::new(".")).unwrap();
+/// assert_eq!(problem.unknown().word(), "mu");
+/// assert!(read_problem("{}", std::path::Path::new(".")).is_err());
+/// ```
+pub fn read_problem(text: &str, folder: &Path) -> Result<Problem, ModelError> {
+    require_format(text, PROBLEM_FORMAT)?;
+    let raw: raw::RawProblem = from_json(text)?;
+    raw.build(folder)
+}
+
+/// Reads a problem file.
+///
+/// # Errors
+/// [`ModelError::Unreadable`], [`ModelError::TooLarge`], or what [`read_problem`] finds.
+pub fn read_problem_file(path: &Path) -> Result<Problem, ModelError> {
+    let text = read_text("the problem", path)?;
+    read_problem(&text, path.parent().unwrap_or(Path::new(".")))
+}
+
+/// Reads a text file of bounded size.
+///
+/// # Errors
+/// [`ModelError::Unreadable`] or [`ModelError::TooLarge`], naming what the file was wanted for.
+pub fn read_text(what: &'static str, path: &Path) -> Result<String, ModelError> {
+    let unreadable = |e: std::io::Error| ModelError::Unreadable { what, path: path.display().to_string(), problem: e.to_string() };
+    let length = std::fs::metadata(path).map_err(unreadable)?.len();
+    if length > MAX_FILE_BYTES {
+        return Err(ModelError::TooLarge { what: "file size in bytes", limit: MAX_FILE_BYTES, got: length });
+    }
+    std::fs::read_to_string(path).map_err(unreadable)
+}
+
+/// Checks the `format` field before anything else, so that another version is named as such.
+///
+/// # Errors
+/// [`ModelError::Json`] if the text is no JSON object, [`ModelError::Format`] for another version.
+pub fn require_format(text: &str, expected: &'static str) -> Result<(), ModelError> {
+    #[derive(serde::Deserialize)]
+    struct Header {
+        format: Option<serde_json::Value>,
+    }
+    let header: Header = from_json(text)?;
+    match header.format {
+        Some(serde_json::Value::String(s)) if s == expected => Ok(()),
+        Some(other) => Err(ModelError::Format { expected, got: other.to_string().chars().take(60).collect() }),
+        None => Err(ModelError::Format { expected, got: "no format field".into() }),
+    }
+}
+
+/// Parses JSON into a type, turning the reader's complaint into a typed one with its place.
+///
+/// # Errors
+/// [`ModelError::Json`].
+pub fn from_json<'a, T: serde::Deserialize<'a>>(text: &'a str) -> Result<T, ModelError> {
+    serde_json::from_str(text).map_err(|e| {
+        let full = e.to_string();
+        // serde_json ends its messages with the place, which we carry as numbers.
+        let problem = full.rsplit_once(" at line ").map_or(full.as_str(), |(head, _)| head);
+        let problem: String = problem.chars().map(|c| if c.is_control() { ' ' } else { c }).take(300).collect();
+        ModelError::Json { location: ErrorLocation { line: e.line(), column: e.column() }, problem }
+    })
+}

@@ -1,0 +1,75 @@
+//! A problem: a pencil or a mechanical system, the unknown, and the window.
+
+use super::{ModelError, Pencil, System, Unknown, Window, canonical};
+
+/// What the eigenproblem is posed on.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Body {
+    /// A pencil given directly.
+    Pencil(Pencil),
+    /// A mechanical system, to be reduced by (10)-(16).
+    System(System),
+}
+
+/// A mixed complementarity eigenproblem: (12)-(14) or (21)-(23).
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Problem {
+    /// A name for people.
+    pub name: Option<String>,
+    /// A remark for people.
+    pub comment: Option<String>,
+    unknown: Unknown,
+    window: Window,
+    body: Body,
+}
+
+impl Problem {
+    /// A problem for the given unknown in the given window.
+    ///
+    /// # Errors
+    /// [`ModelError`] where a system lacks what the unknown needs.
+    pub fn new(body: Body, unknown: Unknown, window: Window) -> Result<Self, ModelError> {
+        if let Body::System(system) = &body {
+            system.require_for(unknown)?;
+        }
+        Ok(Problem { name: None, comment: None, unknown, window, body })
+    }
+
+    /// The same problem with a name.
+    pub fn named(mut self, name: impl Into<String>) -> Self {
+        self.name = Some(name.into());
+        self
+    }
+
+    /// The same problem in another window.
+    pub fn with_window(mut self, window: Window) -> Self {
+        self.window = window;
+        self
+    }
+
+    /// Which number is sought.
+    pub fn unknown(&self) -> Unknown {
+        self.unknown
+    }
+
+    /// Where it is sought.
+    pub fn window(&self) -> &Window {
+        &self.window
+    }
+
+    /// What it is posed on.
+    pub fn body(&self) -> &Body {
+        &self.body
+    }
+
+    /// The canonical text that the digest is taken of (`spec/formats.md`).
+    pub fn canonical_text(&self) -> String {
+        canonical::text(self)
+    }
+
+    /// SHA-256 of [`Problem::canonical_text`], in lower-case hexadecimal: what certificates and
+    /// reports name, so that they are bound to these matrices.
+    pub fn sha256(&self) -> String {
+        canonical::sha256(self)
+    }
+}
