@@ -1,3 +1,6 @@
 //! mceip
 pub mod exact;
 pub mod model;
+pub mod oracle;
+pub mod reduction;
+pub mod source;

@@ -1,35 +1,41 @@
 //! Decimals for people: correctly rounded at any number of significant digits.
 
-use super::{Algebraic, Integer, Poly, Rational};
+use super::{Algebraic, Integer, Poly, Rational, Sign};
 use num_traits::{Pow, Signed, Zero};
 
-/// The number rounded to `digits` significant digits, half away from zero, as a decimal string.
-///
-/// Correct rounding of an irrational number is decided by refining its interval until both ends
-/// round alike; a tie is only possible at a rational, which is tested exactly.
+/// `value(number)` rounded to `digits` significant digits, half away from zero, as a decimal string.
+/// Pass `t` as the polynomial for the number itself.
 ///
 /// ```
 /// use mceip::exact::{nonnegative_roots, to_decimal, Poly};
 /// let mut root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
 /// assert_eq!(to_decimal(&mut root, &Poly::from_ints(&[0, 1]), 20), "1.4142135623730950488");
 /// ```
-///
-/// Rounds `value(number)` where `value` is an integer polynomial: pass `t` for the number itself.
 pub fn to_decimal(number: &mut Algebraic, value: &Poly, digits: usize) -> String {
-    if number.sign_of(value) == super::Sign::Zero {
+    ratio_to_decimal(number, value, &Poly::from_ints(&[1]), digits)
+}
+
+/// `numerator(number) / denominator(number)`, correctly rounded like [`to_decimal`].
+///
+/// Correct rounding of an irrational number is decided by refining its interval until both ends
+/// round alike; a tie is only possible at a rational, which is tested exactly. A denominator that
+/// vanishes at the number has no quotient: the result is then "0" (callers divide by sums that
+/// are positive by construction).
+pub fn ratio_to_decimal(number: &mut Algebraic, numerator: &Poly, denominator: &Poly, digits: usize) -> String {
+    if number.sign_of(numerator) == Sign::Zero || number.sign_of(denominator) == Sign::Zero {
         return "0".into();
     }
     loop {
-        let image = number.interval().horner(value);
-        if image.certain_sign() != 0 {
+        let image = number.interval().horner(numerator).div(&number.interval().horner(denominator));
+        if let Some(image) = image.filter(|i| i.certain_sign() != 0) {
             let (lo, hi) = (round(image.lo(), digits), round(image.hi(), digits));
             if lo == hi {
                 return lo;
             }
             if let Some(tie) = tie_between(image.lo(), image.hi(), digits) {
-                // value - tie vanishes here exactly when the number rounds from a tie.
-                let shifted = &value.scale(tie.denom()) - &Poly::constant(tie.numer().clone());
-                if number.sign_of(&shifted) == super::Sign::Zero {
+                // numerator - tie * denominator vanishes here exactly when the quotient is the tie.
+                let shifted = &numerator.scale(tie.denom()) - &denominator.scale(tie.numer());
+                if number.sign_of(&shifted) == Sign::Zero {
                     return round(&tie, digits);
                 }
             }

@@ -82,6 +82,11 @@ impl Interval {
         Interval { lo, hi }
     }
 
+    /// The smallest interval with every quotient, or `None` if the divisor may be zero.
+    pub fn div(&self, divisor: &Interval) -> Option<Interval> {
+        (divisor.certain_sign() != 0).then(|| self.mul(&Interval { lo: divisor.hi.recip(), hi: divisor.lo.recip() }))
+    }
+
     /// An interval that contains p(t) for every t in `self`, by Horner's rule.
     ///
     /// ```

@@ -2,6 +2,7 @@
 //!
 //! Everything here is decided without floats. `double` is the one file that converts to and from
 //! them. The rooms that decide truths (`oracle`, `check`) build on this one alone.
+#![deny(clippy::float_arithmetic)]
 
 mod algebraic;
 mod decimal;
@@ -19,7 +20,7 @@ mod roots;
 mod sparse;
 
 pub use algebraic::{Algebraic, Sign};
-pub use decimal::to_decimal;
+pub use decimal::{ratio_to_decimal, to_decimal};
 pub use definite::{DefiniteError, NotDefinite, positive_definite};
 pub use dense::Dense;
 pub use double::{from_f64, to_f64};

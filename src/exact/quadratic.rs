@@ -19,6 +19,11 @@ impl Quadratic {
         (!d.is_negative()).then_some(Quadratic { a, b, d })
     }
 
+    /// The rational `a` on its own (radicand 0).
+    pub fn embed_rational(a: Rational) -> Self {
+        Quadratic { a, b: Rational::zero(), d: Rational::zero() }
+    }
+
     /// The rational `a`, living beside numbers with the radicand `d` of `self`.
     pub fn embed(&self, a: Rational) -> Self {
         Quadratic { a, b: Rational::zero(), d: self.d.clone() }

@@ -1,0 +1,278 @@
+//! The plain enumerator: the definition (24)-(26) turned into Rust, support by support.
+
+use super::{Enumeration, Solution, WideKernel};
+use crate::exact::{Algebraic, Integer, Poly, Sign, determinant, kernel_at, roots_in};
+use crate::model::{Pencil, Window};
+use std::ops::ControlFlow;
+
+/// Largest number of complementarity variables: 2^16 supports are hours of exact arithmetic.
+pub const MAX_SLIP: usize = 16;
+/// Largest number of free variables: every support's pencil contains them all.
+pub const MAX_FREE: usize = 16;
+
+/// Why the enumerator refuses to start.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum OracleError {
+    /// Too many supports or too large pencils for plain exact arithmetic.
+    #[error("the plain enumerator takes at most {limit} {what}, got {got}")]
+    TooLarge {
+        /// What there is too much of.
+        what: &'static str,
+        /// The bound.
+        limit: usize,
+        /// What the problem has.
+        got: usize,
+    },
+}
+
+/// All solutions of the mixed complementarity eigenproblem with value in the window.
+///
+/// # Errors
+/// [`OracleError::TooLarge`] beyond [`MAX_SLIP`] or [`MAX_FREE`].
+///
+/// ```
+/// use mceip::{exact::{whole, Sparse}, model::{Pencil, Window}, oracle::enumerate};
+/// // x = (1): (-2 + t) x = y has the one solution t = 2.
+/// let a = Sparse::from_entries(1, 1, [(0, 0, whole(-2))]);
+/// let pencil = Pencil::new(a, Sparse::identity(1), vec![]).unwrap();
+/// let found = enumerate(&pencil, &Window::all()).unwrap();
+/// assert_eq!(found.solutions[0].decimal(17), "2");
+/// ```
+pub fn enumerate(pencil: &Pencil, window: &Window) -> Result<Enumeration, OracleError> {
+    enumerate_with(pencil, window, |_, _| ControlFlow::Continue(()))
+}
+
+/// [`enumerate`] with a callback (supports done, supports in all) after each support; breaking
+/// ends the run and keeps what was found.
+///
+/// # Errors
+/// As [`enumerate`].
+pub fn enumerate_with(
+    pencil: &Pencil,
+    window: &Window,
+    mut progress: impl FnMut(u64, u64) -> ControlFlow<()>,
+) -> Result<Enumeration, OracleError> {
+    let slip = pencil.slip();
+    for (what, limit, got) in [("slip variables", MAX_SLIP, slip.len()), ("free variables", MAX_FREE, pencil.free().len())] {
+        if got > limit {
+            return Err(OracleError::TooLarge { what, limit, got });
+        }
+    }
+    let integral = Integral::of(pencil);
+    let total = 1u64 << slip.len();
+    let mut found = Enumeration { supports_total: total, ..Enumeration::default() };
+    for subset in 0..total {
+        let support: Vec<usize> = slip.iter().enumerate().filter(|(k, _)| subset >> k & 1 == 1).map(|(_, &i)| i).collect();
+        examine(&integral, &support, window, &mut found);
+        found.supports_done += 1;
+        if progress(found.supports_done, total).is_break() {
+            break;
+        }
+    }
+    found.sort();
+    Ok(found)
+}
+
+/// The pencil with each row multiplied by a positive integer that clears its denominators.
+struct Integral<'a> {
+    a: Vec<Vec<Integer>>,
+    b: Vec<Vec<Integer>>,
+    free: &'a [usize],
+}
+
+impl<'a> Integral<'a> {
+    fn of(pencil: &'a Pencil) -> Self {
+        let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
+        Integral { a, b, free: pencil.free() }
+    }
+
+    fn order(&self) -> usize {
+        self.a.len()
+    }
+
+    /// Entry (i, j) of A + tB.
+    fn entry(&self, i: usize, j: usize) -> Poly {
+        Poly::new(vec![self.a[i][j].clone(), self.b[i][j].clone()])
+    }
+
+    fn select(m: &[Vec<Integer>], active: &[usize]) -> Vec<Vec<Integer>> {
+        active.iter().map(|&i| active.iter().map(|&j| m[i][j].clone()).collect()).collect()
+    }
+}
+
+/// One support: the linear eigenproblem (25) on free and slip variables, then (26).
+fn examine(pencil: &Integral<'_>, support: &[usize], window: &Window, found: &mut Enumeration) {
+    let mut active: Vec<usize> = pencil.free.iter().chain(support).copied().collect();
+    active.sort_unstable();
+    if active.is_empty() {
+        return; // x = 0
+    }
+    let det = determinant(&Integral::select(&pencil.a, &active), &Integral::select(&pencil.b, &active));
+    if det.is_zero() {
+        found.continua.push(support.to_vec());
+        return;
+    }
+    for mut value in roots_in(&det, window.min(), window.max()) {
+        let block = active.iter().map(|&i| active.iter().map(|&j| pencil.entry(i, j)).collect()).collect();
+        let kernel = kernel_at(block, &mut value);
+        match &kernel[..] {
+            [vector] => {
+                let multiplicity = multiplicity(&det, &mut value);
+                if let Some(solution) = admissible(pencil, support, &active, vector, value, multiplicity) {
+                    found.solutions.push(solution);
+                }
+            }
+            wide => found.wide.push(WideKernel { value, support: support.to_vec(), dimension: wide.len() }),
+        }
+    }
+}
+
+/// (26) with the support taken literally: x > 0 on all of it, y >= 0 off it. So a solution with
+/// x_i = y_i = 0 is accepted for one support only, and listed once.
+fn admissible(
+    pencil: &Integral<'_>,
+    support: &[usize],
+    active: &[usize],
+    vector: &[Poly],
+    mut value: Algebraic,
+    multiplicity: usize,
+) -> Option<Solution> {
+    let mut x = vec![Poly::default(); pencil.order()];
+    for (&i, p) in active.iter().zip(vector) {
+        x[i] = p.clone();
+    }
+    // The kernel is a line: orient it. Without slip variables both orientations may do.
+    let orientations = match support.first().map(|&i| value.sign_of(&x[i])) {
+        Some(Sign::Zero) => return None,
+        Some(Sign::Positive) => vec![1],
+        Some(Sign::Negative) => vec![-1],
+        None => vec![1, -1],
+    };
+    orientations.into_iter().find_map(|sign| {
+        let x: Vec<Poly> = x.iter().map(|p| if sign == 1 { p.clone() } else { -p }).collect();
+        let mut value = value.clone();
+        if support.iter().any(|&i| value.sign_of(&x[i]) != Sign::Positive) {
+            return None;
+        }
+        let y: Vec<Poly> = (0..pencil.order()).map(|i| row_times(pencil, i, &x)).collect();
+        let mut biactive = Vec::new();
+        for i in (0..pencil.order()).filter(|i| !active.contains(i)) {
+            match value.sign_of(&y[i]) {
+                Sign::Negative => return None,
+                Sign::Zero => biactive.push(i),
+                Sign::Positive => {}
+            }
+        }
+        Some(Solution { value, multiplicity, slip: support.to_vec(), biactive, x, y })
+    })
+}
+
+/// Row i of (A + tB) x.
+fn row_times(pencil: &Integral<'_>, i: usize, x: &[Poly]) -> Poly {
+    x.iter().enumerate().fold(Poly::default(), |sum, (j, x_j)| &sum + &(&pencil.entry(i, j) * x_j))
+}
+
+/// Multiplicity of a root: the first derivative that does not vanish there.
+fn multiplicity(det: &Poly, value: &mut Algebraic) -> usize {
+    let mut derivative = det.derivative();
+    let mut m = 1;
+    while !derivative.is_zero() && value.sign_of(&derivative) == Sign::Zero {
+        derivative = derivative.derivative();
+        m += 1;
+    }
+    m
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{Sparse, rational, whole};
+
+    fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
+        let sparse = |m: &[&[i64]]| {
+            let entries = m.iter().enumerate().flat_map(|(i, r)| r.iter().enumerate().map(move |(j, &v)| (i, j, whole(v))));
+            Sparse::from_entries(m.len(), m.len(), entries.collect::<Vec<_>>())
+        };
+        Pencil::new(sparse(a), sparse(b), free.to_vec()).unwrap()
+    }
+
+    fn summary(p: &Pencil) -> Vec<(String, Vec<usize>, Vec<usize>)> {
+        let found = enumerate(p, &Window::all()).unwrap();
+        found.solutions.iter().map(|s| (s.decimal(8), s.slip.clone(), s.biactive.clone())).collect()
+    }
+
+    /// The fold of `spec/errata.md`: no MCEIP-mu solution, yet two MCEIP-lambda2 solutions at mu = 2.
+    #[test]
+    fn the_fold_counterexample() {
+        let mu = pencil(&[&[1, 0], &[0, 2]], &[&[0, -3], &[1, -4]], &[]);
+        assert!(summary(&mu).is_empty());
+        let lambda2 = pencil(&[&[1, -6], &[2, -6]], &[&[1, 0], &[0, 1]], &[]);
+        assert_eq!(summary(&lambda2), vec![("2".into(), vec![0, 1], vec![]), ("3".into(), vec![0, 1], vec![])]);
+    }
+
+    #[test]
+    fn biactive_solutions_are_listed_once_and_named() {
+        // t = 1, x = (1, 0): y_2 = 0 as well.
+        let p = pencil(&[&[-1, 5], &[0, 7]], &[&[1, 0], &[0, 1]], &[]);
+        assert_eq!(summary(&p), vec![("1".into(), vec![0], vec![1])]);
+    }
+
+    #[test]
+    fn a_near_miss_in_the_sign_of_y_is_no_solution() {
+        let found = |y_1: i64| summary(&pencil(&[&[-1, 0], &[y_1, -3]], &[&[1, 0], &[0, 1]], &[]));
+        let only_the_other = vec![("3".into(), vec![1], vec![0])];
+        assert_eq!(found(-1), only_the_other);
+        assert_eq!(found(1)[..2], [("1".into(), vec![0], vec![]), ("1".into(), vec![0, 1], vec![])]);
+    }
+
+    #[test]
+    fn degenerate_cases_are_reported_as_such() {
+        // A = -I, B = I: at t = 1 every vector is in the kernel.
+        let wide = enumerate(&pencil(&[&[-1, 0], &[0, -1]], &[&[1, 0], &[0, 1]], &[]), &Window::all()).unwrap();
+        assert_eq!(wide.wide.iter().map(|w| (w.support.clone(), w.dimension)).collect::<Vec<_>>(), vec![(vec![0, 1], 2)]);
+        assert_eq!(wide.solutions.len(), 2); // the two edges, each biactive in the other
+        assert!(!wide.is_complete_list());
+        let singular = enumerate(&pencil(&[&[1, -1], &[-1, 1]], &[&[0, 0], &[0, 0]], &[]), &Window::all()).unwrap();
+        assert_eq!(singular.continua, vec![vec![0, 1]]);
+    }
+
+    #[test]
+    fn repeated_roots_carry_their_multiplicity() {
+        // A Jordan block: (t-1)^2, kernel of dimension 1.
+        let found = enumerate(&pencil(&[&[-1, -1], &[0, -1]], &[&[1, 0], &[0, 1]], &[]), &Window::all()).unwrap();
+        assert_eq!(found.solutions.len(), 1);
+        assert_eq!((found.solutions[0].slip.clone(), found.solutions[0].multiplicity), (vec![0], 1));
+        let free = enumerate(&pencil(&[&[-1, 1], &[0, -1]], &[&[1, 0], &[0, 1]], &[0, 1]), &Window::all()).unwrap();
+        assert_eq!((free.solutions.len(), free.solutions[0].multiplicity), (1, 2));
+    }
+
+    #[test]
+    fn free_only_solutions_try_both_orientations() {
+        // Free variable 0 with value 1; y_1 = -x_0 >= 0 needs x_0 < 0.
+        let p = pencil(&[&[-1, 0], &[-1, 1]], &[&[1, 0], &[0, 1]], &[0]);
+        let found = enumerate(&p, &Window::all()).unwrap();
+        let found = found.solutions.iter().map(|s| s.x_decimals(&[1], 5)).collect::<Vec<_>>();
+        assert_eq!(found, vec![vec!["-1", "0"], vec!["2", "1"]]); // l1 norm 1; e'x_s = 1
+    }
+
+    #[test]
+    fn the_window_is_closed_and_limits_are_said() {
+        let p = pencil(&[&[-2]], &[&[1]], &[]);
+        let count = |a: i64, b: i64| enumerate(&p, &Window::new(whole(a), Some(whole(b))).unwrap()).unwrap().solutions.len();
+        assert_eq!((count(0, 2), count(2, 9), count(0, 1)), (1, 1, 0));
+        let window = Window::new(rational(21, 10), None).unwrap();
+        assert!(enumerate(&p, &window).unwrap().solutions.is_empty());
+        let large = Pencil::new(Sparse::identity(17), Sparse::identity(17), vec![]).unwrap();
+        assert!(matches!(enumerate(&large, &Window::all()), Err(OracleError::TooLarge { limit: 16, got: 17, .. })));
+    }
+
+    #[test]
+    fn an_interrupted_run_says_how_far_it_came() {
+        let p = pencil(&[&[-2, 0], &[0, -3]], &[&[1, 0], &[0, 1]], &[]);
+        let found =
+            enumerate_with(&p, &Window::all(), |done, _| if done == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) });
+        let found = found.unwrap();
+        assert_eq!((found.supports_done, found.is_finished(), found.solutions.len()), (2, false, 1));
+    }
+}
