@@ -1,4 +1,6 @@
 //! mceip
+pub mod certificate;
+pub mod check;
 pub mod exact;
 pub mod model;
 pub mod oracle;

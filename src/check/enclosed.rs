@@ -1,0 +1,155 @@
+//! Enclosed solutions: Krawczyk's test (Krawczyk 1969, Moore 1977) in exact arithmetic.
+//!
+//! Unknowns z = (x on active variables, t); F(z) = ((A + tB) x on active rows, e'x_s - 1).
+//! With Z the box c +- r and any matrix Y: if |Y F(c)| + max_{z in Z} |I - Y F'(z)| r < r in every
+//! component, then F has exactly one zero in Z (and Y is regular). F' is linear in z:
+//! |F'(z) - F'(c)| r <= d with d_i = 2 r_t sum_j |B_ij| r_j, so the bound used is
+//! |Y F(c)| + |I - Y F'(c)| r + |Y| d < r. Everything is an integer over a power of two.
+
+use super::AcceptedClaim;
+use super::exact_solution::{index_set, within};
+use super::pencil::Rows;
+use super::reason::Reason;
+use crate::certificate::EnclosedSolution;
+use crate::exact::{Integer, Interval, Rational, common_denominator};
+use crate::model::Window;
+use num_traits::{One, Signed, Zero};
+
+pub(super) fn check(rows: &Rows, window: &Window, claim: &EnclosedSolution) -> Result<AcceptedClaim, Reason> {
+    index_set(rows, "support", &claim.support)?;
+    if claim.support.is_empty() {
+        return Err(Reason::XZero); // e'x_s = 1 needs a slip variable
+    }
+    let active: Vec<usize> = (0..rows.order()).filter(|&i| rows.is_free[i] || claim.support.contains(&i)).collect();
+    let n = active.len() + 1;
+    for (what, got) in [("center", claim.center.len()), ("radius", claim.radius.len()), ("preconditioner", claim.preconditioner.len())] {
+        if got != n {
+            return Err(Reason::Length { what, expected: n, got });
+        }
+    }
+    if let Some(row) = claim.preconditioner.iter().find(|r| r.len() != n) {
+        return Err(Reason::Length { what: "preconditioner row", expected: n, got: row.len() });
+    }
+    if let Some(index) = claim.radius.iter().position(|r| !r.0.is_positive()) {
+        return Err(Reason::Radius { index, got: claim.radius[index].0.clone() });
+    }
+    let system = Newton::new(rows, claim, &active);
+    system.contracts(claim)?;
+    let boxed = |k: usize| ball(&claim.center[k].0, &claim.radius[k].0);
+    let value = boxed(n - 1);
+    within(window, &value)?;
+    for (k, &index) in active.iter().enumerate().filter(|(_, i)| claim.support.contains(i)) {
+        let image = boxed(k);
+        if image.certain_sign() != 1 {
+            return Err(Reason::XNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
+        }
+    }
+    let x: Vec<Option<Interval>> = place(rows.order(), &active, |k| boxed(k));
+    for index in (0..rows.order()).filter(|i| !active.contains(i)) {
+        let image = row_over_box(&rows.rows[index], &x, &value);
+        if image.certain_sign() != 1 {
+            return Err(Reason::YNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
+        }
+    }
+    Ok(AcceptedClaim { support: claim.support.clone(), value })
+}
+
+fn ball(c: &Rational, r: &Rational) -> Interval {
+    // r > 0 has been checked, so the ends are in order; a point otherwise.
+    Interval::new(c - r, c + r).unwrap_or_else(|| Interval::point(c.clone()))
+}
+
+fn place<T: Clone>(order: usize, active: &[usize], at: impl Fn(usize) -> T) -> Vec<Option<T>> {
+    let mut out = vec![None; order];
+    for (k, &i) in active.iter().enumerate() {
+        out[i] = Some(at(k));
+    }
+    out
+}
+
+/// Encloses row of (A + tB) x over the box.
+fn row_over_box(row: &super::pencil::Row, x: &[Option<Interval>], t: &Interval) -> Interval {
+    let mut sum = Interval::point(Rational::zero());
+    for (j, a, b) in row {
+        if let Some(x_j) = &x[*j] {
+            let coefficient =
+                Interval::point(Rational::from_integer(a.clone())).add(&Interval::point(Rational::from_integer(b.clone())).mul(t));
+            sum = sum.add(&coefficient.mul(x_j));
+        }
+    }
+    sum
+}
+
+/// F(c), F'(c) and d, all integers: F in units of 1/unit^2, F' and d in units given beside them.
+struct Newton {
+    /// Common denominator of centre and radius.
+    unit: Integer,
+    /// unit^2 F(c).
+    f: Vec<Integer>,
+    /// unit F'(c), sparse rows (unknown, value).
+    jacobian: Vec<Vec<(usize, Integer)>>,
+    /// unit^2 d.
+    d: Vec<Integer>,
+}
+
+impl Newton {
+    fn new(rows: &Rows, claim: &EnclosedSolution, active: &[usize]) -> Newton {
+        let unit = common_denominator(claim.center.iter().chain(&claim.radius).map(|n| &n.0));
+        let scaled = |v: &Rational| v.numer() * (&unit / v.denom());
+        let c: Vec<Integer> = claim.center.iter().map(|n| scaled(&n.0)).collect();
+        let r: Vec<Integer> = claim.radius.iter().map(|n| scaled(&n.0)).collect();
+        let last = active.len();
+        let place: Vec<Option<usize>> = place(rows.order(), active, |k| k);
+        let (mut f, mut jacobian, mut d) = (Vec::new(), Vec::new(), Vec::new());
+        for &i in active {
+            let (mut f_i, mut d_i, mut column_t) = (Integer::zero(), Integer::zero(), Integer::zero());
+            let mut row = Vec::new();
+            for (j, a, b) in &rows.rows[i] {
+                let Some(k) = place[*j] else { continue }; // x_j = 0
+                let coefficient = a * &unit + b * &c[last]; // unit (A + tB)_ij
+                f_i += &coefficient * &c[k];
+                column_t += b * &c[k]; // unit (B x)_i
+                d_i += b.abs() * &r[k] * &r[last] * 2;
+                row.push((k, coefficient));
+            }
+            row.push((last, column_t));
+            f.push(f_i);
+            jacobian.push(row);
+            d.push(d_i);
+        }
+        let slip = |k: &usize| !rows.is_free[active[*k]];
+        let norm: Integer = (0..last).filter(slip).map(|k| &c[k]).sum();
+        f.push((norm - &unit) * &unit);
+        jacobian.push((0..last).filter(slip).map(|k| (k, unit.clone())).collect());
+        d.push(Integer::zero());
+        Newton { unit, f, jacobian, d }
+    }
+
+    /// |Y F(c)| + |I - Y F'(c)| r + |Y| d < r, in units of 1 / (2^exponent unit^2).
+    fn contracts(&self, claim: &EnclosedSolution) -> Result<(), Reason> {
+        let n = self.f.len();
+        let one = (Integer::one() << claim.exponent) * &self.unit; // 1 in units of Y F'
+        let radius: Vec<Integer> = claim.radius.iter().map(|r| r.0.numer() * (&self.unit / r.0.denom())).collect();
+        for (index, y) in claim.preconditioner.iter().enumerate() {
+            let mut g = vec![Integer::zero(); n]; // row of I - Y F'(c)
+            g[index] = one.clone();
+            let (mut y_f, mut y_d) = (Integer::zero(), Integer::zero());
+            for (i, y_i) in y.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
+                y_f += y_i * &self.f[i];
+                y_d += y_i.abs() * &self.d[i];
+                for (k, value) in &self.jacobian[i] {
+                    g[*k] -= y_i * value;
+                }
+            }
+            let g_r: Integer = g.iter().zip(&radius).map(|(g, r)| g.abs() * r).sum();
+            let left = y_f.abs() + g_r + y_d;
+            let right = &radius[index] * &one;
+            if left >= right {
+                let scale = &one * &self.unit;
+                let got = Rational::new(left, scale.clone());
+                return Err(Reason::NotContracting { index, got, radius: Rational::new(right, scale) });
+            }
+        }
+        Ok(())
+    }
+}

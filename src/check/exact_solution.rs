@@ -1,0 +1,150 @@
+//! Exact solutions: alpha is a root isolated by [a, b], x a vector of polynomials in alpha.
+//!
+//! Obligations, in this order: index sets; [a, b] within the window and isolating one root of p;
+//! x = 0 off the support, x > 0 on it; (A + tB) x = 0 mod p on active rows; y > 0 or y = 0 mod p
+//! elsewhere, with the biactive set exactly the latter. "0 mod p" is a remainder, "> 0" is
+//! interval Horner of the remainder on [a, b].
+
+use super::pencil::{Row, Rows};
+use super::reason::Reason;
+use super::{AcceptedClaim, pencil};
+use crate::certificate::ExactSolution;
+use crate::exact::{Interval, Poly, Rational};
+use crate::model::Window;
+use crate::model::file::Number;
+use num_traits::Zero;
+
+pub(super) fn check(rows: &Rows, window: &Window, claim: &ExactSolution) -> Result<AcceptedClaim, Reason> {
+    index_set(rows, "support", &claim.support)?;
+    index_set(rows, "biactive", &claim.biactive)?;
+    let p = Poly::new(claim.polynomial.clone());
+    let value = isolate(&p, &claim.interval)?;
+    within(window, &value)?;
+    if claim.x.len() != rows.order() {
+        return Err(Reason::Length { what: "x", expected: rows.order(), got: claim.x.len() });
+    }
+    let alpha = Alpha { p, value };
+    check_x(rows, claim, &alpha)?;
+    check_y(rows, claim, &alpha)?;
+    Ok(AcceptedClaim { support: claim.support.clone(), value: alpha.value })
+}
+
+/// Ascending indices of complementarity variables.
+pub(super) fn index_set(rows: &Rows, set: &'static str, list: &[usize]) -> Result<(), Reason> {
+    let bad = |k: usize| list[k] >= rows.order() || rows.is_free[list[k]] || (k > 0 && list[k - 1] >= list[k]);
+    match (0..list.len()).find(|&k| bad(k)) {
+        Some(position) => Err(Reason::IndexSet { set, position, got: list[position] }),
+        None => Ok(()),
+    }
+}
+
+/// [a, b] contains exactly one root of p.
+fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason> {
+    if p.degree().unwrap_or(0) == 0 {
+        return Err(Reason::ConstantPolynomial { coefficients: p.coeffs().len() });
+    }
+    let Some(value) = Interval::new(a.0.clone(), b.0.clone()) else {
+        return Err(Reason::ReversedInterval { a: a.0.clone(), b: b.0.clone() });
+    };
+    let (at_a, at_b) = (p.sign_at(&a.0), p.sign_at(&b.0));
+    if value.is_point() {
+        return if at_a == 0 { Ok(value) } else { Err(Reason::NotARoot { a: a.0.clone(), sign: at_a }) };
+    }
+    if at_a * at_b != -1 {
+        return Err(Reason::NoSignChange { at_a, at_b });
+    }
+    let slope = value.horner(&p.derivative());
+    if slope.certain_sign() == 0 {
+        return Err(Reason::NotIsolated { lo: slope.lo().clone(), hi: slope.hi().clone() });
+    }
+    Ok(value)
+}
+
+/// [a, b] lies in the closed window.
+pub(super) fn within(window: &Window, value: &Interval) -> Result<(), Reason> {
+    if value.lo() >= window.min() && window.max().is_none_or(|max| value.hi() <= max) {
+        return Ok(());
+    }
+    let max = window.max().map_or_else(|| "infinity".into(), ToString::to_string);
+    Err(Reason::OutsideWindow { min: window.min().clone(), max, a: value.lo().clone(), b: value.hi().clone() })
+}
+
+/// The value: a root of p in an interval.
+struct Alpha {
+    p: Poly,
+    value: Interval,
+}
+
+impl Alpha {
+    /// A positive multiple of g mod p: zero exactly if p divides g over Q.
+    fn remainder(&self, g: &[Rational]) -> Poly {
+        Poly::from_rationals(g).pseudo_rem(&self.p)
+    }
+
+    fn enclose(&self, g: &[Rational]) -> Interval {
+        self.value.horner(&self.remainder(g))
+    }
+}
+
+fn check_x(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reason> {
+    let mut non_zero = !claim.support.is_empty();
+    for index in 0..rows.order() {
+        let x = coefficients(&claim.x[index]);
+        if rows.is_free[index] {
+            non_zero |= alpha.enclose(&x).certain_sign() != 0;
+        } else if !claim.support.contains(&index) {
+            if !alpha.remainder(&x).is_zero() {
+                return Err(Reason::XOffSupport { index });
+            }
+        } else {
+            let image = alpha.enclose(&x);
+            if image.certain_sign() != 1 {
+                return Err(Reason::XNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
+            }
+        }
+    }
+    if non_zero { Ok(()) } else { Err(Reason::XZero) }
+}
+
+fn check_y(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reason> {
+    let x: Vec<Vec<Rational>> = claim.x.iter().map(|p| coefficients(p)).collect();
+    for (index, row) in rows.rows.iter().enumerate() {
+        let y = times(row, &x);
+        let is_zero = alpha.remainder(&y).is_zero();
+        if rows.is_free[index] || claim.support.contains(&index) {
+            if !is_zero {
+                let equation = if rows.is_free[index] { "E13" } else { "E25" };
+                return Err(Reason::YNotZero { equation, index });
+            }
+            if claim.biactive.contains(&index) {
+                return Err(Reason::Biactive { index, expected: false });
+            }
+            continue;
+        }
+        if claim.biactive.contains(&index) != is_zero {
+            return Err(Reason::Biactive { index, expected: is_zero });
+        }
+        let image = alpha.enclose(&y);
+        if !is_zero && image.certain_sign() != 1 {
+            return Err(Reason::YNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
+        }
+    }
+    Ok(())
+}
+
+fn coefficients(list: &[Number]) -> Vec<Rational> {
+    list.iter().map(|n| n.0.clone()).collect()
+}
+
+/// A row of A + tB times x, as a polynomial in t.
+fn times(row: &Row, x: &[Vec<Rational>]) -> Vec<Rational> {
+    let degree = x.iter().map(Vec::len).max().unwrap_or(0);
+    let mut sum = vec![Rational::zero(); degree + 1];
+    for (j, a, b) in row as &pencil::Row {
+        for (k, c) in x[*j].iter().enumerate() {
+            sum[k] += c * Rational::from_integer(a.clone());
+            sum[k + 1] += c * Rational::from_integer(b.clone());
+        }
+    }
+    sum
+}

@@ -1,0 +1,64 @@
+//! The checker: problem and certificate to a verdict. The only code that has to be trusted.
+//!
+//! It multiplies and compares exact numbers, nothing else: no floats, no linear solver, no root
+//! finder, nothing shared with the rooms that find solutions. For a mechanical system it forms
+//! the pencil (10)-(16) by its own short route (`pencil.rs`).
+//!
+//! Two verdicts: `Ok(Accepted)` or `Err(Rejected)`. A file that cannot be read never gets here.
+#![deny(clippy::float_arithmetic)]
+
+mod enclosed;
+mod exact_solution;
+mod pencil;
+mod reason;
+
+pub use reason::{Reason, Rejected};
+
+use crate::certificate::{Certificate, Claim};
+use crate::exact::Interval;
+use crate::model::Problem;
+use pencil::Rows;
+
+/// What an accepted certificate has proved, claim by claim.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Accepted {
+    /// One entry per claim, in the certificate's order.
+    pub claims: Vec<AcceptedClaim>,
+}
+
+/// A proved claim: the problem has a solution with this support and a value in this interval.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AcceptedClaim {
+    /// Complementarity variables with x_i > 0.
+    pub support: Vec<usize>,
+    /// Encloses the value of the unknown.
+    pub value: Interval,
+}
+
+/// Checks every claim of a certificate against a problem, exactly.
+///
+/// # Errors
+/// [`Rejected`] with the claim and the first obligation that fails: equation, index, expected, got.
+pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, Rejected> {
+    let whole = |reason| Rejected { claim: None, reason };
+    let digest = problem.sha256();
+    if certificate.problem_sha256 != digest {
+        return Err(whole(Reason::Digest { expected: digest, got: certificate.problem_sha256.clone() }));
+    }
+    if certificate.unknown != problem.unknown() {
+        return Err(whole(Reason::Unknown { expected: problem.unknown().word(), got: certificate.unknown.word() }));
+    }
+    if certificate.claims.is_empty() {
+        return Err(whole(Reason::NoClaims));
+    }
+    let rows = Rows::of(problem);
+    let mut claims = Vec::new();
+    for (index, claim) in certificate.claims.iter().enumerate() {
+        let verdict = match claim {
+            Claim::ExactSolution(c) => exact_solution::check(&rows, &certificate.window, c),
+            Claim::EnclosedSolution(c) => enclosed::check(&rows, &certificate.window, c),
+        };
+        claims.push(verdict.map_err(|reason| Rejected { claim: Some(index), reason })?);
+    }
+    Ok(Accepted { claims })
+}
