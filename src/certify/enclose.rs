@@ -1,0 +1,170 @@
+//! Enclosed claims: Newton with exact residuals, then a box and a preconditioner for Krawczyk.
+
+use super::{AttemptFailure, IntegralRows, active};
+use crate::candidate::Candidate;
+use crate::certificate::EnclosedSolution;
+use crate::exact::{Integer, Rational, from_f64, to_f64};
+use crate::linear::inverse;
+use crate::model::file::Number;
+use crate::model::{Pencil, Window};
+use crate::tolerance::{BOX_RADIUS_BITS, CENTER_BITS, PRECONDITIONER_BITS, VALUE_RADIUS, X_RADIUS};
+use num_traits::{One, Signed, Zero};
+
+/// Newton steps with a fixed inverse: each gains the digits the inverse is good for.
+const NEWTON_STEPS: usize = 8;
+
+/// A box around the candidate in which Krawczyk's test should hold; `check` decides whether it does.
+pub(super) fn make(
+    pencil: &Pencil,
+    rows: &IntegralRows,
+    window: &Window,
+    support: &[usize],
+    candidate: &Candidate,
+) -> Result<EnclosedSolution, AttemptFailure> {
+    if support.is_empty() {
+        return Err(AttemptFailure::ZeroX);
+    }
+    let newton = Newton { rows, active: active(pencil, support), support };
+    let start = newton.start(candidate)?;
+    let jacobian = newton.jacobian(&start);
+    let y = inverse(&jacobian).ok_or(AttemptFailure::SingularJacobian)?;
+    let center = newton.polish(start.clone(), &y)?;
+    let distance = center.iter().zip(&start).map(|(c, s)| to_f64(&(c - s)).abs()).fold(0.0, f64::max);
+    if distance > X_RADIUS.max(VALUE_RADIUS * (1.0 + candidate.value.abs())) {
+        return Err(AttemptFailure::TooFar { distance, limit: X_RADIUS });
+    }
+    let value = &center[center.len() - 1];
+    if value < window.min() || window.max().is_some_and(|m| value > m) {
+        return Err(AttemptFailure::NoRootNear {
+            lo: window.min().to_string(),
+            hi: window.max().map_or("infinity".into(), ToString::to_string),
+        });
+    }
+    // The inverse at the polished centre, rounded to short integers.
+    let y = inverse(&newton.jacobian(&center)).ok_or(AttemptFailure::SingularJacobian)?;
+    let (preconditioner, exponent) = round(&y);
+    let radius = radii(&center);
+    let number = |list: Vec<Rational>| list.into_iter().map(Number).collect();
+    let claim = EnclosedSolution { support: support.to_vec(), center: number(center), radius: number(radius), preconditioner, exponent };
+    newton.signs(&claim)?;
+    Ok(claim)
+}
+
+/// The square system of an enclosed solution: active rows of (A + tB) x and e'x_s - 1.
+struct Newton<'a> {
+    rows: &'a IntegralRows,
+    active: Vec<usize>,
+    support: &'a [usize],
+}
+
+impl Newton<'_> {
+    /// The candidate on the active variables with e'x_s = 1, then t.
+    fn start(&self, candidate: &Candidate) -> Result<Vec<Rational>, AttemptFailure> {
+        let sum: f64 = self.support.iter().map(|&i| candidate.x[i]).sum();
+        let x = self.active.iter().map(|&i| candidate.x[i] / sum).chain([candidate.value]);
+        x.map(|v| from_f64(v).map_err(|_| AttemptFailure::NotFinite)).collect()
+    }
+
+    /// F'(z) in doubles.
+    fn jacobian(&self, z: &[Rational]) -> Vec<Vec<f64>> {
+        let n = z.len();
+        let approx: Vec<f64> = z.iter().map(to_f64).collect();
+        let mut out = vec![vec![0.0; n]; n];
+        for (k, &i) in self.active.iter().enumerate() {
+            for (j, a, b) in &self.rows.0[i] {
+                let Ok(col) = self.active.binary_search(j) else { continue };
+                let (a, b) = (double(a), double(b));
+                out[k][col] = a + approx[n - 1] * b;
+                out[k][n - 1] += b * approx[col];
+            }
+        }
+        for (k, i) in self.active.iter().enumerate() {
+            out[n - 1][k] = if self.support.contains(i) { 1.0 } else { 0.0 };
+        }
+        out
+    }
+
+    /// F(z), exactly.
+    fn residual(&self, z: &[Rational]) -> Vec<Rational> {
+        let t = &z[z.len() - 1];
+        let mut out: Vec<Rational> = self.active.iter().map(|&i| self.row(i, z, t)).collect();
+        let sum: Rational = self.active.iter().zip(z).filter(|(i, _)| self.support.contains(i)).map(|(_, v)| v).sum();
+        out.push(sum - Rational::one());
+        out
+    }
+
+    fn row(&self, i: usize, z: &[Rational], t: &Rational) -> Rational {
+        let mut sum = Rational::zero();
+        for (j, a, b) in &self.rows.0[i] {
+            if let Ok(k) = self.active.binary_search(j) {
+                sum += (Rational::from_integer(a.clone()) + t * Rational::from_integer(b.clone())) * &z[k];
+            }
+        }
+        sum
+    }
+
+    /// Newton's method with a fixed approximate inverse and exact residuals, rounded to a grid.
+    fn polish(&self, mut z: Vec<Rational>, y: &[Vec<f64>]) -> Result<Vec<Rational>, AttemptFailure> {
+        let scale = Rational::from_integer(Integer::one() << CENTER_BITS);
+        for _ in 0..NEWTON_STEPS {
+            let residual = self.residual(&z);
+            let size = residual.iter().map(|v| v.abs()).max().unwrap_or_else(Rational::zero);
+            if size.is_zero() {
+                break;
+            }
+            // Scaled to doubles of order one, so that tiny residuals keep their digits.
+            let f: Vec<f64> = residual.iter().map(|v| to_f64(&(v / &size))).collect();
+            for (z_k, row) in z.iter_mut().zip(y) {
+                let step: f64 = row.iter().zip(&f).map(|(a, b)| a * b).sum();
+                let step = from_f64(step).map_err(|_| AttemptFailure::SingularJacobian)? * &size;
+                *z_k = ((&*z_k - step) * &scale).round() / &scale;
+            }
+        }
+        Ok(z)
+    }
+
+    /// A first look at the signs at the centre, so that a wrong support is named as such.
+    fn signs(&self, claim: &EnclosedSolution) -> Result<(), AttemptFailure> {
+        let z: Vec<Rational> = claim.center.iter().map(|n| n.0.clone()).collect();
+        let positive = |k: usize| claim.center[k].0 > claim.radius[k].0;
+        if let Some((_, &index)) = self.active.iter().enumerate().find(|(k, i)| self.support.contains(i) && !positive(*k)) {
+            return Err(AttemptFailure::XNotPositive { index });
+        }
+        let t = &z[z.len() - 1];
+        match (0..self.rows.0.len()).find(|i| self.active.binary_search(i).is_err() && !self.row(*i, &z, t).is_positive()) {
+            Some(index) => Err(AttemptFailure::YNegative { index }),
+            None => Ok(()),
+        }
+    }
+}
+
+fn double(v: &Integer) -> f64 {
+    to_f64(&Rational::from_integer(v.clone()))
+}
+
+/// Half widths: 2^-40 of the largest component of x, and of the value.
+fn radii(center: &[Rational]) -> Vec<Rational> {
+    let small = Rational::new(Integer::one(), Integer::one() << BOX_RADIUS_BITS);
+    let n = center.len();
+    let largest = center[..n - 1].iter().map(|v| v.abs()).max().unwrap_or_else(Rational::one);
+    let power = |v: &Rational| {
+        let bits = v.numer().bits() as i64 - v.denom().bits() as i64;
+        let p = Rational::from_integer(Integer::one() << bits.unsigned_abs());
+        if bits < 0 { p.recip() } else { p }
+    };
+    let value = if center[n - 1].is_zero() { Rational::one() } else { power(&center[n - 1].abs()) };
+    let x = power(&largest) * &small;
+    let mut radius = vec![x; n - 1];
+    radius.push(value * small);
+    radius
+}
+
+/// The inverse in integers of 2^-exponent, the largest with about `PRECONDITIONER_BITS` bits.
+fn round(y: &[Vec<f64>]) -> (Vec<Vec<Integer>>, u32) {
+    let largest = y.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
+    let exponent = (PRECONDITIONER_BITS - largest.log2().ceil() as i32).max(0) as u32;
+    let scale = Rational::from_integer(Integer::one() << exponent);
+    // Finite: `inverse` refuses anything else.
+    let integer = |v: &f64| from_f64(*v).map(|r| (r * &scale).round().to_integer()).unwrap_or_default();
+    (y.iter().map(|row| row.iter().map(integer).collect()).collect(), exponent)
+}

@@ -1,0 +1,244 @@
+//! Exact claims: the root of the support's determinant nearest the candidate, and the kernel there.
+
+use super::{AttemptFailure, IntegralRows, active};
+use crate::candidate::Candidate;
+use crate::certificate::ExactSolution;
+use crate::exact::{Algebraic, Poly, Rational, Sign, determinant, from_f64, kernel_at, roots_in, to_f64};
+use crate::model::file::Number;
+use crate::model::{Pencil, Window};
+use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
+use num_traits::{Signed, Zero};
+
+/// Most halvings of an isolating interval: far beyond any sign the corpus needs.
+const MAX_HALVINGS: usize = 4_000;
+
+/// The exact claim with this support whose value is nearest the candidate's.
+pub(super) fn make(
+    pencil: &Pencil,
+    rows: &IntegralRows,
+    window: &Window,
+    support: &[usize],
+    candidate: &Candidate,
+) -> Result<ExactSolution, AttemptFailure> {
+    let active = active(pencil, support);
+    let mut last = None;
+    for value in values_near(rows, window, &active, candidate)? {
+        match at_value(pencil, rows, window, support, &active, candidate, value) {
+            Ok(claim) => return Ok(claim),
+            Err(failure) => last = last.or(Some(failure)),
+        }
+    }
+    Err(last.unwrap_or_else(|| no_root(candidate)))
+}
+
+fn no_root(candidate: &Candidate) -> AttemptFailure {
+    let (lo, hi) = around(candidate);
+    AttemptFailure::NoRootNear { lo: lo.to_string(), hi: hi.to_string() }
+}
+
+fn around(candidate: &Candidate) -> (f64, f64) {
+    let radius = VALUE_RADIUS * (1.0 + candidate.value.abs());
+    (candidate.value - radius, candidate.value + radius)
+}
+
+/// Roots of the support's determinant near the candidate, nearest first. For a singular pencil
+/// every value is one, so the candidate's own is taken.
+fn values_near(rows: &IntegralRows, window: &Window, active: &[usize], candidate: &Candidate) -> Result<Vec<Algebraic>, AttemptFailure> {
+    let place = |i: usize, which: usize| {
+        let mut row = vec![crate::exact::Integer::zero(); active.len()];
+        for (j, a, b) in &rows.0[i] {
+            if let Ok(k) = active.binary_search(j) {
+                row[k] = if which == 0 { a.clone() } else { b.clone() };
+            }
+        }
+        row
+    };
+    let select = |which: usize| active.iter().map(|&i| place(i, which)).collect::<Vec<_>>();
+    let det = determinant(&select(0), &select(1));
+    let center = from_f64(candidate.value).map_err(|_| AttemptFailure::NotFinite)?;
+    if det.is_zero() {
+        return Ok(vec![Algebraic::rational(center)]);
+    }
+    let (lo, hi) = around(candidate);
+    let lo = from_f64(lo).map_err(|_| AttemptFailure::NotFinite)?.max(window.min().clone());
+    let hi = from_f64(hi).map_err(|_| AttemptFailure::NotFinite)?;
+    let hi = window.max().map_or(hi.clone(), |m| hi.min(m.clone()));
+    if lo > hi {
+        return Err(no_root(candidate));
+    }
+    let mut roots = roots_in(&det, &lo, Some(&hi));
+    roots.sort_by_key(|r| (r.interval().mid() - &center).abs());
+    Ok(roots)
+}
+
+fn at_value(
+    pencil: &Pencil,
+    rows: &IntegralRows,
+    window: &Window,
+    support: &[usize],
+    active: &[usize],
+    candidate: &Candidate,
+    mut value: Algebraic,
+) -> Result<ExactSolution, AttemptFailure> {
+    value.try_rational();
+    let x = kernel_vector(pencil, rows, active, candidate, &mut value)?;
+    if let Some(&index) = support.iter().find(|&&i| value.sign_of(&x[i]) != Sign::Positive) {
+        return Err(AttemptFailure::XNotPositive { index });
+    }
+    let y: Vec<Poly> = rows.0.iter().map(|row| times(row, &x)).collect();
+    let mut biactive = Vec::new();
+    for index in (0..pencil.order()).filter(|i| active.binary_search(i).is_err()) {
+        match value.sign_of(&y[index]) {
+            Sign::Negative => return Err(AttemptFailure::YNegative { index }),
+            Sign::Zero => biactive.push(index),
+            Sign::Positive => {}
+        }
+    }
+    // Zero tests have shrunk the polynomial until everything that vanishes is 0 modulo it.
+    for &i in active {
+        value.sign_of(&y[i]);
+    }
+    close_enough(pencil, candidate, &x, &mut value)?;
+    let strict: Vec<&Poly> = support.iter().map(|&i| &x[i]).collect();
+    let inactive = (0..pencil.order()).filter(|i| active.binary_search(i).is_err() && !biactive.contains(i));
+    let strict: Vec<&Poly> = strict.into_iter().chain(inactive.map(|i| &y[i])).collect();
+    tighten(window, &strict, support.is_empty().then_some(&x[..]), &mut value)?;
+    Ok(claim(support, biactive, &x, &value))
+}
+
+/// The kernel vector nearest the candidate: the kernel's free coordinates are taken from it.
+fn kernel_vector(
+    pencil: &Pencil,
+    rows: &IntegralRows,
+    active: &[usize],
+    candidate: &Candidate,
+    value: &mut Algebraic,
+) -> Result<Vec<Poly>, AttemptFailure> {
+    let entry = |i: usize, j: usize| {
+        let found = rows.0[i].iter().find(|e| e.0 == j);
+        found.map_or_else(Poly::default, |(_, a, b)| Poly::new(vec![a.clone(), b.clone()]))
+    };
+    let block = active.iter().map(|&i| active.iter().map(|&j| entry(i, j)).collect()).collect();
+    let basis = kernel_at(block, value);
+    if basis.is_empty() {
+        return Err(no_root(candidate)); // only for a value that was no root: a singular pencil's never is
+    }
+    // Each basis vector is the same polynomial at its own free coordinate, zero at the others'.
+    let weights = match &basis[..] {
+        [_] => vec![Rational::from_integer(1.into())],
+        _ => basis.iter().map(|v| coordinate(v, &basis, active, candidate)).collect::<Result<Vec<_>, _>>()?,
+    };
+    let clear = crate::exact::common_denominator(&weights);
+    let mut x = vec![Poly::default(); pencil.order()];
+    for (vector, weight) in basis.iter().zip(&weights) {
+        let factor = weight.numer() * (&clear / weight.denom());
+        for (&i, p) in active.iter().zip(vector) {
+            x[i] = &x[i] + &p.scale(&factor);
+        }
+    }
+    let slip_sign = pencil.slip().iter().map(|&i| value.sign_of(&x[i])).find(|s| *s != Sign::Zero);
+    let flip = match slip_sign {
+        Some(sign) => sign == Sign::Negative,
+        None => dot_sign(&x, candidate, value),
+    };
+    Ok(if flip { x.iter().map(|p| -p).collect() } else { x })
+}
+
+/// The candidate's component at the free coordinate that belongs to `vector`.
+fn coordinate(vector: &[Poly], basis: &[Vec<Poly>], active: &[usize], candidate: &Candidate) -> Result<Rational, AttemptFailure> {
+    let own = (0..active.len())
+        .find(|&k| !vector[k].is_zero() && basis.iter().all(|other| std::ptr::eq(&other[..], vector) || other[k].is_zero()));
+    let component = own.map_or(0.0, |k| candidate.x[active[k]]);
+    from_f64(component).map_err(|_| AttemptFailure::NotFinite)
+}
+
+/// For a solution without slip variables: does x point away from the candidate?
+fn dot_sign(x: &[Poly], candidate: &Candidate, value: &mut Algebraic) -> bool {
+    let dot: f64 = x.iter().zip(&candidate.x).map(|(p, c)| approximate(p, value) * c).sum();
+    dot < 0.0
+}
+
+/// x(value) as a double, for comparisons with the candidate only.
+fn approximate(p: &Poly, value: &mut Algebraic) -> f64 {
+    to_f64(&p.eval(&value.interval().mid()))
+}
+
+fn close_enough(pencil: &Pencil, candidate: &Candidate, x: &[Poly], value: &mut Algebraic) -> Result<(), AttemptFailure> {
+    value.refine_to(&Rational::new(1.into(), crate::exact::Integer::from(1u64 << 62)));
+    let slip = pencil.slip();
+    let over = |list: &[f64]| {
+        let sum: f64 = slip.iter().map(|&i| list[i]).sum();
+        if sum > 0.0 { sum } else { list.iter().map(|v| v.abs()).sum() }
+    };
+    // Polynomials at the midpoint may be huge: divide exactly before rounding.
+    let mid = value.interval().mid();
+    let exact: Vec<Rational> = x.iter().map(|p| p.eval(&mid)).collect();
+    let largest = exact.iter().map(|v| v.abs()).max().unwrap_or_else(Rational::zero);
+    if largest.is_zero() {
+        return Err(AttemptFailure::ZeroX);
+    }
+    let ours: Vec<f64> = exact.iter().map(|v| to_f64(&(v / &largest))).collect();
+    let (norm_ours, norm_theirs) = (over(&ours), over(&candidate.x));
+    let distance = ours.iter().zip(&candidate.x).map(|(a, b)| (a / norm_ours - b / norm_theirs).abs()).fold(0.0, f64::max);
+    if distance <= X_RADIUS { Ok(()) } else { Err(AttemptFailure::TooFar { distance, limit: X_RADIUS }) }
+}
+
+/// Narrows the interval until the checker's interval Horner sees every strict sign, the slope of
+/// the polynomial and the window.
+fn tighten(window: &Window, strict: &[&Poly], nonzero: Option<&[Poly]>, value: &mut Algebraic) -> Result<(), AttemptFailure> {
+    for _ in 0..MAX_HALVINGS {
+        let (interval, p) = (value.interval().clone(), value.poly().clone());
+        let sure = |g: &Poly| interval.horner(&g.pseudo_rem(&p)).certain_sign();
+        let isolated = interval.is_point() || interval.horner(&p.derivative()).certain_sign() != 0;
+        let inside = interval.lo() >= window.min() && window.max().is_none_or(|m| interval.hi() <= m);
+        let positive = strict.iter().all(|g| sure(g) == 1);
+        if isolated && inside && positive && nonzero.is_none_or(|x| x.iter().any(|g| sure(g) != 0)) {
+            return Ok(());
+        }
+        if interval.is_point() {
+            break; // nothing left to narrow: a sign that stays uncertain is a zero
+        }
+        value.refine();
+    }
+    Err(AttemptFailure::Precision { limit: MAX_HALVINGS })
+}
+
+fn claim(support: &[usize], biactive: Vec<usize>, x: &[Poly], value: &Algebraic) -> ExactSolution {
+    let p = value.poly();
+    let x = x.iter().map(|g| remainder(g, p)).collect::<Vec<_>>();
+    let x = primitive(x);
+    let interval = [Number(value.interval().lo().clone()), Number(value.interval().hi().clone())];
+    ExactSolution { support: support.to_vec(), biactive, polynomial: p.coeffs().to_vec(), interval, x }
+}
+
+/// g mod p over Q.
+fn remainder(g: &Poly, p: &Poly) -> Vec<Rational> {
+    let m = p.coeffs().len();
+    let mut rest: Vec<Rational> = g.coeffs().iter().map(|c| Rational::from_integer(c.clone())).collect();
+    let lead = Rational::from_integer(p.leading());
+    while rest.len() >= m {
+        let top = rest.pop().unwrap_or_else(Rational::zero) / &lead; // len >= m >= 2
+        let shift = rest.len() + 1 - m;
+        for (k, c) in p.coeffs()[..m - 1].iter().enumerate() {
+            rest[shift + k] -= &top * Rational::from_integer(c.clone());
+        }
+    }
+    while rest.last().is_some_and(Zero::is_zero) {
+        rest.pop();
+    }
+    rest
+}
+
+/// All components times one positive rational that makes them integers without a common factor.
+fn primitive(x: Vec<Vec<Rational>>) -> Vec<Vec<Number>> {
+    use num_integer::Integer as _;
+    let clear = crate::exact::common_denominator(x.iter().flatten());
+    let gcd = x.iter().flatten().fold(crate::exact::Integer::zero(), |g, v| g.gcd(&(v.numer() * (&clear / v.denom()))));
+    let factor = if gcd.is_zero() { Rational::from_integer(clear) } else { Rational::new(clear, gcd) };
+    x.into_iter().map(|p| p.into_iter().map(|v| Number(v * &factor)).collect()).collect()
+}
+
+/// A row of (A + tB) x.
+fn times(row: &[(usize, crate::exact::Integer, crate::exact::Integer)], x: &[Poly]) -> Poly {
+    row.iter().fold(Poly::default(), |sum, (j, a, b)| &sum + &(&Poly::new(vec![a.clone(), b.clone()]) * &x[*j]))
+}

@@ -1,0 +1,93 @@
+//! Why a candidate was not certified: typed, one entry per support tried.
+
+/// A candidate that stays uncertified, with what was tried.
+#[derive(Debug, Clone, PartialEq)]
+pub struct NotCertified {
+    /// Every support that was tried, in order.
+    pub attempts: Vec<Attempt>,
+}
+
+/// One support and what failed on it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Attempt {
+    /// The complementarity variables taken as slipping.
+    pub support: Vec<usize>,
+    /// What failed.
+    pub failure: AttemptFailure,
+}
+
+/// What failed in an attempt.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AttemptFailure {
+    /// The candidate has the wrong number of components.
+    #[error("expected x with {expected} components, got {got}")]
+    WrongLength {
+        /// Variables of the pencil.
+        expected: usize,
+        /// Components given.
+        got: usize,
+    },
+    /// A component or the value is NaN or infinite.
+    #[error("expected finite numbers, got a value or component that is not")]
+    NotFinite,
+    /// Every component is zero.
+    #[error("E12: expected x != 0, got the zero vector")]
+    ZeroX,
+    /// The support's determinant has no root near the value: proved, within the interval named.
+    #[error("E25: expected a root of the support's determinant in [{lo}, {hi}], got none")]
+    NoRootNear {
+        /// Lower end of the interval searched.
+        lo: String,
+        /// Upper end.
+        hi: String,
+    },
+    /// A component that should be positive is not.
+    #[error("E14: x[{index}]: expected > 0, got a non-positive exact value")]
+    XNotPositive {
+        /// The variable.
+        index: usize,
+    },
+    /// A component of y is negative.
+    #[error("E26: y[{index}]: expected >= 0, got a negative exact value")]
+    YNegative {
+        /// The row.
+        index: usize,
+    },
+    /// There is a solution nearby in value, but with another x.
+    #[error("expected x within {limit} of the candidate, got distance {distance}")]
+    TooFar {
+        /// Distance found.
+        distance: f64,
+        /// Distance allowed.
+        limit: f64,
+    },
+    /// Refinement reached its cap.
+    #[error("expected strict signs within {limit} halvings, got none")]
+    Precision {
+        /// The cap.
+        limit: usize,
+    },
+    /// The Jacobian is singular in doubles.
+    #[error("Krawczyk: expected a regular Jacobian at the candidate, got a singular one")]
+    SingularJacobian,
+    /// Krawczyk's test fails around the candidate.
+    #[error("Krawczyk: expected a box that maps into itself around the candidate, got none")]
+    NotContracting,
+}
+
+impl NotCertified {
+    /// A failure before any support was tried.
+    pub(super) fn of(failure: AttemptFailure) -> Self {
+        NotCertified { attempts: vec![Attempt { support: Vec::new(), failure }] }
+    }
+}
+
+impl std::fmt::Display for NotCertified {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let parts: Vec<String> = self.attempts.iter().map(|a| format!("support {:?}: {}", a.support, a.failure)).collect();
+        f.write_str(&parts.join("; "))
+    }
+}
+
+impl std::error::Error for NotCertified {}

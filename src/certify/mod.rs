@@ -1,0 +1,77 @@
+//! From a candidate in doubles to a claim that `check` accepts. May fail; is not trusted.
+
+mod enclose;
+mod exact_claim;
+mod failure;
+mod support;
+
+pub use failure::{Attempt, AttemptFailure, NotCertified};
+
+use crate::candidate::Candidate;
+use crate::certificate::{Certificate, Claim};
+use crate::exact::Integer;
+use crate::model::{Pencil, Problem, Window};
+
+/// Largest number of active variables for which an exact claim is attempted; above, enclosures.
+/// Exact algebraic numbers of higher degree cost more than they tell.
+pub const EXACT_ORDER: usize = 16;
+
+/// Makes a claim out of a candidate, trying the supports its components suggest.
+///
+/// `pencil` is the reduced pencil of the problem in whose window the value must lie.
+///
+/// # Errors
+/// [`NotCertified`] with every attempt and what failed in it.
+pub fn certify(pencil: &Pencil, window: &Window, candidate: &Candidate) -> Result<Claim, NotCertified> {
+    let integral = IntegralRows::of(pencil);
+    let supports = support::guesses(pencil, candidate).map_err(NotCertified::of)?;
+    let mut attempts = Vec::new();
+    for support in supports {
+        let order = pencil.free().len() + support.len();
+        let result = if order <= EXACT_ORDER {
+            exact_claim::make(pencil, &integral, window, &support, candidate).map(Claim::ExactSolution)
+        } else {
+            enclose::make(pencil, &integral, window, &support, candidate).map(Claim::EnclosedSolution)
+        };
+        match result {
+            Ok(claim) => return Ok(claim),
+            Err(failure) => attempts.push(Attempt { support, failure }),
+        }
+    }
+    Err(NotCertified { attempts })
+}
+
+/// A certificate for the problem with the given claims.
+pub fn certificate(problem: &Problem, claims: Vec<Claim>) -> Certificate {
+    Certificate { problem_sha256: problem.sha256(), unknown: problem.unknown(), window: problem.window().clone(), claims }
+}
+
+/// Rows of the pencil with denominators cleared: (column, coefficient of A, coefficient of B).
+struct IntegralRows(Vec<Vec<(usize, Integer, Integer)>>);
+
+impl IntegralRows {
+    fn of(pencil: &Pencil) -> Self {
+        use crate::exact::common_denominator;
+        use std::collections::BTreeMap;
+        let row = |i: usize| {
+            let (a, b) = (pencil.a().row(i), pencil.b().row(i));
+            let factor = common_denominator(a.iter().chain(b).map(|e| &e.1));
+            let mut merged: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
+            for (j, v) in a {
+                merged.entry(*j).or_default().0 = v.numer() * (&factor / v.denom());
+            }
+            for (j, v) in b {
+                merged.entry(*j).or_default().1 = v.numer() * (&factor / v.denom());
+            }
+            merged.into_iter().map(|(j, (a, b))| (j, a, b)).collect()
+        };
+        IntegralRows((0..pencil.order()).map(row).collect())
+    }
+}
+
+/// Free and slip variables, ascending.
+fn active(pencil: &Pencil, support: &[usize]) -> Vec<usize> {
+    let mut list: Vec<usize> = pencil.free().iter().chain(support).copied().collect();
+    list.sort_unstable();
+    list
+}

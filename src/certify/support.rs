@@ -1,0 +1,55 @@
+//! Which complementarity variables a candidate takes as slipping: several guesses, best first.
+
+use super::AttemptFailure;
+use crate::candidate::Candidate;
+use crate::model::Pencil;
+use crate::tolerance::SUPPORT_GUESSES;
+
+/// The distinct supports {i : x_i > threshold max x_s} over the thresholds, in their order.
+pub(super) fn guesses(pencil: &Pencil, candidate: &Candidate) -> Result<Vec<Vec<usize>>, AttemptFailure> {
+    if candidate.x.len() != pencil.order() {
+        return Err(AttemptFailure::WrongLength { expected: pencil.order(), got: candidate.x.len() });
+    }
+    if !candidate.value.is_finite() || candidate.x.iter().any(|v| !v.is_finite()) {
+        return Err(AttemptFailure::NotFinite);
+    }
+    if candidate.x.iter().all(|v| *v == 0.0) {
+        return Err(AttemptFailure::ZeroX);
+    }
+    let slip = pencil.slip();
+    let largest = slip.iter().map(|&i| candidate.x[i]).fold(0.0, f64::max);
+    let mut supports: Vec<Vec<usize>> = Vec::new();
+    for threshold in SUPPORT_GUESSES {
+        let support: Vec<usize> = slip.iter().copied().filter(|&i| candidate.x[i] > threshold * largest).collect();
+        if !supports.contains(&support) {
+            supports.push(support);
+        }
+    }
+    Ok(supports)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::Sparse;
+
+    fn supports(x: &[f64]) -> Result<Vec<Vec<usize>>, AttemptFailure> {
+        let n = 3;
+        let pencil = Pencil::new(Sparse::identity(n), Sparse::identity(n), vec![0]).unwrap();
+        guesses(&pencil, &Candidate { value: 1.0, x: x.to_vec() })
+    }
+
+    #[test]
+    fn ambiguous_components_give_several_guesses() {
+        assert_eq!(supports(&[9.0, 1.0, 0.5]).unwrap(), vec![vec![1, 2]]);
+        assert_eq!(supports(&[9.0, 1.0, 1e-7]).unwrap(), vec![vec![1, 2], vec![1]]);
+        assert_eq!(supports(&[9.0, 0.0, -1.0]).unwrap(), vec![Vec::<usize>::new()]);
+    }
+
+    #[test]
+    fn unusable_candidates_are_named() {
+        assert!(matches!(supports(&[1.0]), Err(AttemptFailure::WrongLength { expected: 3, got: 1 })));
+        assert!(matches!(supports(&[0.0, f64::NAN, 0.0]), Err(AttemptFailure::NotFinite)));
+        assert!(matches!(supports(&[0.0, 0.0, 0.0]), Err(AttemptFailure::ZeroX)));
+    }
+}

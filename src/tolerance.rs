@@ -1,0 +1,30 @@
+//! Every tolerance on doubles outside the solver's own arithmetic, with unit, basis and reason.
+//!
+//! None of them decides a truth: they steer guesses that exact arithmetic then confirms or not.
+//! The solver's tolerances stand in the second part of this file's role, `solver/tolerance.rs`.
+
+/// Thresholds at which x_i, relative to max x_s, is guessed to be positive. Unit: none.
+/// Basis: the block's lambda^2 mode has a true component of 6e-11 of its norm, and reports of six
+/// digits have noise of 1e-6; so several guesses are tried and the exact signs decide.
+pub const SUPPORT_GUESSES: [f64; 5] = [1e-9, 1e-6, 1e-4, 1e-12, 1e-3];
+
+/// How far from a candidate's value a root is looked for, relative to 1 + |value|. Unit: none.
+/// Basis: reports carry six digits or more; a double root is found by floats to half their digits.
+pub const VALUE_RADIUS: f64 = 1e-5;
+
+/// Largest distance between candidate and certified x, both with e'x_s = 1. Unit: none.
+/// Basis: like [`VALUE_RADIUS`], with the eigenvector's condition on top; a larger distance means
+/// the certified solution is another one than the candidate.
+pub const X_RADIUS: f64 = 1e-3;
+
+/// Half width of a Krawczyk box relative to the largest component. Unit: none, power of two 2^-40.
+/// Basis: far above the residual of the refined centre (2^-80), far below the distance between
+/// solutions and the smallest component met (6e-11 = 2^-34).
+pub const BOX_RADIUS_BITS: u32 = 40;
+
+/// Bits kept after the point in the centre of a Krawczyk box. Basis: twice the radius' bits.
+pub const CENTER_BITS: u32 = 96;
+
+/// Bits of the largest entry of a Krawczyk preconditioner. Basis: 40 bits keep |I - YJ| below 1e-3
+/// for the block (804 unknowns), and each bit costs 80 kB of certificate there.
+pub const PRECONDITIONER_BITS: i32 = 40;
