@@ -8,9 +8,15 @@ pub mod check;
 pub mod exact;
 #[cfg(feature = "solver")]
 pub mod linear;
+#[cfg(feature = "solver")]
+pub mod mcp;
 pub mod model;
+#[cfg(feature = "solver")]
+pub mod multistart;
 pub mod oracle;
 pub mod reduction;
+#[cfg(feature = "solver")]
+pub mod solver;
 pub mod source;
 #[cfg(feature = "solver")]
 pub mod tolerance;

@@ -54,6 +54,12 @@ impl Algebraic {
         if interval.is_point() { Self::rational(interval.lo().clone()) } else { Algebraic { poly, interval } }
     }
 
+    /// The number a claim speaks of: its polynomial made squarefree, with its interval. The caller
+    /// has checked, or is about to check, that the interval isolates one root.
+    pub fn from_claim(poly: Poly, interval: Interval) -> Self {
+        Self::isolated(poly.squarefree(), interval)
+    }
+
     /// A squarefree polynomial that vanishes here.
     pub fn poly(&self) -> &Poly {
         &self.poly

@@ -2,9 +2,13 @@
 #![deny(clippy::float_arithmetic)]
 
 mod eliminate;
+#[cfg(feature = "solver")]
+mod embed;
 mod lift;
 mod lines;
 
 pub use eliminate::{Reduced, Variable, reduce};
+#[cfg(feature = "solver")]
+pub use embed::{Embedding, Side};
 pub use lift::{Lifted, lift};
 pub use lines::{Line, LineViolated, check_lines};

@@ -1,0 +1,129 @@
+//! The f64 view of a mixed complementarity problem: all that the solver sees.
+
+use nalgebra::DMatrix;
+
+/// MCP(F, l, u): find z in [l, u] with F_i(z) >= 0 where z_i = l_i, F_i(z) = 0 strictly inside,
+/// F_i(z) <= 0 where z_i = u_i (Dirkse and Ferris 1995, section 1).
+pub trait Mcp {
+    /// Number of unknowns n.
+    fn dimension(&self) -> usize;
+    /// Lower bounds, length n, -inf for none.
+    fn lower(&self) -> &[f64];
+    /// Upper bounds, length n, +inf for none.
+    fn upper(&self) -> &[f64];
+    /// Writes F(z) into `f`, both of length n.
+    fn function(&self, z: &[f64], f: &mut [f64]);
+    /// Writes the n x n Jacobian F'(z) into `j`, every entry.
+    fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>);
+}
+
+/// A linear MCP: F(z) = M z + q.
+#[derive(Debug, Clone, PartialEq)]
+pub struct LinearMcp {
+    m: DMatrix<f64>,
+    q: Vec<f64>,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+/// Why a linear MCP is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum McpError {
+    /// A part has the wrong length or the matrix is not square.
+    #[error("expected {what} of length {expected}, got {got}")]
+    Shape {
+        /// Which part.
+        what: &'static str,
+        /// Length wanted.
+        expected: usize,
+        /// Length found.
+        got: usize,
+    },
+    /// An entry is NaN, or infinite where it must not be.
+    #[error("expected a finite {what}[{row}][{col}], got {got}")]
+    NotFinite {
+        /// Which part.
+        what: &'static str,
+        /// Row.
+        row: usize,
+        /// Column, 0 for vectors.
+        col: usize,
+        /// The entry.
+        got: f64,
+    },
+    /// A lower bound above the upper one, or NaN.
+    #[error("expected lower <= upper at {index}, got {lower} and {upper}")]
+    Bounds {
+        /// The unknown.
+        index: usize,
+        /// Its lower bound.
+        lower: f64,
+        /// Its upper bound.
+        upper: f64,
+    },
+}
+
+impl LinearMcp {
+    /// The problem with F(z) = M z + q on [lower, upper].
+    ///
+    /// # Errors
+    /// [`McpError`] naming the part, row and column.
+    ///
+    /// ```
+    /// use mceip::mcp::LinearMcp;
+    /// let inf = f64::INFINITY;
+    /// assert!(LinearMcp::new(nalgebra::dmatrix![2.0], vec![-1.0], vec![0.0], vec![inf]).is_ok());
+    /// assert!(LinearMcp::new(nalgebra::dmatrix![2.0], vec![-1.0], vec![1.0], vec![0.0]).is_err());
+    /// ```
+    pub fn new(m: DMatrix<f64>, q: Vec<f64>, lower: Vec<f64>, upper: Vec<f64>) -> Result<Self, McpError> {
+        let n = q.len();
+        for (what, got) in [("rows of M", m.nrows()), ("columns of M", m.ncols()), ("lower", lower.len()), ("upper", upper.len())] {
+            if got != n {
+                return Err(McpError::Shape { what, expected: n, got });
+            }
+        }
+        for row in 0..n {
+            if let Some(col) = (0..n).find(|&c| !m[(row, c)].is_finite()) {
+                return Err(McpError::NotFinite { what: "M", row, col, got: m[(row, col)] });
+            }
+            if !q[row].is_finite() {
+                return Err(McpError::NotFinite { what: "q", row, col: 0, got: q[row] });
+            }
+        }
+        check_bounds(&lower, &upper)?;
+        Ok(LinearMcp { m, q, lower, upper })
+    }
+}
+
+/// Refuses bounds that are crossed, NaN, or infinite on the wrong side.
+///
+/// # Errors
+/// [`McpError::Bounds`] with the first index.
+pub fn check_bounds(lower: &[f64], upper: &[f64]) -> Result<(), McpError> {
+    let bad = |l: f64, u: f64| l.is_nan() || u.is_nan() || l > u || l == f64::INFINITY || u == f64::NEG_INFINITY;
+    match lower.iter().zip(upper).position(|(&l, &u)| bad(l, u)) {
+        Some(index) => Err(McpError::Bounds { index, lower: lower[index], upper: upper[index] }),
+        None => Ok(()),
+    }
+}
+
+impl Mcp for LinearMcp {
+    fn dimension(&self) -> usize {
+        self.q.len()
+    }
+    fn lower(&self) -> &[f64] {
+        &self.lower
+    }
+    fn upper(&self) -> &[f64] {
+        &self.upper
+    }
+    fn function(&self, z: &[f64], f: &mut [f64]) {
+        for (i, f_i) in f.iter_mut().enumerate() {
+            *f_i = self.q[i] + z.iter().enumerate().map(|(j, z_j)| self.m[(i, j)] * z_j).sum::<f64>();
+        }
+    }
+    fn jacobian(&self, _z: &[f64], j: &mut DMatrix<f64>) {
+        j.copy_from(&self.m);
+    }
+}

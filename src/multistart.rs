@@ -1,0 +1,184 @@
+//! Many starts, each certified: embed, solve, certify, list once. What section 4 does with PATH.
+
+use crate::candidate::Candidate;
+use crate::certificate::Claim;
+use crate::certify::{NotCertified, certify};
+use crate::exact::{Algebraic, Interval, Poly, to_f64};
+use crate::model::{Admissible, Window};
+use crate::reduction::{Embedding, Side};
+use crate::solver::{Options, Outcome, SolverError, Termination, solve};
+use std::collections::BTreeMap;
+
+/// How to search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Search {
+    /// Starts on the whole window.
+    pub starts: usize,
+    /// Starts above and below each value found (zeta of section 4); 0 for none.
+    pub window_starts: usize,
+    /// Further origins from which values above are sought.
+    pub origins: Vec<f64>,
+    /// Seed of the random starts.
+    pub seed: u64,
+    /// Options of each run.
+    pub options: Options,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Search { starts: 22, window_starts: 4, origins: Vec::new(), seed: 1, options: Options::default() }
+    }
+}
+
+/// A point whose residuals were small but which could not be certified.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Uncertified {
+    /// The point.
+    pub candidate: Candidate,
+    /// Why.
+    pub reason: NotCertified,
+}
+
+/// A certified solution and the start that led to it first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Certified {
+    /// The claim for the certificate.
+    pub claim: Claim,
+    /// The candidate it was made from.
+    pub candidate: Candidate,
+    /// Number of the run, from 0.
+    pub run: usize,
+}
+
+/// What a search found. It never says that nothing else exists.
+#[derive(Debug, Clone, Default)]
+pub struct Found {
+    /// Distinct certified solutions, by value.
+    pub certified: Vec<Certified>,
+    /// Distinct candidates that stayed uncertified.
+    pub uncertified: Vec<Uncertified>,
+    /// Candidates below the window (a search downwards may leave it), discarded.
+    pub outside: usize,
+    /// How often each reason ended a run.
+    pub terminations: BTreeMap<Termination, usize>,
+    /// Runs made.
+    pub runs: usize,
+    /// Pivots made.
+    pub pivots: usize,
+    /// Outcome of the very first run.
+    pub first: Option<Outcome>,
+}
+
+/// Searches for solutions in the window: plain starts, then above and below each value found.
+///
+/// # Errors
+/// [`SolverError`] for options out of range.
+pub fn multistart(admissible: &Admissible<'_>, window: &Window, search: &Search) -> Result<Found, SolverError> {
+    let mut found = Found::default();
+    let bottom = to_f64(window.min());
+    let mut hunt = Hunt { admissible, window, search, found: &mut found };
+    for (k, origin) in [bottom].into_iter().chain(search.origins.iter().copied()).enumerate() {
+        hunt.side(Side::Above(origin), search.starts, k as u64)?;
+    }
+    let mut treated = 0;
+    while treated < hunt.found.certified.len() && search.window_starts > 0 {
+        let value = hunt.found.certified[treated].candidate.value;
+        // Strictly on either side: at the value itself the solution found would be found again.
+        let gap = WINDOW_GAP * (1.0 + value.abs());
+        hunt.side(Side::Above(value + gap), search.window_starts, 1000 + 2 * treated as u64)?;
+        hunt.side(Side::Below(value - gap), search.window_starts, 1001 + 2 * treated as u64)?;
+        treated += 1;
+    }
+    found.certified.sort_by(|a, b| a.candidate.value.total_cmp(&b.candidate.value).then_with(|| support(&a.claim).cmp(support(&b.claim))));
+    Ok(found)
+}
+
+/// Distance of a zeta window from the value it excludes, relative to 1 + |value|.
+const WINDOW_GAP: f64 = 1e-7;
+
+struct Hunt<'a> {
+    admissible: &'a Admissible<'a>,
+    window: &'a Window,
+    search: &'a Search,
+    found: &'a mut Found,
+}
+
+impl Hunt<'_> {
+    fn side(&mut self, side: Side, starts: usize, salt: u64) -> Result<(), SolverError> {
+        let embedding = Embedding::new(self.admissible, side);
+        for start in embedding.starts(starts, self.search.seed.wrapping_add(salt)) {
+            let outcome = solve(&embedding, &start, &self.search.options)?;
+            *self.found.terminations.entry(outcome.termination).or_default() += 1;
+            self.found.pivots += outcome.pivots;
+            let run = self.found.runs;
+            self.found.runs += 1;
+            if outcome.termination.reached_tolerance() {
+                self.file(embedding.candidate(&outcome.point), run);
+            }
+            self.found.first.get_or_insert(outcome);
+        }
+        Ok(())
+    }
+
+    /// Certifies a candidate and lists it, once.
+    fn file(&mut self, candidate: Candidate, run: usize) {
+        let slack = WINDOW_GAP * (1.0 + candidate.value.abs());
+        if candidate.value < to_f64(self.window.min()) - slack || self.window.max().is_some_and(|m| candidate.value > to_f64(m) + slack) {
+            self.found.outside += 1;
+            return;
+        }
+        match certify(self.admissible.pencil(), self.window, &candidate) {
+            Ok(claim) => {
+                if !self.found.certified.iter().any(|c| same(&c.claim, &claim)) {
+                    self.found.certified.push(Certified { claim, candidate, run });
+                }
+            }
+            Err(reason) => {
+                let near = |c: &Candidate| (c.value - candidate.value).abs() <= slack;
+                if !self.found.uncertified.iter().any(|u| near(&u.candidate) && u.reason == reason) {
+                    self.found.uncertified.push(Uncertified { candidate, reason });
+                }
+            }
+        }
+    }
+}
+
+/// The support of a claim.
+pub fn support(claim: &Claim) -> &[usize] {
+    match claim {
+        Claim::ExactSolution(c) => &c.support,
+        Claim::EnclosedSolution(c) => &c.support,
+    }
+}
+
+/// The exact value of an exact claim.
+pub fn exact_value(claim: &Claim) -> Option<Algebraic> {
+    match claim {
+        Claim::ExactSolution(c) => {
+            let interval = Interval::new(c.interval[0].0.clone(), c.interval[1].0.clone())?;
+            Some(Algebraic::from_claim(Poly::new(c.polynomial.clone()), interval))
+        }
+        Claim::EnclosedSolution(_) => None,
+    }
+}
+
+/// Do two claims speak of the same solution: same support and equal value (exact), or a box that
+/// holds the other's centre (each box holds exactly one solution of its support)?
+pub fn same(a: &Claim, b: &Claim) -> bool {
+    if support(a) != support(b) {
+        return false;
+    }
+    match (a, b) {
+        (Claim::EnclosedSolution(a), Claim::EnclosedSolution(b)) => {
+            let inside = |k: usize| {
+                let (d, r) = (&a.center[k].0 - &b.center[k].0, &a.radius[k].0);
+                &d <= r && -d <= *r
+            };
+            a.center.len() == b.center.len() && (0..a.center.len()).all(inside)
+        }
+        _ => match (exact_value(a), exact_value(b)) {
+            (Some(mut a), Some(mut b)) => a.equals(&mut b),
+            _ => false,
+        },
+    }
+}

@@ -1,0 +1,169 @@
+//! Propositions 1 and 2: the eigenproblem as an MCP in doubles, with window and starting points.
+//!
+//! Unknowns (u, zeta): x = D u with a positive diagonal D, t = origin + direction * unit * zeta.
+//! Rows: D (A + tB) D u complementary to u_s (free rows zero), e'u_s - c complementary to zeta
+//! (gamma = e'u_s - c). Positive scaling changes neither signs nor complementarity, so this is
+//! (27)-(30) or (31)-(34) with another positive normalisation; c = 1.
+#![allow(clippy::float_arithmetic)]
+
+use crate::candidate::Candidate;
+use crate::exact::to_f64;
+use crate::mcp::Mcp;
+use crate::model::Admissible;
+use nalgebra::{DMatrix, DVector};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+
+/// Where values are sought: the zeta substitution of section 4. // W1
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Side {
+    /// t >= origin: zeta = t - origin. The origin 0 is the plain problem.
+    Above(f64),
+    /// t <= origin: zeta = origin - t. Negative t may come out and is for the caller to discard.
+    Below(f64),
+}
+
+/// The MCP of Proposition 1 or 2 for an admissible pencil.
+#[derive(Debug, Clone)]
+pub struct Embedding {
+    a: DMatrix<f64>,
+    b: DMatrix<f64>,
+    diagonal: Vec<f64>,
+    is_free: Vec<bool>,
+    unit: f64,
+    origin: f64,
+    direction: f64,
+    lower: Vec<f64>,
+    upper: Vec<f64>,
+}
+
+impl Embedding {
+    /// Embeds the pencil; the type of the argument says that its hypotheses hold.
+    pub fn new(admissible: &Admissible<'_>, side: Side) -> Embedding {
+        let pencil = admissible.pencil();
+        let n = pencil.order();
+        let (mut a, mut b) = (DMatrix::zeros(n, n), DMatrix::zeros(n, n));
+        for (m, s) in [(&mut a, pencil.a()), (&mut b, pencil.b())] {
+            s.entries().for_each(|(i, j, v)| m[(i, j)] = to_f64(v));
+        }
+        let diagonal: Vec<f64> = (0..n).map(|i| scale_of(a[(i, i)], b[(i, i)])).collect();
+        for m in [&mut a, &mut b] {
+            *m = DMatrix::from_fn(n, n, |i, j| diagonal[i] * m[(i, j)] * diagonal[j]);
+        }
+        let unit = match (a.amax(), b.amax()) {
+            (x, y) if x > 0.0 && y > 0.0 => x / y,
+            _ => 1.0,
+        };
+        let (origin, direction) = match side {
+            Side::Above(t) => (t, 1.0),
+            Side::Below(t) => (t, -1.0),
+        };
+        let mut is_free = vec![false; n];
+        pencil.free().iter().for_each(|&i| is_free[i] = true);
+        let lower = is_free.iter().map(|&f| if f { f64::NEG_INFINITY } else { 0.0 }).chain([0.0]).collect();
+        Embedding { a, b, diagonal, is_free, unit, origin, direction, lower, upper: vec![f64::INFINITY; n + 1] }
+    }
+
+    /// The candidate that a point of the MCP stands for: t and x = D u.
+    pub fn candidate(&self, z: &[f64]) -> Candidate {
+        let n = self.diagonal.len();
+        Candidate { value: self.t(z[n]), x: z[..n].iter().zip(&self.diagonal).map(|(u, d)| u * d).collect() }
+    }
+
+    /// Starting points: e'u_s = 1 always (at x = 0 the column of t vanishes), u_f = 0.
+    ///
+    /// The first two are u_s = 1/n_s at t = 0 and t = 1 from the origin (the first starts of
+    /// `spec/`), then each single particle, then seeded random faces of the simplex with t
+    /// log-uniform over six decades around the unit.
+    pub fn starts(&self, count: usize, seed: u64) -> Vec<Vec<f64>> {
+        let n = self.diagonal.len();
+        let slip: Vec<usize> = (0..n).filter(|&i| !self.is_free[i]).collect();
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let even = |zeta: f64| {
+            let mut z = vec![0.0; n + 1];
+            slip.iter().for_each(|&i| z[i] = 1.0 / slip.len() as f64);
+            z[n] = zeta;
+            z
+        };
+        let mut starts = vec![even(0.0), even(1.0 / self.unit)];
+        for &i in &slip {
+            let mut z = vec![0.0; n + 1];
+            z[i] = 1.0;
+            z[n] = self.ritz(i);
+            starts.push(z);
+        }
+        while starts.len() < count {
+            starts.push(self.random_start(&slip, &mut rng));
+        }
+        starts.truncate(count);
+        starts
+    }
+
+    /// zeta at which the diagonal entry of particle i vanishes, or 0 if that lies on the other side.
+    fn ritz(&self, i: usize) -> f64 {
+        let t = -self.a[(i, i)] / self.b[(i, i)];
+        let zeta = (t - self.origin) * self.direction / self.unit;
+        if zeta.is_finite() && zeta > 0.0 { zeta } else { 0.0 }
+    }
+
+    fn random_start(&self, slip: &[usize], rng: &mut ChaCha8Rng) -> Vec<f64> {
+        let n = self.diagonal.len();
+        let mut z = vec![0.0; n + 1];
+        // Exponential weights on a random face: uniform on that face of the simplex.
+        let keep: f64 = rng.random_range(0.2..1.0);
+        for &i in slip {
+            let (weight, kept): (f64, f64) = (rng.random_range(f64::MIN_POSITIVE..1.0), rng.random_range(0.0..1.0));
+            z[i] = if kept < keep { -weight.ln() } else { 0.0 };
+        }
+        let sum: f64 = slip.iter().map(|&i| z[i]).sum();
+        if sum > 0.0 {
+            slip.iter().for_each(|&i| z[i] /= sum);
+        } else {
+            slip.iter().for_each(|&i| z[i] = 1.0 / slip.len() as f64);
+        }
+        z[n] = 10f64.powf(rng.random_range(-3.0..3.0));
+        z
+    }
+
+    fn t(&self, zeta: f64) -> f64 {
+        self.origin + self.direction * self.unit * zeta
+    }
+
+    fn pencil_at(&self, zeta: f64) -> DMatrix<f64> {
+        &self.a + &self.b * self.t(zeta)
+    }
+}
+
+/// 1 / sqrt of the larger diagonal entry, a power of two so that scaling commits no rounding.
+fn scale_of(a: f64, b: f64) -> f64 {
+    let size = a.abs().max(b.abs() * f64::from(u8::from(a == 0.0)));
+    if size > 0.0 && size.is_finite() { (-0.5 * size.log2()).round().exp2() } else { 1.0 }
+}
+
+impl Mcp for Embedding {
+    fn dimension(&self) -> usize {
+        self.diagonal.len() + 1
+    }
+    fn lower(&self) -> &[f64] {
+        &self.lower
+    }
+    fn upper(&self) -> &[f64] {
+        &self.upper
+    }
+    fn function(&self, z: &[f64], f: &mut [f64]) {
+        let n = self.diagonal.len();
+        let y = self.pencil_at(z[n]) * DVector::from_column_slice(&z[..n]); // E27, E31
+        f[..n].copy_from_slice(y.as_slice());
+        f[n] = (0..n).filter(|&i| !self.is_free[i]).map(|i| z[i]).sum::<f64>() - 1.0; // E28, E33
+    }
+    fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
+        let n = self.diagonal.len();
+        j.fill(0.0);
+        j.view_mut((0, 0), (n, n)).copy_from(&self.pencil_at(z[n]));
+        let column = &self.b * DVector::from_column_slice(&z[..n]) * (self.direction * self.unit);
+        j.view_mut((0, n), (n, 1)).copy_from(&column);
+        for i in (0..n).filter(|&i| !self.is_free[i]) {
+            j[(n, i)] = 1.0;
+        }
+    }
+}
