@@ -15,6 +15,8 @@ use crate::model::{Pencil, Problem, Window};
 /// Largest number of active variables for which an exact claim is attempted; above, enclosures.
 /// Exact algebraic numbers of higher degree cost more than they tell.
 pub const EXACT_ORDER: usize = 16;
+/// Largest size, in bits, of a determinant for which an exact claim is attempted.
+pub const EXACT_BITS: u64 = 4096;
 
 /// Makes a claim out of a candidate, trying the supports its components suggest.
 ///
@@ -28,7 +30,7 @@ pub fn certify(pencil: &Pencil, window: &Window, candidate: &Candidate) -> Resul
     let mut attempts = Vec::new();
     for support in supports {
         let order = pencil.free().len() + support.len();
-        let result = if order <= EXACT_ORDER {
+        let result = if order <= EXACT_ORDER && order as u64 * integral.bits() <= EXACT_BITS {
             exact_claim::make(pencil, &integral, window, &support, candidate).map(Claim::ExactSolution)
         } else {
             enclose::make(pencil, &integral, window, &support, candidate).map(Claim::EnclosedSolution)
@@ -66,6 +68,11 @@ impl IntegralRows {
             merged.into_iter().map(|(j, (a, b))| (j, a, b)).collect()
         };
         IntegralRows((0..pencil.order()).map(row).collect())
+    }
+
+    /// Bits of the largest coefficient.
+    fn bits(&self) -> u64 {
+        self.0.iter().flatten().map(|(_, a, b)| a.bits().max(b.bits())).max().unwrap_or(0)
     }
 }
 

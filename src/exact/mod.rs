@@ -12,8 +12,10 @@ mod double;
 mod interval;
 mod kernel;
 
+mod modular;
 mod poly;
 mod poly_gcd;
+mod prime;
 mod quadratic;
 mod rational;
 mod roots;
@@ -27,6 +29,7 @@ pub use double::{from_f64, to_f64};
 pub use interval::Interval;
 pub use kernel::{determinant, kernel_at};
 
+pub use modular::{CondenseError, schur_complement};
 pub use poly::Poly;
 pub use quadratic::Quadratic;
 pub use rational::{Integer, MAX_EXPONENT, MAX_SPELLING, NumberError, Rational, common_denominator, parse, rational, whole};

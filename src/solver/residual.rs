@@ -50,7 +50,7 @@ fn fischer(z: f64, f: f64, l: f64, u: f64) -> f64 {
         (false, false) => -f,
         (true, false) => phi(z - l, f),
         (false, true) => -phi(u - z, -f),
-        (true, true) => phi(z - l, -phi(u - z, -f)),
+        (true, true) => phi(z - l, phi(u - z, -f)),
     }
 }
 
