@@ -18,5 +18,7 @@ pub mod reduction;
 #[cfg(feature = "solver")]
 pub mod solver;
 pub mod source;
+#[cfg(feature = "testkit")]
+pub mod testkit;
 #[cfg(feature = "solver")]
 pub mod tolerance;

@@ -7,6 +7,7 @@ use crate::exact::{Algebraic, Interval, Poly, to_f64};
 use crate::model::{Admissible, Window};
 use crate::reduction::{Embedding, Side};
 use crate::solver::{Options, Outcome, SolverError, Termination, solve};
+use crate::tolerance::{SAME_POINT, WINDOW_GAP};
 use std::collections::BTreeMap;
 
 /// How to search.
@@ -16,6 +17,8 @@ pub struct Search {
     pub starts: usize,
     /// Starts above and below each value found (zeta of section 4); 0 for none.
     pub window_starts: usize,
+    /// Values around which windows are opened, at most: a singular pencil has a continuum of them.
+    pub window_limit: usize,
     /// Further origins from which values above are sought.
     pub origins: Vec<f64>,
     /// Seed of the random starts.
@@ -26,7 +29,7 @@ pub struct Search {
 
 impl Default for Search {
     fn default() -> Self {
-        Search { starts: 22, window_starts: 4, origins: Vec::new(), seed: 1, options: Options::default() }
+        Search { starts: 22, window_starts: 4, window_limit: 16, origins: Vec::new(), seed: 1, options: Options::default() }
     }
 }
 
@@ -59,6 +62,8 @@ pub struct Found {
     pub uncertified: Vec<Uncertified>,
     /// Candidates below the window (a search downwards may leave it), discarded.
     pub outside: usize,
+    /// Candidates equal to an earlier one within rounding ([`SAME_POINT`]).
+    pub repeated: usize,
     /// How often each reason ended a run.
     pub terminations: BTreeMap<Termination, usize>,
     /// Runs made.
@@ -74,14 +79,31 @@ pub struct Found {
 /// # Errors
 /// [`SolverError`] for options out of range.
 pub fn multistart(admissible: &Admissible<'_>, window: &Window, search: &Search) -> Result<Found, SolverError> {
+    multistart_with(admissible, window, search, &|candidate| certify(admissible.pencil(), window, candidate))
+}
+
+/// What turns a candidate into a claim: [`multistart_with`] takes any, so that a condensed pencil
+/// can be searched and the claim made about the full one.
+pub type Certifier<'a> = dyn Fn(&Candidate) -> Result<Claim, NotCertified> + 'a;
+
+/// [`multistart`] with a certifier of one's own.
+///
+/// # Errors
+/// As [`multistart`].
+pub fn multistart_with(
+    admissible: &Admissible<'_>,
+    window: &Window,
+    search: &Search,
+    certifier: &Certifier<'_>,
+) -> Result<Found, SolverError> {
     let mut found = Found::default();
     let bottom = to_f64(window.min());
-    let mut hunt = Hunt { admissible, window, search, found: &mut found };
+    let mut hunt = Hunt { admissible, window, search, certifier, found: &mut found };
     for (k, origin) in [bottom].into_iter().chain(search.origins.iter().copied()).enumerate() {
         hunt.side(Side::Above(origin), search.starts, k as u64)?;
     }
     let mut treated = 0;
-    while treated < hunt.found.certified.len() && search.window_starts > 0 {
+    while treated < hunt.found.certified.len().min(search.window_limit) && search.window_starts > 0 {
         let value = hunt.found.certified[treated].candidate.value;
         // Strictly on either side: at the value itself the solution found would be found again.
         let gap = WINDOW_GAP * (1.0 + value.abs());
@@ -93,13 +115,20 @@ pub fn multistart(admissible: &Admissible<'_>, window: &Window, search: &Search)
     Ok(found)
 }
 
-/// Distance of a zeta window from the value it excludes, relative to 1 + |value|.
-const WINDOW_GAP: f64 = 1e-7;
+/// Is `b` the same point as `a` within rounding, in any scale of x?
+fn repeats(a: &Candidate, b: &Candidate) -> bool {
+    let norm = |c: &Candidate| c.x.iter().map(|v| v.abs()).sum::<f64>();
+    let (na, nb) = (norm(a), norm(b));
+    (a.value - b.value).abs() <= SAME_POINT * (1.0 + a.value.abs())
+        && a.x.len() == b.x.len()
+        && a.x.iter().zip(&b.x).all(|(p, q)| (p / na - q / nb).abs() <= SAME_POINT)
+}
 
 struct Hunt<'a> {
     admissible: &'a Admissible<'a>,
     window: &'a Window,
     search: &'a Search,
+    certifier: &'a Certifier<'a>,
     found: &'a mut Found,
 }
 
@@ -127,18 +156,18 @@ impl Hunt<'_> {
             self.found.outside += 1;
             return;
         }
-        match certify(self.admissible.pencil(), self.window, &candidate) {
+        let certified = self.found.certified.iter().map(|c| &c.candidate);
+        if certified.chain(self.found.uncertified.iter().map(|u| &u.candidate)).any(|c| repeats(c, &candidate)) {
+            self.found.repeated += 1;
+            return;
+        }
+        match (self.certifier)(&candidate) {
             Ok(claim) => {
                 if !self.found.certified.iter().any(|c| same(&c.claim, &claim)) {
                     self.found.certified.push(Certified { claim, candidate, run });
                 }
             }
-            Err(reason) => {
-                let near = |c: &Candidate| (c.value - candidate.value).abs() <= slack;
-                if !self.found.uncertified.iter().any(|u| near(&u.candidate) && u.reason == reason) {
-                    self.found.uncertified.push(Uncertified { candidate, reason });
-                }
-            }
+            Err(reason) => self.found.uncertified.push(Uncertified { candidate, reason }),
         }
     }
 }

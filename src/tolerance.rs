@@ -9,8 +9,10 @@
 pub const SUPPORT_GUESSES: [f64; 5] = [1e-9, 1e-6, 1e-4, 1e-12, 1e-3];
 
 /// How far from a candidate's value a root is looked for, relative to 1 + |value|. Unit: none.
-/// Basis: reports carry six digits or more; a double root is found by floats to half their digits.
-pub const VALUE_RADIUS: f64 = 1e-5;
+/// Basis: reports carry six digits or more, but at a double root a residual of 1e-10 leaves an error
+/// of 1e-5 times the square root of the condition (seen: 3e-5). The nearest root is taken, and x
+/// must agree as well.
+pub const VALUE_RADIUS: f64 = 1e-4;
 
 /// Largest distance between candidate and certified x, both with e'x_s = 1. Unit: none.
 /// Basis: like [`VALUE_RADIUS`], with the eigenvector's condition on top; a larger distance means
@@ -28,3 +30,12 @@ pub const CENTER_BITS: u32 = 96;
 /// Bits of the largest entry of a Krawczyk preconditioner. Basis: 40 bits keep |I - YJ| below 1e-3
 /// for the block (804 unknowns), and each bit costs 80 kB of certificate there.
 pub const PRECONDITIONER_BITS: i32 = 40;
+
+/// Two runs ended at the same point if value (relative to 1 + |value|) and x (l1 norm 1) agree to
+/// this. Unit: none. Basis: runs stop at residuals of 1e-10; the later one is counted as repeated.
+pub const SAME_POINT: f64 = 1e-9;
+
+/// Distance of a zeta window from the value it excludes, relative to 1 + |value|. Unit: none.
+/// Basis: far above the accuracy of a run, so that the value itself is not found again; solutions
+/// closer together than this are left to the plain starts.
+pub const WINDOW_GAP: f64 = 1e-7;

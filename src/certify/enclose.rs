@@ -12,6 +12,8 @@ use num_traits::{One, Signed, Zero};
 
 /// Newton steps with a fixed inverse: each gains the digits the inverse is good for.
 const NEWTON_STEPS: usize = 8;
+/// Bits of a coefficient that a double takes without any thought of overflow.
+const SAFE_BITS: u64 = 500;
 
 /// A box around the candidate in which Krawczyk's test should hold; `check` decides whether it does.
 pub(super) fn make(
@@ -42,7 +44,7 @@ pub(super) fn make(
     }
     // The inverse at the polished centre, rounded to short integers.
     let y = inverse(&newton.jacobian(&center)).ok_or(AttemptFailure::SingularJacobian)?;
-    let (preconditioner, exponent) = round(&y);
+    let (preconditioner, exponent) = round(&y, &newton.scales());
     let radius = radii(&center);
     let number = |list: Vec<Rational>| list.into_iter().map(Number).collect();
     let claim = EnclosedSolution { support: support.to_vec(), center: number(center), radius: number(radius), preconditioner, exponent };
@@ -65,15 +67,23 @@ impl Newton<'_> {
         x.map(|v| from_f64(v).map_err(|_| AttemptFailure::NotFinite)).collect()
     }
 
-    /// F'(z) in doubles.
+    /// Power of two near the largest coefficient of each row: exact pencils may have rows of
+    /// thousands of bits, doubles see them divided by this.
+    fn scales(&self) -> Vec<u64> {
+        let largest = |i: &usize| self.rows.0[*i].iter().map(|(_, a, b)| a.bits().max(b.bits())).max().unwrap_or(0);
+        self.active.iter().map(|i| largest(i).saturating_sub(SAFE_BITS)).chain([0]).collect()
+    }
+
+    /// F'(z) in doubles, each row divided by 2^scale.
     fn jacobian(&self, z: &[Rational]) -> Vec<Vec<f64>> {
         let n = z.len();
         let approx: Vec<f64> = z.iter().map(to_f64).collect();
+        let scales = self.scales();
         let mut out = vec![vec![0.0; n]; n];
         for (k, &i) in self.active.iter().enumerate() {
             for (j, a, b) in &self.rows.0[i] {
                 let Ok(col) = self.active.binary_search(j) else { continue };
-                let (a, b) = (double(a), double(b));
+                let (a, b) = (double(a, scales[k]), double(b, scales[k]));
                 out[k][col] = a + approx[n - 1] * b;
                 out[k][n - 1] += b * approx[col];
             }
@@ -106,8 +116,9 @@ impl Newton<'_> {
     /// Newton's method with a fixed approximate inverse and exact residuals, rounded to a grid.
     fn polish(&self, mut z: Vec<Rational>, y: &[Vec<f64>]) -> Result<Vec<Rational>, AttemptFailure> {
         let scale = Rational::from_integer(Integer::one() << CENTER_BITS);
+        let row_scales: Vec<Rational> = self.scales().iter().map(|&k| Rational::from_integer(Integer::one() << k)).collect();
         for _ in 0..NEWTON_STEPS {
-            let residual = self.residual(&z);
+            let residual: Vec<Rational> = self.residual(&z).iter().zip(&row_scales).map(|(v, s)| v / s).collect();
             let size = residual.iter().map(|v| v.abs()).max().unwrap_or_else(Rational::zero);
             if size.is_zero() {
                 break;
@@ -138,8 +149,8 @@ impl Newton<'_> {
     }
 }
 
-fn double(v: &Integer) -> f64 {
-    to_f64(&Rational::from_integer(v.clone()))
+fn double(v: &Integer, scale: u64) -> f64 {
+    to_f64(&Rational::new(v.clone(), Integer::one() << scale))
 }
 
 /// Half widths: 2^-40 of the largest component of x, and of the value.
@@ -159,12 +170,16 @@ fn radii(center: &[Rational]) -> Vec<Rational> {
     radius
 }
 
-/// The inverse in integers of 2^-exponent, the largest with about `PRECONDITIONER_BITS` bits.
-fn round(y: &[Vec<f64>]) -> (Vec<Vec<Integer>>, u32) {
+/// The inverse for rows that were divided by 2^scale, in integers of 2^-exponent: the largest entry
+/// of each column has about `PRECONDITIONER_BITS` bits or more.
+fn round(y: &[Vec<f64>], scales: &[u64]) -> (Vec<Vec<Integer>>, u32) {
     let largest = y.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
-    let exponent = (PRECONDITIONER_BITS - largest.log2().ceil() as i32).max(0) as u32;
-    let scale = Rational::from_integer(Integer::one() << exponent);
+    let widest = scales.iter().copied().max().unwrap_or(0);
+    let exponent = (PRECONDITIONER_BITS - largest.log2().ceil() as i32).max(0) as u64 + widest;
     // Finite: `inverse` refuses anything else.
-    let integer = |v: &f64| from_f64(*v).map(|r| (r * &scale).round().to_integer()).unwrap_or_default();
-    (y.iter().map(|row| row.iter().map(integer).collect()).collect(), exponent)
+    let integer = |(v, k): (&f64, &u64)| {
+        let scale = Rational::from_integer(Integer::one() << (exponent - k));
+        from_f64(*v).map(|r| (r * scale).round().to_integer()).unwrap_or_default()
+    };
+    (y.iter().map(|row| row.iter().zip(scales).map(integer).collect()).collect(), exponent as u32)
 }

@@ -29,6 +29,11 @@ impl Quadratic {
         Quadratic { a, b: Rational::zero(), d: self.d.clone() }
     }
 
+    /// The rational value of a number without a radical part.
+    pub fn as_rational(&self) -> Option<Rational> {
+        self.b.is_zero().then(|| self.a.clone())
+    }
+
     /// Sum. The radicands must be equal.
     pub fn add(&self, other: &Self) -> Self {
         debug_assert_eq!(self.d, other.d);

@@ -8,6 +8,8 @@ mod embed;
 mod lift;
 mod lines;
 
+#[cfg(feature = "solver")]
+pub use condense::Expansion;
 pub use condense::{CondensationError, condense};
 pub use eliminate::{Reduced, Variable, reduce};
 #[cfg(feature = "solver")]

@@ -1,0 +1,134 @@
+//! The published states of the block: condensed exactly, searched, certified on the full K.
+
+use super::forge::forgeries;
+use crate::certificate::Certificate;
+use crate::certify::{certificate, certify};
+use crate::check::{Rejected, check};
+use crate::exact::{CondenseError, Rational};
+use crate::model::{Admissible, ModelError, Unknown};
+use crate::multistart::{Search, multistart_with};
+use crate::reduction::{CondensationError, Expansion, condense, reduce};
+use crate::solver::SolverError;
+use crate::source::{Block, PublishedState};
+
+/// Windows of section 4 in which the 15-slip state is sought besides [0, infinity): without them
+/// PATH itself does not find it (`spec/decisions.md`).
+const BLOCK_ORIGINS: [f64; 3] = [3.0, 10.0, 30.0];
+
+/// Why a state of the block was not treated.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BlockError {
+    /// The model was refused.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The condensation failed.
+    #[error(transparent)]
+    Condensation(#[from] CondensationError),
+    /// The elimination failed.
+    #[error(transparent)]
+    Elimination(#[from] CondenseError),
+    /// The solver's options were refused.
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+    /// K_ff is singular in doubles.
+    #[error("P1: expected K_ff regular in doubles, got a singular factorisation")]
+    SingularInDoubles,
+}
+
+/// A certified and accepted solution of a state.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct AcceptedState {
+    /// mu, 12 digits of the certified enclosure's midpoint.
+    pub value: String,
+    /// Number of contact nodes that slip in the mode.
+    pub slipping: usize,
+    /// Contact nodes, counted from the left from 1, that were in impending slip and get stuck.
+    pub stuck: Vec<usize>,
+}
+
+/// What came of a state.
+#[derive(Debug, Clone)]
+pub struct BlockReport {
+    /// Which state.
+    pub state: PublishedState,
+    /// Solutions accepted by the checker on the full K.
+    pub accepted: Vec<AcceptedState>,
+    /// Candidates that stayed uncertified.
+    pub uncertified: Vec<String>,
+    /// Certified claims that the checker rejected: a bug.
+    pub rejected: Vec<Rejected>,
+    /// Forgeries tried.
+    pub forgeries: usize,
+    /// Forgeries rejected for the stated reason.
+    pub rejected_forgeries: usize,
+    /// Degrees of freedom, order of the pencil, order of the condensed pencil.
+    pub orders: (usize, usize, usize),
+    /// Bits of the largest denominator of the condensed pencil.
+    pub bits: u64,
+    /// Runs and pivots of the solver.
+    pub runs: usize,
+    /// Pivots of the solver.
+    pub pivots: usize,
+    /// The certificate, if anything was certified.
+    pub certificate: Option<Certificate>,
+}
+
+/// Treats one published state; `progress` is told what is being done.
+///
+/// # Errors
+/// [`BlockError`]; none for the paper's block.
+pub fn block_state(block: &Block, state: PublishedState, progress: &dyn Fn(&str)) -> Result<BlockReport, BlockError> {
+    progress("reducing");
+    let problem = state.problem(block)?;
+    let pencil = reduce(&problem)?.pencil;
+    let full = Admissible::new(&pencil, Unknown::Mu)?;
+    progress("condensing exactly");
+    let condensed = condense(&full)?;
+    let small = Admissible::new(&condensed, Unknown::Mu)?;
+    let expansion = Expansion::new(&pencil).ok_or(BlockError::SingularInDoubles)?;
+    progress("searching");
+    let search = Search { origins: BLOCK_ORIGINS.to_vec(), window_starts: 2, ..Search::default() };
+    let window = problem.window();
+    // Searched on the condensed pencil, certified on K itself.
+    let found = multistart_with(&small, window, &search, &|c| certify(&pencil, window, &expansion.expand(c)))?;
+    progress("checking");
+    let bits = condensed.a().entries().chain(condensed.b().entries()).map(|e| e.2.denom().bits()).max().unwrap_or(0);
+    let mut report = BlockReport {
+        state,
+        accepted: Vec::new(),
+        uncertified: found.uncertified.iter().map(|u| format!("mu = {}: {}", u.candidate.value, u.reason)).collect(),
+        rejected: Vec::new(),
+        forgeries: 0,
+        rejected_forgeries: 0,
+        orders: (block.stiffness.rows(), pencil.order(), condensed.order()),
+        bits,
+        runs: found.runs,
+        pivots: found.pivots,
+        certificate: None,
+    };
+    if found.certified.is_empty() {
+        return Ok(report);
+    }
+    let certificate = certificate(&problem, found.certified.into_iter().map(|c| c.claim).collect());
+    match check(&problem, &certificate) {
+        Ok(accepted) => {
+            let slip = pencil.slip();
+            report.accepted = accepted.claims.iter().map(|c| accepted_state(&slip, state, &c.support, &c.value.mid())).collect();
+        }
+        Err(e) => report.rejected.push(e),
+    }
+    for forgery in forgeries(&certificate) {
+        report.forgeries += 1;
+        report.rejected_forgeries += usize::from(check(&problem, &forgery.certificate).is_err_and(|e| (forgery.expected)(&e.reason)));
+    }
+    report.certificate = Some(certificate);
+    Ok(report)
+}
+
+fn accepted_state(slip: &[usize], state: PublishedState, support: &[usize], value: &Rational) -> AcceptedState {
+    // Slip variables stand for the slip nodes from left to right; the stick nodes come before them.
+    let first = state.states().len() - 4 - slip.len();
+    let stuck = slip.iter().enumerate().filter(|(_, i)| !support.contains(i)).map(|(k, _)| first + k + 1).collect();
+    AcceptedState { value: format!("{:.12}", super::compare::approximate(value)), slipping: support.len(), stuck }
+}

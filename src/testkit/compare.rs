@@ -1,0 +1,276 @@
+//! One instance through every engine: closed form, enumerator, solver, certificate, checker.
+
+use super::forge::forgeries;
+use super::{Corner, Instance};
+use crate::candidate::Candidate;
+use crate::certificate::Claim;
+use crate::certify::{certificate, certify};
+use crate::check::check;
+use crate::exact::{Algebraic, Poly, Quadratic, Rational, Sign, to_f64};
+use crate::model::{Admissible, Body, Problem};
+use crate::multistart::{Found, Search, exact_value, multistart, support};
+use crate::oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
+use crate::reduction::{Reduced, check_lines, lift, reduce};
+use num_traits::Signed;
+
+/// Two parts of the project that do not say the same. Any of these is a bug.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Disagreement {
+    /// The closed form of Table 1 and the enumerator differ.
+    #[error("closed form lists {closed} solutions, the enumerator {enumerated}, or they differ in value, x or support")]
+    ClosedForm {
+        /// Solutions of the closed form.
+        closed: usize,
+        /// Solutions of the enumerator.
+        enumerated: usize,
+    },
+    /// A certified solution is not among the enumerator's.
+    #[error("certified solution with support {support:?} is not in the enumerator's list")]
+    NotInOracle {
+        /// Its support.
+        support: Vec<usize>,
+    },
+    /// A solution of the enumerator could not be certified.
+    #[error("solution {index} of the enumerator was not certified: {reason}")]
+    OracleNotCertified {
+        /// Its index.
+        index: usize,
+        /// Why.
+        reason: String,
+    },
+    /// The checker rejects what was certified.
+    #[error("checker rejects a certified claim: {reason}")]
+    Rejected {
+        /// Why.
+        reason: String,
+    },
+    /// The checker accepts a forgery, or rejects it for another reason than the one broken.
+    #[error("forgery {name:?}: {got}")]
+    Forgery {
+        /// Which forgery.
+        name: &'static str,
+        /// "accepted", or the other reason.
+        got: String,
+    },
+    /// A lifted solution violates (9).
+    #[error("lifted solution {index} violates (9): {line}")]
+    Lift {
+        /// Index in the enumerator's list.
+        index: usize,
+        /// The line.
+        line: String,
+    },
+    /// An engine refused the instance.
+    #[error("{engine} refused the instance: {reason}")]
+    Refused {
+        /// Which engine.
+        engine: &'static str,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// What came of one instance.
+#[derive(Debug, Clone, Default)]
+pub struct InstanceReport {
+    /// Label of the instance.
+    pub label: String,
+    /// Solutions the enumerator lists.
+    pub oracle: usize,
+    /// Of these, found by the solver and certified.
+    pub found: usize,
+    /// Certificates accepted (of the enumerator's and the solver's solutions).
+    pub accepted: usize,
+    /// Candidates of the solver that stayed uncertified, with the reason.
+    pub uncertified: Vec<String>,
+    /// Does the enumerator report a wide kernel or a singular pencil?
+    pub degenerate: bool,
+    /// Was the solver run (the hypotheses of Propositions 1 and 2 hold)?
+    pub solved: bool,
+    /// Forgeries tried, all rejected for the stated reason unless listed below.
+    pub forgeries: usize,
+    /// Corners reached, observed or by construction.
+    pub corners: Vec<Corner>,
+    /// Pivots of the solver.
+    pub pivots: usize,
+    /// What went wrong.
+    pub disagreements: Vec<Disagreement>,
+}
+
+/// Runs every engine on an instance and compares them.
+pub fn compare(instance: &Instance, search: &Search) -> InstanceReport {
+    let mut report = InstanceReport { label: instance.label.clone(), corners: instance.corners.clone(), ..InstanceReport::default() };
+    let problem = &instance.problem;
+    let (reduced, oracle) = match engines(problem) {
+        Ok(both) => both,
+        Err(disagreement) => {
+            report.disagreements.push(disagreement);
+            return report;
+        }
+    };
+    report.oracle = oracle.solutions.len();
+    report.degenerate = !oracle.is_complete_list();
+    report.corners.extend(observed(&oracle));
+    if let Some(data) = &instance.closed_form {
+        compare_closed_form(&oracle, &table1(data), &mut report);
+    }
+    check_lifts(problem, &reduced, &oracle, &mut report);
+    let claims = certify_oracle(problem, &reduced, &oracle, &mut report);
+    submit(problem, claims, &mut report);
+    if let Ok(admissible) = Admissible::new(&reduced.pencil, problem.unknown()) {
+        report.solved = true;
+        match multistart(&admissible, problem.window(), search) {
+            Ok(found) => compare_found(problem, &oracle, found, &mut report),
+            Err(e) => report.disagreements.push(Disagreement::Refused { engine: "solver", reason: e.to_string() }),
+        }
+    }
+    report
+}
+
+fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disagreement> {
+    let refused = |engine, reason: String| Disagreement::Refused { engine, reason };
+    let reduced = reduce(problem).map_err(|e| refused("reduction", e.to_string()))?;
+    let oracle = enumerate(&reduced.pencil, problem.window()).map_err(|e| refused("enumerator", e.to_string()))?;
+    Ok((reduced, oracle))
+}
+
+fn observed(oracle: &Enumeration) -> Vec<Corner> {
+    let mut corners = Vec::new();
+    let any = |f: &dyn Fn(&Solution) -> bool| oracle.solutions.iter().any(f);
+    if any(&|s| !s.biactive.is_empty()) {
+        corners.push(Corner::Biactive);
+    }
+    if any(&|s| s.multiplicity > 1) {
+        corners.push(Corner::Repeated);
+    }
+    if any(&|s| s.value.clone().cmp_rational(&Rational::default()).is_eq()) {
+        corners.push(Corner::ZeroValue);
+    }
+    if !oracle.wide.is_empty() {
+        corners.push(Corner::WideKernel);
+    }
+    if !oracle.continua.is_empty() {
+        corners.push(Corner::Singular);
+    }
+    corners
+}
+
+/// Same solutions in value, support and direction of x? Decided in Q(sqrt d).
+fn compare_closed_form(oracle: &Enumeration, closed: &[ClosedSolution], report: &mut InstanceReport) {
+    let matched = closed.iter().all(|c| oracle.solutions.iter().filter(|s| s.slip == c.slip && equals(s, c)).count() == 1);
+    if !matched || closed.len() != oracle.solutions.len() {
+        report.disagreements.push(Disagreement::ClosedForm { closed: closed.len(), enumerated: oracle.solutions.len() });
+    }
+}
+
+/// Is the closed form's number the root isolated by the enumerator, with the same ratio of x?
+fn equals(s: &Solution, c: &ClosedSolution) -> bool {
+    let value = &s.value;
+    let root = c.value.eval(value.poly()).sign() == Sign::Zero && c.value.within(value.interval().lo(), value.interval().hi());
+    // x_1 X_2 = x_2 X_1 with the polynomials of the enumerator evaluated at the closed form's number.
+    let x: Vec<Quadratic> = s.x.iter().map(|p: &Poly| c.value.eval(p)).collect();
+    let x = [same_field(&x[0], &c.x[0]), same_field(&x[1], &c.x[1])];
+    let cross = x[0].mul(&c.x[1]).add(&x[1].mul(&c.x[0]).scale(&Rational::from_integer((-1).into())));
+    root && cross.sign() == Sign::Zero
+}
+
+/// A number of Q carries no radicand of its own: give it the other's.
+fn same_field(x: &Quadratic, other: &Quadratic) -> Quadratic {
+    x.as_rational().map_or_else(|| x.clone(), |a| other.embed(a))
+}
+
+fn check_lifts(problem: &Problem, reduced: &Reduced, oracle: &Enumeration, report: &mut InstanceReport) {
+    let Body::System(system) = problem.body() else { return };
+    for (index, s) in oracle.solutions.iter().enumerate() {
+        let lifted = lift(system, problem.unknown(), &reduced.variables, &s.x);
+        if let Err(line) = check_lines(system, problem.unknown(), &lifted, &mut s.value.clone()) {
+            report.disagreements.push(Disagreement::Lift { index, line: line.to_string() });
+        }
+    }
+}
+
+/// The enumerator's own solutions, through 17-digit decimals, must be certifiable.
+fn certify_oracle(problem: &Problem, reduced: &Reduced, oracle: &Enumeration, report: &mut InstanceReport) -> Vec<Claim> {
+    let slip = reduced.pencil.slip();
+    let mut claims = Vec::new();
+    for (index, s) in oracle.solutions.iter().enumerate() {
+        let double = |text: String| text.parse().unwrap_or(f64::NAN); // our own decimals parse
+        let candidate = Candidate { value: double(s.decimal(17)), x: s.x_decimals(&slip, 17).into_iter().map(double).collect() };
+        match certify(&reduced.pencil, problem.window(), &candidate) {
+            Ok(claim) => claims.push(claim),
+            Err(reason) => report.disagreements.push(Disagreement::OracleNotCertified { index, reason: reason.to_string() }),
+        }
+    }
+    claims
+}
+
+/// Sends claims to the checker, and forgeries of them.
+fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
+    if claims.is_empty() {
+        return;
+    }
+    let count = claims.len();
+    let certificate = certificate(problem, claims);
+    match check(problem, &certificate) {
+        Ok(_) => report.accepted += count,
+        Err(e) => report.disagreements.push(Disagreement::Rejected { reason: e.to_string() }),
+    }
+    for forgery in forgeries(&certificate) {
+        report.forgeries += 1;
+        let got = match check(problem, &forgery.certificate) {
+            Ok(_) => "accepted".to_string(),
+            Err(e) if (forgery.expected)(&e.reason) => continue,
+            Err(e) => format!("rejected for another reason: {e}"),
+        };
+        report.disagreements.push(Disagreement::Forgery { name: forgery.name, got });
+    }
+}
+
+fn compare_found(problem: &Problem, oracle: &Enumeration, found: Found, report: &mut InstanceReport) {
+    report.pivots = found.pivots;
+    report.uncertified = found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)).collect();
+    let mut claims = Vec::new();
+    let mut hit = vec![false; oracle.solutions.len()];
+    for c in found.certified {
+        match place(oracle, &c.claim) {
+            Some(index) => hit[index] = true,
+            // In a wide kernel or a singular pencil the enumerator only names the support.
+            None if described(oracle, &c.claim) => {}
+            None => report.disagreements.push(Disagreement::NotInOracle { support: support(&c.claim).to_vec() }),
+        }
+        claims.push(c.claim);
+    }
+    report.found = hit.iter().filter(|h| **h).count();
+    submit(problem, claims, report);
+}
+
+/// The enumerator's solution with this support and value.
+fn place(oracle: &Enumeration, claim: &Claim) -> Option<usize> {
+    oracle.solutions.iter().position(|s| s.slip == support(claim) && same_value(&s.value, claim))
+}
+
+fn same_value(value: &Algebraic, claim: &Claim) -> bool {
+    match exact_value(claim) {
+        Some(mut exact) => exact.equals(&mut value.clone()),
+        None => match claim {
+            Claim::EnclosedSolution(c) => c.center.last().zip(c.radius.last()).is_some_and(|(center, radius)| {
+                let mut value = value.clone();
+                value.refine_to(&(&radius.0 / Rational::from_integer(16.into())));
+                (value.interval().mid() - &center.0).abs() <= radius.0
+            }),
+            Claim::ExactSolution(_) => false,
+        },
+    }
+}
+
+/// Did the enumerator report a wide kernel or a singular pencil on this support?
+fn described(oracle: &Enumeration, claim: &Claim) -> bool {
+    let on = |set: &[usize]| set == support(claim);
+    oracle.wide.iter().any(|w| on(&w.support) && same_value(&w.value, claim)) || oracle.continua.iter().any(|c| on(c))
+}
+
+/// A value as a double, for messages.
+pub(super) fn approximate(value: &Rational) -> f64 {
+    to_f64(value)
+}

@@ -1,0 +1,14 @@
+//! Generators, comparison of engines, forgeries, the verification run, and the bodies of fuzz targets.
+
+mod block;
+mod compare;
+mod families;
+mod forge;
+pub mod targets;
+mod verify;
+
+pub use block::{AcceptedState, BlockError, BlockReport, block_state};
+pub use compare::{Disagreement, InstanceReport, compare};
+pub use families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
+pub use forge::{Forgery, forgeries};
+pub use verify::{FamilyReport, Verification, verify};

@@ -1,0 +1,139 @@
+//! The main job: every family through every engine, one row each, one verdict.
+
+use super::{BlockError, BlockReport, Corner, Instance, InstanceReport, block_state, compare};
+use super::{degenerate, mechanical, random_pencils, table1_grid};
+use crate::model::ModelError;
+use crate::multistart::Search;
+use crate::source::{Block, MassKind, PublishedState};
+use rayon::prelude::*;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A family's row.
+#[derive(Debug, Clone, Default)]
+pub struct FamilyReport {
+    /// Name of the family.
+    pub name: &'static str,
+    /// Instances in the family.
+    pub instances: usize,
+    /// Instances treated (fewer after an interrupt).
+    pub done: usize,
+    /// Solutions listed by the enumerator.
+    pub oracle: usize,
+    /// Of those in admissible instances, found by the solver.
+    pub found: usize,
+    /// Solutions listed by the enumerator in admissible instances.
+    pub findable: usize,
+    /// Certificates accepted.
+    pub accepted: usize,
+    /// Candidates uncertified, with instance and reason.
+    pub uncertified: Vec<String>,
+    /// Forgeries rejected for the stated reason.
+    pub rejected: usize,
+    /// Instances with a wide kernel or a singular pencil.
+    pub degenerate: usize,
+    /// Pivots.
+    pub pivots: usize,
+    /// Corners reached, with how many instances.
+    pub corners: BTreeMap<Corner, usize>,
+    /// Disagreements, with instance.
+    pub disagreements: Vec<String>,
+}
+
+/// The whole run.
+#[derive(Debug, Clone)]
+pub struct Verification {
+    /// Seed of the random families.
+    pub seed: u64,
+    /// One row per family.
+    pub families: Vec<FamilyReport>,
+    /// The block's published states.
+    pub block: Vec<BlockReport>,
+    /// Was the run interrupted?
+    pub interrupted: bool,
+}
+
+impl Verification {
+    /// Number of disagreements in all.
+    pub fn disagreements(&self) -> usize {
+        let block: usize = self.block.iter().map(|b| b.rejected.len() + b.forgeries - b.rejected_forgeries).sum();
+        self.families.iter().map(|f| f.disagreements.len()).sum::<usize>() + block
+    }
+}
+
+/// Runs everything embedded: Table 1, `random` random pencils, systems, degenerate cases, the block.
+///
+/// `stop` ends the run after the instances at work; `progress` hears (family, done, of). The result
+/// does not depend on the number of threads.
+///
+/// # Errors
+/// [`BlockError`] if an embedded problem is refused: a bug.
+pub fn verify(
+    random: usize,
+    seed: u64,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(&str, usize, usize) + Sync),
+) -> Result<Verification, BlockError> {
+    let search = Search { seed, ..Search::default() };
+    let families: [(&'static str, Result<Vec<Instance>, ModelError>); 4] = [
+        ("Table 1 (two particles)", table1_grid()),
+        ("random pencils", random_pencils(random, seed)),
+        ("mechanical systems", mechanical(random / 4, seed)),
+        ("degenerate cases", degenerate()),
+    ];
+    let mut rows = Vec::new();
+    for (name, instances) in families {
+        rows.push(family(name, &instances?, &search, stop, progress));
+    }
+    let mut block = Vec::new();
+    let model = Block::of_the_paper(MassKind::Consistent);
+    for (k, state) in PublishedState::ALL.into_iter().enumerate() {
+        if stop.load(Ordering::Relaxed) {
+            break;
+        }
+        progress("block of section 5", k, 2);
+        block.push(block_state(&model, state, &|_| {})?);
+    }
+    Ok(Verification { seed, families: rows, block, interrupted: stop.load(Ordering::Relaxed) })
+}
+
+fn family(
+    name: &'static str,
+    instances: &[Instance],
+    search: &Search,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(&str, usize, usize) + Sync),
+) -> FamilyReport {
+    let done = std::sync::atomic::AtomicUsize::new(0);
+    let reports: Vec<InstanceReport> = instances
+        .par_iter()
+        .filter_map(|instance| {
+            if stop.load(Ordering::Relaxed) {
+                return None;
+            }
+            let report = compare(instance, search);
+            progress(name, done.fetch_add(1, Ordering::Relaxed) + 1, instances.len());
+            Some(report)
+        })
+        .collect(); // in the order of the instances
+    let mut row = FamilyReport { name, instances: instances.len(), done: reports.len(), ..FamilyReport::default() };
+    for r in reports {
+        row.oracle += r.oracle;
+        row.findable += if r.solved { r.oracle } else { 0 };
+        row.found += r.found;
+        row.accepted += r.accepted;
+        row.degenerate += usize::from(r.degenerate);
+        row.pivots += r.pivots;
+        let wrong_forgeries = r.disagreements.iter().filter(|d| matches!(d, super::Disagreement::Forgery { .. })).count();
+        row.rejected += r.forgeries - wrong_forgeries;
+        row.uncertified.extend(r.uncertified.iter().map(|u| format!("{}: {u}", r.label)));
+        row.disagreements.extend(r.disagreements.iter().map(|d| format!("{}: {d}", r.label)));
+        let mut corners = r.corners;
+        corners.sort();
+        corners.dedup();
+        for corner in corners {
+            *row.corners.entry(corner).or_default() += 1;
+        }
+    }
+    row
+}
