@@ -5,6 +5,8 @@ pub mod certificate;
 #[cfg(feature = "solver")]
 pub mod certify;
 pub mod check;
+#[cfg(feature = "cli")]
+pub mod cli;
 pub mod exact;
 #[cfg(feature = "solver")]
 pub mod linear;
@@ -15,6 +17,8 @@ pub mod model;
 pub mod multistart;
 pub mod oracle;
 pub mod reduction;
+#[cfg(feature = "solver")]
+pub mod report;
 #[cfg(feature = "solver")]
 pub mod solver;
 pub mod source;

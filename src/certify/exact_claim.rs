@@ -57,7 +57,8 @@ fn values_near(rows: &IntegralRows, window: &Window, active: &[usize], candidate
     let det = determinant(&select(0), &select(1));
     let center = from_f64(candidate.value).map_err(|_| AttemptFailure::NotFinite)?;
     if det.is_zero() {
-        return Ok(vec![Algebraic::rational(center)]);
+        let clamped = center.max(window.min().clone());
+        return Ok(vec![Algebraic::rational(window.max().map_or(clamped.clone(), |m| clamped.min(m.clone())))]);
     }
     let (lo, hi) = around(candidate);
     let lo = from_f64(lo).map_err(|_| AttemptFailure::NotFinite)?.max(window.min().clone());

@@ -1,26 +1,27 @@
 //! The way back: from (t, x) of the pencil to (v, w) over all degrees of freedom of (9).
 
 use super::Variable;
-use crate::exact::{Poly, Rational, Sparse, common_denominator};
+use crate::exact::{Integer, Poly, Rational, Sparse, common_denominator};
 use crate::model::{System, Unknown};
 use num_traits::Zero;
 
 /// Polynomials in t, to be evaluated at the solution's value; index = degree of freedom.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Lifted {
-    /// v: displacement rate direction.
+    /// `v_scale` times v, the displacement rate direction.
     pub v: Vec<Poly>,
-    /// w: reaction rate direction, in units of 1/`scale` times those of K.
+    /// Positive factor that makes v integral (1 without oblique particles).
+    pub v_scale: Integer,
+    /// `w_scale` times w, the reaction rate direction.
     pub w: Vec<Poly>,
-    /// Positive factor by which `w` was multiplied to be integral.
-    pub scale: Rational,
+    /// Positive factor that makes w integral.
+    pub w_scale: Integer,
 }
 
 /// Lifts x (integer polynomials in t) to v and w = (t M + K) v, or K v for MCEIP-mu. // E10, E9
 ///
 /// Stick particles and normal dofs of slip particles get v = 0. Directions may be oblique, so v
-/// and w are multiplied by positive integers that clear denominators; v keeps the scale of x
-/// except for that factor, which is part of `scale` for w.
+/// and w are multiplied by positive integers that clear denominators, given beside them.
 pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly]) -> Lifted {
     let mut v: Vec<Vec<Rational>> = vec![Vec::new(); system.dofs()];
     for (variable, x_i) in variables.iter().zip(x) {
@@ -33,8 +34,8 @@ pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly
             }
         }
     }
-    let clear = common_denominator(v.iter().flatten());
-    let v: Vec<Poly> = v.into_iter().map(|c| to_poly(&c, &clear)).collect();
+    let v_scale = common_denominator(v.iter().flatten());
+    let v: Vec<Poly> = v.into_iter().map(|c| to_poly(&c, &v_scale)).collect();
     let mut w: Vec<Vec<Rational>> = vec![Vec::new(); system.dofs()];
     accumulate(&mut w, system.stiffness(), &v, 0);
     if let (Unknown::Lambda2, Some(mass)) = (unknown, system.mass()) {
@@ -42,7 +43,7 @@ pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly
     }
     let clear = common_denominator(w.iter().flatten());
     let w = w.into_iter().map(|c| to_poly(&c, &clear)).collect();
-    Lifted { v, w, scale: Rational::from_integer(clear) }
+    Lifted { v, w, w_scale: &v_scale * clear, v_scale }
 }
 
 /// out += t^shift * m * v.
@@ -63,6 +64,6 @@ fn add(sum: &mut Vec<Rational>, p: &Poly, factor: &Rational, shift: usize) {
 }
 
 /// factor * coefficients, where the factor clears every denominator.
-fn to_poly(coeffs: &[Rational], factor: &crate::exact::Integer) -> Poly {
+fn to_poly(coeffs: &[Rational], factor: &Integer) -> Poly {
     Poly::new(coeffs.iter().map(|c| c.numer() * (factor / c.denom())).collect())
 }

@@ -1,0 +1,113 @@
+//! `mceip block`: the two published states of the polyurethane block.
+
+use super::common::{CliError, exit, print, write_whole};
+use crate::model::file::write_problem;
+use crate::report::Table;
+use crate::source::{Block, MassKind, PublishedState};
+use crate::testkit::{BlockReport, block_state};
+use serde_json::{Value, json};
+use std::path::PathBuf;
+
+/// Arguments of `block`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Only this state: 15 or 17 (nodes in impending slip).
+    #[arg(long)]
+    state: Option<u8>,
+    /// Lumped instead of consistent mass (plays no part in MCEIP-mu).
+    #[arg(long)]
+    lumped: bool,
+    /// Write problem files and certificates into this folder.
+    #[arg(long, value_name = "FOLDER")]
+    write: Option<PathBuf>,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let states: Vec<PublishedState> = match args.state {
+        None => PublishedState::ALL.to_vec(),
+        Some(15) => vec![PublishedState::FifteenSlip],
+        Some(17) => vec![PublishedState::SeventeenSlip],
+        Some(other) => return Err(CliError::Option { option: "state", expected: "15 or 17", got: other.to_string() }),
+    };
+    let block = Block::of_the_paper(if args.lumped { MassKind::Lumped } else { MassKind::Consistent });
+    let bar = super::common::progress_bar(states.len() as u64, "block");
+    let mut reports = Vec::new();
+    for state in states {
+        reports.push(block_state(&block, state, &|what| bar.set_message(format!("{}: {what}", state.name())))?);
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    for report in &reports {
+        if let Some(folder) = &args.write {
+            write_files(&block, report, folder)?;
+        }
+        report.uncertified.iter().for_each(|u| eprintln!("uncertified: {}: {u}", report.state.name()));
+        report.rejected.iter().for_each(|r| eprintln!("DISAGREEMENT: {}: {r}", report.state.name()));
+    }
+    if args.json {
+        print(&format!("{}\n", json!({ "states": reports.iter().map(json_of).collect::<Vec<_>>() })));
+    } else {
+        print(&text_of(&reports));
+    }
+    let wrong = reports.iter().any(|r| !r.rejected.is_empty());
+    let none = reports.iter().any(|r| r.accepted.is_empty());
+    Ok(if wrong {
+        exit::REJECTED
+    } else if none {
+        exit::UNDECIDED
+    } else {
+        exit::DONE
+    })
+}
+
+fn write_files(block: &Block, report: &BlockReport, folder: &std::path::Path) -> Result<(), CliError> {
+    let name = if report.state == PublishedState::FifteenSlip { "block-15-slip" } else { "block-17-slip" };
+    write_whole(&folder.join(format!("{name}.json")), &write_problem(&report.state.problem(block)?))?;
+    match &report.certificate {
+        Some(c) => write_whole(&folder.join(format!("{name}.certificate.json")), &c.to_json()),
+        None => Ok(()),
+    }
+}
+
+/// The states as a table; `verify` prints the same.
+pub(super) fn text_of(reports: &[BlockReport]) -> String {
+    let mut table = Table::new(&["block state", "mu (certified on K)", "paper", "difference", "slipping", "stuck", "certificate"]);
+    for r in reports {
+        if r.accepted.is_empty() {
+            table.row(vec![r.state.name().into(), "not found".into(), r.state.printed_mu().into()]);
+        }
+        for a in &r.accepted {
+            let stuck = if a.stuck.is_empty() { "none".into() } else { format!("node {:?} from the left", a.stuck) };
+            let difference = difference(&a.value, r.state.printed_mu());
+            let row = [r.state.name(), &a.value, r.state.printed_mu(), &difference, &a.slipping.to_string(), &stuck, "accepted"];
+            table.row(row.map(ToString::to_string).to_vec());
+        }
+    }
+    table.to_string()
+}
+
+/// Ours minus the paper's, and whether the paper's digits come out on rounding.
+fn difference(ours: &str, paper: &str) -> String {
+    let (Ok(a), Ok(b)) = (ours.parse::<f64>(), paper.parse::<f64>()) else { return "?".into() };
+    let digits = paper.len() - paper.find('.').map_or(paper.len(), |p| p + 1);
+    let rounded = format!("{a:.digits$}");
+    let verdict = if rounded == paper { "same digits".into() } else { format!("rounds to {rounded}") };
+    format!("{:+.4} ({verdict})", a - b)
+}
+
+fn json_of(r: &BlockReport) -> Value {
+    let accepted: Vec<Value> = r
+        .accepted
+        .iter()
+        .map(|a| json!({ "mu": a.value, "slipping": a.slipping, "stuck": a.stuck, "difference": difference(&a.value, r.state.printed_mu()) }))
+        .collect();
+    json!({
+        "state": r.state.name(), "paper_mu": r.state.printed_mu(), "accepted": accepted, "uncertified": r.uncertified,
+        "dofs": r.orders.0, "pencil_order": r.orders.1, "condensed_order": r.orders.2, "denominator_bits": r.bits,
+        "runs": r.runs, "pivots": r.pivots, "forgeries": r.forgeries, "rejected_forgeries": r.rejected_forgeries,
+        "problem_sha256": r.certificate.as_ref().map(|c| c.problem_sha256.clone()),
+    })
+}

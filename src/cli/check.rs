@@ -1,0 +1,37 @@
+//! `mceip check`: a certificate against a problem, one verdict.
+
+use super::common::{CliError, exit, load, print, text};
+use crate::certificate::Certificate;
+use crate::check::check;
+use crate::exact::to_f64;
+use std::path::PathBuf;
+
+/// Arguments of `check`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Problem file (mceip-problem/1).
+    file: PathBuf,
+    /// Certificate (mceip-certificate/1).
+    certificate: PathBuf,
+}
+
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let problem = load(&args.file, None)?;
+    let certificate = Certificate::from_json(&text("the certificate", &args.certificate)?)
+        .map_err(|source| CliError::File { path: args.certificate.display().to_string(), source })?;
+    match check(&problem, &certificate) {
+        Ok(accepted) => {
+            let mut out = String::new();
+            for c in &accepted.claims {
+                let (lo, hi) = (to_f64(c.value.lo()), to_f64(c.value.hi()));
+                out += &format!("solution: {} in [{lo}, {hi}], slip {:?}\n", problem.unknown().word(), c.support);
+            }
+            print(&format!("{out}ACCEPTED: {} claim(s) proved for problem {}\n", accepted.claims.len(), problem.sha256()));
+            Ok(exit::DONE)
+        }
+        Err(rejected) => {
+            print(&format!("REJECTED: {rejected}\n"));
+            Ok(exit::REJECTED)
+        }
+    }
+}

@@ -1,0 +1,142 @@
+//! What subcommands share: reading problems, whole-or-nothing output, windows, interrupts, progress.
+
+use crate::exact::parse;
+use crate::model::file::{read_problem_file, read_text};
+use crate::model::{ModelError, Problem, Window};
+use crate::oracle::OracleError;
+use crate::solver::SolverError;
+use crate::testkit::BlockError;
+use indicatif::{ProgressBar, ProgressStyle};
+use std::io::Write as _;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Exit codes of `design.md`.
+pub(super) mod exit {
+    /// Done, or accepted.
+    pub(crate) const DONE: u8 = 0;
+    /// Rejected, or a disagreement.
+    pub(crate) const REJECTED: u8 = 1;
+    /// Undecided.
+    pub(crate) const UNDECIDED: u8 = 3;
+    /// Interrupted; what was found has been printed.
+    pub(crate) const INTERRUPTED: u8 = 130;
+}
+
+/// Bad input or an output that cannot be written: one line, exit 2.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub(super) enum CliError {
+    /// A file.
+    #[error("{path}: {source}")]
+    File {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: ModelError,
+    },
+    /// A problem built from options.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The enumerator refuses.
+    #[error("{0}")]
+    Oracle(#[from] OracleError),
+    /// The solver refuses.
+    #[error("{0}")]
+    Solver(#[from] SolverError),
+    /// The block was not treated.
+    #[error("{0}")]
+    Block(#[from] BlockError),
+    /// The condensation was refused.
+    #[error("{0}")]
+    Condensation(#[from] crate::reduction::CondensationError),
+    /// An option has a value it cannot have.
+    #[error("--{option}: expected {expected}, got {got:?}")]
+    Option {
+        /// The option.
+        option: &'static str,
+        /// What it takes.
+        expected: &'static str,
+        /// What was given.
+        got: String,
+    },
+    /// An output file cannot be written.
+    #[error("cannot write {path}: {source}")]
+    Write {
+        /// Its path.
+        path: String,
+        /// The system's reason.
+        source: std::io::Error,
+    },
+}
+
+impl CliError {
+    /// Exit code for bad input.
+    pub(super) const EXIT: u8 = 2;
+}
+
+/// Reads a problem file; errors name the file.
+pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliError> {
+    let problem = read_problem_file(path).map_err(|source| CliError::File { path: path.display().to_string(), source })?;
+    match window {
+        None => Ok(problem),
+        Some(text) => Ok(problem.with_window(parse_window(text)?)),
+    }
+}
+
+/// Reads a text file; errors name the file.
+pub(super) fn text(what: &'static str, path: &Path) -> Result<String, CliError> {
+    read_text(what, path).map_err(|source| CliError::File { path: path.display().to_string(), source })
+}
+
+/// `a,b` with b empty or `inf` for infinity.
+fn parse_window(text: &str) -> Result<Window, CliError> {
+    let bad =
+        || CliError::Option { option: "window", expected: "a,b with 0 <= a <= b (b may be inf)", got: text.chars().take(60).collect() };
+    let (min, max) = text.split_once(',').ok_or_else(bad)?;
+    let max = match max.trim() {
+        "" | "inf" => None,
+        m => Some(parse(m).map_err(|_| bad())?),
+    };
+    Window::new(parse(min).map_err(|_| bad())?, max).map_err(|_| bad())
+}
+
+/// Prints to stdout; a reader that has gone away is not an error.
+pub(super) fn print(text: &str) {
+    let mut out = std::io::stdout().lock();
+    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+}
+
+/// Writes a file whole or not at all: beside it first, then renamed.
+pub(super) fn write_whole(path: &PathBuf, text: &str) -> Result<(), CliError> {
+    let failed = |source| CliError::Write { path: path.display().to_string(), source };
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
+    file.write_all(text.as_bytes()).map_err(failed)?;
+    file.persist(path).map_err(|e| failed(e.error))?;
+    Ok(())
+}
+
+/// A flag that Ctrl-C sets; a second Ctrl-C ends the process at once.
+pub(super) fn interrupt_flag() -> Arc<AtomicBool> {
+    let flag = Arc::new(AtomicBool::new(false));
+    let set = flag.clone();
+    // Fails only if a handler exists already: then the default behaviour stays.
+    let _ = ctrlc::set_handler(move || {
+        if set.swap(true, Ordering::Relaxed) {
+            std::process::exit(i32::from(exit::INTERRUPTED));
+        }
+    });
+    flag
+}
+
+/// A progress bar on stderr, drawn only on a terminal.
+pub(super) fn progress_bar(total: u64, what: &str) -> ProgressBar {
+    let bar = ProgressBar::new(total);
+    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {pos}/{len} {per_sec} eta {eta}") {
+        bar.set_style(style);
+    }
+    bar.set_message(what.to_string());
+    bar
+}

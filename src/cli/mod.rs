@@ -1,0 +1,77 @@
+//! The program: one file per subcommand, each a library call with an exit code.
+
+mod block;
+mod certify;
+mod check;
+mod common;
+mod enumerate;
+mod reduce;
+mod solve;
+mod table1;
+mod verify;
+
+use clap::{Parser, Subcommand};
+use common::CliError;
+use std::process::ExitCode;
+
+/// Complementarity eigenproblems of frictional contact, verified exactly.
+///
+/// Can a static equilibrium with frictional contact diverge? The program finds values of
+/// lambda^2 or mu with (A + tB) x = y, y_f = 0, 0 <= x_s _|_ y_s >= 0, and proves what it says.
+///
+/// Exit codes: 0 done or accepted, 1 rejected or disagreement, 2 bad input, 3 undecided,
+/// 130 interrupted.
+#[derive(Parser)]
+#[command(name = "mceip", version)]
+struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Subcommand)]
+enum Command {
+    /// The main job: every embedded problem solved, certified, checked, compared with both oracles.
+    Verify(verify::Args),
+    /// All solutions of a small problem by the exact enumerator (the oracle).
+    Enumerate(enumerate::Args),
+    /// Solutions by the PATH-style solver with many starts, each certified.
+    Solve(solve::Args),
+    /// Turn a solution report (somebody's floats) into a certificate.
+    Certify(certify::Args),
+    /// Check a certificate against a problem, exactly.
+    Check(check::Args),
+    /// The two particles of Fig. 1: closed form beside the enumerator.
+    Table1(table1::Args),
+    /// The polyurethane block of section 5: its two published states.
+    Block(block::Args),
+    /// Reduce a mechanical system to its pencil by (10)-(16).
+    Reduce(reduce::Args),
+}
+
+/// Runs the program on the process's arguments.
+pub fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(e) => {
+            let _ = e.print(); // nothing to be done if the terminal is gone
+            return ExitCode::from(u8::from(e.use_stderr()) * 2);
+        }
+    };
+    let result = match cli.command {
+        Command::Verify(a) => verify::run(&a),
+        Command::Enumerate(a) => enumerate::run(&a),
+        Command::Solve(a) => solve::run(&a),
+        Command::Certify(a) => certify::run(&a),
+        Command::Check(a) => check::run(&a),
+        Command::Table1(a) => table1::run(&a),
+        Command::Block(a) => block::run(&a),
+        Command::Reduce(a) => reduce::run(&a),
+    };
+    match result {
+        Ok(code) => ExitCode::from(code),
+        Err(e) => {
+            eprintln!("mceip: {e}");
+            ExitCode::from(CliError::EXIT)
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! `mceip reduce`: the pencil of a mechanical system as a problem file.
+
+use super::common::{CliError, exit, load, print};
+use crate::model::file::write_problem;
+use crate::model::{Admissible, Body, Problem};
+use crate::reduction::{Variable, condense, reduce};
+use std::path::PathBuf;
+
+/// Arguments of `reduce`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Problem file (mceip-problem/1).
+    file: PathBuf,
+    /// For unknown mu: eliminate the free variables as well, exactly.
+    #[arg(long)]
+    condense: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let problem = load(&args.file, None)?;
+    let reduced = reduce(&problem)?;
+    let (pencil, what) = if args.condense {
+        let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
+        (condense(&admissible)?, "condensed to its slip variables")
+    } else {
+        (reduced.pencil, "reduced by (10)-(16)")
+    };
+    let variables: Vec<String> = reduced
+        .variables
+        .iter()
+        .map(|v| match v {
+            Variable::Free { dof } => format!("v[{dof}]"),
+            Variable::Slip { sign, tangent, .. } => {
+                let terms: Vec<String> =
+                    tangent.iter().map(|(dof, c)| format!("{} v[{dof}]", -c * crate::exact::whole(i64::from(*sign)))).collect();
+                terms.join(" + ")
+            }
+        })
+        .filter(|_| !args.condense)
+        .collect();
+    let mut out = Problem::new(Body::Pencil(pencil), problem.unknown(), problem.window().clone())?;
+    out.name = problem.name.clone();
+    let x = if variables.is_empty() { String::new() } else { format!("; x = ({})", variables.join(", ")) };
+    out.comment = Some(format!("{what} from problem {}{x}", problem.sha256()));
+    print(&format!("{}\n", write_problem(&out)));
+    Ok(exit::DONE)
+}

@@ -1,0 +1,88 @@
+//! `mceip solve`: the PATH-style solver with many starts, every claim certified.
+
+use super::common::{CliError, exit, load, print, write_whole};
+use crate::certify::certificate;
+use crate::model::Admissible;
+use crate::multistart::{Found, Search, multistart};
+use crate::reduction::reduce;
+use crate::report::{Listed, Report, solutions_json, solutions_text};
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+/// Arguments of `solve`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Problem file (mceip-problem/1).
+    file: PathBuf,
+    /// Also search above and below each value found (the zeta windows of section 4).
+    #[arg(long)]
+    all: bool,
+    /// Number of starts on the whole window.
+    #[arg(long, default_value_t = 22)]
+    starts: usize,
+    /// Seed of the random starts.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Closed window a,b of values instead of the file's (b empty or inf: no upper end).
+    #[arg(long)]
+    window: Option<String>,
+    /// Print the linearisations and pivots of the first run.
+    #[arg(long)]
+    log: bool,
+    /// Write the certificate of everything found to this file.
+    #[arg(long, value_name = "OUT")]
+    certificate: Option<PathBuf>,
+    /// Print mceip-solutions/1.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    if args.starts == 0 {
+        return Err(CliError::Option { option: "starts", expected: "at least 1", got: "0".into() });
+    }
+    let problem = load(&args.file, args.window.as_deref())?;
+    let reduced = reduce(&problem)?;
+    let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
+    let window_starts = if args.all { Search::default().window_starts } else { 0 };
+    let search = Search { starts: args.starts, window_starts, seed: args.seed, ..Search::default() };
+    let found = multistart(&admissible, problem.window(), &search)?;
+    for u in &found.uncertified {
+        eprintln!("uncertified: {} = {}: {}", problem.unknown().word(), u.candidate.value, u.reason);
+    }
+    if args.log {
+        eprint!("{}", first_log(&found));
+    }
+    let claims: Vec<_> = found.certified.iter().map(|c| c.claim.clone()).collect();
+    let evidence = format!(
+        "{} certified solutions found in {} runs (seed {}, {} pivots, endings {:?}); completeness unknown",
+        claims.len(),
+        found.runs,
+        args.seed,
+        found.pivots,
+        found.terminations
+    );
+    let solutions = claims.iter().map(|c| Listed::of_claim(&problem, &reduced, c)).collect();
+    let report = Report { problem: &problem, reduced: &reduced, solutions, complete: false, evidence, enumeration: None };
+    print(&if args.json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) });
+    let any = !claims.is_empty();
+    if let (Some(path), true) = (&args.certificate, any) {
+        write_whole(path, &certificate(&problem, claims).to_json())?;
+    }
+    Ok(if any { exit::DONE } else { exit::UNDECIDED })
+}
+
+/// Linearisations and pivots of the very first run.
+fn first_log(found: &Found) -> String {
+    let mut out = String::new();
+    let Some(first) = &found.first else { return out };
+    for (k, major) in first.log.iter().enumerate() {
+        let _ =
+            writeln!(out, "major {k}: merit {:e}, {:?} start, path to t = {}, step {:?}", major.merit, major.start, major.t, major.step);
+        for p in &major.pivots {
+            let _ = writeln!(out, "    t = {:.12}: {:?} leaves, {:?} enters", p.t, p.leaving, p.entering);
+        }
+    }
+    let _ = writeln!(out, "ended: {:?}, {:?}", first.termination, first.residuals);
+    out
+}

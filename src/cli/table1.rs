@@ -1,0 +1,82 @@
+//! `mceip table1`: closed form and enumerator side by side.
+
+use super::common::{CliError, exit, print};
+use crate::exact::{Rational, parse};
+use crate::model::{Body, Problem, Unknown, Window};
+use crate::multistart::Search;
+use crate::oracle::TwoParticles;
+use crate::report::{Listed, Table};
+use crate::source::two_particles;
+use crate::testkit::{Instance, compare};
+use num_traits::{One, Signed};
+
+/// Arguments of `table1`: exact numbers, "3/5" or "0.6".
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// cos(phi).
+    #[arg(long, default_value = "3/5", allow_hyphen_values = true)]
+    c: String,
+    /// sin(phi); c^2 + s^2 must be 1 exactly.
+    #[arg(long, default_value = "4/5", allow_hyphen_values = true)]
+    s: String,
+    /// Spring stiffness.
+    #[arg(long, default_value = "1")]
+    k: String,
+    /// Particle mass.
+    #[arg(long, default_value = "1")]
+    m: String,
+    /// Coefficient of friction.
+    #[arg(long, default_value = "8")]
+    mu: String,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let number =
+        |option: &'static str, text: &str| parse(text).map_err(|_| CliError::Option { option, expected: "a number", got: text.into() });
+    let positive = |option: &'static str, text: &str| {
+        number(option, text)?.is_positive().then(|| parse(text).ok()).flatten().ok_or_else(|| CliError::Option {
+            option,
+            expected: "a number > 0",
+            got: text.into(),
+        })
+    };
+    let (c, s) = (number("c", &args.c)?, number("s", &args.s)?);
+    if c.is_negative() || s.is_negative() || &c * &c + &s * &s != Rational::one() {
+        return Err(CliError::Option { option: "s", expected: "c, s >= 0 with c^2 + s^2 = 1 exactly", got: format!("{c}, {s}") });
+    }
+    let (k, m, mu) = (positive("k", &args.k)?, positive("m", &args.m)?, positive("mu", &args.mu)?);
+    let mut table = Table::new(&["S1", "S2", "lambda^2", "slip", "x_T1", "x_T2", "exact polynomial"]);
+    let (mut json, mut agreed) = (Vec::new(), true);
+    for signs in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
+        let data = TwoParticles { c: c.clone(), s: s.clone(), k: k.clone(), m: m.clone(), mu: mu.clone(), signs };
+        let problem = Problem::new(Body::System(two_particles(&data)?), Unknown::Lambda2, Window::all())?;
+        let reduced = crate::reduction::reduce(&problem)?;
+        let found = crate::oracle::enumerate(&reduced.pencil, problem.window())?;
+        let instance = Instance { label: format!("{signs:?}"), problem: problem.clone(), closed_form: Some(data), corners: Vec::new() };
+        let report = compare(&instance, &Search::default());
+        agreed &= report.disagreements.is_empty();
+        for d in &report.disagreements {
+            eprintln!("S = {signs:?}: {d}");
+        }
+        let (s1, s2) = (format!("{:+}", signs.0), format!("{:+}", signs.1));
+        if found.solutions.is_empty() {
+            table.row(vec![s1.clone(), s2.clone(), "no solution".into()]);
+        }
+        for s in &found.solutions {
+            let l = Listed::of_solution(&problem, &reduced, s);
+            let polynomial = s.value.poly().to_string();
+            table.row(vec![s1.clone(), s2.clone(), l.value.clone(), format!("{:?}", s.slip), l.x[0].clone(), l.x[1].clone(), polynomial]);
+            json.push(serde_json::json!({ "signs": [signs.0, signs.1], "lambda2": l.value, "slip": l.slip, "x": l.x }));
+        }
+    }
+    let verdict = if agreed { "closed form = enumerator = certified, all four sign patterns" } else { "DISAGREEMENT" };
+    if args.json {
+        print(&format!("{}\n", serde_json::json!({ "solutions": json, "agreement": agreed })));
+    } else {
+        print(&format!("c = {c}, s = {s}, k = {k}, m = {m}, mu = {mu}\n{table}{verdict}\n"));
+    }
+    Ok(if agreed { exit::DONE } else { exit::REJECTED })
+}

@@ -1,0 +1,103 @@
+//! `mceip verify`: the main job, a table and a verdict.
+
+use super::common::{CliError, exit, interrupt_flag, print, progress_bar};
+use crate::report::Table;
+use crate::testkit::{FamilyReport, Verification, verify};
+use serde_json::{Value, json};
+
+/// Arguments of `verify`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Number of random pencils (a quarter as many random systems).
+    #[arg(long, default_value_t = 200)]
+    random: usize,
+    /// Seed of the random families and starts.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Print JSON.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let stop = interrupt_flag();
+    let bar = progress_bar(0, "verify");
+    let outcome = verify(args.random, args.seed, &stop, &|family, done, of| {
+        bar.set_message(family.to_string());
+        bar.set_length(of as u64);
+        bar.set_position(done as u64);
+    })?;
+    bar.finish_and_clear();
+    print(&if args.json { format!("{}\n", json_of(&outcome)) } else { text_of(&outcome) });
+    Ok(match (outcome.disagreements(), outcome.interrupted) {
+        (0, false) => exit::DONE,
+        (0, true) => exit::INTERRUPTED,
+        _ => exit::REJECTED,
+    })
+}
+
+fn text_of(v: &Verification) -> String {
+    let header =
+        ["family", "instances", "oracle", "found/findable", "accepted", "uncertified", "forgeries rejected", "degenerate", "disagreements"];
+    let mut table = Table::new(&header);
+    for f in &v.families {
+        let numbers = [
+            count(f),
+            f.oracle.to_string(),
+            format!("{}/{}", f.found, f.findable),
+            f.accepted.to_string(),
+            f.uncertified.len().to_string(),
+            f.rejected.to_string(),
+            f.degenerate.to_string(),
+            f.disagreements.len().to_string(),
+        ];
+        table.row([f.name.to_string()].into_iter().chain(numbers).collect());
+    }
+    let mut out = format!("{table}\n");
+    for f in &v.families {
+        out += &format!("{}: corners reached {:?}, {} pivots\n", f.name, f.corners, f.pivots);
+        out += &f.uncertified.iter().map(|u| format!("  uncertified: {u}\n")).collect::<String>();
+        out += &f.disagreements.iter().map(|d| format!("  DISAGREEMENT: {d}\n")).collect::<String>();
+    }
+    out += &format!("\n{}", super::block::text_of(&v.block));
+    for b in &v.block {
+        out += &format!("{}: {} of {} forgeries rejected\n", b.state.name(), b.rejected_forgeries, b.forgeries);
+    }
+    out + &format!("\n{}\n", verdict(v))
+}
+
+fn count(f: &FamilyReport) -> String {
+    if f.done == f.instances { f.done.to_string() } else { format!("{} of {}", f.done, f.instances) }
+}
+
+fn verdict(v: &Verification) -> String {
+    let (instances, accepted) = v.families.iter().fold((0, 0), |(i, a), f| (i + f.done, a + f.accepted));
+    match (v.disagreements(), v.interrupted) {
+        (0, false) => format!("VERIFIED: no disagreement in {instances} instances and {accepted} accepted certificates (seed {})", v.seed),
+        (0, true) => format!("INTERRUPTED: no disagreement in the {instances} instances treated (seed {})", v.seed),
+        (n, _) => format!("DISAGREEMENT: {n} (seed {})", v.seed),
+    }
+}
+
+fn json_of(v: &Verification) -> Value {
+    let family = |f: &FamilyReport| {
+        let corners: serde_json::Map<String, Value> = f.corners.iter().map(|(c, n)| (format!("{c:?}"), json!(n))).collect();
+        json!({
+            "name": f.name, "instances": f.instances, "done": f.done, "oracle_solutions": f.oracle, "findable": f.findable,
+            "found": f.found, "accepted": f.accepted, "uncertified": f.uncertified, "forgeries_rejected": f.rejected,
+            "degenerate": f.degenerate, "pivots": f.pivots, "corners": corners, "disagreements": f.disagreements,
+        })
+    };
+    let block: Vec<Value> = v
+        .block
+        .iter()
+        .map(|b| {
+            let mu: Vec<&String> = b.accepted.iter().map(|a| &a.value).collect();
+            json!({ "state": b.state.name(), "mu": mu, "paper_mu": b.state.printed_mu(), "forgeries": b.forgeries, "rejected_forgeries": b.rejected_forgeries })
+        })
+        .collect();
+    json!({
+        "seed": v.seed, "families": v.families.iter().map(family).collect::<Vec<_>>(), "block": block,
+        "disagreements": v.disagreements(), "interrupted": v.interrupted, "verdict": verdict(v),
+    })
+}

@@ -1,0 +1,9 @@
+//! What people and programs read: `mceip-solutions/1` and plain tables.
+
+mod listed;
+mod solutions;
+mod table;
+
+pub use listed::Listed;
+pub use solutions::{Report, solutions_json, solutions_text};
+pub use table::Table;
