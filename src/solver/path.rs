@@ -162,6 +162,9 @@ impl<'a> Walker<'a> {
             };
             let leaving = self.basis.variables[row];
             if leaving == Variable::T {
+                if let (true, Some(last)) = (block.at_upper, self.knots.last_mut()) {
+                    (self.t, last.t) = (1.0, 1.0); // t has reached 1, whatever rounding says
+                }
                 self.pivots.push(Pivot { t: self.t, leaving, entering: self.entering });
                 // Back at t = 0 the path has closed on itself: no way to 1 from here.
                 return if block.at_upper { PathEnd::Complete } else { PathEnd::Ray };

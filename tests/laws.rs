@@ -1,0 +1,130 @@
+//! The laws of `design.md` that can be read off the sources: who imports whom, who computes in floats.
+
+use std::path::{Path, PathBuf};
+
+fn sources(room: &str) -> Vec<(PathBuf, String)> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let (folder, file) = (root.join(room), root.join(format!("{room}.rs")));
+    let mut list = Vec::new();
+    let mut stack = vec![folder, file];
+    while let Some(path) = stack.pop() {
+        if path.is_dir() {
+            stack.extend(std::fs::read_dir(&path).unwrap().map(|e| e.unwrap().path()));
+        } else if path.extension().is_some_and(|e| e == "rs") && path.exists() {
+            let text = std::fs::read_to_string(&path).unwrap();
+            let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default().to_string();
+            list.push((path, code));
+        }
+    }
+    assert!(!list.is_empty(), "room {room} has no sources");
+    list
+}
+
+/// Rooms named anywhere in the code of a room (not in comments or doc examples).
+fn imports(code: &str) -> Vec<String> {
+    let mut rooms = Vec::new();
+    for line in code.lines().map(str::trim).filter(|l| !l.starts_with("//")) {
+        let mut rest = line;
+        while let Some(k) = rest.find("crate::") {
+            rest = &rest[k + 7..];
+            rooms.push(rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect());
+        }
+    }
+    rooms
+}
+
+/// Room, and everything it may import besides itself.
+const MAY_IMPORT: [(&str, &[&str]); 9] = [
+    ("exact", &[]),
+    ("model", &["exact"]),
+    ("source", &["exact", "model", "oracle"]), // oracle: the data type of Table 1
+    ("oracle", &["exact", "model"]),
+    ("check", &["exact", "model", "certificate"]),
+    ("certificate", &["exact", "model"]),
+    ("solver", &["mcp"]),
+    ("mcp", &[]),
+    ("certify", &["exact", "model", "candidate", "certificate", "tolerance", "linear"]),
+];
+
+#[test]
+fn imports_follow_the_house() {
+    for (room, allowed) in MAY_IMPORT {
+        for (path, code) in sources(room) {
+            for import in imports(&code) {
+                assert!(import == room || allowed.contains(&import.as_str()), "{}: {room} imports {import}", path.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn the_reader_of_imports_sees_a_breach() {
+    assert_eq!(imports("use crate::solver::solve;\n// crate::oracle\nlet x = crate::exact::whole(1);"), vec!["solver", "exact"]);
+}
+
+#[test]
+fn floats_stay_out_of_the_deciding_rooms() {
+    for room in ["exact", "check", "oracle", "certificate"] {
+        for (path, code) in sources(room) {
+            let name = path.file_name().and_then(|n| n.to_str()).unwrap();
+            let is_border = room == "exact" && (name == "double.rs" || name == "mod.rs");
+            let code: String = code.lines().filter(|l| !l.trim_start().starts_with("//")).collect();
+            assert!(is_border || !(code.contains("f64") || code.contains("f32")), "{}: names a float type", path.display());
+        }
+    }
+    for room in ["exact", "check", "oracle"] {
+        let module = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(room).join("mod.rs")).unwrap();
+        assert!(module.contains("#![deny(clippy::float_arithmetic)]"), "{room} does not deny float arithmetic");
+    }
+}
+
+#[test]
+fn faer_stands_behind_one_file_and_tolerances_in_two() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut stack = vec![root];
+    let (mut faer, mut small) = (Vec::new(), Vec::new());
+    while let Some(path) = stack.pop() {
+        if path.is_dir() {
+            stack.extend(std::fs::read_dir(&path).unwrap().map(|e| e.unwrap().path()));
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
+        let code: Vec<&str> =
+            text.split("#[cfg(test)]").next().unwrap_or_default().lines().filter(|l| !l.trim_start().starts_with("//")).collect();
+        let name = path.file_name().unwrap().to_string_lossy().into_owned();
+        if code.iter().any(|l| l.contains("faer::")) {
+            faer.push(name.clone());
+        }
+        // A float literal with a negative exponent is a tolerance (options.rs: PATH's own).
+        if code.iter().any(|l| l.contains("1e-")) {
+            small.push(name);
+        }
+    }
+    assert_eq!(faer, vec!["linear.rs"]);
+    small.sort();
+    assert_eq!(small, vec!["options.rs", "tolerance.rs", "tolerance.rs"]);
+}
+
+/// The solver compiled on its own: nothing but `mcp` beside it, no oracle, no model.
+#[cfg(feature = "solver")]
+mod alone {
+    #![allow(dead_code, unreachable_pub, unused_imports, clippy::duplicate_mod)]
+    pub use super::{mcp, solver};
+}
+#[cfg(feature = "solver")]
+#[path = "../src/mcp.rs"]
+#[allow(dead_code, unreachable_pub)]
+pub mod mcp;
+#[cfg(feature = "solver")]
+#[path = "../src/solver/mod.rs"]
+#[allow(dead_code, unreachable_pub)]
+pub mod solver;
+
+#[cfg(feature = "solver")]
+#[test]
+fn the_solver_builds_and_runs_without_the_rest() {
+    let lcp = mcp::LinearMcp::new(nalgebra::dmatrix![1.0], vec![-2.0], vec![0.0], vec![f64::INFINITY]).unwrap();
+    let outcome = solver::solve(&lcp, &[0.0], &solver::Options::default()).unwrap();
+    assert!(outcome.termination.reached_tolerance());
+    assert_eq!(outcome.point, vec![2.0]);
+}
