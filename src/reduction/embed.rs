@@ -70,6 +70,15 @@ impl Embedding {
         Candidate { value: self.t(z[n]), x: z[..n].iter().zip(&self.diagonal).map(|(u, d)| u * d).collect() }
     }
 
+    /// The MCP point of a value and x (any positive scale with e'x_s > 0): u = x / d with e'u_s = 1.
+    /// The way opposite to [`Embedding::candidate`].
+    pub fn point(&self, value: f64, x: &[f64]) -> Vec<f64> {
+        let u: Vec<f64> = x.iter().zip(&self.diagonal).map(|(v, d)| v / d).collect();
+        let sum: f64 = (0..u.len()).filter(|&i| !self.is_free[i]).map(|i| u[i]).sum();
+        let zeta = (value - self.origin) * self.direction / self.unit;
+        u.iter().map(|v| v / sum).chain([zeta]).collect()
+    }
+
     /// Starting points: e'u_s = 1 always (at x = 0 the column of t vanishes), u_f = 0.
     ///
     /// The first two are u_s = 1/n_s at t = 0 and t = 1 from the origin (the first starts of

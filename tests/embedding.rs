@@ -1,0 +1,88 @@
+//! Propositions 1 and 2 both ways, the Remark, and the zeta window, between oracle and embedding.
+#![cfg(feature = "testkit")]
+
+use mceip::exact::{to_f64, whole};
+use mceip::mcp::Mcp;
+use mceip::model::{Admissible, Unknown, Window};
+use mceip::multistart::{Search, multistart};
+use mceip::oracle::enumerate;
+use mceip::reduction::{Embedding, Side, reduce};
+use mceip::solver::{Options, Residuals, solve};
+use mceip::testkit::{Instance, mechanical, random_pencils};
+
+fn instances() -> Vec<Instance> {
+    random_pencils(40, 11).unwrap().into_iter().chain(mechanical(20, 11).unwrap()).collect()
+}
+
+/// "Only if": every solution of the eigenproblem, normalised, solves the MCP with gamma = 0.
+#[test]
+fn solutions_of_the_eigenproblem_solve_the_mcp() {
+    let mut count = 0;
+    for instance in instances() {
+        let pencil = reduce(&instance.problem).unwrap().pencil;
+        let embedding = Embedding::new(&Admissible::new(&pencil, instance.problem.unknown()).unwrap(), Side::Above(0.0));
+        for s in enumerate(&pencil, &Window::all()).unwrap().solutions {
+            let x: Vec<f64> = s.x_decimals(&pencil.slip(), 17).iter().map(|v| v.parse().unwrap()).collect();
+            let z = embedding.point(s.decimal(17).parse().unwrap(), &x);
+            let mut f = vec![0.0; z.len()];
+            embedding.function(&z, &mut f);
+            let r = Residuals::at(&embedding, &z, &f);
+            // Basis: 17-digit data of order one in units of the scaled pencil.
+            assert!(r.minimum_map < 1e-9 && r.normal_map < 1e-9, "{}: {r:?}", instance.label);
+            let mut off = z.clone();
+            off[0] += 0.1;
+            embedding.function(&off, &mut f);
+            assert!(Residuals::at(&embedding, &off, &f).minimum_map > 1e-6, "{}", instance.label);
+            count += 1;
+        }
+    }
+    assert!(count > 20, "{count}");
+}
+
+/// "If": what solves the MCP is certified as a solution of the eigenproblem, or reported.
+#[test]
+fn solutions_of_the_mcp_are_certified_or_reported() {
+    for instance in instances() {
+        let pencil = reduce(&instance.problem).unwrap().pencil;
+        let admissible = Admissible::new(&pencil, instance.problem.unknown()).unwrap();
+        let found = multistart(&admissible, &Window::all(), &Search::default()).unwrap();
+        let reached = found.terminations.iter().filter(|(t, _)| t.reached_tolerance()).map(|(_, n)| n).sum::<usize>();
+        assert_eq!(reached, found.certified.len() + found.uncertified.len() + found.repeated + found.outside, "{}", instance.label);
+    }
+}
+
+/// The Remark: K0 definite makes every MCEIP-mu value positive.
+#[test]
+fn mu_is_positive_when_k0_is_definite() {
+    for instance in instances().iter().filter(|i| i.problem.unknown() == Unknown::Mu) {
+        let pencil = reduce(&instance.problem).unwrap().pencil;
+        let at_zero = enumerate(&pencil, &Window::new(whole(0), Some(whole(0))).unwrap()).unwrap();
+        assert!(at_zero.solutions.is_empty() && at_zero.wide.is_empty(), "{}", instance.label);
+    }
+}
+
+/// zeta = t - t0 finds only values above t0, zeta = t0 - t only values below.
+#[test]
+fn windows_keep_to_their_side() {
+    let mut sides = [0, 0];
+    for instance in instances() {
+        let pencil = reduce(&instance.problem).unwrap().pencil;
+        let admissible = Admissible::new(&pencil, instance.problem.unknown()).unwrap();
+        let values: Vec<f64> =
+            enumerate(&pencil, &Window::all()).unwrap().solutions.iter().map(|s| to_f64(&s.value.interval().mid())).collect();
+        let Some(&origin) = values.first() else { continue };
+        for (k, side) in [Side::Above(origin * 0.5), Side::Below(origin * 1.5)].into_iter().enumerate() {
+            let embedding = Embedding::new(&admissible, side);
+            for start in embedding.starts(6, 3) {
+                let outcome = solve(&embedding, &start, &Options::default()).unwrap();
+                if outcome.termination.reached_tolerance() {
+                    let value = embedding.candidate(&outcome.point).value;
+                    let slack = 1e-9 * (1.0 + origin);
+                    assert!(if k == 0 { value >= origin * 0.5 - slack } else { value <= origin * 1.5 + slack });
+                    sides[k] += 1;
+                }
+            }
+        }
+    }
+    assert!(sides[0] > 10 && sides[1] > 10, "{sides:?}");
+}
