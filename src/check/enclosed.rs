@@ -44,7 +44,7 @@ pub(super) fn check(rows: &Rows, window: &Window, claim: &EnclosedSolution) -> R
             return Err(Reason::XNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
         }
     }
-    let x: Vec<Option<Interval>> = place(rows.order(), &active, |k| boxed(k));
+    let x: Vec<Option<Interval>> = place(rows.order(), &active, boxed);
     for index in (0..rows.order()).filter(|i| !active.contains(i)) {
         let image = row_over_box(&rows.rows[index], &x, &value);
         if image.certain_sign() != 1 {

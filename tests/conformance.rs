@@ -1,0 +1,62 @@
+//! Reads `spec/conformance.md`: every id has a row, every row a status and tests that exist.
+
+use std::collections::BTreeSet;
+use std::path::Path;
+
+fn read(path: &str) -> Option<String> {
+    std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(path)).ok()
+}
+
+/// (id, status, tests) of each row.
+fn rows(page: &str) -> Vec<(String, String, Vec<String>)> {
+    let cells = |line: &str| line.trim_matches('|').split('|').map(|c| c.trim().to_string()).collect::<Vec<_>>();
+    let lines = page.lines().filter(|l| l.starts_with("| ") && !l.starts_with("| id "));
+    lines
+        .map(|line| {
+            let cells = cells(line);
+            assert_eq!(cells.len(), 4, "{line}");
+            let tests = cells[3].split('`').skip(1).step_by(2).map(str::to_string).collect();
+            (cells[0].clone(), cells[2].clone(), tests)
+        })
+        .collect()
+}
+
+/// Does `file::name` name a test function (or a macro-made one) in that file?
+fn exists(test: &str) -> bool {
+    let Some((file, name)) = test.split_once("::") else { return false };
+    read(file).is_some_and(|text| text.split(&format!("fn {name}(")).nth(1).is_some() && text.contains("#[test]"))
+}
+
+#[test]
+fn every_row_names_a_status_and_tests_that_exist() {
+    let rows = rows(&read("spec/conformance.md").unwrap());
+    let mut seen = BTreeSet::new();
+    for (id, status, tests) in &rows {
+        assert!(seen.insert(id.clone()), "{id} twice");
+        assert!(["proved", "checked", "measured", "refuted", "absent"].contains(&status.as_str()), "{id}: status {status:?}");
+        assert_eq!(tests.is_empty(), status == "absent", "{id} is {status} with tests {tests:?}");
+        for test in tests {
+            assert!(exists(test), "{id}: no test {test}");
+        }
+    }
+    assert!(rows.len() > 50);
+}
+
+#[test]
+fn every_id_of_the_equations_page_has_a_row() {
+    let ids: BTreeSet<String> = rows(&read("spec/conformance.md").unwrap()).into_iter().map(|r| r.0).collect();
+    let wanted = (1..=34).map(|k| format!("E{k}")).chain(["P1", "P2", "R1", "W1", "T1"].map(String::from));
+    let equations = read("spec/equations.md").unwrap();
+    for id in wanted {
+        assert!(ids.contains(&id), "no row for {id}");
+        assert!(equations.contains(&id), "equations.md does not define {id}");
+    }
+}
+
+#[test]
+fn a_missing_test_would_be_noticed() {
+    assert!(!exists("tests/conformance.rs::no_such_test_is_here"));
+    assert!(!exists("tests/nowhere.rs::every_row"));
+    assert!(!exists("nonsense"));
+    assert!(exists("tests/conformance.rs::a_missing_test_would_be_noticed"));
+}
