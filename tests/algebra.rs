@@ -1,4 +1,5 @@
 //! quickcheck on the algebra of `exact`: ring laws, gcd, Sturm counts, signs of algebraic numbers.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::exact::{
     Algebraic, Integer, Interval, Poly, Rational, Sign, Sparse, from_f64, nonnegative_roots, parse, positive_definite, roots_in, to_f64,

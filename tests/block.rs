@@ -1,5 +1,6 @@
 //! The polyurethane block: exact condensation, both published states found, certified, accepted.
 #![cfg(feature = "testkit")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::source::{Block, MassKind, PublishedState};
 use mceip::testkit::block_state;

@@ -1,4 +1,5 @@
 //! The checker: one acceptance and, for each obligation, a certificate that breaks just that one.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution};
 use mceip::check::{Reason, check};

@@ -1,5 +1,6 @@
 //! The program from outside: malformed input, the chain of commands, exit codes.
 #![cfg(feature = "cli")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

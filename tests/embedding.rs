@@ -1,5 +1,6 @@
 //! Propositions 1 and 2 both ways, the Remark, and the zeta window, between oracle and embedding.
 #![cfg(feature = "testkit")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::exact::{to_f64, whole};
 use mceip::mcp::Mcp;

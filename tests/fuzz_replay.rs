@@ -1,5 +1,6 @@
 //! Replays the fuzz corpus and the regressions on stable, without a fuzzer.
 #![cfg(feature = "testkit")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::testkit::targets;
 use std::path::Path;

@@ -1,4 +1,5 @@
 //! The laws of `design.md` that can be read off the sources: who imports whom, who computes in floats.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::path::{Path, PathBuf};
 

@@ -1,5 +1,6 @@
 //! The way back to (9): lifted solutions satisfy every line, and each line notices its own breach.
 #![cfg(feature = "testkit")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::exact::{Algebraic, Poly, Sparse, whole};
 use mceip::model::{Body, ContactState, Particle, Problem, System, Unknown, Window};

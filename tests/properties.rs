@@ -1,4 +1,5 @@
 //! Laws of the problem on structured random pencils: scaling, permutation, shift, window, round trips.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::exact::{Sparse, rational, whole};
 use mceip::model::file::{read_problem, write_problem};
@@ -23,8 +24,10 @@ fn run(p: &Pencil) -> Enumeration {
     enumerate(p, &Window::all()).unwrap()
 }
 
+type Row = (String, Vec<usize>, Vec<usize>, Vec<String>);
+
 /// Values, supports and x in decimals: what two equal answers share.
-fn summary(p: &Pencil, e: &Enumeration) -> Vec<(String, Vec<usize>, Vec<usize>, Vec<String>)> {
+fn summary(p: &Pencil, e: &Enumeration) -> Vec<Row> {
     e.solutions.iter().map(|s| (s.decimal(20), s.slip.clone(), s.biactive.clone(), s.x_decimals(&p.slip(), 12))).collect()
 }
 

@@ -1,5 +1,6 @@
 //! The PATH-style solver on problems with known answers, and the paths it follows.
 #![cfg(feature = "solver")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::mcp::{LinearMcp, Mcp, McpError};
 use mceip::solver::{Options, Outcome, SolverError, Start, Step, Termination, Variable, solve};

@@ -1,5 +1,6 @@
 //! Table 1: closed form = enumerator = what the solver finds, certified and accepted.
 #![cfg(feature = "testkit")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::exact::{Poly, Sign, rational, whole};
 use mceip::model::{Body, ContactState, Particle, Problem, System, Unknown, Window};

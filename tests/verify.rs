@@ -1,5 +1,6 @@
 //! The verification run as a test: a smaller one than `mceip verify`, same code.
 #![cfg(feature = "testkit")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::testkit::verify;
 use std::sync::atomic::AtomicBool;

@@ -62,10 +62,10 @@ fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
     Poly::new(sum.coeffs().iter().map(|c| c / &factorial).collect())
 }
 
-/// A basis of the kernel of a matrix over Z[t] at t = `alpha`, as vectors of integer polynomials
+/// A basis of the kernel of a matrix over `Z[t]` at t = `alpha`, as vectors of integer polynomials
 /// to be evaluated there.
 ///
-/// Fraction-free Gauss-Jordan elimination over Z[t] whose pivots are chosen *non-zero at alpha*,
+/// Fraction-free Gauss-Jordan elimination over `Z[t]` whose pivots are chosen *non-zero at alpha*,
 /// which is decided exactly. Entries stay minors of the matrix (Sylvester's identity), so the
 /// divisions are exact whatever columns were passed over. What is left below the pivots vanishes
 /// at alpha, so the rank there is the number of pivots.

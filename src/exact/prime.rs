@@ -67,7 +67,7 @@ pub(super) fn primes() -> impl Iterator<Item = u64> {
 /// Webster 2015).
 fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
-    if n < 2 || BASES.iter().any(|&b| n % b == 0) {
+    if n < 2 || BASES.iter().any(|&b| n.is_multiple_of(b)) {
         return BASES.contains(&n);
     }
     let twos = (n - 1).trailing_zeros();
@@ -102,7 +102,7 @@ mod tests {
 
     #[test]
     fn prime_test_against_trial_division() {
-        let slow = |n: u64| n > 1 && (2..).take_while(|d| d * d <= n).all(|d| n % d != 0);
+        let slow = |n: u64| n > 1 && (2..).take_while(|d| d * d <= n).all(|d| !n.is_multiple_of(d));
         assert!((0..3000).all(|n| is_prime(n) == slow(n)));
         assert!(!is_prime(3_215_031_751)); // strong pseudoprime to bases 2, 3, 5, 7
         assert_eq!(primes().next(), Some((1 << 62) - 57));

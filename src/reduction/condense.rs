@@ -43,51 +43,6 @@ pub fn condense(admissible: &Admissible<'_>) -> Result<Pencil, CondensationError
     Ok(Pencil::new(both.submatrix(&all, &all), both.submatrix(&lower, &all), Vec::new())?)
 }
 
-/// The way back in doubles: from a candidate of the condensed pencil to one of the full pencil,
-/// x_f = -A_ff^-1 A_fs x_s.
-#[cfg(feature = "solver")]
-pub struct Expansion {
-    order: usize,
-    free: Vec<usize>,
-    slip: Vec<usize>,
-    /// -A_ff^-1 A_fs, column by column.
-    columns: Vec<Vec<f64>>,
-}
-
-#[cfg(feature = "solver")]
-impl Expansion {
-    /// Factors A_ff in doubles; `None` if it is numerically singular.
-    pub fn new(pencil: &Pencil) -> Option<Expansion> {
-        use crate::exact::to_f64;
-        let (f, s) = (pencil.free().to_vec(), pencil.slip());
-        let dense = |m: &crate::exact::Sparse| {
-            let mut out = vec![vec![0.0; m.cols()]; m.rows()];
-            m.entries().for_each(|(i, j, v)| out[i][j] = to_f64(v));
-            out
-        };
-        let right = dense(&pencil.a().submatrix(&f, &s).transpose());
-        let minus: Vec<Vec<f64>> = right.into_iter().map(|c| c.into_iter().map(std::ops::Neg::neg).collect()).collect();
-        let columns = crate::linear::solve(&dense(&pencil.a().submatrix(&f, &f)), &minus)?;
-        Some(Expansion { order: pencil.order(), free: f, slip: s, columns })
-    }
-
-    /// The candidate over all variables of the pencil.
-    pub fn expand(&self, small: &crate::candidate::Candidate) -> crate::candidate::Candidate {
-        let mut x = vec![0.0; self.order];
-        self.slip.iter().zip(&small.x).for_each(|(&i, v)| x[i] = *v);
-        for (column, v) in self.columns.iter().zip(&small.x) {
-            self.free.iter().zip(column).for_each(|(&i, c)| x[i] += sum_term(*c, *v));
-        }
-        crate::candidate::Candidate { value: small.value, x }
-    }
-}
-
-#[cfg(feature = "solver")]
-#[allow(clippy::float_arithmetic)] // a candidate, not a truth
-fn sum_term(c: f64, v: f64) -> f64 {
-    c * v
-}
-
 fn stack(a: &crate::exact::Sparse, b: &crate::exact::Sparse) -> crate::exact::Sparse {
     let top = a.entries().map(|(i, j, v)| (i, j, v.clone()));
     let bottom = b.entries().map(|(i, j, v)| (i + a.rows(), j, v.clone()));

@@ -5,14 +5,16 @@ mod condense;
 mod eliminate;
 #[cfg(feature = "solver")]
 mod embed;
+#[cfg(feature = "solver")]
+mod expand;
 mod lift;
 mod lines;
 
-#[cfg(feature = "solver")]
-pub use condense::Expansion;
 pub use condense::{CondensationError, condense};
 pub use eliminate::{Reduced, Variable, reduce};
 #[cfg(feature = "solver")]
 pub use embed::{Embedding, Side};
+#[cfg(feature = "solver")]
+pub use expand::Expansion;
 pub use lift::{Lifted, lift};
 pub use lines::{Line, LineViolated, check_lines};

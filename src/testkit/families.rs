@@ -106,7 +106,7 @@ fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError> {
         n,
         (n_f..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| (i, j, whole(rng.random_range(-6..=6)))),
     );
-    let unknown = if k % 2 == 0 { Unknown::Lambda2 } else { Unknown::Mu };
+    let unknown = if k.is_multiple_of(2) { Unknown::Lambda2 } else { Unknown::Mu };
     let (a, b) = match unknown {
         Unknown::Mu => (k0, k1),
         Unknown::Lambda2 => (k0.add_scaled(&rational(rng.random_range(1..=6), 2), &k1), gram(&mut rng, n)),
@@ -150,7 +150,7 @@ fn mechanical_system(k: usize, seed: u64) -> Result<Instance, ModelError> {
     if !lumped {
         corners.push(Corner::CoupledMass);
     }
-    let unknown = if k % 2 == 0 { Unknown::Lambda2 } else { Unknown::Mu };
+    let unknown = if k.is_multiple_of(2) { Unknown::Lambda2 } else { Unknown::Mu };
     let friction = rational(rng.random_range(4..=60), 4);
     let system = System::new(gram(&mut rng, n), Some(mass), Some(friction), particles)?;
     let label = format!("mechanical system {k} (seed {seed}) particles={contact} inner={inner} {}", unknown.word());
