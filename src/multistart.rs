@@ -4,11 +4,12 @@ use crate::candidate::Candidate;
 use crate::certificate::Claim;
 use crate::certify::{NotCertified, certify};
 use crate::exact::{Algebraic, Interval, Poly, to_f64};
-use crate::model::{Admissible, Window};
-use crate::reduction::{Embedding, Side};
+use crate::model::{Admissible, ModelError, Pencil, Unknown, Window};
+use crate::reduction::{CondensationError, Embedding, Expansion, Side, condense};
 use crate::solver::{Options, Outcome, SolverError, Termination, solve};
 use crate::tolerance::{SAME_POINT, WINDOW_GAP};
 use std::collections::BTreeMap;
+use std::ops::ControlFlow;
 
 /// How to search.
 #[derive(Debug, Clone, PartialEq)]
@@ -70,6 +71,8 @@ pub struct Found {
     pub runs: usize,
     /// Pivots made.
     pub pivots: usize,
+    /// Was the search ended by its progress callback?
+    pub interrupted: bool,
     /// Outcome of the very first run.
     pub first: Option<Outcome>,
 }
@@ -79,8 +82,61 @@ pub struct Found {
 /// # Errors
 /// [`SolverError`] for options out of range.
 pub fn multistart(admissible: &Admissible<'_>, window: &Window, search: &Search) -> Result<Found, SolverError> {
-    multistart_with(admissible, window, search, &|candidate| certify(admissible.pencil(), window, candidate))
+    multistart_with(
+        admissible,
+        window,
+        search,
+        &|candidate| certify(admissible.pencil(), window, candidate),
+        &|_| ControlFlow::Continue(()),
+    )
 }
+
+/// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
+pub const CONDENSE_FROM: usize = 12;
+
+/// Why a search did not take place.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SearchError {
+    /// The solver's options were refused.
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+    /// The condensation failed.
+    #[error(transparent)]
+    Condensation(#[from] CondensationError),
+    /// The condensed pencil was refused.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// K_ff is singular in doubles.
+    #[error("P1: expected K_ff regular in doubles, got a singular factorisation")]
+    SingularInDoubles,
+}
+
+/// [`multistart`] for pencils of any size: MCEIP-mu with many free variables is condensed exactly,
+/// searched on its slip variables, and *certified on the given pencil*, not on the condensed one.
+///
+/// # Errors
+/// [`SearchError`].
+pub fn multistart_large(
+    admissible: &Admissible<'_>,
+    window: &Window,
+    search: &Search,
+    progress: &Progress<'_>,
+) -> Result<(Found, Option<Pencil>), SearchError> {
+    let pencil = admissible.pencil();
+    let direct = |c: &Candidate| certify(pencil, window, c);
+    if admissible.unknown() != Unknown::Mu || pencil.free().len() < CONDENSE_FROM {
+        return Ok((multistart_with(admissible, window, search, &direct, progress)?, None));
+    }
+    let condensed = condense(admissible)?;
+    let expansion = Expansion::new(pencil).ok_or(SearchError::SingularInDoubles)?;
+    let small = Admissible::new(&condensed, Unknown::Mu)?;
+    let found = multistart_with(&small, window, search, &|c| direct(&expansion.expand(c)), progress)?;
+    Ok((found, Some(condensed)))
+}
+
+/// Told after each run what has been found; breaking ends the search and keeps it.
+pub type Progress<'a> = dyn Fn(&Found) -> ControlFlow<()> + 'a;
 
 /// What turns a candidate into a claim: [`multistart_with`] takes any, so that a condensed pencil
 /// can be searched and the claim made about the full one.
@@ -95,10 +151,11 @@ pub fn multistart_with(
     window: &Window,
     search: &Search,
     certifier: &Certifier<'_>,
+    progress: &Progress<'_>,
 ) -> Result<Found, SolverError> {
     let mut found = Found::default();
     let bottom = to_f64(window.min());
-    let mut hunt = Hunt { admissible, window, search, certifier, found: &mut found };
+    let mut hunt = Hunt { admissible, window, search, certifier, progress, found: &mut found };
     for (k, origin) in [bottom].into_iter().chain(search.origins.iter().copied()).enumerate() {
         hunt.side(Side::Above(origin), search.starts, k as u64)?;
     }
@@ -129,6 +186,7 @@ struct Hunt<'a> {
     window: &'a Window,
     search: &'a Search,
     certifier: &'a Certifier<'a>,
+    progress: &'a Progress<'a>,
     found: &'a mut Found,
 }
 
@@ -136,6 +194,9 @@ impl Hunt<'_> {
     fn side(&mut self, side: Side, starts: usize, salt: u64) -> Result<(), SolverError> {
         let embedding = Embedding::new(self.admissible, side);
         for start in embedding.starts(starts, self.search.seed.wrapping_add(salt)) {
+            if self.found.interrupted {
+                return Ok(());
+            }
             let outcome = solve(&embedding, &start, &self.search.options)?;
             *self.found.terminations.entry(outcome.termination).or_default() += 1;
             self.found.pivots += outcome.pivots;
@@ -145,6 +206,7 @@ impl Hunt<'_> {
                 self.file(embedding.candidate(&outcome.point), run);
             }
             self.found.first.get_or_insert(outcome);
+            self.found.interrupted = (self.progress)(self.found).is_break();
         }
         Ok(())
     }

@@ -64,7 +64,17 @@ type Test = fn(&Reason) -> bool;
 #[test]
 fn each_obligation_has_a_forgery() {
     let (p, good) = root_two();
-    let cases: [(&str, Change, Test); 21] = [
+    let cases: [(&str, Change, Test); 23] = [
+        (
+            "degree beyond all use",
+            |c| c.polynomial = vec![Integer::from(1); 513],
+            |r| matches!(r, Reason::TooLarge { what: "polynomial", .. }),
+        ),
+        (
+            "x of a degree beyond all use",
+            |c| c.x[0] = vec![Number(whole(1)); 513],
+            |r| matches!(r, Reason::TooLarge { what: "polynomial of x", .. }),
+        ),
         ("wrong root", |c| c.polynomial[0] = Integer::from(-2), |r| matches!(r, Reason::NoSignChange { .. })),
         (
             "a polynomial with another root there",
@@ -169,7 +179,7 @@ fn enclosed_solutions_and_their_forgeries() {
     let value = verdict(&good).unwrap().claims[0].value.clone();
     assert!(value.contains(&whole(3)) && value.width() < rational(1, 100_000));
     type Change = fn(&mut EnclosedSolution);
-    let cases: [(&str, Change, Test); 9] = [
+    let cases: [(&str, Change, Test); 10] = [
         ("no contraction", |c| c.preconditioner[2] = vec![0.into(); 3], |r| matches!(r, Reason::NotContracting { index: 2, .. })),
         ("centre off by more than the box", |c| c.center[2].0 += rational(1, 1 << 18), |r| matches!(r, Reason::NotContracting { .. })),
         ("box too large", |c| c.radius = vec![Number(whole(4)); 3], |r| matches!(r, Reason::NotContracting { .. })),
@@ -178,6 +188,7 @@ fn enclosed_solutions_and_their_forgeries() {
         ("short radius", |c| c.radius.truncate(1), |r| matches!(r, Reason::Length { what: "radius", .. })),
         ("short preconditioner", |c| c.preconditioner.truncate(2), |r| matches!(r, Reason::Length { what: "preconditioner", .. })),
         ("ragged preconditioner", |c| c.preconditioner[0].truncate(2), |r| matches!(r, Reason::Length { what: "preconditioner row", .. })),
+        ("gigabytes of exponent", |c| c.exponent = u32::MAX, |r| matches!(r, Reason::TooLarge { what: "exponent", .. })),
         ("empty support", |c| c.support.clear(), |r| matches!(r, Reason::XZero)),
     ];
     for (name, change, expected) in cases {

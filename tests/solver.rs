@@ -106,6 +106,31 @@ fn a_singular_start_is_perturbed_not_fatal() {
     assert!(outcome.log[0].proximal > 0.0);
 }
 
+/// Lemke's method processes every LCP with a strictly copositive matrix (Cottle, Pang and Stone 1992,
+/// theorem 4.4.9); the regular path need not get there, and then the ray start must.
+#[test]
+fn strictly_copositive_lcps_are_reached_and_some_need_the_ray() {
+    let mut seed = 12345u64;
+    let mut next = |span: u64| {
+        seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (seed >> 33) % span
+    };
+    let mut rays = 0;
+    for _ in 0..300 {
+        let n = 2 + next(5) as usize;
+        let m = DMatrix::from_fn(n, n, |i, j| if i == j { 1.0 + next(3) as f64 } else { next(7) as f64 });
+        let q: Vec<f64> = (0..n).map(|_| next(9) as f64 - 6.0).collect();
+        let start: Vec<f64> = (0..n).map(|_| next(3) as f64).collect();
+        let outcome = run(&lcp(m.clone(), &q), &start);
+        assert_eq!(outcome.termination, Termination::ToleranceReached, "{m} {q:?} {start:?} {:?}", outcome.log);
+        check_path(&outcome);
+        let by_ray: Vec<_> = outcome.log.iter().filter(|major| major.start == Start::Ray).collect();
+        assert!(by_ray.iter().all(|major| major.t == 1.0));
+        rays += by_ray.len();
+    }
+    assert!(rays > 5, "{rays} ray starts");
+}
+
 struct Nonlinear {
     lower: Vec<f64>,
     upper: Vec<f64>,

@@ -31,6 +31,14 @@ pub enum AttemptFailure {
     /// A component or the value is NaN or infinite.
     #[error("expected finite numbers, got a value or component that is not")]
     NotFinite,
+    /// More active variables than dense linear algebra is run for.
+    #[error("expected at most {limit} active variables, got {got}")]
+    TooLarge {
+        /// The bound.
+        limit: usize,
+        /// Active variables.
+        got: usize,
+    },
     /// Every component is zero.
     #[error("E12: expected x != 0, got the zero vector")]
     ZeroX,

@@ -17,6 +17,8 @@ use crate::model::{Pencil, Problem, Window};
 pub const EXACT_ORDER: usize = 16;
 /// Largest size, in bits, of a determinant for which an exact claim is attempted.
 pub const EXACT_BITS: u64 = 4096;
+/// Largest number of active variables for which an enclosure is attempted: it needs dense inverses.
+pub const ENCLOSED_ORDER: usize = 3000;
 
 /// Makes a claim out of a candidate, trying the supports its components suggest.
 ///
@@ -30,7 +32,9 @@ pub fn certify(pencil: &Pencil, window: &Window, candidate: &Candidate) -> Resul
     let mut attempts = Vec::new();
     for support in supports {
         let order = pencil.free().len() + support.len();
-        let result = if order <= EXACT_ORDER && order as u64 * integral.bits() <= EXACT_BITS {
+        let result = if order > ENCLOSED_ORDER {
+            Err(AttemptFailure::TooLarge { limit: ENCLOSED_ORDER, got: order })
+        } else if order <= EXACT_ORDER && order as u64 * integral.bits() <= EXACT_BITS {
             exact_claim::make(pencil, &integral, window, &support, candidate).map(Claim::ExactSolution)
         } else {
             enclose::make(pencil, &integral, window, &support, candidate).map(Claim::EnclosedSolution)

@@ -15,10 +15,16 @@ use crate::exact::{Integer, Interval, Rational, common_denominator};
 use crate::model::Window;
 use num_traits::{One, Signed, Zero};
 
+/// Largest binary exponent of a preconditioner: 8 kB per entry, far beyond any use.
+const MAX_EXPONENT: u32 = 1 << 16;
+
 pub(super) fn check(rows: &Rows, window: &Window, claim: &EnclosedSolution) -> Result<AcceptedClaim, Reason> {
     index_set(rows, "support", &claim.support)?;
     if claim.support.is_empty() {
         return Err(Reason::XZero); // e'x_s = 1 needs a slip variable
+    }
+    if claim.exponent > MAX_EXPONENT {
+        return Err(Reason::TooLarge { what: "exponent", limit: MAX_EXPONENT as usize, got: claim.exponent as usize });
     }
     let active: Vec<usize> = (0..rows.order()).filter(|&i| rows.is_free[i] || claim.support.contains(&i)).collect();
     let n = active.len() + 1;

@@ -14,9 +14,14 @@ use crate::model::Window;
 use crate::model::file::Number;
 use num_traits::Zero;
 
+/// Largest number of coefficients of a polynomial. A support of n variables needs at most n + 1.
+const MAX_COEFFICIENTS: usize = 512;
+
 pub(super) fn check(rows: &Rows, window: &Window, claim: &ExactSolution) -> Result<AcceptedClaim, Reason> {
     index_set(rows, "support", &claim.support)?;
     index_set(rows, "biactive", &claim.biactive)?;
+    bounded("polynomial", claim.polynomial.len())?;
+    claim.x.iter().try_for_each(|x| bounded("polynomial of x", x.len()))?;
     let p = Poly::new(claim.polynomial.clone());
     let value = isolate(&p, &claim.interval)?;
     within(window, &value)?;
@@ -27,6 +32,10 @@ pub(super) fn check(rows: &Rows, window: &Window, claim: &ExactSolution) -> Resu
     check_x(rows, claim, &alpha)?;
     check_y(rows, claim, &alpha)?;
     Ok(AcceptedClaim { support: claim.support.clone(), value: alpha.value })
+}
+
+fn bounded(what: &'static str, got: usize) -> Result<(), Reason> {
+    if got > MAX_COEFFICIENTS { Err(Reason::TooLarge { what, limit: MAX_COEFFICIENTS, got }) } else { Ok(()) }
 }
 
 /// Ascending indices of complementarity variables.

@@ -55,6 +55,16 @@ pub enum Reason {
         /// Entries found.
         got: usize,
     },
+    /// Larger than the checker will multiply out: keeps time and memory bounded by the file's size.
+    #[error("{what}: expected at most {limit}, got {got}")]
+    TooLarge {
+        /// What is too large.
+        what: &'static str,
+        /// The bound.
+        limit: usize,
+        /// What was found.
+        got: usize,
+    },
     /// The polynomial is constant.
     #[error("polynomial: expected degree >= 1, got {coefficients} coefficients without a power of t")]
     ConstantPolynomial {

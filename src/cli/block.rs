@@ -33,7 +33,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Some(other) => return Err(CliError::Option { option: "state", expected: "15 or 17", got: other.to_string() }),
     };
     let block = Block::of_the_paper(if args.lumped { MassKind::Lumped } else { MassKind::Consistent });
-    let bar = super::common::progress_bar(states.len() as u64, "block");
+    let bar = super::common::progress_spinner("block");
     let mut reports = Vec::new();
     for state in states {
         reports.push(block_state(&block, state, &|what| bar.set_message(format!("{}: {what}", state.name())))?);

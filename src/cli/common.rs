@@ -3,8 +3,8 @@
 use crate::exact::parse;
 use crate::model::file::{read_problem_file, read_text};
 use crate::model::{ModelError, Problem, Window};
+use crate::multistart::SearchError;
 use crate::oracle::OracleError;
-use crate::solver::SolverError;
 use crate::testkit::BlockError;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write as _;
@@ -42,9 +42,9 @@ pub(super) enum CliError {
     /// The enumerator refuses.
     #[error("{0}")]
     Oracle(#[from] OracleError),
-    /// The solver refuses.
+    /// The search refuses.
     #[error("{0}")]
-    Solver(#[from] SolverError),
+    Search(#[from] SearchError),
     /// The block was not treated.
     #[error("{0}")]
     Block(#[from] BlockError),
@@ -137,6 +137,14 @@ pub(super) fn progress_bar(total: u64, what: &str) -> ProgressBar {
     if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {pos}/{len} {per_sec} eta {eta}") {
         bar.set_style(style);
     }
+    bar.set_message(what.to_string());
+    bar
+}
+
+/// A spinner on stderr for work of unknown length, drawn only on a terminal.
+pub(super) fn progress_spinner(what: &str) -> ProgressBar {
+    let bar = ProgressBar::new_spinner();
+    bar.enable_steady_tick(std::time::Duration::from_millis(200));
     bar.set_message(what.to_string());
     bar
 }

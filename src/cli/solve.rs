@@ -1,13 +1,15 @@
 //! `mceip solve`: the PATH-style solver with many starts, every claim certified.
 
-use super::common::{CliError, exit, load, print, write_whole};
+use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinner, write_whole};
 use crate::certify::certificate;
 use crate::model::Admissible;
-use crate::multistart::{Found, Search, multistart};
+use crate::multistart::{Found, Search, multistart_large};
 use crate::reduction::reduce;
 use crate::report::{Listed, Report, solutions_json, solutions_text};
 use std::fmt::Write as _;
+use std::ops::ControlFlow;
 use std::path::PathBuf;
+use std::sync::atomic::Ordering;
 
 /// Arguments of `solve`.
 #[derive(clap::Args)]
@@ -46,7 +48,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let window_starts = if args.all { Search::default().window_starts } else { 0 };
     let search = Search { starts: args.starts, window_starts, seed: args.seed, ..Search::default() };
-    let found = multistart(&admissible, problem.window(), &search)?;
+    let stop = interrupt_flag();
+    let bar = progress_spinner("searching");
+    let (found, _) = multistart_large(&admissible, problem.window(), &search, &|found| {
+        bar.set_message(format!("{} runs, {} certified solutions", found.runs, found.certified.len()));
+        bar.tick();
+        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    bar.finish_and_clear();
     for u in &found.uncertified {
         eprintln!("uncertified: {} = {}: {}", problem.unknown().word(), u.candidate.value, u.reason);
     }
@@ -55,8 +64,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     let claims: Vec<_> = found.certified.iter().map(|c| c.claim.clone()).collect();
     let evidence = format!(
-        "{} certified solutions found in {} runs (seed {}, {} pivots, endings {:?}); completeness unknown",
+        "{} certified found in {}{} runs (seed {}, {} pivots, endings {:?}); completeness unknown",
         claims.len(),
+        if found.interrupted { "an interrupted search of " } else { "" },
         found.runs,
         args.seed,
         found.pivots,
@@ -69,7 +79,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let (Some(path), true) = (&args.certificate, any) {
         write_whole(path, &certificate(&problem, claims).to_json())?;
     }
-    Ok(if any { exit::DONE } else { exit::UNDECIDED })
+    Ok(match (found.interrupted, any) {
+        (true, _) => exit::INTERRUPTED,
+        (false, true) => exit::DONE,
+        (false, false) => exit::UNDECIDED,
+    })
 }
 
 /// Linearisations and pivots of the very first run.

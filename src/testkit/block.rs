@@ -2,14 +2,14 @@
 
 use super::forge::forgeries;
 use crate::certificate::Certificate;
-use crate::certify::{certificate, certify};
+use crate::certify::certificate;
 use crate::check::{Rejected, check};
-use crate::exact::{CondenseError, Rational};
+use crate::exact::Rational;
 use crate::model::{Admissible, ModelError, Unknown};
-use crate::multistart::{Search, multistart_with};
-use crate::reduction::{CondensationError, Expansion, condense, reduce};
-use crate::solver::SolverError;
+use crate::multistart::{Search, SearchError, multistart_large};
+use crate::reduction::reduce;
 use crate::source::{Block, PublishedState};
+use std::ops::ControlFlow;
 
 /// Windows of section 4 in which the 15-slip state is sought besides [0, infinity): without them
 /// PATH itself does not find it (`spec/decisions.md`).
@@ -22,18 +22,9 @@ pub enum BlockError {
     /// The model was refused.
     #[error(transparent)]
     Model(#[from] ModelError),
-    /// The condensation failed.
+    /// The search was refused.
     #[error(transparent)]
-    Condensation(#[from] CondensationError),
-    /// The elimination failed.
-    #[error(transparent)]
-    Elimination(#[from] CondenseError),
-    /// The solver's options were refused.
-    #[error(transparent)]
-    Solver(#[from] SolverError),
-    /// K_ff is singular in doubles.
-    #[error("P1: expected K_ff regular in doubles, got a singular factorisation")]
-    SingularInDoubles,
+    Search(#[from] SearchError),
 }
 
 /// A certified and accepted solution of a state.
@@ -83,17 +74,12 @@ pub fn block_state(block: &Block, state: PublishedState, progress: &dyn Fn(&str)
     let problem = state.problem(block)?;
     let pencil = reduce(&problem)?.pencil;
     let full = Admissible::new(&pencil, Unknown::Mu)?;
-    progress("condensing exactly");
-    let condensed = condense(&full)?;
-    let small = Admissible::new(&condensed, Unknown::Mu)?;
-    let expansion = Expansion::new(&pencil).ok_or(BlockError::SingularInDoubles)?;
-    progress("searching");
+    progress("condensing exactly and searching");
     let search = Search { origins: BLOCK_ORIGINS.to_vec(), window_starts: 2, ..Search::default() };
-    let window = problem.window();
-    // Searched on the condensed pencil, certified on K itself.
-    let found = multistart_with(&small, window, &search, &|c| certify(&pencil, window, &expansion.expand(c)))?;
+    let (found, condensed) = multistart_large(&full, problem.window(), &search, &|_| ControlFlow::Continue(()))?;
     progress("checking");
-    let bits = condensed.a().entries().chain(condensed.b().entries()).map(|e| e.2.denom().bits()).max().unwrap_or(0);
+    let entries = condensed.iter().flat_map(|p| p.a().entries().chain(p.b().entries()));
+    let bits = entries.map(|e| e.2.denom().bits()).max().unwrap_or(0);
     let mut report = BlockReport {
         state,
         accepted: Vec::new(),
@@ -101,7 +87,7 @@ pub fn block_state(block: &Block, state: PublishedState, progress: &dyn Fn(&str)
         rejected: Vec::new(),
         forgeries: 0,
         rejected_forgeries: 0,
-        orders: (block.stiffness.rows(), pencil.order(), condensed.order()),
+        orders: (block.stiffness.rows(), pencil.order(), pencil.slip().len()),
         bits,
         runs: found.runs,
         pivots: found.pivots,
