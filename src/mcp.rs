@@ -94,6 +94,25 @@ impl LinearMcp {
         check_bounds(&lower, &upper)?;
         Ok(LinearMcp { m, q, lower, upper })
     }
+
+    /// The linear complementarity problem 0 <= z, 0 <= M z + q, z'(M z + q) = 0.
+    ///
+    /// # Errors
+    /// [`McpError`] naming the part, row and column.
+    pub fn lcp(m: DMatrix<f64>, q: Vec<f64>) -> Result<Self, McpError> {
+        let n = q.len();
+        LinearMcp::new(m, q, vec![0.0; n], vec![f64::INFINITY; n])
+    }
+
+    /// The matrix M, n x n.
+    pub fn matrix(&self) -> &DMatrix<f64> {
+        &self.m
+    }
+
+    /// The vector q, length n.
+    pub fn vector(&self) -> &[f64] {
+        &self.q
+    }
 }
 
 /// Refuses bounds that are crossed, NaN, or infinite on the wrong side.
@@ -125,5 +144,41 @@ impl Mcp for LinearMcp {
     }
     fn jacobian(&self, _z: &[f64], j: &mut DMatrix<f64>) {
         j.copy_from(&self.m);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::dmatrix;
+
+    const INF: f64 = f64::INFINITY;
+
+    #[test]
+    fn evaluates_function_and_jacobian() {
+        let lcp = LinearMcp::lcp(dmatrix![1.0, 2.0; 3.0, 4.0], vec![5.0, 6.0]).unwrap();
+        let mut f = [0.0; 2];
+        lcp.function(&[1.0, -1.0], &mut f);
+        assert_eq!(f, [4.0, 5.0]);
+        let mut j = DMatrix::zeros(2, 2);
+        lcp.jacobian(&[0.0, 0.0], &mut j);
+        assert_eq!(&j, lcp.matrix());
+    }
+
+    #[test]
+    fn refusals_name_the_place() {
+        let m = || dmatrix![1.0, 0.0; 0.0, 1.0];
+        let cases = [
+            (LinearMcp::lcp(m(), vec![0.0]), "expected rows of M of length 1, got 2"),
+            (LinearMcp::lcp(DMatrix::zeros(2, 3), vec![0.0; 2]), "expected columns of M of length 2, got 3"),
+            (LinearMcp::lcp(dmatrix![1.0, f64::NAN; 0.0, 1.0], vec![0.0; 2]), "expected a finite M[0][1], got NaN"),
+            (LinearMcp::lcp(m(), vec![0.0, INF]), "expected a finite q[1][0], got inf"),
+            (LinearMcp::new(m(), vec![0.0; 2], vec![0.0, 2.0], vec![1.0; 2]), "expected lower <= upper at 1, got 2 and 1"),
+            (LinearMcp::new(m(), vec![0.0; 2], vec![INF, 0.0], vec![INF; 2]), "expected lower <= upper at 0, got inf and inf"),
+            (LinearMcp::new(m(), vec![0.0; 2], vec![0.0; 2], vec![1.0, f64::NAN]), "expected lower <= upper at 1, got 0 and NaN"),
+        ];
+        for (made, message) in cases {
+            assert_eq!(made.unwrap_err().to_string(), message);
+        }
     }
 }

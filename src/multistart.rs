@@ -199,7 +199,7 @@ impl Hunt<'_> {
             }
             let outcome = solve(&embedding, &start, &self.search.options)?;
             *self.found.terminations.entry(outcome.termination).or_default() += 1;
-            self.found.pivots += outcome.pivots;
+            self.found.pivots += outcome.counters.pivots;
             let run = self.found.runs;
             self.found.runs += 1;
             if outcome.termination.reached_tolerance() {

@@ -91,12 +91,14 @@ fn first_log(found: &Found) -> String {
     let mut out = String::new();
     let Some(first) = &found.first else { return out };
     for (k, major) in first.log.iter().enumerate() {
-        let _ =
-            writeln!(out, "major {k}: merit {:e}, {:?} start, path to t = {}, step {:?}", major.merit, major.start, major.t, major.step);
-        for p in &major.pivots {
-            let _ = writeln!(out, "    t = {:.12}: {:?} leaves, {:?} enters", p.t, p.leaving, p.entering);
+        let _ = writeln!(out, "step {k}: merit {:e}, {:?}, proximal {:e}", major.merit, major.step, major.proximal);
+        for path in &major.paths {
+            let _ = writeln!(out, "  path, {:?} start, ended {:?} at t = {}", path.start, path.end, path.reach);
+            for p in &path.pivots {
+                let _ = writeln!(out, "    t = {:.12}: {:?} leaves, {:?} enters ({:?})", p.t, p.leaving, p.entering, p.kind);
+            }
         }
     }
-    let _ = writeln!(out, "ended: {:?}, {:?}", first.termination, first.residuals);
+    let _ = writeln!(out, "ended: {:?}, {:?}, {:?}", first.termination, first.residuals, first.counters);
     out
 }

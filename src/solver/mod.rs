@@ -1,19 +1,76 @@
-//! A PATH-style solver for mixed complementarity problems in doubles (Dirkse and Ferris 1995).
+//! A PATH for mixed complementarity problems in doubles (Dirkse and Ferris 1995; Ralph 1994).
 //!
-//! Normal map, linearisation, pivotal path to the Newton point, non-monotone search back along
-//! that path, ray start where the regular one fails. It knows nothing of friction, and a run ends
-//! with a *reason*; whether a point is a solution is decided elsewhere, exactly.
+//! Find z in [l, u] with F_i(z) >= 0 where z_i = l_i, = 0 strictly inside, <= 0 at u_i. It knows
+//! nothing of friction, and a run ends with a *reason*; whether a point is a solution is decided
+//! elsewhere, exactly. In the order of the data flow:
+//!
+//! | file | what |
+//! |---|---|
+//! | `options`, `tolerance`, `error` | limits with PATH's names; every tolerance; refusals |
+//! | `dense` | the two dense factorisations |
+//! | `evaluation`, `fischer`, `normal_map`, `residual` | F and its merits; the five residuals |
+//! | `crash` | projected Newton to a good active set |
+//! | `path/` | the linear subproblem, solved by pivoting along the path |
+//! | `search`, `gradient`, `restart` | what makes a step acceptable, and what if none is |
+//! | `newton` | the outer loop |
+//! | `linear`, `multistart` | Lemke's method alone; many starts |
+//! | `outcome` | point, residuals, reason, log of every pivot |
 
-mod basis;
+mod crash;
+mod dense;
+mod error;
+mod evaluation;
+mod fischer;
+mod gradient;
+mod linear;
+mod multistart;
 mod newton;
+mod normal_map;
 mod options;
 mod outcome;
 mod path;
 mod residual;
+mod restart;
+mod search;
 mod tolerance;
 
-pub use newton::solve;
+pub use error::SolverError;
+pub use linear::solve_linear;
+pub use multistart::multistart;
 pub use options::Options;
-pub use outcome::{Major, Outcome, SolverError, Start, Step, Termination};
-pub use path::{Pivot, Variable};
+pub use outcome::{Counters, MajorRecord, NonFinite, Outcome, PathRecord, StepKind, Termination};
+pub use path::{PathEnd, Pivot, PivotKind, Start, Variable};
 pub use residual::Residuals;
+
+use crate::mcp::{Mcp, McpError, check_bounds};
+
+/// Runs from `start` (length n, projected onto the bounds) until a reason to stop.
+///
+/// # Errors
+/// [`SolverError`] for bounds, starts and options that make no sense. F or a Jacobian that is not
+/// finite on the way is a [`Termination`], with the best finite point.
+///
+/// ```
+/// use mceip::{mcp::LinearMcp, solver::{solve, Options}};
+/// let lcp = LinearMcp::lcp(nalgebra::dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
+/// let outcome = solve(&lcp, &[0.0, 0.0], &Options::default()).unwrap();
+/// assert!(outcome.termination.reached_tolerance());
+/// assert!((outcome.point[0] - 4.0 / 3.0).abs() < 1e-12);
+/// ```
+pub fn solve<P: Mcp + ?Sized>(problem: &P, start: &[f64], options: &Options) -> Result<Outcome, SolverError> {
+    options.validate()?;
+    let n = problem.dimension();
+    for (what, got) in [("lower", problem.lower().len()), ("upper", problem.upper().len())] {
+        if got != n {
+            return Err(McpError::Shape { what, expected: n, got }.into());
+        }
+    }
+    check_bounds(problem.lower(), problem.upper())?;
+    if start.len() != n {
+        return Err(SolverError::StartLength { expected: n, got: start.len() });
+    }
+    if let Some(index) = start.iter().position(|v| !v.is_finite()) {
+        return Err(SolverError::StartNotFinite { index, got: start[index] });
+    }
+    Ok(newton::Run::new(problem, options).run(start))
+}

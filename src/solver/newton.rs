@@ -1,241 +1,226 @@
-//! The outer loop: linearise, follow the path to the Newton point, accept by a non-monotone test.
+//! The outer loop: linearise, follow the path to the Newton point, accept it or fall back on
+//! watchdog, path search, gradient and restart, in this order (Dirkse and Ferris 1995, section 4).
 
-use super::outcome::{Major, Outcome, SolverError, Start, Step, Termination};
-use super::path::{Limits, Path, PathEnd, Subproblem, follow};
-use super::residual::{Residuals, least_normal};
-use super::tolerance::{ARMIJO, PROXIMAL, SMALLEST_STEP, USEFUL_T};
-use super::{Options, Pivot};
-use crate::mcp::{Mcp, McpError, check_bounds};
-use nalgebra::{DMatrix, DVector};
-use std::collections::VecDeque;
+use super::Options;
+use super::crash::crash;
+use super::evaluation::{Evaluated, Point};
+use super::gradient::gradient_step;
+use super::normal_map::linearise;
+use super::outcome::{MajorRecord, Outcome, PathRecord, StepKind, Termination};
+use super::path::{Limits, Path, PathEnd, Start, Subproblem, follow};
+use super::residual::Residuals;
+use super::restart::Attempt;
+use super::search::Search;
+use crate::mcp::Mcp;
+use nalgebra::DVector;
 
-/// Runs from `start` (projected onto the bounds) until a reason to stop.
-///
-/// # Errors
-/// [`SolverError`] for bounds, starts and options that make no sense; F or a Jacobian that is not
-/// finite on the way is a [`Termination`], with the last finite point.
-///
-/// ```
-/// use mceip::{mcp::LinearMcp, solver::{solve, Options}};
-/// let inf = f64::INFINITY;
-/// let m = nalgebra::dmatrix![2.0, 1.0; 1.0, 2.0];
-/// let lcp = LinearMcp::new(m, vec![-5.0, -6.0], vec![0.0; 2], vec![inf; 2]).unwrap();
-/// let outcome = solve(&lcp, &[0.0, 0.0], &Options::default()).unwrap();
-/// assert!(outcome.termination.reached_tolerance());
-/// assert!((outcome.point[0] - 4.0 / 3.0).abs() < 1e-12);
-/// assert_eq!(outcome.log[0].t, 1.0); // one complete path
-/// ```
-pub fn solve<P: Mcp + ?Sized>(problem: &P, start: &[f64], options: &Options) -> Result<Outcome, SolverError> {
-    options.validate()?;
-    let n = problem.dimension();
-    for (what, got) in [("lower", problem.lower().len()), ("upper", problem.upper().len())] {
-        if got != n {
-            return Err(McpError::Shape { what, expected: n, got }.into());
-        }
-    }
-    check_bounds(problem.lower(), problem.upper())?;
-    if start.len() != n {
-        return Err(SolverError::StartLength { expected: n, got: start.len() });
-    }
-    if let Some(index) = start.iter().position(|v| !v.is_finite()) {
-        return Err(SolverError::StartNotFinite { index, got: start[index] });
-    }
-    Ok(Run::new(problem, start, options).run())
-}
-
-struct Run<'a, P: Mcp + ?Sized> {
-    problem: &'a P,
+/// A run under way. Inputs are valid: lengths agree, bounds are consistent, the start is finite.
+pub(super) struct Run<'a, P: Mcp + ?Sized> {
+    problem: Evaluated<'a, P>,
     options: &'a Options,
-    x: DVector<f64>,
-    f: DVector<f64>,
-    memory: VecDeque<f64>,
-    log: Vec<Major>,
-    pivots: usize,
+    log: Vec<MajorRecord>,
 }
 
-/// A followed path with the data needed to log it.
-struct Followed {
-    path: Path,
-    start: Start,
-    proximal: f64,
-}
+/// An accepted step.
+type Step = (Point, StepKind);
 
 impl<'a, P: Mcp + ?Sized> Run<'a, P> {
-    fn new(problem: &'a P, start: &[f64], options: &'a Options) -> Self {
-        let x = project(problem, &DVector::from_column_slice(start));
-        let f = evaluate(problem, &x);
-        Run { problem, options, x, f, memory: VecDeque::new(), log: Vec::new(), pivots: 0 }
+    pub(super) fn new(problem: &'a P, options: &'a Options) -> Self {
+        let problem = Evaluated::new(problem);
+        Run { problem, options, log: Vec::new() }
     }
 
-    fn run(mut self) -> Outcome {
-        let reason = loop {
-            if let Some(reason) = self.stop() {
-                break reason;
+    /// Attempts from the start, the first one and the restarts, until the tolerance or a limit.
+    pub(super) fn run(mut self, start: &[f64]) -> Outcome {
+        let start = self.problem.point(&DVector::from_column_slice(start));
+        if let Some(reason) = start.not_finite() {
+            return self.finish(start, reason);
+        }
+        let mut best = start.clone();
+        let mut reason = self.attempt(&start, Attempt::number(0), &mut best);
+        for k in 1..=self.options.restart_limit {
+            if ends_the_run(reason) {
+                break;
             }
-            if let Err(reason) = self.step() {
-                break reason;
-            }
+            self.problem.counters.restarts += 1;
+            let attempt = Attempt::number(k);
+            self.record(start.merit, StepKind::Restart, 0.0, &[]);
+            let shifted = self.problem.point(&attempt.shifted(&start.z, k));
+            let from = if shifted.merit.is_finite() { shifted } else { start.clone() };
+            reason = self.attempt(&from, attempt, &mut best);
+        }
+        self.finish(best, reason)
+    }
+
+    /// One attempt; `best` is left at the point of least merit, or at the one within the tolerance.
+    fn attempt(&mut self, start: &Point, attempt: Attempt, best: &mut Point) -> Termination {
+        let limit = if attempt.crash { self.options.crash_iteration_limit } else { 0 };
+        let mut point = match crash(&mut self.problem, start.clone(), limit, &mut self.log) {
+            Ok(point) => point,
+            Err(reason) => return reason,
         };
-        let residuals = Residuals::at(self.problem, self.x.as_slice(), self.f.as_slice());
-        Outcome { point: self.x.as_slice().to_vec(), residuals, termination: reason, log: self.log, pivots: self.pivots }
-    }
-
-    fn stop(&self) -> Option<Termination> {
-        let r = Residuals::at(self.problem, self.x.as_slice(), self.f.as_slice());
-        if !self.f.iter().all(|v| v.is_finite()) {
-            Some(Termination::NonFinite)
-        } else if r.normal_map <= self.options.convergence_tolerance && r.minimum_map <= self.options.convergence_tolerance {
-            Some(Termination::ToleranceReached)
-        } else if self.log.len() >= self.options.major_iteration_limit {
-            Some(Termination::MajorLimit)
-        } else if self.pivots >= self.options.cumulative_iteration_limit {
-            Some(Termination::PivotLimit)
-        } else {
-            None
-        }
-    }
-
-    /// One linearisation and one accepted step.
-    fn step(&mut self) -> Result<(), Termination> {
-        let merit = self.merit_over(&self.x, &self.f);
-        if self.memory.is_empty() {
-            self.memory.push_back(merit * self.options.nms_initial_reference_factor);
-        }
-        let mut jacobian = DMatrix::zeros(self.x.len(), self.x.len());
-        self.problem.jacobian(self.x.as_slice(), &mut jacobian);
-        if !jacobian.iter().all(|v| v.is_finite()) {
-            return Err(Termination::NonFinite);
-        }
-        let mut failure = Termination::SingularBasis;
-        for start in [Start::Regular, Start::Ray] {
-            match self.path(&jacobian, start) {
-                Some(followed) => match self.accept(followed, merit) {
-                    Ok(()) => return Ok(()),
-                    Err(reason) => failure = reason,
-                },
-                None => continue,
+        let mut search = Search::new(start, &point, self.options, attempt);
+        let (majors, pivots) = self.share();
+        let last = (self.problem.counters.majors + majors, self.problem.counters.pivots + pivots);
+        loop {
+            if self.is_within_tolerance(&point) {
+                *best = point;
+                return Termination::ToleranceReached;
+            }
+            if point.merit < best.merit {
+                *best = point.clone();
+            }
+            if self.problem.counters.majors >= self.options.major_iteration_limit {
+                return Termination::MajorLimit;
+            }
+            if self.problem.counters.pivots >= self.options.cumulative_iteration_limit {
+                return Termination::CumulativeLimit;
+            }
+            if self.problem.counters.majors >= last.0 || self.problem.counters.pivots >= last.1 {
+                return Termination::NoProgress;
+            }
+            match self.major(&point, attempt, &mut search) {
+                Ok(next) => point = next,
+                Err(reason) => return reason,
             }
         }
-        Err(failure)
     }
 
-    /// Follows the path of the linearisation, perturbed as little as makes its first basis regular.
-    fn path(&mut self, jacobian: &DMatrix<f64>, start: Start) -> Option<Followed> {
-        let size = jacobian.amax().max(f64::MIN_POSITIVE);
-        let limits = Limits { pivots: self.options.minor_iteration_limit, cycle: self.options.cycle_limit };
-        for proximal in PROXIMAL {
-            // F'(x) + eps I with the term eps (z - x): the value at x is unchanged.
-            let m = jacobian + DMatrix::identity(self.x.len(), self.x.len()) * (proximal * size);
-            let q = &self.f - &m * &self.x;
-            let sub = Subproblem { m: &m, q: &q, lower: self.problem.lower(), upper: self.problem.upper() };
-            let (z, multiplier) = match start {
-                Start::Regular => (self.x.clone(), self.multiplier_over(&self.x, &self.f)),
-                Start::Ray => ray_start(&sub),
-            };
-            if let Some(path) = follow(&sub, &z, &multiplier, limits) {
-                self.pivots += path.pivots.len();
-                return Some(Followed { path, start, proximal });
-            }
+    /// An even share of the limits on majors and pivots, so that a wandering attempt leaves some to
+    /// the restarts.
+    fn share(&self) -> (usize, usize) {
+        let attempts = 1 + self.options.restart_limit;
+        let Options { major_iteration_limit: majors, cumulative_iteration_limit: pivots, .. } = self.options;
+        (majors.div_ceil(attempts), pivots.div_ceil(attempts))
+    }
+
+    fn is_within_tolerance(&self, point: &Point) -> bool {
+        Residuals::without_gradient(self.problem.problem, point.z.as_slice(), point.f.as_slice()).within(self.options.convergence_tolerance)
+    }
+
+    /// One linearisation and the step it leads to.
+    fn major(&mut self, point: &Point, attempt: Attempt, search: &mut Search) -> Result<Point, Termination> {
+        self.problem.counters.majors += 1;
+        let jacobian = self.problem.jacobian(point)?;
+        let proximal = attempt.proximal * jacobian.amax() * point.merit.sqrt().min(1.0);
+        let (m, q) = linearise(&jacobian, &point.z, &point.f, proximal);
+        let (lower, upper) = (self.problem.problem.lower(), self.problem.problem.upper());
+        let sub = Subproblem { m: &m, q: &q, lower, upper };
+        let mut paths = vec![self.follow(&sub, attempt.first, point)];
+        if paths[0].end != PathEnd::Complete {
+            let other = if attempt.first == Start::Regular { Start::Ray } else { Start::Regular };
+            paths.push(self.follow(&sub, other, point));
+        }
+        let step = self.choose(point, &paths, search);
+        let kind = step.as_ref().map_or(StepKind::Failed, |(_, kind)| *kind);
+        self.record(point.merit, kind, proximal, &paths);
+        step.map(|(next, _)| next)
+    }
+
+    fn follow(&mut self, sub: &Subproblem<'_>, start: Start, point: &Point) -> Path {
+        let left = self.options.cumulative_iteration_limit.saturating_sub(self.problem.counters.pivots);
+        let pivots = self.options.minor_iteration_limit.min(left);
+        let path = follow(sub, start, &point.z, Limits { pivots, cycle_entries: self.options.cycle_entry_limit });
+        self.problem.counters.pivots += path.pivots.len();
+        self.problem.counters.ray_starts += usize::from(start == Start::Ray);
+        path
+    }
+
+    /// The Newton point if a path is complete and acceptable, else what the fallbacks give.
+    fn choose(&mut self, point: &Point, paths: &[Path], search: &mut Search) -> Result<Step, Termination> {
+        self.problem.not_finite = None;
+        if let Some(step) = self.path_end(point, paths, search) {
+            return Ok(step);
+        }
+        if let Some(step) = self.back_along_paths(paths, search) {
+            return Ok(step);
+        }
+        if let Some(step) = self.gradient(search)? {
+            return Ok(step);
+        }
+        let of_path = paths.last().map_or(Termination::NoProgress, |path| Termination::of(path.end));
+        Err(self.problem.not_finite.unwrap_or(of_path))
+    }
+
+    /// The end of the first complete path, else of a partial one, checked or unchecked.
+    fn path_end(&mut self, point: &Point, paths: &[Path], search: &mut Search) -> Option<Step> {
+        let regular = paths.iter().find(|path| path.start == Start::Regular);
+        let complete = paths.iter().find(|path| path.end == PathEnd::Complete);
+        let path = complete.or(regular)?;
+        let (end, t) = self.target(path, search.fraction(point.merit))?;
+        if search.passes(&end, 1.0) {
+            search.take_checked(&end);
+            search.forgive_watchdogs();
+            return Some((end, StepKind::Path { t }));
+        }
+        if search.unchecked_allowed(point, &end) {
+            search.take_unchecked(regular.unwrap_or(path), &end);
+            return Some((end, StepKind::Unchecked { t }));
         }
         None
     }
 
-    /// The non-monotone test, from the end of the path backwards.
-    fn accept(&mut self, followed: Followed, merit: f64) -> Result<(), Termination> {
-        let Followed { path, start, proximal } = followed;
-        let reach = path.reach();
-        let complete = path.end == PathEnd::Complete;
-        let reference = self.memory.iter().copied().fold(merit, f64::max);
-        if complete || (start == Start::Regular && reach >= USEFUL_T) {
-            let mut t = if complete { 1.0 } else { reach };
-            while t >= SMALLEST_STEP {
-                if let Some((z, _)) = path.at(t) {
-                    let x = project(self.problem, &z);
-                    let f = evaluate(self.problem, &x);
-                    let merit_there = self.merit_over(&x, &f);
-                    if merit_there <= (1.0 - ARMIJO * t) * reference {
-                        let step = if t >= 1.0 { Step::Full } else { Step::Search { t } };
-                        self.record(Major { merit, start, proximal, pivots: path.pivots, t: reach, step }, merit_there);
-                        (self.x, self.f) = (x, f);
-                        return Ok(());
-                    }
-                }
-                if start == Start::Ray {
-                    break; // its path does not begin at the iterate: only its end is a Newton point
-                }
-                t *= 0.5;
+    /// Where a path leads, with its t: the Newton point of a complete one; of another one its point
+    /// of largest t or its last one (a little along the ray), whichever is better. A damped attempt
+    /// takes a fraction of a regular path.
+    fn target(&mut self, path: &Path, fraction: f64) -> Option<(Point, f64)> {
+        let last = path.knots.last()?;
+        if path.start == Start::Ray {
+            return Some((self.problem.point(&last.z), last.t));
+        }
+        let t = fraction * path.reach();
+        let far = path.at(t).map(|z| self.problem.point(&z));
+        match far {
+            Some(far) if fraction < 1.0 || path.end == PathEnd::Complete => Some((far, t)),
+            far => {
+                let last_point = self.problem.point(&last.z);
+                let better = far.filter(|far| far.merit < last_point.merit);
+                Some(better.map_or((last_point, last.t), |far| (far, t)))
             }
-            return Err(Termination::NoProgress);
-        }
-        Err(match path.end {
-            PathEnd::Cycle => Termination::Cycle,
-            PathEnd::PivotLimit => Termination::PivotLimit,
-            PathEnd::Singular => Termination::SingularBasis,
-            _ => Termination::Ray,
-        })
-    }
-
-    fn record(&mut self, major: Major, merit: f64) {
-        self.log.push(major);
-        self.memory.push_back(merit);
-        while self.memory.len() > self.options.nms_memory_size {
-            self.memory.pop_front();
         }
     }
 
-    /// w - v of the normal-map point over x with the least residual.
-    fn multiplier_over(&self, x: &DVector<f64>, f: &DVector<f64>) -> DVector<f64> {
-        let (l, u) = (self.problem.lower(), self.problem.upper());
-        DVector::from_fn(x.len(), |i, _| f[i] - least_normal(x[i], f[i], l[i], u[i]))
-    }
-
-    /// Merit |F_normal|^2 / 2 at the least point over x; infinite where F is not finite.
-    fn merit_over(&self, x: &DVector<f64>, f: &DVector<f64>) -> f64 {
-        let (l, u) = (self.problem.lower(), self.problem.upper());
-        let sum: f64 = (0..x.len()).map(|i| least_normal(x[i], f[i], l[i], u[i]).powi(2)).sum();
-        if sum.is_finite() { 0.5 * sum } else { f64::INFINITY }
-    }
-}
-
-/// The far end of Lemke's ray: z at the finite bounds (0 where free), multipliers that dominate.
-fn ray_start(sub: &Subproblem<'_>) -> (DVector<f64>, DVector<f64>) {
-    let n = sub.q.len();
-    let z = DVector::from_fn(n, |i, _| {
-        if sub.lower[i].is_finite() {
-            sub.lower[i]
-        } else if sub.upper[i].is_finite() {
-            sub.upper[i]
-        } else {
-            0.0
+    /// Back along the path of the checkpoint if steps were taken unchecked, else along this one's.
+    fn back_along_paths(&mut self, paths: &[Path], search: &mut Search) -> Option<Step> {
+        if let Some(checkpoint) = search.watchdog() {
+            self.problem.counters.watchdogs += 1;
+            let (point, t) = search.along(&mut self.problem, &checkpoint.path, 1.0)?;
+            search.take_checked(&point);
+            return Some((point, StepKind::Watchdog { t }));
         }
-    });
-    let value = sub.m * &z + sub.q;
-    let far = 1.0 + value.amax();
-    let multiplier = DVector::from_fn(n, |i, _| {
-        if sub.lower[i].is_finite() {
-            value[i] + far
-        } else if sub.upper[i].is_finite() {
-            value[i] - far
-        } else {
-            0.0
-        }
-    });
-    (z, multiplier)
-}
-
-fn project<P: Mcp + ?Sized>(problem: &P, z: &DVector<f64>) -> DVector<f64> {
-    DVector::from_fn(z.len(), |i, _| z[i].clamp(problem.lower()[i], problem.upper()[i]))
-}
-
-fn evaluate<P: Mcp + ?Sized>(problem: &P, x: &DVector<f64>) -> DVector<f64> {
-    let mut f = DVector::zeros(x.len());
-    problem.function(x.as_slice(), f.as_mut_slice());
-    f
-}
-
-impl Outcome {
-    /// All pivots of the run with their t, path after path.
-    pub fn trace(&self) -> impl Iterator<Item = &Pivot> {
-        self.log.iter().flat_map(|m| m.pivots.iter())
+        // Only a regular path begins at the iterate, so that points near its start are near it.
+        let path = paths.iter().find(|path| path.start == Start::Regular)?;
+        let (point, t) = search.along(&mut self.problem, path, path.reach())?;
+        search.take_checked(&point);
+        Some((point, StepKind::Search { t }))
     }
+
+    /// A projected-gradient step from the best point, while the limit lasts.
+    fn gradient(&mut self, search: &mut Search) -> Result<Option<Step>, Termination> {
+        if !search.gradient_allowed() {
+            return Ok(None);
+        }
+        let Some(next) = gradient_step(&mut self.problem, search.best())? else { return Ok(None) };
+        self.problem.counters.gradient_steps += 1;
+        search.take_checked(&next);
+        Ok(Some((next, StepKind::Gradient)))
+    }
+
+    fn record(&mut self, merit: f64, step: StepKind, proximal: f64, paths: &[Path]) {
+        let of = |path: &Path| PathRecord { start: path.start, end: path.end, reach: path.reach(), pivots: path.pivots.clone() };
+        self.log.push(MajorRecord { merit, step, proximal, paths: paths.iter().map(of).collect() });
+    }
+
+    fn finish(mut self, best: Point, termination: Termination) -> Outcome {
+        self.problem.counters.functions += 1;
+        self.problem.counters.jacobians += 1;
+        let residuals = Residuals::at(self.problem.problem, best.z.as_slice());
+        let point = best.z.as_slice().to_vec();
+        Outcome { point, residuals, termination, log: self.log, counters: self.problem.counters }
+    }
+}
+
+/// Reasons that no restart can mend.
+fn ends_the_run(reason: Termination) -> bool {
+    matches!(reason, Termination::ToleranceReached | Termination::MajorLimit | Termination::CumulativeLimit)
 }

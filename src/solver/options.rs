@@ -1,68 +1,108 @@
-//! Options, with PATH's names.
+//! Options of a run, with PATH's names and defaults (Ferris and Munson, the PATH manual).
 
 use super::SolverError;
 
-/// Limits and tolerances of a run. Names and defaults are PATH's where it has them.
+/// Limits and tolerances of a run. Names are PATH's; so are defaults unless a reason is given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// A run ends with [`super::Termination::ToleranceReached`] when both the normal-map and the
-    /// minimum-map residual (infinity norm, units of F) are below this. PATH: 1e-6; here 1e-10,
-    /// because near thresholds 1e-6 accepts points where no solution exists, and because the
-    /// digits are free at the end of Newton's method.
+    /// A run ends with [`super::Termination::ToleranceReached`] when the normal-map, minimum-map and
+    /// Fischer residuals (infinity norm, units of F) are at most this, and the complementarity
+    /// products (units of F times z) at most its square root. PATH: 1e-6. Here 1e-10: 1e-6 accepts
+    /// points near thresholds where no solution exists, and Newton gives the digits for nothing.
     pub convergence_tolerance: f64,
-    /// Linearisations in one run. PATH: 500; here 100, failures being cheap to restart.
+    /// Crash steps before the first path. 0 switches the crash off. PATH: 50.
+    pub crash_iteration_limit: usize,
+    /// Linearisations in a run, an even share of them for each attempt. PATH: 500.
     pub major_iteration_limit: usize,
     /// Pivots on one path. PATH: 1000.
     pub minor_iteration_limit: usize,
-    /// Pivots in one run. PATH: 10000.
+    /// Pivots in a run, an even share of them for each attempt. PATH: 10000.
     pub cumulative_iteration_limit: usize,
-    /// Merit values remembered by the non-monotone test. PATH: 10.
+    /// Entries of one variable into the basis of a regular start, without a new maximum of t, that
+    /// count as a cycle. Ours; the lexicographic rule excludes loops of bases only in exact
+    /// arithmetic, and a regular path may be a closed loop. 5 was found no worse than 20, and cheaper.
+    /// Unit: entries.
+    pub cycle_entry_limit: usize,
+    /// Merit values whose maximum is the reference of the non-monotone test. PATH: 10.
     pub nms_memory_size: usize,
+    /// Every so many steps one is checked against the reference; 1 checks every step. PATH: 10.
+    pub nms_mstep_frequency: usize,
     /// The memory starts at this multiple of the first merit. PATH: 20.
     pub nms_initial_reference_factor: f64,
-    /// Entries of one variable into the basis without a new maximum of t that are taken as a
-    /// cycle. The lexicographic rule excludes cycles in exact arithmetic; this guards rounding.
-    pub cycle_limit: usize,
+    /// Returns to the checkpoint in a row before a gradient step is taken instead. PATH: 5.
+    pub nms_maximum_watchdogs: usize,
+    /// Projected-gradient steps between two restarts. PATH: 5.
+    pub gradient_step_limit: usize,
+    /// Restarts from the user's point, each with other settings. PATH: 3.
+    pub restart_limit: usize,
 }
 
 impl Default for Options {
     fn default() -> Self {
         Options {
             convergence_tolerance: 1e-10,
-            major_iteration_limit: 100,
+            crash_iteration_limit: 50,
+            major_iteration_limit: 500,
             minor_iteration_limit: 1000,
             cumulative_iteration_limit: 10_000,
+            cycle_entry_limit: 5,
             nms_memory_size: 10,
+            nms_mstep_frequency: 10,
             nms_initial_reference_factor: 20.0,
-            cycle_limit: 20,
+            nms_maximum_watchdogs: 5,
+            gradient_step_limit: 5,
+            restart_limit: 3,
         }
     }
 }
 
 impl Options {
-    /// Refuses limits of zero and tolerances that are not positive numbers.
+    /// Refuses tolerances that are not positive numbers, factors below 1, and limits of zero where
+    /// zero would forbid every step. Crash, watchdog, gradient and restart limits may be zero.
     ///
     /// # Errors
-    /// [`SolverError::Option`] naming the option.
+    /// [`SolverError::Option`] naming the option, what it must be, and its value.
     pub fn validate(&self) -> Result<(), SolverError> {
-        for (name, got) in
-            [("convergence_tolerance", self.convergence_tolerance), ("nms_initial_reference_factor", self.nms_initial_reference_factor)]
-        {
-            if !(got > 0.0 && got.is_finite()) {
-                return Err(SolverError::Option { name, got });
-            }
+        let refuse = |name, expected, got| Err(SolverError::Option { name, expected, got });
+        let tolerance = self.convergence_tolerance;
+        if !(tolerance > 0.0 && tolerance.is_finite()) {
+            return refuse("convergence_tolerance", "> 0 and finite", tolerance);
+        }
+        let factor = self.nms_initial_reference_factor;
+        if !(factor >= 1.0 && factor.is_finite()) {
+            return refuse("nms_initial_reference_factor", ">= 1 and finite", factor);
         }
         for (name, got) in [
             ("major_iteration_limit", self.major_iteration_limit),
             ("minor_iteration_limit", self.minor_iteration_limit),
             ("cumulative_iteration_limit", self.cumulative_iteration_limit),
+            ("cycle_entry_limit", self.cycle_entry_limit),
             ("nms_memory_size", self.nms_memory_size),
-            ("cycle_limit", self.cycle_limit),
+            ("nms_mstep_frequency", self.nms_mstep_frequency),
         ] {
             if got == 0 {
-                return Err(SolverError::Option { name, got: 0.0 });
+                return refuse(name, ">= 1", 0.0);
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_are_valid_and_refusals_name_the_option() {
+        assert_eq!(Options::default().validate(), Ok(()));
+        let refused = [
+            (Options { convergence_tolerance: f64::NAN, ..Options::default() }, "convergence_tolerance"),
+            (Options { nms_initial_reference_factor: 0.5, ..Options::default() }, "nms_initial_reference_factor"),
+            (Options { nms_memory_size: 0, ..Options::default() }, "nms_memory_size"),
+            (Options { minor_iteration_limit: 0, ..Options::default() }, "minor_iteration_limit"),
+        ];
+        for (options, expected) in refused {
+            assert!(matches!(options.validate(), Err(SolverError::Option { name, .. }) if name == expected), "{expected}");
+        }
     }
 }

@@ -1,119 +1,176 @@
 //! What a run reports: the point, every residual, why it stopped, and the log of its pivots.
 
-use super::{Pivot, Residuals};
-use crate::mcp::McpError;
+use super::path::{PathEnd, Pivot, Start};
+use super::residual::Residuals;
 
-/// Why a run stopped. None of them says that a solution was found.
+/// Where a value that is not finite was met.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[non_exhaustive]
-pub enum Termination {
-    /// Both residuals that are tested are below the tolerance.
-    ToleranceReached,
-    /// The limit on linearisations.
-    MajorLimit,
-    /// The limit on pivots, of one path or of the run.
-    PivotLimit,
-    /// Regular and ray start both ended on a ray.
-    Ray,
-    /// Both starts cycled (rounding; the rule is lexicographic).
-    Cycle,
-    /// No basis, perturbed or not, was regular at the current point.
-    SingularBasis,
-    /// No point on the path passes the non-monotone test.
-    NoProgress,
-    /// F or its Jacobian is not finite at the current point.
-    NonFinite,
-}
-
-impl Termination {
-    /// Did the residuals fall below the tolerance? Only a candidate for certification.
-    pub fn reached_tolerance(self) -> bool {
-        self == Termination::ToleranceReached
-    }
-}
-
-/// Which start a path used.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Start {
-    /// From the current iterate.
-    Regular,
-    /// Lemke's ray, from the bounds.
-    Ray,
-}
-
-/// How a step was taken.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Step {
-    /// To the end of the path.
-    Full,
-    /// Back along the path to this t.
-    Search {
-        /// The t at which the non-monotone test passed.
-        t: f64,
+pub enum NonFinite {
+    /// In F.
+    Function {
+        /// Its component.
+        row: usize,
+    },
+    /// In the Jacobian of F.
+    Jacobian {
+        /// Row of the entry.
+        row: usize,
+        /// Column of the entry.
+        col: usize,
     },
 }
 
-/// One linearisation with the path that was followed.
+/// Why a run stopped. A reason, never a verdict: whether the point is a solution is decided
+/// elsewhere, exactly.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum Termination {
+    /// The residuals are within the tolerance ([`Residuals::within`]).
+    ToleranceReached,
+    /// The limit on linearisations.
+    MajorLimit,
+    /// The limit on pivots of one path, on the last path of the last attempt.
+    MinorLimit,
+    /// The limit on pivots of the run.
+    CumulativeLimit,
+    /// The last path ended on a ray, and no step from it was acceptable.
+    Ray,
+    /// The last path cycled, and no step from it was acceptable.
+    Cycle,
+    /// A basis of the last path was singular to rounding, and no step from it was acceptable.
+    SingularBasis,
+    /// A complete path, but neither a point on it nor a gradient step passes the test; or the last
+    /// attempt has wandered through its share of the limits.
+    NoProgress,
+    /// F or its Jacobian is not finite where the run cannot avoid it.
+    NonFinite(NonFinite),
+}
+
+impl Termination {
+    /// Are the residuals within the tolerance? Only a candidate for certification.
+    pub fn reached_tolerance(self) -> bool {
+        self == Termination::ToleranceReached
+    }
+
+    /// The reason that goes with the end of a path that led nowhere.
+    pub(super) fn of(end: PathEnd) -> Termination {
+        match end {
+            PathEnd::Complete => Termination::NoProgress,
+            PathEnd::Ray => Termination::Ray,
+            PathEnd::Cycle => Termination::Cycle,
+            PathEnd::PivotLimit => Termination::MinorLimit,
+            PathEnd::Singular => Termination::SingularBasis,
+        }
+    }
+}
+
+/// How an iterate was left.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum StepKind {
+    /// Projected Newton on a guessed active set, before the first path.
+    Crash,
+    /// To the end of the path, or the part of it an attempt takes, checked against the reference.
+    Path {
+        /// Path parameter of the accepted point: 1 at a Newton point.
+        t: f64,
+    },
+    /// The same inside the trust radius, unchecked.
+    Unchecked {
+        /// Path parameter of the point: 1 at a Newton point.
+        t: f64,
+    },
+    /// Back along the path of this iterate to `t`.
+    Search {
+        /// Path parameter of the accepted point.
+        t: f64,
+    },
+    /// Back to the checkpoint, and along its path to `t`.
+    Watchdog {
+        /// Path parameter of the accepted point.
+        t: f64,
+    },
+    /// A projected-gradient step from the best point.
+    Gradient,
+    /// From the user's start again, with other settings.
+    Restart,
+    /// No acceptable step: the attempt ends here.
+    Failed,
+}
+
+/// One path that was followed.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Major {
-    /// Merit |F_normal|^2 / 2 before the step.
-    pub merit: f64,
-    /// Which start the accepted path used.
+pub struct PathRecord {
+    /// From the iterate or from a ray.
     pub start: Start,
-    /// Relative proximal perturbation of the linearisation.
-    pub proximal: f64,
-    /// The pivots with their t.
+    /// Why it ended.
+    pub end: PathEnd,
+    /// The largest t on it: 1 if complete.
+    pub reach: f64,
+    /// Its pivots, in order.
     pub pivots: Vec<Pivot>,
-    /// t at the end of the path: 1 for a complete one.
-    pub t: f64,
-    /// The step taken.
-    pub step: Step,
+}
+
+/// One step of the outer loop.
+#[derive(Debug, Clone, PartialEq)]
+pub struct MajorRecord {
+    /// Fischer merit Psi before the step, units of F squared.
+    pub merit: f64,
+    /// How the iterate was left.
+    pub step: StepKind,
+    /// Proximal term of the linearisation (added to the diagonal of F'), units of F'.
+    pub proximal: f64,
+    /// The paths followed from here: none for crash and restart, a second one after a failure.
+    pub paths: Vec<PathRecord>,
+}
+
+impl MajorRecord {
+    /// The pivots of its paths, path after path.
+    pub fn pivots(&self) -> impl Iterator<Item = &Pivot> {
+        self.paths.iter().flat_map(|path| path.pivots.iter())
+    }
+}
+
+/// How much work a run was.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct Counters {
+    /// Linearisations.
+    pub majors: usize,
+    /// Pivots of all paths, also of those given up.
+    pub pivots: usize,
+    /// Paths from a ray start.
+    pub ray_starts: usize,
+    /// Crash steps.
+    pub crash_steps: usize,
+    /// Returns to a checkpoint.
+    pub watchdogs: usize,
+    /// Projected-gradient steps.
+    pub gradient_steps: usize,
+    /// Restarts from the user's start.
+    pub restarts: usize,
+    /// Evaluations of F.
+    pub functions: usize,
+    /// Evaluations of F'.
+    pub jacobians: usize,
 }
 
 /// The end of a run.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Outcome {
-    /// The last point, within the bounds.
+    /// The point with the least merit met, within the bounds; length n.
     pub point: Vec<f64>,
-    /// Residuals there.
+    /// The five residuals there.
     pub residuals: Residuals,
     /// Why the run stopped.
     pub termination: Termination,
-    /// The linearisations in order.
-    pub log: Vec<Major>,
-    /// Pivots of all paths, also of those given up.
-    pub pivots: usize,
+    /// The steps of the outer loop, in order.
+    pub log: Vec<MajorRecord>,
+    /// The work done.
+    pub counters: Counters,
 }
 
-/// Why a run does not start.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SolverError {
-    /// The problem's bounds or shapes are inconsistent.
-    #[error(transparent)]
-    Problem(#[from] McpError),
-    /// The start has the wrong length.
-    #[error("expected a start of length {expected}, got {got}")]
-    StartLength {
-        /// Dimension of the problem.
-        expected: usize,
-        /// Length given.
-        got: usize,
-    },
-    /// The start has a NaN or an infinity.
-    #[error("expected a finite start at {index}, got {got}")]
-    StartNotFinite {
-        /// The component.
-        index: usize,
-        /// Its value.
-        got: f64,
-    },
-    /// An option is out of range.
-    #[error("expected {name} > 0 and finite, got {got}")]
-    Option {
-        /// The option.
-        name: &'static str,
-        /// Its value.
-        got: f64,
-    },
+impl Outcome {
+    /// All pivots of the run with their t, path after path.
+    pub fn trace(&self) -> impl Iterator<Item = &Pivot> {
+        self.log.iter().flat_map(MajorRecord::pivots)
+    }
 }

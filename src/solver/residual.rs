@@ -1,80 +1,131 @@
-//! Residuals, always reported together, each with its definition. None of them certifies.
+//! The five residuals, always reported together, each with its definition. None of them certifies.
 
+use super::evaluation::jacobian_at;
+use super::fischer::{fischer, gradient};
+use super::normal_map::least_residual;
 use crate::mcp::Mcp;
 
-/// Infinity norms at a point z within the bounds, in units of F.
+/// Infinity norms at a point z in [l, u]. NaN or infinite where F or F' is.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Residuals {
-    /// Normal map F(pi(zbar)) + zbar - pi(zbar) at the zbar over z with the least residual
-    /// (Robinson 1992): |F_i| inside, the wrong-signed part of F_i at a bound.
+    /// Products (z_i - l_i) max(F_i, 0) and (u_i - z_i) max(-F_i, 0) over finite bounds, and |F_i|
+    /// towards an infinite one. Units of F times z. The only one that sees z run to infinity with
+    /// F to zero, as in 0 <= x, 1/x >= 0.
+    pub complementarity: f64,
+    /// Normal map at the point over z with the least residual: |F_i| inside, the wrong-signed part
+    /// of F_i at a bound (Robinson 1992). Units of F.
     pub normal_map: f64,
-    /// Minimum map: z - mid(l, u, z - F(z)).
+    /// Minimum map z - mid(l, u, z - F(z)). Units of z or F, whichever is smaller.
     pub minimum_map: f64,
     /// Fischer-Burmeister function, nested for two bounds (Fischer 1992, Billups 1995).
     pub fischer: f64,
+    /// Gradient of Psi = |Phi|^2 / 2. Small without `fischer` small: a stationary point of Psi that
+    /// solves nothing.
+    pub fischer_gradient: f64,
 }
 
 impl Residuals {
-    /// All residuals of a problem at z with F(z) = f.
-    pub fn at<P: Mcp + ?Sized>(problem: &P, z: &[f64], f: &[f64]) -> Residuals {
+    /// All five at z, evaluating F and F' once.
+    ///
+    /// `z` has the problem's dimension; components beyond it are ignored, missing ones are an error
+    /// of the caller that is answered with NaN.
+    pub fn at<P: Mcp + ?Sized>(problem: &P, z: &[f64]) -> Residuals {
+        let n = problem.dimension();
+        if z.len() < n || problem.lower().len() < n || problem.upper().len() < n {
+            let nan = f64::NAN;
+            return Residuals { complementarity: nan, normal_map: nan, minimum_map: nan, fischer: nan, fischer_gradient: nan };
+        }
+        let z = &z[..n];
+        let mut f = vec![0.0; n];
+        problem.function(z, &mut f);
+        let jacobian = jacobian_at(problem, z);
+        let mut residuals = Residuals::without_gradient(problem, z, &f);
+        residuals.fischer_gradient = norm(gradient(problem, z, &f, &jacobian).iter().copied());
+        residuals
+    }
+
+    /// The first four; the gradient is left at zero.
+    pub(super) fn without_gradient<P: Mcp + ?Sized>(problem: &P, z: &[f64], f: &[f64]) -> Residuals {
         let (l, u) = (problem.lower(), problem.upper());
-        let each = |g: &dyn Fn(usize) -> f64| (0..z.len()).map(|i| g(i).abs()).fold(0.0, max_or_nan);
+        let indices = || 0..z.len();
         Residuals {
-            normal_map: each(&|i| least_normal(z[i], f[i], l[i], u[i])),
-            minimum_map: each(&|i| z[i] - (z[i] - f[i]).clamp(l[i], u[i])),
-            fischer: each(&|i| fischer(z[i], f[i], l[i], u[i])),
+            complementarity: norm(indices().map(|i| product(z[i], f[i], l[i], u[i]))),
+            normal_map: norm(indices().map(|i| least_residual(z[i], f[i], l[i], u[i]))),
+            minimum_map: norm(indices().map(|i| z[i] - (z[i] - f[i]).max(l[i]).min(u[i]))),
+            fischer: norm(indices().map(|i| fischer(z[i], f[i], l[i], u[i]).value)),
+            fischer_gradient: 0.0,
         }
     }
-}
 
-/// max that does not lose a NaN.
-fn max_or_nan(a: f64, b: f64) -> f64 {
-    if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b) }
-}
-
-/// F_i, with the part that a bound absorbs taken off.
-pub(super) fn least_normal(z: f64, f: f64, l: f64, u: f64) -> f64 {
-    let f = if z <= l { f.min(0.0) } else { f };
-    if z >= u { f.max(0.0) } else { f }
-}
-
-/// phi(a, b) = sqrt(a^2 + b^2) - a - b without cancellation: -2ab / (sqrt(a^2 + b^2) + a + b).
-fn phi(a: f64, b: f64) -> f64 {
-    let norm = a.hypot(b);
-    let sum = a + b;
-    if sum > 0.0 { -2.0 * (a / (norm + sum)) * b } else { norm - sum }
-}
-
-fn fischer(z: f64, f: f64, l: f64, u: f64) -> f64 {
-    match (l.is_finite(), u.is_finite()) {
-        (false, false) => -f,
-        (true, false) => phi(z - l, f),
-        (false, true) => -phi(u - z, -f),
-        (true, true) => phi(z - l, phi(u - z, -f)),
+    /// Normal map, minimum map and Fischer at most `tolerance`, complementarity at most its root.
+    pub fn within(&self, tolerance: f64) -> bool {
+        // Written so that a NaN is never within.
+        self.normal_map <= tolerance
+            && self.minimum_map <= tolerance
+            && self.fischer <= tolerance
+            && self.complementarity <= tolerance.sqrt()
     }
+}
+
+fn product(z: f64, f: f64, l: f64, u: f64) -> f64 {
+    if f.is_nan() {
+        return f64::NAN;
+    }
+    let gap = if f >= 0.0 { z - l } else { u - z };
+    if gap.is_finite() { gap * f.abs() } else { f.abs() }
+}
+
+/// Infinity norm that does not lose a NaN.
+fn norm(values: impl Iterator<Item = f64>) -> f64 {
+    values.fold(0.0, |a: f64, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b.abs()) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use approx::assert_relative_eq;
+    use crate::mcp::LinearMcp;
+    use nalgebra::{DMatrix, dmatrix};
 
-    #[test]
-    fn phi_vanishes_exactly_on_complementary_pairs() {
-        assert_eq!((phi(0.0, 3.0), phi(2.0, 0.0)), (0.0, 0.0));
-        assert!(phi(1.0, 1.0) < 0.0 && phi(-1.0, 0.0) > 0.0);
-        // Cancellation-free: phi(1, e) is -e to first order.
-        assert_relative_eq!(phi(1.0, 1e-18), -1e-18, max_relative = 1e-12);
+    struct Reciprocal;
+
+    impl Mcp for Reciprocal {
+        fn dimension(&self) -> usize {
+            1
+        }
+        fn lower(&self) -> &[f64] {
+            &[0.0]
+        }
+        fn upper(&self) -> &[f64] {
+            &[f64::INFINITY]
+        }
+        fn function(&self, z: &[f64], f: &mut [f64]) {
+            f[0] = 1.0 / z[0];
+        }
+        fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
+            j[(0, 0)] = -1.0 / (z[0] * z[0]);
+        }
     }
 
     #[test]
-    fn both_bounds_and_free_variables() {
-        for (z, f, zero) in
-            [(0.0, 1.0, true), (1.0, -1.0, true), (0.5, 0.0, true), (0.0, -1.0, false), (1.0, 1.0, false), (0.5, 0.1, false)]
-        {
-            assert_eq!(fischer(z, f, 0.0, 1.0).abs() < 1e-15, zero, "{z} {f}");
-            assert_eq!(least_normal(z, f, 0.0, 1.0) == 0.0, zero);
-        }
-        assert_eq!(fischer(7.0, 2.0, f64::NEG_INFINITY, f64::INFINITY), -2.0);
+    fn only_the_products_see_a_solution_at_infinity() {
+        let r = Residuals::at(&Reciprocal, &[1e16]);
+        assert!(r.minimum_map <= 1e-15 && r.normal_map <= 1e-15 && r.fischer <= 1e-15);
+        assert!((r.complementarity - 1.0).abs() < 1e-12 && !r.within(1e-10));
+    }
+
+    #[test]
+    fn nan_is_never_within() {
+        let r = Residuals::at(&Reciprocal, &[0.0]);
+        assert!(!r.within(1e300), "{r:?}");
+        assert!(Residuals::at(&Reciprocal, &[]).normal_map.is_nan());
+    }
+
+    #[test]
+    fn all_vanish_at_a_solution_and_differ_elsewhere() {
+        let lcp = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
+        let r = Residuals::at(&lcp, &[4.0 / 3.0, 7.0 / 3.0]);
+        assert!(r.within(1e-14) && r.fischer_gradient < 1e-13);
+        let r = Residuals::at(&lcp, &[0.0, 0.0]);
+        assert_eq!((r.normal_map, r.minimum_map, r.fischer), (6.0, 6.0, 12.0));
     }
 }

@@ -1,30 +1,94 @@
-//! Every tolerance of the solver's arithmetic, with unit, basis and reason.
+//! Every tolerance of the solver's arithmetic, with unit, basis and reason. None decides a truth.
 
-/// Smallest pivot, relative to the largest entry of the entering direction. Unit: none.
-/// Basis: eps^(2/3); smaller pivots lose more than half the digits of the basis inverse.
+/// Smallest pivot, relative to the largest entry of the entering direction (at least 1). Unit: none.
+/// Basis: about eps^(2/3); a smaller pivot would cost more than half the digits of the inverse.
 pub(super) const PIVOT: f64 = 1e-11;
 
-/// Width of a tie in the ratio test, relative to 1 + the step. Unit: that of t.
-/// Basis: a few hundred units of rounding after the pivots between two refactorisations.
+/// Width of a tie in the ratio test, relative to 1 + the step. Unit: that of the step.
+/// Basis: some thousand units of rounding; ties wider than that are left to the exact order.
 pub(super) const TIE: f64 = 1e-12;
 
-/// Pivots between refactorisations of the basis. Basis: product-form updates lose about a bit each
-/// in the worst case met; 24 leave half a double.
-pub(super) const REFACTOR_EVERY: usize = 24;
+/// Two components of lexicographic rows are equal within this, relative to the larger row.
+/// Unit: none. Basis: rounding of one row times the first basis.
+pub(super) const LEXICOGRAPHIC: f64 = 1e-11;
 
-/// Largest |B B^-1 - I| entry after a refactorisation that is taken as regular. Unit: none.
+/// A column of the starting basis is dependent if elimination leaves less than this of it,
+/// relative to its own largest entry. Unit: none. Basis: eps^(2/3), like [`PIVOT`].
+pub(super) const DEPENDENT: f64 = 1e-11;
+
+/// Largest error of the basic equations, relative to their right-hand side and the values, before
+/// the basis is factorised afresh. Unit: none. Basis: 1e5 units of rounding leave ten digits.
+pub(super) const DRIFT: f64 = 1e-11;
+
+/// Largest entry of B B^-1 - I after a factorisation that counts as regular. Unit: none.
+/// Basis: with six digits one step of refinement would still contract.
 pub(super) const REGULAR: f64 = 1e-6;
 
-/// Proximal perturbations tried when the linearisation's starting basis is singular, relative to the
-/// largest entry of the Jacobian. Basis: PATH's own ladder starts near eps^(1/2) and grows.
-pub(super) const PROXIMAL: [f64; 4] = [0.0, 1e-8, 1e-5, 1e-2];
+/// Pivots between two factorisations. Unit: pivots. Basis: product-form updates lose at most about
+/// a bit each in the cases met; 25 leave half a double.
+pub(super) const REFACTOR_EVERY: usize = 25;
 
-/// Required decrease per unit of t in the non-monotone test, the usual Armijo fraction.
+/// How far along a terminating ray its point is taken, relative to 1 + |z|. Unit: none.
+/// Basis: "a little": far enough to leave the last breakpoint, near enough for the linearisation.
+pub(super) const RAY_STEP: f64 = 0.1;
+
+/// Armijo fraction: decrease required per unit of t, or per unit of predicted decrease.
+/// Unit: none. Basis: the usual 1e-4 (Dirkse and Ferris 1995, section 4).
 pub(super) const ARMIJO: f64 = 1e-4;
 
-/// Smallest t the search along the path goes back to: 2^-12. Below it a step is no progress.
-pub(super) const SMALLEST_STEP: f64 = 1.0 / 4096.0;
+/// Smallest t to which the search goes back along a path: 2^-12. Unit: that of t.
+/// Basis: the linear model promises (1 - t)^2 of the merit; below this the promise is under 0.05 %.
+pub(super) const SMALLEST_T: f64 = 1.0 / 4096.0;
 
-/// A ray or cycle that has passed this t is still worth its end point. Basis: the merit falls with
-/// (1 - t)^2 along the linearised path.
-pub(super) const USEFUL_T: f64 = 0.05;
+/// Factor between two trial points of a search. Unit: none. Basis: bisection.
+pub(super) const BACKTRACK: f64 = 0.5;
+
+/// Trial steps of a projected-arc search. Unit: trials. Basis: 2^-40 of the first step is rounding.
+pub(super) const ARC_TRIALS: usize = 40;
+
+/// First trust radius of unchecked steps, relative to 1 + |x|. Unit: that of z.
+/// Basis: unchecked steps may leave a valley, not the neighbourhood of the start.
+pub(super) const TRUST: f64 = 10.0;
+
+/// Factor on the trust radius after each unchecked step. Unit: none.
+/// Basis: radii sum to a finite length, so unchecked steps alone stay bounded.
+pub(super) const TRUST_SHRINK: f64 = 0.5;
+
+/// Relative reduction of the merit below which a crash step is not worth another. Unit: none.
+/// Basis: Newton steps on the right active set gain far more; path steps take over.
+pub(super) const CRASH_GAIN: f64 = 1e-2;
+
+/// Smallest step of the crash search. Unit: Newton steps. Basis: 2^-10, then the path is better.
+pub(super) const CRASH_SMALLEST: f64 = 1.0 / 1024.0;
+
+/// Proximal term of a singular crash factor: this times sqrt of the merit, at most this, relative to
+/// the largest Jacobian entry. Unit: none. Basis: vanishes with the merit, so Newton's rate survives.
+pub(super) const CRASH_PROXIMAL: f64 = 1e-2;
+
+/// Least proximal term of a singular crash factor, relative to the largest Jacobian entry.
+/// Unit: none. Basis: eps^(1/2), the least that regularises visibly.
+pub(super) const CRASH_PROXIMAL_LEAST: f64 = 1e-8;
+
+/// Proximal term of a restart that has one, relative to the largest Jacobian entry, at merits of 1
+/// and above; it falls with the root of the merit. Unit: none. Basis: visible, not dominant.
+pub(super) const RESTART_PROXIMAL: f64 = 1e-2;
+
+/// By how much restarts move the user's start, relative to 1 + |z_i|. Unit: none.
+/// Basis: measured on random pencils; less stays in the same cycle of Newton points.
+pub(super) const RESTART_SHIFT: [f64; 2] = [0.3, 1.0];
+
+/// Fraction of a path that a damped restart takes. Unit: that of t. Basis: halving breaks cycles of
+/// two and three Newton points; while the merit falls by (1 - 1/2)^2 a step it costs little.
+pub(super) const RESTART_FRACTION: f64 = 0.5;
+
+/// A damped restart takes whole paths below this merit relative to its first. Unit: none.
+/// Basis: five halvings, then Newton's rate is wanted.
+pub(super) const NEAR: f64 = 1e-3;
+
+/// Relative gain of merit below which a projected-gradient step counts as none. Unit: none.
+/// Basis: rounding of a sum of squares.
+pub(super) const GRADIENT_GAIN: f64 = 1e-12;
+
+/// Factor on the reference of an attempt with free acceptance. Unit: none.
+/// Basis: a reference that only a run to infinity would miss; the tenth step still has to pass it.
+pub(super) const FREE_REFERENCE: f64 = 1e4;

@@ -1,0 +1,38 @@
+//! Why a run does not start: inputs that make no sense, with index, expected and got.
+
+use crate::mcp::McpError;
+
+/// Refusal of a problem, a start or an option.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum SolverError {
+    /// The problem's bounds or shapes are inconsistent.
+    #[error(transparent)]
+    Problem(#[from] McpError),
+    /// The start has the wrong length.
+    #[error("expected a start of length {expected}, got {got}")]
+    StartLength {
+        /// Dimension of the problem.
+        expected: usize,
+        /// Length given.
+        got: usize,
+    },
+    /// The start has a NaN or an infinity.
+    #[error("expected a finite start at {index}, got {got}")]
+    StartNotFinite {
+        /// The component.
+        index: usize,
+        /// Its value.
+        got: f64,
+    },
+    /// An option is out of range.
+    #[error("expected option {name} {expected}, got {got}")]
+    Option {
+        /// The option.
+        name: &'static str,
+        /// What it must be.
+        expected: &'static str,
+        /// Its value.
+        got: f64,
+    },
+}

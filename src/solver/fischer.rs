@@ -1,0 +1,113 @@
+//! The Fischer-Burmeister function phi(a, b) = sqrt(a^2 + b^2) - a - b, its nested form for two
+//! bounds, and the gradient of the merit Psi = |Phi|^2 / 2 (Fischer 1992; Billups 1995).
+
+use crate::mcp::Mcp;
+use nalgebra::{DMatrix, DVector};
+
+/// One component Phi_i with an element of its generalised derivative.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Fischer {
+    /// Phi_i, units of F (where z and F have comparable scales).
+    pub(super) value: f64,
+    /// d Phi_i / d z_i at fixed F_i.
+    pub(super) by_z: f64,
+    /// d Phi_i / d F_i.
+    pub(super) by_f: f64,
+}
+
+/// phi(z - l, F) below, -phi(u - z, -F) above, phi(z - l, phi(u - z, -F)) between, -F if free.
+pub(super) fn fischer(z: f64, f: f64, l: f64, u: f64) -> Fischer {
+    match (l.is_finite(), u.is_finite()) {
+        (false, false) => Fischer { value: -f, by_z: 0.0, by_f: -1.0 },
+        (true, false) => {
+            let (value, by_z, by_f) = phi(z - l, f);
+            Fischer { value, by_z, by_f }
+        }
+        (false, true) => {
+            let (value, by_z, by_f) = phi(u - z, -f);
+            Fischer { value: -value, by_z, by_f }
+        }
+        (true, true) => {
+            let (inner, inner_a, inner_b) = phi(u - z, -f);
+            let (value, by_a, by_b) = phi(z - l, inner);
+            Fischer { value, by_z: by_a - by_b * inner_a, by_f: -by_b * inner_b }
+        }
+    }
+}
+
+/// Psi = |Phi|^2 / 2 at z with F(z) = f; infinite where F is not finite.
+pub(super) fn merit<P: Mcp + ?Sized>(problem: &P, z: &DVector<f64>, f: &DVector<f64>) -> f64 {
+    let (l, u) = (problem.lower(), problem.upper());
+    let sum: f64 = (0..z.len()).map(|i| fischer(z[i], f[i], l[i], u[i]).value.powi(2)).sum();
+    if sum.is_finite() { 0.5 * sum } else { f64::INFINITY }
+}
+
+/// Gradient of Psi: D_z Phi + F'(z)' D_F Phi.
+pub(super) fn gradient<P: Mcp + ?Sized>(problem: &P, z: &[f64], f: &[f64], jacobian: &DMatrix<f64>) -> DVector<f64> {
+    let (l, u) = (problem.lower(), problem.upper());
+    let phi: Vec<Fischer> = (0..z.len()).map(|i| fischer(z[i], f[i], l[i], u[i])).collect();
+    let by_f = DVector::from_fn(z.len(), |i, _| phi[i].by_f * phi[i].value);
+    let by_z = DVector::from_fn(z.len(), |i, _| phi[i].by_z * phi[i].value);
+    by_z + jacobian.tr_mul(&by_f)
+}
+
+/// phi and its partial derivatives, without cancellation: -2ab / (sqrt(a^2 + b^2) + a + b) where
+/// a + b > 0. At the kink (0, 0) the derivative is the limit along a = b > 0.
+fn phi(a: f64, b: f64) -> (f64, f64, f64) {
+    let norm = a.hypot(b);
+    if norm == 0.0 {
+        let kink = std::f64::consts::FRAC_1_SQRT_2 - 1.0;
+        return (0.0, kink, kink);
+    }
+    let sum = a + b;
+    let value = if sum > 0.0 { -2.0 * (a / (norm + sum)) * b } else { norm - sum };
+    (value, a / norm - 1.0, b / norm - 1.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const INF: f64 = f64::INFINITY;
+
+    #[test]
+    fn phi_vanishes_exactly_on_complementary_pairs_and_nowhere_else() {
+        assert_eq!((phi(0.0, 3.0).0, phi(2.0, 0.0).0), (0.0, 0.0));
+        assert!(phi(1.0, 1.0).0 < 0.0 && phi(-1.0, 0.0).0 > 0.0 && phi(0.0, -1.0).0 > 0.0);
+        // Without cancellation: phi(1, e) is -e to first order.
+        assert!((phi(1.0, 1e-18).0 + 1e-18).abs() < 1e-30);
+        assert!(phi(1e300, 1e300).0.is_finite());
+    }
+
+    #[test]
+    fn zero_exactly_at_solutions_for_every_kind_of_bounds() {
+        for (z, f, l, u, zero) in [
+            (0.0, 1.0, 0.0, 1.0, true),
+            (1.0, -1.0, 0.0, 1.0, true),
+            (0.5, 0.0, 0.0, 1.0, true),
+            (0.0, -1.0, 0.0, 1.0, false),
+            (1.0, 1.0, 0.0, 1.0, false),
+            (0.5, 0.1, 0.0, 1.0, false),
+            (2.0, 5.0, 2.0, 2.0, true),
+            (2.0, -5.0, 2.0, 2.0, true),
+            (1.0, -2.0, -INF, 1.0, true),
+            (1.0, 2.0, -INF, 1.0, false),
+            (7.0, 0.0, -INF, INF, true),
+        ] {
+            assert_eq!(fischer(z, f, l, u).value.abs() < 1e-15, zero, "{z} {f} [{l}, {u}]");
+        }
+    }
+
+    #[test]
+    fn derivatives_agree_with_differences() {
+        let h = 1e-6;
+        for (l, u) in [(0.0, INF), (-INF, 1.0), (0.0, 1.0), (-INF, INF)] {
+            for (z, f) in [(0.3, 0.7), (0.6, -0.4), (0.1, 2.0)] {
+                let at = |z: f64, f: f64| fischer(z, f, l, u).value;
+                let exact = fischer(z, f, l, u);
+                assert!((exact.by_z - (at(z + h, f) - at(z - h, f)) / (2.0 * h)).abs() < 1e-8);
+                assert!((exact.by_f - (at(z, f + h) - at(z, f - h)) / (2.0 * h)).abs() < 1e-8);
+            }
+        }
+    }
+}

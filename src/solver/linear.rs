@@ -1,0 +1,49 @@
+//! Linear problems without an outer loop: Lemke's method with a lexicographic ray start.
+
+use super::evaluation::Evaluated;
+use super::outcome::{Counters, MajorRecord, Outcome, PathRecord, StepKind, Termination};
+use super::path::{Limits, PathEnd, Start, Subproblem, follow};
+use super::residual::Residuals;
+use super::{Options, SolverError};
+use crate::mcp::{LinearMcp, Mcp};
+use nalgebra::DVector;
+
+/// One path from Lemke's ray to the end of it (Lemke 1965; Cottle, Pang and Stone 1992, chapter 4).
+///
+/// A complete path ends with [`Termination::ToleranceReached`] if the residuals agree, else with
+/// `NoProgress`; a secondary ray with `Ray` and a point a little along it. `minor_iteration_limit` is
+/// the limit on pivots. For a P matrix the path is complete and t rises.
+///
+/// # Errors
+/// [`SolverError::Option`] for an option out of range.
+///
+/// ```
+/// use mceip::{mcp::LinearMcp, solver::{solve_linear, Options}};
+/// let lcp = LinearMcp::lcp(nalgebra::dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
+/// let outcome = solve_linear(&lcp, &Options::default()).unwrap();
+/// assert!(outcome.termination.reached_tolerance());
+/// assert!((outcome.point[0] - 4.0 / 3.0).abs() < 1e-14);
+/// ```
+pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, SolverError> {
+    options.validate()?;
+    let q = DVector::from_column_slice(problem.vector());
+    let sub = Subproblem { m: problem.matrix(), q: &q, lower: problem.lower(), upper: problem.upper() };
+    let limits = Limits { pivots: options.minor_iteration_limit, cycle_entries: options.cycle_entry_limit };
+    let origin = DVector::zeros(q.len());
+    let path = follow(&sub, Start::Ray, &origin, limits);
+
+    let mut evaluated = Evaluated::new(problem);
+    let before = evaluated.point(path.knots.first().map_or(&origin, |knot| &knot.z));
+    let point = evaluated.point(path.last().unwrap_or(&origin));
+    let residuals = Residuals::at(problem, point.z.as_slice());
+    let termination = match path.end {
+        PathEnd::Complete if residuals.within(options.convergence_tolerance) => Termination::ToleranceReached,
+        end => Termination::of(end),
+    };
+    let pivots = path.pivots.len();
+    let counters = Counters { majors: 1, pivots, ray_starts: 1, ..evaluated.counters };
+    let step = if path.end == PathEnd::Complete { StepKind::Path { t: 1.0 } } else { StepKind::Failed };
+    let record = PathRecord { start: path.start, end: path.end, reach: path.reach(), pivots: path.pivots };
+    let log = vec![MajorRecord { merit: before.merit, step, proximal: 0.0, paths: vec![record] }];
+    Ok(Outcome { point: point.z.as_slice().to_vec(), residuals, termination, log, counters })
+}

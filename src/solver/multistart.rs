@@ -1,0 +1,23 @@
+//! Many starts, one after the other: the same starts give the same outcomes.
+
+use super::{Options, Outcome, SolverError, solve};
+use crate::mcp::Mcp;
+
+/// Runs from every start, in order. It never says that nothing else exists: report coverage.
+///
+/// # Errors
+/// [`SolverError`] of the first problem, option or start that makes no sense, before the runs after it.
+///
+/// ```
+/// use mceip::{mcp::LinearMcp, solver::{multistart, Options}};
+/// let lcp = LinearMcp::lcp(nalgebra::dmatrix![-1.0], vec![1.0]).unwrap(); // solutions 0 and 1
+/// let outcomes = multistart(&lcp, [vec![0.0], vec![5.0]], &Options::default()).unwrap();
+/// assert_eq!(outcomes.len(), 2);
+/// ```
+pub fn multistart<P: Mcp + ?Sized>(
+    problem: &P,
+    starts: impl IntoIterator<Item = Vec<f64>>,
+    options: &Options,
+) -> Result<Vec<Outcome>, SolverError> {
+    starts.into_iter().map(|start| solve(problem, &start, options)).collect()
+}

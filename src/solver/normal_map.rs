@@ -1,0 +1,66 @@
+//! Robinson's normal map F(pi(zeta)) + zeta - pi(zeta), pi the projection onto [l, u] (Robinson 1992).
+//!
+//! A point of its domain is kept as the pair (z, m) with z = pi(zeta) and m = z - zeta: m = w - v is
+//! the multiplier of the bounds, w >= 0 where z = l and v >= 0 where z = u. The map is F(z) - m.
+
+use nalgebra::{DMatrix, DVector};
+
+/// pi(z): the nearest point of [l, u], component by component.
+pub(super) fn project(z: &DVector<f64>, lower: &[f64], upper: &[f64]) -> DVector<f64> {
+    // max and min rather than clamp: no panic even if the bounds were crossed.
+    DVector::from_fn(z.len(), |i, _| z[i].max(lower[i]).min(upper[i]))
+}
+
+/// The multiplier m over z with the least residual F(z) - m: the part of F a bound absorbs.
+pub(super) fn multiplier(z: &DVector<f64>, f: &DVector<f64>, lower: &[f64], upper: &[f64]) -> DVector<f64> {
+    DVector::from_fn(z.len(), |i, _| f[i] - least_residual(z[i], f[i], lower[i], upper[i]))
+}
+
+/// One component of the normal map at the point over z with the least residual: F_i inside, the
+/// wrong-signed part of F_i at a bound, 0 where both bounds hold.
+pub(super) fn least_residual(z: f64, f: f64, l: f64, u: f64) -> f64 {
+    let f = if z <= l { f.min(0.0) } else { f };
+    if z >= u { f.max(0.0) } else { f }
+}
+
+/// The linearised problem at z: M = F'(z) + proximal I and q = F(z) - M z, so that M z + q = F(z).
+pub(super) fn linearise(jacobian: &DMatrix<f64>, z: &DVector<f64>, f: &DVector<f64>, proximal: f64) -> (DMatrix<f64>, DVector<f64>) {
+    let mut m = jacobian.clone();
+    if proximal > 0.0 {
+        for i in 0..z.len() {
+            m[(i, i)] += proximal;
+        }
+    }
+    let q = f - &m * z;
+    (m, q)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{dmatrix, dvector};
+
+    #[test]
+    fn the_least_residual_is_what_no_bound_absorbs() {
+        for (z, f, expected) in [(0.0, 2.0, 0.0), (0.0, -2.0, -2.0), (1.0, -2.0, 0.0), (1.0, 2.0, 2.0), (0.5, 2.0, 2.0)] {
+            assert_eq!(least_residual(z, f, 0.0, 1.0), expected);
+        }
+        assert_eq!(least_residual(3.0, 2.0, 3.0, 3.0), 0.0);
+        assert_eq!(least_residual(3.0, -2.0, 3.0, 3.0), 0.0);
+    }
+
+    #[test]
+    fn multipliers_have_the_sign_of_their_bound() {
+        let m = multiplier(&dvector![0.0, 1.0, 0.5], &dvector![2.0, -2.0, 1.0], &[0.0; 3], &[1.0; 3]);
+        assert_eq!(m, dvector![2.0, -2.0, 0.0]);
+        assert_eq!(project(&dvector![-1.0, 0.5, 7.0], &[0.0; 3], &[1.0; 3]), dvector![0.0, 0.5, 1.0]);
+    }
+
+    #[test]
+    fn linearisation_keeps_the_value_whatever_the_proximal_term() {
+        let (z, f) = (dvector![1.0, 2.0], dvector![3.0, -4.0]);
+        let (m, q) = linearise(&dmatrix![1.0, 2.0; 3.0, 4.0], &z, &f, 0.5);
+        assert_eq!(&m * &z + q, f);
+        assert_eq!(m[(0, 0)], 1.5);
+    }
+}

@@ -1,0 +1,125 @@
+//! The basis of the linear subproblem: which unknown stands in which place, and the dense inverse.
+
+use super::super::dense::invert;
+use super::super::tolerance::REFACTOR_EVERY;
+use super::Subproblem;
+use super::variable::Variable;
+use nalgebra::{DMatrix, DVector};
+
+/// The columns of M z - w + v + D a - t r = -(q + r).
+pub(super) struct Columns<'a> {
+    pub(super) sub: &'a Subproblem<'a>,
+    /// Covering vector r: minus the residual at the start.
+    pub(super) r: DVector<f64>,
+    /// Row of the unit column D e_k of the artificial of z_i, where there is one.
+    pub(super) artificial_row: Vec<Option<usize>>,
+}
+
+impl Columns<'_> {
+    /// The column of an unknown, length n.
+    pub(super) fn of(&self, variable: Variable) -> DVector<f64> {
+        let n = self.r.len();
+        let unit = |row: usize, value: f64| DVector::from_fn(n, |k, _| if k == row { value } else { 0.0 });
+        match variable {
+            Variable::Z(i) => self.sub.m.column(i).into_owned(),
+            Variable::W(i) => unit(i, -1.0),
+            Variable::V(i) => unit(i, 1.0),
+            Variable::Artificial(i) => unit(self.artificial_row[i].unwrap_or(i), 1.0),
+            Variable::T => -&self.r,
+        }
+    }
+
+    fn assemble(&self, variables: &[Variable]) -> DMatrix<f64> {
+        let n = self.r.len();
+        let mut b = DMatrix::zeros(n, n);
+        for (place, &variable) in variables.iter().enumerate() {
+            b.set_column(place, &self.of(variable));
+        }
+        b
+    }
+}
+
+/// A regular basis B with its explicit inverse, updated by rank one and factorised afresh in between.
+pub(super) struct Basis {
+    pub(super) variables: Vec<Variable>,
+    inverse: DMatrix<f64>,
+    /// B_0 S: columns of the first basis with the sign of their perturbation. The right-hand side is
+    /// thought perturbed by B_0 S (eps, eps^2, ...), which decides every tie.
+    perturbation: DMatrix<f64>,
+    updates: usize,
+}
+
+impl Basis {
+    /// The basis of these unknowns, or `None` if it is numerically singular.
+    ///
+    /// `signs[k]` is the side to which the unknown in place k is perturbed: 1 up, 0 not at all.
+    pub(super) fn new(columns: &Columns<'_>, variables: Vec<Variable>, signs: &[f64]) -> Option<Basis> {
+        let mut perturbation = columns.assemble(&variables);
+        let inverse = invert(&perturbation)?;
+        for (place, &sign) in signs.iter().enumerate() {
+            perturbation.column_mut(place).scale_mut(sign);
+        }
+        Some(Basis { variables, inverse, perturbation, updates: 0 })
+    }
+
+    /// B^-1 a.
+    pub(super) fn solve(&self, a: &DVector<f64>) -> DVector<f64> {
+        &self.inverse * a
+    }
+
+    /// The row of B^-1 B_0 S that belongs to a place: how its value is perturbed.
+    pub(super) fn perturbation(&self, place: usize) -> DVector<f64> {
+        (self.inverse.row(place) * &self.perturbation).transpose()
+    }
+
+    /// Is it time to factorise afresh whatever the accuracy?
+    pub(super) fn is_stale(&self) -> bool {
+        self.updates >= REFACTOR_EVERY
+    }
+
+    /// Puts `entering` into `place`; `column` is B^-1 of its column, whose entry there is not zero.
+    pub(super) fn replace(&mut self, place: usize, entering: Variable, column: &DVector<f64>) {
+        self.variables[place] = entering;
+        self.updates += 1;
+        let pivot_row = self.inverse.row(place) / column[place];
+        for (i, &factor) in column.iter().enumerate() {
+            if i != place && factor != 0.0 {
+                let mut row = self.inverse.row_mut(i);
+                row -= &pivot_row * factor;
+            }
+        }
+        self.inverse.set_row(place, &pivot_row);
+    }
+
+    /// Inverts the current basis from scratch; false if it is numerically singular.
+    pub(super) fn refactor(&mut self, columns: &Columns<'_>) -> bool {
+        self.updates = 0;
+        match invert(&columns.assemble(&self.variables)) {
+            Some(inverse) => {
+                self.inverse = inverse;
+                true
+            }
+            None => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::{dmatrix, dvector};
+
+    #[test]
+    fn updates_agree_with_factorisation_from_scratch() {
+        let (m, q) = (dmatrix![2.0, 1.0; 1.0, 3.0], dvector![1.0, 1.0]);
+        let sub = Subproblem { m: &m, q: &q, lower: &[0.0; 2], upper: &[f64::INFINITY; 2] };
+        let columns = Columns { sub: &sub, r: dvector![1.0, 2.0], artificial_row: vec![None; 2] };
+        let mut basis = Basis::new(&columns, vec![Variable::W(0), Variable::W(1)], &[1.0; 2]).unwrap();
+        assert_eq!(basis.perturbation(1), dvector![0.0, 1.0]);
+        let column = basis.solve(&columns.of(Variable::Z(1)));
+        basis.replace(1, Variable::Z(1), &column);
+        let updated = basis.solve(&dvector![5.0, -7.0]);
+        assert!(basis.refactor(&columns));
+        assert!((updated - basis.solve(&dvector![5.0, -7.0])).amax() < 1e-14);
+    }
+}

@@ -1,0 +1,121 @@
+//! Paths of small linear problems with known ends.
+
+use super::*;
+use nalgebra::{dmatrix, dvector};
+
+const INF: f64 = f64::INFINITY;
+const LIMITS: Limits = Limits { pivots: 200, cycle_entries: 20 };
+
+/// Follows and checks that every knot satisfies the path equation and the bounds.
+fn followed(m: &DMatrix<f64>, q: &DVector<f64>, l: &[f64], u: &[f64], start: Start, current: &[f64]) -> Path {
+    let sub = Subproblem { m, q, lower: l, upper: u };
+    let path = follow(&sub, start, &DVector::from_column_slice(current), LIMITS);
+    let r = path.knots.first().map(|k| &k.multiplier - m * &k.z - q);
+    for knot in &path.knots {
+        let equation = m * &knot.z - &knot.multiplier + q + r.clone().unwrap() * (1.0 - knot.t);
+        assert!(equation.amax() < 1e-9, "{equation} at {knot:?}");
+        for i in 0..l.len() {
+            assert!(knot.z[i] >= l[i] - 1e-9 && knot.z[i] <= u[i] + 1e-9, "{knot:?}");
+            assert!(knot.multiplier[i] < 1e-9 || knot.z[i] <= l[i] + 1e-9, "{knot:?}");
+            assert!(knot.multiplier[i] > -1e-9 || knot.z[i] >= u[i] - 1e-9, "{knot:?}");
+        }
+    }
+    path
+}
+
+#[test]
+fn one_by_one_from_both_starts() {
+    for start in [Start::Regular, Start::Ray] {
+        let path = followed(&dmatrix![2.0], &dvector![-3.0], &[0.0], &[INF], start, &[0.0]);
+        assert_eq!(path.end, PathEnd::Complete);
+        assert!((path.last().unwrap()[0] - 1.5).abs() < 1e-15);
+        assert_eq!(path.pivots.last().unwrap().kind, PivotKind::Complete);
+    }
+}
+
+#[test]
+fn a_zero_residual_is_complete_at_once() {
+    let path = followed(&dmatrix![1.0], &dvector![1.0], &[0.0], &[INF], Start::Regular, &[0.0]);
+    assert_eq!((path.end, path.pivots.len(), path.reach()), (PathEnd::Complete, 1, 1.0));
+}
+
+#[test]
+fn a_doubly_bounded_unknown_flips() {
+    let path = followed(&dmatrix![1.0, 0.0; 0.0, 1.0], &dvector![-5.0, -1.0], &[0.0; 2], &[1.0, INF], Start::Ray, &[0.0; 2]);
+    assert_eq!(path.end, PathEnd::Complete);
+    assert!((path.last().unwrap() - dvector![1.0, 1.0]).amax() < 1e-14);
+    // M = -1: z runs from bound to bound while t stands still or turns back.
+    let path = followed(&dmatrix![-1.0], &dvector![0.5], &[0.0], &[1.0], Start::Regular, &[0.9]);
+    assert_eq!(path.end, PathEnd::Complete);
+}
+
+#[test]
+fn an_infeasible_problem_ends_on_a_ray() {
+    for start in [Start::Regular, Start::Ray] {
+        let path = followed(&dmatrix![-1.0], &dvector![-1.0], &[0.0], &[INF], start, &[0.0]);
+        assert_eq!(path.end, PathEnd::Ray, "{start:?}");
+        assert!(path.knots.len() >= 2);
+    }
+}
+
+#[test]
+fn singular_starts_leave_through_artificials() {
+    // Both z strictly inside: the block of ones is singular. Solutions z1 + z2 = 1.
+    let (m, q) = (dmatrix![1.0, 1.0; 1.0, 1.0], dvector![-1.0, -1.0]);
+    let path = followed(&m, &q, &[0.0; 2], &[INF; 2], Start::Regular, &[2.0, 3.0]);
+    assert_eq!(path.end, PathEnd::Complete, "{path:?}");
+    // A zero matrix with free unknowns has only artificials, and no way to move.
+    let path = followed(&dmatrix![0.0], &dvector![1.0], &[-INF], &[INF], Start::Regular, &[0.0]);
+    assert_eq!(path.end, PathEnd::Ray);
+}
+
+#[test]
+fn equal_bounds_fix_an_unknown() {
+    for start in [Start::Regular, Start::Ray] {
+        let path = followed(&dmatrix![1.0, 1.0; 1.0, 2.0], &dvector![-9.0, -4.0], &[1.0, 0.0], &[1.0, INF], start, &[1.0, 0.0]);
+        assert_eq!(path.end, PathEnd::Complete);
+        assert_eq!(path.last().unwrap(), &dvector![1.0, 1.5]);
+    }
+}
+
+#[test]
+fn points_along_the_path_are_found_by_t() {
+    let path = followed(&dmatrix![2.0], &dvector![-3.0], &[0.0], &[INF], Start::Regular, &[0.0]);
+    assert!((path.at(0.5).unwrap()[0] - 0.75).abs() < 1e-15);
+    assert!(path.at(1.5).is_none());
+}
+
+#[test]
+fn ties_go_to_the_lexicographically_least() {
+    // Both w are tied; perturbed by (eps, eps^2) the second one is the smaller.
+    let (m, q) = (DMatrix::from_element(2, 2, 1.0), dvector![-1.0, -1.0]);
+    let path = followed(&m, &q, &[0.0; 2], &[INF; 2], Start::Ray, &[0.0; 2]);
+    assert_eq!(path.pivots[0].leaving, Variable::W(1));
+    assert_eq!(path.end, PathEnd::Complete);
+}
+
+#[test]
+fn the_multiplier_of_equal_bounds_changes_sign_without_a_pivot() {
+    let (m, q) = (dmatrix![0.0, -1.0; 0.0, 1.0], dvector![1.0, -5.0]);
+    let path = followed(&m, &q, &[1.0, 0.0], &[1.0, INF], Start::Regular, &[1.0, 0.0]);
+    assert_eq!((path.end, path.pivots.len()), (PathEnd::Complete, 2), "{:?}", path.pivots);
+    assert_eq!(path.knots.last().unwrap().multiplier, dvector![-4.0, 0.0]);
+}
+
+#[test]
+fn drift_is_noticed_and_mended() {
+    let (m, q) = (dmatrix![2.0, 1.0; 1.0, 2.0], dvector![-5.0, -6.0]);
+    let sub = Subproblem { m: &m, q: &q, lower: &[0.0; 2], upper: &[INF; 2] };
+    let point = start_point(&sub, Start::Ray, &dvector![0.0, 0.0]);
+    let r = &point.multiplier - &q;
+    let mut columns = Columns { sub: &sub, r, artificial_row: vec![None; 2] };
+    let basis = starting_basis(&mut columns, &point).unwrap();
+    let mut tableau = Tableau::new(&columns, basis, point);
+    let column = tableau.column();
+    let block = ratio::ratio_test(&tableau, &(-&column)).unwrap();
+    tableau.advance(&(-&column), block.step);
+    let exact = tableau.values.clone();
+    tableau.values[0] += 1e-6;
+    assert!(tableau.exchange(block.place.unwrap(), block.at_upper, &column));
+    assert!((tableau.values[0] - exact[0]).abs() < 1e-12, "{} {exact}", tableau.values);
+}

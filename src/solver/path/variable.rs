@@ -1,0 +1,42 @@
+//! Names of the unknowns of the linear subproblem, and the record of a pivot.
+
+/// An unknown of M z - w + v + D a + (1 - t) r + q = 0.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Variable {
+    /// z_i; basic strictly between its bounds.
+    Z(usize),
+    /// w_i >= 0, complementary to z_i at its lower bound; free where the two bounds are equal.
+    W(usize),
+    /// v_i >= 0, complementary to z_i at its upper bound.
+    V(usize),
+    /// The artificial that stands for the column of z_i in a singular starting basis; held at 0.
+    Artificial(usize),
+    /// The path parameter t.
+    T,
+}
+
+/// What happened at a pivot.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum PivotKind {
+    /// `entering` took the place of `leaving`, which reached a bound.
+    Exchange,
+    /// `entering` took the place of an artificial, which never returns.
+    ArtificialLeaves,
+    /// `entering` is a doubly bounded z_i that crossed to its other bound; the basis is unchanged.
+    Flip,
+    /// t reached 1: the path is complete.
+    Complete,
+}
+
+/// One pivot.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Pivot {
+    /// Path parameter at the pivot, at most 1. A path may turn back, also below 0.
+    pub t: f64,
+    /// The unknown that was moving.
+    pub entering: Variable,
+    /// The unknown that stopped it: itself at a flip.
+    pub leaving: Variable,
+    /// What happened.
+    pub kind: PivotKind,
+}

@@ -1,0 +1,89 @@
+//! What changes from one attempt to the next: crash, search type, perturbation, kind of start.
+
+use super::path::Start;
+use super::tolerance::{RESTART_FRACTION, RESTART_PROXIMAL, RESTART_SHIFT};
+use nalgebra::DVector;
+
+/// What a step must pass.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Acceptance {
+    /// PATH's non-monotone rule: memory, unchecked steps inside a shrinking radius.
+    NonMonotone,
+    /// Each step is checked against the last merit.
+    Monotone,
+    /// The non-monotone rule with a distant reference and an unbounded radius: nearly pure Newton.
+    Free,
+}
+
+/// Settings of one attempt.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Attempt {
+    /// Crash before the first path?
+    pub(super) crash: bool,
+    /// Which start a path tries first; the other one follows on failure.
+    pub(super) first: Start,
+    /// What a step must pass.
+    pub(super) acceptance: Acceptance,
+    /// Fraction of each regular path that is taken while the merit is far from zero; 1 for all.
+    pub(super) fraction: f64,
+    /// The user's start is moved in each component by up to this, relative to 1 + |z_i|.
+    pub(super) shift: f64,
+    /// Proximal term relative to the largest entry of F', at merits of 1 and above.
+    pub(super) proximal: f64,
+}
+
+impl Attempt {
+    /// The settings of attempt `k`: 0 is the first, 1 the first restart.
+    ///
+    /// The first restarts were chosen by measurement (non-monotone eigenvalue problems): plain
+    /// Newton along the paths, then two that leave a cycle of Newton points by moving the start.
+    pub(super) fn number(k: usize) -> Attempt {
+        let free = Attempt { crash: false, first: Start::Regular, acceptance: Acceptance::Free, fraction: 1.0, shift: 0.0, proximal: 0.0 };
+        match k {
+            0 => Attempt { crash: true, acceptance: Acceptance::NonMonotone, ..free },
+            1 => free,
+            _ => match k % 4 {
+                2 => Attempt { fraction: RESTART_FRACTION, shift: RESTART_SHIFT[0], ..free },
+                3 => Attempt { shift: RESTART_SHIFT[1], ..free },
+                0 => Attempt { acceptance: Acceptance::Monotone, proximal: RESTART_PROXIMAL, shift: RESTART_SHIFT[0], ..free },
+                _ => Attempt { first: Start::Ray, shift: RESTART_SHIFT[1], ..free },
+            },
+        }
+    }
+
+    /// The start of attempt `k`: the user's, with components moved the same way in every run.
+    pub(super) fn shifted(&self, start: &DVector<f64>, k: usize) -> DVector<f64> {
+        DVector::from_fn(start.len(), |i, _| start[i] + self.shift * (1.0 + start[i].abs()) * spread(k, i))
+    }
+}
+
+/// A number in [-1, 1), spread over k and i by the bits of a multiplicative hash (splitmix64).
+fn spread(k: usize, i: usize) -> f64 {
+    let seed = (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (i as u64 + 1).wrapping_mul(0xd1b5_4a32_d192_ed03);
+    let mixed = (seed ^ (seed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::dvector;
+
+    #[test]
+    fn attempts_in_a_row_differ() {
+        for k in 0..9 {
+            assert_ne!(Attempt::number(k), Attempt::number(k + 1));
+        }
+    }
+
+    #[test]
+    fn shifts_are_bounded_deterministic_and_spread() {
+        let start = dvector![0.0, 3.0];
+        assert_eq!(Attempt::number(1).shifted(&start, 1), start);
+        let attempt = Attempt::number(3);
+        assert_eq!(attempt.shifted(&start, 3), attempt.shifted(&start, 3));
+        let mean = (0..1000).map(|i| spread(3, i)).sum::<f64>() / 1000.0;
+        assert!((0..1000).all(|i| spread(3, i).abs() <= 1.0) && mean.abs() < 0.1, "{mean}");
+    }
+}

@@ -1,0 +1,146 @@
+//! The non-monotone acceptance: memory, unchecked steps inside a shrinking trust radius, checkpoint
+//! and the search back along a stored path (Grippo, Lampariello and Lucidi 1986; Dirkse and Ferris
+//! 1995, section 4).
+
+use super::Options;
+use super::evaluation::{Evaluated, Point};
+use super::path::Path;
+use super::restart::{Acceptance, Attempt};
+use super::tolerance::{ARMIJO, BACKTRACK, FREE_REFERENCE, NEAR, SMALLEST_T, TRUST, TRUST_SHRINK};
+use crate::mcp::Mcp;
+use std::collections::VecDeque;
+
+/// The last checked point, with the path that left it.
+pub(super) struct Checkpoint {
+    pub(super) path: Path,
+}
+
+/// State of the non-monotone rule in one attempt.
+pub(super) struct Search {
+    memory: VecDeque<f64>,
+    memory_size: usize,
+    frequency: usize,
+    maximum_watchdogs: usize,
+    radius: f64,
+    unchecked: usize,
+    watchdogs: usize,
+    gradient_steps_left: usize,
+    checkpoint: Option<Checkpoint>,
+    best: Point,
+    first_merit: f64,
+    fraction: f64,
+}
+
+impl Search {
+    /// At the first point of an attempt from `start`.
+    pub(super) fn new(start: &Point, first: &Point, options: &Options, attempt: Attempt) -> Self {
+        let (factor, radius) = match attempt.acceptance {
+            Acceptance::NonMonotone => (options.nms_initial_reference_factor, TRUST * (1.0 + start.z.amax())),
+            Acceptance::Monotone => (1.0, 0.0),
+            Acceptance::Free => (FREE_REFERENCE * options.nms_initial_reference_factor, f64::INFINITY),
+        };
+        let monotone = attempt.acceptance == Acceptance::Monotone;
+        Search {
+            memory: VecDeque::from([factor * start.merit]),
+            memory_size: if monotone { 1 } else { options.nms_memory_size },
+            frequency: if monotone { 1 } else { options.nms_mstep_frequency },
+            maximum_watchdogs: options.nms_maximum_watchdogs,
+            radius,
+            unchecked: 0,
+            watchdogs: 0,
+            gradient_steps_left: options.gradient_step_limit,
+            checkpoint: None,
+            best: first.clone(),
+            first_merit: start.merit,
+            fraction: attempt.fraction,
+        }
+    }
+
+    /// The point of least merit in this attempt.
+    pub(super) fn best(&self) -> &Point {
+        &self.best
+    }
+
+    /// The fraction of a path to take from a point of this merit.
+    pub(super) fn fraction(&self, merit: f64) -> f64 {
+        if merit > NEAR * self.first_merit { self.fraction } else { 1.0 }
+    }
+
+    /// The maximum of the remembered merits.
+    fn reference(&self) -> f64 {
+        self.memory.iter().copied().fold(0.0, f64::max)
+    }
+
+    /// May this step be taken without a check? Short ones, all but every tenth in a row.
+    pub(super) fn unchecked_allowed(&self, from: &Point, to: &Point) -> bool {
+        let next = self.unchecked + 1;
+        to.merit.is_finite() && next < self.frequency && (&to.z - &from.z).amax() <= self.radius
+    }
+
+    /// Does a point pass the test: (1 - sigma t) of the reference?
+    pub(super) fn passes(&self, point: &Point, t: f64) -> bool {
+        point.merit.is_finite() && point.merit <= (1.0 - ARMIJO * t) * self.reference()
+    }
+
+    /// Takes an unchecked step; the path from the last checked point is kept for the watchdog.
+    pub(super) fn take_unchecked(&mut self, path: &Path, to: &Point) {
+        if self.unchecked == 0 {
+            self.checkpoint = Some(Checkpoint { path: path.clone() });
+        }
+        self.unchecked += 1;
+        self.radius *= TRUST_SHRINK;
+        self.keep_best(to);
+    }
+
+    /// Takes a checked step: its merit enters the memory, and it becomes the new checkpoint.
+    pub(super) fn take_checked(&mut self, to: &Point) {
+        self.memory.push_back(to.merit);
+        while self.memory.len() > self.memory_size {
+            self.memory.pop_front();
+        }
+        self.unchecked = 0;
+        self.checkpoint = None;
+        self.keep_best(to);
+    }
+
+    /// A step has passed the check at full length: watchdogs are counted anew.
+    pub(super) fn forgive_watchdogs(&mut self) {
+        self.watchdogs = 0;
+    }
+
+    /// The checkpoint to return to, if steps were taken since and watchdogs are left.
+    pub(super) fn watchdog(&mut self) -> Option<Checkpoint> {
+        let checkpoint = self.checkpoint.take()?;
+        self.unchecked = 0;
+        self.watchdogs += 1;
+        (self.watchdogs <= self.maximum_watchdogs).then_some(checkpoint)
+    }
+
+    /// Is a gradient step left? Counts it.
+    pub(super) fn gradient_allowed(&mut self) -> bool {
+        let allowed = self.gradient_steps_left > 0;
+        self.gradient_steps_left = self.gradient_steps_left.saturating_sub(1);
+        allowed
+    }
+
+    /// The first point that passes, back along the path from `t`, with its t.
+    pub(super) fn along<P: Mcp + ?Sized>(&self, problem: &mut Evaluated<'_, P>, path: &Path, t: f64) -> Option<(Point, f64)> {
+        let mut t = t;
+        while t >= SMALLEST_T {
+            if let Some(z) = path.at(t) {
+                let point = problem.point(&z);
+                if self.passes(&point, t) {
+                    return Some((point, t));
+                }
+            }
+            t *= BACKTRACK;
+        }
+        None
+    }
+
+    fn keep_best(&mut self, point: &Point) {
+        if point.merit < self.best.merit {
+            self.best = point.clone();
+        }
+    }
+}
