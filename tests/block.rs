@@ -4,12 +4,13 @@
 
 use mceip::source::{Block, MassKind, PublishedState};
 use mceip::testkit::block_state;
+use std::sync::atomic::AtomicBool;
 
 #[test]
 fn published_states_are_found_certified_and_accepted() {
     let block = Block::of_the_paper(MassKind::Consistent);
     for (state, decimals, slipping) in [(PublishedState::FifteenSlip, "60.805842", 14), (PublishedState::SeventeenSlip, "1.7048043", 17)] {
-        let report = block_state(&block, state, &|_| {}).unwrap();
+        let report = block_state(&block, state, &AtomicBool::new(false), &|_| {}).unwrap().unwrap();
         assert_eq!(report.accepted.len(), 1, "{}", state.name());
         assert!(report.uncertified.is_empty(), "{:?}", report.uncertified);
         let claim = &report.accepted[0];

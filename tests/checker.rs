@@ -64,16 +64,21 @@ type Test = fn(&Reason) -> bool;
 #[test]
 fn each_obligation_has_a_forgery() {
     let (p, good) = root_two();
-    let cases: [(&str, Change, Test); 23] = [
+    let cases: [(&str, Change, Test); 24] = [
         (
             "degree beyond all use",
             |c| c.polynomial = vec![Integer::from(1); 513],
-            |r| matches!(r, Reason::TooLarge { what: "polynomial", .. }),
+            |r| matches!(r, Reason::TooLarge { what: "coefficients of the polynomial", .. }),
         ),
         (
             "x of a degree beyond all use",
             |c| c.x[0] = vec![Number(whole(1)); 513],
-            |r| matches!(r, Reason::TooLarge { what: "polynomial of x", .. }),
+            |r| matches!(r, Reason::TooLarge { what: "coefficients of x", .. }),
+        ),
+        (
+            "numbers of absurd length",
+            |c| c.interval[0].0 = rational(2, 5) + rational(1, 3) / Rational::from_integer(Integer::from(7) << 1_000_000),
+            |r| matches!(r, Reason::TooLarge { what: "size (coefficients times bits)", .. }),
         ),
         ("wrong root", |c| c.polynomial[0] = Integer::from(-2), |r| matches!(r, Reason::NoSignChange { .. })),
         (

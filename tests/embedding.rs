@@ -83,3 +83,28 @@ fn windows_keep_to_their_side() {
     }
     assert!(sides[0] > 10 && sides[1] > 10, "{sides:?}");
 }
+
+/// c only sets the scale of x; gamma vanishes wherever t > 0.
+#[test]
+fn the_constant_c_scales_x_and_nothing_else() {
+    let mut count = 0;
+    for instance in instances() {
+        let pencil = reduce(&instance.problem).unwrap().pencil;
+        let one = Embedding::new(&Admissible::new(&pencil, instance.problem.unknown()).unwrap(), Side::Above(0.0));
+        assert!(one.clone().with_c(0.0).is_none() && one.clone().with_c(f64::NAN).is_none());
+        let five = one.clone().with_c(5.0).unwrap();
+        for s in enumerate(&pencil, &Window::all()).unwrap().solutions {
+            let x: Vec<f64> = s.x_decimals(&pencil.slip(), 17).iter().map(|v| v.parse().unwrap()).collect();
+            let z = five.point(s.decimal(17).parse().unwrap(), &x);
+            assert!(Residuals::at(&five, &z).minimum_map < 1e-8 && five.gamma(&z).abs() < 1e-12);
+            assert!((one.gamma(&z) - 4.0).abs() < 1e-12);
+            let outcome = solve(&five, &z, &Options::default()).unwrap();
+            assert!(outcome.termination.reached_tolerance());
+            let (a, b) = (five.candidate(&outcome.point), one.candidate(&one.point(s.decimal(17).parse().unwrap(), &x)));
+            assert!((a.value - b.value).abs() <= 1e-7 * (1.0 + b.value));
+            assert!(a.x.iter().zip(&b.x).all(|(p, q)| (p - 5.0 * q).abs() < 1e-6), "{}", instance.label);
+            count += 1;
+        }
+    }
+    assert!(count > 20);
+}

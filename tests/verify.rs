@@ -1,39 +1,43 @@
-//! The verification run as a test: a smaller one than `mceip verify`, same code.
+//! The verification run as a test: a smaller one than `mceip verify`, the same code.
 #![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use mceip::testkit::verify;
+use mceip::multistart::Search;
+use mceip::testkit::{Corner, degenerate, random_pencils, verify, verify_family};
+use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
 #[test]
 fn no_disagreement() {
-    let t = std::time::Instant::now();
     let v = verify(60, 1, &AtomicBool::new(false), &|_, _, _| {}).unwrap();
     for f in &v.families {
-        println!(
-            "{} {}/{} oracle {} found {}/{} accepted {} uncert {} rejected {} degenerate {} corners {:?}",
-            f.name,
-            f.done,
-            f.instances,
-            f.oracle,
-            f.found,
-            f.findable,
-            f.accepted,
-            f.uncertified.len(),
-            f.rejected,
-            f.degenerate,
-            f.corners
-        );
-        for d in f.disagreements.iter().take(8) {
-            println!("   DIS {d}");
-        }
-        for d in f.uncertified.iter().take(4) {
-            println!("   UNC {d}");
-        }
+        assert!(f.disagreements.is_empty(), "{}: {:#?}", f.name, f.disagreements);
+        assert_eq!(f.done, f.instances);
+        println!("{}: found {} of {}, corners {:?}", f.name, f.found, f.findable, f.corners);
     }
-    for b in &v.block {
-        println!("{:?} {:?} {:?} {}/{}", b.state, b.accepted, b.uncertified, b.rejected_forgeries, b.forgeries);
-    }
-    println!("{:?}", t.elapsed());
     assert_eq!(v.disagreements(), 0);
+    // Table 1: every solution the oracle lists is found.
+    assert_eq!((v.families[0].found, v.families[0].oracle), (v.families[0].findable, v.families[0].findable));
+    // The generators reach the corners they are there for.
+    let reached: BTreeSet<Corner> = v.families.iter().flat_map(|f| f.corners.keys().copied()).collect();
+    use Corner::*;
+    for corner in [Biactive, Repeated, ZeroValue, WideKernel, Singular, Threshold, OneByOne, FreeVariables, Oblique, Stick, CoupledMass] {
+        assert!(reached.contains(&corner), "{corner:?} not reached");
+    }
+}
+
+#[test]
+fn the_number_of_threads_changes_nothing() {
+    let instances: Vec<_> = random_pencils(10, 3).unwrap().into_iter().chain(degenerate().unwrap()).collect();
+    let run = |threads: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        pool.install(|| format!("{:?}", verify_family("few", &instances, &Search::default(), &AtomicBool::new(false), &|_, _, _| {})))
+    };
+    assert_eq!(run(1), run(4));
+}
+
+#[test]
+fn a_stopped_run_keeps_what_was_done_and_says_so() {
+    let v = verify(4, 1, &AtomicBool::new(true), &|_, _, _| {}).unwrap();
+    assert!(v.interrupted && v.block.is_empty() && v.families.iter().all(|f| f.done == 0 && f.instances > 0));
 }

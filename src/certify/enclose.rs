@@ -12,6 +12,8 @@ use num_traits::{One, Signed, Zero};
 
 /// Newton steps with a fixed inverse: each gains the digits the inverse is good for.
 const NEWTON_STEPS: usize = 8;
+/// Largest binary exponent of a preconditioner that the checker takes (`spec/formats.md`).
+const MAX_EXPONENT: u32 = 1 << 16;
 /// Bits of a coefficient that a double takes without any thought of overflow.
 const SAFE_BITS: u64 = 500;
 
@@ -45,6 +47,9 @@ pub(super) fn make(
     // The inverse at the polished centre, rounded to short integers.
     let y = inverse(&newton.jacobian(&center)).ok_or(AttemptFailure::SingularJacobian)?;
     let (preconditioner, exponent) = round(&y, &newton.scales());
+    if exponent > MAX_EXPONENT {
+        return Err(AttemptFailure::TooLarge { limit: MAX_EXPONENT as usize, got: exponent as usize });
+    }
     let radius = radii(&center);
     let number = |list: Vec<Rational>| list.into_iter().map(Number).collect();
     let claim = EnclosedSolution { support: support.to_vec(), center: number(center), radius: number(radius), preconditioner, exponent };

@@ -31,12 +31,13 @@ pub enum AttemptFailure {
     /// A component or the value is NaN or infinite.
     #[error("expected finite numbers, got a value or component that is not")]
     NotFinite,
-    /// More active variables than dense linear algebra is run for.
-    #[error("expected at most {limit} active variables, got {got}")]
+    /// More active variables than dense linear algebra is run for, or a larger binary exponent of
+    /// the preconditioner than the checker takes.
+    #[error("expected an order or binary exponent of at most {limit}, got {got}")]
     TooLarge {
         /// The bound.
         limit: usize,
-        /// Active variables.
+        /// What there is.
         got: usize,
     },
     /// Every component is zero.

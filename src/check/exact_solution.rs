@@ -14,15 +14,17 @@ use crate::model::Window;
 use crate::model::file::Number;
 use num_traits::Zero;
 
-/// Largest number of coefficients of a polynomial. A support of n variables needs at most n + 1.
+/// Largest number of coefficients of p and of each x_i. A support of n variables needs at most n + 1.
 const MAX_COEFFICIENTS: usize = 512;
+/// Largest product of the number of coefficients (of p and of the longest x_i) and the bits of the
+/// longest number of the claim: bounds the work on a file that is small but hostile.
+const MAX_SIZE: usize = 1 << 21;
 
 pub(super) fn check(rows: &Rows, window: &Window, claim: &ExactSolution) -> Result<AcceptedClaim, Reason> {
     index_set(rows, "support", &claim.support)?;
     index_set(rows, "biactive", &claim.biactive)?;
-    bounded("polynomial", claim.polynomial.len())?;
-    claim.x.iter().try_for_each(|x| bounded("polynomial of x", x.len()))?;
-    let p = Poly::new(claim.polynomial.clone());
+    bounded(claim)?;
+    let p = Poly::new(claim.polynomial.clone()).primitive();
     let value = isolate(&p, &claim.interval)?;
     within(window, &value)?;
     if claim.x.len() != rows.order() {
@@ -34,8 +36,21 @@ pub(super) fn check(rows: &Rows, window: &Window, claim: &ExactSolution) -> Resu
     Ok(AcceptedClaim { support: claim.support.clone(), value: alpha.value })
 }
 
-fn bounded(what: &'static str, got: usize) -> Result<(), Reason> {
-    if got > MAX_COEFFICIENTS { Err(Reason::TooLarge { what, limit: MAX_COEFFICIENTS, got }) } else { Ok(()) }
+/// The claim is small enough to be multiplied out.
+fn bounded(claim: &ExactSolution) -> Result<(), Reason> {
+    let coefficients = claim.polynomial.len();
+    let at_most = |what, limit, got| if got > limit { Err(Reason::TooLarge { what, limit, got }) } else { Ok(()) };
+    at_most("coefficients of the polynomial", MAX_COEFFICIENTS, coefficients)?;
+    let longest_x = claim.x.iter().map(Vec::len).max().unwrap_or(0);
+    at_most("coefficients of x", MAX_COEFFICIENTS, longest_x)?;
+    let of = |n: &Number| n.0.numer().bits() + n.0.denom().bits();
+    let numbers = claim.interval.iter().chain(claim.x.iter().flatten()).map(of);
+    let bits = numbers.chain(claim.polynomial.iter().map(|c| c.bits())).max().unwrap_or(0);
+    at_most(
+        "size (coefficients times bits)",
+        MAX_SIZE,
+        usize::try_from(bits).unwrap_or(usize::MAX).saturating_mul(coefficients + longest_x),
+    )
 }
 
 /// Ascending indices of complementarity variables.
@@ -101,7 +116,7 @@ fn check_x(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reas
         let x = coefficients(&claim.x[index]);
         if rows.is_free[index] {
             non_zero |= alpha.enclose(&x).certain_sign() != 0;
-        } else if !claim.support.contains(&index) {
+        } else if claim.support.binary_search(&index).is_err() {
             if !alpha.remainder(&x).is_zero() {
                 return Err(Reason::XOffSupport { index });
             }
@@ -120,17 +135,17 @@ fn check_y(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reas
     for (index, row) in rows.rows.iter().enumerate() {
         let y = times(row, &x);
         let is_zero = alpha.remainder(&y).is_zero();
-        if rows.is_free[index] || claim.support.contains(&index) {
+        if rows.is_free[index] || claim.support.binary_search(&index).is_ok() {
             if !is_zero {
                 let equation = if rows.is_free[index] { "E13" } else { "E25" };
                 return Err(Reason::YNotZero { equation, index });
             }
-            if claim.biactive.contains(&index) {
+            if claim.biactive.binary_search(&index).is_ok() {
                 return Err(Reason::Biactive { index, expected: false });
             }
             continue;
         }
-        if claim.biactive.contains(&index) != is_zero {
+        if claim.biactive.binary_search(&index).is_ok() != is_zero {
             return Err(Reason::Biactive { index, expected: is_zero });
         }
         let image = alpha.enclose(&y);

@@ -23,7 +23,7 @@ impl Rows {
         match problem.body() {
             Body::Pencil(p) => {
                 let rows = (0..p.order()).map(|i| merge(p.a().row(i), p.b().row(i))).collect();
-                Rows { rows, is_free: (0..p.order()).map(|i| p.free().contains(&i)).collect() }
+                Rows { rows, is_free: (0..p.order()).map(|i| p.free().binary_search(&i).is_ok()).collect() }
             }
             Body::System(s) => of_system(s, problem.unknown()),
         }

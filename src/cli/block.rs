@@ -1,6 +1,7 @@
 //! `mceip block`: the two published states of the polyurethane block.
 
-use super::common::{CliError, exit, print, write_whole};
+use super::common::{CliError, exit, interrupt_flag, print};
+use super::output::Output;
 use crate::model::file::write_problem;
 use crate::report::Table;
 use crate::source::{Block, MassKind, PublishedState};
@@ -34,10 +35,16 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     let block = Block::of_the_paper(if args.lumped { MassKind::Lumped } else { MassKind::Consistent });
     let bar = super::common::progress_spinner("block");
+    let stop = interrupt_flag();
     let mut reports = Vec::new();
     for state in states {
-        reports.push(block_state(&block, state, &|what| bar.set_message(format!("{}: {what}", state.name())))?);
-        bar.inc(1);
+        if let Some(folder) = &args.write {
+            Output::prepare("write", &folder.join("block.json"), &[])?; // writable, before the work
+        }
+        match block_state(&block, state, &stop, &|what| bar.set_message(format!("{}: {what}", state.name())))? {
+            Some(report) => reports.push(report),
+            None => break,
+        }
     }
     bar.finish_and_clear();
     for report in &reports {
@@ -48,13 +55,16 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         report.rejected.iter().for_each(|r| eprintln!("DISAGREEMENT: {}: {r}", report.state.name()));
     }
     if args.json {
-        print(&format!("{}\n", json!({ "states": reports.iter().map(json_of).collect::<Vec<_>>() })));
+        print(&format!("{}\n", json!({ "states": reports.iter().map(json_of).collect::<Vec<_>>() })))?;
     } else {
-        print(&text_of(&reports));
+        print(&text_of(&reports))?;
     }
     let wrong = reports.iter().any(|r| !r.rejected.is_empty());
     let none = reports.iter().any(|r| r.accepted.is_empty());
-    Ok(if wrong {
+    let interrupted = stop.load(std::sync::atomic::Ordering::Relaxed);
+    Ok(if interrupted {
+        exit::INTERRUPTED
+    } else if wrong {
         exit::REJECTED
     } else if none {
         exit::UNDECIDED
@@ -65,9 +75,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
 fn write_files(block: &Block, report: &BlockReport, folder: &std::path::Path) -> Result<(), CliError> {
     let name = if report.state == PublishedState::FifteenSlip { "block-15-slip" } else { "block-17-slip" };
-    write_whole(&folder.join(format!("{name}.json")), &write_problem(&report.state.problem(block)?))?;
+    let output = |suffix: &str| Output::prepare("write", &folder.join(format!("{name}.{suffix}")), &[]);
+    output("json")?.write(&write_problem(&report.state.problem(block)?))?;
     match &report.certificate {
-        Some(c) => write_whole(&folder.join(format!("{name}.certificate.json")), &c.to_json()),
+        Some(c) => output("certificate.json")?.write(&c.to_json()),
         None => Ok(()),
     }
 }

@@ -3,7 +3,7 @@
 use super::common::{CliError, exit, load, print, text};
 use crate::certificate::Certificate;
 use crate::check::check;
-use crate::exact::to_f64;
+use crate::exact::enclosing_decimals;
 use std::path::PathBuf;
 
 /// Arguments of `check`.
@@ -23,14 +23,16 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Ok(accepted) => {
             let mut out = String::new();
             for c in &accepted.claims {
-                let (lo, hi) = (to_f64(c.value.lo()), to_f64(c.value.hi()));
+                let (lo, hi) = enclosing_decimals(&c.value, 17);
                 out += &format!("solution: {} in [{lo}, {hi}], slip {:?}\n", problem.unknown().word(), c.support);
             }
-            print(&format!("{out}ACCEPTED: {} claim(s) proved for problem {}\n", accepted.claims.len(), problem.sha256()));
+            let (w, n) = (&certificate.window, accepted.claims.len());
+            let max = w.max().map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
+            print(&format!("{out}ACCEPTED: {n} claim(s) proved for problem {} in [{}, {max}\n", problem.sha256(), w.min()))?;
             Ok(exit::DONE)
         }
         Err(rejected) => {
-            print(&format!("REJECTED: {rejected}\n"));
+            print(&format!("REJECTED: {rejected}\n"))?;
             Ok(exit::REJECTED)
         }
     }

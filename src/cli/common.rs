@@ -8,7 +8,7 @@ use crate::oracle::OracleError;
 use crate::testkit::BlockError;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
@@ -61,19 +61,42 @@ pub(super) enum CliError {
         /// What was given.
         got: String,
     },
-    /// An output file cannot be written.
-    #[error("cannot write {path}: {source}")]
+    /// An output cannot be written.
+    #[error("cannot write {path}: {reason}")]
     Write {
         /// Its path.
         path: String,
         /// The system's reason.
-        source: std::io::Error,
+        reason: std::io::ErrorKind,
+    },
+    /// An output would replace an input.
+    #[error("--{option}: expected another file than the input {path}")]
+    OutputIsInput {
+        /// The option.
+        option: &'static str,
+        /// The file.
+        path: String,
+    },
+    /// A solution of a report does not fit the problem.
+    #[error("solution {solution} of the report: expected x with {expected} components (see spec/formats.md for their order), got {got}")]
+    ReportLength {
+        /// Index in the report.
+        solution: usize,
+        /// Variables of the pencil.
+        expected: usize,
+        /// Components given.
+        got: usize,
     },
 }
 
 impl CliError {
     /// Exit code for bad input.
     pub(super) const EXIT: u8 = 2;
+
+    /// An output that cannot be written.
+    pub(super) fn write(path: impl std::fmt::Display, e: &std::io::Error) -> CliError {
+        CliError::Write { path: path.to_string(), reason: e.kind() }
+    }
 }
 
 /// Reads a problem file; errors name the file.
@@ -102,20 +125,13 @@ fn parse_window(text: &str) -> Result<Window, CliError> {
     Window::new(parse(min).map_err(|_| bad())?, max).map_err(|_| bad())
 }
 
-/// Prints to stdout; a reader that has gone away is not an error.
-pub(super) fn print(text: &str) {
+/// Prints to stdout. A reader that has gone away (a closed pipe) is no error; a full disk is.
+pub(super) fn print(text: &str) -> Result<(), CliError> {
     let mut out = std::io::stdout().lock();
-    let _ = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-}
-
-/// Writes a file whole or not at all: beside it first, then renamed.
-pub(super) fn write_whole(path: &PathBuf, text: &str) -> Result<(), CliError> {
-    let failed = |source| CliError::Write { path: path.display().to_string(), source };
-    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
-    let mut file = tempfile::NamedTempFile::new_in(folder).map_err(failed)?;
-    file.write_all(text.as_bytes()).map_err(failed)?;
-    file.persist(path).map_err(|e| failed(e.error))?;
-    Ok(())
+    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
+        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(CliError::write("stdout", &e)),
+        _ => Ok(()),
+    }
 }
 
 /// A flag that Ctrl-C sets; a second Ctrl-C ends the process at once.

@@ -14,7 +14,7 @@ pub(super) struct Args {
     /// Problem file (mceip-problem/1).
     file: PathBuf,
     /// Closed window a,b of values instead of the file's (b empty or inf: no upper end).
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     window: Option<String>,
     /// Print mceip-solutions/1.
     #[arg(long)]
@@ -42,6 +42,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let solutions = found.solutions.iter().map(|s| Listed::of_solution(&problem, &reduced, s)).collect();
     let complete = found.is_complete_list();
     let report = Report { problem: &problem, reduced: &reduced, solutions, complete, evidence, enumeration: Some(&found) };
-    print(&if args.json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) });
-    Ok(if found.is_finished() { exit::DONE } else { exit::INTERRUPTED })
+    print(&if args.json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) })?;
+    Ok(match (found.is_finished(), complete) {
+        (false, _) => exit::INTERRUPTED,
+        (true, true) => exit::DONE,
+        (true, false) => exit::UNDECIDED, // what is left open has been named
+    })
 }

@@ -5,6 +5,7 @@ mod certify;
 mod check;
 mod common;
 mod enumerate;
+mod output;
 mod reduce;
 mod solve;
 mod table1;
@@ -22,7 +23,7 @@ use std::process::ExitCode;
 /// Exit codes: 0 done or accepted, 1 rejected or disagreement, 2 bad input, 3 undecided,
 /// 130 interrupted.
 #[derive(Parser)]
-#[command(name = "mceip", version)]
+#[command(name = "mceip", version, arg_required_else_help = true)]
 struct Cli {
     #[command(subcommand)]
     command: Command,
@@ -52,10 +53,7 @@ enum Command {
 pub fn main() -> ExitCode {
     let cli = match Cli::try_parse() {
         Ok(cli) => cli,
-        Err(e) => {
-            let _ = e.print(); // nothing to be done if the terminal is gone
-            return ExitCode::from(u8::from(e.use_stderr()) * 2);
-        }
+        Err(e) => return refuse(&e),
     };
     let result = match cli.command {
         Command::Verify(a) => verify::run(&a),
@@ -74,4 +72,18 @@ pub fn main() -> ExitCode {
             ExitCode::from(CliError::EXIT)
         }
     }
+}
+
+/// Help and version go to stdout; a usage error is one line on stderr, like all bad input.
+fn refuse(e: &clap::Error) -> ExitCode {
+    if !e.use_stderr() {
+        let _ = e.print(); // nothing to be done if the reader is gone
+        return ExitCode::SUCCESS;
+    }
+    let text = e.to_string();
+    // clap's message is its first paragraph; usage and tips follow.
+    let message: Vec<&str> = text.lines().take_while(|l| !l.is_empty()).map(str::trim).collect();
+    let message = message.join(" ");
+    eprintln!("mceip: {} (see mceip --help)", message.strip_prefix("error: ").unwrap_or(&message));
+    ExitCode::from(CliError::EXIT)
 }

@@ -23,7 +23,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
         (condense(&admissible)?, "condensed to its slip variables")
     } else {
-        (reduced.pencil, "reduced by (10)-(16)")
+        let what = if matches!(problem.body(), Body::System(_)) { "reduced by (10)-(16)" } else { "given as a pencil, nothing to reduce;" };
+        (reduced.pencil, what)
     };
     let variables: Vec<String> = reduced
         .variables
@@ -42,6 +43,6 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     out.name = problem.name.clone();
     let x = if variables.is_empty() { String::new() } else { format!("; x = ({})", variables.join(", ")) };
     out.comment = Some(format!("{what} from problem {}{x}", problem.sha256()));
-    print(&format!("{}\n", write_problem(&out)));
+    print(&format!("{}\n", write_problem(&out)))?;
     Ok(exit::DONE)
 }

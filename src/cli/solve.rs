@@ -1,11 +1,13 @@
 //! `mceip solve`: the PATH-style solver with many starts, every claim certified.
 
-use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinner, write_whole};
+use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinner};
+use super::output::Output;
 use crate::certify::certificate;
-use crate::model::Admissible;
-use crate::multistart::{Found, Search, multistart_large};
+use crate::model::{Admissible, Pencil};
+use crate::multistart::{Found, Search, multistart_large, support};
 use crate::reduction::reduce;
 use crate::report::{Listed, Report, solutions_json, solutions_text};
+use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
@@ -26,7 +28,7 @@ pub(super) struct Args {
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Closed window a,b of values instead of the file's (b empty or inf: no upper end).
-    #[arg(long)]
+    #[arg(long, allow_hyphen_values = true)]
     window: Option<String>,
     /// Print the linearisations and pivots of the first run.
     #[arg(long)]
@@ -44,6 +46,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         return Err(CliError::Option { option: "starts", expected: "at least 1", got: "0".into() });
     }
     let problem = load(&args.file, args.window.as_deref())?;
+    let output = args.certificate.as_ref().map(|path| Output::prepare("certificate", path, &[&args.file])).transpose()?;
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let window_starts = if args.all { Search::default().window_starts } else { 0 };
@@ -58,6 +61,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     bar.finish_and_clear();
     for u in &found.uncertified {
         eprintln!("uncertified: {} = {}: {}", problem.unknown().word(), u.candidate.value, u.reason);
+    }
+    for support in singular_supports(&reduced.pencil, &found) {
+        eprintln!(
+            "singular pencil: support {support:?} has more values than its order: every value is an eigenvalue, those listed are examples"
+        );
     }
     if args.log {
         eprint!("{}", first_log(&found));
@@ -74,16 +82,26 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     );
     let solutions = claims.iter().map(|c| Listed::of_claim(&problem, &reduced, c)).collect();
     let report = Report { problem: &problem, reduced: &reduced, solutions, complete: false, evidence, enumeration: None };
-    print(&if args.json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) });
+    print(&if args.json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) })?;
     let any = !claims.is_empty();
-    if let (Some(path), true) = (&args.certificate, any) {
-        write_whole(path, &certificate(&problem, claims).to_json())?;
+    if let (Some(output), true) = (output, any) {
+        output.write(&certificate(&problem, claims).to_json())?;
     }
     Ok(match (found.interrupted, any) {
         (true, _) => exit::INTERRUPTED,
         (false, true) => exit::DONE,
         (false, false) => exit::UNDECIDED,
     })
+}
+
+/// Supports with more certified values than a determinant of their order has roots: it vanishes
+/// identically.
+fn singular_supports(pencil: &Pencil, found: &Found) -> Vec<Vec<usize>> {
+    let mut counts: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
+    for c in &found.certified {
+        *counts.entry(support(&c.claim).to_vec()).or_default() += 1;
+    }
+    counts.into_iter().filter(|(s, count)| *count > s.len() + pencil.free().len()).map(|(s, _)| s).collect()
 }
 
 /// Linearisations and pivots of the very first run.

@@ -20,13 +20,13 @@ pub(super) struct Args {
     #[arg(long, default_value = "4/5", allow_hyphen_values = true)]
     s: String,
     /// Spring stiffness.
-    #[arg(long, default_value = "1")]
+    #[arg(long, default_value = "1", allow_hyphen_values = true)]
     k: String,
     /// Particle mass.
-    #[arg(long, default_value = "1")]
+    #[arg(long, default_value = "1", allow_hyphen_values = true)]
     m: String,
     /// Coefficient of friction.
-    #[arg(long, default_value = "8")]
+    #[arg(long, default_value = "8", allow_hyphen_values = true)]
     mu: String,
     /// Print JSON.
     #[arg(long)]
@@ -74,9 +74,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     let verdict = if agreed { "closed form = enumerator = certified, all four sign patterns" } else { "DISAGREEMENT" };
     if args.json {
-        print(&format!("{}\n", serde_json::json!({ "solutions": json, "agreement": agreed })));
+        print(&format!("{}\n", serde_json::json!({ "solutions": json, "agreement": agreed })))?;
     } else {
-        print(&format!("c = {c}, s = {s}, k = {k}, m = {m}, mu = {mu}\n{table}{verdict}\n"));
+        print(&format!("c = {c}, s = {s}, k = {k}, m = {m}, mu = {mu}\n{table}{verdict}\n"))?;
     }
     Ok(if agreed { exit::DONE } else { exit::REJECTED })
 }

@@ -28,7 +28,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         bar.set_position(done as u64);
     })?;
     bar.finish_and_clear();
-    print(&if args.json { format!("{}\n", json_of(&outcome)) } else { text_of(&outcome) });
+    print(&if args.json { format!("{}\n", json_of(&outcome)) } else { text_of(&outcome) })?;
     Ok(match (outcome.disagreements(), outcome.interrupted) {
         (0, false) => exit::DONE,
         (0, true) => exit::INTERRUPTED,

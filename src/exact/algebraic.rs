@@ -143,10 +143,10 @@ impl Algebraic {
     /// Looks for a rational value: a root u/v of a primitive polynomial has v dividing the lead, so
     /// in an interval narrower than 1/(2 lead^2) only the fraction of least denominator can be it.
     ///
-    /// Given up (the number stays as it is) for leads of more than 2000 bits, where it would cost
-    /// thousands of halvings.
+    /// Given up (the number stays as it is) for leads of more than 256 bits, where it would cost
+    /// many halvings.
     pub fn try_rational(&mut self) {
-        if self.interval.is_point() || self.poly.leading().bits() > 2000 {
+        if self.interval.is_point() || self.poly.leading().bits() > 256 {
             return;
         }
         let lead = Rational::from_integer(self.poly.leading());

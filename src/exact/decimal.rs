@@ -1,6 +1,6 @@
 //! Decimals for people: correctly rounded at any number of significant digits.
 
-use super::{Algebraic, Integer, Poly, Rational, Sign};
+use super::{Algebraic, Integer, Interval, Poly, Rational, Sign};
 use num_traits::{Pow, Signed, Zero};
 
 /// `value(number)` rounded to `digits` significant digits, half away from zero, as a decimal string.
@@ -42,6 +42,25 @@ pub fn ratio_to_decimal(number: &mut Algebraic, numerator: &Poly, denominator: &
         }
         number.refine();
     }
+}
+
+/// Decimals with `digits` significant digits (of the larger end) that enclose an interval: the lower
+/// end rounded down, the upper end rounded up.
+///
+/// ```
+/// use mceip::exact::{enclosing_decimals, rational, Interval};
+/// let i = Interval::new(rational(1, 3), rational(2, 3)).unwrap();
+/// assert_eq!(enclosing_decimals(&i, 3), ("0.333".to_string(), "0.667".to_string()));
+/// ```
+pub fn enclosing_decimals(interval: &Interval, digits: usize) -> (String, String) {
+    let largest = interval.lo().abs().max(interval.hi().abs());
+    if largest.is_zero() {
+        return ("0".into(), "0".into());
+    }
+    let unit = digits.max(1) as i64 - 1 - decimal_exponent(&largest);
+    let down = scaled(&scaled(interval.lo(), unit).floor(), -unit);
+    let up = scaled(&scaled(interval.hi(), unit).ceil(), -unit);
+    (round(&down, digits + 1), round(&up, digits + 1)) // both are exact at that length
 }
 
 /// A rational rounded to `digits` significant digits, half away from zero.

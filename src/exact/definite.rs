@@ -102,12 +102,24 @@ impl Fixed {
 
 fn rounded_ldl(m: &Sparse) -> Result<(), DefiniteError> {
     let fixed = Fixed::of(m);
+    let (lower, pivots) = factor(m, &fixed)?;
+    match first_undominated(m, &fixed, &lower, &pivots) {
+        None => Ok(()),
+        Some(index) => Err(DefiniteError::Undecided { index }),
+    }
+}
+
+/// Rows of a unit lower factor, below the diagonal, in units of 2^-FRACTION_BITS.
+type Lower = Vec<BTreeMap<usize, Integer>>;
+
+/// The rounded factors L and D of A - sI, or what the first pivot that is not positive shows.
+fn factor(m: &Sparse, fixed: &Fixed) -> Result<(Lower, Vec<Integer>), DefiniteError> {
     let shift = Integer::one() << (FRACTION_BITS - SHIFT_BITS);
-    // Rows of the lower factor: l in units of 2^-FRACTION_BITS, pivots d in fixed units.
-    let mut lower: Vec<BTreeMap<usize, Integer>> = Vec::with_capacity(m.rows());
+    // Pivots in fixed units.
+    let mut lower: Lower = Vec::with_capacity(m.rows());
     let mut pivots: Vec<Integer> = Vec::with_capacity(m.rows());
     for i in 0..m.rows() {
-        let row = factor_row(m, &fixed, i, &lower, &pivots);
+        let row = factor_row(m, fixed, i, &lower, &pivots);
         let square: Integer = row.iter().map(|(k, l)| (l * l * &pivots[*k]) >> (2 * FRACTION_BITS)).sum();
         let pivot = fixed.round(&m.get(i, i)) - &shift - square;
         if !pivot.is_positive() {
@@ -116,10 +128,7 @@ fn rounded_ldl(m: &Sparse) -> Result<(), DefiniteError> {
         lower.push(row);
         pivots.push(pivot);
     }
-    match first_undominated(m, &fixed, &lower, &pivots) {
-        None => Ok(()),
-        Some(index) => Err(DefiniteError::Undecided { index }),
-    }
+    Ok((lower, pivots))
 }
 
 /// Row i of L from the rows above: l_ij d_j = a_ij - sum_k l_ik d_k l_jk, within the skyline.
@@ -154,7 +163,7 @@ fn first_undominated(m: &Sparse, fixed: &Fixed, lower: &[BTreeMap<usize, Integer
     let mut off = vec![Rational::zero(); m.rows()];
     for i in 0..m.rows() {
         let scaled: BTreeMap<usize, Integer> = with_diagonal(i).map(|(k, l)| (k, l * &pivots[k])).collect();
-        let start = scaled.first_key_value().map_or(i, |e| *e.0);
+        let start = scaled.first_key_value().map_or(i, |e| *e.0).min(m.row(i).first().map_or(i, |e| e.0));
         // Columns where either the product or A can be non-zero lie between start and i.
         for j in start..=i {
             let product: Integer = with_diagonal(j).filter_map(|(k, l)| scaled.get(&k).map(|s| s * l)).sum();
@@ -219,6 +228,18 @@ mod tests {
             assert!(matches!(result, Err(DefiniteError::Not(NotDefinite { pivot, .. })) if !pivot.is_positive()));
         }
         assert!(matches!(positive_definite(&chain(120, rational(19, 10))), Err(DefiniteError::Not(_))));
+    }
+
+    /// The factors of one matrix prove nothing about another one: the exact residual notices.
+    #[test]
+    fn a_factorisation_of_another_matrix_is_not_dominated() {
+        let (good, other) = (chain(12, whole(2)), chain(12, rational(19, 10)));
+        let fixed = Fixed::of(&good);
+        let (lower, pivots) = factor(&good, &fixed).unwrap();
+        assert_eq!(first_undominated(&good, &fixed, &lower, &pivots), None);
+        assert_eq!(first_undominated(&other, &fixed, &lower, &pivots), Some(0));
+        let off = Sparse::from_entries(12, 12, [(11, 0, rational(1, 1_000_000)), (0, 11, rational(1, 1_000_000))]);
+        assert!(first_undominated(&good.add_scaled(&whole(1), &off), &fixed, &lower, &pivots).is_some());
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! Closed intervals with rational ends, and interval Horner: the enclosure a checker can afford.
 
-use super::{Poly, Rational};
-use num_traits::{Signed, Zero};
+use super::{Integer, Poly, Rational};
+use num_integer::Integer as _;
+use num_traits::{One, Signed, Zero};
 
 /// The closed interval [lo, hi], lo <= hi.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -97,11 +98,22 @@ impl Interval {
     /// assert_eq!(t.horner(&Poly::from_ints(&[-1, 1])).certain_sign(), 1);
     /// ```
     pub fn horner(&self, p: &Poly) -> Interval {
-        let mut value = Interval::point(Rational::zero());
-        for c in p.coeffs().iter().rev() {
-            value = value.mul(self).add(&Interval::point(Rational::from_integer(c.clone())));
+        // Integers over powers of the ends' common denominator v; fractions are reduced once, at the end.
+        let v = self.lo.denom().lcm(self.hi.denom());
+        let (a, b) = (self.lo.numer() * (&v / self.lo.denom()), self.hi.numer() * (&v / self.hi.denom()));
+        let (mut lo, mut hi, mut scale) = (Integer::zero(), Integer::zero(), Integer::one());
+        for (k, c) in p.coeffs().iter().rev().enumerate() {
+            if k > 0 {
+                scale *= &v;
+                let products = [&lo * &a, &lo * &b, &hi * &a, &hi * &b];
+                let [p, q, r, s] = &products;
+                (lo, hi) = (p.min(q).min(r).min(s).clone(), p.max(q).max(r).max(s).clone());
+            }
+            let c = c * &scale;
+            lo += &c;
+            hi += c;
         }
-        value
+        Interval { lo: Rational::new(lo, scale.clone()), hi: Rational::new(hi, scale) }
     }
 }
 

@@ -22,7 +22,7 @@ mod roots;
 mod sparse;
 
 pub use algebraic::{Algebraic, Sign};
-pub use decimal::{ratio_to_decimal, to_decimal};
+pub use decimal::{enclosing_decimals, ratio_to_decimal, to_decimal};
 pub use definite::{DefiniteError, NotDefinite, positive_definite};
 pub use dense::Dense;
 pub use double::{from_f64, to_f64};

@@ -99,6 +99,18 @@ pub enum ModelError {
         /// First value that is too large.
         limit: usize,
     },
+    /// A particle names a degree of freedom that does not exist.
+    #[error("particle {particle}: expected {which} below {limit}, got {dof}")]
+    DofOutOfRange {
+        /// The particle.
+        particle: usize,
+        /// `tangential` or `normal`.
+        which: &'static str,
+        /// The degree of freedom.
+        dof: usize,
+        /// Number of degrees of freedom.
+        limit: usize,
+    },
     /// An index is listed twice.
     #[error("expected each {what} once, got {index} twice")]
     IndexTwice {

@@ -206,9 +206,9 @@ fn check_friction(friction: Option<&Rational>, particles: &[Particle]) -> Result
 fn check_particles(n: usize, particles: &[Particle], friction: Option<&Rational>) -> Result<(), ModelError> {
     let mut owner: BTreeMap<usize, usize> = BTreeMap::new();
     for (index, p) in particles.iter().enumerate() {
-        for (what, dof) in [("tangential", p.tangential), ("normal", p.normal)] {
+        for (which, dof) in [("tangential", p.tangential), ("normal", p.normal)] {
             if dof >= n {
-                return Err(ModelError::IndexOutOfRange { what, index: dof, limit: n });
+                return Err(ModelError::DofOutOfRange { particle: index, which, dof, limit: n });
             }
             if let Some(first) = owner.insert(dof, index) {
                 return Err(ModelError::DofTwice { dof, first, second: index });
@@ -287,7 +287,7 @@ mod tests {
     #[test]
     fn contradictions_are_refused_by_name() {
         let slip = |t, n| Particle::plain(t, n, SLIP);
-        assert!(matches!(build(1, vec![slip(0, 4)]), Err(ModelError::IndexOutOfRange { what: "normal", index: 4, limit: 4 })));
+        assert!(matches!(build(1, vec![slip(0, 4)]), Err(ModelError::DofOutOfRange { particle: 0, which: "normal", dof: 4, limit: 4 })));
         assert!(matches!(build(1, vec![slip(0, 1), slip(1, 2)]), Err(ModelError::DofTwice { dof: 1, first: 0, second: 1 })));
         assert!(matches!(build(0, vec![slip(0, 1)]), Err(ModelError::FrictionNotPositive { particle: 0, .. })));
         assert!(matches!(build(-1, vec![slip(0, 1)]), Err(ModelError::FrictionNegative { .. })));

@@ -119,9 +119,7 @@ fn examine(pencil: &Integral<'_>, support: &[usize], window: &Window, found: &mu
         match &kernel[..] {
             [vector] => {
                 let multiplicity = multiplicity(&det, &mut value);
-                if let Some(solution) = admissible(pencil, support, &active, vector, value, multiplicity) {
-                    found.solutions.push(solution);
-                }
+                found.solutions.extend(admissible(pencil, support, &active, vector, value, multiplicity));
             }
             wide => found.wide.push(WideKernel { value, support: support.to_vec(), dimension: wide.len() }),
         }
@@ -137,19 +135,20 @@ fn admissible(
     vector: &[Poly],
     mut value: Algebraic,
     multiplicity: usize,
-) -> Option<Solution> {
+) -> Vec<Solution> {
     let mut x = vec![Poly::default(); pencil.order()];
     for (&i, p) in active.iter().zip(vector) {
         x[i] = p.clone();
     }
-    // The kernel is a line: orient it. Without slip variables both orientations may do.
+    // The kernel is a line: orient it. Without slip variables both orientations may do, and then
+    // x and -x are two solutions.
     let orientations = match support.first().map(|&i| value.sign_of(&x[i])) {
-        Some(Sign::Zero) => return None,
+        Some(Sign::Zero) => return Vec::new(),
         Some(Sign::Positive) => vec![1],
         Some(Sign::Negative) => vec![-1],
         None => vec![1, -1],
     };
-    orientations.into_iter().find_map(|sign| {
+    let oriented = orientations.into_iter().filter_map(|sign| {
         let x: Vec<Poly> = x.iter().map(|p| if sign == 1 { p.clone() } else { -p }).collect();
         let mut value = value.clone();
         if support.iter().any(|&i| value.sign_of(&x[i]) != Sign::Positive) {
@@ -165,7 +164,8 @@ fn admissible(
             }
         }
         Some(Solution { value, multiplicity, slip: support.to_vec(), biactive, x, y })
-    })
+    });
+    oriented.collect()
 }
 
 /// Row i of (A + tB) x.
@@ -244,7 +244,7 @@ mod tests {
         assert_eq!(found.solutions.len(), 1);
         assert_eq!((found.solutions[0].slip.clone(), found.solutions[0].multiplicity), (vec![0], 1));
         let free = enumerate(&pencil(&[&[-1, 1], &[0, -1]], &[&[1, 0], &[0, 1]], &[0, 1]), &Window::all()).unwrap();
-        assert_eq!((free.solutions.len(), free.solutions[0].multiplicity), (1, 2));
+        assert_eq!((free.solutions.len(), free.solutions[0].multiplicity), (2, 2)); // x and -x
     }
 
     #[test]
@@ -254,6 +254,10 @@ mod tests {
         let found = enumerate(&p, &Window::all()).unwrap();
         let found = found.solutions.iter().map(|s| s.x_decimals(&[1], 5)).collect::<Vec<_>>();
         assert_eq!(found, vec![vec!["-1", "0"], vec!["2", "1"]]); // l1 norm 1; e'x_s = 1
+        // Nothing depends on the sign: two rays, x and -x.
+        let p = pencil(&[&[-1, 0], &[0, -5]], &[&[1, 0], &[0, 1]], &[0]);
+        let x: Vec<_> = enumerate(&p, &Window::all()).unwrap().solutions.iter().map(|s| s.x_decimals(&[1], 5)).collect();
+        assert_eq!(x, vec![vec!["1", "0"], vec!["-1", "0"], vec!["0", "1"]]);
     }
 
     #[test]

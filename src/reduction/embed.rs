@@ -3,7 +3,7 @@
 //! Unknowns (u, zeta): x = D u with a positive diagonal D, t = origin + direction * unit * zeta.
 //! Rows: D (A + tB) D u complementary to u_s (free rows zero), e'u_s - c complementary to zeta
 //! (gamma = e'u_s - c). Positive scaling changes neither signs nor complementarity, so this is
-//! (27)-(30) or (31)-(34) with another positive normalisation; c = 1.
+//! (27)-(30) or (31)-(34) with another positive normalisation; c = 1 unless asked otherwise.
 #![allow(clippy::float_arithmetic)]
 
 use crate::candidate::Candidate;
@@ -33,6 +33,7 @@ pub struct Embedding {
     unit: f64,
     origin: f64,
     direction: f64,
+    c: f64,
     lower: Vec<f64>,
     upper: Vec<f64>,
 }
@@ -61,7 +62,21 @@ impl Embedding {
         let mut is_free = vec![false; n];
         pencil.free().iter().for_each(|&i| is_free[i] = true);
         let lower = is_free.iter().map(|&f| if f { f64::NEG_INFINITY } else { 0.0 }).chain([0.0]).collect();
-        Embedding { a, b, diagonal, is_free, unit, origin, direction, lower, upper: vec![f64::INFINITY; n + 1] }
+        Embedding { a, b, diagonal, is_free, unit, origin, direction, c: 1.0, lower, upper: vec![f64::INFINITY; n + 1] }
+    }
+
+    /// The same problem with another constant c in (28), (33). `None` unless c is positive and finite.
+    pub fn with_c(self, c: f64) -> Option<Embedding> {
+        (c > 0.0 && c.is_finite()).then_some(Embedding { c, ..self })
+    }
+
+    /// gamma = e'u_s - c of (28), (33): zero at every solution with zeta > 0, free at zeta = 0.
+    pub fn gamma(&self, z: &[f64]) -> f64 {
+        self.sum(z) - self.c
+    }
+
+    fn sum(&self, z: &[f64]) -> f64 {
+        self.is_free.iter().zip(z).filter(|(free, _)| !**free).map(|(_, u)| u).sum()
     }
 
     /// The candidate that a point of the MCP stands for: t and x = D u.
@@ -70,16 +85,16 @@ impl Embedding {
         Candidate { value: self.t(z[n]), x: z[..n].iter().zip(&self.diagonal).map(|(u, d)| u * d).collect() }
     }
 
-    /// The MCP point of a value and x (any positive scale with e'x_s > 0): u = x / d with e'u_s = 1.
+    /// The MCP point of a value and x (any positive scale with e'x_s > 0): u = x / d with e'u_s = c.
     /// The way opposite to [`Embedding::candidate`].
     pub fn point(&self, value: f64, x: &[f64]) -> Vec<f64> {
         let u: Vec<f64> = x.iter().zip(&self.diagonal).map(|(v, d)| v / d).collect();
-        let sum: f64 = (0..u.len()).filter(|&i| !self.is_free[i]).map(|i| u[i]).sum();
+        let sum = self.sum(&u);
         let zeta = (value - self.origin) * self.direction / self.unit;
-        u.iter().map(|v| v / sum).chain([zeta]).collect()
+        u.iter().map(|v| self.c * v / sum).chain([zeta]).collect()
     }
 
-    /// Starting points: e'u_s = 1 always (at x = 0 the column of t vanishes), u_f = 0.
+    /// Starting points: e'u_s = c always (at x = 0 the column of t vanishes), u_f = 0.
     ///
     /// The first two are u_s = 1/n_s at t = 0 and t = 1 from the origin (the first starts of
     /// `spec/`), then each single particle, then seeded random faces of the simplex with t
@@ -105,6 +120,8 @@ impl Embedding {
             starts.push(self.random_start(&slip, &mut rng));
         }
         starts.truncate(count);
+        // Written for e'u_s = 1.
+        starts.iter_mut().for_each(|z| z[..n].iter_mut().for_each(|u| *u *= self.c));
         starts
     }
 
@@ -163,7 +180,7 @@ impl Mcp for Embedding {
         let n = self.diagonal.len();
         let y = self.pencil_at(z[n]) * DVector::from_column_slice(&z[..n]); // E27, E31
         f[..n].copy_from_slice(y.as_slice());
-        f[n] = (0..n).filter(|&i| !self.is_free[i]).map(|i| z[i]).sum::<f64>() - 1.0; // E28, E33
+        f[n] = self.gamma(z); // E28, E33
     }
     fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
         let n = self.diagonal.len();

@@ -78,13 +78,16 @@ fn variable(v: &Variable) -> Value {
 
 /// The report for people.
 pub fn solutions_text(report: &Report<'_>) -> String {
-    let mut table = Table::new(&[report.problem.unknown().word(), "slip", "biactive", "x (slip variables, e'x = 1)"]);
-    let slip = report.reduced.pencil.slip();
+    // All of x where that fits a line, else the slip variables.
+    let order = report.reduced.pencil.order();
+    let slip = if order <= SHORT { (0..order).collect() } else { report.reduced.pencil.slip() };
+    let what = if order <= SHORT { "x (e'x_s = 1)" } else { "x (slip variables, e'x_s = 1)" };
+    let mut table = Table::new(&[report.problem.unknown().word(), "slip", "biactive", what]);
     for s in &report.solutions {
         let x: Vec<String> = slip.iter().map(|&i| short(&s.x[i])).collect();
         table.row(vec![s.value.clone(), format!("{:?}", s.slip), format!("{:?}", s.biactive), x.join(" ")]);
     }
-    let mut out = if report.solutions.is_empty() { String::new() } else { table.to_string() };
+    let mut out = if report.solutions.is_empty() { String::new() } else { table.to_string() + &meaning(report, &slip) };
     if let Some(e) = report.enumeration {
         for w in &e.wide {
             out +=
@@ -96,6 +99,22 @@ pub fn solutions_text(report: &Report<'_>) -> String {
     }
     out += &format!("{} solution{}: {}\n", report.solutions.len(), if report.solutions.len() == 1 { "" } else { "s" }, report.evidence);
     out
+}
+
+/// Largest order whose x is printed in full.
+const SHORT: usize = 8;
+
+/// What the printed variables of a system stand for: dofs, and particles by their dof and S.
+fn meaning(report: &Report<'_>, printed: &[usize]) -> String {
+    let one = |i: &usize| match report.reduced.variables.get(*i)? {
+        Variable::Free { dof } => Some(format!("x[{i}] = v[{dof}]")),
+        Variable::Slip { sign, tangent, .. } => {
+            let dof = tangent.first().map_or(0, |d| d.0);
+            Some(format!("x[{i}] = -S v_T of the particle at dof {dof}, S = {sign:+}"))
+        }
+    };
+    let lines: Vec<String> = printed.iter().filter_map(one).collect();
+    if lines.is_empty() { String::new() } else { format!("where {}\n", lines.join(", ")) }
 }
 
 /// A decimal cut to eight significant characters for a table.

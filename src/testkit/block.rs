@@ -10,6 +10,7 @@ use crate::multistart::{Search, SearchError, multistart_large};
 use crate::reduction::reduce;
 use crate::source::{Block, PublishedState};
 use std::ops::ControlFlow;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Windows of section 4 in which the 15-slip state is sought besides [0, infinity): without them
 /// PATH itself does not find it (`spec/decisions.md`).
@@ -65,18 +66,32 @@ pub struct BlockReport {
     pub certificate: Option<Certificate>,
 }
 
-/// Treats one published state; `progress` is told what is being done.
+/// Treats one published state; `progress` is told what is being done. `None` if `stop` was set.
 ///
 /// # Errors
 /// [`BlockError`]; none for the paper's block.
-pub fn block_state(block: &Block, state: PublishedState, progress: &dyn Fn(&str)) -> Result<BlockReport, BlockError> {
+pub fn block_state(
+    block: &Block,
+    state: PublishedState,
+    stop: &AtomicBool,
+    progress: &dyn Fn(&str),
+) -> Result<Option<BlockReport>, BlockError> {
+    let stopped = || stop.load(Ordering::Relaxed);
     progress("reducing");
     let problem = state.problem(block)?;
     let pencil = reduce(&problem)?.pencil;
     let full = Admissible::new(&pencil, Unknown::Mu)?;
+    if stopped() {
+        return Ok(None);
+    }
     progress("condensing exactly and searching");
     let search = Search { origins: BLOCK_ORIGINS.to_vec(), window_starts: 2, ..Search::default() };
-    let (found, condensed) = multistart_large(&full, problem.window(), &search, &|_| ControlFlow::Continue(()))?;
+    let (found, condensed) = multistart_large(&full, problem.window(), &search, &|_| {
+        if stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    })?;
+    if stopped() {
+        return Ok(None);
+    }
     progress("checking");
     let entries = condensed.iter().flat_map(|p| p.a().entries().chain(p.b().entries()));
     let bits = entries.map(|e| e.2.denom().bits()).max().unwrap_or(0);
@@ -94,7 +109,7 @@ pub fn block_state(block: &Block, state: PublishedState, progress: &dyn Fn(&str)
         certificate: None,
     };
     if found.certified.is_empty() {
-        return Ok(report);
+        return Ok(Some(report));
     }
     let certificate = certificate(&problem, found.certified.into_iter().map(|c| c.claim).collect());
     match check(&problem, &certificate) {
@@ -105,11 +120,14 @@ pub fn block_state(block: &Block, state: PublishedState, progress: &dyn Fn(&str)
         Err(e) => report.rejected.push(e),
     }
     for forgery in forgeries(&certificate) {
+        if stopped() {
+            return Ok(None);
+        }
         report.forgeries += 1;
         report.rejected_forgeries += usize::from(check(&problem, &forgery.certificate).is_err_and(|e| (forgery.expected)(&e.reason)));
     }
     report.certificate = Some(certificate);
-    Ok(report)
+    Ok(Some(report))
 }
 
 fn accepted_state(slip: &[usize], state: PublishedState, support: &[usize], value: &Rational) -> AcceptedState {

@@ -11,4 +11,4 @@ pub use block::{AcceptedState, BlockError, BlockReport, block_state};
 pub use compare::{Disagreement, InstanceReport, compare};
 pub use families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
 pub use forge::{Forgery, forgeries};
-pub use verify::{FamilyReport, Verification, verify};
+pub use verify::{FamilyReport, Verification, verify, verify_family};

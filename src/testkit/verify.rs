@@ -83,7 +83,7 @@ pub fn verify(
     ];
     let mut rows = Vec::new();
     for (name, instances) in families {
-        rows.push(family(name, &instances?, &search, stop, progress));
+        rows.push(verify_family(name, &instances?, &search, stop, progress));
     }
     let mut block = Vec::new();
     let model = Block::of_the_paper(MassKind::Consistent);
@@ -92,12 +92,13 @@ pub fn verify(
             break;
         }
         progress("block of section 5", k, 2);
-        block.push(block_state(&model, state, &|_| {})?);
+        block.extend(block_state(&model, state, stop, &|_| {})?);
     }
     Ok(Verification { seed, families: rows, block, interrupted: stop.load(Ordering::Relaxed) })
 }
 
-fn family(
+/// Runs one family, instances in parallel; the row does not depend on the number of threads.
+pub fn verify_family(
     name: &'static str,
     instances: &[Instance],
     search: &Search,

@@ -1,7 +1,7 @@
 //! A matrix in a file: dense rows, sparse entries, or a Matrix Market file beside the problem.
 
 use super::market::read_matrix_market;
-use super::{MAX_ORDER, Number, read_text};
+use super::{MAX_ORDER, Number, beside, read_text};
 use crate::exact::{Rational, Sparse};
 use crate::model::ModelError;
 use serde::Deserialize;
@@ -70,7 +70,7 @@ impl RawMatrix {
                 dense: None, entries: Some(entries), matrix_market: None, rows: Some(rows), cols: Some(cols), symmetric, ..
             } => sparse(what, rows, cols, symmetric, entries)?,
             RawObject { dense: None, entries: None, matrix_market: Some(file), rows: None, cols: None, symmetric: false, .. } => {
-                read_matrix_market(what, &read_text(what, &folder.join(file))?)?
+                read_matrix_market(what, &read_text(what, &beside(what, folder, &file)?)?)?
             }
             _ => return Err(shape_of_object(what)),
         };
@@ -175,6 +175,9 @@ mod tests {
         assert!(matches!(read(r#"{"rows":99999999999,"cols":1,"entries":[]}"#), Err(ModelError::TooLarge { .. })));
         assert!(matches!(read(r#"{"rows":1,"entries":[]}"#), Err(ModelError::Missing { .. })));
         assert!(matches!(read(r#"{"rows":1,"rows":1,"cols":1,"entries":[]}"#), Err(ModelError::Json { .. })));
+        for name in ["/dev/zero", "../K.mtx", "src"] {
+            assert!(matches!(read(&format!(r#"{{"matrix_market":"{name}"}}"#)), Err(ModelError::Unreadable { .. })), "{name}");
+        }
         assert_eq!(read("[[0, 0]]").unwrap(), Sparse::from_entries(1, 2, [(0, 0, whole(0))]));
     }
 }

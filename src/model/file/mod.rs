@@ -11,6 +11,7 @@ pub use number::Number;
 pub use write::{write_problem, write_sparse};
 
 use super::{ErrorLocation, ModelError, Problem};
+use std::io::Read as _;
 use std::path::Path;
 
 /// The format this program reads and writes.
@@ -45,7 +46,7 @@ pub fn read_problem(text: &str, folder: &Path) -> Result<Problem, ModelError> {
 /// [`ModelError::Unreadable`], [`ModelError::TooLarge`], or what [`read_problem`] finds.
 pub fn read_problem_file(path: &Path) -> Result<Problem, ModelError> {
     let text = read_text("the problem", path)?;
-    read_problem(&text, path.parent().unwrap_or(Path::new(".")))
+    read_problem(&text, path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")))
 }
 
 /// Reads a text file of bounded size.
@@ -54,11 +55,31 @@ pub fn read_problem_file(path: &Path) -> Result<Problem, ModelError> {
 /// [`ModelError::Unreadable`] or [`ModelError::TooLarge`], naming what the file was wanted for.
 pub fn read_text(what: &'static str, path: &Path) -> Result<String, ModelError> {
     let unreadable = |e: std::io::Error| ModelError::Unreadable { what, path: path.display().to_string(), problem: e.to_string() };
-    let length = std::fs::metadata(path).map_err(unreadable)?.len();
+    let mut text = String::new();
+    // Bounded by what is read, not by what the directory says: devices and pipes have no length.
+    let file = std::fs::File::open(path).map_err(unreadable)?;
+    let length = file.take(MAX_FILE_BYTES + 1).read_to_string(&mut text).map_err(unreadable)? as u64;
     if length > MAX_FILE_BYTES {
         return Err(ModelError::TooLarge { what: "file size in bytes", limit: MAX_FILE_BYTES, got: length });
     }
-    std::fs::read_to_string(path).map_err(unreadable)
+    Ok(text)
+}
+
+/// The path of a file that a problem names: beside the problem, a regular file.
+///
+/// # Errors
+/// [`ModelError::Unreadable`] for absolute names, names with `..`, devices and folders.
+pub(super) fn beside(what: &'static str, folder: &Path, name: &str) -> Result<std::path::PathBuf, ModelError> {
+    use std::path::Component;
+    let refused = |problem: &str| ModelError::Unreadable { what, path: name.chars().take(200).collect(), problem: problem.into() };
+    if !Path::new(name).components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir)) {
+        return Err(refused("expected a name beside the problem file"));
+    }
+    let path = folder.join(name);
+    if path.exists() && !path.is_file() {
+        return Err(refused("expected a regular file"));
+    }
+    Ok(path)
 }
 
 /// Checks the `format` field before anything else, so that another version is named as such.
