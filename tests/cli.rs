@@ -102,7 +102,7 @@ fn scratch(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
 #[test]
 fn the_chain_of_commands() {
     let folder = tempfile::tempdir().unwrap();
-    for (name, count) in [("two-particles", 3), ("two-particles-mu", 1), ("fold", 2)] {
+    for (name, count) in [("two-particles", 3), ("two-particles-mu", 1), ("fold", 2), ("oblique", 1)] {
         let file = root(&format!("spec/examples/{name}.json"));
         let listed = mceip(&["enumerate", &file, "--json"]);
         assert_eq!(listed.status.code(), Some(0));
