@@ -127,7 +127,7 @@ fn kernel_vector(
     // Each basis vector is the same polynomial at its own free coordinate, zero at the others'.
     let weights = match &basis[..] {
         [_] => vec![Rational::from_integer(1.into())],
-        _ => basis.iter().map(|v| coordinate(v, &basis, active, candidate)).collect::<Result<Vec<_>, _>>()?,
+        _ => (0..basis.len()).map(|k| coordinate(k, &basis, active, candidate)).collect::<Result<Vec<_>, _>>()?,
     };
     let clear = crate::exact::common_denominator(&weights);
     let mut x = vec![Poly::default(); pencil.order()];
@@ -145,11 +145,10 @@ fn kernel_vector(
     Ok(if flip { x.iter().map(|p| -p).collect() } else { x })
 }
 
-/// The candidate's component at the free coordinate that belongs to `vector`.
-fn coordinate(vector: &[Poly], basis: &[Vec<Poly>], active: &[usize], candidate: &Candidate) -> Result<Rational, AttemptFailure> {
-    let own = (0..active.len())
-        .find(|&k| !vector[k].is_zero() && basis.iter().all(|other| std::ptr::eq(&other[..], vector) || other[k].is_zero()));
-    let component = own.map_or(0.0, |k| candidate.x[active[k]]);
+/// The candidate's component at the one coordinate where, of all basis vectors, only the k-th is not zero.
+fn coordinate(k: usize, basis: &[Vec<Poly>], active: &[usize], candidate: &Candidate) -> Result<Rational, AttemptFailure> {
+    let only_k = |c: &usize| basis.iter().enumerate().all(|(other, v)| v[*c].is_zero() != (other == k));
+    let component = (0..active.len()).find(only_k).map_or(0.0, |c| candidate.x[active[c]]);
     from_f64(component).map_err(|_| AttemptFailure::NotFinite)
 }
 

@@ -4,7 +4,7 @@ use super::forge::forgeries;
 use crate::certificate::Certificate;
 use crate::certify::certificate;
 use crate::check::{Rejected, check};
-use crate::exact::Rational;
+use crate::exact::{Rational, to_f64};
 use crate::model::{Admissible, ModelError, Unknown};
 use crate::multistart::{Search, SearchError, multistart_large};
 use crate::reduction::reduce;
@@ -134,5 +134,5 @@ fn accepted_state(slip: &[usize], state: PublishedState, support: &[usize], valu
     // Slip variables stand for the slip nodes from left to right; the stick nodes come before them.
     let first = state.states().len() - 4 - slip.len();
     let stuck = slip.iter().enumerate().filter(|(_, i)| !support.contains(i)).map(|(k, _)| first + k + 1).collect();
-    AcceptedState { value: format!("{:.12}", super::compare::approximate(value)), slipping: support.len(), stuck }
+    AcceptedState { value: format!("{:.12}", to_f64(value)), slipping: support.len(), stuck }
 }

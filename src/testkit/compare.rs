@@ -6,7 +6,7 @@ use crate::candidate::Candidate;
 use crate::certificate::Claim;
 use crate::certify::{certificate, certify};
 use crate::check::check;
-use crate::exact::{Algebraic, Poly, Quadratic, Rational, Sign, to_f64};
+use crate::exact::{Algebraic, Poly, Quadratic, Rational, Sign};
 use crate::model::{Admissible, Body, Problem};
 use crate::multistart::{Found, Search, exact_value, multistart, support};
 use crate::oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
@@ -268,9 +268,4 @@ fn same_value(value: &Algebraic, claim: &Claim) -> bool {
 fn described(oracle: &Enumeration, claim: &Claim) -> bool {
     let on = |set: &[usize]| set == support(claim);
     oracle.wide.iter().any(|w| on(&w.support) && same_value(&w.value, claim)) || oracle.continua.iter().any(|c| on(c))
-}
-
-/// A value as a double, for messages.
-pub(super) fn approximate(value: &Rational) -> f64 {
-    to_f64(value)
 }

@@ -33,24 +33,20 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
     let places = Places { coordinate, symmetric, rows, cols };
     let expected = places.count(&sizes);
     let mut entries: Vec<(usize, usize, Rational)> = Vec::new();
-    let mut last = line;
-    for (k, (line, text)) in lines.enumerate() {
-        last = line;
-        if k >= expected {
+    let mut got = 0;
+    for (line, text) in lines {
+        if got == expected {
             return Err(reader.complain(line, "no more entries than the size line announces", text));
         }
-        let (i, j, value) = reader.entry(line, text, &places, k)?;
+        let (i, j, value) = reader.entry(line, text, &places, got)?;
         if symmetric && i != j {
             entries.push((j, i, value.clone()));
         }
         entries.push((i, j, value));
-        if k + 1 == expected {
-            last = end;
-        }
+        got += 1;
     }
-    let got = if symmetric { entries.iter().filter(|e| e.0 >= e.1).count() } else { entries.len() };
     if got != expected {
-        return Err(reader.complain(last + 1, "as many entries as the size line announces", &format!("{got} of {expected}")));
+        return Err(reader.complain(end, "as many entries as the size line announces", &format!("{got} of {expected}")));
     }
     refuse_twice(what, &entries)?;
     Ok(Sparse::from_entries(rows, cols, entries))
