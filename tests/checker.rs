@@ -140,6 +140,28 @@ fn y_negative_by_1e_30_is_rejected_and_positive_accepted() {
     assert_eq!(verdict(&zero, &ExactSolution { biactive: vec![1], ..c }), Ok(()));
 }
 
+/// y_2 = (t - 9/20) x_0 changes sign inside [2/5, 1/2] and is negative at t = sqrt 2 - 1: an interval
+/// that leaves a sign open proves nothing. With 2/5 for 9/20 it is positive, provable on a shorter one.
+#[test]
+fn a_sign_that_the_interval_leaves_open_is_rejected() {
+    let with = |shift: &str| {
+        let a: [[&str; 3]; 3] = [["1", "-1", "0"], ["-2", "1", "0"], [shift, "0", "9"]];
+        problem(&[&a[0], &a[1], &a[2]], &[&["1", "0", "0"], &["0", "1", "0"], &["1", "0", "1"]], &[])
+    };
+    let (_, wide) = root_two();
+    let open = |p: &Problem, c: &ExactSolution| matches!(verdict(p, c), Err(Reason::YNotPositive { index: 2, lo, hi }) if lo < whole(0) && hi > whole(0));
+    assert!(open(&with("-9/20"), &wide));
+    let narrow = ExactSolution { interval: [Number(rational(41, 100)), Number(rational(42, 100))], ..wide.clone() };
+    assert!(matches!(verdict(&with("-9/20"), &narrow), Err(Reason::YNotPositive { hi, .. }) if hi < whole(0)));
+    assert_eq!(verdict(&with("-2/5"), &narrow), Ok(()));
+    // The same for x: x_0 = 9/20 - t and x_1 = (t + 1) x_0 on the wide interval.
+    let x = vec![numbers(&["9/20", "-1"]), numbers(&["-11/20", "29/20"]), vec![]];
+    let positive = ExactSolution { x: x.clone(), ..narrow };
+    let (p, _) = root_two();
+    assert_eq!(verdict(&p, &positive), Ok(()));
+    assert!(matches!(verdict(&p, &ExactSolution { x, ..wide }), Err(Reason::XNotPositive { index: 0, .. })));
+}
+
 #[test]
 fn free_variables_must_balance_and_something_must_move() {
     // Free variable 0: (t - 1) x_0 = 0.
