@@ -135,6 +135,12 @@ fn y_negative_by_1e_30_is_rejected_and_positive_accepted() {
     let negative = with("-1e-30");
     assert!(matches!(verdict(&negative, &c), Err(Reason::YNotPositive { index: 1, hi, .. }) if hi < whole(0)));
     assert_eq!(verdict(&with("1e-30"), &c), Ok(()));
+    // The root must not be an end of the interval: that is what points are for.
+    for (interval, signs) in [(("1", "2"), (0, 1)), (("0", "1"), (-1, 0))] {
+        let at_end = claim(&[0], &[-1, 1], interval, &[&["1"], &[]]);
+        let Err(Reason::NoSignChange { at_a, at_b }) = verdict(&with("1"), &at_end) else { panic!("accepted") };
+        assert_eq!((at_a, at_b), signs);
+    }
     let zero = with("0");
     assert!(matches!(verdict(&zero, &c), Err(Reason::Biactive { index: 1, expected: true })));
     assert_eq!(verdict(&zero, &ExactSolution { biactive: vec![1], ..c }), Ok(()));
