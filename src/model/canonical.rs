@@ -75,6 +75,20 @@ mod tests {
     }
 
     #[test]
+    fn a_system_is_spelt_out_with_its_directions() {
+        use crate::model::{Particle, System};
+        let frame = Some([[rational(3, 5), rational(4, 5)], [rational(-4, 5), rational(3, 5)]]);
+        let slip = Particle { frame, normal_direction: -1, ..Particle::plain(0, 1, ContactState::Slip { sign: -1 }) };
+        let particles = vec![slip, Particle::plain(3, 2, ContactState::Stick)];
+        let system = System::new(Sparse::identity(4), None, Some(rational(1, 2)), particles).unwrap();
+        let p = Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap();
+        let head = "mceip-canonical/1\nunknown mu\nsystem\nfriction 1/2\n\
+                    particle 0 1 slip -1\ntangent 0 3/5 1 4/5\nnormal 0 4/5 1 -3/5\n\
+                    particle 3 2 stick\ntangent 3 1\nnormal 2 1\nstiffness 4 4\n0 0 1\n";
+        assert!(text(&p).starts_with(head), "{}", text(&p));
+    }
+
+    #[test]
     fn digest_binds_the_mathematics_and_nothing_else() {
         let p = problem(rational(-1, 2), Unknown::Lambda2);
         assert_eq!(text(&p), "mceip-canonical/1\nunknown lambda2\npencil\nfree\na 1 1\n0 0 -1/2\nb 1 1\n0 0 1\n");
