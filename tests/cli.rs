@@ -180,7 +180,7 @@ fn table1_agrees_and_verify_ends_with_a_verdict() {
 #[test]
 fn an_interrupt_keeps_what_was_found() {
     let child = Command::new(env!("CARGO_BIN_EXE_mceip")).arg("verify").stdout(std::process::Stdio::piped()).spawn().unwrap();
-    std::thread::sleep(std::time::Duration::from_secs(1));
+    std::thread::sleep(std::time::Duration::from_secs(3));
     assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
