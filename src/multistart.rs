@@ -61,7 +61,7 @@ pub struct Found {
     pub certified: Vec<Certified>,
     /// Distinct candidates that stayed uncertified.
     pub uncertified: Vec<Uncertified>,
-    /// Candidates below the window (a search downwards may leave it), discarded.
+    /// Candidates outside the window (a search downwards may leave it): counted, not certified.
     pub outside: usize,
     /// Candidates equal to an earlier one within rounding ([`SAME_POINT`]).
     pub repeated: usize,

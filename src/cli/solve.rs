@@ -72,12 +72,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     let claims: Vec<_> = found.certified.iter().map(|c| c.claim.clone()).collect();
     let evidence = format!(
-        "{} certified found in {}{} runs (seed {}, {} pivots, endings {:?}); completeness unknown",
+        "{} certified found in {}{} runs (seed {}, {} pivots, {} repeats, {} outside the window, endings {:?}); completeness unknown",
         claims.len(),
         if found.interrupted { "an interrupted search of " } else { "" },
         found.runs,
         args.seed,
         found.pivots,
+        found.repeated,
+        found.outside,
         found.terminations
     );
     let solutions = claims.iter().map(|c| Listed::of_claim(&problem, &reduced, c)).collect();
