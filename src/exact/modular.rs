@@ -200,11 +200,6 @@ mod tests {
     use super::*;
     use crate::exact::{rational, whole};
 
-    fn sparse(rows: &[&[i64]]) -> Sparse {
-        let entries = rows.iter().enumerate().flat_map(|(i, r)| r.iter().enumerate().map(move |(j, &v)| (i, j, whole(v))));
-        Sparse::from_entries(rows.len(), rows.first().map_or(0, |r| r.len()), entries)
-    }
-
     /// D - R F^-1 C by elimination in fractions.
     fn plain(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> Sparse {
         let (n, w) = (f.rows(), f.rows() + c.cols());
@@ -238,10 +233,11 @@ mod tests {
 
     #[test]
     fn agrees_with_elimination_in_fractions() {
-        let f = sparse(&[&[4, -1, 0, 2], &[-1, 5, 3, 0], &[0, 3, 6, -2], &[2, 0, -2, 9]]).add_scaled(&rational(1, 7), &Sparse::identity(4));
-        let c = sparse(&[&[1, 0], &[0, 2], &[-3, 1], &[5, 5]]);
-        let r = sparse(&[&[1, 2, 3, 4], &[0, 0, 0, 1], &[-7, 0, 2, 0]]);
-        let d = sparse(&[&[1, 0], &[0, 0], &[2, -9]]);
+        let f = Sparse::from_ints(&[&[4, -1, 0, 2], &[-1, 5, 3, 0], &[0, 3, 6, -2], &[2, 0, -2, 9]])
+            .add_scaled(&rational(1, 7), &Sparse::identity(4));
+        let c = Sparse::from_ints(&[&[1, 0], &[0, 2], &[-3, 1], &[5, 5]]);
+        let r = Sparse::from_ints(&[&[1, 2, 3, 4], &[0, 0, 0, 1], &[-7, 0, 2, 0]]);
+        let d = Sparse::from_ints(&[&[1, 0], &[0, 0], &[2, -9]]);
         assert_eq!(schur_complement(&f, &c, &r, &d).unwrap(), plain(&f, &c, &r, &d));
     }
 
@@ -249,16 +245,19 @@ mod tests {
     fn a_determinant_divisible_by_the_first_prime_is_survived() {
         let p = Rational::from_integer(primes().next().unwrap().into());
         let f = Sparse::from_entries(2, 2, [(0, 0, p), (1, 1, whole(3))]);
-        let (c, r, d) = (sparse(&[&[1], &[1]]), sparse(&[&[1, 1]]), sparse(&[&[0]]));
+        let (c, r, d) = (Sparse::from_ints(&[&[1], &[1]]), Sparse::from_ints(&[&[1, 1]]), Sparse::from_ints(&[&[0]]));
         assert_eq!(schur_complement(&f, &c, &r, &d).unwrap(), plain(&f, &c, &r, &d));
     }
 
     #[test]
     fn empty_singular_and_misshapen() {
         let none = Sparse::zeros(0, 0);
-        assert_eq!(schur_complement(&none, &Sparse::zeros(0, 1), &Sparse::zeros(1, 0), &sparse(&[&[4]])).unwrap(), sparse(&[&[4]]));
-        let singular = sparse(&[&[1, 1], &[1, 1]]);
-        let (c, r, d) = (sparse(&[&[1], &[1]]), sparse(&[&[1, 1]]), sparse(&[&[0]]));
+        assert_eq!(
+            schur_complement(&none, &Sparse::zeros(0, 1), &Sparse::zeros(1, 0), &Sparse::from_ints(&[&[4]])).unwrap(),
+            Sparse::from_ints(&[&[4]])
+        );
+        let singular = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
+        let (c, r, d) = (Sparse::from_ints(&[&[1], &[1]]), Sparse::from_ints(&[&[1, 1]]), Sparse::from_ints(&[&[0]]));
         assert!(matches!(schur_complement(&singular, &c, &r, &d), Err(CondenseError::ZeroMinor { .. })));
         assert!(matches!(schur_complement(&singular, &r, &r, &d), Err(CondenseError::Shape { what: "C", .. })));
     }

@@ -48,6 +48,21 @@ impl Sparse {
         Sparse { cols, rows: lists }
     }
 
+    /// A matrix of machine integers by rows of one length, as [`super::Poly::from_ints`].
+    ///
+    /// ```
+    /// use mceip::exact::{Sparse, whole};
+    /// let m = Sparse::from_ints(&[&[1, 0, -2], &[0, 3, 0]]);
+    /// assert_eq!((m.rows(), m.cols(), m.get(0, 2)), (2, 3, whole(-2)));
+    /// ```
+    ///
+    /// # Panics
+    /// If a row is longer than the first: the caller writes the numbers down.
+    pub fn from_ints(rows: &[&[i64]]) -> Self {
+        let entries = rows.iter().enumerate().flat_map(|(i, r)| r.iter().enumerate().map(move |(j, &v)| (i, j, super::whole(v))));
+        Sparse::from_entries(rows.len(), rows.first().map_or(0, |r| r.len()), entries)
+    }
+
     /// Number of rows.
     pub fn rows(&self) -> usize {
         self.rows.len()

@@ -179,16 +179,10 @@ mod tests {
     use super::*;
     use crate::exact::{Dense, Rational, whole};
 
-    fn matrix(rows: &[&[i64]]) -> Sparse {
-        let n = rows.len();
-        let entries = rows.iter().enumerate().flat_map(|(i, r)| r.iter().enumerate().map(move |(j, &v)| (i, j, whole(v))));
-        Sparse::from_entries(n, rows.first().map_or(0, |r| r.len()), entries)
-    }
-
     #[test]
     fn shapes_and_index_sets_are_checked() {
-        let square = matrix(&[&[1, 0], &[0, 1]]);
-        assert!(matches!(Pencil::new(square.clone(), matrix(&[&[1, 0]]), vec![]), Err(ModelError::Shape { what: "b", .. })));
+        let square = Sparse::from_ints(&[&[1, 0], &[0, 1]]);
+        assert!(matches!(Pencil::new(square.clone(), Sparse::from_ints(&[&[1, 0]]), vec![]), Err(ModelError::Shape { what: "b", .. })));
         assert!(matches!(
             Pencil::new(square.clone(), square.clone(), vec![2]),
             Err(ModelError::IndexOutOfRange { index: 2, limit: 2, .. })
@@ -201,8 +195,8 @@ mod tests {
 
     #[test]
     fn hypotheses_are_proved_or_refused_by_name() {
-        let a = matrix(&[&[1, 0], &[5, 2]]);
-        let b = matrix(&[&[-1, 0], &[0, 1]]);
+        let a = Sparse::from_ints(&[&[1, 0], &[5, 2]]);
+        let b = Sparse::from_ints(&[&[-1, 0], &[0, 1]]);
         let pencil = Pencil::new(a.clone(), b.clone(), vec![1]).unwrap();
         assert!(Admissible::new(&pencil, Unknown::Lambda2).is_ok());
         assert!(matches!(Admissible::new(&pencil, Unknown::Mu), Err(ModelError::NotZero { row: 1, col: 1, .. })));
@@ -211,13 +205,13 @@ mod tests {
             Admissible::new(&indefinite, Unknown::Lambda2),
             Err(ModelError::NotDefinite { equation: "P2", index: 0, pivot, .. }) if pivot == whole(-1)
         ));
-        let all_free = Pencil::new(matrix(&[&[1]]), matrix(&[&[0]]), vec![0]).unwrap();
+        let all_free = Pencil::new(Sparse::from_ints(&[&[1]]), Sparse::from_ints(&[&[0]]), vec![0]).unwrap();
         assert!(matches!(Admissible::new(&all_free, Unknown::Mu), Err(ModelError::Empty { .. })));
     }
 
     #[test]
     fn dense_view_is_the_same_matrix() {
-        let m = matrix(&[&[1, 2], &[3, 4]]);
+        let m = Sparse::from_ints(&[&[1, 2], &[3, 4]]);
         assert_eq!(m.to_dense(), Dense::from_rows(vec![vec![whole(1), whole(2)], vec![whole(3), whole(4)]]));
         assert_eq!(m.to_dense()[(1, 0)], Rational::from_integer(3.into()));
     }

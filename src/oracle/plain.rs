@@ -190,11 +190,7 @@ mod tests {
     use crate::exact::{Sparse, rational, whole};
 
     fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
-        let sparse = |m: &[&[i64]]| {
-            let entries = m.iter().enumerate().flat_map(|(i, r)| r.iter().enumerate().map(move |(j, &v)| (i, j, whole(v))));
-            Sparse::from_entries(m.len(), m.len(), entries.collect::<Vec<_>>())
-        };
-        Pencil::new(sparse(a), sparse(b), free.to_vec()).unwrap()
+        Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec()).unwrap()
     }
 
     fn summary(p: &Pencil) -> Vec<(String, Vec<usize>, Vec<usize>)> {

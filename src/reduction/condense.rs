@@ -52,19 +52,14 @@ fn stack(a: &crate::exact::Sparse, b: &crate::exact::Sparse) -> crate::exact::Sp
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, whole};
+    use crate::exact::Sparse;
     use crate::model::Window;
     use crate::oracle::enumerate;
 
-    fn sparse(rows: &[&[i64]]) -> Sparse {
-        let entries = rows.iter().enumerate().flat_map(|(i, r)| r.iter().enumerate().map(move |(j, &v)| (i, j, whole(v))));
-        Sparse::from_entries(rows.len(), rows.len(), entries)
-    }
-
     #[test]
     fn solutions_are_those_of_the_full_pencil() {
-        let a = sparse(&[&[4, 1, 0, -1], &[1, 5, 2, 0], &[0, 2, 6, 1], &[-1, 0, 1, 3]]);
-        let b = sparse(&[&[0, 0, 0, 0], &[-3, -2, 1, -4], &[0, 0, 0, 0], &[2, -5, 3, -1]]);
+        let a = Sparse::from_ints(&[&[4, 1, 0, -1], &[1, 5, 2, 0], &[0, 2, 6, 1], &[-1, 0, 1, 3]]);
+        let b = Sparse::from_ints(&[&[0, 0, 0, 0], &[-3, -2, 1, -4], &[0, 0, 0, 0], &[2, -5, 3, -1]]);
         let full = Pencil::new(a, b, vec![0, 2]).unwrap();
         let small = condense(&Admissible::new(&full, Unknown::Mu).unwrap()).unwrap();
         let list = |p: &Pencil| enumerate(p, &Window::all()).unwrap().solutions;

@@ -132,29 +132,24 @@ mod tests {
     use crate::exact::{rational, whole};
     use crate::model::{ContactState, Particle, Window};
 
-    fn sparse(rows: &[&[i64]]) -> Sparse {
-        let entries = rows.iter().enumerate().flat_map(|(i, r)| r.iter().enumerate().map(move |(j, &v)| (i, j, whole(v))));
-        Sparse::from_entries(rows.len(), rows.len(), entries)
-    }
-
     /// Equation (16) written out by hand for one free dof, one stick and one slip particle.
     #[test]
     fn blocks_of_16_by_hand() {
         // dofs: 0 free, (1, 2) slip with S = -1, (3, 4) stick.
-        let k = sparse(&[&[9, 1, 2, 3, 4], &[1, 8, 5, 0, 0], &[2, 5, 7, 0, 0], &[3, 0, 0, 9, 0], &[4, 0, 0, 0, 9]]);
+        let k = Sparse::from_ints(&[&[9, 1, 2, 3, 4], &[1, 8, 5, 0, 0], &[2, 5, 7, 0, 0], &[3, 0, 0, 9, 0], &[4, 0, 0, 0, 9]]);
         let particles = vec![Particle::plain(1, 2, ContactState::Slip { sign: -1 }), Particle::plain(3, 4, ContactState::Stick)];
         let system = System::new(k, None, None, particles).unwrap();
         let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap();
         let reduced = reduce(&problem).unwrap();
-        assert_eq!(*reduced.pencil.a(), sparse(&[&[9, 1], &[1, 8]])); // -K_fT S = 1, S K_TT S = 8
-        assert_eq!(*reduced.pencil.b(), sparse(&[&[0, 0], &[-2, -5]])); // -K_Nf, K_NT S
+        assert_eq!(*reduced.pencil.a(), Sparse::from_ints(&[&[9, 1], &[1, 8]])); // -K_fT S = 1, S K_TT S = 8
+        assert_eq!(*reduced.pencil.b(), Sparse::from_ints(&[&[0, 0], &[-2, -5]])); // -K_Nf, K_NT S
         assert_eq!(reduced.pencil.free(), &[0]);
         assert_eq!(reduced.variables[0], Variable::Free { dof: 0 });
     }
 
     #[test]
     fn consistent_mass_gets_the_same_blocks_and_friction() {
-        let k = sparse(&[&[2, 0], &[0, 2]]);
+        let k = Sparse::from_ints(&[&[2, 0], &[0, 2]]);
         let m = Sparse::from_entries(2, 2, [(0, 0, whole(2)), (0, 1, whole(1)), (1, 0, whole(1)), (1, 1, whole(2))]);
         let system = System::new(k, Some(m), Some(rational(1, 2)), vec![Particle::plain(0, 1, ContactState::Slip { sign: 1 })]).unwrap();
         let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap();

@@ -185,12 +185,6 @@ fn random_particle(rng: &mut ChaCha8Rng, index: usize, corners: &mut Vec<Corner>
 /// # Errors
 /// [`ModelError`]; none for the data as given.
 pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
-    let sparse = |rows: &[&[i64]]| {
-        let n = rows.len();
-        let entries: Vec<_> =
-            rows.iter().enumerate().flat_map(|(i, r)| r.iter().enumerate().map(move |(j, &v)| (i, j, whole(v)))).collect();
-        Sparse::from_entries(n, n, entries)
-    };
     type Case<'a> = (&'a str, &'a [&'a [i64]], &'a [&'a [i64]], &'a [usize], Unknown, Corner);
     let identity: &[&[i64]] = &[&[1, 0], &[0, 1]];
     let cases: [Case<'_>; 12] = [
@@ -224,7 +218,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
     cases
         .into_iter()
         .map(|(name, a, b, free, unknown, corner)| {
-            let pencil = Pencil::new(sparse(a), sparse(b), free.to_vec())?;
+            let pencil = Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec())?;
             let problem = Problem::new(Body::Pencil(pencil), unknown, Window::all())?;
             Ok(Instance { label: format!("degenerate: {name}"), problem, closed_form: None, corners: vec![corner] })
         })
