@@ -48,6 +48,8 @@ pub mod reduction;
 #[cfg(feature = "solver")]
 pub mod report;
 #[cfg(feature = "solver")]
+pub mod search;
+#[cfg(feature = "solver")]
 pub mod solver;
 pub mod source;
 #[cfg(feature = "testkit")]

@@ -39,3 +39,26 @@ pub const SAME_POINT: f64 = 1e-9;
 /// Basis: far above the accuracy of a run, so that the value itself is not found again; solutions
 /// closer together than this are left to the plain starts.
 pub const WINDOW_GAP: f64 = 1e-7;
+
+/// Smallest pivot of the matrix game. Unit: that of the equilibrated columns (largest entry 1).
+/// Basis: rounding of a simplex run of a few hundred pivots stays below 1e-10.
+pub const GAME_PIVOT: f64 = 1e-9;
+
+/// Margin by which a witness of the complete search must hold before it is rounded. Unit: that of
+/// the equilibrated columns. Basis: rounding to 2^-40 and doubles' 1e-16 stay far below; the
+/// trees of random pencils do not change between 1e-6 and 1e-8.
+pub const WITNESS_MARGIN: f64 = 1e-7;
+
+/// Smallest pivot, relative to the largest entry, at which a symmetric part is offered as definite.
+/// Unit: none. Basis: the checker takes off order^2 2^-32 of the largest entry.
+pub const DEFINITE_PIVOT: f64 = 1e-6;
+
+/// Width below which an interval is no longer cut. Unit: share of the line of theta = t / (s + t).
+/// Basis: what is still undecided on 1e-8 of the line is degenerate (a double root, a biactive index):
+/// there branching and exact solutions help, cutting does not.
+pub const NARROW: f64 = 1e-8;
+
+/// The same where every index is decided and only cutting is left. Unit: as [`WITNESS_MARGIN`].
+/// Basis: a thousand times the rounding of a product of a few dozen terms; near a double root the
+/// margin falls with the square of the distance, and this bounds what stays open there.
+pub const THIN_MARGIN: f64 = 1e-11;

@@ -49,7 +49,13 @@ pub fn certify(pencil: &Pencil, window: &Window, candidate: &Candidate) -> Resul
 
 /// A certificate for the problem with the given claims.
 pub fn certificate(problem: &Problem, claims: Vec<Claim>) -> Certificate {
-    Certificate { problem_sha256: problem.sha256(), unknown: problem.unknown(), window: problem.window().clone(), claims }
+    Certificate {
+        problem_sha256: problem.sha256(),
+        unknown: problem.unknown(),
+        window: problem.window().clone(),
+        claims,
+        complete_set: None,
+    }
 }
 
 /// Rows of the pencil with denominators cleared: (column, coefficient of A, coefficient of B).

@@ -7,16 +7,19 @@
 //! Two verdicts: `Ok(Accepted)` or `Err(Rejected)`. A file that cannot be read never gets here.
 #![deny(clippy::float_arithmetic)]
 
+mod cover;
 mod enclosed;
 mod exact_solution;
 mod pencil;
 mod reason;
 
+pub use cover::{AcceptedCover, CoverFault, OpenRegion};
 pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};
 use crate::exact::Interval;
 use crate::model::Problem;
+use cover::AcceptedSolution;
 use pencil::Rows;
 
 /// What an accepted certificate has proved, claim by claim.
@@ -24,6 +27,8 @@ use pencil::Rows;
 pub struct Accepted {
     /// One entry per claim, in the certificate's order.
     pub claims: Vec<AcceptedClaim>,
+    /// What the claim of a complete set has proved, if the certificate makes one.
+    pub cover: Option<AcceptedCover>,
 }
 
 /// A proved claim: the problem has a solution with this support and a value in this interval.
@@ -48,17 +53,24 @@ pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, R
     if certificate.unknown != problem.unknown() {
         return Err(whole(Reason::Unknown { expected: problem.unknown().word(), got: certificate.unknown.word() }));
     }
-    if certificate.claims.is_empty() {
+    if certificate.claims.is_empty() && certificate.complete_set.is_none() {
         return Err(whole(Reason::NoClaims));
     }
     let rows = Rows::of(problem);
-    let mut claims = Vec::new();
+    // Solutions first: a complete set may refer to them.
+    let mut solutions: Vec<AcceptedSolution<'_>> = Vec::new();
     for (index, claim) in certificate.claims.iter().enumerate() {
-        let verdict = match claim {
-            Claim::ExactSolution(c) => exact_solution::check(&rows, &certificate.window, c),
-            Claim::EnclosedSolution(c) => enclosed::check(&rows, &certificate.window, c),
+        let window = &certificate.window;
+        let (verdict, biactive): (_, &[usize]) = match claim {
+            Claim::ExactSolution(c) => (exact_solution::check(&rows, window, c), &c.biactive),
+            Claim::EnclosedSolution(c) => (enclosed::check(&rows, window, c), &[]),
         };
-        claims.push(verdict.map_err(|reason| Rejected { claim: Some(index), reason })?);
+        let claim = verdict.map_err(|reason| Rejected { claim: Some(index), reason })?;
+        solutions.push(AcceptedSolution { claim, biactive });
     }
-    Ok(Accepted { claims })
+    let cover = match &certificate.complete_set {
+        Some(c) => Some(cover::check(&rows, &certificate.window, &solutions, c).map_err(whole)?),
+        None => None,
+    };
+    Ok(Accepted { claims: solutions.into_iter().map(|s| s.claim).collect(), cover })
 }

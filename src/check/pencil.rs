@@ -15,6 +15,8 @@ pub(super) type Row = Vec<(usize, Integer, Integer)>;
 /// The rows of the pencil, each multiplied by a positive integer, and the free variables.
 pub(super) struct Rows {
     pub(super) rows: Vec<Row>,
+    /// The integer each row was multiplied by.
+    pub(super) factor: Vec<Integer>,
     pub(super) is_free: Vec<bool>,
 }
 
@@ -22,8 +24,8 @@ impl Rows {
     pub(super) fn of(problem: &Problem) -> Rows {
         match problem.body() {
             Body::Pencil(p) => {
-                let rows = (0..p.order()).map(|i| merge(p.a().row(i), p.b().row(i))).collect();
-                Rows { rows, is_free: (0..p.order()).map(|i| p.free().binary_search(&i).is_ok()).collect() }
+                let (rows, factor) = (0..p.order()).map(|i| merge(p.a().row(i), p.b().row(i))).unzip();
+                Rows { rows, factor, is_free: (0..p.order()).map(|i| p.free().binary_search(&i).is_ok()).collect() }
             }
             Body::System(s) => of_system(s, problem.unknown()),
         }
@@ -34,8 +36,8 @@ impl Rows {
     }
 }
 
-/// Joins a row of A and a row of B and clears denominators.
-fn merge(a: &[(usize, Rational)], b: &[(usize, Rational)]) -> Row {
+/// Joins a row of A and a row of B and clears denominators: the row and its multiplier.
+fn merge(a: &[(usize, Rational)], b: &[(usize, Rational)]) -> (Row, Integer) {
     let factor = common_denominator(a.iter().chain(b).map(|(_, v)| v));
     let integral = |v: &Rational| v.numer() * (&factor / v.denom());
     let mut row: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
@@ -45,7 +47,7 @@ fn merge(a: &[(usize, Rational)], b: &[(usize, Rational)]) -> Row {
     for (j, v) in b {
         row.entry(*j).or_default().1 += integral(v);
     }
-    row.into_iter().map(|(j, (a, b))| (j, a, b)).collect()
+    (row.into_iter().map(|(j, (a, b))| (j, a, b)).collect(), factor)
 }
 
 fn of_system(s: &System, unknown: Unknown) -> Rows {
@@ -80,7 +82,7 @@ fn of_system(s: &System, unknown: Unknown) -> Rows {
         row.into_iter().collect()
     };
     let k = s.stiffness();
-    let rows = p_plain
+    let (rows, factor) = p_plain
         .iter()
         .zip(&p_friction)
         .map(|(plain, friction)| match (unknown, s.mass(), s.friction()) {
@@ -91,9 +93,9 @@ fn of_system(s: &System, unknown: Unknown) -> Rows {
             // MCEIP-mu: the friction part is the coefficient of the unknown.
             _ => merge(&product(plain, k), &product(friction, k)),
         })
-        .collect();
+        .unzip();
     let is_free = (0..t.len()).map(|i| i < free.len()).collect();
-    Rows { rows, is_free }
+    Rows { rows, factor, is_free }
 }
 
 fn scale(d: &Direction, factor: &Rational) -> Direction {

@@ -1,5 +1,6 @@
 //! Every reason for rejection, as a typed value: equation, index, expected, got.
 
+use super::cover::CoverFault;
 use crate::exact::Rational;
 
 /// A rejected certificate.
@@ -178,4 +179,19 @@ pub enum Reason {
         /// The radius.
         radius: Rational,
     },
+    /// A complete set does not hold.
+    #[error("complete set{}: {fault}", place(*piece, *node))]
+    Cover {
+        /// The piece, if one is to blame.
+        piece: Option<usize>,
+        /// The node in its tree.
+        node: Option<usize>,
+        /// What is wrong.
+        fault: CoverFault,
+    },
+}
+
+fn place(piece: Option<usize>, node: Option<usize>) -> String {
+    let word = |name: &str, k: Option<usize>| k.map(|k| format!(", {name} {k}")).unwrap_or_default();
+    word("piece", piece) + &word("node", node)
 }

@@ -5,6 +5,9 @@ use crate::model::file::{Number, from_json, require_format};
 use crate::model::{ModelError, Unknown, Window};
 use serde::{Deserialize, Serialize};
 
+mod cover;
+pub use cover::{Anchor, CompleteSet, Condensation, Factor, IntegerMatrix, Node, Piece, Root, RootOutcome, Tail};
+
 /// The format this program reads and writes.
 pub const CERTIFICATE_FORMAT: &str = "mceip-certificate/1";
 
@@ -17,8 +20,10 @@ pub struct Certificate {
     pub unknown: Unknown,
     /// The window in which every claimed value lies.
     pub window: Window,
-    /// At least one claim.
+    /// Solutions claimed; may be empty beside a complete set.
     pub claims: Vec<Claim>,
+    /// The claim that there are no other solutions in the window.
+    pub complete_set: Option<CompleteSet>,
 }
 
 /// What is claimed.
@@ -75,6 +80,8 @@ struct File {
     unknown: Unknown,
     window: FileWindow,
     claims: Vec<Claim>,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    complete_set: Option<CompleteSet>,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -94,6 +101,7 @@ impl Certificate {
             unknown: self.unknown,
             window,
             claims: self.claims.clone(),
+            complete_set: self.complete_set.clone(),
         };
         // Strings, numbers and lists only: nothing in it that JSON cannot carry.
         serde_json::to_string(&file).unwrap_or_default()
@@ -108,7 +116,8 @@ impl Certificate {
         require_format(text, CERTIFICATE_FORMAT)?;
         let file: File = from_json(text)?;
         let window = Window::new(file.window.min.0, file.window.max.map(|n| n.0))?;
-        Ok(Certificate { problem_sha256: file.problem_sha256, unknown: file.unknown, window, claims: file.claims })
+        let (problem_sha256, unknown) = (file.problem_sha256, file.unknown);
+        Ok(Certificate { problem_sha256, unknown, window, claims: file.claims, complete_set: file.complete_set })
     }
 }
 
@@ -160,7 +169,13 @@ mod tests {
             interval: [Number(whole(1)), Number(rational(3, 2))],
             x: vec![vec![Number(whole(1))]],
         };
-        Certificate { problem_sha256: "00".into(), unknown: Unknown::Mu, window: Window::all(), claims: vec![Claim::ExactSolution(claim)] }
+        Certificate {
+            problem_sha256: "00".into(),
+            unknown: Unknown::Mu,
+            window: Window::all(),
+            claims: vec![Claim::ExactSolution(claim)],
+            complete_set: None,
+        }
     }
 
     #[test]

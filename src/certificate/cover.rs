@@ -1,0 +1,167 @@
+//! The claim *complete set*: a cover of (supports) x (window), each piece with its reason.
+//!
+//! A piece is an interval of the unknown with a binary tree over index states. At a node each
+//! complementarity variable is *open*, *at rest* (x_i = 0) or *moving* (x_i > 0, y_i = 0); rest and
+//! moving exclude each other, so a solution lies in one leaf of the piece. The checker rebuilds
+//! intervals and states itself; the file holds cuts, branches and witnesses only.
+
+use super::{Integer, Number, integer_rows, integers};
+use serde::{Deserialize, Serialize};
+
+/// All solutions in the certificate's window: a cover, or what is left of one (open leaves).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CompleteSet {
+    /// How the free variables were eliminated; absent where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub condensation: Option<Condensation>,
+    /// Consecutive intervals from the lower to the upper end of the window.
+    pub pieces: Vec<Piece>,
+}
+
+/// One interval of the unknown and the tree that covers it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Piece {
+    /// Upper end, where the next piece begins; null for infinity.
+    pub max: Option<Number>,
+    /// The anchor of the condensation that encloses the pencil here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub anchor: Option<usize>,
+    /// The tree in preorder.
+    pub tree: Vec<Node>,
+}
+
+/// A node of the tree, in preorder. Leaves prove that nothing lies in them, or exactly what.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Node {
+    /// Cuts the interval at this value: the lower half follows, then the upper half.
+    Split(Number),
+    /// Decides a complementarity variable: at rest follows, then moving.
+    Branch(usize),
+    /// Weights w, one per complementarity variable: w >= 0 off the moving set and w'T < 0 on what
+    /// may move, so 0 <= w'y = w'Tx < 0 (Farkas, Gordan).
+    Farkas(Vec<i64>),
+    /// The symmetric part is positive definite on what may move: x'Tx = 0 has no solution.
+    PositiveDefinite,
+    /// The symmetric part is negative definite on what may move.
+    NegativeDefinite,
+    /// The condensation's tail begins at or below this region.
+    Tail,
+    /// Every index is decided and the pencil has at most one null vector.
+    Root(Box<Root>),
+    /// Not decided.
+    Open,
+}
+
+/// Witness that T(t) restricted to the moving set has one null vector at most (up to scale, over
+/// the whole interval of the leaf and `interval` together), and what that vector is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Root {
+    /// The moving variable whose component is set to 1.
+    pub pivot: usize,
+    /// Interval in which the value lies.
+    pub interval: [Number; 2],
+    /// Approximate inverse of T on the moving set without the pivot, in units of 2^-`inverse_exponent`.
+    #[serde(with = "integer_rows")]
+    pub inverse: Vec<Vec<Integer>>,
+    /// Binary exponent of `inverse`.
+    pub inverse_exponent: u32,
+    /// Approximate left null vector on the moving set without the pivot, in units of 2^-`exponent`.
+    #[serde(with = "integers")]
+    pub left: Vec<Integer>,
+    /// Approximate right null vector, likewise.
+    #[serde(with = "integers")]
+    pub right: Vec<Integer>,
+    /// Binary exponent of `left` and `right`.
+    pub exponent: u32,
+    /// What follows from it.
+    pub outcome: RootOutcome,
+}
+
+/// What the only null vector of a leaf is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RootOutcome {
+    /// A solution: it exists, x > 0 and y > 0 strictly.
+    Solution,
+    /// The Schur complement has the same sign at both ends: there is no null vector.
+    Absent,
+    /// Component of x that is not positive: no solution.
+    NegativeX(usize),
+    /// Component of y that is negative: no solution.
+    NegativeY(usize),
+    /// The solution of the claim with this number in the certificate, so nothing else is here.
+    Claim(usize),
+}
+
+/// Elimination of the free variables f by F(t) = T_ff(t), enclosed without inverting F.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Condensation {
+    /// sigma > 0 with A_ff - sigma I positive semidefinite.
+    pub sigma: Number,
+    /// Approximate Cholesky factor of A_ff - sigma I.
+    pub stiffness_factor: Factor,
+    /// Approximate Cholesky factor of B_ff, where B_ff is neither zero nor a non-negative diagonal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_factor: Option<Factor>,
+    /// Centres at which the condensed pencil is expanded.
+    pub anchors: Vec<Anchor>,
+    /// Proof that nothing lies above some value, for [`Node::Tail`].
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub tail: Option<Tail>,
+}
+
+/// Above `from` the symmetric part of the whole pencil, free variables included, is definite.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tail {
+    /// Where it begins.
+    pub from: Number,
+    /// Approximate Cholesky factor of sym(A + from B).
+    pub factor: Factor,
+    /// Approximate Cholesky factor of sym(B), where that is neither zero nor a non-negative diagonal.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub mass_factor: Option<Factor>,
+}
+
+/// A lower triangular matrix, row by row from its first stored column to the diagonal, in units of
+/// 2^-`exponent`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Factor {
+    /// First stored column of each row.
+    pub first: Vec<usize>,
+    /// Stored entries of each row.
+    #[serde(with = "integer_rows")]
+    pub rows: Vec<Vec<Integer>>,
+    /// Binary exponent.
+    pub exponent: u32,
+}
+
+/// Approximations in powers of (t - center): right[k] of F^-1 T_fs, left[k] of F^-1 T_sf'; each a
+/// matrix with a row per free and a column per complementarity variable, in units of 2^-`exponent`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Anchor {
+    /// The value expanded about.
+    pub center: Number,
+    /// Coefficients of the right solutions.
+    pub right: Vec<IntegerMatrix>,
+    /// Coefficients of the left solutions.
+    pub left: Vec<IntegerMatrix>,
+}
+
+/// A dense integer matrix by rows, in units of 2^-`exponent`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IntegerMatrix {
+    /// Binary exponent.
+    pub exponent: u32,
+    /// Rows.
+    #[serde(with = "integer_rows")]
+    pub rows: Vec<Vec<Integer>>,
+}

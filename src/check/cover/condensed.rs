@@ -1,0 +1,281 @@
+//! Elimination of the free variables without inverting F(t) = T_ff(t).
+//!
+//! For any W and V the Schur complement is, exactly,
+//!   T_ss - T_sf F^-1 T_fs = (T_ss - T_sf W - V'r) - l' F^-1 r,   r = T_fs - F W,   l = T_sf' - F V.
+//! With F(t) >= sigma I the last term is at most |l_i| |r_j| / sigma in absolute value. W and V are
+//! polynomials in d = t - center, so the bracket is a polynomial matrix, known exactly.
+
+use super::CoverFault;
+use super::expanded::Expanded;
+use super::family::Matrix;
+use super::psd::{Symmetric, semidefinite};
+use crate::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
+use crate::check::pencil::Rows;
+use crate::exact::{Integer, Rational};
+use crate::model::Window;
+use num_integer::Integer as _;
+use num_traits::{One, Signed, Zero};
+use std::collections::BTreeMap;
+
+/// Largest degree of an expansion.
+const MAX_DEGREE: usize = 8;
+/// Largest binary exponent of an expansion.
+const MAX_EXPONENT: u32 = 1 << 12;
+
+/// Hypotheses, then one expansion per anchor.
+pub(super) fn of(rows: &Rows, window: &Window, condensation: &Condensation) -> Result<Vec<Expanded>, CoverFault> {
+    debug_assert!(!window.min().is_negative());
+    let blocks = Blocks::of(rows);
+    let sigma = &condensation.sigma.0;
+    if !sigma.is_positive() {
+        return Err(CoverFault::Hypothesis { expected: "sigma > 0", row: 0 });
+    }
+    blocks.symmetric()?;
+    // A_ff - sigma I, in units of 1 / (common denom(sigma)).
+    let mut shifted: Symmetric = blocks.ff.iter().map(|row| row.iter().map(|(j, (a, _))| (*j, a * sigma.denom())).collect()).collect();
+    for (i, row) in shifted.iter_mut().enumerate() {
+        *row.entry(i).or_default() -= &blocks.common * sigma.numer();
+    }
+    let scale = &blocks.common * sigma.denom();
+    semidefinite(&shifted, &scale, Some(&condensation.stiffness_factor), false, "A_ff - sigma I positive semidefinite")?;
+    let mass: Symmetric = blocks.ff.iter().map(|row| row.iter().map(|(j, (_, b))| (*j, b.clone())).collect()).collect();
+    semidefinite(&mass, &blocks.common, condensation.mass_factor.as_ref(), false, "B_ff positive semidefinite")?;
+    condensation.anchors.iter().map(|anchor| blocks.expand(anchor, sigma)).collect()
+}
+
+/// sym(A + from B) is positive definite and sym(B) semidefinite on all variables.
+pub(super) fn tail(rows: &Rows, tail: &Tail) -> Result<(), CoverFault> {
+    let common = rows.factor.iter().fold(Integer::one(), |l, f| l.lcm(f));
+    let from = &tail.from.0;
+    let symmetric = |entry: &dyn Fn(&Integer, &Integer) -> Integer| {
+        let mut out: Symmetric = vec![BTreeMap::new(); rows.order()];
+        for (i, row) in rows.rows.iter().enumerate() {
+            for (j, a, b) in row {
+                let value = entry(a, b) * (&common / &rows.factor[i]);
+                *out[i].entry(*j).or_default() += &value;
+                *out[*j].entry(i).or_default() += value;
+            }
+        }
+        out
+    };
+    // Twice the symmetric parts; both factors are of the symmetric part itself.
+    let twice: Integer = &common * 2;
+    let pencil = symmetric(&|a, b| a * from.denom() + b * from.numer());
+    let with = |s: &Symmetric, scale: &Integer, factor: Option<&Factor>, strictly, what| semidefinite(s, scale, factor, strictly, what);
+    with(&pencil, &(&twice * from.denom()), Some(&tail.factor), true, "sym(A + from B) positive definite")?;
+    with(&symmetric(&|_, b| b.clone()), &twice, tail.mass_factor.as_ref(), false, "sym(B) positive semidefinite")
+}
+
+/// The blocks of the pencil; free rows multiplied by one common integer, slip rows each by its own
+/// power of two over an integer.
+struct Blocks {
+    free: usize,
+    slip: usize,
+    /// The free rows' common multiplier D.
+    common: Integer,
+    /// Rows of D T_ff: column, (A, B).
+    ff: Vec<BTreeMap<usize, (Integer, Integer)>>,
+    /// Rows of D T_fs and of T_sf, T_ss.
+    fs: Vec<Vec<(usize, Integer, Integer)>>,
+    sf: Vec<Vec<(usize, Integer, Integer)>>,
+    ss: Vec<Vec<(usize, Integer, Integer)>>,
+    /// Bit length of the largest entry of A in each slip row: the row is divided by 2^that.
+    bits: Vec<u64>,
+}
+
+impl Blocks {
+    fn of(rows: &Rows) -> Blocks {
+        let mut place = Vec::new(); // position among its kind
+        let (mut free, mut slip) = (0, 0);
+        for &is_free in &rows.is_free {
+            let count = if is_free { &mut free } else { &mut slip };
+            place.push(*count);
+            *count += 1;
+        }
+        let is_free = |i: &usize| rows.is_free[*i];
+        let common = (0..rows.order()).filter(is_free).fold(Integer::one(), |l, i| l.lcm(&rows.factor[i]));
+        let mut blocks = Blocks { free, slip, common, ff: Vec::new(), fs: Vec::new(), sf: Vec::new(), ss: Vec::new(), bits: Vec::new() };
+        for (i, row) in rows.rows.iter().enumerate() {
+            let lift = if rows.is_free[i] { &blocks.common / &rows.factor[i] } else { Integer::one() };
+            let (f, s): (Vec<_>, Vec<_>) = row.iter().map(|(j, a, b)| (*j, a * &lift, b * &lift)).partition(|(j, ..)| rows.is_free[*j]);
+            let renumber = |list: Vec<(usize, Integer, Integer)>| list.into_iter().map(|(j, a, b)| (place[j], a, b)).collect::<Vec<_>>();
+            let (f, s) = (renumber(f), renumber(s));
+            if rows.is_free[i] {
+                blocks.ff.push(f.into_iter().map(|(j, a, b)| (j, (a, b))).collect());
+                blocks.fs.push(s);
+            } else {
+                blocks.bits.push(row.iter().map(|(_, a, _)| a.bits()).max().unwrap_or(0).max(1));
+                blocks.sf.push(f);
+                blocks.ss.push(s);
+            }
+        }
+        blocks
+    }
+
+    fn symmetric(&self) -> Result<(), CoverFault> {
+        let zero = (Integer::zero(), Integer::zero());
+        let bad = |i: &usize| self.ff[*i].iter().any(|(j, v)| *self.ff[*j].get(i).unwrap_or(&zero) != *v);
+        match (0..self.free).find(bad) {
+            Some(row) => Err(CoverFault::Hypothesis { expected: "T_ff symmetric", row }),
+            None => Ok(()),
+        }
+    }
+
+    fn expand(&self, anchor: &Anchor, sigma: &Rational) -> Result<Expanded, CoverFault> {
+        let (w, e_w) = self.coefficients(&anchor.right)?;
+        let (v, e_v) = self.coefficients(&anchor.left)?;
+        let (p, q) = (anchor.center.0.numer(), anchor.center.0.denom());
+        // Constant and linear coefficient of q T(t) in d: q A + p B and q B.
+        let parts = |a: &Integer, b: &Integer| (q * a + p * b, q * b);
+        let ff: Vec<Vec<(usize, Integer, Integer)>> = self
+            .ff
+            .iter()
+            .map(|row| {
+                row.iter()
+                    .map(|(j, (a, b))| {
+                        let (c, l) = parts(a, b);
+                        (*j, c, l)
+                    })
+                    .collect()
+            })
+            .collect();
+        let lift = |rows: &[Vec<(usize, Integer, Integer)>], factor: &Integer| -> Vec<Vec<(usize, Integer, Integer)>> {
+            rows.iter()
+                .map(|row| {
+                    row.iter()
+                        .map(|(j, a, b)| {
+                            let (c, l) = parts(a, b);
+                            (*j, c * factor, l * factor)
+                        })
+                        .collect()
+                })
+                .collect()
+        };
+        let one = Integer::one();
+        let (fs, sf, ss) = (lift(&self.fs, &one), lift(&self.sf, &self.common), lift(&self.ss, &self.common));
+        // Residuals in units of 1 / (q 2^e), D times the true ones.
+        let r = residual(&ff, &fs, &w, e_w, self.slip);
+        let l = residual(&ff, &transpose(&sf, self.free), &v, e_v, self.slip);
+        let z = self.bracket(&ss, &sf, &w, &v, &r, e_w, e_v);
+        // Z in units of 1 / (D q 2^(e_w + e_v)), the remainder in |l||r| / (D q sigma) of them; the common
+        // unit of rows that are divided by different powers of two is that of the largest.
+        let largest = self.bits.iter().copied().max().unwrap_or(1);
+        let unit = (&self.common * q) << (u64::from(e_w + e_v) + largest);
+        let weight = (sigma * Rational::from_integer(&self.common * q)).recip();
+        let raised = |i: usize| Integer::one() << (largest - self.bits[i]);
+        let z = z.into_iter().map(|m| m.into_iter().enumerate().map(|(i, row)| row.into_iter().map(|v| v * raised(i)).collect()).collect());
+        Ok(Expanded {
+            center: anchor.center.0.clone(),
+            z: z.collect(),
+            left: norms(&l, self.slip),
+            right: norms(&r, self.slip),
+            weight: (0..self.slip).map(|i| &weight * Rational::new(raised(i), unit.clone())).collect(),
+            unit,
+            drift: self.drift(sigma),
+        })
+    }
+
+    /// Coefficient matrices brought to one exponent.
+    fn coefficients(&self, list: &[IntegerMatrix]) -> Result<(Vec<Matrix>, u32), CoverFault> {
+        let length = |what, expected, got| if expected == got { Ok(()) } else { Err(CoverFault::Length { what, expected, got }) };
+        let exponent = list.iter().map(|m| m.exponent).max().unwrap_or(0);
+        for (what, limit, got) in [("degree", MAX_DEGREE as u64, list.len() as u64), ("exponent", MAX_EXPONENT.into(), exponent.into())] {
+            if got > limit {
+                return Err(CoverFault::TooLarge { what, limit, got });
+            }
+        }
+        for m in list {
+            length("anchor", self.free, m.rows.len())?;
+            m.rows.iter().try_for_each(|row| length("anchor row", self.slip, row.len()))?;
+        }
+        let lifted = |m: &IntegerMatrix| m.rows.iter().map(|row| row.iter().map(|v| v << (exponent - m.exponent)).collect()).collect();
+        Ok((list.iter().map(lifted).collect(), exponent))
+    }
+
+    /// D T_ss - D T_sf W - V'r, coefficient by coefficient.
+    #[allow(clippy::too_many_arguments)]
+    fn bracket(&self, ss: &Linear, sf: &Linear, w: &[Matrix], v: &[Matrix], r: &[Matrix], e_w: u32, e_v: u32) -> Vec<Matrix> {
+        let degree = 1 + w.len().max((v.len() + r.len()).saturating_sub(2)).max(1);
+        let mut z = vec![vec![vec![Integer::zero(); self.slip]; self.slip]; degree];
+        for i in 0..self.slip {
+            for (j, c, l) in &ss[i] {
+                z[0][i][*j] += c << (e_w + e_v);
+                z[1][i][*j] += l << (e_w + e_v);
+            }
+            for (k, w_k) in w.iter().enumerate() {
+                for (f, c, l) in &sf[i] {
+                    for j in 0..self.slip {
+                        z[k][i][j] -= (c * &w_k[*f][j]) << e_v;
+                        if !l.is_zero() {
+                            z[k + 1][i][j] -= (l * &w_k[*f][j]) << e_v;
+                        }
+                    }
+                }
+            }
+        }
+        for (k, v_k) in v.iter().enumerate() {
+            for (m, r_m) in r.iter().enumerate() {
+                for f in 0..self.free {
+                    for i in (0..self.slip).filter(|&i| !v_k[f][i].is_zero()) {
+                        for j in (0..self.slip).filter(|&j| !r_m[f][j].is_zero()) {
+                            z[k + m][i][j] -= &v_k[f][i] * &r_m[f][j];
+                        }
+                    }
+                }
+            }
+        }
+        z
+    }
+
+    /// |dF/dt| / sigma in the maximum row sum.
+    fn drift(&self, sigma: &Rational) -> Rational {
+        let largest = self.ff.iter().map(|row| row.values().map(|(_, b)| b.abs()).sum::<Integer>()).max().unwrap_or_default();
+        Rational::new(largest, self.common.clone()) / sigma
+    }
+}
+
+/// Rows of a matrix linear in d: column, constant, coefficient of d.
+type Linear = Vec<Vec<(usize, Integer, Integer)>>;
+
+fn transpose(m: &Linear, cols: usize) -> Linear {
+    let mut out = vec![Vec::new(); cols];
+    for (i, row) in m.iter().enumerate() {
+        for (j, c, l) in row {
+            out[*j].push((i, c.clone(), l.clone()));
+        }
+    }
+    out
+}
+
+/// Coefficients of C(d) - F(d) W(d), with W in units of 2^-e.
+fn residual(f: &Linear, c: &Linear, w: &[Matrix], e: u32, cols: usize) -> Vec<Matrix> {
+    let mut out = vec![vec![vec![Integer::zero(); cols]; f.len()]; w.len() + 1 + usize::from(w.is_empty())];
+    for (i, row) in c.iter().enumerate() {
+        for (j, constant, linear) in row {
+            out[0][i][*j] += constant << e;
+            out[1][i][*j] += linear << e;
+        }
+    }
+    for (k, w_k) in w.iter().enumerate() {
+        for (i, row) in f.iter().enumerate() {
+            for (g, constant, linear) in row {
+                for j in 0..cols {
+                    out[k][i][j] -= constant * &w_k[*g][j];
+                    if !linear.is_zero() {
+                        out[k + 1][i][j] -= linear * &w_k[*g][j];
+                    }
+                }
+            }
+        }
+    }
+    out
+}
+
+/// Upper bounds of the Euclidean norm of each column, coefficient by coefficient.
+fn norms(list: &[Matrix], cols: usize) -> Vec<Vec<Integer>> {
+    let norm = |m: &Matrix, j: usize| {
+        let square: Integer = m.iter().map(|row| &row[j] * &row[j]).sum();
+        if square.is_zero() { square } else { square.sqrt() + 1 }
+    };
+    list.iter().map(|m| (0..cols).map(|j| norm(m, j)).collect()).collect()
+}

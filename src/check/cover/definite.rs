@@ -1,0 +1,150 @@
+//! Is the symmetric part of a matrix with a radius positive definite? Proved by an LDL' in short
+//! integers whose residual is multiplied out exactly and dominated by a shift (Gershgorin).
+//!
+//! With S = 2 sym(T) cut to 40 bits, c_i what cutting and radius may take away from row i, and a
+//! shift s: if S - diag(c) - s I = LDL' + E exactly, D > 0 and s I + E is diagonally dominant, then
+//! S - diag(c) is definite, and so is every matrix of the family.
+
+use super::family::{Matrix, largest_bits, shift};
+use crate::exact::Integer;
+use num_traits::{Signed, ToPrimitive};
+
+/// Bits kept of S.
+const BITS: i64 = 40;
+/// Fraction bits of L.
+const UNIT: u32 = 34;
+/// The shift in units of the cut S, per row: above the rounding of L times the largest pivot.
+const SHIFT: i128 = 1 << 8;
+/// Order at which sums of products could leave 128 bits.
+const MAX_ORDER: usize = 4096;
+
+/// `Err(k)`: the k-th variable of `moving` breaks it, or it is too close to say.
+pub(super) fn positive_definite(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) -> Result<(), usize> {
+    let n = moving.len();
+    if n > MAX_ORDER {
+        return Err(0);
+    }
+    let cut = largest_bits(moving.iter().flat_map(|&i| moving.iter().map(move |&j| &m[i][j]))) as i64 + 1 - BITS;
+    let s = |i: usize, j: usize| -> i128 {
+        let sum = &m[moving[i]][moving[j]] + &m[moving[j]][moving[i]];
+        let sum = if sign < 0 { -sum } else { sum };
+        shift(&sum, -cut.max(0)).to_i128().unwrap_or(0) // at most BITS + 1 bits
+    };
+    let slack = |i: usize| -> i128 {
+        let sum: Integer = (0..n).map(|j| &r[moving[i]][moving[j]] + &r[moving[j]][moving[i]]).sum();
+        let lost = if cut > 0 { n as i128 } else { 0 };
+        let radius = shift(&sum, -cut.max(0)) + Integer::from(u8::from(sum.is_positive() && cut > 0));
+        // A radius beyond 2^60 is far more than S itself: nothing is definite then.
+        radius.to_i128().filter(|v| *v < 1 << 60).unwrap_or(1 << 60) + lost
+    };
+    let shift_all = SHIFT * n as i128;
+    let lower: Vec<Vec<i128>> = (0..n).map(|i| (0..=i).map(|j| s(i, j) - if i == j { slack(i) } else { 0 }).collect()).collect();
+    let (l, d) = factor(&lower, shift_all)?;
+    dominated(&lower, &l, &d, n)
+}
+
+/// Rows of L below the diagonal in units of 2^-UNIT, and D.
+type Ldl = (Vec<Vec<i128>>, Vec<i128>);
+
+/// LDL' of the matrix less the shift, rounded. For a definite matrix |l_ij|^2 d_j <= S_ii bounds every
+/// product; an overflow therefore means that it is not (or hardly) definite.
+fn factor(lower: &[Vec<i128>], shift_all: i128) -> Result<Ldl, usize> {
+    let (mut l, mut d): Ldl = (Vec::new(), Vec::new());
+    for (i, given) in lower.iter().enumerate() {
+        let (row, pivot) = factor_row(given, &l, &d, shift_all).filter(|(_, pivot)| *pivot > 0).ok_or(i)?;
+        l.push(row);
+        d.push(pivot);
+    }
+    Ok((l, d))
+}
+
+fn factor_row(given: &[i128], l: &[Vec<i128>], d: &[i128], shift_all: i128) -> Option<(Vec<i128>, i128)> {
+    let i = given.len() - 1;
+    let mut row: Vec<i128> = Vec::with_capacity(i);
+    let mut scaled: Vec<i128> = Vec::with_capacity(i); // l_ik d_k in units of 1
+    for j in 0..i {
+        let mut rest = given[j] << UNIT;
+        for k in 0..j {
+            rest = rest.checked_sub(scaled[k].checked_mul(l[j][k])?)?;
+        }
+        row.push(rest / d[j]);
+        scaled.push(rest >> UNIT);
+    }
+    let mut pivot = (given[i] - shift_all) << UNIT;
+    for k in 0..i {
+        pivot = pivot.checked_sub(scaled[k].checked_mul(row[k])?)?;
+    }
+    Some((row, pivot >> UNIT))
+}
+
+/// The residual of the unshifted matrix is diagonally dominant, computed without rounding.
+fn dominated(lower: &[Vec<i128>], l: &[Vec<i128>], d: &[i128], n: usize) -> Result<(), usize> {
+    let entry = |i: usize, k: usize| if k == i { 1 << UNIT } else { l[i][k] };
+    let residual = |i: usize, j: usize| {
+        let mut rest = lower[i][j].checked_mul(1 << (2 * UNIT))?;
+        for k in 0..=j {
+            rest = rest.checked_sub(entry(i, k).checked_mul(d[k])?.checked_mul(entry(j, k))?)?;
+        }
+        Some(rest)
+    };
+    let (mut diagonal, mut off) = (vec![0i128; n], vec![0i128; n]);
+    for i in 0..n {
+        for j in 0..=i {
+            let value = residual(i, j).ok_or(i)?;
+            if i == j {
+                diagonal[i] = value;
+            } else {
+                off[i] = off[i].saturating_add(value.abs());
+                off[j] = off[j].saturating_add(value.abs());
+            }
+        }
+    }
+    (0..n).find(|&i| diagonal[i] <= off[i]).map_or(Ok(()), Err)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_traits::Zero;
+
+    fn matrix(rows: &[&[i64]]) -> Matrix {
+        rows.iter().map(|r| r.iter().map(|&v| Integer::from(v) << 64).collect()).collect()
+    }
+
+    fn zero(n: usize) -> Matrix {
+        vec![vec![Integer::zero(); n]; n]
+    }
+
+    #[test]
+    fn definite_indefinite_and_singular() {
+        // Not symmetric: the symmetric part is [[2, 1], [1, 2]].
+        let m = matrix(&[&[2, 5], &[-3, 2]]);
+        assert_eq!(positive_definite(&m, &zero(2), &[0, 1], 1), Ok(()));
+        assert_eq!(positive_definite(&m, &zero(2), &[0, 1], -1), Err(0));
+        let singular = matrix(&[&[1, 1], &[1, 1]]);
+        assert_eq!(positive_definite(&singular, &zero(2), &[0, 1], 1), Err(1));
+        let indefinite = matrix(&[&[1, 0, 3], &[0, 9, 0], &[1, 0, 3]]);
+        assert_eq!(positive_definite(&indefinite, &zero(3), &[0, 1, 2], 1), Err(2));
+        assert_eq!(positive_definite(&indefinite, &zero(3), &[0, 1], 1), Ok(()));
+        assert_eq!(positive_definite(&matrix(&[&[-2]]), &zero(1), &[0], -1), Ok(()));
+    }
+
+    #[test]
+    fn the_radius_is_taken_off() {
+        let m = matrix(&[&[2, 1], &[1, 2]]); // smallest eigenvalue 1
+        let radius = |v: i64| vec![vec![Integer::from(v) << 60; 2]; 2]; // row sum 2 v / 16
+        assert_eq!(positive_definite(&m, &radius(7), &[0, 1], 1), Ok(()));
+        assert!(positive_definite(&m, &radius(9), &[0, 1], 1).is_err());
+    }
+
+    #[test]
+    fn nearly_singular_is_never_accepted() {
+        let near = |e: u32| {
+            let one = Integer::from(1) << 200u32;
+            vec![vec![one.clone(), one.clone()], vec![one.clone(), one.clone() - (Integer::from(1) << (200 - e))]]
+        };
+        for e in [20, 39, 40, 60, 100] {
+            assert!(positive_definite(&near(e), &zero(2), &[0, 1], 1).is_err(), "{e}");
+        }
+    }
+}

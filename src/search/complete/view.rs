@@ -1,0 +1,144 @@
+//! The f64 view of the family of matrices that the checker encloses, row for row in the same scale.
+
+use crate::exact::{Integer, Rational, common_denominator, to_f64};
+use crate::model::Pencil;
+use num_traits::One;
+
+/// A dense square matrix by rows.
+pub(super) type Matrix = Vec<Vec<f64>>;
+
+/// The pencil on the complementarity variables: one polynomial matrix, or several about their centres.
+pub(super) struct View {
+    /// Complementarity variables by position.
+    pub(super) index: Vec<usize>,
+    /// Scale of the unknown: |A| / |B|.
+    pub(super) scale: f64,
+    pub(super) expansions: Vec<Expansion>,
+}
+
+/// Z(d) +- weight_i |l_i(d)| |r_j(d)|, d = t - center.
+pub(super) struct Expansion {
+    pub(super) center: f64,
+    pub(super) z: Vec<Matrix>,
+    pub(super) left: Vec<Vec<f64>>,
+    pub(super) right: Vec<Vec<f64>>,
+    pub(super) weight: Vec<f64>,
+}
+
+/// Both ends of an interval, the radius around the chord between them.
+pub(super) struct Ends {
+    pub(super) lo: f64,
+    /// Infinite for an unbounded interval, whose m[1] is the direction B.
+    pub(super) hi: f64,
+    pub(super) m: [Matrix; 2],
+    /// `None` where the chord is exact.
+    pub(super) r: Option<Matrix>,
+    /// (hi - lo) T' lies within this of m[1] - m[0]; `None` likewise.
+    pub(super) slope: Option<Matrix>,
+}
+
+impl View {
+    /// The view of a pencil without free variables.
+    pub(super) fn of(pencil: &Pencil) -> View {
+        let n = pencil.order();
+        let (mut a, mut b) = (vec![vec![0.0; n]; n], vec![vec![0.0; n]; n]);
+        for i in 0..n {
+            let factor = row_factor(pencil, i);
+            for (m, row) in [(&mut a, pencil.a().row(i)), (&mut b, pencil.b().row(i))] {
+                row.iter().for_each(|(j, v)| m[i][*j] = to_f64(&(v * &factor)));
+            }
+        }
+        let expansion = Expansion { center: 0.0, z: vec![a, b], left: Vec::new(), right: Vec::new(), weight: Vec::new() };
+        View { index: (0..n).collect(), scale: scale(&expansion.z), expansions: vec![expansion] }
+    }
+
+    pub(super) fn order(&self) -> usize {
+        self.index.len()
+    }
+
+    /// Position of t in [0, 1]: t / (scale + t).
+    pub(super) fn theta(&self, t: f64) -> f64 {
+        if t.is_infinite() { 1.0 } else { t / (self.scale + t) }
+    }
+
+    /// The value at a position.
+    pub(super) fn value(&self, theta: f64) -> f64 {
+        self.scale * theta / (1.0 - theta)
+    }
+}
+
+/// What the checker multiplies row i by: denominators cleared, largest entry of A below one.
+pub(super) fn row_factor(pencil: &Pencil, i: usize) -> Rational {
+    let (a, b) = (pencil.a().row(i), pencil.b().row(i));
+    let clear = common_denominator(a.iter().chain(b).map(|(_, v)| v));
+    let bits = a.iter().map(|(_, v)| (v.numer() * (&clear / v.denom())).bits()).max().unwrap_or(0).max(1);
+    Rational::new(clear, Integer::one() << bits)
+}
+
+pub(super) fn scale(z: &[Matrix]) -> f64 {
+    let largest = |m: &Matrix| m.iter().flatten().fold(0.0f64, |s, v| s.max(v.abs()));
+    let (a, b) = (largest(&z[0]), largest(&z[1]));
+    if a > 0.0 && b > 0.0 && (a / b).is_finite() { a / b } else { 1.0 }
+}
+
+impl Expansion {
+    /// T(t), the remainder left out.
+    pub(super) fn at(&self, t: f64) -> Matrix {
+        self.horner(t - self.center, &|_, v| v)
+    }
+
+    /// dT/dt, the remainder left out.
+    pub(super) fn derivative(&self, t: f64) -> Matrix {
+        let d = t - self.center;
+        let mut out = self.zero();
+        for (k, z) in self.z.iter().enumerate().skip(1).rev() {
+            for (o, v) in out.iter_mut().flatten().zip(z.iter().flatten()) {
+                *o = *o * d + k as f64 * v;
+            }
+        }
+        out
+    }
+
+    fn zero(&self) -> Matrix {
+        vec![vec![0.0; self.z[0].len()]; self.z[0].len()]
+    }
+
+    fn horner(&self, d: f64, f: &dyn Fn(usize, f64) -> f64) -> Matrix {
+        let mut out = self.zero();
+        for (k, z) in self.z.iter().enumerate().rev() {
+            for (o, v) in out.iter_mut().flatten().zip(z.iter().flatten()) {
+                *o = *o * d + f(k, *v);
+            }
+        }
+        out
+    }
+
+    /// The ends over [lo, hi] as the checker will see them.
+    pub(super) fn ends(&self, lo: f64, hi: f64) -> Ends {
+        if hi.is_infinite() {
+            return Ends { lo, hi, m: [self.at(lo), self.z[1].clone()], r: None, slope: None };
+        }
+        let m = [self.at(lo), self.at(hi)];
+        let exact = self.z.len() <= 2 && self.weight.is_empty();
+        if exact {
+            return Ends { lo, hi, m, r: None, slope: None };
+        }
+        let (reach, width) = ((lo - self.center).abs().max((hi - self.center).abs()), hi - lo);
+        let bend = self.horner(0.0, &|_, _| 0.0);
+        let mut bend = bend;
+        for (k, z) in self.z.iter().enumerate().skip(2).rev() {
+            for (o, v) in bend.iter_mut().flatten().zip(z.iter().flatten()) {
+                *o = *o * reach + (k * (k - 1)) as f64 * v.abs() * width * width;
+            }
+        }
+        let norm = |list: &[Vec<f64>], i: usize| list.iter().rev().fold(0.0, |s, l| s * reach + l[i]);
+        let n = self.z[0].len();
+        let remainder =
+            |i: usize, j: usize| if self.weight.is_empty() { 0.0 } else { norm(&self.left, i) * norm(&self.right, j) * self.weight[i] };
+        let r = (0..n).map(|i| (0..n).map(|j| bend[i][j] / 8.0 + remainder(i, j)).collect()).collect();
+        // The remainder's slope is at most a few times remainder / width where it matters; the exact
+        // check decides.
+        let slope = (0..n).map(|i| (0..n).map(|j| bend[i][j] + 4.0 * remainder(i, j)).collect()).collect();
+        Ends { lo, hi, m, r: Some(r), slope: Some(slope) }
+    }
+}
