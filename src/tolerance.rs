@@ -62,3 +62,7 @@ pub const NARROW: f64 = 1e-8;
 /// Basis: a thousand times the rounding of a product of a few dozen terms; near a double root the
 /// margin falls with the square of the distance, and this bounds what stays open there.
 pub const THIN_MARGIN: f64 = 1e-11;
+
+/// Error of an entry of the condensed pencil in doubles. Unit: that of rows whose largest entry of A
+/// is below one. Basis: sums of a few thousand terms; twenty times what the block shows.
+pub const CONDENSATION_NOISE: f64 = 1e-12;

@@ -45,6 +45,9 @@ pub(super) enum CliError {
     /// The search refuses.
     #[error("{0}")]
     Search(#[from] SearchError),
+    /// The complete search refuses.
+    #[error(transparent)]
+    Complete(#[from] crate::search::complete::CompleteError),
     /// The block was not treated.
     #[error("{0}")]
     Block(#[from] BlockError),

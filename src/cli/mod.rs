@@ -4,6 +4,7 @@ mod block;
 mod certify;
 mod check;
 mod common;
+mod complete;
 mod enumerate;
 mod output;
 mod reduce;
@@ -37,6 +38,8 @@ enum Command {
     Enumerate(enumerate::Args),
     /// Solutions by the PATH-style solver with many starts, each certified.
     Solve(solve::Args),
+    /// All solutions in a window with a proof that there are no others.
+    Complete(complete::Args),
     /// Turn a solution report (somebody's floats) into a certificate.
     Certify(certify::Args),
     /// Check a certificate against a problem, exactly.
@@ -59,6 +62,7 @@ pub fn main() -> ExitCode {
         Command::Verify(a) => verify::run(&a),
         Command::Enumerate(a) => enumerate::run(&a),
         Command::Solve(a) => solve::run(&a),
+        Command::Complete(a) => complete::run(&a),
         Command::Certify(a) => certify::run(&a),
         Command::Check(a) => check::run(&a),
         Command::Table1(a) => table1::run(&a),

@@ -79,6 +79,8 @@ struct Blocks {
     fs: Vec<Vec<(usize, Integer, Integer)>>,
     sf: Vec<Vec<(usize, Integer, Integer)>>,
     ss: Vec<Vec<(usize, Integer, Integer)>>,
+    /// What each slip row was multiplied by.
+    factor: Vec<Integer>,
     /// Bit length of the largest entry of A in each slip row: the row is divided by 2^that.
     bits: Vec<u64>,
 }
@@ -94,7 +96,7 @@ impl Blocks {
         }
         let is_free = |i: &usize| rows.is_free[*i];
         let common = (0..rows.order()).filter(is_free).fold(Integer::one(), |l, i| l.lcm(&rows.factor[i]));
-        let mut blocks = Blocks { free, slip, common, ff: Vec::new(), fs: Vec::new(), sf: Vec::new(), ss: Vec::new(), bits: Vec::new() };
+        let mut blocks = Blocks { free, slip, common, ff: vec![], fs: vec![], sf: vec![], ss: vec![], factor: vec![], bits: vec![] };
         for (i, row) in rows.rows.iter().enumerate() {
             let lift = if rows.is_free[i] { &blocks.common / &rows.factor[i] } else { Integer::one() };
             let (f, s): (Vec<_>, Vec<_>) = row.iter().map(|(j, a, b)| (*j, a * &lift, b * &lift)).partition(|(j, ..)| rows.is_free[*j]);
@@ -105,6 +107,7 @@ impl Blocks {
                 blocks.fs.push(s);
             } else {
                 blocks.bits.push(row.iter().map(|(_, a, _)| a.bits()).max().unwrap_or(0).max(1));
+                blocks.factor.push(rows.factor[i].clone());
                 blocks.sf.push(f);
                 blocks.ss.push(s);
             }
@@ -123,7 +126,11 @@ impl Blocks {
 
     fn expand(&self, anchor: &Anchor, sigma: &Rational) -> Result<Expanded, CoverFault> {
         let (w, e_w) = self.coefficients(&anchor.right)?;
-        let (v, e_v) = self.coefficients(&anchor.left)?;
+        let (mut v, e_v) = self.coefficients(&anchor.left)?;
+        // V belongs to the pencil as given, the slip rows here are multiples of its rows.
+        for row in v.iter_mut().flatten() {
+            row.iter_mut().zip(&self.factor).for_each(|(v, f)| *v *= f);
+        }
         let (p, q) = (anchor.center.0.numer(), anchor.center.0.denom());
         // Constant and linear coefficient of q T(t) in d: q A + p B and q B.
         let parts = |a: &Integer, b: &Integer| (q * a + p * b, q * b);

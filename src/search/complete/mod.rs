@@ -1,26 +1,33 @@
 //! All solutions in a window, with a certificate that there are no others.
 //!
 //! The search works in doubles and writes a certificate of kind *complete set*; the checker decides.
-//! What it reports is what the checker accepted: solutions, and regions that stay open.
+//! What it reports is what the checker accepted: solutions, and regions that stay open. A certificate
+//! with open regions is also the checkpoint: [`resume`] goes on with it, [`merge`] joins parts.
 
+mod condense;
+mod error;
 mod game;
+mod merge;
 mod root;
+mod skeleton;
+mod skyline;
+mod splice;
 mod tree;
 mod view;
 mod witness;
 
-use crate::candidate::Candidate;
-use crate::certificate::{Certificate, Claim, CompleteSet, Node, Piece, RootOutcome};
-use crate::certify::{certificate, certify};
-use crate::check::{AcceptedCover, Rejected, check};
-use crate::exact::Rational;
-use crate::model::file::Number;
-use crate::model::{ModelError, Pencil, Problem};
+pub use error::CompleteError;
+pub use merge::merge;
+
+use crate::certificate::{Certificate, Claim, CompleteSet};
+use crate::certify::certificate;
+use crate::check::{AcceptedClaim, AcceptedCover, check};
+use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
+use skeleton::Prepared;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
-use tree::{Item, Region, Search, Watch, short};
-use view::View;
+use tree::Watch;
 
 /// How to search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,11 +36,24 @@ pub struct Options {
     pub pieces: usize,
     /// Nodes that one piece may use before the rest of it is left open.
     pub nodes_per_piece: usize,
+    /// Threads, all cores if not given. The certificate does not depend on it.
+    pub threads: Option<usize>,
+    /// The part of the pieces to search; the others are left open.
+    pub shard: Option<Shard>,
+}
+
+/// Every `count`-th piece from `index` on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which part, from 0.
+    pub index: usize,
+    /// Parts in all.
+    pub count: usize,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { pieces: 16, nodes_per_piece: 2_000_000 }
+        Options { pieces: 16, nodes_per_piece: 2_000_000, threads: None, shard: None }
     }
 }
 
@@ -55,6 +75,8 @@ pub struct Completed {
     pub certificate: Certificate,
     /// What the checker read off it.
     pub cover: AcceptedCover,
+    /// x of each solution of the cover over all variables of the pencil, e'x_s = 1, in doubles.
+    pub x: Vec<Vec<f64>>,
 }
 
 impl Completed {
@@ -62,48 +84,96 @@ impl Completed {
     pub fn is_complete(&self) -> bool {
         self.cover.open.is_empty()
     }
+
+    /// The solutions with their x.
+    pub fn solutions(&self) -> impl Iterator<Item = (&AcceptedClaim, &[f64])> {
+        self.cover.solutions.iter().zip(self.x.iter().map(Vec::as_slice))
+    }
 }
 
-/// Why there is no certificate.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum CompleteError {
-    /// The problem was refused.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// No complementarity variables.
-    #[error("complete: expected at least one slip variable, got none")]
-    NothingSlips,
-    /// The checker refused what the search wrote: a defect of this program.
-    #[error("complete: the checker rejects the search's certificate (please report this): {0}")]
-    Rejected(#[from] Rejected),
-}
-
-/// Searches the problem's window. `stop` ends the search early, what is not done is left open.
-///
-/// The certificate does not depend on the number of threads.
+/// Searches the problem's window. `stop` ends the search early; what is not done is left open.
 ///
 /// # Errors
 /// [`CompleteError`].
+///
+/// ```
+/// use mceip::{exact::{whole, Sparse}, model::{Body, Pencil, Problem, Unknown, Window}};
+/// use mceip::search::complete::{complete, Options};
+/// use std::sync::atomic::AtomicBool;
+/// // The fold of spec/errata.md: lambda^2 = 2 and 3 and nothing else in [0, infinity).
+/// let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
+/// let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+/// let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
+/// let found = complete(&problem, &Options::default(), &AtomicBool::new(false), &|_| {}).unwrap();
+/// assert!(found.is_complete());
+/// assert_eq!(found.cover.solutions.len(), 2);
+/// assert!(found.cover.solutions[0].value.contains(&whole(2)));
+/// ```
 pub fn complete(
     problem: &Problem,
     options: &Options,
     stop: &AtomicBool,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Completed, CompleteError> {
-    let reduced = reduce(problem)?;
-    let pencil = &reduced.pencil;
-    if pencil.slip().is_empty() {
-        return Err(CompleteError::NothingSlips);
-    }
-    let view = View::of(pencil);
+    let pencil = reduce(problem)?.pencil;
+    let prepared = Prepared::new(problem, &pencil, options.pieces)?;
+    let start = Certificate { complete_set: Some(prepared.open_set()), ..certificate(problem, Vec::new()) };
+    run(problem, &pencil, &prepared, start, options, stop, progress)
+}
+
+/// Goes on with a certificate that leaves regions open: only these are searched.
+///
+/// # Errors
+/// [`CompleteError`]; among them a certificate of another problem, unknown or window, and one without a
+/// complete set.
+pub fn resume(
+    problem: &Problem,
+    earlier: &Certificate,
+    options: &Options,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Completed, CompleteError> {
+    let pencil = reduce(problem)?.pencil;
+    error::same_problem(problem, earlier)?;
+    check(problem, earlier)?;
+    let set = earlier.complete_set.as_ref().ok_or(CompleteError::NoCompleteSet)?;
+    let prepared = Prepared::again(&pencil, set)?;
+    run(problem, &pencil, &prepared, earlier.clone(), options, stop, progress)
+}
+
+fn run(
+    problem: &Problem,
+    pencil: &Pencil,
+    prepared: &Prepared,
+    mut start: Certificate,
+    options: &Options,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Completed, CompleteError> {
+    let set = start.complete_set.take().ok_or(CompleteError::NoCompleteSet)?;
     let watch = Shares { stop, progress, state: Mutex::new(Progress::default()) };
-    let skeleton = cuts(problem, &view, options.pieces);
-    let found = run(problem, pencil, &view, &skeleton, options, &watch);
-    let certificate = assemble(problem, skeleton, found);
-    let accepted = check(problem, &certificate)?;
-    let cover = accepted.cover.ok_or(CompleteError::NothingSlips)?;
-    Ok(Completed { certificate, cover })
+    let mut claims: Vec<Claim> = start.claims;
+    let found = in_threads(options.threads, || splice::all(problem, pencil, prepared, &set, options, &watch));
+    let pieces = set.pieces.iter().zip(found).map(|(piece, items)| splice::numbered(piece, items, &mut claims)).collect();
+    let complete_set = Some(CompleteSet { condensation: set.condensation, pieces });
+    let certificate = Certificate { claims, complete_set, ..start };
+    finish(problem, pencil, prepared, certificate)
+}
+
+/// Lets the checker read the certificate: what is reported is what it accepted.
+fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, certificate: Certificate) -> Result<Completed, CompleteError> {
+    let cover = check(problem, &certificate)?.cover.ok_or(CompleteError::NoCompleteSet)?;
+    let x = cover.solutions.iter().map(|s| prepared.shape(pencil, s)).collect();
+    Ok(Completed { certificate, cover, x })
+}
+
+/// Runs in a pool of the wanted size, or in the default one.
+fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
+    match threads.map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build()) {
+        Some(Ok(pool)) => pool.install(work),
+        // Without a pool of one's own the default one does the same work.
+        _ => work(),
+    }
 }
 
 /// Counts shares as pieces report them.
@@ -126,73 +196,4 @@ impl Watch for Shares<'_> {
         state.solutions += u64::from(solution);
         (self.progress)(*state);
     }
-}
-
-/// Ends of the pieces, the last one the window's: equal steps of theta between short numbers.
-fn cuts(problem: &Problem, view: &View, pieces: usize) -> Vec<Option<Rational>> {
-    let (min, max) = (problem.window().min(), problem.window().max());
-    let (a, b) = (view.theta(crate::exact::to_f64(min)), view.theta(max.map_or(f64::INFINITY, crate::exact::to_f64)));
-    let step = (b - a) / pieces.max(1) as f64;
-    let mut ends: Vec<Option<Rational>> = Vec::new();
-    for k in 1..pieces {
-        let (theta, slack) = (a + step * k as f64, 0.2 * step);
-        let (v, low) = (view.value(theta), view.value(theta - slack));
-        let cut = short(v, v - low);
-        let rises = cut.as_ref().is_some_and(|c| c > ends.last().and_then(Option::as_ref).unwrap_or(min) && max.is_none_or(|m| c < m));
-        if rises {
-            ends.push(cut);
-        }
-    }
-    ends.push(max.cloned());
-    ends
-}
-
-/// Searches each piece; pieces are independent, so their order and thread do not matter.
-fn run(
-    problem: &Problem,
-    pencil: &Pencil,
-    view: &View,
-    skeleton: &[Option<Rational>],
-    options: &Options,
-    watch: &Shares<'_>,
-) -> Vec<Vec<Item>> {
-    let window = problem.window();
-    let certify_at = |value: f64, x: &[f64]| certify(pencil, window, &Candidate { value, x: x.to_vec() }).ok();
-    let one = |k: usize| {
-        let lo = if k == 0 { window.min().clone() } else { skeleton[k - 1].clone().unwrap_or_else(|| window.min().clone()) };
-        let region = Region::whole(lo, skeleton[k].clone(), view.order());
-        let mut search = Search {
-            view,
-            expansion: &view.expansions[0],
-            certify: &certify_at,
-            watch,
-            budget: options.nodes_per_piece,
-            items: Vec::new(),
-            window: (window.min().clone(), window.max().cloned()),
-        };
-        search.region(&region, 1.0 / skeleton.len() as f64);
-        search.items
-    };
-    (0..skeleton.len()).map(one).collect()
-}
-
-/// Numbers the claims that leaves refer to and writes the certificate.
-fn assemble(problem: &Problem, skeleton: Vec<Option<Rational>>, found: Vec<Vec<Item>>) -> Certificate {
-    let mut claims: Vec<Claim> = Vec::new();
-    let mut pieces = Vec::new();
-    for (max, items) in skeleton.into_iter().zip(found) {
-        let tree = items.into_iter().map(|item| match item {
-            Item::Node(node) => node,
-            Item::Claimed(mut root, claim) => {
-                let number = claims.iter().position(|c| *c == *claim).unwrap_or_else(|| {
-                    claims.push(*claim);
-                    claims.len() - 1
-                });
-                root.outcome = RootOutcome::Claim(number);
-                Node::Root(root)
-            }
-        });
-        pieces.push(Piece { max: max.map(Number), anchor: None, tree: tree.collect() });
-    }
-    Certificate { complete_set: Some(CompleteSet { condensation: None, pieces }), ..certificate(problem, claims) }
 }

@@ -2,6 +2,7 @@
 
 use crate::exact::{Integer, Rational, common_denominator, to_f64};
 use crate::model::Pencil;
+use crate::tolerance::CONDENSATION_NOISE;
 use num_traits::One;
 
 /// A dense square matrix by rows.
@@ -23,6 +24,8 @@ pub(super) struct Expansion {
     pub(super) left: Vec<Vec<f64>>,
     pub(super) right: Vec<Vec<f64>>,
     pub(super) weight: Vec<f64>,
+    /// W_k by columns: x_f = -W(d) x_s.
+    pub(super) free: Vec<Vec<Vec<f64>>>,
 }
 
 /// Both ends of an interval, the radius around the chord between them.
@@ -48,7 +51,7 @@ impl View {
                 row.iter().for_each(|(j, v)| m[i][*j] = to_f64(&(v * &factor)));
             }
         }
-        let expansion = Expansion { center: 0.0, z: vec![a, b], left: Vec::new(), right: Vec::new(), weight: Vec::new() };
+        let expansion = Expansion { center: 0.0, z: vec![a, b], left: Vec::new(), right: Vec::new(), weight: Vec::new(), free: Vec::new() };
         View { index: (0..n).collect(), scale: scale(&expansion.z), expansions: vec![expansion] }
     }
 
@@ -85,6 +88,24 @@ impl Expansion {
     /// T(t), the remainder left out.
     pub(super) fn at(&self, t: f64) -> Matrix {
         self.horner(t - self.center, &|_, v| v)
+    }
+
+    /// Is this the pencil itself, valid for every value?
+    pub(super) fn is_everywhere(&self) -> bool {
+        self.free.is_empty()
+    }
+
+    /// The free variables that belong to x_s at t; `None` where there are none.
+    pub(super) fn free_part(&self, t: f64, x: &[f64]) -> Option<Vec<f64>> {
+        let d = t - self.center;
+        let mut out = vec![0.0; self.free.first()?.first()?.len()];
+        for w in self.free.iter().rev() {
+            out.iter_mut().for_each(|o| *o *= d);
+            for (column, x_j) in w.iter().zip(x) {
+                out.iter_mut().zip(column).for_each(|(o, c)| *o -= c * x_j);
+            }
+        }
+        Some(out)
     }
 
     /// dT/dt, the remainder left out.
@@ -133,8 +154,9 @@ impl Expansion {
         }
         let norm = |list: &[Vec<f64>], i: usize| list.iter().rev().fold(0.0, |s, l| s * reach + l[i]);
         let n = self.z[0].len();
-        let remainder =
-            |i: usize, j: usize| if self.weight.is_empty() { 0.0 } else { norm(&self.left, i) * norm(&self.right, j) * self.weight[i] };
+        // The z_k themselves come from long sums of terms below one in doubles.
+        let size: f64 = m.iter().flatten().flatten().fold(1.0, |s, v| s.max(v.abs()));
+        let remainder = |i: usize, j: usize| norm(&self.left, i) * norm(&self.right, j) * self.weight[i] + CONDENSATION_NOISE * size;
         let r = (0..n).map(|i| (0..n).map(|j| bend[i][j] / 8.0 + remainder(i, j)).collect()).collect();
         // The remainder's slope is at most a few times remainder / width where it matters; the exact
         // check decides.

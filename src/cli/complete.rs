@@ -1,0 +1,145 @@
+//! `mceip complete`: all solutions in a window, with a proof that there are no others.
+
+use super::common::{CliError, exit, interrupt_flag, load, print, text};
+use super::output::Output;
+use crate::certificate::Certificate;
+use crate::check::{AcceptedCover, OpenRegion};
+use crate::exact::enclosing_decimals;
+use crate::model::Problem;
+use crate::search::complete::{Completed, Options, Shard, complete, resume};
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::json;
+use std::path::PathBuf;
+
+/// Arguments of `complete`.
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// Problem file (mceip-problem/1).
+    file: PathBuf,
+    /// Closed window a,b of values instead of the file's (b empty or inf: no upper end).
+    #[arg(long, allow_hyphen_values = true)]
+    window: Option<String>,
+    /// Write the certificate to this file; after an interrupt it holds what is left open.
+    #[arg(long, value_name = "OUT")]
+    certificate: Option<PathBuf>,
+    /// Go on with a certificate that leaves regions open (after an interrupt, or a shard).
+    #[arg(long, value_name = "CERTIFICATE")]
+    resume: Option<PathBuf>,
+    /// Search part i of n of the pieces and leave the others open; `mceip merge` joins the parts.
+    #[arg(long, value_name = "I/N")]
+    shard: Option<String>,
+    /// Threads (default: all cores). The certificate does not depend on it.
+    #[arg(long)]
+    threads: Option<usize>,
+    /// Print mceip-solutions/1.
+    #[arg(long)]
+    json: bool,
+}
+
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let problem = load(&args.file, args.window.as_deref())?;
+    let shard = args.shard.as_deref().map(parse_shard).transpose()?;
+    if args.threads == Some(0) {
+        return Err(CliError::Option { option: "threads", expected: "at least 1", got: "0".into() });
+    }
+    let earlier = args.resume.as_ref().map(|path| read(path)).transpose()?;
+    let output = args.certificate.as_ref().map(|path| Output::prepare("certificate", path, &[&args.file])).transpose()?;
+    let stop = interrupt_flag();
+    let bar = share_bar();
+    let options = Options { threads: args.threads, shard, ..Options::default() };
+    let hear = |p: crate::search::complete::Progress| {
+        bar.set_position((p.share * 1000.0) as u64);
+        bar.set_message(format!("{} leaves, {} solutions", p.leaves, p.solutions));
+    };
+    let completed = match &earlier {
+        None => complete(&problem, &options, &stop, &hear)?,
+        Some(certificate) => resume(&problem, certificate, &options, &stop, &hear)?,
+    };
+    bar.finish_and_clear();
+    let out = if args.json { format!("{}\n", solutions_json(&problem, &completed)) } else { solutions_text(&problem, &completed.cover) };
+    print(&out)?;
+    if let Some(output) = output {
+        output.write(&completed.certificate.to_json())?;
+    }
+    Ok(match (stop.load(std::sync::atomic::Ordering::Relaxed), completed.is_complete()) {
+        (_, true) => exit::DONE,
+        (true, false) => exit::INTERRUPTED,
+        (false, false) => exit::UNDECIDED,
+    })
+}
+
+/// Reads a certificate; errors name the file.
+pub(super) fn read(path: &std::path::Path) -> Result<Certificate, CliError> {
+    Certificate::from_json(&text("the certificate", path)?).map_err(|source| CliError::File { path: path.display().to_string(), source })
+}
+
+fn parse_shard(given: &str) -> Result<Shard, CliError> {
+    let bad = || CliError::Option { option: "shard", expected: "i/n with 1 <= i <= n", got: given.chars().take(60).collect() };
+    let (i, n) = given.split_once('/').ok_or_else(bad)?;
+    let (i, n) = (i.parse::<usize>().map_err(|_| bad())?, n.parse::<usize>().map_err(|_| bad())?);
+    if i >= 1 && i <= n { Ok(Shard { index: i - 1, count: n }) } else { Err(bad()) }
+}
+
+fn share_bar() -> ProgressBar {
+    let bar = ProgressBar::new(1000);
+    if let Ok(style) = ProgressStyle::with_template("closed [{bar:30}] {percent}% of the search space, {msg}, {elapsed}") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+/// What a cover has proved, for people.
+pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String {
+    let word = problem.unknown().word();
+    let mut out = String::new();
+    for s in &cover.solutions {
+        let (lo, hi) = enclosing_decimals(&s.value, 15);
+        out += &format!("solution: {word} in [{lo}, {hi}], slip {:?}\n", s.support);
+    }
+    let window = problem.window();
+    let max = window.max().map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
+    let n = cover.solutions.len();
+    let count = if n == 1 { "1 solution".into() } else { format!("{n} solutions") };
+    let within = format!("in [{}, {max}", window.min());
+    if cover.open.is_empty() {
+        let what = if n == 0 { format!("COMPLETE: no solution {within}") } else { format!("COMPLETE: {count} {within}, and no other") };
+        return out + &format!("{what}; {} leaves, accepted by the checker\n", cover.leaves);
+    }
+    for region in cover.open.iter().take(OPEN_SHOWN) {
+        out += &format!("open: {}\n", open_text(word, region));
+    }
+    if cover.open.len() > OPEN_SHOWN {
+        out += &format!("open: {} more regions (see the certificate)\n", cover.open.len() - OPEN_SHOWN);
+    }
+    out + &format!("UNDECIDED: {count} proved {within}, {} regions open\n", cover.open.len())
+}
+
+/// Open regions printed in full.
+const OPEN_SHOWN: usize = 20;
+
+fn open_text(word: &str, region: &OpenRegion) -> String {
+    let max = region.max.as_ref().map_or_else(|| "infinity".into(), ToString::to_string);
+    format!("{word} in [{}, {max}], moving {:?}, undecided {:?}", region.min, region.moving, region.undecided)
+}
+
+fn solutions_json(problem: &Problem, completed: &Completed) -> serde_json::Value {
+    let region = |r: &OpenRegion| json!({ "min": r.min.to_string(), "max": r.max.as_ref().map(ToString::to_string), "moving": r.moving, "undecided": r.undecided });
+    let solutions: Vec<_> = completed
+        .solutions()
+        .map(|(s, x)| {
+            let (lo, hi) = enclosing_decimals(&s.value, 15);
+            let x: Vec<String> = x.iter().map(|v| format!("{v:.15e}")).collect();
+            json!({ "value": format!("{:.15e}", crate::exact::to_f64(&s.value.mid())), "enclosure": [lo, hi], "slip": s.support, "x": x })
+        })
+        .collect();
+    let cover = &completed.cover;
+    json!({
+        "format": crate::candidate::SOLUTIONS_FORMAT,
+        "problem_sha256": problem.sha256(),
+        "unknown": problem.unknown().word(),
+        "claim": if cover.open.is_empty() { "complete" } else { "solutions" },
+        "evidence": format!("certificate of a complete set, {} leaves, {} open, accepted by the checker; x to the digits of doubles", cover.leaves, cover.open.len()),
+        "solutions": solutions,
+        "open": cover.open.iter().map(region).collect::<Vec<_>>(),
+    })
+}

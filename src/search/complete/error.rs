@@ -1,0 +1,81 @@
+//! Why there is no certificate.
+
+use crate::certificate::Certificate;
+use crate::check::Rejected;
+use crate::model::{ModelError, Problem, Window};
+
+/// Why there is no certificate.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompleteError {
+    /// The problem was refused.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// No complementarity variables.
+    #[error("complete: expected at least one slip variable, got none")]
+    NothingSlips,
+    /// The free variables cannot be eliminated.
+    #[error("P1, P2: expected {what} symmetric and definite (B_ff: semidefinite), got the contrary at variable {index}")]
+    NotDefinite {
+        /// Which block.
+        what: &'static str,
+        /// A free variable of it.
+        index: usize,
+    },
+    /// A certificate was made for other matrices.
+    #[error("certificate: expected problem {expected}, got {got:?}")]
+    OtherProblem {
+        /// Digest of the problem at hand.
+        expected: String,
+        /// Digest the certificate names.
+        got: String,
+    },
+    /// A certificate was made for another window.
+    #[error("certificate: expected the window {expected}, got {got}")]
+    OtherWindow {
+        /// The problem's.
+        expected: String,
+        /// The certificate's.
+        got: String,
+    },
+    /// A certificate claims no complete set.
+    #[error("certificate: expected a complete set, got none")]
+    NoCompleteSet,
+    /// A part was cut into other pieces.
+    #[error("merge: expected part {part} to have the pieces and the condensation of part 0")]
+    OtherPieces {
+        /// The part, from 0.
+        part: usize,
+    },
+    /// A piece that no part has searched.
+    #[error("merge: expected every piece to be searched by a part, got none for piece {piece} of {pieces}")]
+    MissingPiece {
+        /// The piece, from 0.
+        piece: usize,
+        /// Pieces in all.
+        pieces: usize,
+    },
+    /// Nothing to merge.
+    #[error("merge: expected at least one part")]
+    NoParts,
+    /// The checker refused a certificate: the one to go on with, or a defect of this program.
+    #[error("the checker rejects the certificate: {0}")]
+    Rejected(#[from] Rejected),
+}
+
+/// The certificate is for this problem and window.
+pub(super) fn same_problem(problem: &Problem, certificate: &Certificate) -> Result<(), CompleteError> {
+    let expected = problem.sha256();
+    if certificate.problem_sha256 != expected {
+        return Err(CompleteError::OtherProblem { expected, got: certificate.problem_sha256.clone() });
+    }
+    if certificate.window != *problem.window() {
+        return Err(CompleteError::OtherWindow { expected: text(problem.window()), got: text(&certificate.window) });
+    }
+    Ok(())
+}
+
+fn text(window: &Window) -> String {
+    let max = window.max().map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
+    format!("[{}, {max}", window.min())
+}

@@ -1,0 +1,122 @@
+//! The view of a problem and the pieces its window is cut into before the search.
+
+use super::CompleteError;
+use super::condense::{condense, view_of};
+use super::root::null_vector;
+use super::tree::{State, short};
+use super::view::View;
+use crate::certificate::{CompleteSet, Condensation, Node, Piece};
+use crate::check::AcceptedClaim;
+use crate::exact::{Rational, to_f64};
+use crate::model::file::Number;
+use crate::model::{Pencil, Problem};
+
+/// What a search needs before it begins.
+pub(super) struct Prepared {
+    pub(super) view: View,
+    condensation: Option<Condensation>,
+    /// Upper end and anchor of each piece.
+    pieces: Vec<(Option<Rational>, Option<usize>)>,
+}
+
+impl Prepared {
+    /// Condenses where there are free variables, and cuts the window into about `count` pieces.
+    pub(super) fn new(problem: &Problem, pencil: &Pencil, count: usize) -> Result<Prepared, CompleteError> {
+        if pencil.slip().is_empty() {
+            return Err(CompleteError::NothingSlips);
+        }
+        let window = problem.window();
+        if pencil.free().is_empty() {
+            let view = View::of(pencil);
+            let pieces = cuts(&view, window.min(), window.max(), count).into_iter().map(|max| (max, None)).collect();
+            return Ok(Prepared { view, condensation: None, pieces });
+        }
+        let condensed = condense(pencil, window)?;
+        let view = condensed.view;
+        let mut pieces = Vec::new();
+        let mut lo = window.min().clone();
+        let each = count.div_ceil(condensed.ends.len()).max(MIN_PIECES);
+        for (anchor, end) in condensed.ends.iter().enumerate() {
+            let is_last = anchor + 1 == condensed.ends.len();
+            let tail = condensed.condensation.tail.as_ref().map(|t| &t.from.0);
+            // The last anchor ends where the tail begins, or with the window.
+            let hi = match (is_last, tail) {
+                (true, Some(from)) => Some(from.clone()),
+                (true, None) => window.max().cloned(),
+                (false, _) => short(*end, 0.01 * end),
+            };
+            let above = hi.as_ref().is_none_or(|h| *h > lo);
+            if above || (is_last && pieces.is_empty()) {
+                pieces.extend(cuts(&view, &lo, hi.as_ref(), each).into_iter().map(|max| (max, Some(anchor))));
+            }
+            lo = hi.unwrap_or(lo);
+        }
+        if window.max().is_none() && pieces.last().is_some_and(|p| p.0.is_some()) {
+            pieces.push((None, None)); // the tail
+        }
+        Ok(Prepared { view, condensation: Some(condensed.condensation), pieces })
+    }
+
+    /// From a certificate to go on with.
+    pub(super) fn again(pencil: &Pencil, set: &CompleteSet) -> Result<Prepared, CompleteError> {
+        let view = match &set.condensation {
+            None => View::of(pencil),
+            Some(condensation) => view_of(pencil, condensation),
+        };
+        let pieces = set.pieces.iter().map(|p| (p.max.as_ref().map(|n| n.0.clone()), p.anchor)).collect();
+        Ok(Prepared { view, condensation: set.condensation.clone(), pieces })
+    }
+
+    /// The cover with everything open, the tail excepted.
+    pub(super) fn open_set(&self) -> CompleteSet {
+        let has_tail = self.condensation.as_ref().is_some_and(|c| c.tail.is_some());
+        let node = |max: &Option<Rational>| if max.is_none() && has_tail { Node::Tail } else { Node::Open };
+        let piece = |(max, anchor): &(Option<Rational>, Option<usize>)| Piece {
+            max: max.clone().map(Number),
+            anchor: *anchor,
+            tree: vec![node(max)],
+        };
+        CompleteSet { condensation: self.condensation.clone(), pieces: self.pieces.iter().map(piece).collect() }
+    }
+
+    /// x of an accepted solution over all variables of the pencil, e'x_s = 1, in doubles.
+    pub(super) fn shape(&self, pencil: &Pencil, solution: &AcceptedClaim) -> Vec<f64> {
+        let (lo, hi) = (to_f64(solution.value.lo()), to_f64(solution.value.hi()));
+        let t = to_f64(&solution.value.mid());
+        let piece = self.pieces.iter().position(|(max, _)| max.as_ref().is_none_or(|m| solution.value.lo() <= m)).unwrap_or(0);
+        let expansion = &self.view.expansions[self.pieces[piece].1.unwrap_or(0)];
+        let moves = |i: &usize| if solution.support.contains(i) { State::Moving } else { State::Rest };
+        let states: Vec<State> = self.view.index.iter().map(moves).collect();
+        let reach = (hi - lo).max(1e-6 * t.abs()).max(f64::MIN_POSITIVE);
+        let x =
+            null_vector(expansion, &states, t - reach, t + reach).map_or_else(|| vec![f64::NAN; states.len()], |n| n.spread(states.len()));
+        let sum: f64 = x.iter().sum();
+        let mut out = vec![0.0; pencil.order()];
+        self.view.index.iter().zip(&x).for_each(|(&i, v)| out[i] = v / sum);
+        if let Some(free) = expansion.free_part(t, &x) {
+            pencil.free().iter().zip(free).for_each(|(&i, v)| out[i] = v / sum);
+        }
+        out
+    }
+}
+
+/// Pieces per anchor at least.
+const MIN_PIECES: usize = 4;
+
+/// Upper ends of `count` pieces of [min, max]: equal steps of theta, at short numbers.
+fn cuts(view: &View, min: &Rational, max: Option<&Rational>, count: usize) -> Vec<Option<Rational>> {
+    let (a, b) = (view.theta(to_f64(min)), view.theta(max.map_or(f64::INFINITY, to_f64)));
+    let step = (b - a) / count.max(1) as f64;
+    let mut ends: Vec<Option<Rational>> = Vec::new();
+    for k in 1..count {
+        let theta = a + step * k as f64;
+        let v = view.value(theta);
+        let cut = short(v, v - view.value(theta - 0.2 * step));
+        let last = ends.last().and_then(Option::as_ref).unwrap_or(min);
+        if cut.as_ref().is_some_and(|c| c > last && max.is_none_or(|m| c < m)) {
+            ends.push(cut);
+        }
+    }
+    ends.push(max.cloned());
+    ends
+}

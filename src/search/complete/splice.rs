@@ -1,0 +1,102 @@
+//! Searches the open leaves of a cover and puts what is found in their place.
+
+use super::Options;
+use super::skeleton::Prepared;
+use super::tree::{Item, Region, Search, State, Watch};
+use crate::candidate::Candidate;
+use crate::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
+use crate::certify::certify;
+use crate::exact::Rational;
+use crate::model::{Pencil, Problem};
+use rayon::prelude::*;
+
+/// The trees of all pieces, their open leaves searched; pieces are independent of each other, so
+/// threads change nothing.
+pub(super) fn all(
+    problem: &Problem,
+    pencil: &Pencil,
+    prepared: &Prepared,
+    set: &CompleteSet,
+    options: &Options,
+    watch: &(dyn Watch + Sync),
+) -> Vec<Vec<Item>> {
+    let window = problem.window();
+    let certify_at = |value: f64, x: &[f64]| {
+        let exact_only = pencil.free().is_empty();
+        exact_only.then(|| certify(pencil, window, &Candidate { value, x: x.to_vec() }).ok()).flatten()
+    };
+    let starts: Vec<Rational> = std::iter::once(window.min().clone())
+        .chain(set.pieces.iter().map(|p| p.max.as_ref().map_or_else(|| window.min().clone(), |n| n.0.clone())))
+        .collect();
+    let one = |(k, piece): (usize, &Piece)| {
+        let mine = options.shard.is_none_or(|s| k % s.count == s.index);
+        if !mine {
+            return piece.tree.iter().cloned().map(Item::Node).collect();
+        }
+        let mut search = Search {
+            view: &prepared.view,
+            expansion: &prepared.view.expansions[piece.anchor.unwrap_or(0)],
+            certify: &certify_at,
+            watch,
+            budget: options.nodes_per_piece,
+            items: Vec::new(),
+            window: (window.min().clone(), window.max().cloned()),
+        };
+        let share = 1.0 / set.pieces.len() as f64;
+        spliced(&mut search, &starts[k], piece, share);
+        search.items
+    };
+    set.pieces.par_iter().enumerate().map(one).collect()
+}
+
+/// Copies the tree in preorder; an open leaf is replaced by what a search of its region finds.
+fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64) {
+    let hi = piece.max.as_ref().map(|n| n.0.clone());
+    // A piece beyond the anchors has no matrices to search with.
+    let searchable = piece.anchor.is_some() || search.expansion.is_everywhere();
+    let mut stack = vec![(Region::whole(lo.clone(), hi, search.view.order()), share)];
+    for node in &piece.tree {
+        let Some((region, share)) = stack.pop() else { return }; // the checker has accepted the tree
+        match node {
+            Node::Split(at) => {
+                search.items.push(Item::Node(node.clone()));
+                stack.push((Region { lo: at.0.clone(), ..region.clone() }, share / 2.0));
+                stack.push((Region { hi: Some(at.0.clone()), ..region }, share / 2.0));
+            }
+            Node::Branch(index) => {
+                search.items.push(Item::Node(node.clone()));
+                let position = search.view.index.iter().position(|i| i == index).unwrap_or(0);
+                for state in [State::Moving, State::Rest] {
+                    let mut child = region.clone();
+                    child.states[position] = state;
+                    stack.push((child, share / 2.0));
+                }
+            }
+            Node::Open if searchable => search.region(&region, share),
+            _ => {
+                search.items.push(Item::Node(node.clone()));
+                search.watch.closed(share, false);
+            }
+        }
+    }
+}
+
+/// The piece with its claims numbered in the certificate's list, which grows by those that are new.
+pub(super) fn numbered(piece: &Piece, items: Vec<Item>, claims: &mut Vec<Claim>) -> Piece {
+    let node = |item| match item {
+        Item::Node(node) => node,
+        Item::Claimed(mut root, claim) => {
+            root.outcome = RootOutcome::Claim(number(claims, *claim));
+            Node::Root(root)
+        }
+    };
+    Piece { tree: items.into_iter().map(node).collect(), ..piece.clone() }
+}
+
+/// The claim's number, appended if it is new.
+pub(super) fn number(claims: &mut Vec<Claim>, claim: Claim) -> usize {
+    claims.iter().position(|c| *c == claim).unwrap_or_else(|| {
+        claims.push(claim);
+        claims.len() - 1
+    })
+}
