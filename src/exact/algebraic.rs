@@ -1,7 +1,8 @@
 //! Real algebraic numbers as (squarefree polynomial, isolating interval), and exact signs at them.
 
-use super::{Interval, Poly, Rational};
-use num_traits::One;
+use super::{Integer, Interval, Poly, Rational};
+use num_integer::Integer as _;
+use num_traits::{One, Zero};
 use std::cmp::Ordering;
 
 /// The sign of a real number.
@@ -138,6 +139,25 @@ impl Algebraic {
             self.poly = f.primitive();
         }
         vanishes
+    }
+
+    /// The same vector at this number up to one positive factor, in polynomials of least degree and
+    /// content 1: remainders by the defining polynomial, all scaled alike.
+    ///
+    /// ```
+    /// use mceip::exact::{nonnegative_roots, Poly};
+    /// let root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
+    /// let v = root.reduce(&[Poly::from_ints(&[0, 0, 6]), Poly::from_ints(&[0, 8])]);
+    /// assert_eq!(v, [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])]); // (6 t^2, 8 t) ~ (3, 2 t)
+    /// ```
+    pub fn reduce(&self, vector: &[Poly]) -> Vec<Poly> {
+        let steps = vector.iter().map(|p| p.coeffs().len()).max().unwrap_or(0).saturating_sub(self.poly.coeffs().len() - 1);
+        let reduced: Vec<Poly> = vector.iter().map(|p| p.pseudo_rem_steps(&self.poly, steps)).collect();
+        let content = reduced.iter().fold(Integer::zero(), |g, p| g.gcd(&p.content()));
+        if content.is_zero() || content.is_one() {
+            return reduced;
+        }
+        reduced.iter().map(|p| Poly::new(p.coeffs().iter().map(|c| c / &content).collect())).collect()
     }
 
     /// Looks for a rational value: a root u/v of a primitive polynomial has v dividing the lead, so
