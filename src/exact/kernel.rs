@@ -103,6 +103,14 @@ pub fn minors(m: &[Vec<Poly>], columns: &[usize]) -> Vec<Poly> {
     found
 }
 
+/// The non-zero rows of a reduced row echelon form at `alpha` (up to factors), and their pivots:
+/// their number is the rank.
+pub fn row_echelon_at(m: Vec<Vec<Poly>>, alpha: &mut Algebraic) -> (Vec<Vec<Poly>>, Vec<usize>) {
+    let mut e = echelon(m, |p| alpha.sign_of(p) != Sign::Zero);
+    e.rows.truncate(e.pivots.len());
+    (e.rows, e.pivots)
+}
+
 /// What fraction-free Gauss-Jordan elimination leaves.
 struct Echelon {
     rows: Vec<Vec<Poly>>,

@@ -29,7 +29,7 @@ pub use definite::{DefiniteError, NotDefinite, positive_definite};
 pub use dense::Dense;
 pub use double::{from_f64, to_f64};
 pub use interval::Interval;
-pub use kernel::{determinant, generic_kernel, kernel_at, minors};
+pub use kernel::{determinant, generic_kernel, kernel_at, minors, row_echelon_at};
 pub use modular::{CondenseError, schur_complement};
 pub use poly::Poly;
 pub use quadratic::Quadratic;
