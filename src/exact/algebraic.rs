@@ -42,17 +42,23 @@ impl From<i8> for Sign {
 pub struct Algebraic {
     poly: Poly,
     interval: Interval,
+    /// Sign of the polynomial at the lower end: refinement never changes it. 0 for a point.
+    at_lo: i8,
 }
 
 impl Algebraic {
     /// A rational number as an algebraic one.
     pub fn rational(value: Rational) -> Self {
-        Algebraic { poly: Poly::linear_root(&value), interval: Interval::point(value) }
+        Algebraic { poly: Poly::linear_root(&value), interval: Interval::point(value), at_lo: 0 }
     }
 
     /// The root of a squarefree `poly` isolated by `interval`; the caller has isolated it.
     pub(super) fn isolated(poly: Poly, interval: Interval) -> Self {
-        if interval.is_point() { Self::rational(interval.lo().clone()) } else { Algebraic { poly, interval } }
+        if interval.is_point() {
+            return Self::rational(interval.lo().clone());
+        }
+        let at_lo = poly.sign_at(interval.lo());
+        Algebraic { poly, interval, at_lo }
     }
 
     /// The number a claim speaks of: its polynomial made squarefree, with its interval. The caller
@@ -88,7 +94,7 @@ impl Algebraic {
             *self = Self::rational(mid);
             return;
         }
-        let (lo, hi) = if at_mid == self.poly.sign_at(&lo) { (mid, hi) } else { (lo, mid) };
+        let (lo, hi) = if at_mid == self.at_lo { (mid, hi) } else { (lo, mid) };
         // lo <= hi: mid lies between the old ends.
         self.interval = Interval::new(lo, hi).unwrap_or_else(|| self.interval.clone());
     }
@@ -108,7 +114,7 @@ impl Algebraic {
         if let Some(value) = self.as_rational() {
             return Sign::from(g.sign_at(value));
         }
-        let quick = self.interval.horner(g).certain_sign();
+        let quick = self.interval.sign_on(g);
         if quick != 0 {
             return Sign::from(quick);
         }
@@ -119,7 +125,7 @@ impl Algebraic {
             if let Some(value) = self.as_rational() {
                 return Sign::from(g.sign_at(value));
             }
-            match self.interval.horner(g).certain_sign() {
+            match self.interval.sign_on(g) {
                 0 => self.refine(), // ends: g is not zero here and Horner converges with the width
                 s => return Sign::from(s),
             }
@@ -137,6 +143,7 @@ impl Algebraic {
         let factor = if vanishes { Some(h) } else { self.poly.exact_div(&h) };
         if let Some(f) = factor {
             self.poly = f.primitive();
+            self.at_lo = self.poly.sign_at(self.interval.lo());
         }
         vanishes
     }

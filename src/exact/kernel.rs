@@ -16,10 +16,12 @@ use num_traits::{One, Zero};
 /// assert_eq!(d, Poly::from_ints(&[-2, 5, 1])); // (1+t)(4+t) - 6
 /// ```
 pub fn determinant(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Poly {
-    let n = a.len();
-    let at =
-        |t: usize| -> Vec<Vec<Integer>> { a.iter().zip(b).map(|(ra, rb)| ra.iter().zip(rb).map(|(x, y)| x + y * t).collect()).collect() };
-    newton_interpolate((0..=n).map(|t| integer_determinant(at(t))).collect())
+    newton_interpolate((0..=a.len()).map(|t| integer_determinant(values_at(a, b, t))).collect())
+}
+
+/// A + tB at an integer.
+pub(super) fn values_at(a: &[Vec<Integer>], b: &[Vec<Integer>], t: usize) -> Vec<Vec<Integer>> {
+    a.iter().zip(b).map(|(ra, rb)| ra.iter().zip(rb).map(|(x, y)| x + y * t).collect()).collect()
 }
 
 /// Determinant of an integer matrix by Bareiss' elimination; every division is exact.
@@ -44,7 +46,7 @@ pub(super) fn integer_determinant(mut m: Vec<Vec<Integer>>) -> Integer {
 }
 
 /// The integer polynomial of degree <= n with the given values at 0, ..., n.
-fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
+pub(super) fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
     let n = values.len().saturating_sub(1);
     let factorial: Integer = (1..=n).map(Integer::from).product();
     let mut sum = Poly::default();

@@ -5,6 +5,7 @@
 #![deny(clippy::float_arithmetic)]
 
 mod algebraic;
+mod cofactor;
 mod cone;
 mod decimal;
 mod definite;
@@ -22,6 +23,7 @@ mod roots;
 mod sparse;
 
 pub use algebraic::{Algebraic, Sign};
+pub use cofactor::first_row_cofactors;
 pub(crate) use cone::dot;
 pub use cone::{Generators, cone_generators};
 pub use decimal::{enclosing_decimals, ratio_to_decimal, to_decimal};

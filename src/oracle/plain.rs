@@ -1,7 +1,7 @@
 //! The plain enumerator: the definition (24)-(26) turned into Rust, support by support.
 
 use super::{Enumeration, Solution, WideKernel};
-use crate::exact::{Algebraic, Integer, Poly, Sign, determinant, kernel_at, roots_in};
+use crate::exact::{Algebraic, Integer, Poly, Sign, determinant, first_row_cofactors, kernel_at, roots_in};
 use crate::model::{Pencil, Window};
 use std::ops::ControlFlow;
 
@@ -109,12 +109,31 @@ impl<'a> Integral<'a> {
         active.iter().map(|&i| active.iter().map(|&j| self.entry(i, j)).collect()).collect()
     }
 
-    /// Its determinant.
+    /// A and B on the rows and columns `active`.
+    fn matrices(&self, active: &[usize]) -> [Vec<Vec<Integer>>; 2] {
+        [&self.a, &self.b].map(|m| active.iter().map(|&i| active.iter().map(|&j| m[i][j].clone()).collect()).collect())
+    }
+
+    /// The determinant of the block.
     pub(super) fn determinant(&self, active: &[usize]) -> Poly {
-        let select = |m: &[Vec<Integer>]| -> Vec<Vec<Integer>> {
-            active.iter().map(|&i| active.iter().map(|&j| m[i][j].clone()).collect()).collect()
+        let [a, b] = self.matrices(active);
+        determinant(&a, &b)
+    }
+
+    /// The kernel of the block at each root of its determinant. Cramer's rule gives it for all roots at
+    /// once where the rank is one less than the order; elimination at the root decides the rest.
+    fn kernels(&self, active: &[usize], roots: Vec<Algebraic>) -> Vec<(Algebraic, Vec<Vec<Poly>>)> {
+        if roots.is_empty() {
+            return Vec::new();
+        }
+        let [a, b] = self.matrices(active);
+        let cofactors = first_row_cofactors(&a, &b);
+        let kernel = |mut value: Algebraic| {
+            let regular = cofactors.iter().any(|c| value.sign_of(c) != Sign::Zero);
+            let kernel = if regular { vec![cofactors.clone()] } else { kernel_at(self.block(active), &mut value) };
+            (value, kernel)
         };
-        determinant(&select(&self.a), &select(&self.b))
+        roots.into_iter().map(kernel).collect()
     }
 
     /// A vector over `active` as one over all variables.
@@ -144,8 +163,7 @@ fn examine(pencil: &Integral<'_>, support: &[usize], window: &Window, found: &mu
         found.continua.push(support.to_vec());
         return;
     }
-    for mut value in roots_in(&det, window.min(), window.max()) {
-        let kernel = kernel_at(pencil.block(&active), &mut value);
+    for (mut value, kernel) in pencil.kernels(&active, roots_in(&det, window.min(), window.max())) {
         match &kernel[..] {
             [vector] => {
                 let multiplicity = multiplicity(&det, &mut value);

@@ -83,7 +83,7 @@ fn pieces(mut critical: Vec<Algebraic>, mut exists: impl FnMut(&Algebraic) -> bo
             (Some(from), true) if cell => open = Some(from),
             (Some(from), _) => {
                 pieces.push(Piece { from, to: Some(End { value: here.clone(), included: at }) });
-                open = cell.then(|| End { value: here, included: false });
+                open = cell.then_some(End { value: here, included: false });
             }
             (None, _) if cell => open = Some(End { value: here, included: at }),
             (None, true) => points.push(here),
