@@ -138,6 +138,20 @@ fn windows_cut_ranges_and_keep_touching_points() {
     assert_eq!(within(rational(5, 4), rational(5, 4)), Some(vec!["[1.25, 1.25]".into()]));
 }
 
+/// What is isolated does not depend on where the line is cut. Found by `shifting_moves_the_window`:
+/// a range that ends at 0 from below was listed as a solution, one that ends at a window was not.
+#[test]
+fn a_range_that_only_touches_zero_is_no_isolated_solution() {
+    // {0}: 0 x_0 = 0 for every t; y_1 = -t x_0 >= 0 for t <= 0 only.
+    let found = all(&pencil(&[&[0, 1], &[0, 1]], &[&[0, 0], &[-1, 0]], &[]));
+    assert_eq!(ranges(&found), [(vec![0], vec!["[0, 0]".to_string()])]);
+    assert!(found.solutions.is_empty());
+    // {0, 1}: x = (1, t), y_2 = -t x_1: nothing but t = 0 is left, where the support is {0}.
+    let found = all(&pencil(&[&[0, -1, 1], &[0, -2, 3], &[0, 0, 1]], &[&[1, 0, 0], &[2, 0, 0], &[0, -1, 0]], &[]));
+    assert!(found.ranges.is_empty());
+    assert_eq!(supports(&found), [("0".into(), vec![0], vec![1, 2])]); // x_1 = t vanishes there
+}
+
 /// Kernel of dimension 2 for every t: x_0, x_1 > 0 with y_2 = (t - 1) x_0 - x_1 >= 0 exist for t > 1.
 #[test]
 fn a_singular_support_of_higher_dimension() {

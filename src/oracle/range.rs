@@ -14,7 +14,7 @@ use super::plain::Integral;
 use super::{End, Enumeration, Piece, SupportRange, Undescribed, WideKernel};
 use crate::exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots};
 use crate::model::Window;
-use num_traits::One;
+use num_traits::{One, Signed};
 use std::cmp::Ordering;
 
 /// Most minors formed for one support: beyond it the support is named as undescribed.
@@ -26,16 +26,18 @@ pub(super) fn describe(pencil: &Integral<'_>, support: &[usize], window: &Window
     let (kernel, _, pivot) = generic_kernel(pencil.block(&active));
     let kernel: Vec<Vec<Poly>> = kernel.iter().map(|v| pencil.extend(&active, v)).collect();
     let critical = match critical(pencil, support, &active, &kernel, pivot) {
-        Ok(poly) => nonnegative_roots(&poly),
+        Ok(poly) => poly,
         Err(undescribed) => {
             found.undescribed.push(undescribed);
             return;
         }
     };
-    let (pieces, points) = pieces(critical, |t| {
+    let exists = |t: &Algebraic| {
         let cone = cone_at(pencil, support, t);
         cone.slip == support && cone.dimension > 0
-    });
+    };
+    let below_zero = exists(&Algebraic::rational(sample_below_zero(&critical)));
+    let (pieces, points) = pieces(nonnegative_roots(&critical), below_zero, exists);
     for value in points.into_iter().filter(|v| within(&mut v.clone(), window)) {
         let dimension = cone_at(pencil, support, &value).kernel_dimension;
         let kernel = WideKernel { value, support: support.to_vec(), dimension };
@@ -70,11 +72,14 @@ fn critical(pencil: &Integral<'_>, support: &[usize], active: &[usize], kernel: 
     }))
 }
 
-/// The maximal intervals of values at which something exists, and the isolated ones, on [0, infinity).
-/// `critical` begins with 0; between neighbours nothing changes.
-fn pieces(mut critical: Vec<Algebraic>, mut exists: impl FnMut(&Algebraic) -> bool) -> (Vec<Piece>, Vec<Algebraic>) {
+/// The maximal intervals of values at which something exists, cut to [0, infinity), and the values
+/// isolated on the real line (so that no window decides what is isolated). `critical` begins with 0;
+/// between neighbours nothing changes; `below_zero`: does something exist just below 0?
+fn pieces(mut critical: Vec<Algebraic>, below_zero: bool, exists: impl Fn(&Algebraic) -> bool) -> (Vec<Piece>, Vec<Algebraic>) {
     let (mut pieces, mut points) = (Vec::new(), Vec::new());
-    let mut open: Option<End> = None; // where the interval under way began
+    // Where the interval under way began.
+    let mut open: Option<End> =
+        critical.first().filter(|zero| below_zero && exists(zero)).map(|zero| End { value: zero.clone(), included: true });
     for k in 0..critical.len() {
         let here = critical[k].clone();
         let at = exists(&here);
@@ -105,6 +110,17 @@ fn sample(critical: &mut [Algebraic], k: usize) -> Rational {
         critical[k + 1].refine();
     }
     (critical[k].interval().hi() + critical[k + 1].interval().lo()) / Rational::from_integer(2.into())
+}
+
+/// A negative rational above all negative roots of a polynomial that vanishes at 0.
+fn sample_below_zero(critical: &Poly) -> Rational {
+    let mirrored = critical.coeffs().iter().enumerate().map(|(k, c)| if k % 2 == 1 { -c } else { c.clone() }).collect();
+    let Some(mut nearest) = nonnegative_roots(&Poly::new(mirrored)).into_iter().nth(1) else { return -Rational::one() };
+    // Ends: the number is not 0, which is the root before it.
+    while !nearest.interval().lo().is_positive() {
+        nearest.refine();
+    }
+    -nearest.interval().lo() / Rational::from_integer(2.into())
 }
 
 fn within(value: &mut Algebraic, window: &Window) -> bool {

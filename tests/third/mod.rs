@@ -50,7 +50,7 @@ impl Third {
             let row = active[set.count_ones() as usize - 1];
             let mut sum = Vec::new();
             for (place, c) in (0..n).filter(|c| set >> c & 1 == 1).enumerate() {
-                let sign = if (set.count_ones() as usize - 1 - place) % 2 == 0 { 1 } else { -1 };
+                let sign = if (set.count_ones() as usize - 1 - place).is_multiple_of(2) { 1 } else { -1 };
                 let term = mul(&self.entry(row, active[c]), &minors[set & !(1 << c)]);
                 sum = add(&sum, &scale(&term, &q(sign)));
             }
