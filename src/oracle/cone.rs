@@ -6,7 +6,8 @@
 //! same cone) and Z those whose y vanishes on all of it, C_J lies in C_J' exactly if J <= J' <= Z:
 //! that is how a cone that is a face of another is left out.
 
-use super::plain::{Integral, multiplicity};
+use super::integral::Integral;
+use super::plain::multiplicity;
 use super::{Cone, Enumeration, Solution, WideKernel};
 use crate::exact::{Algebraic, Poly, Sign, cone_generators, dot, kernel_at, row_echelon_at};
 

@@ -15,6 +15,7 @@
 
 mod cone;
 mod degenerate;
+mod integral;
 mod member;
 mod plain;
 mod range;

@@ -10,7 +10,7 @@
 //! each open cell, and each root is decided exactly by its own cone.
 
 use super::cone::cone_at;
-use super::plain::Integral;
+use super::integral::Integral;
 use super::{End, Enumeration, Piece, SupportRange, Undescribed, WideKernel};
 use crate::exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots};
 use crate::model::Window;

@@ -1,6 +1,6 @@
 //! What the enumerator finds: solutions by their exact support, cones, ranges, and what it met on the way.
 
-use super::plain::Integral;
+use super::integral::Integral;
 use super::{Cone, SupportRange, Undescribed, cone, range};
 use crate::exact::{Algebraic, Poly, ratio_to_decimal, to_decimal};
 use crate::model::{Pencil, Window};
