@@ -19,6 +19,18 @@ fn complete_graph(n: usize) -> Pencil {
     Pencil::new(a, b, vec![]).expect("square")
 }
 
+/// A pencil with random one-digit integers, no free variables (the family that FLINT was timed on).
+fn one_digit(n: usize) -> Pencil {
+    let mut state = 42u64;
+    let mut digit = move || {
+        // Knuth's linear congruential generator, high bits.
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        whole((state >> 40) as i64 % 19 - 9)
+    };
+    let mut matrix = || Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, digit())).collect::<Vec<_>>());
+    Pencil::new(matrix(), matrix(), vec![]).expect("square")
+}
+
 /// A chain of particles: A = tridiag(-1, -3, -1) + t I, admissible for lambda^2.
 fn chain(n: usize) -> Pencil {
     let band = |k: usize| match (k / n).abs_diff(k % n) {
@@ -35,6 +47,13 @@ fn engines(c: &mut Criterion) {
     group.sample_size(10);
     for n in [2, 4, 6, 8] {
         let pencil = complete_graph(n);
+        group.bench_with_input(BenchmarkId::from_parameter(n), &pencil, |b, p| b.iter(|| enumerate(black_box(p), &Window::all())));
+    }
+    group.finish();
+    let mut group = c.benchmark_group("enumerator, one-digit pencils");
+    group.sample_size(10);
+    for n in [6, 8, 10] {
+        let pencil = one_digit(n);
         group.bench_with_input(BenchmarkId::from_parameter(n), &pencil, |b, p| b.iter(|| enumerate(black_box(p), &Window::all())));
     }
     group.finish();

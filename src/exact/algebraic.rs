@@ -1,7 +1,8 @@
 //! Real algebraic numbers as (squarefree polynomial, isolating interval), and exact signs at them.
 
-use super::{Interval, Poly, Rational};
-use num_traits::One;
+use super::{Integer, Interval, Poly, Rational};
+use num_integer::Integer as _;
+use num_traits::{One, Zero};
 use std::cmp::Ordering;
 
 /// The sign of a real number.
@@ -41,17 +42,23 @@ impl From<i8> for Sign {
 pub struct Algebraic {
     poly: Poly,
     interval: Interval,
+    /// Sign of the polynomial at the lower end: refinement never changes it. 0 for a point.
+    at_lo: i8,
 }
 
 impl Algebraic {
     /// A rational number as an algebraic one.
     pub fn rational(value: Rational) -> Self {
-        Algebraic { poly: Poly::linear_root(&value), interval: Interval::point(value) }
+        Algebraic { poly: Poly::linear_root(&value), interval: Interval::point(value), at_lo: 0 }
     }
 
     /// The root of a squarefree `poly` isolated by `interval`; the caller has isolated it.
     pub(super) fn isolated(poly: Poly, interval: Interval) -> Self {
-        if interval.is_point() { Self::rational(interval.lo().clone()) } else { Algebraic { poly, interval } }
+        if interval.is_point() {
+            return Self::rational(interval.lo().clone());
+        }
+        let at_lo = poly.sign_at(interval.lo());
+        Algebraic { poly, interval, at_lo }
     }
 
     /// The number a claim speaks of: its polynomial made squarefree, with its interval. The caller
@@ -87,7 +94,7 @@ impl Algebraic {
             *self = Self::rational(mid);
             return;
         }
-        let (lo, hi) = if at_mid == self.poly.sign_at(&lo) { (mid, hi) } else { (lo, mid) };
+        let (lo, hi) = if at_mid == self.at_lo { (mid, hi) } else { (lo, mid) };
         // lo <= hi: mid lies between the old ends.
         self.interval = Interval::new(lo, hi).unwrap_or_else(|| self.interval.clone());
     }
@@ -107,7 +114,7 @@ impl Algebraic {
         if let Some(value) = self.as_rational() {
             return Sign::from(g.sign_at(value));
         }
-        let quick = self.interval.horner(g).certain_sign();
+        let quick = self.interval.sign_on(g);
         if quick != 0 {
             return Sign::from(quick);
         }
@@ -118,7 +125,7 @@ impl Algebraic {
             if let Some(value) = self.as_rational() {
                 return Sign::from(g.sign_at(value));
             }
-            match self.interval.horner(g).certain_sign() {
+            match self.interval.sign_on(g) {
                 0 => self.refine(), // ends: g is not zero here and Horner converges with the width
                 s => return Sign::from(s),
             }
@@ -136,8 +143,28 @@ impl Algebraic {
         let factor = if vanishes { Some(h) } else { self.poly.exact_div(&h) };
         if let Some(f) = factor {
             self.poly = f.primitive();
+            self.at_lo = self.poly.sign_at(self.interval.lo());
         }
         vanishes
+    }
+
+    /// The same vector at this number up to one positive factor, in polynomials of least degree and
+    /// content 1: remainders by the defining polynomial, all scaled alike.
+    ///
+    /// ```
+    /// use mceip::exact::{nonnegative_roots, Poly};
+    /// let root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
+    /// let v = root.reduce(&[Poly::from_ints(&[0, 0, 6]), Poly::from_ints(&[0, 8])]);
+    /// assert_eq!(v, [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])]); // (6 t^2, 8 t) ~ (3, 2 t)
+    /// ```
+    pub fn reduce(&self, vector: &[Poly]) -> Vec<Poly> {
+        let steps = vector.iter().map(|p| p.coeffs().len()).max().unwrap_or(0).saturating_sub(self.poly.coeffs().len() - 1);
+        let reduced: Vec<Poly> = vector.iter().map(|p| p.pseudo_rem_steps(&self.poly, steps)).collect();
+        let content = reduced.iter().fold(Integer::zero(), |g, p| g.gcd(&p.content()));
+        if content.is_zero() || content.is_one() {
+            return reduced;
+        }
+        reduced.iter().map(|p| Poly::new(p.coeffs().iter().map(|c| c / &content).collect())).collect()
     }
 
     /// Looks for a rational value: a root u/v of a primitive polynomial has v dividing the lead, so

@@ -25,6 +25,7 @@ pub fn ratio_to_decimal(number: &mut Algebraic, numerator: &Poly, denominator: &
     if number.sign_of(numerator) == Sign::Zero || number.sign_of(denominator) == Sign::Zero {
         return "0".into();
     }
+    let mut steps = 1;
     loop {
         let image = number.interval().horner(numerator).div(&number.interval().horner(denominator));
         if let Some(image) = image.filter(|i| i.certain_sign() != 0) {
@@ -40,7 +41,8 @@ pub fn ratio_to_decimal(number: &mut Algebraic, numerator: &Poly, denominator: &
                 }
             }
         }
-        number.refine();
+        (0..steps).for_each(|_| number.refine());
+        steps = (2 * steps).min(1024); // rounding costs more than halving
     }
 }
 

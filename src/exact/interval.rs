@@ -44,7 +44,15 @@ impl Interval {
 
     /// Midpoint.
     pub fn mid(&self) -> Rational {
-        (&self.lo + &self.hi) / Rational::from_integer(2.into())
+        let v = self.lo.denom().lcm(self.hi.denom());
+        let sum = self.lo.numer() * (&v / self.lo.denom()) + self.hi.numer() * (&v / self.hi.denom());
+        let shift = v.trailing_zeros().unwrap_or(0);
+        if v.bits() != shift + 1 {
+            return Rational::new(sum, v * 2);
+        }
+        // Ends of bisection are dyadic: p / 2^k is reduced by counting zeros, without a gcd.
+        let common = sum.trailing_zeros().map_or(shift + 1, |zeros| zeros.min(shift + 1));
+        Rational::new_raw(sum >> common, Integer::one() << (shift + 1 - common))
     }
 
     /// Is `v` in the closed interval?
@@ -98,7 +106,25 @@ impl Interval {
     /// assert_eq!(t.horner(&Poly::from_ints(&[-1, 1])).certain_sign(), 1);
     /// ```
     pub fn horner(&self, p: &Poly) -> Interval {
-        // Integers over powers of the ends' common denominator v; fractions are reduced once, at the end.
+        let (lo, hi, scale) = self.horner_scaled(p);
+        Interval { lo: Rational::new(lo, scale.clone()), hi: Rational::new(hi, scale) }
+    }
+
+    /// [`Interval::certain_sign`] of [`Interval::horner`], without reducing a fraction.
+    pub(super) fn sign_on(&self, p: &Poly) -> i8 {
+        let (lo, hi, _) = self.horner_scaled(p);
+        if lo.is_positive() {
+            1
+        } else if hi.is_negative() {
+            -1
+        } else {
+            0
+        }
+    }
+
+    /// The ends of [`Interval::horner`] times a positive integer, and that integer.
+    fn horner_scaled(&self, p: &Poly) -> (Integer, Integer, Integer) {
+        // Integers over powers of the ends' common denominator v.
         let v = self.lo.denom().lcm(self.hi.denom());
         let (a, b) = (self.lo.numer() * (&v / self.lo.denom()), self.hi.numer() * (&v / self.hi.denom()));
         let (mut lo, mut hi, mut scale) = (Integer::zero(), Integer::zero(), Integer::one());
@@ -113,7 +139,7 @@ impl Interval {
             lo += &c;
             hi += c;
         }
-        Interval { lo: Rational::new(lo, scale.clone()), hi: Rational::new(hi, scale) }
+        (lo, hi, scale)
     }
 }
 
@@ -131,6 +157,18 @@ mod tests {
             assert!(image.contains(&p.eval(&rational(k, 10))));
         }
         assert!(!image.contains(&whole(100)));
+    }
+
+    #[test]
+    fn midpoints_are_in_lowest_terms() {
+        for (lo, hi) in
+            [(rational(1, 4), rational(3, 4)), (rational(-1, 2), rational(1, 2)), (rational(1, 3), rational(5, 8)), (whole(3), whole(3))]
+        {
+            let mid = Interval::new(lo.clone(), hi.clone()).unwrap().mid();
+            assert_eq!(&mid + &mid, lo + hi);
+            assert_eq!(mid, Rational::new(mid.numer().clone(), mid.denom().clone()));
+            assert_eq!(mid.denom(), Rational::new(mid.numer().clone(), mid.denom().clone()).denom());
+        }
     }
 
     #[test]

@@ -16,10 +16,12 @@ use num_traits::{One, Zero};
 /// assert_eq!(d, Poly::from_ints(&[-2, 5, 1])); // (1+t)(4+t) - 6
 /// ```
 pub fn determinant(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Poly {
-    let n = a.len();
-    let at =
-        |t: usize| -> Vec<Vec<Integer>> { a.iter().zip(b).map(|(ra, rb)| ra.iter().zip(rb).map(|(x, y)| x + y * t).collect()).collect() };
-    newton_interpolate((0..=n).map(|t| integer_determinant(at(t))).collect())
+    newton_interpolate((0..=a.len()).map(|t| integer_determinant(values_at(a, b, t))).collect())
+}
+
+/// A + tB at an integer.
+pub(super) fn values_at(a: &[Vec<Integer>], b: &[Vec<Integer>], t: usize) -> Vec<Vec<Integer>> {
+    a.iter().zip(b).map(|(ra, rb)| ra.iter().zip(rb).map(|(x, y)| x + y * t).collect()).collect()
 }
 
 /// Determinant of an integer matrix by Bareiss' elimination; every division is exact.
@@ -44,7 +46,7 @@ pub(super) fn integer_determinant(mut m: Vec<Vec<Integer>>) -> Integer {
 }
 
 /// The integer polynomial of degree <= n with the given values at 0, ..., n.
-fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
+pub(super) fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
     let n = values.len().saturating_sub(1);
     let factorial: Integer = (1..=n).map(Integer::from).product();
     let mut sum = Poly::default();
@@ -69,19 +71,70 @@ fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
 /// which is decided exactly. Entries stay minors of the matrix (Sylvester's identity), so the
 /// divisions are exact whatever columns were passed over. What is left below the pivots vanishes
 /// at alpha, so the rank there is the number of pivots.
-pub fn kernel_at(mut m: Vec<Vec<Poly>>, alpha: &mut Algebraic) -> Vec<Vec<Poly>> {
+pub fn kernel_at(m: Vec<Vec<Poly>>, alpha: &mut Algebraic) -> Vec<Vec<Poly>> {
+    let Echelon { rows, pivots, last, cols } = echelon(m, |p| alpha.sign_of(p) != Sign::Zero);
+    (0..cols).filter(|j| !pivots.contains(j)).map(|j| kernel_vector(&rows, &pivots, &last, j, cols)).collect()
+}
+
+/// A basis over Q(t) of the kernel of a matrix over `Z[t]`, the columns of the pivots, and the last
+/// pivot: a minor of the order of the rank. Where that minor does not vanish, the rank is the same
+/// and the basis is one of the kernel at that t.
+pub fn generic_kernel(m: Vec<Vec<Poly>>) -> (Vec<Vec<Poly>>, Vec<usize>, Poly) {
+    let Echelon { rows, pivots, last, cols } = echelon(m, |p| !p.is_zero());
+    let basis = (0..cols).filter(|j| !pivots.contains(j)).map(|j| kernel_vector(&rows, &pivots, &last, j, cols)).collect();
+    (basis, pivots, last)
+}
+
+/// All minors of full order of the given columns that are not identically zero, for a matrix over
+/// `Z[t]` with at least as many rows. With no column the one minor is 1.
+pub fn minors(m: &[Vec<Poly>], columns: &[usize]) -> Vec<Poly> {
+    let order = columns.len();
+    let mut found = Vec::new();
+    let mut chosen: Vec<usize> = (0..order).collect();
+    while chosen.last().is_none_or(|&r| r < m.len()) {
+        let square = chosen.iter().map(|&i| columns.iter().map(|&j| m[i][j].clone()).collect()).collect();
+        let minor = echelon(square, |p| !p.is_zero());
+        if minor.pivots.len() == order {
+            found.push(minor.last); // up to sign
+        }
+        // The next combination of rows in lexicographic order.
+        let Some(k) = (0..order).rev().find(|&k| chosen[k] + order - k < m.len()) else { break };
+        chosen[k] += 1;
+        (k + 1..order).for_each(|l| chosen[l] = chosen[l - 1] + 1);
+    }
+    found
+}
+
+/// The non-zero rows of a reduced row echelon form at `alpha` (up to factors), and their pivots:
+/// their number is the rank.
+pub fn row_echelon_at(m: Vec<Vec<Poly>>, alpha: &mut Algebraic) -> (Vec<Vec<Poly>>, Vec<usize>) {
+    let mut e = echelon(m, |p| alpha.sign_of(p) != Sign::Zero);
+    e.rows.truncate(e.pivots.len());
+    (e.rows, e.pivots)
+}
+
+/// What fraction-free Gauss-Jordan elimination leaves.
+struct Echelon {
+    rows: Vec<Vec<Poly>>,
+    pivots: Vec<usize>,
+    last: Poly,
+    cols: usize,
+}
+
+/// Fraction-free Gauss-Jordan elimination with the pivots that `usable` accepts.
+fn echelon(mut m: Vec<Vec<Poly>>, mut usable: impl FnMut(&Poly) -> bool) -> Echelon {
     let (rows, cols) = (m.len(), m.first().map_or(0, Vec::len));
     let mut pivots: Vec<usize> = Vec::new();
     let mut last = Poly::constant(Integer::one());
     for col in 0..cols {
         let rank = pivots.len();
-        let Some(r) = (rank..rows).find(|&i| alpha.sign_of(&m[i][col]) != Sign::Zero) else { continue };
+        let Some(r) = (rank..rows).find(|&i| usable(&m[i][col])) else { continue };
         m.swap(rank, r);
         eliminate(&mut m, rank, col, &last);
         last = m[rank][col].clone();
         pivots.push(col);
     }
-    (0..cols).filter(|j| !pivots.contains(j)).map(|j| kernel_vector(&m, &pivots, &last, j, cols)).collect()
+    Echelon { rows: m, pivots, last, cols }
 }
 
 /// Clears column `col` in every row but `rank`; divides by the previous pivot.

@@ -5,13 +5,14 @@
 #![deny(clippy::float_arithmetic)]
 
 mod algebraic;
+mod cofactor;
+mod cone;
 mod decimal;
 mod definite;
 mod dense;
 mod double;
 mod interval;
 mod kernel;
-
 mod modular;
 mod poly;
 mod poly_gcd;
@@ -22,13 +23,15 @@ mod roots;
 mod sparse;
 
 pub use algebraic::{Algebraic, Sign};
+pub use cofactor::first_row_cofactors;
+pub(crate) use cone::dot;
+pub use cone::{Generators, cone_generators};
 pub use decimal::{enclosing_decimals, ratio_to_decimal, to_decimal};
 pub use definite::{DefiniteError, NotDefinite, positive_definite};
 pub use dense::Dense;
 pub use double::{from_f64, to_f64};
 pub use interval::Interval;
-pub use kernel::{determinant, kernel_at};
-
+pub use kernel::{determinant, generic_kernel, kernel_at, minors, row_echelon_at};
 pub use modular::{CondenseError, schur_complement};
 pub use poly::Poly;
 pub use quadratic::Quadratic;

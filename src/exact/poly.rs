@@ -103,7 +103,14 @@ impl Poly {
 
     /// Greatest common divisor of the coefficients, zero for the zero polynomial.
     pub fn content(&self) -> Integer {
-        self.coeffs.iter().fold(Integer::zero(), |g, c| g.gcd(c))
+        let mut content = Integer::zero();
+        for c in &self.coeffs {
+            content = content.gcd(c);
+            if content.is_one() {
+                break;
+            }
+        }
+        content
     }
 
     /// Divided by its content, leading coefficient made positive.

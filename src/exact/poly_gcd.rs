@@ -23,6 +23,22 @@ impl Poly {
         rest
     }
 
+    /// The remainder of `self` by `divisor` times |lead(divisor)|^steps: with one number of steps for
+    /// all entries a vector keeps its direction. `steps` is at least deg self - deg divisor + 1.
+    pub(super) fn pseudo_rem_steps(&self, divisor: &Poly, steps: usize) -> Poly {
+        let m = divisor.coeffs().len();
+        let (lead, sign) = (divisor.leading().abs(), divisor.leading().signum());
+        let mut rest = self.clone();
+        for _ in 0..steps {
+            let scaled = rest.scale(&lead);
+            rest = match rest.coeffs().len().checked_sub(m) {
+                Some(shift) => &scaled - &divisor.scale(&(rest.leading() * &sign)).shift(shift),
+                None => scaled,
+            };
+        }
+        rest
+    }
+
     /// `self / divisor` when that divides exactly over Z, else `None`.
     pub fn exact_div(&self, divisor: &Poly) -> Option<Poly> {
         let m = divisor.coeffs().len();

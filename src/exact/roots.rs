@@ -19,7 +19,7 @@ pub fn nonnegative_roots(p: &Poly) -> Vec<Algebraic> {
 /// The distinct real roots of `p` in the closed window [min, max] (`None`: no upper end), ascending.
 pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebraic> {
     let mut roots = Vec::new();
-    let mut poly = p.squarefree();
+    let (mut poly, mut chain) = squarefree_chain(p);
     if poly.degree().unwrap_or(0) == 0 {
         return roots;
     }
@@ -30,22 +30,36 @@ pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebra
     for (end, is_top) in [(min, false), (&top, true)] {
         if poly.sign_at(end) == 0 && !(is_top && *end == *min) {
             poly = poly.exact_div(&Poly::linear_root(end)).unwrap_or(poly); // exact: Gauss's lemma
+            chain = poly.sturm_chain();
             let root = Algebraic::rational(end.clone());
             if is_top { at_top = Some(root) } else { roots.push(root) }
         }
     }
     if *min < top {
-        isolate(&poly, min.clone(), top, &mut roots);
+        isolate(&poly, &chain, min.clone(), top, &mut roots);
     }
     roots.extend(at_top);
     roots
 }
 
-/// Appends the roots of a squarefree `poly` in the open interval (lo, hi), ascending.
-/// Neither end is a root.
-fn isolate(poly: &Poly, lo: Rational, hi: Rational, roots: &mut Vec<Algebraic>) {
+/// The squarefree part and its Sturm chain. The chain of `p` ends with gcd(p, p'), so that for a
+/// squarefree `p`, nearly always, one remainder sequence is enough.
+fn squarefree_chain(p: &Poly) -> (Poly, Vec<Poly>) {
+    let poly = p.primitive();
     let chain = poly.sturm_chain();
-    let (at_lo, at_hi) = (variations(&chain, &lo), variations(&chain, &hi));
+    match chain.last().filter(|g| g.degree() > Some(0)).and_then(|g| poly.exact_div(&g.primitive())) {
+        Some(part) => {
+            let chain = part.sturm_chain();
+            (part, chain)
+        }
+        None => (poly, chain),
+    }
+}
+
+/// Appends the roots of a squarefree `poly` with this Sturm chain in the open interval (lo, hi),
+/// ascending. Neither end is a root.
+fn isolate(poly: &Poly, chain: &[Poly], lo: Rational, hi: Rational, roots: &mut Vec<Algebraic>) {
+    let (at_lo, at_hi) = (variations(chain, &lo), variations(chain, &hi));
     let mut stack = vec![(lo, at_lo, hi, at_hi)];
     while let Some((lo, at_lo, hi, at_hi)) = stack.pop() {
         match at_lo - at_hi {
@@ -53,7 +67,7 @@ fn isolate(poly: &Poly, lo: Rational, hi: Rational, roots: &mut Vec<Algebraic>) 
             1 => roots.extend(Interval::new(lo, hi).map(|i| Algebraic::isolated(poly.clone(), i))),
             _ => {
                 let mid = split_point(poly, &lo, &hi);
-                let at_mid = variations(&chain, &mid);
+                let at_mid = variations(chain, &mid);
                 stack.push((mid.clone(), at_mid, hi, at_hi));
                 stack.push((lo, at_lo, mid, at_mid)); // popped first: ascending order
             }

@@ -1,7 +1,8 @@
 //! The plain enumerator: the definition (24)-(26) turned into Rust, support by support.
 
+use super::integral::Integral;
 use super::{Enumeration, Solution, WideKernel};
-use crate::exact::{Algebraic, Integer, Poly, Sign, determinant, kernel_at, roots_in};
+use crate::exact::{Algebraic, Poly, Sign, roots_in};
 use crate::model::{Pencil, Window};
 use std::ops::ControlFlow;
 
@@ -65,57 +66,28 @@ pub fn enumerate_with(
     for subset in 0..total {
         let support: Vec<usize> = slip.iter().enumerate().filter(|(k, _)| subset >> k & 1 == 1).map(|(_, &i)| i).collect();
         examine(&integral, &support, window, &mut found);
+        found.describe_new(&integral, window); // wide kernels and singular pencils, if any were met
         found.supports_done += 1;
         if progress(found.supports_done, total).is_break() {
             break;
         }
     }
-    found.sort();
+    found.finish();
     Ok(found)
-}
-
-/// The pencil with each row multiplied by a positive integer that clears its denominators.
-struct Integral<'a> {
-    a: Vec<Vec<Integer>>,
-    b: Vec<Vec<Integer>>,
-    free: &'a [usize],
-}
-
-impl<'a> Integral<'a> {
-    fn of(pencil: &'a Pencil) -> Self {
-        let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
-        Integral { a, b, free: pencil.free() }
-    }
-
-    fn order(&self) -> usize {
-        self.a.len()
-    }
-
-    /// Entry (i, j) of A + tB.
-    fn entry(&self, i: usize, j: usize) -> Poly {
-        Poly::new(vec![self.a[i][j].clone(), self.b[i][j].clone()])
-    }
-
-    fn select(m: &[Vec<Integer>], active: &[usize]) -> Vec<Vec<Integer>> {
-        active.iter().map(|&i| active.iter().map(|&j| m[i][j].clone()).collect()).collect()
-    }
 }
 
 /// One support: the linear eigenproblem (25) on free and slip variables, then (26).
 fn examine(pencil: &Integral<'_>, support: &[usize], window: &Window, found: &mut Enumeration) {
-    let mut active: Vec<usize> = pencil.free.iter().chain(support).copied().collect();
-    active.sort_unstable();
+    let active = pencil.active(support);
     if active.is_empty() {
         return; // x = 0
     }
-    let det = determinant(&Integral::select(&pencil.a, &active), &Integral::select(&pencil.b, &active));
+    let det = pencil.determinant(&active);
     if det.is_zero() {
         found.continua.push(support.to_vec());
         return;
     }
-    for mut value in roots_in(&det, window.min(), window.max()) {
-        let block = active.iter().map(|&i| active.iter().map(|&j| pencil.entry(i, j)).collect()).collect();
-        let kernel = kernel_at(block, &mut value);
+    for (mut value, kernel) in pencil.kernels(&active, roots_in(&det, window.min(), window.max())) {
         match &kernel[..] {
             [vector] => {
                 let multiplicity = multiplicity(&det, &mut value);
@@ -136,10 +108,7 @@ fn admissible(
     mut value: Algebraic,
     multiplicity: usize,
 ) -> Vec<Solution> {
-    let mut x = vec![Poly::default(); pencil.order()];
-    for (&i, p) in active.iter().zip(vector) {
-        x[i] = p.clone();
-    }
+    let x = pencil.extend(active, vector);
     // The kernel is a line: orient it. Without slip variables both orientations may do, and then
     // x and -x are two solutions.
     let orientations = match support.first().map(|&i| value.sign_of(&x[i])) {
@@ -154,7 +123,7 @@ fn admissible(
         if support.iter().any(|&i| value.sign_of(&x[i]) != Sign::Positive) {
             return None;
         }
-        let y: Vec<Poly> = (0..pencil.order()).map(|i| row_times(pencil, i, &x)).collect();
+        let y = pencil.times(&x);
         let mut biactive = Vec::new();
         for i in (0..pencil.order()).filter(|i| !active.contains(i)) {
             match value.sign_of(&y[i]) {
@@ -168,13 +137,8 @@ fn admissible(
     oriented.collect()
 }
 
-/// Row i of (A + tB) x.
-fn row_times(pencil: &Integral<'_>, i: usize, x: &[Poly]) -> Poly {
-    x.iter().enumerate().fold(Poly::default(), |sum, (j, x_j)| &sum + &(&pencil.entry(i, j) * x_j))
-}
-
 /// Multiplicity of a root: the first derivative that does not vanish there.
-fn multiplicity(det: &Poly, value: &mut Algebraic) -> usize {
+pub(super) fn multiplicity(det: &Poly, value: &mut Algebraic) -> usize {
     let mut derivative = det.derivative();
     let mut m = 1;
     while !derivative.is_zero() && value.sign_of(&derivative) == Sign::Zero {
@@ -228,7 +192,8 @@ mod tests {
         let wide = enumerate(&pencil(&[&[-1, 0], &[0, -1]], &[&[1, 0], &[0, 1]], &[]), &Window::all()).unwrap();
         assert_eq!(wide.wide.iter().map(|w| (w.support.clone(), w.dimension)).collect::<Vec<_>>(), vec![(vec![0, 1], 2)]);
         assert_eq!(wide.solutions.len(), 2); // the two edges, each biactive in the other
-        assert!(!wide.is_complete_list());
+        assert!(wide.is_complete_list() && !wide.is_plain_list());
+        assert_eq!(wide.cones.iter().map(|c| (c.slip.clone(), c.dimension, c.rays.len())).collect::<Vec<_>>(), vec![(vec![0, 1], 2, 2)]);
         let singular = enumerate(&pencil(&[&[1, -1], &[-1, 1]], &[&[0, 0], &[0, 0]], &[]), &Window::all()).unwrap();
         assert_eq!(singular.continua, vec![vec![0, 1]]);
     }

@@ -4,7 +4,7 @@ use crate::certificate::{Claim, ExactSolution};
 use crate::exact::{Algebraic, Integer, Poly, Rational, common_denominator, ratio_to_decimal, to_decimal};
 use crate::model::{Body, Pencil, Problem};
 use crate::multistart::exact_value;
-use crate::oracle::Solution;
+use crate::oracle::{Cone, Enumeration, Solution};
 use crate::reduction::{Reduced, lift};
 
 /// Significant digits printed in reports.
@@ -27,6 +27,21 @@ pub struct Listed {
     pub y: Vec<String>,
     /// v and w over all degrees of freedom, for a system.
     pub lifted: Option<(Vec<String>, Vec<String>)>,
+    /// Dimension of the kernel on the support; 1 where it was not computed.
+    pub kernel_dimension: usize,
+    /// The cone of solutions that `x` lies inside of, where `x` is not the only one.
+    pub cone: Option<ListedCone>,
+}
+
+/// A cone of solutions in decimals.
+#[derive(Debug, Clone)]
+pub struct ListedCone {
+    /// Its dimension.
+    pub dimension: usize,
+    /// Its extreme rays.
+    pub rays: Vec<Listed>,
+    /// Directions that may be added with either sign, l1 norm 1.
+    pub lineality: Vec<Vec<String>>,
 }
 
 impl Listed {
@@ -34,6 +49,35 @@ impl Listed {
     pub fn of_solution(problem: &Problem, reduced: &Reduced, s: &Solution) -> Listed {
         let norm = s.normaliser(&reduced.pencil.slip());
         of_polynomials(problem, reduced, s.value.clone(), &s.slip, &s.biactive, &s.x, &norm)
+    }
+
+    /// Solutions and cones of the enumerator in one list, by value, then by slip set.
+    pub fn of_enumeration(problem: &Problem, reduced: &Reduced, found: &Enumeration) -> Vec<Listed> {
+        let solutions = found.solutions.iter().map(|s| {
+            let kernel_dimension = found.kernel_dimension(s);
+            (&s.value, &s.slip, Listed { kernel_dimension, ..Listed::of_solution(problem, reduced, s) })
+        });
+        let cones = found.cones.iter().map(|c| (&c.value, &c.slip, Listed::of_cone(problem, reduced, c)));
+        let mut all: Vec<_> = solutions.chain(cones).collect();
+        all.sort_by(|a, b| a.0.clone().cmp_exact(&mut b.0.clone()).then_with(|| a.1.cmp(b.1)));
+        all.into_iter().map(|entry| entry.2).collect()
+    }
+
+    /// From a cone of the enumerator: `x` is the mean of its rays.
+    pub fn of_cone(problem: &Problem, reduced: &Reduced, cone: &Cone) -> Listed {
+        let center = cone.center(&reduced.pencil.slip());
+        let lineality = cone.lineality.iter().map(|x| {
+            // No slip variable: the normaliser is the l1 norm.
+            let direction = Solution { slip: Vec::new(), x: x.clone(), ..center.clone() };
+            direction.x_decimals(&[], DIGITS)
+        });
+        let listed = ListedCone {
+            dimension: cone.dimension,
+            rays: cone.rays.iter().map(|r| Listed::of_solution(problem, reduced, r)).collect(),
+            lineality: lineality.collect(),
+        };
+        let entry = Listed::of_solution(problem, reduced, &center);
+        Listed { kernel_dimension: cone.kernel_dimension, cone: Some(listed), ..entry }
     }
 
     /// From a claim: exact where it is, the centre of the box otherwise.
@@ -98,7 +142,7 @@ fn of_polynomials(
     let interval = [value.interval().lo().clone(), value.interval().hi().clone()];
     let exact = Some((value.poly().coeffs().to_vec(), interval));
     let decimal = to_decimal(&mut value, &Poly::from_ints(&[0, 1]), DIGITS);
-    Listed { value: decimal, exact, slip: slip.to_vec(), biactive: biactive.to_vec(), x, y, lifted }
+    Listed { value: decimal, exact, slip: slip.to_vec(), biactive: biactive.to_vec(), x, y, lifted, kernel_dimension: 1, cone: None }
 }
 
 /// Row i of (A + tB) x as an integer polynomial and the positive integer it was multiplied by.

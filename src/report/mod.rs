@@ -4,6 +4,6 @@ mod listed;
 mod solutions;
 mod table;
 
-pub use listed::Listed;
+pub use listed::{Listed, ListedCone};
 pub use solutions::{Report, solutions_json, solutions_text};
 pub use table::Table;

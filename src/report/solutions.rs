@@ -2,8 +2,9 @@
 
 use super::{Listed, Table};
 use crate::candidate::SOLUTIONS_FORMAT;
+use crate::exact::{Integer, Poly, to_decimal};
 use crate::model::{Body, Problem};
-use crate::oracle::Enumeration;
+use crate::oracle::{End, Enumeration, Piece, SupportRange};
 use crate::reduction::{Reduced, Variable};
 use serde_json::{Value, json};
 
@@ -24,40 +25,83 @@ pub struct Report<'a> {
     pub enumeration: Option<&'a Enumeration>,
 }
 
+/// Everything to be listed: the solutions, and between them the cones of the enumerator.
+fn entries(report: &Report<'_>) -> Vec<Listed> {
+    match report.enumeration {
+        Some(e) if !(e.wide.is_empty() && e.continua.is_empty()) => Listed::of_enumeration(report.problem, report.reduced, e),
+        _ => report.solutions.clone(),
+    }
+}
+
 /// The report as JSON.
 pub fn solutions_json(report: &Report<'_>) -> Value {
-    let wide = |e: &Enumeration| -> Vec<Value> {
-        let item = |w: &crate::oracle::WideKernel| {
-            let value = crate::exact::to_decimal(&mut w.value.clone(), &crate::exact::Poly::from_ints(&[0, 1]), super::listed::DIGITS);
-            json!({ "value": value, "support": w.support, "kernel_dimension": w.dimension })
-        };
-        e.wide.iter().map(item).collect()
-    };
+    let ranges = |e: &Enumeration| e.ranges.iter().map(range).collect::<Vec<_>>();
+    let undescribed = |e: &Enumeration| e.undescribed.iter().map(|u| json!({ "support": u.support, "reason": u.to_string() })).collect();
     let mut out = json!({
         "format": SOLUTIONS_FORMAT,
         "problem_sha256": report.problem.sha256(),
         "unknown": report.problem.unknown().word(),
         "claim": if report.complete { "complete" } else { "solutions" },
         "evidence": report.evidence,
-        "solutions": report.solutions.iter().map(listed).collect::<Vec<_>>(),
-        "continua": report.enumeration.map_or_else(Vec::new, |e| e.continua.clone()),
-        "wide_kernels": report.enumeration.map_or_else(Vec::new, wide),
+        "solutions": entries(report).iter().map(listed).collect::<Vec<_>>(),
+        "continua": report.enumeration.map_or_else(Vec::new, ranges),
     });
+    let open: Vec<Value> = report.enumeration.map_or_else(Vec::new, undescribed);
+    if !open.is_empty() {
+        out["undescribed"] = json!(open);
+    }
     if let Body::System(_) = report.problem.body() {
         out["variables"] = report.reduced.variables.iter().map(variable).collect();
     }
     out
 }
 
+/// A support with the intervals of values at which it has a solution.
+fn range(r: &SupportRange) -> Value {
+    let kernel: Vec<Vec<Vec<String>>> = r.kernel.iter().map(|v| v.iter().map(|p| coefficients(p.coeffs())).collect()).collect();
+    json!({ "slip": r.support, "intervals": r.pieces.iter().map(interval).collect::<Vec<_>>(), "kernel": kernel })
+}
+
+fn interval(piece: &Piece) -> Value {
+    let end = |e: &End| {
+        let (polynomial, ends) = (coefficients(e.value.poly().coeffs()), [e.value.interval().lo(), e.value.interval().hi()]);
+        let exact = json!({ "polynomial": polynomial, "interval": ends.map(ToString::to_string) });
+        json!({ "value": decimal(e), "included": e.included, "exact": exact })
+    };
+    json!({ "from": end(&piece.from), "to": piece.to.as_ref().map(end) })
+}
+
+fn decimal(end: &End) -> String {
+    to_decimal(&mut end.value.clone(), &Poly::from_ints(&[0, 1]), super::listed::DIGITS)
+}
+
+fn coefficients(c: &[Integer]) -> Vec<String> {
+    c.iter().map(ToString::to_string).collect()
+}
+
 fn listed(s: &Listed) -> Value {
     let mut out = json!({
-        "value": s.value, "slip": s.slip, "biactive": s.biactive, "x": s.x, "y": s.y, "kernel_dimension": 1,
+        "value": s.value, "slip": s.slip, "biactive": s.biactive, "x": s.x, "y": s.y, "kernel_dimension": s.kernel_dimension,
     });
-    if let Some((polynomial, interval)) = &s.exact {
-        let polynomial: Vec<String> = polynomial.iter().map(ToString::to_string).collect();
-        let interval: Vec<String> = interval.iter().map(ToString::to_string).collect();
-        out["exact"] = json!({ "polynomial": polynomial, "interval": interval });
+    if let Some(cone) = &s.cone {
+        out["cone_dimension"] = json!(cone.dimension);
+        out["rays"] = cone.rays.iter().map(ray).collect();
+        out["lineality"] = json!(cone.lineality);
     }
+    if let Some((polynomial, interval)) = &s.exact {
+        let interval: Vec<String> = interval.iter().map(ToString::to_string).collect();
+        out["exact"] = json!({ "polynomial": coefficients(polynomial), "interval": interval });
+    }
+    if let Some((v, w)) = &s.lifted {
+        out["v"] = json!(v);
+        out["w"] = json!(w);
+    }
+    out
+}
+
+/// An extreme ray of a cone.
+fn ray(s: &Listed) -> Value {
+    let mut out = json!({ "slip": s.slip, "biactive": s.biactive, "x": s.x, "y": s.y });
     if let Some((v, w)) = &s.lifted {
         out["v"] = json!(v);
         out["w"] = json!(w);
@@ -89,16 +133,40 @@ pub fn solutions_text(report: &Report<'_>) -> String {
     }
     let mut out = if report.solutions.is_empty() { String::new() } else { table.to_string() + &meaning(report, &slip) };
     if let Some(e) = report.enumeration {
-        for w in &e.wide {
-            out +=
-                &format!("wide kernel: support {:?}, dimension {}: may hold a cone of solutions, not described\n", w.support, w.dimension);
-        }
-        for c in &e.continua {
-            out += &format!("singular pencil: support {c:?}: every value is an eigenvalue of it, not described\n");
-        }
+        out += &degenerate(report, e, &slip);
     }
     out += &format!("{} solution{}: {}\n", report.solutions.len(), if report.solutions.len() == 1 { "" } else { "s" }, report.evidence);
     out
+}
+
+/// Cones and continua, and what lies outside the propositions.
+fn degenerate(report: &Report<'_>, e: &Enumeration, printed: &[usize]) -> String {
+    let mut out = String::new();
+    let vector = |x: &[String]| printed.iter().map(|&i| short(&x[i])).collect::<Vec<_>>().join(" ");
+    for cone in &e.cones {
+        let listed = Listed::of_cone(report.problem, report.reduced, cone);
+        out += &format!("cone of dimension {} at {}, slip {:?}: combinations of\n", cone.dimension, listed.value, cone.slip);
+        let Some(c) = listed.cone else { continue };
+        c.rays.iter().for_each(|r| out += &format!("  ray {}\n", vector(&r.x)));
+        c.lineality.iter().for_each(|l| out += &format!("  line {} (either sign)\n", vector(l)));
+    }
+    for r in &e.ranges {
+        let text: Vec<String> = r.pieces.iter().map(interval_text).collect();
+        out += &format!("continuum: slip {:?} has solutions for every value in {}\n", r.support, text.join(", "));
+    }
+    e.undescribed.iter().for_each(|u| out += &format!("{u}\n"));
+    if e.is_outside_propositions() {
+        out += "some solutions have x_s = 0: outside Propositions 1 and 2 (K_ff or M_ff is not definite)\n";
+    }
+    out
+}
+
+fn interval_text(piece: &Piece) -> String {
+    let from = format!("{}{}", if piece.from.included { "[" } else { "(" }, short(&decimal(&piece.from)));
+    match &piece.to {
+        Some(to) => format!("{from}, {}{}", short(&decimal(to)), if to.included { "]" } else { ")" }),
+        None => format!("{from}, infinity)"),
+    }
 }
 
 /// Largest order whose x is printed in full.

@@ -6,8 +6,8 @@ use crate::candidate::Candidate;
 use crate::certificate::Claim;
 use crate::certify::{certificate, certify};
 use crate::check::check;
-use crate::exact::{Algebraic, Poly, Quadratic, Rational, Sign};
-use crate::model::{Admissible, Body, Problem};
+use crate::exact::{Algebraic, Poly, Quadratic, Rational, Sign, common_denominator};
+use crate::model::{Admissible, Body, Pencil, Problem};
 use crate::multistart::{Found, Search, exact_value, multistart, support};
 use crate::oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
 use crate::reduction::{Reduced, check_lines, lift, reduce};
@@ -110,7 +110,7 @@ pub fn compare(instance: &Instance, search: &Search) -> InstanceReport {
         }
     };
     report.oracle = oracle.solutions.len();
-    report.degenerate = !oracle.is_complete_list();
+    report.degenerate = !(oracle.wide.is_empty() && oracle.continua.is_empty());
     report.corners.extend(observed(&oracle));
     if let Some(data) = &instance.closed_form {
         compare_closed_form(&oracle, &table1(data), &mut report);
@@ -121,7 +121,7 @@ pub fn compare(instance: &Instance, search: &Search) -> InstanceReport {
     if let Ok(admissible) = Admissible::new(&reduced.pencil, problem.unknown()) {
         report.solved = true;
         match multistart(&admissible, problem.window(), search) {
-            Ok(found) => compare_found(problem, &oracle, found, &mut report),
+            Ok(found) => compare_found(problem, &reduced.pencil, &oracle, found, &mut report),
             Err(e) => report.disagreements.push(Disagreement::Refused { engine: "solver", reason: e.to_string() }),
         }
     }
@@ -227,7 +227,7 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
     }
 }
 
-fn compare_found(problem: &Problem, oracle: &Enumeration, found: Found, report: &mut InstanceReport) {
+fn compare_found(problem: &Problem, pencil: &Pencil, oracle: &Enumeration, found: Found, report: &mut InstanceReport) {
     report.pivots = found.pivots;
     report.uncertified = found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)).collect();
     let mut claims = Vec::new();
@@ -235,8 +235,8 @@ fn compare_found(problem: &Problem, oracle: &Enumeration, found: Found, report: 
     for c in found.certified {
         match place(oracle, &c.claim) {
             Some(index) => hit[index] = true,
-            // In a wide kernel or a singular pencil the enumerator only names the support.
-            None if described(oracle, &c.claim) => {}
+            // In a cone, or in the range of a singular pencil.
+            None if described(oracle, pencil, &c.claim) => {}
             None => report.disagreements.push(Disagreement::NotInOracle { support: support(&c.claim).to_vec() }),
         }
         claims.push(c.claim);
@@ -264,8 +264,14 @@ fn same_value(value: &Algebraic, claim: &Claim) -> bool {
     }
 }
 
-/// Did the enumerator report a wide kernel or a singular pencil on this support?
-fn described(oracle: &Enumeration, claim: &Claim) -> bool {
+/// Does the enumerator's answer hold the claimed solution? Exactly for exact claims; a box stands for
+/// an isolated solution, for which its support must have been met as wide or singular.
+fn described(oracle: &Enumeration, pencil: &Pencil, claim: &Claim) -> bool {
+    if let (Claim::ExactSolution(c), Some(value)) = (claim, exact_value(claim)) {
+        let clear = common_denominator(c.x.iter().flatten().map(|n| &n.0));
+        let x: Vec<Poly> = c.x.iter().map(|p| Poly::new(p.iter().map(|n| n.0.numer() * (&clear / n.0.denom())).collect())).collect();
+        return oracle.contains(pencil, &value, &x);
+    }
     let on = |set: &[usize]| set == support(claim);
     oracle.wide.iter().any(|w| on(&w.support) && same_value(&w.value, claim)) || oracle.continua.iter().any(|c| on(c))
 }

@@ -4,6 +4,8 @@ mod block;
 mod compare;
 mod families;
 mod forge;
+pub mod known;
+pub mod pareto;
 pub mod targets;
 mod verify;
 
