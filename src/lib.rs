@@ -47,6 +47,8 @@ pub mod oracle;
 pub mod reduction;
 #[cfg(feature = "solver")]
 pub mod report;
+#[cfg(feature = "search")]
+pub mod search;
 #[cfg(feature = "solver")]
 pub mod solver;
 pub mod source;

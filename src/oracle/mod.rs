@@ -5,6 +5,6 @@ mod plain;
 mod solution;
 mod table1;
 
-pub use plain::{MAX_FREE, MAX_SLIP, OracleError, enumerate, enumerate_with};
+pub use plain::{MAX_FREE, MAX_SLIP, OracleError, enumerate, enumerate_with, examine_support};
 pub use solution::{Enumeration, Solution, WideKernel};
 pub use table1::{ClosedSolution, TwoParticles, table1, thresholds};

@@ -74,6 +74,14 @@ pub fn enumerate_with(
     Ok(found)
 }
 
+/// One support by the definition: appends what [`enumerate`] finds on it. For callers that go
+/// through supports in their own way; nothing is sorted, no limit is checked.
+///
+/// `support` lists complementarity variables, ascending.
+pub fn examine_support(pencil: &Pencil, support: &[usize], window: &Window, found: &mut Enumeration) {
+    examine(&Integral::of(pencil), support, window, found);
+}
+
 /// The pencil with each row multiplied by a positive integer that clears its denominators.
 struct Integral<'a> {
     a: Vec<Vec<Integer>>,

@@ -1,6 +1,7 @@
 //! What the enumerator finds: solutions by their exact support, and what it only reports.
 
 use crate::exact::{Algebraic, Poly, ratio_to_decimal, to_decimal};
+use crate::model::{Pencil, Window};
 
 /// One solution of (12)-(14) or (21)-(23), up to the positive factor that x and y share.
 ///
@@ -82,6 +83,11 @@ impl Enumeration {
     /// Is `solutions` the complete answer: all supports examined, no wide kernel, no singular pencil?
     pub fn is_complete_list(&self) -> bool {
         self.is_finished() && self.wide.is_empty() && self.continua.is_empty()
+    }
+
+    /// Completes an answer put together from [`super::examine_support`]s, once all are in.
+    pub fn describe(&mut self, _pencil: &Pencil, _window: &Window) {
+        self.sort();
     }
 
     /// Puts everything into the canonical order.
