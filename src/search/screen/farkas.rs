@@ -269,3 +269,66 @@ fn invert(n: usize, entry: impl Fn(usize, usize) -> f64) -> Option<Vec<f64>> {
     }
     Some(m.into_iter().flat_map(|row| row.into_iter().skip(n)).collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{Rational, Sparse, rational, whole};
+    use crate::model::{Pencil, Window};
+
+    fn refutes(pencil: &Pencil, mask: u64, t: (f64, f64)) -> bool {
+        let floats = Floats::of(pencil, &Window::all());
+        let s = floats.scale.mantissa * f64::from(floats.scale.exponent).exp2();
+        let mut prover = Prover::default();
+        prover.load(&floats, mask);
+        prover.refutes(&floats, t.0 / (t.0 + s), t.1 / (t.1 + s))
+    }
+
+    /// The fold of `spec/errata.md`: at t = 2 x = (2, 1), at t = 3 x = (3, 2), on the full support.
+    #[test]
+    fn a_piece_with_a_solution_is_never_refuted() {
+        let p = Pencil::new(Sparse::from_ints(&[&[1, -6], &[2, -6]]), Sparse::identity(2), vec![]).unwrap();
+        for width in [0.0, 1e-12, 1e-3, 0.4] {
+            assert!(!refutes(&p, 3, (2.0, 2.0 + width)) && !refutes(&p, 3, (3.0 - width, 3.0)));
+        }
+        assert!(refutes(&p, 1, (0.0, 100.0))); // row 0 is positive
+        assert!(refutes(&p, 3, (2.4, 2.6)) && refutes(&p, 3, (3.1, 50.0)));
+    }
+
+    /// [[-1, 0], [y, -3]] + tI: at t = 1 x = (1, 0) solves it exactly if y >= 0.
+    #[test]
+    fn the_sign_of_y_decides_down_to_rounding() {
+        let p = |y: Rational| {
+            let a = Sparse::from_entries(2, 2, [(0, 0, whole(-1)), (1, 0, y), (1, 1, whole(-3))]);
+            Pencil::new(a, Sparse::identity(2), vec![]).unwrap()
+        };
+        let near = (1.0 - 1e-12, 1.0 + 1e-12);
+        assert!(refutes(&p(rational(-1, 1000)), 1, near));
+        assert!(!refutes(&p(rational(1, 1000)), 1, near));
+        assert!(!refutes(&p(whole(0)), 1, near));
+        // Too small for doubles: not refuted, so left to exact arithmetic.
+        assert!(!refutes(&p(rational(-1, 1_000_000_000_000_000)), 1, (1.0 - 1e-3, 1.0 + 1e-3)));
+    }
+
+    /// Free variables with B_ff = I: x_f = -(2 + t) x_0 / (4 + t) enters every bound.
+    #[test]
+    fn free_variables_are_bounded_not_ignored() {
+        let p = |corner: i64| {
+            Pencil::new(Sparse::from_ints(&[&[4, 2], &[1, corner]]), Sparse::from_ints(&[&[1, 1], &[0, 1]]), vec![0]).unwrap()
+        };
+        // Condensed: corner + t - (2 + t)/(4 + t). Zero at t = 0 for corner 1/2; here: -1 crosses near t = 1.6.
+        let zero = |t: f64| -1.0 + t - (2.0 + t) / (4.0 + t);
+        let (mut low, mut high) = (1.0, 3.0);
+        for _ in 0..60 {
+            let mid = 0.5 * (low + high);
+            if zero(mid) < 0.0 { low = mid } else { high = mid }
+        }
+        assert!(!refutes(&p(-1), 1, (low - 1e-9, low + 1e-9)));
+        assert!(refutes(&p(-1), 1, (low + 1e-3, low + 1e-3 + 1e-12)) || refutes(&p(-1), 1, (low + 0.1, low + 0.1 + 1e-12)));
+        assert!(!refutes(&p(-1), 1, (0.0, 50.0)));
+        // No bound, no proof: N_ff is singular at t = 4.
+        let singular = Pencil::new(Sparse::from_ints(&[&[-4, 1], &[1, 9]]), Sparse::from_ints(&[&[1, 0], &[0, 0]]), vec![0]).unwrap();
+        assert!(!refutes(&singular, 1, (4.0, 4.0)));
+        assert!(!refutes(&p(-1), 0, (0.0, 1.0))); // free variables alone have no sign
+    }
+}
