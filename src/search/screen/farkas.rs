@@ -291,8 +291,12 @@ mod tests {
         for width in [0.0, 1e-12, 1e-3, 0.4] {
             assert!(!refutes(&p, 3, (2.0, 2.0 + width)) && !refutes(&p, 3, (3.0 - width, 3.0)));
         }
-        assert!(refutes(&p, 1, (0.0, 100.0))); // row 0 is positive
-        assert!(refutes(&p, 3, (2.4, 2.6)) && refutes(&p, 3, (3.1, 50.0)));
+        // y_1 = 2 x_0 there; with -2 it is refuted.
+        let p = |y: i64| Pencil::new(Sparse::from_ints(&[&[-2, -6], &[y, -6]]), Sparse::identity(2), vec![]).unwrap();
+        assert!(!refutes(&p(2), 1, (1.9, 2.1)) && refutes(&p(-2), 1, (1.9, 2.1)));
+        // x = (1, -1) at t = 2.
+        let mixed = Pencil::new(Sparse::from_ints(&[&[-1, 1], &[1, -1]]), Sparse::identity(2), vec![]).unwrap();
+        assert!(refutes(&mixed, 3, (1.9, 2.1)) && !refutes(&mixed, 3, (0.0, 0.1)));
     }
 
     /// [[-1, 0], [y, -3]] + tI: at t = 1 x = (1, 0) solves it exactly if y >= 0.
@@ -310,25 +314,18 @@ mod tests {
         assert!(!refutes(&p(rational(-1, 1_000_000_000_000_000)), 1, (1.0 - 1e-3, 1.0 + 1e-3)));
     }
 
-    /// Free variables with B_ff = I: x_f = -(2 + t) x_0 / (4 + t) enters every bound.
+    /// Free variables with B_ff = I: at the root of -1 + t - (2 + t)/(4 + t) on the support {1}
+    /// x_f < 0, so a row with +x_f gives y_2 < 0 and one with -x_f a solution.
     #[test]
     fn free_variables_are_bounded_not_ignored() {
-        let p = |corner: i64| {
-            Pencil::new(Sparse::from_ints(&[&[4, 2], &[1, corner]]), Sparse::from_ints(&[&[1, 1], &[0, 1]]), vec![0]).unwrap()
+        let p = |sign: i64| {
+            let a = Sparse::from_ints(&[&[4, 2, 0], &[1, -1, 0], &[sign, 0, 3]]);
+            Pencil::new(a, Sparse::from_ints(&[&[1, 1, 0], &[0, 1, 0], &[0, 0, 1]]), vec![0]).unwrap()
         };
-        // Condensed: corner + t - (2 + t)/(4 + t). Zero at t = 0 for corner 1/2; here: -1 crosses near t = 1.6.
-        let zero = |t: f64| -1.0 + t - (2.0 + t) / (4.0 + t);
-        let (mut low, mut high) = (1.0, 3.0);
-        for _ in 0..60 {
-            let mid = 0.5 * (low + high);
-            if zero(mid) < 0.0 { low = mid } else { high = mid }
-        }
-        assert!(!refutes(&p(-1), 1, (low - 1e-9, low + 1e-9)));
-        assert!(refutes(&p(-1), 1, (low + 1e-3, low + 1e-3 + 1e-12)) || refutes(&p(-1), 1, (low + 0.1, low + 0.1 + 1e-12)));
-        assert!(!refutes(&p(-1), 1, (0.0, 50.0)));
-        // No bound, no proof: N_ff is singular at t = 4.
-        let singular = Pencil::new(Sparse::from_ints(&[&[-4, 1], &[1, 9]]), Sparse::from_ints(&[&[1, 0], &[0, 0]]), vec![0]).unwrap();
-        assert!(!refutes(&singular, 1, (4.0, 4.0)));
-        assert!(!refutes(&p(-1), 0, (0.0, 1.0))); // free variables alone have no sign
+        let root = f64::sqrt(7.0) - 1.0; // t^2 + 2 t - 6 = 0
+        let near = (root - 1e-13, root + 1e-13);
+        assert!(refutes(&p(1), 1, near) && !refutes(&p(-1), 1, near));
+        assert!(!refutes(&p(1), 1, (0.0, 50.0))); // N_ff varies too much: no bound, no proof
+        assert!(!refutes(&p(1), 0, near)); // free variables alone have no sign
     }
 }
