@@ -58,13 +58,6 @@ impl Piece {
         self.bernstein.iter().all(|&v| v > self.error) || self.bernstein.iter().all(|&v| v < -self.error)
     }
 
-    /// Is it proved that the polynomial has exactly one root here, a simple one? All signs certain
-    /// and one change among them (Descartes).
-    pub(super) fn has_one_simple_root(&self) -> bool {
-        let certain = self.bernstein.iter().all(|&v| v.abs() > self.error);
-        certain && self.bernstein.windows(2).filter(|w| (w[0] > 0.0) != (w[1] > 0.0)).count() == 1
-    }
-
     /// The two halves. Each mean of neighbours rounds once (halving is exact), and errors of
     /// means are means of errors: d more roundings of the largest coefficient.
     pub(super) fn halves(mut self) -> (Piece, Piece) {
@@ -159,11 +152,10 @@ mod tests {
     }
 
     #[test]
-    fn a_double_root_stays_and_is_never_called_simple() {
+    fn a_double_root_is_never_lost() {
         let mut stack = vec![whole(&[1.0, -2.0, 1.0], 1.25).0];
         let mut deepest = 0;
         while let Some(p) = stack.pop() {
-            assert!(!p.has_one_simple_root());
             deepest = deepest.max(p.depth);
             if !p.has_no_root() && p.depth < DEPTH {
                 let (l, r) = p.halves();
@@ -171,7 +163,6 @@ mod tests {
             }
         }
         assert_eq!(deepest, DEPTH);
-        assert!(whole(&[-1.0, 1.0], 1.0).0.has_one_simple_root());
     }
 
     #[test]

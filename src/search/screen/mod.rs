@@ -26,7 +26,7 @@ mod run;
 mod signs;
 mod statistics;
 
-pub use run::{Part, Screen, support};
+pub use run::{Part, Screen, coefficient_bits, examine_exactly, examine_one, support};
 pub use statistics::Statistics;
 
 use crate::model::{Pencil, Window};

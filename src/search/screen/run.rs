@@ -51,8 +51,7 @@ impl<'a> Screen<'a> {
         too_large("free variables", MAX_FREE as u64, pencil.free().len() as u64)?;
         let integral = Integral::of(pencil);
         let all = (1 << integral.slip) - 1;
-        let bits = (0..=integral.slip).map(|k| integral.coefficient_bits(all >> k)).fold(0.0, f64::max);
-        too_large("bits of a determinant's coefficients", MAX_BITS, bits as u64)?;
+        too_large("bits of a determinant's coefficients", MAX_BITS, coefficient_bits(pencil))?;
         let points = integral.degree(all) + 1;
         // Rows have at least 0 bits, so no support needs more than the rows of all.
         let count = Coefficients::primes_for((0..integral.a.len()).map(|i| integral.row_bits(i)).sum());
@@ -118,21 +117,45 @@ impl<'a> Screen<'a> {
             let sub = (mask & ((1 << low_bits) - 1)) as usize;
             let verdict = self.filters.judge(mask, |k| &values[k][sub * points..][..points], &mut desk);
             verdict.count(&mut part.statistics);
-            if !verdict.is_empty() && self.examine(mask, &mut part.enumeration) {
+            if !verdict.is_empty() && examine_one(self.pencil, self.window, mask, &mut part.enumeration) {
                 part.holders.push(mask);
             }
             part.enumeration.supports_done += 1;
         }
         part
     }
+}
 
-    /// The oracle's exact code on one support; did it find anything?
-    fn examine(&self, mask: u64, found: &mut Enumeration) -> bool {
-        let count = |e: &Enumeration| e.solutions.len() + e.wide.len() + e.continua.len();
-        let before = count(found);
-        examine_support(self.pencil, &support(self.pencil, mask), self.window, found);
-        count(found) > before
+/// The oracle's exact code on each of the supports, in parallel, put together in their order; the
+/// first support that holds nothing, if there is one. Counters are left to the caller.
+///
+/// # Errors
+/// The support that holds nothing: whoever listed it was wrong.
+pub fn examine_exactly(pencil: &Pencil, window: &Window, supports: &[u64]) -> Result<Enumeration, u64> {
+    let examine = |&mask: &u64| {
+        let mut part = Part::default();
+        if examine_one(pencil, window, mask, &mut part.enumeration) { Ok(part) } else { Err(mask) }
+    };
+    let parts: Vec<Result<Part, u64>> = supports.par_iter().map(examine).collect();
+    let mut all = Part::default();
+    for part in parts {
+        all.append(part?);
     }
+    Ok(all.enumeration)
+}
+
+/// The oracle's exact code on one support; did it find anything?
+pub fn examine_one(pencil: &Pencil, window: &Window, mask: u64, found: &mut Enumeration) -> bool {
+    let count = |e: &Enumeration| e.solutions.len() + e.wide.len() + e.continua.len();
+    let before = count(found);
+    examine_support(pencil, &support(pencil, mask), window, found);
+    count(found) > before
+}
+
+/// A bound of the bits of every coefficient of every support's determinant.
+pub fn coefficient_bits(pencil: &Pencil) -> u64 {
+    let integral = Integral::of(pencil);
+    (0..integral.a.len()).map(|i| integral.row_bits(i)).sum::<f64>().ceil() as u64
 }
 
 /// The variables of a support given as a bit set over the complementarity variables.
