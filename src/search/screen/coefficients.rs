@@ -4,7 +4,7 @@ use super::minors::Minors;
 use crate::exact::Field;
 
 /// log2 of every prime used exceeds this: they are the largest below 2^62.
-pub(super) const PRIME_BITS: f64 = 61.99;
+const PRIME_BITS: f64 = 61.99;
 
 /// An integer coefficient: sign exact, `mantissa * 2^exponent` with relative error below
 /// [`Coefficients::relative_error`].
@@ -58,6 +58,12 @@ impl Coefficients {
     pub(super) fn primes_for(bits: f64) -> usize {
         // |c| < P/2
         ((bits + 1.0) / PRIME_BITS).floor() as usize + 1
+    }
+
+    /// Every bound for which [`Coefficients::primes_for`] wants more than `count` primes is above
+    /// this, whatever the order in which its terms were added up.
+    pub(super) fn bits_beyond(count: usize) -> f64 {
+        PRIME_BITS * count as f64 - 1.0 - 1.0 / 128.0
     }
 
     /// Coefficients of the polynomial of degree at most `degree` whose values at the first points
@@ -182,6 +188,7 @@ mod tests {
     #[test]
     fn zero_is_zero_and_the_number_of_primes_covers_the_sign() {
         assert_eq!((Coefficients::primes_for(60.9), Coefficients::primes_for(61.5), Coefficients::primes_for(0.0)), (1, 2, 1));
+        assert!(Coefficients::bits_beyond(1) < 60.99 && Coefficients::primes_for(Coefficients::bits_beyond(2)) == 2);
         let a = Sparse::from_ints(&[&[1, 2], &[2, 4]]);
         let pencil = Integral::of(&Pencil::new(a.clone(), a, vec![]).unwrap());
         let minors = vec![Minors::new(&pencil, primes().next().unwrap(), 3)];

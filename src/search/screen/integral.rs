@@ -28,6 +28,21 @@ struct Side {
     varies: Vec<bool>,
 }
 
+impl Side {
+    fn of_rows(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Side {
+        let square = |row: &Vec<Integer>| row.iter().map(|v| v * v).sum::<Integer>();
+        Side {
+            // (|a| + |b|)^2 <= 2 (|a|^2 + |b|^2)
+            bits: a.iter().zip(b).map(|(a, b)| half_log2((square(a) + square(b)) * 2)).collect(),
+            varies: b.iter().map(|b| !square(b).is_zero()).collect(),
+        }
+    }
+}
+
+fn transposed(m: &[Vec<Integer>]) -> Vec<Vec<Integer>> {
+    (0..m.len()).map(|j| m.iter().map(|row| row[j].clone()).collect()).collect()
+}
+
 /// Rounding of a double logarithm and of sums of up to 100 of them stay far below this.
 const LOG_SLACK: f64 = 1.0 / 1024.0 / 1024.0;
 
@@ -44,17 +59,8 @@ impl Integral {
                 ra.iter_mut().chain(rb.iter_mut()).for_each(|v| *v /= &gcd);
             }
         }
+        let (rows, cols) = (Side::of_rows(&a, &b), Side::of_rows(&transposed(&a), &transposed(&b)));
         let n = order.len();
-        let side = |entry: &dyn Fn(&[Vec<Integer>], usize, usize) -> Integer| {
-            let squares = |m: &[Vec<Integer>], i: usize| (0..n).map(|j| entry(m, i, j)).map(|v| &v * &v).sum::<Integer>();
-            Side {
-                // (|a| + |b|)^2 <= 2 (|a|^2 + |b|^2)
-                bits: (0..n).map(|i| half_log2((squares(&a, i) + squares(&b, i)) * 2)).collect(),
-                varies: (0..n).map(|i| !squares(&b, i).is_zero()).collect(),
-            }
-        };
-        let rows = side(&|m, i, j| m[i][j].clone());
-        let cols = side(&|m, i, j| m[j][i].clone());
         Integral { a, b, free: pencil.free().len(), slip: n - pencil.free().len(), rows, cols }
     }
 

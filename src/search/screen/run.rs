@@ -107,7 +107,7 @@ impl<'a> Screen<'a> {
         let mut values = vec![Vec::new(); self.minors.len()];
         for (k, minors) in self.minors.iter().enumerate() {
             // The k-th prime matters only for supports that k primes do not prove.
-            let from_bits = if k == 0 { 0.0 } else { super::coefficients::PRIME_BITS * k as f64 - 1.0 };
+            let from_bits = Coefficients::bits_beyond(k);
             minors.block(high, low_bits, from_bits, &mut values[k]);
         }
         let points = self.minors.first().map_or(0, |m| m.points.len());
