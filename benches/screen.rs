@@ -1,7 +1,7 @@
 //! The screened enumerator: time against n, growth per particle, `plain` beside it where that ends.
 //!
 //! `RAYON_NUM_THREADS=1 cargo bench --bench screen` prints a table; `-- FAMILY N` runs one size only
-//! (families: digits, free, complete). Medians over seeds; ratios are of one run.
+//! (families: digits, free, lambda2, zeros, complete). Medians over seeds; ratios are of one run.
 
 use mceip::exact::{Sparse, whole};
 use mceip::model::{Pencil, Window};
@@ -27,6 +27,26 @@ fn digits(slip: usize, free: usize, seed: u64) -> Pencil {
     Pencil::new(rows(&a), rows(&b), (0..free).collect()).expect("square")
 }
 
+/// As MCEIP-lambda2 with four free variables has it: A_ff and B definite, so nothing is condensed.
+fn lambda2(slip: usize, seed: u64) -> Pencil {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let n = slip + 4;
+    let g: Vec<Vec<i64>> = (0..n).map(|_| (0..n).map(|_| rng.random_range(-2..=2)).collect()).collect();
+    let gram = |i: usize, j: usize| (0..n).map(|k| g[i][k] * g[j][k]).sum::<i64>() + i64::from(i == j);
+    let mut a = |i: usize, j: usize| if i < 4 && j < 4 { gram(i, j) } else { rng.random_range(-9..=9) };
+    let entries =
+        |f: &mut dyn FnMut(usize, usize) -> i64| Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, whole(f(k / n, k % n)))));
+    Pencil::new(entries(&mut a), entries(&mut |i, j| gram(i, j)), (0..4).collect()).expect("square")
+}
+
+/// Three quarters zeros: many singular supports, repeated roots, vanishing pivots.
+fn zeros(n: usize, seed: u64) -> Pencil {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut matrix =
+        || Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, whole([0, 0, 0, 1, 0, 0, 0, -1][rng.random_range(0..8)]))));
+    Pencil::new(matrix(), matrix(), vec![]).expect("square")
+}
+
 /// (C - t I) x = y with C the adjacency matrix: t = k - 1 on each support of size k, 2^n - 1 in all.
 fn complete(n: usize) -> Pencil {
     let a = Sparse::from_entries(n, n, (0..n * n).filter(|k| k / n != k % n).map(|k| (k / n, k % n, whole(1))));
@@ -48,6 +68,8 @@ fn measure(family: &str, n: usize, plain: bool) -> (f64, usize, screen::Statisti
         let pencil = match family {
             "digits" => digits(n, 0, seed),
             "free" => digits(n, 4, seed),
+            "lambda2" => lambda2(n, seed),
+            "zeros" => zeros(n, seed),
             _ => complete(n),
         };
         let start = Instant::now();

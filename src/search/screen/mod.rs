@@ -82,5 +82,7 @@ pub enum ScreenError {
 pub fn enumerate(pencil: &Pencil, window: &Window) -> Result<(Enumeration, Statistics), ScreenError> {
     let screen = Screen::new(pencil, window)?;
     let part = screen.run(0..screen.supports(), |_| ControlFlow::Continue(()))?;
-    Ok((part.enumeration, part.statistics))
+    let mut found = part.enumeration;
+    found.describe(pencil, window);
+    Ok((found, part.statistics))
 }

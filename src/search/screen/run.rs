@@ -32,7 +32,7 @@ pub struct Screen<'a> {
 pub struct Part {
     /// The supports examined, as bit sets over the complementarity variables (bit k: the k-th).
     pub range: Range<u64>,
-    /// What they hold, in canonical order; its counters speak of this range and of all supports.
+    /// What they hold, as found: [`Enumeration::describe`] completes and sorts it once all parts are in.
     pub enumeration: Enumeration,
     /// The supports that hold something, ascending.
     pub holders: Vec<u64>,
@@ -98,7 +98,6 @@ impl<'a> Screen<'a> {
                 break;
             }
         }
-        part.enumeration.describe(self.pencil, self.window);
         Ok(part)
     }
 
