@@ -47,7 +47,7 @@ pub mod oracle;
 pub mod reduction;
 #[cfg(feature = "solver")]
 pub mod report;
-#[cfg(feature = "solver")]
+#[cfg(feature = "search")]
 pub mod search;
 #[cfg(feature = "solver")]
 pub mod solver;

@@ -32,7 +32,13 @@ fn claim(support: &[usize], p: &[i64], interval: (&str, &str), x: &[&[&str]]) ->
 }
 
 fn certificate(problem: &Problem, claim: Claim) -> Certificate {
-    Certificate { problem_sha256: problem.sha256(), unknown: problem.unknown(), window: Window::all(), claims: vec![claim] }
+    Certificate {
+        problem_sha256: problem.sha256(),
+        unknown: problem.unknown(),
+        window: Window::all(),
+        claims: vec![claim],
+        complete_set: None,
+    }
 }
 
 fn verdict(problem: &Problem, c: &ExactSolution) -> Result<(), Reason> {

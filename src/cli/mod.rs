@@ -6,7 +6,9 @@ mod check;
 mod common;
 mod complete;
 mod enumerate;
+mod merge;
 mod output;
+mod record;
 mod reduce;
 mod solve;
 mod table1;
@@ -34,8 +36,10 @@ struct Cli {
 enum Command {
     /// The main job: every embedded problem solved, certified, checked, compared with both oracles.
     Verify(verify::Args),
-    /// All solutions of a small problem by the exact enumerator (the oracle).
+    /// All solutions of a small problem by the exact enumerator (the oracle), or by the screened one.
     Enumerate(enumerate::Args),
+    /// Put the parts of a sharded enumeration together.
+    Merge(merge::Args),
     /// Solutions by the PATH-style solver with many starts, each certified.
     Solve(solve::Args),
     /// All solutions in a window with a proof that there are no others.
@@ -61,6 +65,7 @@ pub fn main() -> ExitCode {
     let result = match cli.command {
         Command::Verify(a) => verify::run(&a),
         Command::Enumerate(a) => enumerate::run(&a),
+        Command::Merge(a) => merge::run(&a),
         Command::Solve(a) => solve::run(&a),
         Command::Complete(a) => complete::run(&a),
         Command::Certify(a) => certify::run(&a),

@@ -34,6 +34,7 @@ pub use interval::Interval;
 pub use kernel::{determinant, generic_kernel, kernel_at, minors, row_echelon_at};
 pub use modular::{CondenseError, schur_complement};
 pub use poly::Poly;
+pub use prime::{Field, primes};
 pub use quadratic::Quadratic;
 pub use rational::{Integer, MAX_EXPONENT, MAX_SPELLING, NumberError, Rational, common_denominator, parse, rational, whole};
 pub use roots::{nonnegative_roots, roots_in};

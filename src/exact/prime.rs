@@ -1,7 +1,8 @@
 //! Arithmetic modulo primes just below 2^62: Montgomery products and a deterministic prime test.
 
 /// A prime p < 2^62 with what Montgomery's product needs; numbers are kept in Montgomery form.
-pub(super) struct Field {
+#[derive(Debug, Clone)]
+pub struct Field {
     pub(super) p: u64,
     /// -p^-1 mod 2^64.
     negated_inverse: u64,
@@ -10,7 +11,8 @@ pub(super) struct Field {
 }
 
 impl Field {
-    pub(super) fn new(p: u64) -> Field {
+    /// The field of an odd prime below 2^62 ([`primes`] gives them).
+    pub fn new(p: u64) -> Field {
         // Newton's iteration for the inverse modulo 2^64 doubles the correct bits each time.
         let mut inverse = p;
         for _ in 0..6 {
@@ -21,31 +23,61 @@ impl Field {
         Field { p, negated_inverse: inverse.wrapping_neg(), square }
     }
 
-    /// a b / 2^64 mod p.
-    pub(super) fn mul(&self, a: u64, b: u64) -> u64 {
-        let product = u128::from(a) * u128::from(b);
+    /// The prime.
+    pub fn prime(&self) -> u64 {
+        self.p
+    }
+
+    /// a b / 2^64 mod p: the product of two numbers in Montgomery form, in Montgomery form.
+    #[inline]
+    pub fn mul(&self, a: u64, b: u64) -> u64 {
+        self.reduce(u128::from(a) * u128::from(b))
+    }
+
+    /// sum a_k b_k / 2^64 mod p, reduced once.
+    pub fn dot(&self, a: &[u64], b: &[u64]) -> u64 {
+        let limit = u128::from(self.p) << 64; // < 2^126; a product is < 2^124
+        let sum = a.iter().zip(b).fold(0u128, |sum, (&x, &y)| {
+            let next = sum + u128::from(x) * u128::from(y);
+            if next >= limit { next - limit } else { next }
+        });
+        self.reduce(sum)
+    }
+
+    /// product / 2^64 mod p, for product < 2^64 p.
+    #[inline]
+    fn reduce(&self, product: u128) -> u64 {
         let m = (product as u64).wrapping_mul(self.negated_inverse);
         // p < 2^62: the sum stays below 2^128.
         let reduced = ((product + u128::from(m) * u128::from(self.p)) >> 64) as u64;
         if reduced >= self.p { reduced - self.p } else { reduced }
     }
 
-    pub(super) fn sub(&self, a: u64, b: u64) -> u64 {
+    /// a + b mod p.
+    #[inline]
+    pub fn add(&self, a: u64, b: u64) -> u64 {
+        let sum = a + b;
+        if sum >= self.p { sum - self.p } else { sum }
+    }
+
+    /// a - b mod p.
+    #[inline]
+    pub fn sub(&self, a: u64, b: u64) -> u64 {
         if a >= b { a - b } else { a + self.p - b }
     }
 
     /// Into Montgomery form.
-    pub(super) fn enter(&self, a: u64) -> u64 {
+    pub fn enter(&self, a: u64) -> u64 {
         self.mul(a, self.square)
     }
 
     /// Out of Montgomery form.
-    pub(super) fn leave(&self, a: u64) -> u64 {
+    pub fn leave(&self, a: u64) -> u64 {
         self.mul(a, 1)
     }
 
     /// a^-1 by Fermat, in Montgomery form.
-    pub(super) fn invert(&self, a: u64) -> u64 {
+    pub fn invert(&self, a: u64) -> u64 {
         let (mut result, mut base, mut e) = (self.enter(1), a, self.p - 2);
         while e > 0 {
             if e & 1 == 1 {
@@ -59,7 +91,7 @@ impl Field {
 }
 
 /// The primes below 2^62, descending.
-pub(super) fn primes() -> impl Iterator<Item = u64> {
+pub fn primes() -> impl Iterator<Item = u64> {
     (0..).map(|k| (1u64 << 62) - 1 - 2 * k).filter(|&n| is_prime(n))
 }
 
@@ -116,6 +148,9 @@ mod tests {
             let got = field.leave(field.mul(field.enter(a), field.enter(b)));
             assert_eq!(u128::from(got), u128::from(a) * u128::from(b) % u128::from(p));
         }
+        let (a, b) = ([p - 1; 20].map(|v| field.enter(v)), [p - 2; 20].map(|v| field.enter(v)));
+        assert_eq!(field.leave(field.dot(&a, &b)), 40); // 20 (-1)(-2)
+        assert_eq!((field.add(p - 1, 3), field.sub(1, 3)), (2, p - 2));
         let a = field.enter(42);
         assert_eq!(field.leave(field.mul(a, field.invert(a))), 1);
     }

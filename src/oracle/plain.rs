@@ -76,6 +76,14 @@ pub fn enumerate_with(
     Ok(found)
 }
 
+/// One support by the definition: appends what [`enumerate`] finds on it. For callers that go
+/// through supports in their own way; nothing is sorted, no limit is checked.
+///
+/// `support` lists complementarity variables, ascending.
+pub fn examine_support(pencil: &Pencil, support: &[usize], window: &Window, found: &mut Enumeration) {
+    examine(&Integral::of(pencil), support, window, found);
+}
+
 /// One support: the linear eigenproblem (25) on free and slip variables, then (26).
 fn examine(pencil: &Integral<'_>, support: &[usize], window: &Window, found: &mut Enumeration) {
     let active = pencil.active(support);

@@ -1,3 +1,4 @@
-//! Search that proves: floats propose witnesses, exact arithmetic accepts them.
+//! Complete answers beyond the oracle's reach: floats propose, each discard and each claim is proved.
 
 pub mod complete;
+pub mod screen;
