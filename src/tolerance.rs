@@ -39,3 +39,8 @@ pub const SAME_POINT: f64 = 1e-9;
 /// Basis: far above the accuracy of a run, so that the value itself is not found again; solutions
 /// closer together than this are left to the plain starts.
 pub const WINDOW_GAP: f64 = 1e-7;
+
+/// Sizes of displacements and reactions, relative to the largest of the step, that incremental
+/// stepping takes for zero. Unit: none. Basis: the condensed equations have condition numbers below
+/// 1e5, so rounding stays below 1e-10; signs below that are not worth a change of state.
+pub const STEP_SIGN: f64 = 1e-10;

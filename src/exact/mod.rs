@@ -29,8 +29,12 @@ pub use double::{from_f64, to_f64};
 pub use interval::Interval;
 pub use kernel::{determinant, kernel_at};
 
+#[cfg(feature = "solver")]
+pub(crate) use modular::Residues;
 pub use modular::{CondenseError, schur_complement};
 pub use poly::Poly;
+#[cfg(feature = "solver")]
+pub(crate) use prime::{Field, primes};
 pub use quadratic::Quadratic;
 pub use rational::{Integer, MAX_EXPONENT, MAX_SPELLING, NumberError, Rational, common_denominator, parse, rational, whole};
 pub use roots::{nonnegative_roots, roots_in};

@@ -1,8 +1,8 @@
 //! Arithmetic modulo primes just below 2^62: Montgomery products and a deterministic prime test.
 
 /// A prime p < 2^62 with what Montgomery's product needs; numbers are kept in Montgomery form.
-pub(super) struct Field {
-    pub(super) p: u64,
+pub(crate) struct Field {
+    pub(crate) p: u64,
     /// -p^-1 mod 2^64.
     negated_inverse: u64,
     /// 2^128 mod p.
@@ -10,7 +10,7 @@ pub(super) struct Field {
 }
 
 impl Field {
-    pub(super) fn new(p: u64) -> Field {
+    pub(crate) fn new(p: u64) -> Field {
         // Newton's iteration for the inverse modulo 2^64 doubles the correct bits each time.
         let mut inverse = p;
         for _ in 0..6 {
@@ -22,7 +22,7 @@ impl Field {
     }
 
     /// a b / 2^64 mod p.
-    pub(super) fn mul(&self, a: u64, b: u64) -> u64 {
+    pub(crate) fn mul(&self, a: u64, b: u64) -> u64 {
         let product = u128::from(a) * u128::from(b);
         let m = (product as u64).wrapping_mul(self.negated_inverse);
         // p < 2^62: the sum stays below 2^128.
@@ -30,22 +30,22 @@ impl Field {
         if reduced >= self.p { reduced - self.p } else { reduced }
     }
 
-    pub(super) fn sub(&self, a: u64, b: u64) -> u64 {
+    pub(crate) fn sub(&self, a: u64, b: u64) -> u64 {
         if a >= b { a - b } else { a + self.p - b }
     }
 
     /// Into Montgomery form.
-    pub(super) fn enter(&self, a: u64) -> u64 {
+    pub(crate) fn enter(&self, a: u64) -> u64 {
         self.mul(a, self.square)
     }
 
     /// Out of Montgomery form.
-    pub(super) fn leave(&self, a: u64) -> u64 {
+    pub(crate) fn leave(&self, a: u64) -> u64 {
         self.mul(a, 1)
     }
 
     /// a^-1 by Fermat, in Montgomery form.
-    pub(super) fn invert(&self, a: u64) -> u64 {
+    pub(crate) fn invert(&self, a: u64) -> u64 {
         let (mut result, mut base, mut e) = (self.enter(1), a, self.p - 2);
         while e > 0 {
             if e & 1 == 1 {
@@ -59,7 +59,7 @@ impl Field {
 }
 
 /// The primes below 2^62, descending.
-pub(super) fn primes() -> impl Iterator<Item = u64> {
+pub(crate) fn primes() -> impl Iterator<Item = u64> {
     (0..).map(|k| (1u64 << 62) - 1 - 2 * k).filter(|&n| is_prime(n))
 }
 

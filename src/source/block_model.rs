@@ -60,6 +60,12 @@ impl BlockModel {
         BlockModel::of_the_paper().with_cells(half.saturating_mul(2), half)
     }
 
+    /// 20 x 20 cells cut by `\` in plane strain, again 800 elements and 21 contact nodes: its
+    /// MCEIP-mu with 17 slip nodes has 1719 solutions, a hard case for a complete search.
+    pub fn backslash_strain() -> BlockModel {
+        BlockModel { mesh: MeshKind::Backslash, plane: Plane::Strain, ..BlockModel::of_the_paper().with_cells(20, 20) }
+    }
+
     /// Length L of the contact side, mm.
     pub fn length(&self) -> Rational {
         &self.cell.0 * Rational::from_integer(self.cells.0.into())

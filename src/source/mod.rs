@@ -7,6 +7,8 @@ mod doubles;
 mod element;
 mod error;
 mod mesh;
+#[cfg(feature = "solver")]
+pub mod path;
 mod published;
 mod two_particles;
 

@@ -1,0 +1,58 @@
+//! The laws at a point of the path, from their definitions: (5) by multiplying out S, then (1),
+//! (2) and (7) node by node. Shares nothing with the search for states but the numbers it checks.
+
+use super::contact::{Contact, Friction, Load};
+use super::line::Line;
+use crate::exact::{Integer, Rational};
+use crate::model::ContactState;
+use num_traits::{Signed, Zero};
+
+/// A law that fails: node (from 0 at the left) and equation.
+pub(super) type Failure = (usize, &'static str);
+
+/// Do (1), (2), (5), (7) hold at d on the line, with these states? `moving` says what grows.
+pub(super) fn check(
+    contact: &Contact,
+    friction: &Friction,
+    states: &[ContactState],
+    line: &Line,
+    d: &Rational,
+    moving: Load,
+) -> Result<(), Failure> {
+    let n = contact.rows().len();
+    let u: Vec<Integer> = (0..n).map(|i| line.u_at(i, d)).collect();
+    let r: Vec<Integer> = (0..n).map(|i| line.r_at(i, d)).collect();
+    // Displacements relative to the glued side, in the same unit 1 / (line n).
+    let (press, left) = (contact.relative(Load::Press), contact.relative(Load::Left));
+    let imposed = |i: usize| &press[i] * d.denom() + &left[i] * d.numer();
+    let w: Vec<Integer> = (0..n).map(|i| &u[i] + imposed(i) * &line.denominator).collect();
+    if let Some(i) = contact.times(&w).iter().zip(&r).position(|(s, r)| s != r) {
+        return Err((i / 2, "E5"));
+    }
+    let velocity = |i: usize| if moving == Load::Press { &line.u[0][i] } else { &line.u[1][i] };
+    for (k, state) in states.iter().enumerate() {
+        let (u_n, r_t, r_n, v_t) = (&u[2 * k + 1], &r[2 * k], &r[2 * k + 1], velocity(2 * k));
+        let (mu, one) = (&friction.numerator, &friction.denominator); // mu = mu / one
+        let laws = [
+            ("E1", !u_n.is_positive() && !r_n.is_positive() && (u_n * r_n).is_zero()),
+            ("E7", r_t.abs() * one <= -(mu * r_n)),
+            ("E2", v_t.abs() * r_t * one == mu * v_t * r_n || r_n.is_zero()),
+            // The state is that of the rates: where it says slip, the law holds along the way.
+            (
+                "E9",
+                match state {
+                    ContactState::Free => r_t.is_zero() && r_n.is_zero(),
+                    ContactState::Stick => u_n.is_zero() && v_t.is_zero(),
+                    ContactState::Slip { sign } => {
+                        let sign = Integer::from(*sign);
+                        u_n.is_zero() && r_t * one == -(mu * r_n * &sign) && !(v_t * sign).is_positive()
+                    }
+                },
+            ),
+        ];
+        if let Some((equation, _)) = laws.into_iter().find(|l| !l.1) {
+            return Err((k, equation));
+        }
+    }
+    Ok(())
+}
