@@ -11,6 +11,7 @@
 //! Sliding has begun when no node sticks: reactions are constant from then on.
 
 mod check;
+mod compare;
 mod contact;
 mod error;
 mod line;
@@ -20,6 +21,7 @@ mod rates;
 mod step;
 mod trace;
 
+pub use compare::Comparison;
 pub use contact::Contact;
 pub use error::PathError;
 pub use line::{Bound, Equilibrium};

@@ -1,0 +1,219 @@
+//! The loading path of the block: its laws against the uncondensed K, its events against stepping,
+//! its states against the paper.
+#![cfg(feature = "solver")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use mceip::exact::{Rational, rational, to_f64, whole};
+use mceip::model::{ContactState, Particle, Reaction, System, Unknown};
+use mceip::source::path::{Bound, Comparison, Contact, Finder, Interval, Loading, LoadingPath, PathEnd, PathError, step_path};
+use mceip::source::{Block, BlockModel, MeshKind, Plane, PublishedState};
+use std::ops::ControlFlow;
+
+fn follow(block: &Block, loading: &Loading) -> LoadingPath {
+    LoadingPath::follow(&Contact::of(block).unwrap(), loading, &|_, _| ControlFlow::Continue(())).unwrap()
+}
+
+fn block(nx: usize, ny: usize, mesh: MeshKind, plane: Plane) -> Block {
+    Block::new(&BlockModel { mesh, plane, ..BlockModel::of_the_paper().with_cells(nx, ny) }).unwrap()
+}
+
+fn paper(mu: Rational) -> Loading {
+    Loading { friction: mu, ..Loading::of_the_paper() }
+}
+
+/// The whole block under the contact displacements of an equilibrium, by plain elimination in
+/// fractions on the uncondensed K: forces vanish inside, and are the reactions on the contact side.
+fn equilibrium_of_the_whole_block(block: &Block, interval: &Interval, depth: &Rational) {
+    let n = block.stiffness.rows();
+    let at = &interval.start;
+    let mut w: Vec<Option<Rational>> = vec![None; n]; // relative to the glued side
+    for (k, &node) in block.contact.iter().enumerate() {
+        let (t, normal) = at.displacement(k);
+        w[2 * node] = Some(t + at.motion());
+        w[2 * node + 1] = Some(depth - normal); // y points away from the obstacle
+    }
+    let inside: Vec<usize> = (0..n).filter(|&i| w[i].is_none()).collect();
+    let known = |i: usize| -> Rational { (0..n).filter_map(|j| w[j].as_ref().map(|v| block.stiffness.get(i, j) * v)).sum() };
+    let mut m: Vec<Vec<Rational>> =
+        inside.iter().map(|&i| inside.iter().map(|&j| block.stiffness.get(i, j)).chain([-known(i)]).collect()).collect();
+    for k in 0..m.len() {
+        for i in (0..m.len()).filter(|&i| i != k) {
+            let factor = &m[i][k] / &m[k][k];
+            for j in k..=inside.len() {
+                let update = &factor * &m[k][j];
+                m[i][j] -= update;
+            }
+        }
+    }
+    for (k, &i) in inside.iter().enumerate() {
+        w[i] = Some(m[k].last().unwrap() / &m[k][k]);
+    }
+    let w: Vec<Rational> = w.into_iter().flatten().collect();
+    let force = block.stiffness.times(&w);
+    for (k, &node) in block.contact.iter().enumerate() {
+        let (t, normal) = at.reaction(k);
+        assert_eq!((&force[2 * node], -&force[2 * node + 1]), (&t, normal));
+    }
+    assert!(inside.iter().all(|&i| force[i] == whole(0)));
+}
+
+#[test]
+fn equilibria_are_those_of_the_uncondensed_block() {
+    let block = block(3, 1, MeshKind::Crossed, Plane::Stress);
+    for mu in [rational(11, 10), rational(3, 10)] {
+        let path = follow(&block, &paper(mu));
+        assert!(path.slides() && path.intervals.len() >= 4, "{}", path.intervals.len());
+        for interval in &path.intervals {
+            equilibrium_of_the_whole_block(&block, interval, &path.depth);
+        }
+        assert_eq!(path.pressed.resultants(), (whole(0), whole(-55)), "pressed symmetrically until N = 55");
+    }
+}
+
+/// Reactions in the middle of each stretch go through the model's own check of (7), states and
+/// signs; with a wrong sign they do not.
+#[test]
+fn states_and_reactions_satisfy_7_in_the_middle_of_each_stretch() {
+    let block = block(6, 3, MeshKind::Backslash, Plane::Strain);
+    let mu = rational(11, 10);
+    let path = follow(&block, &paper(mu.clone()));
+    let mut slips = [0, 0];
+    for interval in path.intervals.iter().filter(|i| i.stop.is_some()) {
+        let middle = |k: usize| {
+            let (a, b) = (interval.start.reaction(k), interval.stop.as_ref().unwrap().reaction(k));
+            Reaction { tangential: (a.0 + b.0) / whole(2), normal: (a.1 + b.1) / whole(2) }
+        };
+        let system = |states: &[ContactState]| {
+            let particle = |k: usize| Particle {
+                normal_direction: -1,
+                reaction: Some(middle(k)),
+                ..Particle::plain(2 * block.contact[k], 2 * block.contact[k] + 1, states[k])
+            };
+            System::new(block.stiffness.clone(), None, Some(mu.clone()), (0..states.len()).map(particle).collect())
+        };
+        assert!(system(&interval.states).is_ok());
+        for (k, state) in interval.states.iter().enumerate() {
+            if let ContactState::Slip { sign } = state {
+                slips[usize::from(*sign < 0)] += 1;
+                let mut wrong = interval.states.clone();
+                wrong[k] = ContactState::Slip { sign: -sign };
+                assert!(system(&wrong).is_err());
+                wrong[k] = ContactState::Stick;
+                assert!(system(&wrong).is_err());
+            }
+        }
+    }
+    assert!(slips[0] > 5 && slips[1] > 0, "{slips:?}");
+}
+
+/// The bound that an event names is zero there and was not before; stretches join.
+#[test]
+fn events_are_located_exactly() {
+    let block = block(6, 3, MeshKind::Backslash, Plane::Strain);
+    let loading = paper(rational(11, 10));
+    let path = follow(&block, &loading);
+    let mut kinds = [0; 2];
+    for pair in path.intervals.windows(2) {
+        let (stop, start) = (pair[0].stop.as_ref().unwrap(), &pair[1].start);
+        assert_eq!(stop.motion(), start.motion());
+        assert!(pair[0].start.motion() < stop.motion());
+        assert!((0..7).all(|k| stop.reaction(k) == start.reaction(k) && stop.displacement(k) == start.displacement(k)));
+        for bound in &pair[1].begin.causes {
+            let value = |at: &mceip::source::path::Equilibrium| {
+                let ((t, n), gap) = (at.reaction(bound.node()), -at.displacement(bound.node()).1);
+                match bound {
+                    Bound::Cone { sign, .. } => -&loading.friction * n - t * whole((*sign).into()),
+                    Bound::Pressure { .. } => -n,
+                    _ => gap,
+                }
+            };
+            kinds[usize::from(matches!(bound, Bound::Pressure { .. }))] += 1;
+            assert_eq!(value(stop), whole(0));
+            assert!(value(&pair[0].start) > whole(0));
+        }
+        assert!(!pair[1].begin.changes.is_empty() && pair[1].begin.finder == Finder::ActiveSet);
+    }
+    assert!(kinds[0] > 4 && kinds[1] > 1, "{kinds:?}");
+    assert!(path.intervals[0].counts()[2] > 0, "pressing an oblique mesh makes the corner slip to the right");
+}
+
+#[test]
+fn stepping_finds_the_same_path_but_for_short_stretches() {
+    let contact = Contact::of(&block(8, 4, MeshKind::Crossed, Plane::Stress)).unwrap();
+    let loading = Loading::of_the_paper();
+    let path = LoadingPath::follow(&contact, &loading, &|_, _| ControlFlow::Continue(())).unwrap();
+    let last = to_f64(path.intervals.last().unwrap().start.motion());
+    let compare = |h: Rational| {
+        let count = (last / to_f64(&h)) as usize + 10;
+        Comparison::of(&path, &step_path(&contact, &loading, &h, count).unwrap())
+    };
+    let fine = compare(rational(1, 1000));
+    assert_eq!((fine.skipped, fine.other_states), (vec![], vec![]));
+    // Unit N. Steps over an event take the friction law at their end: the differences are of the
+    // order of what happens within a step, here none beyond rounding unless a node turns round.
+    assert!(fine.reaction < 1e-3, "{}", fine.reaction);
+    let coarse = compare(rational(1, 10));
+    assert!(!coarse.skipped.is_empty(), "short stretches are skipped");
+    let moved = Loading { friction: rational(12, 10), ..loading.clone() };
+    let other = Comparison::of(&path, &step_path(&contact, &moved, &rational(1, 100), 300).unwrap());
+    assert!(other.reaction > 0.1, "another friction is another path: {}", other.reaction);
+}
+
+#[test]
+fn a_range_an_interrupt_and_refusals() {
+    let contact = Contact::of(&block(2, 1, MeshKind::Slash, Plane::Stress)).unwrap();
+    let go = |loading: &Loading| LoadingPath::follow(&contact, loading, &|_, _| ControlFlow::Continue(()));
+    let until = rational(1, 10);
+    let short = go(&Loading { until: Some(until.clone()), ..Loading::of_the_paper() }).unwrap();
+    assert_eq!((short.end, short.intervals.last().unwrap().stop.as_ref().unwrap().motion()), (PathEnd::Range, &until));
+    let stopped = LoadingPath::follow(&contact, &Loading::of_the_paper(), &|k, _| {
+        if k == 1 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    let stopped = stopped.unwrap();
+    assert_eq!((stopped.end, stopped.intervals.len()), (PathEnd::Interrupted, 1));
+    let whole_path = go(&Loading::of_the_paper()).unwrap();
+    assert!(whole_path.intervals.len() > 1 && !stopped.slides() && whole_path.slides());
+    for (loading, word) in [
+        (paper(whole(0)), "friction"),
+        (Loading { force: whole(-55), ..Loading::of_the_paper() }, "force"),
+        (Loading { until: Some(whole(0)), ..Loading::of_the_paper() }, "range"),
+    ] {
+        let error = go(&loading).unwrap_err();
+        assert!(matches!(&error, PathError::NotPositive { what, .. } if what.contains(word)), "{error}");
+        assert!(step_path(&contact, &loading, &whole(1), 1).is_err() || word == "range");
+    }
+    assert!(step_path(&contact, &Loading::of_the_paper(), &whole(0), 1).is_err());
+}
+
+/// With much friction the wedge jams: a node sticks for ever, reactions grow without bound.
+#[test]
+fn a_jammed_block_does_not_slide() {
+    let block = block(6, 3, MeshKind::Crossed, Plane::Stress);
+    let path = follow(&block, &paper(whole(10)));
+    assert_eq!((path.end, path.slides()), (PathEnd::NoFurtherEvent, false));
+    let last = path.intervals.last().unwrap();
+    assert!(last.stop.is_none() && last.states.contains(&ContactState::Stick));
+    assert_eq!(last.problem(&block, None).map(|p| p.unknown()).ok(), last.counts()[1].gt(&0).then_some(Unknown::Mu));
+}
+
+/// 800 elements. The path is computed, and only then compared with the paper.
+#[test]
+fn both_published_states_lie_on_the_path() {
+    let block = Block::new(&BlockModel::of_the_paper()).unwrap();
+    let path = follow(&block, &Loading::of_the_paper());
+    assert!(path.slides());
+    let at = |state: PublishedState| path.stretches_with(&state.states());
+    assert_eq!(at(PublishedState::SeventeenSlip), vec![path.intervals.len() - 1], "the final state");
+    assert_eq!(at(PublishedState::FifteenSlip).len(), 1);
+    // The corner node slips to the right in one short stretch, which steps of 0.01 mm may miss.
+    let right: Vec<usize> = (0..path.intervals.len()).filter(|&k| path.intervals[k].counts()[2] > 0).collect();
+    assert_eq!(right, vec![1]);
+    assert_eq!(path.intervals[1].states[20], ContactState::Slip { sign: -1 });
+    let short = &path.intervals[1];
+    assert!(short.stop.as_ref().unwrap().motion() - short.start.motion() < rational(1, 100));
+    // "11 or more nodes": the number of slip nodes takes every value on the way.
+    let slips: Vec<usize> = path.intervals.iter().map(|i| i.counts()[1]).collect();
+    assert!((2..=17).all(|n| slips.contains(&n)), "{slips:?}");
+    let problem = path.intervals[at(PublishedState::FifteenSlip)[0]].problem(&block, None).unwrap();
+    assert_eq!(problem.sha256(), PublishedState::FifteenSlip.problem(&block).unwrap().sha256());
+}
