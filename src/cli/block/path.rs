@@ -112,13 +112,14 @@ fn event_text(event: &Event) -> String {
         Finder::ActiveSet => causes,
         Finder::OneByOne => format!("{causes} (states found one by one)"),
         Finder::Pivoting => format!("{causes} (states found by pivoting)"),
+        Finder::Enumeration => format!("{causes} (states found by trying all)"),
     }
 }
 
 fn end_text(path: &LoadingPath) -> &'static str {
     match path.end {
         PathEnd::NoFurtherEvent if path.slides() => "the block slides: nothing changes any more",
-        PathEnd::NoFurtherEvent => "nothing changes any more",
+        PathEnd::NoFurtherEvent => "no further event: some nodes stick for ever",
         PathEnd::Range => "end of the range",
         PathEnd::Interrupted => "INTERRUPTED",
     }

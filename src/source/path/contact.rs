@@ -37,7 +37,7 @@ impl Contact {
     }
 
     /// From the condensed stiffness in (x, y) of each node, the obstacle below.
-    fn from_condensed(condensed: &Sparse) -> Contact {
+    pub(super) fn from_condensed(condensed: &Sparse) -> Contact {
         let n = condensed.rows();
         let denominator = common_denominator(condensed.entries().map(|e| e.2));
         let mut rows = vec![vec![Integer::zero(); n]; n];

@@ -17,11 +17,13 @@ pub enum PathError {
         /// Its value.
         got: Rational,
     },
-    /// No states satisfy the rate conditions: the quasi-static path ends here (or the search does).
-    #[error("rate problem: no admissible states among {tried} tried (active set, one by one, pivoting)")]
+    /// No states satisfy the rate conditions: the quasi-static path ends here, if all were tried.
+    #[error("rate problem: no admissible states among {tried} sets tried{}", if *.all { " (every set there is)" } else { "" })]
     NoContinuation {
-        /// Sets of states tried.
+        /// Sets of states tried (some of them more than once).
         tried: usize,
+        /// Every set was tried, and none was singular: there is no continuation.
+        all: bool,
     },
     /// The same, after the path has begun.
     #[error("loading path: event {event} at motion {motion} mm: {source}")]

@@ -180,3 +180,53 @@ fn denominator_of(v: &Integer, modulus: &Integer, limit: u64) -> Option<Integer>
     let den = t1.abs();
     (!den.is_zero() && den.bits() <= limit).then_some(den)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{Sparse, whole};
+
+    fn z(v: &[i64]) -> Vec<Integer> {
+        v.iter().map(|&v| v.into()).collect()
+    }
+
+    /// In (x, y) with y away from the obstacle: the coupling changes its sign.
+    fn contact(t: i64, coupling: i64, n: i64) -> Contact {
+        Contact::from_condensed(&Sparse::from_ints(&[&[t, -coupling], &[-coupling, n]]))
+    }
+
+    #[test]
+    fn slip_equation_in_closed_form() {
+        // (2 + 5 * 1) z + (1 + 5 * 3) g_N + (2 + 5) g_T = 0 for r_T + 5 r_N = 0, g = (1, 2).
+        let equation = vec![(0, Integer::from(1)), (1, Integer::from(5))];
+        let (den, w) = solve(&contact(2, 1, 3), &mut Images::default(), &[0], &[equation], &[z(&[1, 2]), z(&[0, 7])]).unwrap();
+        assert_eq!((den.clone(), w), (Integer::from(7), vec![z(&[-32, 14]), z(&[-112, 49])]));
+        assert!(den.is_positive());
+    }
+
+    #[test]
+    fn long_fractions_are_reconstructed() {
+        let big: Integer = "170141183460469231731687303715884105727".parse().unwrap();
+        let s = Sparse::from_entries(
+            2,
+            2,
+            [(0, 0, crate::exact::Rational::from_integer(&big * &big * &big)), (1, 1, whole(1)), (0, 1, whole(5)), (1, 0, whole(5))],
+        );
+        let (den, w) = solve(&Contact::from_condensed(&s), &mut Images::default(), &[0], &[vec![(0, 1.into())]], &[z(&[0, 1])]).unwrap();
+        assert_eq!((&den, &w[0][0]), (&(&big * &big * &big), &Integer::from(5)));
+    }
+
+    #[test]
+    fn singular_equations_have_no_answer() {
+        // r_T + r_N = 0 with S_TT + S_NT = 0.
+        let equation = vec![(0, Integer::from(1)), (1, Integer::from(1))];
+        assert!(solve(&contact(1, -1, 3), &mut Images::default(), &[0], &[equation], &[z(&[1, 2])]).is_none());
+    }
+
+    #[test]
+    fn wrong_numbers_do_not_satisfy_the_equations() {
+        let equations = [vec![(0, Integer::from(1)), (1, Integer::from(5))]];
+        assert!(satisfied(&contact(2, 1, 3), &equations, &z(&[-32, 14])));
+        assert!(!satisfied(&contact(2, 1, 3), &equations, &z(&[-31, 14])));
+    }
+}

@@ -18,6 +18,8 @@ mod line;
 mod linear;
 mod propose;
 mod rates;
+#[cfg(test)]
+mod rates_oracle;
 mod step;
 mod trace;
 

@@ -20,7 +20,12 @@ pub enum Finder {
     OneByOne,
     /// Lemke's method on the rate problem in doubles.
     Pivoting,
+    /// Every set of states in turn.
+    Enumeration,
 }
+
+/// Most sets of states that are tried in turn when nothing else helps.
+const ENUMERATED: usize = 1024;
 
 /// The rate problem of one moment.
 pub(super) struct Rates<'a> {
@@ -57,7 +62,41 @@ impl Rates<'_> {
                 return Ok(solved);
             }
         }
-        Err(PathError::NoContinuation { tried })
+        self.enumerate(images, &mut tried)
+    }
+
+    /// Tries every set of states, if there are few. Without a singular one among them, a failure
+    /// proves that the quasi-static path has no continuation.
+    fn enumerate(&self, images: &mut Images, tried: &mut usize) -> Result<Solved, PathError> {
+        let mut sets: Vec<Vec<ContactState>> = vec![Vec::new()];
+        for class in self.classes {
+            let choices = choices(*class);
+            if sets.len() * choices.len() > ENUMERATED {
+                return Err(PathError::NoContinuation { tried: *tried, all: false });
+            }
+            sets = sets.into_iter().flat_map(|set| choices.iter().map(move |c| set.iter().copied().chain([*c]).collect())).collect();
+        }
+        let mut singular = false;
+        for states in sets {
+            *tried += 1;
+            match self.attempt(images, &states) {
+                None => singular = true,
+                Some(attempt) if attempt.changes.is_empty() => return Ok(attempt.solved(states, Finder::Enumeration, *tried)),
+                Some(_) => {}
+            }
+        }
+        Err(PathError::NoContinuation { tried: *tried, all: !singular })
+    }
+
+    /// The response in these states and what contradicts them; `None` if singular.
+    fn attempt(&self, images: &mut Images, states: &[ContactState]) -> Option<Attempt> {
+        let loads = (self.loads)(states);
+        let response = respond(self.contact, images, self.friction, states, &loads)?;
+        let at = loads.iter().position(|&l| l == self.moving)?;
+        let (u, r) = (&response.u[at], &response.r[at]);
+        let better = |k: usize| better(k, self.classes[k], states[k], u, r, self.friction);
+        let changes = (0..states.len()).filter_map(|k| better(k).map(|s| (k, s))).collect();
+        Some(Attempt { loads, response, changes })
     }
 
     /// Follows the violations from `states` until there is none (or a set of states comes back).
@@ -65,19 +104,39 @@ impl Rates<'_> {
         let mut seen = BTreeSet::new();
         while seen.insert(code(&states)) {
             *tried += 1;
-            let loads = (self.loads)(&states);
-            let response = respond(self.contact, images, self.friction, &states, &loads)?;
-            let at = loads.iter().position(|&l| l == self.moving)?;
-            let (u, r) = (&response.u[at], &response.r[at]);
-            let better = |k: usize| better(k, self.classes[k], states[k], u, r, self.friction);
-            let changes: Vec<(usize, ContactState)> = (0..states.len()).filter_map(|k| better(k).map(|s| (k, s))).collect();
-            if changes.is_empty() {
-                return Some(Solved { states, loads, response, finder, tried: *tried });
+            let attempt = self.attempt(images, &states)?;
+            if attempt.changes.is_empty() {
+                return Some(attempt.solved(states, finder, *tried));
             }
-            let count = if finder == Finder::OneByOne { 1 } else { changes.len() };
-            changes.into_iter().take(count).for_each(|(k, s)| states[k] = s);
+            let count = if finder == Finder::OneByOne { 1 } else { states.len() };
+            attempt.changes.into_iter().take(count).for_each(|(k, s)| states[k] = s);
         }
         None
+    }
+}
+
+/// A set of states tried.
+struct Attempt {
+    loads: Vec<Load>,
+    response: Response,
+    /// Nodes whose rates contradict their state, with the state to try instead.
+    changes: Vec<(usize, ContactState)>,
+}
+
+impl Attempt {
+    fn solved(self, states: Vec<ContactState>, finder: Finder, tried: usize) -> Solved {
+        Solved { states, loads: self.loads, response: self.response, finder, tried }
+    }
+}
+
+/// The states that a node of this class may take.
+fn choices(class: Class) -> Vec<ContactState> {
+    let slip = |sign| ContactState::Slip { sign };
+    match class {
+        Class::Free => vec![ContactState::Free],
+        Class::Stick => vec![ContactState::Stick],
+        Class::Cone(sign) => vec![slip(sign), ContactState::Stick],
+        Class::Zero => vec![ContactState::Free, ContactState::Stick, slip(1), slip(-1)],
     }
 }
 
