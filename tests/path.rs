@@ -217,3 +217,55 @@ fn both_published_states_lie_on_the_path() {
     let problem = path.intervals[at(PublishedState::FifteenSlip)[0]].problem(&block, None).unwrap();
     assert_eq!(problem.sha256(), PublishedState::FifteenSlip.problem(&block).unwrap().sha256());
 }
+
+#[cfg(feature = "cli")]
+mod cli {
+    use std::process::{Command, Output};
+
+    fn block(args: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_mceip")).arg("block").args(args).output().unwrap()
+    }
+
+    #[test]
+    fn path_is_listed_as_text_and_json() {
+        let args = ["--path", "--cells", "4x2", "--step", "0.01"];
+        let text = block(&args);
+        assert_eq!(text.status.code(), Some(0));
+        let text = String::from_utf8(text.stdout).unwrap();
+        assert!(text.contains("<<<<o") && text.contains("pressure vanishes") && text.contains("slides"), "{text}");
+        assert!(text.contains("stepping:") && text.contains("stretches none"), "{text}");
+        let json: serde_json::Value = serde_json::from_slice(&block(&[&args[..], &["--json"]].concat()).stdout).unwrap();
+        let intervals = json["intervals"].as_array().unwrap();
+        assert_eq!((intervals.len(), json["slides"].as_bool()), (7, Some(true)));
+        assert_eq!(intervals[6]["to_mm"], serde_json::Value::Null);
+        assert_eq!(intervals[1]["event"]["causes"][0]["node"], 5);
+        assert_eq!(intervals[1]["states"][4], "slip left");
+        let normal = intervals[0]["start"]["resultant_N_N"].as_f64().unwrap();
+        assert_eq!(normal, -55.0, "correctly rounded from the exact -55");
+        assert_eq!(json["stepping"]["other_states"].as_array().unwrap().len(), 0);
+    }
+
+    #[test]
+    fn bad_options_are_one_line_and_exit_2() {
+        for (args, word) in [
+            (&["--path", "--cells", "0x3"][..], "0 x 3"),
+            (&["--path", "--cells", "20"], "--cells"),
+            (&["--path", "--cells", "99999999x99999999"], "at most"),
+            (&["--path", "--mesh", "hexagonal"], "union-jack"),
+            (&["--path", "--plane", "shell"], "strain"),
+            (&["--path", "--cells", "2x1", "--mu", "-1"], "friction"),
+            (&["--path", "--cells", "2x1", "--mu", "much"], "--mu"),
+            (&["--path", "--cells", "2x1", "--force", "0"], "force"),
+            (&["--path", "--cells", "2x1", "--height", "0"], "height"),
+            (&["--path", "--cells", "2x1", "--step", "0"], "--step"),
+            (&["--path", "--cells", "2x1", "--step", "1e-9"], "--step"),
+            (&["--mu", "2"], "--path"),
+            (&["--path", "--state", "15"], "--state"),
+        ] {
+            let out = block(args);
+            let err = String::from_utf8_lossy(&out.stderr).into_owned();
+            assert_eq!(out.status.code(), Some(2), "{args:?}: {err}");
+            assert!(out.stdout.is_empty() && err.lines().count() == 1 && err.contains(word), "{args:?}: {err}");
+        }
+    }
+}

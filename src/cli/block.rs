@@ -35,6 +35,9 @@ pub(super) struct Args {
     /// Motion at which to stop, mm (default: the last event).
     #[arg(long, requires = "path", allow_hyphen_values = true)]
     until: Option<String>,
+    /// Compare the path with ordinary incremental stepping, this many mm a step.
+    #[arg(long, requires = "path", value_name = "MM", allow_hyphen_values = true)]
+    step: Option<String>,
     /// Triangulation of the path's block: crossed, union-jack, slash, backslash.
     #[arg(long, default_value = "crossed", requires = "path")]
     mesh: String,

@@ -2,11 +2,12 @@
 
 use super::Args;
 use crate::cli::common::{CliError, exit, interrupt_flag, print, progress_spinner};
-use crate::exact::{Rational, parse, to_f64};
+use crate::exact::{Integer, Rational, parse, to_f64};
 use crate::model::ContactState;
 use crate::report::Table;
-use crate::source::path::{Bound, Contact, Equilibrium, Event, Finder, Interval, Loading, LoadingPath, PathEnd};
+use crate::source::path::{Bound, Comparison, Contact, Equilibrium, Event, Finder, Interval, Loading, LoadingPath, PathEnd, step_path};
 use crate::source::{Block, BlockModel, MassKind, MeshKind, Plane};
+use num_traits::{Signed, ToPrimitive};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
@@ -17,6 +18,7 @@ use std::time::Duration;
 /// Follows the path and prints it.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let (model, loading) = (model(args)?, loading(args)?);
+    let step = args.step.as_deref().map(positive_step).transpose()?;
     let block = Block::new(&model)?;
     let stop = interrupt_flag();
     let bar = progress_spinner("condensing exactly to the contact nodes");
@@ -28,9 +30,41 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         bar.set_message(format!("stretch {stretch}, motion {:.4} mm", to_f64(motion)));
         if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
+    let steps = step.as_ref().map(|h| compare(&contact, &path, h)).transpose()?;
     bar.finish_and_clear();
-    print(&if args.json { format!("{}\n", json_of(&model, &path)) } else { text_of(&model, &path) })?;
+    print(&if args.json {
+        format!("{}\n", json_of(&model, &path, steps.as_ref()))
+    } else {
+        text_of(&model, &path) + &steps.as_ref().map_or(String::new(), comparison_text)
+    })?;
     Ok(if path.end == PathEnd::Interrupted { exit::INTERRUPTED } else { exit::DONE })
+}
+
+/// Steps to a little beyond the last event, or to the end of the range.
+fn compare(contact: &Contact, path: &LoadingPath, h: &Rational) -> Result<Comparison, CliError> {
+    let last = path.intervals.last().map(|i| i.stop.as_ref().unwrap_or(&i.start).motion().clone());
+    let steps: Integer = (last.unwrap_or_default() / h).ceil().to_integer() + 1;
+    let count = steps.to_usize().filter(|&n| n <= MAX_STEPS);
+    let count = count.ok_or_else(|| option("step", "a step with at most 1000000 of them on the path", &h.to_string()))?;
+    Ok(Comparison::of(path, &step_path(contact, &path.loading, h, count)?))
+}
+
+/// More steps than anybody waits for.
+const MAX_STEPS: usize = 1_000_000;
+
+fn positive_step(text: &str) -> Result<Rational, CliError> {
+    number("step", text).and_then(|h| if h.is_positive() { Ok(h) } else { Err(option("step", "a length > 0", text)) })
+}
+
+fn comparison_text(c: &Comparison) -> String {
+    let list = |v: &[usize]| if v.is_empty() { "none".into() } else { format!("{v:?}") };
+    format!(
+        "stepping: {} steps in doubles; no step ends in stretches {}; steps inside a stretch with other states: {}; largest difference of a reaction {:.3e} N\n",
+        c.steps,
+        list(&c.skipped),
+        list(&c.other_states),
+        c.reaction
+    )
 }
 
 /// The condensation in a thread of its own: it cannot be broken off, but it can be left behind.
@@ -125,7 +159,7 @@ fn end_text(path: &LoadingPath) -> &'static str {
     }
 }
 
-fn json_of(model: &BlockModel, path: &LoadingPath) -> Value {
+fn json_of(model: &BlockModel, path: &LoadingPath, steps: Option<&Comparison>) -> Value {
     json!({
         "cells": [model.cells.0, model.cells.1], "mesh": model.mesh.word(), "plane": model.plane.word(),
         "length_mm": model.length().to_string(), "height_mm": model.height().to_string(),
@@ -133,6 +167,9 @@ fn json_of(model: &BlockModel, path: &LoadingPath) -> Value {
         "depth_mm": to_f64(&path.depth), "pressing": states_json(&path.pressing),
         "intervals": path.intervals.iter().map(interval_json).collect::<Vec<_>>(),
         "end": end_text(path), "slides": path.slides(),
+        "stepping": steps.map(|c| json!({
+            "steps": c.steps, "skipped": c.skipped, "other_states": c.other_states, "reaction_difference_N": c.reaction,
+        })),
     })
 }
 
