@@ -1,6 +1,7 @@
 //! Why a loading path is not computed.
 
 use crate::exact::{CondenseError, Rational};
+use crate::model::ModelError;
 
 /// A path that cannot be followed, or options that make no path.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -9,6 +10,12 @@ pub enum PathError {
     /// The condensation to the contact nodes failed.
     #[error(transparent)]
     Condensation(#[from] CondenseError),
+    /// A contact state was refused.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The free nodes have a singular stiffness: never for a block with a glued side.
+    #[error("condensation: expected a regular stiffness of the free contact nodes, got a singular one")]
+    SingularFreeNodes,
     /// A coefficient of friction, a force, a range or a step that is zero or negative.
     #[error("loading path: expected {what} > 0, got {got}")]
     NotPositive {

@@ -16,6 +16,7 @@ mod contact;
 mod error;
 mod line;
 mod linear;
+mod pencils;
 mod propose;
 mod rates;
 #[cfg(test)]
@@ -27,6 +28,7 @@ pub use compare::Comparison;
 pub use contact::Contact;
 pub use error::PathError;
 pub use line::{Bound, Equilibrium};
+pub use pencils::Pencils;
 pub use rates::Finder;
 pub use step::{Step, step_path};
 

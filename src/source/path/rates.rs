@@ -57,12 +57,11 @@ impl Rates<'_> {
                 return Ok(solved);
             }
         }
-        if let Some(states) = propose(self.contact, self.friction, self.classes, self.moving) {
-            if let Some(solved) = self.iterate(images, states, Finder::Pivoting, &mut tried) {
-                return Ok(solved);
-            }
+        let proposed = propose(self.contact, self.friction, self.classes, self.moving);
+        match proposed.and_then(|states| self.iterate(images, states, Finder::Pivoting, &mut tried)) {
+            Some(solved) => Ok(solved),
+            None => self.enumerate(images, &mut tried),
         }
-        self.enumerate(images, &mut tried)
     }
 
     /// Tries every set of states, if there are few. Without a singular one among them, a failure
