@@ -13,6 +13,10 @@ fn follow(block: &Block, loading: &Loading) -> LoadingPath {
     LoadingPath::follow(&Contact::of(block).unwrap(), loading, &|_, _| ControlFlow::Continue(())).unwrap()
 }
 
+fn go_on(_: usize) -> ControlFlow<()> {
+    ControlFlow::Continue(())
+}
+
 fn block(nx: usize, ny: usize, mesh: MeshKind, plane: Plane) -> Block {
     Block::new(&BlockModel { mesh, plane, ..BlockModel::of_the_paper().with_cells(nx, ny) }).unwrap()
 }
@@ -131,6 +135,8 @@ fn events_are_located_exactly() {
             assert_eq!(value(stop), whole(0));
             assert!(value(&pair[0].start) > whole(0));
         }
+        let k = path.intervals.iter().position(|i| i.start.motion() == pair[0].start.motion()).unwrap();
+        assert_eq!(path.ending(k), Some(&pair[1].begin));
         assert!(!pair[1].begin.changes.is_empty() && pair[1].begin.finder == Finder::ActiveSet);
     }
     assert!(kinds[0] > 4 && kinds[1] > 1, "{kinds:?}");
@@ -145,7 +151,7 @@ fn stepping_finds_the_same_path_but_for_short_stretches() {
     let last = to_f64(path.intervals.last().unwrap().start.motion());
     let compare = |h: Rational| {
         let count = (last / to_f64(&h)) as usize + 10;
-        Comparison::of(&path, &step_path(&contact, &loading, &h, count).unwrap())
+        Comparison::of(&path, &step_path(&contact, &loading, &h, count, &go_on).unwrap())
     };
     let fine = compare(rational(1, 1000));
     assert_eq!((fine.skipped, fine.other_states), (vec![], vec![]));
@@ -155,7 +161,7 @@ fn stepping_finds_the_same_path_but_for_short_stretches() {
     let coarse = compare(rational(1, 10));
     assert!(!coarse.skipped.is_empty(), "short stretches are skipped");
     let moved = Loading { friction: rational(12, 10), ..loading.clone() };
-    let other = Comparison::of(&path, &step_path(&contact, &moved, &rational(1, 100), 300).unwrap());
+    let other = Comparison::of(&path, &step_path(&contact, &moved, &rational(1, 100), 300, &go_on).unwrap());
     assert!(other.reaction > 0.1, "another friction is another path: {}", other.reaction);
 }
 
@@ -170,7 +176,7 @@ fn a_range_an_interrupt_and_refusals() {
         if k == 1 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     });
     let stopped = stopped.unwrap();
-    assert_eq!((stopped.end, stopped.intervals.len()), (PathEnd::Interrupted, 1));
+    assert_eq!((&stopped.end, stopped.intervals.len()), (&PathEnd::Interrupted, 1));
     let whole_path = go(&Loading::of_the_paper()).unwrap();
     assert!(whole_path.intervals.len() > 1 && !stopped.slides() && whole_path.slides());
     for (loading, word) in [
@@ -180,9 +186,11 @@ fn a_range_an_interrupt_and_refusals() {
     ] {
         let error = go(&loading).unwrap_err();
         assert!(matches!(&error, PathError::NotPositive { what, .. } if what.contains(word)), "{error}");
-        assert!(step_path(&contact, &loading, &whole(1), 1).is_err() || word == "range");
+        assert!(step_path(&contact, &loading, &whole(1), 1, &go_on).is_err() || word == "range");
     }
-    assert!(step_path(&contact, &Loading::of_the_paper(), &whole(0), 1).is_err());
+    assert!(step_path(&contact, &Loading::of_the_paper(), &whole(0), 1, &go_on).is_err());
+    let third = |step: usize| if step == 3 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) };
+    assert_eq!(step_path(&contact, &Loading::of_the_paper(), &until, 9, &third).unwrap().len(), 3, "pressing and two steps");
 }
 
 /// With much friction the wedge jams: a node sticks for ever, reactions grow without bound.
@@ -190,10 +198,28 @@ fn a_range_an_interrupt_and_refusals() {
 fn a_jammed_block_does_not_slide() {
     let block = block(6, 3, MeshKind::Crossed, Plane::Stress);
     let path = follow(&block, &paper(whole(10)));
-    assert_eq!((path.end, path.slides()), (PathEnd::NoFurtherEvent, false));
+    assert_eq!((&path.end, path.slides()), (&PathEnd::NoFurtherEvent, false));
     let last = path.intervals.last().unwrap();
     assert!(last.stop.is_none() && last.states.contains(&ContactState::Stick));
     assert_eq!(last.problem(&block, None).map(|p| p.unknown()).ok(), last.counts()[1].gt(&0).then_some(Unknown::Mu));
+}
+
+/// With mu = 5 the corner reaches its cone and can then neither stick nor slip (nor open): all sets of
+/// states are refused exactly. Found by a sweep over meshes and mu; what was found is kept.
+#[test]
+fn a_path_may_end_without_continuation() {
+    let block = block(8, 4, MeshKind::Crossed, Plane::Strain);
+    let path = follow(&block, &paper(whole(5)));
+    assert_eq!(path.intervals.len(), 1);
+    let PathEnd::NoContinuation { causes, proved, .. } = &path.end else { panic!("{:?}", path.end) };
+    assert_eq!((causes, *proved, path.slides()), (&vec![Bound::Cone { node: 8, sign: -1 }], true, false));
+    let (t, n) = path.intervals[0].stop.as_ref().unwrap().reaction(8);
+    assert_eq!(-t, whole(-5) * n, "on the left side of the cone");
+    // The condensed slip equation of that node has the wrong sign: S_TT - mu S_NT < 0.
+    let mut states = vec![ContactState::Stick; 9];
+    states[8] = ContactState::Slip { sign: -1 };
+    let pencil = Contact::of(&block).unwrap().pencils().of(&states).unwrap();
+    assert!(pencil.a().get(0, 0) + whole(5) * pencil.b().get(0, 0) < whole(0));
 }
 
 /// 800 elements. The path is computed, and only then compared with the paper.

@@ -30,23 +30,38 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         bar.set_message(format!("stretch {stretch}, motion {:.4} mm", to_f64(motion)));
         if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
-    let steps = step.as_ref().map(|h| compare(&contact, &path, h)).transpose()?;
+    let heard = |step: usize| {
+        bar.set_message(format!("stepping, step {step}"));
+        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let steps = step.as_ref().map(|h| compare(&contact, &path, h, &heard)).transpose()?;
     bar.finish_and_clear();
     print(&if args.json {
         format!("{}\n", json_of(&model, &path, steps.as_ref()))
     } else {
         text_of(&model, &path) + &steps.as_ref().map_or(String::new(), comparison_text)
     })?;
-    Ok(if path.end == PathEnd::Interrupted { exit::INTERRUPTED } else { exit::DONE })
+    Ok(if matches!(path.end, PathEnd::NoContinuation { proved: false, .. }) {
+        exit::UNDECIDED
+    } else if stop.load(Ordering::Relaxed) {
+        exit::INTERRUPTED
+    } else {
+        exit::DONE
+    })
 }
 
 /// Steps to a little beyond the last event, or to the end of the range.
-fn compare(contact: &Contact, path: &LoadingPath, h: &Rational) -> Result<Comparison, CliError> {
+fn compare(
+    contact: &Contact,
+    path: &LoadingPath,
+    h: &Rational,
+    progress: &dyn Fn(usize) -> ControlFlow<()>,
+) -> Result<Comparison, CliError> {
     let last = path.intervals.last().map(|i| i.stop.as_ref().unwrap_or(&i.start).motion().clone());
     let steps: Integer = (last.unwrap_or_default() / h).ceil().to_integer() + 1;
     let count = steps.to_usize().filter(|&n| n <= MAX_STEPS);
     let count = count.ok_or_else(|| option("step", "a step with at most 1000000 of them on the path", &h.to_string()))?;
-    Ok(Comparison::of(path, &step_path(contact, &path.loading, h, count)?))
+    Ok(Comparison::of(path, &step_path(contact, &path.loading, h, count, progress)?))
 }
 
 /// More steps than anybody waits for.
@@ -140,8 +155,7 @@ fn motion(at: &Equilibrium) -> String {
 }
 
 fn event_text(event: &Event) -> String {
-    let causes: Vec<String> = event.causes.iter().map(|b| format!("node {}: {}", b.node() + 1, b.word())).collect();
-    let causes = if causes.is_empty() { "motion begins".into() } else { causes.join(", ") };
+    let causes = causes_text(&event.causes);
     match event.finder {
         Finder::ActiveSet => causes,
         Finder::OneByOne => format!("{causes} (states found one by one)"),
@@ -150,13 +164,24 @@ fn event_text(event: &Event) -> String {
     }
 }
 
-fn end_text(path: &LoadingPath) -> &'static str {
-    match path.end {
-        PathEnd::NoFurtherEvent if path.slides() => "the block slides: nothing changes any more",
-        PathEnd::NoFurtherEvent => "no further event: some nodes stick for ever",
-        PathEnd::Range => "end of the range",
-        PathEnd::Interrupted => "INTERRUPTED",
+fn end_text(path: &LoadingPath) -> String {
+    match &path.end {
+        PathEnd::NoFurtherEvent if path.slides() => "the block slides: nothing changes any more".into(),
+        PathEnd::NoFurtherEvent => "no further event: some nodes stick for ever".into(),
+        PathEnd::Range => "end of the range".into(),
+        PathEnd::Interrupted => "INTERRUPTED".into(),
+        PathEnd::NoContinuation { causes, proved: true, .. } => {
+            format!("the quasi-static path ends ({}): no states satisfy the rate conditions, every set was tried", causes_text(causes))
+        }
+        PathEnd::NoContinuation { causes, tried, .. } => {
+            format!("UNDECIDED ({}): no admissible states among {tried} sets tried", causes_text(causes))
+        }
     }
+}
+
+fn causes_text(causes: &[Bound]) -> String {
+    let causes: Vec<String> = causes.iter().map(|b| format!("node {}: {}", b.node() + 1, b.word())).collect();
+    if causes.is_empty() { "motion begins".into() } else { causes.join(", ") }
 }
 
 fn json_of(model: &BlockModel, path: &LoadingPath, steps: Option<&Comparison>) -> Value {

@@ -36,7 +36,7 @@ pub(super) fn check(
         let laws = [
             ("E1", !u_n.is_positive() && !r_n.is_positive() && (u_n * r_n).is_zero()),
             ("E7", r_t.abs() * one <= -(mu * r_n)),
-            ("E2", v_t.abs() * r_t * one == mu * v_t * r_n || r_n.is_zero()),
+            ("E2", v_t.abs() * r_t * one == mu * v_t * r_n),
             // The state is that of the rates: where it says slip, the law holds along the way.
             (
                 "E9",

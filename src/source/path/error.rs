@@ -24,7 +24,8 @@ pub enum PathError {
         /// Its value.
         got: Rational,
     },
-    /// No states satisfy the rate conditions: the quasi-static path ends here, if all were tried.
+    /// No states satisfy the rate conditions of the pressing. (Later on a path ends instead of failing:
+    /// [`super::PathEnd::NoContinuation`].)
     #[error("rate problem: no admissible states among {tried} sets tried{}", if *.all { " (every set there is)" } else { "" })]
     NoContinuation {
         /// Sets of states tried (some of them more than once).

@@ -229,3 +229,66 @@ pub(super) fn classify(line: &Line, d: &Rational, friction: &Friction) -> Result
     };
     (0..u.len() / 2).map(class).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{rational, whole};
+
+    fn z(v: &[i64]) -> Vec<Integer> {
+        v.iter().map(|&v| v.into()).collect()
+    }
+
+    /// Two nodes, in the order u_T, u_N: constant and slope.
+    fn line(u: [&[i64]; 2], r: [&[i64]; 2]) -> Line {
+        Line { denominator: 1.into(), u: u.map(z), r: r.map(z) }
+    }
+
+    fn mu_two() -> Friction {
+        Friction::new(&whole(2))
+    }
+
+    #[test]
+    fn the_first_bound_on_its_way_down_ends_the_stretch() {
+        // Node 0 free, gap 3 - 2 d; node 1 sticks, r = (d, -1): cone 2 - d.
+        let path = line([&[0, -3, 0, 0], &[0, 2, 0, 0]], [&[0, 0, 0, -1], &[0, 0, 1, 0]]);
+        let states = [ContactState::Free, ContactState::Stick];
+        assert_eq!(next_event(&path, &mu_two(), &states), Some((rational(3, 2), vec![Bound::Gap { node: 0 }])));
+        // Slope 3/2 instead of 2 (twice everything): both at d = 2.
+        let both = line([&[0, -6, 0, 0], &[0, 3, 0, 0]], [&[0, 0, 0, -2], &[0, 0, 2, 0]]);
+        let bounds = vec![Bound::Gap { node: 0 }, Bound::Cone { node: 1, sign: 1 }];
+        assert_eq!(next_event(&both, &mu_two(), &states), Some((whole(2), bounds)));
+        // A slip node ends with its pressure, and nothing ends what only grows.
+        let slip = [ContactState::Free, ContactState::Slip { sign: -1 }];
+        let relief = line([&[0, -3, 0, 0], &[0, -1, 0, 0]], [&[0, 0, -2, -1], &[0, 0, 2, 1]]);
+        assert_eq!(next_event(&relief, &mu_two(), &slip), Some((whole(1), vec![Bound::Pressure { node: 1 }])));
+        let growth = line([&[0, -3, 0, 0], &[0, -1, 0, 0]], [&[0, 0, -2, -1], &[0, 0, -2, -1]]);
+        assert_eq!(next_event(&growth, &mu_two(), &slip), None);
+    }
+
+    #[test]
+    fn classes_and_the_equations_that_forbid_others() {
+        let of = |u_n: i64, r: [i64; 2]| classify(&line([&[0, u_n], &[0, 0]], [&r, &[0, 0]]), &whole(5), &mu_two());
+        assert_eq!(of(-1, [0, 0]), Ok(vec![Class::Free]));
+        assert_eq!(of(0, [0, 0]), Ok(vec![Class::Zero]));
+        assert_eq!(of(0, [1, -1]), Ok(vec![Class::Stick]));
+        assert_eq!(of(0, [2, -1]), Ok(vec![Class::Cone(1)]));
+        assert_eq!(of(0, [-2, -1]), Ok(vec![Class::Cone(-1)]));
+        assert_eq!(of(1, [0, 0]), Err((0, "E1")));
+        assert_eq!(of(0, [0, 1]), Err((0, "E1")));
+        assert_eq!(of(-1, [0, -1]), Err((0, "E1")));
+        assert_eq!(of(0, [3, -1]), Err((0, "E7")));
+    }
+
+    #[test]
+    fn held_nodes_enter_at_their_places() {
+        let response =
+            Response { denominator: 3.into(), u: vec![z(&[1, 0]), z(&[5, 0]), z(&[7, 0])], r: vec![z(&[2, 0]), z(&[4, 0]), z(&[6, 0])] };
+        let loads = [(Load::Press, whole(1)), (Load::Left, whole(1)), (Load::Held(0), rational(-1, 2))];
+        let sum = Line::new(&response, &loads);
+        assert_eq!((sum.denominator.clone(), sum.u.clone()), (Integer::from(6), [z(&[2 - 7, 0]), z(&[10, 0])]));
+        assert_eq!(sum.r, [z(&[4 - 6, 0]), z(&[8, 0])]);
+        let other = Line { u: [z(&[-5, 0]), z(&[11, 0])], ..Line::new(&response, &loads) };
+        assert!(sum.meets(&other, &whole(0)) && !sum.meets(&other, &whole(1)));
+    }
+}

@@ -9,6 +9,9 @@
 //!
 //! The pressing is proportional to its depth, so it is one rate problem from the unloaded block.
 //! Sliding has begun when no node sticks: reactions are constant from then on.
+//!
+//! A rate problem may have several solutions (with much friction it often has, `rates_oracle`).
+//! The states nearest to those before are taken; they are verified, their uniqueness is not claimed.
 
 mod check;
 mod compare;
@@ -150,12 +153,22 @@ fn letter(state: ContactState) -> char {
 }
 
 /// Why a path ends.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub enum PathEnd {
     /// The last stretch never ends: as a rule all nodes in contact slide ([`LoadingPath::slides`]).
     NoFurtherEvent,
     /// The range asked for is reached.
     Range,
+    /// At the end of the last stretch no states satisfy the rate conditions: the quasi-static path
+    /// stops here, and what follows is dynamic. Met with much friction (mu >= 1.7 on coarse meshes).
+    NoContinuation {
+        /// The bounds that became zero there.
+        causes: Vec<Bound>,
+        /// Sets of states tried (some of them more than once).
+        tried: usize,
+        /// Every set was tried and none was singular: it is proved that there is no continuation.
+        proved: bool,
+    },
     /// Whoever watched the progress stopped it; what was found is kept.
     Interrupted,
 }
@@ -202,6 +215,11 @@ impl LoadingPath {
     /// Does the path end in sliding: no node sticks, and nothing changes any more?
     pub fn slides(&self) -> bool {
         self.end == PathEnd::NoFurtherEvent && self.intervals.last().is_some_and(|i| !i.states.contains(&ContactState::Stick))
+    }
+
+    /// The event that ends a stretch, `None` for the last one.
+    pub fn ending(&self, stretch: usize) -> Option<&Event> {
+        self.intervals.get(stretch + 1).map(|next| &next.begin)
     }
 
     /// The stretches with exactly these states, in order.

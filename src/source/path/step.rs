@@ -7,6 +7,7 @@ use crate::exact::{Rational, to_f64};
 use crate::linear::solve;
 use crate::model::ContactState;
 use crate::tolerance::STEP_SIGN;
+use std::ops::ControlFlow;
 
 /// Active-set iterations of one step. A step changes a few nodes; cycling is the only reason for more.
 const ITERATIONS: usize = 200;
@@ -31,12 +32,19 @@ impl Step {
     }
 }
 
-/// `count` steps of `h` mm after the pressing, which is the first entry.
+/// `count` steps of `h` mm after the pressing, which is the first entry. `progress` hears of each
+/// step and may break off; the steps so far are kept.
 ///
 /// # Errors
 /// [`PathError::NotPositive`] for the loading or a step that is not positive;
 /// [`PathError::StepNotConverged`].
-pub fn step_path(contact: &Contact, loading: &Loading, h: &Rational, count: usize) -> Result<Vec<Step>, PathError> {
+pub fn step_path(
+    contact: &Contact,
+    loading: &Loading,
+    h: &Rational,
+    count: usize,
+    progress: &dyn Fn(usize) -> ControlFlow<()>,
+) -> Result<Vec<Step>, PathError> {
     Loading { until: Some(h.clone()), ..loading.clone() }.validate()?;
     let n = contact.nodes();
     let model = Model {
@@ -50,6 +58,9 @@ pub fn step_path(contact: &Contact, loading: &Loading, h: &Rational, count: usiz
     let mut state = unit.scaled(depth);
     let mut steps = vec![state.step(0.0)];
     for step in 1..=count {
+        if progress(step).is_break() {
+            break;
+        }
         let motion = to_f64(h) * step as f64;
         state = model.advance(&state, depth, motion).ok_or(PathError::StepNotConverged { step, motion, limit: ITERATIONS })?;
         steps.push(state.step(motion));

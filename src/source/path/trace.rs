@@ -52,7 +52,10 @@ pub(super) fn trace(
             let motion = format!("{:.6}", to_f64(&(&d * &depth)));
             PathError::AtEvent { event: intervals.len(), motion, source: Box::new(source) }
         };
-        let (solved, next) = tracer.pass(&states, &line, &d).map_err(at)?;
+        let (solved, next) = match tracer.pass(&states, &line, &d) {
+            Err(PathError::NoContinuation { tried, all }) => break PathEnd::NoContinuation { causes, tried, proved: all },
+            passed => passed.map_err(at)?,
+        };
         let event = Event::new(std::mem::take(&mut causes), changes(&states, &solved.states), solved.finder, solved.tried);
         states = solved.states;
         let found = next_event(&next, &tracer.friction, &states);
