@@ -222,6 +222,20 @@ fn a_path_may_end_without_continuation() {
     assert!(pencil.a().get(0, 0) + whole(5) * pencil.b().get(0, 0) < whole(0));
 }
 
+/// Found by the same sweep: an opened node comes back into contact and must slip at once; the active
+/// set goes round in circles and Lemke ends on a ray, so the states are found by trying all.
+#[test]
+fn a_gap_that_closes_is_passed_too() {
+    let block = block(8, 4, MeshKind::UnionJack, Plane::Stress);
+    let loading = Loading { until: Some(whole(15)), ..paper(whole(5)) };
+    let path = follow(&block, &loading);
+    let closing: Vec<&Interval> = path.intervals.iter().filter(|i| i.begin.causes == [Bound::Gap { node: 4 }]).collect();
+    assert_eq!((closing.len(), &path.end), (1, &PathEnd::Range));
+    assert_eq!((closing[0].begin.finder, closing[0].states[4]), (Finder::Enumeration, ContactState::Slip { sign: 1 }));
+    assert_eq!((closing[0].start.displacement(4).1, closing[0].start.reaction(4)), (whole(0), (whole(0), whole(0))));
+    assert!(closing[0].stop.as_ref().unwrap().reaction(4).1 < whole(0));
+}
+
 /// 800 elements. The path is computed, and only then compared with the paper.
 #[test]
 fn both_published_states_lie_on_the_path() {
