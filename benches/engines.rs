@@ -7,7 +7,7 @@ use mceip::model::{Admissible, Pencil, Unknown, Window};
 use mceip::oracle::enumerate;
 use mceip::reduction::{Embedding, Side, condense, reduce};
 use mceip::solver::{Options, solve};
-use mceip::source::{Block, MassKind, Material, PublishedState};
+use mceip::source::{Block, BlockModel, MassKind, PublishedState};
 use std::hint::black_box;
 
 /// -(adjacency of the complete graph) + t I: every support has a solution, 2^n - 1 in all.
@@ -70,7 +70,7 @@ fn engines(c: &mut Criterion) {
     let mut group = c.benchmark_group("condensation, exact");
     group.sample_size(10);
     for (nx, ny) in [(4, 2), (8, 4), (20, 10)] {
-        let block = Block::new(nx, ny, &whole(4), &Material::polyurethane(), MassKind::Lumped);
+        let block = Block::new(&BlockModel { cells: (nx, ny), mass: MassKind::Lumped, ..BlockModel::of_the_paper() }).expect("cells");
         let states = vec![mceip::model::ContactState::Slip { sign: 1 }; nx + 1];
         let states = if nx == 20 { PublishedState::SeventeenSlip.states() } else { states };
         let problem =

@@ -66,3 +66,8 @@ pub const THIN_MARGIN: f64 = 1e-11;
 /// Error of an entry of the condensed pencil in doubles. Unit: that of rows whose largest entry of A
 /// is below one. Basis: sums of a few thousand terms; twenty times what the block shows.
 pub const CONDENSATION_NOISE: f64 = 1e-12;
+
+/// Sizes of displacements and reactions, relative to the largest of the step, that incremental
+/// stepping takes for zero. Unit: none. Basis: the condensed equations have condition numbers below
+/// 1e5, so rounding stays below 1e-10; signs below that are not worth a change of state.
+pub const STEP_SIGN: f64 = 1e-10;

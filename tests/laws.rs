@@ -38,7 +38,8 @@ fn imports(code: &str) -> Vec<String> {
 const MAY_IMPORT: [(&str, &[&str]); 9] = [
     ("exact", &[]),
     ("model", &["exact"]),
-    ("source", &["exact", "model", "oracle"]), // oracle: the data type of Table 1
+    // oracle: the data type of Table 1; the others: guesses of the loading path, verified exactly, and stepping.
+    ("source", &["exact", "model", "oracle", "mcp", "solver", "linear", "tolerance"]),
     ("oracle", &["exact", "model"]),
     ("check", &["exact", "model", "certificate"]),
     ("certificate", &["exact", "model"]),

@@ -1,4 +1,6 @@
-//! `mceip block`: the two published states of the polyurethane block.
+//! `mceip block`: the two published states of the polyurethane block, or its whole loading path.
+
+mod path;
 
 use super::common::{CliError, exit, interrupt_flag, print};
 use super::output::Output;
@@ -13,20 +15,50 @@ use std::path::PathBuf;
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// Only this state: 15 or 17 (nodes in impending slip).
-    #[arg(long)]
+    #[arg(long, conflicts_with = "path")]
     state: Option<u8>,
     /// Lumped instead of consistent mass (plays no part in MCEIP-mu).
     #[arg(long)]
     lumped: bool,
     /// Write problem files and certificates into this folder.
-    #[arg(long, value_name = "FOLDER")]
+    #[arg(long, value_name = "FOLDER", conflicts_with = "path")]
     write: Option<PathBuf>,
+    /// The quasi-static loading path instead: press, then move to the left, event by event.
+    #[arg(long)]
+    path: bool,
+    /// Coefficient of friction of the path.
+    #[arg(long, default_value = "1.1", requires = "path", allow_hyphen_values = true)]
+    mu: String,
+    /// Normal force at the end of the pressing, N.
+    #[arg(long, default_value = "55", requires = "path", allow_hyphen_values = true)]
+    force: String,
+    /// Motion at which to stop, mm (default: the last event).
+    #[arg(long, requires = "path", allow_hyphen_values = true)]
+    until: Option<String>,
+    /// Compare the path with ordinary incremental stepping, this many mm a step.
+    #[arg(long, requires = "path", value_name = "MM", allow_hyphen_values = true)]
+    step: Option<String>,
+    /// Triangulation of the path's block: crossed, union-jack, slash, backslash.
+    #[arg(long, default_value = "crossed", requires = "path")]
+    mesh: String,
+    /// Cells along and across the contact side of the path's block (80 mm long).
+    #[arg(long, default_value = "20x10", requires = "path")]
+    cells: String,
+    /// Height of the path's block, mm.
+    #[arg(long, default_value = "40", requires = "path", allow_hyphen_values = true)]
+    height: String,
+    /// Plane stress or strain: stress, strain.
+    #[arg(long, default_value = "stress", requires = "path")]
+    plane: String,
     /// Print JSON.
     #[arg(long)]
     json: bool,
 }
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    if args.path {
+        return path::run(args);
+    }
     let states: Vec<PublishedState> = match args.state {
         None => PublishedState::ALL.to_vec(),
         Some(15) => vec![PublishedState::FifteenSlip],

@@ -65,6 +65,12 @@ pub(super) enum CliError {
     /// The block was not treated.
     #[error("{0}")]
     Block(#[from] BlockError),
+    /// A model of the block was refused.
+    #[error("{0}")]
+    Source(#[from] crate::source::SourceError),
+    /// A loading path was not followed.
+    #[error("{0}")]
+    Path(#[from] crate::source::path::PathError),
     /// The condensation was refused.
     #[error("{0}")]
     Condensation(#[from] crate::reduction::CondensationError),

@@ -32,6 +32,8 @@ pub use dense::Dense;
 pub use double::{from_f64, to_f64};
 pub use interval::Interval;
 pub use kernel::{determinant, generic_kernel, kernel_at, minors, row_echelon_at};
+#[cfg(feature = "solver")]
+pub(crate) use modular::Residues;
 pub use modular::{CondenseError, schur_complement};
 pub use poly::Poly;
 pub use prime::{Field, primes};

@@ -160,23 +160,23 @@ impl Bordered {
 }
 
 /// Numbers known modulo a growing product of primes.
-struct Residues {
-    values: Vec<Integer>,
-    modulus: Integer,
+pub(crate) struct Residues {
+    pub(crate) values: Vec<Integer>,
+    pub(crate) modulus: Integer,
 }
 
 impl Residues {
-    fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Residues { values: vec![Integer::zero(); count], modulus: Integer::one() }
     }
 
     /// floor(log2 modulus): the product exceeds 2^bits.
-    fn bits(&self) -> u64 {
+    pub(crate) fn bits(&self) -> u64 {
         self.modulus.bits() - 1
     }
 
     /// Garner's step: x + M ((a - x) / M mod p).
-    fn add(&mut self, p: u64, values: &[u64]) {
+    pub(crate) fn add(&mut self, p: u64, values: &[u64]) {
         let small = |v: &Integer| v.mod_floor(&p.into()).to_u64().unwrap_or(0); // 0 <= v < p
         let field = Field::new(p);
         let inverse = field.invert(field.enter(small(&self.modulus)));

@@ -3,7 +3,7 @@
 /// A prime p < 2^62 with what Montgomery's product needs; numbers are kept in Montgomery form.
 #[derive(Debug, Clone)]
 pub struct Field {
-    pub(super) p: u64,
+    pub(crate) p: u64,
     /// -p^-1 mod 2^64.
     negated_inverse: u64,
     /// 2^128 mod p.

@@ -2,9 +2,21 @@
 #![deny(clippy::float_arithmetic)]
 
 mod block;
+mod block_model;
+mod doubles;
 mod element;
+mod error;
+mod mesh;
+#[cfg(feature = "solver")]
+pub mod path;
+mod published;
 mod two_particles;
 
-pub use block::{Block, PublishedState};
-pub use element::{MassKind, Material, Point};
+pub use block::Block;
+pub use block_model::BlockModel;
+pub use doubles::{DoubleBlock, DoubleMatrix};
+pub use element::{MassKind, Material, Plane, Point};
+pub use error::SourceError;
+pub use mesh::{MAX_CELLS, MeshKind};
+pub use published::PublishedState;
 pub use two_particles::{pythagorean_angles, two_particles};

@@ -1,0 +1,67 @@
+//! The two states of the loading path whose MCEIP-mu value the paper prints.
+
+use super::Block;
+use crate::model::{Body, ContactState, ModelError, Problem, Unknown, Window};
+
+/// A state of the loading path whose MCEIP-mu value the paper prints.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum PublishedState {
+    /// 2 nodes stuck, 15 in impending slip, 4 free (Fig. 2).
+    FifteenSlip,
+    /// 17 nodes in impending slip, 4 free (Fig. 3).
+    SeventeenSlip,
+}
+
+impl PublishedState {
+    /// Both, in the paper's order.
+    pub const ALL: [PublishedState; 2] = [PublishedState::FifteenSlip, PublishedState::SeventeenSlip];
+
+    /// The value of mu as printed in the paper.
+    pub fn printed_mu(self) -> &'static str {
+        match self {
+            PublishedState::FifteenSlip => "60.81",
+            PublishedState::SeventeenSlip => "1.71",
+        }
+    }
+
+    /// A short name.
+    pub fn name(self) -> &'static str {
+        match self {
+            PublishedState::FifteenSlip => "2 stick + 15 slip + 4 free",
+            PublishedState::SeventeenSlip => "17 slip + 4 free",
+        }
+    }
+
+    /// The states of the 21 contact nodes, left to right.
+    pub fn states(self) -> Vec<ContactState> {
+        let stick = if self == PublishedState::FifteenSlip { 2 } else { 0 };
+        let state = |i: usize| match i {
+            i if i < stick => ContactState::Stick,
+            i if i < 17 => ContactState::Slip { sign: 1 },
+            _ => ContactState::Free,
+        };
+        (0..21).map(state).collect()
+    }
+
+    /// The MCEIP-mu problem of this state on the paper's block.
+    ///
+    /// # Errors
+    /// [`ModelError`]; none for the block as given.
+    pub fn problem(self, block: &Block) -> Result<Problem, ModelError> {
+        let system = block.system(&self.states(), None)?;
+        Ok(Problem::new(Body::System(system), Unknown::Mu, Window::all())?.named(format!("block, {}", self.name())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn states_are_the_published_ones() {
+        let count = |s: PublishedState, f: fn(&ContactState) -> bool| s.states().iter().filter(|c| f(c)).count();
+        let slip = |c: &ContactState| matches!(c, ContactState::Slip { sign: 1 });
+        assert_eq!((count(PublishedState::FifteenSlip, slip), count(PublishedState::SeventeenSlip, slip)), (15, 17));
+        assert_eq!(count(PublishedState::FifteenSlip, |c| *c == ContactState::Stick), 2);
+    }
+}
