@@ -3,7 +3,8 @@
 //! For any W and V the Schur complement is, exactly,
 //!   T_ss - T_sf F^-1 T_fs = (T_ss - T_sf W - V'r) - l' F^-1 r,   r = T_fs - F W,   l = T_sf' - F V.
 //! With F(t) >= sigma I the last term is at most |l_i| |r_j| / sigma in absolute value. W and V are
-//! polynomials in d = t - center, so the bracket is a polynomial matrix, known exactly.
+//! polynomials in d = t - center, so the bracket is a polynomial matrix. Of V'r only the coefficients of r
+//! beyond the degree of W are multiplied out: the others are rounding, at most |V_i| |r_j|.
 
 use super::CoverFault;
 use super::expanded::Expanded;
@@ -164,6 +165,7 @@ impl Blocks {
         let r = residual(&ff, &fs, &w, e_w, self.slip);
         let l = residual(&ff, &transpose(&sf, self.free), &v, e_v, self.slip);
         let z = self.bracket(&ss, &sf, &w, &v, &r, e_w, e_v);
+        let rounding = &r[..w.len().min(r.len())];
         // Z in units of 1 / (D q 2^(e_w + e_v)), the remainder in |l||r| / (D q sigma) of them; the common
         // unit of rows that are divided by different powers of two is that of the largest.
         let largest = self.bits.iter().copied().max().unwrap_or(1);
@@ -176,6 +178,9 @@ impl Blocks {
             z: z.collect(),
             left: norms(&l, self.slip),
             right: norms(&r, self.slip),
+            v: norms(&v, self.slip),
+            rounding: norms(rounding, self.slip),
+            rounding_weight: (0..self.slip).map(|i| Rational::new(raised(i), unit.clone())).collect(),
             weight: (0..self.slip).map(|i| &weight * Rational::new(raised(i), unit.clone())).collect(),
             unit,
             drift: self.drift(sigma),
@@ -221,7 +226,7 @@ impl Blocks {
             }
         }
         for (k, v_k) in v.iter().enumerate() {
-            for (m, r_m) in r.iter().enumerate() {
+            for (m, r_m) in r.iter().enumerate().skip(w.len()) {
                 for f in 0..self.free {
                     for i in (0..self.slip).filter(|&i| !v_k[f][i].is_zero()) {
                         for j in (0..self.slip).filter(|&j| !r_m[f][j].is_zero()) {

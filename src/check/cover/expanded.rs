@@ -9,7 +9,7 @@ use num_traits::{One, Signed, Zero};
 /// Fraction bits kept of each entry, as in `family`.
 const FRACTION_BITS: u64 = 128;
 
-/// Z(d) +- weight_i |l_i(d)| |r_j(d)| with d = t - center.
+/// Z(d) +- (weight_i |l_i(d)| |r_j(d)| + rounding_weight_i |v_i(d)| |rounding_j(d)|) with d = t - center.
 pub(super) struct Expanded {
     pub(super) center: Rational,
     /// Coefficients of d^k, in units of 1 / `unit`.
@@ -20,6 +20,10 @@ pub(super) struct Expanded {
     pub(super) right: Vec<Vec<Integer>>,
     /// Per row: what turns |l_i| |r_j| into a bound of the remainder.
     pub(super) weight: Vec<Rational>,
+    /// Bounds of |V_i| and of the part of |r_j| that is rounding, coefficient by coefficient.
+    pub(super) v: Vec<Vec<Integer>>,
+    pub(super) rounding: Vec<Vec<Integer>>,
+    pub(super) rounding_weight: Vec<Rational>,
     /// |dF/dt| / sigma.
     pub(super) drift: Rational,
 }
@@ -37,7 +41,12 @@ impl Expanded {
             // T(t) = T(lo) + (t - lo) Z_1, and the remainder is linear in t as well.
             let r0 = grid(n, |i, j| up(&self.remainder(i, j, &d0.abs())) + 1);
             let slope = |list: &[Vec<Integer>], i: usize| whole(list.get(1).map_or_else(Integer::zero, |l| l[i].clone()));
-            let r1 = grid(n, |i, j| up(&(slope(&self.left, i) * whole(self.right[0][j].clone()) * &self.weight[i])) + 1);
+            let constant = |list: &[Vec<Integer>], j: usize| whole(list.first().map_or_else(Integer::zero, |l| l[j].clone()));
+            let r1 = grid(n, |i, j| {
+                let second = slope(&self.left, i) * constant(&self.right, j) * &self.weight[i];
+                let rounding = slope(&self.v, i) * constant(&self.rounding, j) * &self.rounding_weight[i];
+                up(&(second + rounding)) + 1
+            });
             let m1 = grid(n, |i, j| self.fixed(&self.z[1][i][j], &Integer::one()));
             let none = grid(n, |_, _| Integer::zero());
             return Ok(Ends { m: [self.at(&d0), m1], r: [r0, r1], slope: none, scale, infinite: true });
@@ -61,6 +70,8 @@ impl Expanded {
             && self.z.iter().skip(2).flatten().flatten().all(Zero::is_zero)
             && vanish(self.right.get(1..).unwrap_or_default())
             && vanish(self.left.get(2..).unwrap_or_default())
+            && vanish(self.rounding.get(1..).unwrap_or_default())
+            && vanish(self.v.get(2..).unwrap_or_default())
     }
 
     /// Z(d), rounded down to the fixed unit.
@@ -97,13 +108,16 @@ impl Expanded {
 
     fn remainder(&self, i: usize, j: usize, reach: &Rational) -> Rational {
         norm(&self.left, i, reach) * norm(&self.right, j, reach) * &self.weight[i]
+            + norm(&self.v, i, reach) * norm(&self.rounding, j, reach) * &self.rounding_weight[i]
     }
 
     /// Bound of the remainder's derivative: l' F^-1 r differentiated factor by factor.
     fn remainder_slope(&self, i: usize, j: usize, reach: &Rational) -> Rational {
         let (l, r) = (norm(&self.left, i, reach), norm(&self.right, j, reach));
         let (dl, dr) = (norm_slope(&self.left, i, reach), norm_slope(&self.right, j, reach));
-        (dl * &r + &l * dr + &l * &r * &self.drift) * &self.weight[i]
+        let (v, q) = (norm(&self.v, i, reach), norm(&self.rounding, j, reach));
+        let (dv, dq) = (norm_slope(&self.v, i, reach), norm_slope(&self.rounding, j, reach));
+        (dl * &r + &l * dr + &l * &r * &self.drift) * &self.weight[i] + (dv * q + v * dq) * &self.rounding_weight[i]
     }
 }
 

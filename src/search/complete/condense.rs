@@ -11,11 +11,25 @@ use crate::exact::{Integer, Rational, Sparse, from_f64, to_f64};
 use crate::model::file::Number;
 use crate::model::{Pencil, Window};
 
-/// Bits of the largest entry of the constant coefficient; each further coefficient has fewer.
-const COEFFICIENT_BITS: i32 = 40;
-const BITS_PER_DEGREE: i32 = 8;
-/// Degree of the expansions where F depends on the unknown.
-const DEGREE: usize = 3;
+/// How an anchor is expanded: degree of W and V, and the bits of their largest entries. What W's rounding
+/// costs enters to first order (times V), what the degree leaves out enters squared.
+#[derive(Clone, Copy)]
+struct Precision {
+    degree: usize,
+    right_bits: i32,
+    left_bits: i32,
+}
+
+/// F does not depend on the unknown: W is a constant.
+const CONSTANT: Precision = Precision { degree: 0, right_bits: 56, left_bits: 24 };
+/// For regions far from solutions: the margins of their witnesses are wide.
+const COARSE: Precision = Precision { degree: 2, right_bits: 36, left_bits: 24 };
+/// About a solution, used within [`NEAR`] of it.
+const FINE: Precision = Precision { degree: 2, right_bits: 56, left_bits: 30 };
+/// Distance from a solution up to which its own anchor is used, relative to its value.
+pub(super) const NEAR: f64 = 0.04;
+/// Bits that each degree needs less.
+const BITS_PER_DEGREE: i32 = 2;
 /// Distance from a centre up to which it is used, relative to center + smallest eigenvalue of (K_ff, M_ff).
 const REACH: f64 = 0.3;
 /// Anchors at most: beyond that the window is left open above.
@@ -88,8 +102,9 @@ pub(super) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
     let (centers, ends) = centers(&blocks, &plain, to_f64(window.min()), top);
     let mut anchors = Vec::new();
     let mut expansions = Vec::new();
+    let precision = if blocks.mass_is_zero { CONSTANT } else { COARSE };
     for center in centers {
-        let (anchor, expansion) = expand(pencil, &blocks, &center, to_f64(&sigma)).ok_or_else(|| not_definite("A_ff + t B_ff"))?;
+        let (anchor, expansion) = expand(pencil, &blocks, &center, to_f64(&sigma), precision).ok_or_else(|| not_definite("A_ff + t B_ff"))?;
         anchors.push(anchor);
         expansions.push(expansion);
     }
@@ -163,6 +178,19 @@ fn tail(pencil: &Pencil) -> Option<Tail> {
     Some(Tail { from: Number(from), factor, mass_factor })
 }
 
+/// Anchors about further values, appended to a condensation and its view.
+pub(super) fn refine(pencil: &Pencil, condensation: &mut Condensation, view: &mut View, values: &[f64]) {
+    let blocks = Blocks::of(pencil);
+    let sigma = to_f64(&condensation.sigma.0);
+    for value in values {
+        let expanded = from_f64(*value).ok().and_then(|c| expand(pencil, &blocks, &c, sigma, FINE));
+        if let Some((anchor, expansion)) = expanded {
+            condensation.anchors.push(anchor);
+            view.expansions.push(expansion);
+        }
+    }
+}
+
 /// The view that a certificate's condensation gives.
 pub(super) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     let blocks = Blocks::of(pencil);
@@ -180,15 +208,15 @@ fn columns_of(m: &IntegerMatrix, cols: usize) -> Vec<Vec<f64>> {
 }
 
 /// The Taylor polynomials about a centre, rounded, and the condensed pencil they give.
-fn expand(pencil: &Pencil, blocks: &Blocks, center: &Rational, sigma: f64) -> Option<(Anchor, Expansion)> {
+fn expand(pencil: &Pencil, blocks: &Blocks, center: &Rational, sigma: f64, precision: Precision) -> Option<(Anchor, Expansion)> {
     let c = to_f64(center);
     let f = blocks.stiffness.combine(c, &blocks.mass, 0.0).cholesky()?;
     let degree = |side: &[Vec<Vec<f64>>; 2]| match (blocks.mass_is_zero, side[1].iter().flatten().all(|v| *v == 0.0)) {
         (true, true) => 0,
         (true, false) => 1,
-        (false, _) => DEGREE,
+        (false, _) => precision.degree,
     };
-    let side = |given: &[Vec<Vec<f64>>; 2]| -> Vec<(IntegerMatrix, Vec<Vec<f64>>)> {
+    let side = |given: &[Vec<Vec<f64>>; 2], bits: i32| -> Vec<(IntegerMatrix, Vec<Vec<f64>>)> {
         let mut list: Vec<(IntegerMatrix, Vec<Vec<f64>>)> = Vec::new();
         for k in 0..=degree(given) {
             // F_c W_k = [k = 0] C_c + [k = 1] C_b - F_b W_(k-1)
@@ -206,11 +234,11 @@ fn expand(pencil: &Pencil, blocks: &Blocks, center: &Rational, sigma: f64) -> Op
                     b
                 })
                 .collect();
-            list.push(round(columns, COEFFICIENT_BITS - BITS_PER_DEGREE * k as i32));
+            list.push(round(columns, bits - BITS_PER_DEGREE * k as i32));
         }
         list
     };
-    let (right, left) = (side(&blocks.fs), side(&blocks.sf));
+    let (right, left) = (side(&blocks.fs, precision.right_bits), side(&blocks.sf, precision.left_bits));
     let only = |list: &[(IntegerMatrix, Vec<Vec<f64>>)]| list.iter().map(|(_, w)| w.clone()).collect::<Vec<_>>();
     let expansion = expansion(pencil, blocks, c, sigma, &only(&right), &only(&left));
     let matrices = |list: Vec<(IntegerMatrix, Vec<Vec<f64>>)>| list.into_iter().map(|(m, _)| m).collect();
@@ -260,7 +288,7 @@ fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, sigma: f64, right: &[Vec<
                 z[k + 1][i][j] -= dot(&blocks.sf[1][i], &w[j]);
             }
             for (k, v) in left.iter().enumerate() {
-                for (m, r_m) in r.iter().enumerate() {
+                for (m, r_m) in r.iter().enumerate().skip(right.len()) {
                     z[k + m][i][j] -= dot(&v[i], &r_m[j]);
                 }
             }
@@ -276,7 +304,16 @@ fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, sigma: f64, right: &[Vec<
             .map(|m| m.iter().enumerate().map(|(j, col)| dot(col, col).sqrt() * if scaled { row(j) } else { 1.0 }).collect())
             .collect()
     };
-    Expansion { center: c, z, left: norms(&l, true), right: norms(&r, false), weight: vec![1.0 / sigma; n], free: right.to_vec() }
+    Expansion {
+        center: c,
+        z,
+        left: norms(&l, true),
+        right: norms(&r, false),
+        weight: vec![1.0 / sigma; n],
+        v: norms(left, true),
+        rounding: norms(&r[..right.len()], false),
+        free: right.to_vec(),
+    }
 }
 
 fn times(m: &[Vec<(usize, f64)>], x: &[f64]) -> Vec<f64> {

@@ -116,7 +116,17 @@ pub fn complete(
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Completed, CompleteError> {
     let pencil = reduce(problem)?.pencil;
-    let prepared = Prepared::new(problem, &pencil, options.pieces)?;
+    let mut prepared = Prepared::new(problem, &pencil, options.pieces)?;
+    if prepared.is_expanded() {
+        // A first search finds where the solutions are, so that the enclosure is tight there.
+        let scout = Options { shard: None, ..*options };
+        let quiet = Shares { stop, progress: &|_| {}, state: Mutex::new(Progress::default()) };
+        let set = prepared.open_set();
+        let found = in_threads(options.threads, || splice::all(problem, &pencil, &prepared, &set, &scout, &quiet));
+        let mut values: Vec<f64> = found.into_iter().flat_map(|f| f.met).collect();
+        values.sort_by(f64::total_cmp);
+        prepared = prepared.refined(problem, &pencil, &values);
+    }
     let start = Certificate { complete_set: Some(prepared.open_set()), ..certificate(problem, Vec::new()) };
     run(problem, &pencil, &prepared, start, options, stop, progress)
 }
@@ -154,7 +164,7 @@ fn run(
     let watch = Shares { stop, progress, state: Mutex::new(Progress::default()) };
     let mut claims: Vec<Claim> = start.claims;
     let found = in_threads(options.threads, || splice::all(problem, pencil, prepared, &set, options, &watch));
-    let pieces = set.pieces.iter().zip(found).map(|(piece, items)| splice::numbered(piece, items, &mut claims)).collect();
+    let pieces = set.pieces.iter().zip(found).map(|(piece, found)| splice::numbered(piece, found.items, &mut claims)).collect();
     let complete_set = Some(CompleteSet { condensation: set.condensation, pieces });
     let certificate = Certificate { claims, complete_set, ..start };
     finish(problem, pencil, prepared, certificate)

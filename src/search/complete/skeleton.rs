@@ -1,7 +1,7 @@
 //! The view of a problem and the pieces its window is cut into before the search.
 
 use super::CompleteError;
-use super::condense::{condense, view_of};
+use super::condense::{NEAR, condense, refine, view_of};
 use super::root::null_vector;
 use super::tree::{State, short};
 use super::view::View;
@@ -55,6 +55,51 @@ impl Prepared {
             pieces.push((None, None)); // the tail
         }
         Ok(Prepared { view, condensation: Some(condensed.condensation), pieces })
+    }
+
+    /// Does the elimination depend on the unknown, so that solutions deserve anchors of their own?
+    pub(super) fn is_expanded(&self) -> bool {
+        self.view.expansions.iter().any(|e| e.z.len() > 2)
+    }
+
+    /// Gives each of these values an anchor and a piece around it, cut out of the pieces there are.
+    pub(super) fn refined(mut self, problem: &Problem, pencil: &Pencil, values: &[f64]) -> Prepared {
+        let Some(condensation) = self.condensation.as_mut() else { return self };
+        let mut apart: Vec<f64> = Vec::new();
+        for v in values {
+            if apart.last().is_none_or(|last| v - last > 3.0 * NEAR * v) {
+                apart.push(*v);
+            }
+        }
+        let before = condensation.anchors.len();
+        refine(pencil, condensation, &mut self.view, &apart);
+        if condensation.anchors.len() != before + apart.len() {
+            return self; // an expansion failed: the coarse anchors stay
+        }
+        for (k, v) in apart.iter().enumerate() {
+            self.cut_out(problem.window().min(), *v, before + k);
+        }
+        self
+    }
+
+    /// The piece [v (1 - NEAR), v (1 + NEAR)] with this anchor, the rest of the pieces it meets as before.
+    fn cut_out(&mut self, min: &Rational, v: f64, anchor: usize) {
+        let near = NEAR * v;
+        let (Some(a), Some(b)) = (short(v - near, 0.2 * near), short(v + near, 0.2 * near)) else { return };
+        let inside = |t: &Rational, lo: &Rational, hi: &Option<Rational>| t > lo && hi.as_ref().is_none_or(|h| t < h);
+        let mut out: Vec<(Option<Rational>, Option<usize>)> = Vec::new();
+        let mut lo = min.clone();
+        for (hi, own) in &self.pieces {
+            let mut cuts: Vec<Rational> = [&a, &b].into_iter().filter(|t| inside(t, &lo, hi)).cloned().collect();
+            cuts.sort();
+            for max in cuts.into_iter().map(Some).chain([hi.clone()]) {
+                // A part between a and b belongs to the new anchor.
+                let is_near = lo >= a && max.as_ref().is_some_and(|m| *m <= b);
+                lo = max.clone().unwrap_or_else(|| lo.clone());
+                out.push((max, if is_near { Some(anchor) } else { *own }));
+            }
+        }
+        self.pieces = out;
     }
 
     /// From a certificate to go on with.

@@ -10,6 +10,13 @@ use crate::exact::Rational;
 use crate::model::{Pencil, Problem};
 use rayon::prelude::*;
 
+/// What the search of a piece brings.
+pub(super) struct Found {
+    pub(super) items: Vec<Item>,
+    /// Values of the null vectors met.
+    pub(super) met: Vec<f64>,
+}
+
 /// The trees of all pieces, their open leaves searched; pieces are independent of each other, so
 /// threads change nothing.
 pub(super) fn all(
@@ -19,7 +26,7 @@ pub(super) fn all(
     set: &CompleteSet,
     options: &Options,
     watch: &(dyn Watch + Sync),
-) -> Vec<Vec<Item>> {
+) -> Vec<Found> {
     let window = problem.window();
     let certify_at = |value: f64, x: &[f64]| {
         let exact_only = pencil.free().is_empty();
@@ -31,7 +38,7 @@ pub(super) fn all(
     let one = |(k, piece): (usize, &Piece)| {
         let mine = options.shard.is_none_or(|s| k % s.count == s.index);
         if !mine {
-            return piece.tree.iter().cloned().map(Item::Node).collect();
+            return Found { items: piece.tree.iter().cloned().map(Item::Node).collect(), met: Vec::new() };
         }
         let mut search = Search {
             view: &prepared.view,
@@ -40,11 +47,12 @@ pub(super) fn all(
             watch,
             budget: options.nodes_per_piece,
             items: Vec::new(),
+            met: Vec::new(),
             window: (window.min().clone(), window.max().cloned()),
         };
         let share = 1.0 / set.pieces.len() as f64;
         spliced(&mut search, &starts[k], piece, share);
-        search.items
+        Found { items: search.items, met: search.met }
     };
     set.pieces.par_iter().enumerate().map(one).collect()
 }

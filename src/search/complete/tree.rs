@@ -85,6 +85,8 @@ pub(super) struct Search<'a> {
     /// Nodes this piece may still use.
     pub(super) budget: usize,
     pub(super) items: Vec<Item>,
+    /// Values of null vectors that were met, decided or not.
+    pub(super) met: Vec<f64>,
     /// Window of the certificate: a root's interval stays inside.
     pub(super) window: (Rational, Option<Rational>),
 }
@@ -133,10 +135,16 @@ impl Search<'_> {
             return self.leaf(Node::Open, share);
         }
         let middle = self.middle(ends);
-        let at = Columns::at(&self.expansion.at(middle), &region.states);
+        let point = self.expansion.ends(middle, middle);
+        let at = Columns::at(&point.m[0], point.r.as_ref(), &region.states);
         let game = at.play(&region.states);
+        let prunable = at.margin(&game) > WITNESS_MARGIN;
+        if decided && !prunable && ends.r.is_some() && region.cuts >= MAX_CUTS_SUSPECT {
+            // The radius stands in the way, and a shorter interval has the same.
+            return self.leaf(Node::Open, share);
+        }
         let may_cut = !narrow && region.cuts < MAX_CUTS[usize::from(ends.hi.is_infinite())];
-        if decided || (may_cut && game.value > WITNESS_MARGIN) {
+        if decided || (may_cut && prunable) {
             return self.cut(region, ends, &columns, &game.w, middle, share);
         }
         self.branch(region, ends, &at, &game.mix, middle, share);
@@ -209,10 +217,12 @@ impl Search<'_> {
             if let Some(unique) = null.unique(&wide)
                 && let Some(leaf) = self.root_leaf(&null, &unique, &region.states, [&lo, &hi], &wide)
             {
+                self.met.extend(is_solution(&leaf).then_some(null.value));
                 self.around(region, lo, hi, leaf, share);
                 return true;
             }
         }
+        self.met.push(null.value);
         self.degenerate(region, ends, null.value, share);
         true
     }
@@ -271,11 +281,7 @@ impl Search<'_> {
         if let Some(above) = &above {
             self.items.push(Item::Node(Node::Split(Number(above.lo.clone()))));
         }
-        let solution = match &leaf {
-            Item::Node(Node::Root(r)) => r.outcome == RootOutcome::Solution,
-            Item::Node(_) => false,
-            Item::Claimed(..) => true,
-        };
+        let solution = is_solution(&leaf);
         self.items.push(leaf);
         self.watch.closed(part, solution);
         match &above {
@@ -285,6 +291,14 @@ impl Search<'_> {
         if below.is_none() {
             self.watch.closed(part, false);
         }
+    }
+}
+
+fn is_solution(leaf: &Item) -> bool {
+    match leaf {
+        Item::Node(Node::Root(r)) => r.outcome == RootOutcome::Solution,
+        Item::Node(_) => false,
+        Item::Claimed(..) => true,
     }
 }
 

@@ -24,6 +24,9 @@ pub(super) struct Expansion {
     pub(super) left: Vec<Vec<f64>>,
     pub(super) right: Vec<Vec<f64>>,
     pub(super) weight: Vec<f64>,
+    /// |V_i| and the rounding in |r_j|, coefficient by coefficient.
+    pub(super) v: Vec<Vec<f64>>,
+    pub(super) rounding: Vec<Vec<f64>>,
     /// W_k by columns: x_f = -W(d) x_s.
     pub(super) free: Vec<Vec<Vec<f64>>>,
 }
@@ -51,7 +54,7 @@ impl View {
                 row.iter().for_each(|(j, v)| m[i][*j] = to_f64(&(v * &factor)));
             }
         }
-        let expansion = Expansion { center: 0.0, z: vec![a, b], left: Vec::new(), right: Vec::new(), weight: Vec::new(), free: Vec::new() };
+        let expansion = Expansion { center: 0.0, z: vec![a, b], left: Vec::new(), right: Vec::new(), weight: Vec::new(), v: Vec::new(), rounding: Vec::new(), free: Vec::new() };
         View { index: (0..n).collect(), scale: scale(&expansion.z), expansions: vec![expansion] }
     }
 
@@ -87,7 +90,14 @@ pub(super) fn scale(z: &[Matrix]) -> f64 {
 impl Expansion {
     /// T(t), the remainder left out.
     pub(super) fn at(&self, t: f64) -> Matrix {
-        self.horner(t - self.center, &|_, v| v)
+        let d = t - self.center;
+        let mut out = self.zero();
+        for z in self.z.iter().rev() {
+            for (o, v) in out.iter_mut().flatten().zip(z.iter().flatten()) {
+                *o = *o * d + v;
+            }
+        }
+        out
     }
 
     /// Is this the pencil itself, valid for every value?
@@ -124,16 +134,6 @@ impl Expansion {
         vec![vec![0.0; self.z[0].len()]; self.z[0].len()]
     }
 
-    fn horner(&self, d: f64, f: &dyn Fn(usize, f64) -> f64) -> Matrix {
-        let mut out = self.zero();
-        for (k, z) in self.z.iter().enumerate().rev() {
-            for (o, v) in out.iter_mut().flatten().zip(z.iter().flatten()) {
-                *o = *o * d + f(k, *v);
-            }
-        }
-        out
-    }
-
     /// The ends over [lo, hi] as the checker will see them.
     pub(super) fn ends(&self, lo: f64, hi: f64) -> Ends {
         if hi.is_infinite() {
@@ -145,8 +145,7 @@ impl Expansion {
             return Ends { lo, hi, m, r: None, slope: None };
         }
         let (reach, width) = ((lo - self.center).abs().max((hi - self.center).abs()), hi - lo);
-        let bend = self.horner(0.0, &|_, _| 0.0);
-        let mut bend = bend;
+        let mut bend = self.zero();
         for (k, z) in self.z.iter().enumerate().skip(2).rev() {
             for (o, v) in bend.iter_mut().flatten().zip(z.iter().flatten()) {
                 *o = *o * reach + (k * (k - 1)) as f64 * v.abs() * width * width;
@@ -156,7 +155,9 @@ impl Expansion {
         let n = self.z[0].len();
         // The z_k themselves come from long sums of terms below one in doubles.
         let size: f64 = m.iter().flatten().flatten().fold(1.0, |s, v| s.max(v.abs()));
-        let remainder = |i: usize, j: usize| norm(&self.left, i) * norm(&self.right, j) * self.weight[i] + CONDENSATION_NOISE * size;
+        let (l, r): (Vec<f64>, Vec<f64>) = (0..n).map(|i| (norm(&self.left, i) * self.weight[i], norm(&self.right, i))).unzip();
+        let (v, q): (Vec<f64>, Vec<f64>) = (0..n).map(|i| (norm(&self.v, i), norm(&self.rounding, i))).unzip();
+        let remainder = |i: usize, j: usize| l[i] * r[j] + v[i] * q[j] + CONDENSATION_NOISE * size;
         let r = (0..n).map(|i| (0..n).map(|j| bend[i][j] / 8.0 + remainder(i, j)).collect()).collect();
         // The remainder's slope is at most a few times remainder / width where it matters; the exact
         // check decides.

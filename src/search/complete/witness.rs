@@ -22,10 +22,10 @@ pub(super) struct Columns {
 }
 
 impl Columns {
-    /// Of one matrix, for the test at a point.
-    pub(super) fn at(m: &Matrix, states: &[State]) -> Columns {
+    /// Of one matrix with its radius, for the test at a point.
+    pub(super) fn at(m: &Matrix, r: Option<&Matrix>, states: &[State]) -> Columns {
         let mut columns = Columns { list: Vec::new(), variable: Vec::new(), radius: Vec::new(), unit: Vec::new(), weak: Vec::new() };
-        columns.add(m, None, states, false);
+        columns.add(m, r, states, false);
         columns
     }
 
@@ -71,6 +71,13 @@ impl Columns {
             let rounded: Vec<f64> = w.iter().map(|v| (v * unit).round()).collect();
             self.holds(&rounded).then(|| rounded.iter().map(|v| *v as i64).collect())
         })
+    }
+
+    /// What is left of the game's value once the radius has been taken off.
+    pub(super) fn margin(&self, game: &Game) -> f64 {
+        let around = |r: &Option<Vec<f64>>| r.as_ref().map_or(0.0, |r| r.iter().zip(&game.w).map(|(r, w)| r * w.abs()).sum());
+        let of = |(c, r): (&Vec<f64>, &Option<Vec<f64>>)| -dot(c, &game.w) - around(r);
+        if self.radius.iter().all(Option::is_none) { game.value } else { self.list.iter().zip(&self.radius).map(of).fold(f64::INFINITY, f64::min) }
     }
 
     /// Every entry of w'T is negative by a margin (at an infinite end: not positive).
