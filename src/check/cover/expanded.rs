@@ -4,6 +4,7 @@
 use super::CoverFault;
 use super::family::{Ends, Matrix};
 use crate::exact::{Integer, Rational};
+use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 
 /// Fraction bits kept of each entry, as in `family`.
@@ -39,28 +40,22 @@ impl Expanded {
                 return Err(CoverFault::Hypothesis { expected: "a tail above the last finite interval", row: 0 });
             }
             // T(t) = T(lo) + (t - lo) Z_1, and the remainder is linear in t as well.
-            let r0 = grid(n, |i, j| up(&self.remainder(i, j, &d0.abs())) + 1);
-            let slope = |list: &[Vec<Integer>], i: usize| whole(list.get(1).map_or_else(Integer::zero, |l| l[i].clone()));
-            let constant = |list: &[Vec<Integer>], j: usize| whole(list.first().map_or_else(Integer::zero, |l| l[j].clone()));
-            let r1 = grid(n, |i, j| {
-                let second = slope(&self.left, i) * constant(&self.right, j) * &self.weight[i];
-                let rounding = slope(&self.v, i) * constant(&self.rounding, j) * &self.rounding_weight[i];
-                up(&(second + rounding)) + 1
-            });
             let m1 = grid(n, |i, j| self.fixed(&self.z[1][i][j], &Integer::one()));
             let none = grid(n, |_, _| Integer::zero());
-            return Ok(Ends { m: [self.at(&d0), m1], r: [r0, r1], slope: none, scale, infinite: true });
+            let r = [self.remainder(&d0.abs()), self.remainder_direction()];
+            return Ok(Ends { m: [self.at(&d0), m1], r, slope: none, scale, infinite: true });
         };
         let (d1, width) = (hi - &self.center, hi - lo);
         let reach = d0.abs().max(d1.abs());
-        let bend = grid_of(n, |i, j| self.bend(i, j, &reach) * &width * &width);
-        let eighth = Rational::new(1.into(), 8.into());
+        let bend = self.bend(&reach, &width);
         let radius = |d: &Rational| {
-            let reach = if linear { d.abs() } else { reach.clone() };
-            grid(n, |i, j| up(&(&bend[i][j] * &eighth + self.remainder(i, j, &reach))) + 1)
+            let remainder = self.remainder(if linear { d } else { &reach });
+            grid(n, |i, j| &bend[i][j] / 8 + 1 + &remainder[i][j])
         };
-        let slope = grid(n, |i, j| up(&(&bend[i][j] + self.remainder_slope(i, j, &reach) * &width)) + 2);
-        Ok(Ends { m: [self.at(&d0), self.at(&d1)], r: [radius(&d0), radius(&d1)], slope, scale, infinite: false })
+        let remainder_slope = self.remainder_slope(&reach, &width);
+        // m[0] and m[1] are rounded as well: two units.
+        let slope = grid(n, |i, j| &bend[i][j] + &remainder_slope[i][j] + 2);
+        Ok(Ends { m: [self.at(&d0), self.at(&d1)], r: [radius(&d0.abs()), radius(&d1.abs())], slope, scale, infinite: false })
     }
 
     /// Is the condensed pencil linear in t, its remainder included?
@@ -76,72 +71,99 @@ impl Expanded {
 
     /// Z(d), rounded down to the fixed unit.
     fn at(&self, d: &Rational) -> Matrix {
-        let (p, q) = (d.numer(), d.denom());
-        let n = self.weight.len();
-        let value = |i: usize, j: usize| {
-            let (mut sum, mut power) = (Integer::zero(), Integer::one());
-            for z in self.z.iter().rev() {
-                sum = sum * p + &z[i][j] * &power;
-                power *= q;
-            }
-            (sum, power / q) // one factor q too many
-        };
-        grid(n, |i, j| {
-            let (sum, power) = value(i, j);
+        grid(self.weight.len(), |i, j| {
+            let (sum, power) = horner(self.z.iter().map(|z| z[i][j].clone()), d);
             self.fixed(&sum, &power)
         })
     }
 
     /// v / (unit power) in the fixed unit, rounded down.
     fn fixed(&self, v: &Integer, power: &Integer) -> Integer {
-        num_integer::Integer::div_floor(&(v << FRACTION_BITS), &(&self.unit * power))
+        (v << FRACTION_BITS).div_floor(&(&self.unit * power))
     }
 
-    /// Bound of |Z''_ij| for |d| <= reach.
-    fn bend(&self, i: usize, j: usize, reach: &Rational) -> Rational {
-        let mut sum = Rational::zero();
-        for (k, z) in self.z.iter().enumerate().skip(2).rev() {
-            sum = sum * reach + Rational::new(z[i][j].abs() * (k * (k - 1)), self.unit.clone());
+    /// Bound of |Z''| width^2 for |d| <= reach.
+    fn bend(&self, reach: &Rational, width: &Rational) -> Matrix {
+        if self.z.iter().skip(2).flatten().flatten().all(Zero::is_zero) {
+            return grid(self.weight.len(), |_, _| Integer::zero());
         }
-        sum
+        let (w, v) = (width.numer() * width.numer(), width.denom() * width.denom());
+        grid(self.weight.len(), |i, j| {
+            let (sum, power) = horner(self.z.iter().enumerate().skip(2).map(|(k, z)| z[i][j].abs() * (k * (k - 1))), reach);
+            up(&(sum * &w), &(&self.unit * power * &v))
+        })
     }
 
-    fn remainder(&self, i: usize, j: usize, reach: &Rational) -> Rational {
-        norm(&self.left, i, reach) * norm(&self.right, j, reach) * &self.weight[i]
-            + norm(&self.v, i, reach) * norm(&self.rounding, j, reach) * &self.rounding_weight[i]
+    /// Bound of both remainders for |d| <= reach, and what rounding m down has cost.
+    fn remainder(&self, reach: &Rational) -> Matrix {
+        let of = |list: &[Vec<Integer>]| self.each(|i| norm(list, i, reach));
+        let (l, r, v, q) = (of(&self.left), of(&self.right), of(&self.v), of(&self.rounding));
+        grid(self.weight.len(), |i, j| weigh(&l[i], &r[j], &self.weight[i]) + weigh(&v[i], &q[j], &self.rounding_weight[i]) + 1)
     }
 
-    /// Bound of the remainder's derivative: l' F^-1 r differentiated factor by factor.
-    fn remainder_slope(&self, i: usize, j: usize, reach: &Rational) -> Rational {
-        let (l, r) = (norm(&self.left, i, reach), norm(&self.right, j, reach));
-        let (dl, dr) = (norm_slope(&self.left, i, reach), norm_slope(&self.right, j, reach));
-        let (v, q) = (norm(&self.v, i, reach), norm(&self.rounding, j, reach));
-        let (dv, dq) = (norm_slope(&self.v, i, reach), norm_slope(&self.rounding, j, reach));
-        (dl * &r + &l * dr + &l * &r * &self.drift) * &self.weight[i] + (dv * q + v * dq) * &self.rounding_weight[i]
+    /// The remainder of the direction Z_1 of a pencil that is linear.
+    fn remainder_direction(&self) -> Matrix {
+        let of = |list: &[Vec<Integer>], k: usize| self.each(|i| list.get(k).map_or_else(Integer::zero, |l| &l[i] << FRACTION_BITS));
+        let (l, r, v, q) = (of(&self.left, 1), of(&self.right, 0), of(&self.v, 1), of(&self.rounding, 0));
+        grid(self.weight.len(), |i, j| weigh(&l[i], &r[j], &self.weight[i]) + weigh(&v[i], &q[j], &self.rounding_weight[i]) + 1)
+    }
+
+    /// Bound of the remainders' derivative times the width: l' F^-1 r differentiated factor by factor.
+    fn remainder_slope(&self, reach: &Rational, width: &Rational) -> Matrix {
+        let of = |list: &[Vec<Integer>]| self.each(|i| norm(list, i, reach));
+        let slope = |list: &[Vec<Integer>]| self.each(|i| norm_slope(list, i, reach));
+        let (l, r, v, q) = (of(&self.left), of(&self.right), of(&self.v), of(&self.rounding));
+        let (dl, dr, dv, dq) = (slope(&self.left), slope(&self.right), slope(&self.v), slope(&self.rounding));
+        let times = |value: Integer, factor: &Rational| (value * factor.numer()).div_ceil(factor.denom());
+        grid(self.weight.len(), |i, j| {
+            let w = &self.weight[i];
+            let second = weigh(&dl[i], &r[j], w) + weigh(&l[i], &dr[j], w) + times(weigh(&l[i], &r[j], w), &self.drift);
+            let rounding = weigh(&dv[i], &q[j], &self.rounding_weight[i]) + weigh(&v[i], &dq[j], &self.rounding_weight[i]);
+            times(second + rounding, width)
+        })
+    }
+
+    fn each(&self, f: impl Fn(usize) -> Integer) -> Vec<Integer> {
+        (0..self.weight.len()).map(f).collect()
     }
 }
 
-fn whole(v: Integer) -> Rational {
-    Rational::from_integer(v)
+/// sum c_k x^k as (numerator, denominator), not reduced: a fraction's gcd costs more than all else.
+fn horner(coefficients: impl DoubleEndedIterator<Item = Integer>, x: &Rational) -> (Integer, Integer) {
+    let (mut sum, mut power) = (Integer::zero(), Integer::one());
+    let mut terms = 0;
+    for c in coefficients.rev() {
+        sum = sum * x.numer() + c * &power;
+        power *= x.denom();
+        terms += 1;
+    }
+    // One factor too many, unless there was no term at all.
+    if terms == 0 { (sum, power) } else { (sum, power / x.denom()) }
 }
 
-fn norm(list: &[Vec<Integer>], i: usize, reach: &Rational) -> Rational {
-    list.iter().rev().fold(Rational::zero(), |sum, l| sum * reach + whole(l[i].clone()))
+/// n / d in the fixed unit, rounded up; d > 0.
+fn up(n: &Integer, d: &Integer) -> Integer {
+    (n << FRACTION_BITS).div_ceil(d)
 }
 
-fn norm_slope(list: &[Vec<Integer>], i: usize, reach: &Rational) -> Rational {
-    list.iter().enumerate().skip(1).rev().fold(Rational::zero(), |sum, (k, l)| sum * reach + whole(&l[i] * k))
+/// The product of two numbers in the fixed unit and a weight, rounded up to the fixed unit.
+fn weigh(a: &Integer, b: &Integer, weight: &Rational) -> Integer {
+    if a.is_zero() || b.is_zero() {
+        return Integer::zero();
+    }
+    (a * b * weight.numer()).div_ceil(&(weight.denom() << FRACTION_BITS))
 }
 
-/// Rounded up to the fixed unit.
-fn up(v: &Rational) -> Integer {
-    (v * whole(Integer::one() << FRACTION_BITS)).ceil().to_integer()
+fn norm(list: &[Vec<Integer>], i: usize, reach: &Rational) -> Integer {
+    let (sum, power) = horner(list.iter().map(|l| l[i].clone()), reach);
+    up(&sum, &power)
+}
+
+fn norm_slope(list: &[Vec<Integer>], i: usize, reach: &Rational) -> Integer {
+    let (sum, power) = horner(list.iter().enumerate().skip(1).map(|(k, l)| &l[i] * k), reach);
+    up(&sum, &power)
 }
 
 fn grid(n: usize, f: impl Fn(usize, usize) -> Integer) -> Matrix {
-    (0..n).map(|i| (0..n).map(|j| f(i, j)).collect()).collect()
-}
-
-fn grid_of(n: usize, f: impl Fn(usize, usize) -> Rational) -> Vec<Vec<Rational>> {
     (0..n).map(|i| (0..n).map(|j| f(i, j)).collect()).collect()
 }
