@@ -64,8 +64,9 @@ pub const NARROW: f64 = 1e-8;
 pub const THIN_MARGIN: f64 = 1e-11;
 
 /// Error of an entry of the condensed pencil in doubles. Unit: that of rows whose largest entry of A
-/// is below one. Basis: sums of a few thousand terms; twenty times what the block shows.
-pub const CONDENSATION_NOISE: f64 = 1e-12;
+/// is below one. Basis: sums of about a thousand terms. Where it is too small the checker refuses the
+/// leaf, which then stays open; a larger one could not tell the sign of the block's smallest component.
+pub const CONDENSATION_NOISE: f64 = 5e-14;
 
 /// Sizes of displacements and reactions, relative to the largest of the step, that incremental
 /// stepping takes for zero. Unit: none. Basis: the condensed equations have condition numbers below

@@ -105,7 +105,9 @@ pub struct Condensation {
     pub sigma: Number,
     /// Approximate Cholesky factor of A_ff - sigma I.
     pub stiffness_factor: Factor,
-    /// Approximate Cholesky factor of B_ff, where B_ff is neither zero nor a non-negative diagonal.
+    /// tau >= 0 with B_ff - tau I positive semidefinite.
+    pub mass_sigma: Number,
+    /// Approximate Cholesky factor of B_ff - tau I, where that is neither zero nor a non-negative diagonal.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mass_factor: Option<Factor>,
     /// Centres at which the condensed pencil is expanded.

@@ -2,7 +2,7 @@
 //!
 //! For any W and V the Schur complement is, exactly,
 //!   T_ss - T_sf F^-1 T_fs = (T_ss - T_sf W - V'r) - l' F^-1 r,   r = T_fs - F W,   l = T_sf' - F V.
-//! With F(t) >= sigma I the last term is at most |l_i| |r_j| / sigma in absolute value. W and V are
+//! With F(t) >= (sigma + t tau) I the last term is at most |l_i| |r_j| / (sigma + t tau) in absolute value. W and V are
 //! polynomials in d = t - center, so the bracket is a polynomial matrix. Of V'r only the coefficients of r
 //! beyond the degree of W are multiplied out: the others are rounding, at most |V_i| |r_j|.
 
@@ -32,16 +32,24 @@ pub(super) fn of(rows: &Rows, window: &Window, condensation: &Condensation) -> R
         return Err(CoverFault::Hypothesis { expected: "sigma > 0", row: 0 });
     }
     blocks.symmetric()?;
-    // A_ff - sigma I, in units of 1 / (common denom(sigma)).
-    let mut shifted: Symmetric = blocks.ff.iter().map(|row| row.iter().map(|(j, (a, _))| (*j, a * sigma.denom())).collect()).collect();
-    for (i, row) in shifted.iter_mut().enumerate() {
-        *row.entry(i).or_default() -= &blocks.common * sigma.numer();
+    let tau = &condensation.mass_sigma.0;
+    if tau.is_negative() {
+        return Err(CoverFault::Hypothesis { expected: "mass_sigma >= 0", row: 0 });
     }
-    let scale = &blocks.common * sigma.denom();
+    let block = |k: usize, shift: &Rational| -> (Symmetric, Integer) {
+        // In units of 1 / (common denom(shift)).
+        let entry = |(a, b): &(Integer, Integer)| (if k == 0 { a } else { b }) * shift.denom();
+        let mut out: Symmetric = blocks.ff.iter().map(|row| row.iter().map(|(j, v)| (*j, entry(v))).collect()).collect();
+        for (i, row) in out.iter_mut().enumerate() {
+            *row.entry(i).or_default() -= &blocks.common * shift.numer();
+        }
+        (out, &blocks.common * shift.denom())
+    };
+    let (shifted, scale) = block(0, sigma);
     semidefinite(&shifted, &scale, Some(&condensation.stiffness_factor), false, "A_ff - sigma I positive semidefinite")?;
-    let mass: Symmetric = blocks.ff.iter().map(|row| row.iter().map(|(j, (_, b))| (*j, b.clone())).collect()).collect();
-    semidefinite(&mass, &blocks.common, condensation.mass_factor.as_ref(), false, "B_ff positive semidefinite")?;
-    condensation.anchors.iter().map(|anchor| blocks.expand(anchor, sigma)).collect()
+    let (shifted, scale) = block(1, tau);
+    semidefinite(&shifted, &scale, condensation.mass_factor.as_ref(), false, "B_ff - mass_sigma I positive semidefinite")?;
+    condensation.anchors.iter().map(|anchor| blocks.expand(anchor, sigma, tau)).collect()
 }
 
 /// sym(A + from B) is positive definite and sym(B) semidefinite on all variables.
@@ -125,7 +133,7 @@ impl Blocks {
         }
     }
 
-    fn expand(&self, anchor: &Anchor, sigma: &Rational) -> Result<Expanded, CoverFault> {
+    fn expand(&self, anchor: &Anchor, sigma: &Rational, tau: &Rational) -> Result<Expanded, CoverFault> {
         let (w, e_w) = self.coefficients(&anchor.right)?;
         let (mut v, e_v) = self.coefficients(&anchor.left)?;
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
@@ -184,6 +192,7 @@ impl Blocks {
             weight: (0..self.slip).map(|i| &weight * Rational::new(raised(i), unit.clone())).collect(),
             unit,
             drift: self.drift(sigma),
+            gain: tau / sigma,
         })
     }
 

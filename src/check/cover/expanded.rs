@@ -27,6 +27,8 @@ pub(super) struct Expanded {
     pub(super) rounding_weight: Vec<Rational>,
     /// |dF/dt| / sigma.
     pub(super) drift: Rational,
+    /// tau / sigma: the weights hold at t = 0, at t they are divided by 1 + t tau / sigma.
+    pub(super) gain: Rational,
 }
 
 impl Expanded {
@@ -35,6 +37,9 @@ impl Expanded {
         let linear = self.is_linear();
         let scale = Integer::one() << FRACTION_BITS;
         let d0 = lo - &self.center;
+        // The smallest eigenvalue of F is at least that at the lower end, which is not negative.
+        let factor = (Rational::one() + &self.gain * lo).recip();
+        let weight: Vec<Rational> = self.weight.iter().map(|w| w * &factor).collect();
         let Some(hi) = hi else {
             if !linear {
                 return Err(CoverFault::Hypothesis { expected: "a tail above the last finite interval", row: 0 });
@@ -42,17 +47,17 @@ impl Expanded {
             // T(t) = T(lo) + (t - lo) Z_1, and the remainder is linear in t as well.
             let m1 = grid(n, |i, j| self.fixed(&self.z[1][i][j], &Integer::one()));
             let none = grid(n, |_, _| Integer::zero());
-            let r = [self.remainder(&d0.abs()), self.remainder_direction()];
+            let r = [self.remainder(&d0.abs(), &weight), self.remainder_direction()];
             return Ok(Ends { m: [self.at(&d0), m1], r, slope: none, scale, infinite: true });
         };
         let (d1, width) = (hi - &self.center, hi - lo);
         let reach = d0.abs().max(d1.abs());
         let bend = self.bend(&reach, &width);
         let radius = |d: &Rational| {
-            let remainder = self.remainder(if linear { d } else { &reach });
+            let remainder = self.remainder(if linear { d } else { &reach }, &weight);
             grid(n, |i, j| &bend[i][j] / 8 + 1 + &remainder[i][j])
         };
-        let remainder_slope = self.remainder_slope(&reach, &width);
+        let remainder_slope = self.remainder_slope(&reach, &width, &weight);
         // m[0] and m[1] are rounded as well: two units.
         let slope = grid(n, |i, j| &bend[i][j] + &remainder_slope[i][j] + 2);
         Ok(Ends { m: [self.at(&d0), self.at(&d1)], r: [radius(&d0.abs()), radius(&d1.abs())], slope, scale, infinite: false })
@@ -95,10 +100,10 @@ impl Expanded {
     }
 
     /// Bound of both remainders for |d| <= reach, and what rounding m down has cost.
-    fn remainder(&self, reach: &Rational) -> Matrix {
+    fn remainder(&self, reach: &Rational, weight: &[Rational]) -> Matrix {
         let of = |list: &[Vec<Integer>]| self.each(|i| norm(list, i, reach));
         let (l, r, v, q) = (of(&self.left), of(&self.right), of(&self.v), of(&self.rounding));
-        grid(self.weight.len(), |i, j| weigh(&l[i], &r[j], &self.weight[i]) + weigh(&v[i], &q[j], &self.rounding_weight[i]) + 1)
+        grid(self.weight.len(), |i, j| weigh(&l[i], &r[j], &weight[i]) + weigh(&v[i], &q[j], &self.rounding_weight[i]) + 1)
     }
 
     /// The remainder of the direction Z_1 of a pencil that is linear.
@@ -109,14 +114,14 @@ impl Expanded {
     }
 
     /// Bound of the remainders' derivative times the width: l' F^-1 r differentiated factor by factor.
-    fn remainder_slope(&self, reach: &Rational, width: &Rational) -> Matrix {
+    fn remainder_slope(&self, reach: &Rational, width: &Rational, weight: &[Rational]) -> Matrix {
         let of = |list: &[Vec<Integer>]| self.each(|i| norm(list, i, reach));
         let slope = |list: &[Vec<Integer>]| self.each(|i| norm_slope(list, i, reach));
         let (l, r, v, q) = (of(&self.left), of(&self.right), of(&self.v), of(&self.rounding));
         let (dl, dr, dv, dq) = (slope(&self.left), slope(&self.right), slope(&self.v), slope(&self.rounding));
         let times = |value: Integer, factor: &Rational| (value * factor.numer()).div_ceil(factor.denom());
         grid(self.weight.len(), |i, j| {
-            let w = &self.weight[i];
+            let w = &weight[i];
             let second = weigh(&dl[i], &r[j], w) + weigh(&l[i], &dr[j], w) + times(weigh(&l[i], &r[j], w), &self.drift);
             let rounding = weigh(&dv[i], &q[j], &self.rounding_weight[i]) + weigh(&v[i], &dq[j], &self.rounding_weight[i]);
             times(second + rounding, width)

@@ -6,7 +6,7 @@
 use super::CompleteError;
 use super::skyline::Skyline;
 use super::view::{Expansion, View, row_factor, scale};
-use crate::certificate::{Anchor, Condensation, IntegerMatrix, Tail};
+use crate::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
 use crate::exact::{Integer, Rational, Sparse, from_f64, to_f64};
 use crate::model::file::Number;
 use crate::model::{Pencil, Window};
@@ -26,8 +26,8 @@ const CONSTANT: Precision = Precision { degree: 0, right_bits: 56, left_bits: 24
 const COARSE: Precision = Precision { degree: 2, right_bits: 36, left_bits: 24 };
 /// About a solution, used within [`NEAR`] of it.
 const FINE: Precision = Precision { degree: 2, right_bits: 56, left_bits: 30 };
-/// Distance from a solution up to which its own anchor is used, relative to its value.
-pub(super) const NEAR: f64 = 0.04;
+/// Distance from a solution up to which its own anchor is used, relative to value + lowest frequency.
+pub(super) const NEAR: f64 = 0.03;
 /// Bits that each degree needs less.
 const BITS_PER_DEGREE: i32 = 2;
 /// Distance from a centre up to which it is used, relative to center + smallest eigenvalue of (K_ff, M_ff).
@@ -40,6 +40,8 @@ pub(super) struct Condensed {
     pub(super) condensation: Condensation,
     pub(super) view: View,
     pub(super) ends: Vec<f64>,
+    /// Smallest eigenvalue of (A_ff, B_ff); zero where F does not depend on the unknown.
+    pub(super) base: f64,
 }
 
 /// The blocks of the pencil that the elimination needs, sparse columns in doubles.
@@ -96,38 +98,43 @@ pub(super) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
     let sigma = short_below(0.5 * smallest).ok_or_else(|| not_definite("A_ff"))?;
     let slack = 0.1 * smallest;
     let factor = blocks.stiffness.shifted(-to_f64(&sigma) - slack).cholesky().ok_or_else(|| not_definite("A_ff"))?;
-    let mass_factor = factor_of_mass(&blocks.mass).map_err(|()| not_definite("B_ff"))?;
+    let (mass_sigma, mass_factor) = mass_bound(&blocks.mass).map_err(|()| not_definite("B_ff"))?;
     let tail = if window.max().is_none() && !blocks.mass_is_zero { tail(pencil) } else { None };
     let top = tail.as_ref().map(|t| &t.from.0).or(window.max()).map_or(f64::INFINITY, to_f64);
-    let (centers, ends) = centers(&blocks, &plain, to_f64(window.min()), top);
+    let base = if blocks.mass_is_zero { 0.0 } else { lowest_frequency(&blocks, &plain) };
+    let (centers, ends) = centers(base, to_f64(window.min()), top);
     let mut anchors = Vec::new();
     let mut expansions = Vec::new();
     let precision = if blocks.mass_is_zero { CONSTANT } else { COARSE };
     for center in centers {
-        let (anchor, expansion) = expand(pencil, &blocks, &center, to_f64(&sigma), precision).ok_or_else(|| not_definite("A_ff + t B_ff"))?;
+        let bounds = [to_f64(&sigma), to_f64(&mass_sigma)];
+        let (anchor, expansion) = expand(pencil, &blocks, &center, bounds, precision).ok_or_else(|| not_definite("A_ff + t B_ff"))?;
         anchors.push(anchor);
         expansions.push(expansion);
     }
-    let condensation = Condensation { sigma: Number(sigma), stiffness_factor: factor.rounded(slack), mass_factor, anchors, tail };
+    let stiffness_factor = factor.rounded(slack);
+    let condensation = Condensation { sigma: Number(sigma), stiffness_factor, mass_sigma: Number(mass_sigma), mass_factor, anchors, tail };
     let view = View { index: blocks.slip.clone(), scale: scale(&expansions[0].z), expansions };
-    Ok(Condensed { condensation, view, ends })
+    Ok(Condensed { condensation, view, ends, base })
 }
 
-/// The factor of a positive definite mass block; none where it is zero or diagonal.
-fn factor_of_mass(mass: &Skyline) -> Result<Option<crate::certificate::Factor>, ()> {
+/// tau and the factor of B_ff - tau I; no factor where the block is diagonal.
+fn mass_bound(mass: &Skyline) -> Result<(Rational, Option<Factor>), ()> {
     if mass.is_diagonal() {
-        return Ok(None);
+        let least = mass.smallest_diagonal();
+        return Ok((short_below(least).unwrap_or_default(), None));
     }
-    let slack = mass.cholesky().ok_or(())?.smallest_eigenvalue() * 0.5;
-    Ok(Some(mass.shifted(-slack).cholesky().ok_or(())?.rounded(slack)))
+    let smallest = mass.cholesky().ok_or(())?.smallest_eigenvalue();
+    let tau = short_below(0.5 * smallest).ok_or(())?;
+    let slack = 0.1 * smallest;
+    Ok((tau.clone(), Some(mass.shifted(-to_f64(&tau) - slack).cholesky().ok_or(())?.rounded(slack))))
 }
 
 /// Centres and the value up to which each is used; one for a pencil whose F does not depend on t.
-fn centers(blocks: &Blocks, stiffness: &Skyline, mut low: f64, top: f64) -> (Vec<Rational>, Vec<f64>) {
-    if blocks.mass_is_zero {
+fn centers(base: f64, mut low: f64, top: f64) -> (Vec<Rational>, Vec<f64>) {
+    if base == 0.0 {
         return (vec![Rational::from_integer(0.into())], vec![f64::INFINITY]);
     }
-    let base = lowest_frequency(blocks, stiffness);
     let (mut centers, mut ends) = (Vec::new(), Vec::new());
     // center - low = REACH (center + base), high - center likewise.
     while centers.is_empty() || (low < top && centers.len() < MAX_ANCHORS) {
@@ -167,7 +174,13 @@ fn lowest_frequency(blocks: &Blocks, stiffness: &Skyline) -> f64 {
 /// Where the symmetric part of the whole pencil becomes definite, with its proof.
 fn tail(pencil: &Pencil) -> Option<Tail> {
     let (a, b) = (Skyline::symmetric(pencil.a()), Skyline::symmetric(pencil.b()));
-    let mass_factor = factor_of_mass(&b).ok()?;
+    let mass_factor = match b.is_diagonal() {
+        true => None,
+        false => {
+            let slack = 0.5 * b.cholesky()?.smallest_eigenvalue();
+            Some(b.shifted(-slack).cholesky()?.rounded(slack))
+        }
+    };
     let start = a.largest() / b.largest() * 1e-6;
     // sym(B) is positive definite, so doubling comes to an end.
     let from = (0..TAIL_DOUBLINGS).map(|k| start * f64::from(k).exp2()).find(|t| a.combine(*t, &b, 0.0).cholesky().is_some())?;
@@ -181,9 +194,9 @@ fn tail(pencil: &Pencil) -> Option<Tail> {
 /// Anchors about further values, appended to a condensation and its view.
 pub(super) fn refine(pencil: &Pencil, condensation: &mut Condensation, view: &mut View, values: &[f64]) {
     let blocks = Blocks::of(pencil);
-    let sigma = to_f64(&condensation.sigma.0);
+    let bounds = [to_f64(&condensation.sigma.0), to_f64(&condensation.mass_sigma.0)];
     for value in values {
-        let expanded = from_f64(*value).ok().and_then(|c| expand(pencil, &blocks, &c, sigma, FINE));
+        let expanded = from_f64(*value).ok().and_then(|c| expand(pencil, &blocks, &c, bounds, FINE));
         if let Some((anchor, expansion)) = expanded {
             condensation.anchors.push(anchor);
             view.expansions.push(expansion);
@@ -194,9 +207,9 @@ pub(super) fn refine(pencil: &Pencil, condensation: &mut Condensation, view: &mu
 /// The view that a certificate's condensation gives.
 pub(super) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     let blocks = Blocks::of(pencil);
-    let sigma = to_f64(&condensation.sigma.0);
+    let bounds = [to_f64(&condensation.sigma.0), to_f64(&condensation.mass_sigma.0)];
     let side = |list: &[IntegerMatrix]| list.iter().map(|m| columns_of(m, blocks.slip.len())).collect::<Vec<_>>();
-    let one = |a: &Anchor| expansion(pencil, &blocks, to_f64(&a.center.0), sigma, &side(&a.right), &side(&a.left));
+    let one = |a: &Anchor| expansion(pencil, &blocks, to_f64(&a.center.0), bounds, &side(&a.right), &side(&a.left));
     let expansions: Vec<Expansion> = condensation.anchors.iter().map(one).collect();
     View { index: blocks.slip.clone(), scale: expansions.first().map_or(1.0, |e| scale(&e.z)), expansions }
 }
@@ -208,7 +221,7 @@ fn columns_of(m: &IntegerMatrix, cols: usize) -> Vec<Vec<f64>> {
 }
 
 /// The Taylor polynomials about a centre, rounded, and the condensed pencil they give.
-fn expand(pencil: &Pencil, blocks: &Blocks, center: &Rational, sigma: f64, precision: Precision) -> Option<(Anchor, Expansion)> {
+fn expand(pencil: &Pencil, blocks: &Blocks, center: &Rational, bounds: [f64; 2], precision: Precision) -> Option<(Anchor, Expansion)> {
     let c = to_f64(center);
     let f = blocks.stiffness.combine(c, &blocks.mass, 0.0).cholesky()?;
     let degree = |side: &[Vec<Vec<f64>>; 2]| match (blocks.mass_is_zero, side[1].iter().flatten().all(|v| *v == 0.0)) {
@@ -240,7 +253,7 @@ fn expand(pencil: &Pencil, blocks: &Blocks, center: &Rational, sigma: f64, preci
     };
     let (right, left) = (side(&blocks.fs, precision.right_bits), side(&blocks.sf, precision.left_bits));
     let only = |list: &[(IntegerMatrix, Vec<Vec<f64>>)]| list.iter().map(|(_, w)| w.clone()).collect::<Vec<_>>();
-    let expansion = expansion(pencil, blocks, c, sigma, &only(&right), &only(&left));
+    let expansion = expansion(pencil, blocks, c, bounds, &only(&right), &only(&left));
     let matrices = |list: Vec<(IntegerMatrix, Vec<Vec<f64>>)>| list.into_iter().map(|(m, _)| m).collect();
     Some((Anchor { center: Number(center.clone()), right: matrices(right), left: matrices(left) }, expansion))
 }
@@ -258,7 +271,7 @@ fn round(columns: Vec<Vec<f64>>, bits: i32) -> (IntegerMatrix, Vec<Vec<f64>>) {
 }
 
 /// Z_k, and the norms of the residuals, as the checker will compute them.
-fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, sigma: f64, right: &[Vec<Vec<f64>>], left: &[Vec<Vec<f64>>]) -> Expansion {
+fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, bounds: [f64; 2], right: &[Vec<Vec<f64>>], left: &[Vec<Vec<f64>>]) -> Expansion {
     let n = blocks.slip.len();
     let residual = |given: &[Vec<Vec<f64>>; 2], list: &[Vec<Vec<f64>>]| -> Vec<Vec<Vec<f64>>> {
         let mut out = vec![vec![vec![0.0; blocks.free.len()]; n]; list.len() + 1];
@@ -309,7 +322,8 @@ fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, sigma: f64, right: &[Vec<
         z,
         left: norms(&l, true),
         right: norms(&r, false),
-        weight: vec![1.0 / sigma; n],
+        weight: vec![1.0 / bounds[0]; n],
+        gain: bounds[1] / bounds[0],
         v: norms(left, true),
         rounding: norms(&r[..right.len()], false),
         free: right.to_vec(),

@@ -19,9 +19,9 @@ mod witness;
 pub use error::CompleteError;
 pub use merge::merge;
 
-use crate::certificate::{Certificate, Claim, CompleteSet};
+use crate::certificate::{Certificate, Claim, CompleteSet, Node};
 use crate::certify::certificate;
-use crate::check::{AcceptedClaim, AcceptedCover, check};
+use crate::check::{AcceptedClaim, AcceptedCover, Reason, Rejected, check};
 use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
 use skeleton::Prepared;
@@ -121,8 +121,8 @@ pub fn complete(
         // A first search finds where the solutions are, so that the enclosure is tight there.
         let scout = Options { shard: None, ..*options };
         let quiet = Shares { stop, progress: &|_| {}, state: Mutex::new(Progress::default()) };
-        let set = prepared.open_set();
-        let found = in_threads(options.threads, || splice::all(problem, &pencil, &prepared, &set, &scout, &quiet));
+        let (set, look) = (prepared.open_set(), prepared.scout());
+        let found = in_threads(options.threads, || splice::all(problem, &pencil, &look, &set, &scout, &quiet));
         let mut values: Vec<f64> = found.into_iter().flat_map(|f| f.met).collect();
         values.sort_by(f64::total_cmp);
         prepared = prepared.refined(problem, &pencil, &values);
@@ -170,11 +170,36 @@ fn run(
     finish(problem, pencil, prepared, certificate)
 }
 
-/// Lets the checker read the certificate: what is reported is what it accepted.
-fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, certificate: Certificate) -> Result<Completed, CompleteError> {
-    let cover = check(problem, &certificate)?.cover.ok_or(CompleteError::NoCompleteSet)?;
-    let x = cover.solutions.iter().map(|s| prepared.shape(pencil, s)).collect();
-    Ok(Completed { certificate, cover, x })
+/// Leaves that the checker may refuse before the whole is given up.
+const MAX_REFUSED: usize = 1000;
+
+/// Lets the checker read the certificate: what is reported is what it accepted. A leaf whose witness
+/// doubles have judged too well is left open.
+fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certificate: Certificate) -> Result<Completed, CompleteError> {
+    for _ in 0..MAX_REFUSED {
+        match check(problem, &certificate) {
+            Ok(accepted) => {
+                let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
+                let x = cover.solutions.iter().map(|s| prepared.shape(pencil, s)).collect();
+                return Ok(Completed { certificate, cover, x });
+            }
+            Err(rejected) => reopen(&mut certificate, rejected)?,
+        }
+    }
+    Err(CompleteError::TooManyRefused { limit: MAX_REFUSED })
+}
+
+/// Opens the leaf that the checker names.
+fn reopen(certificate: &mut Certificate, rejected: Rejected) -> Result<(), CompleteError> {
+    if let Reason::Cover { piece: Some(piece), node: Some(node), .. } = rejected.reason
+        && let Some(set) = certificate.complete_set.as_mut()
+        && let Some(leaf) = set.pieces.get_mut(piece).and_then(|p| p.tree.get_mut(node))
+        && !matches!(leaf, Node::Split(_) | Node::Branch(_) | Node::Open)
+    {
+        *leaf = Node::Open;
+        return Ok(());
+    }
+    Err(rejected.into())
 }
 
 /// Runs in a pool of the wanted size, or in the default one.

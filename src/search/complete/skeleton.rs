@@ -4,7 +4,7 @@ use super::CompleteError;
 use super::condense::{NEAR, condense, refine, view_of};
 use super::root::null_vector;
 use super::tree::{State, short};
-use super::view::View;
+use super::view::{Expansion, View};
 use crate::certificate::{CompleteSet, Condensation, Node, Piece};
 use crate::check::AcceptedClaim;
 use crate::exact::{Rational, to_f64};
@@ -15,6 +15,8 @@ use crate::model::{Pencil, Problem};
 pub(super) struct Prepared {
     pub(super) view: View,
     condensation: Option<Condensation>,
+    /// Smallest eigenvalue of (A_ff, B_ff), where the elimination depends on the unknown.
+    base: f64,
     /// Upper end and anchor of each piece.
     pieces: Vec<(Option<Rational>, Option<usize>)>,
 }
@@ -29,7 +31,7 @@ impl Prepared {
         if pencil.free().is_empty() {
             let view = View::of(pencil);
             let pieces = cuts(&view, window.min(), window.max(), count).into_iter().map(|max| (max, None)).collect();
-            return Ok(Prepared { view, condensation: None, pieces });
+            return Ok(Prepared { view, condensation: None, base: 0.0, pieces });
         }
         let condensed = condense(pencil, window)?;
         let view = condensed.view;
@@ -54,7 +56,7 @@ impl Prepared {
         if window.max().is_none() && pieces.last().is_some_and(|p| p.0.is_some()) {
             pieces.push((None, None)); // the tail
         }
-        Ok(Prepared { view, condensation: Some(condensed.condensation), pieces })
+        Ok(Prepared { view, condensation: Some(condensed.condensation), base: condensed.base, pieces })
     }
 
     /// Does the elimination depend on the unknown, so that solutions deserve anchors of their own?
@@ -62,15 +64,22 @@ impl Prepared {
         self.view.expansions.iter().any(|e| e.z.len() > 2)
     }
 
+    /// The same without remainders, for a first look.
+    pub(super) fn scout(&self) -> Prepared {
+        let expansions = self.view.expansions.iter().map(Expansion::without_remainder).collect();
+        let view = View { index: self.view.index.clone(), scale: self.view.scale, expansions };
+        Prepared { view, condensation: self.condensation.clone(), base: self.base, pieces: self.pieces.clone() }
+    }
+
     /// Gives each of these values an anchor and a piece around it, cut out of the pieces there are.
     pub(super) fn refined(mut self, problem: &Problem, pencil: &Pencil, values: &[f64]) -> Prepared {
-        let Some(condensation) = self.condensation.as_mut() else { return self };
         let mut apart: Vec<f64> = Vec::new();
-        for v in values {
-            if apart.last().is_none_or(|last| v - last > 3.0 * NEAR * v) {
+        for v in values.iter().filter(|v| **v > 0.0) {
+            if apart.last().is_none_or(|last| v - last > 3.0 * self.reach(*v)) {
                 apart.push(*v);
             }
         }
+        let Some(condensation) = self.condensation.as_mut() else { return self };
         let before = condensation.anchors.len();
         refine(pencil, condensation, &mut self.view, &apart);
         if condensation.anchors.len() != before + apart.len() {
@@ -82,9 +91,14 @@ impl Prepared {
         self
     }
 
-    /// The piece [v (1 - NEAR), v (1 + NEAR)] with this anchor, the rest of the pieces it meets as before.
+    /// Up to where the anchor about a value is used: the expansions reach as far as value + lowest frequency.
+    fn reach(&self, v: f64) -> f64 {
+        (NEAR * (v + self.base)).min(0.5 * v)
+    }
+
+    /// The piece around v with this anchor, the rest of the pieces it meets as before.
     fn cut_out(&mut self, min: &Rational, v: f64, anchor: usize) {
-        let near = NEAR * v;
+        let near = self.reach(v);
         let (Some(a), Some(b)) = (short(v - near, 0.2 * near), short(v + near, 0.2 * near)) else { return };
         let inside = |t: &Rational, lo: &Rational, hi: &Option<Rational>| t > lo && hi.as_ref().is_none_or(|h| t < h);
         let mut out: Vec<(Option<Rational>, Option<usize>)> = Vec::new();
@@ -109,7 +123,7 @@ impl Prepared {
             Some(condensation) => view_of(pencil, condensation),
         };
         let pieces = set.pieces.iter().map(|p| (p.max.as_ref().map(|n| n.0.clone()), p.anchor)).collect();
-        Ok(Prepared { view, condensation: set.condensation.clone(), pieces })
+        Ok(Prepared { view, condensation: set.condensation.clone(), base: 0.0, pieces })
     }
 
     /// The cover with everything open, the tail excepted.

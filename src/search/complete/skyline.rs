@@ -48,6 +48,11 @@ impl Skyline {
         self.rows.iter().all(|row| row.iter().rev().skip(1).all(|v| *v == 0.0) && row.last().is_none_or(|d| *d >= 0.0))
     }
 
+    /// Smallest diagonal entry.
+    pub(super) fn smallest_diagonal(&self) -> f64 {
+        self.rows.iter().filter_map(|r| r.last()).fold(f64::INFINITY, |s, v| v.min(s))
+    }
+
     /// Largest diagonal entry.
     pub(super) fn largest(&self) -> f64 {
         self.rows.iter().filter_map(|r| r.last()).fold(0.0, |s, v| v.max(s))

@@ -18,12 +18,15 @@ pub(super) struct View {
 }
 
 /// Z(d) +- weight_i |l_i(d)| |r_j(d)|, d = t - center.
+#[derive(Clone)]
 pub(super) struct Expansion {
     pub(super) center: f64,
     pub(super) z: Vec<Matrix>,
     pub(super) left: Vec<Vec<f64>>,
     pub(super) right: Vec<Vec<f64>>,
     pub(super) weight: Vec<f64>,
+    /// At t the weights are divided by 1 + gain t.
+    pub(super) gain: f64,
     /// |V_i| and the rounding in |r_j|, coefficient by coefficient.
     pub(super) v: Vec<Vec<f64>>,
     pub(super) rounding: Vec<Vec<f64>>,
@@ -54,7 +57,17 @@ impl View {
                 row.iter().for_each(|(j, v)| m[i][*j] = to_f64(&(v * &factor)));
             }
         }
-        let expansion = Expansion { center: 0.0, z: vec![a, b], left: Vec::new(), right: Vec::new(), weight: Vec::new(), v: Vec::new(), rounding: Vec::new(), free: Vec::new() };
+        let expansion = Expansion {
+            center: 0.0,
+            z: vec![a, b],
+            left: Vec::new(),
+            right: Vec::new(),
+            weight: Vec::new(),
+            gain: 0.0,
+            v: Vec::new(),
+            rounding: Vec::new(),
+            free: Vec::new(),
+        };
         View { index: (0..n).collect(), scale: scale(&expansion.z), expansions: vec![expansion] }
     }
 
@@ -98,6 +111,11 @@ impl Expansion {
             }
         }
         out
+    }
+
+    /// The same without its remainder: to look for solutions, not to prove anything.
+    pub(super) fn without_remainder(&self) -> Expansion {
+        Expansion { left: Vec::new(), right: Vec::new(), v: Vec::new(), rounding: Vec::new(), ..self.clone() }
     }
 
     /// Is this the pencil itself, valid for every value?
@@ -155,7 +173,8 @@ impl Expansion {
         let n = self.z[0].len();
         // The z_k themselves come from long sums of terms below one in doubles.
         let size: f64 = m.iter().flatten().flatten().fold(1.0, |s, v| s.max(v.abs()));
-        let (l, r): (Vec<f64>, Vec<f64>) = (0..n).map(|i| (norm(&self.left, i) * self.weight[i], norm(&self.right, i))).unzip();
+        let (l, r): (Vec<f64>, Vec<f64>) =
+            (0..n).map(|i| (norm(&self.left, i) * self.weight[i] / (1.0 + self.gain * lo), norm(&self.right, i))).unzip();
         let (v, q): (Vec<f64>, Vec<f64>) = (0..n).map(|i| (norm(&self.v, i), norm(&self.rounding, i))).unzip();
         let remainder = |i: usize, j: usize| l[i] * r[j] + v[i] * q[j] + CONDENSATION_NOISE * size;
         let r = (0..n).map(|i| (0..n).map(|j| bend[i][j] / 8.0 + remainder(i, j)).collect()).collect();

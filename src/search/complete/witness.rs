@@ -77,7 +77,11 @@ impl Columns {
     pub(super) fn margin(&self, game: &Game) -> f64 {
         let around = |r: &Option<Vec<f64>>| r.as_ref().map_or(0.0, |r| r.iter().zip(&game.w).map(|(r, w)| r * w.abs()).sum());
         let of = |(c, r): (&Vec<f64>, &Option<Vec<f64>>)| -dot(c, &game.w) - around(r);
-        if self.radius.iter().all(Option::is_none) { game.value } else { self.list.iter().zip(&self.radius).map(of).fold(f64::INFINITY, f64::min) }
+        if self.radius.iter().all(Option::is_none) {
+            game.value
+        } else {
+            self.list.iter().zip(&self.radius).map(of).fold(f64::INFINITY, f64::min)
+        }
     }
 
     /// Every entry of w'T is negative by a margin (at an infinite end: not positive).
