@@ -72,3 +72,27 @@ pub const CONDENSATION_NOISE: f64 = 5e-14;
 /// stepping takes for zero. Unit: none. Basis: the condensed equations have condition numbers below
 /// 1e5, so rounding stays below 1e-10; signs below that are not worth a change of state.
 pub const STEP_SIGN: f64 = 1e-10;
+
+/// What is added to a matrix game's entries beyond making them positive, relative to the largest.
+/// Unit: none. Basis: a value that is not close to zero keeps the tableau's pivots well scaled.
+pub const GAME_SHIFT: f64 = 1e-3;
+
+/// Half widths tried for the interval of a root, narrowest first, relative to its value. Unit: none.
+/// Basis: a root in doubles is good to 1e-15 times its condition, which for the block is below 1e3.
+pub const ROOT_HALF_WIDTHS: [f64; 5] = [1e-13, 1e-12, 1e-11, 1e-9, 1e-7];
+
+/// Rounding of one sum of a few terms in doubles. Unit: relative. Basis: a few times 2^-53.
+pub const ROUNDING: f64 = 1e-15;
+
+/// Part of the distance to an interval's ends that stays open around a null vector that is not
+/// provably alone. Unit: none. Basis: small enough that the rest of the interval closes (a double
+/// root's margin falls with the square), large enough for doubles.
+pub const DEGENERATE_PART: f64 = 1e-3;
+
+/// Distance, relative to the value, within which the x of an accepted solution is looked for. Unit:
+/// none. Basis: far wider than the accepted interval, narrower than the distance to other values.
+pub const SAME_ROOT: f64 = 1e-6;
+
+/// Where the search for a definite tail begins, relative to |A| / |B|. Unit: none. Basis: low
+/// frequencies of meshes of a million elements; it doubles from there.
+pub const TAIL_START: f64 = 1e-6;

@@ -1,6 +1,7 @@
 //! `mceip check`: a certificate against a problem, one verdict.
 
 use super::common::{CliError, exit, load, print, text};
+use super::complete::solutions_text;
 use crate::certificate::Certificate;
 use crate::check::check;
 use crate::exact::enclosing_decimals;
@@ -28,8 +29,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             }
             let (w, n) = (&certificate.window, accepted.claims.len());
             let max = w.max().map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
-            print(&format!("{out}ACCEPTED: {n} claim(s) proved for problem {} in [{}, {max}\n", problem.sha256(), w.min()))?;
-            Ok(exit::DONE)
+            let within = format!("for problem {} in [{}, {max}", problem.sha256(), w.min());
+            let Some(cover) = &accepted.cover else {
+                print(&format!("{out}ACCEPTED: {n} claim(s) proved {within}\n"))?;
+                return Ok(exit::DONE);
+            };
+            // The solutions of a cover include those claimed beside it.
+            let windowed = problem.clone().with_window(w.clone());
+            print(&format!("{}ACCEPTED {within}\n", solutions_text(&windowed, cover)))?;
+            Ok(if cover.open.is_empty() { exit::DONE } else { exit::UNDECIDED })
         }
         Err(rejected) => {
             print(&format!("REJECTED: {rejected}\n"))?;

@@ -10,6 +10,7 @@ use crate::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
 use crate::exact::{Integer, Rational, Sparse, from_f64, to_f64};
 use crate::model::file::Number;
 use crate::model::{Pencil, Window};
+use crate::tolerance::TAIL_START;
 
 /// How an anchor is expanded: degree of W and V, and the bits of their largest entries. What W's rounding
 /// costs enters to first order (times V), what the degree leaves out enters squared.
@@ -181,7 +182,7 @@ fn tail(pencil: &Pencil) -> Option<Tail> {
             Some(b.shifted(-slack).cholesky()?.rounded(slack))
         }
     };
-    let start = a.largest() / b.largest() * 1e-6;
+    let start = a.largest() / b.largest() * TAIL_START;
     // sym(B) is positive definite, so doubling comes to an end.
     let from = (0..TAIL_DOUBLINGS).map(|k| start * f64::from(k).exp2()).find(|t| a.combine(*t, &b, 0.0).cholesky().is_some())?;
     let from = short_below(1.25 * from)?;

@@ -5,6 +5,8 @@
 //! with which some w makes every entry of w'T negative; the column player's mix is the x closest to a
 //! solution when there is no such w. (von Neumann 1928; Dantzig 1951 for the equivalence with LP.)
 
+use crate::tolerance::{GAME_PIVOT, GAME_SHIFT};
+
 /// A solved game.
 pub(super) struct Game {
     /// min over columns of -(w'T): positive if w proves the region empty.
@@ -14,9 +16,6 @@ pub(super) struct Game {
     /// The column player's mix.
     pub(super) mix: Vec<f64>,
 }
-
-/// Entries below this are no pivots. Unit: that of the equilibrated columns (largest entry 1).
-const PIVOT: f64 = crate::tolerance::GAME_PIVOT;
 
 /// Solves the game for `columns` of T; `either_sign[i]` says that w_i may be negative.
 pub(super) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
@@ -57,7 +56,7 @@ impl Tableau {
         let payoff = |&(i, sign): &(usize, f64), c: &[f64]| -sign * c[i];
         let all = strategies.iter().flat_map(|s| columns.iter().map(move |c| payoff(s, c)));
         let (lo, hi) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
-        let shift = 0.1 * (hi - lo) - lo + f64::MIN_POSITIVE.max(1e-3 * hi.abs().max(lo.abs()));
+        let shift = 0.1 * (hi - lo) - lo + f64::MIN_POSITIVE.max(GAME_SHIFT * hi.abs().max(lo.abs()));
         let width = cols + 1;
         let mut t = vec![0.0; (rows + 1) * width];
         for (r, s) in strategies.iter().enumerate() {
@@ -83,7 +82,7 @@ impl Tableau {
     fn entering(&self) -> Option<usize> {
         let objective = &self.t[self.rows * (self.cols + 1)..][..self.cols];
         let best = objective.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1))?;
-        (*best.1 < -PIVOT).then_some(best.0)
+        (*best.1 < -GAME_PIVOT).then_some(best.0)
     }
 
     fn leaving(&self, entering: usize) -> Option<usize> {
@@ -91,7 +90,7 @@ impl Tableau {
         let mut best: Option<(f64, f64, usize)> = None; // ratio, -pivot, row
         for r in 0..self.rows {
             let pivot = self.t[r * width + entering];
-            if pivot > PIVOT {
+            if pivot > GAME_PIVOT {
                 let candidate = (self.t[r * width + self.cols] / pivot, -pivot, r);
                 if best.is_none_or(|b| candidate.0 < b.0 || (candidate.0 == b.0 && candidate.1 < b.1)) {
                     best = Some(candidate);

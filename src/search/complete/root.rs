@@ -6,6 +6,7 @@ use crate::certificate::{Root, RootOutcome};
 use crate::exact::{Integer, Rational, from_f64};
 use crate::linear::{inverse, solve};
 use crate::model::file::Number;
+use crate::tolerance::{ROOT_HALF_WIDTHS, ROUNDING};
 use num_traits::{One, Zero};
 
 /// Newton steps on the nonlinear eigenproblem.
@@ -14,8 +15,6 @@ const NEWTON_STEPS: usize = 40;
 const VECTOR_BITS: u32 = 56;
 /// Bits tried for the inverse's largest entry.
 const INVERSE_BITS: [i32; 4] = [12, 20, 30, 44];
-/// Half widths tried for the value's interval, relative to it.
-const HALF_WIDTHS: [f64; 5] = [1e-13, 1e-12, 1e-11, 1e-9, 1e-7];
 
 /// A null vector of T on the moving set and its value.
 pub(super) struct Null {
@@ -37,7 +36,7 @@ pub(super) fn null_vector(expansion: &Expansion, states: &[State], lo: f64, hi: 
         // A singular factorisation means that t is the value, to rounding: move off a little.
         let step = |m: &Matrix, right: Vec<f64>| solve(m, &[right]).map(|mut c| c.swap_remove(0));
         let (Some(v), Some(u)) = (step(&m, times(&d, &right)), step(&transpose(&m), times(&transpose(&d), &left))) else {
-            t += 1e-15 * (t.abs() + reach);
+            t += ROUNDING * (t.abs() + reach);
             continue;
         };
         (right, left) = (normalised(v)?, normalised(u)?);
@@ -128,7 +127,7 @@ impl Unique {
         states: &[State],
         index: &[usize],
     ) -> Option<([Rational; 2], RootOutcome)> {
-        HALF_WIDTHS.iter().find_map(|width| {
+        ROOT_HALF_WIDTHS.iter().find_map(|width| {
             let half = width * value.abs();
             let narrow = expansion.ends(value - half, value + half);
             let y: Matrix = self.y.iter().map(|row| row.iter().map(|v| to_double(v, self.y_bits)).collect()).collect();
@@ -149,7 +148,7 @@ impl Unique {
     }
 
     fn signs(&self, narrow: &Ends, error: f64, states: &[State], index: &[usize]) -> Option<RootOutcome> {
-        let error = 2.0 * error + 1e-15;
+        let error = 2.0 * error + ROUNDING;
         let mut certain = true;
         for (&i, v) in self.rest.iter().zip(&self.v) {
             if *v < -error {
@@ -162,7 +161,7 @@ impl Unique {
                 let radius = |j: usize| r.map_or(0.0, |r| r[s][j]);
                 let entries = self.rest.iter().zip(&self.v).chain([(&self.pivot, &1.0)]);
                 entries.fold((0.0, 0.0), |(sum, around), (&j, v)| {
-                    (sum + m[s][j] * v, around + radius(j) * v.abs() + error * (m[s][j].abs() + radius(j)) + 1e-15 * (m[s][j] * v).abs())
+                    (sum + m[s][j] * v, around + radius(j) * v.abs() + error * (m[s][j].abs() + radius(j)) + ROUNDING * (m[s][j] * v).abs())
                 })
             };
             let ends = [row(&narrow.m[0], narrow.r.as_ref()), row(&narrow.m[1], narrow.r.as_ref())];

@@ -10,6 +10,7 @@ use crate::check::AcceptedClaim;
 use crate::exact::{Rational, to_f64};
 use crate::model::file::Number;
 use crate::model::{Pencil, Problem};
+use crate::tolerance::SAME_ROOT;
 
 /// What a search needs before it begins.
 pub(super) struct Prepared {
@@ -146,7 +147,7 @@ impl Prepared {
         let expansion = &self.view.expansions[self.pieces[piece].1.unwrap_or(0)];
         let moves = |i: &usize| if solution.support.contains(i) { State::Moving } else { State::Rest };
         let states: Vec<State> = self.view.index.iter().map(moves).collect();
-        let reach = (hi - lo).max(1e-6 * t.abs()).max(f64::MIN_POSITIVE);
+        let reach = (hi - lo).max(SAME_ROOT * t.abs()).max(f64::MIN_POSITIVE);
         let x =
             null_vector(expansion, &states, t - reach, t + reach).map_or_else(|| vec![f64::NAN; states.len()], |n| n.spread(states.len()));
         let sum: f64 = x.iter().sum();

@@ -11,7 +11,7 @@ use super::witness::{Columns, definite, vanishes};
 use crate::certificate::{Claim, Node, Root, RootOutcome};
 use crate::exact::{Rational, from_f64, to_f64};
 use crate::model::file::Number;
-use crate::tolerance::{NARROW, THIN_MARGIN, WITNESS_MARGIN};
+use crate::tolerance::{DEGENERATE_PART, NARROW, THIN_MARGIN, WITNESS_MARGIN};
 use std::rc::Rc;
 
 /// State of a complementarity variable.
@@ -62,8 +62,6 @@ const MAX_CUTS_SUSPECT: usize = 6;
 /// each step.
 const ROOT_STEPS: i32 = 10;
 const ROOT_SHRINK: f64 = 0.3;
-/// Part of the distance to the ends that stays open around a null vector that is not alone.
-const DEGENERATE_PART: f64 = 1e-3;
 
 /// Tells a walk when to stop, and hears what it closes.
 pub(super) trait Watch: Sync {
