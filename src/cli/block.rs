@@ -35,6 +35,9 @@ pub(super) struct Args {
     /// Motion at which to stop, mm (default: the last event).
     #[arg(long, requires = "path", allow_hyphen_values = true)]
     until: Option<String>,
+    /// For each stretch with slip the complete set of MCEIP-mu, proved.
+    #[arg(long, requires = "path")]
+    complete: bool,
     /// Compare the path with ordinary incremental stepping, this many mm a step.
     #[arg(long, requires = "path", value_name = "MM", allow_hyphen_values = true)]
     step: Option<String>,
@@ -117,7 +120,8 @@ fn write_files(block: &Block, report: &BlockReport, folder: &std::path::Path) ->
 
 /// The states as a table; `verify` prints the same.
 pub(super) fn text_of(reports: &[BlockReport]) -> String {
-    let mut table = Table::new(&["block state", "mu (certified on K)", "paper", "difference", "slipping", "stuck", "certificate"]);
+    let mut table =
+        Table::new(&["block state", "mu (certified on K)", "paper", "difference", "slipping", "stuck", "certificate", "all solutions"]);
     for r in reports {
         if r.accepted.is_empty() {
             table.row(vec![r.state.name().into(), "not found".into(), r.state.printed_mu().into()]);
@@ -125,7 +129,9 @@ pub(super) fn text_of(reports: &[BlockReport]) -> String {
         for a in &r.accepted {
             let stuck = if a.stuck.is_empty() { "none".into() } else { format!("node {:?} from the left", a.stuck) };
             let difference = difference(&a.value, r.state.printed_mu());
-            let row = [r.state.name(), &a.value, r.state.printed_mu(), &difference, &a.slipping.to_string(), &stuck, "accepted"];
+            let (n, leaves) = (r.cover.solutions.len(), r.cover.leaves);
+            let all = if r.is_complete() { format!("{n}, proved ({leaves} leaves)") } else { format!("{n} proved, some regions open") };
+            let row = [r.state.name(), &a.value, r.state.printed_mu(), &difference, &a.slipping.to_string(), &stuck, "accepted", &all];
             table.row(row.map(ToString::to_string).to_vec());
         }
     }
@@ -150,7 +156,7 @@ fn json_of(r: &BlockReport) -> Value {
     json!({
         "state": r.state.name(), "paper_mu": r.state.printed_mu(), "accepted": accepted, "uncertified": r.uncertified,
         "dofs": r.orders.0, "pencil_order": r.orders.1, "condensed_order": r.orders.2, "denominator_bits": r.bits,
-        "runs": r.runs, "pivots": r.pivots, "forgeries": r.forgeries, "rejected_forgeries": r.rejected_forgeries,
+        "complete": r.is_complete(), "solutions_in_all": r.cover.solutions.len(), "runs": r.runs, "pivots": r.pivots, "forgeries": r.forgeries, "rejected_forgeries": r.rejected_forgeries,
         "problem_sha256": r.certificate.as_ref().map(|c| c.problem_sha256.clone()),
     })
 }

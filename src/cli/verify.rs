@@ -37,14 +37,25 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 }
 
 fn text_of(v: &Verification) -> String {
-    let header =
-        ["family", "instances", "oracle", "found/findable", "accepted", "uncertified", "forgeries rejected", "degenerate", "disagreements"];
+    let header = [
+        "family",
+        "instances",
+        "oracle",
+        "found/findable",
+        "proved complete",
+        "accepted",
+        "uncertified",
+        "forgeries rejected",
+        "degenerate",
+        "disagreements",
+    ];
     let mut table = Table::new(&header);
     for f in &v.families {
         let numbers = [
             count(f),
             f.oracle.to_string(),
             format!("{}/{}", f.found, f.findable),
+            format!("{}/{}", f.completed, f.done),
             f.accepted.to_string(),
             f.uncertified.len().to_string(),
             f.rejected.to_string(),
@@ -84,7 +95,7 @@ fn json_of(v: &Verification) -> Value {
         let corners: serde_json::Map<String, Value> = f.corners.iter().map(|(c, n)| (format!("{c:?}"), json!(n))).collect();
         json!({
             "name": f.name, "instances": f.instances, "done": f.done, "oracle_solutions": f.oracle, "findable": f.findable,
-            "found": f.found, "accepted": f.accepted, "uncertified": f.uncertified, "forgeries_rejected": f.rejected,
+            "found": f.found, "completed": f.completed, "accepted": f.accepted, "uncertified": f.uncertified, "forgeries_rejected": f.rejected,
             "degenerate": f.degenerate, "pivots": f.pivots, "corners": corners, "disagreements": f.disagreements,
         })
     };

@@ -3,11 +3,12 @@
 use super::forge::forgeries;
 use crate::certificate::Certificate;
 use crate::certify::certificate;
-use crate::check::{Rejected, check};
+use crate::check::{AcceptedCover, Rejected, check};
 use crate::exact::{Rational, to_f64};
 use crate::model::{Admissible, ModelError, Unknown};
 use crate::multistart::{Search, SearchError, multistart_large};
 use crate::reduction::reduce;
+use crate::search::complete::{CompleteError, Options, complete};
 use crate::source::{Block, PublishedState};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -26,6 +27,9 @@ pub enum BlockError {
     /// The search was refused.
     #[error(transparent)]
     Search(#[from] SearchError),
+    /// The complete search was refused.
+    #[error(transparent)]
+    Complete(#[from] CompleteError),
 }
 
 /// A certified and accepted solution of a state.
@@ -64,6 +68,20 @@ pub struct BlockReport {
     pub pivots: usize,
     /// The certificate, if anything was certified.
     pub certificate: Option<Certificate>,
+    /// What the complete search proved on the given K over [0, infinity).
+    pub cover: AcceptedCover,
+}
+
+impl BlockReport {
+    /// Is a certified solution missing from the complete set? That would be a bug.
+    pub fn contradicts(&self) -> bool {
+        self.cover.open.is_empty() && self.accepted.len() > self.cover.solutions.len()
+    }
+
+    /// Is the set of solutions proved to be complete?
+    pub fn is_complete(&self) -> bool {
+        self.cover.open.is_empty()
+    }
 }
 
 /// Treats one published state; `progress` is told what is being done. `None` if `stop` was set.
@@ -92,6 +110,8 @@ pub fn block_state(
     if stopped() {
         return Ok(None);
     }
+    progress("proving that there are no other solutions");
+    let cover = complete(&problem, &Options::default(), stop, &|_| {})?.cover;
     progress("checking");
     let entries = condensed.iter().flat_map(|p| p.a().entries().chain(p.b().entries()));
     let bits = entries.map(|e| e.2.denom().bits()).max().unwrap_or(0);
@@ -107,6 +127,7 @@ pub fn block_state(
         runs: found.runs,
         pivots: found.pivots,
         certificate: None,
+        cover,
     };
     if found.certified.is_empty() {
         return Ok(Some(report));

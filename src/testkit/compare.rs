@@ -1,7 +1,7 @@
 //! One instance through every engine: closed form, enumerator, solver, certificate, checker.
 
 use super::forge::forgeries;
-use super::{Corner, Instance};
+use super::{Corner, Instance, compare_complete};
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
 use crate::certify::{certificate, certify};
@@ -30,6 +30,14 @@ pub enum Disagreement {
     NotInOracle {
         /// Its support.
         support: Vec<usize>,
+    },
+    /// The complete search claims a complete set that is not the enumerator's.
+    #[error("complete set of {claimed} solutions, the enumerator lists {enumerated} (or a cone, or a continuum)")]
+    Incomplete {
+        /// Solutions of the complete set.
+        claimed: usize,
+        /// Solutions of the enumerator.
+        enumerated: usize,
     },
     /// A solution of the enumerator could not be certified.
     #[error("solution {index} of the enumerator was not certified: {reason}")]
@@ -94,6 +102,8 @@ pub struct InstanceReport {
     pub corners: Vec<Corner>,
     /// Pivots of the solver.
     pub pivots: usize,
+    /// Did the complete search close the instance? (Otherwise it left regions open.)
+    pub completed: bool,
     /// What went wrong.
     pub disagreements: Vec<Disagreement>,
 }
@@ -118,6 +128,10 @@ pub fn compare(instance: &Instance, search: &Search) -> InstanceReport {
     check_lifts(problem, &reduced, &oracle, &mut report);
     let claims = certify_oracle(problem, &reduced, &oracle, &mut report);
     submit(problem, claims, &mut report);
+    match compare_complete(problem, &oracle) {
+        Ok(completed) => report.completed = completed,
+        Err(disagreement) => report.disagreements.push(disagreement),
+    }
     if let Ok(admissible) = Admissible::new(&reduced.pencil, problem.unknown()) {
         report.solved = true;
         match multistart(&admissible, problem.window(), search) {

@@ -2,6 +2,7 @@
 
 mod block;
 mod compare;
+mod completed;
 mod families;
 mod forge;
 pub mod known;
@@ -11,6 +12,7 @@ mod verify;
 
 pub use block::{AcceptedState, BlockError, BlockReport, block_state};
 pub use compare::{Disagreement, InstanceReport, compare};
+pub use completed::compare_complete;
 pub use families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
 pub use forge::{Forgery, forgeries};
 pub use verify::{FamilyReport, Verification, verify, verify_family};

@@ -32,6 +32,8 @@ pub struct FamilyReport {
     pub rejected: usize,
     /// Instances with a wide kernel or a singular pencil.
     pub degenerate: usize,
+    /// Instances that the complete search closed, with the enumerator's answer.
+    pub completed: usize,
     /// Pivots.
     pub pivots: usize,
     /// Corners reached, with how many instances.
@@ -56,7 +58,8 @@ pub struct Verification {
 impl Verification {
     /// Number of disagreements in all.
     pub fn disagreements(&self) -> usize {
-        let block: usize = self.block.iter().map(|b| b.rejected.len() + b.forgeries - b.rejected_forgeries).sum();
+        let of = |b: &BlockReport| b.rejected.len() + b.forgeries - b.rejected_forgeries + usize::from(b.contradicts());
+        let block: usize = self.block.iter().map(of).sum();
         self.families.iter().map(|f| f.disagreements.len()).sum::<usize>() + block
     }
 }
@@ -124,6 +127,7 @@ pub fn verify_family(
         row.found += r.found;
         row.accepted += r.accepted;
         row.degenerate += usize::from(r.degenerate);
+        row.completed += usize::from(r.completed);
         row.pivots += r.pivots;
         let wrong_forgeries = r.disagreements.iter().filter(|d| matches!(d, super::Disagreement::Forgery { .. })).count();
         row.rejected += r.forgeries - wrong_forgeries;

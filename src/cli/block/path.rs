@@ -1,5 +1,7 @@
 //! `mceip block --path`: the loading path, stretch by stretch.
 
+mod sets;
+
 use super::Args;
 use crate::cli::common::{CliError, exit, interrupt_flag, print, progress_spinner};
 use crate::exact::{Integer, Rational, parse, to_f64};
@@ -22,7 +24,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let block = Block::new(&model)?;
     let stop = interrupt_flag();
     let bar = progress_spinner("condensing exactly to the contact nodes");
-    let Some(contact) = condense(block, &stop)? else {
+    let Some(contact) = condense(block.clone(), &stop)? else {
         bar.finish_and_clear();
         return Ok(exit::INTERRUPTED);
     };
@@ -35,13 +37,22 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
     let steps = step.as_ref().map(|h| compare(&contact, &path, h, &heard)).transpose()?;
+    let covers = if args.complete { Some(sets::of(&block, &path, &stop, &|what| bar.set_message(what))?) } else { None };
     bar.finish_and_clear();
     print(&if args.json {
-        format!("{}\n", json_of(&model, &path, steps.as_ref()))
+        let mut out = json_of(&model, &path, steps.as_ref());
+        if let Some(covers) = &covers {
+            out["complete_sets"] = sets::json_of(covers);
+        }
+        format!("{out}\n")
     } else {
-        text_of(&model, &path) + &steps.as_ref().map_or(String::new(), comparison_text)
+        text_of(&model, &path)
+            + &steps.as_ref().map_or(String::new(), comparison_text)
+            + &covers.as_deref().map_or(String::new(), sets::text_of)
     })?;
-    Ok(if matches!(path.end, PathEnd::NoContinuation { proved: false, .. }) {
+    let open = covers.as_ref().is_some_and(|c| c.iter().any(|c| !c.cover.open.is_empty()));
+    let unproved = matches!(path.end, PathEnd::NoContinuation { proved: false, .. });
+    Ok(if unproved || (open && !stop.load(Ordering::Relaxed)) {
         exit::UNDECIDED
     } else if stop.load(Ordering::Relaxed) {
         exit::INTERRUPTED

@@ -45,6 +45,8 @@ impl Prepared {
             // The last anchor ends where the tail begins, or with the window.
             let hi = match (is_last, tail) {
                 (true, Some(from)) => Some(from.clone()),
+                // An infinite interval needs a family that is linear in t.
+                (true, None) if window.max().is_none() && view.expansions[anchor].z.len() > 2 => short(*end, 0.01 * end),
                 (true, None) => window.max().cloned(),
                 (false, _) => short(*end, 0.01 * end),
             };
@@ -55,7 +57,7 @@ impl Prepared {
             lo = hi.unwrap_or(lo);
         }
         if window.max().is_none() && pieces.last().is_some_and(|p| p.0.is_some()) {
-            pieces.push((None, None)); // the tail
+            pieces.push((None, None)); // the tail, or what no anchor reaches
         }
         Ok(Prepared { view, condensation: Some(condensed.condensation), base: condensed.base, pieces })
     }

@@ -1,0 +1,47 @@
+//! The complete search against the oracle: the same set, or honestly undecided.
+
+use super::Disagreement;
+use crate::check::AcceptedClaim;
+use crate::exact::Rational;
+use crate::model::Problem;
+use crate::oracle::{Enumeration, Solution};
+use crate::search::complete::{CompleteError, Options, complete};
+use std::cmp::Ordering;
+use std::sync::atomic::AtomicBool;
+
+/// Nodes per piece in comparisons: instances are small, what needs more is degenerate.
+const NODES: usize = 20_000;
+
+/// Runs the complete search. `Ok(true)`: complete, and equal to the oracle's answer; `Ok(false)`: what it
+/// proved is in the oracle's answer, the rest is left open (or the free block is outside its hypotheses).
+///
+/// # Errors
+/// [`Disagreement`] between the two.
+pub fn compare_complete(problem: &Problem, oracle: &Enumeration) -> Result<bool, Disagreement> {
+    let options = Options { nodes_per_piece: NODES, threads: None, ..Options::default() };
+    let completed = match complete(problem, &options, &AtomicBool::new(false), &|_| {}) {
+        Ok(completed) => completed,
+        Err(CompleteError::NotDefinite { .. } | CompleteError::NothingSlips) => return Ok(false),
+        Err(e) => return Err(Disagreement::Refused { engine: "complete search", reason: e.to_string() }),
+    };
+    let mut hit = vec![false; oracle.solutions.len()];
+    for s in &completed.cover.solutions {
+        match oracle.solutions.iter().position(|o| is_same(o, s)) {
+            Some(k) if !hit[k] => hit[k] = true,
+            // Solutions inside a cone or a continuum are not in the list one by one.
+            _ if !oracle.is_plain_list() => {}
+            _ => return Err(Disagreement::NotInOracle { support: s.support.clone() }),
+        }
+    }
+    let complete = completed.is_complete();
+    if complete && (hit.contains(&false) || !oracle.cones.is_empty() || !oracle.ranges.is_empty()) {
+        return Err(Disagreement::Incomplete { claimed: completed.cover.solutions.len(), enumerated: oracle.solutions.len() });
+    }
+    Ok(complete)
+}
+
+/// Same support, and the oracle's value lies in the accepted interval.
+fn is_same(oracle: &Solution, accepted: &AcceptedClaim) -> bool {
+    let compare = |end: &Rational| oracle.value.clone().cmp_rational(end);
+    oracle.slip == accepted.support && compare(accepted.value.lo()) != Ordering::Less && compare(accepted.value.hi()) != Ordering::Greater
+}
