@@ -258,18 +258,23 @@ fn distinct(mut found: Vec<Found>) -> Result<Vec<AcceptedClaim>, CoverFault> {
         ))
     });
     let mut kept: Vec<Found> = Vec::new();
+    // Those that are the solution kept last: what is one of them is that solution.
+    let mut group: Vec<Found> = Vec::new();
     for next in found {
-        let last = kept.last().filter(|l| l.solution.support == next.solution.support && l.solution.value.hi() >= next.solution.value.lo());
-        match last {
-            None => kept.push(next),
-            Some(last) => {
-                let within = |v: &Interval, hull: &Interval| v.lo() >= hull.lo() && v.hi() <= hull.hi();
-                if !within(&next.solution.value, &last.hull) && !within(&last.solution.value, &next.hull) {
-                    return Err(CoverFault::Ambiguous { support: next.solution.support });
-                }
-            }
+        let overlaps = |f: &Found| f.solution.support == next.solution.support && f.solution.value.hi() >= next.solution.value.lo();
+        if !group.iter().any(overlaps) {
+            kept.extend(group.drain(..).next());
+            group.push(next);
+            continue;
         }
+        let within = |v: &Interval, hull: &Interval| v.lo() >= hull.lo() && v.hi() <= hull.hi();
+        let same = |f: &Found| within(&next.solution.value, &f.hull) || within(&f.solution.value, &next.hull);
+        if !group.iter().any(same) {
+            return Err(CoverFault::Ambiguous { support: next.solution.support });
+        }
+        group.push(next);
     }
+    kept.extend(group.drain(..).next());
     let mut list: Vec<AcceptedClaim> = kept.into_iter().map(|f| f.solution).collect();
     list.sort_by(|p, q| (p.value.lo(), &p.support).cmp(&(q.value.lo(), &q.support)));
     Ok(list)

@@ -51,12 +51,13 @@ impl Prepared {
                 (false, _) => short(*end, 0.01 * end),
             };
             let above = hi.as_ref().is_none_or(|h| *h > lo);
-            if above || (is_last && pieces.is_empty()) {
+            let has_tail = tail.is_some() && window.max().is_none();
+            if above || (is_last && pieces.is_empty() && !has_tail) {
                 pieces.extend(cuts(&view, &lo, hi.as_ref(), each).into_iter().map(|max| (max, Some(anchor))));
             }
-            lo = hi.unwrap_or(lo);
+            lo = hi.filter(|h| *h > lo).unwrap_or(lo);
         }
-        if window.max().is_none() && pieces.last().is_some_and(|p| p.0.is_some()) {
+        if window.max().is_none() && pieces.last().is_none_or(|p| p.0.is_some()) {
             pieces.push((None, None)); // the tail, or what no anchor reaches
         }
         Ok(Prepared { view, condensation: Some(condensed.condensation), base: condensed.base, pieces })

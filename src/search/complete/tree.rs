@@ -210,10 +210,14 @@ impl Search<'_> {
         for step in 0..ROOT_STEPS {
             let Some((lo, hi)) = self.nearer(region, ends, null.value, ROOT_SHRINK.powi(step)) else { return false };
             let (a, b) = (to_f64(&lo), to_f64(&hi));
+            if let Some(leaf) = self.absent_leaf(&null, [&lo, &hi], a, b) {
+                self.around(region, lo, hi, leaf, share);
+                return true;
+            }
             let inside = self.window.0 <= from_f64(null.value).unwrap_or_default();
             let wide = if inside { self.expansion.ends(a.min(null.value), b.max(null.value)) } else { self.expansion.ends(a, b) };
             if let Some(unique) = null.unique(&wide)
-                && let Some(leaf) = self.root_leaf(&null, &unique, &region.states, [&lo, &hi], &wide)
+                && let Some(leaf) = self.root_leaf(&null, &unique, &region.states)
             {
                 self.met.extend(is_solution(&leaf).then_some(null.value));
                 self.around(region, lo, hi, leaf, share);
@@ -247,12 +251,18 @@ impl Search<'_> {
         }
     }
 
-    fn root_leaf(&self, null: &Null, unique: &Unique, states: &[State], leaf: [&Rational; 2], wide: &Ends) -> Option<Item> {
-        let index = &self.view.index;
-        if (null.value < wide.lo || null.value > wide.hi || [wide.lo, wide.hi].contains(&null.value)) && unique.is_absent(wide) {
-            let root = unique.witness(index, leaf.map(Clone::clone), RootOutcome::Absent);
-            return Some(Item::Node(Node::Root(Box::new(root))));
+    /// A null vector whose value lies outside [a, b], and the proof that none lies inside.
+    fn absent_leaf(&self, null: &Null, leaf: [&Rational; 2], a: f64, b: f64) -> Option<Item> {
+        if a < null.value && null.value < b {
+            return None;
         }
+        let ends = self.expansion.ends(a, b);
+        let unique = null.unique(&ends).filter(|u| u.is_absent(&ends))?;
+        Some(Item::Node(Node::Root(Box::new(unique.witness(&self.view.index, leaf.map(Clone::clone), RootOutcome::Absent)))))
+    }
+
+    fn root_leaf(&self, null: &Null, unique: &Unique, states: &[State]) -> Option<Item> {
+        let index = &self.view.index;
         if let Some((interval, outcome)) = unique.outcome(self.expansion, null.value, states, index) {
             let inside = interval[0] >= self.window.0 && self.window.1.as_ref().is_none_or(|max| interval[1] <= *max);
             if inside {
@@ -260,10 +270,14 @@ impl Search<'_> {
             }
         }
         let claim = (self.certify)(null.value, &null.spread(states.len()))?;
-        let interval = match &claim {
-            Claim::ExactSolution(c) => c.interval.clone().map(|n| n.0),
-            Claim::EnclosedSolution(_) => return None,
-        };
+        let Claim::ExactSolution(c) = &claim else { return None };
+        // Its null vector must be the leaf's: it moves nothing else, and y = 0 on all that moves here.
+        let moves = |i: &usize| self.view.index.iter().position(|k| k == i).is_some_and(|p| states[p] == State::Moving);
+        let rest = (0..states.len()).filter(|&p| states[p] == State::Moving).map(|p| index[p]);
+        if !c.support.iter().all(moves) || !rest.into_iter().all(|i| c.support.contains(&i) || c.biactive.contains(&i)) {
+            return None;
+        }
+        let interval = c.interval.clone().map(|n| n.0);
         Some(Item::Claimed(Box::new(unique.witness(index, interval, RootOutcome::Claim(0))), Box::new(claim)))
     }
 
