@@ -28,6 +28,9 @@ pub(super) struct Args {
     /// Search part i of n of the pieces and leave the others open; `mceip merge` joins the parts.
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
+    /// Pieces the window is cut into; more of them for more shards.
+    #[arg(long, default_value_t = Options::default().pieces)]
+    pieces: usize,
     /// Threads (default: all cores). The certificate does not depend on it.
     #[arg(long)]
     threads: Option<usize>,
@@ -42,11 +45,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.threads == Some(0) {
         return Err(CliError::Option { option: "threads", expected: "at least 1", got: "0".into() });
     }
+    if args.pieces == 0 || args.pieces > MAX_PIECES {
+        return Err(CliError::Option { option: "pieces", expected: "1 to 100000", got: args.pieces.to_string() });
+    }
     let earlier = args.resume.as_ref().map(|path| read(path)).transpose()?;
     let output = args.certificate.as_ref().map(|path| Output::prepare("certificate", path, &[&args.file])).transpose()?;
     let stop = interrupt_flag();
     let bar = share_bar();
-    let options = Options { threads: args.threads, shard, ..Options::default() };
+    let options = Options { pieces: args.pieces, threads: args.threads, shard, ..Options::default() };
     let hear = |p: crate::search::complete::Progress| {
         bar.set_position((p.share * 1000.0) as u64);
         bar.set_message(format!("{} leaves, {} solutions", p.leaves, p.solutions));
@@ -113,6 +119,9 @@ pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String
     }
     out + &format!("UNDECIDED: {count} proved {within}, {} regions open\n", cover.open.len())
 }
+
+/// More pieces than any machine has use for.
+const MAX_PIECES: usize = 100_000;
 
 /// Open regions printed in full.
 const OPEN_SHOWN: usize = 20;
