@@ -7,7 +7,7 @@
 use mceip::check::check;
 use mceip::model::{Admissible, Body, Problem, Unknown, Window};
 use mceip::reduction::{condense, reduce};
-use mceip::search::complete::{Completed, Options, complete};
+use mceip::search::complete::{CompleteError, Completed, Options, complete};
 use mceip::source::{Block, MassKind, PublishedState};
 use mceip::testkit::{backslash_block, condensed_in_doubles, known, mechanical_pencil, refined_block};
 use std::sync::atomic::AtomicBool;
@@ -23,24 +23,26 @@ struct Measured {
 }
 
 /// `complete` includes one check: it is timed again and taken off.
-fn measure(problem: &Problem) -> Measured {
+fn measure(problem: &Problem) -> Result<Measured, CompleteError> {
     let limit = std::env::var("BENCH_LIMIT").ok().and_then(|t| t.parse().ok()).unwrap_or(LIMIT_SECONDS);
     let (start, limit, stop) = (Instant::now(), Duration::from_secs(limit), AtomicBool::new(false));
     let options = Options { threads: Some(1), ..Options::default() };
     let hear = |_| stop.fetch_or(start.elapsed() > limit, std::sync::atomic::Ordering::Relaxed);
     let completed = complete(problem, &options, &stop, &|p| {
         hear(p);
-    })
-    .expect("admissible");
+    })?;
     let total = start.elapsed().as_secs_f64();
     let start = Instant::now();
     check(problem, &completed.certificate).expect("accepted before");
     let check = start.elapsed().as_secs_f64();
-    Measured { search: total - check, check, completed }
+    Ok(Measured { search: total - check, check, completed })
 }
 
-fn row(name: &str, problem: &Problem) -> Measured {
-    let m = measure(problem);
+fn row(name: &str, problem: &Problem) {
+    let m = match measure(problem) {
+        Ok(m) => m,
+        Err(e) => return println!("{name:<44} {e}"),
+    };
     let (cover, size) = (&m.completed.cover, m.completed.certificate.to_json().len().div_ceil(1000));
     println!(
         "{name:<44} {:>8.3} {:>8.3} {:>7} {:>6} {:>5} {size:>8}",
@@ -50,19 +52,27 @@ fn row(name: &str, problem: &Problem) -> Measured {
         cover.solutions.len(),
         cover.open.len()
     );
-    m
 }
 
 /// `count` seeds: the sum of solutions, medians and maxima, how many are closed.
 fn random(n: usize, unknown: Unknown, count: u64) {
     let (mut search, mut check, mut leaves, mut closed, mut solutions) = (Vec::new(), Vec::new(), Vec::new(), 0, Vec::new());
     for seed in 1..=count {
-        let m = measure(&mechanical_pencil(n, unknown, seed).expect("n > 0"));
+        let m = match measure(&mechanical_pencil(n, unknown, seed).expect("n > 0")) {
+            Ok(m) => m,
+            Err(e) => {
+                println!("    n={n} {} seed {seed}: {e}", unknown.word());
+                continue;
+            }
+        };
         search.push(m.search);
         check.push(m.check);
         leaves.push(m.completed.cover.leaves);
         closed += u64::from(m.completed.is_complete());
         solutions.push(m.completed.cover.solutions.len());
+    }
+    if search.is_empty() {
+        return;
     }
     search.sort_by(f64::total_cmp);
     check.sort_by(f64::total_cmp);

@@ -112,7 +112,10 @@ fn shards_merged_are_the_single_run() {
         let report = exits(0, &[&args[..], &["--json"]].concat());
         assert!(!set(&whole).is_empty());
         assert_eq!(set(&report), set(&whole));
-        assert_eq!(serde_json::from_str::<Value>(&read(&merged)).unwrap()["complete_set"], serde_json::from_str::<Value>(&read(&single)).unwrap()["complete_set"]);
+        assert_eq!(
+            serde_json::from_str::<Value>(&read(&merged)).unwrap()["complete_set"],
+            serde_json::from_str::<Value>(&read(&single)).unwrap()["complete_set"]
+        );
         exits(0, &["check", &file, &merged]);
     }
 }

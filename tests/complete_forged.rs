@@ -145,7 +145,9 @@ fn false_farkas_and_definite_leaves_are_rejected() {
     no(&with(vec![0; 6]), &|f| matches!(f, CoverFault::NotStrict));
     // At the root of a tree nothing is known to move: every negative weight is off the moving set.
     let (q, _) = first(&certificate, |n| matches!(n, Node::Branch(_)));
-    no(&|c| set(c).pieces[q].tree = vec![Node::Farkas(vec![1, 1, -1, 1, 1, 1])], &|f| matches!(f, CoverFault::NegativeWeight { index: 2, got: -1 }));
+    no(&|c| set(c).pieces[q].tree = vec![Node::Farkas(vec![1, 1, -1, 1, 1, 1])], &|f| {
+        matches!(f, CoverFault::NegativeWeight { index: 2, got: -1 })
+    });
     no(&|c| set(c).pieces[q].tree = vec![Node::Farkas(vec![1; 6])], &|f| matches!(f, CoverFault::NotNegative { .. }));
     let (mut definite, mut moved, mut refused) = (0, 0, 0);
     let leaves: Vec<((usize, usize), Node)> = trees(&certificate).map(|(at, n)| (at, n.clone())).collect();
@@ -247,7 +249,8 @@ fn a_root_leaf_that_hides_a_second_solution_is_rejected() {
     let (p, k) = first(&certificate, is_root(|o| *o == RootOutcome::Solution));
     let root = set(&mut certificate.clone()).pieces[p].tree[k].clone();
     let tree = |root: Node| {
-        let rest = [Node::Branch(0), Node::Branch(1), Node::PositiveDefinite, Node::NegativeDefinite, Node::Branch(1), Node::PositiveDefinite];
+        let rest =
+            [Node::Branch(0), Node::Branch(1), Node::PositiveDefinite, Node::NegativeDefinite, Node::Branch(1), Node::PositiveDefinite];
         rest.into_iter().chain([root]).collect::<Vec<_>>()
     };
     let one_piece = |root: Node| {
@@ -269,7 +272,9 @@ fn a_root_leaf_that_hides_a_second_solution_is_rejected() {
 fn the_claim_of_another_solution_is_rejected() {
     let mut met = 0;
     let mut list: Vec<Problem> = degenerate().unwrap().into_iter().map(|i| i.problem).collect();
-    list.extend((2..=4).flat_map(|n| [known::path(n), known::star(n), known::jordan(n, 2, true)]).filter_map(Result::ok).map(|k| k.problem));
+    list.extend(
+        (2..=4).flat_map(|n| [known::path(n), known::star(n), known::jordan(n, 2, true)]).filter_map(Result::ok).map(|k| k.problem),
+    );
     for problem in list.into_iter().filter(|p| reduce(p).unwrap().pencil.free().is_empty()) {
         let certificate = proved(&problem);
         let claimed: Vec<((usize, usize), usize)> = trees(&certificate)
@@ -445,7 +450,12 @@ fn mutants(count: usize, seed: u64) {
                 Ok(verdict) => {
                     accepted += 1;
                     let wrong = disagreements(&verdict.cover.unwrap(), &truth);
-                    assert!(wrong.is_empty(), "problem {number}: accepted and false: {wrong:?}\n{}\n{}", problem.canonical_text(), mutant.to_json());
+                    assert!(
+                        wrong.is_empty(),
+                        "problem {number}: accepted and false: {wrong:?}\n{}\n{}",
+                        problem.canonical_text(),
+                        mutant.to_json()
+                    );
                 }
                 Err(Rejected { reason: Reason::Cover { fault, .. }, .. }) => {
                     rejected += 1;

@@ -80,7 +80,8 @@ pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
     let set = start.certificate.complete_set.and_then(|s| s.condensation);
     let Some(w) = set.as_ref().and_then(|c| c.anchors.first()).and_then(|a| a.right.first()) else { return Ok(problem.clone()) };
     let unit = Rational::new(One::one(), crate::exact::Integer::one() << w.exponent);
-    let w: Vec<Vec<f64>> = w.rows.iter().map(|r| r.iter().map(|v| to_f64(&(Rational::from_integer(v.clone()) * &unit))).collect()).collect();
+    let w: Vec<Vec<f64>> =
+        w.rows.iter().map(|r| r.iter().map(|v| to_f64(&(Rational::from_integer(v.clone()) * &unit))).collect()).collect();
     let (slip, free) = (pencil.slip(), pencil.free().to_vec());
     let condensed = |m: &Sparse| {
         let (ss, sf) = (m.submatrix(&slip, &slip), m.submatrix(&slip, &free));
