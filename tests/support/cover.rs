@@ -1,13 +1,18 @@
-//! A cover against the exact enumerator: the same set, or open exactly where something is missing.
+//! A cover against the exact enumerator: the same set, or open exactly where something is missing; and
+//! certificates to forge.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
-use mceip::check::{AcceptedClaim, AcceptedCover};
-use mceip::exact::{Algebraic, Interval};
-use mceip::model::Problem;
+use mceip::certificate::{Certificate, CompleteSet, Node};
+use mceip::check::{AcceptedClaim, AcceptedCover, check};
+use mceip::exact::{Algebraic, Interval, Sparse};
+use mceip::model::{Body, Pencil, Problem, Unknown, Window};
 use mceip::oracle::{Enumeration, Solution};
 use mceip::reduction::reduce;
+use mceip::search::complete::{Options, complete};
 use mceip::search::screen;
+use mceip::testkit::{mechanical_pencil, random_pencils};
 use std::cmp::Ordering;
+use std::sync::atomic::AtomicBool;
 
 pub fn truth(problem: &Problem) -> Enumeration {
     screen::enumerate(&reduce(problem).unwrap().pencil, problem.window()).unwrap().0
@@ -67,4 +72,44 @@ fn is_open(cover: &AcceptedCover, support: &[usize], value: &Algebraic) -> bool 
             && value.cmp_rational(&r.min) != Ordering::Less
             && r.max.as_ref().is_none_or(|max| value.cmp_rational(max) != Ordering::Greater)
     })
+}
+
+pub fn proved(problem: &Problem) -> Certificate {
+    let options = Options { pieces: 6, ..Options::default() };
+    let certificate = complete(problem, &options, &AtomicBool::new(false), &|_| {}).unwrap().certificate;
+    assert!(check(problem, &certificate).is_ok());
+    certificate
+}
+
+/// MCEIP-mu without free variables, several solutions.
+pub fn plain() -> (Problem, Certificate) {
+    let problem = mechanical_pencil(6, Unknown::Mu, 4).unwrap();
+    let certificate = proved(&problem);
+    (problem, certificate)
+}
+
+/// MCEIP-mu with free variables: a condensation in the certificate.
+pub fn condensed() -> (Problem, Certificate) {
+    let is_fit = |p: &Problem| {
+        let pencil = reduce(p).unwrap().pencil;
+        p.unknown() == Unknown::Mu && pencil.free().len() >= 2 && pencil.slip().len() >= 3 && !truth(p).solutions.is_empty()
+    };
+    let problem = random_pencils(60, 3).unwrap().into_iter().map(|i| i.problem).find(is_fit).unwrap();
+    let certificate = proved(&problem);
+    (problem, certificate)
+}
+
+/// lambda^2 = 2 and 3 on one support.
+pub fn fold(window: Window) -> Problem {
+    let pencil = Pencil::new(Sparse::from_ints(&[&[1, -6], &[2, -6]]), Sparse::identity(2), vec![]).unwrap();
+    Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
+}
+
+pub fn set(certificate: &mut Certificate) -> &mut CompleteSet {
+    certificate.complete_set.as_mut().unwrap()
+}
+
+pub fn trees(certificate: &Certificate) -> impl Iterator<Item = ((usize, usize), &Node)> {
+    let pieces = &certificate.complete_set.as_ref().unwrap().pieces;
+    pieces.iter().enumerate().flat_map(|(p, piece)| piece.tree.iter().enumerate().map(move |(k, node)| ((p, k), node)))
 }
