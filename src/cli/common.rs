@@ -62,6 +62,14 @@ pub(super) enum CliError {
     /// The complete search refuses.
     #[error(transparent)]
     Complete(#[from] crate::search::complete::CompleteError),
+    /// A certificate among several.
+    #[error("{path}: {source}")]
+    Part {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: crate::search::complete::CompleteError,
+    },
     /// The block was not treated.
     #[error("{0}")]
     Block(#[from] BlockError),

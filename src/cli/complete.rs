@@ -131,7 +131,7 @@ fn open_text(word: &str, region: &OpenRegion) -> String {
     format!("{word} in [{}, {max}], moving {:?}, undecided {:?}", region.min, region.moving, region.undecided)
 }
 
-fn solutions_json(problem: &Problem, completed: &Completed) -> serde_json::Value {
+pub(super) fn solutions_json(problem: &Problem, completed: &Completed) -> serde_json::Value {
     let region = |r: &OpenRegion| json!({ "min": r.min.to_string(), "max": r.max.as_ref().map(ToString::to_string), "moving": r.moving, "undecided": r.undecided });
     let solutions: Vec<_> = completed
         .solutions()

@@ -1,8 +1,10 @@
-//! `mceip merge`: the parts of an enumeration put together, or refused.
+//! `mceip merge`: the parts of an enumeration or of a complete search put together, or refused.
 
 use super::common::{CliError, print, text};
 use super::enumerate::{code, report};
+use super::merge_covers;
 use super::record::{PART, Record, RecordError, refused, window_of};
+use crate::certificate::CERTIFICATE_FORMAT;
 use crate::model::Problem;
 use crate::model::file::{from_json, read_problem};
 use crate::reduction::reduce;
@@ -12,12 +14,22 @@ use std::path::{Path, PathBuf};
 /// Arguments of `merge`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Parts (mceip-part/1) that together cover every support once, in any order.
+    /// Parts in any order: of an enumeration (mceip-part/1) that cover every support once, or of a
+    /// complete search (mceip-certificate/1, from `complete --shard`) that cover every piece.
     #[arg(required = true)]
-    parts: Vec<PathBuf>,
+    pub(super) parts: Vec<PathBuf>,
+    /// The problem file; needed for certificates, which do not hold it.
+    #[arg(long, value_name = "FILE")]
+    pub(super) problem: Option<PathBuf>,
+    /// The window of the certificates, where it is not the problem file's.
+    #[arg(long, allow_hyphen_values = true)]
+    pub(super) window: Option<String>,
+    /// Write the merged certificate to this file.
+    #[arg(long, value_name = "OUT")]
+    pub(super) certificate: Option<PathBuf>,
     /// Print mceip-solutions/1.
     #[arg(long)]
-    json: bool,
+    pub(super) json: bool,
 }
 
 /// Why a set of parts is no whole.
@@ -63,6 +75,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     // that kind refuses every other.
     match format_of(&args.parts[0])?.as_str() {
         PART => merge_enumeration(args),
+        CERTIFICATE_FORMAT => merge_covers::run(args),
         other => Err(refused(
             &args.parts[0],
             RecordError::Mismatch { what: "format", expected: PART.into(), got: other.chars().take(60).collect() },
@@ -82,6 +95,11 @@ fn format_of(path: &Path) -> Result<String, CliError> {
 }
 
 fn merge_enumeration(args: &Args) -> Result<u8, CliError> {
+    // A part holds its problem and window, and an enumeration has no certificate.
+    let given = [("problem", args.problem.is_some()), ("window", args.window.is_some()), ("certificate", args.certificate.is_some())];
+    if let Some((option, _)) = given.into_iter().find(|(_, is_given)| *is_given) {
+        return Err(CliError::Option { option, expected: "it with parts of format mceip-certificate/1 only", got: PART.into() });
+    }
     let mut parts = args.parts.iter().map(|path| Ok((path, Record::read(path, PART)?))).collect::<Result<Vec<_>, CliError>>()?;
     let (first_path, first) = (parts[0].0, parts[0].1.clone());
     let problem = problem_of(&first).map_err(|e| refused(first_path, e))?;

@@ -7,6 +7,7 @@ mod common;
 mod complete;
 mod enumerate;
 mod merge;
+mod merge_covers;
 mod output;
 mod record;
 mod reduce;

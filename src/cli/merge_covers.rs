@@ -1,0 +1,50 @@
+//! `mceip merge --problem FILE CERTIFICATE...`: the shards of a complete search put together.
+
+use super::common::{CliError, exit, load, print};
+use super::complete::{read, solutions_json, solutions_text};
+use super::merge::Args;
+use super::output::Output;
+use crate::certificate::Certificate;
+use crate::check::check;
+use crate::model::Problem;
+use crate::search::complete::{CompleteError, Options, merge, resume};
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let needed = || CliError::Option { option: "problem", expected: "the problem file of the certificates", got: "nothing".into() };
+    let file = args.problem.as_deref().ok_or_else(needed)?;
+    let problem = load(file, args.window.as_deref())?;
+    let parts = args.parts.iter().map(|path| read(path)).collect::<Result<Vec<_>, _>>()?;
+    let inputs: Vec<&Path> = std::iter::once(file).chain(args.parts.iter().map(PathBuf::as_path)).collect();
+    let output = args.certificate.as_ref().map(|path| Output::prepare("certificate", path, &inputs)).transpose()?;
+    let (certificate, cover) = merge(&problem, &parts).map_err(|e| blame(&problem, &args.parts, &parts, e))?;
+    let out = if args.json { to_json(&problem, &certificate)? } else { solutions_text(&problem, &cover) };
+    print(&out)?;
+    if let Some(output) = output {
+        output.write(&certificate.to_json())?;
+    }
+    Ok(if cover.open.is_empty() { exit::DONE } else { exit::UNDECIDED })
+}
+
+/// The solutions with their x: a search that goes on with the merged certificate and is stopped at once.
+fn to_json(problem: &Problem, certificate: &Certificate) -> Result<String, CliError> {
+    let completed = resume(problem, certificate, &Options::default(), &AtomicBool::new(true), &|_| {})?;
+    Ok(format!("{}\n", solutions_json(problem, &completed)))
+}
+
+/// Names the part at fault, where one is.
+fn blame(problem: &Problem, paths: &[PathBuf], parts: &[Certificate], e: CompleteError) -> CliError {
+    let at_fault = match &e {
+        CompleteError::OtherProblem { .. } => parts.iter().position(|p| p.problem_sha256 != problem.sha256()),
+        CompleteError::OtherWindow { .. } => parts.iter().position(|p| p.window != *problem.window()),
+        CompleteError::NoCompleteSet => parts.iter().position(|p| p.complete_set.is_none()),
+        CompleteError::OtherPieces { part } => Some(*part),
+        CompleteError::Rejected(_) => parts.iter().position(|p| check(problem, p).is_err()),
+        _ => None,
+    };
+    match at_fault.and_then(|k| paths.get(k)) {
+        Some(path) => CliError::Part { path: path.display().to_string(), source: e },
+        None => CliError::Complete(e),
+    }
+}
