@@ -2,6 +2,7 @@
 //! watchdog, path search, gradient and restart, in this order (Dirkse and Ferris 1995, section 4).
 
 use super::Options;
+use super::continuation::{Sense, from_point};
 use super::crash::crash;
 use super::evaluation::{Evaluated, Point};
 use super::gradient::gradient_step;
@@ -38,6 +39,9 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         }
         let mut best = start.clone();
         let mut reason = self.attempt(&start, Attempt::number(0), &mut best);
+        if !ends_the_run(reason) && self.options.curve_step_limit > 0 {
+            reason = self.along_curves(&start, &mut best).unwrap_or(reason);
+        }
         for k in 1..=self.options.restart_limit {
             if ends_the_run(reason) {
                 break;
@@ -50,6 +54,25 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             reason = self.attempt(&from, attempt, &mut best);
         }
         self.finish(best, reason)
+    }
+
+    /// To the first solution on the curve of the Newton homotopy from the start, down and then up,
+    /// and from there by Newton; `None` if neither way meets one.
+    fn along_curves(&mut self, start: &Point, best: &mut Point) -> Option<Termination> {
+        let mut reason = None;
+        for sense in [Sense::Down, Sense::Up] {
+            let (solutions, _) = from_point(&mut self.problem, start, sense, 1, self.options);
+            let Some(z) = solutions.first() else { continue };
+            self.record(start.merit, StepKind::Curve, 0.0, &[]);
+            let point = self.problem.point(z);
+            let next = self.attempt(&point, Attempt::number(1), best);
+            reason = Some(next);
+            if ends_the_run(next) {
+                break;
+            }
+        }
+        self.problem.not_finite = None;
+        reason
     }
 
     /// One attempt; `best` is left at the point of least merit, or at the one within the tolerance.
@@ -122,6 +145,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         let pivots = self.options.minor_iteration_limit.min(left);
         let path = follow(sub, start, &point.z, Limits { pivots, cycle_entries: self.options.cycle_entry_limit });
         self.problem.counters.pivots += path.pivots.len();
+        self.problem.counters.factorisations += path.factorisations;
         self.problem.counters.ray_starts += usize::from(start == Start::Ray);
         path
     }
