@@ -27,6 +27,7 @@ struct Tally {
     runs: usize,
     first_us: Vec<f64>,
     missed_first: Vec<String>,
+    origins: std::collections::BTreeMap<mceip::multistart::Origin, usize>,
 }
 
 impl Tally {
@@ -68,13 +69,14 @@ impl Tally {
         self.pivots += found.pivots;
         self.factorisations += found.factorisations;
         self.runs += found.runs;
+        found.certified.iter().for_each(|c| *self.origins.entry(c.origin).or_default() += 1);
         assert!(found.certified.iter().enumerate().all(|(i, a)| found.certified[..i].iter().all(|b| !same(&a.claim, &b.claim))));
     }
 
     fn print(&mut self, name: &str) {
         self.first_us.sort_by(f64::total_cmp);
         println!(
-            "{name}: solvable {}; first start {} ({:.1} %, certified {}); found {}/{} ({:.1} %); all of {}; extra {} uncertified {}; runs {} pivots {} factorisations {}; median {:.0} us; misses {:?}",
+            "{name}: solvable {}; first start {} ({:.1} %, certified {}); found {}/{} ({:.1} %); all of {}; extra {} uncertified {}; runs {} pivots {} factorisations {}; median {:.0} us; {:?}; misses {:?}",
             self.solvable,
             self.first,
             100.0 * self.first as f64 / self.solvable.max(1) as f64,
@@ -89,6 +91,7 @@ impl Tally {
             self.pivots,
             self.factorisations,
             self.first_us.get(self.first_us.len() / 2).copied().unwrap_or(f64::NAN),
+            self.origins,
             self.missed_first
         );
     }
@@ -102,13 +105,14 @@ fn seeds() -> Vec<u64> {
 fn searches() -> Vec<(&'static str, Search)> {
     let plain = Search { window_starts: 0, curves: false, ..Search::default() };
     let plain = Search { options: Options { curve_step_limit: 0, ..Options::default() }, ..plain };
-    vec![("plain 22", plain), ("search", Search { window_starts: 0, ..Search::default() })]
+    vec![("plain 22", plain), ("search", Search { starts: 10, window_starts: 0, ..Search::default() })]
 }
 
 #[test]
 #[ignore = "a measurement: run on request, in release"]
 fn random_pencils() {
-    for (name, search) in searches() {
+    let only = std::env::var("MEASURE_ONLY").unwrap_or_default();
+    for (name, search) in searches().into_iter().filter(|(name, _)| name.contains(&only)) {
         for (family, n) in [("lambda2", 5), ("lambda2", 10), ("lambda2", 20), ("mu", 5), ("mu", 10), ("mu", 15), ("mu", 20)] {
             let mut tally = Tally::default();
             for seed in seeds() {

@@ -2,8 +2,10 @@
 
 mod hunt;
 mod same;
+mod trace;
 
 pub use same::{exact_value, same, support};
+pub use trace::trace_outcome;
 
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
@@ -30,6 +32,10 @@ pub struct Search {
     pub origins: Vec<f64>,
     /// Follow curves of the Newton homotopy, from starts and through solutions found?
     pub curves: bool,
+    /// Curves on which each solution found is left, each followed both ways.
+    pub departures: usize,
+    /// Keep the log of every run as text?
+    pub trace: bool,
     /// Seed of the random starts.
     pub seed: u64,
     /// Options of each run.
@@ -38,7 +44,17 @@ pub struct Search {
 
 impl Default for Search {
     fn default() -> Self {
-        Search { starts: 22, window_starts: 4, window_limit: 16, origins: Vec::new(), curves: true, seed: 1, options: Options::default() }
+        Search {
+            starts: 22,
+            window_starts: 4,
+            window_limit: 16,
+            origins: Vec::new(),
+            curves: true,
+            departures: 3,
+            trace: false,
+            seed: 1,
+            options: Options::default(),
+        }
     }
 }
 
@@ -60,6 +76,19 @@ pub struct Certified {
     pub candidate: Candidate,
     /// Number of the run, from 0.
     pub run: usize,
+    /// What kind of run.
+    pub origin: Origin,
+}
+
+/// The kinds of runs of a search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Origin {
+    /// A run of the solver from a start.
+    Start,
+    /// A curve of the Newton homotopy from a start.
+    Curve,
+    /// A curve through a solution found before.
+    Departure,
 }
 
 /// What a search found. It never says that nothing else exists.
@@ -83,6 +112,8 @@ pub struct Found {
     pub pivots: usize,
     /// Dense factorisations made.
     pub factorisations: usize,
+    /// The log of every run and curve, if it was asked for.
+    pub trace: Vec<String>,
     /// Was the search ended by its progress callback?
     pub interrupted: bool,
     /// Outcome of the very first run.

@@ -52,6 +52,9 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             let shifted = self.problem.point(&attempt.shifted(&start.z, k));
             let from = if shifted.merit.is_finite() { shifted } else { start.clone() };
             reason = self.attempt(&from, attempt, &mut best);
+            if attempt.shift > 0.0 && !ends_the_run(reason) && self.options.curve_step_limit > 0 {
+                reason = self.along_curves(&from, &mut best).unwrap_or(reason);
+            }
         }
         self.finish(best, reason)
     }
@@ -112,7 +115,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     /// An even share of the limits on majors and pivots, so that a wandering attempt leaves some to
     /// the restarts.
     fn share(&self) -> (usize, usize) {
-        let attempts = 1 + self.options.restart_limit;
+        let attempts = (1 + self.options.restart_limit) * if self.options.curve_step_limit > 0 { 2 } else { 1 };
         let Options { major_iteration_limit: majors, cumulative_iteration_limit: pivots, .. } = self.options;
         (majors.div_ceil(attempts), pivots.div_ceil(attempts))
     }
