@@ -27,6 +27,7 @@ struct Tally {
     runs: usize,
     first_us: Vec<f64>,
     missed_first: Vec<String>,
+    curves: std::collections::BTreeMap<mceip::solver::CurveEnd, usize>,
     origins: std::collections::BTreeMap<mceip::multistart::Origin, usize>,
 }
 
@@ -52,6 +53,21 @@ impl Tally {
         }
         let found = multistart(&admissible, &Window::all(), search).unwrap();
         self.count(&found, &truth.solutions);
+        for (end, count) in &found.curves {
+            *self.curves.entry(*end).or_default() += count;
+        }
+        let missed = |s: &&mceip::oracle::Solution| !found.certified.iter().any(|c| support(&c.claim) == s.slip);
+        if let Some(s) = truth.solutions.iter().find(missed) {
+            let got: Vec<f64> = found.certified.iter().map(|c| c.candidate.value).collect();
+            println!(
+                "   missed {} slip {:?} in {} with {} of {}: {got:?}",
+                s.decimal(5),
+                s.slip,
+                case.label,
+                got.len(),
+                truth.solutions.len()
+            );
+        }
     }
 
     fn count(&mut self, found: &Found, truth: &[mceip::oracle::Solution]) {
@@ -76,7 +92,7 @@ impl Tally {
     fn print(&mut self, name: &str) {
         self.first_us.sort_by(f64::total_cmp);
         println!(
-            "{name}: solvable {}; first start {} ({:.1} %, certified {}); found {}/{} ({:.1} %); all of {}; extra {} uncertified {}; runs {} pivots {} factorisations {}; median {:.0} us; {:?}; misses {:?}",
+            "{name}: solvable {}; first start {} ({:.1} %, certified {}); found {}/{} ({:.1} %); all of {}; extra {} uncertified {}; runs {} pivots {} factorisations {}; median {:.0} us; {:?}; {:?}; misses {:?}",
             self.solvable,
             self.first,
             100.0 * self.first as f64 / self.solvable.max(1) as f64,
@@ -92,6 +108,7 @@ impl Tally {
             self.factorisations,
             self.first_us.get(self.first_us.len() / 2).copied().unwrap_or(f64::NAN),
             self.origins,
+            self.curves,
             self.missed_first
         );
     }
@@ -114,6 +131,9 @@ fn random_pencils() {
     let only = std::env::var("MEASURE_ONLY").unwrap_or_default();
     for (name, search) in searches().into_iter().filter(|(name, _)| name.contains(&only)) {
         for (family, n) in [("lambda2", 5), ("lambda2", 10), ("lambda2", 20), ("mu", 5), ("mu", 10), ("mu", 15), ("mu", 20)] {
+            if std::env::var("MEASURE_FAMILY").is_ok_and(|f| f != format!("{family}{n}")) {
+                continue;
+            }
             let mut tally = Tally::default();
             for seed in seeds() {
                 for k in 0..40 {

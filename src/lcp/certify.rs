@@ -98,7 +98,7 @@ mod tests {
         let problem = lcp(&[&[2, 1], &[1, 2]], &[-5, -6]);
         assert_eq!(certify(&problem, &[1.3333333, 2.3333333]).unwrap(), vec![rational(4, 3), rational(7, 3)]);
         // Far away the active set is another one, whose exact point is no solution.
-        assert!(matches!(certify(&problem, &[9.0, 0.0]), Err(Uncertifiable::NoSolution(Violated::Sign { index: 1, .. }))));
+        assert!(matches!(certify(&problem, &[9.0, 0.0]), Err(Uncertifiable::NoSolution(Violated::Sign { index: 0, .. }))));
         assert!(matches!(check(&problem, &[rational(4, 3), whole(2)]), Err(Violated::Sign { index: 0, .. })));
         assert!(matches!(check(&problem, &[whole(-1), whole(2)]), Err(Violated::Bounds { index: 0, .. })));
         assert!(matches!(check(&problem, &[whole(1)]), Err(Violated::Length { expected: 2, got: 1 })));
@@ -109,6 +109,6 @@ mod tests {
         let ones = lcp(&[&[1, 1], &[1, 1]], &[-1, -1]);
         assert_eq!(certify(&ones, &[0.3, 0.7]).unwrap()[1], from_f64(0.7).unwrap());
         let contradiction = lcp(&[&[1, 1], &[1, 1]], &[-1, -2]);
-        assert!(matches!(certify(&contradiction, &[0.5, 1.0]), Err(Uncertifiable::Inconsistent { .. })));
+        assert!(matches!(certify(&contradiction, &[0.75, 0.75]), Err(Uncertifiable::Inconsistent { .. })));
     }
 }

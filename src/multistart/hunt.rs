@@ -14,6 +14,10 @@ use crate::tolerance::WINDOW_GAP;
 const PER_CURVE: usize = 16;
 /// zeta of the first curve of MCEIP-lambda2, in units of the embedding (|A| / |B|).
 const FAR_START: f64 = 32.0;
+/// Largest default number of curves on which a solution is left.
+const MOST_DEPARTURES: usize = 6;
+/// First salt of windows around values found.
+pub(super) const WINDOW_SALT: u64 = 1000;
 /// Solutions that are left on curves, at most: a singular pencil has a continuum of them.
 const KNOWN_LIMIT: usize = 256;
 
@@ -57,14 +61,16 @@ impl Hunt<'_> {
     /// Leaves the solutions known, also those found on the way, until each was left often enough.
     /// `departed` counts, in the order of discovery.
     fn depart(&mut self, embedding: &Embedding, departed: &mut Vec<usize>, seed: u64) -> Result<(), SolverError> {
+        let slip = self.admissible.pencil().order() - self.admissible.pencil().free().len();
+        let wanted = self.search.departures.unwrap_or(slip.div_ceil(2).min(MOST_DEPARTURES));
         loop {
             let known = self.found.certified.len().min(KNOWN_LIMIT);
             departed.resize(known.max(departed.len()), 0);
-            let Some(least) = (0..known).min_by_key(|&i| departed[i]).filter(|&i| departed[i] < self.search.departures) else {
+            let Some(least) = (0..known).min_by_key(|&i| departed[i]).filter(|&i| departed[i] < wanted) else {
                 return Ok(());
             };
             for sense in [Sense::Down, Sense::Up] {
-                self.leave(embedding, least, sense, seed.wrapping_add((departed[least] as u64) << 20))?;
+                self.leave(embedding, least, sense, departed[least], seed)?;
                 if self.is_interrupted() {
                     return Ok(());
                 }
@@ -103,10 +109,11 @@ impl Hunt<'_> {
     }
 
     /// A curve through a known solution with a random residual direction.
-    fn leave(&mut self, embedding: &Embedding, known: usize, sense: Sense, seed: u64) -> Result<(), SolverError> {
+    fn leave(&mut self, embedding: &Embedding, known: usize, sense: Sense, turn: usize, seed: u64) -> Result<(), SolverError> {
         let c = &self.found.certified[known].candidate;
         let point = embedding.point(c.value, &c.x);
-        let r = embedding.direction(seed.wrapping_mul(0x9e37_79b9).wrapping_add(known as u64));
+        let salt = (turn as u64) << 20 | known as u64;
+        let r = embedding.direction(seed.wrapping_mul(0x9e37_79b9).wrapping_add(salt), turn % 2 == 1);
         let curve = continuation_through(embedding, &point, &r, sense, PER_CURVE, &self.search.options)?;
         self.harvest(embedding, curve, Origin::Departure)
     }

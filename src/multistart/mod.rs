@@ -15,7 +15,7 @@ use crate::model::{Admissible, ModelError, Pencil, Unknown, Window};
 use crate::reduction::{CondensationError, Expansion, Side, condense};
 use crate::solver::{CurveEnd, Options, Outcome, SolverError, Termination};
 use crate::tolerance::WINDOW_GAP;
-use hunt::Hunt;
+use hunt::{Hunt, WINDOW_SALT};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
@@ -32,8 +32,9 @@ pub struct Search {
     pub origins: Vec<f64>,
     /// Follow curves of the Newton homotopy, from starts and through solutions found?
     pub curves: bool,
-    /// Curves on which each solution found is left, each followed both ways.
-    pub departures: usize,
+    /// Curves on which each solution found is left, each followed both ways. By default half the slip
+    /// variables, rounded up, at most 6: a support has as many neighbours as there are variables.
+    pub departures: Option<usize>,
     /// Keep the log of every run as text?
     pub trace: bool,
     /// Seed of the random starts.
@@ -50,7 +51,7 @@ impl Default for Search {
             window_limit: 16,
             origins: Vec::new(),
             curves: true,
-            departures: 3,
+            departures: None,
             trace: false,
             seed: 1,
             options: Options::default(),
@@ -207,8 +208,8 @@ pub fn multistart_with(
         let value = hunt.found.certified[treated].candidate.value;
         // Strictly on either side: at the value itself the solution found would be found again.
         let gap = WINDOW_GAP * (1.0 + value.abs());
-        hunt.side(Side::Above(value + gap), search.window_starts, 1000 + 2 * treated as u64)?;
-        hunt.side(Side::Below(value - gap), search.window_starts, 1001 + 2 * treated as u64)?;
+        hunt.side(Side::Above(value + gap), search.window_starts, WINDOW_SALT + 2 * treated as u64)?;
+        hunt.side(Side::Below(value - gap), search.window_starts, WINDOW_SALT + 1 + 2 * treated as u64)?;
         treated += 1;
     }
     found.certified.sort_by(|a, b| a.candidate.value.total_cmp(&b.candidate.value).then_with(|| support(&a.claim).cmp(support(&b.claim))));

@@ -12,6 +12,7 @@ use super::path::{Limits, Path, PathEnd, Start, Subproblem, follow};
 use super::residual::Residuals;
 use super::restart::Attempt;
 use super::search::Search;
+use super::tolerance::CURVE_TRIALS;
 use crate::mcp::Mcp;
 use nalgebra::DVector;
 
@@ -46,17 +47,40 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             if ends_the_run(reason) {
                 break;
             }
-            self.problem.counters.restarts += 1;
-            let attempt = Attempt::number(k);
-            self.record(start.merit, StepKind::Restart, 0.0, &[]);
-            let shifted = self.problem.point(&attempt.shifted(&start.z, k));
-            let from = if shifted.merit.is_finite() { shifted } else { start.clone() };
-            reason = self.attempt(&from, attempt, &mut best);
-            if attempt.shift > 0.0 && !ends_the_run(reason) && self.options.curve_step_limit > 0 {
-                reason = self.along_curves(&from, &mut best).unwrap_or(reason);
+            reason = self.restart(&start, Attempt::number(k), k, &mut best);
+        }
+        // Last, curves alone from other points: they cost little and reach far.
+        for k in (1..=self.trials()).map(|k| k + self.options.restart_limit) {
+            if ends_the_run(reason) {
+                break;
             }
+            let from = self.moved(&start, Attempt::far(), k);
+            reason = self.along_curves(&from, &mut best).unwrap_or(reason);
         }
         self.finish(best, reason)
+    }
+
+    /// One more attempt from the start, moved; then along the curves from there.
+    fn restart(&mut self, start: &Point, attempt: Attempt, k: usize, best: &mut Point) -> Termination {
+        self.problem.counters.restarts += 1;
+        self.record(start.merit, StepKind::Restart, 0.0, &[]);
+        let from = self.moved(start, attempt, k);
+        let reason = self.attempt(&from, attempt, best);
+        if attempt.shift > 0.0 && !ends_the_run(reason) && self.options.curve_step_limit > 0 {
+            return self.along_curves(&from, best).unwrap_or(reason);
+        }
+        reason
+    }
+
+    /// The start moved as the attempt asks, if F is finite there.
+    fn moved(&mut self, start: &Point, attempt: Attempt, k: usize) -> Point {
+        let shifted = self.problem.point(&attempt.shifted(&start.z, k));
+        if shifted.merit.is_finite() { shifted } else { start.clone() }
+    }
+
+    /// Points from which curves alone are tried at the end: none without restarts or curves.
+    fn trials(&self) -> usize {
+        if self.options.restart_limit > 0 && self.options.curve_step_limit > 0 { CURVE_TRIALS } else { 0 }
     }
 
     /// To the first solution on the curve of the Newton homotopy from the start, down and then up,

@@ -123,3 +123,15 @@ pub(super) const CURVE_GROWTH: f64 = 2.0;
 
 /// Shortest step. Unit: that of z and s. Basis: thousands of events could lie on a unit length.
 pub(super) const CURVE_SHORTEST: f64 = 1e-9;
+
+/// A curve that left a solution is closed if it meets a point this near to it, relative to
+/// 1 + |z|. Unit: none. Basis: a thousand times the residual of a corrected point.
+pub(super) const CURVE_SAME: f64 = 1e-6;
+
+/// Points from which curves are followed after the last restart. Unit: points.
+/// Basis: on random pencils of order 20 one curve in two meets a solution where there is one.
+pub(super) const CURVE_TRIALS: usize = 6;
+
+/// A curve is closed if it passes its start's s at this share of the step from the start, on the
+/// same places. Unit: none. Basis: the error of the chord between two points 45 degrees apart.
+pub(super) const CURVE_CLOSED: f64 = 0.05;

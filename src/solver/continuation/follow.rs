@@ -1,8 +1,10 @@
 //! Predictor, corrector and events along a curve.
 
 use super::super::Options;
-use super::super::tolerance::{CURVE_ANGLE, CURVE_FAR, CURVE_FEASIBLE, CURVE_FIRST, CURVE_GROWTH, CURVE_SHORTEST};
-use super::system::{Border, Local, Place, Position, Quantity, System};
+use super::super::tolerance::{
+    CURVE_ANGLE, CURVE_CLOSED, CURVE_FAR, CURVE_FEASIBLE, CURVE_FIRST, CURVE_GROWTH, CURVE_SAME, CURVE_SHORTEST,
+};
+use super::system::{Border, Local, Place, Places, Position, Quantity, System};
 use super::{CurveEnd, Sense};
 use crate::mcp::Mcp;
 use nalgebra::DVector;
@@ -12,6 +14,7 @@ pub(super) struct Follower<'p, 'a, P: Mcp + ?Sized> {
     system: System<'p, 'a, P>,
     at: Position,
     start: Position,
+    start_places: Places,
     length: f64,
     steps_left: usize,
     enough: usize,
@@ -28,8 +31,8 @@ struct Landing {
 
 impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
     pub(super) fn new(system: System<'p, 'a, P>, at: Position, options: &Options, enough: usize) -> Self {
-        let start = at.clone();
-        Follower { system, at, start, length: CURVE_FIRST, steps_left: options.curve_step_limit, enough, found: Vec::new() }
+        let (start, start_places) = (at.clone(), system.places.clone());
+        Follower { system, at, start, start_places, length: CURVE_FIRST, steps_left: options.curve_step_limit, enough, found: Vec::new() }
     }
 
     pub(super) fn run(mut self, sense: Sense) -> (Vec<DVector<f64>>, CurveEnd) {
@@ -54,6 +57,9 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
             (local, tangent) = (landing.local, next);
             if landing.event == Some(Quantity::S) {
                 self.found.push(self.at.z.clone());
+                if self.start.s == 0.0 && (&self.at.z - &self.start.z).amax() <= CURVE_SAME * (1.0 + self.start.z.amax()) {
+                    return Some(CurveEnd::Closed);
+                }
                 if self.found.len() >= self.enough {
                     return Some(CurveEnd::Enough);
                 }
@@ -70,12 +76,12 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
     /// Has the step from `before` passed the start again?
     fn is_back(&self, before: &Position) -> bool {
         let passed = (before.s - self.start.s) * (self.at.s - self.start.s) < 0.0;
-        if !passed {
+        if !passed || self.system.places != self.start_places {
             return false;
         }
         let share = (self.start.s - before.s) / (self.at.s - before.s);
         let there = before.z.lerp(&self.at.z, share);
-        (there - &self.start.z).amax() <= CURVE_ANGLE * (&self.at.z - &before.z).amax()
+        (there - &self.start.z).amax() <= CURVE_CLOSED * (&self.at.z - &before.z).amax()
     }
 
     /// One step, shortened until it succeeds; with the tangent at its end.
@@ -143,10 +149,9 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
                 let next = self.system.tangent(&landing.local, tangent, 1.0)?;
                 return (next.dot(tangent) > CURVE_ANGLE).then_some(next);
             }
-            Some(Quantity::Z(i, bound)) => {
+            Some(Quantity::Z(i, _)) => {
                 let c = inside.iter().position(|&k| k == i)?;
                 let up = tangent[c] > 0.0;
-                let _ = bound;
                 (i, if up { Place::Upper } else { Place::Lower }, Quantity::Multiplier(i), if up { -1.0 } else { 1.0 })
             }
             Some(Quantity::Multiplier(i)) => (i, Place::Inside, Quantity::Z(i, 0.0), if kept[i] == Place::Lower { 1.0 } else { -1.0 }),

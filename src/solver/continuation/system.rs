@@ -21,7 +21,7 @@ pub(super) enum Place {
 }
 
 /// The place of every unknown.
-#[derive(Debug, Clone)]
+#[derive(Debug, Clone, PartialEq, Eq)]
 pub(super) struct Places(pub(super) Vec<Place>);
 
 impl Places {
