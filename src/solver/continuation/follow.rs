@@ -1,10 +1,8 @@
 //! Predictor, corrector and events along a curve.
 
-use super::super::Options;
-use super::super::tolerance::{
-    CURVE_ANGLE, CURVE_CLOSED, CURVE_FAR, CURVE_FEASIBLE, CURVE_FIRST, CURVE_GROWTH, CURVE_SAME, CURVE_SHORTEST,
-};
+use super::Options;
 use super::system::{Border, Local, Place, Places, Position, Quantity, System};
+use super::tolerance::{CURVE_ANGLE, CURVE_CLOSED, CURVE_FAR, CURVE_FEASIBLE, CURVE_FIRST, CURVE_GROWTH, CURVE_SAME, CURVE_SHORTEST};
 use super::{CurveEnd, Sense};
 use crate::mcp::Mcp;
 use nalgebra::DVector;

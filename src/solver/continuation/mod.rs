@@ -12,14 +12,15 @@
 mod follow;
 mod system;
 
-use super::evaluation::{Evaluated, Point};
+// The solver's own modules, for `system` and `follow`.
 use super::outcome::Counters;
-use super::tolerance::CURVE_LIFT;
-use super::{Options, SolverError, validate};
+use super::{Options, SolverError, dense, evaluation, tolerance, validate};
 use crate::mcp::Mcp;
+use evaluation::{Evaluated, Point};
 use follow::Follower;
 use nalgebra::DVector;
 use system::{Places, Position, System};
+use tolerance::CURVE_LIFT;
 
 /// Which way a curve is followed at first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
