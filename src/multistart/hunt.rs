@@ -19,7 +19,7 @@ const MOST_DEPARTURES: usize = 6;
 /// First salt of windows around values found.
 pub(super) const WINDOW_SALT: u64 = 1000;
 /// Solutions that are left on curves, at most: a singular pencil has a continuum of them.
-const KNOWN_LIMIT: usize = 256;
+const KNOWN_LIMIT: usize = 64;
 
 pub(super) struct Hunt<'a> {
     pub(super) admissible: &'a Admissible<'a>,
@@ -128,6 +128,7 @@ impl Hunt<'_> {
         for point in curve.solutions {
             let polished = solve(embedding, &point, &self.search.options)?;
             self.count(&polished.counters);
+            *self.found.terminations.entry(polished.termination).or_default() += 1;
             self.trace(|_| format!("polished\n{}", trace_outcome(&polished)));
             if polished.termination.reached_tolerance() {
                 self.file(embedding.candidate(&polished.point), run, origin);

@@ -103,7 +103,7 @@ pub struct Found {
     pub outside: usize,
     /// Candidates equal to an earlier one within rounding ([`SAME_POINT`]).
     pub repeated: usize,
-    /// How often each reason ended a run.
+    /// How often each reason ended a run of the solver, also those that polish a point of a curve.
     pub terminations: BTreeMap<Termination, usize>,
     /// How often each reason ended a curve.
     pub curves: BTreeMap<CurveEnd, usize>,
