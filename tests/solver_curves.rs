@@ -58,7 +58,7 @@ fn billups() {
     assert_eq!((curve.solutions.len(), curve.end), (1, CurveEnd::Ray), "{curve:?}");
 }
 
-/// Murphy, Sherali and Soyster 1982, five firms; the solution as in Harker 1984 to the digits printed there.
+/// Murphy, Sherali and Soyster 1982, five firms; four digits of the known solution.
 #[test]
 fn nash_cournot() {
     const C: [f64; 5] = [10.0, 8.0, 6.0, 4.0, 2.0];

@@ -129,7 +129,7 @@ pub(super) const CURVE_SHORTEST: f64 = 1e-9;
 pub(super) const CURVE_SAME: f64 = 1e-6;
 
 /// Points from which curves are followed after the last restart. Unit: points.
-/// Basis: on random pencils of order 20 one curve in two meets a solution where there is one.
+/// Basis: not tuned; a bound on the cost of a failure (twelve curves), after everything else.
 pub(super) const CURVE_TRIALS: usize = 6;
 
 /// A curve is closed if it passes its start's s at this share of the step from the start, on the
