@@ -37,6 +37,8 @@ pub mod check;
 pub mod cli;
 pub mod exact;
 #[cfg(feature = "solver")]
+pub mod lcp;
+#[cfg(feature = "solver")]
 pub mod linear;
 #[cfg(feature = "solver")]
 pub mod mcp;

@@ -1,117 +1,146 @@
-//! Measures, printed with `cargo test --release --test solver_measure -- --ignored --nocapture`.
-#![cfg(feature = "solver")]
+//! Measures, printed with
+//! `cargo test --release --test solver_measure -- --ignored --nocapture`; seeds by MEASURE_SEEDS=101,102.
+#![cfg(feature = "testkit")]
 #![allow(missing_docs, clippy::unwrap_used, reason = "a test may panic")]
 
-mod support;
+mod families;
 
-use mceip::solver::{Options, Outcome, solve};
-use rand::SeedableRng;
-use rand_chacha::ChaCha8Rng;
-use std::collections::BTreeMap;
-use support::*;
+use families::*;
+use mceip::model::{Admissible, Window};
+use mceip::multistart::{Found, Search, multistart, same, support};
+use mceip::reduction::{Embedding, Side};
+use mceip::search::screen;
+use mceip::solver::{Options, solve};
 
-#[derive(Default, Debug)]
+#[derive(Default)]
 struct Tally {
-    instances: usize,
     solvable: usize,
-    first: [usize; 2],
-    random: (usize, usize),
+    first: usize,
+    first_in_search: usize,
     found: usize,
     truth: usize,
+    complete: usize,
     false_claims: usize,
-    success_ms: f64,
-    failure_ms: f64,
-    successes: usize,
-    failures: usize,
-    ends: BTreeMap<String, usize>,
-    majors: usize,
+    uncertified: usize,
+    pivots: usize,
+    factorisations: usize,
+    runs: usize,
+    first_us: Vec<f64>,
+    missed_first: Vec<String>,
+    curves: std::collections::BTreeMap<mceip::solver::CurveEnd, usize>,
+    origins: std::collections::BTreeMap<mceip::multistart::Origin, usize>,
 }
 
-fn run(tally: &mut Tally, problem: &Embedded, t_max: f64, seed: u64) {
-    let truth = enumerate(&problem.a, &problem.b, problem.free);
-    tally.instances += 1;
-    if truth.is_empty() {
-        return;
-    }
-    tally.solvable += 1;
-    tally.truth += truth.len();
-    let mut seen = vec![false; truth.len()];
-    for (k, start) in problem.starts(22, t_max, seed).iter().enumerate() {
+impl Tally {
+    fn add(&mut self, case: &Case, search: &Search, window_only: bool) {
+        let (truth, _) = screen::enumerate(&case.pencil, &Window::all()).unwrap();
+        if truth.solutions.is_empty() {
+            return;
+        }
+        let _ = window_only;
+        let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
+        self.solvable += 1;
+        self.truth += truth.solutions.len();
+        let embedding = Embedding::new(&admissible, Side::Above(0.0));
+        let start = &embedding.starts(1, 0)[0];
         let clock = std::time::Instant::now();
-        let outcome = solve(problem, start, &Options::default()).unwrap();
-        let ms = clock.elapsed().as_secs_f64() * 1e3;
-        let ok = matched(problem, &truth, &outcome, &mut seen, tally);
-        tally.majors += outcome.counters.majors;
-        *tally.ends.entry(format!("{:?} r{}", outcome.termination, outcome.counters.restarts)).or_default() += 1;
-        if ok {
-            tally.successes += 1;
-            tally.success_ms += ms;
+        let outcome = solve(&embedding, start, &Options::default()).unwrap();
+        if outcome.termination.reached_tolerance() {
+            self.first += 1;
+            self.first_us.push(clock.elapsed().as_secs_f64() * 1e6);
         } else {
-            tally.failures += 1;
-            tally.failure_ms += ms;
+            self.missed_first.push(format!("{} {:?}", case.label, outcome.termination));
         }
-        match k {
-            0 | 1 => tally.first[k] += usize::from(ok),
-            _ => tally.random = (tally.random.0 + usize::from(ok), tally.random.1 + 1),
+        let found = multistart(&admissible, &Window::all(), search).unwrap();
+        self.count(&found, &truth.solutions);
+        for (end, count) in &found.curves {
+            *self.curves.entry(*end).or_default() += count;
+        }
+        let missed = |s: &&mceip::oracle::Solution| !found.certified.iter().any(|c| support(&c.claim) == s.slip);
+        if let Some(s) = truth.solutions.iter().find(missed) {
+            let got: Vec<f64> = found.certified.iter().map(|c| c.candidate.value).collect();
+            println!(
+                "   missed {} slip {:?} in {} with {} of {}: {got:?}",
+                s.decimal(5),
+                s.slip,
+                case.label,
+                got.len(),
+                truth.solutions.len()
+            );
         }
     }
-    if seen.contains(&false) && problem.a.nrows() == 2 {
-        println!("missed {:?} of {truth:?} in {}", seen, problem.a);
+
+    fn count(&mut self, found: &Found, truth: &[mceip::oracle::Solution]) {
+        let matches = |s: &mceip::oracle::Solution| {
+            let value: f64 = s.decimal(17).parse().unwrap();
+            let near = |c: &f64| (c - value).abs() <= 1e-6 * (1.0 + value);
+            found.certified.iter().filter(|c| support(&c.claim) == s.slip && near(&c.candidate.value)).count()
+        };
+        let seen = truth.iter().filter(|s| matches(s) > 0).count();
+        self.found += seen;
+        self.complete += usize::from(seen == truth.len());
+        self.false_claims += found.certified.len().saturating_sub(truth.iter().map(matches).sum());
+        self.uncertified += found.uncertified.len();
+        self.first_in_search += usize::from(found.certified.iter().any(|c| c.run == 0));
+        self.pivots += found.pivots;
+        self.factorisations += found.factorisations;
+        self.runs += found.runs;
+        found.certified.iter().for_each(|c| *self.origins.entry(c.origin).or_default() += 1);
+        assert!(found.certified.iter().enumerate().all(|(i, a)| found.certified[..i].iter().all(|b| !same(&a.claim, &b.claim))));
     }
-    tally.found += seen.iter().filter(|s| **s).count();
+
+    fn print(&mut self, name: &str) {
+        self.first_us.sort_by(f64::total_cmp);
+        println!(
+            "{name}: solvable {}; first start {} ({:.1} %, certified {}); found {}/{} ({:.1} %); all of {}; extra {} uncertified {}; runs {} pivots {} factorisations {}; median {:.0} us; {:?}; {:?}; misses {:?}",
+            self.solvable,
+            self.first,
+            100.0 * self.first as f64 / self.solvable.max(1) as f64,
+            self.first_in_search,
+            self.found,
+            self.truth,
+            100.0 * self.found as f64 / self.truth.max(1) as f64,
+            self.complete,
+            self.false_claims,
+            self.uncertified,
+            self.runs,
+            self.pivots,
+            self.factorisations,
+            self.first_us.get(self.first_us.len() / 2).copied().unwrap_or(f64::NAN),
+            self.origins,
+            self.curves,
+            self.missed_first
+        );
+    }
 }
 
-fn matched(problem: &Embedded, truth: &[Truth], outcome: &Outcome, seen: &mut [bool], tally: &mut Tally) -> bool {
-    if !outcome.termination.reached_tolerance() {
-        return false;
-    }
-    let n = problem.a.nrows();
-    match index_of(truth, outcome.point[n], &outcome.point[..n]) {
-        Some(i) => {
-            seen[i] = true;
-            true
-        }
-        None => {
-            tally.false_claims += 1;
-            false
-        }
-    }
+fn seeds() -> Vec<u64> {
+    let text = std::env::var("MEASURE_SEEDS").unwrap_or_else(|_| "101,102".into());
+    text.split(',').map(|s| s.trim().parse().unwrap()).collect()
 }
 
-fn print(name: &str, t: &Tally) {
-    println!(
-        "{name}: {}/{} solvable; first t=0 {} t=1 {}; random {}/{}; found {}/{}; unmatched {}; success {:.3} ms failure {:.3} ms; majors {}\n   {:?}",
-        t.solvable,
-        t.instances,
-        t.first[0],
-        t.first[1],
-        t.random.0,
-        t.random.1,
-        t.found,
-        t.truth,
-        t.false_claims,
-        t.success_ms / t.successes.max(1) as f64,
-        t.failure_ms / t.failures.max(1) as f64,
-        t.majors,
-        t.ends
-    );
+fn searches() -> Vec<(&'static str, Search)> {
+    let plain = Search { window_starts: 0, curves: false, ..Search::default() };
+    let plain = Search { options: Options { curve_step_limit: 0, ..Options::default() }, ..plain };
+    vec![("plain 22", plain), ("search", Search { starts: 10, window_starts: 0, ..Search::default() })]
 }
 
 #[test]
 #[ignore = "a measurement: run on request, in release"]
 fn random_pencils() {
-    for (family, sizes) in [("lambda2", [5, 10, 15, 20]), ("mu", [5, 10, 15, 20])] {
-        for n in sizes {
-            for seed in [1u64, 2] {
-                let mut tally = Tally::default();
-                let mut rng = ChaCha8Rng::seed_from_u64(1000 * n as u64 + seed);
-                for k in 0..40 {
-                    let (k0, k1, m0, free) = random_pencil(&mut rng, n);
-                    let problem = if family == "mu" { Embedded::new(k0, k1, free) } else { Embedded::new(k0 + k1 * 3.0, m0, free) };
-                    run(&mut tally, &problem, 10.0, k);
-                }
-                print(&format!("{family} n={n} seed {seed}"), &tally);
+    let only = std::env::var("MEASURE_ONLY").unwrap_or_default();
+    for (name, search) in searches().into_iter().filter(|(name, _)| name.contains(&only)) {
+        for (family, n) in [("lambda2", 5), ("lambda2", 10), ("lambda2", 20), ("mu", 5), ("mu", 10), ("mu", 15), ("mu", 20)] {
+            if std::env::var("MEASURE_FAMILY").is_ok_and(|f| f != format!("{family}{n}")) {
+                continue;
             }
+            let mut tally = Tally::default();
+            for seed in seeds() {
+                for k in 0..40 {
+                    tally.add(&random_case(family, n, seed, k), &search, false);
+                }
+            }
+            tally.print(&format!("{name} {family} n={n}"));
         }
     }
 }
@@ -119,56 +148,13 @@ fn random_pencils() {
 #[test]
 #[ignore = "a measurement: run on request, in release"]
 fn table_one() {
-    let mut all = Tally::default();
-    for phi in [10.0f64, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0] {
-        let (s, c) = phi.to_radians().sin_cos();
-        for mu in [0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 12.0, 20.0] {
-            for (s1, s2) in [(1.0, 1.0), (1.0, -1.0), (-1.0, 1.0), (-1.0, -1.0)] {
-                let (a, b) = table1(c, s, mu, s1, s2);
-                run(&mut all, &Embedded::new(a, b, 0), 10.0, (phi + mu) as u64);
+    for (name, search) in searches() {
+        for seed in seeds() {
+            let mut tally = Tally::default();
+            for case in table1_cases() {
+                tally.add(&case, &Search { seed, ..search.clone() }, false);
             }
+            tally.print(&format!("{name} table 1 seed {seed}"));
         }
     }
-    print("table 1", &all);
-}
-
-/// Seeds 1 to 6 were looked at while the restarts were chosen; 101 to 106 were not.
-#[test]
-#[ignore = "a measurement: run on request, in release"]
-fn first_starts() {
-    for (what, seeds) in [("looked at", 1u64..=6), ("held out", 101..=106)] {
-        for restart_limit in [3, 1, 0] {
-            for family in ["lambda2", "mu"] {
-                for n in [5, 10] {
-                    print!("{what}, restarts {restart_limit}: ");
-                    first_starts_of(family, n, seeds.clone(), restart_limit);
-                }
-            }
-        }
-    }
-}
-
-fn first_starts_of(family: &str, n: usize, seeds: std::ops::RangeInclusive<u64>, restart_limit: usize) {
-    let (mut solvable, mut ok, mut majors, mut reasons) = (0, [0, 0], 0, BTreeMap::<String, usize>::new());
-    let options = Options { restart_limit, ..Options::default() };
-    for seed in seeds {
-        let mut rng = ChaCha8Rng::seed_from_u64(1000 * n as u64 + seed);
-        for _ in 0..40 {
-            let (k0, k1, m0, free) = random_pencil(&mut rng, n);
-            let problem = if family == "mu" { Embedded::new(k0, k1, free) } else { Embedded::new(k0 + k1 * 3.0, m0, free) };
-            let truth = enumerate(&problem.a, &problem.b, free);
-            if truth.is_empty() {
-                continue;
-            }
-            solvable += 1;
-            for t in [0, 1] {
-                let outcome = solve(&problem, &problem.first_start(t as f64), &options).unwrap();
-                let right = contains(&truth, outcome.point[n], &outcome.point[..n]);
-                ok[t] += usize::from(outcome.termination.reached_tolerance() && right);
-                majors += outcome.counters.majors;
-                *reasons.entry(format!("{:?} r{}", outcome.termination, outcome.counters.restarts)).or_default() += 1;
-            }
-        }
-    }
-    println!("{family} n={n}: {ok:?} of {solvable} majors {majors} {reasons:?}");
 }

@@ -36,6 +36,14 @@ pub(super) enum CliError {
         /// What is wrong with it.
         source: ModelError,
     },
+    /// A plain problem or its solution.
+    #[error("{path}: {source}")]
+    Plain {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: crate::lcp::FileError,
+    },
     /// A problem built from options.
     #[error(transparent)]
     Model(#[from] ModelError),

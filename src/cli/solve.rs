@@ -1,14 +1,18 @@
 //! `mceip solve`: the PATH-style solver with many starts, every claim certified.
 
-use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinner};
+mod plain;
+mod trace;
+
+use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinner, text};
 use super::output::Output;
 use crate::certify::certificate;
+use crate::lcp::MCP_FORMAT;
+use crate::model::file::require_format;
 use crate::model::{Admissible, Pencil};
-use crate::multistart::{Found, Search, multistart_large, support};
+use crate::multistart::{Found, Search, multistart_large, support, trace_outcome};
 use crate::reduction::reduce;
 use crate::report::{Listed, Report, solutions_json, solutions_text};
 use std::collections::BTreeMap;
-use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
@@ -16,9 +20,11 @@ use std::sync::atomic::Ordering;
 /// Arguments of `solve`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Problem file (mceip-problem/1).
-    file: PathBuf,
-    /// Also search above and below each value found (the zeta windows of section 4).
+    /// Problem file (mceip-problem/1), or a plain LCP or MCP (mceip-mcp/1).
+    #[arg(required_unless_present = "replay")]
+    file: Option<PathBuf>,
+    /// Look for all solutions: also follow curves, from starts and through each solution found, and
+    /// search above and below each value found (the zeta windows of section 4).
     #[arg(long)]
     all: bool,
     /// Number of starts on the whole window.
@@ -33,6 +39,15 @@ pub(super) struct Args {
     /// Print the linearisations and pivots of the first run.
     #[arg(long)]
     log: bool,
+    /// Write problem, options, seed and every pivot to this file.
+    #[arg(long, value_name = "OUT")]
+    trace: Option<PathBuf>,
+    /// Run a trace again: identical, or the first line that differs.
+    #[arg(long, value_name = "TRACE", conflicts_with_all = ["file", "trace", "certificate", "json", "log", "window"])]
+    replay: Option<PathBuf>,
+    /// Of a plain LCP or MCP: check this solution file exactly instead of solving.
+    #[arg(long, value_name = "SOLUTION")]
+    check: Option<PathBuf>,
     /// Write the certificate of everything found to this file.
     #[arg(long, value_name = "OUT")]
     certificate: Option<PathBuf>,
@@ -45,12 +60,28 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.starts == 0 {
         return Err(CliError::Option { option: "starts", expected: "at least 1", got: "0".into() });
     }
-    let problem = load(&args.file, args.window.as_deref())?;
-    let output = args.certificate.as_ref().map(|path| Output::prepare("certificate", path, &[&args.file])).transpose()?;
+    let file = match (&args.replay, &args.file) {
+        (Some(path), _) => return trace::replay(path),
+        (None, Some(file)) => file,
+        (None, None) => return Err(CliError::Option { option: "replay", expected: "a file, or a problem", got: String::new() }),
+    };
+    let source = text("the problem", file)?;
+    if require_format(&source, MCP_FORMAT).is_ok() {
+        return plain::run(args, file, &source);
+    }
+    if let Some(path) = &args.check {
+        return Err(CliError::Option {
+            option: "check",
+            expected: "a problem of format mceip-mcp/1 (mceip check for others)",
+            got: path.display().to_string(),
+        });
+    }
+    let problem = load(file, args.window.as_deref())?;
+    let output = args.certificate.as_ref().map(|path| Output::prepare("certificate", path, &[file])).transpose()?;
+    let trace_output = args.trace.as_ref().map(|path| Output::prepare("trace", path, &[file])).transpose()?;
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
-    let window_starts = if args.all { Search::default().window_starts } else { 0 };
-    let search = Search { starts: args.starts, window_starts, seed: args.seed, ..Search::default() };
+    let search = search_of(args.starts, args.seed, args.all, args.trace.is_some());
     let stop = interrupt_flag();
     let bar = progress_spinner("searching");
     let (found, _) = multistart_large(&admissible, problem.window(), &search, &|found| {
@@ -67,17 +98,21 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             "singular pencil: support {support:?} has more values than its order: every value is an eigenvalue, those listed are examples"
         );
     }
-    if args.log {
-        eprint!("{}", first_log(&found));
+    if let (true, Some(first)) = (args.log, &found.first) {
+        eprint!("{}", trace_outcome(first));
+    }
+    if let (Some(output), false) = (trace_output, found.interrupted) {
+        output.write(&trace::render(&trace::Header::new(&problem, &search, args.all), &found))?;
     }
     let claims: Vec<_> = found.certified.iter().map(|c| c.claim.clone()).collect();
     let evidence = format!(
-        "{} certified found in {}{} runs (seed {}, {} pivots, {} repeats, {} outside the window, endings {:?}); completeness unknown",
+        "{} certified found in {}{} runs (seed {}, {} pivots, {} factorisations, {} repeats, {} outside the window, endings {:?}); completeness unknown",
         claims.len(),
         if found.interrupted { "an interrupted search of " } else { "" },
         found.runs,
         args.seed,
         found.pivots,
+        found.factorisations,
         found.repeated,
         found.outside,
         found.terminations
@@ -106,19 +141,8 @@ fn singular_supports(pencil: &Pencil, found: &Found) -> Vec<Vec<usize>> {
     counts.into_iter().filter(|(s, count)| *count > s.len() + pencil.free().len()).map(|(s, _)| s).collect()
 }
 
-/// Linearisations and pivots of the very first run.
-fn first_log(found: &Found) -> String {
-    let mut out = String::new();
-    let Some(first) = &found.first else { return out };
-    for (k, major) in first.log.iter().enumerate() {
-        let _ = writeln!(out, "step {k}: merit {:e}, {:?}, proximal {:e}", major.merit, major.step, major.proximal);
-        for path in &major.paths {
-            let _ = writeln!(out, "  path, {:?} start, ended {:?} at t = {}", path.start, path.end, path.reach);
-            for p in &path.pivots {
-                let _ = writeln!(out, "    t = {:.12}: {:?} leaves, {:?} enters ({:?})", p.t, p.leaving, p.entering, p.kind);
-            }
-        }
-    }
-    let _ = writeln!(out, "ended: {:?}, {:?}, {:?}", first.termination, first.residuals, first.counters);
-    out
+/// The search that the options ask for.
+fn search_of(starts: usize, seed: u64, all: bool, trace: bool) -> Search {
+    let window_starts = if all { Search::default().window_starts } else { 0 };
+    Search { starts, window_starts, curves: all, seed, trace, ..Search::default() }
 }

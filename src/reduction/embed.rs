@@ -125,6 +125,18 @@ impl Embedding {
         starts
     }
 
+    /// A random residual direction for curves: standard normal in the rows of the pencil (Box and
+    /// Muller), zero in that of e'u_s, so that e'u_s = c stays.
+    /// With `uneven` each is cubed: a few rows dominate, and the curve stays near the face of its start.
+    pub fn direction(&self, seed: u64, uneven: bool) -> Vec<f64> {
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        let mut normal = || {
+            let (u, v): (f64, f64) = (rng.random_range(f64::MIN_POSITIVE..1.0), rng.random_range(0.0..1.0));
+            (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+        };
+        self.diagonal.iter().map(|_| normal()).map(|v| if uneven { v * v * v } else { v }).chain([0.0]).collect()
+    }
+
     /// zeta at which the diagonal entry of particle i vanishes, or 0 if that lies on the other side.
     fn ritz(&self, i: usize) -> f64 {
         let t = -self.a[(i, i)] / self.b[(i, i)];

@@ -23,6 +23,7 @@ pub(super) fn crash<P: Mcp + ?Sized>(
     let mut active = active_set(problem.problem, &point);
     for _ in 0..limit {
         let jacobian = problem.jacobian(&point)?;
+        problem.counters.factorisations += 1;
         let (direction, proximal) = newton_direction(&jacobian, &point, &active);
         let Some(next) = direction.and_then(|d| search(problem, &point, &d)) else { break };
         problem.counters.crash_steps += 1;

@@ -40,8 +40,8 @@ pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, S
         PathEnd::Complete if residuals.within(options.convergence_tolerance) => Termination::ToleranceReached,
         end => Termination::of(end),
     };
-    let pivots = path.pivots.len();
-    let counters = Counters { majors: 1, pivots, ray_starts: 1, ..evaluated.counters };
+    let (pivots, factorisations) = (path.pivots.len(), path.factorisations);
+    let counters = Counters { majors: 1, pivots, ray_starts: 1, factorisations, ..evaluated.counters };
     let step = if path.end == PathEnd::Complete { StepKind::Path { t: 1.0 } } else { StepKind::Failed };
     let record = PathRecord { start: path.start, end: path.end, reach: path.reach(), pivots: path.pivots };
     let log = vec![MajorRecord { merit: before.merit, step, proximal: 0.0, paths: vec![record] }];

@@ -12,10 +12,12 @@
 //! | `crash` | projected Newton to a good active set |
 //! | `path/` | the linear subproblem, solved by pivoting along the path |
 //! | `search`, `gradient`, `restart` | what makes a step acceptable, and what if none is |
+//! | `continuation/` | the Newton homotopy: a curve that meets several solutions |
 //! | `newton` | the outer loop |
 //! | `linear`, `multistart` | Lemke's method alone; many starts |
 //! | `outcome` | point, residuals, reason, log of every pivot |
 
+mod continuation;
 mod crash;
 mod dense;
 mod error;
@@ -34,6 +36,7 @@ mod restart;
 mod search;
 mod tolerance;
 
+pub use continuation::{Curve, CurveEnd, Sense, continuation, continuation_through};
 pub use error::SolverError;
 pub use linear::solve_linear;
 pub use multistart::multistart;
@@ -58,6 +61,12 @@ use crate::mcp::{Mcp, McpError, check_bounds};
 /// assert!((outcome.point[0] - 4.0 / 3.0).abs() < 1e-12);
 /// ```
 pub fn solve<P: Mcp + ?Sized>(problem: &P, start: &[f64], options: &Options) -> Result<Outcome, SolverError> {
+    validate(problem, start, options)?;
+    Ok(newton::Run::new(problem, options).run(start))
+}
+
+/// Refuses options, shapes, bounds and starts that make no sense.
+fn validate<P: Mcp + ?Sized>(problem: &P, start: &[f64], options: &Options) -> Result<(), SolverError> {
     options.validate()?;
     let n = problem.dimension();
     for (what, got) in [("lower", problem.lower().len()), ("upper", problem.upper().len())] {
@@ -72,5 +81,5 @@ pub fn solve<P: Mcp + ?Sized>(problem: &P, start: &[f64], options: &Options) -> 
     if let Some(index) = start.iter().position(|v| !v.is_finite()) {
         return Err(SolverError::StartNotFinite { index, got: start[index] });
     }
-    Ok(newton::Run::new(problem, options).run(start))
+    Ok(())
 }

@@ -2,6 +2,7 @@
 //! watchdog, path search, gradient and restart, in this order (Dirkse and Ferris 1995, section 4).
 
 use super::Options;
+use super::continuation::{Sense, from_point};
 use super::crash::crash;
 use super::evaluation::{Evaluated, Point};
 use super::gradient::gradient_step;
@@ -11,6 +12,7 @@ use super::path::{Limits, Path, PathEnd, Start, Subproblem, follow};
 use super::residual::Residuals;
 use super::restart::Attempt;
 use super::search::Search;
+use super::tolerance::CURVE_TRIALS;
 use crate::mcp::Mcp;
 use nalgebra::DVector;
 
@@ -38,18 +40,66 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         }
         let mut best = start.clone();
         let mut reason = self.attempt(&start, Attempt::number(0), &mut best);
+        if !ends_the_run(reason) && self.options.curve_step_limit > 0 {
+            reason = self.along_curves(&start, &mut best).unwrap_or(reason);
+        }
         for k in 1..=self.options.restart_limit {
             if ends_the_run(reason) {
                 break;
             }
-            self.problem.counters.restarts += 1;
-            let attempt = Attempt::number(k);
-            self.record(start.merit, StepKind::Restart, 0.0, &[]);
-            let shifted = self.problem.point(&attempt.shifted(&start.z, k));
-            let from = if shifted.merit.is_finite() { shifted } else { start.clone() };
-            reason = self.attempt(&from, attempt, &mut best);
+            reason = self.restart(&start, Attempt::number(k), k, &mut best);
+        }
+        // Last, curves alone from other points: they cost little and reach far.
+        for k in (1..=self.trials()).map(|k| k + self.options.restart_limit) {
+            if ends_the_run(reason) {
+                break;
+            }
+            let from = self.moved(&start, Attempt::far(), k);
+            reason = self.along_curves(&from, &mut best).unwrap_or(reason);
         }
         self.finish(best, reason)
+    }
+
+    /// One more attempt from the start, moved; then along the curves from there.
+    fn restart(&mut self, start: &Point, attempt: Attempt, k: usize, best: &mut Point) -> Termination {
+        self.problem.counters.restarts += 1;
+        self.record(start.merit, StepKind::Restart, 0.0, &[]);
+        let from = self.moved(start, attempt, k);
+        let reason = self.attempt(&from, attempt, best);
+        if attempt.shift > 0.0 && !ends_the_run(reason) && self.options.curve_step_limit > 0 {
+            return self.along_curves(&from, best).unwrap_or(reason);
+        }
+        reason
+    }
+
+    /// The start moved as the attempt asks, if F is finite there.
+    fn moved(&mut self, start: &Point, attempt: Attempt, k: usize) -> Point {
+        let shifted = self.problem.point(&attempt.shifted(&start.z, k));
+        if shifted.merit.is_finite() { shifted } else { start.clone() }
+    }
+
+    /// Points from which curves alone are tried at the end: none without restarts or curves.
+    fn trials(&self) -> usize {
+        if self.options.restart_limit > 0 && self.options.curve_step_limit > 0 { CURVE_TRIALS } else { 0 }
+    }
+
+    /// To the first solution on the curve of the Newton homotopy from the start, down and then up,
+    /// and from there by Newton; `None` if neither way meets one.
+    fn along_curves(&mut self, start: &Point, best: &mut Point) -> Option<Termination> {
+        let mut reason = None;
+        for sense in [Sense::Down, Sense::Up] {
+            let (solutions, _) = from_point(&mut self.problem, start, sense, 1, self.options);
+            let Some(z) = solutions.first() else { continue };
+            self.record(start.merit, StepKind::Curve, 0.0, &[]);
+            let point = self.problem.point(z);
+            let next = self.attempt(&point, Attempt::number(1), best);
+            reason = Some(next);
+            if ends_the_run(next) {
+                break;
+            }
+        }
+        self.problem.not_finite = None;
+        reason
     }
 
     /// One attempt; `best` is left at the point of least merit, or at the one within the tolerance.
@@ -89,7 +139,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     /// An even share of the limits on majors and pivots, so that a wandering attempt leaves some to
     /// the restarts.
     fn share(&self) -> (usize, usize) {
-        let attempts = 1 + self.options.restart_limit;
+        let attempts = (1 + self.options.restart_limit) * if self.options.curve_step_limit > 0 { 2 } else { 1 };
         let Options { major_iteration_limit: majors, cumulative_iteration_limit: pivots, .. } = self.options;
         (majors.div_ceil(attempts), pivots.div_ceil(attempts))
     }
@@ -122,6 +172,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         let pivots = self.options.minor_iteration_limit.min(left);
         let path = follow(sub, start, &point.z, Limits { pivots, cycle_entries: self.options.cycle_entry_limit });
         self.problem.counters.pivots += path.pivots.len();
+        self.problem.counters.factorisations += path.factorisations;
         self.problem.counters.ray_starts += usize::from(start == Start::Ray);
         path
     }

@@ -35,6 +35,9 @@ pub struct Options {
     pub gradient_step_limit: usize,
     /// Restarts from the user's point, each with other settings. PATH: 3.
     pub restart_limit: usize,
+    /// Steps along the curve of the Newton homotopy ([`super::continuation`]), which is followed where
+    /// the first attempt fails, and of each curve of a search; 0 for none. Ours. Unit: steps.
+    pub curve_step_limit: usize,
 }
 
 impl Default for Options {
@@ -52,6 +55,7 @@ impl Default for Options {
             nms_maximum_watchdogs: 5,
             gradient_step_limit: 5,
             restart_limit: 3,
+            curve_step_limit: 200,
         }
     }
 }

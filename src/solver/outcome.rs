@@ -91,6 +91,8 @@ pub enum StepKind {
     },
     /// A projected-gradient step from the best point.
     Gradient,
+    /// Along the curve of the Newton homotopy from the attempt's start.
+    Curve,
     /// From the user's start again, with other settings.
     Restart,
     /// No acceptable step: the attempt ends here.
@@ -147,6 +149,10 @@ pub struct Counters {
     pub gradient_steps: usize,
     /// Restarts from the user's start.
     pub restarts: usize,
+    /// Steps along curves of the Newton homotopy.
+    pub curve_steps: usize,
+    /// Dense factorisations: starting bases and their repair, refreshed bases, crash and curve steps.
+    pub factorisations: usize,
     /// Evaluations of F.
     pub functions: usize,
     /// Evaluations of F'.

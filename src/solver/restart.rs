@@ -51,6 +51,11 @@ impl Attempt {
         }
     }
 
+    /// Settings of a point that is only the start of curves.
+    pub(super) fn far() -> Attempt {
+        Attempt { shift: RESTART_SHIFT[1], ..Attempt::number(1) }
+    }
+
     /// The start of attempt `k`: the user's, with components moved the same way in every run.
     pub(super) fn shifted(&self, start: &DVector<f64>, k: usize) -> DVector<f64> {
         DVector::from_fn(start.len(), |i, _| start[i] + self.shift * (1.0 + start[i].abs()) * spread(k, i))

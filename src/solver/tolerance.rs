@@ -92,3 +92,46 @@ pub(super) const GRADIENT_GAIN: f64 = 1e-12;
 /// Factor on the reference of an attempt with free acceptance. Unit: none.
 /// Basis: a reference that only a run to infinity would miss; the tenth step still has to pass it.
 pub(super) const FREE_REFERENCE: f64 = 1e4;
+
+/// Multipliers of a curve's start are lifted off zero by this, relative to the size of F up to 1.
+/// Unit: that of F. Basis: any positive number gives a curve; a tenth keeps events apart.
+pub(super) const CURVE_LIFT: f64 = 0.1;
+
+/// Residual of the curve's equations at a corrected point, relative to 1 + |s| |r|. Unit: none.
+/// Basis: Newton's last step overshoots it by far; solutions are polished afterwards.
+pub(super) const CURVE_RESIDUAL: f64 = 1e-9;
+
+/// Newton steps of one correction. Unit: steps. Basis: more mean that the prediction was too far.
+pub(super) const CURVE_STEPS: usize = 6;
+
+/// Least cosine between the tangents before and after a step. Unit: none. Basis: 45 degrees.
+pub(super) const CURVE_ANGLE: f64 = 0.7;
+
+/// Where a curve counts as gone to infinity, relative to 1 + |start|. Unit: none.
+/// Basis: steps double, so a factor of ten costs three of them; values beyond are left to windows.
+pub(super) const CURVE_FAR: f64 = 1e5;
+
+/// A guarded quantity may be this negative, relative to 1 + |s|. Unit: that of z and F.
+/// Basis: ten times the residual of a corrected point.
+pub(super) const CURVE_FEASIBLE: f64 = 1e-8;
+
+/// First step along a curve. Unit: that of z and s. Basis: a tenth of the start's s.
+pub(super) const CURVE_FIRST: f64 = 0.1;
+
+/// Factor on the step after an easy correction. Unit: none. Basis: doubling.
+pub(super) const CURVE_GROWTH: f64 = 2.0;
+
+/// Shortest step. Unit: that of z and s. Basis: thousands of events could lie on a unit length.
+pub(super) const CURVE_SHORTEST: f64 = 1e-9;
+
+/// A curve that left a solution is closed if it meets a point this near to it, relative to
+/// 1 + |z|. Unit: none. Basis: a thousand times the residual of a corrected point.
+pub(super) const CURVE_SAME: f64 = 1e-6;
+
+/// Points from which curves are followed after the last restart. Unit: points.
+/// Basis: not tuned; a bound on the cost of a failure (twelve curves), after everything else.
+pub(super) const CURVE_TRIALS: usize = 6;
+
+/// A curve is closed if it passes its start's s at this share of the step from the start, on the
+/// same places. Unit: none. Basis: the error of the chord between two points 45 degrees apart.
+pub(super) const CURVE_CLOSED: f64 = 0.05;

@@ -13,10 +13,6 @@ use crate::source::{Block, PublishedState};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Windows of section 4 in which the 15-slip state is sought besides [0, infinity): without them
-/// PATH itself does not find it (`spec/decisions.md`).
-const BLOCK_ORIGINS: [f64; 3] = [3.0, 10.0, 30.0];
-
 /// Why a state of the block was not treated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -103,7 +99,7 @@ pub fn block_state(
         return Ok(None);
     }
     progress("condensing exactly and searching");
-    let search = Search { origins: BLOCK_ORIGINS.to_vec(), window_starts: 2, ..Search::default() };
+    let search = Search { window_starts: 2, ..Search::default() };
     let (found, condensed) = multistart_large(&full, problem.window(), &search, &|_| {
         if stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;

@@ -47,6 +47,8 @@ pub(super) struct Basis {
     /// thought perturbed by B_0 S (eps, eps^2, ...), which decides every tie.
     perturbation: DMatrix<f64>,
     updates: usize,
+    /// Factorisations after the first.
+    pub(super) refreshed: usize,
 }
 
 impl Basis {
@@ -59,7 +61,7 @@ impl Basis {
         for (place, &sign) in signs.iter().enumerate() {
             perturbation.column_mut(place).scale_mut(sign);
         }
-        Some(Basis { variables, inverse, perturbation, updates: 0 })
+        Some(Basis { variables, inverse, perturbation, updates: 0, refreshed: 0 })
     }
 
     /// B^-1 a.
@@ -94,6 +96,7 @@ impl Basis {
     /// Inverts the current basis from scratch; false if it is numerically singular.
     pub(super) fn refactor(&mut self, columns: &Columns<'_>) -> bool {
         self.updates = 0;
+        self.refreshed += 1;
         match invert(&columns.assemble(&self.variables)) {
             Some(inverse) => {
                 self.inverse = inverse;

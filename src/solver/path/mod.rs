@@ -81,6 +81,8 @@ pub(super) struct Path {
     pub(super) pivots: Vec<Pivot>,
     pub(super) end: PathEnd,
     pub(super) start: Start,
+    /// Factorisations made on it, with those of its start.
+    pub(super) factorisations: usize,
 }
 
 /// Follows the path from a start; a regular one begins over `current`, which is within the bounds.
@@ -90,7 +92,7 @@ pub(super) fn follow(sub: &Subproblem<'_>, start: Start, current: &DVector<f64>,
     let mut columns = Columns { sub, r, artificial_row: vec![None; current.len()] };
     match starting_basis(&mut columns, &point) {
         Some(basis) => Walk::new(Tableau::new(&columns, basis, point), start, limits).run(),
-        None => Path { knots: Vec::new(), pivots: Vec::new(), end: PathEnd::Singular, start },
+        None => Path { knots: Vec::new(), pivots: Vec::new(), end: PathEnd::Singular, start, factorisations: 2 },
     }
 }
 

@@ -30,7 +30,7 @@ impl<'a> Walk<'a> {
     /// Walks to the end.
     pub(super) fn run(mut self) -> Path {
         let end = self.pivot_until_end();
-        Path { knots: self.knots, pivots: self.pivots, end, start: self.kind }
+        Path { knots: self.knots, pivots: self.pivots, end, start: self.kind, factorisations: 2 + self.tableau.basis.refreshed }
     }
 
     fn pivot_until_end(&mut self) -> PathEnd {

@@ -1,13 +1,21 @@
 //! Many starts, each certified: embed, solve, certify, list once. What section 4 does with PATH.
 
+mod hunt;
+mod same;
+mod trace;
+
+pub use same::{exact_value, same, support};
+pub use trace::trace_outcome;
+
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
 use crate::certify::{NotCertified, certify};
-use crate::exact::{Algebraic, Interval, Poly, to_f64};
+use crate::exact::to_f64;
 use crate::model::{Admissible, ModelError, Pencil, Unknown, Window};
-use crate::reduction::{CondensationError, Embedding, Expansion, Side, condense};
-use crate::solver::{Options, Outcome, SolverError, Termination, solve};
-use crate::tolerance::{SAME_POINT, WINDOW_GAP};
+use crate::reduction::{CondensationError, Expansion, Side, condense};
+use crate::solver::{CurveEnd, Options, Outcome, SolverError, Termination};
+use crate::tolerance::WINDOW_GAP;
+use hunt::{Hunt, WINDOW_SALT};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 
@@ -22,6 +30,13 @@ pub struct Search {
     pub window_limit: usize,
     /// Further origins from which values above are sought.
     pub origins: Vec<f64>,
+    /// Follow curves of the Newton homotopy, from starts and through solutions found?
+    pub curves: bool,
+    /// Curves on which each solution found is left, each followed both ways. By default half the slip
+    /// variables, rounded up, at most 6: a support has as many neighbours as there are variables.
+    pub departures: Option<usize>,
+    /// Keep the log of every run as text?
+    pub trace: bool,
     /// Seed of the random starts.
     pub seed: u64,
     /// Options of each run.
@@ -30,7 +45,17 @@ pub struct Search {
 
 impl Default for Search {
     fn default() -> Self {
-        Search { starts: 22, window_starts: 4, window_limit: 16, origins: Vec::new(), seed: 1, options: Options::default() }
+        Search {
+            starts: 22,
+            window_starts: 4,
+            window_limit: 16,
+            origins: Vec::new(),
+            curves: true,
+            departures: None,
+            trace: false,
+            seed: 1,
+            options: Options::default(),
+        }
     }
 }
 
@@ -52,6 +77,19 @@ pub struct Certified {
     pub candidate: Candidate,
     /// Number of the run, from 0.
     pub run: usize,
+    /// What kind of run.
+    pub origin: Origin,
+}
+
+/// The kinds of runs of a search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Origin {
+    /// A run of the solver from a start.
+    Start,
+    /// A curve of the Newton homotopy from a start.
+    Curve,
+    /// A curve through a solution found before.
+    Departure,
 }
 
 /// What a search found. It never says that nothing else exists.
@@ -65,12 +103,18 @@ pub struct Found {
     pub outside: usize,
     /// Candidates equal to an earlier one within rounding ([`SAME_POINT`]).
     pub repeated: usize,
-    /// How often each reason ended a run.
+    /// How often each reason ended a run of the solver, also those that polish a point of a curve.
     pub terminations: BTreeMap<Termination, usize>,
-    /// Runs made.
+    /// How often each reason ended a curve.
+    pub curves: BTreeMap<CurveEnd, usize>,
+    /// Runs and curves made.
     pub runs: usize,
     /// Pivots made.
     pub pivots: usize,
+    /// Dense factorisations made.
+    pub factorisations: usize,
+    /// The log of every run and curve, if it was asked for.
+    pub trace: Vec<String>,
     /// Was the search ended by its progress callback?
     pub interrupted: bool,
     /// Outcome of the very first run.
@@ -164,112 +208,10 @@ pub fn multistart_with(
         let value = hunt.found.certified[treated].candidate.value;
         // Strictly on either side: at the value itself the solution found would be found again.
         let gap = WINDOW_GAP * (1.0 + value.abs());
-        hunt.side(Side::Above(value + gap), search.window_starts, 1000 + 2 * treated as u64)?;
-        hunt.side(Side::Below(value - gap), search.window_starts, 1001 + 2 * treated as u64)?;
+        hunt.side(Side::Above(value + gap), search.window_starts, WINDOW_SALT + 2 * treated as u64)?;
+        hunt.side(Side::Below(value - gap), search.window_starts, WINDOW_SALT + 1 + 2 * treated as u64)?;
         treated += 1;
     }
     found.certified.sort_by(|a, b| a.candidate.value.total_cmp(&b.candidate.value).then_with(|| support(&a.claim).cmp(support(&b.claim))));
     Ok(found)
-}
-
-/// Is `b` the same point as `a` within rounding, in any scale of x?
-fn repeats(a: &Candidate, b: &Candidate) -> bool {
-    let norm = |c: &Candidate| c.x.iter().map(|v| v.abs()).sum::<f64>();
-    let (na, nb) = (norm(a), norm(b));
-    (a.value - b.value).abs() <= SAME_POINT * (1.0 + a.value.abs())
-        && a.x.len() == b.x.len()
-        && a.x.iter().zip(&b.x).all(|(p, q)| (p / na - q / nb).abs() <= SAME_POINT)
-}
-
-struct Hunt<'a> {
-    admissible: &'a Admissible<'a>,
-    window: &'a Window,
-    search: &'a Search,
-    certifier: &'a Certifier<'a>,
-    progress: &'a Progress<'a>,
-    found: &'a mut Found,
-}
-
-impl Hunt<'_> {
-    fn side(&mut self, side: Side, starts: usize, salt: u64) -> Result<(), SolverError> {
-        let embedding = Embedding::new(self.admissible, side);
-        for start in embedding.starts(starts, self.search.seed.wrapping_add(salt)) {
-            if self.found.interrupted {
-                return Ok(());
-            }
-            let outcome = solve(&embedding, &start, &self.search.options)?;
-            *self.found.terminations.entry(outcome.termination).or_default() += 1;
-            self.found.pivots += outcome.counters.pivots;
-            let run = self.found.runs;
-            self.found.runs += 1;
-            if outcome.termination.reached_tolerance() {
-                self.file(embedding.candidate(&outcome.point), run);
-            }
-            self.found.first.get_or_insert(outcome);
-            self.found.interrupted = (self.progress)(self.found).is_break();
-        }
-        Ok(())
-    }
-
-    /// Certifies a candidate and lists it, once.
-    fn file(&mut self, candidate: Candidate, run: usize) {
-        let slack = WINDOW_GAP * (1.0 + candidate.value.abs());
-        if candidate.value < to_f64(self.window.min()) - slack || self.window.max().is_some_and(|m| candidate.value > to_f64(m) + slack) {
-            self.found.outside += 1;
-            return;
-        }
-        let certified = self.found.certified.iter().map(|c| &c.candidate);
-        if certified.chain(self.found.uncertified.iter().map(|u| &u.candidate)).any(|c| repeats(c, &candidate)) {
-            self.found.repeated += 1;
-            return;
-        }
-        match (self.certifier)(&candidate) {
-            Ok(claim) => {
-                if !self.found.certified.iter().any(|c| same(&c.claim, &claim)) {
-                    self.found.certified.push(Certified { claim, candidate, run });
-                }
-            }
-            Err(reason) => self.found.uncertified.push(Uncertified { candidate, reason }),
-        }
-    }
-}
-
-/// The support of a claim.
-pub fn support(claim: &Claim) -> &[usize] {
-    match claim {
-        Claim::ExactSolution(c) => &c.support,
-        Claim::EnclosedSolution(c) => &c.support,
-    }
-}
-
-/// The exact value of an exact claim.
-pub fn exact_value(claim: &Claim) -> Option<Algebraic> {
-    match claim {
-        Claim::ExactSolution(c) => {
-            let interval = Interval::new(c.interval[0].0.clone(), c.interval[1].0.clone())?;
-            Some(Algebraic::from_claim(Poly::new(c.polynomial.clone()), interval))
-        }
-        Claim::EnclosedSolution(_) => None,
-    }
-}
-
-/// Do two claims speak of the same solution: same support and equal value (exact), or a box that
-/// holds the other's centre (each box holds exactly one solution of its support)?
-pub fn same(a: &Claim, b: &Claim) -> bool {
-    if support(a) != support(b) {
-        return false;
-    }
-    match (a, b) {
-        (Claim::EnclosedSolution(a), Claim::EnclosedSolution(b)) => {
-            let inside = |k: usize| {
-                let (d, r) = (&a.center[k].0 - &b.center[k].0, &a.radius[k].0);
-                &d <= r && -d <= *r
-            };
-            a.center.len() == b.center.len() && (0..a.center.len()).all(inside)
-        }
-        _ => match (exact_value(a), exact_value(b)) {
-            (Some(mut a), Some(mut b)) => a.equals(&mut b),
-            _ => false,
-        },
-    }
 }

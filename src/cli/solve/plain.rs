@@ -1,0 +1,87 @@
+//! `mceip solve` on a plain LCP or MCP (mceip-mcp/1): exact solutions, each its own certificate.
+
+use super::super::common::{CliError, exit, print, text};
+use super::super::output::Output;
+use super::Args;
+use crate::exact::{Rational, to_f64};
+use crate::lcp::{ExactMcp, FileError, Found, check, read_mcp, read_solution, search, write_solution};
+use crate::multistart::{SearchError, trace_outcome};
+use crate::solver::Options;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// The text of a plain problem, solved; also returns the trace.
+pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError> {
+    let named = |source: FileError| CliError::Plain { path: path.display().to_string(), source };
+    let problem = read_mcp(source).map_err(named)?;
+    if let Some(solution) = &args.check {
+        let points = read_solution(&problem, &text("the solution", solution)?)
+            .map_err(|source| CliError::Plain { path: solution.display().to_string(), source })?;
+        return verdict(&problem, &points);
+    }
+    let output = args.certificate.as_ref().map(|out| Output::prepare("certificate", out, &[path])).transpose()?;
+    let found = search(&problem, args.starts, args.all, args.seed, &Options::default()).map_err(SearchError::from)?;
+    for (point, reason) in &found.uncertified {
+        eprintln!("uncertified: z = {point:?}: {reason}");
+    }
+    if let (true, Some(first)) = (args.log, &found.first) {
+        eprint!("{}", trace_outcome(first));
+    }
+    print(&if args.json { json(&problem, &found) } else { listing(&problem, &found) })?;
+    let any = !found.certified.is_empty();
+    if let (Some(output), true) = (output, any) {
+        output.write(&write_solution(&problem, &found.certified))?;
+    }
+    Ok(if any { exit::DONE } else { exit::UNDECIDED })
+}
+
+/// Every point of a solution file checked exactly.
+fn verdict(problem: &ExactMcp, points: &[Vec<Rational>]) -> Result<u8, CliError> {
+    for (k, z) in points.iter().enumerate() {
+        if let Err(violated) = check(problem, z) {
+            print(&format!("REJECTED: solution {k}: {violated}\n"))?;
+            return Ok(exit::REJECTED);
+        }
+    }
+    print(&format!("ACCEPTED: {} solution(s) of problem {}\n", points.len(), problem.sha256()))?;
+    Ok(exit::DONE)
+}
+
+fn evidence(found: &Found) -> String {
+    let (pivots, factorisations) = found.counters;
+    format!(
+        "{} certified found in {} runs ({pivots} pivots, {factorisations} factorisations, endings {:?}); completeness unknown",
+        found.certified.len(),
+        found.runs,
+        found.terminations
+    )
+}
+
+fn listing(problem: &ExactMcp, found: &Found) -> String {
+    let mut out = String::new();
+    for z in &found.certified {
+        let _ = writeln!(out, "certified solution");
+        for (i, (z_i, f_i)) in z.iter().zip(problem.function(z)).enumerate() {
+            let _ = writeln!(out, "  z[{i}] = {z_i} ({}), F[{i}] = {f_i} ({})", to_f64(z_i), to_f64(&f_i));
+        }
+    }
+    let _ = writeln!(out, "{}", evidence(found));
+    out
+}
+
+fn json(problem: &ExactMcp, found: &Found) -> String {
+    let texts = |list: &[Rational]| list.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let solutions: Vec<_> =
+        found.certified.iter().map(|z| serde_json::json!({ "z": texts(z), "f": texts(&problem.function(z)) })).collect();
+    let uncertified: Vec<_> =
+        found.uncertified.iter().map(|(z, reason)| serde_json::json!({ "z": z, "reason": reason.to_string() })).collect();
+    let value = serde_json::json!({
+        "format": "mceip-mcp-solutions/1",
+        "problem_sha256": problem.sha256(),
+        "claim": "solutions",
+        "evidence": evidence(found),
+        "solutions": solutions,
+        "uncertified": uncertified,
+    });
+    format!("{value:#}\n")
+}

@@ -1,0 +1,130 @@
+//! `mceip-mcp/1` and the file of a solution.
+
+use super::{ExactMcp, ExactMcpError};
+use crate::exact::{Rational, whole};
+use crate::model::ModelError;
+use crate::model::file::{Number, from_json, require_format};
+use serde::Deserialize;
+
+/// The format of plain problems.
+pub const MCP_FORMAT: &str = "mceip-mcp/1";
+/// The format of their solutions, which are their own certificates.
+pub const SOLUTION_FORMAT: &str = "mceip-mcp-solution/1";
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct Raw {
+    #[serde(rename = "format")]
+    _format: String, // checked before
+    #[serde(rename = "name")]
+    _name: Option<String>,
+    #[serde(rename = "comment")]
+    _comment: Option<String>,
+    m: Vec<Vec<Number>>,
+    q: Vec<Number>,
+    lower: Option<Vec<Option<Number>>>,
+    upper: Option<Vec<Option<Number>>>,
+}
+
+/// Why a file is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum FileError {
+    /// Not of this shape.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// Parts that do not fit together.
+    #[error(transparent)]
+    Mcp(#[from] ExactMcpError),
+    /// A solution of another problem.
+    #[error("expected a solution of the problem {expected}, got one of {got}")]
+    Digest {
+        /// Digest of the problem.
+        expected: String,
+        /// Digest in the file.
+        got: String,
+    },
+}
+
+/// Reads `{"format": "mceip-mcp/1", "m": [[...]], "q": [...], "lower": [...], "upper": [...]}`.
+///
+/// Numbers are read exactly. Bounds are optional: without `lower` all are 0, without `upper` there are
+/// none; an entry `null` is an absent bound. An LCP needs m and q only.
+///
+/// # Errors
+/// [`FileError`] with the place, what was expected and what was found.
+///
+/// ```
+/// use mceip::lcp::read_mcp;
+/// let lcp = read_mcp(r#"{"format": "mceip-mcp/1", "m": [["1/2"]], "q": [-1]}"#).unwrap();
+/// assert_eq!(lcp.dimension(), 1);
+/// assert!(read_mcp(r#"{"format": "mceip-mcp/1", "m": [[1]], "q": [-1], "lower": [2], "upper": [1]}"#).is_err());
+/// ```
+pub fn read_mcp(text: &str) -> Result<ExactMcp, FileError> {
+    require_format(text, MCP_FORMAT)?;
+    let raw: Raw = from_json(text)?;
+    let n = raw.q.len();
+    let exact = |list: Vec<Number>| list.into_iter().map(|v| v.0).collect::<Vec<Rational>>();
+    let bounds = |list: Option<Vec<Option<Number>>>, default: Option<Rational>| match list {
+        Some(list) => list.into_iter().map(|v| v.map(|v| v.0)).collect(),
+        None => vec![default; n],
+    };
+    let m = raw.m.into_iter().map(exact).collect();
+    Ok(ExactMcp::new(m, exact(raw.q), bounds(raw.lower, Some(whole(0))), bounds(raw.upper, None))?)
+}
+
+#[derive(Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawSolution {
+    #[serde(rename = "format")]
+    _format: String,
+    problem_sha256: String,
+    z: Vec<Vec<Number>>,
+}
+
+/// Solutions as a file: the digest of the problem and the points, as exact fractions.
+pub fn write_solution(problem: &ExactMcp, points: &[Vec<Rational>]) -> String {
+    let fractions = |z: &Vec<Rational>| z.iter().map(ToString::to_string).collect::<Vec<_>>();
+    let z: Vec<Vec<String>> = points.iter().map(fractions).collect();
+    let value = serde_json::json!({ "format": SOLUTION_FORMAT, "problem_sha256": problem.sha256(), "z": z });
+    format!("{value:#}\n")
+}
+
+/// The points of a solution file, which must name this problem. They are not checked here.
+///
+/// # Errors
+/// [`FileError`].
+pub fn read_solution(problem: &ExactMcp, text: &str) -> Result<Vec<Vec<Rational>>, FileError> {
+    require_format(text, SOLUTION_FORMAT)?;
+    let raw: RawSolution = from_json(text)?;
+    let expected = problem.sha256();
+    if raw.problem_sha256 != expected {
+        return Err(FileError::Digest { expected, got: raw.problem_sha256.chars().take(80).collect() });
+    }
+    Ok(raw.z.into_iter().map(|z| z.into_iter().map(|v| v.0).collect()).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn defaults_round_trip_and_refusals() {
+        let p = read_mcp(r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,"-6"],"lower":[null,0],"upper":[3,null]}"#).unwrap();
+        assert_eq!((p.bounds(0), p.bounds(1)), ((None, Some(&whole(3))), (Some(&whole(0)), None)));
+        let text = write_solution(&p, &[vec![whole(1), whole(2)]]);
+        assert_eq!(read_solution(&p, &text).unwrap(), vec![vec![whole(1), whole(2)]]);
+        let other = read_mcp(r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,-6]}"#).unwrap();
+        assert!(matches!(read_solution(&other, &text), Err(FileError::Digest { .. })));
+        for (bad, message) in [
+            (r#"{"format":"mceip-mcp/1","m":[[2,1]],"q":[-5,1]}"#, "expected m of length 2, got 1"),
+            (r#"{"format":"mceip-mcp/1","m":[[2,1],[1]],"q":[-5,1]}"#, "expected row 1 of m of length 2, got 1"),
+            (r#"{"format":"mceip-mcp/1","m":[[2]],"q":[-5],"lower":[1],"upper":["1/2"]}"#, "expected lower <= upper at 0, got 1 and 1/2"),
+            (r#"{"format":"mceip-mcp/1","m":[["nan"]],"q":[-5]}"#, "expected a decimal or p/q"),
+            (r#"{"format":"mceip-problem/1"}"#, "mceip-mcp/1"),
+        ] {
+            let error = read_mcp(bad).unwrap_err().to_string();
+            assert!(error.contains(message) && error.lines().count() == 1, "{error}");
+        }
+    }
+}

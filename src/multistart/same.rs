@@ -1,0 +1,55 @@
+//! When two claims, or two candidates, are the same solution.
+
+use crate::candidate::Candidate;
+use crate::certificate::Claim;
+use crate::exact::{Algebraic, Interval, Poly};
+use crate::tolerance::SAME_POINT;
+
+/// The support of a claim.
+pub fn support(claim: &Claim) -> &[usize] {
+    match claim {
+        Claim::ExactSolution(c) => &c.support,
+        Claim::EnclosedSolution(c) => &c.support,
+    }
+}
+
+/// The exact value of an exact claim.
+pub fn exact_value(claim: &Claim) -> Option<Algebraic> {
+    match claim {
+        Claim::ExactSolution(c) => {
+            let interval = Interval::new(c.interval[0].0.clone(), c.interval[1].0.clone())?;
+            Some(Algebraic::from_claim(Poly::new(c.polynomial.clone()), interval))
+        }
+        Claim::EnclosedSolution(_) => None,
+    }
+}
+
+/// Do two claims speak of the same solution: same support and equal value (exact), or a box that
+/// holds the other's centre (each box holds exactly one solution of its support)?
+pub fn same(a: &Claim, b: &Claim) -> bool {
+    if support(a) != support(b) {
+        return false;
+    }
+    match (a, b) {
+        (Claim::EnclosedSolution(a), Claim::EnclosedSolution(b)) => {
+            let inside = |k: usize| {
+                let (d, r) = (&a.center[k].0 - &b.center[k].0, &a.radius[k].0);
+                &d <= r && -d <= *r
+            };
+            a.center.len() == b.center.len() && (0..a.center.len()).all(inside)
+        }
+        _ => match (exact_value(a), exact_value(b)) {
+            (Some(mut a), Some(mut b)) => a.equals(&mut b),
+            _ => false,
+        },
+    }
+}
+
+/// Is `b` the same point as `a` within rounding, in any scale of x?
+pub(super) fn repeats(a: &Candidate, b: &Candidate) -> bool {
+    let norm = |c: &Candidate| c.x.iter().map(|v| v.abs()).sum::<f64>();
+    let (na, nb) = (norm(a), norm(b));
+    (a.value - b.value).abs() <= SAME_POINT * (1.0 + a.value.abs())
+        && a.x.len() == b.x.len()
+        && a.x.iter().zip(&b.x).all(|(p, q)| (p / na - q / nb).abs() <= SAME_POINT)
+}

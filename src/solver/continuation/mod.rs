@@ -1,0 +1,168 @@
+//! The Newton homotopy of the normal map, F(z) - m = s r with m the multipliers of the bounds: a
+//! piecewise smooth curve on which every point with s = 0 is a solution (Allgower and Georg 1990,
+//! chapters 2 and 12; Lemke's method is its piecewise linear case).
+//!
+//! A start is a point with multipliers: r is the residual there and s = 1; or a solution with any
+//! r at all, and s = 0. Where an inside unknown meets a bound, or a multiplier vanishes, the pair
+//! changes places as in a complementary pivot. The curve turns back in s where it likes and goes on
+//! after a solution, so that one curve meets several of them.
+//!
+//! `system` the equations on the current places, `follow` predictor, corrector and events.
+
+mod follow;
+mod system;
+
+// The solver's own modules, for `system` and `follow`.
+use super::outcome::Counters;
+use super::{Options, SolverError, dense, evaluation, tolerance, validate};
+use crate::mcp::Mcp;
+use evaluation::{Evaluated, Point};
+use follow::Follower;
+use nalgebra::DVector;
+use system::{Places, Position, System};
+use tolerance::CURVE_LIFT;
+
+/// Which way a curve is followed at first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Sense {
+    /// s decreases.
+    Down,
+    /// s increases.
+    Up,
+}
+
+/// Why a curve ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+#[non_exhaustive]
+pub enum CurveEnd {
+    /// The number of solutions asked for.
+    Enough,
+    /// z or s has left every bounded region.
+    Ray,
+    /// The limit on steps.
+    StepLimit,
+    /// Back at the start: the curve is closed.
+    Closed,
+    /// No step is short enough: a bifurcation, a degenerate corner, or F not finite.
+    Stuck,
+}
+
+/// What a curve met.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Curve {
+    /// Points with s = 0, in order; within the bounds.
+    pub solutions: Vec<Vec<f64>>,
+    /// Why it ended.
+    pub end: CurveEnd,
+    /// The work done.
+    pub counters: Counters,
+}
+
+/// Follows the curve from `start` (length n, projected onto the bounds), where s = 1, until
+/// `enough` points with s = 0 were met or the curve ends.
+///
+/// # Errors
+/// [`SolverError`] for bounds, starts and options that make no sense.
+///
+/// ```
+/// use mceip::{mcp::LinearMcp, solver::{continuation, Options, Sense}};
+/// // z >= 0, 1 - z >= 0: the solutions 0 and 1 lie on one curve.
+/// let lcp = LinearMcp::lcp(nalgebra::dmatrix![-1.0], vec![1.0]).unwrap();
+/// let curve = continuation(&lcp, &[3.0], Sense::Down, 9, &Options::default()).unwrap();
+/// assert_eq!(curve.solutions.len(), 2);
+/// ```
+pub fn continuation<P: Mcp + ?Sized>(
+    problem: &P,
+    start: &[f64],
+    sense: Sense,
+    enough: usize,
+    options: &Options,
+) -> Result<Curve, SolverError> {
+    validate(problem, start, options)?;
+    let mut evaluated = Evaluated::new(problem);
+    let start = evaluated.point(&DVector::from_column_slice(start));
+    let (solutions, end) = from_point(&mut evaluated, &start, sense, enough, options);
+    Ok(Curve { solutions: solutions.iter().map(|z| z.as_slice().to_vec()).collect(), end, counters: evaluated.counters })
+}
+
+/// The curve through a solution (s = 0 there) with the residual direction `r`, length n.
+///
+/// # Errors
+/// [`SolverError`] for bounds, starts and options that make no sense; `r` is checked like a start.
+pub fn continuation_through<P: Mcp + ?Sized>(
+    problem: &P,
+    solution: &[f64],
+    r: &[f64],
+    sense: Sense,
+    enough: usize,
+    options: &Options,
+) -> Result<Curve, SolverError> {
+    validate(problem, solution, options)?;
+    validate(problem, r, options)?;
+    let mut evaluated = Evaluated::new(problem);
+    let point = evaluated.point(&DVector::from_column_slice(solution));
+    let places = Places::at_solution(problem, &point);
+    let r = DVector::from_column_slice(r);
+    let system = System { problem: &mut evaluated, r, places };
+    let (solutions, end) = Follower::new(system, Position { z: point.z, s: 0.0 }, options, enough).run(sense);
+    Ok(Curve { solutions: solutions.iter().map(|z| z.as_slice().to_vec()).collect(), end, counters: evaluated.counters })
+}
+
+/// The curve from a point within the bounds. Multipliers at bounds are lifted off zero, so that the
+/// start is not degenerate.
+pub(super) fn from_point<P: Mcp + ?Sized>(
+    problem: &mut Evaluated<'_, P>,
+    start: &Point,
+    sense: Sense,
+    enough: usize,
+    options: &Options,
+) -> (Vec<DVector<f64>>, CurveEnd) {
+    if start.not_finite().is_some() {
+        return (Vec::new(), CurveEnd::Stuck);
+    }
+    let places = Places::at_bounds(problem.problem, &start.z);
+    let lift = CURVE_LIFT * (1.0 + start.f.amax().min(1.0));
+    let r = DVector::from_fn(start.z.len(), |i, _| start.f[i] - places.lifted_multiplier(i, start.f[i], lift));
+    let system = System { problem, r, places };
+    Follower::new(system, Position { z: start.z.clone(), s: 1.0 }, options, enough).run(sense)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mcp::LinearMcp;
+    use nalgebra::dmatrix;
+
+    fn values(curve: &Curve) -> Vec<f64> {
+        curve.solutions.iter().map(|z| z[0]).collect()
+    }
+
+    #[test]
+    fn a_p_matrix_has_one_solution_on_every_curve() {
+        let lcp = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
+        for start in [[0.0, 0.0], [9.0, 0.0], [0.1, 7.0]] {
+            let curve = continuation(&lcp, &start, Sense::Down, 9, &Options::default()).unwrap();
+            assert_eq!(curve.solutions.len(), 1, "{curve:?}");
+            assert!((curve.solutions[0][0] - 4.0 / 3.0).abs() < 1e-9);
+        }
+    }
+
+    #[test]
+    fn a_curve_goes_on_after_a_solution() {
+        // On [0, 2]: 1 - z has the solution 1, and the end points 0 (F = 1) and 2 (F = -1).
+        let mcp = LinearMcp::new(dmatrix![-1.0], vec![1.0], vec![0.0], vec![2.0]).unwrap();
+        let curve = continuation(&mcp, &[1.5], Sense::Up, 9, &Options::default()).unwrap();
+        assert_eq!(values(&curve), vec![2.0], "{curve:?}");
+        let curve = continuation(&mcp, &[1.5], Sense::Down, 9, &Options::default()).unwrap();
+        assert_eq!(curve.solutions.len(), 2, "{curve:?}");
+    }
+
+    #[test]
+    fn an_infeasible_problem_ends_on_a_ray_without_solutions() {
+        let lcp = LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap();
+        for sense in [Sense::Down, Sense::Up] {
+            let curve = continuation(&lcp, &[0.5], sense, 9, &Options::default()).unwrap();
+            assert!(curve.solutions.is_empty() && curve.end == CurveEnd::Ray, "{curve:?}");
+        }
+    }
+}
