@@ -95,9 +95,9 @@ pub(super) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
     }
     let not_definite = |what| CompleteError::NotDefinite { what, index: blocks.free[0] };
     let plain = blocks.stiffness.cholesky().ok_or_else(|| not_definite("A_ff"))?;
-    let smallest = plain.smallest_eigenvalue();
-    let sigma = short_below(0.5 * smallest).ok_or_else(|| not_definite("A_ff"))?;
-    let slack = 0.1 * smallest;
+    let bound = blocks.stiffness.below_spectrum().ok_or_else(|| not_definite("A_ff"))?;
+    let sigma = short_below(0.8 * bound).ok_or_else(|| not_definite("A_ff"))?;
+    let slack = 0.2 * bound;
     let factor = blocks.stiffness.shifted(-to_f64(&sigma) - slack).cholesky().ok_or_else(|| not_definite("A_ff"))?;
     let (mass_sigma, mass_factor) = mass_bound(&blocks.mass).map_err(|()| not_definite("B_ff"))?;
     let tail = if window.max().is_none() && !blocks.mass_is_zero { tail(pencil) } else { None };
@@ -125,9 +125,9 @@ fn mass_bound(mass: &Skyline) -> Result<(Rational, Option<Factor>), ()> {
         let least = mass.smallest_diagonal();
         return Ok((short_below(least).unwrap_or_default(), None));
     }
-    let smallest = mass.cholesky().ok_or(())?.smallest_eigenvalue();
-    let tau = short_below(0.5 * smallest).ok_or(())?;
-    let slack = 0.1 * smallest;
+    let bound = mass.below_spectrum().ok_or(())?;
+    let tau = short_below(0.8 * bound).ok_or(())?;
+    let slack = 0.2 * bound;
     Ok((tau.clone(), Some(mass.shifted(-to_f64(&tau) - slack).cholesky().ok_or(())?.rounded(slack))))
 }
 
@@ -178,7 +178,7 @@ fn tail(pencil: &Pencil) -> Option<Tail> {
     let mass_factor = match b.is_diagonal() {
         true => None,
         false => {
-            let slack = 0.5 * b.cholesky()?.smallest_eigenvalue();
+            let slack = b.below_spectrum()?;
             Some(b.shifted(-slack).cholesky()?.rounded(slack))
         }
     };
@@ -187,7 +187,7 @@ fn tail(pencil: &Pencil) -> Option<Tail> {
     let from = (0..TAIL_DOUBLINGS).map(|k| start * f64::from(k).exp2()).find(|t| a.combine(*t, &b, 0.0).cholesky().is_some())?;
     let from = short_below(1.25 * from)?;
     let s = a.combine(to_f64(&from), &b, 0.0);
-    let slack = 0.5 * s.cholesky()?.smallest_eigenvalue();
+    let slack = s.below_spectrum()?;
     let factor = s.shifted(-slack).cholesky()?.rounded(slack);
     Some(Tail { from: Number(from), factor, mass_factor })
 }

@@ -95,8 +95,22 @@ impl Skyline {
         }
     }
 
+    /// A number below the smallest eigenvalue of a definite matrix, about half of it.
+    pub(super) fn below_spectrum(&self) -> Option<f64> {
+        // The iteration approaches the eigenvalue from above, and a start that happens to be orthogonal to
+        // its vector ends at another one: what it says is tried.
+        let mut bound = 0.5 * self.cholesky()?.smallest_eigenvalue();
+        for _ in 0..BOUND_STEPS {
+            if self.shifted(-bound).cholesky().is_some() {
+                return Some(bound);
+            }
+            bound *= 0.25;
+        }
+        None
+    }
+
     /// An estimate of the smallest eigenvalue of L L', by inverse iteration.
-    pub(super) fn smallest_eigenvalue(&self) -> f64 {
+    fn smallest_eigenvalue(&self) -> f64 {
         let n = self.rows.len();
         let mut v: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * ((i * 7919) % 13) as f64).collect();
         let mut estimate = f64::INFINITY;
@@ -123,6 +137,9 @@ impl Skyline {
         Factor { first: self.first.clone(), rows, exponent: exponent as u32 }
     }
 }
+
+/// Quarterings of a bound that turns out too large.
+const BOUND_STEPS: usize = 30;
 
 /// Inverse iterations for the smallest eigenvalue: it is halved afterwards, so two digits suffice.
 const INVERSE_STEPS: usize = 30;
