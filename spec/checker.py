@@ -71,6 +71,13 @@ def index(s, n):
     return integer(s, 0, n - 1)
 
 
+def place_in(s, n):
+    """An index in a certificate: one that names nothing is a claim not met."""
+    i = integer(s, 0)
+    demand(i < n, f"no index {i}")
+    return i
+
+
 def sequence(x):
     if not isinstance(x, list):
         raise Unreadable("a list was expected")
@@ -262,6 +269,8 @@ class Problem:
         k = read_matrix(k, folder, "stiffness")
         m = None if m is None else read_matrix(m, folder, "mass")
         mu = None if mu is None else number(mu)
+        if mu is not None and mu <= 0:
+            raise Unreadable("friction must be positive (X8)")
         order = len(k.rows)
         for x in (k,) if m is None else (k, m):
             if (len(x.rows), x.cols) != (order, order) or any(x.rows[j].get(i) != v for i, r in enumerate(x.rows) for j, v in r.items()):
@@ -276,7 +285,7 @@ class Problem:
                 raise Unreadable("a dof in two particles")
             text += [f"particle {t} {n} {state}" + (f" {sign}" if state == "slip" else "")]
             for name, vector in (("tangent", tangent), ("normal", normal)):
-                text.append(" ".join([name] + [f"{d} {vector[d]}" for d in sorted(vector) if vector[d]]))
+                text.append(" ".join([name] + [f"{d} {vector[d]}" for d in vector if vector[d]]))
             held |= {t, n}
             if state == "free":
                 held -= {t, n}
@@ -394,7 +403,7 @@ def ascending(items, allowed):
 
 def exact_solution(p, rows, window, obj):
     support, biactive, poly, interval, x = fields(obj, "support biactive polynomial interval x")
-    support, biactive = ([index(i, p.n) for i in sequence(l)] for l in (support, biactive))
+    support, biactive = ([place_in(i, p.n) for i in sequence(l)] for l in (support, biactive))
     poly = [integer(c) for c in sequence(poly)]
     x = [[number(c) for c in sequence(r)] for r in sequence(x)]
     a, b = pair(interval)
@@ -457,7 +466,7 @@ def over_common(values):
 
 def enclosed_solution(p, rows, window, obj):
     support, center, radius, y, exponent = fields(obj, "support center radius preconditioner exponent")
-    support = [index(i, p.n) for i in sequence(support)]
+    support = [place_in(i, p.n) for i in sequence(support)]
     center, radius = ([number(v) for v in sequence(l)] for l in (center, radius))
     exponent = integer(exponent, 0)
     y = [[integer(v) for v in sequence(r)] for r in sequence(y)]
@@ -622,17 +631,17 @@ class CondensedPencil:
         if self.tail is not None:  # hypothesis 2
             start, factor, mass_factor = fields(self.tail, "from factor", "mass_factor")
             self.tail_from = number(start)
-            twice = []
+            symmetric = []  # sym(...) - L L', which is the page's `twice ... by twice`
             for m in ([plus(a, b, self.tail_from) for a, b in zip(p.a, p.b)], p.b):
                 t = [{} for _ in range(p.n)]
                 for i, r in enumerate(m):
                     for j, v in r.items():
-                        t[i][j] = t[i].get(j, 0) + v
-                        t[j][i] = t[j].get(i, 0) + v
-                twice.append(t)
+                        t[i][j] = t[i].get(j, 0) + v / 2
+                        t[j][i] = t[j].get(i, 0) + v / 2
+                symmetric.append(t)
             demand(factor is not None, "condensation 2: no factor")
-            covered(twice[0], p.n, factor, True, "condensation 2: stiffness")
-            covered(twice[1], p.n, mass_factor, False, "condensation 2: mass")
+            covered(symmetric[0], p.n, factor, True, "condensation 2: stiffness")
+            covered(symmetric[1], p.n, mass_factor, False, "condensation 2: mass")
         bits = [max(1, *(abs(v).bit_length() for v in rows[i][1].values()), 1) for i in p.s]
         self.scale = [Q(rows[i][0], 2**b) for i, b in zip(p.s, bits)]
         self.anchors = [self.read_anchor(a) for a in sequence(anchors)]
@@ -902,7 +911,7 @@ class Root:
             demand(sign(wide, 0) * sign(wide, 1) == 1, "root 5: absent")
             return
         if isinstance(outcome, dict) and "claim" in outcome:
-            c = claims[index(fields(outcome, "claim")[0], len(claims))]
+            c = claims[place_in(fields(outcome, "claim")[0], len(claims))]
             demand(c[0] and set(c[0]) <= set(self.support) <= {*c[0], *c[1]}, "root 5: not a claim of this moving set")
             demand(self.a <= c[2] and c[3] <= self.b, "root 5: the claim's value is not in the interval")
             self.yields = set(c[0]) == set(self.support)
@@ -949,7 +958,7 @@ def complete_set(p, rows, window, claims, obj):
         end = None if end is None else number(end)
         if anchor is not None:
             demand(p.free, "an anchor without condensation")
-            anchor = index(anchor, len(pencil.anchors))
+            anchor = place_in(anchor, len(pencil.anchors))
         if number_of == len(pieces) - 1:
             demand(end == window[1] and (end is None or end > start or len(pieces) == 1), "cover: the last piece")
         else:
@@ -967,7 +976,7 @@ def complete_set(p, rows, window, claims, obj):
                 demand(lo < t and (hi is None or t < hi), "cover: split")
                 regions += [(t, hi, state), (lo, t, state)]
             elif kind == "branch" and value is not None:
-                i = index(value, p.n)
+                i = place_in(value, p.n)
                 demand(i in p.s and state[p.s.index(i)] == OPEN, "cover: branch")
                 i = p.s.index(i)
                 regions += [(lo, hi, state[:i] + (st,) + state[i + 1:]) for st in (MOVING, REST)]
@@ -1012,6 +1021,8 @@ def check(problem_path, certificate_path):
     if not isinstance(window, dict):
         raise Unreadable("window")
     window = read_window(window)
+    if unknown not in ("lambda2", "mu") or not isinstance(digest, str):
+        raise Unreadable("unknown, problem_sha256")
     demand(digest == p.digest, f"the problem's digest is {p.digest}")
     demand(unknown == p.unknown, "the unknown is not the problem's")
     demand(sequence(claim_list) or complete is not None, "no claim")
