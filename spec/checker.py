@@ -1,0 +1,1063 @@
+#!/usr/bin/env python3
+"""A second checker of mceip-certificate/1, written from the pages of spec/ alone (no line of the Rust program was read).
+
+    python3 spec/checker.py PROBLEM CERTIFICATE
+
+Prints ACCEPTED (exit 0), UNDECIDED (3: a cover with open leaves) or REJECTED with the reason (1); files that cannot be read end with one
+line on stderr and exit 2. Standard library only; all arithmetic is exact (int and Fraction). References: F = formats.md, C = complete-set.md.
+"""
+import hashlib
+import json
+import os
+import re
+import sys
+from fractions import Fraction as Q
+from math import gcd, isqrt, lcm
+
+MAX_SIDE = 4096  # this checker's own limit on the order of a matrix
+
+
+class Unreadable(Exception):
+    """The file says nothing that could be judged: exit 2."""
+
+
+class Rejected(Exception):
+    """An obligation is not met: exit 1."""
+
+
+def demand(condition, reason):
+    if not condition:
+        raise Rejected(reason)
+
+
+# ---------------------------------------------------------------- reading
+
+class Spelt(str):
+    """A JSON number, kept as it is spelt."""
+
+
+NUMBER = re.compile(r"([+-]?)(\d+)(?:\.(\d+))?(?:[eE]([+-]?\d{1,5}))?")
+RATIO = re.compile(r"([+-]?\d+)/(\d+)")
+
+
+def number(s):
+    """The exact value of a string or JSON number (F, first paragraph)."""
+    if not isinstance(s, str) or len(s) > 100_000:
+        raise Unreadable("not a number, or one of more than 100000 characters")
+    if m := RATIO.fullmatch(s):
+        if int(m[2]) == 0:
+            raise Unreadable("zero denominator")
+        return Q(int(m[1]), int(m[2]))
+    m = NUMBER.fullmatch(s)
+    if not m or not s.isascii():
+        raise Unreadable(f"not a number: {s[:40]!r}")
+    exponent = int(m[4] or 0)
+    if abs(exponent) > 5000:
+        raise Unreadable("decimal exponent beyond 5000")
+    frac = m[3] or ""
+    value = int(m[2] + frac) * (-1 if m[1] == "-" else 1)
+    e = exponent - len(frac)
+    return Q(value * 10**e) if e >= 0 else Q(value, 10**-e)
+
+
+def integer(s, low=None, high=None):
+    q = number(s)
+    if q.denominator != 1 or (low is not None and q < low) or (high is not None and q > high):
+        raise Unreadable(f"not an integer in its range: {s[:40]!r}")
+    return int(q)
+
+
+def index(s, n):
+    return integer(s, 0, n - 1)
+
+
+def place_in(s, n):
+    """An index in a certificate: one that names nothing is a claim not met."""
+    i = integer(s, 0)
+    demand(i < n, f"no index {i}")
+    return i
+
+
+def sequence(x):
+    if not isinstance(x, list):
+        raise Unreadable("a list was expected")
+    return x
+
+
+def fields(obj, required, optional=""):
+    """The values of an object's fields, in the order named; unknown fields are refused."""
+    if not isinstance(obj, dict):
+        raise Unreadable("an object was expected")
+    required, optional = required.split(), optional.split()
+    for key in obj:
+        if key not in required and key not in optional:
+            raise Unreadable(f"unknown field {key[:40]!r}")
+    for key in required:
+        if key not in obj:
+            raise Unreadable(f"missing field {key!r}")
+    return [obj.get(key) for key in required + optional]
+
+
+def read_json(path):
+    def pairs(items):
+        out = {}
+        for key, value in items:
+            if key in out:
+                raise Unreadable(f"duplicate field {key[:40]!r}")
+            out[key] = value
+        return out
+
+    def constant(name):
+        raise Unreadable(f"{name} is not a number")
+
+    try:
+        with open(path, encoding="utf-8") as f:
+            return json.load(f, object_pairs_hook=pairs, parse_int=Spelt, parse_float=Spelt, parse_constant=constant)
+    except (OSError, ValueError, RecursionError) as e:
+        raise Unreadable(f"{path}: {type(e).__name__}: {e}") from None
+
+
+def nearest_double(q):
+    try:
+        return Q(q.numerator / q.denominator)  # Python divides integers correctly rounded
+    except OverflowError:
+        raise Unreadable("beyond the doubles") from None
+
+
+def read_window(obj):
+    if obj is None:
+        return Q(0), None
+    lo, hi = fields(obj, "min", "max")
+    lo, hi = number(lo), None if hi is None else number(hi)
+    if lo < 0 or (hi is not None and hi < lo):
+        raise Unreadable("window: 0 <= min <= max")
+    return lo, hi
+
+
+class Matrix:
+    """Sparse by rows: rows[i] is {j: value}, zeros left out."""
+
+    def __init__(self, rows, cols, what):
+        if rows > MAX_SIDE or cols > MAX_SIDE:
+            raise Unreadable(f"{what}: too large")
+        self.cols, self.rows = cols, [{} for _ in range(rows)]
+        self.seen = set()
+
+    def put(self, i, j, v, symmetric):
+        for a, b in {(i, j), (j, i)} if symmetric else {(i, j)}:
+            if (a, b) in self.seen:
+                raise Unreadable("matrix entry given twice")
+            self.seen.add((a, b))
+            if v:
+                self.rows[a][b] = v
+
+    def entries(self):
+        head = [f"{len(self.rows)} {self.cols}"]
+        return head + [f"{i} {j} {r[j]}" for i, r in enumerate(self.rows) for j in sorted(r)]
+
+
+def read_dense(lists, what):
+    lists = [sequence(r) for r in sequence(lists)]
+    m = Matrix(len(lists), len(lists[0]) if lists else 0, what)
+    for i, row in enumerate(lists):
+        if len(row) != m.cols:
+            raise Unreadable(f"{what}: ragged")
+        m.rows[i] = {j: q for j, v in enumerate(row) if (q := number(v))}
+    return m
+
+
+def read_market(name, folder, what):
+    if not isinstance(name, str) or os.path.isabs(name) or ".." in re.split(r"[/\\]", name):
+        raise Unreadable(f"{what}: the file must be beside or below the problem file")
+    path = os.path.join(folder, name)
+    if not os.path.isfile(path) or not os.path.realpath(path).startswith(os.path.realpath(folder) + os.sep):
+        raise Unreadable(f"{what}: no such regular file beside the problem: {name}")
+    try:
+        with open(path, encoding="utf-8") as f:
+            lines = f.read().splitlines()
+    except (OSError, ValueError) as e:
+        raise Unreadable(f"{what}: {e}") from None
+    head = lines[0].lower().split() if lines else []
+    if len(head) != 5 or head[:2] != ["%%matrixmarket", "matrix"] or head[2] not in ("coordinate", "array") \
+            or head[3] not in ("real", "integer") or head[4] not in ("general", "symmetric"):
+        raise Unreadable(f"{what}: Matrix Market header")
+    body = [words for line in lines[1:] if not line.lstrip().startswith("%") and (words := line.split())]
+    symmetric = head[4] == "symmetric"
+    if not body or len(body[0]) != (3 if head[2] == "coordinate" else 2):
+        raise Unreadable(f"{what}: Matrix Market sizes")
+    size = [integer(w, 0) for w in body[0]]
+    m = Matrix(size[0], size[1], what)
+    if symmetric and size[0] != size[1]:
+        raise Unreadable(f"{what}: not square")
+    if head[2] == "coordinate":
+        if len(body) - 1 != size[2] or any(len(w) != 3 for w in body[1:]):
+            raise Unreadable(f"{what}: number of entries")
+        for w in body[1:]:
+            m.put(integer(w[0], 1, size[0]) - 1, integer(w[1], 1, size[1]) - 1, number(w[2]), symmetric)
+        return m
+    places = [(i, j) for j in range(size[1]) for i in range(j if symmetric else 0, size[0])]
+    if len(body) - 1 != len(places) or any(len(w) != 1 for w in body[1:]):
+        raise Unreadable(f"{what}: number of entries")
+    for (i, j), w in zip(places, body[1:]):
+        m.put(i, j, number(w[0]), symmetric)
+    return m
+
+
+def read_matrix(obj, folder, what):
+    if isinstance(obj, list):
+        return read_dense(obj, what)
+    if not isinstance(obj, dict):
+        raise Unreadable(f"{what}: a matrix was expected")
+    if "matrix_market" in obj:
+        name, read_as = fields(obj, "matrix_market", "read_as")
+        m = read_market(name, folder, what)
+    elif "dense" in obj:
+        lists, read_as = fields(obj, "dense", "read_as")
+        m = read_dense(lists, what)
+    else:
+        rows, cols, entries, symmetric, read_as = fields(obj, "rows cols entries", "symmetric read_as")
+        if symmetric not in (None, True, False):
+            raise Unreadable(f"{what}: symmetric")
+        m = Matrix(integer(rows, 0, MAX_SIDE), integer(cols, 0, MAX_SIDE), what)
+        for e in sequence(entries):
+            if len(sequence(e)) != 3:
+                raise Unreadable(f"{what}: an entry is [i, j, v]")
+            i, j = index(e[0], len(m.rows)), index(e[1], m.cols)
+            if symmetric and (i >= m.cols or j >= len(m.rows)):
+                raise Unreadable(f"{what}: not square")
+            m.put(i, j, number(e[2]), bool(symmetric))
+    if read_as not in (None, "f64"):
+        raise Unreadable(f"{what}: read_as")
+    if read_as:
+        m.rows = [{j: d for j, v in r.items() if (d := nearest_double(v))} for r in m.rows]
+    return m
+
+
+class Problem:
+    """The pencil (a, b: rows {j: value}), free and complementarity indices, the digest."""
+
+    def __init__(self, path):
+        doc = read_json(path)
+        if not isinstance(doc, dict) or doc.get("format") != "mceip-problem/1":
+            raise Unreadable("format: mceip-problem/1 was expected")
+        _, self.unknown, window, pencil, system, _, _ = fields(doc, "format unknown", "window pencil system name comment")
+        if self.unknown not in ("lambda2", "mu") or (pencil is None) == (system is None):
+            raise Unreadable("unknown is lambda2 or mu; exactly one of pencil and system")
+        read_window(window)
+        folder = os.path.dirname(os.path.abspath(path))
+        text = ["mceip-canonical/1", f"unknown {self.unknown}"]
+        text += self.read_pencil(pencil, folder) if system is None else self.read_system(system, folder)
+        self.digest = hashlib.sha256("".join(line + "\n" for line in text).encode()).hexdigest()
+        is_free = set(self.free)
+        self.s = [i for i in range(self.n) if i not in is_free]
+
+    def read_pencil(self, obj, folder):
+        a, b, free = fields(obj, "a b", "free")
+        a, b = read_matrix(a, folder, "a"), read_matrix(b, folder, "b")
+        self.n = len(a.rows)
+        if self.n == 0 or {len(a.rows), a.cols, len(b.rows), b.cols} != {self.n}:
+            raise Unreadable("a and b must be square, of one order")
+        free = [index(i, self.n) for i in sequence(free or [])]
+        if len(set(free)) < len(free):
+            raise Unreadable("free: an index twice")
+        self.free, self.a, self.b = sorted(free), a.rows, b.rows
+        ea, eb = a.entries(), b.entries()
+        return ["pencil", " ".join(["free", *map(str, self.free)]), "a " + ea[0], *ea[1:], "b " + eb[0], *eb[1:]]
+
+    def read_system(self, obj, folder):
+        k, particles, m, mu = fields(obj, "stiffness particles", "mass friction")
+        k = read_matrix(k, folder, "stiffness")
+        m = None if m is None else read_matrix(m, folder, "mass")
+        mu = None if mu is None else number(mu)
+        if mu is not None and mu <= 0:
+            raise Unreadable("friction must be positive (X8)")
+        order = len(k.rows)
+        for x in (k,) if m is None else (k, m):
+            if (len(x.rows), x.cols) != (order, order) or any(x.rows[j].get(i) != v for i, r in enumerate(x.rows) for j, v in r.items()):
+                raise Unreadable("stiffness and mass must be symmetric, of one order")
+        if self.unknown == "lambda2" and (m is None or mu is None):
+            raise Unreadable("lambda2 needs mass and friction")
+        text = ["system"] + ([] if mu is None else [f"friction {mu}"])
+        held, trial, test = set(), [], []
+        for p in sequence(particles):
+            t, n, state, tangent, normal, sign = self.read_particle(p, order, mu)
+            if held & {t, n} or t == n:
+                raise Unreadable("a dof in two particles")
+            text += [f"particle {t} {n} {state}" + (f" {sign}" if state == "slip" else "")]
+            for name, vector in (("tangent", tangent), ("normal", normal)):
+                text.append(" ".join([name] + [f"{d} {vector[d]}" for d in vector if vector[d]]))
+            held |= {t, n}
+            if state == "free":
+                held -= {t, n}
+                self.loose = getattr(self, "loose", set()) | {t, n}
+            elif state == "slip":  # E10: v = -S x tangent; E11: y = -(S w_T + mu w_N)
+                trial.append({d: -sign * c for d, c in tangent.items()})
+                test.append(({d: -sign * c for d, c in tangent.items()}, {d: -c for d, c in normal.items()}))
+        if held & getattr(self, "loose", set()):
+            raise Unreadable("a dof in two particles")
+        free = [d for d in range(order) if d not in held]
+        trial = [{d: Q(1)} for d in free] + trial
+        test = [({d: Q(1)}, {}) for d in free] + test
+        if self.unknown == "lambda2":  # E15
+            rows = [{d: u.get(d, 0) + mu * w.get(d, 0) for d in {*u, *w}} for u, w in test]
+            self.a, self.b = project(rows, k.rows, trial), project(rows, m.rows, trial)
+        else:  # E21
+            self.a, self.b = project([u for u, _ in test], k.rows, trial), project([w for _, w in test], k.rows, trial)
+        self.n, self.free = len(trial), list(range(len(free)))
+        if self.n == 0:
+            raise Unreadable("no unknowns")
+        for name, x in (("stiffness", k), ("mass", m)):
+            if x is not None:
+                e = x.entries()
+                text += [f"{name} {e[0]}", *e[1:]]
+        return text
+
+    @staticmethod
+    def read_particle(obj, order, mu):
+        t, n, state, sign, direction, frame, reaction = fields(obj, "tangential normal state", "sign normal_direction frame reaction")
+        t, n = index(t, order), index(n, order)
+        if state not in ("free", "stick", "slip") or (sign is not None) != (state == "slip"):
+            raise Unreadable("state is free, stick or slip; sign exactly for slip")
+        sign = None if sign is None else integer(sign)
+        direction = 1 if direction is None else integer(direction)
+        if sign not in (None, 1, -1) or direction not in (1, -1):
+            raise Unreadable("sign and normal_direction are 1 or -1")
+        c = [[Q(1), Q(0)], [Q(0), Q(1)]]
+        if frame is not None:
+            c = [[number(v) for v in sequence(r)] for r in sequence(frame)]
+            if [len(r) for r in c] != [2, 2] or c[0] != [c[1][1], -c[1][0]] or c[0][0] ** 2 + c[0][1] ** 2 != 1:
+                raise Unreadable("frame: not a rotation")
+        if reaction is not None:  # E7
+            rn, rt = map(number, fields(reaction, "normal tangential"))
+            bound = None if mu is None else -mu * rn
+            bad = rn > 0 or (state == "free" and (rn or rt)) or (state == "slip" and (rt * sign <= 0 or (mu is not None and abs(rt) != bound)))
+            if bad or (state == "stick" and mu is not None and abs(rt) >= bound):
+                raise Unreadable("reaction against (7), state or sign")
+        return t, n, state, {t: c[0][0], n: c[0][1]}, {t: direction * c[1][0], n: direction * c[1][1]}, sign
+
+
+def project(test, k, trial):
+    """Rows test' K trial (E16), sparse."""
+    by_dof = {}
+    for j, v in enumerate(trial):
+        for d, c in v.items():
+            if c:
+                by_dof.setdefault(d, []).append((j, c))
+    out = []
+    for u in test:
+        row = {}
+        for d, c in u.items():
+            if c:
+                for e, v in k[d].items():
+                    for j, g in by_dof.get(e, ()):
+                        row[j] = row.get(j, 0) + c * v * g
+        out.append({j: v for j, v in row.items() if v})
+    return out
+
+
+def integral_rows(p):
+    """Per row: the least positive integer f and the integral rows f A, f B."""
+    out = []
+    for a, b in zip(p.a, p.b):
+        f = lcm(1, *(v.denominator for v in a.values()), *(v.denominator for v in b.values()))
+        out.append((f, {j: int(v * f) for j, v in a.items()}, {j: int(v * f) for j, v in b.items()}))
+    return out
+
+
+# ---------------------------------------------------------------- claims
+
+def horner(poly, a, b):
+    """Interval Horner of an integer polynomial on [a, b], scaled by a positive number."""
+    q = lcm(a.denominator, b.denominator)
+    a, b, power, lo, hi = int(a * q), int(b * q), 1, 0, 0
+    for c in reversed(poly):
+        products = (lo * a, lo * b, hi * a, hi * b)
+        lo, hi = min(products) + c * power, max(products) + c * power
+        power *= q
+    return lo, hi
+
+
+def strip(poly):
+    while poly and poly[-1] == 0:
+        poly = poly[:-1]
+    return poly
+
+
+def remainder(y, p):
+    """A positive multiple of y mod p (p with positive leading coefficient)."""
+    y = strip(list(y))
+    while len(y) >= len(p):
+        lead, shift = y[-1], len(y) - len(p)
+        y = [c * p[-1] for c in y]
+        for i, c in enumerate(p):
+            y[shift + i] -= lead * c
+        y = strip(y)
+        g = gcd(*y) if y else 1
+        y = [c // g for c in y]
+    return y
+
+
+def ascending(items, allowed):
+    demand(all(i < j for i, j in zip(items, items[1:])) and set(items) <= set(allowed), "1: not an ascending list of complementarity variables")
+
+
+def exact_solution(p, rows, window, obj):
+    support, biactive, poly, interval, x = fields(obj, "support biactive polynomial interval x")
+    support, biactive = ([place_in(i, p.n) for i in sequence(l)] for l in (support, biactive))
+    poly = [integer(c) for c in sequence(poly)]
+    x = [[number(c) for c in sequence(r)] for r in sequence(x)]
+    a, b = pair(interval)
+    ascending(support, p.s)  # 1
+    ascending(biactive, p.s)
+    demand(not set(support) & set(biactive), "1: a variable both in the support and biactive")
+    demand(len(x) == p.n, "1: one polynomial per variable")
+    longest = max(map(len, x))
+    demand(max(len(poly), longest) <= 512, "1: more than 512 coefficients")
+    bits = max([abs(c).bit_length() for c in poly] + [max(abs(c.numerator).bit_length(), c.denominator.bit_length()) for r in x for c in r]
+               + [max(abs(q.numerator).bit_length(), q.denominator.bit_length()) for q in (a, b)])
+    demand(len(poly) * longest * bits <= 2**21, "1: too much work")
+    poly = strip(poly)  # 2
+    demand(len(poly) >= 2 and a <= b, "2: degree or interval")
+    if poly[-1] < 0:
+        poly = [-c for c in poly]
+    ends = horner(poly, a, a)[0], horner(poly, b, b)[0]
+    if a == b:
+        demand(ends[0] == 0, "2: not a root")
+    else:
+        low, high = horner([k * c for k, c in enumerate(poly)][1:], a, b)
+        demand((ends[0] > 0) != (ends[1] > 0) and 0 not in ends and (low > 0 or high < 0), "2: not exactly one root")
+    inside(window, a, b, "3")
+    scale = lcm(1, *(c.denominator for r in x for c in r))
+    x = [[int(c * scale) for c in r] for r in x]
+    reduced = [remainder(r, poly) for r in x]
+    for i in p.s:  # 4
+        if i in set(support):
+            demand(horner(reduced[i], a, b)[0] > 0, f"4: x_{i} > 0")
+        else:
+            demand(not reduced[i], f"4: x_{i} = 0")
+    if not support:
+        demand(any((e := horner(reduced[i], a, b))[0] > 0 or e[1] < 0 for i in p.free), "4: x may be zero")
+    zero = {*p.free, *support, *biactive}
+    for i, (_, ra, rb) in enumerate(rows):  # 5
+        y = [0] * (longest + 1)
+        for row, shift in ((ra, 0), (rb, 1)):
+            for j, v in row.items():
+                for k, c in enumerate(x[j]):
+                    y[k + shift] += v * c
+        y = remainder(y, poly)
+        demand(not y if i in zero else horner(y, a, b)[0] > 0, f"5: y_{i}")
+    return support, biactive, a, b
+
+
+def pair(obj):
+    if len(sequence(obj)) != 2:
+        raise Unreadable("an interval is [a, b]")
+    return number(obj[0]), number(obj[1])
+
+
+def inside(window, a, b, item):
+    demand(window[0] <= a and (window[1] is None or b <= window[1]), f"{item}: outside the window")
+
+
+def over_common(values):
+    q = lcm(1, *(v.denominator for v in values))
+    return [int(v * q) for v in values], q
+
+
+def enclosed_solution(p, rows, window, obj):
+    support, center, radius, y, exponent = fields(obj, "support center radius preconditioner exponent")
+    support = [place_in(i, p.n) for i in sequence(support)]
+    center, radius = ([number(v) for v in sequence(l)] for l in (center, radius))
+    exponent = integer(exponent, 0)
+    y = [[integer(v) for v in sequence(r)] for r in sequence(y)]
+    ascending(support, p.s)  # 1
+    active = sorted([*p.free, *support])
+    m = len(active)
+    demand(support and len(center) == len(radius) == len(y) == m + 1 and all(len(r) == m + 1 for r in y), "1: lengths")
+    demand(all(r > 0 for r in radius) and exponent <= 65_536, "1: radii or exponent")
+    place = {i: k for k, i in enumerate(active)}
+    (*c, t), qc = over_common(center)  # units 1/qc
+    (*r, rt), qr = over_common(radius)  # units 1/qr
+    # The rows of F'(c) in units 1/qc, of F(c) in 1/qc^2, of d in 1/qr^2.
+    jac, value, d = [], [], []
+    for i in active:
+        _, ra, rb = rows[i]
+        row = {place[j]: v * qc for j, v in ra.items() if j in place}
+        for j, v in rb.items():
+            if j in place:
+                row[place[j]] = row.get(place[j], 0) + v * t
+        value.append(sum(v * c[k] for k, v in row.items()))
+        row[m] = sum(v * c[place[j]] for j, v in rb.items() if j in place)
+        jac.append(list(row.items()))
+        d.append(2 * rt * sum(abs(v) * r[place[j]] for j, v in rb.items() if j in place))
+    jac.append([(place[i], qc) for i in support])
+    value.append(sum(c[place[i]] for i in support) * qc - qc * qc)
+    d.append(0)
+    for i, row in enumerate(y):  # 2, multiplied by 2^exponent qc^2 qr^2
+        product = [0] * (m + 1)
+        for f, line in zip(row, jac):
+            if f:
+                for k, v in line:
+                    product[k] += f * v
+        product[i] -= qc << exponent
+        left = abs(sum(f * v for f, v in zip(row, value))) * qr * qr
+        left += sum(abs(v) * q for v, q in zip(product, [*r, rt])) * qc * qr + sum(abs(f) * v for f, v in zip(row, d)) * qc * qc
+        demand(left < ([*r, rt][i] * qc * qc * qr) << exponent, f"2: Krawczyk, component {i}")
+    low, high = center[m] - radius[m], center[m] + radius[m]  # 3
+    inside(window, low, high, "3")
+    demand(all(center[place[i]] > radius[place[i]] for i in support), "3: x > 0")
+    for i in p.s:
+        if i not in place:
+            _, ra, rb = rows[i]
+            mid = slack = Q(0)
+            for j in {*ra, *rb} & set(place):
+                k, a, b = place[j], ra.get(j, 0), rb.get(j, 0)
+                e = a + center[m] * b
+                mid += e * center[k]
+                slack += abs(e) * radius[k] + radius[m] * abs(b) * radius[k]
+            slack += radius[m] * abs(sum(b * center[place[j]] for j, b in rb.items() if j in place))
+            demand(mid > slack, f"3: y_{i} > 0")
+    return support, [], low, high
+
+
+# ---------------------------------------------------------------- the regions' matrices
+
+class Ends:
+    """M0, M1, R0, R1, D (integers, in units of 1/unit); `unbounded`: the second end is a direction. T(lo) is within R0 of M0, T(hi) within R1 of M1."""
+
+    def __init__(self, m0, m1, r0, r1, d, unit, unbounded):
+        self.both, self.d, self.unit, self.unbounded = ((m0, r0), (m1, r1)), d, unit, unbounded
+
+
+BITS = 128
+
+
+class PlainPencil:
+    """No free variables: T(lo) and T(hi) themselves, rows scaled (C, Matrices of a region)."""
+
+    def __init__(self, p, rows):
+        self.parts = []
+        for _, ra, rb in rows:
+            bits = max(1, *(abs(v).bit_length() for v in ra.values()), 1)
+            # Rounded down to units of 2^-128 where 2^b exceeds 2^128; the radius is one unit each then.
+            a, b = ([(row.get(j, 0) << BITS) >> bits for j in range(p.n)] for row in (ra, rb))
+            self.parts.append((a, b, int(bits > BITS)))
+        self.n = p.n
+
+    def ends(self, lo, hi, _anchor):
+        q = lcm(lo.denominator, 1 if hi is None else hi.denominator)
+
+        def at(t):
+            s = int(t * q)
+            return [[q * v + s * w for v, w in zip(a, b)] for a, b, _ in self.parts], [[(q + abs(s)) * r] * self.n for _, _, r in self.parts]
+        m0, r0 = at(lo)
+        if hi is None:
+            m1, r1, d = [[q * w for w in b] for _, b, _ in self.parts], [[q * r] * self.n for _, _, r in self.parts], None
+        else:
+            m1, r1 = at(hi)
+            d = [[int((hi - lo) * q) * 2 * r] * self.n for _, _, r in self.parts]  # T' and (M1 - M0)/(hi - lo): one unit, generously two
+        return Ends(m0, m1, r0, r1, d, q << BITS, hi is None)
+
+
+def covered(s, n, factor, strict, what):
+    """S (rows {j: Fraction}, symmetric) is covered by L: S - L L' diagonally dominant (C, Condensation)."""
+    if factor is None:
+        demand(not strict and all(all(j == i or not v for j, v in row.items()) and row.get(i, 0) >= 0 for i, row in enumerate(s)), f"{what}: not a non-negative diagonal")
+        return
+    first, rows, exponent = fields(factor, "first rows exponent")
+    exponent = integer(exponent, 0, 65_536)
+    first = [integer(i, 0) for i in sequence(first)]
+    rows = [[integer(v) for v in sequence(r)] for r in sequence(rows)]
+    demand(len(first) == len(rows) == n and all(f + len(r) == i + 1 for i, (f, r) in enumerate(zip(first, rows))), f"{what}: shape of the factor")
+    scale = lcm(1, *(v.denominator for r in s for v in r.values()))
+    diagonal, off = [0] * n, [0] * n
+    for i in range(n):
+        for j in range(min(first[i], *s[i].keys(), i) if s[i] else first[i], i + 1):
+            start = max(first[i], first[j])
+            dot = sum(a * b for a, b in zip(rows[i][start - first[i]:], rows[j][start - first[j]:])) if start <= j else 0
+            e = (int(s[i].get(j, 0) * scale) << 2 * exponent) - dot * scale
+            if i == j:
+                diagonal[i] = e
+            else:
+                off[i] += abs(e)
+                off[j] += abs(e)
+    demand(all(d > o if strict else d >= o for d, o in zip(diagonal, off)), f"{what}: not diagonally dominant")
+
+
+def plus(a, b, factor=1):
+    out = dict(a)
+    for j, v in b.items():
+        out[j] = out.get(j, 0) + factor * v
+    return out
+
+
+def read_coefficients(lists, nf, ns):
+    """Matrices in units of 2^-E, E their largest exponent: (coefficients as columns, E)."""
+    out = []
+    for m in sequence(lists):
+        exponent, rows = fields(m, "exponent rows")
+        rows = [[integer(v) for v in sequence(r)] for r in sequence(rows)]
+        demand(len(rows) == nf and all(len(r) == ns for r in rows), "anchor: shape")
+        out.append((integer(exponent, 0), rows))
+    demand(1 <= len(out) <= 8 and all(e <= 4096 for e, _ in out), "anchor: number of coefficients or exponent")
+    top = max(e for e, _ in out)
+    return [[[v << (top - e) for v in column] for column in zip(*rows)] for e, rows in out], top
+
+
+def root_up(num, den):
+    """An integer that is at least sqrt(num)/den in units of 2^-FINE."""
+    return (isqrt(num << 2 * FINE) + 1) // den + 1
+
+
+FINE = 256
+
+
+class CondensedPencil:
+    """Free variables: the Schur complement, enclosed from an anchor (C, Condensation)."""
+
+    def __init__(self, p, rows, obj):
+        sigma, self.stiffness, mass_sigma, anchors, mass, self.tail = fields(obj, "sigma stiffness_factor mass_sigma anchors", "mass_factor tail")
+        self.p, self.sigma, self.tau = p, number(sigma), number(mass_sigma)
+        self.place = {i: k for k, i in enumerate(p.free)}
+        nf = len(p.free)
+        aff, bff = ([{self.place[j]: v for j, v in m[i].items() if j in self.place} for i in p.free] for m in (p.a, p.b))
+        for m in (aff, bff):  # hypothesis 1
+            demand(all(m[j].get(i) == v for i, r in enumerate(m) for j, v in r.items()), "condensation 1: not symmetric")
+        demand(self.sigma > 0 and self.tau >= 0 and self.stiffness is not None, "condensation 1: sigma, mass_sigma")
+        covered([plus(r, {i: -self.sigma}) for i, r in enumerate(aff)], nf, self.stiffness, False, "condensation 1: stiffness")
+        covered([plus(r, {i: -self.tau}) for i, r in enumerate(bff)], nf, mass, False, "condensation 1: mass")
+        self.bff_norm = max((sum(abs(v) for v in r.values()) for r in bff), default=Q(0))
+        self.tail_from = None
+        if self.tail is not None:  # hypothesis 2
+            start, factor, mass_factor = fields(self.tail, "from factor", "mass_factor")
+            self.tail_from = number(start)
+            symmetric = []  # sym(...) - L L', which is the page's `twice ... by twice`
+            for m in ([plus(a, b, self.tail_from) for a, b in zip(p.a, p.b)], p.b):
+                t = [{} for _ in range(p.n)]
+                for i, r in enumerate(m):
+                    for j, v in r.items():
+                        t[i][j] = t[i].get(j, 0) + v / 2
+                        t[j][i] = t[j].get(i, 0) + v / 2
+                symmetric.append(t)
+            demand(factor is not None, "condensation 2: no factor")
+            covered(symmetric[0], p.n, factor, True, "condensation 2: stiffness")
+            covered(symmetric[1], p.n, mass_factor, False, "condensation 2: mass")
+        bits = [max(1, *(abs(v).bit_length() for v in rows[i][1].values()), 1) for i in p.s]
+        self.scale = [Q(rows[i][0], 2**b) for i, b in zip(p.s, bits)]
+        self.anchors = [self.read_anchor(a) for a in sequence(anchors)]
+        self.cache = {}
+
+    def read_anchor(self, obj):
+        """Z (coefficients, units of 2^-FINE, rounded down), and column norms of V, l, r_<, r by power of d, rounded up."""
+        p, place = self.p, self.place
+        center, right, left = fields(obj, "center right left")
+        center, nf, ns = number(center), len(p.free), len(p.s)
+        (w, ew), (v, ev) = read_coefficients(right, nf, ns), read_coefficients(left, nf, ns)
+        t0 = [plus(a, b, center) for a, b in zip(p.a, p.b)]
+        den = lcm(1, *(x.denominator for m in (t0, p.b) for r in m for x in r.values()))
+        t0, t1 = ([{j: int(x * den) for j, x in r.items()} for r in m] for m in (t0, p.b))
+        spot = {i: k for k, i in enumerate(p.s)}
+        f0, f1 = ([[(place[j], x) for j, x in m[i].items() if j in place] for i in p.free] for m in (t0, t1))
+        sf = [[[(place[j], x) for j, x in m[i].items() if j in place] for i in p.s] for m in (t0, t1)]
+
+        def residual(columns, exponent, given):
+            """given - F columns by powers of d, units 1/(den 2^exponent)."""
+            out = [[[0] * nf for _ in range(ns)] for _ in range(max(len(columns) + 1, 2))]
+            for k in (0, 1):
+                for (row, col), x in given[k].items():
+                    out[k][col][row] += x << exponent
+            for k, coefficient in enumerate(columns):
+                for col, vector in enumerate(coefficient):
+                    for f, target in ((f0, out[k][col]), (f1, out[k + 1][col])):
+                        for i, line in enumerate(f):
+                            if line:
+                                target[i] -= sum([x * vector[j] for j, x in line])
+            return out
+        fs = [{(place[i], spot[j]): x for i in p.free for j, x in m[i].items() if j in spot} for m in (t0, t1)]
+        sft = [{(j, i): x for i, line in enumerate(m) for j, x in line} for m in sf]
+        r, l = residual(w, ew, fs), residual(v, ev, sft)
+        low = len(w)  # powers below belong to r_<
+        # Z = T_ss - T_sf W - V' r_>, units 1/(den 2^(ew + ev))
+        z = [[[0] * ns for _ in range(ns)] for _ in range(len(v) + len(r))]
+        for k, m in enumerate((t0, t1)):
+            for i, row in enumerate(p.s):
+                for j, x in m[row].items():
+                    if j in spot:
+                        z[k][i][spot[j]] += x << (ew + ev)
+                for e, coefficient in enumerate(w):
+                    for j, vector in enumerate(coefficient):
+                        z[k + e][i][j] -= sum([x * vector[c] for c, x in sf[k][i]]) << ev
+        for e in range(low, len(r)):
+            for k, coefficient in enumerate(v):
+                for i in range(ns):
+                    for j in range(ns):
+                        if any(r[e][j]):
+                            z[k + e][i][j] -= sum([x * y for x, y in zip(coefficient[i], r[e][j])])
+        while len(z) > 1 and not any(map(any, z[-1])):
+            z.pop()
+        unit = den << (ew + ev)
+        fixed = [[[(x * s.numerator << FINE) // (s.denominator * unit) for x in row] for row, s in zip(m, self.scale)] for m in z]
+
+        def norms(coefficients, d):
+            return [[root_up(sum([x * x for x in column]), d) for column in c] if any(map(any, c)) else [0] * ns for c in coefficients]
+        nv, nl, nr = norms(v, 1 << ev), norms(l, den << ev), norms(r, den << ew)
+        for n in (nv, nl):
+            for c in n:
+                c[:] = [-(-x * s.numerator // s.denominator) for x, s in zip(c, self.scale)]
+        nrl = [c if k < low else [0] * ns for k, c in enumerate(nr)]
+        linear = len(z) <= 2 and not self.bff_norm and all(not any(c) for n, top in ((nr, 1), (nrl, 1), (nl, 2), (nv, 2)) for c in n[top:])
+        return center, fixed, nv, nl, nrl, nr, linear
+
+    def ends(self, lo, hi, anchor):
+        demand(anchor is not None, "a leaf of a piece without an anchor")
+        key = lo, hi, anchor
+        if key not in self.cache:
+            if len(self.cache) > 64:
+                self.cache.clear()
+            self.cache[key] = self.enclose(lo, hi, self.anchors[anchor])
+        return self.cache[key]
+
+    def enclose(self, lo, hi, anchor):
+        """Units of 2^-FINE; everything rounded outward."""
+        center, z, nv, nl, nrl, nr, linear = anchor
+        ns, s = len(z[0]), self.sigma + lo * self.tau
+        demand(hi is not None or linear, "an infinite interval and a family that is not linear")
+
+        def up(n, d, derivative=0):
+            """Norms of columns, or of their derivative, for |d'| <= d."""
+            out = [Q(0)] * ns
+            for k, c in enumerate(n):
+                if k >= derivative and any(c):
+                    f = d ** (k - derivative) * (k if derivative else 1)
+                    out = [o + f * x for o, x in zip(out, c)]
+            return [-(-o.numerator // o.denominator) for o in out]
+
+        def outer(*terms):
+            """Sum of factor a_i b_j, rounded up to units."""
+            terms = [(f.numerator, f.denominator << FINE, a, b) for f, a, b in terms]
+            return [[sum(-(-n * a[i] * b[j] // q) for n, q, a, b in terms) for j in range(ns)] for i in range(ns)]
+
+        def at(t):
+            """Z(t) rounded, and what rounding may have cost."""
+            powers = [(t - center) ** k for k in range(len(z))]
+            q = lcm(1, *(x.denominator for x in powers))
+            powers = [int(x * q) for x in powers]
+            return [[sum(f * m[i][j] for f, m in zip(powers, z)) // q for j in range(ns)] for i in range(ns)], 1 + -(-sum(map(abs, powers)) // q)
+
+        def remainders(d):
+            return outer((Q(1), up(nv, d), up(nrl, d)), (1 / s, up(nl, d), up(nr, d)))
+        one = Q(1)
+        if hi is None:
+            m0, cost = at(lo)
+            r0 = [[x + cost for x in row] for row in remainders(abs(lo - center))]
+            m1 = z[1] if len(z) > 1 else [[0] * ns for _ in range(ns)]
+            zero = [0] * ns
+            r1 = outer((one, nv[1] if len(nv) > 1 else zero, nrl[0]), (1 / s, nl[1], nr[0]))
+            return Ends(m0, m1, r0, [[x + 1 for x in row] for row in r1], None, 1 << FINE, True)
+        delta, width = max(abs(lo - center), abs(hi - center)), hi - lo
+        (m0, c0), (m1, c1) = at(lo), at(hi)
+        cost = max(c0, c1)
+        bend = [[Q(0)] * ns for _ in range(ns)]
+        for k in range(2, len(z)):
+            f = k * (k - 1) * delta ** (k - 2)
+            bend = [[b + f * (abs(x) + 1) for b, x in zip(rb, rz)] for rb, rz in zip(bend, z[k])]
+        if linear:
+            r0, r1 = remainders(abs(lo - center)), remainders(abs(hi - center))
+        else:
+            r0 = r1 = remainders(delta)
+        extra = width * width / 8
+        r0, r1 = ([[x + cost + -(-(extra * b).numerator // (extra * b).denominator) for x, b in zip(rr, rb)] for rr, rb in zip(r, bend)] for r in (r0, r1))
+        v, l, rl, r = (up(n, delta) for n in (nv, nl, nrl, nr))
+        dv, dl, drl, dr = (up(n, delta, 1) for n in (nv, nl, nrl, nr))
+        slope = outer((one, dv, rl), (one, v, drl), (1 / s, dl, r), (1 / s, l, dr), (self.bff_norm / (s * s), l, r))
+        # Rounding of Z(lo), Z(hi) and of the coefficients of Z' on top of the two items of the page.
+        rough = sum((k * delta ** (k - 1) for k in range(1, len(z))), Q(0))
+        d = [[ceil(width * width * b + width * (x + rough)) + 2 * cost for x, b in zip(rx, rb)] for rx, rb in zip(slope, bend)]
+        return Ends(m0, m1, r0, r1, d, 1 << FINE, False)
+
+
+def ceil(q):
+    return -(-q.numerator // q.denominator)
+
+
+# ---------------------------------------------------------------- leaves
+
+REST, OPEN, MOVING = "rest", "open", "moving"
+
+
+def farkas(ends, state, weights):
+    n = len(state)
+    demand(len(sequence(weights)) == n, "farkas: length")
+    w = [integer(x, -(2**63), 2**63 - 1) for x in weights]
+    demand(all(x >= 0 or st == MOVING for x, st in zip(w, state)), "farkas: a negative weight")
+    may = [j for j in range(n) if state[j] != REST]
+    strict = set()
+    for j in may:
+        c = [sum(x * m[i][j] + abs(x) * r[i][j] for i, x in enumerate(w) if x) for m, r in ends.both]
+        demand(max(c) <= 0, f"farkas: column {j}")
+        if c[0] < 0 and (c[1] < 0 or ends.unbounded):
+            strict.add(j)
+    demand(strict >= set(may) or any(state[j] == MOVING for j in strict), "farkas: not strict")
+
+
+def definite(ends, state, sign):
+    may = [j for j in range(len(state)) if state[j] != REST]
+    for e, (m, r) in enumerate(ends.both):
+        s = [[sign * (m[i][j] + m[j][i]) for j in may] for i in may]
+        radius = [sum(r[i][j] + r[j][i] for j in may) for i in may]
+        if e == 1 and ends.unbounded and not any(map(any, s)) and not any(radius):
+            continue
+        for i, x in enumerate(radius):
+            s[i][i] -= x
+        demand(positive_definite(s), "definite: not so")
+
+
+def positive_definite(s):
+    """Fraction-free elimination (Bareiss) of a symmetric integer matrix: all leading minors positive."""
+    previous = 1
+    while s:
+        pivot, *row = s[0]
+        if pivot <= 0:
+            return False
+        s = [[(pivot * x - row[i] * y) // previous for x, y in zip(line[1:], row)] for i, line in enumerate(s[1:])]
+        previous = pivot
+    return True
+
+
+def dot(a, b):
+    return sum([x * y for x, y in zip(a, b)])
+
+
+class Root:
+    """The leaf `root` (C, Leaves)."""
+
+    def __init__(self, pencil, window, lo, hi, anchor, state, s, claims, obj):
+        pivot, interval, inverse, ey, left, right, ex, outcome = fields(obj, "pivot interval inverse inverse_exponent left right exponent outcome")
+        moving = [j for j, st in enumerate(state) if st == MOVING]
+        rest = [j for j, st in enumerate(state) if st == REST]
+        place = {i: k for k, i in enumerate(s)}
+        k = place.get(integer(pivot, 0))
+        demand(len(moving) + len(rest) == len(state) and k in moving and hi is not None, "root: undecided variables, pivot, or an infinite end")
+        ey, ex = integer(ey, 0), integer(ex, 0)
+        demand(max(ex, ey) <= 16_384, "root: exponents")
+        self.a, self.b = pair(interval)
+        demand(self.a <= self.b, "root: interval")
+        inside(window, self.a, self.b, "root")
+        others = [j for j in moving if j != k]
+        m = len(others)
+        y = [[Q(integer(v), 2**ey) for v in sequence(r)] for r in sequence(inverse)]
+        u, v = ([Q(integer(x), 2**ex) for x in sequence(l)] for l in (left, right))
+        demand(len(y) == len(u) == len(v) == m and all(len(r) == m for r in y), "root: lengths")
+        self.hull = min(lo, self.a), max(hi, self.b)
+        self.support = tuple(s[j] for j in moving)
+        self.yields = False
+        wide = pencil.ends(*self.hull, anchor)
+        yt = list(zip(*y))
+        abs_y, abs_yt = ([[abs(x) for x in r] for r in mat] for mat in (y, yt))
+        full_u, full_v = dict(zip(others, u)) | {k: Q(1)}, dict(zip(others, v)) | {k: Q(1)}
+
+        def norms(rows, abs_rows, transpose):
+            """rho, or eta on the transposed matrices: the largest row sum."""
+            worst = Q(0)
+            for mat, rad in wide.both:
+                get = (lambda i, j: (mat[j][i], rad[j][i])) if transpose else (lambda i, j: (mat[i][j], rad[i][j]))
+                for a in range(m):
+                    total = Q(0)
+                    for b in range(m):
+                        column = [get(i, others[b]) for i in others]
+                        total += abs((a == b) - dot(rows[a], [Q(c, wide.unit) for c, _ in column])) + dot(abs_rows[a], [Q(c, wide.unit) for _, c in column])
+                    worst = max(worst, total)
+            return worst
+        rho, eta = norms(y, abs_y, False), norms(yt, abs_yt, True)  # 1
+        demand(rho < 1 and eta < 1, "root 1: the inverse")
+
+        def residual(ends, e, full, transpose):
+            """Residuals and their radii on the rows (columns) other than the pivot."""
+            mat, rad = ends.both[e]
+            get = (lambda a, b: (b, a)) if transpose else (lambda a, b: (a, b))
+            q, r = [], []
+            for i in others:
+                at = [(get(i, j), x) for j, x in full.items()]
+                q.append(sum(mat[a][b] * x for (a, b), x in at) / ends.unit)
+                r.append(sum(rad[a][b] * abs(x) for (a, b), x in at) / ends.unit)
+            return q, r
+
+        def eps(ends, e, full, rows, abs_rows, bound, transpose):
+            q, r = residual(ends, e, full, transpose)
+            return max((abs(dot(rows[i], q)) + dot(abs_rows[i], r) for i in range(m)), default=Q(0)) / (1 - bound)
+
+        def eps_v(ends, e):
+            return eps(ends, e, full_v, y, abs_y, rho, False)
+        ev = max(eps_v(wide, 0), eps_v(wide, 1))  # 2
+        eu = max(eps(wide, e, full_u, yt, abs_yt, eta, True) for e in (0, 1))
+        slope = bound = Q(0)  # 3, times the unit
+        for i in moving:
+            for j in moving:
+                dm, dd = wide.both[1][0][i][j] - wide.both[0][0][i][j], wide.d[i][j]
+                x, w = full_u[i], full_v[j]
+                ei, ej = (Q(0) if i == k else eu), (Q(0) if j == k else ev)
+                slope += x * dm * w
+                bound += dd * abs(x * w) + (abs(dm) + dd) * (ei * abs(w) + abs(x) * ej + ei * ej)
+        demand(abs(slope) > bound, "root 3: not monotone")
+
+        def sign(ends, e):  # 4
+            mat, rad = ends.both[e]
+            value = sum(full_u[i] * mat[i][j] * full_v[j] for i in moving for j in moving) / ends.unit
+            slack = sum(abs(full_u[i]) * rad[i][j] * abs(full_v[j]) for i in moving for j in moving) / ends.unit
+            q, r = residual(ends, e, full_u, True)
+            slack += sum(abs(a) + b for a, b in zip(q, r)) * eps_v(ends, e)
+            return 0 if abs(value) <= slack else (1 if value > 0 else -1)
+        if outcome == "absent":  # 5
+            demand(sign(wide, 0) * sign(wide, 1) == 1, "root 5: absent")
+            return
+        if isinstance(outcome, dict) and "claim" in outcome:
+            c = claims[place_in(fields(outcome, "claim")[0], len(claims))]
+            demand(c[0] and set(c[0]) <= set(self.support) <= {*c[0], *c[1]}, "root 5: not a claim of this moving set")
+            demand(self.a <= c[2] and c[3] <= self.b, "root 5: the claim's value is not in the interval")
+            self.yields = set(c[0]) == set(self.support)
+            return
+        demand(self.a < self.b, "root 5: an interval of one point")
+        narrow = pencil.ends(self.a, self.b, anchor)
+        demand(sign(narrow, 0) * sign(narrow, 1) == -1, "root 5: no change of sign")
+        error = max(eps_v(narrow, 0), eps_v(narrow, 1))
+
+        def y_sign(i):
+            """The certain sign of y_i at both narrow ends, or 0."""
+            signs = set()
+            for mat, rad in narrow.both:
+                value = sum(mat[i][j] * full_v[j] for j in moving)
+                slack = sum(rad[i][j] * abs(full_v[j]) for j in moving) + error * sum(abs(mat[i][j]) + rad[i][j] for j in others)
+                signs.add(1 if value > slack else -1 if value < -slack else 0)
+            return signs.pop() if len(signs) == 1 else 0
+        if outcome == "solution":
+            demand(all(x > error for x in v) and all(y_sign(i) == 1 for i in rest), "root 5: not a solution")
+            self.yields = True
+        elif isinstance(outcome, dict) and "negative_x" in outcome:
+            i = place.get(integer(fields(outcome, "negative_x")[0], 0))
+            demand(i in others and full_v[i] < -error, "root 5: negative_x")
+        elif isinstance(outcome, dict) and "negative_y" in outcome:
+            i = place.get(integer(fields(outcome, "negative_y")[0], 0))
+            demand(i in rest and y_sign(i) == -1, "root 5: negative_y")
+        else:
+            raise Unreadable("root: outcome")
+
+
+# ---------------------------------------------------------------- the cover
+
+def complete_set(p, rows, window, claims, obj):
+    """The number of solutions and of open leaves of the cover."""
+    pieces, condensation = fields(obj, "pieces", "condensation")
+    demand((condensation is not None) == bool(p.free), "condensation is present exactly if there are free variables")
+    pencil = CondensedPencil(p, rows, condensation) if p.free else PlainPencil(p, rows)
+    demand(sequence(pieces), "cover: no piece")
+    start, found, left_open = window[0], [], 0
+    for number_of, piece in enumerate(pieces):
+        if not isinstance(piece, dict) or "max" not in piece:
+            raise Unreadable("piece: max")
+        end, tree, anchor = fields(piece, "max tree", "anchor")
+        end = None if end is None else number(end)
+        if anchor is not None:
+            demand(p.free, "an anchor without condensation")
+            anchor = place_in(anchor, len(pencil.anchors))
+        if number_of == len(pieces) - 1:
+            demand(end == window[1] and (end is None or end > start or len(pieces) == 1), "cover: the last piece")
+        else:
+            demand(end is not None and start < end and (window[1] is None or end < window[1]), "cover: a piece's max")
+        regions = [(start, end, (OPEN,) * len(p.s))]
+        for node in sequence(tree):
+            demand(regions, "cover: nodes after the end of a tree")
+            lo, hi, state = regions.pop()
+            if isinstance(node, dict) and len(node) == 1:
+                (kind, value), = node.items()
+            else:
+                kind, value = node, None
+            if kind == "split" and value is not None:
+                t = number(value)
+                demand(lo < t and (hi is None or t < hi), "cover: split")
+                regions += [(t, hi, state), (lo, t, state)]
+            elif kind == "branch" and value is not None:
+                i = place_in(value, p.n)
+                demand(i in p.s and state[p.s.index(i)] == OPEN, "cover: branch")
+                i = p.s.index(i)
+                regions += [(lo, hi, state[:i] + (st,) + state[i + 1:]) for st in (MOVING, REST)]
+            elif kind == "farkas" and value is not None:
+                farkas(pencil.ends(lo, hi, anchor), state, value)
+            elif kind in ("positive_definite", "negative_definite") and value is None:
+                definite(pencil.ends(lo, hi, anchor), state, 1 if kind[0] == "p" else -1)
+            elif kind == "root" and value is not None:
+                leaf = Root(pencil, window, lo, hi, anchor, state, p.s, claims, value)
+                found += [leaf] if leaf.yields else []
+            elif kind == "tail" and value is None:
+                demand(p.free and pencil.tail_from is not None and pencil.tail_from <= lo, "tail: not covered")
+            elif kind == "open" and value is None:
+                left_open += 1
+            else:
+                raise Unreadable("unknown node")
+        demand(not regions, "cover: a tree that ends early")
+        start = end
+    return count(found), left_open
+
+
+def count(found):
+    """Solutions yielded twice (C): the same support and overlapping intervals count once."""
+    distinct = 0
+    for k, leaf in enumerate(found):
+        twice = False
+        for other in found[:k]:
+            if other.support == leaf.support and other.a <= leaf.b and leaf.a <= other.b:
+                within = other.hull[0] <= leaf.a and leaf.b <= other.hull[1] or leaf.hull[0] <= other.a and other.b <= leaf.hull[1]
+                demand(within, "cover: two solutions that may be one")
+                twice = True
+        distinct += not twice
+    return distinct
+
+
+def check(problem_path, certificate_path):
+    p = Problem(problem_path)
+    doc = read_json(certificate_path)
+    if not isinstance(doc, dict) or doc.get("format") != "mceip-certificate/1":
+        raise Unreadable("format: mceip-certificate/1 was expected")
+    _, digest, unknown, window, claim_list, complete = fields(doc, "format problem_sha256 unknown window claims", "complete_set")
+    if not isinstance(window, dict):
+        raise Unreadable("window")
+    window = read_window(window)
+    if unknown not in ("lambda2", "mu") or not isinstance(digest, str):
+        raise Unreadable("unknown, problem_sha256")
+    demand(digest == p.digest, f"the problem's digest is {p.digest}")
+    demand(unknown == p.unknown, "the unknown is not the problem's")
+    demand(sequence(claim_list) or complete is not None, "no claim")
+    rows, claims = integral_rows(p), []
+    for c in claim_list:
+        if not isinstance(c, dict) or len(c) != 1:
+            raise Unreadable("a claim is an object with one key")
+        (kind, body), = c.items()
+        if kind not in ("exact_solution", "enclosed_solution"):
+            raise Unreadable(f"unknown claim {kind[:40]!r}")
+        claims.append((exact_solution if kind == "exact_solution" else enclosed_solution)(p, rows, window, body))
+    text = f"{len(claims)} claim(s)"
+    if complete is None:
+        return 0, f"ACCEPTED: {text}"
+    solutions, left_open = complete_set(p, rows, window, claims, complete)
+    if left_open:
+        return 3, f"UNDECIDED: {text}; {left_open} open leaves, {solutions} solution(s) outside them"
+    return 0, f"ACCEPTED: {text}; complete set of {solutions} solution(s)"
+
+
+def main(arguments):
+    if len(arguments) != 2:
+        print("usage: checker.py PROBLEM CERTIFICATE", file=sys.stderr)
+        return 2
+    sys.set_int_max_str_digits(0)
+    try:
+        code, line = check(*arguments)
+    except Rejected as e:
+        code, line = 1, f"REJECTED: {e}"
+    except (Unreadable, RecursionError) as e:
+        print(" ".join(f"checker.py: {e}".split())[:500], file=sys.stderr)
+        return 2
+    print(line)
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

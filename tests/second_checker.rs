@@ -1,0 +1,110 @@
+//! `spec/checker.py` was written from the pages of spec/ alone. It and `mceip check` must agree: on certificates of the worked
+//! examples, and on forgeries of them. Without python3 the test says so and passes.
+#![cfg(feature = "cli")]
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+const EXAMPLES: [&str; 4] = ["fold", "oblique", "two-particles", "two-particles-mu"];
+
+fn root(path: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join(path)
+}
+
+fn code(command: &mut Command) -> i32 {
+    command.output().unwrap().status.code().unwrap()
+}
+
+/// The certificates that `complete` and `solve` write for an example.
+fn certificates(folder: &Path, name: &str) -> Vec<Value> {
+    ["complete", "solve"]
+        .map(|command| {
+            let out = folder.join("written.json");
+            let mut run = Command::new(env!("CARGO_BIN_EXE_mceip"));
+            run.arg(command).arg(root(&format!("spec/examples/{name}.json"))).arg("--certificate").arg(&out);
+            assert_eq!(code(&mut run), 0, "{command} {name}");
+            serde_json::from_slice(&std::fs::read(&out).unwrap()).unwrap()
+        })
+        .to_vec()
+}
+
+/// Pointers to every number, name and list of a certificate, in the file's order.
+fn places(value: &Value, at: &str, out: &mut Vec<String>) {
+    match value {
+        Value::Object(fields) => fields.iter().for_each(|(k, v)| places(v, &format!("{at}/{k}"), out)),
+        Value::Array(items) => {
+            out.push(at.to_string());
+            items.iter().enumerate().for_each(|(i, v)| places(v, &format!("{at}/{i}"), out));
+        }
+        _ => out.push(at.to_string()),
+    }
+}
+
+/// Lists lose an item or have one twice, numbers change sign or value, names change.
+fn forge(value: &mut Value, turn: usize) {
+    match value {
+        Value::Array(items) if !items.is_empty() => {
+            let i = turn % items.len();
+            if turn.is_multiple_of(2) { drop(items.remove(i)) } else { items.insert(i, items[i].clone()) }
+        }
+        Value::String(s) if s.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit()) => {
+            *s = match turn % 3 {
+                0 => s.strip_prefix('-').map_or(format!("-{s}"), String::from),
+                1 => format!("{s}1"),
+                _ => "0".into(),
+            };
+        }
+        Value::String(s) => *s = ["open", "tail", "positive_definite", "negative_definite", "absent"][turn % 5].into(),
+        Value::Number(n) => *value = Value::from(n.as_i64().map_or(0, |n| if turn.is_multiple_of(2) { -n } else { n + 1 })),
+        other => *other = Value::from("3"),
+    }
+}
+
+#[test]
+fn both_checkers_give_the_same_verdicts() {
+    if Command::new("python3").arg("--version").output().is_err() {
+        eprintln!("python3 is not installed: spec/checker.py was not compared");
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let mut seen = [0; 4];
+    for name in EXAMPLES {
+        for certificate in certificates(folder.path(), name) {
+            let mut spots = Vec::new();
+            places(&certificate, "", &mut spots);
+            // The certificate itself, then a forgery at each of 13 places spread over the file.
+            for turn in 0..14 {
+                let mut forged = certificate.clone();
+                if turn > 0 {
+                    forge(forged.pointer_mut(&spots[(turn - 1) * spots.len() / 13]).unwrap(), turn);
+                }
+                let file = folder.path().join("forged.json");
+                std::fs::write(&file, forged.to_string()).unwrap();
+                let problem = root(&format!("spec/examples/{name}.json"));
+                let ours = code(Command::new(env!("CARGO_BIN_EXE_mceip")).arg("check").arg(&problem).arg(&file));
+                let theirs = code(Command::new("python3").arg(root("spec/checker.py")).arg(&problem).arg(&file));
+                assert_eq!(ours, theirs, "mceip check and checker.py on {name}, turn {turn}: {forged}");
+                assert!(turn > 0 || ours == 0, "{name}");
+                seen[usize::try_from(ours).unwrap()] += 1;
+            }
+        }
+    }
+    assert!(seen[0] >= 8 && seen[1] > 20 && seen[2] > 0, "accepted, rejected, unreadable, open: {seen:?}");
+}
+
+#[test]
+fn a_cover_with_an_open_leaf_is_undecided_for_both() {
+    if Command::new("python3").arg("--version").output().is_err() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let mut certificate = certificates(folder.path(), "fold").remove(0);
+    certificate["complete_set"]["pieces"][0]["tree"] = serde_json::json!(["open"]);
+    let file = folder.path().join("open.json");
+    std::fs::write(&file, certificate.to_string()).unwrap();
+    let problem = root("spec/examples/fold.json");
+    assert_eq!(code(Command::new(env!("CARGO_BIN_EXE_mceip")).arg("check").arg(&problem).arg(&file)), 3);
+    assert_eq!(code(Command::new("python3").arg(root("spec/checker.py")).arg(&problem).arg(&file)), 3);
+}
