@@ -74,11 +74,11 @@ fn both_checkers_give_the_same_verdicts() {
         for certificate in certificates(folder.path(), name) {
             let mut spots = Vec::new();
             places(&certificate, "", &mut spots);
-            // The certificate itself, then a forgery at each of 13 places spread over the file.
-            for turn in 0..14 {
+            // The certificate itself, then a forgery at each of 8 places spread over the file.
+            for turn in 0..9 {
                 let mut forged = certificate.clone();
                 if turn > 0 {
-                    forge(forged.pointer_mut(&spots[(turn - 1) * spots.len() / 13]).unwrap(), turn);
+                    forge(forged.pointer_mut(&spots[(turn - 1) * spots.len() / 8]).unwrap(), turn);
                 }
                 let file = folder.path().join("forged.json");
                 std::fs::write(&file, forged.to_string()).unwrap();
