@@ -36,7 +36,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             };
             // The solutions of a cover include those claimed beside it.
             let windowed = problem.clone().with_window(w.clone());
-            print(&format!("{}ACCEPTED {within}\n", solutions_text(&windowed, cover)))?;
+            let verdict = if cover.open.is_empty() { "ACCEPTED" } else { "ACCEPTED as undecided" };
+            print(&format!("{}{verdict} {within}\n", solutions_text(&windowed, cover)))?;
             Ok(if cover.open.is_empty() { exit::DONE } else { exit::UNDECIDED })
         }
         Err(rejected) => {
