@@ -96,3 +96,7 @@ pub const SAME_ROOT: f64 = 1e-6;
 /// Where the search for a definite tail begins, relative to |A| / |B|. Unit: none. Basis: low
 /// frequencies of meshes of a million elements; it doubles from there.
 pub const TAIL_START: f64 = 1e-6;
+
+/// The same on a condensed pencil, once its radius has been taken off. Unit: as [`WITNESS_MARGIN`].
+/// Basis: a thousand times what the checker's exact condensation and the one in doubles differ by.
+pub const CONDENSED_MARGIN: f64 = 1e-9;

@@ -95,11 +95,11 @@ impl Skyline {
         }
     }
 
-    /// A number below the smallest eigenvalue of a definite matrix, about half of it.
+    /// A number below the smallest eigenvalue of a definite matrix, about four fifths of it.
     pub(super) fn below_spectrum(&self) -> Option<f64> {
         // The iteration approaches the eigenvalue from above, and a start that happens to be orthogonal to
         // its vector ends at another one: what it says is tried.
-        let mut bound = 0.5 * self.cholesky()?.smallest_eigenvalue();
+        let mut bound = 0.8 * self.cholesky()?.smallest_eigenvalue();
         for _ in 0..BOUND_STEPS {
             if self.shifted(-bound).cholesky().is_some() {
                 return Some(bound);

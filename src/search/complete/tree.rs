@@ -142,6 +142,10 @@ impl Search<'_> {
             return self.leaf(Node::Open, share);
         }
         let may_cut = !narrow && region.cuts < MAX_CUTS[usize::from(ends.hi.is_infinite())];
+        // The game of both ends does not know the radius; the middle's vector may stand it over all of the interval.
+        if prunable && let Some(w) = columns.round(&game.w) {
+            return self.leaf(Node::Farkas(w), share);
+        }
         if decided || (may_cut && prunable) {
             return self.cut(region, ends, &columns, &game.w, middle, share);
         }

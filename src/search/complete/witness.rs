@@ -3,7 +3,7 @@
 use super::game::{self, Game, dot};
 use super::tree::State;
 use super::view::{Ends, Matrix};
-use crate::tolerance::{DEFINITE_PIVOT, THIN_MARGIN, WITNESS_MARGIN};
+use crate::tolerance::{CONDENSED_MARGIN, DEFINITE_PIVOT, THIN_MARGIN, WITNESS_MARGIN};
 
 /// Bits tried for the weights, shortest first.
 const WEIGHT_BITS: [i32; 5] = [8, 14, 20, 30, 44];
@@ -87,12 +87,14 @@ impl Columns {
     /// Every entry of w'T is negative by a margin (at an infinite end: not positive).
     fn holds(&self, w: &[f64]) -> bool {
         let size: f64 = w.iter().map(|v| v.abs()).sum();
+        // Doubles know a condensed pencil less well than a given one.
+        let least = 0.1 * if self.radius.iter().all(Option::is_none) { THIN_MARGIN } else { CONDENSED_MARGIN };
         self.list.iter().zip(&self.radius).zip(&self.weak).all(|((c, r), weak)| {
             let around: f64 = r.as_ref().map_or(0.0, |r| r.iter().zip(w).map(|(r, w)| r * w.abs()).sum());
             let bound = dot(c, w) + around;
             // Products that are zero one by one are an exact zero, whatever the rounding.
             let exact_zero = *weak && around == 0.0 && c.iter().zip(w).all(|(c, w)| c * w == 0.0);
-            bound < -0.1 * THIN_MARGIN * size || exact_zero
+            bound < -least * size || exact_zero
         })
     }
 
