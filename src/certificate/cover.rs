@@ -144,7 +144,7 @@ pub struct Factor {
     pub exponent: u32,
 }
 
-/// Approximations in powers of (t - center): right[k] of F^-1 T_fs, left[k] of F^-1 T_sf'; each a
+/// Approximations in powers of (t - center): `right[k]` of F^-1 T_fs, `left[k]` of F^-1 T_sf'; each a
 /// matrix with a row per free and a column per complementarity variable, in units of 2^-`exponent`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -101,7 +101,7 @@ pub struct Found {
     pub uncertified: Vec<Uncertified>,
     /// Candidates outside the window (a search downwards may leave it): counted, not certified.
     pub outside: usize,
-    /// Candidates equal to an earlier one within rounding ([`SAME_POINT`]).
+    /// Candidates equal to an earlier one within rounding ([`SAME_POINT`](crate::tolerance::SAME_POINT)).
     pub repeated: usize,
     /// How often each reason ended a run of the solver, also those that polish a point of a curve.
     pub terminations: BTreeMap<Termination, usize>,
