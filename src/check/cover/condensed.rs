@@ -10,10 +10,9 @@ use super::CoverFault;
 use super::expanded::Expanded;
 use super::family::Matrix;
 use super::psd::{Symmetric, semidefinite};
-use crate::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
-use crate::check::pencil::Rows;
+use crate::certificate::{Anchor, Condensation, IntegerMatrix, Tail};
+use crate::check::pencil::{Row, Rows};
 use crate::exact::{Integer, Rational};
-use crate::model::Window;
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
@@ -24,8 +23,7 @@ const MAX_DEGREE: usize = 8;
 const MAX_EXPONENT: u32 = 1 << 12;
 
 /// Hypotheses, then one expansion per anchor.
-pub(super) fn of(rows: &Rows, window: &Window, condensation: &Condensation) -> Result<Vec<Expanded>, CoverFault> {
-    debug_assert!(!window.min().is_negative());
+pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expanded>, CoverFault> {
     let blocks = Blocks::of(rows);
     let sigma = &condensation.sigma.0;
     if !sigma.is_positive() {
@@ -38,8 +36,8 @@ pub(super) fn of(rows: &Rows, window: &Window, condensation: &Condensation) -> R
     }
     let block = |k: usize, shift: &Rational| -> (Symmetric, Integer) {
         // In units of 1 / (common denom(shift)).
-        let entry = |(a, b): &(Integer, Integer)| (if k == 0 { a } else { b }) * shift.denom();
-        let mut out: Symmetric = blocks.ff.iter().map(|row| row.iter().map(|(j, v)| (*j, entry(v))).collect()).collect();
+        let entry = |a: &Integer, b: &Integer| (if k == 0 { a } else { b }) * shift.denom();
+        let mut out: Symmetric = blocks.ff.iter().map(|row| row.iter().map(|(j, a, b)| (*j, entry(a, b))).collect()).collect();
         for (i, row) in out.iter_mut().enumerate() {
             *row.entry(i).or_default() -= &blocks.common * shift.numer();
         }
@@ -70,9 +68,9 @@ pub(super) fn tail(rows: &Rows, tail: &Tail) -> Result<(), CoverFault> {
     // Twice the symmetric parts; both factors are of the symmetric part itself.
     let twice: Integer = &common * 2;
     let pencil = symmetric(&|a, b| a * from.denom() + b * from.numer());
-    let with = |s: &Symmetric, scale: &Integer, factor: Option<&Factor>, strictly, what| semidefinite(s, scale, factor, strictly, what);
-    with(&pencil, &(&twice * from.denom()), Some(&tail.factor), true, "sym(A + from B) positive definite")?;
-    with(&symmetric(&|_, b| b.clone()), &twice, tail.mass_factor.as_ref(), false, "sym(B) positive semidefinite")
+    semidefinite(&pencil, &(&twice * from.denom()), Some(&tail.factor), true, "sym(A + from B) positive definite")?;
+    let mass = symmetric(&|_, b| b.clone());
+    semidefinite(&mass, &twice, tail.mass_factor.as_ref(), false, "sym(B) positive semidefinite")
 }
 
 /// The blocks of the pencil; free rows multiplied by one common integer, slip rows each by its own
@@ -82,12 +80,11 @@ struct Blocks {
     slip: usize,
     /// The free rows' common multiplier D.
     common: Integer,
-    /// Rows of D T_ff: column, (A, B).
-    ff: Vec<BTreeMap<usize, (Integer, Integer)>>,
-    /// Rows of D T_fs and of T_sf, T_ss.
-    fs: Vec<Vec<(usize, Integer, Integer)>>,
-    sf: Vec<Vec<(usize, Integer, Integer)>>,
-    ss: Vec<Vec<(usize, Integer, Integer)>>,
+    /// Rows of D T_ff and D T_fs, and of T_sf and T_ss: column, A, B.
+    ff: Linear,
+    fs: Linear,
+    sf: Linear,
+    ss: Linear,
     /// What each slip row was multiplied by.
     factor: Vec<Integer>,
     /// Bit length of the largest entry of A in each slip row: the row is divided by 2^that.
@@ -109,10 +106,10 @@ impl Blocks {
         for (i, row) in rows.rows.iter().enumerate() {
             let lift = if rows.is_free[i] { &blocks.common / &rows.factor[i] } else { Integer::one() };
             let (f, s): (Vec<_>, Vec<_>) = row.iter().map(|(j, a, b)| (*j, a * &lift, b * &lift)).partition(|(j, ..)| rows.is_free[*j]);
-            let renumber = |list: Vec<(usize, Integer, Integer)>| list.into_iter().map(|(j, a, b)| (place[j], a, b)).collect::<Vec<_>>();
+            let renumber = |list: Row| list.into_iter().map(|(j, a, b)| (place[j], a, b)).collect::<Row>();
             let (f, s) = (renumber(f), renumber(s));
             if rows.is_free[i] {
-                blocks.ff.push(f.into_iter().map(|(j, a, b)| (j, (a, b))).collect());
+                blocks.ff.push(f);
                 blocks.fs.push(s);
             } else {
                 blocks.bits.push(row.iter().map(|(_, a, _)| a.bits()).max().unwrap_or(0).max(1));
@@ -125,8 +122,8 @@ impl Blocks {
     }
 
     fn symmetric(&self) -> Result<(), CoverFault> {
-        let zero = (Integer::zero(), Integer::zero());
-        let bad = |i: &usize| self.ff[*i].iter().any(|(j, v)| *self.ff[*j].get(i).unwrap_or(&zero) != *v);
+        let at = |i: usize, j: usize| self.ff[i].binary_search_by_key(&j, |e| e.0).ok().map(|k| (&self.ff[i][k].1, &self.ff[i][k].2));
+        let bad = |i: &usize| self.ff[*i].iter().any(|(j, a, b)| at(*j, *i).map_or(!(a.is_zero() && b.is_zero()), |v| v != (a, b)));
         match (0..self.free).find(bad) {
             Some(row) => Err(CoverFault::Hypothesis { expected: "T_ff symmetric", row }),
             None => Ok(()),
@@ -140,35 +137,10 @@ impl Blocks {
         for row in v.iter_mut().flatten() {
             row.iter_mut().zip(&self.factor).for_each(|(v, f)| *v *= f);
         }
-        let (p, q) = (anchor.center.0.numer(), anchor.center.0.denom());
-        // Constant and linear coefficient of q T(t) in d: q A + p B and q B.
-        let parts = |a: &Integer, b: &Integer| (q * a + p * b, q * b);
-        let ff: Vec<Vec<(usize, Integer, Integer)>> = self
-            .ff
-            .iter()
-            .map(|row| {
-                row.iter()
-                    .map(|(j, (a, b))| {
-                        let (c, l) = parts(a, b);
-                        (*j, c, l)
-                    })
-                    .collect()
-            })
-            .collect();
-        let lift = |rows: &[Vec<(usize, Integer, Integer)>], factor: &Integer| -> Vec<Vec<(usize, Integer, Integer)>> {
-            rows.iter()
-                .map(|row| {
-                    row.iter()
-                        .map(|(j, a, b)| {
-                            let (c, l) = parts(a, b);
-                            (*j, c * factor, l * factor)
-                        })
-                        .collect()
-                })
-                .collect()
-        };
+        let (center, q) = (&anchor.center.0, anchor.center.0.denom());
         let one = Integer::one();
-        let (fs, sf, ss) = (lift(&self.fs, &one), lift(&self.sf, &self.common), lift(&self.ss, &self.common));
+        let [ff, fs] = [&self.ff, &self.fs].map(|block| about(block, center, &one));
+        let [sf, ss] = [&self.sf, &self.ss].map(|block| about(block, center, &self.common));
         // Residuals in units of 1 / (q 2^e), D times the true ones.
         let r = residual(&ff, &fs, &w, e_w, self.slip);
         let l = residual(&ff, &transpose(&sf, self.free), &v, e_v, self.slip);
@@ -182,7 +154,7 @@ impl Blocks {
         let raised = |i: usize| Integer::one() << (largest - self.bits[i]);
         let z = z.into_iter().map(|m| m.into_iter().enumerate().map(|(i, row)| row.into_iter().map(|v| v * raised(i)).collect()).collect());
         Ok(Expanded {
-            center: anchor.center.0.clone(),
+            center: center.clone(),
             z: z.collect(),
             left: norms(&l, self.slip),
             right: norms(&r, self.slip),
@@ -250,13 +222,20 @@ impl Blocks {
 
     /// |dF/dt| / sigma in the maximum row sum.
     fn drift(&self, sigma: &Rational) -> Rational {
-        let largest = self.ff.iter().map(|row| row.values().map(|(_, b)| b.abs()).sum::<Integer>()).max().unwrap_or_default();
+        let largest = self.ff.iter().map(|row| row.iter().map(|(_, _, b)| b.abs()).sum::<Integer>()).max().unwrap_or_default();
         Rational::new(largest, self.common.clone()) / sigma
     }
 }
 
-/// Rows of a matrix linear in d: column, constant, coefficient of d.
-type Linear = Vec<Vec<(usize, Integer, Integer)>>;
+/// Rows of a matrix linear in t or d: column, constant, coefficient.
+type Linear = Vec<Row>;
+
+/// `factor` q T as a matrix linear in d = t - p/q: q A + p B and q B.
+fn about(block: &Linear, center: &Rational, factor: &Integer) -> Linear {
+    let (p, q) = (center.numer(), center.denom());
+    let entry = |(j, a, b): &(usize, Integer, Integer)| (*j, (q * a + p * b) * factor, q * b * factor);
+    block.iter().map(|row| row.iter().map(entry).collect()).collect()
+}
 
 fn transpose(m: &Linear, cols: usize) -> Linear {
     let mut out = vec![Vec::new(); cols];

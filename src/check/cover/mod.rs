@@ -79,7 +79,7 @@ pub(super) fn check(rows: &Rows, window: &Window, claims: &[AcceptedSolution<'_>
     let whole = |fault| Reason::Cover { piece: None, node: None, fault };
     let family = match &cover.condensation {
         None if !has_free => Family::Linear(Linear::of(rows)),
-        Some(condensation) if has_free => Family::Condensed(condensed::of(rows, window, condensation).map_err(whole)?),
+        Some(condensation) if has_free => Family::Condensed(condensed::of(rows, condensation).map_err(whole)?),
         _ => return Err(whole(CoverFault::Condensation { expected: has_free })),
     };
     let tail = cover.condensation.as_ref().and_then(|c| c.tail.as_ref());

@@ -4,6 +4,7 @@
 //! enters the enclosure squared (see `check::cover::condensed`).
 
 use super::CompleteError;
+use super::game::dot;
 use super::skyline::Skyline;
 use super::view::{Expansion, View, row_factor, scale};
 use crate::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
@@ -333,10 +334,6 @@ fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, bounds: [f64; 2], right: 
 
 fn times(m: &[Vec<(usize, f64)>], x: &[f64]) -> Vec<f64> {
     m.iter().map(|row| row.iter().map(|(j, v)| v * x[*j]).sum()).collect()
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// A short number at most v, within a sixteenth of it.

@@ -5,6 +5,7 @@
 //! there, the interval is cut where it stops working; if none does, the index whose complementarity
 //! the relaxed solution breaks most is decided.
 
+use super::game::dot;
 use super::root::{Null, Unique, null_vector};
 use super::view::{Ends, Expansion, View};
 use super::witness::{Columns, definite, vanishes};
@@ -193,7 +194,7 @@ impl Search<'_> {
         at.variable.iter().zip(mix).for_each(|(&j, q)| x[j] = *q);
         let m = self.expansion.at(middle);
         let size = |i: usize| m[i].iter().fold(f64::MIN_POSITIVE, |s, v| s.max(v.abs()));
-        let y = |i: usize| super::game::dot(&m[i], &x) / size(i);
+        let y = |i: usize| dot(&m[i], &x) / size(i);
         let open = (0..n).filter(|&i| region.states[i] == State::Open);
         let Some(i) = open.max_by(|&i, &j| x[i].min(y(i)).total_cmp(&x[j].min(y(j))).then(j.cmp(&i))) else {
             return self.leaf(Node::Open, share);
