@@ -2,16 +2,16 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+#[path = "support/program.rs"]
+mod program;
+
 use mceip::model::{Body, Unknown};
 use mceip::testkit::{known, mechanical_pencil};
+use program::{Folder, mceip, refused};
 use serde_json::{Value, json};
 use std::path::Path;
-use std::process::{Command, Output};
+use std::process::Command;
 use std::time::Duration;
-
-fn mceip(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mceip")).args(args).output().unwrap()
-}
 
 #[track_caller]
 fn exits(code: i32, args: &[&str]) -> String {
@@ -20,31 +20,20 @@ fn exits(code: i32, args: &[&str]) -> String {
     String::from_utf8(o.stdout).unwrap()
 }
 
-/// Exit 2, nothing on stdout, one line on stderr that mentions each of `words`.
-#[track_caller]
-fn refused(args: &[&str], words: &[&str]) {
-    let o = mceip(args);
-    let err = String::from_utf8_lossy(&o.stderr);
-    assert_eq!(o.status.code(), Some(2), "{args:?}: {err}");
-    assert!(o.stdout.is_empty() && err.lines().count() == 1 && err.len() < 800, "{err}");
-    assert!(words.iter().all(|w| err.contains(w)), "{words:?} not in: {err}");
-}
-
-/// A folder of problem files and whatever the program writes.
-struct Bench(tempfile::TempDir);
+/// A folder with the problems of these tests.
+struct Bench(Folder);
 
 impl Bench {
     fn new() -> Bench {
-        Bench(tempfile::tempdir().unwrap())
+        Bench(Folder::new())
     }
 
     fn path(&self, name: &str) -> String {
-        self.0.path().join(name).display().to_string()
+        self.0.path(name)
     }
 
     fn write(&self, name: &str, text: &str) -> String {
-        std::fs::write(self.path(name), text).unwrap();
-        self.path(name)
+        self.0.write(name, text)
     }
 
     fn pencil(&self, name: &str, problem: &mceip::model::Problem) -> String {

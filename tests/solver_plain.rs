@@ -58,6 +58,10 @@ fn no_solution_is_undecided_and_bad_files_are_one_line() {
     let file = write(folder.path(), "none.json", r#"{"format":"mceip-mcp/1","m":[[-1]],"q":[-1]}"#);
     let out = mceip(&["solve", &file]);
     assert!(out.status.code() == Some(3) && stdout(&out).contains("0 certified"), "{}", stdout(&out));
+    // An option of the other kind of problem is refused, not ignored.
+    let traced = mceip(&["solve", &file, "--trace", "trace.txt"]);
+    let err = String::from_utf8_lossy(&traced.stderr).into_owned();
+    assert!(traced.status.code() == Some(2) && err.lines().count() == 1 && err.contains("--trace"), "{err}");
     for text in [r#"{"format":"mceip-mcp/1","m":[[1,2]],"q":[-1]}"#, r#"{"format":"mceip-mcp/1","m":[[1]],"q":["1e999999"]}"#, "{}"] {
         let bad = mceip(&["solve", &write(folder.path(), "bad.json", text)]);
         assert_eq!((bad.status.code(), String::from_utf8_lossy(&bad.stderr).lines().count()), (Some(2), 1), "{text}");

@@ -94,7 +94,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         print(&text_of(&reports))?;
     }
-    let wrong = reports.iter().any(|r| !r.rejected.is_empty());
+    let wrong = reports.iter().any(|r| !r.rejected.is_empty() || r.missing > 0);
     let none = reports.iter().any(|r| r.accepted.is_empty());
     let interrupted = stop.load(std::sync::atomic::Ordering::Relaxed);
     Ok(if interrupted {

@@ -8,13 +8,13 @@ use super::output::Output;
 use crate::certify::certificate;
 use crate::lcp::MCP_FORMAT;
 use crate::model::file::require_format;
-use crate::model::{Admissible, Pencil};
+use crate::model::{Admissible, Pencil, Problem};
 use crate::multistart::{Found, Search, multistart_large, support, trace_outcome};
 use crate::reduction::reduce;
 use crate::report::{Listed, Report, solutions_json, solutions_text};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
 
 /// Arguments of `solve`.
@@ -66,16 +66,22 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         (None, None) => return Err(CliError::Option { option: "replay", expected: "a file, or a problem", got: String::new() }),
     };
     let source = text("the problem", file)?;
-    if require_format(&source, MCP_FORMAT).is_ok() {
-        return plain::run(args, file, &source);
+    let is_plain = require_format(&source, MCP_FORMAT).is_ok();
+    // Options that belong to the other kind of problem are refused, not ignored.
+    let misplaced = [
+        ("check", &args.check, !is_plain, "a problem of format mceip-mcp/1 (mceip check for others)"),
+        ("trace", &args.trace, is_plain, "a problem of format mceip-problem/1"),
+    ];
+    for (option, path, is_wrong, expected) in misplaced {
+        if let (Some(path), true) = (path, is_wrong) {
+            return Err(CliError::Option { option, expected, got: path.display().to_string() });
+        }
     }
-    if let Some(path) = &args.check {
-        return Err(CliError::Option {
-            option: "check",
-            expected: "a problem of format mceip-mcp/1 (mceip check for others)",
-            got: path.display().to_string(),
-        });
-    }
+    if is_plain { plain::run(args, file, &source) } else { eigenproblem(args, file) }
+}
+
+/// Searches, certifies and prints an `mceip-problem/1`.
+fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     let problem = load(file, args.window.as_deref())?;
     let output = args.certificate.as_ref().map(|path| Output::prepare("certificate", path, &[file])).transpose()?;
     let trace_output = args.trace.as_ref().map(|path| Output::prepare("trace", path, &[file])).transpose()?;
@@ -90,34 +96,13 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     bar.finish_and_clear();
-    for u in &found.uncertified {
-        eprintln!("uncertified: {} = {}: {}", problem.unknown().word(), u.candidate.value, u.reason);
-    }
-    for support in singular_supports(&reduced.pencil, &found) {
-        eprintln!(
-            "singular pencil: support {support:?} has more values than its order: every value is an eigenvalue, those listed are examples"
-        );
-    }
-    if let (true, Some(first)) = (args.log, &found.first) {
-        eprint!("{}", trace_outcome(first));
-    }
+    print_asides(args, &problem, &reduced.pencil, &found);
     if let (Some(output), false) = (trace_output, found.interrupted) {
         output.write(&trace::render(&trace::Header::new(&problem, &search, args.all), &found))?;
     }
     let claims: Vec<_> = found.certified.iter().map(|c| c.claim.clone()).collect();
-    let evidence = format!(
-        "{} certified found in {}{} runs (seed {}, {} pivots, {} factorisations, {} repeats, {} outside the window, endings {:?}); completeness unknown",
-        claims.len(),
-        if found.interrupted { "an interrupted search of " } else { "" },
-        found.runs,
-        args.seed,
-        found.pivots,
-        found.factorisations,
-        found.repeated,
-        found.outside,
-        found.terminations
-    );
     let solutions = claims.iter().map(|c| Listed::of_claim(&problem, &reduced, c)).collect();
+    let evidence = evidence(args, &found);
     let report = Report { problem: &problem, reduced: &reduced, solutions, complete: false, evidence, enumeration: None };
     print(&if args.json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) })?;
     let any = !claims.is_empty();
@@ -129,6 +114,36 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         (false, true) => exit::DONE,
         (false, false) => exit::UNDECIDED,
     })
+}
+
+/// What goes to stderr: points without a certificate, singular supports, the first run's log.
+fn print_asides(args: &Args, problem: &Problem, pencil: &Pencil, found: &Found) {
+    for u in &found.uncertified {
+        eprintln!("uncertified: {} = {}: {}", problem.unknown().word(), u.candidate.value, u.reason);
+    }
+    for support in singular_supports(pencil, found) {
+        eprintln!(
+            "singular pencil: support {support:?} has more values than its order: every value is an eigenvalue, those listed are examples"
+        );
+    }
+    if let (true, Some(first)) = (args.log, &found.first) {
+        eprint!("{}", trace_outcome(first));
+    }
+}
+
+fn evidence(args: &Args, found: &Found) -> String {
+    format!(
+        "{} certified found in {}{} runs (seed {}, {} pivots, {} factorisations, {} repeats, {} outside the window, endings {:?}); completeness unknown",
+        found.certified.len(),
+        if found.interrupted { "an interrupted search of " } else { "" },
+        found.runs,
+        args.seed,
+        found.pivots,
+        found.factorisations,
+        found.repeated,
+        found.outside,
+        found.terminations
+    )
 }
 
 /// Supports with more certified values than a determinant of their order has roots: it vanishes

@@ -3,9 +3,9 @@
 use super::forge::forgeries;
 use crate::certificate::Certificate;
 use crate::certify::certificate;
-use crate::check::{AcceptedCover, Rejected, check};
+use crate::check::{AcceptedClaim, AcceptedCover, Rejected, check};
 use crate::exact::{Rational, to_f64};
-use crate::model::{Admissible, ModelError, Unknown};
+use crate::model::{Admissible, ModelError, Problem, Unknown};
 use crate::multistart::{Search, SearchError, multistart_large};
 use crate::reduction::reduce;
 use crate::search::complete::{CompleteError, Options, complete};
@@ -66,14 +66,11 @@ pub struct BlockReport {
     pub certificate: Option<Certificate>,
     /// What the complete search proved on the given K over [0, infinity).
     pub cover: AcceptedCover,
+    /// Accepted solutions that the complete set does not contain: a bug.
+    pub missing: usize,
 }
 
 impl BlockReport {
-    /// Is a certified solution missing from the complete set? That would be a bug.
-    pub fn contradicts(&self) -> bool {
-        self.cover.open.is_empty() && self.accepted.len() > self.cover.solutions.len()
-    }
-
     /// Is the set of solutions proved to be complete?
     pub fn is_complete(&self) -> bool {
         self.cover.open.is_empty()
@@ -124,18 +121,13 @@ pub fn block_state(
         pivots: found.pivots,
         certificate: None,
         cover,
+        missing: 0,
     };
     if found.certified.is_empty() {
         return Ok(Some(report));
     }
     let certificate = certificate(&problem, found.certified.into_iter().map(|c| c.claim).collect());
-    match check(&problem, &certificate) {
-        Ok(accepted) => {
-            let slip = pencil.slip();
-            report.accepted = accepted.claims.iter().map(|c| accepted_state(&slip, state, &c.support, &c.value.mid())).collect();
-        }
-        Err(e) => report.rejected.push(e),
-    }
+    submit(&problem, &pencil.slip(), &certificate, &mut report);
     for forgery in forgeries(&certificate) {
         if stopped() {
             return Ok(None);
@@ -145,6 +137,24 @@ pub fn block_state(
     }
     report.certificate = Some(certificate);
     Ok(Some(report))
+}
+
+/// Sends the certificate to the checker, and what it accepts to the complete set.
+fn submit(problem: &Problem, slip: &[usize], certificate: &Certificate, report: &mut BlockReport) {
+    match check(problem, certificate) {
+        Ok(accepted) => {
+            let claims = &accepted.claims;
+            report.missing =
+                claims.iter().filter(|c| report.is_complete() && !report.cover.solutions.iter().any(|s| may_be_same(s, c))).count();
+            report.accepted = claims.iter().map(|c| accepted_state(slip, report.state, &c.support, &c.value.mid())).collect();
+        }
+        Err(e) => report.rejected.push(e),
+    }
+}
+
+/// Same support and values whose enclosures meet.
+fn may_be_same(a: &AcceptedClaim, b: &AcceptedClaim) -> bool {
+    a.support == b.support && a.value.lo() <= b.value.hi() && b.value.lo() <= a.value.hi()
 }
 
 fn accepted_state(slip: &[usize], state: PublishedState, support: &[usize], value: &Rational) -> AcceptedState {

@@ -58,7 +58,7 @@ pub struct Verification {
 impl Verification {
     /// Number of disagreements in all.
     pub fn disagreements(&self) -> usize {
-        let of = |b: &BlockReport| b.rejected.len() + b.forgeries - b.rejected_forgeries + usize::from(b.contradicts());
+        let of = |b: &BlockReport| b.rejected.len() + b.forgeries - b.rejected_forgeries + b.missing;
         let block: usize = self.block.iter().map(of).sum();
         self.families.iter().map(|f| f.disagreements.len()).sum::<usize>() + block
     }
