@@ -3,7 +3,7 @@
 #![allow(missing_docs, clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::mcp::{LinearMcp, Mcp};
-use mceip::solver::{Options, Outcome, PathEnd, PivotKind, Termination, multistart, solve, solve_linear};
+use mceip::solver::{Options, Outcome, PathEnd, PivotKind, RatioTest, Termination, multistart, solve, solve_linear};
 use nalgebra::{DMatrix, dmatrix};
 
 const INF: f64 = f64::INFINITY;
@@ -16,11 +16,14 @@ fn close(outcome: &Outcome, expected: &[f64]) {
     }
 }
 
-/// Lemke, and the outer loop from several starts, must agree.
+/// Lemke, and the outer loop from several starts, must agree under both rules of the ratio test.
 fn both(problem: &LinearMcp, expected: &[f64]) {
-    close(&solve_linear(problem, &Options::default()).unwrap(), expected);
-    for start in [0.0, 1.0, -3.0, 100.0] {
-        close(&solve(problem, &vec![start; expected.len()], &Options::default()).unwrap(), expected);
+    for ratio_test in [RatioTest::Lexicographic, RatioTest::Expand] {
+        let options = Options { ratio_test, ..Options::default() };
+        close(&solve_linear(problem, &options).unwrap(), expected);
+        for start in [0.0, 1.0, -3.0, 100.0] {
+            close(&solve(problem, &vec![start; expected.len()], &options).unwrap(), expected);
+        }
     }
 }
 

@@ -28,7 +28,7 @@ pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, S
     options.validate()?;
     let q = DVector::from_column_slice(problem.vector());
     let sub = Subproblem { m: problem.matrix(), q: &q, lower: problem.lower(), upper: problem.upper() };
-    let limits = Limits { pivots: options.minor_iteration_limit, cycle_entries: options.cycle_entry_limit };
+    let limits = Limits { pivots: options.minor_iteration_limit, cycle_entries: options.cycle_entry_limit, rule: options.ratio_test };
     let origin = DVector::zeros(q.len());
     let path = follow(&sub, Start::Ray, &origin, limits);
 

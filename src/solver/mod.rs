@@ -40,7 +40,7 @@ pub use continuation::{Curve, CurveEnd, Sense, continuation, continuation_throug
 pub use error::SolverError;
 pub use linear::solve_linear;
 pub use multistart::multistart;
-pub use options::Options;
+pub use options::{Options, RatioTest};
 pub use outcome::{Counters, MajorRecord, NonFinite, Outcome, PathRecord, StepKind, Termination};
 pub use path::{PathEnd, Pivot, PivotKind, Start, Variable};
 pub use residual::Residuals;

@@ -170,7 +170,8 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     fn follow(&mut self, sub: &Subproblem<'_>, start: Start, point: &Point) -> Path {
         let left = self.options.cumulative_iteration_limit.saturating_sub(self.problem.counters.pivots);
         let pivots = self.options.minor_iteration_limit.min(left);
-        let path = follow(sub, start, &point.z, Limits { pivots, cycle_entries: self.options.cycle_entry_limit });
+        let path =
+            follow(sub, start, &point.z, Limits { pivots, cycle_entries: self.options.cycle_entry_limit, rule: self.options.ratio_test });
         self.problem.counters.pivots += path.pivots.len();
         self.problem.counters.factorisations += path.factorisations;
         self.problem.counters.ray_starts += usize::from(start == Start::Ray);

@@ -11,11 +11,6 @@ pub(super) fn project(z: &DVector<f64>, lower: &[f64], upper: &[f64]) -> DVector
     DVector::from_fn(z.len(), |i, _| z[i].max(lower[i]).min(upper[i]))
 }
 
-/// The multiplier m over z with the least residual F(z) - m: the part of F a bound absorbs.
-pub(super) fn multiplier(z: &DVector<f64>, f: &DVector<f64>, lower: &[f64], upper: &[f64]) -> DVector<f64> {
-    DVector::from_fn(z.len(), |i, _| f[i] - least_residual(z[i], f[i], lower[i], upper[i]))
-}
-
 /// One component of the normal map at the point over z with the least residual: F_i inside, the
 /// wrong-signed part of F_i at a bound, 0 where both bounds hold.
 pub(super) fn least_residual(z: f64, f: f64, l: f64, u: f64) -> f64 {
@@ -50,9 +45,7 @@ mod tests {
     }
 
     #[test]
-    fn multipliers_have_the_sign_of_their_bound() {
-        let m = multiplier(&dvector![0.0, 1.0, 0.5], &dvector![2.0, -2.0, 1.0], &[0.0; 3], &[1.0; 3]);
-        assert_eq!(m, dvector![2.0, -2.0, 0.0]);
+    fn the_projection_keeps_to_the_bounds() {
         assert_eq!(project(&dvector![-1.0, 0.5, 7.0], &[0.0; 3], &[1.0; 3]), dvector![0.0, 0.5, 1.0]);
     }
 

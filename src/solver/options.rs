@@ -35,9 +35,24 @@ pub struct Options {
     pub gradient_step_limit: usize,
     /// Restarts from the user's point, each with other settings. PATH: 3.
     pub restart_limit: usize,
+    /// How ties of the ratio test are broken. PATH: EXPAND. Here lexicographic, which is finite from a
+    /// ray in exact arithmetic.
+    pub ratio_test: RatioTest,
     /// Steps along the curve of the Newton homotopy ([`super::continuation`]), which is followed where
     /// the first attempt fails, and of each curve of a search; 0 for none. Ours. Unit: steps.
     pub curve_step_limit: usize,
+}
+
+/// How a path decides between bounds met at nearly the same step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum RatioTest {
+    /// The right-hand side is thought perturbed by the first basis times (eps, eps^2, ...): no basis
+    /// repeats on a path from a ray (Dantzig, Orden and Wolfe 1955; Cottle, Pang and Stone 1992, 4.9).
+    #[default]
+    Lexicographic,
+    /// The largest pivot within bounds that widen with every pivot (Gill, Murray, Saunders and Wright
+    /// 1989), as PATH has it: better pivots, finite in practice only.
+    Expand,
 }
 
 impl Default for Options {
@@ -55,6 +70,7 @@ impl Default for Options {
             nms_maximum_watchdogs: 5,
             gradient_step_limit: 5,
             restart_limit: 3,
+            ratio_test: RatioTest::Lexicographic,
             curve_step_limit: 200,
         }
     }

@@ -8,6 +8,14 @@ pub(super) const PIVOT: f64 = 1e-11;
 /// Basis: some thousand units of rounding; ties wider than that are left to the exact order.
 pub(super) const TIE: f64 = 1e-12;
 
+/// First width of a bound in the EXPAND-like ratio test. Unit: that of z and F. Basis: a thousandth of
+/// what is allowed at the end (1e-9 beyond), so that early choices are nearly exact.
+pub(super) const EXPAND_WIDTH: f64 = 1e-12;
+
+/// By how much bounds widen with each pivot, and the least step times its pivot. Unit: that of z and F.
+/// Basis: a path of 1000 pivots (`minor_iteration_limit`) ends within 1e-9.
+pub(super) const EXPAND_STEP: f64 = 1e-12;
+
 /// Two components of lexicographic rows are equal within this, relative to the larger row.
 /// Unit: none. Basis: rounding of one row times the first basis.
 pub(super) const LEXICOGRAPHIC: f64 = 1e-11;

@@ -7,10 +7,11 @@
 //! lexicographically: the right-hand side is thought perturbed by the first basis times
 //! (eps, eps^2, ...), so that in exact arithmetic no basis repeats on a path that starts on a ray.
 //!
-//! `variable` names and pivots; `start` the two starts, `repair` of singular ones; `basis` the dense
+//! `variable` names and pivots; `number` the arithmetic, doubles or exact; `start` the two starts, `repair` of singular ones; `basis` the dense
 //! inverse; `tableau` the state and its moves; `ratio` the ratio test; `walk` the pivot loop.
 
 mod basis;
+mod number;
 mod ratio;
 mod repair;
 mod start;
@@ -20,8 +21,10 @@ mod walk;
 
 pub use variable::{Pivot, PivotKind, Variable};
 
+use super::RatioTest;
 use basis::Columns;
 use nalgebra::{DMatrix, DVector};
+pub(super) use number::Number;
 use start::{start_point, starting_basis};
 use tableau::Tableau;
 use walk::Walk;
@@ -51,11 +54,11 @@ pub enum PathEnd {
 }
 
 /// The linear MCP: M z + q on [lower, upper].
-pub(super) struct Subproblem<'a> {
-    pub(super) m: &'a DMatrix<f64>,
-    pub(super) q: &'a DVector<f64>,
-    pub(super) lower: &'a [f64],
-    pub(super) upper: &'a [f64],
+pub(super) struct Subproblem<'a, T: Number = f64> {
+    pub(super) m: &'a DMatrix<T>,
+    pub(super) q: &'a DVector<T>,
+    pub(super) lower: &'a [T],
+    pub(super) upper: &'a [T],
 }
 
 /// Limits on one path.
@@ -63,21 +66,22 @@ pub(super) struct Subproblem<'a> {
 pub(super) struct Limits {
     pub(super) pivots: usize,
     pub(super) cycle_entries: usize,
+    pub(super) rule: RatioTest,
 }
 
 /// A breakpoint: z and the multipliers w - v at t.
 #[derive(Debug, Clone)]
-pub(super) struct Knot {
-    pub(super) t: f64,
-    pub(super) z: DVector<f64>,
+pub(super) struct Knot<T = f64> {
+    pub(super) t: T,
+    pub(super) z: DVector<T>,
     #[cfg_attr(not(test), allow(dead_code, reason = "read by tests of the path equation"))]
-    pub(super) multiplier: DVector<f64>,
+    pub(super) multiplier: DVector<T>,
 }
 
 /// A path that was followed to its end: linear between its knots.
 #[derive(Debug, Clone)]
-pub(super) struct Path {
-    pub(super) knots: Vec<Knot>,
+pub(super) struct Path<T = f64> {
+    pub(super) knots: Vec<Knot<T>>,
     pub(super) pivots: Vec<Pivot>,
     pub(super) end: PathEnd,
     pub(super) start: Start,
@@ -86,13 +90,20 @@ pub(super) struct Path {
 }
 
 /// Follows the path from a start; a regular one begins over `current`, which is within the bounds.
-pub(super) fn follow(sub: &Subproblem<'_>, start: Start, current: &DVector<f64>, limits: Limits) -> Path {
+pub(super) fn follow<T: Number>(sub: &Subproblem<'_, T>, start: Start, current: &DVector<T>, limits: Limits) -> Path<T> {
     let point = start_point(sub, start, current);
     let r = &point.multiplier - sub.m * &point.z - sub.q;
     let mut columns = Columns { sub, r, artificial_row: vec![None; current.len()] };
     match starting_basis(&mut columns, &point) {
         Some(basis) => Walk::new(Tableau::new(&columns, basis, point), start, limits).run(),
         None => Path { knots: Vec::new(), pivots: Vec::new(), end: PathEnd::Singular, start, factorisations: 2 },
+    }
+}
+
+impl<T> Path<T> {
+    /// The last point: the Newton point of a complete path, a little along the ray of one that ended so.
+    pub(super) fn last(&self) -> Option<&DVector<T>> {
+        self.knots.last().map(|k| &k.z)
     }
 }
 
@@ -107,11 +118,6 @@ impl Path {
     /// The largest t on the path.
     pub(super) fn reach(&self) -> f64 {
         self.knots.iter().map(|k| k.t).fold(0.0, f64::max)
-    }
-
-    /// The last point: the Newton point of a complete path, a little along the ray of one that ended so.
-    pub(super) fn last(&self) -> Option<&DVector<f64>> {
-        self.knots.last().map(|k| &k.z)
     }
 }
 

@@ -1,22 +1,23 @@
 //! Repair of a singular starting basis: dependent columns give way to unit columns of artificials.
 
 use super::super::tolerance::DEPENDENT;
+use super::number::{Number, largest};
 use nalgebra::DMatrix;
 
 /// The places whose columns depend on others, each with the row whose unit column replaces it.
 ///
 /// Gaussian elimination with row pivoting, unit-like columns first as the caller orders them by
 /// `priority` (places in the order in which they are tried; later ones are found dependent).
-pub(super) fn dependent_places(basis: &DMatrix<f64>, priority: &[usize]) -> Vec<(usize, usize)> {
+pub(super) fn dependent_places<T: Number>(basis: &DMatrix<T>, priority: &[usize]) -> Vec<(usize, usize)> {
     let n = basis.nrows();
     let mut work = basis.clone();
     let mut pivoted = vec![false; n];
     let mut dependent = Vec::new();
     for &place in priority {
-        let size = basis.column(place).amax();
-        let best = (0..n).filter(|&row| !pivoted[row]).max_by(|&a, &b| work[(a, place)].abs().total_cmp(&work[(b, place)].abs()));
+        let size = largest(basis.column(place).iter());
+        let best = (0..n).filter(|&row| !pivoted[row]).max_by(|&a, &b| work[(a, place)].magnitude().order(&work[(b, place)].magnitude()));
         match best {
-            Some(row) if work[(row, place)].abs() > DEPENDENT * size => {
+            Some(row) if work[(row, place)].magnitude() > T::tolerance(DEPENDENT) * size => {
                 pivoted[row] = true;
                 eliminate(&mut work, row, place, &pivoted);
             }
@@ -28,12 +29,13 @@ pub(super) fn dependent_places(basis: &DMatrix<f64>, priority: &[usize]) -> Vec<
 }
 
 /// Clears the column below the pivot in the rows not pivoted yet.
-fn eliminate(work: &mut DMatrix<f64>, row: usize, place: usize, pivoted: &[bool]) {
+fn eliminate<T: Number>(work: &mut DMatrix<T>, row: usize, place: usize, pivoted: &[bool]) {
     for other in (0..work.nrows()).filter(|&k| !pivoted[k]) {
-        let factor = work[(other, place)] / work[(row, place)];
-        if factor != 0.0 {
+        let factor = work[(other, place)].clone() / work[(row, place)].clone();
+        if !factor.is_zero() {
             for column in 0..work.ncols() {
-                work[(other, column)] -= factor * work[(row, column)];
+                let entry = work[(row, column)].clone();
+                work[(other, column)] -= factor.clone() * entry;
             }
         }
     }
@@ -47,7 +49,7 @@ mod tests {
     #[test]
     fn regular_bases_need_nothing_and_zero_ones_everything() {
         assert!(dependent_places(&dmatrix![0.0, 2.0; 3.0, 0.0], &[0, 1]).is_empty());
-        assert_eq!(dependent_places(&DMatrix::zeros(2, 2), &[0, 1]), vec![(0, 0), (1, 1)]);
+        assert_eq!(dependent_places(&DMatrix::<f64>::zeros(2, 2), &[0, 1]), vec![(0, 0), (1, 1)]);
     }
 
     #[test]

@@ -1,10 +1,13 @@
 //! Paths of small linear problems with known ends.
 
+mod exact;
+mod finite;
+
 use super::*;
 use nalgebra::{dmatrix, dvector};
 
 const INF: f64 = f64::INFINITY;
-const LIMITS: Limits = Limits { pivots: 200, cycle_entries: 20 };
+const LIMITS: Limits = Limits { pivots: 200, cycle_entries: 20, rule: RatioTest::Lexicographic };
 
 /// Follows and checks that every knot satisfies the path equation and the bounds.
 fn followed(m: &DMatrix<f64>, q: &DVector<f64>, l: &[f64], u: &[f64], start: Start, current: &[f64]) -> Path {
@@ -112,7 +115,7 @@ fn drift_is_noticed_and_mended() {
     let basis = starting_basis(&mut columns, &point).unwrap();
     let mut tableau = Tableau::new(&columns, basis, point);
     let column = tableau.column();
-    let block = ratio::ratio_test(&tableau, &(-&column)).unwrap();
+    let block = ratio::ratio_test(&tableau, &(-&column), RatioTest::Lexicographic, 0).unwrap();
     tableau.advance(&(-&column), block.step);
     let exact = tableau.values.clone();
     tableau.values[0] += 1e-6;

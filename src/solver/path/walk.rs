@@ -1,6 +1,8 @@
 //! The pivot loop: along the path from t = 0 until t = 1, a ray, a cycle or a limit.
 
+use super::super::RatioTest;
 use super::super::tolerance::{RAY_STEP, TIE};
+use super::number::{Number, largest};
 use super::ratio::{Block, ratio_test};
 use super::tableau::Tableau;
 use super::variable::{Pivot, PivotKind, Variable};
@@ -8,27 +10,27 @@ use super::{Knot, Limits, Path, PathEnd, Start};
 use nalgebra::DVector;
 
 /// A path under way.
-pub(super) struct Walk<'a> {
-    tableau: Tableau<'a>,
+pub(super) struct Walk<'a, T: Number> {
+    tableau: Tableau<'a, T>,
     limits: Limits,
     kind: Start,
-    knots: Vec<Knot>,
+    knots: Vec<Knot<T>>,
     pivots: Vec<Pivot>,
-    best_t: f64,
+    best_t: T,
     /// Times each unknown has begun to move since the last new maximum of t: Z, W, V of each index.
     entries: Vec<[usize; 3]>,
 }
 
-impl<'a> Walk<'a> {
-    pub(super) fn new(tableau: Tableau<'a>, kind: Start, limits: Limits) -> Self {
+impl<'a, T: Number> Walk<'a, T> {
+    pub(super) fn new(tableau: Tableau<'a, T>, kind: Start, limits: Limits) -> Self {
         let entries = vec![[0; 3]; tableau.z.len()];
-        let mut walk = Walk { tableau, limits, kind, knots: Vec::new(), pivots: Vec::new(), best_t: 0.0, entries };
+        let mut walk = Walk { tableau, limits, kind, knots: Vec::new(), pivots: Vec::new(), best_t: T::zero(), entries };
         walk.record_knot();
         walk
     }
 
     /// Walks to the end.
-    pub(super) fn run(mut self) -> Path {
+    pub(super) fn run(mut self) -> Path<T> {
         let end = self.pivot_until_end();
         Path { knots: self.knots, pivots: self.pivots, end, start: self.kind, factorisations: 2 + self.tableau.basis.refreshed }
     }
@@ -36,12 +38,12 @@ impl<'a> Walk<'a> {
     fn pivot_until_end(&mut self) -> PathEnd {
         while self.pivots.len() < self.limits.pivots {
             let column = self.tableau.column();
-            let rates = &column * -self.tableau.sign;
-            let Some(block) = ratio_test(&self.tableau, &rates) else {
+            let rates = &column * -self.tableau.sign.clone();
+            let Some(block) = ratio_test(&self.tableau, &rates, self.limits.rule, self.pivots.len()) else {
                 self.step_along_ray(&rates);
                 return PathEnd::Ray;
             };
-            self.tableau.advance(&rates, block.step);
+            self.tableau.advance(&rates, block.step.clone());
             self.record_knot();
             if let Some(end) = self.turn(&block, &column) {
                 return end;
@@ -51,7 +53,7 @@ impl<'a> Walk<'a> {
     }
 
     /// At a breakpoint: complete, flip or exchange.
-    fn turn(&mut self, block: &Block, column: &DVector<f64>) -> Option<PathEnd> {
+    fn turn(&mut self, block: &Block<T>, column: &DVector<T>) -> Option<PathEnd> {
         let entering = self.tableau.entering;
         let leaving = block.place.map_or(entering, |place| self.tableau.basis.variables[place]);
         let kind = match (leaving, block.place) {
@@ -60,13 +62,16 @@ impl<'a> Walk<'a> {
             (Variable::Artificial(_), _) => PivotKind::ArtificialLeaves,
             _ => PivotKind::Exchange,
         };
-        self.pivots.push(Pivot { t: self.tableau.t, entering, leaving, kind });
+        self.pivots.push(Pivot { t: self.tableau.t.to_double(), entering, leaving, kind });
         match block.place {
             _ if kind == PivotKind::Complete => return Some(self.complete()),
             None => self.tableau.flip(),
             Some(place) => {
                 if !self.tableau.exchange(place, block.at_upper, column) {
                     return Some(PathEnd::Singular);
+                }
+                if self.limits.rule == RatioTest::Expand {
+                    self.tableau.settle();
                 }
             }
         }
@@ -76,7 +81,7 @@ impl<'a> Walk<'a> {
     /// The last knot stands at t = 1 exactly.
     fn complete(&mut self) -> PathEnd {
         if let Some(last) = self.knots.last_mut() {
-            last.t = 1.0;
+            last.t = T::one();
         }
         if let Some(last) = self.pivots.last_mut() {
             last.t = 1.0;
@@ -85,14 +90,15 @@ impl<'a> Walk<'a> {
     }
 
     /// A point a little along the ray, as the last knot.
-    fn step_along_ray(&mut self, rates: &DVector<f64>) {
-        let speed = rates.amax().max(1.0);
-        self.tableau.advance(rates, RAY_STEP * (1.0 + self.tableau.z.amax()) / speed);
+    fn step_along_ray(&mut self, rates: &DVector<T>) {
+        let speed = largest(rates).larger(T::one());
+        let step = T::from_double(RAY_STEP) * (T::one() + largest(&self.tableau.z)) / speed;
+        self.tableau.advance(rates, step);
         self.record_knot();
     }
 
     fn record_knot(&mut self) {
-        let (t, z, multiplier) = (self.tableau.t, self.tableau.z.clone(), self.tableau.multiplier.clone());
+        let (t, z, multiplier) = (self.tableau.t.clone(), self.tableau.z.clone(), self.tableau.multiplier.clone());
         self.knots.push(Knot { t, z, multiplier });
     }
 
@@ -102,8 +108,8 @@ impl<'a> Walk<'a> {
         if self.kind == Start::Ray {
             return false;
         }
-        if self.tableau.t > self.best_t + TIE {
-            self.best_t = self.tableau.t;
+        if self.tableau.t > self.best_t.clone() + T::tolerance(TIE) {
+            self.best_t = self.tableau.t.clone();
             self.entries.iter_mut().for_each(|counts| *counts = [0; 3]);
         }
         let (index, slot) = match self.tableau.entering {

@@ -1,0 +1,84 @@
+//! The numbers the path is pivoted in: doubles in the solver, exact rationals in the tests that hold
+//! Lemke's method to its finiteness theorem. One code for both.
+
+use super::super::dense;
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, DVector, Scalar};
+use num_traits::{One, Zero};
+use std::cmp::Ordering;
+use std::ops::Neg;
+
+/// A number of the path, with an infinity for absent bounds.
+pub(in super::super) trait Number:
+    Scalar + Zero + One + Neg<Output = Self> + PartialOrd + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + ClosedDivAssign
+{
+    /// The upper bound that is none.
+    fn infinity() -> Self;
+
+    /// Is it neither infinite nor undefined?
+    fn is_finite(&self) -> bool;
+
+    /// A length that is no tolerance, such as that of the step along a ray.
+    fn from_double(value: f64) -> Self;
+
+    /// What is left of a tolerance for rounding: itself in doubles, zero where nothing is rounded.
+    fn tolerance(value: f64) -> Self;
+
+    /// For the record of pivots.
+    fn to_double(&self) -> f64;
+
+    /// A total order.
+    fn order(&self, other: &Self) -> Ordering;
+
+    /// The inverse, or `None` where the matrix is (numerically) singular.
+    fn invert(matrix: &DMatrix<Self>) -> Option<DMatrix<Self>>;
+
+    /// The solution of A x = b, or `None` where A is (numerically) singular.
+    fn solve(a: DMatrix<Self>, b: &DVector<Self>) -> Option<DVector<Self>>;
+
+    /// |x|.
+    fn magnitude(&self) -> Self {
+        if *self < Self::zero() { -self.clone() } else { self.clone() }
+    }
+
+    /// The larger one; `self` if they do not compare.
+    fn larger(self, other: Self) -> Self {
+        if other > self { other } else { self }
+    }
+
+    /// The smaller one; `self` if they do not compare.
+    fn smaller(self, other: Self) -> Self {
+        if other < self { other } else { self }
+    }
+}
+
+/// The largest |entry|, 0 of nothing.
+pub(super) fn largest<'a, T: Number>(entries: impl IntoIterator<Item = &'a T>) -> T {
+    entries.into_iter().fold(T::zero(), |worst, entry| worst.larger(entry.magnitude()))
+}
+
+impl Number for f64 {
+    fn infinity() -> f64 {
+        f64::INFINITY
+    }
+    fn is_finite(&self) -> bool {
+        f64::is_finite(*self)
+    }
+    fn from_double(value: f64) -> f64 {
+        value
+    }
+    fn tolerance(value: f64) -> f64 {
+        value
+    }
+    fn to_double(&self) -> f64 {
+        *self
+    }
+    fn order(&self, other: &f64) -> Ordering {
+        self.total_cmp(other)
+    }
+    fn invert(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
+        dense::invert(matrix)
+    }
+    fn solve(a: DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
+        dense::solve(a, b)
+    }
+}
