@@ -91,6 +91,49 @@ fn nash_cournot() {
     }
 }
 
+/// Invariant capital stock (Hansen and Koopmans 1972): activities x, prices y of two capital goods and
+/// u of labour. Our own data, made from the solution x = (2, 0, 1, 0), y = (3, 1), u = 2; the model is
+/// that of MCPLIB's `hanskoop`, whose data we did not have.
+#[test]
+fn hansen_and_koopmans() {
+    const ALPHA: f64 = 0.7;
+    let inputs = [[1.0, 2.0, 1.0, 0.5], [1.0, 1.0, 2.0, 1.0]];
+    let outputs = [[1.0, 3.0, 1.0, 1.0], [1.5, 1.0, 1.0, 2.0]];
+    let labour = [1.0, 2.0, 1.5, 1.0];
+    let (x, y, u, slack) = ([2.0, 0.0, 1.0, 0.0], [3.0, 1.0], 2.0, [0.0, 0.4, 0.0, 0.9]);
+    let cost = |k: usize, y: &[f64], u: f64| (0..2).map(|g| (inputs[g][k] - ALPHA * outputs[g][k]) * y[g]).sum::<f64>() + labour[k] * u;
+    // Marginal utility a_k - x_k, with a_k such that the given x is optimal.
+    let a: Vec<f64> = (0..4).map(|k| x[k] + cost(k, &y, u) - slack[k]).collect();
+    let supply = labour.iter().zip(&x).map(|(l, x)| l * x).sum::<f64>();
+    let f = |z: &[f64], f: &mut [f64]| {
+        for k in 0..4 {
+            f[k] = z[k] - a[k] + cost(k, &z[4..6], z[6]);
+        }
+        for g in 0..2 {
+            f[4 + g] = (0..4).map(|k| (outputs[g][k] - inputs[g][k]) * z[k]).sum();
+        }
+        f[6] = supply - (0..4).map(|k| labour[k] * z[k]).sum::<f64>();
+    };
+    let j = |_: &[f64], j: &mut DMatrix<f64>| {
+        j.fill(0.0);
+        for k in 0..4 {
+            j[(k, k)] = 1.0;
+            for g in 0..2 {
+                j[(k, 4 + g)] = inputs[g][k] - ALPHA * outputs[g][k];
+                j[(4 + g, k)] = outputs[g][k] - inputs[g][k];
+            }
+            (j[(k, 6)], j[(6, k)]) = (labour[k], -labour[k]);
+        }
+    };
+    let problem = smooth(7, f, j);
+    for start in [0.0, 1.0, 10.0] {
+        let outcome = solve(&problem, &[start; 7], &Options::default()).unwrap();
+        assert!(outcome.termination.reached_tolerance(), "{start}: {:?}", outcome.termination);
+        // Utility is strictly concave: x is unique, prices are not (three rows bind, two activities run).
+        assert!(outcome.point.iter().zip(x).all(|(got, want)| (got - want).abs() < 1e-8), "{:?}", outcome.point);
+    }
+}
+
 /// Fathi 1979: positive definite, exponentially many pivots for Murty's rule; z = e_1.
 #[test]
 fn fathi() {

@@ -2,7 +2,8 @@
 
 use super::evaluation::Evaluated;
 use super::outcome::{Counters, MajorRecord, Outcome, PathRecord, StepKind, Termination};
-use super::path::{Limits, PathEnd, Start, Subproblem, follow};
+use super::path::{Limits, Path, PathEnd, Start, Subproblem, follow};
+use super::preprocess::Preprocessed;
 use super::residual::Residuals;
 use super::{Options, SolverError};
 use crate::mcp::{LinearMcp, Mcp};
@@ -26,15 +27,18 @@ use nalgebra::DVector;
 /// ```
 pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, SolverError> {
     options.validate()?;
-    let q = DVector::from_column_slice(problem.vector());
-    let sub = Subproblem { m: problem.matrix(), q: &q, lower: problem.lower(), upper: problem.upper() };
-    let limits = Limits { pivots: options.minor_iteration_limit, cycle_entries: options.cycle_entry_limit, rule: options.ratio_test };
-    let origin = DVector::zeros(q.len());
-    let path = follow(&sub, Start::Ray, &origin, limits);
+    let less = options.preprocess.then(|| Preprocessed::new(problem)).filter(|less| less.reduced.is_some());
+    let reduced = less.as_ref().and_then(|less| less.reduced.as_ref()).unwrap_or(problem);
+    let mut path = lemke(reduced, options);
+    let whole = |z: &DVector<f64>| less.as_ref().map_or_else(|| z.clone(), |less| DVector::from_vec(less.restore(z.as_slice())));
+    if let Some(less) = &less {
+        path.pivots.iter_mut().for_each(|pivot| *pivot = pivot.renamed(&less.kept));
+    }
 
+    let origin = DVector::zeros(reduced.dimension());
     let mut evaluated = Evaluated::new(problem);
-    let before = evaluated.point(path.knots.first().map_or(&origin, |knot| &knot.z));
-    let point = evaluated.point(path.last().unwrap_or(&origin));
+    let before = evaluated.point(&whole(path.knots.first().map_or(&origin, |knot| &knot.z)));
+    let point = evaluated.point(&whole(path.last().unwrap_or(&origin)));
     let residuals = Residuals::at(problem, point.z.as_slice());
     let termination = match path.end {
         PathEnd::Complete if residuals.within(options.convergence_tolerance) => Termination::ToleranceReached,
@@ -46,4 +50,12 @@ pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, S
     let record = PathRecord { start: path.start, end: path.end, reach: path.reach(), pivots: path.pivots };
     let log = vec![MajorRecord { merit: before.merit, step, proximal: 0.0, paths: vec![record] }];
     Ok(Outcome { point: point.z.as_slice().to_vec(), residuals, termination, log, counters })
+}
+
+/// The path from Lemke's ray.
+fn lemke(problem: &LinearMcp, options: &Options) -> Path {
+    let q = DVector::from_column_slice(problem.vector());
+    let sub = Subproblem { m: problem.matrix(), q: &q, lower: problem.lower(), upper: problem.upper() };
+    let limits = Limits { pivots: options.minor_iteration_limit, cycle_entries: options.cycle_entry_limit, rule: options.ratio_test };
+    follow(&sub, Start::Ray, &DVector::zeros(q.len()), limits)
 }

@@ -31,6 +31,7 @@ mod normal_map;
 mod options;
 mod outcome;
 mod path;
+mod preprocess;
 mod residual;
 mod restart;
 mod search;

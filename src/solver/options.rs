@@ -35,6 +35,9 @@ pub struct Options {
     pub gradient_step_limit: usize,
     /// Restarts from the user's point, each with other settings. PATH: 3.
     pub restart_limit: usize,
+    /// Are linear problems reduced by what their bounds decide before Lemke's method starts? PATH: yes.
+    /// Used by [`super::solve_linear`] only; pivots are reported by the indices of the whole problem.
+    pub preprocess: bool,
     /// How ties of the ratio test are broken. PATH: EXPAND. Here lexicographic, which is finite from a
     /// ray in exact arithmetic.
     pub ratio_test: RatioTest,
@@ -70,6 +73,7 @@ impl Default for Options {
             nms_maximum_watchdogs: 5,
             gradient_step_limit: 5,
             restart_limit: 3,
+            preprocess: true,
             ratio_test: RatioTest::Lexicographic,
             curve_step_limit: 200,
         }

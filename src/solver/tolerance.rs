@@ -16,6 +16,10 @@ pub(super) const EXPAND_WIDTH: f64 = 1e-12;
 /// Basis: a path of 1000 pivots (`minor_iteration_limit`) ends within 1e-9.
 pub(super) const EXPAND_STEP: f64 = 1e-12;
 
+/// A row's sign over its bounds is sure if it exceeds this times the size of the row's terms. Unit: none.
+/// Basis: a thousand times the rounding of a sum of some hundred terms.
+pub(super) const SIGN_SURE: f64 = 1e-10;
+
 /// Two components of lexicographic rows are equal within this, relative to the larger row.
 /// Unit: none. Basis: rounding of one row times the first basis.
 pub(super) const LEXICOGRAPHIC: f64 = 1e-11;

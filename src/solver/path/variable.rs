@@ -40,3 +40,22 @@ pub struct Pivot {
     /// What happened.
     pub kind: PivotKind,
 }
+
+impl Pivot {
+    /// The same pivot with its unknowns named by `indices` of a larger problem.
+    pub(in super::super) fn renamed(&self, indices: &[usize]) -> Pivot {
+        Pivot { entering: self.entering.renamed(indices), leaving: self.leaving.renamed(indices), ..*self }
+    }
+}
+
+impl Variable {
+    fn renamed(self, indices: &[usize]) -> Variable {
+        match self {
+            Variable::Z(i) => Variable::Z(indices[i]),
+            Variable::W(i) => Variable::W(indices[i]),
+            Variable::V(i) => Variable::V(indices[i]),
+            Variable::Artificial(i) => Variable::Artificial(indices[i]),
+            Variable::T => Variable::T,
+        }
+    }
+}
