@@ -146,15 +146,16 @@ pub struct Member {
     pub alone: Option<Alone>,
 }
 
-/// For every active variable j but the pivot k, ascending, weights l(t) on the active rows with
-/// l'T = c e_j + d e_k on the active columns and c not zero: x_k determines x_j.
+/// Proof that x_k determines every other active x_j.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Alone {
-    /// A moving variable.
+    /// A moving variable k.
     pub pivot: usize,
-    /// The weights, one polynomial per variable of the pencil.
-    pub rows: Vec<Polynomials>,
+    /// An active j and weights l(t), one polynomial per variable of the pencil, with l'T = c e_j + d e_k on the active
+    /// columns, c not zero. For each j one with l = 0 off the active rows, or two with c > 0 and c < 0 and
+    /// l >= 0 on resting rows where y = 0 and l = 0 on the others.
+    pub rows: Vec<(usize, Polynomials)>,
 }
 
 /// A vector of integer polynomials, each with its constant term first.

@@ -227,12 +227,11 @@ impl Walk<'_> {
     /// A support leaf; isolated single solutions are listed, the others are families.
     fn support(&mut self, region: &Region, leaf: &Support) -> Result<(), CoverFault> {
         let support = self.left_open(region).moving;
-        for Held { from, to, is_point, is_alone, is_isolated } in support::check(self.rows, region, &self.index, leaf)? {
-            if is_alone && is_isolated {
-                let solution = AcceptedClaim { support: support.clone(), value: from.clone() };
-                self.found.push(Found { solution, hull: from });
-            } else {
-                self.families.push(SolutionFamily { support: support.clone(), from, to, is_point, is_alone });
+        for Held { from, to, is_point, is_alone, hull } in support::check(self.rows, region, &self.index, leaf)? {
+            let support = support.clone();
+            match hull {
+                Some(hull) if is_alone => self.found.push(Found { solution: AcceptedClaim { support, value: from }, hull }),
+                _ => self.families.push(SolutionFamily { support, from, to, is_point, is_alone }),
             }
         }
         Ok(())

@@ -2,17 +2,16 @@
 //!
 //! With J the moving and R the resting variables and f the free ones, x(t) solves with support J if x_J > 0, Tx = 0
 //! on J and f, Tx >= 0 on R. Nothing is there if some w has w_R >= 0 and w'T zero on f, <= 0 on J and < 0
-//! somewhere on it (either sign if w_R = 0): then 0 <= w'Tx < 0. x is alone if for every other active j weights on
-//! the active rows leave c x_j + d x_k = 0 with c not zero. Signs at a point are those of remainders, signs
-//! on a cell come from `rootless`.
+//! somewhere on it (either sign if w_R = 0): then 0 <= w'Tx < 0. x is alone if for every other active j weights bound
+//! c x_j + d x_k from below and from above by what x itself has. Signs at a point are those of remainders, signs on
+//! a cell come from `rootless`.
 
 use super::rootless::{Root, sign_between};
 use super::{CoverFault, Region, State};
 use crate::certificate::{Alone, Exact, Polynomials, Support};
 use crate::check::exact_solution::isolate;
 use crate::check::pencil::Rows;
-use crate::exact::{Interval, Poly};
-use num_traits::Zero;
+use crate::exact::{Interval, Poly, Rational};
 
 /// Largest number of coefficients of a polynomial, and coefficients times bits of the longest number of a leaf.
 const MAX_COEFFICIENTS: usize = 256;
@@ -26,8 +25,8 @@ pub(super) struct Held {
     pub(super) is_point: bool,
     /// Is there one only, up to its factor, at each value?
     pub(super) is_alone: bool,
-    /// Do neighbouring cells hold some as well?
-    pub(super) is_isolated: bool,
+    /// If neighbouring cells hold nothing: a part of the leaf that holds no other.
+    pub(super) hull: Option<Interval>,
 }
 
 /// Checks a leaf; where it holds solutions.
@@ -57,9 +56,19 @@ pub(super) fn check(rows: &Rows, region: &Region, index: &[usize], leaf: &Suppor
         let from = roots[left].value.clone();
         let to = if is_point { Some(from.clone()) } else { roots.get(left + 1).map(|r| r.value.clone()) };
         let is_isolated = is_point && held[k - 1].is_none() && held.get(k + 1).is_none_or(Option::is_none);
-        out.push(Held { from, to, is_point, is_alone, is_isolated });
+        let hull = if is_isolated { hull(&roots, left) } else { None };
+        out.push(Held { from, to, is_point, is_alone, hull });
     }
     Ok(out)
+}
+
+/// From half way to the point before to half way to the point after.
+fn hull(roots: &[Root], k: usize) -> Option<Interval> {
+    let half = |a: &Rational, b: &Rational| (a + b) / Rational::from_integer(2.into());
+    let value = &roots[k].value;
+    let lo = k.checked_sub(1).map_or_else(|| value.lo().clone(), |p| half(roots[p].value.hi(), value.lo()));
+    let hi = roots.get(k + 1).map_or_else(|| value.hi().clone(), |n| half(value.hi(), n.value.lo()));
+    Interval::new(lo, hi)
 }
 
 /// The points: each isolated, apart from each other, from one end of the region to the other.
@@ -88,7 +97,7 @@ fn points(region: &Region, leaf: &Support) -> Result<Vec<Root>, CoverFault> {
 fn bounded(leaf: &Support) -> Result<(), CoverFault> {
     let vectors = leaf.reasons.iter().flat_map(|reason| match reason {
         Exact::None(w) => vec![w],
-        Exact::Some(m) => std::iter::once(&m.x).chain(m.alone.iter().flat_map(|a| &a.rows)).collect(),
+        Exact::Some(m) => std::iter::once(&m.x).chain(m.alone.iter().flat_map(|a| a.rows.iter().map(|(_, l)| l))).collect(),
     });
     let polynomials = vectors.flat_map(|v| &v.0).chain(leaf.points.iter().map(|p| &p.polynomial));
     let (mut longest, mut coefficients, mut bits) = (0, 0u64, 0);
@@ -126,9 +135,9 @@ impl<'a> System<'a> {
         match reason {
             Exact::None(w) => self.nothing(&self.vector("none", w)?, sign, place).map(|()| None),
             Exact::Some(member) => {
-                self.solves(&self.vector("x", &member.x)?, sign, place)?;
+                let y = self.solves(&self.vector("x", &member.x)?, sign, place)?;
                 if let Some(alone) = &member.alone {
-                    self.alone(alone, sign, place)?;
+                    self.alone(alone, &y, sign, place)?;
                 }
                 Ok(Some(member.alone.is_some()))
             }
@@ -176,8 +185,8 @@ impl<'a> System<'a> {
         if seen[0] == seen[1] { Err(fault("w'T of one sign and not zero", self.moving[0])) } else { Ok(()) }
     }
 
-    /// A solution with exactly the moving variables as its support.
-    fn solves(&self, x: &[Poly], sign: &Sign<'_>, place: usize) -> Result<(), CoverFault> {
+    /// A solution with exactly the moving variables as its support; the signs of its y.
+    fn solves(&self, x: &[Poly], sign: &Sign<'_>, place: usize) -> Result<Vec<Option<i8>>, CoverFault> {
         let fault = |expected, index| CoverFault::Place { place, expected, index };
         for (i, x_i) in x.iter().enumerate().filter(|(i, _)| !self.rows.is_free[*i]) {
             let moves = self.moving.contains(&i);
@@ -185,41 +194,57 @@ impl<'a> System<'a> {
                 return Err(fault(if moves { "x > 0 on the moving set" } else { "x = 0 off it" }, i));
             }
         }
+        let mut signs = Vec::new();
         for (i, row) in self.rows.rows.iter().enumerate() {
             // x is zero at this place off the active columns, whatever it is elsewhere.
             let terms = row.iter().filter(|(j, ..)| self.active.contains(j));
             let y = terms.fold(Poly::default(), |sum, (j, a, b)| &sum + &(&x[*j] * &Poly::new(vec![a.clone(), b.clone()])));
-            match (sign(&y), self.active.contains(&i)) {
+            signs.push(sign(&y));
+            match (signs[i], self.active.contains(&i)) {
                 (Some(0), _) | (Some(1), false) => {}
                 (_, true) => return Err(fault("y = 0 on active rows", i)),
                 (_, false) => return Err(fault("y >= 0 off them", i)),
             }
         }
-        Ok(())
+        Ok(signs)
     }
 
-    /// Every active component is determined by the pivot's.
-    fn alone(&self, alone: &Alone, sign: &Sign<'_>, place: usize) -> Result<(), CoverFault> {
+    /// Every active component is determined by the pivot's. `y` of the member: l'Tx = l_R'y >= 0 for all others.
+    fn alone(&self, alone: &Alone, y: &[Option<i8>], sign: &Sign<'_>, place: usize) -> Result<(), CoverFault> {
+        let fault = |expected, index| CoverFault::Place { place, expected, index };
         if !self.moving.contains(&alone.pivot) {
             return Err(CoverFault::Pivot { index: alone.pivot });
         }
-        if alone.rows.len() + 1 != self.active.len() {
-            return Err(CoverFault::Length { what: "alone", expected: self.active.len() - 1, got: alone.rows.len() });
-        }
-        let others = self.active.iter().filter(|&&j| j != alone.pivot);
-        for (&own, l) in others.zip(&alone.rows) {
+        // Is c x_j + d x_k known to be >= 0 with c > 0, with c < 0?
+        let mut bounds = vec![[false; 2]; self.rows.order()];
+        for (own, l) in &alone.rows {
+            let own = *own;
+            if own == alone.pivot || !self.active.contains(&own) {
+                return Err(fault("an active index that is not the pivot", own));
+            }
             let l = self.vector("alone", l)?;
-            let fault = |expected, index| CoverFault::Place { place, expected, index };
-            if let Some(i) = (0..l.len()).find(|i| !self.active.contains(i) && !l[*i].is_zero()) {
-                return Err(fault("weights on the active rows only", i));
+            let mut is_equation = true;
+            for i in (0..l.len()).filter(|&i| !self.active.contains(&i) && !l[i].is_zero()) {
+                if y[i] != Some(0) || sign(&l[i]).is_none_or(|s| s < 0) {
+                    return Err(fault("weights >= 0 where y = 0, and none where y > 0", i));
+                }
+                is_equation = false;
             }
             for (product, &j) in self.columns(&l).iter().zip(&self.active).filter(|(_, j)| **j != alone.pivot) {
-                let s = sign(product);
-                if (j == own) != s.is_some_and(|s| !s.is_zero()) || s.is_none() {
-                    return Err(fault("l'T zero but at its own column and the pivot's", j));
+                match sign(product) {
+                    Some(0) if j != own => {}
+                    Some(s) if j == own && s != 0 => {
+                        bounds[own][0] |= s > 0 || is_equation;
+                        bounds[own][1] |= s < 0 || is_equation;
+                    }
+                    _ => return Err(fault("l'T zero but in its own column and the pivot's", j)),
                 }
             }
         }
-        Ok(())
+        let others = self.active.iter().filter(|&&j| j != alone.pivot);
+        match others.into_iter().find(|&&j| bounds[j] != [true; 2]) {
+            Some(&j) => Err(fault("x determined by the pivot's component", j)),
+            None => Ok(()),
+        }
     }
 }

@@ -182,7 +182,8 @@ fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certifica
         match check(problem, &certificate) {
             Ok(accepted) => {
                 let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
-                let x = cover.solutions.iter().map(|s| prepared.shape(pencil, s)).collect();
+                let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
+                let x = cover.solutions.iter().map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s))).collect();
                 return Ok(Completed { certificate, cover, x });
             }
             Err(rejected) => reopen(&mut certificate, rejected)?,

@@ -52,18 +52,20 @@ impl Supported {
             return Some(reason.clone());
         }
         let basis: Vec<Vec<Poly>> = kernel_at(self.block(&self.active, &self.active), value).iter().map(|v| value.reduce(v)).collect();
-        let rows: Vec<Vec<Poly>> = self.signed_rows(&basis).iter().map(|r| value.reduce(r)).collect();
+        let rows = self.signed_rows(&basis); // one scale for all: mu and the basis refer to it
         let cone = cone_generators(&rows, basis.len(), value);
         let sum = cone.rays.iter().map(|z| combined(&basis, z)).reduce(|s, x| s.iter().zip(&x).map(|(a, b)| a + b).collect());
         let positive = |x: &Vec<Poly>| (0..self.moving.len()).all(|p| value.clone().sign_of(&x[p]) == Sign::Positive);
         if let Some(x) = sum.filter(positive) {
             let is_line = basis.len() == 1;
-            if !is_line && cone.rays.len() == 1 && cone.lineality.is_empty() {
-                return None; // the only one in a wide kernel
-            }
             let mut probe = value.clone();
-            let alone =
-                if is_line { Some(self.alone(&mut |p| probe.sign_of(p) != Sign::Zero, &|v| value.reduce(v))?.0) } else { None };
+            let alone = if is_line {
+                Some(self.alone(&mut |p| probe.sign_of(p) != Sign::Zero, &|v| value.reduce(v))?.0)
+            } else if cone.rays.len() == 1 && cone.lineality.is_empty() {
+                Some(self.alone_in_wide(&value.reduce(&x), &basis, &rows, &cone.rays[0], value)?)
+            } else {
+                None
+            };
             return Some(self.member(&value.reduce(&x), alone));
         }
         let mu = impossible(&rows, self.moving.len(), basis.len(), value)?;
@@ -144,14 +146,57 @@ impl Supported {
         let weights = columns.iter().map(|&own| {
             let mut order = without(&columns, own);
             order.insert(0, own);
-            self.over_all(&rows, &reduce(&self.left_cofactors(&rows, &order)))
+            (own, self.over_all(&rows, &reduce(&self.left_cofactors(&rows, &order))))
         });
         Some((Alone { pivot, rows: weights.collect() }, Some(self.minor(&rows, &columns))))
     }
 
+    /// The same where the inequalities y >= 0 make x the only one of a wide kernel: +-(x_k e_j - x_j e_k) is on the
+    /// kernel a combination with mu >= 0 of rows of G that vanish at x.
+    fn alone_in_wide(&self, x: &[Poly], basis: &[Vec<Poly>], rows: &[Vec<Poly>], z: &[Poly], value: &mut Algebraic) -> Option<Alone> {
+        let mut out = Vec::new();
+        let tight: Vec<usize> = (0..rows.len()).filter(|&r| value.sign_of(&dot(&rows[r], z)) == Sign::Zero).collect();
+        for (p, sign) in (1..self.active.len()).flat_map(|p| [(p, 1), (p, -1)]) {
+            let signed = |v: Poly| if sign > 0 { v } else { -&v };
+            let target = |v: &[Poly]| signed(&(&x[0] * &v[p]) - &(&x[p] * &v[0]));
+            // Unknowns mu and s: mu'G = s target.
+            let mut conditions: Vec<Vec<Poly>> = Vec::new();
+            for (k, v) in basis.iter().enumerate() {
+                let mut column: Vec<Poly> = tight.iter().map(|&r| rows[r][k].clone()).collect();
+                column.push(-&target(v));
+                let column = value.reduce(&column);
+                conditions.push(column.iter().map(|c| -c).collect());
+                conditions.push(column);
+            }
+            let n = tight.len() + 1;
+            conditions.extend((0..n).map(|k| (0..n).map(|i| Poly::from_ints(&[i64::from(i == k)])).collect()));
+            let rays = cone_generators(&conditions, n, value).rays;
+            let ray = rays.into_iter().find(|r| value.sign_of(&r[n - 1]) == Sign::Positive)?;
+            // w'T = -mu on the active columns is what `weights` solves.
+            let mut mu = vec![Poly::default(); self.active.len() + self.rest.len()];
+            mu[0] = signed(&ray[n - 1] * &x[p]);
+            mu[p] = signed(-&(&ray[n - 1] * &x[0]));
+            for (&r, m) in tight.iter().zip(&ray) {
+                mu[self.active.len() + r - self.moving.len()] = m.clone();
+            }
+            let solve = |m: Vec<Vec<Poly>>| kernel_at(m, &mut value.clone());
+            let l = self.weights_for(mu.split_at(self.active.len()), &solve, &|s| value.clone().sign_of(s))?;
+            out.push((self.active[p], Polynomials(coefficients(&value.reduce(&l)))));
+        }
+        Some(Alone { pivot: self.moving[0], rows: out })
+    }
+
     /// w with w_R = mu_R and w'T = -mu_J on the active columns, up to a positive factor.
     fn weights(&self, mu: &[Poly], solve: &dyn Fn(Vec<Vec<Poly>>) -> Vec<Vec<Poly>>, sign: &dyn Fn(&Poly) -> Sign) -> Option<Vec<Poly>> {
-        let (on_moving, on_rest) = mu.split_at(self.moving.len());
+        self.weights_for(mu.split_at(self.moving.len()), solve, sign)
+    }
+
+    fn weights_for(
+        &self,
+        (on_moving, on_rest): (&[Poly], &[Poly]),
+        solve: &dyn Fn(Vec<Vec<Poly>>) -> Vec<Vec<Poly>>,
+        sign: &dyn Fn(&Poly) -> Sign,
+    ) -> Option<Vec<Poly>> {
         let equation = |(p, &j): (usize, &usize)| {
             let mut row: Vec<Poly> = self.active.iter().map(|&i| self.entry(i, j)).collect();
             let given = self.rest.iter().zip(on_rest).fold(Poly::default(), |s, (&i, m)| &s + &(&self.entry(i, j) * m));

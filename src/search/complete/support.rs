@@ -1,8 +1,9 @@
 //! The exact leaf of one support: the interval is cut where a reason ends, and every part has its own.
 
 use super::reasons::Supported;
-use crate::certificate::{Exact, Point, Support};
-use crate::exact::{Algebraic, Poly, Rational, roots_in};
+use crate::certificate::{Certificate, Exact, Node, Point, Support};
+use crate::check::AcceptedClaim;
+use crate::exact::{Algebraic, Poly, Rational, roots_in, to_f64};
 use crate::model::Pencil;
 use crate::model::file::Number;
 use num_traits::One;
@@ -31,6 +32,24 @@ pub(super) fn leaf(pencil: &Pencil, moving: &[usize], lo: &Rational, hi: Option<
         None => sweep.between(first, None)?,
     }
     sweep.finish()
+}
+
+/// x of a solution that a support leaf of the certificate yields, e'x_s = 1, in doubles.
+pub(super) fn shape(certificate: &Certificate, pencil: &Pencil, solution: &AcceptedClaim) -> Option<Vec<f64>> {
+    let ends = |p: &Point| p.interval[0].0 == *solution.value.lo() && p.interval[1].0 == *solution.value.hi();
+    let nodes = certificate.complete_set.iter().flat_map(|c| &c.pieces).flat_map(|p| &p.tree);
+    let leaves = nodes.filter_map(|n| if let Node::Support(leaf) = n { Some(leaf) } else { None });
+    let at = |leaf: &'_ Support| -> Option<Vec<Poly>> {
+        let point = leaf.points.iter().find(|p| ends(p))?;
+        let Exact::Some(member) = leaf.reasons.get(point.reason)? else { return None };
+        let x: Vec<Poly> = member.x.0.iter().map(|c| Poly::new(c.clone())).collect();
+        let slip = pencil.slip();
+        slip.iter().all(|i| solution.support.contains(i) != x[*i].is_zero()).then_some(x)
+    };
+    let x = leaves.filter_map(|leaf| at(leaf)).next()?;
+    let values: Vec<Rational> = x.iter().map(|p| p.eval(&solution.value.mid())).collect();
+    let sum: Rational = solution.support.iter().map(|&i| values[i].clone()).sum();
+    Some(values.iter().map(|v| to_f64(&(v / &sum))).collect())
 }
 
 struct Sweep {

@@ -144,7 +144,7 @@ impl Search<'_> {
             return;
         }
         if decided && (narrow || region.cuts >= cuts_left) {
-            return self.leaf(Node::Open, share);
+            return self.give_up(region, share);
         }
         let middle = self.middle(ends);
         let point = self.expansion.ends(middle, middle);
@@ -153,7 +153,7 @@ impl Search<'_> {
         let prunable = at.margin(&game) > WITNESS_MARGIN;
         if decided && !prunable && ends.r.is_some() && region.cuts >= MAX_CUTS_SUSPECT {
             // The radius stands in the way, and a shorter interval has the same.
-            return self.leaf(Node::Open, share);
+            return self.give_up(region, share);
         }
         let may_cut = !narrow && region.cuts < MAX_CUTS[usize::from(ends.hi.is_infinite())];
         // The game of both ends does not know the radius; the middle's vector may stand it over all of the interval.
@@ -188,7 +188,7 @@ impl Search<'_> {
         let inside = |c: &Rational| *c > region.lo && region.hi.as_ref().is_none_or(|hi| c < hi);
         let cuts: Vec<Rational> = cuts.into_iter().filter(inside).collect();
         if cuts.is_empty() || (cuts.len() == 2 && cuts[0] >= cuts[1]) {
-            return self.leaf(Node::Open, share); // the interval is too narrow for doubles
+            return self.give_up(region, share); // the interval is too narrow for doubles
         }
         let mut rest = Region { cuts: region.cuts + 1, ..region.clone() };
         let part = share / (cuts.len() + 1) as f64;
@@ -257,6 +257,13 @@ impl Search<'_> {
         true
     }
 
+    /// What doubles do not close: exact arithmetic decides a decided region, or it stays open.
+    fn give_up(&mut self, region: &Region, share: f64) {
+        if region.states.contains(&State::Open) || !self.exact(region, share) {
+            self.leaf(Node::Open, share);
+        }
+    }
+
     /// A region beyond the reach of the enclosures: few open variables are decided one by one.
     pub(super) fn by_support(&mut self, region: &Region, share: f64) {
         let open: Vec<usize> = (0..region.states.len()).filter(|&p| region.states[p] == State::Open).collect();
@@ -265,10 +272,7 @@ impl Search<'_> {
                 let nothing = Support { points: Vec::new(), cells: Vec::new(), reasons: Vec::new() };
                 return self.leaf(Node::Support(Box::new(nothing)), share);
             }
-            if !self.exact(region, share) {
-                self.leaf(Node::Open, share);
-            }
-            return;
+            return self.give_up(region, share);
         };
         if open.len() > MAX_OPEN_EXACT || self.watch.stopped() {
             return self.leaf(Node::Open, share);
