@@ -40,10 +40,7 @@ fn by_hand() -> (Problem, Certificate, Support) {
     let leaf = Support {
         points: vec![point(&[0, 1], 0, 0, 0), point(&[-1, 1], 1, 1, 1), point(&[-4, 1], 4, 4, 0)],
         cells: vec![0, 0],
-        reasons: vec![
-            Exact::None(vector(&[&[1], &[]])),
-            Exact::Some(Box::new(Member { x: vector(&[&[1], &[1]]), alone: None })),
-        ],
+        reasons: vec![Exact::None(vector(&[&[1], &[]])), Exact::Some(Box::new(Member { x: vector(&[&[1], &[1]]), alone: None }))],
     };
     let mut certificate = proved(&problem);
     set(&mut certificate).pieces.truncate(1);

@@ -117,7 +117,11 @@ pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String
     }
     let within = format!("in [{}, {max}", window.min());
     if cover.open.is_empty() {
-        let what = if n == 0 && cover.families.is_empty() { format!("COMPLETE: no solution {within}") } else { format!("COMPLETE: {count} {within}, and no other") };
+        let what = if n == 0 && cover.families.is_empty() {
+            format!("COMPLETE: no solution {within}")
+        } else {
+            format!("COMPLETE: {count} {within}, and no other")
+        };
         return out + &format!("{what}; {} leaves, accepted by the checker\n", cover.leaves);
     }
     for region in cover.open.iter().take(OPEN_SHOWN) {

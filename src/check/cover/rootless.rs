@@ -60,9 +60,7 @@ fn has_none(p: &Poly, a: &Rational, b: Option<&Rational>, depth: u32, halvings: 
         _ => {
             *halvings -= 1;
             let middle = b.map_or_else(|| a + a.abs() + Rational::one(), |b| (a + b) / Rational::from_integer(2.into()));
-            p.sign_at(&middle) != 0
-                && has_none(p, a, Some(&middle), depth - 1, halvings)
-                && has_none(p, &middle, b, depth - 1, halvings)
+            p.sign_at(&middle) != 0 && has_none(p, a, Some(&middle), depth - 1, halvings) && has_none(p, &middle, b, depth - 1, halvings)
         }
     }
 }

@@ -240,13 +240,17 @@ impl Supported {
     }
 
     fn minor(&self, rows: &[usize], columns: &[usize]) -> Poly {
-        let of = |m: &[Vec<Integer>]| -> Vec<Vec<Integer>> { rows.iter().map(|&i| columns.iter().map(|&j| m[i][j].clone()).collect()).collect() };
+        let of = |m: &[Vec<Integer>]| -> Vec<Vec<Integer>> {
+            rows.iter().map(|&i| columns.iter().map(|&j| m[i][j].clone()).collect()).collect()
+        };
         determinant(&of(&self.a), &of(&self.b))
     }
 
     /// w on `rows` with w'T = det e_1 on `columns`.
     fn left_cofactors(&self, rows: &[usize], columns: &[usize]) -> Vec<Poly> {
-        let of = |m: &[Vec<Integer>]| -> Vec<Vec<Integer>> { columns.iter().map(|&j| rows.iter().map(|&i| m[i][j].clone()).collect()).collect() };
+        let of = |m: &[Vec<Integer>]| -> Vec<Vec<Integer>> {
+            columns.iter().map(|&j| rows.iter().map(|&i| m[i][j].clone()).collect()).collect()
+        };
         first_row_cofactors(&of(&self.a), &of(&self.b))
     }
 

@@ -251,7 +251,8 @@ impl Search<'_> {
 
     /// Decides a region whose states are decided by exact arithmetic, if that can be done.
     fn exact(&mut self, region: &Region, share: f64) -> bool {
-        let moving: Vec<usize> = (0..region.states.len()).filter(|&p| region.states[p] == State::Moving).map(|p| self.view.index[p]).collect();
+        let moving: Vec<usize> =
+            (0..region.states.len()).filter(|&p| region.states[p] == State::Moving).map(|p| self.view.index[p]).collect();
         let Some(leaf) = (self.decide)(&moving, &region.lo, region.hi.as_ref()) else { return false };
         self.leaf(Node::Support(Box::new(leaf)), share);
         true
