@@ -4,6 +4,7 @@
 //! What it reports is what the checker accepted: solutions, and regions that stay open. A certificate
 //! with open regions is also the checkpoint: [`resume`] goes on with it, [`merge`] joins parts.
 
+mod circuit;
 mod condense;
 mod error;
 mod game;
