@@ -942,15 +942,228 @@ class Root:
             raise Unreadable("root: outcome")
 
 
+# ---------------------------------------------------------------- one support, value by value
+
+def sign_changes(poly, a, b):
+    """Descartes' bound of the number of roots in the open interval (a, b), b None for infinity."""
+    c = [Q(x) for x in poly]
+
+    def shifted(c, by):
+        c = list(c)
+        for i in range(len(c)):
+            for k in range(len(c) - 2, i - 1, -1):
+                c[k] += by * c[k + 1]
+        return c
+    c = shifted(c, a)
+    if b is not None:
+        c = shifted([x * (b - a) ** k for k, x in enumerate(c)][::-1], 1)
+    signs = [x > 0 for x in c if x]
+    return sum(x != y for x, y in zip(signs, signs[1:]))
+
+
+def sign_at(poly, t):
+    value = horner(poly, t, t)[0]
+    return (value > 0) - (value < 0)
+
+
+def rootless(poly, a, b):
+    """Is it certain that the polynomial has no root in (a, b)?"""
+    left = [200]
+
+    def none(a, b, depth):
+        changes = sign_changes(poly, a, b)
+        if changes <= 1:
+            return changes == 0
+        if depth == 0 or left[0] == 0:
+            return False
+        left[0] -= 1
+        middle = a + abs(a) + 1 if b is None else (a + b) / 2
+        return sign_at(poly, middle) != 0 and none(a, middle, depth - 1) and none(middle, b, depth - 1)
+    return none(a, b, 24)
+
+
+def without_factor(poly, q):
+    """The polynomial (strictly: a multiple) without its factors q."""
+    while len(poly) >= len(q) and not remainder(poly, q):
+        rest, out = [Q(c) for c in poly], []
+        while len(rest) >= len(q):
+            top = rest[-1] / q[-1]
+            out.append(top)
+            for i, c in enumerate(q):
+                rest[len(rest) - len(q) + i] -= top * c
+            rest.pop()
+        poly = over_common(out[::-1])[0]
+    return poly
+
+
+def sign_of_point(poly, point):
+    q, a, b = point
+    rest = remainder(poly, q)
+    if not rest:
+        return 0
+    low, high = horner(rest, a, b)
+    return 1 if low > 0 else -1 if high < 0 else None
+
+
+def sign_of_cell(poly, left, right):
+    poly = strip(list(poly))
+    if not poly:
+        return 0
+    for q, a, b in (left, right) if right else (left,):
+        if a < b:
+            rest = without_factor(poly, q)
+            if not (sign_at(rest, a) and sign_at(rest, b) and rootless(rest, a, b)):
+                return None
+    a, b = left[2], right[1] if right else None
+    return sign_at(poly, a + 1 if b is None else (a + b) / 2) if rootless(poly, a, b) else None
+
+
+class Held:
+    """One solution of a support at an isolated value: for `count`."""
+
+    def __init__(self, support, point, hull):
+        self.support, (_, self.a, self.b), self.hull = support, point, hull
+
+
+class Support:
+    """The leaf `support` (C, Leaves)."""
+
+    def __init__(self, p, rows, lo, hi, state, obj):
+        points, cells, reasons = fields(obj, "points cells reasons")
+        demand(OPEN not in state, "support: an open variable")
+        self.p, self.rows, self.n = p, rows, p.n
+        self.moving = [p.s[k] for k, st in enumerate(state) if st == MOVING]
+        self.active = sorted([*p.free, *self.moving])
+        self.found, self.families = [], []
+        points = [fields(o, "polynomial interval reason") for o in sequence(points)]
+        points = [([integer(c) for c in sequence(q)], *pair(i), integer(r, 0)) for q, i, r in points]
+        cells = [integer(c, 0) for c in sequence(cells)]
+        self.reasons = [self.read(r) for r in sequence(reasons)]
+        demand(bool(self.moving) == bool(points or cells), "support: points exactly if something moves")
+        if not self.moving:
+            return
+        self.bounded(points, cells)
+        at = [self.isolated(q, a, b) for q, a, b, _ in points]
+        demand(all(x[2] < y[1] for x, y in zip(at, at[1:])), "support: points out of order")
+        demand(at and at[0][1] == at[0][2] == lo and (hi is None or at[-1][1] == at[-1][2] == hi), "support: the ends")
+        demand(len(cells) == len(at) - (hi is not None), "support: cells")
+        held = [None]
+        for k, (_, _, _, reason) in enumerate(points):
+            held.append(self.holds(reason, lambda g: sign_of_point(g, at[k])))
+            if k < len(cells):
+                right = at[k + 1] if k + 1 < len(at) else None
+                held.append(self.holds(cells[k], lambda g: sign_of_cell(g, at[k], right)))
+        held.append(None)
+        for k in range(1, len(held) - 1):
+            if held[k] is None:
+                continue
+            place = (k - 1) // 2
+            if k % 2 == 1 and held[k] and held[k - 1] is None and held[k + 1] is None:
+                before = (at[place - 1][2] + at[place][1]) / 2 if place else at[place][1]
+                after = (at[place][2] + at[place + 1][1]) / 2 if place + 1 < len(at) else at[place][2]
+                self.found.append(Held(tuple(self.moving), at[place], (before, after)))
+            else:
+                last = at[place] if k % 2 else at[place + 1] if place + 1 < len(at) else None
+                self.families.append((tuple(self.moving), at[place][1:], last[1:] if last else None, k % 2 == 1))
+
+    def read(self, obj):
+        if not isinstance(obj, dict) or len(obj) != 1:
+            raise Unreadable("support: a reason is none or some")
+        (kind, body), = obj.items()
+        if kind == "none":
+            return kind, self.vector(body), None
+        if kind != "some":
+            raise Unreadable("support: a reason is none or some")
+        x, alone = fields(body, "x", "alone")
+        if alone is not None:
+            pivot, rows = fields(alone, "pivot rows")
+            rows = [sequence(r) for r in sequence(rows)]
+            if any(len(r) != 2 for r in rows):
+                raise Unreadable("support: alone")
+            alone = integer(pivot, 0), [(integer(j, 0), self.vector(l)) for j, l in rows]
+        return kind, self.vector(x), alone
+
+    @staticmethod
+    def vector(obj):
+        return [[integer(c) for c in sequence(r)] for r in sequence(obj)]
+
+    def bounded(self, points, cells):
+        vectors = [v for _, w, alone in self.reasons for v in [w, *(l for _, l in (alone[1] if alone else []))]]
+        polys = [q for q, *_ in points] + [r for v in vectors for r in v]
+        numbers = [c for r in polys for c in r]
+        bits = max([abs(c).bit_length() for c in numbers]
+                   + [abs(v.numerator).bit_length() + v.denominator.bit_length() for _, a, b, _ in points for v in (a, b)])
+        demand(max(map(len, polys)) <= 256 and (len(numbers) + len(points) + len(cells)) * bits <= 2**23, "support: too much work")
+
+    @staticmethod
+    def isolated(q, a, b):
+        q = strip(q)
+        demand(len(q) >= 2 and a <= b, "support: a point's polynomial or interval")
+        g = gcd(*q)
+        q = [c // (g if q[-1] > 0 else -g) for c in q]
+        if a == b:
+            demand(sign_at(q, a) == 0, "support: a point that is no root")
+        else:
+            low, high = horner([k * c for k, c in enumerate(q)][1:], a, b)
+            demand(sign_at(q, a) * sign_at(q, b) == -1 and (low > 0 or high < 0), "support: a point that is not isolated")
+        return q, a, b
+
+    def product(self, vectors):
+        """Sum of (a + b t) times polynomials."""
+        out = []
+        for a, b, poly in vectors:
+            out += [0] * (len(poly) + 1 - len(out))
+            for k, c in enumerate(poly):
+                out[k] += a * c
+                out[k + 1] += b * c
+        return strip(out)
+
+    def columns(self, w):
+        return {j: self.product([(ra.get(j, 0), rb.get(j, 0), w[i]) for i, (_, ra, rb) in enumerate(self.rows)]) for j in self.active}
+
+    def holds(self, reason, sign):
+        """None: nothing. Else whether what is there is alone."""
+        demand(reason < len(self.reasons), "support: no such reason")
+        kind, v, alone = self.reasons[reason]
+        demand(len(v) == self.n, "support: length")
+        off = [i for i in range(self.n) if i not in self.active]
+        if kind == "none":
+            weights = [sign(v[i]) for i in off]
+            demand(all(s in (0, 1) for s in weights), "support: a negative weight")
+            signs = {j: sign(g) for j, g in self.columns(v).items()}
+            demand(None not in signs.values() and not any(signs[j] for j in self.p.free), "support: w'T")
+            seen = {s for s in signs.values() if s}
+            demand(len(seen) == 1 and not (1 in seen and 1 in weights), "support: w'T is not of one sign")
+            return None
+        for i in self.p.s:
+            demand(sign(v[i]) == (1 if i in self.moving else 0), f"support: x_{i}")
+        y = [sign(self.product([(ra.get(j, 0), rb.get(j, 0), v[j]) for j in self.active])) for _, ra, rb in self.rows]
+        demand(all(y[i] == 0 if i in self.active else y[i] in (0, 1) for i in range(self.n)), "support: y")
+        if alone is None:
+            return False
+        pivot, rows = alone
+        demand(pivot in self.moving, "support: pivot")
+        known = set()
+        for own, l in rows:
+            demand(own in self.active and own != pivot and len(l) == self.n, "support: alone")
+            one_sided = [i for i in off if strip(l[i])]
+            demand(all(y[i] == 0 and sign(l[i]) in (0, 1) for i in one_sided), "support: alone, weights")
+            signs = {j: sign(g) for j, g in self.columns(l).items() if j != pivot}
+            demand(all((s is not None) and (s != 0) == (j == own) for j, s in signs.items()), "support: alone, columns")
+            known |= {(own, s) for s in ((signs[own],) if one_sided else (1, -1))}
+        demand(len(known) == 2 * (len(self.active) - 1), "support: alone, not determined")
+        return True
+
+
 # ---------------------------------------------------------------- the cover
 
 def complete_set(p, rows, window, claims, obj):
-    """The number of solutions and of open leaves of the cover."""
+    """The number of solutions, of families and of open leaves of the cover."""
     pieces, condensation = fields(obj, "pieces", "condensation")
     demand((condensation is not None) == bool(p.free), "condensation is present exactly if there are free variables")
     pencil = CondensedPencil(p, rows, condensation) if p.free else PlainPencil(p, rows)
     demand(sequence(pieces), "cover: no piece")
-    start, found, left_open = window[0], [], 0
+    start, found, families, left_open = window[0], [], [], 0
     for number_of, piece in enumerate(pieces):
         if not isinstance(piece, dict) or "max" not in piece:
             raise Unreadable("piece: max")
@@ -987,6 +1200,10 @@ def complete_set(p, rows, window, claims, obj):
             elif kind == "root" and value is not None:
                 leaf = Root(pencil, window, lo, hi, anchor, state, p.s, claims, value)
                 found += [leaf] if leaf.yields else []
+            elif kind == "support" and value is not None:
+                leaf = Support(p, rows, lo, hi, state, value)
+                found += leaf.found
+                families += leaf.families
             elif kind == "tail" and value is None:
                 demand(p.free and pencil.tail_from is not None and pencil.tail_from <= lo, "tail: not covered")
             elif kind == "open" and value is None:
@@ -995,7 +1212,11 @@ def complete_set(p, rows, window, claims, obj):
                 raise Unreadable("unknown node")
         demand(not regions, "cover: a tree that ends early")
         start = end
-    return count(found), left_open
+    # A solution at the end of one leaf may belong to a family of the next.
+    single = [f for f in found if not any(
+        f.support == s and first[1] <= f.a and (last is None or f.b <= last[0]) for s, first, last, _ in families)]
+    families += [(f.support, (f.a, f.b), (f.a, f.b), True) for f in found if f not in single]
+    return count(single), len(set(families)), left_open
 
 
 def count(found):
@@ -1037,10 +1258,11 @@ def check(problem_path, certificate_path):
     text = f"{len(claims)} claim(s)"
     if complete is None:
         return 0, f"ACCEPTED: {text}"
-    solutions, left_open = complete_set(p, rows, window, claims, complete)
+    solutions, families, left_open = complete_set(p, rows, window, claims, complete)
     if left_open:
         return 3, f"UNDECIDED: {text}; {left_open} open leaves, {solutions} solution(s) outside them"
-    return 0, f"ACCEPTED: {text}; complete set of {solutions} solution(s)"
+    more = f" and {families} families" if families else ""
+    return 0, f"ACCEPTED: {text}; complete set of {solutions} solution(s){more}"
 
 
 def main(arguments):

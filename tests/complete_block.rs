@@ -54,10 +54,10 @@ fn lambda2_of_a_small_block_is_that_of_the_enumerator() {
             let problem = lambda2(&block, &states, mu);
             let truth = enumerate(&reduce(&problem).unwrap().pencil, problem.window()).unwrap();
             let found = search(&problem);
-            // At mu = 6 the consistent M* is no longer definite (it couples normal dofs with mu), so the tail
-            // stays open, and only the tail.
+            // At mu = 6 the consistent M* is no longer definite (it couples normal dofs with mu), so there is no tail:
+            // what is beyond the anchors is taken support by support, or stays open, and only that.
             let has_tail = mass == MassKind::Lumped || mu != "6";
-            assert_eq!(found.is_complete(), has_tail, "{mass:?} {mu}: {:?}", found.cover.open);
+            assert!(found.is_complete() || !has_tail, "{mass:?} {mu}: {:?}", found.cover.open);
             assert!(found.cover.open.iter().all(|o| o.max.is_none()));
             assert_eq!(found.cover.solutions.len(), truth.solutions.len(), "{mass:?} {mu}");
             for (s, t) in found.cover.solutions.iter().zip(&truth.solutions) {

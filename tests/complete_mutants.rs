@@ -7,7 +7,7 @@
 mod cover;
 
 use cover::{condensed, disagreements, fold, proved, set, trees, truth};
-use mceip::certificate::{Certificate, Node, RootOutcome};
+use mceip::certificate::{Certificate, Exact, Node, Polynomials, RootOutcome, Support};
 use mceip::check::{Reason, Rejected, check};
 use mceip::exact::{Integer, rational};
 use mceip::model::{Unknown, Window};
@@ -84,6 +84,7 @@ fn alter(node: &mut Node, variables: usize, rng: &mut ChaCha8Rng) {
         Node::PositiveDefinite => *node = Node::NegativeDefinite,
         Node::NegativeDefinite => *node = Node::PositiveDefinite,
         Node::Tail | Node::Open => *node = Node::PositiveDefinite,
+        Node::Support(leaf) => alter_support(leaf, rng),
         Node::Root(r) => match rng.random_range(0..6) {
             0 => r.outcome = RootOutcome::Absent,
             1 => r.outcome = RootOutcome::Solution,
@@ -98,11 +99,40 @@ fn alter(node: &mut Node, variables: usize, rng: &mut ChaCha8Rng) {
     }
 }
 
+/// A point moved, dropped or with another reason; a coefficient of a reason; a proof of being alone left out.
+fn alter_support(leaf: &mut Support, rng: &mut ChaCha8Rng) {
+    let (k, r) = (rng.random_range(0..leaf.points.len().max(1)), rng.random_range(0..leaf.reasons.len().max(1)));
+    match rng.random_range(0..6) {
+        0 if !leaf.cells.is_empty() && k < leaf.points.len() => drop((leaf.points.remove(k), leaf.cells.pop())),
+        1 if k < leaf.points.len() => leaf.points[k].reason = r,
+        2 if !leaf.cells.is_empty() => {
+            let c = rng.random_range(0..leaf.cells.len());
+            leaf.cells[c] = r;
+        }
+        3 if k < leaf.points.len() => leaf.points[k].interval[rng.random_range(0..2)].0 *= rational(rng.random_range(1..=9), 8),
+        _ => match leaf.reasons.get_mut(r) {
+            Some(Exact::None(w)) => bump(w, rng),
+            Some(Exact::Some(m)) if rng.random_range(0..3) == 0 => m.alone = None,
+            Some(Exact::Some(m)) => bump(&mut m.x, rng),
+            None => {}
+        },
+    }
+}
+
+fn bump(v: &mut Polynomials, rng: &mut ChaCha8Rng) {
+    let i = rng.random_range(0..v.0.len().max(1));
+    if let Some(p) = v.0.get_mut(i) {
+        p.resize(p.len().max(1), Integer::from(0));
+        p[0] += Integer::from(rng.random_range(-2..=2));
+    }
+}
+
 /// `count` mutants of each of several certificates. What is accepted is compared with the enumerator.
 fn mutants(count: usize, seed: u64) {
     let mut problems = vec![fold(Window::all()), fold(Window::new(rational(3, 2), Some(rational(7, 2))).unwrap())];
     problems.extend([known::complete_graph(3), known::path(3), known::star(2)].map(|k| k.unwrap().problem));
     problems.extend((1..=3).map(|s| mechanical_pencil(4, Unknown::Mu, s).unwrap()));
+    problems.extend([known::star(3), known::jordan(3, 2, true)].map(|k| k.unwrap().problem));
     problems.push(condensed().0);
     let (mut accepted, mut rejected) = (0, 0);
     let mut reasons = std::collections::BTreeSet::new();

@@ -7,7 +7,7 @@
 #[path = "support/cover.rs"]
 mod cover;
 
-use cover::{disagreements, truth};
+use cover::{disagreements, family_disagreements, truth};
 use mceip::exact::{Rational, Sparse, rational, whole};
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};
 use mceip::search::complete::{Options, complete};
@@ -177,7 +177,10 @@ fn campaign(cases: &[&Case]) -> (BTreeMap<(&'static str, bool), Count>, usize) {
                 Err(_) => return (vec![format!("{}: panic\n{}", c.label, c.problem.canonical_text())], None, 0),
             };
             let truth = truth(&c.problem);
-            let wrong = disagreements(&found.cover, &truth);
+            let mut wrong = disagreements(&found.cover, &truth);
+            if !truth.is_plain_list() {
+                wrong.extend(family_disagreements(&c.problem, &found.cover));
+            }
             let wrong = wrong.into_iter().map(|w| format!("{}: {w}\n{}", c.label, c.problem.canonical_text())).collect();
             let open = found.cover.open.first().map(|o| {
                 let max = o.max.as_ref().map_or_else(|| "inf".into(), ToString::to_string);
@@ -230,14 +233,14 @@ fn report((counts, wrong): &(BTreeMap<(&'static str, bool), Count>, usize)) -> [
 
 #[test]
 fn two_hundred_pencils_agree_with_enumeration() {
-    let [general, _] = report(&campaign(&cases(140, 60, 1).iter().collect::<Vec<_>>()));
-    assert!(general < 0.03);
+    let [general, special] = report(&campaign(&cases(140, 60, 1).iter().collect::<Vec<_>>()));
+    assert!(general < 0.01 && special < 0.2);
 }
 
 #[test]
 fn families_with_known_answers_agree() {
-    let [general, _] = report(&campaign(&from_the_testkit(12).iter().collect::<Vec<_>>()));
-    assert!(general < 0.03);
+    let [general, special] = report(&campaign(&from_the_testkit(12).iter().collect::<Vec<_>>()));
+    assert!(general < 0.01 && special < 0.2);
 }
 
 #[test]

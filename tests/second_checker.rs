@@ -108,3 +108,46 @@ fn a_cover_with_an_open_leaf_is_undecided_for_both() {
     assert_eq!(code(Command::new(env!("CARGO_BIN_EXE_mceip")).arg("check").arg(&problem).arg(&file)), 3);
     assert_eq!(code(Command::new("python3").arg(root("spec/checker.py")).arg(&problem).arg(&file)), 3);
 }
+
+/// Degenerate pencils: a double root, a cone, ranges of values with irrational ends, a star. Their certificates hold
+/// support leaves, and a forgery at any place of one gets the same verdict from both.
+#[test]
+fn both_checkers_agree_on_support_leaves() {
+    if Command::new("python3").arg("--version").output().is_err() {
+        return;
+    }
+    let folder = tempfile::tempdir().unwrap();
+    let problem = folder.path().join("problem.json");
+    let file = folder.path().join("certificate.json");
+    let mut seen = [0; 4];
+    for (a, b) in [
+        ("[[-1,1],[0,-1]]", "[[1,0],[0,1]]"),
+        ("[[-1,0],[0,-1]]", "[[1,0],[0,1]]"),
+        ("[[0,2,-1],[0,-1,0],[1,0,-2]]", "[[0,-1,0],[0,0,1],[0,1,0]]"),
+        ("[[0,1,1],[1,0,0],[1,0,0]]", "[[-1,0,0],[0,-1,0],[0,0,-1]]"),
+    ] {
+        let text = format!(r#"{{"format":"mceip-problem/1","unknown":"lambda2","pencil":{{"a":{a},"b":{b}}}}}"#);
+        std::fs::write(&problem, text).unwrap();
+        let mut run = Command::new(env!("CARGO_BIN_EXE_mceip"));
+        run.arg("complete").arg(&problem).arg("--certificate").arg(&file);
+        assert_eq!(code(&mut run), 0, "{a} {b}");
+        let certificate: Value = serde_json::from_slice(&std::fs::read(&file).unwrap()).unwrap();
+        let mut spots = Vec::new();
+        places(&certificate, "", &mut spots);
+        let spots: Vec<String> = spots.into_iter().filter(|s| s.contains("/support/")).collect();
+        assert!(spots.len() > 8, "{a} {b}");
+        for turn in 0..17 {
+            let mut forged = certificate.clone();
+            if turn > 0 {
+                forge(forged.pointer_mut(&spots[(turn - 1) * spots.len() / 16]).unwrap(), turn);
+            }
+            std::fs::write(&file, forged.to_string()).unwrap();
+            let ours = code(Command::new(env!("CARGO_BIN_EXE_mceip")).arg("check").arg(&problem).arg(&file));
+            let theirs = code(Command::new("python3").arg(root("spec/checker.py")).arg(&problem).arg(&file));
+            assert_eq!(ours, theirs, "mceip check and checker.py on {a} {b}, turn {turn}: {forged}");
+            assert!(turn > 0 || ours == 0);
+            seen[usize::try_from(ours).unwrap()] += 1;
+        }
+    }
+    assert!(seen[0] >= 4 && seen[1] > 20, "{seen:?}");
+}

@@ -51,6 +51,8 @@ pub enum Node {
     Tail,
     /// Every index is decided and the pencil has at most one null vector.
     Root(Box<Root>),
+    /// Every index is decided: what there is at every value of the interval, exactly.
+    Support(Box<Support>),
     /// Not decided.
     Open,
 }
@@ -96,6 +98,70 @@ pub enum RootOutcome {
     /// The solution of the claim with this number in the certificate, so nothing else is here.
     Claim(usize),
 }
+
+/// All solutions of one support over a closed interval: it is cut at `points`, and each point and each
+/// open cell between two points (or from the last one to infinity) has its reason.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Support {
+    /// Ascending; the first is the lower end of the interval, the last the upper end unless that is infinite.
+    pub points: Vec<Point>,
+    /// The reason of each cell, a number in `reasons`.
+    pub cells: Vec<usize>,
+    /// Reasons; one may serve several points and cells.
+    pub reasons: Vec<Exact>,
+}
+
+/// A real algebraic number and what there is at it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Point {
+    /// Integer polynomial that vanishes there, constant term first.
+    #[serde(with = "integers")]
+    pub polynomial: Vec<Integer>,
+    /// Isolates the root, as in [`super::ExactSolution::interval`].
+    pub interval: [Number; 2],
+    /// A number in [`Support::reasons`].
+    pub reason: usize,
+}
+
+/// What there is at a value (or at every value of a cell), and why.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Exact {
+    /// Nothing: weights w(t), one polynomial per variable of the pencil, with w'T >= 0 impossible (Farkas).
+    None(Polynomials),
+    /// Solutions with exactly this support.
+    Some(Box<Member>),
+}
+
+/// A solution, and possibly that it is the only one.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Member {
+    /// x(t), one polynomial per variable of the pencil.
+    pub x: Polynomials,
+    /// Proof that at each value it is the only one up to its factor; without it, one of a cone.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub alone: Option<Alone>,
+}
+
+/// Proof that x_k determines every other active x_j.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Alone {
+    /// A moving variable k.
+    pub pivot: usize,
+    /// An active j and weights l(t), one polynomial per variable of the pencil, with l'T = c e_j + d e_k on the active
+    /// columns, c not zero. For each j one with l = 0 off the active rows, or two with c > 0 and c < 0 and
+    /// l >= 0 on resting rows where y = 0 and l = 0 on the others.
+    pub rows: Vec<(usize, Polynomials)>,
+}
+
+/// A vector of integer polynomials, each with its constant term first.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Polynomials(#[serde(with = "integer_rows")] pub Vec<Vec<Integer>>);
 
 /// Elimination of the free variables f by F(t) = T_ff(t), enclosed without inverting F.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

@@ -6,7 +6,10 @@ use crate::model::{ModelError, Unknown, Window};
 use serde::{Deserialize, Serialize};
 
 mod cover;
-pub use cover::{Anchor, CompleteSet, Condensation, Factor, IntegerMatrix, Node, Piece, Root, RootOutcome, Tail};
+pub use cover::{
+    Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Member, Node, Piece, Point, Polynomials, Root, RootOutcome,
+    Support, Tail,
+};
 
 /// The format this program reads and writes.
 pub const CERTIFICATE_FORMAT: &str = "mceip-certificate/1";

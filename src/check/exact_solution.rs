@@ -63,7 +63,7 @@ pub(super) fn index_set(rows: &Rows, set: &'static str, list: &[usize]) -> Resul
 }
 
 /// [a, b] contains exactly one root of p.
-fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason> {
+pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason> {
     if p.degree().unwrap_or(0) == 0 {
         return Err(Reason::ConstantPolynomial { coefficients: p.coeffs().len() });
     }

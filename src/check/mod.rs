@@ -13,7 +13,7 @@ mod exact_solution;
 mod pencil;
 mod reason;
 
-pub use cover::{AcceptedCover, CoverFault, OpenRegion};
+pub use cover::{AcceptedCover, CoverFault, OpenRegion, SolutionFamily};
 pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};

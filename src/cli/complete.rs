@@ -3,7 +3,7 @@
 use super::common::{CliError, exit, interrupt_flag, load, print, text};
 use super::output::Output;
 use crate::certificate::Certificate;
-use crate::check::{AcceptedCover, OpenRegion};
+use crate::check::{AcceptedCover, OpenRegion, SolutionFamily};
 use crate::exact::enclosing_decimals;
 use crate::model::Problem;
 use crate::search::complete::{Completed, Options, Shard, complete, resume};
@@ -102,13 +102,26 @@ pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String
         let (lo, hi) = enclosing_decimals(&s.value, 15);
         out += &format!("solution: {word} in [{lo}, {hi}], slip {:?}\n", s.support);
     }
+    for family in cover.families.iter().take(OPEN_SHOWN) {
+        out += &format!("family: {}\n", family_text(word, family));
+    }
+    if cover.families.len() > OPEN_SHOWN {
+        out += &format!("family: {} more (see the certificate)\n", cover.families.len() - OPEN_SHOWN);
+    }
     let window = problem.window();
     let max = window.max().map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
     let n = cover.solutions.len();
-    let count = if n == 1 { "1 solution".into() } else { format!("{n} solutions") };
+    let mut count = if n == 1 { "1 solution".into() } else { format!("{n} solutions") };
+    if !cover.families.is_empty() {
+        count += &format!(" and {} families of them", cover.families.len());
+    }
     let within = format!("in [{}, {max}", window.min());
     if cover.open.is_empty() {
-        let what = if n == 0 { format!("COMPLETE: no solution {within}") } else { format!("COMPLETE: {count} {within}, and no other") };
+        let what = if n == 0 && cover.families.is_empty() {
+            format!("COMPLETE: no solution {within}")
+        } else {
+            format!("COMPLETE: {count} {within}, and no other")
+        };
         return out + &format!("{what}; {} leaves, accepted by the checker\n", cover.leaves);
     }
     for region in cover.open.iter().take(OPEN_SHOWN) {
@@ -131,6 +144,20 @@ fn open_text(word: &str, region: &OpenRegion) -> String {
     format!("{word} in [{}, {max}], moving {:?}, undecided {:?}", region.min, region.moving, region.undecided)
 }
 
+fn family_text(word: &str, f: &SolutionFamily) -> String {
+    let (lo, hi) = enclosing_decimals(&f.from, 15);
+    let values = match &f.to {
+        _ if f.is_point => format!("{word} in [{lo}, {hi}] (one value)"),
+        None => format!("every {word} above a value in [{lo}, {hi}]"),
+        Some(to) => {
+            let (a, b) = enclosing_decimals(to, 15);
+            format!("every {word} between values in [{lo}, {hi}] and [{a}, {b}]")
+        }
+    };
+    let how_many = if f.is_alone { "one solution at each" } else { "a cone of solutions" };
+    format!("{values}, slip {:?}, {how_many}", f.support)
+}
+
 pub(super) fn solutions_json(problem: &Problem, completed: &Completed) -> serde_json::Value {
     let region = |r: &OpenRegion| json!({ "min": r.min.to_string(), "max": r.max.as_ref().map(ToString::to_string), "moving": r.moving, "undecided": r.undecided });
     let solutions: Vec<_> = completed
@@ -142,6 +169,10 @@ pub(super) fn solutions_json(problem: &Problem, completed: &Completed) -> serde_
         })
         .collect();
     let cover = &completed.cover;
+    let family = |f: &SolutionFamily| {
+        let ends = |v: &crate::exact::Interval| <[String; 2]>::from(enclosing_decimals(v, 15));
+        json!({ "slip": f.support, "from": ends(&f.from), "to": f.to.as_ref().map(ends), "one_value": f.is_point, "one_solution_each": f.is_alone })
+    };
     json!({
         "format": crate::candidate::SOLUTIONS_FORMAT,
         "problem_sha256": problem.sha256(),
@@ -149,6 +180,7 @@ pub(super) fn solutions_json(problem: &Problem, completed: &Completed) -> serde_
         "claim": if cover.open.is_empty() { "complete" } else { "solutions" },
         "evidence": format!("certificate of a complete set, {} leaves, {} open, accepted by the checker; x to the digits of doubles", cover.leaves, cover.open.len()),
         "solutions": solutions,
+        "families": cover.families.iter().map(family).collect::<Vec<_>>(),
         "open": cover.open.iter().map(region).collect::<Vec<_>>(),
     })
 }

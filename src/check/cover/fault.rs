@@ -131,6 +131,33 @@ pub enum CoverFault {
         /// The claim.
         claim: usize,
     },
+    /// A support where an index is open, or points where nothing moves, or none where something does.
+    #[error("support: expected every index decided, and points exactly if something moves")]
+    SupportTooEarly,
+    /// A point that is no isolated root, or out of order; beyond the last: an end of the interval is not one.
+    #[error("support: expected point {point} to be an isolated root above the one before, the first and the last the ends of the interval")]
+    Point {
+        /// Position among the points.
+        point: usize,
+    },
+    /// A place names a reason that does not exist.
+    #[error("support: expected a reason below {reasons}, got {reason}")]
+    NoReason {
+        /// What is named.
+        reason: usize,
+        /// How many there are.
+        reasons: usize,
+    },
+    /// A reason does not hold at its place.
+    #[error("support: expected {expected} in place {place} (points are even), broken at index {index}")]
+    Place {
+        /// Twice the point's position, or one more for the cell above it.
+        place: usize,
+        /// The obligation.
+        expected: &'static str,
+        /// The variable.
+        index: usize,
+    },
     /// Two leaves hold solutions of one support that could be one or two.
     #[error("roots: expected solutions of support {support:?} to be apart or the same, got overlapping intervals")]
     Ambiguous {

@@ -8,26 +8,33 @@ mod definite;
 mod expanded;
 mod family;
 mod fault;
+mod found;
 mod leaf;
 mod psd;
 mod root;
+mod rootless;
+mod support;
 
 pub use fault::CoverFault;
+pub use found::SolutionFamily;
 
 use super::AcceptedClaim;
 use super::pencil::Rows;
 use super::reason::Reason;
-use crate::certificate::{CompleteSet, Node, Piece, Root, RootOutcome};
+use crate::certificate::{CompleteSet, Node, Piece, Root, RootOutcome, Support};
 use crate::exact::{Integer, Interval, Rational};
 use crate::model::Window;
 use family::{Ends, Family, Linear};
 use std::rc::Rc;
+use support::Held;
 
 /// What a cover has proved.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct AcceptedCover {
     /// Every solution outside the open regions: exactly one per entry, by value and support.
     pub solutions: Vec<AcceptedClaim>,
+    /// Every support that has more than isolated single solutions outside the open regions, and where.
+    pub families: Vec<SolutionFamily>,
     /// Where nothing is proved; empty for a complete set.
     pub open: Vec<OpenRegion>,
     /// Leaves checked.
@@ -87,7 +94,7 @@ pub(super) fn check(rows: &Rows, window: &Window, claims: &[AcceptedSolution<'_>
         condensed::tail(rows, tail).map_err(whole)?;
     }
     let tail = tail.map(|t| &t.from.0);
-    let mut walk = Walk { family, index, window, tail, claims, found: Vec::new(), open: Vec::new(), leaves: 0 };
+    let mut walk = Walk { rows, family, index, window, tail, claims, found: Vec::new(), families: Vec::new(), open: Vec::new(), leaves: 0 };
     let mut lo = window.min().clone();
     for (k, piece) in cover.pieces.iter().enumerate() {
         let is_last = k + 1 == cover.pieces.len();
@@ -98,8 +105,9 @@ pub(super) fn check(rows: &Rows, window: &Window, claims: &[AcceptedSolution<'_>
     if cover.pieces.is_empty() {
         return Err(whole(CoverFault::PieceEnd { expected: end(window.max()), got: lo.to_string() }));
     }
-    let solutions = distinct(walk.found).map_err(whole)?;
-    Ok(AcceptedCover { solutions, open: walk.open, leaves: walk.leaves })
+    let families = found::families(&mut walk.found, walk.families);
+    let solutions = found::distinct(walk.found).map_err(whole)?;
+    Ok(AcceptedCover { solutions, families, open: walk.open, leaves: walk.leaves })
 }
 
 /// A solution claim that has been accepted, with its biactive set.
@@ -113,6 +121,7 @@ fn end(max: Option<&Rational>) -> String {
 }
 
 struct Walk<'a> {
+    rows: &'a Rows,
     family: Family,
     /// The complementarity variables: positions in states and matrices to indices of the problem.
     index: Vec<usize>,
@@ -121,6 +130,7 @@ struct Walk<'a> {
     tail: Option<&'a Rational>,
     claims: &'a [AcceptedSolution<'a>],
     found: Vec<Found>,
+    families: Vec<SolutionFamily>,
     open: Vec<OpenRegion>,
     leaves: usize,
 }
@@ -169,7 +179,7 @@ impl Walk<'_> {
                 let position = self.index.iter().position(|i| i == index).filter(|&p| region.states[p] == State::Open);
                 let position = position.ok_or(CoverFault::Branch { index: *index })?;
                 if region.ends.is_none() {
-                    region.ends = Some(self.ends(&region, anchor)?); // shared by both children
+                    region.ends = self.ends(&region, anchor).ok(); // shared by both children
                 }
                 let mut moving = region.states.clone();
                 moving[position] = State::Moving;
@@ -196,6 +206,7 @@ impl Walk<'_> {
                 let found = self.root(&region, anchor, root)?;
                 self.found.extend(found);
             }
+            Node::Support(leaf) => self.support(&region, leaf)?,
         }
         self.leaves += 1;
         Ok(())
@@ -211,6 +222,19 @@ impl Walk<'_> {
     fn left_open(&self, region: &Region) -> OpenRegion {
         let of = |state| (0..self.index.len()).filter(|&i| region.states[i] == state).map(|i| self.index[i]).collect();
         OpenRegion { min: region.lo.clone(), max: region.hi.clone(), moving: of(State::Moving), undecided: of(State::Open) }
+    }
+
+    /// A support leaf; isolated single solutions are listed, the others are families.
+    fn support(&mut self, region: &Region, leaf: &Support) -> Result<(), CoverFault> {
+        let support = self.left_open(region).moving;
+        for Held { from, to, is_point, is_alone, hull } in support::check(self.rows, region, &self.index, leaf)? {
+            let support = support.clone();
+            match hull {
+                Some(hull) if is_alone => self.found.push(Found { solution: AcceptedClaim { support, value: from }, hull }),
+                _ => self.families.push(SolutionFamily { support, from, to, is_point, is_alone }),
+            }
+        }
+        Ok(())
     }
 
     /// A root leaf; the solution in it, if there is one.
@@ -246,36 +270,4 @@ impl Walk<'_> {
             }
         }
     }
-}
-
-/// Lists each solution once. Two of one support are the same if one lies where the other is unique.
-fn distinct(mut found: Vec<Found>) -> Result<Vec<AcceptedClaim>, CoverFault> {
-    found.sort_by(|p, q| {
-        (&p.solution.support, p.solution.value.lo(), p.solution.value.hi()).cmp(&(
-            &q.solution.support,
-            q.solution.value.lo(),
-            q.solution.value.hi(),
-        ))
-    });
-    let mut kept: Vec<Found> = Vec::new();
-    // Those that are the solution kept last: what is one of them is that solution.
-    let mut group: Vec<Found> = Vec::new();
-    for next in found {
-        let overlaps = |f: &Found| f.solution.support == next.solution.support && f.solution.value.hi() >= next.solution.value.lo();
-        if !group.iter().any(overlaps) {
-            kept.extend(group.drain(..).next());
-            group.push(next);
-            continue;
-        }
-        let within = |v: &Interval, hull: &Interval| v.lo() >= hull.lo() && v.hi() <= hull.hi();
-        let same = |f: &Found| within(&next.solution.value, &f.hull) || within(&f.solution.value, &next.hull);
-        if !group.iter().any(same) {
-            return Err(CoverFault::Ambiguous { support: next.solution.support });
-        }
-        group.push(next);
-    }
-    kept.extend(group.drain(..).next());
-    let mut list: Vec<AcceptedClaim> = kept.into_iter().map(|f| f.solution).collect();
-    list.sort_by(|p, q| (p.value.lo(), &p.support).cmp(&(q.value.lo(), &q.support)));
-    Ok(list)
 }

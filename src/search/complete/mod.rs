@@ -4,14 +4,17 @@
 //! What it reports is what the checker accepted: solutions, and regions that stay open. A certificate
 //! with open regions is also the checkpoint: [`resume`] goes on with it, [`merge`] joins parts.
 
+mod circuit;
 mod condense;
 mod error;
 mod game;
 mod merge;
+mod reasons;
 mod root;
 mod skeleton;
 mod skyline;
 mod splice;
+mod support;
 mod tree;
 mod view;
 mod witness;
@@ -180,7 +183,8 @@ fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certifica
         match check(problem, &certificate) {
             Ok(accepted) => {
                 let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
-                let x = cover.solutions.iter().map(|s| prepared.shape(pencil, s)).collect();
+                let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
+                let x = cover.solutions.iter().map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s))).collect();
                 return Ok(Completed { certificate, cover, x });
             }
             Err(rejected) => reopen(&mut certificate, rejected)?,

@@ -2,6 +2,7 @@
 
 use super::Options;
 use super::skeleton::Prepared;
+use super::support;
 use super::tree::{Item, Region, Search, State, Watch};
 use crate::candidate::Candidate;
 use crate::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
@@ -32,6 +33,7 @@ pub(super) fn all(
         let exact_only = pencil.free().is_empty();
         exact_only.then(|| certify(pencil, window, &Candidate { value, x: x.to_vec() }).ok()).flatten()
     };
+    let decide = |moving: &[usize], lo: &Rational, hi: Option<&Rational>| support::leaf(pencil, moving, lo, hi);
     let starts: Vec<Rational> = std::iter::once(window.min().clone())
         .chain(set.pieces.iter().map(|p| p.max.as_ref().map_or_else(|| window.min().clone(), |n| n.0.clone())))
         .collect();
@@ -44,6 +46,7 @@ pub(super) fn all(
             view: &prepared.view,
             expansion: &prepared.view.expansions[piece.anchor.unwrap_or(0)],
             certify: &certify_at,
+            decide: &decide,
             watch,
             budget: options.nodes_per_piece,
             items: Vec::new(),
@@ -81,6 +84,7 @@ fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64) {
                 }
             }
             Node::Open if searchable => search.region(&region, share),
+            Node::Open => search.by_support(&region, share),
             _ => {
                 search.items.push(Item::Node(node.clone()));
                 search.watch.closed(share, false);

@@ -9,7 +9,7 @@ use super::game::dot;
 use super::root::{Null, Unique, null_vector};
 use super::view::{Ends, Expansion, View};
 use super::witness::{Columns, definite, vanishes};
-use crate::certificate::{Claim, Node, Root, RootOutcome};
+use crate::certificate::{Claim, Node, Root, RootOutcome, Support};
 use crate::exact::{Rational, from_f64, to_f64};
 use crate::model::file::Number;
 use crate::tolerance::{DEGENERATE_PART, NARROW, THIN_MARGIN, WITNESS_MARGIN};
@@ -56,6 +56,12 @@ impl Region {
 /// Cuts in a row before an index is decided instead: on a finite and on an infinite interval.
 const MAX_CUTS: [usize; 2] = [24, 3];
 
+/// Cuts of a decided region before exact arithmetic is asked.
+const CUTS_BEFORE_EXACT: usize = 2;
+
+/// Open variables of a region that no matrices enclose, up to which it is taken support by support.
+const MAX_OPEN_EXACT: usize = 6;
+
 /// The same on both sides of a null vector that is not provably alone, before the rest stays open.
 const MAX_CUTS_SUSPECT: usize = 6;
 
@@ -75,11 +81,15 @@ pub(super) trait Watch: Sync {
 /// Exact solutions where doubles cannot tell: value and x over the positions to a claim.
 pub(super) type Certify<'a> = dyn Fn(f64, &[f64]) -> Option<Claim> + Sync + 'a;
 
+/// What one support holds over an interval, exactly, if that can be decided.
+pub(super) type Decide<'a> = dyn Fn(&[usize], &Rational, Option<&Rational>) -> Option<Support> + Sync + 'a;
+
 /// One piece's search.
 pub(super) struct Search<'a> {
     pub(super) view: &'a View,
     pub(super) expansion: &'a Expansion,
     pub(super) certify: &'a Certify<'a>,
+    pub(super) decide: &'a Decide<'a>,
     pub(super) watch: &'a dyn Watch,
     /// Nodes this piece may still use.
     pub(super) budget: usize,
@@ -130,8 +140,11 @@ impl Search<'_> {
             return;
         }
         let cuts_left = if region.suspect { MAX_CUTS_SUSPECT } else { 4 * MAX_CUTS[0] };
+        if decided && region.cuts >= CUTS_BEFORE_EXACT && self.exact(region, share) {
+            return;
+        }
         if decided && (narrow || region.cuts >= cuts_left) {
-            return self.leaf(Node::Open, share);
+            return self.give_up(region, share);
         }
         let middle = self.middle(ends);
         let point = self.expansion.ends(middle, middle);
@@ -140,7 +153,7 @@ impl Search<'_> {
         let prunable = at.margin(&game) > WITNESS_MARGIN;
         if decided && !prunable && ends.r.is_some() && region.cuts >= MAX_CUTS_SUSPECT {
             // The radius stands in the way, and a shorter interval has the same.
-            return self.leaf(Node::Open, share);
+            return self.give_up(region, share);
         }
         let may_cut = !narrow && region.cuts < MAX_CUTS[usize::from(ends.hi.is_infinite())];
         // The game of both ends does not know the radius; the middle's vector may stand it over all of the interval.
@@ -175,7 +188,7 @@ impl Search<'_> {
         let inside = |c: &Rational| *c > region.lo && region.hi.as_ref().is_none_or(|hi| c < hi);
         let cuts: Vec<Rational> = cuts.into_iter().filter(inside).collect();
         if cuts.is_empty() || (cuts.len() == 2 && cuts[0] >= cuts[1]) {
-            return self.leaf(Node::Open, share); // the interval is too narrow for doubles
+            return self.give_up(region, share); // the interval is too narrow for doubles
         }
         let mut rest = Region { cuts: region.cuts + 1, ..region.clone() };
         let part = share / (cuts.len() + 1) as f64;
@@ -230,8 +243,47 @@ impl Search<'_> {
             }
         }
         self.met.push(null.value);
-        self.degenerate(region, ends, null.value, share);
+        if !self.exact(region, share) {
+            self.degenerate(region, ends, null.value, share);
+        }
         true
+    }
+
+    /// Decides a region whose states are decided by exact arithmetic, if that can be done.
+    fn exact(&mut self, region: &Region, share: f64) -> bool {
+        let moving: Vec<usize> =
+            (0..region.states.len()).filter(|&p| region.states[p] == State::Moving).map(|p| self.view.index[p]).collect();
+        let Some(leaf) = (self.decide)(&moving, &region.lo, region.hi.as_ref()) else { return false };
+        self.leaf(Node::Support(Box::new(leaf)), share);
+        true
+    }
+
+    /// What doubles do not close: exact arithmetic decides a decided region, or it stays open.
+    fn give_up(&mut self, region: &Region, share: f64) {
+        if region.states.contains(&State::Open) || !self.exact(region, share) {
+            self.leaf(Node::Open, share);
+        }
+    }
+
+    /// A region beyond the reach of the enclosures: few open variables are decided one by one.
+    pub(super) fn by_support(&mut self, region: &Region, share: f64) {
+        let open: Vec<usize> = (0..region.states.len()).filter(|&p| region.states[p] == State::Open).collect();
+        let Some(&p) = open.first() else {
+            if !region.states.contains(&State::Moving) {
+                let nothing = Support { points: Vec::new(), cells: Vec::new(), reasons: Vec::new() };
+                return self.leaf(Node::Support(Box::new(nothing)), share);
+            }
+            return self.give_up(region, share);
+        };
+        if open.len() > MAX_OPEN_EXACT || self.watch.stopped() {
+            return self.leaf(Node::Open, share);
+        }
+        self.items.push(Item::Node(Node::Branch(self.view.index[p])));
+        for state in [State::Rest, State::Moving] {
+            let mut child = region.clone();
+            child.states[p] = state;
+            self.by_support(&child, 0.5 * share);
+        }
     }
 
     /// [lo, hi] of the region, each end moved to `factor` of its distance from the value.

@@ -1,0 +1,262 @@
+//! What one support holds at a value or around one, in exact arithmetic: a solution, or a Farkas vector.
+//!
+//! With V a basis of the kernel on the active rows, G z holds the rows of V z that must be positive (x_J) and those of
+//! y = T V z that must not be negative. Either some z has them so, or some mu >= 0, not zero on J, has mu'G = 0
+//! (Motzkin); the latter is w_R, and w on the active rows solves w'T = -mu_J.
+
+use super::circuit::{coefficients, combined, constants, divided, extended, generic_circuit, impossible};
+use crate::certificate::{Alone, Exact, Member, Polynomials};
+use crate::exact::{
+    Algebraic, Generators, Integer, Poly, Rational, Sign, cone_generators, determinant, dot, first_row_cofactors, generic_kernel, kernel_at,
+};
+use crate::model::Pencil;
+
+/// The pencil in integers, and one support.
+pub(super) struct Supported {
+    a: Vec<Vec<Integer>>,
+    b: Vec<Vec<Integer>>,
+    moving: Vec<usize>,
+    /// Moving, then free.
+    active: Vec<usize>,
+    rest: Vec<usize>,
+    /// If the pencil is regular: a vector that excludes all but the roots of a polynomial.
+    regular: Option<(Exact, Poly)>,
+}
+
+/// A reason that holds around a value, between the nearest roots of `critical`.
+pub(super) struct Around {
+    pub(super) reason: Exact,
+    pub(super) critical: Vec<Poly>,
+}
+
+impl Supported {
+    pub(super) fn new(pencil: &Pencil, moving: &[usize]) -> Supported {
+        let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
+        let active: Vec<usize> = moving.iter().chain(pencil.free()).copied().collect();
+        let rest = (0..a.len()).filter(|i| !active.contains(i)).collect();
+        let mut new = Supported { a, b, moving: moving.to_vec(), active, rest, regular: None };
+        let det = new.minor(&new.active, &new.active);
+        if !det.is_zero() {
+            let w = new.left_cofactors(&new.active, &new.active);
+            let (w, critical) = divided(w, det);
+            new.regular = Some((Exact::None(new.over_all(&new.active, &w)), critical));
+        }
+        new
+    }
+
+    /// What there is at a value. `None` if the reasons here do not decide it.
+    pub(super) fn at(&self, value: &mut Algebraic) -> Option<Exact> {
+        if let Some((reason, critical)) = &self.regular
+            && value.sign_of(critical) != Sign::Zero
+        {
+            return Some(reason.clone());
+        }
+        let basis: Vec<Vec<Poly>> = kernel_at(self.block(&self.active, &self.active), value).iter().map(|v| value.reduce(v)).collect();
+        let rows = self.signed_rows(&basis); // one scale for all: mu and the basis refer to it
+        let cone = cone_generators(&rows, basis.len(), value);
+        let sum = cone.rays.iter().map(|z| combined(&basis, z)).reduce(|s, x| s.iter().zip(&x).map(|(a, b)| a + b).collect());
+        let positive = |x: &Vec<Poly>| (0..self.moving.len()).all(|p| value.clone().sign_of(&x[p]) == Sign::Positive);
+        if let Some(x) = sum.filter(positive) {
+            let is_line = basis.len() == 1;
+            let mut probe = value.clone();
+            let alone = if is_line {
+                Some(self.alone(&mut |p| probe.sign_of(p) != Sign::Zero, &|v| value.reduce(v))?.0)
+            } else if cone.rays.len() == 1 && cone.lineality.is_empty() {
+                Some(self.alone_in_wide(&value.reduce(&x), &basis, &rows, &cone.rays[0], value)?)
+            } else {
+                None
+            };
+            return Some(self.member(&value.reduce(&x), alone));
+        }
+        let mu = impossible(&rows, self.moving.len(), basis.len(), value)?;
+        let solve = |m: Vec<Vec<Poly>>| kernel_at(m, &mut value.clone());
+        let w = self.weights(&mu, &solve, &|s| value.clone().sign_of(s))?;
+        Some(Exact::None(Polynomials(coefficients(&value.reduce(&w)))))
+    }
+
+    /// What there is around a rational value, and where that ends. `None` if it is not a general value.
+    pub(super) fn around(&self, t: &Rational) -> Option<Around> {
+        if let Some((reason, critical)) = &self.regular {
+            return Some(Around { reason: reason.clone(), critical: vec![critical.clone()] });
+        }
+        let (basis, _, pivot) = generic_kernel(self.block(&self.active, &self.active));
+        if pivot.sign_at(t) == 0 {
+            return None;
+        }
+        let rows = self.signed_rows(&basis);
+        let here: Vec<Vec<Poly>> = rows.iter().map(|r| constants(r, t)).collect();
+        let mut value = Algebraic::rational(t.clone());
+        let cone = cone_generators(&here, basis.len(), &mut value);
+        let all: Option<Vec<Vec<Poly>>> = cone.rays.iter().map(|z| extended(&rows, &here, z, t)).collect();
+        let sum = all?.iter().map(|z| combined(&basis, z)).reduce(|s, x| s.iter().zip(&x).map(|(a, b)| a + b).collect());
+        if let Some(x) = sum.filter(|x| (0..self.moving.len()).all(|p| x[p].sign_at(t) > 0)) {
+            return self.member_around(x, &basis, &cone, t);
+        }
+        let mu = impossible(&here, self.moving.len(), basis.len(), &mut value)?;
+        let mu = generic_circuit(&rows, &mu, t)?;
+        let solve = |m: Vec<Vec<Poly>>| generic_kernel(m).0;
+        let sign = |s: &Poly| Sign::from(s.sign_at(t));
+        let w = self.weights(&mu, &solve, &sign)?;
+        let (mut w, _) = divided(w, Poly::default());
+        let products = |w: &[Poly]| -> Vec<Poly> { self.moving.iter().map(|&j| self.column(w, j)).collect() };
+        let strict = products(&w).into_iter().find(|p| p.sign_at(t) != 0)?;
+        if strict.sign_at(t) > 0 {
+            w = w.iter().map(|p| -p).collect(); // the common factor was negative here
+        }
+        let critical = self.rest.iter().map(|&i| w[i].clone()).chain(products(&w)).filter(|p| !p.is_zero()).collect();
+        Some(Around { reason: Exact::None(Polynomials(coefficients(&w))), critical })
+    }
+
+    fn member_around(&self, x: Vec<Poly>, basis: &[Vec<Poly>], cone: &Generators, t: &Rational) -> Option<Around> {
+        let (mut x, _) = divided(x, Poly::default());
+        if x[0].sign_at(t) < 0 {
+            x = x.iter().map(|p| -p).collect();
+        }
+        let mut critical: Vec<Poly> = x[..self.moving.len()].to_vec();
+        critical.extend(self.rest.iter().map(|&i| self.row(i, &x)));
+        let mut alone = None;
+        if basis.len() == 1 {
+            let (proof, lead) = self.alone(&mut |p| p.sign_at(t) != 0, &|v| v.to_vec())?;
+            critical.extend(lead);
+            alone = Some(proof);
+        } else if cone.rays.len() == 1 && cone.lineality.is_empty() {
+            return None;
+        }
+        critical.retain(|p| !p.is_zero());
+        Some(Around { reason: self.member(&x, alone), critical })
+    }
+
+    fn member(&self, x: &[Poly], alone: Option<Alone>) -> Exact {
+        Exact::Some(Box::new(Member { x: self.over_all(&self.active, x), alone }))
+    }
+
+    /// Weights on all rows but one, for each active column but the first: the inverse of a regular minor, up to its
+    /// determinant, which is given too.
+    fn alone(&self, is_nonzero: &mut dyn FnMut(&Poly) -> bool, reduce: &dyn Fn(&[Poly]) -> Vec<Poly>) -> Option<(Alone, Option<Poly>)> {
+        let without = |list: &[usize], k: usize| -> Vec<usize> { list.iter().copied().filter(|&i| i != k).collect() };
+        let pivot = self.moving[0];
+        let mut columns = without(&self.active, pivot);
+        columns.sort_unstable();
+        if columns.is_empty() {
+            return Some((Alone { pivot, rows: Vec::new() }, None));
+        }
+        let fit = |&left: &usize| is_nonzero(&self.minor(&without(&self.active, left), &columns));
+        let left = self.active.iter().copied().find(fit)?;
+        let rows = without(&self.active, left);
+        let weights = columns.iter().map(|&own| {
+            let mut order = without(&columns, own);
+            order.insert(0, own);
+            (own, self.over_all(&rows, &reduce(&self.left_cofactors(&rows, &order))))
+        });
+        Some((Alone { pivot, rows: weights.collect() }, Some(self.minor(&rows, &columns))))
+    }
+
+    /// The same where the inequalities y >= 0 make x the only one of a wide kernel: +-(x_k e_j - x_j e_k) is on the
+    /// kernel a combination with mu >= 0 of rows of G that vanish at x.
+    fn alone_in_wide(&self, x: &[Poly], basis: &[Vec<Poly>], rows: &[Vec<Poly>], z: &[Poly], value: &mut Algebraic) -> Option<Alone> {
+        let mut out = Vec::new();
+        let tight: Vec<usize> = (0..rows.len()).filter(|&r| value.sign_of(&dot(&rows[r], z)) == Sign::Zero).collect();
+        for (p, sign) in (1..self.active.len()).flat_map(|p| [(p, 1), (p, -1)]) {
+            let signed = |v: Poly| if sign > 0 { v } else { -&v };
+            let target = |v: &[Poly]| signed(&(&x[0] * &v[p]) - &(&x[p] * &v[0]));
+            // Unknowns mu and s: mu'G = s target.
+            let mut conditions: Vec<Vec<Poly>> = Vec::new();
+            for (k, v) in basis.iter().enumerate() {
+                let mut column: Vec<Poly> = tight.iter().map(|&r| rows[r][k].clone()).collect();
+                column.push(-&target(v));
+                let column = value.reduce(&column);
+                conditions.push(column.iter().map(|c| -c).collect());
+                conditions.push(column);
+            }
+            let n = tight.len() + 1;
+            conditions.extend((0..n).map(|k| (0..n).map(|i| Poly::from_ints(&[i64::from(i == k)])).collect()));
+            let rays = cone_generators(&conditions, n, value).rays;
+            let ray = rays.into_iter().find(|r| value.sign_of(&r[n - 1]) == Sign::Positive)?;
+            // w'T = -mu on the active columns is what `weights` solves.
+            let mut mu = vec![Poly::default(); self.active.len() + self.rest.len()];
+            mu[0] = signed(&ray[n - 1] * &x[p]);
+            mu[p] = signed(-&(&ray[n - 1] * &x[0]));
+            for (&r, m) in tight.iter().zip(&ray) {
+                mu[self.active.len() + r - self.moving.len()] = m.clone();
+            }
+            let solve = |m: Vec<Vec<Poly>>| kernel_at(m, &mut value.clone());
+            let l = self.weights_for(mu.split_at(self.active.len()), &solve, &|s| value.clone().sign_of(s))?;
+            out.push((self.active[p], Polynomials(coefficients(&value.reduce(&l)))));
+        }
+        Some(Alone { pivot: self.moving[0], rows: out })
+    }
+
+    /// w with w_R = mu_R and w'T = -mu_J on the active columns, up to a positive factor.
+    fn weights(&self, mu: &[Poly], solve: &dyn Fn(Vec<Vec<Poly>>) -> Vec<Vec<Poly>>, sign: &dyn Fn(&Poly) -> Sign) -> Option<Vec<Poly>> {
+        self.weights_for(mu.split_at(self.moving.len()), solve, sign)
+    }
+
+    fn weights_for(
+        &self,
+        (on_moving, on_rest): (&[Poly], &[Poly]),
+        solve: &dyn Fn(Vec<Vec<Poly>>) -> Vec<Vec<Poly>>,
+        sign: &dyn Fn(&Poly) -> Sign,
+    ) -> Option<Vec<Poly>> {
+        let equation = |(p, &j): (usize, &usize)| {
+            let mut row: Vec<Poly> = self.active.iter().map(|&i| self.entry(i, j)).collect();
+            let given = self.rest.iter().zip(on_rest).fold(Poly::default(), |s, (&i, m)| &s + &(&self.entry(i, j) * m));
+            row.push(on_moving.get(p).map_or(given.clone(), |m| &given + m));
+            row
+        };
+        let solutions = solve(self.active.iter().enumerate().map(equation).collect());
+        let mut solution = solutions.into_iter().find(|v| v.last().is_some_and(|s| sign(s) != Sign::Zero))?;
+        if solution.last().is_some_and(|s| sign(s) == Sign::Negative) {
+            solution = solution.iter().map(|p| -p).collect();
+        }
+        let scale = solution.pop()?;
+        let mut w = vec![Poly::default(); self.a.len()];
+        self.active.iter().zip(solution).for_each(|(&i, v)| w[i] = v);
+        self.rest.iter().zip(on_rest).for_each(|(&i, m)| w[i] = m * &scale);
+        Some(w)
+    }
+
+    /// The rows of G: x_J, then y off the active set.
+    fn signed_rows(&self, basis: &[Vec<Poly>]) -> Vec<Vec<Poly>> {
+        let x = (0..self.moving.len()).map(|p| basis.iter().map(|v| v[p].clone()).collect());
+        x.chain(self.rest.iter().map(|&i| basis.iter().map(|v| self.row(i, v)).collect())).collect()
+    }
+
+    /// Row i of T times x over the active columns.
+    fn row(&self, i: usize, x: &[Poly]) -> Poly {
+        self.active.iter().zip(x).fold(Poly::default(), |s, (&j, x_j)| &s + &(&self.entry(i, j) * x_j))
+    }
+
+    /// w'T in column j.
+    fn column(&self, w: &[Poly], j: usize) -> Poly {
+        w.iter().enumerate().fold(Poly::default(), |s, (i, w_i)| &s + &(&self.entry(i, j) * w_i))
+    }
+
+    fn entry(&self, i: usize, j: usize) -> Poly {
+        Poly::new(vec![self.a[i][j].clone(), self.b[i][j].clone()])
+    }
+
+    fn block(&self, rows: &[usize], columns: &[usize]) -> Vec<Vec<Poly>> {
+        rows.iter().map(|&i| columns.iter().map(|&j| self.entry(i, j)).collect()).collect()
+    }
+
+    fn minor(&self, rows: &[usize], columns: &[usize]) -> Poly {
+        let of = |m: &[Vec<Integer>]| -> Vec<Vec<Integer>> {
+            rows.iter().map(|&i| columns.iter().map(|&j| m[i][j].clone()).collect()).collect()
+        };
+        determinant(&of(&self.a), &of(&self.b))
+    }
+
+    /// w on `rows` with w'T = det e_1 on `columns`.
+    fn left_cofactors(&self, rows: &[usize], columns: &[usize]) -> Vec<Poly> {
+        let of = |m: &[Vec<Integer>]| -> Vec<Vec<Integer>> {
+            columns.iter().map(|&j| rows.iter().map(|&i| m[i][j].clone()).collect()).collect()
+        };
+        first_row_cofactors(&of(&self.a), &of(&self.b))
+    }
+
+    fn over_all(&self, indices: &[usize], v: &[Poly]) -> Polynomials {
+        let mut all = vec![Poly::default(); self.a.len()];
+        indices.iter().zip(v).for_each(|(&i, p)| all[i] = p.clone());
+        Polynomials(coefficients(&all))
+    }
+}
