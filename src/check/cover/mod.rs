@@ -11,6 +11,7 @@ mod fault;
 mod leaf;
 mod psd;
 mod root;
+mod short;
 
 pub use fault::CoverFault;
 
@@ -21,6 +22,8 @@ use crate::certificate::{CompleteSet, Node, Piece, Root, RootOutcome};
 use crate::exact::{Integer, Interval, Rational};
 use crate::model::Window;
 use family::{Ends, Family, Linear};
+use short::Short;
+use std::cell::OnceCell;
 use std::rc::Rc;
 
 /// What a cover has proved.
@@ -62,8 +65,15 @@ struct Region {
     lo: Rational,
     hi: Option<Rational>,
     states: Vec<State>,
-    ends: Option<Rc<Ends>>,
+    matrices: Rc<Matrices>,
     zero: Integer,
+}
+
+/// The ends of an interval, computed when they are asked for; regions of one interval share them.
+#[derive(Default)]
+struct Matrices {
+    exact: OnceCell<Rc<Ends>>,
+    short: OnceCell<Option<[Short; 2]>>,
 }
 
 /// A solution found in a leaf, unique in `hull` for its support.
@@ -146,7 +156,7 @@ impl Walk<'_> {
     fn piece(&mut self, lo: &Rational, piece: &Piece) -> Result<(), (usize, CoverFault)> {
         let hi = piece.max.as_ref().map(|n| n.0.clone());
         let states = vec![State::Open; self.index.len()];
-        let mut stack = vec![Region { lo: lo.clone(), hi, states, ends: None, zero: Integer::default() }];
+        let mut stack = vec![Region { lo: lo.clone(), hi, states, matrices: Rc::default(), zero: Integer::default() }];
         for (k, node) in piece.tree.iter().enumerate() {
             let region = stack.pop().ok_or((k, CoverFault::Trailing))?;
             self.node(region, piece.anchor, node, &mut stack).map_err(|fault| (k, fault))?;
@@ -161,23 +171,21 @@ impl Walk<'_> {
                 if *at <= region.lo || region.hi.as_ref().is_some_and(|hi| at >= hi) {
                     return Err(CoverFault::Cut { lo: region.lo, hi: end(region.hi.as_ref()), got: at.clone() });
                 }
-                stack.push(Region { lo: at.clone(), ends: None, states: region.states.clone(), zero: Integer::default(), hi: region.hi });
-                stack.push(Region { hi: Some(at.clone()), ends: None, ..region });
+                let (lo, states) = (at.clone(), region.states.clone());
+                stack.push(Region { lo, hi: region.hi, states, matrices: Rc::default(), zero: Integer::default() });
+                stack.push(Region { hi: Some(at.clone()), matrices: Rc::default(), ..region });
                 return Ok(());
             }
             Node::Branch(index) => {
                 let position = self.index.iter().position(|i| i == index).filter(|&p| region.states[p] == State::Open);
                 let position = position.ok_or(CoverFault::Branch { index: *index })?;
-                if region.ends.is_none() {
-                    region.ends = Some(self.ends(&region, anchor)?); // shared by both children
-                }
                 let mut moving = region.states.clone();
                 moving[position] = State::Moving;
                 region.states[position] = State::Rest;
                 stack.push(Region {
                     lo: region.lo.clone(),
                     hi: region.hi.clone(),
-                    ends: region.ends.clone(),
+                    matrices: Rc::clone(&region.matrices),
                     states: moving,
                     zero: Integer::default(),
                 });
@@ -189,9 +197,13 @@ impl Walk<'_> {
                 _ => return Err(CoverFault::Hypothesis { expected: "a tail that begins at or below the region", row: 0 }),
             },
             Node::Open => self.open.push(self.left_open(&region)),
-            Node::Farkas(w) => leaf::farkas(&region, &*self.ends(&region, anchor)?, &self.index, w)?,
-            Node::PositiveDefinite => leaf::definite(&region, &*self.ends(&region, anchor)?, 1)?,
-            Node::NegativeDefinite => leaf::definite(&region, &*self.ends(&region, anchor)?, -1)?,
+            Node::Farkas(w) => leaf::farkas(&region, self.short(&region, anchor), || self.ends(&region, anchor), &self.index, w)?,
+            Node::PositiveDefinite => {
+                leaf::definite(&region, self.short(&region, anchor), || self.ends(&region, anchor), &self.index, 1)?;
+            }
+            Node::NegativeDefinite => {
+                leaf::definite(&region, self.short(&region, anchor), || self.ends(&region, anchor), &self.index, -1)?;
+            }
             Node::Root(root) => {
                 let found = self.root(&region, anchor, root)?;
                 self.found.extend(found);
@@ -202,10 +214,20 @@ impl Walk<'_> {
     }
 
     fn ends(&self, region: &Region, anchor: Option<usize>) -> Result<Rc<Ends>, CoverFault> {
-        match &region.ends {
-            Some(ends) => Ok(Rc::clone(ends)),
-            None => Ok(Rc::new(self.family.ends(anchor, &region.lo, region.hi.as_ref())?)),
+        if let Some(ends) = region.matrices.exact.get() {
+            return Ok(Rc::clone(ends));
         }
+        let ends = Rc::new(self.family.ends(anchor, &region.lo, region.hi.as_ref())?);
+        Ok(Rc::clone(region.matrices.exact.get_or_init(|| ends)))
+    }
+
+    /// The same in short numbers, where there are such.
+    fn short<'r>(&self, region: &'r Region, anchor: Option<usize>) -> Option<&'r [Short; 2]> {
+        let of = || match &self.family {
+            Family::Linear(linear) => linear.short(&region.lo, region.hi.as_ref()),
+            Family::Condensed(_) => self.ends(region, anchor).ok()?.short(),
+        };
+        region.matrices.short.get_or_init(of).as_ref()
     }
 
     fn left_open(&self, region: &Region) -> OpenRegion {
