@@ -23,7 +23,8 @@ pub(super) fn positive_definite(t: &Short, moving: &[usize], sign: i8) -> Result
         return Err(0);
     }
     let twice = |m: &[Vec<i64>], i: usize, j: usize| i128::from(m[moving[i]][moving[j]]) + i128::from(m[moving[j]][moving[i]]);
-    let largest = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).fold(0, |most: u64, (i, j)| most | t.m[moving[i]][moving[j]].unsigned_abs());
+    let largest =
+        (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).fold(0, |most: u64, (i, j)| most | t.m[moving[i]][moving[j]].unsigned_abs());
     let cut = (u64::BITS - largest.leading_zeros() + 1).saturating_sub(BITS);
     let s = |i: usize, j: usize| (twice(&t.m, i, j) * i128::from(sign)) >> cut; // at most BITS + 1 bits
     let slack = |i: usize| -> i128 {

@@ -82,8 +82,15 @@ struct Found {
     hull: Interval,
 }
 
-/// Checks a cover. `claims`: the certificate's claims in order, all accepted.
-pub(super) fn check(rows: &Rows, window: &Window, claims: &[AcceptedSolution<'_>], cover: &CompleteSet) -> Result<AcceptedCover, Reason> {
+/// Checks a cover. `claims`: the certificate's claims in order, all accepted. With `refused` a leaf that
+/// fails is taken for an open one and noted there (piece, node).
+pub(super) fn check(
+    rows: &Rows,
+    window: &Window,
+    claims: &[AcceptedSolution<'_>],
+    cover: &CompleteSet,
+    refused: Option<&mut Vec<(usize, usize)>>,
+) -> Result<AcceptedCover, Reason> {
     let index: Vec<usize> = (0..rows.order()).filter(|&i| !rows.is_free[i]).collect();
     let has_free = index.len() < rows.order();
     let whole = |fault| Reason::Cover { piece: None, node: None, fault };
@@ -97,12 +104,12 @@ pub(super) fn check(rows: &Rows, window: &Window, claims: &[AcceptedSolution<'_>
         condensed::tail(rows, tail).map_err(whole)?;
     }
     let tail = tail.map(|t| &t.from.0);
-    let mut walk = Walk { family, index, window, tail, claims, found: Vec::new(), open: Vec::new(), leaves: 0 };
+    let mut walk = Walk { family, index, window, tail, claims, found: Vec::new(), open: Vec::new(), leaves: 0, refused };
     let mut lo = window.min().clone();
     for (k, piece) in cover.pieces.iter().enumerate() {
         let is_last = k + 1 == cover.pieces.len();
         walk.piece_end(&lo, piece, is_last).map_err(|fault| Reason::Cover { piece: Some(k), node: None, fault })?;
-        walk.piece(&lo, piece).map_err(|(node, fault)| Reason::Cover { piece: Some(k), node: Some(node), fault })?;
+        walk.piece(k, &lo, piece).map_err(|(node, fault)| Reason::Cover { piece: Some(k), node: Some(node), fault })?;
         lo = piece.max.as_ref().map_or(lo, |n| n.0.clone());
     }
     if cover.pieces.is_empty() {
@@ -133,6 +140,8 @@ struct Walk<'a> {
     found: Vec<Found>,
     open: Vec<OpenRegion>,
     leaves: usize,
+    /// Where leaves that fail are noted, if they are to be taken for open ones.
+    refused: Option<&'a mut Vec<(usize, usize)>>,
 }
 
 impl Walk<'_> {
@@ -153,18 +162,28 @@ impl Walk<'_> {
     }
 
     /// Walks a tree in preorder with the regions still to be closed on a stack.
-    fn piece(&mut self, lo: &Rational, piece: &Piece) -> Result<(), (usize, CoverFault)> {
+    fn piece(&mut self, number: usize, lo: &Rational, piece: &Piece) -> Result<(), (usize, CoverFault)> {
         let hi = piece.max.as_ref().map(|n| n.0.clone());
         let states = vec![State::Open; self.index.len()];
         let mut stack = vec![Region { lo: lo.clone(), hi, states, matrices: Rc::default(), zero: Integer::default() }];
         for (k, node) in piece.tree.iter().enumerate() {
             let region = stack.pop().ok_or((k, CoverFault::Trailing))?;
-            self.node(region, piece.anchor, node, &mut stack).map_err(|fault| (k, fault))?;
+            match node {
+                Node::Split(_) | Node::Branch(_) => self.inner(region, node, &mut stack).map_err(|fault| (k, fault))?,
+                _ => match (self.leaf(&region, piece.anchor, node), self.refused.as_mut()) {
+                    (Err(_), Some(refused)) => {
+                        refused.push((number, k));
+                        self.open.push(self.left_open(&region));
+                    }
+                    (verdict, _) => verdict.map_err(|fault| (k, fault))?,
+                },
+            }
         }
         if stack.is_empty() { Ok(()) } else { Err((piece.tree.len(), CoverFault::Truncated { regions: stack.len() })) }
     }
 
-    fn node(&mut self, mut region: Region, anchor: Option<usize>, node: &Node, stack: &mut Vec<Region>) -> Result<(), CoverFault> {
+    /// A cut or a branch: its two regions.
+    fn inner(&self, mut region: Region, node: &Node, stack: &mut Vec<Region>) -> Result<(), CoverFault> {
         match node {
             Node::Split(at) => {
                 let at = &at.0;
@@ -174,7 +193,6 @@ impl Walk<'_> {
                 let (lo, states) = (at.clone(), region.states.clone());
                 stack.push(Region { lo, hi: region.hi, states, matrices: Rc::default(), zero: Integer::default() });
                 stack.push(Region { hi: Some(at.clone()), matrices: Rc::default(), ..region });
-                return Ok(());
             }
             Node::Branch(index) => {
                 let position = self.index.iter().position(|i| i == index).filter(|&p| region.states[p] == State::Open);
@@ -190,26 +208,33 @@ impl Walk<'_> {
                     zero: Integer::default(),
                 });
                 stack.push(region);
-                return Ok(());
             }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn leaf(&mut self, region: &Region, anchor: Option<usize>, node: &Node) -> Result<(), CoverFault> {
+        self.leaves += 1;
+        match node {
+            Node::Split(_) | Node::Branch(_) => {} // not a leaf
             Node::Tail => match self.tail {
                 Some(from) if *from <= region.lo => {}
                 _ => return Err(CoverFault::Hypothesis { expected: "a tail that begins at or below the region", row: 0 }),
             },
-            Node::Open => self.open.push(self.left_open(&region)),
-            Node::Farkas(w) => leaf::farkas(&region, self.short(&region, anchor), || self.ends(&region, anchor), &self.index, w)?,
+            Node::Open => self.open.push(self.left_open(region)),
+            Node::Farkas(w) => leaf::farkas(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, w)?,
             Node::PositiveDefinite => {
-                leaf::definite(&region, self.short(&region, anchor), || self.ends(&region, anchor), &self.index, 1)?;
+                leaf::definite(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, 1)?;
             }
             Node::NegativeDefinite => {
-                leaf::definite(&region, self.short(&region, anchor), || self.ends(&region, anchor), &self.index, -1)?;
+                leaf::definite(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, -1)?;
             }
             Node::Root(root) => {
-                let found = self.root(&region, anchor, root)?;
+                let found = self.root(region, anchor, root)?;
                 self.found.extend(found);
             }
         }
-        self.leaves += 1;
         Ok(())
     }
 

@@ -119,7 +119,9 @@ mod tests {
     /// Entries and factors of every length, B a million times smaller or larger than A.
     #[test]
     fn combinations_enclose_the_exact_ones() {
-        for (bits_a, bits_b, p, q) in [(100, 80, 3u64, 1 << 60), (20, 120, u64::MAX, 7), (61, 61, 1, 0), (10, 3, 5, 9), (90, 0, 1, u64::MAX)] {
+        for (bits_a, bits_b, p, q) in
+            [(100, 80, 3u64, 1 << 60), (20, 120, u64::MAX, 7), (61, 61, 1, 0), (10, 3, 5, 9), (90, 0, 1, u64::MAX)]
+        {
             let (a, b) = (big(&[&[3, -5], &[0, 7]], bits_a), big(&[&[-1, 2], &[0, 1000]], bits_b));
             let radius = |bits: u32| big(&[&[1, 2], &[0, 1]], bits.saturating_sub(50));
             let (ra, rb) = (radius(bits_a), radius(bits_b));
@@ -128,8 +130,9 @@ mod tests {
             let short = Short::of(&a, &ra, &[0, 1]).unwrap().combine(&p, &Short::of(&b, &rb, &[0, 1]).unwrap(), &q).unwrap();
             // The unit is not kept: read it off the largest entry, generously on both sides of it.
             for sign in [-1, 1] {
-                let end: Matrix =
-                    (0..2).map(|i| (0..2).map(|j| &p * (&a[i][j] + &ra[i][j] * sign) + &q * (&b[i][j] + &rb[i][j] * sign)).collect()).collect();
+                let end: Matrix = (0..2)
+                    .map(|i| (0..2).map(|j| &p * (&a[i][j] + &ra[i][j] * sign) + &q * (&b[i][j] + &rb[i][j] * sign)).collect())
+                    .collect();
                 let fits = (0..400u32).any(|unit| contains(&short, &end, &(Integer::one() << unit)));
                 assert!(fits, "{bits_a} {bits_b} {sign}");
             }
