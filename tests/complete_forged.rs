@@ -7,7 +7,7 @@ mod cover;
 
 use cover::{condensed, disagreements, fold, plain, proved, set, trees, truth};
 use mceip::certificate::{Certificate, Node, RootOutcome};
-use mceip::check::{CoverFault, Reason, Rejected, check};
+use mceip::check::{CoverFault, Reason, Rejected, audit, check};
 use mceip::exact::{Integer, rational, whole};
 use mceip::model::file::Number;
 use mceip::model::{Problem, Unknown, Window};
@@ -70,6 +70,26 @@ fn trees_that_do_not_cover_are_rejected() {
     let Node::Branch(index) = set(&mut certificate.clone()).pieces[p].tree[k].clone() else { unreachable!() };
     no(&|c| set(c).pieces[p].tree.insert(k, Node::Branch(index)), &|f| matches!(f, CoverFault::Branch { .. }));
     no(&|c| set(c).pieces[p].tree[k] = Node::Branch(6), &|f| matches!(f, CoverFault::Branch { index: 6 }));
+}
+
+/// What an audit opens is what `check` refuses one by one, and it opens nothing else.
+#[test]
+fn an_audit_opens_exactly_the_leaves_that_fail() {
+    let (problem, certificate) = plain();
+    assert_eq!(audit(&problem, &certificate), check(&problem, &certificate).map(|accepted| (accepted, Vec::new())));
+    let weights: Vec<(usize, usize)> =
+        trees(&certificate).filter(|(_, n)| matches!(n, Node::Farkas(_))).map(|(at, _)| at).step_by(3).collect();
+    assert!(weights.len() > 1);
+    let mut forged = certificate.clone();
+    weights.iter().for_each(|&(p, k)| set(&mut forged).pieces[p].tree[k] = Node::Farkas(vec![0; 6]));
+    let (accepted, refused) = audit(&problem, &forged).unwrap();
+    assert_eq!(refused, weights);
+    refused.iter().for_each(|&(p, k)| set(&mut forged).pieces[p].tree[k] = Node::Open);
+    assert_eq!(accepted, check(&problem, &forged).unwrap());
+    assert_eq!(accepted.cover.unwrap().open.len(), weights.len());
+    // A hole in the tree is not mended.
+    drop(set(&mut forged).pieces[0].tree.pop());
+    assert!(audit(&problem, &forged).is_err());
 }
 
 #[test]

@@ -45,6 +45,21 @@ pub struct AcceptedClaim {
 /// # Errors
 /// [`Rejected`] with the claim and the first obligation that fails: equation, index, expected, got.
 pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, Rejected> {
+    verdict(problem, certificate, None)
+}
+
+/// [`check`] of the certificate with the leaves of its cover that fail made open, and which these are
+/// (piece and node): for a search, which need not check the rest again for each of them.
+///
+/// # Errors
+/// [`Rejected`] for whatever making leaves open does not mend.
+pub fn audit(problem: &Problem, certificate: &Certificate) -> Result<(Accepted, Vec<(usize, usize)>), Rejected> {
+    let mut refused = Vec::new();
+    let accepted = verdict(problem, certificate, Some(&mut refused))?;
+    Ok((accepted, refused))
+}
+
+fn verdict(problem: &Problem, certificate: &Certificate, refused: Option<&mut Vec<(usize, usize)>>) -> Result<Accepted, Rejected> {
     let whole = |reason| Rejected { claim: None, reason };
     let digest = problem.sha256();
     if certificate.problem_sha256 != digest {
@@ -69,7 +84,7 @@ pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, R
         solutions.push(AcceptedSolution { claim, biactive });
     }
     let cover = match &certificate.complete_set {
-        Some(c) => Some(cover::check(&rows, &certificate.window, &solutions, c).map_err(whole)?),
+        Some(c) => Some(cover::check(&rows, &certificate.window, &solutions, c, refused).map_err(whole)?),
         None => None,
     };
     Ok(Accepted { claims: solutions.into_iter().map(|s| s.claim).collect(), cover })

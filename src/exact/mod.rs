@@ -9,6 +9,7 @@ mod cofactor;
 mod cone;
 mod decimal;
 mod definite;
+mod definite_short;
 mod dense;
 mod double;
 mod interval;

@@ -5,12 +5,10 @@
 //! shift s: if S - diag(c) - s I = LDL' + E exactly, D > 0 and s I + E is diagonally dominant, then
 //! S - diag(c) is definite, and so is every matrix of the family.
 
-use super::family::{Matrix, largest_bits, shift};
-use crate::exact::Integer;
-use num_traits::{Signed, ToPrimitive};
+use super::short::Short;
 
 /// Bits kept of S.
-const BITS: i64 = 40;
+const BITS: u32 = 40;
 /// Fraction bits of L.
 const UNIT: u32 = 34;
 /// The shift in units of the cut S, per row: above the rounding of L times the largest pivot.
@@ -19,23 +17,21 @@ const SHIFT: i128 = 1 << 8;
 const MAX_ORDER: usize = 4096;
 
 /// `Err(k)`: the k-th variable of `moving` breaks it, or it is too close to say.
-pub(super) fn positive_definite(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) -> Result<(), usize> {
+pub(super) fn positive_definite(t: &Short, moving: &[usize], sign: i8) -> Result<(), usize> {
     let n = moving.len();
     if n > MAX_ORDER {
         return Err(0);
     }
-    let cut = largest_bits(moving.iter().flat_map(|&i| moving.iter().map(move |&j| &m[i][j]))) as i64 + 1 - BITS;
-    let s = |i: usize, j: usize| -> i128 {
-        let sum = &m[moving[i]][moving[j]] + &m[moving[j]][moving[i]];
-        let sum = if sign < 0 { -sum } else { sum };
-        shift(&sum, -cut.max(0)).to_i128().unwrap_or(0) // at most BITS + 1 bits
-    };
+    let twice = |m: &[Vec<i64>], i: usize, j: usize| i128::from(m[moving[i]][moving[j]]) + i128::from(m[moving[j]][moving[i]]);
+    let largest =
+        (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).fold(0, |most: u64, (i, j)| most | t.m[moving[i]][moving[j]].unsigned_abs());
+    let cut = (u64::BITS - largest.leading_zeros() + 1).saturating_sub(BITS);
+    let s = |i: usize, j: usize| (twice(&t.m, i, j) * i128::from(sign)) >> cut; // at most BITS + 1 bits
     let slack = |i: usize| -> i128 {
-        let sum: Integer = (0..n).map(|j| &r[moving[i]][moving[j]] + &r[moving[j]][moving[i]]).sum();
+        let sum: i128 = (0..n).map(|j| twice(&t.r, i, j)).sum();
         let lost = if cut > 0 { n as i128 } else { 0 };
-        let radius = shift(&sum, -cut.max(0)) + Integer::from(u8::from(sum.is_positive() && cut > 0));
-        // A radius beyond 2^60 is far more than S itself: nothing is definite then.
-        radius.to_i128().filter(|v| *v < 1 << 60).unwrap_or(1 << 60) + lost
+        // A radius of 2^60 is far more than S itself: nothing is definite then.
+        ((sum >> cut) + i128::from(sum > 0 && cut > 0)).min(1 << 60) + lost
     };
     let shift_all = SHIFT * n as i128;
     let lower: Vec<Vec<i128>> = (0..n).map(|i| (0..=i).map(|j| s(i, j) - if i == j { slack(i) } else { 0 }).collect()).collect();
@@ -104,8 +100,16 @@ fn dominated(lower: &[Vec<i128>], l: &[Vec<i128>], d: &[i128], n: usize) -> Resu
 
 #[cfg(test)]
 mod tests {
+    use super::super::family::Matrix;
     use super::*;
+    use crate::exact::Integer;
     use num_traits::Zero;
+
+    /// As a leaf does it: cut to what may move.
+    fn positive_definite(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) -> Result<(), usize> {
+        let all: Vec<usize> = (0..moving.len()).collect();
+        super::positive_definite(&Short::of(m, r, moving).ok_or(0usize)?, &all, sign)
+    }
 
     fn matrix(rows: &[&[i64]]) -> Matrix {
         rows.iter().map(|r| r.iter().map(|&v| Integer::from(v) << 64).collect()).collect()

@@ -6,6 +6,7 @@
 
 use super::CoverFault;
 use super::expanded::Expanded;
+use super::short::Short;
 use crate::check::pencil::Rows;
 use crate::exact::{Integer, Rational};
 use num_integer::Integer as _;
@@ -41,6 +42,8 @@ pub(super) struct Linear {
     a: Matrix,
     b: Matrix,
     radius: Vec<Integer>,
+    /// A and B in short numbers.
+    short: Option<[Short; 2]>,
 }
 
 impl Family {
@@ -56,11 +59,20 @@ impl Family {
     }
 }
 
+impl Ends {
+    /// Both ends in short numbers.
+    pub(super) fn short(&self) -> Option<[Short; 2]> {
+        let all: Vec<usize> = (0..self.slope.len()).collect();
+        let of = |end: usize| Short::of(&self.m[end], &self.r[end], &all);
+        Some([of(0)?, of(1)?])
+    }
+}
+
 impl Linear {
     /// The pencil of a problem without free variables.
     pub(super) fn of(rows: &Rows) -> Linear {
         let n = rows.order();
-        let mut linear = Linear { a: Vec::new(), b: Vec::new(), radius: Vec::new() };
+        let mut linear = Linear { a: Vec::new(), b: Vec::new(), radius: Vec::new(), short: None };
         for row in &rows.rows {
             let bits = largest_bits(row.iter().map(|(_, a, _)| a)).max(1);
             let (mut a, mut b) = (vec![Integer::zero(); n], vec![Integer::zero(); n]);
@@ -72,7 +84,21 @@ impl Linear {
             linear.b.push(b);
             linear.radius.push(Integer::from(u8::from(bits > FRACTION_BITS)));
         }
+        let (all, radius): (Vec<usize>, Matrix) = ((0..n).collect(), linear.radius.iter().map(|r| vec![r.clone(); n]).collect());
+        let [a, b] = [&linear.a, &linear.b].map(|m| Short::of(m, &radius, &all));
+        linear.short = a.zip(b).map(|(a, b)| [a, b]);
         linear
+    }
+
+    /// Both ends in short numbers: A + tB is (q A + p B) / q at t = p / q >= 0, and B at infinity.
+    pub(super) fn short(&self, lo: &Rational, hi: Option<&Rational>) -> Option<[Short; 2]> {
+        let [a, b] = self.short.as_ref()?;
+        let at = |t: &Rational| a.combine(t.denom(), b, t.numer());
+        let upper = match hi {
+            Some(hi) => at(hi),
+            None => a.combine(&Integer::zero(), b, &Integer::one()),
+        };
+        Some([at(lo)?, upper?])
     }
 
     fn ends(&self, lo: &Rational, hi: Option<&Rational>) -> Ends {

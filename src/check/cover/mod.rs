@@ -13,6 +13,7 @@ mod leaf;
 mod psd;
 mod root;
 mod rootless;
+mod short;
 mod support;
 
 pub use fault::CoverFault;
@@ -25,6 +26,8 @@ use crate::certificate::{CompleteSet, Node, Piece, Root, RootOutcome, Support};
 use crate::exact::{Integer, Interval, Rational};
 use crate::model::Window;
 use family::{Ends, Family, Linear};
+use short::Short;
+use std::cell::OnceCell;
 use std::rc::Rc;
 use support::Held;
 
@@ -69,8 +72,15 @@ struct Region {
     lo: Rational,
     hi: Option<Rational>,
     states: Vec<State>,
-    ends: Option<Rc<Ends>>,
+    matrices: Rc<Matrices>,
     zero: Integer,
+}
+
+/// The ends of an interval, computed when they are asked for; regions of one interval share them.
+#[derive(Default)]
+struct Matrices {
+    exact: OnceCell<Rc<Ends>>,
+    short: OnceCell<Option<[Short; 2]>>,
 }
 
 /// A solution found in a leaf, unique in `hull` for its support.
@@ -79,8 +89,15 @@ struct Found {
     hull: Interval,
 }
 
-/// Checks a cover. `claims`: the certificate's claims in order, all accepted.
-pub(super) fn check(rows: &Rows, window: &Window, claims: &[AcceptedSolution<'_>], cover: &CompleteSet) -> Result<AcceptedCover, Reason> {
+/// Checks a cover. `claims`: the certificate's claims in order, all accepted. With `refused` a leaf that
+/// fails is taken for an open one and noted there (piece, node).
+pub(super) fn check(
+    rows: &Rows,
+    window: &Window,
+    claims: &[AcceptedSolution<'_>],
+    cover: &CompleteSet,
+    refused: Option<&mut Vec<(usize, usize)>>,
+) -> Result<AcceptedCover, Reason> {
     let index: Vec<usize> = (0..rows.order()).filter(|&i| !rows.is_free[i]).collect();
     let has_free = index.len() < rows.order();
     let whole = |fault| Reason::Cover { piece: None, node: None, fault };
@@ -94,12 +111,13 @@ pub(super) fn check(rows: &Rows, window: &Window, claims: &[AcceptedSolution<'_>
         condensed::tail(rows, tail).map_err(whole)?;
     }
     let tail = tail.map(|t| &t.from.0);
-    let mut walk = Walk { rows, family, index, window, tail, claims, found: Vec::new(), families: Vec::new(), open: Vec::new(), leaves: 0 };
+    let mut walk =
+        Walk { rows, family, index, window, tail, claims, found: Vec::new(), families: Vec::new(), open: Vec::new(), leaves: 0, refused };
     let mut lo = window.min().clone();
     for (k, piece) in cover.pieces.iter().enumerate() {
         let is_last = k + 1 == cover.pieces.len();
         walk.piece_end(&lo, piece, is_last).map_err(|fault| Reason::Cover { piece: Some(k), node: None, fault })?;
-        walk.piece(&lo, piece).map_err(|(node, fault)| Reason::Cover { piece: Some(k), node: Some(node), fault })?;
+        walk.piece(k, &lo, piece).map_err(|(node, fault)| Reason::Cover { piece: Some(k), node: Some(node), fault })?;
         lo = piece.max.as_ref().map_or(lo, |n| n.0.clone());
     }
     if cover.pieces.is_empty() {
@@ -133,6 +151,8 @@ struct Walk<'a> {
     families: Vec<SolutionFamily>,
     open: Vec<OpenRegion>,
     leaves: usize,
+    /// Where leaves that fail are noted, if they are to be taken for open ones.
+    refused: Option<&'a mut Vec<(usize, usize)>>,
 }
 
 impl Walk<'_> {
@@ -153,70 +173,98 @@ impl Walk<'_> {
     }
 
     /// Walks a tree in preorder with the regions still to be closed on a stack.
-    fn piece(&mut self, lo: &Rational, piece: &Piece) -> Result<(), (usize, CoverFault)> {
+    fn piece(&mut self, number: usize, lo: &Rational, piece: &Piece) -> Result<(), (usize, CoverFault)> {
         let hi = piece.max.as_ref().map(|n| n.0.clone());
         let states = vec![State::Open; self.index.len()];
-        let mut stack = vec![Region { lo: lo.clone(), hi, states, ends: None, zero: Integer::default() }];
+        let mut stack = vec![Region { lo: lo.clone(), hi, states, matrices: Rc::default(), zero: Integer::default() }];
         for (k, node) in piece.tree.iter().enumerate() {
             let region = stack.pop().ok_or((k, CoverFault::Trailing))?;
-            self.node(region, piece.anchor, node, &mut stack).map_err(|fault| (k, fault))?;
+            match node {
+                Node::Split(_) | Node::Branch(_) => self.inner(region, node, &mut stack).map_err(|fault| (k, fault))?,
+                _ => match (self.leaf(&region, piece.anchor, node), self.refused.as_mut()) {
+                    (Err(_), Some(refused)) => {
+                        refused.push((number, k));
+                        self.open.push(self.left_open(&region));
+                    }
+                    (verdict, _) => verdict.map_err(|fault| (k, fault))?,
+                },
+            }
         }
         if stack.is_empty() { Ok(()) } else { Err((piece.tree.len(), CoverFault::Truncated { regions: stack.len() })) }
     }
 
-    fn node(&mut self, mut region: Region, anchor: Option<usize>, node: &Node, stack: &mut Vec<Region>) -> Result<(), CoverFault> {
+    /// A cut or a branch: its two regions.
+    fn inner(&self, mut region: Region, node: &Node, stack: &mut Vec<Region>) -> Result<(), CoverFault> {
         match node {
             Node::Split(at) => {
                 let at = &at.0;
                 if *at <= region.lo || region.hi.as_ref().is_some_and(|hi| at >= hi) {
                     return Err(CoverFault::Cut { lo: region.lo, hi: end(region.hi.as_ref()), got: at.clone() });
                 }
-                stack.push(Region { lo: at.clone(), ends: None, states: region.states.clone(), zero: Integer::default(), hi: region.hi });
-                stack.push(Region { hi: Some(at.clone()), ends: None, ..region });
-                return Ok(());
+                let (lo, states) = (at.clone(), region.states.clone());
+                stack.push(Region { lo, hi: region.hi, states, matrices: Rc::default(), zero: Integer::default() });
+                stack.push(Region { hi: Some(at.clone()), matrices: Rc::default(), ..region });
             }
             Node::Branch(index) => {
                 let position = self.index.iter().position(|i| i == index).filter(|&p| region.states[p] == State::Open);
                 let position = position.ok_or(CoverFault::Branch { index: *index })?;
-                if region.ends.is_none() {
-                    region.ends = self.ends(&region, anchor).ok(); // shared by both children
-                }
                 let mut moving = region.states.clone();
                 moving[position] = State::Moving;
                 region.states[position] = State::Rest;
                 stack.push(Region {
                     lo: region.lo.clone(),
                     hi: region.hi.clone(),
-                    ends: region.ends.clone(),
+                    matrices: Rc::clone(&region.matrices),
                     states: moving,
                     zero: Integer::default(),
                 });
                 stack.push(region);
-                return Ok(());
             }
+            _ => {}
+        }
+        Ok(())
+    }
+
+    fn leaf(&mut self, region: &Region, anchor: Option<usize>, node: &Node) -> Result<(), CoverFault> {
+        self.leaves += 1;
+        match node {
+            Node::Split(_) | Node::Branch(_) => {} // not a leaf
             Node::Tail => match self.tail {
                 Some(from) if *from <= region.lo => {}
                 _ => return Err(CoverFault::Hypothesis { expected: "a tail that begins at or below the region", row: 0 }),
             },
-            Node::Open => self.open.push(self.left_open(&region)),
-            Node::Farkas(w) => leaf::farkas(&region, &*self.ends(&region, anchor)?, &self.index, w)?,
-            Node::PositiveDefinite => leaf::definite(&region, &*self.ends(&region, anchor)?, 1)?,
-            Node::NegativeDefinite => leaf::definite(&region, &*self.ends(&region, anchor)?, -1)?,
+            Node::Open => self.open.push(self.left_open(region)),
+            Node::Farkas(w) => leaf::farkas(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, w)?,
+            Node::PositiveDefinite => {
+                leaf::definite(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, 1)?;
+            }
+            Node::NegativeDefinite => {
+                leaf::definite(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, -1)?;
+            }
             Node::Root(root) => {
-                let found = self.root(&region, anchor, root)?;
+                let found = self.root(region, anchor, root)?;
                 self.found.extend(found);
             }
-            Node::Support(leaf) => self.support(&region, leaf)?,
+            Node::Support(leaf) => self.support(region, leaf)?,
         }
-        self.leaves += 1;
         Ok(())
     }
 
     fn ends(&self, region: &Region, anchor: Option<usize>) -> Result<Rc<Ends>, CoverFault> {
-        match &region.ends {
-            Some(ends) => Ok(Rc::clone(ends)),
-            None => Ok(Rc::new(self.family.ends(anchor, &region.lo, region.hi.as_ref())?)),
+        if let Some(ends) = region.matrices.exact.get() {
+            return Ok(Rc::clone(ends));
         }
+        let ends = Rc::new(self.family.ends(anchor, &region.lo, region.hi.as_ref())?);
+        Ok(Rc::clone(region.matrices.exact.get_or_init(|| ends)))
+    }
+
+    /// The same in short numbers, where there are such.
+    fn short<'r>(&self, region: &'r Region, anchor: Option<usize>) -> Option<&'r [Short; 2]> {
+        let of = || match &self.family {
+            Family::Linear(linear) => linear.short(&region.lo, region.hi.as_ref()),
+            Family::Condensed(_) => self.ends(region, anchor).ok()?.short(),
+        };
+        region.matrices.short.get_or_init(of).as_ref()
     }
 
     fn left_open(&self, region: &Region) -> OpenRegion {

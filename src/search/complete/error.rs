@@ -58,12 +58,6 @@ pub enum CompleteError {
     /// Nothing to merge.
     #[error("merge: expected at least one part")]
     NoParts,
-    /// The checker refuses leaf after leaf.
-    #[error("complete: the checker refuses more than {limit} leaves of the search (please report this)")]
-    TooManyRefused {
-        /// Leaves that were left open before giving up.
-        limit: usize,
-    },
     /// The checker refused a certificate: the one to go on with, or a defect of this program.
     #[error("the checker rejects the certificate: {0}")]
     Rejected(#[from] Rejected),

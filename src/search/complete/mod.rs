@@ -24,7 +24,7 @@ pub use merge::merge;
 
 use crate::certificate::{Certificate, Claim, CompleteSet, Node};
 use crate::certify::certificate;
-use crate::check::{AcceptedClaim, AcceptedCover, Reason, Rejected, check};
+use crate::check::{AcceptedClaim, AcceptedCover, audit, check};
 use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
 use skeleton::Prepared;
@@ -173,37 +173,18 @@ fn run(
     finish(problem, pencil, prepared, certificate)
 }
 
-/// Leaves that the checker may refuse before the whole is given up.
-const MAX_REFUSED: usize = 1000;
-
 /// Lets the checker read the certificate: what is reported is what it accepted. A leaf whose witness
 /// doubles have judged too well is left open.
 fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certificate: Certificate) -> Result<Completed, CompleteError> {
-    for _ in 0..MAX_REFUSED {
-        match check(problem, &certificate) {
-            Ok(accepted) => {
-                let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
-                let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
-                let x = cover.solutions.iter().map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s))).collect();
-                return Ok(Completed { certificate, cover, x });
-            }
-            Err(rejected) => reopen(&mut certificate, rejected)?,
-        }
+    let (accepted, refused) = audit(problem, &certificate)?;
+    for (piece, node) in refused {
+        let leaf = certificate.complete_set.as_mut().and_then(|set| set.pieces.get_mut(piece)).and_then(|p| p.tree.get_mut(node));
+        leaf.into_iter().for_each(|leaf| *leaf = Node::Open);
     }
-    Err(CompleteError::TooManyRefused { limit: MAX_REFUSED })
-}
-
-/// Opens the leaf that the checker names.
-fn reopen(certificate: &mut Certificate, rejected: Rejected) -> Result<(), CompleteError> {
-    if let Reason::Cover { piece: Some(piece), node: Some(node), .. } = rejected.reason
-        && let Some(set) = certificate.complete_set.as_mut()
-        && let Some(leaf) = set.pieces.get_mut(piece).and_then(|p| p.tree.get_mut(node))
-        && !matches!(leaf, Node::Split(_) | Node::Branch(_) | Node::Open)
-    {
-        *leaf = Node::Open;
-        return Ok(());
-    }
-    Err(rejected.into())
+    let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
+    let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
+    let x = cover.solutions.iter().map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s))).collect();
+    Ok(Completed { certificate, cover, x })
 }
 
 /// Runs in a pool of the wanted size, or in the default one.

@@ -1,0 +1,148 @@
+//! Enclosures of a matrix in machine integers. What holds for them holds for the matrix; what they cannot
+//! tell is computed with the long numbers of `family`. They are there for speed only.
+
+use super::family::Matrix;
+use crate::exact::Integer;
+use num_traits::{Signed, ToPrimitive};
+
+/// Bits of the largest entry, and of a factor of a combination.
+const BITS: u64 = 62;
+
+/// Each entry lies within r of m, in units of 2^`unit` (where the unit does not matter: of some
+/// positive number). All numbers are at most 2^62 in absolute value.
+pub(super) struct Short {
+    pub(super) m: Vec<Vec<i64>>,
+    pub(super) r: Vec<Vec<i64>>,
+    unit: u64,
+}
+
+impl Short {
+    /// M +- R, the principal part on `keep`; `None` where the radius is far larger than the matrix.
+    pub(super) fn of(m: &Matrix, r: &Matrix, keep: &[usize]) -> Option<Short> {
+        let pick = |list: &Matrix| keep.iter().map(|&i| keep.iter().map(|&j| list[i][j].clone()).collect()).collect::<Matrix>();
+        let (m, r) = (pick(m), pick(r));
+        let unit = m.iter().flatten().map(Integer::bits).max().unwrap_or(0).saturating_sub(BITS);
+        let cut = |v: &Integer, r: &Integer| {
+            let low = v >> unit;
+            let is_exact = &low << unit == *v;
+            around(low.to_i64()?, (r >> unit).to_i64()?, is_exact && !r.is_positive())
+        };
+        Short::from_entries(m.iter().zip(&r).map(|(m, r)| m.iter().zip(r).map(|(v, r)| cut(v, r))), unit)
+    }
+
+    /// p times this plus q times the other (p, q >= 0), in some unit.
+    pub(super) fn combine(&self, p: &Integer, other: &Short, q: &Integer) -> Option<Short> {
+        let low = self.unit.min(other.unit);
+        let (p, q) = (p << (self.unit - low), q << (other.unit - low));
+        let cut = p.bits().max(q.bits()).saturating_sub(BITS);
+        let is_exact = &p >> cut << cut == p && &q >> cut << cut == q;
+        let (p, q) = ((p >> cut).to_i128()?, (q >> cut).to_i128()?);
+        // A factor that was cut may be larger by one unit. Sums stay below 2^126.
+        let lost = i128::from(!is_exact);
+        let entry = |i: usize, j: usize| {
+            let (a, b) = (i128::from(self.m[i][j]), i128::from(other.m[i][j]));
+            let (s, t) = (i128::from(self.r[i][j]), i128::from(other.r[i][j]));
+            (p * a + q * b, p * s + q * t + lost * (a.abs() + s + b.abs() + t))
+        };
+        let n = self.m.len();
+        let rows: Vec<Vec<(i128, i128)>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
+        let largest = rows.iter().flatten().fold(0, |most: u128, (v, _)| most | v.unsigned_abs());
+        let unit = (128 - u64::from(largest.leading_zeros())).saturating_sub(BITS);
+        let cut = |(v, r): &(i128, i128)| around((v >> unit).to_i64()?, (r >> unit).to_i64()?, v >> unit << unit == *v && *r == 0);
+        Short::from_entries(rows.iter().map(|row| row.iter().map(cut)), unit)
+    }
+
+    fn from_entries(rows: impl Iterator<Item = impl Iterator<Item = Option<(i64, i64)>>>, unit: u64) -> Option<Short> {
+        let (mut m, mut r) = (Vec::new(), Vec::new());
+        for row in rows {
+            let row: Option<Vec<(i64, i64)>> = row.collect();
+            let (values, radii) = row?.into_iter().unzip();
+            m.push(values);
+            r.push(radii);
+        }
+        Some(Short { m, r, unit })
+    }
+
+    /// Upper bounds of (w'T)_j for every j of both signs of error; `None` for weights too long.
+    pub(super) fn product(&self, w: &[i64]) -> Option<Vec<i128>> {
+        // With |w| summing to less than 2^63 every sum below stays under 2^126.
+        let size: u128 = w.iter().map(|w| u128::from(w.unsigned_abs())).sum();
+        if size >= 1 << 63 {
+            return None;
+        }
+        let mut bound = vec![0i128; w.len()];
+        for (i, &w) in w.iter().enumerate().filter(|(_, w)| **w != 0) {
+            let (value, size) = (i128::from(w), i128::from(w.unsigned_abs()));
+            for (bound, (m, r)) in bound.iter_mut().zip(self.m[i].iter().zip(&self.r[i])) {
+                *bound += value * i128::from(*m) + size * i128::from(*r);
+            }
+        }
+        Some(bound)
+    }
+}
+
+/// A number and radius rounded down, with what rounding both may have cost.
+fn around(value: i64, radius: i64, is_exact: bool) -> Option<(i64, i64)> {
+    let radius = if is_exact { 0 } else { radius.checked_add(2)? };
+    (value.unsigned_abs() <= 1 << BITS && radius <= 1 << BITS).then_some((value, radius))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use num_traits::One;
+
+    fn big(rows: &[&[i64]], bits: u32) -> Matrix {
+        rows.iter().map(|r| r.iter().map(|&v| (Integer::from(v) << bits) + v.signum()).collect()).collect()
+    }
+
+    /// Does the enclosure contain p A + q B, entry by entry, if one unit of it is `unit`?
+    fn contains(short: &Short, exact: &Matrix, unit: &Integer) -> bool {
+        let holds = |i: usize, j: usize| (&exact[i][j] - unit * short.m[i][j]).abs() <= unit * short.r[i][j];
+        (0..exact.len()).all(|i| (0..exact.len()).all(|j| holds(i, j)))
+    }
+
+    #[test]
+    fn long_entries_are_enclosed_and_short_ones_exact() {
+        let zero = big(&[&[0, 0], &[0, 0]], 0);
+        let long = big(&[&[3, -5], &[0, 7]], 100);
+        let short = Short::of(&long, &zero, &[0, 1]).unwrap();
+        assert!(contains(&short, &long, &(Integer::one() << short.unit)));
+        assert_eq!(short.r[1][0], 0); // an exact zero stays one
+        assert!(short.r[0][0] > 0);
+        let exact = Short::of(&big(&[&[3, -5], &[0, 7]], 40), &zero, &[1]).unwrap();
+        assert_eq!((exact.m, exact.r, exact.unit), (vec![vec![(7 << 40) + 1]], vec![vec![0]], 0));
+        let wide = big(&[&[1, 1], &[1, 1]], 200);
+        assert!(Short::of(&long, &wide, &[0, 1]).is_none());
+    }
+
+    /// Entries and factors of every length, B a million times smaller or larger than A.
+    #[test]
+    fn combinations_enclose_the_exact_ones() {
+        for (bits_a, bits_b, p, q) in
+            [(100, 80, 3u64, 1 << 60), (20, 120, u64::MAX, 7), (61, 61, 1, 0), (10, 3, 5, 9), (90, 0, 1, u64::MAX)]
+        {
+            let (a, b) = (big(&[&[3, -5], &[0, 7]], bits_a), big(&[&[-1, 2], &[0, 1000]], bits_b));
+            let radius = |bits: u32| big(&[&[1, 2], &[0, 1]], bits.saturating_sub(50));
+            let (ra, rb) = (radius(bits_a), radius(bits_b));
+            let factor = |v: u64| (Integer::from(v) << 20) + 1;
+            let (p, q) = (factor(p), factor(q));
+            let short = Short::of(&a, &ra, &[0, 1]).unwrap().combine(&p, &Short::of(&b, &rb, &[0, 1]).unwrap(), &q).unwrap();
+            // The unit is not kept: read it off the largest entry, generously on both sides of it.
+            for sign in [-1, 1] {
+                let end: Matrix = (0..2)
+                    .map(|i| (0..2).map(|j| &p * (&a[i][j] + &ra[i][j] * sign) + &q * (&b[i][j] + &rb[i][j] * sign)).collect())
+                    .collect();
+                let fits = (0..400u32).any(|unit| contains(&short, &end, &(Integer::one() << unit)));
+                assert!(fits, "{bits_a} {bits_b} {sign}");
+            }
+        }
+    }
+
+    #[test]
+    fn products_bound_both_signs_of_the_radius() {
+        let short = Short { m: vec![vec![3, -4], vec![-5, 1]], r: vec![vec![1, 0], vec![2, 0]], unit: 0 };
+        assert_eq!(short.product(&[2, -1]), Some(vec![6 + 5 + 2 + 2, -8 - 1]));
+        assert_eq!(short.product(&[i64::MAX, 1]), None);
+    }
+}
