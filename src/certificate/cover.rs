@@ -47,6 +47,8 @@ pub enum Node {
     PositiveDefinite,
     /// The symmetric part is negative definite on what may move.
     NegativeDefinite,
+    /// sym(A + tB) of the pencil as given is definite on what may move, by exact factors.
+    Ldl(Box<Ldl>),
     /// The condensation's tail begins at or below this region.
     Tail,
     /// Every index is decided and the pencil has at most one null vector.
@@ -95,6 +97,27 @@ pub enum RootOutcome {
     NegativeY(usize),
     /// The solution of the claim with this number in the certificate, so nothing else is here.
     Claim(usize),
+}
+
+/// Exact factors of sym(A + tB) on the free variables and what may move, at both ends; at an infinite
+/// end of sym(B).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ldl {
+    /// At the lower end.
+    pub lower: LdlFactor,
+    /// At the upper end.
+    pub upper: LdlFactor,
+}
+
+/// L D L' with a unit lower triangular L.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LdlFactor {
+    /// Row i holds the i entries of L left of the diagonal.
+    pub rows: Vec<Vec<Number>>,
+    /// D.
+    pub diagonal: Vec<Number>,
 }
 
 /// Elimination of the free variables f by F(t) = T_ff(t), enclosed without inverting F.

@@ -4,9 +4,9 @@ use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinne
 use super::output::Output;
 use crate::candidate::{Candidate, read_report};
 use crate::certificate::{Certificate, Claim};
-use crate::certify::{NotCertified, certificate, certify};
-use crate::exact::{Rational, enclosing_decimals, parse};
-use crate::model::Problem;
+use crate::certify::{NotCertified, certificate, certify, lifted};
+use crate::exact::{Interval, Rational, enclosing_decimals, parse};
+use crate::model::{Body, Problem};
 use crate::multistart::same;
 use crate::reduction::reduce;
 use crate::search::complete::{CompleteError, Completed};
@@ -26,6 +26,9 @@ pub(super) struct Args {
     /// Write the certificate here instead of to stdout.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// For a mechanical system: state exact solutions as (v, w) over all degrees of freedom, each line of (9) checkable.
+    #[arg(long)]
+    lifted: bool,
     /// A solution that cannot be certified: prove what lies within this distance of its value.
     /// Default: 1e-4 (1 + |value|), then smaller ones, until a proof is found.
     #[arg(long, value_name = "R")]
@@ -77,6 +80,13 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         candidates.len()
     );
     let mut written: Vec<&Certificate> = Vec::new();
+    if let (true, Body::System(system)) = (args.lifted, problem.body()) {
+        for claim in &mut claims {
+            if let Claim::ExactSolution(c) = claim {
+                *claim = Claim::LiftedSolution(lifted(system, problem.unknown(), c));
+            }
+        }
+    }
     let own = (!claims.is_empty()).then(|| certificate(&problem, claims));
     written.extend(&own);
     let proofs = refused.iter().filter_map(|r| r.proof.as_ref());
@@ -146,7 +156,10 @@ impl Refused {
             Ok(Near::Absent(c)) => with(Verdict::Disproved, format!("REFUSED: no solution {} (proved)", interval(problem, &c)), c),
             Ok(Near::Others(c)) => {
                 let list: Vec<String> =
-                    c.cover.solutions.iter().map(|s| format!("{} with slip {:?}", enclosing_decimals(&s.value, 15).0, s.support)).collect();
+                    c.cover.solutions.iter().map(|s| {
+                    let (lo, hi) = enclosing_decimals(&s.value, 15);
+                    format!("[{lo}, {hi}] with slip {:?}", s.support)
+                }).collect();
                 let text =
                     format!("REFUSED: {} there is only {} (proved), with another x: {reason}", interval(problem, &c), list.join(", "));
                 with(Verdict::Disproved, text, c)
@@ -170,17 +183,19 @@ impl Refused {
     }
 }
 
-/// "with lambda2 in [a, b]", rounded outwards.
+/// "with lambda2 in [a, b]".
 fn interval(problem: &Problem, proved: &Completed) -> String {
     let window = &proved.certificate.window;
-    let around = window.max().and_then(|max| crate::exact::Interval::new(window.min().clone(), max.clone()));
-    // Rounding inwards is not at hand; nine digits of the ends are for reading, the certificate is exact.
-    let (lo, hi) = around.map_or_else(
-        || (window.min().to_string(), "infinity".into()),
-        |i| {
-            let of = |v: &Rational| format!("{:.9e}", crate::exact::to_f64(v));
-            (of(i.lo()), of(i.hi()))
-        },
-    );
-    format!("with {} in [{lo}, {hi}]", problem.unknown().word())
+    let max = window.max().map_or_else(|| "infinity)".into(), |max| format!("{}]", decimal(max)));
+    format!("with {} in [{}, {max}", problem.unknown().word(), decimal(window.min()))
+}
+
+/// The ends of such a window are short decimals, or those of the problem's window: exact where 17 digits suffice.
+fn decimal(v: &Rational) -> String {
+    let (lo, hi) = enclosing_decimals(&Interval::point(v.clone()), 17);
+    match lo == hi {
+        true if lo.contains('.') && !lo.contains('e') => lo.trim_end_matches('0').trim_end_matches('.').into(),
+        true => lo,
+        false => v.to_string(),
+    }
 }

@@ -3,7 +3,7 @@
 
 use super::complete::{CompleteError, Completed, Options, complete};
 use crate::candidate::Candidate;
-use crate::exact::{Integer, Rational, from_f64};
+use crate::exact::{Integer, Rational, from_f64, parse};
 use crate::model::{Problem, Window};
 use crate::tolerance::{ABSENCE_RADII, X_RADIUS};
 use num_traits::Signed;
@@ -48,7 +48,7 @@ pub fn near(problem: &Problem, candidate: &Candidate, radius: Option<&Rational>,
     let scale = Rational::from_integer(Integer::from(1)) + value.abs();
     let radii = match radius {
         Some(r) => vec![r.clone()],
-        None => ABSENCE_RADII.iter().filter_map(|r| from_f64(*r).ok()).map(|r| r * &scale).collect(),
+        None => ABSENCE_RADII.iter().filter_map(|r| parse(&format!("{r:e}")).ok()).map(|r| r * &scale).collect(),
     };
     let mut last = Near::OutsideWindow;
     for r in radii {
@@ -62,12 +62,26 @@ pub fn near(problem: &Problem, candidate: &Candidate, radius: Option<&Rational>,
     Ok(last)
 }
 
-/// [value - r, value + r] within the window.
+/// [value - r, value + r] within the window, rounded outwards to short decimals.
 fn around(window: &Window, value: &Rational, radius: &Rational) -> Option<Window> {
-    let lo = (value - radius).max(window.min().clone());
-    let hi = value + radius;
+    let grid = grid(radius);
+    let lo = (((value - radius) / &grid).floor() * &grid).max(window.min().clone());
+    let hi = ((value + radius) / &grid).ceil() * &grid;
     let hi = window.max().map_or(hi.clone(), |max| hi.min(max.clone()));
     Window::new(lo, Some(hi)).ok()
+}
+
+/// A power of ten between r / 1000 and r / 100.
+fn grid(radius: &Rational) -> Rational {
+    let ten = Rational::from_integer(Integer::from(10));
+    let (mut grid, limit) = (Rational::from_integer(Integer::from(1)), radius / (&ten * &ten));
+    while grid > limit {
+        grid /= &ten;
+    }
+    while &grid * &ten <= limit {
+        grid *= &ten;
+    }
+    grid
 }
 
 fn judge(completed: Completed, candidate: &Candidate) -> Near {

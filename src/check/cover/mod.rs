@@ -8,6 +8,7 @@ mod definite;
 mod expanded;
 mod family;
 mod fault;
+mod ldl;
 mod leaf;
 mod psd;
 mod root;
@@ -87,7 +88,7 @@ pub(super) fn check(rows: &Rows, window: &Window, claims: &[AcceptedSolution<'_>
         condensed::tail(rows, tail).map_err(whole)?;
     }
     let tail = tail.map(|t| &t.from.0);
-    let mut walk = Walk { family, index, window, tail, claims, found: Vec::new(), open: Vec::new(), leaves: 0 };
+    let mut walk = Walk { rows, family, index, window, tail, claims, found: Vec::new(), open: Vec::new(), leaves: 0 };
     let mut lo = window.min().clone();
     for (k, piece) in cover.pieces.iter().enumerate() {
         let is_last = k + 1 == cover.pieces.len();
@@ -113,6 +114,7 @@ fn end(max: Option<&Rational>) -> String {
 }
 
 struct Walk<'a> {
+    rows: &'a Rows,
     family: Family,
     /// The complementarity variables: positions in states and matrices to indices of the problem.
     index: Vec<usize>,
@@ -192,6 +194,7 @@ impl Walk<'_> {
             Node::Farkas(w) => leaf::farkas(&region, &*self.ends(&region, anchor)?, &self.index, w)?,
             Node::PositiveDefinite => leaf::definite(&region, &*self.ends(&region, anchor)?, 1)?,
             Node::NegativeDefinite => leaf::definite(&region, &*self.ends(&region, anchor)?, -1)?,
+            Node::Ldl(witness) => ldl::check(self.rows, &region, &self.index, witness)?,
             Node::Root(root) => {
                 let found = self.root(&region, anchor, root)?;
                 self.found.extend(found);
