@@ -67,13 +67,20 @@ def integer(s, low=None, high=None):
     return int(q)
 
 
+def counter(s, low=0, high=None):
+    """An index, weight or exponent of a certificate: a JSON number spelt as an integer."""
+    if not isinstance(s, Spelt) or not re.fullmatch(r"-?\d+", s):
+        raise Unreadable("an integer as a JSON number was expected")
+    return integer(s, low, high)
+
+
 def index(s, n):
     return integer(s, 0, n - 1)
 
 
 def place_in(s, n):
     """An index in a certificate: one that names nothing is a claim not met."""
-    i = integer(s, 0)
+    i = counter(s)
     demand(i < n, f"no index {i}")
     return i
 
@@ -533,7 +540,7 @@ def enclosed_solution(p, rows, window, obj):
     support, center, radius, y, exponent = fields(obj, "support center radius preconditioner exponent")
     support = [place_in(i, p.n) for i in sequence(support)]
     center, radius = ([number(v) for v in sequence(l)] for l in (center, radius))
-    exponent = integer(exponent, 0)
+    exponent = counter(exponent)
     y = [[integer(v) for v in sequence(r)] for r in sequence(y)]
     ascending(support, p.s)  # 1
     active = sorted([*p.free, *support])
@@ -853,7 +860,7 @@ REST, OPEN, MOVING = "rest", "open", "moving"
 def farkas(ends, state, weights):
     n = len(state)
     demand(len(sequence(weights)) == n, "farkas: length")
-    w = [integer(x, -(2**63), 2**63 - 1) for x in weights]
+    w = [counter(x, -(2**63), 2**63 - 1) for x in weights]
     demand(all(x >= 0 or st == MOVING for x, st in zip(w, state)), "farkas: a negative weight")
     may = [j for j in range(n) if state[j] != REST]
     strict = set()
@@ -925,9 +932,9 @@ class Root:
         moving = [j for j, st in enumerate(state) if st == MOVING]
         rest = [j for j, st in enumerate(state) if st == REST]
         place = {i: k for k, i in enumerate(s)}
-        k = place.get(integer(pivot, 0))
+        k = place.get(counter(pivot))
         demand(len(moving) + len(rest) == len(state) and k in moving and hi is not None, "root: undecided variables, pivot, or an infinite end")
-        ey, ex = integer(ey, 0), integer(ex, 0)
+        ey, ex = counter(ey, 0, 2**32 - 1), counter(ex, 0, 2**32 - 1)
         demand(max(ex, ey) <= 16_384, "root: exponents")
         self.a, self.b = pair(interval)
         demand(self.a <= self.b, "root: interval")
@@ -979,12 +986,13 @@ class Root:
             return eps(ends, e, full_v, y, abs_y, rho, False)
         ev = max(eps_v(wide, 0), eps_v(wide, 1))  # 2
         eu = max(eps(wide, e, full_u, yt, abs_yt, eta, True) for e in (0, 1))
+        ru, rv = (Q(ceil(e * 2**ex), 2**ex) for e in (eu, ev))
         slope = bound = Q(0)  # 3, times the unit
         for i in moving:
             for j in moving:
                 dm, dd = wide.both[1][0][i][j] - wide.both[0][0][i][j], wide.d[i][j]
                 x, w = full_u[i], full_v[j]
-                ei, ej = (Q(0) if i == k else eu), (Q(0) if j == k else ev)
+                ei, ej = (Q(0) if i == k else ru), (Q(0) if j == k else rv)
                 slope += x * dm * w
                 bound += dd * abs(x * w) + (abs(dm) + dd) * (ei * abs(w) + abs(x) * ej + ei * ej)
         demand(abs(slope) > bound, "root 3: not monotone")
@@ -1022,16 +1030,26 @@ class Root:
             demand(all(x > error for x in v) and all(y_sign(i) == 1 for i in rest), "root 5: not a solution")
             self.yields = True
         elif isinstance(outcome, dict) and "negative_x" in outcome:
-            i = place.get(integer(fields(outcome, "negative_x")[0], 0))
+            i = place.get(counter(fields(outcome, "negative_x")[0]))
             demand(i in others and full_v[i] < -error, "root 5: negative_x")
         elif isinstance(outcome, dict) and "negative_y" in outcome:
-            i = place.get(integer(fields(outcome, "negative_y")[0], 0))
+            i = place.get(counter(fields(outcome, "negative_y")[0]))
             demand(i in rest and y_sign(i) == -1, "root 5: negative_y")
         else:
             raise Unreadable("root: outcome")
 
 
 # ---------------------------------------------------------------- the cover
+
+WORDS = ("positive_definite", "negative_definite", "tail", "open")
+OBJECTS = ("split", "branch", "farkas", "ldl", "root")
+
+
+def shape(node):
+    """A node of no known kind makes the whole file malformed, wherever it stands."""
+    if not (isinstance(node, str) and node in WORDS) and not (isinstance(node, dict) and len(node) == 1 and set(node) <= set(OBJECTS)):
+        raise Unreadable("unknown node")
+
 
 def complete_set(p, rows, window, claims, obj):
     """The number of solutions and of open leaves of the cover."""
@@ -1052,6 +1070,8 @@ def complete_set(p, rows, window, claims, obj):
             demand(end == window[1] and (end is None or end > start or len(pieces) == 1), "cover: the last piece")
         else:
             demand(end is not None and start < end and (window[1] is None or end < window[1]), "cover: a piece's max")
+        for node in sequence(tree):
+            shape(node)
         regions = [(start, end, (OPEN,) * len(p.s))]
         for node in sequence(tree):
             demand(regions, "cover: nodes after the end of a tree")

@@ -59,7 +59,7 @@ fn every_solution_of_random_systems_is_accepted_lifted_and_its_forgeries_are_not
 
 /// Free dof 0, slip particle (1, 2) with S = 1, stick particle (3, 4), a second slip particle (5, 6).
 fn example() -> (Problem, LiftedSolution) {
-    let mut k = vec![(0, 1, 1), (1, 0, 1), (1, 2, -9), (2, 1, -9), (1, 5, -1), (5, 1, -1)];
+    let mut k = vec![(0, 1, 1), (1, 0, 1), (1, 2, -9), (2, 1, -9), (1, 5, 1), (5, 1, 1)];
     k.extend((0..7).map(|i| (i, i, 4)));
     let k = Sparse::from_entries(7, 7, k.into_iter().map(|(i, j, v)| (i, j, whole(v))));
     let slip = ContactState::Slip { sign: 1 };

@@ -23,13 +23,19 @@ pub struct CompleteSet {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
-    /// Upper end, where the next piece begins; null for infinity.
+    /// Upper end, where the next piece begins; null for infinity, but not absent.
+    #[serde(deserialize_with = "present")]
     pub max: Option<Number>,
     /// The anchor of the condensation that encloses the pencil here.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub anchor: Option<usize>,
     /// The tree in preorder.
     pub tree: Vec<Node>,
+}
+
+/// A number or null: a missing field is refused.
+fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::Error> {
+    Option::deserialize(d)
 }
 
 /// A node of the tree, in preorder. Leaves prove that nothing lies in them, or exactly what.

@@ -31,7 +31,7 @@ pub(super) struct Args {
     lifted: bool,
     /// A solution that cannot be certified: prove what lies within this distance of its value.
     /// Default: 1e-4 (1 + |value|), then smaller ones, until a proof is found.
-    #[arg(long, value_name = "R")]
+    #[arg(long, value_name = "R", allow_hyphen_values = true)]
     absence_radius: Option<String>,
     /// Write the proof for refused solution K to DIR/absence-K.json.
     #[arg(long, value_name = "DIR")]
@@ -155,11 +155,15 @@ impl Refused {
             }
             Ok(Near::Absent(c)) => with(Verdict::Disproved, format!("REFUSED: no solution {} (proved)", interval(problem, &c)), c),
             Ok(Near::Others(c)) => {
-                let list: Vec<String> =
-                    c.cover.solutions.iter().map(|s| {
-                    let (lo, hi) = enclosing_decimals(&s.value, 15);
-                    format!("[{lo}, {hi}] with slip {:?}", s.support)
-                }).collect();
+                let list: Vec<String> = c
+                    .cover
+                    .solutions
+                    .iter()
+                    .map(|s| {
+                        let (lo, hi) = enclosing_decimals(&s.value, 15);
+                        format!("[{lo}, {hi}] with slip {:?}", s.support)
+                    })
+                    .collect();
                 let text =
                     format!("REFUSED: {} there is only {} (proved), with another x: {reason}", interval(problem, &c), list.join(", "));
                 with(Verdict::Disproved, text, c)
