@@ -39,7 +39,7 @@ fn common(
     biactive: &mut Vec<usize>,
     polynomial: &mut Vec<Integer>,
     interval: &mut [Number; 2],
-    x: &mut Vec<Vec<Number>>,
+    x: &mut [Vec<Number>],
     rng: &mut ChaCha8Rng,
 ) {
     let variables = x.len().max(1);
@@ -50,15 +50,15 @@ fn common(
         3 => {
             let k = rng.random_range(0..polynomial.len().max(1));
             if let Some(c) = polynomial.get_mut(k) {
-                *c += rng.random_range(-2..=2);
+                *c += Integer::from(rng.random_range(-2i64..=2));
             }
         }
         // A factor more: the root stays one, alone or not.
         4 => {
-            let root = rng.random_range(-3..=3);
+            let root = Integer::from(rng.random_range(-3i64..=3));
             let mut product = vec![Integer::default(); polynomial.len() + 1];
             for (k, c) in polynomial.iter().enumerate() {
-                product[k] -= c * root;
+                product[k] -= c * &root;
                 product[k + 1] += c;
             }
             *polynomial = product;
@@ -112,23 +112,25 @@ fn enclosed(c: &mut EnclosedSolution, rng: &mut ChaCha8Rng) {
     match rng.random_range(0..7) {
         0 => toggle(&mut c.support, k),
         1 | 2 => c.center.iter_mut().skip(k).take(1).for_each(|v| v.0 += &by),
-        3 => c.radius.iter_mut().skip(k).take(1).for_each(|v| v.0 *= rational(1 << rng.random_range(0..24), 16)),
+        3 => c.radius.iter_mut().skip(k).take(1).for_each(|v| v.0 *= rational(1i64 << rng.random_range(0..24u32), 16)),
         4 => c.radius.iter_mut().skip(k).take(1).for_each(|v| v.0 += &by),
         5 => c.exponent = c.exponent.saturating_add_signed(rng.random_range(-1..=1)),
-        _ => c.preconditioner.iter_mut().skip(k).flatten().take(1).for_each(|v| *v += rng.random_range(-3..=3)),
+        _ => c.preconditioner.iter_mut().skip(k).flatten().take(1).for_each(|v| *v += Integer::from(rng.random_range(-3i64..=3))),
     }
 }
 
 fn toggle(set: &mut Vec<usize>, index: usize) {
     match set.binary_search(&index) {
-        Ok(k) => drop(set.remove(k)),
+        Ok(k) => {
+            set.remove(k);
+        }
         Err(k) => set.insert(k, index),
     }
 }
 
 /// A step between one and 1e-30, of either sign.
 fn small(rng: &mut ChaCha8Rng) -> Rational {
-    let sign = if rng.random_range(0..2) == 0 { 1 } else { -1 };
+    let sign = if rng.random_range(0..2) == 0 { 1i64 } else { -1 };
     let size = Integer::from(10).pow(rng.random_range(0..=30));
     Rational::new(Integer::from(sign), size)
 }
