@@ -67,13 +67,20 @@ def integer(s, low=None, high=None):
     return int(q)
 
 
+def counter(s, low=0, high=None):
+    """An index, weight or exponent of a certificate: a JSON number spelt as an integer."""
+    if not isinstance(s, Spelt) or not re.fullmatch(r"-?\d+", s):
+        raise Unreadable("an integer as a JSON number was expected")
+    return integer(s, low, high)
+
+
 def index(s, n):
     return integer(s, 0, n - 1)
 
 
 def place_in(s, n):
     """An index in a certificate: one that names nothing is a claim not met."""
-    i = integer(s, 0)
+    i = counter(s)
     demand(i < n, f"no index {i}")
     return i
 
@@ -245,6 +252,7 @@ class Problem:
             raise Unreadable("unknown is lambda2 or mu; exactly one of pencil and system")
         read_window(window)
         folder = os.path.dirname(os.path.abspath(path))
+        self.system = None
         text = ["mceip-canonical/1", f"unknown {self.unknown}"]
         text += self.read_pencil(pencil, folder) if system is None else self.read_system(system, folder)
         self.digest = hashlib.sha256("".join(line + "\n" for line in text).encode()).hexdigest()
@@ -278,7 +286,7 @@ class Problem:
         if self.unknown == "lambda2" and (m is None or mu is None):
             raise Unreadable("lambda2 needs mass and friction")
         text = ["system"] + ([] if mu is None else [f"friction {mu}"])
-        held, trial, test = set(), [], []
+        held, trial, test, slips, sticks = set(), [], [], [], []
         for p in sequence(particles):
             t, n, state, tangent, normal, sign = self.read_particle(p, order, mu)
             if held & {t, n} or t == n:
@@ -290,12 +298,16 @@ class Problem:
             if state == "free":
                 held -= {t, n}
                 self.loose = getattr(self, "loose", set()) | {t, n}
+            elif state == "stick":
+                sticks += [t, n]
             elif state == "slip":  # E10: v = -S x tangent; E11: y = -(S w_T + mu w_N)
+                slips.append((tangent, normal, sign))
                 trial.append({d: -sign * c for d, c in tangent.items()})
                 test.append(({d: -sign * c for d, c in tangent.items()}, {d: -c for d, c in normal.items()}))
         if held & getattr(self, "loose", set()):
             raise Unreadable("a dof in two particles")
         free = [d for d in range(order) if d not in held]
+        self.system = k.rows, None if m is None else m.rows, mu, slips, sticks, free
         trial = [{d: Q(1)} for d in free] + trial
         test = [({d: Q(1)}, {}) for d in free] + test
         if self.unknown == "lambda2":  # E15
@@ -401,6 +413,25 @@ def ascending(items, allowed):
     demand(all(i < j for i, j in zip(items, items[1:])) and set(items) <= set(allowed), "1: not an ascending list of complementarity variables")
 
 
+def isolated(poly, x, a, b):
+    """Sizes, and [a, b] isolates one root of p: obligations 1 and 2. Returns p with a positive leading coefficient."""
+    longest = max(map(len, x))
+    demand(max(len(poly), longest) <= 512, "1: more than 512 coefficients")
+    bits = max([abs(c).bit_length() for c in poly] + [abs(c.numerator).bit_length() + c.denominator.bit_length() for r in [*x, (a, b)] for c in r])
+    demand((len(poly) + longest) * bits <= 2**21, "1: too much work")
+    poly = strip(poly)  # 2
+    demand(len(poly) >= 2 and a <= b, "2: degree or interval")
+    if poly[-1] < 0:
+        poly = [-c for c in poly]
+    ends = horner(poly, a, a)[0], horner(poly, b, b)[0]
+    if a == b:
+        demand(ends[0] == 0, "2: not a root")
+    else:
+        low, high = horner([k * c for k, c in enumerate(poly)][1:], a, b)
+        demand((ends[0] > 0) != (ends[1] > 0) and 0 not in ends and (low > 0 or high < 0), "2: not exactly one root")
+    return poly
+
+
 def exact_solution(p, rows, window, obj):
     support, biactive, poly, interval, x = fields(obj, "support biactive polynomial interval x")
     support, biactive = ([place_in(i, p.n) for i in sequence(l)] for l in (support, biactive))
@@ -412,20 +443,7 @@ def exact_solution(p, rows, window, obj):
     demand(not set(support) & set(biactive), "1: a variable both in the support and biactive")
     demand(len(x) == p.n, "1: one polynomial per variable")
     longest = max(map(len, x))
-    demand(max(len(poly), longest) <= 512, "1: more than 512 coefficients")
-    bits = max([abs(c).bit_length() for c in poly] + [max(abs(c.numerator).bit_length(), c.denominator.bit_length()) for r in x for c in r]
-               + [max(abs(q.numerator).bit_length(), q.denominator.bit_length()) for q in (a, b)])
-    demand(len(poly) * longest * bits <= 2**21, "1: too much work")
-    poly = strip(poly)  # 2
-    demand(len(poly) >= 2 and a <= b, "2: degree or interval")
-    if poly[-1] < 0:
-        poly = [-c for c in poly]
-    ends = horner(poly, a, a)[0], horner(poly, b, b)[0]
-    if a == b:
-        demand(ends[0] == 0, "2: not a root")
-    else:
-        low, high = horner([k * c for k, c in enumerate(poly)][1:], a, b)
-        demand((ends[0] > 0) != (ends[1] > 0) and 0 not in ends and (low > 0 or high < 0), "2: not exactly one root")
+    poly = isolated(poly, x, a, b)
     inside(window, a, b, "3")
     scale = lcm(1, *(c.denominator for r in x for c in r))
     x = [[int(c * scale) for c in r] for r in x]
@@ -449,6 +467,60 @@ def exact_solution(p, rows, window, obj):
     return support, biactive, a, b
 
 
+def lifted_solution(p, rows, window, obj):
+    """v and w over all dofs: the lines of (9), from K, M, mu and the states (F, lifted_solution)."""
+    support, biactive, poly, interval, v, w = fields(obj, "support biactive polynomial interval v w")
+    support, biactive = ([place_in(i, p.n) for i in sequence(l)] for l in (support, biactive))
+    poly = [integer(c) for c in sequence(poly)]
+    v, w = ([[number(c) for c in sequence(r)] for r in sequence(l)] for l in (v, w))
+    a, b = pair(interval)
+    demand(p.system is not None, "lifted: the problem is no system")
+    k, m, mu, slips, sticks, free = p.system
+    ascending(support, p.s)
+    ascending(biactive, p.s)
+    demand(not set(support) & set(biactive), "lifted 1: a variable both in the support and biactive")
+    demand(len(v) == len(w) == len(k), "lifted 1: one polynomial per dof")
+    poly = isolated(poly, v + w, a, b)
+    inside(window, a, b, "3")
+
+    def plus(*terms):
+        """A positive multiple of the sum of factor t^shift g, mod p."""
+        out = [Q(0)] * (max((len(g) + shift for _, g, shift in terms), default=0))
+        for factor, g, shift in terms:
+            for i, c in enumerate(g):
+                out[i + shift] += factor * c
+        scale = lcm(1, *(c.denominator for c in out))
+        return remainder([int(c * scale) for c in out], poly)
+
+    def along(direction, factor, values, shift=0):
+        return [(factor * c, values[d], shift) for d, c in direction.items() if c]
+    for i in range(len(k)):
+        terms = [(x, v[j], 0) for j, x in k[i].items()] + [(Q(-1), w[i], 0)]
+        if p.unknown == "lambda2":
+            terms += [(x, v[j], 1) for j, x in m[i].items()]
+        demand(not plus(*terms), f"lifted 2: (lambda^2 M + K) v = w at dof {i}")
+    for i in free:
+        demand(not plus((Q(1), w[i], 0)), f"lifted 3: w_f = 0 at dof {i}")
+    for i in sticks:
+        demand(not plus((Q(1), v[i], 0)), f"lifted 4: v_d = 0 at dof {i}")
+    for place, (tangent, normal, sign) in enumerate(slips, len(free)):
+        demand(not plus(*along(normal, Q(1), v)), f"lifted 5: v_N = 0 at variable {place}")
+        rate = plus(*along(tangent, Q(sign), v))
+        if p.unknown == "lambda2":
+            cone = plus(*along(tangent, Q(sign), w), *along(normal, mu, w))
+        else:
+            cone = plus(*along(tangent, Q(sign), w), *along(normal, Q(1), w, 1))
+        if place in support:
+            demand(horner(rate, a, b)[1] < 0 and not cone, f"lifted 6: variable {place} slips")
+        elif place in biactive:
+            demand(not rate and not cone, f"lifted 6: variable {place} is biactive")
+        else:
+            demand(not rate and horner(cone, a, b)[1] < 0, f"lifted 6: variable {place} rests")
+    if not support:
+        demand(any((e := horner(plus((Q(1), v[i], 0)), a, b))[0] > 0 or e[1] < 0 for i in free), "lifted 7: v may be zero")
+    return support, biactive, a, b
+
+
 def pair(obj):
     if len(sequence(obj)) != 2:
         raise Unreadable("an interval is [a, b]")
@@ -468,7 +540,7 @@ def enclosed_solution(p, rows, window, obj):
     support, center, radius, y, exponent = fields(obj, "support center radius preconditioner exponent")
     support = [place_in(i, p.n) for i in sequence(support)]
     center, radius = ([number(v) for v in sequence(l)] for l in (center, radius))
-    exponent = integer(exponent, 0)
+    exponent = counter(exponent)
     y = [[integer(v) for v in sequence(r)] for r in sequence(y)]
     ascending(support, p.s)  # 1
     active = sorted([*p.free, *support])
@@ -788,7 +860,7 @@ REST, OPEN, MOVING = "rest", "open", "moving"
 def farkas(ends, state, weights):
     n = len(state)
     demand(len(sequence(weights)) == n, "farkas: length")
-    w = [integer(x, -(2**63), 2**63 - 1) for x in weights]
+    w = [counter(x, -(2**63), 2**63 - 1) for x in weights]
     demand(all(x >= 0 or st == MOVING for x, st in zip(w, state)), "farkas: a negative weight")
     may = [j for j in range(n) if state[j] != REST]
     strict = set()
@@ -810,6 +882,30 @@ def definite(ends, state, sign):
         for i, x in enumerate(radius):
             s[i][i] -= x
         demand(positive_definite(s), "definite: not so")
+
+
+def ldl(p, lo, hi, state, obj):
+    """Exact factors of sym(A + tB) at both ends (C, Leaves)."""
+    resting = {i for i, st in zip(p.s, state) if st == REST}
+    active = [i for i in range(p.n) if i not in resting]
+    n, sign = len(active), None
+    for end, factor, (ka, kb) in zip((0, 1), fields(obj, "lower upper"), ((1, lo), (0, 1) if hi is None else (1, hi))):
+        rows, diagonal = fields(factor, "rows diagonal")
+        rows, diagonal = [[number(v) for v in sequence(r)] for r in sequence(rows)], [number(v) for v in sequence(diagonal)]
+        demand(len(diagonal) == len(rows) == n <= 128 and all(len(r) == i for i, r in enumerate(rows)), "ldl: lengths")
+        bits = max((abs(v.numerator).bit_length() + v.denominator.bit_length() for r in [*rows, diagonal] for v in r), default=0)
+        demand(n * n * bits <= 2**22, "ldl: too much work")
+        if sign is None:
+            sign = -1 if diagonal and diagonal[0] < 0 else 1
+        weak = end == 1 and hi is None
+        demand(all(sign * d > 0 or (weak and d == 0) for d in diagonal), "ldl: not definite")
+        for i, r in enumerate(rows):
+            left = [*r, Q(1)]
+            for j in range(i + 1):
+                x, y = active[i], active[j]
+                wanted = sum((ka * self_a.get(c, 0) + kb * self_b.get(c, 0) for self_a, self_b, c in ((p.a[x], p.b[x], y), (p.a[y], p.b[y], x))), Q(0)) / 2
+                right = [*rows[j], Q(1)]
+                demand(sum(left[k] * diagonal[k] * right[k] for k in range(j + 1)) == wanted, f"ldl: entry ({x}, {y})")
 
 
 def positive_definite(s):
@@ -836,9 +932,9 @@ class Root:
         moving = [j for j, st in enumerate(state) if st == MOVING]
         rest = [j for j, st in enumerate(state) if st == REST]
         place = {i: k for k, i in enumerate(s)}
-        k = place.get(integer(pivot, 0))
+        k = place.get(counter(pivot))
         demand(len(moving) + len(rest) == len(state) and k in moving and hi is not None, "root: undecided variables, pivot, or an infinite end")
-        ey, ex = integer(ey, 0), integer(ex, 0)
+        ey, ex = counter(ey, 0, 2**32 - 1), counter(ex, 0, 2**32 - 1)
         demand(max(ex, ey) <= 16_384, "root: exponents")
         self.a, self.b = pair(interval)
         demand(self.a <= self.b, "root: interval")
@@ -890,12 +986,13 @@ class Root:
             return eps(ends, e, full_v, y, abs_y, rho, False)
         ev = max(eps_v(wide, 0), eps_v(wide, 1))  # 2
         eu = max(eps(wide, e, full_u, yt, abs_yt, eta, True) for e in (0, 1))
+        ru, rv = (Q(ceil(e * 2**ex), 2**ex) for e in (eu, ev))
         slope = bound = Q(0)  # 3, times the unit
         for i in moving:
             for j in moving:
                 dm, dd = wide.both[1][0][i][j] - wide.both[0][0][i][j], wide.d[i][j]
                 x, w = full_u[i], full_v[j]
-                ei, ej = (Q(0) if i == k else eu), (Q(0) if j == k else ev)
+                ei, ej = (Q(0) if i == k else ru), (Q(0) if j == k else rv)
                 slope += x * dm * w
                 bound += dd * abs(x * w) + (abs(dm) + dd) * (ei * abs(w) + abs(x) * ej + ei * ej)
         demand(abs(slope) > bound, "root 3: not monotone")
@@ -933,10 +1030,10 @@ class Root:
             demand(all(x > error for x in v) and all(y_sign(i) == 1 for i in rest), "root 5: not a solution")
             self.yields = True
         elif isinstance(outcome, dict) and "negative_x" in outcome:
-            i = place.get(integer(fields(outcome, "negative_x")[0], 0))
+            i = place.get(counter(fields(outcome, "negative_x")[0]))
             demand(i in others and full_v[i] < -error, "root 5: negative_x")
         elif isinstance(outcome, dict) and "negative_y" in outcome:
-            i = place.get(integer(fields(outcome, "negative_y")[0], 0))
+            i = place.get(counter(fields(outcome, "negative_y")[0]))
             demand(i in rest and y_sign(i) == -1, "root 5: negative_y")
         else:
             raise Unreadable("root: outcome")
@@ -1157,6 +1254,16 @@ class Support:
 
 # ---------------------------------------------------------------- the cover
 
+WORDS = ("positive_definite", "negative_definite", "tail", "open")
+OBJECTS = ("split", "branch", "farkas", "ldl", "root")
+
+
+def shape(node):
+    """A node of no known kind makes the whole file malformed, wherever it stands."""
+    if not (isinstance(node, str) and node in WORDS) and not (isinstance(node, dict) and len(node) == 1 and set(node) <= set(OBJECTS)):
+        raise Unreadable("unknown node")
+
+
 def complete_set(p, rows, window, claims, obj):
     """The number of solutions, of families and of open leaves of the cover."""
     pieces, condensation = fields(obj, "pieces", "condensation")
@@ -1176,6 +1283,8 @@ def complete_set(p, rows, window, claims, obj):
             demand(end == window[1] and (end is None or end > start or len(pieces) == 1), "cover: the last piece")
         else:
             demand(end is not None and start < end and (window[1] is None or end < window[1]), "cover: a piece's max")
+        for node in sequence(tree):
+            shape(node)
         regions = [(start, end, (OPEN,) * len(p.s))]
         for node in sequence(tree):
             demand(regions, "cover: nodes after the end of a tree")
@@ -1197,6 +1306,8 @@ def complete_set(p, rows, window, claims, obj):
                 farkas(pencil.ends(lo, hi, anchor), state, value)
             elif kind in ("positive_definite", "negative_definite") and value is None:
                 definite(pencil.ends(lo, hi, anchor), state, 1 if kind[0] == "p" else -1)
+            elif kind == "ldl" and value is not None:
+                ldl(p, lo, hi, state, value)
             elif kind == "root" and value is not None:
                 leaf = Root(pencil, window, lo, hi, anchor, state, p.s, claims, value)
                 found += [leaf] if leaf.yields else []
@@ -1252,9 +1363,10 @@ def check(problem_path, certificate_path):
         if not isinstance(c, dict) or len(c) != 1:
             raise Unreadable("a claim is an object with one key")
         (kind, body), = c.items()
-        if kind not in ("exact_solution", "enclosed_solution"):
+        kinds = {"exact_solution": exact_solution, "enclosed_solution": enclosed_solution, "lifted_solution": lifted_solution}
+        if kind not in kinds:
             raise Unreadable(f"unknown claim {kind[:40]!r}")
-        claims.append((exact_solution if kind == "exact_solution" else enclosed_solution)(p, rows, window, body))
+        claims.append(kinds[kind](p, rows, window, body))
     text = f"{len(claims)} claim(s)"
     if complete is None:
         return 0, f"ACCEPTED: {text}"

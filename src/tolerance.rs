@@ -100,3 +100,8 @@ pub const TAIL_START: f64 = 1e-6;
 /// The same on a condensed pencil, once its radius has been taken off. Unit: as [`WITNESS_MARGIN`].
 /// Basis: a thousand times what the checker's exact condensation and the one in doubles differ by.
 pub const CONDENSED_MARGIN: f64 = 1e-9;
+
+/// Radii, relative to 1 + |value|, within which a refused candidate is proved to have no solution near
+/// it, largest first. Unit: none. Basis: the first is [`VALUE_RADIUS`], where certification looks; the
+/// smaller ones are for windows that another, degenerate solution keeps open.
+pub const ABSENCE_RADII: [f64; 3] = [VALUE_RADIUS, 1e-7, 1e-10];

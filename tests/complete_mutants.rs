@@ -83,7 +83,7 @@ fn alter(node: &mut Node, variables: usize, rng: &mut ChaCha8Rng) {
         }
         Node::PositiveDefinite => *node = Node::NegativeDefinite,
         Node::NegativeDefinite => *node = Node::PositiveDefinite,
-        Node::Tail | Node::Open => *node = Node::PositiveDefinite,
+        Node::Tail | Node::Open | Node::Ldl(_) => *node = Node::PositiveDefinite,
         Node::Support(leaf) => alter_support(leaf, rng),
         Node::Root(r) => match rng.random_range(0..6) {
             0 => r.outcome = RootOutcome::Absent,

@@ -23,13 +23,19 @@ pub struct CompleteSet {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Piece {
-    /// Upper end, where the next piece begins; null for infinity.
+    /// Upper end, where the next piece begins; null for infinity, but not absent.
+    #[serde(deserialize_with = "present")]
     pub max: Option<Number>,
     /// The anchor of the condensation that encloses the pencil here.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub anchor: Option<usize>,
     /// The tree in preorder.
     pub tree: Vec<Node>,
+}
+
+/// A number or null: a missing field is refused.
+fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::Error> {
+    Option::deserialize(d)
 }
 
 /// A node of the tree, in preorder. Leaves prove that nothing lies in them, or exactly what.
@@ -47,6 +53,8 @@ pub enum Node {
     PositiveDefinite,
     /// The symmetric part is negative definite on what may move.
     NegativeDefinite,
+    /// sym(A + tB) of the pencil as given is definite on what may move, by exact factors.
+    Ldl(Box<Ldl>),
     /// The condensation's tail begins at or below this region.
     Tail,
     /// Every index is decided and the pencil has at most one null vector.
@@ -162,6 +170,27 @@ pub struct Alone {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Polynomials(#[serde(with = "integer_rows")] pub Vec<Vec<Integer>>);
+
+/// Exact factors of sym(A + tB) on the free variables and what may move, at both ends; at an infinite
+/// end of sym(B).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ldl {
+    /// At the lower end.
+    pub lower: LdlFactor,
+    /// At the upper end.
+    pub upper: LdlFactor,
+}
+
+/// L D L' with a unit lower triangular L.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LdlFactor {
+    /// Row i holds the i entries of L left of the diagonal.
+    pub rows: Vec<Vec<Number>>,
+    /// D.
+    pub diagonal: Vec<Number>,
+}
 
 /// Elimination of the free variables f by F(t) = T_ff(t), enclosed without inverting F.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]

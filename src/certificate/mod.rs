@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 
 mod cover;
 pub use cover::{
-    Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Member, Node, Piece, Point, Polynomials, Root, RootOutcome,
-    Support, Tail,
+    Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Ldl, LdlFactor, Member, Node, Piece, Point, Polynomials, Root,
+    RootOutcome, Support, Tail,
 };
 
 /// The format this program reads and writes.
@@ -35,6 +35,8 @@ pub struct Certificate {
 pub enum Claim {
     /// A solution over Q(alpha).
     ExactSolution(ExactSolution),
+    /// A solution over Q(alpha) in the degrees of freedom of a mechanical system.
+    LiftedSolution(LiftedSolution),
     /// A solution in a box, by Krawczyk's test.
     EnclosedSolution(EnclosedSolution),
 }
@@ -54,6 +56,26 @@ pub struct ExactSolution {
     pub interval: [Number; 2],
     /// x_i(alpha) as rational polynomials, constant term first, one list per variable.
     pub x: Vec<Vec<Number>>,
+}
+
+/// v and w of (9) at alpha, as rational polynomials in alpha, constant term first, one list per degree of
+/// freedom. Indices are those of the pencil: free dofs ascending, then slip particles in file order.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LiftedSolution {
+    /// Slip particles with S v_T < 0.
+    pub support: Vec<usize>,
+    /// Slip particles with S v_T = S w_T + mu w_N = 0.
+    pub biactive: Vec<usize>,
+    /// As in [`ExactSolution`].
+    #[serde(with = "integers")]
+    pub polynomial: Vec<Integer>,
+    /// As in [`ExactSolution`].
+    pub interval: [Number; 2],
+    /// v(alpha).
+    pub v: Vec<Vec<Number>>,
+    /// w(alpha).
+    pub w: Vec<Vec<Number>>,
 }
 
 /// A solution of (A + tB) x = 0 on the active rows and e'x_s = 1, proved to exist and to be unique

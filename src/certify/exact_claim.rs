@@ -213,20 +213,8 @@ fn claim(support: &[usize], biactive: Vec<usize>, x: &[Poly], value: &Algebraic)
 
 /// g mod p over Q.
 fn remainder(g: &Poly, p: &Poly) -> Vec<Rational> {
-    let m = p.coeffs().len();
-    let mut rest: Vec<Rational> = g.coeffs().iter().map(|c| Rational::from_integer(c.clone())).collect();
-    let lead = Rational::from_integer(p.leading());
-    while rest.len() >= m {
-        let top = rest.pop().unwrap_or_else(Rational::zero) / &lead; // len >= m >= 2
-        let shift = rest.len() + 1 - m;
-        for (k, c) in p.coeffs()[..m - 1].iter().enumerate() {
-            rest[shift + k] -= &top * Rational::from_integer(c.clone());
-        }
-    }
-    while rest.last().is_some_and(Zero::is_zero) {
-        rest.pop();
-    }
-    rest
+    let rational = |p: &Poly| p.coeffs().iter().map(|c| Rational::from_integer(c.clone())).collect::<Vec<_>>();
+    super::lifted::remainder(rational(g), &rational(p))
 }
 
 /// All components times one positive rational that makes them integers without a common factor.

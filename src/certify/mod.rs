@@ -3,9 +3,11 @@
 mod enclose;
 mod exact_claim;
 mod failure;
+mod lifted;
 mod support;
 
 pub use failure::{Attempt, AttemptFailure, NotCertified};
+pub use lifted::{flattened, lifted};
 
 use crate::candidate::Candidate;
 use crate::certificate::{Certificate, Claim};

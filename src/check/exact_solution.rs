@@ -9,7 +9,7 @@ use super::pencil::{Row, Rows};
 use super::reason::Reason;
 use super::{AcceptedClaim, pencil};
 use crate::certificate::ExactSolution;
-use crate::exact::{Interval, Poly, Rational};
+use crate::exact::{Integer, Interval, Poly, Rational};
 use crate::model::Window;
 use crate::model::file::Number;
 use num_traits::Zero;
@@ -23,7 +23,7 @@ const MAX_SIZE: usize = 1 << 21;
 pub(super) fn check(rows: &Rows, window: &Window, claim: &ExactSolution) -> Result<AcceptedClaim, Reason> {
     index_set(rows, "support", &claim.support)?;
     index_set(rows, "biactive", &claim.biactive)?;
-    bounded(claim)?;
+    bounded(&claim.polynomial, &claim.interval, &claim.x)?;
     let p = Poly::new(claim.polynomial.clone()).primitive();
     let value = isolate(&p, &claim.interval)?;
     within(window, &value)?;
@@ -37,15 +37,19 @@ pub(super) fn check(rows: &Rows, window: &Window, claim: &ExactSolution) -> Resu
 }
 
 /// The claim is small enough to be multiplied out.
-fn bounded(claim: &ExactSolution) -> Result<(), Reason> {
-    let coefficients = claim.polynomial.len();
+pub(super) fn bounded<'a>(
+    polynomial: &[Integer],
+    interval: &'a [Number; 2],
+    x: impl IntoIterator<Item = &'a Vec<Number>> + Clone,
+) -> Result<(), Reason> {
+    let coefficients = polynomial.len();
     let at_most = |what, limit, got| if got > limit { Err(Reason::TooLarge { what, limit, got }) } else { Ok(()) };
     at_most("coefficients of the polynomial", MAX_COEFFICIENTS, coefficients)?;
-    let longest_x = claim.x.iter().map(Vec::len).max().unwrap_or(0);
+    let longest_x = x.clone().into_iter().map(Vec::len).max().unwrap_or(0);
     at_most("coefficients of x", MAX_COEFFICIENTS, longest_x)?;
     let of = |n: &Number| n.0.numer().bits() + n.0.denom().bits();
-    let numbers = claim.interval.iter().chain(claim.x.iter().flatten()).map(of);
-    let bits = numbers.chain(claim.polynomial.iter().map(|c| c.bits())).max().unwrap_or(0);
+    let numbers = interval.iter().chain(x.into_iter().flatten()).map(of);
+    let bits = numbers.chain(polynomial.iter().map(|c| c.bits())).max().unwrap_or(0);
     at_most(
         "size (coefficients times bits)",
         MAX_SIZE,
@@ -94,18 +98,18 @@ pub(super) fn within(window: &Window, value: &Interval) -> Result<(), Reason> {
 }
 
 /// The value: a root of p in an interval.
-struct Alpha {
-    p: Poly,
-    value: Interval,
+pub(super) struct Alpha {
+    pub(super) p: Poly,
+    pub(super) value: Interval,
 }
 
 impl Alpha {
     /// A positive multiple of g mod p: zero exactly if p divides g over Q.
-    fn remainder(&self, g: &[Rational]) -> Poly {
+    pub(super) fn remainder(&self, g: &[Rational]) -> Poly {
         Poly::from_rationals(g).pseudo_rem(&self.p)
     }
 
-    fn enclose(&self, g: &[Rational]) -> Interval {
+    pub(super) fn enclose(&self, g: &[Rational]) -> Interval {
         self.value.horner(&self.remainder(g))
     }
 }

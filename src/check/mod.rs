@@ -10,6 +10,7 @@
 mod cover;
 mod enclosed;
 mod exact_solution;
+mod lifted_solution;
 mod pencil;
 mod reason;
 
@@ -78,6 +79,7 @@ fn verdict(problem: &Problem, certificate: &Certificate, refused: Option<&mut Ve
         let window = &certificate.window;
         let (verdict, biactive): (_, &[usize]) = match claim {
             Claim::ExactSolution(c) => (exact_solution::check(&rows, window, c), &c.biactive),
+            Claim::LiftedSolution(c) => (lifted_solution::check(problem, &rows, window, c), &c.biactive),
             Claim::EnclosedSolution(c) => (enclosed::check(&rows, window, c), &[]),
         };
         let claim = verdict.map_err(|reason| Rejected { claim: Some(index), reason })?;

@@ -13,6 +13,17 @@ pub struct Rejected {
     pub reason: Reason,
 }
 
+impl Reason {
+    /// The obligation's name, as `spec/corpus` states it: `NotIsolated`, `Cover.Truncated`, ...
+    pub fn name(&self) -> String {
+        let variant = |text: String| text.chars().take_while(char::is_ascii_alphanumeric).collect::<String>();
+        match self {
+            Reason::Cover { fault, .. } => format!("Cover.{}", variant(format!("{fault:?}"))),
+            other => variant(format!("{other:?}")),
+        }
+    }
+}
+
 /// The obligation that fails.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
@@ -168,6 +179,23 @@ pub enum Reason {
         index: usize,
         /// Its radius.
         got: Rational,
+    },
+    /// A lifted claim about a problem that is no mechanical system.
+    #[error("E9: expected a mechanical system, got a pencil")]
+    NotASystem,
+    /// A line of (9) does not hold, or its sign is not certain.
+    #[error("E9: expected {line} at {place} {index}, got a value in [{lo}, {hi}] up to a positive factor")]
+    Line {
+        /// The line.
+        line: &'static str,
+        /// What `index` numbers: `dof` or `particle`.
+        place: &'static str,
+        /// The dof or particle.
+        index: usize,
+        /// Lower end of the left-hand side's enclosure.
+        lo: Rational,
+        /// Upper end.
+        hi: Rational,
     },
     /// Krawczyk's operator does not map the box into its interior.
     #[error("Krawczyk: unknown {index}: expected |Y F(c)| + |I - Y J| r < r, got {got} >= {radius}")]

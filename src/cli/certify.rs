@@ -1,12 +1,19 @@
-//! `mceip certify`: somebody's floats to a certificate.
+//! `mceip certify`: somebody's floats to certificates, of existence or of absence.
 
-use super::common::{CliError, exit, load, print, text};
+use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinner, text};
 use super::output::Output;
-use crate::candidate::read_report;
-use crate::certify::{certificate, certify};
+use crate::candidate::{Candidate, read_report};
+use crate::certificate::{Certificate, Claim};
+use crate::certify::{NotCertified, certificate, certify, lifted};
+use crate::exact::{Interval, Rational, enclosing_decimals, parse};
+use crate::model::{Body, Problem};
 use crate::multistart::same;
 use crate::reduction::reduce;
+use crate::search::complete::{CompleteError, Completed};
+use crate::search::near::{Near, near};
+use num_traits::Signed;
 use std::path::PathBuf;
+use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Arguments of `certify`.
 #[derive(clap::Args)]
@@ -19,6 +26,16 @@ pub(super) struct Args {
     /// Write the certificate here instead of to stdout.
     #[arg(long)]
     out: Option<PathBuf>,
+    /// For a mechanical system: state exact solutions as (v, w) over all degrees of freedom, each line of (9) checkable.
+    #[arg(long)]
+    lifted: bool,
+    /// A solution that cannot be certified: prove what lies within this distance of its value.
+    /// Default: 1e-4 (1 + |value|), then smaller ones, until a proof is found.
+    #[arg(long, value_name = "R", allow_hyphen_values = true)]
+    absence_radius: Option<String>,
+    /// Write the proof for refused solution K to DIR/absence-K.json.
+    #[arg(long, value_name = "DIR")]
+    absence: Option<PathBuf>,
 }
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
@@ -35,26 +52,154 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some((solution, c)) = candidates.iter().enumerate().find(|(_, c)| c.x.len() != expected) {
         return Err(CliError::ReportLength { solution, expected, got: c.x.len() });
     }
-    let mut claims: Vec<crate::certificate::Claim> = Vec::new();
-    let mut failed = 0;
+    let radius = args.absence_radius.as_deref().map(parse_radius).transpose()?;
+    let outputs = absence_outputs(args, candidates.len())?;
+    let stop = interrupt_flag();
+    let mut claims: Vec<Claim> = Vec::new();
+    let mut refused: Vec<Refused> = Vec::new();
     for (k, candidate) in candidates.iter().enumerate() {
+        if stop.load(Ordering::Relaxed) {
+            eprintln!("solution {k}: interrupted before it was looked at");
+            break;
+        }
         match certify(&reduced.pencil, problem.window(), candidate) {
             Ok(claim) if claims.iter().any(|c| same(c, &claim)) => eprintln!("solution {k} (value {}): listed before", candidate.value),
             Ok(claim) => claims.push(claim),
             Err(reason) => {
-                failed += 1;
-                eprintln!("solution {k} (value {}): uncertified: {reason}", candidate.value);
+                let r = Refused::of(&problem, candidate, radius.as_ref(), &reason, &stop);
+                eprintln!("solution {k} (value {}): {}", candidate.value, r.text);
+                refused.push(Refused { index: k, ..r });
             }
         }
     }
-    eprintln!("{} distinct solutions certified, {failed} of {} uncertified", claims.len(), candidates.len());
-    if claims.is_empty() {
-        return Ok(exit::UNDECIDED);
+    let disproved = refused.iter().filter(|r| r.verdict == Verdict::Disproved).count();
+    let undecided = refused.iter().filter(|r| r.verdict == Verdict::Undecided).count();
+    eprintln!(
+        "{} distinct solutions certified, {disproved} of {} disproved, {undecided} undecided",
+        claims.len() + refused.len() - disproved - undecided,
+        candidates.len()
+    );
+    let mut written: Vec<&Certificate> = Vec::new();
+    if let (true, Body::System(system)) = (args.lifted, problem.body()) {
+        for claim in &mut claims {
+            if let Claim::ExactSolution(c) = claim {
+                *claim = Claim::LiftedSolution(lifted(system, problem.unknown(), c));
+            }
+        }
     }
-    let json = certificate(&problem, claims).to_json();
-    match output {
-        Some(output) => output.write(&json)?,
-        None => print(&format!("{json}\n"))?,
+    let own = (!claims.is_empty()).then(|| certificate(&problem, claims));
+    written.extend(&own);
+    let proofs = refused.iter().filter_map(|r| r.proof.as_ref());
+    // A report of one solution: its proof is the answer, whichever way it went.
+    written.extend(proofs.filter(|_| own.is_none() && candidates.len() == 1));
+    for r in &refused {
+        if let (Some(proof), Some(path)) = (&r.proof, outputs.get(r.index)) {
+            Output::prepare("absence", path, &[&args.file, &args.report])?.write(&proof.to_json())?;
+        }
     }
-    Ok(if failed == 0 { exit::DONE } else { exit::UNDECIDED })
+    if let Some(certificate) = written.first() {
+        match output {
+            Some(output) => output.write(&certificate.to_json())?,
+            None => print(&format!("{}\n", certificate.to_json()))?,
+        }
+    }
+    Ok(match () {
+        () if stop.load(Ordering::Relaxed) => exit::INTERRUPTED,
+        () if disproved > 0 => exit::REJECTED,
+        () if undecided > 0 || candidates.is_empty() => exit::UNDECIDED,
+        () => exit::DONE,
+    })
+}
+
+/// Where the proofs of absence go, by index in the report; none without `--absence`.
+fn absence_outputs(args: &Args, count: usize) -> Result<Vec<PathBuf>, CliError> {
+    let Some(folder) = &args.absence else { return Ok(Vec::new()) };
+    std::fs::create_dir_all(folder).map_err(|e| CliError::write(folder.display(), &e))?;
+    Ok((0..count).map(|k| folder.join(format!("absence-{k}.json"))).collect())
+}
+
+fn parse_radius(text: &str) -> Result<Rational, CliError> {
+    let bad = || CliError::Option { option: "absence-radius", expected: "a number > 0", got: text.chars().take(60).collect() };
+    parse(text).ok().filter(Rational::is_positive).ok_or_else(bad)
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    /// Not a solution, proved.
+    Disproved,
+    /// A solution after all: the complete set near its value lists it.
+    Present,
+    Undecided,
+}
+
+/// A solution of the report that has no certificate of its own.
+struct Refused {
+    index: usize,
+    verdict: Verdict,
+    /// For people, one line.
+    text: String,
+    /// The complete set near its value.
+    proof: Option<Certificate>,
+}
+
+impl Refused {
+    fn of(problem: &Problem, candidate: &Candidate, radius: Option<&Rational>, reason: &NotCertified, stop: &AtomicBool) -> Refused {
+        let spinner = progress_spinner("no certificate: looking for a proof that there is no solution nearby");
+        let found = near(problem, candidate, radius, stop);
+        spinner.finish_and_clear();
+        let with = |verdict, text, proof: Completed| Refused { index: 0, verdict, text, proof: Some(proof.certificate) };
+        match found {
+            Ok(Near::OutsideWindow) => {
+                let text = "REFUSED: its value lies outside the problem's window".into();
+                Refused { index: 0, verdict: Verdict::Disproved, text, proof: None }
+            }
+            Ok(Near::Absent(c)) => with(Verdict::Disproved, format!("REFUSED: no solution {} (proved)", interval(problem, &c)), c),
+            Ok(Near::Others(c)) => {
+                let list: Vec<String> = c
+                    .cover
+                    .solutions
+                    .iter()
+                    .map(|s| {
+                        let (lo, hi) = enclosing_decimals(&s.value, 15);
+                        format!("[{lo}, {hi}] with slip {:?}", s.support)
+                    })
+                    .collect();
+                let text =
+                    format!("REFUSED: {} there is only {} (proved), with another x: {reason}", interval(problem, &c), list.join(", "));
+                with(Verdict::Disproved, text, c)
+            }
+            Ok(Near::Present(c)) => with(Verdict::Present, format!("certified: listed by a cover {}", interval(problem, &c)), c),
+            Ok(Near::Open(c)) => {
+                let text = format!("undecided: {reason}; {} regions stay open {}", c.cover.open.len(), interval(problem, &c));
+                Refused { index: 0, verdict: Verdict::Undecided, text, proof: None }
+            }
+            Err(e) => Refused::undecided(reason, &e),
+        }
+    }
+
+    fn undecided(reason: &NotCertified, why: &CompleteError) -> Refused {
+        Refused {
+            index: 0,
+            verdict: Verdict::Undecided,
+            text: format!("undecided: {reason}; no proof of absence either: {why}"),
+            proof: None,
+        }
+    }
+}
+
+/// "with lambda2 in [a, b]".
+fn interval(problem: &Problem, proved: &Completed) -> String {
+    let window = &proved.certificate.window;
+    let max = window.max().map_or_else(|| "infinity)".into(), |max| format!("{}]", decimal(max)));
+    format!("with {} in [{}, {max}", problem.unknown().word(), decimal(window.min()))
+}
+
+/// The ends of such a window are short decimals, or those of the problem's window: exact where 17 digits suffice.
+fn decimal(v: &Rational) -> String {
+    let (lo, hi) = enclosing_decimals(&Interval::point(v.clone()), 17);
+    match lo == hi {
+        true if lo.contains('.') && !lo.contains('e') => lo.trim_end_matches('0').trim_end_matches('.').into(),
+        true => lo,
+        false => v.to_string(),
+    }
 }

@@ -34,6 +34,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
                 print(&format!("{out}ACCEPTED: {n} claim(s) proved {within}\n"))?;
                 return Ok(exit::DONE);
             };
+            if cover.solutions.is_empty() && cover.open.is_empty() {
+                let (word, leaves) = (problem.unknown().word(), cover.leaves);
+                print(&format!(
+                    "ABSENT in [{}, {max}: no solution ({word}, problem {}, {leaves} leaves accepted)\n",
+                    w.min(),
+                    problem.sha256()
+                ))?;
+                return Ok(exit::DONE);
+            }
             // The solutions of a cover include those claimed beside it.
             let windowed = problem.clone().with_window(w.clone());
             let verdict = if cover.open.is_empty() { "ACCEPTED" } else { "ACCEPTED as undecided" };

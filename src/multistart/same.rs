@@ -2,13 +2,15 @@
 
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
-use crate::exact::{Algebraic, Interval, Poly};
+use crate::exact::{Algebraic, Integer, Interval, Poly};
+use crate::model::file::Number;
 use crate::tolerance::SAME_POINT;
 
 /// The support of a claim.
 pub fn support(claim: &Claim) -> &[usize] {
     match claim {
         Claim::ExactSolution(c) => &c.support,
+        Claim::LiftedSolution(c) => &c.support,
         Claim::EnclosedSolution(c) => &c.support,
     }
 }
@@ -16,12 +18,15 @@ pub fn support(claim: &Claim) -> &[usize] {
 /// The exact value of an exact claim.
 pub fn exact_value(claim: &Claim) -> Option<Algebraic> {
     match claim {
-        Claim::ExactSolution(c) => {
-            let interval = Interval::new(c.interval[0].0.clone(), c.interval[1].0.clone())?;
-            Some(Algebraic::from_claim(Poly::new(c.polynomial.clone()), interval))
-        }
+        Claim::ExactSolution(c) => root(&c.polynomial, &c.interval),
+        Claim::LiftedSolution(c) => root(&c.polynomial, &c.interval),
         Claim::EnclosedSolution(_) => None,
     }
+}
+
+fn root(polynomial: &[Integer], interval: &[Number; 2]) -> Option<Algebraic> {
+    let interval = Interval::new(interval[0].0.clone(), interval[1].0.clone())?;
+    Some(Algebraic::from_claim(Poly::new(polynomial.to_vec()), interval))
 }
 
 /// Do two claims speak of the same solution: same support and equal value (exact), or a box that

@@ -1,6 +1,7 @@
 //! A solution ready to be printed: decimals of value, x, y, v and w, each correctly rounded.
 
 use crate::certificate::{Claim, ExactSolution};
+use crate::certify::flattened;
 use crate::exact::{Algebraic, Integer, Poly, Rational, common_denominator, ratio_to_decimal, to_decimal};
 use crate::model::{Body, Pencil, Problem};
 use crate::multistart::exact_value;
@@ -84,6 +85,22 @@ impl Listed {
     pub fn of_claim(problem: &Problem, reduced: &Reduced, claim: &Claim) -> Listed {
         match claim {
             Claim::ExactSolution(c) => of_exact(problem, reduced, claim, c),
+            Claim::LiftedSolution(c) => match problem.body() {
+                Body::System(system) => of_exact(problem, reduced, claim, &flattened(system, c)),
+                // The checker accepts no such claim; it is listed by what it says of itself.
+                Body::Pencil(p) => of_exact(
+                    problem,
+                    reduced,
+                    claim,
+                    &ExactSolution {
+                        support: c.support.clone(),
+                        biactive: c.biactive.clone(),
+                        polynomial: c.polynomial.clone(),
+                        interval: c.interval.clone(),
+                        x: vec![Vec::new(); p.order()],
+                    },
+                ),
+            },
             Claim::EnclosedSolution(c) => {
                 let pencil = &reduced.pencil;
                 let mut x = vec![Rational::default(); pencil.order()];

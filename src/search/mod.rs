@@ -1,4 +1,6 @@
 //! Complete answers beyond the oracle's reach: floats propose, each discard and each claim is proved.
 
 pub mod complete;
+pub mod definite;
+pub mod near;
 pub mod screen;

@@ -273,7 +273,7 @@ fn same_value(value: &Algebraic, claim: &Claim) -> bool {
                 value.refine_to(&(&radius.0 / Rational::from_integer(16.into())));
                 (value.interval().mid() - &center.0).abs() <= radius.0
             }),
-            Claim::ExactSolution(_) => false,
+            Claim::ExactSolution(_) | Claim::LiftedSolution(_) => false,
         },
     }
 }

@@ -1,8 +1,8 @@
 //! Forgeries: certificates made false on purpose, each with the reason it must be rejected for.
 
-use crate::certificate::{Certificate, Claim, ExactSolution};
+use crate::certificate::{Certificate, Claim, ExactSolution, LiftedSolution};
 use crate::check::Reason;
-use crate::exact::{Integer, whole};
+use crate::exact::{Integer, rational, whole};
 use crate::model::file::Number;
 use crate::model::{Unknown, Window};
 
@@ -26,6 +26,11 @@ pub fn forgeries(certificate: &Certificate) -> Vec<Forgery> {
             Claim::ExactSolution(c) => out.extend(exact(c).into_iter().map(|(name, c, expected)| Forgery {
                 name,
                 certificate: with(Claim::ExactSolution(c)),
+                expected,
+            })),
+            Claim::LiftedSolution(c) => out.extend(lifted(c).into_iter().map(|(name, c, expected)| Forgery {
+                name,
+                certificate: with(Claim::LiftedSolution(c)),
                 expected,
             })),
             Claim::EnclosedSolution(_) => out.extend(enclosed(certificate, index)),
@@ -54,6 +59,7 @@ fn frame(certificate: &Certificate) -> Vec<Forgery> {
 fn narrow_window(certificate: &Certificate) -> Option<Forgery> {
     let top = certificate.claims.iter().map(|c| match c {
         Claim::ExactSolution(c) => c.interval[1].0.clone(),
+        Claim::LiftedSolution(c) => c.interval[1].0.clone(),
         Claim::EnclosedSolution(c) => c.center.last().map_or_else(|| whole(0), |n| n.0.clone()) + whole(1),
     });
     let window = Window::new(top.max()? + whole(1), None).ok()?;
@@ -107,6 +113,38 @@ fn exact(c: &ExactSolution) -> Vec<Broken> {
         push("polynomial squared", &|c| c.polynomial = square(&c.polynomial), |r| matches!(r, Reason::NoSignChange { .. }));
         push("polynomial cubed", &|c| c.polynomial = times(&square(&c.polynomial), &c.polynomial), |r| {
             matches!(r, Reason::NotIsolated { .. })
+        });
+    }
+    out
+}
+
+type BrokenLift = (&'static str, LiftedSolution, fn(&Reason) -> bool);
+
+/// Forgeries of a lifted claim that are false for every problem.
+fn lifted(c: &LiftedSolution) -> Vec<BrokenLift> {
+    let mut out: Vec<BrokenLift> = Vec::new();
+    let mut push = |name, change: &dyn Fn(&mut LiftedSolution), expected| {
+        let mut forged = c.clone();
+        change(&mut forged);
+        out.push((name, forged, expected));
+    };
+    push("v = w = 0", &|c| c.v.iter_mut().chain(&mut c.w).for_each(Vec::clear), |r| matches!(r, Reason::Line { .. } | Reason::XZero));
+    push("v one dof short", &|c| drop(c.v.pop()), |r| matches!(r, Reason::Length { what: "v", .. }));
+    push("w one dof long", &|c| c.w.push(Vec::new()), |r| matches!(r, Reason::Length { what: "w", .. }));
+    push(
+        "w off by 1e-9 at one dof",
+        &|c| match c.w[0].first_mut() {
+            Some(n) => n.0 += rational(1, 1_000_000_000),
+            None => c.w[0].push(Number(rational(1, 1_000_000_000))),
+        },
+        |r| matches!(r, Reason::Line { line: "(lambda^2 M + K) v = w", index: 0, .. }),
+    );
+    if !c.support.is_empty() {
+        push("everything moves backwards", &|c| c.v.iter_mut().chain(&mut c.w).flatten().for_each(|n| n.0 = -n.0.clone()), |r| {
+            matches!(r, Reason::Line { place: "particle", .. })
+        });
+        push("support one short", &|c| c.support.truncate(c.support.len() - 1), |r| {
+            matches!(r, Reason::Line { line: "S v_T = 0 off the support", .. })
         });
     }
     out

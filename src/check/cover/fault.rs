@@ -117,6 +117,16 @@ pub enum CoverFault {
         /// `> 0` or `< 0`.
         expected: &'static str,
     },
+    /// An exact factor is not one of the matrix.
+    #[error("ldl: expected L D L' to be sym(A + tB) at the {end} end, got another entry at ({row}, {column})")]
+    Factor {
+        /// Row, by the problem's index.
+        row: usize,
+        /// Column.
+        column: usize,
+        /// `lower` or `upper`.
+        end: &'static str,
+    },
     /// The root's interval is reversed or leaves the window.
     #[error("root: expected an interval within the window, got [{a}, {b}]")]
     Interval {

@@ -9,6 +9,7 @@ mod expanded;
 mod family;
 mod fault;
 mod found;
+mod ldl;
 mod leaf;
 mod psd;
 mod root;
@@ -241,6 +242,7 @@ impl Walk<'_> {
             Node::NegativeDefinite => {
                 leaf::definite(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, -1)?;
             }
+            Node::Ldl(witness) => ldl::check(self.rows, region, &self.index, witness)?,
             Node::Root(root) => {
                 let found = self.root(region, anchor, root)?;
                 self.found.extend(found);

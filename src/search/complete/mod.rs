@@ -22,9 +22,11 @@ mod witness;
 pub use error::CompleteError;
 pub use merge::merge;
 
-use crate::certificate::{Certificate, Claim, CompleteSet, Node};
+use super::definite;
+use crate::certificate::{Certificate, Claim, CompleteSet, Node, Piece};
 use crate::certify::certificate;
 use crate::check::{AcceptedClaim, AcceptedCover, audit, check};
+use crate::model::file::Number;
 use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
 use skeleton::Prepared;
@@ -120,6 +122,13 @@ pub fn complete(
 ) -> Result<Completed, CompleteError> {
     let pencil = reduce(problem)?.pencil;
     let mut prepared = Prepared::new(problem, &pencil, options.pieces)?;
+    if options.shard.is_none()
+        && let Some(node) = definite::leaf(&pencil, problem.window())
+    {
+        let piece = Piece { max: problem.window().max().cloned().map(Number), anchor: None, tree: vec![node] };
+        let set = CompleteSet { pieces: vec![piece], ..prepared.open_set() };
+        return finish(problem, &pencil, &prepared, Certificate { complete_set: Some(set), ..certificate(problem, Vec::new()) });
+    }
     if prepared.is_expanded() {
         // A first search finds where the solutions are, so that the enclosure is tight there.
         let scout = Options { shard: None, ..*options };

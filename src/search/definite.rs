@@ -1,0 +1,92 @@
+//! Absence over a whole window by definiteness alone: the conditions (19) and (20) with exact LDL'
+//! factors as evidence, tried before any search.
+
+use crate::certificate::{Ldl, LdlFactor, Node};
+use crate::exact::{Rational, rational};
+use crate::model::file::Number;
+use crate::model::{Pencil, Window};
+use num_traits::{Signed, Zero};
+
+/// Largest order for which exact factors are formed: beyond it their numbers grow longer than they tell.
+const MAX_ORDER: usize = 48;
+
+/// A leaf that closes the whole window, if the pencil's symmetric part is definite at both ends
+/// (semidefinite direction at an infinite one). // E19, E20
+pub fn leaf(pencil: &Pencil, window: &Window) -> Option<Node> {
+    if pencil.order() > MAX_ORDER {
+        return None;
+    }
+    let at = |t: &Rational| pencil.a().add_scaled(t, pencil.b()).to_dense();
+    let lower = ldl(&symmetric(&at(window.min())))?;
+    let upper = match window.max() {
+        Some(max) => ldl(&symmetric(&at(max)))?,
+        None => ldl(&symmetric(&pencil.b().to_dense()))?,
+    };
+    let strict = |f: &LdlFactor| f.diagonal.iter().all(|d| d.0.is_positive());
+    let holds = strict(&lower) && (window.max().is_none() || strict(&upper));
+    holds.then(|| Node::Ldl(Box::new(Ldl { lower, upper })))
+}
+
+fn symmetric(m: &crate::exact::Dense) -> Vec<Vec<Rational>> {
+    let n = m.rows();
+    (0..n).map(|i| (0..n).map(|j| (&m.row(i)[j] + &m.row(j)[i]) * rational(1, 2)).collect()).collect()
+}
+
+/// S = L D L' with unit lower triangular L and D >= 0; `None` if S is not positive semidefinite.
+fn ldl(s: &[Vec<Rational>]) -> Option<LdlFactor> {
+    let n = s.len();
+    let (mut rows, mut diagonal): (Vec<Vec<Rational>>, Vec<Rational>) = (vec![Vec::new(); n], Vec::new());
+    for k in 0..n {
+        let reduced = |i: usize, rows: &[Vec<Rational>], diagonal: &[Rational]| {
+            (0..k).fold(s[i][k].clone(), |sum, l| sum - &rows[i][l] * &rows[k][l] * &diagonal[l])
+        };
+        let d = reduced(k, &rows, &diagonal);
+        if d.is_negative() {
+            return None;
+        }
+        for i in k + 1..n {
+            let below = reduced(i, &rows, &diagonal);
+            if d.is_zero() && !below.is_zero() {
+                return None;
+            }
+            rows[i].push(if d.is_zero() { below } else { below / &d });
+        }
+        diagonal.push(d);
+    }
+    let number = |list: Vec<Rational>| list.into_iter().map(Number).collect();
+    Some(LdlFactor { rows: rows.into_iter().map(number).collect(), diagonal: number(diagonal) })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{Sparse, whole};
+    use crate::model::{Body, Problem, Unknown};
+    use crate::search::complete::{Options, complete};
+    use std::sync::atomic::AtomicBool;
+
+    fn pencil(a: &[&[i64]], b: &[&[i64]]) -> Pencil {
+        Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), vec![]).unwrap()
+    }
+
+    /// sym A definite, B semidefinite of rank one: (19) over the half line in one leaf.
+    #[test]
+    fn a_semidefinite_direction_closes_the_half_line() {
+        let p = pencil(&[&[2, 1], &[-1, 2]], &[&[1, 2], &[2, 4]]);
+        assert!(matches!(leaf(&p, &Window::all()), Some(Node::Ldl(_))));
+        let problem = Problem::new(Body::Pencil(p), Unknown::Lambda2, Window::all()).unwrap();
+        let found = complete(&problem, &Options::default(), &AtomicBool::new(false), &|_| {}).unwrap();
+        assert_eq!((found.is_complete(), found.cover.leaves, found.cover.solutions.len()), (true, 1, 0));
+    }
+
+    #[test]
+    fn what_is_not_definite_has_no_leaf() {
+        // det sym A = 0; sym B indefinite; definite on [0, 1] only.
+        assert!(leaf(&pencil(&[&[1, 1], &[1, 1]], &[&[1, 0], &[0, 1]]), &Window::all()).is_none());
+        assert!(leaf(&pencil(&[&[1, 0], &[0, 1]], &[&[1, 2], &[2, 1]]), &Window::all()).is_none());
+        let falling = pencil(&[&[2, 0], &[0, 2]], &[&[-1, 0], &[0, 0]]);
+        assert!(leaf(&falling, &Window::all()).is_none());
+        assert!(leaf(&falling, &Window::new(whole(0), Some(whole(2))).unwrap()).is_none());
+        assert!(leaf(&falling, &Window::new(whole(0), Some(whole(1))).unwrap()).is_some());
+    }
+}
