@@ -54,11 +54,22 @@ pub fn read_problem_file(path: &Path) -> Result<Problem, ModelError> {
 /// # Errors
 /// [`ModelError::Unreadable`] or [`ModelError::TooLarge`], naming what the file was wanted for.
 pub fn read_text(what: &'static str, path: &Path) -> Result<String, ModelError> {
-    let unreadable = |e: std::io::Error| ModelError::Unreadable { what, path: path.display().to_string(), problem: e.to_string() };
+    let name = path.display().to_string();
+    match std::fs::File::open(path) {
+        Ok(file) => read_from(what, &name, file),
+        Err(e) => Err(ModelError::Unreadable { what, path: name, problem: e.to_string() }),
+    }
+}
+
+/// Reads text of bounded size from an open file or a pipe; `name` stands for it in complaints.
+///
+/// # Errors
+/// As [`read_text`].
+pub fn read_from(what: &'static str, name: &str, source: impl std::io::Read) -> Result<String, ModelError> {
+    let unreadable = |e: std::io::Error| ModelError::Unreadable { what, path: name.to_string(), problem: e.to_string() };
     let mut text = String::new();
     // Bounded by what is read, not by what the directory says: devices and pipes have no length.
-    let file = std::fs::File::open(path).map_err(unreadable)?;
-    let length = file.take(MAX_FILE_BYTES + 1).read_to_string(&mut text).map_err(unreadable)? as u64;
+    let length = source.take(MAX_FILE_BYTES + 1).read_to_string(&mut text).map_err(unreadable)? as u64;
     if length > MAX_FILE_BYTES {
         return Err(ModelError::TooLarge { what: "file size in bytes", limit: MAX_FILE_BYTES, got: length });
     }
