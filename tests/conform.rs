@@ -23,8 +23,7 @@ fn root(path: &str) -> PathBuf {
 fn the_committed_pack_is_the_regenerated_one() {
     let files = pack_files(&groups().unwrap()).unwrap();
     let folder = root("spec/conformance-pack");
-    let there: BTreeSet<String> =
-        std::fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    let there: BTreeSet<String> = std::fs::read_dir(&folder).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
     assert_eq!(there, files.iter().map(|f| f.0.clone()).collect());
     let bytes: usize = files.iter().map(|f| f.1.len()).sum();
     assert!(bytes < 3_000_000, "{bytes}");

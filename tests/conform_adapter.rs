@@ -67,7 +67,8 @@ fn broken_adapters_get_the_right_labels() {
     let flipped = run(&broken("[float(v) for v in x]", "[-float(v) for v in x]"), &["window_end"]);
     assert_eq!(flipped["labels"]["wrong"], flipped["cases"], "{flipped:#}");
     // The same value found on two supports is reported once.
-    let merged = run(&broken("print(json", "found = list({round(s['value'], 6): s for s in found}.values())\n    print(json"), &["threshold"]);
+    let merged =
+        run(&broken("print(json", "found = list({round(s['value'], 6): s for s in found}.values())\n    print(json"), &["threshold"]);
     assert!(count(&merged, "incomplete") > 2 && count(&merged, "wrong") == 0, "{merged:#}");
     let deaf = run("print('{\"format\": \"mceip-solutions/1\", \"solutions\": []}')", &["window_end"]);
     assert_eq!(deaf["labels"]["incomplete"], deaf["cases"], "{deaf:#}");

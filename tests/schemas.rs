@@ -56,8 +56,7 @@ fn every_schema_is_one() {
 
 #[test]
 fn examples_and_written_files_are_valid() {
-    let (problems, solutions, certificates) =
-        (schema("mceip-problem-1"), schema("mceip-solutions-1"), schema("mceip-certificate-1"));
+    let (problems, solutions, certificates) = (schema("mceip-problem-1"), schema("mceip-solutions-1"), schema("mceip-certificate-1"));
     let folder = Folder::new();
     for path in files("spec/examples", "json") {
         let file = path.display().to_string();
@@ -67,7 +66,11 @@ fn examples_and_written_files_are_valid() {
         }
         valid(&problems, &example, &file);
         let certificate = folder.path("c.json");
-        for args in [&["enumerate", "--json"][..], &["solve", "--json", "--certificate", &certificate], &["complete", "--json", "--certificate", &certificate]] {
+        for args in [
+            &["enumerate", "--json"][..],
+            &["solve", "--json", "--certificate", &certificate],
+            &["complete", "--json", "--certificate", &certificate],
+        ] {
             let out = mceip(&[&[args[0], file.as_str()], &args[1..]].concat());
             valid(&solutions, &serde_json::from_slice(&out.stdout).unwrap(), &format!("{args:?} {file}"));
             if args.len() > 2 {
@@ -100,7 +103,9 @@ fn records_traces_and_plain_problems_are_valid() {
     let file = folder.write("mcp.json", &plain.to_string());
     assert_eq!(mceip(&["solve", &file, "--certificate", &solution]).status.code(), Some(0));
     valid(&schema("mceip-mcp-solution-1"), &read(Path::new(&solution)), "solution of an mcp");
-    for bad in [json!({ "format": "mceip-mcp/1", "m": [["nan"]], "q": [-5] }), json!({ "format": "mceip-mcp/1", "m": [[1]], "q": [1], "z": 0 })] {
+    for bad in
+        [json!({ "format": "mceip-mcp/1", "m": [["nan"]], "q": [-5] }), json!({ "format": "mceip-mcp/1", "m": [[1]], "q": [1], "z": 0 })]
+    {
         assert!(!mcp.is_valid(&bad) && read_mcp(&bad.to_string()).is_err(), "{bad}");
     }
 }
@@ -132,18 +137,24 @@ fn the_pack_is_valid() {
 /// Is this a complaint about the shape of the file, which the schema must share?
 fn of_shape(e: &ModelError) -> bool {
     use ModelError as E;
-    matches!(
-        e,
-        E::Json { .. } | E::Format { .. } | E::Number { .. } | E::Body { .. } | E::Sign { .. } | E::ZeroReactionState { .. }
-    )
+    matches!(e, E::Json { .. } | E::Format { .. } | E::Number { .. } | E::Body { .. } | E::Sign { .. } | E::ZeroReactionState { .. })
 }
 
 /// Each malformed file: refused by the schema as well, or (`meaning`) only by what the numbers mean.
 #[test]
 fn malformed_problems_are_invalid_or_wrong_in_meaning() {
     let meaning = [
-        "friction-zero", "index-out-of-range", "mass-not-definite", "missing-market-file", "non-symmetric", "not-square",
-        "particle-twice", "ragged", "reaction-outside-cone", "window-negative", "window-reversed",
+        "friction-zero",
+        "index-out-of-range",
+        "mass-not-definite",
+        "missing-market-file",
+        "non-symmetric",
+        "not-square",
+        "particle-twice",
+        "ragged",
+        "reaction-outside-cone",
+        "window-negative",
+        "window-reversed",
     ];
     let problems = schema("mceip-problem-1");
     let mut seen = 0;
@@ -173,7 +184,19 @@ fn places(value: &Value, at: &str, out: &mut Vec<String>) {
 fn damaged(file: &Value) -> Vec<Value> {
     let mut spots = Vec::new();
     places(file, "", &mut spots);
-    let replacements = [json!(null), json!(true), json!(-1), json!("1e5000"), json!("1e5001"), json!("x"), json!("1/0"), json!([]), json!({}), json!(" +.5 "), json!("7/-14")];
+    let replacements = [
+        json!(null),
+        json!(true),
+        json!(-1),
+        json!("1e5000"),
+        json!("1e5001"),
+        json!("x"),
+        json!("1/0"),
+        json!([]),
+        json!({}),
+        json!(" +.5 "),
+        json!("7/-14"),
+    ];
     let mut out = Vec::new();
     for (k, spot) in spots.iter().enumerate().skip(1) {
         for turn in 0..3 {

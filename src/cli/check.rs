@@ -31,8 +31,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if require_format(&source, SOLUTIONS_FORMAT).is_ok() {
         return foreign(args, &problem, &source);
     }
-    let certificate = Certificate::from_json(&source)
-        .map_err(|source| CliError::File { path: args.certificate.display().to_string(), source })?;
+    let certificate =
+        Certificate::from_json(&source).map_err(|source| CliError::File { path: args.certificate.display().to_string(), source })?;
     match check(&problem, &certificate) {
         Ok(accepted) => {
             let mut out = String::new();

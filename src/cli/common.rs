@@ -9,8 +9,8 @@ use crate::testkit::BlockError;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write as _;
 use std::path::Path;
-use std::sync::{Arc, OnceLock};
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// Exit codes of `design.md`.
 pub(super) mod exit {
@@ -161,7 +161,8 @@ pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliErro
 
 /// Reads a text file (`-`: stdin); errors name the file.
 pub(super) fn text(what: &'static str, path: &Path) -> Result<String, CliError> {
-    if path == Path::new("-") { read_stdin(what) } else { read_text(what, path) }.map_err(|source| CliError::File { path: path.display().to_string(), source })
+    if path == Path::new("-") { read_stdin(what) } else { read_text(what, path) }
+        .map_err(|source| CliError::File { path: path.display().to_string(), source })
 }
 
 /// Stdin, read once and kept: a command may look at it twice, or name it for two of its inputs by mistake.

@@ -61,8 +61,8 @@ impl Case {
     pub fn answer(draft: &Draft, as_pencil: bool) -> Result<Case, ConformError> {
         let at = |source| ConformError::Problem { place: draft.id.clone(), source };
         let reduced = reduce(&draft.problem).map_err(at)?;
-        let answer = enumerate(&reduced.pencil, draft.problem.window())
-            .map_err(|source| ConformError::Oracle { case: draft.id.clone(), source })?;
+        let answer =
+            enumerate(&reduced.pencil, draft.problem.window()).map_err(|source| ConformError::Oracle { case: draft.id.clone(), source })?;
         let mut flags = derive(&draft.problem, &reduced, &answer);
         flags.extend(&draft.flags);
         let mut case =

@@ -47,6 +47,15 @@ pub enum ConformError {
         /// Digest of the file.
         got: String,
     },
+    /// A problem of the program's own pack was refused.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A mesh of the block was refused.
+    #[error(transparent)]
+    Source(#[from] crate::source::SourceError),
+    /// The block was not condensed.
+    #[error(transparent)]
+    Condensation(#[from] crate::reduction::CondensationError),
     /// The command does not start.
     #[error("cannot start {command:?}: {reason}")]
     Start {

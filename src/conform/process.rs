@@ -162,8 +162,14 @@ mod tests {
     #[test]
     fn hostile_programs_are_survived() {
         let long = Limits::default();
-        assert_eq!(sh("wc -c | tr -d ' '", &long), Ending::Ended { code: Some(0), stdout: b"1048576\n".to_vec(), complaint: String::new() });
-        assert_eq!(sh("echo a; exec 0<&-; exit 7", &long), Ending::Ended { code: Some(7), stdout: b"a\n".to_vec(), complaint: String::new() });
+        assert_eq!(
+            sh("wc -c | tr -d ' '", &long),
+            Ending::Ended { code: Some(0), stdout: b"1048576\n".to_vec(), complaint: String::new() }
+        );
+        assert_eq!(
+            sh("echo a; exec 0<&-; exit 7", &long),
+            Ending::Ended { code: Some(7), stdout: b"a\n".to_vec(), complaint: String::new() }
+        );
         assert!(matches!(sh("echo oops >&2; kill -9 $$", &long), Ending::Ended { code: None, complaint, .. } if complaint == "oops"));
         assert_eq!(sh("sleep 100", &quick()), Ending::TimedOut);
         assert_eq!(sh("sleep 100 | sleep 100", &quick()), Ending::TimedOut);

@@ -19,7 +19,8 @@ pub(super) enum Kind {
 pub(super) fn eigenpairs(pencil: &Pencil, min: &Rational, max: Option<&Rational>) -> Vec<(Kind, Solution)> {
     let rows = integral(pencil);
     let slip = pencil.slip();
-    let supports = (1..1u64 << slip.len()).map(|mask| slip.iter().enumerate().filter(|(k, _)| mask >> k & 1 == 1).map(|(_, &i)| i).collect());
+    let supports =
+        (1..1u64 << slip.len()).map(|mask| slip.iter().enumerate().filter(|(k, _)| mask >> k & 1 == 1).map(|(_, &i)| i).collect());
     supports.flat_map(|support: Vec<usize>| of_support(pencil, &rows, &support, min, max)).collect()
 }
 
@@ -89,7 +90,6 @@ fn pair(
     };
     // e'x_s must not vanish: x is printed over it.
     let sum = support.iter().fold(Poly::default(), |s, &i| &s + &x[i]);
-    (value.sign_of(&sum) != Sign::Zero).then(|| {
-        (kind, Solution { value, multiplicity: 1, slip: support.to_vec(), biactive: Vec::new(), x, y: Vec::new() })
-    })
+    (value.sign_of(&sum) != Sign::Zero)
+        .then(|| (kind, Solution { value, multiplicity: 1, slip: support.to_vec(), biactive: Vec::new(), x, y: Vec::new() }))
 }

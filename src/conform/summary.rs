@@ -97,7 +97,8 @@ impl Summary {
 
     /// The same for programs.
     pub fn json(&self, command: &[String]) -> Value {
-        let counts = |c: &BTreeMap<Label, usize>| c.iter().map(|(l, n)| (l.word().to_string(), json!(n))).collect::<serde_json::Map<_, _>>();
+        let counts =
+            |c: &BTreeMap<Label, usize>| c.iter().map(|(l, n)| (l.word().to_string(), json!(n))).collect::<serde_json::Map<_, _>>();
         let flags: serde_json::Map<_, _> = self.flags.iter().map(|(f, c)| (f.word().to_string(), json!(counts(c)))).collect();
         let failure = |o: &Outcome| {
             let flags: Vec<&str> = o.flags.iter().map(|f| f.word()).collect();
