@@ -72,7 +72,7 @@ fn broken_adapters_get_the_right_labels() {
     assert!(count(&merged, "incomplete") > 2 && count(&merged, "wrong") == 0, "{merged:#}");
     let deaf = run("print('{\"format\": \"mceip-solutions/1\", \"solutions\": []}')", &["window_end"]);
     assert_eq!(deaf["labels"]["incomplete"], deaf["cases"], "{deaf:#}");
-    let blind = run(&broken("and np.all(y[rest]", "and np.any(y[:1] == y[:1]) or np.all(y[rest]"), &["near_threshold"]);
+    let blind = run(&broken(">= -TOLERANCE * np.abs(a).max()", ">= -np.inf"), &["coupled_mass"]);
     assert!(count(&blind, "wrong") > 0, "{blind:#}");
     let dead = run(&broken("def main():", "def main():\n    raise SystemExit('no licence')"), &["window_end"]);
     assert_eq!(dead["labels"]["crashed"], dead["cases"], "{dead:#}");

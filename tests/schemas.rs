@@ -7,11 +7,12 @@
 mod program;
 
 use jsonschema::Validator;
-use mceip::candidate::read_report;
 use mceip::certificate::Certificate;
+use mceip::foreign::{ForeignError, ForeignReport};
 use mceip::lcp::read_mcp;
 use mceip::model::ModelError;
 use mceip::model::file::read_problem;
+use mceip::reduction::reduce;
 use program::{Folder, mceip};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
@@ -163,9 +164,11 @@ fn malformed_problems_are_invalid_or_wrong_in_meaning() {
         let text = std::fs::read_to_string(&path).unwrap();
         let error = read_problem(&text, Path::new("/nonexistent")).unwrap_err();
         let accepted = serde_json::from_str::<Value>(&text).is_ok_and(|v| problems.is_valid(&v));
-        assert_eq!(accepted, meaning.contains(&name.as_str()), "{name}: {error}");
-        assert!(!(accepted && of_shape(&error)), "{name}: {error}");
-        seen += usize::from(accepted);
+        // A duplicate key is gone before a schema sees the value: the reader is stricter by nature.
+        let stricter = name == "duplicate-key";
+        assert_eq!(accepted, stricter || meaning.contains(&name.as_str()), "{name}: {error}");
+        assert!(stricter || !(accepted && of_shape(&error)), "{name}: {error}");
+        seen += usize::from(accepted && !stricter);
     }
     assert_eq!(seen, meaning.len());
 }
@@ -217,6 +220,13 @@ fn damaged(file: &Value) -> Vec<Value> {
             fields.insert("stranger".into(), json!(1));
             out.push(copy);
         }
+        // A list of the fields in place of an object.
+        let mut copy = file.clone();
+        let place = copy.pointer_mut(spot).unwrap();
+        if let Value::Object(fields) = place {
+            *place = fields.values().cloned().collect();
+            out.push(copy);
+        }
     }
     out
 }
@@ -256,13 +266,20 @@ fn the_reader_of_problems_and_the_schema_agree() {
 #[test]
 fn the_readers_of_reports_and_certificates_agree_with_the_schemas() {
     let (solutions, certificates) = (schema("mceip-solutions-1"), schema("mceip-certificate-1"));
-    let report = json!({ "format": "mceip-solutions/1", "problem_sha256": "00", "solutions": [{ "value": 1, "x": ["1/2", 3] }] });
+    let example = std::fs::read_to_string(root("spec/examples/fold.json")).unwrap();
+    let problem = read_problem(&example, &root("spec/examples")).unwrap();
+    let reduced = reduce(&problem).unwrap();
+    let continua = json!([{ "slip": [0], "intervals": [{ "from": { "value": "0", "included": true }, "to": null }] }]);
+    let solutions_of = json!([{ "value": 1, "x": ["1/2", 3] }]);
+    let report =
+        json!({ "format": "mceip-solutions/1", "problem_sha256": problem.sha256(), "solutions": solutions_of, "continua": continua });
     let mut count = [0usize; 2];
     for copy in damaged(&report) {
-        let (valid, read) = (solutions.is_valid(&copy), read_report(&copy.to_string()));
-        // 1e5000 is a number and no double.
-        let too_large = matches!(read, Err(ModelError::Number { .. }));
-        assert_eq!(valid, read.is_ok() || too_large, "{copy}: {read:?}");
+        let (valid, read) = (solutions.is_valid(&copy), ForeignReport::read(&copy.to_string(), &problem, &reduced));
+        // 1e5000 is a number and no double; lengths and digests are not of the shape.
+        let of_meaning =
+            matches!(read, Err(ForeignError::File(ModelError::Number { .. }) | ForeignError::Length { .. } | ForeignError::Digest { .. }));
+        assert_eq!(valid, read.is_ok() || of_meaning, "{copy}: {read:?}");
         count[usize::from(valid)] += 1;
     }
     let folder = Folder::new();

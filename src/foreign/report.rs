@@ -2,7 +2,7 @@
 
 use crate::candidate::{Candidate, SOLUTIONS_FORMAT};
 use crate::exact::{NumberError, Rational, to_f64};
-use crate::model::file::{Number, from_json, require_format};
+use crate::model::file::{Number, Object, from_json, require_format};
 use crate::model::{Body, ModelError, Problem};
 use crate::reduction::{Reduced, project};
 use crate::tolerance::X_RADIUS;
@@ -94,7 +94,7 @@ pub enum ForeignError {
 #[derive(Deserialize)]
 struct Raw {
     problem_sha256: Option<String>,
-    solutions: Vec<RawSolution>,
+    solutions: Vec<Object<RawSolution>>,
     #[serde(default)]
     continua: Vec<ForeignContinuum>,
 }
@@ -115,12 +115,12 @@ impl ForeignReport {
     /// numbers beyond the range of doubles.
     pub fn read(text: &str, problem: &Problem, reduced: &Reduced) -> Result<ForeignReport, ForeignError> {
         require_format(text, SOLUTIONS_FORMAT)?;
-        let raw: Raw = from_json(text)?;
+        let Object(raw): Object<Raw> = from_json(text)?;
         let expected = problem.sha256();
         if let Some(got) = raw.problem_sha256.filter(|d| *d != expected) {
             return Err(ForeignError::Digest { expected, got: got.chars().take(80).collect() });
         }
-        let one = |(k, s): (usize, &RawSolution)| solution(k, s, problem, reduced);
+        let one = |(k, Object(s)): (usize, &Object<RawSolution>)| solution(k, s, problem, reduced);
         let solutions = raw.solutions.iter().enumerate().map(one).collect::<Result<_, _>>()?;
         Ok(ForeignReport { solutions, continua: raw.continua })
     }

@@ -45,7 +45,7 @@ pub enum Refutation {
     },
     /// The complete answer near the value holds nothing like it.
     #[error(
-        "no solution with value in [{lo:.12e}, {hi:.12e}] has x within {x_radius:e} of this one (all {supports} supports examined exactly, {others})"
+        "no solution with value in [{lo:?}, {hi:?}] has x within {x_radius:e} of this one (all {supports} supports examined exactly, {others})"
     )]
     NothingNear {
         /// Lower end of the values examined.

@@ -3,11 +3,13 @@
 mod market;
 mod matrix;
 mod number;
+mod object;
 mod raw;
 mod write;
 
 pub use market::read_matrix_market;
 pub use number::Number;
+pub use object::Object;
 pub use write::{write_problem, write_sparse};
 
 use super::{ErrorLocation, ModelError, Problem};
@@ -36,7 +38,7 @@ pub const MAX_ORDER: usize = 1_000_000;
 /// ```
 pub fn read_problem(text: &str, folder: &Path) -> Result<Problem, ModelError> {
     require_format(text, PROBLEM_FORMAT)?;
-    let raw: raw::RawProblem = from_json(text)?;
+    let Object(raw): Object<raw::RawProblem> = from_json(text)?;
     raw.build(folder)
 }
 
@@ -102,7 +104,7 @@ pub fn require_format(text: &str, expected: &'static str) -> Result<(), ModelErr
     struct Header {
         format: Option<serde_json::Value>,
     }
-    let header: Header = from_json(text)?;
+    let Object(header): Object<Header> = from_json(text)?;
     match header.format {
         Some(serde_json::Value::String(s)) if s == expected => Ok(()),
         Some(other) => Err(ModelError::Format { expected, got: other.to_string().chars().take(60).collect() }),
