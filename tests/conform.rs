@@ -43,7 +43,8 @@ fn cases() -> Vec<Case> {
 /// The exact answer, the same with value and x alone, in reverse, twice and in another scale.
 #[test]
 fn right_answers_are_correct_in_any_order_and_scale() {
-    let ids = cases().par_iter().map(|case| {
+    let all = cases();
+    let ids = all.par_iter().map(|case| {
         let answer = case.answer_json();
         let full = case.judge(&answer.to_string());
         assert_eq!(full.label, Label::Correct, "{}: {}", case.id, full.detail);
@@ -60,15 +61,16 @@ fn right_answers_are_correct_in_any_order_and_scale() {
         case.id.clone()
     });
     let ids: BTreeSet<String> = ids.collect();
-    assert_eq!(ids.len(), cases().len(), "every id once");
+    assert_eq!(ids.len(), all.len(), "every id once");
 }
 
 /// Six digits suffice where the flags do not say that they cannot.
 #[test]
 fn six_digits_are_enough_away_from_close_values() {
-    let count = cases().par_iter().map(|case| {
+    let all = cases();
+    let count = all.par_iter().map(|case| {
         if [Flag::CloseValues, Flag::TinyComponent, Flag::NearThreshold].iter().any(|f| case.flags.contains(f)) {
-            return 0;
+            return 0usize;
         }
         let answer = case.answer_json();
         let six = |v: &Value| format!("{:.5e}", v.as_str().unwrap().parse::<f64>().unwrap());
@@ -86,7 +88,8 @@ fn six_digits_are_enough_away_from_close_values() {
 /// Every wrong answer gets its label, and what is false in it is refuted by certify, check and enumeration.
 #[test]
 fn wrong_answers_are_rejected() {
-    let counts = cases().par_iter().map(|case| {
+    let all = cases();
+    let counts = all.par_iter().map(|case| {
         let mut seen: BTreeMap<Bug, usize> = BTreeMap::new();
         for wrong in case.wrong_answers() {
             let text = wrong.report.to_string();
@@ -110,7 +113,7 @@ fn wrong_answers_are_rejected() {
 }
 
 fn conform(options: &[&str], command: &[&str]) -> (i32, String) {
-    let out = mceip(&[&["conform"], options, &["--"], command].concat());
+    let out = mceip(&[&["conform"][..], options, &["--"], command].concat());
     (out.status.code().unwrap(), String::from_utf8(out.stdout).unwrap())
 }
 

@@ -28,7 +28,7 @@ fn run(source: &str, flags: &[&str]) -> Value {
     let folder = Folder::new();
     let file = folder.write("adapter.py", source);
     let only: Vec<&str> = flags.iter().flat_map(|f| ["--only", f]).collect();
-    let options = [&["conform", "--as-pencil", "--json", "--time-limit", "60"], &only[..], &["--", "python3", &file]].concat();
+    let options = [&["conform", "--as-pencil", "--json", "--time-limit", "60"][..], &only, &["--", "python3", file.as_str()]].concat();
     let out = mceip(&options);
     serde_json::from_slice(&out.stdout).unwrap()
 }

@@ -69,10 +69,10 @@ fn examples_and_written_files_are_valid() {
         let certificate = folder.path("c.json");
         for args in [
             &["enumerate", "--json"][..],
-            &["solve", "--json", "--certificate", &certificate],
-            &["complete", "--json", "--certificate", &certificate],
+            &["solve", "--json", "--certificate", certificate.as_str()],
+            &["complete", "--json", "--certificate", certificate.as_str()],
         ] {
-            let out = mceip(&[&[args[0], file.as_str()], &args[1..]].concat());
+            let out = mceip(&[&[args[0], file.as_str()][..], &args[1..]].concat());
             valid(&solutions, &serde_json::from_slice(&out.stdout).unwrap(), &format!("{args:?} {file}"));
             if args.len() > 2 {
                 valid(&certificates, &read(Path::new(&certificate)), &format!("{args:?} {file}"));
@@ -91,7 +91,7 @@ fn records_traces_and_plain_problems_are_valid() {
     let part = mceip(&["enumerate", &example, "--shard", "1/2"]);
     valid(&schema("mceip-part-1"), &serde_json::from_slice(&part.stdout).unwrap(), "part");
     for engine in [&["--checkpoint"][..], &["--screened", "--checkpoint"]] {
-        assert_eq!(mceip(&[&["enumerate", &example], engine, &[&checkpoint]].concat()).status.code(), Some(0));
+        assert_eq!(mceip(&[&["enumerate", example.as_str()][..], engine, &[checkpoint.as_str()]].concat()).status.code(), Some(0));
         valid(&schema("mceip-checkpoint-1"), &read(Path::new(&checkpoint)), "checkpoint");
         std::fs::remove_file(&checkpoint).unwrap();
     }
