@@ -210,7 +210,7 @@ fn thresholds_of_folds() -> Result<Group, ModelError> {
     for (d, comment) in [
         (rational(-1, 100), "a pair at distance 0.2"),
         (rational(-1, 100_000_000), "a pair at distance 2e-4"),
-        (rational(1, 1_000_000_000), "past the fold by 1e-9: nothing on the full support"),
+        (rational(1, 1_000_000_000), "past the fold by 10^-9: nothing on the full support"),
         (rational(1, 100), "past the fold"),
     ] {
         let a = Sparse::from_entries(2, 2, [(0, 0, whole(1)), (0, 1, whole(-4)), (1, 0, whole(1)), (1, 1, whole(-3) + d)]);
@@ -219,7 +219,7 @@ fn thresholds_of_folds() -> Result<Group, ModelError> {
     for exponent in [3u32, 5, 8] {
         let e = Rational::new(One::one(), num_bigint::BigInt::from(10).pow(exponent));
         let a = Sparse::from_entries(2, 2, [(0, 0, -whole(1) - &e), (0, 1, whole(1)), (1, 0, -e)]);
-        drafts.push(pencil_draft(format!("tiny-{exponent}"), format!("x = (1, 1e-{exponent}) at t = 1"), &[], a)?);
+        drafts.push(pencil_draft(format!("tiny-{exponent}"), format!("x = (1, 10^-{exponent}) at t = 1"), &[], a)?);
     }
     for (name, factor) in [("large", whole(10_000_000)), ("small", rational(1, 10_000_000))] {
         let fold = [(0, 0, whole(1)), (0, 1, whole(-6)), (1, 0, whole(2)), (1, 1, whole(-6))];
@@ -237,7 +237,7 @@ fn thresholds_of_folds() -> Result<Group, ModelError> {
     );
     let b = Sparse::from_entries(2, 2, [(0, 0, whole(1_000_000)), (1, 1, rational(1, 1_000_000))]);
     let problem = Problem::new(Body::Pencil(Pencil::new(a, b, vec![])?), Unknown::Lambda2, Window::all())?;
-    drafts.push(draft("scaled-rows", "the fold with its rows times 1e6 and 1e-6", &[Flag::Fold], problem));
+    drafts.push(draft("scaled-rows", "the fold with its rows times 1e6 and 10^-6", &[Flag::Fold], problem));
     Ok(group("folds", "folds, tiny components, scales", drafts))
 }
 

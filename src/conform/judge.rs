@@ -65,6 +65,9 @@ impl Judgement {
     }
 }
 
+/// Most solutions of a report that are looked at: each is certified. No answer of the pack has a hundred.
+const MAX_SOLUTIONS: usize = 10_000;
+
 /// Judges the text of a report on a case.
 pub fn judge_report(case: &Case, text: &str) -> Judgement {
     let report = match ForeignReport::read(text, &case.problem, &case.reduced) {
@@ -72,6 +75,9 @@ pub fn judge_report(case: &Case, text: &str) -> Judgement {
         Err(e @ ForeignError::Digest { .. }) => return Judgement::new(Label::Wrong, e.to_string()),
         Err(e) => return Judgement::new(Label::Malformed, e.to_string()),
     };
+    if report.solutions.len() > MAX_SOLUTIONS {
+        return Judgement::new(Label::Malformed, format!("more than {MAX_SOLUTIONS} solutions"));
+    }
     match met(case, &report) {
         Err(why) => Judgement::new(Label::Wrong, why),
         Ok(met) => match missing(case, &met) {
