@@ -51,7 +51,8 @@ pub fn project(variables: &[Variable], v: &[Rational]) -> Projected {
     Projected { x, off }
 }
 
-#[cfg(all(test, feature = "testkit"))]
+#[cfg(feature = "testkit")]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::exact::{Algebraic, Poly, rational, whole};
