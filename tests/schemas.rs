@@ -138,7 +138,7 @@ fn the_pack_is_valid() {
 /// Is this a complaint about the shape of the file, which the schema must share?
 fn of_shape(e: &ModelError) -> bool {
     use ModelError as E;
-    matches!(e, E::Json { .. } | E::Format { .. } | E::Number { .. } | E::Body { .. } | E::Sign { .. } | E::ZeroReactionState { .. })
+    matches!(e, E::Json { .. } | E::Format { .. } | E::Body { .. } | E::Sign { .. } | E::ZeroReactionState { .. })
 }
 
 /// Each malformed file: refused by the schema as well, or (`meaning`) only by what the numbers mean.
@@ -259,7 +259,7 @@ fn the_reader_of_problems_and_the_schema_agree() {
             }
         }
     }
-    assert!(count[0] > 100 && count[1] > 30 && count[2] > 500, "read, wrong in meaning, wrong in shape: {count:?}");
+    assert!(count[0] > 40 && count[1] > 30 && count[2] > 400, "read, wrong in meaning, wrong in shape: {count:?}");
 }
 
 /// The same for foreign reports and certificates, whose readers check shapes only.

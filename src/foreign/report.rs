@@ -6,7 +6,7 @@ use crate::model::file::{Number, Object, from_json, require_format};
 use crate::model::{Body, ModelError, Problem};
 use crate::reduction::{Reduced, project};
 use crate::tolerance::X_RADIUS;
-use serde::Deserialize;
+use serde::{Deserialize, Deserializer};
 
 /// A report, as far as it is read: solutions in the order of the file, and ranges of values.
 #[derive(Debug, Clone, PartialEq)]
@@ -33,6 +33,7 @@ pub struct ForeignContinuum {
     /// The support.
     pub slip: Vec<usize>,
     /// Lower and upper end of each interval; no upper end means infinity.
+    #[serde(deserialize_with = "objects")]
     pub intervals: Vec<ForeignInterval>,
 }
 
@@ -40,8 +41,10 @@ pub struct ForeignContinuum {
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 pub struct ForeignInterval {
     /// Lower end.
+    #[serde(deserialize_with = "object")]
     pub from: ForeignEnd,
     /// Upper end.
+    #[serde(default, deserialize_with = "optional")]
     pub to: Option<ForeignEnd>,
 }
 
@@ -91,11 +94,23 @@ pub enum ForeignError {
     },
 }
 
+fn object<'de, T: Deserialize<'de>, D: Deserializer<'de>>(d: D) -> Result<T, D::Error> {
+    Object::deserialize(d).map(|o| o.0)
+}
+
+fn optional<'de, T: Deserialize<'de>, D: Deserializer<'de>>(d: D) -> Result<Option<T>, D::Error> {
+    Option::<Object<T>>::deserialize(d).map(|o| o.map(|o| o.0))
+}
+
+fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(d: D) -> Result<Vec<T>, D::Error> {
+    Vec::<Object<T>>::deserialize(d).map(|list| list.into_iter().map(|o| o.0).collect())
+}
+
 #[derive(Deserialize)]
 struct Raw {
     problem_sha256: Option<String>,
     solutions: Vec<Object<RawSolution>>,
-    #[serde(default)]
+    #[serde(default, deserialize_with = "objects")]
     continua: Vec<ForeignContinuum>,
 }
 
