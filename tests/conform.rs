@@ -201,7 +201,7 @@ fn bad_usage_and_damaged_packs_are_refused() {
     assert!(good.contains("\"kernel_dimension\":1"));
     write(&good.replacen("\"kernel_dimension\":1", "\"kernel_dimension\":2", 1), true, "folds.json");
     refused(&["conform", "--pack", &pack, "--", "true"], &["fold-00", "not the exact one"]);
-    write(&good.replacen("[\"fold\"", "[\"unfold\"", 1), true, "folds.json");
+    write(&good.replacen("\"fold\"", "\"unfold\"", 1), true, "folds.json");
     refused(&["conform", "--pack", &pack, "--", "true"], &["unfold"]);
     write(&good[..good.len() / 2], true, "folds.json");
     refused(&["conform", "--pack", &pack, "--", "true"], &["folds.json", "line"]);
