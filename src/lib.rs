@@ -35,7 +35,11 @@ pub mod certify;
 pub mod check;
 #[cfg(feature = "cli")]
 pub mod cli;
+#[cfg(feature = "testkit")]
+pub mod conform;
 pub mod exact;
+#[cfg(feature = "solver")]
+pub mod foreign;
 #[cfg(feature = "solver")]
 pub mod lcp;
 #[cfg(feature = "solver")]

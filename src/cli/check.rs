@@ -1,25 +1,38 @@
-//! `mceip check`: a certificate against a problem, one verdict.
+//! `mceip check`: a certificate or somebody's solutions against a problem, one verdict.
 
 use super::common::{CliError, exit, load, print, text};
 use super::complete::solutions_text;
+use crate::candidate::SOLUTIONS_FORMAT;
 use crate::certificate::Certificate;
 use crate::check::check;
 use crate::exact::enclosing_decimals;
-use std::path::PathBuf;
+use crate::foreign::{ForeignError, ForeignReport, Verdict, judge};
+use crate::model::Problem;
+use crate::model::file::require_format;
+use crate::reduction::reduce;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `check`.
 #[derive(clap::Args)]
 pub(super) struct Args {
     /// Problem file (mceip-problem/1).
     file: PathBuf,
-    /// Certificate (mceip-certificate/1).
+    /// Certificate (mceip-certificate/1), or somebody's solutions (mceip-solutions/1): each of those
+    /// is certified and checked, or refuted.
     certificate: PathBuf,
 }
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    if args.file.as_path() == Path::new("-") && args.certificate.as_path() == Path::new("-") {
+        return Err(CliError::Option { option: "certificate", expected: "only one of the two files to be stdin", got: "-".into() });
+    }
     let problem = load(&args.file, None)?;
-    let certificate = Certificate::from_json(&text("the certificate", &args.certificate)?)
-        .map_err(|source| CliError::File { path: args.certificate.display().to_string(), source })?;
+    let source = text("the certificate", &args.certificate)?;
+    if require_format(&source, SOLUTIONS_FORMAT).is_ok() {
+        return foreign(args, &problem, &source);
+    }
+    let certificate =
+        Certificate::from_json(&source).map_err(|source| CliError::File { path: args.certificate.display().to_string(), source })?;
     match check(&problem, &certificate) {
         Ok(accepted) => {
             let mut out = String::new();
@@ -54,4 +67,42 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             Ok(exit::REJECTED)
         }
     }
+}
+
+/// One line per solution of a foreign report; the exit code is that of the worst.
+fn foreign(args: &Args, problem: &Problem, source: &str) -> Result<u8, CliError> {
+    let reduced = reduce(problem)?;
+    let report = match ForeignReport::read(source, problem, &reduced) {
+        Ok(report) => report,
+        Err(e @ ForeignError::Digest { .. }) => {
+            print(&format!("REJECTED: {e}\n"))?;
+            return Ok(exit::REJECTED);
+        }
+        Err(source) => return Err(CliError::Foreign { path: args.certificate.display().to_string(), source }),
+    };
+    let (mut out, mut undecided, mut rejected) = (String::new(), report.solutions.is_empty(), false);
+    for solution in &report.solutions {
+        let line = match solution {
+            Ok(candidate) => {
+                let verdict = judge(problem, &reduced, candidate);
+                undecided |= matches!(verdict, Verdict::Undecided { .. });
+                rejected |= matches!(verdict, Verdict::Rejected(_));
+                verdict.line(problem, candidate.value)
+            }
+            Err(off) => {
+                rejected = true;
+                format!("REJECTED: {off}")
+            }
+        };
+        out += &format!("{line}\n");
+    }
+    if report.solutions.is_empty() {
+        out += "UNDECIDED: the report lists no solution; that there is none is not checked here (see mceip complete)\n";
+    }
+    print(&out)?;
+    Ok(match (rejected, undecided) {
+        (true, _) => exit::REJECTED,
+        (false, true) => exit::UNDECIDED,
+        (false, false) => exit::DONE,
+    })
 }

@@ -1,7 +1,7 @@
 //! What subcommands share: reading problems, whole-or-nothing output, windows, interrupts, progress.
 
 use crate::exact::parse;
-use crate::model::file::{read_problem_file, read_text};
+use crate::model::file::{read_from, read_problem, read_problem_file, read_text};
 use crate::model::{ModelError, Problem, Window};
 use crate::multistart::SearchError;
 use crate::oracle::OracleError;
@@ -9,8 +9,8 @@ use crate::testkit::BlockError;
 use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write as _;
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 
 /// Exit codes of `design.md`.
 pub(super) mod exit {
@@ -116,6 +116,17 @@ pub(super) enum CliError {
         /// The file.
         path: String,
     },
+    /// Somebody's report.
+    #[error("{path}: {source}")]
+    Foreign {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: crate::foreign::ForeignError,
+    },
+    /// The conformance run, or its pack.
+    #[error(transparent)]
+    Conform(#[from] crate::conform::ConformError),
     /// A solution of a report does not fit the problem.
     #[error("solution {solution} of the report: expected x with {expected} components (see spec/formats.md for their order), got {got}")]
     ReportLength {
@@ -138,18 +149,26 @@ impl CliError {
     }
 }
 
-/// Reads a problem file; errors name the file.
+/// Reads a problem file (`-`: stdin); errors name the file.
 pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliError> {
-    let problem = read_problem_file(path).map_err(|source| CliError::File { path: path.display().to_string(), source })?;
+    let problem = if path == Path::new("-") { read_problem(&text("the problem", path)?, Path::new(".")) } else { read_problem_file(path) };
+    let problem = problem.map_err(|source| CliError::File { path: path.display().to_string(), source })?;
     match window {
         None => Ok(problem),
         Some(text) => Ok(problem.with_window(parse_window(text)?)),
     }
 }
 
-/// Reads a text file; errors name the file.
+/// Reads a text file (`-`: stdin); errors name the file.
 pub(super) fn text(what: &'static str, path: &Path) -> Result<String, CliError> {
-    read_text(what, path).map_err(|source| CliError::File { path: path.display().to_string(), source })
+    if path == Path::new("-") { read_stdin(what) } else { read_text(what, path) }
+        .map_err(|source| CliError::File { path: path.display().to_string(), source })
+}
+
+/// Stdin, read once and kept: a command may look at it twice, or name it for two of its inputs by mistake.
+fn read_stdin(what: &'static str) -> Result<String, ModelError> {
+    static TEXT: OnceLock<Result<String, ModelError>> = OnceLock::new();
+    TEXT.get_or_init(|| read_from(what, "stdin", std::io::stdin().lock())).clone()
 }
 
 /// `a,b` with b empty or `inf` for infinity.

@@ -5,6 +5,7 @@ mod certify;
 mod check;
 mod common;
 mod complete;
+mod conform;
 mod enumerate;
 mod merge;
 mod merge_covers;
@@ -49,6 +50,8 @@ enum Command {
     Certify(certify::Args),
     /// Check a certificate against a problem, exactly.
     Check(check::Args),
+    /// Run somebody else's program on problems with complete exact answers.
+    Conform(conform::Args),
     /// The two particles of Fig. 1: closed form beside the enumerator.
     Table1(table1::Args),
     /// The polyurethane block of section 5: its two published states.
@@ -71,6 +74,7 @@ pub fn main() -> ExitCode {
         Command::Complete(a) => complete::run(&a),
         Command::Certify(a) => certify::run(&a),
         Command::Check(a) => check::run(&a),
+        Command::Conform(a) => conform::run_command(&a),
         Command::Table1(a) => table1::run(&a),
         Command::Block(a) => block::run(&a),
         Command::Reduce(a) => reduce::run(&a),

@@ -9,6 +9,7 @@ mod embed;
 mod expand;
 mod lift;
 mod lines;
+mod project;
 
 pub use condense::{CondensationError, condense};
 pub use eliminate::{Reduced, Variable, reduce};
@@ -18,3 +19,4 @@ pub use embed::{Embedding, Side};
 pub use expand::Expansion;
 pub use lift::{Lifted, lift};
 pub use lines::{Line, LineViolated, check_lines};
+pub use project::{Projected, project};

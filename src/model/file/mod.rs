@@ -3,11 +3,13 @@
 mod market;
 mod matrix;
 mod number;
+mod object;
 mod raw;
 mod write;
 
 pub use market::read_matrix_market;
 pub use number::Number;
+pub use object::Object;
 pub use write::{write_problem, write_sparse};
 
 use super::{ErrorLocation, ModelError, Problem};
@@ -36,7 +38,7 @@ pub const MAX_ORDER: usize = 1_000_000;
 /// ```
 pub fn read_problem(text: &str, folder: &Path) -> Result<Problem, ModelError> {
     require_format(text, PROBLEM_FORMAT)?;
-    let raw: raw::RawProblem = from_json(text)?;
+    let Object(raw): Object<raw::RawProblem> = from_json(text)?;
     raw.build(folder)
 }
 
@@ -54,11 +56,22 @@ pub fn read_problem_file(path: &Path) -> Result<Problem, ModelError> {
 /// # Errors
 /// [`ModelError::Unreadable`] or [`ModelError::TooLarge`], naming what the file was wanted for.
 pub fn read_text(what: &'static str, path: &Path) -> Result<String, ModelError> {
-    let unreadable = |e: std::io::Error| ModelError::Unreadable { what, path: path.display().to_string(), problem: e.to_string() };
+    let name = path.display().to_string();
+    match std::fs::File::open(path) {
+        Ok(file) => read_from(what, &name, file),
+        Err(e) => Err(ModelError::Unreadable { what, path: name, problem: e.to_string() }),
+    }
+}
+
+/// Reads text of bounded size from an open file or a pipe; `name` stands for it in complaints.
+///
+/// # Errors
+/// As [`read_text`].
+pub fn read_from(what: &'static str, name: &str, source: impl std::io::Read) -> Result<String, ModelError> {
+    let unreadable = |e: std::io::Error| ModelError::Unreadable { what, path: name.to_string(), problem: e.to_string() };
     let mut text = String::new();
     // Bounded by what is read, not by what the directory says: devices and pipes have no length.
-    let file = std::fs::File::open(path).map_err(unreadable)?;
-    let length = file.take(MAX_FILE_BYTES + 1).read_to_string(&mut text).map_err(unreadable)? as u64;
+    let length = source.take(MAX_FILE_BYTES + 1).read_to_string(&mut text).map_err(unreadable)? as u64;
     if length > MAX_FILE_BYTES {
         return Err(ModelError::TooLarge { what: "file size in bytes", limit: MAX_FILE_BYTES, got: length });
     }
@@ -91,7 +104,7 @@ pub fn require_format(text: &str, expected: &'static str) -> Result<(), ModelErr
     struct Header {
         format: Option<serde_json::Value>,
     }
-    let header: Header = from_json(text)?;
+    let Object(header): Object<Header> = from_json(text)?;
     match header.format {
         Some(serde_json::Value::String(s)) if s == expected => Ok(()),
         Some(other) => Err(ModelError::Format { expected, got: other.to_string().chars().take(60).collect() }),

@@ -1,7 +1,7 @@
 //! The JSON shape of `mceip-problem/1`, and its way to a [`Problem`].
 
-use super::Number;
 use super::matrix::RawMatrix;
+use super::{Number, Object};
 use crate::exact::{Rational, whole};
 use crate::model::{Body, ContactState, ModelError, Particle, Pencil, Problem, Reaction, System, Unknown, Window};
 use serde::Deserialize;
@@ -15,9 +15,9 @@ pub(super) struct RawProblem {
     name: Option<String>,
     comment: Option<String>,
     unknown: Unknown,
-    window: Option<RawWindow>,
-    pencil: Option<RawPencil>,
-    system: Option<RawSystem>,
+    window: Option<Object<RawWindow>>,
+    pencil: Option<Object<RawPencil>>,
+    system: Option<Object<RawSystem>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -42,7 +42,7 @@ struct RawSystem {
     stiffness: RawMatrix,
     mass: Option<RawMatrix>,
     friction: Option<Number>,
-    particles: Vec<RawParticle>,
+    particles: Vec<Object<RawParticle>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -54,7 +54,7 @@ struct RawParticle {
     sign: Option<i64>,
     normal_direction: Option<i64>,
     frame: Option<[[Number; 2]; 2]>,
-    reaction: Option<RawReaction>,
+    reaction: Option<Object<RawReaction>>,
 }
 
 #[derive(Debug, Deserialize)]
@@ -78,11 +78,11 @@ impl RawProblem {
     pub(super) fn build(self, folder: &Path) -> Result<Problem, ModelError> {
         let window = match self.window {
             None => Window::all(),
-            Some(w) => Window::new(w.min.map_or_else(|| whole(0), |n| n.0), w.max.map(|n| n.0))?,
+            Some(Object(w)) => Window::new(w.min.map_or_else(|| whole(0), |n| n.0), w.max.map(|n| n.0))?,
         };
         let body = match (self.pencil, self.system) {
-            (Some(p), None) => Body::Pencil(p.build(folder)?),
-            (None, Some(s)) => Body::System(s.build(folder)?),
+            (Some(Object(p)), None) => Body::Pencil(p.build(folder)?),
+            (None, Some(Object(s))) => Body::System(s.build(folder)?),
             (None, None) => return Err(ModelError::Body { got: "neither" }),
             (Some(_), Some(_)) => return Err(ModelError::Body { got: "both" }),
         };
@@ -101,7 +101,7 @@ impl RawPencil {
 
 impl RawSystem {
     fn build(self, folder: &Path) -> Result<System, ModelError> {
-        let particles = self.particles.into_iter().enumerate().map(|(i, p)| p.build(i)).collect::<Result<Vec<_>, _>>()?;
+        let particles = self.particles.into_iter().enumerate().map(|(i, Object(p))| p.build(i)).collect::<Result<Vec<_>, _>>()?;
         let mass = self.mass.map(|m| m.build("M", folder)).transpose()?;
         System::new(self.stiffness.build("K", folder)?, mass, self.friction.map(|n| n.0), particles)
     }
@@ -132,7 +132,7 @@ impl RawParticle {
             }
         };
         let frame: Option<[[Rational; 2]; 2]> = self.frame.map(|rows| rows.map(|row| row.map(|n| n.0)));
-        let reaction = self.reaction.map(|r| Reaction { tangential: r.tangential.0, normal: r.normal.0 });
+        let reaction = self.reaction.map(|Object(r)| Reaction { tangential: r.tangential.0, normal: r.normal.0 });
         let normal_direction = sign("normal_direction", self.normal_direction.unwrap_or(1))?;
         Ok(Particle { tangential: self.tangential, normal: self.normal, state, normal_direction, frame, reaction })
     }

@@ -1,0 +1,73 @@
+//! Why a conformance run or a pack is refused.
+
+use crate::model::ModelError;
+use crate::oracle::OracleError;
+
+/// A pack that cannot be used, a command that cannot be started.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ConformError {
+    /// A problem of the pack, or a file of it.
+    #[error("{place}: {source}")]
+    Problem {
+        /// File or case.
+        place: String,
+        /// What is wrong.
+        source: ModelError,
+    },
+    /// Larger than the plain enumerator takes.
+    #[error("{case}: {source}")]
+    Oracle {
+        /// The case.
+        case: String,
+        /// The limit.
+        source: OracleError,
+    },
+    /// The answer in the pack is not the one the plain enumerator finds.
+    #[error("{case}: the answer in the pack is not the exact one")]
+    Answer {
+        /// The case.
+        case: String,
+    },
+    /// A flag nobody knows.
+    #[error("{case}: expected a flag of spec/conform.md, got {got:?}")]
+    Flag {
+        /// The case.
+        case: String,
+        /// The word.
+        got: String,
+    },
+    /// A file of the pack differs from its digest.
+    #[error("{file}: expected sha256 {expected}, got {got}")]
+    Digest {
+        /// The file.
+        file: String,
+        /// Digest in the index.
+        expected: String,
+        /// Digest of the file.
+        got: String,
+    },
+    /// A problem of the program's own pack was refused.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A mesh of the block was refused.
+    #[error(transparent)]
+    Source(#[from] crate::source::SourceError),
+    /// The block was not condensed.
+    #[error(transparent)]
+    Condensation(#[from] crate::reduction::CondensationError),
+    /// The command does not start.
+    #[error("cannot start {command:?}: {reason}")]
+    Start {
+        /// The program.
+        command: String,
+        /// The system's reason.
+        reason: std::io::ErrorKind,
+    },
+    /// No thread pool.
+    #[error("cannot start {threads} threads")]
+    Threads {
+        /// How many.
+        threads: usize,
+    },
+}
