@@ -1,4 +1,5 @@
 //! The engineer's answer for one mechanical system at one mu: divergence of the form (8), thresholds,
 //! conditions (17)-(20), and the evidence behind each sentence.
 
+pub mod absence;
 pub mod conditions;

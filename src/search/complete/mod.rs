@@ -6,7 +6,7 @@
 
 mod condense;
 mod error;
-mod game;
+pub(crate) mod game;
 mod merge;
 mod root;
 mod skeleton;
