@@ -108,3 +108,7 @@ pub const BRACKET_BITS: u32 = 64;
 /// First distance from the proposed end of definiteness at which it is tried to be proved, relative:
 /// 2^-this, widening by 4. Unit: none. Basis: eigenvalues in doubles are good to 1e-14 of the largest.
 pub const BRACKET_START_BITS: u32 = 44;
+
+/// Sine of the angle in the complex plane from which an eigenvalue lambda^2 in doubles counts as complex.
+/// Unit: none. Basis: a double eigenvalue splits by 1e-8 in doubles; what is warned of is measured only.
+pub const FLUTTER_ANGLE: f64 = 1e-6;

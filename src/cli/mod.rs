@@ -1,5 +1,6 @@
 //! The program: one file per subcommand, each a library call with an exit code.
 
+mod analyze;
 mod block;
 mod certify;
 mod check;
@@ -45,6 +46,8 @@ enum Command {
     Solve(solve::Args),
     /// All solutions in a window with a proof that there are no others.
     Complete(complete::Args),
+    /// The engineer's answer for a mechanical system: divergence at this mu, thresholds, evidence.
+    Analyze(analyze::Args),
     /// Turn a solution report (somebody's floats) into a certificate.
     Certify(certify::Args),
     /// Check a certificate against a problem, exactly.
@@ -69,6 +72,7 @@ pub fn main() -> ExitCode {
         Command::Merge(a) => merge::run(&a),
         Command::Solve(a) => solve::run(&a),
         Command::Complete(a) => complete::run(&a),
+        Command::Analyze(a) => analyze::run(&a),
         Command::Certify(a) => certify::run(&a),
         Command::Check(a) => check::run(&a),
         Command::Table1(a) => table1::run(&a),
