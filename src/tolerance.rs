@@ -112,3 +112,8 @@ pub const BRACKET_START_BITS: u32 = 44;
 /// Sine of the angle in the complex plane from which an eigenvalue lambda^2 in doubles counts as complex.
 /// Unit: none. Basis: a double eigenvalue splits by 1e-8 in doubles; what is warned of is measured only.
 pub const FLUTTER_ANGLE: f64 = 1e-6;
+
+/// Relative distance from the friction cone within which a reaction of a finite-element program counts as
+/// on it (numerator, denominator). Unit: none. Basis: such programs iterate on contact to 1e-3 to 1e-6 of
+/// the reaction; states are given, the reaction only guards against a wrong sign or another mu.
+pub const CONE_SLACK: (i64, i64) = (1, 1000);

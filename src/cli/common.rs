@@ -73,6 +73,22 @@ pub(super) enum CliError {
     /// A system is not analysed.
     #[error(transparent)]
     Analysis(#[from] crate::analysis::AnalysisError),
+    /// A table of contact states.
+    #[error("{path}: {source}")]
+    Contacts {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: crate::source::ContactsError,
+    },
+    /// A file of CalculiX.
+    #[error("{path}: {source}")]
+    Calculix {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: crate::source::calculix::CalculixError,
+    },
     /// A certificate among several.
     #[error("{path}: {source}")]
     Part {

@@ -6,6 +6,7 @@ mod certify;
 mod check;
 mod common;
 mod complete;
+mod convert;
 mod enumerate;
 mod merge;
 mod merge_covers;
@@ -50,6 +51,8 @@ enum Command {
     Analyze(analyze::Args),
     /// Turn a solution report (somebody's floats) into a certificate.
     Certify(certify::Args),
+    /// Make a problem file from Matrix Market or CalculiX matrices and a table of contact states.
+    Convert(convert::Args),
     /// Check a certificate against a problem, exactly.
     Check(check::Args),
     /// The two particles of Fig. 1: closed form beside the enumerator.
@@ -74,6 +77,7 @@ pub fn main() -> ExitCode {
         Command::Complete(a) => complete::run(&a),
         Command::Analyze(a) => analyze::run(&a),
         Command::Certify(a) => certify::run(&a),
+        Command::Convert(a) => convert::run(&a),
         Command::Check(a) => check::run(&a),
         Command::Table1(a) => table1::run(&a),
         Command::Block(a) => block::run(&a),
