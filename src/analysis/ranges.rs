@@ -4,7 +4,8 @@ use super::{AnalysisError, Critical, Model, StaticThreshold, Verdict, verdict};
 use crate::exact::{Rational, from_f64, to_f64, whole};
 use num_traits::Zero;
 
-/// Divergence at one mu, decided by a complete search over lambda^2 in [0, infinity).
+/// Divergence at one mu, decided by a complete search over lambda^2 in [0, infinity), or below the proved
+/// bound of the critical mu.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sample {
     /// mu.
@@ -41,7 +42,7 @@ pub(super) fn ranges(
     let mut samples = Vec::new();
     for k in 1..=count {
         let mu = short(&top * Rational::new(k.into(), count.into()));
-        samples.extend(sample(model, mu)?);
+        samples.extend(sample(model, critical, mu)?);
     }
     let mut i = 0;
     while i + 1 < samples.len() {
@@ -50,7 +51,7 @@ pub(super) fn ranges(
             if a.verdict == b.verdict {
                 break;
             }
-            let Some(middle) = sample(model, (&a.mu + &b.mu) / whole(2))? else { break };
+            let Some(middle) = sample(model, critical, (&a.mu + &b.mu) / whole(2))? else { break };
             let below = middle.verdict == a.verdict;
             samples.insert(i + 1, middle);
             i += usize::from(below);
@@ -60,7 +61,10 @@ pub(super) fn ranges(
     Ok((grouped(&samples), samples))
 }
 
-fn sample(model: &Model<'_>, mu: Rational) -> Result<Option<Sample>, AnalysisError> {
+fn sample(model: &Model<'_>, critical: &Critical, mu: Rational) -> Result<Option<Sample>, AnalysisError> {
+    if critical.absent_below.as_ref().is_none_or(|below| mu < *below) {
+        return Ok(Some(Sample { mu, verdict: Verdict::Absent }));
+    }
     if model.stopped() {
         return Ok(None);
     }

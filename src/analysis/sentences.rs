@@ -22,7 +22,7 @@ const OUTSIDE: &str = "Outside (8), and so not answered: flutter, stick-slip gro
 /// Ends of an enclosure in short decimals, rounded outwards.
 fn between(v: &Interval) -> String {
     let (lo, hi) = enclosing_decimals(v, 9);
-    if lo == hi { lo } else { format!("[{lo}, {hi}]") }
+    if lo == hi { format!("= {lo}") } else { format!("in [{lo}, {hi}]") }
 }
 
 /// A rational as a decimal that is not above it: for bounds below which nothing exists.
@@ -31,8 +31,8 @@ fn down(v: &Rational) -> String {
 }
 
 fn short(v: &Rational) -> String {
-    let text = v.to_string();
-    if text.len() <= 12 { text } else { format!("{:.9}", to_f64(v)) }
+    let text = format!("{:.6}", to_f64(v));
+    text.trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
 fn open_text(word: &str, open: &[OpenRegion]) -> String {
@@ -92,7 +92,7 @@ impl Analysis {
                 "growth rate 0 (a threshold: departure linear in time)".into()
             };
             let text = format!(
-                "Mode {}: {growth}, lambda^2 in {} 1/s^2; particles {:?} slip, {:?} do not move; v over all degrees of freedom in the JSON, slip rates summing to 1.",
+                "Mode {}: {growth}, lambda^2 {} 1/s^2; particles {:?} slip, {:?} do not move; v over all degrees of freedom in the JSON, slip rates summing to 1.",
                 k + 1,
                 between(&m.lambda2),
                 m.slipping,
@@ -106,7 +106,7 @@ impl Analysis {
     fn say_threshold(&self) -> Sentence {
         let t = &self.threshold;
         let text = match (t.smallest(), t.open.is_empty()) {
-            (Some(mu), _) => format!("Static threshold: the smallest mu with lambda = 0 is in {}.", between(mu)),
+            (Some(mu), _) => format!("Static threshold: the smallest mu with lambda = 0: mu {}.", between(mu)),
             (None, true) => "Static threshold: none; no mu >= 0 has a solution with lambda = 0.".into(),
             (None, false) => format!("Static threshold: UNDECIDED for {}.", open_text("mu", &t.open)),
         };
@@ -124,7 +124,7 @@ impl Analysis {
     fn say_solution(&self) -> Option<Sentence> {
         let s = self.critical.solution.as_ref()?;
         let text = format!(
-            "Critical mu: a solution is proved at mu in {} with lambda^2 in {} 1/s^2, so the critical mu is at most that.",
+            "Critical mu: a solution is proved at mu {} with lambda^2 {} 1/s^2, so the critical mu is at most that.",
             between(&s.mu),
             between(&s.lambda2)
         );

@@ -98,7 +98,7 @@ fn write_proofs(folder: &Path, analysis: &Analysis, input: &Path) -> Result<Vec<
 fn text(analysis: &Analysis, paths: &[String]) -> String {
     let [dofs, free, slip, stick] = analysis.sizes;
     let name = analysis.name.as_deref().map_or_else(String::new, |n| format!("{n}: "));
-    let mut out = format!("{name}{dofs} degrees of freedom ({free} free), {slip} particles in impending slip, {stick} stick\n");
+    let mut out = format!("{name}{dofs} degrees of freedom ({free} free), {slip} in impending slip, {stick} stick\n");
     for s in analysis.sentences() {
         out += &format!("{}\n    [{}]\n", s.text, analysis.evidence_text(&s.evidence, paths));
     }
