@@ -24,7 +24,7 @@ pub enum AnalysisError {
     #[error("E2: expected friction in the file or by --friction, got none")]
     NoFriction,
     /// Units that doubles cannot carry.
-    #[error("{what}[{row}][{col}]: expected a magnitude between 1e-150 and 1e150 (choose other units), got about 1e{exponent}")]
+    #[error("{what}[{row}][{col}]: expected a magnitude between 10^-150 and 10^150 (choose other units), got about 10^{exponent}")]
     Units {
         /// The matrix.
         what: &'static str,

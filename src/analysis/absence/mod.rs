@@ -113,7 +113,11 @@ pub fn absence(family: &MuFamily, excluded_below: &Rational, limits: Limits, sto
                 strip
             }
         };
-        let verdict = Corners::new(&strip, region.m, region.m_level).judge(&region.states);
+        let verdict = if strip.too_wide {
+            Verdict::Split { along_m: false, hopeful: true }
+        } else {
+            Corners::new(&strip, region.m, region.m_level).judge(&region.states)
+        };
         let ended = match verdict {
             Verdict::Empty => continue,
             Verdict::Branch(i) => {

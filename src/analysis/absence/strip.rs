@@ -26,6 +26,8 @@ pub(super) struct Strip {
     pub(super) z: [[Vec<i64>; 2]; 2],
     /// Radii for k = 0, 1, over the whole strip, rounding included.
     pub(super) radius: [Vec<i64>; 2],
+    /// A radius as large as the matrices: nothing can be said before the strip is cut.
+    pub(super) too_wide: bool,
 }
 
 /// Integer matrix, rows by columns.
@@ -64,7 +66,7 @@ impl Strip {
         let bits = z.iter().flatten().flatten().flatten().map(Integer::bits).max().unwrap_or(0);
         let drop = bits.saturating_sub(ENTRY_BITS);
         let short = |v: &Integer| (v >> drop).to_i64();
-        let mut strip = Strip { z: Default::default(), radius: [vec![0; n * n], vec![0; n * n]] };
+        let mut strip = Strip { z: Default::default(), radius: [vec![0; n * n], vec![0; n * n]], too_wide: false };
         for k in 0..2 {
             for e in 0..2 {
                 strip.z[k][e] = z[k][e].iter().flatten().map(short).collect::<Option<_>>()?;
@@ -73,8 +75,10 @@ impl Strip {
                 for j in 0..n {
                     let rounding = i64::from(drop > 0);
                     let r = remainder(k, i, j);
-                    strip.radius[k][i * n + j] =
-                        (&r >> drop).to_i64().filter(|v| *v < 1 << ENTRY_BITS)? + i64::from(r.is_positive()) + rounding;
+                    match (&r >> drop).to_i64().filter(|v| *v < 1 << ENTRY_BITS) {
+                        Some(v) => strip.radius[k][i * n + j] = v + i64::from(r.is_positive()) + rounding,
+                        None => strip.too_wide = true,
+                    }
                 }
             }
         }
