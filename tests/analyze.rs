@@ -92,8 +92,11 @@ fn a_fold_lies_below_every_static_threshold() {
     assert_eq!((a.divergence.verdict, a.divergence.modes.len()), (Verdict::Present, 2));
     assert!(a.threshold.values.is_empty() && a.threshold.open.is_empty());
     let (below, solution) = (a.critical.absent_below.clone().unwrap(), a.critical.solution.clone().unwrap());
-    // 3 mu^2 - 4 (1 + t) mu + (1 + t)(2 + t) = 0 has mu = 2 as its least real value, at t = 2 (and 1 + t = mu at t = 1...).
-    assert!(below < *solution.mu.lo() && to_f64(&below) > 0.999 * to_f64(solution.mu.hi()), "{below} {solution:?}");
+    // 3 mu^2 - 4 u mu + u (u + 1) = 0 with u = 1 + t: mu = (2u - sqrt(u (u - 3))) / 3 is least at u = (3 + 2 sqrt 3) / 2,
+    // where mu = 1 + sqrt(3) / 2: the root of 4 mu^2 - 8 mu + 1 above 1.
+    let side = |mu: &Rational| whole(4) * mu * mu - whole(8) * mu + whole(1);
+    assert!(below > whole(1) && side(&below) < whole(0) && side(solution.mu.hi()) > whole(0), "{below} {solution:?}");
+    assert!(to_f64(&below) > 0.999 * to_f64(solution.mu.hi()));
     assert!(solution.lambda2.lo() > &whole(0));
     // Independent of the search: the oracle finds nothing below at many lambda^2, and something at the solution's.
     let mass = Sparse::identity(4);
@@ -114,7 +117,7 @@ fn flutter_is_a_warning_where_divergence_is_absent() {
     let a = answer(&fold(), &whole(1), 0);
     assert_eq!(a.divergence.verdict, Verdict::Absent);
     let flutter = a.flutter.as_ref().unwrap();
-    // lambda^2 + lambda^2 ... : -K* = [[-1, 3], [-1, 2]], lambda^4 - lambda^2 + 1 = 0: lambda^2 = 1/2 + i sqrt(3)/2.
+    // -K* = [[-1, 3], [-1, 2]], lambda^4 - lambda^2 + 1 = 0: lambda^2 = 1/2 + i sqrt(3)/2.
     assert_eq!(flutter.eigenvalues.len(), 1);
     assert!((flutter.eigenvalues[0].0 - 0.5).abs() < 1e-9 && (flutter.eigenvalues[0].1 - 0.75f64.sqrt()).abs() < 1e-9);
     assert!((flutter.growth_rate - (std::f64::consts::PI / 6.0).cos()).abs() < 1e-9 && (flutter.frequency - 0.5).abs() < 1e-9);
@@ -175,6 +178,17 @@ fn certificates_are_written_and_accepted() {
     assert_eq!(mceip(&["check", &mu, &lambda2]).status.code(), Some(1));
     let words = String::from_utf8(mceip(&["analyze", &file, "--samples", "0"]).stdout).unwrap();
     assert!(words.contains("taken as impending slip at mu = 9, divergence instability of the form (8) is PRESENT"), "{words}");
+}
+
+/// An interrupt leaves everything undecided that was not done, and claims nothing.
+#[test]
+fn interrupted_work_is_undecided() {
+    let stop = AtomicBool::new(true);
+    let a = analyse(None, &fold(), &whole(2), &Options::default(), &stop, &|_| {}).unwrap();
+    assert!(a.interrupted && !a.is_decided() && a.divergence.modes.is_empty());
+    assert!(a.threshold.smallest().is_none() && a.samples.len() <= Options::default().samples);
+    assert!(a.critical.solution.is_none() && a.sufficient.is_none());
+    assert!(a.sentences()[0].text.contains("UNDECIDED"));
 }
 
 /// One answer for any number of threads.

@@ -15,9 +15,10 @@ pub(super) struct Args {
     /// Coefficient of friction instead of the file's (reactions in the file are then not used).
     #[arg(long, value_name = "MU")]
     friction: Option<String>,
-    /// Values of mu at which divergence is decided to find its ranges; 0 for none.
-    #[arg(long, default_value_t = Options::default().samples)]
-    samples: usize,
+    /// Values of mu at which divergence is decided to find its ranges; 0 for none (the default beyond 200
+    /// free degrees of freedom).
+    #[arg(long, value_name = "N")]
+    samples: Option<usize>,
     /// Boxes that may be used to bound the critical mu from below.
     #[arg(long, default_value_t = Options::default().limits.boxes)]
     boxes: usize,
@@ -40,13 +41,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.threads == Some(0) {
         return Err(CliError::Option { option: "threads", expected: "at least 1", got: "0".into() });
     }
-    if args.samples > MAX_SAMPLES {
-        return Err(CliError::Option { option: "samples", expected: "0 to 10000", got: args.samples.to_string() });
+    let usual = if system.free_dofs().len() > SAMPLED_FREE { 0 } else { Options::default().samples };
+    let samples = args.samples.unwrap_or(usual);
+    if samples > MAX_SAMPLES {
+        return Err(CliError::Option { option: "samples", expected: "0 to 10000", got: samples.to_string() });
     }
     if let Some(folder) = &args.certificates {
         writable(folder)?;
     }
-    let mut options = Options { samples: args.samples, threads: args.threads, ..Options::default() };
+    let mut options = Options { samples, threads: args.threads, ..Options::default() };
     options.limits.boxes = args.boxes;
     let stop = interrupt_flag();
     let spinner = progress_spinner("reading");
@@ -67,6 +70,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
 /// More samples than any plot has use for.
 const MAX_SAMPLES: usize = 10_000;
+
+/// Free degrees of freedom beyond which the ranges of mu are looked for on request only.
+const SAMPLED_FREE: usize = 200;
 
 /// The folder exists and takes files, known before the work starts.
 fn writable(folder: &Path) -> Result<(), CliError> {
