@@ -64,7 +64,7 @@ pub(super) fn critical(
         Some(c) if c.below.as_ref().is_none_or(|b| *b > excluded) => (c.below.clone(), BY_COVER),
         _ => (Some(excluded), BY_CONDITION),
     };
-    let blocked = cover.as_ref().filter(|c| !c.cut_short).and_then(|c| c.blocked.as_ref());
+    let blocked = cover.as_ref().and_then(|c| c.blocked.as_ref());
     if let (Some((lo, hi)), Some(below)) = (blocked, &absent_below) {
         for lambda2 in places(lo, hi.as_ref()) {
             if let Some(found) = at(model, &lambda2, below, solution.as_ref(), proofs)? {

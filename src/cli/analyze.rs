@@ -13,7 +13,7 @@ pub(super) struct Args {
     /// Problem file (mceip-problem/1) of a mechanical system; `mceip convert` makes one.
     file: PathBuf,
     /// Coefficient of friction instead of the file's (reactions in the file are then not used).
-    #[arg(long, value_name = "MU")]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true)]
     friction: Option<String>,
     /// Values of mu at which divergence is decided to find its ranges; 0 for none (the default beyond 200
     /// free degrees of freedom).

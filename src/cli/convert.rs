@@ -26,7 +26,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "FILE")]
     contacts: PathBuf,
     /// Coefficient of friction.
-    #[arg(long, value_name = "MU")]
+    #[arg(long, value_name = "MU", allow_hyphen_values = true)]
     friction: String,
     /// Name for the problem.
     #[arg(long)]
