@@ -27,6 +27,8 @@ use strip::Strip;
 pub struct Limits {
     /// Boxes examined before the search ends with what it has.
     pub boxes: usize,
+    /// Intervals of lambda^2 on which free variables are eliminated before it does.
+    pub strips: usize,
     /// Slip variables beyond which no cover is tried.
     pub slip: usize,
     /// Free variables beyond which no cover is tried.
@@ -35,7 +37,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { boxes: 20_000, slip: 20, free: 120 }
+        Limits { boxes: 20_000, strips: 2_000, slip: 20, free: 400 }
     }
 }
 
@@ -99,7 +101,8 @@ pub fn absence(family: &MuFamily, excluded_below: &Rational, limits: Limits, sto
             return Some(Absence { below: None, blocked: None, boxes, cut_short: false });
         };
         let region = store.remove(&id)?;
-        let cut_short = boxes >= limits.boxes || stop.load(Ordering::Relaxed);
+        let used_up = boxes >= limits.boxes || (scaled.free > 0 && strips.len() >= limits.strips);
+        let cut_short = used_up || stop.load(Ordering::Relaxed);
         boxes += 1;
         if upper_mu(&scaled, &region).is_some_and(|mu| mu <= *excluded_below) {
             continue;
