@@ -80,6 +80,48 @@ fn two_particles_as_in_the_table() {
     assert!(counts.iter().all(|c| *c > 0), "{counts:?}");
 }
 
+/// The modes are motions: u = u0 + alpha v with alpha = alpha0 cosh(lambda t) satisfies momentum balance, contact and
+/// friction at all times while the reactions stay compressive. // E1, E2, E3, E4, E8
+#[test]
+fn a_mode_is_a_motion_along_a_constant_direction() {
+    let mut moved = [0, 0];
+    for (signs, mu) in [((1, 1), 3), ((-1, -1), 3), ((1, -1), 8)] {
+        let data = TwoParticles { c: rational(3, 5), s: rational(4, 5), k: whole(5), m: rational(1, 7), mu: whole(mu), signs };
+        let system = two_particles(&data).unwrap();
+        let entry = |m: &Sparse, i: usize, j: usize| to_f64(&m.get(i, j));
+        let mu = f64::from(mu as i32);
+        for mode in answer(&system, &data.mu, 0).divergence.modes {
+            let (lambda, v) = (mode.growth_rate, &mode.v);
+            let row = |m: &Sparse, i: usize| (0..4).map(|j| entry(m, i, j) * v[j]).sum::<f64>();
+            let w: Vec<f64> = (0..4).map(|i| lambda * lambda * row(system.mass().unwrap(), i) + row(system.stiffness(), i)).collect();
+            for step in 0..20 {
+                let t = 0.1 * f64::from(step) / lambda;
+                let (alpha, rate) = (1e-3 * (lambda * t).cosh(), 1e-3 * lambda * (lambda * t).sinh());
+                for (p, s) in [(0, f64::from(signs.0)), (1, f64::from(signs.1))] {
+                    // At equilibrium r_N = -100 and r_T = S mu 100, on the cone.
+                    let (r_t, r_n) = (s * mu * 100.0 + alpha * w[2 * p], -100.0 + alpha * w[2 * p + 1]);
+                    let velocity = rate * v[2 * p];
+                    assert!(v[2 * p + 1] == 0.0 && r_n < 0.0, "contact is kept");
+                    assert!(r_t.abs() + mu * r_n <= 1e-9, "in the cone: {r_t} {r_n}");
+                    assert!((velocity.abs() * r_t - mu * velocity * r_n).abs() <= 1e-6 * velocity.abs(), "on it, and opposed to slip");
+                    moved[usize::from(v[2 * p] != 0.0)] += 1;
+                }
+            }
+        }
+    }
+    assert!(moved[0] > 0 && moved[1] > 0, "slipping and sticking were met: {moved:?}");
+    // Free dofs carry no reaction: w_f = 0 in the example with free variables.
+    let problem = mceip::model::file::read_problem_file(std::path::Path::new(&example("oblique.json"))).unwrap();
+    let mceip::model::Body::System(system) = problem.body() else { panic!("a system") };
+    let mode = answer(system, &whole(9), 0).divergence.modes.remove(0);
+    let lambda2 = mode.growth_rate * mode.growth_rate;
+    for i in system.free_dofs() {
+        let m = system.stiffness().add_scaled(&mceip::exact::from_f64(lambda2).unwrap(), system.mass().unwrap());
+        let w: f64 = (0..6).map(|j| to_f64(&m.get(i, j)) * mode.v[j]).sum();
+        assert!(w.abs() < 1e-12, "w[{i}] = {w}");
+    }
+}
+
 /// The fold of errata.md as a mechanical system: K0 = diag(1, 2), K1 = [[0, -3], [1, -4]], M = I.
 fn fold() -> System {
     let k = Sparse::from_ints(&[&[1, 0, 0, 1], &[0, 2, -3, -4], &[0, -3, 99, 0], &[1, -4, 0, 99]]);
