@@ -27,7 +27,7 @@ pub enum DefiniteUntil {
         /// Encloses the end: proved definite at its lower end, proved not definite at its upper.
         end: Interval,
         /// The end as the root of a polynomial, for small orders.
-        exact: Option<Algebraic>,
+        exact: Option<Box<Algebraic>>,
     },
 }
 
@@ -69,7 +69,7 @@ impl DefiniteUntil {
             end.try_rational();
             let width = end.interval().hi() / Rational::from_integer(num_bigint::BigInt::one() << BRACKET_BITS);
             end.refine_to(&width);
-            return Ok(DefiniteUntil::End { end: end.interval().clone(), exact: Some(end) });
+            return Ok(DefiniteUntil::End { end: end.interval().clone(), exact: Some(Box::new(end)) });
         }
         bracket(what, &a, &b)
     }

@@ -37,7 +37,7 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { boxes: 20_000, strips: 2_000, slip: 20, free: 400 }
+        Limits { boxes: 20_000, strips: 2_000, slip: 20, free: 120 }
     }
 }
 
