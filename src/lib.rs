@@ -16,7 +16,8 @@
 //! Floats propose, exact arithmetic decides. The rooms, in the order of the data:
 //! [`exact`] numbers, [`model`] problems and files, [`source`] examples, [`reduction`] (10)-(16) and
 //! Propositions 1 and 2, [`oracle`] the slow truth, `mcp` and `solver` the PATH-style solver,
-//! `certify` and [`certificate`], [`check`] the verdict, `testkit` what compares them all.
+//! `certify` and [`certificate`], [`check`] the verdict, `analysis` the engineer's answer, `testkit` what compares
+//! them all.
 //!
 //! ```
 //! use mceip::{exact::{whole, Sparse}, model::{Pencil, Window}, oracle::enumerate};
@@ -27,6 +28,8 @@
 //! assert!(found.is_complete_list());
 //! ```
 
+#[cfg(feature = "search")]
+pub mod analysis;
 #[cfg(feature = "solver")]
 pub mod candidate;
 pub mod certificate;

@@ -105,3 +105,20 @@ pub const CONDENSED_MARGIN: f64 = 1e-9;
 /// it, largest first. Unit: none. Basis: the first is [`VALUE_RADIUS`], where certification looks; the
 /// smaller ones are for windows that another, degenerate solution keeps open.
 pub const ABSENCE_RADII: [f64; 3] = [VALUE_RADIUS, 1e-7, 1e-10];
+
+/// Width of the enclosure of a root that ends definiteness, relative: 2^-this. Unit: none. Basis: 17
+/// digits can be printed.
+pub const BRACKET_BITS: u32 = 64;
+
+/// First distance from the proposed end of definiteness at which it is tried to be proved, relative:
+/// 2^-this, widening by 4. Unit: none. Basis: eigenvalues in doubles are good to 1e-14 of the largest.
+pub const BRACKET_START_BITS: u32 = 44;
+
+/// Sine of the angle in the complex plane from which an eigenvalue lambda^2 in doubles counts as complex.
+/// Unit: none. Basis: a double eigenvalue splits by 1e-8 in doubles; what is warned of is measured only.
+pub const FLUTTER_ANGLE: f64 = 1e-6;
+
+/// Relative distance from the friction cone within which a reaction of a finite-element program counts as
+/// on it (numerator, denominator). Unit: none. Basis: such programs iterate on contact to 1e-3 to 1e-6 of
+/// the reaction; states are given, the reaction only guards against a wrong sign or another mu.
+pub const CONE_SLACK: (i64, i64) = (1, 1000);

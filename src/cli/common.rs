@@ -70,6 +70,25 @@ pub(super) enum CliError {
     /// The complete search refuses.
     #[error(transparent)]
     Complete(#[from] crate::search::complete::CompleteError),
+    /// A system is not analysed.
+    #[error(transparent)]
+    Analysis(#[from] crate::analysis::AnalysisError),
+    /// A table of contact states.
+    #[error("{path}: {source}")]
+    Contacts {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: crate::source::ContactsError,
+    },
+    /// A file of CalculiX.
+    #[error("{path}: {source}")]
+    Calculix {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: crate::source::calculix::CalculixError,
+    },
     /// A certificate among several.
     #[error("{path}: {source}")]
     Part {
@@ -181,6 +200,13 @@ fn parse_window(text: &str) -> Result<Window, CliError> {
         m => Some(parse(m).map_err(|_| bad())?),
     };
     Window::new(parse(min).map_err(|_| bad())?, max).map_err(|_| bad())
+}
+
+/// A positive number given as an option.
+pub(super) fn positive(option: &'static str, given: &str) -> Result<crate::exact::Rational, CliError> {
+    use num_traits::Signed as _;
+    let bad = || CliError::Option { option, expected: "a number above 0", got: given.chars().take(60).collect() };
+    parse(given).ok().filter(|v| v.is_positive()).ok_or_else(bad)
 }
 
 /// Prints to stdout. A reader that has gone away (a closed pipe) is no error; a full disk is.

@@ -1,11 +1,13 @@
 //! The program: one file per subcommand, each a library call with an exit code.
 
+mod analyze;
 mod block;
 mod certify;
 mod check;
 mod common;
 mod complete;
 mod conform;
+mod convert;
 mod enumerate;
 mod merge;
 mod merge_covers;
@@ -46,8 +48,12 @@ enum Command {
     Solve(solve::Args),
     /// All solutions in a window with a proof that there are no others.
     Complete(complete::Args),
+    /// The engineer's answer for a mechanical system: divergence at this mu, thresholds, evidence.
+    Analyze(analyze::Args),
     /// Turn a solution report (somebody's floats) into a certificate.
     Certify(certify::Args),
+    /// Make a problem file from Matrix Market or CalculiX matrices and a table of contact states.
+    Convert(convert::Args),
     /// Check a certificate against a problem, exactly.
     Check(check::Args),
     /// Run somebody else's program on problems with complete exact answers.
@@ -72,7 +78,9 @@ pub fn main() -> ExitCode {
         Command::Merge(a) => merge::run(&a),
         Command::Solve(a) => solve::run(&a),
         Command::Complete(a) => complete::run(&a),
+        Command::Analyze(a) => analyze::run(&a),
         Command::Certify(a) => certify::run(&a),
+        Command::Convert(a) => convert::run(&a),
         Command::Check(a) => check::run(&a),
         Command::Conform(a) => conform::run_command(&a),
         Command::Table1(a) => table1::run(&a),

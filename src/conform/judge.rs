@@ -109,7 +109,8 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
             .map_err(|why| wrong(format!("value {} is not certified: {why}", candidate.value)))?;
         let placed = match &claim {
             Claim::ExactSolution(c) => place(case, &claim, c, &mut met),
-            Claim::EnclosedSolution(_) => place_box(answer, &claim, &mut met),
+            // A lifted one is never made here; like a box it is placed by value and support.
+            Claim::EnclosedSolution(_) | Claim::LiftedSolution(_) => place_box(answer, &claim, &mut met),
         };
         if !placed {
             return Err(wrong(format!("value {} is certified and not in the complete answer", candidate.value)));

@@ -3,6 +3,9 @@
 
 mod block;
 mod block_model;
+pub mod calculix;
+#[cfg(feature = "solver")]
+mod contacts;
 mod doubles;
 mod element;
 mod error;
@@ -14,6 +17,8 @@ mod two_particles;
 
 pub use block::Block;
 pub use block_model::BlockModel;
+#[cfg(feature = "solver")]
+pub use contacts::{ContactsError, read_contacts};
 pub use doubles::{DoubleBlock, DoubleMatrix};
 pub use element::{MassKind, Material, Plane, Point};
 pub use error::SourceError;

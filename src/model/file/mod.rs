@@ -51,6 +51,14 @@ pub fn read_problem_file(path: &Path) -> Result<Problem, ModelError> {
     read_problem(&text, path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")))
 }
 
+/// Reads a JSON list of particles, each as in `system.particles` of a problem file.
+///
+/// # Errors
+/// [`ModelError`] naming the particle.
+pub fn read_particles(text: &str) -> Result<Vec<super::Particle>, ModelError> {
+    raw::particles(from_json(text)?)
+}
+
 /// Reads a text file of bounded size.
 ///
 /// # Errors

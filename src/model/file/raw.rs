@@ -47,7 +47,7 @@ struct RawSystem {
 
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-struct RawParticle {
+pub(super) struct RawParticle {
     tangential: usize,
     normal: usize,
     state: RawState,
@@ -101,10 +101,15 @@ impl RawPencil {
 
 impl RawSystem {
     fn build(self, folder: &Path) -> Result<System, ModelError> {
-        let particles = self.particles.into_iter().enumerate().map(|(i, Object(p))| p.build(i)).collect::<Result<Vec<_>, _>>()?;
+        let particles = particles(self.particles)?;
         let mass = self.mass.map(|m| m.build("M", folder)).transpose()?;
         System::new(self.stiffness.build("K", folder)?, mass, self.friction.map(|n| n.0), particles)
     }
+}
+
+/// The particles of a list, numbered in complaints.
+pub(super) fn particles(list: Vec<Object<RawParticle>>) -> Result<Vec<Particle>, ModelError> {
+    list.into_iter().enumerate().map(|(i, Object(p))| p.build(i)).collect()
 }
 
 impl RawParticle {

@@ -8,17 +8,17 @@
 use crate::tolerance::{GAME_PIVOT, GAME_SHIFT};
 
 /// A solved game.
-pub(super) struct Game {
+pub(crate) struct Game {
     /// min over columns of -(w'T): positive if w proves the region empty.
-    pub(super) value: f64,
+    pub(crate) value: f64,
     /// The row player's weights, |w| summing to one.
-    pub(super) w: Vec<f64>,
+    pub(crate) w: Vec<f64>,
     /// The column player's mix.
-    pub(super) mix: Vec<f64>,
+    pub(crate) mix: Vec<f64>,
 }
 
 /// Solves the game for `columns` of T; `either_sign[i]` says that w_i may be negative.
-pub(super) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
+pub(crate) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
     let rows = either_sign.len();
     if columns.is_empty() {
         return Game { value: f64::INFINITY, w: vec![0.0; rows], mix: Vec::new() };
@@ -36,7 +36,7 @@ pub(super) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
     Game { value, w, mix: mix.into_iter().map(|q| q / total).collect() }
 }
 
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 

@@ -7,7 +7,7 @@
 mod circuit;
 mod condense;
 mod error;
-mod game;
+pub(crate) mod game;
 mod merge;
 mod reasons;
 mod root;

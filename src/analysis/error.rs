@@ -1,0 +1,52 @@
+//! Why a system is not analysed.
+
+use crate::exact::to_f64;
+use crate::model::{ModelError, System};
+use crate::search::complete::CompleteError;
+
+/// Why a system is not analysed.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum AnalysisError {
+    /// The system was refused.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// The complete search refuses.
+    #[error(transparent)]
+    Complete(#[from] CompleteError),
+    /// A pencil has no mu.
+    #[error("analyze: expected a mechanical system (stiffness, mass, friction, particles), got a pencil")]
+    NotASystem,
+    /// Divergence needs inertia.
+    #[error("E3: expected mass, got none (analyze needs K, M and mu)")]
+    NoMass,
+    /// Divergence is asked for at a mu.
+    #[error("E2: expected friction in the file or by --friction, got none")]
+    NoFriction,
+    /// Units that doubles cannot carry.
+    #[error("{what}[{row}][{col}]: expected a magnitude between 10^-150 and 10^150 (choose other units), got about 10^{exponent}")]
+    Units {
+        /// The matrix.
+        what: &'static str,
+        /// Row of the entry.
+        row: usize,
+        /// Its column.
+        col: usize,
+        /// Its decimal order of magnitude.
+        exponent: i64,
+    },
+}
+
+/// Refuses entries whose squares leave the doubles: the searches propose in doubles.
+pub(super) fn require_doubles(system: &System) -> Result<(), AnalysisError> {
+    for (what, matrix) in [("K", Some(system.stiffness())), ("M", system.mass())] {
+        for (row, col, v) in matrix.into_iter().flat_map(|m| m.entries()) {
+            let size = to_f64(v).abs();
+            if !(1e150f64.recip()..=1e150).contains(&size) {
+                let bits = v.numer().bits() as i64 - v.denom().bits() as i64;
+                return Err(AnalysisError::Units { what, row, col, exponent: bits * 301 / 1000 });
+            }
+        }
+    }
+    Ok(())
+}
