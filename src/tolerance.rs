@@ -100,3 +100,18 @@ pub const TAIL_START: f64 = 1e-6;
 /// The same on a condensed pencil, once its radius has been taken off. Unit: as [`WITNESS_MARGIN`].
 /// Basis: a thousand times what the checker's exact condensation and the one in doubles differ by.
 pub const CONDENSED_MARGIN: f64 = 1e-9;
+
+/// Largest difference of mirrored entries of a symmetric matrix in doubles, relative to the larger of
+/// their diagonal entries. Unit: none. Basis: element matrices round by a few units in the last place
+/// (8, `source::doubles` tests it); data printed with twelve digits or fewer should be mirrored first.
+pub const ASYMMETRY: f64 = 1e-13;
+
+/// Smallest pivot of a sparse Cholesky factor, relative to the diagonal entry of the matrix. Unit: none.
+/// Basis: sums of some hundred terms round to 1e-14; a singular matrix leaves pivots of that size and either
+/// sign, an elastic body that is held leaves above 1e-6.
+pub const SINGULAR_PIVOT: f64 = 1e-13;
+
+/// Imaginary part, relative to the largest eigenvalue, up to which an eigenvalue of the QR algorithm is
+/// offered as real, and the residual up to which Newton's method then keeps it. Unit: none. Basis: simple
+/// eigenvalues come with 1e-13 times their condition, below 1e4 for condensed meshes.
+pub const REAL_EIGENVALUE: f64 = 1e-9;

@@ -2,6 +2,8 @@
 #![deny(clippy::float_arithmetic)]
 
 mod condense;
+#[cfg(feature = "solver")]
+mod condense_sparse;
 mod eliminate;
 #[cfg(feature = "solver")]
 mod embed;
@@ -11,6 +13,8 @@ mod lift;
 mod lines;
 
 pub use condense::{CondensationError, condense};
+#[cfg(feature = "solver")]
+pub use condense_sparse::{CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed};
 pub use eliminate::{Reduced, Variable, reduce};
 #[cfg(feature = "solver")]
 pub use embed::{Embedding, Side};
