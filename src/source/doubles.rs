@@ -109,13 +109,26 @@ fn mass(edges: [(f64, f64); 2], model: &BlockModel) -> [[f64; 3]; 3] {
 }
 
 /// Sums entries of one place, in the order of the elements.
-fn merge(what: &'static str, order: usize, mut list: Vec<(usize, usize, f64)>) -> Result<DoubleMatrix, SourceError> {
-    list.sort_by_key(|e| (e.0, e.1)); // stable
-    let mut entries: Vec<(usize, usize, f64)> = Vec::with_capacity(list.len() / 3);
+fn merge(what: &'static str, order: usize, list: Vec<(usize, usize, f64)>) -> Result<DoubleMatrix, SourceError> {
+    // Counted into rows first: rows are short, the list is not.
+    let mut next = vec![0; order + 1];
+    list.iter().for_each(|e| next[e.0 + 1] += 1);
+    (0..order).for_each(|i| next[i + 1] += next[i]);
+    let start = next.clone();
+    let mut rows = vec![(0, 0.0); list.len()];
     for (i, j, v) in list {
-        match entries.last_mut() {
-            Some(last) if (last.0, last.1) == (i, j) => last.2 += v,
-            _ => entries.push((i, j, v)),
+        rows[next[i]] = (j, v);
+        next[i] += 1;
+    }
+    let mut entries: Vec<(usize, usize, f64)> = Vec::with_capacity(rows.len() / 2);
+    for i in 0..order {
+        let row = &mut rows[start[i]..start[i + 1]];
+        row.sort_by_key(|e| e.0); // stable
+        for &(j, v) in &*row {
+            match entries.last_mut() {
+                Some(last) if (last.0, last.1) == (i, j) => last.2 += v,
+                _ => entries.push((i, j, v)),
+            }
         }
     }
     match entries.iter().find(|e| !e.2.is_finite()) {
