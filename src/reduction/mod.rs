@@ -4,6 +4,8 @@
 mod condense;
 #[cfg(feature = "solver")]
 mod condense_sparse;
+#[cfg(feature = "solver")]
+mod condensed_mcp;
 mod eliminate;
 #[cfg(feature = "solver")]
 mod embed;
@@ -15,6 +17,8 @@ mod lines;
 pub use condense::{CondensationError, condense};
 #[cfg(feature = "solver")]
 pub use condense_sparse::{CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed};
+#[cfg(feature = "solver")]
+pub use condensed_mcp::{CondensedEmbedding, CondensedEmbeddingError};
 pub use eliminate::{Reduced, Variable, reduce};
 #[cfg(feature = "solver")]
 pub use embed::{Embedding, Side};

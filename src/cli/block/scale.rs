@@ -7,7 +7,7 @@ use crate::linear::Symmetric;
 use crate::linear::SymmetricError;
 use crate::model::file::write_problem;
 use crate::model::{Body, ContactState, ModelError, Pencil, Problem, Unknown, Window};
-use crate::multistart::{AllSlip, all_slip};
+use crate::multistart::{AllSlip, CondensedSearchError, all_slip};
 use crate::reduction::{CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed};
 use crate::report::Table;
 use crate::search::complete::{Options, complete};
@@ -31,6 +31,8 @@ pub(in crate::cli) enum ScaleError {
     Matrix { what: &'static str, source: SymmetricError },
     #[error(transparent)]
     Condensation(#[from] SparseCondensationError),
+    #[error(transparent)]
+    Search(#[from] CondensedSearchError),
 }
 
 /// A line of the study.
@@ -71,7 +73,7 @@ pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result
 }
 
 /// `NXxNY` cells of the paper's block.
-fn model(text: &str) -> Result<BlockModel, CliError> {
+pub(super) fn model(text: &str) -> Result<BlockModel, CliError> {
     let bad = || CliError::Option { option: "scale", expected: "NXxNY, such as 320x160", got: text.chars().take(60).collect() };
     let (nx, ny) = text.split_once('x').ok_or_else(bad)?;
     Ok(BlockModel::of_the_paper().with_cells(nx.parse().map_err(|_| bad())?, ny.parse().map_err(|_| bad())?))
