@@ -31,6 +31,10 @@ pub const CENTER_BITS: u32 = 96;
 /// for the block (804 unknowns), and each bit costs 80 kB of certificate there.
 pub const PRECONDITIONER_BITS: i32 = 40;
 
+/// Bits of the contraction that rounding the preconditioner may take. Basis: 2^-10 is the 1e-3 of
+/// [`PRECONDITIONER_BITS`]; more of them cost size, fewer the proof.
+pub const PRECONDITIONER_LOSS_BITS: u32 = 10;
+
 /// Two runs ended at the same point if value (relative to 1 + |value|) and x (l1 norm 1) agree to
 /// this. Unit: none. Basis: runs stop at residuals of 1e-10; the later one is counted as repeated.
 pub const SAME_POINT: f64 = 1e-9;

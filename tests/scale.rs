@@ -176,6 +176,19 @@ fn lambda2_of_small_blocks_is_that_of_the_enumerator() {
     assert!(met >= 4, "{met} solutions in all");
 }
 
+/// Beyond the size of exact claims: enclosed although lambda^2 is millions of times as large as x.
+#[test]
+fn lambda2_of_a_mesh_is_enclosed_and_accepted() {
+    let block = Block::new(&BlockModel::of_the_paper().with_cells(6, 3)).unwrap();
+    let states = block.sliding_states(0, 5).unwrap();
+    for mu in ["2", "3"] {
+        let (found, values) = certified(&block, &states, mu, 6);
+        assert_eq!(values.len(), 1, "{:?}", found.terminations);
+        assert!(values[0].1 > 1e5);
+        approx::assert_relative_eq!(values[0].1, found.solutions[0].candidate.value, max_relative = 1e-10);
+    }
+}
+
 /// `cargo test --release --test scale -- --ignored --nocapture`: the certified values of `complete_block.rs`.
 #[test]
 #[ignore = "a minute in the release profile, most of it certification"]
