@@ -1,8 +1,28 @@
-//! The one file that names faer: dense factorisations in doubles.
+//! The one file that names faer: dense factorisations in doubles. Sparse ones are built on its kernels.
+//!
+//! | file | what |
+//! |---|---|
+//! | `symmetric` | sparse symmetric matrices |
+//! | `dissection` | nested dissection: the order of elimination |
+//! | `analysis` | which fronts there are, and who passes what to whom |
+//! | `multifrontal` | Cholesky factors and Schur complements, front by front |
 
+mod analysis;
+mod dissection;
+mod multifrontal;
+mod symmetric;
+
+pub use analysis::Analysis;
+pub use multifrontal::{NotDefinite, SchurFactor};
+pub use symmetric::{Symmetric, SymmetricError};
+
+use faer::dyn_stack::{MemBuffer, MemStack};
+use faer::linalg::cholesky::llt::factor::{cholesky_in_place, cholesky_in_place_scratch};
+use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::solvers::{DenseSolveCore, Solve};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
-use faer::{Mat, Par, Side};
+use faer::prelude::{Reborrow, ReborrowMut};
+use faer::{Accum, Mat, MatMut, Par, Side};
 
 /// The inverse of a dense matrix given by rows (n x n), by LU with partial pivoting.
 ///
@@ -57,6 +77,29 @@ pub fn definite_eigenvalues(b: &[Vec<f64>], a: &[Vec<f64>]) -> Option<Vec<f64>> 
     c.self_adjoint_eigenvalues(Side::Lower).ok()
 }
 
+/// Eliminates the first `own` of `order` unknowns of a symmetric front, lower triangles by columns:
+/// `panel` holds the columns eliminated (order x own) and becomes their part of the Cholesky factor,
+/// `update` the other rows and columns, from which the elimination is taken off.
+///
+/// `false` where a pivot is not positive.
+fn eliminate_front(panel: &mut [f64], update: &mut [f64], order: usize, own: usize) -> bool {
+    let rest = order - own;
+    let panel = MatMut::from_column_major_slice_mut(panel, order, own);
+    let (mut top, mut bottom) = panel.split_at_row_mut(own);
+    let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(own, Par::Seq, Default::default()));
+    let stack = MemStack::new(&mut memory);
+    if cholesky_in_place(top.rb_mut(), Default::default(), Par::Seq, stack, Default::default()).is_err() {
+        return false;
+    }
+    if rest > 0 {
+        solve_lower_triangular_in_place(top.rb(), bottom.rb_mut().transpose_mut(), Par::Seq);
+        let update = MatMut::from_column_major_slice_mut(update, rest, rest);
+        let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
+        matmul(update, lower, Accum::Add, bottom.rb(), full, bottom.rb().transpose(), full, -1.0, Par::Seq);
+    }
+    true
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -84,5 +127,14 @@ mod tests {
         approx::assert_relative_eq!(t[0], (2.0 - 13f64.sqrt()) / 3.0, epsilon = 1e-12);
         approx::assert_relative_eq!(t[1], (2.0 + 13f64.sqrt()) / 3.0, epsilon = 1e-12);
         assert!(definite_eigenvalues(&a, &b).is_none());
+    }
+
+    /// [4 2; 2 5]: L = [2 0; 1 2], and 5 - 1 = 4 is what the first unknown leaves of the second.
+    #[test]
+    fn a_front_of_two_by_hand() {
+        let (mut panel, mut update) = (vec![4.0, 2.0], vec![5.0]);
+        assert!(eliminate_front(&mut panel, &mut update, 2, 1));
+        assert_eq!((panel, update), (vec![2.0, 1.0], vec![4.0]));
+        assert!(!eliminate_front(&mut [1.0, 2.0, 0.0, 4.0], &mut [], 2, 2), "[1 2; 2 4] is singular");
     }
 }

@@ -31,6 +31,10 @@ pub const CENTER_BITS: u32 = 96;
 /// for the block (804 unknowns), and each bit costs 80 kB of certificate there.
 pub const PRECONDITIONER_BITS: i32 = 40;
 
+/// Bits of the contraction that rounding the preconditioner may take. Basis: 2^-10 is the 1e-3 of
+/// [`PRECONDITIONER_BITS`]; more of them cost size, fewer the proof.
+pub const PRECONDITIONER_LOSS_BITS: u32 = 10;
+
 /// Two runs ended at the same point if value (relative to 1 + |value|) and x (l1 norm 1) agree to
 /// this. Unit: none. Basis: runs stop at residuals of 1e-10; the later one is counted as repeated.
 pub const SAME_POINT: f64 = 1e-9;
@@ -122,3 +126,18 @@ pub const FLUTTER_ANGLE: f64 = 1e-6;
 /// on it (numerator, denominator). Unit: none. Basis: such programs iterate on contact to 1e-3 to 1e-6 of
 /// the reaction; states are given, the reaction only guards against a wrong sign or another mu.
 pub const CONE_SLACK: (i64, i64) = (1, 1000);
+
+/// Largest difference of mirrored entries of a symmetric matrix in doubles, relative to the larger of
+/// their diagonal entries. Unit: none. Basis: element matrices round by a few units in the last place
+/// (8, `source::doubles` tests it); data printed with twelve digits or fewer should be mirrored first.
+pub const ASYMMETRY: f64 = 1e-13;
+
+/// Smallest pivot of a sparse Cholesky factor, relative to the diagonal entry of the matrix. Unit: none.
+/// Basis: sums of some hundred terms round to 1e-14; a singular matrix leaves pivots of that size and either
+/// sign, an elastic body that is held leaves above 1e-6.
+pub const SINGULAR_PIVOT: f64 = 1e-13;
+
+/// Imaginary part, relative to the largest eigenvalue, up to which an eigenvalue of the QR algorithm is
+/// offered as real, and the residual up to which Newton's method then keeps it. Unit: none. Basis: simple
+/// eigenvalues come with 1e-13 times their condition, below 1e4 for condensed meshes.
+pub const REAL_EIGENVALUE: f64 = 1e-9;

@@ -7,7 +7,7 @@ use crate::exact::{Integer, Rational, from_f64, to_f64};
 use crate::linear::inverse;
 use crate::model::file::Number;
 use crate::model::{Pencil, Window};
-use crate::tolerance::{BOX_RADIUS_BITS, CENTER_BITS, PRECONDITIONER_BITS, VALUE_RADIUS, X_RADIUS};
+use crate::tolerance::{BOX_RADIUS_BITS, CENTER_BITS, PRECONDITIONER_BITS, PRECONDITIONER_LOSS_BITS, VALUE_RADIUS, X_RADIUS};
 use num_traits::{One, Signed, Zero};
 
 /// Newton steps with a fixed inverse: each gains the digits the inverse is good for.
@@ -31,7 +31,7 @@ pub(super) fn make(
     let newton = Newton { rows, active: active(pencil, support), support };
     let start = newton.start(candidate)?;
     let jacobian = newton.jacobian(&start);
-    let y = inverse(&jacobian).ok_or(AttemptFailure::SingularJacobian)?;
+    let y = equilibrated_inverse(&jacobian, &start).ok_or(AttemptFailure::SingularJacobian)?;
     let center = newton.polish(start.clone(), &y)?;
     let distance = center.iter().zip(&start).map(|(c, s)| to_f64(&(c - s)).abs()).fold(0.0, f64::max);
     if distance > X_RADIUS.max(VALUE_RADIUS * (1.0 + candidate.value.abs())) {
@@ -45,12 +45,13 @@ pub(super) fn make(
         });
     }
     // The inverse at the polished centre, rounded to short integers.
-    let y = inverse(&newton.jacobian(&center)).ok_or(AttemptFailure::SingularJacobian)?;
-    let (preconditioner, exponent) = round(&y, &newton.scales());
+    let jacobian = newton.jacobian(&center);
+    let y = equilibrated_inverse(&jacobian, &center).ok_or(AttemptFailure::SingularJacobian)?;
+    let radius = radii(&center);
+    let (preconditioner, exponent) = round(&y, &newton.scales(), rounding_bits(&jacobian, &radius));
     if exponent > MAX_EXPONENT {
         return Err(AttemptFailure::TooLarge { limit: MAX_EXPONENT as usize, got: exponent as usize });
     }
-    let radius = radii(&center);
     let number = |list: Vec<Rational>| list.into_iter().map(Number).collect();
     let claim = EnclosedSolution { support: support.to_vec(), center: number(center), radius: number(radius), preconditioner, exponent };
     newton.signs(&claim)?;
@@ -175,12 +176,39 @@ fn radii(center: &[Rational]) -> Vec<Rational> {
     radius
 }
 
+/// The inverse of a Jacobian at z, by way of one whose rows and last column are of order one: rows with
+/// cleared denominators and a value like lambda^2 are many powers of ten away from e'x_s and x.
+fn equilibrated_inverse(jacobian: &[Vec<f64>], z: &[Rational]) -> Option<Vec<Vec<f64>>> {
+    let n = jacobian.len();
+    let value = to_f64(&z[n - 1]).abs();
+    let column = |j: usize| if j + 1 == n && value > 0.0 { value } else { 1.0 };
+    let sizes: Vec<f64> = jacobian.iter().map(|r| r.iter().enumerate().map(|(j, v)| v.abs() * column(j)).fold(0.0, f64::max)).collect();
+    let even: Vec<Vec<f64>> =
+        jacobian.iter().zip(&sizes).map(|(r, s)| r.iter().enumerate().map(|(j, v)| v * column(j) / s).collect()).collect();
+    let mut y = inverse(&even)?;
+    for (j, row) in y.iter_mut().enumerate() {
+        row.iter_mut().zip(&sizes).for_each(|(v, s)| *v *= column(j) / s);
+    }
+    y.iter().flatten().all(|v| v.is_finite()).then_some(y)
+}
+
+/// Bits after the point of a preconditioner whose rounding takes at most 2^-`PRECONDITIONER_LOSS_BITS` of the
+/// narrowest side of the box: n entries of row k, each off by 2^-e, against sum_j |J_ij| r_j.
+fn rounding_bits(jacobian: &[Vec<f64>], radius: &[Rational]) -> f64 {
+    let r: Vec<f64> = radius.iter().map(to_f64).collect();
+    let reach = |row: &Vec<f64>| row.iter().zip(&r).map(|(v, r)| v.abs() * r).sum::<f64>();
+    let widest = jacobian.iter().map(reach).fold(0.0, f64::max);
+    let narrowest = r.iter().copied().fold(f64::INFINITY, f64::min);
+    (jacobian.len() as f64 * widest / narrowest).log2().ceil() + f64::from(PRECONDITIONER_LOSS_BITS)
+}
+
 /// The inverse for rows that were divided by 2^scale, in integers of 2^-exponent: the largest entry
-/// of each column has about `PRECONDITIONER_BITS` bits or more.
-fn round(y: &[Vec<f64>], scales: &[u64]) -> (Vec<Vec<Integer>>, u32) {
+/// has about `PRECONDITIONER_BITS` bits, or more where `needed` bits after the point are more.
+fn round(y: &[Vec<f64>], scales: &[u64], needed: f64) -> (Vec<Vec<Integer>>, u32) {
     let largest = y.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
     let widest = scales.iter().copied().max().unwrap_or(0);
-    let exponent = (PRECONDITIONER_BITS - largest.log2().ceil() as i32).max(0) as u64 + widest;
+    let wanted = (PRECONDITIONER_BITS - largest.log2().ceil() as i32).max(needed as i32);
+    let exponent = wanted.max(0) as u64 + widest;
     // Finite: `inverse` refuses anything else.
     let integer = |(v, k): (&f64, &u64)| {
         let scale = Rational::from_integer(Integer::one() << (exponent - k));

@@ -1,6 +1,8 @@
 //! `mceip block`: the two published states of the polyurethane block, or its whole loading path.
 
+mod lambda2;
 mod path;
+pub(super) mod scale;
 
 use super::common::{CliError, exit, interrupt_flag, print};
 use super::output::Output;
@@ -53,6 +55,20 @@ pub(super) struct Args {
     /// Plane stress or strain: stress, strain.
     #[arg(long, default_value = "stress", requires = "path")]
     plane: String,
+    /// A refinement study instead: the paper's block with NXxNY cells, 17 of every 20 contact nodes in impending
+    /// slip, condensed in doubles by one sparse Cholesky; several with commas.
+    #[arg(long, value_name = "NXxNY", value_delimiter = ',', conflicts_with_all = ["path", "state"])]
+    scale: Vec<String>,
+    /// MCEIP-lambda2 at this friction (several with commas), by sparse condensation and many starts: of the published
+    /// states, or of the meshes of --scale; each solution certified where the mesh is small enough.
+    #[arg(long, value_name = "MU", value_delimiter = ',', conflicts_with_all = ["path", "write"])]
+    lambda2: Vec<String>,
+    /// Starts of --lambda2.
+    #[arg(long, default_value_t = 22, requires = "lambda2")]
+    starts: usize,
+    /// Seed of the starts of --lambda2.
+    #[arg(long, default_value_t = 1, requires = "lambda2")]
+    seed: u64,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -62,12 +78,13 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.path {
         return path::run(args);
     }
-    let states: Vec<PublishedState> = match args.state {
-        None => PublishedState::ALL.to_vec(),
-        Some(15) => vec![PublishedState::FifteenSlip],
-        Some(17) => vec![PublishedState::SeventeenSlip],
-        Some(other) => return Err(CliError::Option { option: "state", expected: "15 or 17", got: other.to_string() }),
-    };
+    if !args.lambda2.is_empty() {
+        return lambda2::run(args);
+    }
+    if !args.scale.is_empty() {
+        return scale::run(&args.scale, args.json, args.write.as_deref());
+    }
+    let states = published(args.state)?;
     let block = Block::of_the_paper(if args.lumped { MassKind::Lumped } else { MassKind::Consistent });
     let bar = super::common::progress_spinner("block");
     let stop = interrupt_flag();
@@ -106,6 +123,16 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         exit::DONE
     })
+}
+
+/// The published state named by --state, or both.
+fn published(state: Option<u8>) -> Result<Vec<PublishedState>, CliError> {
+    match state {
+        None => Ok(PublishedState::ALL.to_vec()),
+        Some(15) => Ok(vec![PublishedState::FifteenSlip]),
+        Some(17) => Ok(vec![PublishedState::SeventeenSlip]),
+        Some(other) => Err(CliError::Option { option: "state", expected: "15 or 17", got: other.to_string() }),
+    }
 }
 
 fn write_files(block: &Block, report: &BlockReport, folder: &std::path::Path) -> Result<(), CliError> {

@@ -109,6 +109,9 @@ pub(super) enum CliError {
     /// The condensation was refused.
     #[error("{0}")]
     Condensation(#[from] crate::reduction::CondensationError),
+    /// A block that is not condensed in doubles.
+    #[error("{0}")]
+    Scale(#[from] super::block::scale::ScaleError),
     /// An option has a value it cannot have.
     #[error("--{option}: expected {expected}, got {got:?}")]
     Option {

@@ -1,9 +1,13 @@
 //! Many starts, each certified: embed, solve, certify, list once. What section 4 does with PATH.
 
+mod all_slip;
+mod condensed;
 mod hunt;
 mod same;
 mod trace;
 
+pub use all_slip::{AllSlip, all_slip};
+pub use condensed::{CondensedFound, CondensedSearch, CondensedSearchError, CondensedSolution, search_condensed};
 pub use same::{exact_value, same, support};
 pub use trace::trace_outcome;
 

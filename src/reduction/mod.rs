@@ -2,6 +2,10 @@
 #![deny(clippy::float_arithmetic)]
 
 mod condense;
+#[cfg(feature = "solver")]
+mod condense_sparse;
+#[cfg(feature = "solver")]
+mod condensed_mcp;
 mod eliminate;
 #[cfg(feature = "solver")]
 mod embed;
@@ -12,6 +16,10 @@ mod lines;
 mod project;
 
 pub use condense::{CondensationError, condense};
+#[cfg(feature = "solver")]
+pub use condense_sparse::{CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed};
+#[cfg(feature = "solver")]
+pub use condensed_mcp::{CondensedEmbedding, CondensedEmbeddingError};
 pub use eliminate::{MuFamily, Reduced, Variable, mu_family, reduce};
 #[cfg(feature = "solver")]
 pub use embed::{Embedding, Side};

@@ -5,6 +5,7 @@
 use super::mesh::{Mesh, Shape};
 use super::{BlockModel, MassKind, SourceError};
 use crate::exact::to_f64;
+use crate::model::{ContactState, Particle};
 use std::collections::BTreeMap;
 
 /// A sparse square matrix of doubles: entries sorted by row, then column, each place once.
@@ -25,6 +26,8 @@ pub struct DoubleBlock {
     pub mass: DoubleMatrix,
     /// Nodes on the contact side AB, left to right; node k owns dofs 2k (x) and 2k + 1 (y).
     pub contact: Vec<usize>,
+    /// Position of the node of each dof, mm.
+    pub points: Vec<[f64; 2]>,
 }
 
 /// Stiffness of the six dofs and mass of the three vertices of one shape of triangle.
@@ -61,7 +64,17 @@ impl DoubleBlock {
         }
         let order = 2 * mesh.free_nodes();
         let (stiffness, mass) = (merge("K", order, k)?, merge("M", order, m)?);
-        Ok(DoubleBlock { stiffness, mass, contact: mesh.contact })
+        let kept = mesh.points.iter().zip(&mesh.number).filter(|(_, n)| n.is_some());
+        let points = kept.flat_map(|(p, _)| [[half.0 * f64::from(p.0), half.1 * f64::from(p.1)]; 2]).collect();
+        Ok(DoubleBlock { stiffness, mass, contact: mesh.contact, points })
+    }
+
+    /// The contact nodes with these states, left to right, as in [`super::Block::system`]; nodes beyond
+    /// the states given are free.
+    pub fn particles(&self, states: &[ContactState]) -> Vec<Particle> {
+        let state = |k: usize| states.get(k).copied().unwrap_or(ContactState::Free);
+        let particle = |(k, &n): (usize, &usize)| Particle { normal_direction: -1, ..Particle::plain(2 * n, 2 * n + 1, state(k)) };
+        self.contact.iter().enumerate().map(particle).collect()
     }
 }
 
@@ -96,13 +109,26 @@ fn mass(edges: [(f64, f64); 2], model: &BlockModel) -> [[f64; 3]; 3] {
 }
 
 /// Sums entries of one place, in the order of the elements.
-fn merge(what: &'static str, order: usize, mut list: Vec<(usize, usize, f64)>) -> Result<DoubleMatrix, SourceError> {
-    list.sort_by_key(|e| (e.0, e.1)); // stable
-    let mut entries: Vec<(usize, usize, f64)> = Vec::with_capacity(list.len() / 3);
+fn merge(what: &'static str, order: usize, list: Vec<(usize, usize, f64)>) -> Result<DoubleMatrix, SourceError> {
+    // Counted into rows first: rows are short, the list is not.
+    let mut next = vec![0; order + 1];
+    list.iter().for_each(|e| next[e.0 + 1] += 1);
+    (0..order).for_each(|i| next[i + 1] += next[i]);
+    let start = next.clone();
+    let mut rows = vec![(0, 0.0); list.len()];
     for (i, j, v) in list {
-        match entries.last_mut() {
-            Some(last) if (last.0, last.1) == (i, j) => last.2 += v,
-            _ => entries.push((i, j, v)),
+        rows[next[i]] = (j, v);
+        next[i] += 1;
+    }
+    let mut entries: Vec<(usize, usize, f64)> = Vec::with_capacity(rows.len() / 2);
+    for i in 0..order {
+        let row = &mut rows[start[i]..start[i + 1]];
+        row.sort_by_key(|e| e.0); // stable
+        for &(j, v) in &*row {
+            match entries.last_mut() {
+                Some(last) if (last.0, last.1) == (i, j) => last.2 += v,
+                _ => entries.push((i, j, v)),
+            }
         }
     }
     match entries.iter().find(|e| !e.2.is_finite()) {
@@ -139,6 +165,11 @@ mod tests {
                 let model = BlockModel { mesh, plane, mass, cell, cells: (5, 3), ..BlockModel::of_the_paper() };
                 let (exact, doubles) = (Block::new(&model).unwrap(), DoubleBlock::new(&model).unwrap());
                 assert_eq!(exact.contact, doubles.contact);
+                let near = |(k, p): (usize, &[f64; 2])| {
+                    let (x, y) = &exact.nodes[k / 2];
+                    (p[0] - to_f64(x)).abs() + (p[1] - to_f64(y)).abs() < 1e-13
+                };
+                assert!(doubles.points.len() == doubles.stiffness.order && doubles.points.iter().enumerate().all(near));
                 let errors = [largest_difference(&exact.stiffness, &doubles.stiffness), largest_difference(&exact.mass, &doubles.mass)];
                 assert!(errors.iter().all(|&e| e <= 8.0), "{mesh:?} {plane:?} {mass:?}: {errors:?}");
             }
