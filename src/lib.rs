@@ -27,6 +27,8 @@
 //! assert!(found.is_complete_list());
 //! ```
 
+#[cfg(feature = "search")]
+pub mod analysis;
 #[cfg(feature = "solver")]
 pub mod candidate;
 pub mod certificate;

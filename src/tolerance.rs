@@ -100,3 +100,11 @@ pub const TAIL_START: f64 = 1e-6;
 /// The same on a condensed pencil, once its radius has been taken off. Unit: as [`WITNESS_MARGIN`].
 /// Basis: a thousand times what the checker's exact condensation and the one in doubles differ by.
 pub const CONDENSED_MARGIN: f64 = 1e-9;
+
+/// Width of the enclosure of a root that ends definiteness, relative: 2^-this. Unit: none. Basis: 17
+/// digits can be printed.
+pub const BRACKET_BITS: u32 = 64;
+
+/// First distance from the proposed end of definiteness at which it is tried to be proved, relative:
+/// 2^-this, widening by 4. Unit: none. Basis: eigenvalues in doubles are good to 1e-14 of the largest.
+pub const BRACKET_START_BITS: u32 = 44;

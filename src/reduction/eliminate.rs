@@ -43,6 +43,31 @@ pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
     }
 }
 
+/// K* and M* as functions of mu, before a value of mu is put in. // E15
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct MuFamily {
+    /// K* = K0 + mu K1.
+    pub stiffness: Pencil,
+    /// M* = M0 + mu M1, where the system has a mass.
+    pub mass: Option<Pencil>,
+    /// What the variables stand for.
+    pub variables: Vec<Variable>,
+}
+
+/// (K0, K1) and (M0, M1) of (16).
+///
+/// # Errors
+/// [`ModelError::Empty`] if no particle slips.
+pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
+    system.require_for(Unknown::Mu)?;
+    let blocks = Blocks::of(system);
+    let pencil = |m: &Sparse| {
+        let (at_zero, slope) = blocks.star(m);
+        Pencil::new(at_zero, slope, (0..blocks.free.len()).collect())
+    };
+    Ok(MuFamily { stiffness: pencil(system.stiffness())?, mass: system.mass().map(pencil).transpose()?, variables: blocks.variables() })
+}
+
 fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelError> {
     system.require_for(unknown)?;
     let blocks = Blocks::of(system);

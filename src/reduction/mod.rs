@@ -11,7 +11,7 @@ mod lift;
 mod lines;
 
 pub use condense::{CondensationError, condense};
-pub use eliminate::{Reduced, Variable, reduce};
+pub use eliminate::{MuFamily, Reduced, Variable, mu_family, reduce};
 #[cfg(feature = "solver")]
 pub use embed::{Embedding, Side};
 #[cfg(feature = "solver")]
