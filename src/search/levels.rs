@@ -8,7 +8,7 @@ use super::complete::{CompleteError, Options, complete};
 use crate::exact::{Sparse, from_f64, to_f64};
 use crate::linear;
 use crate::model::{Body, ModelError, Pencil, Problem, System, Unknown, Window};
-use crate::reduction::{Reduced, Variable, reduce};
+use crate::reduction::{Variable, mu_family};
 use std::sync::atomic::AtomicBool;
 
 /// Why there are no levels.
@@ -67,19 +67,21 @@ impl Levels {
     /// # Errors
     /// [`LevelError::Model`] if the system has no stiffness that (16) could take.
     pub fn new(system: &System) -> Result<Levels, LevelError> {
-        let star = |matrix: &Sparse| -> Result<Reduced, ModelError> {
-            let only = System::new(matrix.clone(), None, None, system.particles().to_vec())?;
-            reduce(&Problem::new(Body::System(only), Unknown::Mu, Window::all())?)
-        };
-        let stiffness = star(system.stiffness())?;
-        let n = stiffness.pencil.order();
-        let (m0, m1) = match system.mass() {
-            Some(mass) => star(mass).map(|r| (doubles(r.pencil.a()), doubles(r.pencil.b())))?,
-            None => (vec![vec![0.0; n]; n], vec![vec![0.0; n]; n]),
-        };
-        let (k0, k1) = (doubles(stiffness.pencil.a()), doubles(stiffness.pencil.b()));
-        let free = stiffness.pencil.free().len();
-        Ok(Levels { variables: stiffness.variables, dofs: system.stiffness().rows(), free, blocks: [k0, k1, m0, m1] })
+        let family = mu_family(system)?;
+        let n = family.stiffness.order();
+        let both = |p: &Pencil| (doubles(p.a()), doubles(p.b()));
+        let (k0, k1) = both(&family.stiffness);
+        let (m0, m1) = family.mass.as_ref().map_or_else(|| (vec![vec![0.0; n]; n], vec![vec![0.0; n]; n]), both);
+        let free = family.stiffness.free().len();
+        Ok(Levels { variables: family.variables, dofs: system.stiffness().rows(), free, blocks: [k0, k1, m0, m1] })
+    }
+
+    /// The square of the lowest natural frequency of K0, M0 (the slip nodes free to move along the
+    /// obstacle without friction), 1/s^2: the measure of lambda^2. `None` without a mass.
+    pub fn lowest_frequency2(&self) -> Option<f64> {
+        let [k0, _, m0, _] = &self.blocks;
+        let largest = *linear::definite_eigenvalues(m0, k0)?.last()?;
+        (largest > 0.0).then(|| largest.recip())
     }
 
     /// The level lambda^2 >= 0.
@@ -138,7 +140,6 @@ impl Level {
         };
         let singular = LevelError::Singular { lambda2: self.lambda2 };
         let (Some(a), Some(b)) = (exact(&self.a), exact(&self.b)) else { return Err(singular) };
-        // The symmetric part that (16) promises: rounding has broken it.
         let problem = Problem::new(Body::Pencil(Pencil::new(a, b, Vec::new())?), Unknown::Mu, Window::all())?;
         let found = complete(&problem, &Options::default(), stop, &|_| {})?;
         let solution = |(claim, x): (&crate::check::AcceptedClaim, &[f64])| LevelSolution {
@@ -154,4 +155,58 @@ fn doubles(matrix: &Sparse) -> Vec<Vec<f64>> {
     let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
     matrix.entries().for_each(|(i, j, v)| rows[i][j] = to_f64(v));
     rows
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{rational, whole};
+    use crate::oracle::{TwoParticles, enumerate};
+    use crate::reduction::reduce;
+    use crate::source::{Block, BlockModel, two_particles};
+
+    const GO: AtomicBool = AtomicBool::new(false);
+
+    /// Table 1 for (+1, -1): t = q - p twice and t = q - p - 1, so at a level t mu = (t + p) / cs.
+    #[test]
+    fn levels_of_the_two_particles_in_closed_form() {
+        let data = TwoParticles { c: rational(3, 5), s: rational(4, 5), k: whole(1), m: whole(1), mu: whole(1), signs: (1, -1) };
+        let levels = Levels::new(&two_particles(&data).unwrap()).unwrap();
+        for t in [0.0, 0.5, 3.0] {
+            let (found, complete) = levels.at(t).unwrap().solutions(&GO).unwrap();
+            let mut values: Vec<f64> = found.iter().map(|s| s.mu).collect();
+            values.sort_by(f64::total_cmp);
+            let first = (t + 1.36) / 0.48;
+            let expected = [first, first, (t + 2.36) / 0.48];
+            assert!(complete && values.len() == 3, "{values:?}");
+            assert!(values.iter().zip(expected).all(|(v, e)| (v - e).abs() < 1e-9 * e), "{values:?}");
+        }
+    }
+
+    /// A solution at some (lambda^2, mu) read both ways: at this mu the exact enumerator finds lambda^2;
+    /// and the lifted mode has no forces at free nodes.
+    #[test]
+    fn a_level_of_a_block_and_the_enumerator_at_its_mu() {
+        let block = Block::new(&BlockModel::of_the_paper().with_cells(2, 1)).unwrap();
+        let states = block.sliding_states(0, 2).unwrap();
+        let levels = Levels::new(&block.system(&states, None).unwrap()).unwrap();
+        let lambda2 = levels.lowest_frequency2().unwrap();
+        let level = levels.at(lambda2).unwrap();
+        let (found, complete) = level.solutions(&GO).unwrap();
+        assert!(complete && !found.is_empty());
+        for s in &found {
+            let problem = block.problem(&states, Some(from_f64(s.mu).unwrap())).unwrap();
+            let at_mu = enumerate(&reduce(&problem).unwrap().pencil, problem.window()).unwrap().solutions;
+            let near = |v: &crate::oracle::Solution| (v.decimal(17).parse::<f64>().unwrap() / lambda2 - 1.0).abs() < 1e-6;
+            assert!(at_mu.iter().any(near));
+            let v = levels.mode(&level, &s.x);
+            let force = |m: &Sparse, i: usize| m.row(i).iter().map(|(j, k)| to_f64(k) * v[*j]).sum::<f64>();
+            let size = to_f64(&block.stiffness.get(0, 0));
+            let held = |i: &usize| block.contact[..2].contains(&(i / 2));
+            for i in (0..v.len()).filter(|i| !held(i)) {
+                assert!((force(&block.stiffness, i) + lambda2 * force(&block.mass, i)).abs() < 1e-9 * size);
+            }
+            assert!(block.contact[..2].iter().all(|&k| v[2 * k + 1] == 0.0 && v[2 * k] <= 0.0), "to the left along the obstacle");
+        }
+    }
 }
