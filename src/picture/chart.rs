@@ -38,8 +38,13 @@ impl Chart {
             group.push(line((at, bottom), (at, bottom + 5.0), "#000", 1.0));
             group.push(text(at, bottom + 6.0 + TEXT, "middle", label(tick)));
         }
+        let mut taken = f64::INFINITY;
         for tick in if y.ticks > 0 { self.y.ticks(y.ticks) } else { Vec::new() } {
             let at = self.y.place(tick);
+            if taken - at < 1.1 * TEXT {
+                continue; // no room for its label above the last one
+            }
+            taken = at;
             group.push(line((left, at), (right, at), "#d8d8d8", 0.7));
             group.push(line((left - 5.0, at), (left, at), "#000", 1.0));
             group.push(text(left - 8.0, at + 0.35 * TEXT, "end", label(tick)));

@@ -21,6 +21,9 @@ pub struct Mode<'a> {
 /// Largest displacement drawn, as a part of the height of the block.
 const AMPLITUDE: f64 = 0.12;
 
+/// How much closer neighbours on the contact side may be drawn, as a part of their distance.
+const APPROACH: f64 = 0.5;
+
 /// Size of the block on paper, px, at most.
 const FITS: (f64, f64) = (680.0, 460.0);
 
@@ -29,9 +32,9 @@ pub fn mode_picture(title: &str, mode: &Mode<'_>) -> Picture {
     let points: Vec<(f64, f64)> = mode.mesh.points.iter().map(|(x, y)| (to_f64(x), to_f64(y))).collect();
     let (length, height) = points.iter().fold((0.0f64, 0.0f64), |m, p| (m.0.max(p.0), m.1.max(p.1)));
     let unit = (FITS.0 / length).min(FITS.1 / height);
-    let (left, top) = (50.0, 56.0);
+    let (left, top) = (50.0, 40.0);
     let margin = AMPLITUDE * height * unit;
-    let (width, bottom) = (length * unit + 2.0 * left, top + margin + height * unit);
+    let (width, bottom) = (length * unit + 2.0 * left, top + height * unit);
     let place = |(x, y): (f64, f64)| (left + x * unit, bottom - y * unit);
     let moved = moved(mode, &points, AMPLITUDE * height);
 
@@ -49,7 +52,7 @@ pub fn mode_picture(title: &str, mode: &Mode<'_>) -> Picture {
     let mut marks = Element::new("g").with("class", "marks");
     for (&point, mark) in mode.mesh.contact.iter().zip(mode.marks) {
         let (x, y) = place(moved[point]);
-        marks.push(mark.draw(x, y, (0.3 * spacing).min(8.0)));
+        marks.push(mark.draw(x, y, (0.26 * spacing).min(8.0)));
     }
     picture.push(marks);
     let numbered = mode.mesh.contact.len() <= 41;
@@ -61,17 +64,19 @@ pub fn mode_picture(title: &str, mode: &Mode<'_>) -> Picture {
     picture
 }
 
-/// Where each point goes; the largest displacement is `largest`, mm.
+/// Where each point goes: no displacement is larger than `largest` (mm), and contact nodes do not
+/// run into each other.
 fn moved(mode: &Mode<'_>, points: &[(f64, f64)], largest: f64) -> Vec<(f64, f64)> {
     let component = |i: usize| mode.displacement.get(i).copied().filter(|v| v.is_finite()).unwrap_or(0.0);
-    let vector = |node: &Option<usize>| node.map_or((0.0, 0.0), |n| (component(2 * n), component(2 * n + 1)));
-    let size = mode.mesh.nodes.iter().map(vector).map(|(x, y)| x.hypot(y)).fold(0.0, f64::max);
-    let factor = if size > 0.0 { largest / size } else { 0.0 };
-    let displaced = |(p, n): (&(f64, f64), &Option<usize>)| {
-        let v = vector(n);
-        (p.0 + factor * v.0, p.1 + factor * v.1)
+    let vector = |point: usize| mode.mesh.nodes[point].map_or((0.0, 0.0), |n| (component(2 * n), component(2 * n + 1)));
+    let size = (0..points.len()).map(vector).map(|(x, y)| x.hypot(y)).fold(0.0, f64::max);
+    let closest = |pair: &[usize]| {
+        let (distance, approach) = (points[pair[1]].0 - points[pair[0]].0, vector(pair[0]).0 - vector(pair[1]).0);
+        if approach > 0.0 { APPROACH * distance / approach } else { f64::INFINITY }
     };
-    points.iter().zip(&mode.mesh.nodes).map(displaced).collect()
+    let factor = if size > 0.0 { mode.mesh.contact.windows(2).map(closest).fold(largest / size, f64::min) } else { 0.0 };
+    let displaced = |(k, p): (usize, &(f64, f64))| (p.0 + factor * vector(k).0, p.1 + factor * vector(k).1);
+    points.iter().enumerate().map(displaced).collect()
 }
 
 /// Every edge of the deformed mesh once.

@@ -51,7 +51,7 @@ p{white-space:pre-line}.warning{border:2px solid #000;padding:.6em 1em;font-weig
 .wide{overflow-x:auto}table{border-collapse:collapse;font-size:.85em;margin:1em 0}\
 caption{caption-side:top;text-align:left;padding-bottom:.4em;font-style:italic}\
 th,td{border:1px solid #999;padding:.2em .6em;text-align:left;vertical-align:top}th{background:#eee}\
-td{font-variant-numeric:tabular-nums}figure{margin:1.5em 0;break-inside:avoid}figcaption{font-size:.9em}svg{max-width:100%;height:auto}";
+td{font-family:DejaVu Sans Mono,Consolas,monospace;font-size:.92em}figure{margin:1.5em 0;break-inside:avoid}figcaption{font-size:.9em}svg{max-width:100%;height:auto}";
 
 impl Report {
     /// The page. Everything given is text: no markup in it comes through.

@@ -97,13 +97,13 @@ fn decades((low, high): (f64, f64), wanted: usize) -> Vec<f64> {
     (first..=last).step_by(every).flat_map(decade).collect()
 }
 
-/// A tick's label: plain from 0.001 to 99999, a power of ten beyond.
+/// A tick's label: plain from 0.001 to 9999, a power of ten beyond.
 pub(super) fn label(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 {
         return "0".into();
     }
-    if (0.001..100_000.0).contains(&size) {
+    if (0.001..10_000.0).contains(&size) {
         return super::markup::short_to(value, 4);
     }
     let exponent = size.log10().floor() as i32;

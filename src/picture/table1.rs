@@ -15,17 +15,25 @@ const ANGLES: i64 = 96;
 const PANEL: (f64, f64) = (330.0, 250.0);
 const SIGNS: [(i8, i8); 4] = [(1, 1), (-1, -1), (1, -1), (-1, 1)];
 
+const NOTES: [&str; 4] = [
+    "Number of solutions in each region. 1: slip-slip. 2: slip-stick and stick-slip, with the same \u{3bb}\u{b2}.",
+    "3: these two, and slip-slip with x\u{2081} = x\u{2082}.",
+    "A boundary belongs to the region above it: there \u{3bb}\u{b2} = 0. At \u{3c6} = 90\u{b0} (thick line) K is only semidefinite,",
+    "and \u{3bb}\u{b2} = 0 solves the problem for every \u{3bc} if S\u{2081} = S\u{2082}.",
+];
+
 /// The chart, all four sign patterns; boundaries and counts come from the closed forms of
 /// [`crate::oracle`], evaluated exactly (k and m play no part in them).
 pub fn table1_picture() -> Picture {
-    let mut picture = Picture::new("Two particles of Fig. 1: number of solutions of MCEIP-\u{3bb}\u{b2}", 860.0, 740.0);
+    let mut picture = Picture::new("Two particles of Fig. 1: number of solutions of MCEIP-\u{3bb}\u{b2}", 870.0, 790.0);
     picture.push(text(80.0, 26.0, "start", picture.title.clone()).with("font-weight", "bold"));
     for (k, signs) in SIGNS.into_iter().enumerate() {
         let (left, top) = (84.0 + 420.0 * (k % 2) as f64, 70.0 + 330.0 * (k / 2) as f64);
         picture.push(panel(signs, [left, top, left + PANEL.0, top + PANEL.1]));
     }
-    let note = "A boundary belongs to the region above it: there \u{3bb}\u{b2} = 0. At \u{3c6} = 90\u{b0} (thick) K is only semidefinite: \u{3bb}\u{b2} = 0 for every \u{3bc} if S\u{2081} = S\u{2082}.";
-    picture.push(text(30.0, 722.0, "start", note).with("font-size", "12"));
+    for (k, line) in NOTES.iter().enumerate() {
+        picture.push(text(30.0, 716.0 + 18.0 * k as f64, "start", *line).with("font-size", "12"));
+    }
     picture
 }
 
@@ -37,7 +45,7 @@ struct Boundary {
 
 fn panel(signs: (i8, i8), area: [f64; 4]) -> Element {
     let x = Axis { label: "\u{3c6} (degrees)", spread: Spread::Linear, values: (0.0, 90.0), ticks: 9 };
-    let y = Axis { label: "\u{3bc}", spread: Spread::Log, values: FRICTION, ticks: 7 };
+    let y = Axis { label: "\u{3bc}", spread: Spread::Log, values: FRICTION, ticks: 9 };
     let chart = Chart::new(area, &x, &y);
     let sign = |s: i8| if s > 0 { "+1" } else { "\u{2212}1" };
     let title = format!("S\u{2081} = {}, S\u{2082} = {}", sign(signs.0), sign(signs.1));
@@ -48,8 +56,7 @@ fn panel(signs: (i8, i8), area: [f64; 4]) -> Element {
     }
     group.push(chart.frame(&x, &y));
     for b in &boundaries {
-        let points: Vec<(f64, f64)> = b.points.iter().copied().filter(|p| chart.y.shows(p.1)).collect();
-        group.push(chart.curve(&points, 2.0, "").with("class", "boundary"));
+        group.push(chart.curve(&shown(&b.points), 2.0, "").with("class", "boundary"));
     }
     if signs.0 == signs.1 {
         group.push(line((area[2], area[1]), (area[2], area[3]), "#000", 5.0).with("class", "semidefinite"));
@@ -79,23 +86,32 @@ fn boundaries(signs: (i8, i8)) -> Vec<Boundary> {
     curves
 }
 
+/// The part of a boundary inside the panel, with the points at which it leaves through the top.
+fn shown(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    let top = FRICTION.1;
+    let mut out = Vec::new();
+    for (k, &(phi, mu)) in points.iter().enumerate() {
+        if let Some(&(before, other)) = k.checked_sub(1).and_then(|k| points.get(k))
+            && (mu > top) != (other > top)
+        {
+            let part = (top / other).ln() / (mu / other).ln(); // the axis is logarithmic
+            out.push((before + part * (phi - before), top));
+        }
+        if mu <= top {
+            out.push((phi, mu));
+        }
+    }
+    out
+}
+
 /// The part of the panel above a boundary, shaded by the number of solutions.
 fn region(chart: &Chart, b: &Boundary) -> Element {
     let shade = ["#fff", "#e4e4e4", "#cfcfcf", "#a8a8a8"][b.above.min(3)];
-    let (top, mut corners) = (chart.y.places().1, String::new());
-    let mut push = |(x, y): (f64, f64)| corners += &format!("{},{} ", short(x), short(y));
-    let last = b.points.len().saturating_sub(1);
-    for (k, p) in b.points.iter().enumerate() {
-        let (x, y) = chart.point(*p);
-        if k == 0 {
-            push((x, top));
-        }
-        push((x, y));
-        if k == last {
-            push((x, top));
-        }
-    }
-    Element::new("polygon").with("class", "region").with("data-count", b.above).with("points", corners.trim_end()).with("fill", shade)
+    let edge = shown(&b.points);
+    let above = |p: Option<&(f64, f64)>| p.map(|p| (p.0, FRICTION.1));
+    let corners = above(edge.first()).into_iter().chain(edge.iter().copied()).chain(above(edge.last()));
+    let corners: Vec<String> = corners.map(|p| chart.point(p)).map(|(x, y)| format!("{},{}", short(x), short(y))).collect();
+    Element::new("polygon").with("class", "region").with("data-count", b.above).with("points", corners.join(" ")).with("fill", shade)
 }
 
 /// The numbers in the regions, at angles where these are wide; each counted there by the closed form.
@@ -110,13 +126,11 @@ fn counts(group: &mut Element, chart: &Chart, signs: (i8, i8)) {
         let mu = (pair[0] * pair[1]).sqrt();
         let n = count(&data, mu);
         let (x, y) = chart.point((degrees(&data), mu));
-        let word = match n {
-            0 => "0 solutions".into(),
-            1 => "1: slip-slip".into(),
-            2 => "2: slip-stick, stick-slip".into(),
-            _ => format!("{n}: and slip-slip"),
-        };
-        let label = text(x, y + 4.0, "middle", word).with("class", "count").with("data-count", n).with("data-mu", mu);
+        let label = text(x, y + 5.0, "middle", n.to_string())
+            .with("class", "count")
+            .with("font-size", "16")
+            .with("data-count", n)
+            .with("data-mu", mu);
         group.push(label.with("stroke", "#fff").with("stroke-width", "3").with("paint-order", "stroke"));
     }
 }

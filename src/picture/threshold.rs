@@ -36,7 +36,7 @@ pub fn threshold_picture(title: &str, columns: &[ThresholdColumn], mu: f64) -> P
     let values = || columns.iter().flat_map(|c| c.solutions.iter().map(|s| s.mu).chain(c.necessary)).chain([mu]).filter(|v| *v > 0.0);
     let (low, high) = values().fold((f64::INFINITY, 0.0f64), |m, v| (m.0.min(v), m.1.max(v)));
     let x = Axis { label: "", spread: Spread::Linear, values: (0.0, columns.len().max(1) as f64), ticks: 0 };
-    let y = Axis { label: "coefficient of friction \u{3bc}", spread: Spread::Log, values: (low / 1.6, high * 2.2), ticks: 8 };
+    let y = Axis { label: "coefficient of friction \u{3bc}", spread: Spread::Log, values: (low / 1.6, high * 4.0), ticks: 8 };
     let chart = Chart::new([SIDES.0, HEIGHTS.0, SIDES.1, HEIGHTS.1], &x, &y);
     let mut picture = Picture::new(title, WIDTH, HEIGHTS.1 + 64.0);
     picture.push(text(SIDES.0, 24.0, "start", title).with("font-weight", "bold"));
@@ -100,11 +100,11 @@ fn keys(picture: &mut Picture, mu: f64) {
     let key = |at: f64, word: &str| text(at, y, "start", word);
     picture.push(threshold_mark((x, y - 4.5), 6.0, true).unclassed());
     picture.push(key(x + 12.0, "MCEIP-\u{3bc}, all slip nodes slip"));
-    picture.push(threshold_mark((x + 270.0, y - 4.5), 6.0, false).unclassed());
-    picture.push(key(x + 282.0, "some get stuck (number that slips above it)"));
+    picture.push(threshold_mark((x + 310.0, y - 4.5), 6.0, false).unclassed());
+    picture.push(key(x + 324.0, "some get stuck (number that slips above it)"));
     let second = y + TEXT + 7.0;
     picture.push(line((x - 8.0, second - 4.5), (x + 8.0, second - 4.5), "#000", 2.0));
     picture.push(text(x + 12.0, second, "start", "necessary condition holds from here"));
-    picture.push(line((x + 254.0, second - 4.5), (x + 278.0, second - 4.5), "#000", 1.2).with("stroke-dasharray", "8 4"));
-    picture.push(text(x + 282.0, second, "start", format!("\u{3bc} = {} of the path", super::scale::label(mu))));
+    picture.push(line((x + 298.0, second - 4.5), (x + 320.0, second - 4.5), "#000", 1.2).with("stroke-dasharray", "8 4"));
+    picture.push(text(x + 324.0, second, "start", format!("\u{3bc} = {} of the path", super::scale::label(mu))));
 }

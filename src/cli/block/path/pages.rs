@@ -179,7 +179,7 @@ impl Shown<'_> {
         };
         let rows = self.path.intervals.iter().enumerate().map(row).collect();
         let caption = format!(
-            "Stretches of the path. Nodes from left to right: . stick, < slips to the left (S = 1), > slips to the right (S = -1), o free. {}.",
+            "Stretches of the path. Nodes from left to right: . stick, < slips to the left (S = 1), > slips to the right (S = -1), o free. How it ends: {}.",
             end_text(self.path)
         );
         Content::Table { caption, header: header.map(String::from).to_vec(), rows }
