@@ -12,7 +12,7 @@ use std::ops::ControlFlow;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-const GO: AtomicBool = AtomicBool::new(false);
+static GO: AtomicBool = AtomicBool::new(false);
 
 /// What one state of a path has: slip nodes, and (mu, slip nodes that move) of its MCEIP-mu set.
 struct State {
@@ -53,13 +53,13 @@ impl Observed {
             _ => "other",
         };
         let states = path.intervals.iter().filter(slips).map(state).collect();
-        let last = path.intervals.last().unwrap();
+        let last = path.intervals.iter().rfind(slips); // the path may end with every node stuck
         Observed {
             dofs: block.stiffness.rows(),
             slides: path.slides() && path.end == PathEnd::NoFurtherEvent,
             end,
             states,
-            above: above(&block, &last.states),
+            above: last.map_or_else(Vec::new, |i| above(&block, &i.states)),
         }
     }
 

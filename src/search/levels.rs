@@ -165,7 +165,7 @@ mod tests {
     use crate::reduction::reduce;
     use crate::source::{Block, BlockModel, two_particles};
 
-    const GO: AtomicBool = AtomicBool::new(false);
+    static GO: AtomicBool = AtomicBool::new(false);
 
     /// Table 1 for (+1, -1): t = q - p twice and t = q - p - 1, so at a level t mu = (t + p) / cs.
     #[test]
