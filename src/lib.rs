@@ -53,6 +53,8 @@ pub mod model;
 #[cfg(feature = "solver")]
 pub mod multistart;
 pub mod oracle;
+#[cfg(feature = "picture")]
+pub mod picture;
 pub mod reduction;
 #[cfg(feature = "solver")]
 pub mod report;

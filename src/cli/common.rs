@@ -106,6 +106,12 @@ pub(super) enum CliError {
     /// A loading path was not followed.
     #[error("{0}")]
     Path(#[from] crate::source::path::PathError),
+    /// Levels of lambda^2 were refused.
+    #[error(transparent)]
+    Level(#[from] crate::search::levels::LevelError),
+    /// A picture was not drawn.
+    #[error(transparent)]
+    Png(#[from] crate::picture::PngError),
     /// The condensation was refused.
     #[error("{0}")]
     Condensation(#[from] crate::reduction::CondensationError),

@@ -39,14 +39,40 @@ impl Output {
 
     /// Writes the text.
     pub(super) fn write(self, text: &str) -> Result<(), CliError> {
+        self.write_bytes(text.as_bytes())
+    }
+
+    /// Writes bytes.
+    pub(super) fn write_bytes(self, bytes: &[u8]) -> Result<(), CliError> {
         let failed = |e: std::io::Error| CliError::write(self.path.display(), &e);
         match self.beside {
-            None => std::fs::write(&self.path, text).map_err(failed),
+            None => std::fs::write(&self.path, bytes).map_err(failed),
             Some(mut file) => {
-                file.write_all(text.as_bytes()).map_err(failed)?;
+                file.write_all(bytes).map_err(failed)?;
                 file.persist(&self.path).map_err(|e| failed(e.error))?;
                 Ok(())
             }
         }
+    }
+}
+
+/// A folder for files whose names are known only at the end; it exists and can be written to.
+pub(super) struct Folder {
+    option: &'static str,
+    path: PathBuf,
+}
+
+impl Folder {
+    /// Makes the folder if it is not there; refuses one in which no file can be made.
+    pub(super) fn prepare(option: &'static str, path: &Path) -> Result<Folder, CliError> {
+        let failed = |e: std::io::Error| CliError::write(path.display(), &e);
+        std::fs::create_dir_all(path).map_err(failed)?;
+        tempfile::tempfile_in(path).map_err(failed)?;
+        Ok(Folder { option, path: path.to_path_buf() })
+    }
+
+    /// Writes a file, whole.
+    pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), CliError> {
+        Output::prepare(self.option, &self.path.join(name), &[])?.write_bytes(bytes)
     }
 }

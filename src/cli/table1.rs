@@ -1,14 +1,17 @@
 //! `mceip table1`: closed form and enumerator side by side.
 
 use super::common::{CliError, exit, print};
+use super::output::Output;
 use crate::exact::{Rational, parse};
 use crate::model::{Body, Problem, Unknown, Window};
 use crate::multistart::Search;
 use crate::oracle::TwoParticles;
+use crate::picture::table1_picture;
 use crate::report::{Listed, Table};
 use crate::source::two_particles;
 use crate::testkit::{Instance, compare};
 use num_traits::{One, Signed};
+use std::path::{Path, PathBuf};
 
 /// Arguments of `table1`: exact numbers, "3/5" or "0.6".
 #[derive(clap::Args)]
@@ -28,6 +31,9 @@ pub(super) struct Args {
     /// Coefficient of friction.
     #[arg(long, default_value = "8", allow_hyphen_values = true)]
     mu: String,
+    /// Write a chart of the number of solutions over angle and friction (.svg, or .png) to this file.
+    #[arg(long, value_name = "OUT.svg")]
+    chart: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     json: bool,
@@ -48,6 +54,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         return Err(CliError::Option { option: "s", expected: "c, s >= 0 with c^2 + s^2 = 1 exactly", got: format!("{c}, {s}") });
     }
     let (k, m, mu) = (positive("k", &args.k)?, positive("m", &args.m)?, positive("mu", &args.mu)?);
+    if let Some(path) = &args.chart {
+        chart(path)?;
+    }
     let mut table = Table::new(&["S1", "S2", "lambda^2", "slip", "x_T1", "x_T2", "exact polynomial"]);
     let (mut json, mut agreed) = (Vec::new(), true);
     for signs in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
@@ -79,4 +88,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         print(&format!("c = {c}, s = {s}, k = {k}, m = {m}, mu = {mu}\n{table}{verdict}\n"))?;
     }
     Ok(if agreed { exit::DONE } else { exit::REJECTED })
+}
+
+/// The chart, in the format that the file's name asks for.
+fn chart(path: &Path) -> Result<(), CliError> {
+    let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
+    match ending.as_deref() {
+        Some("svg") => Output::prepare("chart", path, &[])?.write(&table1_picture().to_svg()),
+        Some("png") => Output::prepare("chart", path, &[])?.write_bytes(&table1_picture().to_png(2.0)?),
+        _ => Err(CliError::Option { option: "chart", expected: "a name ending in .svg or .png", got: path.display().to_string() }),
+    }
 }

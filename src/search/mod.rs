@@ -2,5 +2,6 @@
 
 pub mod complete;
 pub mod definite;
+pub mod levels;
 pub mod near;
 pub mod screen;

@@ -13,6 +13,7 @@ mod mesh;
 #[cfg(feature = "solver")]
 pub mod path;
 mod published;
+mod triangulation;
 mod two_particles;
 
 pub use block::Block;
@@ -24,4 +25,5 @@ pub use element::{MassKind, Material, Plane, Point};
 pub use error::SourceError;
 pub use mesh::{MAX_CELLS, MeshKind};
 pub use published::PublishedState;
+pub use triangulation::Triangulation;
 pub use two_particles::{pythagorean_angles, two_particles};

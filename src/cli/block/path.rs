@@ -1,16 +1,20 @@
 //! `mceip block --path`: the loading path, stretch by stretch.
 
-mod sets;
+mod pages;
+mod states;
 
 use super::Args;
 use crate::cli::common::{CliError, exit, interrupt_flag, print, progress_spinner};
+use crate::cli::output::{Folder, Output};
 use crate::exact::{Integer, Rational, parse, to_f64};
 use crate::model::ContactState;
 use crate::report::Table;
 use crate::source::path::{Bound, Comparison, Contact, Equilibrium, Event, Finder, Interval, Loading, LoadingPath, PathEnd, step_path};
 use crate::source::{Block, BlockModel, MassKind, MeshKind, Plane};
 use num_traits::{Signed, ToPrimitive};
+use pages::Shown;
 use serde_json::{Value, json};
+use states::{State, Wanted};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::sync::Arc;
@@ -21,7 +25,10 @@ use std::time::Duration;
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let (model, loading) = (model(args)?, loading(args)?);
     let step = args.step.as_deref().map(positive_step).transpose()?;
+    let at = args.at_mu.iter().map(|mu| positive("at-mu", mu)).collect::<Result<Vec<_>, _>>()?;
     let block = Block::new(&model)?;
+    let report = args.report.as_ref().map(|file| Output::prepare("report", file, &[])).transpose()?;
+    let folder = args.pictures.as_ref().map(|f| Folder::prepare("pictures", f)).transpose()?;
     let stop = interrupt_flag();
     let bar = progress_spinner("condensing exactly to the contact nodes");
     let Some(contact) = condense(block.clone(), &stop)? else {
@@ -37,28 +44,58 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     };
     let steps = step.as_ref().map(|h| compare(&contact, &path, h, &heard)).transpose()?;
-    let covers = if args.complete { Some(sets::of(&block, &path, &stop, &|what| bar.set_message(what))?) } else { None };
+    let shows = report.is_some() || folder.is_some();
+    let wanted = Wanted { uncondensed: args.uncondensed, conditions: args.conditions || shows, at: &at, modes: args.modes || shows };
+    let told = |what: String| bar.set_message(what);
+    let states = if args.complete || shows { Some(states::of((&block, &contact, &path), &wanted, &stop, &told)?) } else { None };
+    if let (true, Some(states)) = (shows, &states) {
+        let branches = pages::branches(&block, &path, states, &stop, &told)?;
+        let (model, block, path, uncondensed) = (&model, &block, &path, args.uncondensed);
+        let shown = Shown { model, block, path, states, branches, uncondensed };
+        if !stop.load(Ordering::Relaxed) {
+            show(&shown, report, folder)?; // an interrupted run leaves no pictures
+        }
+    }
     bar.finish_and_clear();
     print(&if args.json {
         let mut out = json_of(&model, &path, steps.as_ref());
-        if let Some(covers) = &covers {
-            out["complete_sets"] = sets::json_of(covers);
+        if let Some(states) = &states {
+            out["complete_sets"] = states::json_of(states, &path);
+        }
+        if args.modes {
+            out["nodes_mm"] = block.nodes.iter().map(|(x, y)| json!([to_f64(x), to_f64(y)])).collect();
         }
         format!("{out}\n")
     } else {
         text_of(&model, &path)
             + &steps.as_ref().map_or(String::new(), comparison_text)
-            + &covers.as_deref().map_or(String::new(), sets::text_of)
+            + &states.as_deref().map_or(String::new(), |s| states::text_of(s, &path))
     })?;
-    let open = covers.as_ref().is_some_and(|c| c.iter().any(|c| !c.cover.open.is_empty()));
+    let open = states.as_ref().is_some_and(|s| s.iter().any(State::is_open));
     let unproved = matches!(path.end, PathEnd::NoContinuation { proved: false, .. });
-    Ok(if unproved || (open && !stop.load(Ordering::Relaxed)) {
-        exit::UNDECIDED
-    } else if stop.load(Ordering::Relaxed) {
+    Ok(if stop.load(Ordering::Relaxed) {
         exit::INTERRUPTED
+    } else if unproved || open {
+        exit::UNDECIDED
     } else {
         exit::DONE
     })
+}
+
+/// Pixels of a PNG for each px of the SVG.
+const ZOOM: f32 = 2.0;
+
+/// Writes the report and the pictures, each file whole.
+fn show(shown: &Shown<'_>, report: Option<Output>, folder: Option<Folder>) -> Result<(), CliError> {
+    if let Some(file) = report {
+        file.write(&shown.report()?.to_html())?;
+    }
+    for named in if folder.is_some() { shown.pictures()? } else { Vec::new() } {
+        let Some(folder) = &folder else { break };
+        folder.write(&format!("{}.svg", named.name), named.picture.to_svg().as_bytes())?;
+        folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
+    }
+    Ok(())
 }
 
 /// Steps to a little beyond the last event, or to the end of the range.
@@ -80,6 +117,10 @@ const MAX_STEPS: usize = 1_000_000;
 
 fn positive_step(text: &str) -> Result<Rational, CliError> {
     number("step", text).and_then(|h| if h.is_positive() { Ok(h) } else { Err(option("step", "a length > 0", text)) })
+}
+
+fn positive(name: &'static str, text: &str) -> Result<Rational, CliError> {
+    number(name, text).and_then(|v| if v.is_positive() { Ok(v) } else { Err(option(name, "a number > 0", text)) })
 }
 
 fn comparison_text(c: &Comparison) -> String {

@@ -1,0 +1,146 @@
+//! Elements of SVG and HTML as a tree: what is written is well-formed, and text cannot become markup.
+
+use std::fmt::{self, Display, Formatter};
+
+/// An element with attributes and children, in the order given.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Element {
+    name: &'static str,
+    attributes: Vec<(&'static str, String)>,
+    children: Vec<Child>,
+}
+
+#[derive(Debug, Clone, PartialEq, Eq)]
+enum Child {
+    Element(Element),
+    Text(String),
+}
+
+impl Element {
+    /// An element without attributes and children. Names come from the program, never from input.
+    ///
+    /// ```
+    /// use mceip::picture::Element;
+    /// let p = Element::new("p").with("title", "a \"b\"").text("x < y & z");
+    /// assert_eq!(p.to_string(), "<p title=\"a &quot;b&quot;\">x &lt; y &amp; z</p>");
+    /// ```
+    pub fn new(name: &'static str) -> Element {
+        Element { name, attributes: Vec::new(), children: Vec::new() }
+    }
+
+    /// With an attribute.
+    pub fn with(mut self, name: &'static str, value: impl Display) -> Element {
+        self.attributes.push((name, value.to_string()));
+        self
+    }
+
+    /// With a length or coordinate, to a hundredth of a unit.
+    pub fn at(self, name: &'static str, value: f64) -> Element {
+        self.with(name, short(value))
+    }
+
+    /// With a text child.
+    pub fn text(mut self, text: impl Into<String>) -> Element {
+        self.children.push(Child::Text(text.into()));
+        self
+    }
+
+    /// With a child.
+    pub fn child(mut self, child: Element) -> Element {
+        self.push(child);
+        self
+    }
+
+    /// With children.
+    pub fn children(mut self, children: impl IntoIterator<Item = Element>) -> Element {
+        self.children.extend(children.into_iter().map(Child::Element));
+        self
+    }
+
+    /// Without its class: a copy that stands for no data, as in a legend.
+    pub(super) fn unclassed(mut self) -> Element {
+        self.attributes.retain(|(name, _)| *name != "class");
+        self
+    }
+
+    /// Adds a child.
+    pub fn push(&mut self, child: Element) {
+        self.children.push(Child::Element(child));
+    }
+}
+
+/// A coordinate in a picture: two decimals, without needless zeros.
+pub(super) fn short(value: f64) -> String {
+    short_to(value, 2)
+}
+
+/// A number with at most this many decimals.
+pub(super) fn short_to(value: f64, decimals: usize) -> String {
+    let text = format!("{value:.decimals$}");
+    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+    if text == "-0" { "0".into() } else { text.into() }
+}
+
+impl Display for Element {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "<{}", self.name)?;
+        for (name, value) in &self.attributes {
+            write!(f, " {name}=\"{}\"", Escaped(value))?;
+        }
+        if self.children.is_empty() {
+            return f.write_str("/>");
+        }
+        f.write_str(">")?;
+        for child in &self.children {
+            match child {
+                Child::Element(e) => e.fmt(f)?,
+                Child::Text(t) => Escaped(t).fmt(f)?,
+            }
+        }
+        write!(f, "</{}>", self.name)
+    }
+}
+
+/// Text with the five characters of markup replaced, and what XML 1.0 does not admit left out.
+struct Escaped<'a>(&'a str);
+
+impl Display for Escaped<'_> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        for c in self.0.chars() {
+            match c {
+                '&' => f.write_str("&amp;")?,
+                '<' => f.write_str("&lt;")?,
+                '>' => f.write_str("&gt;")?,
+                '"' => f.write_str("&quot;")?,
+                '\'' => f.write_str("&#39;")?,
+                '\n' | '\t' => write!(f, "{c}")?,
+                '\u{fffe}' | '\u{ffff}' => {}
+                c if c.is_control() => {}
+                c => write!(f, "{c}")?,
+            }
+        }
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn whatever_the_text_it_comes_back_and_nothing_else() {
+        let hostile = "</p><script>alert('x')</script> & \" \u{1F600} mu \u{3bc} ]]> <!--";
+        let text = Element::new("p").with("title", hostile).text(hostile).child(Element::new("br")).to_string();
+        let parsed = roxmltree::Document::parse(&text).unwrap();
+        let root = parsed.root_element();
+        assert_eq!((root.attribute("title"), root.text()), (Some(hostile), Some(hostile)));
+        assert_eq!(root.children().filter(|c| c.is_element()).count(), 1);
+        let odd = Element::new("p").text("a\u{0}\u{8}\u{fffe}b").to_string();
+        assert_eq!(roxmltree::Document::parse(&odd).unwrap().root_element().text(), Some("ab"));
+    }
+
+    #[test]
+    fn coordinates_are_short() {
+        assert_eq!([1.0, -0.001, 2.345, 10.5, 100.0].map(short), ["1", "0", "2.35", "10.5", "100"].map(String::from));
+    }
+}

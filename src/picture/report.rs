@@ -1,0 +1,129 @@
+//! A report as one HTML file: text, tables and pictures, nothing from outside, no scripts.
+
+use super::{Element, Picture};
+
+/// A page.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Report {
+    /// Its heading.
+    pub title: String,
+    /// Its sections, in order.
+    pub sections: Vec<Section>,
+}
+
+/// A part of a page.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Section {
+    /// Its heading.
+    pub title: String,
+    /// What it says, in order.
+    pub content: Vec<Content>,
+}
+
+/// What a section consists of.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Content {
+    /// Text. Line breaks are kept.
+    Paragraph(String),
+    /// Sentences that must not be overlooked, such as what stays undecided.
+    Warning(String),
+    /// Rows under a header. Rows may be shorter.
+    Table {
+        /// What the table shows.
+        caption: String,
+        /// The first row.
+        header: Vec<String>,
+        /// The others.
+        rows: Vec<Vec<String>>,
+    },
+    /// A picture.
+    Figure {
+        /// The drawing.
+        picture: Picture,
+        /// What to read off it.
+        caption: String,
+    },
+}
+
+const STYLE: &str = "body{font-family:DejaVu Sans,Verdana,Arial,sans-serif;line-height:1.45;color:#000;background:#fff;\
+max-width:64em;margin:2em auto;padding:0 1em}h1{font-size:1.5em}h2{font-size:1.2em;margin-top:2em;border-bottom:1px solid #000}\
+p{white-space:pre-line}.warning{border:2px solid #000;padding:.6em 1em;font-weight:bold}\
+.wide{overflow-x:auto}table{border-collapse:collapse;font-size:.85em;margin:1em 0}\
+caption{caption-side:top;text-align:left;padding-bottom:.4em;font-style:italic}\
+th,td{border:1px solid #999;padding:.2em .6em;text-align:left;vertical-align:top}th{background:#eee}\
+td{font-family:DejaVu Sans Mono,Consolas,monospace;font-size:.92em}figure{margin:1.5em 0;break-inside:avoid}figcaption{font-size:.9em}svg{max-width:100%;height:auto}";
+
+impl Report {
+    /// The page. Everything given is text: no markup in it comes through.
+    ///
+    /// ```
+    /// use mceip::picture::{Content, Report, Section};
+    /// let section = Section { title: "A & B".into(), content: vec![Content::Paragraph("mu < 2".into())] };
+    /// let page = Report { title: "Block".into(), sections: vec![section] }.to_html();
+    /// assert!(page.starts_with("<!DOCTYPE html>") && page.contains("<h2>A &amp; B</h2>") && page.contains("mu &lt; 2"));
+    /// ```
+    pub fn to_html(&self) -> String {
+        let meta = |name, content| Element::new("meta").with("name", name).with("content", content);
+        let head = Element::new("head")
+            .child(Element::new("meta").with("charset", "utf-8"))
+            .child(meta("viewport", "width=device-width, initial-scale=1"))
+            .child(meta("generator", concat!("mceip ", env!("CARGO_PKG_VERSION"))))
+            .child(Element::new("title").text(self.title.as_str()))
+            .child(Element::new("style").text(STYLE));
+        let sections = self.sections.iter().map(Section::element);
+        let body = Element::new("body").child(Element::new("h1").text(self.title.as_str())).children(sections);
+        let page = Element::new("html").with("lang", "en").child(head).child(body);
+        format!("<!DOCTYPE html>\n{page}\n")
+    }
+}
+
+impl Section {
+    fn element(&self) -> Element {
+        let section = Element::new("section").child(Element::new("h2").text(self.title.as_str()));
+        section.children(self.content.iter().map(Content::element))
+    }
+}
+
+impl Content {
+    fn element(&self) -> Element {
+        match self {
+            Content::Paragraph(text) => Element::new("p").text(text.as_str()),
+            Content::Warning(text) => Element::new("p").with("class", "warning").text(text.as_str()),
+            Content::Table { caption, header, rows } => {
+                let cells = |name: &'static str, row: &[String]| {
+                    Element::new("tr").children(row.iter().map(|c| Element::new(name).text(c.as_str())))
+                };
+                let head = Element::new("thead").child(cells("th", header));
+                let body = Element::new("tbody").text("").children(rows.iter().map(|r| cells("td", r)));
+                let caption = Element::new("caption").text(caption.as_str());
+                Element::new("div").with("class", "wide").child(Element::new("table").child(caption).child(head).child(body))
+            }
+            Content::Figure { picture, caption } => {
+                Element::new("figure").child(picture.inline()).child(Element::new("figcaption").text(caption.as_str()))
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn text_is_text_whatever_it_says() {
+        let hostile = "</p><script src='x'>&amp;\"";
+        let content = vec![
+            Content::Paragraph(hostile.into()),
+            Content::Warning(hostile.into()),
+            Content::Table { caption: hostile.into(), header: vec![hostile.into()], rows: vec![vec![hostile.into()], vec![]] },
+            Content::Figure { picture: Picture::new(hostile, 10.0, 10.0), caption: hostile.into() },
+        ];
+        let report = Report { title: hostile.into(), sections: vec![Section { title: hostile.into(), content }] };
+        let page = report.to_html();
+        let tree = roxmltree::Document::parse(page.strip_prefix("<!DOCTYPE html>\n").unwrap()).unwrap();
+        let texts = tree.descendants().filter(|n| n.is_text() && n.text() == Some(hostile)).count();
+        assert_eq!(texts, 10, "each of the ten comes back as it was");
+        assert!(tree.descendants().all(|n| n.tag_name().name() != "script"));
+        assert!(!page.contains("http:") && !page.contains("https:"));
+    }
+}
