@@ -1,6 +1,7 @@
 //! The program: one file per subcommand, each a library call with an exit code.
 
 mod block;
+mod campaign;
 mod certify;
 mod check;
 mod common;
@@ -53,6 +54,8 @@ enum Command {
     Table1(table1::Args),
     /// The polyurethane block of section 5: its two published states.
     Block(block::Args),
+    /// Random problems of many families through all engines, for seconds or for days.
+    Campaign(campaign::Args),
     /// Reduce a mechanical system to its pencil by (10)-(16).
     Reduce(reduce::Args),
 }
@@ -73,6 +76,7 @@ pub fn main() -> ExitCode {
         Command::Check(a) => check::run(&a),
         Command::Table1(a) => table1::run(&a),
         Command::Block(a) => block::run(&a),
+        Command::Campaign(a) => campaign::run(&a),
         Command::Reduce(a) => reduce::run(&a),
     };
     match result {

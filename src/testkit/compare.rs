@@ -1,7 +1,8 @@
 //! One instance through every engine: closed form, enumerator, solver, certificate, checker.
 
+use super::completed::compare_within;
 use super::forge::forgeries;
-use super::{Corner, Instance, compare_complete};
+use super::{Corner, Instance};
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
 use crate::certify::{certificate, certify};
@@ -69,6 +70,28 @@ pub enum Disagreement {
         /// The line.
         line: String,
     },
+    /// Another enumerator answers otherwise than the plain one.
+    #[error("{got} solutions, the enumerator lists {enumerated}, or they differ in value, support, x, cones or ranges")]
+    Enumerators {
+        /// Solutions of the other.
+        got: usize,
+        /// Solutions of the plain enumerator.
+        enumerated: usize,
+    },
+    /// The enumerator does not give the answer known by construction.
+    #[error("known by construction: {expected}; the enumerator lists {enumerated} solutions")]
+    Known {
+        /// What is known.
+        expected: String,
+        /// Solutions of the enumerator.
+        enumerated: usize,
+    },
+    /// An engine panicked.
+    #[error("panic: {message}")]
+    Panicked {
+        /// The panic's message.
+        message: String,
+    },
     /// An engine refused the instance.
     #[error("{engine} refused the instance: {reason}")]
     Refused {
@@ -77,6 +100,25 @@ pub enum Disagreement {
         /// Why.
         reason: String,
     },
+}
+
+impl Disagreement {
+    /// What kind it is, in a word that a shrunk instance must keep.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Disagreement::ClosedForm { .. } => "closed-form",
+            Disagreement::NotInOracle { .. } => "not-in-oracle",
+            Disagreement::Incomplete { .. } => "incomplete",
+            Disagreement::OracleNotCertified { .. } => "not-certified",
+            Disagreement::Rejected { .. } => "rejected",
+            Disagreement::Forgery { .. } => "forgery",
+            Disagreement::Lift { .. } => "lift",
+            Disagreement::Enumerators { .. } => "enumerators",
+            Disagreement::Known { .. } => "known-answer",
+            Disagreement::Panicked { .. } => "panic",
+            Disagreement::Refused { .. } => "refused",
+        }
+    }
 }
 
 /// What came of one instance.
@@ -111,38 +153,47 @@ pub struct InstanceReport {
 /// Runs every engine on an instance and compares them.
 pub fn compare(instance: &Instance, search: &Search) -> InstanceReport {
     let mut report = InstanceReport { label: instance.label.clone(), corners: instance.corners.clone(), ..InstanceReport::default() };
+    match engines(&instance.problem) {
+        Ok((reduced, oracle)) => compare_with(instance, &reduced, &oracle, search, super::completed::NODES, &mut report),
+        Err(disagreement) => report.disagreements.push(disagreement),
+    }
+    report
+}
+
+/// [`compare`] where the enumerator's answer is at hand; the complete search may use `nodes` per piece.
+pub(super) fn compare_with(
+    instance: &Instance,
+    reduced: &Reduced,
+    oracle: &Enumeration,
+    search: &Search,
+    nodes: usize,
+    report: &mut InstanceReport,
+) {
     let problem = &instance.problem;
-    let (reduced, oracle) = match engines(problem) {
-        Ok(both) => both,
-        Err(disagreement) => {
-            report.disagreements.push(disagreement);
-            return report;
-        }
-    };
     report.oracle = oracle.solutions.len();
     report.degenerate = !(oracle.wide.is_empty() && oracle.continua.is_empty());
-    report.corners.extend(observed(&oracle));
+    report.corners.extend(observed(oracle));
     if let Some(data) = &instance.closed_form {
-        compare_closed_form(&oracle, &table1(data), &mut report);
+        compare_closed_form(oracle, &table1(data), report);
     }
-    check_lifts(problem, &reduced, &oracle, &mut report);
-    let claims = certify_oracle(problem, &reduced, &oracle, &mut report);
-    submit(problem, claims, &mut report);
-    match compare_complete(problem, &oracle) {
+    check_lifts(problem, reduced, oracle, report);
+    let claims = certify_oracle(problem, reduced, oracle, report);
+    submit(problem, claims, report);
+    match compare_within(problem, oracle, nodes) {
         Ok(completed) => report.completed = completed,
         Err(disagreement) => report.disagreements.push(disagreement),
     }
     if let Ok(admissible) = Admissible::new(&reduced.pencil, problem.unknown()) {
         report.solved = true;
         match multistart(&admissible, problem.window(), search) {
-            Ok(found) => compare_found(problem, &reduced.pencil, &oracle, found, &mut report),
+            Ok(found) => compare_found(problem, &reduced.pencil, oracle, found, report),
             Err(e) => report.disagreements.push(Disagreement::Refused { engine: "solver", reason: e.to_string() }),
         }
     }
-    report
 }
 
-fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disagreement> {
+/// The reduction and the enumerator's answer.
+pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disagreement> {
     let refused = |engine, reason: String| Disagreement::Refused { engine, reason };
     let reduced = reduce(problem).map_err(|e| refused("reduction", e.to_string()))?;
     let oracle = enumerate(&reduced.pencil, problem.window()).map_err(|e| refused("enumerator", e.to_string()))?;

@@ -1,10 +1,12 @@
 //! Generators, comparison of engines, forgeries, the verification run, and the bodies of fuzz targets.
 
 mod block;
+pub mod campaign;
 mod compare;
 mod completed;
 mod families;
 mod forge;
+pub mod generators;
 pub mod known;
 mod large;
 pub mod pareto;
