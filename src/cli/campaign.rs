@@ -97,6 +97,9 @@ fn start(args: &Args) -> Result<State, CliError> {
             return Err(UnknownFamily { name: name.clone() }.into());
         }
     }
+    if let Some(path) = &args.state {
+        Output::prepare("state", path, &[])?; // known to be writable before the work starts
+    }
     let new = State::new(args.seed, shard(args.shard.as_deref())?, families);
     match &args.state {
         Some(path) if path.exists() => {

@@ -200,7 +200,8 @@ pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disag
     Ok((reduced, oracle))
 }
 
-fn observed(oracle: &Enumeration) -> Vec<Corner> {
+/// Corners that the enumerator's answer shows.
+pub(super) fn observed(oracle: &Enumeration) -> Vec<Corner> {
     let mut corners = Vec::new();
     let any = |f: &dyn Fn(&Solution) -> bool| oracle.solutions.iter().any(f);
     if any(&|s| !s.biactive.is_empty()) {

@@ -8,7 +8,7 @@ use crate::multistart::Search;
 use crate::oracle::Enumeration;
 use crate::reduction::Reduced;
 use crate::search::screen;
-use crate::testkit::compare::{compare_with, engines};
+use crate::testkit::compare::{compare_with, engines, observed};
 use crate::testkit::{Corner, Disagreement, InstanceReport};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
@@ -166,13 +166,13 @@ pub fn judge(case: &Case, all: &[Box<dyn Engine>]) -> Judgement {
     Judgement { report, findings }
 }
 
-/// Corners of the shape, and of having no solution.
+/// Corners of the answer and of the shape.
 fn shape(truth: &Truth) -> Vec<Corner> {
     let found = &truth.enumeration;
     let empty = found.is_plain_list() && found.solutions.is_empty();
     let pencil = &truth.reduced.pencil;
     let reached = [(empty, Corner::Empty), (pencil.order() == 1, Corner::OneByOne), (!pencil.free().is_empty(), Corner::FreeVariables)];
-    reached.into_iter().filter(|r| r.0).map(|r| r.1).collect()
+    observed(found).into_iter().chain(reached.into_iter().filter(|r| r.0).map(|r| r.1)).collect()
 }
 
 fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, Disagreement> {

@@ -106,9 +106,8 @@ impl Replay {
     /// # Errors
     /// [`ReplayError`] for what is not one.
     pub fn from_json(text: &str) -> Result<Replay, ReplayError> {
-        let replay: Replay = from_json(text)?;
-        require_format(&replay.format, REPLAY_FORMAT)?;
-        Ok(replay)
+        require_format(text, REPLAY_FORMAT)?;
+        Ok(from_json(text)?)
     }
 
     /// The case to judge again. Where the instance is as drawn, what is known by construction comes with it.

@@ -130,8 +130,8 @@ impl State {
     /// # Errors
     /// [`StateError`].
     pub fn resumed(&self, text: &str) -> Result<State, StateError> {
+        require_format(text, STATE_FORMAT)?;
         let state: State = from_json(text)?;
-        require_format(&state.format, STATE_FORMAT)?;
         let pairs = [
             ("seed", self.seed.to_string(), state.seed.to_string()),
             ("shard", format!("{:?}", self.shard), format!("{:?}", state.shard)),
