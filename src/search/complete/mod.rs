@@ -21,7 +21,7 @@ pub use merge::merge;
 
 use crate::certificate::{Certificate, Claim, CompleteSet, Node};
 use crate::certify::certificate;
-use crate::check::{AcceptedClaim, AcceptedCover, Reason, Rejected, check};
+use crate::check::{AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, check};
 use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
 use skeleton::Prepared;
@@ -217,6 +217,11 @@ fn reopen(certificate: &mut Certificate, rejected: Rejected, refused: &mut [usiz
             let tails = set.pieces.iter_mut().flat_map(|p| &mut p.tree).filter(|n| matches!(n, Node::Tail));
             tails.for_each(|n| *n = Node::Open);
             Ok(())
+        }
+        // The free block is definite in doubles and not provably so.
+        Reason::Cover { piece: None, fault: CoverFault::Hypothesis { expected, row }, .. } => {
+            let what = if expected.starts_with("B_ff") { "B_ff" } else { "A_ff" };
+            Err(CompleteError::NotDefinite { what, index: *row })
         }
         _ => Err(rejected.into()),
     }

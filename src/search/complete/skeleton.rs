@@ -52,7 +52,8 @@ impl Prepared {
                     short(end, 0.01 * end)
                 }
                 (true, None) => window.max().cloned(),
-                (false, _) => short(*end, 0.01 * end),
+                // A short number near the window's end may lie beyond it: then this anchor has no piece.
+                (false, _) => short(*end, 0.01 * end).map(|h| if window.max().is_some_and(|m| h >= *m) { lo.clone() } else { h }),
             };
             let above = hi.as_ref().is_none_or(|h| *h > lo);
             let has_tail = tail.is_some() && window.max().is_none();
