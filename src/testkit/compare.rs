@@ -265,6 +265,8 @@ fn certify_oracle(problem: &Problem, reduced: &Reduced, oracle: &Enumeration, re
         let candidate = Candidate { value: double(s.decimal(17)), x: s.x_decimals(&slip, 17).into_iter().map(double).collect() };
         match certify(&reduced.pencil, problem.window(), &candidate) {
             Ok(claim) => claims.push(claim),
+            // A singular support has a root everywhere: its value, if irrational, cannot be told from doubles.
+            Err(reason) if s.multiplicity == 0 => report.uncertified.push(format!("solution {index}, singular support: {reason}")),
             Err(reason) => report.disagreements.push(Disagreement::OracleNotCertified { index, reason: reason.to_string() }),
         }
     }
@@ -295,7 +297,7 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
 
 fn compare_found(problem: &Problem, pencil: &Pencil, oracle: &Enumeration, found: Found, report: &mut InstanceReport) {
     report.pivots = found.pivots;
-    report.uncertified = found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)).collect();
+    report.uncertified.extend(found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)));
     let mut claims = Vec::new();
     let mut hit = vec![false; oracle.solutions.len()];
     for c in found.certified {

@@ -46,7 +46,7 @@ pub struct Tally {
     pub forgeries: u64,
     /// Instances closed by the complete search, with the enumerator's answer.
     pub closed: u64,
-    /// Candidates of the solver that stayed uncertified.
+    /// Candidates that stayed uncertified: the solver's, and the enumerator's on singular supports.
     pub uncertified: u64,
     /// Instances with a wide kernel or a singular pencil.
     pub degenerate: u64,
