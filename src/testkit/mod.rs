@@ -4,6 +4,7 @@ mod block;
 pub mod campaign;
 mod compare;
 mod completed;
+mod disagreement;
 mod families;
 mod forge;
 pub mod generators;
@@ -14,8 +15,9 @@ pub mod targets;
 mod verify;
 
 pub use block::{AcceptedState, BlockError, BlockReport, block_state};
-pub use compare::{Disagreement, InstanceReport, compare};
+pub use compare::{InstanceReport, compare};
 pub use completed::compare_complete;
+pub use disagreement::Disagreement;
 pub use families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
 pub use forge::{Forgery, forgeries};
 pub use large::{LargeError, backslash_block, condensed_in_doubles, mechanical_pencil, refined_block};

@@ -65,7 +65,7 @@ pub(super) type Made = (Instance, Expected);
 /// Name, what it holds, and how an instance is made.
 pub const FAMILIES: [(&str, &str, Make); 20] = [
     ("table1", "the two particles of Fig. 1 at random rational angles, with the closed form", named::table1),
-    ("table1-near", "the same with mu at a relative distance of 0 or 1e-3 to 1e-15 from a threshold", named::table1_near),
+    ("table1-near", "the same with mu at a relative distance of 0 or 10^-3 to 10^-15 from a threshold", named::table1_near),
     ("elements", "random pencils as finite elements have them, free variables, windows", named::elements),
     ("states", "mechanical systems with every mixture of free, stick and slip, oblique, both normals", named::states),
     ("systems", "mechanical systems of up to four particles", named::systems),
@@ -82,8 +82,8 @@ pub const FAMILIES: [(&str, &str, Make); 20] = [
     ("known", "paths, cycles, stars, Jordan blocks, ...: the whole answer by theorem", named::known),
     ("pareto", "Pareto matrices with a known number of solutions, raw and as systems", named::pareto),
     ("planted", "a rational solution planted, biactive indices, windows that end beside it", named::planted),
-    ("near", "planted biactive and repeated roots, moved by 1e-3 to 1e-15", named::near),
-    ("scales", "Hilbert sections, bad scaling, 1e+-12 to 1e+-60", named::scales),
+    ("near", "planted biactive and repeated roots, moved by 10^-3 to 10^-15", named::near),
+    ("scales", "Hilbert sections, bad scaling, 10^12 to 10^60 and their inverses", named::scales),
 ];
 
 /// The instance with this name.
