@@ -120,8 +120,8 @@ fn a_dropped_repeated_root_is_reported_shrunk_written_and_replayed() {
         e.solutions.retain(|s| s.multiplicity < 2);
         e
     });
-    let (state, replays) = run(&engines, State::new(1, (0, 1), names(&["degenerate", "digits"])), 12);
-    assert!(state.disagreements() >= 2 && state.tallies[1].disagreements.is_empty(), "digits have no repeated root");
+    let (state, replays) = run(&engines, State::new(1, (0, 1), names(&["degenerate"])), 12);
+    assert!(state.disagreements() >= 2);
     assert_eq!(state.disagreements(), replays.len());
     for replay in &replays {
         let again = Replay::from_json(&replay.to_json()).unwrap();

@@ -54,8 +54,10 @@ fn roots(data: &[u8]) {
     let found = roots_in(&p, &lo, Some(&hi));
     assert_eq!(found.len(), naive::count_roots(&list(&p), &lo, &hi), "{p:?} in [{lo}, {hi}]");
     for (k, root) in found.iter().enumerate() {
-        let i = root.interval();
-        assert!(naive::count_roots(&list(&p), i.lo(), i.hi()) == 1 || i.is_point(), "root {k} of {p:?}");
+        let (i, own) = (root.interval(), list(root.poly()));
+        // Its own polynomial divides p and has this one root there; p may have others, divided out.
+        assert!(naive::count_roots(&own, i.lo(), i.hi()) == 1, "root {k} of {p:?}");
+        assert!(naive::divide(&list(&p), &own).is_some_and(|(_, rest)| rest.is_empty()), "root {k} of {p:?}");
     }
     for root in nonnegative_roots(&p) {
         let sign = root.clone().sign_of(&g);
