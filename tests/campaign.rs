@@ -127,7 +127,7 @@ fn a_dropped_repeated_root_is_reported_shrunk_written_and_replayed() {
         let again = Replay::from_json(&replay.to_json()).unwrap();
         assert_eq!(&again, replay);
         let found = judge(&again.case().unwrap(), &engines).findings;
-        assert_eq!(found.iter().map(|f| f.disagreement.to_string()).collect::<Vec<_>>(), [replay.disagreement.clone()]);
+        assert!(found.len() == 1 && found[0].disagreement.to_string() == replay.disagreement);
         // The engine is wrong, not the instance: the project's own engines agree.
         assert!(judge(&again.case().unwrap(), &standard(1)).findings.is_empty());
         assert!(replay.file_name().starts_with("degenerate-1-") && replay.file_name().ends_with("enumerators.json"));
