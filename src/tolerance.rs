@@ -5,8 +5,9 @@
 
 /// Thresholds at which x_i, relative to max x_s, is guessed to be positive. Unit: none.
 /// Basis: the block's lambda^2 mode has a true component of 6e-11 of its norm, and reports of six
-/// digits have noise of 1e-6; so several guesses are tried and the exact signs decide.
-pub const SUPPORT_GUESSES: [f64; 5] = [1e-9, 1e-6, 1e-4, 1e-12, 1e-3];
+/// digits have noise of 1e-6; so several guesses are tried and the exact signs decide. Last every component
+/// as given: near a threshold true components are smaller than any bound (`near:1:122` of the campaign).
+pub const SUPPORT_GUESSES: [f64; 6] = [1e-9, 1e-6, 1e-4, 1e-12, 1e-3, 0.0];
 
 /// How far from a candidate's value a root is looked for, relative to 1 + |value|. Unit: none.
 /// Basis: reports carry six digits or more, but at a double root a residual of 1e-10 leaves an error

@@ -2,8 +2,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::exact::{
-    Algebraic, Integer, Interval, Poly, Rational, Sign, Sparse, from_f64, nonnegative_roots, parse, positive_definite, roots_in, to_f64,
-    whole,
+    Algebraic, Field, Integer, Interval, Poly, Quadratic, Rational, Sign, Sparse, from_f64, nonnegative_roots, parse, positive_definite,
+    primes, roots_in, to_f64, whole,
 };
 use num_traits::{Signed, Zero};
 use quickcheck::{TestResult, quickcheck};
@@ -17,6 +17,60 @@ fn point(p: i16, q: u8) -> Rational {
 }
 
 quickcheck! {
+    fn prime_fields_are_fields(a: u64, b: u64, c: u64, k: u8) -> bool {
+        let p = primes().nth(usize::from(k % 3)).unwrap_or(3);
+        let f = Field::new(p);
+        let [a, b, c] = [a, b, c].map(|v| f.enter(v % p));
+        let (zero, one) = (f.enter(0), f.enter(1));
+        let ring = f.mul(f.add(a, b), c) == f.add(f.mul(a, c), f.mul(b, c))
+            && f.mul(f.mul(a, b), c) == f.mul(a, f.mul(b, c))
+            && f.add(f.add(a, b), c) == f.add(a, f.add(b, c))
+            && (f.mul(a, b), f.add(a, b)) == (f.mul(b, a), f.add(b, a))
+            && (f.add(a, zero), f.mul(a, one), f.sub(a, a)) == (a, a, zero);
+        let integer = |v: u64| Integer::from(f.leave(v));
+        // And the field is that of the integers modulo p.
+        let product = (integer(a) * integer(b)) % p == integer(f.mul(a, b));
+        ring && product && (a == zero || f.mul(a, f.invert(a)) == one)
+    }
+
+    fn quadratic_numbers_are_an_ordered_ring(a: (i8, i8), b: (i8, i8), c: (i8, i8), d: u8) -> bool {
+        let number = |(p, q): (i8, i8)| Quadratic::new(whole(p.into()), whole(q.into()), whole(i64::from(d % 12)));
+        let (Some(a), Some(b), Some(c)) = (number(a), number(b), number(c)) else { return false };
+        let minus = |x: &Quadratic| x.scale(&whole(-1));
+        let equal = |x: &Quadratic, y: &Quadratic| x.add(&minus(y)).sign() == Sign::Zero;
+        let sign = |x: &Quadratic| x.sign() as i8 - Sign::Zero as i8;
+        equal(&a.add(&b).mul(&c), &a.mul(&c).add(&b.mul(&c)))
+            && equal(&a.mul(&b).mul(&c), &a.mul(&b.mul(&c)))
+            && equal(&a.mul(&b), &b.mul(&a))
+            && sign(&a.mul(&b)) == sign(&a) * sign(&b)
+            && sign(&minus(&a)) == -sign(&a)
+            && (sign(&a) <= 0 || sign(&b) <= 0 || sign(&a.add(&b)) > 0)
+    }
+
+    fn sturm_counts_are_additive(a: Vec<i8>, lo: i8, first: u8, second: u8) -> TestResult {
+        let p = poly(&a);
+        let (lo, mid) = (whole(lo.into()), whole(i64::from(lo) + i64::from(first)));
+        let hi = &mid + whole(i64::from(second));
+        if p.is_zero() {
+            return TestResult::discard();
+        }
+        let count = |from: &Rational, to: &Rational| roots_in(&p, from, Some(to)).len();
+        let at_mid = usize::from(p.eval(&mid).is_zero());
+        TestResult::from_bool(count(&lo, &hi) + at_mid == count(&lo, &mid) + count(&mid, &hi))
+    }
+
+    fn intervals_enclose_sums_products_and_quotients(a: (i8, u8), b: (i8, u8), k: u8, l: u8) -> bool {
+        let make = |(lo, width): (i8, u8)| Interval::new(whole(lo.into()), whole(i64::from(lo) + i64::from(width)));
+        let (Some(x), Some(y)) = (make(a), make(b)) else { return false };
+        let at = |i: &Interval, k: u8| i.lo() + i.width() * Rational::new(k.into(), 255.into());
+        let (u, v) = (at(&x, k), at(&y, l));
+        let quotient = match x.div(&y) {
+            Some(q) => q.contains(&(&u / &v)),
+            None => y.contains(&whole(0)),
+        };
+        x.add(&y).contains(&(&u + &v)) && x.mul(&y).contains(&(&u * &v)) && quotient
+    }
+
     fn polynomials_are_a_ring(a: Vec<i8>, b: Vec<i8>, c: Vec<i8>) -> bool {
         let (a, b, c) = (poly(&a), poly(&b), poly(&c));
         &(&a + &b) * &c == &(&a * &c) + &(&b * &c) && &a * &b == &b * &a && &(&a * &b) * &c == &a * &(&b * &c) && (&a - &a).is_zero()

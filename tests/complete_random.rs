@@ -8,9 +8,11 @@
 mod cover;
 
 use cover::{disagreements, family_disagreements, truth};
-use mceip::exact::{Rational, Sparse, rational, whole};
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip::exact::{Rational, rational};
+use mceip::model::{Body, Problem, Unknown};
 use mceip::search::complete::{Options, complete};
+use mceip::testkit::generators::raw::{digits, doubled, elements, graph, zeros};
+use mceip::testkit::generators::window;
 use mceip::testkit::{degenerate, known, mechanical, random_pencils, table1_grid};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -26,83 +28,8 @@ struct Case {
     problem: Problem,
 }
 
-fn gram(rng: &mut ChaCha8Rng, n: usize, identity: i64) -> Vec<Vec<i64>> {
-    let g: Vec<Vec<i64>> = (0..n).map(|_| (0..n).map(|_| rng.random_range(-2..=2)).collect()).collect();
-    (0..n).map(|i| (0..n).map(|j| (0..n).map(|k| g[i][k] * g[j][k]).sum::<i64>() + if i == j { identity } else { 0 }).collect()).collect()
-}
-
-fn sparse(rows: &[Vec<i64>]) -> Sparse {
-    Sparse::from_ints(&rows.iter().map(|r| &r[..]).collect::<Vec<_>>())
-}
-
-/// All of [0, inf), intervals whose ends are small integers (solutions of hand-made problems lie there), and points.
-fn window(rng: &mut ChaCha8Rng) -> Window {
-    let min = rng.random_range(0..=4);
-    match rng.random_range(0..6) {
-        0 => Window::new(whole(min), Some(whole(min + rng.random_range(0..=6)))),
-        1 => Window::new(rational(min, 2), Some(whole(20))),
-        2 => Window::new(rational(min, 3), None),
-        _ => Ok(Window::all()),
-    }
-    .unwrap()
-}
-
 fn unknown(k: usize) -> Unknown {
     if k.is_multiple_of(2) { Unknown::Lambda2 } else { Unknown::Mu }
-}
-
-/// K0 = GG' + I, K1 with zero free rows, M = GG' + I: as finite elements have it. n_s to 10, n_f to 3.
-fn elements(k: usize, rng: &mut ChaCha8Rng, n_s: usize, n_f: usize) -> Pencil {
-    let n = n_s + n_f;
-    let (k0, mass) = (gram(rng, n, 1), gram(rng, n, 1));
-    let mut k1: Vec<Vec<i64>> = (0..n).map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect()).collect();
-    k1[..n_f].iter_mut().for_each(|r| r.fill(0));
-    let (a, b) = match unknown(k) {
-        Unknown::Mu => (sparse(&k0), sparse(&k1)),
-        Unknown::Lambda2 => (sparse(&k0).add_scaled(&rational(rng.random_range(1..=9), 3), &sparse(&k1)), sparse(&mass)),
-    };
-    Pencil::new(a, b, (0..n_f).collect()).unwrap()
-}
-
-/// One-digit integers, A and B arbitrary; with free variables A_ff definite, B_ff = 0.
-fn digits(rng: &mut ChaCha8Rng, n_s: usize, n_f: usize) -> Pencil {
-    let n = n_s + n_f;
-    let mut draw = || -> Vec<Vec<i64>> { (0..n).map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect()).collect() };
-    let (mut a, mut b) = (draw(), draw());
-    let ff = gram(rng, n_f, 1);
-    for i in 0..n_f {
-        a[i][..n_f].copy_from_slice(&ff[i]);
-        b[i].fill(0);
-    }
-    Pencil::new(sparse(&a), sparse(&b), (0..n_f).collect()).unwrap()
-}
-
-/// Three quarters zeros: singular supports, repeated roots, ties.
-fn zeros(rng: &mut ChaCha8Rng, n: usize) -> Pencil {
-    let mut draw =
-        || -> Vec<Vec<i64>> { (0..n).map(|_| (0..n).map(|_| [0, 0, 0, 1, 0, 0, 0, -1][rng.random_range(0..8)]).collect()).collect() };
-    Pencil::new(sparse(&draw()), sparse(&draw()), Vec::new()).unwrap()
-}
-
-/// A particle that is another's double: the same row and column.
-fn doubled(rng: &mut ChaCha8Rng, n: usize) -> Pencil {
-    let twin = |m: Vec<Vec<i64>>| -> Vec<Vec<i64>> {
-        let of = |i: usize| i.min(n - 2);
-        (0..n).map(|i| (0..n).map(|j| m[of(i)][of(j)]).collect()).collect()
-    };
-    let mut draw = || -> Vec<Vec<i64>> { (0..n).map(|_| (0..n).map(|_| rng.random_range(-3..=3)).collect()).collect() };
-    Pencil::new(sparse(&twin(draw())), sparse(&twin(draw())), Vec::new()).unwrap()
-}
-
-/// (A - t I) x = y, A the adjacency matrix of a random graph: repeated values, integers, cones.
-fn graph(rng: &mut ChaCha8Rng, n: usize) -> Pencil {
-    let mut a = vec![vec![0; n]; n];
-    for i in 0..n {
-        for j in 0..i {
-            (a[i][j], a[j][i]) = if rng.random_range(0..2) == 0 { (1, 1) } else { (0, 0) };
-        }
-    }
-    Pencil::new(sparse(&a), Sparse::identity(n).add_scaled(&whole(-2), &Sparse::identity(n)), Vec::new()).unwrap()
 }
 
 /// `general` cases that have no reason to be degenerate, and `special` that have.
@@ -112,8 +39,8 @@ fn cases(general: usize, special: usize, seed: u64) -> Vec<Case> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed * 1_000_003 + k as u64);
         let (n_s, n_f) = (rng.random_range(1..=10), if rng.random_range(0..2) == 0 { 0 } else { rng.random_range(1..=3) });
         let (family, pencil) = match k % 4 {
-            0 | 1 => ("elements", elements(k, &mut rng, n_s, n_f)),
-            _ => ("digits", digits(&mut rng, n_s, n_f)),
+            0 | 1 => ("elements", elements(unknown(k), &mut rng, n_s, n_f).unwrap()),
+            _ => ("digits", digits(&mut rng, n_s, n_f).unwrap()),
         };
         let window = window(&mut rng);
         let problem = Problem::new(Body::Pencil(pencil), if family == "digits" { Unknown::Mu } else { unknown(k) }, window).unwrap();
@@ -123,9 +50,9 @@ fn cases(general: usize, special: usize, seed: u64) -> Vec<Case> {
         let mut rng = ChaCha8Rng::seed_from_u64(seed * 7_000_003 + k as u64);
         let n = rng.random_range(2..=7);
         let (family, pencil) = match k % 3 {
-            0 => ("zeros", zeros(&mut rng, n)),
-            1 => ("doubled particle", doubled(&mut rng, n)),
-            _ => ("graph", graph(&mut rng, n)),
+            0 => ("zeros", zeros(&mut rng, n).unwrap()),
+            1 => ("doubled particle", doubled(&mut rng, n).unwrap()),
+            _ => ("graph", graph(&mut rng, n).unwrap()),
         };
         let problem = Problem::new(Body::Pencil(pencil), unknown(k / 3), window(&mut rng)).unwrap();
         out.push(Case { family, is_degenerate: true, label: format!("{family} {k} n={n}"), problem });

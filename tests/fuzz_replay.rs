@@ -2,35 +2,96 @@
 #![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use mceip::testkit::targets;
-use std::path::Path;
+use mceip::testkit::targets::{self, TARGETS};
+use std::path::{Path, PathBuf};
 
-fn replay(target: &str, body: fn(&[u8])) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz");
-    let mut count = 0;
+fn fuzz() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz")
+}
+
+fn replay(target: &str) {
+    let (_, body) = TARGETS.iter().find(|t| t.0 == target).unwrap();
+    let (mut count, mut bytes) = (0, 0);
     for folder in ["corpus", "regressions"] {
-        let Ok(files) = std::fs::read_dir(root.join(folder).join(target)) else { continue };
+        let Ok(files) = std::fs::read_dir(fuzz().join(folder).join(target)) else { continue };
         for file in files {
             let path = file.unwrap().path();
             println!("{}", path.display()); // shown when the body panics
-            body(&std::fs::read(&path).unwrap());
+            let data = std::fs::read(&path).unwrap();
+            body(&data);
             count += 1;
+            bytes += data.len();
         }
     }
     assert!(count >= 20, "{target}: only {count} inputs");
+    assert!(bytes < 250_000, "{target}: {bytes} bytes of corpus, minimise it (cargo fuzz cmin)");
 }
 
 #[test]
 fn problem_reader() {
-    replay("problem_reader", targets::problem_reader);
+    replay("problem_reader");
 }
 
 #[test]
-fn solver_against_oracle() {
-    replay("solver_against_oracle", targets::solver_against_oracle);
+fn certificate_reader() {
+    replay("certificate_reader");
+}
+
+#[test]
+fn hostile_report() {
+    replay("hostile_report");
 }
 
 #[test]
 fn checker_against_forgeries() {
-    replay("checker_against_forgeries", targets::checker_against_forgeries);
+    replay("checker_against_forgeries");
+}
+
+#[test]
+fn solver_against_oracle() {
+    replay("solver_against_oracle");
+}
+
+#[test]
+fn screened_against_plain() {
+    replay("screened_against_plain");
+}
+
+#[test]
+fn complete_against_plain() {
+    replay("complete_against_plain");
+}
+
+#[test]
+fn exact_against_naive() {
+    replay("exact_against_naive");
+}
+
+/// Every target has its three lines of glue, its entry for cargo, and a replay above.
+#[test]
+fn every_target_is_built_and_replayed() {
+    let (cargo, this) = (std::fs::read_to_string(fuzz().join("Cargo.toml")).unwrap(), include_str!("fuzz_replay.rs"));
+    for (name, _) in TARGETS {
+        let glue = std::fs::read_to_string(fuzz().join(format!("fuzz_targets/{name}.rs"))).unwrap();
+        assert!(glue.lines().count() == 3 && glue.contains(&format!("targets::{name}(data)")), "{name}");
+        assert!(cargo.contains(&format!("name = \"{name}\"")) && this.contains(&format!("replay(\"{name}\")")), "{name}");
+    }
+    assert_eq!(cargo.matches("[[bin]]").count(), TARGETS.len());
+}
+
+/// The seeds of `corpus/certificate_reader`: `cargo test --test fuzz_replay -- --ignored`.
+#[test]
+#[ignore = "writes the corpus"]
+fn write_the_certificates() {
+    for (k, text) in targets::certificate_seeds().into_iter().enumerate() {
+        std::fs::write(fuzz().join(format!("corpus/certificate_reader/seed-{k}.json")), &text).unwrap();
+        // Near misses, so that the fuzzer starts on both sides.
+        for (m, (from, to)) in [("\"1\"", "\"-1\""), ("[0]", "[1]"), ("\"0\"", "\"1\""), ("solution", "solutions")].into_iter().enumerate()
+        {
+            let near = text.replacen(from, to, 1);
+            if near != text && text.len() < 20_000 {
+                std::fs::write(fuzz().join(format!("corpus/certificate_reader/near-{k}-{m}.json")), near).unwrap();
+            }
+        }
+    }
 }

@@ -112,6 +112,25 @@ pub(super) enum CliError {
     /// A picture was not drawn.
     #[error(transparent)]
     Png(#[from] crate::picture::PngError),
+    /// A family that does not exist, or one named twice.
+    #[error("--family: {0} (each once)")]
+    Family(#[from] crate::testkit::campaign::UnknownFamily),
+    /// The state of a campaign.
+    #[error("{path}: {source}")]
+    State {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: crate::testkit::campaign::StateError,
+    },
+    /// A replay file.
+    #[error("{path}: {source}")]
+    Replay {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: crate::testkit::campaign::ReplayError,
+    },
     /// The condensation was refused.
     #[error("{0}")]
     Condensation(#[from] crate::reduction::CondensationError),

@@ -2,6 +2,7 @@
 
 mod analyze;
 mod block;
+mod campaign;
 mod certify;
 mod check;
 mod common;
@@ -62,6 +63,8 @@ enum Command {
     Table1(table1::Args),
     /// The polyurethane block of section 5: its two published states.
     Block(block::Args),
+    /// Random problems of many families through all engines, for seconds or for days.
+    Campaign(campaign::Args),
     /// Reduce a mechanical system to its pencil by (10)-(16).
     Reduce(reduce::Args),
 }
@@ -85,6 +88,7 @@ pub fn main() -> ExitCode {
         Command::Conform(a) => conform::run_command(&a),
         Command::Table1(a) => table1::run(&a),
         Command::Block(a) => block::run(&a),
+        Command::Campaign(a) => campaign::run(&a),
         Command::Reduce(a) => reduce::run(&a),
     };
     match result {

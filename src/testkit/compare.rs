@@ -1,7 +1,8 @@
 //! One instance through every engine: closed form, enumerator, solver, certificate, checker.
 
+use super::completed::compare_within;
 use super::forge::forgeries;
-use super::{Corner, Instance, compare_complete};
+use super::{Corner, Disagreement, Instance};
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
 use crate::certify::{certificate, certify};
@@ -12,72 +13,6 @@ use crate::multistart::{Found, Search, exact_value, multistart, support};
 use crate::oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
 use crate::reduction::{Reduced, check_lines, lift, reduce};
 use num_traits::Signed;
-
-/// Two parts of the project that do not say the same. Any of these is a bug.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[non_exhaustive]
-pub enum Disagreement {
-    /// The closed form of Table 1 and the enumerator differ.
-    #[error("closed form lists {closed} solutions, the enumerator {enumerated}, or they differ in value, x or support")]
-    ClosedForm {
-        /// Solutions of the closed form.
-        closed: usize,
-        /// Solutions of the enumerator.
-        enumerated: usize,
-    },
-    /// A certified solution is not among the enumerator's.
-    #[error("certified solution with support {support:?} is not in the enumerator's list")]
-    NotInOracle {
-        /// Its support.
-        support: Vec<usize>,
-    },
-    /// The complete search claims a complete set that is not the enumerator's.
-    #[error("complete set of {claimed} solutions, the enumerator lists {enumerated} (or a cone, or a continuum)")]
-    Incomplete {
-        /// Solutions of the complete set.
-        claimed: usize,
-        /// Solutions of the enumerator.
-        enumerated: usize,
-    },
-    /// A solution of the enumerator could not be certified.
-    #[error("solution {index} of the enumerator was not certified: {reason}")]
-    OracleNotCertified {
-        /// Its index.
-        index: usize,
-        /// Why.
-        reason: String,
-    },
-    /// The checker rejects what was certified.
-    #[error("checker rejects a certified claim: {reason}")]
-    Rejected {
-        /// Why.
-        reason: String,
-    },
-    /// The checker accepts a forgery, or rejects it for another reason than the one broken.
-    #[error("forgery {name:?}: {got}")]
-    Forgery {
-        /// Which forgery.
-        name: &'static str,
-        /// "accepted", or the other reason.
-        got: String,
-    },
-    /// A lifted solution violates (9).
-    #[error("lifted solution {index} violates (9): {line}")]
-    Lift {
-        /// Index in the enumerator's list.
-        index: usize,
-        /// The line.
-        line: String,
-    },
-    /// An engine refused the instance.
-    #[error("{engine} refused the instance: {reason}")]
-    Refused {
-        /// Which engine.
-        engine: &'static str,
-        /// Why.
-        reason: String,
-    },
-}
 
 /// What came of one instance.
 #[derive(Debug, Clone, Default)]
@@ -111,45 +46,55 @@ pub struct InstanceReport {
 /// Runs every engine on an instance and compares them.
 pub fn compare(instance: &Instance, search: &Search) -> InstanceReport {
     let mut report = InstanceReport { label: instance.label.clone(), corners: instance.corners.clone(), ..InstanceReport::default() };
+    match engines(&instance.problem) {
+        Ok((reduced, oracle)) => compare_with(instance, &reduced, &oracle, search, super::completed::NODES, &mut report),
+        Err(disagreement) => report.disagreements.push(disagreement),
+    }
+    report
+}
+
+/// [`compare`] where the enumerator's answer is at hand; the complete search may use `nodes` per piece.
+pub(super) fn compare_with(
+    instance: &Instance,
+    reduced: &Reduced,
+    oracle: &Enumeration,
+    search: &Search,
+    nodes: usize,
+    report: &mut InstanceReport,
+) {
     let problem = &instance.problem;
-    let (reduced, oracle) = match engines(problem) {
-        Ok(both) => both,
-        Err(disagreement) => {
-            report.disagreements.push(disagreement);
-            return report;
-        }
-    };
     report.oracle = oracle.solutions.len();
     report.degenerate = !(oracle.wide.is_empty() && oracle.continua.is_empty());
-    report.corners.extend(observed(&oracle));
+    report.corners.extend(observed(oracle));
     if let Some(data) = &instance.closed_form {
-        compare_closed_form(&oracle, &table1(data), &mut report);
+        compare_closed_form(oracle, &table1(data), report);
     }
-    check_lifts(problem, &reduced, &oracle, &mut report);
-    let claims = certify_oracle(problem, &reduced, &oracle, &mut report);
-    submit(problem, claims, &mut report);
-    match compare_complete(problem, &oracle) {
+    check_lifts(problem, reduced, oracle, report);
+    let claims = certify_oracle(problem, reduced, oracle, report);
+    submit(problem, claims, report);
+    match compare_within(problem, oracle, nodes) {
         Ok(completed) => report.completed = completed,
         Err(disagreement) => report.disagreements.push(disagreement),
     }
     if let Ok(admissible) = Admissible::new(&reduced.pencil, problem.unknown()) {
         report.solved = true;
         match multistart(&admissible, problem.window(), search) {
-            Ok(found) => compare_found(problem, &reduced.pencil, &oracle, found, &mut report),
+            Ok(found) => compare_found(problem, &reduced.pencil, oracle, found, report),
             Err(e) => report.disagreements.push(Disagreement::Refused { engine: "solver", reason: e.to_string() }),
         }
     }
-    report
 }
 
-fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disagreement> {
+/// The reduction and the enumerator's answer.
+pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disagreement> {
     let refused = |engine, reason: String| Disagreement::Refused { engine, reason };
     let reduced = reduce(problem).map_err(|e| refused("reduction", e.to_string()))?;
     let oracle = enumerate(&reduced.pencil, problem.window()).map_err(|e| refused("enumerator", e.to_string()))?;
     Ok((reduced, oracle))
 }
 
-fn observed(oracle: &Enumeration) -> Vec<Corner> {
+/// Corners that the enumerator's answer shows.
+pub(super) fn observed(oracle: &Enumeration) -> Vec<Corner> {
     let mut corners = Vec::new();
     let any = |f: &dyn Fn(&Solution) -> bool| oracle.solutions.iter().any(f);
     if any(&|s| !s.biactive.is_empty()) {
@@ -213,6 +158,8 @@ fn certify_oracle(problem: &Problem, reduced: &Reduced, oracle: &Enumeration, re
         let candidate = Candidate { value: double(s.decimal(17)), x: s.x_decimals(&slip, 17).into_iter().map(double).collect() };
         match certify(&reduced.pencil, problem.window(), &candidate) {
             Ok(claim) => claims.push(claim),
+            // A singular support has a root everywhere: its value, if irrational, cannot be told from doubles.
+            Err(reason) if s.multiplicity == 0 => report.uncertified.push(format!("solution {index}, singular support: {reason}")),
             Err(reason) => report.disagreements.push(Disagreement::OracleNotCertified { index, reason: reason.to_string() }),
         }
     }
@@ -243,7 +190,7 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
 
 fn compare_found(problem: &Problem, pencil: &Pencil, oracle: &Enumeration, found: Found, report: &mut InstanceReport) {
     report.pivots = found.pivots;
-    report.uncertified = found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)).collect();
+    report.uncertified.extend(found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)));
     let mut claims = Vec::new();
     let mut hit = vec![false; oracle.solutions.len()];
     for c in found.certified {

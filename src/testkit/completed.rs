@@ -10,15 +10,23 @@ use std::cmp::Ordering;
 use std::sync::atomic::AtomicBool;
 
 /// Nodes per piece in comparisons: instances are small, what needs more is degenerate.
-const NODES: usize = 20_000;
+pub(super) const NODES: usize = 20_000;
 
-/// Runs the complete search. `Ok(true)`: complete, and equal to the oracle's answer; `Ok(false)`: what it
-/// proved is in the oracle's answer, the rest is left open (or the free block is outside its hypotheses).
+/// `compare_within` with as many nodes as small instances need.
 ///
 /// # Errors
 /// [`Disagreement`] between the two.
 pub fn compare_complete(problem: &Problem, oracle: &Enumeration) -> Result<bool, Disagreement> {
-    let options = Options { nodes_per_piece: NODES, threads: None, ..Options::default() };
+    compare_within(problem, oracle, NODES)
+}
+
+/// Runs the complete search with so many nodes per piece. `Ok(true)`: complete, and equal to the oracle's answer; `Ok(false)`: what it
+/// proved is in the oracle's answer, the rest is left open (or the free block is outside its hypotheses).
+///
+/// # Errors
+/// [`Disagreement`] between the two.
+pub(super) fn compare_within(problem: &Problem, oracle: &Enumeration, nodes: usize) -> Result<bool, Disagreement> {
+    let options = Options { nodes_per_piece: nodes, threads: None, ..Options::default() };
     let completed = match complete(problem, &options, &AtomicBool::new(false), &|_| {}) {
         Ok(completed) => completed,
         Err(CompleteError::NotDefinite { .. } | CompleteError::NothingSlips) => return Ok(false),

@@ -34,6 +34,22 @@ pub enum Corner {
     Stick,
     /// A mass matrix that couples T and N, so that M1 does not vanish.
     CoupledMass,
+    /// At a relative distance of 1e-3 to 1e-15 from a threshold, a double root or a biactive index.
+    NearThreshold,
+    /// Matrices of large condition number.
+    IllConditioned,
+    /// Entries of 1e12 and more.
+    HugeScale,
+    /// Entries of 1e-12 and less.
+    TinyScale,
+    /// A solution planted by construction.
+    Planted,
+    /// A window with two finite ends.
+    FiniteWindow,
+    /// A window of one point.
+    PointWindow,
+    /// No solution at all.
+    Empty,
 }
 
 /// A problem of a family, with the closed form where there is one.
@@ -95,7 +111,7 @@ pub fn random_pencils(count: usize, seed: u64) -> Result<Vec<Instance>, ModelErr
     (0..count).map(|k| random_pencil(k, seed)).collect()
 }
 
-fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError> {
+pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(k as u64));
     let n_s = rng.random_range(1..=6);
     let n_f = if rng.random_range(0..2) == 0 { 0 } else { rng.random_range(1..=3) };
@@ -124,7 +140,7 @@ fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError> {
 }
 
 /// GG' + I with small integer G: symmetric positive definite.
-fn gram(rng: &mut ChaCha8Rng, n: usize) -> Sparse {
+pub(super) fn gram(rng: &mut ChaCha8Rng, n: usize) -> Sparse {
     let g: Vec<Vec<i64>> = (0..n).map(|_| (0..n).map(|_| rng.random_range(-2..=2)).collect()).collect();
     let entry = |i: usize, j: usize| (0..n).map(|k| g[i][k] * g[j][k]).sum::<i64>() + i64::from(i == j);
     Sparse::from_entries(n, n, (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| (i, j, whole(entry(i, j)))))
@@ -139,7 +155,7 @@ pub fn mechanical(count: usize, seed: u64) -> Result<Vec<Instance>, ModelError> 
     (0..count).map(|k| mechanical_system(k, seed)).collect()
 }
 
-fn mechanical_system(k: usize, seed: u64) -> Result<Instance, ModelError> {
+pub(super) fn mechanical_system(k: usize, seed: u64) -> Result<Instance, ModelError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed.wrapping_mul(7_368_787).wrapping_add(k as u64));
     let (contact, inner) = (rng.random_range(1..=4), rng.random_range(0..=2));
     let n = 2 * contact + inner;

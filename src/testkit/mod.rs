@@ -1,10 +1,13 @@
 //! Generators, comparison of engines, forgeries, the verification run, and the bodies of fuzz targets.
 
 mod block;
+pub mod campaign;
 mod compare;
 mod completed;
+mod disagreement;
 mod families;
 mod forge;
+pub mod generators;
 pub mod known;
 mod large;
 mod mutate;
@@ -13,8 +16,9 @@ pub mod targets;
 mod verify;
 
 pub use block::{AcceptedState, BlockError, BlockReport, block_state};
-pub use compare::{Disagreement, InstanceReport, compare};
+pub use compare::{InstanceReport, compare};
 pub use completed::compare_complete;
+pub use disagreement::Disagreement;
 pub use families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
 pub use forge::{Forgery, forgeries};
 pub use large::{LargeError, backslash_block, condensed_in_doubles, mechanical_pencil, refined_block};

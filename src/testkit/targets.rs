@@ -1,5 +1,14 @@
 //! Bodies of the fuzz targets, each with an oracle or a law behind it. A panic is a finding.
 
+mod arithmetic;
+mod certificates;
+mod enumerators;
+mod naive;
+
+pub use arithmetic::exact_against_naive;
+pub use certificates::{certificate_reader, certificate_seeds, hostile_report};
+pub use enumerators::{complete_against_plain, screened_against_plain};
+
 use super::{Disagreement, Instance, compare, forgeries};
 use crate::candidate::read_report;
 use crate::certificate::Certificate;
@@ -88,3 +97,18 @@ fn small_problem(data: &[u8]) -> Option<Problem> {
     let pencil = Pencil::new(matrix(0), matrix(n * n), free).ok()?;
     Problem::new(Body::Pencil(pencil), unknown, Window::all()).ok()
 }
+
+/// A target's name and body.
+pub type Target = (&'static str, fn(&[u8]));
+
+/// All targets, for the fuzzer's glue, `fuzz/hour` and the replay of the corpus.
+pub const TARGETS: [Target; 8] = [
+    ("problem_reader", problem_reader),
+    ("certificate_reader", certificate_reader),
+    ("hostile_report", hostile_report),
+    ("checker_against_forgeries", checker_against_forgeries),
+    ("solver_against_oracle", solver_against_oracle),
+    ("screened_against_plain", screened_against_plain),
+    ("complete_against_plain", complete_against_plain),
+    ("exact_against_naive", exact_against_naive),
+];

@@ -310,8 +310,8 @@ fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, bounds: [f64; 2], right: 
         }
     }
     z.iter_mut().for_each(|m| m.iter_mut().enumerate().for_each(|(i, values)| values.iter_mut().for_each(|v| *v *= row(i))));
-    // What is zero but for rounding is zero in exact arithmetic: T is linear where F is constant.
-    if blocks.mass_is_zero {
+    // What is zero but for rounding is zero in exact arithmetic: T is linear where F and the free rows are constant.
+    if blocks.mass_is_zero && blocks.fs[1].iter().flatten().all(|v| *v == 0.0) {
         z.truncate(2);
     }
     let norms = |list: &[Vec<Vec<f64>>], scaled: bool| -> Vec<Vec<f64>> {

@@ -25,7 +25,7 @@ pub use merge::merge;
 use super::definite;
 use crate::certificate::{Certificate, Claim, CompleteSet, Node, Piece};
 use crate::certify::certificate;
-use crate::check::{AcceptedClaim, AcceptedCover, audit, check};
+use crate::check::{AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check};
 use crate::model::file::Number;
 use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
@@ -183,9 +183,16 @@ fn run(
 }
 
 /// Lets the checker read the certificate: what is reported is what it accepted. A leaf whose witness
-/// doubles have judged too well is left open.
+/// doubles have judged too well is left open, and so is a tail.
 fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certificate: Certificate) -> Result<Completed, CompleteError> {
-    let (accepted, refused) = audit(problem, &certificate)?;
+    // Twice at most: a tail that is refused is left open, and then there is none.
+    let (accepted, refused) = match audit(problem, &certificate) {
+        Ok(audited) => audited,
+        Err(rejected) => {
+            without_tail(&mut certificate, rejected)?;
+            audit(problem, &certificate)?
+        }
+    };
     for (piece, node) in refused {
         let leaf = certificate.complete_set.as_mut().and_then(|set| set.pieces.get_mut(piece)).and_then(|p| p.tree.get_mut(node));
         leaf.into_iter().for_each(|leaf| *leaf = Node::Open);
@@ -194,6 +201,25 @@ fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certifica
     let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
     let x = cover.solutions.iter().map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s))).collect();
     Ok(Completed { certificate, cover, x })
+}
+
+/// Opens the tail if it may be what the checker refuses, else says why there is no certificate.
+fn without_tail(certificate: &mut Certificate, rejected: Rejected) -> Result<(), CompleteError> {
+    let Some(set) = certificate.complete_set.as_mut() else { return Err(rejected.into()) };
+    match &rejected.reason {
+        // Proved in doubles that rounding has misled: the scales of the rows differ too much.
+        Reason::Cover { piece: None, .. } if set.condensation.as_mut().is_some_and(|c| c.tail.take().is_some()) => {
+            let tails = set.pieces.iter_mut().flat_map(|p| &mut p.tree).filter(|n| matches!(n, Node::Tail));
+            tails.for_each(|n| *n = Node::Open);
+            Ok(())
+        }
+        // The free block is definite in doubles and not provably so.
+        Reason::Cover { piece: None, fault: CoverFault::Hypothesis { expected, row }, .. } => {
+            let what = if expected.starts_with("B_ff") { "B_ff" } else { "A_ff" };
+            Err(CompleteError::NotDefinite { what, index: *row })
+        }
+        _ => Err(rejected.into()),
+    }
 }
 
 /// Runs in a pool of the wanted size, or in the default one.

@@ -119,16 +119,22 @@ impl Unique {
         }
     }
 
-    /// A narrow interval around the value on which the signs of x and y are certain, and what they say.
+    /// A narrow interval around the value on which the signs of x and y are certain, and what they say. A value
+    /// at an end of its leaf or region gets an interval centred at that end: the leaf on the other side finds it too, and
+    /// of two intervals with one centre one holds the other, so that the checker sees one solution.
     pub(super) fn outcome(
         &self,
         expansion: &Expansion,
         value: f64,
+        ends: [f64; 4],
         states: &[State],
         index: &[usize],
     ) -> Option<([Rational; 2], RootOutcome)> {
         ROOT_HALF_WIDTHS.iter().find_map(|width| {
             let half = width * value.abs();
+            let near = ends.into_iter().filter(|end| (end - value).abs() <= 0.5 * half);
+            // Of several ends the shortest number: what the neighbours have as well.
+            let value = near.max_by_key(|end| end.to_bits().trailing_zeros()).unwrap_or(value);
             let narrow = expansion.ends(value - half, value + half);
             let y: Matrix = self.y.iter().map(|row| row.iter().map(|v| to_double(v, self.y_bits)).collect()).collect();
             let bounds = Bounds::new(&narrow, &self.rest, self.pivot, &y, &self.u, &self.v)?;

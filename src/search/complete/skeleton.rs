@@ -46,9 +46,14 @@ impl Prepared {
             let hi = match (is_last, tail) {
                 (true, Some(from)) => Some(from.clone()),
                 // An infinite interval needs a family that is linear in t.
-                (true, None) if window.max().is_none() && view.expansions[anchor].z.len() > 2 => short(*end, 0.01 * end),
+                (true, None) if window.max().is_none() && view.expansions[anchor].z.len() > 2 => {
+                    // One anchor for all t, where free rows of B are zero in their own columns only: search up to here.
+                    let end = if end.is_finite() { *end } else { FAR * view.scale };
+                    short(end, 0.01 * end)
+                }
                 (true, None) => window.max().cloned(),
-                (false, _) => short(*end, 0.01 * end),
+                // A short number near the window's end may lie beyond it: then this anchor has no piece.
+                (false, _) => short(*end, 0.01 * end).map(|h| if window.max().is_some_and(|m| h >= *m) { lo.clone() } else { h }),
             };
             let above = hi.as_ref().is_none_or(|h| *h > lo);
             let has_tail = tail.is_some() && window.max().is_none();
@@ -162,6 +167,10 @@ impl Prepared {
         out
     }
 }
+
+/// Up to where an anchor that has no end of its own is used, in units of the pencil's scale: what lies above
+/// stays open. (A checker bounds a family that is not linear in t on finite intervals only.)
+const FAR: f64 = 1024.0;
 
 /// Pieces per anchor at least.
 const MIN_PIECES: usize = 4;

@@ -235,7 +235,7 @@ impl Search<'_> {
             let inside = self.window.0 <= from_f64(null.value).unwrap_or_default();
             let wide = if inside { self.expansion.ends(a.min(null.value), b.max(null.value)) } else { self.expansion.ends(a, b) };
             if let Some(unique) = null.unique(&wide)
-                && let Some(leaf) = self.root_leaf(&null, &unique, &region.states)
+                && let Some(leaf) = self.root_leaf(&null, &unique, &region.states, [ends.lo, ends.hi, a, b])
             {
                 self.met.extend(is_solution(&leaf).then_some(null.value));
                 self.around(region, lo, hi, leaf, share);
@@ -318,9 +318,9 @@ impl Search<'_> {
         Some(Item::Node(Node::Root(Box::new(unique.witness(&self.view.index, leaf.map(Clone::clone), RootOutcome::Absent)))))
     }
 
-    fn root_leaf(&self, null: &Null, unique: &Unique, states: &[State]) -> Option<Item> {
+    fn root_leaf(&self, null: &Null, unique: &Unique, states: &[State], ends: [f64; 4]) -> Option<Item> {
         let index = &self.view.index;
-        if let Some((interval, outcome)) = unique.outcome(self.expansion, null.value, states, index) {
+        if let Some((interval, outcome)) = unique.outcome(self.expansion, null.value, ends, states, index) {
             let inside = interval[0] >= self.window.0 && self.window.1.as_ref().is_none_or(|max| interval[1] <= *max);
             if inside {
                 return Some(Item::Node(Node::Root(Box::new(unique.witness(index, interval, outcome)))));
