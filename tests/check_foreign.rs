@@ -105,7 +105,8 @@ fn stdin_is_a_file() {
             .stderr(Stdio::piped())
             .spawn()
             .unwrap();
-        child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+        // What is refused before it is read closes the pipe.
+        _ = child.stdin.take().unwrap().write_all(input.as_bytes());
         child.wait_with_output().unwrap()
     };
     let problem = std::fs::read_to_string(example("fold")).unwrap();

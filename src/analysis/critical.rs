@@ -2,7 +2,7 @@
 
 use super::absence::{Absence, absence};
 use super::conditions::Necessary;
-use super::{AnalysisError, Divergence, Evidence, Model, Proof, StaticThreshold, Verdict};
+use super::{AnalysisError, Divergence, Evidence, Model, Proof, StaticThreshold};
 use crate::exact::{Interval, Rational, from_f64, to_f64, whole};
 use crate::model::Window;
 use crate::reduction::MuFamily;
@@ -55,8 +55,10 @@ pub(super) fn critical(
         lambda2: Interval::point(Rational::zero()),
         evidence: threshold.evidence.clone(),
     });
-    if divergence.verdict == Verdict::Present && solution.as_ref().is_none_or(|s| s.mu.hi() > friction) {
-        let lambda2 = divergence.modes[0].lambda2.clone();
+    if let Some(mode) = divergence.modes.first()
+        && solution.as_ref().is_none_or(|s| s.mu.hi() > friction)
+    {
+        let lambda2 = mode.lambda2.clone();
         solution = Some(CertifiedSolution { mu: Interval::point(friction.clone()), lambda2, evidence: divergence.evidence.clone() });
     }
     let cover = if model.stopped() { None } else { absence(family, &excluded, model.options.limits, model.stop) };

@@ -99,6 +99,7 @@ impl Analysis {
             "interrupted": self.interrupted,
             "divergence": {
                 "verdict": self.divergence.verdict.word(),
+                "families": self.divergence.families,
                 "modes": self.divergence.modes.iter().map(mode).collect::<Vec<_>>(),
                 "normalisation": "slip rates |v_T| of the slip particles sum to 1",
                 "open": open(&self.divergence.open),

@@ -24,7 +24,7 @@ pub use ranges::{Range, Sample};
 pub use sentences::Sentence;
 
 use crate::certificate::{Certificate, Claim};
-use crate::check::OpenRegion;
+use crate::check::{OpenRegion, SolutionFamily};
 use crate::exact::{Interval, Rational, Sparse};
 use crate::model::{Body, Particle, Problem, System, Unknown, Window};
 use crate::reduction::{MuFamily, mu_family};
@@ -100,6 +100,8 @@ pub struct Divergence {
     pub verdict: Verdict,
     /// Every proved solution, with growth rate and mode, by ascending lambda^2.
     pub modes: Vec<Mode>,
+    /// Families beside them: cones, and supports with a range of lambda^2. The certificate describes them.
+    pub families: usize,
     /// Parts of [0, infinity) x supports in which nothing is proved.
     pub open: Vec<OpenRegion>,
     /// The certificate.
@@ -118,6 +120,23 @@ pub struct StaticThreshold {
 }
 
 impl StaticThreshold {
+    /// Single values of families count as values; of a family over an interval the ends alone are known,
+    /// so that it is left open.
+    fn of(found: &Completed) -> StaticThreshold {
+        let (points, intervals): (Vec<_>, Vec<_>) = found.cover.families.iter().partition(|f| f.is_point);
+        let mut values: Vec<Interval> = found.cover.solutions.iter().map(|s| s.value.clone()).collect();
+        values.extend(points.into_iter().map(|f| f.from.clone()));
+        values.sort_by(|p, q| p.lo().cmp(q.lo()));
+        let region = |f: &SolutionFamily| OpenRegion {
+            min: f.from.lo().clone(),
+            max: f.to.as_ref().map(|end| end.hi().clone()),
+            moving: f.support.clone(),
+            undecided: Vec::new(),
+        };
+        let open = found.cover.open.iter().cloned().chain(intervals.into_iter().map(region)).collect();
+        StaticThreshold { values, open, evidence: Evidence::Certificate(1) }
+    }
+
     /// The smallest value, if it is proved that there is no smaller one.
     pub fn smallest(&self) -> Option<&Interval> {
         self.values.first().filter(|v| self.open.iter().all(|o| o.min > *v.hi()))
@@ -186,8 +205,7 @@ pub fn analyse(
     progress("static threshold: all mu >= 0");
     let at_zero = model.problem(None)?;
     let found = model.complete(&at_zero)?;
-    let values = found.cover.solutions.iter().map(|s| s.value.clone()).collect();
-    let threshold = StaticThreshold { values, open: found.cover.open.clone(), evidence: Evidence::Certificate(1) };
+    let threshold = StaticThreshold::of(&found);
     proofs.push(Proof { name: "mu".into(), problem: at_zero, certificate: found.certificate });
     progress("critical mu: all lambda^2 >= 0 and all smaller mu");
     let critical = critical::critical(&model, &family, &necessary, friction, &divergence, &threshold, &mut proofs)?;
@@ -255,7 +273,7 @@ impl Model<'_> {
 }
 
 fn verdict(found: &Completed) -> Verdict {
-    match (found.cover.solutions.is_empty(), found.is_complete()) {
+    match (found.cover.solutions.is_empty() && found.cover.families.is_empty(), found.is_complete()) {
         (false, _) => Verdict::Present,
         (true, true) => Verdict::Absent,
         (true, false) => Verdict::Undecided,
@@ -264,7 +282,8 @@ fn verdict(found: &Completed) -> Verdict {
 
 fn divergence(system: &System, family: &MuFamily, found: &Completed) -> Divergence {
     let modes = found.solutions().map(|(s, x)| Mode::of(system, family, s, x)).collect();
-    Divergence { verdict: verdict(found), modes, open: found.cover.open.clone(), evidence: Evidence::Certificate(0) }
+    let families = found.cover.families.len();
+    Divergence { verdict: verdict(found), modes, families, open: found.cover.open.clone(), evidence: Evidence::Certificate(0) }
 }
 
 /// (17)-(18): is one of the solutions an all-slip one?
@@ -279,7 +298,7 @@ fn sufficient(family: &MuFamily, found: &Completed, verdict: Verdict) -> Option<
     let all = found.cover.solutions.iter().any(|s| is_all_slip(&family.stiffness, &s.support, &claimed(&s.support)));
     if all {
         Some(true)
-    } else if verdict == Verdict::Undecided || !found.is_complete() {
+    } else if verdict == Verdict::Undecided || !found.cover.is_plain_list() {
         None
     } else {
         Some(false)

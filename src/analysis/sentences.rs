@@ -68,8 +68,9 @@ impl Analysis {
         let n = d.modes.len();
         let what = match d.verdict {
             Verdict::Present => format!(
-                "divergence instability of the form (8) is PRESENT: {n} solution{}{}.",
+                "divergence instability of the form (8) is PRESENT: {n} solution{}{}{}.",
                 if n == 1 { "" } else { "s" },
+                if d.families == 0 { String::new() } else { format!(" and {} families of solutions (cones or ranges)", d.families) },
                 if d.open.is_empty() {
                     " and no other".into()
                 } else {

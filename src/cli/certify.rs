@@ -170,7 +170,12 @@ impl Refused {
             }
             Ok(Near::Present(c)) => with(Verdict::Present, format!("certified: listed by a cover {}", interval(problem, &c)), c),
             Ok(Near::Open(c)) => {
-                let text = format!("undecided: {reason}; {} regions stay open {}", c.cover.open.len(), interval(problem, &c));
+                let text = format!(
+                    "undecided: {reason}; {} regions stay open and {} families of solutions lie {}",
+                    c.cover.open.len(),
+                    c.cover.families.len(),
+                    interval(problem, &c)
+                );
                 Refused { index: 0, verdict: Verdict::Undecided, text, proof: None }
             }
             Err(e) => Refused::undecided(reason, &e),

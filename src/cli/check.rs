@@ -47,7 +47,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
                 print(&format!("{out}ACCEPTED: {n} claim(s) proved {within}\n"))?;
                 return Ok(exit::DONE);
             };
-            if cover.solutions.is_empty() && cover.open.is_empty() {
+            if cover.proves_absence() {
                 let (word, leaves) = (problem.unknown().word(), cover.leaves);
                 print(&format!(
                     "ABSENT in [{}, {max}: no solution ({word}, problem {}, {leaves} leaves accepted)\n",

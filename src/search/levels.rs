@@ -147,7 +147,7 @@ impl Level {
             support: claim.support.clone(),
             x: x.to_vec(),
         };
-        Ok((found.solutions().map(solution).collect(), found.is_complete()))
+        Ok((found.solutions().map(solution).collect(), found.cover.is_plain_list()))
     }
 }
 

@@ -25,7 +25,8 @@ pub enum Near {
     Others(Completed),
     /// The candidate's x belongs to one of the solutions there.
     Present(Completed),
-    /// Regions stay open in the smallest window tried.
+    /// Regions stay open in the smallest window tried, or families of solutions lie in it, to which the
+    /// candidate may belong.
     Open(Completed),
 }
 
@@ -87,9 +88,9 @@ fn grid(radius: &Rational) -> Rational {
 fn judge(completed: Completed, candidate: &Candidate) -> Near {
     if completed.solutions().any(|(s, x)| distance(x, candidate, &s.support) <= X_RADIUS) {
         Near::Present(completed)
-    } else if !completed.is_complete() {
+    } else if !completed.cover.is_plain_list() {
         Near::Open(completed)
-    } else if completed.cover.solutions.is_empty() {
+    } else if completed.cover.proves_absence() {
         Near::Absent(completed)
     } else {
         Near::Others(completed)
@@ -134,12 +135,13 @@ mod tests {
         assert_eq!((c.certificate.window.min(), c.certificate.window.max()), (&rational(12, 5), Some(&rational(5, 2))));
     }
 
-    /// The pencil is singular on {0, 1}: a solution for every value, which no list can close.
+    /// The pencil is singular on {0, 1}: a solution for every value. The cover closes, and is no absence.
     #[test]
-    fn what_cannot_be_listed_stays_open() {
+    fn a_family_nearby_is_no_absence() {
         let a = Sparse::from_ints(&[&[1, -1], &[-1, 1]]);
         let pencil = Pencil::new(a, Sparse::zeros(2, 2), vec![]).unwrap();
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all()).unwrap();
-        assert!(matches!(ask(&problem, 1.0, &[1.0, 0.0], None), Near::Open(_)));
+        let Near::Open(c) = ask(&problem, 1.0, &[1.0, 0.0], None) else { panic!("undecided") };
+        assert!(c.is_complete() && c.cover.solutions.is_empty() && !c.cover.families.is_empty() && !c.cover.proves_absence());
     }
 }

@@ -73,7 +73,7 @@ pub struct BlockReport {
 impl BlockReport {
     /// Is the set of solutions proved to be complete?
     pub fn is_complete(&self) -> bool {
-        self.cover.open.is_empty()
+        self.cover.is_plain_list()
     }
 }
 

@@ -132,7 +132,7 @@ fn lifted(c: &LiftedSolution) -> Vec<BrokenLift> {
     push("v one dof short", &|c| drop(c.v.pop()), |r| matches!(r, Reason::Length { what: "v", .. }));
     push("w one dof long", &|c| c.w.push(Vec::new()), |r| matches!(r, Reason::Length { what: "w", .. }));
     push(
-        "w off by 1e-9 at one dof",
+        "w off by a billionth at one dof",
         &|c| match c.w[0].first_mut() {
             Some(n) => n.0 += rational(1, 1_000_000_000),
             None => c.w[0].push(Number(rational(1, 1_000_000_000))),

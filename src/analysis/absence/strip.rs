@@ -6,7 +6,9 @@
 //! rows (divided by 1-m) do not depend on m: F(s) x_f + C(s) x_s = 0. For any constant W, and V affine in
 //! m, with R = C - F W and l = G_sf' - F V,
 //!
-//!     G_ss - G_sf F^-1 C = [G_ss - G_sf W - V'R] - l'F^-1 R,
+//! ```text
+//! G_ss - G_sf F^-1 C = [G_ss - G_sf W - V'R] - l'F^-1 R,
+//! ```
 //!
 //! the bracket is bilinear and the rest at most |l_i||R_j| / sigma, sigma <= lambda_min(F).
 

@@ -45,6 +45,18 @@ pub struct AcceptedCover {
     pub leaves: usize,
 }
 
+impl AcceptedCover {
+    /// Is there no solution at all in the window, families included?
+    pub fn proves_absence(&self) -> bool {
+        self.solutions.is_empty() && self.is_plain_list()
+    }
+
+    /// Is `solutions` everything there is: nothing open, and no families beside it?
+    pub fn is_plain_list(&self) -> bool {
+        self.families.is_empty() && self.open.is_empty()
+    }
+}
+
 /// A part of (supports) x (window) that the cover leaves open.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct OpenRegion {

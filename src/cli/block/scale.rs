@@ -159,7 +159,7 @@ fn closed(problem: &Problem, slip: usize, stop: &AtomicBool) -> String {
         Err(e) => format!("failed: {e}"),
         Ok(found) => {
             let (n, seconds) = (found.cover.solutions.len(), clock.elapsed().as_secs_f64());
-            let open = found.cover.open.len();
+            let open = found.cover.open.len() + found.cover.families.len();
             if open == 0 { format!("{n}, proved ({seconds:.1} s)") } else { format!("{n}, {open} regions open ({seconds:.1} s)") }
         }
     }

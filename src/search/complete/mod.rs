@@ -85,7 +85,7 @@ pub struct Completed {
 }
 
 impl Completed {
-    /// Is nothing left open?
+    /// Is nothing left open? There may be families beside the solutions ([`AcceptedCover::is_plain_list`]).
     pub fn is_complete(&self) -> bool {
         self.cover.open.is_empty()
     }
@@ -186,11 +186,10 @@ fn run(
 /// doubles have judged too well is left open, and so is a tail.
 fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certificate: Certificate) -> Result<Completed, CompleteError> {
     // Twice at most: a tail that is refused is left open, and then there is none.
-    let (accepted, refused) = match audit(problem, &certificate) {
-        Ok(audited) => audited,
-        Err(rejected) => {
-            without_tail(&mut certificate, rejected)?;
-            audit(problem, &certificate)?
+    let (accepted, refused) = loop {
+        match audit(problem, &certificate) {
+            Ok(audited) => break audited,
+            Err(rejected) => without_tail(&mut certificate, rejected)?,
         }
     };
     for (piece, node) in refused {

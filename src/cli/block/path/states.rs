@@ -121,7 +121,11 @@ impl Set {
             moving: claim.support.iter().filter_map(|i| i.checked_sub(free)).collect(),
             displacement: displacement(x),
         };
-        Set { solutions: found.solutions().map(mode).collect(), open: found.cover.open.len(), leaves: found.cover.leaves }
+        Set {
+            solutions: found.solutions().map(mode).collect(),
+            open: found.cover.open.len() + found.cover.families.len(),
+            leaves: found.cover.leaves,
+        }
     }
 }
 
