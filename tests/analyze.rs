@@ -224,6 +224,29 @@ fn certificates_are_written_and_accepted() {
 }
 
 /// An interrupt leaves everything undecided that was not done, and claims nothing.
+/// One page with every sentence and mode, or none at all.
+#[test]
+fn the_report_says_what_the_text_says() {
+    let folder = Folder::new();
+    let page = folder.path("out.html");
+    let o = mceip(&["analyze", &example("two-particles.json"), "--report", &page, "--samples", "0"]);
+    assert_eq!(o.status.code(), Some(0));
+    let html = std::fs::read_to_string(&page).unwrap();
+    assert!(html.starts_with("<!DOCTYPE html>") && !html.contains("http"));
+    let text = String::from_utf8(o.stdout).unwrap();
+    let sentences: Vec<&str> = text.lines().skip(1).step_by(2).collect();
+    assert!(sentences.len() > 5);
+    for sentence in sentences {
+        let escaped = sentence.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;");
+        assert!(html.contains(&escaped), "{sentence}");
+    }
+    assert!(html.contains("<td>proved</td>") && html.contains("Mode 1:"));
+    let nowhere = folder.path("none/out.html");
+    refused(&["analyze", &example("two-particles.json"), "--report", &nowhere], &["cannot write"]);
+    refused(&["analyze", &example("fold.json"), "--report", &folder.path("fold.html")], &["mechanical system"]);
+    assert!(!std::path::Path::new(&folder.path("fold.html")).exists());
+}
+
 #[test]
 fn interrupted_work_is_undecided() {
     let stop = AtomicBool::new(true);

@@ -1,5 +1,7 @@
 //! `mceip analyze`: the engineer's answer for a mechanical system at one mu.
 
+mod page;
+
 use super::common::{CliError, exit, interrupt_flag, load, positive, print, progress_spinner};
 use super::output::Output;
 use crate::analysis::{Analysis, AnalysisError, Options, analyse};
@@ -25,6 +27,9 @@ pub(super) struct Args {
     /// Write every certificate and its problem into this folder, for `mceip check`.
     #[arg(long, value_name = "DIR")]
     certificates: Option<PathBuf>,
+    /// Write the answers with their evidence and the modes as one HTML page that needs no network.
+    #[arg(long, value_name = "OUT")]
+    report: Option<PathBuf>,
     /// Threads (default: all cores). The answer does not depend on it.
     #[arg(long)]
     threads: Option<usize>,
@@ -49,6 +54,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(folder) = &args.certificates {
         writable(folder)?;
     }
+    let report = args.report.as_deref().map(|path| Output::prepare("report", path, &[&args.file])).transpose()?;
     let mut options = Options { samples, threads: args.threads, ..Options::default() };
     options.limits.boxes = args.boxes;
     let stop = interrupt_flag();
@@ -60,6 +66,9 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Some(folder) => write_proofs(folder, &analysis, &args.file)?,
         None => Vec::new(),
     };
+    if let Some(output) = report {
+        output.write(&page::page(&analysis, &paths))?;
+    }
     print(&if args.json { format!("{}\n", analysis.to_json(&paths)) } else { text(&analysis, &paths) })?;
     Ok(match (analysis.interrupted, analysis.is_decided()) {
         (true, _) => exit::INTERRUPTED,
