@@ -270,6 +270,10 @@ mod tests {
         assert_eq!(root.poly(), &Poly::from_ints(&[-2, 0, 1]));
         let mut larger = nonnegative_roots(&p).remove(1);
         assert_eq!(larger.sign_of(&Poly::from_ints(&[-2, 0, 1])), Sign::Positive);
+        // The common factor t^2 - 2 is not zero at sqrt 5, which is just below 2889/1292: the sign stays open at first.
+        let near = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-2889, 1292]);
+        assert_eq!(larger.sign_of(&near), Sign::Negative);
+        assert_eq!(larger.poly(), &Poly::from_ints(&[-5, 0, 1]));
     }
 
     #[test]

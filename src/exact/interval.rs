@@ -160,6 +160,17 @@ mod tests {
     }
 
     #[test]
+    fn products_are_the_smallest_interval_for_every_pair_of_signs() {
+        let interval = |(lo, hi): (i64, i64)| Interval::new(whole(lo), whole(hi)).unwrap();
+        let cases =
+            [((2, 3), (5, 7), (10, 21)), ((-3, -2), (5, 7), (-21, -10)), ((-3, -2), (-7, -5), (10, 21)), ((-2, 3), (-5, 7), (-15, 21))];
+        for (a, b, product) in cases {
+            assert_eq!(interval(a).mul(&interval(b)), interval(product));
+            assert_eq!(interval(b).mul(&interval(a)), interval(product));
+        }
+    }
+
+    #[test]
     fn midpoints_are_in_lowest_terms() {
         for (lo, hi) in
             [(rational(1, 4), rational(3, 4)), (rational(-1, 2), rational(1, 2)), (rational(1, 3), rational(5, 8)), (whole(3), whole(3))]

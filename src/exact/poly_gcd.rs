@@ -125,6 +125,9 @@ mod tests {
         // rem(t^2, -2t + 1) = 1/4 > 0.
         let r = Poly::from_ints(&[0, 0, 1]).pseudo_rem(&Poly::from_ints(&[1, -2]));
         assert!(r.degree() == Some(0) && r.leading().is_positive());
+        // One step, so that a sign turned at every step is not turned back: rem(t, -2t + 1) = 1/2 > 0.
+        let r = Poly::from_ints(&[0, 1]).pseudo_rem(&Poly::from_ints(&[1, -2]));
+        assert!(r.degree() == Some(0) && r.leading().is_positive());
     }
 
     #[test]

@@ -170,6 +170,13 @@ mod tests {
         assert_eq!(*reduced.pencil.b(), Sparse::from_ints(&[&[0, 0], &[-2, -5]])); // -K_Nf, K_NT S
         assert_eq!(reduced.pencil.free(), &[0]);
         assert_eq!(reduced.variables[0], Variable::Free { dof: 0 });
+        // Two slip with S = diag(1, -1): K_NT = [2 4; 3 5] is not symmetric, so its place and side of S count.
+        let k = Sparse::from_ints(&[&[20, 2, 1, 3], &[2, 20, 4, 0], &[1, 4, 20, 5], &[3, 0, 5, 20]]);
+        let slip = |t, n, sign| Particle::plain(t, n, ContactState::Slip { sign });
+        let system = System::new(k, None, None, vec![slip(0, 1, 1), slip(2, 3, -1)]).unwrap();
+        let pencil = reduce(&Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap()).unwrap().pencil;
+        assert_eq!(*pencil.a(), Sparse::from_ints(&[&[20, -1], &[-1, 20]])); // S K_TT S
+        assert_eq!(*pencil.b(), Sparse::from_ints(&[&[2, -4], &[3, -5]])); // K_NT S
     }
 
     #[test]
