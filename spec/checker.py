@@ -1255,7 +1255,7 @@ class Support:
 # ---------------------------------------------------------------- the cover
 
 WORDS = ("positive_definite", "negative_definite", "tail", "open")
-OBJECTS = ("split", "branch", "farkas", "ldl", "root")
+OBJECTS = ("split", "branch", "farkas", "ldl", "root", "support")
 
 
 def shape(node):
