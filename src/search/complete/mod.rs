@@ -185,11 +185,11 @@ fn run(
 /// Lets the checker read the certificate: what is reported is what it accepted. A leaf whose witness
 /// doubles have judged too well is left open, and so is a tail.
 fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certificate: Certificate) -> Result<Completed, CompleteError> {
-    // Twice at most: a tail that is refused is left open, and then there is none.
+    // Every round opens the tail or solutions of one support, so that this comes to an end.
     let (accepted, refused) = loop {
         match audit(problem, &certificate) {
             Ok(audited) => break audited,
-            Err(rejected) => without_tail(&mut certificate, rejected)?,
+            Err(rejected) => without_refused(&mut certificate, rejected)?,
         }
     };
     for (piece, node) in refused {
@@ -202,8 +202,36 @@ fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certifica
     Ok(Completed { certificate, cover, x })
 }
 
-/// Opens the tail if it may be what the checker refuses, else says why there is no certificate.
-fn without_tail(certificate: &mut Certificate, rejected: Rejected) -> Result<(), CompleteError> {
+/// Opens the leaves of a tree that yield solutions of the support; how many.
+fn open_solutions(tree: &mut [Node], support: &[usize]) -> usize {
+    // What moves in the regions still to come; of a branch the resting side comes first.
+    let mut moving: Vec<Vec<usize>> = vec![Vec::new()];
+    let mut opened = 0;
+    for node in tree {
+        let mut here = moving.pop().unwrap_or_default();
+        match node {
+            Node::Split(_) => moving.extend([here.clone(), here]),
+            Node::Branch(index) => {
+                let rest = here.clone();
+                here.push(*index);
+                moving.extend([here, rest]);
+            }
+            Node::Root(_) | Node::Support(_) => {
+                here.sort_unstable();
+                if here == support {
+                    *node = Node::Open;
+                    opened += 1;
+                }
+            }
+            _ => {}
+        }
+    }
+    opened
+}
+
+/// Opens what is refused as a whole, the tail or solutions that cannot be told apart, else says why there
+/// is no certificate.
+fn without_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<(), CompleteError> {
     let Some(set) = certificate.complete_set.as_mut() else { return Err(rejected.into()) };
     match &rejected.reason {
         // Proved in doubles that rounding has misled: the scales of the rows differ too much.
@@ -211,6 +239,11 @@ fn without_tail(certificate: &mut Certificate, rejected: Rejected) -> Result<(),
             let tails = set.pieces.iter_mut().flat_map(|p| &mut p.tree).filter(|n| matches!(n, Node::Tail));
             tails.for_each(|n| *n = Node::Open);
             Ok(())
+        }
+        // Solutions of one support so near each other that their leaves cannot tell which are the same.
+        Reason::Cover { piece: None, fault: CoverFault::Ambiguous { support }, .. } => {
+            let opened: usize = set.pieces.iter_mut().map(|piece| open_solutions(&mut piece.tree, support)).sum();
+            if opened > 0 { Ok(()) } else { Err(rejected.into()) }
         }
         // The free block is definite in doubles and not provably so.
         Reason::Cover { piece: None, fault: CoverFault::Hypothesis { expected, row }, .. } => {
