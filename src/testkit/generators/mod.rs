@@ -1,4 +1,4 @@
-//! Generators of the campaign beside [`super::families`]: each instance by a seed and an index.
+//! Generators of the campaign beside `families`: each instance by a seed and an index.
 
 pub mod near;
 pub mod raw;
