@@ -14,6 +14,8 @@ mod corpus_claims;
 mod corpus_covers;
 #[path = "support/corpus_malformed.rs"]
 mod corpus_malformed;
+#[path = "support/corpus_supports.rs"]
+mod corpus_supports;
 
 use corpus::Cases;
 use mceip::certificate::Certificate;
@@ -201,6 +203,7 @@ fn write_the_corpus() {
     corpus_claims::lifted_claims(&mut cases);
     corpus_covers::covers(&mut cases);
     corpus_covers::absence(&mut cases);
+    corpus_supports::supports(&mut cases);
     corpus_malformed::malformed(&mut cases);
     corpus_malformed::hostile(&mut cases);
     for case in cases.0 {
