@@ -297,6 +297,18 @@ fn shapes(cases: &mut Cases, good: &Good) {
     add("pivot-string", "the pivot as a string", "\"pivot\":1", "\"pivot\":\"1\"");
     add("no-cells", "a leaf without a list of cells", "\"cells\":[0,0],", "");
     add("unknown-reason", "a reason of a later version", "{\"none\":", "{\"believe\":");
+    add(
+        "list",
+        "a list of the fields for an object",
+        "{\"support\":{\"points\":[],\"cells\":[],\"reasons\":[]}}",
+        "{\"support\":[[],[],[]]}",
+    );
+    add(
+        "point-list",
+        "the same in a point",
+        "{\"polynomial\":[\"0\",\"1\"],\"interval\":[\"0\",\"0\"],\"reason\":0}",
+        "[[\"0\",\"1\"],[\"0\",\"0\"],0]",
+    );
     add("unknown-field", "a field that might mean something", "\"cells\":[0,0],", "\"cells\":[0,0],\"trust\":true,");
     add("coefficient-fraction", "a coefficient that is no integer", "{\"none\":[[]", "{\"none\":[[\"1/2\"]");
 }
