@@ -85,9 +85,7 @@ fn a_cone_is_a_family_and_every_forgery_of_it_is_refused() {
     no(&|l| l.points[1] = point(&[-1, 1], 2, 2, 1), &points);
     no(&|l| l.points[1] = point(&[2, -3, 1], 0, 3, 1), &points);
     no(&|l| l.points[1] = point(&[1], 1, 1, 1), &points);
-    // A point beside the root: the cell below it holds the root and its vector changes sign there. With the reason of a
-    // solution both the point and the cell are wrong, and points are looked at first.
-    no(&|l| l.points[1] = point(&[-2, 1], 2, 2, 0), &place(1));
+    // At 2 there is no solution: points are judged before cells.
     no(&|l| l.points[1] = point(&[-2, 1], 2, 2, 1), &place(2));
     no(&|l| l.points[1].reason = 2, &|f| matches!(f, CoverFault::NoReason { reason: 2, reasons: 2 }));
     no(&|l| l.cells[1] = 1, &place(3));

@@ -198,12 +198,12 @@ fn the_second_checker_gives_every_verdict() {
 #[ignore = "writes spec/corpus"]
 fn write_the_corpus() {
     let mut cases = Cases::default();
+    corpus_supports::supports(&mut cases);
     corpus_claims::exact_claims(&mut cases);
     corpus_claims::enclosed_claims(&mut cases);
     corpus_claims::lifted_claims(&mut cases);
     corpus_covers::covers(&mut cases);
     corpus_covers::absence(&mut cases);
-    corpus_supports::supports(&mut cases);
     corpus_malformed::malformed(&mut cases);
     corpus_malformed::hostile(&mut cases);
     for case in cases.0 {

@@ -307,7 +307,7 @@ fn the_readers_of_reports_and_certificates_agree_with_the_schemas() {
     let folder = Folder::new();
     let file = folder.path("c.json");
     assert_eq!(mceip(&["complete", &root("spec/examples/fold.json").display().to_string(), "--certificate", &file]).status.code(), Some(0));
-    let corpus = ["support-cone", "support-alone-by-inequalities", "support-free", "absence-ldl-interval", "lifted"];
+    let corpus = ["one-support-cone", "one-support-alone-by-inequalities", "one-support-free", "absence-ldl-interval", "lifted"];
     let of_corpus = corpus.map(|name| read(&root(&format!("spec/corpus/accept/{name}.json")))["certificate"].take());
     for copy in of_corpus.iter().chain([&read(Path::new(&file))]).flat_map(damaged) {
         let (valid, read) = (certificates.is_valid(&copy), Certificate::from_json(&copy.to_string()));

@@ -73,7 +73,7 @@ impl Good {
             Node::Support(leaf) => forge(leaf),
             other => unreachable!("{other:?}"),
         }
-        cases.reject(&format!("support-{name}"), &format!("Cover.{fault}"), note, &self.problem, &c);
+        cases.reject(&format!("one-support-{name}"), &format!("Cover.{fault}"), note, &self.problem, &c);
     }
 }
 
@@ -98,13 +98,13 @@ fn cone(cases: &mut Cases) -> Good {
     let both = leaf(&[&[1], &[]], &[&[1], &[1]], None);
     let good = Good::new(p, four(one, zero, both), 6);
     cases.accept(
-        "support-cone",
+        "one-support-cone",
         "a cone at a value between two empty cells is a family; its edges are solutions",
         &good.problem,
         &good.certificate,
     );
     let early = cover(&good.problem, vec![good.certificate.complete_set.as_ref().unwrap().pieces[0].tree[6].clone()]);
-    cases.reject("support-undecided", "Cover.SupportTooEarly", "one support stands for all", &good.problem, &early);
+    cases.reject("one-support-undecided", "Cover.SupportTooEarly", "one support stands for all", &good.problem, &early);
     good.no(cases, "nothing-said", "SupportTooEarly", "a leaf without a point where something moves", |l| {
         *l = Support { points: vec![], cells: vec![], reasons: vec![] };
     });
@@ -162,7 +162,7 @@ fn ray(cases: &mut Cases) {
     let both = whole_of(member(&[&[1], &[1]], Some((0, vec![(1, vector(&[&[], &[1]]))]))));
     let tree = four(one(), one(), both);
     let good = Good::new(p.clone(), tree.clone(), 6);
-    cases.accept("support-ray", "one ray at every value of an interval: a family; weights on a resting row", &p, &good.certificate);
+    cases.accept("one-support-ray", "one ray at every value of an interval: a family; weights on a resting row", &p, &good.certificate);
     let mut no = |name: &str, fault: &str, note: &str, pivot: usize, rows: Vec<(usize, Polynomials)>| {
         good.no(cases, name, fault, note, |l| l.reasons[0] = member(&[&[1], &[1]], Some((pivot, rows))));
     };
@@ -183,7 +183,7 @@ fn range(cases: &mut Cases) {
     let pushed = || to_infinity(none(&[&[], &[1]]));
     let zero = to_infinity(member(&[&[1], &[]], Some((0, vec![]))));
     let good = Good::new(p, four(pushed(), zero, pushed()), 5);
-    cases.accept("support-range", "a solution at every value up to infinity: a family", &good.problem, &good.certificate);
+    cases.accept("one-support-range", "a solution at every value up to infinity: a family", &good.problem, &good.certificate);
     let mut no = |name: &str, fault: &str, note: &str, forge: &dyn Fn(&mut Support)| good.no(cases, name, fault, note, forge);
     no("weight-negative", "Place", "a negative weight on a resting row", &|l| l.reasons[0] = none(&[&[], &[-1]]));
     no("weights-positive", "Place", "w'T > 0 with a weight on a resting row excludes nothing", &|l| l.reasons[0] = none(&[&[], &[1]]));
@@ -195,7 +195,7 @@ fn range(cases: &mut Cases) {
     let p = pencil(&[&["0", "0"], &["1", "1"]], &[&["1", "0"], &["0", "0"]], &[]);
     let zero = node(vec![at(0, 0)], vec![1], vec![member(&[&[1], &[]], Some((0, vec![]))), none(&[&[-1], &[]])]);
     let good = Good::new(p, four(pushed(), zero, pushed()), 5);
-    cases.accept("support-window-end", "a solution at the end of the window and nothing above it", &good.problem, &good.certificate);
+    cases.accept("one-support-window-end", "a solution at the end of the window and nothing above it", &good.problem, &good.certificate);
     good.no(cases, "y-active", "Place", "y_0 > 0 on the support, above 0", |l| l.cells[0] = 0);
 }
 
@@ -209,7 +209,7 @@ fn irrational(cases: &mut Cases) {
     let tree = four(whole_of(none(&[&[1], &[]])), whole_of(none(&[&[], &[1]])), both);
     let good = Good::new(p, tree, 6);
     cases.accept(
-        "support-irrational",
+        "one-support-irrational",
         "signs at sqrt 2 by remainders; cells that end within its interval",
         &good.problem,
         &good.certificate,
@@ -246,7 +246,7 @@ fn inequalities(cases: &mut Cases) {
         "certificate": serde_json::from_str::<serde_json::Value>(&good.certificate.to_json()).unwrap() });
     cases.push(
         "accept",
-        "support-alone-by-inequalities",
+        "one-support-alone-by-inequalities",
         file,
         "x_1 / x_0 bounded from both sides by resting rows with y = 0; other supports open",
     );
@@ -271,7 +271,7 @@ fn free_variable(cases: &mut Cases) {
     let condensation = completed(&good.problem).complete_set.unwrap().condensation;
     good.certificate.complete_set.as_mut().unwrap().condensation = condensation;
     cases.accept(
-        "support-free",
+        "one-support-free",
         "a free variable: the leaf speaks of the whole pencil, its sign of x is any",
         &good.problem,
         &good.certificate,
