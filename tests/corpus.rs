@@ -8,14 +8,14 @@
 
 #[path = "support/corpus.rs"]
 mod corpus;
+#[path = "support/corpus_by_leaf.rs"]
+mod corpus_by_leaf;
 #[path = "support/corpus_claims.rs"]
 mod corpus_claims;
 #[path = "support/corpus_covers.rs"]
 mod corpus_covers;
 #[path = "support/corpus_malformed.rs"]
 mod corpus_malformed;
-#[path = "support/corpus_supports.rs"]
-mod corpus_supports;
 
 use corpus::Cases;
 use mceip::certificate::Certificate;
@@ -198,7 +198,7 @@ fn the_second_checker_gives_every_verdict() {
 #[ignore = "writes spec/corpus"]
 fn write_the_corpus() {
     let mut cases = Cases::default();
-    corpus_supports::supports(&mut cases);
+    corpus_by_leaf::supports(&mut cases);
     corpus_claims::exact_claims(&mut cases);
     corpus_claims::enclosed_claims(&mut cases);
     corpus_claims::lifted_claims(&mut cases);
