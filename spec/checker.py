@@ -1133,8 +1133,8 @@ class Support:
         self.active = sorted([*p.free, *self.moving])
         self.found, self.families = [], []
         points = [fields(o, "polynomial interval reason") for o in sequence(points)]
-        points = [([integer(c) for c in sequence(q)], *pair(i), integer(r, 0)) for q, i, r in points]
-        cells = [integer(c, 0) for c in sequence(cells)]
+        points = [([integer(c) for c in sequence(q)], *pair(i), counter(r)) for q, i, r in points]
+        cells = [counter(c) for c in sequence(cells)]
         self.reasons = [self.read(r) for r in sequence(reasons)]
         demand(bool(self.moving) == bool(points or cells), "support: points exactly if something moves")
         if not self.moving:
@@ -1177,7 +1177,7 @@ class Support:
             rows = [sequence(r) for r in sequence(rows)]
             if any(len(r) != 2 for r in rows):
                 raise Unreadable("support: alone")
-            alone = integer(pivot, 0), [(integer(j, 0), self.vector(l)) for j, l in rows]
+            alone = counter(pivot), [(counter(j), self.vector(l)) for j, l in rows]
         return kind, self.vector(x), alone
 
     @staticmethod
@@ -1189,8 +1189,8 @@ class Support:
         polys = [q for q, *_ in points] + [r for v in vectors for r in v]
         numbers = [c for r in polys for c in r]
         bits = max([abs(c).bit_length() for c in numbers]
-                   + [abs(v.numerator).bit_length() + v.denominator.bit_length() for _, a, b, _ in points for v in (a, b)])
-        demand(max(map(len, polys)) <= 256 and (len(numbers) + len(points) + len(cells)) * bits <= 2**23, "support: too much work")
+                   + [abs(v.numerator).bit_length() + v.denominator.bit_length() for _, a, b, _ in points for v in (a, b)], default=0)
+        demand(max(map(len, polys), default=0) <= 256 and (len(numbers) + len(points) + len(cells)) * bits <= 2**23, "support: too much work")
 
     @staticmethod
     def isolated(q, a, b):

@@ -8,6 +8,8 @@
 
 #[path = "support/corpus.rs"]
 mod corpus;
+#[path = "support/corpus_by_leaf.rs"]
+mod corpus_by_leaf;
 #[path = "support/corpus_claims.rs"]
 mod corpus_claims;
 #[path = "support/corpus_covers.rs"]
@@ -198,6 +200,7 @@ fn the_second_checker_gives_every_verdict() {
 #[ignore = "writes spec/corpus"]
 fn write_the_corpus() {
     let mut cases = Cases::default();
+    corpus_by_leaf::supports(&mut cases);
     corpus_claims::exact_claims(&mut cases);
     corpus_claims::enclosed_claims(&mut cases);
     corpus_claims::lifted_claims(&mut cases);

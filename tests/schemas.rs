@@ -262,6 +262,28 @@ fn the_reader_of_problems_and_the_schema_agree() {
     assert!(count[0] > 40 && count[1] > 30 && count[2] > 400, "read, wrong in meaning, wrong in shape: {count:?}");
 }
 
+/// Every certificate of the corpus that is read is valid, and a support leaf that is none is not.
+#[test]
+fn the_corpus_is_valid() {
+    let certificates = schema("mceip-certificate-1");
+    for path in files("spec/corpus/accept", "json").iter().chain(&files("spec/corpus/reject", "json")) {
+        let file = read(path);
+        if file.get("certificate").is_some() {
+            valid(&certificates, &file["certificate"], &path.display().to_string());
+        }
+    }
+    let is_leaf = |p: &&PathBuf| p.file_stem().unwrap().to_string_lossy().starts_with("support-leaf-");
+    let malformed = files("spec/corpus/malformed", "json");
+    let leaves: Vec<&PathBuf> = malformed.iter().filter(is_leaf).collect();
+    assert!(leaves.len() >= 8);
+    for path in leaves {
+        let text = read(path)["certificate_text"].as_str().unwrap().to_string();
+        // Is 1/2 an integer? A schema cannot divide.
+        let of_meaning = path.ends_with("support-leaf-coefficient-fraction.json");
+        assert_eq!(certificates.is_valid(&serde_json::from_str(&text).unwrap()), of_meaning, "{}", path.display());
+    }
+}
+
 /// The same for foreign reports and certificates, whose readers check shapes only.
 #[test]
 fn the_readers_of_reports_and_certificates_agree_with_the_schemas() {
@@ -285,7 +307,9 @@ fn the_readers_of_reports_and_certificates_agree_with_the_schemas() {
     let folder = Folder::new();
     let file = folder.path("c.json");
     assert_eq!(mceip(&["complete", &root("spec/examples/fold.json").display().to_string(), "--certificate", &file]).status.code(), Some(0));
-    for copy in damaged(&read(Path::new(&file))) {
+    let corpus = ["one-support-cone", "one-support-alone-by-inequalities", "one-support-free", "absence-ldl-interval", "lifted"];
+    let of_corpus = corpus.map(|name| read(&root(&format!("spec/corpus/accept/{name}.json")))["certificate"].take());
+    for copy in of_corpus.iter().chain([&read(Path::new(&file))]).flat_map(damaged) {
         let (valid, read) = (certificates.is_valid(&copy), Certificate::from_json(&copy.to_string()));
         // The schema is open for kinds of claims and nodes; it must take all that is read.
         assert!(valid || read.is_err(), "read, and invalid: {copy}");

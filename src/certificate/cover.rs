@@ -5,7 +5,7 @@
 //! moving exclude each other, so a solution lies in one leaf of the piece. The checker rebuilds
 //! intervals and states itself; the file holds cuts, branches and witnesses only.
 
-use super::{Integer, Number, integer_rows, integers};
+use super::{Integer, Number, integer_rows, integers, object};
 use serde::{Deserialize, Serialize};
 
 /// All solutions in the certificate's window: a cover, or what is left of one (open leaves).
@@ -13,9 +13,10 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct CompleteSet {
     /// How the free variables were eliminated; absent where there are none.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
     pub condensation: Option<Condensation>,
     /// Consecutive intervals from the lower to the upper end of the window.
+    #[serde(deserialize_with = "object::list")]
     pub pieces: Vec<Piece>,
 }
 
@@ -54,12 +55,15 @@ pub enum Node {
     /// The symmetric part is negative definite on what may move.
     NegativeDefinite,
     /// sym(A + tB) of the pencil as given is definite on what may move, by exact factors.
+    #[serde(deserialize_with = "object::one")]
     Ldl(Box<Ldl>),
     /// The condensation's tail begins at or below this region.
     Tail,
     /// Every index is decided and the pencil has at most one null vector.
+    #[serde(deserialize_with = "object::one")]
     Root(Box<Root>),
     /// Every index is decided: what there is at every value of the interval, exactly.
+    #[serde(deserialize_with = "object::one")]
     Support(Box<Support>),
     /// Not decided.
     Open,
@@ -113,6 +117,7 @@ pub enum RootOutcome {
 #[serde(deny_unknown_fields)]
 pub struct Support {
     /// Ascending; the first is the lower end of the interval, the last the upper end unless that is infinite.
+    #[serde(deserialize_with = "object::list")]
     pub points: Vec<Point>,
     /// The reason of each cell, a number in `reasons`.
     pub cells: Vec<usize>,
@@ -140,6 +145,7 @@ pub enum Exact {
     /// Nothing: weights w(t), one polynomial per variable of the pencil, with w'T >= 0 impossible (Farkas).
     None(Polynomials),
     /// Solutions with exactly this support.
+    #[serde(deserialize_with = "object::one")]
     Some(Box<Member>),
 }
 
@@ -150,7 +156,7 @@ pub struct Member {
     /// x(t), one polynomial per variable of the pencil.
     pub x: Polynomials,
     /// Proof that at each value it is the only one up to its factor; without it, one of a cone.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
     pub alone: Option<Alone>,
 }
 
@@ -177,8 +183,10 @@ pub struct Polynomials(#[serde(with = "integer_rows")] pub Vec<Vec<Integer>>);
 #[serde(deny_unknown_fields)]
 pub struct Ldl {
     /// At the lower end.
+    #[serde(deserialize_with = "object::one")]
     pub lower: LdlFactor,
     /// At the upper end.
+    #[serde(deserialize_with = "object::one")]
     pub upper: LdlFactor,
 }
 
@@ -199,16 +207,18 @@ pub struct Condensation {
     /// sigma > 0 with A_ff - sigma I positive semidefinite.
     pub sigma: Number,
     /// Approximate Cholesky factor of A_ff - sigma I.
+    #[serde(deserialize_with = "object::one")]
     pub stiffness_factor: Factor,
     /// tau >= 0 with B_ff - tau I positive semidefinite.
     pub mass_sigma: Number,
     /// Approximate Cholesky factor of B_ff - tau I, where that is neither zero nor a non-negative diagonal.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
     pub mass_factor: Option<Factor>,
     /// Centres at which the condensed pencil is expanded.
+    #[serde(deserialize_with = "object::list")]
     pub anchors: Vec<Anchor>,
     /// Proof that nothing lies above some value, for [`Node::Tail`].
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
     pub tail: Option<Tail>,
 }
 
@@ -219,9 +229,10 @@ pub struct Tail {
     /// Where it begins.
     pub from: Number,
     /// Approximate Cholesky factor of sym(A + from B).
+    #[serde(deserialize_with = "object::one")]
     pub factor: Factor,
     /// Approximate Cholesky factor of sym(B), where that is neither zero nor a non-negative diagonal.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
     pub mass_factor: Option<Factor>,
 }
 
@@ -247,8 +258,10 @@ pub struct Anchor {
     /// The value expanded about.
     pub center: Number,
     /// Coefficients of the right solutions.
+    #[serde(deserialize_with = "object::list")]
     pub right: Vec<IntegerMatrix>,
     /// Coefficients of the left solutions.
+    #[serde(deserialize_with = "object::list")]
     pub left: Vec<IntegerMatrix>,
 }
 

@@ -34,10 +34,13 @@ pub struct Certificate {
 #[serde(rename_all = "snake_case")]
 pub enum Claim {
     /// A solution over Q(alpha).
+    #[serde(deserialize_with = "object::one")]
     ExactSolution(ExactSolution),
     /// A solution over Q(alpha) in the degrees of freedom of a mechanical system.
+    #[serde(deserialize_with = "object::one")]
     LiftedSolution(LiftedSolution),
     /// A solution in a box, by Krawczyk's test.
+    #[serde(deserialize_with = "object::one")]
     EnclosedSolution(EnclosedSolution),
 }
 
@@ -103,9 +106,10 @@ struct File {
     format: String,
     problem_sha256: String,
     unknown: Unknown,
+    #[serde(deserialize_with = "object::one")]
     window: FileWindow,
     claims: Vec<Claim>,
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
     complete_set: Option<CompleteSet>,
 }
 
@@ -143,6 +147,24 @@ impl Certificate {
         let window = Window::new(file.window.min.0, file.window.max.map(|n| n.0))?;
         let (problem_sha256, unknown) = (file.problem_sha256, file.unknown);
         Ok(Certificate { problem_sha256, unknown, window, claims: file.claims, complete_set: file.complete_set })
+    }
+}
+
+/// What is read from an object, and not from a list of its fields.
+mod object {
+    use crate::model::file::Object;
+    use serde::{Deserialize, Deserializer};
+
+    pub(super) fn one<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<T, D::Error> {
+        Object::deserialize(d).map(|o| o.0)
+    }
+
+    pub(super) fn option<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<Option<T>, D::Error> {
+        Option::<Object<T>>::deserialize(d).map(|o| o.map(|o| o.0))
+    }
+
+    pub(super) fn list<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<Vec<T>, D::Error> {
+        Vec::<Object<T>>::deserialize(d).map(|list| list.into_iter().map(|o| o.0).collect())
     }
 }
 

@@ -93,7 +93,9 @@ impl Unique {
         let exact = if rest.is_empty() { Vec::new() } else { inverse(&middle)? };
         let largest = exact.iter().flatten().fold(0.0f64, |s, v| s.max(v.abs()));
         INVERSE_BITS.iter().find_map(|bits| {
-            let y_bits = u32::try_from(bits - largest.max(f64::MIN_POSITIVE).log2().ceil() as i32).unwrap_or(0);
+            // Of one moving variable nothing is left to invert, and an empty Y needs no units.
+            let y_bits =
+                if rest.is_empty() { 0 } else { u32::try_from(bits - largest.max(f64::MIN_POSITIVE).log2().ceil() as i32).unwrap_or(0) };
             let unit = f64::from(y_bits).exp2();
             let y: Matrix = exact.iter().map(|row| row.iter().map(|v| (v * unit).round() / unit).collect()).collect();
             let proof = Bounds::new(wide, &rest, pivot, &y, &u, &v);
