@@ -6,7 +6,7 @@
 use mceip::exact::{Algebraic, Poly, Rational, Sparse, common_denominator, determinant, positive_definite, rational, roots_in, whole};
 use mceip::model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
 use mceip::oracle::{Enumeration, Solution, enumerate, is_rational_solution};
-use mceip::reduction::reduce;
+use mceip::reduction::{mu_family, reduce};
 use mceip::testkit::generators::{Seed, gram, permuted, raw, sparse, states, with_scaled_rows};
 use proptest::prelude::*;
 use rand::RngExt;
@@ -118,6 +118,36 @@ fn symmetric_parts_bound_the_real_spectrum() {
         assert!(positive_definite(&shifted(&whole(-100))).is_ok());
     }
     assert!(eigenvalues > 100);
+}
+
+/// Section 3: K0 and M0 are definite, so are K* and M* for small mu, and then nothing diverges; a lumped M gives M* = M0,
+/// diagonal. The first mu of 1, 1/2, 1/4, ... at which both are definite is taken; larger ones are not always silent.
+#[test]
+fn small_friction_is_silent_and_a_lumped_mass_stays_diagonal() {
+    let (mut lumped, mut coupled, mut diverging) = (0, 0, 0);
+    for index in 0..140 {
+        let mut rng = rng(5000 + index);
+        let system = states::system(&mut rng, &states::mixture(index), &mut Vec::new()).unwrap();
+        let family = mu_family(&system).unwrap();
+        let (k, m) = (&family.stiffness, family.mass.as_ref().unwrap());
+        assert!(positive_definite(k.a()).is_ok() && positive_definite(m.a()).is_ok(), "{index}");
+        if system.mass().unwrap().entries().all(|(i, j, _)| i == j) {
+            assert!(m.b().entries().all(|(_, _, v)| *v == whole(0)) && m.a().entries().all(|(i, j, v)| i == j || *v == whole(0)));
+            lumped += 1;
+        } else {
+            coupled += usize::from(m.b().entries().any(|(_, _, v)| *v != whole(0)));
+        }
+        let star = |p: &Pencil, mu: &Rational| p.a().add_scaled(mu, p.b());
+        let definite = |p: &Pencil, mu: &Rational| positive_definite(&symmetric(&star(p, mu))).is_ok();
+        let solutions = |mu: &Rational| run(&Pencil::new(star(k, mu), star(m, mu), k.free().to_vec()).unwrap()).solutions.len();
+        let mut mu = whole(1);
+        while !(definite(k, &mu) && definite(m, &mu)) {
+            mu /= whole(2);
+        }
+        assert_eq!(solutions(&mu), 0, "{index}: mu = {mu}");
+        diverging += usize::from(solutions(&whole(64)) > 0);
+    }
+    assert!(lumped > 40 && coupled > 20 && diverging > 20, "{lumped} {coupled} {diverging}");
 }
 
 /// M -> aM divides lambda^2 by a, K -> aK multiplies lambda^2 by a and leaves mu alone.
