@@ -67,6 +67,36 @@ fn singular_pencils_and_wide_kernels_are_certified_at_the_candidate() {
     }
 }
 
+/// Found by the fuzz target `checker_against_forgeries` (2026-11-21): with slip of 1 alone the kernel at lambda^2 = 0 is a
+/// plane, and y_2 = -y_3 >= 0 leaves the line x_0 = 4/3 x_1 of it. No double is 4/3: the kernel within y_2 = 0 is taken.
+#[test]
+fn a_wide_kernel_that_meets_the_inequalities_in_a_face_is_certified() {
+    let a: &[&[&str]] = &[&["0"; 4], &["0"; 4], &["3", "-4", "1", "-1"], &["-3", "4", "1", "-2"]];
+    let b: &[&[&str]] = &[&["-4", "1", "-2", "4"], &["4", "-4", "-4", "-4"], &["-4"; 4], &["-4"; 4]];
+    let p = pencil(a, b);
+    let p = Pencil::new(p.a().clone(), p.b().clone(), vec![0]).unwrap();
+    for digits in [1.3333333333333333, 1.333333] {
+        let claim = certify(&p, &Window::all(), &candidate(0.0, &[digits, 1.0, 0.0, 0.0])).unwrap();
+        assert!(matches!(&claim, Claim::ExactSolution(c) if c.support == [1] && c.biactive == [2, 3]));
+        let problem = Problem::new(Body::Pencil(p.clone()), Unknown::Lambda2, Window::all()).unwrap();
+        assert!(check(&problem, &certificate(&problem, vec![claim])).is_ok());
+    }
+    assert!(matches!(failure(&p, &candidate(0.0, &[1.25, 1.0, 0.0, 0.0])), AttemptFailure::YNegative { .. }));
+}
+
+/// A support singular at every t with y_2 = -y_3 = (3t - 1) x_0: only t = 1/3 is a solution, and no double is 1/3.
+#[test]
+fn the_only_value_of_a_singular_support_is_found() {
+    let a: &[&[&str]] = &[&["1", "-1", "0", "0"], &["-1", "1", "0", "0"], &["-1", "0", "1", "0"], &["1", "0", "0", "1"]];
+    let b: &[&[&str]] = &[&["0"; 4], &["0"; 4], &["3", "0", "0", "0"], &["-3", "0", "0", "0"]];
+    let p = pencil(a, b);
+    let claim = certify(&p, &Window::all(), &candidate(0.333333, &[0.5, 0.5, 0.0, 0.0])).unwrap();
+    let problem = Problem::new(Body::Pencil(p.clone()), Unknown::Mu, Window::all()).unwrap();
+    let accepted = check(&problem, &certificate(&problem, vec![claim])).unwrap();
+    assert!(accepted.claims[0].value.contains(&parse("1/3").unwrap()) && accepted.claims[0].value.is_point());
+    assert!(matches!(failure(&p, &candidate(0.3343, &[0.5, 0.5, 0.0, 0.0])), AttemptFailure::YNegative { .. }));
+}
+
 /// Above the order for exact claims a box is made: -tridiag + t I of order 20, all slip.
 #[test]
 fn large_supports_are_enclosed_and_accepted() {

@@ -3,7 +3,7 @@
 use super::{AttemptFailure, IntegralRows, active};
 use crate::candidate::Candidate;
 use crate::certificate::ExactSolution;
-use crate::exact::{Algebraic, Poly, Rational, Sign, determinant, from_f64, kernel_at, roots_in, to_f64};
+use crate::exact::{Algebraic, Poly, Rational, Sign, determinant, from_f64, generic_kernel, kernel_at, roots_in, to_f64};
 use crate::model::file::Number;
 use crate::model::{Pencil, Window};
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
@@ -20,12 +20,20 @@ pub(super) fn make(
     support: &[usize],
     candidate: &Candidate,
 ) -> Result<ExactSolution, AttemptFailure> {
-    let active = active(pencil, support);
+    let at = Support { pencil, rows, window, support, active: active(pencil, support), candidate };
     let mut last = None;
-    for value in values_near(rows, window, &active, candidate)? {
-        match at_value(pencil, rows, window, support, &active, candidate, value) {
-            Ok(claim) => return Ok(claim),
-            Err(failure) => last = last.or(Some(failure)),
+    for value in at.values_near()? {
+        let mut faces = Vec::new();
+        loop {
+            match at.value(&faces, value.clone()) {
+                Ok(claim) => return Ok(claim),
+                // A wide kernel may meet y >= 0 in a face only, which no double hits: the kernel within y_i = 0 is tried.
+                Err(AttemptFailure::YNegative { index }) if !faces.contains(&index) => {
+                    last = last.or(Some(AttemptFailure::YNegative { index }));
+                    faces.push(index);
+                }
+                Err(failure) => break last = last.or(Some(failure)),
+            }
         }
     }
     Err(last.unwrap_or_else(|| no_root(candidate)))
@@ -41,108 +49,128 @@ fn around(candidate: &Candidate) -> (f64, f64) {
     (candidate.value - radius, candidate.value + radius)
 }
 
-/// Roots of the support's determinant near the candidate, nearest first. For a singular pencil
-/// every value is one, so the candidate's own is taken.
-fn values_near(rows: &IntegralRows, window: &Window, active: &[usize], candidate: &Candidate) -> Result<Vec<Algebraic>, AttemptFailure> {
-    let place = |i: usize, which: usize| {
-        let mut row = vec![crate::exact::Integer::zero(); active.len()];
-        for (j, a, b) in &rows.0[i] {
-            if let Ok(k) = active.binary_search(j) {
-                row[k] = if which == 0 { a.clone() } else { b.clone() };
+/// A candidate and the support it is tried with.
+struct Support<'a> {
+    pencil: &'a Pencil,
+    rows: &'a IntegralRows,
+    window: &'a Window,
+    support: &'a [usize],
+    active: Vec<usize>,
+    candidate: &'a Candidate,
+}
+
+impl Support<'_> {
+    /// Roots of the support's determinant near the candidate, nearest first. For a singular pencil
+    /// every value is one, so the candidate's own is taken, and then those where a sign may change.
+    fn values_near(&self) -> Result<Vec<Algebraic>, AttemptFailure> {
+        let place = |i: usize, which: usize| {
+            let mut row = vec![crate::exact::Integer::zero(); self.active.len()];
+            for (j, a, b) in &self.rows.0[i] {
+                if let Ok(k) = self.active.binary_search(j) {
+                    row[k] = if which == 0 { a.clone() } else { b.clone() };
+                }
+            }
+            row
+        };
+        let select = |which: usize| self.active.iter().map(|&i| place(i, which)).collect::<Vec<_>>();
+        let det = determinant(&select(0), &select(1));
+        if !det.is_zero() {
+            return self.roots_near(&[det]);
+        }
+        let center = from_f64(self.candidate.value).map_err(|_| AttemptFailure::NotFinite)?.max(self.window.min().clone());
+        let own = Algebraic::rational(self.window.max().map_or(center.clone(), |m| center.min(m.clone())));
+        let (kernel, ..) = generic_kernel(self.block(&[]));
+        let vectors = kernel.iter().map(|v| self.spread(v));
+        let signs: Vec<Poly> =
+            vectors.flat_map(|x| x.iter().cloned().chain(self.rows.0.iter().map(|r| times(r, &x))).collect::<Vec<_>>()).collect();
+        Ok(std::iter::once(own).chain(self.roots_near(&signs)?).collect())
+    }
+
+    /// The roots of some polynomials near the candidate and in the window, nearest first.
+    fn roots_near(&self, polynomials: &[Poly]) -> Result<Vec<Algebraic>, AttemptFailure> {
+        let exact = |v: f64| from_f64(v).map_err(|_| AttemptFailure::NotFinite);
+        let center = exact(self.candidate.value)?;
+        let (lo, hi) = around(self.candidate);
+        let (lo, hi) = (exact(lo)?.max(self.window.min().clone()), exact(hi)?);
+        let hi = self.window.max().map_or(hi.clone(), |m| hi.min(m.clone()));
+        if lo > hi {
+            return Err(no_root(self.candidate));
+        }
+        let mut roots: Vec<Algebraic> = polynomials.iter().filter(|p| !p.is_zero()).flat_map(|p| roots_in(p, &lo, Some(&hi))).collect();
+        roots.sort_by_key(|r| (r.interval().mid() - &center).abs());
+        Ok(roots)
+    }
+
+    /// The claim at this value; y vanishes on `faces` too.
+    fn value(&self, faces: &[usize], mut value: Algebraic) -> Result<ExactSolution, AttemptFailure> {
+        value.try_rational();
+        let x = self.kernel_vector(faces, &mut value)?;
+        if let Some(&index) = self.support.iter().find(|&&i| value.sign_of(&x[i]) != Sign::Positive) {
+            return Err(AttemptFailure::XNotPositive { index });
+        }
+        let y: Vec<Poly> = self.rows.0.iter().map(|row| times(row, &x)).collect();
+        let mut biactive = Vec::new();
+        for index in (0..self.pencil.order()).filter(|i| self.active.binary_search(i).is_err()) {
+            match value.sign_of(&y[index]) {
+                Sign::Negative => return Err(AttemptFailure::YNegative { index }),
+                Sign::Zero => biactive.push(index),
+                Sign::Positive => {}
             }
         }
-        row
-    };
-    let select = |which: usize| active.iter().map(|&i| place(i, which)).collect::<Vec<_>>();
-    let det = determinant(&select(0), &select(1));
-    let center = from_f64(candidate.value).map_err(|_| AttemptFailure::NotFinite)?;
-    if det.is_zero() {
-        let clamped = center.max(window.min().clone());
-        return Ok(vec![Algebraic::rational(window.max().map_or(clamped.clone(), |m| clamped.min(m.clone())))]);
-    }
-    let (lo, hi) = around(candidate);
-    let lo = from_f64(lo).map_err(|_| AttemptFailure::NotFinite)?.max(window.min().clone());
-    let hi = from_f64(hi).map_err(|_| AttemptFailure::NotFinite)?;
-    let hi = window.max().map_or(hi.clone(), |m| hi.min(m.clone()));
-    if lo > hi {
-        return Err(no_root(candidate));
-    }
-    let mut roots = roots_in(&det, &lo, Some(&hi));
-    roots.sort_by_key(|r| (r.interval().mid() - &center).abs());
-    Ok(roots)
-}
-
-fn at_value(
-    pencil: &Pencil,
-    rows: &IntegralRows,
-    window: &Window,
-    support: &[usize],
-    active: &[usize],
-    candidate: &Candidate,
-    mut value: Algebraic,
-) -> Result<ExactSolution, AttemptFailure> {
-    value.try_rational();
-    let x = kernel_vector(pencil, rows, active, candidate, &mut value)?;
-    if let Some(&index) = support.iter().find(|&&i| value.sign_of(&x[i]) != Sign::Positive) {
-        return Err(AttemptFailure::XNotPositive { index });
-    }
-    let y: Vec<Poly> = rows.0.iter().map(|row| times(row, &x)).collect();
-    let mut biactive = Vec::new();
-    for index in (0..pencil.order()).filter(|i| active.binary_search(i).is_err()) {
-        match value.sign_of(&y[index]) {
-            Sign::Negative => return Err(AttemptFailure::YNegative { index }),
-            Sign::Zero => biactive.push(index),
-            Sign::Positive => {}
+        // Zero tests have shrunk the polynomial until everything that vanishes is 0 modulo it.
+        for &i in &self.active {
+            value.sign_of(&y[i]);
         }
+        close_enough(self.pencil, self.candidate, &x, &mut value)?;
+        let strict: Vec<&Poly> = self.support.iter().map(|&i| &x[i]).collect();
+        let inactive = (0..self.pencil.order()).filter(|i| self.active.binary_search(i).is_err() && !biactive.contains(i));
+        let strict: Vec<&Poly> = strict.into_iter().chain(inactive.map(|i| &y[i])).collect();
+        tighten(self.window, &strict, self.support.is_empty().then_some(&x[..]), &mut value)?;
+        Ok(claim(self.support, biactive, &x, &value))
     }
-    // Zero tests have shrunk the polynomial until everything that vanishes is 0 modulo it.
-    for &i in active {
-        value.sign_of(&y[i]);
-    }
-    close_enough(pencil, candidate, &x, &mut value)?;
-    let strict: Vec<&Poly> = support.iter().map(|&i| &x[i]).collect();
-    let inactive = (0..pencil.order()).filter(|i| active.binary_search(i).is_err() && !biactive.contains(i));
-    let strict: Vec<&Poly> = strict.into_iter().chain(inactive.map(|i| &y[i])).collect();
-    tighten(window, &strict, support.is_empty().then_some(&x[..]), &mut value)?;
-    Ok(claim(support, biactive, &x, &value))
-}
 
-/// The kernel vector nearest the candidate: the kernel's free coordinates are taken from it.
-fn kernel_vector(
-    pencil: &Pencil,
-    rows: &IntegralRows,
-    active: &[usize],
-    candidate: &Candidate,
-    value: &mut Algebraic,
-) -> Result<Vec<Poly>, AttemptFailure> {
-    let entry = |i: usize, j: usize| {
-        let found = rows.0[i].iter().find(|e| e.0 == j);
-        found.map_or_else(Poly::default, |(_, a, b)| Poly::new(vec![a.clone(), b.clone()]))
-    };
-    let block = active.iter().map(|&i| active.iter().map(|&j| entry(i, j)).collect()).collect();
-    let basis = kernel_at(block, value);
-    if basis.is_empty() {
-        return Err(no_root(candidate)); // only for a value that was no root: a singular pencil's never is
+    /// The rows of the active variables and of `faces`, in the columns of the active ones.
+    fn block(&self, faces: &[usize]) -> Vec<Vec<Poly>> {
+        let entry = |i: usize, j: usize| {
+            let found = self.rows.0[i].iter().find(|e| e.0 == j);
+            found.map_or_else(Poly::default, |(_, a, b)| Poly::new(vec![a.clone(), b.clone()]))
+        };
+        self.active.iter().chain(faces).map(|&i| self.active.iter().map(|&j| entry(i, j)).collect()).collect()
     }
-    // Each basis vector is the same polynomial at its own free coordinate, zero at the others'.
-    let weights = match &basis[..] {
-        [_] => vec![Rational::from_integer(1.into())],
-        _ => (0..basis.len()).map(|k| coordinate(k, &basis, active, candidate)).collect::<Result<Vec<_>, _>>()?,
-    };
-    let clear = crate::exact::common_denominator(&weights);
-    let mut x = vec![Poly::default(); pencil.order()];
-    for (vector, weight) in basis.iter().zip(&weights) {
-        let factor = weight.numer() * (&clear / weight.denom());
-        for (&i, p) in active.iter().zip(vector) {
-            x[i] = &x[i] + &p.scale(&factor);
+
+    /// A vector over the active variables as one over all.
+    fn spread(&self, part: &[Poly]) -> Vec<Poly> {
+        let mut x = vec![Poly::default(); self.pencil.order()];
+        self.active.iter().zip(part).for_each(|(&i, p)| x[i] = p.clone());
+        x
+    }
+
+    /// The kernel vector nearest the candidate: the kernel's free coordinates are taken from it.
+    fn kernel_vector(&self, faces: &[usize], value: &mut Algebraic) -> Result<Vec<Poly>, AttemptFailure> {
+        let basis = kernel_at(self.block(faces), value);
+        if basis.is_empty() {
+            return Err(no_root(self.candidate)); // faces that leave nothing; without them every value here is a root
         }
+        // Each basis vector is the same polynomial at its own free coordinate, zero at the others'.
+        let weights = match &basis[..] {
+            [_] => vec![Rational::from_integer(1.into())],
+            _ => (0..basis.len()).map(|k| coordinate(k, &basis, &self.active, self.candidate)).collect::<Result<Vec<_>, _>>()?,
+        };
+        let clear = crate::exact::common_denominator(&weights);
+        let mut x = vec![Poly::default(); self.pencil.order()];
+        for (vector, weight) in basis.iter().zip(&weights) {
+            let factor = weight.numer() * (&clear / weight.denom());
+            for (&i, p) in self.active.iter().zip(vector) {
+                x[i] = &x[i] + &p.scale(&factor);
+            }
+        }
+        let slip_sign = self.pencil.slip().iter().map(|&i| value.sign_of(&x[i])).find(|s| *s != Sign::Zero);
+        let flip = match slip_sign {
+            Some(sign) => sign == Sign::Negative,
+            None => dot_sign(&x, self.candidate, value),
+        };
+        Ok(if flip { x.iter().map(|p| -p).collect() } else { x })
     }
-    let slip_sign = pencil.slip().iter().map(|&i| value.sign_of(&x[i])).find(|s| *s != Sign::Zero);
-    let flip = match slip_sign {
-        Some(sign) => sign == Sign::Negative,
-        None => dot_sign(&x, candidate, value),
-    };
-    Ok(if flip { x.iter().map(|p| -p).collect() } else { x })
 }
 
 /// The candidate's component at the one coordinate where, of all basis vectors, only the k-th is not zero.
