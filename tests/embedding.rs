@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::exact::{to_f64, whole};
+use mceip::mcp::Mcp;
 use mceip::model::{Admissible, Unknown, Window};
 use mceip::multistart::{Search, multistart};
 use mceip::oracle::enumerate;
@@ -107,4 +108,27 @@ fn the_constant_c_scales_x_and_nothing_else() {
         }
     }
     assert!(count > 20);
+}
+
+/// Section 4: neither problem is monotone. With F(x, t) = ((A + tB) x, e'x_s - c), points (0, t + L) and (s e_i, t) have
+/// (F - F)'(z - z) = s^2 (A + tB)_ii - s L, negative for small s.
+#[test]
+fn neither_mcp_is_monotone() {
+    for instance in instances() {
+        let pencil = reduce(&instance.problem).unwrap().pencil;
+        let mcp = Embedding::new(&Admissible::new(&pencil, instance.problem.unknown()).unwrap(), Side::Above(0.0));
+        let n = mcp.dimension() - 1;
+        let at = |slip: f64, zeta: f64| {
+            let mut z = vec![0.0; n + 1];
+            (z[pencil.slip()[0]], z[n]) = (slip, zeta);
+            let mut f = vec![0.0; n + 1];
+            mcp.function(&z, &mut f);
+            (z, f)
+        };
+        let product = |s: f64| {
+            let ((z, f), (w, g)) = (at(0.0, 1.0), at(s, 0.0));
+            (0..=n).map(|i| (f[i] - g[i]) * (z[i] - w[i])).sum::<f64>()
+        };
+        assert!((1..60).any(|k| product(0.5f64.powi(k)) < 0.0), "{}", instance.label);
+    }
 }

@@ -254,6 +254,13 @@ fn both_published_states_lie_on_the_path() {
     // "11 or more nodes": the number of slip nodes takes every value on the way.
     let slips: Vec<usize> = path.intervals.iter().map(|i| i.counts()[1]).collect();
     assert!((2..=17).all(|n| slips.contains(&n)), "{slips:?}");
+    // "Spreading from right to left": stick on the left, then slip to the left, then free, and stick only shrinks.
+    let stick = |k: &usize| path.intervals[*k].states.iter().take_while(|s| **s == ContactState::Stick).count();
+    for k in 2..path.intervals.len() {
+        assert!(stick(&k) <= stick(&(k - 1)), "stretch {k}");
+        let rest = path.intervals[k].states.iter().skip(stick(&k));
+        assert_eq!(rest.take_while(|s| **s == ContactState::Slip { sign: 1 }).count(), slips[k], "stretch {k}");
+    }
     let problem = path.intervals[at(PublishedState::FifteenSlip)[0]].problem(&block, None).unwrap();
     assert_eq!(problem.sha256(), PublishedState::FifteenSlip.problem(&block).unwrap().sha256());
 }
