@@ -52,6 +52,10 @@ pub(super) struct Filters {
 /// Depths at which a proof is tried: most supports fall at the first.
 const TRIED: [u32; 4] = [7, 14, 28, DEPTH];
 
+/// Pieces of one support at most: beyond it the exact code is quicker. Where the determinant is of very different
+/// sizes on the line its small values drown in the error of the large ones, over 2^DEPTH times the width of that part.
+const MAX_PIECES: usize = 1 << 12;
+
 /// Storage reused from support to support.
 #[derive(Debug, Default)]
 pub(super) struct Desk {
@@ -88,14 +92,16 @@ impl Filters {
         }
         desk.stack.clear();
         desk.stack.push(piece);
+        let mut pieces = 0;
         while let Some(piece) = desk.stack.pop() {
+            pieces += 1;
             let (low, high) = (piece.low, piece.high());
             if high < self.floats.window.0 || low > self.floats.window.1 || piece.has_no_root() {
                 continue;
             }
             if TRIED.contains(&piece.depth) && refuted(low, high, &mut desk.prover) {
                 verdict = Verdict::Farkas;
-            } else if piece.depth == DEPTH {
+            } else if piece.depth == DEPTH || pieces > MAX_PIECES {
                 return Verdict::Open;
             } else {
                 let (left, right) = piece.halves();
