@@ -247,16 +247,16 @@ fn a_free_block_that_is_not_symmetric_is_refused() {
     }
 }
 
-/// A + B / 2 = [[4, 2], [2, 5]] + c I, with a skew part; B = [[1, 1], [1, 2]] + d I, likewise.
+/// A + 3/2 B = [[4, 2], [2, 5]] + c diag(1, 10/11), with a skew part; B = [[1, 1], [1, 2]] + d I, likewise.
 fn tail_rows(c: &Rational, d: &Rational) -> Rows {
     let (r, w) = (rational, whole);
     let mut b = [[w(1), r(1, 3)], [r(5, 3), w(2)]];
     let mut a = [[w(4), r(2, 7)], [r(26, 7), w(5)]];
     for i in 0..2 {
         b[i][i] += d;
-        a[i][i] += c;
+        a[i][i] += c * if i == 0 { w(1) } else { r(10, 11) };
         for j in 0..2 {
-            a[i][j] -= &b[i][j] / w(2);
+            a[i][j] -= &b[i][j] * r(3, 2);
         }
     }
     let sparse = |m: &[[Rational; 2]; 2]| {
@@ -270,7 +270,7 @@ fn tail_rows(c: &Rational, d: &Rational) -> Rows {
 #[test]
 fn a_tail_begins_where_the_symmetric_part_is_definite() {
     let of = |c: Rational, d: Rational| {
-        let claim = Tail { from: Number(rational(1, 2)), factor: lower([&[2], &[1, 2]], 0), mass_factor: Some(lower([&[2], &[2, 2]], 1)) };
+        let claim = Tail { from: Number(rational(3, 2)), factor: lower([&[2], &[1, 2]], 0), mass_factor: Some(lower([&[2], &[2, 2]], 1)) };
         tail(&tail_rows(&c, &d), &claim)
     };
     let (hair, none) = (rational(1, 1000), whole(0));

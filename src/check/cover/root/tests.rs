@@ -327,6 +327,23 @@ fn signs_of_x_and_y_are_those_stated() {
     }
 }
 
+/// The error counts for every component but the pivot's, which is 1 and exact.
+#[test]
+fn components_are_positive_beyond_the_error_only() {
+    let y: Matrix = vec![vec![1.into()]];
+    let ends = simple([-1, 1], 0, 0, [100, 100]);
+    let solution = |x: i64, one: i64, error: Rational| {
+        let v = vec![x.into(), one.into()];
+        let s = System { moving: vec![0, 1], y: &y, y_one: 1.into(), u: v.clone(), v, one: one.into() };
+        s.signs(&region(), &ends, &error, &INDEX, &root(RootOutcome::Solution))
+    };
+    let fault = Err(CoverFault::Sign { component: "x", index: 10, expected: "> 0" });
+    // An error of 3/2 is three units of 1/2, one of 5/4 as well.
+    for error in [rational(3, 2), rational(5, 4)] {
+        assert_eq!([solution(4, 2, error.clone()), solution(3, 2, error)], [Ok(()), fault.clone()]);
+    }
+}
+
 /// y is zero on a moving row, and were a row of the block negative by rounding it is not a row of y.
 #[test]
 fn a_moving_row_is_no_negative_y() {
