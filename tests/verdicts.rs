@@ -61,7 +61,7 @@ fn verdicts() -> String {
                 writeln!(text, "{name}: (leaves, plain list, absence): {said:?}").unwrap();
             }
             Err(rejected) => {
-                writeln!(text, "{name}: {rejected}").unwrap();
+                writeln!(text, "{name}: {}: {rejected}", rejected.reason.name()).unwrap();
                 match audit(&problem, &certificate) {
                     Ok((_, refused)) => writeln!(text, "{name}: audit: leaves refused (piece, node): {refused:?}").unwrap(),
                     Err(again) => assert_eq!(again, rejected, "{name}"),
