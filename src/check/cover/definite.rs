@@ -168,6 +168,8 @@ mod tests {
         assert_eq!([two([short, 257], none), two([short, 256], none)], [Ok(()), Err(1)]);
         let r = [[0, 3], [5, 4]]; // each radius becomes two more as a short one: 5 + 7 + 2 * 6 = 24
         assert_eq!([two([short, 269], r), two([short, 268], r)], [Ok(()), Err(1)]);
+        let r = [[0, 3], [0, 4]]; // 5 + 2 * 6 = 17
+        assert_eq!([two([short, 265], r), two([short, 264], r)], [Ok(()), Err(1)]);
         // 12 bits are cut: every row loses two units by it, and one more where there is a radius.
         let (long, unit) = (1 << 50, 1 << 11); // 2 unit = 2^12
         assert_eq!([two([long, 515 * unit], none), two([long, 515 * unit - 1], none)], [Ok(()), Err(1)]);
