@@ -260,9 +260,6 @@ fn a_wide_kernel_at_one_value_of_a_singular_support_is_named() {
     assert!(found.is_complete_list());
     assert_eq!(found.wide.iter().map(|w| (w.support.clone(), w.dimension)).collect::<Vec<_>>(), [(vec![0, 1], 2)]);
     assert_eq!((found.cones.len(), found.ranges.len()), (1, 1));
-    // A kernel of dimension 1 met on the way is not named: x = (1, t - 2) with y_2 = -(t - 2)^2.
-    let p = pencil(&[&[0, 0, 0], &[0, 0, 0], &[0, 0, 0]], &[&[0, 0, 0], &[0, 0, 0], &[0, 0, 0]], &[]);
-    assert!(enumerate(&p, &Window::all()).unwrap().wide.is_empty());
 }
 
 /// 6 moving variables and 9 resting rows, nothing else: C(15, 6) minors are too many, and that is said.
