@@ -192,4 +192,13 @@ mod tests {
         }
         assert!(Family::Linear(Linear::of(&rows)).ends(None, &whole(1), None).is_ok());
     }
+
+    /// The short numbers are there for ordinary matrices, or every leaf would be computed with long ones.
+    #[test]
+    fn ordinary_matrices_have_short_numbers() {
+        let linear = Linear::of(&rows());
+        let (lo, hi) = (rational(2, 3), rational(7, 5));
+        assert!(linear.short(&lo, Some(&hi)).is_some() && linear.short(&lo, None).is_some());
+        assert!(linear.ends(&lo, Some(&hi)).short().is_some() && linear.ends(&lo, None).short().is_some());
+    }
 }
