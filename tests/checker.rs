@@ -1,11 +1,11 @@
 //! The checker: one acceptance and, for each obligation, a certificate that breaks just that one.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use mceip::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution};
+use mceip::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution};
 use mceip::check::{Reason, check};
 use mceip::exact::{Integer, Rational, Sparse, parse, rational, whole};
 use mceip::model::file::Number;
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip::model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
 
 fn sparse(rows: &[&[&str]]) -> Sparse {
     let entries = rows.iter().enumerate().flat_map(|(i, r)| r.iter().enumerate().map(move |(j, v)| (i, j, parse(v).unwrap())));
@@ -239,6 +239,64 @@ fn enclosed_solutions_and_their_forgeries() {
     let narrow = Window::new(whole(0), Some(whole(3))).unwrap();
     let cut = Certificate { window: narrow, ..certificate(&p, Claim::EnclosedSolution(good)) };
     assert!(matches!(check(&p, &cut).unwrap_err().reason, Reason::OutsideWindow { .. }));
+}
+
+/// The bound that is told: with Y = 0 it is |I| r = r, whatever the radii.
+#[test]
+fn the_bound_of_a_box_is_told_in_its_own_units() {
+    let (p, mut c) = boxed();
+    c.radius = numbers(&["3/64", "5/64", "7/64"]);
+    c.preconditioner[1] = vec![0.into(); 3];
+    let got = check(&p, &certificate(&p, Claim::EnclosedSolution(c.clone()))).unwrap_err().reason;
+    assert_eq!(got, Reason::NotContracting { index: 1, got: rational(5, 64), radius: rational(5, 64) });
+    // A preconditioner twice too large: |I - 2I| r is r again, and |Y| d comes on top: d = 2 r_t (r_0, r_1).
+    let (p, mut c) = boxed();
+    c.radius = numbers(&["3/64", "5/64", "7/64"]);
+    c.preconditioner[0].iter_mut().for_each(|y| *y *= 2);
+    let got = check(&p, &certificate(&p, Claim::EnclosedSolution(c))).unwrap_err().reason;
+    let d = [3, 5].map(|r| rational(2 * 7 * r, 64 * 64));
+    let bound = rational(3, 64) + (&d[0] + &d[1]) * rational(4, 16);
+    assert_eq!(got, Reason::NotContracting { index: 0, got: bound, radius: rational(3, 64) });
+}
+
+/// The largest exponent of a preconditioner is allowed.
+#[test]
+fn a_preconditioner_may_be_long() {
+    let (p, good) = boxed();
+    let with = |exponent: u32| {
+        let mut c = EnclosedSolution { exponent, ..good.clone() };
+        c.preconditioner.iter_mut().flatten().for_each(|y| *y <<= exponent - 4);
+        check(&p, &certificate(&p, Claim::EnclosedSolution(c))).map(|_| ()).map_err(|r| r.reason)
+    };
+    assert_eq!(with(65_536), Ok(()));
+    assert_eq!(with(65_537), Err(Reason::TooLarge { what: "exponent", limit: 65_536, got: 65_537 }));
+}
+
+/// One slip particle, K = [[2, -1], [-1, 5]]: v_T (2 - mu) = 0. Without a free degree of freedom nothing else moves.
+#[test]
+fn a_lifted_claim_needs_something_that_moves() {
+    let particle = |tangential| Particle::plain(tangential, tangential + 1, ContactState::Slip { sign: 1 });
+    let system = |rows: &[&[&str]], tangential: usize| {
+        let s = System::new(sparse(rows), None, None, vec![particle(tangential)]).unwrap();
+        Problem::new(Body::System(s), Unknown::Mu, Window::all()).unwrap()
+    };
+    let two = || [Number(whole(2)), Number(whole(2))];
+    let lifted = |support: &[usize], biactive: &[usize], v: &[&str], w: &[&str]| LiftedSolution {
+        support: support.to_vec(),
+        biactive: biactive.to_vec(),
+        polynomial: vec![(-2).into(), 1.into()],
+        interval: two(),
+        v: v.iter().map(|c| numbers(&[c])).collect(),
+        w: w.iter().map(|c| numbers(&[c])).collect(),
+    };
+    let verdict = |p: &Problem, c: LiftedSolution| check(p, &certificate(p, Claim::LiftedSolution(c))).map(|_| ()).map_err(|r| r.reason);
+    let p = system(&[&["2", "-1"], &["-1", "5"]], 0);
+    assert_eq!(verdict(&p, lifted(&[0], &[], &["-1", "0"], &["-2", "1"])), Ok(()));
+    assert_eq!(verdict(&p, lifted(&[], &[0], &["0", "0"], &["0", "0"])), Err(Reason::XZero));
+    // Dof 0 is free and stays: the slip variable is number 1.
+    let p = system(&[&["3", "0", "0"], &["0", "2", "-1"], &["0", "-1", "5"]], 1);
+    assert_eq!(verdict(&p, lifted(&[1], &[], &["0", "-1", "0"], &["0", "-2", "1"])), Ok(()));
+    assert_eq!(verdict(&p, lifted(&[], &[1], &["0", "0", "0"], &["0", "0", "0"])), Err(Reason::XZero));
 }
 
 #[test]

@@ -118,6 +118,7 @@ fn what_exists_at_one_value_of_a_singular_support_is_an_ordinary_solution() {
     let p = singular([[0, 1], [-1, 0]]);
     let found = all(&p);
     assert!(found.ranges.is_empty() && found.continua == vec![vec![0, 1]]);
+    assert!(found.wide.is_empty()); // its kernel there has dimension 1
     assert_eq!(supports(&found), [("1".into(), vec![0, 1], vec![2])]);
     assert_eq!(found.solutions[0].multiplicity, 0);
     assert!(is_rational_solution(&p, &whole(1), &[whole(1), whole(1), whole(0)]));

@@ -216,3 +216,6 @@ fn round(y: &[Vec<f64>], scales: &[u64], needed: f64) -> (Vec<Vec<Integer>>, u32
     };
     (y.iter().map(|row| row.iter().zip(scales).map(integer).collect()).collect(), exponent as u32)
 }
+
+#[cfg(test)]
+mod tests;

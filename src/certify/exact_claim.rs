@@ -258,3 +258,6 @@ fn primitive(x: Vec<Vec<Rational>>) -> Vec<Vec<Number>> {
 fn times(row: &[(usize, crate::exact::Integer, crate::exact::Integer)], x: &[Poly]) -> Poly {
     row.iter().fold(Poly::default(), |sum, (j, a, b)| &sum + &(&Poly::new(vec![a.clone(), b.clone()]) * &x[*j]))
 }
+
+#[cfg(test)]
+mod tests;

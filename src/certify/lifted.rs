@@ -85,3 +85,20 @@ pub(super) fn remainder(mut rest: Vec<Rational>, p: &[Rational]) -> Vec<Rational
     }
     rest
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{rational, whole};
+
+    #[test]
+    fn remainders_are_shorter_than_the_divisor() {
+        let of = |g: &[i64], p: &[i64]| remainder(g.iter().map(|&c| whole(c)).collect(), &p.iter().map(|&c| whole(c)).collect::<Vec<_>>());
+        assert_eq!(of(&[1, 2, 3, 4], &[-2, 0, 1]), [whole(7), whole(10)]); // t^2 = 2
+        assert_eq!(of(&[0, 0, 1], &[1, 0, 3]), [rational(-1, 3)]);
+        assert_eq!(of(&[5, 1], &[-2, 1]), [whole(7)]);
+        assert_eq!(of(&[-4, 2], &[-2, 1]), []);
+        assert_eq!(of(&[5, 1], &[-2, 0, 1]), [whole(5), whole(1)]);
+        assert_eq!(of(&[5, 1], &[3]), [whole(5), whole(1)]); // no polynomial to divide by
+    }
+}

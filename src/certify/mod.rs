@@ -94,3 +94,44 @@ fn active(pencil: &Pencil, support: &[usize]) -> Vec<usize> {
     list.sort_unstable();
     list
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{Rational, Sparse, rational, whole};
+
+    fn diagonal(n: usize, entry: &Rational) -> Pencil {
+        let a = Sparse::from_entries(n, n, (0..n).map(|i| (i, i, -entry.clone())));
+        Pencil::new(a, Sparse::identity(n), vec![]).unwrap()
+    }
+
+    fn kind(pencil: &Pencil, value: f64) -> &'static str {
+        let n = pencil.order();
+        let candidate = Candidate { value, x: vec![1.0 / n as f64; n] };
+        match certify(pencil, &Window::all(), &candidate) {
+            Ok(Claim::ExactSolution(_)) => "exact",
+            Ok(_) => "enclosed",
+            Err(e) if matches!(e.attempts.last(), Some(a) if matches!(a.failure, AttemptFailure::TooLarge { .. })) => "too large",
+            Err(_) => "refused",
+        }
+    }
+
+    /// Small supports of short numbers are solved exactly; order times bits decides, and the order alone.
+    #[test]
+    fn the_kind_of_a_claim_follows_the_size() {
+        let bits = |b: u64| rational(1, 1) + Rational::new(1.into(), Integer::from(1) << (b - 2)); // b - 1 bits over b - 1
+        assert_eq!(IntegralRows::of(&diagonal(2, &bits(100))).bits(), 99);
+        assert_eq!([kind(&diagonal(1, &bits(100)), 1.0), kind(&diagonal(1, &bits(EXACT_BITS)), 1.0)], ["exact", "exact"]);
+        assert_eq!(kind(&diagonal(1, &bits(EXACT_BITS + 3)), 1.0), "enclosed");
+        // Two variables on one cycle, so that the null vector is the only one.
+        let long = bits(EXACT_BITS / 2 + 10);
+        let a = Sparse::from_entries(2, 2, [(0, 1, -long.clone()), (1, 0, -long)]);
+        assert_eq!(kind(&Pencil::new(a, Sparse::identity(2), vec![]).unwrap(), 1.0), "enclosed");
+        let cycle = |n: usize| {
+            let a = Sparse::from_entries(n, n, (0..n).map(|i| (i, (i + 1) % n, whole(-1))));
+            Pencil::new(a, Sparse::identity(n), vec![]).unwrap()
+        };
+        assert_eq!([kind(&cycle(EXACT_ORDER), 1.0), kind(&cycle(EXACT_ORDER + 1), 1.0)], ["exact", "enclosed"]);
+        assert_eq!(kind(&diagonal(ENCLOSED_ORDER + 2, &whole(1)), 1.0), "too large");
+    }
+}

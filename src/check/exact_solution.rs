@@ -176,3 +176,28 @@ fn times(row: &Row, x: &[Vec<Rational>]) -> Vec<Rational> {
     }
     sum
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::whole;
+
+    /// The limits themselves are allowed; beyond them the reason says by how much.
+    #[test]
+    fn a_claim_has_a_largest_size() {
+        let zero = || Number(whole(0));
+        let of = |coefficients: usize, longest_x: usize, (up, down): (u64, u64)| {
+            let value = Rational::new(Integer::from(1) << (up - 1), (Integer::from(1) << (down - 1)) + i32::from(down > 1));
+            bounded(&vec![Integer::from(1); coefficients], &[zero(), Number(value)], &[vec![zero(); longest_x], vec![]])
+        };
+        let large = |what, limit, got| Err(Reason::TooLarge { what, limit, got });
+        assert_eq!([of(512, 0, (1, 1)), of(1, 512, (1, 1))], [Ok(()), Ok(())]);
+        assert_eq!(of(513, 0, (1, 1)), large("coefficients of the polynomial", 512, 513));
+        assert_eq!(of(1, 513, (1, 1)), large("coefficients of x", 512, 513));
+        let size = "size (coefficients times bits)";
+        let edge = 1u64 << 18; // 3 + 5 coefficients: 2^21 in all
+        assert_eq!([of(3, 5, (edge - 1, 1)), of(3, 5, (edge / 2, edge / 2))], [Ok(()), Ok(())]);
+        assert_eq!(of(3, 5, (edge, 1)), large(size, 1 << 21, (1 << 21) + 8));
+        assert_eq!(of(3, 5, (edge / 2, edge / 2 + 1)), large(size, 1 << 21, (1 << 21) + 8));
+    }
+}

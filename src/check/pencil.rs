@@ -101,3 +101,44 @@ fn of_system(s: &System, unknown: Unknown) -> Rows {
 fn scale(d: &Direction, factor: &Rational) -> Direction {
     d.iter().map(|(dof, c)| (*dof, c * factor)).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{rational, whole};
+    use crate::model::{ContactState, Particle, Window};
+    use crate::reduction::reduce;
+
+    /// An oblique particle (3/5, 4/5), one along the axes and two free degrees of freedom: the block formulas
+    /// (16) of `reduction` give the same pencil.
+    #[test]
+    fn the_pencil_is_that_of_the_blocks() {
+        let (r, w) = (rational, whole);
+        let slip = |sign| ContactState::Slip { sign };
+        let frame = [[r(3, 5), r(4, 5)], [r(-4, 5), r(3, 5)]];
+        let oblique = Particle { frame: Some(frame), ..Particle::plain(0, 1, slip(1)) };
+        let plain = Particle { normal_direction: -1, ..Particle::plain(4, 5, slip(-1)) };
+        let symmetric = |diagonal: i64, scale: i64| {
+            let entry = |i: usize, j: usize| {
+                let v = r(((3 * i.min(j) + 5 * i.max(j)) % 7) as i64 - 3, scale);
+                if i == j { v + w(diagonal) } else { v }
+            };
+            let entries = (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| (i, j, entry(i, j)));
+            Sparse::from_entries(6, 6, entries.collect::<Vec<_>>())
+        };
+        let system = System::new(symmetric(40, 1), Some(symmetric(9, 3)), Some(r(2, 7)), vec![oblique, plain]).unwrap();
+        for unknown in [Unknown::Lambda2, Unknown::Mu] {
+            let problem = Problem::new(Body::System(system.clone()), unknown, Window::all()).unwrap();
+            let (rows, pencil) = (Rows::of(&problem), reduce(&problem).unwrap().pencil);
+            assert_eq!(rows.order(), pencil.order());
+            for (i, row) in rows.rows.iter().enumerate() {
+                assert_eq!(rows.is_free[i], pencil.free().contains(&i));
+                for (m, which) in [(pencil.a(), 0), (pencil.b(), 1)] {
+                    let scaled: Vec<(usize, Rational)> = m.row(i).iter().map(|(j, v)| (*j, v * Rational::from_integer(rows.factor[i].clone()))).collect();
+                    let own = row.iter().map(|(j, a, b)| (*j, Rational::from_integer(if which == 0 { a.clone() } else { b.clone() })));
+                    assert_eq!(own.filter(|(_, v)| *v != w(0)).collect::<Vec<_>>(), scaled);
+                }
+            }
+        }
+    }
+}

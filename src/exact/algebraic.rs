@@ -297,4 +297,28 @@ mod tests {
         irrational.try_rational();
         assert_eq!(irrational.as_rational(), None);
     }
+
+    #[test]
+    fn a_vector_is_reduced_to_least_degree() {
+        let root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
+        let v = root.reduce(&[Poly::from_ints(&[0, 0, 6]), Poly::from_ints(&[0, 8])]);
+        assert_eq!(v, [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])]);
+        let v = root.reduce(&[Poly::from_ints(&[0, 1, 0, 0, 0, 1])]); // t + 4 t
+        assert_eq!(v, [Poly::from_ints(&[0, 1])]);
+    }
+
+    /// A lead of more than 256 bits would cost as many halvings: the number stays as it is.
+    #[test]
+    fn a_rational_with_a_long_denominator_is_not_looked_for() {
+        let long = |bits: u32| &Poly::new(vec![(-3).into(), Integer::from(1) << bits]) * &Poly::from_ints(&[-2, 0, 1]);
+        let of = |bits: u32| {
+            let value = Rational::new(3.into(), Integer::from(1) << bits);
+            let interval = Interval::new(&value - Rational::new(1.into(), Integer::from(1) << (bits + 3)), value.clone() * Rational::from_integer(2.into())).unwrap();
+            let at_lo = long(bits).sign_at(interval.lo());
+            let mut number = Algebraic { poly: long(bits), interval, at_lo };
+            number.try_rational();
+            number.interval.is_point()
+        };
+        assert!(of(20) && !of(300));
+    }
 }

@@ -83,4 +83,11 @@ mod tests {
         }
         assert!(zero > 5);
     }
+
+    #[test]
+    fn cofactors_of_a_pencil_are_polynomials() {
+        let z = |m: [[i64; 2]; 2]| m.map(|r| r.map(Integer::from).to_vec()).to_vec();
+        let c = first_row_cofactors(&z([[1, 2], [3, 4]]), &z([[1, 0], [0, 1]]));
+        assert_eq!(c, [Poly::from_ints(&[4, 1]), Poly::from_ints(&[-3])]);
+    }
 }

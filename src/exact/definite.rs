@@ -254,4 +254,27 @@ mod tests {
         assert!(positive_definite(&ones(60)).is_err());
         assert!(matches!(positive_definite(&Sparse::zeros(2, 2)), Err(DefiniteError::Not(NotDefinite { index: 0, .. }))));
     }
+
+    /// I + ones: every row has its products.
+    #[test]
+    fn a_dense_matrix_is_accepted() {
+        let dense = |n: usize, d: Rational| {
+            let entry = move |i: usize, j: usize| if i == j { whole(1) + &d } else { rational(1 + (i * j % 3) as i64, 4) };
+            Sparse::from_entries(n, n, (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| (i, j, entry(i, j))).collect::<Vec<_>>())
+        };
+        assert_eq!([rounded_ldl(&dense(6, whole(1))), exact_ldl(&dense(6, whole(1)))], [Ok(()), Ok(())]);
+        assert!(rounded_ldl(&dense(6, rational(-9, 10))).is_err());
+    }
+
+    /// An entry off the diagonal is a residual of both its rows: the first of them is named.
+    #[test]
+    fn a_residual_off_the_diagonal_counts_for_both_rows() {
+        let good = chain(12, whole(2));
+        let fixed = Fixed::of(&good);
+        let (lower, pivots) = factor(&good, &fixed).unwrap();
+        for (i, j) in [(11, 0), (9, 4), (5, 4)] {
+            let off = Sparse::from_entries(12, 12, [(i, j, rational(1, 1_000_000)), (j, i, rational(1, 1_000_000))]);
+            assert_eq!(first_undominated(&good.add_scaled(&whole(1), &off), &fixed, &lower, &pivots), Some(j));
+        }
+    }
 }

@@ -156,4 +156,42 @@ mod tests {
         wrong[5].entries[0] += 1 << 30; // an entry off the diagonal, by 2^-18
         assert_eq!(is_dominated(&good, &wrong, &l, &d), Some(false));
     }
+
+    /// The dominance by hand, in integers of any length: factors that are nearly right, so that units decide.
+    #[test]
+    fn dominance_is_decided_to_the_last_unit() {
+        let (mut state, mut seen) = (88_172_645_463_325_252u64, [0; 2]);
+        let mut next = |size: i64| {
+            state ^= state << 13;
+            state ^= state >> 7;
+            state ^= state << 17;
+            (state % (2 * size as u64 + 1)) as i64 - size
+        };
+        for _ in 0..300 {
+            // Diagonals 1, 1/2 + ..., entries below; everything a multiple of 2^-48.
+            let unit = 1i64 << (UNIT - 1);
+            let d: Vec<i64> = (0..3).map(|_| unit / 2 + next(unit / 8)).collect();
+            let entry = |v: i64| vec![v];
+            let l = [next(1 << 35), next(1 << 35), next(1 << 35)]; // l_10, l_20, l_21 below 1/2
+            let rows = vec![Row { first: 0, entries: vec![] }, Row { first: 0, entries: entry(l[0]) }, Row { first: 0, entries: vec![l[1], l[2]] }];
+            let at = |i: usize, k: usize| -> Integer {
+                if i == k { Integer::one() << LOWER } else { Integer::from(l[i + k - 1]) }
+            };
+            let product = |i: usize, j: usize| -> Integer { (0..=j).map(|k| at(i, k) * d[k] * at(j, k)).sum() };
+            let one = Integer::one() << (2 * LOWER);
+            let a: Vec<Row> = (0..3)
+                .map(|i| {
+                    let rounded = |j: usize| (product(i, j) >> (2 * LOWER)).to_i64().unwrap() + if i == j { 5 + next(3) } else { next(1) };
+                    Row { first: 0, entries: (0..=i).map(rounded).collect() }
+                })
+                .collect();
+            let m = Sparse::from_entries(3, 3, (0..3).flat_map(|i| (0..3).map(move |j| (i, j, whole(1)))).collect::<Vec<_>>());
+            let rest = |i: usize, j: usize| Integer::from(a[i].entries[j]) * &one - product(i, j);
+            let off = |i: usize| -> Integer { (0..3).filter(|&j| j != i).map(|j| rest(i.max(j), i.min(j)).abs()).sum() };
+            let expected = (0..3).all(|i| rest(i, i) > off(i) + &one * 3);
+            assert_eq!(is_dominated(&m, &a, &rows, &d), Some(expected));
+            seen[usize::from(expected)] += 1;
+        }
+        assert!(seen[0] > 50 && seen[1] > 10, "{seen:?}");
+    }
 }

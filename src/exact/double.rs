@@ -115,4 +115,16 @@ mod tests {
             assert!(from_f64(value).is_err());
         }
     }
+
+    /// All ones above the last bit kept: rounding up makes a power of two.
+    #[test]
+    fn a_carry_out_of_the_mantissa_raises_the_exponent() {
+        let power = |k: u32| Rational::from_integer(Integer::from(1) << k);
+        for k in [54u32, 60, 200] {
+            let nearly = power(k) - rational(1, 1);
+            assert_eq!(to_f64(&nearly), 2f64.powi(k as i32));
+            assert_eq!(to_f64(&nearly.recip()), 2f64.powi(-(k as i32)));
+        }
+        assert_eq!(to_f64(&(power(53) - rational(1, 1))), 9_007_199_254_740_991.0);
+    }
 }

@@ -261,4 +261,20 @@ mod tests {
         assert!(matches!(schur_complement(&singular, &c, &r, &d), Err(CondenseError::ZeroMinor { .. })));
         assert!(matches!(schur_complement(&singular, &r, &r, &d), Err(CondenseError::Shape { what: "C", .. })));
     }
+
+    #[test]
+    fn a_singular_block_is_given_up_after_nine_primes() {
+        let ones = |n: usize, m: usize| Sparse::from_entries(n, m, (0..n).flat_map(|i| (0..m).map(move |j| (i, j, whole(1)))).collect::<Vec<_>>());
+        let got = schur_complement(&ones(2, 2), &ones(2, 1), &ones(1, 2), &ones(1, 1));
+        assert_eq!(got, Err(CondenseError::ZeroMinor { primes: MAX_SKIPPED + 1 }));
+    }
+
+    #[test]
+    fn the_representative_of_least_absolute_value_is_taken() {
+        let p = primes().next().unwrap();
+        let mut residues = Residues::new(4);
+        residues.add(p, &[(p - 1) / 2, (p - 1) / 2 + 1, 0, p - 1]);
+        let half = Integer::from((p - 1) / 2);
+        assert_eq!(residues.symmetric(), [half.clone(), -half, 0.into(), (-1).into()]);
+    }
 }

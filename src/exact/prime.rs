@@ -154,4 +154,9 @@ mod tests {
         let a = field.enter(42);
         assert_eq!(field.leave(field.mul(a, field.invert(a))), 1);
     }
+
+    #[test]
+    fn a_field_knows_its_prime() {
+        assert!(primes().take(3).all(|p| Field::new(p).prime() == p));
+    }
 }

@@ -110,4 +110,11 @@ mod tests {
         assert_eq!(golden.eval(&Poly::from_ints(&[-1, -1, 2])).sign(), Sign::Positive);
         assert!(golden.within(&rational(8, 5), &rational(17, 10)) && !golden.within(&whole(0), &rational(8, 5)));
     }
+
+    #[test]
+    fn scaled_and_rational_numbers() {
+        let third = number(3, -6, 7).scale(&rational(1, 3));
+        assert_eq!(third.add(&number(-1, 2, 7)).sign(), Sign::Zero);
+        assert_eq!([number(5, 0, 7).as_rational(), number(5, 1, 7).as_rational()], [Some(whole(5)), None]);
+    }
 }

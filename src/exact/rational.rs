@@ -198,4 +198,13 @@ mod tests {
         let values = [rational(1, 6), rational(3, 4), whole(2)];
         assert_eq!(common_denominator(&values), Integer::from(12));
     }
+
+    #[test]
+    fn a_sign_within_a_decimal_is_malformed_and_quoted() {
+        for text in [".+5", ".-5", "1.+5", "-.-5", ".", "1.x"] {
+            assert_eq!(parse(text), Err(NumberError::Malformed { text: text.into() }), "{text}");
+        }
+        assert_eq!(parse(&format!("x\n{}", "y".repeat(90))), Err(NumberError::Malformed { text: format!("x{}", "y".repeat(39)) }));
+        assert!(parse(&"9".repeat(MAX_SPELLING)).is_ok());
+    }
 }

@@ -45,7 +45,7 @@ pub fn enumerate(pencil: &Pencil, window: &Window) -> Result<Enumeration, Oracle
 }
 
 /// [`enumerate`] with a callback (supports done, supports in all) after each support; breaking
-/// ends the run and keeps what was found.
+/// ends the run and keeps what was found. Supports are counted in binary, the empty one first.
 ///
 /// # Errors
 /// As [`enumerate`].

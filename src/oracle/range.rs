@@ -146,3 +146,25 @@ fn clip(piece: Piece, window: &Window) -> Option<Piece> {
         _ => None,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{rational, whole};
+
+    /// Between zero and the negative root nearest to it, wherever the positive ones are.
+    #[test]
+    fn the_sample_below_zero_is_above_all_negative_roots() {
+        let linear = |root: (i64, i64)| Poly::from_ints(&[-root.0, root.1]);
+        let t = Poly::from_ints(&[0, 1]);
+        for (near, others) in [((-1, 10), vec![(5, 1)]), ((-4, 1), vec![(1, 100), (-9, 1)]), ((-3, 1), vec![(-7, 2), (1, 3), (8, 1)])] {
+            let poly = others.iter().fold(&t * &linear(near), |p, r| &p * &linear(*r));
+            let sample = sample_below_zero(&poly);
+            assert!(sample > rational(near.0, near.1) && sample < whole(0), "{near:?}: {sample}");
+        }
+        // Irrational: t (t^2 + 3 t + 1) has -0.381966.
+        let sample = sample_below_zero(&(&t * &Poly::from_ints(&[1, 3, 1])));
+        assert!(sample > rational(-38, 100) && sample < whole(0), "{sample}");
+        assert_eq!(sample_below_zero(&(&t * &linear((2, 1)))), whole(-1));
+    }
+}

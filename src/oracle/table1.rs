@@ -142,4 +142,52 @@ mod tests {
         assert!(table1(&horizontal).is_empty());
         assert_eq!(thresholds(&horizontal).map(|t| t.len()), Some(0));
     }
+
+    /// The 2x2 problem of the heading with t = lambda^2 m / k and q = mu c s, exactly: is x a solution with support `slip`?
+    fn solves(data: &TwoParticles, t: &Quadratic, q: &Quadratic, s: &ClosedSolution) {
+        let (s1, s2) = (whole(data.signs.0.into()), whole(data.signs.1.into()));
+        let diagonal = t.add(&t.embed(&data.c * &data.c + whole(1)));
+        let off = -&s1 * &s2;
+        let y = [
+            diagonal.add(&q.scale(&-s1)).mul(&s.x[0]).add(&s.x[1].scale(&off)),
+            diagonal.add(&q.scale(&s2)).mul(&s.x[1]).add(&s.x[0].scale(&off)),
+        ];
+        for i in 0..2 {
+            let signs = (s.x[i].sign(), y[i].sign());
+            let fits = if s.slip.contains(&i) { signs == (Sign::Positive, Sign::Zero) } else { signs.0 == Sign::Zero && signs.1 != Sign::Negative };
+            assert!(fits, "{data:?} {i} {signs:?}");
+        }
+    }
+
+    #[test]
+    fn every_solution_solves_the_problem_it_is_the_table_of() {
+        let mut seen = 0;
+        for mu in [rational(21, 10), whole(5), whole(9)] {
+            for signs in [(1, 1), (-1, -1), (1, -1)] {
+                let data = TwoParticles { k: whole(7), m: rational(5, 3), ..data(mu.clone(), signs) };
+                for s in table1(&data) {
+                    let t = s.value.scale(&(&data.m / &data.k));
+                    solves(&data, &t, &t.embed(&data.mu * &data.c * &data.s), &s);
+                    seen += 1;
+                }
+            }
+        }
+        assert_eq!(seen, 2 * 3 + 3 + 3); // at mu = 21/10 none of (+1, -1)
+    }
+
+    /// At a threshold the solution has lambda^2 = 0.
+    #[test]
+    fn thresholds_are_where_the_value_is_zero() {
+        for (signs, count) in [((1, 1), 1), ((-1, -1), 1), ((1, -1), 3), ((-1, 1), 0)] {
+            let data = data(whole(1), signs);
+            let list = thresholds(&data).unwrap();
+            assert_eq!(list.len(), count);
+            for s in list {
+                solves(&data, &s.value.embed(whole(0)), &s.value.scale(&(&data.c * &data.s)), &s);
+            }
+        }
+        for (c, s) in [(whole(0), whole(1)), (whole(1), whole(0))] {
+            assert_eq!(thresholds(&TwoParticles { c, s, ..data(whole(1), (1, -1)) }).map(|t| t.len()), Some(0));
+        }
+    }
 }

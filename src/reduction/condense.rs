@@ -79,4 +79,17 @@ mod tests {
         let admissible = Admissible::new(&p, Unknown::Lambda2).unwrap();
         assert!(matches!(condense(&admissible), Err(CondensationError::Unknown { got: "lambda2" })));
     }
+
+    /// Three slip variables, one free: x_0 = -(x_1 + 2 x_2 - x_3) / 4 put into the other rows by hand.
+    #[test]
+    fn each_row_of_a_and_of_b_gets_its_share() {
+        let a = Sparse::from_ints(&[&[4, 1, 2, -1], &[1, 5, 0, 0], &[2, 0, 6, 0], &[-1, 0, 0, 7]]);
+        let b = Sparse::from_ints(&[&[0, 0, 0, 0], &[4, 1, 0, 0], &[8, 0, 1, 0], &[-12, 0, 0, 1]]);
+        let full = Pencil::new(a, b, vec![0]).unwrap();
+        let small = condense(&Admissible::new(&full, Unknown::Mu).unwrap()).unwrap();
+        let quarters = Sparse::from_ints(&[&[19, -2, 1], &[-2, 20, 2], &[1, 2, 27]]);
+        let fourth = crate::exact::rational(1, 4);
+        assert_eq!(*small.a(), Sparse::from_entries(3, 3, []).add_scaled(&fourth, &quarters));
+        assert_eq!(*small.b(), Sparse::from_ints(&[&[0, -2, 1], &[-2, -3, 2], &[3, 6, -2]]));
+    }
 }

@@ -264,3 +264,6 @@ fn sign(probe: usize, i: usize) -> f64 {
 fn on_dofs(p: &Particle, d: &Direction) -> [f64; 2] {
     [p.tangential, p.normal].map(|dof| d.iter().filter(|e| e.0 == dof).map(|e| to_f64(&e.1)).sum())
 }
+
+#[cfg(test)]
+mod tests;

@@ -209,4 +209,51 @@ mod tests {
         let starts = CondensedEmbedding::new(&condensation, 1.0).unwrap().starts(9, 4);
         assert!(starts.len() == 9 && starts.iter().all(|z| (z[..3].iter().sum::<f64>() - 1.0).abs() < 1e-12));
     }
+
+    #[test]
+    fn the_mcp_has_the_bounds_and_the_row_of_the_proposition() {
+        let condensation = condensation(true);
+        let mut e = CondensedEmbedding::new(&condensation, 1.5).unwrap();
+        e.diagonal = vec![0.5, 1.0, 4.0]; // those of the block are all alike
+        assert_eq!((e.dimension(), e.lower(), e.upper()), (4, &[0.0; 4][..], &[f64::INFINITY; 4][..]));
+        let mut f = [0.0; 4];
+        e.function(&[0.25, 0.5, 0.75, 0.125], &mut f);
+        assert_eq!(f[3], 0.5);
+        // y = D T(t) D u at the t and x that the point stands for.
+        let z = [0.2, 0.5, 0.3, 0.7];
+        e.function(&z, &mut f);
+        let (value, x) = e.value_and_x(&z);
+        approx::assert_relative_eq!(x.iter().sum::<f64>(), 1.0, max_relative = 1e-12);
+        let t = condensation.at(value).unwrap().pencil(1.5);
+        let scale: f64 = z.iter().zip(&e.diagonal).map(|(u, d)| u * d).sum();
+        for i in 0..3 {
+            let y: f64 = t[i].iter().zip(&x).map(|(t, x)| t * x).sum();
+            approx::assert_relative_eq!(f[i], e.diagonal[i] * y * scale, max_relative = 1e-9);
+            approx::assert_relative_eq!(x[i] * scale, z[i] * e.diagonal[i], max_relative = 1e-12);
+        }
+    }
+
+    #[test]
+    fn scales_are_powers_of_two() {
+        assert_eq!([4.0, 16.0, 0.25, 8.0, 5.0].map(power_of_two), [0.5, 0.25, 2.0, 0.25, 0.5]);
+        assert_eq!([0.0, -4.0, f64::INFINITY, f64::NAN].map(power_of_two), [1.0; 4]);
+    }
+
+    /// A particle is kept with probability 0.2 to 1: three fifths of them, all where none was.
+    #[test]
+    fn starts_lie_on_random_faces() {
+        let condensation = condensation(true);
+        let e = CondensedEmbedding::new(&condensation, 1.0).unwrap();
+        let starts = e.starts(403, 8);
+        assert_eq!([starts[0][3], starts[1][3], starts[2][3]], [1.0, 32.0, 0.0]);
+        for z in &starts {
+            approx::assert_relative_eq!(z[..3].iter().sum::<f64>(), 1.0, max_relative = 1e-12);
+            assert!(z.iter().all(|u| *u >= 0.0));
+        }
+        let moving = starts[3..].iter().flat_map(|z| &z[..3]).filter(|u| **u > 0.0).count();
+        let even = starts[3..].iter().filter(|z| z[0] == z[1] && z[1] == z[2]).count();
+        // None kept: the mean of (1 - keep)^3, 0.128.
+        assert!((700..950).contains(&moving) && (25..85).contains(&even), "{moving} of 1200, {even} of 400");
+        assert_eq!((e.starts(2, 8).len(), e.starts(403, 8)), (2, starts));
+    }
 }

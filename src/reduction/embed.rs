@@ -205,3 +205,6 @@ impl Mcp for Embedding {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -115,4 +115,27 @@ mod tests {
         let (point, _) = crashed(dmatrix![-1.0], vec![-1.0], &[0.0]);
         assert!(point.merit <= 2.0);
     }
+
+    /// At a bound with F strictly out of it; at equal bounds always.
+    #[test]
+    fn active_is_what_is_held_at_its_bound() {
+        let p = LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![0.0], vec![4.0]).unwrap();
+        let of = |z: f64, f: f64| active_set(&p, &Point { z: DVector::from_element(1, z), f: DVector::from_element(1, f), merit: 0.0 })[0];
+        assert_eq!([of(0.0, 1.0), of(0.0, 0.0), of(0.0, -1.0), of(1.0, 1.0), of(1.0, -1.0)], [true, false, false, false, false]);
+        assert_eq!([of(4.0, -1.0), of(4.0, 0.0), of(4.0, 1.0)], [true, false, false]);
+        let fixed = LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![4.0], vec![4.0]).unwrap();
+        assert!(active_set(&fixed, &Point { z: DVector::from_element(1, 4.0), f: DVector::from_element(1, 0.0), merit: 0.0 })[0]);
+    }
+
+    /// The proximal term: CRASH_PROXIMAL sqrt(merit) between its limits, times the largest entry.
+    #[test]
+    fn the_proximal_term_vanishes_with_the_merit() {
+        let singular = dmatrix![0.0, 0.0; 0.0, 8.0];
+        let of = |merit: f64| newton_direction(&singular, &Point { z: DVector::zeros(2), f: DVector::from_element(2, 1.0), merit }, &[false; 2]);
+        for (merit, term) in [(1e9, CRASH_PROXIMAL), (0.25, 0.5 * CRASH_PROXIMAL), (0.0, CRASH_PROXIMAL_LEAST)] {
+            let (direction, proximal) = of(merit);
+            assert_eq!(proximal, term * 8.0);
+            approx::assert_relative_eq!(direction.unwrap()[0], -1.0 / (term * 8.0), max_relative = 1e-9);
+        }
+    }
 }

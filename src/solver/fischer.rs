@@ -110,4 +110,29 @@ mod tests {
             }
         }
     }
+
+    /// Of Psi by central differences, with bounds of every kind; and at the kink along a = b.
+    #[test]
+    fn the_gradient_is_that_of_the_merit() {
+        use crate::mcp::LinearMcp;
+        use nalgebra::dmatrix;
+        let m = dmatrix![2.0, -1.0, 0.5, 0.0; 1.0, 3.0, 0.0, 0.25; -0.5, 0.75, 1.5, 1.0; 0.25, 1.0, -1.0, 2.0];
+        let p = LinearMcp::new(m.clone(), vec![-1.0, 0.5, -0.25, 0.75], vec![0.0, -INF, -1.0, -INF], vec![INF, 2.0, 3.0, INF]).unwrap();
+        let f = |z: &DVector<f64>| &m * z + DVector::from_column_slice(p.vector());
+        let z = DVector::from_column_slice(&[0.75, 0.5, 0.25, -0.5]);
+        let got = gradient(&p, z.as_slice(), f(&z).as_slice(), &m);
+        for i in 0..4 {
+            let at = |h: f64| {
+                let mut moved = z.clone();
+                moved[i] += h;
+                merit(&p, &moved, &f(&moved))
+            };
+            approx::assert_relative_eq!(got[i], (at(1e-6) - at(-1e-6)) / 2e-6, max_relative = 1e-6, epsilon = 1e-8);
+        }
+        let kink = 0.5f64.sqrt() - 1.0;
+        let (value, a, b) = phi(0.0, 0.0);
+        assert_eq!(value, 0.0);
+        approx::assert_relative_eq!(a, kink, max_relative = 1e-15);
+        approx::assert_relative_eq!(b, kink, max_relative = 1e-15);
+    }
 }

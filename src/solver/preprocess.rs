@@ -127,4 +127,16 @@ mod tests {
         assert_eq!(less.reduced, Some(expected));
         assert_eq!(less.restore(&[3.0, 4.0]), [3.0, 0.0, 4.0]);
     }
+
+    /// F_0 = 1 + 2 z_0 - 3 z_1 over [-1, 4] x [-2, 5]: from -16 to 15; decided values are points.
+    #[test]
+    fn the_range_of_a_row_takes_the_right_ends() {
+        let p = LinearMcp::new(dmatrix![2.0, -3.0; 0.0, 0.0], vec![1.0, -7.0], vec![-1.0, -2.0], vec![4.0, 5.0]).unwrap();
+        assert_eq!(range(&p, &[None, None], 0), (-16.0, 15.0, 1.0 + 8.0 + 15.0));
+        assert_eq!(range(&p, &[Some(3.0), None], 0), (-8.0, 13.0, 1.0 + 6.0 + 15.0));
+        assert_eq!(range(&p, &[Some(3.0), Some(-2.0)], 0), (13.0, 13.0, 1.0 + 6.0 + 6.0));
+        assert_eq!(range(&p, &[None, None], 1), (-7.0, -7.0, 7.0));
+        let p = LinearMcp::new(dmatrix![2.0, -3.0; 0.0, 0.0], vec![1.0, -7.0], vec![-1.0, 0.0], vec![INF, INF]).unwrap();
+        assert_eq!(range(&p, &[None, None], 0), (-INF, INF, 1.0 + 2.0));
+    }
 }

@@ -91,4 +91,46 @@ mod tests {
         let mean = (0..1000).map(|i| spread(3, i)).sum::<f64>() / 1000.0;
         assert!((0..1000).all(|i| spread(3, i).abs() <= 1.0) && mean.abs() < 0.1, "{mean}");
     }
+
+    /// The table of attempts, each with what sets it apart.
+    #[test]
+    fn each_attempt_has_its_settings() {
+        let free = Attempt { crash: false, first: Start::Regular, acceptance: Acceptance::Free, fraction: 1.0, shift: 0.0, proximal: 0.0 };
+        let [small, large] = RESTART_SHIFT;
+        let list = [
+            Attempt { crash: true, acceptance: Acceptance::NonMonotone, ..free },
+            free,
+            Attempt { fraction: RESTART_FRACTION, shift: small, ..free },
+            Attempt { shift: large, ..free },
+            Attempt { acceptance: Acceptance::Monotone, proximal: RESTART_PROXIMAL, shift: small, ..free },
+            Attempt { first: Start::Ray, shift: large, ..free },
+            Attempt { fraction: RESTART_FRACTION, shift: small, ..free },
+            Attempt { shift: large, ..free },
+        ];
+        for (k, expected) in list.into_iter().enumerate() {
+            assert_eq!(Attempt::number(k), expected, "{k}");
+        }
+        assert_eq!(Attempt::far(), Attempt { shift: large, ..free });
+    }
+
+    /// The hash again in 128 bits (splitmix64), and the shift it makes: relative to 1 + |z|.
+    #[test]
+    fn shifts_are_those_of_the_hash() {
+        let wrap = |a: u128, b: u128| a * b % (1 << 64);
+        let number = |k: u128, i: u128| {
+            let seed = wrap(k, 0x9e37_79b9_7f4a_7c15) ^ wrap(i + 1, 0xd1b5_4a32_d192_ed03);
+            let mixed = wrap(seed ^ (seed / (1 << 30)), 0xbf58_476d_1ce4_e5b9);
+            let mixed = wrap(mixed ^ (mixed / (1 << 27)), 0x94d0_49bb_1331_11eb);
+            let top = (mixed ^ (mixed / (1 << 31))) / (1 << 11);
+            top as f64 / 2f64.powi(52) - 1.0
+        };
+        for k in 0..40 {
+            for i in 0..10 {
+                assert_eq!(spread(k, i), number(k as u128, i as u128));
+            }
+        }
+        let (attempt, start) = (Attempt { shift: 0.25, ..Attempt::number(1) }, dvector![-7.0, 0.5]);
+        let moved = attempt.shifted(&start, 3);
+        assert_eq!(moved, dvector![-7.0 + 2.0 * number(3, 0), 0.5 + 0.375 * number(3, 1)]);
+    }
 }

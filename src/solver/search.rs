@@ -144,3 +144,82 @@ impl Search {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::path::{PathEnd, Start};
+    use super::*;
+    use nalgebra::DVector;
+
+    fn point(z: &[f64], merit: f64) -> Point {
+        Point { z: DVector::from_column_slice(z), f: DVector::zeros(z.len()), merit }
+    }
+
+    fn path() -> Path {
+        Path { knots: Vec::new(), pivots: Vec::new(), end: PathEnd::Complete, start: Start::Regular, factorisations: 0 }
+    }
+
+    fn search(k: usize, options: &Options) -> Search {
+        let start = point(&[3.0, -4.0], 8.0);
+        Search::new(&start, &start, options, Attempt { fraction: 0.5, ..Attempt::number(k) })
+    }
+
+    #[test]
+    fn a_fraction_of_the_path_is_taken_while_far() {
+        let s = search(0, &Options::default());
+        assert_eq!([s.fraction(8.0), s.fraction(1.01 * NEAR * 8.0), s.fraction(NEAR * 8.0), s.fraction(0.0)], [0.5, 0.5, 1.0, 1.0]);
+    }
+
+    /// The largest of the last merits is the reference; a point passes at (1 - sigma t) of it, and only if finite.
+    #[test]
+    fn points_pass_against_the_memory() {
+        let options = Options { nms_memory_size: 3, nms_initial_reference_factor: 2.0, ..Options::default() };
+        let mut s = search(0, &options);
+        assert_eq!(s.reference(), 16.0);
+        for (merit, reference) in [(5.0, 16.0), (7.0, 16.0), (1.0, 7.0), (2.0, 7.0), (3.0, 3.0), (0.5, 3.0)] {
+            s.take_checked(&point(&[0.0], merit));
+            assert_eq!(s.reference(), reference);
+        }
+        let passes = |merit: f64, t: f64| s.passes(&point(&[0.0], merit), t);
+        assert!(passes(3.0 * (1.0 - ARMIJO), 1.0) && !passes(3.0 * (1.0 - 0.9 * ARMIJO), 1.0) && passes(3.0 * (1.0 - 0.9 * ARMIJO), 0.5));
+        assert!(!passes(f64::NAN, 1.0) && !passes(f64::INFINITY, 1.0));
+        let mut monotone = search(4, &options);
+        assert_eq!(monotone.reference(), 8.0);
+        monotone.take_checked(&point(&[0.0], 6.0));
+        assert_eq!(monotone.reference(), 6.0);
+    }
+
+    /// Short steps go unchecked, all but every tenth in a row; each halves the radius; the first leaves a checkpoint.
+    #[test]
+    fn unchecked_steps_are_short_and_counted() {
+        let options = Options { nms_mstep_frequency: 4, nms_maximum_watchdogs: 1, ..Options::default() };
+        let mut s = search(0, &options);
+        let radius = TRUST * 5.0;
+        assert_eq!(s.radius, radius);
+        let allowed = |s: &Search, far: f64, merit: f64| s.unchecked_allowed(&point(&[1.0, 0.0], 1.0), &point(&[1.0, far], merit));
+        assert!(allowed(&s, radius, 1e9) && !allowed(&s, 1.01 * radius, 1.0) && !allowed(&s, 0.0, f64::INFINITY));
+        for k in 1..=3 {
+            assert!(allowed(&s, 0.0, 1.0), "{k}");
+            s.take_unchecked(&path(), &point(&[k as f64], 8.0 - k as f64));
+            assert_eq!((s.unchecked, s.radius, s.best().merit), (k, radius * TRUST_SHRINK.powi(k as i32), 8.0 - k as f64));
+        }
+        assert!(!allowed(&s, 0.0, 1.0));
+        assert!(s.checkpoint.is_some() && s.watchdog().is_some() && s.unchecked == 0);
+        assert!(s.watchdog().is_none()); // nothing taken since
+        s.take_unchecked(&path(), &point(&[0.0], 9.0));
+        assert_eq!(s.best().merit, 5.0);
+        assert!(s.watchdog().is_none()); // one is all there was
+        s.forgive_watchdogs();
+        s.take_unchecked(&path(), &point(&[0.0], 9.0));
+        assert!(s.watchdog().is_some());
+        s.take_unchecked(&path(), &point(&[0.0], 9.0));
+        s.take_checked(&point(&[0.0], 9.0));
+        assert!(s.checkpoint.is_none() && s.unchecked == 0 && s.watchdog().is_none());
+    }
+
+    #[test]
+    fn gradient_steps_are_counted() {
+        let mut s = search(0, &Options { gradient_step_limit: 2, ..Options::default() });
+        assert_eq!([s.gradient_allowed(), s.gradient_allowed(), s.gradient_allowed()], [true, true, false]);
+    }
+}

@@ -279,3 +279,6 @@ fn norms(list: &[Matrix], cols: usize) -> Vec<Vec<Integer>> {
     };
     list.iter().map(|m| (0..cols).map(|j| norm(m, j)).collect()).collect()
 }
+
+#[cfg(test)]
+mod tests;

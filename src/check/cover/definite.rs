@@ -151,4 +151,69 @@ mod tests {
             assert!(positive_definite(&near(e), &zero(2), &[0, 1], 1).is_err(), "{e}");
         }
     }
+
+    /// Both diagonal entries, the radius of the lower row, and what must hold at the edge: with `cut` bits cut off
+    /// S = 2 m, row 1 needs S_11 - slack > 2 SHIFT.
+    fn two(m: [i64; 2], r: [[i64; 2]; 2]) -> Result<(), usize> {
+        let m = vec![vec![m[0].into(), Integer::zero()], vec![Integer::zero(), m[1].into()]];
+        let r = r.iter().map(|row| row.map(Integer::from).to_vec()).collect();
+        positive_definite(&m, &r, &[0, 1], 1)
+    }
+
+    #[test]
+    fn the_slack_is_counted_to_the_last_unit() {
+        let none = [[0, 0], [0, 0]];
+        // Nothing is cut: S = 2 m, the slack is the radius alone.
+        let short = 1 << 30;
+        assert_eq!([two([short, 257], none), two([short, 256], none)], [Ok(()), Err(1)]);
+        let r = [[0, 3], [5, 4]]; // each radius becomes two more as a short one: 5 + 7 + 2 * 6 = 24
+        assert_eq!([two([short, 269], r), two([short, 268], r)], [Ok(()), Err(1)]);
+        let r = [[0, 3], [0, 4]]; // 5 + 2 * 6 = 17
+        assert_eq!([two([short, 265], r), two([short, 264], r)], [Ok(()), Err(1)]);
+        // 12 bits are cut: every row loses two units by it, and one more where there is a radius.
+        let (long, unit) = (1 << 50, 1 << 11); // 2 unit = 2^12
+        assert_eq!([two([long, 515 * unit], none), two([long, 515 * unit - 1], none)], [Ok(()), Err(1)]);
+        let r = [[0, 3 << 12], [2 << 12, 1 << 12]]; // 7 units of 2^12
+        assert_eq!([two([long, 523 * unit], r), two([long, 523 * unit - 1], r)], [Ok(()), Err(1)]);
+        let r = [[0, 0], [1, 0]]; // less than a unit
+        assert_eq!([two([long, 516 * unit], r), two([long, 516 * unit - 1], r)], [Ok(()), Err(1)]);
+    }
+
+    /// Bits are cut off S so that 41 are left: one bit more of the largest entry is one bit less of the others.
+    #[test]
+    fn what_is_cut_follows_the_largest_entry() {
+        let none = [[0, 0], [0, 0]];
+        for bits in [39, 40, 41, 45, 60] {
+            let cut = (bits + 1u32).saturating_sub(40);
+            let lost = if cut > 0 { 2 } else { 0 };
+            let edge = (513 + lost) << cut;
+            let half = |v: i64| (v + 1) / 2;
+            assert_eq!([two([1 << (bits - 1), half(edge)], none), two([1 << (bits - 1), half(edge) - 1], none)], [Ok(()), Err(1)], "{bits}");
+        }
+    }
+
+    /// The factors of this matrix are all positive and hide an eigenvalue that is not: the residual tells.
+    #[test]
+    fn factors_that_do_not_multiply_out_prove_nothing() {
+        let lower: [&[i128]; 4] = [&[1028], &[2, 1028], &[6160, 4662, 12_653_620], &[84_137, 63_657, 172_869_770, 4_528_399_482]];
+        let lower: Vec<Vec<i128>> = lower.iter().map(|row| row.to_vec()).collect();
+        let (l, d) = factor(&lower, SHIFT * 4).unwrap();
+        assert_eq!(dominated(&lower, &l, &d, 4), Err(3));
+        // S = 2 sym(m)
+        let entry = |i: usize, j: usize| match i.cmp(&j) {
+            std::cmp::Ordering::Less => 0,
+            std::cmp::Ordering::Equal => lower[i][j] / 2,
+            std::cmp::Ordering::Greater => lower[i][j],
+        };
+        let m: Matrix = (0..4).map(|i| (0..4).map(|j| Integer::from(entry(i, j))).collect()).collect();
+        assert_eq!(positive_definite(&m, &zero(4), &[0, 1, 2, 3], 1), Err(3));
+    }
+
+    #[test]
+    fn the_largest_order_is_still_decided() {
+        // One variable many times over is singular: row 1 says so, and row 0 beyond the largest order.
+        let one = Short::of(&matrix(&[&[1]]), &zero(1), &[0]).unwrap();
+        assert_eq!(super::positive_definite(&one, &[0; MAX_ORDER], 1), Err(1));
+        assert_eq!(super::positive_definite(&one, &[0; MAX_ORDER + 1], 1), Err(0));
+    }
 }

@@ -133,3 +133,72 @@ pub(super) fn shift(v: &Integer, bits: i64) -> Integer {
 pub(super) fn largest_bits<'a>(values: impl Iterator<Item = &'a Integer>) -> u64 {
     values.map(Integer::bits).max().unwrap_or(0)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{rational, whole};
+
+    /// One row short of 128 bits, one of exactly 128 and one of 131, which loses three.
+    fn rows() -> Rows {
+        let int = |v: i64, bits: u32| (Integer::from(v) << bits) + v;
+        let row = |bits: u32| vec![(0, int(1, bits), int(-3, 7)), (1, int(-1, bits - 5), int(5, 2)), (2, Integer::zero(), int(1, bits - 9))];
+        Rows { rows: vec![row(20), row(127), row(130)], factor: vec![Integer::one(); 3], is_free: vec![false; 3] }
+    }
+
+    fn floor(v: &Integer, bits: i64) -> Integer {
+        let two = |k: i64| Rational::from_integer(Integer::one() << k.unsigned_abs());
+        let v = Rational::from_integer(v.clone());
+        (if bits < 0 { v / two(bits) } else { v * two(bits) }).floor().to_integer()
+    }
+
+    /// Entry (i, j) of A and of B in the fixed unit.
+    fn fixed(rows: &Rows, i: usize, j: usize) -> (Integer, Integer) {
+        let bits = [107, 0, -3][i];
+        (floor(&rows.rows[i][j].1, bits), floor(&rows.rows[i][j].2, bits))
+    }
+
+    #[test]
+    fn ends_are_exact_but_for_what_is_cut_off() {
+        let rows = rows();
+        let linear = Linear::of(&rows);
+        assert_eq!(linear.radius, [0, 0, 1].map(Integer::from));
+        let (lo, hi) = (rational(2, 3), rational(7, 5));
+        let ends = linear.ends(&lo, Some(&hi));
+        assert_eq!((ends.scale, ends.infinite), (Integer::from(15) << 128u32, false));
+        for i in 0..3 {
+            let radius = i64::from(i == 2);
+            for j in 0..3 {
+                let (a, b) = fixed(&rows, i, j);
+                assert_eq!([&ends.m[0][i][j], &ends.m[1][i][j]], [&(&a * 15 + &b * 10), &(&a * 15 + &b * 21)]);
+                assert_eq!([&ends.r[0][i][j], &ends.r[1][i][j]], [25 * radius, 36 * radius].map(Integer::from).each_ref());
+                assert_eq!(ends.slope[i][j], Integer::from(11 * radius));
+            }
+        }
+    }
+
+    #[test]
+    fn an_infinite_end_is_the_direction() {
+        let rows = rows();
+        let ends = Linear::of(&rows).ends(&rational(2, 3), None);
+        assert_eq!((ends.scale, ends.infinite), (Integer::from(3) << 128u32, true));
+        for i in 0..3 {
+            for j in 0..3 {
+                let (a, b) = fixed(&rows, i, j);
+                assert_eq!([&ends.m[0][i][j], &ends.m[1][i][j]], [&(&a * 3 + &b * 2), &b]);
+                assert_eq!([&ends.r[0][i][j], &ends.r[1][i][j]], [5 * i64::from(i == 2), i64::from(i == 2)].map(Integer::from).each_ref());
+                assert_eq!(ends.slope[i][j], Integer::zero());
+            }
+        }
+        assert!(Family::Linear(Linear::of(&rows)).ends(None, &whole(1), None).is_ok());
+    }
+
+    /// The short numbers are there for ordinary matrices, or every leaf would be computed with long ones.
+    #[test]
+    fn ordinary_matrices_have_short_numbers() {
+        let linear = Linear::of(&rows());
+        let (lo, hi) = (rational(2, 3), rational(7, 5));
+        assert!(linear.short(&lo, Some(&hi)).is_some() && linear.short(&lo, None).is_some());
+        assert!(linear.ends(&lo, Some(&hi)).short().is_some() && linear.ends(&lo, None).short().is_some());
+    }
+}

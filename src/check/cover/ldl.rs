@@ -82,3 +82,92 @@ fn symmetric_part(rows: &Rows, active: &[usize], a: &Rational, b: &Rational) -> 
     }
     out
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{Sparse, parse, whole};
+    use crate::model::file::Number;
+    use crate::model::{Body, Pencil, Problem, Unknown, Window};
+
+    fn number(v: &str) -> Number {
+        Number(parse(v).unwrap())
+    }
+
+    fn factor(diagonal: [&str; 2], below: &str) -> LdlFactor {
+        LdlFactor { rows: vec![vec![], vec![number(below)]], diagonal: diagonal.map(number).to_vec() }
+    }
+
+    /// sign ([[2, 3], [-1, 4]] + t [[1, 0], [0, 0]]) from 1 to 3 or to infinity: sym is [[2 + t, 1], [1, 4]].
+    fn verdict(sign: i64, hi: Option<i64>, ldl: &Ldl) -> Result<(), CoverFault> {
+        let sparse = |rows: [[i64; 2]; 2]| {
+            let entries = [(0, 0), (0, 1), (1, 0), (1, 1)].map(|(i, j)| (i, j, whole(sign * rows[i][j])));
+            Sparse::from_entries(2, 2, entries)
+        };
+        let pencil = Pencil::new(sparse([[2, 3], [-1, 4]]), sparse([[1, 0], [0, 0]]), vec![]).unwrap();
+        let rows = Rows::of(&Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap());
+        let states = vec![State::Open, State::Moving];
+        let region = Region { lo: whole(1), hi: hi.map(whole), states, matrices: Default::default(), zero: Integer::zero() };
+        check(&rows, &region, &[0, 1], ldl)
+    }
+
+    #[test]
+    fn definite_of_either_sign_at_both_ends() {
+        let positive = Ldl { lower: factor(["3", "11/3"], "1/3"), upper: factor(["5", "19/5"], "1/5") };
+        let negative = Ldl { lower: factor(["-3", "-11/3"], "1/3"), upper: factor(["-5", "-19/5"], "1/5") };
+        assert_eq!([verdict(1, Some(3), &positive), verdict(-1, Some(3), &negative)], [Ok(()), Ok(())]);
+        let not = |index, end| Err(CoverFault::NotDefinite { index, end });
+        let mixed = Ldl { upper: negative.upper.clone(), ..positive.clone() };
+        assert_eq!(verdict(1, Some(3), &mixed), not(0, "upper"));
+        let mixed = Ldl { lower: negative.lower.clone(), ..positive.clone() };
+        assert_eq!(verdict(1, Some(3), &mixed), Err(CoverFault::Factor { row: 0, column: 0, end: "lower" }));
+        let mut turned = negative;
+        turned.lower.diagonal[1] = number("1");
+        assert_eq!(verdict(-1, Some(3), &turned), not(1, "lower"));
+    }
+
+    /// At infinity, which is no value of the window, B may be semidefinite; at an end it may not.
+    #[test]
+    fn zero_will_do_at_infinity_only() {
+        let lower = factor(["3", "11/3"], "1/3");
+        let at_infinity = Ldl { lower: lower.clone(), upper: factor(["1", "0"], "0") };
+        assert_eq!(verdict(1, None, &at_infinity), Ok(()));
+        assert_eq!(verdict(1, Some(3), &at_infinity), Err(CoverFault::NotDefinite { index: 1, end: "upper" }));
+        let singular = Ldl { lower: factor(["3", "0"], "1/3"), upper: at_infinity.upper };
+        assert_eq!(verdict(1, None, &singular), Err(CoverFault::NotDefinite { index: 1, end: "lower" }));
+    }
+
+    #[test]
+    fn lists_have_the_length_of_the_block() {
+        let length = |what, expected, got| Err(CoverFault::Length { what, expected, got });
+        let with = |change: &dyn Fn(&mut LdlFactor)| {
+            let mut ldl = Ldl { lower: factor(["3", "11/3"], "1/3"), upper: factor(["5", "19/5"], "1/5") };
+            change(&mut ldl.upper);
+            verdict(1, Some(3), &ldl)
+        };
+        assert_eq!(with(&|f| f.diagonal.truncate(1)), length("ldl diagonal", 2, 1));
+        assert_eq!(with(&|f| f.rows.truncate(1)), length("ldl rows", 2, 1));
+        assert_eq!(with(&|f| f.rows[1].clear()), length("ldl row", 1, 0));
+        assert_eq!(with(&|f| f.rows[0].push(number("0"))), length("ldl row", 0, 1));
+        assert_eq!(with(&|f| f.rows[1][0] = number("1/4")), Err(CoverFault::Factor { row: 1, column: 0, end: "upper" }));
+        assert_eq!(with(&|f| f.diagonal[1] = number("4")), Err(CoverFault::Factor { row: 1, column: 1, end: "upper" }));
+    }
+
+    /// Order 128 and 2^22 bits in all are the largest that are multiplied out.
+    #[test]
+    fn what_is_multiplied_out_has_a_limit() {
+        let of = |order: usize, entry: Rational| {
+            let rows = (0..order).map(|i| vec![Number(whole(0)); i]).collect();
+            let diagonal = (0..order).map(|_| Number(entry.clone())).collect();
+            lengths(&LdlFactor { rows, diagonal }, order)
+        };
+        let large = |what, limit, got| Err(CoverFault::TooLarge { what, limit, got });
+        assert_eq!([of(128, whole(1)), of(129, whole(1))], [Ok(()), large("ldl order", 128, 129)]);
+        // Numerator and denominator count: 2^k has k + 1 bits.
+        let power = |up: u64, down: u64| Rational::new(Integer::from(1) << up, (Integer::from(1) << down) + 1);
+        let size = "ldl size (order squared times bits)";
+        assert_eq!(of(4, power((1 << 18) - 3, 1)), Ok(()));
+        assert_eq!(of(4, power((1 << 18) - 2, 1)), large(size, 1 << 22, (1 << 22) + 16));
+        assert_eq!(of(4, power(1 << 17, 1 << 17)), large(size, 1 << 22, (1 << 22) + 32));
+    }
+}

@@ -88,3 +88,94 @@ pub(super) fn definite(
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::whole;
+
+    const INDEX: [usize; 2] = [10, 11];
+
+    fn matrix(m: [[i64; 2]; 2]) -> Vec<Vec<Integer>> {
+        m.map(|row| row.map(Integer::from).to_vec()).to_vec()
+    }
+
+    fn ends(m: [[[i64; 2]; 2]; 2], r: [[[i64; 2]; 2]; 2], infinite: bool) -> Result<Rc<Ends>, CoverFault> {
+        let zero = || matrix([[0, 0], [0, 0]]);
+        Ok(Rc::new(Ends { m: m.map(matrix), r: r.map(matrix), slope: zero(), scale: 1.into(), infinite }))
+    }
+
+    fn region(states: [State; 2]) -> Region {
+        Region { lo: whole(0), hi: Some(whole(1)), states: states.to_vec(), matrices: Default::default(), zero: Integer::default() }
+    }
+
+    const NONE: [[i64; 2]; 2] = [[0, 0], [0, 0]];
+    const OPEN: [State; 2] = [State::Open; 2];
+
+    fn long_farkas(states: [State; 2], m: [[[i64; 2]; 2]; 2], r: [[[i64; 2]; 2]; 2], infinite: bool, w: [i64; 2]) -> Result<(), CoverFault> {
+        farkas(&region(states), None, || ends(m, r, infinite), &INDEX, &w)
+    }
+
+    /// (w'T)_j at its largest: the radius counts with |w|, whatever the sign of w.
+    #[test]
+    fn radii_count_against_a_farkas_vector() {
+        // (2, -3)'T = (-16, 10 - 3 c) with radii 2 * 3 + 3 * 2 = 12 and 2 * 1 + 3 * 4 = 14.
+        let t = |c: i64| [[-5, 5], [2, c]];
+        let r = [[3, 1], [2, 4]];
+        let states = [State::Open, State::Moving];
+        let at = |c: i64, d: i64| long_farkas(states, [t(c), t(d)], [r, r], false, [2, -3]);
+        assert_eq!(at(9, 9), Ok(()));
+        let fault = |end, got| Err(CoverFault::NotNegative { index: 11, end, got: whole(got) });
+        assert_eq!([at(7, 9), at(9, 7)], [fault("lower", 3), fault("upper", 3)]);
+        // At zero it is neither: here the moving variable is the one that is not strict.
+        assert_eq!([at(8, 9), at(9, 8)], [Err(CoverFault::NotStrict), Err(CoverFault::NotStrict)]);
+    }
+
+    /// w'T <= 0, and < 0 on all or on one that moves; at infinity <= 0 is as good.
+    #[test]
+    fn strict_on_all_or_on_one_that_moves() {
+        let t = |a: i64, b: i64| [[-a, -b], [0, 0]];
+        let at = |states, lower, upper, infinite| long_farkas(states, [lower, upper], [NONE, NONE], infinite, [1, 0]);
+        let moving = [State::Moving, State::Open];
+        let weak = Err(CoverFault::NotStrict);
+        assert_eq!(at(OPEN, t(1, 1), t(1, 1), false), Ok(()));
+        assert_eq!([at(OPEN, t(1, 0), t(1, 1), false), at(OPEN, t(1, 1), t(1, 0), false)], [weak.clone(), weak.clone()]);
+        assert_eq!([at(moving, t(1, 0), t(1, 0), false), at(moving, t(0, 1), t(1, 1), false)], [Ok(()), weak.clone()]);
+        assert_eq!([at(OPEN, t(1, 1), t(1, 0), true), at(OPEN, t(1, 0), t(1, 1), true)], [Ok(()), weak.clone()]);
+        assert_eq!(at([State::Open, State::Rest], t(1, 0), t(1, 0), false), Ok(()));
+        assert_eq!(at(OPEN, t(1, 0), t(0, 1), true), weak);
+    }
+
+    /// At an infinite end a symmetric part that vanishes on what may move will do, radius included; at no other.
+    #[test]
+    fn a_vanishing_direction_is_definite_enough() {
+        let eye = [[1 << 20, 0], [0, 1 << 20]];
+        let skew = [[0, 5], [-5, 0]];
+        let at = |states, m, r, infinite| definite(&region(states), None, || ends(m, r, infinite), &INDEX, 1);
+        let not = |index, end| Err(CoverFault::NotDefinite { index, end });
+        assert_eq!(at(OPEN, [eye, skew], [NONE, NONE], true), Ok(()));
+        assert_eq!(at(OPEN, [eye, skew], [NONE, NONE], false), not(10, "upper"));
+        assert_eq!(at(OPEN, [skew, eye], [NONE, NONE], true), not(10, "lower"));
+        assert_eq!(at(OPEN, [eye, [[0, 5], [5, 0]]], [NONE, NONE], true), not(10, "upper"));
+        assert_eq!(at(OPEN, [eye, skew], [NONE, [[0, 1], [0, 0]]], true), not(10, "upper"));
+        assert_eq!(at([State::Rest, State::Open], [eye, [[7, 9], [9, 0]]], [NONE, [[5, 5], [5, 0]]], true), Ok(()));
+        assert_eq!(at(OPEN, [eye, eye], [NONE, NONE], true), Ok(()));
+        assert_eq!(at(OPEN, [eye, [[1 << 20, 0], [0, 0]]], [NONE, NONE], true), not(11, "upper"));
+    }
+
+    /// The short numbers only ever say what the long ones say.
+    #[test]
+    fn short_numbers_are_asked_first() {
+        let short = |m: [[i64; 2]; 2]| Short::of(&matrix(m), &matrix(NONE), &[0, 1]).unwrap();
+        let never = || Err(CoverFault::Trailing);
+        let negative = || [short([[-1, -1], [0, 0]]), short([[-1, -2], [0, 0]])];
+        assert_eq!(farkas(&region(OPEN), Some(&negative()), never, &INDEX, &[1, 0]), Ok(()));
+        let unclear = [short([[-1, 0], [0, 0]]), short([[-1, -2], [0, 0]])];
+        assert_eq!(farkas(&region(OPEN), Some(&unclear), never, &INDEX, &[1, 0]), Err(CoverFault::Trailing));
+        // What rests need not be negative.
+        assert_eq!(farkas(&region([State::Open, State::Rest]), Some(&unclear), never, &INDEX, &[1, 0]), Ok(()));
+        let eye = || short([[1 << 20, 0], [0, 1 << 20]]);
+        assert_eq!(definite(&region(OPEN), Some(&[eye(), eye()]), never, &INDEX, 1), Ok(()));
+        assert_eq!(definite(&region(OPEN), Some(&[eye(), short(NONE)]), never, &INDEX, 1), Err(CoverFault::Trailing));
+    }
+}

@@ -333,3 +333,33 @@ impl Walk<'_> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::whole;
+
+    #[test]
+    fn a_region_has_short_numbers() {
+        let row = |i: usize| vec![(i, Integer::from(3), Integer::from(1))];
+        let rows = Rows { rows: vec![row(0), row(1)], factor: vec![1.into(), 1.into()], is_free: vec![false; 2] };
+        let (family, window) = (Family::Linear(Linear::of(&rows)), Window::all());
+        let (found, families, open) = (Vec::new(), Vec::new(), Vec::new());
+        let walk = Walk {
+            rows: &rows,
+            family,
+            index: vec![0, 1],
+            window: &window,
+            tail: None,
+            claims: &[],
+            found,
+            families,
+            open,
+            leaves: 0,
+            refused: None,
+        };
+        let states = vec![State::Open; 2];
+        let region = Region { lo: whole(0), hi: Some(whole(1)), states, matrices: Rc::default(), zero: Integer::default() };
+        assert!(walk.short(&region, None).is_some());
+    }
+}

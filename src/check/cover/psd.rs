@@ -130,4 +130,60 @@ mod tests {
             assert!(matches!(semidefinite(&tridiagonal(2, 9), &Integer::one(), Some(&bad), false, "S"), Err(CoverFault::Length { .. })));
         }
     }
+
+    /// S = L L' + E in units of 1 / (scale 4^exponent), E with every entry of the lower triangle.
+    #[test]
+    fn every_residual_off_the_diagonal_counts_for_both_its_rows() {
+        // L in units of 1/2: L L' = [[4, 2, 6], [2, 10, 9], [6, 9, 38]] / 4.
+        let rows = [vec![2], vec![1, 3], vec![3, 2, 5]];
+        let factor = Factor { first: vec![0; 3], rows: rows.iter().map(|r| r.iter().map(|&v| v.into()).collect()).collect(), exponent: 1 };
+        let product = [[4, 2, 6], [2, 10, 9], [6, 9, 38]];
+        let check = |diagonal: [i64; 3], strictly| {
+            // E_10 = 1, E_20 = -2, E_21 = 3; one unit of S is 4 / 7 of those of L L'.
+            let off = [[0, 1, -2], [1, 0, 3], [-2, 3, 0]];
+            let scale = 7;
+            let entry = |i: usize, j: usize| scale * (product[i][j] + if i == j { diagonal[i] } else { off[i][j] });
+            let row = |i: usize| (0..3).map(|j| (j, Integer::from(entry(i, j)))).collect();
+            let s: Symmetric = (0..3).map(row).collect();
+            semidefinite(&s, &Integer::from(4 * scale), Some(&factor), strictly, "S")
+        };
+        let fault = |row| Err(CoverFault::Hypothesis { expected: "S", row });
+        assert_eq!([check([3, 4, 5], false), check([4, 5, 6], true)], [Ok(()), Ok(())]);
+        assert_eq!([check([2, 4, 5], false), check([3, 3, 5], false), check([3, 4, 4], false)], [fault(0), fault(1), fault(2)]);
+        assert_eq!([check([3, 5, 6], true), check([4, 4, 6], true), check([4, 5, 5], true)], [fault(0), fault(1), fault(2)]);
+    }
+
+    /// Rows of a factor that begin beside the first column.
+    #[test]
+    fn a_banded_factor_is_multiplied_out_from_where_it_begins() {
+        // L = [[2, ., .], [1, 3, .], [., 4, 5]]: L L' = [[4, 2, 0], [2, 10, 12], [0, 12, 41]].
+        let rows = [vec![2], vec![1, 3], vec![4, 5]];
+        let factor =
+            Factor { first: vec![0, 0, 1], rows: rows.iter().map(|r| r.iter().map(|&v| v.into()).collect()).collect(), exponent: 0 };
+        let check = |s: [[i64; 3]; 3]| {
+            let row = |i: usize| (0..3).filter(|&j| s[i][j] != 0).map(|j| (j, Integer::from(s[i][j]))).collect();
+            let s: Symmetric = (0..3).map(row).collect();
+            semidefinite(&s, &Integer::one(), Some(&factor), false, "S").is_ok()
+        };
+        assert!(check([[4, 2, 0], [2, 10, 12], [0, 12, 41]]));
+        assert!(!check([[4, 2, 1], [2, 10, 12], [1, 12, 41]]) && !check([[4, 2, 0], [2, 10, 13], [0, 13, 41]]));
+        assert!(!check([[4, 2, 0], [2, 10, 12], [0, 12, 40]]));
+    }
+
+    #[test]
+    fn lengths_and_limits_are_told() {
+        let with = |change: &dyn Fn(&mut Factor)| {
+            let mut f = factor();
+            change(&mut f);
+            shape(&f, 2)
+        };
+        let length = |what, expected, got| Err(CoverFault::Length { what, expected, got });
+        assert_eq!([with(&|_| {}), with(&|f| f.exponent = MAX_EXPONENT)], [Ok(()), Ok(())]);
+        assert_eq!(with(&|f| f.exponent = 4097), Err(CoverFault::TooLarge { what: "exponent", limit: 4096, got: 4097 }));
+        assert_eq!(with(&|f| f.rows[1].truncate(1)), length("row of the factor", 2, 1));
+        assert_eq!(with(&|f| f.first[1] = 1), length("row of the factor", 1, 2));
+        assert_eq!(with(&|f| f.first[1] = 2), length("row of the factor", 0, 2));
+        assert_eq!(with(&|f| f.rows[0].clear()), length("row of the factor", 1, 0));
+        assert_eq!([with(&|f| f.rows.truncate(1)), with(&|f| f.first.truncate(1))], [length("factor", 2, 1), length("first columns of the factor", 2, 1)]);
+    }
 }

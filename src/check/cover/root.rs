@@ -267,3 +267,6 @@ fn certain(value: &Integer, radius: &Integer) -> i8 {
         0
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -170,4 +170,57 @@ mod tests {
         assert_eq!(sign_between(&Poly::default(), &one, None), Some(0));
         assert_eq!([sqrt2.sign(&g), sqrt2.sign(&Poly::from_ints(&[-1, 1]))], [Some(0), Some(1)]);
     }
+
+    /// The sample lies above the last point: a root just below it does not count.
+    #[test]
+    fn the_sign_to_infinity_is_taken_above() {
+        let three = root(&[-3, 1], (3, 1), (3, 1));
+        assert_eq!(sign_between(&Poly::from_ints(&[-5, 2]), &three, None), Some(1));
+        assert_eq!(sign_between(&Poly::from_ints(&[5, -2]), &three, None), Some(-1));
+        let half = root(&[-1, 2], (1, 2), (1, 2));
+        assert_eq!(sign_between(&Poly::from_ints(&[1, 4]), &half, Some(&three)), Some(1));
+    }
+
+    /// sqrt 2 in [7/5, 3/2], with another root of g, 29/20, beside it: told whether or not sqrt 2 is one as well.
+    #[test]
+    fn another_root_in_the_isolating_interval_is_seen() {
+        let (sqrt2, nine) = (root(&[-2, 0, 1], (7, 5), (3, 2)), root(&[-9, 1], (9, 1), (9, 1)));
+        let (beside, far) = (Poly::from_ints(&[-29, 20]), Poly::from_ints(&[-10, 1]));
+        let square = &sqrt2.poly * &sqrt2.poly;
+        for g in [&beside * &far, &(&beside * &far) * &sqrt2.poly, &(&beside * &far) * &square] {
+            assert_eq!(sign_between(&g, &sqrt2, Some(&nine)), None);
+        }
+        assert_eq!(sign_between(&(&far * &square), &sqrt2, Some(&nine)), Some(-1));
+        assert_eq!(sign_between(&(&far * &Poly::from_ints(&[-10, 3])), &sqrt2, Some(&nine)), None);
+        assert_eq!(sign_between(&(&far * &Poly::from_ints(&[-1, 3])), &sqrt2, Some(&nine)), Some(-1));
+    }
+
+    /// A half line from `a` is halved above `a`, also where that is negative.
+    #[test]
+    fn half_lines_are_halved_above_their_end() {
+        // Complex roots about `at` and a real one.
+        let p = |at: i64, real: i64| &Poly::from_ints(&[100 * at * at + 1, -200 * at, 100]) * &Poly::from_ints(&[-real, 1]);
+        assert!(has_no_root(&p(8, 2), &whole(3), None)); // 2 is below
+        assert!(has_no_root(&p(1, -5), &whole(-3), None) && has_no_root(&p(-1, -5), &whole(-3), None));
+        assert!(!has_no_root(&p(8, 5), &whole(3), None) && !has_no_root(&p(8, 30), &whole(3), None));
+    }
+
+    /// (t - c)^2 + 1/10^4 takes about seven halvings on the way to c, on either side of the middle.
+    #[test]
+    fn the_answer_is_no_when_the_halvings_are_used_up() {
+        let near = |c: i64| Poly::from_ints(&[c * c * 100 + 1, -2000 * c, 10_000]); // c in tenths
+        for c in [1, 19] {
+            let of = |depth: u32, mut halvings: usize| {
+                let verdict = has_none(&near(c), &whole(0), Some(&whole(2)), depth, &mut halvings);
+                (verdict, halvings)
+            };
+            let (verdict, left) = of(24, 200);
+            let used = 200 - left;
+            assert!(verdict && (4..20).contains(&used), "{c}: {used}");
+            assert_eq!([of(24, used), of(24, used - 1)], [(true, 0), (false, 0)]);
+            let depth = (0..24).find(|&d| of(d, 200).0).unwrap();
+            assert!((4..20).contains(&depth), "{c}: {depth}");
+            assert!(!of(depth - 1, 200).0 && of(0, 200) == (false, 200));
+        }
+    }
 }

@@ -145,4 +145,74 @@ mod tests {
         assert_eq!(short.product(&[2, -1]), Some(vec![6 + 5 + 2 + 2, -8 - 1]));
         assert_eq!(short.product(&[i64::MAX, 1]), None);
     }
+
+    /// What is exact stays exact, at any length.
+    #[test]
+    fn a_multiple_of_the_unit_has_no_radius() {
+        let m = vec![vec![Integer::from(3) << 100u32, Integer::from(1)], vec![Integer::from(-5) << 90u32, Integer::from(1) << 200u32 >> 60u32]];
+        let short = Short::of(&m, &big(&[&[0, 0], &[0, 0]], 0), &[0, 1]).unwrap();
+        assert_eq!(short.unit, 141 - 62);
+        assert_eq!((short.m[0][0], short.r[0][0]), (3 << 21, 0));
+        assert_eq!((short.m[0][1], short.r[0][1]), (0, 2));
+    }
+
+    /// The formula of `combine`, in integers of any length: values and radii to the last unit.
+    #[test]
+    fn combinations_are_those_of_the_formula() {
+        let top = (1i64 << 61) - 1;
+        let list = [
+            (Integer::from(3), Integer::from(5)),                                    // exact
+            (Integer::from(3) << 70u32, Integer::from(5) << 65u32),                  // exact, though long
+            ((Integer::from(3) << 70u32) + 1, Integer::from(5) << 65u32),            // the first is cut
+            (Integer::from(3) << 70u32, (Integer::from(5) << 65u32) + 1),            // the second is cut
+            ((Integer::one() << 80u32) - 1, (Integer::one() << 79u32) - 1),          // both
+            (Integer::one(), (Integer::one() << 62u32) + 1),
+        ];
+        let matrices = [
+            ([[3, -5], [7, 11]], [[1, 2], [3, 1]], [[-9, 4], [6, 13]], [[2, 1], [1, 3]]),
+            ([[3, -5], [7, 11]], [[0, 0], [0, 0]], [[-9, 4], [6, 13]], [[0, 0], [0, 0]]),
+            ([[top, -top], [1, 5]], [[top / 7, 9], [0, 2]], [[top / 3, 1], [-top, 8]], [[0, top / 5], [1, 1]]),
+            ([[top, 0], [1, 5]], [[0, 1], [0, 0]], [[2, 1], [1, 8]], [[0, 0], [2, 0]]),
+        ];
+        let rows = |m: [[i64; 2]; 2]| m.map(|r| r.to_vec()).to_vec();
+        for (k, (p, q)) in list.iter().enumerate() {
+            for (a, ra, b, rb) in matrices {
+                for (unit_a, unit_b) in [(0, 0), (4, 0), (0, 3)] {
+                    let first = Short { m: rows(a), r: rows(ra), unit: unit_a };
+                    let got = first.combine(p, &Short { m: rows(b), r: rows(rb), unit: unit_b }, q);
+                    let low = unit_a.min(unit_b);
+                    let (p, q) = (p << (unit_a - low), q << (unit_b - low));
+                    let cut = p.bits().max(q.bits()).saturating_sub(62);
+                    let one = Integer::one() << cut;
+                    let lost = i32::from(&p % &one != Integer::default() || &q % &one != Integer::default());
+                    let (p, q) = (p / &one, q / &one);
+                    let value = |i: usize, j: usize| &p * a[i][j] + &q * b[i][j];
+                    let size = |i: usize, j: usize| Integer::from(a[i][j]).abs() + ra[i][j] + Integer::from(b[i][j]).abs() + rb[i][j];
+                    let radius = |i: usize, j: usize| &p * ra[i][j] + &q * rb[i][j] + lost * size(i, j);
+                    let cells = [(0, 0), (0, 1), (1, 0), (1, 1)];
+                    let bits = cells.iter().map(|&(i, j)| value(i, j).bits()).max().unwrap().saturating_sub(62);
+                    let unit = Integer::one() << bits;
+                    let long = |r: &Integer| r / &unit + 2 > Integer::one() << 62u32;
+                    let Some(got) = got else {
+                        assert!(cells.iter().any(|&(i, j)| long(&radius(i, j))), "{k}");
+                        continue;
+                    };
+                    for (i, j) in cells {
+                        let (v, r) = (value(i, j), radius(i, j));
+                        let is_exact = (&v % &unit) == Integer::default() && r == Integer::default();
+                        let expected = if is_exact { Integer::default() } else { r / &unit + 2 };
+                        assert_eq!((Integer::from(got.m[i][j]), Integer::from(got.r[i][j])), (v >> bits, expected), "{k} [{i}][{j}]");
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn values_and_radii_have_a_limit() {
+        let limit = 1i64 << BITS;
+        assert_eq!([around(limit, 0, true), around(-limit, 0, true), around(limit + 1, 0, true)], [Some((limit, 0)), Some((-limit, 0)), None]);
+        assert_eq!([around(1, limit - 2, false), around(1, limit - 1, false)], [Some((1, limit)), None]);
+        assert_eq!(around(1, i64::MAX, false), None);
+    }
 }

@@ -248,3 +248,6 @@ impl<'a> System<'a> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

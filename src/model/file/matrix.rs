@@ -180,4 +180,10 @@ mod tests {
         }
         assert_eq!(read("[[0, 0]]").unwrap(), Sparse::from_entries(1, 2, [(0, 0, whole(0))]));
     }
+
+    #[test]
+    fn the_largest_order_is_allowed() {
+        assert!(require_order("K", MAX_ORDER).is_ok());
+        assert!(matches!(require_order("K", MAX_ORDER + 1), Err(ModelError::TooLarge { what: "K", .. })));
+    }
 }

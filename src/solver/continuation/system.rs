@@ -188,3 +188,56 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
         at.s += length * direction[inside.len()];
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mcp::LinearMcp;
+    use nalgebra::dvector;
+
+    fn problem(n: usize, l: &[f64], u: &[f64]) -> LinearMcp {
+        LinearMcp::new(DMatrix::identity(n, n), vec![0.0; n], l.to_vec(), u.to_vec()).unwrap()
+    }
+
+    /// Bounds [0, 4], 4 = 4 and [-inf, 4] for each of the columns below.
+    #[test]
+    fn places_follow_the_bounds() {
+        let p = problem(5, &[0.0, 0.0, 0.0, 4.0, f64::NEG_INFINITY], &[4.0, 4.0, 4.0, 4.0, 4.0]);
+        let at = Places::at_bounds(&p, &dvector![0.0, 4.0, 1.0, 4.0, 4.0]);
+        assert_eq!(at.0, [Place::Lower, Place::Upper, Place::Inside, Place::Fixed, Place::Upper]);
+        assert_eq!(at.inside(), [2]);
+    }
+
+    /// Nearer to a bound than F to zero: on the bound.
+    #[test]
+    fn places_of_a_solution_are_those_of_strict_complementarity() {
+        let p = problem(1, &[0.0], &[4.0]);
+        let of = |z: f64, f: f64| Places::at_solution(&p, &Point { z: dvector![z], f: dvector![f], merit: 0.0 }).0[0];
+        assert_eq!([of(1e-9, 1.0), of(1.0, 1e-9), of(0.0, 0.0), of(1.0, 1.0)], [Place::Lower, Place::Inside, Place::Lower, Place::Lower]);
+        assert_eq!([of(4.0, -1.0), of(3.0, -1e-9), of(3.0, -1.0), of(2.0, 0.0)], [Place::Upper, Place::Inside, Place::Upper, Place::Inside]);
+        let fixed = problem(1, &[4.0], &[4.0]);
+        assert_eq!(Places::at_solution(&fixed, &Point { z: dvector![4.0], f: dvector![3.0], merit: 0.0 }).0, [Place::Fixed]);
+    }
+
+    #[test]
+    fn lifted_multipliers_are_on_the_right_side() {
+        let p = Places(vec![Place::Inside, Place::Lower, Place::Upper, Place::Fixed]);
+        let lift = |i: usize, f: f64| p.lifted_multiplier(i, f, 0.25);
+        assert_eq!([lift(0, 3.0), lift(1, 3.0), lift(1, -3.0), lift(2, -3.0), lift(2, 3.0), lift(3, -3.0)], [0.0, 3.25, 0.25, -3.25, -0.25, -3.0]);
+    }
+
+    /// Values of the three quantities and their derivatives by (z_I, s).
+    #[test]
+    fn rows_are_the_derivatives_of_the_quantities() {
+        let p = problem(2, &[0.0; 2], &[4.0; 2]);
+        let mut evaluated = Evaluated::new(&p);
+        let places = Places(vec![Place::Inside, Place::Lower]);
+        let system = System { problem: &mut evaluated, r: dvector![5.0, 7.0], places };
+        let local = Local { f: dvector![2.0, 3.0], jacobian: DMatrix::from_row_slice(2, 2, &[11.0, 13.0, 17.0, 19.0]) };
+        let at = Position { z: dvector![0.5, 0.0], s: 0.125 };
+        let quantities = [Quantity::Z(0, 4.0), Quantity::Multiplier(1), Quantity::S];
+        assert_eq!(quantities.map(|q| system.value(q, &at, &local)), [-3.5, 3.0 - 0.125 * 7.0, 0.125]);
+        let rows = quantities.map(|q| system.row(q, &local, &[0]));
+        assert_eq!(rows, [dvector![1.0, 0.0], dvector![17.0, -7.0], dvector![0.0, 1.0]]);
+    }
+}

@@ -129,4 +129,19 @@ mod tests {
         assert!(basis.refactor(&columns));
         assert!((updated - basis.solve(&dvector![5.0, -7.0])).amax() < 1e-14);
     }
+
+    #[test]
+    fn a_basis_is_stale_after_its_updates() {
+        let (m, q) = (dmatrix![2.0, 1.0; 1.0, 3.0], dvector![1.0, 1.0]);
+        let sub = Subproblem { m: &m, q: &q, lower: &[0.0; 2], upper: &[f64::INFINITY; 2] };
+        let columns = Columns { sub: &sub, r: dvector![1.0, 2.0], artificial_row: vec![None; 2] };
+        let mut basis = Basis::new(&columns, vec![Variable::W(0), Variable::W(1)], &[1.0; 2]).unwrap();
+        for k in 0..REFACTOR_EVERY {
+            assert!(!basis.is_stale(), "{k}");
+            let entering = if k % 2 == 0 { Variable::Z(1) } else { Variable::W(1) };
+            let column = basis.solve(&columns.of(entering));
+            basis.replace(1, entering, &column);
+        }
+        assert!(basis.is_stale() && basis.refactor(&columns) && !basis.is_stale());
+    }
 }

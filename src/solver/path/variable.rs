@@ -59,3 +59,17 @@ impl Variable {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_unknowns_of_a_pivot_are_renamed() {
+        let pivot = Pivot { t: 0.5, entering: Variable::W(1), leaving: Variable::Z(0), kind: PivotKind::Exchange };
+        let expected = Pivot { entering: Variable::W(7), leaving: Variable::Z(4), ..pivot };
+        assert_eq!(pivot.renamed(&[4, 7]), expected);
+        let list = [Variable::V(0), Variable::Artificial(1), Variable::T].map(|v| v.renamed(&[4, 7]));
+        assert_eq!(list, [Variable::V(4), Variable::Artificial(7), Variable::T]);
+    }
+}
