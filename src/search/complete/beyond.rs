@@ -3,10 +3,12 @@
 use super::root::null_vector;
 use super::tree::{Region, Search, State};
 use super::view::{Ends, Expansion, Matrix};
+use super::witness::definite;
 use crate::certificate::{Node, RootOutcome};
-use crate::exact::{Integer, Poly, generic_kernel};
-use crate::model::Pencil;
-use crate::tolerance::AT_INFINITY;
+use crate::exact::{Integer, Poly, Rational, generic_kernel};
+use crate::model::{Pencil, Window};
+use crate::search::definite::leaf;
+use crate::tolerance::{AT_INFINITY, DEFINITE_PIVOT};
 use num_traits::Zero;
 
 /// Free and moving variables up to which a null vector at infinity is looked for exactly.
@@ -36,6 +38,22 @@ impl Search<'_> {
         let root = unique.witness(&self.view.index, [region.lo.clone(), region.lo.clone()], outcome);
         self.leaf(Node::Root(Box::new(root)), share);
         true
+    }
+
+    /// A region up to infinity where sym(B) is semidefinite only: exact factors, if doubles see a chance.
+    pub(super) fn half_line(&self, region: &Region, ends: &Ends) -> Option<Node> {
+        if ends.hi.is_finite() || self.expansion.reversed || !definite(&ends.m[0], ends.r.as_ref(), &region.states, 1.0) {
+            return None;
+        }
+        let mut direction = ends.m[1].clone();
+        let largest = direction.iter().flatten().fold(0.0f64, |s, v| s.max(v.abs()));
+        (0..direction.len()).for_each(|i| direction[i][i] += 2.0 * DEFINITE_PIVOT * largest.max(f64::MIN_POSITIVE));
+        if !definite(&direction, None, &region.states, 1.0) {
+            return None;
+        }
+        let resting: Vec<usize> =
+            (0..region.states.len()).filter(|&p| region.states[p] == State::Rest).map(|p| self.view.index[p]).collect();
+        (self.definite_from)(&region.lo, &resting)
     }
 
     /// The ends of lo T(t) / t over [lo, infinity), as the checker forms them.
@@ -69,6 +87,14 @@ pub(super) fn limit(pencil: &Pencil, moving: &[usize], reversed: bool) -> Option
     let mut x = vec![Integer::zero(); pencil.order()];
     active.iter().zip(vector).for_each(|(&i, v)| x[i] = v.coeffs().first().cloned().unwrap_or_default());
     Some(x)
+}
+
+/// Exact factors of the symmetric part without the resting variables, from lo to infinity.
+pub(super) fn definite_from(pencil: &Pencil, lo: &Rational, resting: &[usize]) -> Option<Node> {
+    let kept: Vec<usize> = (0..pencil.order()).filter(|i| !resting.contains(i)).collect();
+    let free = (0..kept.len()).filter(|&p| pencil.free().contains(&kept[p])).collect();
+    let part = Pencil::new(pencil.a().submatrix(&kept, &kept), pencil.b().submatrix(&kept, &kept), free).ok()?;
+    leaf(&part, &Window::new(lo.clone(), None).ok()?)
 }
 
 #[cfg(test)]

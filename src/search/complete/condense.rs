@@ -5,6 +5,7 @@
 
 use super::CompleteError;
 use super::game::dot;
+use super::massless;
 use super::reverse;
 use super::skyline::Skyline;
 use super::view::{Expansion, View, row_factor, scale};
@@ -103,7 +104,8 @@ pub(super) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
     let sigma = short_below(0.8 * bound).ok_or_else(|| not_definite("A_ff"))?;
     let slack = 0.2 * bound;
     let factor = blocks.stiffness.shifted(-to_f64(&sigma) - slack).cholesky().ok_or_else(|| not_definite("A_ff"))?;
-    let (mass_sigma, mass_factor) = mass_bound(&blocks.mass).map_err(|()| not_definite("B_ff"))?;
+    let (mass_sigma, mass_factor) =
+        mass_bound(&blocks.mass, &pencil.b().submatrix(&blocks.free, &blocks.free)).map_err(|()| not_definite("B_ff"))?;
     let tail = if window.max().is_none() && !blocks.mass_is_zero { tail(pencil) } else { None };
     let from = |t: &Tail| to_f64(&t.from.0);
     let beyond = if window.max().is_none() && !blocks.mass_is_zero { reverse::beyond(pencil, [&sigma, &mass_sigma]) } else { None };
@@ -134,12 +136,13 @@ pub(super) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
 }
 
 /// tau and the factor of B_ff - tau I; no factor where the block is diagonal.
-fn mass_bound(mass: &Skyline) -> Result<(Rational, Option<Factor>), ()> {
+fn mass_bound(mass: &Skyline, given: &Sparse) -> Result<(Rational, Option<Factor>), ()> {
     if mass.is_diagonal() {
         let least = mass.smallest_diagonal();
         return Ok((short_below(least).unwrap_or_default(), None));
     }
-    let bound = mass.below_spectrum().ok_or(())?;
+    // Without mass in some rows the bound is zero.
+    let Some(bound) = mass.below_spectrum() else { return massless::factor(given).map(|f| (Rational::default(), Some(f))).ok_or(()) };
     let tau = short_below(0.8 * bound).ok_or(())?;
     let slack = 0.2 * bound;
     Ok((tau.clone(), Some(mass.shifted(-to_f64(&tau) - slack).cholesky().ok_or(())?.rounded(slack))))
@@ -191,13 +194,10 @@ fn tail(pencil: &Pencil) -> Option<Tail> {
     let (a, b) = (Skyline::symmetric(pencil.a()), Skyline::symmetric(pencil.b()));
     let mass_factor = match b.is_diagonal() {
         true => None,
-        false => {
-            let slack = b.below_spectrum()?;
-            Some(b.shifted(-slack).cholesky()?.rounded(slack))
-        }
+        false => Some(massless::factor(pencil.b())?),
     };
     let start = a.largest() / b.largest() * TAIL_START;
-    // sym(B) is positive definite, so doubling comes to an end.
+    // Where sym(B) is positive definite, doubling comes to an end.
     let from = (0..TAIL_DOUBLINGS).map(|k| start * f64::from(k).exp2()).find(|t| a.combine(*t, &b, 0.0).cholesky().is_some())?;
     let from = short_below(1.25 * from)?;
     let s = a.combine(to_f64(&from), &b, 0.0);

@@ -10,6 +10,7 @@ mod condense;
 mod decided;
 mod error;
 pub(crate) mod game;
+mod massless;
 mod merge;
 mod reasons;
 mod reverse;

@@ -74,6 +74,7 @@ fn search_pieces(
             view: &prepared.view,
             expansion,
             limit: &limit,
+            definite_from: &|lo, resting| beyond::definite_from(pencil, lo, resting),
             certify: &certify_at,
             decide: &decide,
             watch,

@@ -75,6 +75,9 @@ pub(super) type Certify<'a> = dyn Fn(f64, &[f64]) -> Option<Claim> + Sync + 'a;
 /// A null vector of the pencil's limit at infinity over the variables of the pencil, for a moving set that has one.
 pub(super) type Limit<'a> = dyn Fn(&[usize]) -> Option<Vec<Integer>> + Sync + 'a;
 
+/// Exact factors that prove the symmetric part definite from a value on, without the variables given.
+pub(super) type DefiniteFrom<'a> = dyn Fn(&Rational, &[usize]) -> Option<Node> + Sync + 'a;
+
 /// What one support holds over an interval, exactly, if that can be decided.
 pub(super) type Decide<'a> = dyn Fn(&[usize], &Rational, Option<&Rational>) -> Option<Support> + Sync + 'a;
 
@@ -85,6 +88,7 @@ pub(super) struct Search<'a> {
     pub(super) certify: &'a Certify<'a>,
     pub(super) decide: &'a Decide<'a>,
     pub(super) limit: &'a Limit<'a>,
+    pub(super) definite_from: &'a DefiniteFrom<'a>,
     pub(super) watch: &'a dyn Watch,
     /// Nodes this piece may still use.
     pub(super) budget: usize,
@@ -118,7 +122,7 @@ impl Search<'_> {
             return self.leaf(Node::Open, share);
         }
         self.budget -= 1;
-        if let Some(leaf) = definite_leaf(ends, &region.states) {
+        if let Some(leaf) = definite_leaf(ends, &region.states).or_else(|| self.half_line(region, ends)) {
             return self.leaf(leaf, share);
         }
         let columns = Columns::of(ends, &region.states);
