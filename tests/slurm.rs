@@ -46,7 +46,8 @@ impl Cluster {
             format!("PartitionName=all Nodes={host} Default=YES MaxTime=INFINITE State=UP\n"),
         ];
         std::fs::write(cluster.path("slurm.conf"), lines.join("\n")).unwrap();
-        let key: Vec<u8> = (0..64).map(|_| rand::random()).collect();
+        let mut key = [0u8; 64];
+        std::io::Read::read_exact(&mut std::fs::File::open("/dev/urandom").unwrap(), &mut key).unwrap();
         std::fs::write(cluster.path("munge.key"), key).unwrap();
         std::fs::set_permissions(cluster.path("munge.key"), std::os::unix::fs::PermissionsExt::from_mode(0o600)).unwrap();
         let files = [("key-file", "munge.key"), ("socket", "munge.socket"), ("pid-file", "munged.pid"), ("log-file", "munged.log")];
