@@ -25,15 +25,11 @@ impl Search<'_> {
         // 0 is the lower end, 1 infinity.
         let Some(null) = null_vector(&Expansion::line(&chord.m), &region.states, 0.0, 1.0) else { return false };
         let Some(unique) = null.unique(&chord) else { return false };
-        let outcome = if unique.is_absent(&chord) {
-            Some(RootOutcome::Absent)
-        } else if (null.value - 1.0).abs() < AT_INFINITY {
-            let moving: Vec<usize> =
-                (0..region.states.len()).filter(|&p| region.states[p] == State::Moving).map(|p| self.view.index[p]).collect();
-            (self.limit)(&moving).map(RootOutcome::Infinity)
-        } else {
-            None
-        };
+        let moving: Vec<usize> =
+            (0..region.states.len()).filter(|&p| region.states[p] == State::Moving).map(|p| self.view.index[p]).collect();
+        // Exact arithmetic is asked first: in doubles the sign of a Schur complement that vanishes is rounding.
+        let limit = ((null.value - 1.0).abs() < AT_INFINITY).then(|| (self.limit)(&moving)).flatten();
+        let outcome = limit.map(RootOutcome::Infinity).or_else(|| unique.is_absent(&chord).then_some(RootOutcome::Absent));
         let Some(outcome) = outcome else { return false };
         let root = unique.witness(&self.view.index, [region.lo.clone(), region.lo.clone()], outcome);
         self.leaf(Node::Root(Box::new(root)), share);
