@@ -71,7 +71,7 @@ fn chord(cases: &mut Cases) {
 /// I + t [[1, -1], [-1, 1]] from 4 on: x = (1, 1) is a null vector at infinity and nowhere before.
 fn limit(cases: &mut Cases) {
     let all = pencil(&[&["1", "0"], &["0", "1"]], &[&["1", "-1"], &["-1", "1"]], &[]);
-    let p = window(all.clone(), "4", None);
+    let p = window(all, "4", None);
     let nine_tenths = 943_718; // of 2^20
     let leaf = |outcome: RootOutcome| witness("4", 448, nine_tenths, nine_tenths, outcome);
     let good = cover(&p, tree(leaf(integers(&[1, 1]))));
@@ -86,9 +86,9 @@ fn limit(cases: &mut Cases) {
     };
     no("limit-absent", "Cover.SignChange", "the Schur complement vanishes at infinity", RootOutcome::Absent);
     no("limit-other-vector", "Cover.NotAtInfinity", "B x is not zero", integers(&[1, 2]));
-    let finite = window(all, "4", Some("5"));
-    let c = cover(&finite, tree(leaf(integers(&[1, 1]))));
-    cases.reject("infinity-not-there", "Cover.NotAtInfinity", "a region that ends at 5", &finite, &c);
+    let finite = fold("64", Some("80"));
+    let c = cover(&finite, tree(witness("64", 128, -(1 << 14), 1 << 16, integers(&[1, 1]))));
+    cases.reject("infinity-not-there", "Cover.NotAtInfinity", "a region that ends at 80", &finite, &c);
 }
 
 /// One free variable and an indefinite mass of the other two: from the frequency of the free one on by a reversed anchor.
