@@ -600,6 +600,19 @@ class Ends:
     def __init__(self, m0, m1, r0, r1, d, unit, unbounded):
         self.both, self.d, self.unit, self.unbounded = ((m0, r0), (m1, r1)), d, unit, unbounded
 
+    def chord(self, lo, t0, t1):
+        """s T(t), s = lo / t, from t0 to t1 (None: infinity), of T(lo) and the direction that these ends are."""
+        def mix(x, y, p, q):
+            return [[p * v + q * w for v, w in zip(rx, ry)] for rx, ry in zip(x, y)]
+        (m0, r0), (m1, r1) = self.both
+        s = [lo / t0, Q(0) if t1 is None else lo / t1]
+        common = lcm(s[0].denominator, s[1].denominator) * lo.denominator
+        weights = [(int(x * common), int((1 - x) * lo * common)) for x in s]
+        width = s[0] - s[1]
+        d = mix(r0, r1, int(width * common), int(width * lo * common))
+        (p, q), (v, w) = weights
+        return Ends(mix(m0, m1, p, q), mix(m0, m1, v, w), mix(r0, r1, p, q), mix(r0, r1, v, w), d, self.unit * common, t1 is None)
+
 
 BITS = 128
 
@@ -614,7 +627,10 @@ class PlainPencil:
             # Rounded down to units of 2^-128 where 2^b exceeds 2^128; the radius is one unit each then.
             a, b = ([(row.get(j, 0) << BITS) >> bits for j in range(p.n)] for row in (ra, rb))
             self.parts.append((a, b, int(bits > BITS)))
-        self.n = p.n
+        self.p, self.n = p, p.n
+
+    def reversed(self, _anchor):
+        return False
 
     def ends(self, lo, hi, _anchor):
         q = lcm(lo.denominator, 1 if hi is None else hi.denominator)
@@ -714,20 +730,26 @@ class CondensedPencil:
             demand(factor is not None, "condensation 2: no factor")
             covered(symmetric[0], p.n, factor, True, "condensation 2: stiffness")
             covered(symmetric[1], p.n, mass_factor, False, "condensation 2: mass")
-        bits = [max(1, *(abs(v).bit_length() for v in rows[i][1].values()), 1) for i in p.s]
-        self.scale = [Q(rows[i][0], 2**b) for i, b in zip(p.s, bits)]
+        self.aff_norm = max((sum(abs(v) for v in r.values()) for r in aff), default=Q(0))
+        bits = [[max(1, *(abs(v).bit_length() for v in rows[i][k].values()), 1) for i in p.s] for k in (1, 2)]
+        self.scales = [[Q(rows[i][0], 2**b) for i, b in zip(p.s, of)] for of in bits]
         self.anchors = [self.read_anchor(a) for a in sequence(anchors)]
         self.cache = {}
 
     def read_anchor(self, obj):
         """Z (coefficients, units of 2^-FINE, rounded down), and column norms of V, l, r_<, r by power of d, rounded up."""
         p, place = self.p, self.place
-        center, right, left = fields(obj, "center right left")
+        center, right, left, backwards = fields(obj, "center right left", "reversed")
+        if "reversed" in obj and not isinstance(backwards, bool):
+            raise Unreadable("anchor: reversed")
+        demand(not backwards or self.tau > 0, "condensation 3: a reversed anchor needs mass_sigma > 0")
+        a, b = (p.b, p.a) if backwards else (p.a, p.b)
+        scale = self.scales[1 if backwards else 0]
         center, nf, ns = number(center), len(p.free), len(p.s)
         (w, ew), (v, ev) = read_coefficients(right, nf, ns), read_coefficients(left, nf, ns)
-        t0 = [plus(a, b, center) for a, b in zip(p.a, p.b)]
-        den = lcm(1, *(x.denominator for m in (t0, p.b) for r in m for x in r.values()))
-        t0, t1 = ([{j: int(x * den) for j, x in r.items()} for r in m] for m in (t0, p.b))
+        t0 = [plus(x, y, center) for x, y in zip(a, b)]
+        den = lcm(1, *(x.denominator for m in (t0, b) for r in m for x in r.values()))
+        t0, t1 = ([{j: int(x * den) for j, x in r.items()} for r in m] for m in (t0, b))
         spot = {i: k for k, i in enumerate(p.s)}
         f0, f1 = ([[(place[j], x) for j, x in m[i].items() if j in place] for i in p.free] for m in (t0, t1))
         sf = [[[(place[j], x) for j, x in m[i].items() if j in place] for i in p.s] for m in (t0, t1)]
@@ -768,17 +790,20 @@ class CondensedPencil:
         while len(z) > 1 and not any(map(any, z[-1])):
             z.pop()
         unit = den << (ew + ev)
-        fixed = [[[(x * s.numerator << FINE) // (s.denominator * unit) for x in row] for row, s in zip(m, self.scale)] for m in z]
+        fixed = [[[(x * s.numerator << FINE) // (s.denominator * unit) for x in row] for row, s in zip(m, scale)] for m in z]
 
         def norms(coefficients, d):
             return [[root_up(sum([x * x for x in column]), d) for column in c] if any(map(any, c)) else [0] * ns for c in coefficients]
         nv, nl, nr = norms(v, 1 << ev), norms(l, den << ev), norms(r, den << ew)
         for n in (nv, nl):
             for c in n:
-                c[:] = [-(-x * s.numerator // s.denominator) for x, s in zip(c, self.scale)]
+                c[:] = [-(-x * s.numerator // s.denominator) for x, s in zip(c, scale)]
         nrl = [c if k < low else [0] * ns for k, c in enumerate(nr)]
-        linear = len(z) <= 2 and not self.bff_norm and all(not any(c) for n, top in ((nr, 1), (nrl, 1), (nl, 2), (nv, 2)) for c in n[top:])
-        return center, fixed, nv, nl, nrl, nr, linear
+        linear = len(z) <= 2 and not (self.aff_norm if backwards else self.bff_norm) and all(not any(c) for n, top in ((nr, 1), (nrl, 1), (nl, 2), (nv, 2)) for c in n[top:])
+        return center, fixed, nv, nl, nrl, nr, linear, bool(backwards)
+
+    def reversed(self, anchor):
+        return anchor is not None and self.anchors[anchor][-1]
 
     def ends(self, lo, hi, anchor):
         demand(anchor is not None, "a leaf of a piece without an anchor")
@@ -786,13 +811,20 @@ class CondensedPencil:
         if key not in self.cache:
             if len(self.cache) > 64:
                 self.cache.clear()
-            self.cache[key] = self.enclose(lo, hi, self.anchors[anchor])
+            self.cache[key] = self.backwards(lo, hi, anchor) if self.anchors[anchor][-1] else self.enclose(lo, hi, self.anchors[anchor])
         return self.cache[key]
+
+    def backwards(self, lo, hi, anchor):
+        """A reversed anchor: T(t) / t in s = 1 / t, the first end still that of lo. s = 0 is not part of the window."""
+        demand(lo > 0, "a reversed anchor and a region that begins at 0")
+        ends = self.enclose(Q(0) if hi is None else 1 / hi, 1 / lo, self.anchors[anchor])
+        return Ends(ends.both[1][0], ends.both[0][0], ends.both[1][1], ends.both[0][1], ends.d, ends.unit, hi is None)
 
     def enclose(self, lo, hi, anchor):
         """Units of 2^-FINE; everything rounded outward."""
-        center, z, nv, nl, nrl, nr, linear = anchor
-        ns, s = len(z[0]), self.sigma + lo * self.tau
+        center, z, nv, nl, nrl, nr, linear, reverse = anchor
+        sigma, tau, norm = (self.tau, self.sigma, self.aff_norm) if reverse else (self.sigma, self.tau, self.bff_norm)
+        ns, s = len(z[0]), sigma + lo * tau
         demand(hi is not None or linear, "an infinite interval and a family that is not linear")
 
         def up(n, d, derivative=0):
@@ -841,7 +873,7 @@ class CondensedPencil:
         r0, r1 = ([[x + cost + -(-(extra * b).numerator // (extra * b).denominator) for x, b in zip(rr, rb)] for rr, rb in zip(r, bend)] for r in (r0, r1))
         v, l, rl, r = (up(n, delta) for n in (nv, nl, nrl, nr))
         dv, dl, drl, dr = (up(n, delta, 1) for n in (nv, nl, nrl, nr))
-        slope = outer((one, dv, rl), (one, v, drl), (1 / s, dl, r), (1 / s, l, dr), (self.bff_norm / (s * s), l, r))
+        slope = outer((one, dv, rl), (one, v, drl), (1 / s, dl, r), (1 / s, l, dr), (norm / (s * s), l, r))
         # Rounding of Z(lo), Z(hi) and of the coefficients of Z' on top of the two items of the page.
         rough = sum((k * delta ** (k - 1) for k in range(1, len(z))), Q(0))
         d = [[ceil(width * width * b + width * (x + rough)) + 2 * cost for x, b in zip(rx, rb)] for rx, rb in zip(slope, bend)]
@@ -933,7 +965,7 @@ class Root:
         rest = [j for j, st in enumerate(state) if st == REST]
         place = {i: k for k, i in enumerate(s)}
         k = place.get(counter(pivot))
-        demand(len(moving) + len(rest) == len(state) and k in moving and hi is not None, "root: undecided variables, pivot, or an infinite end")
+        demand(len(moving) + len(rest) == len(state) and k in moving, "root: undecided variables or pivot")
         ey, ex = counter(ey, 0, 2**32 - 1), counter(ex, 0, 2**32 - 1)
         demand(max(ex, ey) <= 16_384, "root: exponents")
         self.a, self.b = pair(interval)
@@ -944,10 +976,17 @@ class Root:
         y = [[Q(integer(v), 2**ey) for v in sequence(r)] for r in sequence(inverse)]
         u, v = ([Q(integer(x), 2**ex) for x in sequence(l)] for l in (left, right))
         demand(len(y) == len(u) == len(v) == m and all(len(r) == m for r in y), "root: lengths")
-        self.hull = min(lo, self.a), max(hi, self.b)
+        # What is alone up to infinity is alone up to b.
+        self.hull = min(lo, self.a), self.b if hi is None else max(hi, self.b)
         self.support = tuple(s[j] for j in moving)
         self.yields = False
-        wide = pencil.ends(*self.hull, anchor)
+        by_chord = hi is None and not pencil.reversed(anchor)
+        if by_chord:
+            demand(self.hull[0] > 0, "root: from 0 to infinity")
+            cone = pencil.ends(self.hull[0], None, anchor)
+            wide = cone.chord(self.hull[0], self.hull[0], None)
+        else:
+            wide = pencil.ends(self.hull[0], None if hi is None else self.hull[1], anchor)
         yt = list(zip(*y))
         abs_y, abs_yt = ([[abs(x) for x in r] for r in mat] for mat in (y, yt))
         full_u, full_v = dict(zip(others, u)) | {k: Q(1)}, dict(zip(others, v)) | {k: Q(1)}
@@ -1013,8 +1052,13 @@ class Root:
             demand(self.a <= c[2] and c[3] <= self.b, "root 5: the claim's value is not in the interval")
             self.yields = set(c[0]) == set(self.support)
             return
+        if isinstance(outcome, dict) and "infinity" in outcome:
+            x = [integer(v) for v in sequence(fields(outcome, "infinity")[0])]
+            demand(hi is None and len(x) == pencil.p.n, "root 5: not at infinity, or length")
+            null_at_infinity(pencil.p, self.support, pencil.reversed(anchor), x)
+            return
         demand(self.a < self.b, "root 5: an interval of one point")
-        narrow = pencil.ends(self.a, self.b, anchor)
+        narrow = cone.chord(self.hull[0], self.a, self.b) if by_chord else pencil.ends(self.a, self.b, anchor)
         demand(sign(narrow, 0) * sign(narrow, 1) == -1, "root 5: no change of sign")
         error = max(eps_v(narrow, 0), eps_v(narrow, 1))
 
@@ -1037,6 +1081,20 @@ class Root:
             demand(i in rest and y_sign(i) == -1, "root 5: negative_y")
         else:
             raise Unreadable("root: outcome")
+
+
+def null_at_infinity(p, support, reverse, x):
+    """x is a null vector of the limit on the moving set: B x = 0 there and on the free rows (of A where the free rows are zero in B)."""
+    demand(any(x[i] for i in support), "root 5: nothing moves at infinity")
+    for i in range(p.n):
+        free = i in p.free
+        if not free and i not in support:
+            demand(x[i] == 0, "root 5: x off the active variables at infinity")
+            continue
+        if free and not reverse:
+            demand(not any(p.b[i].values()), "root 5: a free row of B at infinity")
+        row = p.a[i] if free and not reverse else p.b[i]
+        demand(sum(v * x[j] for j, v in row.items()) == 0, "root 5: no null vector at infinity")
 
 
 # ---------------------------------------------------------------- one support, value by value

@@ -142,3 +142,7 @@ pub const SINGULAR_PIVOT: f64 = 1e-13;
 /// offered as real, and the residual up to which Newton's method then keeps it. Unit: none. Basis: simple
 /// eigenvalues come with 1e-13 times their condition, below 1e4 for condensed meshes.
 pub const REAL_EIGENVALUE: f64 = 1e-9;
+
+/// Share of the way from lo to infinity (in lo / t) that a null vector's value in doubles may be off infinity, before the exact
+/// null vector there is asked for. Unit: none. Basis: roots are good to 1e-12; where it asks in vain nothing is lost.
+pub const AT_INFINITY: f64 = 1e-6;

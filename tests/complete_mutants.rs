@@ -90,7 +90,7 @@ fn alter(node: &mut Node, variables: usize, rng: &mut ChaCha8Rng) {
             1 => r.outcome = RootOutcome::Solution,
             2 => {
                 let i = rng.random_range(0..variables);
-                r.outcome = [RootOutcome::NegativeX(i), RootOutcome::NegativeY(i), RootOutcome::Claim(i)][rng.random_range(0..3)];
+                r.outcome = [RootOutcome::NegativeX(i), RootOutcome::NegativeY(i), RootOutcome::Claim(i)][rng.random_range(0..3)].clone();
             }
             3 => r.interval[rng.random_range(0..2)].0 *= factor,
             4 => r.right.iter_mut().chain(&mut r.left).for_each(|v| *v += Integer::from(1) << rng.random_range(0..60)),

@@ -14,6 +14,8 @@ mod corpus_by_leaf;
 mod corpus_claims;
 #[path = "support/corpus_covers.rs"]
 mod corpus_covers;
+#[path = "support/corpus_infinity.rs"]
+mod corpus_infinity;
 #[path = "support/corpus_malformed.rs"]
 mod corpus_malformed;
 #[path = "support/corpus_support.rs"]
@@ -207,6 +209,7 @@ fn write_the_corpus() {
     corpus_covers::covers(&mut cases);
     corpus_covers::absence(&mut cases);
     corpus_support::supports(&mut cases);
+    corpus_infinity::infinity(&mut cases);
     corpus_malformed::malformed(&mut cases);
     corpus_malformed::hostile(&mut cases);
     for case in cases.0 {

@@ -46,7 +46,8 @@ impl Cluster {
             format!("PartitionName=all Nodes={host} Default=YES MaxTime=INFINITE State=UP\n"),
         ];
         std::fs::write(cluster.path("slurm.conf"), lines.join("\n")).unwrap();
-        let key: Vec<u8> = (0..64).map(|_| rand::random()).collect();
+        let mut key = [0u8; 64];
+        std::io::Read::read_exact(&mut std::fs::File::open("/dev/urandom").unwrap(), &mut key).unwrap();
         std::fs::write(cluster.path("munge.key"), key).unwrap();
         std::fs::set_permissions(cluster.path("munge.key"), std::os::unix::fs::PermissionsExt::from_mode(0o600)).unwrap();
         let files = [("key-file", "munge.key"), ("socket", "munge.socket"), ("pid-file", "munged.pid"), ("log-file", "munged.log")];
@@ -87,8 +88,7 @@ impl Cluster {
     /// A field of `scontrol show job`, the same for all tasks of an array.
     fn field(&self, job: &str, name: &str) -> Vec<String> {
         let shown = self.slurm("scontrol", &["show", "job", job]);
-        let mut all: Vec<String> =
-            shown.split_whitespace().filter_map(|w| w.strip_prefix(&format!("{name}="))).map(String::from).collect();
+        let mut all: Vec<String> = shown.split_whitespace().filter_map(|w| w.strip_prefix(&format!("{name}="))).map(String::from).collect();
         all.sort();
         all.dedup();
         all
@@ -161,9 +161,8 @@ fn a_job_array_is_merged_and_an_interrupted_part_is_never_taken_for_a_whole() {
     let part = cluster.submit("long", "slurm-array.sh", 1, &short);
     let ok = cluster.submit("long", "slurm-merge.sh", 0, &[&after("afterok", &part)]);
     let any = cluster.submit("long", "slurm-merge.sh", 0, &[&after("afterany", &part)]);
-    cluster.until("the part is queued again", || {
-        cluster.field(&part, "Restarts") == ["1"] && cluster.field(&part, "JobState") == ["PENDING"]
-    });
+    cluster
+        .until("the part is queued again", || cluster.field(&part, "Restarts") == ["1"] && cluster.field(&part, "JobState") == ["PENDING"]);
     assert_eq!(cluster.check("long", "part-1.json"), Some(3));
     let first = std::fs::metadata(cluster.path("long/part-1.json")).unwrap().len();
     assert_eq!((cluster.field(&ok, "JobState"), cluster.field(&any, "JobState")), (vec!["PENDING".into()], vec!["PENDING".into()]));

@@ -96,7 +96,7 @@ pub struct Root {
 }
 
 /// What the only null vector of a leaf is.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RootOutcome {
     /// A solution: it exists, x > 0 and y > 0 strictly.
@@ -109,6 +109,9 @@ pub enum RootOutcome {
     NegativeY(usize),
     /// The solution of the claim with this number in the certificate, so nothing else is here.
     Claim(usize),
+    /// In a region that reaches to infinity: this vector, an entry per variable of the pencil, is a null vector of the
+    /// pencil's limit there, so nothing is here.
+    Infinity(#[serde(with = "integers")] Vec<Integer>),
 }
 
 /// All solutions of one support over a closed interval: it is cut at `points`, and each point and each
@@ -255,14 +258,22 @@ pub struct Factor {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Anchor {
-    /// The value expanded about.
+    /// The value expanded about; of a reversed anchor its reciprocal.
     pub center: Number,
+    /// Does it expand B + sA in powers of s - center, s = 1 / t? Such an anchor reaches to infinity.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub reversed: bool,
     /// Coefficients of the right solutions.
     #[serde(deserialize_with = "object::list")]
     pub right: Vec<IntegerMatrix>,
     /// Coefficients of the left solutions.
     #[serde(deserialize_with = "object::list")]
     pub left: Vec<IntegerMatrix>,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde wants a reference")]
+fn is_false(v: &bool) -> bool {
+    !v
 }
 
 /// A dense integer matrix by rows, in units of 2^-`exponent`.

@@ -31,6 +31,12 @@ impl Rows {
         }
     }
 
+    /// B + sA: the same solutions at s = 1 / t.
+    pub(super) fn reversed(&self) -> Rows {
+        let swapped = |row: &Row| row.iter().map(|(j, a, b)| (*j, b.clone(), a.clone())).collect();
+        Rows { rows: self.rows.iter().map(swapped).collect(), factor: self.factor.clone(), is_free: self.is_free.clone() }
+    }
+
     pub(super) fn order(&self) -> usize {
         self.rows.len()
     }

@@ -1,6 +1,7 @@
 //! `mceip complete`: all solutions in a window, with a proof that there are no others.
 
 use super::common::{CliError, exit, interrupt_flag, load, print, text};
+use super::infinity::{AtInfinity, Files};
 use super::output::Output;
 use crate::certificate::Certificate;
 use crate::check::{AcceptedCover, OpenRegion, SolutionFamily};
@@ -25,6 +26,10 @@ pub(super) struct Args {
     /// Go on with a certificate that leaves regions open (after an interrupt, or a shard).
     #[arg(long, value_name = "CERTIFICATE")]
     resume: Option<PathBuf>,
+    /// Say as well what there is at infinity, the limit of the pencil for large values (window without upper end); with
+    /// --certificate OUT proved in OUT.infinity.json, for the reversed problem OUT.infinity-problem.json.
+    #[arg(long)]
+    infinity: bool,
     /// Search part i of n of the pieces and leave the others open; `mceip merge` joins the parts.
     #[arg(long, value_name = "I/N")]
     shard: Option<String>,
@@ -48,8 +53,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.pieces == 0 || args.pieces > MAX_PIECES {
         return Err(CliError::Option { option: "pieces", expected: "1 to 100000", got: args.pieces.to_string() });
     }
+    if args.infinity && problem.window().max().is_some() {
+        return Err(CliError::Option { option: "infinity", expected: "a window without upper end", got: "one that ends".into() });
+    }
     let earlier = args.resume.as_ref().map(|path| read(path)).transpose()?;
     let output = args.certificate.as_ref().map(|path| Output::prepare("certificate", path, &[&args.file])).transpose()?;
+    let files = args.certificate.as_ref().filter(|_| args.infinity).map(|path| Files::prepare(path, &args.file)).transpose()?;
     let stop = interrupt_flag();
     let bar = share_bar();
     let options = Options { pieces: args.pieces, threads: args.threads, shard, ..Options::default() };
@@ -62,12 +71,25 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Some(certificate) => resume(&problem, certificate, &options, &stop, &hear)?,
     };
     bar.finish_and_clear();
-    let out = if args.json { format!("{}\n", solutions_json(&problem, &completed)) } else { solutions_text(&problem, &completed.cover) };
+    let beyond = if args.infinity { Some(AtInfinity::search(&problem, &options, &stop)?) } else { None };
+    let out = if args.json {
+        let mut report = solutions_json(&problem, &completed);
+        if let Some(beyond) = &beyond {
+            report["at_infinity"] = beyond.json();
+        }
+        format!("{report}\n")
+    } else {
+        solutions_text(&problem, &completed.cover) + &beyond.as_ref().map_or_else(String::new, AtInfinity::text)
+    };
     print(&out)?;
+    if let (Some(beyond), Some(files)) = (&beyond, files) {
+        beyond.write(files)?;
+    }
     if let Some(output) = output {
         output.write(&completed.certificate.to_json())?;
     }
-    Ok(match (stop.load(std::sync::atomic::Ordering::Relaxed), completed.is_complete()) {
+    let is_complete = completed.is_complete() && beyond.as_ref().is_none_or(AtInfinity::is_complete);
+    Ok(match (stop.load(std::sync::atomic::Ordering::Relaxed), is_complete) {
         (_, true) => exit::DONE,
         (true, false) => exit::INTERRUPTED,
         (false, false) => exit::UNDECIDED,

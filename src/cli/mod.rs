@@ -10,6 +10,7 @@ mod complete;
 mod conform;
 mod convert;
 mod enumerate;
+mod infinity;
 mod merge;
 mod merge_covers;
 mod output;

@@ -14,6 +14,7 @@ mod expand;
 mod lift;
 mod lines;
 mod project;
+mod reversed;
 
 pub use condense::{CondensationError, condense};
 #[cfg(feature = "solver")]
@@ -28,3 +29,4 @@ pub use expand::Expansion;
 pub use lift::{Lifted, lift};
 pub use lines::{Line, LineViolated, check_lines};
 pub use project::{Projected, project};
+pub use reversed::reversed;

@@ -15,6 +15,7 @@ use crate::check::pencil::{Row, Rows};
 use crate::exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
+use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
 /// Largest degree of an expansion.
@@ -47,7 +48,14 @@ pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expande
     semidefinite(&shifted, &scale, Some(&condensation.stiffness_factor), false, "A_ff - sigma I positive semidefinite")?;
     let (shifted, scale) = block(1, tau);
     semidefinite(&shifted, &scale, condensation.mass_factor.as_ref(), false, "B_ff - mass_sigma I positive semidefinite")?;
-    condensation.anchors.iter().map(|anchor| blocks.expand(anchor, sigma, tau)).collect()
+    // F(t) / t = B_ff + s A_ff >= (tau + s sigma) I for s = 1 / t.
+    let reversed = OnceCell::new();
+    let expand = |anchor: &Anchor| match anchor.reversed {
+        false => blocks.expand(anchor, sigma, tau),
+        true if tau.is_zero() => Err(CoverFault::Hypothesis { expected: "mass_sigma > 0 for a reversed anchor", row: 0 }),
+        true => reversed.get_or_init(|| Blocks::of(&rows.reversed())).expand(anchor, tau, sigma).map(|e| Expanded { reversed: true, ..e }),
+    };
+    condensation.anchors.iter().map(expand).collect()
 }
 
 /// sym(A + from B) is positive definite and sym(B) semidefinite on all variables.
@@ -165,6 +173,7 @@ impl Blocks {
             unit,
             drift: self.drift(sigma),
             gain: tau / sigma,
+            reversed: false,
         })
     }
 

@@ -29,10 +29,26 @@ pub(super) struct Expanded {
     pub(super) drift: Rational,
     /// tau / sigma: the weights hold at t = 0, at t they are divided by 1 + t tau / sigma.
     pub(super) gain: Rational,
+    /// Is this B + sA, and the value expanded in s = 1 / t?
+    pub(super) reversed: bool,
 }
 
 impl Expanded {
+    /// The ends over [lo, hi]; reversed, over the interval of s, the first still that of the lower t.
     pub(super) fn ends(&self, lo: &Rational, hi: Option<&Rational>) -> Result<Ends, CoverFault> {
+        if !self.reversed {
+            return self.between(lo, hi);
+        }
+        if lo.is_zero() {
+            return Err(CoverFault::Hypothesis { expected: "a region above 0 for a reversed anchor", row: 0 });
+        }
+        let ends = self.between(&hi.map_or_else(Rational::zero, Rational::recip), Some(&lo.recip()))?;
+        let ([m1, m0], [r1, r0]) = (ends.m, ends.r);
+        // s = 0 itself is not part of the window.
+        Ok(Ends { m: [m0, m1], r: [r0, r1], infinite: hi.is_none(), ..ends })
+    }
+
+    fn between(&self, lo: &Rational, hi: Option<&Rational>) -> Result<Ends, CoverFault> {
         let n = self.weight.len();
         let linear = self.is_linear();
         let scale = Integer::one() << FRACTION_BITS;

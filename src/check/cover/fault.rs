@@ -78,8 +78,8 @@ pub enum CoverFault {
         /// `lower` or `upper`.
         end: &'static str,
     },
-    /// A root where an index is open, or an infinite interval.
-    #[error("root: expected every index decided, something moving and a finite interval")]
+    /// A root where an index is open, or an interval from zero to infinity.
+    #[error("root: expected every index decided, something moving, and a lower end above 0 where the interval is infinite")]
     RootTooEarly,
     /// The pivot does not move.
     #[error("root: expected a moving pivot, got {index}")]
@@ -134,6 +134,14 @@ pub enum CoverFault {
         a: Rational,
         /// Upper end.
         b: Rational,
+    },
+    /// What is given for the null vector at infinity is none.
+    #[error("root: expected {expected} for the null vector at infinity, broken at index {index}")]
+    NotAtInfinity {
+        /// The obligation.
+        expected: &'static str,
+        /// The variable.
+        index: usize,
     },
     /// The claim referred to is not a solution whose null vector belongs to the leaf.
     #[error("root: expected claim {claim} to be a solution in the interval whose active rows are the leaf's")]

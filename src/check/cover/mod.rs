@@ -9,6 +9,7 @@ mod expanded;
 mod family;
 mod fault;
 mod found;
+mod infinity;
 mod ldl;
 mod leaf;
 mod psd;
@@ -304,18 +305,20 @@ impl Walk<'_> {
         let [a, b] = [&root.interval[0].0, &root.interval[1].0];
         let outside = || CoverFault::Interval { a: a.clone(), b: b.clone() };
         let value = Interval::new(a.clone(), b.clone()).ok_or_else(outside)?;
-        let may_be_point = matches!(root.outcome, RootOutcome::Claim(_) | RootOutcome::Absent);
+        let may_be_point = matches!(root.outcome, RootOutcome::Claim(_) | RootOutcome::Absent | RootOutcome::Infinity(_));
         if a < self.window.min() || self.window.max().is_some_and(|max| b > max) || (a == b && !may_be_point) {
             return Err(outside());
         }
-        let hi = region.hi.as_ref().ok_or(CoverFault::RootTooEarly)?;
-        let (hull_lo, hull_hi) = ((&region.lo).min(a), hi.max(b));
-        let hull = Interval::new(hull_lo.clone(), hull_hi.clone()).ok_or_else(outside)?;
-        let wide = self.family.ends(anchor, hull_lo, Some(hull_hi))?;
-        let narrow = self.family.ends(anchor, a, Some(b))?;
+        let (hull_lo, hull_hi) = ((&region.lo).min(a), region.hi.as_ref().map(|hi| hi.max(b)));
+        // What is alone up to infinity is alone up to b.
+        let hull = Interval::new(hull_lo.clone(), hull_hi.unwrap_or(b).clone()).ok_or_else(outside)?;
+        let [wide, narrow] = self.family.nested(anchor, (hull_lo, hull_hi), [a, b])?;
         root::check(region, &wide, &narrow, &self.index, root)?;
         let support = self.left_open(region).moving;
         match root.outcome {
+            RootOutcome::Infinity(ref x) => {
+                infinity::null_vector(self.rows, &support, region.hi.is_none(), self.family.is_reversed(anchor), x).map(|()| None)
+            }
             RootOutcome::Solution => Ok(Some(Found { solution: AcceptedClaim { support, value }, hull })),
             RootOutcome::Absent | RootOutcome::NegativeX(_) | RootOutcome::NegativeY(_) => Ok(None),
             RootOutcome::Claim(claim) => {

@@ -16,7 +16,7 @@ use num_traits::{One, Signed, Zero};
 const MAX_EXPONENT: u32 = 1 << 14;
 
 /// `wide`: ends over the hull of the leaf and the root's interval; `narrow`: over that interval.
-/// For [`RootOutcome::Claim`] only uniqueness is checked here.
+/// For [`RootOutcome::Claim`] and [`RootOutcome::Infinity`] only uniqueness is checked here.
 pub(super) fn check(region: &Region, wide: &Ends, narrow: &Ends, index: &[usize], root: &Root) -> Result<(), CoverFault> {
     let system = System::new(region, index, root)?;
     let (rho, eta) = (system.norm(wide, Side::Right)?, system.norm(wide, Side::Left)?);
@@ -27,7 +27,7 @@ pub(super) fn check(region: &Region, wide: &Ends, narrow: &Ends, index: &[usize]
     }
     let at_wide_ends = || system.schur_sign(wide, 0, &rho) * system.schur_sign(wide, 1, &rho);
     match root.outcome {
-        RootOutcome::Claim(_) => return Ok(()),
+        RootOutcome::Claim(_) | RootOutcome::Infinity(_) => return Ok(()),
         RootOutcome::Absent if at_wide_ends() == 1 => return Ok(()),
         RootOutcome::Absent => return Err(CoverFault::SignChange),
         _ => {}
@@ -238,7 +238,7 @@ impl<'a> System<'a> {
                 Some(s) if region.states[s] == State::Rest && y(s) == -1 => Ok(()),
                 _ => fault("y", i, "< 0"),
             },
-            RootOutcome::Claim(_) | RootOutcome::Absent => Ok(()), // dealt with before
+            RootOutcome::Claim(_) | RootOutcome::Absent | RootOutcome::Infinity(_) => Ok(()), // dealt with before
         }
     }
 

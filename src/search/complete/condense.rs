@@ -5,6 +5,8 @@
 
 use super::CompleteError;
 use super::game::dot;
+use super::massless;
+use super::reverse;
 use super::skyline::Skyline;
 use super::view::{Expansion, View, row_factor, scale};
 use crate::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
@@ -16,7 +18,7 @@ use crate::tolerance::TAIL_START;
 /// How an anchor is expanded: degree of W and V, and the bits of their largest entries. What W's rounding
 /// costs enters to first order (times V), what the degree leaves out enters squared.
 #[derive(Clone, Copy)]
-struct Precision {
+pub(super) struct Precision {
     degree: usize,
     right_bits: i32,
     left_bits: i32,
@@ -25,7 +27,7 @@ struct Precision {
 /// F does not depend on the unknown: W is a constant.
 const CONSTANT: Precision = Precision { degree: 0, right_bits: 56, left_bits: 24 };
 /// For regions far from solutions: the margins of their witnesses are wide.
-const COARSE: Precision = Precision { degree: 2, right_bits: 36, left_bits: 24 };
+pub(super) const COARSE: Precision = Precision { degree: 2, right_bits: 36, left_bits: 24 };
 /// About a solution, used within [`NEAR`] of it.
 const FINE: Precision = Precision { degree: 2, right_bits: 56, left_bits: 30 };
 /// Distance from a solution up to which its own anchor is used, relative to value + lowest frequency.
@@ -44,14 +46,16 @@ pub(super) struct Condensed {
     pub(super) ends: Vec<f64>,
     /// Smallest eigenvalue of (A_ff, B_ff); zero where F does not depend on the unknown.
     pub(super) base: f64,
+    /// From where the reversed anchor, the last one, is used; up to infinity.
+    pub(super) beyond: Option<Rational>,
 }
 
 /// The blocks of the pencil that the elimination needs, sparse columns in doubles.
-struct Blocks {
+pub(super) struct Blocks {
     free: Vec<usize>,
     slip: Vec<usize>,
     /// A_ff and B_ff.
-    stiffness: Skyline,
+    pub(super) stiffness: Skyline,
     mass: Skyline,
     mass_is_zero: bool,
     /// Rows of A_ff and B_ff.
@@ -64,7 +68,7 @@ struct Blocks {
 }
 
 impl Blocks {
-    fn of(pencil: &Pencil) -> Blocks {
+    pub(super) fn of(pencil: &Pencil) -> Blocks {
         let (free, slip) = (pencil.free().to_vec(), pencil.slip());
         let ff = [pencil.a(), pencil.b()].map(|m| m.submatrix(&free, &free));
         let columns = |m: Sparse| {
@@ -100,9 +104,15 @@ pub(super) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
     let sigma = short_below(0.8 * bound).ok_or_else(|| not_definite("A_ff"))?;
     let slack = 0.2 * bound;
     let factor = blocks.stiffness.shifted(-to_f64(&sigma) - slack).cholesky().ok_or_else(|| not_definite("A_ff"))?;
-    let (mass_sigma, mass_factor) = mass_bound(&blocks.mass).map_err(|()| not_definite("B_ff"))?;
+    let (mass_sigma, mass_factor) =
+        mass_bound(&blocks.mass, &pencil.b().submatrix(&blocks.free, &blocks.free)).map_err(|()| not_definite("B_ff"))?;
     let tail = if window.max().is_none() && !blocks.mass_is_zero { tail(pencil) } else { None };
-    let top = tail.as_ref().map(|t| &t.from.0).or(window.max()).map_or(f64::INFINITY, to_f64);
+    let from = |t: &Tail| to_f64(&t.from.0);
+    let beyond = if window.max().is_none() && !blocks.mass_is_zero { reverse::beyond(pencil, [&sigma, &mass_sigma]) } else { None };
+    // A tail that begins further out (or does not) is left to the reversed pencil.
+    let beyond = beyond.filter(|b| tail.as_ref().is_none_or(|t| from(t) > to_f64(&b.from)));
+    let tail = if beyond.is_some() { None } else { tail };
+    let top = beyond.as_ref().map(|b| to_f64(&b.from)).or(tail.as_ref().map(from)).or(window.max().map(to_f64)).unwrap_or(f64::INFINITY);
     let base = if blocks.mass_is_zero { 0.0 } else { lowest_frequency(&blocks, &plain) };
     let (centers, ends) = centers(base, to_f64(window.min()), top);
     let mut anchors = Vec::new();
@@ -114,26 +124,32 @@ pub(super) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
         anchors.push(anchor);
         expansions.push(expansion);
     }
+    let beyond = beyond.map(|b| {
+        anchors.push(b.anchor);
+        expansions.push(b.expansion);
+        b.from
+    });
     let stiffness_factor = factor.rounded(slack);
     let condensation = Condensation { sigma: Number(sigma), stiffness_factor, mass_sigma: Number(mass_sigma), mass_factor, anchors, tail };
     let view = View { index: blocks.slip.clone(), scale: scale(&expansions[0].z), expansions };
-    Ok(Condensed { condensation, view, ends, base })
+    Ok(Condensed { condensation, view, ends, base, beyond })
 }
 
 /// tau and the factor of B_ff - tau I; no factor where the block is diagonal.
-fn mass_bound(mass: &Skyline) -> Result<(Rational, Option<Factor>), ()> {
+fn mass_bound(mass: &Skyline, given: &Sparse) -> Result<(Rational, Option<Factor>), ()> {
     if mass.is_diagonal() {
         let least = mass.smallest_diagonal();
         return Ok((short_below(least).unwrap_or_default(), None));
     }
-    let bound = mass.below_spectrum().ok_or(())?;
+    // Without mass in some rows the bound is zero.
+    let Some(bound) = mass.below_spectrum() else { return massless::factor(given).map(|f| (Rational::default(), Some(f))).ok_or(()) };
     let tau = short_below(0.8 * bound).ok_or(())?;
     let slack = 0.2 * bound;
     Ok((tau.clone(), Some(mass.shifted(-to_f64(&tau) - slack).cholesky().ok_or(())?.rounded(slack))))
 }
 
 /// Centres and the value up to which each is used; one for a pencil whose F does not depend on t.
-fn centers(base: f64, mut low: f64, top: f64) -> (Vec<Rational>, Vec<f64>) {
+pub(super) fn centers(base: f64, mut low: f64, top: f64) -> (Vec<Rational>, Vec<f64>) {
     if base == 0.0 {
         return (vec![Rational::from_integer(0.into())], vec![f64::INFINITY]);
     }
@@ -153,7 +169,7 @@ fn centers(base: f64, mut low: f64, top: f64) -> (Vec<Rational>, Vec<f64>) {
 const TAIL_DOUBLINGS: i32 = 60;
 
 /// Smallest eigenvalue of (A_ff, B_ff), estimated by inverse iteration on the pencil.
-fn lowest_frequency(blocks: &Blocks, stiffness: &Skyline) -> f64 {
+pub(super) fn lowest_frequency(blocks: &Blocks, stiffness: &Skyline) -> f64 {
     let n = blocks.free.len();
     let mut v = vec![1.0; n];
     let mut estimate = 1.0;
@@ -178,13 +194,10 @@ fn tail(pencil: &Pencil) -> Option<Tail> {
     let (a, b) = (Skyline::symmetric(pencil.a()), Skyline::symmetric(pencil.b()));
     let mass_factor = match b.is_diagonal() {
         true => None,
-        false => {
-            let slack = b.below_spectrum()?;
-            Some(b.shifted(-slack).cholesky()?.rounded(slack))
-        }
+        false => Some(massless::factor(pencil.b())?),
     };
     let start = a.largest() / b.largest() * TAIL_START;
-    // sym(B) is positive definite, so doubling comes to an end.
+    // Where sym(B) is positive definite, doubling comes to an end.
     let from = (0..TAIL_DOUBLINGS).map(|k| start * f64::from(k).exp2()).find(|t| a.combine(*t, &b, 0.0).cholesky().is_some())?;
     let from = short_below(1.25 * from)?;
     let s = a.combine(to_f64(&from), &b, 0.0);
@@ -211,7 +224,14 @@ pub(super) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     let blocks = Blocks::of(pencil);
     let bounds = [to_f64(&condensation.sigma.0), to_f64(&condensation.mass_sigma.0)];
     let side = |list: &[IntegerMatrix]| list.iter().map(|m| columns_of(m, blocks.slip.len())).collect::<Vec<_>>();
-    let one = |a: &Anchor| expansion(pencil, &blocks, to_f64(&a.center.0), bounds, &side(&a.right), &side(&a.left));
+    let one = |a: &Anchor| match reverse::swapped(pencil).filter(|_| a.reversed) {
+        None => expansion(pencil, &blocks, to_f64(&a.center.0), bounds, &side(&a.right), &side(&a.left)),
+        Some(swapped) => {
+            let [sigma, tau] = bounds;
+            let (c, blocks) = (to_f64(&a.center.0), Blocks::of(&swapped));
+            Expansion { reversed: true, ..expansion(&swapped, &blocks, c, [tau, sigma], &side(&a.right), &side(&a.left)) }
+        }
+    };
     let expansions: Vec<Expansion> = condensation.anchors.iter().map(one).collect();
     View { index: blocks.slip.clone(), scale: expansions.first().map_or(1.0, |e| scale(&e.z)), expansions }
 }
@@ -223,7 +243,13 @@ fn columns_of(m: &IntegerMatrix, cols: usize) -> Vec<Vec<f64>> {
 }
 
 /// The Taylor polynomials about a centre, rounded, and the condensed pencil they give.
-fn expand(pencil: &Pencil, blocks: &Blocks, center: &Rational, bounds: [f64; 2], precision: Precision) -> Option<(Anchor, Expansion)> {
+pub(super) fn expand(
+    pencil: &Pencil,
+    blocks: &Blocks,
+    center: &Rational,
+    bounds: [f64; 2],
+    precision: Precision,
+) -> Option<(Anchor, Expansion)> {
     let c = to_f64(center);
     let f = blocks.stiffness.combine(c, &blocks.mass, 0.0).cholesky()?;
     let degree = |side: &[Vec<Vec<f64>>; 2]| match (blocks.mass_is_zero, side[1].iter().flatten().all(|v| *v == 0.0)) {
@@ -257,7 +283,7 @@ fn expand(pencil: &Pencil, blocks: &Blocks, center: &Rational, bounds: [f64; 2],
     let only = |list: &[(IntegerMatrix, Vec<Vec<f64>>)]| list.iter().map(|(_, w)| w.clone()).collect::<Vec<_>>();
     let expansion = expansion(pencil, blocks, c, bounds, &only(&right), &only(&left));
     let matrices = |list: Vec<(IntegerMatrix, Vec<Vec<f64>>)>| list.into_iter().map(|(m, _)| m).collect();
-    Some((Anchor { center: Number(center.clone()), right: matrices(right), left: matrices(left) }, expansion))
+    Some((Anchor { center: Number(center.clone()), reversed: false, right: matrices(right), left: matrices(left) }, expansion))
 }
 
 /// Columns rounded to integers over a power of two: the matrix by rows, and the rounded columns.
@@ -329,6 +355,7 @@ fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, bounds: [f64; 2], right: 
         v: norms(left, true),
         rounding: norms(&r[..right.len()], false),
         free: right.to_vec(),
+        reversed: false,
     }
 }
 

@@ -4,12 +4,16 @@
 //! What it reports is what the checker accepted: solutions, and regions that stay open. A certificate
 //! with open regions is also the checkpoint: [`resume`] goes on with it, [`merge`] joins parts.
 
+mod beyond;
 mod circuit;
 mod condense;
+mod decided;
 mod error;
 pub(crate) mod game;
+mod massless;
 mod merge;
 mod reasons;
+mod reverse;
 mod root;
 mod skeleton;
 mod skyline;
@@ -25,7 +29,7 @@ pub use merge::merge;
 use super::definite;
 use crate::certificate::{Certificate, Claim, CompleteSet, Node, Piece};
 use crate::certify::certificate;
-use crate::check::{AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check};
+use crate::check::{Accepted, AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check};
 use crate::model::file::Number;
 use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
@@ -185,21 +189,40 @@ fn run(
 /// Lets the checker read the certificate: what is reported is what it accepted. A leaf whose witness
 /// doubles have judged too well is left open, and so is a tail.
 fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certificate: Certificate) -> Result<Completed, CompleteError> {
-    // Every round opens the tail or solutions of one support, so that this comes to an end.
-    let (accepted, refused) = loop {
-        match audit(problem, &certificate) {
-            Ok(audited) => break audited,
-            Err(rejected) => without_refused(&mut certificate, rejected)?,
-        }
-    };
-    for (piece, node) in refused {
-        let leaf = certificate.complete_set.as_mut().and_then(|set| set.pieces.get_mut(piece)).and_then(|p| p.tree.get_mut(node));
-        leaf.into_iter().for_each(|leaf| *leaf = Node::Open);
+    let (mut accepted, refused) = audited(problem, &mut certificate)?;
+    if !refused.is_empty() && refused.len() <= MAX_REFUSED {
+        // Exact arithmetic may decide what doubles have judged too well; what it says is read like all else.
+        let set = certificate.complete_set.take().ok_or(CompleteError::NoCompleteSet)?;
+        let (never, leaves) = (AtomicBool::new(false), refused.into_iter().collect());
+        let quiet = Shares { stop: &never, progress: &|_| {}, state: Mutex::new(Progress::default()) };
+        let found = splice::exactly(problem, pencil, prepared, &set, &quiet, &leaves);
+        let pieces = set.pieces.iter().zip(found).map(|(p, f)| splice::numbered(p, f.items, &mut certificate.claims)).collect();
+        certificate.complete_set = Some(CompleteSet { pieces, ..set });
+        accepted = audited(problem, &mut certificate)?.0;
     }
     let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
     let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
     let x = cover.solutions.iter().map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s))).collect();
     Ok(Completed { certificate, cover, x })
+}
+
+/// Refused leaves up to which exact arithmetic is asked.
+const MAX_REFUSED: usize = 200;
+
+/// What the checker accepts, and the leaves it has refused, which have been opened.
+fn audited(problem: &Problem, certificate: &mut Certificate) -> Result<(Accepted, Vec<(usize, usize)>), CompleteError> {
+    // Every round opens the tail or solutions of one support, so that this comes to an end.
+    let (accepted, refused) = loop {
+        match audit(problem, certificate) {
+            Ok(audited) => break audited,
+            Err(rejected) => without_refused(certificate, rejected)?,
+        }
+    };
+    for &(piece, node) in &refused {
+        let leaf = certificate.complete_set.as_mut().and_then(|set| set.pieces.get_mut(piece)).and_then(|p| p.tree.get_mut(node));
+        leaf.into_iter().for_each(|leaf| *leaf = Node::Open);
+    }
+    Ok((accepted, refused))
 }
 
 /// Opens the leaves of a tree that yield solutions of the support; how many.

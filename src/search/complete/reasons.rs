@@ -4,10 +4,12 @@
 //! y = T V z that must not be negative. Either some z has them so, or some mu >= 0, not zero on J, has mu'G = 0
 //! (Motzkin); the latter is w_R, and w on the active rows solves w'T = -mu_J.
 
+mod wide;
+
 use super::circuit::{coefficients, combined, constants, divided, extended, generic_circuit, impossible};
 use crate::certificate::{Alone, Exact, Member, Polynomials};
 use crate::exact::{
-    Algebraic, Generators, Integer, Poly, Rational, Sign, cone_generators, determinant, dot, first_row_cofactors, generic_kernel, kernel_at,
+    Algebraic, Integer, Poly, Rational, Sign, cone_generators, determinant, first_row_cofactors, generic_kernel, kernel_at,
 };
 use crate::model::Pencil;
 
@@ -88,9 +90,11 @@ impl Supported {
         let mut value = Algebraic::rational(t.clone());
         let cone = cone_generators(&here, basis.len(), &mut value);
         let all: Option<Vec<Vec<Poly>>> = cone.rays.iter().map(|z| extended(&rows, &here, z, t)).collect();
-        let sum = all?.iter().map(|z| combined(&basis, z)).reduce(|s, x| s.iter().zip(&x).map(|(a, b)| a + b).collect());
+        let all = all?;
+        let sum = all.iter().map(|z| combined(&basis, z)).reduce(|s, x| s.iter().zip(&x).map(|(a, b)| a + b).collect());
         if let Some(x) = sum.filter(|x| (0..self.moving.len()).all(|p| x[p].sign_at(t) > 0)) {
-            return self.member_around(x, &basis, &cone, t);
+            let only = if let [z] = &all[..] { Some(&z[..]).filter(|_| cone.lineality.is_empty()) } else { None };
+            return self.member_around(x, &basis, &rows, only, t);
         }
         let mu = impossible(&here, self.moving.len(), basis.len(), &mut value)?;
         let mu = generic_circuit(&rows, &mu, t)?;
@@ -107,7 +111,8 @@ impl Supported {
         Some(Around { reason: Exact::None(Polynomials(coefficients(&w))), critical })
     }
 
-    fn member_around(&self, x: Vec<Poly>, basis: &[Vec<Poly>], cone: &Generators, t: &Rational) -> Option<Around> {
+    /// `only`: the ray of the cone over the basis, where it is the only one.
+    fn member_around(&self, x: Vec<Poly>, basis: &[Vec<Poly>], rows: &[Vec<Poly>], only: Option<&[Poly]>, t: &Rational) -> Option<Around> {
         let (mut x, _) = divided(x, Poly::default());
         if x[0].sign_at(t) < 0 {
             x = x.iter().map(|p| -p).collect();
@@ -119,8 +124,10 @@ impl Supported {
             let (proof, lead) = self.alone(&mut |p| p.sign_at(t) != 0, &|v| v.to_vec())?;
             critical.extend(lead);
             alone = Some(proof);
-        } else if cone.rays.len() == 1 && cone.lineality.is_empty() {
-            return None;
+        } else if let Some(z) = only {
+            let (proof, signs) = self.alone_in_wide_around(&x, basis, rows, z, t)?;
+            critical.extend(signs);
+            alone = Some(proof);
         }
         critical.retain(|p| !p.is_zero());
         Some(Around { reason: self.member(&x, alone), critical })
@@ -149,41 +156,6 @@ impl Supported {
             (own, self.over_all(&rows, &reduce(&self.left_cofactors(&rows, &order))))
         });
         Some((Alone { pivot, rows: weights.collect() }, Some(self.minor(&rows, &columns))))
-    }
-
-    /// The same where the inequalities y >= 0 make x the only one of a wide kernel: +-(x_k e_j - x_j e_k) is on the
-    /// kernel a combination with mu >= 0 of rows of G that vanish at x.
-    fn alone_in_wide(&self, x: &[Poly], basis: &[Vec<Poly>], rows: &[Vec<Poly>], z: &[Poly], value: &mut Algebraic) -> Option<Alone> {
-        let mut out = Vec::new();
-        let tight: Vec<usize> = (0..rows.len()).filter(|&r| value.sign_of(&dot(&rows[r], z)) == Sign::Zero).collect();
-        for (p, sign) in (1..self.active.len()).flat_map(|p| [(p, 1), (p, -1)]) {
-            let signed = |v: Poly| if sign > 0 { v } else { -&v };
-            let target = |v: &[Poly]| signed(&(&x[0] * &v[p]) - &(&x[p] * &v[0]));
-            // Unknowns mu and s: mu'G = s target.
-            let mut conditions: Vec<Vec<Poly>> = Vec::new();
-            for (k, v) in basis.iter().enumerate() {
-                let mut column: Vec<Poly> = tight.iter().map(|&r| rows[r][k].clone()).collect();
-                column.push(-&target(v));
-                let column = value.reduce(&column);
-                conditions.push(column.iter().map(|c| -c).collect());
-                conditions.push(column);
-            }
-            let n = tight.len() + 1;
-            conditions.extend((0..n).map(|k| (0..n).map(|i| Poly::from_ints(&[i64::from(i == k)])).collect()));
-            let rays = cone_generators(&conditions, n, value).rays;
-            let ray = rays.into_iter().find(|r| value.sign_of(&r[n - 1]) == Sign::Positive)?;
-            // w'T = -mu on the active columns is what `weights` solves.
-            let mut mu = vec![Poly::default(); self.active.len() + self.rest.len()];
-            mu[0] = signed(&ray[n - 1] * &x[p]);
-            mu[p] = signed(-&(&ray[n - 1] * &x[0]));
-            for (&r, m) in tight.iter().zip(&ray) {
-                mu[self.active.len() + r - self.moving.len()] = m.clone();
-            }
-            let solve = |m: Vec<Vec<Poly>>| kernel_at(m, &mut value.clone());
-            let l = self.weights_for(mu.split_at(self.active.len()), &solve, &|s| value.clone().sign_of(s))?;
-            out.push((self.active[p], Polynomials(coefficients(&value.reduce(&l)))));
-        }
-        Some(Alone { pivot: self.moving[0], rows: out })
     }
 
     /// w with w_R = mu_R and w'T = -mu_J on the active columns, up to a positive factor.

@@ -41,8 +41,8 @@ impl Prepared {
         let each = count.div_ceil(condensed.ends.len()).max(MIN_PIECES);
         for (anchor, end) in condensed.ends.iter().enumerate() {
             let is_last = anchor + 1 == condensed.ends.len();
-            let tail = condensed.condensation.tail.as_ref().map(|t| &t.from.0);
-            // The last anchor ends where the tail begins, or with the window.
+            let tail = condensed.condensation.tail.as_ref().map(|t| &t.from.0).or(condensed.beyond.as_ref());
+            // The last anchor ends where the tail or the reversed anchor begins, or with the window.
             let hi = match (is_last, tail) {
                 (true, Some(from)) => Some(from.clone()),
                 // An infinite interval needs a family that is linear in t.
@@ -63,7 +63,14 @@ impl Prepared {
             lo = hi.filter(|h| *h > lo).unwrap_or(lo);
         }
         if window.max().is_none() && pieces.last().is_none_or(|p| p.0.is_some()) {
-            pieces.push((None, None)); // the tail, or what no anchor reaches
+            match condensed.beyond {
+                Some(_) => {
+                    let each = count.div_ceil(condensed.ends.len()).max(MIN_PIECES);
+                    let reversed = Some(condensed.ends.len());
+                    pieces.extend(cuts(&view, &lo, None, each).into_iter().map(|max| (max, reversed)));
+                }
+                None => pieces.push((None, None)), // the tail, or what no anchor reaches
+            }
         }
         Ok(Prepared { view, condensation: Some(condensed.condensation), base: condensed.base, pieces })
     }

@@ -1,15 +1,16 @@
 //! Searches the open leaves of a cover and puts what is found in their place.
 
-use super::Options;
 use super::skeleton::Prepared;
 use super::support;
 use super::tree::{Item, Region, Search, State, Watch};
+use super::{Options, beyond};
 use crate::candidate::Candidate;
 use crate::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
 use crate::certify::certify;
 use crate::exact::Rational;
 use crate::model::{Pencil, Problem};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// What the search of a piece brings.
 pub(super) struct Found {
@@ -28,6 +29,31 @@ pub(super) fn all(
     options: &Options,
     watch: &(dyn Watch + Sync),
 ) -> Vec<Found> {
+    search_pieces(problem, pencil, prepared, set, options, watch, None)
+}
+
+/// The trees with these open leaves (piece, node) decided support by support, in exact arithmetic, where that can be done:
+/// what doubles have judged too well.
+pub(super) fn exactly(
+    problem: &Problem,
+    pencil: &Pencil,
+    prepared: &Prepared,
+    set: &CompleteSet,
+    watch: &(dyn Watch + Sync),
+    leaves: &BTreeSet<(usize, usize)>,
+) -> Vec<Found> {
+    search_pieces(problem, pencil, prepared, set, &Options::default(), watch, Some(leaves))
+}
+
+fn search_pieces(
+    problem: &Problem,
+    pencil: &Pencil,
+    prepared: &Prepared,
+    set: &CompleteSet,
+    options: &Options,
+    watch: &(dyn Watch + Sync),
+    only: Option<&BTreeSet<(usize, usize)>>,
+) -> Vec<Found> {
     let window = problem.window();
     let certify_at = |value: f64, x: &[f64]| {
         let exact_only = pencil.free().is_empty();
@@ -39,12 +65,16 @@ pub(super) fn all(
         .collect();
     let one = |(k, piece): (usize, &Piece)| {
         let mine = options.shard.is_none_or(|s| k % s.count == s.index);
-        if !mine {
+        if !mine || only.is_some_and(|leaves| leaves.range((k, 0)..(k + 1, 0)).next().is_none()) {
             return Found { items: piece.tree.iter().cloned().map(Item::Node).collect(), met: Vec::new() };
         }
+        let expansion = &prepared.view.expansions[piece.anchor.unwrap_or(0)];
+        let limit = |moving: &[usize]| beyond::limit(pencil, moving, expansion.reversed);
         let mut search = Search {
             view: &prepared.view,
-            expansion: &prepared.view.expansions[piece.anchor.unwrap_or(0)],
+            expansion,
+            limit: &limit,
+            definite_from: &|lo, resting| beyond::definite_from(pencil, lo, resting),
             certify: &certify_at,
             decide: &decide,
             watch,
@@ -54,19 +84,20 @@ pub(super) fn all(
             window: (window.min().clone(), window.max().cloned()),
         };
         let share = 1.0 / set.pieces.len() as f64;
-        spliced(&mut search, &starts[k], piece, share);
+        spliced(&mut search, &starts[k], piece, share, &|node| only.map(|leaves| leaves.contains(&(k, node))));
         Found { items: search.items, met: search.met }
     };
     set.pieces.par_iter().enumerate().map(one).collect()
 }
 
-/// Copies the tree in preorder; an open leaf is replaced by what a search of its region finds.
-fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64) {
+/// Copies the tree in preorder; an open leaf is replaced by what a search of its region finds: any search, or (if it is so
+/// chosen) the exact one only, or none.
+fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64, chosen: &dyn Fn(usize) -> Option<bool>) {
     let hi = piece.max.as_ref().map(|n| n.0.clone());
     // A piece beyond the anchors has no matrices to search with.
     let searchable = piece.anchor.is_some() || search.expansion.is_everywhere();
     let mut stack = vec![(Region::whole(lo.clone(), hi, search.view.order()), share)];
-    for node in &piece.tree {
+    for (k, node) in piece.tree.iter().enumerate() {
         let Some((region, share)) = stack.pop() else { return }; // the checker has accepted the tree
         match node {
             Node::Split(at) => {
@@ -83,6 +114,8 @@ fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64) {
                     stack.push((child, share / 2.0));
                 }
             }
+            Node::Open if chosen(k) == Some(true) => search.by_support(&region, share),
+            Node::Open if chosen(k) == Some(false) => search.items.push(Item::Node(Node::Open)),
             Node::Open if searchable => search.region(&region, share),
             Node::Open => search.by_support(&region, share),
             _ => {

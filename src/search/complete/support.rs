@@ -1,9 +1,9 @@
 //! The exact leaf of one support: the interval is cut where a reason ends, and every part has its own.
 
 use super::reasons::Supported;
-use crate::certificate::{Certificate, Exact, Node, Point, Support};
+use crate::certificate::{Certificate, Exact, Node, Point, Polynomials, Support};
 use crate::check::AcceptedClaim;
-use crate::exact::{Algebraic, Poly, Rational, roots_in, to_f64};
+use crate::exact::{Algebraic, Integer, Poly, Rational, roots_in, to_f64};
 use crate::model::Pencil;
 use crate::model::file::Number;
 use num_traits::One;
@@ -116,8 +116,10 @@ impl Sweep {
     /// Isolates the points well enough for the checker.
     fn finish(mut self) -> Option<Support> {
         for k in 0..self.points.len() {
-            let point = &mut self.points[k].0;
-            let small = (point.interval().mid() + Rational::one()) / Rational::from_integer(num_traits::pow(2.into(), WIDTH_BITS));
+            let (point, reason) = &mut self.points[k];
+            // Signs at the point are read off remainders whose long coefficients nearly cancel.
+            let bits = (2 * longest(&self.reasons[*reason])).max(WIDTH_BITS);
+            let small = (point.interval().mid() + Rational::one()) / Rational::from_integer(Integer::from(1) << bits);
             point.refine_to(&small);
             while !point.interval().is_point() && point.interval().horner(&point.poly().derivative()).certain_sign() == 0 {
                 point.refine();
@@ -140,8 +142,17 @@ impl Sweep {
     }
 }
 
-/// Isolating intervals are this much narrower than the value, in bits.
-const WIDTH_BITS: usize = 80;
+/// Isolating intervals are at least this much narrower than the value, in bits.
+const WIDTH_BITS: u64 = 80;
+
+/// Bits of the longest coefficient of a reason.
+fn longest(reason: &Exact) -> u64 {
+    let vectors: Vec<&Polynomials> = match reason {
+        Exact::None(w) => vec![w],
+        Exact::Some(m) => std::iter::once(&m.x).chain(m.alone.iter().flat_map(|a| a.rows.iter().map(|(_, l)| l))).collect(),
+    };
+    vectors.into_iter().flat_map(|v| v.0.iter().flatten()).map(Integer::bits).max().unwrap_or(0)
+}
 
 /// A rational strictly between two values, `part` of the way (above the last one: that far above it).
 fn inside(left: &mut Algebraic, right: Option<&mut Algebraic>, part: &Rational) -> Rational {

@@ -32,6 +32,8 @@ pub(super) struct Expansion {
     pub(super) rounding: Vec<Vec<f64>>,
     /// W_k by columns: x_f = -W(d) x_s.
     pub(super) free: Vec<Vec<Vec<f64>>>,
+    /// Is this T(t) / t in powers of 1 / t - center?
+    pub(super) reversed: bool,
 }
 
 /// Both ends of an interval, the radius around the chord between them.
@@ -57,17 +59,7 @@ impl View {
                 row.iter().for_each(|(j, v)| m[i][*j] = to_f64(&(v * &factor)));
             }
         }
-        let expansion = Expansion {
-            center: 0.0,
-            z: vec![a, b],
-            left: Vec::new(),
-            right: Vec::new(),
-            weight: Vec::new(),
-            gain: 0.0,
-            v: Vec::new(),
-            rounding: Vec::new(),
-            free: Vec::new(),
-        };
+        let expansion = Expansion::linear(a, b);
         View { index: (0..n).collect(), scale: scale(&expansion.z), expansions: vec![expansion] }
     }
 
@@ -101,9 +93,18 @@ pub(super) fn scale(z: &[Matrix]) -> f64 {
 }
 
 impl Expansion {
+    /// What the expansion is in: the value, or its reciprocal.
+    fn argument(&self, t: f64) -> f64 {
+        if self.reversed { 1.0 / t } else { t }
+    }
+
     /// T(t), the remainder left out.
     pub(super) fn at(&self, t: f64) -> Matrix {
-        let d = t - self.center;
+        self.polynomial(self.argument(t))
+    }
+
+    fn polynomial(&self, s: f64) -> Matrix {
+        let d = s - self.center;
         let mut out = self.zero();
         for z in self.z.iter().rev() {
             for (o, v) in out.iter_mut().flatten().zip(z.iter().flatten()) {
@@ -111,6 +112,28 @@ impl Expansion {
             }
         }
         out
+    }
+
+    /// The chord between two matrices, from 0 to 1.
+    pub(super) fn line(ends: &[Matrix; 2]) -> Expansion {
+        let slope = ends[0].iter().zip(&ends[1]).map(|(a, b)| a.iter().zip(b).map(|(a, b)| b - a).collect()).collect();
+        Expansion::linear(ends[0].clone(), slope)
+    }
+
+    /// A + tB itself.
+    fn linear(a: Matrix, b: Matrix) -> Expansion {
+        Expansion {
+            center: 0.0,
+            z: vec![a, b],
+            left: Vec::new(),
+            right: Vec::new(),
+            weight: Vec::new(),
+            gain: 0.0,
+            v: Vec::new(),
+            rounding: Vec::new(),
+            free: Vec::new(),
+            reversed: false,
+        }
     }
 
     /// The same without its remainder: to look for solutions, not to prove anything.
@@ -125,7 +148,7 @@ impl Expansion {
 
     /// The free variables that belong to x_s at t; `None` where there are none.
     pub(super) fn free_part(&self, t: f64, x: &[f64]) -> Option<Vec<f64>> {
-        let d = t - self.center;
+        let d = self.argument(t) - self.center;
         let mut out = vec![0.0; self.free.first()?.first()?.len()];
         for w in self.free.iter().rev() {
             out.iter_mut().for_each(|o| *o *= d);
@@ -138,13 +161,15 @@ impl Expansion {
 
     /// dT/dt, the remainder left out.
     pub(super) fn derivative(&self, t: f64) -> Matrix {
-        let d = t - self.center;
+        let d = self.argument(t) - self.center;
+        let chain = if self.reversed { -1.0 / (t * t) } else { 1.0 };
         let mut out = self.zero();
         for (k, z) in self.z.iter().enumerate().skip(1).rev() {
             for (o, v) in out.iter_mut().flatten().zip(z.iter().flatten()) {
                 *o = *o * d + k as f64 * v;
             }
         }
+        out.iter_mut().flatten().for_each(|v| *v *= chain);
         out
     }
 
@@ -154,10 +179,19 @@ impl Expansion {
 
     /// The ends over [lo, hi] as the checker will see them.
     pub(super) fn ends(&self, lo: f64, hi: f64) -> Ends {
-        if hi.is_infinite() {
-            return Ends { lo, hi, m: [self.at(lo), self.z[1].clone()], r: None, slope: None };
+        if !self.reversed {
+            return self.between(lo, hi);
         }
-        let m = [self.at(lo), self.at(hi)];
+        let ends = self.between(1.0 / hi, 1.0 / lo);
+        let [m1, m0] = ends.m;
+        Ends { lo, hi, m: [m0, m1], ..ends }
+    }
+
+    fn between(&self, lo: f64, hi: f64) -> Ends {
+        if hi.is_infinite() {
+            return Ends { lo, hi, m: [self.polynomial(lo), self.z[1].clone()], r: None, slope: None };
+        }
+        let m = [self.polynomial(lo), self.polynomial(hi)];
         let exact = self.z.len() <= 2 && self.weight.is_empty();
         if exact {
             return Ends { lo, hi, m, r: None, slope: None };

@@ -4,6 +4,7 @@ pub mod near;
 pub mod raw;
 pub mod scales;
 pub mod states;
+pub mod tails;
 
 use crate::exact::{Rational, Sparse, rational, whole};
 use crate::model::{Pencil, Window};

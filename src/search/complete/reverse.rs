@@ -1,0 +1,37 @@
+//! The reversed pencil B + sA, s = 1 / t: one expansion about a small s reaches from the highest frequency of
+//! (A_ff, B_ff) to infinity, where those in t would have to follow one another for ever.
+
+use super::condense::{Blocks, COARSE, centers, expand, lowest_frequency};
+use super::tree::short;
+use super::view::Expansion;
+use crate::certificate::Anchor;
+use crate::exact::{Rational, to_f64};
+use crate::model::Pencil;
+
+/// A reversed anchor and the value from which it is used.
+pub(super) struct Beyond {
+    pub(super) anchor: Anchor,
+    pub(super) expansion: Expansion,
+    pub(super) from: Rational,
+}
+
+/// The pencil with its matrices exchanged.
+pub(super) fn swapped(pencil: &Pencil) -> Option<Pencil> {
+    Pencil::new(pencil.b().clone(), pencil.a().clone(), pencil.free().to_vec()).ok()
+}
+
+/// Needs B_ff >= tau I with tau > 0; `bounds` are sigma (of A_ff) and tau.
+pub(super) fn beyond(pencil: &Pencil, [sigma, tau]: [&Rational; 2]) -> Option<Beyond> {
+    let bounds = [to_f64(tau), to_f64(sigma)];
+    if bounds[0] <= 0.0 {
+        return None;
+    }
+    let swapped = swapped(pencil)?;
+    let blocks = Blocks::of(&swapped);
+    let base = lowest_frequency(&blocks, &blocks.stiffness.cholesky()?);
+    let (list, ends) = centers(base, 0.0, f64::MIN_POSITIVE);
+    let (center, end) = (list.first()?, ends.first()?);
+    let from = short(1.0 / end, 0.05 / end)?;
+    let (anchor, expansion) = expand(&swapped, &blocks, center, bounds, COARSE)?;
+    Some(Beyond { anchor: Anchor { reversed: true, ..anchor }, expansion: Expansion { reversed: true, ..expansion }, from })
+}
