@@ -3,6 +3,7 @@
 
 use super::CoverFault;
 use super::family::{Ends, Matrix};
+use super::short::Short;
 use crate::exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -61,6 +62,19 @@ impl Expanded {
         // m[0] and m[1] are rounded as well: two units.
         let slope = grid(n, |i, j| &bend[i][j] + &remainder_slope[i][j] + 2);
         Ok(Ends { m: [self.at(&d0), self.at(&d1)], r: [radius(&d0.abs()), radius(&d1.abs())], slope, scale, infinite: false })
+    }
+
+    /// The constant and the direction of a family that is linear in t = d, remainders included, in short numbers: at
+    /// t >= 0 it is within (R_0 + t R_1) of Z_0 + t Z_1, and so between the ends of every interval.
+    pub(super) fn short(&self) -> Option<[Short; 2]> {
+        if !self.center.is_zero() || !self.is_linear() {
+            return None;
+        }
+        let none = Rational::zero();
+        let direction = grid(self.weight.len(), |i, j| self.fixed(&self.z[1][i][j], &Integer::one()));
+        let all: Vec<usize> = (0..self.weight.len()).collect();
+        let constant = Short::of(&self.at(&none), &self.remainder(&none, &self.weight), &all)?;
+        Some([constant, Short::of(&direction, &self.remainder_direction(), &all)?])
     }
 
     /// Is the condensed pencil linear in t, its remainder included?

@@ -157,7 +157,8 @@ impl Expansion {
         if hi.is_infinite() {
             return Ends { lo, hi, m: [self.at(lo), self.z[1].clone()], r: None, slope: None };
         }
-        let m = [self.at(lo), self.at(hi)];
+        let lower = self.at(lo);
+        let m = [lower.clone(), if lo == hi { lower } else { self.at(hi) }];
         let exact = self.z.len() <= 2 && self.weight.is_empty();
         if exact {
             return Ends { lo, hi, m, r: None, slope: None };
