@@ -9,21 +9,19 @@
 use super::CoverFault;
 use super::expanded::Expanded;
 use super::family::Matrix;
+use super::product::{Linear, Part, times};
 use super::psd::{Symmetric, semidefinite};
 use crate::certificate::{Anchor, Condensation, IntegerMatrix, Tail};
 use crate::check::pencil::{Row, Rows};
 use crate::exact::{Integer, Rational};
 use num_integer::Integer as _;
-use num_traits::{One, Signed, ToPrimitive, Zero};
+use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
-use std::ops::{AddAssign, Mul};
 
 /// Largest degree of an expansion.
 const MAX_DEGREE: usize = 8;
 /// Largest binary exponent of an expansion.
 const MAX_EXPONENT: u32 = 1 << 12;
-/// Sums of products below this many bits are formed in machine integers.
-const SHORT_BITS: u64 = 127;
 
 /// Hypotheses, then one expansion per anchor.
 pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expanded>, CoverFault> {
@@ -200,8 +198,9 @@ impl Blocks {
             }
         }
         for (k, w_k) in w.iter().enumerate() {
-            for (m, product) in [(k, times(sf, Part::Constant, w_k, self.slip)), (k + 1, times(sf, Part::Linear, w_k, self.slip))] {
-                z[m].iter_mut().flatten().zip(product.into_iter().flatten()).for_each(|(z, p)| *z -= p << e_v);
+            for (m, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
+                let product = times(sf, part, w_k, self.slip).into_iter().flatten().flatten();
+                z[m].iter_mut().flatten().zip(product).for_each(|(z, p)| *z -= p << e_v);
             }
         }
         for (k, v_k) in v.iter().enumerate() {
@@ -224,9 +223,6 @@ impl Blocks {
         Rational::new(largest, self.common.clone()) / sigma
     }
 }
-
-/// Rows of a matrix linear in t or d: column, constant, coefficient.
-type Linear = Vec<Row>;
 
 /// `factor` q T as a matrix linear in d = t - p/q: q A + p B and q B.
 fn about(block: &Linear, center: &Rational, factor: &Integer) -> Linear {
@@ -255,53 +251,12 @@ fn residual(f: &Linear, c: &Linear, w: &[Matrix], e: u32, cols: usize) -> Vec<Ma
         }
     }
     for (k, w_k) in w.iter().enumerate() {
-        for (m, product) in [(k, times(f, Part::Constant, w_k, cols)), (k + 1, times(f, Part::Linear, w_k, cols))] {
-            out[m].iter_mut().flatten().zip(product.into_iter().flatten()).for_each(|(o, p)| *o -= p);
+        for (m, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
+            let product = times(f, part, w_k, cols).into_iter().flatten().flatten();
+            out[m].iter_mut().flatten().zip(product).for_each(|(o, p)| *o -= p);
         }
     }
     out
-}
-
-/// One of the two coefficients of a matrix linear in d.
-#[derive(Clone, Copy)]
-enum Part {
-    Constant,
-    Linear,
-}
-
-/// The product of one part of F and W, exactly; in machine integers where the sums fit into 128 bits.
-fn times(f: &Linear, part: Part, w: &Matrix, cols: usize) -> Matrix {
-    let pick = |(g, c, l): &'_ (usize, Integer, Integer)| (*g, if matches!(part, Part::Constant) { c.clone() } else { l.clone() });
-    let f: Vec<Vec<(usize, Integer)>> = f.iter().map(|row| row.iter().map(pick).filter(|(_, v)| !v.is_zero()).collect()).collect();
-    let bits = |values: &mut dyn Iterator<Item = &Integer>| values.map(Integer::bits).max().unwrap_or(0);
-    let terms = f.iter().map(Vec::len).max().unwrap_or(0);
-    let sum_bits =
-        bits(&mut f.iter().flatten().map(|(_, v)| v)) + bits(&mut w.iter().flatten()) + u64::from(usize::BITS - terms.leading_zeros());
-    if std::env::var("MCEIP_DEBUG").is_ok() {
-        eprintln!("times f {} w {} sum {}", bits(&mut f.iter().flatten().map(|(_, v)| v)), bits(&mut w.iter().flatten()), sum_bits);
-    }
-    if sum_bits < SHORT_BITS {
-        // Nothing is longer than a sum, so that all of it fits.
-        let short = |v: &Integer| v.to_i128().unwrap_or_default();
-        let w: Vec<Vec<i128>> = w.iter().map(|row| row.iter().map(short).collect()).collect();
-        return f
-            .iter()
-            .map(|row| sums(row.iter().map(|(g, c)| (&w[*g], short(c))), cols).into_iter().map(Integer::from).collect())
-            .collect();
-    }
-    f.iter().map(|row| sums(row.iter().map(|(g, c)| (&w[*g], c.clone())), cols)).collect()
-}
-
-/// sum of rows times factors.
-fn sums<'a, T: 'a + Clone + Zero + AddAssign>(terms: impl Iterator<Item = (&'a Vec<T>, T)>, cols: usize) -> Vec<T>
-where
-    for<'b> &'b T: Mul<&'b T, Output = T>,
-{
-    let mut sum = vec![T::zero(); cols];
-    for (row, factor) in terms {
-        sum.iter_mut().zip(row).for_each(|(s, v)| *s += &factor * v);
-    }
-    sum
 }
 
 /// Upper bounds of the Euclidean norm of each column, coefficient by coefficient.
@@ -311,27 +266,4 @@ fn norms(list: &[Matrix], cols: usize) -> Vec<Vec<Integer>> {
         if square.is_zero() { square } else { square.sqrt() + 1 }
     };
     list.iter().map(|m| (0..cols).map(|j| norm(m, j)).collect()).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// (2^a - 1) (2^b - 1) summed over three terms has a + b + 2 bits: both sides of the limit.
-    #[test]
-    fn short_and_long_products_agree_at_the_limit() {
-        let ones = |bits: u32| -> Integer { (Integer::one() << bits) - 1 };
-        for (f_bits, w_bits) in [(3, 4), (60, 63), (60, 64), (62, 62), (63, 62), (64, 64), (124, 1), (125, 1), (1, 124), (200, 3)] {
-            let (a, b) = (ones(f_bits), ones(w_bits));
-            let f: Linear = vec![
-                vec![(0, a.clone(), -&a), (1, a.clone(), a.clone()), (2, a.clone(), Integer::zero())],
-                vec![],
-                vec![(1, -&a, Integer::zero())],
-            ];
-            let w: Matrix = vec![vec![b.clone(), -&b], vec![b.clone(), -&b], vec![b.clone(), b.clone()]];
-            let p = &a * &b;
-            assert_eq!(times(&f, Part::Constant, &w, 2), vec![vec![&p * 3, -&p], vec![Integer::zero(); 2], vec![-&p, p.clone()]]);
-            assert_eq!(times(&f, Part::Linear, &w, 2), vec![vec![Integer::zero(); 2]; 3]);
-        }
-    }
 }

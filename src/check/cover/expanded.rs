@@ -186,3 +186,78 @@ fn norm_slope(list: &[Vec<Integer>], i: usize, reach: &Rational) -> Integer {
 fn grid(n: usize, f: impl Fn(usize, usize) -> Integer) -> Matrix {
     (0..n).map(|i| (0..n).map(|j| f(i, j)).collect()).collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{rational, whole};
+
+    fn big(rows: &[&[i64]]) -> Vec<Vec<Integer>> {
+        rows.iter().map(|r| r.iter().map(|v| Integer::from(*v)).collect()).collect()
+    }
+
+    /// Linear, with the two remainders of different sizes.
+    fn linear() -> Expanded {
+        Expanded {
+            center: whole(0),
+            z: vec![big(&[&[300, -500], &[0, 700]]), big(&[&[-100, 200], &[0, 9000]])],
+            unit: Integer::from(1024),
+            left: big(&[&[1, 2], &[3, 4]]),
+            right: big(&[&[5, 6], &[0, 0]]),
+            weight: vec![rational(1, 30_000), rational(1, 40_000)],
+            v: big(&[&[7, 1], &[0, 3]]),
+            rounding: big(&[&[2, 1]]),
+            rounding_weight: vec![rational(1, 50_000), rational(1, 60_000)],
+            drift: whole(0),
+            gain: whole(0),
+        }
+    }
+
+    /// Does an enclosure in some unit contain Z(t) +- `times` the remainders, times the denominator of t?
+    fn contains(e: &Expanded, short: &Short, t: &Rational, times: &Rational) -> bool {
+        let at = |list: &[Vec<Integer>], i: usize| -> Rational {
+            let coefficient = |k: usize| list.get(k).map_or_else(Rational::zero, |l| Rational::from_integer(l[i].clone()));
+            coefficient(0) + t * coefficient(1)
+        };
+        let z = |i: usize, j: usize| {
+            let [a, b] = [0, 1].map(|k| Rational::new(e.z[k][i][j].clone(), e.unit.clone()));
+            a + t * b
+        };
+        let radius =
+            |i: usize, j: usize| &e.weight[i] * at(&e.left, i) * at(&e.right, j) + &e.rounding_weight[i] * at(&e.v, i) * at(&e.rounding, j);
+        let raised = Rational::from_integer(t.denom() << FRACTION_BITS);
+        let fits = |unit: u64, i: usize, j: usize, sign: i64| {
+            let unit = Integer::one() << unit;
+            let value = (z(i, j) + radius(i, j) * times * whole(sign)) * &raised;
+            (value - Rational::from_integer(&unit * short.m[i][j])).abs() <= Rational::from_integer(unit * short.r[i][j])
+        };
+        let entries = || [(0, 0), (0, 1), (1, 0), (1, 1)];
+        (0..200).any(|unit| entries().iter().all(|&(i, j)| fits(unit, i, j, 1) && fits(unit, i, j, -1)))
+    }
+
+    #[test]
+    fn the_short_form_of_a_linear_family_encloses_it_closely() {
+        let e = linear();
+        let [a, b] = e.short().unwrap();
+        for t in [whole(0), rational(1, 3), whole(7), rational(100_001, 7)] {
+            let short = a.combine(t.denom(), &b, t.numer()).unwrap();
+            assert!(contains(&e, &short, &t, &whole(1)), "{t}");
+            assert!(!contains(&e, &short, &t, &rational(1_001, 1_000)), "{t}: a radius too large to be right");
+        }
+    }
+
+    #[test]
+    fn what_is_not_linear_or_has_another_centre_has_no_short_form() {
+        let of = |change: fn(&mut Expanded)| {
+            let mut e = linear();
+            change(&mut e);
+            e.short().is_some()
+        };
+        assert!(of(|_| {}));
+        assert!(!of(|e| e.center = whole(1)));
+        assert!(!of(|e| e.drift = rational(1, 9)));
+        assert!(!of(|e| e.z.push(big(&[&[0, 0], &[1, 0]]))));
+        assert!(!of(|e| e.right[1][1] = Integer::one()));
+        assert!(!of(|e| e.left.push(vec![Integer::zero(), Integer::one()])));
+    }
+}

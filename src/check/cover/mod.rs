@@ -11,6 +11,7 @@ mod fault;
 mod found;
 mod ldl;
 mod leaf;
+mod product;
 mod psd;
 mod root;
 mod rootless;

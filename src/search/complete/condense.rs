@@ -327,6 +327,7 @@ fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, bounds: [f64; 2], right: 
         gain: bounds[1] / bounds[0],
         v: norms(left, true),
         rounding: norms(&r[..right.len()], false),
+        caution: 1.0,
         free: right.to_vec(),
     }
 }

@@ -23,13 +23,14 @@ pub use error::CompleteError;
 pub use merge::merge;
 
 use super::definite;
-use crate::certificate::{Certificate, Claim, CompleteSet, Node, Piece};
+use crate::certificate::{Certificate, CompleteSet, Node, Piece};
 use crate::certify::certificate;
 use crate::check::{AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check};
 use crate::model::file::Number;
 use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
 use skeleton::Prepared;
+use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tree::Watch;
@@ -127,20 +128,21 @@ pub fn complete(
     {
         let piece = Piece { max: problem.window().max().cloned().map(Number), anchor: None, tree: vec![node] };
         let set = CompleteSet { pieces: vec![piece], ..prepared.open_set() };
-        return finish(problem, &pencil, &prepared, Certificate { complete_set: Some(set), ..certificate(problem, Vec::new()) });
+        let certificate = Certificate { complete_set: Some(set), ..certificate(problem, Vec::new()) };
+        return finish(problem, &pencil, &prepared, certificate).map(|(completed, _)| completed);
     }
     if prepared.is_expanded() {
         // A first search finds where the solutions are, so that the enclosure is tight there.
         let scout = Options { shard: None, ..*options };
         let quiet = Shares { stop, progress: &|_| {}, state: Mutex::new(Progress::default()) };
         let (set, look) = (prepared.open_set(), prepared.scout());
-        let found = in_threads(options.threads, || splice::all(problem, &pencil, &look, &set, &scout, &quiet));
+        let found = in_threads(options.threads, || splice::all(problem, &pencil, &look, &set, &scout, None, &quiet));
         let mut values: Vec<f64> = found.into_iter().flat_map(|f| f.met).collect();
         values.sort_by(f64::total_cmp);
         prepared = prepared.refined(problem, &pencil, &values);
     }
     let start = Certificate { complete_set: Some(prepared.open_set()), ..certificate(problem, Vec::new()) };
-    run(problem, &pencil, &prepared, start, options, stop, progress)
+    run(problem, &pencil, prepared, start, options, stop, progress)
 }
 
 /// Goes on with a certificate that leaves regions open: only these are searched.
@@ -160,31 +162,48 @@ pub fn resume(
     check(problem, earlier)?;
     let set = earlier.complete_set.as_ref().ok_or(CompleteError::NoCompleteSet)?;
     let prepared = Prepared::again(&pencil, set)?;
-    run(problem, &pencil, &prepared, earlier.clone(), options, stop, progress)
+    run(problem, &pencil, prepared, earlier.clone(), options, stop, progress)
 }
+
+/// Rounds of a search whose leaves were refused, each more cautious than the one before.
+const CAUTIOUS_ROUNDS: usize = 2;
 
 fn run(
     problem: &Problem,
     pencil: &Pencil,
-    prepared: &Prepared,
-    mut start: Certificate,
+    mut prepared: Prepared,
+    mut certificate: Certificate,
     options: &Options,
     stop: &AtomicBool,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Completed, CompleteError> {
-    let set = start.complete_set.take().ok_or(CompleteError::NoCompleteSet)?;
-    let watch = Shares { stop, progress, state: Mutex::new(Progress::default()) };
-    let mut claims: Vec<Claim> = start.claims;
-    let found = in_threads(options.threads, || splice::all(problem, pencil, prepared, &set, options, &watch));
-    let pieces = set.pieces.iter().zip(found).map(|(piece, found)| splice::numbered(piece, found.items, &mut claims)).collect();
-    let complete_set = Some(CompleteSet { condensation: set.condensation, pieces });
-    let certificate = Certificate { claims, complete_set, ..start };
-    finish(problem, pencil, prepared, certificate)
+    let shares = |progress| Shares { stop, progress, state: Mutex::new(Progress::default()) };
+    let (mut watch, mut refused) = (shares(progress), None);
+    for round in 0.. {
+        let set = certificate.complete_set.take().ok_or(CompleteError::NoCompleteSet)?;
+        let found = in_threads(options.threads, || splice::all(problem, pencil, &prepared, &set, options, refused.as_ref(), &watch));
+        let claims = &mut certificate.claims;
+        let pieces = set.pieces.iter().zip(found).map(|(piece, found)| splice::numbered(piece, found.items, claims)).collect();
+        certificate.complete_set = Some(CompleteSet { condensation: set.condensation, pieces });
+        let (completed, places) = finish(problem, pencil, &prepared, certificate)?;
+        let is_last = round == CAUTIOUS_ROUNDS || places.is_empty() || stop.load(Ordering::Relaxed);
+        if is_last || !prepared.beware() {
+            return Ok(completed);
+        }
+        // What was refused is open now: that alone is searched again.
+        (certificate, refused, watch) = (completed.certificate, Some(places), shares(&|_| {}));
+    }
+    Err(CompleteError::NoCompleteSet) // the loop does not end
 }
 
 /// Lets the checker read the certificate: what is reported is what it accepted. A leaf whose witness
-/// doubles have judged too well is left open, and so is a tail.
-fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certificate: Certificate) -> Result<Completed, CompleteError> {
+/// doubles have judged too well is left open, and so is a tail. Also returned: where there was such a leaf.
+fn finish(
+    problem: &Problem,
+    pencil: &Pencil,
+    prepared: &Prepared,
+    mut certificate: Certificate,
+) -> Result<(Completed, BTreeSet<(usize, usize)>), CompleteError> {
     // Every round opens the tail or solutions of one support, so that this comes to an end.
     let (accepted, refused) = loop {
         match audit(problem, &certificate) {
@@ -192,14 +211,15 @@ fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certifica
             Err(rejected) => without_refused(&mut certificate, rejected)?,
         }
     };
-    for (piece, node) in refused {
+    let refused: BTreeSet<(usize, usize)> = refused.into_iter().collect();
+    for &(piece, node) in &refused {
         let leaf = certificate.complete_set.as_mut().and_then(|set| set.pieces.get_mut(piece)).and_then(|p| p.tree.get_mut(node));
         leaf.into_iter().for_each(|leaf| *leaf = Node::Open);
     }
     let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
     let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
     let x = cover.solutions.iter().map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s))).collect();
-    Ok(Completed { certificate, cover, x })
+    Ok((Completed { certificate, cover, x }, refused))
 }
 
 /// Opens the leaves of a tree that yield solutions of the support; how many.

@@ -60,14 +60,6 @@ impl Skyline {
 
     /// The Cholesky factor, `None` where a pivot is not positive.
     pub(super) fn cholesky(&self) -> Option<Skyline> {
-        if std::env::var("MCEIP_DEBUG").is_ok() {
-            eprintln!(
-                "skyline n={} entries={} widest={}",
-                self.rows.len(),
-                self.rows.iter().map(Vec::len).sum::<usize>(),
-                self.rows.iter().map(Vec::len).max().unwrap_or(0)
-            );
-        }
         let mut l: Vec<Vec<f64>> = Vec::with_capacity(self.rows.len());
         for (i, given) in self.rows.iter().enumerate() {
             let first = self.first[i];

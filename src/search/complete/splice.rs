@@ -10,6 +10,7 @@ use crate::certify::certify;
 use crate::exact::Rational;
 use crate::model::{Pencil, Problem};
 use rayon::prelude::*;
+use std::collections::BTreeSet;
 
 /// What the search of a piece brings.
 pub(super) struct Found {
@@ -18,14 +19,15 @@ pub(super) struct Found {
     pub(super) met: Vec<f64>,
 }
 
-/// The trees of all pieces, their open leaves searched; pieces are independent of each other, so
-/// threads change nothing.
+/// The trees of all pieces, their open leaves searched (`only`: those of these places, piece and node); pieces
+/// are independent of each other, so threads change nothing.
 pub(super) fn all(
     problem: &Problem,
     pencil: &Pencil,
     prepared: &Prepared,
     set: &CompleteSet,
     options: &Options,
+    only: Option<&BTreeSet<(usize, usize)>>,
     watch: &(dyn Watch + Sync),
 ) -> Vec<Found> {
     let window = problem.window();
@@ -54,19 +56,19 @@ pub(super) fn all(
             window: (window.min().clone(), window.max().cloned()),
         };
         let share = 1.0 / set.pieces.len() as f64;
-        spliced(&mut search, &starts[k], piece, share);
+        spliced(&mut search, &starts[k], piece, &|node| only.is_none_or(|only| only.contains(&(k, node))), share);
         Found { items: search.items, met: search.met }
     };
     set.pieces.par_iter().enumerate().map(one).collect()
 }
 
 /// Copies the tree in preorder; an open leaf is replaced by what a search of its region finds.
-fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64) {
+fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, wanted: &dyn Fn(usize) -> bool, share: f64) {
     let hi = piece.max.as_ref().map(|n| n.0.clone());
     // A piece beyond the anchors has no matrices to search with.
     let searchable = piece.anchor.is_some() || search.expansion.is_everywhere();
     let mut stack = vec![(Region::whole(lo.clone(), hi, search.view.order()), share)];
-    for node in &piece.tree {
+    for (k, node) in piece.tree.iter().enumerate() {
         let Some((region, share)) = stack.pop() else { return }; // the checker has accepted the tree
         match node {
             Node::Split(at) => {
@@ -83,8 +85,8 @@ fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64) {
                     stack.push((child, share / 2.0));
                 }
             }
-            Node::Open if searchable => search.region(&region, share),
-            Node::Open => search.by_support(&region, share),
+            Node::Open if wanted(k) && searchable => search.region(&region, share),
+            Node::Open if wanted(k) => search.by_support(&region, share),
             _ => {
                 search.items.push(Item::Node(node.clone()));
                 search.watch.closed(share, false);

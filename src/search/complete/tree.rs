@@ -56,8 +56,9 @@ impl Region {
 /// Cuts in a row before an index is decided instead: on a finite and on an infinite interval.
 const MAX_CUTS: [usize; 2] = [24, 3];
 
-/// Cuts of a decided region before exact arithmetic is asked.
-const CUTS_BEFORE_EXACT: usize = 2;
+/// Cuts of a decided region before exact arithmetic is asked: where there is a simple root, two or three end at it,
+/// and the polynomials of a support take long.
+const CUTS_BEFORE_EXACT: usize = 8;
 
 /// Open variables of a region that no matrices enclose, up to which it is taken support by support.
 const MAX_OPEN_EXACT: usize = 6;
