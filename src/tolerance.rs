@@ -58,6 +58,11 @@ pub const WITNESS_MARGIN: f64 = 1e-7;
 /// Unit: none. Basis: the checker takes off order^2 2^-32 of the largest entry.
 pub const DEFINITE_PIVOT: f64 = 1e-6;
 
+/// A pivot below minus this says that a symmetric matrix is not semidefinite, so that exact factors of it
+/// are not tried. Unit: the largest diagonal entry. Basis: rounding of an elimination of order 48 stays
+/// below 1e-13; a smaller one would only try in vain now and then.
+pub const SEMIDEFINITE_PIVOT: f64 = 1e-9;
+
 /// Width below which an interval is no longer cut. Unit: share of the line of theta = t / (s + t).
 /// Basis: what is still undecided on 1e-8 of the line is degenerate (a double root, a biactive index):
 /// there branching and exact solutions help, cutting does not.

@@ -6,8 +6,8 @@
 use mceip::exact::to_f64;
 use mceip::model::ContactState;
 use mceip::picture::{
-    BranchPoint, Branches, Mark, Mode, Picture, Threshold, ThresholdColumn, branch_picture, mode_picture, path_picture, table1_picture,
-    threshold_picture,
+    BranchPoint, Branches, CostSeries, Mark, Mode, Picture, Threshold, ThresholdColumn, branch_picture, cost_picture, mode_picture,
+    path_picture, table1_picture, threshold_picture,
 };
 use mceip::source::path::{Contact, Loading, LoadingPath};
 use mceip::source::{Block, BlockModel};
@@ -263,4 +263,19 @@ fn refusals_leave_nothing_behind() {
         assert_eq!(mceip(&["table1", "--chart", &file(name)]).status.code(), Some(0));
         assert!(std::fs::metadata(file(name)).unwrap().len() > 5000);
     }
+}
+
+#[test]
+fn cost_series_are_the_numbers_given() {
+    let series = |name: &str, points: &[(f64, f64)]| CostSeries { name: name.into(), points: points.to_vec() };
+    let list = [series("search", &[(10.0, 0.01), (80.0, 5.5)]), series("check", &[(10.0, 0.002), (80.0, 2.0), (150.0, 31.0)])];
+    let text = sound(&cost_picture("cost", "slip nodes", &list));
+    let tree = Document::parse(&text).unwrap();
+    let points = of_class(&tree, "point");
+    assert_eq!(data(&points, "data-x"), [10.0, 80.0, 10.0, 80.0, 150.0]);
+    assert_eq!(data(&points, "data-y"), [0.01, 5.5, 0.002, 2.0, 31.0]);
+    assert_eq!(of_class(&tree, "series").len(), 2);
+    // Dearer is higher, larger is further to the right.
+    assert!(data(&points, "cy").windows(2).take(1).all(|p| p[0] > p[1]) && data(&points, "cx")[0] < data(&points, "cx")[1]);
+    sound(&cost_picture("nothing", "slip nodes", &[]));
 }

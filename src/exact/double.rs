@@ -18,6 +18,18 @@ pub fn from_f64(value: f64) -> Result<Rational, NumberError> {
     Rational::from_f64(value).filter(|_| value.is_finite()).ok_or_else(|| NumberError::NotFinite { text: value.to_string() })
 }
 
+/// A finite double without its fraction; `None` for NaN and the infinities.
+///
+/// ```
+/// use mceip::exact::{truncated, whole};
+/// assert_eq!(truncated(-7.9), Some(whole(-7).to_integer()));
+/// assert_eq!(truncated(2f64.powi(70)), Some(whole(2).to_integer().pow(70)));
+/// assert_eq!(truncated(f64::NAN), None);
+/// ```
+pub fn truncated(value: f64) -> Option<Integer> {
+    Integer::from_f64(value)
+}
+
 /// The nearest double, ties to even; beyond the range of doubles the signed infinity.
 ///
 /// Computed by integer division to 54 bits and a sticky bit, so it is the IEEE rounding of the

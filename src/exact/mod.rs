@@ -30,7 +30,7 @@ pub use cone::{Generators, cone_generators};
 pub use decimal::{enclosing_decimals, ratio_to_decimal, to_decimal};
 pub use definite::{DefiniteError, NotDefinite, positive_definite};
 pub use dense::Dense;
-pub use double::{from_f64, to_f64};
+pub use double::{from_f64, to_f64, truncated};
 pub use interval::Interval;
 pub use kernel::{determinant, generic_kernel, kernel_at, minors, row_echelon_at};
 #[cfg(feature = "solver")]

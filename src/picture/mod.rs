@@ -6,10 +6,11 @@
 //!
 //! `markup` a tree of elements, `scale` and `chart` axes, `marker` the contact states; then a file for
 //! each picture: [`mode_picture`], [`path_picture`], [`threshold_picture`], [`branch_picture`],
-//! [`table1_picture`]; [`Report`] puts them into a page.
+//! [`table1_picture`], [`cost_picture`]; [`Report`] puts them into a page.
 
 mod branch;
 mod chart;
+mod cost;
 mod marker;
 mod markup;
 mod mode;
@@ -21,6 +22,7 @@ mod table1;
 mod threshold;
 
 pub use branch::{BranchPoint, Branches, branch_picture};
+pub use cost::{CostSeries, cost_picture};
 pub use marker::Mark;
 pub use markup::Element;
 pub use mode::{Mode, mode_picture};

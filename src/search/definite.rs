@@ -2,9 +2,10 @@
 //! factors as evidence, tried before any search.
 
 use crate::certificate::{Ldl, LdlFactor, Node};
-use crate::exact::{Rational, rational};
+use crate::exact::{Rational, rational, to_f64};
 use crate::model::file::Number;
 use crate::model::{Pencil, Window};
+use crate::tolerance::SEMIDEFINITE_PIVOT;
 use num_traits::{Signed, Zero};
 
 /// Largest order for which exact factors are formed: beyond it their numbers grow longer than they tell.
@@ -16,12 +17,14 @@ pub fn leaf(pencil: &Pencil, window: &Window) -> Option<Node> {
     if pencil.order() > MAX_ORDER {
         return None;
     }
-    let at = |t: &Rational| pencil.a().add_scaled(t, pencil.b()).to_dense();
-    let lower = ldl(&symmetric(&at(window.min())))?;
-    let upper = match window.max() {
-        Some(max) => ldl(&symmetric(&at(max)))?,
-        None => ldl(&symmetric(&pencil.b().to_dense()))?,
-    };
+    let at = |t: &Rational| symmetric(&pencil.a().add_scaled(t, pencil.b()).to_dense());
+    let lower = at(window.min());
+    let upper = window.max().map_or_else(|| symmetric(&pencil.b().to_dense()), at);
+    // Exact factors of a large matrix take long: not where doubles see that there are none.
+    if is_indefinite(&upper) || is_indefinite(&lower) {
+        return None;
+    }
+    let (lower, upper) = (ldl(&lower)?, ldl(&upper)?);
     let strict = |f: &LdlFactor| f.diagonal.iter().all(|d| d.0.is_positive());
     let holds = strict(&lower) && (window.max().is_none() || strict(&upper));
     holds.then(|| Node::Ldl(Box::new(Ldl { lower, upper })))
@@ -30,6 +33,29 @@ pub fn leaf(pencil: &Pencil, window: &Window) -> Option<Node> {
 fn symmetric(m: &crate::exact::Dense) -> Vec<Vec<Rational>> {
     let n = m.rows();
     (0..n).map(|i| (0..n).map(|j| (&m.row(i)[j] + &m.row(j)[i]) * rational(1, 2)).collect()).collect()
+}
+
+/// Is a pivot of S clearly negative in doubles? Never for a semidefinite S: there rounding stays below the
+/// margin, and what a row with a tiny pivot leaves behind is semidefinite as well.
+fn is_indefinite(s: &[Vec<Rational>]) -> bool {
+    let mut s: Vec<Vec<f64>> = s.iter().map(|row| row.iter().map(to_f64).collect()).collect();
+    let n = s.len();
+    let margin = SEMIDEFINITE_PIVOT * (0..n).fold(0.0f64, |most, i| most.max(s[i][i].abs()));
+    for k in 0..n {
+        if s[k][k] < -margin {
+            return true;
+        }
+        if s[k][k] <= margin {
+            continue;
+        }
+        let (upper, lower) = s.split_at_mut(k + 1);
+        let pivot = &upper[k];
+        for row in lower {
+            let factor = row[k] / pivot[k];
+            (k + 1..n).for_each(|j| row[j] -= factor * pivot[j]);
+        }
+    }
+    false
 }
 
 /// S = L D L' with unit lower triangular L and D >= 0; `None` if S is not positive semidefinite.
@@ -77,6 +103,21 @@ mod tests {
         let problem = Problem::new(Body::Pencil(p), Unknown::Lambda2, Window::all()).unwrap();
         let found = complete(&problem, &Options::default(), &AtomicBool::new(false), &|_| {}).unwrap();
         assert_eq!((found.is_complete(), found.cover.leaves, found.cover.solutions.len()), (true, 1, 0));
+    }
+
+    /// Rank one with entries of every size is semidefinite to the screen as it is to the exact factors; taking a
+    /// thousandth off a diagonal entry is seen.
+    #[test]
+    fn the_screen_keeps_what_is_semidefinite() {
+        let v = [7, -300, 0, 11, 1, -1, 99_991];
+        let rank_one = |less: &Rational| -> Vec<Vec<Rational>> {
+            let entry = |i: usize, j: usize| rational(v[i] * v[j], 3) - if (i, j) == (4, 4) { less.clone() } else { whole(0) };
+            (0..v.len()).map(|i| (0..v.len()).map(|j| entry(i, j)).collect()).collect()
+        };
+        assert!(!is_indefinite(&rank_one(&whole(0))) && ldl(&rank_one(&whole(0))).is_some());
+        assert!(is_indefinite(&rank_one(&whole(100_000))));
+        // Too little to be seen in doubles: the exact factors refuse it.
+        assert!(!is_indefinite(&rank_one(&rational(1, 1_000_000))) && ldl(&rank_one(&rational(1, 1_000_000))).is_none());
     }
 
     #[test]

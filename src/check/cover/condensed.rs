@@ -9,6 +9,7 @@
 use super::CoverFault;
 use super::expanded::Expanded;
 use super::family::Matrix;
+use super::product::{Linear, Part, times};
 use super::psd::{Symmetric, semidefinite};
 use crate::certificate::{Anchor, Condensation, IntegerMatrix, Tail};
 use crate::check::pencil::{Row, Rows};
@@ -204,19 +205,15 @@ impl Blocks {
                 z[0][i][*j] += c << (e_w + e_v);
                 z[1][i][*j] += l << (e_w + e_v);
             }
-            for (k, w_k) in w.iter().enumerate() {
-                for (f, c, l) in &sf[i] {
-                    for j in 0..self.slip {
-                        z[k][i][j] -= (c * &w_k[*f][j]) << e_v;
-                        if !l.is_zero() {
-                            z[k + 1][i][j] -= (l * &w_k[*f][j]) << e_v;
-                        }
-                    }
-                }
+        }
+        for (k, w_k) in w.iter().enumerate() {
+            for (m, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
+                let product = times(sf, part, w_k, self.slip).into_iter().flatten().flatten();
+                z[m].iter_mut().flatten().zip(product).for_each(|(z, p)| *z -= p << e_v);
             }
         }
         for (k, v_k) in v.iter().enumerate() {
-            for (m, r_m) in r.iter().enumerate().skip(w.len()) {
+            for (m, r_m) in r.iter().enumerate().skip(w.len()).filter(|(_, r_m)| !r_m.iter().flatten().all(Zero::is_zero)) {
                 for f in 0..self.free {
                     for i in (0..self.slip).filter(|&i| !v_k[f][i].is_zero()) {
                         for j in (0..self.slip).filter(|&j| !r_m[f][j].is_zero()) {
@@ -235,9 +232,6 @@ impl Blocks {
         Rational::new(largest, self.common.clone()) / sigma
     }
 }
-
-/// Rows of a matrix linear in t or d: column, constant, coefficient.
-type Linear = Vec<Row>;
 
 /// `factor` q T as a matrix linear in d = t - p/q: q A + p B and q B.
 fn about(block: &Linear, center: &Rational, factor: &Integer) -> Linear {
@@ -266,15 +260,9 @@ fn residual(f: &Linear, c: &Linear, w: &[Matrix], e: u32, cols: usize) -> Vec<Ma
         }
     }
     for (k, w_k) in w.iter().enumerate() {
-        for (i, row) in f.iter().enumerate() {
-            for (g, constant, linear) in row {
-                for j in 0..cols {
-                    out[k][i][j] -= constant * &w_k[*g][j];
-                    if !linear.is_zero() {
-                        out[k + 1][i][j] -= linear * &w_k[*g][j];
-                    }
-                }
-            }
+        for (m, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
+            let product = times(f, part, w_k, cols).into_iter().flatten().flatten();
+            out[m].iter_mut().flatten().zip(product).for_each(|(o, p)| *o -= p);
         }
     }
     out

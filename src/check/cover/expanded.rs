@@ -3,6 +3,7 @@
 
 use super::CoverFault;
 use super::family::{Ends, Matrix};
+use super::short::Short;
 use crate::exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -77,6 +78,19 @@ impl Expanded {
         // m[0] and m[1] are rounded as well: two units.
         let slope = grid(n, |i, j| &bend[i][j] + &remainder_slope[i][j] + 2);
         Ok(Ends { m: [self.at(&d0), self.at(&d1)], r: [radius(&d0.abs()), radius(&d1.abs())], slope, scale, infinite: false })
+    }
+
+    /// The constant and the direction of a family that is linear in t = d, remainders included, in short numbers: at
+    /// t >= 0 it is within (R_0 + t R_1) of Z_0 + t Z_1, and so between the ends of every interval.
+    pub(super) fn short(&self) -> Option<[Short; 2]> {
+        if self.reversed || !self.center.is_zero() || !self.is_linear() {
+            return None;
+        }
+        let none = Rational::zero();
+        let direction = grid(self.weight.len(), |i, j| self.fixed(&self.z[1][i][j], &Integer::one()));
+        let all: Vec<usize> = (0..self.weight.len()).collect();
+        let constant = Short::of(&self.at(&none), &self.remainder(&none, &self.weight), &all)?;
+        Some([constant, Short::of(&direction, &self.remainder_direction(), &all)?])
     }
 
     /// Is the condensed pencil linear in t, its remainder included?
@@ -217,6 +231,7 @@ mod tests {
             rounding_weight: vec![rational(1, 50), rational(3, 70)],
             drift: whole(0),
             gain: rational(3, 5),
+            reversed: false,
         }
     }
 
@@ -358,5 +373,83 @@ mod tests {
         same.z.push(square([[0, 0], [0, 0]]));
         check_finite(&same, true, &whole(1), &whole(2));
         assert!(same.ends(&whole(3), None).is_ok());
+    }
+}
+
+/// The short form encloses, closely.
+#[cfg(test)]
+mod short_forms {
+    use super::*;
+    use crate::exact::{rational, whole};
+
+    fn big(rows: &[&[i64]]) -> Vec<Vec<Integer>> {
+        rows.iter().map(|r| r.iter().map(|v| Integer::from(*v)).collect()).collect()
+    }
+
+    /// Linear, with the two remainders of different sizes.
+    fn linear() -> Expanded {
+        Expanded {
+            center: whole(0),
+            z: vec![big(&[&[300, -500], &[0, 700]]), big(&[&[-100, 200], &[0, 9000]])],
+            unit: Integer::from(1024),
+            left: big(&[&[1, 2], &[3, 4]]),
+            right: big(&[&[5, 6], &[0, 0]]),
+            weight: vec![rational(1, 30_000), rational(1, 40_000)],
+            v: big(&[&[7, 1], &[0, 3]]),
+            rounding: big(&[&[2, 1]]),
+            rounding_weight: vec![rational(1, 50_000), rational(1, 60_000)],
+            drift: whole(0),
+            gain: whole(0),
+            reversed: false,
+        }
+    }
+
+    /// Does an enclosure in some unit contain Z(t) +- `times` the remainders, times the denominator of t?
+    fn contains(e: &Expanded, short: &Short, t: &Rational, times: &Rational) -> bool {
+        let at = |list: &[Vec<Integer>], i: usize| -> Rational {
+            let coefficient = |k: usize| list.get(k).map_or_else(Rational::zero, |l| Rational::from_integer(l[i].clone()));
+            coefficient(0) + t * coefficient(1)
+        };
+        let z = |i: usize, j: usize| {
+            let [a, b] = [0, 1].map(|k| Rational::new(e.z[k][i][j].clone(), e.unit.clone()));
+            a + t * b
+        };
+        let radius =
+            |i: usize, j: usize| &e.weight[i] * at(&e.left, i) * at(&e.right, j) + &e.rounding_weight[i] * at(&e.v, i) * at(&e.rounding, j);
+        let raised = Rational::from_integer(t.denom() << FRACTION_BITS);
+        let fits = |unit: u64, i: usize, j: usize, sign: i64| {
+            let unit = Integer::one() << unit;
+            let value = (z(i, j) + radius(i, j) * times * whole(sign)) * &raised;
+            (value - Rational::from_integer(&unit * short.m[i][j])).abs() <= Rational::from_integer(unit * short.r[i][j])
+        };
+        let entries = || [(0, 0), (0, 1), (1, 0), (1, 1)];
+        (0..200).any(|unit| entries().iter().all(|&(i, j)| fits(unit, i, j, 1) && fits(unit, i, j, -1)))
+    }
+
+    #[test]
+    fn the_short_form_of_a_linear_family_encloses_it_closely() {
+        let e = linear();
+        let [a, b] = e.short().unwrap();
+        for t in [whole(0), rational(1, 3), whole(7), rational(100_001, 7)] {
+            let short = a.combine(t.denom(), &b, t.numer()).unwrap();
+            assert!(contains(&e, &short, &t, &whole(1)), "{t}");
+            assert!(!contains(&e, &short, &t, &rational(1_001, 1_000)), "{t}: a radius too large to be right");
+        }
+    }
+
+    #[test]
+    fn what_is_not_linear_or_has_another_centre_has_no_short_form() {
+        let of = |change: fn(&mut Expanded)| {
+            let mut e = linear();
+            change(&mut e);
+            e.short().is_some()
+        };
+        assert!(of(|_| {}));
+        assert!(!of(|e| e.center = whole(1)));
+        assert!(!of(|e| e.reversed = true));
+        assert!(!of(|e| e.drift = rational(1, 9)));
+        assert!(!of(|e| e.z.push(big(&[&[0, 0], &[1, 0]]))));
+        assert!(!of(|e| e.right[1][1] = Integer::one()));
+        assert!(!of(|e| e.left.push(vec![Integer::zero(), Integer::one()])));
     }
 }

@@ -33,8 +33,8 @@ pub(super) struct Ends {
 pub(super) enum Family {
     /// A + tB.
     Linear(Linear),
-    /// The condensed pencil about several anchors.
-    Condensed(Vec<Expanded>),
+    /// The condensed pencil about several anchors, and what [`Expanded::short`] gives for each.
+    Condensed(Vec<(Expanded, Option<[Short; 2]>)>),
 }
 
 /// A + tB with a radius per row for what was cut off.
@@ -52,10 +52,26 @@ impl Family {
         match self {
             Family::Linear(linear) => Ok(linear.ends(lo, hi)),
             Family::Condensed(list) => {
-                let expanded = anchor.and_then(|k| list.get(k)).ok_or(CoverFault::Anchor { anchors: list.len(), got: anchor })?;
+                let (expanded, _) = anchor.and_then(|k| list.get(k)).ok_or(CoverFault::Anchor { anchors: list.len(), got: anchor })?;
                 expanded.ends(lo, hi)
             }
         }
+    }
+
+    /// The same in short numbers, where the family is linear: T_0 + tT_1 is (q T_0 + p T_1) / q at t = p / q >= 0,
+    /// and T_1 at infinity.
+    pub(super) fn short(&self, anchor: Option<usize>, lo: &Rational, hi: Option<&Rational>) -> Option<[Short; 2]> {
+        let parts = match self {
+            Family::Linear(linear) => &linear.short,
+            Family::Condensed(list) => anchor.and_then(|k| list.get(k)).map_or(&None, |(_, short)| short),
+        };
+        let [a, b] = parts.as_ref()?;
+        let at = |t: &Rational| a.combine(t.denom(), b, t.numer());
+        let upper = match hi {
+            Some(hi) => at(hi),
+            None => a.combine(&Integer::zero(), b, &Integer::one()),
+        };
+        Some([at(lo)?, upper?])
     }
 }
 
@@ -88,17 +104,6 @@ impl Linear {
         let [a, b] = [&linear.a, &linear.b].map(|m| Short::of(m, &radius, &all));
         linear.short = a.zip(b).map(|(a, b)| [a, b]);
         linear
-    }
-
-    /// Both ends in short numbers: A + tB is (q A + p B) / q at t = p / q >= 0, and B at infinity.
-    pub(super) fn short(&self, lo: &Rational, hi: Option<&Rational>) -> Option<[Short; 2]> {
-        let [a, b] = self.short.as_ref()?;
-        let at = |t: &Rational| a.combine(t.denom(), b, t.numer());
-        let upper = match hi {
-            Some(hi) => at(hi),
-            None => a.combine(&Integer::zero(), b, &Integer::one()),
-        };
-        Some([at(lo)?, upper?])
     }
 
     fn ends(&self, lo: &Rational, hi: Option<&Rational>) -> Ends {

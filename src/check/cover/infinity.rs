@@ -16,7 +16,7 @@ impl Family {
     pub(super) fn is_reversed(&self, anchor: Option<usize>) -> bool {
         match self {
             Family::Linear(_) => false,
-            Family::Condensed(list) => anchor.and_then(|k| list.get(k)).is_some_and(|e| e.reversed),
+            Family::Condensed(list) => anchor.and_then(|k| list.get(k)).is_some_and(|(e, _)| e.reversed),
         }
     }
 

@@ -12,6 +12,7 @@ mod found;
 mod infinity;
 mod ldl;
 mod leaf;
+mod product;
 mod psd;
 mod root;
 mod rootless;
@@ -117,7 +118,10 @@ pub(super) fn check(
     let whole = |fault| Reason::Cover { piece: None, node: None, fault };
     let family = match &cover.condensation {
         None if !has_free => Family::Linear(Linear::of(rows)),
-        Some(condensation) if has_free => Family::Condensed(condensed::of(rows, condensation).map_err(whole)?),
+        Some(condensation) if has_free => {
+            let list = condensed::of(rows, condensation).map_err(whole)?;
+            Family::Condensed(list.into_iter().map(|e| (e.short(), e)).map(|(short, e)| (e, short)).collect())
+        }
         _ => return Err(whole(CoverFault::Condensation { expected: has_free })),
     };
     let tail = cover.condensation.as_ref().and_then(|c| c.tail.as_ref());
@@ -275,9 +279,9 @@ impl Walk<'_> {
 
     /// The same in short numbers, where there are such.
     fn short<'r>(&self, region: &'r Region, anchor: Option<usize>) -> Option<&'r [Short; 2]> {
-        let of = || match &self.family {
-            Family::Linear(linear) => linear.short(&region.lo, region.hi.as_ref()),
-            Family::Condensed(_) => self.ends(region, anchor).ok()?.short(),
+        let of = || match (self.family.short(anchor, &region.lo, region.hi.as_ref()), &self.family) {
+            (None, Family::Condensed(_)) => self.ends(region, anchor).ok()?.short(),
+            (short, _) => short,
         };
         region.matrices.short.get_or_init(of).as_ref()
     }

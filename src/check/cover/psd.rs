@@ -4,11 +4,13 @@
 use super::CoverFault;
 use crate::certificate::Factor;
 use crate::exact::Integer;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::collections::BTreeMap;
 
 /// Largest binary exponent of a factor.
 const MAX_EXPONENT: u32 = 1 << 12;
+/// Bits that a sum of absolute values of entries of L L' may have in machine integers.
+const SHORT_BITS: u64 = 126;
 
 /// A symmetric matrix by rows: column to entry.
 pub(super) type Symmetric = Vec<BTreeMap<usize, Integer>>;
@@ -31,12 +33,25 @@ pub(super) fn semidefinite(
     shape(factor, s.len())?;
     // Everything in units of 1 / (scale 4^exponent).
     let (lift, n) = (Integer::one() << (2 * factor.exponent), s.len());
+    let short = short(factor);
     let (mut diagonal, mut off) = (vec![Integer::zero(); n], vec![Integer::zero(); n]);
+    // The same sums over the entries where S is zero, in units of 1 / 4^exponent.
+    let mut fill = vec![0i128; n];
     for i in 0..n {
         let start = factor.first[i].min(s[i].keys().next().copied().unwrap_or(i));
         for j in start..=i {
-            let mut residual = s[i].get(&j).map_or_else(Integer::zero, |v| v * &lift);
-            residual -= product(factor, i, j) * scale;
+            let given = s[i].get(&j);
+            let product = match (&short, given) {
+                (Some(rows), None) if i != j => {
+                    let size = short_product(factor, rows, i, j).abs();
+                    fill[i] += size;
+                    fill[j] += size;
+                    continue;
+                }
+                (Some(rows), _) => short_product(factor, rows, i, j).into(),
+                (None, _) => product(factor, i, j),
+            };
+            let residual = given.map_or_else(Integer::zero, |v| v * &lift) - product * scale;
             if i == j {
                 diagonal[i] = residual;
             } else {
@@ -45,6 +60,7 @@ pub(super) fn semidefinite(
             }
         }
     }
+    off.iter_mut().zip(&fill).filter(|(_, fill)| **fill > 0).for_each(|(off, fill)| *off += Integer::from(*fill) * scale);
     let holds = |i: usize| if strictly { diagonal[i] > off[i] } else { diagonal[i] >= off[i] };
     (0..n).find(|&i| !holds(i)).map_or(Ok(()), |row| Err(fault(row)))
 }
@@ -54,6 +70,22 @@ fn product(factor: &Factor, i: usize, j: usize) -> Integer {
     let start = factor.first[i].max(factor.first[j]);
     let from = |r: usize| factor.rows[r].iter().skip(start.saturating_sub(factor.first[r]));
     from(i).zip(from(j)).take((j + 1).saturating_sub(start)).map(|(p, q)| p * q).sum()
+}
+
+/// The factor's rows in machine integers, if a row sum of |L L'|, of at most n^2 products, fits into 128 bits.
+fn short(factor: &Factor) -> Option<Vec<Vec<i64>>> {
+    let bits = factor.rows.iter().flatten().map(Integer::bits).max().unwrap_or(0);
+    let order = u64::from(usize::BITS - factor.rows.len().leading_zeros());
+    let row = |row: &Vec<Integer>| row.iter().map(ToPrimitive::to_i64).collect::<Option<Vec<i64>>>();
+    if 2 * bits + 2 * order > SHORT_BITS { None } else { factor.rows.iter().map(row).collect() }
+}
+
+/// [`product`] of such rows.
+fn short_product(factor: &Factor, rows: &[Vec<i64>], i: usize, j: usize) -> i128 {
+    let start = factor.first[i].max(factor.first[j]);
+    let from = |r: usize| &rows[r][(start - factor.first[r]).min(rows[r].len())..];
+    let terms = (j + 1).saturating_sub(start);
+    from(i).iter().zip(from(j)).take(terms).map(|(p, q)| i128::from(*p) * i128::from(*q)).sum()
 }
 
 /// Row i holds columns first[i] to i.
@@ -105,6 +137,49 @@ mod tests {
         let check = |d: i64, strictly| semidefinite(&tridiagonal(2, d), &Integer::one(), Some(&factor()), strictly, "S").is_ok();
         assert!(check(8, false) && check(9, true));
         assert!(!check(8, true) && !check(7, false)); // residual 0 is semidefinite only; -1 is neither
+    }
+
+    /// Rows of different beginnings, at both sides of the length at which machine integers end.
+    #[test]
+    fn short_and_long_products_agree() {
+        let row = |list: &[i64], bits: u32| list.iter().map(|v| Integer::from(*v) << bits).collect::<Vec<_>>();
+        let of =
+            |bits| Factor { first: vec![0, 0, 2], rows: vec![row(&[15], bits), row(&[-15, 14], bits), row(&[-13], bits)], exponent: 0 };
+        for bits in [0, 55, 56, 57] {
+            let (factor, rows) = (of(bits), short(&of(bits)));
+            // Three rows are 2 bits, entries 4 + bits: 2 (4 + bits) + 4 may be at most 126.
+            assert_eq!(rows.is_some(), bits <= 57, "{bits}");
+            for (i, j) in [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)] {
+                assert_eq!(Integer::from(short_product(&factor, rows.as_ref().unwrap(), i, j)), product(&factor, i, j));
+            }
+        }
+        assert!(short(&of(58)).is_none() && short(&of(70)).is_none());
+    }
+
+    /// S = L L' + E with an S that is zero where L L' is not, for short and for long factors: E_ii - sum |E_ij| is
+    /// `more` units, and the sign of that decides.
+    #[test]
+    fn fill_counts_in_both_arithmetics() {
+        let verdict = |bits: u32, more: i64, strictly: bool| {
+            let value = |v: i64| Integer::from(v) << bits;
+            // L = [[3], [-1, 3], [-1, 1, 3]]: L L' = [[9, -3, -3], [-3, 10, 4], [-3, 4, 11]].
+            let rows = vec![vec![value(3)], vec![value(-1), value(3)], vec![value(-1), value(1), value(3)]];
+            let factor = Factor { first: vec![0, 0, 0], rows, exponent: 0 };
+            let entry = |v: i64| Integer::from(v) << (2 * bits);
+            // Off the diagonal S holds (1, 0) only, -3 + 1: row sums of |E| are 1 + 3, 1 + 4, 3 + 4.
+            let s = vec![
+                BTreeMap::from([(0, entry(9 + 4)), (1, entry(-2))]),
+                BTreeMap::from([(0, entry(-2)), (1, entry(10 + 5) + more)]),
+                BTreeMap::from([(2, entry(11 + 7))]),
+            ];
+            assert_eq!(short(&factor).is_some(), bits < 60);
+            semidefinite(&s, &Integer::one(), Some(&factor), strictly, "S")
+        };
+        for bits in [0, 40, 59, 60, 90] {
+            assert_eq!((verdict(bits, 0, false), verdict(bits, 1, false)), (Ok(()), Ok(())), "{bits}");
+            assert_eq!(verdict(bits, -1, false), Err(CoverFault::Hypothesis { expected: "S", row: 1 }), "{bits}");
+            assert!(verdict(bits, 0, true).is_err() && verdict(bits, 1, true).is_err(), "{bits}"); // rows 0 and 2 are not strict
+        }
     }
 
     #[test]

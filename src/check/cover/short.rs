@@ -36,27 +36,32 @@ impl Short {
         let (p, q) = (p << (self.unit - low), q << (other.unit - low));
         let cut = p.bits().max(q.bits()).saturating_sub(BITS);
         let is_exact = &p >> cut << cut == p && &q >> cut << cut == q;
-        let (p, q) = ((p >> cut).to_i128()?, (q >> cut).to_i128()?);
+        let (p, q) = ((p >> cut).to_i64()?, (q >> cut).to_i64()?);
         // A factor that was cut may be larger by one unit. Sums stay below 2^126.
-        let lost = i128::from(!is_exact);
-        let entry = |i: usize, j: usize| {
-            let (a, b) = (i128::from(self.m[i][j]), i128::from(other.m[i][j]));
-            let (s, t) = (i128::from(self.r[i][j]), i128::from(other.r[i][j]));
-            (p * a + q * b, p * s + q * t + lost * (a.abs() + s + b.abs() + t))
-        };
-        let n = self.m.len();
-        let rows: Vec<Vec<(i128, i128)>> = (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect();
-        let largest = rows.iter().flatten().fold(0, |most: u128, (v, _)| most | v.unsigned_abs());
+        let (n, lost) = (self.m.len(), i128::from(!is_exact));
+        let (mut sums, mut largest) = (Vec::with_capacity(n * n), 0u128);
+        for ((m, r), (other_m, other_r)) in self.m.iter().zip(&self.r).zip(other.m.iter().zip(&other.r)) {
+            for ((a, s), (b, t)) in m.iter().zip(r).zip(other_m.iter().zip(other_r)) {
+                let [a, b, s, t] = [a, b, s, t].map(|v| i128::from(*v));
+                let value = i128::from(p) * a + i128::from(q) * b;
+                largest |= value.unsigned_abs();
+                sums.push((value, i128::from(p) * s + i128::from(q) * t + lost * (a.abs() + s + b.abs() + t)));
+            }
+        }
         let unit = (128 - u64::from(largest.leading_zeros())).saturating_sub(BITS);
         let cut = |(v, r): &(i128, i128)| around((v >> unit).to_i64()?, (r >> unit).to_i64()?, v >> unit << unit == *v && *r == 0);
-        Short::from_entries(rows.iter().map(|row| row.iter().map(cut)), unit)
+        Short::from_entries(sums.chunks_exact(n.max(1)).map(|row| row.iter().map(cut)), unit)
     }
 
-    fn from_entries(rows: impl Iterator<Item = impl Iterator<Item = Option<(i64, i64)>>>, unit: u64) -> Option<Short> {
+    fn from_entries(rows: impl Iterator<Item = impl ExactSizeIterator<Item = Option<(i64, i64)>>>, unit: u64) -> Option<Short> {
         let (mut m, mut r) = (Vec::new(), Vec::new());
         for row in rows {
-            let row: Option<Vec<(i64, i64)>> = row.collect();
-            let (values, radii) = row?.into_iter().unzip();
+            let (mut values, mut radii) = (Vec::with_capacity(row.len()), Vec::with_capacity(row.len()));
+            for entry in row {
+                let (value, radius) = entry?;
+                values.push(value);
+                radii.push(radius);
+            }
             m.push(values);
             r.push(radii);
         }

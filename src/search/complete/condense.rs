@@ -4,13 +4,12 @@
 //! enters the enclosure squared (see `check::cover::condensed`).
 
 use super::CompleteError;
-use super::game::dot;
 use super::massless;
 use super::reverse;
-use super::skyline::Skyline;
+use super::skyline::{Skyline, dot};
 use super::view::{Expansion, View, row_factor, scale};
 use crate::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
-use crate::exact::{Integer, Rational, Sparse, from_f64, to_f64};
+use crate::exact::{Integer, Rational, Sparse, from_f64, to_f64, truncated};
 use crate::model::file::Number;
 use crate::model::{Pencil, Window};
 use crate::tolerance::TAIL_START;
@@ -261,7 +260,7 @@ pub(super) fn expand(
         let mut list: Vec<(IntegerMatrix, Vec<Vec<f64>>)> = Vec::new();
         for k in 0..=degree(given) {
             // F_c W_k = [k = 0] C_c + [k = 1] C_b - F_b W_(k-1)
-            let columns: Vec<Vec<f64>> = (0..blocks.slip.len())
+            let mut columns: Vec<Vec<f64>> = (0..blocks.slip.len())
                 .map(|j| {
                     let mut b: Vec<f64> = match k {
                         0 => given[0][j].iter().zip(&given[1][j]).map(|(a, b)| a + c * b).collect(),
@@ -271,10 +270,10 @@ pub(super) fn expand(
                     if let Some((_, before)) = list.last() {
                         b.iter_mut().zip(times(&blocks.ff[1], &before[j])).for_each(|(b, p)| *b -= p);
                     }
-                    f.solve(&mut b);
                     b
                 })
                 .collect();
+            f.solve_all(&mut columns);
             list.push(round(columns, bits - BITS_PER_DEGREE * k as i32));
         }
         list
@@ -293,7 +292,7 @@ fn round(columns: Vec<Vec<f64>>, bits: i32) -> (IntegerMatrix, Vec<Vec<f64>>) {
     let unit = f64::from(exponent).exp2();
     let rounded: Vec<Vec<f64>> = columns.iter().map(|c| c.iter().map(|v| (v * unit).round() / unit).collect()).collect();
     let free = columns.first().map_or(0, Vec::len);
-    let integer = |v: f64| from_f64((v * unit).round()).map_or_else(|_| Integer::default(), |v| v.to_integer());
+    let integer = |v: f64| truncated((v * unit).round()).unwrap_or_default();
     let rows = (0..free).map(|i| rounded.iter().map(|c| integer(c[i])).collect()).collect();
     (IntegerMatrix { exponent: exponent.unsigned_abs(), rows }, rounded)
 }
@@ -354,6 +353,7 @@ fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, bounds: [f64; 2], right: 
         gain: bounds[1] / bounds[0],
         v: norms(left, true),
         rounding: norms(&r[..right.len()], false),
+        caution: 1.0,
         free: right.to_vec(),
         reversed: false,
     }

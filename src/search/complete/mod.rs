@@ -27,13 +27,15 @@ pub use error::CompleteError;
 pub use merge::merge;
 
 use super::definite;
-use crate::certificate::{Certificate, Claim, CompleteSet, Node, Piece};
+use crate::certificate::{Certificate, CompleteSet, Node, Piece};
 use crate::certify::certificate;
 use crate::check::{Accepted, AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check};
 use crate::model::file::Number;
 use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
 use skeleton::Prepared;
+use splice::Chosen;
+use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, Ordering};
 use tree::Watch;
@@ -131,20 +133,24 @@ pub fn complete(
     {
         let piece = Piece { max: problem.window().max().cloned().map(Number), anchor: None, tree: vec![node] };
         let set = CompleteSet { pieces: vec![piece], ..prepared.open_set() };
-        return finish(problem, &pencil, &prepared, Certificate { complete_set: Some(set), ..certificate(problem, Vec::new()) });
+        let mut certificate = Certificate { complete_set: Some(set), ..certificate(problem, Vec::new()) };
+        let (accepted, refused) = audited(problem, &mut certificate)?;
+        if refused.is_empty() {
+            return completed(&pencil, &prepared, certificate, accepted);
+        }
     }
     if prepared.is_expanded() {
         // A first search finds where the solutions are, so that the enclosure is tight there.
         let scout = Options { shard: None, ..*options };
         let quiet = Shares { stop, progress: &|_| {}, state: Mutex::new(Progress::default()) };
         let (set, look) = (prepared.open_set(), prepared.scout());
-        let found = in_threads(options.threads, || splice::all(problem, &pencil, &look, &set, &scout, &quiet));
+        let found = in_threads(options.threads, || splice::all(problem, &pencil, &look, &set, &scout, &Chosen::All, &quiet));
         let mut values: Vec<f64> = found.into_iter().flat_map(|f| f.met).collect();
         values.sort_by(f64::total_cmp);
         prepared = prepared.refined(problem, &pencil, &values);
     }
     let start = Certificate { complete_set: Some(prepared.open_set()), ..certificate(problem, Vec::new()) };
-    run(problem, &pencil, &prepared, start, options, stop, progress)
+    run(problem, &pencil, prepared, start, options, stop, progress)
 }
 
 /// Goes on with a certificate that leaves regions open: only these are searched.
@@ -164,53 +170,58 @@ pub fn resume(
     check(problem, earlier)?;
     let set = earlier.complete_set.as_ref().ok_or(CompleteError::NoCompleteSet)?;
     let prepared = Prepared::again(&pencil, set)?;
-    run(problem, &pencil, &prepared, earlier.clone(), options, stop, progress)
+    run(problem, &pencil, prepared, earlier.clone(), options, stop, progress)
 }
+
+/// Rounds of a search whose leaves were refused, each more cautious than the one before.
+const CAUTIOUS_ROUNDS: usize = 2;
+
+/// Refused leaves up to which exact arithmetic is asked.
+const MAX_REFUSED: usize = 200;
 
 fn run(
     problem: &Problem,
     pencil: &Pencil,
-    prepared: &Prepared,
-    mut start: Certificate,
+    mut prepared: Prepared,
+    mut certificate: Certificate,
     options: &Options,
     stop: &AtomicBool,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Completed, CompleteError> {
-    let set = start.complete_set.take().ok_or(CompleteError::NoCompleteSet)?;
-    let watch = Shares { stop, progress, state: Mutex::new(Progress::default()) };
-    let mut claims: Vec<Claim> = start.claims;
-    let found = in_threads(options.threads, || splice::all(problem, pencil, prepared, &set, options, &watch));
-    let pieces = set.pieces.iter().zip(found).map(|(piece, found)| splice::numbered(piece, found.items, &mut claims)).collect();
-    let complete_set = Some(CompleteSet { condensation: set.condensation, pieces });
-    let certificate = Certificate { claims, complete_set, ..start };
-    finish(problem, pencil, prepared, certificate)
+    let shares = |progress| Shares { stop, progress, state: Mutex::new(Progress::default()) };
+    let search = |prepared: &Prepared, certificate: &mut Certificate, chosen: &Chosen, watch: &Shares<'_>| {
+        let set = certificate.complete_set.take().ok_or(CompleteError::NoCompleteSet)?;
+        let found = in_threads(options.threads, || splice::all(problem, pencil, prepared, &set, options, chosen, watch));
+        let claims = &mut certificate.claims;
+        let pieces = set.pieces.iter().zip(found).map(|(piece, found)| splice::numbered(piece, found.items, claims)).collect();
+        certificate.complete_set = Some(CompleteSet { condensation: set.condensation, pieces });
+        audited(problem, certificate)
+    };
+    let (mut accepted, mut refused) = search(&prepared, &mut certificate, &Chosen::All, &shares(progress))?;
+    // What was refused is open now: that alone is searched again, with more caution, and what still is refused exactly.
+    for _ in 0..CAUTIOUS_ROUNDS {
+        if refused.is_empty() || stop.load(Ordering::Relaxed) || !prepared.beware() {
+            break;
+        }
+        (accepted, refused) = search(&prepared, &mut certificate, &Chosen::Again(refused), &shares(&|_| {}))?;
+    }
+    if !refused.is_empty() && refused.len() <= MAX_REFUSED && !stop.load(Ordering::Relaxed) {
+        (accepted, _) = search(&prepared, &mut certificate, &Chosen::Exactly(refused), &shares(&|_| {}))?;
+    }
+    completed(pencil, &prepared, certificate, accepted)
 }
 
-/// Lets the checker read the certificate: what is reported is what it accepted. A leaf whose witness
-/// doubles have judged too well is left open, and so is a tail.
-fn finish(problem: &Problem, pencil: &Pencil, prepared: &Prepared, mut certificate: Certificate) -> Result<Completed, CompleteError> {
-    let (mut accepted, refused) = audited(problem, &mut certificate)?;
-    if !refused.is_empty() && refused.len() <= MAX_REFUSED {
-        // Exact arithmetic may decide what doubles have judged too well; what it says is read like all else.
-        let set = certificate.complete_set.take().ok_or(CompleteError::NoCompleteSet)?;
-        let (never, leaves) = (AtomicBool::new(false), refused.into_iter().collect());
-        let quiet = Shares { stop: &never, progress: &|_| {}, state: Mutex::new(Progress::default()) };
-        let found = splice::exactly(problem, pencil, prepared, &set, &quiet, &leaves);
-        let pieces = set.pieces.iter().zip(found).map(|(p, f)| splice::numbered(p, f.items, &mut certificate.claims)).collect();
-        certificate.complete_set = Some(CompleteSet { pieces, ..set });
-        accepted = audited(problem, &mut certificate)?.0;
-    }
+/// What is reported is what the checker accepted.
+fn completed(pencil: &Pencil, prepared: &Prepared, certificate: Certificate, accepted: Accepted) -> Result<Completed, CompleteError> {
     let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
     let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
     let x = cover.solutions.iter().map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s))).collect();
     Ok(Completed { certificate, cover, x })
 }
 
-/// Refused leaves up to which exact arithmetic is asked.
-const MAX_REFUSED: usize = 200;
-
-/// What the checker accepts, and the leaves it has refused, which have been opened.
-fn audited(problem: &Problem, certificate: &mut Certificate) -> Result<(Accepted, Vec<(usize, usize)>), CompleteError> {
+/// Lets the checker read the certificate. A leaf whose witness doubles have judged too well is left open, and so is a
+/// tail. Also returned: the places of such leaves.
+fn audited(problem: &Problem, certificate: &mut Certificate) -> Result<(Accepted, BTreeSet<(usize, usize)>), CompleteError> {
     // Every round opens the tail or solutions of one support, so that this comes to an end.
     let (accepted, refused) = loop {
         match audit(problem, certificate) {
@@ -222,7 +233,7 @@ fn audited(problem: &Problem, certificate: &mut Certificate) -> Result<(Accepted
         let leaf = certificate.complete_set.as_mut().and_then(|set| set.pieces.get_mut(piece)).and_then(|p| p.tree.get_mut(node));
         leaf.into_iter().for_each(|leaf| *leaf = Node::Open);
     }
-    Ok((accepted, refused))
+    Ok((accepted, refused.into_iter().collect()))
 }
 
 /// Opens the leaves of a tree that yield solutions of the support; how many.

@@ -3,11 +3,11 @@
 use super::tree::State;
 use super::view::{Ends, Expansion, Matrix};
 use crate::certificate::{Root, RootOutcome};
-use crate::exact::{Integer, Rational, from_f64};
+use crate::exact::{Integer, Rational, from_f64, truncated};
 use crate::linear::{inverse, solve};
 use crate::model::file::Number;
 use crate::tolerance::{ROOT_HALF_WIDTHS, ROUNDING};
-use num_traits::{One, Zero};
+use num_traits::One;
 
 /// Newton steps on the nonlinear eigenproblem.
 const NEWTON_STEPS: usize = 40;
@@ -304,7 +304,7 @@ fn normalised(mut v: Vec<f64>) -> Option<Vec<f64>> {
 
 /// An integer from a double that holds one.
 fn integer(v: f64) -> Integer {
-    from_f64(v.round()).map_or_else(|_| Integer::zero(), |v| v.to_integer())
+    truncated(v.round()).unwrap_or_default()
 }
 
 fn to_double(v: &Integer, bits: u32) -> f64 {

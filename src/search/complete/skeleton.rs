@@ -80,6 +80,12 @@ impl Prepared {
         self.view.expansions.iter().any(|e| e.z.len() > 2)
     }
 
+    /// Takes the remainders for larger than doubles say they are; is there any?
+    pub(super) fn beware(&mut self) -> bool {
+        self.view.expansions.iter_mut().for_each(|e| e.caution *= CAUTION);
+        self.view.expansions.iter().any(|e| !e.is_everywhere())
+    }
+
     /// The same without remainders, for a first look.
     pub(super) fn scout(&self) -> Prepared {
         let expansions = self.view.expansions.iter().map(Expansion::without_remainder).collect();
@@ -178,6 +184,9 @@ impl Prepared {
 /// Up to where an anchor that has no end of its own is used, in units of the pencil's scale: what lies above
 /// stays open. (A checker bounds a family that is not linear in t on finite intervals only.)
 const FAR: f64 = 1024.0;
+
+/// Factor on the remainders where the checker has refused what doubles held for proved.
+const CAUTION: f64 = 8.0;
 
 /// Pieces per anchor at least.
 const MIN_PIECES: usize = 4;

@@ -19,40 +19,39 @@ pub(super) struct Found {
     pub(super) met: Vec<f64>,
 }
 
-/// The trees of all pieces, their open leaves searched; pieces are independent of each other, so
-/// threads change nothing.
+/// Which open leaves are searched, by their places (piece, node), and how.
+pub(super) enum Chosen {
+    /// All.
+    All,
+    /// These, as all are.
+    Again(BTreeSet<(usize, usize)>),
+    /// These, support by support in exact arithmetic where that can be done: what doubles have judged too well.
+    Exactly(BTreeSet<(usize, usize)>),
+}
+
+impl Chosen {
+    fn places(&self) -> Option<&BTreeSet<(usize, usize)>> {
+        match self {
+            Chosen::All => None,
+            Chosen::Again(places) | Chosen::Exactly(places) => Some(places),
+        }
+    }
+
+    fn takes(&self, place: (usize, usize)) -> bool {
+        self.places().is_none_or(|places| places.contains(&place))
+    }
+}
+
+/// The trees of all pieces, their chosen open leaves searched; pieces are independent of each other, so threads
+/// change nothing.
 pub(super) fn all(
     problem: &Problem,
     pencil: &Pencil,
     prepared: &Prepared,
     set: &CompleteSet,
     options: &Options,
+    chosen: &Chosen,
     watch: &(dyn Watch + Sync),
-) -> Vec<Found> {
-    search_pieces(problem, pencil, prepared, set, options, watch, None)
-}
-
-/// The trees with these open leaves (piece, node) decided support by support, in exact arithmetic, where that can be done:
-/// what doubles have judged too well.
-pub(super) fn exactly(
-    problem: &Problem,
-    pencil: &Pencil,
-    prepared: &Prepared,
-    set: &CompleteSet,
-    watch: &(dyn Watch + Sync),
-    leaves: &BTreeSet<(usize, usize)>,
-) -> Vec<Found> {
-    search_pieces(problem, pencil, prepared, set, &Options::default(), watch, Some(leaves))
-}
-
-fn search_pieces(
-    problem: &Problem,
-    pencil: &Pencil,
-    prepared: &Prepared,
-    set: &CompleteSet,
-    options: &Options,
-    watch: &(dyn Watch + Sync),
-    only: Option<&BTreeSet<(usize, usize)>>,
 ) -> Vec<Found> {
     let window = problem.window();
     let certify_at = |value: f64, x: &[f64]| {
@@ -65,7 +64,7 @@ fn search_pieces(
         .collect();
     let one = |(k, piece): (usize, &Piece)| {
         let mine = options.shard.is_none_or(|s| k % s.count == s.index);
-        if !mine || only.is_some_and(|leaves| leaves.range((k, 0)..(k + 1, 0)).next().is_none()) {
+        if !mine || chosen.places().is_some_and(|leaves| leaves.range((k, 0)..(k + 1, 0)).next().is_none()) {
             return Found { items: piece.tree.iter().cloned().map(Item::Node).collect(), met: Vec::new() };
         }
         let expansion = &prepared.view.expansions[piece.anchor.unwrap_or(0)];
@@ -84,20 +83,19 @@ fn search_pieces(
             window: (window.min().clone(), window.max().cloned()),
         };
         let share = 1.0 / set.pieces.len() as f64;
-        spliced(&mut search, &starts[k], piece, share, &|node| only.map(|leaves| leaves.contains(&(k, node))));
+        spliced(&mut search, &starts[k], piece, share, k, chosen);
         Found { items: search.items, met: search.met }
     };
     set.pieces.par_iter().enumerate().map(one).collect()
 }
 
-/// Copies the tree in preorder; an open leaf is replaced by what a search of its region finds: any search, or (if it is so
-/// chosen) the exact one only, or none.
-fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64, chosen: &dyn Fn(usize) -> Option<bool>) {
+/// Copies the tree of piece `k` in preorder; a chosen open leaf is replaced by what a search of its region finds.
+fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64, k: usize, chosen: &Chosen) {
     let hi = piece.max.as_ref().map(|n| n.0.clone());
     // A piece beyond the anchors has no matrices to search with.
     let searchable = piece.anchor.is_some() || search.expansion.is_everywhere();
     let mut stack = vec![(Region::whole(lo.clone(), hi, search.view.order()), share)];
-    for (k, node) in piece.tree.iter().enumerate() {
+    for (place, node) in piece.tree.iter().enumerate() {
         let Some((region, share)) = stack.pop() else { return }; // the checker has accepted the tree
         match node {
             Node::Split(at) => {
@@ -114,9 +112,8 @@ fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64, ch
                     stack.push((child, share / 2.0));
                 }
             }
-            Node::Open if chosen(k) == Some(true) => search.by_support(&region, share),
-            Node::Open if chosen(k) == Some(false) => search.items.push(Item::Node(Node::Open)),
-            Node::Open if searchable => search.region(&region, share),
+            Node::Open if !chosen.takes((k, place)) => search.items.push(Item::Node(Node::Open)),
+            Node::Open if searchable && !matches!(chosen, Chosen::Exactly(_)) => search.region(&region, share),
             Node::Open => search.by_support(&region, share),
             _ => {
                 search.items.push(Item::Node(node.clone()));

@@ -5,8 +5,8 @@
 //! there, the interval is cut where it stops working; if none does, the index whose complementarity
 //! the relaxed solution breaks most is decided.
 
-use super::game::dot;
-use super::view::{Ends, Expansion, View};
+use super::game::{Game, dot};
+use super::view::{Ends, Expansion, Matrix, View};
 use super::witness::{Columns, definite, vanishes};
 use crate::certificate::{Claim, Node, Root, RootOutcome, Support};
 use crate::exact::{Integer, Rational, from_f64, to_f64};
@@ -55,8 +55,9 @@ impl Region {
 /// Cuts in a row before an index is decided instead: on a finite and on an infinite interval.
 const MAX_CUTS: [usize; 2] = [24, 3];
 
-/// Cuts of a decided region before exact arithmetic is asked.
-const CUTS_BEFORE_EXACT: usize = 2;
+/// Cuts of a decided region before exact arithmetic is asked: where there is a simple root, two or three end at it,
+/// and the polynomials of a support take long.
+const CUTS_BEFORE_EXACT: usize = 8;
 
 /// Cuts on both sides of a null vector that is not provably alone, before the rest stays open.
 const MAX_CUTS_SUSPECT: usize = 6;
@@ -125,13 +126,14 @@ impl Search<'_> {
         if let Some(leaf) = definite_leaf(ends, &region.states).or_else(|| self.half_line(region, ends)) {
             return self.leaf(leaf, share);
         }
-        let columns = Columns::of(ends, &region.states);
-        let game = columns.play(&region.states);
         let decided = !region.states.contains(&State::Open);
-        // Before giving a decided region to its null vectors a thin margin is worth trying.
-        if game.value > if decided { THIN_MARGIN } else { WITNESS_MARGIN }
-            && let Some(w) = columns.round(&game.w)
-        {
+        let middle = self.middle(ends);
+        let point = self.expansion.ends(middle, middle);
+        let at = Columns::at(&point.m[0], point.r.as_ref(), &region.states);
+        let game = at.play(&region.states);
+        let prunable = at.margin(&game) > WITNESS_MARGIN;
+        let columns = Columns::of(ends, &region.states);
+        if let Some(w) = farkas(&columns, &game, prunable, &region.states, decided) {
             return self.leaf(Node::Farkas(w), share);
         }
         let narrow = self.view.theta(ends.hi) - self.view.theta(ends.lo) < NARROW;
@@ -146,24 +148,15 @@ impl Search<'_> {
         if decided && (narrow || region.cuts >= cuts_left) {
             return self.give_up(region, share);
         }
-        let middle = self.middle(ends);
-        let point = self.expansion.ends(middle, middle);
-        let at = Columns::at(&point.m[0], point.r.as_ref(), &region.states);
-        let game = at.play(&region.states);
-        let prunable = at.margin(&game) > WITNESS_MARGIN;
         if decided && !prunable && ends.r.is_some() && region.cuts >= MAX_CUTS_SUSPECT {
             // The radius stands in the way, and a shorter interval has the same.
             return self.give_up(region, share);
         }
         let may_cut = !narrow && region.cuts < MAX_CUTS[usize::from(ends.hi.is_infinite())];
-        // The game of both ends does not know the radius; the middle's vector may stand it over all of the interval.
-        if prunable && let Some(w) = columns.round(&game.w) {
-            return self.leaf(Node::Farkas(w), share);
-        }
         if decided || (may_cut && prunable) {
             return self.cut(region, ends, &columns, &game.w, middle, share);
         }
-        self.branch(region, ends, &at, &game.mix, middle, share);
+        self.branch(region, ends, &at, &game.mix, &point.m[0], share);
     }
 
     /// A value in the middle of the interval, in theta.
@@ -201,11 +194,10 @@ impl Search<'_> {
     }
 
     /// Decides the index whose complementarity the relaxed solution of the middle breaks most.
-    fn branch(&mut self, region: &Region, ends: &Rc<Ends>, at: &Columns, mix: &[f64], middle: f64, share: f64) {
+    fn branch(&mut self, region: &Region, ends: &Rc<Ends>, at: &Columns, mix: &[f64], m: &Matrix, share: f64) {
         let n = region.states.len();
         let mut x = vec![0.0; n];
         at.variable.iter().zip(mix).for_each(|(&j, q)| x[j] = *q);
-        let m = self.expansion.at(middle);
         let size = |i: usize| m[i].iter().fold(f64::MIN_POSITIVE, |s, v| s.max(v.abs()));
         let y = |i: usize| dot(&m[i], &x) / size(i);
         let open = (0..n).filter(|&i| region.states[i] == State::Open);
@@ -219,6 +211,22 @@ impl Search<'_> {
             self.node(&child, ends, 0.5 * share);
         }
     }
+}
+
+/// A Farkas vector for both ends of an interval, given the game at its middle. What works at both ends works
+/// at the middle: where nothing does, the larger game need not be played.
+fn farkas(columns: &Columns, middle: &Game, prunable: bool, states: &[State], decided: bool) -> Option<Vec<i64>> {
+    if middle.value <= 0.0 {
+        return None;
+    }
+    // The game of both ends does not know the radius; the middle's vector may stand it over all of the interval.
+    if prunable && let Some(w) = columns.round(&middle.w) {
+        return Some(w);
+    }
+    let game = columns.play(states);
+    // Before a decided region is given to its null vectors a thin margin is worth trying.
+    let holds = game.value > if decided { THIN_MARGIN } else { WITNESS_MARGIN };
+    if holds { columns.round(&game.w) } else { None }
 }
 
 fn definite_leaf(ends: &Ends, states: &[State]) -> Option<Node> {

@@ -30,6 +30,8 @@ pub(super) struct Expansion {
     /// |V_i| and the rounding in |r_j|, coefficient by coefficient.
     pub(super) v: Vec<Vec<f64>>,
     pub(super) rounding: Vec<Vec<f64>>,
+    /// What the remainder, itself computed in doubles, is multiplied by.
+    pub(super) caution: f64,
     /// W_k by columns: x_f = -W(d) x_s.
     pub(super) free: Vec<Vec<Vec<f64>>>,
     /// Is this T(t) / t in powers of 1 / t - center?
@@ -131,6 +133,7 @@ impl Expansion {
             gain: 0.0,
             v: Vec::new(),
             rounding: Vec::new(),
+            caution: 1.0,
             free: Vec::new(),
             reversed: false,
         }
@@ -191,7 +194,8 @@ impl Expansion {
         if hi.is_infinite() {
             return Ends { lo, hi, m: [self.polynomial(lo), self.z[1].clone()], r: None, slope: None };
         }
-        let m = [self.polynomial(lo), self.polynomial(hi)];
+        let lower = self.polynomial(lo);
+        let m = [lower.clone(), if lo == hi { lower } else { self.polynomial(hi) }];
         let exact = self.z.len() <= 2 && self.weight.is_empty();
         if exact {
             return Ends { lo, hi, m, r: None, slope: None };
@@ -210,7 +214,7 @@ impl Expansion {
         let (l, r): (Vec<f64>, Vec<f64>) =
             (0..n).map(|i| (norm(&self.left, i) * self.weight[i] / (1.0 + self.gain * lo), norm(&self.right, i))).unzip();
         let (v, q): (Vec<f64>, Vec<f64>) = (0..n).map(|i| (norm(&self.v, i), norm(&self.rounding, i))).unzip();
-        let remainder = |i: usize, j: usize| l[i] * r[j] + v[i] * q[j] + CONDENSATION_NOISE * size;
+        let remainder = |i: usize, j: usize| self.caution * (l[i] * r[j] + v[i] * q[j] + CONDENSATION_NOISE * size);
         let r = (0..n).map(|i| (0..n).map(|j| bend[i][j] / 8.0 + remainder(i, j)).collect()).collect();
         // The remainder's slope is at most a few times remainder / width where it matters; the exact
         // check decides.
