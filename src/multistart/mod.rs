@@ -2,6 +2,7 @@
 
 mod all_slip;
 mod condensed;
+mod curves;
 mod hunt;
 mod same;
 mod trace;
@@ -37,7 +38,7 @@ pub struct Search {
     /// Follow curves of the Newton homotopy, from starts and through solutions found?
     pub curves: bool,
     /// Curves on which each solution found is left, each followed both ways. By default half the slip
-    /// variables, rounded up, at most 6: a support has as many neighbours as there are variables.
+    /// variables, rounded up, at most 5: a support has as many neighbours as there are variables.
     pub departures: Option<usize>,
     /// Keep the log of every run as text?
     pub trace: bool,
@@ -107,6 +108,8 @@ pub struct Found {
     pub outside: usize,
     /// Candidates equal to an earlier one within rounding ([`SAME_POINT`](crate::tolerance::SAME_POINT)).
     pub repeated: usize,
+    /// Points of curves that are a known solution within rounding: not polished again.
+    pub met_again: usize,
     /// How often each reason ended a run of the solver, also those that polish a point of a curve.
     pub terminations: BTreeMap<Termination, usize>,
     /// How often each reason ended a curve.
