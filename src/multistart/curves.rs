@@ -8,17 +8,15 @@ use crate::candidate::Candidate;
 use crate::mcp::Mcp;
 use crate::model::Admissible;
 use crate::reduction::{CirclePencil, Embedding, Side};
-use crate::solver::{Curve, CurveEnd, Options, Sense, SolverError, continuation, continuation_through, solve};
+use crate::solver::{Curve, CurveEnd, Sense, SolverError, continuation, continuation_through, solve};
 use crate::tolerance::SAME_CURVE_POINT;
 
 /// Solutions taken from one curve, at most: a cone of solutions is met at every step.
 const PER_CURVE: usize = 16;
 /// The same on the circle, where most of what a curve meets is no solution of the eigenproblem.
 const PER_CIRCLE: usize = 64;
-/// Steps along a curve on the circle in units of `curve_step_limit`: it goes all the way round.
-const CIRCLE_STEPS: usize = 4;
 /// Largest default number of curves on which a solution is left.
-const MOST_DEPARTURES: usize = 5;
+const MOST_DEPARTURES: usize = 3;
 /// Solutions that are left on curves, at most: a singular pencil has a continuum of them.
 const KNOWN_LIMIT: usize = 64;
 
@@ -67,11 +65,9 @@ impl Ground {
         self.circle.as_ref().map_or_else(|| self.embedding.direction(seed, uneven), |circle| circle.direction(seed, uneven))
     }
 
-    fn limits(&self, options: &Options) -> (usize, Options) {
-        match self.circle {
-            Some(_) => (PER_CIRCLE, Options { curve_step_limit: CIRCLE_STEPS * options.curve_step_limit, ..options.clone() }),
-            None => (PER_CURVE, options.clone()),
-        }
+    /// Solutions taken from one curve, at most.
+    fn enough(&self) -> usize {
+        if self.circle.is_some() { PER_CIRCLE } else { PER_CURVE }
     }
 }
 
@@ -79,9 +75,8 @@ impl Hunt<'_> {
     /// The curve from a start: down, and up too unless it has closed.
     pub(super) fn curve(&mut self, ground: &Ground, start: &[f64]) -> Result<(), SolverError> {
         let from = ground.point(&ground.embedding.candidate(start));
-        let (enough, options) = ground.limits(&self.search.options);
         for sense in [Sense::Down, Sense::Up] {
-            let curve = continuation(ground.problem(), &from, sense, enough, &options)?;
+            let curve = continuation(ground.problem(), &from, sense, ground.enough(), &self.search.options)?;
             let end = curve.end;
             self.harvest(ground, curve, Origin::Curve)?;
             if end == CurveEnd::Closed {
@@ -103,7 +98,7 @@ impl Hunt<'_> {
             };
             for sense in [Sense::Down, Sense::Up] {
                 let is_round = self.leave(ground, least, sense)?;
-                if self.is_interrupted() {
+                if self.is_interrupted() || self.is_spent() {
                     return Ok(());
                 }
                 if is_round {
@@ -120,8 +115,7 @@ impl Hunt<'_> {
         let point = ground.point(&self.found.certified[known].candidate);
         let salt = (turn as u64) << 20 | known as u64;
         let r = ground.direction(ground.seed.wrapping_mul(0x9e37_79b9).wrapping_add(salt), turn % 2 == 1);
-        let (enough, options) = ground.limits(&self.search.options);
-        let curve = continuation_through(ground.problem(), &point, &r, sense, enough, &options)?;
+        let curve = continuation_through(ground.problem(), &point, &r, sense, ground.enough(), &self.search.options)?;
         let is_here = |z: &Vec<f64>| z.iter().zip(&point).all(|(a, b)| (a - b).abs() <= SAME_CURVE_POINT * (1.0 + b.abs()));
         let is_round = curve.end == CurveEnd::Closed && curve.solutions.last().is_some_and(is_here);
         self.harvest(ground, curve, Origin::Departure)?;

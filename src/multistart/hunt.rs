@@ -15,6 +15,8 @@ use crate::tolerance::WINDOW_GAP;
 const FAR_START: f64 = 32.0;
 /// First salt of windows around values found.
 pub(super) const WINDOW_SALT: u64 = 1000;
+
+/// A search under way.
 pub(super) struct Hunt<'a> {
     pub(super) admissible: &'a Admissible<'a>,
     pub(super) window: &'a Window,
@@ -25,8 +27,8 @@ pub(super) struct Hunt<'a> {
 }
 
 impl Hunt<'_> {
-    /// Fresh starts on one side of an origin: by turns a run of the solver and a curve. After each,
-    /// every solution that is known is left on new curves, up and down, [`Search::departures`] times.
+    /// Fresh starts on one side of an origin: by turns a run of the solver and a curve, the runs first. Between
+    /// the curves every solution that is known is left on new ones, [`Search::departures`] times.
     pub(super) fn side(&mut self, side: Side, starts: usize, salt: u64) -> Result<(), SolverError> {
         let seed = self.search.seed.wrapping_add(salt);
         let mut ground = Ground::new(self.admissible, side, seed);
@@ -35,20 +37,31 @@ impl Hunt<'_> {
             // At large lambda^2 the pencil is a P matrix, as it is at mu = 0: one end of the curve is there.
             *zeta = FAR_START;
         }
-        for (k, point) in points.iter().enumerate() {
-            if self.search.curves && k % 2 == 1 {
-                self.curve(&ground, point)?
-            } else {
-                self.plain(&ground.embedding, point)?
-            }
-            if self.search.curves {
-                self.depart(&mut ground)?;
-            }
+        // All runs first: they say what a run costs, and give the curves something to leave.
+        let is_curve = |k: usize| self.search.curves && k % 2 == 1;
+        for (_, point) in points.iter().enumerate().filter(|(k, _)| !is_curve(*k)) {
+            self.plain(&ground.embedding, point)?;
             if self.is_interrupted() {
                 return Ok(());
             }
         }
+        let mut curves = points.iter().enumerate().filter(|(k, _)| is_curve(*k));
+        while self.search.curves && !self.is_spent() {
+            self.depart(&mut ground)?;
+            let Some((_, point)) = curves.next().filter(|_| !self.found.interrupted && !self.is_spent()) else { break };
+            self.curve(&ground, point)?;
+            if self.is_interrupted() {
+                break;
+            }
+        }
         Ok(())
+    }
+
+    /// Have runs and curves cost what [`Search::budget`] allows? The mean of the runs made says what a run costs.
+    pub(super) fn is_spent(&self) -> bool {
+        let (runs, work) = self.found.plain;
+        let spent = self.found.pivots + self.found.factorisations;
+        self.search.budget.is_some_and(|budget| spent * runs >= budget * work && runs > 0)
     }
 
     pub(super) fn is_interrupted(&mut self) -> bool {
@@ -62,6 +75,8 @@ impl Hunt<'_> {
         *self.found.terminations.entry(outcome.termination).or_default() += 1;
         self.trace(|run| format!("run {run} from {start:?}\n{}", trace_outcome(&outcome)));
         self.count(&outcome.counters);
+        self.found.plain.0 += 1;
+        self.found.plain.1 += outcome.counters.pivots + outcome.counters.factorisations;
         let run = self.found.runs;
         self.found.runs += 1;
         if outcome.termination.reached_tolerance() {

@@ -51,11 +51,11 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             reason = self.restart(&start, Attempt::number(k), k, &mut best);
         }
         // Last, curves alone from other points: they cost little and reach far.
-        for k in (1..=self.trials()).map(|k| k + self.options.restart_limit) {
+        for trial in 0..self.trials() {
             if ends_the_run(reason) {
                 break;
             }
-            let from = self.moved(&start, Attempt::far(), k);
+            let from = self.moved(&start, Attempt::far(trial), trial + 1 + self.options.restart_limit);
             reason = self.along_curves(&from, &mut best).unwrap_or(reason);
         }
         let reason = self.structural(&start, reason).unwrap_or(reason);
