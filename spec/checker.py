@@ -1402,7 +1402,59 @@ def count(found):
     return distinct
 
 
+# ---------------------------------------------------------------- plain LCPs and MCPs
+
+def read_mcp(doc):
+    """M, q and the bounds of mceip-mcp/1 (F); None for an absent bound."""
+    _, m, q, lower, upper, _, _ = fields(doc, "format m q", "lower upper name comment")
+    m = [[number(v) for v in sequence(row)] for row in sequence(m)]
+    q = [number(v) for v in sequence(q)]
+    bounds = []
+    for given, default in ((lower, Q(0)), (upper, None)):
+        bounds.append([default] * len(q) if given is None else [None if v is None else number(v) for v in sequence(given)])
+    lower, upper = bounds
+    if not len(m) == len(lower) == len(upper) == len(q) or any(len(row) != len(q) for row in m):
+        raise Unreadable("parts of different lengths")
+    if any(lo is not None and hi is not None and lo > hi for lo, hi in zip(lower, upper)):
+        raise Unreadable("crossed bounds")
+    return m, q, lower, upper
+
+
+def mcp_digest(m, q, lower, upper):
+    bound = lambda v: "-" if v is None else str(v)
+    lines = ["mceip-mcp-canonical/1", str(len(q))]
+    lines += [" ".join([*map(str, row), str(c), bound(lo), bound(hi)]) for row, c, lo, hi in zip(m, q, lower, upper)]
+    return hashlib.sha256("".join(line + "\n" for line in lines).encode()).hexdigest()
+
+
+def check_mcp(doc, certificate_path):
+    m, q, lower, upper = read_mcp(doc)
+    claimed = read_json(certificate_path)
+    if not isinstance(claimed, dict) or claimed.get("format") != "mceip-mcp-solution/1":
+        raise Unreadable("format: mceip-mcp-solution/1 was expected")
+    _, digest, points = fields(claimed, "format problem_sha256 z")
+    if not isinstance(digest, str) or isinstance(digest, Spelt):
+        raise Unreadable("problem_sha256")
+    points = [[number(v) for v in sequence(z)] for z in sequence(points)]
+    demand(digest == mcp_digest(m, q, lower, upper), "the digest is not the problem's")
+    demand(points, "no solution is listed")
+    most = min((1 << 24) // max(len(q), 1), 1 << 19)
+    for k, z in enumerate(points):
+        demand(len(z) == len(q), f"solution {k}: length")
+        common = lcm(*(v.denominator for v in z))
+        longest = max((abs(v.numerator) * (common // v.denominator) for v in z), default=0)
+        demand(common.bit_length() + longest.bit_length() <= most, f"solution {k}: too large")
+        for i, (v, row, lo, hi) in enumerate(zip(z, m, lower, upper)):
+            demand((lo is None or lo <= v) and (hi is None or v <= hi), f"solution {k}: z[{i}] out of its bounds")
+            f = q[i] + sum(a * b for a, b in zip(row, z) if a)
+            demand((f >= 0 or v == hi) and (f <= 0 or v == lo), f"solution {k}: F[{i}] = {f}")
+    return 0, f"ACCEPTED: {len(points)} solution(s)"
+
+
 def check(problem_path, certificate_path):
+    plain = read_json(problem_path)
+    if isinstance(plain, dict) and plain.get("format") == "mceip-mcp/1":
+        return check_mcp(plain, certificate_path)
     p = Problem(problem_path)
     doc = read_json(certificate_path)
     if not isinstance(doc, dict) or doc.get("format") != "mceip-certificate/1":

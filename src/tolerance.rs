@@ -40,6 +40,10 @@ pub const PRECONDITIONER_LOSS_BITS: u32 = 10;
 /// this. Unit: none. Basis: runs stop at residuals of 1e-10; the later one is counted as repeated.
 pub const SAME_POINT: f64 = 1e-9;
 
+/// A closed curve has come back to the solution it left if it meets a point this near to it, relative
+/// to 1 + |z_i|. Unit: none. Basis: ten times what the solver calls the same point of a curve.
+pub const SAME_CURVE_POINT: f64 = 1e-5;
+
 /// Distance of a zeta window from the value it excludes, relative to 1 + |value|. Unit: none.
 /// Basis: far above the accuracy of a run, so that the value itself is not found again; solutions
 /// closer together than this are left to the plain starts.

@@ -18,12 +18,15 @@ mod corpus_covers;
 mod corpus_infinity;
 #[path = "support/corpus_malformed.rs"]
 mod corpus_malformed;
+#[path = "support/corpus_mcp.rs"]
+mod corpus_mcp;
 #[path = "support/corpus_support.rs"]
 mod corpus_support;
 
 use corpus::Cases;
 use mceip::certificate::Certificate;
 use mceip::check::check;
+use mceip::lcp;
 use mceip::model::file::read_problem;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -93,11 +96,24 @@ fn entries(folder: &Path) -> Vec<Entry> {
 
 /// Our checker in this process: the verdict, and for a rejection the obligation's name.
 fn judge(e: &Entry) -> (i32, String) {
+    if e.file["problem"]["format"] == lcp::MCP_FORMAT {
+        return judge_plain(e);
+    }
     let problem = read_problem(&std::fs::read_to_string(&e.problem).unwrap(), Path::new("/")).unwrap();
     let Ok(certificate) = Certificate::from_json(&std::fs::read_to_string(&e.certificate).unwrap()) else { return (2, String::new()) };
     match check(&problem, &certificate) {
         Ok(accepted) => (if accepted.cover.is_some_and(|c| !c.open.is_empty()) { 3 } else { 0 }, String::new()),
         Err(rejected) => (1, rejected.reason.name()),
+    }
+}
+
+/// The same for a plain LCP or MCP.
+fn judge_plain(e: &Entry) -> (i32, String) {
+    let problem = lcp::read_mcp(&std::fs::read_to_string(&e.problem).unwrap()).unwrap();
+    let Ok(certificate) = lcp::read_solution(&std::fs::read_to_string(&e.certificate).unwrap()) else { return (2, String::new()) };
+    match lcp::judge(&problem, &certificate) {
+        Ok(_) => (0, String::new()),
+        Err(rejected) => (1, rejected.name()),
     }
 }
 
@@ -143,6 +159,15 @@ fn every_obligation_has_a_forgery() {
     missing.extend(
         variants("src/check/cover/fault.rs", "CoverFault").into_iter().map(|v| format!("Cover.{v}")).filter(|v| !reasons.contains(v)),
     );
+    let plain = ["McpRejected", "Violated"]
+        .map(|name| variants(&format!("src/lcp/{}.rs", if name == "Violated" { "check" } else { "verdict" }), name));
+    let of_plain: std::collections::BTreeSet<String> = entries(folder.path())
+        .iter()
+        .filter(|e| e.file["problem"]["format"] == lcp::MCP_FORMAT)
+        .filter_map(|e| e.file["reason"].as_str())
+        .map(String::from)
+        .collect();
+    missing.extend(plain.concat().into_iter().filter(|v| v != "Solution" && !of_plain.contains(v)).map(|v| format!("plain {v}")));
     assert!(missing.is_empty(), "no forgery for {missing:?}");
 }
 
@@ -210,6 +235,7 @@ fn write_the_corpus() {
     corpus_covers::absence(&mut cases);
     corpus_support::supports(&mut cases);
     corpus_infinity::infinity(&mut cases);
+    corpus_mcp::plain(&mut cases);
     corpus_malformed::malformed(&mut cases);
     corpus_malformed::hostile(&mut cases);
     for case in cases.0 {

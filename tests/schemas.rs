@@ -9,7 +9,7 @@ mod program;
 use jsonschema::Validator;
 use mceip::certificate::Certificate;
 use mceip::foreign::{ForeignError, ForeignReport};
-use mceip::lcp::read_mcp;
+use mceip::lcp::{FileError, read_mcp, read_solution};
 use mceip::model::ModelError;
 use mceip::model::file::read_problem;
 use mceip::reduction::reduce;
@@ -265,13 +265,19 @@ fn the_reader_of_problems_and_the_schema_agree() {
 /// Every certificate of the corpus that is read is valid, and a support leaf that is none is not.
 #[test]
 fn the_corpus_is_valid() {
-    let certificates = schema("mceip-certificate-1");
+    let (certificates, mcp, mcp_solution) = (schema("mceip-certificate-1"), schema("mceip-mcp-1"), schema("mceip-mcp-solution-1"));
+    let mut plain = 0;
     for path in files("spec/corpus/accept", "json").iter().chain(&files("spec/corpus/reject", "json")) {
         let file = read(path);
-        if file.get("certificate").is_some() {
+        if file["problem"]["format"] == "mceip-mcp/1" {
+            valid(&mcp, &file["problem"], &path.display().to_string());
+            file.get("certificate").iter().for_each(|c| valid(&mcp_solution, c, &path.display().to_string()));
+            plain += 1;
+        } else if file.get("certificate").is_some() {
             valid(&certificates, &file["certificate"], &path.display().to_string());
         }
     }
+    assert!(plain >= 19, "{plain}");
     let is_leaf = |p: &&PathBuf| p.file_stem().unwrap().to_string_lossy().starts_with("support-leaf-");
     let malformed = files("spec/corpus/malformed", "json");
     let leaves: Vec<&PathBuf> = malformed.iter().filter(is_leaf).collect();
@@ -316,4 +322,25 @@ fn the_readers_of_reports_and_certificates_agree_with_the_schemas() {
         count[usize::from(valid)] += 1;
     }
     assert!(count[0] > 50 && count[1] > 5, "{count:?}");
+}
+
+/// Plain problems and their solution files.
+#[test]
+fn the_readers_of_plain_problems_agree_with_the_schemas() {
+    let (mcp, solution) = (schema("mceip-mcp-1"), schema("mceip-mcp-solution-1"));
+    let problem = read(&root("spec/examples/bounded-mcp.json"));
+    let mut count = [0usize; 2];
+    for copy in damaged(&problem) {
+        let (valid, read) = (mcp.is_valid(&copy), read_mcp(&copy.to_string()));
+        // Lengths that do not fit and crossed bounds are of the meaning.
+        assert_eq!(valid, read.is_ok() || matches!(read, Err(FileError::Mcp(_))), "{copy}: {read:?}");
+        count[usize::from(valid)] += 1;
+    }
+    let file = json!({ "format": "mceip-mcp-solution/1", "problem_sha256": "ab", "z": [["4/3", 2], [1, "-0.5"]] });
+    for copy in damaged(&file) {
+        let (valid, read) = (solution.is_valid(&copy), read_solution(&copy.to_string()));
+        assert_eq!(valid, read.is_ok(), "{copy}: {read:?}");
+        count[usize::from(valid)] += 1;
+    }
+    assert!(count[0] > 50 && count[1] > 20, "{count:?}");
 }

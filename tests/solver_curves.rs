@@ -220,6 +220,39 @@ fn first_starts_and_coverage_on_held_out_seeds() {
     }
 }
 
+/// The instance that the first start once missed: its one solution, just above a threshold, beside a trap of the
+/// merit; all curves from near the start run off, those from farther away do not.
+#[test]
+fn the_pocket_of_the_first_start_is_left() {
+    let case = random_case("lambda2", 10, 302, 3);
+    let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
+    let embedding = Embedding::new(&admissible, Side::Above(0.0));
+    let outcome = solve(&embedding, &embedding.starts(1, 0)[0], &Options::default()).unwrap();
+    assert!(outcome.termination.reached_tolerance(), "{:?}", outcome.termination);
+    let (truth, _) = screen::enumerate(&case.pencil, &Window::all()).unwrap();
+    let value: f64 = truth.solutions[0].decimal(17).parse().unwrap();
+    assert!((embedding.candidate(&outcome.point).value - value).abs() < 1e-7 && truth.solutions.len() == 1);
+}
+
+/// A budget in runs: the curves end, the runs are all made, and what is found is certified as ever.
+#[test]
+fn a_budget_ends_the_curves() {
+    let mut less = 0;
+    for k in 0..6 {
+        let case = random_case("mu", 10, 5, k);
+        let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
+        let search = |budget| Search { starts: 10, window_starts: 0, budget, ..Search::default() };
+        let [free, held] = [None, Some(8)].map(|b| multistart(&admissible, &Window::all(), &search(b)).unwrap());
+        let work = |f: &mceip::multistart::Found| f.pivots + f.factorisations;
+        assert_eq!((free.plain, held.plain.0), (held.plain, 5));
+        // Beyond the budget goes one curve at most, with what it costs to polish its solutions.
+        assert!(work(&held) * held.plain.0 <= 8 * held.plain.1 + held.plain.0 * 2000, "{}: {}", case.label, work(&held));
+        assert!(work(&held) <= work(&free) && held.certified.len() <= free.certified.len());
+        less += usize::from(work(&held) < work(&free));
+    }
+    assert!(less >= 2, "{less}");
+}
+
 #[test]
 fn a_curve_through_a_solution_leads_to_others() {
     // The fold of spec/errata.md: lambda^2 = 2 and 3 with the same support.

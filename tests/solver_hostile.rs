@@ -128,10 +128,49 @@ impl Mcp for Resizing {
 }
 
 #[test]
-fn a_resized_jacobian_is_no_panic() {
-    let run = |size| solve(&Resizing(size), &[3.0, 3.0], &Options::default()).unwrap().termination;
-    assert_eq!(run(1), Termination::NonFinite(NonFinite::Jacobian { row: 0, col: 1 }));
-    assert_eq!(run(3), Termination::ToleranceReached);
+fn a_jacobian_of_the_wrong_shape_is_a_reason() {
+    let run = |size| solve(&Resizing(size), &[3.0, 3.0], &Options::default()).unwrap();
+    for size in [0, 1, 3] {
+        let outcome = run(size);
+        assert_eq!(outcome.termination, Termination::JacobianShape { rows: size, cols: size });
+        assert_eq!(outcome.point, vec![3.0; 2]);
+    }
+    assert_eq!(run(2).termination, Termination::ToleranceReached);
+}
+
+/// Free unknowns with F = (z0 + 1, z0 - 1): no row has z1. The reason names it, and the best point is kept.
+#[test]
+fn a_structurally_singular_start_is_named() {
+    let twice = LinearMcp::new(dmatrix![1.0, 0.0; 1.0, 0.0], vec![1.0, -1.0], vec![-INF; 2], vec![INF; 2]).unwrap();
+    let outcome = solve(&twice, &[5.0, 7.0], &Options::default()).unwrap();
+    assert_eq!(outcome.termination, Termination::StructurallySingular { row: 1, col: 1 });
+    // The least merit is at z0 = 0.
+    assert!(outcome.point[0].abs() < 0.5 && outcome.point[1].is_finite(), "{outcome:?}");
+    // One bound is enough to make it solvable: F1 >= 0 at z1 = 0.
+    let bounded = LinearMcp::new(dmatrix![1.0, 0.0; -1.0, 0.0], vec![1.0, -0.5], vec![-INF, 0.0], vec![INF; 2]).unwrap();
+    assert!(solve(&bounded, &[5.0, 7.0], &Options::default()).unwrap().termination.reached_tolerance());
+    // A ray stays a ray, whatever the zeros.
+    let ray = LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap();
+    assert_eq!(solve_linear(&ray, &Options::default()).unwrap().termination, Termination::Ray);
+}
+
+/// A ray and each limit: the reason, and a point that is the best one met, within the bounds.
+#[test]
+fn rays_and_limits_keep_the_best_point() {
+    let infeasible = LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap();
+    for outcome in [solve_linear(&infeasible, &Options::default()).unwrap(), solve(&infeasible, &[2.0], &Options::default()).unwrap()] {
+        assert_eq!(outcome.termination, Termination::Ray);
+        assert!(outcome.point[0].is_finite() && outcome.point[0] >= 0.0);
+    }
+    // x^3 = 1 from far away: fewer steps than it takes leave the point nearer than the start.
+    let cubic = One(|x: f64| x * x * x - 1.0, |x: f64| 3.0 * x * x);
+    let none = Options { crash_iteration_limit: 0, ..Options::default() };
+    let majors = solve(&cubic, &[1000.0], &Options { major_iteration_limit: 3, ..none.clone() }).unwrap();
+    assert_eq!(majors.termination, Termination::MajorLimit);
+    assert!(majors.point[0] < 400.0 && majors.point[0] > 1.0, "{majors:?}");
+    let pivots = solve(&cubic, &[1000.0], &Options { cumulative_iteration_limit: 3, ..none }).unwrap();
+    assert_eq!(pivots.termination, Termination::CumulativeLimit);
+    assert!(pivots.point[0] < 1000.0, "{pivots:?}");
 }
 
 #[test]

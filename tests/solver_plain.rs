@@ -34,8 +34,63 @@ fn an_lcp_is_solved_certified_and_checked() {
     let rejected = mceip(&["solve", &file, "--check", &forged]);
     assert!(rejected.status.code() == Some(1) && stdout(&rejected).starts_with("REJECTED: solution 0: F[0]"), "{}", stdout(&rejected));
     let other = write(folder.path(), "o.json", r#"{"format":"mceip-mcp/1","m":[[2,1],[1,3]],"q":[-5,-6]}"#);
-    let foreign = mceip(&["solve", &other, "--check", &certificate]);
-    assert_eq!((foreign.status.code(), String::from_utf8_lossy(&foreign.stderr).lines().count()), (Some(2), 1));
+    for verb in [&["check", other.as_str(), certificate.as_str()][..], &["solve", &other, "--check", &certificate]] {
+        let foreign = mceip(verb);
+        assert!(foreign.status.code() == Some(1) && stdout(&foreign).starts_with("REJECTED: digest: expected"), "{}", stdout(&foreign));
+    }
+}
+
+/// `mceip check` by the format of the problem: plain and eigenproblem, each with its own certificates only.
+#[test]
+fn check_dispatches_on_the_format() {
+    let folder = tempfile::tempdir().unwrap();
+    let plain = concat!(env!("CARGO_MANIFEST_DIR"), "/spec/examples/bounded-mcp.json");
+    let pencil = concat!(env!("CARGO_MANIFEST_DIR"), "/spec/examples/fold.json");
+    let (of_plain, of_pencil) = (folder.path().join("p.json").display().to_string(), folder.path().join("q.json").display().to_string());
+    assert_eq!(mceip(&["solve", plain, "--all", "--certificate", &of_plain]).status.code(), Some(0));
+    assert_eq!(mceip(&["solve", pencil, "--certificate", &of_pencil]).status.code(), Some(0));
+    let accepted = mceip(&["check", plain, &of_plain]);
+    assert!(accepted.status.code() == Some(0) && stdout(&accepted).starts_with("ACCEPTED: 3 solution(s)"), "{}", stdout(&accepted));
+    assert_eq!(mceip(&["check", pencil, &of_pencil]).status.code(), Some(0));
+    let text = std::fs::read_to_string(&of_plain).unwrap();
+    let none = write(folder.path(), "none.json", &format!("{}\"z\": []}}", text.split_once("\"z\"").unwrap().0));
+    let rejected = mceip(&["check", plain, &none]);
+    assert!(
+        rejected.status.code() == Some(1) && stdout(&rejected).starts_with("REJECTED: z: expected at least one"),
+        "{}",
+        stdout(&rejected)
+    );
+    for (problem, certificate, word) in [(plain, &of_pencil, "mceip-mcp-solution/1"), (pencil, &of_plain, "mceip-certificate/1")] {
+        let refused = mceip(&["check", problem, certificate]);
+        let err = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert!(refused.status.code() == Some(2) && err.lines().count() == 1 && err.contains(word), "{err}");
+    }
+}
+
+/// The trace of a plain problem: its own replay, and what each change does to it.
+#[test]
+fn a_plain_trace_replays_and_a_changed_one_does_not() {
+    let folder = tempfile::tempdir().unwrap();
+    let problem = concat!(env!("CARGO_MANIFEST_DIR"), "/spec/examples/bounded-mcp.json");
+    let trace = folder.path().join("t.txt").display().to_string();
+    assert_eq!(mceip(&["solve", problem, "--all", "--starts", "6", "--seed", "3", "--trace", &trace]).status.code(), Some(0));
+    let text = std::fs::read_to_string(&trace).unwrap();
+    assert!(text.contains("run from") && text.contains("curve from") && text.contains("certified: 5/6 1/2 1 2"), "{text}");
+    let same = mceip(&["solve", "--replay", &trace]);
+    assert!(same.status.code() == Some(0) && stdout(&same).starts_with("IDENTICAL"), "{}", stdout(&same));
+    for (k, (from, to)) in [("certified: 5/6", "certified: 6/6"), ("\"seed\":3", "\"seed\":4"), ("-1/7", "-1/8")].into_iter().enumerate() {
+        assert!(text.contains(from), "{from}");
+        let changed = write(folder.path(), &format!("{k}.txt"), &text.replacen(from, to, 1));
+        let different = mceip(&["solve", "--replay", &changed]);
+        assert!(different.status.code() == Some(1) && stdout(&different).starts_with("DIFFERENT"), "{from}: {}", stdout(&different));
+    }
+    for (k, (from, to)) in
+        [("\"starts\":6", "\"starts\":0"), ("mceip-mcp/1", "mceip-mcp/2"), ("mceip-trace/1", "mceip-trace/2")].into_iter().enumerate()
+    {
+        let bad = write(folder.path(), &format!("b{k}.txt"), &text.replacen(from, to, 1));
+        let refused = mceip(&["solve", "--replay", &bad]);
+        assert_eq!((refused.status.code(), String::from_utf8_lossy(&refused.stderr).lines().count()), (Some(2), 1), "{from}");
+    }
 }
 
 #[test]
@@ -59,9 +114,9 @@ fn no_solution_is_undecided_and_bad_files_are_one_line() {
     let out = mceip(&["solve", &file]);
     assert!(out.status.code() == Some(3) && stdout(&out).contains("0 certified"), "{}", stdout(&out));
     // An option of the other kind of problem is refused, not ignored.
-    let traced = mceip(&["solve", &file, "--trace", "trace.txt"]);
-    let err = String::from_utf8_lossy(&traced.stderr).into_owned();
-    assert!(traced.status.code() == Some(2) && err.lines().count() == 1 && err.contains("--trace"), "{err}");
+    let windowed = mceip(&["solve", &file, "--window", "0,1"]);
+    let err = String::from_utf8_lossy(&windowed.stderr).into_owned();
+    assert!(windowed.status.code() == Some(2) && err.lines().count() == 1 && err.contains("--window"), "{err}");
     for text in [r#"{"format":"mceip-mcp/1","m":[[1,2]],"q":[-1]}"#, r#"{"format":"mceip-mcp/1","m":[[1]],"q":["1e999999"]}"#, "{}"] {
         let bad = mceip(&["solve", &write(folder.path(), "bad.json", text)]);
         assert_eq!((bad.status.code(), String::from_utf8_lossy(&bad.stderr).lines().count()), (Some(2), 1), "{text}");

@@ -1,5 +1,7 @@
 //! `mceip check`: a certificate or somebody's solutions against a problem, one verdict.
 
+pub(super) mod plain;
+
 use super::common::{CliError, exit, load, print, text};
 use super::complete::solutions_text;
 use crate::candidate::SOLUTIONS_FORMAT;
@@ -7,6 +9,7 @@ use crate::certificate::Certificate;
 use crate::check::check;
 use crate::exact::enclosing_decimals;
 use crate::foreign::{ForeignError, ForeignReport, Verdict, judge};
+use crate::lcp::MCP_FORMAT;
 use crate::model::Problem;
 use crate::model::file::require_format;
 use crate::reduction::reduce;
@@ -15,16 +18,20 @@ use std::path::{Path, PathBuf};
 /// Arguments of `check`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Problem file (mceip-problem/1).
+    /// Problem file (mceip-problem/1), or a plain LCP or MCP (mceip-mcp/1).
     file: PathBuf,
     /// Certificate (mceip-certificate/1), or somebody's solutions (mceip-solutions/1): each of those
-    /// is certified and checked, or refuted.
+    /// is certified and checked, or refuted. Of a plain problem: its solution file (mceip-mcp-solution/1).
     certificate: PathBuf,
 }
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.file.as_path() == Path::new("-") && args.certificate.as_path() == Path::new("-") {
         return Err(CliError::Option { option: "certificate", expected: "only one of the two files to be stdin", got: "-".into() });
+    }
+    let problem = text("the problem", &args.file)?;
+    if require_format(&problem, MCP_FORMAT).is_ok() {
+        return plain::verdict(&args.file, &problem, &args.certificate);
     }
     let problem = load(&args.file, None)?;
     let source = text("the certificate", &args.certificate)?;

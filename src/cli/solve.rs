@@ -45,7 +45,7 @@ pub(super) struct Args {
     /// Run a trace again: identical, or the first line that differs.
     #[arg(long, value_name = "TRACE", conflicts_with_all = ["file", "trace", "certificate", "json", "log", "window"])]
     replay: Option<PathBuf>,
-    /// Of a plain LCP or MCP: check this solution file exactly instead of solving.
+    /// Of a plain LCP or MCP: check this solution file exactly instead of solving (as `mceip check` does).
     #[arg(long, value_name = "SOLUTION")]
     check: Option<PathBuf>,
     /// Write the certificate of everything found to this file.
@@ -68,14 +68,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let source = text("the problem", file)?;
     let is_plain = require_format(&source, MCP_FORMAT).is_ok();
     // Options that belong to the other kind of problem are refused, not ignored.
-    let misplaced = [
-        ("check", &args.check, !is_plain, "a problem of format mceip-mcp/1 (mceip check for others)"),
-        ("trace", &args.trace, is_plain, "a problem of format mceip-problem/1"),
-    ];
-    for (option, path, is_wrong, expected) in misplaced {
-        if let (Some(path), true) = (path, is_wrong) {
-            return Err(CliError::Option { option, expected, got: path.display().to_string() });
-        }
+    if let (Some(path), false) = (&args.check, is_plain) {
+        let expected = "a problem of format mceip-mcp/1 (mceip check for others)";
+        return Err(CliError::Option { option: "check", expected, got: path.display().to_string() });
+    }
+    if let (Some(window), true) = (&args.window, is_plain) {
+        return Err(CliError::Option { option: "window", expected: "a problem of format mceip-problem/1", got: window.clone() });
     }
     if is_plain { plain::run(args, file, &source) } else { eigenproblem(args, file) }
 }

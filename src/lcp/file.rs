@@ -36,14 +36,6 @@ pub enum FileError {
     /// Parts that do not fit together.
     #[error(transparent)]
     Mcp(#[from] ExactMcpError),
-    /// A solution of another problem.
-    #[error("expected a solution of the problem {expected}, got one of {got}")]
-    Digest {
-        /// Digest of the problem.
-        expected: String,
-        /// Digest in the file.
-        got: String,
-    },
 }
 
 /// Reads `{"format": "mceip-mcp/1", "m": [[...]], "q": [...], "lower": [...], "upper": [...]}`.
@@ -82,40 +74,68 @@ struct RawSolution {
     z: Vec<Vec<Number>>,
 }
 
+/// A solution file: its own certificate, not yet checked.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct McpCertificate {
+    /// Digest of the problem it claims to solve.
+    pub problem_sha256: String,
+    /// The points, each with one component per unknown.
+    pub points: Vec<Vec<Rational>>,
+}
+
 /// Solutions as a file: the digest of the problem and the points, as exact fractions.
 pub fn write_solution(problem: &ExactMcp, points: &[Vec<Rational>]) -> String {
-    let fractions = |z: &Vec<Rational>| z.iter().map(ToString::to_string).collect::<Vec<_>>();
-    let z: Vec<Vec<String>> = points.iter().map(fractions).collect();
+    let z: Vec<Vec<String>> = points.iter().map(|z| fractions(z)).collect();
     let value = serde_json::json!({ "format": SOLUTION_FORMAT, "problem_sha256": problem.sha256(), "z": z });
     format!("{value:#}\n")
 }
 
-/// The points of a solution file, which must name this problem. They are not checked here.
+/// A solution file. Nothing of it is checked here: see [`judge`](super::judge).
 ///
 /// # Errors
 /// [`FileError`].
-pub fn read_solution(problem: &ExactMcp, text: &str) -> Result<Vec<Vec<Rational>>, FileError> {
+pub fn read_solution(text: &str) -> Result<McpCertificate, FileError> {
     require_format(text, SOLUTION_FORMAT)?;
     let raw: RawSolution = from_json(text)?;
-    let expected = problem.sha256();
-    if raw.problem_sha256 != expected {
-        return Err(FileError::Digest { expected, got: raw.problem_sha256.chars().take(80).collect() });
-    }
-    Ok(raw.z.into_iter().map(|z| z.into_iter().map(|v| v.0).collect()).collect())
+    let points = raw.z.into_iter().map(|z| z.into_iter().map(|v| v.0).collect()).collect();
+    Ok(McpCertificate { problem_sha256: raw.problem_sha256, points })
+}
+
+/// The problem as a file on one line, every bound spelt out; reading it gives the same problem.
+pub fn write_mcp(problem: &ExactMcp) -> String {
+    let n = problem.dimension();
+    let m: Vec<Vec<String>> = (0..n).map(|i| fractions(problem.row(i).0)).collect();
+    let q: Vec<String> = (0..n).map(|i| problem.row(i).1.to_string()).collect();
+    let bound = |b: Option<&Rational>| b.map(ToString::to_string);
+    let (lower, upper): (Vec<_>, Vec<_>) = (0..n).map(|i| problem.bounds(i)).map(|(l, u)| (bound(l), bound(u))).unzip();
+    serde_json::json!({ "format": MCP_FORMAT, "m": m, "q": q, "lower": lower, "upper": upper }).to_string()
+}
+
+fn fractions(list: &[Rational]) -> Vec<String> {
+    list.iter().map(ToString::to_string).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::rational;
+    use crate::lcp::{McpRejected, Violated, judge};
 
     #[test]
     fn defaults_round_trip_and_refusals() {
         let p = read_mcp(r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,"-6"],"lower":[null,0],"upper":[3,null]}"#).unwrap();
         assert_eq!((p.bounds(0), p.bounds(1)), ((None, Some(&whole(3))), (Some(&whole(0)), None)));
         let text = write_solution(&p, &[vec![whole(1), whole(2)]]);
-        assert_eq!(read_solution(&p, &text).unwrap(), vec![vec![whole(1), whole(2)]]);
+        let certificate = read_solution(&text).unwrap();
+        assert_eq!(certificate.points, vec![vec![whole(1), whole(2)]]);
+        assert!(matches!(judge(&p, &certificate), Err(McpRejected::Solution { index: 0, violated: Violated::Sign { index: 0, .. } })));
+        let good = McpCertificate { points: vec![vec![rational(4, 3), rational(7, 3)]], ..certificate.clone() };
+        assert_eq!(judge(&p, &good), Ok(1));
+        assert_eq!(judge(&p, &McpCertificate { points: vec![], ..certificate.clone() }), Err(McpRejected::NoClaims));
         let other = read_mcp(r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,-6]}"#).unwrap();
-        assert!(matches!(read_solution(&other, &text), Err(FileError::Digest { .. })));
+        assert!(matches!(judge(&other, &good), Err(McpRejected::Digest { .. })));
+        assert_eq!(read_mcp(&write_mcp(&p)).unwrap(), p);
+        assert_eq!(read_mcp(&write_mcp(&other)).unwrap(), other);
         for (bad, message) in [
             (r#"{"format":"mceip-mcp/1","m":[[2,1]],"q":[-5,1]}"#, "expected m of length 2, got 1"),
             (r#"{"format":"mceip-mcp/1","m":[[2,1],[1]],"q":[-5,1]}"#, "expected row 1 of m of length 2, got 1"),

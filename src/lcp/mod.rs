@@ -1,17 +1,20 @@
 //! Plain linear MCPs and LCPs in exact numbers, apart from friction: file, solution, exact check.
 //!
 //! F(z) = M z + q on [l, u]. `file` reads `mceip-mcp/1`, `certify` turns a solver's point into an
-//! exact one, `check` decides (multiplies and compares, nothing else), `search` runs the solver.
+//! exact one, `check` decides (multiplies and compares, nothing else), `verdict` applies it to a file,
+//! `search` runs the solver.
 
 mod certify;
 mod check;
 mod file;
 mod search;
+mod verdict;
 
 pub use certify::{Uncertifiable, certify};
-pub use check::{Violated, check};
-pub use file::{FileError, MCP_FORMAT, SOLUTION_FORMAT, read_mcp, read_solution, write_solution};
-pub use search::{Found, search};
+pub use check::{NUMBER_BITS, POINT_BITS, Violated, check};
+pub use file::{FileError, MCP_FORMAT, McpCertificate, SOLUTION_FORMAT, read_mcp, read_solution, write_mcp, write_solution};
+pub use search::{Found, Search, search};
+pub use verdict::{McpRejected, judge};
 
 use crate::exact::{Rational, to_f64};
 use crate::mcp::{LinearMcp, McpError};
@@ -97,6 +100,11 @@ impl ExactMcp {
     pub fn function(&self, z: &[Rational]) -> Vec<Rational> {
         let row = |i: usize| self.m[i].iter().zip(z).filter(|(a, _)| !a.is_zero()).fold(self.q[i].clone(), |sum, (a, b)| sum + a * b);
         (0..self.q.len()).map(row).collect()
+    }
+
+    /// Row of M, and its entry of q.
+    pub(crate) fn row(&self, i: usize) -> (&[Rational], &Rational) {
+        (&self.m[i], &self.q[i])
     }
 
     /// Entry of M.

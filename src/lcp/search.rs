@@ -3,6 +3,7 @@
 
 use super::{ExactMcp, Uncertifiable, certify};
 use crate::exact::Rational;
+use crate::multistart::trace_outcome;
 use crate::solver::{Counters, Options, Outcome, Sense, SolverError, Termination, continuation, solve, solve_linear};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -23,6 +24,23 @@ pub struct Found {
     pub counters: (usize, usize),
     /// Outcome of the first run (Lemke's method).
     pub first: Option<Outcome>,
+    /// The log of every run and curve as text, if it was asked for.
+    pub trace: Vec<String>,
+}
+
+/// How to search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Search {
+    /// Starts.
+    pub starts: usize,
+    /// Go on after the first certified solution, and follow curves?
+    pub all: bool,
+    /// Seed of the random starts.
+    pub seed: u64,
+    /// Keep the log of every run as text?
+    pub trace: bool,
+    /// Options of each run.
+    pub options: Options,
 }
 
 /// Run 0 is Lemke's method, run 1 the solver from 0; then by turns the solver and, with `all`, curves
@@ -32,46 +50,63 @@ pub struct Found {
 ///
 /// # Errors
 /// [`SolverError`] for options and numbers that make no sense.
-pub fn search(problem: &ExactMcp, starts: usize, all: bool, seed: u64, options: &Options) -> Result<Found, SolverError> {
+pub fn search(problem: &ExactMcp, how: &Search) -> Result<Found, SolverError> {
     let doubles = problem.to_f64()?;
-    let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut found = Found::default();
-    for k in 0..starts {
-        if !all && !found.certified.is_empty() {
+    let mut rng = ChaCha8Rng::seed_from_u64(how.seed);
+    let mut hunt = Hunt { problem, is_traced: how.trace, found: Found::default() };
+    for k in 0..how.starts {
+        if !how.all && !hunt.found.certified.is_empty() {
             break;
         }
         let mut cauchy = || (std::f64::consts::PI * (rng.random_range(0.01..0.99) - 0.5)).tan();
         let start: Vec<f64> = (0..problem.dimension()).map(|_| if k < 2 { 0.0 } else { cauchy() }).collect();
-        if all && k % 2 == 1 {
+        if how.all && k % 2 == 1 {
             for sense in [Sense::Down, Sense::Up] {
-                let curve = continuation(&doubles, &start, sense, 16, options)?;
-                count(&mut found, &curve.counters);
+                let curve = continuation(&doubles, &start, sense, 16, &how.options)?;
+                hunt.count(&curve.counters);
+                hunt.trace(|| format!("curve from {start:?} {sense:?} ended {:?}, met {:?}\n", curve.end, curve.solutions));
                 for point in curve.solutions {
-                    run(problem, &mut found, solve(&doubles, &point, options)?);
+                    hunt.run(solve(&doubles, &point, &how.options)?, &point);
                 }
             }
         }
-        let outcome = if k == 0 { solve_linear(&doubles, options)? } else { solve(&doubles, &start, options)? };
-        run(problem, &mut found, outcome);
+        let outcome = if k == 0 { solve_linear(&doubles, &how.options)? } else { solve(&doubles, &start, &how.options)? };
+        hunt.run(outcome, &start);
     }
-    Ok(found)
+    Ok(hunt.found)
 }
 
-fn count(found: &mut Found, counters: &Counters) {
-    found.runs += 1;
-    found.counters.0 += counters.pivots;
-    found.counters.1 += counters.factorisations;
+struct Hunt<'a> {
+    problem: &'a ExactMcp,
+    is_traced: bool,
+    found: Found,
 }
 
-fn run(problem: &ExactMcp, found: &mut Found, outcome: Outcome) {
-    count(found, &outcome.counters);
-    *found.terminations.entry(outcome.termination).or_default() += 1;
-    if outcome.termination.reached_tolerance() {
-        match certify(problem, &outcome.point) {
-            Ok(z) if !found.certified.contains(&z) => found.certified.push(z),
-            Ok(_) => {}
-            Err(reason) => found.uncertified.push((outcome.point.clone(), reason)),
+impl Hunt<'_> {
+    fn trace(&mut self, entry: impl FnOnce() -> String) {
+        if self.is_traced {
+            self.found.trace.push(entry());
         }
     }
-    found.first.get_or_insert(outcome);
+
+    fn count(&mut self, counters: &Counters) {
+        self.found.runs += 1;
+        self.found.counters.0 += counters.pivots;
+        self.found.counters.1 += counters.factorisations;
+    }
+
+    fn run(&mut self, outcome: Outcome, start: &[f64]) {
+        self.count(&outcome.counters);
+        self.trace(|| format!("run from {start:?}\n{}", trace_outcome(&outcome)));
+        let found = &mut self.found;
+        *found.terminations.entry(outcome.termination).or_default() += 1;
+        if outcome.termination.reached_tolerance() {
+            match certify(self.problem, &outcome.point) {
+                Ok(z) if !found.certified.contains(&z) => found.certified.push(z),
+                Ok(_) => {}
+                Err(reason) => found.uncertified.push((outcome.point.clone(), reason)),
+            }
+        }
+        found.first.get_or_insert(outcome);
+    }
 }

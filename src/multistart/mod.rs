@@ -2,6 +2,7 @@
 
 mod all_slip;
 mod condensed;
+mod curves;
 mod hunt;
 mod same;
 mod trace;
@@ -37,8 +38,11 @@ pub struct Search {
     /// Follow curves of the Newton homotopy, from starts and through solutions found?
     pub curves: bool,
     /// Curves on which each solution found is left, each followed both ways. By default half the slip
-    /// variables, rounded up, at most 6: a support has as many neighbours as there are variables.
+    /// variables, rounded up, at most 3: each connects it with others.
     pub departures: Option<usize>,
+    /// End curves when the pivots and factorisations of everything done reach those of this many runs of the
+    /// solver, by the mean of those made; `None` for no such end.
+    pub budget: Option<usize>,
     /// Keep the log of every run as text?
     pub trace: bool,
     /// Seed of the random starts.
@@ -56,6 +60,7 @@ impl Default for Search {
             origins: Vec::new(),
             curves: true,
             departures: None,
+            budget: None,
             trace: false,
             seed: 1,
             options: Options::default(),
@@ -107,6 +112,8 @@ pub struct Found {
     pub outside: usize,
     /// Candidates equal to an earlier one within rounding ([`SAME_POINT`](crate::tolerance::SAME_POINT)).
     pub repeated: usize,
+    /// Points of curves that are a known solution within rounding: not polished again.
+    pub met_again: usize,
     /// How often each reason ended a run of the solver, also those that polish a point of a curve.
     pub terminations: BTreeMap<Termination, usize>,
     /// How often each reason ended a curve.
@@ -119,6 +126,8 @@ pub struct Found {
     pub factorisations: usize,
     /// The log of every run and curve, if it was asked for.
     pub trace: Vec<String>,
+    /// Runs from starts, and their pivots and factorisations in all.
+    pub plain: (usize, usize),
     /// Was the search ended by its progress callback?
     pub interrupted: bool,
     /// Outcome of the very first run.

@@ -26,11 +26,11 @@ pub enum Side {
 /// The MCP of Proposition 1 or 2 for an admissible pencil.
 #[derive(Debug, Clone)]
 pub struct Embedding {
-    a: DMatrix<f64>,
-    b: DMatrix<f64>,
-    diagonal: Vec<f64>,
-    is_free: Vec<bool>,
-    unit: f64,
+    pub(super) a: DMatrix<f64>,
+    pub(super) b: DMatrix<f64>,
+    pub(super) diagonal: Vec<f64>,
+    pub(super) is_free: Vec<bool>,
+    pub(super) unit: f64,
     origin: f64,
     direction: f64,
     c: f64,
@@ -129,12 +129,7 @@ impl Embedding {
     /// Muller), zero in that of e'u_s, so that e'u_s = c stays.
     /// With `uneven` each is cubed: a few rows dominate, and the curve stays near the face of its start.
     pub fn direction(&self, seed: u64, uneven: bool) -> Vec<f64> {
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let mut normal = || {
-            let (u, v): (f64, f64) = (rng.random_range(f64::MIN_POSITIVE..1.0), rng.random_range(0.0..1.0));
-            (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
-        };
-        self.diagonal.iter().map(|_| normal()).map(|v| if uneven { v * v * v } else { v }).chain([0.0]).collect()
+        normals(self.diagonal.len(), seed, uneven).into_iter().chain([0.0]).collect()
     }
 
     /// zeta at which the diagonal entry of particle i vanishes, or 0 if that lies on the other side.
@@ -170,6 +165,16 @@ impl Embedding {
     fn pencil_at(&self, zeta: f64) -> DMatrix<f64> {
         &self.a + &self.b * self.t(zeta)
     }
+}
+
+/// Standard normal numbers (Box and Muller), cubed if `uneven`.
+pub(super) fn normals(count: usize, seed: u64, uneven: bool) -> Vec<f64> {
+    let mut rng = ChaCha8Rng::seed_from_u64(seed);
+    let mut normal = || {
+        let (u, v): (f64, f64) = (rng.random_range(f64::MIN_POSITIVE..1.0), rng.random_range(0.0..1.0));
+        (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
+    };
+    (0..count).map(|_| normal()).map(|v| if uneven { v * v * v } else { v }).collect()
 }
 
 /// 1 / sqrt of the larger diagonal entry, a power of two so that scaling commits no rounding.

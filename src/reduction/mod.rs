@@ -1,6 +1,8 @@
 //! From the mechanical system to the pencil, and back: (10)-(16), the lift, and the lines of (9).
 #![deny(clippy::float_arithmetic)]
 
+#[cfg(feature = "solver")]
+mod circle;
 mod condense;
 #[cfg(feature = "solver")]
 mod condense_sparse;
@@ -16,6 +18,8 @@ mod lines;
 mod project;
 mod reversed;
 
+#[cfg(feature = "solver")]
+pub use circle::CirclePencil;
 pub use condense::{CondensationError, condense};
 #[cfg(feature = "solver")]
 pub use condense_sparse::{CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed};

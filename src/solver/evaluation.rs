@@ -41,11 +41,14 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     /// F' at a point.
     ///
     /// # Errors
-    /// [`Termination::NonFinite`] naming the first entry.
+    /// [`Termination::JacobianShape`]; [`Termination::NonFinite`] naming the first entry.
     pub(super) fn jacobian(&mut self, point: &Point) -> Result<DMatrix<f64>, Termination> {
         self.counters.jacobians += 1;
         let n = point.z.len();
-        let j = jacobian_at(self.problem, point.z.as_slice());
+        let j = raw_jacobian(self.problem, point.z.as_slice());
+        if j.shape() != (n, n) {
+            return Err(Termination::JacobianShape { rows: j.nrows(), cols: j.ncols() });
+        }
         for row in 0..n {
             let bad = (0..n).find(|&col| !j[(row, col)].is_finite());
             if let Some(col) = bad {
@@ -59,9 +62,15 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
 /// F' at z, n x n even if the callback has resized it: what it left out is NaN.
 pub(super) fn jacobian_at<P: Mcp + ?Sized>(problem: &P, z: &[f64]) -> DMatrix<f64> {
     let n = z.len();
-    let mut j = DMatrix::zeros(n, n);
-    problem.jacobian(z, &mut j);
+    let j = raw_jacobian(problem, z);
     if j.shape() == (n, n) { j } else { j.resize(n, n, f64::NAN) }
+}
+
+/// F' at z in whatever shape the callback has left it.
+fn raw_jacobian<P: Mcp + ?Sized>(problem: &P, z: &[f64]) -> DMatrix<f64> {
+    let mut j = DMatrix::zeros(z.len(), z.len());
+    problem.jacobian(z, &mut j);
+    j
 }
 
 impl Point {

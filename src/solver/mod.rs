@@ -14,6 +14,7 @@
 //! | `search`, `gradient`, `restart` | what makes a step acceptable, and what if none is |
 //! | `continuation/` | the Newton homotopy: a curve that meets several solutions |
 //! | `newton` | the outer loop |
+//! | `structure` | Jacobians that are singular by their zeros |
 //! | `linear`, `multistart` | Lemke's method alone; many starts |
 //! | `outcome` | point, residuals, reason, log of every pivot |
 
@@ -35,6 +36,7 @@ mod preprocess;
 mod residual;
 mod restart;
 mod search;
+mod structure;
 mod tolerance;
 
 pub use continuation::{Curve, CurveEnd, Sense, continuation, continuation_through};

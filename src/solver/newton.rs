@@ -12,6 +12,7 @@ use super::path::{Limits, Path, PathEnd, Start, Subproblem, follow};
 use super::residual::Residuals;
 use super::restart::Attempt;
 use super::search::Search;
+use super::structure::unmatched;
 use super::tolerance::CURVE_TRIALS;
 use crate::mcp::Mcp;
 use nalgebra::DVector;
@@ -50,14 +51,26 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             reason = self.restart(&start, Attempt::number(k), k, &mut best);
         }
         // Last, curves alone from other points: they cost little and reach far.
-        for k in (1..=self.trials()).map(|k| k + self.options.restart_limit) {
+        for trial in 0..self.trials() {
             if ends_the_run(reason) {
                 break;
             }
-            let from = self.moved(&start, Attempt::far(), k);
+            let from = self.moved(&start, Attempt::far(trial), trial + 1 + self.options.restart_limit);
             reason = self.along_curves(&from, &mut best).unwrap_or(reason);
         }
+        let reason = self.structural(&start, reason).unwrap_or(reason);
         self.finish(best, reason)
+    }
+
+    /// The better reason where the zeros of F' at the start explain why nothing got on.
+    fn structural(&mut self, start: &Point, reason: Termination) -> Option<Termination> {
+        if !matches!(reason, Termination::NoProgress | Termination::SingularBasis) {
+            return None;
+        }
+        let (lower, upper) = (self.problem.problem.lower(), self.problem.problem.upper());
+        let inside: Vec<usize> = (0..start.z.len()).filter(|&i| start.z[i] > lower[i] && start.z[i] < upper[i]).collect();
+        let jacobian = self.problem.jacobian(start).ok()?;
+        unmatched(&jacobian, &inside).map(|(row, col)| Termination::StructurallySingular { row, col })
     }
 
     /// One more attempt from the start, moved; then along the curves from there.
@@ -274,5 +287,6 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
 
 /// Reasons that no restart can mend.
 fn ends_the_run(reason: Termination) -> bool {
-    matches!(reason, Termination::ToleranceReached | Termination::MajorLimit | Termination::CumulativeLimit)
+    use Termination as T;
+    matches!(reason, T::ToleranceReached | T::MajorLimit | T::CumulativeLimit | T::JacobianShape { .. })
 }

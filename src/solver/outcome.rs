@@ -44,6 +44,21 @@ pub enum Termination {
     NoProgress,
     /// F or its Jacobian is not finite where the run cannot avoid it.
     NonFinite(NonFinite),
+    /// The problem's callback gave a Jacobian that is not n x n.
+    JacobianShape {
+        /// Its rows.
+        rows: usize,
+        /// Its columns.
+        cols: usize,
+    },
+    /// No attempt got on, and the Jacobian at the start is singular by its zeros alone, among the unknowns
+    /// strictly between their bounds there: no permutation pairs this row and this column with non-zeros.
+    StructurallySingular {
+        /// Row of F'.
+        row: usize,
+        /// Column of F'.
+        col: usize,
+    },
 }
 
 impl Termination {

@@ -1,7 +1,7 @@
 //! What changes from one attempt to the next: crash, search type, perturbation, kind of start.
 
 use super::path::Start;
-use super::tolerance::{RESTART_FRACTION, RESTART_PROXIMAL, RESTART_SHIFT};
+use super::tolerance::{CURVE_TRIAL_GROWTH, RESTART_FRACTION, RESTART_PROXIMAL, RESTART_SHIFT};
 use nalgebra::DVector;
 
 /// What a step must pass.
@@ -51,9 +51,11 @@ impl Attempt {
         }
     }
 
-    /// Settings of a point that is only the start of curves.
-    pub(super) fn far() -> Attempt {
-        Attempt { shift: RESTART_SHIFT[1], ..Attempt::number(1) }
+    /// Settings of a point that is only the start of curves, `trial` from 0: two at each distance, then farther
+    /// away, where other branches of the curves are.
+    pub(super) fn far(trial: usize) -> Attempt {
+        let factor = (0..trial / 2).fold(1.0, |factor, _| factor * CURVE_TRIAL_GROWTH);
+        Attempt { shift: RESTART_SHIFT[1] * factor, ..Attempt::number(1) }
     }
 
     /// The start of attempt `k`: the user's, with components moved the same way in every run.
@@ -80,6 +82,12 @@ mod tests {
         for k in 0..9 {
             assert_ne!(Attempt::number(k), Attempt::number(k + 1));
         }
+    }
+
+    #[test]
+    fn trials_go_farther_two_by_two() {
+        let shifts: Vec<f64> = (0..6).map(|k| Attempt::far(k).shift).collect();
+        assert_eq!(shifts, [1.0, 1.0, 4.0, 4.0, 16.0, 16.0]);
     }
 
     #[test]

@@ -144,6 +144,11 @@ pub(super) const CURVE_SAME: f64 = 1e-6;
 /// Basis: not tuned; a bound on the cost of a failure (twelve curves), after everything else.
 pub(super) const CURVE_TRIALS: usize = 6;
 
+/// Factor on the distance of those points from the start after every second one. Unit: none.
+/// Basis: 1, 4 and 16 times 1 + |z_i|; a start in a pocket whose curves all run off was left by the
+/// second distance (random lambda^2 pencils), never by more points at the first.
+pub(super) const CURVE_TRIAL_GROWTH: f64 = 4.0;
+
 /// A curve is closed if it passes its start's s at this share of the step from the start, on the
 /// same places. Unit: none. Basis: the error of the chord between two points 45 degrees apart.
 pub(super) const CURVE_CLOSED: f64 = 0.05;

@@ -1,26 +1,30 @@
 //! `mceip solve` on a plain LCP or MCP (mceip-mcp/1): exact solutions, each its own certificate.
 
-use super::super::common::{CliError, exit, print, text};
+use super::super::check::plain::verdict;
+use super::super::common::{CliError, exit, print};
 use super::super::output::Output;
-use super::Args;
+use super::{Args, trace};
 use crate::exact::{Rational, to_f64};
-use crate::lcp::{ExactMcp, FileError, Found, check, read_mcp, read_solution, search, write_solution};
+use crate::lcp::{ExactMcp, FileError, Found, Search, read_mcp, search, write_solution};
 use crate::multistart::{SearchError, trace_outcome};
 use crate::solver::Options;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// The text of a plain problem, solved; also returns the trace.
+/// Solves a plain problem, or checks a solution file of it.
 pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError> {
+    if let Some(solution) = &args.check {
+        return verdict(path, source, solution);
+    }
     let named = |source: FileError| CliError::Plain { path: path.display().to_string(), source };
     let problem = read_mcp(source).map_err(named)?;
-    if let Some(solution) = &args.check {
-        let points = read_solution(&problem, &text("the solution", solution)?)
-            .map_err(|source| CliError::Plain { path: solution.display().to_string(), source })?;
-        return verdict(&problem, &points);
-    }
     let output = args.certificate.as_ref().map(|out| Output::prepare("certificate", out, &[path])).transpose()?;
-    let found = search(&problem, args.starts, args.all, args.seed, &Options::default()).map_err(SearchError::from)?;
+    let trace_output = args.trace.as_ref().map(|out| Output::prepare("trace", out, &[path])).transpose()?;
+    let how = search_of(args.starts, args.seed, args.all, args.trace.is_some());
+    let found = search(&problem, &how).map_err(SearchError::from)?;
+    if let Some(output) = trace_output {
+        output.write(&trace::render_plain(&trace::Header::plain(&problem, &how), &found))?;
+    }
     for (point, reason) in &found.uncertified {
         eprintln!("uncertified: z = {point:?}: {reason}");
     }
@@ -35,16 +39,9 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
     Ok(if any { exit::DONE } else { exit::UNDECIDED })
 }
 
-/// Every point of a solution file checked exactly.
-fn verdict(problem: &ExactMcp, points: &[Vec<Rational>]) -> Result<u8, CliError> {
-    for (k, z) in points.iter().enumerate() {
-        if let Err(violated) = check(problem, z) {
-            print(&format!("REJECTED: solution {k}: {violated}\n"))?;
-            return Ok(exit::REJECTED);
-        }
-    }
-    print(&format!("ACCEPTED: {} solution(s) of problem {}\n", points.len(), problem.sha256()))?;
-    Ok(exit::DONE)
+/// The search that the options ask for.
+pub(super) fn search_of(starts: usize, seed: u64, all: bool, trace: bool) -> Search {
+    Search { starts, all, seed, trace, options: Options::default() }
 }
 
 fn evidence(found: &Found) -> String {

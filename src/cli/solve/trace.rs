@@ -2,9 +2,10 @@
 //! the replay, which must come out byte for byte.
 
 use super::super::common::{CliError, exit, print, text};
+use crate::lcp;
 use crate::model::file::{from_json, read_problem, require_format, write_problem};
 use crate::model::{Admissible, Problem};
-use crate::multistart::{Found, Search, multistart_large};
+use crate::multistart::{Found, Search, SearchError, multistart_large};
 use crate::reduction::reduce;
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
@@ -40,6 +41,19 @@ impl Header {
             problem: write_problem(problem),
         }
     }
+
+    /// Of a plain problem.
+    pub(super) fn plain(problem: &lcp::ExactMcp, search: &lcp::Search) -> Header {
+        Header {
+            format: TRACE_FORMAT.into(),
+            version: env!("CARGO_PKG_VERSION").into(),
+            starts: search.starts,
+            seed: search.seed,
+            all: search.all,
+            options: format!("{:?}", search.options),
+            problem: lcp::write_mcp(problem),
+        }
+    }
 }
 
 /// The whole trace.
@@ -57,6 +71,20 @@ pub(super) fn render(header: &Header, found: &Found) -> String {
     out
 }
 
+/// The whole trace of a plain problem.
+pub(super) fn render_plain(header: &Header, found: &lcp::Found) -> String {
+    let head = serde_json::to_string(header).unwrap_or_default();
+    let mut out = format!("{head}\n");
+    found.trace.iter().for_each(|run| out += run);
+    for z in &found.certified {
+        out += &format!("certified: {}\n", z.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "));
+    }
+    for (z, reason) in &found.uncertified {
+        out += &format!("uncertified: {z:?}: {reason}\n");
+    }
+    out
+}
+
 /// Runs a trace again and compares.
 pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
     let recorded = text("the trace", path)?;
@@ -64,17 +92,35 @@ pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
     let head = recorded.lines().next().unwrap_or_default();
     require_format(head, TRACE_FORMAT).map_err(file)?;
     let header: Header = from_json(head).map_err(file)?;
-    let problem = read_problem(&header.problem, Path::new(".")).map_err(file)?;
-    let search = super::search_of(header.starts, header.seed, header.all, true);
-    let reduced = reduce(&problem)?;
-    let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
-    let (found, _) = multistart_large(&admissible, problem.window(), &search, &|_| ControlFlow::Continue(()))?;
-    let again = render(&Header::new(&problem, &search, header.all), &found);
+    if header.starts == 0 {
+        return Err(CliError::Option { option: "replay", expected: "a trace of at least 1 start", got: "starts: 0".into() });
+    }
+    let is_plain = require_format(&header.problem, lcp::MCP_FORMAT).is_ok();
+    let (again, runs) = if is_plain { again_plain(&header, path)? } else { again(&header, path)? };
     if again == recorded {
-        print(&format!("IDENTICAL: {} runs, {} bytes\n", found.runs, recorded.len()))?;
+        print(&format!("IDENTICAL: {runs} runs, {} bytes\n", recorded.len()))?;
         return Ok(exit::DONE);
     }
     let line = again.lines().zip(recorded.lines()).take_while(|(a, b)| a == b).count();
     print(&format!("DIFFERENT: first in line {} of the trace\n", line + 1))?;
     Ok(exit::REJECTED)
+}
+
+/// The trace of a header's eigenproblem, made again, with its number of runs.
+fn again(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
+    let problem =
+        read_problem(&header.problem, Path::new(".")).map_err(|source| CliError::File { path: path.display().to_string(), source })?;
+    let search = super::search_of(header.starts, header.seed, header.all, true);
+    let reduced = reduce(&problem)?;
+    let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
+    let (found, _) = multistart_large(&admissible, problem.window(), &search, &|_| ControlFlow::Continue(()))?;
+    Ok((render(&Header::new(&problem, &search, header.all), &found), found.runs))
+}
+
+/// The same for a plain problem.
+fn again_plain(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
+    let problem = lcp::read_mcp(&header.problem).map_err(|source| CliError::Plain { path: path.display().to_string(), source })?;
+    let search = super::plain::search_of(header.starts, header.seed, header.all, true);
+    let found = lcp::search(&problem, &search).map_err(SearchError::from)?;
+    Ok((render_plain(&Header::plain(&problem, &search), &found), found.runs))
 }

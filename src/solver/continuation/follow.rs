@@ -54,8 +54,11 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
             let before = std::mem::replace(&mut self.at, landing.at);
             (local, tangent) = (landing.local, next);
             if landing.event == Some(Quantity::S) {
+                // A curve passes a point once, unless it is closed; one that has strayed from its start closes elsewhere.
+                let is_at = |z: &DVector<f64>| (&self.at.z - z).amax() <= CURVE_SAME * (1.0 + z.amax());
+                let again = self.start.s == 0.0 && is_at(&self.start.z) || self.found.iter().any(is_at);
                 self.found.push(self.at.z.clone());
-                if self.start.s == 0.0 && (&self.at.z - &self.start.z).amax() <= CURVE_SAME * (1.0 + self.start.z.amax()) {
+                if again {
                     return Some(CurveEnd::Closed);
                 }
                 if self.found.len() >= self.enough {

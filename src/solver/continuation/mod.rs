@@ -41,7 +41,7 @@ pub enum CurveEnd {
     Ray,
     /// The limit on steps.
     StepLimit,
-    /// Back at the start: the curve is closed.
+    /// Back at its start or at a solution it has met before: the curve is closed.
     Closed,
     /// No step is short enough: a bifurcation, a degenerate corner, or F not finite.
     Stuck,

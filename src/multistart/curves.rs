@@ -1,0 +1,155 @@
+//! The curves of a search: from starts, and through solutions found; on the circle where there is one.
+
+use super::hunt::Hunt;
+use super::same::repeats;
+use super::trace::trace_outcome;
+use super::{Found, Origin};
+use crate::candidate::Candidate;
+use crate::mcp::Mcp;
+use crate::model::Admissible;
+use crate::reduction::{CirclePencil, Embedding, Side};
+use crate::solver::{Curve, CurveEnd, Sense, SolverError, continuation, continuation_through, solve};
+use crate::tolerance::SAME_CURVE_POINT;
+
+/// Solutions taken from one curve, at most: a cone of solutions is met at every step.
+const PER_CURVE: usize = 16;
+/// The same on the circle, where most of what a curve meets is no solution of the eigenproblem.
+const PER_CIRCLE: usize = 64;
+/// Largest default number of curves on which a solution is left.
+const MOST_DEPARTURES: usize = 3;
+/// Solutions that are left on curves, at most: a singular pencil has a continuum of them.
+const KNOWN_LIMIT: usize = 64;
+
+/// The MCPs on which curves are followed and their solutions polished.
+pub(super) struct Ground {
+    /// One side of an origin: where runs start.
+    pub(super) embedding: Embedding,
+    /// All t >= 0: the circle knows no sides.
+    whole: Embedding,
+    circle: Option<CirclePencil>,
+    /// Seed of the directions.
+    seed: u64,
+    /// How often each solution was left, in the order of discovery.
+    departed: Vec<usize>,
+}
+
+impl Ground {
+    pub(super) fn new(admissible: &Admissible<'_>, side: Side, seed: u64) -> Ground {
+        let embedding = Embedding::new(admissible, side);
+        let circle = CirclePencil::new(&embedding);
+        Ground { embedding, whole: Embedding::new(admissible, Side::Above(0.0)), circle, seed, departed: Vec::new() }
+    }
+
+    /// The embedding in which a curve's solutions are polished.
+    fn polisher(&self) -> &Embedding {
+        if self.circle.is_some() { &self.whole } else { &self.embedding }
+    }
+
+    /// The MCP of the curves.
+    fn problem(&self) -> &dyn Mcp {
+        match &self.circle {
+            Some(circle) => circle,
+            None => &self.embedding,
+        }
+    }
+
+    fn point(&self, c: &Candidate) -> Vec<f64> {
+        self.circle.as_ref().map_or_else(|| self.embedding.point(c.value, &c.x), |circle| circle.point(c.value, &c.x))
+    }
+
+    fn candidate(&self, z: &[f64]) -> Option<Candidate> {
+        self.circle.as_ref().map_or_else(|| Some(self.embedding.candidate(z)), |circle| circle.candidate(z))
+    }
+
+    fn direction(&self, seed: u64, uneven: bool) -> Vec<f64> {
+        self.circle.as_ref().map_or_else(|| self.embedding.direction(seed, uneven), |circle| circle.direction(seed, uneven))
+    }
+
+    /// Solutions taken from one curve, at most.
+    fn enough(&self) -> usize {
+        if self.circle.is_some() { PER_CIRCLE } else { PER_CURVE }
+    }
+}
+
+impl Hunt<'_> {
+    /// The curve from a start: down, and up too unless it has closed.
+    pub(super) fn curve(&mut self, ground: &Ground, start: &[f64]) -> Result<(), SolverError> {
+        let from = ground.point(&ground.embedding.candidate(start));
+        for sense in [Sense::Down, Sense::Up] {
+            let curve = continuation(ground.problem(), &from, sense, ground.enough(), &self.search.options)?;
+            let end = curve.end;
+            self.harvest(ground, curve, Origin::Curve)?;
+            if end == CurveEnd::Closed {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Leaves the solutions known, also those found on the way, until each was left often enough.
+    pub(super) fn depart(&mut self, ground: &mut Ground) -> Result<(), SolverError> {
+        let slip = self.admissible.pencil().order() - self.admissible.pencil().free().len();
+        let wanted = self.search.departures.unwrap_or(slip.div_ceil(2).min(MOST_DEPARTURES));
+        loop {
+            let known = self.found.certified.len().min(KNOWN_LIMIT);
+            ground.departed.resize(known.max(ground.departed.len()), 0);
+            let Some(least) = (0..known).min_by_key(|&i| ground.departed[i]).filter(|&i| ground.departed[i] < wanted) else {
+                return Ok(());
+            };
+            for sense in [Sense::Down, Sense::Up] {
+                let is_round = self.leave(ground, least, sense)?;
+                if self.is_interrupted() || self.is_spent() {
+                    return Ok(());
+                }
+                if is_round {
+                    break;
+                }
+            }
+            ground.departed[least] += 1;
+        }
+    }
+
+    /// A curve through a known solution with a random residual direction. Has it come back to it?
+    fn leave(&mut self, ground: &Ground, known: usize, sense: Sense) -> Result<bool, SolverError> {
+        let turn = ground.departed[known];
+        let point = ground.point(&self.found.certified[known].candidate);
+        let salt = (turn as u64) << 20 | known as u64;
+        let r = ground.direction(ground.seed.wrapping_mul(0x9e37_79b9).wrapping_add(salt), turn % 2 == 1);
+        let curve = continuation_through(ground.problem(), &point, &r, sense, ground.enough(), &self.search.options)?;
+        let is_here = |z: &Vec<f64>| z.iter().zip(&point).all(|(a, b)| (a - b).abs() <= SAME_CURVE_POINT * (1.0 + b.abs()));
+        let is_round = curve.end == CurveEnd::Closed && curve.solutions.last().is_some_and(is_here);
+        self.harvest(ground, curve, Origin::Departure)?;
+        Ok(is_round)
+    }
+
+    /// The solutions of a curve, each that is not known already polished by a run of the solver.
+    fn harvest(&mut self, ground: &Ground, curve: Curve, origin: Origin) -> Result<(), SolverError> {
+        self.count(&curve.counters);
+        *self.found.curves.entry(curve.end).or_default() += 1;
+        self.trace(|run| format!("curve {run} ({origin:?}) ended {:?}, {:?}, met {:?}\n", curve.end, curve.counters, curve.solutions));
+        let run = self.found.runs;
+        self.found.runs += 1;
+        for candidate in curve.solutions.iter().filter_map(|z| ground.candidate(z)) {
+            if is_known(self.found, &candidate) {
+                self.found.met_again += 1;
+                continue;
+            }
+            let polisher = ground.polisher();
+            let point = polisher.point(candidate.value, &candidate.x);
+            let polished = solve(polisher, &point, &self.search.options)?;
+            self.count(&polished.counters);
+            *self.found.terminations.entry(polished.termination).or_default() += 1;
+            self.trace(|_| format!("polished\n{}", trace_outcome(&polished)));
+            if polished.termination.reached_tolerance() {
+                self.file(polisher.candidate(&polished.point), run, origin);
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Is a candidate the same point as one that was found, within rounding?
+pub(super) fn is_known(found: &Found, candidate: &Candidate) -> bool {
+    let certified = found.certified.iter().map(|c| &c.candidate);
+    certified.chain(found.uncertified.iter().map(|u| &u.candidate)).any(|c| repeats(c, candidate))
+}
