@@ -210,12 +210,6 @@ mod tests {
             assert_eq!(times(&row(entries), &x), plain);
         }
     }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::exact::whole;
 
     /// The limits themselves are allowed; beyond them the reason says by how much.
     #[test]

@@ -118,7 +118,7 @@ mod tests {
         for (k, expected) in list.into_iter().enumerate() {
             assert_eq!(Attempt::number(k), expected, "{k}");
         }
-        assert_eq!(Attempt::far(), Attempt { shift: large, ..free });
+        assert_eq!(Attempt::far(0), Attempt { shift: large, ..free });
     }
 
     /// The hash again in 128 bits (splitmix64), and the shift it makes: relative to 1 + |z|.

@@ -147,7 +147,8 @@ mod tests {
     /// One row short of 128 bits, one of exactly 128 and one of 131, which loses three.
     fn rows() -> Rows {
         let int = |v: i64, bits: u32| (Integer::from(v) << bits) + v;
-        let row = |bits: u32| vec![(0, int(1, bits), int(-3, 7)), (1, int(-1, bits - 5), int(5, 2)), (2, Integer::zero(), int(1, bits - 9))];
+        let row =
+            |bits: u32| vec![(0, int(1, bits), int(-3, 7)), (1, int(-1, bits - 5), int(5, 2)), (2, Integer::zero(), int(1, bits - 9))];
         Rows { rows: vec![row(20), row(127), row(130)], factor: vec![Integer::one(); 3], is_free: vec![false; 3] }
     }
 
@@ -203,7 +204,8 @@ mod tests {
     fn ordinary_matrices_have_short_numbers() {
         let linear = Linear::of(&rows());
         let (lo, hi) = (rational(2, 3), rational(7, 5));
-        assert!(linear.short(&lo, Some(&hi)).is_some() && linear.short(&lo, None).is_some());
         assert!(linear.ends(&lo, Some(&hi)).short().is_some() && linear.ends(&lo, None).short().is_some());
+        let family = Family::Linear(linear);
+        assert!(family.short(None, &lo, Some(&hi)).is_some() && family.short(None, &lo, None).is_some());
     }
 }

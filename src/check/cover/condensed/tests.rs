@@ -23,12 +23,8 @@ fn pencil() -> (Dense, Dense) {
         [w(2), r(-1, 7), r(11, 2), w(3)],
         [r(900, 13), w(-77), w(41), r(1234, 13)],
     ];
-    let b = [
-        [r(4, 3), r(1, 2), w(1), w(0)],
-        [w(3), r(2, 11), r(-5, 11), w(7)],
-        [w(1), w(-2), r(7, 3), r(1, 7)],
-        [w(0), r(3, 13), w(6), w(5)],
-    ];
+    let b =
+        [[r(4, 3), r(1, 2), w(1), w(0)], [w(3), r(2, 11), r(-5, 11), w(7)], [w(1), w(-2), r(7, 3), r(1, 7)], [w(0), r(3, 13), w(6), w(5)]];
     (a, b)
 }
 
@@ -53,7 +49,7 @@ fn matrix(exponent: u32, rows: [[i64; 2]; 2]) -> IntegerMatrix {
 fn anchor(right: usize, left: usize) -> Anchor {
     let w = [matrix(3, [[7, -9], [4, 13]]), matrix(5, [[-3, 8], [15, -6]]), matrix(4, [[2, 5], [-7, 1]])];
     let v = [matrix(2, [[5, 3], [-2, 6]]), matrix(4, [[9, -11], [1, 4]]), matrix(1, [[1, -1], [3, 2]])];
-    Anchor { center: Number(rational(3, 4)), right: w[..right].to_vec(), left: v[..left].to_vec() }
+    Anchor { center: Number(rational(3, 4)), reversed: false, right: w[..right].to_vec(), left: v[..left].to_vec() }
 }
 
 fn lower(rows: [&[i64]; 2], exponent: u32) -> Factor {
