@@ -2,9 +2,7 @@
 //! that refers to a claim refers to the right one. Small covers by hand, each beside its forgery.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use mceip::certificate::{
-    Certificate, Claim, CompleteSet, Condensation, ExactSolution, Factor, Node, Piece, Root, RootOutcome, Tail,
-};
+use mceip::certificate::{Certificate, Claim, CompleteSet, Condensation, ExactSolution, Factor, Node, Piece, Root, RootOutcome, Tail};
 use mceip::check::{AcceptedCover, CoverFault, Reason, check};
 use mceip::exact::{Integer, Sparse, parse, whole};
 use mceip::model::file::Number;
@@ -30,7 +28,12 @@ fn piece(max: Option<&str>, tree: Vec<Node>) -> Piece {
     Piece { max: max.map(number), anchor: None, tree }
 }
 
-fn verdict(p: &Problem, claims: &[ExactSolution], condensation: Option<Condensation>, pieces: Vec<Piece>) -> Result<AcceptedCover, CoverFault> {
+fn verdict(
+    p: &Problem,
+    claims: &[ExactSolution],
+    condensation: Option<Condensation>,
+    pieces: Vec<Piece>,
+) -> Result<AcceptedCover, CoverFault> {
     let c = Certificate {
         problem_sha256: p.sha256(),
         unknown: p.unknown(),
@@ -90,11 +93,7 @@ fn pieces_rise_to_the_end_of_the_window() {
 #[test]
 fn a_tail_leaf_begins_at_the_tail_or_above() {
     let p = problem([[4, 0], [0, 4]], I2, &[0], window("0", None));
-    let factor = |entry: i64, n: usize| Factor {
-        first: (0..n).collect(),
-        rows: vec![vec![Integer::from(entry)]; n],
-        exponent: 0,
-    };
+    let factor = |entry: i64, n: usize| Factor { first: (0..n).collect(), rows: vec![vec![Integer::from(entry)]; n], exponent: 0 };
     let of = |has_tail: bool, from: &str| {
         let condensation = Condensation {
             sigma: number("4"),
@@ -160,7 +159,8 @@ fn a_claim_leaf_refers_to_a_null_vector_of_its_block() {
 /// The claimed value lies within the leaf's interval, ends included.
 #[test]
 fn the_value_of_a_claim_lies_in_the_interval_of_its_leaf() {
-    let of = |value: [&str; 2], interval: [&str; 2]| both_moving(1, &[claim(&[0, 1], &[], value, ["1", "1"])], leaf(interval, 1, 0)).map(|_| ());
+    let of =
+        |value: [&str; 2], interval: [&str; 2]| both_moving(1, &[claim(&[0, 1], &[], value, ["1", "1"])], leaf(interval, 1, 0)).map(|_| ());
     let not = Err(CoverFault::NotTheClaim { claim: 0 });
     for interval in [["15/16", "17/16"], ["31/32", "33/32"]] {
         assert_eq!(of(["31/32", "33/32"], interval), Ok(()));

@@ -5,8 +5,8 @@
 use mceip::exact::{Algebraic, Poly, Rational, Sparse, parse, rational, whole};
 use mceip::model::{Pencil, Window};
 use mceip::oracle::{
-    Cone, End, Enumeration, MAX_FREE, MAX_SLIP, OracleError, Piece, Solution, SupportRange, WideKernel, enumerate, enumerate_with, examine_support,
-    is_rational_solution, is_solution,
+    Cone, End, Enumeration, MAX_FREE, MAX_SLIP, OracleError, Piece, Solution, SupportRange, WideKernel, enumerate, enumerate_with,
+    examine_support, is_rational_solution, is_solution,
 };
 use std::ops::ControlFlow;
 
@@ -109,7 +109,11 @@ fn ends_pieces_and_ranges_are_equal_in_all_their_parts() {
     assert!(piece(1, Some(2)) != piece(1, None) && piece(1, Some(2)) != piece(0, Some(2)) && piece(1, Some(2)) != piece(1, Some(3)));
     assert!(piece(1, Some(2)) != piece(0, Some(3)));
     assert!(range(&[0], 1, None) == range(&[0], 1, None));
-    assert!(range(&[0], 1, None) != range(&[1], 1, None) && range(&[0], 1, None) != range(&[0], 2, None) && range(&[0], 1, None) != range(&[1], 2, None));
+    assert!(
+        range(&[0], 1, None) != range(&[1], 1, None)
+            && range(&[0], 1, None) != range(&[0], 2, None)
+            && range(&[0], 1, None) != range(&[1], 2, None)
+    );
 }
 
 #[test]

@@ -74,7 +74,9 @@ fn a_reaction_fits_the_state_of_its_particle() {
     };
     let contradicts = |r: Result<_, ModelError>| matches!(r, Err(ModelError::ReactionContradicts { particle: 1, .. }));
     let (slip, stick) = (r#""state": "slip", "sign": 1"#, r#""state": "stick""#);
-    for (state, tangential, fits) in [(slip, "2", true), (slip, "1", false), (slip, "8", false), (stick, "1", true), (stick, "2", false), (stick, "-7", false)] {
+    for (state, tangential, fits) in
+        [(slip, "2", true), (slip, "1", false), (slip, "8", false), (stick, "1", true), (stick, "2", false), (stick, "-7", false)]
+    {
         let got = of(state, tangential, "-4");
         assert!(if fits { got.is_ok() } else { contradicts(got.map(|_| ())) }, "{state} {tangential}");
     }

@@ -41,7 +41,8 @@ fn verdicts() -> String {
         match check(&problem, &certificate) {
             Ok(accepted) => {
                 for (k, claim) in accepted.claims.iter().enumerate() {
-                    writeln!(text, "{name}: claim {k}: support {:?} in [{}, {}]", claim.support, claim.value.lo(), claim.value.hi()).unwrap();
+                    writeln!(text, "{name}: claim {k}: support {:?} in [{}, {}]", claim.support, claim.value.lo(), claim.value.hi())
+                        .unwrap();
                 }
                 let Some(cover) = accepted.cover else { continue };
                 for s in &cover.solutions {

@@ -11,7 +11,13 @@ fn system(sign: i8) -> System {
     let (r, w) = (rational, whole);
     let k = [[w(7), r(1, 2), w(1)], [r(1, 2), w(9), r(1, 3)], [w(1), r(1, 3), w(11)]];
     let m = [[w(2), w(0), w(0)], [w(0), r(1, 7), w(0)], [w(0), w(0), r(1, 7)]];
-    let sparse = |m: &[[Rational; 3]; 3]| Sparse::from_entries(3, 3, (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| (i, j, m[i][j].clone())).collect::<Vec<_>>());
+    let sparse = |m: &[[Rational; 3]; 3]| {
+        Sparse::from_entries(
+            3,
+            3,
+            (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| (i, j, m[i][j].clone())).collect::<Vec<_>>(),
+        )
+    };
     let frame = Some([[r(3, 5), r(4, 5)], [r(-4, 5), r(3, 5)]]);
     let particle = Particle { frame, ..Particle::plain(1, 2, ContactState::Slip { sign }) };
     System::new(sparse(&k), Some(sparse(&m)), Some(r(1, 5)), vec![particle]).unwrap()

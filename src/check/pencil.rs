@@ -134,7 +134,8 @@ mod tests {
             for (i, row) in rows.rows.iter().enumerate() {
                 assert_eq!(rows.is_free[i], pencil.free().contains(&i));
                 for (m, which) in [(pencil.a(), 0), (pencil.b(), 1)] {
-                    let scaled: Vec<(usize, Rational)> = m.row(i).iter().map(|(j, v)| (*j, v * Rational::from_integer(rows.factor[i].clone()))).collect();
+                    let scaled: Vec<(usize, Rational)> =
+                        m.row(i).iter().map(|(j, v)| (*j, v * Rational::from_integer(rows.factor[i].clone()))).collect();
                     let own = row.iter().map(|(j, a, b)| (*j, Rational::from_integer(if which == 0 { a.clone() } else { b.clone() })));
                     assert_eq!(own.filter(|(_, v)| *v != w(0)).collect::<Vec<_>>(), scaled);
                 }

@@ -313,7 +313,11 @@ mod tests {
         let long = |bits: u32| &Poly::new(vec![(-3).into(), Integer::from(1) << bits]) * &Poly::from_ints(&[-2, 0, 1]);
         let of = |bits: u32| {
             let value = Rational::new(3.into(), Integer::from(1) << bits);
-            let interval = Interval::new(&value - Rational::new(1.into(), Integer::from(1) << (bits + 3)), value.clone() * Rational::from_integer(2.into())).unwrap();
+            let interval = Interval::new(
+                &value - Rational::new(1.into(), Integer::from(1) << (bits + 3)),
+                value.clone() * Rational::from_integer(2.into()),
+            )
+            .unwrap();
             let at_lo = long(bits).sign_at(interval.lo());
             let mut number = Algebraic { poly: long(bits), interval, at_lo };
             number.try_rational();

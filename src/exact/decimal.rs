@@ -176,7 +176,8 @@ mod tests {
 
     #[test]
     fn enclosing_decimals_round_outwards() {
-        let of = |lo: &str, hi: &str, digits: usize| enclosing_decimals(&Interval::new(parse(lo).unwrap(), parse(hi).unwrap()).unwrap(), digits);
+        let of =
+            |lo: &str, hi: &str, digits: usize| enclosing_decimals(&Interval::new(parse(lo).unwrap(), parse(hi).unwrap()).unwrap(), digits);
         let want = |lo: &str, hi: &str| (lo.to_string(), hi.to_string());
         assert_eq!(of("1/3", "2/3", 3), want("0.333", "0.667"));
         assert_eq!(of("1.234567", "1.234568", 4), want("1.234", "1.235"));

@@ -260,7 +260,11 @@ mod tests {
     fn a_dense_matrix_is_accepted() {
         let dense = |n: usize, d: Rational| {
             let entry = move |i: usize, j: usize| if i == j { whole(1) + &d } else { rational(1 + (i * j % 3) as i64, 4) };
-            Sparse::from_entries(n, n, (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| (i, j, entry(i, j))).collect::<Vec<_>>())
+            Sparse::from_entries(
+                n,
+                n,
+                (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| (i, j, entry(i, j))).collect::<Vec<_>>(),
+            )
         };
         assert_eq!([rounded_ldl(&dense(6, whole(1))), exact_ldl(&dense(6, whole(1)))], [Ok(()), Ok(())]);
         assert!(rounded_ldl(&dense(6, rational(-9, 10))).is_err());

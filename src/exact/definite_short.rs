@@ -173,10 +173,12 @@ mod tests {
             let d: Vec<i64> = (0..3).map(|_| unit / 2 + next(unit / 8)).collect();
             let entry = |v: i64| vec![v];
             let l = [next(1 << 35), next(1 << 35), next(1 << 35)]; // l_10, l_20, l_21 below 1/2
-            let rows = vec![Row { first: 0, entries: vec![] }, Row { first: 0, entries: entry(l[0]) }, Row { first: 0, entries: vec![l[1], l[2]] }];
-            let at = |i: usize, k: usize| -> Integer {
-                if i == k { Integer::one() << LOWER } else { Integer::from(l[i + k - 1]) }
-            };
+            let rows = vec![
+                Row { first: 0, entries: vec![] },
+                Row { first: 0, entries: entry(l[0]) },
+                Row { first: 0, entries: vec![l[1], l[2]] },
+            ];
+            let at = |i: usize, k: usize| -> Integer { if i == k { Integer::one() << LOWER } else { Integer::from(l[i + k - 1]) } };
             let product = |i: usize, j: usize| -> Integer { (0..=j).map(|k| at(i, k) * d[k] * at(j, k)).sum() };
             let one = Integer::one() << (2 * LOWER);
             let a: Vec<Row> = (0..3)

@@ -264,7 +264,8 @@ mod tests {
 
     #[test]
     fn a_singular_block_is_given_up_after_nine_primes() {
-        let ones = |n: usize, m: usize| Sparse::from_entries(n, m, (0..n).flat_map(|i| (0..m).map(move |j| (i, j, whole(1)))).collect::<Vec<_>>());
+        let ones =
+            |n: usize, m: usize| Sparse::from_entries(n, m, (0..n).flat_map(|i| (0..m).map(move |j| (i, j, whole(1)))).collect::<Vec<_>>());
         let got = schur_complement(&ones(2, 2), &ones(2, 1), &ones(1, 2), &ones(1, 1));
         assert_eq!(got, Err(CondenseError::ZeroMinor { primes: MAX_SKIPPED + 1 }));
     }

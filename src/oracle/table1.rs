@@ -154,7 +154,11 @@ mod tests {
         ];
         for i in 0..2 {
             let signs = (s.x[i].sign(), y[i].sign());
-            let fits = if s.slip.contains(&i) { signs == (Sign::Positive, Sign::Zero) } else { signs.0 == Sign::Zero && signs.1 != Sign::Negative };
+            let fits = if s.slip.contains(&i) {
+                signs == (Sign::Positive, Sign::Zero)
+            } else {
+                signs.0 == Sign::Zero && signs.1 != Sign::Negative
+            };
             assert!(fits, "{data:?} {i} {signs:?}");
         }
     }

@@ -131,7 +131,8 @@ mod tests {
     #[test]
     fn the_proximal_term_vanishes_with_the_merit() {
         let singular = dmatrix![0.0, 0.0; 0.0, 8.0];
-        let of = |merit: f64| newton_direction(&singular, &Point { z: DVector::zeros(2), f: DVector::from_element(2, 1.0), merit }, &[false; 2]);
+        let of =
+            |merit: f64| newton_direction(&singular, &Point { z: DVector::zeros(2), f: DVector::from_element(2, 1.0), merit }, &[false; 2]);
         for (merit, term) in [(1e9, CRASH_PROXIMAL), (0.25, 0.5 * CRASH_PROXIMAL), (0.0, CRASH_PROXIMAL_LEAST)] {
             let (direction, proximal) = of(merit);
             assert_eq!(proximal, term * 8.0);

@@ -8,7 +8,11 @@ use crate::tolerance::PRECONDITIONER_BITS;
 fn pencil(rest: [i64; 2], factor: &Rational) -> Pencil {
     let a = [[-1, -2, 0], [-2, -1, 0], [rest[0], rest[1], 9]];
     let times = |v: i64| whole(v) * factor;
-    let a = Sparse::from_entries(3, 3, (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| (i, j, times(a[i][j]))).collect::<Vec<_>>());
+    let a = Sparse::from_entries(
+        3,
+        3,
+        (0..3).flat_map(|i| (0..3).map(move |j| (i, j))).map(|(i, j)| (i, j, times(a[i][j]))).collect::<Vec<_>>(),
+    );
     Pencil::new(a, Sparse::from_entries(3, 3, (0..3).map(|i| (i, i, factor.clone()))), vec![]).unwrap()
 }
 
@@ -39,7 +43,8 @@ fn the_centre_is_polished() {
 #[test]
 fn a_value_beside_the_window_is_none() {
     let p = pencil([1, 1], &whole(1));
-    let at = |min: i64, max: Option<i64>| of(&p, &Window::new(whole(min), max.map(whole)).unwrap(), &[0, 1], 3.0, [0.5, 0.5, 0.0]).map(|_| ());
+    let at =
+        |min: i64, max: Option<i64>| of(&p, &Window::new(whole(min), max.map(whole)).unwrap(), &[0, 1], 3.0, [0.5, 0.5, 0.0]).map(|_| ());
     assert_eq!([at(0, None), at(3, None), at(0, Some(3)), at(3, Some(3))], [Ok(()), Ok(()), Ok(()), Ok(())]);
     for (min, max) in [(4, None), (4, Some(5)), (0, Some(2))] {
         assert!(matches!(at(min, max), Err(AttemptFailure::NoRootNear { .. })), "{min} {max:?}");
@@ -66,8 +71,14 @@ fn a_candidate_too_far_away_is_not_the_solution() {
 #[test]
 fn wrong_signs_are_named() {
     let all = Window::all();
-    assert_eq!(of(&pencil([-1, -1], &whole(1)), &all, &[0, 1], 3.0, [0.5, 0.5, 0.0]).map(|_| ()), Err(AttemptFailure::YNegative { index: 2 }));
-    assert_eq!(of(&pencil([1, -1], &whole(1)), &all, &[0, 1], 3.0, [0.5, 0.5, 0.0]).map(|_| ()), Err(AttemptFailure::YNegative { index: 2 }));
+    assert_eq!(
+        of(&pencil([-1, -1], &whole(1)), &all, &[0, 1], 3.0, [0.5, 0.5, 0.0]).map(|_| ()),
+        Err(AttemptFailure::YNegative { index: 2 })
+    );
+    assert_eq!(
+        of(&pencil([1, -1], &whole(1)), &all, &[0, 1], 3.0, [0.5, 0.5, 0.0]).map(|_| ()),
+        Err(AttemptFailure::YNegative { index: 2 })
+    );
     assert!(of(&pencil([1, 1], &whole(1)), &all, &[0, 1], 3.0, [0.5, 0.5, 0.0]).is_ok());
     // Swapped signs: [[-1, 2], [2, -1]] has x = (1, -1) at t = 3, and e'x = 0 there; a free part gives e'x its sum.
     let a = Sparse::from_ints(&[&[-1, 4], &[1, -1]]);

@@ -38,7 +38,12 @@ fn a_free_solution_points_where_the_candidate_does() {
         assert_eq!((constants(&c)[0].is_negative(), c.support.len()), (x < 0.0, 0));
     }
     // Two free ones, of which the candidate's larger one decides.
-    let p = Pencil::new(Sparse::from_ints(&[&[-1, 1, 0], &[0, 3, 0], &[0, 0, 9]]), Sparse::from_ints(&[&[1, 0, 0], &[0, -1, 0], &[0, 0, 0]]), vec![0, 1]).unwrap();
+    let p = Pencil::new(
+        Sparse::from_ints(&[&[-1, 1, 0], &[0, 3, 0], &[0, 0, 9]]),
+        Sparse::from_ints(&[&[1, 0, 0], &[0, -1, 0], &[0, 0, 0]]),
+        vec![0, 1],
+    )
+    .unwrap();
     for sign in [1.0, -1.0] {
         let c = claim_of(&p, &Window::all(), 3.0, &[-0.5 * sign, sign, 0.0]); // 2 x_0 + x_1 = 0 at t = 3
         assert_eq!((constants(&c)[0].is_negative(), constants(&c)[1].is_negative()), (sign > 0.0, sign < 0.0));
@@ -64,12 +69,20 @@ fn components_beyond_doubles_are_compared_exactly() {
     let p = Pencil::new(a, Sparse::from_entries(2, 2, [(1, 1, whole(1))]), vec![0]).unwrap();
     // x_0 = 1, x_1 = 10^400 at t = 1; relative to x_1 the free one is nothing.
     let c = claim_of(&p, &Window::all(), 1.0, &[0.0, 1.0]);
-    assert_eq!((c.support, constants(&ExactSolution { support: vec![], ..claim_of(&p, &Window::all(), 1.0, &[0.0, 1.0]) })[0].clone()), (vec![1], whole(1)));
+    assert_eq!(
+        (c.support, constants(&ExactSolution { support: vec![], ..claim_of(&p, &Window::all(), 1.0, &[0.0, 1.0]) })[0].clone()),
+        (vec![1], whole(1))
+    );
 }
 
 #[test]
 fn numbers_are_made_integers_without_a_common_factor() {
-    let n = |list: &[&[Rational]]| primitive(list.iter().map(|p| p.to_vec()).collect()).iter().map(|p| p.iter().map(|v| v.0.clone()).collect()).collect::<Vec<Vec<_>>>();
+    let n = |list: &[&[Rational]]| {
+        primitive(list.iter().map(|p| p.to_vec()).collect())
+            .iter()
+            .map(|p| p.iter().map(|v| v.0.clone()).collect())
+            .collect::<Vec<Vec<_>>>()
+    };
     let (r, w) = (rational, whole);
     assert_eq!(n(&[&[r(1, 2), w(3)], &[r(-9, 4)]]), [vec![w(2), w(12)], vec![w(-9)]]);
     assert_eq!(n(&[&[w(4), w(6)], &[]]), [vec![w(2), w(3)], vec![]]);

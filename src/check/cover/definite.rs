@@ -188,7 +188,11 @@ mod tests {
             let lost = if cut > 0 { 2 } else { 0 };
             let edge = (513 + lost) << cut;
             let half = |v: i64| (v + 1) / 2;
-            assert_eq!([two([1 << (bits - 1), half(edge)], none), two([1 << (bits - 1), half(edge) - 1], none)], [Ok(()), Err(1)], "{bits}");
+            assert_eq!(
+                [two([1 << (bits - 1), half(edge)], none), two([1 << (bits - 1), half(edge) - 1], none)],
+                [Ok(()), Err(1)],
+                "{bits}"
+            );
         }
     }
 

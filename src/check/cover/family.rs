@@ -142,7 +142,8 @@ mod tests {
     /// One row short of 128 bits, one of exactly 128 and one of 131, which loses three.
     fn rows() -> Rows {
         let int = |v: i64, bits: u32| (Integer::from(v) << bits) + v;
-        let row = |bits: u32| vec![(0, int(1, bits), int(-3, 7)), (1, int(-1, bits - 5), int(5, 2)), (2, Integer::zero(), int(1, bits - 9))];
+        let row =
+            |bits: u32| vec![(0, int(1, bits), int(-3, 7)), (1, int(-1, bits - 5), int(5, 2)), (2, Integer::zero(), int(1, bits - 9))];
         Rows { rows: vec![row(20), row(127), row(130)], factor: vec![Integer::one(); 3], is_free: vec![false; 3] }
     }
 

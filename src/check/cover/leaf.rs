@@ -112,7 +112,13 @@ mod tests {
     const NONE: [[i64; 2]; 2] = [[0, 0], [0, 0]];
     const OPEN: [State; 2] = [State::Open; 2];
 
-    fn long_farkas(states: [State; 2], m: [[[i64; 2]; 2]; 2], r: [[[i64; 2]; 2]; 2], infinite: bool, w: [i64; 2]) -> Result<(), CoverFault> {
+    fn long_farkas(
+        states: [State; 2],
+        m: [[[i64; 2]; 2]; 2],
+        r: [[[i64; 2]; 2]; 2],
+        infinite: bool,
+        w: [i64; 2],
+    ) -> Result<(), CoverFault> {
         farkas(&region(states), None, || ends(m, r, infinite), &INDEX, &w)
     }
 

@@ -184,6 +184,9 @@ mod tests {
         assert_eq!(with(&|f| f.first[1] = 1), length("row of the factor", 1, 2));
         assert_eq!(with(&|f| f.first[1] = 2), length("row of the factor", 0, 2));
         assert_eq!(with(&|f| f.rows[0].clear()), length("row of the factor", 1, 0));
-        assert_eq!([with(&|f| f.rows.truncate(1)), with(&|f| f.first.truncate(1))], [length("factor", 2, 1), length("first columns of the factor", 2, 1)]);
+        assert_eq!(
+            [with(&|f| f.rows.truncate(1)), with(&|f| f.first.truncate(1))],
+            [length("factor", 2, 1), length("first columns of the factor", 2, 1)]
+        );
     }
 }

@@ -149,7 +149,8 @@ mod tests {
     /// What is exact stays exact, at any length.
     #[test]
     fn a_multiple_of_the_unit_has_no_radius() {
-        let m = vec![vec![Integer::from(3) << 100u32, Integer::from(1)], vec![Integer::from(-5) << 90u32, Integer::from(1) << 200u32 >> 60u32]];
+        let m =
+            vec![vec![Integer::from(3) << 100u32, Integer::from(1)], vec![Integer::from(-5) << 90u32, Integer::from(1) << 200u32 >> 60u32]];
         let short = Short::of(&m, &big(&[&[0, 0], &[0, 0]], 0), &[0, 1]).unwrap();
         assert_eq!(short.unit, 141 - 62);
         assert_eq!((short.m[0][0], short.r[0][0]), (3 << 21, 0));
@@ -161,11 +162,11 @@ mod tests {
     fn combinations_are_those_of_the_formula() {
         let top = (1i64 << 61) - 1;
         let list = [
-            (Integer::from(3), Integer::from(5)),                                    // exact
-            (Integer::from(3) << 70u32, Integer::from(5) << 65u32),                  // exact, though long
-            ((Integer::from(3) << 70u32) + 1, Integer::from(5) << 65u32),            // the first is cut
-            (Integer::from(3) << 70u32, (Integer::from(5) << 65u32) + 1),            // the second is cut
-            ((Integer::one() << 80u32) - 1, (Integer::one() << 79u32) - 1),          // both
+            (Integer::from(3), Integer::from(5)),                           // exact
+            (Integer::from(3) << 70u32, Integer::from(5) << 65u32),         // exact, though long
+            ((Integer::from(3) << 70u32) + 1, Integer::from(5) << 65u32),   // the first is cut
+            (Integer::from(3) << 70u32, (Integer::from(5) << 65u32) + 1),   // the second is cut
+            ((Integer::one() << 80u32) - 1, (Integer::one() << 79u32) - 1), // both
             (Integer::one(), (Integer::one() << 62u32) + 1),
         ];
         let matrices = [
@@ -211,7 +212,10 @@ mod tests {
     #[test]
     fn values_and_radii_have_a_limit() {
         let limit = 1i64 << BITS;
-        assert_eq!([around(limit, 0, true), around(-limit, 0, true), around(limit + 1, 0, true)], [Some((limit, 0)), Some((-limit, 0)), None]);
+        assert_eq!(
+            [around(limit, 0, true), around(-limit, 0, true), around(limit + 1, 0, true)],
+            [Some((limit, 0)), Some((-limit, 0)), None]
+        );
         assert_eq!([around(1, limit - 2, false), around(1, limit - 1, false)], [Some((1, limit)), None]);
         assert_eq!(around(1, i64::MAX, false), None);
     }

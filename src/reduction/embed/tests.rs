@@ -6,7 +6,9 @@ use crate::model::{Pencil, Unknown};
 
 /// Variable 1 is free. The diagonals of A are 4, 64, 1/16 and 0: scales 1/2, 1/8, 4 and that of B, 1/4.
 fn pencil() -> Pencil {
-    let entries = |list: &[(usize, usize, i64, i64)]| Sparse::from_entries(4, 4, list.iter().map(|&(i, j, p, q)| (i, j, rational(p, q))).collect::<Vec<_>>());
+    let entries = |list: &[(usize, usize, i64, i64)]| {
+        Sparse::from_entries(4, 4, list.iter().map(|&(i, j, p, q)| (i, j, rational(p, q))).collect::<Vec<_>>())
+    };
     let a = entries(&[(0, 0, -4, 1), (1, 1, 64, 1), (2, 2, 1, 16), (0, 1, 3, 1), (1, 0, 3, 1), (2, 0, -1, 2)]);
     let b = entries(&[(0, 0, 2, 1), (1, 1, 5, 1), (2, 2, 1, 1), (3, 3, 16, 1)]);
     Pencil::new(a, b, vec![1]).unwrap()
@@ -91,7 +93,13 @@ fn directions_are_normal() {
     let e = embedding(Side::Above(0.0));
     let list: Vec<f64> = (0..10_000).flat_map(|seed| e.direction(seed, false)[..4].to_vec()).collect();
     let moment = |k: i32| list.iter().map(|v| v.powi(k)).sum::<f64>() / list.len() as f64;
-    assert!(moment(1).abs() < 0.025 && (moment(2) - 1.0).abs() < 0.04 && (moment(4) - 3.0).abs() < 0.25, "{} {} {}", moment(1), moment(2), moment(4));
+    assert!(
+        moment(1).abs() < 0.025 && (moment(2) - 1.0).abs() < 0.04 && (moment(4) - 3.0).abs() < 0.25,
+        "{} {} {}",
+        moment(1),
+        moment(2),
+        moment(4)
+    );
     for seed in 0..5 {
         let (even, uneven) = (e.direction(seed, false), e.direction(seed, true));
         assert_eq!((even.len(), even[4], uneven[4]), (5, 0.0, 0.0));

@@ -214,7 +214,10 @@ mod tests {
         let p = problem(1, &[0.0], &[4.0]);
         let of = |z: f64, f: f64| Places::at_solution(&p, &Point { z: dvector![z], f: dvector![f], merit: 0.0 }).0[0];
         assert_eq!([of(1e-9, 1.0), of(1.0, 1e-9), of(0.0, 0.0), of(1.0, 1.0)], [Place::Lower, Place::Inside, Place::Lower, Place::Lower]);
-        assert_eq!([of(4.0, -1.0), of(3.0, -1e-9), of(3.0, -1.0), of(2.0, 0.0)], [Place::Upper, Place::Inside, Place::Upper, Place::Inside]);
+        assert_eq!(
+            [of(4.0, -1.0), of(3.0, -1e-9), of(3.0, -1.0), of(2.0, 0.0)],
+            [Place::Upper, Place::Inside, Place::Upper, Place::Inside]
+        );
         let fixed = problem(1, &[4.0], &[4.0]);
         assert_eq!(Places::at_solution(&fixed, &Point { z: dvector![4.0], f: dvector![3.0], merit: 0.0 }).0, [Place::Fixed]);
     }
@@ -223,7 +226,10 @@ mod tests {
     fn lifted_multipliers_are_on_the_right_side() {
         let p = Places(vec![Place::Inside, Place::Lower, Place::Upper, Place::Fixed]);
         let lift = |i: usize, f: f64| p.lifted_multiplier(i, f, 0.25);
-        assert_eq!([lift(0, 3.0), lift(1, 3.0), lift(1, -3.0), lift(2, -3.0), lift(2, 3.0), lift(3, -3.0)], [0.0, 3.25, 0.25, -3.25, -0.25, -3.0]);
+        assert_eq!(
+            [lift(0, 3.0), lift(1, 3.0), lift(1, -3.0), lift(2, -3.0), lift(2, 3.0), lift(3, -3.0)],
+            [0.0, 3.25, 0.25, -3.25, -0.25, -3.0]
+        );
     }
 
     /// Values of the three quantities and their derivatives by (z_I, s).

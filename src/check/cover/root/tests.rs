@@ -76,7 +76,8 @@ fn norm(s: &System<'_>, e: &Ends, is_right: bool) -> Rational {
 }
 
 fn residual(s: &System<'_>, e: &Ends, end: usize, is_right: bool, i: usize) -> (Rational, Rational) {
-    let term = |j: usize| if is_right { (q(&s.v[j]) / whole(ONE), entry(e, end, i, j)) } else { (q(&s.u[j]) / whole(ONE), entry(e, end, j, i)) };
+    let term =
+        |j: usize| if is_right { (q(&s.v[j]) / whole(ONE), entry(e, end, i, j)) } else { (q(&s.u[j]) / whole(ONE), entry(e, end, j, i)) };
     ((0..3).map(|j| term(j).0 * term(j).1.0).sum(), (0..3).map(|j| term(j).0.abs() * term(j).1.1).sum())
 }
 
