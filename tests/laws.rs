@@ -9,7 +9,7 @@ fn sources(room: &str) -> Vec<(PathBuf, String)> {
     let mut list = Vec::new();
     let mut stack = vec![folder, file];
     while let Some(path) = stack.pop() {
-        if path.ends_with("tests") {
+        if path.ends_with("tests") || (path.ends_with("tests.rs") && is_for_tests(&path)) {
             continue; // not the code of the room
         }
         if path.is_dir() {
@@ -22,6 +22,13 @@ fn sources(room: &str) -> Vec<(PathBuf, String)> {
     }
     assert!(!list.is_empty(), "room {room} has no sources");
     list
+}
+
+/// Is this file a module of its parent under `cfg(test)`?
+fn is_for_tests(path: &Path) -> bool {
+    let folder = path.parent().unwrap();
+    let parent = [folder.join("mod.rs"), folder.with_extension("rs")].into_iter().find(|p| p.is_file()).unwrap();
+    std::fs::read_to_string(parent).unwrap().contains("#[cfg(test)]\nmod tests;")
 }
 
 /// Rooms named anywhere in the code of a room (not in comments or doc examples).

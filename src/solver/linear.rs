@@ -59,3 +59,40 @@ fn lemke(problem: &LinearMcp, options: &Options) -> Path {
     let limits = Limits { pivots: options.minor_iteration_limit, cycle_entries: options.cycle_entry_limit, rule: options.ratio_test };
     follow(&sub, Start::Ray, &DVector::zeros(q.len()), limits)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::solve;
+    use super::*;
+    use nalgebra::dmatrix;
+
+    /// What is counted is what is in the log: one path from the ray, its pivots and factorisations.
+    #[test]
+    fn counters_are_those_of_the_path() {
+        let lcp = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
+        let outcome = solve_linear(&lcp, &Options::default()).unwrap();
+        let path = &outcome.log[0].paths[0];
+        assert!(path.pivots.len() >= 2 && outcome.log.len() == 1);
+        let c = &outcome.counters;
+        assert_eq!((c.majors, c.pivots, c.ray_starts), (1, path.pivots.len(), 1));
+        assert!(c.factorisations >= 2);
+    }
+
+    /// A second path, from the ray, is only followed where the first one ends before t = 1; both are counted.
+    #[test]
+    fn the_ray_is_for_paths_that_fail() {
+        let options = Options { restart_limit: 0, ..Options::default() };
+        let good = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
+        let outcome = solve(&good, &[7.0, 9.0], &Options { crash_iteration_limit: 0, ..options.clone() }).unwrap();
+        assert!(outcome.termination.reached_tolerance());
+        let paths: Vec<usize> = outcome.log.iter().map(|m| m.paths.len()).filter(|n| *n > 0).collect();
+        assert!(!paths.is_empty() && paths.iter().all(|n| *n == 1), "{paths:?}");
+        assert_eq!(outcome.counters.ray_starts, 0);
+        // F = -1 for every z: no path gets anywhere.
+        let none = LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap();
+        let outcome = solve(&none, &[1.0], &options).unwrap();
+        assert!(!outcome.termination.reached_tolerance());
+        let second = outcome.log.iter().filter(|m| m.paths.len() == 2).count();
+        assert!(second > 0 && outcome.counters.ray_starts >= second, "{:?}", outcome.counters);
+    }
+}

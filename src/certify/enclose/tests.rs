@@ -60,6 +60,13 @@ fn a_candidate_too_far_away_is_not_the_solution() {
     let at = |value: f64| make(&p, &IntegralRows::of(&p), &Window::all(), &[0], &Candidate { value, x: vec![1.0] }).map(|_| ());
     assert_eq!([at(1_000_000.0), at(1_000_090.0), at(999_910.0)], [Ok(()), Ok(()), Ok(())]);
     assert!([1_000_150.0, 999_850.0].iter().all(|v| matches!(at(*v), Err(AttemptFailure::TooFar { .. }))));
+    // At 10 it is 0.0011.
+    let p = Pencil::new(Sparse::from_ints(&[&[-10]]), Sparse::identity(1), vec![]).unwrap();
+    let at = |value: f64| make(&p, &IntegralRows::of(&p), &Window::all(), &[0], &Candidate { value, x: vec![1.0] }).map(|_| ());
+    assert!(at(10.00105).is_ok() && at(10.00115).is_err());
+    // At zero the value is no scale.
+    let p = Pencil::new(Sparse::from_entries(1, 1, []), Sparse::identity(1), vec![]).unwrap();
+    assert!(make(&p, &IntegralRows::of(&p), &Window::all(), &[0], &Candidate { value: 0.0, x: vec![1.0] }).is_ok());
     // At a value near zero the bound is X_RADIUS itself, not the ten times smaller one of values.
     let p = Pencil::new(Sparse::from_entries(1, 1, [(0, 0, rational(-1, 1000))]), Sparse::identity(1), vec![]).unwrap();
     let at = |value: f64| make(&p, &IntegralRows::of(&p), &Window::all(), &[0], &Candidate { value, x: vec![1.0] }).map(|_| ());

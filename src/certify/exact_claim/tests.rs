@@ -67,12 +67,18 @@ fn components_beyond_doubles_are_compared_exactly() {
     let huge = Rational::from_integer(crate::exact::Integer::from(10).pow(400));
     let a = Sparse::from_entries(2, 2, [(0, 0, -&huge), (0, 1, whole(1)), (1, 0, whole(0)), (1, 1, whole(-1))]);
     let p = Pencil::new(a, Sparse::from_entries(2, 2, [(1, 1, whole(1))]), vec![0]).unwrap();
-    // x_0 = 1, x_1 = 10^400 at t = 1; relative to x_1 the free one is nothing.
+    // x_0 = 1, x_1 = 10^400 at t = 1: relative to x_1 the free one is nothing.
     let c = claim_of(&p, &Window::all(), 1.0, &[0.0, 1.0]);
-    assert_eq!(
-        (c.support, constants(&ExactSolution { support: vec![], ..claim_of(&p, &Window::all(), 1.0, &[0.0, 1.0]) })[0].clone()),
-        (vec![1], whole(1))
-    );
+    assert_eq!((c.support.clone(), constants(&c)[0].clone()), (vec![1], whole(1)));
+    assert!(certify(&p, &Window::all(), &Candidate { value: 1.0, x: vec![5.0, 1.0] }).is_err());
+}
+
+/// x = (1000, 1) with the first free: distances are in units of e'x_s, so that 0.01 of the free one is far.
+#[test]
+fn free_components_are_compared_in_units_of_the_slip_ones() {
+    let p = Pencil::new(Sparse::from_ints(&[&[1, -1000], &[0, -1]]), Sparse::from_ints(&[&[0, 0], &[0, 1]]), vec![0]).unwrap();
+    let at = |free: f64| certify(&p, &Window::all(), &Candidate { value: 1.0, x: vec![free, 1.0] }).is_ok();
+    assert!(at(1000.0) && at(1000.0001) && !at(1000.01) && !at(999.99));
 }
 
 #[test]

@@ -122,3 +122,25 @@ fn drift_is_noticed_and_mended() {
     assert!(tableau.exchange(block.place.unwrap(), block.at_upper, &column));
     assert!((tableau.values[0] - exact[0]).abs() < 1e-12, "{} {exact}", tableau.values);
 }
+
+#[test]
+fn a_path_reaches_the_largest_t_of_its_knots() {
+    let knot = |t: f64| Knot { t, z: dvector![4.0 * t], multiplier: dvector![0.0] };
+    let path = |list: &[f64]| Path {
+        knots: list.iter().map(|&t| knot(t)).collect(),
+        pivots: Vec::new(),
+        end: PathEnd::Ray,
+        start: Start::Regular,
+        factorisations: 2,
+    };
+    assert_eq!([path(&[0.0, 0.25, 0.75, 0.5]).reach(), path(&[0.0, 1.0]).reach(), path(&[]).reach()], [0.75, 1.0, 0.0]);
+    assert_eq!(path(&[0.0, 0.25, 0.75, 0.5]).at(0.5), Some(dvector![2.0]));
+    assert_eq!(path(&[0.0, 0.25]).at(0.5), None);
+}
+
+/// One for the start and one for its point: a short path makes no other.
+#[test]
+fn factorisations_are_counted() {
+    let path = followed(&dmatrix![2.0], &dvector![-3.0], &[0.0], &[INF], Start::Regular, &[0.0]);
+    assert_eq!(path.factorisations, 2);
+}
