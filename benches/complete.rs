@@ -173,8 +173,14 @@ fn costs(orders: &[usize]) {
     if orders.is_empty() {
         let lines: String = runs.iter().map(|r| r.line() + "\n").collect();
         std::fs::write(cost::CSV, format!("{}\n{lines}", cost::HEAD)).expect("spec/figures is there");
-        std::fs::write(cost::SVG, cost::picture(&runs).to_svg()).expect("spec/figures is there");
+        draw();
     }
+}
+
+/// The figure of the table as it stands in its file.
+fn draw() {
+    let runs = std::fs::read_to_string(cost::CSV).ok().and_then(|csv| cost::read(&csv)).expect("a table in spec/figures");
+    std::fs::write(cost::SVG, cost::picture(&runs).to_svg()).expect("spec/figures is there");
 }
 
 /// Larger refined meshes are measured from K only: their condensation in doubles as exact data takes minutes.
@@ -199,8 +205,7 @@ fn refined(slip: usize, tenth_stuck: bool, from_mesh: bool) {
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
     if words.first().is_some_and(|w| w == "draw") {
-        let runs = std::fs::read_to_string(cost::CSV).ok().and_then(|csv| cost::read(&csv)).expect("a table in spec/figures");
-        return std::fs::write(cost::SVG, cost::picture(&runs).to_svg()).expect("spec/figures is there");
+        return draw();
     }
     if words.first().is_some_and(|w| w == "cost") {
         return costs(&words[1..].iter().filter_map(|w| w.parse().ok()).collect::<Vec<_>>());
