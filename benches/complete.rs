@@ -8,8 +8,9 @@
 //! `-- random-30-mu` and its like: K0 and M = GG'/n + I/2, K1 = G'/sqrt n with G, G' standard normal, MCEIP-mu of
 //! (K0, K1) or MCEIP-lambda2 of (K0 + 3 K1, M) over [0, infinity), no free variables; the seeds from 1 on.
 //!
-//! `-- cost` measures the refined meshes alone and writes `spec/figures/complete-cost.csv` and `.svg`;
-//! `-- cost 10 20` these orders only, and writes nothing.
+//! `-- cost` measures the refined meshes alone, the whole run and a check of its result, and writes
+//! `spec/figures/complete-cost.csv` and `.svg`; `-- cost 10 20` these orders only, and writes nothing; `-- draw`
+//! draws the figure of the table there is.
 
 #[path = "../tests/support/cost.rs"]
 mod cost;
@@ -158,7 +159,7 @@ fn costs(orders: &[usize]) {
                 case: case.into(),
                 slip: pencil.slip().len(),
                 free: pencil.free().len(),
-                search: m.search,
+                complete: m.search + m.check,
                 check: m.check,
                 leaves: cover.leaves,
                 solutions: cover.solutions.len(),
@@ -172,8 +173,14 @@ fn costs(orders: &[usize]) {
     if orders.is_empty() {
         let lines: String = runs.iter().map(|r| r.line() + "\n").collect();
         std::fs::write(cost::CSV, format!("{}\n{lines}", cost::HEAD)).expect("spec/figures is there");
-        std::fs::write(cost::SVG, cost::picture(&runs).to_svg()).expect("spec/figures is there");
+        draw();
     }
+}
+
+/// The figure of the table as it stands in its file.
+fn draw() {
+    let runs = std::fs::read_to_string(cost::CSV).ok().and_then(|csv| cost::read(&csv)).expect("a table in spec/figures");
+    std::fs::write(cost::SVG, cost::picture(&runs).to_svg()).expect("spec/figures is there");
 }
 
 /// Larger refined meshes are measured from K only: their condensation in doubles as exact data takes minutes.
@@ -197,6 +204,9 @@ fn refined(slip: usize, tenth_stuck: bool, from_mesh: bool) {
 
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    if words.first().is_some_and(|w| w == "draw") {
+        return draw();
+    }
     if words.first().is_some_and(|w| w == "cost") {
         return costs(&words[1..].iter().filter_map(|w| w.parse().ok()).collect::<Vec<_>>());
     }

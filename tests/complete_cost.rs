@@ -1,5 +1,5 @@
 //! `spec/figures/complete-cost.svg` is drawn from the table beside it, which `cargo bench --bench complete -- cost`
-//! measures; a small mesh is measured here as there.
+//! measures; a small mesh is measured here as there. With `MCEIP_DRAW=1` the figure is drawn anew.
 #![cfg(all(feature = "testkit", feature = "picture"))]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -16,9 +16,12 @@ use std::sync::atomic::AtomicBool;
 #[test]
 fn the_figure_is_that_of_the_table() {
     let runs = read(&std::fs::read_to_string(CSV).unwrap()).unwrap();
+    if std::env::var_os("MCEIP_DRAW").is_some() {
+        std::fs::write(SVG, picture(&runs).to_svg()).unwrap();
+    }
     assert_eq!(std::fs::read_to_string(SVG).unwrap(), picture(&runs).to_svg());
-    // What the figure is about: every set closed, one solution each, the orders of the issue among them.
-    assert!(runs.iter().all(|r| (r.solutions, r.open) == (1, 0)), "{runs:?}");
+    // What the figure is about: one solution each, every set closed up to 80 nodes, the orders of the issue among them.
+    assert!(runs.iter().all(|r| r.solutions == 1 && (r.slip > 80 || r.open == 0) && r.check < r.complete), "{runs:?}");
     for (case, slip) in [("all slip", 40), ("all slip", 80), ("a tenth stuck", 70)] {
         assert!(runs.iter().any(|r| r.case == case && r.slip >= slip), "{case} {slip}");
     }
@@ -26,7 +29,7 @@ fn the_figure_is_that_of_the_table() {
 
 #[test]
 fn a_table_of_another_shape_is_refused() {
-    let run = Run { case: "a".into(), slip: 1, free: 2, search: 0.5, check: 0.25, leaves: 3, solutions: 1, open: 0, kilobytes: 4 };
+    let run = Run { case: "a".into(), slip: 1, free: 2, complete: 0.5, check: 0.25, leaves: 3, solutions: 1, open: 0, kilobytes: 4 };
     assert_eq!(read(&format!("# a comment\n{HEAD}\n{}\n", run.line())), Some(vec![run.clone()]));
     assert_eq!(read(&run.line()), None);
     assert_eq!(read(&format!("{HEAD}\n{},9\n", run.line())), None);

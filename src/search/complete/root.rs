@@ -11,6 +11,9 @@ use num_traits::One;
 
 /// Newton steps on the nonlinear eigenproblem.
 const NEWTON_STEPS: usize = 40;
+/// Steps of plain inverse iteration before the value is moved, tried one after the other. A value far above the
+/// others has u'Bv so small that what the first vectors have of other null vectors throws Newton's first step far off.
+const SETTLING_STEPS: [usize; 2] = [0, 2];
 /// Exponent of the null vectors.
 const VECTOR_BITS: u32 = 56;
 /// Bits tried for the inverse's largest entry.
@@ -27,19 +30,26 @@ pub(super) struct Null {
 /// Newton's method from the middle of [lo, hi] for T(t) v = 0 on the moving set, kept if it ends within
 /// the interval enlarged by half. (Nonlinear inverse iteration, Unger 1950; Ruhe 1973.)
 pub(super) fn null_vector(expansion: &Expansion, states: &[State], lo: f64, hi: f64) -> Option<Null> {
+    SETTLING_STEPS.iter().find_map(|settling| iterate(expansion, states, lo, hi, *settling))
+}
+
+fn iterate(expansion: &Expansion, states: &[State], lo: f64, hi: f64, settling: usize) -> Option<Null> {
     let moving: Vec<usize> = (0..states.len()).filter(|&i| states[i] == State::Moving).collect();
     let n = moving.len();
     let (mut t, mut left, mut right) = (lo + 0.47 * (hi - lo), vec![1.0; n], vec![1.0; n]);
     let reach = hi - lo;
-    for _ in 0..NEWTON_STEPS {
+    for step in 0..NEWTON_STEPS {
         let (m, d) = (sub(&expansion.at(t), &moving), sub(&expansion.derivative(t), &moving));
         // A singular factorisation means that t is the value, to rounding: move off a little.
-        let step = |m: &Matrix, right: Vec<f64>| solve(m, &[right]).map(|mut c| c.swap_remove(0));
-        let (Some(v), Some(u)) = (step(&m, times(&d, &right)), step(&transpose(&m), times(&transpose(&d), &left))) else {
+        let solved = |m: &Matrix, right: Vec<f64>| solve(m, &[right]).map(|mut c| c.swap_remove(0));
+        let (Some(v), Some(u)) = (solved(&m, times(&d, &right)), solved(&transpose(&m), times(&transpose(&d), &left))) else {
             t += ROUNDING * (t.abs() + reach);
             continue;
         };
         (right, left) = (normalised(v)?, normalised(u)?);
+        if step < settling {
+            continue;
+        }
         let slope = bilinear(&left, &d, &right);
         let correction = bilinear(&left, &m, &right) / slope;
         t -= correction;
@@ -309,4 +319,25 @@ fn integer(v: f64) -> Integer {
 
 fn to_double(v: &Integer, bits: u32) -> f64 {
     crate::exact::to_f64(&Rational::new(v.clone(), Integer::one() << bits))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::Sparse;
+    use crate::model::Pencil;
+
+    /// The values are 4500.33 and -0.33: like those of eighty supports of the plane-strain `\\` block, from which
+    /// Newton's first step went astray.
+    #[test]
+    fn a_value_far_above_the_others_is_found() {
+        let pencil =
+            Pencil::new(Sparse::from_ints(&[&[2000, -3000], &[1000, 0]]), Sparse::from_ints(&[&[-1001, -2000], &[1000, 2000]]), vec![]);
+        let view = super::super::view::View::of(&pencil.unwrap());
+        let (expansion, states) = (&view.expansions[0], [State::Moving; 2]);
+        assert!(iterate(expansion, &states, 4410.0, 4636.0, 0).is_none());
+        let value = null_vector(expansion, &states, 4410.0, 4636.0).unwrap().value;
+        // det (A + tB) = -2000 t^2 + 9,000,000 t + 3,000,000 = 0 at 2250 + sqrt(2250^2 + 1500)
+        approx::assert_relative_eq!(value, 2250.0 + (2250.0f64 * 2250.0 + 1500.0).sqrt(), max_relative = 1e-9);
+    }
 }
