@@ -4,6 +4,7 @@ use super::evaluation::jacobian_at;
 use super::fischer::{fischer, gradient};
 use super::normal_map::least_residual;
 use crate::mcp::Mcp;
+use nalgebra::{DMatrix, DVector};
 
 /// Infinity norms at a point z in [l, u]. NaN or infinite where F or F' is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,9 +40,21 @@ impl Residuals {
         let mut f = vec![0.0; n];
         problem.function(z, &mut f);
         let jacobian = jacobian_at(problem, z);
-        let mut residuals = Residuals::without_gradient(problem, z, &f);
-        residuals.fischer_gradient = norm(gradient(problem, z, &f, &jacobian).iter().copied());
-        residuals
+        let (mut gradient, mut work) = (DVector::zeros(n), DVector::zeros(n));
+        Residuals::with_gradient(problem, z, &f, &jacobian, &mut gradient, &mut work)
+    }
+
+    /// All five of F and F' as given; the vectors are of length n and for work.
+    pub(super) fn with_gradient<P: Mcp + ?Sized>(
+        problem: &P,
+        z: &[f64],
+        f: &[f64],
+        jacobian: &DMatrix<f64>,
+        out: &mut DVector<f64>,
+        work: &mut DVector<f64>,
+    ) -> Residuals {
+        gradient(problem, z, f, jacobian, out, work);
+        Residuals { fischer_gradient: norm(out.iter().copied()), ..Residuals::without_gradient(problem, z, f) }
     }
 
     /// The first four; the gradient is left at zero.
@@ -84,7 +97,7 @@ fn norm(values: impl Iterator<Item = f64>) -> f64 {
 mod tests {
     use super::*;
     use crate::mcp::LinearMcp;
-    use nalgebra::{DMatrix, dmatrix};
+    use nalgebra::dmatrix;
 
     struct Reciprocal;
 

@@ -1,8 +1,7 @@
 //! The numbers the path is pivoted in: doubles in the solver, exact rationals in the tests that hold
 //! Lemke's method to its finiteness theorem. One code for both.
 
-use super::super::dense;
-use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, DVector, Scalar};
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar};
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
 use std::ops::Neg;
@@ -28,12 +27,6 @@ pub(in super::super) trait Number:
 
     /// A total order.
     fn order(&self, other: &Self) -> Ordering;
-
-    /// The inverse, or `None` where the matrix is (numerically) singular.
-    fn invert(matrix: &DMatrix<Self>) -> Option<DMatrix<Self>>;
-
-    /// The solution of A x = b, or `None` where A is (numerically) singular.
-    fn solve(a: DMatrix<Self>, b: &DVector<Self>) -> Option<DVector<Self>>;
 
     /// |x|.
     fn magnitude(&self) -> Self {
@@ -75,10 +68,7 @@ impl Number for f64 {
     fn order(&self, other: &f64) -> Ordering {
         self.total_cmp(other)
     }
-    fn invert(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-        dense::invert(matrix)
-    }
-    fn solve(a: DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
-        dense::solve(a, b)
+    fn magnitude(&self) -> f64 {
+        self.abs()
     }
 }
