@@ -96,7 +96,7 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     pub(super) fn jacobian(&mut self, point: &Point) -> Result<DMatrix<f64>, Termination> {
         let j = self.any_jacobian(point);
         // Without a branch for each entry.
-        if j.iter().fold(true, |finite, v| finite & v.is_finite()) {
+        if j.as_slice().iter().fold(true, |finite, v| finite & v.is_finite()) {
             return Ok(j);
         }
         let places = (0..j.nrows()).flat_map(|row| (0..j.ncols()).map(move |col| (row, col)));
@@ -111,7 +111,7 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
         let n = point.z.len();
         let unused = self.pool.matrices.pop().filter(|j| j.shape() == (n, n));
         let mut j = unused.unwrap_or_else(|| DMatrix::zeros(n, n));
-        j.fill(0.0);
+        j.as_mut_slice().fill(0.0);
         write_jacobian(self.problem, point.z.as_slice(), j)
     }
 }

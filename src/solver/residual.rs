@@ -1,7 +1,7 @@
 //! The five residuals, always reported together, each with its definition. None of them certifies.
 
 use super::evaluation::jacobian_at;
-use super::fischer::{fischer, gradient};
+use super::fischer::{Fischer, fischer, gradient};
 use super::normal_map::least_residual;
 use crate::mcp::Mcp;
 use nalgebra::{DMatrix, DVector};
@@ -59,7 +59,22 @@ impl Residuals {
 
     /// The first four; the gradient is left at zero.
     pub(super) fn without_gradient<P: Mcp + ?Sized>(problem: &P, z: &[f64], f: &[f64]) -> Residuals {
-        let (l, u) = (problem.lower(), problem.upper());
+        Residuals::within_bounds(problem.lower(), problem.upper(), z, f)
+    }
+
+    /// All five from parts: bounds, z and F(z), all of length n, and the product y -> F'(z)' y, which
+    /// writes its second argument.
+    pub fn of(l: &[f64], u: &[f64], z: &[f64], f: &[f64], product: impl Fn(&[f64], &mut [f64])) -> Residuals {
+        let phi: Vec<Fischer> = (0..z.len()).map(|i| fischer(z[i], f[i], l[i], u[i])).collect();
+        let by_f: Vec<f64> = phi.iter().map(|phi| phi.by_f * phi.value).collect();
+        let mut gradient = vec![0.0; z.len()];
+        product(&by_f, &mut gradient);
+        let gradient = norm(gradient.iter().zip(&phi).map(|(g, phi)| g + phi.by_z * phi.value));
+        Residuals { fischer_gradient: gradient, ..Residuals::within_bounds(l, u, z, f) }
+    }
+
+    /// The first four, of bounds as given.
+    fn within_bounds(l: &[f64], u: &[f64], z: &[f64], f: &[f64]) -> Residuals {
         let indices = || 0..z.len();
         Residuals {
             complementarity: norm(indices().map(|i| product(z[i], f[i], l[i], u[i]))),

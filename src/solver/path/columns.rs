@@ -1,7 +1,7 @@
 //! The columns of M z - w + v + D a - t r = -(q + r): unit columns, those of M, and that of t.
 
 use super::Subproblem;
-use super::number::{Number, largest};
+use super::number::Number;
 use super::variable::Variable;
 
 /// What belongs to one path besides its subproblem. Storage is kept.
@@ -41,9 +41,9 @@ impl<T: Number> Frame<T> {
         self.artificial_row.clear();
         self.artificial_row.resize(n, None);
         self.sizes.clear();
-        self.sizes.extend((0..n).map(|i| largest(sub.column(i))));
-        self.sizes.push(largest(&self.covering));
-        self.scale = Some(largest(sub.q) + self.sizes[n].clone());
+        self.sizes.extend((0..n).map(|i| T::largest(sub.column(i))));
+        self.sizes.push(T::largest(&self.covering));
+        self.scale = Some(T::largest(sub.q) + self.sizes[n].clone());
     }
 
     /// Gives z_i an artificial whose column is the unit vector of a row.

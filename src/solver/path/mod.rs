@@ -31,13 +31,13 @@ mod walk;
 pub use variable::{Pivot, PivotKind, Variable};
 
 use super::RatioTest;
-use super::dense::{Lu, subtract};
+use super::dense::subtract;
 use basis::Basis;
 use columns::Frame;
 pub(super) use knots::Knots;
 use nalgebra::DMatrix;
 pub(super) use number::Number;
-use start::{start_point, starting_basis};
+use start::{FreeRows, start_point, starting_basis};
 use tableau::{State, Tableau};
 use walk::Walk;
 
@@ -119,12 +119,18 @@ pub(super) struct Storage<T = f64> {
     basis: Basis<T>,
     state: State<T>,
     entries: Vec<[usize; 3]>,
-    free: Lu<T>,
+    free: FreeRows<T>,
 }
 
 impl<T> Default for Storage<T> {
     fn default() -> Self {
-        Storage { frame: Frame::default(), basis: Basis::default(), state: State::default(), entries: Vec::new(), free: Lu::default() }
+        Storage {
+            frame: Frame::default(),
+            basis: Basis::default(),
+            state: State::default(),
+            entries: Vec::new(),
+            free: FreeRows::default(),
+        }
     }
 }
 

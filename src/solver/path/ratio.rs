@@ -3,7 +3,7 @@
 
 use super::super::RatioTest;
 use super::super::tolerance::{EXPAND_STEP, EXPAND_WIDTH, LEXICOGRAPHIC, PIVOT, TIE};
-use super::number::{Number, largest};
+use super::number::Number;
 use super::tableau::Tableau;
 use super::variable::Variable;
 use std::cmp::Ordering;
@@ -79,7 +79,7 @@ fn expand_test<T: Number>(tableau: &Tableau<'_, T>, blocks: &[Block<T>], pivots:
 fn list_blocks<T: Number>(tableau: &Tableau<'_, T>, blocks: &mut Vec<Block<T>>) {
     blocks.clear();
     let rates = &tableau.state.rates;
-    let threshold = T::tolerance(PIVOT) * largest(rates).larger(T::one());
+    let threshold = T::tolerance(PIVOT) * T::largest(rates).larger(T::one());
     for (place, rate) in rates.iter().enumerate().filter(|(_, rate)| rate.magnitude() > threshold) {
         let (lower, upper) = tableau.bounds(tableau.basis.variables[place]);
         let rises = *rate > T::zero();
@@ -122,7 +122,7 @@ fn perturbed_step<T: Number>(tableau: &mut Tableau<'_, T>, block: &Block<T>, row
 
 /// The first component in which two rows differ decides; components within rounding are equal.
 fn lexicographic<T: Number>(a: &[T], b: &[T]) -> Ordering {
-    let scale = largest(a).larger(largest(b)).larger(T::tolerance(f64::MIN_POSITIVE));
+    let scale = T::largest(a).larger(T::largest(b)).larger(T::tolerance(f64::MIN_POSITIVE));
     let equal = T::tolerance(LEXICOGRAPHIC) * scale;
     let differs = a.iter().zip(b).find(|(x, y)| ((*x).clone() - (*y).clone()).magnitude() > equal);
     differs.map_or(Ordering::Equal, |(x, y)| x.order(y))

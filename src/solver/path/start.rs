@@ -10,7 +10,7 @@ use super::{Path, Start, Subproblem};
 
 /// Sets z and the multipliers w - v of the state to the start of the given kind, a point of the normal
 /// map's domain; the regular one over `current`.
-pub(super) fn start_point<T: Number>(sub: &Subproblem<'_, T>, kind: Start, current: &[T], state: &mut State<T>, free: &mut Lu<T>) {
+pub(super) fn start_point<T: Number>(sub: &Subproblem<'_, T>, kind: Start, current: &[T], state: &mut State<T>, free: &mut FreeRows<T>) {
     match kind {
         Start::Regular => regular(sub, current, state),
         Start::Ray => ray(sub, state, free),
@@ -38,11 +38,11 @@ fn absorbed<T: Number>(z: &T, f: &T, lower: &T, upper: &T) -> T {
 
 /// Lemke's ray: bounded z at a bound, free z solving their rows, and all multipliers lifted by the
 /// same amount until they are positive, so that t -> -inf is a ray of the path.
-fn ray<T: Number>(sub: &Subproblem<'_, T>, state: &mut State<T>, free: &mut Lu<T>) {
+fn ray<T: Number>(sub: &Subproblem<'_, T>, state: &mut State<T>, free: &mut FreeRows<T>) {
     let State { z, multiplier, .. } = state;
     z.clear();
     z.extend(sub.lower.iter().zip(sub.upper).map(|(l, u)| bound_or_zero(l, u)));
-    solve_free_rows(sub, z, multiplier, free);
+    free.solve(sub, z, multiplier);
     sub.value(z, multiplier);
     let side = |i: usize| match (sub.lower[i].is_finite(), sub.upper[i].is_finite()) {
         _ if sub.lower[i] == sub.upper[i] => T::zero(),
@@ -70,24 +70,42 @@ fn bound_or_zero<T: Number>(lower: &T, upper: &T) -> T {
     }
 }
 
-/// Sets the free z so that their own rows vanish, if those rows are regular; else leaves them at 0.
-fn solve_free_rows<T: Number>(sub: &Subproblem<'_, T>, z: &mut [T], value: &mut Vec<T>, lu: &mut Lu<T>) {
-    let free: Vec<usize> = (0..z.len()).filter(|&i| !sub.lower[i].is_finite() && !sub.upper[i].is_finite()).collect();
-    if free.is_empty() {
-        return;
+/// The rows of the unknowns without bounds. Storage is kept.
+pub(super) struct FreeRows<T> {
+    indices: Vec<usize>,
+    lu: Lu<T>,
+    step: Vec<T>,
+}
+
+impl<T> Default for FreeRows<T> {
+    fn default() -> Self {
+        FreeRows { indices: Vec::new(), lu: Lu::default(), step: Vec::new() }
     }
-    sub.value(z, value);
-    let gather = |j: usize, rows: &[usize], out: &mut [T]| {
-        let column = sub.column(free[j]);
-        rows.iter().zip(out).for_each(|(&i, o)| *o = column[free[i]].clone());
-    };
-    if !lu.factor(free.len(), gather, |_| T::zero()) {
-        return;
-    }
-    let mut step: Vec<T> = lu.rows().iter().map(|&i| -value[free[i]].clone()).collect();
-    lu.solve(&mut step);
-    if step.iter().all(T::is_finite) {
-        free.iter().zip(step).for_each(|(&i, v)| z[i] = v);
+}
+
+impl<T: Number> FreeRows<T> {
+    /// Sets the free z so that their own rows vanish, if those rows are regular; else leaves them.
+    fn solve(&mut self, sub: &Subproblem<'_, T>, z: &mut [T], value: &mut Vec<T>) {
+        let FreeRows { indices, lu, step } = self;
+        indices.clear();
+        indices.extend((0..z.len()).filter(|&i| !sub.lower[i].is_finite() && !sub.upper[i].is_finite()));
+        if indices.is_empty() {
+            return;
+        }
+        sub.value(z, value);
+        let gather = |j: usize, rows: &[usize], out: &mut [T]| {
+            let column = sub.column(indices[j]);
+            rows.iter().zip(out).for_each(|(&i, o)| *o = column[indices[i]].clone());
+        };
+        if !lu.factor(indices.len(), gather, |_| T::zero()) {
+            return;
+        }
+        step.clear();
+        step.extend(lu.rows().iter().map(|&i| -value[indices[i]].clone()));
+        lu.solve(step);
+        if step.iter().all(T::is_finite) {
+            indices.iter().zip(step.iter()).for_each(|(&i, v)| z[i] = v.clone());
+        }
     }
 }
 
@@ -140,7 +158,7 @@ mod tests {
         let m = dmatrix![2.0, 1.0, 0.0; 0.0, 1.0, 1.0; 1.0, 0.0, 1.0];
         let sub = Subproblem { m: &m, q: &[-4.0, -3.0, 5.0], lower: &[-INF, 0.0, -INF], upper: &[INF, INF, 1.0] };
         let mut start = State::default();
-        ray(&sub, &mut start, &mut Lu::default());
+        ray(&sub, &mut start, &mut FreeRows::default());
         assert_eq!(start.z, [2.0, 0.0, 1.0]);
         let m = &start.multiplier;
         assert!(m[1] > 0.0 && m[2] < 0.0 && m[0] == 0.0);

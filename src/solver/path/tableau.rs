@@ -4,7 +4,7 @@ use super::super::dense::subtract;
 use super::super::tolerance::DRIFT;
 use super::basis::Basis;
 use super::columns::Columns;
-use super::number::{Number, largest};
+use super::number::Number;
 use super::ratio::Block;
 use super::variable::Variable;
 
@@ -218,7 +218,7 @@ impl<'a, T: Number> Tableau<'a, T> {
                 Some((row, false)) => sum[row] += value.clone(),
             }
         }
-        if size > T::zero() { largest(&*sum) / size } else { T::zero() }
+        if size > T::zero() { T::largest(&*sum) / size } else { T::zero() }
     }
 
     /// Factors and values from scratch.

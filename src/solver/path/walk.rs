@@ -2,7 +2,7 @@
 
 use super::super::RatioTest;
 use super::super::tolerance::{RAY_STEP, TIE};
-use super::number::{Number, largest};
+use super::number::Number;
 use super::ratio::{Block, ratio_test};
 use super::tableau::Tableau;
 use super::variable::{Pivot, PivotKind, Variable};
@@ -86,8 +86,8 @@ impl<'a, T: Number> Walk<'a, T> {
 
     /// A point a little along the ray, as the last knot.
     fn step_along_ray(&mut self) {
-        let speed = largest(&self.tableau.state.rates).larger(T::one());
-        let step = T::from_double(RAY_STEP) * (T::one() + largest(&self.tableau.state.z)) / speed;
+        let speed = T::largest(&self.tableau.state.rates).larger(T::one());
+        let step = T::from_double(RAY_STEP) * (T::one() + T::largest(&self.tableau.state.z)) / speed;
         self.tableau.advance(&step);
         self.record_knot();
     }
