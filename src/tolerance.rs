@@ -142,3 +142,7 @@ pub const SINGULAR_PIVOT: f64 = 1e-13;
 /// offered as real, and the residual up to which Newton's method then keeps it. Unit: none. Basis: simple
 /// eigenvalues come with 1e-13 times their condition, below 1e4 for condensed meshes.
 pub const REAL_EIGENVALUE: f64 = 1e-9;
+
+/// Change of a solution by one step of iterative refinement, relative to it, above which a sparse block
+/// counts as singular. Unit: none. Basis: with six digits another step would still contract.
+pub const REFINED: f64 = 1e-6;
