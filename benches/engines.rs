@@ -6,7 +6,7 @@ use mceip::exact::{Sparse, whole};
 use mceip::model::{Admissible, Pencil, Unknown, Window};
 use mceip::oracle::enumerate;
 use mceip::reduction::{Embedding, Side, condense, reduce};
-use mceip::solver::{Options, solve};
+use mceip::solver::{Options, Solver, solve};
 use mceip::source::{Block, BlockModel, MassKind, PublishedState};
 use std::hint::black_box;
 
@@ -64,6 +64,10 @@ fn engines(c: &mut Criterion) {
         let start = embedding.starts(1, 1).remove(0);
         group.bench_with_input(BenchmarkId::from_parameter(n), &start, |b, s| {
             b.iter(|| solve(&embedding, black_box(s), &Options::default()))
+        });
+        let mut solver = Solver::new();
+        group.bench_with_input(BenchmarkId::new("storage kept", n), &start, |b, s| {
+            b.iter(|| solver.run(&embedding, black_box(s), &Options::default()))
         });
     }
     group.finish();

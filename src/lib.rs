@@ -15,7 +15,7 @@
 //!
 //! Floats propose, exact arithmetic decides. The rooms, in the order of the data:
 //! [`exact`] numbers, [`model`] problems and files, [`source`] examples, [`reduction`] (10)-(16) and
-//! Propositions 1 and 2, [`oracle`] the slow truth, `mcp` and `solver` the PATH-style solver,
+//! Propositions 1 and 2, [`oracle`] the slow truth, `mcp`, `solver` and `sparse` the PATH-style solver,
 //! `certify` and [`certificate`], [`check`] the verdict, `analysis` the engineer's answer, `testkit` what compares
 //! them all.
 //!
@@ -63,6 +63,8 @@ pub mod search;
 #[cfg(feature = "solver")]
 pub mod solver;
 pub mod source;
+#[cfg(feature = "solver")]
+pub mod sparse;
 #[cfg(feature = "testkit")]
 pub mod testkit;
 #[cfg(feature = "solver")]

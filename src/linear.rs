@@ -2,6 +2,7 @@
 //!
 //! | file | what |
 //! |---|---|
+//! | `matching` | structural singularity |
 //! | `symmetric` | sparse symmetric matrices |
 //! | `dissection` | nested dissection: the order of elimination |
 //! | `analysis` | which fronts there are, and who passes what to whom |
@@ -9,10 +10,12 @@
 
 mod analysis;
 mod dissection;
+mod matching;
 mod multifrontal;
 mod symmetric;
 
 pub use analysis::Analysis;
+pub use matching::unmatched_row;
 pub use multifrontal::{NotDefinite, SchurFactor};
 pub use symmetric::{Symmetric, SymmetricError};
 
@@ -22,6 +25,8 @@ use faer::linalg::matmul::triangular::{BlockStructure, matmul};
 use faer::linalg::solvers::{DenseSolveCore, Solve};
 use faer::linalg::triangular_solve::solve_lower_triangular_in_place;
 use faer::prelude::{Reborrow, ReborrowMut};
+use faer::sparse::linalg::solvers::Lu;
+use faer::sparse::{SparseColMat, Triplet};
 use faer::{Accum, Mat, MatMut, Par, Side};
 
 /// The inverse of a dense matrix given by rows (n x n), by LU with partial pivoting.
@@ -45,6 +50,39 @@ pub fn solve(rows: &[Vec<f64>], columns: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let x = m.partial_piv_lu().solve(&right);
     let columns: Vec<Vec<f64>> = (0..columns.len()).map(|j| (0..n).map(|i| x[(i, j)]).collect()).collect();
     columns.iter().flatten().all(|v| v.is_finite()).then_some(columns)
+}
+
+/// Factors of a sparse square matrix, by LU with row pivoting and an order that keeps them sparse.
+#[derive(Debug, Clone)]
+pub struct SparseLu {
+    order: usize,
+    /// None of a matrix without rows.
+    factors: Option<Lu<usize, f64>>,
+}
+
+impl SparseLu {
+    /// From entries (row, column, value), row and column below the order; entries of one place add up.
+    ///
+    /// `None` where elimination finds no pivot. A matrix that is singular but for rounding may pass: the
+    /// residual of a solution tells.
+    pub fn new(order: usize, entries: impl IntoIterator<Item = (usize, usize, f64)>) -> Option<SparseLu> {
+        if order == 0 {
+            return Some(SparseLu { order, factors: None });
+        }
+        let entries: Vec<Triplet<usize, usize, f64>> = entries.into_iter().map(|(i, j, v)| Triplet::new(i, j, v)).collect();
+        let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(order, order, &entries).ok()?;
+        Some(SparseLu { order, factors: Some(matrix.sp_lu().ok()?) })
+    }
+
+    /// Replaces right-hand sides, columns of length `order`, by solutions.
+    pub fn solve(&self, columns: &mut [Vec<f64>]) {
+        let Some(factors) = &self.factors else { return };
+        let mut right = Mat::from_fn(self.order, columns.len(), |i, j| columns[j][i]);
+        factors.solve_in_place(&mut right);
+        for (j, column) in columns.iter_mut().enumerate() {
+            column.iter_mut().enumerate().for_each(|(i, v)| *v = right[(i, j)]);
+        }
+    }
 }
 
 /// The eigenvalues (real, imaginary) of a square matrix given by rows, in no particular order.

@@ -40,6 +40,16 @@ pub enum McpError {
         /// Length found.
         got: usize,
     },
+    /// An index of a sparse matrix beyond its order.
+    #[error("expected row and column of M < {order}, got ({row}, {col})")]
+    Index {
+        /// Row.
+        row: usize,
+        /// Column.
+        col: usize,
+        /// Order of the matrix.
+        order: usize,
+    },
     /// An entry is NaN, or infinite where it must not be.
     #[error("expected a finite {what}[{row}][{col}], got {got}")]
     NotFinite {

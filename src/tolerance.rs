@@ -155,3 +155,7 @@ pub const REAL_EIGENVALUE: f64 = 1e-9;
 /// Share of the way from lo to infinity (in lo / t) that a null vector's value in doubles may be off infinity, before the exact
 /// null vector there is asked for. Unit: none. Basis: roots are good to 1e-12; where it asks in vain nothing is lost.
 pub const AT_INFINITY: f64 = 1e-6;
+
+/// Change of a solution by one step of iterative refinement, relative to it, above which a sparse block
+/// counts as singular. Unit: none. Basis: with six digits another step would still contract.
+pub const REFINED: f64 = 1e-6;

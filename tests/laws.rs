@@ -45,7 +45,7 @@ fn imports(code: &str) -> Vec<String> {
 }
 
 /// Room, and everything it may import besides itself.
-const MAY_IMPORT: [(&str, &[&str]); 9] = [
+const MAY_IMPORT: [(&str, &[&str]); 10] = [
     ("exact", &[]),
     ("model", &["exact"]),
     // oracle: the data type of Table 1; the others: guesses of the loading path, verified exactly, and stepping.
@@ -55,6 +55,7 @@ const MAY_IMPORT: [(&str, &[&str]); 9] = [
     ("certificate", &["exact", "model"]),
     ("solver", &["mcp"]),
     ("mcp", &[]),
+    ("sparse", &["mcp", "solver", "linear", "tolerance"]),
     ("certify", &["exact", "model", "candidate", "certificate", "tolerance", "linear"]),
 ];
 

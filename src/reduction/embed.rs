@@ -10,7 +10,7 @@ use crate::candidate::Candidate;
 use crate::exact::to_f64;
 use crate::mcp::Mcp;
 use crate::model::Admissible;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -158,12 +158,15 @@ impl Embedding {
         z
     }
 
-    fn t(&self, zeta: f64) -> f64 {
-        self.origin + self.direction * self.unit * zeta
+    /// The entries of column j of A and B.
+    fn columns(&self, j: usize) -> impl Iterator<Item = (&f64, &f64)> {
+        let n = self.diagonal.len();
+        let place = j * n..(j + 1) * n;
+        self.a.as_slice()[place.clone()].iter().zip(&self.b.as_slice()[place])
     }
 
-    fn pencil_at(&self, zeta: f64) -> DMatrix<f64> {
-        &self.a + &self.b * self.t(zeta)
+    fn t(&self, zeta: f64) -> f64 {
+        self.origin + self.direction * self.unit * zeta
     }
 }
 
@@ -195,18 +198,25 @@ impl Mcp for Embedding {
     }
     fn function(&self, z: &[f64], f: &mut [f64]) {
         let n = self.diagonal.len();
-        let y = self.pencil_at(z[n]) * DVector::from_column_slice(&z[..n]); // E27, E31
-        f[..n].copy_from_slice(y.as_slice());
+        let t = self.t(z[n]);
+        let y = &mut f[..n];
+        y.fill(0.0); // E27, E31
+        for (j, u) in z[..n].iter().enumerate().filter(|(_, u)| **u != 0.0) {
+            y.iter_mut().zip(self.columns(j)).for_each(|(y, (a, b))| *y += (a + t * b) * u);
+        }
         f[n] = self.gamma(z); // E28, E33
     }
     fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
         let n = self.diagonal.len();
-        j.fill(0.0);
-        j.view_mut((0, 0), (n, n)).copy_from(&self.pencil_at(z[n]));
-        let column = &self.b * DVector::from_column_slice(&z[..n]) * (self.direction * self.unit);
-        j.view_mut((0, n), (n, 1)).copy_from(&column);
-        for i in (0..n).filter(|&i| !self.is_free[i]) {
-            j[(n, i)] = 1.0;
+        let (t, rate) = (self.t(z[n]), self.direction * self.unit);
+        let (left, right) = j.as_mut_slice().split_at_mut(n * (n + 1));
+        right.fill(0.0);
+        for (k, column) in left.chunks_exact_mut(n + 1).enumerate() {
+            for ((entry, last), (a, b)) in column.iter_mut().zip(right.iter_mut()).zip(self.columns(k)) {
+                *entry = a + t * b;
+                *last += b * (rate * z[k]);
+            }
+            column[n] = if self.is_free[k] { 0.0 } else { 1.0 };
         }
     }
 }

@@ -1,12 +1,23 @@
 //! The crash: projected Newton on the guessed active set, before the first path (Dirkse and Ferris
 //! 1997, "Crash techniques for large-scale complementarity problems").
 
-use super::dense::solve;
+use super::dense::Lu;
 use super::evaluation::{Evaluated, Point};
-use super::outcome::{MajorRecord, StepKind, Termination};
+use super::log::Log;
+use super::outcome::{StepKind, Termination};
 use super::tolerance::{ARMIJO, BACKTRACK, CRASH_GAIN, CRASH_PROXIMAL, CRASH_PROXIMAL_LEAST, CRASH_SMALLEST};
 use crate::mcp::Mcp;
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
+
+/// What a crash works with, kept from one to the next.
+#[derive(Default)]
+pub(super) struct Storage {
+    active: Vec<bool>,
+    inactive: Vec<usize>,
+    lu: Lu<f64>,
+    step: Vec<f64>,
+    direction: Vec<f64>,
+}
 
 /// Crash steps from `start`, at most `limit`, until the active set changes by at most one index or
 /// the merit hardly falls. Never raises the merit.
@@ -17,22 +28,30 @@ pub(super) fn crash<P: Mcp + ?Sized>(
     problem: &mut Evaluated<'_, P>,
     start: Point,
     limit: usize,
-    log: &mut Vec<MajorRecord>,
+    storage: &mut Storage,
+    log: &mut Log,
 ) -> Result<Point, Termination> {
     let mut point = start;
-    let mut active = active_set(problem.problem, &point);
+    storage.active.clear();
+    storage.active.extend((0..point.z.len()).map(|i| is_active(problem.problem, &point, i)));
     for _ in 0..limit {
         let jacobian = problem.jacobian(&point)?;
         problem.counters.factorisations += 1;
-        let (direction, proximal) = newton_direction(&jacobian, &point, &active);
-        let Some(next) = direction.and_then(|d| search(problem, &point, &d)) else { break };
+        let (solved, proximal) = storage.newton_direction(&jacobian, &point);
+        problem.recycle_matrix(jacobian);
+        if !solved {
+            break;
+        }
+        let Some(next) = search(problem, &point, &storage.direction) else { break };
         problem.counters.crash_steps += 1;
-        log.push(MajorRecord { merit: point.merit, step: StepKind::Crash, proximal, paths: Vec::new() });
+        log.step(point.merit, StepKind::Crash, proximal);
         let gained = next.merit <= (1.0 - CRASH_GAIN) * point.merit;
-        point = next;
-        let next_active = active_set(problem.problem, &point);
-        let changes = active.iter().zip(&next_active).filter(|(a, b)| a != b).count();
-        active = next_active;
+        problem.recycle(std::mem::replace(&mut point, next));
+        let mut changes = 0;
+        for (i, active) in storage.active.iter_mut().enumerate() {
+            let before = std::mem::replace(active, is_active(problem.problem, &point, i));
+            changes += usize::from(before != *active);
+        }
         if changes <= 1 || !gained {
             break;
         }
@@ -41,46 +60,56 @@ pub(super) fn crash<P: Mcp + ?Sized>(
 }
 
 /// At a bound, with F pointing strictly out of it.
-fn active_set<P: Mcp + ?Sized>(problem: &P, point: &Point) -> Vec<bool> {
-    let (l, u) = (problem.lower(), problem.upper());
-    let active = |i: usize| {
-        let (z, f) = (point.z[i], point.f[i]);
-        l[i] == u[i] || (z <= l[i] && f > 0.0) || (z >= u[i] && f < 0.0)
-    };
-    (0..point.z.len()).map(active).collect()
+fn is_active<P: Mcp + ?Sized>(problem: &P, point: &Point, i: usize) -> bool {
+    let (l, u) = (problem.lower()[i], problem.upper()[i]);
+    let (z, f) = (point.z[i], point.f[i]);
+    l == u || (z <= l && f > 0.0) || (z >= u && f < 0.0)
 }
 
-/// Newton's direction in the inactive components; a singular factor is perturbed proximally, with a
-/// term that vanishes with the merit. Also returns the term used.
-fn newton_direction(jacobian: &DMatrix<f64>, point: &Point, active: &[bool]) -> (Option<DVector<f64>>, f64) {
-    let inactive: Vec<usize> = (0..active.len()).filter(|&i| !active[i]).collect();
-    let right = DVector::from_fn(inactive.len(), |i, _| -point.f[inactive[i]]);
-    let block = |proximal: f64| {
-        let entry = |i: usize, j: usize| jacobian[(inactive[i], inactive[j])] + if i == j { proximal } else { 0.0 };
-        DMatrix::from_fn(inactive.len(), inactive.len(), entry)
-    };
-    let size = if jacobian.amax() > 0.0 { jacobian.amax() } else { 1.0 };
-    let term = (CRASH_PROXIMAL * point.merit.sqrt()).clamp(CRASH_PROXIMAL_LEAST, CRASH_PROXIMAL) * size;
-    for proximal in [0.0, term] {
-        if let Some(step) = solve(block(proximal), &right) {
-            let mut direction = DVector::zeros(active.len());
-            for (&i, v) in inactive.iter().zip(step.iter()) {
-                direction[i] = *v;
+impl Storage {
+    /// Newton's direction in the inactive components; a singular factor is perturbed proximally, with
+    /// a term that vanishes with the merit. Says if there is one, and the term used.
+    fn newton_direction(&mut self, jacobian: &DMatrix<f64>, point: &Point) -> (bool, f64) {
+        let Storage { active, inactive, lu, step, direction } = self;
+        inactive.clear();
+        inactive.extend((0..active.len()).filter(|&i| !active[i]));
+        let mut solve = |proximal: f64| {
+            let gather = |j: usize, rows: &[usize], out: &mut [f64]| {
+                let column = jacobian.column(inactive[j]);
+                let entry = |r: usize| column[inactive[r]] + if r == j { proximal } else { 0.0 };
+                rows.iter().zip(out).for_each(|(&r, o)| *o = entry(r));
+            };
+            if !lu.factor(inactive.len(), gather, |_| 0.0) {
+                return false;
             }
-            return (Some(direction), proximal);
+            step.clear();
+            step.extend(lu.rows().iter().map(|&r| -point.f[inactive[r]]));
+            lu.solve(step);
+            step.iter().all(|v| v.is_finite())
+        };
+        let mut proximal = 0.0;
+        let mut solved = solve(proximal);
+        if !solved {
+            let size = if jacobian.amax() > 0.0 { jacobian.amax() } else { 1.0 };
+            proximal = (CRASH_PROXIMAL * point.merit.sqrt()).clamp(CRASH_PROXIMAL_LEAST, CRASH_PROXIMAL) * size;
+            solved = solve(proximal);
         }
+        direction.clear();
+        direction.resize(active.len(), 0.0);
+        inactive.iter().zip(step.iter()).for_each(|(&i, v)| direction[i] = *v);
+        (solved, proximal)
     }
-    (None, term)
 }
 
 /// Back along the projected arc until the merit falls.
-fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, direction: &DVector<f64>) -> Option<Point> {
+fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, direction: &[f64]) -> Option<Point> {
     let mut step = 1.0;
     while step >= CRASH_SMALLEST {
-        let next = problem.point(&(&point.z + direction * step));
+        let next = problem.point_with(|i| point.z[i] + direction[i] * step);
         if next.merit <= (1.0 - ARMIJO * step) * point.merit && next.merit < point.merit {
             return Some(next);
         }
+        problem.recycle(next);
         step *= BACKTRACK;
     }
     None
@@ -90,16 +119,17 @@ fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, direct
 mod tests {
     use super::*;
     use crate::mcp::LinearMcp;
-    use nalgebra::dmatrix;
+    use nalgebra::{DVector, dmatrix};
 
     fn crashed(m: DMatrix<f64>, q: Vec<f64>, start: &[f64]) -> (Point, usize) {
         let lcp = LinearMcp::lcp(m, q).unwrap();
         let mut problem = Evaluated::new(&lcp);
         let start = problem.point(&DVector::from_column_slice(start));
-        let mut log = Vec::new();
-        let point = crash(&mut problem, start, 50, &mut log).unwrap();
-        assert_eq!(log.len(), problem.counters.crash_steps);
-        (point, log.len())
+        let mut log = Log::default();
+        let point = crash(&mut problem, start, 50, &mut Storage::default(), &mut log).unwrap();
+        let steps = log.records().len();
+        assert_eq!(steps, problem.counters.crash_steps);
+        (point, steps)
     }
 
     #[test]
@@ -120,19 +150,23 @@ mod tests {
     #[test]
     fn active_is_what_is_held_at_its_bound() {
         let p = LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![0.0], vec![4.0]).unwrap();
-        let of = |z: f64, f: f64| active_set(&p, &Point { z: DVector::from_element(1, z), f: DVector::from_element(1, f), merit: 0.0 })[0];
+        let of = |z: f64, f: f64| is_active(&p, &Point { z: DVector::from_element(1, z), f: DVector::from_element(1, f), merit: 0.0 }, 0);
         assert_eq!([of(0.0, 1.0), of(0.0, 0.0), of(0.0, -1.0), of(1.0, 1.0), of(1.0, -1.0)], [true, false, false, false, false]);
         assert_eq!([of(4.0, -1.0), of(4.0, 0.0), of(4.0, 1.0)], [true, false, false]);
         let fixed = LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![4.0], vec![4.0]).unwrap();
-        assert!(active_set(&fixed, &Point { z: DVector::from_element(1, 4.0), f: DVector::from_element(1, 0.0), merit: 0.0 })[0]);
+        assert!(is_active(&fixed, &Point { z: DVector::from_element(1, 4.0), f: DVector::from_element(1, 0.0), merit: 0.0 }, 0));
     }
 
     /// The proximal term: CRASH_PROXIMAL sqrt(merit) between its limits, times the largest entry.
     #[test]
     fn the_proximal_term_vanishes_with_the_merit() {
         let singular = dmatrix![0.0, 0.0; 0.0, 8.0];
-        let of =
-            |merit: f64| newton_direction(&singular, &Point { z: DVector::zeros(2), f: DVector::from_element(2, 1.0), merit }, &[false; 2]);
+        let of = |merit: f64| {
+            let mut storage = Storage { active: vec![false; 2], ..Storage::default() };
+            let point = Point { z: DVector::zeros(2), f: DVector::from_element(2, 1.0), merit };
+            let (solved, proximal) = storage.newton_direction(&singular, &point);
+            (solved.then_some(storage.direction), proximal)
+        };
         for (merit, term) in [(1e9, CRASH_PROXIMAL), (0.25, 0.5 * CRASH_PROXIMAL), (0.0, CRASH_PROXIMAL_LEAST)] {
             let (direction, proximal) = of(merit);
             assert_eq!(proximal, term * 8.0);

@@ -1,6 +1,7 @@
 //! The Fischer-Burmeister function phi(a, b) = sqrt(a^2 + b^2) - a - b, its nested form for two
 //! bounds, and the gradient of the merit Psi = |Phi|^2 / 2 (Fischer 1992; Billups 1995).
 
+use super::tolerance::SQUARE_SAFE;
 use crate::mcp::Mcp;
 use nalgebra::{DMatrix, DVector};
 
@@ -42,19 +43,29 @@ pub(super) fn merit<P: Mcp + ?Sized>(problem: &P, z: &DVector<f64>, f: &DVector<
     if sum.is_finite() { 0.5 * sum } else { f64::INFINITY }
 }
 
-/// Gradient of Psi: D_z Phi + F'(z)' D_F Phi.
-pub(super) fn gradient<P: Mcp + ?Sized>(problem: &P, z: &[f64], f: &[f64], jacobian: &DMatrix<f64>) -> DVector<f64> {
+/// Gradient of Psi, D_z Phi + F'(z)' D_F Phi, into `out`; `work` is of the same length.
+pub(super) fn gradient<P: Mcp + ?Sized>(
+    problem: &P,
+    z: &[f64],
+    f: &[f64],
+    jacobian: &DMatrix<f64>,
+    out: &mut DVector<f64>,
+    work: &mut DVector<f64>,
+) {
     let (l, u) = (problem.lower(), problem.upper());
-    let phi: Vec<Fischer> = (0..z.len()).map(|i| fischer(z[i], f[i], l[i], u[i])).collect();
-    let by_f = DVector::from_fn(z.len(), |i, _| phi[i].by_f * phi[i].value);
-    let by_z = DVector::from_fn(z.len(), |i, _| phi[i].by_z * phi[i].value);
-    by_z + jacobian.tr_mul(&by_f)
+    for i in 0..z.len() {
+        let phi = fischer(z[i], f[i], l[i], u[i]);
+        (out[i], work[i]) = (phi.by_z * phi.value, phi.by_f * phi.value);
+    }
+    for (entry, column) in out.iter_mut().zip(jacobian.column_iter()) {
+        *entry += column.dot(work);
+    }
 }
 
 /// phi and its partial derivatives, without cancellation: -2ab / (sqrt(a^2 + b^2) + a + b) where
 /// a + b > 0. At the kink (0, 0) the derivative is the limit along a = b > 0.
 fn phi(a: f64, b: f64) -> (f64, f64, f64) {
-    let norm = a.hypot(b);
+    let norm = length(a, b);
     if norm == 0.0 {
         let kink = std::f64::consts::FRAC_1_SQRT_2 - 1.0;
         return (0.0, kink, kink);
@@ -62,6 +73,12 @@ fn phi(a: f64, b: f64) -> (f64, f64, f64) {
     let sum = a + b;
     let value = if sum > 0.0 { -2.0 * (a / (norm + sum)) * b } else { norm - sum };
     (value, a / norm - 1.0, b / norm - 1.0)
+}
+
+/// sqrt(a^2 + b^2); by `hypot`, which is slow, only where a square might overflow or lose digits.
+fn length(a: f64, b: f64) -> f64 {
+    let square = a * a + b * b;
+    if square > SQUARE_SAFE && square < 1.0 / SQUARE_SAFE { square.sqrt() } else { a.hypot(b) }
 }
 
 #[cfg(test)]
@@ -120,7 +137,8 @@ mod tests {
         let p = LinearMcp::new(m.clone(), vec![-1.0, 0.5, -0.25, 0.75], vec![0.0, -INF, -1.0, -INF], vec![INF, 2.0, 3.0, INF]).unwrap();
         let f = |z: &DVector<f64>| &m * z + DVector::from_column_slice(p.vector());
         let z = DVector::from_column_slice(&[0.75, 0.5, 0.25, -0.5]);
-        let got = gradient(&p, z.as_slice(), f(&z).as_slice(), &m);
+        let (mut got, mut work) = (DVector::zeros(4), DVector::zeros(4));
+        gradient(&p, z.as_slice(), f(&z).as_slice(), &m, &mut got, &mut work);
         for i in 0..4 {
             let at = |h: f64| {
                 let mut moved = z.clone();

@@ -5,6 +5,7 @@ use super::fischer;
 use super::outcome::Termination;
 use super::tolerance::{ARC_TRIALS, ARMIJO, BACKTRACK, GRADIENT_GAIN};
 use crate::mcp::Mcp;
+use nalgebra::DVector;
 
 /// One step along the projected arc z(a) = pi(z - a grad Psi), with Armijo's rule; `None` where the
 /// merit does not fall noticeably (a stationary point).
@@ -13,22 +14,33 @@ use crate::mcp::Mcp;
 /// [`Termination::NonFinite`] if F' is not finite at the point.
 pub(super) fn gradient_step<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point) -> Result<Option<Point>, Termination> {
     let jacobian = problem.jacobian(point)?;
-    let gradient = fischer::gradient(problem.problem, point.z.as_slice(), point.f.as_slice(), &jacobian);
+    let mut along = problem.spare();
+    let Point { z: direction, f: work, .. } = &mut along;
+    fischer::gradient(problem.problem, point.z.as_slice(), point.f.as_slice(), &jacobian, direction, work);
+    problem.recycle_matrix(jacobian);
+    let next = search(problem, point, &along.z);
+    problem.recycle(along);
+    Ok(next)
+}
+
+/// Back along the arc until the merit falls.
+fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, gradient: &DVector<f64>) -> Option<Point> {
     let size = gradient.amax();
     if !(size > 0.0 && size.is_finite()) {
-        return Ok(None);
+        return None;
     }
     // First trial: the step that would remove the merit if it fell at the gradient's rate.
     let mut step = (2.0 * point.merit / gradient.norm_squared()).min((1.0 + point.z.amax()) / size);
     for _ in 0..ARC_TRIALS {
-        let next = problem.point(&(&point.z - &gradient * step));
-        let promised = gradient.dot(&(&point.z - &next.z));
+        let next = problem.point_with(|i| point.z[i] - gradient[i] * step);
+        let promised: f64 = (0..gradient.len()).map(|i| gradient[i] * (point.z[i] - next.z[i])).sum();
         if next.merit <= point.merit - ARMIJO * promised && next.merit <= (1.0 - GRADIENT_GAIN) * point.merit {
-            return Ok(Some(next));
+            return Some(next);
         }
+        problem.recycle(next);
         step *= BACKTRACK;
     }
-    Ok(None)
+    None
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use super::evaluation::Evaluated;
 use super::outcome::{Counters, MajorRecord, Outcome, PathRecord, StepKind, Termination};
-use super::path::{Limits, Path, PathEnd, Start, Subproblem, follow};
+use super::path::{Limits, Path, PathEnd, Start, Storage, Subproblem, follow};
 use super::preprocess::Preprocessed;
 use super::residual::Residuals;
 use super::{Options, SolverError};
@@ -30,14 +30,15 @@ pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, S
     let less = options.preprocess.then(|| Preprocessed::new(problem)).filter(|less| less.reduced.is_some());
     let reduced = less.as_ref().and_then(|less| less.reduced.as_ref()).unwrap_or(problem);
     let mut path = lemke(reduced, options);
-    let whole = |z: &DVector<f64>| less.as_ref().map_or_else(|| z.clone(), |less| DVector::from_vec(less.restore(z.as_slice())));
+    let whole = |z: &[f64]| DVector::from_vec(less.as_ref().map_or_else(|| z.to_vec(), |less| less.restore(z)));
     if let Some(less) = &less {
         path.pivots.iter_mut().for_each(|pivot| *pivot = pivot.renamed(&less.kept));
     }
 
-    let origin = DVector::zeros(reduced.dimension());
+    let origin = vec![0.0; reduced.dimension()];
     let mut evaluated = Evaluated::new(problem);
-    let before = evaluated.point(&whole(path.knots.first().map_or(&origin, |knot| &knot.z)));
+    let first = if path.knots.len() > 0 { path.knots.z(0) } else { &origin };
+    let before = evaluated.point(&whole(first));
     let point = evaluated.point(&whole(path.last().unwrap_or(&origin)));
     let residuals = Residuals::at(problem, point.z.as_slice());
     let termination = match path.end {
@@ -54,10 +55,11 @@ pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, S
 
 /// The path from Lemke's ray.
 fn lemke(problem: &LinearMcp, options: &Options) -> Path {
-    let q = DVector::from_column_slice(problem.vector());
-    let sub = Subproblem { m: problem.matrix(), q: &q, lower: problem.lower(), upper: problem.upper() };
+    let sub = Subproblem { m: problem.matrix(), q: problem.vector(), lower: problem.lower(), upper: problem.upper() };
     let limits = Limits { pivots: options.minor_iteration_limit, cycle_entries: options.cycle_entry_limit, rule: options.ratio_test };
-    follow(&sub, Start::Ray, &DVector::zeros(q.len()), limits)
+    let mut path = Path::default();
+    follow(&sub, Start::Ray, &vec![0.0; problem.dimension()], limits, &mut Storage::default(), &mut path);
+    path
 }
 
 #[cfg(test)]

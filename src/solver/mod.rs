@@ -7,7 +7,7 @@
 //! | file | what |
 //! |---|---|
 //! | `options`, `tolerance`, `error` | limits with PATH's names; every tolerance; refusals |
-//! | `dense` | the two dense factorisations |
+//! | `dense` | dense factors in storage that is kept |
 //! | `evaluation`, `fischer`, `normal_map`, `residual` | F and its merits; the five residuals |
 //! | `crash` | projected Newton to a good active set |
 //! | `path/` | the linear subproblem, solved by pivoting along the path |
@@ -16,7 +16,8 @@
 //! | `newton` | the outer loop |
 //! | `structure` | Jacobians that are singular by their zeros |
 //! | `linear`, `multistart` | Lemke's method alone; many starts |
-//! | `outcome` | point, residuals, reason, log of every pivot |
+//! | `reuse` | a solver that keeps its storage from run to run |
+//! | `outcome`, `log` | point, residuals, reason, log of every pivot |
 
 mod continuation;
 mod crash;
@@ -26,6 +27,7 @@ mod evaluation;
 mod fischer;
 mod gradient;
 mod linear;
+mod log;
 mod multistart;
 mod newton;
 mod normal_map;
@@ -35,6 +37,7 @@ mod path;
 mod preprocess;
 mod residual;
 mod restart;
+mod reuse;
 mod search;
 mod structure;
 mod tolerance;
@@ -47,6 +50,7 @@ pub use options::{Options, RatioTest};
 pub use outcome::{Counters, MajorRecord, NonFinite, Outcome, PathRecord, StepKind, Termination};
 pub use path::{PathEnd, Pivot, PivotKind, Start, Variable};
 pub use residual::Residuals;
+pub use reuse::{Ended, Solver};
 
 use crate::mcp::{Mcp, McpError, check_bounds};
 
@@ -64,8 +68,9 @@ use crate::mcp::{Mcp, McpError, check_bounds};
 /// assert!((outcome.point[0] - 4.0 / 3.0).abs() < 1e-12);
 /// ```
 pub fn solve<P: Mcp + ?Sized>(problem: &P, start: &[f64], options: &Options) -> Result<Outcome, SolverError> {
-    validate(problem, start, options)?;
-    Ok(newton::Run::new(problem, options).run(start))
+    let mut solver = Solver::new();
+    let ended = solver.run(problem, start, options)?;
+    Ok(solver.outcome(ended))
 }
 
 /// Refuses options, shapes, bounds and starts that make no sense.

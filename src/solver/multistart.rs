@@ -1,6 +1,6 @@
 //! Many starts, one after the other: the same starts give the same outcomes.
 
-use super::{Options, Outcome, SolverError, solve};
+use super::{Options, Outcome, Solver, SolverError};
 use crate::mcp::Mcp;
 
 /// Runs from every start, in order. It never says that nothing else exists: report coverage.
@@ -19,5 +19,6 @@ pub fn multistart<P: Mcp + ?Sized>(
     starts: impl IntoIterator<Item = Vec<f64>>,
     options: &Options,
 ) -> Result<Vec<Outcome>, SolverError> {
-    starts.into_iter().map(|start| solve(problem, &start, options)).collect()
+    let mut solver = Solver::new();
+    starts.into_iter().map(|start| solver.run(problem, &start, options).map(|end| solver.outcome(end))).collect()
 }

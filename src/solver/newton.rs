@@ -3,43 +3,62 @@
 
 use super::Options;
 use super::continuation::{Sense, from_point};
-use super::crash::crash;
-use super::evaluation::{Evaluated, Point};
+use super::crash::{self, crash};
+use super::evaluation::{Evaluated, Point, Pool};
 use super::gradient::gradient_step;
+use super::log::Log;
 use super::normal_map::linearise;
-use super::outcome::{MajorRecord, Outcome, PathRecord, StepKind, Termination};
-use super::path::{Limits, Path, PathEnd, Start, Subproblem, follow};
+use super::outcome::{Counters, StepKind, Termination};
+use super::path::{self, Limits, Path, PathEnd, Start, Subproblem, follow};
 use super::residual::Residuals;
 use super::restart::Attempt;
 use super::search::Search;
 use super::structure::unmatched;
-use super::tolerance::CURVE_TRIALS;
+use super::tolerance::{CURVE_TRIALS, MERIT_SLACK};
 use crate::mcp::Mcp;
-use nalgebra::DVector;
+use nalgebra::DMatrix;
+
+/// Everything a run works with. Whoever owns it may use it for another run, which then allocates
+/// only what is longer than before.
+#[derive(Default)]
+pub(super) struct Workspace {
+    pool: Pool,
+    crash: crash::Storage,
+    path: path::Storage,
+    /// Paths from one iterate: at most one of each start.
+    paths: [Path; 2],
+    q: Vec<f64>,
+    search: Search,
+    pub(super) log: Log,
+    /// The point of least merit met.
+    pub(super) point: Vec<f64>,
+}
 
 /// A run under way. Inputs are valid: lengths agree, bounds are consistent, the start is finite.
 pub(super) struct Run<'a, P: Mcp + ?Sized> {
     problem: Evaluated<'a, P>,
     options: &'a Options,
-    log: Vec<MajorRecord>,
+    space: Workspace,
 }
 
 /// An accepted step.
 type Step = (Point, StepKind);
 
 impl<'a, P: Mcp + ?Sized> Run<'a, P> {
-    pub(super) fn new(problem: &'a P, options: &'a Options) -> Self {
-        let problem = Evaluated::new(problem);
-        Run { problem, options, log: Vec::new() }
+    pub(super) fn new(problem: &'a P, options: &'a Options, mut space: Workspace) -> Self {
+        space.log.clear();
+        let problem = Evaluated::with_pool(problem, std::mem::take(&mut space.pool));
+        Run { problem, options, space }
     }
 
-    /// Attempts from the start, the first one and the restarts, until the tolerance or a limit.
-    pub(super) fn run(mut self, start: &[f64]) -> Outcome {
-        let start = self.problem.point(&DVector::from_column_slice(start));
+    /// Attempts from the start, the first one and the restarts, until the tolerance or a limit. The
+    /// best point and the log are left in the workspace.
+    pub(super) fn run(mut self, start: &[f64]) -> (Workspace, Residuals, Termination, Counters) {
+        let start = self.problem.point_with(|i| start[i]);
         if let Some(reason) = start.not_finite() {
             return self.finish(start, reason);
         }
-        let mut best = start.clone();
+        let mut best = self.problem.copy(&start);
         let mut reason = self.attempt(&start, Attempt::number(0), &mut best);
         if !ends_the_run(reason) && self.options.curve_step_limit > 0 {
             reason = self.along_curves(&start, &mut best).unwrap_or(reason);
@@ -57,8 +76,10 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             }
             let from = self.moved(&start, Attempt::far(trial), trial + 1 + self.options.restart_limit);
             reason = self.along_curves(&from, &mut best).unwrap_or(reason);
+            self.problem.recycle(from);
         }
         let reason = self.structural(&start, reason).unwrap_or(reason);
+        self.problem.recycle(start);
         self.finish(best, reason)
     }
 
@@ -76,19 +97,23 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     /// One more attempt from the start, moved; then along the curves from there.
     fn restart(&mut self, start: &Point, attempt: Attempt, k: usize, best: &mut Point) -> Termination {
         self.problem.counters.restarts += 1;
-        self.record(start.merit, StepKind::Restart, 0.0, &[]);
+        self.space.log.step(start.merit, StepKind::Restart, 0.0);
         let from = self.moved(start, attempt, k);
-        let reason = self.attempt(&from, attempt, best);
+        let mut reason = self.attempt(&from, attempt, best);
         if attempt.shift > 0.0 && !ends_the_run(reason) && self.options.curve_step_limit > 0 {
-            return self.along_curves(&from, best).unwrap_or(reason);
+            reason = self.along_curves(&from, best).unwrap_or(reason);
         }
+        self.problem.recycle(from);
         reason
     }
 
     /// The start moved as the attempt asks, if F is finite there.
     fn moved(&mut self, start: &Point, attempt: Attempt, k: usize) -> Point {
-        let shifted = self.problem.point(&attempt.shifted(&start.z, k));
-        if shifted.merit.is_finite() { shifted } else { start.clone() }
+        let mut shifted = self.problem.point_with(|i| attempt.shifted(start.z[i], i, k));
+        if !shifted.merit.is_finite() {
+            shifted.copy_from(start);
+        }
+        shifted
     }
 
     /// Points from which curves alone are tried at the end: none without restarts or curves.
@@ -103,9 +128,10 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         for sense in [Sense::Down, Sense::Up] {
             let (solutions, _) = from_point(&mut self.problem, start, sense, 1, self.options);
             let Some(z) = solutions.first() else { continue };
-            self.record(start.merit, StepKind::Curve, 0.0, &[]);
+            self.space.log.step(start.merit, StepKind::Curve, 0.0);
             let point = self.problem.point(z);
             let next = self.attempt(&point, Attempt::number(1), best);
+            self.problem.recycle(point);
             reason = Some(next);
             if ends_the_run(next) {
                 break;
@@ -118,20 +144,32 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     /// One attempt; `best` is left at the point of least merit, or at the one within the tolerance.
     fn attempt(&mut self, start: &Point, attempt: Attempt, best: &mut Point) -> Termination {
         let limit = if attempt.crash { self.options.crash_iteration_limit } else { 0 };
-        let mut point = match crash(&mut self.problem, start.clone(), limit, &mut self.log) {
-            Ok(point) => point,
-            Err(reason) => return reason,
-        };
-        let mut search = Search::new(start, &point, self.options, attempt);
+        let mut point = self.problem.copy(start);
+        if limit > 0 {
+            point = match crash(&mut self.problem, point, limit, &mut self.space.crash, &mut self.space.log) {
+                Ok(point) => point,
+                Err(reason) => return reason,
+            };
+        }
+        let mut search = std::mem::take(&mut self.space.search);
+        search.begin(start, &point, self.options, attempt);
+        let reason = self.majors(&mut point, attempt, &mut search, best);
+        self.space.search = search;
+        self.problem.recycle(point);
+        reason
+    }
+
+    /// Linearisations from a point until there is a reason to stop.
+    fn majors(&mut self, point: &mut Point, attempt: Attempt, search: &mut Search, best: &mut Point) -> Termination {
         let (majors, pivots) = self.share();
         let last = (self.problem.counters.majors + majors, self.problem.counters.pivots + pivots);
         loop {
-            if self.is_within_tolerance(&point) {
-                *best = point;
+            if self.is_within_tolerance(point) {
+                best.copy_from(point);
                 return Termination::ToleranceReached;
             }
             if point.merit < best.merit {
-                *best = point.clone();
+                best.copy_from(point);
             }
             if self.problem.counters.majors >= self.options.major_iteration_limit {
                 return Termination::MajorLimit;
@@ -142,8 +180,8 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             if self.problem.counters.majors >= last.0 || self.problem.counters.pivots >= last.1 {
                 return Termination::NoProgress;
             }
-            match self.major(&point, attempt, &mut search) {
-                Ok(next) => point = next,
+            match self.major(point, attempt, search) {
+                Ok(next) => self.problem.recycle(std::mem::replace(point, next)),
                 Err(reason) => return reason,
             }
         }
@@ -158,37 +196,45 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     }
 
     fn is_within_tolerance(&self, point: &Point) -> bool {
-        Residuals::without_gradient(self.problem.problem, point.z.as_slice(), point.f.as_slice()).within(self.options.convergence_tolerance)
+        let (n, tolerance) = (point.z.len() as f64, self.options.convergence_tolerance);
+        // The merit alone says so of most points.
+        point.merit <= MERIT_SLACK * 0.5 * n * tolerance * tolerance
+            && Residuals::without_gradient(self.problem.problem, point.z.as_slice(), point.f.as_slice()).within(tolerance)
     }
 
     /// One linearisation and the step it leads to.
     fn major(&mut self, point: &Point, attempt: Attempt, search: &mut Search) -> Result<Point, Termination> {
         self.problem.counters.majors += 1;
-        let jacobian = self.problem.jacobian(point)?;
-        let proximal = attempt.proximal * jacobian.amax() * point.merit.sqrt().min(1.0);
-        let (m, q) = linearise(&jacobian, &point.z, &point.f, proximal);
-        let (lower, upper) = (self.problem.problem.lower(), self.problem.problem.upper());
-        let sub = Subproblem { m: &m, q: &q, lower, upper };
-        let mut paths = vec![self.follow(&sub, attempt.first, point)];
+        let mut m = self.problem.jacobian(point)?;
+        let proximal = if attempt.proximal > 0.0 { attempt.proximal * m.amax() * point.merit.sqrt().min(1.0) } else { 0.0 };
+        linearise(&mut m, &point.z, &point.f, proximal, &mut self.space.q);
+        let mut paths = std::mem::take(&mut self.space.paths);
+        self.follow(&m, attempt.first, point, &mut paths[0]);
+        let mut count = 1;
         if paths[0].end != PathEnd::Complete {
             let other = if attempt.first == Start::Regular { Start::Ray } else { Start::Regular };
-            paths.push(self.follow(&sub, other, point));
+            self.follow(&m, other, point, &mut paths[1]);
+            count = 2;
         }
-        let step = self.choose(point, &paths, search);
+        self.problem.recycle_matrix(m);
+        let step = self.choose(point, &paths[..count], search);
         let kind = step.as_ref().map_or(StepKind::Failed, |(_, kind)| *kind);
-        self.record(point.merit, kind, proximal, &paths);
+        paths[..count].iter().for_each(|path| self.space.log.path(path));
+        self.space.log.step(point.merit, kind, proximal);
+        self.space.paths = paths;
         step.map(|(next, _)| next)
     }
 
-    fn follow(&mut self, sub: &Subproblem<'_>, start: Start, point: &Point) -> Path {
-        let left = self.options.cumulative_iteration_limit.saturating_sub(self.problem.counters.pivots);
-        let pivots = self.options.minor_iteration_limit.min(left);
-        let path =
-            follow(sub, start, &point.z, Limits { pivots, cycle_entries: self.options.cycle_entry_limit, rule: self.options.ratio_test });
+    fn follow(&mut self, m: &DMatrix<f64>, start: Start, point: &Point, path: &mut Path) {
+        let (problem, options) = (self.problem.problem, self.options);
+        let sub = Subproblem { m, q: &self.space.q, lower: problem.lower(), upper: problem.upper() };
+        let left = options.cumulative_iteration_limit.saturating_sub(self.problem.counters.pivots);
+        let pivots = options.minor_iteration_limit.min(left);
+        let limits = Limits { pivots, cycle_entries: options.cycle_entry_limit, rule: options.ratio_test };
+        follow(&sub, start, point.z.as_slice(), limits, &mut self.space.path, path);
         self.problem.counters.pivots += path.pivots.len();
         self.problem.counters.factorisations += path.factorisations;
         self.problem.counters.ray_starts += usize::from(start == Start::Ray);
-        path
     }
 
     /// The Newton point if a path is complete and acceptable, else what the fallbacks give.
@@ -222,6 +268,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             search.take_unchecked(regular.unwrap_or(path), &end);
             return Some((end, StepKind::Unchecked { t }));
         }
+        self.problem.recycle(end);
         None
     }
 
@@ -229,27 +276,29 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     /// of largest t or its last one (a little along the ray), whichever is better. A damped attempt
     /// takes a fraction of a regular path.
     fn target(&mut self, path: &Path, fraction: f64) -> Option<(Point, f64)> {
-        let last = path.knots.last()?;
+        let last = path.last()?;
+        let last_t = *path.knots.t(path.knots.len() - 1);
         if path.start == Start::Ray {
-            return Some((self.problem.point(&last.z), last.t));
+            return Some((self.problem.point_with(|i| last[i]), last_t));
         }
         let t = fraction * path.reach();
-        let far = path.at(t).map(|z| self.problem.point(&z));
-        match far {
-            Some(far) if fraction < 1.0 || path.end == PathEnd::Complete => Some((far, t)),
-            far => {
-                let last_point = self.problem.point(&last.z);
-                let better = far.filter(|far| far.merit < last_point.merit);
-                Some(better.map_or((last_point, last.t), |far| (far, t)))
-            }
+        let Some(far) = path.at(t).map(|z| self.problem.point_with(z)) else {
+            return Some((self.problem.point_with(|i| last[i]), last_t));
+        };
+        if fraction < 1.0 || path.end == PathEnd::Complete {
+            return Some((far, t));
         }
+        let last = self.problem.point_with(|i| last[i]);
+        let (better, worse) = if far.merit < last.merit { ((far, t), last) } else { ((last, last_t), far) };
+        self.problem.recycle(worse);
+        Some(better)
     }
 
     /// Back along the path of the checkpoint if steps were taken unchecked, else along this one's.
     fn back_along_paths(&mut self, paths: &[Path], search: &mut Search) -> Option<Step> {
-        if let Some(checkpoint) = search.watchdog() {
+        if search.watchdog() {
             self.problem.counters.watchdogs += 1;
-            let (point, t) = search.along(&mut self.problem, &checkpoint.path, 1.0)?;
+            let (point, t) = search.along_checkpoint(&mut self.problem)?;
             search.take_checked(&point);
             return Some((point, StepKind::Watchdog { t }));
         }
@@ -265,23 +314,27 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         if !search.gradient_allowed() {
             return Ok(None);
         }
-        let Some(next) = gradient_step(&mut self.problem, search.best())? else { return Ok(None) };
+        let Some(best) = search.best() else { return Ok(None) };
+        let Some(next) = gradient_step(&mut self.problem, best)? else { return Ok(None) };
         self.problem.counters.gradient_steps += 1;
         search.take_checked(&next);
         Ok(Some((next, StepKind::Gradient)))
     }
 
-    fn record(&mut self, merit: f64, step: StepKind, proximal: f64, paths: &[Path]) {
-        let of = |path: &Path| PathRecord { start: path.start, end: path.end, reach: path.reach(), pivots: path.pivots.clone() };
-        self.log.push(MajorRecord { merit, step, proximal, paths: paths.iter().map(of).collect() });
-    }
-
-    fn finish(mut self, best: Point, termination: Termination) -> Outcome {
-        self.problem.counters.functions += 1;
-        self.problem.counters.jacobians += 1;
-        let residuals = Residuals::at(self.problem.problem, best.z.as_slice());
-        let point = best.z.as_slice().to_vec();
-        Outcome { point, residuals, termination, log: self.log, counters: self.problem.counters }
+    /// The five residuals of the best point, which with the log is left in the workspace.
+    fn finish(mut self, best: Point, termination: Termination) -> (Workspace, Residuals, Termination, Counters) {
+        let jacobian = self.problem.any_jacobian(&best);
+        let mut work = self.problem.spare();
+        let (z, f) = (best.z.as_slice(), best.f.as_slice());
+        let residuals = Residuals::with_gradient(self.problem.problem, z, f, &jacobian, &mut work.z, &mut work.f);
+        self.space.point.clear();
+        self.space.point.extend_from_slice(z);
+        self.problem.recycle_matrix(jacobian);
+        self.problem.recycle(work);
+        self.problem.recycle(best);
+        let (pool, counters) = self.problem.into_parts();
+        self.space.pool = pool;
+        (self.space, residuals, termination, counters)
     }
 }
 

@@ -3,13 +3,8 @@
 //! A point of its domain is kept as the pair (z, m) with z = pi(zeta) and m = z - zeta: m = w - v is
 //! the multiplier of the bounds, w >= 0 where z = l and v >= 0 where z = u. The map is F(z) - m.
 
+use super::dense::subtract;
 use nalgebra::{DMatrix, DVector};
-
-/// pi(z): the nearest point of [l, u], component by component.
-pub(super) fn project(z: &DVector<f64>, lower: &[f64], upper: &[f64]) -> DVector<f64> {
-    // max and min rather than clamp: no panic even if the bounds were crossed.
-    DVector::from_fn(z.len(), |i, _| z[i].max(lower[i]).min(upper[i]))
-}
 
 /// One component of the normal map at the point over z with the least residual: F_i inside, the
 /// wrong-signed part of F_i at a bound, 0 where both bounds hold.
@@ -18,16 +13,18 @@ pub(super) fn least_residual(z: f64, f: f64, l: f64, u: f64) -> f64 {
     if z >= u { f.max(0.0) } else { f }
 }
 
-/// The linearised problem at z: M = F'(z) + proximal I and q = F(z) - M z, so that M z + q = F(z).
-pub(super) fn linearise(jacobian: &DMatrix<f64>, z: &DVector<f64>, f: &DVector<f64>, proximal: f64) -> (DMatrix<f64>, DVector<f64>) {
-    let mut m = jacobian.clone();
+/// Turns F'(z) into that of the linearised problem at z: M = F'(z) + proximal I and q = F(z) - M z, so
+/// that M z + q = F(z).
+pub(super) fn linearise(jacobian: &mut DMatrix<f64>, z: &DVector<f64>, f: &DVector<f64>, proximal: f64, q: &mut Vec<f64>) {
     if proximal > 0.0 {
         for i in 0..z.len() {
-            m[(i, i)] += proximal;
+            jacobian[(i, i)] += proximal;
         }
     }
-    let q = f - &m * z;
-    (m, q)
+    q.clear();
+    q.extend(f.iter());
+    let n = z.len();
+    z.iter().enumerate().for_each(|(j, z)| subtract(q, z, &jacobian.as_slice()[j * n..(j + 1) * n]));
 }
 
 #[cfg(test)]
@@ -45,15 +42,11 @@ mod tests {
     }
 
     #[test]
-    fn the_projection_keeps_to_the_bounds() {
-        assert_eq!(project(&dvector![-1.0, 0.5, 7.0], &[0.0; 3], &[1.0; 3]), dvector![0.0, 0.5, 1.0]);
-    }
-
-    #[test]
     fn linearisation_keeps_the_value_whatever_the_proximal_term() {
         let (z, f) = (dvector![1.0, 2.0], dvector![3.0, -4.0]);
-        let (m, q) = linearise(&dmatrix![1.0, 2.0; 3.0, 4.0], &z, &f, 0.5);
-        assert_eq!(&m * &z + q, f);
+        let (mut m, mut q) = (dmatrix![1.0, 2.0; 3.0, 4.0], vec![9.0; 5]);
+        linearise(&mut m, &z, &f, 0.5, &mut q);
+        assert_eq!(&m * &z + DVector::from_vec(q), f);
         assert_eq!(m[(0, 0)], 1.5);
     }
 }

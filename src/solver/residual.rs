@@ -1,9 +1,10 @@
 //! The five residuals, always reported together, each with its definition. None of them certifies.
 
 use super::evaluation::jacobian_at;
-use super::fischer::{fischer, gradient};
+use super::fischer::{Fischer, fischer, gradient};
 use super::normal_map::least_residual;
 use crate::mcp::Mcp;
+use nalgebra::{DMatrix, DVector};
 
 /// Infinity norms at a point z in [l, u]. NaN or infinite where F or F' is.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -39,14 +40,41 @@ impl Residuals {
         let mut f = vec![0.0; n];
         problem.function(z, &mut f);
         let jacobian = jacobian_at(problem, z);
-        let mut residuals = Residuals::without_gradient(problem, z, &f);
-        residuals.fischer_gradient = norm(gradient(problem, z, &f, &jacobian).iter().copied());
-        residuals
+        let (mut gradient, mut work) = (DVector::zeros(n), DVector::zeros(n));
+        Residuals::with_gradient(problem, z, &f, &jacobian, &mut gradient, &mut work)
+    }
+
+    /// All five of F and F' as given; the vectors are of length n and for work.
+    pub(super) fn with_gradient<P: Mcp + ?Sized>(
+        problem: &P,
+        z: &[f64],
+        f: &[f64],
+        jacobian: &DMatrix<f64>,
+        out: &mut DVector<f64>,
+        work: &mut DVector<f64>,
+    ) -> Residuals {
+        gradient(problem, z, f, jacobian, out, work);
+        Residuals { fischer_gradient: norm(out.iter().copied()), ..Residuals::without_gradient(problem, z, f) }
     }
 
     /// The first four; the gradient is left at zero.
     pub(super) fn without_gradient<P: Mcp + ?Sized>(problem: &P, z: &[f64], f: &[f64]) -> Residuals {
-        let (l, u) = (problem.lower(), problem.upper());
+        Residuals::within_bounds(problem.lower(), problem.upper(), z, f)
+    }
+
+    /// All five from parts: bounds, z and F(z), all of length n, and the product y -> F'(z)' y, which
+    /// writes its second argument.
+    pub fn of(l: &[f64], u: &[f64], z: &[f64], f: &[f64], product: impl Fn(&[f64], &mut [f64])) -> Residuals {
+        let phi: Vec<Fischer> = (0..z.len()).map(|i| fischer(z[i], f[i], l[i], u[i])).collect();
+        let by_f: Vec<f64> = phi.iter().map(|phi| phi.by_f * phi.value).collect();
+        let mut gradient = vec![0.0; z.len()];
+        product(&by_f, &mut gradient);
+        let gradient = norm(gradient.iter().zip(&phi).map(|(g, phi)| g + phi.by_z * phi.value));
+        Residuals { fischer_gradient: gradient, ..Residuals::within_bounds(l, u, z, f) }
+    }
+
+    /// The first four, of bounds as given.
+    fn within_bounds(l: &[f64], u: &[f64], z: &[f64], f: &[f64]) -> Residuals {
         let indices = || 0..z.len();
         Residuals {
             complementarity: norm(indices().map(|i| product(z[i], f[i], l[i], u[i]))),
@@ -84,7 +112,7 @@ fn norm(values: impl Iterator<Item = f64>) -> f64 {
 mod tests {
     use super::*;
     use crate::mcp::LinearMcp;
-    use nalgebra::{DMatrix, dmatrix};
+    use nalgebra::dmatrix;
 
     struct Reciprocal;
 

@@ -10,12 +10,8 @@ use super::tolerance::{ARMIJO, BACKTRACK, FREE_REFERENCE, NEAR, SMALLEST_T, TRUS
 use crate::mcp::Mcp;
 use std::collections::VecDeque;
 
-/// The last checked point, with the path that left it.
-pub(super) struct Checkpoint {
-    pub(super) path: Path,
-}
-
-/// State of the non-monotone rule in one attempt.
+/// State of the non-monotone rule in one attempt. Storage is kept from one to the next.
+#[derive(Default)]
 pub(super) struct Search {
     memory: VecDeque<f64>,
     memory_size: usize,
@@ -25,40 +21,38 @@ pub(super) struct Search {
     unchecked: usize,
     watchdogs: usize,
     gradient_steps_left: usize,
-    checkpoint: Option<Checkpoint>,
-    best: Point,
+    /// The path that left the last checked point, if steps were taken unchecked since.
+    checkpoint: Path,
+    best: Option<Point>,
     first_merit: f64,
     fraction: f64,
 }
 
 impl Search {
     /// At the first point of an attempt from `start`.
-    pub(super) fn new(start: &Point, first: &Point, options: &Options, attempt: Attempt) -> Self {
+    pub(super) fn begin(&mut self, start: &Point, first: &Point, options: &Options, attempt: Attempt) {
         let (factor, radius) = match attempt.acceptance {
             Acceptance::NonMonotone => (options.nms_initial_reference_factor, TRUST * (1.0 + start.z.amax())),
             Acceptance::Monotone => (1.0, 0.0),
             Acceptance::Free => (FREE_REFERENCE * options.nms_initial_reference_factor, f64::INFINITY),
         };
         let monotone = attempt.acceptance == Acceptance::Monotone;
-        Search {
-            memory: VecDeque::from([factor * start.merit]),
-            memory_size: if monotone { 1 } else { options.nms_memory_size },
-            frequency: if monotone { 1 } else { options.nms_mstep_frequency },
-            maximum_watchdogs: options.nms_maximum_watchdogs,
-            radius,
-            unchecked: 0,
-            watchdogs: 0,
-            gradient_steps_left: options.gradient_step_limit,
-            checkpoint: None,
-            best: first.clone(),
-            first_merit: start.merit,
-            fraction: attempt.fraction,
-        }
+        self.memory.clear();
+        self.memory.push_back(factor * start.merit);
+        self.memory_size = if monotone { 1 } else { options.nms_memory_size };
+        self.frequency = if monotone { 1 } else { options.nms_mstep_frequency };
+        self.maximum_watchdogs = options.nms_maximum_watchdogs;
+        self.radius = radius;
+        (self.unchecked, self.watchdogs) = (0, 0);
+        self.gradient_steps_left = options.gradient_step_limit;
+        self.best = self.best.take().filter(|best| best.z.len() == first.z.len());
+        self.take_best(first);
+        (self.first_merit, self.fraction) = (start.merit, attempt.fraction);
     }
 
     /// The point of least merit in this attempt.
-    pub(super) fn best(&self) -> &Point {
-        &self.best
+    pub(super) fn best(&self) -> Option<&Point> {
+        self.best.as_ref()
     }
 
     /// The fraction of a path to take from a point of this merit.
@@ -74,7 +68,8 @@ impl Search {
     /// May this step be taken without a check? Short ones, all but every tenth in a row.
     pub(super) fn unchecked_allowed(&self, from: &Point, to: &Point) -> bool {
         let next = self.unchecked + 1;
-        to.merit.is_finite() && next < self.frequency && (&to.z - &from.z).amax() <= self.radius
+        let length = || to.z.iter().zip(from.z.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        to.merit.is_finite() && next < self.frequency && length() <= self.radius
     }
 
     /// Does a point pass the test: (1 - sigma t) of the reference?
@@ -85,7 +80,7 @@ impl Search {
     /// Takes an unchecked step; the path from the last checked point is kept for the watchdog.
     pub(super) fn take_unchecked(&mut self, path: &Path, to: &Point) {
         if self.unchecked == 0 {
-            self.checkpoint = Some(Checkpoint { path: path.clone() });
+            self.checkpoint.copy_from(path);
         }
         self.unchecked += 1;
         self.radius *= TRUST_SHRINK;
@@ -99,7 +94,6 @@ impl Search {
             self.memory.pop_front();
         }
         self.unchecked = 0;
-        self.checkpoint = None;
         self.keep_best(to);
     }
 
@@ -108,12 +102,20 @@ impl Search {
         self.watchdogs = 0;
     }
 
-    /// The checkpoint to return to, if steps were taken since and watchdogs are left.
-    pub(super) fn watchdog(&mut self) -> Option<Checkpoint> {
-        let checkpoint = self.checkpoint.take()?;
+    /// Returns to the checkpoint, if steps were taken unchecked since: says if there is one, and if its
+    /// path may be searched because watchdogs are left.
+    pub(super) fn watchdog(&mut self) -> bool {
+        if self.unchecked == 0 {
+            return false;
+        }
         self.unchecked = 0;
         self.watchdogs += 1;
-        (self.watchdogs <= self.maximum_watchdogs).then_some(checkpoint)
+        self.watchdogs <= self.maximum_watchdogs
+    }
+
+    /// Like [`Search::along`], on the path of the checkpoint.
+    pub(super) fn along_checkpoint<P: Mcp + ?Sized>(&self, problem: &mut Evaluated<'_, P>) -> Option<(Point, f64)> {
+        self.along(problem, &self.checkpoint, 1.0)
     }
 
     /// Is a gradient step left? Counts it.
@@ -128,10 +130,11 @@ impl Search {
         let mut t = t;
         while t >= SMALLEST_T {
             if let Some(z) = path.at(t) {
-                let point = problem.point(&z);
+                let point = problem.point_with(z);
                 if self.passes(&point, t) {
                     return Some((point, t));
                 }
+                problem.recycle(point);
             }
             t *= BACKTRACK;
         }
@@ -139,15 +142,21 @@ impl Search {
     }
 
     fn keep_best(&mut self, point: &Point) {
-        if point.merit < self.best.merit {
-            self.best = point.clone();
+        if self.best.as_ref().is_none_or(|best| point.merit < best.merit) {
+            self.take_best(point);
+        }
+    }
+
+    fn take_best(&mut self, point: &Point) {
+        match &mut self.best {
+            Some(best) => best.copy_from(point),
+            None => self.best = Some(point.clone()),
         }
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::path::{PathEnd, Start};
     use super::*;
     use nalgebra::DVector;
 
@@ -156,12 +165,14 @@ mod tests {
     }
 
     fn path() -> Path {
-        Path { knots: Vec::new(), pivots: Vec::new(), end: PathEnd::Complete, start: Start::Regular, factorisations: 0 }
+        Path::default()
     }
 
     fn search(k: usize, options: &Options) -> Search {
         let start = point(&[3.0, -4.0], 8.0);
-        Search::new(&start, &start, options, Attempt { fraction: 0.5, ..Attempt::number(k) })
+        let mut search = Search::default();
+        search.begin(&start, &start, options, Attempt { fraction: 0.5, ..Attempt::number(k) });
+        search
     }
 
     #[test]
@@ -201,20 +212,20 @@ mod tests {
         for k in 1..=3 {
             assert!(allowed(&s, 0.0, 1.0), "{k}");
             s.take_unchecked(&path(), &point(&[k as f64], 8.0 - k as f64));
-            assert_eq!((s.unchecked, s.radius, s.best().merit), (k, radius * TRUST_SHRINK.powi(k as i32), 8.0 - k as f64));
+            assert_eq!((s.unchecked, s.radius, s.best().unwrap().merit), (k, radius * TRUST_SHRINK.powi(k as i32), 8.0 - k as f64));
         }
         assert!(!allowed(&s, 0.0, 1.0));
-        assert!(s.checkpoint.is_some() && s.watchdog().is_some() && s.unchecked == 0);
-        assert!(s.watchdog().is_none()); // nothing taken since
+        assert!(s.watchdog() && s.unchecked == 0);
+        assert!(!s.watchdog()); // nothing taken since
         s.take_unchecked(&path(), &point(&[0.0], 9.0));
-        assert_eq!(s.best().merit, 5.0);
-        assert!(s.watchdog().is_none()); // one is all there was
+        assert_eq!(s.best().unwrap().merit, 5.0);
+        assert!(!s.watchdog()); // one is all there was
         s.forgive_watchdogs();
         s.take_unchecked(&path(), &point(&[0.0], 9.0));
-        assert!(s.watchdog().is_some());
+        assert!(s.watchdog());
         s.take_unchecked(&path(), &point(&[0.0], 9.0));
         s.take_checked(&point(&[0.0], 9.0));
-        assert!(s.checkpoint.is_none() && s.unchecked == 0 && s.watchdog().is_none());
+        assert!(s.unchecked == 0 && !s.watchdog());
     }
 
     #[test]

@@ -32,10 +32,6 @@ pub(super) const DEPENDENT: f64 = 1e-11;
 /// the basis is factorised afresh. Unit: none. Basis: 1e5 units of rounding leave ten digits.
 pub(super) const DRIFT: f64 = 1e-11;
 
-/// Largest entry of B B^-1 - I after a factorisation that counts as regular. Unit: none.
-/// Basis: with six digits one step of refinement would still contract.
-pub(super) const REGULAR: f64 = 1e-6;
-
 /// Pivots between two factorisations. Unit: pivots. Basis: product-form updates lose at most about
 /// a bit each in the cases met; 25 leave half a double.
 pub(super) const REFACTOR_EVERY: usize = 25;
@@ -152,3 +148,11 @@ pub(super) const CURVE_TRIAL_GROWTH: f64 = 4.0;
 /// A curve is closed if it passes its start's s at this share of the step from the start, on the
 /// same places. Unit: none. Basis: the error of the chord between two points 45 degrees apart.
 pub(super) const CURVE_CLOSED: f64 = 0.05;
+
+/// Squares above this and below its inverse are safe: a smaller term lost to underflow is below
+/// rounding. Unit: none. Basis: the least normal double (2e-308) times 1e32.
+pub(super) const SQUARE_SAFE: f64 = 1e-275;
+
+/// Slack of the bound |Phi|_inf^2 <= 2 Psi <= n |Phi|_inf^2 that spares the residuals of points far from
+/// the tolerance. Unit: none. Basis: rounding of a sum of squares is far below it.
+pub(super) const MERIT_SLACK: f64 = 1.01;

@@ -1,145 +1,176 @@
-//! The basis of the linear subproblem: which unknown stands in which place, and the dense inverse.
+//! The basis of the linear subproblem: which unknown stands in which place, its factors, and the
+//! product form of what was exchanged since.
 
+use super::super::dense::dot;
 use super::super::tolerance::REFACTOR_EVERY;
-use super::Subproblem;
+use super::columns::Columns;
+use super::factor::Factor;
 use super::number::Number;
 use super::variable::Variable;
-use nalgebra::{DMatrix, DVector};
 
-/// The columns of M z - w + v + D a - t r = -(q + r).
-pub(super) struct Columns<'a, T: Number> {
-    pub(super) sub: &'a Subproblem<'a, T>,
-    /// Covering vector r: minus the residual at the start.
-    pub(super) r: DVector<T>,
-    /// Row of the unit column D e_k of the artificial of z_i, where there is one.
-    pub(super) artificial_row: Vec<Option<usize>>,
-}
-
-impl<T: Number> Columns<'_, T> {
-    /// The column of an unknown, length n.
-    pub(super) fn of(&self, variable: Variable) -> DVector<T> {
-        let n = self.r.len();
-        let unit = |row: usize, value: T| {
-            let mut column = DVector::zeros(n);
-            column[row] = value;
-            column
-        };
-        match variable {
-            Variable::Z(i) => self.sub.m.column(i).into_owned(),
-            Variable::W(i) => unit(i, -T::one()),
-            Variable::V(i) => unit(i, T::one()),
-            Variable::Artificial(i) => unit(self.artificial_row[i].unwrap_or(i), T::one()),
-            Variable::T => -&self.r,
-        }
-    }
-
-    fn assemble(&self, variables: &[Variable]) -> DMatrix<T> {
-        let n = self.r.len();
-        let mut b = DMatrix::zeros(n, n);
-        for (place, &variable) in variables.iter().enumerate() {
-            b.set_column(place, &self.of(variable));
-        }
-        b
-    }
-}
-
-/// A regular basis B with its explicit inverse, updated by rank one and factorised afresh in between.
+/// A regular basis B = B_k E_1 ... E_m: factors of B_k, and one column of each exchange since.
 pub(super) struct Basis<T> {
     pub(super) variables: Vec<Variable>,
-    inverse: DMatrix<T>,
-    /// B_0 S: columns of the first basis with the sign of their perturbation. The right-hand side is
-    /// thought perturbed by B_0 S (eps, eps^2, ...), which decides every tie.
-    perturbation: DMatrix<T>,
-    updates: usize,
+    factor: Factor<T>,
+    /// Columns B^-1 a of the unknowns that came in, one after the other, each of length n.
+    exchanged: Vec<T>,
+    /// Their places.
+    places: Vec<usize>,
+    /// The unknowns of the first basis B_0. The right-hand side is thought perturbed by
+    /// B_0 (eps, eps^2, ...), artificials not at all, which decides every tie.
+    first: Vec<Variable>,
     /// Factorisations after the first.
     pub(super) refreshed: usize,
+    work: Vec<T>,
+    row: Vec<T>,
+}
+
+impl<T> Default for Basis<T> {
+    fn default() -> Self {
+        let none = Vec::new;
+        Basis {
+            variables: Vec::new(),
+            factor: Factor::default(),
+            exchanged: none(),
+            places: Vec::new(),
+            first: Vec::new(),
+            refreshed: 0,
+            work: none(),
+            row: none(),
+        }
+    }
 }
 
 impl<T: Number> Basis<T> {
-    /// The basis of these unknowns, or `None` if it is numerically singular.
-    ///
-    /// `signs[k]` is the side to which the unknown in place k is perturbed: 1 up, 0 not at all.
-    pub(super) fn new(columns: &Columns<'_, T>, variables: Vec<Variable>, signs: &[T]) -> Option<Basis<T>> {
-        let mut perturbation = columns.assemble(&variables);
-        let inverse = T::invert(&perturbation)?;
-        for (place, sign) in signs.iter().enumerate() {
-            perturbation.column_mut(place).iter_mut().for_each(|entry| *entry *= sign.clone());
-        }
-        Some(Basis { variables, inverse, perturbation, updates: 0, refreshed: 0 })
+    /// Factors the unknowns in `variables` as the first basis of a path; false if it is numerically
+    /// singular, and [`Basis::repairs`] says how to mend it.
+    pub(super) fn begin(&mut self, columns: &Columns<'_, T>) -> bool {
+        self.refreshed = 0;
+        self.forget();
+        self.first.clone_from(&self.variables);
+        self.factor.factor(columns, &self.variables)
+    }
+
+    /// Places whose columns depend on others, each with the row whose unit column may replace it.
+    pub(super) fn repairs(&self) -> &[(usize, usize)] {
+        self.factor.repairs()
     }
 
     /// B^-1 a.
-    pub(super) fn solve(&self, a: &DVector<T>) -> DVector<T> {
-        &self.inverse * a
+    pub(super) fn solve(&mut self, a: &[T], x: &mut [T]) {
+        self.factor.solve(a, x, &mut self.work);
+        let n = x.len();
+        for (k, &place) in self.places.iter().enumerate() {
+            exchange(x, place, &self.exchanged[k * n..(k + 1) * n]);
+        }
     }
 
-    /// The row of B^-1 B_0 S that belongs to a place: how its value is perturbed.
-    pub(super) fn perturbation(&self, place: usize) -> DVector<T> {
-        (self.inverse.row(place) * &self.perturbation).transpose()
+    /// How the value in a place is perturbed: its row of B^-1 B_0, into `out`.
+    pub(super) fn perturbation(&mut self, columns: &Columns<'_, T>, place: usize, out: &mut Vec<T>) {
+        let n = self.variables.len();
+        out.clear();
+        out.resize(n, T::zero());
+        out[place] = T::one();
+        for (k, &p) in self.places.iter().enumerate().rev() {
+            let column = &self.exchanged[k * n..(k + 1) * n];
+            let value = std::mem::replace(&mut out[p], T::zero());
+            out[p] = (value - dot(out, column)) / column[p].clone();
+        }
+        if self.refreshed > 0 {
+            // Else B_k is B_0.
+            self.row.resize(n, T::zero());
+            self.factor.solve_transposed(out, &mut self.row, &mut self.work);
+            let along = |variable: &Variable| match columns.unit(*variable) {
+                Some((row, true)) => self.row[row].clone(),
+                Some((row, false)) => -self.row[row].clone(),
+                None => dot(&self.row, columns.dense(*variable)),
+            };
+            out.iter_mut().zip(&self.first).for_each(|(o, v)| *o = along(v));
+        }
+        let unperturbed = |v: &Variable| matches!(v, Variable::Artificial(_));
+        out.iter_mut().zip(&self.first).filter(|(_, v)| unperturbed(v)).for_each(|(o, _)| *o = T::zero());
     }
 
     /// Is it time to factorise afresh whatever the accuracy?
     pub(super) fn is_stale(&self) -> bool {
-        self.updates >= REFACTOR_EVERY
+        self.places.len() >= REFACTOR_EVERY
     }
 
     /// Puts `entering` into `place`; `column` is B^-1 of its column, whose entry there is not zero.
-    pub(super) fn replace(&mut self, place: usize, entering: Variable, column: &DVector<T>) {
+    pub(super) fn replace(&mut self, place: usize, entering: Variable, column: &[T]) {
         self.variables[place] = entering;
-        self.updates += 1;
-        let pivot_row = self.inverse.row(place) / column[place].clone();
-        for (i, factor) in column.iter().enumerate() {
-            if i != place && !factor.is_zero() {
-                let mut row = self.inverse.row_mut(i);
-                row -= &pivot_row * factor.clone();
-            }
-        }
-        self.inverse.set_row(place, &pivot_row);
+        self.places.push(place);
+        self.exchanged.extend_from_slice(column);
     }
 
-    /// Inverts the current basis from scratch; false if it is numerically singular.
+    /// Factors the current basis from scratch; false if it is numerically singular.
     pub(super) fn refactor(&mut self, columns: &Columns<'_, T>) -> bool {
-        self.updates = 0;
+        self.forget();
         self.refreshed += 1;
-        match T::invert(&columns.assemble(&self.variables)) {
-            Some(inverse) => {
-                self.inverse = inverse;
-                true
-            }
-            None => false,
-        }
+        self.factor.factor(columns, &self.variables)
     }
+
+    fn forget(&mut self) {
+        self.exchanged.clear();
+        self.places.clear();
+    }
+}
+
+/// x becomes E^-1 x, E the identity with `column` in `place`.
+fn exchange<T: Number>(x: &mut [T], place: usize, column: &[T]) {
+    let value = x[place].clone() / column[place].clone();
+    super::super::dense::subtract(x, &value, column);
+    x[place] = value;
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::Subproblem;
+    use super::super::columns::Frame;
     use super::*;
-    use nalgebra::{dmatrix, dvector};
+    use nalgebra::dmatrix;
 
     #[test]
     fn updates_agree_with_factorisation_from_scratch() {
-        let (m, q) = (dmatrix![2.0, 1.0; 1.0, 3.0], dvector![1.0, 1.0]);
-        let sub = Subproblem { m: &m, q: &q, lower: &[0.0; 2], upper: &[f64::INFINITY; 2] };
-        let columns = Columns { sub: &sub, r: dvector![1.0, 2.0], artificial_row: vec![None; 2] };
-        let mut basis = Basis::new(&columns, vec![Variable::W(0), Variable::W(1)], &[1.0; 2]).unwrap();
-        assert_eq!(basis.perturbation(1), dvector![0.0, 1.0]);
-        let column = basis.solve(&columns.of(Variable::Z(1)));
+        let m = dmatrix![2.0, 1.0; 1.0, 3.0];
+        let sub = Subproblem { m: &m, q: &[1.0, 1.0], lower: &[0.0; 2], upper: &[f64::INFINITY; 2] };
+        let mut frame = Frame::default();
+        frame.set(&sub, &[0.0, 0.0], &[2.0, 3.0]);
+        let columns = frame.columns(&sub);
+        let mut basis = Basis { variables: vec![Variable::W(0), Variable::W(1)], ..Basis::default() };
+        assert!(basis.begin(&columns));
+        let (mut column, mut row, mut x) = (vec![0.0; 2], Vec::new(), vec![0.0; 2]);
+        basis.perturbation(&columns, 1, &mut row);
+        assert_eq!(row, [0.0, 1.0]);
+        basis.solve(columns.dense(Variable::Z(1)), &mut column);
         basis.replace(1, Variable::Z(1), &column);
-        let updated = basis.solve(&dvector![5.0, -7.0]);
+        basis.solve(&[5.0, -7.0], &mut x);
+        let (updated, mut updated_row) = (x.clone(), Vec::new());
+        basis.perturbation(&columns, 1, &mut updated_row);
         assert!(basis.refactor(&columns));
-        assert!((updated - basis.solve(&dvector![5.0, -7.0])).amax() < 1e-14);
+        basis.solve(&[5.0, -7.0], &mut x);
+        basis.perturbation(&columns, 1, &mut row);
+        for (a, b) in updated.iter().chain(&updated_row).zip(x.iter().chain(&row)) {
+            assert!((a - b).abs() < 1e-14, "{updated:?} {updated_row:?} {x:?} {row:?}");
+        }
+        assert_eq!(updated_row, [0.0, -1.0 / 3.0]);
     }
 
     #[test]
     fn a_basis_is_stale_after_its_updates() {
-        let (m, q) = (dmatrix![2.0, 1.0; 1.0, 3.0], dvector![1.0, 1.0]);
-        let sub = Subproblem { m: &m, q: &q, lower: &[0.0; 2], upper: &[f64::INFINITY; 2] };
-        let columns = Columns { sub: &sub, r: dvector![1.0, 2.0], artificial_row: vec![None; 2] };
-        let mut basis = Basis::new(&columns, vec![Variable::W(0), Variable::W(1)], &[1.0; 2]).unwrap();
+        let m = dmatrix![2.0, 1.0; 1.0, 3.0];
+        let sub = Subproblem { m: &m, q: &[1.0, 1.0], lower: &[0.0; 2], upper: &[f64::INFINITY; 2] };
+        let mut frame = Frame::default();
+        frame.set(&sub, &[0.0, 0.0], &[2.0, 3.0]);
+        let columns = frame.columns(&sub);
+        let mut basis = Basis { variables: vec![Variable::W(0), Variable::W(1)], ..Basis::default() };
+        assert!(basis.begin(&columns));
+        let (mut given, mut column) = (Vec::new(), vec![0.0; 2]);
         for k in 0..REFACTOR_EVERY {
             assert!(!basis.is_stale(), "{k}");
             let entering = if k % 2 == 0 { Variable::Z(1) } else { Variable::W(1) };
-            let column = basis.solve(&columns.of(entering));
+            columns.write(entering, &mut given);
+            basis.solve(&given, &mut column);
             basis.replace(1, entering, &column);
         }
         assert!(basis.is_stale() && basis.refactor(&columns) && !basis.is_stale());

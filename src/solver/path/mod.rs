@@ -7,13 +7,22 @@
 //! lexicographically: the right-hand side is thought perturbed by the first basis times
 //! (eps, eps^2, ...), so that in exact arithmetic no basis repeats on a path that starts on a ray.
 //!
-//! `variable` names and pivots; `number` the arithmetic, doubles or exact; `start` the two starts, `repair` of singular ones; `basis` the dense
-//! inverse; `tableau` the state and its moves; `ratio` the ratio test; `walk` the pivot loop.
+//! | file | what |
+//! |---|---|
+//! | `variable`, `number` | names and pivots; the arithmetic, doubles or exact |
+//! | `columns`, `factor`, `basis` | the matrix, its factors, exchanges since |
+//! | `start` | the two starts, with the repair of singular ones |
+//! | `tableau`, `ratio`, `walk` | the state and its moves, the ratio test, the pivot loop |
+//! | `knots` | the breakpoints, and points between them |
+//!
+//! All storage is kept from one path to the next: a path no longer than one before allocates nothing.
 
 mod basis;
+mod columns;
+mod factor;
+mod knots;
 mod number;
 mod ratio;
-mod repair;
 mod start;
 mod tableau;
 mod variable;
@@ -22,11 +31,14 @@ mod walk;
 pub use variable::{Pivot, PivotKind, Variable};
 
 use super::RatioTest;
-use basis::Columns;
-use nalgebra::{DMatrix, DVector};
+use super::dense::subtract;
+use basis::Basis;
+use columns::Frame;
+pub(super) use knots::Knots;
+use nalgebra::DMatrix;
 pub(super) use number::Number;
-use start::{start_point, starting_basis};
-use tableau::Tableau;
+use start::{FreeRows, start_point, starting_basis};
+use tableau::{State, Tableau};
 use walk::Walk;
 
 /// Which start a path used.
@@ -56,9 +68,24 @@ pub enum PathEnd {
 /// The linear MCP: M z + q on [lower, upper].
 pub(super) struct Subproblem<'a, T: Number = f64> {
     pub(super) m: &'a DMatrix<T>,
-    pub(super) q: &'a DVector<T>,
+    pub(super) q: &'a [T],
     pub(super) lower: &'a [T],
     pub(super) upper: &'a [T],
+}
+
+impl<T: Number> Subproblem<'_, T> {
+    /// A column of M.
+    fn column(&self, j: usize) -> &[T] {
+        let n = self.q.len();
+        &self.m.as_slice()[j * n..(j + 1) * n]
+    }
+
+    /// M z + q, into `out`.
+    fn value(&self, z: &[T], out: &mut Vec<T>) {
+        out.clear();
+        out.extend_from_slice(self.q);
+        z.iter().enumerate().for_each(|(j, z)| subtract(out, &-z.clone(), self.column(j)));
+    }
 }
 
 /// Limits on one path.
@@ -69,55 +96,91 @@ pub(super) struct Limits {
     pub(super) rule: RatioTest,
 }
 
-/// A breakpoint: z and the multipliers w - v at t.
-#[derive(Debug, Clone)]
-pub(super) struct Knot<T = f64> {
-    pub(super) t: T,
-    pub(super) z: DVector<T>,
-    #[cfg_attr(not(test), allow(dead_code, reason = "read by tests of the path equation"))]
-    pub(super) multiplier: DVector<T>,
-}
-
 /// A path that was followed to its end: linear between its knots.
 #[derive(Debug, Clone)]
 pub(super) struct Path<T = f64> {
-    pub(super) knots: Vec<Knot<T>>,
+    pub(super) knots: Knots<T>,
     pub(super) pivots: Vec<Pivot>,
     pub(super) end: PathEnd,
     pub(super) start: Start,
-    /// Factorisations made on it, with those of its start.
+    /// Factorisations made on it, with that of its start.
     pub(super) factorisations: usize,
 }
 
-/// Follows the path from a start; a regular one begins over `current`, which is within the bounds.
-pub(super) fn follow<T: Number>(sub: &Subproblem<'_, T>, start: Start, current: &DVector<T>, limits: Limits) -> Path<T> {
-    let point = start_point(sub, start, current);
-    let r = &point.multiplier - sub.m * &point.z - sub.q;
-    let mut columns = Columns { sub, r, artificial_row: vec![None; current.len()] };
-    match starting_basis(&mut columns, &point) {
-        Some(basis) => Walk::new(Tableau::new(&columns, basis, point), start, limits).run(),
-        None => Path { knots: Vec::new(), pivots: Vec::new(), end: PathEnd::Singular, start, factorisations: 2 },
+impl<T> Default for Path<T> {
+    fn default() -> Self {
+        Path { knots: Knots::default(), pivots: Vec::new(), end: PathEnd::Singular, start: Start::Regular, factorisations: 0 }
     }
 }
 
-impl<T> Path<T> {
+/// What paths are followed with.
+pub(super) struct Storage<T = f64> {
+    frame: Frame<T>,
+    basis: Basis<T>,
+    state: State<T>,
+    entries: Vec<[usize; 3]>,
+    free: FreeRows<T>,
+}
+
+impl<T> Default for Storage<T> {
+    fn default() -> Self {
+        Storage {
+            frame: Frame::default(),
+            basis: Basis::default(),
+            state: State::default(),
+            entries: Vec::new(),
+            free: FreeRows::default(),
+        }
+    }
+}
+
+/// Follows the path from a start into `path`; a regular one begins over `current`, within the bounds.
+pub(super) fn follow<T: Number>(
+    sub: &Subproblem<'_, T>,
+    start: Start,
+    current: &[T],
+    limits: Limits,
+    storage: &mut Storage<T>,
+    path: &mut Path<T>,
+) {
+    let Storage { frame, basis, state, entries, free } = storage;
+    path.knots.clear(current.len());
+    path.pivots.clear();
+    (path.start, path.end, path.factorisations) = (start, PathEnd::Singular, 0);
+    start_point(sub, start, current, state, free);
+    frame.set(sub, &state.z, &state.multiplier);
+    if starting_basis(sub, frame, basis, state, path) {
+        let tableau = Tableau::new(frame.columns(sub), basis, state);
+        Walk::new(tableau, limits, entries, path).run();
+    }
+}
+
+impl<T: Number> Path<T> {
     /// The last point: the Newton point of a complete path, a little along the ray of one that ended so.
-    pub(super) fn last(&self) -> Option<&DVector<T>> {
-        self.knots.last().map(|k| &k.z)
+    pub(super) fn last(&self) -> Option<&[T]> {
+        self.knots.len().checked_sub(1).map(|k| self.knots.z(k))
     }
 }
 
 impl Path {
     /// The point where the path first reaches t, linearly between knots.
-    pub(super) fn at(&self, t: f64) -> Option<DVector<f64>> {
-        let k = self.knots.windows(2).position(|w| w[0].t < t && w[1].t >= t)?;
-        let (a, b) = (&self.knots[k], &self.knots[k + 1]);
-        Some(a.z.lerp(&b.z, (t - a.t) / (b.t - a.t)))
+    pub(super) fn at(&self, t: f64) -> Option<impl Fn(usize) -> f64> {
+        let k = (1..self.knots.len()).position(|k| self.knots.t(k - 1) < &t && self.knots.t(k) >= &t)?;
+        let (a, b) = (self.knots.z(k), self.knots.z(k + 1));
+        let share = (t - self.knots.t(k)) / (self.knots.t(k + 1) - self.knots.t(k));
+        Some(move |i: usize| a[i] * (1.0 - share) + b[i] * share)
     }
 
     /// The largest t on the path.
     pub(super) fn reach(&self) -> f64 {
-        self.knots.iter().map(|k| k.t).fold(0.0, f64::max)
+        (0..self.knots.len()).map(|k| *self.knots.t(k)).fold(0.0, f64::max)
+    }
+
+    /// Takes the content of another one in place of its own.
+    pub(super) fn copy_from(&mut self, other: &Path) {
+        self.knots.copy_from(&other.knots);
+        self.pivots.clone_from(&other.pivots);
+        (self.end, self.start, self.factorisations) = (other.end, other.start, other.factorisations);
     }
 }
 

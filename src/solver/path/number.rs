@@ -1,8 +1,7 @@
 //! The numbers the path is pivoted in: doubles in the solver, exact rationals in the tests that hold
 //! Lemke's method to its finiteness theorem. One code for both.
 
-use super::super::dense;
-use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, DMatrix, DVector, Scalar};
+use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar};
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
 use std::ops::Neg;
@@ -29,15 +28,14 @@ pub(in super::super) trait Number:
     /// A total order.
     fn order(&self, other: &Self) -> Ordering;
 
-    /// The inverse, or `None` where the matrix is (numerically) singular.
-    fn invert(matrix: &DMatrix<Self>) -> Option<DMatrix<Self>>;
-
-    /// The solution of A x = b, or `None` where A is (numerically) singular.
-    fn solve(a: DMatrix<Self>, b: &DVector<Self>) -> Option<DVector<Self>>;
-
     /// |x|.
     fn magnitude(&self) -> Self {
         if *self < Self::zero() { -self.clone() } else { self.clone() }
+    }
+
+    /// The largest |entry|, 0 of nothing; entries that do not compare are passed over.
+    fn largest(entries: &[Self]) -> Self {
+        entries.iter().fold(Self::zero(), |worst, entry| worst.larger(entry.magnitude()))
     }
 
     /// The larger one; `self` if they do not compare.
@@ -49,11 +47,6 @@ pub(in super::super) trait Number:
     fn smaller(self, other: Self) -> Self {
         if other < self { other } else { self }
     }
-}
-
-/// The largest |entry|, 0 of nothing.
-pub(super) fn largest<'a, T: Number>(entries: impl IntoIterator<Item = &'a T>) -> T {
-    entries.into_iter().fold(T::zero(), |worst, entry| worst.larger(entry.magnitude()))
 }
 
 impl Number for f64 {
@@ -75,10 +68,16 @@ impl Number for f64 {
     fn order(&self, other: &f64) -> Ordering {
         self.total_cmp(other)
     }
-    fn invert(matrix: &DMatrix<f64>) -> Option<DMatrix<f64>> {
-        dense::invert(matrix)
+    fn magnitude(&self) -> f64 {
+        self.abs()
     }
-    fn solve(a: DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
-        dense::solve(a, b)
+    fn largest(entries: &[f64]) -> f64 {
+        // Four at a time, so that no entry waits for the one before.
+        let (blocks, rest) = entries.as_chunks::<4>();
+        let mut worst = [0.0; 4];
+        for block in blocks {
+            worst.iter_mut().zip(block).for_each(|(w, v)| *w = if v.abs() > *w { v.abs() } else { *w });
+        }
+        worst.iter().chain(rest).fold(0.0, |w, v| if v.abs() > w { v.abs() } else { w })
     }
 }

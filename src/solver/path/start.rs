@@ -1,31 +1,31 @@
 //! The two starts of a path: regular, from the current point, and Lemke's ray, from the bounds.
 
-use super::basis::{Basis, Columns};
+use super::super::dense::Lu;
+use super::basis::Basis;
+use super::columns::Frame;
 use super::number::Number;
-use super::repair::dependent_places;
+use super::tableau::State;
 use super::variable::Variable;
-use super::{Start, Subproblem};
-use nalgebra::{DMatrix, DVector};
+use super::{Path, Start, Subproblem};
 
-/// Where a path begins: a point of the normal map's domain as (z, multiplier w - v).
-pub(super) struct StartPoint<T> {
-    pub(super) z: DVector<T>,
-    pub(super) multiplier: DVector<T>,
-}
-
-/// The start of the given kind; the regular one over `current`.
-pub(super) fn start_point<T: Number>(sub: &Subproblem<'_, T>, kind: Start, current: &DVector<T>) -> StartPoint<T> {
+/// Sets z and the multipliers w - v of the state to the start of the given kind, a point of the normal
+/// map's domain; the regular one over `current`.
+pub(super) fn start_point<T: Number>(sub: &Subproblem<'_, T>, kind: Start, current: &[T], state: &mut State<T>, free: &mut FreeRows<T>) {
     match kind {
-        Start::Regular => regular(sub, current),
-        Start::Ray => ray(sub),
+        Start::Regular => regular(sub, current, state),
+        Start::Ray => ray(sub, state, free),
     }
 }
 
 /// The normal-map point over the current z with the least residual.
-fn regular<T: Number>(sub: &Subproblem<'_, T>, current: &DVector<T>) -> StartPoint<T> {
-    let value = sub.m * current + sub.q;
-    let multiplier = DVector::from_fn(current.len(), |i, _| absorbed(&current[i], &value[i], &sub.lower[i], &sub.upper[i]));
-    StartPoint { z: current.clone(), multiplier }
+fn regular<T: Number>(sub: &Subproblem<'_, T>, current: &[T], state: &mut State<T>) {
+    let State { z, multiplier, .. } = state;
+    z.clear();
+    z.extend_from_slice(current);
+    sub.value(z, multiplier);
+    for (i, m) in multiplier.iter_mut().enumerate() {
+        *m = absorbed(&z[i], m, &sub.lower[i], &sub.upper[i]);
+    }
 }
 
 /// The part of F_i that a bound absorbs: its positive part at a lower one, its negative part at an
@@ -38,30 +38,28 @@ fn absorbed<T: Number>(z: &T, f: &T, lower: &T, upper: &T) -> T {
 
 /// Lemke's ray: bounded z at a bound, free z solving their rows, and all multipliers lifted by the
 /// same amount until they are positive, so that t -> -inf is a ray of the path.
-fn ray<T: Number>(sub: &Subproblem<'_, T>) -> StartPoint<T> {
-    let n = sub.q.len();
-    let mut z = DVector::from_fn(n, |i, _| bound_or_zero(&sub.lower[i], &sub.upper[i]));
-    solve_free_rows(sub, &mut z);
-    let value = sub.m * &z + sub.q;
+fn ray<T: Number>(sub: &Subproblem<'_, T>, state: &mut State<T>, free: &mut FreeRows<T>) {
+    let State { z, multiplier, .. } = state;
+    z.clear();
+    z.extend(sub.lower.iter().zip(sub.upper).map(|(l, u)| bound_or_zero(l, u)));
+    free.solve(sub, z, multiplier);
+    sub.value(z, multiplier);
     let side = |i: usize| match (sub.lower[i].is_finite(), sub.upper[i].is_finite()) {
         _ if sub.lower[i] == sub.upper[i] => T::zero(),
         (true, _) => T::one(),
         (false, true) => -T::one(),
         (false, false) => T::zero(),
     };
-    let worst = (0..n).map(|i| -side(i) * value[i].clone()).fold(T::zero(), T::larger);
-    let size = (0..n).map(|i| (side(i) * value[i].clone()).magnitude()).fold(T::zero(), T::larger);
+    let sided = |(i, value): (usize, &T)| side(i) * value.clone();
+    let worst = multiplier.iter().enumerate().map(|e| -sided(e)).fold(T::zero(), T::larger);
+    let size = multiplier.iter().enumerate().map(|e| sided(e).magnitude()).fold(T::zero(), T::larger);
     let lift = worst + if size.is_zero() { T::one() } else { size };
-    let multiplier = DVector::from_fn(n, |i, _| {
+    for (i, m) in multiplier.iter_mut().enumerate() {
         if sub.lower[i] == sub.upper[i] {
-            value[i].clone()
-        } else if side(i).is_zero() {
-            T::zero()
-        } else {
-            value[i].clone() + side(i) * lift.clone()
+            continue;
         }
-    });
-    StartPoint { z, multiplier }
+        *m = if side(i).is_zero() { T::zero() } else { m.clone() + side(i) * lift.clone() };
+    }
 }
 
 fn bound_or_zero<T: Number>(lower: &T, upper: &T) -> T {
@@ -72,47 +70,78 @@ fn bound_or_zero<T: Number>(lower: &T, upper: &T) -> T {
     }
 }
 
-/// Sets the free z so that their own rows vanish, if those rows are regular; else leaves them at 0.
-fn solve_free_rows<T: Number>(sub: &Subproblem<'_, T>, z: &mut DVector<T>) {
-    let free: Vec<usize> = (0..z.len()).filter(|&i| !sub.lower[i].is_finite() && !sub.upper[i].is_finite()).collect();
-    let value = sub.m * &*z + sub.q;
-    let block = DMatrix::from_fn(free.len(), free.len(), |i, j| sub.m[(free[i], free[j])].clone());
-    let right = DVector::from_fn(free.len(), |i, _| -value[free[i]].clone());
-    if let Some(step) = T::solve(block, &right) {
-        for (&i, v) in free.iter().zip(step.iter()) {
-            z[i] = v.clone();
+/// The rows of the unknowns without bounds. Storage is kept.
+pub(super) struct FreeRows<T> {
+    indices: Vec<usize>,
+    lu: Lu<T>,
+    step: Vec<T>,
+}
+
+impl<T> Default for FreeRows<T> {
+    fn default() -> Self {
+        FreeRows { indices: Vec::new(), lu: Lu::default(), step: Vec::new() }
+    }
+}
+
+impl<T: Number> FreeRows<T> {
+    /// Sets the free z so that their own rows vanish, if those rows are regular; else leaves them.
+    fn solve(&mut self, sub: &Subproblem<'_, T>, z: &mut [T], value: &mut Vec<T>) {
+        let FreeRows { indices, lu, step } = self;
+        indices.clear();
+        indices.extend((0..z.len()).filter(|&i| !sub.lower[i].is_finite() && !sub.upper[i].is_finite()));
+        if indices.is_empty() {
+            return;
+        }
+        sub.value(z, value);
+        let gather = |j: usize, rows: &[usize], out: &mut [T]| {
+            let column = sub.column(indices[j]);
+            rows.iter().zip(out).for_each(|(&i, o)| *o = column[indices[i]].clone());
+        };
+        if !lu.factor(indices.len(), gather, |_| T::zero()) {
+            return;
+        }
+        step.clear();
+        step.extend(lu.rows().iter().map(|&i| -value[indices[i]].clone()));
+        lu.solve(step);
+        if step.iter().all(T::is_finite) {
+            indices.iter().zip(step.iter()).for_each(|(&i, v)| z[i] = v.clone());
         }
     }
 }
 
 /// The basis of a start, repaired with artificials where it is singular: at a bound its multiplier
-/// is basic, strictly inside z is. `None` if even the repaired basis does not factorise.
-pub(super) fn starting_basis<T: Number>(columns: &mut Columns<'_, T>, point: &StartPoint<T>) -> Option<Basis<T>> {
-    let n = point.z.len();
-    let (lower, upper) = (columns.sub.lower, columns.sub.upper);
-    let mut variables: Vec<Variable> = (0..n)
-        .map(|i| match &point.z[i] {
-            z if *z <= lower[i] => Variable::W(i),
-            z if *z >= upper[i] => Variable::V(i),
-            _ => Variable::Z(i),
-        })
-        .collect();
-    let mut priority: Vec<usize> = (0..n).collect();
-    priority.sort_by_key(|&i| matches!(variables[i], Variable::Z(_))); // unit columns first
-    let matrix = DMatrix::from_fn(n, n, |row, place| columns.of(variables[place])[row].clone());
-    for (place, row) in dependent_places(&matrix, &priority) {
-        columns.artificial_row[place] = Some(row);
-        variables[place] = Variable::Artificial(place);
+/// is basic, strictly inside z is. False if even the repaired basis does not factorise.
+pub(super) fn starting_basis<T: Number>(
+    sub: &Subproblem<'_, T>,
+    frame: &mut Frame<T>,
+    basis: &mut Basis<T>,
+    state: &State<T>,
+    path: &mut Path<T>,
+) -> bool {
+    let place = |(i, z): (usize, &T)| match z {
+        z if *z <= sub.lower[i] => Variable::W(i),
+        z if *z >= sub.upper[i] => Variable::V(i),
+        _ => Variable::Z(i),
+    };
+    basis.variables.clear();
+    basis.variables.extend(state.z.iter().enumerate().map(place));
+    path.factorisations += 1;
+    if basis.begin(&frame.columns(sub)) {
+        return true;
     }
-    let sign = |v: &Variable| if matches!(v, Variable::Artificial(_)) { T::zero() } else { T::one() };
-    let signs: Vec<T> = variables.iter().map(sign).collect();
-    Basis::new(columns, variables, &signs)
+    for k in 0..basis.repairs().len() {
+        let (place, row) = basis.repairs()[k];
+        frame.add_artificial(place, row);
+        basis.variables[place] = Variable::Artificial(place);
+    }
+    path.factorisations += 1;
+    basis.begin(&frame.columns(sub))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::{dmatrix, dvector};
+    use nalgebra::dmatrix;
 
     const INF: f64 = f64::INFINITY;
 
@@ -126,19 +155,25 @@ mod tests {
 
     #[test]
     fn the_ray_dominates_and_free_rows_vanish() {
-        let (m, q) = (dmatrix![2.0, 1.0, 0.0; 0.0, 1.0, 1.0; 1.0, 0.0, 1.0], dvector![-4.0, -3.0, 5.0]);
-        let sub = Subproblem { m: &m, q: &q, lower: &[-INF, 0.0, -INF], upper: &[INF, INF, 1.0] };
-        let start = ray(&sub);
-        assert_eq!(start.z, dvector![2.0, 0.0, 1.0]);
-        assert!(start.multiplier[1] > 0.0 && start.multiplier[2] < 0.0 && start.multiplier[0] == 0.0);
+        let m = dmatrix![2.0, 1.0, 0.0; 0.0, 1.0, 1.0; 1.0, 0.0, 1.0];
+        let sub = Subproblem { m: &m, q: &[-4.0, -3.0, 5.0], lower: &[-INF, 0.0, -INF], upper: &[INF, INF, 1.0] };
+        let mut start = State::default();
+        ray(&sub, &mut start, &mut FreeRows::default());
+        assert_eq!(start.z, [2.0, 0.0, 1.0]);
+        let m = &start.multiplier;
+        assert!(m[1] > 0.0 && m[2] < 0.0 && m[0] == 0.0);
     }
 
     #[test]
     fn singular_bases_are_repaired() {
-        let (m, q) = (dmatrix![1.0, 1.0; 1.0, 1.0], dvector![-1.0, -1.0]);
-        let sub = Subproblem { m: &m, q: &q, lower: &[-INF; 2], upper: &[INF; 2] };
-        let mut columns = Columns { sub: &sub, r: dvector![1.0, 1.0], artificial_row: vec![None; 2] };
-        let basis = starting_basis(&mut columns, &regular(&sub, &dvector![0.0, 0.0])).unwrap();
+        let m = dmatrix![1.0, 1.0; 1.0, 1.0];
+        let sub = Subproblem { m: &m, q: &[-1.0, -1.0], lower: &[-INF; 2], upper: &[INF; 2] };
+        let (mut frame, mut basis, mut state) = (Frame::default(), Basis::default(), State::default());
+        regular(&sub, &[0.0, 0.0], &mut state);
+        frame.set(&sub, &state.z, &state.multiplier);
+        let mut path = Path::default();
+        assert!(starting_basis(&sub, &mut frame, &mut basis, &state, &mut path));
         assert_eq!(basis.variables, vec![Variable::Z(0), Variable::Artificial(1)]);
+        assert_eq!(path.factorisations, 2);
     }
 }

@@ -1,22 +1,57 @@
 //! The state on a path: basis, values, the moving unknown; and the moves it can make.
 
+use super::super::dense::subtract;
 use super::super::tolerance::DRIFT;
-use super::basis::{Basis, Columns};
-use super::number::{Number, largest};
-use super::start::StartPoint;
+use super::basis::Basis;
+use super::columns::Columns;
+use super::number::Number;
+use super::ratio::Block;
 use super::variable::Variable;
-use nalgebra::DVector;
 
-/// All unknowns not named here are zero or at a bound.
-pub(super) struct Tableau<'a, T: Number> {
-    pub(super) columns: &'a Columns<'a, T>,
-    pub(super) basis: Basis<T>,
+/// Numbers of a path; all unknowns not named here are zero or at a bound. Storage is kept.
+pub(super) struct State<T> {
     /// Values of the basic unknowns, place by place.
-    pub(super) values: DVector<T>,
+    pub(super) values: Vec<T>,
     /// All z, also those not basic.
-    pub(super) z: DVector<T>,
+    pub(super) z: Vec<T>,
     /// w - v.
-    pub(super) multiplier: DVector<T>,
+    pub(super) multiplier: Vec<T>,
+    /// B^-1 a of the moving unknown.
+    pub(super) column: Vec<T>,
+    /// Change of the values per unit of its movement.
+    pub(super) rates: Vec<T>,
+    /// What can stop it.
+    pub(super) blocks: Vec<Block<T>>,
+    /// Rows to compare in the ratio test.
+    pub(super) rows: [Vec<T>; 2],
+    /// Is z_i basic?
+    is_basic: Vec<bool>,
+    work: Vec<T>,
+    sum: Vec<T>,
+}
+
+impl<T> Default for State<T> {
+    fn default() -> Self {
+        State {
+            values: Vec::new(),
+            z: Vec::new(),
+            multiplier: Vec::new(),
+            column: Vec::new(),
+            rates: Vec::new(),
+            blocks: Vec::new(),
+            rows: [Vec::new(), Vec::new()],
+            is_basic: Vec::new(),
+            work: Vec::new(),
+            sum: Vec::new(),
+        }
+    }
+}
+
+/// A path under way.
+pub(super) struct Tableau<'a, T: Number> {
+    pub(super) columns: Columns<'a, T>,
+    pub(super) basis: &'a mut Basis<T>,
+    pub(super) state: &'a mut State<T>,
     pub(super) t: T,
     /// The unknown that moves.
     pub(super) entering: Variable,
@@ -25,16 +60,27 @@ pub(super) struct Tableau<'a, T: Number> {
 }
 
 impl<'a, T: Number> Tableau<'a, T> {
-    /// At t = 0, with t about to increase.
-    pub(super) fn new(columns: &'a Columns<'a, T>, basis: Basis<T>, start: StartPoint<T>) -> Self {
-        let StartPoint { z, multiplier } = start;
-        let values = DVector::from_fn(z.len(), |place, _| match basis.variables[place] {
-            Variable::Z(i) => z[i].clone(),
-            Variable::W(i) => multiplier[i].clone(),
-            Variable::V(i) => -multiplier[i].clone(),
-            Variable::Artificial(_) | Variable::T => T::zero(),
-        });
-        Tableau { columns, basis, values, z, multiplier, t: T::zero(), entering: Variable::T, sign: T::one() }
+    /// At t = 0, with t about to increase; z and multipliers of the state are those of the start.
+    pub(super) fn new(columns: Columns<'a, T>, basis: &'a mut Basis<T>, state: &'a mut State<T>) -> Self {
+        let n = state.z.len();
+        state.values.clear();
+        state.is_basic.clear();
+        state.is_basic.resize(n, false);
+        for variable in &basis.variables {
+            state.values.push(match *variable {
+                Variable::Z(i) => state.z[i].clone(),
+                Variable::W(i) => state.multiplier[i].clone(),
+                Variable::V(i) => -state.multiplier[i].clone(),
+                Variable::Artificial(_) | Variable::T => T::zero(),
+            });
+            if let Variable::Z(i) = variable {
+                state.is_basic[*i] = true;
+            }
+        }
+        for list in [&mut state.column, &mut state.rates, &mut state.sum] {
+            list.resize(n, T::zero());
+        }
+        Tableau { columns, basis, state, t: T::zero(), entering: Variable::T, sign: T::one() }
     }
 
     /// Bounds of an unknown. t has none below: like Lemke's covering variable 1 - t, which has none above.
@@ -52,9 +98,9 @@ impl<'a, T: Number> Tableau<'a, T> {
     /// Current value of an unknown that is moving.
     fn entering_value(&self) -> T {
         match self.entering {
-            Variable::Z(i) => self.z[i].clone(),
-            Variable::W(i) => self.multiplier[i].clone(),
-            Variable::V(i) => -self.multiplier[i].clone(),
+            Variable::Z(i) => self.state.z[i].clone(),
+            Variable::W(i) => self.state.multiplier[i].clone(),
+            Variable::V(i) => -self.state.multiplier[i].clone(),
             Variable::Artificial(_) => T::zero(),
             Variable::T => self.t.clone(),
         }
@@ -67,57 +113,73 @@ impl<'a, T: Number> Tableau<'a, T> {
         T::zero().larger(if self.sign > T::zero() { upper - value } else { value - lower })
     }
 
-    /// B^-1 a of the moving unknown.
-    pub(super) fn column(&self) -> DVector<T> {
-        self.basis.solve(&self.columns.of(self.entering))
-    }
-
-    /// Moves the entering unknown by `step`; basic values follow at `rates` per unit.
-    pub(super) fn advance(&mut self, rates: &DVector<T>, step: T) {
-        let entering_value = self.entering_value() + self.sign.clone() * step.clone();
-        self.values.axpy(step, rates, T::one());
-        self.multiplier.fill(T::zero());
-        for place in 0..self.values.len() {
-            self.store(self.basis.variables[place], self.values[place].clone());
+    /// B^-1 a of an unknown, into the state's column.
+    fn solve_for(&mut self, variable: Variable) {
+        let state = &mut *self.state;
+        match self.columns.unit(variable) {
+            None => self.basis.solve(self.columns.dense(variable), &mut state.column),
+            Some(_) => {
+                self.columns.write(variable, &mut state.work);
+                self.basis.solve(&state.work, &mut state.column);
+            }
         }
-        self.store(self.entering, entering_value);
     }
 
-    /// Writes the value of a basic or moving unknown where the point keeps it.
-    fn store(&mut self, variable: Variable, value: T) {
-        match variable {
-            Variable::Z(i) => self.z[i] = value,
-            Variable::W(i) => self.multiplier[i] = value,
-            Variable::V(i) => self.multiplier[i] = -value,
+    /// Column and rates of the moving unknown.
+    pub(super) fn set_rates(&mut self) {
+        self.solve_for(self.entering);
+        let sign = -self.sign.clone();
+        self.state.rates.iter_mut().zip(&self.state.column).for_each(|(rate, c)| *rate = c.clone() * sign.clone());
+    }
+
+    /// Moves the entering unknown by `step`; basic values follow at the rates.
+    pub(super) fn advance(&mut self, step: &T) {
+        let entering_value = self.entering_value() + self.sign.clone() * step.clone();
+        let State { values, z, multiplier, rates, .. } = &mut *self.state;
+        values.iter_mut().zip(rates.iter()).for_each(|(value, rate)| *value += step.clone() * rate.clone());
+        multiplier.fill(T::zero());
+        let mut store = |variable: Variable, value: T| match variable {
+            Variable::Z(i) => z[i] = value,
+            Variable::W(i) => multiplier[i] = value,
+            Variable::V(i) => multiplier[i] = -value,
             Variable::Artificial(_) => {}
             Variable::T => self.t = value.smaller(T::one()),
-        }
+        };
+        self.basis.variables.iter().zip(values.iter()).for_each(|(&variable, value)| store(variable, value.clone()));
+        store(self.entering, entering_value);
     }
 
     /// The moving z_i has crossed to its other bound: the multiplier of that bound moves next.
     pub(super) fn flip(&mut self) {
         if let Variable::Z(i) = self.entering {
             let at_upper = self.sign > T::zero();
-            self.z[i] = if at_upper { self.columns.sub.upper[i].clone() } else { self.columns.sub.lower[i].clone() };
+            self.state.z[i] = if at_upper { self.columns.sub.upper[i].clone() } else { self.columns.sub.lower[i].clone() };
             self.entering = if at_upper { Variable::V(i) } else { Variable::W(i) };
             self.sign = T::one();
         }
     }
 
-    /// Puts the moving unknown into `place`; the complement of the leaving one moves next.
-    /// False if a fresh factorisation was due and found the basis singular.
-    pub(super) fn exchange(&mut self, place: usize, at_upper: bool, column: &DVector<T>) -> bool {
+    /// Puts the moving unknown into `place`; the complement of the leaving one moves next. The state's
+    /// column is that of the moving unknown. False if a fresh factorisation was due and found the basis
+    /// singular.
+    pub(super) fn exchange(&mut self, place: usize, at_upper: bool) -> bool {
         let leaving = self.basis.variables[place];
         let value = self.entering_value();
-        self.basis.replace(place, self.entering, column);
-        self.values[place] = value;
+        self.basis.replace(place, self.entering, &self.state.column);
+        self.state.values[place] = value;
+        for (variable, is_basic) in [(leaving, false), (self.entering, true)] {
+            if let Variable::Z(i) = variable {
+                self.state.is_basic[i] = is_basic;
+            }
+        }
         (self.entering, self.sign) = self.successor(leaving, at_upper);
         if self.basis.is_stale() || self.drift() > T::tolerance(DRIFT) { self.refactor() } else { true }
     }
 
     /// Values that satisfy the equations again, after an unknown was put on a bound it had passed.
     pub(super) fn settle(&mut self) {
-        self.values = self.basis.solve(&self.right_hand_side());
+        self.set_right_hand_side();
+        self.basis.solve(&self.state.sum, &mut self.state.values);
     }
 
     /// The unknown that moves after `leaving` has reached a bound, and its direction.
@@ -125,7 +187,7 @@ impl<'a, T: Number> Tableau<'a, T> {
         match leaving {
             Variable::Z(i) => {
                 let (lower, upper) = self.bounds(leaving);
-                self.z[i] = if at_upper { upper } else { lower };
+                self.state.z[i] = if at_upper { upper } else { lower };
                 (if at_upper { Variable::V(i) } else { Variable::W(i) }, T::one())
             }
             Variable::W(i) => (Variable::Z(i), T::one()),
@@ -136,42 +198,44 @@ impl<'a, T: Number> Tableau<'a, T> {
     }
 
     /// z_i was held inside its bounds by an artificial and may move both ways: the way t rises.
-    fn rising_sign(&self, i: usize) -> T {
-        let column = self.basis.solve(&self.columns.of(Variable::Z(i)));
+    fn rising_sign(&mut self, i: usize) -> T {
+        self.solve_for(Variable::Z(i));
         let place = self.basis.variables.iter().position(|&v| v == Variable::T);
-        let falls = place.is_some_and(|p| column[p] > T::zero());
+        let falls = place.is_some_and(|p| self.state.column[p] > T::zero());
         if falls { -T::one() } else { T::one() }
     }
 
     /// Error of the equations, relative to the size of their terms.
-    fn drift(&self) -> T {
-        let (target, mut size) = (self.right_hand_side(), largest(self.columns.sub.q) + largest(&self.columns.r));
-        let mut sum = -target;
-        for (&variable, value) in self.basis.variables.iter().zip(self.values.iter()) {
-            let column = self.columns.of(variable);
-            size = size.larger(largest(&column) * value.magnitude());
-            sum.axpy(value.clone(), &column, T::one());
+    fn drift(&mut self) -> T {
+        self.set_right_hand_side();
+        let State { values, sum, .. } = &mut *self.state;
+        let mut size = self.columns.scale();
+        for (&variable, value) in self.basis.variables.iter().zip(values.iter()) {
+            size = size.larger(self.columns.size(variable) * value.magnitude());
+            match self.columns.unit(variable) {
+                None => subtract(sum, value, self.columns.dense(variable)),
+                Some((row, true)) => sum[row] -= value.clone(),
+                Some((row, false)) => sum[row] += value.clone(),
+            }
         }
-        if size > T::zero() { largest(&sum) / size } else { T::zero() }
+        if size > T::zero() { T::largest(&*sum) / size } else { T::zero() }
     }
 
-    /// Inverse and values from scratch.
+    /// Factors and values from scratch.
     fn refactor(&mut self) -> bool {
-        if !self.basis.refactor(self.columns) {
+        if !self.basis.refactor(&self.columns) {
             return false;
         }
-        self.values = self.basis.solve(&self.right_hand_side());
+        self.settle();
         true
     }
 
-    /// -(q + r) less the columns of the z that are not basic.
-    fn right_hand_side(&self) -> DVector<T> {
-        let mut outside = self.z.clone();
-        for &variable in &self.basis.variables {
-            if let Variable::Z(i) = variable {
-                outside[i] = T::zero();
-            }
+    /// -(q + r) less the columns of the z that are not basic, into the state's sum.
+    fn set_right_hand_side(&mut self) {
+        let State { z, sum, is_basic, .. } = &mut *self.state;
+        sum.clone_from_slice(self.columns.right());
+        for (i, z) in z.iter().enumerate().filter(|(i, _)| !is_basic[*i]) {
+            subtract(sum, z, self.columns.dense(Variable::Z(i)));
         }
-        -(&self.columns.r + self.columns.sub.q) - self.columns.sub.m * outside
     }
 }

@@ -4,17 +4,41 @@ mod exact;
 mod finite;
 
 use super::*;
-use nalgebra::{dmatrix, dvector};
+use nalgebra::{DVector, dmatrix, dvector};
 
 const INF: f64 = f64::INFINITY;
 const LIMITS: Limits = Limits { pivots: 200, cycle_entries: 20, rule: RatioTest::Lexicographic };
 
+/// A breakpoint.
+#[derive(Debug)]
+struct Knot<T: Number> {
+    t: T,
+    z: DVector<T>,
+    multiplier: DVector<T>,
+}
+
+fn knots<T: Number>(path: &Path<T>) -> Vec<Knot<T>> {
+    let vector = DVector::from_column_slice;
+    let knot = |k: usize| Knot { t: path.knots.t(k).clone(), z: vector(path.knots.z(k)), multiplier: vector(path.knots.multiplier(k)) };
+    (0..path.knots.len()).map(knot).collect()
+}
+
+/// Follows in storage that another path has left behind.
+fn walked<T: Number>(sub: &Subproblem<'_, T>, start: Start, current: &[T], limits: Limits) -> Path<T> {
+    let (mut storage, mut path) = (Storage::default(), Path::default());
+    let other = if start == Start::Ray { Start::Regular } else { Start::Ray };
+    follow(sub, other, current, Limits { pivots: 3, ..limits }, &mut storage, &mut path);
+    follow(sub, start, current, limits, &mut storage, &mut path);
+    path
+}
+
 /// Follows and checks that every knot satisfies the path equation and the bounds.
 fn followed(m: &DMatrix<f64>, q: &DVector<f64>, l: &[f64], u: &[f64], start: Start, current: &[f64]) -> Path {
-    let sub = Subproblem { m, q, lower: l, upper: u };
-    let path = follow(&sub, start, &DVector::from_column_slice(current), LIMITS);
-    let r = path.knots.first().map(|k| &k.multiplier - m * &k.z - q);
-    for knot in &path.knots {
+    let sub = Subproblem { m, q: q.as_slice(), lower: l, upper: u };
+    let path = walked(&sub, start, current, LIMITS);
+    let knots = knots(&path);
+    let r = knots.first().map(|k| &k.multiplier - m * &k.z - q);
+    for knot in &knots {
         let equation = m * &knot.z - &knot.multiplier + q + r.clone().unwrap() * (1.0 - knot.t);
         assert!(equation.amax() < 1e-9, "{equation} at {knot:?}");
         for i in 0..l.len() {
@@ -46,7 +70,7 @@ fn a_zero_residual_is_complete_at_once() {
 fn a_doubly_bounded_unknown_flips() {
     let path = followed(&dmatrix![1.0, 0.0; 0.0, 1.0], &dvector![-5.0, -1.0], &[0.0; 2], &[1.0, INF], Start::Ray, &[0.0; 2]);
     assert_eq!(path.end, PathEnd::Complete);
-    assert!((path.last().unwrap() - dvector![1.0, 1.0]).amax() < 1e-14);
+    assert!((DVector::from_column_slice(path.last().unwrap()) - dvector![1.0, 1.0]).amax() < 1e-14);
     // M = -1: z runs from bound to bound while t stands still or turns back.
     let path = followed(&dmatrix![-1.0], &dvector![0.5], &[0.0], &[1.0], Start::Regular, &[0.9]);
     assert_eq!(path.end, PathEnd::Complete);
@@ -77,14 +101,14 @@ fn equal_bounds_fix_an_unknown() {
     for start in [Start::Regular, Start::Ray] {
         let path = followed(&dmatrix![1.0, 1.0; 1.0, 2.0], &dvector![-9.0, -4.0], &[1.0, 0.0], &[1.0, INF], start, &[1.0, 0.0]);
         assert_eq!(path.end, PathEnd::Complete);
-        assert_eq!(path.last().unwrap(), &dvector![1.0, 1.5]);
+        assert_eq!(path.last().unwrap(), [1.0, 1.5]);
     }
 }
 
 #[test]
 fn points_along_the_path_are_found_by_t() {
     let path = followed(&dmatrix![2.0], &dvector![-3.0], &[0.0], &[INF], Start::Regular, &[0.0]);
-    assert!((path.at(0.5).unwrap()[0] - 0.75).abs() < 1e-15);
+    assert!((path.at(0.5).unwrap()(0) - 0.75).abs() < 1e-15);
     assert!(path.at(1.5).is_none());
 }
 
@@ -102,40 +126,39 @@ fn the_multiplier_of_equal_bounds_changes_sign_without_a_pivot() {
     let (m, q) = (dmatrix![0.0, -1.0; 0.0, 1.0], dvector![1.0, -5.0]);
     let path = followed(&m, &q, &[1.0, 0.0], &[1.0, INF], Start::Regular, &[1.0, 0.0]);
     assert_eq!((path.end, path.pivots.len()), (PathEnd::Complete, 2), "{:?}", path.pivots);
-    assert_eq!(path.knots.last().unwrap().multiplier, dvector![-4.0, 0.0]);
+    assert_eq!(path.knots.multiplier(path.knots.len() - 1), [-4.0, 0.0]);
 }
 
 #[test]
 fn drift_is_noticed_and_mended() {
-    let (m, q) = (dmatrix![2.0, 1.0; 1.0, 2.0], dvector![-5.0, -6.0]);
-    let sub = Subproblem { m: &m, q: &q, lower: &[0.0; 2], upper: &[INF; 2] };
-    let point = start_point(&sub, Start::Ray, &dvector![0.0, 0.0]);
-    let r = &point.multiplier - &q;
-    let mut columns = Columns { sub: &sub, r, artificial_row: vec![None; 2] };
-    let basis = starting_basis(&mut columns, &point).unwrap();
-    let mut tableau = Tableau::new(&columns, basis, point);
-    let column = tableau.column();
-    let block = ratio::ratio_test(&tableau, &(-&column), RatioTest::Lexicographic, 0).unwrap();
-    tableau.advance(&(-&column), block.step);
-    let exact = tableau.values.clone();
-    tableau.values[0] += 1e-6;
-    assert!(tableau.exchange(block.place.unwrap(), block.at_upper, &column));
-    assert!((tableau.values[0] - exact[0]).abs() < 1e-12, "{} {exact}", tableau.values);
+    let m = dmatrix![2.0, 1.0; 1.0, 2.0];
+    let sub = Subproblem { m: &m, q: &[-5.0, -6.0], lower: &[0.0; 2], upper: &[INF; 2] };
+    let Storage { mut frame, mut basis, mut state, mut free, .. } = Storage::default();
+    start_point(&sub, Start::Ray, &[0.0, 0.0], &mut state, &mut free);
+    frame.set(&sub, &state.z, &state.multiplier);
+    assert!(starting_basis(&sub, &mut frame, &mut basis, &state, &mut Path::default()));
+    let mut tableau = Tableau::new(frame.columns(&sub), &mut basis, &mut state);
+    tableau.set_rates();
+    let block = ratio::ratio_test(&mut tableau, RatioTest::Lexicographic, 0).unwrap();
+    tableau.advance(&block.step);
+    let exact = tableau.state.values.clone();
+    tableau.state.values[0] += 1e-6;
+    assert!(tableau.exchange(block.place.unwrap(), block.at_upper));
+    let values = &tableau.state.values;
+    assert!((values[0] - exact[0]).abs() < 1e-12, "{values:?} {exact:?}");
 }
 
 #[test]
 fn a_path_reaches_the_largest_t_of_its_knots() {
-    let knot = |t: f64| Knot { t, z: dvector![4.0 * t], multiplier: dvector![0.0] };
-    let path = |list: &[f64]| Path {
-        knots: list.iter().map(|&t| knot(t)).collect(),
-        pivots: Vec::new(),
-        end: PathEnd::Ray,
-        start: Start::Regular,
-        factorisations: 2,
+    let path = |list: &[f64]| {
+        let mut path = Path::default();
+        path.knots.clear(1);
+        list.iter().for_each(|&t| path.knots.push(t, &[4.0 * t], &[0.0]));
+        path
     };
     assert_eq!([path(&[0.0, 0.25, 0.75, 0.5]).reach(), path(&[0.0, 1.0]).reach(), path(&[]).reach()], [0.75, 1.0, 0.0]);
-    assert_eq!(path(&[0.0, 0.25, 0.75, 0.5]).at(0.5), Some(dvector![2.0]));
-    assert_eq!(path(&[0.0, 0.25]).at(0.5), None);
+    assert_eq!(path(&[0.0, 0.25, 0.75, 0.5]).at(0.5).map(|z| z(0)), Some(2.0));
+    assert!(path(&[0.0, 0.25]).at(0.5).is_none());
 }
 
 /// One for the start and one for its point: a short path makes no other.

@@ -42,8 +42,9 @@ pub struct Pivot {
 }
 
 impl Pivot {
-    /// The same pivot with its unknowns named by `indices` of a larger problem.
-    pub(in super::super) fn renamed(&self, indices: &[usize]) -> Pivot {
+    /// The same pivot with its unknowns named by `indices` of a larger problem, which holds for every
+    /// index of the smaller one its own.
+    pub fn renamed(&self, indices: &[usize]) -> Pivot {
         Pivot { entering: self.entering.renamed(indices), leaving: self.leaving.renamed(indices), ..*self }
     }
 }

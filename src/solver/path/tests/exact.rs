@@ -1,7 +1,7 @@
 //! Rationals with infinities, so that the very code of the path can be run without rounding.
 
+use super::super::super::dense::Lu;
 use super::super::number::Number;
-use nalgebra::{DMatrix, DVector};
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
@@ -130,26 +130,6 @@ impl Number for Exact {
     fn order(&self, other: &Exact) -> Ordering {
         self.partial_cmp(other).expect("a total order")
     }
-    fn invert(matrix: &DMatrix<Exact>) -> Option<DMatrix<Exact>> {
-        let n = matrix.nrows();
-        let mut work = matrix.clone().resize_horizontally(2 * n, Exact::zero());
-        (0..n).for_each(|i| work[(i, n + i)] = Exact::one());
-        for column in 0..n {
-            let pivot = (column..n).find(|&row| !work[(row, column)].is_zero())?;
-            work.swap_rows(column, pivot);
-            let scaled = work.row(column) / work[(column, column)].clone();
-            work.set_row(column, &scaled);
-            for row in (0..n).filter(|&row| row != column) {
-                let factor = work[(row, column)].clone();
-                let cleared = work.row(row) - &scaled * factor;
-                work.set_row(row, &cleared);
-            }
-        }
-        Some(work.columns(n, n).into_owned())
-    }
-    fn solve(a: DMatrix<Exact>, b: &DVector<Exact>) -> Option<DVector<Exact>> {
-        Some(Exact::invert(&a)? * b)
-    }
     fn magnitude(&self) -> Exact {
         match self {
             Finite(a) => Finite(a.abs()),
@@ -159,10 +139,17 @@ impl Number for Exact {
 }
 
 #[test]
-fn inverses_are_exact_and_singular_matrices_have_none() {
-    let of = |entries: [i64; 4]| DMatrix::from_row_slice(2, 2, &entries.map(Exact::integer));
-    let hilbert_like = of([0, 3, 2, 5]);
-    assert_eq!(&hilbert_like * Exact::invert(&hilbert_like).unwrap(), of([1, 0, 0, 1]));
-    assert!(Exact::invert(&of([1, 2, 2, 4])).is_none());
+fn factors_are_exact_and_singular_matrices_have_none() {
+    let factored = |entries: [i64; 4]| {
+        let of = move |row: usize, col: usize| Exact::integer(entries[2 * row + col]);
+        let mut lu = Lu::default();
+        let gather = |j: usize, rows: &[usize], out: &mut [Exact]| rows.iter().zip(out).for_each(|(&i, o)| *o = of(i, j));
+        lu.factor(2, gather, |_| Exact::zero()).then_some(lu)
+    };
+    let lu = factored([0, 3, 2, 5]).unwrap();
+    let mut x: Vec<Exact> = lu.rows().iter().map(|&i| Exact::integer([1, 0][i])).collect();
+    lu.solve(&mut x);
+    assert_eq!(x, [(-5, 6), (1, 3)].map(|(p, q)| Exact::integer(p) / Exact::integer(q)));
+    assert!(factored([1, 2, 2, 4]).is_none());
     assert!(PlusInfinity > Exact::integer(9) && MinusInfinity < Exact::integer(-9));
 }

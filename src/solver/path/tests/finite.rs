@@ -4,8 +4,8 @@
 
 use super::super::super::normal_map::least_residual;
 use super::super::number::Number;
-use super::super::*;
 use super::exact::Exact;
+use super::*;
 use num_traits::Zero;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -48,8 +48,8 @@ impl Case {
 
     fn follow_exactly(&self) -> Path<Exact> {
         let (m, q, lower, upper) = self.exact();
-        let sub = Subproblem { m: &m, q: &q, lower: &lower, upper: &upper };
-        follow(&sub, Start::Ray, &DVector::zeros(q.len()), LIMITS)
+        let sub = Subproblem { m: &m, q: q.as_slice(), lower: &lower, upper: &upper };
+        walked(&sub, Start::Ray, &vec![Exact::zero(); q.len()], LIMITS)
     }
 
     fn follow_in_doubles(&self, rule: RatioTest) -> Path {
@@ -57,13 +57,13 @@ impl Case {
         let lower: Vec<f64> = self.lower.iter().map(|b| bound(b, f64::NEG_INFINITY)).collect();
         let upper: Vec<f64> = self.upper.iter().map(|b| bound(b, f64::INFINITY)).collect();
         let (m, q) = (self.m.map(|v| v as f64), self.q.map(|v| v as f64));
-        let sub = Subproblem { m: &m, q: &q, lower: &lower, upper: &upper };
-        follow(&sub, Start::Ray, &DVector::zeros(q.len()), Limits { rule, ..LIMITS })
+        let sub = Subproblem { m: &m, q: q.as_slice(), lower: &lower, upper: &upper };
+        walked(&sub, Start::Ray, &vec![0.0; q.len()], Limits { rule, ..LIMITS })
     }
 
     /// The least residual of the normal map, with bounds overstepped counted as residual.
-    fn residual_in_doubles(&self, z: &DVector<f64>) -> f64 {
-        let f = self.m.map(|v| v as f64) * z + self.q.map(|v| v as f64);
+    fn residual_in_doubles(&self, z: &[f64]) -> f64 {
+        let f = self.m.map(|v| v as f64) * DVector::from_column_slice(z) + self.q.map(|v| v as f64);
         let of = |i: usize| {
             let (l, u) = (self.lower[i].map_or(f64::NEG_INFINITY, |v| v as f64), self.upper[i].map_or(f64::INFINITY, |v| v as f64));
             let near = z[i].max(l).min(u);
@@ -74,9 +74,9 @@ impl Case {
     }
 
     /// Every line of the definition, exactly.
-    fn is_solved_by(&self, z: &DVector<Exact>) -> bool {
+    fn is_solved_by(&self, z: &[Exact]) -> bool {
         let (m, q, lower, upper) = self.exact();
-        let f = m * z + q;
+        let f = m * DVector::from_column_slice(z) + q;
         (0..z.len()).all(|i| {
             let inside = z[i] >= lower[i] && z[i] <= upper[i];
             inside && (f[i] <= Exact::zero() || z[i] == lower[i]) && (f[i] >= Exact::zero() || z[i] == upper[i])
@@ -112,7 +112,7 @@ fn from_a_ray_no_basis_comes_twice_and_the_end_is_complete_or_a_ray() {
         let distinct: HashSet<_> = bases.iter().collect();
         assert_eq!(distinct.len(), bases.len(), "seed {seed}: a basis came twice");
         // Steps of length zero: the degenerate pivots in which a careless rule cycles.
-        ties += path.knots.windows(2).filter(|w| w[0].t == w[1].t && w[0].z == w[1].z && w[0].multiplier == w[1].multiplier).count();
+        ties += knots(&path).windows(2).filter(|w| w[0].t == w[1].t && w[0].z == w[1].z && w[0].multiplier == w[1].multiplier).count();
         match path.end {
             PathEnd::Complete => {
                 ends[0] += 1;

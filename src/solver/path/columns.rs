@@ -1,0 +1,108 @@
+//! The columns of M z - w + v + D a - t r = -(q + r): unit columns, those of M, and that of t.
+
+use super::Subproblem;
+use super::number::Number;
+use super::variable::Variable;
+
+/// What belongs to one path besides its subproblem. Storage is kept.
+pub(super) struct Frame<T> {
+    /// -r, the column of t: the residual at the start.
+    covering: Vec<T>,
+    /// -(q + r).
+    right: Vec<T>,
+    /// Row of the unit column of the artificial of z_i, where there is one.
+    artificial_row: Vec<Option<usize>>,
+    /// Largest entry of each column of M, then of that of t.
+    sizes: Vec<T>,
+    /// Largest entry of q and of r, added.
+    scale: Option<T>,
+}
+
+impl<T> Default for Frame<T> {
+    fn default() -> Self {
+        Frame { covering: Vec::new(), right: Vec::new(), artificial_row: Vec::new(), sizes: Vec::new(), scale: None }
+    }
+}
+
+/// The columns of one path.
+pub(super) struct Columns<'a, T: Number> {
+    pub(super) sub: &'a Subproblem<'a, T>,
+    frame: &'a Frame<T>,
+}
+
+impl<T: Number> Frame<T> {
+    /// A path of `sub` that begins at (z, multiplier), so that r = multiplier - M z - q; no artificials.
+    pub(super) fn set(&mut self, sub: &Subproblem<'_, T>, z: &[T], multiplier: &[T]) {
+        let n = z.len();
+        sub.value(z, &mut self.covering);
+        self.covering.iter_mut().zip(multiplier).for_each(|(c, m)| *c -= m.clone());
+        self.right.clear();
+        self.right.extend(self.covering.iter().zip(sub.q).map(|(c, q)| c.clone() - q.clone()));
+        self.artificial_row.clear();
+        self.artificial_row.resize(n, None);
+        self.sizes.clear();
+        self.sizes.extend((0..n).map(|i| T::largest(sub.column(i))));
+        self.sizes.push(T::largest(&self.covering));
+        self.scale = Some(T::largest(sub.q) + self.sizes[n].clone());
+    }
+
+    /// Gives z_i an artificial whose column is the unit vector of a row.
+    pub(super) fn add_artificial(&mut self, i: usize, row: usize) {
+        self.artificial_row[i] = Some(row);
+    }
+
+    pub(super) fn columns<'a>(&'a self, sub: &'a Subproblem<'a, T>) -> Columns<'a, T> {
+        Columns { sub, frame: self }
+    }
+}
+
+impl<'a, T: Number> Columns<'a, T> {
+    /// Row and sign of a unit column; `None` for z and t.
+    pub(super) fn unit(&self, variable: Variable) -> Option<(usize, bool)> {
+        match variable {
+            Variable::W(i) => Some((i, false)),
+            Variable::V(i) => Some((i, true)),
+            Variable::Artificial(i) => Some((self.frame.artificial_row[i].unwrap_or(i), true)),
+            Variable::Z(_) | Variable::T => None,
+        }
+    }
+
+    /// The column of z_i, or else that of t.
+    pub(super) fn dense(&self, variable: Variable) -> &'a [T] {
+        match variable {
+            Variable::Z(i) => self.sub.column(i),
+            _ => &self.frame.covering,
+        }
+    }
+
+    /// The column of an unknown, into `out`.
+    pub(super) fn write(&self, variable: Variable, out: &mut Vec<T>) {
+        out.clear();
+        match self.unit(variable) {
+            None => out.extend_from_slice(self.dense(variable)),
+            Some((row, positive)) => {
+                out.resize(self.frame.covering.len(), T::zero());
+                out[row] = if positive { T::one() } else { -T::one() };
+            }
+        }
+    }
+
+    /// The largest entry of a column.
+    pub(super) fn size(&self, variable: Variable) -> T {
+        match variable {
+            Variable::Z(i) => self.frame.sizes[i].clone(),
+            Variable::T => self.frame.sizes[self.frame.covering.len()].clone(),
+            _ => T::one(),
+        }
+    }
+
+    /// -(q + r).
+    pub(super) fn right(&self) -> &'a [T] {
+        &self.frame.right
+    }
+
+    /// The size of q and r.
+    pub(super) fn scale(&self) -> T {
+        self.frame.scale.clone().unwrap_or_else(T::zero)
+    }
+}
