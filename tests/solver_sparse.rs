@@ -66,7 +66,7 @@ fn sparse_and_dense_walk_the_same_pivots() {
 fn residuals_are_those_of_the_dense_problem() {
     let problem = random(&mut ChaCha8Rng::seed_from_u64(3), 12, 3.0);
     let condensed = CondensedMcp::new(&problem).unwrap();
-    let z: Vec<f64> = (0..12).map(|i| problem.lower()[i].max(-0.3).min(0.4) + 0.01 * i as f64).collect();
+    let z: Vec<f64> = (0..12).map(|i| problem.lower()[i].clamp(-0.3, 0.4) + 0.01 * i as f64).collect();
     let (ours, theirs) = (condensed.residuals(&z), Residuals::at(&dense(&problem), &z));
     let all = |r: Residuals| [r.complementarity, r.normal_map, r.minimum_map, r.fischer, r.fischer_gradient];
     all(ours).iter().zip(all(theirs)).for_each(|(a, b)| assert!((a - b).abs() < 1e-13, "{ours:?} {theirs:?}"));
