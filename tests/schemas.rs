@@ -104,6 +104,10 @@ fn records_traces_and_plain_problems_are_valid() {
     let file = folder.write("mcp.json", &plain.to_string());
     assert_eq!(mceip(&["solve", &file, "--certificate", &solution]).status.code(), Some(0));
     valid(&schema("mceip-mcp-solution-1"), &read(Path::new(&solution)), "solution of an mcp");
+    let listed = mceip(&["solve", &file, "--all", "--json", "--trace", &trace]);
+    valid(&schema("mceip-mcp-solutions-1"), &serde_json::from_slice(&listed.stdout).unwrap(), "solutions of an mcp");
+    let first = std::fs::read_to_string(&trace).unwrap().lines().next().unwrap().to_string();
+    valid(&schema("mceip-trace-1"), &serde_json::from_str(&first).unwrap(), "trace of an mcp");
     for bad in
         [json!({ "format": "mceip-mcp/1", "m": [["nan"]], "q": [-5] }), json!({ "format": "mceip-mcp/1", "m": [[1]], "q": [1], "z": 0 })]
     {

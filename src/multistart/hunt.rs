@@ -38,7 +38,8 @@ impl Hunt<'_> {
             *zeta = FAR_START;
         }
         // All runs first: they say what a run costs, and give the curves something to leave.
-        let is_curve = |k: usize| self.search.curves && k % 2 == 1;
+        let follows = self.search.curves;
+        let is_curve = |k: usize| follows && k % 2 == 1;
         for (_, point) in points.iter().enumerate().filter(|(k, _)| !is_curve(*k)) {
             self.plain(&ground.embedding, point)?;
             if self.is_interrupted() {
@@ -46,7 +47,7 @@ impl Hunt<'_> {
             }
         }
         let mut curves = points.iter().enumerate().filter(|(k, _)| is_curve(*k));
-        while self.search.curves && !self.is_spent() {
+        while follows && !self.is_spent() {
             self.depart(&mut ground)?;
             let Some((_, point)) = curves.next().filter(|_| !self.found.interrupted && !self.is_spent()) else { break };
             self.curve(&ground, point)?;
