@@ -106,3 +106,25 @@ fn directions_are_normal() {
         (0..4).for_each(|i| close(uneven[i], even[i].powi(3)));
     }
 }
+
+/// F is quadratic: its central differences are the Jacobian but for rounding.
+#[test]
+fn the_jacobian_is_the_derivative() {
+    for side in [Side::Above(2.0), Side::Below(7.0)] {
+        let e = embedding(side);
+        let z = [0.25, -0.75, 0.5, 0.125, 0.625];
+        let mut j = DMatrix::zeros(5, 5);
+        e.jacobian(&z, &mut j);
+        for k in 0..5 {
+            let at = |h: f64| {
+                let mut moved = z;
+                moved[k] += h;
+                let mut f = [0.0; 5];
+                e.function(&moved, &mut f);
+                f
+            };
+            let (up, down) = (at(0.5), at(-0.5));
+            (0..5).for_each(|i| close(j[(i, k)], up[i] - down[i]));
+        }
+    }
+}
