@@ -114,7 +114,8 @@ fn the_limit_of_a_large_support_is_named() {
             row[0] = if i < moving { 0 } else { 5 } - row[1..moving].iter().sum::<i64>();
         }
         let sparse = |m: &[Vec<i64>]| Sparse::from_ints(&m.iter().map(Vec::as_slice).collect::<Vec<_>>());
-        let problem = problem(Pencil::new(sparse(&a), sparse(&b), vec![]).unwrap());
+        let window = Window::new(whole(1 << 20), None).unwrap();
+        let problem = problem(Pencil::new(sparse(&a), sparse(&b), vec![]).unwrap()).with_window(window);
         let found = search(&problem);
         open += found.cover.open.iter().filter(|o| o.max.is_none()).count();
         let nodes = found.certificate.complete_set.iter().flat_map(|s| &s.pieces).flat_map(|p| &p.tree);

@@ -78,7 +78,7 @@ fn a_plain_trace_replays_and_a_changed_one_does_not() {
     assert!(text.contains("run from") && text.contains("curve from") && text.contains("certified: 5/6 1/2 1 2"), "{text}");
     let same = mceip(&["solve", "--replay", &trace]);
     assert!(same.status.code() == Some(0) && stdout(&same).starts_with("IDENTICAL"), "{}", stdout(&same));
-    for (k, (from, to)) in [("certified: 5/6", "certified: 6/6"), ("\"seed\":3", "\"seed\":4"), ("-1/7", "-1/8")].into_iter().enumerate() {
+    for (k, (from, to)) in [("certified: 5/6", "certified: 6/6"), ("\"seed\":3", "\"seed\":4"), ("1/3", "1/2")].into_iter().enumerate() {
         assert!(text.contains(from), "{from}");
         let changed = write(folder.path(), &format!("{k}.txt"), &text.replacen(from, to, 1));
         let different = mceip(&["solve", "--replay", &changed]);

@@ -23,7 +23,8 @@ fn cases() -> Vec<(String, Problem, Certificate)> {
     for kind in ["accept", "reject"] {
         for path in std::fs::read_dir(root().join("spec/corpus").join(kind)).unwrap().map(|e| e.unwrap().path()) {
             let file: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
-            if file.get("repeat").is_some() {
+            let is_plain = file["problem"]["format"] == "mceip-mcp/1"; // certificates of another kind
+            if file.get("repeat").is_some() || is_plain {
                 continue;
             }
             let name = format!("{kind}/{}", path.file_stem().unwrap().to_str().unwrap());

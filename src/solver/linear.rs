@@ -77,7 +77,7 @@ mod tests {
         assert!(path.pivots.len() >= 2 && outcome.log.len() == 1);
         let c = &outcome.counters;
         assert_eq!((c.majors, c.pivots, c.ray_starts), (1, path.pivots.len(), 1));
-        assert!(c.factorisations >= 2);
+        assert!(c.factorisations >= 1);
     }
 
     /// A second path, from the ray, is only followed where the first one ends before t = 1; both are counted.

@@ -89,9 +89,12 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             return None;
         }
         let (lower, upper) = (self.problem.problem.lower(), self.problem.problem.upper());
-        let inside: Vec<usize> = (0..start.z.len()).filter(|&i| start.z[i] > lower[i] && start.z[i] < upper[i]).collect();
+        let mut inside = Vec::with_capacity(start.z.len());
+        inside.extend((0..start.z.len()).filter(|&i| start.z[i] > lower[i] && start.z[i] < upper[i]));
         let jacobian = self.problem.jacobian(start).ok()?;
-        unmatched(&jacobian, &inside).map(|(row, col)| Termination::StructurallySingular { row, col })
+        let found = unmatched(&jacobian, &inside);
+        self.problem.recycle_matrix(jacobian);
+        found.map(|(row, col)| Termination::StructurallySingular { row, col })
     }
 
     /// One more attempt from the start, moved; then along the curves from there.

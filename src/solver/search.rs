@@ -188,15 +188,15 @@ mod tests {
         let mut s = search(0, &options);
         assert_eq!(s.reference(), 16.0);
         for (merit, reference) in [(5.0, 16.0), (7.0, 16.0), (1.0, 7.0), (2.0, 7.0), (3.0, 3.0), (0.5, 3.0)] {
-            s.take_checked(&point(&[0.0], merit));
+            s.take_checked(&point(&[0.0, 0.0], merit));
             assert_eq!(s.reference(), reference);
         }
-        let passes = |merit: f64, t: f64| s.passes(&point(&[0.0], merit), t);
+        let passes = |merit: f64, t: f64| s.passes(&point(&[0.0, 0.0], merit), t);
         assert!(passes(3.0 * (1.0 - ARMIJO), 1.0) && !passes(3.0 * (1.0 - 0.9 * ARMIJO), 1.0) && passes(3.0 * (1.0 - 0.9 * ARMIJO), 0.5));
         assert!(!passes(f64::NAN, 1.0) && !passes(f64::INFINITY, 1.0));
         let mut monotone = search(4, &options);
         assert_eq!(monotone.reference(), 8.0);
-        monotone.take_checked(&point(&[0.0], 6.0));
+        monotone.take_checked(&point(&[0.0, 0.0], 6.0));
         assert_eq!(monotone.reference(), 6.0);
     }
 
@@ -211,20 +211,20 @@ mod tests {
         assert!(allowed(&s, radius, 1e9) && !allowed(&s, 1.01 * radius, 1.0) && !allowed(&s, 0.0, f64::INFINITY));
         for k in 1..=3 {
             assert!(allowed(&s, 0.0, 1.0), "{k}");
-            s.take_unchecked(&path(), &point(&[k as f64], 8.0 - k as f64));
+            s.take_unchecked(&path(), &point(&[k as f64, 0.0], 8.0 - k as f64));
             assert_eq!((s.unchecked, s.radius, s.best().unwrap().merit), (k, radius * TRUST_SHRINK.powi(k as i32), 8.0 - k as f64));
         }
         assert!(!allowed(&s, 0.0, 1.0));
         assert!(s.watchdog() && s.unchecked == 0);
         assert!(!s.watchdog()); // nothing taken since
-        s.take_unchecked(&path(), &point(&[0.0], 9.0));
+        s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
         assert_eq!(s.best().unwrap().merit, 5.0);
         assert!(!s.watchdog()); // one is all there was
         s.forgive_watchdogs();
-        s.take_unchecked(&path(), &point(&[0.0], 9.0));
+        s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
         assert!(s.watchdog());
-        s.take_unchecked(&path(), &point(&[0.0], 9.0));
-        s.take_checked(&point(&[0.0], 9.0));
+        s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
+        s.take_checked(&point(&[0.0, 0.0], 9.0));
         assert!(s.unchecked == 0 && !s.watchdog());
     }
 
