@@ -159,3 +159,8 @@ pub const AT_INFINITY: f64 = 1e-6;
 /// Change of a solution by one step of iterative refinement, relative to it, above which a sparse block
 /// counts as singular. Unit: none. Basis: with six digits another step would still contract.
 pub const REFINED: f64 = 1e-6;
+
+/// alpha up to which a point (alpha, beta) of the unit circle is the one at infinity, where t = beta / alpha is no value.
+/// Unit: none. Basis: a solution at infinity was met at alpha from 1e-18 to 3e-17 (random pencil 163 of `verify`), within
+/// the rounding of coordinates of order one.
+pub const CIRCLE_END: f64 = 1e-13;

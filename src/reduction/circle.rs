@@ -11,6 +11,7 @@
 use super::Embedding;
 use crate::candidate::Candidate;
 use crate::mcp::Mcp;
+use crate::tolerance::CIRCLE_END;
 use nalgebra::{DMatrix, DVector};
 
 /// An eigenproblem on the circle, in doubles.
@@ -72,7 +73,7 @@ impl CirclePencil {
         let n = self.slip.len();
         let (alpha, beta) = (*z.get(n)?, *z.get(n + 1)?);
         let value = self.unit * beta / alpha;
-        if !(alpha > 0.0 && beta >= 0.0 && value.is_finite()) {
+        if !(alpha > CIRCLE_END && beta >= 0.0 && value.is_finite()) {
             return None;
         }
         let u_f = -(&self.lines * DVector::from_column_slice(&z[..n]));
@@ -160,10 +161,11 @@ mod tests {
         approx::assert_relative_eq!(back.value, mu, epsilon = 1e-14);
         approx::assert_relative_eq!(back.x[0] / back.x[1], -0.25, epsilon = 1e-14);
         // t < 0, the far side of the circle, and infinity stand for nothing.
-        for (alpha, beta) in [(0.6, -0.8), (-0.6, -0.8), (0.0, 1.0), (-1.0, 0.0)] {
+        for (alpha, beta) in [(0.6, -0.8), (-0.6, -0.8), (0.0, 1.0), (-1.0, 0.0), (0.9 * CIRCLE_END, 1.0)] {
             assert!(circle.candidate(&[0.5, 0.5, alpha, beta]).is_none());
         }
         assert_eq!(circle.candidate(&[0.5, 0.5, 1.0, 0.0]).unwrap().value, 0.0);
+        assert!(circle.candidate(&[0.5, 0.5, 1.1 * CIRCLE_END, 1.0]).is_some());
     }
 
     #[test]
