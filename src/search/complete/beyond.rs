@@ -18,7 +18,8 @@ impl Search<'_> {
     /// Closes a region whose states are decided, if its null vector is provably alone on the way to infinity and not at a
     /// value inside.
     pub(super) fn at_infinity(&mut self, region: &Region, ends: &Ends, share: f64) -> bool {
-        if region.lo.is_zero() {
+        // Cuts close in on a limit as well, at the price of more leaves: the way where the checker has refused this one.
+        if region.lo.is_zero() || self.expansion.caution > 1.0 {
             return false;
         }
         let chord = self.chord(ends);

@@ -80,10 +80,12 @@ impl Prepared {
         self.view.expansions.iter().any(|e| e.z.len() > 2)
     }
 
-    /// Takes the remainders for larger than doubles say they are; is there any?
+    /// Takes the remainders for larger than doubles say they are, and no longer believes them at infinity; does that
+    /// change anything? Without remainders only the first time.
     pub(super) fn beware(&mut self) -> bool {
+        let is_first = self.view.expansions.iter().all(|e| e.caution == 1.0);
         self.view.expansions.iter_mut().for_each(|e| e.caution *= CAUTION);
-        self.view.expansions.iter().any(|e| !e.is_everywhere())
+        is_first || self.view.expansions.iter().any(|e| !e.is_everywhere())
     }
 
     /// The same without remainders, for a first look.
