@@ -99,6 +99,9 @@ fn the_constant_c_scales_x_and_nothing_else() {
             let z = five.point(s.decimal(17).parse().unwrap(), &x);
             assert!(Residuals::at(&five, &z).minimum_map < 1e-8 && five.gamma(&z).abs() < 1e-12);
             assert!((one.gamma(&z) - 4.0).abs() < 1e-12);
+            // The point of the other constant is no solution: e'x_s = c is asked for. // E28, E33
+            let other = one.point(s.decimal(17).parse().unwrap(), &x);
+            assert!(Residuals::at(&five, &other).minimum_map > 1e-3, "{}", instance.label);
             let outcome = solve(&five, &z, &Options::default()).unwrap();
             assert!(outcome.termination.reached_tolerance());
             let (a, b) = (five.candidate(&outcome.point), one.candidate(&one.point(s.decimal(17).parse().unwrap(), &x)));
