@@ -127,6 +127,21 @@ mod tests {
         assert!(matches!(family.nested(None, (&whole(0), None), [&a, &b]), Err(CoverFault::RootTooEarly)));
     }
 
+    /// What the ends may be off T(lo) and B is carried along, and so is what the slope may be.
+    #[test]
+    fn a_chord_carries_the_radii() {
+        let of = |v: i64| vec![vec![Integer::from(v)]];
+        let cone = Ends { m: [of(10), of(1)], r: [of(2), of(3)], slope: of(0), scale: Integer::from(5), infinite: true };
+        let (lo, a, b) = (rational(3, 2), whole(2), rational(16, 3));
+        let got = chord(&cone, &lo, &a, Some(&b));
+        let in_units = |m: &Matrix| Rational::new(m[0][0].clone(), got.scale.clone()) * whole(5);
+        let [s0, s1] = [&lo / &a, &lo / &b];
+        let off = |s: &Rational| s * whole(2) + (whole(1) - s) * &lo * whole(3);
+        assert_eq!([in_units(&got.r[0]), in_units(&got.r[1])], [off(&s0), off(&s1)]);
+        let width = s0 - s1;
+        assert_eq!(in_units(&got.slope), &width * whole(2) + width * lo * whole(3));
+    }
+
     #[test]
     fn a_null_vector_at_infinity_is_multiplied_out() {
         let x = |v: &[i64]| v.iter().map(|&v| Integer::from(v)).collect::<Vec<_>>();

@@ -75,4 +75,12 @@ mod tests {
             assert_eq!(times(&f[1..].to_vec(), Part::Linear, &w, 2), None);
         }
     }
+
+    /// Forty products of 125 bits have a sum of 131.
+    #[test]
+    fn the_number_of_terms_counts() {
+        let (a, b): (Integer, Integer) = ((Integer::one() << 62u32) - 1, (Integer::one() << 63u32) - 1);
+        let f: Linear = vec![(0..40).map(|g| (g, a.clone(), Integer::zero())).collect()];
+        assert_eq!(times(&f, Part::Constant, &vec![vec![b.clone()]; 40], 1), Some(vec![vec![a * b * 40]]));
+    }
 }

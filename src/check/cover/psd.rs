@@ -156,29 +156,46 @@ mod tests {
         assert!(short(&of(58)).is_none() && short(&of(70)).is_none());
     }
 
-    /// S = L L' + E with an S that is zero where L L' is not, for short and for long factors: E_ii - sum |E_ij| is
-    /// `more` units, and the sign of that decides.
+    /// The room for entries is smaller where rows are many: eight of them take eight bits.
+    #[test]
+    fn the_number_of_rows_counts_twice() {
+        let of = |bits: u32| {
+            let rows = vec![vec![Integer::one() << (bits - 1)]; 8];
+            short(&Factor { first: (0..8).collect(), rows, exponent: 0 }).is_some()
+        };
+        assert_eq!([of(59), of(60)], [true, false]);
+    }
+
+    /// S = L L' + E with an S that is zero where L L' is not, for short and for long factors and two scales: E_ii - sum |E_ij|
+    /// is `more` units, row by row, and the sign of that decides.
     #[test]
     fn fill_counts_in_both_arithmetics() {
-        let verdict = |bits: u32, more: i64, strictly: bool| {
+        let verdict = |bits: u32, scale: i64, more: [i64; 3], strictly: bool| {
             let value = |v: i64| Integer::from(v) << bits;
             // L = [[3], [-1, 3], [-1, 1, 3]]: L L' = [[9, -3, -3], [-3, 10, 4], [-3, 4, 11]].
             let rows = vec![vec![value(3)], vec![value(-1), value(3)], vec![value(-1), value(1), value(3)]];
             let factor = Factor { first: vec![0, 0, 0], rows, exponent: 0 };
-            let entry = |v: i64| Integer::from(v) << (2 * bits);
+            let entry = |v: i64| Integer::from(v * scale) << (2 * bits);
             // Off the diagonal S holds (1, 0) only, -3 + 1: row sums of |E| are 1 + 3, 1 + 4, 3 + 4.
             let s = vec![
-                BTreeMap::from([(0, entry(9 + 4)), (1, entry(-2))]),
-                BTreeMap::from([(0, entry(-2)), (1, entry(10 + 5) + more)]),
-                BTreeMap::from([(2, entry(11 + 7))]),
+                BTreeMap::from([(0, entry(9 + 4) + more[0]), (1, entry(-2))]),
+                BTreeMap::from([(0, entry(-2)), (1, entry(10 + 5) + more[1])]),
+                BTreeMap::from([(2, entry(11 + 7) + more[2])]),
             ];
             assert_eq!(short(&factor).is_some(), bits < 60);
-            semidefinite(&s, &Integer::one(), Some(&factor), strictly, "S")
+            semidefinite(&s, &Integer::from(scale), Some(&factor), strictly, "S")
         };
-        for bits in [0, 40, 59, 60, 90] {
-            assert_eq!((verdict(bits, 0, false), verdict(bits, 1, false)), (Ok(()), Ok(())), "{bits}");
-            assert_eq!(verdict(bits, -1, false), Err(CoverFault::Hypothesis { expected: "S", row: 1 }), "{bits}");
-            assert!(verdict(bits, 0, true).is_err() && verdict(bits, 1, true).is_err(), "{bits}"); // rows 0 and 2 are not strict
+        for (bits, scale) in [(0, 1), (0, 3), (40, 7), (59, 3), (60, 3), (90, 1)] {
+            assert_eq!((verdict(bits, scale, [0; 3], false), verdict(bits, scale, [1; 3], true)), (Ok(()), Ok(())), "{bits}");
+            for row in 0..3 {
+                let but = |all: i64| std::array::from_fn(|i| all - i64::from(i == row));
+                let broken = Err(CoverFault::Hypothesis { expected: "S", row });
+                assert_eq!(
+                    (verdict(bits, scale, but(0), false), verdict(bits, scale, but(1), true)),
+                    (broken.clone(), broken),
+                    "{bits} {row}"
+                );
+            }
         }
     }
 
