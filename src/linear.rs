@@ -2,7 +2,6 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `matching` | structural singularity |
 //! | `symmetric` | sparse symmetric matrices |
 //! | `dissection` | nested dissection: the order of elimination |
 //! | `analysis` | which fronts there are, and who passes what to whom |
@@ -10,12 +9,10 @@
 
 mod analysis;
 mod dissection;
-mod matching;
 mod multifrontal;
 mod symmetric;
 
 pub use analysis::Analysis;
-pub use matching::unmatched_row;
 pub use multifrontal::{NotDefinite, SchurFactor};
 pub use symmetric::{Symmetric, SymmetricError};
 

@@ -1,40 +1,18 @@
-//! Is a Jacobian singular by its zeros alone? A maximum matching of rows and columns (Kuhn 1955).
+//! Is a Jacobian singular by its zeros alone?
 
+use super::matching;
 use nalgebra::DMatrix;
 
 /// A row and a column that no permutation to a non-zero diagonal can pair, among the rows and columns
 /// `inside` of J; `None` if there is such a permutation. Zero is exactly zero.
 pub(super) fn unmatched(j: &DMatrix<f64>, inside: &[usize]) -> Option<(usize, usize)> {
-    let k = inside.len();
-    let mut row_of = vec![None; k];
-    let mut first = None;
-    for row in 0..k {
-        let mut seen = vec![false; k];
-        if !augment(j, inside, row, &mut seen, &mut row_of) {
-            first = first.or(Some(inside[row]));
-        }
-    }
-    let col = row_of.iter().position(Option::is_none)?;
-    first.map(|row| (row, inside[col]))
-}
-
-/// Gives `row` a column, moving others where that helps. Rows are tried once per call, so depth and time are bounded.
-fn augment(j: &DMatrix<f64>, inside: &[usize], row: usize, seen: &mut [bool], row_of: &mut [Option<usize>]) -> bool {
-    for col in 0..inside.len() {
-        if j[(inside[row], inside[col])] == 0.0 || seen[col] {
-            continue;
-        }
-        seen[col] = true;
-        let is_free = match row_of[col] {
-            None => true,
-            Some(other) => augment(j, inside, other, seen, row_of),
-        };
-        if is_free {
-            row_of[col] = Some(row);
-            return true;
-        }
-    }
-    false
+    let rows = |&col: &usize| {
+        let mut rows = Vec::with_capacity(inside.len()); // one allocation each
+        rows.extend((0..inside.len()).filter(|&k| j[(inside[k], col)] != 0.0));
+        rows
+    };
+    let columns: Vec<Vec<usize>> = inside.iter().map(rows).collect();
+    matching::unmatched(&columns).map(|(row, col)| (inside[row], inside[col]))
 }
 
 #[cfg(test)]

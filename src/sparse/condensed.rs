@@ -7,8 +7,9 @@
 //! both are the same pivot for pivot.
 
 use super::SparseLinearMcp;
-use crate::linear::{SparseLu, unmatched_row};
+use crate::linear::SparseLu;
 use crate::mcp::{LinearMcp, McpError};
+use crate::solver::unmatched;
 use crate::solver::{Options, Outcome, Residuals, SolverError, Termination, solve, solve_linear};
 use crate::tolerance::REFINED;
 
@@ -88,7 +89,7 @@ impl<'a> CondensedMcp<'a> {
         };
         let block: Vec<Vec<(usize, f64)>> = free.iter().map(among).collect();
         let pattern: Vec<Vec<usize>> = block.iter().map(|column| column.iter().map(|e| e.0).collect()).collect();
-        if let Some(row) = unmatched_row(&pattern) {
+        if let Some((row, _)) = unmatched(&pattern) {
             return Err(SparseError::StructurallySingular { row: free[row] });
         }
         drop(pattern);

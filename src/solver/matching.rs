@@ -1,18 +1,22 @@
 //! Maximum transversals (Duff 1981, algorithm MC21): can rows and columns of a sparse matrix be paired
 //! along its entries? If not it is singular whatever the values.
 
-/// A row without a partner in a maximum matching of rows and columns, the first one; `None` if all have
-/// one. `columns[j]` lists the rows (< the number of columns) of column j.
-pub fn unmatched_row(columns: &[Vec<usize>]) -> Option<usize> {
+/// A row and a column without a partner in a maximum matching of rows and columns, the first ones; `None` if all
+/// have one. `columns[j]` lists the rows (< the number of columns) of column j.
+pub fn unmatched(columns: &[Vec<usize>]) -> Option<(usize, usize)> {
     const NONE: usize = usize::MAX;
     let n = columns.len();
     let mut partner = vec![NONE; n]; // column of each row
     let mut seen = vec![NONE; n]; // the search that has met each row
     let mut cheap = vec![0; n]; // entries of each column already tried for a row without partner
+    // Depth first, (column, next entry), each column but the first reached through its partner.
+    let mut way: Vec<(usize, usize)> = Vec::with_capacity(n);
+    let mut steps: Vec<usize> = Vec::with_capacity(n); // row taken from each column of the way but the last
+    let mut alone = None; // the first column without partner: what has one keeps one
     for root in 0..n {
-        // Depth first, (column, next entry), each column but the first reached through its partner.
-        let mut way: Vec<(usize, usize)> = vec![(root, 0)];
-        let mut steps: Vec<usize> = Vec::new(); // row taken from each column of the way but the last
+        way.clear();
+        way.push((root, 0));
+        steps.clear();
         while let Some(&(column, next)) = way.last() {
             let rows = &columns[column];
             let end = rows[cheap[column]..].iter().position(|&row| partner[row] == NONE);
@@ -38,8 +42,11 @@ pub fn unmatched_row(columns: &[Vec<usize>]) -> Option<usize> {
                 }
             }
         }
+        if way.is_empty() {
+            alone = alone.or(Some(root));
+        }
     }
-    partner.iter().position(|&column| column == NONE)
+    partner.iter().position(|&column| column == NONE).zip(alone)
 }
 
 #[cfg(test)]
@@ -64,10 +71,12 @@ mod tests {
             let columns: Vec<Vec<usize>> = (0..n).map(|_| (0..n).filter(|_| bit(3)).collect()).collect();
             let regular = by_all(&columns, 0);
             counts[usize::from(regular)] += 1;
-            assert_eq!(unmatched_row(&columns).is_none(), regular, "{columns:?}");
+            assert_eq!(unmatched(&columns).is_none(), regular, "{columns:?}");
         }
         assert!(counts.iter().all(|&c| c > 300), "{counts:?}");
-        assert_eq!(unmatched_row(&[vec![0], vec![0]]), Some(1));
+        assert_eq!(unmatched(&[vec![0], vec![0]]), Some((1, 1)));
+        // Rows 1 and 2 share what they have; columns 0 and 2 are nobody's.
+        assert_eq!(unmatched(&[vec![], vec![0, 1, 2], vec![]]), Some((1, 0)));
     }
 
     #[test]
@@ -75,6 +84,6 @@ mod tests {
         // Column j has rows j and j + 1, the last one only row 0: everything moves by one.
         let n = 100_000;
         let columns: Vec<Vec<usize>> = (0..n).map(|j| if j + 1 < n { vec![j, j + 1] } else { vec![0] }).collect();
-        assert_eq!(unmatched_row(&columns), None);
+        assert_eq!(unmatched(&columns), None);
     }
 }
