@@ -5,6 +5,7 @@
 //! with which some w makes every entry of w'T negative; the column player's mix is the x closest to a
 //! solution when there is no such w. (von Neumann 1928; Dantzig 1951 for the equivalence with LP.)
 
+use super::skyline::dot;
 use crate::tolerance::{GAME_PIVOT, GAME_SHIFT};
 
 /// A solved game.
@@ -34,10 +35,6 @@ pub(crate) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
     }
     let value = columns.iter().map(|c| -dot(c, &w)).fold(f64::INFINITY, f64::min);
     Game { value, w, mix: mix.into_iter().map(|q| q / total).collect() }
-}
-
-pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(x, y)| x * y).sum()
 }
 
 /// max sum q, P q <= 1, q >= 0 with P > 0 by a shift: feasible at q = 0, its dual is the row player's problem.

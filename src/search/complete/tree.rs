@@ -5,7 +5,8 @@
 //! there, the interval is cut where it stops working; if none does, the index whose complementarity
 //! the relaxed solution breaks most is decided.
 
-use super::game::{Game, dot};
+use super::game::Game;
+use super::skyline::dot;
 use super::view::{Ends, Expansion, Matrix, View};
 use super::witness::{Columns, definite, vanishes};
 use crate::certificate::{Claim, Node, Root, RootOutcome, Support};

@@ -1,6 +1,7 @@
 //! Witnesses that a region is empty: Farkas vectors in short integers, definite symmetric parts.
 
-use super::game::{self, Game, dot};
+use super::game::{self, Game};
+use super::skyline::dot;
 use super::tree::State;
 use super::view::{Ends, Matrix};
 use crate::tolerance::{CONDENSED_MARGIN, DEFINITE_PIVOT, THIN_MARGIN, WITNESS_MARGIN};
