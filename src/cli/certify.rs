@@ -6,7 +6,7 @@ use crate::candidate::{Candidate, read_report};
 use crate::certificate::{Certificate, Claim};
 use crate::certify::{NotCertified, certificate, certify, lifted};
 use crate::exact::{Interval, Rational, enclosing_decimals, parse};
-use crate::model::{Body, Problem};
+use crate::model::{Body, Pencil, Problem};
 use crate::multistart::same;
 use crate::reduction::reduce;
 use crate::search::complete::{CompleteError, Completed};
@@ -55,49 +55,26 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let radius = args.absence_radius.as_deref().map(parse_radius).transpose()?;
     let outputs = absence_outputs(args, candidates.len())?;
     let stop = interrupt_flag();
-    let mut claims: Vec<Claim> = Vec::new();
-    let mut refused: Vec<Refused> = Vec::new();
-    for (k, candidate) in candidates.iter().enumerate() {
-        if stop.load(Ordering::Relaxed) {
-            eprintln!("solution {k}: interrupted before it was looked at");
-            break;
-        }
-        match certify(&reduced.pencil, problem.window(), candidate) {
-            Ok(claim) if claims.iter().any(|c| same(c, &claim)) => eprintln!("solution {k} (value {}): listed before", candidate.value),
-            Ok(claim) => claims.push(claim),
-            Err(reason) => {
-                let r = Refused::of(&problem, candidate, radius.as_ref(), &reason, &stop);
-                eprintln!("solution {k} (value {}): {}", candidate.value, r.text);
-                refused.push(Refused { index: k, ..r });
-            }
-        }
-    }
-    let disproved = refused.iter().filter(|r| r.verdict == Verdict::Disproved).count();
-    let undecided = refused.iter().filter(|r| r.verdict == Verdict::Undecided).count();
-    eprintln!(
-        "{} distinct solutions certified, {disproved} of {} disproved, {undecided} undecided",
-        claims.len() + refused.len() - disproved - undecided,
-        candidates.len()
-    );
-    let mut written: Vec<&Certificate> = Vec::new();
+    let mut judged = judge(&problem, &reduced.pencil, &candidates, radius.as_ref(), &stop);
     if let (true, Body::System(system)) = (args.lifted, problem.body()) {
-        for claim in &mut claims {
+        for claim in &mut judged.claims {
             if let Claim::ExactSolution(c) = claim {
                 *claim = Claim::LiftedSolution(lifted(system, problem.unknown(), c));
             }
         }
     }
-    let own = (!claims.is_empty()).then(|| certificate(&problem, claims));
-    written.extend(&own);
-    let proofs = refused.iter().filter_map(|r| r.proof.as_ref());
-    // A report of one solution: its proof is the answer, whichever way it went.
-    written.extend(proofs.filter(|_| own.is_none() && candidates.len() == 1));
-    for r in &refused {
+    let (disproved, undecided) = (judged.count(Verdict::Disproved), judged.count(Verdict::Undecided));
+    eprintln!(
+        "{} distinct solutions certified, {disproved} of {} disproved, {undecided} undecided",
+        judged.claims.len() + judged.refused.len() - disproved - undecided,
+        candidates.len()
+    );
+    for r in &judged.refused {
         if let (Some(proof), Some(path)) = (&r.proof, outputs.get(r.index)) {
             Output::prepare("absence", path, &[&args.file, &args.report])?.write(&proof.to_json())?;
         }
     }
-    if let Some(certificate) = written.first() {
+    if let Some(certificate) = judged.answer(&problem, candidates.len()) {
         match output {
             Some(output) => output.write(&certificate.to_json())?,
             None => print(&format!("{}\n", certificate.to_json()))?,
@@ -109,6 +86,50 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         () if undecided > 0 || candidates.is_empty() => exit::UNDECIDED,
         () => exit::DONE,
     })
+}
+
+/// What became of a report: distinct claims with a certificate, and the rest.
+#[derive(Default)]
+struct Judged {
+    claims: Vec<Claim>,
+    refused: Vec<Refused>,
+}
+
+impl Judged {
+    fn count(&self, verdict: Verdict) -> usize {
+        self.refused.iter().filter(|r| r.verdict == verdict).count()
+    }
+
+    /// The certificate of all claims; for a report of one solution its proof is the answer, whichever way it went.
+    fn answer(self, problem: &Problem, reported: usize) -> Option<Certificate> {
+        if !self.claims.is_empty() {
+            return Some(certificate(problem, self.claims));
+        }
+        self.refused.into_iter().find_map(|r| r.proof).filter(|_| reported == 1)
+    }
+}
+
+/// Certifies one after the other and says what becomes of each, until interrupted.
+fn judge(problem: &Problem, pencil: &Pencil, candidates: &[Candidate], radius: Option<&Rational>, stop: &AtomicBool) -> Judged {
+    let mut judged = Judged::default();
+    for (k, candidate) in candidates.iter().enumerate() {
+        if stop.load(Ordering::Relaxed) {
+            eprintln!("solution {k}: interrupted before it was looked at");
+            break;
+        }
+        match certify(pencil, problem.window(), candidate) {
+            Ok(claim) if judged.claims.iter().any(|c| same(c, &claim)) => {
+                eprintln!("solution {k} (value {}): listed before", candidate.value);
+            }
+            Ok(claim) => judged.claims.push(claim),
+            Err(reason) => {
+                let r = Refused::of(problem, candidate, radius, &reason, stop);
+                eprintln!("solution {k} (value {}): {}", candidate.value, r.text);
+                judged.refused.push(Refused { index: k, ..r });
+            }
+        }
+    }
+    judged
 }
 
 /// Where the proofs of absence go, by index in the report; none without `--absence`.

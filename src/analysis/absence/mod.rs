@@ -85,71 +85,97 @@ pub fn absence(family: &MuFamily, excluded_below: &Rational, limits: Limits, sto
         return None;
     }
     let scaled = Scaled::new(&family.stiffness, mass)?;
-    let mut strips: HashMap<(u64, u32), Rc<Strip>> = HashMap::new();
-    let root = Region { s: 0, s_level: 0, m: 0, m_level: 0, states: vec![State::Open; scaled.slip] };
-    let mut stack = vec![root];
-    let mut heap: BinaryHeap<Reverse<(u64, u64)>> = BinaryHeap::new();
-    let mut store: HashMap<u64, Region> = HashMap::new();
-    let (mut next, mut boxes) = (0u64, 0usize);
-    loop {
-        for region in stack.drain(..) {
-            heap.push(Reverse((region.m_key(), next)));
-            store.insert(next, region);
-            next += 1;
-        }
-        let Some(Reverse((_, id))) = heap.pop() else {
-            return Some(Absence { below: None, blocked: None, boxes, cut_short: false });
-        };
-        let region = store.remove(&id)?;
-        let used_up = boxes >= limits.boxes || (scaled.free > 0 && strips.len() >= limits.strips);
+    let mut strips = Strips { scaled: &scaled, known: HashMap::new() };
+    let mut queue = Queue::default();
+    queue.push(Region { s: 0, s_level: 0, m: 0, m_level: 0, states: vec![State::Open; scaled.slip] });
+    let mut boxes = 0;
+    while let Some(region) = queue.pop() {
+        let used_up = boxes >= limits.boxes || (scaled.free > 0 && strips.known.len() >= limits.strips);
         let cut_short = used_up || stop.load(Ordering::Relaxed);
         boxes += 1;
         if upper_mu(&scaled, &region).is_some_and(|mu| mu <= *excluded_below) {
             continue;
         }
-        let key = (region.s, region.s_level);
-        let strip = match strips.get(&key) {
-            Some(strip) => Rc::clone(strip),
-            None => {
-                let strip = Rc::new(Strip::new(&scaled, region.s, region.s_level)?);
-                strips.insert(key, Rc::clone(&strip));
-                strip
-            }
-        };
+        let strip = strips.over(&region)?;
         let verdict = if strip.too_wide {
             Verdict::Split { along_m: false, hopeful: true }
         } else {
             Corners::new(&strip, region.m, region.m_level).judge(&region.states)
         };
-        let ended = match verdict {
-            Verdict::Empty => continue,
-            Verdict::Branch(i) => {
-                for state in [State::Moving, State::Rest] {
-                    let mut child = region.clone();
-                    child.states[i] = state;
-                    stack.push(child);
-                }
-                false
-            }
-            Verdict::Split { along_m, hopeful } => !split(&region, along_m, hopeful, &mut stack),
-        };
-        if ended || cut_short {
-            let below = lower_mu(&scaled, &region);
+        let children = children(&region, verdict);
+        let ended = children.is_none();
+        if ended || (cut_short && !matches!(verdict, Verdict::Empty)) {
+            let below = lower_mu(&scaled, &region).max(Some(excluded_below.clone()));
             let end = |s: u64| position(&scaled.tau, s, region.s_level);
             let blocked = Some((end(region.s).unwrap_or_else(Rational::one), end(region.s + 1)));
-            let below = below.max(Some(excluded_below.clone()));
             return Some(Absence { below, blocked, boxes, cut_short: !ended });
         }
+        children.into_iter().flatten().for_each(|child| queue.push(child));
+    }
+    Some(Absence { below: None, blocked: None, boxes, cut_short: false })
+}
+
+/// Regions in the order of mu, then in that of arrival.
+#[derive(Default)]
+struct Queue {
+    order: BinaryHeap<Reverse<(u64, usize)>>,
+    regions: HashMap<usize, Region>,
+    arrived: usize,
+}
+
+impl Queue {
+    fn push(&mut self, region: Region) {
+        self.order.push(Reverse((region.m_key(), self.arrived)));
+        self.regions.insert(self.arrived, region);
+        self.arrived += 1;
+    }
+
+    fn pop(&mut self) -> Option<Region> {
+        let Reverse((_, id)) = self.order.pop()?;
+        self.regions.remove(&id)
     }
 }
 
-/// Halves a box; false if it is too small for that.
-fn split(region: &Region, along_m: bool, hopeful: bool, stack: &mut Vec<Region>) -> bool {
+/// The strips met so far, by (s, s_level): eliminating the free variables is the dear part.
+struct Strips<'a> {
+    scaled: &'a Scaled,
+    known: HashMap<(u64, u32), Rc<Strip>>,
+}
+
+impl Strips<'_> {
+    /// The strip a region lies in; `None` if doubles fail there.
+    fn over(&mut self, region: &Region) -> Option<Rc<Strip>> {
+        let key = (region.s, region.s_level);
+        if let Some(strip) = self.known.get(&key) {
+            return Some(Rc::clone(strip));
+        }
+        let strip = Rc::new(Strip::new(self.scaled, region.s, region.s_level)?);
+        self.known.insert(key, Rc::clone(&strip));
+        Some(strip)
+    }
+}
+
+/// What is left of a region after a verdict; `None` if it should be halved and is too small for that.
+fn children(region: &Region, verdict: Verdict) -> Option<Vec<Region>> {
+    let decided = |i: usize, state| {
+        let mut child = region.clone();
+        child.states[i] = state;
+        child
+    };
+    match verdict {
+        Verdict::Empty => Some(Vec::new()),
+        Verdict::Branch(i) => Some([State::Moving, State::Rest].map(|state| decided(i, state)).to_vec()),
+        Verdict::Split { along_m, hopeful } => halves(region, along_m, hopeful),
+    }
+}
+
+/// The halves of a box; `None` if it is too small for that.
+fn halves(region: &Region, along_m: bool, hopeful: bool) -> Option<Vec<Region>> {
     // Relative to its place in m; absolute in s.
     let tiny_m = region.m >> TINY > 0 || region.m_level >= LEVEL;
     let tiny_s = region.s_level >= TINY;
     let along_m = match (along_m, hopeful) {
-        (_, false) if tiny_m && tiny_s => return false,
+        (_, false) if tiny_m && tiny_s => return None,
         (true, false) if tiny_m => false,
         (false, false) if tiny_s => true,
         (true, _) if region.m_level >= LEVEL => false,
@@ -157,18 +183,18 @@ fn split(region: &Region, along_m: bool, hopeful: bool, stack: &mut Vec<Region>)
         (along_m, _) => along_m,
     };
     if (along_m && region.m_level >= LEVEL) || (!along_m && region.s_level >= LEVEL) {
-        return false;
+        return None;
     }
-    for half in 0..2 {
+    let half = |k: u64| {
         let mut child = region.clone();
         if along_m {
-            (child.m, child.m_level) = (2 * region.m + half, region.m_level + 1);
+            (child.m, child.m_level) = (2 * region.m + k, region.m_level + 1);
         } else {
-            (child.s, child.s_level) = (2 * region.s + half, region.s_level + 1);
+            (child.s, child.s_level) = (2 * region.s + k, region.s_level + 1);
         }
-        stack.push(child);
-    }
-    true
+        child
+    };
+    Some(vec![half(0), half(1)])
 }
 
 /// unit p / (1 - p) at p = index / 2^level; `None` for infinity.
