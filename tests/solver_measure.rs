@@ -1,5 +1,6 @@
 //! Measures, printed with
 //! `cargo test --release --test solver_measure -- --ignored --nocapture`; seeds by MEASURE_SEEDS=101,102.
+//! MEASURE_ONLY=first: only first starts; else a part of the name of a search. MEASURE_FAMILY=mu20.
 #![cfg(feature = "testkit")]
 #![allow(missing_docs, clippy::unwrap_used, reason = "a test may panic")]
 
@@ -50,6 +51,9 @@ impl Tally {
             self.first_us.push(clock.elapsed().as_secs_f64() * 1e6);
         } else {
             self.missed_first.push(format!("{} {:?}", case.label, outcome.termination));
+        }
+        if std::env::var("MEASURE_ONLY").is_ok_and(|only| only == "first") {
+            return;
         }
         let found = multistart(&admissible, &Window::all(), search).unwrap();
         self.count(&found, &truth.solutions);
@@ -124,6 +128,9 @@ fn searches() -> Vec<(&'static str, Search)> {
     // What 22 runs would cost, in pivots and factorisations.
     let budget = Some(std::env::var("MEASURE_BUDGET").map_or(22, |v| v.parse().unwrap()));
     let plain = Search { options: Options { curve_step_limit: 0, ..Options::default() }, ..plain };
+    if std::env::var("MEASURE_ONLY").is_ok_and(|only| only == "first") {
+        return vec![("first", plain)];
+    }
     vec![("plain 22", plain), ("search", Search { starts: 10, window_starts: 0, budget, ..Search::default() })]
 }
 

@@ -1,5 +1,8 @@
 //! The crash: projected Newton on the guessed active set, before the first path (Dirkse and Ferris
-//! 1997, "Crash techniques for large-scale complementarity problems").
+//! 1997, "Crash techniques for large-scale complementarity problems"); and in `semismooth` Newton on the
+//! Fischer-Burmeister system.
+
+mod semismooth;
 
 use super::dense::Lu;
 use super::evaluation::{Evaluated, Point};
@@ -9,9 +12,12 @@ use super::tolerance::{ARMIJO, BACKTRACK, CRASH_GAIN, CRASH_PROXIMAL, CRASH_PROX
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
 
+pub(super) use semismooth::semismooth;
+
 /// What a crash works with, kept from one to the next.
 #[derive(Default)]
 pub(super) struct Storage {
+    pub(super) semismooth: semismooth::Storage,
     active: Vec<bool>,
     inactive: Vec<usize>,
     lu: Lu<f64>,
@@ -70,7 +76,7 @@ impl Storage {
     /// Newton's direction in the inactive components; a singular factor is perturbed proximally, with
     /// a term that vanishes with the merit. Says if there is one, and the term used.
     fn newton_direction(&mut self, jacobian: &DMatrix<f64>, point: &Point) -> (bool, f64) {
-        let Storage { active, inactive, lu, step, direction } = self;
+        let Storage { active, inactive, lu, step, direction, .. } = self;
         inactive.clear();
         inactive.extend((0..active.len()).filter(|&i| !active[i]));
         let mut solve = |proximal: f64| {

@@ -9,7 +9,7 @@
 //! | `options`, `tolerance`, `error` | limits with PATH's names; every tolerance; refusals |
 //! | `dense` | dense factors in storage that is kept |
 //! | `evaluation`, `fischer`, `normal_map`, `residual` | F and its merits; the five residuals |
-//! | `crash` | projected Newton to a good active set |
+//! | `crash`, `crash/semismooth` | projected Newton to a good active set; Newton on Fischer-Burmeister |
 //! | `path/` | the linear subproblem, solved by pivoting along the path |
 //! | `search`, `gradient`, `restart` | what makes a step acceptable, and what if none is |
 //! | `continuation/` | the Newton homotopy: a curve that meets several solutions |
@@ -48,7 +48,7 @@ pub use error::SolverError;
 pub use linear::solve_linear;
 pub use matching::unmatched;
 pub use multistart::multistart;
-pub use options::{Options, RatioTest};
+pub use options::{CrashMethod, Options, RatioTest};
 pub use outcome::{Counters, MajorRecord, NonFinite, Outcome, PathRecord, StepKind, Termination};
 pub use path::{PathEnd, Pivot, PivotKind, Start, Variable};
 pub use residual::Residuals;

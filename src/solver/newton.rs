@@ -1,9 +1,8 @@
 //! The outer loop: linearise, follow the path to the Newton point, accept it or fall back on
 //! watchdog, path search, gradient and restart, in this order (Dirkse and Ferris 1995, section 4).
 
-use super::Options;
 use super::continuation::{Sense, from_point};
-use super::crash::{self, crash};
+use super::crash::{self, crash, semismooth};
 use super::evaluation::{Evaluated, Point, Pool};
 use super::gradient::gradient_step;
 use super::log::Log;
@@ -15,6 +14,7 @@ use super::restart::Attempt;
 use super::search::Search;
 use super::structure::unmatched;
 use super::tolerance::{CURVE_TRIALS, MERIT_SLACK};
+use super::{CrashMethod, Options};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
 
@@ -146,10 +146,9 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
 
     /// One attempt; `best` is left at the point of least merit, or at the one within the tolerance.
     fn attempt(&mut self, start: &Point, attempt: Attempt, best: &mut Point) -> Termination {
-        let limit = if attempt.crash { self.options.crash_iteration_limit } else { 0 };
         let mut point = self.problem.copy(start);
-        if limit > 0 {
-            point = match crash(&mut self.problem, point, limit, &mut self.space.crash, &mut self.space.log) {
+        if attempt.crash {
+            point = match self.crash(point) {
                 Ok(point) => point,
                 Err(reason) => return reason,
             };
@@ -162,12 +161,31 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         reason
     }
 
+    /// The crash that the options ask for.
+    fn crash(&mut self, start: Point) -> Result<Point, Termination> {
+        let Run { problem, options, space } = self;
+        let (limit, of, tolerance) = (options.crash_iteration_limit, problem.problem, options.convergence_tolerance);
+        if limit == 0 || options.crash_method == CrashMethod::None {
+            return Ok(start);
+        }
+        let mut point = start;
+        if options.crash_method == CrashMethod::FischerNewton {
+            let done = |point: &Point| is_within_tolerance(of, point, tolerance);
+            let (next, done) = semismooth(problem, point, limit, done, &mut space.crash.semismooth, &mut space.log)?;
+            if done {
+                return Ok(next);
+            }
+            point = next;
+        }
+        crash(problem, point, limit, &mut space.crash, &mut space.log)
+    }
+
     /// Linearisations from a point until there is a reason to stop.
     fn majors(&mut self, point: &mut Point, attempt: Attempt, search: &mut Search, best: &mut Point) -> Termination {
         let (majors, pivots) = self.share();
         let last = (self.problem.counters.majors + majors, self.problem.counters.pivots + pivots);
         loop {
-            if self.is_within_tolerance(point) {
+            if is_within_tolerance(self.problem.problem, point, self.options.convergence_tolerance) {
                 best.copy_from(point);
                 return Termination::ToleranceReached;
             }
@@ -196,13 +214,6 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         let attempts = (1 + self.options.restart_limit) * if self.options.curve_step_limit > 0 { 2 } else { 1 };
         let Options { major_iteration_limit: majors, cumulative_iteration_limit: pivots, .. } = self.options;
         (majors.div_ceil(attempts), pivots.div_ceil(attempts))
-    }
-
-    fn is_within_tolerance(&self, point: &Point) -> bool {
-        let (n, tolerance) = (point.z.len() as f64, self.options.convergence_tolerance);
-        // The merit alone says so of most points.
-        point.merit <= MERIT_SLACK * 0.5 * n * tolerance * tolerance
-            && Residuals::without_gradient(self.problem.problem, point.z.as_slice(), point.f.as_slice()).within(tolerance)
     }
 
     /// One linearisation and the step it leads to.
@@ -339,6 +350,12 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         self.space.pool = pool;
         (self.space, residuals, termination, counters)
     }
+}
+
+fn is_within_tolerance<P: Mcp + ?Sized>(problem: &P, point: &Point, tolerance: f64) -> bool {
+    // The merit alone says so of most points.
+    point.merit <= MERIT_SLACK * 0.5 * point.z.len() as f64 * tolerance * tolerance
+        && Residuals::without_gradient(problem, point.z.as_slice(), point.f.as_slice()).within(tolerance)
 }
 
 /// Reasons that no restart can mend.

@@ -10,7 +10,11 @@ pub struct Options {
     /// products (units of F times z) at most its square root. PATH: 1e-6. Here 1e-10: 1e-6 accepts
     /// points near thresholds where no solution exists, and Newton gives the digits for nothing.
     pub convergence_tolerance: f64,
-    /// Crash steps before the first path. 0 switches the crash off. PATH: 50.
+    /// What comes before the first path. PATH: projected Newton. Here Newton on the Fischer-Burmeister
+    /// system and, where that does not converge, projected Newton from its best point: a solution found
+    /// so costs a factorisation a step and no pivot.
+    pub crash_method: CrashMethod,
+    /// Crash steps of each kind before the first path. 0 switches the crash off. PATH: 50.
     pub crash_iteration_limit: usize,
     /// Linearisations in a run, an even share of them for each attempt. PATH: 500.
     pub major_iteration_limit: usize,
@@ -46,6 +50,19 @@ pub struct Options {
     pub curve_step_limit: usize,
 }
 
+/// What comes before the first path.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+pub enum CrashMethod {
+    /// Nothing: the first path leaves from the start.
+    None,
+    /// Newton on the guessed active set, projected onto the bounds (Dirkse and Ferris 1997).
+    ProjectedNewton,
+    /// Newton on the Fischer-Burmeister system within the bounds (De Luca, Facchinei and Kanzow 1996); if
+    /// it does not converge, projected Newton from the point it has come to.
+    #[default]
+    FischerNewton,
+}
+
 /// How a path decides between bounds met at nearly the same step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum RatioTest {
@@ -62,6 +79,7 @@ impl Default for Options {
     fn default() -> Self {
         Options {
             convergence_tolerance: 1e-10,
+            crash_method: CrashMethod::FischerNewton,
             crash_iteration_limit: 50,
             major_iteration_limit: 500,
             minor_iteration_limit: 1000,

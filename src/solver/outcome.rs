@@ -84,6 +84,8 @@ impl Termination {
 pub enum StepKind {
     /// Projected Newton on a guessed active set, before the first path.
     Crash,
+    /// Newton on the Fischer-Burmeister system, before the first path.
+    FischerNewton,
     /// To the end of the path, or the part of it an attempt takes, checked against the reference.
     Path {
         /// Path parameter of the accepted point: 1 at a Newton point.
@@ -136,7 +138,7 @@ pub struct MajorRecord {
     pub step: StepKind,
     /// Proximal term of the linearisation (added to the diagonal of F'), units of F'.
     pub proximal: f64,
-    /// The paths followed from here: none for crash and restart, a second one after a failure.
+    /// The paths followed from here: none for crashes and restart, a second one after a failure.
     pub paths: Vec<PathRecord>,
 }
 
@@ -156,7 +158,7 @@ pub struct Counters {
     pub pivots: usize,
     /// Paths from a ray start.
     pub ray_starts: usize,
-    /// Crash steps.
+    /// Crash steps of both kinds.
     pub crash_steps: usize,
     /// Returns to a checkpoint.
     pub watchdogs: usize,

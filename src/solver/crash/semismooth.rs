@@ -1,0 +1,242 @@
+//! Damped Newton steps on the Fischer-Burmeister system Phi(z) = 0 before the first path (De Luca,
+//! Facchinei and Kanzow 1996, "A semismooth equation approach to the solution of nonlinear
+//! complementarity problems"), kept within the bounds. A run of them that converges costs one
+//! factorisation a step and no pivot.
+//!
+//! Row i of an element of the generalised Jacobian is by_z e_i' + by_f F'_i; divided by by_f it is a
+//! row of F' with a term on the diagonal that grows towards the bound. Where a component is far
+//! nearer to one branch than to the other the row of the minimum map stands for it: at a bound
+//! z_i goes there exactly (and leaves the system), inside F_i + F'_i d = 0.
+
+use super::super::dense::Lu;
+use super::super::evaluation::{Evaluated, Point};
+use super::super::fischer::fischer;
+use super::super::log::Log;
+use super::super::outcome::{StepKind, Termination};
+use super::super::tolerance::{ARMIJO, BACKTRACK, SEMISMOOTH_GAIN, SEMISMOOTH_NEAR, SEMISMOOTH_SMALLEST, SEMISMOOTH_WINDOW};
+use crate::mcp::Mcp;
+use nalgebra::DMatrix;
+
+/// What the steps work with, kept from one crash to the next.
+#[derive(Default)]
+pub(in super::super) struct Storage {
+    /// Rows of the system: the components that do not go to a bound.
+    inside: Vec<usize>,
+    /// Of each row: the term on the diagonal, and the residual.
+    diagonal: Vec<f64>,
+    residual: Vec<f64>,
+    lu: Lu<f64>,
+    step: Vec<f64>,
+    direction: Vec<f64>,
+}
+
+/// The row that stands for a component.
+#[derive(Debug, Clone, Copy, PartialEq)]
+enum Row {
+    /// The component goes this far, to its bound.
+    Bound(f64),
+    /// The row of F' with this on its diagonal, and this residual.
+    Inside { diagonal: f64, residual: f64 },
+}
+
+/// Steps from `start`, at most `limit`, until `done`, or until there is no descent along two directions
+/// in a row, or the merit has not fallen to [`SEMISMOOTH_GAIN`] over [`SEMISMOOTH_WINDOW`] steps.
+/// Says if it is done. Never raises the merit.
+///
+/// # Errors
+/// [`Termination::NonFinite`] if F' is not finite at an accepted point.
+pub(in super::super) fn semismooth<P: Mcp + ?Sized>(
+    problem: &mut Evaluated<'_, P>,
+    start: Point,
+    limit: usize,
+    done: impl Fn(&Point) -> bool,
+    storage: &mut Storage,
+    log: &mut Log,
+) -> Result<(Point, bool), Termination> {
+    let mut point = start;
+    let (mut least, mut failed) = (point.merit, false);
+    // Two elements by turns: the other one after a step that had to be shortened.
+    let mut near = SEMISMOOTH_NEAR;
+    for k in 0..limit {
+        if done(&point) {
+            return Ok((point, true));
+        }
+        if k > 0 && k % SEMISMOOTH_WINDOW == 0 {
+            if point.merit > SEMISMOOTH_GAIN * least {
+                return Ok((point, false));
+            }
+            least = point.merit;
+        }
+        let jacobian = problem.jacobian(&point)?;
+        problem.counters.factorisations += 1;
+        let solved = storage.newton_direction(problem.problem, &jacobian, &point, near[0]);
+        problem.recycle_matrix(jacobian);
+        let found = if solved { search(problem, &point, &storage.direction) } else { None };
+        let length = found.as_ref().map_or(0.0, |(_, length)| *length);
+        if length < 1.0 {
+            near.swap(0, 1);
+        }
+        let Some((next, _)) = found else {
+            if failed {
+                break;
+            }
+            failed = true;
+            continue;
+        };
+        failed = false;
+        problem.counters.crash_steps += 1;
+        log.step(point.merit, StepKind::FischerNewton, 0.0);
+        problem.recycle(std::mem::replace(&mut point, next));
+    }
+    let ended = done(&point);
+    Ok((point, ended))
+}
+
+/// The row for a component at z with F_i = f in [l, u]; the branches are told apart where one is
+/// `near` times as far away as the other.
+fn row(z: f64, f: f64, l: f64, u: f64, near: f64) -> Row {
+    let (below, above) = (z - l, u - z);
+    if l == u {
+        return Row::Bound(0.0);
+    }
+    if f > 0.0 && below <= near * f {
+        return Row::Bound(-below);
+    }
+    if f < 0.0 && above <= -near * f {
+        return Row::Bound(above);
+    }
+    if f.abs() <= near * below.min(above) {
+        return Row::Inside { diagonal: 0.0, residual: f };
+    }
+    let phi = fischer(z, f, l, u);
+    Row::Inside { diagonal: phi.by_z / phi.by_f, residual: phi.value / phi.by_f }
+}
+
+impl Storage {
+    /// Newton's direction; says if there is one.
+    fn newton_direction<P: Mcp + ?Sized>(&mut self, problem: &P, jacobian: &DMatrix<f64>, point: &Point, near: f64) -> bool {
+        self.take_rows(problem, point, near);
+        let Storage { inside, diagonal, residual, lu, step, direction } = self;
+        for (j, moved) in direction.iter().enumerate().filter(|(_, moved)| **moved != 0.0) {
+            let column = jacobian.column(j);
+            inside.iter().zip(residual.iter_mut()).for_each(|(&i, r)| *r += column[i] * moved);
+        }
+        let gather = |j: usize, rows: &[usize], out: &mut [f64]| {
+            let column = jacobian.column(inside[j]);
+            let entry = |r: usize| column[inside[r]] + if r == j { diagonal[j] } else { 0.0 };
+            rows.iter().zip(out).for_each(|(&r, o)| *o = entry(r));
+        };
+        if !lu.factor(inside.len(), gather, |_| 0.0) {
+            return false;
+        }
+        step.clear();
+        step.extend(lu.rows().iter().map(|&r| -residual[r]));
+        lu.solve(step);
+        inside.iter().zip(step.iter()).for_each(|(&i, v)| direction[i] = *v);
+        direction.iter().all(|v| v.is_finite())
+    }
+
+    /// The rows of the system, and the direction of the components that have none.
+    fn take_rows<P: Mcp + ?Sized>(&mut self, problem: &P, point: &Point, near: f64) {
+        self.inside.clear();
+        self.diagonal.clear();
+        self.residual.clear();
+        self.direction.clear();
+        let bounds = problem.lower().iter().zip(problem.upper());
+        for (i, (&l, &u)) in bounds.enumerate() {
+            let to_bound = match row(point.z[i], point.f[i], l, u, near) {
+                Row::Bound(distance) => distance,
+                Row::Inside { diagonal, residual } => {
+                    self.inside.push(i);
+                    self.diagonal.push(diagonal);
+                    self.residual.push(residual);
+                    0.0
+                }
+            };
+            self.direction.push(to_bound);
+        }
+    }
+}
+
+/// Back along the projected arc until the merit falls, with the length of the step.
+fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, direction: &[f64]) -> Option<(Point, f64)> {
+    let mut step = 1.0;
+    while step >= SEMISMOOTH_SMALLEST {
+        let next = problem.point_with(|i| point.z[i] + direction[i] * step);
+        if next.merit <= (1.0 - ARMIJO * step) * point.merit && next.merit < point.merit {
+            return Some((next, step));
+        }
+        problem.recycle(next);
+        step *= BACKTRACK;
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mcp::LinearMcp;
+    use nalgebra::{DVector, dmatrix};
+
+    const INF: f64 = f64::INFINITY;
+
+    fn crashed(p: &LinearMcp, start: &[f64]) -> (Point, bool, usize) {
+        let mut problem = Evaluated::new(p);
+        let start = problem.point(&DVector::from_column_slice(start));
+        let (merit, mut log) = (start.merit, Log::default());
+        let done = |point: &Point| point.merit < 1e-24;
+        let (point, ended) = semismooth(&mut problem, start, 50, done, &mut Storage::default(), &mut log).unwrap();
+        assert!(point.merit <= merit && log.records().iter().all(|record| record.step == StepKind::FischerNewton));
+        assert_eq!(log.records().len(), problem.counters.crash_steps);
+        (point, ended, problem.counters.factorisations)
+    }
+
+    /// Murty's problem, of 2^n - 1 pivots by Lemke's method, n = 12: solution 0, .., 0, 1, from far away;
+    /// components at bounds are there exactly.
+    #[test]
+    fn it_converges_to_exact_bounds() {
+        let n = 12;
+        let murty = DMatrix::from_fn(n, n, |i, j| if i == j { 1.0 } else { 2.0 * f64::from(u8::from(j > i)) });
+        let (point, ended, factorisations) = crashed(&LinearMcp::lcp(murty, vec![-1.0; n]).unwrap(), &vec![1.0; n]);
+        assert!(ended && factorisations < 30, "{factorisations} {}", point.merit);
+        assert!(point.z.iter().take(n - 1).all(|v| *v == 0.0) && (point.z[n - 1] - 1.0).abs() < 1e-12);
+    }
+
+    /// Below, inside, above, fixed and free: z = (0, 1, 2, 5, 3) of F = z - (-1, 1, 4, 0, 3).
+    #[test]
+    fn bounds_of_every_kind() {
+        let q = vec![1.0, -1.0, -4.0, 0.0, -3.0];
+        let p = LinearMcp::new(DMatrix::identity(5, 5), q, vec![0.0, -1.0, 0.0, 5.0, -INF], vec![INF, 2.0, 2.0, 5.0, INF]).unwrap();
+        for start in [[0.0, 0.0, 0.0, 5.0, 0.0], [3.0, 2.0, 2.0, 5.0, -9.0], [0.5, -1.0, 1.0, 5.0, 3.0]] {
+            let (point, ended, _) = crashed(&p, &start);
+            assert!(ended, "{start:?}: {point:?}");
+            assert!((point.z - DVector::from_column_slice(&[0.0, 1.0, 2.0, 5.0, 3.0])).amax() < 1e-12);
+        }
+    }
+
+    /// No solution: the merit has a minimum that is not zero, and the steps end soon.
+    #[test]
+    fn poor_progress_ends_it() {
+        let (point, ended, factorisations) = crashed(&LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap(), &[3.0]);
+        assert!(!ended && point.merit > 0.4 && factorisations <= 3 * SEMISMOOTH_WINDOW, "{factorisations}");
+        let (_, ended, factorisations) = crashed(&LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap(), &[0.0]);
+        assert!(!ended && factorisations <= 2 * SEMISMOOTH_WINDOW, "{factorisations}");
+    }
+
+    /// The derivative of what Newton solves: -diagonal and residual against the function and its parts.
+    #[test]
+    fn rows_are_those_of_the_generalised_jacobian() {
+        assert_eq!(row(2.0, 7.0, 2.0, 2.0, 0.5), Row::Bound(0.0));
+        assert_eq!(row(0.25, 1.0, 0.0, INF, 0.5), Row::Bound(-0.25));
+        assert_eq!(row(1.75, -1.0, 0.0, 2.0, 0.5), Row::Bound(0.25));
+        assert_eq!(row(1.0, 0.25, 0.0, INF, 0.5), Row::Inside { diagonal: 0.0, residual: 0.25 });
+        assert_eq!(row(7.0, 9.0, -INF, INF, 0.5), Row::Inside { diagonal: 0.0, residual: 9.0 });
+        // At a bound with F = 0: F may change sign, so that the row stays.
+        assert_eq!(row(0.0, 0.0, 0.0, INF, 0.5), Row::Inside { diagonal: 0.0, residual: 0.0 });
+        // phi(3, 4) = -2, by_z = 3/5 - 1, by_f = 4/5 - 1.
+        let Row::Inside { diagonal, residual } = row(3.0, 4.0, 0.0, INF, 0.5) else { panic!() };
+        assert!((diagonal - 2.0).abs() < 1e-14 && (residual - 10.0).abs() < 1e-13);
+        // Pointing out of the bound: never to the bound.
+        assert!(matches!(row(0.0, -1.0, 0.0, INF, 1.0), Row::Inside { .. }));
+    }
+}
