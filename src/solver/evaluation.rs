@@ -189,9 +189,11 @@ mod tests {
         let at = (point.z.as_ptr(), jacobian.as_ptr());
         e.recycle(point);
         e.recycle_matrix(jacobian);
+        assert_eq!((e.pool.points.len(), e.pool.matrices.len()), (1, 1));
         let point = e.point(&dvector![5.0, 6.0]);
         let jacobian = e.jacobian(&point).unwrap();
         assert_eq!((point.z.as_ptr(), jacobian.as_ptr()), at);
+        assert_eq!((e.pool.points.len(), e.pool.matrices.len()), (0, 0));
         assert_eq!((&point.f, &jacobian), (&dvector![5.0, 0.0], &dmatrix![1.0, 0.0; 0.0, 0.0]));
         e.recycle(point);
         e.recycle_matrix(jacobian);

@@ -63,21 +63,21 @@ fn drift_is_the_error_of_the_equations_relative_to_their_terms() {
     }
 }
 
-/// An error just below DRIFT stays, one just above is mended by factors and values from scratch.
+/// An error of DRIFT stays, one above is mended by factors and values from scratch.
 #[test]
 fn values_are_made_anew_when_they_drift() {
     let m = dmatrix![1.0, 0.0; 0.0, 1.0];
-    let sub = Subproblem { m: &m, q: &[-3.0, -4.0], lower: &[0.0; 2], upper: &[INF; 2] };
-    for (share, refreshed) in [(0.9, 0), (1.1, 1)] {
+    let sub = Subproblem { m: &m, q: &[-1.0, -1.0], lower: &[0.0; 2], upper: &[INF; 2] };
+    for (share, refreshed) in [(0.9, 0), (1.0, 0), (1.1, 1)] {
         at_start(&sub, Start::Ray, &[0.0; 2], |mut tableau| {
             tableau.set_rates();
             let block = super::super::ratio::ratio_test(&mut tableau, super::super::RatioTest::Lexicographic, 0).unwrap();
             tableau.advance(&block.step);
             let place = block.place.unwrap();
             let other = 1 - place;
-            // No term is larger than |q| + |r|.
-            let scale = tableau.columns.scale();
-            tableau.state.values[other] += share * DRIFT * scale;
+            // Both are zero there, and no term is larger than |q| + |r|.
+            assert_eq!((tableau.state.values[other], tableau.columns.scale()), (0.0, 3.0));
+            tableau.state.values[other] = share * (DRIFT * 3.0);
             assert!(tableau.exchange(place, block.at_upper));
             assert_eq!(tableau.basis.refreshed, refreshed, "{share}");
         });
@@ -142,4 +142,26 @@ fn the_complement_moves_next() {
         assert_eq!(next, [(Variable::Z(0), 1.0), (Variable::Z(0), -1.0), (Variable::W(0), 1.0), (Variable::V(0), 1.0)]);
         assert_eq!(tableau.state.z[0], 8.0);
     });
+}
+
+/// Held inside by an artificial, z_i may move both ways: the one in which t rises.
+#[test]
+fn after_an_artificial_t_rises() {
+    for (slope, sign) in [(2.0, 1.0), (-2.0, -1.0)] {
+        let m = dmatrix![1.0, slope; 0.0, 1.0];
+        let sub = Subproblem { m: &m, q: &[3.0, 0.0], lower: &[-INF; 2], upper: &[INF; 2] };
+        at_start(&sub, Start::Regular, &[1.0, 0.0], |mut tableau| {
+            // The artificial stands for z_1, t for z_0.
+            let (mut given, mut column) = (Vec::new(), vec![0.0; 2]);
+            for (place, variable) in [(1, Variable::Artificial(1)), (0, Variable::T)] {
+                tableau.columns.write(variable, &mut given);
+                tableau.basis.solve(&given, &mut column);
+                tableau.basis.replace(place, variable, &column);
+            }
+            let (next, direction) = tableau.successor(Variable::Artificial(1), false);
+            // M z - t r = const in its first row: with z_0 at rest t changes by slope / r_0 for each unit of z_1.
+            let r = -tableau.columns.dense(Variable::T)[0];
+            assert_eq!((next, direction), (Variable::Z(1), sign * r.signum()));
+        });
+    }
 }
