@@ -63,12 +63,12 @@ fn drift_is_the_error_of_the_equations_relative_to_their_terms() {
     }
 }
 
-/// An error of DRIFT stays, one above is mended by factors and values from scratch.
+/// An error just below DRIFT stays, one just above is mended by factors and values from scratch.
 #[test]
 fn values_are_made_anew_when_they_drift() {
     let m = dmatrix![1.0, 0.0; 0.0, 1.0];
     let sub = Subproblem { m: &m, q: &[-1.0, -1.0], lower: &[0.0; 2], upper: &[INF; 2] };
-    for (share, refreshed) in [(0.9, 0), (1.0, 0), (1.1, 1)] {
+    for (share, refreshed) in [(0.9, 0), (1.1, 1)] {
         at_start(&sub, Start::Ray, &[0.0; 2], |mut tableau| {
             tableau.set_rates();
             let block = super::super::ratio::ratio_test(&mut tableau, super::super::RatioTest::Lexicographic, 0).unwrap();
