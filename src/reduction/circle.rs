@@ -161,11 +161,22 @@ mod tests {
         approx::assert_relative_eq!(back.value, mu, epsilon = 1e-14);
         approx::assert_relative_eq!(back.x[0] / back.x[1], -0.25, epsilon = 1e-14);
         // t < 0, the far side of the circle, and infinity stand for nothing.
-        for (alpha, beta) in [(0.6, -0.8), (-0.6, -0.8), (0.0, 1.0), (-1.0, 0.0), (0.9 * CIRCLE_END, 1.0)] {
+        for (alpha, beta) in [(0.6, -0.8), (-0.6, -0.8), (0.0, 1.0), (-1.0, 0.0), (0.9 * CIRCLE_END, 1.0), (CIRCLE_END, 1.0)] {
             assert!(circle.candidate(&[0.5, 0.5, alpha, beta]).is_none());
         }
         assert_eq!(circle.candidate(&[0.5, 0.5, 1.0, 0.0]).unwrap().value, 0.0);
         assert!(circle.candidate(&[0.5, 0.5, 1.1 * CIRCLE_END, 1.0]).is_some());
+    }
+
+    /// The variables of the pencil are scaled by its diagonal, here 4096 and 2: there and back.
+    #[test]
+    fn points_and_candidates_are_inverse_whatever_the_scale() {
+        let circle =
+            CirclePencil::new(&embedding(&[&["4096", "0"], &["0", "2"]], &[&["0", "-3"], &["-1", "0"]], &[], Unknown::Mu)).unwrap();
+        assert_ne!(circle.diagonal[0], circle.diagonal[1]);
+        let back = circle.candidate(&circle.point(1.5, &[1.0, 3.0])).unwrap();
+        approx::assert_relative_eq!(back.value, 1.5, max_relative = 1e-14);
+        approx::assert_relative_eq!(back.x[1] / back.x[0], 3.0, max_relative = 1e-14);
     }
 
     #[test]

@@ -123,6 +123,7 @@ fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, direct
 
 #[cfg(test)]
 mod tests {
+    use super::super::probe::{bounded, free};
     use super::*;
     use crate::mcp::LinearMcp;
     use nalgebra::{DVector, dmatrix};
@@ -178,5 +179,44 @@ mod tests {
             assert_eq!(proximal, term * 8.0);
             approx::assert_relative_eq!(direction.unwrap()[0], -1.0 / (term * 8.0), max_relative = 1e-9);
         }
+    }
+
+    /// Psi = 1/2 everywhere but where a trial lands: taken from a fall of ARMIJO times its length on.
+    #[test]
+    fn a_crash_step_is_taken_from_armijo_s_fall_on() {
+        let taken = |trial: f64, share: f64| {
+            let value = (1.0 - share * ARMIJO * trial).sqrt();
+            let p = free(1, move |z, f| f[0] = if z[0] == 2.0 + trial { value } else { 1.0 }, |_, j| j[(0, 0)] = 0.0);
+            let mut problem = Evaluated::new(&p);
+            let point = problem.point(&DVector::from_element(1, 2.0));
+            search(&mut problem, &point, &[1.0]).map(|next| next.z[0] - 2.0)
+        };
+        for trial in [1.0, 0.5, 0.125, CRASH_SMALLEST] {
+            assert_eq!([taken(trial, 1.01), taken(trial, 0.99)], [Some(trial), None], "{trial}");
+        }
+        assert_eq!(taken(0.5 * CRASH_SMALLEST, 1.01), None); // the path is better
+    }
+
+    /// Two unknowns leave for their bounds in the first step, so that only the gain says if there is a second one. With
+    /// F_3 = z^-p Newton's step is to z (1 + 1/p), which divides the merit by (1 + 1/p)^2p.
+    #[test]
+    fn a_crash_goes_on_while_it_gains() {
+        let steps = |p: f64| {
+            let f = move |z: &[f64], f: &mut [f64]| f.copy_from_slice(&[z[0] + 1.0, z[1] + 1.0, 1e3 * z[2].powf(-p)]);
+            let jacobian =
+                move |z: &[f64], j: &mut DMatrix<f64>| j.set_diagonal(&DVector::from_vec(vec![1.0, 1.0, -1e3 * p * z[2].powf(-p - 1.0)]));
+            let problem = bounded(&[0.0, 0.0, f64::NEG_INFINITY], &[f64::INFINITY; 3], f, jacobian);
+            let mut problem = Evaluated::new(&problem);
+            let start = problem.point(&DVector::from_vec(vec![1e-3, 1e-3, 1.0]));
+            let before = start.merit;
+            let point = crash(&mut problem, start, 1, &mut Storage::default(), &mut Log::default()).unwrap();
+            let gain = 1.0 - point.merit / before;
+            let start = problem.point(&DVector::from_vec(vec![1e-3, 1e-3, 1.0]));
+            problem.counters.crash_steps = 0;
+            crash(&mut problem, start, 9, &mut Storage::default(), &mut Log::default()).unwrap();
+            (gain > CRASH_GAIN, problem.counters.crash_steps)
+        };
+        // Gains of 0.9 and 1.1 %.
+        assert_eq!([steps(6e-4), steps(7.5e-4)], [(false, 1), (true, 2)]);
     }
 }

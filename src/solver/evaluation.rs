@@ -155,3 +155,81 @@ impl Point {
         self.merit = other.merit;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::probe::{bounded, free};
+    use super::*;
+    use nalgebra::{dmatrix, dvector};
+
+    #[test]
+    fn points_are_projected_and_evaluated_once() {
+        let p = bounded(&[0.0, -1.0], &[2.0, 1.0], |z, f| (f[0], f[1]) = (z[0] - 5.0, 10.0 * z[1]), |_, j| j[(0, 1)] = 7.0);
+        let mut e = Evaluated::new(&p);
+        let point = e.point(&dvector![9.0, -3.0]);
+        assert_eq!((&point.z, &point.f), (&dvector![2.0, -1.0], &dvector![-3.0, -10.0]));
+        assert_eq!(point.merit, fischer::merit(&p, &point.z, &point.f));
+        assert_eq!(e.point_with(|i| i as f64).z, dvector![0.0, 1.0]);
+        let mut copy = e.copy(&point);
+        assert_eq!((&copy.z, &copy.f, copy.merit), (&point.z, &point.f, point.merit));
+        let inside = e.point(&dvector![1.0, 0.0]);
+        copy.copy_from(&inside);
+        assert_eq!((&copy.z, &copy.f, copy.merit), (&inside.z, &inside.f, inside.merit));
+        assert_eq!((e.jacobian(&point).unwrap(), e.any_jacobian(&point)), (dmatrix![0.0, 7.0; 0.0, 0.0], dmatrix![0.0, 7.0; 0.0, 0.0]));
+        assert_eq!((e.counters.functions, e.counters.jacobians), (3, 2));
+    }
+
+    /// What was given back is used again, cleared, unless its size is another.
+    #[test]
+    fn storage_is_used_again() {
+        let p = free(2, |z, f| f[0] += z[0], |_, j| j[(0, 0)] += 1.0);
+        let mut e = Evaluated::new(&p);
+        let point = e.point(&dvector![3.0, 4.0]);
+        let jacobian = e.jacobian(&point).unwrap();
+        let at = (point.z.as_ptr(), jacobian.as_ptr());
+        e.recycle(point);
+        e.recycle_matrix(jacobian);
+        assert_eq!((e.pool.points.len(), e.pool.matrices.len()), (1, 1));
+        let point = e.point(&dvector![5.0, 6.0]);
+        let jacobian = e.jacobian(&point).unwrap();
+        assert_eq!((point.z.as_ptr(), jacobian.as_ptr()), at);
+        assert_eq!((e.pool.points.len(), e.pool.matrices.len()), (0, 0));
+        assert_eq!((&point.f, &jacobian), (&dvector![5.0, 0.0], &dmatrix![1.0, 0.0; 0.0, 0.0]));
+        e.recycle(point);
+        e.recycle_matrix(jacobian);
+        let (pool, counters) = e.into_parts();
+        assert_eq!((counters.functions, counters.jacobians), (2, 2));
+        let other = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
+        let mut e = Evaluated::with_pool(&other, pool);
+        let point = e.point(&dvector![5.0]);
+        assert_eq!((point.z.len(), e.jacobian(&point).unwrap().shape()), (1, (1, 1)));
+    }
+
+    #[test]
+    fn what_is_not_finite_is_named() {
+        let p = free(3, |z, f| f[1] = 1.0 / z[0], |z, j| (j[(0, 2)], j[(2, 0)]) = (1.0 / z[1], f64::NAN * z[2]));
+        let mut e = Evaluated::new(&p);
+        let good = e.point(&dvector![1.0, 0.0, 0.0]);
+        assert!(good.not_finite().is_none() && e.not_finite.is_none());
+        assert_eq!(e.jacobian(&good), Err(Termination::NonFinite(NonFinite::Jacobian { row: 0, col: 2 })));
+        let other = e.point(&dvector![1.0, 1.0, 1.0]);
+        assert_eq!(e.jacobian(&other), Err(Termination::NonFinite(NonFinite::Jacobian { row: 2, col: 0 })));
+        let bad = e.point(&dvector![0.0, 1.0, 1.0]);
+        let reason = Some(Termination::NonFinite(NonFinite::Function { row: 1 }));
+        assert_eq!((bad.not_finite(), e.not_finite, bad.merit), (reason, reason, f64::INFINITY));
+        e.point(&dvector![1.0, 1.0, 1.0]);
+        assert_eq!(e.not_finite, reason); // until somebody takes it
+    }
+
+    /// A callback that resizes what it was given is told, or filled with what is no number.
+    #[test]
+    fn a_jacobian_of_another_shape_is_refused() {
+        let p = free(2, |z, f| f[0] = z[0], |_, j| *j = DMatrix::from_element(1, 2, 5.0));
+        let mut e = Evaluated::new(&p);
+        let point = e.point(&dvector![1.0, 1.0]);
+        assert_eq!(e.jacobian(&point), Err(Termination::JacobianShape { rows: 1, cols: 2 }));
+        for j in [e.any_jacobian(&point), jacobian_at(&p, &[1.0, 1.0])] {
+            assert!(j.shape() == (2, 2) && j[(0, 0)] == 5.0 && j[(0, 1)] == 5.0 && j[(1, 0)].is_nan() && j[(1, 1)].is_nan());
+        }
+    }
+}

@@ -153,4 +153,18 @@ mod tests {
         approx::assert_relative_eq!(a, kink, max_relative = 1e-15);
         approx::assert_relative_eq!(b, kink, max_relative = 1e-15);
     }
+
+    /// Squares that overflow or underflow do not spoil a length.
+    #[test]
+    fn lengths_keep_their_digits_at_every_size() {
+        for size in [1e-300, 1e-200, 1e-140, 1.0, 1e140, 1e200, 1e300] {
+            approx::assert_relative_eq!(length(3.0 * size, -4.0 * size), 5.0 * size, max_relative = 1e-15);
+        }
+        assert_eq!(length(0.0, 0.0), 0.0);
+        // Where squares are safe they are taken: hypot rounds some of these otherwise.
+        let pairs = (1..200).map(|i| (f64::from(i) / 7.0, f64::from(i * i) / 11.0));
+        for (a, b) in pairs {
+            assert_eq!(length(a, b), (a * a + b * b).sqrt());
+        }
+    }
 }

@@ -45,6 +45,7 @@ fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, gradie
 
 #[cfg(test)]
 mod tests {
+    use super::super::probe::free;
     use super::*;
     use crate::mcp::LinearMcp;
     use nalgebra::{dmatrix, dvector};
@@ -58,5 +59,45 @@ mod tests {
         assert!(next.merit < far.merit);
         let solution = problem.point(&dvector![4.0 / 3.0, 7.0 / 3.0]);
         assert!(gradient_step(&mut problem, &solution).unwrap().is_none_or(|p| p.merit < 1e-29));
+    }
+
+    /// The first trial removes the merit at the gradient's rate, here exactly, but goes no farther than 1 + |z|.
+    #[test]
+    fn the_first_trial_is_a_newton_step_of_bounded_length() {
+        for (from, root, expected) in [(0.0, 5.0, 1.0), (2.0, 9.0, 5.0), (2.0, 4.0, 4.0), (-2.0, -2.5, -2.5), (0.0, -0.5, -0.5)] {
+            for slope in [1.0, 3.0] {
+                let p = free(1, move |z, f| f[0] = slope * (z[0] - root), move |_, j| j[(0, 0)] = slope);
+                let mut problem = Evaluated::new(&p);
+                let point = problem.point(&dvector![from]);
+                let next = gradient_step(&mut problem, &point).unwrap().unwrap();
+                approx::assert_relative_eq!(next.z[0], expected, max_relative = 1e-14);
+            }
+        }
+    }
+
+    /// Psi = 1/2 everywhere but where a trial lands: taken from a fall of ARMIJO times what the gradient promises.
+    #[test]
+    fn a_trial_is_taken_from_the_promised_fall_on() {
+        let taken = |trial: f64, share: f64| {
+            let promised = 2.0 - trial; // gradient 1, from z = 2
+            let value = (1.0 - 2.0 * share * ARMIJO * promised).sqrt();
+            let p = free(1, move |z, f| f[0] = if z[0] == trial { value } else { 1.0 }, |_, j| j[(0, 0)] = 0.0);
+            let mut problem = Evaluated::new(&p);
+            let point = problem.point(&dvector![2.0]);
+            search(&mut problem, &point, &dvector![1.0]).map(|next| (next.z[0], problem.counters.functions))
+        };
+        for (trial, trials) in [(1.0, 1), (1.5, 2), (1.75, 3)] {
+            assert_eq!([taken(trial, 1.1), taken(trial, 0.9)], [Some((trial, trials + 1)), None], "{trial}");
+        }
+    }
+
+    /// Where the bounds hold the arc at the point, equal merit is no gain.
+    #[test]
+    fn a_step_that_goes_nowhere_is_none() {
+        let lcp = LinearMcp::lcp(dmatrix![1.0], vec![-1.0]).unwrap();
+        let mut problem = Evaluated::new(&lcp);
+        let point = problem.point(&dvector![0.0]);
+        assert!(search(&mut problem, &point, &dvector![1.0]).is_none());
+        assert!(search(&mut problem, &point, &dvector![f64::NAN]).is_none());
     }
 }

@@ -97,4 +97,16 @@ mod tests {
         let second = outcome.log.iter().filter(|m| m.paths.len() == 2).count();
         assert!(second > 0 && outcome.counters.ray_starts >= second, "{:?}", outcome.counters);
     }
+
+    /// The merit that is logged is that of the start of the ray, where free unknowns solve their rows already.
+    #[test]
+    fn the_log_begins_at_the_ray() {
+        let options = Options { preprocess: false, ..Options::default() };
+        let inf = f64::INFINITY;
+        let p = LinearMcp::new(dmatrix![2.0], vec![-3.0], vec![-inf], vec![inf]).unwrap();
+        let outcome = solve_linear(&p, &options).unwrap();
+        assert_eq!((outcome.log[0].merit, outcome.point), (0.0, vec![1.5]));
+        let bounded = LinearMcp::new(dmatrix![2.0], vec![-3.0], vec![0.0], vec![inf]).unwrap();
+        assert!(solve_linear(&bounded, &options).unwrap().log[0].merit > 1.0);
+    }
 }

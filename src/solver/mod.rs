@@ -36,6 +36,8 @@ mod options;
 mod outcome;
 mod path;
 mod preprocess;
+#[cfg(test)]
+mod probe;
 mod residual;
 mod restart;
 mod reuse;

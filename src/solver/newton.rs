@@ -363,3 +363,6 @@ fn ends_the_run(reason: Termination) -> bool {
     use Termination as T;
     matches!(reason, T::ToleranceReached | T::MajorLimit | T::CumulativeLimit | T::JacobianShape { .. })
 }
+
+#[cfg(test)]
+mod tests;

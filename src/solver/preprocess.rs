@@ -139,4 +139,29 @@ mod tests {
         let p = LinearMcp::new(dmatrix![2.0, -3.0; 0.0, 0.0], vec![1.0, -7.0], vec![-1.0, 0.0], vec![INF, INF]).unwrap();
         assert_eq!(range(&p, &[None, None], 0), (-INF, INF, 1.0 + 2.0));
     }
+
+    /// A sign is sure from SIGN_SURE of the row's terms on; zero has none, and a bound that is infinite takes nothing.
+    #[test]
+    fn a_sign_is_sure_beyond_rounding() {
+        let decided = |q: f64, l: f64, u: f64| {
+            // F_0 = q + z_1 with z_1 in [-1, -1 + 0]: terms of size 1 + |q|.
+            let p = LinearMcp::new(dmatrix![0.0, 1.0; 0.0, 0.0], vec![q, 0.0], vec![l, -1.0], vec![u, -1.0]).unwrap();
+            decide(&p, &[None, None], 0)
+        };
+        let sure = SIGN_SURE * 2.0; // |q| + |z_1|
+        assert_eq!([decided(1.0 + 1.01 * sure, 0.0, 4.0), decided(1.0 + 0.99 * sure, 0.0, 4.0)], [Some(0.0), None]);
+        assert_eq!([decided(1.0 - 1.01 * sure, 0.0, 4.0), decided(1.0 - 0.99 * sure, 0.0, 4.0)], [Some(4.0), None]);
+        assert_eq!([decided(2.0, -INF, 4.0), decided(0.0, 0.0, INF)], [None, None]);
+        let zero = LinearMcp::new(dmatrix![0.0], vec![0.0], vec![0.0], vec![4.0]).unwrap();
+        assert_eq!(decide(&zero, &[None], 0), None);
+    }
+
+    /// A row of one unknown is solved whatever others are open; a row of two waits for the other one.
+    #[test]
+    fn a_row_alone_is_solved() {
+        let p = LinearMcp::new(dmatrix![2.0, 0.0; 1.0, 4.0], vec![-3.0, -5.0], vec![-INF; 2], vec![INF; 2]).unwrap();
+        assert_eq!([decide(&p, &[None, None], 0), decide(&p, &[None, None], 1)], [Some(1.5), None]);
+        assert_eq!(decide(&p, &[Some(1.5), None], 1), Some(0.875));
+        assert_eq!(Preprocessed::new(&p).restore(&[]), [1.5, 0.875]);
+    }
 }

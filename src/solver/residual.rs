@@ -110,6 +110,7 @@ fn norm(values: impl Iterator<Item = f64>) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use super::super::probe::bounded;
     use super::*;
     use crate::mcp::LinearMcp;
     use nalgebra::dmatrix;
@@ -155,5 +156,96 @@ mod tests {
         assert!(r.within(1e-14) && r.fischer_gradient < 1e-13);
         let r = Residuals::at(&lcp, &[0.0, 0.0]);
         assert_eq!((r.normal_map, r.minimum_map, r.fischer), (6.0, 6.0, 12.0));
+    }
+
+    /// By hand, one component each: towards both bounds, inside, free, and with |F| where the bound is infinite.
+    #[test]
+    fn each_residual_is_its_formula() {
+        let inf = f64::INFINITY;
+        // z, F, l, u: product, normal map, minimum map.
+        let table = [
+            (1.0, 2.0, 0.0, 4.0, 2.0, 2.0, 1.0),
+            (1.0, -2.0, 0.0, 4.0, 6.0, 2.0, 2.0),
+            (1.0, 0.25, 0.0, 4.0, 0.25, 0.25, 0.25),
+            (0.0, 3.0, 0.0, 4.0, 0.0, 0.0, 0.0),
+            (4.0, -3.0, 0.0, 4.0, 0.0, 0.0, 0.0),
+            (0.0, -3.0, 0.0, 4.0, 12.0, 3.0, 3.0),
+            (4.0, 3.0, 0.0, 4.0, 12.0, 3.0, 3.0),
+            (5.0, -3.0, 0.0, inf, 3.0, 3.0, 3.0),
+            (5.0, 3.0, -inf, 6.0, 3.0, 3.0, 3.0),
+            (5.0, 3.0, -inf, inf, 3.0, 3.0, 3.0),
+        ];
+        for (z, f, l, u, product, normal, minimum) in table {
+            let r = Residuals::within_bounds(&[l], &[u], &[z], &[f]);
+            assert_eq!((r.complementarity, r.normal_map, r.minimum_map), (product, normal, minimum), "{z} {f} [{l}, {u}]");
+            assert_eq!((r.fischer, r.fischer_gradient), (fischer(z, f, l, u).value.abs(), 0.0));
+        }
+        // The largest of the components, whatever their order.
+        let r = Residuals::within_bounds(&[0.0; 3], &[inf; 3], &[1.0, 5.0, 2.0], &[-7.0, 1.0, 0.5]);
+        assert_eq!((r.complementarity, r.normal_map, r.minimum_map), (7.0, 7.0, 7.0));
+    }
+
+    /// From parts as from the problem, with a gradient that is none of its terms.
+    #[test]
+    fn parts_give_what_the_problem_gives() {
+        let m = dmatrix![2.0, -1.0, 0.5; 1.0, 3.0, 0.25; -0.5, 0.75, 1.5];
+        let p =
+            LinearMcp::new(m.clone(), vec![-1.0, 0.5, -0.25], vec![0.0, f64::NEG_INFINITY, -1.0], vec![f64::INFINITY, 2.0, 3.0]).unwrap();
+        let z = [0.75, 0.5, 0.25];
+        let at = Residuals::at(&p, &z);
+        let mut f = vec![0.0; 3];
+        p.function(&z, &mut f);
+        let transposed = |y: &[f64], out: &mut [f64]| out.copy_from_slice((m.transpose() * DVector::from_column_slice(y)).as_slice());
+        let of = Residuals::of(p.lower(), p.upper(), &z, &f, transposed);
+        approx::assert_relative_eq!(of.fischer_gradient, at.fischer_gradient, max_relative = 1e-14);
+        assert_eq!(Residuals { fischer_gradient: 0.0, ..of }, Residuals { fischer_gradient: 0.0, ..at });
+        assert_eq!(Residuals::without_gradient(&p, &z, &f), Residuals { fischer_gradient: 0.0, ..at });
+        assert!(at.fischer_gradient > 0.1);
+        assert_eq!(Residuals::at(&p, &[0.75, 0.5, 0.25, 99.0]), at); // components beyond are ignored
+    }
+
+    /// Three residuals at the tolerance, the products at its root; each alone beyond it is too much.
+    #[test]
+    fn each_of_four_residuals_must_be_within() {
+        let of = |normal_map, minimum_map, fischer, complementarity| {
+            Residuals { complementarity, normal_map, minimum_map, fischer, fischer_gradient: f64::INFINITY }.within(0.0625)
+        };
+        let (t, more) = (0.0625, 0.063);
+        assert!(of(t, t, t, 0.25) && !of(more, t, t, 0.25) && !of(t, more, t, 0.25) && !of(t, t, more, 0.25) && !of(t, t, t, 0.26));
+        assert!(!of(f64::NAN, t, t, t) && !of(t, f64::NAN, t, t) && !of(t, t, f64::NAN, t) && !of(t, t, t, f64::NAN));
+    }
+
+    /// Bounds that are shorter than the problem says give NaN, as does a short z; a NaN is not lost behind a number.
+    #[test]
+    fn what_is_missing_is_no_number() {
+        let nan = |l: &[f64], u: &[f64], z: &[f64]| {
+            let p = bounded(l, u, |_, f| f.fill(1.0), |_, j| j.fill(0.0));
+            Residuals::at(&Sized2(p), z).normal_map.is_nan()
+        };
+        assert!(!nan(&[0.0; 2], &[1.0; 2], &[0.5; 2]));
+        assert!(nan(&[0.0; 1], &[1.0; 2], &[0.5; 2]) && nan(&[0.0; 2], &[1.0; 1], &[0.5; 2]) && nan(&[0.0; 2], &[1.0; 2], &[0.5; 1]));
+        assert!([[f64::NAN, 1.0], [1.0, f64::NAN]].iter().all(|list| norm(list.iter().copied()).is_nan()));
+        assert_eq!(norm([1.0, -3.0, 2.0].into_iter()), 3.0);
+    }
+
+    /// Says that it has two unknowns, whatever its bounds are.
+    struct Sized2<P>(P);
+
+    impl<P: Mcp> Mcp for Sized2<P> {
+        fn dimension(&self) -> usize {
+            2
+        }
+        fn lower(&self) -> &[f64] {
+            self.0.lower()
+        }
+        fn upper(&self) -> &[f64] {
+            self.0.upper()
+        }
+        fn function(&self, z: &[f64], f: &mut [f64]) {
+            self.0.function(z, f);
+        }
+        fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
+            self.0.jacobian(z, j);
+        }
     }
 }

@@ -68,3 +68,26 @@ impl Solver {
         Outcome { point: self.space.point.clone(), residuals, termination, log: self.space.log.records(), counters }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mcp::LinearMcp;
+    use nalgebra::dmatrix;
+
+    #[test]
+    fn the_point_is_that_of_the_last_run() {
+        let mut solver = Solver::new();
+        assert!(solver.point().is_empty());
+        for q in [-3.0, -7.0, 5.0] {
+            let lcp = LinearMcp::lcp(dmatrix![2.0], vec![q]).unwrap();
+            let ended = solver.run(&lcp, &[1.0], &Options::default()).unwrap();
+            assert_eq!(solver.point(), [f64::max(-q / 2.0, 0.0)]);
+            let outcome = solver.outcome(ended);
+            assert_eq!(
+                (outcome.point, outcome.termination, outcome.counters),
+                (solver.point().to_vec(), ended.termination, ended.counters)
+            );
+        }
+    }
+}

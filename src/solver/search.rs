@@ -233,4 +233,20 @@ mod tests {
         let mut s = search(0, &Options { gradient_step_limit: 2, ..Options::default() });
         assert_eq!([s.gradient_allowed(), s.gradient_allowed(), s.gradient_allowed()], [true, true, false]);
     }
+
+    /// The reference at the beginning: a multiple of the start's merit, far above it where all is free, the merit itself
+    /// where every step must fall.
+    #[test]
+    fn each_acceptance_begins_with_its_reference() {
+        let options = Options { nms_initial_reference_factor: 3.0, ..Options::default() };
+        let of = |acceptance: Acceptance| {
+            let (start, first) = (point(&[3.0, -4.0], 8.0), point(&[1.0, 0.0], 2.0));
+            let mut search = Search::default();
+            search.begin(&start, &first, &options, Attempt { acceptance, ..Attempt::number(1) });
+            (search.reference(), search.radius, search.best().map(|best| best.merit))
+        };
+        assert_eq!(of(Acceptance::NonMonotone), (24.0, TRUST * 5.0, Some(2.0)));
+        assert_eq!(of(Acceptance::Free), (24.0 * FREE_REFERENCE, f64::INFINITY, Some(2.0)));
+        assert_eq!(of(Acceptance::Monotone), (8.0, 0.0, Some(2.0)));
+    }
 }

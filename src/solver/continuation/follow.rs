@@ -212,3 +212,6 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         self.guarded().iter().filter_map(share).min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -106,3 +106,34 @@ impl<'a, T: Number> Columns<'a, T> {
         self.frame.scale.clone().unwrap_or_else(T::zero)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use nalgebra::dmatrix;
+
+    /// Of M z - w + v + D a - t r = -(q + r), with r = multiplier - M z - q.
+    #[test]
+    fn columns_are_those_of_the_equation() {
+        let m = dmatrix![2.0, -7.0; 1.0, 3.0];
+        let sub = Subproblem { m: &m, q: &[-1.0, 4.0], lower: &[0.0; 2], upper: &[f64::INFINITY; 2] };
+        let mut frame = Frame::default();
+        frame.set(&sub, &[5.0, 1.0], &[6.0, 0.5]);
+        // M z + q = (2, 12), so that r = (4, -11.5).
+        frame.add_artificial(0, 1);
+        let columns = frame.columns(&sub);
+        assert_eq!((columns.dense(Variable::T), columns.right()), (&[-4.0, 11.5][..], &[-3.0, 7.5][..]));
+        let written = |variable: Variable| {
+            let mut out = vec![9.0; 5];
+            columns.write(variable, &mut out);
+            (out, columns.size(variable))
+        };
+        assert_eq!([written(Variable::Z(0)), written(Variable::Z(1))], [(vec![2.0, 1.0], 2.0), (vec![-7.0, 3.0], 7.0)]);
+        assert_eq!(written(Variable::T), (vec![-4.0, 11.5], 11.5));
+        assert_eq!([written(Variable::W(1)), written(Variable::V(1))], [(vec![0.0, -1.0], 1.0), (vec![0.0, 1.0], 1.0)]);
+        // An artificial has its row, or else that of its own unknown.
+        assert_eq!(written(Variable::Artificial(0)), (vec![0.0, 1.0], 1.0));
+        assert_eq!(written(Variable::Artificial(1)), (vec![0.0, 1.0], 1.0));
+        assert_eq!(columns.scale(), 4.0 + 11.5);
+    }
+}

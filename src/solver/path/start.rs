@@ -141,7 +141,7 @@ pub(super) fn starting_basis<T: Number>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::dmatrix;
+    use nalgebra::{DMatrix, dmatrix};
 
     const INF: f64 = f64::INFINITY;
 
@@ -175,5 +175,21 @@ mod tests {
         assert!(starting_basis(&sub, &mut frame, &mut basis, &state, &mut path));
         assert_eq!(basis.variables, vec![Variable::Z(0), Variable::Artificial(1)]);
         assert_eq!(path.factorisations, 2);
+    }
+
+    /// All multipliers are lifted by the same amount: what the worst one lacks and the size of the largest. Equal bounds have
+    /// no say and are not lifted.
+    #[test]
+    fn multipliers_are_lifted_until_the_worst_is_positive() {
+        let m = DMatrix::<f64>::zeros(4, 4);
+        let sub = Subproblem { m: &m, q: &[-3.0, 2.0, 1.0, -100.0], lower: &[0.0, 0.0, -INF, 5.0], upper: &[INF, 1.0, 0.0, 5.0] };
+        let mut state = State::default();
+        ray(&sub, &mut state, &mut FreeRows::default());
+        assert_eq!((state.z, state.multiplier), (vec![0.0, 0.0, 0.0, 5.0], vec![3.0, 8.0, -5.0, -100.0]));
+        // Where all are zero the amount is one.
+        let sub = Subproblem { m: &m, q: &[0.0; 4], ..sub };
+        let mut state = State::default();
+        ray(&sub, &mut state, &mut FreeRows::default());
+        assert_eq!(state.multiplier, [1.0, 1.0, -1.0, 0.0]);
     }
 }

@@ -239,3 +239,6 @@ impl<'a, T: Number> Tableau<'a, T> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -50,6 +50,15 @@ fn followed(m: &DMatrix<f64>, q: &DVector<f64>, l: &[f64], u: &[f64], start: Sta
     path
 }
 
+/// The tableau at the beginning of a path.
+pub(super) fn at_start<R>(sub: &Subproblem<'_, f64>, start: Start, current: &[f64], look: impl FnOnce(Tableau<'_, f64>) -> R) -> R {
+    let Storage { mut frame, mut basis, mut state, mut free, .. } = Storage::default();
+    start_point(sub, start, current, &mut state, &mut free);
+    frame.set(sub, &state.z, &state.multiplier);
+    assert!(starting_basis(sub, &mut frame, &mut basis, &state, &mut Path::default()));
+    look(Tableau::new(frame.columns(sub), &mut basis, &mut state))
+}
+
 #[test]
 fn one_by_one_from_both_starts() {
     for start in [Start::Regular, Start::Ray] {
@@ -133,19 +142,16 @@ fn the_multiplier_of_equal_bounds_changes_sign_without_a_pivot() {
 fn drift_is_noticed_and_mended() {
     let m = dmatrix![2.0, 1.0; 1.0, 2.0];
     let sub = Subproblem { m: &m, q: &[-5.0, -6.0], lower: &[0.0; 2], upper: &[INF; 2] };
-    let Storage { mut frame, mut basis, mut state, mut free, .. } = Storage::default();
-    start_point(&sub, Start::Ray, &[0.0, 0.0], &mut state, &mut free);
-    frame.set(&sub, &state.z, &state.multiplier);
-    assert!(starting_basis(&sub, &mut frame, &mut basis, &state, &mut Path::default()));
-    let mut tableau = Tableau::new(frame.columns(&sub), &mut basis, &mut state);
-    tableau.set_rates();
-    let block = ratio::ratio_test(&mut tableau, RatioTest::Lexicographic, 0).unwrap();
-    tableau.advance(&block.step);
-    let exact = tableau.state.values.clone();
-    tableau.state.values[0] += 1e-6;
-    assert!(tableau.exchange(block.place.unwrap(), block.at_upper));
-    let values = &tableau.state.values;
-    assert!((values[0] - exact[0]).abs() < 1e-12, "{values:?} {exact:?}");
+    at_start(&sub, Start::Ray, &[0.0, 0.0], |mut tableau| {
+        tableau.set_rates();
+        let block = ratio::ratio_test(&mut tableau, RatioTest::Lexicographic, 0).unwrap();
+        tableau.advance(&block.step);
+        let exact = tableau.state.values.clone();
+        tableau.state.values[0] += 1e-6;
+        assert!(tableau.exchange(block.place.unwrap(), block.at_upper));
+        let values = &tableau.state.values;
+        assert!((values[0] - exact[0]).abs() < 1e-12, "{values:?} {exact:?}");
+    });
 }
 
 #[test]

@@ -116,3 +116,90 @@ impl<'a, T: Number> Walk<'a, T> {
         self.entries[index][slot] > self.limits.cycle_entries
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::Subproblem;
+    use super::super::tests::at_start;
+    use super::*;
+    use nalgebra::{DMatrix, dmatrix};
+
+    const INF: f64 = f64::INFINITY;
+
+    fn limits(cycle_entries: usize) -> Limits {
+        Limits { pivots: 100, cycle_entries, rule: RatioTest::Lexicographic }
+    }
+
+    /// Between the last two knots the fastest of all unknowns, also the one that moves, goes RAY_STEP (1 + |z|).
+    #[test]
+    fn the_point_on_a_ray_is_a_little_along_it() {
+        let cases: [(DMatrix<f64>, [f64; 2]); 4] = [
+            (dmatrix![-1.0, 0.0; 0.0, 1.0], [0.0, 7.0]),
+            (dmatrix![-1.0, 0.0; 0.0, 1.0], [3.0, 2.0]),
+            (dmatrix![-0.25, 0.0; 0.0, 1.0], [2.0, 1.0]),
+            (dmatrix![-9.0, -2.0; 0.0, 1.0], [0.5, 0.0]),
+        ];
+        for (m, current) in cases {
+            let sub = Subproblem { m: &m, q: &[-1.0, -3.0], lower: &[0.0; 2], upper: &[INF; 2] };
+            at_start(&sub, Start::Regular, &current, |tableau| {
+                let (mut path, mut entries) = (Path::default(), Vec::new());
+                path.knots.clear(2);
+                Walk::new(tableau, limits(9), &mut entries, &mut path).run();
+                assert_eq!(path.end, PathEnd::Ray);
+                let [before, last] = [path.knots.len() - 2, path.knots.len() - 1];
+                let change = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+                let [z, m] = [[path.knots.z(before), path.knots.z(last)], [path.knots.multiplier(before), path.knots.multiplier(last)]];
+                let moved = change(z[0], z[1]).max(change(m[0], m[1])).max((path.knots.t(last) - path.knots.t(before)).abs());
+                let size = change(z[0], &[0.0; 2]);
+                approx::assert_relative_eq!(moved, RAY_STEP * (1.0 + size), max_relative = 1e-12);
+            });
+        }
+    }
+
+    /// Each unknown may begin to move a number of times; a t above the largest so far by more than a tie starts the counts anew.
+    #[test]
+    fn entries_are_counted_since_the_last_new_maximum() {
+        let m = dmatrix![1.0];
+        let sub = Subproblem { m: &m, q: &[-1.0], lower: &[0.0], upper: &[INF] };
+        for start in [Start::Regular, Start::Ray] {
+            at_start(&sub, start, &[2.0], |tableau| {
+                let (mut path, mut entries) = (Path { start, ..Path::default() }, vec![[7; 3]; 9]);
+                path.knots.clear(1);
+                let mut walk = Walk::new(tableau, limits(2), &mut entries, &mut path);
+                let cycles = start == Start::Regular; // from a ray there is no guard
+                let mut at = |t: f64, entering: Variable| {
+                    (walk.tableau.t, walk.tableau.entering) = (t, entering);
+                    walk.is_cycling()
+                };
+                // Each slot has its own count.
+                for variable in [Variable::Z(0), Variable::W(0), Variable::V(0)] {
+                    assert_eq!([at(0.0, variable), at(-1.0, variable), at(0.0, variable)], [false, false, cycles]);
+                }
+                assert!(!at(0.0, Variable::T) && !at(0.0, Variable::Artificial(0)));
+                assert_eq!([0.9, 1.0, 1.1].map(|share| at(share * TIE, Variable::Z(0))), [cycles, cycles, false]);
+                assert_eq!([at(0.5, Variable::Z(0)), at(0.25, Variable::Z(0)), at(0.5, Variable::Z(0))], [false, false, cycles]);
+            });
+        }
+    }
+
+    /// As many pivots as the limit says, and no more.
+    #[test]
+    fn a_path_ends_at_its_limit_of_pivots() {
+        let m = dmatrix![2.0, 1.0; 1.0, 2.0];
+        let sub = Subproblem { m: &m, q: &[-5.0, -6.0], lower: &[0.0; 2], upper: &[INF; 2] };
+        let ends = |pivots: usize| {
+            at_start(&sub, Start::Ray, &[0.0; 2], |tableau| {
+                let (mut path, mut entries) = (Path { start: Start::Ray, ..Path::default() }, Vec::new());
+                path.knots.clear(2);
+                Walk::new(tableau, Limits { pivots, ..limits(9) }, &mut entries, &mut path).run();
+                (path.end, path.pivots.len(), path.knots.len())
+            })
+        };
+        let (end, needed, _) = ends(100);
+        assert_eq!((end, needed), (PathEnd::Complete, 3));
+        for pivots in 0..needed {
+            assert_eq!(ends(pivots), (PathEnd::PivotLimit, pivots, pivots + 1));
+        }
+        assert_eq!(ends(needed).0, PathEnd::Complete);
+    }
+}

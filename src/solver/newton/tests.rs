@@ -1,0 +1,265 @@
+//! The decisions of the outer loop one by one: shares, trials, where a path leads, which fallback comes next.
+
+use super::super::probe::free;
+use super::super::restart::Acceptance;
+use super::super::tolerance::RESTART_PROXIMAL;
+use super::*;
+use crate::mcp::LinearMcp;
+use nalgebra::{DVector, dmatrix, dvector};
+
+const INF: f64 = f64::INFINITY;
+
+fn run<'a, P: Mcp + ?Sized>(problem: &'a P, options: &'a Options) -> Run<'a, P> {
+    Run::new(problem, options, Workspace::default())
+}
+
+/// F = -1 - z on z >= 0: no solution.
+fn infeasible() -> LinearMcp {
+    LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap()
+}
+
+fn feasible() -> LinearMcp {
+    LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap()
+}
+
+/// The path of M z + q over `current`.
+fn path(m: DMatrix<f64>, q: &[f64], l: &[f64], u: &[f64], start: Start, current: &[f64]) -> Path {
+    let sub = Subproblem { m: &m, q, lower: l, upper: u };
+    let limits = Limits { pivots: 50, cycle_entries: 5, rule: Options::default().ratio_test };
+    let mut path = Path::default();
+    follow(&sub, start, current, limits, &mut path::Storage::default(), &mut path);
+    path
+}
+
+/// One attempt and the restarts share the limits, twice as many where each is followed by curves; rounded up.
+#[test]
+fn limits_are_shared_evenly() {
+    let share = |restart_limit: usize, curve_step_limit: usize| {
+        let options = Options {
+            restart_limit,
+            curve_step_limit,
+            major_iteration_limit: 500,
+            cumulative_iteration_limit: 10_000,
+            ..Options::default()
+        };
+        run(&feasible(), &options).share()
+    };
+    assert_eq!(
+        [share(3, 1), share(3, 0), share(0, 1), share(0, 0), share(2, 200)],
+        [(63, 1250), (125, 2500), (250, 5000), (500, 10_000), (84, 1667)]
+    );
+}
+
+#[test]
+fn curves_from_afar_are_tried_where_there_are_restarts_and_curves() {
+    let trials = |restart_limit: usize, curve_step_limit: usize| {
+        let options = Options { restart_limit, curve_step_limit, ..Options::default() };
+        run(&feasible(), &options).trials()
+    };
+    assert_eq!([trials(1, 1), trials(0, 1), trials(1, 0), trials(0, 0)], [CURVE_TRIALS, 0, 0, 0]);
+}
+
+/// Curves follow an attempt that has failed from a point that was moved, and no other.
+#[test]
+fn curves_are_followed_after_restarts_that_moved_and_failed() {
+    let steps = |problem: &LinearMcp, attempt: Attempt, curve_step_limit: usize| {
+        let options = Options { curve_step_limit, ..Options::default() };
+        let mut run = run(problem, &options);
+        let start = run.problem.point_with(|_| 1.0);
+        let mut best = run.problem.copy(&start);
+        let reason = run.restart(&start, attempt, 2, &mut best);
+        assert_eq!(run.problem.counters.restarts, 1);
+        assert_eq!(run.space.log.records()[0].step, StepKind::Restart);
+        (reason.reached_tolerance(), run.problem.counters.curve_steps > 0)
+    };
+    let (still, moved) = (Attempt::number(1), Attempt::number(2));
+    assert_eq!(
+        [steps(&infeasible(), moved, 50), steps(&infeasible(), moved, 0), steps(&infeasible(), still, 50)],
+        [(false, true), (false, false), (false, false)]
+    );
+    assert_eq!([steps(&feasible(), moved, 50), steps(&feasible(), still, 50)], [(true, false); 2]);
+}
+
+/// The first attempt too; a limit of zero means none at all.
+#[test]
+fn curves_are_followed_after_the_first_attempt_fails() {
+    let of = |problem: &LinearMcp, start: &[f64], restart_limit: usize, curve_step_limit: usize| {
+        let options = Options { restart_limit, curve_step_limit, ..Options::default() };
+        let (_, _, reason, counters) = run(problem, &options).run(start);
+        (reason.reached_tolerance(), counters.curve_steps > 0, counters.restarts)
+    };
+    assert_eq!([of(&infeasible(), &[1.0], 0, 50), of(&infeasible(), &[1.0], 0, 0)], [(false, true, 0), (false, false, 0)]);
+    assert_eq!(of(&infeasible(), &[1.0], 2, 50), (false, true, 2));
+    assert_eq!(of(&feasible(), &[1.0; 2], 2, 50), (true, false, 0));
+}
+
+/// Each component of F at the tolerance is within it, however many there are.
+#[test]
+fn the_tolerance_is_that_of_each_component() {
+    let options = Options { convergence_tolerance: 0.25, ..Options::default() };
+    for n in [1, 2, 9] {
+        let p = free(n, |z, f| f.copy_from_slice(z), |_, j| j.fill_with_identity());
+        let mut run = run(&p, &options);
+        let within = |run: &mut Run<'_, _>, each: f64| {
+            let point = run.problem.point_with(|_| each);
+            run.is_within_tolerance(&point)
+        };
+        assert!(within(&mut run, 0.25) && within(&mut run, -0.25) && !within(&mut run, 0.2501), "{n}");
+        let one = run.problem.point_with(|i| if i == 0 { 0.2501 } else { 0.0 });
+        assert!(!run.is_within_tolerance(&one));
+    }
+}
+
+/// The attempt's share of the largest entry, times the root of the merit up to 1, and only where the attempt asks for it.
+#[test]
+fn the_proximal_term_of_a_restart_vanishes_with_the_merit() {
+    let p = free(2, |z, f| f.copy_from_slice(z), |_, j| j.copy_from(&dmatrix![1.0, -8.0; 0.0, 1.0]));
+    let options = Options::default();
+    let term = |attempt: Attempt, z: f64| {
+        let mut run = run(&p, &options);
+        let point = run.problem.point_with(|i| if i == 0 { z } else { 0.0 });
+        let mut search = Search::default();
+        search.begin(&point, &point, &options, attempt);
+        run.major(&point, attempt, &mut search).ok();
+        assert_eq!(run.problem.counters.majors, 1);
+        run.space.log.records().last().unwrap().proximal
+    };
+    let proximal = Attempt { proximal: RESTART_PROXIMAL, ..Attempt::number(1) };
+    // F = z, so that the merit is z^2 / 2.
+    for (z, share) in [(10.0, 1.0), (2f64.sqrt() * 1.0001, 1.0), (0.5f64.sqrt(), 0.5), (1e-6, 1e-6 * 0.5f64.sqrt())] {
+        approx::assert_relative_eq!(term(proximal, z), RESTART_PROXIMAL * 8.0 * share, max_relative = 1e-12);
+    }
+    assert_eq!(term(Attempt::number(1), 10.0), 0.0);
+}
+
+/// Of a complete path the Newton point, or the fraction asked for; of a ray start its last point.
+#[test]
+fn a_complete_path_leads_to_the_newton_point() {
+    let (m, q) = (dmatrix![2.0], [-6.0]);
+    let (p, options) = (LinearMcp::lcp(m.clone(), q.to_vec()).unwrap(), Options::default());
+    let mut run = run(&p, &options);
+    let mut target = |path: &Path, fraction: f64| run.target(path, fraction).map(|(point, t)| (point.z[0], t)).unwrap();
+    let regular = path(m.clone(), &q, &[0.0], &[INF], Start::Regular, &[1.0]);
+    assert_eq!([target(&regular, 1.0), target(&regular, 0.5)], [(3.0, 1.0), (2.0, 0.5)]);
+    let ray = path(m, &q, &[0.0], &[INF], Start::Ray, &[1.0]);
+    assert_eq!([target(&ray, 1.0), target(&ray, 0.5)], [(3.0, 1.0); 2]);
+}
+
+/// Of a path that ends on a ray the farthest point, or the last one where that is better; never the last one where only a
+/// fraction is asked for.
+#[test]
+fn a_partial_path_leads_to_the_better_of_two_points() {
+    // z_2 = 3 - 2.5 t until z_1 leaves its bound at t = 0.8; from there both grow without end while t falls.
+    let partial = path(dmatrix![-1.0, 1.0; 0.0, 1.0], &[-1.0, -0.5], &[0.0; 2], &[INF; 2], Start::Regular, &[0.0, 3.0]);
+    assert_eq!((partial.end, partial.start), (PathEnd::Ray, Start::Regular));
+    let at = |t: f64| partial.at(t).map(|z| vec![z(0), z(1)]).unwrap();
+    let (reach, last) = (partial.reach(), partial.last().unwrap().to_vec());
+    let last_t = *partial.knots.t(partial.knots.len() - 1);
+    assert!(last[0] > 0.01 && last_t < reach && (reach - 0.8).abs() < 1e-12);
+    let options = Options::default();
+    for (root, better) in [(at(reach), (at(reach), reach)), (last.clone(), (last, last_t))] {
+        let p = free(2, move |z, f| f.iter_mut().zip(z).zip(&root).for_each(|((f, z), r)| *f = z - r), |_, j| j.fill_with_identity());
+        let mut run = run(&p, &options);
+        let mut target = |fraction: f64| run.target(&partial, fraction).map(|(point, t)| (point.z.as_slice().to_vec(), t)).unwrap();
+        assert_eq!(target(1.0), better);
+        assert_eq!(target(0.5), (at(0.5 * reach), 0.5 * reach));
+    }
+}
+
+/// F = z on the line, from z = 8 with reference merit 32: a path to -80 is searched back from its end.
+#[test]
+fn a_path_is_searched_back_to_a_point_that_passes() {
+    let p = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
+    let options = Options::default();
+    let attempt = Attempt { acceptance: Acceptance::Monotone, ..Attempt::number(1) };
+    // A linear model that overshoots: 88 / 8 = 11 times too far.
+    let overshoot = path(dmatrix![1.0 / 11.0], &[8.0 - 8.0 / 11.0], &[-INF], &[INF], Start::Regular, &[8.0]);
+    assert!((overshoot.last().unwrap()[0] + 80.0).abs() < 1e-9);
+    let mut run = run(&p, &options);
+    let point = run.problem.point_with(|_| 8.0);
+    let mut search = Search::default();
+    search.begin(&point, &point, &options, attempt);
+    let (next, kind) = run.back_along_paths(std::slice::from_ref(&overshoot), &mut search).unwrap();
+    // t = 1, 1/2, 1/4 and 1/8 lead to -80, -36, -14 and -3.
+    assert_eq!(kind, StepKind::Search { t: 0.125 });
+    approx::assert_relative_eq!(next.z[0], -3.0, max_relative = 1e-9);
+    // Its merit is what the next one must pass.
+    assert!(search.passes(&run.problem.point_with(|_| 2.99), 1.0) && !search.passes(&run.problem.point_with(|_| 3.01), 1.0));
+    // A ray start does not begin at the iterate.
+    let ray = Path { start: Start::Ray, ..overshoot.clone() };
+    search.begin(&point, &point, &options, attempt);
+    assert!(run.back_along_paths(&[ray], &mut search).is_none());
+    // After steps taken unchecked, back along the path of the checkpoint.
+    search.begin(&point, &point, &options, Attempt { acceptance: Acceptance::NonMonotone, ..attempt });
+    search.take_unchecked(&overshoot, &point);
+    let (next, kind) = run.back_along_paths(&[], &mut search).unwrap();
+    assert_eq!((kind, run.problem.counters.watchdogs), (StepKind::Watchdog { t: 0.25 }, 1)); // 20 times the merit: |z| < 35.7
+    approx::assert_relative_eq!(next.z[0], -14.0, max_relative = 1e-9);
+}
+
+/// A path to the end if it passes, unchecked inside the radius if not, else nothing.
+#[test]
+fn an_end_is_checked_or_taken_unchecked() {
+    let p = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
+    let step = |slope: f64, acceptance: Acceptance| {
+        let options = Options { nms_initial_reference_factor: 1.0, ..Options::default() };
+        let way = path(dmatrix![slope], &[8.0 - 8.0 * slope], &[-INF], &[INF], Start::Regular, &[8.0]);
+        let mut run = run(&p, &options);
+        let point = run.problem.point_with(|_| 8.0);
+        let mut search = Search::default();
+        search.begin(&point, &point, &options, Attempt { acceptance, ..Attempt::number(1) });
+        run.path_end(&point, &[way], &mut search).map(|(next, kind)| (next.z[0].round(), kind))
+    };
+    assert_eq!(step(1.0, Acceptance::Monotone), Some((0.0, StepKind::Path { t: 1.0 })));
+    assert_eq!(step(0.25, Acceptance::Monotone), None); // to -24
+    assert_eq!(step(0.25, Acceptance::NonMonotone), Some((-24.0, StepKind::Unchecked { t: 1.0 })));
+    assert_eq!(step(1.0 / 64.0, Acceptance::NonMonotone), None); // to -504, beyond 10 (1 + 8)
+}
+
+/// The gradient step counts, ends with the limit, and leaves from the best point.
+#[test]
+fn gradient_steps_leave_from_the_best_point() {
+    let p = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
+    let options = Options { gradient_step_limit: 1, ..Options::default() };
+    let mut run = run(&p, &options);
+    let (start, better) = (run.problem.point_with(|_| 8.0), run.problem.point_with(|_| 2.0));
+    let mut search = Search::default();
+    search.begin(&start, &start, &options, Attempt::number(0));
+    search.take_checked(&better);
+    let (next, kind) = run.gradient(&mut search).unwrap().unwrap();
+    assert_eq!((next.z[0], kind, run.problem.counters.gradient_steps), (0.0, StepKind::Gradient, 1));
+    assert!(run.gradient(&mut search).unwrap().is_none());
+}
+
+/// Limits of the run come before the share of the attempt.
+#[test]
+fn attempts_end_at_the_limits() {
+    let reason = |majors: usize, pivots: usize, done: Counters| {
+        let p = infeasible();
+        let options = Options { major_iteration_limit: majors, cumulative_iteration_limit: pivots, ..Options::default() };
+        let mut run = run(&p, &options);
+        run.problem.counters = done;
+        let mut point = run.problem.point(&dvector![1.0]);
+        let mut best = run.problem.copy(&point);
+        let mut search = Search::default();
+        search.begin(&point, &point, &options, Attempt::number(1));
+        run.majors(&mut point, Attempt::number(1), &mut search, &mut best)
+    };
+    let done = |majors: usize, pivots: usize| Counters { majors, pivots, ..Counters::default() };
+    assert_eq!(reason(10, 100, done(10, 0)), Termination::MajorLimit);
+    assert_eq!(reason(10, 100, done(0, 100)), Termination::CumulativeLimit);
+}
+
+/// The start is moved as the attempt asks; where F is not finite there it stays.
+#[test]
+fn a_start_is_moved_to_where_the_function_is_finite() {
+    let options = Options::default();
+    for (pole, moves) in [(false, true), (true, false)] {
+        let p = free(1, move |z, f| f[0] = if pole && z[0] != 1.0 { f64::NAN } else { z[0] }, |_, j| j[(0, 0)] = 1.0);
+        let mut run = run(&p, &options);
+        let start = run.problem.point(&DVector::from_element(1, 1.0));
+        let moved = run.moved(&start, Attempt::number(3), 3);
+        let expected = if moves { Attempt::number(3).shifted(1.0, 0, 3) } else { 1.0 };
+        assert_eq!((moved.z[0], expected != 1.0), (expected, moves));
+    }
+}
