@@ -127,7 +127,7 @@ fn searches() -> Vec<(&'static str, Search)> {
     let plain = Search { window_starts: 0, curves: false, ..Search::default() };
     // What 22 runs would cost, in pivots and factorisations.
     let budget = Some(std::env::var("MEASURE_BUDGET").map_or(22, |v| v.parse().unwrap()));
-    let plain = Search { options: Options { curve_step_limit: 0, ..Options::default() }, ..plain };
+    let plain = Search { options: Options { curve_step_limit: 0, ..Options::for_search() }, ..plain };
     if std::env::var("MEASURE_ONLY").is_ok_and(|only| only == "first") {
         return vec![("first", plain)];
     }

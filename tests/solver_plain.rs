@@ -140,3 +140,17 @@ fn a_trace_replays_and_a_changed_one_does_not() {
     assert_eq!(mceip(&["solve", "--replay", &seed]).status.code(), Some(1));
     assert_eq!(mceip(&["solve", "--replay", problem]).status.code(), Some(2));
 }
+
+/// Written before the crash could be chosen: its options do not name it, and it was projected Newton.
+#[test]
+fn a_trace_from_before_the_choice_of_a_crash_replays() {
+    let folder = tempfile::tempdir().unwrap();
+    let old = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/traces/before-crash-method.trace");
+    let same = mceip(&["solve", "--replay", old]);
+    assert!(same.status.code() == Some(0) && stdout(&same).starts_with("IDENTICAL"), "{}", stdout(&same));
+    let text = std::fs::read_to_string(old).unwrap();
+    assert!(!text.contains("crash_method") && text.contains("Crash"));
+    let other = text.replacen("crash_iteration_limit: 50", "crash_method: FischerNewton, crash_iteration_limit: 50", 1);
+    let different = mceip(&["solve", "--replay", &write(folder.path(), "other.txt", &other)]);
+    assert!(different.status.code() == Some(1) && stdout(&different).contains("line 1"), "{}", stdout(&different));
+}

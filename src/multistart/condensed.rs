@@ -27,7 +27,7 @@ pub struct CondensedSearch {
 impl Default for CondensedSearch {
     fn default() -> Self {
         // A curve costs a factorisation a step: the starts do without.
-        CondensedSearch { starts: 22, seed: 1, options: Options { curve_step_limit: 0, ..Options::default() } }
+        CondensedSearch { starts: 22, seed: 1, options: Options { curve_step_limit: 0, ..Options::for_search() } }
     }
 }
 

@@ -63,7 +63,7 @@ impl Default for Search {
             budget: None,
             trace: false,
             seed: 1,
-            options: Options::default(),
+            options: Options::for_search(),
         }
     }
 }

@@ -75,6 +75,14 @@ pub enum RatioTest {
     Expand,
 }
 
+impl Options {
+    /// The defaults of a search for all solutions: PATH's own crash. What the curves of a search may cost is counted in
+    /// such runs; where Newton on the Fischer-Burmeister system makes them cheap, that buys fewer curves.
+    pub fn for_search() -> Self {
+        Options { crash_method: CrashMethod::ProjectedNewton, ..Options::default() }
+    }
+}
+
 impl Default for Options {
     fn default() -> Self {
         Options {

@@ -41,7 +41,7 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
 
 /// The search that the options ask for.
 pub(super) fn search_of(starts: usize, seed: u64, all: bool, trace: bool) -> Search {
-    Search { starts, all, seed, trace, options: Options::default() }
+    Search { starts, all, seed, trace, options: Options::for_search() }
 }
 
 fn evidence(found: &Found) -> String {

@@ -7,7 +7,6 @@ use crate::model::file::{from_json, read_problem, require_format, write_problem}
 use crate::model::{Admissible, Problem};
 use crate::multistart::{Found, Search, SearchError, multistart_large};
 use crate::reduction::reduce;
-use crate::solver::{CrashMethod, Options};
 use serde::{Deserialize, Serialize};
 use std::ops::ControlFlow;
 use std::path::Path;
@@ -24,7 +23,7 @@ pub(super) struct Header {
     starts: usize,
     seed: u64,
     all: bool,
-    /// The options in words; they are the defaults of the version, but for the crash of an old trace.
+    /// The options in words; they are those of a search in this version.
     options: String,
     /// The problem, inlined.
     problem: String,
@@ -57,19 +56,10 @@ impl Header {
     }
 }
 
-/// The crash of a trace that names none: it was written before there was a choice.
-const OLD_CRASH: CrashMethod = CrashMethod::ProjectedNewton;
-
-/// The options that a trace was made with.
-fn options_of(recorded: &Header) -> Options {
-    let names_one = recorded.options.contains("crash_method: ");
-    if names_one { Options::default() } else { Options { crash_method: OLD_CRASH, ..Options::default() } }
-}
-
-/// A header made again, in the words of the recorded one: an old one does not name the crash.
+/// A header made again, in the words of the recorded one: before there was a choice traces did not name the crash.
 fn in_old_words(again: Header, recorded: &Header) -> Header {
-    let names_one = recorded.options.contains("crash_method: ");
-    let options = if names_one { again.options } else { again.options.replacen(&format!("crash_method: {OLD_CRASH:?}, "), "", 1) };
+    let names_it = recorded.options.contains("crash_method: ");
+    let options = if names_it { again.options } else { again.options.replacen("crash_method: ProjectedNewton, ", "", 1) };
     Header { options, ..again }
 }
 
@@ -127,7 +117,7 @@ pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
 fn again(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
     let problem =
         read_problem(&header.problem, Path::new(".")).map_err(|source| CliError::File { path: path.display().to_string(), source })?;
-    let search = Search { options: options_of(header), ..super::search_of(header.starts, header.seed, header.all, true) };
+    let search = super::search_of(header.starts, header.seed, header.all, true);
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let (found, _) = multistart_large(&admissible, problem.window(), &search, &|_| ControlFlow::Continue(()))?;
@@ -137,7 +127,7 @@ fn again(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
 /// The same for a plain problem.
 fn again_plain(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
     let problem = lcp::read_mcp(&header.problem).map_err(|source| CliError::Plain { path: path.display().to_string(), source })?;
-    let search = lcp::Search { options: options_of(header), ..super::plain::search_of(header.starts, header.seed, header.all, true) };
+    let search = super::plain::search_of(header.starts, header.seed, header.all, true);
     let found = lcp::search(&problem, &search).map_err(SearchError::from)?;
     Ok((render_plain(&in_old_words(Header::plain(&problem, &search), header), &found), found.runs))
 }

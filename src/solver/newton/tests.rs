@@ -102,11 +102,11 @@ fn the_tolerance_is_that_of_each_component() {
         let mut run = run(&p, &options);
         let within = |run: &mut Run<'_, _>, each: f64| {
             let point = run.problem.point_with(|_| each);
-            run.is_within_tolerance(&point)
+            is_within_tolerance(run.problem.problem, &point, options.convergence_tolerance)
         };
         assert!(within(&mut run, 0.25) && within(&mut run, -0.25) && !within(&mut run, 0.2501), "{n}");
         let one = run.problem.point_with(|i| if i == 0 { 0.2501 } else { 0.0 });
-        assert!(!run.is_within_tolerance(&one));
+        assert!(!is_within_tolerance(run.problem.problem, &one, options.convergence_tolerance));
     }
 }
 
