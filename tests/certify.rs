@@ -84,6 +84,20 @@ fn a_wide_kernel_that_meets_the_inequalities_in_a_face_is_certified() {
     assert!(matches!(failure(&p, &candidate(0.0, &[1.25, 1.0, 0.0, 0.0])), AttemptFailure::YNegative { .. }));
 }
 
+/// Found by a campaign (seed 21, `free-anywhere` 403, 2026-11-21): at mu = 1 the kernel is a plane, and of the polynomials
+/// of its basis one vanishes at 1 without being zero. It was taken for the free coordinate, and x came out as zero.
+#[test]
+fn a_polynomial_that_vanishes_at_the_value_is_no_free_coordinate() {
+    let p = pencil(&[&["0", "1", "0"], &["0", "-1", "1"], &["0"; 3]], &[&["-1", "-1", "0"], &["0", "1", "-1"], &["1", "0", "0"]]);
+    let p = Pencil::new(p.a().clone(), p.b().clone(), vec![0, 2]).unwrap();
+    for x in [[0.0, 1.0, 0.0], [0.0, 0.25, -1.0]] {
+        let claim = certify(&p, &Window::all(), &candidate(1.0, &x)).unwrap();
+        let problem = Problem::new(Body::Pencil(p.clone()), Unknown::Mu, Window::all()).unwrap();
+        assert!(check(&problem, &certificate(&problem, vec![claim])).is_ok());
+    }
+    assert!(matches!(failure(&p, &candidate(1.0, &[0.5, 1.0, 0.0])), AttemptFailure::TooFar { .. }));
+}
+
 /// A support singular at every t with y_2 = -y_3 = (3t - 1) x_0: only t = 1/3 is a solution, and no double is 1/3.
 #[test]
 fn the_only_value_of_a_singular_support_is_found() {

@@ -154,7 +154,7 @@ impl Support<'_> {
         // Each basis vector is the same polynomial at its own free coordinate, zero at the others'.
         let weights = match &basis[..] {
             [_] => vec![Rational::from_integer(1.into())],
-            _ => (0..basis.len()).map(|k| coordinate(k, &basis, &self.active, self.candidate)).collect::<Result<Vec<_>, _>>()?,
+            _ => (0..basis.len()).map(|k| coordinate(k, &basis, value, &self.active, self.candidate)).collect::<Result<Vec<_>, _>>()?,
         };
         let clear = crate::exact::common_denominator(&weights);
         let mut x = vec![Poly::default(); self.pencil.order()];
@@ -173,10 +173,17 @@ impl Support<'_> {
     }
 }
 
-/// The candidate's component at the one coordinate where, of all basis vectors, only the k-th is not zero.
-fn coordinate(k: usize, basis: &[Vec<Poly>], active: &[usize], candidate: &Candidate) -> Result<Rational, AttemptFailure> {
-    let only_k = |c: &usize| basis.iter().enumerate().all(|(other, v)| v[*c].is_zero() != (other == k));
-    let component = (0..active.len()).find(only_k).map_or(0.0, |c| candidate.x[active[c]]);
+/// The candidate's component at the one coordinate where, of all basis vectors, only the k-th is not zero (at this
+/// value: a polynomial that only vanishes there is no zero of the ring).
+fn coordinate(
+    k: usize,
+    basis: &[Vec<Poly>],
+    value: &mut Algebraic,
+    active: &[usize],
+    candidate: &Candidate,
+) -> Result<Rational, AttemptFailure> {
+    let mut only_k = |c: &usize| basis.iter().enumerate().all(|(other, v)| (value.sign_of(&v[*c]) == Sign::Zero) != (other == k));
+    let component = (0..active.len()).find(&mut only_k).map_or(0.0, |c| candidate.x[active[c]]);
     from_f64(component).map_err(|_| AttemptFailure::NotFinite)
 }
 

@@ -90,7 +90,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         let inside = self.system.places.inside();
         while self.length > CURVE_SHORTEST {
             if let Some(landing) = self.land(local, tangent, &inside)
-                && let Some(next) = self.turn(&landing, tangent, &inside)
+                && let Some(next) = self.turn(&landing, tangent)
             {
                 if landing.corrections <= 2 && landing.event.is_none() {
                     self.length *= CURVE_GROWTH;
@@ -143,17 +143,17 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
 
     /// The tangent after a landing: across an event the pair changes places; elsewhere the new
     /// tangent must be near the old one.
-    fn turn(&mut self, landing: &Landing, tangent: &DVector<f64>, inside: &[usize]) -> Option<DVector<f64>> {
+    fn turn(&mut self, landing: &Landing, tangent: &DVector<f64>) -> Option<DVector<f64>> {
         let kept = self.system.places.0.clone();
         let (index, place, quantity, sign) = match landing.event {
             None | Some(Quantity::S) => {
                 let next = self.system.tangent(&landing.local, tangent, 1.0)?;
                 return (next.dot(tangent) > CURVE_ANGLE).then_some(next);
             }
-            Some(Quantity::Z(i, _)) => {
-                let c = inside.iter().position(|&k| k == i)?;
-                let up = tangent[c] > 0.0;
-                (i, if up { Place::Upper } else { Place::Lower }, Quantity::Multiplier(i), if up { -1.0 } else { 1.0 })
+            Some(Quantity::Z(i, bound)) => {
+                // By the bound, not by the tangent: a curve that bends may come back to the bound it is leaving.
+                let is_lower = bound <= self.system.problem.problem.lower()[i];
+                (i, if is_lower { Place::Lower } else { Place::Upper }, Quantity::Multiplier(i), if is_lower { 1.0 } else { -1.0 })
             }
             Some(Quantity::Multiplier(i)) => (i, Place::Inside, Quantity::Z(i, 0.0), if kept[i] == Place::Lower { 1.0 } else { -1.0 }),
         };

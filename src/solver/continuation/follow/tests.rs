@@ -169,7 +169,7 @@ fn a_tangent_turns_by_no_more_than_the_angle() {
         for event in [None, Some(Quantity::S)] {
             let local = Local { f: dvector![0.0], jacobian: dmatrix![slope] };
             let landing = Landing { at: position(&[0.0], 0.0), local, event, corrections: 0 };
-            let next = f.turn(&landing, &tangent, &[0]);
+            let next = f.turn(&landing, &tangent);
             assert_eq!(next.is_some(), turns, "{cosine}");
             if let Some(next) = next {
                 approx::assert_relative_eq!(next.dot(&tangent), cosine, max_relative = 1e-12);
@@ -188,7 +188,7 @@ fn a_pair_changes_places_at_its_event() {
         let inside = f.system.places.inside();
         let local = f.system.local(&dvector![2.0, 0.0]).unwrap();
         let landing = Landing { at: f.at.clone(), local, event: Some(event), corrections: 0 };
-        let next = f.turn(&landing, &tangent, &inside).unwrap();
+        let next = f.turn(&landing, &tangent).unwrap();
         let now = f.system.places.inside();
         let quantity = |q: Quantity| f.system.row(q, &landing.local, &now).dot(&next);
         let rate = if now.contains(&1) { quantity(Quantity::Z(1, 0.0)) } else { quantity(Quantity::Multiplier(1)) };
@@ -197,6 +197,9 @@ fn a_pair_changes_places_at_its_event() {
     let inside = [Place::Inside; 2];
     assert_eq!(turned(inside, Quantity::Z(1, 4.0), dvector![0.0, 0.5, 0.5]), (Place::Upper, false, true));
     assert_eq!(turned(inside, Quantity::Z(1, 0.0), dvector![0.0, -0.5, 0.5]), (Place::Lower, true, true));
+    // A curve that bends comes back to the bound its tangent leads away from: it is that bound all the same.
+    assert_eq!(turned(inside, Quantity::Z(1, 0.0), dvector![0.0, 0.5, 0.5]).0, Place::Lower);
+    assert_eq!(turned(inside, Quantity::Z(1, 4.0), dvector![0.0, -0.5, 0.5]).0, Place::Upper);
     assert_eq!(turned([Place::Inside, Place::Lower], Quantity::Multiplier(1), dvector![0.5, 0.5]), (Place::Inside, true, true));
     assert_eq!(turned([Place::Inside, Place::Upper], Quantity::Multiplier(1), dvector![0.5, 0.5]), (Place::Inside, false, true));
 }
