@@ -13,6 +13,9 @@ use crate::tolerance::WINDOW_GAP;
 
 /// zeta of the first curve of MCEIP-lambda2, in units of the embedding (|A| / |B|).
 const FAR_START: f64 = 32.0;
+/// What a run costs at least in a budget: pivots and factorisations a variable. Runs without curves cost 7 to 16 in the mean of
+/// the families of `spec/solver.md`.
+const RUN_WORK: usize = 8;
 /// First salt of windows around values found.
 pub(super) const WINDOW_SALT: u64 = 1000;
 
@@ -58,11 +61,13 @@ impl Hunt<'_> {
         Ok(())
     }
 
-    /// Have runs and curves cost what [`Search::budget`] allows? The mean of the runs made says what a run costs.
+    /// Have runs and curves cost what [`Search::budget`] allows? The mean of the runs made says what a run costs, and
+    /// [`RUN_WORK`] what it costs at least: where all runs are short, curves are not.
     pub(super) fn is_spent(&self) -> bool {
         let (runs, work) = self.found.plain;
+        let least = RUN_WORK * self.admissible.pencil().order() * runs;
         let spent = self.found.pivots + self.found.factorisations;
-        self.search.budget.is_some_and(|budget| spent * runs >= budget * work && runs > 0)
+        self.search.budget.is_some_and(|budget| spent * runs >= budget * work.max(least) && runs > 0)
     }
 
     pub(super) fn is_interrupted(&mut self) -> bool {

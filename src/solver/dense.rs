@@ -1,8 +1,7 @@
 //! LU factors of dense matrices in storage that is kept from one matrix to the next, over the numbers
-//! of the path; and one shot for the curves.
+//! of the path.
 
 use super::path::Number;
-use nalgebra::{DMatrix, DVector};
 
 /// P A = L U with row pivoting, column by column, so that dependent columns are found on the way.
 #[derive(Debug, Clone)]
@@ -115,18 +114,10 @@ pub(super) fn dot<T: Number>(x: &[T], y: &[T]) -> T {
     x.iter().zip(y).fold(T::zero(), |sum, (x, y)| sum + x.clone() * y.clone())
 }
 
-/// Solves A x = b; `None` if A is singular or x is not finite.
-pub(super) fn solve(a: DMatrix<f64>, b: &DVector<f64>) -> Option<DVector<f64>> {
-    if b.is_empty() {
-        return Some(DVector::zeros(0)); // nalgebra's triangular solve underflows on 0 x 0
-    }
-    a.lu().solve(b).filter(|x| x.iter().all(|v| v.is_finite()))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use nalgebra::{dmatrix, dvector};
+    use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
     fn factored(a: &DMatrix<f64>) -> (Lu<f64>, bool) {
         let mut lu = Lu::default();
@@ -162,12 +153,5 @@ mod tests {
         assert_eq!(lu.dependent(), (&[1][..], &[0][..]));
         assert!(!factored(&dmatrix![f64::NAN]).1);
         assert_eq!(factored(&DMatrix::zeros(2, 2)).0.dependent(), (&[0, 1][..], &[0, 1][..]));
-    }
-
-    #[test]
-    fn one_shot() {
-        assert!(solve(dmatrix![0.0], &dvector![1.0]).is_none());
-        assert_eq!(solve(DMatrix::zeros(0, 0), &DVector::zeros(0)).unwrap().len(), 0);
-        assert_eq!(solve(dmatrix![4.0], &dvector![1.0]).unwrap()[0], 0.25);
     }
 }

@@ -126,6 +126,10 @@ pub(super) const CURVE_LIFT: f64 = 0.1;
 /// Basis: Newton's last step overshoots it by far; solutions are polished afterwards.
 pub(super) const CURVE_RESIDUAL: f64 = 1e-9;
 
+/// To what part of itself a correction's step must bring the residual for its factors to be kept. Unit: none.
+/// Basis: three such steps reach [`CURVE_RESIDUAL`] from the size of a usual prediction's, 1e-3 and less.
+pub(super) const CURVE_KEPT: f64 = 0.01;
+
 /// Newton steps of one correction. Unit: steps. Basis: more mean that the prediction was too far.
 pub(super) const CURVE_STEPS: usize = 6;
 

@@ -1,7 +1,7 @@
 //! Predictor, corrector and events along a curve.
 
 use super::Options;
-use super::system::{Border, Local, Place, Places, Position, Quantity, System};
+use super::system::{Border, Corrected, Local, Place, Places, Position, Quantity, System};
 use super::tolerance::{CURVE_ANGLE, CURVE_CLOSED, CURVE_FAR, CURVE_FEASIBLE, CURVE_FIRST, CURVE_GROWTH, CURVE_SAME, CURVE_SHORTEST};
 use super::{CurveEnd, Sense};
 use crate::mcp::Mcp;
@@ -21,10 +21,8 @@ pub(super) struct Follower<'p, 'a, P: Mcp + ?Sized> {
 
 /// Where a step has led.
 struct Landing {
-    at: Position,
-    local: Local,
+    there: Corrected,
     event: Option<Quantity>,
-    corrections: usize,
 }
 
 impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
@@ -51,8 +49,8 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
             self.steps_left -= 1;
             self.system.problem.counters.curve_steps += 1;
             let (landing, next) = self.step(&local, &tangent)?;
-            let before = std::mem::replace(&mut self.at, landing.at);
-            (local, tangent) = (landing.local, next);
+            let before = std::mem::replace(&mut self.at, landing.there.at);
+            (local, tangent) = (landing.there.local, next);
             if landing.event == Some(Quantity::S) {
                 // A curve passes a point once, unless it is closed; one that has strayed from its start closes elsewhere.
                 let is_at = |z: &DVector<f64>| (&self.at.z - z).amax() <= CURVE_SAME * (1.0 + z.amax());
@@ -92,7 +90,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
             if let Some(landing) = self.land(local, tangent, &inside)
                 && let Some(next) = self.turn(&landing, tangent)
             {
-                if landing.corrections <= 2 && landing.event.is_none() {
+                if landing.there.steps <= 2 && landing.event.is_none() {
                     self.length *= CURVE_GROWTH;
                 }
                 return Some((landing, next));
@@ -115,9 +113,10 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
                 return Some(landing);
             }
         }
-        let (at, there, corrections) = self.system.correct(&predicted, &Border::Plane(tangent))?;
-        let Some((event, share)) = self.first_crossing(local, &at, &there) else {
-            return Some(Landing { at, local: there, event: None, corrections });
+        let there = self.system.correct(&predicted, &Border::Plane(tangent))?;
+        let at = &there.at;
+        let Some((event, share)) = self.first_crossing(local, at, &there.local) else {
+            return Some(Landing { there, event: None });
         };
         let near = Position { z: self.at.z.lerp(&at.z, share), s: self.at.s + share * (at.s - self.at.s) };
         self.land_on(event, &near, local)
@@ -125,7 +124,8 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
 
     /// Newton to the event; refused if another quantity has crossed on the way or the way is long.
     fn land_on(&mut self, event: Quantity, near: &Position, local: &Local) -> Option<Landing> {
-        let (mut at, there, corrections) = self.system.correct(near, &Border::Zero(event))?;
+        let mut there = self.system.correct(near, &Border::Zero(event))?;
+        let at = &mut there.at;
         let far = (&at.z - &self.at.z).norm() + (at.s - self.at.s).abs();
         if far > 4.0 * self.length {
             return None;
@@ -135,9 +135,9 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
             Quantity::S => at.s = 0.0,
             Quantity::Multiplier(_) => {}
         }
-        match self.first_crossing(local, &at, &there) {
+        match self.first_crossing(local, &there.at, &there.local) {
             Some((other, _)) if other != event => None,
-            _ => Some(Landing { at, local: there, event: Some(event), corrections }),
+            _ => Some(Landing { there, event: Some(event) }),
         }
     }
 
@@ -147,7 +147,8 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         let kept = self.system.places.0.clone();
         let (index, place, quantity, sign) = match landing.event {
             None | Some(Quantity::S) => {
-                let next = self.system.tangent(&landing.local, tangent, 1.0)?;
+                let known = landing.there.tangent.clone().map(|v| if v.dot(tangent) < 0.0 { -v } else { v });
+                let next = known.or_else(|| self.system.tangent(&landing.there.local, tangent, 1.0))?;
                 return (next.dot(tangent) > CURVE_ANGLE).then_some(next);
             }
             Some(Quantity::Z(i, bound)) => {
@@ -159,8 +160,8 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         };
         self.system.places.0[index] = place;
         let now = self.system.places.inside();
-        let row = self.system.row(quantity, &landing.local, &now);
-        let next = self.system.tangent(&landing.local, &row, sign);
+        let row = self.system.row(quantity, &landing.there.local, &now);
+        let next = self.system.tangent(&landing.there.local, &row, sign);
         if next.is_none() {
             self.system.places.0 = kept;
         }

@@ -14,7 +14,7 @@ mod system;
 
 // The solver's own modules, for `system` and `follow`.
 use super::outcome::Counters;
-use super::{Options, SolverError, dense, evaluation, tolerance, validate};
+use super::{Options, SolverError, evaluation, tolerance, validate};
 use crate::mcp::Mcp;
 use evaluation::{Evaluated, Point};
 use follow::Follower;

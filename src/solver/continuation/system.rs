@@ -1,9 +1,8 @@
 //! The equations of a curve on the current places: F_I(z) = s r_I for the unknowns inside, and one
 //! more row that fixes a point or a direction.
 
-use super::dense::solve;
 use super::evaluation::{Evaluated, Point, jacobian_at};
-use super::tolerance::{CURVE_RESIDUAL, CURVE_STEPS};
+use super::tolerance::{CURVE_KEPT, CURVE_RESIDUAL, CURVE_STEPS};
 use crate::mcp::Mcp;
 use nalgebra::{DMatrix, DVector};
 
@@ -97,6 +96,26 @@ pub(super) enum Border<'a> {
     Zero(Quantity),
 }
 
+/// A position on the curve, with F and F' there.
+pub(super) struct Corrected {
+    pub(super) at: Position,
+    pub(super) local: Local,
+    /// Newton steps taken.
+    pub(super) steps: usize,
+    /// A unit tangent up to its sign and to the difference between the last factors and F' here; `None` if no step was needed.
+    pub(super) tangent: Option<DVector<f64>>,
+}
+
+/// The factors of a bordered matrix.
+type Factors = nalgebra::LU<f64, nalgebra::Dyn, nalgebra::Dyn>;
+
+/// The unit vector along which the border, row k, grows with the sign given and the other rows stay.
+fn unit(factors: &Factors, k: usize, sign: f64) -> Option<DVector<f64>> {
+    let v = factors.solve(&DVector::from_fn(k + 1, |i, _| if i == k { sign } else { 0.0 }))?;
+    let norm = v.norm();
+    (norm > 0.0 && norm.is_finite()).then(|| v / norm)
+}
+
 /// The equations.
 pub(super) struct System<'p, 'a, P: Mcp + ?Sized> {
     pub(super) problem: &'p mut Evaluated<'a, P>,
@@ -146,18 +165,16 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
         let inside = self.places.inside();
         let k = inside.len();
         self.problem.counters.factorisations += 1;
-        let right = DVector::from_fn(k + 1, |i, _| if i == k { sign } else { 0.0 });
-        let v = solve(self.bordered(local, &inside, border), &right)?;
-        let norm = v.norm();
-        (norm > 0.0 && norm.is_finite()).then(|| v / norm)
+        unit(&self.bordered(local, &inside, border).lu(), k, sign)
     }
 
-    /// Newton from a predicted position to the curve; with the number of steps taken.
-    pub(super) fn correct(&mut self, predicted: &Position, border: &Border<'_>) -> Option<(Position, Local, usize)> {
+    /// Newton from a predicted position to the curve. The factors of a step serve the next ones while they gain
+    /// enough (Shamanskii 1967), and at last the tangent.
+    pub(super) fn correct(&mut self, predicted: &Position, border: &Border<'_>) -> Option<Corrected> {
         let inside = self.places.inside();
         let k = inside.len();
         let mut at = predicted.clone();
-        let mut last = f64::INFINITY;
+        let (mut last, mut factors) = (f64::INFINITY, None);
         for steps in 0..=CURVE_STEPS {
             let local = self.local(&at.z)?;
             let (row, rest) = match border {
@@ -167,14 +184,25 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
             let right = DVector::from_fn(k + 1, |i, _| if i < k { at.s * self.r[inside[i]] - local.f[inside[i]] } else { -rest });
             let size = 1.0 + at.s.abs() * self.r.amax();
             if right.amax() <= CURVE_RESIDUAL * size {
-                return Some((at, local, steps));
+                let tangent = factors.as_ref().and_then(|f| unit(f, k, 1.0));
+                return Some(Corrected { at, local, steps, tangent });
             }
-            if right.amax() > last || steps == CURVE_STEPS {
+            if right.amax() > 2.0 * last || steps == CURVE_STEPS {
                 return None;
             }
-            last = 2.0 * right.amax();
-            self.problem.counters.factorisations += 1;
-            let step = solve(self.bordered(&local, &inside, &row), &right)?;
+            if right.amax() > CURVE_KEPT * last {
+                factors = None;
+            }
+            last = right.amax();
+            let lu = match factors.take() {
+                Some(lu) => lu,
+                None => {
+                    self.problem.counters.factorisations += 1;
+                    self.bordered(&local, &inside, &row).lu()
+                }
+            };
+            let step = lu.solve(&right).filter(|v| v.iter().all(|v| v.is_finite()))?;
+            factors = Some(lu);
             self.shift(&mut at, &inside, &step, 1.0);
         }
         None

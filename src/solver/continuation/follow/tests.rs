@@ -117,12 +117,12 @@ fn easy_steps_grow_and_events_do_not() {
         f.step(&local, &tangent).map(|(landing, _)| landing)
     };
     let landing = step(&mut f).unwrap();
-    assert_eq!((landing.event, landing.corrections, f.length), (None, 0, CURVE_GROWTH * CURVE_FIRST));
-    let way = ((&landing.at.z - &f.at.z).norm_squared() + (landing.at.s - f.at.s).powi(2)).sqrt();
+    assert_eq!((landing.event, landing.there.steps, f.length), (None, 0, CURVE_GROWTH * CURVE_FIRST));
+    let way = ((&landing.there.at.z - &f.at.z).norm_squared() + (landing.there.at.s - f.at.s).powi(2)).sqrt();
     approx::assert_relative_eq!(way, CURVE_FIRST, max_relative = 1e-12);
     f.length = 90.0;
     let landing = step(&mut f).unwrap();
-    assert_eq!((landing.event, landing.at.z[0], f.length), (Some(Quantity::Z(0, 80.0)), 80.0, 90.0));
+    assert_eq!((landing.event, landing.there.at.z[0], f.length), (Some(Quantity::Z(0, 80.0)), 80.0, 90.0));
     assert_eq!(f.system.places.0, [Place::Upper]);
     // Nothing shorter than the shortest step is tried.
     f.system.places = Places(vec![Place::Inside]);
@@ -152,7 +152,7 @@ fn an_event_that_is_far_is_refused() {
     let mut lands = |length: f64| {
         f.length = length;
         let local = f.system.local(&f.at.z.clone()).unwrap();
-        f.land_on(Quantity::S, &position(&[5.0], 0.5), &local).map(|landing| (landing.at.z[0], landing.at.s, landing.event))
+        f.land_on(Quantity::S, &position(&[5.0], 0.5), &local).map(|landing| (landing.there.at.z[0], landing.there.at.s, landing.event))
     };
     assert_eq!([lands(5.5 / 3.9), lands(5.5 / 4.1)], [Some((10.0, 0.0, Some(Quantity::S))), None]);
 }
@@ -168,7 +168,7 @@ fn a_tangent_turns_by_no_more_than_the_angle() {
         let tangent = dvector![1.0, 0.0];
         for event in [None, Some(Quantity::S)] {
             let local = Local { f: dvector![0.0], jacobian: dmatrix![slope] };
-            let landing = Landing { at: position(&[0.0], 0.0), local, event, corrections: 0 };
+            let landing = Landing { there: Corrected { at: position(&[0.0], 0.0), local, steps: 0, tangent: None }, event };
             let next = f.turn(&landing, &tangent);
             assert_eq!(next.is_some(), turns, "{cosine}");
             if let Some(next) = next {
@@ -185,12 +185,11 @@ fn a_pair_changes_places_at_its_event() {
     let turned = |places: [Place; 2], event: Quantity, tangent: DVector<f64>| {
         let mut evaluated = Evaluated::new(&p);
         let mut f = at(&mut evaluated, dvector![1.0, 3.0], &places, position(&[2.0, 0.0], 1.0));
-        let inside = f.system.places.inside();
         let local = f.system.local(&dvector![2.0, 0.0]).unwrap();
-        let landing = Landing { at: f.at.clone(), local, event: Some(event), corrections: 0 };
+        let landing = Landing { there: Corrected { at: f.at.clone(), local, steps: 0, tangent: None }, event: Some(event) };
         let next = f.turn(&landing, &tangent).unwrap();
         let now = f.system.places.inside();
-        let quantity = |q: Quantity| f.system.row(q, &landing.local, &now).dot(&next);
+        let quantity = |q: Quantity| f.system.row(q, &landing.there.local, &now).dot(&next);
         let rate = if now.contains(&1) { quantity(Quantity::Z(1, 0.0)) } else { quantity(Quantity::Multiplier(1)) };
         (f.system.places.0[1], rate > 0.0, (next.norm() - 1.0).abs() < 1e-12)
     };

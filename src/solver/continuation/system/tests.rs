@@ -68,7 +68,7 @@ fn a_correction_may_double_the_residual_and_no_more() {
         let mut system = System { problem: &mut evaluated, r: dvector![0.0], places: Places(vec![Place::Inside]) };
         let at = Position { z: dvector![0.125], s: 0.0 };
         let found = system.correct(&at, &Border::Plane(&dvector![0.0, 1.0]));
-        assert_eq!(found.map(|(at, _, steps)| (at.z[0].abs() < 1e-9, steps)), passes.then_some((true, 2)), "{x}");
+        assert_eq!(found.map(|there| (there.at.z[0].abs() < 1e-9, there.steps)), passes.then_some((true, 2)), "{x}");
     }
 }
 
@@ -82,7 +82,7 @@ fn a_residual_is_relative_to_the_right_hand_side() {
             let mut system = System { problem: &mut evaluated, r: dvector![r], places: Places(vec![Place::Inside]) };
             let size = 1.0 + f64::abs(s * r);
             let at = Position { z: dvector![s * r + share * CURVE_RESIDUAL * size], s };
-            system.correct(&at, &Border::Plane(&dvector![0.0, 1.0])).unwrap().2
+            system.correct(&at, &Border::Plane(&dvector![0.0, 1.0])).unwrap().steps
         };
         assert_eq!([steps(0.9), steps(1.1)], [0, 1], "{s} {r}");
     }
@@ -96,7 +96,7 @@ fn a_correction_has_a_number_of_steps() {
         let mut evaluated = Evaluated::new(&p);
         let mut system = System { problem: &mut evaluated, r: dvector![0.0], places: Places(vec![Place::Inside]) };
         let at = Position { z: dvector![residual.cbrt()], s: 0.0 };
-        system.correct(&at, &Border::Plane(&dvector![0.0, 1.0])).map(|(_, _, steps)| steps)
+        system.correct(&at, &Border::Plane(&dvector![0.0, 1.0])).map(|there| there.steps)
     };
     let enough = CURVE_RESIDUAL * (27.0f64 / 8.0).powi(CURVE_STEPS as i32);
     assert_eq!([steps(0.95 * enough), steps(1.05 * enough)], [Some(CURVE_STEPS), None]);
