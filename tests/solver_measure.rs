@@ -33,12 +33,12 @@ struct Tally {
 }
 
 impl Tally {
-    fn add(&mut self, case: &Case, search: &Search, window_only: bool) {
+    /// Without a search only the first start is made.
+    fn add(&mut self, case: &Case, search: Option<&Search>) {
         let (truth, _) = screen::enumerate(&case.pencil, &Window::all()).unwrap();
         if truth.solutions.is_empty() {
             return;
         }
-        let _ = window_only;
         let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
         self.solvable += 1;
         self.truth += truth.solutions.len();
@@ -52,9 +52,7 @@ impl Tally {
         } else {
             self.missed_first.push(format!("{} {:?}", case.label, outcome.termination));
         }
-        if std::env::var("MEASURE_ONLY").is_ok_and(|only| only == "first") {
-            return;
-        }
+        let Some(search) = search else { return };
         let found = multistart(&admissible, &Window::all(), search).unwrap();
         self.count(&found, &truth.solutions);
         for (end, count) in &found.curves {
@@ -123,22 +121,24 @@ fn seeds() -> Vec<u64> {
     text.split(',').map(|s| s.trim().parse().unwrap()).collect()
 }
 
-fn searches() -> Vec<(&'static str, Search)> {
-    let plain = Search { window_starts: 0, curves: false, ..Search::default() };
+/// What MEASURE_ONLY asks for: no search at all, or those whose name contains it.
+fn searches() -> Vec<(&'static str, Option<Search>)> {
+    let only = std::env::var("MEASURE_ONLY").unwrap_or_default();
+    if only == "first" {
+        return vec![("first", None)];
+    }
     // What 22 runs would cost, in pivots and factorisations.
     let budget = Some(std::env::var("MEASURE_BUDGET").map_or(22, |v| v.parse().unwrap()));
-    let plain = Search { options: Options { curve_step_limit: 0, ..Options::for_search() }, ..plain };
-    if std::env::var("MEASURE_ONLY").is_ok_and(|only| only == "first") {
-        return vec![("first", plain)];
-    }
-    vec![("plain 22", plain), ("search", Search { starts: 10, window_starts: 0, budget, ..Search::default() })]
+    let options = Options { curve_step_limit: 0, ..Options::for_search() };
+    let plain = Search { window_starts: 0, curves: false, options, ..Search::default() };
+    let search = Search { starts: 10, window_starts: 0, budget, ..Search::default() };
+    [("plain 22", Some(plain)), ("search", Some(search))].into_iter().filter(|(name, _)| name.contains(&only)).collect()
 }
 
 #[test]
 #[ignore = "a measurement: run on request, in release"]
 fn random_pencils() {
-    let only = std::env::var("MEASURE_ONLY").unwrap_or_default();
-    for (name, search) in searches().into_iter().filter(|(name, _)| name.contains(&only)) {
+    for (name, search) in searches() {
         for (family, n) in [("lambda2", 5), ("lambda2", 10), ("lambda2", 20), ("mu", 5), ("mu", 10), ("mu", 15), ("mu", 20)] {
             if std::env::var("MEASURE_FAMILY").is_ok_and(|f| f != format!("{family}{n}")) {
                 continue;
@@ -146,7 +146,7 @@ fn random_pencils() {
             let mut tally = Tally::default();
             for seed in seeds() {
                 for k in 0..40 {
-                    tally.add(&random_case(family, n, seed, k), &search, false);
+                    tally.add(&random_case(family, n, seed, k), search.as_ref());
                 }
             }
             tally.print(&format!("{name} {family} n={n}"));
@@ -161,7 +161,7 @@ fn table_one() {
         for seed in seeds() {
             let mut tally = Tally::default();
             for case in table1_cases() {
-                tally.add(&case, &Search { seed, ..search.clone() }, false);
+                tally.add(&case, search.clone().map(|search| Search { seed, ..search }).as_ref());
             }
             tally.print(&format!("{name} table 1 seed {seed}"));
         }

@@ -13,8 +13,8 @@ use crate::tolerance::WINDOW_GAP;
 
 /// zeta of the first curve of MCEIP-lambda2, in units of the embedding (|A| / |B|).
 const FAR_START: f64 = 32.0;
-/// What a run costs at least in a budget: pivots and factorisations a variable. Runs without curves cost 7 to 16 in the mean of
-/// the families of `spec/solver.md`.
+/// What a run costs at least in a budget: pivots and factorisations a variable. Runs without curves cost 6 to 17 in the means of
+/// Table 1 and the mu families of `spec/solver.md`, and above 30 in those of lambda^2.
 const RUN_WORK: usize = 8;
 /// First salt of windows around values found.
 pub(super) const WINDOW_SALT: u64 = 1000;

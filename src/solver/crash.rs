@@ -48,7 +48,7 @@ pub(super) fn crash<P: Mcp + ?Sized>(
         if !solved {
             break;
         }
-        let Some(next) = search(problem, &point, &storage.direction) else { break };
+        let Some((next, _)) = search(problem, &point, &storage.direction, CRASH_SMALLEST) else { break };
         problem.counters.crash_steps += 1;
         log.step(point.merit, StepKind::Crash, proximal);
         let gained = next.merit <= (1.0 - CRASH_GAIN) * point.merit;
@@ -79,20 +79,7 @@ impl Storage {
         let Storage { active, inactive, lu, step, direction, .. } = self;
         inactive.clear();
         inactive.extend((0..active.len()).filter(|&i| !active[i]));
-        let mut solve = |proximal: f64| {
-            let gather = |j: usize, rows: &[usize], out: &mut [f64]| {
-                let column = jacobian.column(inactive[j]);
-                let entry = |r: usize| column[inactive[r]] + if r == j { proximal } else { 0.0 };
-                rows.iter().zip(out).for_each(|(&r, o)| *o = entry(r));
-            };
-            if !lu.factor(inactive.len(), gather, |_| 0.0) {
-                return false;
-            }
-            step.clear();
-            step.extend(lu.rows().iter().map(|&r| -point.f[inactive[r]]));
-            lu.solve(step);
-            step.iter().all(|v| v.is_finite())
-        };
+        let mut solve = |proximal: f64| solve_inside(lu, step, jacobian, inactive, |_| proximal, |r| point.f[inactive[r]]);
         let mut proximal = 0.0;
         let mut solved = solve(proximal);
         if !solved {
@@ -107,13 +94,36 @@ impl Storage {
     }
 }
 
-/// Back along the projected arc until the merit falls.
-fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, direction: &[f64]) -> Option<Point> {
+/// Solves (F'_II + diagonal) d = -residual over the components `inside` into `step`; says if there is a solution.
+fn solve_inside(
+    lu: &mut Lu<f64>,
+    step: &mut Vec<f64>,
+    jacobian: &DMatrix<f64>,
+    inside: &[usize],
+    diagonal: impl Fn(usize) -> f64,
+    residual: impl Fn(usize) -> f64,
+) -> bool {
+    let gather = |j: usize, rows: &[usize], out: &mut [f64]| {
+        let column = jacobian.column(inside[j]);
+        let entry = |r: usize| column[inside[r]] + if r == j { diagonal(j) } else { 0.0 };
+        rows.iter().zip(out).for_each(|(&r, o)| *o = entry(r));
+    };
+    if !lu.factor(inside.len(), gather, |_| 0.0) {
+        return false;
+    }
+    step.clear();
+    step.extend(lu.rows().iter().map(|&r| -residual(r)));
+    lu.solve(step);
+    step.iter().all(|v| v.is_finite())
+}
+
+/// Back along the projected arc, no further than to `smallest`, until the merit falls; with the length of the step.
+fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, direction: &[f64], smallest: f64) -> Option<(Point, f64)> {
     let mut step = 1.0;
-    while step >= CRASH_SMALLEST {
+    while step >= smallest {
         let next = problem.point_with(|i| point.z[i] + direction[i] * step);
         if next.merit <= (1.0 - ARMIJO * step) * point.merit && next.merit < point.merit {
-            return Some(next);
+            return Some((next, step));
         }
         problem.recycle(next);
         step *= BACKTRACK;
@@ -189,10 +199,10 @@ mod tests {
             let p = free(1, move |z, f| f[0] = if z[0] == 2.0 + trial { value } else { 1.0 }, |_, j| j[(0, 0)] = 0.0);
             let mut problem = Evaluated::new(&p);
             let point = problem.point(&DVector::from_element(1, 2.0));
-            search(&mut problem, &point, &[1.0]).map(|next| next.z[0] - 2.0)
+            search(&mut problem, &point, &[1.0], CRASH_SMALLEST).map(|(next, step)| (next.z[0] - 2.0, step))
         };
         for trial in [1.0, 0.5, 0.125, CRASH_SMALLEST] {
-            assert_eq!([taken(trial, 1.01), taken(trial, 0.99)], [Some(trial), None], "{trial}");
+            assert_eq!([taken(trial, 1.01), taken(trial, 0.99)], [Some((trial, trial)), None], "{trial}");
         }
         assert_eq!(taken(0.5 * CRASH_SMALLEST, 1.01), None); // the path is better
     }

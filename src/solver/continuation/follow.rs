@@ -147,7 +147,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         let kept = self.system.places.0.clone();
         let (index, place, quantity, sign) = match landing.event {
             None | Some(Quantity::S) => {
-                let known = landing.there.tangent.clone().map(|v| if v.dot(tangent) < 0.0 { -v } else { v });
+                let known = landing.there.tangent.as_ref().map(|v| if v.dot(tangent) < 0.0 { -v } else { v.clone() });
                 let next = known.or_else(|| self.system.tangent(&landing.there.local, tangent, 1.0))?;
                 return (next.dot(tangent) > CURVE_ANGLE).then_some(next);
             }

@@ -13,7 +13,8 @@ use super::super::evaluation::{Evaluated, Point};
 use super::super::fischer::fischer;
 use super::super::log::Log;
 use super::super::outcome::{StepKind, Termination};
-use super::super::tolerance::{ARMIJO, BACKTRACK, SEMISMOOTH_GAIN, SEMISMOOTH_NEAR, SEMISMOOTH_SMALLEST, SEMISMOOTH_WINDOW};
+use super::super::tolerance::{SEMISMOOTH_GAIN, SEMISMOOTH_NEAR, SEMISMOOTH_SMALLEST, SEMISMOOTH_WINDOW};
+use super::{search, solve_inside};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
 
@@ -71,7 +72,7 @@ pub(in super::super) fn semismooth<P: Mcp + ?Sized>(
         problem.counters.factorisations += 1;
         let solved = storage.newton_direction(problem.problem, &jacobian, &point, near[0]);
         problem.recycle_matrix(jacobian);
-        let found = if solved { search(problem, &point, &storage.direction) } else { None };
+        let found = if solved { search(problem, &point, &storage.direction, SEMISMOOTH_SMALLEST) } else { None };
         let length = found.as_ref().map_or(0.0, |(_, length)| *length);
         if length < 1.0 {
             near.swap(0, 1);
@@ -121,19 +122,11 @@ impl Storage {
             let column = jacobian.column(j);
             inside.iter().zip(residual.iter_mut()).for_each(|(&i, r)| *r += column[i] * moved);
         }
-        let gather = |j: usize, rows: &[usize], out: &mut [f64]| {
-            let column = jacobian.column(inside[j]);
-            let entry = |r: usize| column[inside[r]] + if r == j { diagonal[j] } else { 0.0 };
-            rows.iter().zip(out).for_each(|(&r, o)| *o = entry(r));
-        };
-        if !lu.factor(inside.len(), gather, |_| 0.0) {
+        if !solve_inside(lu, step, jacobian, inside, |j| diagonal[j], |r| residual[r]) {
             return false;
         }
-        step.clear();
-        step.extend(lu.rows().iter().map(|&r| -residual[r]));
-        lu.solve(step);
         inside.iter().zip(step.iter()).for_each(|(&i, v)| direction[i] = *v);
-        direction.iter().all(|v| v.is_finite())
+        true
     }
 
     /// The rows of the system, and the direction of the components that have none.
@@ -156,20 +149,6 @@ impl Storage {
             self.direction.push(to_bound);
         }
     }
-}
-
-/// Back along the projected arc until the merit falls, with the length of the step.
-fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, direction: &[f64]) -> Option<(Point, f64)> {
-    let mut step = 1.0;
-    while step >= SEMISMOOTH_SMALLEST {
-        let next = problem.point_with(|i| point.z[i] + direction[i] * step);
-        if next.merit <= (1.0 - ARMIJO * step) * point.merit && next.merit < point.merit {
-            return Some((next, step));
-        }
-        problem.recycle(next);
-        step *= BACKTRACK;
-    }
-    None
 }
 
 #[cfg(test)]

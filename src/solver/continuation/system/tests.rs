@@ -149,3 +149,26 @@ fn tangents_satisfy_the_bordered_equations() {
     system.shift(&mut at, &[0, 2], &dvector![1.0, -1.0, 0.5], 2.0);
     assert_eq!((at.z, at.s), (dvector![3.0, 2.0, 1.0], 5.0));
 }
+
+/// F = z^2 - s from z near 1 at s = 1: while a step gains a factor of 1 / CURVE_KEPT its factors serve on, and at last give
+/// the tangent (1, 2) but for the difference of F'; else each step has its own. Without a step there is no tangent.
+#[test]
+fn factors_are_kept_while_they_gain() {
+    let p = free(1, |z, f| f[0] = z[0] * z[0], |z, j| j[(0, 0)] = 2.0 * z[0]);
+    let corrected = |z: f64| {
+        let mut evaluated = Evaluated::new(&p);
+        let mut system = System { problem: &mut evaluated, r: dvector![1.0], places: Places(vec![Place::Inside]) };
+        let there = system.correct(&Position { z: dvector![z], s: 1.0 }, &Border::Plane(&dvector![0.0, 1.0])).unwrap();
+        assert!((there.at.z[0] - 1.0).abs() < 1e-8 && there.at.s == 1.0);
+        (there.steps, system.problem.counters.factorisations, there.tangent)
+    };
+    // The error e of z goes to e^2 / 2 with new factors, to e times the first error with kept ones.
+    for (from, steps, factorisations) in [(1.0 + 1e-3, 2, 1), (1.1, 4, 2)] {
+        let (s, f, tangent) = corrected(from);
+        assert_eq!((s, f), (steps, factorisations), "{from}");
+        let tangent = tangent.unwrap();
+        let along = dvector![1.0, 2.0].normalize();
+        assert!((tangent.dot(&along).abs() - 1.0).abs() < 1e-5 && (tangent.norm() - 1.0).abs() < 1e-12, "{tangent}");
+    }
+    assert_eq!(corrected(1.0), (0, 0, None));
+}
