@@ -45,44 +45,28 @@ pub fn to_f64(value: &Rational) -> f64 {
     let (num, den) = if shift >= 0 { (num << shift as u64, den) } else { (num, den << shift.unsigned_abs()) };
     let (quotient, rest) = (&num / &den, &num % &den);
     let magnitude = round_scaled(quotient, !rest.is_zero(), -shift);
-    // The sign bit, set by hand: this room computes nothing in floats.
-    f64::from_bits(magnitude.to_bits() | (u64::from(value.is_negative()) << 63))
+    if value.is_negative() { -magnitude } else { magnitude }
 }
 
-/// `quotient * 2^exponent` (plus something below one unit if `sticky`), rounded once.
+/// `quotient * 2^exponent` (plus something below one unit if `sticky`), rounded once; the quotient has more than 53 bits.
 fn round_scaled(quotient: Integer, sticky: bool, exponent: i64) -> f64 {
     let bits = quotient.bits() as i64;
     // Lowest exponent a bit of the result may have: subnormals stop at 2^-1074.
     let keep = 53.min(bits + exponent + 1074);
     let drop = bits - keep;
     let (kept, below) = (&quotient >> drop as u64, &quotient % (Integer::from(1) << drop as u64));
-    let half = if drop > 0 { Integer::from(1) << (drop - 1) as u64 } else { Integer::zero() };
-    let odd = kept.bit(0);
-    let up = drop > 0 && (below > half || (below == half && (sticky || odd)));
+    let half = Integer::from(1) << (drop - 1) as u64;
+    let up = below > half || (below == half && (sticky || kept.bit(0)));
     let mantissa = (if up { kept + 1 } else { kept }).to_u64().unwrap_or(0); // at most 2^53
-    scale_by_two(mantissa, exponent + drop)
+    assemble(mantissa, exponent + drop)
 }
 
-/// `mantissa * 2^exponent`, exact for mantissas of at most 53 bits in range; infinity above.
-fn scale_by_two(mantissa: u64, exponent: i64) -> f64 {
-    if mantissa == 0 {
-        return 0.0;
-    }
-    if exponent + 64 - i64::from(mantissa.leading_zeros()) > 1024 {
-        return f64::INFINITY;
-    }
-    // Shift the mantissa until it is either normalised to 53 bits or at the subnormal exponent.
-    let (mut m, mut e) = (mantissa, exponent);
-    while m < (1 << 52) && e > -1074 {
-        m <<= 1;
-        e -= 1;
-    }
-    while m >= (1 << 53) {
-        m >>= 1; // only 2^53 itself arrives here: exact
-        e += 1;
-    }
-    let biased = if m < (1 << 52) { 0 } else { (e + 1075) as u64 };
-    f64::from_bits((biased << 52) | (m & ((1 << 52) - 1)))
+/// `mantissa * 2^exponent` for a mantissa of 53 bits (or 2^53 itself), or of fewer at the lowest exponent, -1074; infinity
+/// beyond the largest double. The bits of positive doubles, read as integers, count them in their order, 2^52 to a power of
+/// two: a mantissa's leading bit raises the exponent by itself, and so does a carry.
+fn assemble(mantissa: u64, exponent: i64) -> f64 {
+    let rank = ((exponent + 1074).min(2046) as u64) << 52;
+    f64::from_bits((rank + mantissa).min(f64::INFINITY.to_bits()))
 }
 
 #[cfg(test)]
@@ -125,6 +109,31 @@ mod tests {
         }
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             assert!(from_f64(value).is_err());
+        }
+    }
+
+    /// Both ends of the range, from both sides: the first infinity is half a unit above the largest double (a tie, to
+    /// even), the last zero half the smallest subnormal.
+    #[test]
+    fn the_ends_of_the_range() {
+        let power = |k: u32| Rational::from_integer(Integer::from(1) << k);
+        let half_a_unit = power(970);
+        let last = power(1024) - &half_a_unit;
+        for (value, want) in [
+            (&last - power(0), f64::MAX),
+            (last, f64::INFINITY),
+            (power(1024), f64::INFINITY),
+            (power(1025), f64::INFINITY),
+            (power(3000), f64::INFINITY),
+            (power(1074).recip(), f64::from_bits(1)),
+            (power(1075).recip(), 0.0),
+            (power(1075).recip() + power(1200).recip(), f64::from_bits(1)),
+            (power(1076).recip(), 0.0),
+            (power(3000).recip(), 0.0),
+            (power(1022).recip() - power(1075).recip(), f64::MIN_POSITIVE),
+        ] {
+            assert_eq!(to_f64(&value).to_bits(), want.to_bits(), "{value}");
+            assert_eq!(to_f64(&-value).to_bits(), (-want).to_bits());
         }
     }
 
