@@ -340,4 +340,29 @@ mod tests {
         // det (A + tB) = -2000 t^2 + 9,000,000 t + 3,000,000 = 0 at 2250 + sqrt(2250^2 + 1500)
         approx::assert_relative_eq!(value, 2250.0 + (2250.0f64 * 2250.0 + 1500.0).sqrt(), max_relative = 1e-9);
     }
+
+    /// -9 + 4t vanishes at 9/4. Where leaves meet at an end near it their intervals have that end as centre, of several ends
+    /// the one with the shortest number, whatever the rounded value; an end farther away than half the width does not count.
+    #[test]
+    fn a_value_near_an_end_gets_an_interval_around_that_end() {
+        let pencil = Pencil::new(Sparse::from_ints(&[&[-9]]), Sparse::from_ints(&[&[4]]), vec![]);
+        let view = super::super::view::View::of(&pencil.unwrap());
+        let (expansion, states) = (&view.expansions[0], [State::Moving]);
+        let unique = null_vector(expansion, &states, 2.0, 3.0).unwrap().unique(&expansion.ends(2.0, 3.0)).unwrap();
+        let half = ROOT_HALF_WIDTHS[0] * 2.25;
+        let up = |units: u64| f64::from_bits(2.25f64.to_bits() + units);
+        for (value, ends, centre) in [
+            (2.25, [2.0, 2.5, 1.0, 3.0], 2.25),
+            (up(3), [2.0, 2.5, 1.0, 3.0], up(3)),
+            (up(3), [2.25, 2.5, 1.0, 3.0], 2.25),
+            (up(3), [2.0, up(5), 1.0, 2.25], 2.25),
+            (up(3), [2.0, up(6), 1.0, 3.0], up(6)),
+            (up(3), [2.25 + 0.6 * half, 2.5, 1.0, 3.0], up(3)),
+        ] {
+            let (interval, outcome) = unique.outcome(expansion, value, ends, &states, &[0]).unwrap();
+            let around = [centre - half, centre + half];
+            assert!(interval.iter().zip(around).all(|(a, b)| (crate::exact::to_f64(a) - b).abs() < 1e-15), "{value} {ends:?}");
+            assert_eq!(outcome, RootOutcome::Solution);
+        }
+    }
 }
