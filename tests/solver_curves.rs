@@ -5,7 +5,7 @@
 
 mod families;
 
-use families::random_case;
+use families::{Case, random_case, table1_cases};
 use mceip::mcp::{LinearMcp, Mcp};
 use mceip::model::{Admissible, Window};
 use mceip::multistart::{Search, multistart, support};
@@ -235,30 +235,46 @@ fn the_pocket_of_the_first_start_is_left() {
 }
 
 /// A budget in runs: the curves end, the runs are all made, and what is found is certified as ever.
+/// Ten fresh starts within the work of so many runs, and its work.
+fn searched(case: &Case, budget: Option<usize>) -> (mceip::multistart::Found, usize) {
+    let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
+    let search = Search { starts: 10, window_starts: 0, budget, ..Search::default() };
+    let found = multistart(&admissible, &Window::all(), &search).unwrap();
+    let work = found.pivots + found.factorisations;
+    (found, work)
+}
+
 #[test]
 fn a_budget_ends_the_curves() {
     let [mut less, mut short] = [0; 2];
     for k in 0..6 {
         let case = random_case("mu", 10, 5, k);
-        let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
-        let search = |budget| Search { starts: 10, window_starts: 0, budget, ..Search::default() };
-        let [free, held] = [None, Some(8)].map(|b| multistart(&admissible, &Window::all(), &search(b)).unwrap());
-        let work = |f: &mceip::multistart::Found| f.pivots + f.factorisations;
-        assert_eq!((free.plain, held.plain.0), (held.plain, 5));
-        // Beyond the budget goes one curve at most, with what it costs to polish its solutions.
-        assert!(
-            work(&held) * held.plain.0 <= 8 * held.plain.1.max(8 * 10 * held.plain.0) + held.plain.0 * 2000,
-            "{}: {}",
-            case.label,
-            work(&held)
-        );
-        assert!(work(&held) <= work(&free) && held.certified.len() <= free.certified.len());
-        // A run counts for 8 a variable at least, however short the runs are.
-        assert!(work(&held) >= work(&free).min(8 * 8 * 10), "{}: {} of {}", case.label, work(&held), work(&free));
-        short += usize::from(held.plain.1 < held.plain.0 * 8 * 10 && work(&free) > 8 * 8 * 10);
-        less += usize::from(work(&held) < work(&free));
+        let [(free, without), (held, work)] = [None, Some(8)].map(|b| searched(&case, b));
+        let (runs, plain) = held.plain;
+        assert!(free.plain.0 == 5 && runs >= 5, "{runs}");
+        // A run counts for n (n + 4) / 2 at least, however short the runs are; no curve goes on beyond the end, one
+        // that has begun a step finishes it, and polishes what it has met.
+        let (cost, least) = ((plain / runs).max(10 * 14 / 2), 8 * 10 * 14 / 2);
+        assert!(work <= 8 * cost + 400, "{}: {work} of {}", case.label, 8 * cost);
+        assert!(work >= without.min(least), "{}: {work} of {without}", case.label);
+        short += usize::from(plain / runs < 10 * 14 / 2 && without > least);
+        less += usize::from(work < without);
     }
     assert!(less >= 2 && short >= 1, "{less} {short}");
+}
+
+/// Where a curve is as dear as many runs there are runs between curves, and only within a budget.
+#[test]
+fn dear_curves_make_room_for_runs() {
+    let cases = table1_cases();
+    let case = cases.iter().find(|c| c.label.contains("phi=30 mu=12 S=(1,-1)")).unwrap();
+    let [(free, _), (held, work), (little, _)] = [None, Some(22), Some(2)].map(|b| searched(case, b));
+    assert_eq!((free.plain.0, free.certified.len(), held.certified.len()), (5, 3, 3));
+    // The runs cost one or two factorisations, a curve more than a hundred: all runs of the budget come before it.
+    assert_eq!(held.plain.0, 5 + 22);
+    assert!(!held.curves.is_empty() && work < 22 * 6 + 40, "{work}");
+    // A budget that the runs exceed buys nothing else.
+    assert!(little.plain.0 >= 5 && little.plain.0 <= 5 + 2, "{little:?}");
 }
 
 #[test]

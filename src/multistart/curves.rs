@@ -8,7 +8,7 @@ use crate::candidate::Candidate;
 use crate::mcp::Mcp;
 use crate::model::Admissible;
 use crate::reduction::{CirclePencil, Embedding, Side};
-use crate::solver::{Curve, CurveEnd, Sense, SolverError, continuation, continuation_through, solve};
+use crate::solver::{Curve, CurveEnd, Options, Sense, SolverError, continuation, continuation_through, solve};
 use crate::tolerance::SAME_CURVE_POINT;
 
 /// Solutions taken from one curve, at most: a cone of solutions is met at every step.
@@ -31,13 +31,18 @@ pub(super) struct Ground {
     seed: u64,
     /// How often each solution was left, in the order of discovery.
     departed: Vec<usize>,
+    /// Starts of runs between curves, the last one first.
+    pub(super) spare: Vec<Vec<f64>>,
+    /// Curves followed, and their pivots and factorisations.
+    followed: (usize, usize),
 }
 
 impl Ground {
     pub(super) fn new(admissible: &Admissible<'_>, side: Side, seed: u64) -> Ground {
         let embedding = Embedding::new(admissible, side);
         let circle = CirclePencil::new(&embedding);
-        Ground { embedding, whole: Embedding::new(admissible, Side::Above(0.0)), circle, seed, departed: Vec::new() }
+        let whole = Embedding::new(admissible, Side::Above(0.0));
+        Ground { embedding, whole, circle, seed, departed: Vec::new(), spare: Vec::new(), followed: (0, 0) }
     }
 
     /// The embedding in which a curve's solutions are polished.
@@ -73,15 +78,36 @@ impl Ground {
 
 impl Hunt<'_> {
     /// The curve from a start: down, and up too unless it has closed.
-    pub(super) fn curve(&mut self, ground: &Ground, start: &[f64]) -> Result<(), SolverError> {
+    pub(super) fn curve(&mut self, ground: &mut Ground, start: &[f64]) -> Result<(), SolverError> {
         let from = ground.point(&ground.embedding.candidate(start));
         for sense in [Sense::Down, Sense::Up] {
-            let curve = continuation(ground.problem(), &from, sense, ground.enough(), &self.search.options)?;
+            let curve = continuation(ground.problem(), &from, sense, ground.enough(), &self.curve_options())?;
             let end = curve.end;
             self.harvest(ground, curve, Origin::Curve)?;
             if end == CurveEnd::Closed {
                 break;
             }
+        }
+        Ok(())
+    }
+
+    /// The options of one curve. A step costs a factorisation, most of them: a curve takes no more than the budget has left.
+    fn curve_options(&self) -> Options {
+        let options = self.search.options.clone();
+        let allowed = self.left().unwrap_or(usize::MAX);
+        Options { curve_step_limit: options.curve_step_limit.min(allowed), ..options }
+    }
+
+    /// Within a budget, before a curve: as many runs as pay half of what a curve has cost so far (at first, of half the
+    /// steps it may take). With two variables a curve is as dear as ten to a hundred runs, each of which may find something
+    /// too; from ten variables on it is as cheap as two, and few runs are made, or none.
+    pub(super) fn runs_between(&mut self, ground: &mut Ground) -> Result<(), SolverError> {
+        let (runs, work) = self.found.plain;
+        let (curves, steps) = ground.followed;
+        let dear = (steps + self.search.options.curve_step_limit / 2) * runs / (2 * work * (curves + 1)).max(1);
+        for _ in 0..dear {
+            let Some(start) = ground.spare.pop().filter(|_| !self.is_spent() && !self.is_interrupted()) else { break };
+            self.plain(&ground.embedding, &start)?;
         }
         Ok(())
     }
@@ -96,6 +122,7 @@ impl Hunt<'_> {
             let Some(least) = (0..known).min_by_key(|&i| ground.departed[i]).filter(|&i| ground.departed[i] < wanted) else {
                 return Ok(());
             };
+            self.runs_between(ground)?;
             for sense in [Sense::Down, Sense::Up] {
                 let is_round = self.leave(ground, least, sense)?;
                 if self.is_interrupted() || self.is_spent() {
@@ -110,12 +137,12 @@ impl Hunt<'_> {
     }
 
     /// A curve through a known solution with a random residual direction. Has it come back to it?
-    fn leave(&mut self, ground: &Ground, known: usize, sense: Sense) -> Result<bool, SolverError> {
+    fn leave(&mut self, ground: &mut Ground, known: usize, sense: Sense) -> Result<bool, SolverError> {
         let turn = ground.departed[known];
         let point = ground.point(&self.found.certified[known].candidate);
         let salt = (turn as u64) << 20 | known as u64;
         let r = ground.direction(ground.seed.wrapping_mul(0x9e37_79b9).wrapping_add(salt), turn % 2 == 1);
-        let curve = continuation_through(ground.problem(), &point, &r, sense, ground.enough(), &self.search.options)?;
+        let curve = continuation_through(ground.problem(), &point, &r, sense, ground.enough(), &self.curve_options())?;
         let is_here = |z: &Vec<f64>| z.iter().zip(&point).all(|(a, b)| (a - b).abs() <= SAME_CURVE_POINT * (1.0 + b.abs()));
         let is_round = curve.end == CurveEnd::Closed && curve.solutions.last().is_some_and(is_here);
         self.harvest(ground, curve, Origin::Departure)?;
@@ -123,8 +150,10 @@ impl Hunt<'_> {
     }
 
     /// The solutions of a curve, each that is not known already polished by a run of the solver.
-    fn harvest(&mut self, ground: &Ground, curve: Curve, origin: Origin) -> Result<(), SolverError> {
+    fn harvest(&mut self, ground: &mut Ground, curve: Curve, origin: Origin) -> Result<(), SolverError> {
         self.count(&curve.counters);
+        ground.followed.0 += 1;
+        ground.followed.1 += curve.counters.pivots + curve.counters.factorisations;
         *self.found.curves.entry(curve.end).or_default() += 1;
         self.trace(|run| format!("curve {run} ({origin:?}) ended {:?}, {:?}, met {:?}\n", curve.end, curve.counters, curve.solutions));
         let run = self.found.runs;

@@ -13,9 +13,6 @@ use crate::tolerance::WINDOW_GAP;
 
 /// zeta of the first curve of MCEIP-lambda2, in units of the embedding (|A| / |B|).
 const FAR_START: f64 = 32.0;
-/// What a run costs at least in a budget: pivots and factorisations a variable. Runs without curves cost 6 to 17 in the means of
-/// Table 1 and the mu families of `spec/solver.md`, and above 30 in those of lambda^2.
-const RUN_WORK: usize = 8;
 /// First salt of windows around values found.
 pub(super) const WINDOW_SALT: u64 = 1000;
 
@@ -35,7 +32,9 @@ impl Hunt<'_> {
     pub(super) fn side(&mut self, side: Side, starts: usize, salt: u64) -> Result<(), SolverError> {
         let seed = self.search.seed.wrapping_add(salt);
         let mut ground = Ground::new(self.admissible, side, seed);
-        let mut points = ground.embedding.starts(starts, seed);
+        let mut points = ground.embedding.starts(starts + self.search.budget.unwrap_or(0), seed);
+        ground.spare = points.split_off(starts.min(points.len()));
+        ground.spare.reverse();
         if let (Unknown::Lambda2, Some(zeta)) = (self.admissible.unknown(), points.get_mut(1).and_then(|p| p.last_mut())) {
             // At large lambda^2 the pencil is a P matrix, as it is at mu = 0: one end of the curve is there.
             *zeta = FAR_START;
@@ -53,7 +52,8 @@ impl Hunt<'_> {
         while follows && !self.is_spent() {
             self.depart(&mut ground)?;
             let Some((_, point)) = curves.next().filter(|_| !self.found.interrupted && !self.is_spent()) else { break };
-            self.curve(&ground, point)?;
+            self.runs_between(&mut ground)?;
+            self.curve(&mut ground, point)?;
             if self.is_interrupted() {
                 break;
             }
@@ -61,13 +61,22 @@ impl Hunt<'_> {
         Ok(())
     }
 
-    /// Have runs and curves cost what [`Search::budget`] allows? The mean of the runs made says what a run costs, and
-    /// [`RUN_WORK`] what it costs at least: where all runs are short, curves are not.
+    /// Have runs and curves cost what [`Search::budget`] allows?
     pub(super) fn is_spent(&self) -> bool {
+        self.left() == Some(0)
+    }
+
+    /// Pivots and factorisations that [`Search::budget`] leaves; `None` without a budget, and before the first run. The mean of
+    /// the runs made says what a run costs, and [`least_work`] what it costs at least.
+    pub(super) fn left(&self) -> Option<usize> {
+        let budget = self.search.budget.filter(|_| self.found.plain.0 > 0)?;
+        Some(budget.saturating_mul(self.run_cost()).saturating_sub(self.found.pivots + self.found.factorisations))
+    }
+
+    /// What a run costs in a budget.
+    pub(super) fn run_cost(&self) -> usize {
         let (runs, work) = self.found.plain;
-        let least = RUN_WORK * self.admissible.pencil().order() * runs;
-        let spent = self.found.pivots + self.found.factorisations;
-        self.search.budget.is_some_and(|budget| spent * runs >= budget * work.max(least) && runs > 0)
+        (work / runs.max(1)).max(least_work(self.admissible.pencil().order()))
     }
 
     pub(super) fn is_interrupted(&mut self) -> bool {
@@ -125,4 +134,12 @@ impl Hunt<'_> {
             Err(reason) => self.found.uncertified.push(Uncertified { candidate, reason }),
         }
     }
+}
+
+/// Pivots and factorisations that a run over n variables costs at least in a budget. Short runs buy few curves, but the curves
+/// of an instance are no shorter where its runs are: one has some n pieces, and of each solution up to n / 2 are followed.
+/// The plain runs of Table 1 and the mu families cost 7 to 14 a variable in the mean (`spec/solver.md`), this is 3 at n = 2 and
+/// 12 at n = 20.
+fn least_work(n: usize) -> usize {
+    n * (n + 4) / 2
 }
