@@ -146,6 +146,7 @@ mod tests {
         let point = crash(&mut problem, start, 50, &mut Storage::default(), &mut log).unwrap();
         let steps = log.records().len();
         assert_eq!(steps, problem.counters.crash_steps);
+        assert!(problem.counters.factorisations >= steps);
         (point, steps)
     }
 
@@ -161,6 +162,24 @@ mod tests {
         assert!(point.merit < 1e-3 && (point.z[1] - 1.0).abs() < 0.1);
         let (point, _) = crashed(dmatrix![-1.0], vec![-1.0], &[0.0]);
         assert!(point.merit <= 2.0);
+    }
+
+    /// Where F' vanishes the proximal term is absolute.
+    #[test]
+    fn a_zero_jacobian_is_perturbed_too() {
+        let mut storage = Storage { active: vec![false], ..Storage::default() };
+        let point = Point { z: DVector::from_element(1, 3.0), f: DVector::from_element(1, 2.0), merit: 1e6 };
+        assert_eq!(storage.newton_direction(&dmatrix![0.0], &point), (true, CRASH_PROXIMAL));
+        assert_eq!(storage.direction, [-2.0 / CRASH_PROXIMAL]);
+    }
+
+    /// At a solution nothing falls.
+    #[test]
+    fn a_step_that_gains_nothing_is_none() {
+        let lcp = LinearMcp::lcp(dmatrix![1.0], vec![-1.0]).unwrap();
+        let mut problem = Evaluated::new(&lcp);
+        let solution = problem.point(&DVector::from_element(1, 1.0));
+        assert!(solution.merit == 0.0 && search(&mut problem, &solution, &[0.0], CRASH_SMALLEST).is_none());
     }
 
     /// At a bound with F strictly out of it; at equal bounds always.

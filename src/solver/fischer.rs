@@ -96,6 +96,15 @@ mod tests {
         assert!(phi(1e300, 1e300).0.is_finite());
     }
 
+    /// Only the distances to the bounds count.
+    #[test]
+    fn bounds_and_point_may_be_moved_together() {
+        let value = |z: f64, l: f64, u: f64| fischer(z, 2.0, l, u).value;
+        assert_eq!(value(7.0, 3.0, INF), value(4.0, 0.0, INF));
+        assert_eq!(value(7.0, -INF, 9.0), value(-2.0, -INF, 0.0));
+        assert_eq!(value(7.0, 3.0, 9.0), value(4.0, 0.0, 6.0));
+    }
+
     #[test]
     fn zero_exactly_at_solutions_for_every_kind_of_bounds() {
         for (z, f, l, u, zero) in [

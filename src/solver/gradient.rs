@@ -50,6 +50,19 @@ mod tests {
     use crate::mcp::LinearMcp;
     use nalgebra::{dmatrix, dvector};
 
+    /// Without a direction nothing is tried.
+    #[test]
+    fn a_gradient_of_zero_or_infinity_has_no_arc() {
+        let lcp = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
+        let mut problem = Evaluated::new(&lcp);
+        let point = problem.point(&dvector![3.0, 0.0]);
+        let before = problem.counters.functions;
+        for gradient in [dvector![0.0, 0.0], dvector![f64::INFINITY, 1.0]] {
+            assert!(search(&mut problem, &point, &gradient).is_none());
+        }
+        assert_eq!(problem.counters.functions, before);
+    }
+
     #[test]
     fn lowers_the_merit_and_stops_at_stationary_points() {
         let lcp = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();

@@ -37,8 +37,7 @@ pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, S
 
     let origin = vec![0.0; reduced.dimension()];
     let mut evaluated = Evaluated::new(problem);
-    let first = if path.knots.len() > 0 { path.knots.z(0) } else { &origin };
-    let before = evaluated.point(&whole(first));
+    let before = evaluated.point(&whole(path.first().unwrap_or(&origin)));
     let point = evaluated.point(&whole(path.last().unwrap_or(&origin)));
     let residuals = Residuals::at(problem, point.z.as_slice());
     let termination = match path.end {
@@ -67,6 +66,14 @@ mod tests {
     use super::super::solve;
     use super::*;
     use nalgebra::dmatrix;
+
+    /// The step is the whole path or none.
+    #[test]
+    fn the_step_is_that_of_the_path() {
+        let step =
+            |m: f64| solve_linear(&LinearMcp::lcp(dmatrix![m], vec![-1.0]).unwrap(), &Options { preprocess: false, ..Options::default() });
+        assert_eq!([2.0, -1.0].map(|m| step(m).unwrap().log[0].step), [StepKind::Path { t: 1.0 }, StepKind::Failed]);
+    }
 
     /// What is counted is what is in the log: one path from the ray, its pivots and factorisations.
     #[test]

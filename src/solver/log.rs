@@ -47,3 +47,24 @@ impl Log {
         self.steps.iter().map(&mut record).collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_log_that_is_cleared_forgets_its_steps_paths_and_pivots() {
+        let mut log = Log::default();
+        let record = |log: &mut Log, merit: f64| {
+            log.path(&Path::default());
+            log.step(merit, StepKind::Failed, 0.0);
+        };
+        record(&mut log, 1.0);
+        record(&mut log, 2.0);
+        assert_eq!(log.records().iter().map(|r| (r.merit, r.paths.len())).collect::<Vec<_>>(), [(1.0, 1), (2.0, 1)]);
+        log.clear();
+        assert!(log.records().is_empty());
+        record(&mut log, 3.0);
+        assert_eq!(log.records().iter().map(|r| (r.merit, r.paths.len())).collect::<Vec<_>>(), [(3.0, 1)]);
+    }
+}

@@ -61,7 +61,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         }
         let mut best = self.problem.copy(&start);
         let mut reason = self.attempt(&start, Attempt::number(0), &mut best);
-        if !ends_the_run(reason) && self.options.curve_step_limit > 0 {
+        if !ends_the_run(reason) {
             reason = self.along_curves(&start, &mut best).unwrap_or(reason);
         }
         for k in 1..=self.options.restart_limit {
@@ -89,9 +89,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         if !matches!(reason, Termination::NoProgress | Termination::SingularBasis) {
             return None;
         }
-        let (lower, upper) = (self.problem.problem.lower(), self.problem.problem.upper());
-        let mut inside = Vec::with_capacity(start.z.len());
-        inside.extend((0..start.z.len()).filter(|&i| start.z[i] > lower[i] && start.z[i] < upper[i]));
+        let inside = strictly_inside(self.problem.problem, start);
         let jacobian = self.problem.jacobian(start).ok()?;
         let found = unmatched(&jacobian, &inside);
         self.problem.recycle_matrix(jacobian);
@@ -104,7 +102,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         self.space.log.step(start.merit, StepKind::Restart, 0.0);
         let from = self.moved(start, attempt, k);
         let mut reason = self.attempt(&from, attempt, best);
-        if attempt.shift > 0.0 && !ends_the_run(reason) && self.options.curve_step_limit > 0 {
+        if attempt.shift > 0.0 && !ends_the_run(reason) {
             reason = self.along_curves(&from, best).unwrap_or(reason);
         }
         self.problem.recycle(from);
@@ -126,8 +124,11 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     }
 
     /// To the first solution on the curve of the Newton homotopy from the start, down and then up,
-    /// and from there by Newton; `None` if neither way meets one.
+    /// and from there by Newton; `None` if neither way meets one, or none may be followed.
     fn along_curves(&mut self, start: &Point, best: &mut Point) -> Option<Termination> {
+        if self.options.curve_step_limit == 0 {
+            return None;
+        }
         let mut reason = None;
         for sense in [Sense::Down, Sense::Up] {
             let (solutions, _) = from_point(&mut self.problem, start, sense, 1, self.options);
@@ -273,6 +274,12 @@ fn is_within_tolerance<P: Mcp + ?Sized>(problem: &P, point: &Point, tolerance: f
     // The merit alone says so of most points.
     point.merit <= MERIT_SLACK * 0.5 * point.z.len() as f64 * tolerance * tolerance
         && Residuals::without_gradient(problem, point.z.as_slice(), point.f.as_slice()).within(tolerance)
+}
+
+/// The unknowns strictly between their bounds.
+fn strictly_inside<P: Mcp + ?Sized>(problem: &P, point: &Point) -> Vec<usize> {
+    let bounds = problem.lower().iter().zip(problem.upper());
+    point.z.iter().zip(bounds).enumerate().filter(|(_, (z, (l, u)))| *l < z && z < u).map(|(i, _)| i).collect()
 }
 
 /// Reasons that no restart can mend.

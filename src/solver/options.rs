@@ -143,6 +143,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_search_keeps_path_s_own_crash() {
+        let search = Options::for_search();
+        assert_eq!((Options::default().crash_method, search.crash_method), (CrashMethod::FischerNewton, CrashMethod::ProjectedNewton));
+        assert_eq!(Options { crash_method: CrashMethod::FischerNewton, ..search }, Options::default());
+    }
+
+    #[test]
     fn defaults_are_valid_and_refusals_name_the_option() {
         assert_eq!(Options::default().validate(), Ok(()));
         let refused = [

@@ -181,6 +181,17 @@ mod tests {
         assert_eq!([s.fraction(8.0), s.fraction(1.01 * NEAR * 8.0), s.fraction(NEAR * 8.0), s.fraction(0.0)], [0.5, 0.5, 1.0, 1.0]);
     }
 
+    /// The best point of an attempt is its own, also where it has the storage of another one.
+    #[test]
+    fn a_new_attempt_begins_with_its_first_point() {
+        let mut s = search(0, &Options::default());
+        for z in [&[1.0, 2.0][..], &[5.0], &[6.0]] {
+            let first = point(z, 9.0);
+            s.begin(&first, &first, &Options::default(), Attempt::number(0));
+            assert_eq!(s.best().unwrap().z.as_slice(), z);
+        }
+    }
+
     /// The largest of the last merits is the reference; a point passes at (1 - sigma t) of it, and only if finite.
     #[test]
     fn points_pass_against_the_memory() {
@@ -208,6 +219,9 @@ mod tests {
         let radius = TRUST * 5.0;
         assert_eq!(s.radius, radius);
         let allowed = |s: &Search, far: f64, merit: f64| s.unchecked_allowed(&point(&[1.0, 0.0], 1.0), &point(&[1.0, far], merit));
+        // However far from zero.
+        let far = [point(&[1e9, 0.0], 1.0), point(&[1e9, 1.0], 1.0)];
+        assert!(s.unchecked_allowed(&far[0], &far[1]));
         assert!(allowed(&s, radius, 1e9) && !allowed(&s, 1.01 * radius, 1.0) && !allowed(&s, 0.0, f64::INFINITY));
         for k in 1..=3 {
             assert!(allowed(&s, 0.0, 1.0), "{k}");

@@ -121,10 +121,15 @@ pub(super) fn from_point<P: Mcp + ?Sized>(
         return (Vec::new(), CurveEnd::Stuck);
     }
     let places = Places::at_bounds(problem.problem, &start.z);
-    let lift = CURVE_LIFT * (1.0 + start.f.amax().min(1.0));
+    let lift = lift(start.f.amax());
     let r = DVector::from_fn(start.z.len(), |i, _| start.f[i] - places.lifted_multiplier(i, start.f[i], lift));
     let system = System { problem, r, places };
     Follower::new(system, Position { z: start.z.clone(), s: 1.0 }, options, enough).run(sense)
+}
+
+/// How far multipliers at bounds are lifted off zero, where F is of this size.
+fn lift(size: f64) -> f64 {
+    CURVE_LIFT * (1.0 + size.min(1.0))
 }
 
 #[cfg(test)]
@@ -132,6 +137,11 @@ mod tests {
     use super::*;
     use crate::mcp::LinearMcp;
     use nalgebra::dmatrix;
+
+    #[test]
+    fn multipliers_are_lifted_once_or_twice_as_far() {
+        assert_eq!([lift(0.0), lift(0.5), lift(1.0), lift(7.0)], [1.0, 1.5, 2.0, 2.0].map(|v| CURVE_LIFT * v));
+    }
 
     fn values(curve: &Curve) -> Vec<f64> {
         curve.solutions.iter().map(|z| z[0]).collect()

@@ -62,21 +62,15 @@ pub(in super::super) fn semismooth<P: Mcp + ?Sized>(
         if done(&point) {
             return Ok((point, true));
         }
-        if k > 0 && k % SEMISMOOTH_WINDOW == 0 {
-            if point.merit > SEMISMOOTH_GAIN * least {
-                return Ok((point, false));
-            }
-            least = point.merit;
+        if stalls(k, point.merit, &mut least) {
+            return Ok((point, false));
         }
         let jacobian = problem.jacobian(&point)?;
         problem.counters.factorisations += 1;
         let solved = storage.newton_direction(problem.problem, &jacobian, &point, near[0]);
         problem.recycle_matrix(jacobian);
         let found = if solved { search(problem, &point, &storage.direction, SEMISMOOTH_SMALLEST) } else { None };
-        let length = found.as_ref().map_or(0.0, |(_, length)| *length);
-        if length < 1.0 {
-            near.swap(0, 1);
-        }
+        take_turns(&mut near, found.as_ref().map(|(_, length)| *length));
         let Some((next, _)) = found else {
             if failed {
                 break;
@@ -91,6 +85,21 @@ pub(in super::super) fn semismooth<P: Mcp + ?Sized>(
     }
     let ended = done(&point);
     Ok((point, ended))
+}
+
+/// At the end of each window of steps: is the merit still above [`SEMISMOOTH_GAIN`] times that of the last one's end?
+fn stalls(step: usize, merit: f64, least: &mut f64) -> bool {
+    if step == 0 || !step.is_multiple_of(SEMISMOOTH_WINDOW) {
+        return false;
+    }
+    merit > SEMISMOOTH_GAIN * std::mem::replace(least, merit)
+}
+
+/// The other element comes first after a step that was not of full length, or none.
+fn take_turns(near: &mut [f64; 2], length: Option<f64>) {
+    if length != Some(1.0) {
+        near.swap(0, 1);
+    }
 }
 
 /// The row for a component at z with F_i = f in [l, u]; the branches are told apart where one is
@@ -167,6 +176,7 @@ mod tests {
         let (point, ended) = semismooth(&mut problem, start, 50, done, &mut Storage::default(), &mut log).unwrap();
         assert!(point.merit <= merit && log.records().iter().all(|record| record.step == StepKind::FischerNewton));
         assert_eq!(log.records().len(), problem.counters.crash_steps);
+        assert!(problem.counters.factorisations >= problem.counters.crash_steps);
         (point, ended, problem.counters.factorisations)
     }
 
@@ -217,5 +227,46 @@ mod tests {
         assert!((diagonal - 2.0).abs() < 1e-14 && (residual - 10.0).abs() < 1e-13);
         // Pointing out of the bound: never to the bound.
         assert!(matches!(row(0.0, -1.0, 0.0, INF, 1.0), Row::Inside { .. }));
+        assert!(matches!(row(2.0, 0.0, -INF, 2.0, 0.5), Row::Inside { .. }));
+    }
+
+    /// `near` times the other one's distance, from both sides.
+    #[test]
+    fn branches_are_told_apart_by_near() {
+        let is_bound = |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Bound(_));
+        assert!(is_bound(0.5, 2.0) && !is_bound(0.5, 1.9) && is_bound(7.5, -2.0) && !is_bound(7.5, -1.9));
+        let is_free = |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Inside { diagonal: 0.0, .. });
+        assert!(is_free(2.0, 0.5) && !is_free(2.0, 0.6) && is_free(6.0, -0.5) && !is_free(6.0, -0.6) && !is_free(0.2, 0.15));
+    }
+
+    #[test]
+    fn merits_are_compared_over_a_window() {
+        let mut least = 8.0;
+        let mut at = |step: usize, merit: f64| (stalls(step, merit, &mut least), least);
+        assert_eq!([at(0, 8.0), at(1, 9.0), at(SEMISMOOTH_WINDOW - 1, 9.0)], [(false, 8.0); 3]);
+        assert_eq!(at(SEMISMOOTH_WINDOW, 8.0 * SEMISMOOTH_GAIN), (false, 8.0 * SEMISMOOTH_GAIN));
+        let above = 1.01 * SEMISMOOTH_GAIN * 8.0 * SEMISMOOTH_GAIN;
+        assert_eq!(at(SEMISMOOTH_WINDOW + 1, 9.0), (false, 8.0 * SEMISMOOTH_GAIN));
+        assert_eq!(at(2 * SEMISMOOTH_WINDOW, above), (true, above));
+    }
+
+    #[test]
+    fn elements_change_after_a_short_step() {
+        let mut near = [1.0, 2.0];
+        let mut after = |length| {
+            take_turns(&mut near, length);
+            near[0]
+        };
+        assert_eq!([after(Some(1.0)), after(Some(0.5)), after(Some(1.0)), after(None)], [1.0, 2.0, 2.0, 1.0]);
+    }
+
+    /// z_0 goes to its bound, and what that adds to F_1 is in the right-hand side: 9 - 3/4 + 4 d = 0.
+    #[test]
+    fn components_that_go_to_bounds_move_the_others() {
+        let p = LinearMcp::new(DMatrix::identity(2, 2), vec![0.0; 2], vec![0.0, -INF], vec![INF; 2]).unwrap();
+        let point = Point { z: nalgebra::dvector![0.25, 7.0], f: nalgebra::dvector![1.0, 9.0], merit: 1.0 };
+        let mut storage = Storage::default();
+        assert!(storage.newton_direction(&p, &dmatrix![2.0, 1.0; 3.0, 4.0], &point, 0.5));
+        assert_eq!(storage.direction, [-0.25, -8.25 / 4.0]);
     }
 }

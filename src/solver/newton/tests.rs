@@ -80,6 +80,53 @@ fn curves_are_followed_after_restarts_that_moved_and_failed() {
     assert_eq!([steps(&feasible(), moved, 50), steps(&feasible(), still, 50)], [(true, false); 2]);
 }
 
+/// By number: projected Newton, none, and the Fischer-Burmeister system with projected Newton after it.
+#[test]
+fn the_crash_is_the_one_asked_for() {
+    let steps = |crash_method: CrashMethod, crash_iteration_limit: usize, problem: &LinearMcp| {
+        let options = Options { crash_method, crash_iteration_limit, ..Options::default() };
+        let mut run = run(problem, &options);
+        let start = run.problem.point_with(|i| if i == 0 { 3.0 } else { 0.5 });
+        run.crash(start).unwrap();
+        let records = run.space.log.records();
+        [StepKind::FischerNewton, StepKind::Crash].map(|kind| records.iter().filter(|record| record.step == kind).count() > 0)
+    };
+    use CrashMethod::{FischerNewton, None, ProjectedNewton};
+    let p = feasible();
+    assert_eq!([50, 0].map(|limit| steps(ProjectedNewton, limit, &p)), [[false, true], [false, false]]);
+    assert_eq!([50, 0].map(|limit| steps(None, limit, &p)), [[false, false]; 2]);
+    assert_eq!([50, 0].map(|limit| steps(FischerNewton, limit, &p)), [[true, false], [false, false]]);
+    // Projected Newton goes on where the other one has not solved the problem.
+    assert_eq!(steps(FischerNewton, 1, &p), [true, true]);
+}
+
+#[test]
+fn inside_is_strictly_between_the_bounds() {
+    let p = LinearMcp::new(DMatrix::identity(5, 5), vec![0.0; 5], vec![0.0, 0.0, 0.0, -INF, 1.0], vec![2.0, 2.0, 2.0, INF, 1.0]).unwrap();
+    let point = Point { z: dvector![0.0, 1.0, 2.0, -7.0, 1.0], f: DVector::zeros(5), merit: 0.0 };
+    assert_eq!(strictly_inside(&p, &point), [1, 3]);
+}
+
+/// The trials of curves are numbered on from the restarts, so that no two starts lie in one direction.
+#[test]
+fn trials_are_numbered_on_from_the_restarts() {
+    let met = std::cell::RefCell::new(Vec::new());
+    let p = free(
+        1,
+        |z, f| {
+            met.borrow_mut().push(z[0]);
+            f[0] = 1.0 + z[0] * z[0];
+        },
+        |z, j| j[(0, 0)] = 2.0 * z[0],
+    );
+    let options = Options { restart_limit: 2, ..Options::default() };
+    run(&p, &options).run(&[0.5]);
+    for trial in 0..CURVE_TRIALS {
+        let start = Attempt::far(trial).shifted(0.5, 0, trial + 3);
+        assert!(met.borrow().contains(&start), "{trial}");
+    }
+}
+
 /// The first attempt too; a limit of zero means none at all.
 #[test]
 fn curves_are_followed_after_the_first_attempt_fails() {
@@ -214,6 +261,23 @@ fn an_end_is_checked_or_taken_unchecked() {
     assert_eq!(step(0.25, Acceptance::Monotone), None); // to -24
     assert_eq!(step(0.25, Acceptance::NonMonotone), Some((-24.0, StepKind::Unchecked { t: 1.0 })));
     assert_eq!(step(1.0 / 64.0, Acceptance::NonMonotone), None); // to -504, beyond 10 (1 + 8)
+}
+
+/// Of two paths the complete one leads on, whichever comes first.
+#[test]
+fn a_complete_path_is_preferred() {
+    let p = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
+    let options = Options::default();
+    let complete = || path(dmatrix![1.0], &[-2.0], &[0.0], &[INF], Start::Ray, &[0.0]);
+    let partial = || Path { end: PathEnd::Ray, ..path(dmatrix![1.0], &[-5.0], &[0.0], &[INF], Start::Regular, &[8.0]) };
+    for paths in [[partial(), complete()], [complete(), partial()]] {
+        let mut run = run(&p, &options);
+        let point = run.problem.point_with(|_| 8.0);
+        let mut search = Search::default();
+        search.begin(&point, &point, &options, Attempt::number(1));
+        let (next, _) = run.path_end(&point, &paths, &mut search).unwrap();
+        assert_eq!(next.z[0], 2.0);
+    }
 }
 
 /// The gradient step counts, ends with the limit, and leaves from the best point.

@@ -156,6 +156,11 @@ pub(super) fn follow<T: Number>(
 }
 
 impl<T: Number> Path<T> {
+    /// The first point.
+    pub(super) fn first(&self) -> Option<&[T]> {
+        self.knots.len().checked_sub(1).map(|_| self.knots.z(0))
+    }
+
     /// The last point: the Newton point of a complete path, a little along the ray of one that ended so.
     pub(super) fn last(&self) -> Option<&[T]> {
         self.knots.len().checked_sub(1).map(|k| self.knots.z(k))

@@ -29,9 +29,7 @@ pub(in super::super) trait Number:
     fn order(&self, other: &Self) -> Ordering;
 
     /// |x|.
-    fn magnitude(&self) -> Self {
-        if *self < Self::zero() { -self.clone() } else { self.clone() }
-    }
+    fn magnitude(&self) -> Self;
 
     /// The largest |entry|, 0 of nothing; entries that do not compare are passed over.
     fn largest(entries: &[Self]) -> Self {

@@ -42,16 +42,17 @@ fn lexicographic_test<T: Number>(tableau: &mut Tableau<'_, T>, blocks: &[Block<T
     let [mut row, mut other] = std::mem::take(&mut tableau.state.rows);
     let mut is_known = false; // is `row` that of `best`?
     for block in tied {
+        let mut compared = false;
         let order = rank(tableau, block).cmp(&rank(tableau, best)).then_with(|| {
             if !is_known {
                 perturbed_step(tableau, best, &mut row);
             }
-            is_known = true;
+            (is_known, compared) = (true, true);
             perturbed_step(tableau, block, &mut other);
             lexicographic(&other, &row)
         });
         if order == Ordering::Less {
-            is_known = is_known && rank(tableau, block) == rank(tableau, best);
+            is_known = compared;
             best = block;
             std::mem::swap(&mut row, &mut other);
         }

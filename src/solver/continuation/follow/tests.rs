@@ -155,6 +155,57 @@ fn an_event_that_is_far_is_refused() {
         f.land_on(Quantity::S, &position(&[5.0], 0.5), &local).map(|landing| (landing.there.at.z[0], landing.there.at.s, landing.event))
     };
     assert_eq!([lands(5.5 / 3.9), lands(5.5 / 4.1)], [Some((10.0, 0.0, Some(Quantity::S))), None]);
+    assert!(lands(5.5 / 4.0).is_some()); // exactly four lengths
+}
+
+/// z = (3 - s, s), upper bound 4 of z_1, from s = 1: at that bound z_0 has crossed 0, if 0 is its bound.
+#[test]
+fn an_event_beyond_another_one_is_refused() {
+    let lands = |lower: f64| {
+        let p = linear(DMatrix::identity(2, 2), dvector![-3.0, 0.0], &[lower, -INF], &[INF, 4.0]);
+        let mut evaluated = Evaluated::new(&p);
+        let mut f = at(&mut evaluated, dvector![-1.0, 1.0], &[Place::Inside; 2], position(&[2.0, 1.0], 1.0));
+        f.length = 2.0;
+        let local = f.system.local(&f.at.z.clone()).unwrap();
+        f.land_on(Quantity::Z(1, 4.0), &position(&[-1.0, 4.0], 4.0), &local).map(|landing| landing.there.at.z)
+    };
+    assert_eq!([lands(0.0), lands(-2.0), lands(-INF)], [None, Some(dvector![-1.0, 4.0]), Some(dvector![-1.0, 4.0])]);
+}
+
+/// An event that the tangent shows within the step is landed on at once.
+#[test]
+fn a_predicted_event_costs_one_correction() {
+    let p = linear(dmatrix![1.0], dvector![0.0], &[-INF], &[3.0]);
+    for (length, corrections, event) in [(4.0, 1, Some(Quantity::Z(0, 3.0))), (0.5, 1, None)] {
+        let mut evaluated = Evaluated::new(&p);
+        let mut f = at(&mut evaluated, dvector![1.0], &[Place::Inside], position(&[1.0], 1.0));
+        f.length = length;
+        let local = f.system.local(&f.at.z.clone()).unwrap();
+        let tangent = dvector![1.0, 1.0].normalize();
+        let before = f.system.problem.counters.jacobians;
+        let landing = f.land(&local, &tangent, &[0]).unwrap();
+        assert_eq!((landing.event, landing.there.steps), (event, 0), "{length}");
+        assert_eq!(f.system.problem.counters.jacobians - before, corrections);
+    }
+}
+
+/// The tangent that a correction brings points along the curve or against it; the curve goes on in its own direction,
+/// and not at the limit of the angle itself.
+#[test]
+fn a_tangent_from_the_correction_is_turned_forward() {
+    let p = linear(dmatrix![1.0], dvector![0.0], &[-INF], &[INF]);
+    let tangent = dvector![1.0, 0.0];
+    let turned = |given: DVector<f64>| {
+        let mut evaluated = Evaluated::new(&p);
+        let mut f = at(&mut evaluated, dvector![1.0], &[Place::Inside], position(&[0.0], 0.0));
+        let local = Local { f: dvector![0.0], jacobian: dmatrix![1.0] };
+        let there = Corrected { at: position(&[0.0], 0.0), local, steps: 1, tangent: Some(given) };
+        f.turn(&Landing { there, event: Some(Quantity::S) }, &tangent)
+    };
+    assert_eq!(turned(dvector![0.8, 0.6]), Some(dvector![0.8, 0.6]));
+    assert_eq!(turned(dvector![-0.8, 0.6]), Some(dvector![0.8, -0.6]));
+    let across = (1.0 - CURVE_ANGLE * CURVE_ANGLE).sqrt();
+    assert_eq!([dvector![CURVE_ANGLE, across], dvector![0.0, 1.0]].map(turned), [None, None]);
 }
 
 /// F = J z with r = 1: the tangent (1, J) / sqrt(1 + J^2) against (1, 0).

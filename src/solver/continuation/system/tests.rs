@@ -150,6 +150,13 @@ fn tangents_satisfy_the_bordered_equations() {
     assert_eq!((at.z, at.s), (dvector![3.0, 2.0, 1.0], 5.0));
 }
 
+/// Numbers whose square or reciprocal leaves the range give no direction.
+#[test]
+fn a_direction_has_a_length() {
+    let direction = |entry: f64| unit(&DMatrix::from_element(1, 1, entry).lu(), 0, -1.0).map(|v| v[0]);
+    assert_eq!([4.0, 0.0, 1e300, 1e-310].map(direction), [Some(-1.0), None, None, None]);
+}
+
 /// F = z^2 - s from z near 1 at s = 1: while a step gains a factor of 1 / CURVE_KEPT its factors serve on, and at last give
 /// the tangent (1, 2) but for the difference of F'; else each step has its own. Without a step there is no tangent.
 #[test]
