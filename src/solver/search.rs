@@ -189,6 +189,8 @@ mod tests {
             let first = point(z, 9.0);
             s.begin(&first, &first, &Options::default(), Attempt::number(0));
             assert_eq!(s.best().unwrap().z.as_slice(), z);
+            s.take_checked(&point(&vec![0.0; z.len()], 9.0)); // as good, and later
+            assert_eq!(s.best().unwrap().z.as_slice(), z);
         }
     }
 
