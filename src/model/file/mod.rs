@@ -76,12 +76,16 @@ pub fn read_text(what: &'static str, path: &Path) -> Result<String, ModelError> 
 /// # Errors
 /// As [`read_text`].
 pub fn read_from(what: &'static str, name: &str, source: impl std::io::Read) -> Result<String, ModelError> {
+    read_at_most(MAX_FILE_BYTES, what, name, source)
+}
+
+fn read_at_most(limit: u64, what: &'static str, name: &str, source: impl std::io::Read) -> Result<String, ModelError> {
     let unreadable = |e: std::io::Error| ModelError::Unreadable { what, path: name.to_string(), problem: e.to_string() };
     let mut text = String::new();
     // Bounded by what is read, not by what the directory says: devices and pipes have no length.
-    let length = source.take(MAX_FILE_BYTES + 1).read_to_string(&mut text).map_err(unreadable)? as u64;
-    if length > MAX_FILE_BYTES {
-        return Err(ModelError::TooLarge { what: "file size in bytes", limit: MAX_FILE_BYTES, got: length });
+    let got = source.take(limit + 1).read_to_string(&mut text).map_err(unreadable)? as u64;
+    if got > limit {
+        return Err(ModelError::TooLarge { what: "file size in bytes", limit, got });
     }
     Ok(text)
 }
@@ -132,4 +136,19 @@ pub fn from_json<'a, T: serde::Deserialize<'a>>(text: &'a str) -> Result<T, Mode
         let problem: String = problem.chars().map(|c| if c.is_control() { ' ' } else { c }).take(300).collect();
         ModelError::Json { location: ErrorLocation { line: e.line(), column: e.column() }, problem }
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// As long as the limit, and one byte more of whatever length.
+    #[test]
+    fn sizes_are_bounded_by_what_is_read() {
+        let read = |text: &'static str| read_at_most(3, "text", "-", text.as_bytes());
+        assert_eq!([read(""), read("abc")], [Ok(String::new()), Ok("abc".into())]);
+        let refused = ModelError::TooLarge { what: "file size in bytes", limit: 3, got: 4 };
+        assert_eq!([read("abcd"), read("abcdefgh")], [Err(refused.clone()), Err(refused)]);
+        assert!(matches!(read_at_most(3, "text", "-", &[0xff, 0xff][..]), Err(ModelError::Unreadable { what: "text", .. })));
+    }
 }
