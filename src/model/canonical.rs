@@ -92,6 +92,7 @@ mod tests {
     fn digest_binds_the_mathematics_and_nothing_else() {
         let p = problem(rational(-1, 2), Unknown::Lambda2);
         assert_eq!(text(&p), "mceip-canonical/1\nunknown lambda2\npencil\nfree\na 1 1\n0 0 -1/2\nb 1 1\n0 0 1\n");
+        assert_eq!(p.canonical_text(), text(&p));
         let narrower = p.clone().named("x").with_window(Window::new(whole(1), None).unwrap());
         assert_eq!(p.sha256(), narrower.sha256());
         assert_ne!(p.sha256(), problem(rational(-1, 3), Unknown::Lambda2).sha256());

@@ -303,7 +303,7 @@ mod tests {
             let reaction = Some(Reaction { tangential: t, normal: n });
             build(2, vec![Particle { reaction, ..Particle::plain(0, 1, state) }])
         };
-        assert!(with(SLIP, whole(2), whole(-1)).is_ok());
+        assert!(with(SLIP, whole(2), whole(-1)).is_ok() && with(ContactState::Free, whole(0), whole(0)).is_ok());
         assert!(with(ContactState::Stick, rational(19, 10), whole(-1)).is_ok());
         for (state, t, n) in [
             (SLIP, whole(-2), whole(-1)),
@@ -313,6 +313,9 @@ mod tests {
             (ContactState::Free, whole(0), whole(-1)),
         ] {
             assert!(matches!(with(state, t, n), Err(ModelError::ReactionContradicts { particle: 0, .. })));
+        }
+        for (state, n) in [(SLIP, whole(1)), (SLIP, whole(0)), (ContactState::Stick, whole(1)), (ContactState::Stick, whole(0))] {
+            assert!(matches!(with(state, whole(0), n), Err(ModelError::ReactionContradicts { expected: "r_N < 0", .. })));
         }
     }
 

@@ -167,6 +167,20 @@ mod tests {
         assert_eq!((m.get(1, 0), m.get(0, 1)), (whole(2), whole(3)));
         let s = read_matrix_market("K", "%%MatrixMarket matrix array integer symmetric\n2 2\n1\n2\n3\n").unwrap();
         assert_eq!((s.get(0, 1), s.get(1, 1)), (whole(2), whole(3)));
+        let wide = read_matrix_market("K", "%%MatrixMarket matrix array real general\n2 3\n1\n2\n3\n4\n5\n6\n").unwrap();
+        assert_eq!((wide.get(1, 1), wide.get(0, 2)), (whole(4), whole(5)));
+    }
+
+    /// As many numbers as asked for and nothing else; what is quoted is fit for a terminal.
+    #[test]
+    fn size_lines_are_numbers_only() {
+        let reader = Reader { what: "K" };
+        assert_eq!(reader.integers(2, " 3 4 ", 2).unwrap(), [3, 4]);
+        for text in ["3", "3 4 5", "3 4 x", "3 x", "x 3 4", "3 x 4"] {
+            assert!(reader.integers(2, text, 2).is_err(), "{text}");
+        }
+        let ModelError::MatrixMarket { got, .. } = reader.complain(2, "a size line", "a\u{1b}[2Jb\u{7}") else { panic!() };
+        assert_eq!(got, "a[2Jb");
     }
 
     #[test]

@@ -103,9 +103,10 @@ fn sparse(
     require_order(what, rows)?;
     require_order(what, cols)?;
     let mut seen = std::collections::BTreeSet::new();
+    // A symmetric entry stands for its mirror, which must be there too.
+    let limits = if symmetric { [rows.min(cols); 2] } else { [rows, cols] };
     for &(i, j, _) in &entries {
-        if i >= rows || j >= cols || (symmetric && (i >= cols || j >= rows)) {
-            let (index, limit) = if i >= rows.min(if symmetric { cols } else { rows }) { (i, rows) } else { (j, cols) };
+        if let Some((index, limit)) = [i, j].into_iter().zip(limits).find(|(index, limit)| index >= limit) {
             return Err(ModelError::IndexOutOfRange { what, index, limit });
         }
         // A symmetric matrix is given by one triangle; an entry and its mirror are the same one.
@@ -156,6 +157,21 @@ mod tests {
         let sparse = read(r#"{"rows": 2, "cols": 2, "symmetric": true, "entries": [[0,0,2],[1,0,"0.5"]]}"#).unwrap();
         assert_eq!(dense, sparse);
         assert_eq!(dense.get(0, 1), rational(1, 2));
+    }
+
+    #[test]
+    fn entries_lie_within_the_matrix_and_their_mirrors_too() {
+        let refused = |rows: usize, cols: usize, symmetric: bool, i: usize, j: usize| match read(&format!(
+            r#"{{"rows": {rows}, "cols": {cols}, "symmetric": {symmetric}, "entries": [[{i},{j},2]]}}"#
+        )) {
+            Err(ModelError::IndexOutOfRange { index, limit, .. }) => Some((index, limit)),
+            _ => None,
+        };
+        assert_eq!(
+            [refused(3, 2, false, 2, 1), refused(3, 2, false, 3, 0), refused(3, 2, false, 0, 2)],
+            [None, Some((3, 3)), Some((2, 2))]
+        );
+        assert_eq!([refused(3, 2, true, 1, 0), refused(3, 2, true, 2, 0), refused(2, 3, true, 0, 2)], [None, Some((2, 2)), Some((2, 2))]);
     }
 
     #[test]

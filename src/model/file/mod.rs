@@ -142,6 +142,15 @@ pub fn from_json<'a, T: serde::Deserialize<'a>>(text: &'a str) -> Result<T, Mode
 mod tests {
     use super::*;
 
+    #[test]
+    fn a_table_of_contact_states_keeps_its_order() {
+        use crate::model::{ContactState, Particle};
+        let text = r#"[{"tangential": 1, "normal": 2, "state": "stick"}, {"tangential": 3, "normal": 0, "state": "slip", "sign": -1}]"#;
+        let expected = [Particle::plain(1, 2, ContactState::Stick), Particle::plain(3, 0, ContactState::Slip { sign: -1 })];
+        assert_eq!(read_particles(text), Ok(expected.to_vec()));
+        assert!(read_particles("[{}]").is_err());
+    }
+
     /// As long as the limit, and one byte more of whatever length.
     #[test]
     fn sizes_are_bounded_by_what_is_read() {
