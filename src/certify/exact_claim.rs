@@ -97,7 +97,7 @@ impl Support<'_> {
             return Err(no_root(self.candidate));
         }
         let mut roots: Vec<Algebraic> = polynomials.iter().filter(|p| !p.is_zero()).flat_map(|p| roots_in(p, &lo, Some(&hi))).collect();
-        roots.sort_by_key(|r| (r.interval().mid() - &center).abs());
+        roots.sort_by_cached_key(|r| (approximate(&mut r.clone()) - &center).abs());
         Ok(roots)
     }
 
@@ -189,24 +189,25 @@ fn coordinate(
 
 /// For a solution without slip variables: does x point away from the candidate?
 fn dot_sign(x: &[Poly], candidate: &Candidate, value: &mut Algebraic) -> bool {
-    let dot: f64 = x.iter().zip(&candidate.x).map(|(p, c)| approximate(p, value) * c).sum();
+    let value = approximate(value);
+    let dot: f64 = x.iter().zip(&candidate.x).map(|(p, c)| to_f64(&p.eval(&value)) * c).sum();
     dot < 0.0
 }
 
-/// x(value) as a double, for comparisons with the candidate only.
-fn approximate(p: &Poly, value: &mut Algebraic) -> f64 {
-    to_f64(&p.eval(&value.interval().mid()))
+/// A value to compare with the candidate's: a point of an interval of 2^-62.
+fn approximate(value: &mut Algebraic) -> Rational {
+    value.refine_to(&Rational::new(1.into(), crate::exact::Integer::from(1u64 << 62)));
+    value.interval().mid()
 }
 
 fn close_enough(pencil: &Pencil, candidate: &Candidate, x: &[Poly], value: &mut Algebraic) -> Result<(), AttemptFailure> {
-    value.refine_to(&Rational::new(1.into(), crate::exact::Integer::from(1u64 << 62)));
     let slip = pencil.slip();
     let over = |list: &[f64]| {
         let sum: f64 = slip.iter().map(|&i| list[i]).sum();
         if sum > 0.0 { sum } else { list.iter().map(|v| v.abs()).sum() }
     };
     // Polynomials at the midpoint may be huge: divide exactly before rounding.
-    let mid = value.interval().mid();
+    let mid = approximate(value);
     let exact: Vec<Rational> = x.iter().map(|p| p.eval(&mid)).collect();
     let largest = exact.iter().map(|v| v.abs()).max().unwrap_or_else(Rational::zero);
     if largest.is_zero() {

@@ -100,3 +100,18 @@ impl std::fmt::Display for NotCertified {
 }
 
 impl std::error::Error for NotCertified {}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_attempt_is_told() {
+        let attempts = vec![
+            Attempt { support: vec![0, 2], failure: AttemptFailure::XNotPositive { index: 2 } },
+            Attempt { support: vec![1], failure: AttemptFailure::NotContracting },
+        ];
+        let told = NotCertified { attempts }.to_string();
+        assert!(told.starts_with("support [0, 2]: ") && told.contains("; support [1]: "), "{told}");
+    }
+}

@@ -120,3 +120,24 @@ fn a_preconditioner_keeps_its_bits() {
     assert_eq!(exponent, 103);
     assert_eq!(rows[0], [power(100), -power(102)]);
 }
+
+/// Bits for n entries of a row against the narrowest side: n = 2, reaches 4.25 and 120.5, sides 4 and 1/8: 1928 < 2^11.
+#[test]
+fn rounding_is_small_beside_the_narrowest_side() {
+    let jacobian = [vec![1.0, -2.0], vec![30.0, 4.0]];
+    assert_eq!(rounding_bits(&jacobian, &[whole(4), rational(1, 8)]), 11.0 + f64::from(PRECONDITIONER_LOSS_BITS));
+}
+
+/// Rows of 66,000 bits would need a preconditioner of as many.
+#[test]
+fn a_preconditioner_has_no_more_than_so_many_bits() {
+    let a_row_times = |bits: u32| {
+        let factor = Rational::from_integer(Integer::one() << bits);
+        let times = |m: &Sparse| m.entries().map(|(i, j, v)| (i, j, if i == 0 { v * &factor } else { v.clone() })).collect::<Vec<_>>();
+        let p = pencil([1, 1], &whole(1));
+        let p = Pencil::new(Sparse::from_entries(3, 3, times(p.a())), Sparse::from_entries(3, 3, times(p.b())), vec![]).unwrap();
+        of(&p, &Window::all(), &[0, 1], 3.0, X).map(|_| ())
+    };
+    assert_eq!(a_row_times(60_000), Ok(()));
+    assert!(matches!(a_row_times(66_000), Err(AttemptFailure::TooLarge { limit: 65_536, got: 66_000.. })));
+}

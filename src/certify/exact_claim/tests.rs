@@ -123,3 +123,33 @@ fn an_interval_is_narrowed_until_every_sign_is_sure() {
     assert_eq!(tighten(&all, &[], Some(&[poly(&[-1, 1])]), &mut one), Err(AttemptFailure::Precision { limit: MAX_HALVINGS }));
     assert_eq!(tighten(&all, &[], Some(&[poly(&[-2, 1])]), &mut one), Ok(()));
 }
+
+/// A radius relative to 1 + |value|, within which roots are taken, the nearest first.
+#[test]
+fn roots_are_taken_near_the_candidate_nearest_first() {
+    let (p, window) = (identity(1, vec![]), Window::all());
+    let candidate = Candidate { value: -3.0, x: vec![1.0] };
+    assert_eq!(around(&candidate), (-3.0 - 4.0 * VALUE_RADIUS, -3.0 + 4.0 * VALUE_RADIUS));
+    let candidate = Candidate { value: 2.0, x: vec![1.0] };
+    let rows = IntegralRows::of(&p);
+    let at = Support { pencil: &p, rows: &rows, window: &window, support: &[0], active: active(&p, &[0]), candidate: &candidate };
+    let root = |n: i64| Poly::new([-n, 10_000].map(crate::exact::Integer::from).to_vec());
+    let found = at.roots_near(&[root(19_999), root(20_002), root(20_000), root(20_004), root(19_000)]).unwrap();
+    let expected = [20_000, 19_999, 20_002].map(|n| rational(n, 10_000));
+    assert_eq!(found.len(), 3);
+    for (mut got, want) in found.into_iter().zip(expected) {
+        got.refine_to(&rational(1, 1 << 40));
+        assert!((got.interval().mid() - want).abs() < rational(1, 1 << 39));
+    }
+}
+
+/// 2t - 3 is 1 at t = 2, and 0 or less in the middle of an interval that begins at 0 or 1.
+#[test]
+fn a_direction_is_compared_at_the_value_itself() {
+    let of = |c: [i64; 2]| Poly::new(c.map(crate::exact::Integer::from).to_vec());
+    for (x, away) in [(1.0, false), (-1.0, true)] {
+        let mut two = nonnegative_roots(&of([-2, 1])).remove(0);
+        assert_eq!(dot_sign(&[of([-3, 2])], &Candidate { value: 2.0, x: vec![x] }, &mut two), away);
+        assert!((approximate(&mut two) - whole(2)).abs() < rational(1, 1 << 60));
+    }
+}
