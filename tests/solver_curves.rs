@@ -273,6 +273,9 @@ fn dear_curves_make_room_for_runs() {
     // The runs cost one or two factorisations, a curve more than a hundred: all runs of the budget come before it.
     assert_eq!(held.plain.0, 5 + 22);
     assert!(!held.curves.is_empty() && work < 22 * 6 + 40, "{work}");
+    // However large a budget, the runs between curves are counted.
+    let (vast, _) = searched(case, Some(usize::MAX));
+    assert!(vast.plain.0 <= 5 + 64 && vast.certified.len() == 3, "{:?}", vast.plain);
     // A budget that the runs exceed buys nothing else.
     assert!(little.plain.0 >= 5 && little.plain.0 <= 5 + 2, "{little:?}");
 }

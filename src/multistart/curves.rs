@@ -98,13 +98,13 @@ impl Hunt<'_> {
         Options { curve_step_limit: options.curve_step_limit.min(allowed), ..options }
     }
 
-    /// Within a budget, before a curve: as many runs as pay half of what a curve has cost so far (at first, of half the
-    /// steps it may take). With two variables a curve is as dear as ten to a hundred runs, each of which may find something
-    /// too; from ten variables on it is as cheap as two, and few runs are made, or none.
+    /// Within a budget, before a curve: as many runs as cost half of what a curve costs in the mean, where one of half the steps
+    /// it may take is counted beforehand. With two variables a curve is as dear as ten to a hundred runs, each of which may
+    /// find something too; from ten variables on it is as cheap as two, and few runs are made, or none.
     pub(super) fn runs_between(&mut self, ground: &mut Ground) -> Result<(), SolverError> {
-        let (runs, work) = self.found.plain;
-        let (curves, steps) = ground.followed;
-        let dear = (steps + self.search.options.curve_step_limit / 2) * runs / (2 * work * (curves + 1)).max(1);
+        let (runs, of_runs) = self.found.plain;
+        let (curves, of_curves) = ground.followed;
+        let dear = (of_curves + self.search.options.curve_step_limit / 2) * runs / (2 * of_runs * (curves + 1)).max(1);
         for _ in 0..dear {
             let Some(start) = ground.spare.pop().filter(|_| !self.is_spent() && !self.is_interrupted()) else { break };
             self.plain(&ground.embedding, &start)?;

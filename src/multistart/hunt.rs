@@ -13,6 +13,8 @@ use crate::tolerance::WINDOW_GAP;
 
 /// zeta of the first curve of MCEIP-lambda2, in units of the embedding (|A| / |B|).
 const FAR_START: f64 = 32.0;
+/// Runs between the curves of a side, at most.
+const MOST_BETWEEN: usize = 64;
 /// First salt of windows around values found.
 pub(super) const WINDOW_SALT: u64 = 1000;
 
@@ -32,7 +34,7 @@ impl Hunt<'_> {
     pub(super) fn side(&mut self, side: Side, starts: usize, salt: u64) -> Result<(), SolverError> {
         let seed = self.search.seed.wrapping_add(salt);
         let mut ground = Ground::new(self.admissible, side, seed);
-        let mut points = ground.embedding.starts(starts + self.search.budget.unwrap_or(0), seed);
+        let mut points = ground.embedding.starts(starts + self.search.budget.map_or(0, |budget| budget.min(MOST_BETWEEN)), seed);
         ground.spare = points.split_off(starts.min(points.len()));
         ground.spare.reverse();
         if let (Unknown::Lambda2, Some(zeta)) = (self.admissible.unknown(), points.get_mut(1).and_then(|p| p.last_mut())) {
