@@ -45,7 +45,8 @@ pub fn to_f64(value: &Rational) -> f64 {
     let (num, den) = if shift >= 0 { (num << shift as u64, den) } else { (num, den << shift.unsigned_abs()) };
     let (quotient, rest) = (&num / &den, &num % &den);
     let magnitude = round_scaled(quotient, !rest.is_zero(), -shift);
-    if value.is_negative() { -magnitude } else { magnitude }
+    // The sign bit, set by hand: this room computes nothing in floats.
+    f64::from_bits(magnitude.to_bits() + (u64::from(value.is_negative()) << 63))
 }
 
 /// `quotient * 2^exponent` (plus something below one unit if `sticky`), rounded once; the quotient has more than 53 bits.
