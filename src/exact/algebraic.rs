@@ -253,6 +253,17 @@ mod tests {
         nonnegative_roots(&Poly::from_ints(&[-n, 0, 1])).remove(0)
     }
 
+    /// Only one of them is a point: the other one is narrowed until they part.
+    #[test]
+    fn a_rational_and_a_root_are_told_apart() {
+        for (n, d, expected) in
+            [(7, 5, Ordering::Greater), (3, 2, Ordering::Less), (1393, 985, Ordering::Greater), (3363, 2378, Ordering::Less)]
+        {
+            let rational = || Algebraic::rational(rational(n, d));
+            assert_eq!((sqrt(2).cmp_exact(&mut rational()), rational().cmp_exact(&mut sqrt(2))), (expected, expected.reverse()), "{n}/{d}");
+        }
+    }
+
     #[test]
     fn signs_are_exact_also_an_inch_from_zero() {
         // 3363/2378 is a convergent of sqrt 2, below it by 6e-8.

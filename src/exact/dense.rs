@@ -74,6 +74,12 @@ mod tests {
     use crate::exact::{rational, whole};
 
     #[test]
+    fn rows_and_columns_are_counted() {
+        let m = Dense::from_rows(vec![vec![whole(1), whole(2), whole(3)], vec![whole(4), whole(5), whole(6)]]);
+        assert_eq!((m.rows(), m.cols(), m.row(1)), (2, 3, &[4, 5, 6].map(whole)[..]));
+    }
+
+    #[test]
     fn clearing_a_row_scales_both_matrices_alike() {
         let a = Dense::from_rows(vec![vec![rational(1, 2), whole(0)]]);
         let b = Dense::from_rows(vec![vec![rational(1, 3), whole(-1)]]);

@@ -100,6 +100,10 @@ mod tests {
         assert_eq!(number(-6, 2, 9).sign(), Sign::Zero); // sqrt 9 = 3, d a square
         assert_eq!(number(0, 0, 5).sign(), Sign::Zero);
         assert_eq!(number(-1, -1, 5).sign(), Sign::Negative);
+        // Parts of equal size, 2 and sqrt 4, on one side and on both.
+        for (a, b, sign) in [(2, 1, Sign::Positive), (-2, -1, Sign::Negative), (2, -1, Sign::Zero), (-2, 1, Sign::Zero)] {
+            assert_eq!(number(a, b, 4).sign(), sign, "{a} {b}");
+        }
         assert!(Quadratic::new(whole(0), whole(1), whole(-1)).is_none());
     }
 

@@ -190,6 +190,8 @@ mod tests {
         }
         assert!(matches!(parse("3/0"), Err(NumberError::ZeroDenominator { .. })));
         assert!(matches!(parse("1e999999999"), Err(NumberError::ExponentTooLarge { .. })));
+        assert!(parse("1e5000").is_ok() && parse("1e-5000").is_ok());
+        assert!(matches!(parse("1e5001"), Err(NumberError::ExponentTooLarge { limit: 5_000, .. })));
         assert!(matches!(parse(&"9".repeat(MAX_SPELLING + 1)), Err(NumberError::TooLong { .. })));
     }
 
