@@ -279,7 +279,9 @@ fn is_within_tolerance<P: Mcp + ?Sized>(problem: &P, point: &Point, tolerance: f
 /// The unknowns strictly between their bounds.
 fn strictly_inside<P: Mcp + ?Sized>(problem: &P, point: &Point) -> Vec<usize> {
     let bounds = problem.lower().iter().zip(problem.upper());
-    point.z.iter().zip(bounds).enumerate().filter(|(_, (z, (l, u)))| *l < z && z < u).map(|(i, _)| i).collect()
+    let mut inside = Vec::with_capacity(point.z.len());
+    inside.extend(point.z.iter().zip(bounds).enumerate().filter(|(_, (z, (l, u)))| *l < z && z < u).map(|(i, _)| i));
+    inside
 }
 
 /// Reasons that no restart can mend.
