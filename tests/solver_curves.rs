@@ -234,7 +234,6 @@ fn the_pocket_of_the_first_start_is_left() {
     assert!((embedding.candidate(&outcome.point).value - value).abs() < 1e-7 && truth.solutions.len() == 1);
 }
 
-/// A budget in runs: the curves end, the runs are all made, and what is found is certified as ever.
 /// Ten fresh starts within the work of so many runs, and its work.
 fn searched(case: &Case, budget: Option<usize>) -> (mceip::multistart::Found, usize) {
     let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
@@ -244,6 +243,7 @@ fn searched(case: &Case, budget: Option<usize>) -> (mceip::multistart::Found, us
     (found, work)
 }
 
+/// A budget in runs: the curves end, and the runs from fresh starts are all made.
 #[test]
 fn a_budget_ends_the_curves() {
     let [mut less, mut short] = [0; 2];
@@ -252,8 +252,8 @@ fn a_budget_ends_the_curves() {
         let [(free, without), (held, work)] = [None, Some(8)].map(|b| searched(&case, b));
         let (runs, plain) = held.plain;
         assert!(free.plain.0 == 5 && runs >= 5, "{runs}");
-        // A run counts for n (n + 4) / 2 at least, however short the runs are; no curve goes on beyond the end, one
-        // that has begun a step finishes it, and polishes what it has met.
+        // A run counts for n (n + 4) / 2 at least, however short the runs are. Beyond the end goes what the steps left to the last
+        // curve cost above one factorisation each, and what its solutions cost to polish.
         let (cost, least) = ((plain / runs).max(10 * 14 / 2), 8 * 10 * 14 / 2);
         assert!(work <= 8 * cost + 400, "{}: {work} of {}", case.label, 8 * cost);
         assert!(work >= without.min(least), "{}: {work} of {without}", case.label);

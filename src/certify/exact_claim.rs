@@ -97,7 +97,8 @@ impl Support<'_> {
             return Err(no_root(self.candidate));
         }
         let mut roots: Vec<Algebraic> = polynomials.iter().filter(|p| !p.is_zero()).flat_map(|p| roots_in(p, &lo, Some(&hi))).collect();
-        roots.sort_by_cached_key(|r| (approximate(&mut r.clone()) - &center).abs());
+        roots.iter_mut().for_each(narrow);
+        roots.sort_by_cached_key(|r| (r.interval().mid() - &center).abs());
         Ok(roots)
     }
 
@@ -189,15 +190,15 @@ fn coordinate(
 
 /// For a solution without slip variables: does x point away from the candidate?
 fn dot_sign(x: &[Poly], candidate: &Candidate, value: &mut Algebraic) -> bool {
-    let value = approximate(value);
-    let dot: f64 = x.iter().zip(&candidate.x).map(|(p, c)| to_f64(&p.eval(&value)) * c).sum();
+    narrow(value);
+    let mid = value.interval().mid();
+    let dot: f64 = x.iter().zip(&candidate.x).map(|(p, c)| to_f64(&p.eval(&mid)) * c).sum();
     dot < 0.0
 }
 
-/// A value to compare with the candidate's: a point of an interval of 2^-62.
-fn approximate(value: &mut Algebraic) -> Rational {
+/// Narrows the interval of a value to 2^-62: its middle may be compared with what the candidate says.
+fn narrow(value: &mut Algebraic) {
     value.refine_to(&Rational::new(1.into(), crate::exact::Integer::from(1u64 << 62)));
-    value.interval().mid()
 }
 
 fn close_enough(pencil: &Pencil, candidate: &Candidate, x: &[Poly], value: &mut Algebraic) -> Result<(), AttemptFailure> {
@@ -207,7 +208,8 @@ fn close_enough(pencil: &Pencil, candidate: &Candidate, x: &[Poly], value: &mut 
         if sum > 0.0 { sum } else { list.iter().map(|v| v.abs()).sum() }
     };
     // Polynomials at the midpoint may be huge: divide exactly before rounding.
-    let mid = approximate(value);
+    narrow(value);
+    let mid = value.interval().mid();
     let exact: Vec<Rational> = x.iter().map(|p| p.eval(&mid)).collect();
     let largest = exact.iter().map(|v| v.abs()).max().unwrap_or_else(Rational::zero);
     if largest.is_zero() {

@@ -32,15 +32,14 @@ pub fn truncated(value: f64) -> Option<Integer> {
 
 /// The nearest double, ties to even; beyond the range of doubles the signed infinity.
 ///
-/// Computed by integer division to 54 bits and a sticky bit, so it is the IEEE rounding of the
+/// Computed by integer division to 66 bits and a sticky bit, so it is the IEEE rounding of the
 /// exact value (`num-rational`'s own conversion rounds twice).
 pub fn to_f64(value: &Rational) -> f64 {
     if value.is_zero() {
         return 0.0;
     }
     let (num, den) = (value.numer().abs(), value.denom().clone());
-    // Scale to a quotient of at least 66 bits, then round once by the decimal-free conversion of
-    // a 128-bit integer with a sticky last bit: u128 -> f64 rounds to nearest even.
+    // Scaled to a quotient of at least 66 bits, which with what the division leaves is rounded once.
     let shift = 66 - (num.bits() as i64 - den.bits() as i64);
     let (num, den) = if shift >= 0 { (num << shift as u64, den) } else { (num, den << shift.unsigned_abs()) };
     let (quotient, rest) = (&num / &den, &num % &den);

@@ -91,7 +91,8 @@ impl Hunt<'_> {
         Ok(())
     }
 
-    /// The options of one curve. A step costs a factorisation, most of them: a curve takes no more than the budget has left.
+    /// The options of one curve: no more steps than the budget has pivots and factorisations left. A step costs one
+    /// factorisation or some more, so that the last curve may pass the end a little.
     fn curve_options(&self) -> Options {
         let options = self.search.options.clone();
         let allowed = self.left().unwrap_or(usize::MAX);

@@ -41,7 +41,8 @@ pub struct Search {
     /// variables, rounded up, at most 3: each connects it with others.
     pub departures: Option<usize>,
     /// End curves when the pivots and factorisations of everything done reach those of this many runs of the
-    /// solver, by the mean of those made, or n (n + 4) / 2 for n variables where that is more; `None` for no such end.
+    /// solver, by the mean of those made, or n (n + 4) / 2 for n variables where that is more; the last curve may pass it by its last steps
+    /// and what polishing costs. Within it further runs are made where a curve costs many. `None` for no such end.
     pub budget: Option<usize>,
     /// Keep the log of every run as text?
     pub trace: bool,

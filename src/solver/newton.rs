@@ -276,7 +276,7 @@ fn is_within_tolerance<P: Mcp + ?Sized>(problem: &P, point: &Point, tolerance: f
         && Residuals::without_gradient(problem, point.z.as_slice(), point.f.as_slice()).within(tolerance)
 }
 
-/// The unknowns strictly between their bounds.
+/// The unknowns strictly between their bounds, by one allocation.
 fn strictly_inside<P: Mcp + ?Sized>(problem: &P, point: &Point) -> Vec<usize> {
     let bounds = problem.lower().iter().zip(problem.upper());
     let mut inside = Vec::with_capacity(point.z.len());

@@ -360,8 +360,7 @@ mod tests {
             (up(3), [2.25 + 0.6 * half, 2.5, 1.0, 3.0], up(3)),
         ] {
             let (interval, outcome) = unique.outcome(expansion, value, ends, &states, &[0]).unwrap();
-            let around = [centre - half, centre + half];
-            assert!(interval.iter().zip(around).all(|(a, b)| (crate::exact::to_f64(a) - b).abs() < 1e-15), "{value} {ends:?}");
+            assert_eq!(interval.map(|end| crate::exact::to_f64(&end)), [centre - half, centre + half], "{value} {ends:?}");
             assert_eq!(outcome, RootOutcome::Solution);
         }
     }
