@@ -600,18 +600,16 @@ class Ends:
     def __init__(self, m0, m1, r0, r1, d, unit, unbounded):
         self.both, self.d, self.unit, self.unbounded = ((m0, r0), (m1, r1)), d, unit, unbounded
 
-    def chord(self, lo, t0, t1):
-        """s T(t), s = lo / t, from t0 to t1 (None: infinity), of T(lo) and the direction that these ends are."""
-        def mix(x, y, p, q):
-            return [[p * v + q * w for v, w in zip(rx, ry)] for rx, ry in zip(x, y)]
+    def chord(self, lo):
+        """s T(t), s = lo / t from 1 to 0, of T(lo) and the direction B that these ends are: the ends T(lo) and lo B."""
         (m0, r0), (m1, r1) = self.both
-        s = [lo / t0, Q(0) if t1 is None else lo / t1]
-        common = lcm(s[0].denominator, s[1].denominator) * lo.denominator
-        weights = [(int(x * common), int((1 - x) * lo * common)) for x in s]
-        width = s[0] - s[1]
-        d = mix(r0, r1, int(width * common), int(width * lo * common))
-        (p, q), (v, w) = weights
-        return Ends(mix(m0, m1, p, q), mix(m0, m1, v, w), mix(r0, r1, p, q), mix(r0, r1, v, w), d, self.unit * common, t1 is None)
+        p, q = lo.numerator, lo.denominator
+
+        def times(factor, m):
+            return [[factor * v for v in row] for row in m]
+        s0, s1 = times(q, r0), times(p, r1)
+        d = [[v + w for v, w in zip(rv, rw)] for rv, rw in zip(s0, s1)]
+        return Ends(times(q, m0), times(p, m1), s0, s1, d, self.unit * q, True)
 
 
 BITS = 128
@@ -687,8 +685,8 @@ def read_coefficients(lists, nf, ns):
         rows = [[integer(v) for v in sequence(r)] for r in sequence(rows)]
         demand(len(rows) == nf and all(len(r) == ns for r in rows), "anchor: shape")
         out.append((integer(exponent, 0), rows))
-    demand(1 <= len(out) <= 8 and all(e <= 4096 for e, _ in out), "anchor: number of coefficients or exponent")
-    top = max(e for e, _ in out)
+    demand(len(out) <= 8 and all(e <= 4096 for e, _ in out), "anchor: number of coefficients or exponent")
+    top = max((e for e, _ in out), default=0)
     return [[[v << (top - e) for v in column] for column in zip(*rows)] for e, rows in out], top
 
 
@@ -983,8 +981,7 @@ class Root:
         by_chord = hi is None and not pencil.reversed(anchor)
         if by_chord:
             demand(self.hull[0] > 0, "root: from 0 to infinity")
-            cone = pencil.ends(self.hull[0], None, anchor)
-            wide = cone.chord(self.hull[0], self.hull[0], None)
+            wide = pencil.ends(self.hull[0], None, anchor).chord(self.hull[0])
         else:
             wide = pencil.ends(self.hull[0], None if hi is None else self.hull[1], anchor)
         yt = list(zip(*y))
@@ -1057,8 +1054,10 @@ class Root:
             demand(hi is None and len(x) == pencil.p.n, "root 5: not at infinity, or length")
             null_at_infinity(pencil.p, self.support, pencil.reversed(anchor), x)
             return
+        known = outcome == "solution" or isinstance(outcome, dict) and ("negative_x" in outcome or "negative_y" in outcome)
+        demand(not (by_chord and known), "root 5: an outcome that is not read over a half line")
         demand(self.a < self.b, "root 5: an interval of one point")
-        narrow = cone.chord(self.hull[0], self.a, self.b) if by_chord else pencil.ends(self.a, self.b, anchor)
+        narrow = pencil.ends(self.a, self.b, anchor)
         demand(sign(narrow, 0) * sign(narrow, 1) == -1, "root 5: no change of sign")
         error = max(eps_v(narrow, 0), eps_v(narrow, 1))
 

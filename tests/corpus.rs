@@ -232,6 +232,7 @@ fn write_the_corpus() {
     corpus_claims::enclosed_claims(&mut cases);
     corpus_claims::lifted_claims(&mut cases);
     corpus_covers::covers(&mut cases);
+    corpus_covers::without_left_coefficients(&mut cases);
     corpus_covers::absence(&mut cases);
     corpus_support::supports(&mut cases);
     corpus_infinity::infinity(&mut cases);

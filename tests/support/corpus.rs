@@ -34,6 +34,11 @@ impl Cases {
         self.push("accept", name, json!({ "verdict": "accepted", "problem": of(problem), "certificate": text(c) }), note);
     }
 
+    pub fn undecided(&mut self, name: &str, note: &str, problem: &Problem, c: &Certificate) {
+        let file = json!({ "verdict": "undecided", "problem": of(problem), "certificate": text(c) });
+        self.push("accept", name, file, note);
+    }
+
     pub fn reject(&mut self, name: &str, reason: &str, note: &str, problem: &Problem, c: &Certificate) {
         let file = json!({ "verdict": "rejected", "reason": reason, "problem": of(problem), "certificate": text(c) });
         self.push("reject", name, file, note);

@@ -16,6 +16,18 @@ fn set(c: &mut Certificate) -> &mut CompleteSet {
 
 const AROUND: (&str, &str) = ("31/16", "33/16");
 
+/// V = 0 for F^-1 T_sf': the remainder l' F^-1 r is wider and still small enough. Rejected by `spec/checker.py` until
+/// 2026-11-22 (spec/certificate-errata.md).
+pub fn without_left_coefficients(cases: &mut Cases) {
+    let p = window(pencil(&[&["5", "4"], &["4", "6"]], &[&["0", "0"], &["0", "1"]], &[0]), "1/7", Some("8"));
+    let mut c = completed(&p);
+    for anchor in &mut set(&mut c).condensation.as_mut().unwrap().anchors {
+        anchor.left.clear();
+    }
+    let note = "an anchor whose list of left coefficients is empty";
+    cases.accept("condensed-no-left-coefficients", note, &p, &c);
+}
+
 pub fn covers(cases: &mut Cases) {
     let p = fold("15/8", Some("17/8"));
     let tree = fold_tree(root_node(AROUND, RootOutcome::Solution));

@@ -35,6 +35,78 @@ pub fn infinity(cases: &mut Cases) {
     chord(cases);
     limit(cases);
     reversed(cases);
+    scales(cases);
+}
+
+/// A witness for a support of one variable: no inverse, no vectors.
+fn alone(pivot: usize, [a, b]: [&str; 2], outcome: RootOutcome) -> Root {
+    Root {
+        pivot,
+        interval: [q(a), q(b)],
+        inverse: Vec::new(),
+        inverse_exponent: 0,
+        left: Vec::new(),
+        right: Vec::new(),
+        exponent: 0,
+        outcome,
+    }
+}
+
+/// Half lines from a value with a denominator. Between 792fd1c and the mending the checker forgot that denominator at
+/// the infinite end, and looked for the sign change of a narrow interval at a wrong place (spec/certificate-errata.md).
+fn scales(cases: &mut Cases) {
+    let six = pencil(&[&["-6"]], &[&["1"]], &[]);
+    let tree = |leaf: Root| vec![Node::Branch(0), Node::Farkas(vec![0]), Node::Root(Box::new(leaf))];
+
+    let from_thousandth = window(six.clone(), "1/1000", None);
+    for (name, interval, note) in [
+        ("scale-forged", ["5000", "7000"], "the only solution is 6; this leaf used to be accepted"),
+        ("scale-true", ["5", "7"], "true, but an outcome that is not read over a half line"),
+    ] {
+        let c = cover(&from_thousandth, tree(alone(0, interval, RootOutcome::Solution)));
+        cases.reject(&format!("infinity-{name}"), "Cover.OutcomeOnHalfLine", note, &from_thousandth, &c);
+    }
+    let negative = cover(&from_thousandth, tree(alone(0, ["5", "7"], RootOutcome::NegativeY(0))));
+    let note = "negative_y is not read over a half line";
+    cases.reject("infinity-scale-negative-y", "Cover.OutcomeOnHalfLine", note, &from_thousandth, &negative);
+
+    let above = window(six.clone(), "13/2", None);
+    let absent = cover(&above, tree(alone(0, ["13/2", "13/2"], RootOutcome::Absent)));
+    cases.accept("infinity-scale-absent", "no value from 13/2 on: t - 6 is positive", &above, &absent);
+    let below = window(six, "11/2", None);
+    let absent = cover(&below, tree(alone(0, ["11/2", "11/2"], RootOutcome::Absent)));
+    let note = "t - 6 changes its sign above 11/2";
+    cases.reject("infinity-scale-absent-below", "Cover.SignChange", note, &below, &absent);
+
+    two_particles(cases);
+}
+
+/// Fig. 1 with mu = 8, S = (+1, -1): slip-stick at 62/25. The half line from 1/1000 holds it for the support {0}.
+fn two_particles(cases: &mut Cases) {
+    let text = include_str!("../../spec/examples/two-particles.json");
+    let given = mceip::model::file::read_problem(text, std::path::Path::new(".")).unwrap();
+    let problem = window(given, "1/1000", None);
+    let tree = |leaf: Root| {
+        vec![Node::Branch(0), Node::Open, Node::Branch(1), Node::Root(Box::new(leaf)), Node::Open]
+    };
+
+    let forged = cover(&problem, tree(alone(0, ["2000", "3000"], RootOutcome::Solution)));
+    let note = "slip-stick is at 62/25; this leaf used to be accepted";
+    cases.reject("infinity-scale-two-particles", "Cover.OutcomeOnHalfLine", note, &problem, &forged);
+
+    let pencil = mceip::reduction::reduce(&problem).unwrap().pencil;
+    let candidate = mceip::candidate::Candidate { value: 2.48, x: vec![1.0, 0.0] };
+    let claim = mceip::certify::certify(&pencil, problem.window(), &candidate).unwrap();
+    let with_claim = |interval: [&str; 2]| {
+        let mut c = cover(&problem, tree(alone(0, interval, RootOutcome::Claim(0))));
+        c.claims.push(claim.clone());
+        c
+    };
+
+    let note = "slip-stick by a claim, over a half line from 1/1000; the other supports open";
+    cases.undecided("infinity-scale-claim", note, &problem, &with_claim(["2", "3"]));
+    let note = "the claim's value is not in the interval";
+    cases.reject("infinity-scale-claim-elsewhere", "Cover.NotTheClaim", note, &problem, &with_claim(["2000", "3000"]));
 }
 
 /// [[1, -6], [2, -6]] + t I has no value on {0, 1} above 3. From 64 on: Y = 1/8, v = 1/16, u = -1/64 (rows over 8).
@@ -54,7 +126,7 @@ fn chord(cases: &mut Cases) {
     no("inverse", "Cover.NotRegular", "Y = 0", &absent(&|r| r.inverse = vec![vec![Integer::from(0)]]));
     no(
         "solution",
-        "Cover.NoSignChange",
+        "Cover.OutcomeOnHalfLine",
         "a solution where there is none",
         &absent(&|r| {
             (r.interval, r.outcome) = ([q("64"), q("65")], RootOutcome::Solution);

@@ -19,7 +19,8 @@ pub(super) type Matrix = Vec<Vec<Integer>>;
 const FRACTION_BITS: u64 = 128;
 
 /// T(t) for t between two values: convex combinations of (m[0] +- r[0]) and (m[1] +- r[1]), all in
-/// units of 1 / `scale`. At an infinite end m[1] is the direction B.
+/// units of 1 / `scale`. At an infinite end m[1] is the direction B, in the same units.
+#[derive(Clone)]
 pub(super) struct Ends {
     pub(super) m: [Matrix; 2],
     pub(super) r: [Matrix; 2],
@@ -123,7 +124,11 @@ impl Linear {
                 let width = ((hi - lo) * Rational::from_integer(common.clone())).to_integer(); // common clears both
                 (m1, r1, by_row(&width))
             }
-            None => (self.b.clone(), by_row(&Integer::one()), by_row(&Integer::zero())),
+            None => {
+                // The direction B, in the unit of the lower end.
+                let direction = self.b.iter().map(|row| row.iter().map(|v| v * &common).collect()).collect();
+                (direction, by_row(&common), by_row(&Integer::zero()))
+            }
         };
         Ends { m: [m0, m1], r: [r0, r1], slope, scale: common << FRACTION_BITS, infinite: hi.is_none() }
     }
@@ -183,17 +188,39 @@ mod tests {
         }
     }
 
+    /// Entry (i, j) of A + tB or of B, from the rows as given: divided by the power of two of row i.
+    fn given(rows: &Rows, i: usize, j: usize, t: Option<&Rational>) -> Rational {
+        let (_, a, b) = rows.rows[i].iter().find(|(column, _, _)| *column == j).unwrap();
+        let whole = |v: &Integer| Rational::from_integer(v.clone());
+
+        let entry = match t {
+            Some(t) => whole(a) + t * whole(b),
+            None => whole(b),
+        };
+        let row_scale = Rational::from_integer(Integer::one() << [21u32, 128, 131][i]);
+        entry / row_scale
+    }
+
+    /// Both ends are in one unit, 1 / `scale`, whatever the denominator of the lower end.
     #[test]
     fn an_infinite_end_is_the_direction() {
         let rows = rows();
-        let ends = Linear::of(&rows).ends(&rational(2, 3), None);
-        assert_eq!((ends.scale, ends.infinite), (Integer::from(3) << 128u32, true));
-        for i in 0..3 {
-            for j in 0..3 {
-                let (a, b) = fixed(&rows, i, j);
-                assert_eq!([&ends.m[0][i][j], &ends.m[1][i][j]], [&(&a * 3 + &b * 2), &b]);
-                assert_eq!([&ends.r[0][i][j], &ends.r[1][i][j]], [5 * i64::from(i == 2), i64::from(i == 2)].map(Integer::from).each_ref());
-                assert_eq!(ends.slope[i][j], Integer::zero());
+        for lo in [whole(2), rational(2, 3), rational(1, 1000), rational(1001, 7)] {
+            let ends = Linear::of(&rows).ends(&lo, None);
+            assert!(ends.infinite);
+
+            for i in 0..3 {
+                for j in 0..3 {
+                    for (end, t) in [(0, Some(&lo)), (1, None)] {
+                        let unit = |v: &Integer| Rational::new(v.clone(), ends.scale.clone());
+                        let distance = unit(&ends.m[end][i][j]) - given(&rows, i, j, t);
+                        let radius = unit(&ends.r[end][i][j]);
+
+                        assert!(distance.abs() <= radius, "end {end}, entry ({i}, {j}), lo {lo}");
+                        assert_eq!(radius.is_zero(), i != 2, "end {end}, entry ({i}, {j}), lo {lo}");
+                    }
+                    assert_eq!(ends.slope[i][j], Integer::zero());
+                }
             }
         }
         assert!(Family::Linear(Linear::of(&rows)).ends(None, &whole(1), None).is_ok());

@@ -135,6 +135,12 @@ pub enum CoverFault {
         /// Upper end.
         b: Rational,
     },
+    /// An outcome that the checker does not read over a half line.
+    #[error("root: expected absent, claim or infinity over an interval to infinity without a reversed anchor, got {outcome}")]
+    OutcomeOnHalfLine {
+        /// The outcome's word in the file.
+        outcome: &'static str,
+    },
     /// What is given for the null vector at infinity is none.
     #[error("root: expected {expected} for the null vector at infinity, broken at index {index}")]
     NotAtInfinity {

@@ -8,8 +8,7 @@ use super::CoverFault;
 use super::family::{Ends, Family, Matrix};
 use crate::check::pencil::Rows;
 use crate::exact::{Integer, Rational};
-use num_integer::Integer as _;
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 impl Family {
     /// Does the piece's anchor expand B + sA?
@@ -20,44 +19,54 @@ impl Family {
         }
     }
 
-    /// The ends over a hull and over an interval in it, in one scale: what bounds the inverse over the first bounds it over
-    /// the second.
-    pub(super) fn nested(
+    /// The ends that a root leaf over the hull [lo, hi] is judged by: those of T itself, over a half line those of
+    /// the chord.
+    pub(super) fn hull_ends(
         &self,
         anchor: Option<usize>,
-        (lo, hi): (&Rational, Option<&Rational>),
-        [a, b]: [&Rational; 2],
-    ) -> Result<[Ends; 2], CoverFault> {
+        lo: &Rational,
+        hi: Option<&Rational>,
+    ) -> Result<Ends, CoverFault> {
         if hi.is_some() || self.is_reversed(anchor) {
-            return Ok([self.ends(anchor, lo, hi)?, self.ends(anchor, a, Some(b))?]);
+            return self.ends(anchor, lo, hi);
         }
         if lo.is_zero() {
             return Err(CoverFault::RootTooEarly);
         }
+
         let cone = self.ends(anchor, lo, None)?;
-        Ok([chord(&cone, lo, lo, None), chord(&cone, lo, a, Some(b))])
+        Ok(chord(&cone, lo))
     }
 }
 
-/// s T(t) for t from `from` to `to`, out of T(lo) and the direction B (`cone`).
-fn chord(cone: &Ends, lo: &Rational, from: &Rational, to: Option<&Rational>) -> Ends {
-    let s = [lo / from, to.map_or_else(Rational::zero, |to| lo / to)];
-    let common = s[0].denom().lcm(s[1].denom()) * lo.denom();
-    let whole = |v: Rational| (v * Rational::from_integer(common.clone())).to_integer(); // common clears it
-    let mix = |list: &[Matrix; 2], p: &Integer, q: &Integer| -> Matrix {
-        let rows = list[0].iter().zip(&list[1]);
-        rows.map(|(a, b)| a.iter().zip(b).map(|(a, b)| p * a + q * b).collect()).collect()
-    };
-    let end = |list: &[Matrix; 2], s: &Rational| mix(list, &whole(s.clone()), &whole((Rational::one() - s) * lo));
-    let width = &s[0] - &s[1];
+/// The ends T(lo) and lo B of s T(t), s = lo / t from 1 to 0, out of T(lo) and the direction B (`cone`).
+///
+/// In units of 1 / (scale of the cone times the denominator of lo).
+fn chord(cone: &Ends, lo: &Rational) -> Ends {
+    let [at_lo, direction] = &cone.m;
+    let [radius_at_lo, radius_of_direction] = &cone.r;
+    let (p, q) = (lo.numer(), lo.denom());
+
+    let radius = [multiple(q, radius_at_lo), multiple(p, radius_of_direction)];
+    // d(sT)/ds = T(lo) - lo B, and each of the two lies within its radius.
+    let slope = sum(&radius[0], &radius[1]);
+
     Ends {
-        m: [end(&cone.m, &s[0]), end(&cone.m, &s[1])],
-        r: [end(&cone.r, &s[0]), end(&cone.r, &s[1])],
-        // T(lo) and B each lie within their radius.
-        slope: mix(&cone.r, &whole(width.clone()), &whole(width * lo)),
-        scale: &cone.scale * &common,
-        infinite: to.is_none(),
+        m: [multiple(q, at_lo), multiple(p, direction)],
+        r: radius,
+        slope,
+        scale: &cone.scale * q,
+        infinite: true,
     }
+}
+
+fn multiple(factor: &Integer, matrix: &Matrix) -> Matrix {
+    matrix.iter().map(|row| row.iter().map(|v| factor * v).collect()).collect()
+}
+
+fn sum(left: &Matrix, right: &Matrix) -> Matrix {
+    let row = |(l, r): (&Vec<Integer>, &Vec<Integer>)| l.iter().zip(r).map(|(l, r)| l + r).collect();
+    left.iter().zip(right).map(row).collect()
 }
 
 /// x is a null vector of the limit at infinity on the moving set: B x = 0 on the moving and the free rows, x zero at rest
@@ -96,6 +105,7 @@ mod tests {
     use super::super::family::Linear;
     use super::*;
     use crate::exact::{rational, whole};
+    use num_traits::One;
 
     fn rows(rows: &[&[(i64, i64)]], free: &[usize]) -> Rows {
         let row = |r: &&[(i64, i64)]| r.iter().enumerate().map(|(j, (a, b))| (j, Integer::from(*a), Integer::from(*b))).collect();
@@ -103,43 +113,44 @@ mod tests {
         Rows { rows: rows.iter().map(row).collect(), factor: vec![Integer::one(); rows.len()], is_free }
     }
 
-    /// Each entry of both ends is s T(t) of the pencil, whatever the scale.
+    /// The ends of a chord are T(lo) and lo B of the pencil as given, each row divided by its power of two, whatever
+    /// the denominator of lo.
     #[test]
-    fn a_chord_to_infinity_is_the_pencil_times_lo_over_t() {
-        let pencil = rows(&[&[(3, 1), (-5, 2)], &[(7, -4), (0, 9)]], &[]);
-        let family = Family::Linear(Linear::of(&pencil));
-        let (lo, a, b) = (rational(3, 2), whole(2), rational(16, 3));
-        let [wide, narrow] = family.nested(None, (&lo, None), [&a, &b]).unwrap();
-        let cone = family.ends(None, &lo, None).unwrap();
-        // Rows are scaled by the checker: read their factors off T(lo).
-        let entry = |ends: &Ends, end: usize, i: usize, j: usize| Rational::new(ends.m[end][i][j].clone(), ends.scale.clone());
-        let value = |i: usize, j: usize, s: &Rational| {
-            let [t_lo, direction] = [0, 1].map(|end| entry(&cone, end, i, j));
-            s * t_lo + (Rational::one() - s) * &lo * direction
-        };
-        for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
-            assert_eq!(entry(&wide, 0, i, j), value(i, j, &whole(1)));
-            assert_eq!(entry(&wide, 1, i, j), value(i, j, &whole(0)));
-            assert_eq!(entry(&narrow, 0, i, j), value(i, j, &(&lo / &a)));
-            assert_eq!(entry(&narrow, 1, i, j), value(i, j, &(&lo / &b)));
+    fn a_chord_to_infinity_leads_from_the_pencil_to_its_direction() {
+        let given: &[&[(i64, i64)]] = &[&[(3, 1), (-5, 2)], &[(7, -4), (0, 9)]];
+        let family = Family::Linear(Linear::of(&rows(given, &[])));
+        // The largest entries of A are 5 and 7, both below 8.
+        let row_scale = whole(8);
+
+        for lo in [whole(1), rational(3, 2), rational(1, 1000), rational(22, 7)] {
+            let chord = family.hull_ends(None, &lo, None).unwrap();
+            assert!(chord.infinite);
+
+            for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                let (a, b) = given[i][j];
+                let entry = |end: usize| Rational::new(chord.m[end][i][j].clone(), chord.scale.clone());
+
+                assert_eq!(entry(0) * &row_scale, whole(a) + &lo * whole(b), "T(lo), lo = {lo}");
+                assert_eq!(entry(1) * &row_scale, &lo * whole(b), "lo B, lo = {lo}");
+            }
         }
-        assert!(wide.infinite && !narrow.infinite);
-        assert!(matches!(family.nested(None, (&whole(0), None), [&a, &b]), Err(CoverFault::RootTooEarly)));
+        assert!(matches!(family.hull_ends(None, &whole(0), None), Err(CoverFault::RootTooEarly)));
     }
 
     /// What the ends may be off T(lo) and B is carried along, and so is what the slope may be.
     #[test]
     fn a_chord_carries_the_radii() {
         let of = |v: i64| vec![vec![Integer::from(v)]];
-        let cone = Ends { m: [of(10), of(1)], r: [of(2), of(3)], slope: of(0), scale: Integer::from(5), infinite: true };
-        let (lo, a, b) = (rational(3, 2), whole(2), rational(16, 3));
-        let got = chord(&cone, &lo, &a, Some(&b));
-        let in_units = |m: &Matrix| Rational::new(m[0][0].clone(), got.scale.clone()) * whole(5);
-        let [s0, s1] = [&lo / &a, &lo / &b];
-        let off = |s: &Rational| s * whole(2) + (whole(1) - s) * &lo * whole(3);
-        assert_eq!([in_units(&got.r[0]), in_units(&got.r[1])], [off(&s0), off(&s1)]);
-        let width = s0 - s1;
-        assert_eq!(in_units(&got.slope), &width * whole(2) + width * lo * whole(3));
+        let scale = Integer::from(5);
+        let cone = Ends { m: [of(10), of(1)], r: [of(2), of(3)], slope: of(0), scale, infinite: true };
+
+        let chord = chord(&cone, &rational(3, 2));
+
+        // T(lo) = 10/5 +- 2/5, B = 1/5 +- 3/5, lo = 3/2.
+        let number = |m: &Matrix| Rational::new(m[0][0].clone(), chord.scale.clone());
+        assert_eq!([number(&chord.m[0]), number(&chord.m[1])], [whole(2), rational(3, 10)]);
+        assert_eq!([number(&chord.r[0]), number(&chord.r[1])], [rational(2, 5), rational(9, 10)]);
+        assert_eq!(number(&chord.slope), rational(13, 10));
     }
 
     #[test]

@@ -313,11 +313,13 @@ impl Walk<'_> {
         if a < self.window.min() || self.window.max().is_some_and(|max| b > max) || (a == b && !may_be_point) {
             return Err(outside());
         }
+        self.is_meant_for(region, anchor, &root.outcome)?;
         let (hull_lo, hull_hi) = ((&region.lo).min(a), region.hi.as_ref().map(|hi| hi.max(b)));
         // What is alone up to infinity is alone up to b.
         let hull = Interval::new(hull_lo.clone(), hull_hi.unwrap_or(b).clone()).ok_or_else(outside)?;
-        let [wide, narrow] = self.family.nested(anchor, (hull_lo, hull_hi), [a, b])?;
-        root::check(region, &wide, &narrow, &self.index, root)?;
+        let wide = self.family.hull_ends(anchor, hull_lo, hull_hi)?;
+        let narrow = || self.family.ends(anchor, a, Some(b));
+        root::check(region, &wide, narrow, &self.index, root)?;
         let support = self.left_open(region).moving;
         match root.outcome {
             RootOutcome::Infinity(ref x) => {
@@ -338,6 +340,26 @@ impl Walk<'_> {
                 Ok((*s == support).then(|| Found { solution: known.claim.clone(), hull }))
             }
         }
+    }
+
+    /// Outcomes that need a narrow interval on a chord are refused by name: over a half line without a reversed
+    /// anchor only `absent`, `infinity` and `claim` are read.
+    fn is_meant_for(
+        &self,
+        region: &Region,
+        anchor: Option<usize>,
+        outcome: &RootOutcome,
+    ) -> Result<(), CoverFault> {
+        let is_chord = region.hi.is_none() && !self.family.is_reversed(anchor);
+
+        let outcome = match outcome {
+            RootOutcome::Solution => "solution",
+            RootOutcome::NegativeX(_) => "negative_x",
+            RootOutcome::NegativeY(_) => "negative_y",
+            RootOutcome::Absent | RootOutcome::Claim(_) | RootOutcome::Infinity(_) => return Ok(()),
+        };
+
+        if is_chord { Err(CoverFault::OutcomeOnHalfLine { outcome }) } else { Ok(()) }
     }
 }
 

@@ -17,7 +17,13 @@ const MAX_EXPONENT: u32 = 1 << 14;
 
 /// `wide`: ends over the hull of the leaf and the root's interval; `narrow`: over that interval.
 /// For [`RootOutcome::Claim`] and [`RootOutcome::Infinity`] only uniqueness is checked here.
-pub(super) fn check(region: &Region, wide: &Ends, narrow: &Ends, index: &[usize], root: &Root) -> Result<(), CoverFault> {
+pub(super) fn check(
+    region: &Region,
+    wide: &Ends,
+    narrow: impl FnOnce() -> Result<Ends, CoverFault>,
+    index: &[usize],
+    root: &Root,
+) -> Result<(), CoverFault> {
     let system = System::new(region, index, root)?;
     let (rho, eta) = (system.norm(wide, Side::Right)?, system.norm(wide, Side::Left)?);
     let right = system.error(wide, Side::Right, &rho);
@@ -32,12 +38,13 @@ pub(super) fn check(region: &Region, wide: &Ends, narrow: &Ends, index: &[usize]
         RootOutcome::Absent => return Err(CoverFault::SignChange),
         _ => {}
     }
-    if system.schur_sign(narrow, 0, &rho) * system.schur_sign(narrow, 1, &rho) != -1 {
+    let narrow = narrow()?;
+    if system.schur_sign(&narrow, 0, &rho) * system.schur_sign(&narrow, 1, &rho) != -1 {
         let [lo, hi] = &root.interval;
         return Err(CoverFault::NoSignChange { lo: lo.0.clone(), hi: hi.0.clone() });
     }
-    let error = system.error(narrow, Side::Right, &rho);
-    system.signs(region, narrow, &error, index, root)
+    let error = system.error(&narrow, Side::Right, &rho);
+    system.signs(region, &narrow, &error, index, root)
 }
 
 enum Side {
