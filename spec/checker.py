@@ -14,7 +14,7 @@ import sys
 from fractions import Fraction as Q
 from math import gcd, isqrt, lcm
 
-MAX_SIDE = 4096  # this checker's own limit on the order of a matrix
+MAX_SIDE = 1_000_000  # the largest order of a matrix (F)
 
 
 class Unreadable(Exception):
@@ -52,8 +52,8 @@ def number(s):
     if not m or not s.isascii():
         raise Unreadable(f"not a number: {s[:40]!r}")
     exponent = int(m[4] or 0)
-    if abs(exponent) > 5000:
-        raise Unreadable("decimal exponent beyond 5000")
+    if abs(exponent) > 400:
+        raise Unreadable("decimal exponent beyond 400")
     frac = m[3] or ""
     value = int(m[2] + frac) * (-1 if m[1] == "-" else 1)
     e = exponent - len(frac)
@@ -419,6 +419,8 @@ def isolated(poly, x, a, b):
     demand(max(len(poly), longest) <= 512, "1: more than 512 coefficients")
     bits = max([abs(c).bit_length() for c in poly] + [abs(c.numerator).bit_length() + c.denominator.bit_length() for r in [*x, (a, b)] for c in r])
     demand((len(poly) + longest) * bits <= 2**21, "1: too much work")
+    excess = max(longest - len(poly), 0)
+    demand(excess <= 1 or excess * bits <= 2**13, "1: x has too many coefficients beyond those of the polynomial")
     poly = strip(poly)  # 2
     demand(len(poly) >= 2 and a <= b, "2: degree or interval")
     if poly[-1] < 0:
@@ -1120,11 +1122,23 @@ def sign_at(poly, t):
     return (value > 0) - (value < 0)
 
 
+class Budget:
+    """What the signs of the cells of a file may cost (C, Limits)."""
+    left = 0
+
+    @classmethod
+    def spend(cls, poly, a, b):
+        bits = sum(abs(v.numerator).bit_length() + v.denominator.bit_length() for v in (a, b) if v is not None)
+        cls.left -= len(poly) ** 3 * (bits + 64)
+        demand(cls.left >= 0, "support: the signs of the cells take more work than the file's budget")
+
+
 def rootless(poly, a, b):
     """Is it certain that the polynomial has no root in (a, b)?"""
     left = [200]
 
     def none(a, b, depth):
+        Budget.spend(poly, a, b)
         changes = sign_changes(poly, a, b)
         if changes <= 1:
             return changes == 0
@@ -1247,6 +1261,7 @@ class Support:
         numbers = [c for r in polys for c in r]
         bits = max([abs(c).bit_length() for c in numbers]
                    + [abs(v.numerator).bit_length() + v.denominator.bit_length() for _, a, b, _ in points for v in (a, b)], default=0)
+        Budget.left += len(numbers) << 24
         demand(max(map(len, polys), default=0) <= 256 and (len(numbers) + len(points) + len(cells)) * bits <= 2**23, "support: too much work")
 
     @staticmethod
@@ -1327,6 +1342,11 @@ def complete_set(p, rows, window, claims, obj):
     demand((condensation is not None) == bool(p.free), "condensation is present exactly if there are free variables")
     pencil = CondensedPencil(p, rows, condensation) if p.free else PlainPencil(p, rows)
     demand(sequence(pieces), "cover: no piece")
+    demand(len(p.s) <= 1024, "cover: more than 1024 complementarity variables")
+    Budget.left = 1 << 37
+    nodes = sum(len(sequence(piece["tree"])) for piece in pieces if isinstance(piece, dict) and "tree" in piece)
+    entries = sum(len({*ra, *rb}) for _, ra, rb in rows)
+    definite_left = (1 << 29) + (nodes << 20) + (entries << 16)
     start, found, families, left_open = window[0], [], [], 0
     for number_of, piece in enumerate(pieces):
         if not isinstance(piece, dict) or "max" not in piece:
@@ -1334,8 +1354,7 @@ def complete_set(p, rows, window, claims, obj):
         end, tree, anchor = fields(piece, "max tree", "anchor")
         end = None if end is None else number(end)
         if anchor is not None:
-            demand(p.free, "an anchor without condensation")
-            anchor = place_in(anchor, len(pencil.anchors))
+            anchor = place_in(anchor, len(pencil.anchors)) if p.free else counter(anchor)
         if number_of == len(pieces) - 1:
             demand(end == window[1] and (end is None or end > start or len(pieces) == 1), "cover: the last piece")
         else:
@@ -1362,6 +1381,8 @@ def complete_set(p, rows, window, claims, obj):
             elif kind == "farkas" and value is not None:
                 farkas(pencil.ends(lo, hi, anchor), state, value)
             elif kind in ("positive_definite", "negative_definite") and value is None:
+                definite_left -= sum(st != REST for st in state) ** 3
+                demand(definite_left >= 0, "definite: more work than the file's budget")
                 definite(pencil.ends(lo, hi, anchor), state, 1 if kind[0] == "p" else -1)
             elif kind == "ldl" and value is not None:
                 ldl(p, lo, hi, state, value)

@@ -3,6 +3,8 @@
 //! (spec/formats.md, Versions); new ones are written by
 //!
 //!     cargo test --test corpus -- --ignored write_the_corpus
+//!
+//! but for the files `hostile-*` whose work is limited (spec/complete-set.md, Limits), which are written by hand.
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -171,18 +173,20 @@ fn every_obligation_has_a_forgery() {
     assert!(missing.is_empty(), "no forgery for {missing:?}");
 }
 
-/// From outside: exit codes, one line on stderr for what is malformed, two gigabytes and ten seconds at most.
+/// From outside: exit codes, one line on stderr for what is malformed, 512 MiB of addresses and ten seconds of processor
+/// time at most. (The program that is released takes less than half of the time of this unoptimised one.)
 #[test]
 fn the_program_stays_within_bounds() {
     let folder = tempfile::tempdir().unwrap();
-    for e in entries(folder.path()).iter().filter(|e| e.code() == 2 || e.file.get("repeat").is_some()) {
+    let is_heavy = |e: &Entry| e.file.get("repeat").is_some() || e.name.contains("hostile");
+    for e in entries(folder.path()).iter().filter(|e| e.code() == 2 || is_heavy(e)) {
         let start = Instant::now();
         let mut run = Command::new("sh");
-        run.args(["-c", "ulimit -v 2000000; exec \"$0\" check \"$1\" \"$2\"", env!("CARGO_BIN_EXE_mceip"), &e.problem, &e.certificate]);
+        run.args(["-c", "ulimit -v 524288; ulimit -t 10; exec \"$0\" check \"$1\" \"$2\"", env!("CARGO_BIN_EXE_mceip"), &e.problem, &e.certificate]);
         let o = run.output().unwrap();
         let err = String::from_utf8_lossy(&o.stderr);
         assert_eq!(o.status.code(), Some(e.code()), "{}: {err}", e.name);
-        assert!(start.elapsed() < Duration::from_secs(10), "{}: {:?}", e.name, start.elapsed());
+        assert!(start.elapsed() < Duration::from_secs(30), "{}: {:?}", e.name, start.elapsed());
         if e.code() == 2 {
             assert!(o.stdout.is_empty() && err.lines().count() == 1 && err.len() < 1000, "{}: {err}", e.name);
         }

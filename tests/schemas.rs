@@ -195,8 +195,8 @@ fn damaged(file: &Value) -> Vec<Value> {
         json!(null),
         json!(true),
         json!(-1),
-        json!("1e5000"),
-        json!("1e5001"),
+        json!("1e400"),
+        json!("1e401"),
         json!("x"),
         json!("1/0"),
         json!([]),
@@ -308,7 +308,7 @@ fn the_readers_of_reports_and_certificates_agree_with_the_schemas() {
     let mut count = [0usize; 2];
     for copy in damaged(&report) {
         let (valid, read) = (solutions.is_valid(&copy), ForeignReport::read(&copy.to_string(), &problem, &reduced));
-        // 1e5000 is a number and no double; lengths and digests are not of the shape.
+        // 1e400 is a number and no double; lengths and digests are not of the shape.
         let of_meaning =
             matches!(read, Err(ForeignError::File(ModelError::Number { .. }) | ForeignError::Length { .. } | ForeignError::Digest { .. }));
         assert_eq!(valid, read.is_ok() || of_meaning, "{copy}: {read:?}");

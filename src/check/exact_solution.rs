@@ -20,6 +20,11 @@ const MAX_COEFFICIENTS: usize = 512;
 /// Largest product of the number of coefficients (of p and of the longest x_i) and the bits of the
 /// longest number of the claim: bounds the work on a file that is small but hostile.
 const MAX_SIZE: usize = 1 << 21;
+/// By how many coefficients x may exceed p for numbers of any length (y = (A + tB) x has one more than x), and the largest
+/// product of a larger excess with the bits of the longest number: every coefficient in excess makes a remainder longer
+/// by the leading coefficient of p.
+const FREE_EXCESS: usize = 1;
+const MAX_EXCESS_SIZE: usize = 1 << 13;
 
 pub(super) fn check(rows: &Rows, window: &Window, claim: &ExactSolution) -> Result<AcceptedClaim, Reason> {
     index_set(rows, "support", &claim.support)?;
@@ -51,11 +56,15 @@ pub(super) fn bounded<'a>(
     let of = |n: &Number| n.0.numer().bits() + n.0.denom().bits();
     let numbers = interval.iter().chain(x.into_iter().flatten()).map(of);
     let bits = numbers.chain(polynomial.iter().map(|c| c.bits())).max().unwrap_or(0);
-    at_most(
-        "size (coefficients times bits)",
-        MAX_SIZE,
-        usize::try_from(bits).unwrap_or(usize::MAX).saturating_mul(coefficients + longest_x),
-    )
+    let bits = usize::try_from(bits).unwrap_or(usize::MAX);
+    at_most("size (coefficients times bits)", MAX_SIZE, bits.saturating_mul(coefficients + longest_x))?;
+
+    let excess = longest_x.saturating_sub(coefficients);
+    if excess <= FREE_EXCESS {
+        return Ok(());
+    }
+    let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
+    at_most(what, MAX_EXCESS_SIZE, bits.saturating_mul(excess))
 }
 
 /// Ascending indices of complementarity variables.
@@ -82,7 +91,7 @@ pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason
     if at_a * at_b != -1 {
         return Err(Reason::NoSignChange { at_a, at_b });
     }
-    let slope = value.horner(&p.derivative());
+    let slope = value.horner_rounded(&p.derivative());
     if slope.certain_sign() == 0 {
         return Err(Reason::NotIsolated { lo: slope.lo().clone(), hi: slope.hi().clone() });
     }
@@ -111,7 +120,7 @@ impl Alpha {
     }
 
     pub(super) fn enclose(&self, g: &[Rational]) -> Interval {
-        self.value.horner(&self.remainder(g))
+        self.value.horner_rounded(&self.remainder(g))
     }
 }
 
@@ -224,9 +233,29 @@ mod tests {
         assert_eq!(of(513, 0, (1, 1)), large("coefficients of the polynomial", 512, 513));
         assert_eq!(of(1, 513, (1, 1)), large("coefficients of x", 512, 513));
         let size = "size (coefficients times bits)";
-        let edge = 1u64 << 18; // 3 + 5 coefficients: 2^21 in all
-        assert_eq!([of(3, 5, (edge - 1, 1)), of(3, 5, (edge / 2, edge / 2))], [Ok(()), Ok(())]);
-        assert_eq!(of(3, 5, (edge, 1)), large(size, 1 << 21, (1 << 21) + 8));
-        assert_eq!(of(3, 5, (edge / 2, edge / 2 + 1)), large(size, 1 << 21, (1 << 21) + 8));
+        let edge = 1u64 << 18; // 4 + 4 coefficients: 2^21 in all
+        assert_eq!([of(4, 4, (edge - 1, 1)), of(4, 4, (edge / 2, edge / 2))], [Ok(()), Ok(())]);
+        assert_eq!(of(4, 4, (edge, 1)), large(size, 1 << 21, (1 << 21) + 8));
+        assert_eq!(of(4, 4, (edge / 2, edge / 2 + 1)), large(size, 1 << 21, (1 << 21) + 8));
+    }
+
+    /// One coefficient more than p is free for numbers of any length; each further one counts with the bits.
+    #[test]
+    fn x_has_a_largest_excess() {
+        let zero = || Number(whole(0));
+        let of = |coefficients: usize, longest_x: usize, bits: u64| {
+            let number = Number(Rational::from_integer(Integer::from(1) << (bits - 2)));
+            bounded(&vec![Integer::from(1); coefficients], &[zero(), number], &[vec![zero(); longest_x]])
+        };
+        let large = |got| {
+            let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
+            Err(Reason::TooLarge { what, limit: 1 << 13, got })
+        };
+
+        // 2^k has k + 1 bits and the denominator one.
+        assert_eq!([of(3, 4, 1 << 17), of(3, 3, 1 << 17), of(3, 2, 1 << 17)], [Ok(()), Ok(()), Ok(())]);
+        assert_eq!([of(3, 5, 1 << 12), of(3, 11, 1 << 10)], [Ok(()), Ok(())]);
+        assert_eq!(of(3, 5, (1 << 12) + 1), large((1 << 13) + 2));
+        assert_eq!(of(3, 12, 1 << 10), large(9 << 10));
     }
 }

@@ -14,7 +14,7 @@ mod lifted_solution;
 mod pencil;
 mod reason;
 
-pub use cover::{AcceptedCover, CoverFault, OpenRegion, SolutionFamily};
+pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, SolutionFamily};
 pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};

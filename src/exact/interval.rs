@@ -110,6 +110,14 @@ impl Interval {
         Interval { lo: Rational::new(lo, scale.clone()), hi: Rational::new(hi, scale) }
     }
 
+    /// [`Interval::horner`] with both ends rounded outward to 64 bits. The signs of the ends are those of the exact
+    /// ones, and no long fraction is reduced.
+    pub fn horner_rounded(&self, p: &Poly) -> Interval {
+        let (lo, hi, scale) = self.horner_scaled(p);
+        let hi_below = rounded_down(&-hi, &scale);
+        Interval { lo: rounded_down(&lo, &scale), hi: -hi_below }
+    }
+
     /// [`Interval::certain_sign`] of [`Interval::horner`], without reducing a fraction.
     pub(super) fn sign_on(&self, p: &Poly) -> i8 {
         let (lo, hi, _) = self.horner_scaled(p);
@@ -143,6 +151,24 @@ impl Interval {
     }
 }
 
+/// The largest number with 64 bits or one more, or fewer after the point, that is at most `numerator / denominator`
+/// (> 0).
+fn rounded_down(numerator: &Integer, denominator: &Integer) -> Rational {
+    const BITS: i64 = 64;
+
+    // The quotient times 2^shift has 64 or 65 bits.
+    let quotient_bits = numerator.bits() as i64 - denominator.bits() as i64;
+    let shift = BITS - quotient_bits;
+
+    if shift >= 0 {
+        let quotient = (numerator << shift.unsigned_abs()).div_floor(denominator);
+        Rational::new(quotient, Integer::one() << shift.unsigned_abs())
+    } else {
+        let unit = denominator << shift.unsigned_abs();
+        Rational::from_integer(numerator.div_floor(&unit) << shift.unsigned_abs())
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -157,6 +183,28 @@ mod tests {
             assert!(image.contains(&p.eval(&rational(k, 10))));
         }
         assert!(!image.contains(&whole(100)));
+    }
+
+    /// Ends that are integers, long fractions, huge and tiny: outward, close, and of the same sign.
+    #[test]
+    fn rounded_images_contain_the_exact_ones() {
+        let tiny = Rational::new(1.into(), Integer::from(3).pow(400));
+        let huge = Rational::from_integer(Integer::from(7).pow(300));
+        let ends = [whole(0), whole(1), rational(22, 7), -tiny.clone(), tiny, -huge.clone(), huge];
+        let polynomials = [vec![], vec![0, 1], vec![0, -1], vec![5], vec![-2, 0, 1], vec![1, -3, 0, 7]];
+
+        for (a, b) in ends.iter().flat_map(|a| ends.iter().map(move |b| (a, b))).filter(|(a, b)| a <= b) {
+            let t = Interval::new(a.clone(), b.clone()).unwrap();
+            for p in polynomials.iter().map(|c| Poly::from_ints(c)) {
+                let (exact, rounded) = (t.horner(&p), t.horner_rounded(&p));
+
+                assert!(rounded.lo <= exact.lo && exact.hi <= rounded.hi, "{a} {b} {p}");
+                assert_eq!(rounded.certain_sign(), exact.certain_sign(), "{a} {b} {p}");
+                for (close, end) in [(&rounded.lo, &exact.lo), (&rounded.hi, &exact.hi)] {
+                    assert!((close - end).abs() * whole(1 << 62) <= end.abs(), "{a} {b} {p}");
+                }
+            }
+        }
     }
 
     #[test]

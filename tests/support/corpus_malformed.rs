@@ -28,6 +28,8 @@ pub fn malformed(cases: &mut Cases) {
     add("truncated-by-one", "the last brace missing", text[..text.len() - 1].into(), None);
     add("trailing", "two certificates in one file", format!("{text}{text}"), None);
     add("list", "a list of certificates", format!("[{text}]"), None);
+    let note = "500 coefficients of 5,000 digits for 3 kB: an exponent beyond 400";
+    add("hostile-exponent", note, swap("\"polynomial\":[", "\"polynomial\":[@"), Some(("1e5000,", 500)));
     add("wrong-version", "version 2", swap("mceip-certificate/1", "mceip-certificate/2"), None);
     add("wrong-format", "a solution report", swap("mceip-certificate/1", "mceip-solutions/1"), None);
     add("no-format", "no version at all", swap("\"format\":\"mceip-certificate/1\",", ""), None);
@@ -98,5 +100,7 @@ pub fn hostile(cases: &mut Cases) {
     };
     add("hostile-degree", "degree 10^6", "\"polynomial\":[", "\"polynomial\":[@", "0,", 1_000_000);
     add("hostile-degree-x", "x of degree 10^6", "\"x\":[[", "\"x\":[[@", "1,", 1_000_000);
-    add("hostile-size", "500 coefficients of 5,000 digits", "\"polynomial\":[", "\"polynomial\":[@", "1e5000,", 500);
+    let digits = format!("{},", "7".repeat(5000));
+    let note = "500 coefficients of 5,000 digits, spelt out";
+    add("hostile-size-spelt", note, "\"polynomial\":[", "\"polynomial\":[@", &digits, 500);
 }

@@ -58,16 +58,22 @@ fn factor_row(given: &[i128], l: &[Vec<i128>], d: &[i128], shift_all: i128) -> O
     let i = given.len() - 1;
     let mut row: Vec<i128> = Vec::with_capacity(i);
     let mut scaled: Vec<i128> = Vec::with_capacity(i); // l_ik d_k in units of 1
+    let mut nonzero: Vec<usize> = Vec::with_capacity(i); // columns k with l_ik d_k not 0
+
     for j in 0..i {
         let mut rest = given[j] << UNIT;
-        for k in 0..j {
+        for &k in &nonzero {
             rest = rest.checked_sub(scaled[k].checked_mul(l[j][k])?)?;
         }
         row.push(rest / d[j]);
         scaled.push(rest >> UNIT);
+        if scaled[j] != 0 {
+            nonzero.push(j);
+        }
     }
+
     let mut pivot = (given[i] - shift_all) << UNIT;
-    for k in 0..i {
+    for &k in &nonzero {
         pivot = pivot.checked_sub(scaled[k].checked_mul(row[k])?)?;
     }
     Some((row, pivot >> UNIT))
@@ -76,9 +82,12 @@ fn factor_row(given: &[i128], l: &[Vec<i128>], d: &[i128], shift_all: i128) -> O
 /// The residual of the unshifted matrix is diagonally dominant, computed without rounding.
 fn dominated(lower: &[Vec<i128>], l: &[Vec<i128>], d: &[i128], n: usize) -> Result<(), usize> {
     let entry = |i: usize, k: usize| if k == i { 1 << UNIT } else { l[i][k] };
+    let nonzero: Vec<Vec<usize>> = (0..n).map(|i| (0..=i).filter(|&k| entry(i, k) != 0).collect()).collect();
     let residual = |i: usize, j: usize| {
         let mut rest = lower[i][j].checked_mul(1 << (2 * UNIT))?;
-        for k in 0..=j {
+        // Column k counts where both rows have it.
+        let shorter = if nonzero[i].len() < nonzero[j].len() { &nonzero[i] } else { &nonzero[j] };
+        for &k in shorter.iter().take_while(|&&k| k <= j) {
             rest = rest.checked_sub(entry(i, k).checked_mul(d[k])?.checked_mul(entry(j, k))?)?;
         }
         Some(rest)

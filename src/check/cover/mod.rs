@@ -30,9 +30,34 @@ use crate::exact::{Integer, Interval, Rational};
 use crate::model::Window;
 use family::{Ends, Family, Linear};
 use short::Short;
+use num_traits::Zero;
 use std::cell::OnceCell;
 use std::rc::Rc;
+use rootless::Budget;
 use support::Held;
+
+/// Largest number of complementarity variables of a cover: a region has dense matrices of this order.
+pub const MAX_COVERED: usize = 1024;
+
+/// Orders cubed of definite leaves, summed over a file: without any node or entry, for each node, and for each entry of
+/// the pencil. Elimination takes a third of the cube.
+const DEFINITE_BASE: u64 = 1 << 29;
+const DEFINITE_PER_NODE: u64 = 1 << 20;
+const DEFINITE_PER_ENTRY: u64 = 1 << 16;
+
+/// What the definite leaves of a file may cost in all (spec/complete-set.md, Limits).
+fn definite_budget(rows: &Rows, cover: &CompleteSet) -> u64 {
+    let nodes: usize = cover.pieces.iter().map(|piece| piece.tree.len()).sum();
+
+    let mut entries = 0;
+    for row in &rows.rows {
+        entries += row.iter().filter(|(_, a, b)| !(a.is_zero() && b.is_zero())).count();
+    }
+
+    let by_nodes = DEFINITE_PER_NODE.saturating_mul(nodes as u64);
+    let by_entries = DEFINITE_PER_ENTRY.saturating_mul(entries as u64);
+    DEFINITE_BASE.saturating_add(by_nodes).saturating_add(by_entries)
+}
 
 /// What a cover has proved.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -116,6 +141,10 @@ pub(super) fn check(
     let index: Vec<usize> = (0..rows.order()).filter(|&i| !rows.is_free[i]).collect();
     let has_free = index.len() < rows.order();
     let whole = |fault| Reason::Cover { piece: None, node: None, fault };
+    if index.len() > MAX_COVERED {
+        let (limit, got) = (MAX_COVERED as u64, index.len() as u64);
+        return Err(whole(CoverFault::TooLarge { what: "complementarity variables of a cover", limit, got }));
+    }
     let family = match &cover.condensation {
         None if !has_free => Family::Linear(Linear::of(rows)),
         Some(condensation) if has_free => {
@@ -130,10 +159,11 @@ pub(super) fn check(
     }
     let tail = tail.map(|t| &t.from.0);
     let mut walk =
-        Walk { rows, family, index, window, tail, claims, found: Vec::new(), families: Vec::new(), open: Vec::new(), leaves: 0, refused };
+        Walk { rows, family, index, window, tail, claims, found: Vec::new(), families: Vec::new(), open: Vec::new(), leaves: 0, budget: Budget::new(), definite_left: definite_budget(rows, cover), refused };
     let mut lo = window.min().clone();
     for (k, piece) in cover.pieces.iter().enumerate() {
         let is_last = k + 1 == cover.pieces.len();
+        walk.anchor(piece).map_err(|fault| Reason::Cover { piece: Some(k), node: None, fault })?;
         walk.piece_end(&lo, piece, is_last).map_err(|fault| Reason::Cover { piece: Some(k), node: None, fault })?;
         walk.piece(k, &lo, piece).map_err(|(node, fault)| Reason::Cover { piece: Some(k), node: Some(node), fault })?;
         lo = piece.max.as_ref().map_or(lo, |n| n.0.clone());
@@ -169,11 +199,24 @@ struct Walk<'a> {
     families: Vec<SolutionFamily>,
     open: Vec<OpenRegion>,
     leaves: usize,
+    /// For the signs of support leaves.
+    budget: Budget,
+    /// For definite leaves: orders cubed.
+    definite_left: u64,
     /// Where leaves that fail are noted, if they are to be taken for open ones.
     refused: Option<&'a mut Vec<(usize, usize)>>,
 }
 
 impl Walk<'_> {
+    /// An anchor that is named exists. Without a condensation it is ignored.
+    fn anchor(&self, piece: &Piece) -> Result<(), CoverFault> {
+        let Family::Condensed(list) = &self.family else { return Ok(()) };
+        match piece.anchor {
+            Some(k) if k >= list.len() => Err(CoverFault::Anchor { anchors: list.len(), got: Some(k) }),
+            _ => Ok(()),
+        }
+    }
+
     /// Pieces rise, and the last one ends the window. A window of one point is one piece.
     fn piece_end(&self, lo: &Rational, piece: &Piece, is_last: bool) -> Result<(), CoverFault> {
         let max = piece.max.as_ref().map(|n| &n.0);
@@ -254,9 +297,11 @@ impl Walk<'_> {
             Node::Open => self.open.push(self.left_open(region)),
             Node::Farkas(w) => leaf::farkas(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, w)?,
             Node::PositiveDefinite => {
+                self.spend_definite(region)?;
                 leaf::definite(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, 1)?;
             }
             Node::NegativeDefinite => {
+                self.spend_definite(region)?;
                 leaf::definite(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, -1)?;
             }
             Node::Ldl(witness) => ldl::check(self.rows, region, &self.index, witness)?,
@@ -266,6 +311,17 @@ impl Walk<'_> {
             }
             Node::Support(leaf) => self.support(region, leaf)?,
         }
+        Ok(())
+    }
+
+    /// A definite leaf costs the cube of the number of variables that may move.
+    fn spend_definite(&mut self, region: &Region) -> Result<(), CoverFault> {
+        let order = region.states.iter().filter(|state| **state != State::Rest).count() as u64;
+        let cost = order.saturating_pow(3);
+
+        let what = "definite leaves: order cubed, left of the file's budget";
+        let too_large = CoverFault::TooLarge { what, limit: self.definite_left, got: cost };
+        self.definite_left = self.definite_left.checked_sub(cost).ok_or(too_large)?;
         Ok(())
     }
 
@@ -294,7 +350,7 @@ impl Walk<'_> {
     /// A support leaf; isolated single solutions are listed, the others are families.
     fn support(&mut self, region: &Region, leaf: &Support) -> Result<(), CoverFault> {
         let support = self.left_open(region).moving;
-        for Held { from, to, is_point, is_alone, hull } in support::check(self.rows, region, &self.index, leaf)? {
+        for Held { from, to, is_point, is_alone, hull } in support::check(self.rows, region, &self.index, leaf, &self.budget)? {
             let support = support.clone();
             match hull {
                 Some(hull) if is_alone => self.found.push(Found { solution: AcceptedClaim { support, value: from }, hull }),
@@ -385,6 +441,8 @@ mod tests {
             families,
             open,
             leaves: 0,
+            budget: Budget::new(),
+            definite_left: 0,
             refused: None,
         };
         let states = vec![State::Open; 2];

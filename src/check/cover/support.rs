@@ -6,7 +6,7 @@
 //! c x_j + d x_k from below and from above by what x itself has. Signs at a point are those of remainders, signs on
 //! a cell come from `rootless`.
 
-use super::rootless::{Root, sign_between};
+use super::rootless::{Budget, Root, sign_between};
 use super::{CoverFault, Region, State};
 use crate::certificate::{Alone, Exact, Polynomials, Support};
 use crate::check::exact_solution::isolate;
@@ -29,8 +29,28 @@ pub(super) struct Held {
     pub(super) hull: Option<Interval>,
 }
 
-/// Checks a leaf; where it holds solutions.
-pub(super) fn check(rows: &Rows, region: &Region, index: &[usize], leaf: &Support) -> Result<Vec<Held>, CoverFault> {
+/// Checks a leaf; where it holds solutions. The budget is that of all leaves of the file.
+pub(super) fn check(
+    rows: &Rows,
+    region: &Region,
+    index: &[usize],
+    leaf: &Support,
+    budget: &Budget,
+) -> Result<Vec<Held>, CoverFault> {
+    let verdict = held(rows, region, index, leaf, budget);
+    if budget.is_spent() {
+        return Err(CoverFault::OutOfBudget);
+    }
+    verdict
+}
+
+fn held(
+    rows: &Rows,
+    region: &Region,
+    index: &[usize],
+    leaf: &Support,
+    budget: &Budget,
+) -> Result<Vec<Held>, CoverFault> {
     let moving: Vec<usize> = (0..index.len()).filter(|&p| region.states[p] == State::Moving).map(|p| index[p]).collect();
     let is_empty = leaf.points.is_empty() && leaf.cells.is_empty();
     if region.states.contains(&State::Open) || moving.is_empty() != is_empty {
@@ -39,7 +59,7 @@ pub(super) fn check(rows: &Rows, region: &Region, index: &[usize], leaf: &Suppor
     if moving.is_empty() {
         return Ok(Vec::new()); // x_s = 0, and T_ff is regular: x = 0
     }
-    bounded(leaf)?;
+    budget.add_coefficients(bounded(leaf)?);
     let system = System::new(rows, &moving);
     let roots = points(region, leaf)?;
     let reason = |k: usize| leaf.reasons.get(k).ok_or(CoverFault::NoReason { reason: k, reasons: leaf.reasons.len() });
@@ -48,7 +68,7 @@ pub(super) fn check(rows: &Rows, region: &Region, index: &[usize], leaf: &Suppor
         held[2 * k + 1] = system.holds(reason(leaf.points[k].reason)?, &|g| root.sign(g), 2 * k)?;
     }
     for (k, cell) in leaf.cells.iter().enumerate() {
-        held[2 * k + 2] = system.holds(reason(*cell)?, &|g| sign_between(g, &roots[k], roots.get(k + 1)), 2 * k + 1)?;
+        held[2 * k + 2] = system.holds(reason(*cell)?, &|g| sign_between(g, &roots[k], roots.get(k + 1), budget), 2 * k + 1)?;
     }
     let mut out = Vec::new();
     for (k, is_alone) in (1..held.len()).filter_map(|k| held[k].map(|alone| (k, alone))) {
@@ -93,8 +113,8 @@ fn points(region: &Region, leaf: &Support) -> Result<Vec<Root>, CoverFault> {
     Ok(roots)
 }
 
-/// The leaf is small enough to be multiplied out.
-fn bounded(leaf: &Support) -> Result<(), CoverFault> {
+/// The leaf is small enough to be multiplied out; its number of coefficients.
+fn bounded(leaf: &Support) -> Result<u64, CoverFault> {
     let vectors = leaf.reasons.iter().flat_map(|reason| match reason {
         Exact::None(w) => vec![w],
         Exact::Some(m) => std::iter::once(&m.x).chain(m.alone.iter().flat_map(|a| a.rows.iter().map(|(_, l)| l))).collect(),
@@ -111,7 +131,8 @@ fn bounded(leaf: &Support) -> Result<(), CoverFault> {
     let places = (leaf.points.len() + leaf.cells.len()) as u64;
     let at_most = |what, limit, got| if got > limit { Err(CoverFault::TooLarge { what, limit, got }) } else { Ok(()) };
     at_most("coefficients of a polynomial", MAX_COEFFICIENTS as u64, longest as u64)?;
-    at_most("coefficients and places times bits", MAX_SIZE, (coefficients + places).saturating_mul(bits))
+    at_most("coefficients and places times bits", MAX_SIZE, (coefficients + places).saturating_mul(bits))?;
+    Ok(coefficients)
 }
 
 /// The sign of a polynomial at a place, if it can be told.

@@ -22,6 +22,17 @@ pub enum CompleteError {
         /// A free variable of it.
         index: usize,
     },
+    /// More complementarity variables than a cover may have.
+    #[error("complete: expected at most {limit} complementarity variables, got {got}")]
+    TooManySlip {
+        /// The checker's limit.
+        limit: usize,
+        /// Variables of the problem.
+        got: usize,
+    },
+    /// A certificate to go on with has free variables eliminated, and nothing to search with.
+    #[error("certificate: expected a condensation with at least one anchor to go on with, got none")]
+    NoAnchor,
     /// A certificate was made for other matrices.
     #[error("certificate: expected problem {expected}, got {got:?}")]
     OtherProblem {

@@ -6,7 +6,7 @@ use super::root::null_vector;
 use super::tree::{State, short};
 use super::view::{Expansion, View};
 use crate::certificate::{CompleteSet, Condensation, Node, Piece};
-use crate::check::AcceptedClaim;
+use crate::check::{AcceptedClaim, MAX_COVERED};
 use crate::exact::{Rational, to_f64};
 use crate::model::file::Number;
 use crate::model::{Pencil, Problem};
@@ -25,8 +25,12 @@ pub(super) struct Prepared {
 impl Prepared {
     /// Condenses where there are free variables, and cuts the window into about `count` pieces.
     pub(super) fn new(problem: &Problem, pencil: &Pencil, count: usize) -> Result<Prepared, CompleteError> {
-        if pencil.slip().is_empty() {
+        let slip = pencil.slip().len();
+        if slip == 0 {
             return Err(CompleteError::NothingSlips);
+        }
+        if slip > MAX_COVERED {
+            return Err(CompleteError::TooManySlip { limit: MAX_COVERED, got: slip });
         }
         let window = problem.window();
         if pencil.free().is_empty() {
@@ -144,6 +148,7 @@ impl Prepared {
     pub(super) fn again(pencil: &Pencil, set: &CompleteSet) -> Result<Prepared, CompleteError> {
         let view = match &set.condensation {
             None => View::of(pencil),
+            Some(condensation) if condensation.anchors.is_empty() => return Err(CompleteError::NoAnchor),
             Some(condensation) => view_of(pencil, condensation),
         };
         let pieces = set.pieces.iter().map(|p| (p.max.as_ref().map(|n| n.0.clone()), p.anchor)).collect();

@@ -38,7 +38,7 @@ fn some(x: &[&[i64]], alone: Option<Alone>) -> Exact {
 
 fn verdict(rows: &Rows, region: &Region, leaf: &Support) -> Result<Vec<Held>, CoverFault> {
     let index: Vec<usize> = (0..rows.order()).collect();
-    check(rows, region, &index, leaf)
+    check(rows, region, &index, leaf, &Budget::new())
 }
 
 /// (t - 1) x_0: one solution, at 1, between points where nothing is.
@@ -156,13 +156,13 @@ fn a_leaf_has_a_largest_size() {
     };
     // Two coefficients and one place: 3 bits <= 2^23.
     let edge = (1u64 << 23) / 3;
-    assert_eq!([of(edge - 2, 2), of(edge / 2, edge - edge / 2)], [Ok(()), Ok(())]);
+    assert_eq!([of(edge - 2, 2), of(edge / 2, edge - edge / 2)], [Ok(2), Ok(2)]);
     let large = |got| Err(CoverFault::TooLarge { what: "coefficients and places times bits", limit: 1 << 23, got });
     assert_eq!(of(edge - 1, 2), large(3 * (edge + 1)));
     let long = |length: usize| {
         let leaf = Support { points: vec![], cells: vec![], reasons: vec![Exact::None(Polynomials(vec![vec![1.into(); length]]))] };
         bounded(&leaf)
     };
-    assert_eq!(long(256), Ok(()));
+    assert_eq!(long(256), Ok(256));
     assert_eq!(long(257), Err(CoverFault::TooLarge { what: "coefficients of a polynomial", limit: 256, got: 257 }));
 }
