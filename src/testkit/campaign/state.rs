@@ -3,6 +3,7 @@
 use super::Judgement;
 use crate::model::ModelError;
 use crate::model::file::{from_json, require_format};
+use crate::testkit::floors::{Coverage, FLOORS, Shortfall, shortfalls};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -40,6 +41,9 @@ pub struct Tally {
     pub findable: u64,
     /// Of these, found by the solver and certified.
     pub found: u64,
+    /// Coverage by kind of start; absent in state files written before there were floors.
+    #[serde(default)]
+    pub coverage: BTreeMap<String, Coverage>,
     /// Certificates accepted by the checker.
     pub accepted: u64,
     /// Forgeries tried; each one accepted is a disagreement.
@@ -59,6 +63,17 @@ pub struct Tally {
 }
 
 impl Tally {
+    /// Rates of this family that are below their floors by more than chance explains.
+    pub fn shortfalls(&self, family: &str) -> Vec<Shortfall> {
+        let mut out = Vec::new();
+        for floor in FLOORS.iter().filter(|f| f.family == family) {
+            if let Some(coverage) = self.coverage.get(floor.starts.word()) {
+                out.extend(shortfalls(family, floor.starts, coverage));
+            }
+        }
+        out
+    }
+
     /// Adds what came of one instance.
     pub fn add(&mut self, id: &super::Id, judged: &Judgement) {
         let r = &judged.report;
@@ -66,6 +81,9 @@ impl Tally {
         self.solutions += r.oracle as u64;
         self.findable += if r.solved { r.oracle as u64 } else { 0 };
         self.found += r.found as u64;
+        for (starts, coverage) in r.coverage() {
+            self.coverage.entry(starts.word().into()).or_default().add(&coverage);
+        }
         self.accepted += r.accepted as u64;
         self.forgeries += r.forgeries as u64;
         self.closed += u64::from(r.completed);
@@ -110,9 +128,15 @@ impl State {
         super::Id { family, seed: self.seed, index: k / count * self.shard.1 + self.shard.0 }
     }
 
-    /// Disagreements in all families.
+    /// Disagreements in all families, shortfalls among them.
     pub fn disagreements(&self) -> usize {
-        self.tallies.iter().map(|t| t.disagreements.len()).sum()
+        let single: usize = self.tallies.iter().map(|t| t.disagreements.len()).sum();
+        single + self.shortfalls().len()
+    }
+
+    /// Rates that are below their floors by more than chance explains: findings of a family, not of an instance.
+    pub fn shortfalls(&self) -> Vec<Shortfall> {
+        self.families.iter().zip(&self.tallies).flat_map(|(family, tally)| tally.shortfalls(family)).collect()
     }
 
     /// Instances judged in all families.
