@@ -2,7 +2,10 @@
 #![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use mceip::testkit::targets::{self, TARGETS};
+use mceip::testkit::floors::Starts;
+use mceip::testkit::targets::{self, Counter, TARGETS};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
 use std::path::{Path, PathBuf};
 
 fn fuzz() -> PathBuf {
@@ -25,6 +28,14 @@ fn replay(target: &str) {
     }
     assert!(count >= 20, "{target}: only {count} inputs");
     assert!(bytes < 250_000, "{target}: {bytes} bytes of corpus, minimise it (cargo fuzz cmin)");
+}
+
+/// The corpus has at least so many solvable inputs, and the solver found as much of them as the floor asks for.
+fn held_against_its_floor(counter: &Counter, least: u64) {
+    let seen = counter.seen();
+    println!("{seen:?}");
+    assert!(seen.coverage[&Starts::Search].solvable >= least, "{seen:?}");
+    assert!(counter.shortfalls().is_empty(), "{:?}", counter.shortfalls());
 }
 
 #[test]
@@ -50,6 +61,19 @@ fn checker_against_forgeries() {
 #[test]
 fn solver_against_oracle() {
     replay("solver_against_oracle");
+    held_against_its_floor(&targets::SMALL_PENCILS, 10);
+}
+
+#[test]
+fn mechanical_systems() {
+    replay("mechanical_systems");
+    held_against_its_floor(&targets::SYSTEMS, 10);
+}
+
+#[test]
+fn two_particle_problems() {
+    replay("two_particle_problems");
+    held_against_its_floor(&targets::TWO_PARTICLES, 10);
 }
 
 #[test]
@@ -92,6 +116,21 @@ fn write_the_certificates() {
             if near != text && text.len() < 20_000 {
                 std::fs::write(fuzz().join(format!("corpus/certificate_reader/near-{k}-{m}.json")), near).unwrap();
             }
+        }
+    }
+}
+
+/// The seeds of the two targets of mechanical systems: random bytes, as many as a generator reads at most.
+#[test]
+#[ignore = "writes the corpus"]
+fn write_the_systems() {
+    for (name, length) in [("mechanical_systems", 150), ("two_particle_problems", 10)] {
+        let folder = fuzz().join("corpus").join(name);
+        std::fs::create_dir_all(&folder).unwrap();
+        for k in 0..40u64 {
+            let mut rng = ChaCha8Rng::seed_from_u64(k);
+            let bytes: Vec<u8> = (0..length).map(|_| rng.random_range(0..=255)).collect();
+            std::fs::write(folder.join(format!("seed-{k:02}")), bytes).unwrap();
         }
     }
 }

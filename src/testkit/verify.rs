@@ -1,6 +1,6 @@
 //! The main job: every family through every engine, one row each, one verdict.
 
-use super::floors::{Coverage, Shortfall, Starts, shortfalls};
+use super::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
 use super::{BlockError, BlockReport, Corner, Instance, InstanceReport, Treatment, block_state, compare_by};
 use super::{degenerate, mechanical, random_pencils, table1_grid};
 use crate::model::ModelError;
@@ -71,6 +71,21 @@ impl Verification {
         let of = |b: &BlockReport| b.rejected.len() + b.forgeries - b.rejected_forgeries + b.missing + b.unfound;
         let block: usize = self.block.iter().map(of).sum();
         self.families.iter().map(|f| f.disagreements.len()).sum::<usize>() + block + self.shortfalls().len()
+    }
+
+    /// Coverage of the families, and of PATH's own sequence on the block's states.
+    pub fn covered(&self) -> Vec<Covered> {
+        let mut out = Vec::new();
+        for family in &self.families {
+            for (starts, coverage) in &family.coverage {
+                out.push(Covered { family: family.name.into(), starts: *starts, coverage: *coverage });
+            }
+        }
+
+        for block in &self.block {
+            out.push(Covered { family: block.state.name().into(), starts: Starts::Path, coverage: block.path });
+        }
+        out
     }
 
     /// Every rate that is below its floor by more than chance explains.

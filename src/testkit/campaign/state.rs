@@ -3,7 +3,7 @@
 use super::Judgement;
 use crate::model::ModelError;
 use crate::model::file::{from_json, require_format};
-use crate::testkit::floors::{Coverage, FLOORS, Shortfall, shortfalls};
+use crate::testkit::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -63,17 +63,6 @@ pub struct Tally {
 }
 
 impl Tally {
-    /// Rates of this family that are below their floors by more than chance explains.
-    pub fn shortfalls(&self, family: &str) -> Vec<Shortfall> {
-        let mut out = Vec::new();
-        for floor in FLOORS.iter().filter(|f| f.family == family) {
-            if let Some(coverage) = self.coverage.get(floor.starts.word()) {
-                out.extend(shortfalls(family, floor.starts, coverage));
-            }
-        }
-        out
-    }
-
     /// Adds what came of one instance.
     pub fn add(&mut self, id: &super::Id, judged: &Judgement) {
         let r = &judged.report;
@@ -134,9 +123,22 @@ impl State {
         single + self.shortfalls().len()
     }
 
+    /// Coverage of each family and kind of start that was met.
+    pub fn covered(&self) -> Vec<Covered> {
+        let mut out = Vec::new();
+        for (family, tally) in self.families.iter().zip(&self.tallies) {
+            for starts in Starts::ALL {
+                if let Some(coverage) = tally.coverage.get(starts.word()) {
+                    out.push(Covered { family: family.clone(), starts, coverage: *coverage });
+                }
+            }
+        }
+        out
+    }
+
     /// Rates that are below their floors by more than chance explains: findings of a family, not of an instance.
     pub fn shortfalls(&self) -> Vec<Shortfall> {
-        self.families.iter().zip(&self.tallies).flat_map(|(family, tally)| tally.shortfalls(family)).collect()
+        self.covered().iter().flat_map(|c| shortfalls(&c.family, c.starts, &c.coverage)).collect()
     }
 
     /// Instances judged in all families.
