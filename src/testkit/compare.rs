@@ -165,7 +165,7 @@ fn run_solver(instance: &Instance, pencil: &Pencil, oracle: &Enumeration, treatm
     report.solved = true;
 
     let interior = Search { starts: INTERIOR_STARTS, ..treatment.search.clone() };
-    let path = Search { options: path_options(), ..interior.clone() };
+    let path = Search { curves: false, options: path_options(), ..interior.clone() };
     let mut runs = vec![(Starts::Search, treatment.solver, treatment.search.clone())];
     if instance.closed_form.is_some() {
         runs.push((Starts::Interior, treatment.interior, interior));

@@ -24,9 +24,9 @@ pub const CHANCE: f64 = 1e-4;
 pub enum Starts {
     /// The whole search: its own starts, curves and windows. Among its starts is each unit vector at its Ritz value.
     Search,
-    /// Runs from random points with every x_i > 0, none of them a solution; no curve of the search.
+    /// Runs and curves from random points with every x_i > 0, none of them a solution.
     Interior,
-    /// The same points, with PATH's own sequence: projected Newton, then paths; no homotopy, no Fischer-Burmeister.
+    /// Runs from the same points by PATH's own sequence: projected Newton, then paths; no curves, no Fischer-Burmeister.
     Path,
 }
 
