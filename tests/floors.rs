@@ -1,6 +1,6 @@
 //! Floors of coverage: measured here on request; held against solvers that miss solutions on purpose.
 //!
-//! `FLOOR_SEEDS=9001,9002 FLOOR_COUNT=1000 cargo test --release --test floors -- --ignored --nocapture`
+//! `FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test floors -- --ignored --nocapture`
 #![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -38,7 +38,8 @@ fn print(family: &str, sum: &ByStarts) {
     for (starts, c) in sum {
         let percent = |count: u64| 100.0 * count as f64 / c.solvable.max(1) as f64;
         let (first, all) = (percent(c.first), percent(c.all));
-        println!("    row({family:?}, Starts::{starts:?}, {:.1}, {:.1}), // {first:.2}, {all:.2} of {}", (first - 2.0).max(0.0), (all - 2.0).max(0.0), c.solvable);
+        let (least_first, least_all) = ((first - 2.0).max(0.0), (all - 2.0).max(0.0));
+        println!("    row({family:?}, Starts::{starts:?}, {least_first:.1}, {least_all:.1}), // {first:.2}, {all:.2} of {}", c.solvable);
     }
 }
 
@@ -96,7 +97,7 @@ fn measure_the_families_of_verify() {
 fn measure_the_fuzz_targets() {
     let count = numbers("FLOOR_COUNT", "500")[0];
     for (name, length, body) in SOLVER_TARGETS {
-        let corpus = corpus(name);
+        let corpus = corpus(name.trim_start_matches("fuzz: "));
         let (random, changed) = (Counter::new("measured"), Counter::new("measured"));
         for seed in numbers("FLOOR_SEEDS", "9001,9002") {
             let mut rng = ChaCha8Rng::seed_from_u64(seed);
@@ -106,18 +107,18 @@ fn measure_the_fuzz_targets() {
                 body(&with_changes(&mut rng, &corpus[k % corpus.len()]), &fuzz_treatment(), &changed);
             }
         }
-        print(&format!("fuzz: {name}, random"), &random.seen().coverage);
-        print(&format!("fuzz: {name}, changed"), &changed.seen().coverage);
+        print(&format!("{name}, random"), &random.seen().coverage);
+        print(&format!("{name}, changed"), &changed.seen().coverage);
     }
 }
 
 type Body = fn(&[u8], &Treatment, &Counter);
 
-/// Name, length of a random input, body with a solver of one's own.
+/// Family, length of a random input, body with a solver of one's own.
 const SOLVER_TARGETS: [(&str, usize, Body); 3] = [
-    ("solver_against_oracle", 34, targets::solver_against_oracle_by),
-    ("mechanical_systems", 150, targets::mechanical_systems_by),
-    ("two_particle_problems", 10, targets::two_particle_problems_by),
+    ("fuzz: solver_against_oracle", 34, targets::solver_against_oracle_by),
+    ("fuzz: mechanical_systems", 150, targets::mechanical_systems_by),
+    ("fuzz: two_particle_problems", 10, targets::two_particle_problems_by),
 ];
 
 fn corpus(target: &str) -> Vec<Vec<u8>> {
@@ -248,23 +249,20 @@ fn the_campaign_fails_with_a_solver_that_misses_solutions() {
 /// The fuzz targets with a solver panic before they have seen 200 random inputs with a plant, and not without.
 #[test]
 fn the_fuzz_targets_fail_with_a_solver_that_misses_solutions() {
-    static COUNTERS: [[Counter; 2]; 3] = [
-        [Counter::new("fuzz: solver_against_oracle"), Counter::new("fuzz: solver_against_oracle")],
-        [Counter::new("fuzz: mechanical_systems"), Counter::new("fuzz: mechanical_systems")],
-        [Counter::new("fuzz: two_particle_problems"), Counter::new("fuzz: two_particle_problems")],
-    ];
-    for ((name, length, body), counters) in SOLVER_TARGETS.into_iter().zip(&COUNTERS) {
-        for ((plant, solver), counter) in PLANTS[..2].iter().zip(counters) {
+    for (family, length, body) in SOLVER_TARGETS {
+        for (plant, solver) in &PLANTS[..2] {
+            let counter = Counter::new(family);
             let mut rng = ChaCha8Rng::seed_from_u64(5);
             let treatment = Treatment { nodes: 1, ..fuzz_treatment() }.with_solver(*solver);
+
             let planted = catch_unwind(AssertUnwindSafe(|| {
                 for _ in 0..200 {
                     let bytes: Vec<u8> = (0..length).map(|_| rng.random_range(0..=255)).collect();
-                    body(&bytes, &treatment, counter);
+                    body(&bytes, &treatment, &counter);
                 }
             }));
             let message = *planted.unwrap_err().downcast::<String>().unwrap();
-            assert!(message.contains("coverage over"), "{name}, {plant}: {message}");
+            assert!(message.contains("coverage over"), "{family}, {plant}: {message}");
         }
     }
 }

@@ -4,8 +4,6 @@
 
 use mceip::testkit::floors::Starts;
 use mceip::testkit::targets::{self, Counter, TARGETS};
-use rand::{RngExt, SeedableRng};
-use rand_chacha::ChaCha8Rng;
 use std::path::{Path, PathBuf};
 
 fn fuzz() -> PathBuf {
@@ -116,21 +114,6 @@ fn write_the_certificates() {
             if near != text && text.len() < 20_000 {
                 std::fs::write(fuzz().join(format!("corpus/certificate_reader/near-{k}-{m}.json")), near).unwrap();
             }
-        }
-    }
-}
-
-/// The seeds of the two targets of mechanical systems: random bytes, as many as a generator reads at most.
-#[test]
-#[ignore = "writes the corpus"]
-fn write_the_systems() {
-    for (name, length) in [("mechanical_systems", 150), ("two_particle_problems", 10)] {
-        let folder = fuzz().join("corpus").join(name);
-        std::fs::create_dir_all(&folder).unwrap();
-        for k in 0..40u64 {
-            let mut rng = ChaCha8Rng::seed_from_u64(k);
-            let bytes: Vec<u8> = (0..length).map(|_| rng.random_range(0..=255)).collect();
-            std::fs::write(folder.join(format!("seed-{k:02}")), bytes).unwrap();
         }
     }
 }

@@ -121,8 +121,13 @@ fn contacts() -> impl Strategy<Value = Contact> {
 /// Systems of one to two particles more than the first, with up to one inner degree of freedom: order at most 6.
 fn structures() -> impl Strategy<Value = Structure> {
     let shape = (prop::collection::vec(contacts(), 0..=1), 0usize..=2);
-    (shape, factors(), factors(), 1i64..=80, any::<bool>()).prop_map(|((contacts, inner), stiffness, mass, friction, is_mu)| {
-        Structure { contacts, inner, stiffness, mass, quarters_of_friction: friction, is_mu }
+    (shape, factors(), factors(), 1i64..=80, any::<bool>()).prop_map(|((contacts, inner), stiffness, mass, friction, is_mu)| Structure {
+        contacts,
+        inner,
+        stiffness,
+        mass,
+        quarters_of_friction: friction,
+        is_mu,
     })
 }
 
@@ -185,11 +190,8 @@ impl Rows {
         let k0 = definite(&self.definite, n);
         let k1 = Sparse::from_entries(n, n, entries);
 
-        let (a, b, unknown) = if self.is_mu {
-            (k0, k1, Unknown::Mu)
-        } else {
-            (k0.add_scaled(&whole(2), &k1), definite(&self.mass, n), Unknown::Lambda2)
-        };
+        let (a, b, unknown) =
+            if self.is_mu { (k0, k1, Unknown::Mu) } else { (k0.add_scaled(&whole(2), &k1), definite(&self.mass, n), Unknown::Lambda2) };
         let pencil = Pencil::new(a, b, (0..self.free).collect()).unwrap();
         Problem::new(Body::Pencil(pencil), unknown, Window::all()).unwrap()
     }

@@ -31,7 +31,9 @@ fn the_number_of_threads_changes_nothing() {
     let instances: Vec<_> = random_pencils(10, 3).unwrap().into_iter().chain(degenerate().unwrap()).collect();
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| format!("{:?}", verify_family("few", &instances, &Treatment::of(&Search::default()), &AtomicBool::new(false), &|_, _, _| {})))
+        pool.install(|| {
+            format!("{:?}", verify_family("few", &instances, &Treatment::of(&Search::default()), &AtomicBool::new(false), &|_, _, _| {}))
+        })
     };
     assert_eq!(run(1), run(4));
 }

@@ -286,7 +286,9 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
 fn compare_found(problem: &Problem, pencil: &Pencil, oracle: &Enumeration, found: (Starts, Found), report: &mut InstanceReport) {
     let (starts, found) = found;
     report.pivots += found.pivots;
-    report.uncertified.extend(found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)));
+    if starts == Starts::Search {
+        report.uncertified.extend(found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)));
+    }
     let mut claims = Vec::new();
     let mut hit = vec![false; oracle.solutions.len()];
     let mut first = false;

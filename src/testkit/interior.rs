@@ -5,12 +5,14 @@
 //! is a solution with probability 0 (and lies in the support of slip-slip solutions only).
 
 use super::floors::Coverage;
+use crate::candidate::Candidate;
 use crate::certify::certify;
 use crate::exact::{Sparse, to_f64};
 use crate::model::{Admissible, Window};
-use crate::multistart::{Certified, Found, Origin, Search, same};
+use crate::multistart::{Certified, Found, Origin, Search, Uncertified, same};
 use crate::reduction::{Embedding, Side};
 use crate::solver::{CrashMethod, Options, Sense, SolverError, continuation, solve};
+use crate::tolerance::SAME_POINT;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -113,12 +115,35 @@ impl Attempt<'_> {
         }
 
         let candidate = self.embedding.candidate(&outcome.point);
-        let Ok(claim) = certify(self.admissible.pencil(), self.window, &candidate) else { return Ok(()) };
-        if !self.found.certified.iter().any(|c| same(&c.claim, &claim)) {
-            self.found.certified.push(Certified { claim, candidate, run, origin });
+        if self.is_repeated(&candidate) {
+            self.found.repeated += 1;
+            return Ok(());
+        }
+        match certify(self.admissible.pencil(), self.window, &candidate) {
+            Ok(claim) => {
+                if !self.found.certified.iter().any(|c| same(&c.claim, &claim)) {
+                    self.found.certified.push(Certified { claim, candidate, run, origin });
+                }
+            }
+            Err(reason) => self.found.uncertified.push(Uncertified { candidate, reason }),
         }
         Ok(())
     }
+
+    /// Was the same point met before, certified or not?
+    fn is_repeated(&self, candidate: &Candidate) -> bool {
+        let certified = self.found.certified.iter().map(|c| &c.candidate);
+        let mut met = certified.chain(self.found.uncertified.iter().map(|u| &u.candidate));
+        met.any(|c| is_same_point(c, candidate))
+    }
+}
+
+/// Do value and x agree within rounding ([`SAME_POINT`]), in any scale of x?
+fn is_same_point(a: &Candidate, b: &Candidate) -> bool {
+    let norm_a: f64 = a.x.iter().map(|v| v.abs()).sum();
+    let norm_b: f64 = b.x.iter().map(|v| v.abs()).sum();
+    let is_same_value = (a.value - b.value).abs() <= SAME_POINT * (1.0 + a.value.abs());
+    is_same_value && a.x.iter().zip(&b.x).all(|(p, q)| (p / norm_a - q / norm_b).abs() <= SAME_POINT)
 }
 
 /// Relative distance up to which the end of a run counts as a proved value. Unit: none. Reason: runs stop at residuals of
