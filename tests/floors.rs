@@ -193,44 +193,43 @@ fn quick_search() -> Search {
     Search { starts: 6, window_starts: 1, ..Search::default() }
 }
 
-/// Every family of `verify` with each plant: a shortfall, so that `verify` exits 1; and none with the project's solver.
+/// Every family of `verify` with each plant has a shortfall, so that `verify` exits 1. That the project's own solver has none
+/// is `tests/verify.rs::no_disagreement`.
 #[test]
 fn verify_fails_with_a_solver_that_misses_solutions() {
     let stop = AtomicBool::new(false);
     let families: [(&'static str, Vec<Instance>); 4] = [
-        ("Table 1 (two particles)", table1_grid().unwrap().into_iter().step_by(4).collect()),
-        ("random pencils", random_pencils(80, 77).unwrap()),
-        ("mechanical systems", mechanical(80, 77).unwrap()),
+        // Every seventh, so that all four sign patterns occur.
+        ("Table 1 (two particles)", table1_grid().unwrap().into_iter().step_by(7).collect()),
+        ("random pencils", random_pencils(40, 77).unwrap()),
+        ("mechanical systems", mechanical(40, 77).unwrap()),
         ("degenerate cases", degenerate().unwrap()),
     ];
 
     for (name, instances) in &families {
-        let row = |solver: Solver| {
-            let treatment = Treatment { nodes: 1, ..Treatment::of(&quick_search()) };
-            verify_family(name, instances, &treatment.with_solver(solver), &stop, &|_, _, _| {})
-        };
-        let own = Treatment { nodes: 1, ..Treatment::of(&Search::default()) };
-        let sound = verify_family(name, instances, &own, &stop, &|_, _, _| {});
-        assert!(sound.shortfalls().is_empty() && sound.disagreements.is_empty(), "{name}: {:?}", sound.shortfalls());
-
         for (plant, solver) in PLANTS {
-            let planted = row(solver);
+            // Most instances of the other families have one solution, which this plant does not touch.
+            if plant == "keeps every first" && *name != "Table 1 (two particles)" {
+                continue;
+            }
+            let treatment = Treatment { nodes: 1, ..Treatment::of(&quick_search()) };
+            let planted = verify_family(name, instances, &treatment.with_solver(solver), &stop, &|_, _, _| {});
+            assert!(planted.disagreements.is_empty(), "{name}: what is found is true: {:?}", planted.disagreements);
+
             let verification = Verification { seed: 77, families: vec![planted], block: Vec::new(), interrupted: false };
             println!("{plant}: {:?}", verification.shortfalls().iter().map(ToString::to_string).collect::<Vec<_>>());
-            // Most instances of the random families have one solution, which the last plant does not touch.
-            let is_hard_to_see = plant == "keeps every first" && *name != "Table 1 (two particles)";
-            assert!(is_hard_to_see || verification.disagreements() > 0, "{name}: {plant} goes unnoticed");
+            assert!(verification.disagreements() > 0, "{name}: {plant} goes unnoticed");
         }
     }
 }
 
-/// The campaign with each plant: a finding of the family, named coverage, and none with the project's own solver.
+/// The campaign with each plant: a finding of the family, and none with the project's own solver.
 #[test]
 fn the_campaign_fails_with_a_solver_that_misses_solutions() {
-    let families: Vec<String> = ["pareto", "elements", "table1"].map(String::from).to_vec();
+    let families: Vec<String> = ["elements", "table1"].map(String::from).to_vec();
     let run = |treatment: Treatment| {
         let engines: [Box<dyn Engine>; 1] = [Box::new(Pipeline { treatment: Treatment { nodes: 1, ..treatment } })];
-        let campaign = Campaign { engines: &engines, limit: Limit::Count(60) };
+        let campaign = Campaign { engines: &engines, limit: Limit::Count(40) };
         campaign.run(State::new(3, (0, 1), families.clone()), &AtomicBool::new(false), &mut |_| {})
     };
 
@@ -240,7 +239,7 @@ fn the_campaign_fails_with_a_solver_that_misses_solutions() {
         let state = run(treatment(3).with_solver(solver));
         let names: BTreeSet<&str> = state.shortfalls().iter().map(|s| s.floor.family).collect();
         println!("{plant}: {:?}", state.shortfalls().iter().map(ToString::to_string).collect::<Vec<_>>());
-        let expected = if plant == "keeps every first" { vec!["pareto", "table1"] } else { vec!["elements", "pareto", "table1"] };
+        let expected: &[&str] = if plant == "keeps every first" { &["table1"] } else { &["elements", "table1"] };
         assert!(expected.iter().all(|family| names.contains(family)), "{plant}: {names:?}");
         assert!(state.disagreements() >= expected.len());
     }
