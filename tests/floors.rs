@@ -1,6 +1,8 @@
-//! Floors of coverage: measured here on request; held against solvers that miss solutions on purpose.
+//! Floors of coverage: measured here on request; held against solvers that miss solutions on
+//! purpose.
 //!
-//! `FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test floors -- --ignored --nocapture`
+//! `FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test floors -- --ignored
+//! --nocapture`
 #![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -91,7 +93,8 @@ fn measure_the_families_of_verify() {
     }
 }
 
-/// Random bytes as inputs of the fuzz targets with a solver, and committed inputs with a few bytes changed.
+/// Random bytes as inputs of the fuzz targets with a solver, and committed inputs with a few bytes
+/// changed.
 #[test]
 #[ignore = "a measurement: run on request, in release"]
 fn measure_the_fuzz_targets() {
@@ -174,7 +177,8 @@ fn drops_every_second(admissible: &Admissible<'_>, window: &Window, search: &Sea
     Ok(found)
 }
 
-/// A solver that forgets every second solution, the second one first: an instance with one solution is not touched.
+/// A solver that forgets every second solution, the second one first: an instance with one solution
+/// is not touched.
 fn keeps_every_first(admissible: &Admissible<'_>, window: &Window, search: &Search) -> Result<Found, SolverError> {
     let mut found = multistart(admissible, window, search)?;
     let mut index = 0;
@@ -193,8 +197,8 @@ fn quick_search() -> Search {
     Search { starts: 6, window_starts: 1, ..Search::default() }
 }
 
-/// Every family of `verify` with each plant has a shortfall, so that `verify` exits 1. That the project's own solver has none
-/// is `tests/verify.rs::no_disagreement`.
+/// Every family of `verify` with each plant has a shortfall, so that `verify` exits 1. That the
+/// project's own solver has none is `tests/verify.rs::no_disagreement`.
 #[test]
 fn verify_fails_with_a_solver_that_misses_solutions() {
     let stop = AtomicBool::new(false);
@@ -208,7 +212,8 @@ fn verify_fails_with_a_solver_that_misses_solutions() {
 
     for (name, instances) in &families {
         for (plant, solver) in PLANTS {
-            // Most instances of the other families have one solution, which this plant does not touch.
+            // Most instances of the other families have one solution, which this plant does not
+            // touch.
             if plant == "keeps every first" && *name != "Table 1 (two particles)" {
                 continue;
             }
@@ -245,7 +250,8 @@ fn the_campaign_fails_with_a_solver_that_misses_solutions() {
     }
 }
 
-/// The fuzz targets with a solver panic before they have seen 200 random inputs with a plant, and not without.
+/// The fuzz targets with a solver panic before they have seen 200 random inputs with a plant, and
+/// not without.
 #[test]
 fn the_fuzz_targets_fail_with_a_solver_that_misses_solutions() {
     for (family, length, body) in SOLVER_TARGETS {
@@ -266,7 +272,8 @@ fn the_fuzz_targets_fail_with_a_solver_that_misses_solutions() {
     }
 }
 
-/// A solver that stops finding the block's solutions is seen: with PATH's own sequence reduced to nothing, below its floor.
+/// A solver that stops finding the block's solutions is seen: with PATH's own sequence reduced to
+/// nothing, below its floor.
 #[test]
 fn the_block_has_floors_of_its_own() {
     for state in PublishedState::ALL {

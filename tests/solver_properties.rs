@@ -1,6 +1,7 @@
-//! The solver against both oracles on structured values, which proptest and quickcheck shrink: pencils, sign patterns,
-//! contact states, frames, index sets. Everything certified is in the oracle's answer (soundness), and over all cases the
-//! solver finds as much as its floor asks for (coverage, `src/testkit/floors.rs`).
+//! The solver against both oracles on structured values, which proptest and quickcheck shrink:
+//! pencils, sign patterns, contact states, frames, index sets. Everything certified is in the
+//! oracle's answer (soundness), and over all cases the solver finds as much as its floor asks for
+//! (coverage, `src/testkit/floors.rs`).
 #![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
@@ -73,7 +74,8 @@ struct Structure {
 }
 
 impl Structure {
-    /// The problem; one more particle, in impending slip, stands first, so that there is always one.
+    /// The problem; one more particle, in impending slip, stands first, so that there is always
+    /// one.
     fn problem(&self) -> Problem {
         let first = Contact { state: ContactState::Slip { sign: 1 }, upwards: true, frame: None };
         let all = [first].into_iter().chain(self.contacts.iter().cloned());
@@ -118,7 +120,8 @@ fn contacts() -> impl Strategy<Value = Contact> {
     (state, any::<bool>(), frame).prop_map(|(state, upwards, frame)| Contact { state, upwards, frame })
 }
 
-/// Systems of one to two particles more than the first, with up to one inner degree of freedom: order at most 6.
+/// Systems of one to two particles more than the first, with up to one inner degree of freedom:
+/// order at most 6.
 fn structures() -> impl Strategy<Value = Structure> {
     let shape = (prop::collection::vec(contacts(), 0..=1), 0usize..=2);
     (shape, factors(), factors(), 1i64..=80, any::<bool>()).prop_map(|((contacts, inner), stiffness, mass, friction, is_mu)| Structure {
@@ -131,7 +134,8 @@ fn structures() -> impl Strategy<Value = Structure> {
     })
 }
 
-/// Runs a property over `cases` structures; the seed is the same on every machine unless one is given.
+/// Runs a property over `cases` structures; the seed is the same on every machine unless one is
+/// given.
 fn systems_judged(cases: u32, seed: u8) -> Result<Coverage, TestError<Structure>> {
     let config = Config { cases, failure_persistence: None, ..Config::default() };
     let mut runner = TestRunner::new_with_rng(config, TestRng::from_seed(RngAlgorithm::ChaCha, &[seed; 32]));
@@ -152,7 +156,8 @@ fn systems_of_any_structure_agree_with_the_enumerator() {
     assert_eq!(shortfalls("property: systems", Starts::Search, &coverage), []);
 }
 
-/// Structures shrink: from any system with a solution to few entries, no inner degree of freedom and no frame.
+/// Structures shrink: from any system with a solution to few entries, no inner degree of freedom
+/// and no frame.
 #[test]
 fn a_failing_system_shrinks_to_few_entries() {
     let config = Config { cases: 200, failure_persistence: None, ..Config::default() };
@@ -167,7 +172,8 @@ fn a_failing_system_shrinks_to_few_entries() {
     assert!(small.contacts.iter().all(|c| c.frame.is_none()) && small.inner == 0 && entries <= 4, "{small:?}");
 }
 
-/// A pencil A + tB with free variables first, as a structure: A = GG' + I and rows of K1 for slip variables, or B = HH' + I.
+/// A pencil A + tB with free variables first, as a structure: A = GG' + I and rows of K1 for slip
+/// variables, or B = HH' + I.
 #[derive(Debug, Clone)]
 struct Rows {
     free: usize,
@@ -179,7 +185,8 @@ struct Rows {
 }
 
 impl Rows {
-    /// MCEIP-mu: A = K0, B = K1. MCEIP-lambda2: A = K0 + 2 K1, B = M. The rows of the free variables of K1 vanish.
+    /// MCEIP-mu: A = K0, B = K1. MCEIP-lambda2: A = K0 + 2 K1, B = M. The rows of the free
+    /// variables of K1 vanish.
     fn problem(&self) -> Problem {
         let n = self.free + self.slip;
         let mut entries = Vec::new();
@@ -343,7 +350,8 @@ impl Arbitrary for Two {
     }
 }
 
-/// What is certified from interior starts is in the closed form: same support, and its number in the accepted interval.
+/// What is certified from interior starts is in the closed form: same support, and its number in
+/// the accepted interval.
 fn table_is_sound(two: Two) -> Result<bool, String> {
     let data = two.data();
     let problem = Problem::new(Body::System(two_particles(&data).unwrap()), Unknown::Lambda2, Window::all()).unwrap();
@@ -392,7 +400,8 @@ fn two_particles_of_any_data_agree_with_the_closed_form() {
     assert_eq!(shortfalls("property: two particles", Starts::Interior, &coverage), []);
 }
 
-/// `cargo test --release --test solver_properties -- --ignored --nocapture`: the rates of the table of floors.
+/// `cargo test --release --test solver_properties -- --ignored --nocapture`: the rates of the table
+/// of floors.
 #[test]
 #[ignore = "a measurement: run on request, in release"]
 fn measure_the_properties() {

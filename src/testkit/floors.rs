@@ -1,32 +1,37 @@
 //! Floors of coverage: how often the solver has to find what exists, family by family.
 //!
-//! Unit of the counts: an instance whose list of solutions (the plain enumerator's) is not empty. Instances are drawn
-//! independently, solutions of one instance are not found independently. Two rates for each family and each kind of
-//! start: the *first start* led to a solution; *all* solutions of the list were found.
+//! Unit of the counts: an instance whose list of solutions (the plain enumerator's) is not empty.
+//! Instances are drawn independently, solutions of one instance are not found independently. Two
+//! rates for each family and each kind of start: the *first start* led to a solution; *all*
+//! solutions of the list were found.
 //!
-//! A floor is the rate measured on fresh seeds less two percentage points. Of `n` instances found with the probability
-//! `floor`, at most `k` are found with the probability
+//! A floor is the rate measured on fresh seeds less two percentage points. Of `n` instances found
+//! with the probability `floor`, at most `k` are found with the probability
 //!
 //! sum over j <= k of binomial(n, j) floor^j (1 - floor)^(n - j).
 //!
-//! If that is below [`CHANCE`], chance does not explain the count: it is a [`Shortfall`], and the run fails. Small samples
-//! are judged by the same rule: of a rate of 98 %, three misses in a row are a shortfall, two are not.
+//! If that is below [`CHANCE`], chance does not explain the count: it is a [`Shortfall`], and the
+//! run fails. Small samples are judged by the same rule: of a rate of 98 %, three misses in a row
+//! are a shortfall, two are not.
 
 use std::fmt;
 
-/// Probability below which a count under its floor is not put down to chance. Unit: none. Reason: a run judges at most 60
-/// rates, and the true rates lie two points above the floors, so that fewer than one sound run in a hundred fails, while
-/// a solver that finds nothing fails after three instances.
+/// Probability below which a count under its floor is not put down to chance. Unit: none. Reason: a
+/// run judges at most 60 rates, and the true rates lie two points above the floors, so that fewer
+/// than one sound run in a hundred fails, while a solver that finds nothing fails after three
+/// instances.
 pub const CHANCE: f64 = 1e-4;
 
 /// From where the solver sets out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Starts {
-    /// The whole search: its own starts, curves and windows. Among its starts is each unit vector at its Ritz value.
+    /// The whole search: its own starts, curves and windows. Among its starts is each unit vector
+    /// at its Ritz value.
     Search,
     /// Runs and curves from random points with every x_i > 0, none of them a solution.
     Interior,
-    /// Runs from the same points by PATH's own sequence: projected Newton, then paths; no curves, no Fischer-Burmeister.
+    /// Runs from the same points by PATH's own sequence: projected Newton, then paths; no curves,
+    /// no Fischer-Burmeister.
     Path,
 }
 
@@ -154,7 +159,8 @@ pub fn floor(family: &str, starts: Starts) -> Option<&'static Floor> {
     FLOORS.iter().find(|f| f.family == family && f.starts == starts)
 }
 
-/// The rates of a family that are below its floor by more than chance explains; none for a family without a floor.
+/// The rates of a family that are below its floor by more than chance explains; none for a family
+/// without a floor.
 pub fn shortfalls(family: &str, starts: Starts, coverage: &Coverage) -> Vec<Shortfall> {
     let Some(floor) = floor(family, starts) else { return Vec::new() };
 
@@ -168,7 +174,8 @@ pub fn shortfalls(family: &str, starts: Starts, coverage: &Coverage) -> Vec<Shor
     out
 }
 
-/// Probability of at most `found` successes in `of` independent trials that succeed with `probability`, 0 <= probability < 1.
+/// Probability of at most `found` successes in `of` independent trials that succeed with
+/// `probability`, 0 <= probability < 1.
 ///
 /// Terms are summed as logarithms, because binomial coefficients of large counts exceed doubles.
 fn at_most(found: u64, of: u64, probability: f64) -> f64 {
@@ -187,9 +194,11 @@ fn at_most(found: u64, of: u64, probability: f64) -> f64 {
     sum.min(1.0)
 }
 
-/// The floors: the rates measured less two percentage points (fuzz targets: ten, see `targets/coverage.rs`).
+/// The floors: the rates measured less two percentage points (fuzz targets: ten, see
+/// `targets/coverage.rs`).
 ///
-/// Measured on 2026-11-22, release profile, on the commit that wrote this table. The tests and `.ci/run` use other seeds.
+/// Measured on 2026-11-22, release profile, on the commit that wrote this table. The tests and
+/// `.ci/run` use other seeds.
 ///
 /// ```text
 /// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=1000 cargo test --release --test floors -- --ignored --nocapture of_verify
@@ -199,13 +208,14 @@ fn at_most(found: u64, of: u64, probability: f64) -> f64 {
 /// cargo test --release --test solver_properties -- --ignored --nocapture
 /// ```
 ///
-/// Beside each row: rate of the first start, rate of all solutions, instances with solutions. The standard error of a rate r
-/// of n instances is sqrt(r (1 - r) / n): 3 points for `zeros`, 2 for
-/// `free-anywhere`, `planted` and `table1-near`, at most 1.5 for the others.
-/// A floor is lowered only with a reason beside its row.
+/// Beside each row: rate of the first start, rate of all solutions, instances with solutions. The
+/// standard error of a rate r of n instances is sqrt(r (1 - r) / n): 3 points for `zeros`, 2 for
+/// `free-anywhere`, `planted` and `table1-near`, at most 1.5 for the others. A floor is lowered
+/// only with a reason beside its row.
 #[rustfmt::skip]
 pub const FLOORS: [Floor; 40] = [
-    // `mceip verify`; instances of seeds 9001 and 9002 (Table 1 is one grid, its starts have these seeds).
+    // `mceip verify`; instances of seeds 9001 and 9002 (Table 1 is one grid, its starts have these
+    // seeds).
     row("Table 1 (two particles)", Starts::Search, 98.0, 98.0),              // 100.00, 100.00 of 604
     row("Table 1 (two particles)", Starts::Interior, 98.0, 98.0),            // 100.00, 100.00 of 604
     row("Table 1 (two particles)", Starts::Path, 98.0, 91.0),                // 100.00, 93.05 of 604
@@ -215,7 +225,8 @@ pub const FLOORS: [Floor; 40] = [
     // The published states of the block, 1,000 interior starts of each seed.
     row("2 stick + 15 slip + 4 free", Starts::Path, 98.0, 98.0),             // 100.00, 100.00 of 2000
     row("17 slip + 4 free", Starts::Path, 98.0, 98.0),                       // 100.00, 100.00 of 2000
-    // `mceip campaign`, 200 instances of each seed, of `table1` 1,000 for the search and PATH's own sequence.
+    // `mceip campaign`, 200 instances of each seed, of `table1` 1,000 for the search and PATH's own
+    // sequence.
     row("table1", Starts::Search, 98.0, 98.0),                               // 100.00, 100.00 of 1363
     row("table1", Starts::Interior, 98.0, 98.0),                             // 100.00, 100.00 of 260
     row("table1", Starts::Path, 98.0, 83.5),                                 // 100.00, 85.47 of 1363
@@ -240,7 +251,8 @@ pub const FLOORS: [Floor; 40] = [
     row("planted", Starts::Search, 87.3, 96.7),                              // 89.29, 98.70 of 308
     row("near", Starts::Search, 94.8, 97.2),                                 // 96.79, 99.20 of 374
     row("scales", Starts::Search, 96.8, 97.6),                               // 98.81, 99.60 of 253
-    // Fuzz targets, less ten points: 200 random inputs and 200 changed ones of the corpus for each seed, the lower rate.
+    // Fuzz targets, less ten points: 200 random inputs and 200 changed ones of the corpus for each
+    // seed, the lower rate.
     row("fuzz: solver_against_oracle", Starts::Search, 90.0, 90.0),          // 100.00, 100.00 of 60 and 104
     row("fuzz: mechanical_systems", Starts::Search, 89.2, 90.0),             // 99.18, 100.00 of 236 and 243
     row("fuzz: two_particle_problems", Starts::Search, 89.5, 90.0),          // 99.48, 100.00 of 203 and 193

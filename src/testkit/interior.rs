@@ -1,8 +1,9 @@
 //! Runs of the solver from random points inside the orthant, none of which is a solution.
 //!
-//! The search has each unit vector at its Ritz value among its starts. Where one particle slips alone, that start is the
-//! solution: to find it says nothing about the solver. Here every x_i of a start is positive and random, so that a start
-//! is a solution with probability 0 (and lies in the support of slip-slip solutions only).
+//! The search has each unit vector at its Ritz value among its starts. Where one particle slips
+//! alone, that start is the solution: to find it says nothing about the solver. Here every x_i of a
+//! start is positive and random, so that a start is a solution with probability 0 (and lies in the
+//! support of slip-slip solutions only).
 
 use super::floors::Coverage;
 use crate::candidate::Candidate;
@@ -19,7 +20,8 @@ use rand_chacha::ChaCha8Rng;
 /// Starts of [`from_interior`] on an instance: as many as [`Search::default`] has.
 pub const INTERIOR_STARTS: usize = 22;
 
-/// Options of PATH's own sequence: projected Newton and paths. No Fischer-Burmeister, no curve of the homotopy.
+/// Options of PATH's own sequence: projected Newton and paths. No Fischer-Burmeister, no curve of
+/// the homotopy.
 pub fn path_options() -> Options {
     Options { crash_method: CrashMethod::ProjectedNewton, curve_step_limit: 0, ..Options::default() }
 }
@@ -61,9 +63,10 @@ fn largest(matrix: &Sparse) -> f64 {
     matrix.entries().map(|(_, _, v)| to_f64(v).abs()).fold(0.0, f64::max)
 }
 
-/// One run of the solver from each of `search.starts` interior starts and, if `search.curves` says so, the curve of the
-/// Newton homotopy from each of them both ways; every end is certified. No windows, and no curve through what was found.
-/// The signature is that of [`crate::multistart::multistart`].
+/// One run of the solver from each of `search.starts` interior starts and, if `search.curves` says
+/// so, the curve of the Newton homotopy from each of them both ways; every end is certified. No
+/// windows, and no curve through what was found. The signature is that of
+/// [`crate::multistart::multistart`].
 ///
 /// # Errors
 /// [`SolverError`] for options out of range.
@@ -146,12 +149,14 @@ fn is_same_point(a: &Candidate, b: &Candidate) -> bool {
     is_same_value && a.x.iter().zip(&b.x).all(|(p, q)| (p / norm_a - q / norm_b).abs() <= SAME_POINT)
 }
 
-/// Relative distance up to which the end of a run counts as a proved value. Unit: none. Reason: runs stop at residuals of
-/// 1e-10, and values of one state lie apart by more than a part in a thousand.
+/// Relative distance up to which the end of a run counts as a proved value. Unit: none. Reason:
+/// runs stop at residuals of 1e-10, and values of one state lie apart by more than a part in a
+/// thousand.
 const SAME_VALUE: f64 = 1e-8;
 
-/// Of the interior starts, those from which PATH's own sequence comes to one of the proved `values`; a start counts for both
-/// rates. For problems whose certificates cost too much to be made for each start.
+/// Of the interior starts, those from which PATH's own sequence comes to one of the proved
+/// `values`; a start counts for both rates. For problems whose certificates cost too much to be
+/// made for each start.
 ///
 /// # Errors
 /// [`SolverError`]; none, the options are in range.
@@ -180,7 +185,8 @@ mod tests {
     use crate::reduction::reduce;
     use crate::testkit::table1_grid;
 
-    /// Rows of the pencil at a start, scaled to e'x_s = 1: the largest violation of complementarity.
+    /// Rows of the pencil at a start, scaled to e'x_s = 1: the largest violation of
+    /// complementarity.
     fn violation(embedding: &Embedding, point: &[f64]) -> f64 {
         let mut rows = vec![0.0; point.len()];
         embedding.function(point, &mut rows);

@@ -1,8 +1,8 @@
 //! What a process has seen of a fuzz target: found and missed, held against the target's floor.
 //!
-//! One input says little: a sound solver misses a solution now and then. A process that has seen many inputs says more.
-//! The floors of fuzz targets leave ten points, not two, because a fuzzer's inputs are not independent: it changes one
-//! input over and over.
+//! One input says little: a sound solver misses a solution now and then. A process that has seen
+//! many inputs says more. The floors of fuzz targets leave ten points, not two, because a fuzzer's
+//! inputs are not independent: it changes one input over and over.
 
 use crate::testkit::InstanceReport;
 use crate::testkit::floors::{Coverage, Starts, shortfalls};

@@ -1,5 +1,5 @@
-//! Mechanical systems of any bytes: signs S, contact states, friction, rational frames; reduction (10)-(16) and lift;
-//! Table 1 in closed form against enumerator and solver.
+//! Mechanical systems of any bytes: signs S, contact states, friction, rational frames; reduction
+//! (10)-(16) and lift; Table 1 in closed form against enumerator and solver.
 
 use super::coverage::Counter;
 use crate::check::check;
@@ -74,7 +74,8 @@ pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Count
     counter.add(&report);
 }
 
-/// Table 1: closed form, enumerator, complete search, certificates and solver on two particles of any data.
+/// Table 1: closed form, enumerator, complete search, certificates and solver on two particles of
+/// any data.
 pub fn two_particle_problems(data: &[u8]) {
     two_particle_problems_by(data, &fuzz_treatment(), &TWO_PARTICLES);
 }
@@ -97,7 +98,8 @@ pub fn fuzz_treatment() -> Treatment {
     Treatment::of(&search)
 }
 
-/// One to three particles, the first in impending slip, up to two further degrees of freedom, K = GG' + I.
+/// One to three particles, the first in impending slip, up to two further degrees of freedom, K =
+/// GG' + I.
 fn system_problem(data: &[u8]) -> Option<Problem> {
     let mut bytes = Bytes { data, at: 0 };
     let head = bytes.next();
@@ -145,7 +147,8 @@ fn particle(bytes: &mut Bytes<'_>, index: usize, order: &[usize]) -> Particle {
     particle
 }
 
-/// A rational point of the unit circle: ((p^2 - q^2) / (p^2 + q^2), 2pq / (p^2 + q^2)) with p, q not both zero.
+/// A rational point of the unit circle: ((p^2 - q^2) / (p^2 + q^2), 2pq / (p^2 + q^2)) with p, q
+/// not both zero.
 fn on_the_circle(byte: u8) -> (Rational, Rational) {
     let p = i64::from(byte % 8) + 1;
     let q = i64::from(byte / 8 % 16) - 8;
@@ -172,8 +175,8 @@ fn definite(bytes: &mut Bytes<'_>, n: usize) -> Sparse {
     Sparse::from_entries(n, n, entries)
 }
 
-/// c and s of a Pythagorean angle with c, s >= 0, axes included; k, m, mu positive; mu now and then on or beside a
-/// threshold of (+1, -1).
+/// c and s of a Pythagorean angle with c, s >= 0, axes included; k, m, mu positive; mu now and then
+/// on or beside a threshold of (+1, -1).
 fn two_particle_data(data: &[u8]) -> TwoParticles {
     let mut bytes = Bytes { data, at: 0 };
     let head = bytes.next();
@@ -198,9 +201,11 @@ fn two_particle_data(data: &[u8]) -> TwoParticles {
 /// Columns over the degrees of freedom, dense.
 struct Column(Vec<Rational>);
 
-/// A + tB by the definitions: v = T x with v_T = -S x (10), y = P'w with y = -(S w_T + mu w_N) (11), w = (K + lambda^2 M) v.
+/// A + tB by the definitions: v = T x with v_T = -S x (10), y = P'w with y = -(S w_T + mu w_N)
+/// (11), w = (K + lambda^2 M) v.
 ///
-/// Dense sums over all degrees of freedom, with no block formula (16): a third way beside `reduction` and `check`.
+/// Dense sums over all degrees of freedom, with no block formula (16): a third way beside
+/// `reduction` and `check`.
 fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
     let n = system.dofs();
     let mut motion = Vec::new();
@@ -265,7 +270,8 @@ fn products(matrix: &Sparse, left: &[Column], right: &[Column]) -> Sparse {
     Sparse::from_entries(left.len(), right.len(), entries)
 }
 
-/// A certificate of the complete set, as far as few nodes lead, has one verdict on the system and on its reduced pencil.
+/// A certificate of the complete set, as far as few nodes lead, has one verdict on the system and
+/// on its reduced pencil.
 fn same_verdict(problem: &Problem, pencil: &Pencil) {
     let options = Options { nodes_per_piece: NODES, threads: None, ..Options::default() };
     let Ok(found) = complete(problem, &options, &AtomicBool::new(false), &|_| {}) else { return };
