@@ -32,6 +32,52 @@ fn exists(test: &str) -> bool {
     above.iter().any(|l| l.trim() == "#[test]") || before.contains("quickcheck! {")
 }
 
+/// Does `cargo test` leave the test out?
+fn is_ignored(test: &str) -> bool {
+    let Some((file, name)) = test.split_once("::") else { return false };
+    let text = read(file).unwrap_or_default();
+    let before = text.split(&format!("fn {name}(")).next().unwrap_or_default();
+    before.lines().rev().take(3).any(|l| l.trim().starts_with("#[ignore"))
+}
+
+/// Does a step of `.ci/run` run this ignored test? Its function `ignored` takes file and name.
+fn is_run_by_ci(test: &str, script: &str) -> bool {
+    let Some((file, name)) = test.split_once("::") else { return false };
+    let target = file.trim_start_matches("tests/").trim_end_matches(".rs");
+    script.lines().any(|line| line.trim() == format!("ignored {target} {name}"))
+}
+
+/// A claim that rests on ignored tests alone is run by `.ci/run`, or the page says that it is opt-in.
+#[test]
+fn claims_of_ignored_tests_run_in_ci_or_are_opt_in() {
+    let script = read(".ci/run").unwrap();
+    let mut run = 0;
+    for (id, tests, claim) in claims(&read("spec/conformance.md").unwrap()) {
+        if tests.is_empty() || !tests.iter().all(|t| is_ignored(t)) {
+            continue;
+        }
+        let in_ci = tests.iter().all(|t| is_run_by_ci(t, &script));
+        assert!(in_ci || claim.contains("(opt-in)"), "{id} rests on {tests:?}, which nothing runs");
+        run += usize::from(in_ci);
+    }
+    assert!(run >= 4, "{run}");
+
+    let sets = "tests/complete_block.rs::every_state_of_the_loading_path_is_closed";
+    assert!(is_ignored(sets) && is_run_by_ci(sets, &script) && !is_run_by_ci(sets, "cargo test"));
+    assert!(!is_ignored("tests/conformance.rs::a_missing_test_would_be_noticed"));
+}
+
+/// (id, tests, claim) of each row.
+fn claims(page: &str) -> Vec<(String, Vec<String>, String)> {
+    let mut out = Vec::new();
+    for line in page.lines().filter(|l| l.starts_with("| ") && !l.starts_with("| id ")) {
+        let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
+        let tests = cells[3].split('`').skip(1).step_by(2).map(str::to_string).collect();
+        out.push((cells[0].to_string(), tests, cells[1].to_string()));
+    }
+    out
+}
+
 #[test]
 fn every_row_names_a_status_and_tests_that_exist() {
     let rows = rows(&read("spec/conformance.md").unwrap());

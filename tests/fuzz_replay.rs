@@ -2,7 +2,8 @@
 #![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use mceip::testkit::targets::{self, TARGETS};
+use mceip::testkit::floors::Starts;
+use mceip::testkit::targets::{self, Counter, TARGETS};
 use std::path::{Path, PathBuf};
 
 fn fuzz() -> PathBuf {
@@ -25,6 +26,14 @@ fn replay(target: &str) {
     }
     assert!(count >= 20, "{target}: only {count} inputs");
     assert!(bytes < 250_000, "{target}: {bytes} bytes of corpus, minimise it (cargo fuzz cmin)");
+}
+
+/// The corpus has at least so many solvable inputs, and the solver found as much of them as the floor asks for.
+fn held_against_its_floor(counter: &Counter, least: u64) {
+    let seen = counter.seen();
+    println!("{seen:?}");
+    assert!(seen.coverage[&Starts::Search].solvable >= least, "{seen:?}");
+    assert!(counter.shortfalls().is_empty(), "{:?}", counter.shortfalls());
 }
 
 #[test]
@@ -50,6 +59,19 @@ fn checker_against_forgeries() {
 #[test]
 fn solver_against_oracle() {
     replay("solver_against_oracle");
+    held_against_its_floor(&targets::SMALL_PENCILS, 10);
+}
+
+#[test]
+fn mechanical_systems() {
+    replay("mechanical_systems");
+    held_against_its_floor(&targets::SYSTEMS, 10);
+}
+
+#[test]
+fn two_particle_problems() {
+    replay("two_particle_problems");
+    held_against_its_floor(&targets::TWO_PARTICLES, 10);
 }
 
 #[test]

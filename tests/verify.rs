@@ -3,7 +3,8 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::multistart::Search;
-use mceip::testkit::{Corner, degenerate, random_pencils, verify, verify_family};
+use mceip::testkit::floors::{Starts, floor};
+use mceip::testkit::{BLOCK_STARTS, Corner, Treatment, degenerate, random_pencils, verify, verify_family};
 use std::collections::BTreeSet;
 use std::sync::atomic::AtomicBool;
 
@@ -18,6 +19,12 @@ fn no_disagreement() {
     assert_eq!(v.disagreements(), 0);
     // Table 1: every solution the oracle lists is found.
     assert_eq!((v.families[0].found, v.families[0].oracle), (v.families[0].findable, v.families[0].findable));
+    // Table 1 is counted from starts that are no solutions, too; and every rate has a floor to be held against.
+    assert_eq!(v.families[0].coverage.keys().copied().collect::<Vec<_>>(), Starts::ALL);
+    assert!(v.block.iter().all(|b| b.path.solvable == BLOCK_STARTS as u64 && b.unfound == 0));
+    for c in v.covered() {
+        assert!(floor(&c.family, c.starts).is_some() && c.coverage.solvable > 5, "{c:?}");
+    }
     // The generators reach the corners they are there for.
     let reached: BTreeSet<Corner> = v.families.iter().flat_map(|f| f.corners.keys().copied()).collect();
     use Corner::*;
@@ -31,7 +38,9 @@ fn the_number_of_threads_changes_nothing() {
     let instances: Vec<_> = random_pencils(10, 3).unwrap().into_iter().chain(degenerate().unwrap()).collect();
     let run = |threads: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| format!("{:?}", verify_family("few", &instances, &Search::default(), &AtomicBool::new(false), &|_, _, _| {})))
+        pool.install(|| {
+            format!("{:?}", verify_family("few", &instances, &Treatment::of(&Search::default()), &AtomicBool::new(false), &|_, _, _| {}))
+        })
     };
     assert_eq!(run(1), run(4));
 }

@@ -1,6 +1,8 @@
 //! The published states of the block: condensed exactly, searched, certified on the full K.
 
+use super::floors::{Coverage, Shortfall, Starts, shortfalls};
 use super::forge::forgeries;
+use super::interior::path_coverage;
 use crate::certificate::Certificate;
 use crate::certify::certificate;
 use crate::check::{AcceptedClaim, AcceptedCover, Rejected, check};
@@ -68,9 +70,21 @@ pub struct BlockReport {
     pub cover: AcceptedCover,
     /// Accepted solutions that the complete set does not contain: a bug.
     pub missing: usize,
+    /// Solutions of the complete set that the search did not find: the states have one each, and it has to be found.
+    pub unfound: usize,
+    /// PATH's own sequence from interior starts; each start counts as an instance.
+    pub path: Coverage,
 }
 
+/// Interior starts of PATH's own sequence on each state.
+pub const BLOCK_STARTS: usize = 100;
+
 impl BlockReport {
+    /// Rates of PATH's own sequence below their floors.
+    pub fn shortfalls(&self) -> Vec<Shortfall> {
+        shortfalls(self.state.name(), Starts::Path, &self.path)
+    }
+
     /// Is the set of solutions proved to be complete?
     pub fn is_complete(&self) -> bool {
         self.cover.is_plain_list()
@@ -120,9 +134,16 @@ pub fn block_state(
         runs: found.runs,
         pivots: found.pivots,
         certificate: None,
+        unfound: cover.solutions.len(),
+        path: Coverage::default(),
         cover,
         missing: 0,
     };
+    if let Some(condensed) = &condensed {
+        let small = Admissible::new(condensed, Unknown::Mu)?;
+        let values: Vec<f64> = report.cover.solutions.iter().map(|s| to_f64(&s.value.mid())).collect();
+        report.path = path_coverage(&small, &values, BLOCK_STARTS, search.seed).map_err(SearchError::from)?;
+    }
     if found.certified.is_empty() {
         return Ok(Some(report));
     }
@@ -146,6 +167,8 @@ fn submit(problem: &Problem, slip: &[usize], certificate: &Certificate, report: 
             let claims = &accepted.claims;
             report.missing =
                 claims.iter().filter(|c| report.is_complete() && !report.cover.solutions.iter().any(|s| may_be_same(s, c))).count();
+            let is_found = |s: &&AcceptedClaim| claims.iter().any(|c| may_be_same(s, c));
+            report.unfound -= report.cover.solutions.iter().filter(is_found).count();
             report.accepted = claims.iter().map(|c| accepted_state(slip, report.state, &c.support, &c.value.mid())).collect();
         }
         Err(e) => report.rejected.push(e),

@@ -1,17 +1,20 @@
 //! One instance through every engine: closed form, enumerator, solver, certificate, checker.
 
 use super::completed::compare_within;
+use super::floors::{Coverage, Starts};
 use super::forge::forgeries;
+use super::interior::{INTERIOR_STARTS, from_interior, path_options};
 use super::{Corner, Disagreement, Instance};
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
 use crate::certify::{certificate, certify};
 use crate::check::check;
 use crate::exact::{Algebraic, Poly, Quadratic, Rational, Sign, common_denominator};
-use crate::model::{Admissible, Body, Pencil, Problem};
-use crate::multistart::{Found, Search, exact_value, multistart, support};
+use crate::model::{Admissible, Body, Pencil, Problem, Window};
+use crate::multistart::{Found, Origin, Search, exact_value, multistart, support};
 use crate::oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
 use crate::reduction::{Reduced, check_lines, lift, reduce};
+use crate::solver::SolverError;
 use num_traits::Signed;
 
 /// What came of one instance.
@@ -21,8 +24,11 @@ pub struct InstanceReport {
     pub label: String,
     /// Solutions the enumerator lists.
     pub oracle: usize,
-    /// Of these, found by the solver and certified.
+    /// Of these, found by the solver and certified. On Table 1 those found from interior starts alone, because
+    /// starts of the search are solutions themselves.
     pub found: usize,
+    /// What each kind of start led to; empty where the solver was not run.
+    pub reached: Vec<Reached>,
     /// Certificates accepted (of the enumerator's and the solver's solutions).
     pub accepted: usize,
     /// Candidates of the solver that stayed uncertified, with the reason.
@@ -43,23 +49,96 @@ pub struct InstanceReport {
     pub disagreements: Vec<Disagreement>,
 }
 
+impl InstanceReport {
+    /// Coverage of each kind of start over this one instance: empty if the solver was not run or nothing is to be found.
+    pub fn coverage(&self) -> Vec<(Starts, Coverage)> {
+        let mut out = Vec::new();
+        if self.oracle == 0 {
+            return out;
+        }
+
+        for reached in &self.reached {
+            let mut coverage = Coverage::default();
+            coverage.count(reached.first, reached.found == self.oracle);
+            out.push((reached.starts, coverage));
+        }
+        out
+    }
+}
+
+/// What one kind of start led to on an instance.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Reached {
+    /// From where.
+    pub starts: Starts,
+    /// Did the first start lead to a solution?
+    pub first: bool,
+    /// Solutions of the enumerator's list that were found.
+    pub found: usize,
+}
+
+/// What is asked for the solutions of a problem: [`multistart`], [`from_interior`], or one that is wrong on purpose.
+pub type Solver = fn(&Admissible<'_>, &Window, &Search) -> Result<Found, SolverError>;
+
+/// How an instance is treated.
+#[derive(Debug, Clone)]
+pub struct Treatment {
+    /// How the solver searches.
+    pub search: Search,
+    /// The search for solutions.
+    pub solver: Solver,
+    /// Runs from interior starts, for instances of Table 1.
+    pub interior: Solver,
+    /// Nodes per piece of the complete search.
+    pub nodes: usize,
+}
+
+impl Treatment {
+    /// The project's own search and solver, and nodes for small instances.
+    pub fn of(search: &Search) -> Treatment {
+        Treatment { search: search.clone(), solver: multistart, interior: from_interior, nodes: super::completed::NODES }
+    }
+
+    /// The same with another solver in both places.
+    #[must_use]
+    pub fn with_solver(self, solver: Solver) -> Treatment {
+        Treatment { solver, interior: solver, ..self }
+    }
+}
+
 /// Runs every engine on an instance and compares them.
 pub fn compare(instance: &Instance, search: &Search) -> InstanceReport {
+    compare_by(instance, &Treatment::of(search))
+}
+
+/// [`compare`] with a treatment of one's own.
+pub fn compare_by(instance: &Instance, treatment: &Treatment) -> InstanceReport {
     let mut report = InstanceReport { label: instance.label.clone(), corners: instance.corners.clone(), ..InstanceReport::default() };
     match engines(&instance.problem) {
-        Ok((reduced, oracle)) => compare_with(instance, &reduced, &oracle, search, super::completed::NODES, &mut report),
+        Ok((reduced, oracle)) => compare_with(instance, &reduced, &oracle, treatment, &mut report),
         Err(disagreement) => report.disagreements.push(disagreement),
     }
     report
 }
 
-/// [`compare`] where the enumerator's answer is at hand; the complete search may use `nodes` per piece.
+/// Coverage alone: enumerator and solver, without closed form, lift, complete search, certificates of the enumerator's
+/// solutions and forgeries. By this the floors are measured.
+///
+/// # Errors
+/// [`Disagreement`] if an engine refuses the instance.
+pub fn coverage_of(instance: &Instance, treatment: &Treatment) -> Result<InstanceReport, Disagreement> {
+    let (reduced, oracle) = engines(&instance.problem)?;
+    let mut report = InstanceReport { label: instance.label.clone(), oracle: oracle.solutions.len(), ..InstanceReport::default() };
+    run_solver(instance, &reduced.pencil, &oracle, treatment, &mut report);
+    Ok(report)
+}
+
+/// [`compare_by`] where the enumerator's answer is at hand.
 pub(super) fn compare_with(
     instance: &Instance,
     reduced: &Reduced,
     oracle: &Enumeration,
-    search: &Search,
-    nodes: usize,
+    treatment: &Treatment,
     report: &mut InstanceReport,
 ) {
     let problem = &instance.problem;
@@ -72,14 +151,30 @@ pub(super) fn compare_with(
     check_lifts(problem, reduced, oracle, report);
     let claims = certify_oracle(problem, reduced, oracle, report);
     submit(problem, claims, report);
-    match compare_within(problem, oracle, nodes) {
+    match compare_within(problem, oracle, treatment.nodes) {
         Ok(completed) => report.completed = completed,
         Err(disagreement) => report.disagreements.push(disagreement),
     }
-    if let Ok(admissible) = Admissible::new(&reduced.pencil, problem.unknown()) {
-        report.solved = true;
-        match multistart(&admissible, problem.window(), search) {
-            Ok(found) => compare_found(problem, &reduced.pencil, oracle, found, report),
+    run_solver(instance, &reduced.pencil, oracle, treatment, report);
+}
+
+/// The solver on an instance that fulfils the hypotheses of Proposition 1 or 2; on Table 1 also from interior starts.
+fn run_solver(instance: &Instance, pencil: &Pencil, oracle: &Enumeration, treatment: &Treatment, report: &mut InstanceReport) {
+    let problem = &instance.problem;
+    let Ok(admissible) = Admissible::new(pencil, problem.unknown()) else { return };
+    report.solved = true;
+
+    let interior = Search { starts: INTERIOR_STARTS, ..treatment.search.clone() };
+    let path = Search { curves: false, options: path_options(), ..interior.clone() };
+    let mut runs = vec![(Starts::Search, treatment.solver, treatment.search.clone())];
+    if instance.closed_form.is_some() {
+        runs.push((Starts::Interior, treatment.interior, interior));
+        runs.push((Starts::Path, treatment.interior, path));
+    }
+
+    for (starts, solver, search) in runs {
+        match solver(&admissible, problem.window(), &search) {
+            Ok(found) => compare_found(problem, pencil, oracle, (starts, found), report),
             Err(e) => report.disagreements.push(Disagreement::Refused { engine: "solver", reason: e.to_string() }),
         }
     }
@@ -188,22 +283,37 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
     }
 }
 
-fn compare_found(problem: &Problem, pencil: &Pencil, oracle: &Enumeration, found: Found, report: &mut InstanceReport) {
-    report.pivots = found.pivots;
-    report.uncertified.extend(found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)));
+fn compare_found(problem: &Problem, pencil: &Pencil, oracle: &Enumeration, found: (Starts, Found), report: &mut InstanceReport) {
+    let (starts, found) = found;
+    report.pivots += found.pivots;
+    if starts == Starts::Search {
+        report.uncertified.extend(found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)));
+    }
     let mut claims = Vec::new();
     let mut hit = vec![false; oracle.solutions.len()];
+    let mut first = false;
     for c in found.certified {
+        let is_first = c.run == 0 && c.origin == Origin::Start;
         match place(oracle, &c.claim) {
-            Some(index) => hit[index] = true,
+            Some(index) => {
+                hit[index] = true;
+                first |= is_first;
+            }
             // In a cone, or in the range of a singular pencil.
-            None if described(oracle, pencil, &c.claim) => {}
+            None if described(oracle, pencil, &c.claim) => first |= is_first,
             None => report.disagreements.push(Disagreement::NotInOracle { support: support(&c.claim).to_vec() }),
         }
         claims.push(c.claim);
     }
-    report.found = hit.iter().filter(|h| **h).count();
-    submit(problem, claims, report);
+
+    let count = hit.iter().filter(|h| **h).count();
+    report.reached.push(Reached { starts, first, found: count });
+    if starts != Starts::Path {
+        report.found = count; // on Table 1 the interior starts come after the search
+    }
+    if starts == Starts::Search {
+        submit(problem, claims, report);
+    }
 }
 
 /// The enumerator's solution with this support and value.

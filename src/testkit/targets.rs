@@ -2,21 +2,25 @@
 
 mod arithmetic;
 mod certificates;
+mod coverage;
 mod enumerators;
 mod naive;
+mod systems;
 
 pub use arithmetic::exact_against_naive;
 pub use certificates::{certificate_reader, certificate_seeds, hostile_report};
+pub use coverage::{Counter, Seen};
 pub use enumerators::{complete_against_plain, screened_against_plain};
+pub use systems::{SYSTEMS, TWO_PARTICLES, fuzz_treatment, mechanical_systems, mechanical_systems_by};
+pub use systems::{two_particle_problems, two_particle_problems_by};
 
-use super::{Disagreement, Instance, compare, forgeries};
+use super::{Disagreement, Instance, Treatment, compare_by, forgeries};
 use crate::candidate::read_report;
 use crate::certificate::Certificate;
 use crate::check::check;
 use crate::exact::{Sparse, whole};
 use crate::model::file::{read_problem, write_problem};
 use crate::model::{Body, Pencil, Problem, Unknown, Window};
-use crate::multistart::Search;
 use std::path::Path;
 
 /// Problem reader: what is read is written and read again as the same problem with the same digest;
@@ -37,13 +41,22 @@ pub fn problem_reader(data: &[u8]) {
     }
 }
 
-/// Solver, certificate and checker against the enumerator on a small integer pencil.
+/// Process-wide counts of [`solver_against_oracle`].
+pub static SMALL_PENCILS: Counter = Counter::new("fuzz: solver_against_oracle");
+
+/// Solver, certificate and checker against the enumerator on a small integer pencil; what the solver finds is counted over
+/// the process and held against its floor.
 pub fn solver_against_oracle(data: &[u8]) {
+    solver_against_oracle_by(data, &fuzz_treatment(), &SMALL_PENCILS);
+}
+
+/// [`solver_against_oracle`] with a solver and a counter of one's own.
+pub fn solver_against_oracle_by(data: &[u8], treatment: &Treatment, counter: &Counter) {
     let Some(problem) = small_problem(data) else { return };
     let instance = Instance { label: format!("fuzz {data:?}"), problem, closed_form: None, corners: Vec::new() };
-    let search = Search { starts: 6, window_starts: 1, ..Search::default() };
-    let report = compare(&instance, &search);
+    let report = compare_by(&instance, treatment);
     assert!(report.disagreements.is_empty(), "{}: {:?}\n{}", report.label, report.disagreements, write_problem(&instance.problem));
+    counter.add(&report);
 }
 
 /// Checker against forgeries: the first byte picks one, the rest makes the problem; and the file
@@ -102,12 +115,14 @@ fn small_problem(data: &[u8]) -> Option<Problem> {
 pub type Target = (&'static str, fn(&[u8]));
 
 /// All targets, for the fuzzer's glue, `fuzz/hour` and the replay of the corpus.
-pub const TARGETS: [Target; 8] = [
+pub const TARGETS: [Target; 10] = [
     ("problem_reader", problem_reader),
     ("certificate_reader", certificate_reader),
     ("hostile_report", hostile_report),
     ("checker_against_forgeries", checker_against_forgeries),
     ("solver_against_oracle", solver_against_oracle),
+    ("mechanical_systems", mechanical_systems),
+    ("two_particle_problems", two_particle_problems),
     ("screened_against_plain", screened_against_plain),
     ("complete_against_plain", complete_against_plain),
     ("exact_against_naive", exact_against_naive),

@@ -1,6 +1,7 @@
 //! The main job: every family through every engine, one row each, one verdict.
 
-use super::{BlockError, BlockReport, Corner, Instance, InstanceReport, block_state, compare};
+use super::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
+use super::{BlockError, BlockReport, Corner, Instance, InstanceReport, Treatment, block_state, compare_by};
 use super::{degenerate, mechanical, random_pencils, table1_grid};
 use crate::model::ModelError;
 use crate::multistart::Search;
@@ -20,7 +21,7 @@ pub struct FamilyReport {
     pub done: usize,
     /// Solutions listed by the enumerator.
     pub oracle: usize,
-    /// Of those in admissible instances, found by the solver.
+    /// Of those in admissible instances, found by the solver; on Table 1 from interior starts.
     pub found: usize,
     /// Solutions listed by the enumerator in admissible instances.
     pub findable: usize,
@@ -38,8 +39,17 @@ pub struct FamilyReport {
     pub pivots: usize,
     /// Corners reached, with how many instances.
     pub corners: BTreeMap<Corner, usize>,
+    /// Coverage by kind of start, to be held against the floors.
+    pub coverage: BTreeMap<Starts, Coverage>,
     /// Disagreements, with instance.
     pub disagreements: Vec<String>,
+}
+
+impl FamilyReport {
+    /// Rates that are below their floors by more than chance explains.
+    pub fn shortfalls(&self) -> Vec<Shortfall> {
+        self.coverage.iter().flat_map(|(starts, coverage)| shortfalls(self.name, *starts, coverage)).collect()
+    }
 }
 
 /// The whole run.
@@ -56,11 +66,32 @@ pub struct Verification {
 }
 
 impl Verification {
-    /// Number of disagreements in all.
+    /// Number of disagreements in all, shortfalls among them.
     pub fn disagreements(&self) -> usize {
-        let of = |b: &BlockReport| b.rejected.len() + b.forgeries - b.rejected_forgeries + b.missing;
+        let of = |b: &BlockReport| b.rejected.len() + b.forgeries - b.rejected_forgeries + b.missing + b.unfound;
         let block: usize = self.block.iter().map(of).sum();
-        self.families.iter().map(|f| f.disagreements.len()).sum::<usize>() + block
+        self.families.iter().map(|f| f.disagreements.len()).sum::<usize>() + block + self.shortfalls().len()
+    }
+
+    /// Coverage of the families, and of PATH's own sequence on the block's states.
+    pub fn covered(&self) -> Vec<Covered> {
+        let mut out = Vec::new();
+        for family in &self.families {
+            for (starts, coverage) in &family.coverage {
+                out.push(Covered { family: family.name.into(), starts: *starts, coverage: *coverage });
+            }
+        }
+
+        for block in &self.block {
+            out.push(Covered { family: block.state.name().into(), starts: Starts::Path, coverage: block.path });
+        }
+        out
+    }
+
+    /// Every rate that is below its floor by more than chance explains.
+    pub fn shortfalls(&self) -> Vec<Shortfall> {
+        let families = self.families.iter().flat_map(FamilyReport::shortfalls);
+        families.chain(self.block.iter().flat_map(BlockReport::shortfalls)).collect()
     }
 }
 
@@ -77,7 +108,7 @@ pub fn verify(
     stop: &AtomicBool,
     progress: &(dyn Fn(&str, usize, usize) + Sync),
 ) -> Result<Verification, BlockError> {
-    let search = Search { seed, ..Search::default() };
+    let treatment = Treatment::of(&Search { seed, ..Search::default() });
     let families: [(&'static str, Result<Vec<Instance>, ModelError>); 4] = [
         ("Table 1 (two particles)", table1_grid()),
         ("random pencils", random_pencils(random, seed)),
@@ -86,7 +117,7 @@ pub fn verify(
     ];
     let mut rows = Vec::new();
     for (name, instances) in families {
-        rows.push(verify_family(name, &instances?, &search, stop, progress));
+        rows.push(verify_family(name, &instances?, &treatment, stop, progress));
     }
     let mut block = Vec::new();
     let model = Block::of_the_paper(MassKind::Consistent);
@@ -104,7 +135,7 @@ pub fn verify(
 pub fn verify_family(
     name: &'static str,
     instances: &[Instance],
-    search: &Search,
+    treatment: &Treatment,
     stop: &AtomicBool,
     progress: &(dyn Fn(&str, usize, usize) + Sync),
 ) -> FamilyReport {
@@ -115,7 +146,7 @@ pub fn verify_family(
             if stop.load(Ordering::Relaxed) {
                 return None;
             }
-            let report = compare(instance, search);
+            let report = compare_by(instance, treatment);
             progress(name, done.fetch_add(1, Ordering::Relaxed) + 1, instances.len());
             Some(report)
         })
@@ -131,6 +162,9 @@ pub fn verify_family(
         row.pivots += r.pivots;
         let wrong_forgeries = r.disagreements.iter().filter(|d| matches!(d, super::Disagreement::Forgery { .. })).count();
         row.rejected += r.forgeries - wrong_forgeries;
+        for (starts, coverage) in r.coverage() {
+            row.coverage.entry(starts).or_default().add(&coverage);
+        }
         row.uncertified.extend(r.uncertified.iter().map(|u| format!("{}: {u}", r.label)));
         row.disagreements.extend(r.disagreements.iter().map(|d| format!("{}: {d}", r.label)));
         let mut corners = r.corners;

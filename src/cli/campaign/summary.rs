@@ -1,5 +1,6 @@
 //! The summary of a campaign: coverage per family, disagreements, a verdict. No times, so that equal runs are equal.
 
+use crate::cli::verify::covered_json;
 use crate::report::Table;
 use crate::testkit::campaign::{Judgement, Replay, State, Tally};
 use serde_json::{Value, json};
@@ -25,7 +26,7 @@ pub(super) fn text_of(state: &State) -> String {
     let mut sum = Tally::default();
     state.tallies.iter().for_each(|t| add(&mut sum, t));
     table.row(row("all", &sum));
-    let mut out = format!("{table}\n");
+    let mut out = format!("{table}\n{}\n", coverage_of(state));
     for (name, t) in state.families.iter().zip(&state.tallies) {
         let corners: Vec<String> = t.corners.iter().map(|(c, n)| format!("{c} {n}")).collect();
         let corners = if corners.is_empty() { "none".into() } else { corners.join(", ") };
@@ -33,6 +34,20 @@ pub(super) fn text_of(state: &State) -> String {
         out += &t.disagreements.iter().map(|d| format!("  DISAGREEMENT {d}\n")).collect::<String>();
     }
     out + &format!("\n{}\n", verdict(state))
+}
+
+/// What was found of the instances that have solutions, each rate beside its floor; then the rates below it.
+fn coverage_of(state: &State) -> String {
+    let mut table = Table::new(&["coverage", "starts", "first start", "all solutions"]);
+    for c in state.covered() {
+        table.row(vec![c.family.clone(), c.starts.word().into(), c.first_text(), c.all_text()]);
+    }
+
+    let mut out = table.to_string();
+    for shortfall in state.shortfalls() {
+        out += &format!("  DISAGREEMENT coverage: {shortfall}\n");
+    }
+    out
 }
 
 fn add(sum: &mut Tally, t: &Tally) {
@@ -83,6 +98,8 @@ pub(super) fn json_of(state: &State) -> Value {
     };
     json!({
         "seed": state.seed, "shard": [state.shard.0 + 1, state.shard.1], "instances": state.instances(), "disagreements": state.disagreements(),
+        "coverage": state.covered().iter().map(covered_json).collect::<Vec<_>>(),
+        "shortfalls": state.shortfalls().iter().map(ToString::to_string).collect::<Vec<_>>(),
         "families": state.families.iter().zip(&state.tallies).map(family).collect::<Vec<_>>(), "verdict": verdict(state),
     })
 }

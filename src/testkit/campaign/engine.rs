@@ -9,7 +9,7 @@ use crate::oracle::Enumeration;
 use crate::reduction::Reduced;
 use crate::search::screen;
 use crate::testkit::compare::{compare_with, engines, observed};
-use crate::testkit::{Corner, Disagreement, InstanceReport};
+use crate::testkit::{Corner, Disagreement, InstanceReport, Treatment};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What every engine is held against.
@@ -56,10 +56,8 @@ impl<F: Fn(&Pencil, &Window) -> Result<Option<Enumeration>, String> + Sync> Engi
 
 /// Closed form, lift, certificates and their forgeries, complete search, solver: all of [`crate::testkit::compare`].
 pub struct Pipeline {
-    /// How the solver searches.
-    pub search: Search,
-    /// Nodes per piece of the complete search.
-    pub nodes: usize,
+    /// How the solver searches, which solver it is, and nodes per piece of the complete search.
+    pub treatment: Treatment,
 }
 
 impl Engine for Pipeline {
@@ -68,7 +66,7 @@ impl Engine for Pipeline {
     }
 
     fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
-        compare_with(&case.instance, &truth.reduced, &truth.enumeration, &self.search, self.nodes, report);
+        compare_with(&case.instance, &truth.reduced, &truth.enumeration, &self.treatment, report);
     }
 }
 
@@ -108,8 +106,14 @@ pub fn standard(seed: u64) -> Vec<Box<dyn Engine>> {
         Err(screen::ScreenError::TooLarge { .. }) => Ok(None),
         Err(e) => Err(e.to_string()),
     };
+    let pipeline = Pipeline { treatment: treatment(seed) };
+    vec![Box::new(KnownAnswer), Box::new(Enumerator { name: "screened", answer: screened }), Box::new(pipeline)]
+}
+
+/// How the campaign treats an instance: a search that takes seconds at most. The campaign's floors hold for it.
+pub fn treatment(seed: u64) -> Treatment {
     let search = Search { starts: 10, window_starts: 1, window_limit: 6, departures: Some(2), seed, ..Search::default() };
-    vec![Box::new(KnownAnswer), Box::new(Enumerator { name: "screened", answer: screened }), Box::new(Pipeline { search, nodes: NODES })]
+    Treatment { nodes: NODES, ..Treatment::of(&search) }
 }
 
 /// Nodes per piece of the complete search: instances are small, what needs more is degenerate.

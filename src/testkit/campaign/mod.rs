@@ -12,7 +12,7 @@ mod run;
 mod shrink;
 mod state;
 
-pub use engine::{Engine, Enumerator, Finding, Judgement, KnownAnswer, Pipeline, Truth, judge, standard};
+pub use engine::{Engine, Enumerator, Finding, Judgement, KnownAnswer, Pipeline, Truth, judge, standard, treatment};
 pub use family::{Case, Expected, FAMILIES, Id, UnknownFamily, case};
 pub use replay::{REPLAY_FORMAT, Replay, ReplayError};
 pub use run::{Campaign, Event, Limit};

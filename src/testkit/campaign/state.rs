@@ -3,6 +3,7 @@
 use super::Judgement;
 use crate::model::ModelError;
 use crate::model::file::{from_json, require_format};
+use crate::testkit::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -40,6 +41,9 @@ pub struct Tally {
     pub findable: u64,
     /// Of these, found by the solver and certified.
     pub found: u64,
+    /// Coverage by kind of start; absent in state files written before there were floors.
+    #[serde(default)]
+    pub coverage: BTreeMap<String, Coverage>,
     /// Certificates accepted by the checker.
     pub accepted: u64,
     /// Forgeries tried; each one accepted is a disagreement.
@@ -66,6 +70,9 @@ impl Tally {
         self.solutions += r.oracle as u64;
         self.findable += if r.solved { r.oracle as u64 } else { 0 };
         self.found += r.found as u64;
+        for (starts, coverage) in r.coverage() {
+            self.coverage.entry(starts.word().into()).or_default().add(&coverage);
+        }
         self.accepted += r.accepted as u64;
         self.forgeries += r.forgeries as u64;
         self.closed += u64::from(r.completed);
@@ -110,9 +117,28 @@ impl State {
         super::Id { family, seed: self.seed, index: k / count * self.shard.1 + self.shard.0 }
     }
 
-    /// Disagreements in all families.
+    /// Disagreements in all families, shortfalls among them.
     pub fn disagreements(&self) -> usize {
-        self.tallies.iter().map(|t| t.disagreements.len()).sum()
+        let single: usize = self.tallies.iter().map(|t| t.disagreements.len()).sum();
+        single + self.shortfalls().len()
+    }
+
+    /// Coverage of each family and kind of start that was met.
+    pub fn covered(&self) -> Vec<Covered> {
+        let mut out = Vec::new();
+        for (family, tally) in self.families.iter().zip(&self.tallies) {
+            for starts in Starts::ALL {
+                if let Some(coverage) = tally.coverage.get(starts.word()) {
+                    out.push(Covered { family: family.clone(), starts, coverage: *coverage });
+                }
+            }
+        }
+        out
+    }
+
+    /// Rates that are below their floors by more than chance explains: findings of a family, not of an instance.
+    pub fn shortfalls(&self) -> Vec<Shortfall> {
+        self.covered().iter().flat_map(|c| shortfalls(&c.family, c.starts, &c.coverage)).collect()
     }
 
     /// Instances judged in all families.
