@@ -5,7 +5,7 @@ use super::forge::forgeries;
 use super::{Corner, Disagreement, Instance};
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
-use crate::certify::{certificate, certify};
+use crate::certify::{Certifier, certificate};
 use crate::check::check;
 use crate::exact::{Algebraic, Poly, Quadratic, Rational, Sign, common_denominator};
 use crate::model::{Admissible, Body, Pencil, Problem};
@@ -78,7 +78,7 @@ pub(super) fn compare_with(
     }
     if let Ok(admissible) = Admissible::new(&reduced.pencil, problem.unknown()) {
         report.solved = true;
-        match multistart(&admissible, problem.window(), search) {
+        match multistart(problem, &admissible, search) {
             Ok(found) => compare_found(problem, &reduced.pencil, oracle, found, report),
             Err(e) => report.disagreements.push(Disagreement::Refused { engine: "solver", reason: e.to_string() }),
         }
@@ -152,11 +152,12 @@ fn check_lifts(problem: &Problem, reduced: &Reduced, oracle: &Enumeration, repor
 /// The enumerator's own solutions, through 17-digit decimals, must be certifiable.
 fn certify_oracle(problem: &Problem, reduced: &Reduced, oracle: &Enumeration, report: &mut InstanceReport) -> Vec<Claim> {
     let slip = reduced.pencil.slip();
+    let certifier = Certifier::new(problem, &reduced.pencil);
     let mut claims = Vec::new();
     for (index, s) in oracle.solutions.iter().enumerate() {
         let double = |text: String| text.parse().unwrap_or(f64::NAN); // our own decimals parse
         let candidate = Candidate { value: double(s.decimal(17)), x: s.x_decimals(&slip, 17).into_iter().map(double).collect() };
-        match certify(&reduced.pencil, problem.window(), &candidate) {
+        match certifier.certify(&candidate) {
             Ok(claim) => claims.push(claim),
             // A singular support has a root everywhere: its value, if irrational, cannot be told from doubles.
             Err(reason) if s.multiplicity == 0 => report.uncertified.push(format!("solution {index}, singular support: {reason}")),
