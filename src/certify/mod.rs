@@ -5,11 +5,13 @@ mod enclose;
 mod exact_claim;
 mod failure;
 mod lifted;
+mod precise;
 mod support;
 
 pub use accepted::{Certifier, Sifted, certify, sift};
 pub use failure::{Attempt, AttemptFailure, NotCertified};
 pub use lifted::{flattened, lifted};
+pub(crate) use precise::precise_null;
 
 use crate::candidate::Candidate;
 use crate::certificate::{Certificate, Claim};

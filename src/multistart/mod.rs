@@ -228,3 +228,54 @@ pub fn multistart_with(
     found.certified.sort_by(|a, b| a.candidate.value.total_cmp(&b.candidate.value).then_with(|| support(&a.claim).cmp(support(&b.claim))));
     Ok(found)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::ExactSolution;
+    use crate::certify::{Attempt, AttemptFailure, propose, sift};
+    use crate::check::Reason;
+    use crate::exact::{Sparse, whole};
+    use crate::model::Body;
+    use crate::model::file::Number;
+
+    /// lambda^2 = 2 with x = (2, 1) and 3 with (3, 2).
+    fn fold() -> (Problem, Pencil) {
+        let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
+        let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+        (Problem::new(Body::Pencil(pencil.clone()), Unknown::Lambda2, Window::all()).unwrap(), pencil)
+    }
+
+    fn refusal(reason: Reason) -> NotCertified {
+        let failure = AttemptFailure::Refused { reason: Box::new(reason) };
+        NotCertified { attempts: vec![Attempt { support: vec![0, 1], failure }] }
+    }
+
+    /// A certifier that makes a wrong claim of everything above 5/2: with the checker behind it such points stay uncertified.
+    #[test]
+    fn what_the_checker_refuses_is_uncertified() {
+        let (problem, pencil) = fold();
+        let admissible = Admissible::new(&pencil, Unknown::Lambda2).unwrap();
+        let proposed = |candidate: &Candidate| {
+            let Claim::ExactSolution(claim) = propose(&pencil, problem.window(), candidate)? else { panic!("an exact claim") };
+            let one = || vec![Number(whole(1))];
+            let x = if candidate.value > 2.5 { vec![one(), one()] } else { claim.x.clone() };
+            Ok(Claim::ExactSolution(ExactSolution { x, ..claim }))
+        };
+        let checked = |candidate: &Candidate| {
+            let mut sifted = sift(&problem, vec![proposed(candidate)?]);
+            sifted.accepted.pop().ok_or_else(|| refusal(sifted.refused.remove(0).1))
+        };
+        let search = Search::default();
+        let found = multistart_with(&admissible, problem.window(), &search, &checked, &|_| ControlFlow::Continue(())).unwrap();
+
+        assert_eq!(found.certified.len(), 1);
+        assert!((found.certified[0].candidate.value - 2.0).abs() < 1e-6);
+        let [refused] = &found.uncertified[..] else { panic!("{:?}", found.uncertified) };
+        assert!((refused.candidate.value - 3.0).abs() < 1e-6);
+        assert!(matches!(refused.reason.attempts[0].failure, AttemptFailure::Refused { .. }), "{}", refused.reason);
+
+        let all = multistart(&problem, &admissible, &search).unwrap();
+        assert_eq!((all.certified.len(), all.uncertified.len()), (2, 0));
+    }
+}

@@ -49,7 +49,7 @@ impl Point {
     }
 
     /// a + t b in units of the grid of t.
-    pub(super) fn entry(&self, a: &Integer, b: &Integer) -> Integer {
+    pub(in crate::certify) fn entry(&self, a: &Integer, b: &Integer) -> Integer {
         (a << self.t_bits) + b * &self.t
     }
 
@@ -101,12 +101,12 @@ impl<'a> Newton<'a> {
     }
 
     /// Variables that are not active, ascending.
-    pub(super) fn inactive(&self) -> impl Iterator<Item = usize> {
+    pub(in crate::certify) fn inactive(&self) -> impl Iterator<Item = usize> {
         (0..self.place.len()).filter(|&i| self.place[i].is_none())
     }
 
     /// Entries (position, a, b) of a row of the pencil in the active columns.
-    pub(super) fn active_entries(&self, row: usize) -> impl Iterator<Item = (usize, &Integer, &Integer)> {
+    pub(in crate::certify) fn active_entries(&self, row: usize) -> impl Iterator<Item = (usize, &Integer, &Integer)> {
         self.rows.0[row].iter().filter_map(|(j, a, b)| self.place[*j].map(|k| (k, a, b)))
     }
 

@@ -88,7 +88,7 @@ fn wrong_signs_are_named() {
     );
     assert_eq!(
         of(&pencil([1, -1], &whole(1)), &all, &[0, 1], 3.0, [0.5, 0.5, 0.0]).map(|_| ()),
-        Err(AttemptFailure::YNegative { index: 2 })
+        Err(AttemptFailure::Undecided { what: "y[2]".into(), bits: LAST_GRID_BITS })
     );
     assert!(of(&pencil([1, 1], &whole(1)), &all, &[0, 1], 3.0, [0.5, 0.5, 0.0]).is_ok());
     // Swapped signs: [[-1, 2], [2, -1]] has x = (1, -1) at t = 3, and e'x = 0 there; a free part gives e'x its sum.
@@ -147,14 +147,14 @@ fn tiny_components_have_their_signs() {
     }
 }
 
-/// Below the last grid nothing is claimed.
+/// What is zero, or below the last grid, has no sign.
 #[test]
 fn a_component_of_nothing_is_undecided() {
-    for small in ["0", "1e-200"] {
-        let failure = |support: &[usize]| coupled_claim(small, support).unwrap_err();
-        assert_eq!(failure(&[0]), AttemptFailure::Undecided { what: "y[1]".into(), bits: LAST_GRID_BITS });
-        assert_eq!(failure(&[0, 1]), AttemptFailure::Undecided { what: "x[1]".into(), bits: LAST_GRID_BITS });
-    }
+    let undecided = |what: &str| Err(AttemptFailure::Undecided { what: what.into(), bits: LAST_GRID_BITS });
+    assert_eq!(coupled_claim("0", &[0]), undecided("y[1]"));
+    assert_eq!(coupled_claim("0", &[0, 1]), undecided("x[1]"));
+    assert_eq!(coupled_claim("1e-200", &[0, 1]), undecided("x[1]"));
+    assert_eq!(coupled_claim("-1e-200", &[0, 1]), undecided("x[1]"));
 }
 
 /// A claim whose signs are decided at once has the grid of the first try, and radii of a few units of it.
