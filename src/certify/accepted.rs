@@ -141,7 +141,7 @@ mod tests {
         let certifier = Certifier::new(&problem, pencil(&problem));
         let proposal = |claim: Claim| Proposal { support: vec![0, 1], claim: Ok(claim) };
 
-        let alone = certifier.first_accepted([proposal(forged(&problem))].into_iter()).unwrap_err();
+        let alone = certifier.first_accepted([proposal(forged(&problem))].into_iter()).map(|_| ()).unwrap_err();
         let [Attempt { failure: AttemptFailure::Refused { .. }, .. }] = &alone.attempts[..] else { panic!("{alone}") };
         assert!(alone.to_string().contains("the checker refuses the claim"), "{alone}");
 

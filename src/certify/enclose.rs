@@ -142,10 +142,8 @@ impl Enclosure<'_> {
     /// # Errors
     /// A sign that is wrong all over the box.
     fn undecided(&self, window: &Window) -> Result<Option<Undecided>, AttemptFailure> {
-        let outside = || AttemptFailure::NoRootNear {
-            lo: window.min().to_string(),
-            hi: window.max().map_or("infinity".into(), ToString::to_string),
-        };
+        let outside =
+            || AttemptFailure::NoRootNear { lo: window.min().to_string(), hi: window.max().map_or("infinity".into(), ToString::to_string) };
         match self.value_in(window) {
             Side::Above => {}
             Side::Below => return Err(outside()),

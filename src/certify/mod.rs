@@ -17,10 +17,13 @@ use crate::candidate::Candidate;
 use crate::certificate::{Certificate, Claim};
 use crate::exact::Integer;
 use crate::model::{Pencil, Problem, Window};
+use std::collections::VecDeque;
 
 /// Largest number of active variables for which an exact claim is attempted; above, enclosures.
 /// Exact algebraic numbers of higher degree cost more than they tell.
 pub const EXACT_ORDER: usize = 16;
+/// Supports that are tried beyond the guesses, at most: each has one component more or less.
+const MAX_REPAIRS: usize = 16;
 /// Largest size, in bits, of a determinant for which an exact claim is attempted.
 pub const EXACT_BITS: u64 = 4096;
 /// Largest number of active variables for which an enclosure is attempted: it needs dense inverses.
@@ -34,30 +37,52 @@ struct Proposal {
 
 /// The claims that a candidate suggests, one per support that its components suggest, best first.
 ///
-/// They are made when they are asked for: the first one is accepted in general.
+/// They are made when they are asked for: the first one is accepted in general. Where a sign is wrong at a component that
+/// doubles cannot tell from zero, the support with that component changed comes next.
+struct Proposals<'a> {
+    pencil: &'a Pencil,
+    rows: &'a IntegralRows,
+    window: &'a Window,
+    candidate: &'a Candidate,
+    waiting: VecDeque<Vec<usize>>,
+    /// Every support that was tried or waits.
+    known: Vec<Vec<usize>>,
+    repairs_left: usize,
+}
+
 fn proposals<'a>(
     pencil: &'a Pencil,
     rows: &'a IntegralRows,
     window: &'a Window,
     candidate: &'a Candidate,
-) -> Result<impl Iterator<Item = Proposal> + 'a, NotCertified> {
-    let supports = support::guesses(pencil, candidate).map_err(NotCertified::of)?;
+) -> Result<Proposals<'a>, NotCertified> {
+    let known = support::guesses(pencil, candidate).map_err(NotCertified::of)?;
+    let waiting = known.iter().cloned().collect();
+    Ok(Proposals { pencil, rows, window, candidate, waiting, known, repairs_left: MAX_REPAIRS })
+}
 
-    let propose = move |support: Vec<usize>| {
-        let claim = claim(pencil, rows, window, &support, candidate);
-        Proposal { support, claim }
-    };
-    Ok(supports.into_iter().map(propose))
+impl Iterator for Proposals<'_> {
+    type Item = Proposal;
+
+    fn next(&mut self) -> Option<Proposal> {
+        let support = self.waiting.pop_front()?;
+        let claim = claim(self.pencil, self.rows, self.window, &support, self.candidate);
+
+        if let Err(failure) = &claim
+            && self.repairs_left > 0
+            && let Some(repaired) = support::repaired(self.pencil, self.candidate, &support, failure)
+            && !self.known.contains(&repaired)
+        {
+            self.repairs_left -= 1;
+            self.known.push(repaired.clone());
+            self.waiting.push_front(repaired);
+        }
+        Some(Proposal { support, claim })
+    }
 }
 
 /// A claim about the solution with this support near the candidate: exact where that is short, else an enclosure.
-fn claim(
-    pencil: &Pencil,
-    rows: &IntegralRows,
-    window: &Window,
-    support: &[usize],
-    candidate: &Candidate,
-) -> Result<Claim, AttemptFailure> {
+fn claim(pencil: &Pencil, rows: &IntegralRows, window: &Window, support: &[usize], candidate: &Candidate) -> Result<Claim, AttemptFailure> {
     let order = pencil.free().len() + support.len();
     if order > ENCLOSED_ORDER {
         return Err(AttemptFailure::TooLarge { limit: ENCLOSED_ORDER, got: order });

@@ -106,9 +106,7 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
     for (k, solution) in report.solutions.iter().enumerate() {
         let wrong = |why: String| format!("solution {k}: {why}");
         let candidate = solution.as_ref().map_err(|off| wrong(off.to_string()))?;
-        let claim = certifier
-            .certify(candidate)
-            .map_err(|why| wrong(format!("value {} is not certified: {why}", candidate.value)))?;
+        let claim = certifier.certify(candidate).map_err(|why| wrong(format!("value {} is not certified: {why}", candidate.value)))?;
         let placed = match &claim {
             Claim::ExactSolution(c) => place(case, &claim, c, &mut met),
             // A lifted one is never made here; like a box it is placed by value and support.

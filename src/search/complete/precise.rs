@@ -13,7 +13,6 @@ use crate::candidate::Candidate;
 use crate::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
 use crate::certify::{ENCLOSED_ORDER, precise_null};
 use crate::exact::{Integer, Rational, to_f64};
-use crate::model::file::Number;
 use crate::model::{Pencil, Problem};
 use num_traits::{One, Signed, Zero};
 
