@@ -20,13 +20,12 @@ pub const VALUE_RADIUS: f64 = 1e-4;
 /// the certified solution is another one than the candidate.
 pub const X_RADIUS: f64 = 1e-3;
 
-/// Half width of a Krawczyk box relative to the largest component. Unit: none, power of two 2^-40.
-/// Basis: far above the residual of the refined centre (2^-80), far below the distance between
-/// solutions and the smallest component met (6e-11 = 2^-34).
-pub const BOX_RADIUS_BITS: u32 = 40;
+/// Share of a radius that the left side of Krawczyk's inequality may take where radii are proposed. Unit: none. Basis: the
+/// checker asks for less than all of it; the rest is for what doubles do not see.
+pub const KRAWCZYK_MARGIN: f64 = 0.75;
 
-/// Bits kept after the point in the centre of a Krawczyk box. Basis: twice the radius' bits.
-pub const CENTER_BITS: u32 = 96;
+/// Error of a sum of products in doubles, relative to the sum of their moduli. Unit: none. Basis: a few thousand terms.
+pub const KRAWCZYK_NOISE: f64 = 1e-13;
 
 /// Bits of the largest entry of a Krawczyk preconditioner. Basis: 40 bits keep |I - YJ| below 1e-3
 /// for the block (804 unknowns), and each bit costs 80 kB of certificate there.

@@ -4,7 +4,7 @@
 
 use mceip::candidate::Candidate;
 use mceip::certificate::Claim;
-use mceip::certify::{AttemptFailure, certificate, certify};
+use mceip::certify::{AttemptFailure, certificate, propose};
 use mceip::check::check;
 use mceip::exact::{Sparse, parse};
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};
@@ -26,13 +26,13 @@ fn candidate(value: f64, x: &[f64]) -> Candidate {
 
 /// What the first support tried failed with.
 fn failure(p: &Pencil, c: &Candidate) -> AttemptFailure {
-    certify(p, &Window::all(), c).unwrap_err().attempts.remove(0).failure
+    propose(p, &Window::all(), c).unwrap_err().attempts.remove(0).failure
 }
 
 #[test]
 fn six_digits_give_an_exact_claim_that_is_accepted() {
     let p = pencil(&[&["1", "-6"], &["2", "-6"]], I2);
-    let claim = certify(&p, &Window::all(), &candidate(2.000001, &[0.666667, 0.333333])).unwrap();
+    let claim = propose(&p, &Window::all(), &candidate(2.000001, &[0.666667, 0.333333])).unwrap();
     assert!(matches!(&claim, Claim::ExactSolution(c) if c.support == [0, 1] && c.polynomial.len() == 2));
     let problem = Problem::new(Body::Pencil(p), Unknown::Lambda2, Window::all()).unwrap();
     assert!(check(&problem, &certificate(&problem, vec![claim])).is_ok());
@@ -61,7 +61,7 @@ fn singular_pencils_and_wide_kernels_are_certified_at_the_candidate() {
     let singular = pencil(&[&["1", "-1"], &["-1", "1"]], &[&["0", "0"], &["0", "0"]]);
     let wide = pencil(&[&["-1", "0"], &["0", "-1"]], I2);
     for (p, c) in [(singular, candidate(0.37, &[0.5, 0.5])), (wide, candidate(1.0, &[0.25, 0.75]))] {
-        let claim = certify(&p, &Window::all(), &c).unwrap();
+        let claim = propose(&p, &Window::all(), &c).unwrap();
         let problem = Problem::new(Body::Pencil(p), Unknown::Lambda2, Window::all()).unwrap();
         assert!(check(&problem, &certificate(&problem, vec![claim])).is_ok());
     }
@@ -76,7 +76,7 @@ fn a_wide_kernel_that_meets_the_inequalities_in_a_face_is_certified() {
     let p = pencil(a, b);
     let p = Pencil::new(p.a().clone(), p.b().clone(), vec![0]).unwrap();
     for digits in [1.3333333333333333, 1.333333] {
-        let claim = certify(&p, &Window::all(), &candidate(0.0, &[digits, 1.0, 0.0, 0.0])).unwrap();
+        let claim = propose(&p, &Window::all(), &candidate(0.0, &[digits, 1.0, 0.0, 0.0])).unwrap();
         assert!(matches!(&claim, Claim::ExactSolution(c) if c.support == [1] && c.biactive == [2, 3]));
         let problem = Problem::new(Body::Pencil(p.clone()), Unknown::Lambda2, Window::all()).unwrap();
         assert!(check(&problem, &certificate(&problem, vec![claim])).is_ok());
@@ -91,7 +91,7 @@ fn a_polynomial_that_vanishes_at_the_value_is_no_free_coordinate() {
     let p = pencil(&[&["0", "1", "0"], &["0", "-1", "1"], &["0"; 3]], &[&["-1", "-1", "0"], &["0", "1", "-1"], &["1", "0", "0"]]);
     let p = Pencil::new(p.a().clone(), p.b().clone(), vec![0, 2]).unwrap();
     for x in [[0.0, 1.0, 0.0], [0.0, 0.25, -1.0]] {
-        let claim = certify(&p, &Window::all(), &candidate(1.0, &x)).unwrap();
+        let claim = propose(&p, &Window::all(), &candidate(1.0, &x)).unwrap();
         let problem = Problem::new(Body::Pencil(p.clone()), Unknown::Mu, Window::all()).unwrap();
         assert!(check(&problem, &certificate(&problem, vec![claim])).is_ok());
     }
@@ -104,7 +104,7 @@ fn the_only_value_of_a_singular_support_is_found() {
     let a: &[&[&str]] = &[&["1", "-1", "0", "0"], &["-1", "1", "0", "0"], &["-1", "0", "1", "0"], &["1", "0", "0", "1"]];
     let b: &[&[&str]] = &[&["0"; 4], &["0"; 4], &["3", "0", "0", "0"], &["-3", "0", "0", "0"]];
     let p = pencil(a, b);
-    let claim = certify(&p, &Window::all(), &candidate(0.333333, &[0.5, 0.5, 0.0, 0.0])).unwrap();
+    let claim = propose(&p, &Window::all(), &candidate(0.333333, &[0.5, 0.5, 0.0, 0.0])).unwrap();
     let problem = Problem::new(Body::Pencil(p.clone()), Unknown::Mu, Window::all()).unwrap();
     let accepted = check(&problem, &certificate(&problem, vec![claim])).unwrap();
     assert!(accepted.claims[0].value.contains(&parse("1/3").unwrap()) && accepted.claims[0].value.is_point());
@@ -121,11 +121,11 @@ fn large_supports_are_enclosed_and_accepted() {
     // Perron vector of the path graph: t = 2 cos(pi / (n + 1)), x_i = sin(i pi / (n + 1)).
     let angle = std::f64::consts::PI / (n + 1) as f64;
     let x: Vec<f64> = (1..=n).map(|i| (i as f64 * angle).sin()).collect();
-    let claim = certify(&p, &Window::all(), &candidate(2.0 * angle.cos(), &x)).unwrap();
+    let claim = propose(&p, &Window::all(), &candidate(2.0 * angle.cos(), &x)).unwrap();
     assert!(matches!(&claim, Claim::EnclosedSolution(_)));
     let problem = Problem::new(Body::Pencil(p.clone()), Unknown::Lambda2, Window::all()).unwrap();
     let accepted = check(&problem, &certificate(&problem, vec![claim])).unwrap();
     let value = &accepted.claims[0].value;
     assert!(value.contains(&parse("1.977661652450257").unwrap()) && value.width() < parse("1e-10").unwrap());
-    assert!(certify(&p, &Window::all(), &candidate(1.5, &x)).is_err());
+    assert!(propose(&p, &Window::all(), &candidate(1.5, &x)).is_err());
 }

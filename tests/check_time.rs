@@ -5,7 +5,7 @@
 
 use mceip::candidate::Candidate;
 use mceip::certificate::{Certificate, Claim};
-use mceip::certify::{certificate, certify};
+use mceip::certify::{certificate, propose};
 use mceip::check::check;
 use mceip::model::Problem;
 use mceip::search::complete::{Options, complete};
@@ -32,7 +32,7 @@ fn exact(n: usize) -> (Problem, Certificate) {
         let pencil = mceip::reduction::reduce(&problem).unwrap().pencil;
         for (s, x) in found.solutions().filter(|(s, _)| 2 * s.support.len() >= n) {
             let candidate = Candidate { value: mceip::exact::to_f64(&s.value.mid()), x: x.to_vec() };
-            if let Ok(Claim::ExactSolution(c)) = certify(&pencil, problem.window(), &candidate) {
+            if let Ok(Claim::ExactSolution(c)) = propose(&pencil, problem.window(), &candidate) {
                 return (problem.clone(), certificate(&problem, vec![Claim::ExactSolution(c)]));
             }
         }

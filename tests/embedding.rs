@@ -43,7 +43,7 @@ fn solutions_of_the_mcp_are_certified_or_reported() {
     for instance in instances() {
         let pencil = reduce(&instance.problem).unwrap().pencil;
         let admissible = Admissible::new(&pencil, instance.problem.unknown()).unwrap();
-        let found = multistart(&admissible, &Window::all(), &Search::default()).unwrap();
+        let found = multistart(&instance.problem, &admissible, &Search::default()).unwrap();
         let reached = found.terminations.iter().filter(|(t, _)| t.reached_tolerance()).map(|(_, n)| n).sum::<usize>();
         assert_eq!(reached, found.certified.len() + found.uncertified.len() + found.repeated + found.outside, "{}", instance.label);
     }

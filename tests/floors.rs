@@ -162,13 +162,13 @@ fn measure_the_block() {
 }
 
 /// A solver that finds nothing.
-fn finds_nothing(_: &Admissible<'_>, _: &Window, _: &Search) -> Result<Found, SolverError> {
+fn finds_nothing(_: &Problem, _: &Admissible<'_>, _: &Search) -> Result<Found, SolverError> {
     Ok(Found::default())
 }
 
 /// A solver that forgets every second solution of an instance, the first one among them.
-fn drops_every_second(admissible: &Admissible<'_>, window: &Window, search: &Search) -> Result<Found, SolverError> {
-    let mut found = multistart(admissible, window, search)?;
+fn drops_every_second(problem: &Problem, admissible: &Admissible<'_>, search: &Search) -> Result<Found, SolverError> {
+    let mut found = multistart(problem, admissible, search)?;
     let mut index = 0;
     found.certified.retain(|_| {
         index += 1;
@@ -179,8 +179,8 @@ fn drops_every_second(admissible: &Admissible<'_>, window: &Window, search: &Sea
 
 /// A solver that forgets every second solution, the second one first: an instance with one solution
 /// is not touched.
-fn keeps_every_first(admissible: &Admissible<'_>, window: &Window, search: &Search) -> Result<Found, SolverError> {
-    let mut found = multistart(admissible, window, search)?;
+fn keeps_every_first(problem: &Problem, admissible: &Admissible<'_>, search: &Search) -> Result<Found, SolverError> {
+    let mut found = multistart(problem, admissible, search)?;
     let mut index = 0;
     found.certified.retain(|_| {
         index += 1;

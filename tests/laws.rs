@@ -60,7 +60,8 @@ const MAY_IMPORT: [(&str, &[&str]); 10] = [
     ("solver", &["mcp"]),
     ("mcp", &[]),
     ("sparse", &["mcp", "solver", "linear", "tolerance"]),
-    ("certify", &["exact", "model", "candidate", "certificate", "tolerance", "linear"]),
+    // check: what certify hands out has been accepted.
+    ("certify", &["exact", "model", "candidate", "certificate", "check", "tolerance", "linear"]),
 ];
 
 #[test]

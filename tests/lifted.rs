@@ -5,7 +5,7 @@
 
 use mceip::candidate::Candidate;
 use mceip::certificate::{Certificate, Claim, ExactSolution, LiftedSolution};
-use mceip::certify::{certificate, certify, flattened, lifted};
+use mceip::certify::{certificate, flattened, lifted, propose};
 use mceip::check::{Reason, check};
 use mceip::exact::{Sparse, rational, whole};
 use mceip::model::file::Number;
@@ -19,7 +19,7 @@ fn claims(problem: &Problem) -> Vec<ExactSolution> {
     let pencil = reduce(problem).unwrap().pencil;
     let of = |s: &mceip::oracle::Solution| {
         let x = s.x_decimals(&pencil.slip(), 17).iter().map(|t| t.parse().unwrap()).collect();
-        match certify(&pencil, problem.window(), &Candidate { value: s.decimal(17).parse().unwrap(), x }).unwrap() {
+        match propose(&pencil, problem.window(), &Candidate { value: s.decimal(17).parse().unwrap(), x }).unwrap() {
             Claim::ExactSolution(c) => c,
             other => panic!("{other:?}"),
         }

@@ -4,7 +4,7 @@
 
 use mceip::candidate::Candidate;
 use mceip::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution};
-use mceip::certify::{certificate, certify, flattened, lifted};
+use mceip::certify::{certificate, flattened, lifted, propose};
 use mceip::check::check;
 use mceip::exact::{Algebraic, Integer, Interval, Poly, Sign, Sparse, common_denominator, rational, roots_in, whole};
 use mceip::model::file::Number;
@@ -33,7 +33,7 @@ impl Subject {
         let mut certificates = Vec::new();
         for s in &truth.solutions {
             let x = s.x_decimals(&slip, 17).iter().map(|t| t.parse().unwrap()).collect();
-            let claim = certify(&reduced.pencil, problem.window(), &Candidate { value: s.decimal(17).parse().unwrap(), x }).unwrap();
+            let claim = propose(&reduced.pencil, problem.window(), &Candidate { value: s.decimal(17).parse().unwrap(), x }).unwrap();
             if let (Body::System(system), Claim::ExactSolution(c)) = (problem.body(), &claim) {
                 certificates.push(certificate(&problem, vec![Claim::LiftedSolution(lifted(system, problem.unknown(), c))]));
             }

@@ -6,7 +6,7 @@
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::candidate::Candidate;
-use mceip::certify::{certificate, certify};
+use mceip::certify::{certificate, propose};
 use mceip::check::check;
 use mceip::exact::{Rational, Sparse, from_f64, parse, to_f64, whole};
 use mceip::model::{Admissible, Body, Pencil, Problem, Unknown, Window};
@@ -68,7 +68,7 @@ fn below_the_threshold_absence_is_proved() {
             // What a peer reports: lambda^2 at its bound, at the size of its residual, and at the gap.
             for value in [0.0, 1e-13, to_f64(&gap)] {
                 let claimed = Candidate { value, x: t.x.clone() };
-                assert!(certify(&pencil, problem.window(), &claimed).is_err());
+                assert!(propose(&pencil, problem.window(), &claimed).is_err());
                 match near(&problem, &claimed, None, &AtomicBool::new(false)).unwrap() {
                     Near::Absent(c) => {
                         let cover = check(&problem, &c.certificate).unwrap().cover.unwrap();
@@ -97,7 +97,7 @@ fn above_the_threshold_everything_is_certified() {
             for s in truth {
                 let x = s.x_decimals(&pencil.slip(), 17).iter().map(|t| t.parse().unwrap()).collect();
                 let claimed = Candidate { value: s.decimal(17).parse().unwrap(), x };
-                let claim = certify(&pencil, problem.window(), &claimed).unwrap();
+                let claim = propose(&pencil, problem.window(), &claimed).unwrap();
                 let accepted_claims = check(&problem, &certificate(&problem, vec![claim])).unwrap().claims;
                 assert_eq!(accepted_claims[0].support, s.slip);
                 accepted += 1;
@@ -113,7 +113,7 @@ fn searched(problem: &Problem) -> (Found, usize) {
     let pencil = reduce(problem).unwrap().pencil;
     let admissible = Admissible::new(&pencil, problem.unknown()).unwrap();
     let search = Search { starts: 6, window_starts: 1, ..Search::default() };
-    let found = multistart(&admissible, problem.window(), &search).unwrap();
+    let found = multistart(problem, &admissible, &search).unwrap();
     let truth = enumerate(&pencil, problem.window()).unwrap().solutions;
     assert!(found.certified.len() <= truth.len(), "{} claims of {}", found.certified.len(), truth.len());
     if !found.certified.is_empty() {

@@ -37,7 +37,7 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
         assert!(truth.is_complete());
         let pencil = reduce(&problem).unwrap().pencil;
         let admissible = Admissible::new(&pencil, Unknown::Mu).unwrap();
-        let (found, _) = multistart_large(&admissible, problem.window(), how, &|_| ControlFlow::Continue(())).unwrap();
+        let (found, _) = multistart_large(&problem, &admissible, how, &|_| ControlFlow::Continue(())).unwrap();
         let meets = |value: f64, slip: &[usize]| {
             let same = |c: &&mceip::multistart::Certified| support(&c.claim) == slip && (c.candidate.value - value).abs() <= 1e-6 * value;
             found.certified.iter().find(same)

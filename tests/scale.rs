@@ -2,7 +2,7 @@
 #![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used)]
 
-use mceip::certify::{certificate, certify};
+use mceip::certify::{certificate, propose};
 use mceip::check::check;
 use mceip::exact::{parse, rational, to_f64};
 use mceip::linear::Symmetric;
@@ -143,7 +143,7 @@ fn certified(block: &Block, states: &[ContactState], mu: &str, starts: usize) ->
     if found.solutions.is_empty() {
         return (found, Vec::new());
     }
-    let claims = found.solutions.iter().map(|s| certify(&pencil, problem.window(), &s.candidate).unwrap()).collect();
+    let claims = found.solutions.iter().map(|s| propose(&pencil, problem.window(), &s.candidate).unwrap()).collect();
     let accepted = check(&problem, &certificate(&problem, claims)).unwrap();
     let values = accepted.claims.iter().map(|c| (c.support.clone(), to_f64(&c.value.mid()))).collect();
     (found, values)

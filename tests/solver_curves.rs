@@ -208,7 +208,7 @@ fn first_starts_and_coverage_on_held_out_seeds() {
             }
             let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
             let search = Search { starts: 10, window_starts: 0, ..Search::default() };
-            let list = multistart(&admissible, &Window::all(), &search).unwrap();
+            let list = multistart(&case.problem(), &admissible, &search).unwrap();
             solvable += 1;
             first += usize::from(list.certified.iter().any(|c| c.run == 0));
             truth += all.solutions.len();
@@ -238,7 +238,7 @@ fn the_pocket_of_the_first_start_is_left() {
 fn searched(case: &Case, budget: Option<usize>) -> (mceip::multistart::Found, usize) {
     let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
     let search = Search { starts: 10, window_starts: 0, budget, ..Search::default() };
-    let found = multistart(&admissible, &Window::all(), &search).unwrap();
+    let found = multistart(&case.problem(), &admissible, &search).unwrap();
     let work = found.pivots + found.factorisations;
     (found, work)
 }

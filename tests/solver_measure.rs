@@ -53,7 +53,7 @@ impl Tally {
             self.missed_first.push(format!("{} {:?}", case.label, outcome.termination));
         }
         let Some(search) = search else { return };
-        let found = multistart(&admissible, &Window::all(), search).unwrap();
+        let found = multistart(&case.problem(), &admissible, search).unwrap();
         self.count(&found, &truth.solutions);
         for (end, count) in &found.curves {
             *self.curves.entry(*end).or_default() += count;

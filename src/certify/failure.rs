@@ -1,5 +1,7 @@
 //! Why a candidate was not certified: typed, one entry per support tried.
 
+use crate::check::Reason;
+
 /// A candidate that stays uncertified, with what was tried.
 #[derive(Debug, Clone, PartialEq)]
 pub struct NotCertified {
@@ -71,6 +73,14 @@ pub enum AttemptFailure {
         /// Distance allowed.
         limit: f64,
     },
+    /// A sign that the claim needs is not the same all over the smallest box that is tried.
+    #[error("expected one sign of {what} over a box of 2^-{bits} of the largest component, got both or zero")]
+    Undecided {
+        /// What has no certain sign: x, y, or the value's distance to an end of the window.
+        what: String,
+        /// Bits of the grid of the box.
+        bits: u32,
+    },
     /// Refinement reached its cap.
     #[error("expected strict signs within {limit} halvings, got none")]
     Precision {
@@ -80,6 +90,12 @@ pub enum AttemptFailure {
     /// The Jacobian is singular in doubles.
     #[error("Krawczyk: expected a regular Jacobian at the candidate, got a singular one")]
     SingularJacobian,
+    /// The checker refuses the claim that was made.
+    #[error("the checker refuses the claim: {reason}")]
+    Refused {
+        /// The obligation that fails.
+        reason: Box<Reason>,
+    },
     /// Krawczyk's test fails around the candidate.
     #[error("Krawczyk: expected a box that maps into itself around the candidate, got none")]
     NotContracting,

@@ -1,47 +1,112 @@
-//! From a candidate in doubles to a claim that `check` accepts. May fail; is not trusted.
+//! From a candidate in doubles to a claim that `check` has accepted ([`certify`], [`Certifier`]). May fail; is not trusted.
 
+mod accepted;
 mod enclose;
 mod exact_claim;
 mod failure;
 mod lifted;
+mod precise;
 mod support;
 
+pub use accepted::{Certifier, Sifted, certify, sift};
 pub use failure::{Attempt, AttemptFailure, NotCertified};
 pub use lifted::{flattened, lifted};
+pub(crate) use precise::precise_null;
 
 use crate::candidate::Candidate;
 use crate::certificate::{Certificate, Claim};
 use crate::exact::Integer;
 use crate::model::{Pencil, Problem, Window};
+use std::collections::VecDeque;
 
 /// Largest number of active variables for which an exact claim is attempted; above, enclosures.
 /// Exact algebraic numbers of higher degree cost more than they tell.
 pub const EXACT_ORDER: usize = 16;
+/// Supports that are tried beyond the guesses, at most: each has one component more or less.
+const MAX_REPAIRS: usize = 16;
 /// Largest size, in bits, of a determinant for which an exact claim is attempted.
 pub const EXACT_BITS: u64 = 4096;
 /// Largest number of active variables for which an enclosure is attempted: it needs dense inverses.
 pub const ENCLOSED_ORDER: usize = 3000;
 
-/// Makes a claim out of a candidate, trying the supports its components suggest.
+/// A claim for one support, or what failed on it.
+struct Proposal {
+    support: Vec<usize>,
+    claim: Result<Claim, AttemptFailure>,
+}
+
+/// The claims that a candidate suggests, one per support that its components suggest, best first.
+///
+/// They are made when they are asked for: the first one is accepted in general. Where a sign is wrong at a component that
+/// doubles cannot tell from zero, the support with that component changed comes next.
+struct Proposals<'a> {
+    pencil: &'a Pencil,
+    rows: &'a IntegralRows,
+    window: &'a Window,
+    candidate: &'a Candidate,
+    waiting: VecDeque<Vec<usize>>,
+    /// Every support that was tried or waits.
+    known: Vec<Vec<usize>>,
+    repairs_left: usize,
+}
+
+fn proposals<'a>(
+    pencil: &'a Pencil,
+    rows: &'a IntegralRows,
+    window: &'a Window,
+    candidate: &'a Candidate,
+) -> Result<Proposals<'a>, NotCertified> {
+    let known = support::guesses(pencil, candidate).map_err(NotCertified::of)?;
+    let waiting = known.iter().cloned().collect();
+    Ok(Proposals { pencil, rows, window, candidate, waiting, known, repairs_left: MAX_REPAIRS })
+}
+
+impl Iterator for Proposals<'_> {
+    type Item = Proposal;
+
+    fn next(&mut self) -> Option<Proposal> {
+        let support = self.waiting.pop_front()?;
+        let claim = claim(self.pencil, self.rows, self.window, &support, self.candidate);
+
+        if let Err(failure) = &claim
+            && self.repairs_left > 0
+            && let Some(repaired) = support::repaired(self.pencil, self.candidate, &support, failure)
+            && !self.known.contains(&repaired)
+        {
+            self.repairs_left -= 1;
+            self.known.push(repaired.clone());
+            self.waiting.push_front(repaired);
+        }
+        Some(Proposal { support, claim })
+    }
+}
+
+/// A claim about the solution with this support near the candidate: exact where that is short, else an enclosure.
+fn claim(pencil: &Pencil, rows: &IntegralRows, window: &Window, support: &[usize], candidate: &Candidate) -> Result<Claim, AttemptFailure> {
+    let order = pencil.free().len() + support.len();
+    if order > ENCLOSED_ORDER {
+        return Err(AttemptFailure::TooLarge { limit: ENCLOSED_ORDER, got: order });
+    }
+
+    let is_short = order <= EXACT_ORDER && order as u64 * rows.bits() <= EXACT_BITS;
+    if is_short {
+        exact_claim::make(pencil, rows, window, support, candidate).map(Claim::ExactSolution)
+    } else {
+        enclose::make(pencil, rows, window, support, candidate).map(Claim::EnclosedSolution)
+    }
+}
+
+/// A claim that *nobody has checked*, for tools and tests that submit it themselves; [`certify`] is what to call.
 ///
 /// `pencil` is the reduced pencil of the problem in whose window the value must lie.
 ///
 /// # Errors
 /// [`NotCertified`] with every attempt and what failed in it.
-pub fn certify(pencil: &Pencil, window: &Window, candidate: &Candidate) -> Result<Claim, NotCertified> {
-    let integral = IntegralRows::of(pencil);
-    let supports = support::guesses(pencil, candidate).map_err(NotCertified::of)?;
+pub fn propose(pencil: &Pencil, window: &Window, candidate: &Candidate) -> Result<Claim, NotCertified> {
+    let rows = IntegralRows::of(pencil);
     let mut attempts = Vec::new();
-    for support in supports {
-        let order = pencil.free().len() + support.len();
-        let result = if order > ENCLOSED_ORDER {
-            Err(AttemptFailure::TooLarge { limit: ENCLOSED_ORDER, got: order })
-        } else if order <= EXACT_ORDER && order as u64 * integral.bits() <= EXACT_BITS {
-            exact_claim::make(pencil, &integral, window, &support, candidate).map(Claim::ExactSolution)
-        } else {
-            enclose::make(pencil, &integral, window, &support, candidate).map(Claim::EnclosedSolution)
-        };
-        match result {
+    for Proposal { support, claim } in proposals(pencil, &rows, window, candidate)? {
+        match claim {
             Ok(claim) => return Ok(claim),
             Err(failure) => attempts.push(Attempt { support, failure }),
         }
@@ -108,7 +173,7 @@ mod tests {
     fn kind(pencil: &Pencil, value: f64) -> &'static str {
         let n = pencil.order();
         let candidate = Candidate { value, x: vec![1.0 / n as f64; n] };
-        match certify(pencil, &Window::all(), &candidate) {
+        match propose(pencil, &Window::all(), &candidate) {
             Ok(Claim::ExactSolution(_)) => "exact",
             Ok(_) => "enclosed",
             Err(e) if matches!(e.attempts.last(), Some(a) if matches!(a.failure, AttemptFailure::TooLarge { .. })) => "too large",

@@ -28,6 +28,27 @@ pub(super) fn guesses(pencil: &Pencil, candidate: &Candidate) -> Result<Vec<Vec<
     Ok(supports)
 }
 
+/// The support with the component changed whose sign is wrong: without it where x is not positive, with it where y is negative.
+/// `None` where nothing of that kind failed, or the candidate's component is too large for a matter of rounding.
+pub(super) fn repaired(pencil: &Pencil, candidate: &Candidate, support: &[usize], failure: &AttemptFailure) -> Option<Vec<usize>> {
+    let (index, moves) = match failure {
+        AttemptFailure::XNotPositive { index } => (*index, false),
+        AttemptFailure::YNegative { index } => (*index, true),
+        _ => return None,
+    };
+    let largest = pencil.slip().iter().map(|&i| candidate.x[i]).fold(0.0, f64::max);
+    if candidate.x[index].abs() > SUPPORT_GUESSES[0] * largest {
+        return None;
+    }
+
+    let mut repaired: Vec<usize> = support.iter().copied().filter(|i| *i != index).collect();
+    if moves {
+        repaired.push(index);
+        repaired.sort_unstable();
+    }
+    Some(repaired)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -44,6 +65,20 @@ mod tests {
         assert_eq!(supports(&[9.0, 1.0, 0.5]).unwrap(), vec![vec![1, 2]]);
         assert_eq!(supports(&[9.0, 1.0, 1e-7]).unwrap(), vec![vec![1, 2], vec![1]]);
         assert_eq!(supports(&[9.0, 0.0, -1.0]).unwrap(), vec![Vec::<usize>::new()]);
+    }
+
+    /// A component within rounding of zero joins or leaves; a larger one does not.
+    #[test]
+    fn a_support_is_repaired_where_doubles_cannot_tell() {
+        let n = 4;
+        let pencil = Pencil::new(Sparse::identity(n), Sparse::identity(n), vec![0]).unwrap();
+        let candidate = Candidate { value: 1.0, x: vec![9.0, 1.0, 1e-12, 0.1] };
+        let of = |support: &[usize], failure| repaired(&pencil, &candidate, support, &failure);
+
+        assert_eq!(of(&[1, 3], AttemptFailure::YNegative { index: 2 }), Some(vec![1, 2, 3]));
+        assert_eq!(of(&[1, 2, 3], AttemptFailure::XNotPositive { index: 2 }), Some(vec![1, 3]));
+        assert_eq!(of(&[1, 3], AttemptFailure::XNotPositive { index: 3 }), None);
+        assert_eq!(of(&[1, 3], AttemptFailure::NotContracting), None);
     }
 
     #[test]

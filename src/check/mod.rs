@@ -19,7 +19,7 @@ pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};
 use crate::exact::Interval;
-use crate::model::Problem;
+use crate::model::{Problem, Window};
 use cover::AcceptedSolution;
 use pencil::Rows;
 
@@ -60,6 +60,31 @@ pub fn audit(problem: &Problem, certificate: &Certificate) -> Result<(Accepted, 
     Ok((accepted, refused))
 }
 
+/// Checks claims about one problem one by one: its rows are formed once.
+pub struct ClaimChecker<'a> {
+    problem: &'a Problem,
+    rows: Rows,
+}
+
+impl<'a> ClaimChecker<'a> {
+    /// The checker of claims about this problem.
+    pub fn new(problem: &'a Problem) -> ClaimChecker<'a> {
+        ClaimChecker { problem, rows: Rows::of(problem) }
+    }
+
+    /// The verdict of [`check`] on this claim in a certificate with this window.
+    ///
+    /// # Errors
+    /// The [`Reason`] why the claim is rejected.
+    pub fn verdict(&self, window: &Window, claim: &Claim) -> Result<AcceptedClaim, Reason> {
+        match claim {
+            Claim::ExactSolution(c) => exact_solution::check(&self.rows, window, c),
+            Claim::LiftedSolution(c) => lifted_solution::check(self.problem, &self.rows, window, c),
+            Claim::EnclosedSolution(c) => enclosed::check(&self.rows, window, c),
+        }
+    }
+}
+
 fn verdict(problem: &Problem, certificate: &Certificate, refused: Option<&mut Vec<(usize, usize)>>) -> Result<Accepted, Rejected> {
     let whole = |reason| Rejected { claim: None, reason };
     let digest = problem.sha256();
@@ -72,21 +97,21 @@ fn verdict(problem: &Problem, certificate: &Certificate, refused: Option<&mut Ve
     if certificate.claims.is_empty() && certificate.complete_set.is_none() {
         return Err(whole(Reason::NoClaims));
     }
-    let rows = Rows::of(problem);
+    let checker = ClaimChecker::new(problem);
     // Solutions first: a complete set may refer to them.
     let mut solutions: Vec<AcceptedSolution<'_>> = Vec::new();
     for (index, claim) in certificate.claims.iter().enumerate() {
-        let window = &certificate.window;
-        let (verdict, biactive): (_, &[usize]) = match claim {
-            Claim::ExactSolution(c) => (exact_solution::check(&rows, window, c), &c.biactive),
-            Claim::LiftedSolution(c) => (lifted_solution::check(problem, &rows, window, c), &c.biactive),
-            Claim::EnclosedSolution(c) => (enclosed::check(&rows, window, c), &[]),
+        let verdict = checker.verdict(&certificate.window, claim);
+        let biactive: &[usize] = match claim {
+            Claim::ExactSolution(c) => &c.biactive,
+            Claim::LiftedSolution(c) => &c.biactive,
+            Claim::EnclosedSolution(_) => &[],
         };
         let claim = verdict.map_err(|reason| Rejected { claim: Some(index), reason })?;
         solutions.push(AcceptedSolution { claim, biactive });
     }
     let cover = match &certificate.complete_set {
-        Some(c) => Some(cover::check(&rows, &certificate.window, &solutions, c, refused).map_err(whole)?),
+        Some(c) => Some(cover::check(&checker.rows, &certificate.window, &solutions, c, refused).map_err(whole)?),
         None => None,
     };
     Ok(Accepted { claims: solutions.into_iter().map(|s| s.claim).collect(), cover })

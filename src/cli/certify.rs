@@ -4,9 +4,9 @@ use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinne
 use super::output::Output;
 use crate::candidate::{Candidate, read_report};
 use crate::certificate::{Certificate, Claim};
-use crate::certify::{NotCertified, certificate, certify, lifted};
+use crate::certify::{Certifier, NotCertified, certificate, lifted, sift};
 use crate::exact::{Interval, Rational, enclosing_decimals, parse};
-use crate::model::{Body, Pencil, Problem};
+use crate::model::{Body, Pencil, Problem, System, Unknown};
 use crate::multistart::same;
 use crate::reduction::reduce;
 use crate::search::complete::{CompleteError, Completed};
@@ -57,11 +57,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let stop = interrupt_flag();
     let mut judged = judge(&problem, &reduced.pencil, &candidates, radius.as_ref(), &stop);
     if let (true, Body::System(system)) = (args.lifted, problem.body()) {
-        for claim in &mut judged.claims {
-            if let Claim::ExactSolution(c) = claim {
-                *claim = Claim::LiftedSolution(lifted(system, problem.unknown(), c));
-            }
-        }
+        judged.lift(&problem, system);
     }
     let (disproved, undecided) = (judged.count(Verdict::Disproved), judged.count(Verdict::Undecided));
     eprintln!(
@@ -88,14 +84,36 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     })
 }
 
-/// What became of a report: distinct claims with a certificate, and the rest.
+/// What became of a report: distinct claims that the checker has accepted, and the rest.
 #[derive(Default)]
 struct Judged {
     claims: Vec<Claim>,
     refused: Vec<Refused>,
 }
 
+/// An exact claim as one about the system, (v, w) over all its degrees of freedom.
+fn as_lifted(system: &System, unknown: Unknown, claim: Claim) -> Claim {
+    match claim {
+        Claim::ExactSolution(c) => Claim::LiftedSolution(lifted(system, unknown, &c)),
+        other => other,
+    }
+}
+
 impl Judged {
+    /// Lifts the exact claims to the system. A lifted claim is another one than was accepted, so the checker sees it too.
+    fn lift(&mut self, problem: &Problem, system: &System) {
+        let claims = std::mem::take(&mut self.claims);
+        let lifted = claims.into_iter().map(|claim| as_lifted(system, problem.unknown(), claim)).collect();
+
+        let sifted = sift(problem, lifted);
+        self.claims = sifted.accepted;
+        for (index, reason) in sifted.refused {
+            let text = format!("undecided: the checker refuses the lifted claim: {reason}");
+            eprintln!("claim {index}: {text}");
+            self.refused.push(Refused { index, verdict: Verdict::Undecided, text, proof: None });
+        }
+    }
+
     fn count(&self, verdict: Verdict) -> usize {
         self.refused.iter().filter(|r| r.verdict == verdict).count()
     }
@@ -111,13 +129,14 @@ impl Judged {
 
 /// Certifies one after the other and says what becomes of each, until interrupted.
 fn judge(problem: &Problem, pencil: &Pencil, candidates: &[Candidate], radius: Option<&Rational>, stop: &AtomicBool) -> Judged {
+    let certifier = Certifier::new(problem, pencil);
     let mut judged = Judged::default();
     for (k, candidate) in candidates.iter().enumerate() {
         if stop.load(Ordering::Relaxed) {
             eprintln!("solution {k}: interrupted before it was looked at");
             break;
         }
-        match certify(pencil, problem.window(), candidate) {
+        match certifier.certify(candidate) {
             Ok(claim) if judged.claims.iter().any(|c| same(c, &claim)) => {
                 eprintln!("solution {k} (value {}): listed before", candidate.value);
             }

@@ -88,7 +88,7 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     let search = search_of(args.starts, args.seed, args.all, args.trace.is_some());
     let stop = interrupt_flag();
     let bar = progress_spinner("searching");
-    let (found, _) = multistart_large(&admissible, problem.window(), &search, &|found| {
+    let (found, _) = multistart_large(&problem, &admissible, &search, &|found| {
         bar.set_message(format!("{} runs, {} certified solutions", found.runs, found.certified.len()));
         bar.tick();
         if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }

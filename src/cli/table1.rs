@@ -59,6 +59,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     let mut table = Table::new(&["S1", "S2", "lambda^2", "slip", "x_T1", "x_T2", "exact polynomial"]);
     let (mut json, mut agreed) = (Vec::new(), true);
+    let mut uncertified = 0;
     for signs in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
         let data = TwoParticles { c: c.clone(), s: s.clone(), k: k.clone(), m: m.clone(), mu: mu.clone(), signs };
         let problem = Problem::new(Body::System(two_particles(&data)?), Unknown::Lambda2, Window::all())?;
@@ -67,6 +68,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         let instance = Instance { label: format!("{signs:?}"), problem: problem.clone(), closed_form: Some(data), corners: Vec::new() };
         let report = compare(&instance, &Search::default());
         agreed &= report.disagreements.is_empty();
+        uncertified += report.uncertified.len();
+        for reason in &report.uncertified {
+            eprintln!("S = {signs:?}: uncertified: {reason}");
+        }
         for d in &report.disagreements {
             eprintln!("S = {signs:?}: {d}");
         }
@@ -81,7 +86,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             json.push(serde_json::json!({ "signs": [signs.0, signs.1], "lambda2": l.value, "slip": l.slip, "x": l.x }));
         }
     }
-    let verdict = if agreed { "closed form = enumerator = certified, all four sign patterns" } else { "DISAGREEMENT" };
+    let verdict = match (agreed, uncertified) {
+        (true, 0) => "closed form = enumerator = certified, all four sign patterns",
+        (true, _) => "closed form = enumerator, not all certified",
+        (false, _) => "DISAGREEMENT",
+    };
     if args.json {
         print(&format!("{}\n", serde_json::json!({ "solutions": json, "agreement": agreed })))?;
     } else {

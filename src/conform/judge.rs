@@ -8,7 +8,7 @@
 
 use super::Case;
 use crate::certificate::{Claim, ExactSolution};
-use crate::certify::certify;
+use crate::certify::Certifier;
 use crate::exact::{Algebraic, Poly, Rational, common_denominator, from_f64};
 use crate::foreign::{ForeignContinuum, ForeignEnd, ForeignError, ForeignReport};
 use crate::multistart::{exact_value, support};
@@ -102,11 +102,11 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
         cones: vec![false; answer.cones.len()],
         ranges: vec![false; answer.ranges.len()],
     };
+    let certifier = Certifier::new(&case.problem, &case.reduced.pencil);
     for (k, solution) in report.solutions.iter().enumerate() {
         let wrong = |why: String| format!("solution {k}: {why}");
         let candidate = solution.as_ref().map_err(|off| wrong(off.to_string()))?;
-        let claim = certify(&case.reduced.pencil, case.problem.window(), candidate)
-            .map_err(|why| wrong(format!("value {} is not certified: {why}", candidate.value)))?;
+        let claim = certifier.certify(candidate).map_err(|why| wrong(format!("value {} is not certified: {why}", candidate.value)))?;
         let placed = match &claim {
             Claim::ExactSolution(c) => place(case, &claim, c, &mut met),
             // A lifted one is never made here; like a box it is placed by value and support.

@@ -2,8 +2,7 @@
 
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
-use crate::certify::{certificate, certify};
-use crate::check::check;
+use crate::certify::certify;
 use crate::exact::{Interval, Poly, Rational, enclosing_decimals, from_f64, to_decimal};
 use crate::model::{Problem, Window};
 use crate::multistart::{exact_value, support};
@@ -17,7 +16,7 @@ pub const REFUTE_SLIP: usize = 10;
 /// What became of a foreign solution.
 #[derive(Debug, Clone)]
 pub enum Verdict {
-    /// It exists: `certify` made this claim and `check` accepts it.
+    /// It exists: `certify` made this claim, which the checker has accepted.
     Accepted(Box<Claim>),
     /// It does not: proved.
     Rejected(Refutation),
@@ -66,12 +65,9 @@ pub fn judge(problem: &Problem, reduced: &Reduced, candidate: &Candidate) -> Ver
     if candidate.x.iter().all(|v| *v == 0.0) {
         return Verdict::Rejected(Refutation::ZeroX);
     }
-    let reason = match certify(&reduced.pencil, problem.window(), candidate) {
-        Ok(claim) => match check(problem, &certificate(problem, vec![claim.clone()])) {
-            Ok(_) => return Verdict::Accepted(Box::new(claim)),
-            Err(rejected) => format!("the checker rejects what was certified: {rejected}"),
-        },
-        Err(reason) => reason.to_string(),
+    let reason = match certify(problem, &reduced.pencil, candidate) {
+        Ok(claim) => return Verdict::Accepted(Box::new(claim)),
+        Err(reason) => reason,
     };
     match refute(problem, reduced, candidate) {
         Ok(refutation) => Verdict::Rejected(refutation),

@@ -14,9 +14,9 @@ pub use trace::trace_outcome;
 
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
-use crate::certify::{NotCertified, certify};
+use crate::certify::{self, NotCertified};
 use crate::exact::to_f64;
-use crate::model::{Admissible, ModelError, Pencil, Unknown, Window};
+use crate::model::{Admissible, ModelError, Pencil, Problem, Unknown, Window};
 use crate::reduction::{CondensationError, Expansion, Side, condense};
 use crate::solver::{CurveEnd, Options, Outcome, SolverError, Termination};
 use crate::tolerance::WINDOW_GAP;
@@ -78,7 +78,7 @@ pub struct Uncertified {
     pub reason: NotCertified,
 }
 
-/// A certified solution and the start that led to it first.
+/// A certified solution (the checker has accepted its claim) and the start that led to it first.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Certified {
     /// The claim for the certificate.
@@ -135,18 +135,15 @@ pub struct Found {
     pub first: Option<Outcome>,
 }
 
-/// Searches for solutions in the window: plain starts, then above and below each value found.
+/// Searches for solutions in the problem's window: plain starts, then above and below each value found.
+/// `admissible` is the problem's reduced pencil.
 ///
 /// # Errors
 /// [`SolverError`] for options out of range.
-pub fn multistart(admissible: &Admissible<'_>, window: &Window, search: &Search) -> Result<Found, SolverError> {
-    multistart_with(
-        admissible,
-        window,
-        search,
-        &|candidate| certify(admissible.pencil(), window, candidate),
-        &|_| ControlFlow::Continue(()),
-    )
+pub fn multistart(problem: &Problem, admissible: &Admissible<'_>, search: &Search) -> Result<Found, SolverError> {
+    let certifier = certify::Certifier::new(problem, admissible.pencil());
+    let certify = |candidate: &Candidate| certifier.certify(candidate);
+    multistart_with(admissible, problem.window(), search, &certify, &|_| ControlFlow::Continue(()))
 }
 
 /// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
@@ -176,13 +173,15 @@ pub enum SearchError {
 /// # Errors
 /// [`SearchError`].
 pub fn multistart_large(
+    problem: &Problem,
     admissible: &Admissible<'_>,
-    window: &Window,
     search: &Search,
     progress: &Progress<'_>,
 ) -> Result<(Found, Option<Pencil>), SearchError> {
     let pencil = admissible.pencil();
-    let direct = |c: &Candidate| certify(pencil, window, c);
+    let certifier = certify::Certifier::new(problem, pencil);
+    let direct = |c: &Candidate| certifier.certify(c);
+    let window = problem.window();
     if admissible.unknown() != Unknown::Mu || pencil.free().len() < CONDENSE_FROM {
         return Ok((multistart_with(admissible, window, search, &direct, progress)?, None));
     }
@@ -196,8 +195,8 @@ pub fn multistart_large(
 /// Told after each run what has been found; breaking ends the search and keeps it.
 pub type Progress<'a> = dyn Fn(&Found) -> ControlFlow<()> + 'a;
 
-/// What turns a candidate into a claim: [`multistart_with`] takes any, so that a condensed pencil
-/// can be searched and the claim made about the full one.
+/// What turns a candidate into a claim that the checker has accepted: [`multistart_with`] takes any, so that a condensed
+/// pencil can be searched and the claim made about the full one.
 pub type Certifier<'a> = dyn Fn(&Candidate) -> Result<Claim, NotCertified> + 'a;
 
 /// [`multistart`] with a certifier of one's own.
@@ -228,4 +227,55 @@ pub fn multistart_with(
     }
     found.certified.sort_by(|a, b| a.candidate.value.total_cmp(&b.candidate.value).then_with(|| support(&a.claim).cmp(support(&b.claim))));
     Ok(found)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::ExactSolution;
+    use crate::certify::{Attempt, AttemptFailure, propose, sift};
+    use crate::check::Reason;
+    use crate::exact::{Sparse, whole};
+    use crate::model::Body;
+    use crate::model::file::Number;
+
+    /// lambda^2 = 2 with x = (2, 1) and 3 with (3, 2).
+    fn fold() -> (Problem, Pencil) {
+        let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
+        let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+        (Problem::new(Body::Pencil(pencil.clone()), Unknown::Lambda2, Window::all()).unwrap(), pencil)
+    }
+
+    fn refusal(reason: Reason) -> NotCertified {
+        let failure = AttemptFailure::Refused { reason: Box::new(reason) };
+        NotCertified { attempts: vec![Attempt { support: vec![0, 1], failure }] }
+    }
+
+    /// A certifier that makes a wrong claim of everything above 5/2: with the checker behind it such points stay uncertified.
+    #[test]
+    fn what_the_checker_refuses_is_uncertified() {
+        let (problem, pencil) = fold();
+        let admissible = Admissible::new(&pencil, Unknown::Lambda2).unwrap();
+        let proposed = |candidate: &Candidate| {
+            let Claim::ExactSolution(claim) = propose(&pencil, problem.window(), candidate)? else { panic!("an exact claim") };
+            let one = || vec![Number(whole(1))];
+            let x = if candidate.value > 2.5 { vec![one(), one()] } else { claim.x.clone() };
+            Ok(Claim::ExactSolution(ExactSolution { x, ..claim }))
+        };
+        let checked = |candidate: &Candidate| {
+            let mut sifted = sift(&problem, vec![proposed(candidate)?]);
+            sifted.accepted.pop().ok_or_else(|| refusal(sifted.refused.remove(0).1))
+        };
+        let search = Search::default();
+        let found = multistart_with(&admissible, problem.window(), &search, &checked, &|_| ControlFlow::Continue(())).unwrap();
+
+        assert_eq!(found.certified.len(), 1);
+        assert!((found.certified[0].candidate.value - 2.0).abs() < 1e-6);
+        let [refused] = &found.uncertified[..] else { panic!("{:?}", found.uncertified) };
+        assert!((refused.candidate.value - 3.0).abs() < 1e-6);
+        assert!(matches!(refused.reason.attempts[0].failure, AttemptFailure::Refused { .. }), "{}", refused.reason);
+
+        let all = multistart(&problem, &admissible, &search).unwrap();
+        assert_eq!((all.certified.len(), all.uncertified.len()), (2, 0));
+    }
 }

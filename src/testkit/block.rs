@@ -111,7 +111,7 @@ pub fn block_state(
     }
     progress("condensing exactly and searching");
     let search = Search { window_starts: 2, ..Search::default() };
-    let (found, condensed) = multistart_large(&full, problem.window(), &search, &|_| {
+    let (found, condensed) = multistart_large(&problem, &full, &search, &|_| {
         if stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
     })?;
     if stopped() {

@@ -7,10 +7,10 @@ use super::interior::{INTERIOR_STARTS, from_interior, path_options};
 use super::{Corner, Disagreement, Instance};
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
-use crate::certify::{certificate, certify};
+use crate::certify::{Certifier, certificate};
 use crate::check::check;
 use crate::exact::{Algebraic, Poly, Quadratic, Rational, Sign, common_denominator};
-use crate::model::{Admissible, Body, Pencil, Problem, Window};
+use crate::model::{Admissible, Body, Pencil, Problem};
 use crate::multistart::{Found, Origin, Search, exact_value, multistart, support};
 use crate::oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
 use crate::reduction::{Reduced, check_lines, lift, reduce};
@@ -78,7 +78,7 @@ pub struct Reached {
 }
 
 /// What is asked for the solutions of a problem: [`multistart`], [`from_interior`], or one that is wrong on purpose.
-pub type Solver = fn(&Admissible<'_>, &Window, &Search) -> Result<Found, SolverError>;
+pub type Solver = fn(&Problem, &Admissible<'_>, &Search) -> Result<Found, SolverError>;
 
 /// How an instance is treated.
 #[derive(Debug, Clone)]
@@ -173,7 +173,7 @@ fn run_solver(instance: &Instance, pencil: &Pencil, oracle: &Enumeration, treatm
     }
 
     for (starts, solver, search) in runs {
-        match solver(&admissible, problem.window(), &search) {
+        match solver(problem, &admissible, &search) {
             Ok(found) => compare_found(problem, pencil, oracle, (starts, found), report),
             Err(e) => report.disagreements.push(Disagreement::Refused { engine: "solver", reason: e.to_string() }),
         }
@@ -247,11 +247,12 @@ fn check_lifts(problem: &Problem, reduced: &Reduced, oracle: &Enumeration, repor
 /// The enumerator's own solutions, through 17-digit decimals, must be certifiable.
 fn certify_oracle(problem: &Problem, reduced: &Reduced, oracle: &Enumeration, report: &mut InstanceReport) -> Vec<Claim> {
     let slip = reduced.pencil.slip();
+    let certifier = Certifier::new(problem, &reduced.pencil);
     let mut claims = Vec::new();
     for (index, s) in oracle.solutions.iter().enumerate() {
         let double = |text: String| text.parse().unwrap_or(f64::NAN); // our own decimals parse
         let candidate = Candidate { value: double(s.decimal(17)), x: s.x_decimals(&slip, 17).into_iter().map(double).collect() };
-        match certify(&reduced.pencil, problem.window(), &candidate) {
+        match certifier.certify(&candidate) {
             Ok(claim) => claims.push(claim),
             // A singular support has a root everywhere: its value, if irrational, cannot be told from doubles.
             Err(reason) if s.multiplicity == 0 => report.uncertified.push(format!("solution {index}, singular support: {reason}")),

@@ -7,7 +7,7 @@
 
 use super::floors::Coverage;
 use crate::candidate::Candidate;
-use crate::certify::certify;
+use crate::certify::Certifier;
 use crate::exact::{Sparse, to_f64};
 use crate::model::{Admissible, Window};
 use crate::multistart::{Certified, Found, Origin, Search, Uncertified, same};
@@ -70,10 +70,15 @@ fn largest(matrix: &Sparse) -> f64 {
 ///
 /// # Errors
 /// [`SolverError`] for options out of range.
-pub fn from_interior(admissible: &Admissible<'_>, window: &Window, search: &Search) -> Result<Found, SolverError> {
-    let bottom = to_f64(window.min());
+pub fn from_interior(
+    problem: &Problem,
+    admissible: &Admissible<'_>,
+    search: &Search,
+) -> Result<Found, SolverError> {
+    let bottom = to_f64(problem.window().min());
+    let certifier = Certifier::new(problem, admissible.pencil());
     let embedding = Embedding::new(admissible, Side::Above(bottom));
-    let mut attempt = Attempt { admissible, window, embedding, found: Found::default() };
+    let mut attempt = Attempt { certifier, embedding, found: Found::default() };
 
     let starts = interior_starts(admissible, search.starts, search.seed);
     let points: Vec<Vec<f64>> = starts.iter().map(|s| attempt.embedding.point(bottom + s.value, &s.x)).collect();
@@ -99,8 +104,7 @@ const PER_CURVE: usize = 16;
 
 /// Runs on one problem, and what they found.
 struct Attempt<'a> {
-    admissible: &'a Admissible<'a>,
-    window: &'a Window,
+    certifier: Certifier<'a>,
     embedding: Embedding,
     found: Found,
 }
@@ -122,7 +126,7 @@ impl Attempt<'_> {
             self.found.repeated += 1;
             return Ok(());
         }
-        match certify(self.admissible.pencil(), self.window, &candidate) {
+        match self.certifier.certify(&candidate) {
             Ok(claim) => {
                 if !self.found.certified.iter().any(|c| same(&c.claim, &claim)) {
                     self.found.certified.push(Certified { claim, candidate, run, origin });
@@ -220,11 +224,11 @@ mod tests {
         for instance in table1_grid().unwrap().iter().step_by(11) {
             let reduced = reduce(&instance.problem).unwrap();
             let admissible = Admissible::new(&reduced.pencil, Unknown::Lambda2).unwrap();
-            let window = instance.problem.window();
+            let problem = &instance.problem;
             let search = Search { starts: INTERIOR_STARTS, ..Search::default() };
 
-            let interior = from_interior(&admissible, window, &search).unwrap();
-            let whole = multistart(&admissible, window, &search).unwrap();
+            let interior = from_interior(problem, &admissible, &search).unwrap();
+            let whole = multistart(problem, &admissible, &search).unwrap();
             assert!(interior.runs >= INTERIOR_STARTS && interior.certified.len() <= whole.certified.len(), "{}", instance.label);
             for c in &interior.certified {
                 assert!(whole.certified.iter().any(|w| same(&w.claim, &c.claim)));

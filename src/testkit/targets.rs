@@ -81,7 +81,7 @@ pub fn checker_against_forgeries(data: &[u8]) {
 /// A certificate for each solution the enumerator lists.
 fn certificates(problem: &Problem) -> Vec<Certificate> {
     use crate::candidate::Candidate;
-    use crate::certify::{certificate, certify};
+    use crate::certify::{certificate, propose};
     let Ok(reduced) = crate::reduction::reduce(problem) else { return Vec::new() };
     let Ok(oracle) = crate::oracle::enumerate(&reduced.pencil, problem.window()) else { return Vec::new() };
     let slip = reduced.pencil.slip();
@@ -90,7 +90,7 @@ fn certificates(problem: &Problem) -> Vec<Certificate> {
         x: s.x_decimals(&slip, 17).iter().map(|t| t.parse().unwrap_or(f64::NAN)).collect(),
     });
     let claims = candidates
-        .map(|c| certify(&reduced.pencil, problem.window(), &c).unwrap_or_else(|e| panic!("oracle's solution not certified: {e}")));
+        .map(|c| propose(&reduced.pencil, problem.window(), &c).unwrap_or_else(|e| panic!("oracle's solution not certified: {e}")));
     claims.map(|claim| certificate(problem, vec![claim])).collect()
 }
 

@@ -2,7 +2,7 @@
 #![allow(dead_code, missing_docs, unreachable_pub, clippy::unwrap_used)]
 
 use mceip::exact::{Sparse, from_f64};
-use mceip::model::{Pencil, Unknown};
+use mceip::model::{Body, Pencil, Problem, Unknown, Window};
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -11,6 +11,13 @@ pub struct Case {
     pub label: String,
     pub pencil: Pencil,
     pub unknown: Unknown,
+}
+
+impl Case {
+    /// The case over the whole half line.
+    pub fn problem(&self) -> Problem {
+        Problem::new(Body::Pencil(self.pencil.clone()), self.unknown, Window::all()).unwrap()
+    }
 }
 
 /// M and K0 = GG'/n + I/2, K1 normal/sqrt(n) with zero f rows, n_f = n/2; mu = 3 for lambda2.

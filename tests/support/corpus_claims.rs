@@ -148,7 +148,7 @@ pub fn lifted_claims(cases: &mut Cases) {
             value: s.decimal(17).parse().unwrap(),
             x: s.x_decimals(&listed.slip(), 17).iter().map(|t| t.parse().unwrap()).collect(),
         };
-        let Claim::ExactSolution(exact) = mceip::certify::certify(&listed, p.window(), &candidate).unwrap() else { unreachable!() };
+        let Claim::ExactSolution(exact) = mceip::certify::propose(&listed, p.window(), &candidate).unwrap() else { unreachable!() };
         let good = lift(&p, &exact);
         let own = |c: &LiftedSolution| claims(&p, Claim::LiftedSolution(c.clone()));
         cases.accept(name, "v and w of (9), the second particle at rest", &p, &own(&good));

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::exact::{Sparse, parse, rational, whole};
-use crate::tolerance::PRECONDITIONER_BITS;
+use num_traits::One;
 
 /// [[-1, -2], [-2, -1]] + t I: x = (1/2, 1/2), t = 3; a third variable rests with y = `rest` times x. All rows times a factor.
 fn pencil(rest: [i64; 2], factor: &Rational) -> Pencil {
@@ -39,13 +39,16 @@ fn the_centre_is_polished() {
     }
 }
 
-/// The ends of the window belong to it; what lies beside it is no root there.
+/// What lies beside the window is no root there; of a value at its end a box says nothing.
 #[test]
 fn a_value_beside_the_window_is_none() {
     let p = pencil([1, 1], &whole(1));
     let at =
         |min: i64, max: Option<i64>| of(&p, &Window::new(whole(min), max.map(whole)).unwrap(), &[0, 1], 3.0, [0.5, 0.5, 0.0]).map(|_| ());
-    assert_eq!([at(0, None), at(3, None), at(0, Some(3)), at(3, Some(3))], [Ok(()), Ok(()), Ok(()), Ok(())]);
+    assert_eq!([at(0, None), at(2, None), at(0, Some(4)), at(2, Some(4))], [Ok(()), Ok(()), Ok(()), Ok(())]);
+    for (min, max) in [(3, None), (0, Some(3)), (3, Some(3))] {
+        assert!(matches!(at(min, max), Err(AttemptFailure::Undecided { bits: LAST_GRID_BITS, .. })), "{min} {max:?}");
+    }
     for (min, max) in [(4, None), (4, Some(5)), (0, Some(2))] {
         assert!(matches!(at(min, max), Err(AttemptFailure::NoRootNear { .. })), "{min} {max:?}");
     }
@@ -64,9 +67,10 @@ fn a_candidate_too_far_away_is_not_the_solution() {
     let p = Pencil::new(Sparse::from_ints(&[&[-10]]), Sparse::identity(1), vec![]).unwrap();
     let at = |value: f64| make(&p, &IntegralRows::of(&p), &Window::all(), &[0], &Candidate { value, x: vec![1.0] }).map(|_| ());
     assert!(at(10.00105).is_ok() && at(10.00115).is_err());
-    // At zero the value is no scale.
+    // At zero the value is no scale, and no box around it lies in the window.
     let p = Pencil::new(Sparse::from_entries(1, 1, []), Sparse::identity(1), vec![]).unwrap();
-    assert!(make(&p, &IntegralRows::of(&p), &Window::all(), &[0], &Candidate { value: 0.0, x: vec![1.0] }).is_ok());
+    let at_zero = make(&p, &IntegralRows::of(&p), &Window::all(), &[0], &Candidate { value: 0.0, x: vec![1.0] });
+    assert!(matches!(at_zero, Err(AttemptFailure::Undecided { .. })));
     // At a value near zero the bound is X_RADIUS itself, not the ten times smaller one of values.
     let p = Pencil::new(Sparse::from_entries(1, 1, [(0, 0, rational(-1, 1000))]), Sparse::identity(1), vec![]).unwrap();
     let at = |value: f64| make(&p, &IntegralRows::of(&p), &Window::all(), &[0], &Candidate { value, x: vec![1.0] }).map(|_| ());
@@ -84,7 +88,7 @@ fn wrong_signs_are_named() {
     );
     assert_eq!(
         of(&pencil([1, -1], &whole(1)), &all, &[0, 1], 3.0, [0.5, 0.5, 0.0]).map(|_| ()),
-        Err(AttemptFailure::YNegative { index: 2 })
+        Err(AttemptFailure::Undecided { what: "y[2]".into(), bits: LAST_GRID_BITS })
     );
     assert!(of(&pencil([1, 1], &whole(1)), &all, &[0, 1], 3.0, [0.5, 0.5, 0.0]).is_ok());
     // Swapped signs: [[-1, 2], [2, -1]] has x = (1, -1) at t = 3, and e'x = 0 there; a free part gives e'x its sum.
@@ -92,40 +96,6 @@ fn wrong_signs_are_named() {
     let p = Pencil::new(a, Sparse::identity(2), vec![]).unwrap(); // (1 - t)^2 = 4: t = 3, x = (2, -1)
     let got = make(&p, &IntegralRows::of(&p), &all, &[0, 1], &Candidate { value: 3.0, x: vec![2.0, -1.0] }).map(|_| ());
     assert_eq!(got, Err(AttemptFailure::XNotPositive { index: 1 }));
-}
-
-/// 2^-40 of the power of two at the largest component of x, and of the value; t is no component.
-#[test]
-fn radii_follow_x_and_the_value() {
-    let unit = rational(1, 1 << 40);
-    let of = |list: &[Rational]| radii(list).iter().map(|r| r / &unit).collect::<Vec<_>>();
-    let (r, w) = (rational, whole);
-    assert_eq!(of(&[r(1, 4), r(-3, 8), w(1000)]), [r(1, 4), r(1, 4), w(512)]);
-    assert_eq!(of(&[w(5), w(1), r(1, 1000)]), [w(4), w(4), r(1, 512)]);
-    assert_eq!(of(&[w(1), w(0)]), [w(1), w(1)]);
-}
-
-/// The largest entry has PRECONDITIONER_BITS bits, or as many after the point as are needed.
-#[test]
-fn a_preconditioner_keeps_its_bits() {
-    let bits = PRECONDITIONER_BITS as u32;
-    let y = |v: f64| vec![vec![v, -0.5 * v], vec![0.0, 0.25 * v]];
-    for (largest, log) in [(1.0, 0i64), (8.0, 3), (0.125, -3), (1024.0, 10)] {
-        let (rows, exponent) = round(&y(largest), &[0, 0], 0.0);
-        assert_eq!(i64::from(exponent), i64::from(bits) - log);
-        assert_eq!(rows[0], [Integer::from(1) << bits, -(Integer::from(1) << (bits - 1))]);
-    }
-    let (rows, exponent) = round(&y(1.0), &[3, 0], 100.0);
-    let power = |k: u32| Integer::from(1) << k;
-    assert_eq!(exponent, 103);
-    assert_eq!(rows[0], [power(100), -power(102)]);
-}
-
-/// Bits for n entries of a row against the narrowest side: n = 2, reaches 4.25 and 120.5, sides 4 and 1/8: 1928 < 2^11.
-#[test]
-fn rounding_is_small_beside_the_narrowest_side() {
-    let jacobian = [vec![1.0, -2.0], vec![30.0, 4.0]];
-    assert_eq!(rounding_bits(&jacobian, &[whole(4), rational(1, 8)]), 11.0 + f64::from(PRECONDITIONER_LOSS_BITS));
 }
 
 /// Rows of 66,000 bits would need a preconditioner of as many.
@@ -140,4 +110,59 @@ fn a_preconditioner_has_no_more_than_so_many_bits() {
     };
     assert_eq!(a_row_times(60_000), Ok(()));
     assert!(matches!(a_row_times(66_000), Err(AttemptFailure::TooLarge { limit: 65_536, got: 66_000.. })));
+}
+
+/// A diagonal pencil with one coupling: row 0 vanishes at t = 1, row 1 gives x_1 = small / 2 or, at rest, y_1 = small x_0.
+fn coupled(small: &str) -> Pencil {
+    let small = parse(small).unwrap();
+    let a = Sparse::from_entries(2, 2, [(0, 0, whole(-1)), (1, 0, small), (1, 1, whole(1))]);
+    Pencil::new(a, Sparse::identity(2), vec![]).unwrap()
+}
+
+fn coupled_claim(small: &str, support: &[usize]) -> Result<EnclosedSolution, AttemptFailure> {
+    let p = coupled(small);
+    make(&p, &IntegralRows::of(&p), &Window::all(), support, &Candidate { value: 1.0, x: vec![1.0, 0.0] })
+}
+
+/// Does the checker accept the claim?
+fn is_accepted(small: &str, claim: EnclosedSolution) -> bool {
+    use crate::model::{Body, Problem, Unknown};
+    let problem = Problem::new(Body::Pencil(coupled(small)), Unknown::Mu, Window::all()).unwrap();
+    let verdict = crate::check::ClaimChecker::new(&problem).verdict(&Window::all(), &crate::certificate::Claim::EnclosedSolution(claim));
+    verdict.is_ok()
+}
+
+/// A local mode: reactions and components that are tiny beside the largest have their signs, and the checker agrees.
+#[test]
+fn tiny_components_have_their_signs() {
+    for small in ["1e-3", "1e-20", "5e-34", "1e-100", "1e-150"] {
+        let at_rest = coupled_claim(small, &[0]).unwrap();
+        assert!(is_accepted(small, at_rest), "{small}");
+        assert_eq!(coupled_claim(small, &[0, 1]), Err(AttemptFailure::XNotPositive { index: 1 }), "{small}");
+
+        let turned = format!("-{small}");
+        let moving = coupled_claim(&turned, &[0, 1]).unwrap();
+        assert!(moving.center[1].0.is_positive() && is_accepted(&turned, moving), "{small}");
+        assert_eq!(coupled_claim(&turned, &[0]), Err(AttemptFailure::YNegative { index: 1 }), "{small}");
+    }
+}
+
+/// What is zero, or below the last grid, has no sign.
+#[test]
+fn a_component_of_nothing_is_undecided() {
+    let undecided = |what: &str| Err(AttemptFailure::Undecided { what: what.into(), bits: LAST_GRID_BITS });
+    assert_eq!(coupled_claim("0", &[0]), undecided("y[1]"));
+    assert_eq!(coupled_claim("0", &[0, 1]), undecided("x[1]"));
+    assert_eq!(coupled_claim("1e-200", &[0, 1]), undecided("x[1]"));
+    assert_eq!(coupled_claim("-1e-200", &[0, 1]), undecided("x[1]"));
+}
+
+/// A claim whose signs are decided at once has the grid of the first try, and radii of a few units of it.
+#[test]
+fn an_ordinary_box_is_as_wide_as_its_grid() {
+    let claim = coupled_claim("1", &[0]).unwrap();
+    let unit = Rational::new(Integer::one(), Integer::one() << (FIRST_GRID_BITS - 1));
+    for radius in &claim.radius {
+        assert!(radius.0 >= unit && radius.0 <= &unit * whole(16), "{}", radius.0);
+    }
 }

@@ -2,11 +2,11 @@
 
 use super::*;
 use crate::certificate::Claim;
-use crate::certify::certify;
+use crate::certify::propose;
 use crate::exact::{Interval, Sparse, nonnegative_roots, rational, whole};
 
 fn claim_of(pencil: &Pencil, window: &Window, value: f64, x: &[f64]) -> ExactSolution {
-    let Claim::ExactSolution(c) = certify(pencil, window, &Candidate { value, x: x.to_vec() }).unwrap() else { panic!("an exact claim") };
+    let Claim::ExactSolution(c) = propose(pencil, window, &Candidate { value, x: x.to_vec() }).unwrap() else { panic!("an exact claim") };
     c
 }
 
@@ -56,7 +56,7 @@ fn the_ends_of_a_window_belong_to_it() {
     let p = Pencil::new(Sparse::from_ints(&[&[-2]]), Sparse::identity(1), vec![]).unwrap();
     let at = |min: i64, max: i64| {
         let window = Window::new(whole(min), Some(whole(max))).unwrap();
-        certify(&p, &window, &Candidate { value: 2.0, x: vec![1.0] }).is_ok()
+        propose(&p, &window, &Candidate { value: 2.0, x: vec![1.0] }).is_ok()
     };
     assert!(at(2, 2) && at(0, 2) && at(2, 5) && !at(0, 1) && !at(3, 4));
 }
@@ -70,14 +70,14 @@ fn components_beyond_doubles_are_compared_exactly() {
     // x_0 = 1, x_1 = 10^400 at t = 1: relative to x_1 the free one is nothing.
     let c = claim_of(&p, &Window::all(), 1.0, &[0.0, 1.0]);
     assert_eq!((c.support.clone(), constants(&c)[0].clone()), (vec![1], whole(1)));
-    assert!(certify(&p, &Window::all(), &Candidate { value: 1.0, x: vec![5.0, 1.0] }).is_err());
+    assert!(propose(&p, &Window::all(), &Candidate { value: 1.0, x: vec![5.0, 1.0] }).is_err());
 }
 
 /// x = (1000, 1) with the first free: distances are in units of e'x_s, so that 0.01 of the free one is far.
 #[test]
 fn free_components_are_compared_in_units_of_the_slip_ones() {
     let p = Pencil::new(Sparse::from_ints(&[&[1, -1000], &[0, -1]]), Sparse::from_ints(&[&[0, 0], &[0, 1]]), vec![0]).unwrap();
-    let at = |free: f64| certify(&p, &Window::all(), &Candidate { value: 1.0, x: vec![free, 1.0] }).is_ok();
+    let at = |free: f64| propose(&p, &Window::all(), &Candidate { value: 1.0, x: vec![free, 1.0] }).is_ok();
     assert!(at(1000.0) && at(1000.0001) && !at(1000.01) && !at(999.99));
 }
 

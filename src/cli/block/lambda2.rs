@@ -2,12 +2,10 @@
 
 use super::scale::{self, ScaleError};
 use super::{Args, published};
-use crate::certificate::Claim;
-use crate::certify::{ENCLOSED_ORDER, certificate, certify};
-use crate::check::check;
+use crate::certify::{Certifier, ENCLOSED_ORDER};
 use crate::cli::common::{CliError, exit, interrupt_flag, print, progress_spinner};
 use crate::exact::{Rational, parse, to_f64};
-use crate::model::{Body, ContactState, Pencil, Problem, Unknown, Window};
+use crate::model::{Body, ContactState, Problem, Unknown, Window};
 use crate::multistart::{CondensedFound, CondensedSearch, CondensedSolution, search_condensed};
 use crate::reduction::{SparseCondensation, reduce};
 use crate::report::Table;
@@ -126,7 +124,7 @@ fn searched(
     Ok(search_condensed(condensation, to_f64(mu), search, &progress)?)
 }
 
-/// Certifies each solution on the exact K and M and submits it to the checker.
+/// Certifies each solution on the exact K and M: the checker has accepted its claim.
 fn evidence(
     block: Option<&Block>,
     case: &Case,
@@ -142,15 +140,15 @@ fn evidence(
     let system = block.system(&states, Some(mu.clone()))?;
     let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
     let pencil = reduce(&problem)?.pencil;
-    let one = |s: &CondensedSolution| if stop.load(Ordering::Relaxed) { Err("interrupted".into()) } else { accepted(&problem, &pencil, s) };
+    let certifier = Certifier::new(&problem, &pencil);
+    let one = |s: &CondensedSolution| if stop.load(Ordering::Relaxed) { Err("interrupted".into()) } else { accepted(&certifier, s) };
     Ok(solutions.iter().map(one).collect())
 }
 
 /// The value of a solution that the checker accepts.
-fn accepted(problem: &Problem, pencil: &Pencil, solution: &CondensedSolution) -> Result<f64, String> {
-    let claim: Claim = certify(pencil, problem.window(), &solution.candidate).map_err(|e| e.to_string())?;
-    let verdict = check(problem, &certificate(problem, vec![claim])).map_err(|e| format!("REJECTED: {e}"))?;
-    verdict.claims.first().map(|c| to_f64(&c.value.mid())).ok_or_else(|| "no claim".into())
+fn accepted(certifier: &Certifier<'_>, solution: &CondensedSolution) -> Result<f64, String> {
+    let (_, proved) = certifier.certify_with_verdict(&solution.candidate).map_err(|e| e.to_string())?;
+    Ok(to_f64(&proved.value.mid()))
 }
 
 fn text_of(rows: &[Row], seed: u64) -> String {

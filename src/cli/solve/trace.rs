@@ -120,7 +120,7 @@ fn again(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
     let search = super::search_of(header.starts, header.seed, header.all, true);
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
-    let (found, _) = multistart_large(&admissible, problem.window(), &search, &|_| ControlFlow::Continue(()))?;
+    let (found, _) = multistart_large(&problem, &admissible, &search, &|_| ControlFlow::Continue(()))?;
     Ok((render(&in_old_words(Header::new(&problem, &search, header.all), header), &found), found.runs))
 }
 

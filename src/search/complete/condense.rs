@@ -28,7 +28,7 @@ const CONSTANT: Precision = Precision { degree: 0, right_bits: 56, left_bits: 24
 /// For regions far from solutions: the margins of their witnesses are wide.
 pub(super) const COARSE: Precision = Precision { degree: 2, right_bits: 36, left_bits: 24 };
 /// About a solution, used within [`NEAR`] of it.
-const FINE: Precision = Precision { degree: 2, right_bits: 56, left_bits: 30 };
+pub(super) const FINE: Precision = Precision { degree: 2, right_bits: 56, left_bits: 30 };
 /// Distance from a solution up to which its own anchor is used, relative to value + lowest frequency.
 pub(super) const NEAR: f64 = 0.03;
 /// Bits that each degree needs less.
@@ -82,6 +82,11 @@ impl Blocks {
         let asymmetry = [0, 1].map(|k| ff[k].first_asymmetry().map(|(i, _)| i));
         let ff = ff.map(|m| (0..m.rows()).map(|i| m.row(i).iter().map(|(j, v)| (*j, to_f64(v))).collect()).collect());
         Blocks { free, slip, stiffness, mass, mass_is_zero, ff, asymmetry, fs, sf }
+    }
+
+    /// The Cholesky factor of F at a value; `None` where F is not definite in doubles.
+    pub(super) fn factor_at(&self, value: f64) -> Option<Skyline> {
+        self.stiffness.combine(value, &self.mass, 0.0).cholesky()
     }
 }
 

@@ -12,6 +12,8 @@ mod error;
 pub(crate) mod game;
 mod massless;
 mod merge;
+mod precise;
+mod precise_anchor;
 mod reasons;
 mod reverse;
 mod root;
@@ -208,7 +210,29 @@ fn run(
     if !refused.is_empty() && refused.len() <= MAX_REFUSED && !stop.load(Ordering::Relaxed) {
         (accepted, _) = search(&prepared, &mut certificate, &Chosen::Exactly(refused), &shares(&|_| {}))?;
     }
+    if !stop.load(Ordering::Relaxed)
+        && let Some((longer, closed)) = with_long_numbers(problem, pencil, &prepared, &certificate, &accepted)
+    {
+        (certificate, accepted) = (longer, closed);
+    }
     completed(pencil, &prepared, certificate, accepted)
+}
+
+/// The certificate in which long numbers decide open regions, if fewer stay open according to the checker.
+fn with_long_numbers(
+    problem: &Problem,
+    pencil: &Pencil,
+    prepared: &Prepared,
+    certificate: &Certificate,
+    accepted: &Accepted,
+) -> Option<(Certificate, Accepted)> {
+    let open = |accepted: &Accepted| accepted.cover.as_ref().map_or(0, |c| c.open.len());
+    if open(accepted) == 0 {
+        return None;
+    }
+    let mut longer = precise::closed(problem, pencil, prepared, certificate)?;
+    let (again, _) = audited(problem, &mut longer).ok()?;
+    (open(&again) < open(accepted)).then_some((longer, again))
 }
 
 /// What is reported is what the checker accepted.

@@ -6,7 +6,7 @@ use super::tree::{Item, Region, Search, State, Watch};
 use super::{Options, beyond};
 use crate::candidate::Candidate;
 use crate::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
-use crate::certify::certify;
+use crate::certify::Certifier;
 use crate::exact::Rational;
 use crate::model::{Pencil, Problem};
 use rayon::prelude::*;
@@ -54,9 +54,10 @@ pub(super) fn all(
     watch: &(dyn Watch + Sync),
 ) -> Vec<Found> {
     let window = problem.window();
+    let certifier = Certifier::new(problem, pencil);
     let certify_at = |value: f64, x: &[f64]| {
         let exact_only = pencil.free().is_empty();
-        exact_only.then(|| certify(pencil, window, &Candidate { value, x: x.to_vec() }).ok()).flatten()
+        exact_only.then(|| certifier.certify(&Candidate { value, x: x.to_vec() }).ok()).flatten()
     };
     let decide = |moving: &[usize], lo: &Rational, hi: Option<&Rational>| support::leaf(pencil, moving, lo, hi);
     let starts: Vec<Rational> = std::iter::once(window.min().clone())

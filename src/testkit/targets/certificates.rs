@@ -2,7 +2,7 @@
 
 use crate::candidate::{Candidate, read_report};
 use crate::certificate::{Certificate, Claim};
-use crate::certify::{certificate, certify};
+use crate::certify::{certificate, propose};
 use crate::check::{Accepted, AcceptedClaim, check};
 use crate::exact::{Sparse, from_f64};
 use crate::model::{Body, Pencil, Problem, Unknown, Window};
@@ -42,7 +42,7 @@ pub fn hostile_report(data: &[u8]) {
     let Some((&value, x)) = doubles.split_first() else { return };
     let candidate = Candidate { value, x: x.to_vec() };
     let Ok(reduced) = reduce(problem) else { panic!("a fixed problem is refused") };
-    if let Ok(claim) = certify(&reduced.pencil, problem.window(), &candidate) {
+    if let Ok(claim) = propose(&reduced.pencil, problem.window(), &candidate) {
         let support = support(&claim).to_vec();
         match check(problem, &certificate(problem, vec![claim])) {
             Ok(accepted) => hold(problem, &accepted),
@@ -127,7 +127,7 @@ pub fn certificate_seeds() -> Vec<String> {
         for s in &oracle.solutions {
             let x = s.x_decimals(&slip, 17).iter().map(|t| t.parse().unwrap_or(f64::NAN)).collect(); // our own decimals parse
             let candidate = Candidate { value: s.decimal(17).parse().unwrap_or(f64::NAN), x };
-            let claims: Vec<Claim> = certify(&reduced.pencil, problem.window(), &candidate).into_iter().collect();
+            let claims: Vec<Claim> = propose(&reduced.pencil, problem.window(), &candidate).into_iter().collect();
             out.push(certificate(&problem, claims).to_json());
         }
     }

@@ -1,0 +1,164 @@
+//! Claims that the checker has accepted: the one way from a candidate to the word "certified".
+
+use super::{Attempt, AttemptFailure, IntegralRows, NotCertified, Proposal, proposals};
+use crate::candidate::Candidate;
+use crate::certificate::Claim;
+use crate::check::{AcceptedClaim, ClaimChecker, Reason};
+use crate::model::{Pencil, Problem};
+
+/// Makes claims about one problem and has each of them checked.
+pub struct Certifier<'a> {
+    problem: &'a Problem,
+    pencil: &'a Pencil,
+    rows: IntegralRows,
+    checker: ClaimChecker<'a>,
+}
+
+impl<'a> Certifier<'a> {
+    /// The certifier of a problem; `pencil` is the problem's reduced pencil.
+    pub fn new(problem: &'a Problem, pencil: &'a Pencil) -> Certifier<'a> {
+        let rows = IntegralRows::of(pencil);
+        let checker = ClaimChecker::new(problem);
+        Certifier { problem, pencil, rows, checker }
+    }
+
+    /// A claim that the candidate suggests and the checker accepts, in the problem's window.
+    ///
+    /// # Errors
+    /// [`NotCertified`] with every support tried and what failed on it; among the failures the checker's reasons.
+    pub fn certify(&self, candidate: &Candidate) -> Result<Claim, NotCertified> {
+        self.certify_with_verdict(candidate).map(|(claim, _)| claim)
+    }
+
+    /// [`Certifier::certify`], and what the checker has read off the claim.
+    ///
+    /// # Errors
+    /// As [`Certifier::certify`].
+    pub fn certify_with_verdict(&self, candidate: &Candidate) -> Result<(Claim, AcceptedClaim), NotCertified> {
+        let proposals = proposals(self.pencil, &self.rows, self.problem.window(), candidate)?;
+        self.first_accepted(proposals)
+    }
+
+    /// The first proposal that the checker accepts.
+    fn first_accepted(&self, proposals: impl Iterator<Item = Proposal>) -> Result<(Claim, AcceptedClaim), NotCertified> {
+        let mut attempts = Vec::new();
+        for Proposal { support, claim } in proposals {
+            let accepted = claim.and_then(|claim| self.examined(claim));
+            match accepted {
+                Ok(accepted) => return Ok(accepted),
+                Err(failure) => attempts.push(Attempt { support, failure }),
+            }
+        }
+        Err(NotCertified { attempts })
+    }
+
+    /// The claim and the verdict, if the checker accepts it.
+    fn examined(&self, claim: Claim) -> Result<(Claim, AcceptedClaim), AttemptFailure> {
+        match self.checker.verdict(self.problem.window(), &claim) {
+            Ok(verdict) => Ok((claim, verdict)),
+            Err(reason) => Err(AttemptFailure::Refused { reason: Box::new(reason) }),
+        }
+    }
+}
+
+/// A claim that the candidate suggests and the checker accepts; for several candidates a [`Certifier`] is cheaper.
+///
+/// # Errors
+/// As [`Certifier::certify`].
+pub fn certify(problem: &Problem, pencil: &Pencil, candidate: &Candidate) -> Result<Claim, NotCertified> {
+    Certifier::new(problem, pencil).certify(candidate)
+}
+
+/// Claims parted by the checker's verdict.
+#[derive(Debug, Clone, Default, PartialEq, Eq)]
+pub struct Sifted {
+    /// Those that it accepts, in their order.
+    pub accepted: Vec<Claim>,
+    /// Those that it refuses, each with its place in the list and the reason.
+    pub refused: Vec<(usize, Reason)>,
+}
+
+/// Has the checker part claims about a problem, in the problem's window.
+pub fn sift(problem: &Problem, claims: Vec<Claim>) -> Sifted {
+    let checker = ClaimChecker::new(problem);
+    let mut sifted = Sifted::default();
+    for (index, claim) in claims.into_iter().enumerate() {
+        match checker.verdict(problem.window(), &claim) {
+            Ok(_) => sifted.accepted.push(claim),
+            Err(reason) => sifted.refused.push((index, reason)),
+        }
+    }
+    sifted
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::certificate::ExactSolution;
+    use crate::certify::propose;
+    use crate::exact::{Sparse, whole};
+    use crate::model::file::Number;
+    use crate::model::{Body, Unknown, Window};
+
+    /// [[1, -6], [2, -6]] + t I: t = 2 with x = (2, 1) and t = 3 with x = (3, 2).
+    fn problem() -> Problem {
+        let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
+        let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+        Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap()
+    }
+
+    fn pencil(problem: &Problem) -> &Pencil {
+        let Body::Pencil(pencil) = problem.body() else { panic!("a pencil") };
+        pencil
+    }
+
+    fn good(problem: &Problem) -> Claim {
+        let candidate = Candidate { value: 2.0, x: vec![0.666667, 0.333333] };
+        propose(pencil(problem), problem.window(), &candidate).unwrap()
+    }
+
+    /// The claim with an x that solves nothing.
+    fn forged(problem: &Problem) -> Claim {
+        let Claim::ExactSolution(claim) = good(problem) else { panic!("an exact claim") };
+        let x = vec![vec![Number(whole(1))], vec![Number(whole(1))]];
+        Claim::ExactSolution(ExactSolution { x, ..claim })
+    }
+
+    #[test]
+    fn a_forged_claim_is_sifted_out_with_its_reason() {
+        let problem = problem();
+        let sifted = sift(&problem, vec![forged(&problem), good(&problem)]);
+
+        assert_eq!(sifted.accepted, [good(&problem)]);
+        let [(0, reason)] = &sifted.refused[..] else { panic!("one refusal: {:?}", sifted.refused) };
+        assert_eq!(reason.name(), "YNotZero");
+    }
+
+    /// Whatever is proposed, only what the checker accepts comes out.
+    #[test]
+    fn a_forged_proposal_is_no_certified_solution() {
+        let problem = problem();
+        let certifier = Certifier::new(&problem, pencil(&problem));
+        let proposal = |claim: Claim| Proposal { support: vec![0, 1], claim: Ok(claim) };
+
+        let alone = certifier.first_accepted([proposal(forged(&problem))].into_iter()).map(|_| ()).unwrap_err();
+        let [Attempt { failure: AttemptFailure::Refused { .. }, .. }] = &alone.attempts[..] else { panic!("{alone}") };
+        assert!(alone.to_string().contains("the checker refuses the claim"), "{alone}");
+
+        let both = [proposal(forged(&problem)), proposal(good(&problem))];
+        assert_eq!(certifier.first_accepted(both.into_iter()).unwrap().0, good(&problem));
+    }
+
+    #[test]
+    fn what_is_no_solution_is_not_certified() {
+        let problem = problem();
+        let certifier = Certifier::new(&problem, pencil(&problem));
+
+        let near = Candidate { value: 2.000001, x: vec![0.666667, 0.333333] };
+        assert_eq!(certifier.certify(&near), Ok(good(&problem)));
+        assert_eq!(certify(&problem, pencil(&problem), &near), Ok(good(&problem)));
+
+        let between = Candidate { value: 2.5, x: vec![0.6, 0.4] };
+        assert!(certifier.certify(&between).is_err());
+    }
+}
