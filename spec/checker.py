@@ -1328,7 +1328,7 @@ def complete_set(p, rows, window, claims, obj):
     demand((condensation is not None) == bool(p.free), "condensation is present exactly if there are free variables")
     pencil = CondensedPencil(p, rows, condensation) if p.free else PlainPencil(p, rows)
     demand(sequence(pieces), "cover: no piece")
-    start, found, families, left_open = window[0], [], [], 0
+    start, found, families, left_open = window[0], [], [], []
     for number_of, piece in enumerate(pieces):
         if not isinstance(piece, dict) or "max" not in piece:
             raise Unreadable("piece: max")
@@ -1376,7 +1376,7 @@ def complete_set(p, rows, window, claims, obj):
             elif kind == "tail" and value is None:
                 demand(p.free and pencil.tail_from is not None and pencil.tail_from <= lo, "tail: not covered")
             elif kind == "open" and value is None:
-                left_open += 1
+                left_open.append((lo, hi, {i: st for i, st in zip(p.s, state)}))
             else:
                 raise Unreadable("unknown node")
         demand(not regions, "cover: a tree that ends early")
@@ -1385,7 +1385,24 @@ def complete_set(p, rows, window, claims, obj):
     single = [f for f in found if not any(
         f.support == s and first[1] <= f.a and (last is None or f.b <= last[0]) for s, first, last, _ in families)]
     families += [(f.support, (f.a, f.b), (f.a, f.b), True) for f in found if f not in single]
-    return count(single), len(set(families)), left_open
+    solutions = count(single)
+    for k, claim in enumerate(claims):
+        demand(belongs(claim, single, families, left_open), f"claim {k} has no place in the complete set")
+    return solutions, len(set(families)), len(left_open)
+
+
+def belongs(claim, single, families, left_open):
+    """Has an accepted claim a place among what the cover yields or leaves open (C, Claims beside a cover)?"""
+    support, _, a, b = claim
+
+    def meets(lo, hi):
+        return lo <= b and (hi is None or a <= hi)
+
+    def admits(state):
+        return all(st != REST if i in support else st != MOVING for i, st in state.items())
+    return any(f.support == tuple(support) and meets(f.a, f.b) for f in single) \
+        or any(s == tuple(support) and meets(first[0], last and last[1]) for s, first, last, _ in families) \
+        or any(admits(state) and meets(lo, hi) for lo, hi, state in left_open)
 
 
 def count(found):

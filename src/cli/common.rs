@@ -219,7 +219,7 @@ fn read_stdin(what: &'static str) -> Result<String, ModelError> {
 }
 
 /// `a,b` with b empty or `inf` for infinity.
-fn parse_window(text: &str) -> Result<Window, CliError> {
+pub(super) fn parse_window(text: &str) -> Result<Window, CliError> {
     let bad =
         || CliError::Option { option: "window", expected: "a,b with 0 <= a <= b (b may be inf)", got: text.chars().take(60).collect() };
     let (min, max) = text.split_once(',').ok_or_else(bad)?;
