@@ -227,7 +227,7 @@ pub(super) fn parse_window(text: &str) -> Result<Window, CliError> {
         "" | "inf" => None,
         m => Some(parse(m).map_err(|_| bad())?),
     };
-    Window::new(parse(min).map_err(|_| bad())?, max).map_err(|_| bad())
+    Window::new(parse(min.trim()).map_err(|_| bad())?, max).map_err(|_| bad())
 }
 
 /// A positive number given as an option.

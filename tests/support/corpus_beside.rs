@@ -12,9 +12,11 @@ pub fn beside(cases: &mut Cases) {
     let p = fold("15/8", Some("17/8"));
     let proved = cover(&p, fold_tree(root_node(AROUND, RootOutcome::Solution)));
     let true_claim = exact(&[0, 1], &[-2, 1], ("2", "2"), &[&["2"], &["1"]]);
-    let with = |claim: &ExactSolution, cover: &Certificate| Certificate {
-        claims: vec![Claim::ExactSolution(claim.clone())],
-        ..cover.clone()
+    // At the end, so that leaves which refer to a claim still name theirs.
+    let with = |claim: &ExactSolution, cover: &Certificate| {
+        let mut c = cover.clone();
+        c.claims.push(Claim::ExactSolution(claim.clone()));
+        c
     };
     cases.accept("beside-listed", "a claim that no leaf refers to, in the list of the cover", &p, &with(&true_claim, &proved));
 
