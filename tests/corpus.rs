@@ -245,6 +245,7 @@ fn write_the_corpus() {
     corpus_infinity::infinity(&mut cases);
     corpus_mcp::plain(&mut cases);
     corpus_malformed::malformed(&mut cases);
+    corpus_malformed::spelling(&mut cases);
     corpus_malformed::hostile(&mut cases);
     for case in cases.0 {
         let folder = root().join(case.folder);

@@ -103,11 +103,7 @@ fn verdict(problem: &Problem, certificate: &Certificate, refused: Option<&mut Ve
 fn beside_the_cover(claims: &[AcceptedClaim], cover: &AcceptedCover) -> Result<(), Rejected> {
     for (index, claim) in claims.iter().enumerate() {
         if cover.place_of(claim).is_none() {
-            let reason = Reason::NotInCover {
-                support: claim.support.clone(),
-                a: claim.value.lo().clone(),
-                b: claim.value.hi().clone(),
-            };
+            let reason = Reason::NotInCover { support: claim.support.clone(), a: claim.value.lo().clone(), b: claim.value.hi().clone() };
             return Err(Rejected { claim: Some(index), reason });
         }
     }

@@ -208,7 +208,9 @@ pub enum Reason {
         radius: Rational,
     },
     /// An accepted claim has no place in the accepted cover: one of both is false.
-    #[error("complete set: expected support {support:?} with a value in [{a}, {b}] among its solutions, families or open regions, got none")]
+    #[error(
+        "complete set: expected support {support:?} with a value in [{a}, {b}] among its solutions, families or open regions, got none"
+    )]
     NotInCover {
         /// The claim's support.
         support: Vec<usize>,

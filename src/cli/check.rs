@@ -95,37 +95,35 @@ fn parse_tolerance(given: &str) -> Result<f64, CliError> {
 }
 
 /// Prints what an accepted certificate has proved: its claims, its cover, and the verdict with its window.
-fn say_accepted(
-    problem: &Problem,
-    certificate: &Certificate,
-    accepted: &Accepted,
-    demanded: Option<&Window>,
-) -> Result<u8, CliError> {
+fn say_accepted(problem: &Problem, certificate: &Certificate, accepted: &Accepted, demanded: Option<&Window>) -> Result<u8, CliError> {
     let mut out = String::new();
     for claim in &accepted.claims {
         let place = accepted.cover.as_ref().and_then(|cover| cover.place_of(claim));
         out += &claim_text(problem, claim, place);
     }
     let window = &certificate.window;
-    let within = format!("{}{}", window_text(window), smaller_text(window, problem.window()));
+    let within = window_text(window);
+    let smaller = smaller_text(window, problem.window());
     let digest = problem.sha256();
 
     let verdict = match &accepted.cover {
         None => {
             let count = accepted.claims.len();
-            out += &format!("ACCEPTED: {count} claim(s) proved for problem {digest} in {within}\n");
+            out += &format!("ACCEPTED: {count} claim(s) proved for problem {digest} in {within}{smaller}\n");
             exit::DONE
         }
         Some(cover) if cover.proves_absence() => {
             let word = problem.unknown().word();
-            out += &format!("ABSENT in {within}: no solution ({word}, problem {digest}, {} leaves accepted)\n", cover.leaves);
+            let evidence = format!("{word}, problem {digest}, {} leaves accepted", cover.leaves);
+            out += &format!("ABSENT in {within}: no solution ({evidence}){smaller}\n");
             exit::DONE
         }
         Some(cover) => {
             let is_closed = cover.open.is_empty();
             let verdict = if is_closed { "ACCEPTED" } else { "ACCEPTED as undecided" };
             let windowed = problem.clone().with_window(window.clone());
-            out += &format!("{}{verdict} for problem {digest} in {within}\n", solutions_text(&windowed, cover));
+            out += &solutions_text(&windowed, cover);
+            out += &format!("{verdict} for problem {digest} in {within}{smaller}\n");
             if is_closed { exit::DONE } else { exit::UNDECIDED }
         }
     };
@@ -164,7 +162,7 @@ fn smaller_text(certified: &Window, wanted: &Window) -> String {
     if certified.covers(wanted) {
         return String::new();
     }
-    format!(" (NOT the whole window {} of the problem)", window_text(wanted))
+    format!("; NOT the whole window {} of the problem", window_text(wanted))
 }
 
 /// One line per solution of a foreign report; the exit code is that of the worst.

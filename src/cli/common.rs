@@ -230,6 +230,24 @@ pub(super) fn parse_window(text: &str) -> Result<Window, CliError> {
     Window::new(parse(min.trim()).map_err(|_| bad())?, max).map_err(|_| bad())
 }
 
+/// Refuses no threads at all, and says on stderr where the threads wanted are more than the machine gives, or cannot be
+/// started: then the work is done by the default ones.
+pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
+    let Some(wanted) = wanted else { return Ok(()) };
+    if wanted == 0 {
+        return Err(CliError::Option { option: "threads", expected: "at least 1", got: "0".into() });
+    }
+
+    let given = std::thread::available_parallelism().map_or(1, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(wanted).build();
+    match pool {
+        Err(e) => eprintln!("mceip: --threads {wanted}: cannot be started ({e}); the default number of threads is used instead"),
+        Ok(_) if wanted > given => eprintln!("mceip: --threads {wanted}: the machine runs {given} at once, which they share"),
+        Ok(_) => {}
+    }
+    Ok(())
+}
+
 /// A positive number given as an option.
 pub(super) fn positive(option: &'static str, given: &str) -> Result<crate::exact::Rational, CliError> {
     use num_traits::Signed as _;

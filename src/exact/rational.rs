@@ -139,7 +139,8 @@ fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
     };
     let (int, frac) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let bare = int.strip_prefix(['+', '-']).unwrap_or(int);
-    if bare.is_empty() && frac.is_empty() || !frac.bytes().all(|b| b.is_ascii_digit()) {
+    let are_digits = bare.bytes().chain(frac.bytes()).all(|b| b.is_ascii_digit());
+    if bare.is_empty() && frac.is_empty() || !are_digits {
         return Err(malformed(text));
     }
     let sign = if int.starts_with('-') { "-" } else { "" };
@@ -188,7 +189,10 @@ mod tests {
         for text in [" 5", "5 ", "5\n", "\u{a0}5", "1 /2", "1/ 2", "\u{661}", "\u{ff11}"] {
             assert!(matches!(parse(text), Err(NumberError::Malformed { .. })), "{text:?} was read as a number");
         }
-        for text in ["", " ", "abc", "1..2", "1e", "--1", "1/2/3", "1_000", "0x10", "inf", "NaN", ".", "-", "1e1.5", "1.-5", "1.+5"] {
+        for text in [
+            "", " ", "abc", "1..2", "1e", "--1", "+-1", "-+1", "+-.5", "1/2/3", "1_000", "0x10", "inf", "NaN", ".", "-", "1e1.5", "1.-5",
+            "1.+5",
+        ] {
             assert!(parse(text).is_err(), "{text:?} was read as a number");
         }
         assert!(matches!(parse("3/0"), Err(NumberError::ZeroDenominator { .. })));

@@ -126,7 +126,10 @@ mod tests {
                 assert_eq!(region.place_of(&claim(support, a, b)), Some(Place::Open(0)), "{support:?} [{a}, {b}]");
             }
             assert_eq!([region.place_of(&claim(support, 1, 2)), region.place_of(&claim(support, 6, 7))], [None, None]);
-            assert_eq!([half_line.place_of(&claim(support, 1, 2)), half_line.place_of(&claim(support, 6, 7))], [None, Some(Place::Open(0))]);
+            assert_eq!(
+                [half_line.place_of(&claim(support, 1, 2)), half_line.place_of(&claim(support, 6, 7))],
+                [None, Some(Place::Open(0))]
+            );
         }
         for support in [&[][..], &[2], &[2, 4], &[0, 1], &[1, 2, 3]] {
             assert_eq!(region.place_of(&claim(support, 4, 4)), None, "{support:?}");
