@@ -156,8 +156,15 @@ def read_window(obj):
 # The whole file is read before any obligation is looked at: what is malformed is never a rejection (F, Versions). A shape
 # is a function that raises Unreadable.
 
-def nullable(item):
-    return lambda x: None if x is None else item(x)
+class Maybe:
+    """A field that may be left out, and null in its place unless `null` says otherwise."""
+
+    def __init__(self, item, null=True):
+        self.item, self.null = item, null
+
+    def __call__(self, x):
+        if x is not None or not self.null:
+            self.item(x)
 
 
 def list_of(item, length=None):
@@ -170,8 +177,8 @@ def list_of(item, length=None):
 
 
 def record(**items):
-    """An object with these fields; those whose shape is nullable may be left out."""
-    optional = [key for key, item in items.items() if item.__qualname__.startswith("nullable")]
+    """An object with these fields; a `Maybe` may be left out."""
+    optional = [key for key, item in items.items() if isinstance(item, Maybe)]
 
     def shape(x):
         fields(x, " ".join(key for key in items if key not in optional), " ".join(optional))
@@ -213,14 +220,10 @@ def whole(x):
         integer(x)
 
 
-def left_out_or(item):
-    """A field that may be left out, and is not null."""
-    shape = nullable(item)
-
-    def strict(x):
-        item(x)
-    strict.__qualname__ = shape.__qualname__
-    return strict
+def end(x):
+    """The end of a piece: null is infinity, and may not be left out."""
+    if x is not None:
+        number(x)
 
 
 RATIONALS, INTEGERS, PLACES = list_of(number), list_of(whole), list_of(place)
@@ -232,10 +235,10 @@ CLAIM = one_of(
     enclosed_solution=record(support=PLACES, center=RATIONALS, radius=RATIONALS, preconditioner=list_of(INTEGERS), exponent=exponent))
 FACTOR = record(first=PLACES, rows=list_of(INTEGERS), exponent=exponent)
 MATRIX = record(exponent=exponent, rows=list_of(INTEGERS))
-ANCHOR = record(center=number, reversed=left_out_or(flag), right=list_of(MATRIX), left=list_of(MATRIX))
+ANCHOR = record(center=number, reversed=Maybe(flag, null=False), right=list_of(MATRIX), left=list_of(MATRIX))
 CONDENSATION = record(
-    sigma=number, stiffness_factor=FACTOR, mass_sigma=number, mass_factor=nullable(FACTOR), anchors=list_of(ANCHOR),
-    tail=nullable(record(**{"from": number, "factor": FACTOR, "mass_factor": nullable(FACTOR)})))
+    sigma=number, stiffness_factor=FACTOR, mass_sigma=number, mass_factor=Maybe(FACTOR), anchors=list_of(ANCHOR),
+    tail=Maybe(record(**{"from": number, "factor": FACTOR, "mass_factor": Maybe(FACTOR)})))
 OUTCOME = one_of("solution", "absent", negative_x=place, negative_y=place, claim=place, infinity=INTEGERS)
 ROOT = record(
     pivot=place, interval=INTERVAL, inverse=list_of(INTEGERS), inverse_exponent=exponent, left=INTEGERS, right=INTEGERS,
@@ -249,17 +252,17 @@ def alone_row(x):
     VECTOR(x[1])
 
 
-REASON = one_of(none=VECTOR, some=record(x=VECTOR, alone=nullable(record(pivot=place, rows=list_of(alone_row)))))
+REASON = one_of(none=VECTOR, some=record(x=VECTOR, alone=Maybe(record(pivot=place, rows=list_of(alone_row)))))
 SUPPORT = record(points=list_of(record(polynomial=INTEGERS, interval=INTERVAL, reason=place)), cells=PLACES, reasons=list_of(REASON))
 LDL_FACTOR = record(rows=list_of(RATIONALS), diagonal=RATIONALS)
 NODE = one_of(
     "positive_definite", "negative_definite", "tail", "open", split=number, branch=place, farkas=list_of(weight),
     ldl=record(lower=LDL_FACTOR, upper=LDL_FACTOR), root=ROOT, support=SUPPORT)
-PIECE = record(max=lambda x: None if x is None else number(x), anchor=nullable(place), tree=list_of(NODE))
+PIECE = record(max=end, anchor=Maybe(place), tree=list_of(NODE))
 CERTIFICATE = record(
     format=text_of, problem_sha256=text_of, unknown=one_of("lambda2", "mu"),
-    window=record(min=number, max=nullable(number)), claims=list_of(CLAIM),
-    complete_set=nullable(record(condensation=nullable(CONDENSATION), pieces=list_of(PIECE))))
+    window=record(min=number, max=Maybe(number)), claims=list_of(CLAIM),
+    complete_set=Maybe(record(condensation=Maybe(CONDENSATION), pieces=list_of(PIECE))))
 
 
 class Matrix:
@@ -384,7 +387,7 @@ class Problem:
             raise Unreadable("format: mceip-problem/1 was expected")
         _, self.unknown, window, pencil, system, *words = fields(doc, "format unknown", "window pencil system name comment")
         for word in words:
-            nullable(text_of)(word)
+            Maybe(text_of)(word)
         if self.unknown not in ("lambda2", "mu") or (pencil is None) == (system is None):
             raise Unreadable("unknown is lambda2 or mu; exactly one of pencil and system")
         read_window(window)
@@ -1550,7 +1553,7 @@ def read_mcp(doc):
     """M, q and the bounds of mceip-mcp/1 (F); None for an absent bound."""
     _, m, q, lower, upper, *words = fields(doc, "format m q", "lower upper name comment")
     for word in words:
-        nullable(text_of)(word)
+        Maybe(text_of)(word)
     m = [[number(v) for v in sequence(row)] for row in sequence(m)]
     q = [number(v) for v in sequence(q)]
     bounds = []
