@@ -13,7 +13,7 @@ use crate::lcp::MCP_FORMAT;
 use crate::model::file::require_format;
 use crate::model::{Problem, Window};
 use crate::reduction::reduce;
-use crate::tolerance::{AGREEMENT, FINEST_AGREEMENT, VALUE_RADIUS};
+use crate::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALUE_RADIUS};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `check`.
@@ -88,7 +88,7 @@ fn only_of_others(args: &Args, kind: &str) -> Result<(), CliError> {
 
 /// A relative error between [`FINEST_AGREEMENT`] and [`VALUE_RADIUS`], where solutions are looked for.
 fn parse_tolerance(given: &str) -> Result<f64, CliError> {
-    let bad = || CliError::Option { option: "tolerance", expected: "a number from 1e-15 to 1e-4", got: given.chars().take(60).collect() };
+    let bad = || CliError::Option { option: "tolerance", expected: AGREEMENT_RANGE, got: given.chars().take(60).collect() };
     let tolerance = parse(given).map(|v| to_f64(&v)).map_err(|_| bad())?;
     let is_within = (FINEST_AGREEMENT..=VALUE_RADIUS).contains(&tolerance);
     if is_within { Ok(tolerance) } else { Err(bad()) }
