@@ -36,8 +36,8 @@ class Spelt(str):
     """A JSON number, kept as it is spelt."""
 
 
-NUMBER = re.compile(r"([+-]?)(\d+)(?:\.(\d+))?(?:[eE]([+-]?\d{1,5}))?")
-RATIO = re.compile(r"([+-]?\d+)/(\d+)")
+NUMBER = re.compile(r"([+-]?)(?:([0-9]+)(?:\.([0-9]*))?|\.([0-9]+))(?:[eE]([+-]?)0*([0-9]*))?")
+RATIO = re.compile(r"([+-]?[0-9]+)/([+-]?[0-9]+)")
 
 
 def number(s):
@@ -49,14 +49,14 @@ def number(s):
             raise Unreadable("zero denominator")
         return Q(int(m[1]), int(m[2]))
     m = NUMBER.fullmatch(s)
-    if not m or not s.isascii():
+    if not m or s[-1] in "eE+-":
         raise Unreadable(f"not a number: {s[:40]!r}")
-    exponent = int(m[4] or 0)
-    if abs(exponent) > 400:
+    sign, whole, frac, bare, exponent_sign, exponent = m.groups("")
+    if len(exponent) > 3 or int(exponent or 0) > 400:
         raise Unreadable("decimal exponent beyond 400")
-    frac = m[3] or ""
-    value = int(m[2] + frac) * (-1 if m[1] == "-" else 1)
-    e = exponent - len(frac)
+    frac += bare
+    value = int(whole + frac) * (-1 if sign == "-" else 1)
+    e = int(exponent_sign + (exponent or "0")) - len(frac)
     return Q(value * 10**e) if e >= 0 else Q(value, 10**-e)
 
 
@@ -68,14 +68,21 @@ def integer(s, low=None, high=None):
 
 
 def counter(s, low=0, high=None):
-    """An index, weight or exponent of a certificate: a JSON number spelt as an integer."""
-    if not isinstance(s, Spelt) or not re.fullmatch(r"-?\d+", s):
+    """An index, weight or exponent: a JSON number spelt as an integer; -0 is none."""
+    if not isinstance(s, Spelt) or not re.fullmatch(r"-?[0-9]+", s) or s == "-0":
         raise Unreadable("an integer as a JSON number was expected")
     return integer(s, low, high)
 
 
 def index(s, n):
-    return integer(s, 0, n - 1)
+    return counter(s, 0, n - 1)
+
+
+def text_of(s):
+    """A JSON string."""
+    if not isinstance(s, str) or isinstance(s, Spelt):
+        raise Unreadable("a string was expected")
+    return s
 
 
 def place_in(s, n):
@@ -118,8 +125,11 @@ def read_json(path):
         raise Unreadable(f"{name} is not a number")
 
     try:
-        with open(path, encoding="utf-8") as f:
-            return json.load(f, object_pairs_hook=pairs, parse_int=Spelt, parse_float=Spelt, parse_constant=constant)
+        with open(path, encoding="utf-8", newline="") as f:
+            text = f.read()
+        if re.search(r"\\u[dD][89a-fA-F]", text):
+            json.dumps(json.loads(text), ensure_ascii=False).encode()  # half of a pair of surrogates is no character
+        return json.loads(text, object_pairs_hook=pairs, parse_int=Spelt, parse_float=Spelt, parse_constant=constant)
     except (OSError, ValueError, RecursionError) as e:
         raise Unreadable(f"{path}: {type(e).__name__}: {e}") from None
 
@@ -134,11 +144,125 @@ def nearest_double(q):
 def read_window(obj):
     if obj is None:
         return Q(0), None
-    lo, hi = fields(obj, "min", "max")
-    lo, hi = number(lo), None if hi is None else number(hi)
+    lo, hi = fields(obj, "", "min max")
+    lo, hi = Q(0) if lo is None else number(lo), None if hi is None else number(hi)
     if lo < 0 or (hi is not None and hi < lo):
         raise Unreadable("window: 0 <= min <= max")
     return lo, hi
+
+
+# ---------------------------------------------------------------- the shape of a certificate
+#
+# The whole file is read before any obligation is looked at: what is malformed is never a rejection (F, Versions). A shape
+# is a function that raises Unreadable.
+
+class Maybe:
+    """A field that may be left out, and null in its place unless `null` says otherwise."""
+
+    def __init__(self, item, null=True):
+        self.item, self.null = item, null
+
+    def __call__(self, x):
+        if x is not None or not self.null:
+            self.item(x)
+
+
+def list_of(item, length=None):
+    def shape(x):
+        if length not in (None, len(sequence(x))):
+            raise Unreadable(f"a list of {length} was expected")
+        for v in x:
+            item(v)
+    return shape
+
+
+def record(**items):
+    """An object with these fields; a `Maybe` may be left out."""
+    optional = [key for key, item in items.items() if isinstance(item, Maybe)]
+
+    def shape(x):
+        fields(x, " ".join(key for key in items if key not in optional), " ".join(optional))
+        for key, v in x.items():
+            items[key](v)
+    return shape
+
+
+def one_of(*words, **kinds):
+    """One of some words, or an object with one key."""
+    def shape(x):
+        if isinstance(x, dict) and len(x) == 1 and set(x) <= set(kinds):
+            (kind, v), = x.items()
+            kinds[kind](v)
+        elif not isinstance(x, str) or x not in words:
+            raise Unreadable("a word or an object with one key was expected, got another one")
+    return shape
+
+
+def flag(x):
+    if not isinstance(x, bool):
+        raise Unreadable("true or false was expected")
+
+
+def place(x):
+    counter(x, 0, 2**64 - 1)
+
+
+def exponent(x):
+    counter(x, 0, 2**32 - 1)
+
+
+def weight(x):
+    counter(x, -(2**63), 2**63 - 1)
+
+
+def whole(x):
+    if not re.fullmatch("-?[0-9]{1,4000}", x if isinstance(x, str) else ""):
+        integer(x)
+
+
+def end(x):
+    """The end of a piece: null is infinity, and may not be left out."""
+    if x is not None:
+        number(x)
+
+
+RATIONALS, INTEGERS, PLACES = list_of(number), list_of(whole), list_of(place)
+INTERVAL, VECTOR = list_of(number, 2), list_of(INTEGERS)
+ROOT_OF = {"support": PLACES, "biactive": PLACES, "polynomial": INTEGERS, "interval": INTERVAL}
+CLAIM = one_of(
+    exact_solution=record(x=list_of(RATIONALS), **ROOT_OF),
+    lifted_solution=record(v=list_of(RATIONALS), w=list_of(RATIONALS), **ROOT_OF),
+    enclosed_solution=record(support=PLACES, center=RATIONALS, radius=RATIONALS, preconditioner=list_of(INTEGERS), exponent=exponent))
+FACTOR = record(first=PLACES, rows=list_of(INTEGERS), exponent=exponent)
+MATRIX = record(exponent=exponent, rows=list_of(INTEGERS))
+ANCHOR = record(center=number, reversed=Maybe(flag, null=False), right=list_of(MATRIX), left=list_of(MATRIX))
+CONDENSATION = record(
+    sigma=number, stiffness_factor=FACTOR, mass_sigma=number, mass_factor=Maybe(FACTOR), anchors=list_of(ANCHOR),
+    tail=Maybe(record(**{"from": number, "factor": FACTOR, "mass_factor": Maybe(FACTOR)})))
+OUTCOME = one_of("solution", "absent", negative_x=place, negative_y=place, claim=place, infinity=INTEGERS)
+ROOT = record(
+    pivot=place, interval=INTERVAL, inverse=list_of(INTEGERS), inverse_exponent=exponent, left=INTEGERS, right=INTEGERS,
+    exponent=exponent, outcome=OUTCOME)
+
+
+def alone_row(x):
+    if len(sequence(x)) != 2:
+        raise Unreadable("a row of alone is [j, weights]")
+    place(x[0])
+    VECTOR(x[1])
+
+
+REASON = one_of(none=VECTOR, some=record(x=VECTOR, alone=Maybe(record(pivot=place, rows=list_of(alone_row)))))
+SUPPORT = record(points=list_of(record(polynomial=INTEGERS, interval=INTERVAL, reason=place)), cells=PLACES, reasons=list_of(REASON))
+LDL_FACTOR = record(rows=list_of(RATIONALS), diagonal=RATIONALS)
+NODE = one_of(
+    "positive_definite", "negative_definite", "tail", "open", split=number, branch=place, farkas=list_of(weight),
+    ldl=record(lower=LDL_FACTOR, upper=LDL_FACTOR), root=ROOT, support=SUPPORT)
+PIECE = record(max=end, anchor=Maybe(place), tree=list_of(NODE))
+CERTIFICATE = record(
+    format=text_of, problem_sha256=text_of, unknown=one_of("lambda2", "mu"),
+    window=record(min=number, max=Maybe(number)), claims=list_of(CLAIM),
+    complete_set=Maybe(record(condensation=Maybe(CONDENSATION), pieces=list_of(PIECE))))
 
 
 class Matrix:
@@ -173,6 +297,13 @@ def read_dense(lists, what):
     return m
 
 
+def place_of(word, last=None):
+    """A size, or with `last` an index from 1: digits alone."""
+    if not re.fullmatch("[0-9]+", word) or (last is not None and not 1 <= int(word) <= last):
+        raise Unreadable(f"Matrix Market: not a size or an index: {word[:40]!r}")
+    return int(word)
+
+
 def read_market(name, folder, what):
     if not isinstance(name, str) or os.path.isabs(name) or ".." in re.split(r"[/\\]", name):
         raise Unreadable(f"{what}: the file must be beside or below the problem file")
@@ -180,19 +311,19 @@ def read_market(name, folder, what):
     if not os.path.isfile(path) or not os.path.realpath(path).startswith(os.path.realpath(folder) + os.sep):
         raise Unreadable(f"{what}: no such regular file beside the problem: {name}")
     try:
-        with open(path, encoding="utf-8") as f:
-            lines = f.read().splitlines()
+        with open(path, encoding="utf-8", newline="") as f:
+            lines = [line.removesuffix("\r") for line in f.read().split("\n")]
     except (OSError, ValueError) as e:
         raise Unreadable(f"{what}: {e}") from None
     head = lines[0].lower().split() if lines else []
     if len(head) != 5 or head[:2] != ["%%matrixmarket", "matrix"] or head[2] not in ("coordinate", "array") \
-            or head[3] not in ("real", "integer") or head[4] not in ("general", "symmetric"):
+            or head[3] not in ("real", "integer", "double") or head[4] not in ("general", "symmetric"):
         raise Unreadable(f"{what}: Matrix Market header")
-    body = [words for line in lines[1:] if not line.lstrip().startswith("%") and (words := line.split())]
+    body = [words for line in lines[1:] if not line.startswith("%") and (words := line.split())]
     symmetric = head[4] == "symmetric"
     if not body or len(body[0]) != (3 if head[2] == "coordinate" else 2):
         raise Unreadable(f"{what}: Matrix Market sizes")
-    size = [integer(w, 0) for w in body[0]]
+    size = [place_of(w) for w in body[0]]
     m = Matrix(size[0], size[1], what)
     if symmetric and size[0] != size[1]:
         raise Unreadable(f"{what}: not square")
@@ -200,7 +331,10 @@ def read_market(name, folder, what):
         if len(body) - 1 != size[2] or any(len(w) != 3 for w in body[1:]):
             raise Unreadable(f"{what}: number of entries")
         for w in body[1:]:
-            m.put(integer(w[0], 1, size[0]) - 1, integer(w[1], 1, size[1]) - 1, number(w[2]), symmetric)
+            i, j = place_of(w[0], size[0]), place_of(w[1], size[1])
+            if symmetric and i < j:
+                raise Unreadable(f"{what}: the lower triangle of a symmetric matrix was expected")
+            m.put(i - 1, j - 1, number(w[2]), symmetric)
         return m
     places = [(i, j) for j in range(size[1]) for i in range(j if symmetric else 0, size[0])]
     if len(body) - 1 != len(places) or any(len(w) != 1 for w in body[1:]):
@@ -215,27 +349,31 @@ def read_matrix(obj, folder, what):
         return read_dense(obj, what)
     if not isinstance(obj, dict):
         raise Unreadable(f"{what}: a matrix was expected")
-    if "matrix_market" in obj:
-        name, read_as = fields(obj, "matrix_market", "read_as")
-        m = read_market(name, folder, what)
-    elif "dense" in obj:
-        lists, read_as = fields(obj, "dense", "read_as")
-        m = read_dense(lists, what)
-    else:
-        rows, cols, entries, symmetric, read_as = fields(obj, "rows cols entries", "symmetric read_as")
-        if symmetric not in (None, True, False):
-            raise Unreadable(f"{what}: symmetric")
-        m = Matrix(integer(rows, 0, MAX_SIDE), integer(cols, 0, MAX_SIDE), what)
-        for e in sequence(entries):
+    given = {key: v for key, v in obj.items() if v is not None or key == "symmetric"}
+    symmetric, read_as = given.pop("symmetric", False), given.pop("read_as", None)
+    if symmetric not in (True, False) or not isinstance(symmetric, bool):
+        raise Unreadable(f"{what}: symmetric")
+    if read_as not in (None, "f64", "exact"):
+        raise Unreadable(f"{what}: read_as")
+    for key in obj:
+        if key not in ("dense", "rows", "cols", "entries", "matrix_market", "symmetric", "read_as"):
+            raise Unreadable(f"{what}: unknown field {key[:40]!r}")
+    if set(given) == {"matrix_market"} and not symmetric:
+        m = read_market(given["matrix_market"], folder, what)
+    elif set(given) == {"dense"} and not symmetric:
+        m = read_dense(given["dense"], what)
+    elif set(given) == {"rows", "cols", "entries"}:
+        m = Matrix(counter(given["rows"], 0, MAX_SIDE), counter(given["cols"], 0, MAX_SIDE), what)
+        for e in sequence(given["entries"]):
             if len(sequence(e)) != 3:
                 raise Unreadable(f"{what}: an entry is [i, j, v]")
             i, j = index(e[0], len(m.rows)), index(e[1], m.cols)
             if symmetric and (i >= m.cols or j >= len(m.rows)):
                 raise Unreadable(f"{what}: not square")
-            m.put(i, j, number(e[2]), bool(symmetric))
-    if read_as not in (None, "f64"):
-        raise Unreadable(f"{what}: read_as")
-    if read_as:
+            m.put(i, j, number(e[2]), symmetric)
+    else:
+        raise Unreadable(f"{what}: one of dense, entries with rows and cols, matrix_market was expected")
+    if read_as == "f64":
         m.rows = [{j: d for j, v in r.items() if (d := nearest_double(v))} for r in m.rows]
     return m
 
@@ -247,7 +385,9 @@ class Problem:
         doc = read_json(path)
         if not isinstance(doc, dict) or doc.get("format") != "mceip-problem/1":
             raise Unreadable("format: mceip-problem/1 was expected")
-        _, self.unknown, window, pencil, system, _, _ = fields(doc, "format unknown", "window pencil system name comment")
+        _, self.unknown, window, pencil, system, *words = fields(doc, "format unknown", "window pencil system name comment")
+        for word in words:
+            Maybe(text_of)(word)
         if self.unknown not in ("lambda2", "mu") or (pencil is None) == (system is None):
             raise Unreadable("unknown is lambda2 or mu; exactly one of pencil and system")
         read_window(window)
@@ -265,7 +405,7 @@ class Problem:
         self.n = len(a.rows)
         if self.n == 0 or {len(a.rows), a.cols, len(b.rows), b.cols} != {self.n}:
             raise Unreadable("a and b must be square, of one order")
-        free = [index(i, self.n) for i in sequence(free or [])]
+        free = [index(i, self.n) for i in sequence(obj.get("free", []))]
         if len(set(free)) < len(free):
             raise Unreadable("free: an index twice")
         self.free, self.a, self.b = sorted(free), a.rows, b.rows
@@ -330,8 +470,8 @@ class Problem:
         t, n = index(t, order), index(n, order)
         if state not in ("free", "stick", "slip") or (sign is not None) != (state == "slip"):
             raise Unreadable("state is free, stick or slip; sign exactly for slip")
-        sign = None if sign is None else integer(sign)
-        direction = 1 if direction is None else integer(direction)
+        sign = None if sign is None else counter(sign, -1, 1)
+        direction = 1 if direction is None else counter(direction, -1, 1)
         if sign not in (None, 1, -1) or direction not in (1, -1):
             raise Unreadable("sign and normal_direction are 1 or -1")
         c = [[Q(1), Q(0)], [Q(0), Q(1)]]
@@ -1326,16 +1466,6 @@ class Support:
 
 # ---------------------------------------------------------------- the cover
 
-WORDS = ("positive_definite", "negative_definite", "tail", "open")
-OBJECTS = ("split", "branch", "farkas", "ldl", "root", "support")
-
-
-def shape(node):
-    """A node of no known kind makes the whole file malformed, wherever it stands."""
-    if not (isinstance(node, str) and node in WORDS) and not (isinstance(node, dict) and len(node) == 1 and set(node) <= set(OBJECTS)):
-        raise Unreadable("unknown node")
-
-
 def complete_set(p, rows, window, claims, obj):
     """The number of solutions, of families and of open leaves of the cover."""
     pieces, condensation = fields(obj, "pieces", "condensation")
@@ -1347,7 +1477,7 @@ def complete_set(p, rows, window, claims, obj):
     nodes = sum(len(sequence(piece["tree"])) for piece in pieces if isinstance(piece, dict) and "tree" in piece)
     entries = sum(len({*ra, *rb}) for _, ra, rb in rows)
     definite_left = (1 << 29) + (nodes << 20) + (entries << 16)
-    start, found, families, left_open = window[0], [], [], 0
+    start, found, families, left_open = window[0], [], [], []
     for number_of, piece in enumerate(pieces):
         if not isinstance(piece, dict) or "max" not in piece:
             raise Unreadable("piece: max")
@@ -1359,8 +1489,6 @@ def complete_set(p, rows, window, claims, obj):
             demand(end == window[1] and (end is None or end > start or len(pieces) == 1), "cover: the last piece")
         else:
             demand(end is not None and start < end and (window[1] is None or end < window[1]), "cover: a piece's max")
-        for node in sequence(tree):
-            shape(node)
         regions = [(start, end, (OPEN,) * len(p.s))]
         for node in sequence(tree):
             demand(regions, "cover: nodes after the end of a tree")
@@ -1396,7 +1524,7 @@ def complete_set(p, rows, window, claims, obj):
             elif kind == "tail" and value is None:
                 demand(p.free and pencil.tail_from is not None and pencil.tail_from <= lo, "tail: not covered")
             elif kind == "open" and value is None:
-                left_open += 1
+                left_open.append((lo, hi, {i: st for i, st in zip(p.s, state)}))
             else:
                 raise Unreadable("unknown node")
         demand(not regions, "cover: a tree that ends early")
@@ -1405,7 +1533,24 @@ def complete_set(p, rows, window, claims, obj):
     single = [f for f in found if not any(
         f.support == s and first[1] <= f.a and (last is None or f.b <= last[0]) for s, first, last, _ in families)]
     families += [(f.support, (f.a, f.b), (f.a, f.b), True) for f in found if f not in single]
-    return count(single), len(set(families)), left_open
+    solutions = count(single)
+    for k, claim in enumerate(claims):
+        demand(belongs(claim, single, families, left_open), f"claim {k} has no place in the complete set")
+    return solutions, len(set(families)), len(left_open)
+
+
+def belongs(claim, single, families, left_open):
+    """Has an accepted claim a place among what the cover yields or leaves open (C, Claims beside a cover)?"""
+    support, _, a, b = claim
+
+    def meets(lo, hi):
+        return lo <= b and (hi is None or a <= hi)
+
+    def admits(state):
+        return all(st != REST if i in support else st != MOVING for i, st in state.items())
+    return any(f.support == tuple(support) and meets(f.a, f.b) for f in single) \
+        or any(s == tuple(support) and meets(first[0], last and last[1]) for s, first, last, _ in families) \
+        or any(admits(state) and meets(lo, hi) for lo, hi, state in left_open)
 
 
 def count(found):
@@ -1426,7 +1571,9 @@ def count(found):
 
 def read_mcp(doc):
     """M, q and the bounds of mceip-mcp/1 (F); None for an absent bound."""
-    _, m, q, lower, upper, _, _ = fields(doc, "format m q", "lower upper name comment")
+    _, m, q, lower, upper, *words = fields(doc, "format m q", "lower upper name comment")
+    for word in words:
+        Maybe(text_of)(word)
     m = [[number(v) for v in sequence(row)] for row in sequence(m)]
     q = [number(v) for v in sequence(q)]
     bounds = []
@@ -1453,8 +1600,7 @@ def check_mcp(doc, certificate_path):
     if not isinstance(claimed, dict) or claimed.get("format") != "mceip-mcp-solution/1":
         raise Unreadable("format: mceip-mcp-solution/1 was expected")
     _, digest, points = fields(claimed, "format problem_sha256 z")
-    if not isinstance(digest, str) or isinstance(digest, Spelt):
-        raise Unreadable("problem_sha256")
+    text_of(digest)
     points = [[number(v) for v in sequence(z)] for z in sequence(points)]
     demand(digest == mcp_digest(m, q, lower, upper), "the digest is not the problem's")
     demand(points, "no solution is listed")
@@ -1479,12 +1625,9 @@ def check(problem_path, certificate_path):
     doc = read_json(certificate_path)
     if not isinstance(doc, dict) or doc.get("format") != "mceip-certificate/1":
         raise Unreadable("format: mceip-certificate/1 was expected")
+    CERTIFICATE(doc)
     _, digest, unknown, window, claim_list, complete = fields(doc, "format problem_sha256 unknown window claims", "complete_set")
-    if not isinstance(window, dict):
-        raise Unreadable("window")
     window = read_window(window)
-    if unknown not in ("lambda2", "mu") or not isinstance(digest, str):
-        raise Unreadable("unknown, problem_sha256")
     demand(digest == p.digest, f"the problem's digest is {p.digest}")
     demand(unknown == p.unknown, "the unknown is not the problem's")
     demand(sequence(claim_list) or complete is not None, "no claim")

@@ -163,3 +163,22 @@ pub const REFINED: f64 = 1e-6;
 /// Unit: none. Basis: a solution at infinity was met at alpha from 1e-18 to 3e-17 (random pencil 163 of `verify`), within
 /// the rounding of coordinates of order one.
 pub const CIRCLE_END: f64 = 1e-13;
+
+/// Relative error up to which a reported value, and x scaled to largest |x_i| = 1, agree with the proven solution, if
+/// `check --tolerance` does not say otherwise. Unit: none. Basis: a program that solves in doubles and prints seven
+/// digits reaches it where the condition is below 1e9; a wrong component or value of the size of its own error bars
+/// does not pass.
+pub const AGREEMENT: f64 = 1e-6;
+
+/// The smallest error that `check --tolerance` may ask for. Unit: relative. Basis: a few roundings of doubles, in which
+/// reports are compared.
+pub const FINEST_AGREEMENT: f64 = 1e-15;
+
+/// What `check --tolerance` takes, in words: from [`FINEST_AGREEMENT`] to [`VALUE_RADIUS`].
+pub const AGREEMENT_RANGE: &str = "a number from 1e-15 to 1e-4";
+
+/// Values below this share of max|A| / max|B| have their errors measured relative to that share. Unit: none. Basis: with
+/// [`AGREEMENT`] a value 0 may be reported as 1e-13 max|A| / max|B|, some hundred times what rounding A and B to doubles
+/// moves it; lambda^2 just above a threshold is 1e-7 of the largest one on an ordinary mesh (1.3e3 beside 1e10), and must
+/// have its digits still.
+pub const VALUE_FLOOR: f64 = 1e-7;

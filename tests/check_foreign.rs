@@ -24,7 +24,8 @@ fn check(problem: &str, solutions: &str) -> (i32, String) {
 fn one_line_for_each_solution() {
     let fold = example("fold");
     let good = r#"{"value":2.00000,"x":[0.666667,0.333333]}"#;
-    assert_eq!(check(&fold, &format!("[{good}]")), (0, "ACCEPTED: lambda2 = 2 exists with support {0, 1}; proved\n".into()));
+    let accepted = "ACCEPTED: lambda2 = 2 exists with support {0, 1}; proved; its value agrees to 15 or more digits, x to 6 digits\n";
+    assert_eq!(check(&fold, &format!("[{good}]")), (0, accepted.into()));
     let (code, text) = check(&fold, r#"[{"value":2.5,"x":[0.666667,0.333333]}]"#);
     assert!(code == 1 && text.starts_with("REJECTED: lambda2 = 2.5: no solution") && text.contains("there is none at all"), "{text}");
     let (code, text) = check(&fold, r#"[{"value":2,"x":[0.333333,0.666667]}]"#);
@@ -64,18 +65,123 @@ fn a_mode_in_physical_dofs() {
         (r#"[{"value":1}]"#, vec!["x or v"]),
         (r#"[{"value":1e999,"x":[1,1]}]"#, vec!["solutions[0].value"]),
     ] {
-        let report = folder.write("r.json", &format!(r#"{{"format":"mceip-solutions/1","solutions":{solutions}}}"#));
-        refused(&["check", &system, &report], &words);
+        let (code, text) = check(&system, solutions);
+        assert!(code == 1 && text.starts_with("REJECTED: ") && words.iter().all(|w| text.contains(w)), "{text}");
     }
-    let fold = folder.write("f.json", r#"{"format":"mceip-solutions/1","solutions":[{"value":1,"v":[1,1]}]}"#);
-    refused(&["check", &example("fold"), &fold], &["expected x"]);
+    let (code, text) = check(&example("fold"), r#"[{"value":1,"v":[1,1]}]"#);
+    assert!(code == 1 && text.contains("expected x"), "{text}");
+    let unread = folder.write("u.json", r#"{"format":"mceip-solutions/1","solutions":[{"value":"two","x":[1,1]}]}"#);
+    refused(&["check", &example("fold"), &unread], &["two"]);
     let other = folder.write("o.json", r#"{"format":"mceip-solutions/1","problem_sha256":"00","solutions":[]}"#);
     let out = mceip(&["check", &system, &other]);
     assert!(out.status.code() == Some(1) && String::from_utf8(out.stdout).unwrap().starts_with("REJECTED: the report names another"));
 }
 
+/// A point that fits nothing is judged by itself; the others are judged as if it were not there.
+#[test]
+fn a_bad_point_does_not_refuse_the_report() {
+    let good = r#"{"value":2,"x":[2,1]}"#;
+    for bad in [r#"{"value":2,"x":[2,1,0]}"#, r#"{"value":2,"x":[0,0]}"#, r#"{"value":2}"#, r#"{"value":1e400,"x":[2,1]}"#] {
+        let (code, text) = check(&example("fold"), &format!("[{good},{bad},{good}]"));
+        let words: Vec<&str> = text.lines().map(|line| line.split(':').next().unwrap()).collect();
+        assert_eq!((code, words), (1, vec!["ACCEPTED", "REJECTED", "ACCEPTED"]), "{bad}: {text}");
+    }
+}
+
+/// On both sides of the tolerance, in the value and in x; the fold has lambda^2 = 2 with x = (2, 1).
+#[test]
+fn a_report_agrees_up_to_the_tolerance() {
+    let fold = example("fold");
+    for (value, x, expected) in [
+        ("2.0000019", "[2,1]", 0),
+        ("2.0000021", "[2,1]", 1),
+        ("1.9999981", "[2,1]", 0),
+        ("1.9999979", "[2,1]", 1),
+        ("2", "[2,1.0000019]", 0),
+        ("2", "[2,1.0000021]", 1),
+        ("2", "[6000,3000.006]", 1),
+        ("2", "[6000,3000.005]", 0),
+        ("2.0001", "[2,1]", 1),
+        ("2", "[2,1.001]", 1),
+    ] {
+        let (code, text) = check(&fold, &format!(r#"[{{"value":{value},"x":{x}}}]"#));
+        assert_eq!(code, expected, "{value} {x}: {text}");
+        assert!(text.starts_with(["ACCEPTED: ", "INACCURATE: "][expected as usize]), "{text}");
+    }
+    let (_, text) = check(&fold, r#"[{"value":2.0001,"x":[2,1.001]}]"#);
+    for words in [
+        "INACCURATE: lambda2 = 2.0001: lambda2 = 2 exists with support {0, 1}, x = (1.000000000, 0.500000000)",
+        "error of the value 5.0e-5",
+        "x[1] is worst: expected 0.500000000, got 0.500500000, error 5.0e-4",
+        "allowed 1e-6",
+    ] {
+        assert!(text.contains(words), "{words} not in {text}");
+    }
+}
+
+/// x = (1, 0.001) is not (1, 0), which is the solution of diag(t - 1, t + 1); noise below the tolerance is.
+#[test]
+fn a_component_that_should_be_zero() {
+    let folder = Folder::new();
+    let text = r#"{"format":"mceip-problem/1","unknown":"lambda2","pencil":{"a":[[-1,0],[0,1]],"b":[[1,0],[0,1]]}}"#;
+    let problem = folder.write("p.json", text);
+    for (small, expected) in [("0", 0), ("9e-7", 0), ("-9e-7", 0), ("1.1e-6", 1), ("-1.1e-6", 1), ("0.0009", 1)] {
+        let (code, text) = check(&problem, &format!(r#"[{{"value":1,"x":[1,{small}]}}]"#));
+        assert_eq!(code, expected, "{small}: {text}");
+        assert!(expected == 0 || text.contains("x[1] is worst: expected 0.000000000"), "{text}");
+    }
+}
+
+/// Errors of the value 0 are measured by 1e-7 max|A| / max|B|: a thousand times larger values, a thousand times more room.
+#[test]
+fn a_value_at_zero_has_the_scale_of_its_problem() {
+    let folder = Folder::new();
+    for (scale, inside, outside) in [("1", "0.9e-13", "1.1e-13"), ("1000", "0.9e-10", "1.1e-10")] {
+        let a = format!(r#"[["0","0"],["0","{scale}"]]"#);
+        let text = format!(r#"{{"format":"mceip-problem/1","unknown":"lambda2","pencil":{{"a":{a},"b":[[1,0],[0,1]]}}}}"#);
+        let problem = folder.write("p.json", &text);
+        for (value, expected) in [("0", 0), (inside, 0), (outside, 1)] {
+            let (code, text) = check(&problem, &format!(r#"[{{"value":{value},"x":[1,0]}}]"#));
+            assert_eq!(code, expected, "{scale} {value}: {text}");
+        }
+    }
+}
+
+/// `--tolerance` moves the border, within what doubles and the radius of certification allow.
+#[test]
+fn the_tolerance_is_an_option() {
+    let folder = Folder::new();
+    let fold = example("fold");
+    let solutions = r#"[{"value":2.00001,"x":[2,1]}]"#;
+    let report = folder.write("r.json", &format!(r#"{{"format":"mceip-solutions/1","solutions":{solutions}}}"#));
+    for (tolerance, expected) in [("1e-5", 0), ("0.0000051", 0), ("4.9e-6", 1), ("1e-9", 1), ("1e-4", 0)] {
+        let out = mceip(&["check", &fold, &report, "--tolerance", tolerance]);
+        assert_eq!(out.status.code(), Some(expected), "{tolerance}");
+    }
+    for bad in ["0", "-1", "1", "2e-4", "1e-16", "small"] {
+        refused(&["check", &fold, &report, &format!("--tolerance={bad}")], &["--tolerance", "from 1e-15 to 1e-4"]);
+    }
+    refused(&["check", &fold, &report, "--window", "0,1"], &["--window", "certificate only"]);
+}
+
+/// v in physical degrees of freedom: a rate of 1e-4 into the obstacle is no rounding.
+#[test]
+fn a_rate_off_the_constraints_counts_like_a_component() {
+    let system = example("two-particles");
+    let listed = mceip(&["enumerate", &system, "--json"]);
+    let listed: serde_json::Value = serde_json::from_slice(&listed.stdout).unwrap();
+    let solution = &listed["solutions"][0];
+    for (rate, expected) in [("1e-9", 0), ("1e-4", 1), ("0.5", 1)] {
+        let mut v = solution["v"].as_array().unwrap().clone();
+        v[1] = serde_json::json!(rate);
+        let (code, text) = check(&system, &serde_json::json!([{ "value": solution["value"], "v": v }]).to_string());
+        assert_eq!(code, expected, "{rate}: {text}");
+        assert!(code == 0 || text.contains("v[1]"), "{text}");
+    }
+}
+
 /// At relative distances 1e-6 to 1e-12 of a threshold: below it the residual of t = 0 is as small, and
-/// nothing exists; on it and above it the same report is right.
+/// nothing exists; on it the same report is right, and above it the solution is near and is not 0.
 #[test]
 fn near_a_threshold() {
     let folder = Folder::new();
@@ -87,6 +193,10 @@ fn near_a_threshold() {
             );
             let problem = folder.write("p.json", &text);
             let (code, text) = check(&problem, r#"[{"value":0,"x":[1,0]}]"#);
+            assert_eq!(code, 1, "{sign}1e-{power}: {text}");
+            let verdict = if sign.is_empty() { "REJECTED" } else { "INACCURATE" };
+            assert!(text.starts_with(verdict), "{sign}1e-{power}: {text}");
+            let (code, text) = check(&problem, &format!(r#"[{{"value":"1e-{power}","x":[1,0]}}]"#));
             assert_eq!(code, expected, "{sign}1e-{power}: {text}");
         }
     }

@@ -10,6 +10,8 @@
 
 #[path = "support/corpus.rs"]
 mod corpus;
+#[path = "support/corpus_beside.rs"]
+mod corpus_beside;
 #[path = "support/corpus_by_leaf.rs"]
 mod corpus_by_leaf;
 #[path = "support/corpus_claims.rs"]
@@ -140,6 +142,10 @@ fn our_checker_gives_every_verdict_and_reason() {
     assert!(seen[1] >= seen[0] + seen[3] && seen[0] >= 25 && seen[1] >= 90 && seen[2] >= 45, "{seen:?}");
 }
 
+/// Reasons that no file reaches: a claim and a cover that contradict each other are not both true, and a checker that
+/// accepts nothing false refuses the false one by its own obligations. `src/check/mod.rs` tests it on made-up covers.
+const UNREACHABLE: [&str; 1] = ["NotInCover"];
+
 /// Each obligation of the checker is the reason of some file.
 #[test]
 fn every_obligation_has_a_forgery() {
@@ -158,6 +164,7 @@ fn every_obligation_has_a_forgery() {
     };
     let mut missing: Vec<String> =
         variants("src/check/reason.rs", "Reason").into_iter().filter(|v| v != "Cover" && !reasons.contains(v)).collect();
+    missing.retain(|v| !UNREACHABLE.contains(&v.as_str()));
     missing.extend(
         variants("src/check/cover/fault.rs", "CoverFault").into_iter().map(|v| format!("Cover.{v}")).filter(|v| !reasons.contains(v)),
     );
@@ -231,6 +238,7 @@ fn the_second_checker_gives_every_verdict() {
 #[ignore = "writes spec/corpus"]
 fn write_the_corpus() {
     let mut cases = Cases::default();
+    corpus_beside::beside(&mut cases);
     corpus_by_leaf::supports(&mut cases);
     corpus_claims::exact_claims(&mut cases);
     corpus_claims::enclosed_claims(&mut cases);
@@ -242,6 +250,7 @@ fn write_the_corpus() {
     corpus_infinity::infinity(&mut cases);
     corpus_mcp::plain(&mut cases);
     corpus_malformed::malformed(&mut cases);
+    corpus_malformed::spelling(&mut cases);
     corpus_malformed::hostile(&mut cases);
     for case in cases.0 {
         let folder = root().join(case.folder);

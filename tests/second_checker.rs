@@ -3,7 +3,9 @@
 #![cfg(feature = "cli")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use serde_json::Value;
+use mceip::check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
+use mceip::exact::{Interval, whole};
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
@@ -150,4 +152,89 @@ fn both_checkers_agree_on_support_leaves() {
         }
     }
     assert!(seen[0] >= 4 && seen[1] > 20, "{seen:?}");
+}
+
+/// One process: for each case whether `belongs` gives the claim a place in the cover.
+const BELONGS: &str = "
+import json, sys
+from fractions import Fraction as Q
+from types import SimpleNamespace
+sys.path.insert(0, sys.argv[1])
+import checker
+STATES = {'rest': checker.REST, 'moving': checker.MOVING, 'undecided': checker.OPEN}
+def ends(pair):
+    return pair and (Q(pair[0]), Q(pair[1]))
+for line in sys.stdin:
+    case = json.loads(line)
+    a, b = ends(case['claim'])
+    single = [SimpleNamespace(support=tuple(s), a=Q(v[0]), b=Q(v[1])) for s, v in case['single']]
+    families = [(tuple(s), ends(first), ends(last), False) for s, first, last in case['families']]
+    left_open = [(Q(lo), None if hi is None else Q(hi), {i: STATES[w] for i, w in enumerate(states)}) for lo, hi, states in case['open']]
+    print(checker.belongs((case['support'], [], a, b), single, families, left_open))
+";
+
+fn interval(ends: [i64; 2]) -> Interval {
+    Interval::new(whole(ends[0]), whole(ends[1])).unwrap()
+}
+
+/// A cover with one part on a support or states in [3, 5], in the forms of both checkers.
+fn parts() -> Vec<(AcceptedCover, Value)> {
+    let none = || AcceptedCover { solutions: vec![], families: vec![], open: vec![], leaves: 1 };
+    let listed = AcceptedClaim { support: vec![0, 2], value: interval([3, 5]) };
+    let mut list = vec![
+        (none(), json!({ "single": [], "families": [], "open": [] })),
+        (AcceptedCover { solutions: vec![listed], ..none() }, json!({ "single": [[[0, 2], [3, 5]]], "families": [], "open": [] })),
+    ];
+    for last in [Some([5, 6]), None] {
+        let to = last.map(interval);
+        let family = SolutionFamily { support: vec![0, 2], from: interval([3, 4]), to, is_point: false, is_alone: true };
+        let theirs = json!({ "single": [], "families": [[[0, 2], [3, 4], last]], "open": [] });
+        list.push((AcceptedCover { families: vec![family], ..none() }, theirs));
+    }
+    for (states, last) in (0..27).flat_map(|k| [([k % 3, k / 3 % 3, k / 9], Some(5)), ([k % 3, k / 3 % 3, k / 9], None)]) {
+        let of = |state: usize| (0..3).filter(|&i| states[i] == state).collect::<Vec<usize>>();
+        let region = OpenRegion { min: whole(3), max: last.map(whole), moving: of(1), undecided: of(2) };
+        let words = states.map(|s| ["rest", "moving", "undecided"][s]);
+        let theirs = json!({ "single": [], "families": [], "open": [[3, last, words]] });
+        list.push((AcceptedCover { open: vec![region], ..none() }, theirs));
+    }
+    list
+}
+
+/// No certificate tells whether a claim outside the cover is rejected (each half of such a pair would be rejected by
+/// itself), so the two rules are compared on made-up covers.
+#[test]
+fn both_checkers_give_a_claim_the_same_places() {
+    use std::io::Write as _;
+    use std::process::Stdio;
+    if Command::new("python3").arg("--version").output().is_err() {
+        return;
+    }
+    let supports = (0..8).map(|k| (0..3).filter(|i| k >> i & 1 == 1).collect::<Vec<usize>>());
+    let supports: Vec<Vec<usize>> = supports.collect();
+    let mut input = String::new();
+    let mut ours = Vec::new();
+    for (cover, theirs) in parts() {
+        for support in &supports {
+            for ends in [[1, 2], [2, 3], [4, 4], [5, 6], [6, 7], [7, 8]] {
+                let claim = AcceptedClaim { support: support.clone(), value: interval(ends) };
+                let mut case = theirs.clone();
+                case["support"] = json!(support);
+                case["claim"] = json!(ends);
+                input += &format!("{case}\n");
+                ours.push(cover.place_of(&claim).is_some());
+            }
+        }
+    }
+    let mut run = Command::new("python3");
+    run.env("PYTHONDONTWRITEBYTECODE", "1").args(["-c", BELONGS]).arg(root("spec"));
+    let mut child = run.stdin(Stdio::piped()).stdout(Stdio::piped()).spawn().unwrap();
+    let mut pipe = child.stdin.take().unwrap();
+    let writer = std::thread::spawn(move || pipe.write_all(input.as_bytes()).unwrap());
+    let output = child.wait_with_output().unwrap();
+    writer.join().unwrap();
+    let theirs: Vec<bool> = String::from_utf8(output.stdout).unwrap().lines().map(|l| l == "True").collect();
+    assert_eq!(ours, theirs);
+    let count = ours.iter().filter(|holds| **holds).count();
+    assert!(count > 200 && ours.len() - count > 1000, "{count} of {}", ours.len());
 }

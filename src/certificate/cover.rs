@@ -6,7 +6,8 @@
 //! intervals and states itself; the file holds cuts, branches and witnesses only.
 
 use super::{Integer, Number, integer_rows, integers, object};
-use serde::{Deserialize, Serialize};
+use crate::model::file::word_or_kind;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// All solutions in the certificate's window: a cover, or what is left of one (open leaves).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
@@ -40,7 +41,7 @@ fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::
 }
 
 /// A node of the tree, in preorder. Leaves prove that nothing lies in them, or exactly what.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Node {
     /// Cuts the interval at this value: the lower half follows, then the upper half.
@@ -55,15 +56,12 @@ pub enum Node {
     /// The symmetric part is negative definite on what may move.
     NegativeDefinite,
     /// sym(A + tB) of the pencil as given is definite on what may move, by exact factors.
-    #[serde(deserialize_with = "object::one")]
     Ldl(Box<Ldl>),
     /// The condensation's tail begins at or below this region.
     Tail,
     /// Every index is decided and the pencil has at most one null vector.
-    #[serde(deserialize_with = "object::one")]
     Root(Box<Root>),
     /// Every index is decided: what there is at every value of the interval, exactly.
-    #[serde(deserialize_with = "object::one")]
     Support(Box<Support>),
     /// Not decided.
     Open,
@@ -96,7 +94,7 @@ pub struct Root {
 }
 
 /// What the only null vector of a leaf is.
-#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum RootOutcome {
     /// A solution: it exists, x > 0 and y > 0 strictly.
@@ -285,4 +283,103 @@ pub struct IntegerMatrix {
     /// Rows.
     #[serde(with = "integer_rows")]
     pub rows: Vec<Vec<Integer>>,
+}
+
+/// The nodes that stand in a file as words.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum NodeWord {
+    PositiveDefinite,
+    NegativeDefinite,
+    Tail,
+    Open,
+}
+
+/// The nodes that stand in a file as objects with one key.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum NodeKind {
+    Split(Number),
+    Branch(usize),
+    Farkas(Vec<i64>),
+    #[serde(deserialize_with = "object::one")]
+    Ldl(Box<Ldl>),
+    #[serde(deserialize_with = "object::one")]
+    Root(Box<Root>),
+    #[serde(deserialize_with = "object::one")]
+    Support(Box<Support>),
+}
+
+impl From<NodeWord> for Node {
+    fn from(word: NodeWord) -> Node {
+        match word {
+            NodeWord::PositiveDefinite => Node::PositiveDefinite,
+            NodeWord::NegativeDefinite => Node::NegativeDefinite,
+            NodeWord::Tail => Node::Tail,
+            NodeWord::Open => Node::Open,
+        }
+    }
+}
+
+impl From<NodeKind> for Node {
+    fn from(kind: NodeKind) -> Node {
+        match kind {
+            NodeKind::Split(at) => Node::Split(at),
+            NodeKind::Branch(index) => Node::Branch(index),
+            NodeKind::Farkas(weights) => Node::Farkas(weights),
+            NodeKind::Ldl(factors) => Node::Ldl(factors),
+            NodeKind::Root(root) => Node::Root(root),
+            NodeKind::Support(support) => Node::Support(support),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Node {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        word_or_kind::<D, NodeWord, NodeKind, Node>(deserializer, "a node: a word, or an object with one key")
+    }
+}
+
+/// The outcomes that stand in a file as words.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum OutcomeWord {
+    Solution,
+    Absent,
+}
+
+/// The outcomes that stand in a file as objects with one key.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum OutcomeKind {
+    NegativeX(usize),
+    NegativeY(usize),
+    Claim(usize),
+    Infinity(#[serde(with = "integers")] Vec<Integer>),
+}
+
+impl From<OutcomeWord> for RootOutcome {
+    fn from(word: OutcomeWord) -> RootOutcome {
+        match word {
+            OutcomeWord::Solution => RootOutcome::Solution,
+            OutcomeWord::Absent => RootOutcome::Absent,
+        }
+    }
+}
+
+impl From<OutcomeKind> for RootOutcome {
+    fn from(kind: OutcomeKind) -> RootOutcome {
+        match kind {
+            OutcomeKind::NegativeX(index) => RootOutcome::NegativeX(index),
+            OutcomeKind::NegativeY(index) => RootOutcome::NegativeY(index),
+            OutcomeKind::Claim(claim) => RootOutcome::Claim(claim),
+            OutcomeKind::Infinity(x) => RootOutcome::Infinity(x),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for RootOutcome {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        word_or_kind::<D, OutcomeWord, OutcomeKind, RootOutcome>(deserializer, "an outcome: a word, or an object with one key")
+    }
 }

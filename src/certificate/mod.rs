@@ -105,6 +105,7 @@ pub struct EnclosedSolution {
 struct File {
     format: String,
     problem_sha256: String,
+    #[serde(deserialize_with = "object::word")]
     unknown: Unknown,
     #[serde(deserialize_with = "object::one")]
     window: FileWindow,
@@ -152,11 +153,15 @@ impl Certificate {
 
 /// What is read from an object, and not from a list of its fields.
 mod object {
-    use crate::model::file::Object;
+    use crate::model::file::{Object, Word};
     use serde::{Deserialize, Deserializer};
 
     pub(super) fn one<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<T, D::Error> {
         Object::deserialize(d).map(|o| o.0)
+    }
+
+    pub(super) fn word<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<T, D::Error> {
+        Word::deserialize(d).map(|w| w.0)
     }
 
     pub(super) fn option<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<Option<T>, D::Error> {

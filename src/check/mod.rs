@@ -14,7 +14,7 @@ mod lifted_solution;
 mod pencil;
 mod reason;
 
-pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, SolutionFamily};
+pub use cover::{AcceptedCover, CoverFault, MAX_COVERED, OpenRegion, Place, SolutionFamily};
 pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};
@@ -114,5 +114,50 @@ fn verdict(problem: &Problem, certificate: &Certificate, refused: Option<&mut Ve
         Some(c) => Some(cover::check(&checker.rows, &certificate.window, &solutions, c, refused).map_err(whole)?),
         None => None,
     };
-    Ok(Accepted { claims: solutions.into_iter().map(|s| s.claim).collect(), cover })
+    let claims: Vec<AcceptedClaim> = solutions.into_iter().map(|s| s.claim).collect();
+    if let Some(cover) = &cover {
+        beside_the_cover(&claims, cover)?;
+    }
+    Ok(Accepted { claims, cover })
+}
+
+/// Demands that each claim belongs to a solution, a family or an open region of the cover.
+///
+/// True claims and a true cover agree. The rejection therefore shows that a claim or the cover is false, although
+/// each met its own obligations.
+fn beside_the_cover(claims: &[AcceptedClaim], cover: &AcceptedCover) -> Result<(), Rejected> {
+    for (index, claim) in claims.iter().enumerate() {
+        if cover.place_of(claim).is_none() {
+            let reason = Reason::NotInCover { support: claim.support.clone(), a: claim.value.lo().clone(), b: claim.value.hi().clone() };
+            return Err(Rejected { claim: Some(index), reason });
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::whole;
+
+    fn claim(support: usize, value: i64) -> AcceptedClaim {
+        let value = Interval::new(whole(value), whole(value)).unwrap();
+        AcceptedClaim { support: vec![support], value }
+    }
+
+    /// No file reaches this rejection as long as the checker accepts true claims and true covers alone, so the cover that
+    /// leaves out a solution is made here.
+    #[test]
+    fn a_claim_that_the_cover_leaves_out_is_rejected() {
+        let cover = AcceptedCover { solutions: vec![claim(0, 2)], families: vec![], open: vec![], leaves: 1 };
+        assert_eq!(beside_the_cover(&[], &cover), Ok(()));
+        assert_eq!(beside_the_cover(&[claim(0, 2)], &cover), Ok(()));
+
+        let rejected = beside_the_cover(&[claim(0, 2), claim(0, 3)], &cover).unwrap_err();
+        assert_eq!(rejected.claim, Some(1));
+        assert_eq!(rejected.reason, Reason::NotInCover { support: vec![0], a: whole(3), b: whole(3) });
+        assert_eq!(rejected.reason.name(), "NotInCover");
+        let other_support = beside_the_cover(&[claim(1, 2)], &cover).unwrap_err();
+        assert!(other_support.to_string().starts_with("claim 0: complete set: expected support [1] with a value in [2, 2]"));
+    }
 }

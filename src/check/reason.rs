@@ -207,6 +207,18 @@ pub enum Reason {
         /// The radius.
         radius: Rational,
     },
+    /// An accepted claim has no place in the accepted cover: one of both is false.
+    #[error(
+        "complete set: expected support {support:?} with a value in [{a}, {b}] among its solutions, families or open regions, got none"
+    )]
+    NotInCover {
+        /// The claim's support.
+        support: Vec<usize>,
+        /// Lower end of its value.
+        a: Rational,
+        /// Upper end.
+        b: Rational,
+    },
     /// A complete set does not hold.
     #[error("complete set{}: {fault}", place(*piece, *node))]
     Cover {

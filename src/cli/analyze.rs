@@ -2,7 +2,7 @@
 
 mod page;
 
-use super::common::{CliError, exit, interrupt_flag, load, positive, print, progress_spinner};
+use super::common::{CliError, exit, interrupt_flag, load, positive, print, progress_spinner, require_threads};
 use super::output::Output;
 use crate::analysis::{Analysis, AnalysisError, Options, analyse};
 use crate::model::Body;
@@ -43,9 +43,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let Body::System(system) = problem.body() else { return Err(AnalysisError::NotASystem.into()) };
     let given = args.friction.as_deref().map(|t| positive("friction", t)).transpose()?;
     let friction = given.or_else(|| system.friction().cloned()).ok_or(AnalysisError::NoFriction)?;
-    if args.threads == Some(0) {
-        return Err(CliError::Option { option: "threads", expected: "at least 1", got: "0".into() });
-    }
+    require_threads(args.threads)?;
     let usual = if system.free_dofs().len() > SAMPLED_FREE { 0 } else { Options::default().samples };
     let samples = args.samples.unwrap_or(usual);
     if samples > MAX_SAMPLES {

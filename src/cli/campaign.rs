@@ -2,7 +2,7 @@
 
 mod summary;
 
-use super::common::{CliError, exit, interrupt_flag, print, text};
+use super::common::{CliError, exit, interrupt_flag, print, require_threads, text};
 use super::output::Output;
 use crate::testkit::campaign::{Campaign, Event, FAMILIES, Limit, Replay, State, UnknownFamily, judge, standard};
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
@@ -54,9 +54,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         (None, count) => Limit::Count(count.unwrap_or_default()),
     };
     let state = start(args)?;
-    if args.threads == Some(0) {
-        return Err(CliError::Option { option: "threads", expected: "at least 1", got: "0".into() });
-    }
+    require_threads(args.threads)?;
     let stop = interrupt_flag();
     let engines = standard(args.seed);
     let campaign = Campaign { engines: &engines, limit };

@@ -219,7 +219,7 @@ fn read_stdin(what: &'static str) -> Result<String, ModelError> {
 }
 
 /// `a,b` with b empty or `inf` for infinity.
-fn parse_window(text: &str) -> Result<Window, CliError> {
+pub(super) fn parse_window(text: &str) -> Result<Window, CliError> {
     let bad =
         || CliError::Option { option: "window", expected: "a,b with 0 <= a <= b (b may be inf)", got: text.chars().take(60).collect() };
     let (min, max) = text.split_once(',').ok_or_else(bad)?;
@@ -227,7 +227,25 @@ fn parse_window(text: &str) -> Result<Window, CliError> {
         "" | "inf" => None,
         m => Some(parse(m).map_err(|_| bad())?),
     };
-    Window::new(parse(min).map_err(|_| bad())?, max).map_err(|_| bad())
+    Window::new(parse(min.trim()).map_err(|_| bad())?, max).map_err(|_| bad())
+}
+
+/// Refuses no threads at all, and says on stderr where the threads wanted are more than the machine gives, or cannot be
+/// started: then the work is done by the default ones.
+pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
+    let Some(wanted) = wanted else { return Ok(()) };
+    if wanted == 0 {
+        return Err(CliError::Option { option: "threads", expected: "at least 1", got: "0".into() });
+    }
+
+    let given = std::thread::available_parallelism().map_or(1, usize::from);
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(wanted).build();
+    match pool {
+        Err(e) => eprintln!("mceip: --threads {wanted}: cannot be started ({e}); the default number of threads is used instead"),
+        Ok(_) if wanted > given => eprintln!("mceip: --threads {wanted}: the machine runs {given} at once, which they share"),
+        Ok(_) => {}
+    }
+    Ok(())
 }
 
 /// A positive number given as an option.

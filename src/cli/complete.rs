@@ -1,6 +1,6 @@
 //! `mceip complete`: all solutions in a window, with a proof that there are no others.
 
-use super::common::{CliError, exit, interrupt_flag, load, print, text};
+use super::common::{CliError, exit, interrupt_flag, load, print, require_threads, text};
 use super::infinity::{AtInfinity, Files};
 use super::output::Output;
 use crate::certificate::Certificate;
@@ -47,9 +47,7 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, args.window.as_deref())?;
     let shard = args.shard.as_deref().map(parse_shard).transpose()?;
-    if args.threads == Some(0) {
-        return Err(CliError::Option { option: "threads", expected: "at least 1", got: "0".into() });
-    }
+    require_threads(args.threads)?;
     if args.pieces == 0 || args.pieces > MAX_PIECES {
         return Err(CliError::Option { option: "pieces", expected: "1 to 100000", got: args.pieces.to_string() });
     }
@@ -180,6 +178,14 @@ fn family_text(word: &str, f: &SolutionFamily) -> String {
     format!("{values}, slip {:?}, {how_many}", f.support)
 }
 
+/// What a report on a cover claims: `complete` only where its solutions are all there is, without families.
+pub(super) fn claim_word(cover: &AcceptedCover) -> &'static str {
+    if !cover.open.is_empty() {
+        return "solutions";
+    }
+    if cover.is_plain_list() { "complete" } else { "complete_with_families" }
+}
+
 pub(super) fn solutions_json(problem: &Problem, completed: &Completed) -> serde_json::Value {
     let region = |r: &OpenRegion| json!({ "min": r.min.to_string(), "max": r.max.as_ref().map(ToString::to_string), "moving": r.moving, "undecided": r.undecided });
     let solutions: Vec<_> = completed
@@ -199,7 +205,7 @@ pub(super) fn solutions_json(problem: &Problem, completed: &Completed) -> serde_
         "format": crate::candidate::SOLUTIONS_FORMAT,
         "problem_sha256": problem.sha256(),
         "unknown": problem.unknown().word(),
-        "claim": if cover.open.is_empty() { "complete" } else { "solutions" },
+        "claim": claim_word(cover),
         "evidence": format!("certificate of a complete set, {} leaves, {} open, accepted by the checker; x to the digits of doubles", cover.leaves, cover.open.len()),
         "solutions": solutions,
         "families": cover.families.iter().map(family).collect::<Vec<_>>(),

@@ -14,8 +14,8 @@ use std::path::{Path, PathBuf};
 /// Arguments of `merge`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// Parts in any order: of an enumeration (mceip-part/1) that cover every support once, or of a
-    /// complete search (mceip-certificate/1, from `complete --shard`) that cover every piece.
+    /// Parts in any order: of an enumeration (mceip-part/1) that cover every support once (what they say of supports
+    /// without a solution is not examined again), or of a complete search (mceip-certificate/1, from `complete --shard`) that cover every piece.
     #[arg(required = true)]
     pub(super) parts: Vec<PathBuf>,
     /// The problem file; needed for certificates, which do not hold it.
@@ -123,8 +123,28 @@ fn merge_enumeration(args: &Args) -> Result<u8, CliError> {
     }
     let mut found = whole.recompute(&reduced.pencil, problem.window()).map_err(|e| blame(&parts, e))?;
     found.describe(&reduced.pencil, problem.window());
-    print(&report(&problem, &reduced, &found, &whole, args.json))?;
+    let text = report(&problem, &reduced, &found, &whole, args.json);
+    print(&with_not_verified(text, &whole, args.json))?;
     Ok(code(&found))
+}
+
+/// Adds to a report on merged parts what rests on the parts alone: a line, or the field `not_verified`.
+fn with_not_verified(report: String, whole: &Record, is_json: bool) -> String {
+    let believed = whole.supports - whole.holders.len() as u64;
+    let note = format!(
+        "that {believed} of {} supports hold no solution is what the parts say; merge has examined the others alone",
+        whole.supports
+    );
+    if !is_json {
+        return format!("{report}NOT VERIFIED: {note}\n");
+    }
+    match serde_json::from_str::<serde_json::Value>(&report) {
+        Ok(mut value) => {
+            value["not_verified"] = note.into();
+            format!("{value}\n")
+        }
+        Err(_) => report, // our own report is JSON
+    }
 }
 
 /// Each support in exactly one part; the parts are sorted by range.

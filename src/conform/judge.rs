@@ -10,7 +10,7 @@ use super::Case;
 use crate::certificate::{Claim, ExactSolution};
 use crate::certify::Certifier;
 use crate::exact::{Algebraic, Poly, Rational, common_denominator, from_f64};
-use crate::foreign::{ForeignContinuum, ForeignEnd, ForeignError, ForeignReport};
+use crate::foreign::{BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignReport};
 use crate::multistart::{exact_value, support};
 use crate::oracle::{End, Enumeration, Solution, SupportRange};
 use crate::tolerance::VALUE_RADIUS;
@@ -75,6 +75,10 @@ pub fn judge_report(case: &Case, text: &str) -> Judgement {
         Err(e @ ForeignError::Digest { .. }) => return Judgement::new(Label::Wrong, e.to_string()),
         Err(e) => return Judgement::new(Label::Malformed, e.to_string()),
     };
+    let unfit = report.solutions.iter().filter_map(|s| s.as_ref().err()).find(|bad| !matches!(bad, BadPoint::OffConstraints { .. }));
+    if let Some(bad) = unfit {
+        return Judgement::new(Label::Malformed, bad.to_string());
+    }
     if report.solutions.len() > MAX_SOLUTIONS {
         return Judgement::new(Label::Malformed, format!("more than {MAX_SOLUTIONS} solutions"));
     }
@@ -105,7 +109,7 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
     let certifier = Certifier::new(&case.problem, &case.reduced.pencil);
     for (k, solution) in report.solutions.iter().enumerate() {
         let wrong = |why: String| format!("solution {k}: {why}");
-        let candidate = solution.as_ref().map_err(|off| wrong(off.to_string()))?;
+        let candidate = &solution.as_ref().map_err(|off| wrong(off.to_string()))?.candidate;
         let claim = certifier.certify(candidate).map_err(|why| wrong(format!("value {} is not certified: {why}", candidate.value)))?;
         let placed = match &claim {
             Claim::ExactSolution(c) => place(case, &claim, c, &mut met),

@@ -58,7 +58,8 @@ pub enum NumberError {
     },
 }
 
-/// Reads a decimal (`-1.25`, `3e-4`) or a fraction (`p/q`) as exactly the value it spells.
+/// Reads a decimal (`-1.25`, `3e-4`, `7.`, `.5`) or a fraction (`p/q`) as exactly the value it spells. Nothing may stand
+/// before or after it: which characters are blank differs from language to language.
 ///
 /// # Errors
 /// [`NumberError`] when the text is no such number, or is too long, or has an absurd exponent.
@@ -71,7 +72,6 @@ pub enum NumberError {
 /// assert!(parse("NaN").is_err());
 /// ```
 pub fn parse(text: &str) -> Result<Rational, NumberError> {
-    let text = text.trim();
     if text.is_empty() {
         return Err(NumberError::Empty);
     }
@@ -140,7 +140,8 @@ fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
     };
     let (int, frac) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let bare = int.strip_prefix(['+', '-']).unwrap_or(int);
-    if bare.is_empty() && frac.is_empty() || !frac.bytes().all(|b| b.is_ascii_digit()) {
+    let are_digits = bare.bytes().chain(frac.bytes()).all(|b| b.is_ascii_digit());
+    if bare.is_empty() && frac.is_empty() || !are_digits {
         return Err(malformed(text));
     }
     let sign = if int.starts_with('-') { "-" } else { "" };
@@ -186,7 +187,13 @@ mod tests {
 
     #[test]
     fn refuses_what_is_no_number() {
-        for text in ["", " ", "abc", "1..2", "1e", "--1", "1/2/3", "1_000", "0x10", "inf", "NaN", ".", "-", "1e1.5", "1.-5", "1.+5"] {
+        for text in [" 5", "5 ", "5\n", "\u{a0}5", "1 /2", "1/ 2", "\u{661}", "\u{ff11}"] {
+            assert!(matches!(parse(text), Err(NumberError::Malformed { .. })), "{text:?} was read as a number");
+        }
+        for text in [
+            "", " ", "abc", "1..2", "1e", "--1", "+-1", "-+1", "+-.5", "1/2/3", "1_000", "0x10", "inf", "NaN", ".", "-", "1e1.5", "1.-5",
+            "1.+5",
+        ] {
             assert!(parse(text).is_err(), "{text:?} was read as a number");
         }
         assert!(matches!(parse("3/0"), Err(NumberError::ZeroDenominator { .. })));

@@ -1,7 +1,7 @@
 //! Reading a foreign `mceip-solutions/1` against the problem it is about.
 
 use crate::candidate::{Candidate, SOLUTIONS_FORMAT};
-use crate::exact::{NumberError, Rational, to_f64};
+use crate::exact::{Rational, to_f64};
 use crate::model::file::{Number, Object, from_json, require_format};
 use crate::model::{Body, ModelError, Problem};
 use crate::reduction::{Reduced, project};
@@ -11,20 +11,70 @@ use serde::{Deserialize, Deserializer};
 /// A report, as far as it is read: solutions in the order of the file, and ranges of values.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ForeignReport {
-    /// One entry per solution: a candidate for the reduced pencil, or why its v is none.
-    pub solutions: Vec<Result<Candidate, OffConstraints>>,
+    /// One entry per solution: a candidate for the reduced pencil, or why it is none.
+    pub solutions: Vec<Result<Reported, BadPoint>>,
     /// Supports said to have solutions for whole intervals of values.
     pub continua: Vec<ForeignContinuum>,
 }
 
-/// A v that leaves (9): v_d = 0 and v_Ns = 0 do not hold.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[error("E9: v[{dof}]: expected no rate of sticking or into the obstacle, got {size:e} of the largest component")]
-pub struct OffConstraints {
-    /// The degree of freedom where it is worst.
+/// A reported solution.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Reported {
+    /// Value and x; where the report has v, x is its projection by (10).
+    pub candidate: Candidate,
+    /// Where v is furthest from v_d = 0 and v_Ns = 0, if it is not on them.
+    pub off: Option<Off>,
+}
+
+/// A component of v that should be zero.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Off {
+    /// The degree of freedom.
     pub dof: usize,
     /// Size there, relative to the largest component of v.
     pub size: f64,
+}
+
+/// Why one solution of a report is no candidate. The others are judged all the same.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum BadPoint {
+    /// A v that leaves (9): v_d = 0 and v_Ns = 0 do not hold.
+    #[error("E9: v[{dof}]: expected no rate of sticking or into the obstacle, got {size:e} of the largest component")]
+    OffConstraints {
+        /// The degree of freedom where it is worst.
+        dof: usize,
+        /// Size there, relative to the largest component of v.
+        size: f64,
+    },
+    /// A vector of the wrong length.
+    #[error("solutions[{solution}]: expected {what} with {expected} components (see spec/formats.md for their order), got {got}")]
+    Length {
+        /// Index in the report.
+        solution: usize,
+        /// `x` or `v`.
+        what: &'static str,
+        /// Components wanted.
+        expected: usize,
+        /// Components given.
+        got: usize,
+    },
+    /// Neither x nor, for a system, v.
+    #[error("solutions[{solution}]: expected {expected}, got neither")]
+    NoVector {
+        /// Index in the report.
+        solution: usize,
+        /// What would do.
+        expected: &'static str,
+    },
+    /// A number beyond the range of doubles.
+    #[error("solutions[{solution}].{field}: expected a number within the range of doubles, got a larger one")]
+    OutOfRange {
+        /// Index in the report.
+        solution: usize,
+        /// `value` or `x`.
+        field: &'static str,
+    },
 }
 
 /// A support with intervals of values.
@@ -72,26 +122,6 @@ pub enum ForeignError {
         /// Digest in the report.
         got: String,
     },
-    /// A vector of the wrong length.
-    #[error("solutions[{solution}]: expected {what} with {expected} components (see spec/formats.md for their order), got {got}")]
-    Length {
-        /// Index in the report.
-        solution: usize,
-        /// `x` or `v`.
-        what: &'static str,
-        /// Components wanted.
-        expected: usize,
-        /// Components given.
-        got: usize,
-    },
-    /// Neither x nor, for a system, v.
-    #[error("solutions[{solution}]: expected {expected}, got neither")]
-    NoVector {
-        /// Index in the report.
-        solution: usize,
-        /// What would do.
-        expected: &'static str,
-    },
 }
 
 fn object<'de, T: Deserialize<'de>, D: Deserializer<'de>>(d: D) -> Result<T, D::Error> {
@@ -123,11 +153,11 @@ struct RawSolution {
 
 impl ForeignReport {
     /// Reads a report on `problem`, whose reduction is `reduced`. Where a solution of a system has no x,
-    /// its v is projected by (10); what v_d and v_Ns may be by rounding is `X_RADIUS` of `tolerance.rs`.
+    /// its v is projected by (10); what v_d and v_Ns may be at most is `X_RADIUS` of `tolerance.rs`.
     ///
     /// # Errors
-    /// [`ForeignError`]: not JSON of this shape, another version or problem, vectors that do not fit,
-    /// numbers beyond the range of doubles.
+    /// [`ForeignError`]: not JSON of this shape, another version or problem. A solution that does not fit the
+    /// problem is no error of the report: its entry says why it is none.
     pub fn read(text: &str, problem: &Problem, reduced: &Reduced) -> Result<ForeignReport, ForeignError> {
         require_format(text, SOLUTIONS_FORMAT)?;
         let Object(raw): Object<Raw> = from_json(text)?;
@@ -135,45 +165,45 @@ impl ForeignReport {
         if let Some(got) = raw.problem_sha256.filter(|d| *d != expected) {
             return Err(ForeignError::Digest { expected, got: got.chars().take(80).collect() });
         }
-        let one = |(k, Object(s)): (usize, &Object<RawSolution>)| solution(k, s, problem, reduced);
-        let solutions = raw.solutions.iter().enumerate().map(one).collect::<Result<_, _>>()?;
+
+        let numbered = raw.solutions.iter().enumerate();
+        let solutions = numbered.map(|(k, Object(s))| solution(k, s, problem, reduced)).collect();
         Ok(ForeignReport { solutions, continua: raw.continua })
     }
 }
 
-fn solution(k: usize, s: &RawSolution, problem: &Problem, reduced: &Reduced) -> Result<Result<Candidate, OffConstraints>, ForeignError> {
-    let length = |what, expected, got| match got == expected {
-        true => Ok(()),
-        false => Err(ForeignError::Length { solution: k, what, expected, got }),
-    };
-    let value = double(&s.value.0, k, "value")?;
-    let exact = match (&s.x, &s.v, problem.body()) {
+fn solution(k: usize, s: &RawSolution, problem: &Problem, reduced: &Reduced) -> Result<Reported, BadPoint> {
+    let mut off = None;
+    let exact: Vec<Rational> = match (&s.x, &s.v, problem.body()) {
         (Some(x), _, _) => {
-            length("x", reduced.pencil.order(), x.len())?;
+            require_length(k, "x", reduced.pencil.order(), x.len())?;
             x.iter().map(|n| n.0.clone()).collect()
         }
         (None, Some(v), Body::System(system)) => {
-            length("v", system.dofs(), v.len())?;
+            require_length(k, "v", system.dofs(), v.len())?;
             let v: Vec<Rational> = v.iter().map(|n| n.0.clone()).collect();
             let projected = project(&reduced.variables, &v);
-            if let Some((dof, size)) = projected.off.map(|(dof, size)| (dof, to_f64(&size))).filter(|(_, size)| *size > X_RADIUS) {
-                return Ok(Err(OffConstraints { dof, size }));
-            }
+            off = projected.off.map(|(dof, size)| Off { dof, size: to_f64(&size) });
             projected.x
         }
-        (None, _, Body::System(_)) => return Err(ForeignError::NoVector { solution: k, expected: "x or v" }),
-        (None, _, Body::Pencil(_)) => return Err(ForeignError::NoVector { solution: k, expected: "x" }),
+        (None, _, Body::System(_)) => return Err(BadPoint::NoVector { solution: k, expected: "x or v" }),
+        (None, _, Body::Pencil(_)) => return Err(BadPoint::NoVector { solution: k, expected: "x" }),
     };
+    if let Some(Off { dof, size }) = off.filter(|off| off.size > X_RADIUS) {
+        return Err(BadPoint::OffConstraints { dof, size });
+    }
+
+    let value = double(&s.value.0, k, "value")?;
     let x = exact.iter().map(|v| double(v, k, "x")).collect::<Result<Vec<_>, _>>()?;
-    Ok(Ok(Candidate { value, x }))
+    Ok(Reported { candidate: Candidate { value, x }, off })
+}
+
+fn require_length(solution: usize, what: &'static str, expected: usize, got: usize) -> Result<(), BadPoint> {
+    if got == expected { Ok(()) } else { Err(BadPoint::Length { solution, what, expected, got }) }
 }
 
 /// The nearest double, if there is one.
-fn double(v: &Rational, k: usize, field: &str) -> Result<f64, ForeignError> {
+fn double(v: &Rational, solution: usize, field: &'static str) -> Result<f64, BadPoint> {
     let rounded = to_f64(v);
-    if rounded.is_finite() {
-        return Ok(rounded);
-    }
-    let source = NumberError::NotFinite { text: "a value beyond the range of doubles".into() };
-    Err(ModelError::Number { place: format!("solutions[{k}].{field}"), source }.into())
+    if rounded.is_finite() { Ok(rounded) } else { Err(BadPoint::OutOfRange { solution, field }) }
 }

@@ -1,5 +1,7 @@
 //! One foreign solution, one verdict: it exists (certified and checked), nothing is near (enumerated), or undecided.
 
+use super::Reported;
+use super::agreement::{Agreement, agreement};
 use crate::candidate::Candidate;
 use crate::certificate::Claim;
 use crate::certify::certify;
@@ -16,8 +18,15 @@ pub const REFUTE_SLIP: usize = 10;
 /// What became of a foreign solution.
 #[derive(Debug, Clone)]
 pub enum Verdict {
-    /// It exists: `certify` made this claim, which the checker has accepted.
-    Accepted(Box<Claim>),
+    /// It exists: `certify` made the claim, which the checker has accepted, and the report agrees with it to the tolerance.
+    Accepted(Box<Proved>),
+    /// A solution near it exists, and the report differs from that by more than the tolerance.
+    Inaccurate {
+        /// What exists, and by how much the report differs.
+        proved: Box<Proved>,
+        /// The largest error allowed.
+        tolerance: f64,
+    },
     /// It does not: proved.
     Rejected(Refutation),
     /// Neither was proved.
@@ -25,6 +34,15 @@ pub enum Verdict {
         /// Why it was not certified, and why absence was not proved.
         reason: String,
     },
+}
+
+/// A solution proved near a reported one.
+#[derive(Debug, Clone)]
+pub struct Proved {
+    /// The claim; `check` accepts it.
+    pub claim: Claim,
+    /// How near the report is to it.
+    pub agreement: Agreement,
 }
 
 /// Why no solution is where one is reported.
@@ -60,19 +78,47 @@ pub enum Refutation {
     },
 }
 
-/// Proves a candidate, or refutes it, within the radii of `tolerance.rs` (value 1e-4 of 1 + |value|, x 1e-3).
-pub fn judge(problem: &Problem, reduced: &Reduced, candidate: &Candidate) -> Verdict {
+/// Proves a reported solution, or refutes it, within the radii of `tolerance.rs` (value 1e-4 of 1 + |value|, x 1e-3).
+/// One that is proved is accepted if it agrees with the proven one to `tolerance`, see [`Agreement`].
+pub fn judge(problem: &Problem, reduced: &Reduced, reported: &Reported, tolerance: f64) -> Verdict {
+    let candidate = &reported.candidate;
     if candidate.x.iter().all(|v| *v == 0.0) {
         return Verdict::Rejected(Refutation::ZeroX);
     }
-    let reason = match certify(problem, &reduced.pencil, candidate) {
-        Ok(claim) => return Verdict::Accepted(Box::new(claim)),
+
+    let reason = match prove(problem, reduced, reported, candidate) {
+        Ok(proved) if proved.agreement.is_within(tolerance) => return Verdict::Accepted(Box::new(proved)),
+        Ok(proved) => {
+            // Noise in components that are zero may have led to another solution near by.
+            let cleaned = without_noise(candidate, tolerance);
+            let again = prove(problem, reduced, reported, &cleaned).ok();
+            return match again.filter(|again| again.agreement.is_within(tolerance)) {
+                Some(again) => Verdict::Accepted(Box::new(again)),
+                None => Verdict::Inaccurate { proved: Box::new(proved), tolerance },
+            };
+        }
         Err(reason) => reason,
     };
     match refute(problem, reduced, candidate) {
         Ok(refutation) => Verdict::Rejected(refutation),
         Err(why) => Verdict::Undecided { reason: format!("{reason}; {why}") },
     }
+}
+
+/// The solution that `certify` finds near a candidate and `check` accepts, compared with what was reported.
+fn prove(problem: &Problem, reduced: &Reduced, reported: &Reported, candidate: &Candidate) -> Result<Proved, String> {
+    let claim = certify(problem, &reduced.pencil, candidate).map_err(|reason| reason.to_string())?;
+
+    let agreement = agreement(problem, reduced, &claim, reported);
+    let agreement = agreement.ok_or_else(|| "its numbers are beyond the range of doubles".to_string())?;
+    Ok(Proved { claim, agreement })
+}
+
+/// The candidate with components up to `tolerance` of the largest set to zero.
+fn without_noise(candidate: &Candidate, tolerance: f64) -> Candidate {
+    let largest = candidate.x.iter().fold(0.0_f64, |largest, v| largest.max(v.abs()));
+    let cleaned = |v: &f64| if v.abs() <= tolerance * largest { 0.0 } else { *v };
+    Candidate { value: candidate.value, x: candidate.x.iter().map(cleaned).collect() }
 }
 
 /// Proves that nothing is near a candidate, or says why that was not proved.
@@ -135,15 +181,55 @@ impl Verdict {
     pub fn line(&self, problem: &Problem, given: f64) -> String {
         let word = problem.unknown().word();
         match self {
-            Verdict::Accepted(claim) => {
-                let indices: Vec<String> = support(claim).iter().map(ToString::to_string).collect();
-                format!("ACCEPTED: {word} {} exists with support {{{}}}; proved", value_text(claim), indices.join(", "))
+            Verdict::Accepted(proved) => {
+                let agreement = &proved.agreement;
+                let value = digits_text(agreement.value);
+                let x = digits_text(agreement.worst.error);
+                format!("ACCEPTED: {}; proved; its value agrees to {value}, x to {x}", existing(problem, &proved.claim))
             }
+            Verdict::Inaccurate { proved, tolerance } => inaccurate_text(problem, given, proved, *tolerance),
             Verdict::Rejected(why) => format!("REJECTED: {word} = {given}: {why}"),
             Verdict::Undecided { reason } => format!("UNDECIDED: {word} = {given}: {reason}"),
         }
     }
 }
+
+/// `lambda2 = 2 exists with support {0, 1}`.
+fn existing(problem: &Problem, claim: &Claim) -> String {
+    let indices: Vec<String> = support(claim).iter().map(ToString::to_string).collect();
+    format!("{} {} exists with support {{{}}}", problem.unknown().word(), value_text(claim), indices.join(", "))
+}
+
+/// The verdict on a report that differs too much from the proven solution: both values, the proven x, the worst component.
+fn inaccurate_text(problem: &Problem, given: f64, proved: &Proved, tolerance: f64) -> String {
+    let word = problem.unknown().word();
+    let agreement = &proved.agreement;
+    let worst = &agreement.worst;
+    let shown: Vec<String> = agreement.proven.iter().take(COMPONENTS_SHOWN).map(|v| format!("{v:.9}")).collect();
+    let rest = if agreement.proven.len() > COMPONENTS_SHOWN { ", ..." } else { "" };
+
+    let proven = format!("{}, x = ({}{rest})", existing(problem, &proved.claim), shown.join(", "));
+    let worst_text = format!(
+        "{}[{}] is worst: expected {:.9}, got {:.9}, error {:.1e}",
+        worst.vector, worst.index, worst.proven, worst.reported, worst.error
+    );
+    format!(
+        "INACCURATE: {word} = {given}: {proven}; error of the value {:.1e}; {worst_text} (largest |x_i| = 1; allowed {tolerance:e})",
+        agreement.value
+    )
+}
+
+/// How many decimal digits an error of this size leaves right, as far as doubles tell.
+fn digits_text(error: f64) -> String {
+    let digits = (-error.log10()).floor();
+    if digits >= DIGITS_OF_DOUBLES { format!("{DIGITS_OF_DOUBLES} or more digits") } else { format!("{digits} digits") }
+}
+
+/// Components of a proven x that are printed.
+const COMPONENTS_SHOWN: usize = 8;
+
+/// Digits beyond which doubles do not tell errors apart.
+const DIGITS_OF_DOUBLES: f64 = 15.0;
 
 /// `= 2`, `= 0.41421356237309505...` or `in [lo, hi]`.
 fn value_text(claim: &Claim) -> String {
@@ -159,4 +245,22 @@ fn value_text(claim: &Claim) -> String {
     let Some(interval) = Interval::new(ends.0, ends.1) else { return "= ?".into() };
     let (lo, hi) = enclosing_decimals(&interval, 17);
     format!("in [{lo}, {hi}]")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_those_that_agree() {
+        let of = [0.05, 1e-3, 0.9e-6, 1.1e-6, 2e-15].map(digits_text);
+        assert_eq!(of, ["1 digits", "3 digits", "6 digits", "5 digits", "14 digits"]);
+        assert_eq!([0.0, 1e-16].map(digits_text), ["15 or more digits", "15 or more digits"]);
+    }
+
+    #[test]
+    fn noise_is_what_the_tolerance_covers() {
+        let given = Candidate { value: 2.0, x: vec![-4.0, 4e-6, -4.1e-6, 1.0] };
+        assert_eq!(without_noise(&given, 1e-6), Candidate { value: 2.0, x: vec![-4.0, 0.0, -4.1e-6, 1.0] });
+    }
 }

@@ -38,12 +38,35 @@ impl Window {
     pub fn max(&self) -> Option<&Rational> {
         self.max.as_ref()
     }
+
+    /// Does this window hold every value of the other one?
+    pub fn covers(&self, other: &Window) -> bool {
+        let reaches_up = match (&self.max, &other.max) {
+            (None, _) => true,
+            (Some(_), None) => false,
+            (Some(mine), Some(theirs)) => mine >= theirs,
+        };
+        self.min <= other.min && reaches_up
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::exact::whole;
+
+    #[test]
+    fn a_window_covers_its_parts() {
+        let window = |min: i64, max: Option<i64>| Window::new(whole(min), max.map(whole)).unwrap();
+        let (closed, half_line) = (window(1, Some(3)), window(1, None));
+        for part in [window(1, Some(3)), window(2, Some(3)), window(1, Some(1)), window(3, Some(3))] {
+            assert!(closed.covers(&part) && half_line.covers(&part), "{part:?}");
+        }
+        for more in [window(0, Some(3)), window(1, Some(4)), window(4, Some(5)), window(1, None)] {
+            assert!(!closed.covers(&more), "{more:?}");
+        }
+        assert!(half_line.covers(&half_line) && !half_line.covers(&window(0, Some(2))));
+    }
 
     #[test]
     fn empty_and_negative_windows_are_refused() {

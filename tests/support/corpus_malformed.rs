@@ -87,6 +87,83 @@ pub fn malformed(cases: &mut Cases) {
     add("piece-without-max", "a piece that does not end", "\"max\":\"17/8\",\"tree\"", "\"tree\"");
 }
 
+/// The grammar of numbers, words and keys (spec/formats.md, Spelling): what two readers have read differently.
+pub fn spelling(cases: &mut Cases) {
+    let (p, good) = root_two();
+    let problem: Value = serde_json::from_str(&write_problem(&p)).unwrap();
+    let text = claims(&p, Claim::ExactSolution(good)).to_json();
+    let swap = |text: &str, from: &str, to: &str| {
+        assert!(text.contains(from), "{from} not in {text}");
+        text.replacen(from, to, 1)
+    };
+    let numbers =
+        [("\"2/5\"", "\".4\""), ("\"1/2\"", "\"+5.E-0001\""), ("\"-1\"", "-1.000e+0"), ("\"2\"", "\"-14/-7\""), ("\"1\"", "\"1.\"")];
+    let spelt = numbers.iter().fold(text.clone(), |text, (from, to)| swap(&text, from, to));
+    let note = "points without digits beside them, signs, leading zeros, a negative denominator: numbers all the same";
+    cases.push("accept", "spelling-numbers", json!({ "verdict": "accepted", "problem": problem, "certificate_text": spelt }), note);
+
+    let mut add = |name: &str, note: &str, from: &str, to: &str| {
+        let file = json!({ "verdict": "malformed", "problem": problem, "certificate_text": swap(&text, from, to) });
+        cases.push("malformed", &format!("spelling-{name}"), file, note);
+    };
+    add("blanks", "blanks around a number", "\"2/5\"", "\" 2/5 \"");
+    add("newline", "a line end after a number", "\"2/5\"", "\"2/5\\n\"");
+    add("no-break-space", "a blank of Unicode", "\"2/5\"", "\"2/5\\u00a0\"");
+    add("blank-inside", "a blank beside the stroke", "\"2/5\"", "\"2 /5\"");
+    add("arabic-digit", "a digit that is not ASCII", "\"2/5\"", "\"\\u0662/5\"");
+    add("hexadecimal", "0x", "\"-1\"", "\"0x1\"");
+    add("underscore", "1_0", "\"-1\"", "\"-1_0\"");
+    add("two-strokes", "p/q/r", "\"2/5\"", "\"2/5/1\"");
+    add("two-signs", "a sign too many", "\"-1\"", "\"+-1\"");
+    add("point-alone", "a point and no digit", "\"-1\"", "\".\"");
+    add("exponent-empty", "an exponent without digits", "\"-1\"", "\"-1e\"");
+    add("exponent-fraction", "an exponent that is no integer", "\"-1\"", "\"-1e0.0\"");
+    add("decimal-quotient", "a quotient of decimals", "\"2/5\"", "\"0.4/1\"");
+    add("json-plus", "a JSON number with a plus sign", "\"2\"", "+2");
+    add("json-zero", "a JSON number that begins with 0", "\"2\"", "02");
+    add("json-point", "a JSON number that ends with a point", "\"2\"", "2.");
+    add("minus-zero", "the index -0", "\"support\":[0,1]", "\"support\":[-0,1]");
+    add("index-point", "the index 1.0", "\"support\":[0,1]", "\"support\":[0,1.0]");
+    add("index-exponent", "the index 1e0", "\"support\":[0,1]", "\"support\":[0,1e0]");
+    add("index-65-bits", "an index beyond 64 bits", "\"support\":[0,1]", "\"support\":[0,18446744073709551616]");
+    add("byte-order-mark", "a byte order mark", "{\"format\"", "\u{feff}{\"format\"");
+    add("private-key", "an object that a reader takes for a number", "\"2/5\"", "{\"$serde_json::private::Number\":\"0.4\"}");
+    let escaped = "{\"\\u0024serde_json::private::Number\":\"0.4\"}";
+    add("private-key-escaped", "the same spelt with an escape", "\"2/5\"", escaped);
+    add("word-object", "a word as an object", "\"lambda2\"", "{\"lambda2\":null}");
+    add("escaped-duplicate", "a key twice, once with an escape", "\"claims\":", "\"cl\\u0061ims\":[],\"claims\":");
+    add("claims-null", "null for a list", "\"biactive\":[]", "\"biactive\":null");
+    add("digest-number", "a number for a digest", "\"problem_sha256\":\"", "\"problem_sha256\":1,\"problem_sha256\":\"");
+    add("surrogate", "half of a character", "\"problem_sha256\":\"", "\"problem_sha256\":\"\\ud800");
+    let first = "\"claims\":[";
+    let false_one =
+        "{\"exact_solution\":{\"support\":[0],\"biactive\":[],\"polynomial\":[\"-7\",\"1\"],\"interval\":[\"1\",\"2\"],\"x\":[[]]}},";
+    add("after-a-false-claim", "a false claim, then one without shape", first, &format!("{first}{false_one}{{\"exact_solution\":{{}}}},"));
+
+    let plain = fold("15/8", Some("17/8"));
+    let problem: Value = serde_json::from_str(&write_problem(&plain)).unwrap();
+    let around = ("31/16", "33/16");
+    let tree = fold_tree(root_node(around, mceip::certificate::RootOutcome::Solution));
+    let solved = cover(&plain, tree).to_json();
+    let open = cover(&plain, vec![Node::Open]).to_json();
+    let mut add = |name: &str, note: &str, text: &str, from: &str, to: &str| {
+        let file = json!({ "verdict": "malformed", "problem": problem, "certificate_text": swap(text, from, to) });
+        cases.push("malformed", &format!("spelling-{name}"), file, note);
+    };
+    add("open-object", "a leaf that is a word, as an object", &open, "\"open\"", "{\"open\":null}");
+    add("outcome-object", "an outcome that is a word, as an object", &solved, "\"solution\"", "{\"solution\":null}");
+    add("outcome-word", "an outcome that is an object, as a word", &solved, "\"solution\"", "\"infinity\"");
+    add("pivot-minus-zero", "the pivot -0", &solved, "\"pivot\":0", "\"pivot\":-0");
+    add("exponent-33-bits", "an exponent beyond 32 bits", &solved, "\"exponent\":20", "\"exponent\":4294967296");
+    add(
+        "after-a-false-leaf",
+        "a false leaf, then one that is none",
+        &solved,
+        "{\"farkas\":[0,0]}",
+        "{\"farkas\":[1]},{\"farkas\":[\"1\"]}",
+    );
+}
+
 /// Small files that ask for much: rejected, with the limit named.
 pub fn hostile(cases: &mut Cases) {
     let (p, good) = root_two();

@@ -3,6 +3,7 @@
 //! What is proved: every solution in the certificate's window is one of those listed, up to a
 //! positive factor, or lies in one of the open regions listed beside them.
 
+mod beside;
 mod condensed;
 mod definite;
 mod expanded;
@@ -19,6 +20,7 @@ mod rootless;
 mod short;
 mod support;
 
+pub use beside::Place;
 pub use fault::CoverFault;
 pub use found::SolutionFamily;
 

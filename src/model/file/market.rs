@@ -100,6 +100,12 @@ impl Places {
     }
 }
 
+/// An index or a size: digits and nothing else.
+fn index(word: &str) -> Option<usize> {
+    let is_plain = word.bytes().all(|b| b.is_ascii_digit());
+    if is_plain { word.parse().ok() } else { None }
+}
+
 struct Reader {
     what: &'static str,
 }
@@ -111,7 +117,7 @@ impl Reader {
     }
 
     fn integers(&self, line: usize, text: &str, count: usize) -> Result<Vec<usize>, ModelError> {
-        let numbers: Vec<usize> = text.split_whitespace().map_while(|w| w.parse().ok()).collect();
+        let numbers: Vec<usize> = text.split_whitespace().map_while(index).collect();
         let words = text.split_whitespace().count();
         if numbers.len() != count || words != count {
             return Err(self.complain(line, "a size line", text));
@@ -123,8 +129,8 @@ impl Reader {
         let words: Vec<&str> = text.split_whitespace().collect();
         let (i, j, value) = match (places.coordinate, &words[..]) {
             (true, [i, j, value]) => {
-                let index = |w: &str| w.parse::<usize>().ok().and_then(|v| v.checked_sub(1));
-                let (Some(i), Some(j)) = (index(i), index(j)) else {
+                let from_one = |w: &str| index(w).and_then(|v| v.checked_sub(1));
+                let (Some(i), Some(j)) = (from_one(i), from_one(j)) else {
                     return Err(self.complain(line, "1-based indices", text));
                 };
                 (i, j, *value)

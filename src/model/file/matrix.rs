@@ -1,7 +1,7 @@
 //! A matrix in a file: dense rows, sparse entries, or a Matrix Market file beside the problem.
 
 use super::market::read_matrix_market;
-use super::{MAX_ORDER, Number, beside, read_text};
+use super::{MAX_ORDER, Number, Word, beside, read_text};
 use crate::exact::{Rational, Sparse};
 use crate::model::ModelError;
 use serde::Deserialize;
@@ -25,7 +25,7 @@ pub(super) struct RawObject {
     symmetric: bool,
     entries: Option<Vec<(usize, usize, Number)>>,
     matrix_market: Option<String>,
-    read_as: Option<ReadAs>,
+    read_as: Option<Word<ReadAs>>,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
@@ -61,7 +61,7 @@ impl RawMatrix {
             RawMatrix::Dense(rows) => return dense(what, rows),
             RawMatrix::Object(object) => object,
         };
-        let read_as = object.read_as.unwrap_or(ReadAs::Exact);
+        let read_as = object.read_as.map_or(ReadAs::Exact, |word| word.0);
         let matrix = match object {
             RawObject { dense: Some(rows), entries: None, matrix_market: None, rows: None, cols: None, symmetric: false, .. } => {
                 dense(what, rows)?

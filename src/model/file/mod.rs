@@ -4,12 +4,14 @@ mod market;
 mod matrix;
 mod number;
 mod object;
+mod private;
 mod raw;
 mod write;
 
 pub use market::read_matrix_market;
 pub use number::Number;
-pub use object::Object;
+pub(crate) use object::word_or_kind;
+pub use object::{Object, Word};
 pub use write::{write_problem, write_sparse};
 
 use super::{ErrorLocation, ModelError, Problem};
@@ -129,6 +131,7 @@ pub fn require_format(text: &str, expected: &'static str) -> Result<(), ModelErr
 /// # Errors
 /// [`ModelError::Json`].
 pub fn from_json<'a, T: serde::Deserialize<'a>>(text: &'a str) -> Result<T, ModelError> {
+    private::refuse_keys(text)?;
     serde_json::from_str(text).map_err(|e| {
         let full = e.to_string();
         // serde_json ends its messages with the place, which we carry as numbers.

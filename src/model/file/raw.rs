@@ -1,7 +1,7 @@
 //! The JSON shape of `mceip-problem/1`, and its way to a [`Problem`].
 
 use super::matrix::RawMatrix;
-use super::{Number, Object};
+use super::{Number, Object, Word};
 use crate::exact::{Rational, whole};
 use crate::model::{Body, ContactState, ModelError, Particle, Pencil, Problem, Reaction, System, Unknown, Window};
 use serde::Deserialize;
@@ -14,7 +14,7 @@ pub(super) struct RawProblem {
     _format: String, // checked before
     name: Option<String>,
     comment: Option<String>,
-    unknown: Unknown,
+    unknown: Word<Unknown>,
     window: Option<Object<RawWindow>>,
     pencil: Option<Object<RawPencil>>,
     system: Option<Object<RawSystem>>,
@@ -50,7 +50,7 @@ struct RawSystem {
 pub(super) struct RawParticle {
     tangential: usize,
     normal: usize,
-    state: RawState,
+    state: Word<RawState>,
     sign: Option<i64>,
     normal_direction: Option<i64>,
     frame: Option<[[Number; 2]; 2]>,
@@ -86,7 +86,7 @@ impl RawProblem {
             (None, None) => return Err(ModelError::Body { got: "neither" }),
             (Some(_), Some(_)) => return Err(ModelError::Body { got: "both" }),
         };
-        let mut problem = Problem::new(body, self.unknown, window)?;
+        let mut problem = Problem::new(body, self.unknown.0, window)?;
         problem.name = self.name;
         problem.comment = self.comment;
         Ok(problem)
@@ -119,7 +119,7 @@ impl RawParticle {
             -1 => Ok(-1),
             other => Err(ModelError::Sign { particle, field, expected: "1 or -1", got: other.to_string() }),
         };
-        let state = match (self.state, self.sign) {
+        let state = match (self.state.0, self.sign) {
             (RawState::Zero, _) => return Err(ModelError::ZeroReactionState { particle }),
             (RawState::Slip, Some(s)) => ContactState::Slip { sign: sign("sign", s)? },
             (RawState::Slip, None) => {

@@ -1,0 +1,187 @@
+//! How near a reported solution is to the proven one.
+//!
+//! Value: |reported - proven| / max(|proven|, floor), where floor = VALUE_FLOOR max|A| / max|B| keeps the error of a
+//! value at or near 0 meaningful. x: both vectors are scaled to largest |x_i| = 1, and the largest difference of a
+//! component counts. What a proof leaves open (the half widths of an enclosure) is added to each difference, so that
+//! an error is never understated. A v that leaves v_d = 0 or v_Ns = 0 counts like a component of x.
+//!
+//! Input: an accepted claim and the report's numbers in doubles. Called by `judge`.
+
+use super::Reported;
+use crate::certificate::Claim;
+use crate::exact::{Rational, to_f64};
+use crate::model::{Pencil, Problem};
+use crate::reduction::Reduced;
+use crate::report::Listed;
+use crate::tolerance::VALUE_FLOOR;
+use num_traits::{Signed, Zero};
+
+/// Errors of a reported solution, relative to the proven one.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Agreement {
+    /// Error of the value.
+    pub value: f64,
+    /// The component that differs most; its error is that of x.
+    pub worst: Component,
+    /// The proven x, largest |x_i| = 1.
+    pub proven: Vec<f64>,
+}
+
+/// A component of x (or of v) as reported and as proven, both vectors scaled to largest component 1.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Component {
+    /// `x` or `v`.
+    pub vector: &'static str,
+    /// Its index.
+    pub index: usize,
+    /// As reported.
+    pub reported: f64,
+    /// As proven.
+    pub proven: f64,
+    /// Upper bound of the difference.
+    pub error: f64,
+}
+
+impl Agreement {
+    /// Do value and x agree to this relative error?
+    pub fn is_within(&self, tolerance: f64) -> bool {
+        self.value <= tolerance && self.worst.error <= tolerance
+    }
+}
+
+/// A proven number: center and half width of an interval that holds it.
+#[derive(Clone, Copy)]
+struct Ball {
+    center: f64,
+    radius: f64,
+}
+
+/// What a claim proves, in doubles.
+struct Proven {
+    value: Ball,
+    /// x over all variables of the pencil, in the claim's own scale.
+    x: Vec<Ball>,
+}
+
+impl Proven {
+    /// `None` for numbers beyond the range of doubles.
+    fn of(problem: &Problem, reduced: &Reduced, claim: &Claim) -> Option<Proven> {
+        let listed = Listed::of_claim(problem, reduced, claim);
+        let mut value = Ball { center: finite(&listed.value)?, radius: 0.0 };
+        let mut x = Vec::with_capacity(listed.x.len());
+        for decimal in &listed.x {
+            x.push(Ball { center: finite(decimal)?, radius: 0.0 });
+        }
+
+        if let Claim::EnclosedSolution(c) = claim {
+            value.radius = to_f64(&c.radius.last()?.0);
+            let pencil = &reduced.pencil;
+            let is_active = |i: &usize| pencil.free().binary_search(i).is_ok() || c.support.contains(i);
+            let active = (0..pencil.order()).filter(is_active);
+            for (i, radius) in active.zip(&c.radius) {
+                x[i].radius = to_f64(&radius.0);
+            }
+        }
+        Some(Proven { value, x })
+    }
+}
+
+/// One of our own decimals as a double.
+fn finite(decimal: &str) -> Option<f64> {
+    decimal.parse().ok().filter(|v: &f64| v.is_finite())
+}
+
+/// The errors of a reported solution against the claim that proves one near it.
+pub(super) fn agreement(problem: &Problem, reduced: &Reduced, claim: &Claim, reported: &Reported) -> Option<Agreement> {
+    let proven = Proven::of(problem, reduced, claim)?;
+    let value = value_error(reported.candidate.value, proven.value, value_floor(&reduced.pencil));
+    let (mut worst, scaled) = worst_component(&reported.candidate.x, &proven.x)?;
+
+    if let Some(off) = reported.off.filter(|off| off.size > worst.error) {
+        worst = Component { vector: "v", index: off.dof, reported: off.size, proven: 0.0, error: off.size };
+    }
+    Some(Agreement { value, worst, proven: scaled })
+}
+
+/// |reported - proven| / max(|proven|, floor), with the radius added to the difference.
+fn value_error(reported: f64, proven: Ball, floor: f64) -> f64 {
+    let difference = (reported - proven.center).abs() + proven.radius;
+    if difference == 0.0 { 0.0 } else { difference / proven.center.abs().max(floor) }
+}
+
+/// VALUE_FLOOR max|A| / max|B|; 0 where B vanishes, since then there is no scale of values.
+fn value_floor(pencil: &Pencil) -> f64 {
+    let largest = |entries: &mut dyn Iterator<Item = &Rational>| entries.map(Rational::abs).max().unwrap_or_default();
+    let a = largest(&mut pencil.a().entries().map(|e| e.2));
+    let b = largest(&mut pencil.b().entries().map(|e| e.2));
+    if b.is_zero() { 0.0 } else { VALUE_FLOOR * to_f64(&(a / b)) }
+}
+
+/// The component that differs most, and the proven x scaled to largest |x_i| = 1.
+fn worst_component(reported: &[f64], proven: &[Ball]) -> Option<(Component, Vec<f64>)> {
+    let largest_reported = reported.iter().map(|v| v.abs()).max_by(f64::total_cmp).filter(|v| *v > 0.0)?;
+    let largest_proven = proven.iter().max_by(|p, q| p.center.abs().total_cmp(&q.center.abs())).filter(|p| p.center != 0.0)?;
+    let scale = largest_proven.center.abs();
+    // Division by a scale known up to this relative error moves each component by as much of itself.
+    let scale_error = largest_proven.radius / scale;
+
+    let mut worst: Option<Component> = None;
+    let mut scaled = Vec::with_capacity(proven.len());
+    for (index, (given, known)) in reported.iter().zip(proven).enumerate() {
+        let reported = given / largest_reported;
+        let proven = known.center / scale;
+        let radius = known.radius / scale + proven.abs() * scale_error;
+        let error = (reported - proven).abs() + radius;
+
+        scaled.push(proven);
+        if worst.is_none_or(|w| error > w.error) {
+            worst = Some(Component { vector: "x", index, reported, proven, error });
+        }
+    }
+    worst.map(|worst| (worst, scaled))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::Sparse;
+
+    fn ball(center: f64) -> Ball {
+        Ball { center, radius: 0.0 }
+    }
+
+    #[test]
+    fn errors_of_values_are_relative_down_to_the_floor() {
+        assert_eq!(value_error(2.5, ball(2.0), 0.5), 0.25);
+        assert_eq!(value_error(2.5, ball(2.0), 4.0), 0.125);
+        assert_eq!(value_error(0.5, ball(0.0), 2.0), 0.25);
+        assert_eq!(value_error(0.0, ball(0.0), 0.0), 0.0);
+        assert_eq!(value_error(2.5, Ball { center: 2.0, radius: 0.5 }, 0.0), 0.5);
+    }
+
+    /// The floor follows the unit of values: A in other units moves it, and so does B.
+    #[test]
+    fn the_floor_is_in_the_unit_of_values() {
+        let floor = |a: i64, b: i64| {
+            let pencil = Pencil::new(Sparse::from_ints(&[&[a, 1], &[1, 0]]), Sparse::from_ints(&[&[b, 0], &[0, 1]]), vec![]);
+            value_floor(&pencil.unwrap())
+        };
+        assert_eq!(floor(-6, 2), 3.0 * VALUE_FLOOR);
+        assert_eq!(floor(-6000, 2), 3000.0 * VALUE_FLOOR);
+        let massless = Pencil::new(Sparse::identity(1), Sparse::from_ints(&[&[0]]), vec![]).unwrap();
+        assert_eq!(value_floor(&massless), 0.0);
+    }
+
+    /// Any positive scale; the largest component of each vector is 1 before they are compared.
+    #[test]
+    fn components_are_compared_at_largest_component_one() {
+        let (worst, scaled) = worst_component(&[-8.0, 2.0, 0.0], &[ball(-4.0), ball(1.0), ball(0.5)]).unwrap();
+        assert_eq!(scaled, [-1.0, 0.25, 0.125]);
+        assert_eq!(worst, Component { vector: "x", index: 2, reported: 0.0, proven: 0.125, error: 0.125 });
+
+        let wide = Ball { center: 4.0, radius: 1.0 };
+        let (worst, _) = worst_component(&[8.0, 2.0], &[wide, ball(1.0)]).unwrap();
+        assert_eq!((worst.index, worst.error), (0, 0.5));
+        assert!(worst_component(&[0.0], &[ball(1.0)]).is_none() && worst_component(&[1.0], &[ball(0.0)]).is_none());
+    }
+}
