@@ -189,7 +189,13 @@ fn the_program_stays_within_bounds() {
     for e in entries(folder.path()).iter().filter(|e| e.code() == 2 || is_heavy(e)) {
         let start = Instant::now();
         let mut run = Command::new("sh");
-        run.args(["-c", "ulimit -v 524288; ulimit -t 10; exec \"$0\" check \"$1\" \"$2\"", env!("CARGO_BIN_EXE_mceip"), &e.problem, &e.certificate]);
+        run.args([
+            "-c",
+            "ulimit -v 524288; ulimit -t 10; exec \"$0\" check \"$1\" \"$2\"",
+            env!("CARGO_BIN_EXE_mceip"),
+            &e.problem,
+            &e.certificate,
+        ]);
         let o = run.output().unwrap();
         let err = String::from_utf8_lossy(&o.stderr);
         assert_eq!(o.status.code(), Some(e.code()), "{}: {err}", e.name);

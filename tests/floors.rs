@@ -6,7 +6,7 @@
 #![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
-use mceip::model::{Admissible, Unknown, Window};
+use mceip::model::{Admissible, Problem, Unknown};
 use mceip::multistart::{Found, Search, multistart};
 use mceip::reduction::{condense, reduce};
 use mceip::solver::SolverError;

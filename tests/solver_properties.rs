@@ -359,7 +359,7 @@ fn table_is_sound(two: Two) -> Result<bool, String> {
     let Ok(admissible) = Admissible::new(&pencil, Unknown::Lambda2) else { return Ok(true) };
 
     let search = Search { starts: 22, ..Search::default() };
-    let found = from_interior(&admissible, problem.window(), &search).map_err(|e| e.to_string())?;
+    let found = from_interior(&problem, &admissible, &search).map_err(|e| e.to_string())?;
     let truth = table1(&data);
     let first = found.certified.iter().any(|c| c.run == 0);
     if found.certified.len() > truth.len() {

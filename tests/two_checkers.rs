@@ -251,7 +251,7 @@ fn claimed(problem: &Problem) -> Option<Forgery> {
     for solution in &truth.solutions {
         let x = solution.x_decimals(&slip, 17).iter().map(|text| text.parse().unwrap()).collect();
         let value = solution.decimal(17).parse().unwrap();
-        claims.extend(certify(&pencil, problem.window(), &Candidate { value, x }).ok());
+        claims.extend(certify(problem, &pencil, &Candidate { value, x }).ok());
     }
     if claims.is_empty() {
         return None;

@@ -9,7 +9,7 @@ use super::floors::Coverage;
 use crate::candidate::Candidate;
 use crate::certify::Certifier;
 use crate::exact::{Sparse, to_f64};
-use crate::model::{Admissible, Window};
+use crate::model::{Admissible, Problem};
 use crate::multistart::{Certified, Found, Origin, Search, Uncertified, same};
 use crate::reduction::{Embedding, Side};
 use crate::solver::{CrashMethod, Options, Sense, SolverError, continuation, solve};
@@ -70,11 +70,7 @@ fn largest(matrix: &Sparse) -> f64 {
 ///
 /// # Errors
 /// [`SolverError`] for options out of range.
-pub fn from_interior(
-    problem: &Problem,
-    admissible: &Admissible<'_>,
-    search: &Search,
-) -> Result<Found, SolverError> {
+pub fn from_interior(problem: &Problem, admissible: &Admissible<'_>, search: &Search) -> Result<Found, SolverError> {
     let bottom = to_f64(problem.window().min());
     let certifier = Certifier::new(problem, admissible.pencil());
     let embedding = Embedding::new(admissible, Side::Above(bottom));

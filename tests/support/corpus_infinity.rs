@@ -86,9 +86,7 @@ fn two_particles(cases: &mut Cases) {
     let text = include_str!("../../spec/examples/two-particles.json");
     let given = mceip::model::file::read_problem(text, std::path::Path::new(".")).unwrap();
     let problem = window(given, "1/1000", None);
-    let tree = |leaf: Root| {
-        vec![Node::Branch(0), Node::Open, Node::Branch(1), Node::Root(Box::new(leaf)), Node::Open]
-    };
+    let tree = |leaf: Root| vec![Node::Branch(0), Node::Open, Node::Branch(1), Node::Root(Box::new(leaf)), Node::Open];
 
     let forged = cover(&problem, tree(alone(0, ["2000", "3000"], RootOutcome::Solution)));
     let note = "slip-stick is at 62/25; this leaf used to be accepted";
@@ -96,7 +94,7 @@ fn two_particles(cases: &mut Cases) {
 
     let pencil = mceip::reduction::reduce(&problem).unwrap().pencil;
     let candidate = mceip::candidate::Candidate { value: 2.48, x: vec![1.0, 0.0] };
-    let claim = mceip::certify::certify(&pencil, problem.window(), &candidate).unwrap();
+    let claim = mceip::certify::certify(&problem, &pencil, &candidate).unwrap();
     let with_claim = |interval: [&str; 2]| {
         let mut c = cover(&problem, tree(alone(0, interval, RootOutcome::Claim(0))));
         c.claims.push(claim.clone());

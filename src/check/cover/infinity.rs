@@ -21,12 +21,7 @@ impl Family {
 
     /// The ends that a root leaf over the hull [lo, hi] is judged by: those of T itself, over a half line those of
     /// the chord.
-    pub(super) fn hull_ends(
-        &self,
-        anchor: Option<usize>,
-        lo: &Rational,
-        hi: Option<&Rational>,
-    ) -> Result<Ends, CoverFault> {
+    pub(super) fn hull_ends(&self, anchor: Option<usize>, lo: &Rational, hi: Option<&Rational>) -> Result<Ends, CoverFault> {
         if hi.is_some() || self.is_reversed(anchor) {
             return self.ends(anchor, lo, hi);
         }
@@ -51,13 +46,7 @@ fn chord(cone: &Ends, lo: &Rational) -> Ends {
     // d(sT)/ds = T(lo) - lo B, and each of the two lies within its radius.
     let slope = sum(&radius[0], &radius[1]);
 
-    Ends {
-        m: [multiple(q, at_lo), multiple(p, direction)],
-        r: radius,
-        slope,
-        scale: &cone.scale * q,
-        infinite: true,
-    }
+    Ends { m: [multiple(q, at_lo), multiple(p, direction)], r: radius, slope, scale: &cone.scale * q, infinite: true }
 }
 
 fn multiple(factor: &Integer, matrix: &Matrix) -> Matrix {

@@ -31,11 +31,11 @@ use crate::certificate::{CompleteSet, Node, Piece, Root, RootOutcome, Support};
 use crate::exact::{Integer, Interval, Rational};
 use crate::model::Window;
 use family::{Ends, Family, Linear};
-use short::Short;
 use num_traits::Zero;
+use rootless::Budget;
+use short::Short;
 use std::cell::OnceCell;
 use std::rc::Rc;
-use rootless::Budget;
 use support::Held;
 
 /// Largest number of complementarity variables of a cover: a region has dense matrices of this order.
@@ -160,8 +160,21 @@ pub(super) fn check(
         condensed::tail(rows, tail).map_err(whole)?;
     }
     let tail = tail.map(|t| &t.from.0);
-    let mut walk =
-        Walk { rows, family, index, window, tail, claims, found: Vec::new(), families: Vec::new(), open: Vec::new(), leaves: 0, budget: Budget::new(), definite_left: definite_budget(rows, cover), refused };
+    let mut walk = Walk {
+        rows,
+        family,
+        index,
+        window,
+        tail,
+        claims,
+        found: Vec::new(),
+        families: Vec::new(),
+        open: Vec::new(),
+        leaves: 0,
+        budget: Budget::new(),
+        definite_left: definite_budget(rows, cover),
+        refused,
+    };
     let mut lo = window.min().clone();
     for (k, piece) in cover.pieces.iter().enumerate() {
         let is_last = k + 1 == cover.pieces.len();
@@ -402,12 +415,7 @@ impl Walk<'_> {
 
     /// Outcomes that need a narrow interval on a chord are refused by name: over a half line without a reversed
     /// anchor only `absent`, `infinity` and `claim` are read.
-    fn is_meant_for(
-        &self,
-        region: &Region,
-        anchor: Option<usize>,
-        outcome: &RootOutcome,
-    ) -> Result<(), CoverFault> {
+    fn is_meant_for(&self, region: &Region, anchor: Option<usize>, outcome: &RootOutcome) -> Result<(), CoverFault> {
         let is_chord = region.hi.is_none() && !self.family.is_reversed(anchor);
 
         let outcome = match outcome {

@@ -115,9 +115,7 @@ impl Halving<'_> {
             _ => {
                 self.halvings -= 1;
                 let middle = middle_of(a, b);
-                self.p.sign_at(&middle) != 0
-                    && self.has_none(a, Some(&middle), depth - 1)
-                    && self.has_none(&middle, b, depth - 1)
+                self.p.sign_at(&middle) != 0 && self.has_none(a, Some(&middle), depth - 1) && self.has_none(&middle, b, depth - 1)
             }
         }
     }

@@ -30,13 +30,7 @@ pub(super) struct Held {
 }
 
 /// Checks a leaf; where it holds solutions. The budget is that of all leaves of the file.
-pub(super) fn check(
-    rows: &Rows,
-    region: &Region,
-    index: &[usize],
-    leaf: &Support,
-    budget: &Budget,
-) -> Result<Vec<Held>, CoverFault> {
+pub(super) fn check(rows: &Rows, region: &Region, index: &[usize], leaf: &Support, budget: &Budget) -> Result<Vec<Held>, CoverFault> {
     let verdict = held(rows, region, index, leaf, budget);
     if budget.is_spent() {
         return Err(CoverFault::OutOfBudget);
@@ -44,13 +38,7 @@ pub(super) fn check(
     verdict
 }
 
-fn held(
-    rows: &Rows,
-    region: &Region,
-    index: &[usize],
-    leaf: &Support,
-    budget: &Budget,
-) -> Result<Vec<Held>, CoverFault> {
+fn held(rows: &Rows, region: &Region, index: &[usize], leaf: &Support, budget: &Budget) -> Result<Vec<Held>, CoverFault> {
     let moving: Vec<usize> = (0..index.len()).filter(|&p| region.states[p] == State::Moving).map(|p| index[p]).collect();
     let is_empty = leaf.points.is_empty() && leaf.cells.is_empty();
     if region.states.contains(&State::Open) || moving.is_empty() != is_empty {
