@@ -162,6 +162,14 @@ pub enum SearchError {
     /// The condensed pencil was refused.
     #[error(transparent)]
     Model(#[from] ModelError),
+    /// More variables than dense matrices are made for.
+    #[error("solve: expected at most {limit} variables after condensation, got {got}")]
+    TooLarge {
+        /// The limit.
+        limit: usize,
+        /// Variables of the problem.
+        got: usize,
+    },
     /// K_ff is singular in doubles.
     #[error("P1: expected K_ff regular in doubles, got a singular factorisation")]
     SingularInDoubles,
@@ -183,13 +191,23 @@ pub fn multistart_large(
     let direct = |c: &Candidate| certifier.certify(c);
     let window = problem.window();
     if admissible.unknown() != Unknown::Mu || pencil.free().len() < CONDENSE_FROM {
+        require_dense_order(pencil)?;
         return Ok((multistart_with(admissible, window, search, &direct, progress)?, None));
     }
     let condensed = condense(admissible)?;
     let expansion = Expansion::new(pencil).ok_or(SearchError::SingularInDoubles)?;
+    require_dense_order(&condensed)?;
     let small = Admissible::new(&condensed, Unknown::Mu)?;
     let found = multistart_with(&small, window, search, &|c| direct(&expansion.expand(c)), progress)?;
     Ok((found, Some(condensed)))
+}
+
+/// Largest number of variables of a search: two dense matrices in doubles, 576 MB, and their factors.
+const MAX_DENSE_ORDER: usize = 6000;
+
+fn require_dense_order(pencil: &Pencil) -> Result<(), SearchError> {
+    let got = pencil.order();
+    if got > MAX_DENSE_ORDER { Err(SearchError::TooLarge { limit: MAX_DENSE_ORDER, got }) } else { Ok(()) }
 }
 
 /// Told after each run what has been found; breaking ends the search and keeps it.
@@ -249,6 +267,15 @@ mod tests {
     fn refusal(reason: Reason) -> NotCertified {
         let failure = AttemptFailure::Refused { reason: Box::new(reason) };
         NotCertified { attempts: vec![Attempt { support: vec![0, 1], failure }] }
+    }
+
+    #[test]
+    fn a_search_has_a_largest_order() {
+        let identity = |n: usize| Pencil::new(Sparse::identity(n), Sparse::identity(n), vec![]).unwrap();
+
+        assert!(require_dense_order(&identity(6000)).is_ok());
+        let refused = require_dense_order(&identity(6001));
+        assert!(matches!(refused, Err(SearchError::TooLarge { limit: 6000, got: 6001 })));
     }
 
     /// A certifier that makes a wrong claim of everything above 5/2: with the checker behind it such points stay uncertified.
