@@ -75,6 +75,23 @@ fn a_tiny_component_of_a_mode_is_certified() {
     check(&problem, &certificate(&problem, vec![Claim::EnclosedSolution(claim)])).unwrap();
 }
 
+/// A candidate that says 0 where the solution has 1e-4 is not taken for it: that is no matter of rounding.
+#[test]
+fn a_component_that_doubles_see_is_not_repaired() {
+    let certified = |coupling: &str| {
+        let n = 18;
+        let mut entries: Vec<_> = (1..n).map(|i| (i, i, whole(18))).collect();
+        entries.extend([(0, 0, whole(-1)), (n, 0, parse(coupling).unwrap()), (n, n, whole(5))]);
+        let pencil = Pencil::new(Sparse::from_entries(n + 1, n + 1, entries), Sparse::identity(n + 1), (1..n).collect()).unwrap();
+        let mut x = vec![0.0; n + 1];
+        x[0] = 1.0;
+        mceip::certify::propose(&pencil, &Window::all(), &mceip::candidate::Candidate { value: 1.0, x })
+    };
+    assert_eq!(enclosed(&certified("-1e-20").unwrap()).support, [0, 18]);
+    let attempts = certified("-1e-3").unwrap_err().attempts;
+    assert!(attempts.iter().any(|a| a.support == [0, 18]), "{attempts:?}");
+}
+
 /// A box as wide as 2^-40 in every component, as it was once made, is refused and sifted out; with its own radii it stays.
 #[test]
 fn one_radius_for_all_components_is_refused() {

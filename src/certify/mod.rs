@@ -38,16 +38,30 @@ struct Proposal {
 /// The claims that a candidate suggests, one per support that its components suggest, best first.
 ///
 /// They are made when they are asked for: the first one is accepted in general. Where a sign is wrong at a component that
-/// doubles cannot tell from zero, the support with that component changed comes next.
+/// doubles cannot tell from zero, the support with that component changed comes next (for enclosures: exact claims have the
+/// support that was guessed).
 struct Proposals<'a> {
     pencil: &'a Pencil,
     rows: &'a IntegralRows,
     window: &'a Window,
     candidate: &'a Candidate,
     waiting: VecDeque<Vec<usize>>,
-    /// Every support that was tried or waits.
-    known: Vec<Vec<usize>>,
-    repairs_left: usize,
+    guesses: Vec<Vec<usize>>,
+    /// Supports that come from another one, by a component that doubles cannot tell from zero.
+    repaired: Vec<Vec<usize>>,
+}
+
+impl Proposals<'_> {
+    /// Puts the support with the component of a wrong sign changed next, where claims about it are enclosures.
+    fn repair(&mut self, support: &[usize], failure: &AttemptFailure) {
+        let Some(repaired) = support::repaired(self.pencil, self.candidate, support, failure) else { return };
+        let is_known = self.guesses.contains(&repaired) || self.repaired.contains(&repaired);
+        if is_known || self.repaired.len() >= MAX_REPAIRS || is_short(self.pencil, self.rows, &repaired) {
+            return;
+        }
+        self.repaired.push(repaired.clone());
+        self.waiting.push_front(repaired);
+    }
 }
 
 fn proposals<'a>(
@@ -56,9 +70,9 @@ fn proposals<'a>(
     window: &'a Window,
     candidate: &'a Candidate,
 ) -> Result<Proposals<'a>, NotCertified> {
-    let known = support::guesses(pencil, candidate).map_err(NotCertified::of)?;
-    let waiting = known.iter().cloned().collect();
-    Ok(Proposals { pencil, rows, window, candidate, waiting, known, repairs_left: MAX_REPAIRS })
+    let guesses = support::guesses(pencil, candidate).map_err(NotCertified::of)?;
+    let waiting = guesses.iter().cloned().collect();
+    Ok(Proposals { pencil, rows, window, candidate, waiting, guesses, repaired: Vec::new() })
 }
 
 impl Iterator for Proposals<'_> {
@@ -66,16 +80,14 @@ impl Iterator for Proposals<'_> {
 
     fn next(&mut self) -> Option<Proposal> {
         let support = self.waiting.pop_front()?;
-        let claim = claim(self.pencil, self.rows, self.window, &support, self.candidate);
+        let is_repaired = self.repaired.contains(&support);
+        let mut claim = claim(self.pencil, self.rows, self.window, &support, self.candidate);
+        if is_repaired {
+            claim = claim.and_then(|claim| support::within_rounding(self.pencil, self.candidate, claim));
+        }
 
-        if let Err(failure) = &claim
-            && self.repairs_left > 0
-            && let Some(repaired) = support::repaired(self.pencil, self.candidate, &support, failure)
-            && !self.known.contains(&repaired)
-        {
-            self.repairs_left -= 1;
-            self.known.push(repaired.clone());
-            self.waiting.push_front(repaired);
+        if let Err(failure) = &claim {
+            self.repair(&support, failure);
         }
         Some(Proposal { support, claim })
     }
@@ -88,12 +100,17 @@ fn claim(pencil: &Pencil, rows: &IntegralRows, window: &Window, support: &[usize
         return Err(AttemptFailure::TooLarge { limit: ENCLOSED_ORDER, got: order });
     }
 
-    let is_short = order <= EXACT_ORDER && order as u64 * rows.bits() <= EXACT_BITS;
-    if is_short {
+    if is_short(pencil, rows, support) {
         exact_claim::make(pencil, rows, window, support, candidate).map(Claim::ExactSolution)
     } else {
         enclose::make(pencil, rows, window, support, candidate).map(Claim::EnclosedSolution)
     }
+}
+
+/// Is the system of this support short enough for an exact claim?
+fn is_short(pencil: &Pencil, rows: &IntegralRows, support: &[usize]) -> bool {
+    let order = pencil.free().len() + support.len();
+    order <= EXACT_ORDER && order as u64 * rows.bits() <= EXACT_BITS
 }
 
 /// A claim that *nobody has checked*, for tools and tests that submit it themselves; [`certify`] is what to call.

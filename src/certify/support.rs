@@ -2,6 +2,8 @@
 
 use super::AttemptFailure;
 use crate::candidate::Candidate;
+use crate::certificate::Claim;
+use crate::exact::to_f64;
 use crate::model::Pencil;
 use crate::tolerance::SUPPORT_GUESSES;
 
@@ -47,6 +49,25 @@ pub(super) fn repaired(pencil: &Pencil, candidate: &Candidate, support: &[usize]
         repaired.sort_unstable();
     }
     Some(repaired)
+}
+
+/// The claim, if no component of its support that the candidate has within rounding of zero is larger than that.
+pub(super) fn within_rounding(pencil: &Pencil, candidate: &Candidate, claim: Claim) -> Result<Claim, AttemptFailure> {
+    let Claim::EnclosedSolution(c) = &claim else { return Ok(claim) };
+    let slip = pencil.slip();
+    let largest = slip.iter().map(|&i| candidate.x[i]).fold(0.0, f64::max);
+    let active = super::active(pencil, &c.support);
+    let centers: Vec<(usize, f64)> = active.into_iter().zip(&c.center).map(|(i, x)| (i, to_f64(&x.0))).collect();
+    let in_support = || centers.iter().filter(|(i, _)| c.support.contains(i));
+    let largest_claimed = in_support().map(|(_, x)| *x).fold(0.0, f64::max);
+
+    for (i, x) in in_support() {
+        let is_zero_in_doubles = candidate.x[*i].abs() <= SUPPORT_GUESSES[0] * largest;
+        if is_zero_in_doubles && *x > SUPPORT_GUESSES[0] * largest_claimed {
+            return Err(AttemptFailure::TooFar { distance: *x / largest_claimed, limit: SUPPORT_GUESSES[0] });
+        }
+    }
+    Ok(claim)
 }
 
 #[cfg(test)]
