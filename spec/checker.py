@@ -1242,17 +1242,19 @@ def null_at_infinity(p, support, reverse, x):
 
 def sign_changes(poly, a, b):
     """Descartes' bound of the number of roots in the open interval (a, b), b None for infinity."""
-    c = [Q(x) for x in poly]
-
     def shifted(c, by):
-        c = list(c)
+        """p(y + by)."""
         for i in range(len(c)):
             for k in range(len(c) - 2, i - 1, -1):
                 c[k] += by * c[k + 1]
         return c
-    c = shifted(c, a)
+    unit = lcm(a.denominator, 1 if b is None else (b - a).denominator)
+    # unit^n p(y / unit), then with y = unit a + z: integers only.
+    c = [x * unit ** (len(poly) - 1 - k) for k, x in enumerate(poly)]
+    c = shifted(c, int(a * unit))
     if b is not None:
-        c = shifted([x * (b - a) ** k for k, x in enumerate(c)][::-1], 1)
+        width = int((b - a) * unit)
+        c = shifted([x * width ** k for k, x in enumerate(c)][::-1], 1)
     signs = [x > 0 for x in c if x]
     return sum(x != y for x, y in zip(signs, signs[1:]))
 
@@ -1470,10 +1472,10 @@ def complete_set(p, rows, window, claims, obj):
     """The number of solutions, of families and of open leaves of the cover."""
     pieces, condensation = fields(obj, "pieces", "condensation")
     demand((condensation is not None) == bool(p.free), "condensation is present exactly if there are free variables")
+    demand(len(p.s) <= 1024, "cover: more than 1024 complementarity variables")
     pencil = CondensedPencil(p, rows, condensation) if p.free else PlainPencil(p, rows)
     demand(sequence(pieces), "cover: no piece")
-    demand(len(p.s) <= 1024, "cover: more than 1024 complementarity variables")
-    Budget.left = 1 << 37
+    Budget.left = 1 << 35
     nodes = sum(len(sequence(piece["tree"])) for piece in pieces if isinstance(piece, dict) and "tree" in piece)
     entries = sum(len({*ra, *rb}) for _, ra, rb in rows)
     definite_left = (1 << 29) + (nodes << 20) + (entries << 16)

@@ -63,7 +63,7 @@ fn a_mode_in_physical_dofs() {
         (r#"[{"value":1,"v":[1,0]}]"#, vec!["solutions[0]", "v with 4", "got 2"]),
         (r#"[{"value":1,"x":[1]}]"#, vec!["solutions[0]", "x with 2", "got 1"]),
         (r#"[{"value":1}]"#, vec!["x or v"]),
-        (r#"[{"value":1e999,"x":[1,1]}]"#, vec!["solutions[0].value"]),
+        (r#"[{"value":1e399,"x":[1,1]}]"#, vec!["solutions[0].value"]),
     ] {
         let (code, text) = check(&system, solutions);
         assert!(code == 1 && text.starts_with("REJECTED: ") && words.iter().all(|w| text.contains(w)), "{text}");

@@ -85,7 +85,8 @@ fn limits_and_options_are_refused_in_one_line() {
     refused(&["enumerate", &large(70), "--screened"], &["24 slip variables", "70"]);
     let free: Vec<usize> = (0..17).collect();
     let many_free = b.problem("free.json", serde_json::json!({ "a": identity(18), "b": identity(18), "free": free }));
-    let long = b.problem("long.json", serde_json::json!({ "a": [["1e3000", 1], [1, "1e3000"]], "b": [[1, 0], [0, 1]], "free": [] }));
+    let digits = format!("1{}", "0".repeat(3000));
+    let long = b.problem("long.json", serde_json::json!({ "a": [[digits, 1], [1, digits]], "b": [[1, 0], [0, 1]], "free": [] }));
     for engine in [&[][..], &["--screened"]] {
         refused(&[&["enumerate", &many_free], engine].concat(), &["16 free variables", "17"]);
         refused(&[&["enumerate", &long], engine].concat(), &["bits of a determinant's coefficients", "8192"]);

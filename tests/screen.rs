@@ -214,7 +214,7 @@ fn limits_are_said_before_the_work() {
     assert!(matches!(screen::enumerate(&large, &window), Err(ScreenError::TooLarge { what: "slip variables", limit: 24, got: 25 })));
     let free = Pencil::new(Sparse::identity(18), Sparse::identity(18), (0..17).collect()).unwrap();
     assert!(matches!(screen::enumerate(&free, &window), Err(ScreenError::TooLarge { what: "free variables", .. })));
-    let long = mceip::exact::parse("1e4000").unwrap();
+    let long = mceip::exact::parse(&format!("1{}", "0".repeat(4000))).unwrap();
     let a = Sparse::from_entries(2, 2, [(0, 0, long.clone()), (0, 1, whole(1)), (1, 0, whole(1)), (1, 1, long)]);
     let long = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
     assert!(matches!(screen::enumerate(&long, &window), Err(ScreenError::TooLarge { what: "bits of a determinant's coefficients", .. })));

@@ -434,27 +434,60 @@ mod tests {
     use super::*;
     use crate::exact::whole;
 
+    /// Three variables that may move cost 27; the second leaf does not find enough left.
     #[test]
-    fn a_region_has_short_numbers() {
+    fn definite_leaves_spend_a_budget() {
         let row = |i: usize| vec![(i, Integer::from(3), Integer::from(1))];
-        let rows = Rows { rows: vec![row(0), row(1)], factor: vec![1.into(), 1.into()], is_free: vec![false; 2] };
-        let (family, window) = (Family::Linear(Linear::of(&rows)), Window::all());
-        let (found, families, open) = (Vec::new(), Vec::new(), Vec::new());
-        let walk = Walk {
-            rows: &rows,
-            family,
-            index: vec![0, 1],
-            window: &window,
+        let rows = Rows { rows: (0..4).map(row).collect(), factor: vec![1.into(); 4], is_free: vec![false; 4] };
+        let window = Window::all();
+        let mut walk = walk(&rows, &window);
+        walk.definite_left = 50;
+
+        let mut states = vec![State::Open, State::Moving, State::Open];
+        states.push(State::Rest);
+        let region = Region { lo: whole(0), hi: Some(whole(1)), states, matrices: Rc::default(), zero: Integer::default() };
+
+        assert_eq!(walk.spend_definite(&region), Ok(()));
+        assert_eq!(walk.definite_left, 23);
+        let what = "definite leaves: order cubed, left of the file's budget";
+        assert_eq!(walk.spend_definite(&region), Err(CoverFault::TooLarge { what, limit: 23, got: 27 }));
+    }
+
+    /// What a file may spend on definite leaves: 2^29, 2^20 a node, 2^16 an entry that is not zero.
+    #[test]
+    fn the_budget_grows_with_nodes_and_entries() {
+        let row = |i: usize| vec![(i, Integer::from(3), Integer::from(0)), (1 - i, Integer::from(0), Integer::from(0))];
+        let rows = Rows { rows: vec![row(0), row(1)], factor: vec![1.into(); 2], is_free: vec![false; 2] };
+        let piece = |nodes: usize| Piece { max: None, anchor: None, tree: vec![Node::Open; nodes] };
+
+        let cover = CompleteSet { condensation: None, pieces: vec![piece(3), piece(4)] };
+        assert_eq!(definite_budget(&rows, &cover), (1 << 29) + 7 * (1 << 20) + 2 * (1 << 16));
+    }
+
+    fn walk<'a>(rows: &'a Rows, window: &'a Window) -> Walk<'a> {
+        Walk {
+            rows,
+            family: Family::Linear(Linear::of(rows)),
+            index: (0..rows.order()).collect(),
+            window,
             tail: None,
             claims: &[],
-            found,
-            families,
-            open,
+            found: Vec::new(),
+            families: Vec::new(),
+            open: Vec::new(),
             leaves: 0,
             budget: Budget::new(),
             definite_left: 0,
             refused: None,
-        };
+        }
+    }
+
+    #[test]
+    fn a_region_has_short_numbers() {
+        let row = |i: usize| vec![(i, Integer::from(3), Integer::from(1))];
+        let rows = Rows { rows: vec![row(0), row(1)], factor: vec![1.into(), 1.into()], is_free: vec![false; 2] };
+        let window = Window::all();
+        let walk = walk(&rows, &window);
         let states = vec![State::Open; 2];
         let region = Region { lo: whole(0), hi: Some(whole(1)), states, matrices: Rc::default(), zero: Integer::default() };
         assert!(walk.short(&region, None).is_some());

@@ -15,7 +15,7 @@ const MAX_DEPTH: u32 = 24;
 const MAX_HALVINGS: usize = 200;
 
 /// What a file may count without any coefficient, and for each coefficient of its support leaves.
-const BASE_BUDGET: u64 = 1 << 37;
+const BASE_BUDGET: u64 = 1 << 35;
 const BUDGET_PER_COEFFICIENT: u64 = 1 << 24;
 
 /// What is left of the counts of a file.
@@ -316,7 +316,7 @@ mod tests {
     fn coefficients_add_to_the_budget() {
         let budget = Budget::new();
         budget.add_coefficients(3);
-        assert_eq!(budget.left.get(), (1 << 37) + 3 * (1 << 24));
+        assert_eq!(budget.left.get(), (1 << 35) + 3 * (1 << 24));
         budget.add_coefficients(u64::MAX);
         assert_eq!(budget.left.get(), u64::MAX);
     }
