@@ -182,3 +182,14 @@ pub const AGREEMENT_RANGE: &str = "a number from 1e-15 to 1e-4";
 /// moves it; lambda^2 just above a threshold is 1e-7 of the largest one on an ordinary mesh (1.3e3 beside 1e10), and must
 /// have its digits still.
 pub const VALUE_FLOOR: f64 = 1e-7;
+
+/// Probability below which a count under its floor is not put down to chance. Unit: none. Reason: a
+/// run judges at most 60 rates, and the true rates lie two points above the floors, so that fewer
+/// than one sound run in a hundred fails, while a solver that finds nothing fails after three
+/// instances.
+pub const CHANCE: f64 = 1e-4;
+
+/// Relative distance up to which the end of a run of PATH's own sequence counts as a proved value of a block state. Unit: none. Reason:
+/// runs stop at residuals of 1e-10, and values of one state lie apart by more than a part in a
+/// thousand.
+pub const PATH_VALUE: f64 = 1e-8;

@@ -15,11 +15,11 @@ mod structural;
 mod witnessed;
 
 use mceip::candidate::Candidate;
-use mceip::certificate::Certificate;
-use mceip::certify::{certificate, certify};
+use mceip::certificate::{Certificate, Claim};
+use mceip::certify::{certificate, certify, lifted};
 use mceip::check::{Accepted, AcceptedClaim, check};
 use mceip::exact::{Algebraic, Sparse, rational};
-use mceip::model::file::write_problem;
+use mceip::model::file::{read_problem, write_problem};
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};
 use mceip::oracle::{Enumeration, enumerate};
 use mceip::reduction::reduce;
@@ -202,6 +202,7 @@ fn nodes(certificate: &Value) -> Vec<Value> {
 /// Certificates that hold: covers of every kind with rational ends, and claims.
 fn bases(rng: &mut ChaCha8Rng) -> Vec<Forgery> {
     let mut problems = vec![cover::fold(Window::all()), reversed_anchor()];
+    problems.extend(["two-particles", "two-particles-mu", "oblique"].map(example));
     problems.extend([known::complete_graph(2), known::path(3), known::star(2)].map(|k| k.unwrap().problem));
     problems.extend([known::star(3), known::jordan(3, 2, true)].map(|k| k.unwrap().problem));
     problems.extend((1..=3).map(|seed| mechanical_pencil(3, Unknown::Mu, seed).unwrap()));
@@ -218,6 +219,7 @@ fn bases(rng: &mut ChaCha8Rng) -> Vec<Forgery> {
             let problem = problem.clone().with_window(window);
             out.extend(covered(&problem));
             out.extend(claimed(&problem));
+            out.extend(lifted_claims(&problem));
         }
     }
     out
@@ -255,6 +257,26 @@ fn claimed(problem: &Problem) -> Option<Forgery> {
     }
     if claims.is_empty() {
         return None;
+    }
+    Some(Forgery { problem: problem.clone(), text: certificate(problem, claims).to_json() })
+}
+
+fn example(name: &str) -> Problem {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec/examples");
+    let text = std::fs::read_to_string(folder.join(format!("{name}.json"))).unwrap();
+    read_problem(&text, &folder).unwrap()
+}
+
+/// The claims of a mechanical system over its degrees of freedom.
+fn lifted_claims(problem: &Problem) -> Option<Forgery> {
+    let Body::System(system) = problem.body() else { return None };
+    let exact = Certificate::from_json(&claimed(problem)?.text).unwrap();
+
+    let mut claims = Vec::new();
+    for claim in exact.claims {
+        if let Claim::ExactSolution(claim) = claim {
+            claims.push(Claim::LiftedSolution(lifted(system, problem.unknown(), &claim)));
+        }
     }
     Some(Forgery { problem: problem.clone(), text: certificate(problem, claims).to_json() })
 }

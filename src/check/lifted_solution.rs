@@ -39,6 +39,9 @@ pub(super) fn check(problem: &Problem, rows: &Rows, window: &Window, claim: &Lif
             ContactState::Slip { sign } => {
                 let slips = claim.support.binary_search(&position).is_ok();
                 let biactive = claim.biactive.binary_search(&position).is_ok();
+                if slips && biactive {
+                    return Err(Reason::Biactive { index: position, expected: false });
+                }
                 lines.slip(index, particle, sign, slips, biactive)?;
                 position += 1;
             }

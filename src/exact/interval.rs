@@ -110,10 +110,17 @@ impl Interval {
         Interval { lo: Rational::new(lo, scale.clone()), hi: Rational::new(hi, scale) }
     }
 
-    /// [`Interval::horner`] with both ends rounded outward to 64 bits. The signs of the ends are those of the exact
-    /// ones, and no long fraction is reduced.
+    /// [`Interval::horner`], with both ends rounded outward to 64 bits where their fractions are long. The signs of
+    /// the ends are those of the exact ones, and no long fraction is reduced.
     pub fn horner_rounded(&self, p: &Poly) -> Interval {
+        const SHORT: u64 = 256;
+
         let (lo, hi, scale) = self.horner_scaled(p);
+        let longest = lo.bits().max(hi.bits()).max(scale.bits());
+        if longest <= SHORT {
+            return Interval { lo: Rational::new(lo, scale.clone()), hi: Rational::new(hi, scale) };
+        }
+
         let hi_below = rounded_down(&-hi, &scale);
         Interval { lo: rounded_down(&lo, &scale), hi: -hi_below }
     }

@@ -14,13 +14,8 @@
 //! run fails. Small samples are judged by the same rule: of a rate of 98 %, three misses in a row
 //! are a shortfall, two are not.
 
+use crate::tolerance::CHANCE;
 use std::fmt;
-
-/// Probability below which a count under its floor is not put down to chance. Unit: none. Reason: a
-/// run judges at most 60 rates, and the true rates lie two points above the floors, so that fewer
-/// than one sound run in a hundred fails, while a solver that finds nothing fails after three
-/// instances.
-pub const CHANCE: f64 = 1e-4;
 
 /// From where the solver sets out.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

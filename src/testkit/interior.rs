@@ -13,7 +13,7 @@ use crate::model::{Admissible, Problem};
 use crate::multistart::{Certified, Found, Origin, Search, Uncertified, same};
 use crate::reduction::{Embedding, Side};
 use crate::solver::{CrashMethod, Options, Sense, SolverError, continuation, solve};
-use crate::tolerance::SAME_POINT;
+use crate::tolerance::{PATH_VALUE, SAME_POINT};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -149,11 +149,6 @@ fn is_same_point(a: &Candidate, b: &Candidate) -> bool {
     is_same_value && a.x.iter().zip(&b.x).all(|(p, q)| (p / norm_a - q / norm_b).abs() <= SAME_POINT)
 }
 
-/// Relative distance up to which the end of a run counts as a proved value. Unit: none. Reason:
-/// runs stop at residuals of 1e-10, and values of one state lie apart by more than a part in a
-/// thousand.
-const SAME_VALUE: f64 = 1e-8;
-
 /// Of the interior starts, those from which PATH's own sequence comes to one of the proved
 /// `values`; a start counts for both rates. For problems whose certificates cost too much to be
 /// made for each start.
@@ -168,7 +163,7 @@ pub fn path_coverage(admissible: &Admissible<'_>, values: &[f64], count: usize, 
     for start in interior_starts(admissible, count, seed) {
         let outcome = solve(&embedding, &embedding.point(start.value, &start.x), &options)?;
         let value = embedding.candidate(&outcome.point).value;
-        let is_proved = values.iter().any(|v| (v - value).abs() <= SAME_VALUE * v.abs());
+        let is_proved = values.iter().any(|v| (v - value).abs() <= PATH_VALUE * v.abs());
         let found = outcome.termination.reached_tolerance() && is_proved;
         coverage.count(found, found);
     }
