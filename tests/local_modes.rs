@@ -1,5 +1,6 @@
 //! Local modes: components and reactions of 1e-22 of the largest, as on finite-element meshes. What `solve` calls certified is
 //! accepted by the checker, and the complete set closes.
+#![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::certificate::{Certificate, Claim};
