@@ -793,10 +793,11 @@ def covered(s, n, factor, strict, what):
         demand(not strict and all(all(j == i or not v for j, v in row.items()) and row.get(i, 0) >= 0 for i, row in enumerate(s)), f"{what}: not a non-negative diagonal")
         return
     first, rows, exponent = fields(factor, "first rows exponent")
-    exponent = integer(exponent, 0, 65_536)
+    exponent = integer(exponent, 0)
+    demand(exponent <= 4096, f"{what}: exponent of the factor")
     first = [integer(i, 0) for i in sequence(first)]
     rows = [[integer(v) for v in sequence(r)] for r in sequence(rows)]
-    demand(len(first) == len(rows) == n and all(f + len(r) == i + 1 for i, (f, r) in enumerate(zip(first, rows))), f"{what}: shape of the factor")
+    demand(len(first) == len(rows) == n and all(f <= i and f + len(r) == i + 1 for i, (f, r) in enumerate(zip(first, rows))), f"{what}: shape of the factor")
     scale = lcm(1, *(v.denominator for r in s for v in r.values()))
     diagonal, off = [0] * n, [0] * n
     for i in range(n):
@@ -1265,14 +1266,25 @@ def sign_at(poly, t):
 
 
 class Budget:
-    """What the signs of the cells of a file may cost (C, Limits)."""
+    """What the signs of the support leaves of a file may cost (C, Limits)."""
     left = 0
+
+    @classmethod
+    def take(cls, cost):
+        cls.left -= cost
+        demand(cls.left >= 0, "support: the signs take more work than the file's budget")
+
+    @classmethod
+    def spend_remainder(cls, poly, q):
+        length = len(strip(list(poly)))
+        steps = max(length + 1 - len(q), 0)
+        bits = max(abs(c).bit_length() for c in q) + 64
+        cls.take((steps ** 2 * length * bits * bits) >> 9)
 
     @classmethod
     def spend(cls, poly, a, b):
         bits = sum(abs(v.numerator).bit_length() + v.denominator.bit_length() for v in (a, b) if v is not None)
-        cls.left -= len(poly) ** 3 * (bits + 64)
-        demand(cls.left >= 0, "support: the signs of the cells take more work than the file's budget")
+        cls.take(len(poly) ** 3 * (bits + 64))
 
 
 def rootless(poly, a, b):
@@ -1294,7 +1306,10 @@ def rootless(poly, a, b):
 
 def without_factor(poly, q):
     """The polynomial (strictly: a multiple) without its factors q."""
-    while len(poly) >= len(q) and not remainder(poly, q):
+    def divides():
+        Budget.spend_remainder(poly, q)
+        return not remainder(poly, q)
+    while len(poly) >= len(q) and divides():
         rest, out = [Q(c) for c in poly], []
         while len(rest) >= len(q):
             top = rest[-1] / q[-1]
@@ -1308,6 +1323,7 @@ def without_factor(poly, q):
 
 def sign_of_point(poly, point):
     q, a, b = point
+    Budget.spend_remainder(poly, q)
     rest = remainder(poly, q)
     if not rest:
         return 0
@@ -1473,6 +1489,9 @@ def complete_set(p, rows, window, claims, obj):
     pieces, condensation = fields(obj, "pieces", "condensation")
     demand((condensation is not None) == bool(p.free), "condensation is present exactly if there are free variables")
     demand(len(p.s) <= 1024, "cover: more than 1024 complementarity variables")
+    if condensation is not None:
+        anchors = fields(condensation, "sigma stiffness_factor mass_sigma anchors", "mass_factor tail")[3]
+        demand(len(sequence(anchors)) * len(p.s) ** 2 <= 3 << 20, "cover: too many anchors for matrices of this order")
     pencil = CondensedPencil(p, rows, condensation) if p.free else PlainPencil(p, rows)
     demand(sequence(pieces), "cover: no piece")
     Budget.left = 1 << 35
@@ -1556,16 +1575,16 @@ def belongs(claim, single, families, left_open):
 
 
 def count(found):
-    """Solutions yielded twice (C): the same support and overlapping intervals count once."""
-    distinct = 0
-    for k, leaf in enumerate(found):
-        twice = False
-        for other in found[:k]:
-            if other.support == leaf.support and other.a <= leaf.b and leaf.a <= other.b:
-                within = other.hull[0] <= leaf.a and leaf.b <= other.hull[1] or leaf.hull[0] <= other.a and other.b <= leaf.hull[1]
-                demand(within, "cover: two solutions that may be one")
-                twice = True
-        distinct += not twice
+    """Solutions yielded twice (C): what overlaps a group must be the same solution as one of it; a group counts once."""
+    def is_same(x, y):
+        return x.hull[0] <= y.a and y.b <= x.hull[1] or y.hull[0] <= x.a and x.b <= y.hull[1]
+    distinct, group = 0, []
+    for leaf in sorted(found, key=lambda f: (f.support, f.a, f.b)):
+        if any(other.support == leaf.support and other.b >= leaf.a for other in group):
+            demand(any(is_same(other, leaf) for other in group), "cover: two solutions that may be one")
+        else:
+            distinct, group = distinct + 1, []
+        group.append(leaf)
     return distinct
 
 

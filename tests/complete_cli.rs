@@ -210,3 +210,28 @@ fn a_shard_is_resumed_to_the_whole() {
     exits(0, &["complete", &file, "--certificate", &single]);
     assert_eq!(read(&out), read(&single));
 }
+
+/// Certificates that the checker accepts and a search cannot use as they are: an anchor without a condensation, anchors
+/// without coefficients, every variable free. Going on with them ends in a verdict or in one line.
+#[test]
+fn odd_certificates_are_gone_on_with_or_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut count = 0;
+    for entry in std::fs::read_dir(format!("{}/tests/resume", env!("CARGO_MANIFEST_DIR"))).unwrap() {
+        let path = entry.unwrap().path();
+        let case: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+
+        let [problem, certificate] = ["problem", "certificate"].map(|part| {
+            let file = folder.path().join(format!("{part}.json"));
+            std::fs::write(&file, case[part].to_string()).unwrap();
+            file.display().to_string()
+        });
+        let run = Command::new(env!("CARGO_BIN_EXE_mceip")).args(["complete", &problem, "--resume", &certificate]).output().unwrap();
+
+        let code = run.status.code();
+        let message = String::from_utf8_lossy(&run.stderr);
+        assert!(matches!(code, Some(0 | 2 | 3)), "{}: {code:?}: {message}", path.display());
+        count += 1;
+    }
+    assert!(count >= 5, "{count}");
+}

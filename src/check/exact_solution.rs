@@ -147,8 +147,8 @@ fn check_x(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reas
 fn check_y(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reason> {
     let x: Vec<Vec<Rational>> = claim.x.iter().map(|p| coefficients(p)).collect();
     for (index, row) in rows.rows.iter().enumerate() {
-        let y = times(row, &x);
-        let is_zero = alpha.remainder(&y).is_zero();
+        let y = alpha.remainder(&times(row, &x));
+        let is_zero = y.is_zero();
         if rows.is_free[index] || claim.support.binary_search(&index).is_ok() {
             if !is_zero {
                 let equation = if rows.is_free[index] { "E13" } else { "E25" };
@@ -162,7 +162,7 @@ fn check_y(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reas
         if claim.biactive.binary_search(&index).is_ok() != is_zero {
             return Err(Reason::Biactive { index, expected: is_zero });
         }
-        let image = alpha.enclose(&y);
+        let image = alpha.value.horner_rounded(&y);
         if !is_zero && image.certain_sign() != 1 {
             return Err(Reason::YNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
         }

@@ -41,6 +41,10 @@ use support::Held;
 /// Largest number of complementarity variables of a cover: a region has dense matrices of this order.
 pub const MAX_COVERED: usize = 1024;
 
+/// Largest product of the number of anchors and the square of the number of complementarity variables: an anchor is
+/// expanded into dense matrices of that order.
+const MAX_EXPANDED: usize = 3 << 20;
+
 /// Orders cubed of definite leaves, summed over a file: without any node or entry, for each node, and for each entry of
 /// the pencil. Elimination takes a third of the cube.
 const DEFINITE_BASE: u64 = 1 << 29;
@@ -146,6 +150,13 @@ pub(super) fn check(
     if index.len() > MAX_COVERED {
         let (limit, got) = (MAX_COVERED as u64, index.len() as u64);
         return Err(whole(CoverFault::TooLarge { what: "complementarity variables of a cover", limit, got }));
+    }
+    let anchors = cover.condensation.as_ref().map_or(0, |c| c.anchors.len());
+    let expanded = anchors.saturating_mul(index.len() * index.len());
+    if expanded > MAX_EXPANDED {
+        let (limit, got) = (MAX_EXPANDED as u64, expanded as u64);
+        let what = "anchors times complementarity variables squared";
+        return Err(whole(CoverFault::TooLarge { what, limit, got }));
     }
     let family = match &cover.condensation {
         None if !has_free => Family::Linear(Linear::of(rows)),

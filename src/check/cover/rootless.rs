@@ -17,6 +17,8 @@ const MAX_HALVINGS: usize = 200;
 /// What a file may count without any coefficient, and for each coefficient of its support leaves.
 const BASE_BUDGET: u64 = 1 << 35;
 const BUDGET_PER_COEFFICIENT: u64 = 1 << 24;
+/// A remainder counts 2^-9 of steps^2 x coefficients x bits^2: products of words against additions of bits.
+const REMAINDER_SHIFT: u32 = 9;
 
 /// What is left of the counts of a file.
 pub(super) struct Budget {
@@ -40,14 +42,26 @@ impl Budget {
         self.is_spent.get()
     }
 
+    /// Takes what the remainder of g by p costs: every step makes it longer by the leading coefficient of p.
+    fn spend_remainder(&self, g: &Poly, p: &Poly) -> bool {
+        let [length, divisor] = [g, p].map(|q| q.coeffs().len() as u64);
+        let steps = (length + 1).saturating_sub(divisor);
+        let bits = p.coeffs().iter().map(Integer::bits).max().unwrap_or(0) + 64;
+
+        let products = steps.saturating_pow(2).saturating_mul(length);
+        self.take(products.saturating_mul(bits).saturating_mul(bits) >> REMAINDER_SHIFT)
+    }
+
     /// Takes what transforming the polynomial costs; false if that is more than is left.
     fn spend(&self, p: &Poly, a: &Rational, b: Option<&Rational>) -> bool {
         let bits_of = |v: &Rational| v.numer().bits() + v.denom().bits();
         let bits = bits_of(a) + b.map_or(0, bits_of);
 
         let count = p.coeffs().len() as u64;
-        let cost = count.saturating_pow(3).saturating_mul(bits + 64);
+        self.take(count.saturating_pow(3).saturating_mul(bits + 64))
+    }
 
+    fn take(&self, cost: u64) -> bool {
         match self.left.get().checked_sub(cost) {
             Some(left) => self.left.set(left),
             None => self.is_spent.set(true),
@@ -64,7 +78,10 @@ pub(super) struct Root {
 
 impl Root {
     /// The sign of g here, if it can be told.
-    pub(super) fn sign(&self, g: &Poly) -> Option<i8> {
+    pub(super) fn sign(&self, g: &Poly, budget: &Budget) -> Option<i8> {
+        if !budget.spend_remainder(g, &self.poly) {
+            return None;
+        }
         let rest = g.pseudo_rem(&self.poly);
         if rest.is_zero() {
             return Some(0);
@@ -74,9 +91,12 @@ impl Root {
 
     /// Has g no root in the isolating interval but possibly this one?
     fn is_only_root_of(&self, g: &Poly, budget: &Budget) -> bool {
-        let rest = stripped(g, &self.poly);
+        if self.value.is_point() {
+            return true;
+        }
+        let rest = stripped(g, &self.poly, budget);
         let (a, b) = (self.value.lo(), self.value.hi());
-        self.value.is_point() || (rest.sign_at(a) != 0 && rest.sign_at(b) != 0 && has_no_root(&rest, a, Some(b), budget))
+        rest.sign_at(a) != 0 && rest.sign_at(b) != 0 && has_no_root(&rest, a, Some(b), budget)
     }
 }
 
@@ -167,9 +187,9 @@ fn shift(c: &mut [Integer], a: &Integer) {
 }
 
 /// g without its factors q.
-fn stripped(g: &Poly, q: &Poly) -> Poly {
+fn stripped(g: &Poly, q: &Poly, budget: &Budget) -> Poly {
     let mut rest = g.clone();
-    while rest.degree() >= q.degree() && rest.pseudo_rem(q).is_zero() {
+    while rest.degree() >= q.degree() && budget.spend_remainder(&rest, q) && rest.pseudo_rem(q).is_zero() {
         rest = quotient(&rest, q);
     }
     rest
@@ -232,7 +252,7 @@ mod tests {
         assert_eq!(sign_between(&Poly::from_ints(&[-29, 20]), &sqrt2, None, &Budget::new()), None);
         assert_eq!(sign_between(&Poly::from_ints(&[-141, 100]), &one, Some(&sqrt2), &Budget::new()), None);
         assert_eq!(sign_between(&Poly::default(), &one, None, &Budget::new()), Some(0));
-        assert_eq!([sqrt2.sign(&g), sqrt2.sign(&Poly::from_ints(&[-1, 1]))], [Some(0), Some(1)]);
+        assert_eq!([&g, &Poly::from_ints(&[-1, 1])].map(|p| sqrt2.sign(p, &Budget::new())), [Some(0), Some(1)]);
     }
 
     /// The sample lies above the last point: a root just below it does not count.
@@ -319,5 +339,24 @@ mod tests {
         assert_eq!(budget.left.get(), (1 << 35) + 3 * (1 << 24));
         budget.add_coefficients(u64::MAX);
         assert_eq!(budget.left.get(), u64::MAX);
+    }
+
+    /// Three coefficients by two: two steps, and a divisor of at most 3 bits.
+    #[test]
+    fn remainders_spend_the_budget() {
+        let (g, p) = (Poly::from_ints(&[1, 2, 3]), Poly::from_ints(&[-7, 2]));
+        let cost = (2 * 2 * 3 * 67 * 67) >> 9;
+        let with = |left: u64| {
+            let budget = Budget { left: Cell::new(left), is_spent: Cell::new(false) };
+            let is_told = root(&[-7, 2], (7, 2), (7, 2)).sign(&g, &budget).is_some();
+            (is_told, budget.is_spent(), budget.left.get())
+        };
+
+        assert_eq!(with(cost), (true, false, 0));
+        assert_eq!(with(cost - 1), (false, true, cost - 1));
+
+        // Nothing to divide costs nothing.
+        let free = Budget { left: Cell::new(0), is_spent: Cell::new(false) };
+        assert!(free.spend_remainder(&Poly::from_ints(&[5]), &p) && !free.is_spent());
     }
 }

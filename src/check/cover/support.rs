@@ -53,7 +53,7 @@ fn held(rows: &Rows, region: &Region, index: &[usize], leaf: &Support, budget: &
     let reason = |k: usize| leaf.reasons.get(k).ok_or(CoverFault::NoReason { reason: k, reasons: leaf.reasons.len() });
     let mut held = vec![None; 2 * roots.len() + 1];
     for (k, root) in roots.iter().enumerate() {
-        held[2 * k + 1] = system.holds(reason(leaf.points[k].reason)?, &|g| root.sign(g), 2 * k)?;
+        held[2 * k + 1] = system.holds(reason(leaf.points[k].reason)?, &|g| root.sign(g, budget), 2 * k)?;
     }
     for (k, cell) in leaf.cells.iter().enumerate() {
         held[2 * k + 2] = system.holds(reason(*cell)?, &|g| sign_between(g, &roots[k], roots.get(k + 1), budget), 2 * k + 1)?;

@@ -306,7 +306,7 @@ fn round(columns: Vec<Vec<f64>>, bits: i32) -> (IntegerMatrix, Vec<Vec<f64>>) {
 fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, bounds: [f64; 2], right: &[Vec<Vec<f64>>], left: &[Vec<Vec<f64>>]) -> Expansion {
     let n = blocks.slip.len();
     let residual = |given: &[Vec<Vec<f64>>; 2], list: &[Vec<Vec<f64>>]| -> Vec<Vec<Vec<f64>>> {
-        let mut out = vec![vec![vec![0.0; blocks.free.len()]; n]; list.len() + 1];
+        let mut out = vec![vec![vec![0.0; blocks.free.len()]; n]; (list.len() + 1).max(2)];
         for j in 0..n {
             out[0][j] = given[0][j].iter().zip(&given[1][j]).map(|(a, b)| a + c * b).collect();
             out[1][j].clone_from(&given[1][j]);
@@ -321,7 +321,7 @@ fn expansion(pencil: &Pencil, blocks: &Blocks, c: f64, bounds: [f64; 2], right: 
     };
     let (r, l) = (residual(&blocks.fs, right), residual(&blocks.sf, left));
     let row = |i: usize| to_f64(&row_factor(pencil, blocks.slip[i]));
-    let mut z = vec![vec![vec![0.0; n]; n]; 1 + right.len().max(left.len() + r.len() - 2).max(1)];
+    let mut z = vec![vec![vec![0.0; n]; n]; 1 + right.len().max((left.len() + r.len()).saturating_sub(2)).max(1)];
     for i in 0..n {
         for j in 0..n {
             let (p, q) = (blocks.slip[i], blocks.slip[j]);

@@ -43,7 +43,7 @@ pub(super) fn closed(problem: &Problem, pencil: &Pencil, prepared: &Prepared, ce
     let mut set = set.clone();
     let mut changed = false;
     for piece in 0..set.pieces.len() {
-        let expansion = &prepared.view.expansions[set.pieces[piece].anchor.unwrap_or(0)];
+        let expansion = prepared.view.expansion(set.pieces[piece].anchor);
         let own = leaves.iter().filter(|leaf| leaf.piece == piece);
         let roots: Vec<(usize, Root)> =
             own.filter_map(|leaf| Some((leaf.node, root(problem, pencil, prepared, expansion, &leaf.region)?))).collect();
@@ -82,7 +82,7 @@ fn open_leaves(problem: &Problem, prepared: &Prepared, set: &CompleteSet) -> Vec
 
     for (k, piece) in set.pieces.iter().enumerate() {
         let hi = piece.max.as_ref().map(|n| n.0.clone());
-        let is_searchable = set.condensation.is_none() || piece.anchor.is_some_and(|a| !view.expansions[a].reversed);
+        let is_searchable = set.condensation.is_none() || (piece.anchor.is_some() && !view.expansion(piece.anchor).reversed);
 
         let mut stack = vec![Region::whole(lo.clone(), hi.clone(), view.order())];
         for (node, what) in piece.tree.iter().enumerate() {

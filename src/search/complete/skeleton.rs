@@ -172,7 +172,7 @@ impl Prepared {
         let (lo, hi) = (to_f64(solution.value.lo()), to_f64(solution.value.hi()));
         let t = to_f64(&solution.value.mid());
         let piece = self.pieces.iter().position(|(max, _)| max.as_ref().is_none_or(|m| solution.value.lo() <= m)).unwrap_or(0);
-        let expansion = &self.view.expansions[self.pieces[piece].1.unwrap_or(0)];
+        let expansion = self.view.expansion(self.pieces[piece].1);
         let moves = |i: &usize| if solution.support.contains(i) { State::Moving } else { State::Rest };
         let states: Vec<State> = self.view.index.iter().map(moves).collect();
         let reach = (hi - lo).max(SAME_ROOT * t.abs()).max(f64::MIN_POSITIVE);

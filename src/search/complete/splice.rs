@@ -68,7 +68,7 @@ pub(super) fn all(
         if !mine || chosen.places().is_some_and(|leaves| leaves.range((k, 0)..(k + 1, 0)).next().is_none()) {
             return Found { items: piece.tree.iter().cloned().map(Item::Node).collect(), met: Vec::new() };
         }
-        let expansion = &prepared.view.expansions[piece.anchor.unwrap_or(0)];
+        let expansion = prepared.view.expansion(piece.anchor);
         let limit = |moving: &[usize]| beyond::limit(pencil, moving, expansion.reversed);
         let mut search = Search {
             view: &prepared.view,

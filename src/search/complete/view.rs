@@ -51,6 +51,12 @@ pub(super) struct Ends {
 }
 
 impl View {
+    /// The expansion of a piece with this anchor. Without a condensation there is one, and anchors are ignored.
+    pub(super) fn expansion(&self, anchor: Option<usize>) -> &Expansion {
+        let named = anchor.and_then(|k| self.expansions.get(k));
+        named.unwrap_or(&self.expansions[0])
+    }
+
     /// The view of a pencil without free variables.
     pub(super) fn of(pencil: &Pencil) -> View {
         let n = pencil.order();
