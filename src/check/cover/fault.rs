@@ -199,7 +199,7 @@ pub enum CoverFault {
         got: u64,
     },
     /// The signs of the support leaves take more work than the file's budget.
-    #[error("support: expected signs of cells within the budget of the file (spec/complete-set.md, Limits), got more work")]
+    #[error("support: expected signs within the budget of the file (spec/complete-set.md, Limits), got more work")]
     OutOfBudget,
     /// Free variables need a condensation, and none is wanted without them.
     #[error("condensation: expected {}", if *expected { "one, the problem has free variables" } else { "none, the problem has no free variables" })]
