@@ -140,9 +140,16 @@ fn change_outcome(certificate: &mut Value, rng: &mut ChaCha8Rng) {
         2 => root["outcome"] = json!({ "negative_x": index }),
         3 => root["outcome"] = json!({ "negative_y": index }),
         4 => root["outcome"] = json!({ "claim": index }),
-        5 => root["interval"][0] = window["min"].clone(),
-        _ if window["max"].is_null() => root["interval"][1] = json!(draw_rational(rng).to_string()),
-        _ => root["interval"][1] = window["max"].clone(),
+        5 => set_end(root, 0, window["min"].clone()),
+        _ if window["max"].is_null() => set_end(root, 1, json!(draw_rational(rng).to_string())),
+        _ => set_end(root, 1, window["max"].clone()),
+    }
+}
+
+/// Sets one end of a leaf's interval, if an earlier mutation left it that end.
+fn set_end(leaf: &mut Value, end: usize, to: Value) {
+    if let Some(place) = leaf.pointer_mut(&format!("/interval/{end}")) {
+        *place = to;
     }
 }
 
