@@ -4,8 +4,13 @@
 //! With S = 2 sym(T) cut to 40 bits, c_i what cutting and radius may take away from row i, and a
 //! shift s: if S - diag(c) - s I = LDL' + E exactly, D > 0 and s I + E is diagonally dominant, then
 //! S - diag(c) is definite, and so is every matrix of the family.
+//!
+//! A small matrix too close to a singular one for that is decided by elimination in long integers.
 
+use super::family::Matrix;
 use super::short::Short;
+use crate::exact::Integer;
+use num_traits::{One, Signed};
 
 /// Bits kept of S.
 const BITS: u32 = 40;
@@ -15,6 +20,60 @@ const UNIT: u32 = 34;
 const SHIFT: i128 = 1 << 8;
 /// Order at which sums of products could leave 128 bits.
 const MAX_ORDER: usize = 4096;
+
+/// Up to this order, and with entries of so many bits, a matrix is decided without a margin.
+const MAX_EXACT_ORDER: usize = 12;
+const MAX_EXACT_BITS: u64 = 1024;
+
+/// Is `sign` sym(M) definite on `moving`, whatever the radius takes away? `Err(k)`: the k-th variable of
+/// `moving` breaks it, or the matrix is too large and too close to a singular one to say.
+pub(super) fn long_definite(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) -> Result<(), usize> {
+    // Cut to what moves: it may be small beside the rest.
+    let short = Short::of(m, r, moving);
+    let all: Vec<usize> = (0..moving.len()).collect();
+    let verdict = short.map_or(Err(0), |block| positive_definite(&block, &all, sign));
+
+    if verdict.is_ok() || moving.len() > MAX_EXACT_ORDER {
+        return verdict;
+    }
+
+    let least = least_member(m, r, moving, sign);
+    let bits = least.iter().flatten().map(Integer::bits).max().unwrap_or(0);
+    if bits > MAX_EXACT_BITS { verdict } else { eliminate(least) }
+}
+
+/// 2 `sign` sym(M) on `moving`, less the row sums of twice the symmetric radius on its diagonal.
+fn least_member(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) -> Matrix {
+    let entry = |i: usize, j: usize| (&m[i][j] + &m[j][i]) * sign;
+    let mut least: Matrix = moving.iter().map(|&i| moving.iter().map(|&j| entry(i, j)).collect()).collect();
+
+    for (row, &i) in moving.iter().enumerate() {
+        let radius: Integer = moving.iter().map(|&j| &r[i][j] + &r[j][i]).sum();
+        least[row][row] -= radius;
+    }
+    least
+}
+
+/// Elimination without fractions (Bareiss): the pivots are the leading minors. `Err(k)`: minor k is not positive.
+fn eliminate(mut s: Matrix) -> Result<(), usize> {
+    let n = s.len();
+    let mut previous = Integer::one();
+
+    for k in 0..n {
+        let pivot = s[k][k].clone();
+        if !pivot.is_positive() {
+            return Err(k);
+        }
+        for i in k + 1..n {
+            for j in k + 1..n {
+                // The division is exact.
+                s[i][j] = (&pivot * &s[i][j] - &s[i][k] * &s[k][j]) / &previous;
+            }
+        }
+        previous = pivot;
+    }
+    Ok(())
+}
 
 /// `Err(k)`: the k-th variable of `moving` breaks it, or it is too close to say.
 pub(super) fn positive_definite(t: &Short, moving: &[usize], sign: i8) -> Result<(), usize> {
@@ -109,9 +168,7 @@ fn dominated(lower: &[Vec<i128>], l: &[Vec<i128>], d: &[i128], n: usize) -> Resu
 
 #[cfg(test)]
 mod tests {
-    use super::super::family::Matrix;
     use super::*;
-    use crate::exact::Integer;
     use num_traits::Zero;
 
     /// As a leaf does it: cut to what may move.
@@ -220,6 +277,55 @@ mod tests {
         };
         let m: Matrix = (0..4).map(|i| (0..4).map(|j| Integer::from(entry(i, j))).collect()).collect();
         assert_eq!(positive_definite(&m, &zero(4), &[0, 1, 2, 3], 1), Err(3));
+    }
+
+    /// T = [[1, 1 - e], [1 - e, 1]] with e = 2^-90, far below any margin: definite, and not with a radius of e.
+    #[test]
+    fn small_matrices_are_decided_without_a_margin() {
+        let one: Integer = Integer::one() << 90;
+        let m = vec![vec![one.clone(), &one - 1], vec![&one - 1, one.clone()]];
+        let singular = vec![vec![one.clone(), one.clone()], vec![one.clone(), one.clone()]];
+        let radius = |v: i64| vec![vec![Integer::from(v), Integer::zero()], vec![Integer::zero(), Integer::zero()]];
+
+        assert_eq!(positive_definite(&m, &zero(2), &[0, 1], 1), Err(1), "the margin is too small for short numbers");
+        assert_eq!(long_definite(&m, &zero(2), &[0, 1], 1), Ok(()));
+        assert_eq!(long_definite(&singular, &zero(2), &[0, 1], 1), Err(1));
+
+        // The determinant 2e - e^2 in units of e: a radius of 1 takes 1 off one diagonal entry, and e is left.
+        assert_eq!(long_definite(&m, &radius(1), &[0, 1], 1), Ok(()));
+        assert_eq!(long_definite(&m, &radius(2), &[0, 1], 1), Err(1));
+
+        let negative: Matrix = m.iter().map(|row| row.iter().map(|v| -v).collect()).collect();
+        assert_eq!([long_definite(&negative, &zero(2), &[0, 1], -1), long_definite(&m, &zero(2), &[0, 1], -1)], [Ok(()), Err(0)]);
+    }
+
+    /// Beyond the largest order of elimination, or its longest entries, the margin is asked for.
+    #[test]
+    fn elimination_has_limits() {
+        let tight = |n: usize, bits: u64| -> Matrix {
+            let one: Integer = Integer::one() << bits;
+            let entry = |i: usize, j: usize| match (i, j) {
+                (0, 1) | (1, 0) => &one - 1,
+                _ if i == j => one.clone(),
+                _ => Integer::zero(),
+            };
+            (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+        };
+        let decide = |n: usize, bits: u64| long_definite(&tight(n, bits), &zero(n), &(0..n).collect::<Vec<_>>(), 1);
+
+        // Twice the entry 2^b has b + 2 bits.
+        assert_eq!([decide(12, 1022), decide(12, 1023), decide(13, 90)], [Ok(()), Err(1), Err(1)]);
+    }
+
+    /// The minors of this one are 2, 3, 4 by hand, and with 2/3 in its corner the last is zero.
+    #[test]
+    fn pivots_of_the_elimination_are_the_minors() {
+        let of = |corner: i64| {
+            let rows = [[6, -3, 0], [-3, 6, -3], [0, -3, corner]];
+            rows.map(|row| row.map(Integer::from).to_vec()).to_vec()
+        };
+        // Times three: the determinant is 27 corner - 54.
+        assert_eq!([eliminate(of(6)), eliminate(of(3)), eliminate(of(2)), eliminate(of(1))], [Ok(()), Ok(()), Err(2), Err(2)]);
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! Leaves in which nothing lies: a Farkas vector, or a definite symmetric part, at both ends. Short
 //! numbers are tried first; where they cannot tell, `ends` gives the long ones.
 
-use super::definite::positive_definite;
+use super::definite::{long_definite, positive_definite};
 use super::family::Ends;
 use super::short::Short;
 use super::{CoverFault, Region, State};
@@ -75,16 +75,14 @@ pub(super) fn definite(
         return Ok(());
     }
     let ends = ends()?;
-    let all: Vec<usize> = (0..moving.len()).collect();
     for end in 0..2 {
         let (m, r) = (&ends.m[end], &ends.r[end]);
         let is_zero = || moving.iter().all(|&i| moving.iter().all(|&j| (&m[i][j] + &m[j][i]).is_zero() && r[i][j].is_zero()));
         if end == 1 && ends.infinite && is_zero() {
             continue;
         }
-        // Cut to what moves: it may be small beside the rest.
-        let verdict = Short::of(m, r, &moving).ok_or(0).and_then(|block| positive_definite(&block, &all, sign));
-        verdict.map_err(|p| CoverFault::NotDefinite { index: index[moving[p]], end: ENDS[end] })?;
+        let not_definite = |p: usize| CoverFault::NotDefinite { index: index[moving[p]], end: ENDS[end] };
+        long_definite(m, r, &moving, sign).map_err(not_definite)?;
     }
     Ok(())
 }
