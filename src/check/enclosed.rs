@@ -8,7 +8,7 @@
 
 use super::AcceptedClaim;
 use super::exact_solution::{index_set, within};
-use super::pencil::Rows;
+use super::pencil::{Row, Rows};
 use super::reason::Reason;
 use crate::certificate::EnclosedSolution;
 use crate::exact::{Integer, Interval, Rational, common_denominator};
@@ -50,9 +50,8 @@ pub(super) fn check(rows: &Rows, window: &Window, claim: &EnclosedSolution) -> R
             return Err(Reason::XNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
         }
     }
-    let x: Vec<Option<Interval>> = place(rows.order(), &active, boxed);
     for index in (0..rows.order()).filter(|i| active.binary_search(i).is_err()) {
-        let image = row_over_box(&rows.rows[index], &x, &value);
+        let image = system.row_over_box(&rows.rows[index]);
         if image.certain_sign() != 1 {
             return Err(Reason::YNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
         }
@@ -73,23 +72,15 @@ fn place<T: Clone>(order: usize, active: &[usize], at: impl Fn(usize) -> T) -> V
     out
 }
 
-/// Encloses row of (A + tB) x over the box.
-fn row_over_box(row: &super::pencil::Row, x: &[Option<Interval>], t: &Interval) -> Interval {
-    let mut sum = Interval::point(Rational::zero());
-    for (j, a, b) in row {
-        if let Some(x_j) = &x[*j] {
-            let coefficient =
-                Interval::point(Rational::from_integer(a.clone())).add(&Interval::point(Rational::from_integer(b.clone())).mul(t));
-            sum = sum.add(&coefficient.mul(x_j));
-        }
-    }
-    sum
-}
-
 /// F(c), F'(c) and d, all integers: F in units of 1/unit^2, F' and d in units given beside them.
 struct Newton {
     /// Common denominator of centre and radius.
     unit: Integer,
+    /// unit c and unit r; the last entry is that of t.
+    center: Vec<Integer>,
+    radius: Vec<Integer>,
+    /// Where a variable stands among the unknowns, if it is active.
+    place: Vec<Option<usize>>,
     /// unit^2 F(c).
     f: Vec<Integer>,
     /// unit F'(c), sparse rows (unknown, value).
@@ -128,14 +119,38 @@ impl Newton {
         f.push((norm - &unit) * &unit);
         jacobian.push((0..last).filter(slip).map(|k| (k, unit.clone())).collect());
         d.push(Integer::zero());
-        Newton { unit, f, jacobian, d }
+        Newton { unit, center: c, radius: r, place, f, jacobian, d }
+    }
+
+    /// Encloses a row of (A + tB) x over the box. With e_j = A_ij + c_t B_ij the row at z is
+    /// sum e_j c_j + sum e_j (x_j - c_j) + (t - c_t) sum B_ij c_j + (t - c_t) sum B_ij (x_j - c_j).
+    fn row_over_box(&self, row: &Row) -> Interval {
+        let last = self.center.len() - 1;
+        let (center_t, radius_t) = (&self.center[last], &self.radius[last]);
+
+        // All in units of 1 / unit^2.
+        let mut middle = Integer::zero();
+        let mut slack = Integer::zero();
+        let mut slope = Integer::zero(); // sum B_ij c_j
+        for (j, a, b) in row {
+            let Some(k) = self.place[*j] else { continue }; // x_j = 0
+            let e = a * &self.unit + b * center_t;
+            middle += &e * &self.center[k];
+            slack += e.abs() * &self.radius[k];
+            slack += b.abs() * &self.radius[k] * radius_t;
+            slope += b * &self.center[k];
+        }
+        slack += slope.abs() * radius_t;
+
+        let unit = &self.unit * &self.unit;
+        let end = |v: Integer| Rational::new(v, unit.clone());
+        ball(&end(middle), &end(slack))
     }
 
     /// |Y F(c)| + |I - Y F'(c)| r + |Y| d < r, in units of 1 / (2^exponent unit^2).
     fn contracts(&self, claim: &EnclosedSolution) -> Result<(), Reason> {
         let n = self.f.len();
         let one = (Integer::one() << claim.exponent) * &self.unit; // 1 in units of Y F'
-        let radius: Vec<Integer> = claim.radius.iter().map(|r| r.0.numer() * (&self.unit / r.0.denom())).collect();
         for (index, y) in claim.preconditioner.iter().enumerate() {
             let mut g = vec![Integer::zero(); n]; // row of I - Y F'(c)
             g[index] = one.clone();
@@ -147,9 +162,9 @@ impl Newton {
                     g[*k] -= y_i * value;
                 }
             }
-            let g_r: Integer = g.iter().zip(&radius).map(|(g, r)| g.abs() * r).sum();
+            let g_r: Integer = g.iter().zip(&self.radius).map(|(g, r)| g.abs() * r).sum();
             let left = y_f.abs() + g_r + y_d;
-            let right = &radius[index] * &one;
+            let right = &self.radius[index] * &one;
             if left >= right {
                 let scale = &one * &self.unit;
                 let got = Rational::new(left, scale.clone());
@@ -157,5 +172,44 @@ impl Newton {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+    use super::*;
+    use crate::model::file::Number;
+    use crate::exact::rational;
+
+    /// Two active variables, and a third at rest whose row is (1 + 2t) x_0 + (-1 + t) x_1.
+    fn resting_row() -> Rows {
+        let of = |v: [[i64; 2]; 2]| -> Row { v.iter().enumerate().map(|(j, [a, b])| (j, (*a).into(), (*b).into())).collect() };
+        Rows {
+            rows: vec![of([[1, 0], [0, 0]]), of([[0, 0], [1, 0]]), of([[1, 2], [-1, 1]])],
+            factor: vec![Integer::one(); 3],
+            is_free: vec![false; 3],
+        }
+    }
+
+    fn numbers(list: [Rational; 3]) -> Vec<Number> {
+        list.map(Number).to_vec()
+    }
+
+    /// At c = (1/2, 1/2), t = 1: e = (3, 0), sum e c = 3/2 and sum B c = 3/2. With radii 1/8 and r_t = 1/4 the slack
+    /// is 3/8 + 3/2 1/4 + 3 1/8 1/4 = 27/32.
+    #[test]
+    fn a_row_over_the_box_by_hand() {
+        let rows = resting_row();
+        let claim = EnclosedSolution {
+            support: vec![0, 1],
+            center: numbers([rational(1, 2), rational(1, 2), rational(1, 1)]),
+            radius: numbers([rational(1, 8), rational(1, 8), rational(1, 4)]),
+            preconditioner: vec![],
+            exponent: 0,
+        };
+        let image = Newton::new(&rows, &claim, &[0, 1]).row_over_box(&rows.rows[2]);
+        assert_eq!((image.lo().clone(), image.hi().clone()), (rational(21, 32), rational(75, 32)));
     }
 }
