@@ -304,6 +304,11 @@ def place_of(word, last=None):
     return int(word)
 
 
+def words_of(line):
+    """Words of a Matrix Market line: blanks and tabs stand between them, and nothing else."""
+    return [word for word in re.split("[ \t]+", line) if word]
+
+
 def read_market(name, folder, what):
     if not isinstance(name, str) or os.path.isabs(name) or ".." in re.split(r"[/\\]", name):
         raise Unreadable(f"{what}: the file must be beside or below the problem file")
@@ -315,11 +320,11 @@ def read_market(name, folder, what):
             lines = [line.removesuffix("\r") for line in f.read().split("\n")]
     except (OSError, ValueError) as e:
         raise Unreadable(f"{what}: {e}") from None
-    head = lines[0].lower().split() if lines else []
+    head = words_of(lines[0].lower()) if lines else []
     if len(head) != 5 or head[:2] != ["%%matrixmarket", "matrix"] or head[2] not in ("coordinate", "array") \
             or head[3] not in ("real", "integer", "double") or head[4] not in ("general", "symmetric"):
         raise Unreadable(f"{what}: Matrix Market header")
-    body = [words for line in lines[1:] if not line.startswith("%") and (words := line.split())]
+    body = [words for line in lines[1:] if not line.startswith("%") and (words := words_of(line))]
     symmetric = head[4] == "symmetric"
     if not body or len(body[0]) != (3 if head[2] == "coordinate" else 2):
         raise Unreadable(f"{what}: Matrix Market sizes")
@@ -426,26 +431,23 @@ class Problem:
         if self.unknown == "lambda2" and (m is None or mu is None):
             raise Unreadable("lambda2 needs mass and friction")
         text = ["system"] + ([] if mu is None else [f"friction {mu}"])
-        held, trial, test, slips, sticks = set(), [], [], [], []
+        taken, held, trial, test, slips, sticks = set(), set(), [], [], [], []
         for p in sequence(particles):
             t, n, state, tangent, normal, sign = self.read_particle(p, order, mu)
-            if held & {t, n} or t == n:
+            if taken & {t, n} or t == n:
                 raise Unreadable("a dof in two particles")
+            taken |= {t, n}
             text += [f"particle {t} {n} {state}" + (f" {sign}" if state == "slip" else "")]
             for name, vector in (("tangent", tangent), ("normal", normal)):
                 text.append(" ".join([name] + [f"{d} {vector[d]}" for d in vector if vector[d]]))
-            held |= {t, n}
-            if state == "free":
-                held -= {t, n}
-                self.loose = getattr(self, "loose", set()) | {t, n}
-            elif state == "stick":
+            if state != "free":
+                held |= {t, n}
+            if state == "stick":
                 sticks += [t, n]
             elif state == "slip":  # E10: v = -S x tangent; E11: y = -(S w_T + mu w_N)
                 slips.append((tangent, normal, sign))
                 trial.append({d: -sign * c for d, c in tangent.items()})
                 test.append(({d: -sign * c for d, c in tangent.items()}, {d: -c for d, c in normal.items()}))
-        if held & getattr(self, "loose", set()):
-            raise Unreadable("a dof in two particles")
         free = [d for d in range(order) if d not in held]
         self.system = k.rows, None if m is None else m.rows, mu, slips, sticks, free
         trial = [{d: Q(1)} for d in free] + trial
@@ -456,8 +458,8 @@ class Problem:
         else:  # E21
             self.a, self.b = project([u for u, _ in test], k.rows, trial), project([w for _, w in test], k.rows, trial)
         self.n, self.free = len(trial), list(range(len(free)))
-        if self.n == 0:
-            raise Unreadable("no unknowns")
+        if not slips:
+            raise Unreadable("particles: expected one in impending slip")
         for name, x in (("stiffness", k), ("mass", m)):
             if x is not None:
                 e = x.entries()
@@ -1014,7 +1016,7 @@ class CondensedPencil:
         r0, r1 = ([[x + cost + -(-(extra * b).numerator // (extra * b).denominator) for x, b in zip(rr, rb)] for rr, rb in zip(r, bend)] for r in (r0, r1))
         v, l, rl, r = (up(n, delta) for n in (nv, nl, nrl, nr))
         dv, dl, drl, dr = (up(n, delta, 1) for n in (nv, nl, nrl, nr))
-        slope = outer((one, dv, rl), (one, v, drl), (1 / s, dl, r), (1 / s, l, dr), (norm / (s * s), l, r))
+        slope = outer((one, dv, rl), (one, v, drl), (1 / s, dl, r), (1 / s, l, dr), (norm / (sigma * s), l, r))
         # Rounding of Z(lo), Z(hi) and of the coefficients of Z' on top of the two items of the page.
         rough = sum((k * delta ** (k - 1) for k in range(1, len(z))), Q(0))
         d = [[ceil(width * width * b + width * (x + rough)) + 2 * cost for x, b in zip(rx, rb)] for rx, rb in zip(slope, bend)]

@@ -180,8 +180,8 @@ mod tests {
     #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
     use super::*;
-    use crate::model::file::Number;
     use crate::exact::rational;
+    use crate::model::file::Number;
 
     /// Two active variables, and a third at rest whose row is (1 + 2t) x_0 + (-1 + t) x_1.
     fn resting_row() -> Rows {

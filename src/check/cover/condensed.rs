@@ -23,6 +23,8 @@ use std::collections::BTreeMap;
 const MAX_DEGREE: usize = 8;
 /// Largest binary exponent of an expansion.
 const MAX_EXPONENT: u32 = 1 << 12;
+/// Fraction bits of norms of columns: the numbers of an expansion may be small integers.
+const NORM_BITS: u32 = 32;
 
 /// Hypotheses, then one expansion per anchor.
 pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expanded>, CoverFault> {
@@ -160,6 +162,8 @@ impl Blocks {
         let largest = self.bits.iter().copied().max().unwrap_or(1);
         let unit = (&self.common * q) << (u64::from(e_w + e_v) + largest);
         let weight = (sigma * Rational::from_integer(&self.common * q)).recip();
+        // Each remainder is a product of two norms.
+        let norm_unit = &unit << (2 * NORM_BITS);
         let raised = |i: usize| Integer::one() << (largest - self.bits[i]);
         let z = z.into_iter().map(|m| m.into_iter().enumerate().map(|(i, row)| row.into_iter().map(|v| v * raised(i)).collect()).collect());
         Ok(Expanded {
@@ -169,8 +173,8 @@ impl Blocks {
             right: norms(&r, self.slip),
             v: norms(&v, self.slip),
             rounding: norms(rounding, self.slip),
-            rounding_weight: (0..self.slip).map(|i| Rational::new(raised(i), unit.clone())).collect(),
-            weight: (0..self.slip).map(|i| &weight * Rational::new(raised(i), unit.clone())).collect(),
+            rounding_weight: (0..self.slip).map(|i| Rational::new(raised(i), norm_unit.clone())).collect(),
+            weight: (0..self.slip).map(|i| &weight * Rational::new(raised(i), norm_unit.clone())).collect(),
             unit,
             drift: self.drift(sigma),
             gain: tau / sigma,
@@ -268,11 +272,11 @@ fn residual(f: &Linear, c: &Linear, w: &[Matrix], e: u32, cols: usize) -> Vec<Ma
     out
 }
 
-/// Upper bounds of the Euclidean norm of each column, coefficient by coefficient.
+/// Upper bounds of the Euclidean norm of each column, coefficient by coefficient, in units of 2^-[`NORM_BITS`].
 fn norms(list: &[Matrix], cols: usize) -> Vec<Vec<Integer>> {
     let norm = |m: &Matrix, j: usize| {
         let square: Integer = m.iter().map(|row| &row[j] * &row[j]).sum();
-        if square.is_zero() { square } else { square.sqrt() + 1 }
+        if square.is_zero() { square } else { (square << (2 * NORM_BITS)).sqrt() + 1 }
     };
     list.iter().map(|m| (0..cols).map(|j| norm(m, j)).collect()).collect()
 }

@@ -19,7 +19,7 @@ use crate::model::ModelError;
 pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, ModelError> {
     let mut lines = text.lines().enumerate().map(|(i, l)| (i + 1, l));
     let (coordinate, symmetric) = banner(what, lines.next().map_or("", |l| l.1))?;
-    let mut lines = lines.filter(|(_, l)| !l.trim().is_empty() && !l.starts_with('%'));
+    let mut lines = lines.filter(|(_, l)| words_of(l).next().is_some() && !l.starts_with('%'));
     let end = text.lines().count() + 1;
     let reader = Reader { what };
     let (line, size) = lines.next().unwrap_or((end, ""));
@@ -54,7 +54,7 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
 
 /// `%%MatrixMarket matrix {coordinate|array} {real|integer|double} {general|symmetric}`.
 fn banner(what: &'static str, line: &str) -> Result<(bool, bool), ModelError> {
-    let words: Vec<String> = line.split_whitespace().map(str::to_lowercase).collect();
+    let words: Vec<String> = words_of(line).map(str::to_lowercase).collect();
     let words: Vec<&str> = words.iter().map(String::as_str).collect();
     match words[..] {
         [
@@ -100,6 +100,11 @@ impl Places {
     }
 }
 
+/// The words of a line: blanks and tabs stand between them, and nothing else.
+fn words_of(line: &str) -> impl Iterator<Item = &str> {
+    line.split([' ', '\t']).filter(|word| !word.is_empty())
+}
+
 /// An index or a size: digits and nothing else.
 fn index(word: &str) -> Option<usize> {
     let is_plain = word.bytes().all(|b| b.is_ascii_digit());
@@ -117,8 +122,8 @@ impl Reader {
     }
 
     fn integers(&self, line: usize, text: &str, count: usize) -> Result<Vec<usize>, ModelError> {
-        let numbers: Vec<usize> = text.split_whitespace().map_while(index).collect();
-        let words = text.split_whitespace().count();
+        let numbers: Vec<usize> = words_of(text).map_while(index).collect();
+        let words = words_of(text).count();
         if numbers.len() != count || words != count {
             return Err(self.complain(line, "a size line", text));
         }
@@ -126,7 +131,7 @@ impl Reader {
     }
 
     fn entry(&self, line: usize, text: &str, places: &Places, k: usize) -> Result<(usize, usize, Rational), ModelError> {
-        let words: Vec<&str> = text.split_whitespace().collect();
+        let words: Vec<&str> = words_of(text).collect();
         let (i, j, value) = match (places.coordinate, &words[..]) {
             (true, [i, j, value]) => {
                 let from_one = |w: &str| index(w).and_then(|v| v.checked_sub(1));

@@ -95,7 +95,7 @@ fn read_at_most(limit: u64, what: &'static str, name: &str, source: impl std::io
 /// The path of a file that a problem names: beside the problem, a regular file.
 ///
 /// # Errors
-/// [`ModelError::Unreadable`] for absolute names, names with `..`, devices and folders.
+/// [`ModelError::Unreadable`] for absolute names, names with `..`, devices, folders and links out of the folder.
 pub(super) fn beside(what: &'static str, folder: &Path, name: &str) -> Result<std::path::PathBuf, ModelError> {
     use std::path::Component;
     let refused = |problem: &str| ModelError::Unreadable { what, path: name.chars().take(200).collect(), problem: problem.into() };
@@ -105,6 +105,13 @@ pub(super) fn beside(what: &'static str, folder: &Path, name: &str) -> Result<st
     let path = folder.join(name);
     if path.exists() && !path.is_file() {
         return Err(refused("expected a regular file"));
+    }
+    // The folder of a plain file name is the empty path.
+    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    if let (Ok(real), Ok(real_folder)) = (path.canonicalize(), here.canonicalize())
+        && !real.starts_with(&real_folder)
+    {
+        return Err(refused("expected a file beside the problem file, got a link out of its folder"));
     }
     Ok(path)
 }

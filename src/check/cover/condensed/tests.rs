@@ -114,13 +114,13 @@ fn q(v: &Integer) -> Rational {
     Rational::from_integer(v.clone())
 }
 
-/// The integer norms of the columns of `p`, whose column j is multiplied by factor[j].
+/// The norms of the columns of `p`, whose column j is multiplied by factor[j], as integers in units of 2^-32.
 fn column_norms(p: &Poly, k: usize, factor: &[Rational; 2]) -> Vec<Integer> {
     let Some(m) = p.get(k) else { return vec![Integer::zero(); 2] };
     let of = |j: usize| {
         let square: Rational = (0..2).map(|f| &m[f][j] * &factor[j]).map(|v| &v * &v).sum();
         assert!(square.is_integer());
-        let root = square.to_integer().sqrt();
+        let root = (square.to_integer() << 64u32).sqrt();
         if square.is_zero() { root } else { root + 1 }
     };
     vec![of(0), of(1)]
@@ -165,7 +165,7 @@ fn check_expansion(p: &(Dense, Dense), anchor: &Anchor) {
     }
     // Rows of the pencil are cut to [0, 1): l' F^-1 r <= |l||r| / sigma and V'r, out of their units into those.
     for i in 0..2 {
-        let cut = two(e_w + e_v) * q(&(Integer::one() << bits[i]));
+        let cut = two(e_w + e_v) * q(&(Integer::one() << bits[i])) * two(64);
         assert_eq!(e.weight[i], (rational(1, 2) * &common * &common * &cut).recip());
         assert_eq!(e.rounding_weight[i], (&common * cut).recip());
     }
