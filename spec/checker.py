@@ -551,6 +551,25 @@ def remainder(y, p):
     return y
 
 
+def remainders(list_of_y, p):
+    """All of them mod p, multiplied by one positive number, if one is much longer than p."""
+    steps = max(map(len, list_of_y), default=0) + 1 - len(p)
+    if steps <= 2:
+        return list_of_y
+    out = []
+    for y in list_of_y:
+        y = strip(list(y))
+        for _ in range(steps):
+            lead, shift = (y[-1], len(y) - len(p)) if len(y) >= len(p) else (0, 0)
+            y = [c * p[-1] for c in y]
+            if lead:
+                for i, c in enumerate(p):
+                    y[shift + i] -= lead * c
+            y = strip(y)
+        out.append(y)
+    return out
+
+
 def ascending(items, allowed):
     demand(all(i < j for i, j in zip(items, items[1:])) and set(items) <= set(allowed), "1: not an ascending list of complementarity variables")
 
@@ -586,11 +605,11 @@ def exact_solution(p, rows, window, obj):
     ascending(biactive, p.s)
     demand(not set(support) & set(biactive), "1: a variable both in the support and biactive")
     demand(len(x) == p.n, "1: one polynomial per variable")
-    longest = max(map(len, x))
     poly = isolated(poly, x, a, b)
     inside(window, a, b, "3")
     scale = lcm(1, *(c.denominator for r in x for c in r))
-    x = [[int(c * scale) for c in r] for r in x]
+    x = remainders([[int(c * scale) for c in r] for r in x], poly)
+    longest = max(map(len, x))
     reduced = [remainder(r, poly) for r in x]
     for i in p.s:  # 4
         if i in set(support):
@@ -626,6 +645,8 @@ def lifted_solution(p, rows, window, obj):
     demand(len(v) == len(w) == len(k), "lifted 1: one polynomial per dof")
     poly = isolated(poly, v + w, a, b)
     inside(window, a, b, "3")
+    both = remainders(v + w, poly)
+    v, w = both[:len(v)], both[len(v):]
 
     def plus(*terms):
         """A positive multiple of the sum of factor t^shift g, mod p."""

@@ -9,7 +9,7 @@ use super::AcceptedClaim;
 use super::pencil::{Row, Rows};
 use super::reason::Reason;
 use crate::certificate::ExactSolution;
-use crate::exact::{Integer, Interval, Poly, Rational};
+use crate::exact::{Integer, Interval, Poly, Rational, common_denominator};
 use crate::model::Window;
 use crate::model::file::Number;
 use num_integer::Integer as _;
@@ -37,8 +37,9 @@ pub(super) fn check(rows: &Rows, window: &Window, claim: &ExactSolution) -> Resu
         return Err(Reason::Length { what: "x", expected: rows.order(), got: claim.x.len() });
     }
     let alpha = Alpha { p, value };
-    check_x(rows, claim, &alpha)?;
-    check_y(rows, claim, &alpha)?;
+    let x = coefficients(&claim.x, &alpha.p);
+    check_x(rows, claim, &alpha, &x)?;
+    check_y(rows, claim, &alpha, &x)?;
     Ok(AcceptedClaim { support: claim.support.clone(), value: alpha.value })
 }
 
@@ -124,18 +125,17 @@ impl Alpha {
     }
 }
 
-fn check_x(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reason> {
+fn check_x(rows: &Rows, claim: &ExactSolution, alpha: &Alpha, x: &[Vec<Rational>]) -> Result<(), Reason> {
     let mut non_zero = !claim.support.is_empty();
-    for index in 0..rows.order() {
-        let x = coefficients(&claim.x[index]);
+    for (index, x) in x.iter().enumerate() {
         if rows.is_free[index] {
-            non_zero |= alpha.enclose(&x).certain_sign() != 0;
+            non_zero |= alpha.enclose(x).certain_sign() != 0;
         } else if claim.support.binary_search(&index).is_err() {
-            if !alpha.remainder(&x).is_zero() {
+            if !alpha.remainder(x).is_zero() {
                 return Err(Reason::XOffSupport { index });
             }
         } else {
-            let image = alpha.enclose(&x);
+            let image = alpha.enclose(x);
             if image.certain_sign() != 1 {
                 return Err(Reason::XNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
             }
@@ -144,10 +144,9 @@ fn check_x(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reas
     if non_zero { Ok(()) } else { Err(Reason::XZero) }
 }
 
-fn check_y(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reason> {
-    let x: Vec<Vec<Rational>> = claim.x.iter().map(|p| coefficients(p)).collect();
+fn check_y(rows: &Rows, claim: &ExactSolution, alpha: &Alpha, x: &[Vec<Rational>]) -> Result<(), Reason> {
     for (index, row) in rows.rows.iter().enumerate() {
-        let y = alpha.remainder(&times(row, &x));
+        let y = alpha.remainder(&times(row, x));
         let is_zero = y.is_zero();
         if rows.is_free[index] || claim.support.binary_search(&index).is_ok() {
             if !is_zero {
@@ -170,8 +169,26 @@ fn check_y(rows: &Rows, claim: &ExactSolution, alpha: &Alpha) -> Result<(), Reas
     Ok(())
 }
 
-fn coefficients(list: &[Number]) -> Vec<Rational> {
-    list.iter().map(|n| n.0.clone()).collect()
+/// The polynomials of a list. Where one is much longer than p, all of them modulo p, times one positive number: many
+/// rows then do not divide it once each.
+pub(super) fn coefficients<'a>(list: impl IntoIterator<Item = &'a Vec<Number>> + Clone, p: &Poly) -> Vec<Vec<Rational>> {
+    let plain = |g: &Vec<Number>| g.iter().map(|n| n.0.clone()).collect::<Vec<Rational>>();
+    let coefficients = p.coeffs().len();
+    let longest = list.clone().into_iter().map(Vec::len).max().unwrap_or(0);
+
+    if longest <= coefficients + FREE_EXCESS {
+        return list.into_iter().map(plain).collect();
+    }
+    let steps = longest + 1 - coefficients;
+    list.into_iter().map(|g| reduced(&plain(g), p, steps)).collect()
+}
+
+/// g modulo p, times |lead(p)|^steps.
+fn reduced(g: &[Rational], p: &Poly, steps: usize) -> Vec<Rational> {
+    let common = common_denominator(g);
+    let integral = g.iter().map(|c| c.numer() * (&common / c.denom())).collect();
+    let remainder = Poly::new(integral).pseudo_rem_steps(p, steps);
+    remainder.coeffs().iter().map(|c| Rational::new(c.clone(), common.clone())).collect()
 }
 
 /// A row of A + tB times x, as a polynomial in t.
@@ -237,6 +254,21 @@ mod tests {
         assert_eq!([of(4, 4, (edge - 1, 1)), of(4, 4, (edge / 2, edge / 2))], [Ok(()), Ok(())]);
         assert_eq!(of(4, 4, (edge, 1)), large(size, 1 << 21, (1 << 21) + 8));
         assert_eq!(of(4, 4, (edge / 2, edge / 2 + 1)), large(size, 1 << 21, (1 << 21) + 8));
+    }
+
+    /// By hand: t^3 and 1/2 + t modulo 2t - 3 are 27/8 and 2, times 2^3. Short polynomials stay as they are.
+    #[test]
+    fn long_polynomials_are_reduced_by_one_factor() {
+        let p = Poly::new(vec![(-3).into(), 2.into()]);
+        let list = |polynomials: &[&[Rational]]| -> Vec<Vec<Number>> {
+            polynomials.iter().map(|g| g.iter().cloned().map(Number).collect()).collect()
+        };
+
+        let long = list(&[&[whole(0), whole(0), whole(0), whole(1)], &[rational(1, 2), whole(1)], &[]]);
+        assert_eq!(coefficients(&long, &p), [vec![whole(27)], vec![whole(16)], vec![]]);
+
+        let short = list(&[&[whole(0), whole(0), whole(1)], &[rational(1, 2)]]);
+        assert_eq!(coefficients(&short, &p), [vec![whole(0), whole(0), whole(1)], vec![rational(1, 2)]]);
     }
 
     /// One coefficient more than p is free for numbers of any length; each further one counts with the bits.

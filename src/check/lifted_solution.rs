@@ -6,12 +6,11 @@
 //! S w_T + mu w_N <= 0, their product zero with `support` and `biactive` saying which; v != 0.
 
 use super::AcceptedClaim;
-use super::exact_solution::{Alpha, bounded, index_set, isolate, within};
+use super::exact_solution::{Alpha, bounded, coefficients, index_set, isolate, within};
 use super::pencil::Rows;
 use super::reason::Reason;
 use crate::certificate::LiftedSolution;
 use crate::exact::{Poly, Rational, Sparse};
-use crate::model::file::Number;
 use crate::model::{Body, ContactState, Direction, Particle, Problem, System, Unknown, Window};
 use num_traits::{One, Zero};
 
@@ -28,8 +27,9 @@ pub(super) fn check(problem: &Problem, rows: &Rows, window: &Window, claim: &Lif
             return Err(Reason::Length { what, expected: system.dofs(), got: list.len() });
         }
     }
-    let dense = |list: &[Vec<Number>]| list.iter().map(|p| p.iter().map(|n| n.0.clone()).collect()).collect();
-    let lines = Lines { system, unknown: problem.unknown(), alpha: Alpha { p, value }, v: dense(&claim.v), w: dense(&claim.w) };
+    let mut v = coefficients(claim.v.iter().chain(&claim.w), &p);
+    let w = v.split_off(claim.v.len());
+    let lines = Lines { system, unknown: problem.unknown(), alpha: Alpha { p, value }, v, w };
     lines.motion()?;
     let mut position = lines.free()?; // slip variables follow the free ones in the pencil
     for (index, particle) in system.particles().iter().enumerate() {

@@ -25,7 +25,7 @@ impl Poly {
 
     /// The remainder of `self` by `divisor` times |lead(divisor)|^steps: with one number of steps for
     /// all entries a vector keeps its direction. `steps` is at least deg self - deg divisor + 1.
-    pub(super) fn pseudo_rem_steps(&self, divisor: &Poly, steps: usize) -> Poly {
+    pub(crate) fn pseudo_rem_steps(&self, divisor: &Poly, steps: usize) -> Poly {
         let m = divisor.coeffs().len();
         let (lead, sign) = (divisor.leading().abs(), divisor.leading().signum());
         let mut rest = self.clone();

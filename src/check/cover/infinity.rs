@@ -161,4 +161,17 @@ mod tests {
         let refused = null_vector(&mass, &[1], true, false, &x(&[-3, 1]));
         assert!(matches!(refused, Err(CoverFault::NotAtInfinity { expected: "free rows that are zero in B", index: 0 })));
     }
+
+    /// The moving row of (1, 1) vanishes and the free one does not: no null vector, in either expansion.
+    #[test]
+    fn a_null_vector_at_infinity_meets_the_free_rows() {
+        let x = [Integer::one(), Integer::one()];
+        let unbalanced = Err(CoverFault::NotAtInfinity { expected: "B x = 0 on the active rows", index: 0 });
+
+        let by_a = rows(&[&[(2, 0), (-1, 0)], &[(1, 4), (1, -4)]], &[0]);
+        assert_eq!(null_vector(&by_a, &[1], true, false, &x), unbalanced);
+
+        let by_b = rows(&[&[(2, 1), (-1, 3)], &[(1, 4), (1, -4)]], &[0]);
+        assert_eq!(null_vector(&by_b, &[1], true, true, &x), unbalanced);
+    }
 }

@@ -107,6 +107,21 @@ fn a_farkas_vector_may_vanish_on_some_columns() {
     assert_eq!(none(&[&[-1], &[1], &[]]), fault("w'T of one sign and not zero", 0));
 }
 
+/// y_1 = x_0 and y_2 = 0: x_0 > 0 solves. A weight on either resting row asks for w'T <= 0, wherever the other one stands.
+#[test]
+fn one_weight_on_a_resting_row_makes_a_farkas_vector_one_sided() {
+    let fault = Err(CoverFault::Place { place: 0, expected: "w'T <= 0 on the moving columns", index: 0 });
+    let none = |rows: &Rows, w: &[&[i64]]| {
+        let leaf = Support { points: vec![at(0, 0)], cells: vec![0], reasons: vec![Exact::None(polynomials(w))] };
+        verdict(rows, &region(0, None, &[0], 3), &leaf).map(|held| held.len())
+    };
+
+    let empty: &[Pair] = &[(0, 0), (0, 0), (0, 0)];
+    let first: &[Pair] = &[(1, 0), (0, 0), (0, 0)];
+    assert_eq!(none(&rows(&[empty, first, empty]), &[&[], &[1], &[]]), fault);
+    assert_eq!(none(&rows(&[empty, empty, first]), &[&[], &[], &[1]]), fault);
+}
+
 /// x_0 = x_1 = x_2 by the equations, x_k from the pivot's through its neighbour.
 #[test]
 fn a_chain_of_equations_determines_all() {
