@@ -58,3 +58,24 @@ pub(super) fn repeats(a: &Candidate, b: &Candidate) -> bool {
         && a.x.len() == b.x.len()
         && a.x.iter().zip(&b.x).all(|(p, q)| (p / na - q / nb).abs() <= SAME_POINT)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn candidate(value: f64, x: &[f64]) -> Candidate {
+        Candidate { value, x: x.to_vec() }
+    }
+
+    /// Every component has to agree: two solutions at one value may share their zeros.
+    #[test]
+    fn candidates_at_one_value_repeat_only_if_all_of_x_agrees() {
+        let known = candidate(3.0, &[1.0, 0.0, 0.0]);
+
+        assert!(repeats(&known, &candidate(3.0, &[7.0, 0.0, 0.0])), "in another scale");
+        assert!(!repeats(&known, &candidate(3.0, &[0.0, 1.0, 0.0])), "the third component alone is shared");
+        assert!(!repeats(&known, &candidate(3.0, &[1.0, 0.0, 1e-3])));
+        assert!(!repeats(&known, &candidate(3.001, &[1.0, 0.0, 0.0])), "another value");
+        assert!(!repeats(&known, &candidate(3.0, &[1.0, 0.0])), "another length");
+    }
+}
