@@ -135,11 +135,8 @@ fn merge_refuses_what_is_no_whole_by_name() {
     }
     let missing = bench.path("missing.json");
     refuse(merge(&[&parts[0], &missing]), &["missing.json"]);
-    // Another kind of file, and options that do not belong to the kind.
+    // Another kind of file.
     refuse(merge(&[&parts[0], &file]), &["random-8.json", "format"]);
-    let enumerated = bench.path("part.json");
-    exits(0, &["enumerate", &bench.pencil("small.json", &known::path(3).unwrap().problem), "--shard", "1/1", "--out", &enumerated]);
-    refuse(merge(&[&enumerated]), &["--problem", "mceip-part/1"]);
     // A certificate is never written over an input.
     refuse(merge(&[&parts[0], &parts[1], &parts[2], "--certificate", &parts[0]]), &["shard-1-3.json"]);
 }

@@ -75,11 +75,6 @@ fn two_particle_problems() {
 }
 
 #[test]
-fn screened_against_plain() {
-    replay("screened_against_plain");
-}
-
-#[test]
 fn complete_against_plain() {
     replay("complete_against_plain");
 }

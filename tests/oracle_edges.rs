@@ -238,8 +238,14 @@ fn limits_are_allowed_and_no_more() {
         enumerate_with(&p, &Window::all(), |_, _| ControlFlow::Break(())).map(|e| e.supports_done)
     };
     assert_eq!([of(MAX_SLIP, 1), of(1, MAX_FREE)], [Ok(1), Ok(1)]);
-    assert_eq!(of(MAX_SLIP + 1, 0), Err(OracleError::TooLarge { what: "slip variables", limit: MAX_SLIP, got: MAX_SLIP + 1 }));
-    assert_eq!(of(0, MAX_FREE + 1), Err(OracleError::TooLarge { what: "free variables", limit: MAX_FREE, got: MAX_FREE + 1 }));
+    assert_eq!(
+        of(MAX_SLIP + 1, 0),
+        Err(OracleError::TooLarge { what: "slip variables", limit: MAX_SLIP as u64, got: MAX_SLIP as u64 + 1 })
+    );
+    assert_eq!(
+        of(0, MAX_FREE + 1),
+        Err(OracleError::TooLarge { what: "free variables", limit: MAX_FREE as u64, got: MAX_FREE as u64 + 1 })
+    );
 }
 
 /// -I + tI: each support has its own solution or cone; a run that is broken off keeps those of the first supports.

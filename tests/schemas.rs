@@ -49,7 +49,7 @@ fn files(folder: &str, extension: &str) -> Vec<PathBuf> {
 #[test]
 fn every_schema_is_one() {
     let list = files("spec/schemas", "json");
-    assert!(list.len() >= 10);
+    assert!(list.len() >= 8);
     for path in list {
         assert!(jsonschema::meta::is_valid(&read(&path)), "{}", path.display());
     }
@@ -84,17 +84,10 @@ fn examples_and_written_files_are_valid() {
 }
 
 #[test]
-fn records_traces_and_plain_problems_are_valid() {
+fn traces_and_plain_problems_are_valid() {
     let folder = Folder::new();
     let example = root("spec/examples/fold.json").display().to_string();
-    let (checkpoint, trace) = (folder.path("checkpoint.json"), folder.path("trace.txt"));
-    let part = mceip(&["enumerate", &example, "--shard", "1/2"]);
-    valid(&schema("mceip-part-1"), &serde_json::from_slice(&part.stdout).unwrap(), "part");
-    for engine in [&["--checkpoint"][..], &["--screened", "--checkpoint"]] {
-        assert_eq!(mceip(&[&["enumerate", example.as_str()][..], engine, &[checkpoint.as_str()]].concat()).status.code(), Some(0));
-        valid(&schema("mceip-checkpoint-1"), &read(Path::new(&checkpoint)), "checkpoint");
-        std::fs::remove_file(&checkpoint).unwrap();
-    }
+    let trace = folder.path("trace.txt");
     assert_eq!(mceip(&["solve", &example, "--trace", &trace]).status.code(), Some(0));
     let first = std::fs::read_to_string(&trace).unwrap().lines().next().unwrap().to_string();
     valid(&schema("mceip-trace-1"), &serde_json::from_str(&first).unwrap(), "trace");

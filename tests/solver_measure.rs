@@ -9,8 +9,8 @@ mod families;
 use families::*;
 use mceip::model::{Admissible, Window};
 use mceip::multistart::{Found, Search, multistart, same, support};
+use mceip::oracle::enumerate;
 use mceip::reduction::{Embedding, Side};
-use mceip::search::screen;
 use mceip::solver::{Options, solve};
 
 #[derive(Default)]
@@ -35,7 +35,7 @@ struct Tally {
 impl Tally {
     /// Without a search only the first start is made.
     fn add(&mut self, case: &Case, search: Option<&Search>) {
-        let (truth, _) = screen::enumerate(&case.pencil, &Window::all()).unwrap();
+        let truth = enumerate(&case.pencil, &Window::all()).unwrap();
         if truth.solutions.is_empty() {
             return;
         }

@@ -50,20 +50,6 @@ pub(super) enum CliError {
     /// The enumerator refuses.
     #[error("{0}")]
     Oracle(#[from] OracleError),
-    /// The screened enumerator refuses.
-    #[error("{0}")]
-    Screen(#[from] crate::search::screen::ScreenError),
-    /// A checkpoint or a part.
-    #[error("{path}: {source}")]
-    Record {
-        /// Its path.
-        path: String,
-        /// What is wrong with it.
-        source: super::record::RecordError,
-    },
-    /// Parts that are no whole.
-    #[error("{0}")]
-    Merge(#[from] super::merge::MergeError),
     /// The search refuses.
     #[error("{0}")]
     Search(#[from] SearchError),

@@ -12,9 +12,7 @@ mod convert;
 mod enumerate;
 mod infinity;
 mod merge;
-mod merge_covers;
 mod output;
-mod record;
 mod reduce;
 mod solve;
 mod table1;
@@ -42,7 +40,7 @@ struct Cli {
 enum Command {
     /// The main job: every embedded problem solved, certified, checked, compared with both oracles.
     Verify(verify::Args),
-    /// All solutions of a small problem by the exact enumerator (the oracle), or by the screened one.
+    /// All solutions of a small problem by the exact enumerator (the oracle).
     Enumerate(enumerate::Args),
     /// Put the parts of a sharded enumeration together.
     Merge(merge::Args),

@@ -16,6 +16,17 @@ impl<'a> Integral<'a> {
         Integral { a, b, free: pencil.free() }
     }
 
+    /// log2 of a bound of every coefficient of every determinant, rounded up: prod_i (|a_i| + |b_i|) over the rows.
+    /// (Hadamard's inequality on |t| = 1 and Cauchy's estimate; (|a| + |b|)^2 <= 2 (|a|^2 + |b|^2).)
+    pub(super) fn coefficient_bits(&self) -> u64 {
+        let square = |row: &Vec<Integer>| row.iter().map(|v| v * v).sum::<Integer>();
+        let row_bits = |(a, b): (&Vec<Integer>, &Vec<Integer>)| {
+            let twice: Integer = (square(a) + square(b)) * 2;
+            twice.bits().div_ceil(2)
+        };
+        self.a.iter().zip(&self.b).map(row_bits).sum()
+    }
+
     pub(super) fn order(&self) -> usize {
         self.a.len()
     }

@@ -10,6 +10,8 @@ use std::ops::ControlFlow;
 pub const MAX_SLIP: usize = 16;
 /// Largest number of free variables: every support's pencil contains them all.
 pub const MAX_FREE: usize = 16;
+/// Largest bound of the coefficients of a determinant, in bits: time grows with the square of it.
+pub const MAX_BITS: u64 = 8192;
 
 /// Why the enumerator refuses to start.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -21,16 +23,16 @@ pub enum OracleError {
         /// What there is too much of.
         what: &'static str,
         /// The bound.
-        limit: usize,
+        limit: u64,
         /// What the problem has.
-        got: usize,
+        got: u64,
     },
 }
 
 /// All solutions of the mixed complementarity eigenproblem with value in the window.
 ///
 /// # Errors
-/// [`OracleError::TooLarge`] beyond [`MAX_SLIP`] or [`MAX_FREE`].
+/// [`OracleError::TooLarge`] beyond [`MAX_SLIP`], [`MAX_FREE`] or [`MAX_BITS`].
 ///
 /// ```
 /// use mceip::{exact::{whole, Sparse}, model::{Pencil, Window}, oracle::enumerate};
@@ -55,12 +57,11 @@ pub fn enumerate_with(
     mut progress: impl FnMut(u64, u64) -> ControlFlow<()>,
 ) -> Result<Enumeration, OracleError> {
     let slip = pencil.slip();
-    for (what, limit, got) in [("slip variables", MAX_SLIP, slip.len()), ("free variables", MAX_FREE, pencil.free().len())] {
-        if got > limit {
-            return Err(OracleError::TooLarge { what, limit, got });
-        }
-    }
+    let at_most = |what, limit, got| if got > limit { Err(OracleError::TooLarge { what, limit, got }) } else { Ok(()) };
+    at_most("slip variables", MAX_SLIP as u64, slip.len() as u64)?;
+    at_most("free variables", MAX_FREE as u64, pencil.free().len() as u64)?;
     let integral = Integral::of(pencil);
+    at_most("bits of a determinant's coefficients", MAX_BITS, integral.coefficient_bits())?;
     let total = 1u64 << slip.len();
     let mut found = Enumeration { supports_total: total, ..Enumeration::default() };
     for subset in 0..total {

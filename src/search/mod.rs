@@ -4,4 +4,3 @@ pub mod complete;
 pub mod definite;
 pub mod levels;
 pub mod near;
-pub mod screen;

@@ -10,7 +10,7 @@ mod systems;
 pub use arithmetic::exact_against_naive;
 pub use certificates::{certificate_reader, certificate_seeds, hostile_report};
 pub use coverage::{Counter, Seen};
-pub use enumerators::{complete_against_plain, screened_against_plain};
+pub use enumerators::complete_against_plain;
 pub use systems::{SYSTEMS, TWO_PARTICLES, fuzz_treatment, mechanical_systems, mechanical_systems_by};
 pub use systems::{two_particle_problems, two_particle_problems_by};
 
@@ -115,7 +115,7 @@ fn small_problem(data: &[u8]) -> Option<Problem> {
 pub type Target = (&'static str, fn(&[u8]));
 
 /// All targets, for the fuzzer's glue, `fuzz/hour` and the replay of the corpus.
-pub const TARGETS: [Target; 10] = [
+pub const TARGETS: [Target; 9] = [
     ("problem_reader", problem_reader),
     ("certificate_reader", certificate_reader),
     ("hostile_report", hostile_report),
@@ -123,7 +123,6 @@ pub const TARGETS: [Target; 10] = [
     ("solver_against_oracle", solver_against_oracle),
     ("mechanical_systems", mechanical_systems),
     ("two_particle_problems", two_particle_problems),
-    ("screened_against_plain", screened_against_plain),
     ("complete_against_plain", complete_against_plain),
     ("exact_against_naive", exact_against_naive),
 ];

@@ -6,16 +6,15 @@ use mceip::certificate::{Certificate, CompleteSet, Node};
 use mceip::check::{AcceptedClaim, AcceptedCover, SolutionFamily, check};
 use mceip::exact::{Algebraic, Interval, Sparse, whole};
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};
-use mceip::oracle::{End, Enumeration, Piece, Solution, SupportRange, examine_support};
+use mceip::oracle::{End, Enumeration, Piece, Solution, SupportRange, enumerate, examine_support};
 use mceip::reduction::reduce;
 use mceip::search::complete::{Options, complete};
-use mceip::search::screen;
 use mceip::testkit::{mechanical_pencil, random_pencils};
 use std::cmp::Ordering;
 use std::sync::atomic::AtomicBool;
 
 pub fn truth(problem: &Problem) -> Enumeration {
-    screen::enumerate(&reduce(problem).unwrap().pencil, problem.window()).unwrap().0
+    enumerate(&reduce(problem).unwrap().pencil, problem.window()).unwrap()
 }
 
 /// What a cover says that is not so; empty where it is right. Everything the enumerator lists is in

@@ -7,7 +7,6 @@ use crate::model::{Pencil, Window};
 use crate::multistart::Search;
 use crate::oracle::Enumeration;
 use crate::reduction::Reduced;
-use crate::search::screen;
 use crate::testkit::compare::{compare_with, engines, observed};
 use crate::testkit::{Corner, Disagreement, InstanceReport, Treatment};
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -101,13 +100,8 @@ fn holds(truth: &Truth, value: &Rational, x: &[Rational]) -> bool {
 
 /// All engines of the project, capped so that an instance takes seconds at most.
 pub fn standard(seed: u64) -> Vec<Box<dyn Engine>> {
-    let screened = |p: &Pencil, w: &Window| match screen::enumerate(p, w) {
-        Ok((answer, _)) => Ok(Some(answer)),
-        Err(screen::ScreenError::TooLarge { .. }) => Ok(None),
-        Err(e) => Err(e.to_string()),
-    };
     let pipeline = Pipeline { treatment: treatment(seed) };
-    vec![Box::new(KnownAnswer), Box::new(Enumerator { name: "screened", answer: screened }), Box::new(pipeline)]
+    vec![Box::new(KnownAnswer), Box::new(pipeline)]
 }
 
 /// How the campaign treats an instance: a search that takes seconds at most. The campaign's floors hold for it.

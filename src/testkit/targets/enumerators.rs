@@ -1,22 +1,10 @@
-//! The screened enumerator and the complete search against the plain enumerator.
+//! The complete search against the plain enumerator.
 
 use crate::exact::{Rational, Sparse, rational, whole};
 use crate::model::file::write_problem;
 use crate::model::{Body, Pencil, Problem, Unknown, Window};
 use crate::oracle::enumerate;
-use crate::search::screen;
 use crate::testkit::completed::compare_within;
-
-/// The screened enumerator gives the plain one's answer: solutions, cones, ranges; and counts every support.
-pub fn screened_against_plain(data: &[u8]) {
-    let Some((pencil, _, window)) = windowed(data) else { return };
-    let (Ok(plain), Ok((screened, statistics))) = (enumerate(&pencil, &window), screen::enumerate(&pencil, &window)) else {
-        panic!("an enumerator refuses {pencil:?} in {window:?}")
-    };
-    assert!(screened == plain, "{pencil:?} in {window:?}: screened {screened:?}, plain {plain:?}");
-    assert_eq!(screened.continua, plain.continua, "{pencil:?} in {window:?}");
-    assert_eq!(statistics.total(), plain.supports_total);
-}
 
 /// The complete search, cut short after few nodes, says nothing that the plain enumerator does not; and a set it
 /// calls complete is the plain one's.
