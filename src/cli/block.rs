@@ -57,7 +57,7 @@ pub(super) struct Args {
     /// The path, every state's answers and pictures as one HTML file (implies --path --complete --conditions).
     #[arg(long, value_name = "OUT.html")]
     report: Option<PathBuf>,
-    /// The pictures as SVG and PNG files in this folder (implies --path --complete --conditions).
+    /// The pictures as SVG files in this folder, as PNG too in a build with the feature png (implies --path --complete --conditions).
     #[arg(long, value_name = "FOLDER")]
     pictures: Option<PathBuf>,
     /// Compare the path with ordinary incremental stepping, this many mm a step.

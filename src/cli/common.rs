@@ -96,6 +96,7 @@ pub(super) enum CliError {
     #[error(transparent)]
     Level(#[from] crate::search::levels::LevelError),
     /// A picture was not drawn.
+    #[cfg(feature = "png")]
     #[error(transparent)]
     Png(#[from] crate::picture::PngError),
     /// A family that does not exist, or one named twice.

@@ -31,7 +31,7 @@ pub(super) struct Args {
     /// Coefficient of friction.
     #[arg(long, default_value = "8", allow_hyphen_values = true)]
     mu: String,
-    /// Write a chart of the number of solutions over angle and friction (.svg, or .png) to this file.
+    /// Write a chart of the number of solutions over angle and friction to this file (.svg; .png in a build with the feature png).
     #[arg(long, value_name = "OUT.svg")]
     chart: Option<PathBuf>,
     /// Print JSON.
@@ -99,12 +99,19 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     Ok(if agreed { exit::DONE } else { exit::REJECTED })
 }
 
+/// The endings that a chart's name may have in this build.
+#[cfg(feature = "png")]
+const CHART_NAMES: &str = "a name ending in .svg or .png";
+#[cfg(not(feature = "png"))]
+const CHART_NAMES: &str = "a name ending in .svg (.png needs a build with `--features png`)";
+
 /// The chart, in the format that the file's name asks for.
 fn chart(path: &Path) -> Result<(), CliError> {
     let ending = path.extension().and_then(|e| e.to_str()).map(str::to_ascii_lowercase);
     match ending.as_deref() {
         Some("svg") => Output::prepare("chart", path, &[])?.write(&table1_picture().to_svg()),
+        #[cfg(feature = "png")]
         Some("png") => Output::prepare("chart", path, &[])?.write_bytes(&table1_picture().to_png(2.0)?),
-        _ => Err(CliError::Option { option: "chart", expected: "a name ending in .svg or .png", got: path.display().to_string() }),
+        _ => Err(CliError::Option { option: "chart", expected: CHART_NAMES, got: path.display().to_string() }),
     }
 }

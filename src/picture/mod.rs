@@ -1,4 +1,4 @@
-//! Pictures and reports: SVG without anything from outside, PNG of the same, one HTML file.
+//! Pictures and reports: SVG without anything from outside, one HTML file; PNG of the same with the feature `png`.
 //!
 //! Everything is legible in black and white: states differ in the shape of their marker, lines in
 //! their dashes, regions by a number. Charts draw doubles; what is exact or certified stands in the
@@ -15,6 +15,7 @@ mod marker;
 mod markup;
 mod mode;
 mod path;
+#[cfg(feature = "png")]
 mod png;
 mod report;
 mod scale;
@@ -27,6 +28,7 @@ pub use marker::Mark;
 pub use markup::Element;
 pub use mode::{Mode, mode_picture};
 pub use path::path_picture;
+#[cfg(feature = "png")]
 pub use png::PngError;
 pub use report::{Content, Report, Section};
 pub use scale::{Scale, Spread};
@@ -78,6 +80,7 @@ impl Picture {
     ///
     /// # Errors
     /// [`PngError`]: a size that cannot be.
+    #[cfg(feature = "png")]
     pub fn to_png(&self, zoom: f32) -> Result<Vec<u8>, PngError> {
         png::png_of(&self.to_svg(), zoom)
     }

@@ -83,6 +83,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 }
 
 /// Pixels of a PNG for each px of the SVG.
+#[cfg(feature = "png")]
 const ZOOM: f32 = 2.0;
 
 /// Writes the report and the pictures, each file whole.
@@ -93,6 +94,7 @@ fn show(shown: &Shown<'_>, report: Option<Output>, folder: Option<Folder>) -> Re
     for named in if folder.is_some() { shown.pictures()? } else { Vec::new() } {
         let Some(folder) = &folder else { break };
         folder.write(&format!("{}.svg", named.name), named.picture.to_svg().as_bytes())?;
+        #[cfg(feature = "png")]
         folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
     }
     Ok(())
