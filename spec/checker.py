@@ -439,7 +439,7 @@ class Problem:
             taken |= {t, n}
             text += [f"particle {t} {n} {state}" + (f" {sign}" if state == "slip" else "")]
             for name, vector in (("tangent", tangent), ("normal", normal)):
-                text.append(" ".join([name] + [f"{d} {vector[d]}" for d in vector if vector[d]]))
+                text.append(" ".join([name] + [f"{d} {vector[d]}" for d in vector]))
             if state != "free":
                 held |= {t, n}
             if state == "stick":
@@ -487,6 +487,8 @@ class Problem:
             bad = rn > 0 or (state == "free" and (rn or rt)) or (state == "slip" and (rt * sign <= 0 or (mu is not None and abs(rt) != bound)))
             if bad or (state == "stick" and mu is not None and abs(rt) >= bound):
                 raise Unreadable("reaction against (7), state or sign")
+        if frame is None:
+            return t, n, state, {t: Q(1)}, {n: Q(direction)}, sign
         return t, n, state, {t: c[0][0], n: c[0][1]}, {t: direction * c[1][0], n: direction * c[1][1]}, sign
 
 
@@ -580,6 +582,7 @@ def isolated(poly, x, a, b):
     demand(max(len(poly), longest) <= 512, "1: more than 512 coefficients")
     bits = max([abs(c).bit_length() for c in poly] + [abs(c.numerator).bit_length() + c.denominator.bit_length() for r in [*x, (a, b)] for c in r])
     demand((len(poly) + longest) * bits <= 2**21, "1: too much work")
+    demand(len(x) * ((len(poly) + longest) * bits)**2 <= 2**46, "1: too much work for all rows")
     excess = max(longest - len(poly), 0)
     demand(excess <= 1 or excess * bits <= 2**13, "1: x has too many coefficients beyond those of the polynomial")
     poly = strip(poly)  # 2
@@ -780,6 +783,16 @@ class Ends:
 BITS = 128
 
 
+def rational_bits(q):
+    return abs(q.numerator).bit_length() + q.denominator.bit_length()
+
+
+def affordable(ns, coefficients, lo, hi):
+    """The matrices of a region have a largest size (C, Limits)."""
+    bits = BITS + rational_bits(lo) + (0 if hi is None else rational_bits(hi))
+    demand(ns * ns * coefficients * bits <= 2**29, "a region's matrices are too large")
+
+
 class PlainPencil:
     """No free variables: T(lo) and T(hi) themselves, rows scaled (C, Matrices of a region)."""
 
@@ -796,6 +809,7 @@ class PlainPencil:
         return False
 
     def ends(self, lo, hi, _anchor):
+        affordable(self.n, 1, lo, hi)
         q = lcm(lo.denominator, 1 if hi is None else hi.denominator)
 
         def at(t):
@@ -897,6 +911,9 @@ class CondensedPencil:
         self.aff_norm = max((sum(abs(v) for v in r.values()) for r in aff), default=Q(0))
         bits = [[max(1, *(abs(v).bit_length() for v in rows[i][k].values()), 1) for i in p.s] for k in (1, 2)]
         self.scales = [[Q(rows[i][0], 2**b) for i, b in zip(p.s, of)] for of in bits]
+        self.longest = max((abs(v).bit_length() for _, ra, rb in rows for r in (ra, rb) for v in r.values()), default=0)
+        self.longest += lcm(1, *(rows[i][0] for i in p.free)).bit_length()
+        self.coefficients = []
         self.anchors = [self.read_anchor(a) for a in sequence(anchors)]
         self.cache = {}
 
@@ -911,6 +928,10 @@ class CondensedPencil:
         scale = self.scales[1 if backwards else 0]
         center, nf, ns = number(center), len(p.free), len(p.s)
         (w, ew), (v, ev) = read_coefficients(right, nf, ns), read_coefficients(left, nf, ns)
+        self.coefficients.append(len(w) + len(v) + 1)
+        of_anchor = sum(max((abs(x).bit_length() for m in e for c in m for x in c), default=0) for e in (w, v))
+        bits = ew + ev + of_anchor + self.longest + rational_bits(center)
+        demand(ns * ns * self.coefficients[-1] * bits <= 2**29, "an anchor's expansion is too large")
         t0 = [plus(x, y, center) for x, y in zip(a, b)]
         den = lcm(1, *(x.denominator for m in (t0, b) for r in m for x in r.values()))
         t0, t1 = ([{j: int(x * den) for j, x in r.items()} for r in m] for m in (t0, b))
@@ -972,8 +993,9 @@ class CondensedPencil:
     def ends(self, lo, hi, anchor):
         demand(anchor is not None, "a leaf of a piece without an anchor")
         key = lo, hi, anchor
+        affordable(len(self.p.s), self.coefficients[anchor], lo, hi)
         if key not in self.cache:
-            if len(self.cache) > 64:
+            if len(self.cache) > 8:
                 self.cache.clear()
             self.cache[key] = self.backwards(lo, hi, anchor) if self.anchors[anchor][-1] else self.enclose(lo, hi, self.anchors[anchor])
         return self.cache[key]
@@ -1511,7 +1533,7 @@ def complete_set(p, rows, window, claims, obj):
     """The number of solutions, of families and of open leaves of the cover."""
     pieces, condensation = fields(obj, "pieces", "condensation")
     demand((condensation is not None) == bool(p.free), "condensation is present exactly if there are free variables")
-    demand(len(p.s) <= 1024, "cover: more than 1024 complementarity variables")
+    demand(len(p.s) <= 900, "cover: more than 900 complementarity variables")
     if condensation is not None:
         anchors = fields(condensation, "sigma stiffness_factor mass_sigma anchors", "mass_factor tail")[3]
         demand(len(sequence(anchors)) * len(p.s) ** 2 <= 3 << 20, "cover: too many anchors for matrices of this order")

@@ -24,7 +24,7 @@ pub(super) fn check(rows: &Rows, window: &Window, claim: &EnclosedSolution) -> R
         return Err(Reason::XZero); // e'x_s = 1 needs a slip variable
     }
     if claim.exponent > MAX_EXPONENT {
-        return Err(Reason::TooLarge { what: "exponent", limit: MAX_EXPONENT as usize, got: claim.exponent as usize });
+        return Err(Reason::TooLarge { what: "exponent", limit: MAX_EXPONENT.into(), got: claim.exponent.into() });
     }
     let active: Vec<usize> = (0..rows.order()).filter(|&i| rows.is_free[i] || claim.support.binary_search(&i).is_ok()).collect();
     let n = active.len() + 1;

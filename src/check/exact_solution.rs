@@ -16,15 +16,17 @@ use num_integer::Integer as _;
 use num_traits::{One, Zero};
 
 /// Largest number of coefficients of p and of each x_i. A support of n variables needs at most n + 1.
-const MAX_COEFFICIENTS: usize = 512;
+const MAX_COEFFICIENTS: u64 = 512;
 /// Largest product of the number of coefficients (of p and of the longest x_i) and the bits of the
 /// longest number of the claim: bounds the work on a file that is small but hostile.
-const MAX_SIZE: usize = 1 << 21;
+const MAX_SIZE: u64 = 1 << 21;
+/// Largest product of the number of polynomials and the square of that size: Horner's rule is asked for each row.
+const MAX_WORK: u64 = 1 << 46;
 /// By how many coefficients x may exceed p for numbers of any length (y = (A + tB) x has one more than x), and the largest
 /// product of a larger excess with the bits of the longest number: every coefficient in excess makes a remainder longer
 /// by the leading coefficient of p.
-const FREE_EXCESS: usize = 1;
-const MAX_EXCESS_SIZE: usize = 1 << 13;
+const FREE_EXCESS: u64 = 1;
+const MAX_EXCESS_SIZE: u64 = 1 << 13;
 
 pub(super) fn check(rows: &Rows, window: &Window, claim: &ExactSolution) -> Result<AcceptedClaim, Reason> {
     index_set(rows, "support", &claim.support)?;
@@ -49,16 +51,22 @@ pub(super) fn bounded<'a>(
     interval: &'a [Number; 2],
     x: impl IntoIterator<Item = &'a Vec<Number>> + Clone,
 ) -> Result<(), Reason> {
-    let coefficients = polynomial.len();
     let at_most = |what, limit, got| if got > limit { Err(Reason::TooLarge { what, limit, got }) } else { Ok(()) };
+    let coefficients = polynomial.len() as u64;
     at_most("coefficients of the polynomial", MAX_COEFFICIENTS, coefficients)?;
-    let longest_x = x.clone().into_iter().map(Vec::len).max().unwrap_or(0);
+
+    let polynomials = x.clone().into_iter().count() as u64;
+    let longest_x = x.clone().into_iter().map(Vec::len).max().unwrap_or(0) as u64;
     at_most("coefficients of x", MAX_COEFFICIENTS, longest_x)?;
+
     let of = |n: &Number| n.0.numer().bits() + n.0.denom().bits();
     let numbers = interval.iter().chain(x.into_iter().flatten()).map(of);
     let bits = numbers.chain(polynomial.iter().map(|c| c.bits())).max().unwrap_or(0);
-    let bits = usize::try_from(bits).unwrap_or(usize::MAX);
-    at_most("size (coefficients times bits)", MAX_SIZE, bits.saturating_mul(coefficients + longest_x))?;
+    let size = bits.saturating_mul(coefficients + longest_x);
+    at_most("size (coefficients times bits)", MAX_SIZE, size)?;
+
+    let work = size.saturating_mul(size).saturating_mul(polynomials);
+    at_most("work (polynomials times the square of coefficients times bits)", MAX_WORK, work)?;
 
     let excess = longest_x.saturating_sub(coefficients);
     if excess <= FREE_EXCESS {
@@ -176,7 +184,7 @@ pub(super) fn coefficients<'a>(list: impl IntoIterator<Item = &'a Vec<Number>> +
     let coefficients = p.coeffs().len();
     let longest = list.clone().into_iter().map(Vec::len).max().unwrap_or(0);
 
-    if longest <= coefficients + FREE_EXCESS {
+    if longest <= coefficients + FREE_EXCESS as usize {
         return list.into_iter().map(plain).collect();
     }
     let steps = longest + 1 - coefficients;
@@ -269,6 +277,23 @@ mod tests {
 
         let short = list(&[&[whole(0), whole(0), whole(1)], &[rational(1, 2)]]);
         assert_eq!(coefficients(&short, &p), [vec![whole(0), whole(0), whole(1)], vec![rational(1, 2)]]);
+    }
+
+    /// Each polynomial may be evaluated once; together they have a largest work.
+    #[test]
+    fn a_claim_has_a_largest_work() {
+        let zero = || Number(whole(0));
+        // 4 + 4 coefficients of 2^k bits: size 2^(k + 3).
+        let of = |polynomials: usize, bits: u64| {
+            let number = Number(Rational::from_integer(Integer::from(1) << (bits - 2)));
+            let x = vec![vec![zero(); 4]; polynomials];
+            bounded(&vec![Integer::from(1); 4], &[zero(), number], &x)
+        };
+        let what = "work (polynomials times the square of coefficients times bits)";
+        let large = |got| Err(Reason::TooLarge { what, limit: 1 << 46, got });
+
+        assert_eq!([of(16, 1 << 18), of(1 << 10, 1 << 15)], [Ok(()), Ok(())]);
+        assert_eq!([of(17, 1 << 18), of((1 << 10) + 1, 1 << 15)], [large(17 << 42), large(1025 << 36)]);
     }
 
     /// One coefficient more than p is free for numbers of any length; each further one counts with the bits.

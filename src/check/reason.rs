@@ -73,9 +73,9 @@ pub enum Reason {
         /// What is too large.
         what: &'static str,
         /// The bound.
-        limit: usize,
+        limit: u64,
         /// What was found.
-        got: usize,
+        got: u64,
     },
     /// The polynomial is constant.
     #[error("polynomial: expected degree >= 1, got {coefficients} coefficients without a power of t")]

@@ -1,16 +1,16 @@
 //! Is a symmetric rational matrix positive definite? Proved either way, without floats.
 //!
-//! Small matrices: exact LDL'. Large sparse ones, where exact elimination grows unbearable: an
+//! Small matrices: the leading minors. Large sparse ones, where exact elimination grows unbearable: an
 //! LDL' rounded to short dyadic numbers whose *residual is computed exactly*,
 //! A = L D L' + E, and A is definite if D > 0 and a shift s covers E: the factorisation is of
 //! A - sI, so A = LDL' + (E' + sI) with E' + sI diagonally dominant (Gershgorin).
 
 use super::definite_short::certainly_definite;
-use super::{Integer, Rational, Sparse};
+use super::{Integer, Rational, Sparse, common_denominator};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 
-/// Largest order for which LDL' is run in exact fractions.
+/// Largest order whose leading minors are computed.
 const EXACT_ORDER: usize = 48;
 /// Bits kept after the binary point, relative to the largest diagonal entry, by the rounded LDL'.
 const FRACTION_BITS: u64 = 96;
@@ -23,7 +23,7 @@ const SHIFT_BITS: u64 = 40;
 pub struct NotDefinite {
     /// The row at which elimination met the first pivot that is not positive.
     pub index: usize,
-    /// That pivot (of the exact LDL'), or x'Ax <= 0 for the direction found by the rounded one.
+    /// That pivot (of LDL'), or x'Ax <= 0 for the direction found by the rounded one.
     pub pivot: Rational,
 }
 
@@ -53,31 +53,39 @@ pub enum DefiniteError {
 /// assert!(positive_definite(&semi).is_err());
 /// ```
 pub fn positive_definite(m: &Sparse) -> Result<(), DefiniteError> {
-    if m.rows() <= EXACT_ORDER {
-        return exact_ldl(m);
-    }
     // Most are far from singular: then machine integers prove it, a hundred times faster.
-    if certainly_definite(m) { Ok(()) } else { rounded_ldl(m) }
+    if certainly_definite(m) {
+        return Ok(());
+    }
+    if m.rows() <= EXACT_ORDER { leading_minors(m) } else { rounded_ldl(m) }
 }
 
-/// LDL' in fractions, no pivoting: every pivot must be positive (Sylvester's criterion).
-fn exact_ldl(m: &Sparse) -> Result<(), DefiniteError> {
-    let mut a = m.to_dense();
-    for k in 0..m.rows() {
-        let pivot = a[(k, k)].clone();
-        if !pivot.is_positive() {
+/// Are all leading minors positive (Sylvester's criterion)? Elimination without fractions (Bareiss), each row multiplied by
+/// a positive integer first, so that no number is longer than a minor.
+fn leading_minors(m: &Sparse) -> Result<(), DefiniteError> {
+    let n = m.rows();
+    let factors: Vec<Integer> = (0..n).map(|i| common_denominator(m.row(i).iter().map(|(_, v)| v))).collect();
+    let mut s = vec![vec![Integer::zero(); n]; n];
+    for (i, factor) in factors.iter().enumerate() {
+        for (j, v) in m.row(i) {
+            s[i][*j] = v.numer() * (factor / v.denom());
+        }
+    }
+
+    let mut previous = Integer::one();
+    for k in 0..n {
+        let minor = s[k][k].clone();
+        if !minor.is_positive() {
+            // The pivot of LDL' is the quotient of two minors; the row's factor is in the first of them only.
+            let pivot = Rational::new(minor, &previous * &factors[k]);
             return Err(DefiniteError::Not(NotDefinite { index: k, pivot }));
         }
-        for i in k + 1..m.rows() {
-            if a[(i, k)].is_zero() {
-                continue;
-            }
-            let factor = &a[(i, k)] / &pivot;
-            for j in k + 1..m.rows() {
-                let update = &factor * &a[(k, j)];
-                a[(i, j)] -= update;
+        for i in k + 1..n {
+            for j in k + 1..n {
+                s[i][j] = (&minor * &s[i][j] - &s[i][k] * &s[k][j]) / &previous; // exact
             }
         }
+        previous = minor;
     }
     Ok(())
 }
@@ -220,16 +228,32 @@ mod tests {
 
     #[test]
     fn both_methods_accept_the_chain() {
-        assert_eq!(exact_ldl(&chain(12, whole(2))), Ok(()));
+        assert_eq!(leading_minors(&chain(12, whole(2))), Ok(()));
         assert_eq!(rounded_ldl(&chain(12, whole(2))), Ok(()));
         let tiny = Sparse::zeros(12, 12).add_scaled(&rational(1, 1_000_000_000_000_000), &chain(12, whole(2)));
         assert_eq!(rounded_ldl(&tiny), Ok(()));
         assert_eq!(positive_definite(&chain(120, whole(2))), Ok(()));
     }
 
+    /// Rows with denominators of their own, and the value of the pivot that is refused.
+    #[test]
+    fn minors_of_fractions_give_the_pivot() {
+        let of = |corner: Rational| {
+            let entries = [(0, 0, whole(2)), (1, 1, whole(2)), (2, 2, corner)];
+            let off = [(0, 1, whole(1)), (1, 0, whole(1)), (1, 2, rational(1, 1000)), (2, 1, rational(1, 1000))];
+            leading_minors(&Sparse::from_entries(3, 3, entries.into_iter().chain(off)))
+        };
+        let edge = rational(2, 3_000_000); // (1/1000)^2 / (3/2)
+        let refused = |pivot| Err(DefiniteError::Not(NotDefinite { index: 2, pivot }));
+
+        assert_eq!(of(&edge + rational(1, 1_000_000_000)), Ok(()));
+        assert_eq!(of(edge.clone()), refused(whole(0)));
+        assert_eq!(of(&edge - rational(1, 7)), refused(rational(-1, 7)));
+    }
+
     #[test]
     fn both_methods_refuse_the_indefinite_chain_with_a_witness() {
-        for result in [exact_ldl(&chain(12, rational(19, 10))), rounded_ldl(&chain(12, rational(19, 10)))] {
+        for result in [leading_minors(&chain(12, rational(19, 10))), rounded_ldl(&chain(12, rational(19, 10)))] {
             assert!(matches!(result, Err(DefiniteError::Not(NotDefinite { pivot, .. })) if !pivot.is_positive()));
         }
         assert!(matches!(positive_definite(&chain(120, rational(19, 10))), Err(DefiniteError::Not(_))));
@@ -266,7 +290,7 @@ mod tests {
                 (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| (i, j, entry(i, j))).collect::<Vec<_>>(),
             )
         };
-        assert_eq!([rounded_ldl(&dense(6, whole(1))), exact_ldl(&dense(6, whole(1)))], [Ok(()), Ok(())]);
+        assert_eq!([rounded_ldl(&dense(6, whole(1))), leading_minors(&dense(6, whole(1)))], [Ok(()), Ok(())]);
         assert!(rounded_ldl(&dense(6, rational(-9, 10))).is_err());
     }
 

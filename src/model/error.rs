@@ -54,7 +54,7 @@ pub enum ModelError {
         lower: Rational,
     },
     /// A matrix that must be positive definite is not.
-    #[error("{equation}: expected {what} positive definite, got pivot {pivot} at index {index} of its LDL'")]
+    #[error("{equation}: expected {what} positive definite, got pivot {} at index {index} of its LDL'", shortened(pivot))]
     NotDefinite {
         /// Equation, proposition or remark that needs it.
         equation: &'static str,
@@ -275,4 +275,12 @@ pub enum ModelError {
         /// The beginning of what stands there.
         got: String,
     },
+}
+
+/// A number as text; the beginning of one that fills more than a line.
+fn shortened(v: &Rational) -> String {
+    const MOST: usize = 60;
+
+    let text = v.to_string();
+    if text.len() <= MOST { text } else { format!("{}... ({} characters)", &text[..MOST], text.len()) }
 }

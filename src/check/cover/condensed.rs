@@ -8,7 +8,7 @@
 
 use super::CoverFault;
 use super::expanded::Expanded;
-use super::family::Matrix;
+use super::family::{Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::product::{Linear, Part, times};
 use super::psd::{Symmetric, semidefinite};
 use crate::certificate::{Anchor, Condensation, IntegerMatrix, Tail};
@@ -89,6 +89,8 @@ pub(super) fn tail(rows: &Rows, tail: &Tail) -> Result<(), CoverFault> {
 struct Blocks {
     free: usize,
     slip: usize,
+    /// Bit length of the longest entry of the integral rows.
+    longest: u64,
     /// The free rows' common multiplier D.
     common: Integer,
     /// Rows of D T_ff and D T_fs, and of T_sf and T_ss: column, A, B.
@@ -113,7 +115,9 @@ impl Blocks {
         }
         let is_free = |i: &usize| rows.is_free[*i];
         let common = (0..rows.order()).filter(is_free).fold(Integer::one(), |l, i| l.lcm(&rows.factor[i]));
-        let mut blocks = Blocks { free, slip, common, ff: vec![], fs: vec![], sf: vec![], ss: vec![], factor: vec![], bits: vec![] };
+        let longest = largest_bits(rows.rows.iter().flatten().flat_map(|(_, a, b)| [a, b]));
+        let mut blocks =
+            Blocks { free, slip, longest, common, ff: vec![], fs: vec![], sf: vec![], ss: vec![], factor: vec![], bits: vec![] };
         for (i, row) in rows.rows.iter().enumerate() {
             let lift = if rows.is_free[i] { &blocks.common / &rows.factor[i] } else { Integer::one() };
             let (f, s): (Vec<_>, Vec<_>) = row.iter().map(|(j, a, b)| (*j, a * &lift, b * &lift)).partition(|(j, ..)| rows.is_free[*j]);
@@ -144,6 +148,8 @@ impl Blocks {
     fn expand(&self, anchor: &Anchor, sigma: &Rational, tau: &Rational) -> Result<Expanded, CoverFault> {
         let (w, e_w) = self.coefficients(&anchor.right)?;
         let (mut v, e_v) = self.coefficients(&anchor.left)?;
+        let coefficients = w.len() + v.len() + 1;
+        self.affordable(anchor, coefficients, e_w + e_v, &[&w, &v])?;
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
         for row in v.iter_mut().flatten() {
             row.iter_mut().zip(&self.factor).for_each(|(v, f)| *v *= f);
@@ -178,8 +184,19 @@ impl Blocks {
             unit,
             drift: self.drift(sigma),
             gain: tau / sigma,
+            coefficients,
             reversed: false,
         })
+    }
+
+    /// Z has n_s^2 entries, each of so many coefficients; a coefficient is a sum of products of an entry of the pencil,
+    /// one of W and one of V, in units of 2^-`exponent` / D, shifted by the center.
+    fn affordable(&self, anchor: &Anchor, coefficients: usize, exponent: u32, expansions: &[&[Matrix]]) -> Result<(), CoverFault> {
+        let longest = |m: &[Matrix]| largest_bits(m.iter().flatten().flatten());
+        let of_anchor: u64 = expansions.iter().map(|m| longest(m)).sum();
+        let of_pencil = self.longest + self.common.bits();
+        let bits = of_anchor + of_pencil + rational_bits(&anchor.center.0) + u64::from(exponent);
+        within_matrix_bits("bits of an anchor's expansion", self.slip, coefficients, bits)
     }
 
     /// Coefficient matrices brought to one exponent.

@@ -17,6 +17,8 @@ pub(super) type Matrix = Vec<Vec<Integer>>;
 
 /// Fraction bits kept of each entry of a row scaled to below one.
 const FRACTION_BITS: u64 = 128;
+/// Most bits that the entries of one matrix of a region, or of an anchor's expansion, may take together.
+pub(super) const MAX_MATRIX_BITS: u64 = 1 << 29;
 
 /// T(t) for t between two values: convex combinations of (m[0] +- r[0]) and (m[1] +- r[1]), all in
 /// units of 1 / `scale`. At an infinite end m[1] is the direction B, in the same units.
@@ -50,6 +52,7 @@ pub(super) struct Linear {
 impl Family {
     /// The ends over [lo, hi] (`None`: infinity).
     pub(super) fn ends(&self, anchor: Option<usize>, lo: &Rational, hi: Option<&Rational>) -> Result<Ends, CoverFault> {
+        self.affordable(anchor, lo, hi)?;
         match self {
             Family::Linear(linear) => Ok(linear.ends(lo, hi)),
             Family::Condensed(list) => {
@@ -57,6 +60,18 @@ impl Family {
                 expanded.ends(lo, hi)
             }
         }
+    }
+
+    /// A matrix of the interval has n_s^2 entries of at most about K (128 + bits of lo and hi) bits, K the number of
+    /// coefficients of the anchor's expansion, 1 without one.
+    pub(super) fn affordable(&self, anchor: Option<usize>, lo: &Rational, hi: Option<&Rational>) -> Result<(), CoverFault> {
+        let (order, coefficients) = match self {
+            Family::Linear(linear) => (linear.a.len(), 1),
+            // What is no anchor is refused by name elsewhere.
+            Family::Condensed(list) => anchor.and_then(|k| list.get(k)).map_or((0, 0), |(e, _)| (e.weight.len(), e.coefficients)),
+        };
+        let per_coefficient = FRACTION_BITS + rational_bits(lo) + hi.map_or(0, rational_bits);
+        within_matrix_bits("bits of a region's matrix", order, coefficients, per_coefficient)
     }
 
     /// The same in short numbers, where the family is linear: T_0 + tT_1 is (q T_0 + p T_1) / q at t = p / q >= 0,
@@ -132,6 +147,18 @@ impl Linear {
         };
         Ends { m: [m0, m1], r: [r0, r1], slope, scale: common << FRACTION_BITS, infinite: hi.is_none() }
     }
+}
+
+/// order^2 entries of so many coefficients of so many bits are at most [`MAX_MATRIX_BITS`].
+pub(super) fn within_matrix_bits(what: &'static str, order: usize, coefficients: usize, bits: u64) -> Result<(), CoverFault> {
+    let entries = (order as u64).saturating_mul(order as u64);
+    let got = entries.saturating_mul(coefficients as u64).saturating_mul(bits);
+    if got > MAX_MATRIX_BITS { Err(CoverFault::TooLarge { what, limit: MAX_MATRIX_BITS, got }) } else { Ok(()) }
+}
+
+/// Bit length of numerator and denominator.
+pub(super) fn rational_bits(v: &Rational) -> u64 {
+    v.numer().bits() + v.denom().bits()
 }
 
 /// v 2^bits, rounded down.
@@ -224,6 +251,25 @@ mod tests {
             }
         }
         assert!(Family::Linear(Linear::of(&rows)).ends(None, &whole(1), None).is_ok());
+    }
+
+    /// order^2 x coefficients x (128 + 1 + bits of lo and hi): 2^29 is allowed and nothing beyond.
+    #[test]
+    fn matrices_have_a_largest_size() {
+        let rows = |n: usize| Rows { rows: vec![Vec::new(); n], factor: vec![Integer::one(); n], is_free: vec![false; n] };
+        let family = Family::Linear(Linear::of(&rows(1024)));
+        let value = |bits: u64| Rational::from_integer(Integer::one() << (bits - 2)); // with its denominator of one bit
+
+        // 2^20 entries: 512 bits each.
+        assert_eq!(family.affordable(None, &value(184), Some(&value(200))), Ok(()));
+        let refused = Err(CoverFault::TooLarge { what: "bits of a region's matrix", limit: 1 << 29, got: 513 << 20 });
+        assert_eq!(family.affordable(None, &value(185), Some(&value(200))), refused);
+        assert_eq!(family.affordable(None, &value(384), None), Ok(()));
+        assert!(family.affordable(None, &value(385), None).is_err() && family.ends(None, &value(385), None).is_err());
+
+        // The coefficients of an expansion count; no overflow makes a size small.
+        assert_eq!(within_matrix_bits("", 1024, 4, 128), Ok(()));
+        assert!(within_matrix_bits("", 1024, 4, 129).is_err() && within_matrix_bits("", usize::MAX, 2, 2).is_err());
     }
 
     /// The short numbers are there for ordinary matrices, or every leaf would be computed with long ones.

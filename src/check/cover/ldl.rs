@@ -107,7 +107,7 @@ mod tests {
         let pencil = Pencil::new(sparse([[2, 3], [-1, 4]]), sparse([[1, 0], [0, 0]]), vec![]).unwrap();
         let rows = Rows::of(&Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap());
         let states = vec![State::Open, State::Moving];
-        let region = Region { lo: whole(1), hi: hi.map(whole), states, matrices: Default::default(), zero: Integer::zero() };
+        let region = Region { lo: whole(1), hi: hi.map(whole), states, matrices: Default::default() };
         check(&rows, &region, &[0, 1], ldl)
     }
 

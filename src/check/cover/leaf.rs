@@ -104,7 +104,7 @@ mod tests {
     }
 
     fn region(states: [State; 2]) -> Region {
-        Region { lo: whole(0), hi: Some(whole(1)), states: states.to_vec(), matrices: Default::default(), zero: Integer::default() }
+        Region { lo: whole(0), hi: Some(whole(1)), states: states.to_vec(), matrices: Default::default() }
     }
 
     const NONE: [[i64; 2]; 2] = [[0, 0], [0, 0]];

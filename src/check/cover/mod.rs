@@ -28,18 +28,18 @@ use super::AcceptedClaim;
 use super::pencil::Rows;
 use super::reason::Reason;
 use crate::certificate::{CompleteSet, Node, Piece, Root, RootOutcome, Support};
-use crate::exact::{Integer, Interval, Rational};
+use crate::exact::{Interval, Rational};
 use crate::model::Window;
 use family::{Ends, Family, Linear};
 use num_traits::Zero;
 use rootless::Budget;
 use short::Short;
-use std::cell::OnceCell;
+use std::cell::RefCell;
 use std::rc::Rc;
 use support::Held;
 
 /// Largest number of complementarity variables of a cover: a region has dense matrices of this order.
-pub const MAX_COVERED: usize = 1024;
+pub const MAX_COVERED: usize = 900;
 
 /// Largest product of the number of anchors and the square of the number of complementarity variables: an anchor is
 /// expanded into dense matrices of that order.
@@ -119,14 +119,23 @@ struct Region {
     hi: Option<Rational>,
     states: Vec<State>,
     matrices: Rc<Matrices>,
-    zero: Integer,
 }
 
 /// The ends of an interval, computed when they are asked for; regions of one interval share them.
 #[derive(Default)]
 struct Matrices {
-    exact: OnceCell<Rc<Ends>>,
-    short: OnceCell<Option<[Short; 2]>>,
+    exact: RefCell<Option<Rc<Ends>>>,
+    /// `Some(None)`: there are no short numbers for them.
+    short: RefCell<Option<Option<Rc<[Short; 2]>>>>,
+}
+
+impl Matrices {
+    /// A region that is split is done with them; its siblings compute them again. So a deep tree of splits holds the
+    /// matrices of one interval.
+    fn forget(&self) {
+        self.exact.take();
+        self.short.take();
+    }
 }
 
 /// A solution found in a leaf, unique in `hull` for its support.
@@ -263,7 +272,7 @@ impl Walk<'_> {
     fn piece(&mut self, number: usize, lo: &Rational, piece: &Piece) -> Result<(), (usize, CoverFault)> {
         let hi = piece.max.as_ref().map(|n| n.0.clone());
         let states = vec![State::Open; self.index.len()];
-        let mut stack = vec![Region { lo: lo.clone(), hi, states, matrices: Rc::default(), zero: Integer::default() }];
+        let mut stack = vec![Region { lo: lo.clone(), hi, states, matrices: Rc::default() }];
         for (k, node) in piece.tree.iter().enumerate() {
             let region = stack.pop().ok_or((k, CoverFault::Trailing))?;
             match node {
@@ -288,8 +297,9 @@ impl Walk<'_> {
                 if *at <= region.lo || region.hi.as_ref().is_some_and(|hi| at >= hi) {
                     return Err(CoverFault::Cut { lo: region.lo, hi: end(region.hi.as_ref()), got: at.clone() });
                 }
+                region.matrices.forget();
                 let (lo, states) = (at.clone(), region.states.clone());
-                stack.push(Region { lo, hi: region.hi, states, matrices: Rc::default(), zero: Integer::default() });
+                stack.push(Region { lo, hi: region.hi, states, matrices: Rc::default() });
                 stack.push(Region { hi: Some(at.clone()), matrices: Rc::default(), ..region });
             }
             Node::Branch(index) => {
@@ -298,13 +308,7 @@ impl Walk<'_> {
                 let mut moving = region.states.clone();
                 moving[position] = State::Moving;
                 region.states[position] = State::Rest;
-                stack.push(Region {
-                    lo: region.lo.clone(),
-                    hi: region.hi.clone(),
-                    matrices: Rc::clone(&region.matrices),
-                    states: moving,
-                    zero: Integer::default(),
-                });
+                stack.push(Region { lo: region.lo.clone(), hi: region.hi.clone(), matrices: Rc::clone(&region.matrices), states: moving });
                 stack.push(region);
             }
             _ => {}
@@ -321,15 +325,13 @@ impl Walk<'_> {
                 _ => return Err(CoverFault::Hypothesis { expected: "a tail that begins at or below the region", row: 0 }),
             },
             Node::Open => self.open.push(self.left_open(region)),
-            Node::Farkas(w) => leaf::farkas(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, w)?,
-            Node::PositiveDefinite => {
-                self.spend_definite(region)?;
-                leaf::definite(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, 1)?;
+            Node::Farkas(w) => {
+                self.affordable(region, anchor)?;
+                let short = self.short(region, anchor);
+                leaf::farkas(region, short.as_deref(), || self.ends(region, anchor), &self.index, w)?;
             }
-            Node::NegativeDefinite => {
-                self.spend_definite(region)?;
-                leaf::definite(region, self.short(region, anchor), || self.ends(region, anchor), &self.index, -1)?;
-            }
+            Node::PositiveDefinite => self.definite(region, anchor, 1)?,
+            Node::NegativeDefinite => self.definite(region, anchor, -1)?,
             Node::Ldl(witness) => ldl::check(self.rows, region, &self.index, witness)?,
             Node::Root(root) => {
                 let found = self.root(region, anchor, root)?;
@@ -338,6 +340,13 @@ impl Walk<'_> {
             Node::Support(leaf) => self.support(region, leaf)?,
         }
         Ok(())
+    }
+
+    fn definite(&mut self, region: &Region, anchor: Option<usize>, sign: i8) -> Result<(), CoverFault> {
+        self.spend_definite(region)?;
+        self.affordable(region, anchor)?;
+        let short = self.short(region, anchor);
+        leaf::definite(region, short.as_deref(), || self.ends(region, anchor), &self.index, sign)
     }
 
     /// A definite leaf costs the cube of the number of variables that may move.
@@ -352,20 +361,32 @@ impl Walk<'_> {
     }
 
     fn ends(&self, region: &Region, anchor: Option<usize>) -> Result<Rc<Ends>, CoverFault> {
-        if let Some(ends) = region.matrices.exact.get() {
+        if let Some(ends) = &*region.matrices.exact.borrow() {
             return Ok(Rc::clone(ends));
         }
         let ends = Rc::new(self.family.ends(anchor, &region.lo, region.hi.as_ref())?);
-        Ok(Rc::clone(region.matrices.exact.get_or_init(|| ends)))
+        region.matrices.exact.replace(Some(Rc::clone(&ends)));
+        Ok(ends)
     }
 
     /// The same in short numbers, where there are such.
-    fn short<'r>(&self, region: &'r Region, anchor: Option<usize>) -> Option<&'r [Short; 2]> {
-        let of = || match (self.family.short(anchor, &region.lo, region.hi.as_ref()), &self.family) {
-            (None, Family::Condensed(_)) => self.ends(region, anchor).ok()?.short(),
+    fn short(&self, region: &Region, anchor: Option<usize>) -> Option<Rc<[Short; 2]>> {
+        if let Some(known) = &*region.matrices.short.borrow() {
+            return known.clone();
+        }
+        let linear = self.family.short(anchor, &region.lo, region.hi.as_ref());
+        let short = match (linear, &self.family) {
+            (None, Family::Condensed(_)) => self.ends(region, anchor).ok().and_then(|ends| ends.short()),
             (short, _) => short,
         };
-        region.matrices.short.get_or_init(of).as_ref()
+        let short = short.map(Rc::new);
+        region.matrices.short.replace(Some(short.clone()));
+        short
+    }
+
+    /// Leaves that need the matrices of their interval may ask for so much and no more.
+    fn affordable(&self, region: &Region, anchor: Option<usize>) -> Result<(), CoverFault> {
+        self.family.affordable(anchor, &region.lo, region.hi.as_ref())
     }
 
     fn left_open(&self, region: &Region) -> OpenRegion {
@@ -443,6 +464,7 @@ impl Walk<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact::Integer;
     use crate::exact::whole;
 
     /// Three variables that may move cost 27; the second leaf does not find enough left.
@@ -456,7 +478,7 @@ mod tests {
 
         let mut states = vec![State::Open, State::Moving, State::Open];
         states.push(State::Rest);
-        let region = Region { lo: whole(0), hi: Some(whole(1)), states, matrices: Rc::default(), zero: Integer::default() };
+        let region = Region { lo: whole(0), hi: Some(whole(1)), states, matrices: Rc::default() };
 
         assert_eq!(walk.spend_definite(&region), Ok(()));
         assert_eq!(walk.definite_left, 23);
@@ -500,7 +522,7 @@ mod tests {
         let window = Window::all();
         let walk = walk(&rows, &window);
         let states = vec![State::Open; 2];
-        let region = Region { lo: whole(0), hi: Some(whole(1)), states, matrices: Rc::default(), zero: Integer::default() };
+        let region = Region { lo: whole(0), hi: Some(whole(1)), states, matrices: Rc::default() };
         assert!(walk.short(&region, None).is_some());
     }
 }

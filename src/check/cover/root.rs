@@ -220,8 +220,13 @@ impl<'a> System<'a> {
 
     /// The signs of x and y that the outcome states, over the narrow interval.
     fn signs(&self, region: &Region, ends: &Ends, error: &Rational, index: &[usize], root: &Root) -> Result<(), CoverFault> {
-        let error = (error * Rational::from_integer(self.one.clone())).ceil().to_integer();
-        let x = |p: usize| certain(&self.v[p], if p < self.order() { &error } else { &region.zero });
+        // eps' in units of v, as a fraction that is not rounded.
+        let error = error * Rational::from_integer(self.one.clone());
+        let none = Rational::zero();
+        let x = |p: usize| {
+            let error = if p < self.order() { &error } else { &none };
+            certain(&(&self.v[p] * error.denom()), error.numer())
+        };
         let y = |s: usize| {
             let signs = [self.row_sign(ends, 0, s, &error), self.row_sign(ends, 1, s, &error)];
             if signs[0] == signs[1] { signs[0] } else { 0 }
@@ -249,18 +254,20 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Certain sign of row s of T v_true at an end.
-    fn row_sign(&self, ends: &Ends, end: usize, s: usize, error: &Integer) -> i8 {
-        let (mut sum, mut radius) = (Integer::zero(), Integer::zero());
+    /// Certain sign of row s of T v_true at an end; every component of v but the pivot's is within `error` units.
+    fn row_sign(&self, ends: &Ends, end: usize, s: usize, error: &Rational) -> i8 {
+        let mut sum = Integer::zero();
+        let mut radius = Integer::zero();
+        let mut reach = Integer::zero(); // sum of |m| + r, to be multiplied by the error
         for (p, &col) in self.moving.iter().enumerate() {
             let (m, r) = (&ends.m[end][s][col], &ends.r[end][s][col]);
             sum += m * &self.v[p];
             radius += r * self.v[p].abs();
             if p < self.order() {
-                radius += (m.abs() + r) * error;
+                reach += m.abs() + r;
             }
         }
-        certain(&sum, &radius)
+        certain(&(sum * error.denom()), &(radius * error.denom() + reach * error.numer()))
     }
 }
 

@@ -276,3 +276,19 @@ fn a_tail_begins_where_the_symmetric_part_is_definite() {
     assert_eq!(of(-&hair, none), fault("sym(A + from B) positive definite"));
     assert_eq!(of(hair.clone(), -hair), fault("sym(B) positive semidefinite"));
 }
+
+/// 2^20 entries of one coefficient: 512 bits of exponents, center, pencil and anchor together, and none beyond.
+#[test]
+fn an_expansion_has_a_largest_size() {
+    let blocks = |longest: u64| {
+        let one = Integer::from(1); // of one bit
+        Blocks { free: 1, slip: 1024, longest, common: one, ff: vec![], fs: vec![], sf: vec![], ss: vec![], factor: vec![], bits: vec![] }
+    };
+    let anchor = Anchor { center: Number(rational(5, 2)), reversed: false, right: vec![], left: vec![] }; // 3 + 2 bits
+    let right: Matrix = vec![vec![Integer::from(7), Integer::from(-8)]]; // 4 bits
+    let size = |longest: u64, exponent: u32| blocks(longest).affordable(&anchor, 1, exponent, &[&[right.clone()], &[]]);
+
+    assert_eq!([size(500, 2), size(300, 202)], [Ok(()), Ok(())]);
+    let refused = CoverFault::TooLarge { what: "bits of an anchor's expansion", limit: 1 << 29, got: 513 << 20 };
+    assert_eq!([size(501, 2), size(500, 3)], [Err(refused.clone()), Err(refused)]);
+}

@@ -246,7 +246,7 @@ fn a_resting_row_has_a_sign_beyond_its_radius_only() {
         let others = -5 * m(&e, 0) + 2 * m(&e, 1);
         let mut sign = |value: i64| {
             e.m[end][3][1] = (value - others).into();
-            s.row_sign(&e, end, 3, &error.into())
+            s.row_sign(&e, end, 3, &whole(error))
         };
         assert_eq!([radius + 1, radius, -radius, -radius - 1].map(&mut sign), [1, 0, 0, -1], "end {end}");
     }
@@ -270,7 +270,7 @@ const INDEX: [usize; 3] = [10, 11, 12];
 
 fn region() -> Region {
     let states = vec![State::Moving, State::Moving, State::Rest];
-    Region { lo: whole(0), hi: Some(whole(1)), states, matrices: Default::default(), zero: Integer::zero() }
+    Region { lo: whole(0), hi: Some(whole(1)), states, matrices: Default::default() }
 }
 
 /// T = [[1, a, .], [0, t, .], [b, c, .]] with t from one value to another: x = (-a, 1), y_3 = c - a b.
@@ -339,9 +339,9 @@ fn components_are_positive_beyond_the_error_only() {
         s.signs(&region(), &ends, &error, &INDEX, &root(RootOutcome::Solution))
     };
     let fault = Err(CoverFault::Sign { component: "x", index: 10, expected: "> 0" });
-    // An error of 3/2 is three units of 1/2, one of 5/4 as well.
-    for error in [rational(3, 2), rational(5, 4)] {
-        assert_eq!([solution(4, 2, error.clone()), solution(3, 2, error)], [Ok(()), fault.clone()]);
+    // In units of 1/2 an error of 3/2 is 3, and one of 5/4 is 5/2: it is not rounded.
+    for (error, least) in [(rational(3, 2), 4), (rational(5, 4), 3)] {
+        assert_eq!([solution(least, 2, error.clone()), solution(least - 1, 2, error)], [Ok(()), fault.clone()]);
     }
 }
 

@@ -16,7 +16,7 @@ fn rows(list: &[&[Pair]]) -> Rows {
 
 fn region(lo: i64, hi: Option<i64>, moving: &[usize], order: usize) -> Region {
     let states = (0..order).map(|i| if moving.contains(&i) { State::Moving } else { State::Rest }).collect();
-    Region { lo: whole(lo), hi: hi.map(whole), states, matrices: Default::default(), zero: Integer::default() }
+    Region { lo: whole(lo), hi: hi.map(whole), states, matrices: Default::default() }
 }
 
 fn polynomials(list: &[&[i64]]) -> Polynomials {
