@@ -286,7 +286,7 @@ fn an_expansion_has_a_largest_size() {
     };
     let anchor = Anchor { center: Number(rational(5, 2)), reversed: false, right: vec![], left: vec![] }; // 3 + 2 bits
     let right: Matrix = vec![vec![Integer::from(7), Integer::from(-8)]]; // 4 bits
-    let size = |longest: u64, exponent: u32| blocks(longest).affordable(&anchor, 1, exponent, &[&[right.clone()], &[]]);
+    let size = |longest: u64, exponent: u32| blocks(longest).affordable(&anchor, 1, exponent, &[std::slice::from_ref(&right), &[]]);
 
     assert_eq!([size(500, 2), size(300, 202)], [Ok(()), Ok(())]);
     let refused = CoverFault::TooLarge { what: "bits of an anchor's expansion", limit: 1 << 29, got: 513 << 20 };
