@@ -228,3 +228,24 @@ fn stdin_is_a_file() {
     assert!(bad.status.code() == Some(2) && String::from_utf8(bad.stderr).unwrap().starts_with("mceip: -: line 1"));
     assert_eq!(run(&["check", "-", "-"], report).status.code(), Some(2));
 }
+
+/// Ten slip variables and numbers of 67 bits: 1,024 supports x 670 bits for each false point, 2^21 for the report.
+#[test]
+fn a_report_has_a_largest_effort() {
+    let folder = Folder::new();
+    let diagonal = |v: &str| {
+        let entries: Vec<serde_json::Value> = (0..10).map(|i| serde_json::json!([i, i, v])).collect();
+        serde_json::json!({ "rows": 10, "cols": 10, "entries": entries })
+    };
+    let pencil = serde_json::json!({ "a": diagonal("-1e20"), "b": diagonal("1"), "free": [] });
+    let text = serde_json::json!({ "format": "mceip-problem/1", "unknown": "lambda2", "pencil": pencil }).to_string();
+    let problem = folder.write("p.json", &text);
+
+    let point = serde_json::json!({ "value": 5, "x": [1, 0, 0, 0, 0, 0, 0, 0, 0, 0] });
+    let (code, text) = check(&problem, &serde_json::json!(vec![point; 5]).to_string());
+    let lines: Vec<&str> = text.lines().collect();
+
+    assert_eq!((code, lines.len()), (1, 5), "{text}");
+    assert!(lines[..3].iter().all(|line| line.starts_with("REJECTED: lambda2 = 5: no solution")), "{text}");
+    assert!(lines[3..].iter().all(|line| line.starts_with("UNDECIDED") && line.contains("686080 were needed")), "{text}");
+}

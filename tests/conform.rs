@@ -7,7 +7,7 @@
 mod program;
 
 use mceip::conform::{Bug, Case, Flag, Label, groups, pack_files};
-use mceip::foreign::{ForeignReport, Verdict, judge};
+use mceip::foreign::{Effort, ForeignReport, Verdict, judge};
 use program::{Folder, mceip, refused};
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -98,7 +98,7 @@ fn wrong_answers_are_rejected() {
             *seen.entry(wrong.bug).or_default() += 1;
             let report = ForeignReport::read(&text, &case.problem, &case.reduced).unwrap();
             if wrong.bug.expected() == Label::Wrong && wrong.bug != Bug::EndlessContinuum {
-                let verdict = judge(&case.problem, &case.reduced, report.solutions[0].as_ref().unwrap(), 1e-6);
+                let verdict = judge(&case.problem, &case.reduced, report.solutions[0].as_ref().unwrap(), 1e-6, &mut Effort::default());
                 // (1, 0) at t = 1 + 1e-5 is wrong, and as near to the solution (1, 1e-5) at t = 1 as its rounding would be.
                 let rounding = case.flags.contains(&Flag::TinyComponent) && matches!(verdict, Verdict::Undecided { .. });
                 assert!(

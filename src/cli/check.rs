@@ -8,7 +8,7 @@ use crate::candidate::SOLUTIONS_FORMAT;
 use crate::certificate::{CERTIFICATE_FORMAT, Certificate};
 use crate::check::{Accepted, AcceptedClaim, Place, check};
 use crate::exact::{enclosing_decimals, parse, to_f64};
-use crate::foreign::{ForeignError, ForeignReport, Verdict, judge};
+use crate::foreign::{Effort, ForeignError, ForeignReport, Verdict, judge};
 use crate::lcp::MCP_FORMAT;
 use crate::model::file::require_format;
 use crate::model::{Problem, Window};
@@ -180,10 +180,11 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
     let mut out = String::new();
     let mut is_undecided = report.solutions.is_empty();
     let mut is_rejected = false;
+    let mut effort = Effort::default();
     for reported in &report.solutions {
         let line = match reported {
             Ok(reported) => {
-                let verdict = judge(problem, &reduced, reported, tolerance);
+                let verdict = judge(problem, &reduced, reported, tolerance, &mut effort);
                 is_undecided |= matches!(verdict, Verdict::Undecided { .. });
                 is_rejected |= matches!(verdict, Verdict::Rejected(_) | Verdict::Inaccurate { .. });
                 verdict.line(problem, reported.candidate.value)

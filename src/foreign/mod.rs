@@ -10,4 +10,4 @@ mod verdict;
 
 pub use agreement::{Agreement, Component};
 pub use report::{BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignInterval, ForeignReport, Off, Reported};
-pub use verdict::{Proved, REFUTE_SLIP, Refutation, Verdict, judge};
+pub use verdict::{Effort, Proved, REFUTE_SLIP, Refutation, Verdict, judge};

@@ -6,14 +6,44 @@ use crate::candidate::Candidate;
 use crate::certificate::Claim;
 use crate::certify::certify;
 use crate::exact::{Interval, Poly, Rational, enclosing_decimals, from_f64, to_decimal};
-use crate::model::{Problem, Window};
+use crate::model::{Pencil, Problem, Window};
 use crate::multistart::{exact_value, support};
-use crate::oracle::{Enumeration, MAX_FREE, enumerate};
+use crate::oracle::{Enumeration, MAX_FREE, coefficient_bits, enumerate};
 use crate::reduction::Reduced;
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 
 /// Most complementarity variables for which absence near a candidate is proved by enumeration.
 pub const REFUTE_SLIP: usize = 10;
+
+/// What may still be enumerated for the points of one report: supports times the bits of a determinant's coefficients.
+#[derive(Debug)]
+pub struct Effort {
+    left: u64,
+}
+
+impl Default for Effort {
+    /// That of a report: a few seconds.
+    fn default() -> Effort {
+        Effort { left: 1 << 21 }
+    }
+}
+
+impl Effort {
+    fn spend(&mut self, pencil: &Pencil) -> Result<(), String> {
+        let supports = 1u64 << pencil.slip().len();
+        let cost = supports.saturating_mul(coefficient_bits(pencil));
+        match self.left.checked_sub(cost) {
+            Some(left) => {
+                self.left = left;
+                Ok(())
+            }
+            None => Err(format!(
+                "absence is proved with at most {} supports x bits more in this report, {cost} were needed (see mceip complete)",
+                self.left
+            )),
+        }
+    }
+}
 
 /// What became of a foreign solution.
 #[derive(Debug, Clone)]
@@ -80,7 +110,8 @@ pub enum Refutation {
 
 /// Proves a reported solution, or refutes it, within the radii of `tolerance.rs` (value 1e-4 of 1 + |value|, x 1e-3).
 /// One that is proved is accepted if it agrees with the proven one to `tolerance`, see [`Agreement`].
-pub fn judge(problem: &Problem, reduced: &Reduced, reported: &Reported, tolerance: f64) -> Verdict {
+/// Absence near points is proved as far as `effort` goes.
+pub fn judge(problem: &Problem, reduced: &Reduced, reported: &Reported, tolerance: f64, effort: &mut Effort) -> Verdict {
     let candidate = &reported.candidate;
     if candidate.x.iter().all(|v| *v == 0.0) {
         return Verdict::Rejected(Refutation::ZeroX);
@@ -99,7 +130,7 @@ pub fn judge(problem: &Problem, reduced: &Reduced, reported: &Reported, toleranc
         }
         Err(reason) => reason,
     };
-    match refute(problem, reduced, candidate) {
+    match refute(problem, reduced, candidate, effort) {
         Ok(refutation) => Verdict::Rejected(refutation),
         Err(why) => Verdict::Undecided { reason: format!("{reason}; {why}") },
     }
@@ -122,7 +153,7 @@ fn without_noise(candidate: &Candidate, tolerance: f64) -> Candidate {
 }
 
 /// Proves that nothing is near a candidate, or says why that was not proved.
-fn refute(problem: &Problem, reduced: &Reduced, candidate: &Candidate) -> Result<Refutation, String> {
+fn refute(problem: &Problem, reduced: &Reduced, candidate: &Candidate, effort: &mut Effort) -> Result<Refutation, String> {
     let radius = VALUE_RADIUS * (1.0 + candidate.value.abs());
     let exact = |v: f64| from_f64(v).map_err(|_| "its value is no finite number".to_string());
     let (lo, hi) = (exact(candidate.value - radius)?, exact(candidate.value + radius)?);
@@ -136,6 +167,7 @@ fn refute(problem: &Problem, reduced: &Reduced, candidate: &Candidate) -> Result
     if slip.len() > REFUTE_SLIP || reduced.pencil.free().len() > MAX_FREE {
         return Err(format!("absence is proved for at most {REFUTE_SLIP} slip and {MAX_FREE} free variables"));
     }
+    effort.spend(&reduced.pencil)?;
     let found = enumerate(&reduced.pencil, &near).map_err(|e| e.to_string())?;
     if !found.is_complete_list() {
         return Err("the answer near the value has parts that are not described".into());

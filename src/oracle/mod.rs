@@ -24,7 +24,7 @@ mod table1;
 
 pub use degenerate::{Cone, End, Piece, SupportRange, Undescribed};
 pub use member::{is_rational_solution, is_solution};
-pub use plain::{MAX_BITS, MAX_FREE, MAX_SLIP, OracleError, enumerate, enumerate_with, examine_support};
+pub use plain::{MAX_BITS, MAX_FREE, MAX_SLIP, OracleError, coefficient_bits, enumerate, enumerate_with, examine_support};
 pub use range::MAX_MINORS;
 pub use solution::{Enumeration, Solution, WideKernel};
 pub use table1::{ClosedSolution, TwoParticles, table1, thresholds};

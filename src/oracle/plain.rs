@@ -77,6 +77,11 @@ pub fn enumerate_with(
     Ok(found)
 }
 
+/// log2 of a bound of every coefficient of every support's determinant; [`enumerate`] takes at most [`MAX_BITS`].
+pub fn coefficient_bits(pencil: &Pencil) -> u64 {
+    Integral::of(pencil).coefficient_bits()
+}
+
 /// One support by the definition: appends what [`enumerate`] finds on it. For callers that go
 /// through supports in their own way; nothing is sorted, no limit is checked.
 ///
