@@ -1327,6 +1327,11 @@ class Budget:
         cls.take((steps ** 2 * length * bits * bits) >> 9)
 
     @classmethod
+    def spend_evaluation(cls, poly, a, b):
+        bits = rational_bits(a) + rational_bits(b) + 64
+        cls.take((len(poly) * bits) ** 2 >> 8)
+
+    @classmethod
     def spend(cls, poly, a, b):
         bits = sum(abs(v.numerator).bit_length() + v.denominator.bit_length() for v in (a, b) if v is not None)
         cls.take(len(poly) ** 3 * (bits + 64))
@@ -1372,6 +1377,7 @@ def sign_of_point(poly, point):
     rest = remainder(poly, q)
     if not rest:
         return 0
+    Budget.spend_evaluation(rest, a, b)
     low, high = horner(rest, a, b)
     return 1 if low > 0 else -1 if high < 0 else None
 

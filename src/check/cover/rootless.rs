@@ -19,6 +19,8 @@ const BASE_BUDGET: u64 = 1 << 35;
 const BUDGET_PER_COEFFICIENT: u64 = 1 << 24;
 /// A remainder counts 2^-9 of steps^2 x coefficients x bits^2: products of words against additions of bits.
 const REMAINDER_SHIFT: u32 = 9;
+/// Horner's rule at a point counts 2^-8 of the square of coefficients x bits.
+const EVALUATION_SHIFT: u32 = 8;
 
 /// What is left of the counts of a file.
 pub(super) struct Budget {
@@ -50,6 +52,15 @@ impl Budget {
 
         let products = steps.saturating_pow(2).saturating_mul(length);
         self.take(products.saturating_mul(bits).saturating_mul(bits) >> REMAINDER_SHIFT)
+    }
+
+    /// Takes what Horner's rule for p over an interval costs: its numbers grow by the bits of the ends at each coefficient.
+    fn spend_evaluation(&self, p: &Poly, at: &Interval) -> bool {
+        let bits_of = |v: &Rational| v.numer().bits() + v.denom().bits();
+        let bits = bits_of(at.lo()) + bits_of(at.hi()) + 64;
+
+        let size = bits.saturating_mul(p.coeffs().len() as u64);
+        self.take(size.saturating_mul(size) >> EVALUATION_SHIFT)
     }
 
     /// Takes what transforming the polynomial costs; false if that is more than is left.
@@ -85,6 +96,9 @@ impl Root {
         let rest = g.pseudo_rem(&self.poly);
         if rest.is_zero() {
             return Some(0);
+        }
+        if !budget.spend_evaluation(&rest, &self.value) {
+            return None;
         }
         Some(self.value.horner_rounded(&rest).certain_sign()).filter(|s| *s != 0)
     }
@@ -352,7 +366,10 @@ mod tests {
             (is_told, budget.is_spent(), budget.left.get())
         };
 
-        assert_eq!(with(cost), (true, false, 0));
+        // What is left is a constant, evaluated over [7/2, 7/2] with 5 + 5 bits.
+        let evaluation = (74 * 74) >> 8;
+        assert_eq!(with(cost + evaluation), (true, false, 0));
+        assert_eq!(with(cost + evaluation - 1), (false, true, evaluation - 1));
         assert_eq!(with(cost - 1), (false, true, cost - 1));
 
         // Nothing to divide costs nothing.
