@@ -249,3 +249,23 @@ fn a_report_has_a_largest_effort() {
     assert!(lines[..3].iter().all(|line| line.starts_with("REJECTED: lambda2 = 5: no solution")), "{text}");
     assert!(lines[3..].iter().all(|line| line.starts_with("UNDECIDED") && line.contains("686080 were needed")), "{text}");
 }
+
+/// x may be given in any scale: it is scaled before it is rounded. A value that doubles hold with few digits is none.
+#[test]
+fn numbers_below_the_normal_doubles() {
+    let folder = Folder::new();
+    let pencil = serde_json::json!({ "a": [["-3", "1"], ["1", "-3"]], "b": [["1", "0"], ["0", "1"]], "free": [] });
+    let text = serde_json::json!({ "format": "mceip-problem/1", "unknown": "lambda2", "pencil": pencil }).to_string();
+    let problem = folder.write("p.json", &text);
+    let of = |value: &str, x: [&str; 2]| check(&problem, &serde_json::json!([{ "value": value, "x": x }]).to_string());
+
+    // The solution is x = (1, 1) at 2. Rounded first, both components of the second would be the smallest double.
+    assert!(of("2", ["5e-324", "5e-324"]).1.starts_with("ACCEPTED"));
+    let (code, text) = of("2", ["2.6e-324", "7.3e-324"]);
+    assert!(code == 1 && text.starts_with("REJECTED"), "{text}");
+    assert!(of("2", ["1e-390", "1e-390"]).1.starts_with("ACCEPTED"));
+    assert!(of("2", ["1e390", "1e390"]).1.starts_with("ACCEPTED"));
+
+    let (code, text) = of("7.3e-324", ["1", "1"]);
+    assert!(code == 1 && text.contains("solutions[0].value: expected 0 or a number between"), "{text}");
+}

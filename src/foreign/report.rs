@@ -6,6 +6,7 @@ use crate::model::file::{Number, Object, from_json, require_format};
 use crate::model::{Body, ModelError, Problem};
 use crate::reduction::{Reduced, project};
 use crate::tolerance::X_RADIUS;
+use num_traits::{Signed as _, Zero as _};
 use serde::{Deserialize, Deserializer};
 
 /// A report, as far as it is read: solutions in the order of the file, and ranges of values.
@@ -67,12 +68,12 @@ pub enum BadPoint {
         /// What would do.
         expected: &'static str,
     },
-    /// A number beyond the range of doubles.
-    #[error("solutions[{solution}].{field}: expected a number within the range of doubles, got a larger one")]
+    /// A number beyond the range of doubles that have all their digits.
+    #[error("solutions[{solution}].{field}: expected 0 or a number between 2^-1022 and 2^1024 in size, got another one")]
     OutOfRange {
         /// Index in the report.
         solution: usize,
-        /// `value` or `x`.
+        /// `value`.
         field: &'static str,
     },
 }
@@ -193,17 +194,25 @@ fn solution(k: usize, s: &RawSolution, problem: &Problem, reduced: &Reduced) -> 
         return Err(BadPoint::OffConstraints { dof, size });
     }
 
-    let value = double(&s.value.0, k, "value")?;
-    let x = exact.iter().map(|v| double(v, k, "x")).collect::<Result<Vec<_>, _>>()?;
-    Ok(Reported { candidate: Candidate { value, x }, off })
+    let value = normal_double(&s.value.0).ok_or(BadPoint::OutOfRange { solution: k, field: "value" })?;
+    Ok(Reported { candidate: Candidate { value, x: scaled_doubles(&exact) }, off })
 }
 
 fn require_length(solution: usize, what: &'static str, expected: usize, got: usize) -> Result<(), BadPoint> {
     if got == expected { Ok(()) } else { Err(BadPoint::Length { solution, what, expected, got }) }
 }
 
-/// The nearest double, if there is one.
-fn double(v: &Rational, solution: usize, field: &'static str) -> Result<f64, BadPoint> {
+/// The nearest double, where it has all its digits.
+fn normal_double(v: &Rational) -> Option<f64> {
     let rounded = to_f64(v);
-    if rounded.is_finite() { Ok(rounded) } else { Err(BadPoint::OutOfRange { solution, field }) }
+    if v.is_zero() || rounded.is_normal() { Some(rounded) } else { None }
+}
+
+/// x with its largest component 1, rounded after that: x may be given in any scale, also beyond the doubles.
+fn scaled_doubles(x: &[Rational]) -> Vec<f64> {
+    let largest = x.iter().map(|v| v.abs()).max().filter(|v| !v.is_zero());
+    match largest {
+        Some(largest) => x.iter().map(|v| to_f64(&(v / &largest))).collect(),
+        None => vec![0.0; x.len()],
+    }
 }

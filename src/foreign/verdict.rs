@@ -15,7 +15,8 @@ use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 /// Most complementarity variables for which absence near a candidate is proved by enumeration.
 pub const REFUTE_SLIP: usize = 10;
 
-/// What may still be enumerated for the points of one report: supports times the bits of a determinant's coefficients.
+/// What may still be enumerated for the points of one report: supports times the bits of a determinant's coefficients, and
+/// beyond order 10 times the cube of a tenth of the order.
 #[derive(Debug)]
 pub struct Effort {
     left: u64,
@@ -31,7 +32,8 @@ impl Default for Effort {
 impl Effort {
     fn spend(&mut self, pencil: &Pencil) -> Result<(), String> {
         let supports = 1u64 << pencil.slip().len();
-        let cost = supports.saturating_mul(coefficient_bits(pencil));
+        let order = pencil.order().max(10) as u64;
+        let cost = supports.saturating_mul(coefficient_bits(pencil)).saturating_mul(order.pow(3)) / 1000;
         match self.left.checked_sub(cost) {
             Some(left) => {
                 self.left = left;
