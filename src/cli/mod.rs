@@ -42,7 +42,7 @@ enum Command {
     Verify(verify::Args),
     /// All solutions of a small problem by the exact enumerator (the oracle).
     Enumerate(enumerate::Args),
-    /// Put the parts of a sharded enumeration together.
+    /// Put the parts of a complete search together.
     Merge(merge::Args),
     /// Solutions by the PATH-style solver with many starts, each certified.
     Solve(solve::Args),

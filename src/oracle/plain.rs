@@ -6,7 +6,7 @@ use crate::exact::{Algebraic, Poly, Sign, roots_in};
 use crate::model::{Pencil, Window};
 use std::ops::ControlFlow;
 
-/// Largest number of complementarity variables: 2^16 supports are hours of exact arithmetic.
+/// Largest number of complementarity variables: each one more doubles the supports.
 pub const MAX_SLIP: usize = 16;
 /// Largest number of free variables: every support's pencil contains them all.
 pub const MAX_FREE: usize = 16;

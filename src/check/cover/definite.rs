@@ -300,7 +300,7 @@ mod tests {
         assert_eq!(long_definite(&m, &zero(2), &[0, 1], 1), Ok(()));
         assert_eq!(long_definite(&singular, &zero(2), &[0, 1], 1), Err(1));
 
-        // The determinant 2e - e^2 in units of e: a radius of 1 takes 1 off one diagonal entry, and e is left.
+        // A radius of r e at the first entry leaves the determinant (2 - r) e - e^2.
         assert_eq!(long_definite(&m, &radius(1), &[0, 1], 1), Ok(()));
         assert_eq!(long_definite(&m, &radius(2), &[0, 1], 1), Err(1));
 
@@ -326,14 +326,13 @@ mod tests {
         assert_eq!([decide(12, 1023), decide(12, 1024), decide(13, 90)], [Ok(()), Err(1), Err(1)]);
     }
 
-    /// The minors of this one are 2, 3, 4 by hand, and with 2/3 in its corner the last is zero.
+    /// By hand the minors are 6, 27 and 27 corner - 54: the last is zero at corner 2.
     #[test]
     fn pivots_of_the_elimination_are_the_minors() {
         let of = |corner: i64| {
             let rows = [[6, -3, 0], [-3, 6, -3], [0, -3, corner]];
             rows.map(|row| row.map(Integer::from).to_vec()).to_vec()
         };
-        // Times three: the determinant is 27 corner - 54.
         assert_eq!([eliminate(of(6)), eliminate(of(3)), eliminate(of(2)), eliminate(of(1))], [Ok(()), Ok(()), Err(2), Err(2)]);
     }
 

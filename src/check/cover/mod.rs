@@ -464,8 +464,7 @@ impl Walk<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::Integer;
-    use crate::exact::whole;
+    use crate::exact::{Integer, whole};
 
     /// Three variables that may move cost 27; the second leaf does not find enough left.
     #[test]
