@@ -61,7 +61,7 @@ pub fn positive_definite(m: &Sparse) -> Result<(), DefiniteError> {
 }
 
 /// Are all leading minors positive (Sylvester's criterion)? Elimination without fractions (Bareiss), each row multiplied by
-/// a positive integer first, so that no number is longer than a minor.
+/// a positive integer first, so that no number is longer than a minor; the upper triangle is enough.
 fn leading_minors(m: &Sparse) -> Result<(), DefiniteError> {
     let n = m.rows();
     let factors: Vec<Integer> = (0..n).map(|i| common_denominator(m.row(i).iter().map(|(_, v)| v))).collect();
@@ -81,8 +81,10 @@ fn leading_minors(m: &Sparse) -> Result<(), DefiniteError> {
             return Err(DefiniteError::Not(NotDefinite { index: k, pivot }));
         }
         for i in k + 1..n {
-            for j in k + 1..n {
-                s[i][j] = (&minor * &s[i][j] - &s[i][k] * &s[k][j]) / &previous; // exact
+            // Each number is a minor times the factors of its rows, so the lower triangle follows from the upper one.
+            let below = &s[k][i] * &factors[i] / &factors[k];
+            for j in i..n {
+                s[i][j] = (&minor * &s[i][j] - &below * &s[k][j]) / &previous; // exact
             }
         }
         previous = minor;
