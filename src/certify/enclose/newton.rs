@@ -13,6 +13,9 @@ use num_traits::{One, Signed, Zero};
 
 /// Newton steps on one grid, at most. Each gains 20 bits or more, and a finer grid has at most 256 bits more.
 const NEWTON_STEPS: usize = 16;
+/// Bits by which a step may be longer than the first one. Basis: with one inverse for all steps each is a fraction of the one
+/// before where the method converges; steps that grow end nowhere, in numbers that grow with them.
+const GROWTH_BITS: u64 = 8;
 /// Bits of a coefficient that a double takes without any thought of overflow.
 const SAFE_BITS: u64 = 500;
 /// Least binary exponent of a value that counts as its scale; below it a value is taken for zero.
@@ -201,17 +204,21 @@ impl<'a> Newton<'a> {
         ScaledResidual { f, exponent: largest - units }
     }
 
-    /// Newton's method with a fixed inverse, until a step moves no component by more than a unit of its grid.
+    /// Newton's method with a fixed inverse, until a step moves no component by more than a unit of its grid, or until the
+    /// steps grow: then there is no solution near, which the caller sees by where the point is.
     pub(in crate::certify) fn polish(&self, point: &mut Point, inverse: &[Vec<f64>]) {
+        let mut longest_allowed = None;
         for _ in 0..NEWTON_STEPS {
             let residual = self.scaled_residual(point);
             let steps: Vec<Integer> = (0..=self.active.len()).map(|k| residual.step(&inverse[k], point.bits(k))).collect();
 
-            let is_still = steps.iter().all(|s| s.bits() <= 1);
+            let bits = largest_bits(&steps);
+            let is_still = bits <= 1;
+            let diverges = bits > *longest_allowed.get_or_insert(bits + GROWTH_BITS);
             let (of_t, of_x) = (&steps[self.active.len()], &steps[..self.active.len()]);
             point.x.iter_mut().zip(of_x).for_each(|(x, s)| *x -= s);
             point.t -= of_t;
-            if is_still {
+            if is_still || diverges {
                 break;
             }
         }
@@ -234,6 +241,11 @@ impl ScaledResidual {
         let units = if shift < 0 { exact / power } else { exact * power };
         units.round().to_integer()
     }
+}
+
+/// Bits of the longest number.
+fn largest_bits(steps: &[Integer]) -> u64 {
+    steps.iter().map(Integer::bits).max().unwrap_or(0)
 }
 
 /// v 2^power.

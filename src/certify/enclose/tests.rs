@@ -40,6 +40,22 @@ fn the_centre_is_polished() {
     }
 }
 
+/// Far from every solution steps grow; after the first that does no more is taken, and the numbers stay short.
+#[test]
+fn steps_that_grow_are_given_up() {
+    let p = pencil([1, 1], &whole(1));
+    let rows = IntegralRows::of(&p);
+    let newton = Newton::new(&p, &rows, &[0, 1]);
+    let far = Candidate { value: -0.99, x: vec![0.3, 0.7, 0.0] };
+    let mut point = newton.start(&far, FIRST_GRID_BITS).unwrap();
+    let inverse = newton.inverse(&point).unwrap();
+
+    newton.polish(&mut point, &inverse);
+
+    let bits = (0..=2).map(|k| point.component(k).bits()).max().unwrap();
+    assert!(bits < u64::from(FIRST_GRID_BITS) + 40, "{bits} bits");
+}
+
 /// What lies beside the window is no root there; of a value at its end a box says nothing.
 #[test]
 fn a_value_beside_the_window_is_none() {
