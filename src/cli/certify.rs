@@ -2,10 +2,11 @@
 
 use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinner, text};
 use super::output::Output;
-use crate::candidate::{Candidate, read_report};
+use crate::candidate::Candidate;
 use crate::certificate::{Certificate, Claim};
 use crate::certify::{Certifier, NotCertified, certificate, lifted, sift};
 use crate::exact::{Interval, Rational, enclosing_decimals, parse};
+use crate::foreign::{ForeignError, ForeignReport};
 use crate::model::{Body, Pencil, Problem, System, Unknown};
 use crate::multistart::same;
 use crate::reduction::reduce;
@@ -20,8 +21,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(super) struct Args {
     /// Problem file (mceip-problem/1).
     file: PathBuf,
-    /// Solution report (mceip-solutions/1); of each solution only `value` and `x` are used. A
-    /// `problem_sha256` in it must be the problem's.
+    /// Solution report (mceip-solutions/1); of each solution only `value` and `x` are used, of a mechanical system `v`
+    /// where there is no `x`. A `problem_sha256` in it must be the problem's.
     report: PathBuf,
     /// Write the certificate here instead of to stdout.
     #[arg(long)]
@@ -41,17 +42,16 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
     let output = args.out.as_ref().map(|path| Output::prepare("out", path, &[&args.file, &args.report])).transpose()?;
-    let (digest, candidates) = read_report(&text("the report", &args.report)?)
-        .map_err(|source| CliError::File { path: args.report.display().to_string(), source })?;
-    if let Some(got) = digest.filter(|d| *d != problem.sha256()) {
-        eprintln!("rejected: the report names another problem: expected {}, got {got}", problem.sha256());
-        return Ok(exit::REJECTED);
-    }
     let reduced = reduce(&problem)?;
-    let expected = reduced.pencil.order();
-    if let Some((solution, c)) = candidates.iter().enumerate().find(|(_, c)| c.x.len() != expected) {
-        return Err(CliError::ReportLength { solution, expected, got: c.x.len() });
-    }
+    let report = match ForeignReport::read(&text("the report", &args.report)?, &problem, &reduced) {
+        Ok(report) => report,
+        Err(e @ ForeignError::Digest { .. }) => {
+            eprintln!("rejected: {e}");
+            return Ok(exit::REJECTED);
+        }
+        Err(source) => return Err(CliError::Foreign { path: args.report.display().to_string(), source }),
+    };
+    let candidates = candidates(report)?;
     let radius = args.absence_radius.as_deref().map(parse_radius).transpose()?;
     let outputs = absence_outputs(args, candidates.len())?;
     let stop = interrupt_flag();
@@ -82,6 +82,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         () if undecided > 0 || candidates.is_empty() => exit::UNDECIDED,
         () => exit::DONE,
     })
+}
+
+/// The points of a report, all of which must be vectors of the problem.
+fn candidates(report: ForeignReport) -> Result<Vec<Candidate>, CliError> {
+    let mut candidates = Vec::new();
+    for reported in report.solutions {
+        candidates.push(reported?.candidate);
+    }
+    Ok(candidates)
 }
 
 /// What became of a report: distinct claims that the checker has accepted, and the rest.

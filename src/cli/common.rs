@@ -162,15 +162,8 @@ pub(super) enum CliError {
     #[error(transparent)]
     Conform(#[from] crate::conform::ConformError),
     /// A solution of a report does not fit the problem.
-    #[error("solution {solution} of the report: expected x with {expected} components (see spec/formats.md for their order), got {got}")]
-    ReportLength {
-        /// Index in the report.
-        solution: usize,
-        /// Variables of the pencil.
-        expected: usize,
-        /// Components given.
-        got: usize,
-    },
+    #[error(transparent)]
+    BadPoint(#[from] crate::foreign::BadPoint),
 }
 
 impl CliError {
