@@ -793,6 +793,17 @@ def affordable(ns, coefficients, lo, hi):
     demand(ns * ns * coefficients * bits <= 2**29, "a region's matrices are too large")
 
 
+def words(bits):
+    return bits // 64 + 1
+
+
+def spend_matrix(ns, coefficients, entry_words, center_bits, lo, hi):
+    """The matrices of all regions have a largest work (C, Limits)."""
+    powers = coefficients * words(BITS + center_bits + rational_bits(lo) + (0 if hi is None else rational_bits(hi)))
+    Budget.matrices -= ns * ns * powers * (entry_words + powers)
+    demand(Budget.matrices >= 0, "matrices of regions: more work than the file's budget")
+
+
 class PlainPencil:
     """No free variables: T(lo) and T(hi) themselves, rows scaled (C, Matrices of a region)."""
 
@@ -803,13 +814,16 @@ class PlainPencil:
             # Rounded down to units of 2^-128 where 2^b exceeds 2^128; the radius is one unit each then.
             a, b = ([(row.get(j, 0) << BITS) >> bits for j in range(p.n)] for row in (ra, rb))
             self.parts.append((a, b, int(bits > BITS)))
-        self.p, self.n = p, p.n
+        self.p, self.n, self.paid = p, p.n, None
 
     def reversed(self, _anchor):
         return False
 
     def ends(self, lo, hi, _anchor):
         affordable(self.n, 1, lo, hi)
+        if self.paid != (lo, hi):
+            self.paid = lo, hi
+            spend_matrix(self.n, 1, words(BITS), 0, lo, hi)
         q = lcm(lo.denominator, 1 if hi is None else hi.denominator)
 
         def at(t):
@@ -870,12 +884,12 @@ def read_coefficients(lists, nf, ns):
     return [[[v << (top - e) for v in column] for column in zip(*rows)] for e, rows in out], top
 
 
-def root_up(num, den):
-    """An integer that is at least sqrt(num)/den in units of 2^-FINE."""
-    return (isqrt(num << 2 * FINE) + 1) // den + 1
+def root_up(num, den, fine):
+    """An integer that is at least sqrt(num)/den in units of 2^-fine."""
+    return (isqrt(num << 2 * fine) + 1) // den + 1
 
 
-FINE = 256
+FINE = 256  # at least; a center of b bits before the point is raised to powers, each of which takes b bits more
 
 
 class CondensedPencil:
@@ -909,16 +923,17 @@ class CondensedPencil:
             covered(symmetric[0], p.n, factor, True, "condensation 2: stiffness")
             covered(symmetric[1], p.n, mass_factor, False, "condensation 2: mass")
         self.aff_norm = max((sum(abs(v) for v in r.values()) for r in aff), default=Q(0))
-        bits = [[max(1, *(abs(v).bit_length() for v in rows[i][k].values()), 1) for i in p.s] for k in (1, 2)]
-        self.scales = [[Q(rows[i][0], 2**b) for i, b in zip(p.s, of)] for of in bits]
+        self.bits = [[max(1, *(abs(v).bit_length() for v in rows[i][k].values()), 1) for i in p.s] for k in (1, 2)]
+        self.scales = [[Q(rows[i][0], 2**b) for i, b in zip(p.s, of)] for of in self.bits]
+        self.common = lcm(1, *(rows[i][0] for i in p.free))
         self.longest = max((abs(v).bit_length() for _, ra, rb in rows for r in (ra, rb) for v in r.values()), default=0)
-        self.longest += lcm(1, *(rows[i][0] for i in p.free)).bit_length()
-        self.coefficients = []
+        self.longest += self.common.bit_length()
+        self.coefficients, self.words = [], []
         self.anchors = [self.read_anchor(a) for a in sequence(anchors)]
         self.cache = {}
 
     def read_anchor(self, obj):
-        """Z (coefficients, units of 2^-FINE, rounded down), and column norms of V, l, r_<, r by power of d, rounded up."""
+        """Z (coefficients, units of 2^-fine, rounded down), and column norms of V, l, r_<, r by power of d, rounded up."""
         p, place = self.p, self.place
         center, right, left, backwards = fields(obj, "center right left", "reversed")
         if "reversed" in obj and not isinstance(backwards, bool):
@@ -975,17 +990,20 @@ class CondensedPencil:
         while len(z) > 1 and not any(map(any, z[-1])):
             z.pop()
         unit = den << (ew + ev)
-        fixed = [[[(x * s.numerator << FINE) // (s.denominator * unit) for x in row] for row, s in zip(m, scale)] for m in z]
+        fine = FINE + (len(z) - 1) * abs(int(center)).bit_length()
+        fixed = [[[(x * s.numerator << fine) // (s.denominator * unit) for x in row] for row, s in zip(m, scale)] for m in z]
 
         def norms(coefficients, d):
-            return [[root_up(sum([x * x for x in column]), d) for column in c] if any(map(any, c)) else [0] * ns for c in coefficients]
+            return [[root_up(sum([x * x for x in column]), d, fine) for column in c] if any(map(any, c)) else [0] * ns for c in coefficients]
         nv, nl, nr = norms(v, 1 << ev), norms(l, den << ev), norms(r, den << ew)
         for n in (nv, nl):
             for c in n:
                 c[:] = [-(-x * s.numerator // s.denominator) for x, s in zip(c, scale)]
         nrl = [c if k < low else [0] * ns for k, c in enumerate(nr)]
         linear = len(z) <= 2 and not (self.aff_norm if backwards else self.bff_norm) and all(not any(c) for n, top in ((nr, 1), (nrl, 1), (nl, 2), (nv, 2)) for c in n[top:])
-        return center, fixed, nv, nl, nrl, nr, linear, bool(backwards)
+        largest = max(self.bits[1 if backwards else 0], default=1)
+        self.words.append(words((self.common * center.denominator).bit_length() + ew + ev + largest))
+        return center, fine, fixed, nv, nl, nrl, nr, linear, bool(backwards)
 
     def reversed(self, anchor):
         return anchor is not None and self.anchors[anchor][-1]
@@ -997,6 +1015,7 @@ class CondensedPencil:
         if key not in self.cache:
             if len(self.cache) > 8:
                 self.cache.clear()
+            spend_matrix(len(self.p.s), self.coefficients[anchor], self.words[anchor], rational_bits(self.anchors[anchor][0]), lo, hi)
             self.cache[key] = self.backwards(lo, hi, anchor) if self.anchors[anchor][-1] else self.enclose(lo, hi, self.anchors[anchor])
         return self.cache[key]
 
@@ -1007,8 +1026,8 @@ class CondensedPencil:
         return Ends(ends.both[1][0], ends.both[0][0], ends.both[1][1], ends.both[0][1], ends.d, ends.unit, hi is None)
 
     def enclose(self, lo, hi, anchor):
-        """Units of 2^-FINE; everything rounded outward."""
-        center, z, nv, nl, nrl, nr, linear, reverse = anchor
+        """Units of 2^-fine; everything rounded outward."""
+        center, fine, z, nv, nl, nrl, nr, linear, reverse = anchor
         sigma, tau, norm = (self.tau, self.sigma, self.aff_norm) if reverse else (self.sigma, self.tau, self.bff_norm)
         ns, s = len(z[0]), sigma + lo * tau
         demand(hi is not None or linear, "an infinite interval and a family that is not linear")
@@ -1024,7 +1043,7 @@ class CondensedPencil:
 
         def outer(*terms):
             """Sum of factor a_i b_j, rounded up to units."""
-            terms = [(f.numerator, f.denominator << FINE, a, b) for f, a, b in terms]
+            terms = [(f.numerator, f.denominator << fine, a, b) for f, a, b in terms]
             return [[sum(-(-n * a[i] * b[j] // q) for n, q, a, b in terms) for j in range(ns)] for i in range(ns)]
 
         def at(t):
@@ -1043,7 +1062,7 @@ class CondensedPencil:
             m1 = z[1] if len(z) > 1 else [[0] * ns for _ in range(ns)]
             zero = [0] * ns
             r1 = outer((one, nv[1] if len(nv) > 1 else zero, nrl[0]), (1 / s, nl[1], nr[0]))
-            return Ends(m0, m1, r0, [[x + 1 for x in row] for row in r1], None, 1 << FINE, True)
+            return Ends(m0, m1, r0, [[x + 1 for x in row] for row in r1], None, 1 << fine, True)
         delta, width = max(abs(lo - center), abs(hi - center)), hi - lo
         (m0, c0), (m1, c1) = at(lo), at(hi)
         cost = max(c0, c1)
@@ -1063,7 +1082,7 @@ class CondensedPencil:
         # Rounding of Z(lo), Z(hi) and of the coefficients of Z' on top of the two items of the page.
         rough = sum((k * delta ** (k - 1) for k in range(1, len(z))), Q(0))
         d = [[ceil(width * width * b + width * (x + rough)) + 2 * cost for x, b in zip(rx, rb)] for rx, rb in zip(slope, bend)]
-        return Ends(m0, m1, r0, r1, d, 1 << FINE, False)
+        return Ends(m0, m1, r0, r1, d, 1 << fine, False)
 
 
 def ceil(q):
@@ -1311,8 +1330,9 @@ def sign_at(poly, t):
 
 
 class Budget:
-    """What the signs of the support leaves of a file may cost (C, Limits)."""
+    """What the signs of the support leaves of a file may cost, and the matrices of its regions (C, Limits)."""
     left = 0
+    matrices = 0
 
     @classmethod
     def take(cls, cost):
@@ -1547,6 +1567,7 @@ def complete_set(p, rows, window, claims, obj):
     demand(sequence(pieces), "cover: no piece")
     Budget.left = 1 << 35
     nodes = sum(len(sequence(piece["tree"])) for piece in pieces if isinstance(piece, dict) and "tree" in piece)
+    Budget.matrices = (1 << 30) + (nodes << 24)
     entries = sum(len({*ra, *rb}) for _, ra, rb in rows)
     definite_left = (1 << 29) + (nodes << 20) + (entries << 16)
     start, found, families, left_open = window[0], [], [], []

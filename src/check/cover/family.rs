@@ -74,7 +74,26 @@ impl Family {
         within_matrix_bits("bits of a region's matrix", order, coefficients, per_coefficient)
     }
 
-    /// The same in short numbers, where the family is linear: T_0 + tT_1 is (q T_0 + p T_1) / q at t = p / q >= 0,
+    /// Products of machine words that the matrices of the interval take: n_s^2 values of a polynomial of K coefficients,
+    /// each of C words, at an end of E words. Horner's rule multiplies a sum of C + k E words by E words, k < K.
+    pub(super) fn matrix_work(&self, anchor: Option<usize>, lo: &Rational, hi: Option<&Rational>) -> u64 {
+        let (order, coefficients, bits, center) = match self {
+            Family::Linear(linear) => (linear.a.len(), 1, FRACTION_BITS, 0),
+            Family::Condensed(list) => match anchor.and_then(|k| list.get(k)) {
+                Some((e, _)) => (e.weight.len(), e.coefficients, e.unit.bits(), rational_bits(&e.center)),
+                None => return 0,
+            },
+        };
+
+        let end_words = words(FRACTION_BITS + center + rational_bits(lo) + hi.map_or(0, rational_bits));
+        let end_powers = end_words.saturating_mul(coefficients as u64);
+        let value_words = words(bits).saturating_add(end_powers);
+
+        let entries = (order as u64).saturating_mul(order as u64);
+        entries.saturating_mul(end_powers).saturating_mul(value_words)
+    }
+
+    /// The ends in short numbers, where the family is linear: T_0 + tT_1 is (q T_0 + p T_1) / q at t = p / q >= 0,
     /// and T_1 at infinity.
     pub(super) fn short(&self, anchor: Option<usize>, lo: &Rational, hi: Option<&Rational>) -> Option<[Short; 2]> {
         let parts = match self {
@@ -159,6 +178,11 @@ pub(super) fn within_matrix_bits(what: &'static str, order: usize, coefficients:
 /// Bit length of numerator and denominator.
 pub(super) fn rational_bits(v: &Rational) -> u64 {
     v.numer().bits() + v.denom().bits()
+}
+
+/// Words of 64 bits, one too many for a multiple of 64.
+fn words(bits: u64) -> u64 {
+    bits / 64 + 1
 }
 
 /// v 2^bits, rounded down.

@@ -34,7 +34,7 @@ use family::{Ends, Family, Linear};
 use num_traits::Zero;
 use rootless::Budget;
 use short::Short;
-use std::cell::RefCell;
+use std::cell::{Cell, RefCell};
 use std::rc::Rc;
 use support::Held;
 
@@ -51,18 +51,29 @@ const DEFINITE_BASE: u64 = 1 << 29;
 const DEFINITE_PER_NODE: u64 = 1 << 20;
 const DEFINITE_PER_ENTRY: u64 = 1 << 16;
 
+/// Products of machine words for the matrices of all regions of a file: without any node, and for each node.
+const MATRIX_BASE: u64 = 1 << 30;
+const MATRIX_PER_NODE: u64 = 1 << 24;
+
 /// What the definite leaves of a file may cost in all (spec/complete-set.md, Limits).
 fn definite_budget(rows: &Rows, cover: &CompleteSet) -> u64 {
-    let nodes: usize = cover.pieces.iter().map(|piece| piece.tree.len()).sum();
-
     let mut entries = 0;
     for row in &rows.rows {
         entries += row.iter().filter(|(_, a, b)| !(a.is_zero() && b.is_zero())).count();
     }
 
-    let by_nodes = DEFINITE_PER_NODE.saturating_mul(nodes as u64);
+    let by_nodes = DEFINITE_PER_NODE.saturating_mul(nodes(cover));
     let by_entries = DEFINITE_PER_ENTRY.saturating_mul(entries as u64);
     DEFINITE_BASE.saturating_add(by_nodes).saturating_add(by_entries)
+}
+
+/// What the matrices of all regions may cost (spec/complete-set.md, Limits).
+fn matrix_budget(cover: &CompleteSet) -> u64 {
+    MATRIX_BASE.saturating_add(MATRIX_PER_NODE.saturating_mul(nodes(cover)))
+}
+
+fn nodes(cover: &CompleteSet) -> u64 {
+    cover.pieces.iter().map(|piece| piece.tree.len() as u64).sum()
 }
 
 /// What a cover has proved.
@@ -193,6 +204,7 @@ pub(super) fn check(
         leaves: 0,
         budget: Budget::new(),
         definite_left: definite_budget(rows, cover),
+        matrices_left: Cell::new(matrix_budget(cover)),
         refused,
     };
     let mut lo = window.min().clone();
@@ -238,6 +250,8 @@ struct Walk<'a> {
     budget: Budget,
     /// For definite leaves: orders cubed.
     definite_left: u64,
+    /// For the matrices of regions: products of machine words.
+    matrices_left: Cell<u64>,
     /// Where leaves that fail are noted, if they are to be taken for open ones.
     refused: Option<&'a mut Vec<(usize, usize)>>,
 }
@@ -364,6 +378,7 @@ impl Walk<'_> {
         if let Some(ends) = &*region.matrices.exact.borrow() {
             return Ok(Rc::clone(ends));
         }
+        self.spend_matrix(anchor, &region.lo, region.hi.as_ref())?;
         let ends = Rc::new(self.family.ends(anchor, &region.lo, region.hi.as_ref())?);
         region.matrices.exact.replace(Some(Rc::clone(&ends)));
         Ok(ends)
@@ -387,6 +402,17 @@ impl Walk<'_> {
     /// Leaves that need the matrices of their interval may ask for so much and no more.
     fn affordable(&self, region: &Region, anchor: Option<usize>) -> Result<(), CoverFault> {
         self.family.affordable(anchor, &region.lo, region.hi.as_ref())
+    }
+
+    /// The matrices of an interval are computed by Horner's rule, entry by entry.
+    fn spend_matrix(&self, anchor: Option<usize>, lo: &Rational, hi: Option<&Rational>) -> Result<(), CoverFault> {
+        let cost = self.family.matrix_work(anchor, lo, hi);
+        let limit = self.matrices_left.get();
+
+        let what = "matrices of regions: products of words, left of the file's budget";
+        let left = limit.checked_sub(cost).ok_or(CoverFault::TooLarge { what, limit, got: cost })?;
+        self.matrices_left.set(left);
+        Ok(())
     }
 
     fn left_open(&self, region: &Region) -> OpenRegion {
@@ -420,8 +446,12 @@ impl Walk<'_> {
         let (hull_lo, hull_hi) = ((&region.lo).min(a), region.hi.as_ref().map(|hi| hi.max(b)));
         // What is alone up to infinity is alone up to b.
         let hull = Interval::new(hull_lo.clone(), hull_hi.unwrap_or(b).clone()).ok_or_else(outside)?;
+        self.spend_matrix(anchor, hull_lo, hull_hi)?;
         let wide = self.family.hull_ends(anchor, hull_lo, hull_hi)?;
-        let narrow = || self.family.ends(anchor, a, Some(b));
+        let narrow = || {
+            self.spend_matrix(anchor, a, Some(b))?;
+            self.family.ends(anchor, a, Some(b))
+        };
         root::check(region, &wide, narrow, &self.index, root)?;
         let support = self.left_open(region).moving;
         match root.outcome {
@@ -464,7 +494,7 @@ impl Walk<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Integer, whole};
+    use crate::exact::{Integer, rational, whole};
 
     /// Three variables that may move cost 27; the second leaf does not find enough left.
     #[test]
@@ -494,6 +524,28 @@ mod tests {
 
         let cover = CompleteSet { condensation: None, pieces: vec![piece(3), piece(4)] };
         assert_eq!(definite_budget(&rows, &cover), (1 << 29) + 7 * (1 << 20) + 2 * (1 << 16));
+        assert_eq!(matrix_budget(&cover), (1 << 30) + 7 * (1 << 24));
+    }
+
+    /// Two variables over [1/3, 2]: four entries, K = 1, ends of 128 + 3 + 3 bits in 3 words, entries of 128 bits in 3.
+    #[test]
+    fn matrices_of_regions_spend_a_budget_once_an_interval() {
+        let row = |i: usize| vec![(i, Integer::from(3), Integer::from(1))];
+        let rows = Rows { rows: vec![row(0), row(1)], factor: vec![1.into(); 2], is_free: vec![false; 2] };
+        let window = Window::all();
+        let walk = walk(&rows, &window);
+        let region = || Region { lo: rational(1, 3), hi: Some(whole(2)), states: vec![State::Open; 2], matrices: Rc::default() };
+
+        let cost = 4 * 3 * (3 + 3);
+        walk.matrices_left.set(2 * cost - 1);
+        let shared = region();
+        assert!(walk.ends(&shared, None).is_ok());
+        assert!(walk.ends(&shared, None).is_ok());
+        assert_eq!(walk.matrices_left.get(), cost - 1);
+
+        let what = "matrices of regions: products of words, left of the file's budget";
+        let refused = walk.ends(&region(), None).err();
+        assert_eq!(refused, Some(CoverFault::TooLarge { what, limit: cost - 1, got: cost }));
     }
 
     fn walk<'a>(rows: &'a Rows, window: &'a Window) -> Walk<'a> {
@@ -510,6 +562,7 @@ mod tests {
             leaves: 0,
             budget: Budget::new(),
             definite_left: 0,
+            matrices_left: Cell::new(0),
             refused: None,
         }
     }
