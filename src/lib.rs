@@ -28,6 +28,8 @@
 //! assert!(found.is_complete_list());
 //! ```
 
+pub use mceip_exact as exact;
+
 #[cfg(feature = "search")]
 pub mod analysis;
 #[cfg(feature = "solver")]
@@ -40,7 +42,6 @@ pub mod check;
 pub mod cli;
 #[cfg(feature = "testkit")]
 pub mod conform;
-pub mod exact;
 #[cfg(feature = "solver")]
 pub mod foreign;
 #[cfg(feature = "solver")]

@@ -18,7 +18,7 @@ impl Poly {
     /// The polynomial with these coefficients, constant term first.
     ///
     /// ```
-    /// use mceip::exact::{Poly, rational};
+    /// use mceip_exact::{Poly, rational};
     /// let p = Poly::from_ints(&[-2, 0, 1]); // t^2 - 2
     /// assert_eq!(p.degree(), Some(2));
     /// assert_eq!(p.eval(&rational(3, 2)), rational(1, 4));
@@ -205,7 +205,7 @@ impl std::fmt::Display for Poly {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use crate::{rational, whole};
 
     #[test]
     fn arithmetic_and_evaluation_agree() {

@@ -114,7 +114,7 @@ fn is_dominated(m: &Sparse, a: &[Row], l: &[Row], d: &[i64]) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use crate::{rational, whole};
 
     /// tridiag(-1, d, -1): definite exactly for d > 2 cos(pi/(n+1)), times a factor.
     fn chain(n: usize, d: Rational, factor: &Rational) -> Sparse {

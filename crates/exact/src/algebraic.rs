@@ -33,7 +33,7 @@ impl From<i8> for Sign {
 /// and may replace the polynomial by a factor; the number stays the same.
 ///
 /// ```
-/// use mceip::exact::{nonnegative_roots, Poly, Sign};
+/// use mceip_exact::{nonnegative_roots, Poly, Sign};
 /// let mut root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0); // sqrt 2
 /// assert_eq!(root.sign_of(&Poly::from_ints(&[-2, 0, 1])), Sign::Zero);
 /// assert_eq!(root.sign_of(&Poly::from_ints(&[-141, 100])), Sign::Positive); // 1.41 < sqrt 2
@@ -152,7 +152,7 @@ impl Algebraic {
     /// content 1: remainders by the defining polynomial, all scaled alike.
     ///
     /// ```
-    /// use mceip::exact::{nonnegative_roots, Poly};
+    /// use mceip_exact::{nonnegative_roots, Poly};
     /// let root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
     /// let v = root.reduce(&[Poly::from_ints(&[0, 0, 6]), Poly::from_ints(&[0, 8])]);
     /// assert_eq!(v, [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])]); // (6 t^2, 8 t) ~ (3, 2 t)
@@ -247,7 +247,7 @@ fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{nonnegative_roots, rational, whole};
+    use crate::{nonnegative_roots, rational, whole};
 
     fn sqrt(n: i64) -> Algebraic {
         nonnegative_roots(&Poly::from_ints(&[-n, 0, 1])).remove(0)

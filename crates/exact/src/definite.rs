@@ -46,7 +46,7 @@ pub enum DefiniteError {
 /// for matrices of order above 48 that are within about 2^-40 (relative) of singular.
 ///
 /// ```
-/// use mceip::exact::{positive_definite, whole, Sparse};
+/// use mceip_exact::{positive_definite, whole, Sparse};
 /// let m = Sparse::from_entries(2, 2, [(0, 0, whole(2)), (0, 1, whole(1)), (1, 0, whole(1)), (1, 1, whole(1))]);
 /// assert!(positive_definite(&m).is_ok());
 /// let semi = Sparse::from_entries(2, 2, [(0, 0, whole(1)), (0, 1, whole(1)), (1, 0, whole(1)), (1, 1, whole(1))]);
@@ -218,7 +218,7 @@ fn refute(m: &Sparse, i: usize, row: &BTreeMap<usize, Integer>, lower: &[BTreeMa
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use crate::{rational, whole};
 
     /// tridiag(-1, d, -1) of order n: definite exactly for d > 2 cos(pi/(n+1)).
     fn chain(n: usize, d: Rational) -> Sparse {

@@ -9,7 +9,7 @@ use num_traits::{One, Signed, Zero};
 /// The zero polynomial has no isolated roots: callers treat it before.
 ///
 /// ```
-/// use mceip::exact::{nonnegative_roots, Poly};
+/// use mceip_exact::{nonnegative_roots, Poly};
 /// assert_eq!(nonnegative_roots(&Poly::from_ints(&[0, -1, 0, 1])).len(), 2); // 0 and 1, not -1
 /// ```
 pub fn nonnegative_roots(p: &Poly) -> Vec<Algebraic> {
@@ -94,7 +94,7 @@ fn cauchy_bound(poly: &Poly) -> Rational {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use crate::{rational, whole};
 
     #[test]
     fn finds_each_planted_root_once() {

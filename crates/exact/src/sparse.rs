@@ -51,7 +51,7 @@ impl Sparse {
     /// A matrix of machine integers by rows of one length, as [`super::Poly::from_ints`].
     ///
     /// ```
-    /// use mceip::exact::{Sparse, whole};
+    /// use mceip_exact::{Sparse, whole};
     /// let m = Sparse::from_ints(&[&[1, 0, -2], &[0, 3, 0]]);
     /// assert_eq!((m.rows(), m.cols(), m.get(0, 2)), (2, 3, whole(-2)));
     /// ```
@@ -139,7 +139,7 @@ impl Sparse {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use crate::{rational, whole};
 
     fn example() -> Sparse {
         Sparse::from_entries(2, 3, [(0, 2, whole(3)), (0, 0, whole(1)), (1, 1, rational(1, 2)), (0, 2, whole(-3)), (1, 2, whole(4))])

@@ -65,7 +65,7 @@ pub enum NumberError {
 /// [`NumberError`] when the text is no such number, or is too long, or has an absurd exponent.
 ///
 /// ```
-/// use mceip::exact::{parse, rational};
+/// use mceip_exact::{parse, rational};
 /// assert_eq!(parse("1.1").unwrap(), rational(11, 10));
 /// assert_eq!(parse("-6/4").unwrap(), rational(-3, 2));
 /// assert!(parse("1/0").is_err());

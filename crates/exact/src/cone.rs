@@ -17,7 +17,7 @@ pub struct Generators {
 /// numbers being integer polynomials taken at `alpha`.
 ///
 /// ```
-/// use mceip::exact::{cone_generators, rational, Algebraic, Poly};
+/// use mceip_exact::{cone_generators, rational, Algebraic, Poly};
 /// let row = |v: [i64; 2]| v.map(|c| Poly::from_ints(&[c])).to_vec();
 /// let mut alpha = Algebraic::rational(rational(1, 1));
 /// let cone = cone_generators(&[row([1, 0]), row([-1, 1]), row([0, 1])], 2, &mut alpha); // 0 <= z_0 <= z_1
@@ -101,7 +101,7 @@ fn adjacent(i: usize, j: usize, rays: &[Ray]) -> bool {
 }
 
 /// The inner product of two vectors of polynomials.
-pub(crate) fn dot(a: &[Poly], b: &[Poly]) -> Poly {
+pub fn dot(a: &[Poly], b: &[Poly]) -> Poly {
     a.iter().zip(b).filter(|(p, q)| !p.is_zero() && !q.is_zero()).fold(Poly::default(), |sum, (p, q)| &sum + &(p * q))
 }
 
@@ -114,7 +114,7 @@ fn combine(p: &Poly, u: &[Poly], q: &Poly, v: &[Poly], alpha: &Algebraic) -> Vec
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{nonnegative_roots, whole};
+    use crate::{nonnegative_roots, whole};
 
     fn row(v: &[i64]) -> Vec<Poly> {
         v.iter().map(|&c| Poly::from_ints(&[c])).collect()

@@ -10,7 +10,7 @@ use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
 /// [`NumberError::NotFinite`] for NaN and the infinities.
 ///
 /// ```
-/// use mceip::exact::{from_f64, parse};
+/// use mceip_exact::{from_f64, parse};
 /// assert_ne!(from_f64(1.1).unwrap(), parse("1.1").unwrap());
 /// assert!(from_f64(f64::NAN).is_err());
 /// ```
@@ -21,7 +21,7 @@ pub fn from_f64(value: f64) -> Result<Rational, NumberError> {
 /// A finite double without its fraction; `None` for NaN and the infinities.
 ///
 /// ```
-/// use mceip::exact::{truncated, whole};
+/// use mceip_exact::{truncated, whole};
 /// assert_eq!(truncated(-7.9), Some(whole(-7).to_integer()));
 /// assert_eq!(truncated(2f64.powi(70)), Some(whole(2).to_integer().pow(70)));
 /// assert_eq!(truncated(f64::NAN), None);
@@ -72,7 +72,7 @@ fn assemble(mantissa: u64, exponent: i64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{parse, rational};
+    use crate::{parse, rational};
 
     #[test]
     fn nearest_double_agrees_with_the_standard_parser() {

@@ -11,7 +11,7 @@ use num_traits::{One, Zero};
 /// t = 0, ..., n - 1 determine it, as they do the determinant ([`super::determinant`]).
 ///
 /// ```
-/// use mceip::exact::{first_row_cofactors, Integer, Poly};
+/// use mceip_exact::{first_row_cofactors, Integer, Poly};
 /// let z = |m: [[i64; 2]; 2]| m.map(|r| r.map(Integer::from).to_vec()).to_vec();
 /// let c = first_row_cofactors(&z([[1, 2], [3, 4]]), &z([[1, 0], [0, 1]]));
 /// assert_eq!(c, [Poly::from_ints(&[4, 1]), Poly::from_ints(&[-3])]);
@@ -61,7 +61,7 @@ fn integer_cofactors(mut m: Vec<Vec<Integer>>) -> Vec<Integer> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::kernel::integer_determinant;
+    use crate::kernel::integer_determinant;
 
     /// Each cofactor as the determinant it is defined by, on matrices of every rank.
     #[test]

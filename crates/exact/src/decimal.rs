@@ -7,7 +7,7 @@ use num_traits::{Pow, Signed, Zero};
 /// Pass `t` as the polynomial for the number itself.
 ///
 /// ```
-/// use mceip::exact::{nonnegative_roots, to_decimal, Poly};
+/// use mceip_exact::{nonnegative_roots, to_decimal, Poly};
 /// let mut root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
 /// assert_eq!(to_decimal(&mut root, &Poly::from_ints(&[0, 1]), 20), "1.4142135623730950488");
 /// ```
@@ -50,7 +50,7 @@ pub fn ratio_to_decimal(number: &mut Algebraic, numerator: &Poly, denominator: &
 /// end rounded down, the upper end rounded up.
 ///
 /// ```
-/// use mceip::exact::{enclosing_decimals, rational, Interval};
+/// use mceip_exact::{enclosing_decimals, rational, Interval};
 /// let i = Interval::new(rational(1, 3), rational(2, 3)).unwrap();
 /// assert_eq!(enclosing_decimals(&i, 3), ("0.333".to_string(), "0.667".to_string()));
 /// ```
@@ -126,7 +126,7 @@ fn layout(digits: &str, exponent: i64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{nonnegative_roots, parse, rational};
+    use crate::{nonnegative_roots, parse, rational};
 
     #[test]
     fn rationals_round_half_away_from_zero() {

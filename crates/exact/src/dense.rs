@@ -71,7 +71,7 @@ impl IndexMut<(usize, usize)> for Dense {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use crate::{rational, whole};
 
     #[test]
     fn rows_and_columns_are_counted() {

@@ -25,7 +25,8 @@ impl Poly {
 
     /// The remainder of `self` by `divisor` times |lead(divisor)|^steps: with one number of steps for
     /// all entries a vector keeps its direction. `steps` is at least deg self - deg divisor + 1.
-    pub(crate) fn pseudo_rem_steps(&self, divisor: &Poly, steps: usize) -> Poly {
+    #[doc(hidden)]
+    pub fn pseudo_rem_steps(&self, divisor: &Poly, steps: usize) -> Poly {
         let m = divisor.coeffs().len();
         let (lead, sign) = (divisor.leading().abs(), divisor.leading().signum());
         let mut rest = self.clone();
@@ -107,7 +108,7 @@ pub(super) fn variations(chain: &[Poly], t: &Rational) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::whole;
+    use crate::whole;
 
     #[test]
     fn gcd_and_exact_division_undo_multiplication() {

@@ -10,7 +10,7 @@ use num_traits::{One, Zero};
 /// The determinant of the empty pencil is 1.
 ///
 /// ```
-/// use mceip::exact::{determinant, Integer, Poly};
+/// use mceip_exact::{determinant, Integer, Poly};
 /// let z = |m: [[i64; 2]; 2]| m.map(|r| r.map(Integer::from).to_vec()).to_vec();
 /// let d = determinant(&z([[1, 2], [3, 4]]), &z([[1, 0], [0, 1]]));
 /// assert_eq!(d, Poly::from_ints(&[-2, 5, 1])); // (1+t)(4+t) - 6
@@ -166,7 +166,7 @@ fn kernel_vector(m: &[Vec<Poly>], pivots: &[usize], last: &Poly, j: usize, cols:
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::nonnegative_roots;
+    use crate::nonnegative_roots;
 
     fn pencil(a: &[&[i64]], b: &[&[i64]]) -> Vec<Vec<Poly>> {
         a.iter().zip(b).map(|(ra, rb)| ra.iter().zip(rb.iter()).map(|(&x, &y)| Poly::from_ints(&[x, y])).collect()).collect()

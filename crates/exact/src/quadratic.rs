@@ -87,7 +87,7 @@ impl Quadratic {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use crate::{rational, whole};
 
     fn number(a: i64, b: i64, d: i64) -> Quadratic {
         Quadratic::new(whole(a), whole(b), whole(d)).unwrap()

@@ -46,7 +46,7 @@ const MAX_SKIPPED: usize = 8;
 /// [`CondenseError`].
 ///
 /// ```
-/// use mceip::exact::{schur_complement, rational, whole, Sparse};
+/// use mceip_exact::{schur_complement, rational, whole, Sparse};
 /// let one = |v| Sparse::from_entries(1, 1, [(0, 0, whole(v))]);
 /// let s = schur_complement(&one(3), &one(1), &one(2), &one(5)).unwrap(); // 5 - 2 * 1/3
 /// assert_eq!(s.get(0, 0), rational(13, 3));
@@ -160,23 +160,26 @@ impl Bordered {
 }
 
 /// Numbers known modulo a growing product of primes.
-pub(crate) struct Residues {
-    pub(crate) values: Vec<Integer>,
-    pub(crate) modulus: Integer,
+pub struct Residues {
+    /// One number each, between 0 and the modulus.
+    pub values: Vec<Integer>,
+    /// The product of the primes so far.
+    pub modulus: Integer,
 }
 
 impl Residues {
-    pub(crate) fn new(count: usize) -> Self {
+    /// As many zeros, modulo 1.
+    pub fn new(count: usize) -> Self {
         Residues { values: vec![Integer::zero(); count], modulus: Integer::one() }
     }
 
     /// floor(log2 modulus): the product exceeds 2^bits.
-    pub(crate) fn bits(&self) -> u64 {
+    pub fn bits(&self) -> u64 {
         self.modulus.bits() - 1
     }
 
     /// Garner's step: x + M ((a - x) / M mod p).
-    pub(crate) fn add(&mut self, p: u64, values: &[u64]) {
+    pub fn add(&mut self, p: u64, values: &[u64]) {
         let small = |v: &Integer| v.mod_floor(&p.into()).to_u64().unwrap_or(0); // 0 <= v < p
         let field = Field::new(p);
         let inverse = field.invert(field.enter(small(&self.modulus)));
@@ -198,7 +201,7 @@ impl Residues {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use crate::{rational, whole};
 
     /// D - R F^-1 C by elimination in fractions.
     fn plain(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> Sparse {

@@ -99,7 +99,7 @@ impl Interval {
     /// An interval that contains p(t) for every t in `self`, by Horner's rule.
     ///
     /// ```
-    /// use mceip::exact::{Interval, Poly, rational};
+    /// use mceip_exact::{Interval, Poly, rational};
     /// let t = Interval::new(rational(7, 5), rational(3, 2)).unwrap();
     /// let image = t.horner(&Poly::from_ints(&[-2, 0, 1])); // t^2 - 2 changes sign here
     /// assert_eq!(image.certain_sign(), 0);
@@ -179,7 +179,7 @@ fn rounded_down(numerator: &Integer, denominator: &Integer) -> Rational {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use crate::{rational, whole};
 
     #[test]
     fn horner_encloses_sampled_values() {
