@@ -29,6 +29,7 @@
 //! ```
 
 pub use mceip_exact as exact;
+pub use mceip_model as model;
 
 #[cfg(feature = "search")]
 pub mod analysis;
@@ -50,7 +51,6 @@ pub mod lcp;
 pub mod linear;
 #[cfg(feature = "solver")]
 pub mod mcp;
-pub mod model;
 #[cfg(feature = "solver")]
 pub mod multistart;
 pub mod oracle;

@@ -1,8 +1,8 @@
 //! Does a lifted pair satisfy every line of (9)? Decided exactly at an algebraic number.
 
 use super::Lifted;
-use crate::exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator};
-use crate::model::{ContactState, Direction, System, Unknown};
+use crate::{ContactState, Direction, System, Unknown};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator};
 use num_traits::{One, Zero};
 
 /// The lines of (9) that apply without z particles.

@@ -1,7 +1,7 @@
 //! Elimination (10)-(16): stick particles and normal dofs of slip particles leave, signs turn.
 
-use crate::exact::{Rational, Sparse};
-use crate::model::{Body, Direction, ModelError, Pencil, Problem, System, Unknown};
+use crate::{Body, Direction, ModelError, Pencil, Problem, System, Unknown};
+use mceip_exact::{Rational, Sparse};
 use num_traits::Zero;
 
 /// What a variable of the reduced pencil stands for.
@@ -154,8 +154,8 @@ fn inner(d: &Direction, v: &[Rational]) -> Rational {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
-    use crate::model::{ContactState, Particle, Window};
+    use crate::{ContactState, Particle, Window};
+    use mceip_exact::{rational, whole};
 
     /// Equation (16) written out by hand for one free dof, one stick and one slip particle.
     #[test]

@@ -10,7 +10,8 @@ mod write;
 
 pub use market::read_matrix_market;
 pub use number::Number;
-pub(crate) use object::word_or_kind;
+#[doc(hidden)]
+pub use object::word_or_kind;
 pub use object::{Object, Word};
 pub use write::{write_problem, write_sparse};
 
@@ -31,7 +32,7 @@ pub const MAX_ORDER: usize = 1_000_000;
 /// [`ModelError`] with the place, what was expected and what was found.
 ///
 /// ```
-/// use mceip::model::file::read_problem;
+/// use mceip_model::file::read_problem;
 /// let text = r#"{"format": "mceip-problem/1", "unknown": "mu",
 ///                "pencil": {"a": [["1.1"]], "b": [[-1]], "free": []}}"#;
 /// let problem = read_problem(text, std::path::Path::new(".")).unwrap();
@@ -154,7 +155,7 @@ mod tests {
 
     #[test]
     fn a_table_of_contact_states_keeps_its_order() {
-        use crate::model::{ContactState, Particle};
+        use crate::{ContactState, Particle};
         let text = r#"[{"tangential": 1, "normal": 2, "state": "stick"}, {"tangential": 3, "normal": 0, "state": "slip", "sign": -1}]"#;
         let expected = [Particle::plain(1, 2, ContactState::Stick), Particle::plain(3, 0, ContactState::Slip { sign: -1 })];
         assert_eq!(read_particles(text), Ok(expected.to_vec()));

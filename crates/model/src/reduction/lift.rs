@@ -1,8 +1,8 @@
 //! The way back: from (t, x) of the pencil to (v, w) over all degrees of freedom of (9).
 
 use super::Variable;
-use crate::exact::{Integer, Poly, Rational, Sparse, common_denominator};
-use crate::model::{System, Unknown};
+use crate::{System, Unknown};
+use mceip_exact::{Integer, Poly, Rational, Sparse, common_denominator};
 use num_traits::Zero;
 
 /// Polynomials in t, to be evaluated at the solution's value; index = degree of freedom.

@@ -2,8 +2,8 @@
 
 use super::matrix::RawMatrix;
 use super::{Number, Object, Word};
-use crate::exact::{Rational, whole};
-use crate::model::{Body, ContactState, ModelError, Particle, Pencil, Problem, Reaction, System, Unknown, Window};
+use crate::{Body, ContactState, ModelError, Particle, Pencil, Problem, Reaction, System, Unknown, Window};
+use mceip_exact::{Rational, whole};
 use serde::Deserialize;
 use std::path::Path;
 

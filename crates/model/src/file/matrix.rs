@@ -2,8 +2,8 @@
 
 use super::market::read_matrix_market;
 use super::{MAX_ORDER, Number, Word, beside, read_text};
-use crate::exact::{Rational, Sparse};
-use crate::model::ModelError;
+use crate::ModelError;
+use mceip_exact::{Rational, Sparse};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
 use std::path::Path;
@@ -135,7 +135,7 @@ fn nearest_doubles(what: &'static str, m: &Sparse) -> Result<Sparse, ModelError>
     for (i, j, v) in m.entries() {
         let rounded = Number(v.clone()).through_f64().ok_or_else(|| ModelError::Number {
             place: format!("{what}[{i}][{j}]"),
-            source: crate::exact::NumberError::NotFinite { text: "a value beyond the range of doubles".into() },
+            source: mceip_exact::NumberError::NotFinite { text: "a value beyond the range of doubles".into() },
         })?;
         entries.push((i, j, rounded.0));
     }
@@ -145,7 +145,7 @@ fn nearest_doubles(what: &'static str, m: &Sparse) -> Result<Sparse, ModelError>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{from_f64, rational, whole};
+    use mceip_exact::{from_f64, rational, whole};
 
     fn read(text: &str) -> Result<Sparse, ModelError> {
         super::super::from_json::<RawMatrix>(text)?.build("K", Path::new("."))

@@ -1,13 +1,14 @@
 //! A number in a file: a JSON string or a JSON number, read as exactly the value it spells.
 
-use crate::exact::{Rational, from_f64, parse, to_f64};
+use mceip_exact::{Rational, from_f64, parse, to_f64};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
 /// A rational as it stands in JSON: `"p/q"`, `"1.1"` or `1.1`, never through a double.
 ///
 /// ```
-/// use mceip::{exact::rational, model::file::Number};
+/// use mceip_exact::rational;
+/// use mceip_model::file::Number;
 /// let n: Number = serde_json::from_str("0.1").unwrap();
 /// assert_eq!(n.0, rational(1, 10));
 /// assert_eq!(serde_json::to_string(&n).unwrap(), "\"1/10\"");
@@ -53,7 +54,7 @@ fn kind(value: &serde_json::Value) -> &'static str {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::rational;
+    use mceip_exact::rational;
 
     #[test]
     fn json_numbers_and_strings_are_exact() {

@@ -2,7 +2,7 @@
 
 use super::ModelError;
 use super::pencil::{Unknown, require_definite, require_symmetric};
-use crate::exact::{Rational, Sparse};
+use mceip_exact::{Rational, Sparse};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
 
@@ -266,7 +266,7 @@ fn check_reaction(particle: usize, p: &Particle, friction: Option<&Rational>) ->
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use mceip_exact::{rational, whole};
 
     const SLIP: ContactState = ContactState::Slip { sign: 1 };
 

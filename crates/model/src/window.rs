@@ -1,7 +1,7 @@
 //! The closed window in which values of the unknown are wanted.
 
 use super::ModelError;
-use crate::exact::Rational;
+use mceip_exact::Rational;
 use num_traits::{Signed, Zero};
 
 /// The closed window [min, max], 0 <= min; no max means infinity.
@@ -53,7 +53,7 @@ impl Window {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::whole;
+    use mceip_exact::whole;
 
     #[test]
     fn a_window_covers_its_parts() {

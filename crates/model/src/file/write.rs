@@ -1,8 +1,8 @@
 //! Writing a problem file: what `reduce`, `block` and the generators hand to other programs.
 
 use super::{Number, PROBLEM_FORMAT};
-use crate::exact::Sparse;
-use crate::model::{Body, ContactState, Particle, Problem};
+use crate::{Body, ContactState, Particle, Problem};
+use mceip_exact::Sparse;
 use serde_json::{Map, Value, json};
 
 /// The problem as `mceip-problem/1`, matrices inlined as sparse entries.

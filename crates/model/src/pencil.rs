@@ -1,7 +1,7 @@
 //! The generic problem (A + tB) x = y, and the type that carries the hypotheses of Propositions 1 and 2.
 
 use super::ModelError;
-use crate::exact::{DefiniteError, Sparse, positive_definite};
+use mceip_exact::{DefiniteError, Sparse, positive_definite};
 use num_traits::Zero;
 
 /// Which number is sought: t = lambda^2 in (12)-(14) or t = mu in (21)-(23).
@@ -177,7 +177,7 @@ pub(super) fn require_symmetric(equation: &'static str, what: &'static str, m: &
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Dense, Rational, whole};
+    use mceip_exact::{Dense, Rational, whole};
 
     #[test]
     fn shapes_and_index_sets_are_checked() {

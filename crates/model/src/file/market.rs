@@ -1,8 +1,8 @@
 //! Matrix Market, read exactly. Our own reader because the libraries read values as doubles.
 
 use super::matrix::require_order;
-use crate::exact::{Rational, Sparse, parse};
-use crate::model::ModelError;
+use crate::ModelError;
+use mceip_exact::{Rational, Sparse, parse};
 
 /// Reads a real or integer Matrix Market file, `coordinate` or `array`, `general` or `symmetric`;
 /// decimals and fractions as exactly the value they spell. `what` names the matrix in complaints.
@@ -11,7 +11,8 @@ use crate::model::ModelError;
 /// [`ModelError::MatrixMarket`] with the line, what was expected and what stands there.
 ///
 /// ```
-/// use mceip::{exact::rational, model::file::read_matrix_market};
+/// use mceip_exact::rational;
+/// use mceip_model::file::read_matrix_market;
 /// let text = "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 1.1\n2 1 -3e-1\n";
 /// let m = read_matrix_market("K", text).unwrap();
 /// assert_eq!((m.get(0, 0), m.get(0, 1)), (rational(11, 10), rational(-3, 10)));
@@ -168,7 +169,7 @@ fn refuse_twice(what: &'static str, entries: &[(usize, usize, Rational)]) -> Res
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use mceip_exact::{rational, whole};
 
     const HEAD: &str = "%%MatrixMarket matrix coordinate real general\n";
 

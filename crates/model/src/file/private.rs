@@ -2,7 +2,7 @@
 //! key `$serde_json::private::Number`, so that an object with this key in a file would be read as a number. No format has
 //! a field of such a name: every key that begins like it is refused before anything is read.
 
-use crate::model::{ErrorLocation, ModelError};
+use crate::{ErrorLocation, ModelError};
 
 /// The beginning of the keys that `serde_json` keeps for itself.
 const PRIVATE: &str = "$serde_json::private::";

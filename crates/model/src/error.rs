@@ -1,6 +1,6 @@
 //! Every way in which a problem is refused: equation or field, index, expected, got.
 
-use crate::exact::{NumberError, Rational};
+use mceip_exact::{NumberError, Rational};
 
 /// Where in a JSON text something was found.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

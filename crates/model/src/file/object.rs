@@ -8,7 +8,7 @@ use std::marker::PhantomData;
 /// A value read from a JSON object only.
 ///
 /// ```
-/// use mceip::model::file::Object;
+/// use mceip_model::file::Object;
 /// #[derive(serde::Deserialize)]
 /// struct Window { min: u8, max: u8 }
 /// let read = |text| serde_json::from_str::<Object<Window>>(text).map(|w| (w.0.min, w.0.max));
@@ -21,7 +21,7 @@ pub struct Object<T>(pub T);
 /// A value read from a JSON string only: a word of an enum without data.
 ///
 /// ```
-/// use mceip::model::file::Word;
+/// use mceip_model::file::Word;
 /// #[derive(Debug, PartialEq, serde::Deserialize)]
 /// #[serde(rename_all = "lowercase")]
 /// enum State { Free, Stick }
@@ -41,7 +41,7 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Word<T> {
 
 /// An enum whose variants without data stand in JSON as words and those with data as objects with one key. `Words` and
 /// `Kinds` are its two halves; either becomes the whole.
-pub(crate) fn word_or_kind<'de, D, Words, Kinds, Whole>(deserializer: D, expected: &'static str) -> Result<Whole, D::Error>
+pub fn word_or_kind<'de, D, Words, Kinds, Whole>(deserializer: D, expected: &'static str) -> Result<Whole, D::Error>
 where
     D: Deserializer<'de>,
     Words: Deserialize<'de> + Into<Whole>,

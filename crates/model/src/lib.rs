@@ -8,6 +8,7 @@ mod error;
 pub mod file;
 mod pencil;
 mod problem;
+pub mod reduction;
 mod system;
 mod window;
 

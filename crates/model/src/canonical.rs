@@ -4,7 +4,7 @@
 //! comment or window, and no reaction (it is checked when read, and changes nothing after that).
 
 use super::{Body, ContactState, Problem};
-use crate::exact::Sparse;
+use mceip_exact::Sparse;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
@@ -65,10 +65,10 @@ fn matrix(out: &mut String, name: &str, m: &Sparse) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
-    use crate::model::{Pencil, Unknown, Window};
+    use crate::{Pencil, Unknown, Window};
+    use mceip_exact::{rational, whole};
 
-    fn problem(v: crate::exact::Rational, unknown: Unknown) -> Problem {
+    fn problem(v: mceip_exact::Rational, unknown: Unknown) -> Problem {
         let a = Sparse::from_entries(1, 1, [(0, 0, v)]);
         let pencil = Pencil::new(a, Sparse::identity(1), vec![]).unwrap();
         Problem::new(Body::Pencil(pencil), unknown, Window::all()).unwrap()
@@ -76,7 +76,7 @@ mod tests {
 
     #[test]
     fn a_system_is_spelt_out_with_its_directions() {
-        use crate::model::{Particle, System};
+        use crate::{Particle, System};
         let frame = Some([[rational(3, 5), rational(4, 5)], [rational(-4, 5), rational(3, 5)]]);
         let slip = Particle { frame, normal_direction: -1, ..Particle::plain(0, 1, ContactState::Slip { sign: -1 }) };
         let particles = vec![slip, Particle::plain(3, 2, ContactState::Stick)];
