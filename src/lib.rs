@@ -28,6 +28,8 @@
 //! assert!(found.is_complete_list());
 //! ```
 
+pub use mceip_check as check;
+pub use mceip_check::certificate;
 pub use mceip_exact as exact;
 pub use mceip_model as model;
 
@@ -35,10 +37,8 @@ pub use mceip_model as model;
 pub mod analysis;
 #[cfg(feature = "solver")]
 pub mod candidate;
-pub mod certificate;
 #[cfg(feature = "solver")]
 pub mod certify;
-pub mod check;
 #[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "testkit")]
