@@ -32,6 +32,7 @@ pub use mceip_check as check;
 pub use mceip_check::certificate;
 pub use mceip_exact as exact;
 pub use mceip_model as model;
+pub use mceip_oracle as oracle;
 
 #[cfg(feature = "search")]
 pub mod analysis;
@@ -53,7 +54,6 @@ pub mod linear;
 pub mod mcp;
 #[cfg(feature = "solver")]
 pub mod multistart;
-pub mod oracle;
 #[cfg(feature = "picture")]
 pub mod picture;
 pub mod reduction;

@@ -2,8 +2,8 @@
 
 use super::integral::Integral;
 use super::{Enumeration, Solution, WideKernel};
-use crate::exact::{Algebraic, Poly, Sign, roots_in};
-use crate::model::{Pencil, Window};
+use mceip_exact::{Algebraic, Poly, Sign, roots_in};
+use mceip_model::{Pencil, Window};
 use std::ops::ControlFlow;
 
 /// Largest number of complementarity variables: each one more doubles the supports.
@@ -35,7 +35,9 @@ pub enum OracleError {
 /// [`OracleError::TooLarge`] beyond [`MAX_SLIP`], [`MAX_FREE`] or [`MAX_BITS`].
 ///
 /// ```
-/// use mceip::{exact::{whole, Sparse}, model::{Pencil, Window}, oracle::enumerate};
+/// use mceip_exact::{whole, Sparse};
+/// use mceip_model::{Pencil, Window};
+/// use mceip_oracle::enumerate;
 /// // x = (1): (-2 + t) x = y has the one solution t = 2.
 /// let a = Sparse::from_entries(1, 1, [(0, 0, whole(-2))]);
 /// let pencil = Pencil::new(a, Sparse::identity(1), vec![]).unwrap();
@@ -165,7 +167,7 @@ pub(super) fn multiplicity(det: &Poly, value: &mut Algebraic) -> usize {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, rational, whole};
+    use mceip_exact::{Sparse, rational, whole};
 
     fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
         Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec()).unwrap()

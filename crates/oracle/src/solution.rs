@@ -2,8 +2,8 @@
 
 use super::integral::Integral;
 use super::{Cone, SupportRange, Undescribed, cone, range};
-use crate::exact::{Algebraic, Poly, ratio_to_decimal, to_decimal};
-use crate::model::{Pencil, Window};
+use mceip_exact::{Algebraic, Poly, ratio_to_decimal, to_decimal};
+use mceip_model::{Pencil, Window};
 
 /// One solution of (12)-(14) or (21)-(23), up to the positive factor that x and y share.
 ///
@@ -51,7 +51,7 @@ impl Solution {
             return constrained.iter().map(|&i| &self.x[i]).fold(Poly::default(), add);
         }
         let mut value = self.value.clone();
-        let signed = self.x.iter().map(|p| if value.sign_of(p) == crate::exact::Sign::Negative { -p } else { p.clone() });
+        let signed = self.x.iter().map(|p| if value.sign_of(p) == mceip_exact::Sign::Negative { -p } else { p.clone() });
         signed.fold(Poly::default(), |a, b| &a + &b)
     }
 }

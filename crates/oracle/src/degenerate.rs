@@ -1,7 +1,7 @@
 //! Value types for what is not a list: cones of solutions at one value, ranges of values of one support.
 
 use super::Solution;
-use crate::exact::{Algebraic, Poly, Rational, common_denominator};
+use mceip_exact::{Algebraic, Poly, Rational, common_denominator};
 use std::cmp::Ordering;
 
 /// Solutions at one value that form a cone of dimension > 1: all sums of a nonnegative combination

@@ -4,7 +4,7 @@
 //! [ t + p - q S1, -S1 S2; -S1 S2, t + p + q S2 ] x = y / k.
 //! The table as printed scrambles its rows; nothing here is copied from it.
 
-use crate::exact::{Quadratic, Rational, Sign, whole};
+use mceip_exact::{Quadratic, Rational, Sign, whole};
 use num_traits::{One, Signed, Zero};
 
 /// The data of Fig. 1: springs at an angle with cosine c and sine s, both exact.
@@ -111,7 +111,7 @@ fn rational_solution(value: Rational, x: [i64; 2], slip: Vec<usize>) -> ClosedSo
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::rational;
+    use mceip_exact::rational;
 
     fn data(mu: Rational, signs: (i8, i8)) -> TwoParticles {
         TwoParticles { c: rational(3, 5), s: rational(4, 5), k: whole(1), m: whole(1), mu, signs }

@@ -9,7 +9,7 @@
 use super::integral::Integral;
 use super::plain::multiplicity;
 use super::{Cone, Enumeration, Solution, WideKernel};
-use crate::exact::{Algebraic, Poly, Sign, cone_generators, dot, kernel_at, row_echelon_at};
+use mceip_exact::{Algebraic, Poly, Sign, cone_generators, dot, kernel_at, row_echelon_at};
 
 /// Describes what is on the support of a wide kernel: nothing, ordinary solutions, or a cone.
 pub(super) fn describe(pencil: &Integral<'_>, kernel: &WideKernel, found: &mut Enumeration) {

@@ -1,7 +1,7 @@
 //! A pencil in integers, and the linear algebra that the definition asks of its blocks.
 
-use crate::exact::{Algebraic, Integer, Poly, Sign, determinant, first_row_cofactors, kernel_at};
-use crate::model::Pencil;
+use mceip_exact::{Algebraic, Integer, Poly, Sign, determinant, first_row_cofactors, kernel_at};
+use mceip_model::Pencil;
 
 /// The pencil with each row multiplied by a positive integer that clears its denominators.
 pub(super) struct Integral<'a> {

@@ -2,8 +2,8 @@
 
 use super::degenerate::constants;
 use super::{Cone, End, Enumeration, Piece, Solution, SupportRange};
-use crate::exact::{Algebraic, Poly, Rational, Sign, Sparse, common_denominator};
-use crate::model::Pencil;
+use mceip_exact::{Algebraic, Poly, Rational, Sign, Sparse, common_denominator};
+use mceip_model::Pencil;
 
 /// Is (t, x) a solution: t >= 0, x != 0, y = (A + tB) x with y_f = 0 and 0 <= x_s _|_ y_s >= 0?
 /// x is given by integer polynomials at t, up to a positive factor. The window plays no part.
@@ -11,7 +11,9 @@ use crate::model::Pencil;
 /// A vector of another length than the pencil's order is no solution.
 ///
 /// ```
-/// use mceip::{exact::{rational, whole, Sparse}, model::Pencil, oracle::is_rational_solution};
+/// use mceip_exact::{rational, whole, Sparse};
+/// use mceip_model::Pencil;
+/// use mceip_oracle::is_rational_solution;
 /// let pencil = Pencil::new(Sparse::from_ints(&[&[1, -6], &[2, -6]]), Sparse::identity(2), vec![]).unwrap();
 /// assert!(is_rational_solution(&pencil, &whole(2), &[whole(2), whole(1)]));
 /// assert!(!is_rational_solution(&pencil, &rational(2001, 1000), &[whole(2), whole(1)]));

@@ -12,8 +12,8 @@
 use super::cone::cone_at;
 use super::integral::Integral;
 use super::{End, Enumeration, Piece, SupportRange, Undescribed, WideKernel};
-use crate::exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots};
-use crate::model::Window;
+use mceip_exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots};
+use mceip_model::Window;
 use num_traits::{One, Signed};
 use std::cmp::Ordering;
 
@@ -150,7 +150,7 @@ fn clip(piece: Piece, window: &Window) -> Option<Piece> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use mceip_exact::{rational, whole};
 
     /// Between zero and the negative root nearest to it, wherever the positive ones are.
     #[test]
