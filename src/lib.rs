@@ -17,7 +17,7 @@
 //! [`exact`] numbers, [`model`] problems and files, [`source`] examples, [`reduction`] (10)-(16) and
 //! Propositions 1 and 2, [`oracle`] the slow truth, `mcp`, `solver` and `sparse` the PATH-style solver,
 //! `certify` and [`certificate`], [`check`] the verdict, `analysis` the engineer's answer, `testkit` what compares
-//! them all.
+//! them all. `exact`, `model`, `check` and `oracle` are crates of their own, under their old names here.
 //!
 //! ```
 //! use mceip::{exact::{whole, Sparse}, model::{Pencil, Window}, oracle::enumerate};
