@@ -17,7 +17,7 @@
 //! [`exact`] numbers, [`model`] problems and files, [`source`] examples, [`reduction`] (10)-(16) and
 //! Propositions 1 and 2, [`oracle`] the slow truth, `mcp`, `solver` and `sparse` the PATH-style solver,
 //! `certify` and [`certificate`], [`check`] the verdict, `analysis` the engineer's answer, `testkit` what compares
-//! them all.
+//! them all. `exact`, `model`, `check` and `oracle` are crates of their own, under their old names here.
 //!
 //! ```
 //! use mceip::{exact::{whole, Sparse}, model::{Pencil, Window}, oracle::enumerate};
@@ -28,19 +28,22 @@
 //! assert!(found.is_complete_list());
 //! ```
 
+pub use mceip_check as check;
+pub use mceip_check::certificate;
+pub use mceip_exact as exact;
+pub use mceip_model as model;
+pub use mceip_oracle as oracle;
+
 #[cfg(feature = "search")]
 pub mod analysis;
 #[cfg(feature = "solver")]
 pub mod candidate;
-pub mod certificate;
 #[cfg(feature = "solver")]
 pub mod certify;
-pub mod check;
 #[cfg(feature = "cli")]
 pub mod cli;
 #[cfg(feature = "testkit")]
 pub mod conform;
-pub mod exact;
 #[cfg(feature = "solver")]
 pub mod foreign;
 #[cfg(feature = "solver")]
@@ -49,10 +52,8 @@ pub mod lcp;
 pub mod linear;
 #[cfg(feature = "solver")]
 pub mod mcp;
-pub mod model;
 #[cfg(feature = "solver")]
 pub mod multistart;
-pub mod oracle;
 #[cfg(feature = "picture")]
 pub mod picture;
 pub mod reduction;

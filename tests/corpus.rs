@@ -143,7 +143,7 @@ fn our_checker_gives_every_verdict_and_reason() {
 }
 
 /// Reasons that no file reaches: a claim and a cover that contradict each other are not both true, and a checker that
-/// accepts nothing false refuses the false one by its own obligations. `src/check/mod.rs` tests it on made-up covers.
+/// accepts nothing false refuses the false one by its own obligations. `crates/check/src/lib.rs` tests it on made-up covers.
 const UNREACHABLE: [&str; 1] = ["NotInCover"];
 
 /// Each obligation of the checker is the reason of some file.
@@ -163,10 +163,13 @@ fn every_obligation_has_a_forgery() {
         body.lines().filter_map(name).collect::<Vec<String>>()
     };
     let mut missing: Vec<String> =
-        variants("src/check/reason.rs", "Reason").into_iter().filter(|v| v != "Cover" && !reasons.contains(v)).collect();
+        variants("crates/check/src/reason.rs", "Reason").into_iter().filter(|v| v != "Cover" && !reasons.contains(v)).collect();
     missing.retain(|v| !UNREACHABLE.contains(&v.as_str()));
     missing.extend(
-        variants("src/check/cover/fault.rs", "CoverFault").into_iter().map(|v| format!("Cover.{v}")).filter(|v| !reasons.contains(v)),
+        variants("crates/check/src/cover/fault.rs", "CoverFault")
+            .into_iter()
+            .map(|v| format!("Cover.{v}"))
+            .filter(|v| !reasons.contains(v)),
     );
     let plain = ["McpRejected", "Violated"]
         .map(|name| variants(&format!("src/lcp/{}.rs", if name == "Violated" { "check" } else { "verdict" }), name));

@@ -1,17 +1,34 @@
-//! The laws of `design.md` that can be read off the sources: who imports whom, who computes in floats.
+//! The laws of `design.md` that can be read off manifests and sources: who depends on whom, who computes in floats.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::path::{Path, PathBuf};
 
-fn source_folder() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("src")
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+}
+
+/// The rooms that are crates of their own.
+const CRATES: [&str; 4] = ["exact", "model", "check", "oracle"];
+
+/// Where the sources of a crate are; for any other name those of the package at the top.
+fn sources_of(package: &str) -> PathBuf {
+    if CRATES.contains(&package) { root().join("crates").join(package).join("src") } else { root().join("src") }
+}
+
+/// The folder and the file a room may consist of.
+fn places(room: &str) -> [PathBuf; 2] {
+    let folder = match room {
+        "certificate" => sources_of("check").join(room),
+        _ if CRATES.contains(&room) => sources_of(room),
+        _ => sources_of("mceip").join(room),
+    };
+    let file = folder.with_extension("rs");
+    [folder, file]
 }
 
 fn sources(room: &str) -> Vec<(PathBuf, String)> {
-    let root = source_folder();
-    let (folder, file) = (root.join(room), root.join(format!("{room}.rs")));
     let mut list = Vec::new();
-    let mut stack = vec![folder, file];
+    let mut stack = places(room).to_vec();
     while let Some(path) = stack.pop() {
         if path.ends_with("tests") || (path.ends_with("tests.rs") && is_for_tests(&path)) {
             continue; // not the code of the room
@@ -35,27 +52,69 @@ fn is_for_tests(path: &Path) -> bool {
     std::fs::read_to_string(parent).unwrap().contains("#[cfg(test)]\nmod tests;")
 }
 
-/// Rooms named anywhere in the code of a room (not in comments or doc examples).
+/// Rooms named anywhere in the code of a room (not in comments or doc examples): `crate::room` or the crate `mceip_room`.
 fn imports(code: &str) -> Vec<String> {
     let mut rooms = Vec::new();
     for line in code.lines().map(str::trim).filter(|l| !l.starts_with("//")) {
-        let mut rest = line;
-        while let Some(k) = rest.find("crate::") {
-            rest = &rest[k + 7..];
-            rooms.push(rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect());
+        for before in ["crate::", "mceip_"] {
+            let mut rest = line;
+            while let Some(k) = rest.find(before) {
+                rest = &rest[k + before.len()..];
+                rooms.push(rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect());
+            }
         }
     }
     rooms
 }
 
-/// Room, and everything it may import besides itself.
-const MAY_IMPORT: [(&str, &[&str]); 10] = [
-    ("exact", &[]),
-    ("model", &["exact"]),
+/// Crate, and all that its manifest may name: Cargo keeps the walls between crates.
+const MAY_DEPEND: [(&str, &[&str]); 4] = [
+    ("exact", &["num-bigint", "num-integer", "num-rational", "num-traits", "thiserror"]),
+    ("model", &["mceip-exact", "num-traits", "serde", "serde_json", "sha2", "thiserror"]),
+    ("check", &["mceip-exact", "mceip-model", "num-integer", "num-traits", "serde", "serde_json", "thiserror"]),
+    ("oracle", &["mceip-exact", "mceip-model", "num-traits", "thiserror"]),
+];
+
+#[test]
+fn manifests_follow_the_house() {
+    for (name, allowed) in MAY_DEPEND {
+        let manifest = std::fs::read_to_string(root().join("crates").join(name).join("Cargo.toml")).unwrap();
+        assert!(manifest.contains("[lints]\nworkspace = true"), "{name} has lints of its own");
+        let mut section = "";
+        let mut named = Vec::new();
+        for line in manifest.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#')) {
+            if line.starts_with('[') {
+                section = line;
+                // No other kind of dependency: dev, build, of a target, or a table of its own.
+                assert!(!section.contains("dependencies") || section == "[dependencies]", "{name}: {section}");
+            } else if section == "[dependencies]" {
+                named.push(line.split(['.', ' ', '=']).next().unwrap());
+            }
+        }
+        assert_eq!(named, allowed, "{name}");
+    }
+    let crates = std::fs::read_dir(root().join("crates")).unwrap().count();
+    assert_eq!(crates, MAY_DEPEND.len(), "a crate without a row");
+}
+
+/// The elimination (10)-(16) stands in `model`; what judges it (`check`), the enumerator and the rest of `model` do not use it.
+#[test]
+fn the_elimination_is_not_used_by_what_stands_beside_it() {
+    for room in ["check", "oracle", "model"] {
+        for (path, code) in sources(room) {
+            if path.starts_with(sources_of("model").join("reduction")) {
+                continue;
+            }
+            let uses = |l: &str| l.contains("reduction") && !l.starts_with("//") && l != "pub mod reduction;";
+            assert!(!code.lines().map(str::trim).any(uses), "{} uses the elimination", path.display());
+        }
+    }
+}
+
+/// Room within a crate, and everything it may import besides itself.
+const MAY_IMPORT: [(&str, &[&str]); 6] = [
     // oracle: the data type of Table 1; the others: guesses of the loading path, verified exactly, and stepping.
     ("source", &["exact", "model", "oracle", "mcp", "solver", "linear", "tolerance"]),
-    ("oracle", &["exact", "model"]),
-    ("check", &["exact", "model", "certificate"]),
     ("certificate", &["exact", "model"]),
     ("solver", &["mcp"]),
     ("mcp", &[]),
@@ -67,10 +126,11 @@ const MAY_IMPORT: [(&str, &[&str]); 10] = [
 #[test]
 fn imports_follow_the_house() {
     for (room, allowed) in MAY_IMPORT {
+        let package = sources_of(if room == "certificate" { "check" } else { "mceip" });
         for (path, code) in sources(room) {
             // One step up more than there are folders below the room is outside of it.
-            let outside = "super::".repeat(steps_to_outside(path.strip_prefix(source_folder()).unwrap()));
-            assert!(!code.contains(&outside) || room == "model", "{} reaches out of its room", path.display());
+            let outside = "super::".repeat(steps_to_outside(path.strip_prefix(&package).unwrap()));
+            assert!(!code.contains(&outside), "{} reaches out of its room", path.display());
             for import in imports(&code) {
                 assert!(import == room || allowed.contains(&import.as_str()), "{}: {room} imports {import}", path.display());
             }
@@ -78,7 +138,7 @@ fn imports_follow_the_house() {
     }
 }
 
-/// How many `super::` lead from a file of a room (relative to `src`) out of it.
+/// How many `super::` lead from a file of a room (relative to its `src`) out of it.
 fn steps_to_outside(file: &Path) -> usize {
     // The room, folders, file; where that leaves one, it is an inline module's first step up.
     let parts = file.iter().count() - usize::from(file.ends_with("mod.rs"));
@@ -99,7 +159,7 @@ fn the_checker_names_only_what_multiplies_and_compares() {
     let mut named = 0;
     for (path, code) in sources("check") {
         for line in code.lines().filter(|l| !l.trim_start().starts_with("//")) {
-            let Some((_, rest)) = line.split_once("crate::exact::") else { continue };
+            let Some((_, rest)) = line.split_once("mceip_exact::") else { continue };
             for name in rest.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|n| !n.is_empty()) {
                 assert!(ALLOWED.contains(&name), "{}: check uses exact::{name}", path.display());
                 named += 1;
@@ -111,29 +171,28 @@ fn the_checker_names_only_what_multiplies_and_compares() {
 
 #[test]
 fn the_reader_of_imports_sees_a_breach() {
-    assert_eq!(imports("use crate::solver::solve;\n// crate::oracle\nlet x = crate::exact::whole(1);"), vec!["solver", "exact"]);
+    assert_eq!(imports("use crate::solver::solve;\n// crate::oracle\nlet x = mceip_exact::whole(1);"), vec!["solver", "exact"]);
 }
 
 #[test]
 fn floats_stay_out_of_the_deciding_rooms() {
-    for room in ["exact", "check", "oracle", "certificate"] {
+    for room in ["exact", "check", "oracle"] {
         for (path, code) in sources(room) {
             let name = path.file_name().and_then(|n| n.to_str()).unwrap();
-            let is_border = room == "exact" && (name == "double.rs" || name == "mod.rs");
+            let is_border = room == "exact" && (name == "double.rs" || name == "lib.rs");
             let code: String = code.lines().filter(|l| !l.trim_start().starts_with("//")).collect();
             assert!(is_border || !(code.contains("f64") || code.contains("f32")), "{}: names a float type", path.display());
         }
     }
     for room in ["exact", "check", "oracle"] {
-        let module = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("src").join(room).join("mod.rs")).unwrap();
+        let module = std::fs::read_to_string(sources_of(room).join("lib.rs")).unwrap();
         assert!(module.contains("#![deny(clippy::float_arithmetic)]"), "{room} does not deny float arithmetic");
     }
 }
 
 #[test]
 fn faer_stands_behind_one_file_and_tolerances_in_two() {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
-    let mut stack = vec![root];
+    let mut stack: Vec<PathBuf> = ["mceip"].iter().chain(&CRATES).map(|p| sources_of(p)).collect();
     let (mut faer, mut small) = (Vec::new(), Vec::new());
     while let Some(path) = stack.pop() {
         if path.ends_with("tests") {

@@ -125,7 +125,7 @@ fn quotes_a_time(sentence: &str) -> bool {
 #[test]
 fn paths_named_in_the_readme_exist() {
     let readme = read("README.md");
-    let rooms = ["src/", "spec/", "tests/", "fuzz/", "benches/", ".ci/"];
+    let rooms = ["src/", "crates/", "spec/", "tests/", "fuzz/", "benches/", ".ci/"];
     let named = readme.split(['`', '(', ')', ' ', '\n']).filter(|w| rooms.iter().any(|r| w.starts_with(r)));
     let named: Vec<&str> = named.map(|w| w.split("::").next().unwrap().trim_end_matches([',', '.', ';', ':'])).collect();
     let missing: Vec<&&str> = named.iter().filter(|p| !Path::new(env!("CARGO_MANIFEST_DIR")).join(p).exists()).collect();

@@ -8,13 +8,10 @@ mod condense;
 mod condense_sparse;
 #[cfg(feature = "solver")]
 mod condensed_mcp;
-mod eliminate;
 #[cfg(feature = "solver")]
 mod embed;
 #[cfg(feature = "solver")]
 mod expand;
-mod lift;
-mod lines;
 mod project;
 mod reversed;
 
@@ -25,12 +22,10 @@ pub use condense::{CondensationError, condense};
 pub use condense_sparse::{CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed};
 #[cfg(feature = "solver")]
 pub use condensed_mcp::{CondensedEmbedding, CondensedEmbeddingError};
-pub use eliminate::{MuFamily, Reduced, Variable, mu_family, reduce};
 #[cfg(feature = "solver")]
 pub use embed::{Embedding, Side};
 #[cfg(feature = "solver")]
 pub use expand::Expansion;
-pub use lift::{Lifted, lift};
-pub use lines::{Line, LineViolated, check_lines};
+pub use mceip_model::reduction::{Lifted, Line, LineViolated, MuFamily, Reduced, Variable, check_lines, lift, mu_family, reduce};
 pub use project::{Projected, project};
 pub use reversed::reversed;

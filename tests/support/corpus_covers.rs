@@ -1,4 +1,4 @@
-//! Complete sets and absence: what is accepted, and a forgery of each fault of `src/check/cover/fault.rs`.
+//! Complete sets and absence: what is accepted, and a forgery of each fault of `crates/check/src/cover/fault.rs`.
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus::*;

@@ -32,7 +32,7 @@ impl Images {
 
 /// An integer modulo p, in Montgomery form.
 fn enter(field: &Field, v: &Integer) -> u64 {
-    let magnitude = (v.magnitude() % field.p).to_u64().unwrap_or(0); // below p
+    let magnitude = (v.magnitude() % field.prime()).to_u64().unwrap_or(0); // below p
     let value = field.enter(magnitude);
     if v.is_negative() { field.sub(0, value) } else { value }
 }
@@ -69,7 +69,7 @@ pub(super) fn solve(
         let (field, image) = images.get(k, contact);
         match solve_modulo(field, image, contact.rows().len(), active, equations, imposed) {
             Some(z) => {
-                residues.add(field.p, &z);
+                residues.add(field.prime(), &z);
                 singular = 0;
             }
             None => singular += 1,

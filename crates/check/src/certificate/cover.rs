@@ -1,0 +1,385 @@
+//! The claim *complete set*: a cover of (supports) x (window), each piece with its reason.
+//!
+//! A piece is an interval of the unknown with a binary tree over index states. At a node each
+//! complementarity variable is *open*, *at rest* (x_i = 0) or *moving* (x_i > 0, y_i = 0); rest and
+//! moving exclude each other, so a solution lies in one leaf of the piece. The checker rebuilds
+//! intervals and states itself; the file holds cuts, branches and witnesses only.
+
+use super::{Integer, Number, integer_rows, integers, object};
+use mceip_model::file::word_or_kind;
+use serde::{Deserialize, Deserializer, Serialize};
+
+/// All solutions in the certificate's window: a cover, or what is left of one (open leaves).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CompleteSet {
+    /// How the free variables were eliminated; absent where there are none.
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    pub condensation: Option<Condensation>,
+    /// Consecutive intervals from the lower to the upper end of the window.
+    #[serde(deserialize_with = "object::list")]
+    pub pieces: Vec<Piece>,
+}
+
+/// One interval of the unknown and the tree that covers it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Piece {
+    /// Upper end, where the next piece begins; null for infinity, but not absent.
+    #[serde(deserialize_with = "present")]
+    pub max: Option<Number>,
+    /// The anchor of the condensation that encloses the pencil here.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub anchor: Option<usize>,
+    /// The tree in preorder.
+    pub tree: Vec<Node>,
+}
+
+/// A number or null: a missing field is refused.
+fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::Error> {
+    Option::deserialize(d)
+}
+
+/// A node of the tree, in preorder. Leaves prove that nothing lies in them, or exactly what.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Node {
+    /// Cuts the interval at this value: the lower half follows, then the upper half.
+    Split(Number),
+    /// Decides a complementarity variable: at rest follows, then moving.
+    Branch(usize),
+    /// Weights w, one per complementarity variable: w >= 0 off the moving set and w'T < 0 on what
+    /// may move, so 0 <= w'y = w'Tx < 0 (Farkas, Gordan).
+    Farkas(Vec<i64>),
+    /// The symmetric part is positive definite on what may move: x'Tx = 0 has no solution.
+    PositiveDefinite,
+    /// The symmetric part is negative definite on what may move.
+    NegativeDefinite,
+    /// sym(A + tB) of the pencil as given is definite on what may move, by exact factors.
+    Ldl(Box<Ldl>),
+    /// The condensation's tail begins at or below this region.
+    Tail,
+    /// Every index is decided and the pencil has at most one null vector.
+    Root(Box<Root>),
+    /// Every index is decided: what there is at every value of the interval, exactly.
+    Support(Box<Support>),
+    /// Not decided.
+    Open,
+}
+
+/// Witness that T(t) restricted to the moving set has one null vector at most (up to scale, over
+/// the whole interval of the leaf and `interval` together), and what that vector is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Root {
+    /// The moving variable whose component is set to 1.
+    pub pivot: usize,
+    /// Interval in which the value lies.
+    pub interval: [Number; 2],
+    /// Approximate inverse of T on the moving set without the pivot, in units of 2^-`inverse_exponent`.
+    #[serde(with = "integer_rows")]
+    pub inverse: Vec<Vec<Integer>>,
+    /// Binary exponent of `inverse`.
+    pub inverse_exponent: u32,
+    /// Approximate left null vector on the moving set without the pivot, in units of 2^-`exponent`.
+    #[serde(with = "integers")]
+    pub left: Vec<Integer>,
+    /// Approximate right null vector, likewise.
+    #[serde(with = "integers")]
+    pub right: Vec<Integer>,
+    /// Binary exponent of `left` and `right`.
+    pub exponent: u32,
+    /// What follows from it.
+    pub outcome: RootOutcome,
+}
+
+/// What the only null vector of a leaf is.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RootOutcome {
+    /// A solution: it exists, x > 0 and y > 0 strictly.
+    Solution,
+    /// The Schur complement has the same sign at both ends: there is no null vector.
+    Absent,
+    /// Component of x that is not positive: no solution.
+    NegativeX(usize),
+    /// Component of y that is negative: no solution.
+    NegativeY(usize),
+    /// The solution of the claim with this number in the certificate, so nothing else is here.
+    Claim(usize),
+    /// In a region that reaches to infinity: this vector, an entry per variable of the pencil, is a null vector of the
+    /// pencil's limit there, so nothing is here.
+    Infinity(#[serde(with = "integers")] Vec<Integer>),
+}
+
+/// All solutions of one support over a closed interval: it is cut at `points`, and each point and each
+/// open cell between two points (or from the last one to infinity) has its reason.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Support {
+    /// Ascending; the first is the lower end of the interval, the last the upper end unless that is infinite.
+    #[serde(deserialize_with = "object::list")]
+    pub points: Vec<Point>,
+    /// The reason of each cell, a number in `reasons`.
+    pub cells: Vec<usize>,
+    /// Reasons; one may serve several points and cells.
+    pub reasons: Vec<Exact>,
+}
+
+/// A real algebraic number and what there is at it.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Point {
+    /// Integer polynomial that vanishes there, constant term first.
+    #[serde(with = "integers")]
+    pub polynomial: Vec<Integer>,
+    /// Isolates the root, as in [`super::ExactSolution::interval`].
+    pub interval: [Number; 2],
+    /// A number in [`Support::reasons`].
+    pub reason: usize,
+}
+
+/// What there is at a value (or at every value of a cell), and why.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Exact {
+    /// Nothing: weights w(t), one polynomial per variable of the pencil, with w'T >= 0 impossible (Farkas).
+    None(Polynomials),
+    /// Solutions with exactly this support.
+    #[serde(deserialize_with = "object::one")]
+    Some(Box<Member>),
+}
+
+/// A solution, and possibly that it is the only one.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Member {
+    /// x(t), one polynomial per variable of the pencil.
+    pub x: Polynomials,
+    /// Proof that at each value it is the only one up to its factor; without it, one of a cone.
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    pub alone: Option<Alone>,
+}
+
+/// Proof that x_k determines every other active x_j.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Alone {
+    /// A moving variable k.
+    pub pivot: usize,
+    /// An active j and weights l(t), one polynomial per variable of the pencil, with l'T = c e_j + d e_k on the active
+    /// columns, c not zero. For each j one with l = 0 off the active rows, or two with c > 0 and c < 0 and
+    /// l >= 0 on resting rows where y = 0 and l = 0 on the others.
+    pub rows: Vec<(usize, Polynomials)>,
+}
+
+/// A vector of integer polynomials, each with its constant term first.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Polynomials(#[serde(with = "integer_rows")] pub Vec<Vec<Integer>>);
+
+/// Exact factors of sym(A + tB) on the free variables and what may move, at both ends; at an infinite
+/// end of sym(B).
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ldl {
+    /// At the lower end.
+    #[serde(deserialize_with = "object::one")]
+    pub lower: LdlFactor,
+    /// At the upper end.
+    #[serde(deserialize_with = "object::one")]
+    pub upper: LdlFactor,
+}
+
+/// L D L' with a unit lower triangular L.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LdlFactor {
+    /// Row i holds the i entries of L left of the diagonal.
+    pub rows: Vec<Vec<Number>>,
+    /// D.
+    pub diagonal: Vec<Number>,
+}
+
+/// Elimination of the free variables f by F(t) = T_ff(t), enclosed without inverting F.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Condensation {
+    /// sigma > 0 with A_ff - sigma I positive semidefinite.
+    pub sigma: Number,
+    /// Approximate Cholesky factor of A_ff - sigma I.
+    #[serde(deserialize_with = "object::one")]
+    pub stiffness_factor: Factor,
+    /// tau >= 0 with B_ff - tau I positive semidefinite.
+    pub mass_sigma: Number,
+    /// Approximate Cholesky factor of B_ff - tau I, where that is neither zero nor a non-negative diagonal.
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    pub mass_factor: Option<Factor>,
+    /// Centres at which the condensed pencil is expanded.
+    #[serde(deserialize_with = "object::list")]
+    pub anchors: Vec<Anchor>,
+    /// Proof that nothing lies above some value, for [`Node::Tail`].
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    pub tail: Option<Tail>,
+}
+
+/// Above `from` the symmetric part of the whole pencil, free variables included, is definite.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tail {
+    /// Where it begins.
+    pub from: Number,
+    /// Approximate Cholesky factor of sym(A + from B).
+    #[serde(deserialize_with = "object::one")]
+    pub factor: Factor,
+    /// Approximate Cholesky factor of sym(B), where that is neither zero nor a non-negative diagonal.
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    pub mass_factor: Option<Factor>,
+}
+
+/// A lower triangular matrix, row by row from its first stored column to the diagonal, in units of
+/// 2^-`exponent`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Factor {
+    /// First stored column of each row.
+    pub first: Vec<usize>,
+    /// Stored entries of each row.
+    #[serde(with = "integer_rows")]
+    pub rows: Vec<Vec<Integer>>,
+    /// Binary exponent.
+    pub exponent: u32,
+}
+
+/// Approximations in powers of (t - center): `right[k]` of F^-1 T_fs, `left[k]` of F^-1 T_sf'; each a
+/// matrix with a row per free and a column per complementarity variable, in units of 2^-`exponent`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Anchor {
+    /// The value expanded about; of a reversed anchor its reciprocal.
+    pub center: Number,
+    /// Does it expand B + sA in powers of s - center, s = 1 / t? Such an anchor reaches to infinity.
+    #[serde(default, skip_serializing_if = "is_false")]
+    pub reversed: bool,
+    /// Coefficients of the right solutions.
+    #[serde(deserialize_with = "object::list")]
+    pub right: Vec<IntegerMatrix>,
+    /// Coefficients of the left solutions.
+    #[serde(deserialize_with = "object::list")]
+    pub left: Vec<IntegerMatrix>,
+}
+
+#[allow(clippy::trivially_copy_pass_by_ref, reason = "serde wants a reference")]
+fn is_false(v: &bool) -> bool {
+    !v
+}
+
+/// A dense integer matrix by rows, in units of 2^-`exponent`.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct IntegerMatrix {
+    /// Binary exponent.
+    pub exponent: u32,
+    /// Rows.
+    #[serde(with = "integer_rows")]
+    pub rows: Vec<Vec<Integer>>,
+}
+
+/// The nodes that stand in a file as words.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum NodeWord {
+    PositiveDefinite,
+    NegativeDefinite,
+    Tail,
+    Open,
+}
+
+/// The nodes that stand in a file as objects with one key.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum NodeKind {
+    Split(Number),
+    Branch(usize),
+    Farkas(Vec<i64>),
+    #[serde(deserialize_with = "object::one")]
+    Ldl(Box<Ldl>),
+    #[serde(deserialize_with = "object::one")]
+    Root(Box<Root>),
+    #[serde(deserialize_with = "object::one")]
+    Support(Box<Support>),
+}
+
+impl From<NodeWord> for Node {
+    fn from(word: NodeWord) -> Node {
+        match word {
+            NodeWord::PositiveDefinite => Node::PositiveDefinite,
+            NodeWord::NegativeDefinite => Node::NegativeDefinite,
+            NodeWord::Tail => Node::Tail,
+            NodeWord::Open => Node::Open,
+        }
+    }
+}
+
+impl From<NodeKind> for Node {
+    fn from(kind: NodeKind) -> Node {
+        match kind {
+            NodeKind::Split(at) => Node::Split(at),
+            NodeKind::Branch(index) => Node::Branch(index),
+            NodeKind::Farkas(weights) => Node::Farkas(weights),
+            NodeKind::Ldl(factors) => Node::Ldl(factors),
+            NodeKind::Root(root) => Node::Root(root),
+            NodeKind::Support(support) => Node::Support(support),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for Node {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        word_or_kind::<D, NodeWord, NodeKind, Node>(deserializer, "a node: a word, or an object with one key")
+    }
+}
+
+/// The outcomes that stand in a file as words.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum OutcomeWord {
+    Solution,
+    Absent,
+}
+
+/// The outcomes that stand in a file as objects with one key.
+#[derive(Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum OutcomeKind {
+    NegativeX(usize),
+    NegativeY(usize),
+    Claim(usize),
+    Infinity(#[serde(with = "integers")] Vec<Integer>),
+}
+
+impl From<OutcomeWord> for RootOutcome {
+    fn from(word: OutcomeWord) -> RootOutcome {
+        match word {
+            OutcomeWord::Solution => RootOutcome::Solution,
+            OutcomeWord::Absent => RootOutcome::Absent,
+        }
+    }
+}
+
+impl From<OutcomeKind> for RootOutcome {
+    fn from(kind: OutcomeKind) -> RootOutcome {
+        match kind {
+            OutcomeKind::NegativeX(index) => RootOutcome::NegativeX(index),
+            OutcomeKind::NegativeY(index) => RootOutcome::NegativeY(index),
+            OutcomeKind::Claim(claim) => RootOutcome::Claim(claim),
+            OutcomeKind::Infinity(x) => RootOutcome::Infinity(x),
+        }
+    }
+}
+
+impl<'de> Deserialize<'de> for RootOutcome {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        word_or_kind::<D, OutcomeWord, OutcomeKind, RootOutcome>(deserializer, "an outcome: a word, or an object with one key")
+    }
+}

@@ -1,0 +1,256 @@
+//! `mceip-certificate/1`: what a certificate says, and its file form. Data only, nothing decides here.
+
+use mceip_exact::{Integer, Rational};
+use mceip_model::file::{Number, from_json, require_format};
+use mceip_model::{ModelError, Unknown, Window};
+use serde::{Deserialize, Serialize};
+
+mod cover;
+pub use cover::{
+    Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Ldl, LdlFactor, Member, Node, Piece, Point, Polynomials, Root,
+    RootOutcome, Support, Tail,
+};
+
+/// The format this program reads and writes.
+pub const CERTIFICATE_FORMAT: &str = "mceip-certificate/1";
+
+/// Claims about one problem, bound to its matrices by digest.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Certificate {
+    /// SHA-256 of the problem's canonical form.
+    pub problem_sha256: String,
+    /// The unknown of the problem.
+    pub unknown: Unknown,
+    /// The window in which every claimed value lies.
+    pub window: Window,
+    /// Solutions claimed; may be empty beside a complete set.
+    pub claims: Vec<Claim>,
+    /// The claim that there are no other solutions in the window.
+    pub complete_set: Option<CompleteSet>,
+}
+
+/// What is claimed.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Claim {
+    /// A solution over Q(alpha).
+    #[serde(deserialize_with = "object::one")]
+    ExactSolution(ExactSolution),
+    /// A solution over Q(alpha) in the degrees of freedom of a mechanical system.
+    #[serde(deserialize_with = "object::one")]
+    LiftedSolution(LiftedSolution),
+    /// A solution in a box, by Krawczyk's test.
+    #[serde(deserialize_with = "object::one")]
+    EnclosedSolution(EnclosedSolution),
+}
+
+/// An exact solution: alpha as (polynomial, isolating interval), x as polynomials in alpha.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ExactSolution {
+    /// Complementarity variables with x_i > 0, ascending.
+    pub support: Vec<usize>,
+    /// Complementarity variables with x_i = y_i = 0, ascending.
+    pub biactive: Vec<usize>,
+    /// Integer polynomial p with p(alpha) = 0, constant term first.
+    #[serde(with = "integers")]
+    pub polynomial: Vec<Integer>,
+    /// [a, b]: a = b with p(a) = 0, or p(a) p(b) < 0 and p' of one sign between.
+    pub interval: [Number; 2],
+    /// x_i(alpha) as rational polynomials, constant term first, one list per variable.
+    pub x: Vec<Vec<Number>>,
+}
+
+/// v and w of (9) at alpha, as rational polynomials in alpha, constant term first, one list per degree of
+/// freedom. Indices are those of the pencil: free dofs ascending, then slip particles in file order.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct LiftedSolution {
+    /// Slip particles with S v_T < 0.
+    pub support: Vec<usize>,
+    /// Slip particles with S v_T = S w_T + mu w_N = 0.
+    pub biactive: Vec<usize>,
+    /// As in [`ExactSolution`].
+    #[serde(with = "integers")]
+    pub polynomial: Vec<Integer>,
+    /// As in [`ExactSolution`].
+    pub interval: [Number; 2],
+    /// v(alpha).
+    pub v: Vec<Vec<Number>>,
+    /// w(alpha).
+    pub w: Vec<Vec<Number>>,
+}
+
+/// A solution of (A + tB) x = 0 on the active rows and e'x_s = 1, proved to exist and to be unique
+/// in a box around `center`, with strict signs. Unknowns: active variables ascending, then t.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct EnclosedSolution {
+    /// Complementarity variables with x_i > 0, ascending.
+    pub support: Vec<usize>,
+    /// Centre of the box.
+    pub center: Vec<Number>,
+    /// Half width of the box in each unknown, > 0.
+    pub radius: Vec<Number>,
+    /// Approximate inverse of the Jacobian at the centre, integers in units of 2^-`exponent`,
+    /// row by row. Rows of the Jacobian are the active rows with denominators cleared, then e'.
+    #[serde(with = "integer_rows")]
+    pub preconditioner: Vec<Vec<Integer>>,
+    /// Binary exponent of the preconditioner.
+    pub exponent: u32,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct File {
+    format: String,
+    problem_sha256: String,
+    #[serde(deserialize_with = "object::word")]
+    unknown: Unknown,
+    #[serde(deserialize_with = "object::one")]
+    window: FileWindow,
+    claims: Vec<Claim>,
+    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    complete_set: Option<CompleteSet>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct FileWindow {
+    min: Number,
+    max: Option<Number>,
+}
+
+impl Certificate {
+    /// The certificate as JSON.
+    pub fn to_json(&self) -> String {
+        let window = FileWindow { min: Number(self.window.min().clone()), max: self.window.max().cloned().map(Number) };
+        let file = File {
+            format: CERTIFICATE_FORMAT.into(),
+            problem_sha256: self.problem_sha256.clone(),
+            unknown: self.unknown,
+            window,
+            claims: self.claims.clone(),
+            complete_set: self.complete_set.clone(),
+        };
+        // Strings, numbers and lists only: nothing in it that JSON cannot carry.
+        serde_json::to_string(&file).unwrap_or_default()
+    }
+
+    /// Reads a certificate.
+    ///
+    /// # Errors
+    /// [`ModelError`]: not JSON of this shape, another version, unknown or duplicate fields, a
+    /// number that cannot be read, an empty window.
+    pub fn from_json(text: &str) -> Result<Certificate, ModelError> {
+        require_format(text, CERTIFICATE_FORMAT)?;
+        let file: File = from_json(text)?;
+        let window = Window::new(file.window.min.0, file.window.max.map(|n| n.0))?;
+        let (problem_sha256, unknown) = (file.problem_sha256, file.unknown);
+        Ok(Certificate { problem_sha256, unknown, window, claims: file.claims, complete_set: file.complete_set })
+    }
+}
+
+/// What is read from an object, and not from a list of its fields.
+mod object {
+    use mceip_model::file::{Object, Word};
+    use serde::{Deserialize, Deserializer};
+
+    pub(super) fn one<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<T, D::Error> {
+        Object::deserialize(d).map(|o| o.0)
+    }
+
+    pub(super) fn word<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<T, D::Error> {
+        Word::deserialize(d).map(|w| w.0)
+    }
+
+    pub(super) fn option<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<Option<T>, D::Error> {
+        Option::<Object<T>>::deserialize(d).map(|o| o.map(|o| o.0))
+    }
+
+    pub(super) fn list<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<Vec<T>, D::Error> {
+        Vec::<Object<T>>::deserialize(d).map(|list| list.into_iter().map(|o| o.0).collect())
+    }
+}
+
+/// Integers as JSON strings.
+mod integers {
+    use super::{Integer, Number, Rational};
+    use serde::de::Error as _;
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(list: &[Integer], s: S) -> Result<S::Ok, S::Error> {
+        list.iter().map(|i| Number(Rational::from_integer(i.clone()))).collect::<Vec<_>>().serialize(s)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Vec<Integer>, D::Error> {
+        Vec::<Number>::deserialize(d)?.into_iter().map(integer::<D>).collect()
+    }
+
+    pub(super) fn integer<'de, D: Deserializer<'de>>(n: Number) -> Result<Integer, D::Error> {
+        if n.0.is_integer() { Ok(n.0.to_integer()) } else { Err(D::Error::custom(format!("expected an integer, got {}", n.0))) }
+    }
+}
+
+/// Rows of integers as JSON strings.
+mod integer_rows {
+    use super::{Integer, Number, Rational, integers};
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(super) fn serialize<S: Serializer>(rows: &[Vec<Integer>], s: S) -> Result<S::Ok, S::Error> {
+        let rows: Vec<Vec<Number>> = rows.iter().map(|r| r.iter().map(|i| Number(Rational::from_integer(i.clone()))).collect()).collect();
+        rows.serialize(s)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Vec<Vec<Integer>>, D::Error> {
+        let rows = Vec::<Vec<Number>>::deserialize(d)?;
+        rows.into_iter().map(|r| r.into_iter().map(integers::integer::<D>).collect()).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::{rational, whole};
+
+    fn example() -> Certificate {
+        let claim = ExactSolution {
+            support: vec![0],
+            biactive: vec![],
+            polynomial: vec![Integer::from(-2), Integer::from(0), Integer::from(1)],
+            interval: [Number(whole(1)), Number(rational(3, 2))],
+            x: vec![vec![Number(whole(1))]],
+        };
+        Certificate {
+            problem_sha256: "00".into(),
+            unknown: Unknown::Mu,
+            window: Window::all(),
+            claims: vec![Claim::ExactSolution(claim)],
+            complete_set: None,
+        }
+    }
+
+    #[test]
+    fn files_round_trip() {
+        assert_eq!(Certificate::from_json(&example().to_json()).unwrap(), example());
+    }
+
+    #[test]
+    fn malformed_certificates_are_refused() {
+        let good = example().to_json();
+        for (from, to) in [
+            ("mceip-certificate/1", "mceip-certificate/2"),
+            ("exact_solution", "magic"),
+            ("\"support\":[0]", "\"support\":[-1]"),
+            ("\"support\":[0]", "\"support\":[0],\"support\":[0]"),
+            ("\"biactive\":[]", "\"biactive\":[],\"trust\":\"me\""),
+            ("\"-2\"", "\"-2.5\""),
+            ("\"3/2\"", "\"3/0\""),
+            ("\"3/2\"", "null"),
+        ] {
+            assert!(good.contains(from));
+            assert!(Certificate::from_json(&good.replace(from, to)).is_err(), "{from} -> {to}");
+        }
+        assert!(Certificate::from_json(&good[..good.len() - 1]).is_err());
+    }
+}

@@ -1,0 +1,226 @@
+//! What is wrong with a cover, as typed values.
+
+use mceip_exact::Rational;
+
+/// The obligation of a complete set that fails.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CoverFault {
+    /// Pieces do not follow one another from the window's lower to its upper end.
+    #[error("pieces: expected them to rise to {expected}, got {got}")]
+    PieceEnd {
+        /// Where the piece should end or above what.
+        expected: String,
+        /// Where it ends.
+        got: String,
+    },
+    /// A tree ends before its last region is closed.
+    #[error("tree: expected {regions} more region(s) to be closed, got the end")]
+    Truncated {
+        /// Regions without a node.
+        regions: usize,
+    },
+    /// Nodes beyond the end of a tree.
+    #[error("tree: expected the end, got a further node")]
+    Trailing,
+    /// A cut outside its interval.
+    #[error("split: expected a value inside ({lo}, {hi}), got {got}")]
+    Cut {
+        /// Lower end of the interval.
+        lo: Rational,
+        /// Upper end of the interval.
+        hi: String,
+        /// The cut.
+        got: Rational,
+    },
+    /// A branch on no open complementarity variable.
+    #[error("branch: expected an open complementarity variable, got {index}")]
+    Branch {
+        /// The index.
+        index: usize,
+    },
+    /// Wrong number of weights or vector entries.
+    #[error("{what}: expected {expected} entries, got {got}")]
+    Length {
+        /// Which list.
+        what: &'static str,
+        /// Entries wanted.
+        expected: usize,
+        /// Entries found.
+        got: usize,
+    },
+    /// A weight that must not be negative.
+    #[error("farkas: expected weight {index} >= 0 off the moving set, got {got}")]
+    NegativeWeight {
+        /// The variable.
+        index: usize,
+        /// Its weight.
+        got: i64,
+    },
+    /// A column of w'T that is not negative.
+    #[error("farkas: expected (w'T)[{index}] < 0 at the {end} end, got the bound {got}")]
+    NotNegative {
+        /// The variable.
+        index: usize,
+        /// `lower` or `upper`.
+        end: &'static str,
+        /// Upper bound of the entry, in the units of the scaled row.
+        got: Rational,
+    },
+    /// w'T vanishes where strictness is needed.
+    #[error("farkas: expected a strict sign on one moving variable or on all that may move")]
+    NotStrict,
+    /// The symmetric part is not proved definite.
+    #[error("definite: expected pivot {index} of the symmetric part > 0 at the {end} end")]
+    NotDefinite {
+        /// Position among the variables that may move.
+        index: usize,
+        /// `lower` or `upper`.
+        end: &'static str,
+    },
+    /// A root where an index is open, or an interval from zero to infinity.
+    #[error("root: expected every index decided, something moving, and a lower end above 0 where the interval is infinite")]
+    RootTooEarly,
+    /// The pivot does not move.
+    #[error("root: expected a moving pivot, got {index}")]
+    Pivot {
+        /// The index.
+        index: usize,
+    },
+    /// |I - Y T| is not below one.
+    #[error("root: expected |I - Y T| < 1 over the interval, got {got}")]
+    NotRegular {
+        /// The norm.
+        got: Rational,
+    },
+    /// The Schur complement is not monotone: there could be two roots.
+    #[error("root: expected the Schur complement to be monotone over the interval, got a slope that may vanish")]
+    NotMonotone,
+    /// The Schur complement does not change sign.
+    #[error("root: expected the Schur complement to change sign between {lo} and {hi}")]
+    NoSignChange {
+        /// Lower end.
+        lo: Rational,
+        /// Upper end.
+        hi: Rational,
+    },
+    /// The Schur complement is not certain to keep its sign.
+    #[error("root: expected the Schur complement to keep one sign over the leaf, got a change or none")]
+    SignChange,
+    /// A sign of x or y is not the one stated.
+    #[error("root: expected {component}[{index}] {expected}, got another sign or none")]
+    Sign {
+        /// `x` or `y`.
+        component: &'static str,
+        /// The variable.
+        index: usize,
+        /// `> 0` or `< 0`.
+        expected: &'static str,
+    },
+    /// An exact factor is not one of the matrix.
+    #[error("ldl: expected L D L' to be sym(A + tB) at the {end} end, got another entry at ({row}, {column})")]
+    Factor {
+        /// Row, by the problem's index.
+        row: usize,
+        /// Column.
+        column: usize,
+        /// `lower` or `upper`.
+        end: &'static str,
+    },
+    /// The root's interval is reversed or leaves the window.
+    #[error("root: expected an interval within the window, got [{a}, {b}]")]
+    Interval {
+        /// Lower end.
+        a: Rational,
+        /// Upper end.
+        b: Rational,
+    },
+    /// An outcome that the checker does not read over a half line.
+    #[error("root: expected absent, claim or infinity over an interval to infinity without a reversed anchor, got {outcome}")]
+    OutcomeOnHalfLine {
+        /// The outcome's word in the file.
+        outcome: &'static str,
+    },
+    /// What is given for the null vector at infinity is none.
+    #[error("root: expected {expected} for the null vector at infinity, broken at index {index}")]
+    NotAtInfinity {
+        /// The obligation.
+        expected: &'static str,
+        /// The variable.
+        index: usize,
+    },
+    /// The claim referred to is not a solution whose null vector belongs to the leaf.
+    #[error("root: expected claim {claim} to be a solution in the interval whose active rows are the leaf's")]
+    NotTheClaim {
+        /// The claim.
+        claim: usize,
+    },
+    /// A support where an index is open, or points where nothing moves, or none where something does.
+    #[error("support: expected every index decided, and points exactly if something moves")]
+    SupportTooEarly,
+    /// A point that is no isolated root, or out of order; beyond the last: an end of the interval is not one.
+    #[error("support: expected point {point} to be an isolated root above the one before, the first and the last the ends of the interval")]
+    Point {
+        /// Position among the points.
+        point: usize,
+    },
+    /// A place names a reason that does not exist.
+    #[error("support: expected a reason below {reasons}, got {reason}")]
+    NoReason {
+        /// What is named.
+        reason: usize,
+        /// How many there are.
+        reasons: usize,
+    },
+    /// A reason does not hold at its place.
+    #[error("support: expected {expected} in place {place} (points are even), broken at index {index}")]
+    Place {
+        /// Twice the point's position, or one more for the cell above it.
+        place: usize,
+        /// The obligation.
+        expected: &'static str,
+        /// The variable.
+        index: usize,
+    },
+    /// Two leaves hold solutions of one support that could be one or two.
+    #[error("roots: expected solutions of support {support:?} to be apart or the same, got overlapping intervals")]
+    Ambiguous {
+        /// The support.
+        support: Vec<usize>,
+    },
+    /// A number is larger than the checker multiplies out.
+    #[error("{what}: expected at most {limit}, got {got}")]
+    TooLarge {
+        /// What is too large.
+        what: &'static str,
+        /// The bound.
+        limit: u64,
+        /// What was found.
+        got: u64,
+    },
+    /// The signs of the support leaves take more work than the file's budget.
+    #[error("support: expected signs within the budget of the file (spec/complete-set.md, Limits), got more work")]
+    OutOfBudget,
+    /// Free variables need a condensation, and none is wanted without them.
+    #[error("condensation: expected {}", if *expected { "one, the problem has free variables" } else { "none, the problem has no free variables" })]
+    Condensation {
+        /// Is one needed?
+        expected: bool,
+    },
+    /// The condensation's hypotheses fail.
+    #[error("condensation: expected {expected}, got row {row} that breaks it")]
+    Hypothesis {
+        /// What must hold.
+        expected: &'static str,
+        /// The row.
+        row: usize,
+    },
+    /// A piece names no anchor, or one that does not exist.
+    #[error("anchor: expected one of {anchors}, got {got:?}")]
+    Anchor {
+        /// Number of anchors.
+        anchors: usize,
+        /// What the piece names.
+        got: Option<usize>,
+    },
+}

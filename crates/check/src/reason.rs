@@ -1,0 +1,237 @@
+//! Every reason for rejection, as a typed value: equation, index, expected, got.
+
+use super::cover::CoverFault;
+use mceip_exact::Rational;
+
+/// A rejected certificate.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[error("{}{reason}", claim.map(|c| format!("claim {c}: ")).unwrap_or_default())]
+pub struct Rejected {
+    /// The claim that fails; `None` where the certificate as a whole does.
+    pub claim: Option<usize>,
+    /// Why.
+    pub reason: Reason,
+}
+
+impl Reason {
+    /// The obligation's name, as `spec/corpus` states it: `NotIsolated`, `Cover.Truncated`, ...
+    pub fn name(&self) -> String {
+        let variant = |text: String| text.chars().take_while(char::is_ascii_alphanumeric).collect::<String>();
+        match self {
+            Reason::Cover { fault, .. } => format!("Cover.{}", variant(format!("{fault:?}"))),
+            other => variant(format!("{other:?}")),
+        }
+    }
+}
+
+/// The obligation that fails.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Reason {
+    /// The certificate was made for other matrices.
+    #[error("digest: expected {expected}, got {got:?}")]
+    Digest {
+        /// Digest of the problem at hand.
+        expected: String,
+        /// Digest the certificate names.
+        got: String,
+    },
+    /// The certificate was made for the other eigenproblem.
+    #[error("unknown: expected {expected}, got {got}")]
+    Unknown {
+        /// The problem's unknown.
+        expected: &'static str,
+        /// The certificate's.
+        got: &'static str,
+    },
+    /// A certificate that claims nothing proves nothing.
+    #[error("claims: expected at least one, got none")]
+    NoClaims,
+    /// An index set is not an ascending list of complementarity variables.
+    #[error("E14: {set}: expected ascending indices of complementarity variables, got {got} at position {position}")]
+    IndexSet {
+        /// `support` or `biactive`.
+        set: &'static str,
+        /// Position in the list.
+        position: usize,
+        /// The index there.
+        got: usize,
+    },
+    /// A list has the wrong length.
+    #[error("{what}: expected {expected} entries, got {got}")]
+    Length {
+        /// Which list.
+        what: &'static str,
+        /// Entries wanted.
+        expected: usize,
+        /// Entries found.
+        got: usize,
+    },
+    /// Larger than the checker will multiply out: keeps time and memory bounded by the file's size.
+    #[error("{what}: expected at most {limit}, got {got}")]
+    TooLarge {
+        /// What is too large.
+        what: &'static str,
+        /// The bound.
+        limit: u64,
+        /// What was found.
+        got: u64,
+    },
+    /// The polynomial is constant.
+    #[error("polynomial: expected degree >= 1, got {coefficients} coefficients without a power of t")]
+    ConstantPolynomial {
+        /// Number of coefficients.
+        coefficients: usize,
+    },
+    /// The interval is reversed.
+    #[error("interval: expected a <= b, got [{a}, {b}]")]
+    ReversedInterval {
+        /// Lower end.
+        a: Rational,
+        /// Upper end.
+        b: Rational,
+    },
+    /// The interval leaves the certificate's window.
+    #[error("window: expected the value within [{min}, {max}], got [{a}, {b}]")]
+    OutsideWindow {
+        /// Lower end of the window.
+        min: Rational,
+        /// Upper end of the window.
+        max: String,
+        /// Lower end of the interval.
+        a: Rational,
+        /// Upper end of the interval.
+        b: Rational,
+    },
+    /// The interval is a point that is no root.
+    #[error("interval: expected p(a) = 0 at the point a = {a}, got sign {sign}")]
+    NotARoot {
+        /// The point.
+        a: Rational,
+        /// Sign of p there.
+        sign: i8,
+    },
+    /// p has the same sign at both ends, or vanishes at one.
+    #[error("interval: expected p(a) p(b) < 0, got signs {at_a} and {at_b}")]
+    NoSignChange {
+        /// Sign at the lower end.
+        at_a: i8,
+        /// Sign at the upper end.
+        at_b: i8,
+    },
+    /// p' may vanish in the interval, so the root may not be the only one.
+    #[error("interval: expected p' of one sign by interval Horner, got [{lo}, {hi}]")]
+    NotIsolated {
+        /// Lower bound of p'.
+        lo: Rational,
+        /// Upper bound of p'.
+        hi: Rational,
+    },
+    /// x_i must vanish off the support.
+    #[error("E14: x[{index}]: expected 0 mod p outside the support, got a polynomial that is not")]
+    XOffSupport {
+        /// The variable.
+        index: usize,
+    },
+    /// x_i is not certainly positive on the support.
+    #[error("E14: x[{index}]: expected > 0 on the interval, got [{lo}, {hi}]")]
+    XNotPositive {
+        /// The variable.
+        index: usize,
+        /// Lower bound found.
+        lo: Rational,
+        /// Upper bound found.
+        hi: Rational,
+    },
+    /// Nothing shows that x is not zero.
+    #[error("E12: expected some x_i certainly non-zero, got none")]
+    XZero,
+    /// An active row of (A + tB) x does not vanish.
+    #[error("{equation}: y[{index}]: expected 0 mod p on an active row, got a polynomial that is not")]
+    YNotZero {
+        /// E13 for free rows, E25 for slip rows.
+        equation: &'static str,
+        /// The row.
+        index: usize,
+    },
+    /// y_i is not certainly positive off the support, and not identically zero.
+    #[error("E26: y[{index}]: expected > 0 on the interval or 0 mod p, got [{lo}, {hi}]")]
+    YNotPositive {
+        /// The row.
+        index: usize,
+        /// Lower bound found.
+        lo: Rational,
+        /// Upper bound found.
+        hi: Rational,
+    },
+    /// The biactive set is not the set of rows off the support with y_i = 0.
+    #[error("E14: biactive: expected {index} {}listed, got the opposite", if *expected { "" } else { "not " })]
+    Biactive {
+        /// The variable.
+        index: usize,
+        /// Should it have been listed?
+        expected: bool,
+    },
+    /// A radius is not positive.
+    #[error("radius[{index}]: expected > 0, got {got}")]
+    Radius {
+        /// The unknown.
+        index: usize,
+        /// Its radius.
+        got: Rational,
+    },
+    /// A lifted claim about a problem that is no mechanical system.
+    #[error("E9: expected a mechanical system, got a pencil")]
+    NotASystem,
+    /// A line of (9) does not hold, or its sign is not certain.
+    #[error("E9: expected {line} at {place} {index}, got a value in [{lo}, {hi}] up to a positive factor")]
+    Line {
+        /// The line.
+        line: &'static str,
+        /// What `index` numbers: `dof` or `particle`.
+        place: &'static str,
+        /// The dof or particle.
+        index: usize,
+        /// Lower end of the left-hand side's enclosure.
+        lo: Rational,
+        /// Upper end.
+        hi: Rational,
+    },
+    /// Krawczyk's operator does not map the box into its interior.
+    #[error("Krawczyk: unknown {index}: expected |Y F(c)| + |I - Y J| r < r, got {got} >= {radius}")]
+    NotContracting {
+        /// The unknown.
+        index: usize,
+        /// The left-hand side.
+        got: Rational,
+        /// The radius.
+        radius: Rational,
+    },
+    /// An accepted claim has no place in the accepted cover: one of both is false.
+    #[error(
+        "complete set: expected support {support:?} with a value in [{a}, {b}] among its solutions, families or open regions, got none"
+    )]
+    NotInCover {
+        /// The claim's support.
+        support: Vec<usize>,
+        /// Lower end of its value.
+        a: Rational,
+        /// Upper end.
+        b: Rational,
+    },
+    /// A complete set does not hold.
+    #[error("complete set{}: {fault}", place(*piece, *node))]
+    Cover {
+        /// The piece, if one is to blame.
+        piece: Option<usize>,
+        /// The node in its tree.
+        node: Option<usize>,
+        /// What is wrong.
+        fault: CoverFault,
+    },
+}
+
+fn place(piece: Option<usize>, node: Option<usize>) -> String {
+    let word = |name: &str, k: Option<usize>| k.map(|k| format!(", {name} {k}")).unwrap_or_default();
+    word("piece", piece) + &word("node", node)
+}

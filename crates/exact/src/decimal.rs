@@ -1,0 +1,192 @@
+//! Decimals for people: correctly rounded at any number of significant digits.
+
+use super::{Algebraic, Integer, Interval, Poly, Rational, Sign};
+use num_traits::{Pow, Signed, Zero};
+
+/// `value(number)` rounded to `digits` significant digits, half away from zero, as a decimal string.
+/// Pass `t` as the polynomial for the number itself.
+///
+/// ```
+/// use mceip_exact::{nonnegative_roots, to_decimal, Poly};
+/// let mut root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
+/// assert_eq!(to_decimal(&mut root, &Poly::from_ints(&[0, 1]), 20), "1.4142135623730950488");
+/// ```
+pub fn to_decimal(number: &mut Algebraic, value: &Poly, digits: usize) -> String {
+    ratio_to_decimal(number, value, &Poly::from_ints(&[1]), digits)
+}
+
+/// `numerator(number) / denominator(number)`, correctly rounded like [`to_decimal`].
+///
+/// Correct rounding of an irrational number is decided by refining its interval until both ends
+/// round alike; a tie is only possible at a rational, which is tested exactly. A denominator that
+/// vanishes at the number has no quotient: the result is then "0" (callers divide by sums that
+/// are positive by construction).
+pub fn ratio_to_decimal(number: &mut Algebraic, numerator: &Poly, denominator: &Poly, digits: usize) -> String {
+    if number.sign_of(numerator) == Sign::Zero || number.sign_of(denominator) == Sign::Zero {
+        return "0".into();
+    }
+    let mut steps = 1;
+    loop {
+        let image = number.interval().horner(numerator).div(&number.interval().horner(denominator));
+        if let Some(image) = image.filter(|i| i.certain_sign() != 0) {
+            let (lo, hi) = (round(image.lo(), digits), round(image.hi(), digits));
+            if lo == hi {
+                return lo;
+            }
+            if let Some(tie) = tie_between(image.lo(), image.hi(), digits) {
+                // numerator - tie * denominator vanishes here exactly when the quotient is the tie.
+                let shifted = &numerator.scale(tie.denom()) - &denominator.scale(tie.numer());
+                if number.sign_of(&shifted) == Sign::Zero {
+                    return round(&tie, digits);
+                }
+            }
+        }
+        (0..steps).for_each(|_| number.refine());
+        steps = (2 * steps).min(1024); // rounding costs more than halving
+    }
+}
+
+/// Decimals with `digits` significant digits (of the larger end) that enclose an interval: the lower
+/// end rounded down, the upper end rounded up.
+///
+/// ```
+/// use mceip_exact::{enclosing_decimals, rational, Interval};
+/// let i = Interval::new(rational(1, 3), rational(2, 3)).unwrap();
+/// assert_eq!(enclosing_decimals(&i, 3), ("0.333".to_string(), "0.667".to_string()));
+/// ```
+pub fn enclosing_decimals(interval: &Interval, digits: usize) -> (String, String) {
+    let largest = interval.lo().abs().max(interval.hi().abs());
+    if largest.is_zero() {
+        return ("0".into(), "0".into());
+    }
+    let unit = digits.max(1) as i64 - 1 - decimal_exponent(&largest);
+    let down = scaled(&scaled(interval.lo(), unit).floor(), -unit);
+    let up = scaled(&scaled(interval.hi(), unit).ceil(), -unit);
+    (round(&down, digits + 1), round(&up, digits + 1)) // both are exact at that length
+}
+
+/// A rational rounded to `digits` significant digits, half away from zero.
+pub(crate) fn round(value: &Rational, digits: usize) -> String {
+    if value.is_zero() {
+        return "0".into();
+    }
+    let digits = digits.max(1);
+    let mut exponent = decimal_exponent(&value.abs());
+    let mut mantissa = scaled(&value.abs(), digits as i64 - 1 - exponent).round().to_integer();
+    if mantissa.to_string().len() > digits {
+        exponent += 1; // 9.99 -> 10.0
+        mantissa /= 10;
+    }
+    let sign = if value.is_negative() { "-" } else { "" };
+    format!("{sign}{}", layout(&mantissa.to_string(), exponent))
+}
+
+/// The one rounding tie strictly between two close positive or two close negative numbers, if any.
+fn tie_between(lo: &Rational, hi: &Rational, digits: usize) -> Option<Rational> {
+    let exponent = decimal_exponent(&hi.abs());
+    let unit = digits.max(1) as i64 - 1 - exponent;
+    let half = Rational::new(1.into(), 2.into());
+    let tie = (scaled(lo, unit) - &half).ceil() + half;
+    let tie = scaled(&tie, -unit);
+    (lo <= &tie && &tie <= hi).then_some(tie)
+}
+
+/// floor(log10(value)) for value > 0.
+fn decimal_exponent(value: &Rational) -> i64 {
+    let guess = value.numer().to_string().len() as i64 - value.denom().to_string().len() as i64;
+    // The guess is off by at most one, downwards.
+    if *value < scaled(&Rational::from_integer(1.into()), guess) { guess - 1 } else { guess }
+}
+
+/// value * 10^k.
+fn scaled(value: &Rational, k: i64) -> Rational {
+    let power = Rational::from_integer(Integer::from(10).pow(k.unsigned_abs()));
+    if k >= 0 { value * power } else { value / power }
+}
+
+/// Digits with the decimal point where it belongs; scientific outside 1e-5 .. 1e21.
+fn layout(digits: &str, exponent: i64) -> String {
+    let trimmed = digits.trim_end_matches('0');
+    let trimmed = if trimmed.is_empty() { "0" } else { trimmed };
+    match exponent {
+        0..=20 => {
+            let point = exponent as usize + 1;
+            if trimmed.len() <= point {
+                format!("{trimmed}{}", "0".repeat(point - trimmed.len()))
+            } else {
+                format!("{}.{}", &trimmed[..point], &trimmed[point..])
+            }
+        }
+        -5..=-1 => format!("0.{}{trimmed}", "0".repeat((-exponent - 1) as usize)),
+        _ if trimmed.len() == 1 => format!("{trimmed}e{exponent}"),
+        _ => format!("{}.{}e{exponent}", &trimmed[..1], &trimmed[1..]),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{nonnegative_roots, parse, rational};
+
+    #[test]
+    fn rationals_round_half_away_from_zero() {
+        for (text, digits, want) in [
+            ("1/3", 5, "0.33333"),
+            ("2/3", 5, "0.66667"),
+            ("12.345", 4, "12.35"),
+            ("-12.345", 4, "-12.35"),
+            ("999.96", 4, "1000"),
+            ("9.996", 3, "10"),
+            ("120000", 2, "120000"),
+            ("1e-9", 3, "1e-9"),
+            ("1.25e30", 3, "1.25e30"),
+            ("0.0001234", 2, "0.00012"),
+        ] {
+            assert_eq!(round(&parse(text).unwrap(), digits), want, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_tie_at_a_hidden_rational_terminates() {
+        // 1/8 as a root of a reducible polynomial: 2 digits is the tie 0.125.
+        let p = &Poly::linear_root(&rational(1, 8)) * &Poly::from_ints(&[-3, 0, 1]);
+        let mut root = nonnegative_roots(&p).remove(0);
+        assert_eq!(to_decimal(&mut root, &Poly::from_ints(&[0, 1]), 2), "0.13");
+    }
+
+    #[test]
+    fn printed_decimals_read_back_close() {
+        let mut root = nonnegative_roots(&Poly::from_ints(&[-7, 0, 3])).remove(0);
+        let text = to_decimal(&mut root, &Poly::from_ints(&[0, 1]), 17);
+        let read: Rational = parse(&text).unwrap();
+        let error: Rational = &read * &read * rational(3, 1) - rational(7, 1);
+        assert!(error.abs() < parse("1e-15").unwrap());
+    }
+
+    /// t^2 = 1/8 at t = sqrt(1/8): the tie 0.125 is only seen at the quotient.
+    #[test]
+    fn a_tie_of_a_quotient_of_irrational_terms_terminates() {
+        let mut root = nonnegative_roots(&Poly::from_ints(&[-1, 0, 8])).remove(0);
+        let (square, one) = (Poly::from_ints(&[0, 0, 1]), Poly::from_ints(&[1]));
+        assert_eq!(to_decimal(&mut root, &square, 2), "0.13");
+        assert_eq!(ratio_to_decimal(&mut root, &one, &square, 1), "8");
+        assert_eq!(ratio_to_decimal(&mut root, &Poly::from_ints(&[0, -3]), &Poly::from_ints(&[0, 8]), 2), "-0.38");
+        assert_eq!(ratio_to_decimal(&mut root, &Poly::from_ints(&[0, 5]), &Poly::from_ints(&[0, 0, 0, 32]), 2), "1.3");
+    }
+
+    #[test]
+    fn enclosing_decimals_round_outwards() {
+        let of =
+            |lo: &str, hi: &str, digits: usize| enclosing_decimals(&Interval::new(parse(lo).unwrap(), parse(hi).unwrap()).unwrap(), digits);
+        let want = |lo: &str, hi: &str| (lo.to_string(), hi.to_string());
+        assert_eq!(of("1/3", "2/3", 3), want("0.333", "0.667"));
+        assert_eq!(of("1.234567", "1.234568", 4), want("1.234", "1.235"));
+        assert_eq!(of("-1.234567", "-1.234561", 4), want("-1.235", "-1.234"));
+        assert_eq!(of("0.1234", "0.99991", 3), want("0.123", "1"));
+        assert_eq!(of("12344", "99999", 3), want("12300", "100000"));
+        assert_eq!(of("12344", "99999", 1), want("10000", "100000"));
+        assert_eq!(of("0", "0", 3), want("0", "0"));
+        assert_eq!(of("-1/8", "1/3", 2), want("-0.13", "0.34"));
+        assert_eq!(of("1.25", "1.5", 3), want("1.25", "1.5"));
+    }
+}

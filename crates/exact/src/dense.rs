@@ -1,0 +1,90 @@
+//! Dense matrices over Q, for the small problems that elimination is run on.
+
+use super::{Integer, Rational, common_denominator};
+use num_traits::Zero;
+use std::ops::{Index, IndexMut};
+
+/// A dense matrix over Q, stored by rows.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Dense {
+    cols: usize,
+    data: Vec<Rational>,
+}
+
+impl Dense {
+    /// The zero matrix of the given shape.
+    pub fn zeros(rows: usize, cols: usize) -> Self {
+        Dense { cols, data: vec![Rational::zero(); rows * cols] }
+    }
+
+    /// A matrix from its rows, all of the same length.
+    ///
+    /// # Panics
+    /// If the rows differ in length: readers check raggedness where they read.
+    pub fn from_rows(rows: Vec<Vec<Rational>>) -> Self {
+        let cols = rows.first().map_or(0, Vec::len);
+        assert!(rows.iter().all(|r| r.len() == cols), "ragged rows");
+        Dense { cols, data: rows.into_iter().flatten().collect() }
+    }
+
+    /// Number of rows.
+    pub fn rows(&self) -> usize {
+        self.data.len().checked_div(self.cols).unwrap_or(0)
+    }
+
+    /// Number of columns.
+    pub fn cols(&self) -> usize {
+        self.cols
+    }
+
+    /// Row `i` as a slice.
+    pub fn row(&self, i: usize) -> &[Rational] {
+        &self.data[i * self.cols..(i + 1) * self.cols]
+    }
+
+    /// Each row of `self` and the same row of `other` multiplied by one positive integer that
+    /// makes both integral. Kernels and signs of products with a vector are unchanged.
+    pub fn clear_rows(&self, other: &Dense) -> (Vec<Vec<Integer>>, Vec<Vec<Integer>>) {
+        let clear = |row: &[Rational], m: &Integer| row.iter().map(|v| v.numer() * (m / v.denom())).collect::<Vec<_>>();
+        (0..self.rows())
+            .map(|i| {
+                let m = common_denominator(self.row(i).iter().chain(other.row(i)));
+                (clear(self.row(i), &m), clear(other.row(i), &m))
+            })
+            .unzip()
+    }
+}
+
+impl Index<(usize, usize)> for Dense {
+    type Output = Rational;
+    fn index(&self, (i, j): (usize, usize)) -> &Rational {
+        &self.data[i * self.cols + j]
+    }
+}
+
+impl IndexMut<(usize, usize)> for Dense {
+    fn index_mut(&mut self, (i, j): (usize, usize)) -> &mut Rational {
+        &mut self.data[i * self.cols + j]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{rational, whole};
+
+    #[test]
+    fn rows_and_columns_are_counted() {
+        let m = Dense::from_rows(vec![vec![whole(1), whole(2), whole(3)], vec![whole(4), whole(5), whole(6)]]);
+        assert_eq!((m.rows(), m.cols(), m.row(1)), (2, 3, &[4, 5, 6].map(whole)[..]));
+    }
+
+    #[test]
+    fn clearing_a_row_scales_both_matrices_alike() {
+        let a = Dense::from_rows(vec![vec![rational(1, 2), whole(0)]]);
+        let b = Dense::from_rows(vec![vec![rational(1, 3), whole(-1)]]);
+        let (ia, ib) = a.clear_rows(&b);
+        assert_eq!(ia, vec![vec![Integer::from(3), Integer::from(0)]]);
+        assert_eq!(ib, vec![vec![Integer::from(2), Integer::from(-6)]]);
+    }
+}

@@ -1,0 +1,45 @@
+//! Exact arithmetic: rationals, matrices over Q, integer polynomials, real algebraic numbers.
+//!
+//! Everything here is decided without floats. `double` is the one file that converts to and from
+//! them. The rooms that decide truths (`oracle`, `check`) build on this one alone.
+#![deny(clippy::float_arithmetic)]
+
+mod algebraic;
+mod cofactor;
+mod cone;
+mod decimal;
+mod definite;
+mod definite_short;
+mod dense;
+mod double;
+mod interval;
+mod kernel;
+mod modular;
+mod poly;
+mod poly_gcd;
+mod prime;
+mod quadratic;
+mod rational;
+mod roots;
+mod sparse;
+
+pub use algebraic::{Algebraic, Sign};
+pub use cofactor::first_row_cofactors;
+#[doc(hidden)]
+pub use cone::dot;
+pub use cone::{Generators, cone_generators};
+pub use decimal::{enclosing_decimals, ratio_to_decimal, to_decimal};
+pub use definite::{DefiniteError, NotDefinite, positive_definite};
+pub use dense::Dense;
+pub use double::{from_f64, to_f64, truncated};
+pub use interval::Interval;
+pub use kernel::{determinant, generic_kernel, kernel_at, minors, row_echelon_at};
+#[doc(hidden)]
+pub use modular::Residues;
+pub use modular::{CondenseError, schur_complement};
+pub use poly::Poly;
+pub use prime::{Field, primes};
+pub use quadratic::Quadratic;
+pub use rational::{Integer, MAX_EXPONENT, MAX_SPELLING, NumberError, Rational, common_denominator, parse, rational, whole};
+pub use roots::{nonnegative_roots, roots_in};
+pub use sparse::Sparse;

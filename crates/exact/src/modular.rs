@@ -1,0 +1,284 @@
+//! Exact Schur complements of large banded matrices: modulo many primes, put together by the
+//! Chinese remainder theorem, correct by Hadamard's bound.
+//!
+//! For integer F (n x n, regular), C, R, D the number det(F) (D - R F^-1 C)_ij is the determinant of
+//! F bordered by row i and column j: an integer, at most the product of the rows' Euclidean norms
+//! (Hadamard 1893). Known modulo primes whose product exceeds twice that bound, it is known.
+
+use super::prime::{Field, primes};
+use super::{Integer, Rational, Sparse, common_denominator};
+use num_integer::Integer as _;
+use num_traits::{One, Signed, ToPrimitive, Zero};
+
+/// Why a Schur complement is not computed.
+#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum CondenseError {
+    /// A block has the wrong shape.
+    #[error("condensation: expected {what} to be {expected:?}, got {got:?}")]
+    Shape {
+        /// Which block.
+        what: &'static str,
+        /// Rows and columns wanted.
+        expected: (usize, usize),
+        /// Rows and columns found.
+        got: (usize, usize),
+    },
+    /// A leading minor of F vanishes modulo so many primes that it is taken to be zero; elimination
+    /// without pivoting needs them all (positive definite matrices have them).
+    #[error("condensation: expected non-zero leading minors, got a zero modulo each of {primes} primes")]
+    ZeroMinor {
+        /// Primes tried in a row.
+        primes: usize,
+    },
+}
+
+/// Primes in a row at which a leading minor may vanish before it is given up. A non-zero minor
+/// has at most (its bits) / 61 prime factors of 62 bits: chance plays no part below that many.
+const MAX_SKIPPED: usize = 8;
+
+/// D - R F^-1 C over Q, for F with non-zero leading minors (symmetric definite, say).
+///
+/// The matrix is exact whatever primes were used. Cost: one banded elimination per 61 bits of
+/// Hadamard's bound.
+///
+/// # Errors
+/// [`CondenseError`].
+///
+/// ```
+/// use mceip_exact::{schur_complement, rational, whole, Sparse};
+/// let one = |v| Sparse::from_entries(1, 1, [(0, 0, whole(v))]);
+/// let s = schur_complement(&one(3), &one(1), &one(2), &one(5)).unwrap(); // 5 - 2 * 1/3
+/// assert_eq!(s.get(0, 0), rational(13, 3));
+/// ```
+pub fn schur_complement(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> Result<Sparse, CondenseError> {
+    let n = f.rows();
+    for (what, m, expected) in [("F", f, (n, n)), ("C", c, (n, c.cols())), ("R", r, (r.rows(), n)), ("D", d, (r.rows(), c.cols()))] {
+        if (m.rows(), m.cols()) != expected {
+            return Err(CondenseError::Shape { what, expected, got: (m.rows(), m.cols()) });
+        }
+    }
+    let bordered = Bordered::new(f, c, r, d);
+    let mut residues = Residues::new(1 + r.rows() * c.cols());
+    let bound = bordered.hadamard_bits() + 2; // the sign, and "exceeds"
+    let mut skipped = 0;
+    for p in primes() {
+        if residues.bits() > bound {
+            break;
+        }
+        match bordered.modulo(p) {
+            Some(values) => {
+                residues.add(p, &values);
+                skipped = 0;
+            }
+            None => skipped += 1,
+        }
+        if skipped > MAX_SKIPPED {
+            return Err(CondenseError::ZeroMinor { primes: skipped });
+        }
+    }
+    let values = residues.symmetric();
+    let det = &values[0];
+    let entries = values[1..].iter().enumerate().map(|(k, v)| {
+        let value = Rational::new(v.clone(), det.clone()) * &bordered.unit;
+        (k / c.cols(), k % c.cols(), value)
+    });
+    Ok(Sparse::from_entries(r.rows(), c.cols(), entries))
+}
+
+/// The integer matrix [F C; R D] in units of `unit`, as rows of (column, value).
+struct Bordered {
+    n: usize,
+    cols: usize,
+    rows: Vec<Vec<(usize, Integer)>>,
+    /// Largest |i - j| of F.
+    band: usize,
+    unit: Rational,
+}
+
+impl Bordered {
+    fn new(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> Bordered {
+        let (n, cols) = (f.rows(), c.cols());
+        let shifted = |m: &Sparse, i: usize| m.row(i).iter().map(|(j, v)| (j + n, v.clone())).collect::<Vec<_>>();
+        let upper = (0..n).map(|i| f.row(i).iter().cloned().chain(shifted(c, i)).collect::<Vec<_>>());
+        let lower = (0..r.rows()).map(|i| r.row(i).iter().cloned().chain(shifted(d, i)).collect::<Vec<_>>());
+        let rational: Vec<Vec<(usize, Rational)>> = upper.chain(lower).collect();
+        let clear = common_denominator(rational.iter().flatten().map(|e| &e.1));
+        let integral = |v: &Rational| v.numer() * (&clear / v.denom());
+        let gcd = rational.iter().flatten().fold(Integer::zero(), |g, e| g.gcd(&integral(&e.1)));
+        let gcd = if gcd.is_zero() { Integer::one() } else { gcd };
+        let rows = rational.iter().map(|row| row.iter().map(|(j, v)| (*j, integral(v) / &gcd)).collect()).collect();
+        let band = f.entries().map(|(i, j, _)| i.abs_diff(j)).max().unwrap_or(0);
+        Bordered { n, cols, rows, band, unit: Rational::new(gcd, clear) }
+    }
+
+    /// An upper bound of log2 of every bordered determinant and of det F: the n rows of [F C] and
+    /// the longest further row (or 1), each by its Euclidean norm.
+    fn hadamard_bits(&self) -> u64 {
+        let half_bits = |row: &Vec<(usize, Integer)>| row.iter().map(|(_, v)| v * v).sum::<Integer>().bits();
+        let inner: u64 = self.rows[..self.n].iter().map(half_bits).sum();
+        let border = self.rows[self.n..].iter().map(half_bits).max().unwrap_or(0);
+        (inner + border).div_ceil(2)
+    }
+
+    /// det F and det F (D - R F^-1 C) modulo p, or `None` if a leading minor vanishes modulo p.
+    fn modulo(&self, p: u64) -> Option<Vec<u64>> {
+        let field = Field::new(p);
+        let width = self.n + self.cols;
+        let mut m = vec![0u64; self.rows.len() * width];
+        for (i, row) in self.rows.iter().enumerate() {
+            for (j, v) in row {
+                m[i * width + j] = field.enter(v.mod_floor(&p.into()).to_u64().unwrap_or(0)); // 0 <= v < p
+            }
+        }
+        let mut det = field.enter(1);
+        for k in 0..self.n {
+            let pivot = m[k * width + k];
+            if pivot == 0 {
+                return None;
+            }
+            det = field.mul(det, pivot);
+            let inverse = field.invert(pivot);
+            let end = (k + self.band + 1).min(self.n); // no fill outside the band
+            let (above, below) = m.split_at_mut((k + 1) * width);
+            let pivot_row = &above[k * width..];
+            for i in (k + 1..end).chain(self.n..self.rows.len()) {
+                let row = &mut below[(i - k - 1) * width..(i - k) * width];
+                if row[k] == 0 {
+                    continue;
+                }
+                let factor = field.mul(row[k], inverse);
+                for j in (k + 1..end).chain(self.n..width) {
+                    row[j] = field.sub(row[j], field.mul(factor, pivot_row[j]));
+                }
+            }
+        }
+        let border = (self.n..self.rows.len()).flat_map(|i| (self.n..width).map(move |j| (i, j)));
+        let numerators = border.map(|(i, j)| field.leave(field.mul(det, m[i * width + j])));
+        Some([field.leave(det)].into_iter().chain(numerators).collect())
+    }
+}
+
+/// Numbers known modulo a growing product of primes.
+pub struct Residues {
+    /// One number each, between 0 and the modulus.
+    pub values: Vec<Integer>,
+    /// The product of the primes so far.
+    pub modulus: Integer,
+}
+
+impl Residues {
+    /// As many zeros, modulo 1.
+    pub fn new(count: usize) -> Self {
+        Residues { values: vec![Integer::zero(); count], modulus: Integer::one() }
+    }
+
+    /// floor(log2 modulus): the product exceeds 2^bits.
+    pub fn bits(&self) -> u64 {
+        self.modulus.bits() - 1
+    }
+
+    /// Garner's step: x + M ((a - x) / M mod p).
+    pub fn add(&mut self, p: u64, values: &[u64]) {
+        let small = |v: &Integer| v.mod_floor(&p.into()).to_u64().unwrap_or(0); // 0 <= v < p
+        let field = Field::new(p);
+        let inverse = field.invert(field.enter(small(&self.modulus)));
+        for (x, &a) in self.values.iter_mut().zip(values) {
+            let difference = field.sub(a, small(x));
+            let digit = field.leave(field.mul(field.enter(difference), inverse));
+            *x += &self.modulus * digit;
+        }
+        self.modulus *= p;
+    }
+
+    /// The representatives of least absolute value.
+    fn symmetric(self) -> Vec<Integer> {
+        let half: Integer = &self.modulus >> 1;
+        self.values.into_iter().map(|x| if x.abs() > half { x - &self.modulus } else { x }).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{rational, whole};
+
+    /// D - R F^-1 C by elimination in fractions.
+    fn plain(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> Sparse {
+        let (n, w) = (f.rows(), f.rows() + c.cols());
+        let mut m: Vec<Vec<Rational>> = (0..n + r.rows())
+            .map(|i| {
+                (0..w)
+                    .map(|j| match (i < n, j < n) {
+                        (true, true) => f.get(i, j),
+                        (true, false) => c.get(i, j - n),
+                        (false, true) => r.get(i - n, j),
+                        _ => d.get(i - n, j - n),
+                    })
+                    .collect()
+            })
+            .collect();
+        for k in 0..n {
+            for i in k + 1..m.len() {
+                let factor = &m[i][k] / &m[k][k];
+                for j in k..w {
+                    let update = &factor * &m[k][j];
+                    m[i][j] -= update;
+                }
+            }
+        }
+        Sparse::from_entries(
+            r.rows(),
+            c.cols(),
+            (0..r.rows()).flat_map(|i| (0..c.cols()).map(move |j| (i, j))).map(|(i, j)| (i, j, m[n + i][n + j].clone())),
+        )
+    }
+
+    #[test]
+    fn agrees_with_elimination_in_fractions() {
+        let f = Sparse::from_ints(&[&[4, -1, 0, 2], &[-1, 5, 3, 0], &[0, 3, 6, -2], &[2, 0, -2, 9]])
+            .add_scaled(&rational(1, 7), &Sparse::identity(4));
+        let c = Sparse::from_ints(&[&[1, 0], &[0, 2], &[-3, 1], &[5, 5]]);
+        let r = Sparse::from_ints(&[&[1, 2, 3, 4], &[0, 0, 0, 1], &[-7, 0, 2, 0]]);
+        let d = Sparse::from_ints(&[&[1, 0], &[0, 0], &[2, -9]]);
+        assert_eq!(schur_complement(&f, &c, &r, &d).unwrap(), plain(&f, &c, &r, &d));
+    }
+
+    #[test]
+    fn a_determinant_divisible_by_the_first_prime_is_survived() {
+        let p = Rational::from_integer(primes().next().unwrap().into());
+        let f = Sparse::from_entries(2, 2, [(0, 0, p), (1, 1, whole(3))]);
+        let (c, r, d) = (Sparse::from_ints(&[&[1], &[1]]), Sparse::from_ints(&[&[1, 1]]), Sparse::from_ints(&[&[0]]));
+        assert_eq!(schur_complement(&f, &c, &r, &d).unwrap(), plain(&f, &c, &r, &d));
+    }
+
+    #[test]
+    fn empty_singular_and_misshapen() {
+        let none = Sparse::zeros(0, 0);
+        assert_eq!(
+            schur_complement(&none, &Sparse::zeros(0, 1), &Sparse::zeros(1, 0), &Sparse::from_ints(&[&[4]])).unwrap(),
+            Sparse::from_ints(&[&[4]])
+        );
+        let singular = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
+        let (c, r, d) = (Sparse::from_ints(&[&[1], &[1]]), Sparse::from_ints(&[&[1, 1]]), Sparse::from_ints(&[&[0]]));
+        assert!(matches!(schur_complement(&singular, &c, &r, &d), Err(CondenseError::ZeroMinor { .. })));
+        assert!(matches!(schur_complement(&singular, &r, &r, &d), Err(CondenseError::Shape { what: "C", .. })));
+    }
+
+    #[test]
+    fn a_singular_block_is_given_up_after_nine_primes() {
+        let ones =
+            |n: usize, m: usize| Sparse::from_entries(n, m, (0..n).flat_map(|i| (0..m).map(move |j| (i, j, whole(1)))).collect::<Vec<_>>());
+        let got = schur_complement(&ones(2, 2), &ones(2, 1), &ones(1, 2), &ones(1, 1));
+        assert_eq!(got, Err(CondenseError::ZeroMinor { primes: MAX_SKIPPED + 1 }));
+    }
+
+    #[test]
+    fn the_representative_of_least_absolute_value_is_taken() {
+        let p = primes().next().unwrap();
+        let mut residues = Residues::new(4);
+        residues.add(p, &[(p - 1) / 2, (p - 1) / 2 + 1, 0, p - 1]);
+        let half = Integer::from((p - 1) / 2);
+        assert_eq!(residues.symmetric(), [half.clone(), -half, 0.into(), (-1).into()]);
+    }
+}

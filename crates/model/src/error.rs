@@ -1,0 +1,286 @@
+//! Every way in which a problem is refused: equation or field, index, expected, got.
+
+use mceip_exact::{NumberError, Rational};
+
+/// Where in a JSON text something was found.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct ErrorLocation {
+    /// Line, from 1.
+    pub line: usize,
+    /// Column, from 1; 0 where only the line is known.
+    pub column: usize,
+}
+
+/// Why a problem is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ModelError {
+    /// A matrix has the wrong shape.
+    #[error("{equation}: expected {what} to be {expected_rows} x {expected_cols}, got {rows} x {cols}")]
+    Shape {
+        /// Equation id of `spec/equations.md`.
+        equation: &'static str,
+        /// Name of the matrix.
+        what: &'static str,
+        /// Rows wanted.
+        expected_rows: usize,
+        /// Columns wanted.
+        expected_cols: usize,
+        /// Rows found.
+        rows: usize,
+        /// Columns found.
+        cols: usize,
+    },
+    /// A pencil or system without a single variable.
+    #[error("expected at least one variable in {what}, got none")]
+    Empty {
+        /// What is empty.
+        what: &'static str,
+    },
+    /// A matrix that must be symmetric is not.
+    #[error("{equation}: expected {what} symmetric, got {what}[{row}][{col}] = {upper} and {what}[{col}][{row}] = {lower}")]
+    NotSymmetric {
+        /// Equation id.
+        equation: &'static str,
+        /// Name of the matrix.
+        what: &'static str,
+        /// Row of the first difference.
+        row: usize,
+        /// Its column.
+        col: usize,
+        /// Entry (row, col).
+        upper: Rational,
+        /// Entry (col, row).
+        lower: Rational,
+    },
+    /// A matrix that must be positive definite is not.
+    #[error("{equation}: expected {what} positive definite, got pivot {} at index {index} of its LDL'", shortened(pivot))]
+    NotDefinite {
+        /// Equation, proposition or remark that needs it.
+        equation: &'static str,
+        /// Name of the matrix.
+        what: &'static str,
+        /// Row of the failing pivot within the matrix named.
+        index: usize,
+        /// The pivot, or the value of the quadratic form that refutes definiteness.
+        pivot: Rational,
+    },
+    /// A large matrix too close to singular to be proved definite or not.
+    #[error("{equation}: expected {what} provably positive definite, got a factorisation that decides nothing at index {index}")]
+    DefinitenessUndecided {
+        /// Equation, proposition or remark that needs it.
+        equation: &'static str,
+        /// Name of the matrix.
+        what: &'static str,
+        /// Row at which the rounded factorisation stopped.
+        index: usize,
+    },
+    /// A block that must vanish does not.
+    #[error("{equation}: expected {what}[{row}][{col}] = 0 (the f rows do not depend on the unknown), got {value}")]
+    NotZero {
+        /// Equation id.
+        equation: &'static str,
+        /// Name of the matrix.
+        what: &'static str,
+        /// Row of the entry.
+        row: usize,
+        /// Its column.
+        col: usize,
+        /// The entry.
+        value: Rational,
+    },
+    /// An index is not below its bound.
+    #[error("expected {what} below {limit}, got {index}")]
+    IndexOutOfRange {
+        /// What the index numbers.
+        what: &'static str,
+        /// The index.
+        index: usize,
+        /// First value that is too large.
+        limit: usize,
+    },
+    /// A particle names a degree of freedom that does not exist.
+    #[error("particle {particle}: expected {which} below {limit}, got {dof}")]
+    DofOutOfRange {
+        /// The particle.
+        particle: usize,
+        /// `tangential` or `normal`.
+        which: &'static str,
+        /// The degree of freedom.
+        dof: usize,
+        /// Number of degrees of freedom.
+        limit: usize,
+    },
+    /// An index is listed twice.
+    #[error("expected each {what} once, got {index} twice")]
+    IndexTwice {
+        /// What the index numbers.
+        what: &'static str,
+        /// The index.
+        index: usize,
+    },
+    /// Two contact particles claim the same degree of freedom.
+    #[error("particles {first} and {second}: expected each degree of freedom in one particle, got {dof} in both")]
+    DofTwice {
+        /// The degree of freedom.
+        dof: usize,
+        /// Particle that claims it first.
+        first: usize,
+        /// Particle that claims it again.
+        second: usize,
+    },
+    /// Something needed for this unknown is missing.
+    #[error("{equation}: expected {what} for unknown {unknown}, got none")]
+    Missing {
+        /// Equation id.
+        equation: &'static str,
+        /// The missing field.
+        what: &'static str,
+        /// The unknown that needs it.
+        unknown: &'static str,
+    },
+    /// Slip particles need friction.
+    #[error("E7: expected friction > 0 with slip particles (particle {particle}), got {friction}")]
+    FrictionNotPositive {
+        /// The first slip particle.
+        particle: usize,
+        /// The coefficient given.
+        friction: Rational,
+    },
+    /// A negative coefficient of friction.
+    #[error("E2: expected friction >= 0, got {friction}")]
+    FrictionNegative {
+        /// The coefficient given.
+        friction: Rational,
+    },
+    /// A particle in contact with zero reaction.
+    #[error("E9: particle {particle} has state \"zero\"; expected free, stick or slip (section 3 assumes no z particles)")]
+    ZeroReactionState {
+        /// The particle.
+        particle: usize,
+    },
+    /// A sign is neither 1 nor -1, or is missing on a slip particle, or stands on another one.
+    #[error("E10: particle {particle}: expected {field} {expected}, got {got}")]
+    Sign {
+        /// The particle.
+        particle: usize,
+        /// `sign` or `normal_direction`.
+        field: &'static str,
+        /// What was expected.
+        expected: &'static str,
+        /// What was found.
+        got: String,
+    },
+    /// A frame is not a rotation.
+    #[error("particle {particle}: expected frame to be a rotation (rows orthonormal, determinant 1), got {got}")]
+    FrameNotRotation {
+        /// The particle.
+        particle: usize,
+        /// What fails.
+        got: String,
+    },
+    /// A reaction contradicts the contact state.
+    #[error("E7: particle {particle} in state {state}: expected {expected}, got r_T = {tangential}, r_N = {normal}")]
+    ReactionContradicts {
+        /// The particle.
+        particle: usize,
+        /// Its state.
+        state: &'static str,
+        /// The line of (7) that fails.
+        expected: &'static str,
+        /// Tangential reaction given.
+        tangential: Rational,
+        /// Normal reaction given.
+        normal: Rational,
+    },
+    /// A window that is empty or negative.
+    #[error("expected a window 0 <= min <= max, got min = {min}, max = {max}")]
+    Window {
+        /// Lower end.
+        min: Rational,
+        /// Upper end.
+        max: String,
+    },
+    /// The file is not JSON of the expected shape.
+    #[error("line {}, column {}: {problem}", location.line, location.column)]
+    Json {
+        /// Where.
+        location: ErrorLocation,
+        /// What the JSON reader expected and got.
+        problem: String,
+    },
+    /// The `format` field is missing or names another version.
+    #[error("expected format {expected:?}, got {got}")]
+    Format {
+        /// The version this program reads.
+        expected: &'static str,
+        /// What the file says.
+        got: String,
+    },
+    /// Not exactly one of `pencil` and `system`.
+    #[error("expected exactly one of \"pencil\" and \"system\", got {got}")]
+    Body {
+        /// What the file has.
+        got: &'static str,
+    },
+    /// A number cannot be read.
+    #[error("{place}: {source}")]
+    Number {
+        /// Where in the file.
+        place: String,
+        /// What is wrong with it.
+        source: NumberError,
+    },
+    /// A row of a dense matrix has another length than the first.
+    #[error("{what}: expected row {row} to have {expected} entries, got {got}")]
+    Ragged {
+        /// Name of the matrix.
+        what: &'static str,
+        /// The row.
+        row: usize,
+        /// Length of the first row.
+        expected: usize,
+        /// Length of this row.
+        got: usize,
+    },
+    /// Larger than this program will read.
+    #[error("{what}: expected at most {limit}, got {got}")]
+    TooLarge {
+        /// What is too large.
+        what: &'static str,
+        /// The bound.
+        limit: u64,
+        /// What was found.
+        got: u64,
+    },
+    /// A file named by the problem cannot be read.
+    #[error("{what}: cannot read {path:?}: {problem}")]
+    Unreadable {
+        /// Name of the matrix, or of the file's role.
+        what: &'static str,
+        /// The path tried.
+        path: String,
+        /// The system's reason.
+        problem: String,
+    },
+    /// A Matrix Market file is malformed.
+    #[error("{what}: Matrix Market line {line}: expected {expected}, got {got:?}")]
+    MatrixMarket {
+        /// Name of the matrix.
+        what: &'static str,
+        /// Line in the file, from 1.
+        line: usize,
+        /// What the format wants there.
+        expected: &'static str,
+        /// The beginning of what stands there.
+        got: String,
+    },
+}
+
+/// A number as text; the beginning of one that fills more than a line.
+fn shortened(v: &Rational) -> String {
+    const MOST: usize = 60;
+
+    let text = v.to_string();
+    if text.len() <= MOST { text } else { format!("{}... ({} characters)", &text[..MOST], text.len()) }
+}

@@ -1,0 +1,225 @@
+//! Matrix Market, read exactly. Our own reader because the libraries read values as doubles.
+
+use super::matrix::require_order;
+use crate::ModelError;
+use mceip_exact::{Rational, Sparse, parse};
+
+/// Reads a real or integer Matrix Market file, `coordinate` or `array`, `general` or `symmetric`;
+/// decimals and fractions as exactly the value they spell. `what` names the matrix in complaints.
+///
+/// # Errors
+/// [`ModelError::MatrixMarket`] with the line, what was expected and what stands there.
+///
+/// ```
+/// use mceip_exact::rational;
+/// use mceip_model::file::read_matrix_market;
+/// let text = "%%MatrixMarket matrix coordinate real symmetric\n2 2 2\n1 1 1.1\n2 1 -3e-1\n";
+/// let m = read_matrix_market("K", text).unwrap();
+/// assert_eq!((m.get(0, 0), m.get(0, 1)), (rational(11, 10), rational(-3, 10)));
+/// ```
+pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, ModelError> {
+    let mut lines = text.lines().enumerate().map(|(i, l)| (i + 1, l));
+    let (coordinate, symmetric) = banner(what, lines.next().map_or("", |l| l.1))?;
+    let mut lines = lines.filter(|(_, l)| words_of(l).next().is_some() && !l.starts_with('%'));
+    let end = text.lines().count() + 1;
+    let reader = Reader { what };
+    let (line, size) = lines.next().unwrap_or((end, ""));
+    let sizes = reader.integers(line, size, if coordinate { 3 } else { 2 })?;
+    let (rows, cols) = (sizes[0], sizes[1]);
+    require_order(what, rows)?;
+    require_order(what, cols)?;
+    if symmetric && rows != cols {
+        return Err(reader.complain(line, "a square size for a symmetric matrix", size));
+    }
+    let places = Places { coordinate, symmetric, rows, cols };
+    let expected = places.count(&sizes);
+    let mut entries: Vec<(usize, usize, Rational)> = Vec::new();
+    let mut got = 0;
+    for (line, text) in lines {
+        if got == expected {
+            return Err(reader.complain(line, "no more entries than the size line announces", text));
+        }
+        let (i, j, value) = reader.entry(line, text, &places, got)?;
+        if symmetric && i != j {
+            entries.push((j, i, value.clone()));
+        }
+        entries.push((i, j, value));
+        got += 1;
+    }
+    if got != expected {
+        return Err(reader.complain(end, "as many entries as the size line announces", &format!("{got} of {expected}")));
+    }
+    refuse_twice(what, &entries)?;
+    Ok(Sparse::from_entries(rows, cols, entries))
+}
+
+/// `%%MatrixMarket matrix {coordinate|array} {real|integer|double} {general|symmetric}`.
+fn banner(what: &'static str, line: &str) -> Result<(bool, bool), ModelError> {
+    let words: Vec<String> = words_of(line).map(str::to_lowercase).collect();
+    let words: Vec<&str> = words.iter().map(String::as_str).collect();
+    match words[..] {
+        [
+            "%%matrixmarket",
+            "matrix",
+            layout @ ("coordinate" | "array"),
+            "real" | "integer" | "double",
+            symmetry @ ("general" | "symmetric"),
+        ] => Ok((layout == "coordinate", symmetry == "symmetric")),
+        _ => Err(Reader { what }.complain(1, "%%MatrixMarket matrix {coordinate|array} {real|integer} {general|symmetric}", line)),
+    }
+}
+
+/// How entries of the file map to places of the matrix.
+struct Places {
+    coordinate: bool,
+    symmetric: bool,
+    rows: usize,
+    cols: usize,
+}
+
+impl Places {
+    /// Number of entry lines that must follow.
+    fn count(&self, sizes: &[usize]) -> usize {
+        match (self.coordinate, self.symmetric) {
+            (true, _) => sizes[2],
+            (false, true) => self.rows * (self.rows + 1) / 2,
+            (false, false) => self.rows * self.cols,
+        }
+    }
+
+    /// Place of the k-th value of an array file: column by column, lower triangle if symmetric.
+    fn of_array(&self, k: usize) -> (usize, usize) {
+        if !self.symmetric {
+            return (k % self.rows, k / self.rows);
+        }
+        let (mut k, mut j) = (k, 0);
+        while k >= self.rows - j {
+            k -= self.rows - j;
+            j += 1;
+        }
+        (j + k, j)
+    }
+}
+
+/// The words of a line: blanks and tabs stand between them, and nothing else.
+fn words_of(line: &str) -> impl Iterator<Item = &str> {
+    line.split([' ', '\t']).filter(|word| !word.is_empty())
+}
+
+/// An index or a size: digits and nothing else.
+fn index(word: &str) -> Option<usize> {
+    let is_plain = word.bytes().all(|b| b.is_ascii_digit());
+    if is_plain { word.parse().ok() } else { None }
+}
+
+struct Reader {
+    what: &'static str,
+}
+
+impl Reader {
+    fn complain(&self, line: usize, expected: &'static str, got: &str) -> ModelError {
+        let got = got.chars().filter(|c| !c.is_control()).take(60).collect();
+        ModelError::MatrixMarket { what: self.what, line, expected, got }
+    }
+
+    fn integers(&self, line: usize, text: &str, count: usize) -> Result<Vec<usize>, ModelError> {
+        let numbers: Vec<usize> = words_of(text).map_while(index).collect();
+        let words = words_of(text).count();
+        if numbers.len() != count || words != count {
+            return Err(self.complain(line, "a size line", text));
+        }
+        Ok(numbers)
+    }
+
+    fn entry(&self, line: usize, text: &str, places: &Places, k: usize) -> Result<(usize, usize, Rational), ModelError> {
+        let words: Vec<&str> = words_of(text).collect();
+        let (i, j, value) = match (places.coordinate, &words[..]) {
+            (true, [i, j, value]) => {
+                let from_one = |w: &str| index(w).and_then(|v| v.checked_sub(1));
+                let (Some(i), Some(j)) = (from_one(i), from_one(j)) else {
+                    return Err(self.complain(line, "1-based indices", text));
+                };
+                (i, j, *value)
+            }
+            (false, [value]) => {
+                let (i, j) = places.of_array(k);
+                (i, j, *value)
+            }
+            _ => return Err(self.complain(line, if places.coordinate { "row column value" } else { "one value" }, text)),
+        };
+        if i >= places.rows || j >= places.cols {
+            return Err(self.complain(line, "indices within the size", text));
+        }
+        if places.symmetric && i < j {
+            return Err(self.complain(line, "the lower triangle of a symmetric matrix", text));
+        }
+        let value = parse(value).map_err(|source| ModelError::Number { place: format!("{} line {line}", self.what), source })?;
+        Ok((i, j, value))
+    }
+}
+
+fn refuse_twice(what: &'static str, entries: &[(usize, usize, Rational)]) -> Result<(), ModelError> {
+    let mut seen = std::collections::BTreeSet::new();
+    match entries.iter().find(|e| !seen.insert((e.0, e.1))) {
+        Some(e) => Err(ModelError::IndexTwice { what, index: e.0 }),
+        None => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::{rational, whole};
+
+    const HEAD: &str = "%%MatrixMarket matrix coordinate real general\n";
+
+    #[test]
+    fn arrays_run_down_the_columns() {
+        let m = read_matrix_market("K", "%%MatrixMarket matrix array real general\n% c\n2 2\n1\n2\n3\n4\n").unwrap();
+        assert_eq!((m.get(1, 0), m.get(0, 1)), (whole(2), whole(3)));
+        let s = read_matrix_market("K", "%%MatrixMarket matrix array integer symmetric\n2 2\n1\n2\n3\n").unwrap();
+        assert_eq!((s.get(0, 1), s.get(1, 1)), (whole(2), whole(3)));
+        let wide = read_matrix_market("K", "%%MatrixMarket matrix array real general\n2 3\n1\n2\n3\n4\n5\n6\n").unwrap();
+        assert_eq!((wide.get(1, 1), wide.get(0, 2)), (whole(4), whole(5)));
+    }
+
+    /// As many numbers as asked for and nothing else; what is quoted is fit for a terminal.
+    #[test]
+    fn size_lines_are_numbers_only() {
+        let reader = Reader { what: "K" };
+        assert_eq!(reader.integers(2, " 3 4 ", 2).unwrap(), [3, 4]);
+        for text in ["3", "3 4 5", "3 4 x", "3 x", "x 3 4", "3 x 4"] {
+            assert!(reader.integers(2, text, 2).is_err(), "{text}");
+        }
+        let ModelError::MatrixMarket { got, .. } = reader.complain(2, "a size line", "a\u{1b}[2Jb\u{7}") else { panic!() };
+        assert_eq!(got, "a[2Jb");
+    }
+
+    #[test]
+    fn decimals_are_exact() {
+        let m = read_matrix_market("K", &format!("{HEAD}1 1 1\n1 1 0.1\n")).unwrap();
+        assert_eq!(m.get(0, 0), rational(1, 10));
+    }
+
+    #[test]
+    fn malformed_files_are_refused_with_the_line() {
+        for (text, line) in [
+            ("", 1),
+            ("%%MatrixMarket matrix coordinate complex general\n1 1 0\n", 1),
+            ("%%MatrixMarket matrix coordinate real general\n", 2),
+            ("%%MatrixMarket matrix coordinate real general\n1 1\n", 2),
+            ("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 2 3\n", 3),
+            ("%%MatrixMarket matrix coordinate real general\n1 1 1\n0 1 3\n", 3),
+            ("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1\n", 3),
+            ("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n1 1 1\n", 4),
+            ("%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 2 1\n", 3),
+            ("%%MatrixMarket matrix coordinate real symmetric\n2 3 1\n1 1 1\n", 2),
+        ] {
+            let got = read_matrix_market("K", text);
+            assert!(matches!(got, Err(ModelError::MatrixMarket { line: l, .. }) if l == line), "{text:?}: {got:?}");
+        }
+        assert!(matches!(read_matrix_market("K", &format!("{HEAD}1 1 1\n1 1 nan\n")), Err(ModelError::Number { .. })));
+        assert!(matches!(read_matrix_market("K", &format!("{HEAD}1 1 2\n1 1 1\n")), Err(ModelError::MatrixMarket { .. })));
+        assert!(matches!(read_matrix_market("K", &format!("{HEAD}1 1 2\n1 1 1\n1 1 1\n")), Err(ModelError::IndexTwice { .. })));
+    }
+}

@@ -1,0 +1,84 @@
+//! Values that stand in JSON in one form and no other. By itself serde reads a struct from a list of its fields too, and a
+//! word of an enum from an object `{"word": null}`.
+
+use serde::de::value::MapAccessDeserializer;
+use serde::de::{Deserialize, Deserializer, IntoDeserializer, MapAccess, Visitor};
+use std::marker::PhantomData;
+
+/// A value read from a JSON object only.
+///
+/// ```
+/// use mceip_model::file::Object;
+/// #[derive(serde::Deserialize)]
+/// struct Window { min: u8, max: u8 }
+/// let read = |text| serde_json::from_str::<Object<Window>>(text).map(|w| (w.0.min, w.0.max));
+/// assert_eq!(read(r#"{"min": 1, "max": 2}"#).unwrap(), (1, 2));
+/// assert!(read("[1, 2]").is_err() && serde_json::from_str::<Window>("[1, 2]").is_ok());
+/// ```
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Object<T>(pub T);
+
+/// A value read from a JSON string only: a word of an enum without data.
+///
+/// ```
+/// use mceip_model::file::Word;
+/// #[derive(Debug, PartialEq, serde::Deserialize)]
+/// #[serde(rename_all = "lowercase")]
+/// enum State { Free, Stick }
+/// let read = |text| serde_json::from_str::<Word<State>>(text).map(|w| w.0);
+/// assert_eq!(read(r#""stick""#).unwrap(), State::Stick);
+/// assert!(read(r#"{"stick": null}"#).is_err() && serde_json::from_str::<State>(r#"{"stick": null}"#).is_ok());
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Word<T>(pub T);
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Word<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let word = String::deserialize(deserializer)?;
+        T::deserialize(word.into_deserializer()).map(Word)
+    }
+}
+
+/// An enum whose variants without data stand in JSON as words and those with data as objects with one key. `Words` and
+/// `Kinds` are its two halves; either becomes the whole.
+pub fn word_or_kind<'de, D, Words, Kinds, Whole>(deserializer: D, expected: &'static str) -> Result<Whole, D::Error>
+where
+    D: Deserializer<'de>,
+    Words: Deserialize<'de> + Into<Whole>,
+    Kinds: Deserialize<'de> + Into<Whole>,
+{
+    struct Either<Words, Kinds, Whole>(&'static str, PhantomData<(Words, Kinds, Whole)>);
+    impl<'de, Words, Kinds, Whole> Visitor<'de> for Either<Words, Kinds, Whole>
+    where
+        Words: Deserialize<'de> + Into<Whole>,
+        Kinds: Deserialize<'de> + Into<Whole>,
+    {
+        type Value = Whole;
+        fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+            f.write_str(self.0)
+        }
+        fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<Whole, E> {
+            Words::deserialize(word.into_deserializer()).map(Into::into)
+        }
+        fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Whole, A::Error> {
+            Kinds::deserialize(MapAccessDeserializer::new(map)).map(Into::into)
+        }
+    }
+    deserializer.deserialize_any(Either::<Words, Kinds, Whole>(expected, PhantomData))
+}
+
+impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        struct MapOnly<T>(PhantomData<T>);
+        impl<'de, T: Deserialize<'de>> Visitor<'de> for MapOnly<T> {
+            type Value = T;
+            fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                f.write_str("an object")
+            }
+            fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
+                T::deserialize(MapAccessDeserializer::new(map))
+            }
+        }
+        deserializer.deserialize_map(MapOnly(PhantomData)).map(Object)
+    }
+}

@@ -1,0 +1,200 @@
+//! The JSON shape of `mceip-problem/1`, and its way to a [`Problem`].
+
+use super::matrix::RawMatrix;
+use super::{Number, Object, Word};
+use crate::{Body, ContactState, ModelError, Particle, Pencil, Problem, Reaction, System, Unknown, Window};
+use mceip_exact::{Rational, whole};
+use serde::Deserialize;
+use std::path::Path;
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawProblem {
+    #[serde(rename = "format")]
+    _format: String, // checked before
+    name: Option<String>,
+    comment: Option<String>,
+    unknown: Word<Unknown>,
+    window: Option<Object<RawWindow>>,
+    pencil: Option<Object<RawPencil>>,
+    system: Option<Object<RawSystem>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawWindow {
+    min: Option<Number>,
+    max: Option<Number>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawPencil {
+    a: RawMatrix,
+    b: RawMatrix,
+    #[serde(default)]
+    free: Vec<usize>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawSystem {
+    stiffness: RawMatrix,
+    mass: Option<RawMatrix>,
+    friction: Option<Number>,
+    particles: Vec<Object<RawParticle>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(super) struct RawParticle {
+    tangential: usize,
+    normal: usize,
+    state: Word<RawState>,
+    sign: Option<i64>,
+    normal_direction: Option<i64>,
+    frame: Option<[[Number; 2]; 2]>,
+    reaction: Option<Object<RawReaction>>,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(rename_all = "lowercase")]
+enum RawState {
+    Free,
+    Stick,
+    Slip,
+    Zero,
+}
+
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct RawReaction {
+    normal: Number,
+    tangential: Number,
+}
+
+impl RawProblem {
+    /// Builds the problem, establishing every precondition.
+    pub(super) fn build(self, folder: &Path) -> Result<Problem, ModelError> {
+        let window = match self.window {
+            None => Window::all(),
+            Some(Object(w)) => Window::new(w.min.map_or_else(|| whole(0), |n| n.0), w.max.map(|n| n.0))?,
+        };
+        let body = match (self.pencil, self.system) {
+            (Some(Object(p)), None) => Body::Pencil(p.build(folder)?),
+            (None, Some(Object(s))) => Body::System(s.build(folder)?),
+            (None, None) => return Err(ModelError::Body { got: "neither" }),
+            (Some(_), Some(_)) => return Err(ModelError::Body { got: "both" }),
+        };
+        let mut problem = Problem::new(body, self.unknown.0, window)?;
+        problem.name = self.name;
+        problem.comment = self.comment;
+        Ok(problem)
+    }
+}
+
+impl RawPencil {
+    fn build(self, folder: &Path) -> Result<Pencil, ModelError> {
+        Pencil::new(self.a.build("a", folder)?, self.b.build("b", folder)?, self.free)
+    }
+}
+
+impl RawSystem {
+    fn build(self, folder: &Path) -> Result<System, ModelError> {
+        let particles = particles(self.particles)?;
+        let mass = self.mass.map(|m| m.build("M", folder)).transpose()?;
+        System::new(self.stiffness.build("K", folder)?, mass, self.friction.map(|n| n.0), particles)
+    }
+}
+
+/// The particles of a list, numbered in complaints.
+pub(super) fn particles(list: Vec<Object<RawParticle>>) -> Result<Vec<Particle>, ModelError> {
+    list.into_iter().enumerate().map(|(i, Object(p))| p.build(i)).collect()
+}
+
+impl RawParticle {
+    fn build(self, particle: usize) -> Result<Particle, ModelError> {
+        let sign = |field, value: i64| match value {
+            1 => Ok(1),
+            -1 => Ok(-1),
+            other => Err(ModelError::Sign { particle, field, expected: "1 or -1", got: other.to_string() }),
+        };
+        let state = match (self.state.0, self.sign) {
+            (RawState::Zero, _) => return Err(ModelError::ZeroReactionState { particle }),
+            (RawState::Slip, Some(s)) => ContactState::Slip { sign: sign("sign", s)? },
+            (RawState::Slip, None) => {
+                return Err(ModelError::Sign { particle, field: "sign", expected: "1 or -1 on a slip particle", got: "none".into() });
+            }
+            (RawState::Free, None) => ContactState::Free,
+            (RawState::Stick, None) => ContactState::Stick,
+            (_, Some(s)) => {
+                return Err(ModelError::Sign {
+                    particle,
+                    field: "sign",
+                    expected: "none on a particle that does not slip",
+                    got: s.to_string(),
+                });
+            }
+        };
+        let frame: Option<[[Rational; 2]; 2]> = self.frame.map(|rows| rows.map(|row| row.map(|n| n.0)));
+        let reaction = self.reaction.map(|Object(r)| Reaction { tangential: r.tangential.0, normal: r.normal.0 });
+        let normal_direction = sign("normal_direction", self.normal_direction.unwrap_or(1))?;
+        Ok(Particle { tangential: self.tangential, normal: self.normal, state, normal_direction, frame, reaction })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{read_problem, write_problem};
+    use super::*;
+
+    fn system(particles: &str) -> String {
+        format!(
+            r#"{{"format":"mceip-problem/1","unknown":"lambda2","system":{{"stiffness":[[2,0],[0,2]],"mass":[[1,0],[0,1]],"friction":"1.1","particles":[{particles}]}}}}"#
+        )
+    }
+
+    fn read(text: &str) -> Result<Problem, ModelError> {
+        read_problem(text, Path::new("."))
+    }
+
+    #[test]
+    fn a_system_round_trips() {
+        let text = system(
+            r#"{"tangential":0,"normal":1,"state":"slip","sign":-1,"normal_direction":-1,"frame":[["3/5","4/5"],["-4/5","3/5"]],"reaction":{"normal":-1,"tangential":"-1.1"}}"#,
+        );
+        let problem = read(&text).unwrap();
+        let again = read(&write_problem(&problem)).unwrap();
+        assert_eq!(problem, again);
+        assert_eq!(problem.sha256(), again.sha256());
+    }
+
+    #[test]
+    fn particles_are_refused_by_name() {
+        let zero = read(&system(r#"{"tangential":0,"normal":1,"state":"zero"}"#));
+        assert!(matches!(zero, Err(ModelError::ZeroReactionState { particle: 0 })));
+        for (particle, field) in [
+            (r#"{"tangential":0,"normal":1,"state":"slip"}"#, "sign"),
+            (r#"{"tangential":0,"normal":1,"state":"slip","sign":0}"#, "sign"),
+            (r#"{"tangential":0,"normal":1,"state":"stick","sign":1}"#, "sign"),
+            (r#"{"tangential":0,"normal":1,"state":"stick","normal_direction":2}"#, "normal_direction"),
+        ] {
+            assert!(matches!(read(&system(particle)), Err(ModelError::Sign { particle: 0, field: f, .. }) if f == field), "{particle}");
+        }
+        let twice = r#"{"tangential":0,"normal":1,"state":"stick"},{"tangential":0,"normal":1,"state":"slip","sign":1}"#;
+        assert!(matches!(read(&system(twice)), Err(ModelError::DofTwice { first: 0, second: 1, .. })));
+    }
+
+    #[test]
+    fn bodies_windows_and_versions_are_checked() {
+        assert!(matches!(read(r#"{"format":"mceip-problem/1","unknown":"mu"}"#), Err(ModelError::Body { got: "neither" })));
+        assert!(matches!(read(r#"{"format":"mceip-problem/2"}"#), Err(ModelError::Format { .. })));
+        assert!(matches!(read(r#"{"unknown":"mu"}"#), Err(ModelError::Format { .. })));
+        let window = r#"{"format":"mceip-problem/1","unknown":"mu","window":{"min":2,"max":"1.5"},"pencil":{"a":[[1]],"b":[[1]]}}"#;
+        assert!(matches!(read(window), Err(ModelError::Window { .. })));
+        let unknown_field = r#"{"format":"mceip-problem/1","unknown":"mu","pencil":{"a":[[1]],"b":[[1]],"c":1}}"#;
+        assert!(matches!(read(unknown_field), Err(ModelError::Json { .. })));
+        let no_mass = r#"{"format":"mceip-problem/1","unknown":"lambda2","system":{"stiffness":[[1,0],[0,1]],"friction":1,"particles":[{"tangential":0,"normal":1,"state":"slip","sign":1}]}}"#;
+        assert!(matches!(read(no_mass), Err(ModelError::Missing { what: "mass", .. })));
+    }
+}

@@ -1,0 +1,19 @@
+//! The problem: contact states, mechanical systems (1)-(9), pencils (15), and their file form.
+//!
+//! A value that exists satisfies its preconditions: shapes, symmetry, definiteness and index sets
+//! are established at construction, and whatever fails is refused with a [`ModelError`].
+
+mod canonical;
+mod error;
+pub mod file;
+mod pencil;
+mod problem;
+pub mod reduction;
+mod system;
+mod window;
+
+pub use error::{ErrorLocation, ModelError};
+pub use pencil::{Admissible, Pencil, Unknown};
+pub use problem::{Body, Problem};
+pub use system::{ContactState, Direction, Particle, Reaction, System};
+pub use window::Window;

@@ -1,0 +1,197 @@
+//! Table 1 in closed form, re-derived from the 2x2 problem printed above it (`spec/errata.md`).
+//!
+//! With t = lambda^2 m / k, p = c^2 + 1, q = mu c s the problem is
+//! [ t + p - q S1, -S1 S2; -S1 S2, t + p + q S2 ] x = y / k.
+//! The table as printed scrambles its rows; nothing here is copied from it.
+
+use mceip_exact::{Quadratic, Rational, Sign, whole};
+use num_traits::{One, Signed, Zero};
+
+/// The data of Fig. 1: springs at an angle with cosine c and sine s, both exact.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct TwoParticles {
+    /// cos(phi).
+    pub c: Rational,
+    /// sin(phi), c^2 + s^2 = 1.
+    pub s: Rational,
+    /// Spring stiffness k > 0.
+    pub k: Rational,
+    /// Particle mass m > 0.
+    pub m: Rational,
+    /// Coefficient of friction mu > 0.
+    pub mu: Rational,
+    /// S1, S2: signs of the tangential reactions.
+    pub signs: (i8, i8),
+}
+
+/// A solution of Table 1: value and x in Q(sqrt d), x up to a positive factor.
+#[derive(Debug, Clone)]
+pub struct ClosedSolution {
+    /// lambda^2 (or mu for [`thresholds`]).
+    pub value: Quadratic,
+    /// (x_T1, x_T2).
+    pub x: [Quadratic; 2],
+    /// Indices with x_i > 0.
+    pub slip: Vec<usize>,
+}
+
+/// All solutions of MCEIP-lambda2 for the two particles.
+///
+/// * S1 = S2: slip-slip with t = -p + sqrt(1 + q^2) if that is >= 0 (mu^2 s^2 >= c^2 + 2, or c = 0:
+///   then t = 0 for every mu); x_2 / x_1 = sqrt(1 + q^2) - S q.
+/// * (+1, -1): slip-stick and stick-slip with t = q - p if q >= p; slip-slip with x_1 = x_2 and
+///   t = q - p - 1 if q >= p + 1.
+/// * (-1, +1): none.
+pub fn table1(data: &TwoParticles) -> Vec<ClosedSolution> {
+    let p = &data.c * &data.c + Rational::one();
+    let q = &data.mu * &data.c * &data.s;
+    let unit = &data.k / &data.m;
+    match data.signs {
+        (s1, s2) if s1 == s2 => {
+            let d = Rational::one() + &q * &q;
+            slip_slip(-p, d, &(&q * whole(s1.into())), &unit).into_iter().collect()
+        }
+        (1, _) => {
+            let one_slips = [(vec![0], [1, 0]), (vec![1], [0, 1])].map(|(slip, x)| (&q - &p, slip, x));
+            let both_slip = (&q - &p - Rational::one(), vec![0, 1], [1, 1]);
+            let all = one_slips.into_iter().chain([both_slip]).filter(|(t, _, _)| !t.is_negative());
+            all.map(|(t, slip, x)| rational_solution(t * &unit, x, slip)).collect()
+        }
+        _ => Vec::new(),
+    }
+}
+
+/// The values of mu at which a solution with lambda^2 = 0 exists (MCEIP-mu), for c > 0 and s > 0;
+/// `None` for c = 0 with S1 = S2, where *every* mu is one.
+///
+/// S1 = S2: mu = sqrt(c^2 + 2) / s; (+1, -1): mu = (c^2 + 1)/(c s) twice, mu = (c^2 + 2)/(c s).
+pub fn thresholds(data: &TwoParticles) -> Option<Vec<ClosedSolution>> {
+    let p = &data.c * &data.c + Rational::one();
+    let cs = &data.c * &data.s;
+    Some(match data.signs {
+        (s1, s2) if s1 == s2 => {
+            if data.c.is_zero() {
+                return None;
+            }
+            if data.s.is_zero() {
+                return Some(Vec::new());
+            }
+            // q^2 = p^2 - 1 = c^2 (c^2 + 2); x_2 / x_1 = sqrt(1 + q^2) - S q = p - S c sqrt(c^2 + 2).
+            let d = &p + Rational::one();
+            let value = Quadratic::new(Rational::zero(), data.s.recip(), d.clone())?;
+            let x1 = value.embed(Rational::one());
+            let x2 = Quadratic::new(p, -&data.c * whole(s1.into()), d)?;
+            vec![ClosedSolution { value, x: [x1, x2], slip: vec![0, 1] }]
+        }
+        (1, _) if !cs.is_zero() => vec![
+            rational_solution(&p / &cs, [1, 0], vec![0]),
+            rational_solution(&p / &cs, [0, 1], vec![1]),
+            rational_solution((&p + Rational::one()) / &cs, [1, 1], vec![0, 1]),
+        ],
+        _ => Vec::new(),
+    })
+}
+
+/// t = a + sqrt(d) in units of `unit`, with x = (1, sqrt(d) - q S), if t >= 0.
+fn slip_slip(a: Rational, d: Rational, q_signed: &Rational, unit: &Rational) -> Option<ClosedSolution> {
+    let t = Quadratic::new(a, Rational::one(), d.clone())?;
+    if t.sign() == Sign::Negative {
+        return None;
+    }
+    let x2 = Quadratic::new(-q_signed, Rational::one(), d)?;
+    Some(ClosedSolution { value: t.scale(unit), x: [t.embed(Rational::one()), x2], slip: vec![0, 1] })
+}
+
+fn rational_solution(value: Rational, x: [i64; 2], slip: Vec<usize>) -> ClosedSolution {
+    // d = 0: the field is Q itself.
+    let embed = |v: Rational| Quadratic::embed_rational(v);
+    ClosedSolution { value: embed(value), x: x.map(|v| embed(whole(v))), slip }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::rational;
+
+    fn data(mu: Rational, signs: (i8, i8)) -> TwoParticles {
+        TwoParticles { c: rational(3, 5), s: rational(4, 5), k: whole(1), m: whole(1), mu, signs }
+    }
+
+    #[test]
+    fn counts_around_the_rational_thresholds() {
+        let p = rational(34, 25);
+        let cs = rational(12, 25);
+        let count = |mu: Rational, signs| table1(&data(mu, signs)).len();
+        let tiny = rational(1, 1_000_000);
+        assert_eq!(count(&p / &cs - &tiny, (1, -1)), 0);
+        assert_eq!(count(&p / &cs, (1, -1)), 2);
+        assert_eq!(count((&p + whole(1)) / &cs - &tiny, (1, -1)), 2);
+        assert_eq!(count((&p + whole(1)) / &cs, (1, -1)), 3);
+        assert_eq!(count(whole(1000), (-1, 1)), 0);
+        assert_eq!((count(rational(19, 10), (1, 1)), count(rational(21, 10), (1, 1)), count(rational(21, 10), (-1, -1))), (0, 1, 1));
+    }
+
+    #[test]
+    fn vertical_springs_are_at_the_threshold_for_every_friction() {
+        let vertical = TwoParticles { c: whole(0), s: whole(1), ..data(rational(1, 7), (1, 1)) };
+        let found = table1(&vertical);
+        assert_eq!(found.len(), 1);
+        assert_eq!(found[0].value.sign(), Sign::Zero);
+        assert!(thresholds(&vertical).is_none());
+        let horizontal = TwoParticles { c: whole(1), s: whole(0), ..data(whole(100), (1, 1)) };
+        assert!(table1(&horizontal).is_empty());
+        assert_eq!(thresholds(&horizontal).map(|t| t.len()), Some(0));
+    }
+
+    /// The 2x2 problem of the heading with t = lambda^2 m / k and q = mu c s, exactly: is x a solution with support `slip`?
+    fn solves(data: &TwoParticles, t: &Quadratic, q: &Quadratic, s: &ClosedSolution) {
+        let (s1, s2) = (whole(data.signs.0.into()), whole(data.signs.1.into()));
+        let diagonal = t.add(&t.embed(&data.c * &data.c + whole(1)));
+        let off = -&s1 * &s2;
+        let y = [
+            diagonal.add(&q.scale(&-s1)).mul(&s.x[0]).add(&s.x[1].scale(&off)),
+            diagonal.add(&q.scale(&s2)).mul(&s.x[1]).add(&s.x[0].scale(&off)),
+        ];
+        for i in 0..2 {
+            let signs = (s.x[i].sign(), y[i].sign());
+            let fits = if s.slip.contains(&i) {
+                signs == (Sign::Positive, Sign::Zero)
+            } else {
+                signs.0 == Sign::Zero && signs.1 != Sign::Negative
+            };
+            assert!(fits, "{data:?} {i} {signs:?}");
+        }
+    }
+
+    #[test]
+    fn every_solution_solves_the_problem_it_is_the_table_of() {
+        let mut seen = 0;
+        for mu in [rational(21, 10), whole(5), whole(9)] {
+            for signs in [(1, 1), (-1, -1), (1, -1)] {
+                let data = TwoParticles { k: whole(7), m: rational(5, 3), ..data(mu.clone(), signs) };
+                for s in table1(&data) {
+                    let t = s.value.scale(&(&data.m / &data.k));
+                    solves(&data, &t, &t.embed(&data.mu * &data.c * &data.s), &s);
+                    seen += 1;
+                }
+            }
+        }
+        assert_eq!(seen, 2 * 3 + 3 + 3); // at mu = 21/10 none of (+1, -1)
+    }
+
+    /// At a threshold the solution has lambda^2 = 0.
+    #[test]
+    fn thresholds_are_where_the_value_is_zero() {
+        for (signs, count) in [((1, 1), 1), ((-1, -1), 1), ((1, -1), 3), ((-1, 1), 0)] {
+            let data = data(whole(1), signs);
+            let list = thresholds(&data).unwrap();
+            assert_eq!(list.len(), count);
+            for s in list {
+                solves(&data, &s.value.embed(whole(0)), &s.value.scale(&(&data.c * &data.s)), &s);
+            }
+        }
+        for (c, s) in [(whole(0), whole(1)), (whole(1), whole(0))] {
+            assert_eq!(thresholds(&TwoParticles { c, s, ..data(whole(1), (1, -1)) }).map(|t| t.len()), Some(0));
+        }
+    }
+}
