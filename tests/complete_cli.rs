@@ -62,7 +62,31 @@ impl Bench {
 /// Value and slip set of each solution of a `--json` report.
 fn set(report: &str) -> Vec<(String, Value)> {
     let report: Value = serde_json::from_str(report).unwrap();
-    report["solutions"].as_array().unwrap().iter().map(|s| (s["value"].as_str().unwrap()[..14].to_string(), s["slip"].clone())).collect()
+    let digits = |s: &Value| s["value"].as_str().unwrap().chars().take(14).collect();
+    report["solutions"].as_array().unwrap().iter().map(|s| (digits(s), s["slip"].clone())).collect()
+}
+
+/// One writer of `mceip-solutions/1`: the search lists what the enumerator lists, digit by digit, with the enclosures it has proved.
+#[test]
+fn complete_and_enumerate_write_the_same_solutions() {
+    for name in ["fold", "two-particles", "two-particles-mu", "oblique"] {
+        let file = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("spec/examples/{name}.json")).display().to_string();
+        let list = |command: &str| -> Vec<Value> {
+            let report: Value = serde_json::from_str(&exits(0, &[command, &file, "--json"])).unwrap();
+            report["solutions"].as_array().unwrap().clone()
+        };
+        let (searched, enumerated) = (list("complete"), list("enumerate"));
+
+        assert!(!enumerated.is_empty() && searched.len() == enumerated.len(), "{name}");
+        for (ours, theirs) in searched.iter().zip(&enumerated) {
+            for field in ["value", "slip", "biactive", "x", "y", "v", "w"] {
+                assert_eq!(ours[field], theirs[field], "{name}: {field}");
+            }
+            let number = |v: &Value| v.as_str().unwrap().parse::<f64>().unwrap();
+            let [lo, hi] = [0, 1].map(|k| number(&ours["enclosure"][k]));
+            assert!(lo <= number(&theirs["value"]) && number(&theirs["value"]) <= hi, "{name}");
+        }
+    }
 }
 
 fn read(path: &str) -> String {

@@ -17,7 +17,15 @@ fn printed(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> (Value, String) {
     let found = enumerate(&reduced.pencil, problem.window()).unwrap();
     let solutions = found.solutions.iter().map(|s| Listed::of_solution(&problem, &reduced, s)).collect();
     let complete = found.is_complete_list();
-    let report = Report { problem: &problem, reduced: &reduced, solutions, complete, evidence: "test".into(), enumeration: Some(&found) };
+    let report = Report {
+        problem: &problem,
+        reduced: &reduced,
+        solutions,
+        complete,
+        evidence: "test".into(),
+        enumeration: Some(&found),
+        cover: None,
+    };
     (solutions_json(&report), solutions_text(&report))
 }
 

@@ -4,12 +4,14 @@ use super::common::{CliError, exit, interrupt_flag, load, print, require_threads
 use super::infinity::{AtInfinity, Files};
 use super::output::Output;
 use crate::certificate::Certificate;
+use crate::certify::Certifier;
 use crate::check::{AcceptedCover, OpenRegion, SolutionFamily};
 use crate::exact::enclosing_decimals;
 use crate::model::Problem;
+use crate::reduction::reduce;
+use crate::report::{Listed, Report, solutions_json};
 use crate::search::complete::{Completed, Options, Shard, complete, resume};
 use indicatif::{ProgressBar, ProgressStyle};
-use serde_json::json;
 use std::path::PathBuf;
 
 /// Arguments of `complete`.
@@ -71,7 +73,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     bar.finish_and_clear();
     let beyond = if args.infinity { Some(AtInfinity::search(&problem, &options, &stop)?) } else { None };
     let out = if args.json {
-        let mut report = solutions_json(&problem, &completed);
+        let mut report = report_json(&problem, &completed)?;
         if let Some(beyond) = &beyond {
             report["at_infinity"] = beyond.json();
         }
@@ -178,37 +180,17 @@ fn family_text(word: &str, f: &SolutionFamily) -> String {
     format!("{values}, slip {:?}, {how_many}", f.support)
 }
 
-/// What a report on a cover claims: `complete` only where its solutions are all there is, without families.
-pub(super) fn claim_word(cover: &AcceptedCover) -> &'static str {
-    if !cover.open.is_empty() {
-        return "solutions";
+/// The complete set as `mceip-solutions/1`.
+pub(super) fn report_json(problem: &Problem, completed: &Completed) -> Result<serde_json::Value, CliError> {
+    let reduced = reduce(problem)?;
+    let certifier = Certifier::new(problem, &reduced.pencil);
+    let mut solutions = Vec::new();
+    for (proved, x) in completed.solutions() {
+        solutions.push(Listed::of_cover(problem, &reduced, &certifier, proved, x));
     }
-    if cover.is_plain_list() { "complete" } else { "complete_with_families" }
-}
 
-pub(super) fn solutions_json(problem: &Problem, completed: &Completed) -> serde_json::Value {
-    let region = |r: &OpenRegion| json!({ "min": r.min.to_string(), "max": r.max.as_ref().map(ToString::to_string), "moving": r.moving, "undecided": r.undecided });
-    let solutions: Vec<_> = completed
-        .solutions()
-        .map(|(s, x)| {
-            let (lo, hi) = enclosing_decimals(&s.value, 15);
-            let x: Vec<String> = x.iter().map(|v| format!("{v:.15e}")).collect();
-            json!({ "value": format!("{:.15e}", crate::exact::to_f64(&s.value.mid())), "enclosure": [lo, hi], "slip": s.support, "x": x })
-        })
-        .collect();
     let cover = &completed.cover;
-    let family = |f: &SolutionFamily| {
-        let ends = |v: &crate::exact::Interval| <[String; 2]>::from(enclosing_decimals(v, 15));
-        json!({ "slip": f.support, "from": ends(&f.from), "to": f.to.as_ref().map(ends), "one_value": f.is_point, "one_solution_each": f.is_alone })
-    };
-    json!({
-        "format": crate::candidate::SOLUTIONS_FORMAT,
-        "problem_sha256": problem.sha256(),
-        "unknown": problem.unknown().word(),
-        "claim": claim_word(cover),
-        "evidence": format!("certificate of a complete set, {} leaves, {} open, accepted by the checker; x to the digits of doubles", cover.leaves, cover.open.len()),
-        "solutions": solutions,
-        "families": cover.families.iter().map(family).collect::<Vec<_>>(),
-        "open": cover.open.iter().map(region).collect::<Vec<_>>(),
-    })
+    let evidence = format!("certificate of a complete set, {} leaves, {} open, accepted by the checker", cover.leaves, cover.open.len());
+    let complete = cover.is_plain_list();
+    Ok(solutions_json(&Report { problem, reduced: &reduced, solutions, complete, evidence, enumeration: None, cover: Some(cover) }))
 }

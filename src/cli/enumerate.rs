@@ -52,7 +52,7 @@ fn report(problem: &Problem, reduced: &Reduced, found: &Enumeration, is_json: bo
 
     let solutions = found.solutions.iter().map(|s| Listed::of_solution(problem, reduced, s)).collect();
     let complete = found.is_complete_list();
-    let report = Report { problem, reduced, solutions, complete, evidence, enumeration: Some(found) };
+    let report = Report { problem, reduced, solutions, complete, evidence, enumeration: Some(found), cover: None };
     if is_json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) }
 }
 

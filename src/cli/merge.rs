@@ -1,7 +1,7 @@
 //! `mceip merge --problem FILE CERTIFICATE...`: the parts of a complete search put together, or refused.
 
 use super::common::{CliError, exit, load, print};
-use super::complete::{read, solutions_json, solutions_text};
+use super::complete::{read, report_json, solutions_text};
 use super::output::Output;
 use crate::certificate::Certificate;
 use crate::check::check;
@@ -48,7 +48,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 /// The solutions with their x: a search that goes on with the merged certificate and is stopped at once.
 fn to_json(problem: &Problem, certificate: &Certificate) -> Result<String, CliError> {
     let completed = resume(problem, certificate, &Options::default(), &AtomicBool::new(true), &|_| {})?;
-    Ok(format!("{}\n", solutions_json(problem, &completed)))
+    Ok(format!("{}\n", report_json(problem, &completed)?))
 }
 
 /// Names the part at fault, where one is.

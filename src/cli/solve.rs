@@ -101,7 +101,7 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     let claims: Vec<_> = found.certified.iter().map(|c| c.claim.clone()).collect();
     let solutions = claims.iter().map(|c| Listed::of_claim(&problem, &reduced, c)).collect();
     let evidence = evidence(args, &found);
-    let report = Report { problem: &problem, reduced: &reduced, solutions, complete: false, evidence, enumeration: None };
+    let report = Report { problem: &problem, reduced: &reduced, solutions, complete: false, evidence, enumeration: None, cover: None };
     print(&if args.json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) })?;
     let any = !claims.is_empty();
     if let (Some(output), true) = (output, any) {

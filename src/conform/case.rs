@@ -86,6 +86,7 @@ impl Case {
             complete: self.answer.is_complete_list(),
             evidence: format!("plain enumeration of {} supports, exact", self.answer.supports_total),
             enumeration: Some(&self.answer),
+            cover: None,
         })
     }
 

@@ -1,8 +1,12 @@
 //! A solution ready to be printed: decimals of value, x, y, v and w, each correctly rounded.
 
+use crate::candidate::Candidate;
 use crate::certificate::{Claim, ExactSolution};
-use crate::certify::flattened;
-use crate::exact::{Algebraic, Integer, Poly, Rational, common_denominator, ratio_to_decimal, to_decimal};
+use crate::certify::{Certifier, flattened};
+use crate::check::AcceptedClaim;
+use crate::exact::{
+    Algebraic, Integer, Poly, Rational, common_denominator, enclosing_decimals, from_f64, ratio_to_decimal, to_decimal, to_f64,
+};
 use crate::model::{Body, Pencil, Problem};
 use crate::multistart::exact_value;
 use crate::oracle::{Cone, Enumeration, Solution};
@@ -16,6 +20,8 @@ pub(super) const DIGITS: usize = 17;
 pub struct Listed {
     /// Value of the unknown.
     pub value: String,
+    /// Decimals that enclose the value, where a cover has proved it.
+    pub enclosure: Option<[String; 2]>,
     /// Polynomial and isolating interval, where the solution is exact.
     pub exact: Option<(Vec<Integer>, [Rational; 2])>,
     /// Indices with x_i > 0.
@@ -107,15 +113,49 @@ impl Listed {
                 let active = (0..pencil.order()).filter(|i| pencil.free().binary_search(i).is_ok() || c.support.contains(i));
                 active.zip(&c.center).for_each(|(i, n)| x[i] = n.0.clone());
                 let value = c.center.last().map_or_else(Rational::default, |n| n.0.clone());
-                let clear = common_denominator(&x);
-                let polys: Vec<Poly> = x.iter().map(|v| Poly::constant(v.numer() * (&clear / v.denom()))).collect();
-                let norm = Poly::constant(clear);
-                let mut listed = of_polynomials(problem, reduced, Algebraic::rational(value), &c.support, &[], &polys, &norm);
-                listed.exact = None;
-                listed
+                of_point(problem, reduced, &c.support, value, &x)
             }
         }
     }
+
+    /// From a solution that a cover has proved, with x in doubles: exact where `certify` makes an exact claim of it, digits
+    /// of an enclosed claim else, and those of the doubles where there is no claim.
+    pub fn of_cover(problem: &Problem, reduced: &Reduced, certifier: &Certifier<'_>, proved: &AcceptedClaim, x: &[f64]) -> Listed {
+        let candidate = Candidate { value: to_f64(&proved.value.mid()), x: x.to_vec() };
+        let claimed = certifier.certify_with_verdict(&candidate).ok().filter(|(_, verdict)| is_same(verdict, proved));
+
+        let listed = match claimed {
+            Some((claim, _)) => Listed::of_claim(problem, reduced, &claim),
+            None => {
+                let x: Vec<Rational> = x.iter().map(|v| from_f64(*v).unwrap_or_default()).collect();
+                of_point(problem, reduced, &proved.support, proved.value.mid(), &x)
+            }
+        };
+        Listed { enclosure: Some(enclosing_decimals(&proved.value, DIGITS).into()), ..listed }
+    }
+}
+
+/// Are two claims about one solution? Each is the only one with its support in its interval.
+fn is_same(one: &AcceptedClaim, other: &AcceptedClaim) -> bool {
+    one.support == other.support && one.value.lo() <= other.value.hi() && other.value.lo() <= one.value.hi()
+}
+
+/// A solution known in rounded numbers only, x in any positive scale.
+fn of_point(problem: &Problem, reduced: &Reduced, support: &[usize], value: Rational, x: &[Rational]) -> Listed {
+    let clear = common_denominator(x);
+    let polys: Vec<Poly> = x.iter().map(|v| Poly::constant(v.numer() * (&clear / v.denom()))).collect();
+
+    let solution = Solution {
+        value: Algebraic::rational(value),
+        multiplicity: 1,
+        slip: support.to_vec(),
+        biactive: Vec::new(),
+        x: polys,
+        y: Vec::new(),
+    };
+    let norm = solution.normaliser(&reduced.pencil.slip());
+    let listed = of_polynomials(problem, reduced, solution.value, support, &[], &solution.x, &norm);
+    Listed { exact: None, ..listed }
 }
 
 fn of_exact(problem: &Problem, reduced: &Reduced, claim: &Claim, c: &ExactSolution) -> Listed {
@@ -159,7 +199,18 @@ fn of_polynomials(
     let interval = [value.interval().lo().clone(), value.interval().hi().clone()];
     let exact = Some((value.poly().coeffs().to_vec(), interval));
     let decimal = to_decimal(&mut value, &Poly::from_ints(&[0, 1]), DIGITS);
-    Listed { value: decimal, exact, slip: slip.to_vec(), biactive: biactive.to_vec(), x, y, lifted, kernel_dimension: 1, cone: None }
+    Listed {
+        value: decimal,
+        enclosure: None,
+        exact,
+        slip: slip.to_vec(),
+        biactive: biactive.to_vec(),
+        x,
+        y,
+        lifted,
+        kernel_dimension: 1,
+        cone: None,
+    }
 }
 
 /// Row i of (A + tB) x as an integer polynomial and the positive integer it was multiplied by.
@@ -173,4 +224,44 @@ fn row_times(pencil: &Pencil, i: usize, x: &[Poly]) -> (Poly, Integer) {
         }
     }
     (sum, clear)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::exact::{Interval, Sparse, rational, whole};
+    use crate::model::{Unknown, Window};
+    use crate::reduction::reduce;
+
+    /// [[1, -6], [2, -6]] + t I: t = 2 with x = (2, 1).
+    fn listed(x: &[f64]) -> Listed {
+        let pencil = Pencil::new(Sparse::from_ints(&[&[1, -6], &[2, -6]]), Sparse::identity(2), vec![]).unwrap();
+        let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
+        let reduced = reduce(&problem).unwrap();
+        let certifier = Certifier::new(&problem, &reduced.pencil);
+
+        let value = Interval::new(whole(2) - rational(1, 1 << 20), whole(2) + rational(1, 1 << 20)).unwrap();
+        let proved = AcceptedClaim { support: vec![0, 1], value };
+        Listed::of_cover(&problem, &reduced, &certifier, &proved, x)
+    }
+
+    #[test]
+    fn a_proved_solution_is_listed_by_its_claim() {
+        let listed = listed(&[0.666667, 0.333333]);
+
+        assert_eq!((listed.value.as_str(), listed.exact.is_some()), ("2", true));
+        assert_eq!(listed.x, ["0.66666666666666667", "0.33333333333333333"]);
+        assert_eq!(listed.enclosure, Some(["1.9999990463256835".into(), "2.0000009536743165".into()]));
+    }
+
+    /// x from which no claim comes: the digits of the doubles, and nothing that looks exact.
+    #[test]
+    fn a_solution_without_a_claim_has_the_digits_of_its_doubles() {
+        let listed = listed(&[0.75, 0.25]);
+
+        assert_eq!((listed.value.as_str(), listed.exact.is_some()), ("2", false));
+        assert_eq!(listed.x, ["0.75", "0.25"]);
+        assert_eq!(listed.slip, [0, 1]);
+        assert!(listed.enclosure.is_some());
+    }
 }

@@ -2,7 +2,8 @@
 
 use super::{Listed, Table};
 use crate::candidate::SOLUTIONS_FORMAT;
-use crate::exact::{Integer, Poly, to_decimal};
+use crate::check::{AcceptedCover, OpenRegion, SolutionFamily};
+use crate::exact::{Integer, Interval, Poly, enclosing_decimals, to_decimal};
 use crate::model::{Body, Problem};
 use crate::oracle::{End, Enumeration, Piece, SupportRange};
 use crate::reduction::{Reduced, Variable};
@@ -17,12 +18,32 @@ pub struct Report<'a> {
     pub reduced: &'a Reduced,
     /// The solutions.
     pub solutions: Vec<Listed>,
-    /// Is the list complete? Only the enumerator may say so.
+    /// Is the list complete? Only the enumerator and an accepted cover may say so.
     pub complete: bool,
     /// What stands behind the claim.
     pub evidence: String,
     /// The enumerator's run, for what is only reported.
     pub enumeration: Option<&'a Enumeration>,
+    /// The accepted cover, for families and open regions.
+    pub cover: Option<&'a AcceptedCover>,
+}
+
+impl Report<'_> {
+    fn claim(&self) -> &'static str {
+        match self.cover {
+            Some(cover) => claim_of_cover(cover),
+            None if self.complete => "complete",
+            None => "solutions",
+        }
+    }
+}
+
+/// What a report on a cover claims: `complete` only where its solutions are all there is, without families.
+pub fn claim_of_cover(cover: &AcceptedCover) -> &'static str {
+    if !cover.open.is_empty() {
+        return "solutions";
+    }
+    if cover.is_plain_list() { "complete" } else { "complete_with_families" }
 }
 
 /// Everything to be listed: the solutions, and between them the cones of the enumerator.
@@ -41,7 +62,7 @@ pub fn solutions_json(report: &Report<'_>) -> Value {
         "format": SOLUTIONS_FORMAT,
         "problem_sha256": report.problem.sha256(),
         "unknown": report.problem.unknown().word(),
-        "claim": if report.complete { "complete" } else { "solutions" },
+        "claim": report.claim(),
         "evidence": report.evidence,
         "solutions": entries(report).iter().map(listed).collect::<Vec<_>>(),
         "continua": report.enumeration.map_or_else(Vec::new, ranges),
@@ -50,10 +71,26 @@ pub fn solutions_json(report: &Report<'_>) -> Value {
     if !open.is_empty() {
         out["undescribed"] = json!(open);
     }
+    if let Some(cover) = report.cover {
+        out["families"] = cover.families.iter().map(family).collect();
+        out["open"] = cover.open.iter().map(region).collect();
+    }
     if let Body::System(_) = report.problem.body() {
         out["variables"] = report.reduced.variables.iter().map(variable).collect();
     }
     out
+}
+
+/// A family of a cover: its support, and decimals that enclose the ends of its values.
+fn family(f: &SolutionFamily) -> Value {
+    let ends = |v: &Interval| <[String; 2]>::from(enclosing_decimals(v, 15));
+    json!({ "slip": f.support, "from": ends(&f.from), "to": f.to.as_ref().map(ends), "one_value": f.is_point, "one_solution_each": f.is_alone })
+}
+
+/// A region that a cover leaves open.
+fn region(r: &OpenRegion) -> Value {
+    let max = r.max.as_ref().map(ToString::to_string);
+    json!({ "min": r.min.to_string(), "max": max, "moving": r.moving, "undecided": r.undecided })
 }
 
 /// A support with the intervals of values at which it has a solution.
@@ -87,6 +124,9 @@ fn listed(s: &Listed) -> Value {
         out["cone_dimension"] = json!(cone.dimension);
         out["rays"] = cone.rays.iter().map(ray).collect();
         out["lineality"] = json!(cone.lineality);
+    }
+    if let Some(ends) = &s.enclosure {
+        out["enclosure"] = json!(ends);
     }
     if let Some((polynomial, interval)) = &s.exact {
         let interval: Vec<String> = interval.iter().map(ToString::to_string).collect();
