@@ -31,6 +31,8 @@
 pub use mceip_check as check;
 pub use mceip_check::certificate;
 pub use mceip_exact as exact;
+#[cfg(feature = "solver")]
+pub use mceip_mcp::{linear, mcp, solver, sparse};
 pub use mceip_model as model;
 pub use mceip_oracle as oracle;
 
@@ -49,10 +51,6 @@ pub mod foreign;
 #[cfg(feature = "solver")]
 pub mod lcp;
 #[cfg(feature = "solver")]
-pub mod linear;
-#[cfg(feature = "solver")]
-pub mod mcp;
-#[cfg(feature = "solver")]
 pub mod multistart;
 #[cfg(feature = "picture")]
 pub mod picture;
@@ -61,11 +59,7 @@ pub mod reduction;
 pub mod report;
 #[cfg(feature = "search")]
 pub mod search;
-#[cfg(feature = "solver")]
-pub mod solver;
 pub mod source;
-#[cfg(feature = "solver")]
-pub mod sparse;
 #[cfg(feature = "testkit")]
 pub mod testkit;
 #[cfg(feature = "solver")]

@@ -136,16 +136,6 @@ pub const FLUTTER_ANGLE: f64 = 1e-6;
 /// the reaction; states are given, the reaction only guards against a wrong sign or another mu.
 pub const CONE_SLACK: (i64, i64) = (1, 1000);
 
-/// Largest difference of mirrored entries of a symmetric matrix in doubles, relative to the larger of
-/// their diagonal entries. Unit: none. Basis: element matrices round by a few units in the last place
-/// (8, `source::doubles` tests it); data printed with twelve digits or fewer should be mirrored first.
-pub const ASYMMETRY: f64 = 1e-13;
-
-/// Smallest pivot of a sparse Cholesky factor, relative to the diagonal entry of the matrix. Unit: none.
-/// Basis: sums of some hundred terms round to 1e-14; a singular matrix leaves pivots of that size and either
-/// sign, an elastic body that is held leaves above 1e-6.
-pub const SINGULAR_PIVOT: f64 = 1e-13;
-
 /// Imaginary part, relative to the largest eigenvalue, up to which an eigenvalue of the QR algorithm is
 /// offered as real, and the residual up to which Newton's method then keeps it. Unit: none. Basis: simple
 /// eigenvalues come with 1e-13 times their condition, below 1e4 for condensed meshes.
@@ -154,10 +144,6 @@ pub const REAL_EIGENVALUE: f64 = 1e-9;
 /// Share of the way from lo to infinity (in lo / t) that a null vector's value in doubles may be off infinity, before the exact
 /// null vector there is asked for. Unit: none. Basis: roots are good to 1e-12; where it asks in vain nothing is lost.
 pub const AT_INFINITY: f64 = 1e-6;
-
-/// Change of a solution by one step of iterative refinement, relative to it, above which a sparse block
-/// counts as singular. Unit: none. Basis: with six digits another step would still contract.
-pub const REFINED: f64 = 1e-6;
 
 /// alpha up to which a point (alpha, beta) of the unit circle is the one at infinity, where t = beta / alpha is no value.
 /// Unit: none. Basis: a solution at infinity was met at alpha from 1e-18 to 3e-17 (random pencil 163 of `verify`), within

@@ -65,7 +65,7 @@ pub struct Curve {
 /// [`SolverError`] for bounds, starts and options that make no sense.
 ///
 /// ```
-/// use mceip::{mcp::LinearMcp, solver::{continuation, Options, Sense}};
+/// use mceip_mcp::{mcp::LinearMcp, solver::{continuation, Options, Sense}};
 /// // z >= 0, 1 - z >= 0: the solutions 0 and 1 lie on one curve.
 /// let lcp = LinearMcp::lcp(nalgebra::dmatrix![-1.0], vec![1.0]).unwrap();
 /// let curve = continuation(&lcp, &[3.0], Sense::Down, 9, &Options::default()).unwrap();

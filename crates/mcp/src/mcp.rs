@@ -81,7 +81,7 @@ impl LinearMcp {
     /// [`McpError`] naming the part, row and column.
     ///
     /// ```
-    /// use mceip::mcp::LinearMcp;
+    /// use mceip_mcp::mcp::LinearMcp;
     /// let inf = f64::INFINITY;
     /// assert!(LinearMcp::new(nalgebra::dmatrix![2.0], vec![-1.0], vec![0.0], vec![inf]).is_ok());
     /// assert!(LinearMcp::new(nalgebra::dmatrix![2.0], vec![-1.0], vec![1.0], vec![0.0]).is_err());

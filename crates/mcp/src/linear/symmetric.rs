@@ -56,7 +56,7 @@ impl Symmetric {
     /// [`SymmetricError`] naming the place.
     ///
     /// ```
-    /// use mceip::linear::Symmetric;
+    /// use mceip_mcp::linear::Symmetric;
     /// let k = Symmetric::new(2, [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0), (1, 1, 1.0)]).unwrap();
     /// assert_eq!(k.times(&[1.0, 3.0]), [-1.0, 5.0]);
     /// assert!(Symmetric::new(2, [(0, 1, 1.0)]).is_err());

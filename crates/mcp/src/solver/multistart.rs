@@ -9,7 +9,7 @@ use crate::mcp::Mcp;
 /// [`SolverError`] of the first problem, option or start that makes no sense, before the runs after it.
 ///
 /// ```
-/// use mceip::{mcp::LinearMcp, solver::{multistart, Options}};
+/// use mceip_mcp::{mcp::LinearMcp, solver::{multistart, Options}};
 /// let lcp = LinearMcp::lcp(nalgebra::dmatrix![-1.0], vec![1.0]).unwrap(); // solutions 0 and 1
 /// let outcomes = multistart(&lcp, [vec![0.0], vec![5.0]], &Options::default()).unwrap();
 /// assert_eq!(outcomes.len(), 2);

@@ -20,7 +20,7 @@ impl SparseLinearMcp {
     /// [`McpError`] naming the part, row and column.
     ///
     /// ```
-    /// use mceip::sparse::SparseLinearMcp;
+    /// use mceip_mcp::sparse::SparseLinearMcp;
     /// let inf = f64::INFINITY;
     /// let m = [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0), (1, 1, 1.0)];
     /// let problem = SparseLinearMcp::new(m, vec![-1.0, 3.0], vec![-inf, 0.0], vec![inf; 2]).unwrap();

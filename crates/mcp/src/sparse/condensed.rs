@@ -64,7 +64,7 @@ impl<'a> CondensedMcp<'a> {
     /// [`SparseError::SingularFreeBlock`] if their block is singular to rounding.
     ///
     /// ```
-    /// use mceip::{solver::Options, sparse::{CondensedMcp, SparseLinearMcp}};
+    /// use mceip_mcp::{solver::Options, sparse::{CondensedMcp, SparseLinearMcp}};
     /// let inf = f64::INFINITY;
     /// // 2 x - y = 1 with x free, 0 <= y, 0 <= 3 - x + y.
     /// let m = [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0)];

@@ -19,7 +19,7 @@ use nalgebra::DVector;
 /// [`SolverError::Option`] for an option out of range.
 ///
 /// ```
-/// use mceip::{mcp::LinearMcp, solver::{solve_linear, Options}};
+/// use mceip_mcp::{mcp::LinearMcp, solver::{solve_linear, Options}};
 /// let lcp = LinearMcp::lcp(nalgebra::dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
 /// let outcome = solve_linear(&lcp, &Options::default()).unwrap();
 /// assert!(outcome.termination.reached_tolerance());

@@ -25,7 +25,7 @@ pub struct Ended {
 /// solved before.
 ///
 /// ```
-/// use mceip::{mcp::LinearMcp, solver::{Options, Solver}};
+/// use mceip_mcp::{mcp::LinearMcp, solver::{Options, Solver}};
 /// let lcp = LinearMcp::lcp(nalgebra::dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
 /// let mut solver = Solver::new();
 /// for start in [[0.0, 0.0], [9.0, 1.0]] {

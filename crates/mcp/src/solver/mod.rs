@@ -65,7 +65,7 @@ use crate::mcp::{Mcp, McpError, check_bounds};
 /// finite on the way is a [`Termination`], with the best finite point.
 ///
 /// ```
-/// use mceip::{mcp::LinearMcp, solver::{solve, Options}};
+/// use mceip_mcp::{mcp::LinearMcp, solver::{solve, Options}};
 /// let lcp = LinearMcp::lcp(nalgebra::dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
 /// let outcome = solve(&lcp, &[0.0, 0.0], &Options::default()).unwrap();
 /// assert!(outcome.termination.reached_tolerance());
