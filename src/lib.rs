@@ -17,7 +17,7 @@
 //! [`exact`] numbers, [`model`] problems and files, [`source`] examples, [`reduction`] (10)-(16) and
 //! Propositions 1 and 2, [`oracle`] the slow truth, `mcp`, `solver` and `sparse` the PATH-style solver,
 //! `certify` and [`certificate`], [`check`] the verdict, `analysis` the engineer's answer, `testkit` what compares
-//! them all. `exact`, `model`, `check` and `oracle` are crates of their own, under their old names here.
+//! them all. The crates of `crates/` are re-exported under the names of their rooms.
 //!
 //! ```
 //! use mceip::{exact::{whole, Sparse}, model::{Pencil, Window}, oracle::enumerate};
@@ -30,37 +30,23 @@
 
 pub use mceip_check as check;
 pub use mceip_check::certificate;
+#[cfg(feature = "solver")]
+pub use mceip_engine::{analysis, candidate, certify, foreign, lcp, multistart, reduction, report, search, tolerance};
 pub use mceip_exact as exact;
 #[cfg(feature = "solver")]
 pub use mceip_mcp::{linear, mcp, solver, sparse};
 pub use mceip_model as model;
+#[cfg(not(feature = "solver"))]
+pub use mceip_model::reduction;
 pub use mceip_oracle as oracle;
+#[cfg(feature = "solver")]
+pub use mceip_paper as source;
+#[cfg(feature = "testkit")]
+pub use mceip_testkit as testkit;
+#[cfg(feature = "testkit")]
+pub use mceip_testkit::conform;
 
-#[cfg(feature = "search")]
-pub mod analysis;
-#[cfg(feature = "solver")]
-pub mod candidate;
-#[cfg(feature = "solver")]
-pub mod certify;
 #[cfg(feature = "cli")]
 pub mod cli;
-#[cfg(feature = "testkit")]
-pub mod conform;
-#[cfg(feature = "solver")]
-pub mod foreign;
-#[cfg(feature = "solver")]
-pub mod lcp;
-#[cfg(feature = "solver")]
-pub mod multistart;
 #[cfg(feature = "picture")]
 pub mod picture;
-pub mod reduction;
-#[cfg(feature = "solver")]
-pub mod report;
-#[cfg(feature = "search")]
-pub mod search;
-pub mod source;
-#[cfg(feature = "testkit")]
-pub mod testkit;
-#[cfg(feature = "solver")]
-pub mod tolerance;

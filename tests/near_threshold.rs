@@ -2,7 +2,7 @@
 //! refused with a proof of absence. Just above, everything is certified. (Table 1, all sign patterns that
 //! have thresholds, relative gaps from 1e-3 to 1e-15; peers' solvers report success on both sides.)
 //! The search itself: on neither side, nor beside a fold, is an uncertified point among its solutions.
-#![cfg(feature = "search")]
+#![cfg(feature = "solver")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 use mceip::candidate::Candidate;

@@ -1,7 +1,7 @@
 //! Lifting, the lines of (9) and the projection for an oblique particle: directions (3/5, 4/5), friction 1/5, so that every
 //! number has a denominator. By hand.
+#![cfg(feature = "solver")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
-
 use mceip::exact::{Algebraic, Poly, Rational, Sparse, rational, whole};
 use mceip::model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip::reduction::{Lifted, Line, Projected, check_lines, condense, lift, project, reduce};

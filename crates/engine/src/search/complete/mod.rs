@@ -1,0 +1,344 @@
+//! All solutions in a window, with a certificate that there are no others.
+//!
+//! The search works in doubles and writes a certificate of kind *complete set*; the checker decides.
+//! What it reports is what the checker accepted: solutions, and regions that stay open. A certificate
+//! with open regions is also the checkpoint: [`resume`] goes on with it, [`merge`] joins parts.
+
+mod beyond;
+mod circuit;
+mod condense;
+mod decided;
+mod error;
+pub(crate) mod game;
+mod massless;
+mod merge;
+mod precise;
+mod precise_anchor;
+mod reasons;
+mod reverse;
+mod root;
+mod skeleton;
+mod skyline;
+mod splice;
+mod support;
+mod tree;
+mod view;
+mod witness;
+
+pub use error::CompleteError;
+pub use merge::merge;
+
+use super::definite;
+use crate::certificate::{Certificate, CompleteSet, Node, Piece};
+use crate::certify::certificate;
+use crate::check::{Accepted, AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check};
+use crate::model::file::Number;
+use crate::model::{Pencil, Problem};
+use crate::reduction::reduce;
+use skeleton::Prepared;
+use splice::Chosen;
+use std::collections::BTreeSet;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicBool, Ordering};
+use tree::Watch;
+
+/// How to search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Options {
+    /// Pieces into which the window is cut before the search; the work is shared out by piece.
+    pub pieces: usize,
+    /// Nodes that one piece may use before the rest of it is left open.
+    pub nodes_per_piece: usize,
+    /// Threads, all cores if not given. The certificate does not depend on it.
+    pub threads: Option<usize>,
+    /// The part of the pieces to search; the others are left open.
+    pub shard: Option<Shard>,
+}
+
+/// Every `count`-th piece from `index` on.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Shard {
+    /// Which part, from 0.
+    pub index: usize,
+    /// Parts in all.
+    pub count: usize,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { pieces: 16, nodes_per_piece: 2_000_000, threads: None, shard: None }
+    }
+}
+
+/// How far a search has come.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Progress {
+    /// Share of the search space that has been dealt with, 0 to 1.
+    pub share: f64,
+    /// Leaves so far.
+    pub leaves: u64,
+    /// Solutions met so far.
+    pub solutions: u64,
+}
+
+/// What a search has proved.
+#[derive(Debug, Clone)]
+pub struct Completed {
+    /// The certificate; [`check`] has accepted it.
+    pub certificate: Certificate,
+    /// What the checker read off it.
+    pub cover: AcceptedCover,
+    /// x of each solution of the cover over all variables of the pencil, e'x_s = 1, in doubles.
+    pub x: Vec<Vec<f64>>,
+}
+
+impl Completed {
+    /// Is nothing left open? There may be families beside the solutions ([`AcceptedCover::is_plain_list`]).
+    pub fn is_complete(&self) -> bool {
+        self.cover.open.is_empty()
+    }
+
+    /// The solutions with their x.
+    pub fn solutions(&self) -> impl Iterator<Item = (&AcceptedClaim, &[f64])> {
+        self.cover.solutions.iter().zip(self.x.iter().map(Vec::as_slice))
+    }
+}
+
+/// Searches the problem's window. `stop` ends the search early; what is not done is left open.
+///
+/// # Errors
+/// [`CompleteError`].
+///
+/// ```
+/// use mceip_engine::{exact::{whole, Sparse}, model::{Body, Pencil, Problem, Unknown, Window}};
+/// use mceip_engine::search::complete::{complete, Options};
+/// use std::sync::atomic::AtomicBool;
+/// // The fold of spec/errata.md: lambda^2 = 2 and 3 and nothing else in [0, infinity).
+/// let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
+/// let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+/// let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
+/// let found = complete(&problem, &Options::default(), &AtomicBool::new(false), &|_| {}).unwrap();
+/// assert!(found.is_complete());
+/// assert_eq!(found.cover.solutions.len(), 2);
+/// assert!(found.cover.solutions[0].value.contains(&whole(2)));
+/// ```
+pub fn complete(
+    problem: &Problem,
+    options: &Options,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Completed, CompleteError> {
+    let pencil = reduce(problem)?.pencil;
+    let mut prepared = Prepared::new(problem, &pencil, options.pieces)?;
+    if options.shard.is_none()
+        && let Some(node) = definite::leaf(&pencil, problem.window())
+    {
+        let piece = Piece { max: problem.window().max().cloned().map(Number), anchor: None, tree: vec![node] };
+        let set = CompleteSet { pieces: vec![piece], ..prepared.open_set() };
+        let mut certificate = Certificate { complete_set: Some(set), ..certificate(problem, Vec::new()) };
+        let (accepted, refused) = audited(problem, &mut certificate)?;
+        if refused.is_empty() {
+            return completed(&pencil, &prepared, certificate, accepted);
+        }
+    }
+    if prepared.is_expanded() {
+        // A first search finds where the solutions are, so that the enclosure is tight there.
+        let scout = Options { shard: None, ..*options };
+        let quiet = Shares { stop, progress: &|_| {}, state: Mutex::new(Progress::default()) };
+        let (set, look) = (prepared.open_set(), prepared.scout());
+        let found = in_threads(options.threads, || splice::all(problem, &pencil, &look, &set, &scout, &Chosen::All, &quiet));
+        let mut values: Vec<f64> = found.into_iter().flat_map(|f| f.met).collect();
+        values.sort_by(f64::total_cmp);
+        prepared = prepared.refined(problem, &pencil, &values);
+    }
+    let start = Certificate { complete_set: Some(prepared.open_set()), ..certificate(problem, Vec::new()) };
+    run(problem, &pencil, prepared, start, options, stop, progress)
+}
+
+/// Goes on with a certificate that leaves regions open: only these are searched.
+///
+/// # Errors
+/// [`CompleteError`]; among them a certificate of another problem, unknown or window, and one without a
+/// complete set.
+pub fn resume(
+    problem: &Problem,
+    earlier: &Certificate,
+    options: &Options,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Completed, CompleteError> {
+    let pencil = reduce(problem)?.pencil;
+    error::same_problem(problem, earlier)?;
+    check(problem, earlier)?;
+    let set = earlier.complete_set.as_ref().ok_or(CompleteError::NoCompleteSet)?;
+    let prepared = Prepared::again(&pencil, set)?;
+    run(problem, &pencil, prepared, earlier.clone(), options, stop, progress)
+}
+
+/// Rounds of a search whose leaves were refused, each more cautious than the one before.
+const CAUTIOUS_ROUNDS: usize = 2;
+
+/// Refused leaves up to which exact arithmetic is asked.
+const MAX_REFUSED: usize = 200;
+
+fn run(
+    problem: &Problem,
+    pencil: &Pencil,
+    mut prepared: Prepared,
+    mut certificate: Certificate,
+    options: &Options,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(Progress) + Sync),
+) -> Result<Completed, CompleteError> {
+    let shares = |progress| Shares { stop, progress, state: Mutex::new(Progress::default()) };
+    let search = |prepared: &Prepared, certificate: &mut Certificate, chosen: &Chosen, watch: &Shares<'_>| {
+        let set = certificate.complete_set.take().ok_or(CompleteError::NoCompleteSet)?;
+        let found = in_threads(options.threads, || splice::all(problem, pencil, prepared, &set, options, chosen, watch));
+        let claims = &mut certificate.claims;
+        let pieces = set.pieces.iter().zip(found).map(|(piece, found)| splice::numbered(piece, found.items, claims)).collect();
+        certificate.complete_set = Some(CompleteSet { condensation: set.condensation, pieces });
+        audited(problem, certificate)
+    };
+    let (mut accepted, mut refused) = search(&prepared, &mut certificate, &Chosen::All, &shares(progress))?;
+    // What was refused is open now: that alone is searched again, with more caution, and what still is refused exactly.
+    for _ in 0..CAUTIOUS_ROUNDS {
+        if refused.is_empty() || stop.load(Ordering::Relaxed) || !prepared.beware() {
+            break;
+        }
+        (accepted, refused) = search(&prepared, &mut certificate, &Chosen::Again(refused), &shares(&|_| {}))?;
+    }
+    if !refused.is_empty() && refused.len() <= MAX_REFUSED && !stop.load(Ordering::Relaxed) {
+        (accepted, _) = search(&prepared, &mut certificate, &Chosen::Exactly(refused), &shares(&|_| {}))?;
+    }
+    if !stop.load(Ordering::Relaxed)
+        && let Some((longer, closed)) = with_long_numbers(problem, pencil, &prepared, &certificate, &accepted)
+    {
+        (certificate, accepted) = (longer, closed);
+    }
+    completed(pencil, &prepared, certificate, accepted)
+}
+
+/// The certificate in which long numbers decide open regions, if fewer stay open according to the checker.
+fn with_long_numbers(
+    problem: &Problem,
+    pencil: &Pencil,
+    prepared: &Prepared,
+    certificate: &Certificate,
+    accepted: &Accepted,
+) -> Option<(Certificate, Accepted)> {
+    let open = |accepted: &Accepted| accepted.cover.as_ref().map_or(0, |c| c.open.len());
+    if open(accepted) == 0 {
+        return None;
+    }
+    let mut longer = precise::closed(problem, pencil, prepared, certificate)?;
+    let (again, _) = audited(problem, &mut longer).ok()?;
+    (open(&again) < open(accepted)).then_some((longer, again))
+}
+
+/// What is reported is what the checker accepted.
+fn completed(pencil: &Pencil, prepared: &Prepared, certificate: Certificate, accepted: Accepted) -> Result<Completed, CompleteError> {
+    let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
+    let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
+    let x = cover.solutions.iter().map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s))).collect();
+    Ok(Completed { certificate, cover, x })
+}
+
+/// Lets the checker read the certificate. A leaf whose witness doubles have judged too well is left open, and so is a
+/// tail. Also returned: the places of such leaves.
+fn audited(problem: &Problem, certificate: &mut Certificate) -> Result<(Accepted, BTreeSet<(usize, usize)>), CompleteError> {
+    // Every round opens the tail or solutions of one support, so that this comes to an end.
+    let (accepted, refused) = loop {
+        match audit(problem, certificate) {
+            Ok(audited) => break audited,
+            Err(rejected) => without_refused(certificate, rejected)?,
+        }
+    };
+    for &(piece, node) in &refused {
+        let leaf = certificate.complete_set.as_mut().and_then(|set| set.pieces.get_mut(piece)).and_then(|p| p.tree.get_mut(node));
+        leaf.into_iter().for_each(|leaf| *leaf = Node::Open);
+    }
+    Ok((accepted, refused.into_iter().collect()))
+}
+
+/// Opens the leaves of a tree that yield solutions of the support; how many.
+fn open_solutions(tree: &mut [Node], support: &[usize]) -> usize {
+    // What moves in the regions still to come; of a branch the resting side comes first.
+    let mut moving: Vec<Vec<usize>> = vec![Vec::new()];
+    let mut opened = 0;
+    for node in tree {
+        let mut here = moving.pop().unwrap_or_default();
+        match node {
+            Node::Split(_) => moving.extend([here.clone(), here]),
+            Node::Branch(index) => {
+                let rest = here.clone();
+                here.push(*index);
+                moving.extend([here, rest]);
+            }
+            Node::Root(_) | Node::Support(_) => {
+                here.sort_unstable();
+                if here == support {
+                    *node = Node::Open;
+                    opened += 1;
+                }
+            }
+            _ => {}
+        }
+    }
+    opened
+}
+
+/// Opens what is refused as a whole, the tail or solutions that cannot be told apart, else says why there
+/// is no certificate.
+fn without_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<(), CompleteError> {
+    let Some(set) = certificate.complete_set.as_mut() else { return Err(rejected.into()) };
+    match &rejected.reason {
+        // Proved in doubles that rounding has misled: the scales of the rows differ too much.
+        Reason::Cover { piece: None, .. } if set.condensation.as_mut().is_some_and(|c| c.tail.take().is_some()) => {
+            let tails = set.pieces.iter_mut().flat_map(|p| &mut p.tree).filter(|n| matches!(n, Node::Tail));
+            tails.for_each(|n| *n = Node::Open);
+            Ok(())
+        }
+        // Solutions of one support so near each other that their leaves cannot tell which are the same.
+        Reason::Cover { piece: None, fault: CoverFault::Ambiguous { support }, .. } => {
+            let opened: usize = set.pieces.iter_mut().map(|piece| open_solutions(&mut piece.tree, support)).sum();
+            if opened > 0 { Ok(()) } else { Err(rejected.into()) }
+        }
+        // The free block is definite in doubles and not provably so.
+        Reason::Cover { piece: None, fault: CoverFault::Hypothesis { expected, row }, .. } => {
+            let what = if expected.starts_with("B_ff") { "B_ff" } else { "A_ff" };
+            Err(CompleteError::NotDefinite { what, index: *row })
+        }
+        _ => Err(rejected.into()),
+    }
+}
+
+/// Runs in a pool of the wanted size, or in the default one.
+fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
+    match threads.map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build()) {
+        Some(Ok(pool)) => pool.install(work),
+        // Without a pool of one's own the default one does the same work.
+        _ => work(),
+    }
+}
+
+/// Counts shares as pieces report them.
+struct Shares<'a> {
+    stop: &'a AtomicBool,
+    progress: &'a (dyn Fn(Progress) + Sync),
+    state: Mutex<Progress>,
+}
+
+impl Watch for Shares<'_> {
+    fn stopped(&self) -> bool {
+        self.stop.load(Ordering::Relaxed)
+    }
+
+    fn closed(&self, share: f64, solution: bool) {
+        // A poisoned lock means that a thread panicked; its count is still good.
+        let mut state = self.state.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        state.share += share;
+        state.leaves += 1;
+        state.solutions += u64::from(solution);
+        (self.progress)(*state);
+    }
+}

@@ -1,0 +1,171 @@
+//! Every tolerance on doubles outside the solver's own arithmetic, with unit, basis and reason.
+//!
+//! None of them decides a truth: they steer guesses that exact arithmetic then confirms or not.
+//! The solver's tolerances stand in the second part of this file's role, `solver/tolerance.rs`.
+
+/// Thresholds at which x_i, relative to max x_s, is guessed to be positive. Unit: none.
+/// Basis: the block's lambda^2 mode has a true component of 6e-11 of its norm, and reports of six
+/// digits have noise of 1e-6; so several guesses are tried and the exact signs decide. Last every component
+/// as given: near a threshold true components are smaller than any bound (`near:1:122` of the campaign).
+pub const SUPPORT_GUESSES: [f64; 6] = [1e-9, 1e-6, 1e-4, 1e-12, 1e-3, 0.0];
+
+/// How far from a candidate's value a root is looked for, relative to 1 + |value|. Unit: none.
+/// Basis: reports carry six digits or more, but at a double root a residual of 1e-10 leaves an error
+/// of 1e-5 times the square root of the condition (seen: 3e-5). The nearest root is taken, and x
+/// must agree as well.
+pub const VALUE_RADIUS: f64 = 1e-4;
+
+/// Largest distance between candidate and certified x, both with e'x_s = 1. Unit: none.
+/// Basis: like [`VALUE_RADIUS`], with the eigenvector's condition on top; a larger distance means
+/// the certified solution is another one than the candidate.
+pub const X_RADIUS: f64 = 1e-3;
+
+/// Share of a radius that the left side of Krawczyk's inequality may take where radii are proposed. Unit: none. Basis: the
+/// checker asks for less than all of it; the rest is for what doubles do not see.
+pub const KRAWCZYK_MARGIN: f64 = 0.75;
+
+/// Error of a sum of products in doubles, relative to the sum of their moduli. Unit: none. Basis: a few thousand terms.
+pub const KRAWCZYK_NOISE: f64 = 1e-13;
+
+/// Bits of the largest entry of a Krawczyk preconditioner. Basis: 40 bits keep |I - YJ| below 1e-3
+/// for the block (804 unknowns), and each bit costs 80 kB of certificate there.
+pub const PRECONDITIONER_BITS: i32 = 40;
+
+/// Bits of the contraction that rounding the preconditioner may take. Basis: 2^-10 is the 1e-3 of
+/// [`PRECONDITIONER_BITS`]; more of them cost size, fewer the proof.
+pub const PRECONDITIONER_LOSS_BITS: u32 = 10;
+
+/// Two runs ended at the same point if value (relative to 1 + |value|) and x (l1 norm 1) agree to
+/// this. Unit: none. Basis: runs stop at residuals of 1e-10; the later one is counted as repeated.
+pub const SAME_POINT: f64 = 1e-9;
+
+/// A closed curve has come back to the solution it left if it meets a point this near to it, relative
+/// to 1 + |z_i|. Unit: none. Basis: ten times what the solver calls the same point of a curve.
+pub const SAME_CURVE_POINT: f64 = 1e-5;
+
+/// Distance of a zeta window from the value it excludes, relative to 1 + |value|. Unit: none.
+/// Basis: far above the accuracy of a run, so that the value itself is not found again; solutions
+/// closer together than this are left to the plain starts.
+pub const WINDOW_GAP: f64 = 1e-7;
+
+/// Smallest pivot of the matrix game. Unit: that of the equilibrated columns (largest entry 1).
+/// Basis: rounding of a simplex run of a few hundred pivots stays below 1e-10.
+pub const GAME_PIVOT: f64 = 1e-9;
+
+/// Margin by which a witness of the complete search must hold before it is rounded. Unit: that of
+/// the equilibrated columns. Basis: rounding to 2^-40 and doubles' 1e-16 stay far below; the
+/// trees of random pencils do not change between 1e-6 and 1e-8.
+pub const WITNESS_MARGIN: f64 = 1e-7;
+
+/// Smallest pivot, relative to the largest entry, at which a symmetric part is offered as definite.
+/// Unit: none. Basis: the checker takes off order^2 2^-32 of the largest entry.
+pub const DEFINITE_PIVOT: f64 = 1e-6;
+
+/// A pivot below minus this says that a symmetric matrix is not semidefinite, so that exact factors of it
+/// are not tried. Unit: the largest diagonal entry. Basis: rounding of an elimination of order 48 stays
+/// below 1e-13; a smaller one would only try in vain now and then.
+pub const SEMIDEFINITE_PIVOT: f64 = 1e-9;
+
+/// Width below which an interval is no longer cut. Unit: share of the line of theta = t / (s + t).
+/// Basis: what is still undecided on 1e-8 of the line is degenerate (a double root, a biactive index):
+/// there branching and exact solutions help, cutting does not.
+pub const NARROW: f64 = 1e-8;
+
+/// The same where every index is decided and only cutting is left. Unit: as [`WITNESS_MARGIN`].
+/// Basis: a thousand times the rounding of a product of a few dozen terms; near a double root the
+/// margin falls with the square of the distance, and this bounds what stays open there.
+pub const THIN_MARGIN: f64 = 1e-11;
+
+/// Error of an entry of the condensed pencil in doubles. Unit: that of rows whose largest entry of A
+/// is below one. Basis: sums of about a thousand terms. Where it is too small the checker refuses the
+/// leaf, which then stays open; a larger one could not tell the sign of the block's smallest component.
+pub const CONDENSATION_NOISE: f64 = 5e-14;
+
+/// What is added to a matrix game's entries beyond making them positive, relative to the largest.
+/// Unit: none. Basis: a value that is not close to zero keeps the tableau's pivots well scaled.
+pub const GAME_SHIFT: f64 = 1e-3;
+
+/// Half widths tried for the interval of a root, narrowest first, relative to its value. Unit: none.
+/// Basis: a root in doubles is good to 1e-15 times its condition, which for the block is below 1e3.
+pub const ROOT_HALF_WIDTHS: [f64; 5] = [1e-13, 1e-12, 1e-11, 1e-9, 1e-7];
+
+/// Rounding of one sum of a few terms in doubles. Unit: relative. Basis: a few times 2^-53.
+pub const ROUNDING: f64 = 1e-15;
+
+/// Part of the distance to an interval's ends that stays open around a null vector that is not
+/// provably alone. Unit: none. Basis: small enough that the rest of the interval closes (a double
+/// root's margin falls with the square), large enough for doubles.
+pub const DEGENERATE_PART: f64 = 1e-3;
+
+/// Distance, relative to the value, within which the x of an accepted solution is looked for. Unit:
+/// none. Basis: far wider than the accepted interval, narrower than the distance to other values.
+pub const SAME_ROOT: f64 = 1e-6;
+
+/// Where the search for a definite tail begins, relative to |A| / |B|. Unit: none. Basis: low
+/// frequencies of meshes of a million elements; it doubles from there.
+pub const TAIL_START: f64 = 1e-6;
+
+/// The same on a condensed pencil, once its radius has been taken off. Unit: as [`WITNESS_MARGIN`].
+/// Basis: a thousand times what the checker's exact condensation and the one in doubles differ by.
+pub const CONDENSED_MARGIN: f64 = 1e-9;
+
+/// Radii, relative to 1 + |value|, within which a refused candidate is proved to have no solution near
+/// it, largest first. Unit: none. Basis: the first is [`VALUE_RADIUS`], where certification looks; the
+/// smaller ones are for windows that another, degenerate solution keeps open.
+pub const ABSENCE_RADII: [f64; 3] = [VALUE_RADIUS, 1e-7, 1e-10];
+
+/// Width of the enclosure of a root that ends definiteness, relative: 2^-this. Unit: none. Basis: 17
+/// digits can be printed.
+pub const BRACKET_BITS: u32 = 64;
+
+/// First distance from the proposed end of definiteness at which it is tried to be proved, relative:
+/// 2^-this, widening by 4. Unit: none. Basis: eigenvalues in doubles are good to 1e-14 of the largest.
+pub const BRACKET_START_BITS: u32 = 44;
+
+/// Sine of the angle in the complex plane from which an eigenvalue lambda^2 in doubles counts as complex.
+/// Unit: none. Basis: a double eigenvalue splits by 1e-8 in doubles; what is warned of is measured only.
+pub const FLUTTER_ANGLE: f64 = 1e-6;
+
+/// Imaginary part, relative to the largest eigenvalue, up to which an eigenvalue of the QR algorithm is
+/// offered as real, and the residual up to which Newton's method then keeps it. Unit: none. Basis: simple
+/// eigenvalues come with 1e-13 times their condition, below 1e4 for condensed meshes.
+pub const REAL_EIGENVALUE: f64 = 1e-9;
+
+/// Share of the way from lo to infinity (in lo / t) that a null vector's value in doubles may be off infinity, before the exact
+/// null vector there is asked for. Unit: none. Basis: roots are good to 1e-12; where it asks in vain nothing is lost.
+pub const AT_INFINITY: f64 = 1e-6;
+
+/// alpha up to which a point (alpha, beta) of the unit circle is the one at infinity, where t = beta / alpha is no value.
+/// Unit: none. Basis: a solution at infinity was met at alpha from 1e-18 to 3e-17 (random pencil 163 of `verify`), within
+/// the rounding of coordinates of order one.
+pub const CIRCLE_END: f64 = 1e-13;
+
+/// Relative error up to which a reported value, and x scaled to largest |x_i| = 1, agree with the proven solution, if
+/// `check --tolerance` does not say otherwise. Unit: none. Basis: a program that solves in doubles and prints seven
+/// digits reaches it where the condition is below 1e9; a wrong component or value of the size of its own error bars
+/// does not pass.
+pub const AGREEMENT: f64 = 1e-6;
+
+/// The smallest error that `check --tolerance` may ask for. Unit: relative. Basis: a few roundings of doubles, in which
+/// reports are compared.
+pub const FINEST_AGREEMENT: f64 = 1e-15;
+
+/// What `check --tolerance` takes, in words: from [`FINEST_AGREEMENT`] to [`VALUE_RADIUS`].
+pub const AGREEMENT_RANGE: &str = "a number from 1e-15 to 1e-4";
+
+/// Values below this share of max|A| / max|B| have their errors measured relative to that share. Unit: none. Basis: with
+/// [`AGREEMENT`] a value 0 may be reported as 1e-13 max|A| / max|B|, some hundred times what rounding A and B to doubles
+/// moves it; lambda^2 just above a threshold is 1e-7 of the largest one on an ordinary mesh (1.3e3 beside 1e10), and must
+/// have its digits still.
+pub const VALUE_FLOOR: f64 = 1e-7;
+
+/// Probability below which a count under its floor is not put down to chance. Unit: none. Reason: a
+/// run judges at most 60 rates, and the true rates lie two points above the floors, so that fewer
+/// than one sound run in a hundred fails, while a solver that finds nothing fails after three
+/// instances.
+pub const CHANCE: f64 = 1e-4;
+
+/// Relative distance up to which the end of a run of PATH's own sequence counts as a proved value of a block state. Unit: none. Reason:
+/// runs stop at residuals of 1e-10, and values of one state lie apart by more than a part in a
+/// thousand.
+pub const PATH_VALUE: f64 = 1e-8;

@@ -1,0 +1,181 @@
+//! The engines, each held against the plain enumerator's answer. Engines of one's own are welcome.
+
+use super::Case;
+use crate::compare::{compare_with, engines, observed};
+use crate::exact::{Algebraic, Rational};
+use crate::exact::{Poly, common_denominator};
+use crate::model::{Pencil, Window};
+use crate::multistart::Search;
+use crate::oracle::Enumeration;
+use crate::reduction::Reduced;
+use crate::{Corner, Disagreement, InstanceReport, Treatment};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// What every engine is held against.
+pub struct Truth {
+    /// The pencil, with the way back.
+    pub reduced: Reduced,
+    /// The plain enumerator's answer.
+    pub enumeration: Enumeration,
+}
+
+/// Something that says what the solutions are, or what may be said of them.
+pub trait Engine: Sync {
+    /// Its name in reports.
+    fn name(&self) -> &str;
+
+    /// Compares it with the enumerator's answer: disagreements and counts are added to the report.
+    fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport);
+}
+
+/// Another enumerator: the same answer, or a disagreement.
+pub struct Enumerator<F> {
+    /// Its name.
+    pub name: &'static str,
+    /// The answer, or why there is none. `Ok(None)`: the problem is outside its limits.
+    pub answer: F,
+}
+
+impl<F: Fn(&Pencil, &Window) -> Result<Option<Enumeration>, String> + Sync> Engine for Enumerator<F> {
+    fn name(&self) -> &str {
+        self.name
+    }
+
+    fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
+        match (self.answer)(&truth.reduced.pencil, case.instance.problem.window()) {
+            Ok(Some(answer)) if answer == truth.enumeration => {}
+            Ok(Some(answer)) => report
+                .disagreements
+                .push(Disagreement::Enumerators { got: answer.solutions.len(), enumerated: truth.enumeration.solutions.len() }),
+            Ok(None) => {}
+            Err(reason) => report.disagreements.push(Disagreement::Refused { engine: self.name, reason }),
+        }
+    }
+}
+
+/// Closed form, lift, certificates and their forgeries, complete search, solver: all of [`crate::compare`].
+pub struct Pipeline {
+    /// How the solver searches, which solver it is, and nodes per piece of the complete search.
+    pub treatment: Treatment,
+}
+
+impl Engine for Pipeline {
+    fn name(&self) -> &str {
+        "pipeline"
+    }
+
+    fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
+        compare_with(&case.instance, &truth.reduced, &truth.enumeration, &self.treatment, report);
+    }
+}
+
+/// Answers known by construction: the whole, their number, or one solution.
+pub struct KnownAnswer;
+
+impl Engine for KnownAnswer {
+    fn name(&self) -> &str {
+        "known answer"
+    }
+
+    fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
+        let (expected, found) = (&case.expected, &truth.enumeration);
+        let mut wrong = |text: String| report.disagreements.push(Disagreement::Known { expected: text, enumerated: found.solutions.len() });
+        if let Some(answer) = expected.answer.as_ref().filter(|a| *a != found) {
+            wrong(format!("{} solutions, {} cones", answer.solutions.len(), answer.cones.len()));
+        }
+        if let Some(count) = expected.count.filter(|c| *c != found.solutions.len() || !found.is_plain_list()) {
+            wrong(format!("{count} solutions"));
+        }
+        if let Some((value, x)) = expected.planted.as_ref().filter(|(value, x)| !holds(truth, value, x)) {
+            wrong(format!("value {value} with x = {x:?}"));
+        }
+    }
+}
+
+fn holds(truth: &Truth, value: &Rational, x: &[Rational]) -> bool {
+    let clear = common_denominator(x);
+    let x: Vec<Poly> = x.iter().map(|v| Poly::constant(v.numer() * (&clear / v.denom()))).collect();
+    truth.enumeration.contains(&truth.reduced.pencil, &Algebraic::rational(value.clone()), &x)
+}
+
+/// All engines of the project, capped so that an instance takes seconds at most.
+pub fn standard(seed: u64) -> Vec<Box<dyn Engine>> {
+    let pipeline = Pipeline { treatment: treatment(seed) };
+    vec![Box::new(KnownAnswer), Box::new(pipeline)]
+}
+
+/// How the campaign treats an instance: a search that takes seconds at most. The campaign's floors hold for it.
+pub fn treatment(seed: u64) -> Treatment {
+    let search = Search { starts: 10, window_starts: 1, window_limit: 6, departures: Some(2), seed, ..Search::default() };
+    Treatment { nodes: NODES, ..Treatment::of(&search) }
+}
+
+/// Nodes per piece of the complete search: instances are small, what needs more is degenerate.
+const NODES: usize = 2_000;
+
+/// A disagreement and the engine that is in it.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Finding {
+    /// The engine.
+    pub engine: String,
+    /// What it says.
+    pub disagreement: Disagreement,
+}
+
+impl Finding {
+    /// Engine and kind: what a shrunk instance must keep.
+    pub fn kind(&self) -> (&str, &'static str) {
+        (&self.engine, self.disagreement.kind())
+    }
+}
+
+/// What came of a case.
+#[derive(Debug, Clone, Default)]
+pub struct Judgement {
+    /// Counts and corners.
+    pub report: InstanceReport,
+    /// Disagreements, with the engine.
+    pub findings: Vec<Finding>,
+}
+
+/// Holds every engine against the plain enumerator. A panic of an engine is a disagreement like any other.
+pub fn judge(case: &Case, all: &[Box<dyn Engine>]) -> Judgement {
+    let mut report =
+        InstanceReport { label: case.instance.label.clone(), corners: case.instance.corners.clone(), ..InstanceReport::default() };
+    let mut findings = Vec::new();
+    let mut note = |engine: &str, disagreement| findings.push(Finding { engine: engine.into(), disagreement });
+    match guarded(|| engines(&case.instance.problem)) {
+        Err(panic) => note("enumerator", panic),
+        Ok(Err(disagreement)) => note("enumerator", disagreement),
+        Ok(Ok((reduced, enumeration))) => {
+            let truth = Truth { reduced, enumeration };
+            report.corners.extend(shape(&truth));
+            for engine in all {
+                let outcome = guarded(|| engine.compare(case, &truth, &mut report));
+                report.disagreements.drain(..).for_each(|d| note(engine.name(), d));
+                if let Err(panic) = outcome {
+                    note(engine.name(), panic);
+                }
+            }
+        }
+    }
+    report.corners.sort();
+    report.corners.dedup();
+    Judgement { report, findings }
+}
+
+/// Corners of the answer and of the shape.
+fn shape(truth: &Truth) -> Vec<Corner> {
+    let found = &truth.enumeration;
+    let empty = found.is_plain_list() && found.solutions.is_empty();
+    let pencil = &truth.reduced.pencil;
+    let reached = [(empty, Corner::Empty), (pencil.order() == 1, Corner::OneByOne), (!pencil.free().is_empty(), Corner::FreeVariables)];
+    observed(found).into_iter().chain(reached.into_iter().filter(|r| r.0).map(|r| r.1)).collect()
+}
+
+fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, Disagreement> {
+    catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
+        let text = panic.downcast_ref::<String>().cloned().or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string));
+        Disagreement::Panicked { message: text.unwrap_or_else(|| "no message".into()) }
+    })
+}

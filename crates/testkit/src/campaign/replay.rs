@@ -1,0 +1,131 @@
+//! A disagreement as a file that needs nothing else: the shrunk problem, where it came from, what it says.
+
+use super::{Case, Expected, Finding, Id};
+use crate::Instance;
+use crate::exact::parse;
+use crate::model::ModelError;
+use crate::model::file::{from_json, read_problem, require_format, write_problem};
+use crate::oracle::TwoParticles;
+use serde::{Deserialize, Serialize};
+use std::path::Path;
+
+/// The format of a replay file.
+pub const REPLAY_FORMAT: &str = "mceip-replay/1";
+
+/// Why a replay file is refused.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReplayError {
+    /// The file or its problem.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// Data of Table 1.
+    #[error("closed_form: {0}")]
+    Number(#[from] crate::exact::NumberError),
+}
+
+/// What the file holds.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Replay {
+    format: String,
+    /// The family the instance was drawn from.
+    pub family: String,
+    /// The campaign's seed.
+    pub seed: u64,
+    /// Its index in the family.
+    pub index: u64,
+    /// The engine that disagrees with the enumerator.
+    pub engine: String,
+    /// The kind of disagreement.
+    pub kind: String,
+    /// What was said of the shrunk problem.
+    pub disagreement: String,
+    /// What was said of the problem as drawn.
+    pub as_drawn: String,
+    /// The shrunk problem, `mceip-problem/1`.
+    pub problem: serde_json::Value,
+    /// Table 1's data, where the closed form takes part.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub closed_form: Option<ClosedForm>,
+    /// The shrunk problem is not the one drawn: what is known by construction does not apply to it.
+    pub shrunk: bool,
+}
+
+/// [`TwoParticles`] as text.
+#[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ClosedForm {
+    c: String,
+    s: String,
+    k: String,
+    m: String,
+    mu: String,
+    signs: (i8, i8),
+}
+
+impl Replay {
+    /// The file for a finding: the case as drawn with what it said, and the shrunk one with what that says.
+    pub fn new(drawn: (&Case, &Finding), shrunk: (&Case, &Finding)) -> Replay {
+        let (case, finding) = shrunk;
+        let data = case.instance.closed_form.as_ref().map(|d| ClosedForm {
+            c: d.c.to_string(),
+            s: d.s.to_string(),
+            k: d.k.to_string(),
+            m: d.m.to_string(),
+            mu: d.mu.to_string(),
+            signs: d.signs,
+        });
+        Replay {
+            format: REPLAY_FORMAT.into(),
+            family: case.id.family.clone(),
+            seed: case.id.seed,
+            index: case.id.index,
+            engine: finding.engine.clone(),
+            kind: finding.disagreement.kind().into(),
+            disagreement: finding.disagreement.to_string(),
+            as_drawn: drawn.1.disagreement.to_string(),
+            problem: serde_json::from_str(&write_problem(&case.instance.problem)).unwrap_or_default(), // our own JSON
+            closed_form: data,
+            shrunk: drawn.0.instance.problem != case.instance.problem,
+        }
+    }
+
+    /// A name for the file that says where the instance came from.
+    pub fn file_name(&self) -> String {
+        format!("{}-{}-{}-{}-{}.json", self.family, self.seed, self.index, self.engine.replace(' ', "-"), self.kind)
+    }
+
+    /// The file's text.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n" // strings and numbers: cannot fail
+    }
+
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// [`ReplayError`] for what is not one.
+    pub fn from_json(text: &str) -> Result<Replay, ReplayError> {
+        require_format(text, REPLAY_FORMAT)?;
+        Ok(from_json(text)?)
+    }
+
+    /// The case to judge again. Where the instance is as drawn, what is known by construction comes with it.
+    ///
+    /// # Errors
+    /// [`ReplayError`] for a problem or data that are refused.
+    pub fn case(&self) -> Result<Case, ReplayError> {
+        let id = Id { family: self.family.clone(), seed: self.seed, index: self.index };
+        let problem = read_problem(&self.problem.to_string(), Path::new("."))?;
+        let closed_form = self.closed_form.as_ref().map(data).transpose()?;
+        let drawn = if self.shrunk { None } else { super::case(&id).ok().and_then(Result::ok) };
+        let expected = drawn.filter(|d| d.instance.problem == problem).map_or_else(Expected::default, |d| d.expected);
+        let instance = Instance { label: format!("{id} (replay)"), problem, closed_form, corners: Vec::new() };
+        Ok(Case { id, instance, expected })
+    }
+}
+
+fn data(d: &ClosedForm) -> Result<TwoParticles, ReplayError> {
+    let number = |text: &str| parse(text).map_err(ReplayError::from);
+    Ok(TwoParticles { c: number(&d.c)?, s: number(&d.s)?, k: number(&d.k)?, m: number(&d.m)?, mu: number(&d.mu)?, signs: d.signs })
+}

@@ -1,0 +1,172 @@
+//! What a campaign has done so far: counts per family, as a file to go on from.
+
+use super::Judgement;
+use crate::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
+use crate::model::ModelError;
+use crate::model::file::{from_json, require_format};
+use serde::{Deserialize, Serialize};
+use std::collections::BTreeMap;
+
+/// The format of a state file.
+pub const STATE_FORMAT: &str = "mceip-campaign/1";
+
+/// A state that belongs to another campaign.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum StateError {
+    /// No state file.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// Made by a campaign with other settings.
+    #[error("expected the state of a campaign with {what} {expected}, got {got}")]
+    Other {
+        /// Which setting.
+        what: &'static str,
+        /// This campaign's.
+        expected: String,
+        /// The file's.
+        got: String,
+    },
+}
+
+/// Counts of one family.
+#[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Tally {
+    /// Instances judged.
+    pub instances: u64,
+    /// Solutions the enumerator lists.
+    pub solutions: u64,
+    /// Of those in admissible instances (where the solver runs), all of them.
+    pub findable: u64,
+    /// Of these, found by the solver and certified.
+    pub found: u64,
+    /// Coverage by kind of start; absent in state files written before there were floors.
+    #[serde(default)]
+    pub coverage: BTreeMap<String, Coverage>,
+    /// Certificates accepted by the checker.
+    pub accepted: u64,
+    /// Forgeries tried; each one accepted is a disagreement.
+    pub forgeries: u64,
+    /// Instances closed by the complete search, with the enumerator's answer.
+    pub closed: u64,
+    /// Candidates that stayed uncertified: the solver's, and the enumerator's on singular supports.
+    pub uncertified: u64,
+    /// Instances with a wide kernel or a singular pencil.
+    pub degenerate: u64,
+    /// Pivots of the solver.
+    pub pivots: u64,
+    /// Instances per corner reached.
+    pub corners: BTreeMap<String, u64>,
+    /// Disagreements: instance, engine, and what was said.
+    pub disagreements: Vec<String>,
+}
+
+impl Tally {
+    /// Adds what came of one instance.
+    pub fn add(&mut self, id: &super::Id, judged: &Judgement) {
+        let r = &judged.report;
+        self.instances += 1;
+        self.solutions += r.oracle as u64;
+        self.findable += if r.solved { r.oracle as u64 } else { 0 };
+        self.found += r.found as u64;
+        for (starts, coverage) in r.coverage() {
+            self.coverage.entry(starts.word().into()).or_default().add(&coverage);
+        }
+        self.accepted += r.accepted as u64;
+        self.forgeries += r.forgeries as u64;
+        self.closed += u64::from(r.completed);
+        self.uncertified += r.uncertified.len() as u64;
+        self.degenerate += u64::from(r.degenerate);
+        self.pivots += r.pivots as u64;
+        for corner in &r.corners {
+            *self.corners.entry(format!("{corner:?}")).or_default() += 1;
+        }
+        self.disagreements.extend(judged.findings.iter().map(|f| format!("{id}: {}: {}", f.engine, f.disagreement)));
+    }
+}
+
+/// A campaign so far. Instances are taken in a fixed order, so one number says which are done.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct State {
+    format: String,
+    /// The campaign's seed.
+    pub seed: u64,
+    /// Part of so many, from 0.
+    pub shard: (u64, u64),
+    /// Families by name, in order.
+    pub families: Vec<String>,
+    /// Instances done, in the campaign's order.
+    pub done: u64,
+    /// Counts, one per family.
+    pub tallies: Vec<Tally>,
+}
+
+impl State {
+    /// Nothing done yet.
+    pub fn new(seed: u64, shard: (u64, u64), families: Vec<String>) -> State {
+        let tallies = vec![Tally::default(); families.len()];
+        State { format: STATE_FORMAT.into(), seed, shard, families, done: 0, tallies }
+    }
+
+    /// The `k`-th instance of this part: families in turn, every n-th index.
+    pub fn id(&self, k: u64) -> super::Id {
+        let count = self.families.len() as u64;
+        let family = self.families[(k % count) as usize].clone();
+        super::Id { family, seed: self.seed, index: k / count * self.shard.1 + self.shard.0 }
+    }
+
+    /// Disagreements in all families, shortfalls among them.
+    pub fn disagreements(&self) -> usize {
+        let single: usize = self.tallies.iter().map(|t| t.disagreements.len()).sum();
+        single + self.shortfalls().len()
+    }
+
+    /// Coverage of each family and kind of start that was met.
+    pub fn covered(&self) -> Vec<Covered> {
+        let mut out = Vec::new();
+        for (family, tally) in self.families.iter().zip(&self.tallies) {
+            for starts in Starts::ALL {
+                if let Some(coverage) = tally.coverage.get(starts.word()) {
+                    out.push(Covered { family: family.clone(), starts, coverage: *coverage });
+                }
+            }
+        }
+        out
+    }
+
+    /// Rates that are below their floors by more than chance explains: findings of a family, not of an instance.
+    pub fn shortfalls(&self) -> Vec<Shortfall> {
+        self.covered().iter().flat_map(|c| shortfalls(&c.family, c.starts, &c.coverage)).collect()
+    }
+
+    /// Instances judged in all families.
+    pub fn instances(&self) -> u64 {
+        self.tallies.iter().map(|t| t.instances).sum()
+    }
+
+    /// The file's text.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n" // strings and numbers: cannot fail
+    }
+
+    /// Reads a state and refuses one that was made with other settings than `self`.
+    ///
+    /// # Errors
+    /// [`StateError`].
+    pub fn resumed(&self, text: &str) -> Result<State, StateError> {
+        require_format(text, STATE_FORMAT)?;
+        let state: State = from_json(text)?;
+        let pairs = [
+            ("seed", self.seed.to_string(), state.seed.to_string()),
+            ("shard", format!("{:?}", self.shard), format!("{:?}", state.shard)),
+            ("families", self.families.join(" "), state.families.join(" ")),
+            ("tallies", self.tallies.len().to_string(), state.tallies.len().to_string()),
+        ];
+        match pairs.into_iter().find(|(_, expected, got)| expected != got) {
+            Some((what, expected, got)) => Err(StateError::Other { what, expected, got }),
+            None => Ok(state),
+        }
+    }
+}

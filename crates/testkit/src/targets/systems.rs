@@ -1,0 +1,288 @@
+//! Mechanical systems of any bytes: signs S, contact states, friction, rational frames; reduction
+//! (10)-(16) and lift; Table 1 in closed form against enumerator and solver.
+
+use super::coverage::Counter;
+use crate::check::check;
+use crate::exact::{Rational, Sparse, rational, whole};
+use crate::model::file::write_problem;
+use crate::model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
+use crate::oracle::TwoParticles;
+use crate::reduction::reduce;
+use crate::search::complete::{Options, complete};
+use crate::source::two_particles;
+use crate::{Instance, Treatment, compare_by};
+use num_traits::{One, Zero};
+use std::sync::atomic::AtomicBool;
+
+/// Process-wide counts of [`mechanical_systems`].
+pub static SYSTEMS: Counter = Counter::new("fuzz: mechanical_systems");
+/// Process-wide counts of [`two_particle_problems`].
+pub static TWO_PARTICLES: Counter = Counter::new("fuzz: two_particle_problems");
+
+/// Nodes per piece of the complete search.
+const NODES: usize = 300;
+
+/// Bytes one after the other, zeros past the end.
+struct Bytes<'a> {
+    data: &'a [u8],
+    at: usize,
+}
+
+impl Bytes<'_> {
+    fn next(&mut self) -> u8 {
+        let byte = self.data.get(self.at).copied().unwrap_or(0);
+        self.at += 1;
+        byte
+    }
+
+    /// A number from 0 to `count` - 1.
+    fn below(&mut self, count: u8) -> u8 {
+        self.next() % count
+    }
+
+    /// A positive rational n / d with n up to 256 and d up to 16.
+    fn positive(&mut self) -> Rational {
+        let numerator = i64::from(self.next()) + 1;
+        rational(numerator, i64::from(self.below(16)) + 1)
+    }
+}
+
+/// Random systems through reduction, enumerator, lift, complete search, checker and solver.
+///
+/// * The pencil of [`reduce`] is that of the definitions (10) and (11), formed here entry by entry.
+/// * Lifted solutions satisfy each line of (9).
+/// * A certificate of the complete set is judged alike on the system, whose pencil the checker forms by itself, and on
+///   the reduced pencil given as matrices.
+/// * The solver is sound, and finds as much as its floor asks for.
+pub fn mechanical_systems(data: &[u8]) {
+    mechanical_systems_by(data, &fuzz_treatment(), &SYSTEMS);
+}
+
+/// [`mechanical_systems`] with a solver and a counter of one's own.
+pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Counter) {
+    let Some(problem) = system_problem(data) else { return };
+    let Body::System(system) = problem.body() else { return };
+    let Ok(reduced) = reduce(&problem) else { panic!("a system of the generator is refused: {}", write_problem(&problem)) };
+
+    let defined = pencil_by_definition(system, problem.unknown());
+    assert!(reduced.pencil == defined, "reduction and definition differ: {}", write_problem(&problem));
+    same_verdict(&problem, &reduced.pencil);
+
+    let instance = Instance { label: format!("fuzz {data:?}"), problem, closed_form: None, corners: Vec::new() };
+    let report = compare_by(&instance, treatment);
+    assert!(report.disagreements.is_empty(), "{:?}\n{}", report.disagreements, write_problem(&instance.problem));
+    counter.add(&report);
+}
+
+/// Table 1: closed form, enumerator, complete search, certificates and solver on two particles of
+/// any data.
+pub fn two_particle_problems(data: &[u8]) {
+    two_particle_problems_by(data, &fuzz_treatment(), &TWO_PARTICLES);
+}
+
+/// [`two_particle_problems`] with a solver and a counter of one's own.
+pub fn two_particle_problems_by(data: &[u8], treatment: &Treatment, counter: &Counter) {
+    let data = two_particle_data(data);
+    let Ok(system) = two_particles(&data) else { panic!("refused: {data:?}") };
+    let Ok(problem) = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()) else { panic!("refused: {data:?}") };
+
+    let instance = Instance { label: format!("{data:?}"), problem, closed_form: Some(data), corners: Vec::new() };
+    let report = compare_by(&instance, treatment);
+    assert!(report.disagreements.is_empty(), "{}: {:?}", report.label, report.disagreements);
+    counter.add(&report);
+}
+
+/// A search that takes milliseconds on the small problems of a fuzzer.
+pub fn fuzz_treatment() -> Treatment {
+    let search = crate::multistart::Search { starts: 6, window_starts: 1, ..Default::default() };
+    Treatment::of(&search)
+}
+
+/// One to three particles, the first in impending slip, up to two further degrees of freedom, K =
+/// GG' + I.
+fn system_problem(data: &[u8]) -> Option<Problem> {
+    let mut bytes = Bytes { data, at: 0 };
+    let head = bytes.next();
+    let count = usize::from(head % 3) + 1;
+    let n = 2 * count + usize::from(head / 3 % 3);
+    let unknown = if head & 0x40 == 0 { Unknown::Lambda2 } else { Unknown::Mu };
+    let is_coupled = head & 0x80 != 0;
+
+    let friction = bytes.positive();
+    let order = permutation(&mut bytes, n);
+    let particles: Vec<Particle> = (0..count).map(|k| particle(&mut bytes, k, &order)).collect();
+    let stiffness = definite(&mut bytes, n);
+    let mass = if is_coupled { definite(&mut bytes, n) } else { Sparse::zeros(n, n).add_scaled(&bytes.positive(), &Sparse::identity(n)) };
+
+    let system = System::new(stiffness, Some(mass), Some(friction), particles).ok()?;
+    Problem::new(Body::System(system), unknown, Window::all()).ok()
+}
+
+/// The numbers 0 to n - 1 in an order that the bytes choose (Fisher and Yates).
+fn permutation(bytes: &mut Bytes<'_>, n: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..n).collect();
+    for i in (1..n).rev() {
+        let j = usize::from(bytes.next()) % (i + 1);
+        order.swap(i, j);
+    }
+    order
+}
+
+/// The `index`-th particle: state, normal direction and frame from one byte each.
+fn particle(bytes: &mut Bytes<'_>, index: usize, order: &[usize]) -> Particle {
+    let state = match bytes.below(6) {
+        0 if index > 0 => ContactState::Free,
+        1 if index > 0 => ContactState::Stick,
+        k if k % 2 == 0 => ContactState::Slip { sign: 1 },
+        _ => ContactState::Slip { sign: -1 },
+    };
+    let mut particle = Particle::plain(order[2 * index], order[2 * index + 1], state);
+
+    particle.normal_direction = if bytes.below(2) == 0 { 1 } else { -1 };
+    let oblique = bytes.next();
+    if oblique % 2 == 1 {
+        let (c, s) = on_the_circle(oblique / 2);
+        particle.frame = Some([[c.clone(), s.clone()], [-s, c]]);
+    }
+    particle
+}
+
+/// A rational point of the unit circle: ((p^2 - q^2) / (p^2 + q^2), 2pq / (p^2 + q^2)) with p, q
+/// not both zero.
+fn on_the_circle(byte: u8) -> (Rational, Rational) {
+    let p = i64::from(byte % 8) + 1;
+    let q = i64::from(byte / 8 % 16) - 8;
+    let h = p * p + q * q;
+    (rational(p * p - q * q, h), rational(2 * p * q, h))
+}
+
+/// GG' + I with entries of G from -2 to 2: symmetric and positive definite.
+fn definite(bytes: &mut Bytes<'_>, n: usize) -> Sparse {
+    let mut g = vec![vec![0i64; n]; n];
+    for row in &mut g {
+        for entry in row {
+            *entry = i64::from(bytes.below(5)) - 2;
+        }
+    }
+
+    let mut entries = Vec::new();
+    for i in 0..n {
+        for j in 0..n {
+            let product: i64 = (0..n).map(|k| g[i][k] * g[j][k]).sum();
+            entries.push((i, j, whole(product + i64::from(i == j))));
+        }
+    }
+    Sparse::from_entries(n, n, entries)
+}
+
+/// c and s of a Pythagorean angle with c, s >= 0, axes included; k, m, mu positive; mu now and then
+/// on or beside a threshold of (+1, -1).
+fn two_particle_data(data: &[u8]) -> TwoParticles {
+    let mut bytes = Bytes { data, at: 0 };
+    let head = bytes.next();
+    let signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)][usize::from(head % 4)];
+
+    let p = i64::from(bytes.below(12)) + 1;
+    let q = i64::from(bytes.next()) % (p + 1);
+    let h = p * p + q * q;
+    let (c, s) = (rational(p * p - q * q, h), rational(2 * p * q, h));
+
+    let (k, m) = (bytes.positive(), bytes.positive());
+    let mut mu = bytes.positive();
+    let cs = &c * &s;
+    if head & 0x30 != 0 && !cs.is_zero() {
+        let top = &c * &c + whole(i64::from(head >> 6 & 1) + 1);
+        let beside = rational(i64::from(head >> 4 & 3) - 2, 1_000_000_000);
+        mu = top / cs + beside;
+    }
+    TwoParticles { c, s, k, m, mu, signs }
+}
+
+/// Columns over the degrees of freedom, dense.
+struct Column(Vec<Rational>);
+
+/// A + tB by the definitions: v = T x with v_T = -S x (10), y = P'w with y = -(S w_T + mu w_N)
+/// (11), w = (K + lambda^2 M) v.
+///
+/// Dense sums over all degrees of freedom, with no block formula (16): a third way beside
+/// `reduction` and `check`.
+fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
+    let n = system.dofs();
+    let mut motion = Vec::new();
+    let mut normal = Vec::new();
+    for dof in system.free_dofs() {
+        let mut unit = vec![Rational::zero(); n];
+        unit[dof] = Rational::one();
+        motion.push(Column(unit));
+        normal.push(Column(vec![Rational::zero(); n]));
+    }
+
+    let free = motion.len();
+    for particle in system.particles() {
+        let ContactState::Slip { sign } = particle.state else { continue };
+        let (tangent, into) = axes(particle, n);
+        motion.push(Column(tangent.into_iter().map(|v| v * whole(i64::from(-sign))).collect()));
+        normal.push(Column(into.into_iter().map(|v| -v).collect()));
+    }
+
+    let k_plain = products(system.stiffness(), &motion, &motion);
+    let k_friction = products(system.stiffness(), &normal, &motion);
+    let friction = system.friction().cloned().unwrap_or_default();
+    let (a, b) = match (unknown, system.mass()) {
+        (Unknown::Lambda2, Some(mass)) => {
+            let m_plain = products(mass, &motion, &motion);
+            let m_friction = products(mass, &normal, &motion);
+            (k_plain.add_scaled(&friction, &k_friction), m_plain.add_scaled(&friction, &m_friction))
+        }
+        _ => (k_plain, k_friction),
+    };
+    Pencil::new(a, b, (0..free).collect()).unwrap_or_else(|e| panic!("a square pencil is refused: {e}"))
+}
+
+/// Tangent and direction into the obstacle of a particle, written out from its frame.
+fn axes(particle: &Particle, n: usize) -> (Vec<Rational>, Vec<Rational>) {
+    let one = Rational::one();
+    let upright = [[one.clone(), Rational::zero()], [Rational::zero(), one]];
+    let frame = particle.frame.clone().unwrap_or(upright);
+    let outward = whole(i64::from(particle.normal_direction));
+
+    let mut tangent = vec![Rational::zero(); n];
+    let mut into = vec![Rational::zero(); n];
+    for (k, dof) in [particle.tangential, particle.normal].into_iter().enumerate() {
+        tangent[dof] = frame[0][k].clone();
+        into[dof] = &frame[1][k] * &outward;
+    }
+    (tangent, into)
+}
+
+/// The matrix of all p' K t.
+fn products(matrix: &Sparse, left: &[Column], right: &[Column]) -> Sparse {
+    let mut entries = Vec::new();
+    for (i, p) in left.iter().enumerate() {
+        for (j, t) in right.iter().enumerate() {
+            let mut sum = Rational::zero();
+            for (row, column, value) in matrix.entries() {
+                sum += &p.0[row] * value * &t.0[column];
+            }
+            entries.push((i, j, sum));
+        }
+    }
+    Sparse::from_entries(left.len(), right.len(), entries)
+}
+
+/// A certificate of the complete set, as far as few nodes lead, has one verdict on the system and
+/// on its reduced pencil.
+fn same_verdict(problem: &Problem, pencil: &Pencil) {
+    let options = Options { nodes_per_piece: NODES, threads: None, ..Options::default() };
+    let Ok(found) = complete(problem, &options, &AtomicBool::new(false), &|_| {}) else { return };
+    let Ok(reduced) = Problem::new(Body::Pencil(pencil.clone()), problem.unknown(), problem.window().clone()) else { return };
+
+    let mut certificate = found.certificate;
+    let on_the_system = check(problem, &certificate);
+    certificate.problem_sha256 = reduced.sha256();
+    let on_the_pencil = check(&reduced, &certificate);
+    match (on_the_system, on_the_pencil) {
+        (Ok(a), Ok(b)) => assert!(a == b, "accepted with different content: {}", write_problem(problem)),
+        (a, b) => panic!("on the system {:?}, on its pencil {:?}: {}", a.err(), b.err(), write_problem(problem)),
+    }
+}
