@@ -172,7 +172,7 @@ fn every_obligation_has_a_forgery() {
             .filter(|v| !reasons.contains(v)),
     );
     let plain = ["McpRejected", "Violated"]
-        .map(|name| variants(&format!("src/lcp/{}.rs", if name == "Violated" { "check" } else { "verdict" }), name));
+        .map(|name| variants(&format!("crates/engine/src/lcp/{}.rs", if name == "Violated" { "check" } else { "verdict" }), name));
     let of_plain: std::collections::BTreeSet<String> = entries(folder.path())
         .iter()
         .filter(|e| e.file["problem"]["format"] == lcp::MCP_FORMAT)

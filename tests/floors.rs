@@ -35,7 +35,7 @@ fn measured(instances: &[Instance], treatment: &Treatment) -> ByStarts {
     sum
 }
 
-/// A row of the table in `src/testkit/floors.rs`.
+/// A row of the table in `crates/testkit/src/floors.rs`.
 fn print(family: &str, sum: &ByStarts) {
     for (starts, c) in sum {
         let percent = |count: u64| 100.0 * count as f64 / c.solvable.max(1) as f64;

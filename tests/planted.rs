@@ -77,7 +77,7 @@ fn every_bug_names_a_test_that_exists() {
 #[test]
 fn there_are_bugs_in_every_room_that_decides() {
     let list = bugs();
-    let rooms: BTreeSet<&str> = list.iter().filter_map(|b| b.file.split('/').nth(1)).collect();
+    let rooms: BTreeSet<&str> = list.iter().flat_map(|b| b.file.split('/')).collect();
     for room in ["check", "oracle", "exact", "reduction", "certify", "model", "search", "solver"] {
         assert!(rooms.contains(room), "no bug in {room}");
     }

@@ -1,7 +1,7 @@
 //! The solver against both oracles on structured values, which proptest and quickcheck shrink:
 //! pencils, sign patterns, contact states, frames, index sets. Everything certified is in the
 //! oracle's answer (soundness), and over all cases the solver finds as much as its floor asks for
-//! (coverage, `src/testkit/floors.rs`).
+//! (coverage, `crates/testkit/src/floors.rs`).
 #![cfg(feature = "testkit")]
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 

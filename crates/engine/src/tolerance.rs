@@ -153,9 +153,9 @@ pub const FINEST_AGREEMENT: f64 = 1e-15;
 /// What `check --tolerance` takes, in words: from [`FINEST_AGREEMENT`] to [`VALUE_RADIUS`].
 pub const AGREEMENT_RANGE: &str = "a number from 1e-15 to 1e-4";
 
-/// Values below this share of max|A| / max|B| have their errors measured relative to that share. Unit: none. Basis: with
-/// [`AGREEMENT`] a value 0 may be reported as 1e-13 max|A| / max|B|, some hundred times what rounding A and B to doubles
-/// moves it; lambda^2 just above a threshold is 1e-7 of the largest one on an ordinary mesh (1.3e3 beside 1e10), and must
+/// Values below this share of the scale of values, min_i (|A||x|)_i / (|B||x|)_i, have their errors measured relative to that
+/// share. Unit: none. Basis: with [`AGREEMENT`] a value 0 may be reported as 1e-13 of the scale, some hundred times what
+/// rounding A and B to doubles moves it; lambda^2 just above a threshold is 1e-7 of the largest one on an ordinary mesh (1.3e3 beside 1e10), and must
 /// have its digits still.
 pub const VALUE_FLOOR: f64 = 1e-7;
 

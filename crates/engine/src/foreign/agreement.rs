@@ -1,7 +1,8 @@
 //! How near a reported solution is to the proven one.
 //!
-//! Value: |reported - proven| / max(|proven|, floor), where floor = VALUE_FLOOR max|A| / max|B| keeps the error of a
-//! value at or near 0 meaningful. x: both vectors are scaled to largest |x_i| = 1, and the largest difference of a
+//! Value: |reported - proven| / max(|proven|, floor). The floor, VALUE_FLOOR times the least (|A||x|)_i / (|B||x|)_i over the
+//! active rows i in which B takes part, keeps the error of a value at or near 0 meaningful: t B x balances A x in each of these
+//! rows. x: both vectors are scaled to largest |x_i| = 1, and the largest difference of a
 //! component counts. What a proof leaves open (the half widths of an enclosure) is added to each difference, so that
 //! an error is never understated. A v that leaves v_d = 0 or v_Ns = 0 counts like a component of x.
 //!
@@ -9,8 +10,9 @@
 
 use super::Reported;
 use crate::certificate::Claim;
-use crate::exact::{Rational, to_f64};
+use crate::exact::{Rational, from_f64, to_f64};
 use crate::model::{Pencil, Problem};
+use crate::multistart::support;
 use crate::reduction::Reduced;
 use crate::report::Listed;
 use crate::tolerance::VALUE_FLOOR;
@@ -94,7 +96,7 @@ fn finite(decimal: &str) -> Option<f64> {
 /// The errors of a reported solution against the claim that proves one near it.
 pub(super) fn agreement(problem: &Problem, reduced: &Reduced, claim: &Claim, reported: &Reported) -> Option<Agreement> {
     let proven = Proven::of(problem, reduced, claim)?;
-    let value = value_error(reported.candidate.value, proven.value, value_floor(&reduced.pencil));
+    let value = value_error(reported.candidate.value, proven.value, value_floor(&reduced.pencil, support(claim), &proven.x));
     let (mut worst, scaled) = worst_component(&reported.candidate.x, &proven.x)?;
 
     if let Some(off) = reported.off.filter(|off| off.size > worst.error) {
@@ -109,12 +111,30 @@ fn value_error(reported: f64, proven: Ball, floor: f64) -> f64 {
     if difference == 0.0 { 0.0 } else { difference / proven.center.abs().max(floor) }
 }
 
-/// VALUE_FLOOR max|A| / max|B|; 0 where B vanishes, since then there is no scale of values.
-fn value_floor(pencil: &Pencil) -> f64 {
-    let largest = |entries: &mut dyn Iterator<Item = &Rational>| entries.map(Rational::abs).max().unwrap_or_default();
-    let a = largest(&mut pencil.a().entries().map(|e| e.2));
-    let b = largest(&mut pencil.b().entries().map(|e| e.2));
-    if b.is_zero() { 0.0 } else { VALUE_FLOOR * to_f64(&(a / b)) }
+/// VALUE_FLOOR min_i (|A||x|)_i / (|B||x|)_i over the active rows with (|B||x|)_i > 0; 0 where there are none, since then there
+/// is no scale of values.
+fn value_floor(pencil: &Pencil, support: &[usize], x: &[Ball]) -> f64 {
+    let moduli: Vec<Rational> = x.iter().map(|ball| from_f64(ball.center.abs()).unwrap_or_default()).collect();
+    let active = pencil.free().iter().chain(support);
+
+    let mut least: Option<Rational> = None;
+    for &i in active {
+        let of_b = weighted(pencil.b().row(i), &moduli);
+        if of_b.is_zero() {
+            continue;
+        }
+        let ratio = weighted(pencil.a().row(i), &moduli) / of_b;
+        if least.as_ref().is_none_or(|least| ratio < *least) {
+            least = Some(ratio);
+        }
+    }
+    let scale = to_f64(&least.unwrap_or_default());
+    if scale.is_finite() { VALUE_FLOOR * scale } else { 0.0 }
+}
+
+/// sum_j |row_j| |x_j|.
+fn weighted(row: &[(usize, Rational)], moduli: &[Rational]) -> Rational {
+    row.iter().map(|(j, v)| v.abs() * &moduli[*j]).sum()
 }
 
 /// The component that differs most, and the proven x scaled to largest |x_i| = 1.
@@ -159,17 +179,29 @@ mod tests {
         assert_eq!(value_error(2.5, Ball { center: 2.0, radius: 0.5 }, 0.0), 0.5);
     }
 
-    /// The floor follows the unit of values: A in other units moves it, and so does B.
+    fn floor(a: &[&[i64]], b: &[&[i64]], free: &[usize], support: &[usize], x: &[f64]) -> f64 {
+        let pencil = Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec()).unwrap();
+        let x: Vec<Ball> = x.iter().map(|v| ball(*v)).collect();
+        value_floor(&pencil, support, &x)
+    }
+
+    /// The floor follows the unit of values: A in other units moves it, and so does B. Signs do not cancel.
     #[test]
     fn the_floor_is_in_the_unit_of_values() {
-        let floor = |a: i64, b: i64| {
-            let pencil = Pencil::new(Sparse::from_ints(&[&[a, 1], &[1, 0]]), Sparse::from_ints(&[&[b, 0], &[0, 1]]), vec![]);
-            value_floor(&pencil.unwrap())
-        };
-        assert_eq!(floor(-6, 2), 3.0 * VALUE_FLOOR);
-        assert_eq!(floor(-6000, 2), 3000.0 * VALUE_FLOOR);
-        let massless = Pencil::new(Sparse::identity(1), Sparse::from_ints(&[&[0]]), vec![]).unwrap();
-        assert_eq!(value_floor(&massless), 0.0);
+        let of = |a: i64, b: i64| floor(&[&[a, a], &[-a, a]], &[&[b, 0], &[0, b]], &[], &[0, 1], &[1.0, -1.0]);
+        assert_eq!(of(-6, 2), 6.0 * VALUE_FLOOR);
+        assert_eq!(of(-6000, 2), 6000.0 * VALUE_FLOOR);
+        assert_eq!(of(-6, 0), 0.0);
+    }
+
+    /// What takes no part in the solution does not move the floor: rows at rest, and rows multiplied by a large number.
+    #[test]
+    fn stiff_rows_elsewhere_do_not_move_the_floor() {
+        let beside: &[&[i64]] = &[&[-3, 0], &[0, 1_000_000_000]];
+        assert_eq!(floor(beside, &[&[1, 0], &[0, 1]], &[], &[0], &[1.0, 0.0]), 3.0 * VALUE_FLOOR);
+
+        let scaled: &[&[i64]] = &[&[-3, 0], &[1_000_000_000, -1_000_000_000]];
+        assert_eq!(floor(scaled, &[&[1, 0], &[0, 0]], &[1], &[0], &[1.0, 1.0]), 3.0 * VALUE_FLOOR);
     }
 
     /// Any positive scale; the largest component of each vector is 1 before they are compared.

@@ -15,8 +15,7 @@ use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 /// Most complementarity variables for which absence near a candidate is proved by enumeration.
 pub const REFUTE_SLIP: usize = 10;
 
-/// What may still be enumerated for the points of one report: supports times the bits of a determinant's coefficients, and
-/// beyond order 10 times the cube of a tenth of the order.
+/// What may still be enumerated for the points of one report, in products of words (spec/formats.md, mceip-solutions/1).
 #[derive(Debug)]
 pub struct Effort {
     left: u64,
@@ -25,26 +24,40 @@ pub struct Effort {
 impl Default for Effort {
     /// That of a report: a few seconds.
     fn default() -> Effort {
-        Effort { left: 1 << 21 }
+        Effort { left: 1 << 30 }
     }
 }
 
 impl Effort {
     fn spend(&mut self, pencil: &Pencil) -> Result<(), String> {
-        let supports = 1u64 << pencil.slip().len();
-        let order = pencil.order().max(10) as u64;
-        let cost = supports.saturating_mul(coefficient_bits(pencil)).saturating_mul(order.pow(3)) / 1000;
+        let cost = enumeration_cost(pencil.slip().len() as u64, pencil.free().len() as u64, coefficient_bits(pencil));
         match self.left.checked_sub(cost) {
             Some(left) => {
                 self.left = left;
                 Ok(())
             }
             None => Err(format!(
-                "absence is proved with at most {} supports x bits more in this report, {cost} were needed (see mceip complete)",
+                "absence is proved with at most {} products of words more in this report, {cost} were needed (see mceip complete)",
                 self.left
             )),
         }
     }
+}
+
+/// Sum over all supports of m^5 words^2, m the order of the block: Bareiss's elimination takes m^3 products of polynomials
+/// with up to m coefficients, each of so many words. A determinant of order m has its share of the `bits` of the largest.
+fn enumeration_cost(slip: u64, free: u64, bits: u64) -> u64 {
+    let order = (slip + free).max(1);
+    let mut supports: u64 = 1; // of k variables
+    let mut cost: u64 = 0;
+    for k in 0..=slip {
+        let m = free + k;
+        let words = 1 + bits.saturating_mul(m) / (64 * order);
+        let of_one = m.saturating_pow(5).saturating_mul(words.saturating_mul(words));
+        cost = cost.saturating_add(supports.saturating_mul(of_one));
+        supports = supports.saturating_mul(slip - k) / (k + 1);
+    }
+    cost
 }
 
 /// What became of a foreign solution.

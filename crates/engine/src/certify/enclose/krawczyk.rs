@@ -38,10 +38,11 @@ impl Krawczyk {
     pub(super) fn new(newton: &Newton<'_>, point: &Point, inverse: &[Vec<f64>]) -> Result<Krawczyk, AttemptFailure> {
         let jacobian = newton.jacobian(point);
         let units = units(point);
-        let (preconditioner, exponent) = round(inverse, &newton.scales, rounding_bits(&jacobian, &units));
+        let exponent = exponent(inverse, &newton.scales, rounding_bits(&jacobian, &units));
         if exponent > MAX_EXPONENT {
             return Err(AttemptFailure::TooLarge { limit: MAX_EXPONENT as usize, got: exponent as usize });
         }
+        let preconditioner = round(inverse, &newton.scales, exponent);
 
         let y = rounded(&preconditioner, &newton.scales, exponent);
         let error = contraction(&y, &jacobian, &units);
@@ -152,19 +153,24 @@ fn rounding_bits(jacobian: &[Vec<Slope>], radius: &[f64]) -> f64 {
     (jacobian.len() as f64 * widest / narrowest).log2().ceil() + f64::from(PRECONDITIONER_LOSS_BITS)
 }
 
-/// The inverse for rows that were divided by 2^scale, in integers of 2^-exponent: the largest entry
-/// has about [`PRECONDITIONER_BITS`] bits, or more where `needed` bits after the point are more.
-fn round(y: &[Vec<f64>], scales: &[u64], needed: f64) -> (Vec<Vec<Integer>>, u32) {
+/// Bits after the point of the preconditioner: its largest entry has about [`PRECONDITIONER_BITS`] bits, or more where
+/// `needed` bits after the point are more. An infinite need is beyond every limit.
+fn exponent(y: &[Vec<f64>], scales: &[u64], needed: f64) -> u32 {
     let largest = y.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
     let widest = scales.iter().copied().max().unwrap_or(0);
     let wanted = (PRECONDITIONER_BITS - largest.log2().ceil() as i32).max(needed as i32);
-    let exponent = wanted.max(0) as u64 + widest;
+    let exponent = u64::from(wanted.max(0).unsigned_abs()).saturating_add(widest);
+    u32::try_from(exponent).unwrap_or(u32::MAX)
+}
+
+/// The inverse for rows that were divided by 2^scale, in integers of 2^-exponent.
+fn round(y: &[Vec<f64>], scales: &[u64], exponent: u32) -> Vec<Vec<Integer>> {
     // Finite: `inverse` refuses anything else.
     let integer = |(v, k): (&f64, &u64)| {
-        let scale = Rational::from_integer(Integer::one() << (exponent - k));
+        let scale = Rational::from_integer(Integer::one() << (u64::from(exponent) - k));
         from_f64(*v).map(|r| (r * scale).round().to_integer()).unwrap_or_default()
     };
-    (y.iter().map(|row| row.iter().zip(scales).map(integer).collect()).collect(), exponent as u32)
+    y.iter().map(|row| row.iter().zip(scales).map(integer).collect()).collect()
 }
 
 /// A rounded preconditioner in doubles, for rows that are divided by 2^scale.

@@ -8,14 +8,16 @@ fn a_preconditioner_keeps_its_bits() {
     let bits = PRECONDITIONER_BITS as u32;
     let y = |v: f64| vec![vec![v, -0.5 * v], vec![0.0, 0.25 * v]];
     for (largest, log) in [(1.0, 0i64), (8.0, 3), (0.125, -3), (1024.0, 10)] {
-        let (rows, exponent) = round(&y(largest), &[0, 0], 0.0);
+        let exponent = exponent(&y(largest), &[0, 0], 0.0);
+        let rows = round(&y(largest), &[0, 0], exponent);
         assert_eq!(i64::from(exponent), i64::from(bits) - log);
         assert_eq!(rows[0], [Integer::from(1) << bits, -(Integer::from(1) << (bits - 1))]);
     }
-    let (rows, exponent) = round(&y(1.0), &[3, 0], 100.0);
     let power = |k: u32| Integer::from(1) << k;
-    assert_eq!(exponent, 103);
-    assert_eq!(rows[0], [power(100), -power(102)]);
+    assert_eq!(exponent(&y(1.0), &[3, 0], 100.0), 103);
+    assert_eq!(round(&y(1.0), &[3, 0], 103)[0], [power(100), -power(102)]);
+    // A need beyond doubles is beyond the limit, and nothing of that length is computed.
+    assert!(exponent(&y(1.0), &[3, 0], f64::INFINITY) > MAX_EXPONENT);
 }
 
 /// Bits for n entries of a row against the narrowest side: n = 2, reaches 4.25 and 120.5, sides 4 and 1/8: 1928 < 2^11.
