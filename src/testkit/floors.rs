@@ -253,7 +253,7 @@ pub const FLOORS: [Floor; 40] = [
     row("fuzz: two_particle_problems", Starts::Search, 89.5, 90.0),          // 99.48, 100.00 of 203 and 193
     row("fuzz: two_particle_problems", Starts::Interior, 90.0, 90.0),        // 100.00, 100.00 of 203 and 193
     row("fuzz: two_particle_problems", Starts::Path, 90.0, 73.9),            // 100.00, 83.94 of 203 and 193
-    // `tests/solver_properties.rs`, 1,000 values of the seeds 91 and 92.
+    // `tests/solver/solver_properties.rs`, 1,000 values of the seeds 91 and 92.
     row("property: systems", Starts::Search, 98.0, 98.0),                    // 100.00, 100.00 of 1052
     row("property: pencils", Starts::Search, 97.9, 98.0),                    // 99.92, 100.00 of 1263
     row("property: two particles", Starts::Interior, 98.0, 98.0),            // 100.00, 100.00 of 998
