@@ -196,11 +196,11 @@ fn at_most(found: u64, of: u64, probability: f64) -> f64 {
 /// `.ci/run` use other seeds.
 ///
 /// ```text
-/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=1000 cargo test --release --test floors -- --ignored --nocapture of_verify
-/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test floors -- --ignored --nocapture of_the_campaign
-/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test floors -- --ignored --nocapture fuzz
-/// FLOOR_SEEDS=9001,9002 cargo test --release --test floors -- --ignored --nocapture the_block
-/// cargo test --release --test solver_properties -- --ignored --nocapture
+/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=1000 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_families_of_verify
+/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_families_of_the_campaign
+/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_fuzz_targets
+/// FLOOR_SEEDS=9001,9002 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_block
+/// cargo test --release --test solver -- --ignored --nocapture solver_properties::
 /// ```
 ///
 /// Beside each row: rate of the first start, rate of all solutions, instances with solutions. The

@@ -1,8 +1,8 @@
 //! Floors of coverage: measured here on request; held against solvers that miss solutions on
 //! purpose.
 //!
-//! `FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test floors -- --ignored
-//! --nocapture`
+//! `FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test campaign -- --ignored
+//! --nocapture floors::`
 #![cfg(feature = "testkit")]
 
 use mceip::model::{Admissible, Problem, Unknown};

@@ -95,7 +95,7 @@ fn every_target_is_built_and_replayed() {
     assert_eq!(cargo.matches("[[bin]]").count(), TARGETS.len());
 }
 
-/// The seeds of `corpus/certificate_reader`: `cargo test --test fuzz_replay -- --ignored`.
+/// The seeds of `corpus/certificate_reader`: `cargo test --test campaign -- --ignored fuzz_replay::`.
 #[test]
 #[ignore = "writes the corpus"]
 fn write_the_certificates() {

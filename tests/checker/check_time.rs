@@ -1,5 +1,5 @@
 //! How long the checker takes: n = 12 exact, the block's 820 degrees of freedom enclosed. Run with
-//! `cargo test --release --test check_time -- --ignored --nocapture`. The test itself asserts a ratio only.
+//! `cargo test --release --test checker -- --ignored --nocapture check_time::`. The test itself asserts a ratio only.
 #![cfg(feature = "testkit")]
 
 use mceip::candidate::Candidate;

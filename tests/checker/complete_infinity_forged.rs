@@ -82,7 +82,7 @@ fn what_is_accepted_of_forged_tails_is_true() {
     assert!(rejected > 50 && rejected > accepted && reversed >= 10, "{rejected} {accepted} {reversed}");
 }
 
-/// `cargo test --release --test complete_infinity_forged -- --ignored --nocapture`
+/// `cargo test --release --test checker -- --ignored --nocapture complete_infinity_forged::`
 #[test]
 #[ignore = "a minute in the dev profile"]
 fn what_is_accepted_of_many_forged_tails_is_true() {

@@ -2,7 +2,7 @@
 //! Our checker and `spec/checker.py` go over all of it. A file is never changed once it is released
 //! (spec/formats.md, Versions); new ones are written by
 //!
-//!     cargo test --test corpus -- --ignored write_the_corpus
+//!     cargo test --test checker -- --ignored corpus::write_the_corpus
 //!
 //! but for the files `hostile-*` whose work is limited (spec/complete-set.md, Limits), which are written by hand.
 #![cfg(feature = "cli")]

@@ -2,7 +2,7 @@
 //! expected and what was got; for what is accepted, every value, interval, family and open region that is proved.
 //! `tests/verdicts.txt` holds it. A line changes only with a reason; new files of the corpus are added by
 //!
-//!     cargo test --test verdicts -- --ignored write_the_verdicts
+//!     cargo test --test checker -- --ignored verdicts::write_the_verdicts
 
 use mceip::certificate::Certificate;
 use mceip::check::{audit, check};

@@ -68,7 +68,7 @@ fn lambda2_of_a_small_block_is_that_of_the_enumerator() {
     }
 }
 
-/// `cargo test --release --test complete_block -- --ignored --nocapture`: the 17-slip state, both masses.
+/// `cargo test --release --test complete -- --ignored --nocapture complete_block::`: the 17-slip state, both masses.
 #[test]
 #[ignore = "minutes in the dev profile"]
 fn lambda2_of_the_17_slip_state_has_one_solution_at_each_mu() {
@@ -87,7 +87,7 @@ fn lambda2_of_the_17_slip_state_has_one_solution_at_each_mu() {
     }
 }
 
-/// `cargo test --release --test complete_block -- --ignored --nocapture`: every state of the loading path.
+/// `cargo test --release --test complete -- --ignored --nocapture complete_block::`: every state of the loading path.
 #[test]
 #[ignore = "minutes in the dev profile"]
 fn every_state_of_the_loading_path_is_closed() {
@@ -117,7 +117,7 @@ fn every_state_of_the_loading_path_is_closed() {
     assert!(values.iter().flat_map(|(slip, set)| set.iter().filter(|s| s.1 == *slip)).all(|(mu, _)| *mu < 10.0));
 }
 
-/// `cargo test --release --test complete_block -- --ignored --nocapture`: the question of section 5. At the measured
+/// `cargo test --release --test complete -- --ignored --nocapture complete_block::`: the question of section 5. At the measured
 /// friction 1.1, under which the states arise, (19) holds in nineteen of the 23, and none diverges in the form (8): neither
 /// all-slip nor with stick, at any lambda^2 >= 0. From the given K and M, with a certificate each.
 #[test]

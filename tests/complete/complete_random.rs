@@ -1,6 +1,6 @@
 //! The complete search against exact enumeration on random pencils up to n_s = 10, free variables and
 //! windows among them: the same set or, in part, honestly undecided. 200 here; 5,000 with
-//! `cargo test --release --test complete_random -- --ignored --nocapture`.
+//! `cargo test --release --test complete -- --ignored --nocapture complete_random::`.
 #![cfg(feature = "testkit")]
 
 use crate::cover::{disagreements, family_disagreements, truth};

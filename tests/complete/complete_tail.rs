@@ -1,5 +1,5 @@
 //! The last interval of an infinite window: masses that are not definite, without some rows, of low rank; solutions at infinity.
-//! All with `cargo test --release --test complete_tail -- --ignored --nocapture`.
+//! All with `cargo test --release --test complete -- --ignored --nocapture complete_tail::`.
 #![cfg(feature = "testkit")]
 
 use crate::cover::{disagreements, family_disagreements, truth};

@@ -166,7 +166,7 @@ fn observations_on_a_small_crossed_block() {
     assert!(!rising.falls() && !rising.grows_above());
 }
 
-/// `cargo test --release --test block_observations -- --ignored --nocapture`: the table of spec/block-observations.md.
+/// `cargo test --release --test paper -- --ignored --nocapture block_observations::`: the table of spec/block-observations.md.
 #[test]
 #[ignore = "minutes in the release profile"]
 fn observations_over_meshes_planes_and_ratios() {

@@ -265,7 +265,7 @@ fn both_published_states_lie_on_the_path() {
 }
 
 /// The target: path with all events and the condensed pencil of every state within 5 s besides the
-/// condensation. `cargo test --release --test path -- --ignored --nocapture under_five_seconds`
+/// condensation. `cargo test --release --test paper -- --ignored --nocapture under_five_seconds`
 #[test]
 #[ignore = "a measurement, for the release profile"]
 fn path_and_every_pencil_take_under_five_seconds() {

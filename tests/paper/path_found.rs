@@ -75,7 +75,7 @@ fn every_solvable_state_of_a_small_block_is_found() {
     assert_eq!(tally.found, tally.solutions);
 }
 
-/// `cargo test --release --test path_found -- --ignored --nocapture`: the paper's block, each of its 23 states.
+/// `cargo test --release --test paper -- --ignored --nocapture path_found::`: the paper's block, each of its 23 states.
 #[test]
 #[ignore = "minutes in the dev profile"]
 fn every_solvable_state_of_the_path_is_found() {

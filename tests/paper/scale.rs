@@ -188,7 +188,7 @@ fn lambda2_of_a_mesh_is_enclosed_and_accepted() {
     }
 }
 
-/// `cargo test --release --test scale -- --ignored --nocapture`: the certified values of `complete_block.rs`.
+/// `cargo test --release --test paper -- --ignored --nocapture scale::`: the certified values of `complete_block.rs`.
 #[test]
 #[ignore = "a minute in the release profile, most of it certification"]
 fn lambda2_of_the_17_slip_state_comes_out_and_is_certified() {
@@ -213,7 +213,7 @@ fn lambda2_of_the_17_slip_state_comes_out_and_is_certified() {
     }
 }
 
-/// `cargo test --release --test scale -- --ignored`: the value that SciPy's SuperLU gives too (`benches/condense_scipy.py`).
+/// `cargo test --release --test paper -- --ignored scale::`: the value that SciPy's SuperLU gives too (`benches/condense_scipy.py`).
 #[test]
 #[ignore = "seconds in the release profile"]
 fn two_hundred_thousand_degrees_of_freedom() {

@@ -1,5 +1,5 @@
 //! Shards run by an existing engine: GNU parallel starts the processes, `mceip merge` proves that they cover.
-//! `cargo test --test launcher -- --ignored` (Debian package `parallel`).
+//! `cargo test --test program -- --ignored launcher::` (Debian package `parallel`).
 #![cfg(feature = "cli")]
 
 use mceip::testkit::known;

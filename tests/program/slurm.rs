@@ -1,5 +1,5 @@
 //! Shards as a Slurm job array, by the two scripts of `spec/examples`: a cluster of this one machine is started for it.
-//! `cargo test --test slurm -- --ignored` as root (Debian packages `slurm-wlm` and `munge`); two minutes.
+//! `cargo test --test program -- --ignored slurm::` as root (Debian packages `slurm-wlm` and `munge`); two minutes.
 #![cfg(all(unix, feature = "cli"))]
 
 use crate::program::mceip;

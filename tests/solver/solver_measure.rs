@@ -1,5 +1,5 @@
 //! Measures, printed with
-//! `cargo test --release --test solver_measure -- --ignored --nocapture`; seeds by MEASURE_SEEDS=101,102.
+//! `cargo test --release --test solver -- --ignored --nocapture solver_measure::`; seeds by MEASURE_SEEDS=101,102.
 //! MEASURE_ONLY=first: only first starts; else a part of the name of a search. MEASURE_FAMILY=mu20.
 #![cfg(feature = "testkit")]
 

@@ -399,7 +399,7 @@ fn two_particles_of_any_data_agree_with_the_closed_form() {
     assert_eq!(shortfalls("property: two particles", Starts::Interior, &coverage), []);
 }
 
-/// `cargo test --release --test solver_properties -- --ignored --nocapture`: the rates of the table
+/// `cargo test --release --test solver -- --ignored --nocapture solver_properties::`: the rates of the table
 /// of floors.
 #[test]
 #[ignore = "a measurement: run on request, in release"]
