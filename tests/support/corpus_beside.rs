@@ -1,7 +1,7 @@
 //! Claims beside a cover: in its list, in an open region, in a family; and pairs of which one half is forged.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus::*;
+use super::corpus_cases::*;
 use mceip::certificate::{Certificate, Claim, ExactSolution, Node, RootOutcome};
 use mceip::model::file::write_problem;
 use serde_json::{Value, json};

@@ -1,7 +1,7 @@
 //! Support leaves by hand: what each kind of reason is accepted for, and a forgery of each obligation.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus::*;
+use super::corpus_cases::*;
 use mceip::certificate::{Alone, Certificate, Exact, Member, Node, Point, Polynomials, Support};
 use mceip::exact::Integer;
 use mceip::model::Problem;

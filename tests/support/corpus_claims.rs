@@ -1,7 +1,7 @@
 //! Claims of solutions: what is accepted, and a forgery of each obligation.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus::*;
+use super::corpus_cases::*;
 use mceip::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution};
 use mceip::exact::{Integer, Rational, rational, whole};
 use mceip::model::file::Number;

@@ -1,7 +1,7 @@
 //! Complete sets and absence: what is accepted, and a forgery of each fault of `crates/check/src/cover/fault.rs`.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus::*;
+use super::corpus_cases::*;
 use mceip::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
 use mceip::exact::{Integer, whole};
 use mceip::model::{Problem, Unknown, Window};

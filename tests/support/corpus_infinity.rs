@@ -1,7 +1,7 @@
 //! Covers that reach to infinity: roots over a chord, null vectors of the limit, reversed anchors; and their forgeries.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus::*;
+use super::corpus_cases::*;
 use mceip::certificate::{Certificate, Condensation, Node, Root, RootOutcome};
 use mceip::check::check;
 use mceip::exact::Integer;

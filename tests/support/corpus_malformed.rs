@@ -2,7 +2,7 @@
 //! spelt short: `certificate_text` with `mark` replaced by `count` copies of `unit`.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus::*;
+use super::corpus_cases::*;
 use mceip::certificate::{Claim, Node};
 use mceip::model::file::write_problem;
 use serde_json::{Value, json};

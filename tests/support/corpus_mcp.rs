@@ -1,7 +1,7 @@
 //! Solution files of plain LCPs and MCPs: each line of the definition kept, and broken by as little as it takes.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus::Cases;
+use super::corpus_cases::Cases;
 use mceip::exact::parse;
 use mceip::lcp::{read_mcp, write_solution};
 use serde_json::{Value, json};

@@ -1,7 +1,7 @@
 //! Support leaves: degenerate supports value by value, and a forgery of each fault they have of their own.
 #![allow(missing_docs, unreachable_pub)]
 
-use super::corpus::*;
+use super::corpus_cases::*;
 use mceip::certificate::{Alone, Certificate, Exact, Member, Node, Point, Polynomials, Support};
 use mceip::exact::{Sparse, whole};
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};

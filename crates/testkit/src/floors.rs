@@ -196,11 +196,11 @@ fn at_most(found: u64, of: u64, probability: f64) -> f64 {
 /// `.ci/run` use other seeds.
 ///
 /// ```text
-/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=1000 cargo test --release --test floors -- --ignored --nocapture of_verify
-/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test floors -- --ignored --nocapture of_the_campaign
-/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test floors -- --ignored --nocapture fuzz
-/// FLOOR_SEEDS=9001,9002 cargo test --release --test floors -- --ignored --nocapture the_block
-/// cargo test --release --test solver_properties -- --ignored --nocapture
+/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=1000 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_families_of_verify
+/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_families_of_the_campaign
+/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_fuzz_targets
+/// FLOOR_SEEDS=9001,9002 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_block
+/// cargo test --release --test solver -- --ignored --nocapture solver_properties::
 /// ```
 ///
 /// Beside each row: rate of the first start, rate of all solutions, instances with solutions. The
@@ -253,7 +253,7 @@ pub const FLOORS: [Floor; 40] = [
     row("fuzz: two_particle_problems", Starts::Search, 89.5, 90.0),          // 99.48, 100.00 of 203 and 193
     row("fuzz: two_particle_problems", Starts::Interior, 90.0, 90.0),        // 100.00, 100.00 of 203 and 193
     row("fuzz: two_particle_problems", Starts::Path, 90.0, 73.9),            // 100.00, 83.94 of 203 and 193
-    // `tests/solver_properties.rs`, 1,000 values of the seeds 91 and 92.
+    // `tests/solver/solver_properties.rs`, 1,000 values of the seeds 91 and 92.
     row("property: systems", Starts::Search, 98.0, 98.0),                    // 100.00, 100.00 of 1052
     row("property: pencils", Starts::Search, 97.9, 98.0),                    // 99.92, 100.00 of 1263
     row("property: two particles", Starts::Interior, 98.0, 98.0),            // 100.00, 100.00 of 998

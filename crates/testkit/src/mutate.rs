@@ -1,5 +1,5 @@
 //! Random changes of claims: most make a certificate false, some leave it true. Whoever checks the result
-//! has to know which (`tests/mutated_claims.rs` asks the oracle).
+//! has to know which (`tests/checker/mutated_claims.rs` asks the oracle).
 
 use crate::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution};
 use crate::exact::{Integer, Rational, rational, whole};

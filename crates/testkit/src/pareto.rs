@@ -20,7 +20,7 @@ pub struct Pareto {
 /// Orders 3 to 5 are due to A. Pinto da Costa and A. Seeger ("Cone-constrained eigenvalue problems: theory
 /// and algorithms", Comput. Optim. Appl. 45 (2010) 25-57), here with the sign that makes
 /// (P - lambda I) x >= 0: the literature has both. The counts are what identifies them, and they are
-/// recomputed in `tests/known_answers.rs`. Order 2 is any with p_12, p_21 >= 0 and different diagonal entries.
+/// recomputed in `tests/oracle/known_answers.rs`. Order 2 is any with p_12, p_21 >= 0 and different diagonal entries.
 pub fn pareto_matrices() -> Vec<Pareto> {
     let half = |sign: i64| rational(sign, 2);
     let three = [[whole(8), whole(-1), whole(4)], [whole(3), whole(4), half(1)], [whole(2), half(-1), whole(6)]];

@@ -251,7 +251,7 @@ mod tests {
     fn a_fold_is_met_before_any_static_threshold() {
         let found = cover(&mu_family(&fold()).unwrap());
         let below = to_f64(found.below.as_ref().unwrap());
-        let least = 1.0 + 0.75f64.sqrt(); // tests/analyze.rs has the derivation
+        let least = 1.0 + 0.75f64.sqrt(); // tests/program/analyze.rs has the derivation
         assert!(below <= least && below > 0.999 * least, "{below} {least} {found:?}");
     }
 }

@@ -1,0 +1,282 @@
+//! Floors of coverage: measured here on request; held against solvers that miss solutions on
+//! purpose.
+//!
+//! `FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test campaign -- --ignored
+//! --nocapture floors::`
+#![cfg(feature = "testkit")]
+
+use mceip::model::{Admissible, Problem, Unknown};
+use mceip::multistart::{Found, Search, multistart};
+use mceip::reduction::{condense, reduce};
+use mceip::solver::SolverError;
+use mceip::source::{Block, MassKind, PublishedState};
+use mceip::testkit::campaign::{Campaign, Engine, FAMILIES, Id, Limit, Pipeline, State, case, treatment};
+use mceip::testkit::floors::{Coverage, Starts, shortfalls};
+use mceip::testkit::targets::{self, Counter, fuzz_treatment};
+use mceip::testkit::{BLOCK_STARTS, Instance, Solver, Treatment, Verification, coverage_of, degenerate, mechanical};
+use mceip::testkit::{path_coverage, random_pencils, table1_grid, verify_family};
+use rand::{RngExt, SeedableRng};
+use rand_chacha::ChaCha8Rng;
+use rayon::prelude::*;
+use std::collections::{BTreeMap, BTreeSet};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+type ByStarts = BTreeMap<Starts, Coverage>;
+
+fn measured(instances: &[Instance], treatment: &Treatment) -> ByStarts {
+    let reports: Vec<_> = instances.par_iter().map(|i| coverage_of(i, treatment).unwrap().coverage()).collect();
+    let mut sum = ByStarts::new();
+    for (starts, coverage) in reports.into_iter().flatten() {
+        sum.entry(starts).or_default().add(&coverage);
+    }
+    sum
+}
+
+/// A row of the table in `crates/testkit/src/floors.rs`.
+fn print(family: &str, sum: &ByStarts) {
+    for (starts, c) in sum {
+        let percent = |count: u64| 100.0 * count as f64 / c.solvable.max(1) as f64;
+        let (first, all) = (percent(c.first), percent(c.all));
+        let (least_first, least_all) = ((first - 2.0).max(0.0), (all - 2.0).max(0.0));
+        println!("    row({family:?}, Starts::{starts:?}, {least_first:.1}, {least_all:.1}), // {first:.2}, {all:.2} of {}", c.solvable);
+    }
+}
+
+fn numbers(name: &str, default: &str) -> Vec<u64> {
+    let text = std::env::var(name).unwrap_or_else(|_| default.into());
+    text.split(',').map(|s| s.trim().parse().unwrap()).collect()
+}
+
+fn add(sum: &mut ByStarts, more: ByStarts) {
+    for (starts, coverage) in more {
+        sum.entry(starts).or_default().add(&coverage);
+    }
+}
+
+#[test]
+#[ignore = "a measurement: run on request, in release"]
+fn measure_the_families_of_the_campaign() {
+    let count = numbers("FLOOR_COUNT", "500")[0];
+    for (family, _, _) in FAMILIES {
+        let mut sum = ByStarts::new();
+        for seed in numbers("FLOOR_SEEDS", "9001,9002") {
+            let instance = |index: u64| case(&Id { family: family.into(), seed, index }).unwrap().unwrap().instance;
+            let instances: Vec<Instance> = (0..count).map(instance).collect();
+            add(&mut sum, measured(&instances, &treatment(seed)));
+        }
+        print(family, &sum);
+    }
+}
+
+#[test]
+#[ignore = "a measurement: run on request, in release"]
+fn measure_the_families_of_verify() {
+    let count = numbers("FLOOR_COUNT", "500")[0] as usize;
+    let mut sums: BTreeMap<&str, ByStarts> = BTreeMap::new();
+    for seed in numbers("FLOOR_SEEDS", "9001,9002") {
+        let treatment = Treatment::of(&Search { seed, ..Search::default() });
+        let families = [
+            ("Table 1 (two particles)", table1_grid().unwrap()),
+            ("random pencils", random_pencils(count, seed).unwrap()),
+            ("mechanical systems", mechanical(count, seed).unwrap()),
+            ("degenerate cases", degenerate().unwrap()),
+        ];
+        for (name, instances) in families {
+            add(sums.entry(name).or_default(), measured(&instances, &treatment));
+        }
+    }
+    for (name, sum) in sums {
+        print(name, &sum);
+    }
+}
+
+/// Random bytes as inputs of the fuzz targets with a solver, and committed inputs with a few bytes
+/// changed.
+#[test]
+#[ignore = "a measurement: run on request, in release"]
+fn measure_the_fuzz_targets() {
+    let count = numbers("FLOOR_COUNT", "500")[0];
+    for (name, length, body) in SOLVER_TARGETS {
+        let corpus = corpus(name.trim_start_matches("fuzz: "));
+        let (random, changed) = (Counter::new("measured"), Counter::new("measured"));
+        for seed in numbers("FLOOR_SEEDS", "9001,9002") {
+            let mut rng = ChaCha8Rng::seed_from_u64(seed);
+            for k in 0..count as usize {
+                let bytes: Vec<u8> = (0..length).map(|_| rng.random_range(0..=255)).collect();
+                body(&bytes, &fuzz_treatment(), &random);
+                body(&with_changes(&mut rng, &corpus[k % corpus.len()]), &fuzz_treatment(), &changed);
+            }
+        }
+        print(&format!("{name}, random"), &random.seen().coverage);
+        print(&format!("{name}, changed"), &changed.seen().coverage);
+    }
+}
+
+type Body = fn(&[u8], &Treatment, &Counter);
+
+/// Family, length of a random input, body with a solver of one's own.
+const SOLVER_TARGETS: [(&str, usize, Body); 3] = [
+    ("fuzz: solver_against_oracle", 34, targets::solver_against_oracle_by),
+    ("fuzz: mechanical_systems", 150, targets::mechanical_systems_by),
+    ("fuzz: two_particle_problems", 10, targets::two_particle_problems_by),
+];
+
+fn corpus(target: &str) -> Vec<Vec<u8>> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target);
+    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|f| f.unwrap().path()).collect();
+    files.sort();
+    files.iter().map(|f| std::fs::read(f).unwrap()).collect()
+}
+
+/// One to four bytes replaced by random ones.
+fn with_changes(rng: &mut ChaCha8Rng, bytes: &[u8]) -> Vec<u8> {
+    let mut out = bytes.to_vec();
+    for _ in 0..rng.random_range(1..=4) {
+        if !out.is_empty() {
+            let at = rng.random_range(0..out.len());
+            out[at] = rng.random_range(0..=255);
+        }
+    }
+    out
+}
+
+/// PATH's own sequence on both published states of the block, each start an instance.
+#[test]
+#[ignore = "a measurement: run on request, in release"]
+fn measure_the_block() {
+    let block = Block::of_the_paper(MassKind::Consistent);
+    for (state, value) in [(PublishedState::FifteenSlip, 60.805842443327), (PublishedState::SeventeenSlip, 1.704804329580)] {
+        let pencil = reduce(&state.problem(&block).unwrap()).unwrap().pencil;
+        let condensed = condense(&Admissible::new(&pencil, Unknown::Mu).unwrap()).unwrap();
+        let small = Admissible::new(&condensed, Unknown::Mu).unwrap();
+        let mut sum = ByStarts::new();
+        for seed in numbers("FLOOR_SEEDS", "9001,9002") {
+            let coverage = path_coverage(&small, &[value], 1000, seed).unwrap();
+            sum.entry(Starts::Path).or_default().add(&coverage);
+        }
+        print(state.name(), &sum);
+    }
+}
+
+/// A solver that finds nothing.
+fn finds_nothing(_: &Problem, _: &Admissible<'_>, _: &Search) -> Result<Found, SolverError> {
+    Ok(Found::default())
+}
+
+/// A solver that forgets every second solution of an instance, the first one among them.
+fn drops_every_second(problem: &Problem, admissible: &Admissible<'_>, search: &Search) -> Result<Found, SolverError> {
+    let mut found = multistart(problem, admissible, search)?;
+    let mut index = 0;
+    found.certified.retain(|_| {
+        index += 1;
+        index % 2 == 0
+    });
+    Ok(found)
+}
+
+/// A solver that forgets every second solution, the second one first: an instance with one solution
+/// is not touched.
+fn keeps_every_first(problem: &Problem, admissible: &Admissible<'_>, search: &Search) -> Result<Found, SolverError> {
+    let mut found = multistart(problem, admissible, search)?;
+    let mut index = 0;
+    found.certified.retain(|_| {
+        index += 1;
+        index % 2 == 1
+    });
+    Ok(found)
+}
+
+/// The plants, and whether each leaves the first start's solution alone.
+const PLANTS: [(&str, Solver); 3] =
+    [("finds nothing", finds_nothing), ("drops every second", drops_every_second), ("keeps every first", keeps_every_first)];
+
+fn quick_search() -> Search {
+    Search { starts: 6, window_starts: 1, ..Search::default() }
+}
+
+/// Every family of `verify` with each plant has a shortfall, so that `verify` exits 1. That the
+/// project's own solver has none is `tests/campaign/verify.rs::no_disagreement`.
+#[test]
+fn verify_fails_with_a_solver_that_misses_solutions() {
+    let stop = AtomicBool::new(false);
+    let families: [(&'static str, Vec<Instance>); 4] = [
+        // Every seventh, so that all four sign patterns occur.
+        ("Table 1 (two particles)", table1_grid().unwrap().into_iter().step_by(7).collect()),
+        ("random pencils", random_pencils(40, 77).unwrap()),
+        ("mechanical systems", mechanical(40, 77).unwrap()),
+        ("degenerate cases", degenerate().unwrap()),
+    ];
+
+    for (name, instances) in &families {
+        for (plant, solver) in PLANTS {
+            // Most instances of the other families have one solution, which this plant does not
+            // touch.
+            if plant == "keeps every first" && *name != "Table 1 (two particles)" {
+                continue;
+            }
+            let treatment = Treatment { nodes: 1, ..Treatment::of(&quick_search()) };
+            let planted = verify_family(name, instances, &treatment.with_solver(solver), &stop, &|_, _, _| {});
+            assert!(planted.disagreements.is_empty(), "{name}: what is found is true: {:?}", planted.disagreements);
+
+            let verification = Verification { seed: 77, families: vec![planted], block: Vec::new(), interrupted: false };
+            println!("{plant}: {:?}", verification.shortfalls().iter().map(ToString::to_string).collect::<Vec<_>>());
+            assert!(verification.disagreements() > 0, "{name}: {plant} goes unnoticed");
+        }
+    }
+}
+
+/// The campaign with each plant: a finding of the family, and none with the project's own solver.
+#[test]
+fn the_campaign_fails_with_a_solver_that_misses_solutions() {
+    let families: Vec<String> = ["elements", "table1"].map(String::from).to_vec();
+    let run = |treatment: Treatment| {
+        let engines: [Box<dyn Engine>; 1] = [Box::new(Pipeline { treatment: Treatment { nodes: 1, ..treatment } })];
+        let campaign = Campaign { engines: &engines, limit: Limit::Count(40) };
+        campaign.run(State::new(3, (0, 1), families.clone()), &AtomicBool::new(false), &mut |_| {})
+    };
+
+    let sound = run(treatment(3));
+    assert_eq!(sound.disagreements(), 0, "{:?}", sound.shortfalls());
+    for (plant, solver) in PLANTS {
+        let state = run(treatment(3).with_solver(solver));
+        let names: BTreeSet<&str> = state.shortfalls().iter().map(|s| s.floor.family).collect();
+        println!("{plant}: {:?}", state.shortfalls().iter().map(ToString::to_string).collect::<Vec<_>>());
+        let expected: &[&str] = if plant == "keeps every first" { &["table1"] } else { &["elements", "table1"] };
+        assert!(expected.iter().all(|family| names.contains(family)), "{plant}: {names:?}");
+        assert!(state.disagreements() >= expected.len());
+    }
+}
+
+/// The fuzz targets with a solver panic before they have seen 200 random inputs with a plant, and
+/// not without.
+#[test]
+fn the_fuzz_targets_fail_with_a_solver_that_misses_solutions() {
+    for (family, length, body) in SOLVER_TARGETS {
+        for (plant, solver) in &PLANTS[..2] {
+            let counter = Counter::new(family);
+            let mut rng = ChaCha8Rng::seed_from_u64(5);
+            let treatment = Treatment { nodes: 1, ..fuzz_treatment() }.with_solver(*solver);
+
+            let planted = catch_unwind(AssertUnwindSafe(|| {
+                for _ in 0..200 {
+                    let bytes: Vec<u8> = (0..length).map(|_| rng.random_range(0..=255)).collect();
+                    body(&bytes, &treatment, &counter);
+                }
+            }));
+            let message = *planted.unwrap_err().downcast::<String>().unwrap();
+            assert!(message.contains("coverage over"), "{family}, {plant}: {message}");
+        }
+    }
+}
+
+/// A solver that stops finding the block's solutions is seen: with PATH's own sequence reduced to
+/// nothing, below its floor.
+#[test]
+fn the_block_has_floors_of_its_own() {
+    for state in PublishedState::ALL {
+        let nothing = Coverage { solvable: BLOCK_STARTS as u64, first: 0, all: 0 };
+        assert_eq!(shortfalls(state.name(), Starts::Path, &nothing).len(), 2, "{}", state.name());
+    }
+}

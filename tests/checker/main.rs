@@ -1,0 +1,27 @@
+//! The checker: verdicts, forgeries, the corpus, and the second checker beside it.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+#[cfg(feature = "testkit")]
+#[path = "../support/cover.rs"]
+mod cover;
+#[cfg(feature = "testkit")]
+#[path = "../support/structural.rs"]
+mod structural;
+#[cfg(feature = "testkit")]
+#[path = "../support/witnessed.rs"]
+mod witnessed;
+
+mod check_time;
+mod checker;
+mod complete_forged;
+mod complete_infinity_forged;
+mod complete_mutants;
+mod complete_support_forged;
+mod corpus;
+mod covers;
+mod local_modes;
+mod mutated_claims;
+mod second_checker;
+mod two_checkers;
+mod two_readers;
+mod verdicts;

@@ -1,0 +1,17 @@
+//! The enumerator, Table 1, exact arithmetic and the way back from the pencil.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+#[allow(dead_code, unreachable_pub, missing_docs)]
+mod third;
+
+mod algebra;
+mod known_answers;
+mod oracle_degenerate;
+mod oracle_edges;
+mod oracle_report;
+mod problem_files;
+mod properties;
+mod stability;
+mod table1;
+mod third_opinion;
+mod way_back;

@@ -1,0 +1,8 @@
+//! Tests that read the repository's own text: laws of the house, pages, planted bugs, mutants.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod conformance;
+mod laws;
+mod mutants;
+mod planted;
+mod traceability;

@@ -1,0 +1,8 @@
+//! The block of the paper: its states, its loading path, finer meshes.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+mod block;
+mod block_observations;
+mod path;
+mod path_found;
+mod scale;

@@ -1,0 +1,25 @@
+//! The program from outside.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+#[cfg(feature = "cli")]
+#[path = "../support/program.rs"]
+mod program;
+
+mod absence_cli;
+mod analyze;
+mod campaign_cli;
+mod check_foreign;
+mod check_window;
+mod cli;
+mod cli_enumerate;
+mod complete_cli;
+mod complete_infinity_cli;
+mod conform;
+mod conform_adapter;
+mod convert;
+mod launcher;
+mod pictures;
+mod schemas;
+mod slurm;
+mod solver_plain;
+mod tutorial;

@@ -1,0 +1,23 @@
+//! The solver, the embedding, certification and lifting of what it finds.
+#![allow(clippy::unwrap_used, reason = "a test may panic")]
+
+#[cfg(feature = "testkit")]
+#[path = "../families/mod.rs"]
+mod families;
+#[cfg(feature = "solver")]
+#[path = "../support/mod.rs"]
+mod support;
+
+mod certify;
+mod embedding;
+mod lift;
+mod lifted;
+mod near_threshold;
+mod solver_curves;
+mod solver_hostile;
+mod solver_lemke;
+mod solver_mceip;
+mod solver_measure;
+mod solver_paths;
+mod solver_properties;
+mod solver_textbook;
