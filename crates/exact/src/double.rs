@@ -15,7 +15,7 @@ use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
 /// assert!(from_f64(f64::NAN).is_err());
 /// ```
 pub fn from_f64(value: f64) -> Result<Rational, NumberError> {
-    Rational::from_f64(value).filter(|_| value.is_finite()).ok_or_else(|| NumberError::NotFinite { text: value.to_string() })
+    Rational::from_float(value).filter(|_| value.is_finite()).ok_or_else(|| NumberError::NotFinite { text: value.to_string() })
 }
 
 /// A finite double without its fraction; `None` for NaN and the infinities.

@@ -1,13 +1,11 @@
 //! Rational numbers, and reading them exactly: "1.1" is 11/10, never the nearest double.
 
+use super::Rational;
 use num_bigint::BigInt;
 use num_traits::{One, Pow, Signed, Zero};
 
 /// An arbitrary-precision integer.
 pub type Integer = BigInt;
-/// An arbitrary-precision rational in lowest terms. The only rational type of the project:
-/// fixed-width rationals overflow silently to zero denominators.
-pub type Rational = num_rational::BigRational;
 
 /// Longest spelling of one number that is read. Keeps a hostile file from buying quadratic time.
 pub const MAX_SPELLING: usize = 100_000;

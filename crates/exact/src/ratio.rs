@@ -1,0 +1,370 @@
+//! The rational type: num-rational's arithmetic, and comparisons by one product each.
+//!
+//! num-rational compares by continued fractions, one recursive step a term. Two numbers that are close and long have as
+//! many terms as bits, so that a file of a hundred kilobytes can overflow the stack. Here p/q < r/s is p s < r q.
+
+use super::Integer;
+use num_rational::BigRational;
+use num_traits::{Num, One, Signed, Zero};
+use std::cmp::Ordering;
+use std::fmt;
+use std::hash::{Hash, Hasher};
+use std::iter::{Product, Sum};
+use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, Sub, SubAssign};
+
+/// An arbitrary-precision rational in lowest terms. The only rational type of the project: fixed-width rationals overflow
+/// silently to zero denominators.
+#[derive(Clone, Default)]
+pub struct Rational(BigRational);
+
+impl Rational {
+    /// p / q in lowest terms, q > 0. Panics if q = 0.
+    pub fn new(numer: Integer, denom: Integer) -> Rational {
+        Rational(BigRational::new(numer, denom))
+    }
+
+    /// p / q as given: q > 0 and without a common factor, or used for nothing but its value.
+    pub const fn new_raw(numer: Integer, denom: Integer) -> Rational {
+        Rational(BigRational::new_raw(numer, denom))
+    }
+
+    /// p / 1.
+    pub fn from_integer(value: Integer) -> Rational {
+        Rational(BigRational::from_integer(value))
+    }
+
+    /// The rational that a finite double is; `None` for the others.
+    pub fn from_float<F: num_traits::float::FloatCore>(value: F) -> Option<Rational> {
+        BigRational::from_float(value).map(Rational)
+    }
+
+    /// The numerator.
+    pub const fn numer(&self) -> &Integer {
+        self.0.numer()
+    }
+
+    /// The denominator, positive.
+    pub const fn denom(&self) -> &Integer {
+        self.0.denom()
+    }
+
+    /// Numerator and denominator.
+    pub fn into_raw(self) -> (Integer, Integer) {
+        self.0.into_raw()
+    }
+
+    /// In lowest terms.
+    pub fn reduced(&self) -> Rational {
+        Rational(self.0.reduced())
+    }
+
+    /// 1 / self. Panics if self = 0.
+    pub fn recip(&self) -> Rational {
+        Rational(self.0.recip())
+    }
+
+    /// self^exponent. Panics if self = 0 and the exponent is negative.
+    pub fn pow(&self, exponent: i32) -> Rational {
+        Rational(self.0.pow(exponent))
+    }
+
+    /// Is the denominator 1?
+    pub fn is_integer(&self) -> bool {
+        self.0.is_integer()
+    }
+
+    /// Rounded towards zero.
+    pub fn to_integer(&self) -> Integer {
+        self.0.to_integer()
+    }
+
+    /// The largest integer that is not above.
+    pub fn floor(&self) -> Rational {
+        Rational::from_integer(num_integer::Integer::div_floor(self.numer(), self.denom()))
+    }
+
+    /// The smallest integer that is not below.
+    pub fn ceil(&self) -> Rational {
+        Rational::from_integer(num_integer::Integer::div_ceil(self.numer(), self.denom()))
+    }
+
+    /// The nearest integer, halves away from zero.
+    pub fn round(&self) -> Rational {
+        Rational(self.0.round())
+    }
+
+    /// Rounded towards zero.
+    pub fn trunc(&self) -> Rational {
+        Rational::from_integer(self.to_integer())
+    }
+
+    /// The part after the point, of the sign of the number.
+    pub fn fract(&self) -> Rational {
+        self - self.trunc()
+    }
+}
+
+impl From<Integer> for Rational {
+    fn from(value: Integer) -> Rational {
+        Rational::from_integer(value)
+    }
+}
+
+impl Ord for Rational {
+    fn cmp(&self, other: &Rational) -> Ordering {
+        if self.denom() == other.denom() {
+            return self.numer().cmp(other.numer());
+        }
+        let by_sign = self.numer().sign().cmp(&other.numer().sign());
+        if by_sign != Ordering::Equal {
+            return by_sign;
+        }
+        (self.numer() * other.denom()).cmp(&(other.numer() * self.denom()))
+    }
+}
+
+impl PartialOrd for Rational {
+    fn partial_cmp(&self, other: &Rational) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Rational {
+    fn eq(&self, other: &Rational) -> bool {
+        self.cmp(other) == Ordering::Equal
+    }
+}
+
+impl Eq for Rational {}
+
+impl Hash for Rational {
+    fn hash<H: Hasher>(&self, state: &mut H) {
+        let reduced = self.0.reduced();
+        reduced.numer().hash(state);
+        reduced.denom().hash(state);
+    }
+}
+
+impl fmt::Display for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+impl fmt::Debug for Rational {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        self.0.fmt(f)
+    }
+}
+
+/// An operator for values and references of rationals, and with an integer on the right.
+macro_rules! operator {
+    ($trait:ident, $method:ident, $assign:ident, $assign_method:ident) => {
+        impl $trait<Rational> for Rational {
+            type Output = Rational;
+            fn $method(self, other: Rational) -> Rational {
+                Rational(self.0.$method(other.0))
+            }
+        }
+        impl $trait<&Rational> for Rational {
+            type Output = Rational;
+            fn $method(self, other: &Rational) -> Rational {
+                Rational(self.0.$method(&other.0))
+            }
+        }
+        impl $trait<Rational> for &Rational {
+            type Output = Rational;
+            fn $method(self, other: Rational) -> Rational {
+                Rational((&self.0).$method(other.0))
+            }
+        }
+        impl $trait<&Rational> for &Rational {
+            type Output = Rational;
+            fn $method(self, other: &Rational) -> Rational {
+                Rational((&self.0).$method(&other.0))
+            }
+        }
+        impl $trait<Integer> for Rational {
+            type Output = Rational;
+            fn $method(self, other: Integer) -> Rational {
+                Rational(self.0.$method(other))
+            }
+        }
+        impl $trait<&Integer> for Rational {
+            type Output = Rational;
+            fn $method(self, other: &Integer) -> Rational {
+                Rational(self.0.$method(other))
+            }
+        }
+        impl $trait<Integer> for &Rational {
+            type Output = Rational;
+            fn $method(self, other: Integer) -> Rational {
+                Rational((&self.0).$method(other))
+            }
+        }
+        impl $trait<&Integer> for &Rational {
+            type Output = Rational;
+            fn $method(self, other: &Integer) -> Rational {
+                Rational((&self.0).$method(other))
+            }
+        }
+        impl $assign<Rational> for Rational {
+            fn $assign_method(&mut self, other: Rational) {
+                self.0.$assign_method(other.0);
+            }
+        }
+        impl $assign<&Rational> for Rational {
+            fn $assign_method(&mut self, other: &Rational) {
+                self.0.$assign_method(&other.0);
+            }
+        }
+        impl $assign<Integer> for Rational {
+            fn $assign_method(&mut self, other: Integer) {
+                self.0.$assign_method(other);
+            }
+        }
+        impl $assign<&Integer> for Rational {
+            fn $assign_method(&mut self, other: &Integer) {
+                self.0.$assign_method(other);
+            }
+        }
+    };
+}
+
+operator!(Add, add, AddAssign, add_assign);
+operator!(Sub, sub, SubAssign, sub_assign);
+operator!(Mul, mul, MulAssign, mul_assign);
+operator!(Div, div, DivAssign, div_assign);
+
+impl Neg for Rational {
+    type Output = Rational;
+    fn neg(self) -> Rational {
+        Rational(-self.0)
+    }
+}
+
+impl Neg for &Rational {
+    type Output = Rational;
+    fn neg(self) -> Rational {
+        Rational(-&self.0)
+    }
+}
+
+impl Rem for Rational {
+    type Output = Rational;
+    fn rem(self, other: Rational) -> Rational {
+        Rational(self.0 % other.0)
+    }
+}
+
+impl Zero for Rational {
+    fn zero() -> Rational {
+        Rational(BigRational::zero())
+    }
+
+    fn is_zero(&self) -> bool {
+        self.0.is_zero()
+    }
+}
+
+impl One for Rational {
+    fn one() -> Rational {
+        Rational(BigRational::one())
+    }
+}
+
+impl Num for Rational {
+    type FromStrRadixErr = num_rational::ParseRatioError;
+
+    fn from_str_radix(text: &str, radix: u32) -> Result<Rational, Self::FromStrRadixErr> {
+        BigRational::from_str_radix(text, radix).map(Rational)
+    }
+}
+
+impl Signed for Rational {
+    fn abs(&self) -> Rational {
+        Rational(self.0.abs())
+    }
+
+    fn abs_sub(&self, other: &Rational) -> Rational {
+        if self <= other { Rational::zero() } else { self - other }
+    }
+
+    fn signum(&self) -> Rational {
+        Rational(self.0.signum())
+    }
+
+    fn is_positive(&self) -> bool {
+        self.0.is_positive()
+    }
+
+    fn is_negative(&self) -> bool {
+        self.0.is_negative()
+    }
+}
+
+impl Sum for Rational {
+    fn sum<I: Iterator<Item = Rational>>(values: I) -> Rational {
+        let mut sum = Rational::zero();
+        values.for_each(|v| sum += v);
+        sum
+    }
+}
+
+impl<'a> Sum<&'a Rational> for Rational {
+    fn sum<I: Iterator<Item = &'a Rational>>(values: I) -> Rational {
+        let mut sum = Rational::zero();
+        values.for_each(|v| sum += v);
+        sum
+    }
+}
+
+impl Product for Rational {
+    fn product<I: Iterator<Item = Rational>>(values: I) -> Rational {
+        let mut product = Rational::one();
+        values.for_each(|v| product *= v);
+        product
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn of(p: i64, q: i64) -> Rational {
+        Rational::new(p.into(), q.into())
+    }
+
+    #[test]
+    fn the_order_is_that_of_the_products() {
+        let ascending = [of(-3, 2), of(-4, 3), of(-1, 1000), of(0, 1), of(1, 3), of(333, 998), of(1, 2), of(2, 1)];
+        for (i, a) in ascending.iter().enumerate() {
+            for (j, b) in ascending.iter().enumerate() {
+                assert_eq!(a.cmp(b), i.cmp(&j), "{a} {b}");
+            }
+        }
+        assert_eq!(Rational::new_raw(2.into(), 4.into()), of(1, 2));
+    }
+
+    /// Quotients of Fibonacci numbers have all the terms that a continued fraction of their length can have.
+    #[test]
+    fn close_and_long_numbers_are_compared_without_a_stack() {
+        let (mut a, mut b) = (Integer::one(), Integer::one());
+        for _ in 0..200_000 {
+            let next = &a + &b;
+            a = std::mem::replace(&mut b, next);
+        }
+        let next = &a + &b;
+        let (one, other) = (Rational::new_raw(b.clone(), a), Rational::new_raw(next, b));
+
+        assert_ne!(one, other);
+        assert_eq!(one.cmp(&other), other.cmp(&one).reverse());
+    }
+
+    #[test]
+    fn floors_and_ceilings_round_towards_their_side() {
+        for (v, floor, ceil) in [(of(7, 2), 3, 4), (of(-7, 2), -4, -3), (of(6, 2), 3, 3), (of(-1, 9), -1, 0)] {
+            assert_eq!([v.floor(), v.ceil()], [of(floor, 1), of(ceil, 1)], "{v}");
+        }
+    }
+}
