@@ -1,5 +1,6 @@
 //! Files around a problem: read from where they lie, and told from what they are not.
 
+use mceip::exact::Integer;
 use mceip::model::file::{read_matrix_market, read_problem, read_problem_file, read_text};
 use mceip::model::{Body, ModelError, Unknown};
 use std::path::Path;
@@ -79,4 +80,27 @@ fn a_reaction_fits_the_state_of_its_particle() {
         let got = of(state, tangential, "-4");
         assert!(if fits { got.is_ok() } else { contradicts(got.map(|_| ())) }, "{state} {tangential}");
     }
+}
+
+/// A window between two quotients of Fibonacci numbers, 84 kB: a comparison by continued fractions takes a step for each bit
+/// of them, and overflowed the stack.
+#[test]
+fn ends_that_are_long_and_close_are_compared() {
+    let (mut a, mut b) = (Integer::from(1), Integer::from(1));
+    for _ in 0..100_000 {
+        let next = &a + &b;
+        a = std::mem::replace(&mut b, next);
+    }
+    let next = &a + &b;
+    let text = |min: &str, max: &str| {
+        format!(
+            r#"{{"format": "mceip-problem/1", "unknown": "lambda2", "pencil": {{"a": [["-1"]], "b": [["1"]], "free": []}},
+                "window": {{"min": "{min}", "max": "{max}"}}}}"#
+        )
+    };
+    let (one, other) = (format!("{b}/{a}"), format!("{next}/{b}"));
+
+    let read = |min: &str, max: &str| read_problem(&text(min, max), Path::new("/nonexistent"));
+    let is_read = [read(&one, &other).is_ok(), read(&other, &one).is_ok()];
+    assert!(is_read[0] != is_read[1], "one of the two windows is empty: {is_read:?}");
 }

@@ -277,3 +277,21 @@ fn faer_stands_behind_one_file_and_tolerances_in_theirs() {
     small.sort();
     assert_eq!(small, vec!["options.rs", "tolerance.rs", "tolerance.rs", "tolerance.rs", "tolerance.rs"]);
 }
+
+/// Cargo links the groups of `tests/`; a file that its group does not name would never run.
+#[test]
+fn every_file_of_a_group_of_tests_is_named_by_it() {
+    let mut files = 0;
+    for group in std::fs::read_dir(root().join("tests")).unwrap().map(|e| e.unwrap().path()) {
+        let Ok(main) = std::fs::read_to_string(group.join("main.rs")) else { continue };
+        for file in std::fs::read_dir(&group).unwrap().map(|e| e.unwrap().path()) {
+            let module = file.file_stem().unwrap().to_string_lossy().into_owned();
+            if file.extension().is_none_or(|e| e != "rs") || module == "main" {
+                continue;
+            }
+            assert!(main.lines().any(|line| line.ends_with(&format!("mod {module};"))), "{} is not run", file.display());
+            files += 1;
+        }
+    }
+    assert!(files > 50, "{files} files of tests");
+}

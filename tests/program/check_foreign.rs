@@ -133,14 +133,27 @@ fn a_component_that_should_be_zero() {
 #[test]
 fn a_value_at_zero_has_the_scale_of_its_problem() {
     let folder = Folder::new();
-    for (scale, inside, outside) in [("1", "0.9e-13", "1.1e-13"), ("1000", "0.9e-10", "1.1e-10")] {
-        let a = format!(r#"[["0","0"],["0","{scale}"]]"#);
+    // t = 0 with x = (1, 1), on rows with |A||x| = 2 scale and |B||x| = 1.
+    for (scale, inside, outside) in [("1", "1.9e-13", "2.1e-13"), ("1000", "1.9e-10", "2.1e-10")] {
+        let a = format!(r#"[["{scale}","-{scale}"],["-{scale}","{scale}"]]"#);
         let text = format!(r#"{{"format":"mceip-problem/1","unknown":"lambda2","pencil":{{"a":{a},"b":[[1,0],[0,1]]}}}}"#);
         let problem = folder.write("p.json", &text);
         for (value, expected) in [("0", 0), (inside, 0), (outside, 1)] {
-            let (code, text) = check(&problem, &format!(r#"[{{"value":{value},"x":[1,0]}}]"#));
+            let (code, text) = check(&problem, &format!(r#"[{{"value":{value},"x":[1,1]}}]"#));
             assert_eq!(code, expected, "{scale} {value}: {text}");
         }
+    }
+}
+
+/// Where A vanishes on a solution's own rows nothing says what is small: only 0 is 0.
+#[test]
+fn a_value_without_a_scale_is_exact() {
+    let folder = Folder::new();
+    let pencil = r#"{"a":[["0","0"],["0","1e14"]],"b":[[1,0],[0,1]]}"#;
+    let problem = folder.write("p.json", &format!(r#"{{"format":"mceip-problem/1","unknown":"lambda2","pencil":{pencil}}}"#));
+    for (value, expected) in [("0", 0), ("1e-13", 1), ("9e-5", 1)] {
+        let (code, text) = check(&problem, &format!(r#"[{{"value":{value},"x":[1,0]}}]"#));
+        assert_eq!(code, expected, "{value}: {text}");
     }
 }
 
