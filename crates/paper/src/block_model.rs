@@ -40,8 +40,8 @@ impl BlockModel {
     /// Zero cells are refused when the block is built.
     ///
     /// ```
-    /// use mceip::exact::{rational, whole};
-    /// let fine = mceip::source::BlockModel::of_the_paper().with_cells(32, 16);
+    /// use mceip_exact::{rational, whole};
+    /// let fine = mceip_paper::BlockModel::of_the_paper().with_cells(32, 16);
     /// assert_eq!(fine.cell, (rational(5, 2), rational(5, 2)));
     /// ```
     pub fn with_cells(self, nx: usize, ny: usize) -> BlockModel {

@@ -47,7 +47,8 @@ pub fn read_dofs(text: &str) -> Result<HashMap<String, usize>, CalculixError> {
 /// [`CalculixError`] for a line that is no entry, an index beyond the order, an entry given twice.
 ///
 /// ```
-/// use mceip::{exact::rational, source::calculix::read_triangle};
+/// use mceip_exact::rational;
+/// use mceip_paper::calculix::read_triangle;
 /// let k = read_triangle("1 1  2.5e+00\n1 2 -1.0e+00\n2 2  2.5e+00\n", 2).unwrap();
 /// assert_eq!((k.get(0, 0), k.get(1, 0)), (rational(5, 2), rational(-1, 1)));
 /// ```

@@ -26,7 +26,7 @@ impl BlockModel {
     /// [`SourceError`] as [`super::Block::new`].
     ///
     /// ```
-    /// let mesh = mceip::source::BlockModel::of_the_paper().triangulation().unwrap();
+    /// let mesh = mceip_paper::BlockModel::of_the_paper().triangulation().unwrap();
     /// assert_eq!((mesh.points.len(), mesh.triangles.len(), mesh.contact.len()), (431, 800, 21));
     /// ```
     pub fn triangulation(&self) -> Result<Triangulation, SourceError> {
