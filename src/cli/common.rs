@@ -12,7 +12,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, OnceLock};
 
-/// Exit codes of `design.md`.
+/// Exit codes (README, and `mceip --help`).
 pub(super) mod exit {
     /// Done, or accepted.
     pub(crate) const DONE: u8 = 0;

@@ -9,7 +9,7 @@ use crate::check::{AcceptedCover, OpenRegion, SolutionFamily};
 use crate::exact::enclosing_decimals;
 use crate::model::Problem;
 use crate::reduction::reduce;
-use crate::report::{Listed, Report, solutions_json};
+use crate::report::{Claimed, Listed, Report, solutions_json};
 use crate::search::complete::{Completed, Options, Shard, complete, resume};
 use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
@@ -191,6 +191,6 @@ pub(super) fn report_json(problem: &Problem, completed: &Completed) -> Result<se
 
     let cover = &completed.cover;
     let evidence = format!("certificate of a complete set, {} leaves, {} open, accepted by the checker", cover.leaves, cover.open.len());
-    let complete = cover.is_plain_list();
-    Ok(solutions_json(&Report { problem, reduced: &reduced, solutions, complete, evidence, enumeration: None, cover: Some(cover) }))
+    let claim = Claimed::of_cover(cover);
+    Ok(solutions_json(&Report { problem, reduced: &reduced, solutions, claim, evidence, enumeration: None, cover: Some(cover) }))
 }

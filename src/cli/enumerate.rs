@@ -4,7 +4,7 @@ use super::common::{CliError, exit, interrupt_flag, load, print, progress_bar};
 use crate::model::Problem;
 use crate::oracle::{Enumeration, enumerate_with};
 use crate::reduction::{Reduced, reduce};
-use crate::report::{Listed, Report, solutions_json, solutions_text};
+use crate::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use std::ops::ControlFlow;
 use std::path::PathBuf;
 use std::sync::atomic::Ordering;
@@ -51,8 +51,8 @@ fn report(problem: &Problem, reduced: &Reduced, found: &Enumeration, is_json: bo
     };
 
     let solutions = found.solutions.iter().map(|s| Listed::of_solution(problem, reduced, s)).collect();
-    let complete = found.is_complete_list();
-    let report = Report { problem, reduced, solutions, complete, evidence, enumeration: Some(found), cover: None };
+    let claim = Claimed::complete_if(found.is_complete_list());
+    let report = Report { problem, reduced, solutions, claim, evidence, enumeration: Some(found), cover: None };
     if is_json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) }
 }
 

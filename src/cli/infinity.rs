@@ -6,7 +6,7 @@ use crate::exact::Rational;
 use crate::model::file::write_problem;
 use crate::model::{Problem, Window};
 use crate::reduction::reversed;
-use crate::report::claim_of_cover;
+use crate::report::Claimed;
 use crate::search::complete::{CompleteError, Completed, Options, complete};
 use num_traits::Zero;
 use serde_json::json;
@@ -76,7 +76,7 @@ impl AtInfinity {
         let x = |x: &[f64]| x.iter().map(|v| format!("{v:.15e}")).collect::<Vec<_>>();
         let solutions: Vec<_> = completed.solutions().map(|(s, v)| json!({ "slip": s.support, "x": x(v) })).collect();
         json!({
-            "claim": claim_of_cover(cover),
+            "claim": Claimed::of_cover(cover).word(),
             "reversed_problem_sha256": self.problem.sha256(),
             "solutions": solutions,
             "families": cover.families.iter().map(|f| json!({ "slip": f.support })).collect::<Vec<_>>(),

@@ -11,7 +11,7 @@ use crate::model::file::require_format;
 use crate::model::{Admissible, Pencil, Problem};
 use crate::multistart::{Found, Search, multistart_large, support, trace_outcome};
 use crate::reduction::reduce;
-use crate::report::{Listed, Report, solutions_json, solutions_text};
+use crate::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
@@ -101,7 +101,8 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     let claims: Vec<_> = found.certified.iter().map(|c| c.claim.clone()).collect();
     let solutions = claims.iter().map(|c| Listed::of_claim(&problem, &reduced, c)).collect();
     let evidence = evidence(args, &found);
-    let report = Report { problem: &problem, reduced: &reduced, solutions, complete: false, evidence, enumeration: None, cover: None };
+    let report =
+        Report { problem: &problem, reduced: &reduced, solutions, claim: Claimed::Solutions, evidence, enumeration: None, cover: None };
     print(&if args.json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) })?;
     let any = !claims.is_empty();
     if let (Some(output), true) = (output, any) {

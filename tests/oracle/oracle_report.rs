@@ -5,7 +5,7 @@ use mceip::exact::{Integer, Poly, Rational, Sparse, nonnegative_roots, parse, to
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};
 use mceip::oracle::enumerate;
 use mceip::reduction::reduce;
-use mceip::report::{Listed, Report, solutions_json, solutions_text};
+use mceip::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use serde_json::{Value, json};
 
 /// JSON and text for a pencil.
@@ -15,16 +15,9 @@ fn printed(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> (Value, String) {
     let reduced = reduce(&problem).unwrap();
     let found = enumerate(&reduced.pencil, problem.window()).unwrap();
     let solutions = found.solutions.iter().map(|s| Listed::of_solution(&problem, &reduced, s)).collect();
-    let complete = found.is_complete_list();
-    let report = Report {
-        problem: &problem,
-        reduced: &reduced,
-        solutions,
-        complete,
-        evidence: "test".into(),
-        enumeration: Some(&found),
-        cover: None,
-    };
+    let claim = Claimed::complete_if(found.is_complete_list());
+    let report =
+        Report { problem: &problem, reduced: &reduced, solutions, claim, evidence: "test".into(), enumeration: Some(&found), cover: None };
     (solutions_json(&report), solutions_text(&report))
 }
 

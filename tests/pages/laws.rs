@@ -1,4 +1,4 @@
-//! The laws of `design.md` that can be read off manifests and sources: who depends on whom, who computes in floats.
+//! Laws of the workspace that can be read off manifests and sources: who depends on whom, who computes in floats.
 
 use std::path::{Path, PathBuf};
 

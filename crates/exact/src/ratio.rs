@@ -1,7 +1,10 @@
-//! The rational type: num-rational's arithmetic, and comparisons by one product each.
+//! The rational type: num-rational's arithmetic, and comparisons by one product on each side.
 //!
-//! num-rational compares by continued fractions, one recursive step a term. Two numbers that are close and long have as
-//! many terms as bits, so that a file of a hundred kilobytes can overflow the stack. Here p/q < r/s is p s < r q.
+//! p/q < r/s where p s < r q, since denominators are positive.
+//!
+//! num-rational compares by continued fractions instead, with one recursive step for each term. Two
+//! long numbers that lie close together have about as many terms as bits, so that a file of a
+//! hundred kilobytes overflowed the stack.
 
 use super::Integer;
 use num_rational::BigRational;
@@ -9,11 +12,11 @@ use num_traits::{Num, One, Signed, Zero};
 use std::cmp::Ordering;
 use std::fmt;
 use std::hash::{Hash, Hasher};
-use std::iter::{Product, Sum};
+use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, Sub, SubAssign};
 
-/// An arbitrary-precision rational in lowest terms. The only rational type of the project: fixed-width rationals overflow
-/// silently to zero denominators.
+/// An arbitrary-precision rational in lowest terms. The only rational type of the project:
+/// fixed-width rationals overflow silently to zero denominators.
 #[derive(Clone, Default)]
 pub struct Rational(BigRational);
 
@@ -46,11 +49,6 @@ impl Rational {
     /// The denominator, positive.
     pub const fn denom(&self) -> &Integer {
         self.0.denom()
-    }
-
-    /// Numerator and denominator.
-    pub fn into_raw(self) -> (Integer, Integer) {
-        self.0.into_raw()
     }
 
     /// In lowest terms.
@@ -96,11 +94,6 @@ impl Rational {
     /// Rounded towards zero.
     pub fn trunc(&self) -> Rational {
         Rational::from_integer(self.to_integer())
-    }
-
-    /// The part after the point, of the sign of the number.
-    pub fn fract(&self) -> Rational {
-        self - self.trunc()
     }
 }
 
@@ -319,14 +312,6 @@ impl<'a> Sum<&'a Rational> for Rational {
     }
 }
 
-impl Product for Rational {
-    fn product<I: Iterator<Item = Rational>>(values: I) -> Rational {
-        let mut product = Rational::one();
-        values.for_each(|v| product *= v);
-        product
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -346,7 +331,8 @@ mod tests {
         assert_eq!(Rational::new_raw(2.into(), 4.into()), of(1, 2));
     }
 
-    /// Quotients of Fibonacci numbers have all the terms that a continued fraction of their length can have.
+    /// No numbers of their length have continued fractions with more terms than quotients of
+    /// Fibonacci numbers.
     #[test]
     fn close_and_long_numbers_are_compared_without_a_stack() {
         let (mut a, mut b) = (Integer::one(), Integer::one());

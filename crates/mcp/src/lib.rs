@@ -1,9 +1,15 @@
-//! Mixed complementarity problems in doubles: find z in [l, u] with F_i(z) >= 0 where z_i = l_i, = 0 strictly inside and
-//! <= 0 where z_i = u_i.
+//! Mixed complementarity problems in doubles: find z in [l, u] with F_i(z) >= 0 where z_i = l_i,
+//! F_i(z) = 0 where z_i lies strictly inside, and F_i(z) <= 0 where z_i = u_i.
 //!
-//! [`mcp`] states problems, [`solver`] solves them as PATH does, [`sparse`] eliminates the unknowns without bounds first,
-//! [`linear`] holds the factorisations. The crate knows nothing of friction, and nothing here is trusted: what a run finds
-//! is a candidate, and whether it is a solution is decided elsewhere, exactly.
+//! | module | what |
+//! |---|---|
+//! | [`mcp`] | problems: a function with its Jacobian, and bounds |
+//! | [`solver`] | their solution as PATH does it |
+//! | [`sparse`] | linear problems with sparse matrices: unknowns without bounds are eliminated first |
+//! | [`linear`] | dense and sparse factorisations |
+//!
+//! The crate knows nothing of friction, and nothing here is trusted. What a run finds is a candidate;
+//! whether it is a solution is decided elsewhere, in exact arithmetic.
 
 pub mod linear;
 pub mod mcp;

@@ -1,4 +1,5 @@
-//! Tolerances of problems read from other programs and of the loading path, with unit, basis and reason. None decides a truth.
+//! Tolerances of the loading path and of results read from other programs, with unit, basis and
+//! reason. None decides a truth.
 
 /// Sizes of displacements and reactions, relative to the largest of the step, that incremental
 /// stepping takes for zero. Unit: none. Basis: the condensed equations have condition numbers below

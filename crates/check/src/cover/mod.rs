@@ -495,6 +495,7 @@ impl Walk<'_> {
 mod tests {
     use super::*;
     use mceip_exact::{Integer, rational, whole};
+    use mceip_model::file::Number;
 
     /// Three variables that may move cost 27; the second leaf does not find enough left.
     #[test]
@@ -546,6 +547,31 @@ mod tests {
         let what = "matrices of regions: products of words, left of the file's budget";
         let refused = walk.ends(&region(), None).err();
         assert_eq!(refused, Some(CoverFault::TooLarge { what, limit: cost - 1, got: cost }));
+    }
+
+    /// A root leaf of -6 + t over [5, 7] needs the matrices of its hull and of its interval: 3 (3 + 3) each.
+    #[test]
+    fn root_leaves_spend_the_same_budget() {
+        let rows = Rows { rows: vec![vec![(0, Integer::from(-6), Integer::from(1))]], factor: vec![1.into()], is_free: vec![false] };
+        let window = Window::all();
+        let walk = walk(&rows, &window);
+        let region = Region { lo: whole(5), hi: Some(whole(7)), states: vec![State::Moving], matrices: Rc::default() };
+        let interval = [whole(5), whole(7)].map(Number);
+        let (inverse, left, right) = (vec![], vec![], vec![]);
+        let outcome = RootOutcome::Solution;
+        let root = Root { pivot: 0, interval, inverse, inverse_exponent: 0, left, right, exponent: 0, outcome };
+
+        let cost = 3 * (3 + 3);
+        walk.matrices_left.set(2 * cost);
+        assert!(walk.root(&region, None, &root).unwrap().is_some());
+        assert_eq!(walk.matrices_left.get(), 0);
+
+        let what = "matrices of regions: products of words, left of the file's budget";
+        let refused = Some(CoverFault::TooLarge { what, limit: cost - 1, got: cost });
+        for left in [cost - 1, 2 * cost - 1] {
+            walk.matrices_left.set(left);
+            assert_eq!(walk.root(&region, None, &root).err(), refused, "{left}");
+        }
     }
 
     fn walk<'a>(rows: &'a Rows, window: &'a Window) -> Walk<'a> {

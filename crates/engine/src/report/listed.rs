@@ -122,7 +122,7 @@ impl Listed {
     /// of an enclosed claim else, and those of the doubles where there is no claim.
     pub fn of_cover(problem: &Problem, reduced: &Reduced, certifier: &Certifier<'_>, proved: &AcceptedClaim, x: &[f64]) -> Listed {
         let candidate = Candidate { value: to_f64(&proved.value.mid()), x: x.to_vec() };
-        let claimed = certifier.certify_with_verdict(&candidate).ok().filter(|(_, verdict)| is_same(verdict, proved));
+        let claimed = certifier.certify_with_verdict(&candidate).ok().filter(|(_, verdict)| is_about(verdict, proved));
 
         let listed = match claimed {
             Some((claim, _)) => Listed::of_claim(problem, reduced, &claim),
@@ -135,9 +135,11 @@ impl Listed {
     }
 }
 
-/// Are two claims about one solution? Each is the only one with its support in its interval.
-fn is_same(one: &AcceptedClaim, other: &AcceptedClaim) -> bool {
-    one.support == other.support && one.value.lo() <= other.value.hi() && other.value.lo() <= one.value.hi()
+/// Is the claim about this solution of a cover, the only one with its support in its enclosure? Surely so if the claim's
+/// values lie within it. Where they only overlap, the claim could be about another solution near by.
+fn is_about(claim: &AcceptedClaim, proved: &AcceptedClaim) -> bool {
+    let is_within = proved.value.lo() <= claim.value.lo() && claim.value.hi() <= proved.value.hi();
+    claim.support == proved.support && is_within
 }
 
 /// A solution known in rounded numbers only, x in any positive scale.
@@ -252,6 +254,21 @@ mod tests {
         assert_eq!((listed.value.as_str(), listed.exact.is_some()), ("2", true));
         assert_eq!(listed.x, ["0.66666666666666667", "0.33333333333333333"]);
         assert_eq!(listed.enclosure, Some(["1.9999990463256835".into(), "2.0000009536743165".into()]));
+    }
+
+    /// A claim whose values reach out of the enclosure may be about a neighbour, and so may one with another support.
+    #[test]
+    fn a_claim_that_only_overlaps_is_not_taken() {
+        let claim = |support: &[usize], a: i64, b: i64| AcceptedClaim {
+            support: support.to_vec(),
+            value: Interval::new(whole(a), whole(b)).unwrap(),
+        };
+        let proved = claim(&[0, 1], 4, 6);
+
+        assert!(is_about(&claim(&[0, 1], 4, 6), &proved) && is_about(&claim(&[0, 1], 5, 5), &proved));
+        for other in [claim(&[0, 1], 3, 5), claim(&[0, 1], 5, 7), claim(&[0, 1], 3, 7), claim(&[0], 5, 5)] {
+            assert!(!is_about(&other, &proved), "{other:?}");
+        }
     }
 
     /// x from which no claim comes: the digits of the doubles, and nothing that looks exact.

@@ -5,5 +5,5 @@ mod solutions;
 mod table;
 
 pub use listed::{Listed, ListedCone};
-pub use solutions::{Report, claim_of_cover, solutions_json, solutions_text};
+pub use solutions::{Claimed, Report, solutions_json, solutions_text};
 pub use table::Table;

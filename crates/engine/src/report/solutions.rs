@@ -18,8 +18,8 @@ pub struct Report<'a> {
     pub reduced: &'a Reduced,
     /// The solutions.
     pub solutions: Vec<Listed>,
-    /// Is the list complete? Only the enumerator and an accepted cover may say so.
-    pub complete: bool,
+    /// What the list is said to be.
+    pub claim: Claimed,
     /// What stands behind the claim.
     pub evidence: String,
     /// The enumerator's run, for what is only reported.
@@ -28,22 +28,39 @@ pub struct Report<'a> {
     pub cover: Option<&'a AcceptedCover>,
 }
 
-impl Report<'_> {
-    fn claim(&self) -> &'static str {
-        match self.cover {
-            Some(cover) => claim_of_cover(cover),
-            None if self.complete => "complete",
-            None => "solutions",
-        }
-    }
+/// What a list of solutions is said to be. Only the enumerator and an accepted cover may say more than `Solutions`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Claimed {
+    /// All that there is.
+    Complete,
+    /// All that there is, together with the families beside it.
+    CompleteWithFamilies,
+    /// Solutions; there may be others.
+    Solutions,
 }
 
-/// What a report on a cover claims: `complete` only where its solutions are all there is, without families.
-pub fn claim_of_cover(cover: &AcceptedCover) -> &'static str {
-    if !cover.open.is_empty() {
-        return "solutions";
+impl Claimed {
+    /// `Complete` or `Solutions`.
+    pub fn complete_if(is_complete: bool) -> Claimed {
+        if is_complete { Claimed::Complete } else { Claimed::Solutions }
     }
-    if cover.is_plain_list() { "complete" } else { "complete_with_families" }
+
+    /// What an accepted cover proves of its solutions.
+    pub fn of_cover(cover: &AcceptedCover) -> Claimed {
+        if !cover.open.is_empty() {
+            return Claimed::Solutions;
+        }
+        if cover.is_plain_list() { Claimed::Complete } else { Claimed::CompleteWithFamilies }
+    }
+
+    /// The word in the file.
+    pub fn word(self) -> &'static str {
+        match self {
+            Claimed::Complete => "complete",
+            Claimed::CompleteWithFamilies => "complete_with_families",
+            Claimed::Solutions => "solutions",
+        }
+    }
 }
 
 /// Everything to be listed: the solutions, and between them the cones of the enumerator.
@@ -62,7 +79,7 @@ pub fn solutions_json(report: &Report<'_>) -> Value {
         "format": SOLUTIONS_FORMAT,
         "problem_sha256": report.problem.sha256(),
         "unknown": report.problem.unknown().word(),
-        "claim": report.claim(),
+        "claim": report.claim.word(),
         "evidence": report.evidence,
         "solutions": entries(report).iter().map(listed).collect::<Vec<_>>(),
         "continua": report.enumeration.map_or_else(Vec::new, ranges),

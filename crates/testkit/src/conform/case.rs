@@ -6,7 +6,7 @@ use super::{ConformError, Label};
 use crate::model::Problem;
 use crate::oracle::{Enumeration, enumerate};
 use crate::reduction::{Reduced, reduce};
-use crate::report::{Listed, Report, solutions_json};
+use crate::report::{Claimed, Listed, Report, solutions_json};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -83,7 +83,7 @@ impl Case {
             problem: &self.problem,
             reduced: &self.reduced,
             solutions,
-            complete: self.answer.is_complete_list(),
+            claim: Claimed::complete_if(self.answer.is_complete_list()),
             evidence: format!("plain enumeration of {} supports, exact", self.answer.supports_total),
             enumeration: Some(&self.answer),
             cover: None,
