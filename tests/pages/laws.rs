@@ -111,12 +111,7 @@ const MAY_DEPEND: [(&str, &[&str]); 8] = [
     (
         "testkit",
         &[
-            "mceip-check",
             "mceip-engine",
-            "mceip-exact",
-            "mceip-mcp",
-            "mceip-model",
-            "mceip-oracle",
             "mceip-paper",
             "num-bigint",
             "num-traits",
