@@ -31,10 +31,22 @@ pub(super) struct Around {
     pub(super) critical: Vec<Poly>,
 }
 
+/// Bits of the longest integer of the pencil times the active variables, at most: a minor of the active rows is about
+/// as long, and its roots take as many halvings. Doubles of one scale take 64 bits each, a mixture of 1e300 and
+/// 1e-300 takes 2,000.
+const MAX_MINOR_BITS: u64 = 4_096;
+
 impl Supported {
-    pub(super) fn new(pencil: &Pencil, moving: &[usize]) -> Supported {
+    /// `None` where the integers of the pencil are too long to decide a support of this size.
+    pub(super) fn new(pencil: &Pencil, moving: &[usize]) -> Option<Supported> {
         let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
         let active: Vec<usize> = moving.iter().chain(pencil.free()).copied().collect();
+
+        let longest = a.iter().chain(&b).flatten().map(Integer::bits).max().unwrap_or(0);
+        if longest.saturating_mul(active.len() as u64) > MAX_MINOR_BITS {
+            return None;
+        }
+
         let rest = (0..a.len()).filter(|i| !active.contains(i)).collect();
         let mut new = Supported { a, b, moving: moving.to_vec(), active, rest, regular: None };
         let det = new.minor(&new.active, &new.active);
@@ -43,7 +55,7 @@ impl Supported {
             let (w, critical) = divided(w, det);
             new.regular = Some((Exact::None(new.over_all(&new.active, &w)), critical));
         }
-        new
+        Some(new)
     }
 
     /// What there is at a value. `None` if the reasons here do not decide it.

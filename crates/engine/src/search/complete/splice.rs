@@ -59,7 +59,8 @@ pub(super) fn all(
         let exact_only = pencil.free().is_empty();
         exact_only.then(|| certifier.certify(&Candidate { value, x: x.to_vec() }).ok()).flatten()
     };
-    let decide = |moving: &[usize], lo: &Rational, hi: Option<&Rational>| support::leaf(pencil, moving, lo, hi);
+    let is_stopped = || watch.stopped();
+    let decide = |moving: &[usize], lo: &Rational, hi: Option<&Rational>| support::leaf(pencil, moving, lo, hi, &is_stopped);
     let starts: Vec<Rational> = std::iter::once(window.min().clone())
         .chain(set.pieces.iter().map(|p| p.max.as_ref().map_or_else(|| window.min().clone(), |n| n.0.clone())))
         .collect();

@@ -14,12 +14,19 @@ const MAX_ACTIVE: usize = 10;
 /// Cells of one leaf at most.
 const MAX_CELLS: usize = 64;
 
-/// The leaf of a support over [lo, hi], if it can be decided.
-pub(super) fn leaf(pencil: &Pencil, moving: &[usize], lo: &Rational, hi: Option<&Rational>) -> Option<Support> {
+/// The leaf of a support over [lo, hi], if it can be decided before the search is told to stop.
+pub(super) fn leaf(
+    pencil: &Pencil,
+    moving: &[usize],
+    lo: &Rational,
+    hi: Option<&Rational>,
+    is_stopped: &dyn Fn() -> bool,
+) -> Option<Support> {
     if moving.is_empty() || moving.len() + pencil.free().len() > MAX_ACTIVE {
         return None;
     }
-    let mut sweep = Sweep { system: Supported::new(pencil, moving), points: Vec::new(), cells: Vec::new(), reasons: Vec::new() };
+    let system = Supported::new(pencil, moving)?;
+    let mut sweep = Sweep { system, is_stopped, points: Vec::new(), cells: Vec::new(), reasons: Vec::new() };
     let first = Algebraic::rational(lo.clone());
     sweep.point(first.clone())?;
     match hi {
@@ -52,14 +59,15 @@ pub(super) fn shape(certificate: &Certificate, pencil: &Pencil, solution: &Accep
     Some(values.iter().map(|v| to_f64(&(v / &sum))).collect())
 }
 
-struct Sweep {
+struct Sweep<'a> {
     system: Supported,
+    is_stopped: &'a dyn Fn() -> bool,
     points: Vec<(Algebraic, usize)>,
     cells: Vec<usize>,
     reasons: Vec<Exact>,
 }
 
-impl Sweep {
+impl Sweep<'_> {
     fn reason(&mut self, reason: Exact) -> usize {
         self.reasons.iter().position(|r| *r == reason).unwrap_or_else(|| {
             self.reasons.push(reason);
@@ -68,6 +76,9 @@ impl Sweep {
     }
 
     fn point(&mut self, mut value: Algebraic) -> Option<()> {
+        if (self.is_stopped)() {
+            return None;
+        }
         value.try_rational();
         let reason = self.system.at(&mut value)?;
         let reason = self.reason(reason);
@@ -77,7 +88,7 @@ impl Sweep {
 
     /// Everything strictly between two values, in order.
     fn between(&mut self, mut left: Algebraic, mut right: Option<Algebraic>) -> Option<()> {
-        if self.cells.len() >= MAX_CELLS {
+        if self.cells.len() >= MAX_CELLS || (self.is_stopped)() {
             return None;
         }
         // A number that no hand-made problem has as a critical value.
