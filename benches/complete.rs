@@ -1,16 +1,18 @@
 //! The complete search with its proof: search and check apart, one run each, one thread.
 //!
-//! `cargo bench --bench complete` prints the whole table; `-- NAME...` the cases whose name contains one
-//! of the words. "condensed": from the condensed pencil (exact for the published states; made in doubles
-//! and taken as exact data for the others). "mesh": from K, the condensation inside the certificate.
-//! Seconds are CPU seconds of the process (user and system), so other work on the machine counts little.
+//! `cargo bench --bench complete` prints the whole table; `-- NAME...` the cases whose name
+//! contains one of the words. "condensed": from the condensed pencil (exact for the published
+//! states; made in doubles and taken as exact data for the others). "mesh": from K, the
+//! condensation inside the certificate. Seconds are CPU seconds of the process (user and system),
+//! so other work on the machine counts little.
 //!
-//! `-- random-30-mu` and its like: K0 and M = GG'/n + I/2, K1 = G'/sqrt n with G, G' standard normal, MCEIP-mu of
-//! (K0, K1) or MCEIP-lambda2 of (K0 + 3 K1, M) over [0, infinity), no free variables; the seeds from 1 on.
+//! `-- random-30-mu` and its like: K0 and M = GG'/n + I/2, K1 = G'/sqrt n with G, G' standard
+//! normal, MCEIP-mu of (K0, K1) or MCEIP-lambda2 of (K0 + 3 K1, M) over [0, infinity), no free
+//! variables; the seeds from 1 on.
 //!
 //! `-- cost` measures the refined meshes alone, the whole run and a check of its result, and writes
-//! `spec/figures/complete-cost.csv` and `.svg`; `-- cost 10 20` these orders only, and writes nothing; `-- draw`
-//! draws the figure of the table there is.
+//! `spec/figures/complete-cost.csv` and `.svg`; `-- cost 10 20` these orders only, and writes
+//! nothing; `-- draw` draws the figure of the table there is.
 
 #[path = "../tests/support/cost.rs"]
 mod cost;
@@ -20,7 +22,9 @@ use mceip::model::{Admissible, Body, Problem, Unknown, Window};
 use mceip::reduction::{condense, reduce};
 use mceip::search::complete::{CompleteError, Completed, Options, complete};
 use mceip::source::{Block, MassKind, PublishedState};
-use mceip::testkit::{backslash_block, condensed_in_doubles, known, mechanical_pencil, refined_block};
+use mceip::testkit::{
+    backslash_block, condensed_in_doubles, known, mechanical_pencil, refined_block,
+};
 use rustix::time::{ClockId, clock_gettime};
 use std::sync::atomic::AtomicBool;
 
@@ -41,9 +45,15 @@ struct Measured {
 
 /// `complete` includes one check: it is timed again and taken off.
 fn measure(problem: &Problem) -> Result<Measured, CompleteError> {
-    let limit = std::env::var("BENCH_LIMIT").ok().and_then(|t| t.parse().ok()).unwrap_or(LIMIT_SECONDS);
+    let limit = std::env::var("BENCH_LIMIT")
+        .ok()
+        .and_then(|t| t.parse().ok())
+        .unwrap_or(LIMIT_SECONDS);
     let (start, limit, stop) = (cpu(), limit as f64, AtomicBool::new(false));
-    let options = Options { threads: Some(1), ..Options::default() };
+    let options = Options {
+        threads: Some(1),
+        ..Options::default()
+    };
     let hear = |_| stop.fetch_or(cpu() - start > limit, std::sync::atomic::Ordering::Relaxed);
     let completed = complete(problem, &options, &stop, &|p| {
         hear(p);
@@ -52,7 +62,11 @@ fn measure(problem: &Problem) -> Result<Measured, CompleteError> {
     let start = cpu();
     check(problem, &completed.certificate).expect("accepted before");
     let check = cpu() - start;
-    Ok(Measured { search: total - check, check, completed })
+    Ok(Measured {
+        search: total - check,
+        check,
+        completed,
+    })
 }
 
 fn row(name: &str, problem: &Problem) {
@@ -60,7 +74,10 @@ fn row(name: &str, problem: &Problem) {
         Ok(m) => m,
         Err(e) => return println!("{name:<44} {e}"),
     };
-    let (cover, size) = (&m.completed.cover, m.completed.certificate.to_json().len().div_ceil(1000));
+    let (cover, size) = (
+        &m.completed.cover,
+        m.completed.certificate.to_json().len().div_ceil(1000),
+    );
     println!(
         "{name:<44} {:>8.3} {:>8.3} {:>7} {:>6} {:>5} {size:>8}",
         m.search,
@@ -71,7 +88,12 @@ fn row(name: &str, problem: &Problem) {
     );
     for o in cover.open.iter().take(MOST_OPEN_SHOWN) {
         let max = o.max.as_ref().map_or(f64::INFINITY, mceip::exact::to_f64);
-        println!("    open: [{:.17e}, {max:.17e}] moving {:?} undecided {:?}", mceip::exact::to_f64(&o.min), o.moving, o.undecided);
+        println!(
+            "    open: [{:.17e}, {max:.17e}] moving {:?} undecided {:?}",
+            mceip::exact::to_f64(&o.min),
+            o.moving,
+            o.undecided
+        );
     }
 }
 
@@ -90,7 +112,13 @@ fn random(n: usize, unknown: Unknown, count: u64) {
                 continue;
             }
         };
-        println!("    n={n} {} seed {seed}: {:.3} {:.3} {}", unknown.word(), m.search, m.check, m.completed.cover.leaves);
+        println!(
+            "    n={n} {} seed {seed}: {:.3} {:.3} {}",
+            unknown.word(),
+            m.search,
+            m.check,
+            m.completed.cover.leaves
+        );
         both.push(m.search + m.check);
         search.push(m.search);
         check.push(m.check);
@@ -128,9 +156,11 @@ fn published() {
         let problem = state.problem(&block).expect("as published");
         let reduced = reduce(&problem).expect("as published");
         let begun = cpu();
-        let small = condense(&Admissible::new(&reduced.pencil, Unknown::Mu).expect("admissible")).expect("definite");
+        let small = condense(&Admissible::new(&reduced.pencil, Unknown::Mu).expect("admissible"))
+            .expect("definite");
         println!("    exact condensation {:.2} s", cpu() - begun);
-        let small = Problem::new(Body::Pencil(small), Unknown::Mu, Window::all()).expect("as published");
+        let small =
+            Problem::new(Body::Pencil(small), Unknown::Mu, Window::all()).expect("as published");
         row(&format!("published {}, condensed", state.name()), &small);
         row(&format!("published {}, mesh", state.name()), &problem);
     }
@@ -140,7 +170,8 @@ fn published() {
 /// Orders of the meshes of `-- cost`.
 const COST: [usize; 10] = [10, 15, 20, 30, 40, 50, 60, 70, 80, 150];
 
-/// Measures the refined meshes; without a list of orders of one's own, table and picture are written.
+/// Measures the refined meshes; without a list of orders of one's own, table and picture are
+/// written.
 fn costs(orders: &[usize]) {
     let mut runs = Vec::new();
     for (case, tenth_stuck) in [("all slip", false), ("a tenth stuck", true)] {
@@ -172,24 +203,33 @@ fn costs(orders: &[usize]) {
     }
     if orders.is_empty() {
         let lines: String = runs.iter().map(|r| r.line() + "\n").collect();
-        std::fs::write(cost::CSV, format!("{}\n{lines}", cost::HEAD)).expect("spec/figures is there");
+        std::fs::write(cost::CSV, format!("{}\n{lines}", cost::HEAD))
+            .expect("spec/figures is there");
         draw();
     }
 }
 
 /// The figure of the table as it stands in its file.
 fn draw() {
-    let runs = std::fs::read_to_string(cost::CSV).ok().and_then(|csv| cost::read(&csv)).expect("a table in spec/figures");
+    let runs = std::fs::read_to_string(cost::CSV)
+        .ok()
+        .and_then(|csv| cost::read(&csv))
+        .expect("a table in spec/figures");
     std::fs::write(cost::SVG, cost::picture(&runs).to_svg()).expect("spec/figures is there");
 }
 
-/// Larger refined meshes are measured from K only: their condensation in doubles as exact data takes minutes.
+/// Larger refined meshes are measured from K only: their condensation in doubles as exact data
+/// takes minutes.
 const CONDENSED_UP_TO: usize = 80;
 
 fn refined(slip: usize, tenth_stuck: bool, from_mesh: bool) {
     let problem = refined_block(slip, tenth_stuck).expect("within limits");
     let n = reduce(&problem).expect("a model").pencil.slip().len();
-    let kind = if tenth_stuck { "tenth stuck" } else { "all slip" };
+    let kind = if tenth_stuck {
+        "tenth stuck"
+    } else {
+        "all slip"
+    };
     if from_mesh {
         row(&format!("refined {kind} n_s={n}, mesh"), &problem);
     }
@@ -199,19 +239,33 @@ fn refined(slip: usize, tenth_stuck: bool, from_mesh: bool) {
     let begun = cpu();
     let small = condensed_in_doubles(&problem).expect("definite");
     let seconds = cpu() - begun;
-    row(&format!("refined {kind} n_s={n}, condensed ({seconds:.1} s)"), &small);
+    row(
+        &format!("refined {kind} n_s={n}, condensed ({seconds:.1} s)"),
+        &small,
+    );
 }
 
 fn main() {
-    let words: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with("--")).collect();
+    let words: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|a| !a.starts_with("--"))
+        .collect();
     if words.first().is_some_and(|w| w == "draw") {
         return draw();
     }
     if words.first().is_some_and(|w| w == "cost") {
-        return costs(&words[1..].iter().filter_map(|w| w.parse().ok()).collect::<Vec<_>>());
+        return costs(
+            &words[1..]
+                .iter()
+                .filter_map(|w| w.parse().ok())
+                .collect::<Vec<_>>(),
+        );
     }
     let wanted = |name: &str| words.is_empty() || words.iter().any(|w| name.contains(w.as_str()));
-    println!("{:<44} {:>8} {:>8} {:>7} {:>6} {:>5} {:>8}", "case", "search s", "check s", "leaves", "found", "open", "kB");
+    println!(
+        "{:<44} {:>8} {:>8} {:>7} {:>6} {:>5} {:>8}",
+        "case", "search s", "check s", "leaves", "found", "open", "kB"
+    );
     if wanted("published") {
         published();
     }
@@ -227,16 +281,25 @@ fn main() {
         (150, false, true),
         (150, true, true),
     ] {
-        if wanted(&format!("refined-{slip}-{}", if tenth_stuck { "stuck" } else { "slip" })) {
+        if wanted(&format!(
+            "refined-{slip}-{}",
+            if tenth_stuck { "stuck" } else { "slip" }
+        )) {
             refined(slip, tenth_stuck, from_mesh);
         }
     }
     if wanted("complete-graph") {
-        row("complete graph n=12", &known::complete_graph(12).expect("n > 0").problem);
+        row(
+            "complete graph n=12",
+            &known::complete_graph(12).expect("n > 0").problem,
+        );
     }
     if wanted("backslash") {
         let problem = backslash_block().expect("as given");
-        row("backslash plane strain n_s=17, condensed", &condensed_in_doubles(&problem).expect("definite"));
+        row(
+            "backslash plane strain n_s=17, condensed",
+            &condensed_in_doubles(&problem).expect("definite"),
+        );
         row("backslash plane strain n_s=17, mesh", &problem);
     }
     for unknown in [Unknown::Mu, Unknown::Lambda2] {

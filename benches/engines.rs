@@ -13,8 +13,16 @@ use std::hint::black_box;
 /// -(adjacency of the complete graph) + t I: every support has a solution, 2^n - 1 in all.
 fn complete_graph(n: usize) -> Pencil {
     let entry = |i: usize, j: usize| whole(if i == j { -1 } else { 0 });
-    let a = Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, whole(i64::from(k / n != k % n)))));
-    let b = Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, entry(k / n, k % n))));
+    let a = Sparse::from_entries(
+        n,
+        n,
+        (0..n * n).map(|k| (k / n, k % n, whole(i64::from(k / n != k % n)))),
+    );
+    let b = Sparse::from_entries(
+        n,
+        n,
+        (0..n * n).map(|k| (k / n, k % n, entry(k / n, k % n))),
+    );
     // (A - t I) x = y with A the adjacency matrix: t = k - 1 on each support of size k.
     Pencil::new(a, b, vec![]).expect("square")
 }
@@ -24,10 +32,20 @@ fn one_digit(n: usize) -> Pencil {
     let mut state = 42u64;
     let mut digit = move || {
         // Knuth's linear congruential generator, high bits.
-        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        state = state
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         whole((state >> 40) as i64 % 19 - 9)
     };
-    let mut matrix = || Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, digit())).collect::<Vec<_>>());
+    let mut matrix = || {
+        Sparse::from_entries(
+            n,
+            n,
+            (0..n * n)
+                .map(|k| (k / n, k % n, digit()))
+                .collect::<Vec<_>>(),
+        )
+    };
     Pencil::new(matrix(), matrix(), vec![]).expect("square")
 }
 
@@ -47,20 +65,27 @@ fn engines(c: &mut Criterion) {
     group.sample_size(10);
     for n in [2, 4, 6, 8] {
         let pencil = complete_graph(n);
-        group.bench_with_input(BenchmarkId::from_parameter(n), &pencil, |b, p| b.iter(|| enumerate(black_box(p), &Window::all())));
+        group.bench_with_input(BenchmarkId::from_parameter(n), &pencil, |b, p| {
+            b.iter(|| enumerate(black_box(p), &Window::all()))
+        });
     }
     group.finish();
     let mut group = c.benchmark_group("enumerator, one-digit pencils");
     group.sample_size(10);
     for n in [6, 8, 10] {
         let pencil = one_digit(n);
-        group.bench_with_input(BenchmarkId::from_parameter(n), &pencil, |b, p| b.iter(|| enumerate(black_box(p), &Window::all())));
+        group.bench_with_input(BenchmarkId::from_parameter(n), &pencil, |b, p| {
+            b.iter(|| enumerate(black_box(p), &Window::all()))
+        });
     }
     group.finish();
     let mut group = c.benchmark_group("solver, first start");
     for n in [2, 5, 10, 20] {
         let pencil = chain(n);
-        let embedding = Embedding::new(&Admissible::new(&pencil, Unknown::Lambda2).expect("definite"), Side::Above(0.0));
+        let embedding = Embedding::new(
+            &Admissible::new(&pencil, Unknown::Lambda2).expect("definite"),
+            Side::Above(0.0),
+        );
         let start = embedding.starts(1, 1).remove(0);
         group.bench_with_input(BenchmarkId::from_parameter(n), &start, |b, s| {
             b.iter(|| solve(&embedding, black_box(s), &Options::default()))
@@ -74,15 +99,31 @@ fn engines(c: &mut Criterion) {
     let mut group = c.benchmark_group("condensation, exact");
     group.sample_size(10);
     for (nx, ny) in [(4, 2), (8, 4), (20, 10)] {
-        let block = Block::new(&BlockModel { cells: (nx, ny), mass: MassKind::Lumped, ..BlockModel::of_the_paper() }).expect("cells");
+        let block = Block::new(&BlockModel {
+            cells: (nx, ny),
+            mass: MassKind::Lumped,
+            ..BlockModel::of_the_paper()
+        })
+        .expect("cells");
         let states = vec![mceip::model::ContactState::Slip { sign: 1 }; nx + 1];
-        let states = if nx == 20 { PublishedState::SeventeenSlip.states() } else { states };
-        let problem =
-            mceip::model::Problem::new(mceip::model::Body::System(block.system(&states, None).expect("block")), Unknown::Mu, Window::all());
+        let states = if nx == 20 {
+            PublishedState::SeventeenSlip.states()
+        } else {
+            states
+        };
+        let problem = mceip::model::Problem::new(
+            mceip::model::Body::System(block.system(&states, None).expect("block")),
+            Unknown::Mu,
+            Window::all(),
+        );
         let pencil = reduce(&problem.expect("block")).expect("block").pencil;
-        group.bench_with_input(BenchmarkId::new("dofs", block.stiffness.rows()), &pencil, |b, p| {
-            b.iter(|| condense(&Admissible::new(p, Unknown::Mu).expect("definite")));
-        });
+        group.bench_with_input(
+            BenchmarkId::new("dofs", block.stiffness.rows()),
+            &pencil,
+            |b, p| {
+                b.iter(|| condense(&Admissible::new(p, Unknown::Mu).expect("definite")));
+            },
+        );
     }
     group.finish();
 }

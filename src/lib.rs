@@ -13,25 +13,52 @@
 //!    +---------------------------------------> check -> accepted / rejected(reason)   trusted, exact
 //! ```
 //!
-//! Floats propose, exact arithmetic decides. The rooms, in the order of the data:
-//! [`exact`] numbers, [`model`] problems and files, [`source`] examples, [`reduction`] (10)-(16) and
-//! Propositions 1 and 2, [`oracle`] the slow truth, `mcp`, `solver` and `sparse` the PATH-style solver,
-//! `certify` and [`certificate`], [`check`] the verdict, `analysis` the engineer's answer, `testkit` what compares
-//! them all. The crates of `crates/` are re-exported under the names of their rooms.
+//! Floats propose, exact arithmetic decides. The rooms, in the order of the data: [`exact`]
+//! numbers, [`model`] problems and files, [`source`] examples, [`reduction`] (10)-(16) and
+//! Propositions 1 and 2, [`oracle`] the slow truth, `mcp`, `solver` and `sparse` the PATH-style
+//! solver, `certify` and [`certificate`], [`check`] the verdict, `analysis` the engineer's answer,
+//! `testkit` what compares them all. The crates of `crates/` are re-exported under the names of
+//! their rooms.
 //!
 //! ```
-//! use mceip::{exact::{whole, Sparse}, model::{Pencil, Window}, oracle::enumerate};
+//! use mceip::{
+//!     exact::{Sparse, whole},
+//!     model::{Pencil, Window},
+//!     oracle::enumerate,
+//! };
 //! // The fold of spec/errata.md: lambda^2 = 2 and 3, both particles slipping.
-//! let a = Sparse::from_entries(2, 2, [(0, 0, whole(1)), (0, 1, whole(-6)), (1, 0, whole(2)), (1, 1, whole(-6))]);
-//! let found = enumerate(&Pencil::new(a, Sparse::identity(2), vec![]).unwrap(), &Window::all()).unwrap();
-//! assert_eq!(found.solutions.iter().map(|s| s.decimal(17)).collect::<Vec<_>>(), ["2", "3"]);
+//! let a = Sparse::from_entries(
+//!     2,
+//!     2,
+//!     [
+//!         (0, 0, whole(1)),
+//!         (0, 1, whole(-6)),
+//!         (1, 0, whole(2)),
+//!         (1, 1, whole(-6)),
+//!     ],
+//! );
+//! let found = enumerate(
+//!     &Pencil::new(a, Sparse::identity(2), vec![]).unwrap(),
+//!     &Window::all(),
+//! )
+//! .unwrap();
+//! assert_eq!(
+//!     found
+//!         .solutions
+//!         .iter()
+//!         .map(|s| s.decimal(17))
+//!         .collect::<Vec<_>>(),
+//!     ["2", "3"]
+//! );
 //! assert!(found.is_complete_list());
 //! ```
 
 pub use mceip_check as check;
 pub use mceip_check::certificate;
 #[cfg(feature = "solver")]
-pub use mceip_engine::{analysis, candidate, certify, foreign, lcp, multistart, reduction, report, search, tolerance};
+pub use mceip_engine::{
+    analysis, candidate, certify, foreign, lcp, multistart, reduction, report, search, tolerance,
+};
 pub use mceip_exact as exact;
 #[cfg(feature = "solver")]
 pub use mceip_mcp::{linear, mcp, solver, sparse};

@@ -2,7 +2,9 @@
 
 mod page;
 
-use super::common::{CliError, exit, interrupt_flag, load, positive, print, progress_spinner, require_threads};
+use super::common::{
+    CliError, exit, interrupt_flag, load, positive, print, progress_spinner, require_threads,
+};
 use super::output::Output;
 use crate::analysis::{Analysis, AnalysisError, Options, analyse};
 use crate::model::Body;
@@ -17,8 +19,8 @@ pub(super) struct Args {
     /// Coefficient of friction instead of the file's (reactions in the file are then not used).
     #[arg(long, value_name = "MU", allow_hyphen_values = true)]
     friction: Option<String>,
-    /// Values of mu at which divergence is decided to find its ranges; 0 for none (the default beyond 200
-    /// free degrees of freedom).
+    /// Values of mu at which divergence is decided to find its ranges; 0 for none (the default
+    /// beyond 200 free degrees of freedom).
     #[arg(long, value_name = "N")]
     samples: Option<usize>,
     /// Boxes that may be used to bound the critical mu from below.
@@ -40,25 +42,56 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
-    let Body::System(system) = problem.body() else { return Err(AnalysisError::NotASystem.into()) };
-    let given = args.friction.as_deref().map(|t| positive("friction", t)).transpose()?;
-    let friction = given.or_else(|| system.friction().cloned()).ok_or(AnalysisError::NoFriction)?;
+    let Body::System(system) = problem.body() else {
+        return Err(AnalysisError::NotASystem.into());
+    };
+    let given = args
+        .friction
+        .as_deref()
+        .map(|t| positive("friction", t))
+        .transpose()?;
+    let friction = given
+        .or_else(|| system.friction().cloned())
+        .ok_or(AnalysisError::NoFriction)?;
     require_threads(args.threads)?;
-    let usual = if system.free_dofs().len() > SAMPLED_FREE { 0 } else { Options::default().samples };
+    let usual = if system.free_dofs().len() > SAMPLED_FREE {
+        0
+    } else {
+        Options::default().samples
+    };
     let samples = args.samples.unwrap_or(usual);
     if samples > MAX_SAMPLES {
-        return Err(CliError::Option { option: "samples", expected: "0 to 10000", got: samples.to_string() });
+        return Err(CliError::Option {
+            option: "samples",
+            expected: "0 to 10000",
+            got: samples.to_string(),
+        });
     }
     if let Some(folder) = &args.certificates {
         writable(folder)?;
     }
-    let report = args.report.as_deref().map(|path| Output::prepare("report", path, &[&args.file])).transpose()?;
-    let mut options = Options { samples, threads: args.threads, ..Options::default() };
+    let report = args
+        .report
+        .as_deref()
+        .map(|path| Output::prepare("report", path, &[&args.file]))
+        .transpose()?;
+    let mut options = Options {
+        samples,
+        threads: args.threads,
+        ..Options::default()
+    };
     options.limits.boxes = args.boxes;
     let stop = interrupt_flag();
     let spinner = progress_spinner("reading");
     let hear = |what: &str| spinner.set_message(what.to_string());
-    let analysis = analyse(problem.name.clone(), system, &friction, &options, &stop, &hear)?;
+    let analysis = analyse(
+        problem.name.clone(),
+        system,
+        &friction,
+        &options,
+        &stop,
+        &hear,
+    )?;
     spinner.finish_and_clear();
     let paths = match &args.certificates {
         Some(folder) => write_proofs(folder, &analysis, &args.file)?,
@@ -67,7 +100,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(output) = report {
         output.write(&page::page(&analysis, &paths))?;
     }
-    print(&if args.json { format!("{}\n", analysis.to_json(&paths)) } else { text(&analysis, &paths) })?;
+    print(&if args.json {
+        format!("{}\n", analysis.to_json(&paths))
+    } else {
+        text(&analysis, &paths)
+    })?;
     Ok(match (analysis.interrupted, analysis.is_decided()) {
         (true, _) => exit::INTERRUPTED,
         (false, true) => exit::DONE,
@@ -92,10 +129,18 @@ fn writable(folder: &Path) -> Result<(), CliError> {
 fn write_proofs(folder: &Path, analysis: &Analysis, input: &Path) -> Result<Vec<String>, CliError> {
     let mut outputs = Vec::new();
     for proof in &analysis.proofs {
-        let files = [("problem", write_problem(&proof.problem)), ("certificate", proof.certificate.to_json())];
+        let files = [
+            ("problem", write_problem(&proof.problem)),
+            ("certificate", proof.certificate.to_json()),
+        ];
         for (what, text) in files {
             let path = folder.join(format!("{}.{what}.json", proof.name));
-            outputs.push((Output::prepare("certificates", &path, &[input])?, text, path, what));
+            outputs.push((
+                Output::prepare("certificates", &path, &[input])?,
+                text,
+                path,
+                what,
+            ));
         }
     }
     let mut paths = Vec::new();
@@ -110,10 +155,19 @@ fn write_proofs(folder: &Path, analysis: &Analysis, input: &Path) -> Result<Vec<
 
 fn text(analysis: &Analysis, paths: &[String]) -> String {
     let [dofs, free, slip, stick] = analysis.sizes;
-    let name = analysis.name.as_deref().map_or_else(String::new, |n| format!("{n}: "));
-    let mut out = format!("{name}{dofs} degrees of freedom ({free} free), {slip} in impending slip, {stick} stick\n");
+    let name = analysis
+        .name
+        .as_deref()
+        .map_or_else(String::new, |n| format!("{n}: "));
+    let mut out = format!(
+        "{name}{dofs} degrees of freedom ({free} free), {slip} in impending slip, {stick} stick\n"
+    );
     for s in analysis.sentences() {
-        out += &format!("{}\n    [{}]\n", s.text, analysis.evidence_text(&s.evidence, paths));
+        out += &format!(
+            "{}\n    [{}]\n",
+            s.text,
+            analysis.evidence_text(&s.evidence, paths)
+        );
     }
     if analysis.interrupted {
         out += "INTERRUPTED: what was not done is undecided\n";

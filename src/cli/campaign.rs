@@ -4,7 +4,9 @@ mod summary;
 
 use super::common::{CliError, exit, interrupt_flag, print, require_threads, text};
 use super::output::Output;
-use crate::testkit::campaign::{Campaign, Event, FAMILIES, Limit, Replay, State, UnknownFamily, judge, standard};
+use crate::testkit::campaign::{
+    Campaign, Event, FAMILIES, Limit, Replay, State, UnknownFamily, judge, standard,
+};
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::sync::atomic::Ordering;
@@ -57,9 +59,16 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     require_threads(args.threads)?;
     let stop = interrupt_flag();
     let engines = standard(args.seed);
-    let campaign = Campaign { engines: &engines, limit };
+    let campaign = Campaign {
+        engines: &engines,
+        limit,
+    };
     let bars = Bars::new(&state, limit);
-    let mut keeper = Keeper { args, saved: Instant::now(), failed: None };
+    let mut keeper = Keeper {
+        args,
+        saved: Instant::now(),
+        failed: None,
+    };
     let mut hear = |event: Event<'_>| {
         match event {
             Event::Wave(state) => {
@@ -75,21 +84,31 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let state = in_threads(args.threads, || campaign.run(state, &stop, &mut hear));
     keeper.keep(&state, true);
     bars.all.clear().unwrap_or_default(); // a terminal that has gone away
-    print(&if args.json { format!("{}\n", summary::json_of(&state)) } else { summary::text_of(&state) })?;
+    print(&if args.json {
+        format!("{}\n", summary::json_of(&state))
+    } else {
+        summary::text_of(&state)
+    })?;
     if let Some(e) = keeper.failed {
         return Err(e);
     }
-    Ok(match (state.disagreements(), stop.load(Ordering::Relaxed)) {
-        (0, false) => exit::DONE,
-        (0, true) => exit::INTERRUPTED,
-        _ => exit::REJECTED,
-    })
+    Ok(
+        match (state.disagreements(), stop.load(Ordering::Relaxed)) {
+            (0, false) => exit::DONE,
+            (0, true) => exit::INTERRUPTED,
+            _ => exit::REJECTED,
+        },
+    )
 }
 
 /// The state to go on from: the file's, or a new one.
 fn start(args: &Args) -> Result<State, CliError> {
     let all = || FAMILIES.iter().map(|f| f.0.to_string()).collect();
-    let families: Vec<String> = if args.families.is_empty() { all() } else { args.families.clone() };
+    let families: Vec<String> = if args.families.is_empty() {
+        all()
+    } else {
+        args.families.clone()
+    };
     for (k, name) in families.iter().enumerate() {
         if !FAMILIES.iter().any(|f| f.0 == name) || families[..k].contains(name) {
             return Err(UnknownFamily { name: name.clone() }.into());
@@ -101,27 +120,55 @@ fn start(args: &Args) -> Result<State, CliError> {
     let new = State::new(args.seed, shard(args.shard.as_deref())?, families);
     match &args.state {
         Some(path) if path.exists() => {
-            new.resumed(&text("the campaign's state", path)?).map_err(|source| CliError::State { path: path.display().to_string(), source })
+            new.resumed(&text("the campaign's state", path)?)
+                .map_err(|source| CliError::State {
+                    path: path.display().to_string(),
+                    source,
+                })
         }
         _ => Ok(new),
     }
 }
 
 fn shard(given: Option<&str>) -> Result<(u64, u64), CliError> {
-    let Some(given) = given else { return Ok((0, 1)) };
-    let bad = || CliError::Option { option: "shard", expected: "i/n with 1 <= i <= n", got: given.chars().take(60).collect() };
+    let Some(given) = given else {
+        return Ok((0, 1));
+    };
+    let bad = || CliError::Option {
+        option: "shard",
+        expected: "i/n with 1 <= i <= n",
+        got: given.chars().take(60).collect(),
+    };
     let (i, n) = given.split_once('/').ok_or_else(bad)?;
-    let (i, n) = (i.parse::<u64>().map_err(|_| bad())?, n.parse::<u64>().map_err(|_| bad())?);
-    if i >= 1 && i <= n { Ok((i - 1, n)) } else { Err(bad()) }
+    let (i, n) = (
+        i.parse::<u64>().map_err(|_| bad())?,
+        n.parse::<u64>().map_err(|_| bad())?,
+    );
+    if i >= 1 && i <= n {
+        Ok((i - 1, n))
+    } else {
+        Err(bad())
+    }
 }
 
 /// Judges a replay file: exit 1 if anything disagrees still.
 fn replay(args: &Args, path: &Path) -> Result<u8, CliError> {
-    let bad = |source| CliError::Replay { path: path.display().to_string(), source };
+    let bad = |source| CliError::Replay {
+        path: path.display().to_string(),
+        source,
+    };
     let replay = Replay::from_json(&text("the replay file", path)?).map_err(bad)?;
     let judged = judge(&replay.case().map_err(bad)?, &standard(replay.seed));
-    print(&if args.json { format!("{}\n", summary::replay_json(&replay, &judged)) } else { summary::replay_text(&replay, &judged) })?;
-    Ok(if judged.findings.is_empty() { exit::DONE } else { exit::REJECTED })
+    print(&if args.json {
+        format!("{}\n", summary::replay_json(&replay, &judged))
+    } else {
+        summary::replay_text(&replay, &judged)
+    })?;
+    Ok(if judged.findings.is_empty() {
+        exit::DONE
+    } else {
+        exit::REJECTED
+    })
 }
 
 /// Runs in a pool of the wanted size, or in the default one.
@@ -148,7 +195,8 @@ impl Keeper<'_> {
         let Some(path) = &self.args.state else { return };
         if last || self.saved.elapsed() >= SAVE_EVERY {
             self.saved = Instant::now();
-            let written = Output::prepare("state", path, &[]).and_then(|o| o.write(&state.to_json()));
+            let written =
+                Output::prepare("state", path, &[]).and_then(|o| o.write(&state.to_json()));
             self.failed = self.failed.take().or(written.err());
         }
     }
@@ -156,9 +204,16 @@ impl Keeper<'_> {
     fn write(&mut self, replay: &Replay, bars: &Bars) {
         let folder = &self.args.replays;
         let path = folder.join(replay.file_name());
-        let made = std::fs::create_dir_all(folder).map_err(|e| CliError::write(folder.display(), &e));
-        let written = made.and_then(|()| Output::prepare("replays", &path, &[])).and_then(|o| o.write(&replay.to_json()));
-        bars.say(&format!("DISAGREEMENT {}: {}", path.display(), replay.disagreement));
+        let made =
+            std::fs::create_dir_all(folder).map_err(|e| CliError::write(folder.display(), &e));
+        let written = made
+            .and_then(|()| Output::prepare("replays", &path, &[]))
+            .and_then(|o| o.write(&replay.to_json()));
+        bars.say(&format!(
+            "DISAGREEMENT {}: {}",
+            path.display(),
+            replay.disagreement
+        ));
         self.failed = self.failed.take().or(written.err());
     }
 }
@@ -173,7 +228,9 @@ impl Bars {
     fn new(state: &State, limit: Limit) -> Bars {
         let all = MultiProgress::new();
         let style = match limit {
-            Limit::Count(_) => ProgressStyle::with_template("{msg:14} [{bar:30}] {pos}/{len} {per_sec}"),
+            Limit::Count(_) => {
+                ProgressStyle::with_template("{msg:14} [{bar:30}] {pos}/{len} {per_sec}")
+            }
             Limit::For(_) => ProgressStyle::with_template("{msg:14} {pos} {per_sec} {elapsed}"),
         };
         let each = state.families.iter().map(|name| {
@@ -186,11 +243,17 @@ impl Bars {
             }
             bar.with_message(name.clone())
         });
-        Bars { each: each.collect(), all }
+        Bars {
+            each: each.collect(),
+            all,
+        }
     }
 
     fn show(&self, state: &State) {
-        self.each.iter().zip(&state.tallies).for_each(|(bar, t)| bar.set_position(t.instances));
+        self.each
+            .iter()
+            .zip(&state.tallies)
+            .for_each(|(bar, t)| bar.set_position(t.instances));
     }
 
     /// A line on stderr, beside the bars or without them.

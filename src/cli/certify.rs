@@ -21,13 +21,14 @@ use std::sync::atomic::{AtomicBool, Ordering};
 pub(super) struct Args {
     /// Problem file (mceip-problem/1).
     file: PathBuf,
-    /// Solution report (mceip-solutions/1); of each solution only `value` and `x` are used, of a mechanical system `v`
-    /// where there is no `x`. A `problem_sha256` in it must be the problem's.
+    /// Solution report (mceip-solutions/1); of each solution only `value` and `x` are used, of a
+    /// mechanical system `v` where there is no `x`. A `problem_sha256` in it must be the problem's.
     report: PathBuf,
     /// Write the certificate here instead of to stdout.
     #[arg(long)]
     out: Option<PathBuf>,
-    /// For a mechanical system: state exact solutions as (v, w) over all degrees of freedom, each line of (9) checkable.
+    /// For a mechanical system: state exact solutions as (v, w) over all degrees of freedom, each
+    /// line of (9) checkable.
     #[arg(long)]
     lifted: bool,
     /// A solution that cannot be certified: prove what lies within this distance of its value.
@@ -41,7 +42,11 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
-    let output = args.out.as_ref().map(|path| Output::prepare("out", path, &[&args.file, &args.report])).transpose()?;
+    let output = args
+        .out
+        .as_ref()
+        .map(|path| Output::prepare("out", path, &[&args.file, &args.report]))
+        .transpose()?;
     let reduced = reduce(&problem)?;
     let report = match ForeignReport::read(&text("the report", &args.report)?, &problem, &reduced) {
         Ok(report) => report,
@@ -49,17 +54,35 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             eprintln!("rejected: {e}");
             return Ok(exit::REJECTED);
         }
-        Err(source) => return Err(CliError::Foreign { path: args.report.display().to_string(), source }),
+        Err(source) => {
+            return Err(CliError::Foreign {
+                path: args.report.display().to_string(),
+                source,
+            });
+        }
     };
     let candidates = candidates(report)?;
-    let radius = args.absence_radius.as_deref().map(parse_radius).transpose()?;
+    let radius = args
+        .absence_radius
+        .as_deref()
+        .map(parse_radius)
+        .transpose()?;
     let outputs = absence_outputs(args, candidates.len())?;
     let stop = interrupt_flag();
-    let mut judged = judge(&problem, &reduced.pencil, &candidates, radius.as_ref(), &stop);
+    let mut judged = judge(
+        &problem,
+        &reduced.pencil,
+        &candidates,
+        radius.as_ref(),
+        &stop,
+    );
     if let (true, Body::System(system)) = (args.lifted, problem.body()) {
         judged.lift(&problem, system);
     }
-    let (disproved, undecided) = (judged.count(Verdict::Disproved), judged.count(Verdict::Undecided));
+    let (disproved, undecided) = (
+        judged.count(Verdict::Disproved),
+        judged.count(Verdict::Undecided),
+    );
     eprintln!(
         "{} distinct solutions certified, {disproved} of {} disproved, {undecided} undecided",
         judged.claims.len() + judged.refused.len() - disproved - undecided,
@@ -67,7 +90,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     );
     for r in &judged.refused {
         if let (Some(proof), Some(path)) = (&r.proof, outputs.get(r.index)) {
-            Output::prepare("absence", path, &[&args.file, &args.report])?.write(&proof.to_json())?;
+            Output::prepare("absence", path, &[&args.file, &args.report])?
+                .write(&proof.to_json())?;
         }
     }
     if let Some(certificate) = judged.answer(&problem, candidates.len()) {
@@ -109,17 +133,26 @@ fn as_lifted(system: &System, unknown: Unknown, claim: Claim) -> Claim {
 }
 
 impl Judged {
-    /// Lifts the exact claims to the system. A lifted claim is another one than was accepted, so the checker sees it too.
+    /// Lifts the exact claims to the system. A lifted claim is another one than was accepted, so
+    /// the checker sees it too.
     fn lift(&mut self, problem: &Problem, system: &System) {
         let claims = std::mem::take(&mut self.claims);
-        let lifted = claims.into_iter().map(|claim| as_lifted(system, problem.unknown(), claim)).collect();
+        let lifted = claims
+            .into_iter()
+            .map(|claim| as_lifted(system, problem.unknown(), claim))
+            .collect();
 
         let sifted = sift(problem, lifted);
         self.claims = sifted.accepted;
         for (index, reason) in sifted.refused {
             let text = format!("undecided: the checker refuses the lifted claim: {reason}");
             eprintln!("claim {index}: {text}");
-            self.refused.push(Refused { index, verdict: Verdict::Undecided, text, proof: None });
+            self.refused.push(Refused {
+                index,
+                verdict: Verdict::Undecided,
+                text,
+                proof: None,
+            });
         }
     }
 
@@ -127,17 +160,27 @@ impl Judged {
         self.refused.iter().filter(|r| r.verdict == verdict).count()
     }
 
-    /// The certificate of all claims; for a report of one solution its proof is the answer, whichever way it went.
+    /// The certificate of all claims; for a report of one solution its proof is the answer,
+    /// whichever way it went.
     fn answer(self, problem: &Problem, reported: usize) -> Option<Certificate> {
         if !self.claims.is_empty() {
             return Some(certificate(problem, self.claims));
         }
-        self.refused.into_iter().find_map(|r| r.proof).filter(|_| reported == 1)
+        self.refused
+            .into_iter()
+            .find_map(|r| r.proof)
+            .filter(|_| reported == 1)
     }
 }
 
 /// Certifies one after the other and says what becomes of each, until interrupted.
-fn judge(problem: &Problem, pencil: &Pencil, candidates: &[Candidate], radius: Option<&Rational>, stop: &AtomicBool) -> Judged {
+fn judge(
+    problem: &Problem,
+    pencil: &Pencil,
+    candidates: &[Candidate],
+    radius: Option<&Rational>,
+    stop: &AtomicBool,
+) -> Judged {
     let certifier = Certifier::new(problem, pencil);
     let mut judged = Judged::default();
     for (k, candidate) in candidates.iter().enumerate() {
@@ -162,14 +205,25 @@ fn judge(problem: &Problem, pencil: &Pencil, candidates: &[Candidate], radius: O
 
 /// Where the proofs of absence go, by index in the report; none without `--absence`.
 fn absence_outputs(args: &Args, count: usize) -> Result<Vec<PathBuf>, CliError> {
-    let Some(folder) = &args.absence else { return Ok(Vec::new()) };
+    let Some(folder) = &args.absence else {
+        return Ok(Vec::new());
+    };
     std::fs::create_dir_all(folder).map_err(|e| CliError::write(folder.display(), &e))?;
-    Ok((0..count).map(|k| folder.join(format!("absence-{k}.json"))).collect())
+    Ok((0..count)
+        .map(|k| folder.join(format!("absence-{k}.json")))
+        .collect())
 }
 
 fn parse_radius(text: &str) -> Result<Rational, CliError> {
-    let bad = || CliError::Option { option: "absence-radius", expected: "a number > 0", got: text.chars().take(60).collect() };
-    parse(text).ok().filter(Rational::is_positive).ok_or_else(bad)
+    let bad = || CliError::Option {
+        option: "absence-radius",
+        expected: "a number > 0",
+        got: text.chars().take(60).collect(),
+    };
+    parse(text)
+        .ok()
+        .filter(Rational::is_positive)
+        .ok_or_else(bad)
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -192,17 +246,39 @@ struct Refused {
 }
 
 impl Refused {
-    fn of(problem: &Problem, candidate: &Candidate, radius: Option<&Rational>, reason: &NotCertified, stop: &AtomicBool) -> Refused {
-        let spinner = progress_spinner("no certificate: looking for a proof that there is no solution nearby");
+    fn of(
+        problem: &Problem,
+        candidate: &Candidate,
+        radius: Option<&Rational>,
+        reason: &NotCertified,
+        stop: &AtomicBool,
+    ) -> Refused {
+        let spinner = progress_spinner(
+            "no certificate: looking for a proof that there is no solution nearby",
+        );
         let found = near(problem, candidate, radius, stop);
         spinner.finish_and_clear();
-        let with = |verdict, text, proof: Completed| Refused { index: 0, verdict, text, proof: Some(proof.certificate) };
+        let with = |verdict, text, proof: Completed| Refused {
+            index: 0,
+            verdict,
+            text,
+            proof: Some(proof.certificate),
+        };
         match found {
             Ok(Near::OutsideWindow) => {
                 let text = "REFUSED: its value lies outside the problem's window".into();
-                Refused { index: 0, verdict: Verdict::Disproved, text, proof: None }
+                Refused {
+                    index: 0,
+                    verdict: Verdict::Disproved,
+                    text,
+                    proof: None,
+                }
             }
-            Ok(Near::Absent(c)) => with(Verdict::Disproved, format!("REFUSED: no solution {} (proved)", interval(problem, &c)), c),
+            Ok(Near::Absent(c)) => with(
+                Verdict::Disproved,
+                format!("REFUSED: no solution {} (proved)", interval(problem, &c)),
+                c,
+            ),
             Ok(Near::Others(c)) => {
                 let list: Vec<String> = c
                     .cover
@@ -213,11 +289,18 @@ impl Refused {
                         format!("[{lo}, {hi}] with slip {:?}", s.support)
                     })
                     .collect();
-                let text =
-                    format!("REFUSED: {} there is only {} (proved), with another x: {reason}", interval(problem, &c), list.join(", "));
+                let text = format!(
+                    "REFUSED: {} there is only {} (proved), with another x: {reason}",
+                    interval(problem, &c),
+                    list.join(", ")
+                );
                 with(Verdict::Disproved, text, c)
             }
-            Ok(Near::Present(c)) => with(Verdict::Present, format!("certified: listed by a cover {}", interval(problem, &c)), c),
+            Ok(Near::Present(c)) => with(
+                Verdict::Present,
+                format!("certified: listed by a cover {}", interval(problem, &c)),
+                c,
+            ),
             Ok(Near::Open(c)) => {
                 let text = format!(
                     "undecided: {reason}; {} regions stay open and {} families of solutions lie {}",
@@ -225,7 +308,12 @@ impl Refused {
                     c.cover.families.len(),
                     interval(problem, &c)
                 );
-                Refused { index: 0, verdict: Verdict::Undecided, text, proof: None }
+                Refused {
+                    index: 0,
+                    verdict: Verdict::Undecided,
+                    text,
+                    proof: None,
+                }
             }
             Err(e) => Refused::undecided(reason, &e),
         }
@@ -244,15 +332,24 @@ impl Refused {
 /// "with lambda2 in [a, b]".
 fn interval(problem: &Problem, proved: &Completed) -> String {
     let window = &proved.certificate.window;
-    let max = window.max().map_or_else(|| "infinity)".into(), |max| format!("{}]", decimal(max)));
-    format!("with {} in [{}, {max}", problem.unknown().word(), decimal(window.min()))
+    let max = window
+        .max()
+        .map_or_else(|| "infinity)".into(), |max| format!("{}]", decimal(max)));
+    format!(
+        "with {} in [{}, {max}",
+        problem.unknown().word(),
+        decimal(window.min())
+    )
 }
 
-/// The ends of such a window are short decimals, or those of the problem's window: exact where 17 digits suffice.
+/// The ends of such a window are short decimals, or those of the problem's window: exact where 17
+/// digits suffice.
 fn decimal(v: &Rational) -> String {
     let (lo, hi) = enclosing_decimals(&Interval::point(v.clone()), 17);
     match lo == hi {
-        true if lo.contains('.') && !lo.contains('e') => lo.trim_end_matches('0').trim_end_matches('.').into(),
+        true if lo.contains('.') && !lo.contains('e') => {
+            lo.trim_end_matches('0').trim_end_matches('.').into()
+        }
         true => lo,
         false => v.to_string(),
     }

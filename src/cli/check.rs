@@ -21,22 +21,27 @@ use std::path::{Path, PathBuf};
 pub(super) struct Args {
     /// Problem file (mceip-problem/1), or a plain LCP or MCP (mceip-mcp/1).
     file: PathBuf,
-    /// Certificate (mceip-certificate/1), or somebody's solutions (mceip-solutions/1): each of those
-    /// is certified and checked, or refuted. Of a plain problem: its solution file (mceip-mcp-solution/1).
+    /// Certificate (mceip-certificate/1), or somebody's solutions (mceip-solutions/1): each of
+    /// those is certified and checked, or refuted. Of a plain problem: its solution file
+    /// (mceip-mcp-solution/1).
     certificate: PathBuf,
-    /// Demand a certificate whose window covers the closed window a,b (b empty or inf: no upper end); one that does not
-    /// is rejected.
+    /// Demand a certificate whose window covers the closed window a,b (b empty or inf: no upper
+    /// end); one that does not is rejected.
     #[arg(long, allow_hyphen_values = true)]
     window: Option<String>,
-    /// Of somebody's solutions: the relative error up to which a value and x (scaled to largest |x_i| = 1) agree with
-    /// the proven solution [default: 1e-6].
+    /// Of somebody's solutions: the relative error up to which a value and x (scaled to largest
+    /// |x_i| = 1) agree with the proven solution [default: 1e-6].
     #[arg(long, value_name = "ERROR")]
     tolerance: Option<String>,
 }
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.file.as_path() == Path::new("-") && args.certificate.as_path() == Path::new("-") {
-        return Err(CliError::Option { option: "certificate", expected: "only one of the two files to be stdin", got: "-".into() });
+        return Err(CliError::Option {
+            option: "certificate",
+            expected: "only one of the two files to be stdin",
+            got: "-".into(),
+        });
     }
     let demanded = args.window.as_deref().map(parse_window).transpose()?;
     let tolerance = args.tolerance.as_deref().map(parse_tolerance).transpose()?;
@@ -51,16 +56,27 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let source = text("the certificate", &args.certificate)?;
     if require_format(&source, SOLUTIONS_FORMAT).is_ok() {
         if args.window.is_some() {
-            return Err(useless("window", "it with a certificate only", SOLUTIONS_FORMAT));
+            return Err(useless(
+                "window",
+                "it with a certificate only",
+                SOLUTIONS_FORMAT,
+            ));
         }
         return foreign(args, &problem, &source, tolerance.unwrap_or(AGREEMENT));
     }
     if tolerance.is_some() {
-        return Err(useless("tolerance", "it with somebody's solutions only", CERTIFICATE_FORMAT));
+        return Err(useless(
+            "tolerance",
+            "it with somebody's solutions only",
+            CERTIFICATE_FORMAT,
+        ));
     }
 
     let read = Certificate::from_json(&source);
-    let certificate = read.map_err(|source| CliError::File { path: args.certificate.display().to_string(), source })?;
+    let certificate = read.map_err(|source| CliError::File {
+        path: args.certificate.display().to_string(),
+        source,
+    })?;
     match check(&problem, &certificate) {
         Ok(accepted) => say_accepted(&problem, &certificate, &accepted, demanded.as_ref()),
         Err(rejected) => {
@@ -72,7 +88,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
 /// The complaint about an option that says nothing about a file of this kind.
 fn useless(option: &'static str, expected: &'static str, got: &str) -> CliError {
-    CliError::Option { option, expected, got: got.into() }
+    CliError::Option {
+        option,
+        expected,
+        got: got.into(),
+    }
 }
 
 /// Refuses the options that a plain problem has no use for.
@@ -81,24 +101,42 @@ fn only_of_others(args: &Args, kind: &str) -> Result<(), CliError> {
         return Err(useless("window", "it with a certificate only", kind));
     }
     if args.tolerance.is_some() {
-        return Err(useless("tolerance", "it with somebody's solutions only", kind));
+        return Err(useless(
+            "tolerance",
+            "it with somebody's solutions only",
+            kind,
+        ));
     }
     Ok(())
 }
 
-/// A relative error between [`FINEST_AGREEMENT`] and [`VALUE_RADIUS`], where solutions are looked for.
+/// A relative error between [`FINEST_AGREEMENT`] and [`VALUE_RADIUS`], where solutions are looked
+/// for.
 fn parse_tolerance(given: &str) -> Result<f64, CliError> {
-    let bad = || CliError::Option { option: "tolerance", expected: AGREEMENT_RANGE, got: given.chars().take(60).collect() };
+    let bad = || CliError::Option {
+        option: "tolerance",
+        expected: AGREEMENT_RANGE,
+        got: given.chars().take(60).collect(),
+    };
     let tolerance = parse(given).map(|v| to_f64(&v)).map_err(|_| bad())?;
     let is_within = (FINEST_AGREEMENT..=VALUE_RADIUS).contains(&tolerance);
     if is_within { Ok(tolerance) } else { Err(bad()) }
 }
 
-/// Prints what an accepted certificate has proved: its claims, its cover, and the verdict with its window.
-fn say_accepted(problem: &Problem, certificate: &Certificate, accepted: &Accepted, demanded: Option<&Window>) -> Result<u8, CliError> {
+/// Prints what an accepted certificate has proved: its claims, its cover, and the verdict with its
+/// window.
+fn say_accepted(
+    problem: &Problem,
+    certificate: &Certificate,
+    accepted: &Accepted,
+    demanded: Option<&Window>,
+) -> Result<u8, CliError> {
     let mut out = String::new();
     for claim in &accepted.claims {
-        let place = accepted.cover.as_ref().and_then(|cover| cover.place_of(claim));
+        let place = accepted
+            .cover
+            .as_ref()
+            .and_then(|cover| cover.place_of(claim));
         out += &claim_text(problem, claim, place);
     }
     let window = &certificate.window;
@@ -109,7 +147,9 @@ fn say_accepted(problem: &Problem, certificate: &Certificate, accepted: &Accepte
     let verdict = match &accepted.cover {
         None => {
             let count = accepted.claims.len();
-            out += &format!("ACCEPTED: {count} claim(s) proved for problem {digest} in {within}{smaller}\n");
+            out += &format!(
+                "ACCEPTED: {count} claim(s) proved for problem {digest} in {within}{smaller}\n"
+            );
             exit::DONE
         }
         Some(cover) if cover.proves_absence() => {
@@ -120,30 +160,51 @@ fn say_accepted(problem: &Problem, certificate: &Certificate, accepted: &Accepte
         }
         Some(cover) => {
             let is_closed = cover.open.is_empty();
-            let verdict = if is_closed { "ACCEPTED" } else { "ACCEPTED as undecided" };
+            let verdict = if is_closed {
+                "ACCEPTED"
+            } else {
+                "ACCEPTED as undecided"
+            };
             let windowed = problem.clone().with_window(window.clone());
             out += &solutions_text(&windowed, cover);
             out += &format!("{verdict} for problem {digest} in {within}{smaller}\n");
-            if is_closed { exit::DONE } else { exit::UNDECIDED }
+            if is_closed {
+                exit::DONE
+            } else {
+                exit::UNDECIDED
+            }
         }
     };
 
     let missed = demanded.filter(|demanded| !window.covers(demanded));
     if let Some(demanded) = missed {
-        out += &format!("REJECTED: window: expected one that covers {}, got {}\n", window_text(demanded), window_text(window));
+        out += &format!(
+            "REJECTED: window: expected one that covers {}, got {}\n",
+            window_text(demanded),
+            window_text(window)
+        );
     }
     print(&out)?;
-    Ok(if missed.is_some() { exit::REJECTED } else { verdict })
+    Ok(if missed.is_some() {
+        exit::REJECTED
+    } else {
+        verdict
+    })
 }
 
 /// A proved claim, and its place in the cover beside it.
 fn claim_text(problem: &Problem, claim: &AcceptedClaim, place: Option<Place>) -> String {
     let word = problem.unknown().word();
     let ends = enclosing_decimals(&claim.value, 17);
-    let proved = format!("{word} in [{}, {}], slip {:?}", ends.0, ends.1, claim.support);
+    let proved = format!(
+        "{word} in [{}, {}], slip {:?}",
+        ends.0, ends.1, claim.support
+    );
     match place {
         None => format!("solution: {proved}\n"),
-        Some(Place::Solution(k)) => format!("claim: {proved}; solution {} of the list below\n", k + 1),
+        Some(Place::Solution(k)) => {
+            format!("claim: {proved}; solution {} of the list below\n", k + 1)
+        }
         Some(Place::Family(k)) => format!("claim: {proved}; in family {} below\n", k + 1),
         Some(Place::Open(k)) => format!("claim: {proved}; in open region {} below\n", k + 1),
     }
@@ -162,7 +223,10 @@ fn smaller_text(certified: &Window, wanted: &Window) -> String {
     if certified.covers(wanted) {
         return String::new();
     }
-    format!("; NOT the whole window {} of the problem", window_text(wanted))
+    format!(
+        "; NOT the whole window {} of the problem",
+        window_text(wanted)
+    )
 }
 
 /// One line per solution of a foreign report; the exit code is that of the worst.
@@ -174,7 +238,12 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
             print(&format!("REJECTED: {e}\n"))?;
             return Ok(exit::REJECTED);
         }
-        Err(source) => return Err(CliError::Foreign { path: args.certificate.display().to_string(), source }),
+        Err(source) => {
+            return Err(CliError::Foreign {
+                path: args.certificate.display().to_string(),
+                source,
+            });
+        }
     };
 
     let mut out = String::new();

@@ -1,4 +1,5 @@
-//! What subcommands share: reading problems, whole-or-nothing output, windows, interrupts, progress.
+//! What subcommands share: reading problems, whole-or-nothing output, windows, interrupts,
+//! progress.
 
 use crate::exact::parse;
 use crate::model::file::{read_from, read_problem, read_problem_file, read_text};
@@ -172,14 +173,24 @@ impl CliError {
 
     /// An output that cannot be written.
     pub(super) fn write(path: impl std::fmt::Display, e: &std::io::Error) -> CliError {
-        CliError::Write { path: path.to_string(), reason: e.kind() }
+        CliError::Write {
+            path: path.to_string(),
+            reason: e.kind(),
+        }
     }
 }
 
 /// Reads a problem file (`-`: stdin); errors name the file.
 pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliError> {
-    let problem = if path == Path::new("-") { read_problem(&text("the problem", path)?, Path::new(".")) } else { read_problem_file(path) };
-    let problem = problem.map_err(|source| CliError::File { path: path.display().to_string(), source })?;
+    let problem = if path == Path::new("-") {
+        read_problem(&text("the problem", path)?, Path::new("."))
+    } else {
+        read_problem_file(path)
+    };
+    let problem = problem.map_err(|source| CliError::File {
+        path: path.display().to_string(),
+        source,
+    })?;
     match window {
         None => Ok(problem),
         Some(text) => Ok(problem.with_window(parse_window(text)?)),
@@ -188,20 +199,32 @@ pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliErro
 
 /// Reads a text file (`-`: stdin); errors name the file.
 pub(super) fn text(what: &'static str, path: &Path) -> Result<String, CliError> {
-    if path == Path::new("-") { read_stdin(what) } else { read_text(what, path) }
-        .map_err(|source| CliError::File { path: path.display().to_string(), source })
+    if path == Path::new("-") {
+        read_stdin(what)
+    } else {
+        read_text(what, path)
+    }
+    .map_err(|source| CliError::File {
+        path: path.display().to_string(),
+        source,
+    })
 }
 
-/// Stdin, read once and kept: a command may look at it twice, or name it for two of its inputs by mistake.
+/// Stdin, read once and kept: a command may look at it twice, or name it for two of its inputs by
+/// mistake.
 fn read_stdin(what: &'static str) -> Result<String, ModelError> {
     static TEXT: OnceLock<Result<String, ModelError>> = OnceLock::new();
-    TEXT.get_or_init(|| read_from(what, "stdin", std::io::stdin().lock())).clone()
+    TEXT.get_or_init(|| read_from(what, "stdin", std::io::stdin().lock()))
+        .clone()
 }
 
 /// `a,b` with b empty or `inf` for infinity.
 pub(super) fn parse_window(text: &str) -> Result<Window, CliError> {
-    let bad =
-        || CliError::Option { option: "window", expected: "a,b with 0 <= a <= b (b may be inf)", got: text.chars().take(60).collect() };
+    let bad = || CliError::Option {
+        option: "window",
+        expected: "a,b with 0 <= a <= b (b may be inf)",
+        got: text.chars().take(60).collect(),
+    };
     let (min, max) = text.split_once(',').ok_or_else(bad)?;
     let max = match max.trim() {
         "" | "inf" => None,
@@ -210,29 +233,47 @@ pub(super) fn parse_window(text: &str) -> Result<Window, CliError> {
     Window::new(parse(min.trim()).map_err(|_| bad())?, max).map_err(|_| bad())
 }
 
-/// Refuses no threads at all, and says on stderr where the threads wanted are more than the machine gives, or cannot be
-/// started: then the work is done by the default ones.
+/// Refuses no threads at all, and says on stderr where the threads wanted are more than the machine
+/// gives, or cannot be started: then the work is done by the default ones.
 pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
     let Some(wanted) = wanted else { return Ok(()) };
     if wanted == 0 {
-        return Err(CliError::Option { option: "threads", expected: "at least 1", got: "0".into() });
+        return Err(CliError::Option {
+            option: "threads",
+            expected: "at least 1",
+            got: "0".into(),
+        });
     }
 
     let given = std::thread::available_parallelism().map_or(1, usize::from);
     let pool = rayon::ThreadPoolBuilder::new().num_threads(wanted).build();
     match pool {
-        Err(e) => eprintln!("mceip: --threads {wanted}: cannot be started ({e}); the default number of threads is used instead"),
-        Ok(_) if wanted > given => eprintln!("mceip: --threads {wanted}: the machine runs {given} at once, which they share"),
+        Err(e) => eprintln!(
+            "mceip: --threads {wanted}: cannot be started ({e}); the default number of threads is used instead"
+        ),
+        Ok(_) if wanted > given => eprintln!(
+            "mceip: --threads {wanted}: the machine runs {given} at once, which they share"
+        ),
         Ok(_) => {}
     }
     Ok(())
 }
 
 /// A positive number given as an option.
-pub(super) fn positive(option: &'static str, given: &str) -> Result<crate::exact::Rational, CliError> {
+pub(super) fn positive(
+    option: &'static str,
+    given: &str,
+) -> Result<crate::exact::Rational, CliError> {
     use num_traits::Signed as _;
-    let bad = || CliError::Option { option, expected: "a number above 0", got: given.chars().take(60).collect() };
-    parse(given).ok().filter(|v| v.is_positive()).ok_or_else(bad)
+    let bad = || CliError::Option {
+        option,
+        expected: "a number above 0",
+        got: given.chars().take(60).collect(),
+    };
+    parse(given)
+        .ok()
+        .filter(|v| v.is_positive())
+        .ok_or_else(bad)
 }
 
 /// Prints to stdout. A reader that has gone away (a closed pipe) is no error; a full disk is.
@@ -260,7 +301,9 @@ pub(super) fn interrupt_flag() -> Arc<AtomicBool> {
 /// A progress bar on stderr, drawn only on a terminal.
 pub(super) fn progress_bar(total: u64, what: &str) -> ProgressBar {
     let bar = ProgressBar::new(total);
-    if let Ok(style) = ProgressStyle::with_template("{msg} [{bar:30}] {pos}/{len} {per_sec} eta {eta}") {
+    if let Ok(style) =
+        ProgressStyle::with_template("{msg} [{bar:30}] {pos}/{len} {per_sec} eta {eta}")
+    {
         bar.set_style(style);
     }
     bar.set_message(what.to_string());

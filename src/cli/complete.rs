@@ -28,8 +28,9 @@ pub(super) struct Args {
     /// Go on with a certificate that leaves regions open (after an interrupt, or a shard).
     #[arg(long, value_name = "CERTIFICATE")]
     resume: Option<PathBuf>,
-    /// Say as well what there is at infinity, the limit of the pencil for large values (window without upper end); with
-    /// --certificate OUT proved in OUT.infinity.json, for the reversed problem OUT.infinity-problem.json.
+    /// Say as well what there is at infinity, the limit of the pencil for large values (window
+    /// without upper end); with --certificate OUT proved in OUT.infinity.json, for the reversed
+    /// problem OUT.infinity-problem.json.
     #[arg(long)]
     infinity: bool,
     /// Search part i of n of the pieces and leave the others open; `mceip merge` joins the parts.
@@ -51,17 +52,39 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let shard = args.shard.as_deref().map(parse_shard).transpose()?;
     require_threads(args.threads)?;
     if args.pieces == 0 || args.pieces > MAX_PIECES {
-        return Err(CliError::Option { option: "pieces", expected: "1 to 100000", got: args.pieces.to_string() });
+        return Err(CliError::Option {
+            option: "pieces",
+            expected: "1 to 100000",
+            got: args.pieces.to_string(),
+        });
     }
     if args.infinity && problem.window().max().is_some() {
-        return Err(CliError::Option { option: "infinity", expected: "a window without upper end", got: "one that ends".into() });
+        return Err(CliError::Option {
+            option: "infinity",
+            expected: "a window without upper end",
+            got: "one that ends".into(),
+        });
     }
     let earlier = args.resume.as_ref().map(|path| read(path)).transpose()?;
-    let output = args.certificate.as_ref().map(|path| Output::prepare("certificate", path, &[&args.file])).transpose()?;
-    let files = args.certificate.as_ref().filter(|_| args.infinity).map(|path| Files::prepare(path, &args.file)).transpose()?;
+    let output = args
+        .certificate
+        .as_ref()
+        .map(|path| Output::prepare("certificate", path, &[&args.file]))
+        .transpose()?;
+    let files = args
+        .certificate
+        .as_ref()
+        .filter(|_| args.infinity)
+        .map(|path| Files::prepare(path, &args.file))
+        .transpose()?;
     let stop = interrupt_flag();
     let bar = share_bar();
-    let options = Options { pieces: args.pieces, threads: args.threads, shard, ..Options::default() };
+    let options = Options {
+        pieces: args.pieces,
+        threads: args.threads,
+        shard,
+        ..Options::default()
+    };
     let hear = |p: crate::search::complete::Progress| {
         bar.set_position((p.share * 1000.0) as u64);
         bar.set_message(format!("{} leaves, {} solutions", p.leaves, p.solutions));
@@ -71,7 +94,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         Some(certificate) => resume(&problem, certificate, &options, &stop, &hear)?,
     };
     bar.finish_and_clear();
-    let beyond = if args.infinity { Some(AtInfinity::search(&problem, &options, &stop)?) } else { None };
+    let beyond = if args.infinity {
+        Some(AtInfinity::search(&problem, &options, &stop)?)
+    } else {
+        None
+    };
     let out = if args.json {
         let mut report = report_json(&problem, &completed)?;
         if let Some(beyond) = &beyond {
@@ -79,7 +106,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         }
         format!("{report}\n")
     } else {
-        solutions_text(&problem, &completed.cover) + &beyond.as_ref().map_or_else(String::new, AtInfinity::text)
+        solutions_text(&problem, &completed.cover)
+            + &beyond.as_ref().map_or_else(String::new, AtInfinity::text)
     };
     print(&out)?;
     if let (Some(beyond), Some(files)) = (&beyond, files) {
@@ -88,29 +116,51 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(output) = output {
         output.write(&completed.certificate.to_json())?;
     }
-    let is_complete = completed.is_complete() && beyond.as_ref().is_none_or(AtInfinity::is_complete);
-    Ok(match (stop.load(std::sync::atomic::Ordering::Relaxed), is_complete) {
-        (_, true) => exit::DONE,
-        (true, false) => exit::INTERRUPTED,
-        (false, false) => exit::UNDECIDED,
-    })
+    let is_complete =
+        completed.is_complete() && beyond.as_ref().is_none_or(AtInfinity::is_complete);
+    Ok(
+        match (stop.load(std::sync::atomic::Ordering::Relaxed), is_complete) {
+            (_, true) => exit::DONE,
+            (true, false) => exit::INTERRUPTED,
+            (false, false) => exit::UNDECIDED,
+        },
+    )
 }
 
 /// Reads a certificate; errors name the file.
 pub(super) fn read(path: &std::path::Path) -> Result<Certificate, CliError> {
-    Certificate::from_json(&text("the certificate", path)?).map_err(|source| CliError::File { path: path.display().to_string(), source })
+    Certificate::from_json(&text("the certificate", path)?).map_err(|source| CliError::File {
+        path: path.display().to_string(),
+        source,
+    })
 }
 
 fn parse_shard(given: &str) -> Result<Shard, CliError> {
-    let bad = || CliError::Option { option: "shard", expected: "i/n with 1 <= i <= n", got: given.chars().take(60).collect() };
+    let bad = || CliError::Option {
+        option: "shard",
+        expected: "i/n with 1 <= i <= n",
+        got: given.chars().take(60).collect(),
+    };
     let (i, n) = given.split_once('/').ok_or_else(bad)?;
-    let (i, n) = (i.parse::<usize>().map_err(|_| bad())?, n.parse::<usize>().map_err(|_| bad())?);
-    if i >= 1 && i <= n { Ok(Shard { index: i - 1, count: n }) } else { Err(bad()) }
+    let (i, n) = (
+        i.parse::<usize>().map_err(|_| bad())?,
+        n.parse::<usize>().map_err(|_| bad())?,
+    );
+    if i >= 1 && i <= n {
+        Ok(Shard {
+            index: i - 1,
+            count: n,
+        })
+    } else {
+        Err(bad())
+    }
 }
 
 fn share_bar() -> ProgressBar {
     let bar = ProgressBar::new(1000);
-    if let Ok(style) = ProgressStyle::with_template("closed [{bar:30}] {percent}% of the search space, {msg}, {elapsed}") {
+    if let Ok(style) = ProgressStyle::with_template(
+        "closed [{bar:30}] {percent}% of the search space, {msg}, {elapsed}",
+    ) {
         bar.set_style(style);
     }
     bar
@@ -128,12 +178,21 @@ pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String
         out += &format!("family: {}\n", family_text(word, family));
     }
     if cover.families.len() > OPEN_SHOWN {
-        out += &format!("family: {} more (see the certificate)\n", cover.families.len() - OPEN_SHOWN);
+        out += &format!(
+            "family: {} more (see the certificate)\n",
+            cover.families.len() - OPEN_SHOWN
+        );
     }
     let window = problem.window();
-    let max = window.max().map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
+    let max = window
+        .max()
+        .map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
     let n = cover.solutions.len();
-    let mut count = if n == 1 { "1 solution".into() } else { format!("{n} solutions") };
+    let mut count = if n == 1 {
+        "1 solution".into()
+    } else {
+        format!("{n} solutions")
+    };
     if !cover.families.is_empty() {
         count += &format!(" and {} families of them", cover.families.len());
     }
@@ -150,9 +209,15 @@ pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String
         out += &format!("open: {}\n", open_text(word, region));
     }
     if cover.open.len() > OPEN_SHOWN {
-        out += &format!("open: {} more regions (see the certificate)\n", cover.open.len() - OPEN_SHOWN);
+        out += &format!(
+            "open: {} more regions (see the certificate)\n",
+            cover.open.len() - OPEN_SHOWN
+        );
     }
-    out + &format!("UNDECIDED: {count} proved {within}, {} regions open\n", cover.open.len())
+    out + &format!(
+        "UNDECIDED: {count} proved {within}, {} regions open\n",
+        cover.open.len()
+    )
 }
 
 /// More pieces than any machine has use for.
@@ -162,8 +227,14 @@ const MAX_PIECES: usize = 100_000;
 const OPEN_SHOWN: usize = 20;
 
 fn open_text(word: &str, region: &OpenRegion) -> String {
-    let max = region.max.as_ref().map_or_else(|| "infinity".into(), ToString::to_string);
-    format!("{word} in [{}, {max}], moving {:?}, undecided {:?}", region.min, region.moving, region.undecided)
+    let max = region
+        .max
+        .as_ref()
+        .map_or_else(|| "infinity".into(), ToString::to_string);
+    format!(
+        "{word} in [{}, {max}], moving {:?}, undecided {:?}",
+        region.min, region.moving, region.undecided
+    )
 }
 
 fn family_text(word: &str, f: &SolutionFamily) -> String {
@@ -176,12 +247,19 @@ fn family_text(word: &str, f: &SolutionFamily) -> String {
             format!("every {word} between values in [{lo}, {hi}] and [{a}, {b}]")
         }
     };
-    let how_many = if f.is_alone { "one solution at each" } else { "a cone of solutions" };
+    let how_many = if f.is_alone {
+        "one solution at each"
+    } else {
+        "a cone of solutions"
+    };
     format!("{values}, slip {:?}, {how_many}", f.support)
 }
 
 /// The complete set as `mceip-solutions/1`.
-pub(super) fn report_json(problem: &Problem, completed: &Completed) -> Result<serde_json::Value, CliError> {
+pub(super) fn report_json(
+    problem: &Problem,
+    completed: &Completed,
+) -> Result<serde_json::Value, CliError> {
     let reduced = reduce(problem)?;
     let certifier = Certifier::new(problem, &reduced.pencil);
     let mut solutions = Vec::new();
@@ -190,7 +268,19 @@ pub(super) fn report_json(problem: &Problem, completed: &Completed) -> Result<se
     }
 
     let cover = &completed.cover;
-    let evidence = format!("certificate of a complete set, {} leaves, {} open, accepted by the checker", cover.leaves, cover.open.len());
+    let evidence = format!(
+        "certificate of a complete set, {} leaves, {} open, accepted by the checker",
+        cover.leaves,
+        cover.open.len()
+    );
     let claim = Claimed::of_cover(cover);
-    Ok(solutions_json(&Report { problem, reduced: &reduced, solutions, claim, evidence, enumeration: None, cover: Some(cover) }))
+    Ok(solutions_json(&Report {
+        problem,
+        reduced: &reduced,
+        solutions,
+        claim,
+        evidence,
+        enumeration: None,
+        cover: Some(cover),
+    }))
 }

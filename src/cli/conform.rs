@@ -10,8 +10,8 @@ use std::time::Duration;
 /// Arguments of `conform`.
 #[derive(clap::Args)]
 pub(super) struct Args {
-    /// The program and its arguments, after `--`. For each case it gets a problem (mceip-problem/1) on
-    /// stdin and prints a report (mceip-solutions/1) on stdout.
+    /// The program and its arguments, after `--`. For each case it gets a problem (mceip-problem/1)
+    /// on stdin and prints a report (mceip-solutions/1) on stdout.
     #[arg(last = true, required_unless_present = "write")]
     command: Vec<String>,
     /// Write the pack to this folder instead of running anything.
@@ -33,7 +33,12 @@ pub(super) struct Args {
     #[arg(long)]
     as_pencil: bool,
     /// Seconds for each case.
-    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, allow_hyphen_values = true)]
+    #[arg(
+        long,
+        value_name = "SECONDS",
+        default_value_t = 10.0,
+        allow_hyphen_values = true
+    )]
     time_limit: f64,
     /// Threads (default: all cores). The output does not depend on it.
     #[arg(long)]
@@ -58,7 +63,11 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
         return write(folder, &pack_files(&groups)?);
     }
     let plan = plan(args, groups)?;
-    let markdown = args.markdown.as_ref().map(|path| Output::prepare("markdown", path, &[])).transpose()?;
+    let markdown = args
+        .markdown
+        .as_ref()
+        .map(|path| Output::prepare("markdown", path, &[]))
+        .transpose()?;
     let stop = interrupt_flag();
     let bar = progress_bar(0, "cases");
     let outcomes = run(&plan, &args.command, &stop, &|done, of| {
@@ -67,29 +76,49 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     })?;
     bar.finish_and_clear();
     let summary = summarise(&outcomes);
-    print(&if args.json { format!("{:#}\n", summary.json(&args.command)) } else { summary.text() })?;
+    print(&if args.json {
+        format!("{:#}\n", summary.json(&args.command))
+    } else {
+        summary.text()
+    })?;
     if let Some(output) = markdown {
         output.write(&summary.markdown(&args.command))?;
     }
-    Ok(match (stop.load(Ordering::Relaxed), summary.all_correct()) {
-        (true, _) => exit::INTERRUPTED,
-        (false, true) => exit::DONE,
-        (false, false) => exit::REJECTED,
-    })
+    Ok(
+        match (stop.load(Ordering::Relaxed), summary.all_correct()) {
+            (true, _) => exit::INTERRUPTED,
+            (false, true) => exit::DONE,
+            (false, false) => exit::REJECTED,
+        },
+    )
 }
 
 fn plan(args: &Args, groups: Vec<crate::conform::Group>) -> Result<Plan, CliError> {
-    let limit = Duration::try_from_secs_f64(args.time_limit).ok().filter(|d| !d.is_zero());
+    let limit = Duration::try_from_secs_f64(args.time_limit)
+        .ok()
+        .filter(|d| !d.is_zero());
     let Some(time) = limit else {
-        return Err(CliError::Option { option: "time-limit", expected: "seconds > 0", got: args.time_limit.to_string() });
+        return Err(CliError::Option {
+            option: "time-limit",
+            expected: "seconds > 0",
+            got: args.time_limit.to_string(),
+        });
     };
     if args.threads.is_some_and(|t| t == 0 || t > MAX_THREADS) {
         let got = args.threads.unwrap_or(0).to_string();
-        return Err(CliError::Option { option: "threads", expected: "1 to 1024", got });
+        return Err(CliError::Option {
+            option: "threads",
+            expected: "1 to 1024",
+            got,
+        });
     }
     let flag = |word: &String| {
         let got = || word.chars().take(60).collect();
-        Flag::of_word(word).ok_or_else(|| CliError::Option { option: "only", expected: "a flag of spec/conform.md", got: got() })
+        Flag::of_word(word).ok_or_else(|| CliError::Option {
+            option: "only",
+            expected: "a flag of spec/conform.md",
+            got: got(),
+        })
     };
     Ok(Plan {
         groups,
@@ -97,7 +126,10 @@ fn plan(args: &Args, groups: Vec<crate::conform::Group>) -> Result<Plan, CliErro
         seed: args.seed,
         as_pencil: args.as_pencil,
         only: args.only.iter().map(flag).collect::<Result<_, _>>()?,
-        limits: Limits { time, ..Limits::default() },
+        limits: Limits {
+            time,
+            ..Limits::default()
+        },
         threads: args.threads,
     })
 }
@@ -110,6 +142,10 @@ fn write(folder: &Path, files: &[(String, String)]) -> Result<u8, CliError> {
         Output::prepare("write", &folder.join(name), &[])?.write(text)?;
         bytes += text.len();
     }
-    print(&format!("{} files, {bytes} bytes, in {}\n", files.len(), folder.display()))?;
+    print(&format!(
+        "{} files, {bytes} bytes, in {}\n",
+        files.len(),
+        folder.display()
+    ))?;
     Ok(exit::DONE)
 }

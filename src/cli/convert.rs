@@ -22,7 +22,8 @@ pub(super) struct Args {
     /// The .dof file of CalculiX: contacts then name dofs as node.direction.
     #[arg(long, value_name = "FILE")]
     dof: Option<PathBuf>,
-    /// Contact states: CSV (columns in spec/tutorial.md), or a JSON list of particles as in mceip-problem/1.
+    /// Contact states: CSV (columns in spec/tutorial.md), or a JSON list of particles as in
+    /// mceip-problem/1.
     #[arg(long, value_name = "FILE")]
     contacts: PathBuf,
     /// Coefficient of friction.
@@ -52,16 +53,25 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let contacts = text("the contacts", &args.contacts)?;
     let path = || args.contacts.display().to_string();
     let particles = if contacts.trim_start().starts_with('[') {
-        read_particles(&contacts).map_err(|source| CliError::File { path: path(), source })?
+        read_particles(&contacts).map_err(|source| CliError::File {
+            path: path(),
+            source,
+        })?
     } else {
-        read_contacts(&contacts, &friction, &index).map_err(|source| CliError::Contacts { path: path(), source })?
+        read_contacts(&contacts, &friction, &index).map_err(|source| CliError::Contacts {
+            path: path(),
+            source,
+        })?
     };
     let system = System::new(stiffness, Some(mass), Some(friction), particles)?;
     let [slip, dofs] = [system.slip_particles().len(), system.dofs()];
     let mut problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
     problem.name = args.name.clone();
     output.write(&format!("{}\n", write_problem(&problem)))?;
-    print(&format!("{}: {dofs} degrees of freedom, {slip} particles in impending slip\n", args.out.display()))?;
+    print(&format!(
+        "{}: {dofs} degrees of freedom, {slip} particles in impending slip\n",
+        args.out.display()
+    ))?;
     Ok(exit::DONE)
 }
 
@@ -70,14 +80,26 @@ fn names(path: &Path) -> Result<HashMap<String, usize>, CliError> {
 }
 
 fn calculix(path: &Path, source: CalculixError) -> CliError {
-    CliError::Calculix { path: path.display().to_string(), source }
+    CliError::Calculix {
+        path: path.display().to_string(),
+        source,
+    }
 }
 
 /// A Matrix Market file by its banner; else a triangle of CalculiX, whose order .dof knows.
-fn matrix(what: &'static str, path: &Path, dofs: Option<&HashMap<String, usize>>) -> Result<Sparse, CliError> {
+fn matrix(
+    what: &'static str,
+    path: &Path,
+    dofs: Option<&HashMap<String, usize>>,
+) -> Result<Sparse, CliError> {
     let read = text(what, path)?;
     match dofs {
-        Some(names) if !read.starts_with("%%") => read_triangle(&read, names.len()).map_err(|source| calculix(path, source)),
-        _ => read_matrix_market(what, &read).map_err(|source| CliError::File { path: path.display().to_string(), source }),
+        Some(names) if !read.starts_with("%%") => {
+            read_triangle(&read, names.len()).map_err(|source| calculix(path, source))
+        }
+        _ => read_matrix_market(what, &read).map_err(|source| CliError::File {
+            path: path.display().to_string(),
+            source,
+        }),
     }
 }

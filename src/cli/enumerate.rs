@@ -31,7 +31,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let found = enumerate_with(&reduced.pencil, problem.window(), |done, total| {
         bar.set_length(total);
         bar.set_position(done);
-        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if stop.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     })?;
     bar.finish_and_clear();
 
@@ -45,15 +49,35 @@ fn report(problem: &Problem, reduced: &Reduced, found: &Enumeration, is_json: bo
     let evidence = match (found.is_finished(), found.is_complete_list()) {
         (true, true) => format!("complete, by the plain enumeration of {total} supports: {how}"),
         (true, false) => {
-            format!("all {total} supports examined by the plain enumeration: {how}; what is named without a description is left open")
+            format!(
+                "all {total} supports examined by the plain enumeration: {how}; what is named without a description is left open"
+            )
         }
-        (false, _) => format!("the plain enumeration was interrupted after {done} of {total} supports: {how}"),
+        (false, _) => {
+            format!("the plain enumeration was interrupted after {done} of {total} supports: {how}")
+        }
     };
 
-    let solutions = found.solutions.iter().map(|s| Listed::of_solution(problem, reduced, s)).collect();
+    let solutions = found
+        .solutions
+        .iter()
+        .map(|s| Listed::of_solution(problem, reduced, s))
+        .collect();
     let claim = Claimed::complete_if(found.is_complete_list());
-    let report = Report { problem, reduced, solutions, claim, evidence, enumeration: Some(found), cover: None };
-    if is_json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) }
+    let report = Report {
+        problem,
+        reduced,
+        solutions,
+        claim,
+        evidence,
+        enumeration: Some(found),
+        cover: None,
+    };
+    if is_json {
+        format!("{}\n", solutions_json(&report))
+    } else {
+        solutions_text(&report)
+    }
 }
 
 fn code(found: &Enumeration) -> u8 {

@@ -1,4 +1,5 @@
-//! Solutions at infinity: those of the reversed problem at the value 0, searched and certified like any others.
+//! Solutions at infinity: those of the reversed problem at the value 0, searched and certified like
+//! any others.
 
 use super::common::CliError;
 use super::output::Output;
@@ -16,7 +17,8 @@ use std::sync::atomic::AtomicBool;
 /// What there is at infinity.
 pub(super) struct AtInfinity {
     problem: Problem,
-    /// The reversed problem may be outside the hypotheses (free variables that B does not couple definitely): that is said.
+    /// The reversed problem may be outside the hypotheses (free variables that B does not couple
+    /// definitely): that is said.
     completed: Result<Completed, CompleteError>,
 }
 
@@ -31,18 +33,35 @@ impl Files {
             PathBuf::from(name)
         };
         let output = |end: &str| Output::prepare("certificate", &beside(end), &[input]);
-        Ok(Files([output(".infinity.json")?, output(".infinity-problem.json")?]))
+        Ok(Files([
+            output(".infinity.json")?,
+            output(".infinity-problem.json")?,
+        ]))
     }
 }
 
 impl AtInfinity {
-    pub(super) fn search(problem: &Problem, options: &Options, stop: &AtomicBool) -> Result<AtInfinity, CliError> {
+    pub(super) fn search(
+        problem: &Problem,
+        options: &Options,
+        stop: &AtomicBool,
+    ) -> Result<AtInfinity, CliError> {
         let zero = Window::new(Rational::zero(), Some(Rational::zero()))?;
         let mut at_zero = reversed(problem)?.with_window(zero);
-        at_zero.comment = Some(format!("the limit at infinity of problem {}, at the value 0", problem.sha256()));
-        let options = Options { pieces: 1, shard: None, ..*options };
+        at_zero.comment = Some(format!(
+            "the limit at infinity of problem {}, at the value 0",
+            problem.sha256()
+        ));
+        let options = Options {
+            pieces: 1,
+            shard: None,
+            ..*options
+        };
         let completed = complete(&at_zero, &options, stop, &|_| {});
-        Ok(AtInfinity { problem: at_zero, completed })
+        Ok(AtInfinity {
+            problem: at_zero,
+            completed,
+        })
     }
 
     pub(super) fn is_complete(&self) -> bool {
@@ -55,26 +74,53 @@ impl AtInfinity {
             Err(e) => return format!("UNDECIDED at infinity: {e}\n"),
         };
         let cover = &completed.cover;
-        let mut out: String = cover.solutions.iter().map(|s| format!("at infinity: slip {:?}\n", s.support)).collect();
-        out.extend(cover.families.iter().map(|f| format!("at infinity: a cone of solutions, slip {:?}\n", f.support)));
-        out.extend(cover.open.iter().map(|o| format!("at infinity: open, moving {:?}, undecided {:?}\n", o.moving, o.undecided)));
+        let mut out: String = cover
+            .solutions
+            .iter()
+            .map(|s| format!("at infinity: slip {:?}\n", s.support))
+            .collect();
+        out.extend(
+            cover
+                .families
+                .iter()
+                .map(|f| format!("at infinity: a cone of solutions, slip {:?}\n", f.support)),
+        );
+        out.extend(cover.open.iter().map(|o| {
+            format!(
+                "at infinity: open, moving {:?}, undecided {:?}\n",
+                o.moving, o.undecided
+            )
+        }));
         let n = cover.solutions.len() + cover.families.len();
         let what = match (cover.open.is_empty(), n) {
             (true, 0) => "COMPLETE: nothing at infinity".to_string(),
-            (true, _) => format!("COMPLETE: {n} at infinity (limits of x, no value of the window), and no other"),
-            (false, _) => format!("UNDECIDED at infinity: {n} proved, {} regions open", cover.open.len()),
+            (true, _) => format!(
+                "COMPLETE: {n} at infinity (limits of x, no value of the window), and no other"
+            ),
+            (false, _) => format!(
+                "UNDECIDED at infinity: {n} proved, {} regions open",
+                cover.open.len()
+            ),
         };
-        out + &format!("{what}; {} leaves, accepted by the checker for the reversed problem\n", cover.leaves)
+        out + &format!(
+            "{what}; {} leaves, accepted by the checker for the reversed problem\n",
+            cover.leaves
+        )
     }
 
     pub(super) fn json(&self) -> serde_json::Value {
         let completed = match &self.completed {
             Ok(completed) => completed,
-            Err(e) => return json!({ "claim": "solutions", "solutions": [], "reason": e.to_string() }),
+            Err(e) => {
+                return json!({ "claim": "solutions", "solutions": [], "reason": e.to_string() });
+            }
         };
         let cover = &completed.cover;
         let x = |x: &[f64]| x.iter().map(|v| format!("{v:.15e}")).collect::<Vec<_>>();
-        let solutions: Vec<_> = completed.solutions().map(|(s, v)| json!({ "slip": s.support, "x": x(v) })).collect();
+        let solutions: Vec<_> = completed
+            .solutions()
+            .map(|(s, v)| json!({ "slip": s.support, "x": x(v) }))
+            .collect();
         json!({
             "claim": Claimed::of_cover(cover).word(),
             "reversed_problem_sha256": self.problem.sha256(),
@@ -86,7 +132,10 @@ impl AtInfinity {
 
     pub(super) fn write(&self, files: Files) -> Result<(), CliError> {
         let Files([certificate, problem]) = files;
-        problem.write(&write_problem(&self.problem))?; // without a certificate it shows what was asked
-        self.completed.as_ref().map_or(Ok(()), |completed| certificate.write(&completed.certificate.to_json()))
+        // Without a certificate it shows what was asked.
+        problem.write(&write_problem(&self.problem))?;
+        self.completed.as_ref().map_or(Ok(()), |completed| {
+            certificate.write(&completed.certificate.to_json())
+        })
     }
 }

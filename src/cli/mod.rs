@@ -107,8 +107,15 @@ fn refuse(e: &clap::Error) -> ExitCode {
     }
     let text = e.to_string();
     // clap's message is its first paragraph; usage and tips follow.
-    let message: Vec<&str> = text.lines().take_while(|l| !l.is_empty()).map(str::trim).collect();
+    let message: Vec<&str> = text
+        .lines()
+        .take_while(|l| !l.is_empty())
+        .map(str::trim)
+        .collect();
     let message = message.join(" ");
-    eprintln!("mceip: {} (see mceip --help)", message.strip_prefix("error: ").unwrap_or(&message));
+    eprintln!(
+        "mceip: {} (see mceip --help)",
+        message.strip_prefix("error: ").unwrap_or(&message)
+    );
     ExitCode::from(CliError::EXIT)
 }

@@ -1,4 +1,5 @@
-//! Output files that appear whole or not at all, and are known to be writable before the work starts.
+//! Output files that appear whole or not at all, and are known to be writable before the work
+//! starts.
 
 use super::common::CliError;
 use std::io::Write as _;
@@ -13,28 +14,49 @@ pub(super) struct Output {
 }
 
 impl Output {
-    /// Prepares the output named by `option`; refuses a path that cannot be written or is one of `inputs`.
-    pub(super) fn prepare(option: &'static str, path: &Path, inputs: &[&Path]) -> Result<Output, CliError> {
+    /// Prepares the output named by `option`; refuses a path that cannot be written or is one of
+    /// `inputs`.
+    pub(super) fn prepare(
+        option: &'static str,
+        path: &Path,
+        inputs: &[&Path],
+    ) -> Result<Output, CliError> {
         let failed = |e: std::io::Error| CliError::write(path.display(), &e);
         let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-        if inputs.iter().any(|i| std::fs::canonicalize(i).is_ok_and(|i| i == target)) {
-            return Err(CliError::OutputIsInput { option, path: path.display().to_string() });
+        if inputs
+            .iter()
+            .any(|i| std::fs::canonicalize(i).is_ok_and(|i| i == target))
+        {
+            return Err(CliError::OutputIsInput {
+                option,
+                path: path.display().to_string(),
+            });
         }
         if target.is_dir() {
             return Err(failed(std::io::ErrorKind::IsADirectory.into()));
         }
         if target.exists() && !target.is_file() {
-            return Ok(Output { path: target, beside: None });
+            return Ok(Output {
+                path: target,
+                beside: None,
+            });
         }
-        let folder = target.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+        let folder = target
+            .parent()
+            .filter(|p| !p.as_os_str().is_empty())
+            .unwrap_or(Path::new("."));
         let mut builder = tempfile::Builder::new();
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt as _;
-            builder.permissions(std::fs::Permissions::from_mode(0o666)); // less the umask, as any new file
+            // Less the umask, as any new file.
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
         let beside = builder.tempfile_in(folder).map_err(failed)?;
-        Ok(Output { path: target, beside: Some(beside) })
+        Ok(Output {
+            path: target,
+            beside: Some(beside),
+        })
     }
 
     /// Writes the text.
@@ -68,7 +90,10 @@ impl Folder {
         let failed = |e: std::io::Error| CliError::write(path.display(), &e);
         std::fs::create_dir_all(path).map_err(failed)?;
         tempfile::tempfile_in(path).map_err(failed)?;
-        Ok(Folder { option, path: path.to_path_buf() })
+        Ok(Folder {
+            option,
+            path: path.to_path_buf(),
+        })
     }
 
     /// Writes a file, whole.

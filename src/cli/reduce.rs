@@ -23,7 +23,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
         (condense(&admissible)?, "condensed to its slip variables")
     } else {
-        let what = if matches!(problem.body(), Body::System(_)) { "reduced by (10)-(16)" } else { "given as a pencil, nothing to reduce;" };
+        let what = if matches!(problem.body(), Body::System(_)) {
+            "reduced by (10)-(16)"
+        } else {
+            "given as a pencil, nothing to reduce;"
+        };
         (reduced.pencil, what)
     };
     let variables: Vec<String> = reduced
@@ -32,16 +36,28 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         .map(|v| match v {
             Variable::Free { dof } => format!("v[{dof}]"),
             Variable::Slip { sign, tangent, .. } => {
-                let terms: Vec<String> =
-                    tangent.iter().map(|(dof, c)| format!("{} v[{dof}]", -c * crate::exact::whole(i64::from(*sign)))).collect();
+                let terms: Vec<String> = tangent
+                    .iter()
+                    .map(|(dof, c)| {
+                        format!("{} v[{dof}]", -c * crate::exact::whole(i64::from(*sign)))
+                    })
+                    .collect();
                 terms.join(" + ")
             }
         })
         .filter(|_| !args.condense)
         .collect();
-    let mut out = Problem::new(Body::Pencil(pencil), problem.unknown(), problem.window().clone())?;
+    let mut out = Problem::new(
+        Body::Pencil(pencil),
+        problem.unknown(),
+        problem.window().clone(),
+    )?;
     out.name = problem.name.clone();
-    let x = if variables.is_empty() { String::new() } else { format!("; x = ({})", variables.join(", ")) };
+    let x = if variables.is_empty() {
+        String::new()
+    } else {
+        format!("; x = ({})", variables.join(", "))
+    };
     out.comment = Some(format!("{what} from problem {}{x}", problem.sha256()));
     print(&format!("{}\n", write_problem(&out)))?;
     Ok(exit::DONE)

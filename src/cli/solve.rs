@@ -45,7 +45,8 @@ pub(super) struct Args {
     /// Run a trace again: identical, or the first line that differs.
     #[arg(long, value_name = "TRACE", conflicts_with_all = ["file", "trace", "certificate", "json", "log", "window"])]
     replay: Option<PathBuf>,
-    /// Of a plain LCP or MCP: check this solution file exactly instead of solving (as `mceip check` does).
+    /// Of a plain LCP or MCP: check this solution file exactly instead of solving (as `mceip check`
+    /// does).
     #[arg(long, value_name = "SOLUTION")]
     check: Option<PathBuf>,
     /// Write the certificate of everything found to this file.
@@ -58,52 +59,107 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.starts == 0 {
-        return Err(CliError::Option { option: "starts", expected: "at least 1", got: "0".into() });
+        return Err(CliError::Option {
+            option: "starts",
+            expected: "at least 1",
+            got: "0".into(),
+        });
     }
     let file = match (&args.replay, &args.file) {
         (Some(path), _) => return trace::replay(path),
         (None, Some(file)) => file,
-        (None, None) => return Err(CliError::Option { option: "replay", expected: "a file, or a problem", got: String::new() }),
+        (None, None) => {
+            return Err(CliError::Option {
+                option: "replay",
+                expected: "a file, or a problem",
+                got: String::new(),
+            });
+        }
     };
     let source = text("the problem", file)?;
     let is_plain = require_format(&source, MCP_FORMAT).is_ok();
     // Options that belong to the other kind of problem are refused, not ignored.
     if let (Some(path), false) = (&args.check, is_plain) {
         let expected = "a problem of format mceip-mcp/1 (mceip check for others)";
-        return Err(CliError::Option { option: "check", expected, got: path.display().to_string() });
+        return Err(CliError::Option {
+            option: "check",
+            expected,
+            got: path.display().to_string(),
+        });
     }
     if let (Some(window), true) = (&args.window, is_plain) {
-        return Err(CliError::Option { option: "window", expected: "a problem of format mceip-problem/1", got: window.clone() });
+        return Err(CliError::Option {
+            option: "window",
+            expected: "a problem of format mceip-problem/1",
+            got: window.clone(),
+        });
     }
-    if is_plain { plain::run(args, file, &source) } else { eigenproblem(args, file) }
+    if is_plain {
+        plain::run(args, file, &source)
+    } else {
+        eigenproblem(args, file)
+    }
 }
 
 /// Searches, certifies and prints an `mceip-problem/1`.
 fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     let problem = load(file, args.window.as_deref())?;
-    let output = args.certificate.as_ref().map(|path| Output::prepare("certificate", path, &[file])).transpose()?;
-    let trace_output = args.trace.as_ref().map(|path| Output::prepare("trace", path, &[file])).transpose()?;
+    let output = args
+        .certificate
+        .as_ref()
+        .map(|path| Output::prepare("certificate", path, &[file]))
+        .transpose()?;
+    let trace_output = args
+        .trace
+        .as_ref()
+        .map(|path| Output::prepare("trace", path, &[file]))
+        .transpose()?;
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let search = search_of(args.starts, args.seed, args.all, args.trace.is_some());
     let stop = interrupt_flag();
     let bar = progress_spinner("searching");
     let (found, _) = multistart_large(&problem, &admissible, &search, &|found| {
-        bar.set_message(format!("{} runs, {} certified solutions", found.runs, found.certified.len()));
+        bar.set_message(format!(
+            "{} runs, {} certified solutions",
+            found.runs,
+            found.certified.len()
+        ));
         bar.tick();
-        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if stop.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     })?;
     bar.finish_and_clear();
     print_asides(args, &problem, &reduced.pencil, &found);
     if let (Some(output), false) = (trace_output, found.interrupted) {
-        output.write(&trace::render(&trace::Header::new(&problem, &search, args.all), &found))?;
+        output.write(&trace::render(
+            &trace::Header::new(&problem, &search, args.all),
+            &found,
+        ))?;
     }
     let claims: Vec<_> = found.certified.iter().map(|c| c.claim.clone()).collect();
-    let solutions = claims.iter().map(|c| Listed::of_claim(&problem, &reduced, c)).collect();
+    let solutions = claims
+        .iter()
+        .map(|c| Listed::of_claim(&problem, &reduced, c))
+        .collect();
     let evidence = evidence(args, &found);
-    let report =
-        Report { problem: &problem, reduced: &reduced, solutions, claim: Claimed::Solutions, evidence, enumeration: None, cover: None };
-    print(&if args.json { format!("{}\n", solutions_json(&report)) } else { solutions_text(&report) })?;
+    let report = Report {
+        problem: &problem,
+        reduced: &reduced,
+        solutions,
+        claim: Claimed::Solutions,
+        evidence,
+        enumeration: None,
+        cover: None,
+    };
+    print(&if args.json {
+        format!("{}\n", solutions_json(&report))
+    } else {
+        solutions_text(&report)
+    })?;
     let any = !claims.is_empty();
     if let (Some(output), true) = (output, any) {
         output.write(&certificate(&problem, claims).to_json())?;
@@ -118,7 +174,12 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
 /// What goes to stderr: points without a certificate, singular supports, the first run's log.
 fn print_asides(args: &Args, problem: &Problem, pencil: &Pencil, found: &Found) {
     for u in &found.uncertified {
-        eprintln!("uncertified: {} = {}: {}", problem.unknown().word(), u.candidate.value, u.reason);
+        eprintln!(
+            "uncertified: {} = {}: {}",
+            problem.unknown().word(),
+            u.candidate.value,
+            u.reason
+        );
     }
     for support in singular_supports(pencil, found) {
         eprintln!(
@@ -134,7 +195,11 @@ fn evidence(args: &Args, found: &Found) -> String {
     format!(
         "{} certified found in {}{} runs (seed {}, {} pivots, {} factorisations, {} repeats, {} outside the window, endings {:?}); completeness unknown",
         found.certified.len(),
-        if found.interrupted { "an interrupted search of " } else { "" },
+        if found.interrupted {
+            "an interrupted search of "
+        } else {
+            ""
+        },
         found.runs,
         args.seed,
         found.pivots,
@@ -152,11 +217,26 @@ fn singular_supports(pencil: &Pencil, found: &Found) -> Vec<Vec<usize>> {
     for c in &found.certified {
         *counts.entry(support(&c.claim).to_vec()).or_default() += 1;
     }
-    counts.into_iter().filter(|(s, count)| *count > s.len() + pencil.free().len()).map(|(s, _)| s).collect()
+    counts
+        .into_iter()
+        .filter(|(s, count)| *count > s.len() + pencil.free().len())
+        .map(|(s, _)| s)
+        .collect()
 }
 
 /// The search that the options ask for.
 fn search_of(starts: usize, seed: u64, all: bool, trace: bool) -> Search {
-    let window_starts = if all { Search::default().window_starts } else { 0 };
-    Search { starts, window_starts, curves: all, seed, trace, ..Search::default() }
+    let window_starts = if all {
+        Search::default().window_starts
+    } else {
+        0
+    };
+    Search {
+        starts,
+        window_starts,
+        curves: all,
+        seed,
+        trace,
+        ..Search::default()
+    }
 }

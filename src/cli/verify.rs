@@ -29,7 +29,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         bar.set_position(done as u64);
     })?;
     bar.finish_and_clear();
-    print(&if args.json { format!("{}\n", json_of(&outcome)) } else { text_of(&outcome) })?;
+    print(&if args.json {
+        format!("{}\n", json_of(&outcome))
+    } else {
+        text_of(&outcome)
+    })?;
     Ok(exit_code(&outcome))
 }
 
@@ -72,25 +76,50 @@ fn text_of(v: &Verification) -> String {
     }
     let mut out = format!("{table}\n{}\n", coverage_of(v));
     for f in &v.families {
-        out += &format!("{}: corners reached {:?}, {} pivots\n", f.name, f.corners, f.pivots);
-        out += &f.uncertified.iter().map(|u| format!("  uncertified: {u}\n")).collect::<String>();
-        out += &f.disagreements.iter().map(|d| format!("  DISAGREEMENT: {d}\n")).collect::<String>();
+        out += &format!(
+            "{}: corners reached {:?}, {} pivots\n",
+            f.name, f.corners, f.pivots
+        );
+        out += &f
+            .uncertified
+            .iter()
+            .map(|u| format!("  uncertified: {u}\n"))
+            .collect::<String>();
+        out += &f
+            .disagreements
+            .iter()
+            .map(|d| format!("  DISAGREEMENT: {d}\n"))
+            .collect::<String>();
     }
     out += &format!("\n{}", super::block::text_of(&v.block));
     for b in &v.block {
-        out += &format!("{}: {} of {} forgeries rejected\n", b.state.name(), b.rejected_forgeries, b.forgeries);
+        out += &format!(
+            "{}: {} of {} forgeries rejected\n",
+            b.state.name(),
+            b.rejected_forgeries,
+            b.forgeries
+        );
         if b.unfound > 0 {
-            out += &format!("  DISAGREEMENT: {} solutions of the complete set were not found\n", b.unfound);
+            out += &format!(
+                "  DISAGREEMENT: {} solutions of the complete set were not found\n",
+                b.unfound
+            );
         }
     }
     out + &format!("\n{}\n", verdict(v))
 }
 
-/// What was found of the instances that have solutions, each rate beside its floor; then the rates below it.
+/// What was found of the instances that have solutions, each rate beside its floor; then the rates
+/// below it.
 fn coverage_of(v: &Verification) -> String {
     let mut table = Table::new(&["coverage", "starts", "first start", "all solutions"]);
     for c in v.covered() {
-        table.row(vec![c.family.clone(), c.starts.word().into(), c.first_text(), c.all_text()]);
+        table.row(vec![
+            c.family.clone(),
+            c.starts.word().into(),
+            c.first_text(),
+            c.all_text(),
+        ]);
     }
 
     let mut out = table.to_string();
@@ -101,21 +130,38 @@ fn coverage_of(v: &Verification) -> String {
 }
 
 fn count(f: &FamilyReport) -> String {
-    if f.done == f.instances { f.done.to_string() } else { format!("{} of {}", f.done, f.instances) }
+    if f.done == f.instances {
+        f.done.to_string()
+    } else {
+        format!("{} of {}", f.done, f.instances)
+    }
 }
 
 fn verdict(v: &Verification) -> String {
-    let (instances, accepted) = v.families.iter().fold((0, 0), |(i, a), f| (i + f.done, a + f.accepted));
+    let (instances, accepted) = v
+        .families
+        .iter()
+        .fold((0, 0), |(i, a), f| (i + f.done, a + f.accepted));
     match (v.disagreements(), v.interrupted) {
-        (0, false) => format!("VERIFIED: no disagreement in {instances} instances and {accepted} accepted certificates (seed {})", v.seed),
-        (0, true) => format!("INTERRUPTED: no disagreement in the {instances} instances treated (seed {})", v.seed),
+        (0, false) => format!(
+            "VERIFIED: no disagreement in {instances} instances and {accepted} accepted certificates (seed {})",
+            v.seed
+        ),
+        (0, true) => format!(
+            "INTERRUPTED: no disagreement in the {instances} instances treated (seed {})",
+            v.seed
+        ),
         (n, _) => format!("DISAGREEMENT: {n} (seed {})", v.seed),
     }
 }
 
 fn json_of(v: &Verification) -> Value {
     let family = |f: &FamilyReport| {
-        let corners: serde_json::Map<String, Value> = f.corners.iter().map(|(c, n)| (format!("{c:?}"), json!(n))).collect();
+        let corners: serde_json::Map<String, Value> = f
+            .corners
+            .iter()
+            .map(|(c, n)| (format!("{c:?}"), json!(n)))
+            .collect();
         json!({
             "name": f.name, "instances": f.instances, "done": f.done, "oracle_solutions": f.oracle, "findable": f.findable,
             "found": f.found, "completed": f.completed, "accepted": f.accepted, "uncertified": f.uncertified, "forgeries_rejected": f.rejected,
@@ -158,9 +204,26 @@ mod tests {
     use crate::testkit::floors::{Coverage, Starts};
 
     fn with(first: u64, all: u64) -> Verification {
-        let coverage = [(Starts::Search, Coverage { solvable: 100, first, all })].into();
-        let family = FamilyReport { name: "random pencils", coverage, ..FamilyReport::default() };
-        Verification { seed: 1, families: vec![family], block: Vec::new(), interrupted: false }
+        let coverage = [(
+            Starts::Search,
+            Coverage {
+                solvable: 100,
+                first,
+                all,
+            },
+        )]
+        .into();
+        let family = FamilyReport {
+            name: "random pencils",
+            coverage,
+            ..FamilyReport::default()
+        };
+        Verification {
+            seed: 1,
+            families: vec![family],
+            block: Vec::new(),
+            interrupted: false,
+        }
     }
 
     #[test]
@@ -171,11 +234,28 @@ mod tests {
         let missed = with(100, 50);
         assert_eq!(exit_code(&missed), exit::REJECTED);
         let text = text_of(&missed);
-        assert!(text.contains("DISAGREEMENT: coverage: random pencils, search: all solutions found in 50 of 100"), "{text}");
-        assert!(text.contains("DISAGREEMENT: 1 (seed 1)") && !text.contains("VERIFIED"), "{text}");
-        assert_eq!(json_of(&missed)["shortfalls"].as_array().map(Vec::len), Some(1));
+        assert!(
+            text.contains(
+                "DISAGREEMENT: coverage: random pencils, search: all solutions found in 50 of 100"
+            ),
+            "{text}"
+        );
+        assert!(
+            text.contains("DISAGREEMENT: 1 (seed 1)") && !text.contains("VERIFIED"),
+            "{text}"
+        );
+        assert_eq!(
+            json_of(&missed)["shortfalls"].as_array().map(Vec::len),
+            Some(1)
+        );
 
         assert_eq!(exit_code(&with(0, 100)), exit::REJECTED);
-        assert_eq!(exit_code(&Verification { interrupted: true, ..with(100, 100) }), exit::INTERRUPTED);
+        assert_eq!(
+            exit_code(&Verification {
+                interrupted: true,
+                ..with(100, 100)
+            }),
+            exit::INTERRUPTED
+        );
     }
 }

@@ -20,7 +20,13 @@ pub enum Mark {
 
 impl Mark {
     /// Every mark, in the order of legends.
-    pub const ALL: [Mark; 5] = [Mark::Stick, Mark::SlipLeft, Mark::SlipRight, Mark::Caught, Mark::Free];
+    pub const ALL: [Mark; 5] = [
+        Mark::Stick,
+        Mark::SlipLeft,
+        Mark::SlipRight,
+        Mark::Caught,
+        Mark::Free,
+    ];
 
     /// The mark of a state at an equilibrium.
     pub fn of(state: ContactState) -> Mark {
@@ -32,12 +38,14 @@ impl Mark {
         }
     }
 
-    /// The marks of a mode: slip nodes that are not in `moving` get stuck. `moving` counts the nodes
-    /// in impending slip from 0 at the left.
+    /// The marks of a mode: slip nodes that are not in `moving` get stuck. `moving` counts the
+    /// nodes in impending slip from 0 at the left.
     pub fn of_mode(states: &[ContactState], moving: &[usize]) -> Vec<Mark> {
         let mut slip = 0..;
         let mark = |state: &ContactState| match state {
-            ContactState::Slip { .. } if slip.next().is_some_and(|k| !moving.contains(&k)) => Mark::Caught,
+            ContactState::Slip { .. } if slip.next().is_some_and(|k| !moving.contains(&k)) => {
+                Mark::Caught
+            }
             state => Mark::of(*state),
         };
         states.iter().map(mark).collect()
@@ -68,25 +76,49 @@ impl Mark {
     /// The marker about (x, y) within radius r.
     pub(super) fn draw(self, x: f64, y: f64, r: f64) -> Element {
         let polygon = |points: &[(f64, f64)]| {
-            let points: Vec<String> = points.iter().map(|(dx, dy)| format!("{},{}", short(x + dx * r), short(y + dy * r))).collect();
+            let points: Vec<String> = points
+                .iter()
+                .map(|(dx, dy)| format!("{},{}", short(x + dx * r), short(y + dy * r)))
+                .collect();
             Element::new("polygon").with("points", points.join(" "))
         };
         let square = |a: f64| polygon(&[(-a, -a), (a, -a), (a, a), (-a, a)]);
         let shape = match self {
             Mark::Stick => square(0.8).with("fill", "#000"),
-            Mark::SlipLeft => polygon(&[(-1.0, 0.0), (0.75, -0.9), (0.75, 0.9)]).with("fill", "#b0b0b0"),
-            Mark::SlipRight => polygon(&[(1.0, 0.0), (-0.75, -0.9), (-0.75, 0.9)]).with("fill", "#b0b0b0"),
-            Mark::Free => Element::new("circle").at("cx", x).at("cy", y).at("r", 0.85 * r).with("fill", "#fff"),
+            Mark::SlipLeft => {
+                polygon(&[(-1.0, 0.0), (0.75, -0.9), (0.75, 0.9)]).with("fill", "#b0b0b0")
+            }
+            Mark::SlipRight => {
+                polygon(&[(1.0, 0.0), (-0.75, -0.9), (-0.75, 0.9)]).with("fill", "#b0b0b0")
+            }
+            Mark::Free => Element::new("circle")
+                .at("cx", x)
+                .at("cy", y)
+                .at("r", 0.85 * r)
+                .with("fill", "#fff"),
             Mark::Caught => square(0.85).with("fill", "#fff"),
         };
-        let (width, class) = (short((r / 5.0).clamp(0.4, 1.2)), format!("mark {}", self.class()));
-        let group = Element::new("g").with("class", class).with("stroke", "#000").with("stroke-width", width).child(shape);
+        let (width, class) = (
+            short((r / 5.0).clamp(0.4, 1.2)),
+            format!("mark {}", self.class()),
+        );
+        let group = Element::new("g")
+            .with("class", class)
+            .with("stroke", "#000")
+            .with("stroke-width", width)
+            .child(shape);
         if self != Mark::Caught {
             return group;
         }
         let (a, mut d) = (0.85 * r, String::new());
         for (from, to) in [((-a, -a), (a, a)), ((-a, a), (a, -a))] {
-            d += &format!("M{} {}L{} {}", short(x + from.0), short(y + from.1), short(x + to.0), short(y + to.1));
+            d += &format!(
+                "M{} {}L{} {}",
+                short(x + from.0),
+                short(y + from.1),
+                short(x + to.0),
+                short(y + to.1)
+            );
         }
         group.child(Element::new("path").with("d", d).with("fill", "none"))
     }
@@ -99,9 +131,26 @@ mod tests {
     #[test]
     fn slip_nodes_that_do_not_move_are_caught() {
         let slip = ContactState::Slip { sign: 1 };
-        let states = [ContactState::Stick, slip, slip, ContactState::Slip { sign: -1 }, slip, ContactState::Free];
+        let states = [
+            ContactState::Stick,
+            slip,
+            slip,
+            ContactState::Slip { sign: -1 },
+            slip,
+            ContactState::Free,
+        ];
         let marks = Mark::of_mode(&states, &[0, 2]);
-        assert_eq!(marks, [Mark::Stick, Mark::SlipLeft, Mark::Caught, Mark::SlipRight, Mark::Caught, Mark::Free]);
+        assert_eq!(
+            marks,
+            [
+                Mark::Stick,
+                Mark::SlipLeft,
+                Mark::Caught,
+                Mark::SlipRight,
+                Mark::Caught,
+                Mark::Free
+            ]
+        );
     }
 
     #[test]
@@ -114,7 +163,10 @@ mod tests {
                 .descendants()
                 .filter(|n| n.is_element())
                 .flat_map(|n| {
-                    n.attributes().filter(|a| ["points", "d", "cx"].contains(&a.name())).map(|a| a.value().to_string()).collect::<Vec<_>>()
+                    n.attributes()
+                        .filter(|a| ["points", "d", "cx"].contains(&a.name()))
+                        .map(|a| a.value().to_string())
+                        .collect::<Vec<_>>()
                 })
                 .collect();
             parts.join(";")

@@ -1,4 +1,5 @@
-//! Elements of SVG and HTML as a tree: what is written is well-formed, and text cannot become markup.
+//! Elements of SVG and HTML as a tree: what is written is well-formed, and text cannot become
+//! markup.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -25,7 +26,11 @@ impl Element {
     /// assert_eq!(p.to_string(), "<p title=\"a &quot;b&quot;\">x &lt; y &amp; z</p>");
     /// ```
     pub fn new(name: &'static str) -> Element {
-        Element { name, attributes: Vec::new(), children: Vec::new() }
+        Element {
+            name,
+            attributes: Vec::new(),
+            children: Vec::new(),
+        }
     }
 
     /// With an attribute.
@@ -53,7 +58,8 @@ impl Element {
 
     /// With children.
     pub fn children(mut self, children: impl IntoIterator<Item = Element>) -> Element {
-        self.children.extend(children.into_iter().map(Child::Element));
+        self.children
+            .extend(children.into_iter().map(Child::Element));
         self
     }
 
@@ -77,8 +83,16 @@ pub(super) fn short(value: f64) -> String {
 /// A number with at most this many decimals.
 pub(super) fn short_to(value: f64, decimals: usize) -> String {
     let text = format!("{value:.decimals$}");
-    let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
-    if text == "-0" { "0".into() } else { text.into() }
+    let text = if text.contains('.') {
+        text.trim_end_matches('0').trim_end_matches('.')
+    } else {
+        &text
+    };
+    if text == "-0" {
+        "0".into()
+    } else {
+        text.into()
+    }
 }
 
 impl Display for Element {
@@ -130,17 +144,33 @@ mod tests {
     #[test]
     fn whatever_the_text_it_comes_back_and_nothing_else() {
         let hostile = "</p><script>alert('x')</script> & \" \u{1F600} mu \u{3bc} ]]> <!--";
-        let text = Element::new("p").with("title", hostile).text(hostile).child(Element::new("br")).to_string();
+        let text = Element::new("p")
+            .with("title", hostile)
+            .text(hostile)
+            .child(Element::new("br"))
+            .to_string();
         let parsed = roxmltree::Document::parse(&text).unwrap();
         let root = parsed.root_element();
-        assert_eq!((root.attribute("title"), root.text()), (Some(hostile), Some(hostile)));
+        assert_eq!(
+            (root.attribute("title"), root.text()),
+            (Some(hostile), Some(hostile))
+        );
         assert_eq!(root.children().filter(|c| c.is_element()).count(), 1);
         let odd = Element::new("p").text("a\u{0}\u{8}\u{fffe}b").to_string();
-        assert_eq!(roxmltree::Document::parse(&odd).unwrap().root_element().text(), Some("ab"));
+        assert_eq!(
+            roxmltree::Document::parse(&odd)
+                .unwrap()
+                .root_element()
+                .text(),
+            Some("ab")
+        );
     }
 
     #[test]
     fn coordinates_are_short() {
-        assert_eq!([1.0, -0.001, 2.345, 10.5, 100.0].map(short), ["1", "0", "2.35", "10.5", "100"].map(String::from));
+        assert_eq!(
+            [1.0, -0.001, 2.345, 10.5, 100.0].map(short),
+            ["1", "0", "2.35", "10.5", "100"].map(String::from)
+        );
     }
 }

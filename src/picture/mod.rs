@@ -1,11 +1,12 @@
-//! Pictures and reports: SVG without anything from outside, one HTML file; PNG of the same with the feature `png`.
+//! Pictures and reports: SVG without anything from outside, one HTML file; PNG of the same with the
+//! feature `png`.
 //!
 //! Everything is legible in black and white: states differ in the shape of their marker, lines in
 //! their dashes, regions by a number. Charts draw doubles; what is exact or certified stands in the
 //! numbers beside them.
 //!
-//! `markup` a tree of elements, `scale` and `chart` axes, `marker` the contact states; then a file for
-//! each picture: [`mode_picture`], [`path_picture`], [`threshold_picture`], [`branch_picture`],
+//! `markup` a tree of elements, `scale` and `chart` axes, `marker` the contact states; then a file
+//! for each picture: [`mode_picture`], [`path_picture`], [`threshold_picture`], [`branch_picture`],
 //! [`table1_picture`], [`cost_picture`]; [`Report`] puts them into a page.
 
 mod branch;
@@ -49,7 +50,12 @@ const FONTS: &str = "DejaVu Sans, Verdana, Arial, sans-serif";
 
 impl Picture {
     fn new(title: impl Into<String>, width: f64, height: f64) -> Picture {
-        Picture { title: title.into(), width, height, content: Vec::new() }
+        Picture {
+            title: title.into(),
+            width,
+            height,
+            content: Vec::new(),
+        }
     }
 
     fn push(&mut self, element: Element) {
@@ -90,11 +96,24 @@ impl Picture {
         if let Some(name) = name_space {
             root = root.with("xmlns", name);
         }
-        let view = format!("0 0 {} {}", markup::short(self.width), markup::short(self.height));
-        root = root.at("width", self.width).at("height", self.height).with("viewBox", view).with("role", "img");
+        let view = format!(
+            "0 0 {} {}",
+            markup::short(self.width),
+            markup::short(self.height)
+        );
+        root = root
+            .at("width", self.width)
+            .at("height", self.height)
+            .with("viewBox", view)
+            .with("role", "img");
         root = root.with("font-family", FONTS).at("font-size", chart::TEXT);
-        let paper = Element::new("rect").at("width", self.width).at("height", self.height).with("fill", "#fff");
-        root.child(Element::new("title").text(self.title.as_str())).child(paper).children(self.content.iter().cloned())
+        let paper = Element::new("rect")
+            .at("width", self.width)
+            .at("height", self.height)
+            .with("fill", "#fff");
+        root.child(Element::new("title").text(self.title.as_str()))
+            .child(paper)
+            .children(self.content.iter().cloned())
     }
 }
 

@@ -35,15 +35,27 @@ static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
 });
 
 pub(super) fn png_of(svg: &str, zoom: f32) -> Result<Vec<u8>, PngError> {
-    let options = usvg::Options { fontdb: FONTS.clone(), font_family: "DejaVu Sans".into(), ..usvg::Options::default() };
+    let options = usvg::Options {
+        fontdb: FONTS.clone(),
+        font_family: "DejaVu Sans".into(),
+        ..usvg::Options::default()
+    };
     let refused = |reason: String| PngError::Drawing { reason };
     let tree = usvg::Tree::from_str(svg, &options).map_err(|e| refused(e.to_string()))?;
     let pixels = |length: f32| (length * zoom).ceil() as u32; // saturates; NaN is 0
     let (width, height) = (pixels(tree.size().width()), pixels(tree.size().height()));
     let fits = |side: u32| (1..=MAX_SIDE).contains(&side);
-    let map = if fits(width) && fits(height) { tiny_skia::Pixmap::new(width, height) } else { None };
+    let map = if fits(width) && fits(height) {
+        tiny_skia::Pixmap::new(width, height)
+    } else {
+        None
+    };
     let mut map = map.ok_or(PngError::Size { width, height })?;
-    resvg::render(&tree, tiny_skia::Transform::from_scale(zoom, zoom), &mut map.as_mut());
+    resvg::render(
+        &tree,
+        tiny_skia::Transform::from_scale(zoom, zoom),
+        &mut map.as_mut(),
+    );
     map.encode_png().map_err(|e| refused(e.to_string()))
 }
 
@@ -74,7 +86,10 @@ mod tests {
     fn sizes_that_cannot_be_are_refused() {
         let svg = format!("{HEAD}</svg>");
         for zoom in [0.0, -1.0, f32::NAN, 1e9] {
-            assert!(matches!(png_of(&svg, zoom), Err(PngError::Size { .. })), "{zoom}");
+            assert!(
+                matches!(png_of(&svg, zoom), Err(PngError::Size { .. })),
+                "{zoom}"
+            );
         }
         assert!(matches!(png_of("<svg", 1.0), Err(PngError::Drawing { .. })));
     }

@@ -58,21 +58,44 @@ impl Report {
     ///
     /// ```
     /// use mceip::picture::{Content, Report, Section};
-    /// let section = Section { title: "A & B".into(), content: vec![Content::Paragraph("mu < 2".into())] };
-    /// let page = Report { title: "Block".into(), sections: vec![section] }.to_html();
-    /// assert!(page.starts_with("<!DOCTYPE html>") && page.contains("<h2>A &amp; B</h2>") && page.contains("mu &lt; 2"));
+    /// let section = Section {
+    ///     title: "A & B".into(),
+    ///     content: vec![Content::Paragraph("mu < 2".into())],
+    /// };
+    /// let page = Report {
+    ///     title: "Block".into(),
+    ///     sections: vec![section],
+    /// }
+    /// .to_html();
+    /// assert!(
+    ///     page.starts_with("<!DOCTYPE html>")
+    ///         && page.contains("<h2>A &amp; B</h2>")
+    ///         && page.contains("mu &lt; 2")
+    /// );
     /// ```
     pub fn to_html(&self) -> String {
-        let meta = |name, content| Element::new("meta").with("name", name).with("content", content);
+        let meta = |name, content| {
+            Element::new("meta")
+                .with("name", name)
+                .with("content", content)
+        };
         let head = Element::new("head")
             .child(Element::new("meta").with("charset", "utf-8"))
             .child(meta("viewport", "width=device-width, initial-scale=1"))
-            .child(meta("generator", concat!("mceip ", env!("CARGO_PKG_VERSION"))))
+            .child(meta(
+                "generator",
+                concat!("mceip ", env!("CARGO_PKG_VERSION")),
+            ))
             .child(Element::new("title").text(self.title.as_str()))
             .child(Element::new("style").text(STYLE));
         let sections = self.sections.iter().map(Section::element);
-        let body = Element::new("body").child(Element::new("h1").text(self.title.as_str())).children(sections);
-        let page = Element::new("html").with("lang", "en").child(head).child(body);
+        let body = Element::new("body")
+            .child(Element::new("h1").text(self.title.as_str()))
+            .children(sections);
+        let page = Element::new("html")
+            .with("lang", "en")
+            .child(head)
+            .child(body);
         format!("<!DOCTYPE html>\n{page}\n")
     }
 }
@@ -88,19 +111,30 @@ impl Content {
     fn element(&self) -> Element {
         match self {
             Content::Paragraph(text) => Element::new("p").text(text.as_str()),
-            Content::Warning(text) => Element::new("p").with("class", "warning").text(text.as_str()),
-            Content::Table { caption, header, rows } => {
+            Content::Warning(text) => Element::new("p")
+                .with("class", "warning")
+                .text(text.as_str()),
+            Content::Table {
+                caption,
+                header,
+                rows,
+            } => {
                 let cells = |name: &'static str, row: &[String]| {
-                    Element::new("tr").children(row.iter().map(|c| Element::new(name).text(c.as_str())))
+                    Element::new("tr")
+                        .children(row.iter().map(|c| Element::new(name).text(c.as_str())))
                 };
                 let head = Element::new("thead").child(cells("th", header));
-                let body = Element::new("tbody").text("").children(rows.iter().map(|r| cells("td", r)));
+                let body = Element::new("tbody")
+                    .text("")
+                    .children(rows.iter().map(|r| cells("td", r)));
                 let caption = Element::new("caption").text(caption.as_str());
-                Element::new("div").with("class", "wide").child(Element::new("table").child(caption).child(head).child(body))
+                Element::new("div")
+                    .with("class", "wide")
+                    .child(Element::new("table").child(caption).child(head).child(body))
             }
-            Content::Figure { picture, caption } => {
-                Element::new("figure").child(picture.inline()).child(Element::new("figcaption").text(caption.as_str()))
-            }
+            Content::Figure { picture, caption } => Element::new("figure")
+                .child(picture.inline())
+                .child(Element::new("figcaption").text(caption.as_str())),
         }
     }
 }
@@ -115,13 +149,30 @@ mod tests {
         let content = vec![
             Content::Paragraph(hostile.into()),
             Content::Warning(hostile.into()),
-            Content::Table { caption: hostile.into(), header: vec![hostile.into()], rows: vec![vec![hostile.into()], vec![]] },
-            Content::Figure { picture: Picture::new(hostile, 10.0, 10.0), caption: hostile.into() },
+            Content::Table {
+                caption: hostile.into(),
+                header: vec![hostile.into()],
+                rows: vec![vec![hostile.into()], vec![]],
+            },
+            Content::Figure {
+                picture: Picture::new(hostile, 10.0, 10.0),
+                caption: hostile.into(),
+            },
         ];
-        let report = Report { title: hostile.into(), sections: vec![Section { title: hostile.into(), content }] };
+        let report = Report {
+            title: hostile.into(),
+            sections: vec![Section {
+                title: hostile.into(),
+                content,
+            }],
+        };
         let page = report.to_html();
-        let tree = roxmltree::Document::parse(page.strip_prefix("<!DOCTYPE html>\n").unwrap()).unwrap();
-        let texts = tree.descendants().filter(|n| n.is_text() && n.text() == Some(hostile)).count();
+        let tree =
+            roxmltree::Document::parse(page.strip_prefix("<!DOCTYPE html>\n").unwrap()).unwrap();
+        let texts = tree
+            .descendants()
+            .filter(|n| n.is_text() && n.text() == Some(hostile))
+            .count();
         assert_eq!(texts, 10, "each of the ten comes back as it was");
         assert!(tree.descendants().all(|n| n.tag_name().name() != "script"));
         assert!(!page.contains("http:") && !page.contains("https:"));

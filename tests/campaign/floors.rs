@@ -10,10 +10,14 @@ use mceip::multistart::{Found, Search, multistart};
 use mceip::reduction::{condense, reduce};
 use mceip::solver::SolverError;
 use mceip::source::{Block, MassKind, PublishedState};
-use mceip::testkit::campaign::{Campaign, Engine, FAMILIES, Id, Limit, Pipeline, State, case, treatment};
+use mceip::testkit::campaign::{
+    Campaign, Engine, FAMILIES, Id, Limit, Pipeline, State, case, treatment,
+};
 use mceip::testkit::floors::{Coverage, Starts, shortfalls};
 use mceip::testkit::targets::{self, Counter, fuzz_treatment};
-use mceip::testkit::{BLOCK_STARTS, Instance, Solver, Treatment, Verification, coverage_of, degenerate, mechanical};
+use mceip::testkit::{
+    BLOCK_STARTS, Instance, Solver, Treatment, Verification, coverage_of, degenerate, mechanical,
+};
 use mceip::testkit::{path_coverage, random_pencils, table1_grid, verify_family};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -26,7 +30,10 @@ use std::sync::atomic::AtomicBool;
 type ByStarts = BTreeMap<Starts, Coverage>;
 
 fn measured(instances: &[Instance], treatment: &Treatment) -> ByStarts {
-    let reports: Vec<_> = instances.par_iter().map(|i| coverage_of(i, treatment).unwrap().coverage()).collect();
+    let reports: Vec<_> = instances
+        .par_iter()
+        .map(|i| coverage_of(i, treatment).unwrap().coverage())
+        .collect();
     let mut sum = ByStarts::new();
     for (starts, coverage) in reports.into_iter().flatten() {
         sum.entry(starts).or_default().add(&coverage);
@@ -40,7 +47,10 @@ fn print(family: &str, sum: &ByStarts) {
         let percent = |count: u64| 100.0 * count as f64 / c.solvable.max(1) as f64;
         let (first, all) = (percent(c.first), percent(c.all));
         let (least_first, least_all) = ((first - 2.0).max(0.0), (all - 2.0).max(0.0));
-        println!("    row({family:?}, Starts::{starts:?}, {least_first:.1}, {least_all:.1}), // {first:.2}, {all:.2} of {}", c.solvable);
+        println!(
+            "    row({family:?}, Starts::{starts:?}, {least_first:.1}, {least_all:.1}), // {first:.2}, {all:.2} of {}",
+            c.solvable
+        );
     }
 }
 
@@ -62,7 +72,16 @@ fn measure_the_families_of_the_campaign() {
     for (family, _, _) in FAMILIES {
         let mut sum = ByStarts::new();
         for seed in numbers("FLOOR_SEEDS", "9001,9002") {
-            let instance = |index: u64| case(&Id { family: family.into(), seed, index }).unwrap().unwrap().instance;
+            let instance = |index: u64| {
+                case(&Id {
+                    family: family.into(),
+                    seed,
+                    index,
+                })
+                .unwrap()
+                .unwrap()
+                .instance
+            };
             let instances: Vec<Instance> = (0..count).map(instance).collect();
             add(&mut sum, measured(&instances, &treatment(seed)));
         }
@@ -76,7 +95,10 @@ fn measure_the_families_of_verify() {
     let count = numbers("FLOOR_COUNT", "500")[0] as usize;
     let mut sums: BTreeMap<&str, ByStarts> = BTreeMap::new();
     for seed in numbers("FLOOR_SEEDS", "9001,9002") {
-        let treatment = Treatment::of(&Search { seed, ..Search::default() });
+        let treatment = Treatment::of(&Search {
+            seed,
+            ..Search::default()
+        });
         let families = [
             ("Table 1 (two particles)", table1_grid().unwrap()),
             ("random pencils", random_pencils(count, seed).unwrap()),
@@ -84,7 +106,10 @@ fn measure_the_families_of_verify() {
             ("degenerate cases", degenerate().unwrap()),
         ];
         for (name, instances) in families {
-            add(sums.entry(name).or_default(), measured(&instances, &treatment));
+            add(
+                sums.entry(name).or_default(),
+                measured(&instances, &treatment),
+            );
         }
     }
     for (name, sum) in sums {
@@ -106,7 +131,11 @@ fn measure_the_fuzz_targets() {
             for k in 0..count as usize {
                 let bytes: Vec<u8> = (0..length).map(|_| rng.random_range(0..=255)).collect();
                 body(&bytes, &fuzz_treatment(), &random);
-                body(&with_changes(&mut rng, &corpus[k % corpus.len()]), &fuzz_treatment(), &changed);
+                body(
+                    &with_changes(&mut rng, &corpus[k % corpus.len()]),
+                    &fuzz_treatment(),
+                    &changed,
+                );
             }
         }
         print(&format!("{name}, random"), &random.seen().coverage);
@@ -118,14 +147,31 @@ type Body = fn(&[u8], &Treatment, &Counter);
 
 /// Family, length of a random input, body with a solver of one's own.
 const SOLVER_TARGETS: [(&str, usize, Body); 3] = [
-    ("fuzz: solver_against_oracle", 34, targets::solver_against_oracle_by),
-    ("fuzz: mechanical_systems", 150, targets::mechanical_systems_by),
-    ("fuzz: two_particle_problems", 10, targets::two_particle_problems_by),
+    (
+        "fuzz: solver_against_oracle",
+        34,
+        targets::solver_against_oracle_by,
+    ),
+    (
+        "fuzz: mechanical_systems",
+        150,
+        targets::mechanical_systems_by,
+    ),
+    (
+        "fuzz: two_particle_problems",
+        10,
+        targets::two_particle_problems_by,
+    ),
 ];
 
 fn corpus(target: &str) -> Vec<Vec<u8>> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("fuzz/corpus").join(target);
-    let mut files: Vec<_> = std::fs::read_dir(folder).unwrap().map(|f| f.unwrap().path()).collect();
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("fuzz/corpus")
+        .join(target);
+    let mut files: Vec<_> = std::fs::read_dir(folder)
+        .unwrap()
+        .map(|f| f.unwrap().path())
+        .collect();
     files.sort();
     files.iter().map(|f| std::fs::read(f).unwrap()).collect()
 }
@@ -147,7 +193,10 @@ fn with_changes(rng: &mut ChaCha8Rng, bytes: &[u8]) -> Vec<u8> {
 #[ignore = "a measurement: run on request, in release"]
 fn measure_the_block() {
     let block = Block::of_the_paper(MassKind::Consistent);
-    for (state, value) in [(PublishedState::FifteenSlip, 60.805842443327), (PublishedState::SeventeenSlip, 1.704804329580)] {
+    for (state, value) in [
+        (PublishedState::FifteenSlip, 60.805842443327),
+        (PublishedState::SeventeenSlip, 1.704804329580),
+    ] {
         let pencil = reduce(&state.problem(&block).unwrap()).unwrap().pencil;
         let condensed = condense(&Admissible::new(&pencil, Unknown::Mu).unwrap()).unwrap();
         let small = Admissible::new(&condensed, Unknown::Mu).unwrap();
@@ -166,7 +215,11 @@ fn finds_nothing(_: &Problem, _: &Admissible<'_>, _: &Search) -> Result<Found, S
 }
 
 /// A solver that forgets every second solution of an instance, the first one among them.
-fn drops_every_second(problem: &Problem, admissible: &Admissible<'_>, search: &Search) -> Result<Found, SolverError> {
+fn drops_every_second(
+    problem: &Problem,
+    admissible: &Admissible<'_>,
+    search: &Search,
+) -> Result<Found, SolverError> {
     let mut found = multistart(problem, admissible, search)?;
     let mut index = 0;
     found.certified.retain(|_| {
@@ -178,7 +231,11 @@ fn drops_every_second(problem: &Problem, admissible: &Admissible<'_>, search: &S
 
 /// A solver that forgets every second solution, the second one first: an instance with one solution
 /// is not touched.
-fn keeps_every_first(problem: &Problem, admissible: &Admissible<'_>, search: &Search) -> Result<Found, SolverError> {
+fn keeps_every_first(
+    problem: &Problem,
+    admissible: &Admissible<'_>,
+    search: &Search,
+) -> Result<Found, SolverError> {
     let mut found = multistart(problem, admissible, search)?;
     let mut index = 0;
     found.certified.retain(|_| {
@@ -189,11 +246,18 @@ fn keeps_every_first(problem: &Problem, admissible: &Admissible<'_>, search: &Se
 }
 
 /// The plants, and whether each leaves the first start's solution alone.
-const PLANTS: [(&str, Solver); 3] =
-    [("finds nothing", finds_nothing), ("drops every second", drops_every_second), ("keeps every first", keeps_every_first)];
+const PLANTS: [(&str, Solver); 3] = [
+    ("finds nothing", finds_nothing),
+    ("drops every second", drops_every_second),
+    ("keeps every first", keeps_every_first),
+];
 
 fn quick_search() -> Search {
-    Search { starts: 6, window_starts: 1, ..Search::default() }
+    Search {
+        starts: 6,
+        window_starts: 1,
+        ..Search::default()
+    }
 }
 
 /// Every family of `verify` with each plant has a shortfall, so that `verify` exits 1. That the
@@ -203,7 +267,10 @@ fn verify_fails_with_a_solver_that_misses_solutions() {
     let stop = AtomicBool::new(false);
     let families: [(&'static str, Vec<Instance>); 4] = [
         // Every seventh, so that all four sign patterns occur.
-        ("Table 1 (two particles)", table1_grid().unwrap().into_iter().step_by(7).collect()),
+        (
+            "Table 1 (two particles)",
+            table1_grid().unwrap().into_iter().step_by(7).collect(),
+        ),
         ("random pencils", random_pencils(40, 77).unwrap()),
         ("mechanical systems", mechanical(40, 77).unwrap()),
         ("degenerate cases", degenerate().unwrap()),
@@ -216,13 +283,41 @@ fn verify_fails_with_a_solver_that_misses_solutions() {
             if plant == "keeps every first" && *name != "Table 1 (two particles)" {
                 continue;
             }
-            let treatment = Treatment { nodes: 1, ..Treatment::of(&quick_search()) };
-            let planted = verify_family(name, instances, &treatment.with_solver(solver), &stop, &|_, _, _| {});
-            assert!(planted.disagreements.is_empty(), "{name}: what is found is true: {:?}", planted.disagreements);
+            let treatment = Treatment {
+                nodes: 1,
+                ..Treatment::of(&quick_search())
+            };
+            let planted = verify_family(
+                name,
+                instances,
+                &treatment.with_solver(solver),
+                &stop,
+                &|_, _, _| {},
+            );
+            assert!(
+                planted.disagreements.is_empty(),
+                "{name}: what is found is true: {:?}",
+                planted.disagreements
+            );
 
-            let verification = Verification { seed: 77, families: vec![planted], block: Vec::new(), interrupted: false };
-            println!("{plant}: {:?}", verification.shortfalls().iter().map(ToString::to_string).collect::<Vec<_>>());
-            assert!(verification.disagreements() > 0, "{name}: {plant} goes unnoticed");
+            let verification = Verification {
+                seed: 77,
+                families: vec![planted],
+                block: Vec::new(),
+                interrupted: false,
+            };
+            println!(
+                "{plant}: {:?}",
+                verification
+                    .shortfalls()
+                    .iter()
+                    .map(ToString::to_string)
+                    .collect::<Vec<_>>()
+            );
+            assert!(
+                verification.disagreements() > 0,
+                "{name}: {plant} goes unnoticed"
+            );
         }
     }
 }
@@ -232,9 +327,21 @@ fn verify_fails_with_a_solver_that_misses_solutions() {
 fn the_campaign_fails_with_a_solver_that_misses_solutions() {
     let families: Vec<String> = ["elements", "table1"].map(String::from).to_vec();
     let run = |treatment: Treatment| {
-        let engines: [Box<dyn Engine>; 1] = [Box::new(Pipeline { treatment: Treatment { nodes: 1, ..treatment } })];
-        let campaign = Campaign { engines: &engines, limit: Limit::Count(40) };
-        campaign.run(State::new(3, (0, 1), families.clone()), &AtomicBool::new(false), &mut |_| {})
+        let engines: [Box<dyn Engine>; 1] = [Box::new(Pipeline {
+            treatment: Treatment {
+                nodes: 1,
+                ..treatment
+            },
+        })];
+        let campaign = Campaign {
+            engines: &engines,
+            limit: Limit::Count(40),
+        };
+        campaign.run(
+            State::new(3, (0, 1), families.clone()),
+            &AtomicBool::new(false),
+            &mut |_| {},
+        )
     };
 
     let sound = run(treatment(3));
@@ -242,9 +349,23 @@ fn the_campaign_fails_with_a_solver_that_misses_solutions() {
     for (plant, solver) in PLANTS {
         let state = run(treatment(3).with_solver(solver));
         let names: BTreeSet<&str> = state.shortfalls().iter().map(|s| s.floor.family).collect();
-        println!("{plant}: {:?}", state.shortfalls().iter().map(ToString::to_string).collect::<Vec<_>>());
-        let expected: &[&str] = if plant == "keeps every first" { &["table1"] } else { &["elements", "table1"] };
-        assert!(expected.iter().all(|family| names.contains(family)), "{plant}: {names:?}");
+        println!(
+            "{plant}: {:?}",
+            state
+                .shortfalls()
+                .iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>()
+        );
+        let expected: &[&str] = if plant == "keeps every first" {
+            &["table1"]
+        } else {
+            &["elements", "table1"]
+        };
+        assert!(
+            expected.iter().all(|family| names.contains(family)),
+            "{plant}: {names:?}"
+        );
         assert!(state.disagreements() >= expected.len());
     }
 }
@@ -257,7 +378,11 @@ fn the_fuzz_targets_fail_with_a_solver_that_misses_solutions() {
         for (plant, solver) in &PLANTS[..2] {
             let counter = Counter::new(family);
             let mut rng = ChaCha8Rng::seed_from_u64(5);
-            let treatment = Treatment { nodes: 1, ..fuzz_treatment() }.with_solver(*solver);
+            let treatment = Treatment {
+                nodes: 1,
+                ..fuzz_treatment()
+            }
+            .with_solver(*solver);
 
             let planted = catch_unwind(AssertUnwindSafe(|| {
                 for _ in 0..200 {
@@ -266,7 +391,10 @@ fn the_fuzz_targets_fail_with_a_solver_that_misses_solutions() {
                 }
             }));
             let message = *planted.unwrap_err().downcast::<String>().unwrap();
-            assert!(message.contains("coverage over"), "{family}, {plant}: {message}");
+            assert!(
+                message.contains("coverage over"),
+                "{family}, {plant}: {message}"
+            );
         }
     }
 }
@@ -276,7 +404,16 @@ fn the_fuzz_targets_fail_with_a_solver_that_misses_solutions() {
 #[test]
 fn the_block_has_floors_of_its_own() {
     for state in PublishedState::ALL {
-        let nothing = Coverage { solvable: BLOCK_STARTS as u64, first: 0, all: 0 };
-        assert_eq!(shortfalls(state.name(), Starts::Path, &nothing).len(), 2, "{}", state.name());
+        let nothing = Coverage {
+            solvable: BLOCK_STARTS as u64,
+            first: 0,
+            all: 0,
+        };
+        assert_eq!(
+            shortfalls(state.name(), Starts::Path, &nothing).len(),
+            2,
+            "{}",
+            state.name()
+        );
     }
 }

@@ -13,7 +13,9 @@ fn replay(target: &str) {
     let (_, body) = TARGETS.iter().find(|t| t.0 == target).unwrap();
     let (mut count, mut bytes) = (0, 0);
     for folder in ["corpus", "regressions"] {
-        let Ok(files) = std::fs::read_dir(fuzz().join(folder).join(target)) else { continue };
+        let Ok(files) = std::fs::read_dir(fuzz().join(folder).join(target)) else {
+            continue;
+        };
         for file in files {
             let path = file.unwrap().path();
             println!("{}", path.display()); // shown when the body panics
@@ -24,15 +26,23 @@ fn replay(target: &str) {
         }
     }
     assert!(count >= 20, "{target}: only {count} inputs");
-    assert!(bytes < 250_000, "{target}: {bytes} bytes of corpus, minimise it (cargo fuzz cmin)");
+    assert!(
+        bytes < 250_000,
+        "{target}: {bytes} bytes of corpus, minimise it (cargo fuzz cmin)"
+    );
 }
 
-/// The corpus has at least so many solvable inputs, and the solver found as much of them as the floor asks for.
+/// The corpus has at least so many solvable inputs, and the solver found as much of them as the
+/// floor asks for.
 fn held_against_its_floor(counter: &Counter, least: u64) {
     let seen = counter.seen();
     println!("{seen:?}");
     assert!(seen.coverage[&Starts::Search].solvable >= least, "{seen:?}");
-    assert!(counter.shortfalls().is_empty(), "{:?}", counter.shortfalls());
+    assert!(
+        counter.shortfalls().is_empty(),
+        "{:?}",
+        counter.shortfalls()
+    );
 }
 
 #[test]
@@ -86,27 +96,53 @@ fn exact_against_naive() {
 /// Every target has its three lines of glue, its entry for cargo, and a replay above.
 #[test]
 fn every_target_is_built_and_replayed() {
-    let (cargo, this) = (std::fs::read_to_string(fuzz().join("Cargo.toml")).unwrap(), include_str!("fuzz_replay.rs"));
+    let (cargo, this) = (
+        std::fs::read_to_string(fuzz().join("Cargo.toml")).unwrap(),
+        include_str!("fuzz_replay.rs"),
+    );
     for (name, _) in TARGETS {
         let glue = std::fs::read_to_string(fuzz().join(format!("fuzz_targets/{name}.rs"))).unwrap();
-        assert!(glue.lines().count() == 3 && glue.contains(&format!("targets::{name}(data)")), "{name}");
-        assert!(cargo.contains(&format!("name = \"{name}\"")) && this.contains(&format!("replay(\"{name}\")")), "{name}");
+        assert!(
+            glue.lines().count() == 3 && glue.contains(&format!("targets::{name}(data)")),
+            "{name}"
+        );
+        assert!(
+            cargo.contains(&format!("name = \"{name}\""))
+                && this.contains(&format!("replay(\"{name}\")")),
+            "{name}"
+        );
     }
     assert_eq!(cargo.matches("[[bin]]").count(), TARGETS.len());
 }
 
-/// The seeds of `corpus/certificate_reader`: `cargo test --test campaign -- --ignored fuzz_replay::`.
+/// The seeds of `corpus/certificate_reader`: `cargo test --test campaign -- --ignored
+/// fuzz_replay::`.
 #[test]
 #[ignore = "writes the corpus"]
 fn write_the_certificates() {
     for (k, text) in targets::certificate_seeds().into_iter().enumerate() {
-        std::fs::write(fuzz().join(format!("corpus/certificate_reader/seed-{k}.json")), &text).unwrap();
+        std::fs::write(
+            fuzz().join(format!("corpus/certificate_reader/seed-{k}.json")),
+            &text,
+        )
+        .unwrap();
         // Near misses, so that the fuzzer starts on both sides.
-        for (m, (from, to)) in [("\"1\"", "\"-1\""), ("[0]", "[1]"), ("\"0\"", "\"1\""), ("solution", "solutions")].into_iter().enumerate()
+        for (m, (from, to)) in [
+            ("\"1\"", "\"-1\""),
+            ("[0]", "[1]"),
+            ("\"0\"", "\"1\""),
+            ("solution", "solutions"),
+        ]
+        .into_iter()
+        .enumerate()
         {
             let near = text.replacen(from, to, 1);
             if near != text && text.len() < 20_000 {
-                std::fs::write(fuzz().join(format!("corpus/certificate_reader/near-{k}-{m}.json")), near).unwrap();
+                std::fs::write(
+                    fuzz().join(format!("corpus/certificate_reader/near-{k}-{m}.json")),
+                    near,
+                )
+                .unwrap();
             }
         }
     }

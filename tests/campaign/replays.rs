@@ -1,4 +1,5 @@
-//! What the campaign has found, shrunk by it: none of it may come back. The stories are in `spec/decisions.md`.
+//! What the campaign has found, shrunk by it: none of it may come back. The stories are in
+//! `spec/decisions.md`.
 #![cfg(feature = "testkit")]
 
 use mceip::testkit::campaign::{Replay, judge, standard};
@@ -12,7 +13,12 @@ fn what_the_campaign_found_stays_mended() {
         let path = file.unwrap().path();
         let replay = Replay::from_json(&std::fs::read_to_string(&path).unwrap()).unwrap();
         let judged = judge(&replay.case().unwrap(), &standard(replay.seed));
-        assert!(judged.findings.is_empty(), "{}: {:#?}", path.display(), judged.findings);
+        assert!(
+            judged.findings.is_empty(),
+            "{}: {:#?}",
+            path.display(),
+            judged.findings
+        );
         count += 1;
     }
     assert!(count >= 10);

@@ -1,5 +1,6 @@
 //! How long the checker takes: n = 12 exact, the block's 820 degrees of freedom enclosed. Run with
-//! `cargo test --release --test checker -- --ignored --nocapture check_time::`. The test itself asserts a ratio only.
+//! `cargo test --release --test checker -- --ignored --nocapture check_time::`. The test itself
+//! asserts a ratio only.
 #![cfg(feature = "testkit")]
 
 use mceip::candidate::Candidate;
@@ -27,12 +28,24 @@ fn time(problem: &Problem, certificate: &Certificate) -> Duration {
 fn exact(n: usize) -> (Problem, Certificate) {
     for seed in 1.. {
         let problem = mechanical_pencil(n, mceip::model::Unknown::Mu, seed).unwrap();
-        let found = complete(&problem, &Options::default(), &AtomicBool::new(false), &|_| {}).unwrap();
+        let found = complete(
+            &problem,
+            &Options::default(),
+            &AtomicBool::new(false),
+            &|_| {},
+        )
+        .unwrap();
         let pencil = mceip::reduction::reduce(&problem).unwrap().pencil;
         for (s, x) in found.solutions().filter(|(s, _)| 2 * s.support.len() >= n) {
-            let candidate = Candidate { value: mceip::exact::to_f64(&s.value.mid()), x: x.to_vec() };
+            let candidate = Candidate {
+                value: mceip::exact::to_f64(&s.value.mid()),
+                x: x.to_vec(),
+            };
             if let Ok(Claim::ExactSolution(c)) = propose(&pencil, problem.window(), &candidate) {
-                return (problem.clone(), certificate(&problem, vec![Claim::ExactSolution(c)]));
+                return (
+                    problem.clone(),
+                    certificate(&problem, vec![Claim::ExactSolution(c)]),
+                );
             }
         }
     }
@@ -44,12 +57,27 @@ fn exact(n: usize) -> (Problem, Certificate) {
 fn checking_takes_milliseconds() {
     let [small, large] = [6, 12].map(exact);
     for (n, (problem, c)) in [(6, &small), (12, &large)] {
-        let Claim::ExactSolution(claim) = &c.claims[0] else { unreachable!() };
-        println!("n = {n}, support {}: {:?}, {} bytes", claim.support.len(), time(problem, c), c.to_json().len());
+        let Claim::ExactSolution(claim) = &c.claims[0] else {
+            unreachable!()
+        };
+        println!(
+            "n = {n}, support {}: {:?}, {} bytes",
+            claim.support.len(),
+            time(problem, c),
+            c.to_json().len()
+        );
     }
-    let block = Block::new(&BlockModel { mass: MassKind::Lumped, ..BlockModel::of_the_paper() }).unwrap();
+    let block = Block::new(&BlockModel {
+        mass: MassKind::Lumped,
+        ..BlockModel::of_the_paper()
+    })
+    .unwrap();
     for state in PublishedState::ALL {
-        let certificate = block_state(&block, state, &AtomicBool::new(false), &|_| {}).unwrap().unwrap().certificate.unwrap();
+        let certificate = block_state(&block, state, &AtomicBool::new(false), &|_| {})
+            .unwrap()
+            .unwrap()
+            .certificate
+            .unwrap();
         let problem = state.problem(&block).unwrap();
         println!(
             "block, {state:?}, {} claims: {:?}, {} bytes",
@@ -59,5 +87,7 @@ fn checking_takes_milliseconds() {
         );
     }
     // Twice the order may not cost a hundred times as much.
-    assert!(time(&large.0, &large.1) < 100 * time(&small.0, &small.1).max(Duration::from_micros(50)));
+    assert!(
+        time(&large.0, &large.1) < 100 * time(&small.0, &small.1).max(Duration::from_micros(50))
+    );
 }

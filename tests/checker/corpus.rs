@@ -1,10 +1,11 @@
-//! `spec/corpus`: certificates that must be accepted, rejected for the reason they name, or refused as malformed.
-//! Our checker and `spec/checker.py` go over all of it. A file is never changed once it is released
-//! (spec/formats.md, Versions); new ones are written by
+//! `spec/corpus`: certificates that must be accepted, rejected for the reason they name, or refused
+//! as malformed. Our checker and `spec/checker.py` go over all of it. A file is never changed once
+//! it is released (spec/formats.md, Versions); new ones are written by
 //!
 //!     cargo test --test checker -- --ignored corpus::write_the_corpus
 //!
-//! but for the files `hostile-*` whose work is limited (spec/complete-set.md, Limits), which are written by hand.
+//! but for the files `hostile-*` whose work is limited (spec/complete-set.md, Limits), which are
+//! written by hand.
 #![cfg(feature = "cli")]
 
 #[path = "../support/corpus_beside.rs"]
@@ -54,18 +55,27 @@ impl Entry {
     }
 
     fn code(&self) -> i32 {
-        ["accepted", "rejected", "malformed", "undecided"].iter().position(|v| *v == self.verdict()).unwrap() as i32
+        ["accepted", "rejected", "malformed", "undecided"]
+            .iter()
+            .position(|v| *v == self.verdict())
+            .unwrap() as i32
     }
 }
 
 /// The certificate's text: as it stands, or with the mark replaced by copies of the unit.
 fn certificate_text(file: &Value) -> String {
-    let Some(text) = file["certificate_text"].as_str() else { return file["certificate"].to_string() };
+    let Some(text) = file["certificate_text"].as_str() else {
+        return file["certificate"].to_string();
+    };
     match file.get("repeat") {
         None => text.into(),
         Some(r) => {
             let count = usize::try_from(r["count"].as_u64().unwrap()).unwrap();
-            text.replacen(r["mark"].as_str().unwrap(), &r["unit"].as_str().unwrap().repeat(count), 1)
+            text.replacen(
+                r["mark"].as_str().unwrap(),
+                &r["unit"].as_str().unwrap().repeat(count),
+                1,
+            )
         }
     }
 }
@@ -73,24 +83,42 @@ fn certificate_text(file: &Value) -> String {
 fn entries(folder: &Path) -> Vec<Entry> {
     let mut list = Vec::new();
     for kind in ["accept", "reject", "malformed"] {
-        for path in std::fs::read_dir(root().join(kind)).unwrap().map(|e| e.unwrap().path()) {
+        for path in std::fs::read_dir(root().join(kind))
+            .unwrap()
+            .map(|e| e.unwrap().path())
+        {
             let name = format!("{kind}-{}", path.file_stem().unwrap().to_str().unwrap());
-            let file: Value = serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
+            let file: Value =
+                serde_json::from_str(&std::fs::read_to_string(&path).unwrap()).unwrap();
             assert_eq!(file["format"], "mceip-corpus/1", "{name}");
-            assert!(file["note"].as_str().is_some_and(|n| !n.is_empty()), "{name}: which bug does it stand for?");
+            assert!(
+                file["note"].as_str().is_some_and(|n| !n.is_empty()),
+                "{name}: which bug does it stand for?"
+            );
             let of_kind: &[&str] = match kind {
                 "accept" => &["accepted", "undecided"],
                 "reject" => &["rejected"],
                 _ => &["malformed"],
             };
-            assert!(of_kind.contains(&file["verdict"].as_str().unwrap()), "{name}");
+            assert!(
+                of_kind.contains(&file["verdict"].as_str().unwrap()),
+                "{name}"
+            );
             let write = |suffix: &str, text: &str| {
                 let path = folder.join(format!("{name}.{suffix}.json"));
                 std::fs::write(&path, text).unwrap();
                 path.display().to_string()
             };
-            let (problem, certificate) = (write("problem", &file["problem"].to_string()), write("certificate", &certificate_text(&file)));
-            list.push(Entry { name, file, problem, certificate });
+            let (problem, certificate) = (
+                write("problem", &file["problem"].to_string()),
+                write("certificate", &certificate_text(&file)),
+            );
+            list.push(Entry {
+                name,
+                file,
+                problem,
+                certificate,
+            });
         }
     }
     list.sort_by(|a, b| a.name.cmp(&b.name));
@@ -102,10 +130,24 @@ fn judge(e: &Entry) -> (i32, String) {
     if e.file["problem"]["format"] == lcp::MCP_FORMAT {
         return judge_plain(e);
     }
-    let problem = read_problem(&std::fs::read_to_string(&e.problem).unwrap(), Path::new("/")).unwrap();
-    let Ok(certificate) = Certificate::from_json(&std::fs::read_to_string(&e.certificate).unwrap()) else { return (2, String::new()) };
+    let problem = read_problem(
+        &std::fs::read_to_string(&e.problem).unwrap(),
+        Path::new("/"),
+    )
+    .unwrap();
+    let Ok(certificate) = Certificate::from_json(&std::fs::read_to_string(&e.certificate).unwrap())
+    else {
+        return (2, String::new());
+    };
     match check(&problem, &certificate) {
-        Ok(accepted) => (if accepted.cover.is_some_and(|c| !c.open.is_empty()) { 3 } else { 0 }, String::new()),
+        Ok(accepted) => (
+            if accepted.cover.is_some_and(|c| !c.open.is_empty()) {
+                3
+            } else {
+                0
+            },
+            String::new(),
+        ),
         Err(rejected) => (1, rejected.reason.name()),
     }
 }
@@ -113,7 +155,10 @@ fn judge(e: &Entry) -> (i32, String) {
 /// The same for a plain LCP or MCP.
 fn judge_plain(e: &Entry) -> (i32, String) {
     let problem = lcp::read_mcp(&std::fs::read_to_string(&e.problem).unwrap()).unwrap();
-    let Ok(certificate) = lcp::read_solution(&std::fs::read_to_string(&e.certificate).unwrap()) else { return (2, String::new()) };
+    let Ok(certificate) = lcp::read_solution(&std::fs::read_to_string(&e.certificate).unwrap())
+    else {
+        return (2, String::new());
+    };
     match lcp::judge(&problem, &certificate) {
         Ok(_) => (0, String::new()),
         Err(rejected) => (1, rejected.name()),
@@ -129,31 +174,54 @@ fn our_checker_gives_every_verdict_and_reason() {
     for e in &list {
         let start = Instant::now();
         let got = judge(e);
-        let expected = (e.code(), e.file["reason"].as_str().unwrap_or_default().to_string());
+        let expected = (
+            e.code(),
+            e.file["reason"].as_str().unwrap_or_default().to_string(),
+        );
         if got != expected {
             wrong.push(format!("{}: expected {expected:?}, got {got:?}", e.name));
         }
-        assert!(start.elapsed() < Duration::from_secs(10), "{}: {:?}", e.name, start.elapsed());
+        assert!(
+            start.elapsed() < Duration::from_secs(10),
+            "{}: {:?}",
+            e.name,
+            start.elapsed()
+        );
         seen[usize::try_from(e.code()).unwrap()] += 1;
     }
     assert!(wrong.is_empty(), "{wrong:#?}");
     println!("accepted, rejected, malformed, undecided: {seen:?}");
-    assert!(seen[1] >= seen[0] + seen[3] && seen[0] >= 25 && seen[1] >= 90 && seen[2] >= 45, "{seen:?}");
+    assert!(
+        seen[1] >= seen[0] + seen[3] && seen[0] >= 25 && seen[1] >= 90 && seen[2] >= 45,
+        "{seen:?}"
+    );
 }
 
-/// Reasons that no file reaches: a claim and a cover that contradict each other are not both true, and a checker that
-/// accepts nothing false refuses the false one by its own obligations. `crates/check/src/lib.rs` tests it on made-up covers.
+/// Reasons that no file reaches: a claim and a cover that contradict each other are not both true,
+/// and a checker that accepts nothing false refuses the false one by its own obligations.
+/// `crates/check/src/lib.rs` tests it on made-up covers.
 const UNREACHABLE: [&str; 1] = ["NotInCover"];
 
 /// Each obligation of the checker is the reason of some file.
 #[test]
 fn every_obligation_has_a_forgery() {
     let folder = tempfile::tempdir().unwrap();
-    let reasons: std::collections::BTreeSet<String> =
-        entries(folder.path()).iter().filter_map(|e| e.file["reason"].as_str()).map(String::from).collect();
+    let reasons: std::collections::BTreeSet<String> = entries(folder.path())
+        .iter()
+        .filter_map(|e| e.file["reason"].as_str())
+        .map(String::from)
+        .collect();
     let variants = |file: &str, prefix: &str| {
-        let text = std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
-        let body = text.split_once(&format!("pub enum {prefix} {{")).unwrap().1.split_once("\n}").unwrap().0.to_string();
+        let text =
+            std::fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join(file)).unwrap();
+        let body = text
+            .split_once(&format!("pub enum {prefix} {{"))
+            .unwrap()
+            .1
+            .split_once("\n}")
+            .unwrap()
+            .0
+            .to_string();
         let name = |l: &str| {
             l.strip_prefix("    ")
                 .filter(|l| l.starts_with(char::is_uppercase))
@@ -161,8 +229,10 @@ fn every_obligation_has_a_forgery() {
         };
         body.lines().filter_map(name).collect::<Vec<String>>()
     };
-    let mut missing: Vec<String> =
-        variants("crates/check/src/reason.rs", "Reason").into_iter().filter(|v| v != "Cover" && !reasons.contains(v)).collect();
+    let mut missing: Vec<String> = variants("crates/check/src/reason.rs", "Reason")
+        .into_iter()
+        .filter(|v| v != "Cover" && !reasons.contains(v))
+        .collect();
     missing.retain(|v| !UNREACHABLE.contains(&v.as_str()));
     missing.extend(
         variants("crates/check/src/cover/fault.rs", "CoverFault")
@@ -170,25 +240,46 @@ fn every_obligation_has_a_forgery() {
             .map(|v| format!("Cover.{v}"))
             .filter(|v| !reasons.contains(v)),
     );
-    let plain = ["McpRejected", "Violated"]
-        .map(|name| variants(&format!("crates/engine/src/lcp/{}.rs", if name == "Violated" { "check" } else { "verdict" }), name));
+    let plain = ["McpRejected", "Violated"].map(|name| {
+        variants(
+            &format!(
+                "crates/engine/src/lcp/{}.rs",
+                if name == "Violated" {
+                    "check"
+                } else {
+                    "verdict"
+                }
+            ),
+            name,
+        )
+    });
     let of_plain: std::collections::BTreeSet<String> = entries(folder.path())
         .iter()
         .filter(|e| e.file["problem"]["format"] == lcp::MCP_FORMAT)
         .filter_map(|e| e.file["reason"].as_str())
         .map(String::from)
         .collect();
-    missing.extend(plain.concat().into_iter().filter(|v| v != "Solution" && !of_plain.contains(v)).map(|v| format!("plain {v}")));
+    missing.extend(
+        plain
+            .concat()
+            .into_iter()
+            .filter(|v| v != "Solution" && !of_plain.contains(v))
+            .map(|v| format!("plain {v}")),
+    );
     assert!(missing.is_empty(), "no forgery for {missing:?}");
 }
 
-/// From outside: exit codes, one line on stderr for what is malformed, 512 MiB of addresses and ten seconds of processor
-/// time at most. (The program that is released takes less than half of the time of this unoptimised one.)
+/// From outside: exit codes, one line on stderr for what is malformed, 512 MiB of addresses and ten
+/// seconds of processor time at most. (The program that is released takes less than half of the
+/// time of this unoptimised one.)
 #[test]
 fn the_program_stays_within_bounds() {
     let folder = tempfile::tempdir().unwrap();
     let is_heavy = |e: &Entry| e.file.get("repeat").is_some() || e.name.contains("hostile");
-    for e in entries(folder.path()).iter().filter(|e| e.code() == 2 || is_heavy(e)) {
+    for e in entries(folder.path())
+        .iter()
+        .filter(|e| e.code() == 2 || is_heavy(e))
+    {
         let start = Instant::now();
         let mut run = Command::new("sh");
         run.args([
@@ -201,9 +292,18 @@ fn the_program_stays_within_bounds() {
         let o = run.output().unwrap();
         let err = String::from_utf8_lossy(&o.stderr);
         assert_eq!(o.status.code(), Some(e.code()), "{}: {err}", e.name);
-        assert!(start.elapsed() < Duration::from_secs(30), "{}: {:?}", e.name, start.elapsed());
+        assert!(
+            start.elapsed() < Duration::from_secs(30),
+            "{}: {:?}",
+            e.name,
+            start.elapsed()
+        );
         if e.code() == 2 {
-            assert!(o.stdout.is_empty() && err.lines().count() == 1 && err.len() < 1000, "{}: {err}", e.name);
+            assert!(
+                o.stdout.is_empty() && err.lines().count() == 1 && err.len() < 1000,
+                "{}: {err}",
+                e.name
+            );
         }
     }
 }
@@ -228,11 +328,21 @@ fn the_second_checker_gives_every_verdict() {
     let folder = tempfile::tempdir().unwrap();
     let list = entries(folder.path());
     let mut run = Command::new("python3");
-    run.env("PYTHONDONTWRITEBYTECODE", "1").args(["-c", RUN_ALL]).arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("spec"));
+    run.env("PYTHONDONTWRITEBYTECODE", "1")
+        .args(["-c", RUN_ALL])
+        .arg(Path::new(env!("CARGO_MANIFEST_DIR")).join("spec"));
     run.args(list.iter().flat_map(|e| [&e.problem, &e.certificate]));
     let o = run.output().unwrap();
-    let codes: Vec<i32> = String::from_utf8_lossy(&o.stdout).lines().map(|l| l.parse().unwrap()).collect();
-    assert_eq!(codes.len(), list.len(), "{}", String::from_utf8_lossy(&o.stderr));
+    let codes: Vec<i32> = String::from_utf8_lossy(&o.stdout)
+        .lines()
+        .map(|l| l.parse().unwrap())
+        .collect();
+    assert_eq!(
+        codes.len(),
+        list.len(),
+        "{}",
+        String::from_utf8_lossy(&o.stderr)
+    );
     let wrong: Vec<String> = list
         .iter()
         .zip(codes)
@@ -266,7 +376,11 @@ fn write_the_corpus() {
         let path = folder.join(format!("{}.json", case.name));
         // What is released stays: only what is missing is written.
         if !path.exists() {
-            std::fs::write(path, format!("{}\n", serde_json::to_string(&case.file).unwrap())).unwrap();
+            std::fs::write(
+                path,
+                format!("{}\n", serde_json::to_string(&case.file).unwrap()),
+            )
+            .unwrap();
         }
     }
 }

@@ -1,5 +1,5 @@
-//! Local modes: components and reactions of 1e-22 of the largest, as on finite-element meshes. What `solve` calls certified is
-//! accepted by the checker, and the complete set closes.
+//! Local modes: components and reactions of 1e-22 of the largest, as on finite-element meshes. What
+//! `solve` calls certified is accepted by the checker, and the complete set closes.
 #![cfg(feature = "testkit")]
 
 use mceip::certificate::{Certificate, Claim};
@@ -16,9 +16,10 @@ use std::sync::atomic::AtomicBool;
 /// Free variables of the chain: more than exact claims are made for.
 const LINKS: usize = 17;
 
-/// Slip variable 0, a chain of free variables and slip variable LINKS + 1. Each link passes on about 1/19 of its motion, so
-/// that what arrives at the other end is 1e-23. At the value near 1 where variable 0 moves alone, the reaction of the other one
-/// is that small, with the sign of `end`.
+/// Slip variable 0, a chain of free variables and slip variable LINKS + 1. Each link passes on
+/// about 1/19 of its motion, so that what arrives at the other end is 1e-23. At the value near 1
+/// where variable 0 moves alone, the reaction of the other one is that small, with the sign of
+/// `end`.
 fn chain(end: i64) -> Problem {
     let last = LINKS + 1;
     let mut entries = vec![(0, 0, whole(-1)), (last, last, whole(5))];
@@ -41,11 +42,22 @@ fn chain(end: i64) -> Problem {
 fn found(problem: &Problem) -> mceip::multistart::Found {
     let pencil = reduce(problem).unwrap().pencil;
     let admissible = Admissible::new(&pencil, problem.unknown()).unwrap();
-    multistart(problem, &admissible, &Search { starts: 4, window_starts: 1, ..Search::default() }).unwrap()
+    multistart(
+        problem,
+        &admissible,
+        &Search {
+            starts: 4,
+            window_starts: 1,
+            ..Search::default()
+        },
+    )
+    .unwrap()
 }
 
 fn enclosed(claim: &Claim) -> mceip::certificate::EnclosedSolution {
-    let Claim::EnclosedSolution(claim) = claim else { panic!("an enclosed claim: {claim:?}") };
+    let Claim::EnclosedSolution(claim) = claim else {
+        panic!("an enclosed claim: {claim:?}")
+    };
     claim.clone()
 }
 
@@ -58,46 +70,91 @@ fn a_local_mode_is_certified_and_accepted() {
 
     let accepted = check(&problem, &certificate(&problem, claims.clone())).unwrap();
     assert_eq!(accepted.claims.len(), claims.len());
-    assert!(accepted.claims.iter().any(|c| c.support == [0]), "{:?}", accepted.claims);
+    assert!(
+        accepted.claims.iter().any(|c| c.support == [0]),
+        "{:?}",
+        accepted.claims
+    );
 }
 
-/// With the other sign variable 0 cannot move alone: it moves with the far one, whose part is 1e-23.
+/// With the other sign variable 0 cannot move alone: it moves with the far one, whose part is
+/// 1e-23.
 #[test]
 fn a_tiny_component_of_a_mode_is_certified() {
     let problem = chain(-1);
     let found = found(&problem);
-    let both = found.certified.iter().find(|c| enclosed(&c.claim).support == [0, LINKS + 1]);
-    let claim = enclosed(&both.unwrap_or_else(|| panic!("{:?}", found.uncertified)).claim);
+    let both = found
+        .certified
+        .iter()
+        .find(|c| enclosed(&c.claim).support == [0, LINKS + 1]);
+    let claim = enclosed(
+        &both
+            .unwrap_or_else(|| panic!("{:?}", found.uncertified))
+            .claim,
+    );
 
     let far = &claim.center[LINKS + 1].0;
     assert!(far.is_positive() && *far < parse("1e-20").unwrap(), "{far}");
-    assert!(!found.certified.iter().any(|c| enclosed(&c.claim).support == [0]));
-    check(&problem, &certificate(&problem, vec![Claim::EnclosedSolution(claim)])).unwrap();
+    assert!(
+        !found
+            .certified
+            .iter()
+            .any(|c| enclosed(&c.claim).support == [0])
+    );
+    check(
+        &problem,
+        &certificate(&problem, vec![Claim::EnclosedSolution(claim)]),
+    )
+    .unwrap();
 }
 
-/// A candidate that says 0 where the solution has 1e-4 is not taken for it: that is no matter of rounding.
+/// A candidate that says 0 where the solution has 1e-4 is not taken for it: that is no matter of
+/// rounding.
 #[test]
 fn a_component_that_doubles_see_is_not_repaired() {
     let certified = |coupling: &str| {
         let n = 18;
         let mut entries: Vec<_> = (1..n).map(|i| (i, i, whole(18))).collect();
-        entries.extend([(0, 0, whole(-1)), (n, 0, parse(coupling).unwrap()), (n, n, whole(5))]);
-        let pencil = Pencil::new(Sparse::from_entries(n + 1, n + 1, entries), Sparse::identity(n + 1), (1..n).collect()).unwrap();
+        entries.extend([
+            (0, 0, whole(-1)),
+            (n, 0, parse(coupling).unwrap()),
+            (n, n, whole(5)),
+        ]);
+        let pencil = Pencil::new(
+            Sparse::from_entries(n + 1, n + 1, entries),
+            Sparse::identity(n + 1),
+            (1..n).collect(),
+        )
+        .unwrap();
         let mut x = vec![0.0; n + 1];
         x[0] = 1.0;
-        mceip::certify::propose(&pencil, &Window::all(), &mceip::candidate::Candidate { value: 1.0, x })
+        mceip::certify::propose(
+            &pencil,
+            &Window::all(),
+            &mceip::candidate::Candidate { value: 1.0, x },
+        )
     };
     assert_eq!(enclosed(&certified("-1e-20").unwrap()).support, [0, 18]);
     let attempts = certified("-1e-3").unwrap_err().attempts;
-    assert!(attempts.iter().any(|a| a.support == [0, 18]), "{attempts:?}");
+    assert!(
+        attempts.iter().any(|a| a.support == [0, 18]),
+        "{attempts:?}"
+    );
 }
 
-/// A box as wide as 2^-40 in every component, as it was once made, is refused and sifted out; with its own radii it stays.
+/// A box as wide as 2^-40 in every component, as it was once made, is refused and sifted out; with
+/// its own radii it stays.
 #[test]
 fn one_radius_for_all_components_is_refused() {
     let problem = chain(1);
     let found = found(&problem);
-    let good = found.certified.iter().map(|c| &c.claim).find(|c| enclosed(c).support == [0]).unwrap().clone();
+    let good = found
+        .certified
+        .iter()
+        .map(|c| &c.claim)
+        .find(|c| enclosed(c).support == [0])
+        .unwrap()
+        .clone();
 
     let mut wide = enclosed(&good);
     for radius in &mut wide.radius {
@@ -105,7 +162,9 @@ fn one_radius_for_all_components_is_refused() {
     }
     let sifted = sift(&problem, vec![Claim::EnclosedSolution(wide), good.clone()]);
     assert_eq!(sifted.accepted, [good]);
-    let [(0, reason)] = &sifted.refused[..] else { panic!("{:?}", sifted.refused) };
+    let [(0, reason)] = &sifted.refused[..] else {
+        panic!("{:?}", sifted.refused)
+    };
     assert_eq!(reason.name(), "YNotPositive");
 }
 
@@ -114,13 +173,31 @@ fn one_radius_for_all_components_is_refused() {
 fn the_complete_set_of_a_local_mode_closes() {
     for (end, support) in [(1, vec![0]), (-1, vec![0, LINKS + 1])] {
         let problem = chain(end);
-        let completed = complete(&problem, &Options::default(), &AtomicBool::new(false), &|_| {}).unwrap();
-        assert!(completed.cover.open.is_empty(), "{:?}", completed.cover.open);
+        let completed = complete(
+            &problem,
+            &Options::default(),
+            &AtomicBool::new(false),
+            &|_| {},
+        )
+        .unwrap();
+        assert!(
+            completed.cover.open.is_empty(),
+            "{:?}",
+            completed.cover.open
+        );
 
-        let supports: Vec<&Vec<usize>> = completed.cover.solutions.iter().map(|s| &s.support).collect();
+        let supports: Vec<&Vec<usize>> = completed
+            .cover
+            .solutions
+            .iter()
+            .map(|s| &s.support)
+            .collect();
         assert_eq!(supports, [&support]);
 
         let read = Certificate::from_json(&completed.certificate.to_json()).unwrap();
-        assert_eq!(check(&problem, &read).unwrap().cover.unwrap().solutions, completed.cover.solutions);
+        assert_eq!(
+            check(&problem, &read).unwrap().cover.unwrap().solutions,
+            completed.cover.solutions
+        );
     }
 }

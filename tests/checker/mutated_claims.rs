@@ -1,11 +1,14 @@
-//! Random forgeries of solution claims: what the checker accepts is true, and the oracle says what is true.
+//! Random forgeries of solution claims: what the checker accepts is true, and the oracle says what
+//! is true.
 #![cfg(feature = "testkit")]
 
 use mceip::candidate::Candidate;
 use mceip::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution};
 use mceip::certify::{certificate, flattened, lifted, propose};
 use mceip::check::check;
-use mceip::exact::{Algebraic, Integer, Interval, Poly, Sign, Sparse, common_denominator, rational, roots_in, whole};
+use mceip::exact::{
+    Algebraic, Integer, Interval, Poly, Sign, Sparse, common_denominator, rational, roots_in, whole,
+};
 use mceip::model::file::Number;
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};
 use mceip::oracle::{Enumeration, enumerate, is_solution};
@@ -31,14 +34,34 @@ impl Subject {
         let slip = reduced.pencil.slip();
         let mut certificates = Vec::new();
         for s in &truth.solutions {
-            let x = s.x_decimals(&slip, 17).iter().map(|t| t.parse().unwrap()).collect();
-            let claim = propose(&reduced.pencil, problem.window(), &Candidate { value: s.decimal(17).parse().unwrap(), x }).unwrap();
+            let x = s
+                .x_decimals(&slip, 17)
+                .iter()
+                .map(|t| t.parse().unwrap())
+                .collect();
+            let claim = propose(
+                &reduced.pencil,
+                problem.window(),
+                &Candidate {
+                    value: s.decimal(17).parse().unwrap(),
+                    x,
+                },
+            )
+            .unwrap();
             if let (Body::System(system), Claim::ExactSolution(c)) = (problem.body(), &claim) {
-                certificates.push(certificate(&problem, vec![Claim::LiftedSolution(lifted(system, problem.unknown(), c))]));
+                certificates.push(certificate(
+                    &problem,
+                    vec![Claim::LiftedSolution(lifted(system, problem.unknown(), c))],
+                ));
             }
             certificates.push(certificate(&problem, vec![claim]));
         }
-        Subject { problem, reduced, truth, certificates }
+        Subject {
+            problem,
+            reduced,
+            truth,
+            certificates,
+        }
     }
 
     /// Is every claim of the certificate true, by the oracle alone?
@@ -52,27 +75,53 @@ impl Subject {
     }
 
     fn exact_is_true(&self, c: &ExactSolution) -> bool {
-        let Some(mut value) = value(&c.polynomial, &c.interval) else { return false };
+        let Some(mut value) = value(&c.polynomial, &c.interval) else {
+            return false;
+        };
         let x = polynomials(&c.x);
         let slip = self.reduced.pencil.slip();
-        let positive: Vec<usize> = slip.iter().copied().filter(|&i| value.sign_of(&x[i]) == Sign::Positive).collect();
+        let positive: Vec<usize> = slip
+            .iter()
+            .copied()
+            .filter(|&i| value.sign_of(&x[i]) == Sign::Positive)
+            .collect();
         is_solution(&self.reduced.pencil, &value, &x) && positive == c.support
     }
 
     /// v is the lift of a solution, and w = (t M + K) v.
     fn lifted_is_true(&self, c: &LiftedSolution) -> bool {
-        let Body::System(system) = self.problem.body() else { return false };
+        let Body::System(system) = self.problem.body() else {
+            return false;
+        };
         let flat = flattened(system, c);
-        let Some(mut value) = value(&c.polynomial, &c.interval) else { return false };
-        let again = lift(system, self.problem.unknown(), &self.reduced.variables, &polynomials(&flat.x));
+        let Some(mut value) = value(&c.polynomial, &c.interval) else {
+            return false;
+        };
+        let again = lift(
+            system,
+            self.problem.unknown(),
+            &self.reduced.variables,
+            &polynomials(&flat.x),
+        );
         // Up to the factors that clear denominators.
         let clear = common_denominator(flat.x.iter().flatten().map(|n| &n.0));
         let mut agrees = |ours: &[Poly], scale: &Integer, theirs: &[Vec<Number>]| {
             let own = common_denominator(theirs.iter().flatten().map(|n| &n.0));
-            let integral = |p: &Vec<Number>| Poly::new(p.iter().map(|n| n.0.numer() * (&own / n.0.denom())).collect());
-            ours.iter().zip(theirs).all(|(a, b)| value.sign_of(&(&a.scale(&own) - &integral(b).scale(&(scale * &clear)))) == Sign::Zero)
+            let integral = |p: &Vec<Number>| {
+                Poly::new(
+                    p.iter()
+                        .map(|n| n.0.numer() * (&own / n.0.denom()))
+                        .collect(),
+                )
+            };
+            ours.iter().zip(theirs).all(|(a, b)| {
+                value.sign_of(&(&a.scale(&own) - &integral(b).scale(&(scale * &clear))))
+                    == Sign::Zero
+            })
         };
-        agrees(&again.v, &again.v_scale, &c.v) && agrees(&again.w, &again.w_scale, &c.w) && self.exact_is_true(&flat)
+        agrees(&again.v, &again.v_scale, &c.v)
+            && agrees(&again.w, &again.w_scale, &c.w)
+            && self.exact_is_true(&flat)
     }
 
     /// Exactly one solution of the oracle has this support and its value in the box.
@@ -80,9 +129,15 @@ impl Subject {
         let (t, r) = (&c.center.last().unwrap().0, &c.radius.last().unwrap().0);
         let within = |v: &Algebraic| {
             let mut v = v.clone();
-            v.cmp_rational(&(t - r)) != Ordering::Less && v.cmp_rational(&(t + r)) != Ordering::Greater
+            v.cmp_rational(&(t - r)) != Ordering::Less
+                && v.cmp_rational(&(t + r)) != Ordering::Greater
         };
-        self.truth.solutions.iter().filter(|s| s.slip == c.support && within(&s.value)).count() == 1
+        self.truth
+            .solutions
+            .iter()
+            .filter(|s| s.slip == c.support && within(&s.value))
+            .count()
+            == 1
     }
 }
 
@@ -97,28 +152,62 @@ fn value(p: &[Integer], interval: &[Number; 2]) -> Option<Algebraic> {
 /// Integer polynomials, all times one positive number.
 fn polynomials(list: &[Vec<Number>]) -> Vec<Poly> {
     let clear = common_denominator(list.iter().flatten().map(|n| &n.0));
-    list.iter().map(|p| Poly::new(p.iter().map(|n| n.0.numer() * (&clear / n.0.denom())).collect())).collect()
+    list.iter()
+        .map(|p| {
+            Poly::new(
+                p.iter()
+                    .map(|n| n.0.numer() * (&clear / n.0.denom()))
+                    .collect(),
+            )
+        })
+        .collect()
 }
 
 /// t = 3 with x = (1/2, 1/2), in a box.
 fn boxed() -> Subject {
-    let pencil = Pencil::new(Sparse::from_ints(&[&[-1, -2], &[-2, -1]]), Sparse::identity(2), vec![]).unwrap();
-    let mut subject = Subject::of(Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap());
-    let preconditioner = [[2, -2, 8], [-2, 2, 8], [16, 16, 0]].map(|r| r.map(Integer::from).to_vec()).to_vec();
+    let pencil = Pencil::new(
+        Sparse::from_ints(&[&[-1, -2], &[-2, -1]]),
+        Sparse::identity(2),
+        vec![],
+    )
+    .unwrap();
+    let mut subject =
+        Subject::of(Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap());
+    let preconditioner = [[2, -2, 8], [-2, 2, 8], [16, 16, 0]]
+        .map(|r| r.map(Integer::from).to_vec())
+        .to_vec();
     let half = || Number(rational(1, 2));
     let radius = vec![Number(rational(1, 1 << 20)); 3];
-    let claim =
-        EnclosedSolution { support: vec![0, 1], center: vec![half(), half(), Number(whole(3))], radius, preconditioner, exponent: 4 };
+    let claim = EnclosedSolution {
+        support: vec![0, 1],
+        center: vec![half(), half(), Number(whole(3))],
+        radius,
+        preconditioner,
+        exponent: 4,
+    };
     let c = certificate(&subject.problem, vec![Claim::EnclosedSolution(claim)]);
     subject.certificates = vec![c];
     subject
 }
 
 fn subjects() -> Vec<Subject> {
-    let mut problems: Vec<Problem> = degenerate().unwrap().into_iter().map(|i| i.problem).collect();
-    problems.extend(random_pencils(25, 11).unwrap().into_iter().map(|i| i.problem));
+    let mut problems: Vec<Problem> = degenerate()
+        .unwrap()
+        .into_iter()
+        .map(|i| i.problem)
+        .collect();
+    problems.extend(
+        random_pencils(25, 11)
+            .unwrap()
+            .into_iter()
+            .map(|i| i.problem),
+    );
     problems.extend(mechanical(25, 12).unwrap().into_iter().map(|i| i.problem));
-    let mut list: Vec<Subject> = problems.into_iter().map(Subject::of).filter(|s| !s.certificates.is_empty()).collect();
+    let mut list: Vec<Subject> = problems
+        .into_iter()
+        .map(Subject::of)
+        .filter(|s| !s.certificates.is_empty())
+        .collect();
     list.push(boxed());
     list
 }
@@ -127,7 +216,13 @@ fn forgeries(count: usize, seed: u64) {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let subjects = subjects();
     for s in &subjects {
-        s.certificates.iter().for_each(|c| assert!(check(&s.problem, c).is_ok() && s.is_true(c), "{}", c.to_json()));
+        s.certificates.iter().for_each(|c| {
+            assert!(
+                check(&s.problem, c).is_ok() && s.is_true(c),
+                "{}",
+                c.to_json()
+            )
+        });
     }
     let (mut accepted, mut rejected, mut reasons) = (0, 0, BTreeSet::new());
     while accepted + rejected < count {
@@ -143,7 +238,12 @@ fn forgeries(count: usize, seed: u64) {
         match check(&s.problem, &forged) {
             Ok(_) => {
                 accepted += 1;
-                assert!(s.is_true(&forged), "accepted and false:\n{}\n{}", s.problem.canonical_text(), forged.to_json());
+                assert!(
+                    s.is_true(&forged),
+                    "accepted and false:\n{}\n{}",
+                    s.problem.canonical_text(),
+                    forged.to_json()
+                );
             }
             Err(e) => {
                 rejected += 1;
@@ -151,8 +251,14 @@ fn forgeries(count: usize, seed: u64) {
             }
         }
     }
-    println!("{accepted} forgeries accepted and true, {rejected} rejected for {} reasons: {reasons:?}", reasons.len());
-    assert!(accepted > count / 20 && rejected > count / 4 && reasons.len() >= 12, "{accepted} {rejected} {reasons:?}");
+    println!(
+        "{accepted} forgeries accepted and true, {rejected} rejected for {} reasons: {reasons:?}",
+        reasons.len()
+    );
+    assert!(
+        accepted > count / 20 && rejected > count / 4 && reasons.len() >= 12,
+        "{accepted} {rejected} {reasons:?}"
+    );
 }
 
 #[test]

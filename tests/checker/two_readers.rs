@@ -9,7 +9,8 @@ use std::process::Command;
 const READ: i32 = 1;
 const REFUSED: i32 = 2;
 
-/// A certificate that every problem rejects, because it speaks of another one: exit 1 if the problem can be read.
+/// A certificate that every problem rejects, because it speaks of another one: exit 1 if the
+/// problem can be read.
 fn stray_certificate() -> Value {
     json!({
         "format": "mceip-certificate/1",
@@ -26,12 +27,30 @@ fn assert_verdict(folder: &Path, problem: &Value, expected: i32, what: &str) {
     std::fs::write(&problem_file, problem.to_string()).unwrap();
     std::fs::write(&certificate_file, stray_certificate().to_string()).unwrap();
 
-    let ours = Command::new(env!("CARGO_BIN_EXE_mceip")).arg("check").args([&problem_file, &certificate_file]).output().unwrap();
-    assert_eq!(ours.status.code(), Some(expected), "mceip check, {what}: {}", String::from_utf8_lossy(&ours.stderr));
+    let ours = Command::new(env!("CARGO_BIN_EXE_mceip"))
+        .arg("check")
+        .args([&problem_file, &certificate_file])
+        .output()
+        .unwrap();
+    assert_eq!(
+        ours.status.code(),
+        Some(expected),
+        "mceip check, {what}: {}",
+        String::from_utf8_lossy(&ours.stderr)
+    );
 
     let checker = Path::new(env!("CARGO_MANIFEST_DIR")).join("spec/checker.py");
-    if let Ok(theirs) = Command::new("python3").arg(checker).args([&problem_file, &certificate_file]).output() {
-        assert_eq!(theirs.status.code(), Some(expected), "checker.py, {what}: {}", String::from_utf8_lossy(&theirs.stderr));
+    if let Ok(theirs) = Command::new("python3")
+        .arg(checker)
+        .args([&problem_file, &certificate_file])
+        .output()
+    {
+        assert_eq!(
+            theirs.status.code(),
+            Some(expected),
+            "checker.py, {what}: {}",
+            String::from_utf8_lossy(&theirs.stderr)
+        );
     }
 }
 
@@ -44,16 +63,29 @@ fn market(separator: &str) -> String {
     format!("%%MatrixMarket matrix coordinate real general\n1 1 1\n1{separator}1{separator}-6\n")
 }
 
-/// Blanks and tabs part the words of a Matrix Market file; other control characters and wide blanks do not.
+/// Blanks and tabs part the words of a Matrix Market file; other control characters and wide blanks
+/// do not.
 #[test]
 fn words_of_a_matrix_market_file() {
     let folder = tempfile::tempdir().unwrap();
-    let cases =
-        [(" ", READ), ("\t", READ), (" \t ", READ), ("\u{1c}", REFUSED), ("\u{1f}", REFUSED), ("\u{b}", REFUSED), ("\u{a0}", REFUSED)];
+    let cases = [
+        (" ", READ),
+        ("\t", READ),
+        (" \t ", READ),
+        ("\u{1c}", REFUSED),
+        ("\u{1f}", REFUSED),
+        ("\u{b}", REFUSED),
+        ("\u{a0}", REFUSED),
+    ];
 
     for (separator, expected) in cases {
         std::fs::write(folder.path().join("a.mtx"), market(separator)).unwrap();
-        assert_verdict(folder.path(), &market_problem("a.mtx"), expected, &format!("{separator:?}"));
+        assert_verdict(
+            folder.path(),
+            &market_problem("a.mtx"),
+            expected,
+            &format!("{separator:?}"),
+        );
     }
 }
 
@@ -71,16 +103,29 @@ fn links_out_of_the_folder() {
     symlink(folder.join("inside.mtx"), folder.join("good.mtx")).unwrap();
     symlink(outer.path().join("outside.mtx"), folder.join("bad.mtx")).unwrap();
 
-    assert_verdict(&folder, &market_problem("good.mtx"), READ, "a link within the folder");
-    assert_verdict(&folder, &market_problem("bad.mtx"), REFUSED, "a link out of the folder");
+    assert_verdict(
+        &folder,
+        &market_problem("good.mtx"),
+        READ,
+        "a link within the folder",
+    );
+    assert_verdict(
+        &folder,
+        &market_problem("bad.mtx"),
+        REFUSED,
+        "a link out of the folder",
+    );
 }
 
 fn system(particles: Value) -> Value {
-    let identity: Vec<Vec<&str>> = (0..6).map(|i| (0..6).map(|j| if i == j { "1" } else { "0" }).collect()).collect();
+    let identity: Vec<Vec<&str>> = (0..6)
+        .map(|i| (0..6).map(|j| if i == j { "1" } else { "0" }).collect())
+        .collect();
     json!({ "format": "mceip-problem/1", "unknown": "mu", "system": { "stiffness": identity, "particles": particles } })
 }
 
-/// No degree of freedom belongs to two particles, free ones included, and one particle has to be in impending slip.
+/// No degree of freedom belongs to two particles, free ones included, and one particle has to be in
+/// impending slip.
 #[test]
 fn particles_of_a_system() {
     let folder = tempfile::tempdir().unwrap();
@@ -92,9 +137,21 @@ fn particles_of_a_system() {
     let cases = [
         (json!([slip, free, stick]), READ, "three particles"),
         (json!([slip, free, free]), REFUSED, "a free particle twice"),
-        (json!([slip, free, crossed]), REFUSED, "two free particles that share a dof"),
-        (json!([slip, crossed, stick]), REFUSED, "a free and a sticking particle that share a dof"),
-        (json!([free, stick]), REFUSED, "no particle in impending slip"),
+        (
+            json!([slip, free, crossed]),
+            REFUSED,
+            "two free particles that share a dof",
+        ),
+        (
+            json!([slip, crossed, stick]),
+            REFUSED,
+            "a free and a sticking particle that share a dof",
+        ),
+        (
+            json!([free, stick]),
+            REFUSED,
+            "no particle in impending slip",
+        ),
     ];
     for (particles, expected, what) in cases {
         assert_verdict(folder.path(), &system(particles), expected, what);

@@ -1,4 +1,5 @@
-//! The complete search against the oracle on the embedded families: same set, and closed where it can be.
+//! The complete search against the oracle on the embedded families: same set, and closed where it
+//! can be.
 #![cfg(feature = "testkit")]
 
 use mceip::oracle::enumerate;
@@ -11,11 +12,17 @@ fn undecided(instances: Vec<Instance>) -> Vec<String> {
         let oracle = enumerate(&reduce(&i.problem).unwrap().pencil, i.problem.window()).unwrap();
         compare_complete(&i.problem, &oracle).unwrap_or_else(|d| panic!("{}: {d}", i.label))
     };
-    instances.into_iter().filter(|i| !closed(i)).map(|i| i.label).collect()
+    instances
+        .into_iter()
+        .filter(|i| !closed(i))
+        .map(|i| i.label)
+        .collect()
 }
 
 fn without_free(list: Vec<Instance>) -> Vec<Instance> {
-    list.into_iter().filter(|i| reduce(&i.problem).unwrap().pencil.free().is_empty()).collect()
+    list.into_iter()
+        .filter(|i| reduce(&i.problem).unwrap().pencil.free().is_empty())
+        .collect()
 }
 
 #[test]
@@ -28,7 +35,10 @@ fn random_pencils_are_completed() {
 /// On, just below and just above every threshold.
 #[test]
 fn the_two_particles_are_completed() {
-    assert_eq!(undecided(table1_grid().unwrap().into_iter().take(120).collect()), Vec::<String>::new());
+    assert_eq!(
+        undecided(table1_grid().unwrap().into_iter().take(120).collect()),
+        Vec::<String>::new()
+    );
 }
 
 /// Double roots, wide kernels, singular supports: closed as well.

@@ -1,4 +1,5 @@
-//! The families of the measurements, over dyadic rationals so that the exact enumerator is the truth.
+//! The families of the measurements, over dyadic rationals so that the exact enumerator is the
+//! truth.
 #![allow(dead_code, missing_docs, unreachable_pub, clippy::unwrap_used)]
 
 use mceip::exact::{Sparse, from_f64};
@@ -16,7 +17,12 @@ pub struct Case {
 impl Case {
     /// The case over the whole half line.
     pub fn problem(&self) -> Problem {
-        Problem::new(Body::Pencil(self.pencil.clone()), self.unknown, Window::all()).unwrap()
+        Problem::new(
+            Body::Pencil(self.pencil.clone()),
+            self.unknown,
+            Window::all(),
+        )
+        .unwrap()
     }
 }
 
@@ -28,12 +34,21 @@ pub fn random_case(family: &str, n: usize, seed: u64, k: u64) -> Case {
     let (m0, k0) = (definite(&mut rng, n), definite(&mut rng, n));
     let mut k1 = normal_matrix(&mut rng, n) / (n as f64).sqrt();
     k1.rows_mut(0, free).fill(0.0);
-    let (a, b, unknown) = if family == "mu" { (k0, k1, Unknown::Mu) } else { (k0 + k1.map(round) * 3.0, m0, Unknown::Lambda2) };
+    let (a, b, unknown) = if family == "mu" {
+        (k0, k1, Unknown::Mu)
+    } else {
+        (k0 + k1.map(round) * 3.0, m0, Unknown::Lambda2)
+    };
     let pencil = Pencil::new(sparse(&a), sparse(&b), (0..free).collect()).unwrap();
-    Case { label: format!("{family} n={n} seed={seed} k={k}"), pencil, unknown }
+    Case {
+        label: format!("{family} n={n} seed={seed} k={k}"),
+        pencil,
+        unknown,
+    }
 }
 
-/// 320 points: phi 10 to 80 degrees, mu 0.5 to 20, all signs; the matrices in doubles, read exactly.
+/// 320 points: phi 10 to 80 degrees, mu 0.5 to 20, all signs; the matrices in doubles, read
+/// exactly.
 pub fn table1_cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for phi in [10.0f64, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0, 80.0] {
@@ -43,7 +58,11 @@ pub fn table1_cases() -> Vec<Case> {
                 let (d, q) = (c * c + 1.0, mu * c * s);
                 let a = nalgebra::dmatrix![d - q * s1, -s1 * s2; -s1 * s2, d + q * s2];
                 let pencil = Pencil::new(sparse(&a), Sparse::identity(2), vec![]).unwrap();
-                cases.push(Case { label: format!("table 1 phi={phi} mu={mu} S=({s1},{s2})"), pencil, unknown: Unknown::Lambda2 });
+                cases.push(Case {
+                    label: format!("table 1 phi={phi} mu={mu} S=({s1},{s2})"),
+                    pencil,
+                    unknown: Unknown::Lambda2,
+                });
             }
         }
     }
@@ -56,7 +75,11 @@ fn round(v: f64) -> f64 {
 
 fn sparse(m: &DMatrix<f64>) -> Sparse {
     let entry = |i: usize, j: usize| from_f64(round(m[(i, j)])).unwrap();
-    Sparse::from_entries(m.nrows(), m.ncols(), (0..m.nrows()).flat_map(|i| (0..m.ncols()).map(move |j| (i, j, entry(i, j)))))
+    Sparse::from_entries(
+        m.nrows(),
+        m.ncols(),
+        (0..m.nrows()).flat_map(|i| (0..m.ncols()).map(move |j| (i, j, entry(i, j)))),
+    )
 }
 
 fn normal(rng: &mut ChaCha8Rng) -> f64 {

@@ -14,9 +14,23 @@ fn solve(problem: &Problem) -> Enumeration {
 
 fn holds(known: &Known) {
     let found = solve(&known.problem);
-    assert!(found.is_complete_list() && found.ranges.is_empty(), "{}", known.name);
-    assert_eq!(found.solutions.len(), known.expected.solutions.len(), "{}", known.name);
-    assert_eq!(found.cones.len(), known.expected.cones.len(), "{}", known.name);
+    assert!(
+        found.is_complete_list() && found.ranges.is_empty(),
+        "{}",
+        known.name
+    );
+    assert_eq!(
+        found.solutions.len(),
+        known.expected.solutions.len(),
+        "{}",
+        known.name
+    );
+    assert_eq!(
+        found.cones.len(),
+        known.expected.cones.len(),
+        "{}",
+        known.name
+    );
     assert_eq!(found, known.expected, "{}", known.name);
 }
 
@@ -30,7 +44,9 @@ fn graphs() {
     assert_eq!(path(7).unwrap().expected.solutions.len(), 28);
     assert_eq!(complete_graph(8).unwrap().expected.solutions.len(), 255);
     assert!(complete_graph(8).unwrap().expected.cones.is_empty());
-    assert!(!path(7).unwrap().expected.cones.is_empty() && !cycle(7).unwrap().expected.cones.is_empty());
+    assert!(
+        !path(7).unwrap().expected.cones.is_empty() && !cycle(7).unwrap().expected.cones.is_empty()
+    );
     assert_eq!(star(5).unwrap().expected.cones.len(), 1); // the leaves at t = 0
 }
 
@@ -39,9 +55,19 @@ fn graphs() {
 fn closed_forms_are_the_named_numbers() {
     for s in path(9).unwrap().expected.solutions {
         let named = 2.0 * (std::f64::consts::PI / (s.slip.len() as f64 + 1.0)).cos();
-        assert!((s.decimal(17).parse::<f64>().unwrap() - named).abs() < 4e-15, "{:?}", s.slip);
+        assert!(
+            (s.decimal(17).parse::<f64>().unwrap() - named).abs() < 4e-15,
+            "{:?}",
+            s.slip
+        );
     }
-    for s in star(4).unwrap().expected.solutions.iter().filter(|s| s.slip.len() > 1) {
+    for s in star(4)
+        .unwrap()
+        .expected
+        .solutions
+        .iter()
+        .filter(|s| s.slip.len() > 1)
+    {
         let named = ((s.slip.len() - 1) as f64).sqrt();
         assert!((s.decimal(17).parse::<f64>().unwrap() - named).abs() < 4e-15);
     }
@@ -54,8 +80,28 @@ fn z_matrices_have_only_the_all_slip_solution() {
 
 #[test]
 fn diagonal_and_jordan_pencils() {
-    holds(&diagonal(&[whole(3), rational(1, 2), whole(0), whole(-1), rational(7, 3)]).unwrap());
-    holds(&diagonal(&[whole(2), rational(1, 2), whole(2), rational(1, 2), whole(2), whole(-2), whole(-2)]).unwrap());
+    holds(
+        &diagonal(&[
+            whole(3),
+            rational(1, 2),
+            whole(0),
+            whole(-1),
+            rational(7, 3),
+        ])
+        .unwrap(),
+    );
+    holds(
+        &diagonal(&[
+            whole(2),
+            rational(1, 2),
+            whole(2),
+            rational(1, 2),
+            whole(2),
+            whole(-2),
+            whole(-2),
+        ])
+        .unwrap(),
+    );
     for n in 1..=6 {
         holds(&jordan(n, 2, true).unwrap());
         holds(&jordan(n, 0, false).unwrap());
@@ -84,8 +130,8 @@ fn near_misses_are_different_answers() {
     assert_eq!(found, right.expected);
 }
 
-/// Matrices of the literature: the number of solutions is the published number of Pareto eigenvalues, and
-/// in the mechanical system mu = a / (c - lambda) with the same supports and x.
+/// Matrices of the literature: the number of solutions is the published number of Pareto
+/// eigenvalues, and in the mechanical system mu = a / (c - lambda) with the same supports and x.
 #[test]
 fn pareto_matrices_in_mechanical_systems() {
     for pareto in pareto_matrices() {
@@ -99,7 +145,8 @@ fn pareto_matrices_in_mechanical_systems() {
         assert!(Admissible::new(&reduced.pencil, system.unknown()).is_ok());
         let mechanical = solve(&system);
         assert_eq!(mechanical.solutions.len(), pareto.count);
-        // t = lambda + bound = lambda + c is increasing in lambda, and so is mu: both lists are in one order.
+        // t = lambda + bound = lambda + c is increasing in lambda, and so is mu: both lists are in
+        // one order.
         for (s, m) in raw.solutions.iter().zip(&mechanical.solutions) {
             let number = |text: String| parse(&text).unwrap();
             let (t, mu): (Rational, Rational) = (number(s.decimal(40)), number(m.decimal(40)));
@@ -119,14 +166,27 @@ fn planted_solutions_are_found() {
         let n = 2 + seed as usize % 5;
         let p = planted(n, seed as usize % 3 % n, seed).unwrap();
         let pencil = reduce(&p.problem).unwrap().pencil;
-        assert!(Admissible::new(&pencil, p.problem.unknown()).is_ok(), "seed {seed}");
+        assert!(
+            Admissible::new(&pencil, p.problem.unknown()).is_ok(),
+            "seed {seed}"
+        );
         assert!(is_rational_solution(&pencil, &p.value, &p.x), "seed {seed}");
         let clear = mceip::exact::common_denominator(&p.x);
-        let x: Vec<Poly> = p.x.iter().map(|v| Poly::constant(v.numer() * (&clear / v.denom()))).collect();
+        let x: Vec<Poly> =
+            p.x.iter()
+                .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))
+                .collect();
         let found = solve(&p.problem);
         let value = Algebraic::rational(p.value.clone());
         assert!(found.contains(&pencil, &value, &x), "seed {seed}");
         // Beside it, and with another vector, there is nothing.
-        assert!(!found.contains(&pencil, &Algebraic::rational(&p.value + rational(1, 1_000_000_007)), &x), "seed {seed}");
+        assert!(
+            !found.contains(
+                &pencil,
+                &Algebraic::rational(&p.value + rational(1, 1_000_000_007)),
+                &x
+            ),
+            "seed {seed}"
+        );
     }
 }

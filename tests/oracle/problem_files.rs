@@ -17,18 +17,32 @@ fn a_matrix_is_read_from_beside_the_problem() {
     assert!(unreadable(read_problem_file(&path).unwrap_err()));
     std::fs::create_dir(folder.path().join("a.mtx")).unwrap();
     let folder_instead = read_problem_file(&path).unwrap_err();
-    assert!(folder_instead.to_string().contains("expected a regular file"), "{folder_instead}");
+    assert!(
+        folder_instead
+            .to_string()
+            .contains("expected a regular file"),
+        "{folder_instead}"
+    );
     std::fs::remove_dir(folder.path().join("a.mtx")).unwrap();
     std::fs::write(folder.path().join("a.mtx"), MARKET).unwrap();
     let read = read_problem_file(&path).unwrap();
-    let Body::Pencil(pencil) = read.body() else { panic!("a pencil") };
+    let Body::Pencil(pencil) = read.body() else {
+        panic!("a pencil")
+    };
     assert_eq!(*pencil.a(), read_matrix_market("A", MARKET).unwrap());
     for name in ["../a.mtx", "/a.mtx"] {
         let elsewhere = problem.replace("a.mtx", name);
-        assert!(read_problem(&elsewhere, folder.path()).unwrap_err().to_string().contains("beside the problem file"));
+        assert!(
+            read_problem(&elsewhere, folder.path())
+                .unwrap_err()
+                .to_string()
+                .contains("beside the problem file")
+        );
     }
     assert_eq!(read_text("x", &path).unwrap(), problem);
-    assert!(unreadable(read_text("x", &folder.path().join("none")).unwrap_err()));
+    assert!(unreadable(
+        read_text("x", &folder.path().join("none")).unwrap_err()
+    ));
 }
 
 #[test]
@@ -45,10 +59,17 @@ fn a_symmetric_array_lists_its_lower_triangle_by_columns() {
 /// What was expected is said in words, and what was got.
 #[test]
 fn complaints_name_what_was_expected() {
-    let pencil = |a: &str| format!(r#"{{"format": "mceip-problem/1", "unknown": "mu", "pencil": {{"a": {a}, "b": [[1]], "free": []}}}}"#);
+    let pencil = |a: &str| {
+        format!(
+            r#"{{"format": "mceip-problem/1", "unknown": "mu", "pencil": {{"a": {a}, "b": [[1]], "free": []}}}}"#
+        )
+    };
     let message = |text: &str| read_problem(text, Path::new(".")).unwrap_err().to_string();
     for (a, words) in [
-        ("7", "dense rows, or an object with dense, entries or matrix_market"),
+        (
+            "7",
+            "dense rows, or an object with dense, entries or matrix_market",
+        ),
         ("[[null]]", "got null"),
         ("[[true]]", "got a boolean"),
         ("[[[1]]]", "got an array"),
@@ -58,7 +79,10 @@ fn complaints_name_what_was_expected() {
         assert!(got.contains(words), "{a}: {got}");
     }
     assert!(message("[1]").contains("an object"), "{}", message("[1]"));
-    assert_eq!([Unknown::Mu.proposition(), Unknown::Lambda2.proposition()], ["P1", "P2"]);
+    assert_eq!(
+        [Unknown::Mu.proposition(), Unknown::Lambda2.proposition()],
+        ["P1", "P2"]
+    );
 }
 
 /// mu = 1/2, r_N = -4: the cone is |r_T| <= 2. A reaction at its edge slips, one within sticks.
@@ -72,18 +96,32 @@ fn a_reaction_fits_the_state_of_its_particle() {
         );
         read_problem(&text, Path::new("."))
     };
-    let contradicts = |r: Result<_, ModelError>| matches!(r, Err(ModelError::ReactionContradicts { particle: 1, .. }));
+    let contradicts = |r: Result<_, ModelError>| {
+        matches!(r, Err(ModelError::ReactionContradicts { particle: 1, .. }))
+    };
     let (slip, stick) = (r#""state": "slip", "sign": 1"#, r#""state": "stick""#);
-    for (state, tangential, fits) in
-        [(slip, "2", true), (slip, "1", false), (slip, "8", false), (stick, "1", true), (stick, "2", false), (stick, "-7", false)]
-    {
+    for (state, tangential, fits) in [
+        (slip, "2", true),
+        (slip, "1", false),
+        (slip, "8", false),
+        (stick, "1", true),
+        (stick, "2", false),
+        (stick, "-7", false),
+    ] {
         let got = of(state, tangential, "-4");
-        assert!(if fits { got.is_ok() } else { contradicts(got.map(|_| ())) }, "{state} {tangential}");
+        assert!(
+            if fits {
+                got.is_ok()
+            } else {
+                contradicts(got.map(|_| ()))
+            },
+            "{state} {tangential}"
+        );
     }
 }
 
-/// A window between two quotients of Fibonacci numbers, 84 kB: a comparison by continued fractions takes a step for each bit
-/// of them, and overflowed the stack.
+/// A window between two quotients of Fibonacci numbers, 84 kB: a comparison by continued fractions
+/// takes a step for each bit of them, and overflowed the stack.
 #[test]
 fn ends_that_are_long_and_close_are_compared() {
     let (mut a, mut b) = (Integer::from(1), Integer::from(1));
@@ -102,5 +140,8 @@ fn ends_that_are_long_and_close_are_compared() {
 
     let read = |min: &str, max: &str| read_problem(&text(min, max), Path::new("/nonexistent"));
     let is_read = [read(&one, &other).is_ok(), read(&other, &one).is_ok()];
-    assert!(is_read[0] != is_read[1], "one of the two windows is empty: {is_read:?}");
+    assert!(
+        is_read[0] != is_read[1],
+        "one of the two windows is empty: {is_read:?}"
+    );
 }

@@ -1,4 +1,5 @@
-//! Laws of the problem on structured random pencils: scaling, permutation, shift, window, round trips.
+//! Laws of the problem on structured random pencils: scaling, permutation, shift, window, round
+//! trips.
 
 use mceip::exact::{Sparse, rational, whole};
 use mceip::model::file::{read_problem, write_problem};
@@ -10,9 +11,12 @@ use std::path::Path;
 /// A pencil of order 1 to 4 with small integers, sparse on purpose so that corners occur.
 fn pencils() -> impl Strategy<Value = Pencil> {
     (1usize..=4).prop_flat_map(|n| {
-        let entries = prop::collection::vec(prop_oneof![2 => Just(0i64), 3 => -4i64..=4], 2 * n * n);
+        let entries =
+            prop::collection::vec(prop_oneof![2 => Just(0i64), 3 => -4i64..=4], 2 * n * n);
         (entries, 0u8..(1 << n)).prop_map(move |(e, mask)| {
-            let matrix = |o: usize| Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, whole(e[o + k]))));
+            let matrix = |o: usize| {
+                Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, whole(e[o + k]))))
+            };
             let free = (0..n).filter(|i| mask & 0x5 & (1 << i) != 0).collect();
             Pencil::new(matrix(0), matrix(n * n), free).unwrap()
         })
@@ -27,11 +31,25 @@ type Row = (String, Vec<usize>, Vec<usize>, Vec<String>);
 
 /// Values, supports and x in decimals: what two equal answers share.
 fn summary(p: &Pencil, e: &Enumeration) -> Vec<Row> {
-    e.solutions.iter().map(|s| (s.decimal(20), s.slip.clone(), s.biactive.clone(), s.x_decimals(&p.slip(), 12))).collect()
+    e.solutions
+        .iter()
+        .map(|s| {
+            (
+                s.decimal(20),
+                s.slip.clone(),
+                s.biactive.clone(),
+                s.x_decimals(&p.slip(), 12),
+            )
+        })
+        .collect()
 }
 
 fn scaled(m: &Sparse, factors: &[i64]) -> Sparse {
-    Sparse::from_entries(m.rows(), m.cols(), m.entries().map(|(i, j, v)| (i, j, v * whole(factors[i]))))
+    Sparse::from_entries(
+        m.rows(),
+        m.cols(),
+        m.entries().map(|(i, j, v)| (i, j, v * whole(factors[i]))),
+    )
 }
 
 proptest! {

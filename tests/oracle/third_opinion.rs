@@ -1,5 +1,5 @@
-//! A third opinion on complete answers: `tests/oracle/third` shares no line with `exact` or `oracle` and goes
-//! another way at every step, over the integers of another library.
+//! A third opinion on complete answers: `tests/oracle/third` shares no line with `exact` or
+//! `oracle` and goes another way at every step, over the integers of another library.
 
 use crate::third::field::Alpha;
 use crate::third::poly::P;
@@ -18,11 +18,18 @@ fn number(v: &Rational) -> RBig {
 }
 
 fn polynomial(p: &Poly) -> P {
-    p.coeffs().iter().map(|c| number(&Rational::from_integer(c.clone()))).collect()
+    p.coeffs()
+        .iter()
+        .map(|c| number(&Rational::from_integer(c.clone())))
+        .collect()
 }
 
 fn is(alpha: &mut Alpha, value: &Algebraic) -> bool {
-    alpha.is_root_in(&polynomial(value.poly()), &number(value.interval().lo()), &number(value.interval().hi()))
+    alpha.is_root_in(
+        &polynomial(value.poly()),
+        &number(value.interval().lo()),
+        &number(value.interval().hi()),
+    )
 }
 
 fn vector(s: &Solution) -> Vec<P> {
@@ -63,11 +70,22 @@ fn compare(a: Vec<Vec<i64>>, b: Vec<Vec<i64>>, free: Vec<usize>, seen: &mut Seen
     named.sort();
     assert_eq!(continua, named, "{label}");
     // What a singular support has at one value only may be at none of these roots: add it.
-    seen.isolated += ours.solutions.iter().filter(|s| s.multiplicity == 0).count();
-    let at_isolated = ours.solutions.iter().filter(|s| s.multiplicity == 0).map(|s| &s.value);
+    seen.isolated += ours
+        .solutions
+        .iter()
+        .filter(|s| s.multiplicity == 0)
+        .count();
+    let at_isolated = ours
+        .solutions
+        .iter()
+        .filter(|s| s.multiplicity == 0)
+        .map(|s| &s.value);
     for v in at_isolated.chain(ours.cones.iter().map(|c| &c.value)) {
         if !values.iter_mut().any(|alpha| is(alpha, v)) {
-            values.push(Alpha::new(&polynomial(v.poly()), (number(v.interval().lo()), number(v.interval().hi()))));
+            values.push(Alpha::new(
+                &polynomial(v.poly()),
+                (number(v.interval().lo()), number(v.interval().hi())),
+            ));
         }
     }
     let mut matched = (0, 0);
@@ -81,8 +99,16 @@ fn compare(a: Vec<Vec<i64>>, b: Vec<Vec<i64>>, free: Vec<usize>, seen: &mut Seen
     seen.solutions += matched.0;
     seen.cones += matched.1;
     seen.ranges += ours.ranges.len();
-    seen.irrational += ours.solutions.iter().filter(|s| is_irrational(&s.value)).count();
-    seen.biactive += ours.solutions.iter().filter(|s| !s.biactive.is_empty()).count();
+    seen.irrational += ours
+        .solutions
+        .iter()
+        .filter(|s| is_irrational(&s.value))
+        .count();
+    seen.biactive += ours
+        .solutions
+        .iter()
+        .filter(|s| !s.biactive.is_empty())
+        .count();
     seen.free_only += ours.solutions.iter().filter(|s| s.is_free_only()).count();
 }
 
@@ -97,7 +123,11 @@ fn compare_at(
 ) -> (usize, usize) {
     // A singular support within its range has solutions here that nobody lists.
     let in_range = |support: &[usize], alpha: &mut Alpha| {
-        singular.iter().any(|s| s == support) && ours.ranges.iter().any(|r| r.support == support && holds(r, alpha))
+        singular.iter().any(|s| s == support)
+            && ours
+                .ranges
+                .iter()
+                .any(|r| r.support == support && holds(r, alpha))
     };
     let mut rays: Vec<Ray> = Vec::new();
     for ray in theirs.rays(alpha) {
@@ -105,10 +135,15 @@ fn compare_at(
             rays.push(ray);
         }
     }
-    let solutions: Vec<&Solution> = ours.solutions.iter().filter(|s| is(alpha, &s.value)).collect();
+    let solutions: Vec<&Solution> = ours
+        .solutions
+        .iter()
+        .filter(|s| is(alpha, &s.value))
+        .collect();
     let cones: Vec<_> = ours.cones.iter().filter(|c| is(alpha, &c.value)).collect();
     if cones.iter().any(|c| !c.lineality.is_empty()) {
-        seen.lines += 1; // extreme rays modulo a subspace: compared by hand in tests/oracle/oracle_degenerate.rs
+        // Extreme rays modulo a subspace: compared by hand in tests/oracle/oracle_degenerate.rs.
+        seen.lines += 1;
         return (solutions.len(), cones.len());
     }
     let mut generators: Vec<&Solution> = solutions.clone();
@@ -119,9 +154,17 @@ fn compare_at(
     }
     assert_eq!(generators.len(), rays.len(), "{label}: at {alpha:?}");
     for g in &generators {
-        let twin = rays.iter().find(|r| r.slip == g.slip && same_ray(alpha, &r.x, &vector(g)));
-        let twin = twin.unwrap_or_else(|| panic!("{label}: {:?} {:?} is not confirmed", g.decimal(9), g.slip));
-        let biactive: Vec<usize> = twin.y_zero.iter().copied().filter(|i| !twin.slip.contains(i)).collect();
+        let twin = rays
+            .iter()
+            .find(|r| r.slip == g.slip && same_ray(alpha, &r.x, &vector(g)));
+        let twin = twin
+            .unwrap_or_else(|| panic!("{label}: {:?} {:?} is not confirmed", g.decimal(9), g.slip));
+        let biactive: Vec<usize> = twin
+            .y_zero
+            .iter()
+            .copied()
+            .filter(|i| !twin.slip.contains(i))
+            .collect();
         assert_eq!(biactive, g.biactive, "{label}");
     }
     let mut regular = Vec::new();
@@ -131,8 +174,15 @@ fn compare_at(
         }
     }
     let all_rays = theirs.rays(alpha);
-    let mut maximal: Vec<(Vec<usize>, usize)> = theirs.cones(alpha, &all_rays, &regular).into_iter().map(|(j, r)| (j, r.len())).collect();
-    let mut listed: Vec<(Vec<usize>, usize)> = cones.iter().map(|c| (c.slip.clone(), c.rays.len())).collect();
+    let mut maximal: Vec<(Vec<usize>, usize)> = theirs
+        .cones(alpha, &all_rays, &regular)
+        .into_iter()
+        .map(|(j, r)| (j, r.len()))
+        .collect();
+    let mut listed: Vec<(Vec<usize>, usize)> = cones
+        .iter()
+        .map(|c| (c.slip.clone(), c.rays.len()))
+        .collect();
     maximal.sort();
     listed.sort();
     assert_eq!(maximal, listed, "{label}: cones at {alpha:?}");
@@ -141,14 +191,21 @@ fn compare_at(
 
 fn holds(r: &mceip::oracle::SupportRange, alpha: &mut Alpha) -> bool {
     let mut side = |end: &mceip::oracle::End| {
-        let (p, lo, hi) = (polynomial(end.value.poly()), number(end.value.interval().lo()), number(end.value.interval().hi()));
+        let (p, lo, hi) = (
+            polynomial(end.value.poly()),
+            number(end.value.interval().lo()),
+            number(end.value.interval().hi()),
+        );
         if alpha.is_root_in(&p, &lo, &hi) {
             return 0;
         }
         // Another number: narrow the end until it lies on one side.
         let mut end = Alpha::new(&p, (lo, hi));
         loop {
-            let (below, above) = (alpha.sign(&[-end.lo.clone(), 1.into()]), alpha.sign(&[-end.hi.clone(), 1.into()]));
+            let (below, above) = (
+                alpha.sign(&[-end.lo.clone(), 1.into()]),
+                alpha.sign(&[-end.hi.clone(), 1.into()]),
+            );
             match (below, above) {
                 (-1 | 0, _) => return -1,
                 (_, 0 | 1) => return 1,
@@ -159,38 +216,95 @@ fn holds(r: &mceip::oracle::SupportRange, alpha: &mut Alpha) -> bool {
     r.pieces.iter().any(|p| {
         let from = side(&p.from);
         let to = p.to.as_ref().map(|to| (side(to), to.included));
-        (from > 0 || (from == 0 && p.from.included)) && to.is_none_or(|(s, included)| s < 0 || (s == 0 && included))
+        (from > 0 || (from == 0 && p.from.included))
+            && to.is_none_or(|(s, included)| s < 0 || (s == 0 && included))
     })
 }
 
 /// Both ends of every range: does their existence test say what `included` says?
 fn compare_ends(theirs: &Third, ours: &Enumeration, label: &str) {
     for r in &ours.ranges {
-        for end in r.pieces.iter().flat_map(|p| [Some(&p.from), p.to.as_ref()]).flatten() {
+        for end in r
+            .pieces
+            .iter()
+            .flat_map(|p| [Some(&p.from), p.to.as_ref()])
+            .flatten()
+        {
             let v = &end.value;
-            let mut alpha = Alpha::new(&polynomial(v.poly()), (number(v.interval().lo()), number(v.interval().hi())));
-            assert_eq!(theirs.exists(&mut alpha, &r.support), r.contains(v), "{label}: end of {:?} at {v:?}", r.support);
+            let mut alpha = Alpha::new(
+                &polynomial(v.poly()),
+                (number(v.interval().lo()), number(v.interval().hi())),
+            );
+            assert_eq!(
+                theirs.exists(&mut alpha, &r.support),
+                r.contains(v),
+                "{label}: end of {:?} at {v:?}",
+                r.support
+            );
         }
     }
 }
 
-/// Ranges of singular supports at rational samples: inside or outside, as their own existence test says.
+/// Ranges of singular supports at rational samples: inside or outside, as their own existence test
+/// says.
 fn compare_ranges(theirs: &Third, singular: &[Vec<usize>], ours: &Enumeration, label: &str) {
     for support in singular {
-        for (n, d) in [(0, 1), (1, 3), (1, 2), (1, 1), (4, 3), (3, 2), (2, 1), (5, 2), (3, 1), (9, 2), (100, 1)] {
+        for (n, d) in [
+            (0, 1),
+            (1, 3),
+            (1, 2),
+            (1, 1),
+            (4, 3),
+            (3, 2),
+            (2, 1),
+            (5, 2),
+            (3, 1),
+            (9, 2),
+            (100, 1),
+        ] {
             let value = Algebraic::rational(rational(n, d));
             let expected = theirs.exists(&mut at(n, d), support);
-            let in_range = ours.ranges.iter().any(|r| r.support == *support && r.contains(&value));
-            let single = ours.solutions.iter().any(|s| s.slip == *support && s.value.clone().equals(&mut value.clone()))
-                || ours.cones.iter().any(|c| c.slip == *support && c.value.clone().equals(&mut value.clone()))
-                || (expected && !in_range && ours.cones.iter().any(|c| support.iter().all(|i| c.slip.contains(i))));
-            assert_eq!(expected, in_range || single, "{label}: support {support:?} at {n}/{d}");
+            let in_range = ours
+                .ranges
+                .iter()
+                .any(|r| r.support == *support && r.contains(&value));
+            let single = ours
+                .solutions
+                .iter()
+                .any(|s| s.slip == *support && s.value.clone().equals(&mut value.clone()))
+                || ours
+                    .cones
+                    .iter()
+                    .any(|c| c.slip == *support && c.value.clone().equals(&mut value.clone()))
+                || (expected
+                    && !in_range
+                    && ours
+                        .cones
+                        .iter()
+                        .any(|c| support.iter().all(|i| c.slip.contains(i))));
+            assert_eq!(
+                expected,
+                in_range || single,
+                "{label}: support {support:?} at {n}/{d}"
+            );
         }
     }
 }
 
 fn random(rng: &mut ChaCha8Rng, n: usize, largest: i64, zeros: f64) -> Vec<Vec<i64>> {
-    (0..n).map(|_| (0..n).map(|_| if rng.random::<f64>() < zeros { 0 } else { rng.random_range(-largest..=largest) }).collect()).collect()
+    (0..n)
+        .map(|_| {
+            (0..n)
+                .map(|_| {
+                    if rng.random::<f64>() < zeros {
+                        0
+                    } else {
+                        rng.random_range(-largest..=largest)
+                    }
+                })
+                .collect()
+        })
+        .collect()
 }
 
 #[test]
@@ -201,12 +315,20 @@ fn random_pencils_regular_and_degenerate() {
         let n = 1 + k % 4;
         // From dense and generic to sparse, small and singular.
         let (largest, zeros) = [(9, 0.0), (3, 0.2), (1, 0.3), (1, 0.5), (2, 0.6)][k / 4 % 5];
-        let (a, b) = (random(&mut rng, n, largest, zeros), random(&mut rng, n, largest, zeros));
-        let free = (0..n).filter(|_| k % 3 == 2 && rng.random_range(0..3) == 0).collect();
+        let (a, b) = (
+            random(&mut rng, n, largest, zeros),
+            random(&mut rng, n, largest, zeros),
+        );
+        let free = (0..n)
+            .filter(|_| k % 3 == 2 && rng.random_range(0..3) == 0)
+            .collect();
         compare(a, b, free, &mut seen);
     }
     eprintln!("{seen:?}");
-    assert!(seen.solutions > 200 && seen.irrational > 20 && seen.biactive > 20 && seen.free_only > 5, "{seen:?}");
+    assert!(
+        seen.solutions > 200 && seen.irrational > 20 && seen.biactive > 20 && seen.free_only > 5,
+        "{seen:?}"
+    );
     assert!(seen.ranges > 20 && seen.isolated > 0, "{seen:?}");
 }
 
@@ -218,17 +340,25 @@ fn wide_kernels() {
     for k in 0..90 {
         let n = 3 + k % 2;
         // -I (or a multiple) with a few coupling entries, B = I.
-        let mut a: Vec<Vec<i64>> = (0..n).map(|i| (0..n).map(|j| if i == j { -1 } else { 0 }).collect()).collect();
+        let mut a: Vec<Vec<i64>> = (0..n)
+            .map(|i| (0..n).map(|j| if i == j { -1 } else { 0 }).collect())
+            .collect();
         for _ in 0..k % 5 {
             let (i, j) = (rng.random_range(0..n), rng.random_range(0..n));
             a[i][j] += rng.random_range(-1..=1);
         }
-        let mut b: Vec<Vec<i64>> = (0..n).map(|i| (0..n).map(|j| i64::from(i == j)).collect()).collect();
+        let mut b: Vec<Vec<i64>> = (0..n)
+            .map(|i| (0..n).map(|j| i64::from(i == j)).collect())
+            .collect();
         if k % 7 == 0 {
             let (i, j) = (rng.random_range(0..n), rng.random_range(0..n));
             b[i][j] += 1;
         }
-        let free = if k % 6 == 5 { vec![rng.random_range(0..n)] } else { vec![] };
+        let free = if k % 6 == 5 {
+            vec![rng.random_range(0..n)]
+        } else {
+            vec![]
+        };
         compare(a, b, free, &mut seen);
     }
     eprintln!("{seen:?}");

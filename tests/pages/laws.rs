@@ -1,4 +1,5 @@
-//! Laws of the workspace that can be read off manifests and sources: who depends on whom, who computes in floats.
+//! Laws of the workspace that can be read off manifests and sources: who depends on whom, who
+//! computes in floats.
 
 use std::path::{Path, PathBuf};
 
@@ -7,14 +8,20 @@ fn root() -> PathBuf {
 }
 
 /// The rooms that are crates of their own.
-const CRATES: [&str; 8] = ["exact", "model", "check", "oracle", "mcp", "engine", "paper", "testkit"];
+const CRATES: [&str; 8] = [
+    "exact", "model", "check", "oracle", "mcp", "engine", "paper", "testkit",
+];
 
 /// Those that decide.
 const TRUSTED: [&str; 4] = ["exact", "model", "check", "oracle"];
 
 /// Where the sources of a crate are; for any other name those of the package at the top.
 fn sources_of(package: &str) -> PathBuf {
-    if CRATES.contains(&package) { root().join("crates").join(package).join("src") } else { root().join("src") }
+    if CRATES.contains(&package) {
+        root().join("crates").join(package).join("src")
+    } else {
+        root().join("src")
+    }
 }
 
 /// The crate that a room is in.
@@ -31,7 +38,11 @@ fn package_of(room: &str) -> &str {
 /// The folder and the file a room may consist of.
 fn places(room: &str) -> [PathBuf; 2] {
     let package = sources_of(package_of(room));
-    let folder = if CRATES.contains(&room) { package } else { package.join(room) };
+    let folder = if CRATES.contains(&room) {
+        package
+    } else {
+        package.join(room)
+    };
     let file = folder.with_extension("rs");
     [folder, file]
 }
@@ -47,7 +58,11 @@ fn sources(room: &str) -> Vec<(PathBuf, String)> {
             stack.extend(std::fs::read_dir(&path).unwrap().map(|e| e.unwrap().path()));
         } else if path.extension().is_some_and(|e| e == "rs") && path.exists() {
             let text = std::fs::read_to_string(&path).unwrap();
-            let code = text.split("#[cfg(test)]\nmod tests").next().unwrap_or_default().to_string();
+            let code = text
+                .split("#[cfg(test)]\nmod tests")
+                .next()
+                .unwrap_or_default()
+                .to_string();
             list.push((path, code));
         }
     }
@@ -58,11 +73,17 @@ fn sources(room: &str) -> Vec<(PathBuf, String)> {
 /// Is this file a module of its parent under `cfg(test)`?
 fn is_for_tests(path: &Path) -> bool {
     let folder = path.parent().unwrap();
-    let parent = [folder.join("mod.rs"), folder.with_extension("rs")].into_iter().find(|p| p.is_file()).unwrap();
-    std::fs::read_to_string(parent).unwrap().contains("#[cfg(test)]\nmod tests;")
+    let parent = [folder.join("mod.rs"), folder.with_extension("rs")]
+        .into_iter()
+        .find(|p| p.is_file())
+        .unwrap();
+    std::fs::read_to_string(parent)
+        .unwrap()
+        .contains("#[cfg(test)]\nmod tests;")
 }
 
-/// Rooms named anywhere in the code of a room (not in comments or doc examples): `crate::room` or the crate `mceip_room`.
+/// Rooms named anywhere in the code of a room (not in comments or doc examples): `crate::room` or
+/// the crate `mceip_room`.
 fn imports(code: &str) -> Vec<String> {
     let mut rooms = Vec::new();
     for line in code.lines().map(str::trim).filter(|l| !l.starts_with("//")) {
@@ -70,7 +91,11 @@ fn imports(code: &str) -> Vec<String> {
             let mut rest = line;
             while let Some(k) = rest.find(before) {
                 rest = &rest[k + before.len()..];
-                rooms.push(rest.chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect());
+                rooms.push(
+                    rest.chars()
+                        .take_while(|c| c.is_alphanumeric() || *c == '_')
+                        .collect(),
+                );
             }
         }
     }
@@ -79,12 +104,55 @@ fn imports(code: &str) -> Vec<String> {
 
 /// Crate, and all that its manifest may name: Cargo keeps the walls between crates.
 const MAY_DEPEND: [(&str, &[&str]); 8] = [
-    ("exact", &["num-bigint", "num-integer", "num-rational", "num-traits", "thiserror"]),
-    ("model", &["mceip-exact", "num-traits", "serde", "serde_json", "sha2", "thiserror"]),
-    ("check", &["mceip-exact", "mceip-model", "num-integer", "num-traits", "serde", "serde_json", "thiserror"]),
-    ("oracle", &["mceip-exact", "mceip-model", "num-traits", "thiserror"]),
+    (
+        "exact",
+        &[
+            "num-bigint",
+            "num-integer",
+            "num-rational",
+            "num-traits",
+            "thiserror",
+        ],
+    ),
+    (
+        "model",
+        &[
+            "mceip-exact",
+            "num-traits",
+            "serde",
+            "serde_json",
+            "sha2",
+            "thiserror",
+        ],
+    ),
+    (
+        "check",
+        &[
+            "mceip-exact",
+            "mceip-model",
+            "num-integer",
+            "num-traits",
+            "serde",
+            "serde_json",
+            "thiserror",
+        ],
+    ),
+    (
+        "oracle",
+        &["mceip-exact", "mceip-model", "num-traits", "thiserror"],
+    ),
     // Nothing of friction, nothing exact: useful to anybody with a mixed complementarity problem.
-    ("mcp", &["faer", "nalgebra", "num-traits", "rand", "rand_chacha", "thiserror"]),
+    (
+        "mcp",
+        &[
+            "faer",
+            "nalgebra",
+            "num-traits",
+            "rand",
+            "rand_chacha",
+            "thiserror",
+        ],
+    ),
     (
         "engine",
         &[
@@ -107,7 +175,19 @@ const MAY_DEPEND: [(&str, &[&str]); 8] = [
         ],
     ),
     // mcp: the loading path proposes its events in doubles and verifies them exactly.
-    ("paper", &["mceip-exact", "mceip-mcp", "mceip-model", "mceip-oracle", "nalgebra", "num-integer", "num-traits", "thiserror"]),
+    (
+        "paper",
+        &[
+            "mceip-exact",
+            "mceip-mcp",
+            "mceip-model",
+            "mceip-oracle",
+            "nalgebra",
+            "num-integer",
+            "num-traits",
+            "thiserror",
+        ],
+    ),
     (
         "testkit",
         &[
@@ -131,14 +211,23 @@ const MAY_DEPEND: [(&str, &[&str]); 8] = [
 #[test]
 fn manifests_follow_the_house() {
     for (name, allowed) in MAY_DEPEND {
-        let manifest = std::fs::read_to_string(root().join("crates").join(name).join("Cargo.toml")).unwrap();
-        assert!(manifest.contains("[lints]\nworkspace = true"), "{name} has lints of its own");
+        let manifest =
+            std::fs::read_to_string(root().join("crates").join(name).join("Cargo.toml")).unwrap();
+        assert!(
+            manifest.contains("[lints]\nworkspace = true"),
+            "{name} has lints of its own"
+        );
         let mut section = "";
         let mut named = Vec::new();
-        for line in manifest.lines().map(str::trim).filter(|l| !l.is_empty() && !l.starts_with('#')) {
+        for line in manifest
+            .lines()
+            .map(str::trim)
+            .filter(|l| !l.is_empty() && !l.starts_with('#'))
+        {
             if line.starts_with('[') {
                 section = line;
-                // No other kind of dependency: build, or a table of its own. The trusted crates have none for tests either.
+                // No other kind of dependency: build, or a table of its own. The trusted crates
+                // have none for tests either.
                 let is_known = section == "[dependencies]"
                     || section == "[target.'cfg(unix)'.dependencies]"
                     || (section == "[dev-dependencies]" && !TRUSTED.contains(&name))
@@ -154,7 +243,8 @@ fn manifests_follow_the_house() {
     assert_eq!(crates, MAY_DEPEND.len(), "a crate without a row");
 }
 
-/// The elimination (10)-(16) stands in `model`; what judges it (`check`), the enumerator and the rest of `model` do not use it.
+/// The elimination (10)-(16) stands in `model`; what judges it (`check`), the enumerator and the
+/// rest of `model` do not use it.
 #[test]
 fn the_elimination_is_not_used_by_what_stands_beside_it() {
     for room in ["check", "oracle", "model"] {
@@ -162,8 +252,14 @@ fn the_elimination_is_not_used_by_what_stands_beside_it() {
             if path.starts_with(sources_of("model").join("reduction")) {
                 continue;
             }
-            let uses = |l: &str| l.contains("reduction") && !l.starts_with("//") && l != "pub mod reduction;";
-            assert!(!code.lines().map(str::trim).any(uses), "{} uses the elimination", path.display());
+            let uses = |l: &str| {
+                l.contains("reduction") && !l.starts_with("//") && l != "pub mod reduction;"
+            };
+            assert!(
+                !code.lines().map(str::trim).any(uses),
+                "{} uses the elimination",
+                path.display()
+            );
         }
     }
 }
@@ -174,7 +270,18 @@ const MAY_IMPORT: [(&str, &[&str]); 4] = [
     ("solver", &["mcp"]),
     ("sparse", &["mcp", "solver", "linear", "tolerance"]),
     // check: what certify hands out has been accepted.
-    ("certify", &["exact", "model", "candidate", "certificate", "check", "tolerance", "linear"]),
+    (
+        "certify",
+        &[
+            "exact",
+            "model",
+            "candidate",
+            "certificate",
+            "check",
+            "tolerance",
+            "linear",
+        ],
+    ),
 ];
 
 #[test]
@@ -184,9 +291,17 @@ fn imports_follow_the_house() {
         for (path, code) in sources(room) {
             // One step up more than there are folders below the room is outside of it.
             let outside = "super::".repeat(steps_to_outside(path.strip_prefix(&package).unwrap()));
-            assert!(!code.contains(&outside), "{} reaches out of its room", path.display());
+            assert!(
+                !code.contains(&outside),
+                "{} reaches out of its room",
+                path.display()
+            );
             for import in imports(&code) {
-                assert!(import == room || allowed.contains(&import.as_str()), "{}: {room} imports {import}", path.display());
+                assert!(
+                    import == room || allowed.contains(&import.as_str()),
+                    "{}: {room} imports {import}",
+                    path.display()
+                );
             }
         }
     }
@@ -202,20 +317,46 @@ fn steps_to_outside(file: &Path) -> usize {
 #[test]
 fn a_deeper_file_may_step_further_up() {
     let of = |path: &str| steps_to_outside(Path::new(path));
-    assert_eq!([of("solver/newton.rs"), of("solver/mod.rs"), of("solver.rs")], [2, 2, 2]);
-    assert_eq!([of("solver/path/basis.rs"), of("solver/path/mod.rs"), of("solver/path/ratio/tests.rs")], [3, 2, 4]);
+    assert_eq!(
+        [of("solver/newton.rs"), of("solver/mod.rs"), of("solver.rs")],
+        [2, 2, 2]
+    );
+    assert_eq!(
+        [
+            of("solver/path/basis.rs"),
+            of("solver/path/mod.rs"),
+            of("solver/path/ratio/tests.rs")
+        ],
+        [3, 2, 4]
+    );
 }
 
 /// "The few parts of exact it names": numbers, polynomials, intervals; nothing that solves.
 #[test]
 fn the_checker_names_only_what_multiplies_and_compares() {
-    const ALLOWED: [&str; 6] = ["Integer", "Interval", "Poly", "Rational", "Sparse", "common_denominator"];
+    const ALLOWED: [&str; 6] = [
+        "Integer",
+        "Interval",
+        "Poly",
+        "Rational",
+        "Sparse",
+        "common_denominator",
+    ];
     let mut named = 0;
     for (path, code) in sources("check") {
         for line in code.lines().filter(|l| !l.trim_start().starts_with("//")) {
-            let Some((_, rest)) = line.split_once("mceip_exact::") else { continue };
-            for name in rest.split(|c: char| !(c.is_alphanumeric() || c == '_')).filter(|n| !n.is_empty()) {
-                assert!(ALLOWED.contains(&name), "{}: check uses exact::{name}", path.display());
+            let Some((_, rest)) = line.split_once("mceip_exact::") else {
+                continue;
+            };
+            for name in rest
+                .split(|c: char| !(c.is_alphanumeric() || c == '_'))
+                .filter(|n| !n.is_empty())
+            {
+                assert!(
+                    ALLOWED.contains(&name),
+                    "{}: check uses exact::{name}",
+                    path.display()
+                );
                 named += 1;
             }
         }
@@ -225,7 +366,10 @@ fn the_checker_names_only_what_multiplies_and_compares() {
 
 #[test]
 fn the_reader_of_imports_sees_a_breach() {
-    assert_eq!(imports("use crate::solver::solve;\n// crate::oracle\nlet x = mceip_exact::whole(1);"), vec!["solver", "exact"]);
+    assert_eq!(
+        imports("use crate::solver::solve;\n// crate::oracle\nlet x = mceip_exact::whole(1);"),
+        vec!["solver", "exact"]
+    );
 }
 
 #[test]
@@ -234,19 +378,33 @@ fn floats_stay_out_of_the_deciding_rooms() {
         for (path, code) in sources(room) {
             let name = path.file_name().and_then(|n| n.to_str()).unwrap();
             let is_border = room == "exact" && (name == "double.rs" || name == "lib.rs");
-            let code: String = code.lines().filter(|l| !l.trim_start().starts_with("//")).collect();
-            assert!(is_border || !(code.contains("f64") || code.contains("f32")), "{}: names a float type", path.display());
+            let code: String = code
+                .lines()
+                .filter(|l| !l.trim_start().starts_with("//"))
+                .collect();
+            assert!(
+                is_border || !(code.contains("f64") || code.contains("f32")),
+                "{}: names a float type",
+                path.display()
+            );
         }
     }
     for room in ["exact", "check", "oracle"] {
         let module = std::fs::read_to_string(sources_of(room).join("lib.rs")).unwrap();
-        assert!(module.contains("#![deny(clippy::float_arithmetic)]"), "{room} does not deny float arithmetic");
+        assert!(
+            module.contains("#![deny(clippy::float_arithmetic)]"),
+            "{room} does not deny float arithmetic"
+        );
     }
 }
 
 #[test]
 fn faer_stands_behind_one_file_and_tolerances_in_theirs() {
-    let mut stack: Vec<PathBuf> = ["mceip"].iter().chain(&CRATES).map(|p| sources_of(p)).collect();
+    let mut stack: Vec<PathBuf> = ["mceip"]
+        .iter()
+        .chain(&CRATES)
+        .map(|p| sources_of(p))
+        .collect();
     let (mut faer, mut small) = (Vec::new(), Vec::new());
     while let Some(path) = stack.pop() {
         if path.ends_with("tests") {
@@ -257,8 +415,13 @@ fn faer_stands_behind_one_file_and_tolerances_in_theirs() {
             continue;
         }
         let text = std::fs::read_to_string(&path).unwrap();
-        let code: Vec<&str> =
-            text.split("#[cfg(test)]").next().unwrap_or_default().lines().filter(|l| !l.trim_start().starts_with("//")).collect();
+        let code: Vec<&str> = text
+            .split("#[cfg(test)]")
+            .next()
+            .unwrap_or_default()
+            .lines()
+            .filter(|l| !l.trim_start().starts_with("//"))
+            .collect();
         let name = path.file_name().unwrap().to_string_lossy().into_owned();
         if code.iter().any(|l| l.contains("faer::")) {
             faer.push(name.clone());
@@ -270,21 +433,43 @@ fn faer_stands_behind_one_file_and_tolerances_in_theirs() {
     }
     assert_eq!(faer, vec!["linear.rs"]);
     small.sort();
-    assert_eq!(small, vec!["options.rs", "tolerance.rs", "tolerance.rs", "tolerance.rs", "tolerance.rs"]);
+    assert_eq!(
+        small,
+        vec![
+            "options.rs",
+            "tolerance.rs",
+            "tolerance.rs",
+            "tolerance.rs",
+            "tolerance.rs"
+        ]
+    );
 }
 
 /// Cargo links the groups of `tests/`; a file that its group does not name would never run.
 #[test]
 fn every_file_of_a_group_of_tests_is_named_by_it() {
     let mut files = 0;
-    for group in std::fs::read_dir(root().join("tests")).unwrap().map(|e| e.unwrap().path()) {
-        let Ok(main) = std::fs::read_to_string(group.join("main.rs")) else { continue };
-        for file in std::fs::read_dir(&group).unwrap().map(|e| e.unwrap().path()) {
+    for group in std::fs::read_dir(root().join("tests"))
+        .unwrap()
+        .map(|e| e.unwrap().path())
+    {
+        let Ok(main) = std::fs::read_to_string(group.join("main.rs")) else {
+            continue;
+        };
+        for file in std::fs::read_dir(&group)
+            .unwrap()
+            .map(|e| e.unwrap().path())
+        {
             let module = file.file_stem().unwrap().to_string_lossy().into_owned();
             if file.extension().is_none_or(|e| e != "rs") || module == "main" {
                 continue;
             }
-            assert!(main.lines().any(|line| line.ends_with(&format!("mod {module};"))), "{} is not run", file.display());
+            assert!(
+                main.lines()
+                    .any(|line| line.ends_with(&format!("mod {module};"))),
+                "{} is not run",
+                file.display()
+            );
             files += 1;
         }
     }

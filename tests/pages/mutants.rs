@@ -1,4 +1,5 @@
-//! `spec/mutants`: what it lists exists, and every room has its score. The mutants are run by `spec/mutants/run`.
+//! `spec/mutants`: what it lists exists, and every room has its score. The mutants are run by
+//! `spec/mutants/run`.
 
 use std::path::{Path, PathBuf};
 
@@ -10,7 +11,8 @@ fn read(name: &str) -> String {
     std::fs::read_to_string(root().join("spec/mutants").join(name)).unwrap()
 }
 
-/// A mutant said to be equivalent: its file, the change, its place among those of the line, the line.
+/// A mutant said to be equivalent: its file, the change, its place among those of the line, the
+/// line.
 struct Listed {
     file: String,
     change: String,
@@ -21,15 +23,28 @@ struct Listed {
 /// The entries, each group with its reason.
 fn listed() -> Vec<(Vec<Listed>, String)> {
     let (mut groups, mut group) = (Vec::new(), Vec::new());
-    for line in read("equivalent.txt").lines().filter(|l| !l.starts_with('#') && !l.trim().is_empty()) {
+    for line in read("equivalent.txt")
+        .lines()
+        .filter(|l| !l.starts_with('#') && !l.trim().is_empty())
+    {
         if let Some(reason) = line.strip_prefix("    ") {
             groups.push((std::mem::take(&mut group), reason.trim().to_string()));
             continue;
         }
         let parts: Vec<&str> = line.splitn(4, " | ").collect();
-        let [file, change, ordinal, source] = parts[..] else { panic!("{line}: expected file | change | #k | line") };
-        let ordinal = ordinal.strip_prefix('#').and_then(|k| k.parse().ok()).unwrap_or_else(|| panic!("{line}: #k"));
-        group.push(Listed { file: file.into(), change: change.into(), ordinal, line: source.into() });
+        let [file, change, ordinal, source] = parts[..] else {
+            panic!("{line}: expected file | change | #k | line")
+        };
+        let ordinal = ordinal
+            .strip_prefix('#')
+            .and_then(|k| k.parse().ok())
+            .unwrap_or_else(|| panic!("{line}: #k"));
+        group.push(Listed {
+            file: file.into(),
+            change: change.into(),
+            ordinal,
+            line: source.into(),
+        });
     }
     assert!(group.is_empty(), "entries without a reason at the end");
     groups
@@ -40,21 +55,47 @@ fn every_equivalent_mutant_has_its_line_and_a_reason() {
     let groups = listed();
     assert!(groups.iter().map(|(g, _)| g.len()).sum::<usize>() >= 20);
     for (group, reason) in groups {
-        assert!(reason.len() > 15 && !group.is_empty(), "{reason:?} of {} mutants", group.len());
+        assert!(
+            reason.len() > 15 && !group.is_empty(),
+            "{reason:?} of {} mutants",
+            group.len()
+        );
         for m in group {
             let path = root().join(&m.file);
-            let source = std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}: gone from under equivalent.txt", m.file));
-            assert!(source.lines().any(|l| l.trim() == m.line), "{}: its line is gone: {}", m.file, m.line);
+            let source = std::fs::read_to_string(&path)
+                .unwrap_or_else(|e| panic!("{}: {e}: gone from under equivalent.txt", m.file));
+            assert!(
+                source.lines().any(|l| l.trim() == m.line),
+                "{}: its line is gone: {}",
+                m.file,
+                m.line
+            );
             // The function it is in, without its type and generics.
-            let (what, function) = m.change.rsplit_once(" in ").unwrap_or_else(|| panic!("{}: no function", m.change));
+            let (what, function) = m
+                .change
+                .rsplit_once(" in ")
+                .unwrap_or_else(|| panic!("{}: no function", m.change));
             let name = function.rsplit("::").next().unwrap();
-            assert!(source.contains(&format!("fn {name}")), "{}: no function {name}", m.file);
+            assert!(
+                source.contains(&format!("fn {name}")),
+                "{}: no function {name}",
+                m.file
+            );
             assert!(m.ordinal >= 1);
             // What is replaced stands in the line, if it is an operator.
-            if let Some(operator) =
-                what.strip_prefix("replace ").and_then(|w| w.split_once(" with ")).map(|(o, _)| o).filter(|o| !o.contains(' '))
+            if let Some(operator) = what
+                .strip_prefix("replace ")
+                .and_then(|w| w.split_once(" with "))
+                .map(|(o, _)| o)
+                .filter(|o| !o.contains(' '))
             {
-                assert!(m.line.matches(operator).count() >= m.ordinal, "{}: no {operator} #{} in {}", m.file, m.ordinal, m.line);
+                assert!(
+                    m.line.matches(operator).count() >= m.ordinal,
+                    "{}: no {operator} #{} in {}",
+                    m.file,
+                    m.ordinal,
+                    m.line
+                );
             }
         }
     }
@@ -63,7 +104,14 @@ fn every_equivalent_mutant_has_its_line_and_a_reason() {
 /// Room, score: the rows of the table in `README.md`.
 fn scores() -> Vec<(String, f64)> {
     let text = read("README.md");
-    let table = text.split_once("<!-- score -->").unwrap().1.split_once("<!-- end of score -->").unwrap().0.to_string();
+    let table = text
+        .split_once("<!-- score -->")
+        .unwrap()
+        .1
+        .split_once("<!-- end of score -->")
+        .unwrap()
+        .0
+        .to_string();
     let row = |line: &str| {
         let cells: Vec<&str> = line.trim_matches('|').split('|').map(str::trim).collect();
         let score = cells.last()?.strip_suffix(" %")?.parse().ok()?;
@@ -76,9 +124,24 @@ fn scores() -> Vec<(String, f64)> {
 #[test]
 fn every_room_has_its_score() {
     let scores = scores();
-    for room in ["check", "oracle", "reduction", "exact", "model", "certify", "solver"] {
-        let (_, score) = scores.iter().find(|(r, _)| r == room).unwrap_or_else(|| panic!("no score of {room}"));
-        let least = if ["check", "oracle", "reduction"].contains(&room) { 100.0 } else { 95.0 };
+    for room in [
+        "check",
+        "oracle",
+        "reduction",
+        "exact",
+        "model",
+        "certify",
+        "solver",
+    ] {
+        let (_, score) = scores
+            .iter()
+            .find(|(r, _)| r == room)
+            .unwrap_or_else(|| panic!("no score of {room}"));
+        let least = if ["check", "oracle", "reduction"].contains(&room) {
+            100.0
+        } else {
+            95.0
+        };
         assert!((least..=100.0).contains(score), "{room}: {score}");
     }
 }

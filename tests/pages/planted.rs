@@ -1,5 +1,6 @@
-//! The planted bugs of `spec/planted`: each still applies to the sources, and names a test that exists.
-//! That the tests fail with them is run by `spec/planted/run`; its last result is `spec/planted/report.md`.
+//! The planted bugs of `spec/planted`: each still applies to the sources, and names a test that
+//! exists. That the tests fail with them is run by `spec/planted/run`; its last result is
+//! `spec/planted/report.md`.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
@@ -18,7 +19,11 @@ fn root() -> PathBuf {
 
 fn read(path: &Path) -> Bug {
     let text = std::fs::read_to_string(path).unwrap();
-    let after = |key: &str| text.lines().find_map(|l| l.strip_prefix(key)).unwrap_or_else(|| panic!("{}: no {key:?}", path.display()));
+    let after = |key: &str| {
+        text.lines()
+            .find_map(|l| l.strip_prefix(key))
+            .unwrap_or_else(|| panic!("{}: no {key:?}", path.display()))
+    };
     assert!(!after("bug: ").is_empty());
     let mut hunks: Vec<(String, String)> = Vec::new();
     for line in text.lines().skip_while(|l| !l.starts_with("@@")) {
@@ -44,7 +49,10 @@ fn read(path: &Path) -> Bug {
 }
 
 fn bugs() -> Vec<Bug> {
-    let mut files: Vec<PathBuf> = std::fs::read_dir(root().join("spec/planted/bugs")).unwrap().map(|e| e.unwrap().path()).collect();
+    let mut files: Vec<PathBuf> = std::fs::read_dir(root().join("spec/planted/bugs"))
+        .unwrap()
+        .map(|e| e.unwrap().path())
+        .collect();
     files.sort();
     files.iter().map(|f| read(f)).collect()
 }
@@ -55,7 +63,13 @@ fn every_bug_still_applies() {
         let source = std::fs::read_to_string(root().join(&bug.file)).unwrap();
         assert!(!bug.hunks.is_empty(), "{}", bug.name);
         for (before, now) in &bug.hunks {
-            assert_eq!(source.matches(before).count(), 1, "{}: its place in {} is gone: make the patch anew", bug.name, bug.file);
+            assert_eq!(
+                source.matches(before).count(),
+                1,
+                "{}: its place in {} is gone: make the patch anew",
+                bug.name,
+                bug.file
+            );
             assert_ne!(before, now, "{}", bug.name);
         }
     }
@@ -67,9 +81,18 @@ fn every_bug_names_a_test_that_exists() {
         let (file, name) = bug.test.split_once("::").unwrap();
         let function = name.rsplit("::").next().unwrap();
         let source = std::fs::read_to_string(root().join(file)).unwrap();
-        assert!(source.contains(&format!("fn {function}(")), "{}: no {function} in {file}", bug.name);
+        assert!(
+            source.contains(&format!("fn {function}(")),
+            "{}: no {function} in {file}",
+            bug.name
+        );
         // A bug in the tests' own code would prove nothing.
-        assert!(["src/", "crates/"].iter().any(|f| bug.file.starts_with(f)) && !bug.file.contains("testkit"), "{}", bug.name);
+        assert!(
+            ["src/", "crates/"].iter().any(|f| bug.file.starts_with(f))
+                && !bug.file.contains("testkit"),
+            "{}",
+            bug.name
+        );
     }
 }
 
@@ -77,7 +100,16 @@ fn every_bug_names_a_test_that_exists() {
 fn there_are_bugs_in_every_room_that_decides() {
     let list = bugs();
     let rooms: BTreeSet<&str> = list.iter().flat_map(|b| b.file.split('/')).collect();
-    for room in ["check", "oracle", "exact", "reduction", "certify", "model", "search", "solver"] {
+    for room in [
+        "check",
+        "oracle",
+        "exact",
+        "reduction",
+        "certify",
+        "model",
+        "search",
+        "solver",
+    ] {
         assert!(rooms.contains(room), "no bug in {room}");
     }
     assert!(list.len() >= 30);
@@ -88,7 +120,13 @@ fn there_are_bugs_in_every_room_that_decides() {
 fn the_report_lists_every_bug() {
     let report = std::fs::read_to_string(root().join("spec/planted/report.md")).unwrap();
     for bug in bugs() {
-        let row = report.lines().find(|l| l.contains(&format!("`{}`", bug.name))).unwrap_or_else(|| panic!("{} has no row", bug.name));
-        assert!(row.contains(&bug.test) && !row.contains("SURVIVED"), "{row}");
+        let row = report
+            .lines()
+            .find(|l| l.contains(&format!("`{}`", bug.name)))
+            .unwrap_or_else(|| panic!("{} has no row", bug.name));
+        assert!(
+            row.contains(&bug.test) && !row.contains("SURVIVED"),
+            "{row}"
+        );
     }
 }

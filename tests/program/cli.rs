@@ -5,11 +5,17 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 fn mceip(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mceip")).args(args).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_mceip"))
+        .args(args)
+        .output()
+        .unwrap()
 }
 
 fn root(path: &str) -> String {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join(path).display().to_string()
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join(path)
+        .display()
+        .to_string()
 }
 
 fn stdout(o: &Output) -> String {
@@ -21,8 +27,14 @@ fn stdout(o: &Output) -> String {
 fn refused(o: &Output, words: &[&str]) {
     let err = String::from_utf8_lossy(&o.stderr);
     assert_eq!(o.status.code(), Some(2), "{err}");
-    assert!(o.stdout.is_empty() && err.lines().count() == 1 && err.len() < 600, "{err}");
-    assert!(words.iter().all(|w| err.contains(w)), "{words:?} not in: {err}");
+    assert!(
+        o.stdout.is_empty() && err.lines().count() == 1 && err.len() < 600,
+        "{err}"
+    );
+    assert!(
+        words.iter().all(|w| err.contains(w)),
+        "{words:?} not in: {err}"
+    );
 }
 
 #[test]
@@ -57,7 +69,14 @@ fn malformed_problems_are_refused_in_one_line() {
     ];
     let mut files: Vec<String> = std::fs::read_dir(root("tests/malformed"))
         .unwrap()
-        .map(|e| e.unwrap().path().file_stem().unwrap().to_string_lossy().into_owned())
+        .map(|e| {
+            e.unwrap()
+                .path()
+                .file_stem()
+                .unwrap()
+                .to_string_lossy()
+                .into_owned()
+        })
         .collect();
     files.sort();
     let mut listed: Vec<String> = expected.iter().map(|e| e.0.to_string()).collect();
@@ -65,7 +84,10 @@ fn malformed_problems_are_refused_in_one_line() {
     assert_eq!(files, listed, "every malformed file is tested");
     for (name, words) in expected {
         for command in ["enumerate", "solve", "reduce"] {
-            refused(&mceip(&[command, &root(&format!("tests/malformed/{name}.json"))]), words);
+            refused(
+                &mceip(&[command, &root(&format!("tests/malformed/{name}.json"))]),
+                words,
+            );
         }
     }
 }
@@ -74,20 +96,44 @@ fn malformed_problems_are_refused_in_one_line() {
 fn options_and_files_are_refused_in_one_line() {
     let file = root("spec/examples/fold.json");
     refused(&mceip(&["enumerate", "/nowhere.json"]), &["/nowhere.json"]);
-    refused(&mceip(&["enumerate", &file, "--window", "3,2"]), &["--window", "3,2"]);
-    refused(&mceip(&["enumerate", &file, "--window=-1,2"]), &["--window"]);
+    refused(
+        &mceip(&["enumerate", &file, "--window", "3,2"]),
+        &["--window", "3,2"],
+    );
+    refused(
+        &mceip(&["enumerate", &file, "--window=-1,2"]),
+        &["--window"],
+    );
     refused(&mceip(&["solve", &file, "--starts", "0"]), &["--starts"]);
-    refused(&mceip(&["table1", "--c", "0.5", "--s", "0.5"]), &["--s", "c^2 + s^2 = 1"]);
+    refused(
+        &mceip(&["table1", "--c", "0.5", "--s", "0.5"]),
+        &["--s", "c^2 + s^2 = 1"],
+    );
     refused(&mceip(&["table1", "--mu", "0"]), &["--mu"]);
-    refused(&mceip(&["block", "--state", "16"]), &["--state", "15 or 17"]);
+    refused(
+        &mceip(&["block", "--state", "16"]),
+        &["--state", "15 or 17"],
+    );
     refused(&mceip(&["check", &file, &file]), &["mceip-certificate/1"]);
     refused(&mceip(&["certify", &file, &file]), &["mceip-solutions/1"]);
     refused(&mceip(&["frobnicate"]), &["frobnicate"]);
-    refused(&mceip(&["solve", &file, "--starts", "many"]), &["many", "--starts"]);
-    refused(&mceip(&["enumerate", &file, "--window", "-1,2"]), &["--window", "-1,2"]);
+    refused(
+        &mceip(&["solve", &file, "--starts", "many"]),
+        &["many", "--starts"],
+    );
+    refused(
+        &mceip(&["enumerate", &file, "--window", "-1,2"]),
+        &["--window", "-1,2"],
+    );
     refused(&mceip(&["table1", "--mu", "-1"]), &["--mu", "> 0"]);
-    refused(&mceip(&["solve", &file, "--certificate", "/nowhere/c.json"]), &["/nowhere/c.json"]);
-    refused(&mceip(&["solve", &file, "--certificate", &file]), &["--certificate", "input"]);
+    refused(
+        &mceip(&["solve", &file, "--certificate", "/nowhere/c.json"]),
+        &["/nowhere/c.json"],
+    );
+    refused(
+        &mceip(&["solve", &file, "--certificate", &file]),
+        &["--certificate", "input"],
+    );
     assert_eq!(mceip(&["--help"]).status.code(), Some(0));
 }
 
@@ -101,16 +147,35 @@ fn scratch(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
 #[test]
 fn the_chain_of_commands() {
     let folder = tempfile::tempdir().unwrap();
-    for (name, count) in [("two-particles", 3), ("two-particles-mu", 1), ("fold", 2), ("oblique", 1)] {
+    for (name, count) in [
+        ("two-particles", 3),
+        ("two-particles-mu", 1),
+        ("fold", 2),
+        ("oblique", 1),
+    ] {
         let file = root(&format!("spec/examples/{name}.json"));
         let listed = mceip(&["enumerate", &file, "--json"]);
         assert_eq!(listed.status.code(), Some(0));
         let json: serde_json::Value = serde_json::from_slice(&listed.stdout).unwrap();
-        assert_eq!((json["claim"].as_str(), json["solutions"].as_array().unwrap().len()), (Some("complete"), count));
+        assert_eq!(
+            (
+                json["claim"].as_str(),
+                json["solutions"].as_array().unwrap().len()
+            ),
+            (Some("complete"), count)
+        );
         let report = scratch(&folder, "report.json", &stdout(&listed));
         let certificate = folder.path().join(format!("{name}.certificate.json"));
-        let (report, certificate) = (report.display().to_string(), certificate.display().to_string());
-        assert_eq!(mceip(&["certify", &file, &report, "--out", &certificate]).status.code(), Some(0));
+        let (report, certificate) = (
+            report.display().to_string(),
+            certificate.display().to_string(),
+        );
+        assert_eq!(
+            mceip(&["certify", &file, &report, "--out", &certificate])
+                .status
+                .code(),
+            Some(0)
+        );
         let accepted = mceip(&["check", &file, &certificate]);
         assert_eq!(accepted.status.code(), Some(0));
         assert!(stdout(&accepted).contains(&format!("ACCEPTED: {count} claim(s)")));
@@ -118,10 +183,22 @@ fn the_chain_of_commands() {
         let solve = mceip(&["solve", &file, "--all", "--json", "--certificate", &solved]);
         assert_eq!(solve.status.code(), Some(0));
         let json: serde_json::Value = serde_json::from_slice(&solve.stdout).unwrap();
-        assert_eq!((json["claim"].as_str(), json["solutions"].as_array().unwrap().len()), (Some("solutions"), count));
+        assert_eq!(
+            (
+                json["claim"].as_str(),
+                json["solutions"].as_array().unwrap().len()
+            ),
+            (Some("solutions"), count)
+        );
         assert_eq!(mceip(&["check", &file, &solved]).status.code(), Some(0));
         assert_eq!(
-            mceip(&["check", &root("spec/examples/two-particles.json"), &certificate]).status.code(),
+            mceip(&[
+                "check",
+                &root("spec/examples/two-particles.json"),
+                &certificate
+            ])
+            .status
+            .code(),
             Some(i32::from(name != "two-particles"))
         );
     }
@@ -133,18 +210,39 @@ fn foreign_digits_suffice_and_false_ones_do_not() {
     let file = root("spec/examples/fold.json");
     let certify = |solutions: &str| {
         let text = format!(r#"{{"format":"mceip-solutions/1","solutions":{solutions}}}"#);
-        mceip(&["certify", &file, &scratch(&folder, "r.json", &text).display().to_string()]).status.code()
+        mceip(&[
+            "certify",
+            &file,
+            &scratch(&folder, "r.json", &text).display().to_string(),
+        ])
+        .status
+        .code()
     };
-    assert_eq!(certify(r#"[{"value":2.00000,"x":[0.666667,0.333333]}]"#), Some(0));
+    assert_eq!(
+        certify(r#"[{"value":2.00000,"x":[0.666667,0.333333]}]"#),
+        Some(0)
+    );
     // No solution near 2.5; at 2 another x: both are proved, so the report is rejected.
-    assert_eq!(certify(r#"[{"value":2.5,"x":[0.666667,0.333333]}]"#), Some(1));
+    assert_eq!(
+        certify(r#"[{"value":2.5,"x":[0.666667,0.333333]}]"#),
+        Some(1)
+    );
     assert_eq!(certify(r#"[{"value":2,"x":[0.333333,0.666667]}]"#), Some(1));
     assert_eq!(certify(r#"[{"value":2,"x":[0,0]}]"#), Some(1));
     assert_eq!(certify("[]"), Some(3));
     assert_eq!(certify(r#"[{"value":2,"x":[1]}]"#), Some(2));
     assert_eq!(certify(r#"[{"value":1e999,"x":[1,1]}]"#), Some(2));
     let foreign = r#"{"format":"mceip-solutions/1","problem_sha256":"00","solutions":[]}"#;
-    assert_eq!(mceip(&["certify", &file, &scratch(&folder, "f.json", foreign).display().to_string()]).status.code(), Some(1));
+    assert_eq!(
+        mceip(&[
+            "certify",
+            &file,
+            &scratch(&folder, "f.json", foreign).display().to_string()
+        ])
+        .status
+        .code(),
+        Some(1)
+    );
 }
 
 #[test]
@@ -152,8 +250,14 @@ fn reduced_and_condensed_problems_have_the_same_solutions() {
     let folder = tempfile::tempdir().unwrap();
     let file = root("spec/examples/two-particles-mu.json");
     let values = |path: &str| {
-        let json: serde_json::Value = serde_json::from_slice(&mceip(&["enumerate", path, "--json"]).stdout).unwrap();
-        json["solutions"].as_array().unwrap().iter().map(|s| s["value"].as_str().unwrap().to_string()).collect::<Vec<_>>()
+        let json: serde_json::Value =
+            serde_json::from_slice(&mceip(&["enumerate", path, "--json"]).stdout).unwrap();
+        json["solutions"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|s| s["value"].as_str().unwrap().to_string())
+            .collect::<Vec<_>>()
     };
     let direct = values(&file);
     assert_eq!(direct, vec!["1.920286436967152"]); // sqrt(59)/5 / (4/5) = sqrt(59)/4
@@ -161,7 +265,14 @@ fn reduced_and_condensed_problems_have_the_same_solutions() {
         let path = scratch(&folder, "reduced.json", &stdout(&mceip(extra)));
         assert_eq!(values(&path.display().to_string()), direct);
     }
-    refused(&mceip(&["reduce", &root("spec/examples/two-particles.json"), "--condense"]), &["E16", "lambda2"]);
+    refused(
+        &mceip(&[
+            "reduce",
+            &root("spec/examples/two-particles.json"),
+            "--condense",
+        ]),
+        &["E16", "lambda2"],
+    );
 }
 
 #[test]
@@ -169,7 +280,13 @@ fn table1_agrees_and_verify_ends_with_a_verdict() {
     let table = mceip(&["table1"]);
     assert_eq!(table.status.code(), Some(0));
     assert!(stdout(&table).contains("closed form = enumerator = certified"));
-    assert!(stdout(&mceip(&["table1", "--c", "0", "--s", "1"])).lines().filter(|l| l.contains("[0, 1]")).count() == 2);
+    assert!(
+        stdout(&mceip(&["table1", "--c", "0", "--s", "1"]))
+            .lines()
+            .filter(|l| l.contains("[0, 1]"))
+            .count()
+            == 2
+    );
     let verify = mceip(&["verify", "--random", "4", "--json"]);
     assert_eq!(verify.status.code(), Some(0));
     let json: serde_json::Value = serde_json::from_slice(&verify.stdout).unwrap();
@@ -180,9 +297,19 @@ fn table1_agrees_and_verify_ends_with_a_verdict() {
 #[cfg(unix)]
 #[test]
 fn an_interrupt_keeps_what_was_found() {
-    let child = Command::new(env!("CARGO_BIN_EXE_mceip")).arg("verify").stdout(std::process::Stdio::piped()).spawn().unwrap();
+    let child = Command::new(env!("CARGO_BIN_EXE_mceip"))
+        .arg("verify")
+        .stdout(std::process::Stdio::piped())
+        .spawn()
+        .unwrap();
     std::thread::sleep(std::time::Duration::from_secs(3));
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert!(
+        Command::new("kill")
+            .args(["-INT", &child.id().to_string()])
+            .status()
+            .unwrap()
+            .success()
+    );
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
     assert!(stdout(&output).contains("INTERRUPTED: no disagreement"));

@@ -12,13 +12,17 @@ use rand_chacha::ChaCha8Rng;
 /// A complete path: t from 0 to 1 and never falling.
 fn rises_to_one(outcome: &Outcome) {
     let path = outcome.log.last().and_then(|r| r.paths.last()).unwrap();
-    assert_eq!((path.start, path.end, path.reach), (Start::Ray, PathEnd::Complete, 1.0));
+    assert_eq!(
+        (path.start, path.end, path.reach),
+        (Start::Ray, PathEnd::Complete, 1.0)
+    );
     let t: Vec<f64> = path.pivots.iter().map(|p| p.t).collect();
     assert!(t[0] >= 0.0 && t[t.len() - 1] == 1.0);
     assert!(t.windows(2).all(|w| w[0] <= w[1] + 1e-9), "{t:?}");
 }
 
-/// P matrices of three kinds: definite plus skew, triangular with positive diagonal, and H matrices.
+/// P matrices of three kinds: definite plus skew, triangular with positive diagonal, and H
+/// matrices.
 fn p_matrix(rng: &mut ChaCha8Rng, n: usize, kind: usize) -> DMatrix<f64> {
     let g = normal_matrix(rng, n);
     match kind {
@@ -47,10 +51,15 @@ fn by_enumeration(m: &DMatrix<f64>, q: &[f64]) -> DVector<f64> {
         let support: Vec<usize> = (0..n).filter(|i| mask >> i & 1 == 1).collect();
         let mut z = DVector::zeros(n);
         if !support.is_empty() {
-            let block = DMatrix::from_fn(support.len(), support.len(), |i, j| m[(support[i], support[j])]);
+            let block = DMatrix::from_fn(support.len(), support.len(), |i, j| {
+                m[(support[i], support[j])]
+            });
             let right = DVector::from_fn(support.len(), |i, _| -q[support[i]]);
             let part = block.lu().solve(&right).unwrap();
-            support.iter().zip(part.iter()).for_each(|(&i, v)| z[i] = *v);
+            support
+                .iter()
+                .zip(part.iter())
+                .for_each(|(&i, v)| z[i] = *v);
         }
         let w = m * &z + DVector::from_column_slice(q);
         if z.iter().all(|v| *v >= -1e-12) && w.iter().all(|v| *v >= -1e-9) {
@@ -69,7 +78,11 @@ fn larger_problems_keep_their_digits() {
         let q: Vec<f64> = (0..n).map(|_| normal(&mut rng)).collect();
         let outcome = solve_linear(&LinearMcp::lcp(m, q).unwrap(), &Options::default()).unwrap();
         rises_to_one(&outcome);
-        assert!(outcome.residuals.within(1e-12), "n = {n}: {:?}", outcome.residuals);
+        assert!(
+            outcome.residuals.within(1e-12),
+            "n = {n}: {:?}",
+            outcome.residuals
+        );
     }
 }
 
@@ -93,7 +106,8 @@ proptest! {
                 prop_assert!((point[i] - truth[i]).abs() < 1e-7 * (1.0 + truth.amax()), "{:?} {}", point, truth);
             }
         }
-        // From anywhere, one regular path is enough: the Newton point of a linear problem solves it.
+        // From anywhere, one regular path is enough: the Newton point of a linear problem solves
+        // it.
         prop_assert!(newton.counters.majors <= 2, "{:?}", newton.counters);
     }
 
@@ -119,7 +133,8 @@ proptest! {
 
     #[test]
     fn semidefinite_problems_with_a_solution_are_solved(seed in any::<u64>(), n in 1usize..8) {
-        // M = G G' of rank about n/2 plus skew; q made so that a solution exists. Degenerate on purpose.
+        // M = G G' of rank about n/2 plus skew; q made so that a solution exists. Degenerate on
+        // purpose.
         let mut rng = ChaCha8Rng::seed_from_u64(seed);
         let rank = n.div_ceil(2);
         let g = DMatrix::from_fn(n, rank, |_, _| f64::from(rng.random_range(-2..3)));

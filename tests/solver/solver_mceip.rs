@@ -16,7 +16,10 @@ fn distinct(problem: &Embedded, starts: Vec<Vec<f64>>) -> Vec<Truth> {
     for outcome in multistart(problem, starts, &Options::default()).unwrap() {
         let (x, t) = (&outcome.point[..n], outcome.point[n]);
         if outcome.termination.reached_tolerance() && !contains(&found, t, x) {
-            found.push(Truth { t, x: nalgebra::DVector::from_column_slice(x) });
+            found.push(Truth {
+                t,
+                x: nalgebra::DVector::from_column_slice(x),
+            });
         }
     }
     found
@@ -66,8 +69,14 @@ fn every_solution_of_a_table_1_grid_in_22_starts() {
                 let problem = Embedded::new(a, b, 0);
                 let seen = distinct(&problem, problem.starts(22, 10.0, 1));
                 solutions += truth.len();
-                found += truth.iter().filter(|s| contains(&seen, s.t, s.x.as_slice())).count();
-                assert!(seen.iter().all(|s| contains(&truth, s.t, s.x.as_slice())), "{seen:?} {truth:?}");
+                found += truth
+                    .iter()
+                    .filter(|s| contains(&seen, s.t, s.x.as_slice()))
+                    .count();
+                assert!(
+                    seen.iter().all(|s| contains(&truth, s.t, s.x.as_slice())),
+                    "{seen:?} {truth:?}"
+                );
             }
         }
     }
@@ -83,17 +92,29 @@ fn random_pencils_converge_from_the_first_start() {
             let mut rng = ChaCha8Rng::seed_from_u64(1000 * n as u64 + 7);
             for _ in 0..if n == 5 { 30 } else { 12 } {
                 let (k0, k1, m0, free) = random_pencil(&mut rng, n);
-                let problem = if family == "mu" { Embedded::new(k0, k1, free) } else { Embedded::new(k0 + k1 * 3.0, m0, free) };
+                let problem = if family == "mu" {
+                    Embedded::new(k0, k1, free)
+                } else {
+                    Embedded::new(k0 + k1 * 3.0, m0, free)
+                };
                 let truth = enumerate(&problem.a, &problem.b, free);
                 if truth.is_empty() {
                     continue;
                 }
                 for t in [0.0, 1.0] {
-                    let outcome = solve(&problem, &problem.first_start(t), &Options::default()).unwrap();
+                    let outcome =
+                        solve(&problem, &problem.first_start(t), &Options::default()).unwrap();
                     let right = contains(&truth, outcome.point[n], &outcome.point[..n]);
-                    assert!(right || !outcome.termination.reached_tolerance(), "{outcome:?} {truth:?}");
+                    assert!(
+                        right || !outcome.termination.reached_tolerance(),
+                        "{outcome:?} {truth:?}"
+                    );
                     let ray = |p: &PathRecord| p.start == Start::Ray && p.end == PathEnd::Complete;
-                    by_ray += outcome.log.iter().filter(|r| r.paths.len() == 2 && ray(&r.paths[1])).count();
+                    by_ray += outcome
+                        .log
+                        .iter()
+                        .filter(|r| r.paths.len() == 2 && ray(&r.paths[1]))
+                        .count();
                     solvable += 1;
                     converged += usize::from(right);
                 }
@@ -101,7 +122,10 @@ fn random_pencils_converge_from_the_first_start() {
         }
         println!("{family}: {converged} of {solvable}, {by_ray} Newton points by a ray start");
         assert!(by_ray > 0);
-        assert!(converged * 100 >= 95 * solvable, "{family}: {converged} of {solvable}");
+        assert!(
+            converged * 100 >= 95 * solvable,
+            "{family}: {converged} of {solvable}"
+        );
     }
 }
 
@@ -121,8 +145,12 @@ fn next_to_a_threshold_there_is_a_reason_and_no_panic() {
     for gap in [1e-2, 1e-4, 1e-6, 1e-8, 1e-10, 1e-12] {
         let (a, b) = table1(C, S, threshold * (1.0 - gap), 1.0, 1.0);
         let problem = Embedded::new(a, b, 0);
-        let outcomes = multistart(&problem, problem.starts(22, 2.0, 1), &Options::default()).unwrap();
-        let reached = outcomes.iter().filter(|o| o.termination.reached_tolerance()).count();
+        let outcomes =
+            multistart(&problem, problem.starts(22, 2.0, 1), &Options::default()).unwrap();
+        let reached = outcomes
+            .iter()
+            .filter(|o| o.termination.reached_tolerance())
+            .count();
         println!("gap {gap:e}: {reached} of 22 within tolerance where no solution exists");
         assert!(gap < 1e-9 || reached == 0, "gap {gap:e}: {reached}");
     }

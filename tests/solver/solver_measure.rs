@@ -1,6 +1,6 @@
-//! Measures, printed with
-//! `cargo test --release --test solver -- --ignored --nocapture solver_measure::`; seeds by MEASURE_SEEDS=101,102.
-//! MEASURE_ONLY=first: only first starts; else a part of the name of a search. MEASURE_FAMILY=mu20.
+//! Measures, printed with `cargo test --release --test solver -- --ignored --nocapture
+//! solver_measure::`; seeds by MEASURE_SEEDS=101,102. MEASURE_ONLY=first: only first starts; else a
+//! part of the name of a search. MEASURE_FAMILY=mu20.
 #![cfg(feature = "testkit")]
 
 use crate::families::*;
@@ -47,7 +47,8 @@ impl Tally {
             self.first += 1;
             self.first_us.push(clock.elapsed().as_secs_f64() * 1e6);
         } else {
-            self.missed_first.push(format!("{} {:?}", case.label, outcome.termination));
+            self.missed_first
+                .push(format!("{} {:?}", case.label, outcome.termination));
         }
         let Some(search) = search else { return };
         let found = multistart(&case.problem(), &admissible, search).unwrap();
@@ -55,7 +56,9 @@ impl Tally {
         for (end, count) in &found.curves {
             *self.curves.entry(*end).or_default() += count;
         }
-        let missed = |s: &&mceip::oracle::Solution| !found.certified.iter().any(|c| support(&c.claim) == s.slip);
+        let missed = |s: &&mceip::oracle::Solution| {
+            !found.certified.iter().any(|c| support(&c.claim) == s.slip)
+        };
         if let Some(s) = truth.solutions.iter().find(missed) {
             let got: Vec<f64> = found.certified.iter().map(|c| c.candidate.value).collect();
             println!(
@@ -73,19 +76,33 @@ impl Tally {
         let matches = |s: &mceip::oracle::Solution| {
             let value: f64 = s.decimal(17).parse().unwrap();
             let near = |c: &f64| (c - value).abs() <= 1e-6 * (1.0 + value);
-            found.certified.iter().filter(|c| support(&c.claim) == s.slip && near(&c.candidate.value)).count()
+            found
+                .certified
+                .iter()
+                .filter(|c| support(&c.claim) == s.slip && near(&c.candidate.value))
+                .count()
         };
         let seen = truth.iter().filter(|s| matches(s) > 0).count();
         self.found += seen;
         self.complete += usize::from(seen == truth.len());
-        self.false_claims += found.certified.len().saturating_sub(truth.iter().map(matches).sum());
+        self.false_claims += found
+            .certified
+            .len()
+            .saturating_sub(truth.iter().map(matches).sum());
         self.uncertified += found.uncertified.len();
         self.first_in_search += usize::from(found.certified.iter().any(|c| c.run == 0));
         self.pivots += found.pivots;
         self.factorisations += found.factorisations;
         self.runs += found.runs;
-        found.certified.iter().for_each(|c| *self.origins.entry(c.origin).or_default() += 1);
-        assert!(found.certified.iter().enumerate().all(|(i, a)| found.certified[..i].iter().all(|b| !same(&a.claim, &b.claim))));
+        found
+            .certified
+            .iter()
+            .for_each(|c| *self.origins.entry(c.origin).or_default() += 1);
+        assert!(found.certified.iter().enumerate().all(|(i, a)| {
+            found.certified[..i]
+                .iter()
+                .all(|b| !same(&a.claim, &b.claim))
+        }));
     }
 
     fn print(&mut self, name: &str) {
@@ -105,7 +122,10 @@ impl Tally {
             self.runs,
             self.pivots,
             self.factorisations,
-            self.first_us.get(self.first_us.len() / 2).copied().unwrap_or(f64::NAN),
+            self.first_us
+                .get(self.first_us.len() / 2)
+                .copied()
+                .unwrap_or(f64::NAN),
             self.origins,
             self.curves,
             self.missed_first
@@ -126,17 +146,41 @@ fn searches() -> Vec<(&'static str, Option<Search>)> {
     }
     // What 22 runs would cost, in pivots and factorisations.
     let budget = Some(std::env::var("MEASURE_BUDGET").map_or(22, |v| v.parse().unwrap()));
-    let options = Options { curve_step_limit: 0, ..Options::for_search() };
-    let plain = Search { window_starts: 0, curves: false, options, ..Search::default() };
-    let search = Search { starts: 10, window_starts: 0, budget, ..Search::default() };
-    [("plain 22", Some(plain)), ("search", Some(search))].into_iter().filter(|(name, _)| name.contains(&only)).collect()
+    let options = Options {
+        curve_step_limit: 0,
+        ..Options::for_search()
+    };
+    let plain = Search {
+        window_starts: 0,
+        curves: false,
+        options,
+        ..Search::default()
+    };
+    let search = Search {
+        starts: 10,
+        window_starts: 0,
+        budget,
+        ..Search::default()
+    };
+    [("plain 22", Some(plain)), ("search", Some(search))]
+        .into_iter()
+        .filter(|(name, _)| name.contains(&only))
+        .collect()
 }
 
 #[test]
 #[ignore = "a measurement: run on request, in release"]
 fn random_pencils() {
     for (name, search) in searches() {
-        for (family, n) in [("lambda2", 5), ("lambda2", 10), ("lambda2", 20), ("mu", 5), ("mu", 10), ("mu", 15), ("mu", 20)] {
+        for (family, n) in [
+            ("lambda2", 5),
+            ("lambda2", 10),
+            ("lambda2", 20),
+            ("mu", 5),
+            ("mu", 10),
+            ("mu", 15),
+            ("mu", 20),
+        ] {
             if std::env::var("MEASURE_FAMILY").is_ok_and(|f| f != format!("{family}{n}")) {
                 continue;
             }
@@ -158,7 +202,13 @@ fn table_one() {
         for seed in seeds() {
             let mut tally = Tally::default();
             for case in table1_cases() {
-                tally.add(&case, search.clone().map(|search| Search { seed, ..search }).as_ref());
+                tally.add(
+                    &case,
+                    search
+                        .clone()
+                        .map(|search| Search { seed, ..search })
+                        .as_ref(),
+                );
             }
             tally.print(&format!("{name} table 1 seed {seed}"));
         }

@@ -20,8 +20,17 @@ pub struct Embedded {
 impl Embedded {
     pub fn new(a: DMatrix<f64>, b: DMatrix<f64>, free: usize) -> Self {
         let n = a.nrows();
-        let lower = (0..=n).map(|i| if i < free { f64::NEG_INFINITY } else { 0.0 }).collect();
-        Embedded { a, b, free, c: 1.0, lower, upper: vec![f64::INFINITY; n + 1] }
+        let lower = (0..=n)
+            .map(|i| if i < free { f64::NEG_INFINITY } else { 0.0 })
+            .collect();
+        Embedded {
+            a,
+            b,
+            free,
+            c: 1.0,
+            lower,
+            upper: vec![f64::INFINITY; n + 1],
+        }
     }
     /// x_s = 1/n_s, x_f = 0, and t.
     pub fn first_start(&self, t: f64) -> Vec<f64> {
@@ -45,12 +54,21 @@ impl Embedded {
         let n = self.a.nrows();
         let mut starts = vec![self.first_start(0.0), self.first_start(1.0)];
         while starts.len() < count {
-            let mut z: Vec<f64> =
-                (0..n).map(|i| if i < self.free { normal(&mut rng) / (n as f64).sqrt() } else { rng.random::<f64>() }).collect();
+            let mut z: Vec<f64> = (0..n)
+                .map(|i| {
+                    if i < self.free {
+                        normal(&mut rng) / (n as f64).sqrt()
+                    } else {
+                        rng.random::<f64>()
+                    }
+                })
+                .collect();
             if starts.len() % 2 == 1 {
                 // A random support: few slip, as solutions have.
                 let keep = self.free + rng.random_range(0..n - self.free);
-                (self.free..n).filter(|&i| i != keep).for_each(|i| z[i] *= f64::from(rng.random_range(0..2)));
+                (self.free..n)
+                    .filter(|&i| i != keep)
+                    .for_each(|i| z[i] *= f64::from(rng.random_range(0..2)));
             }
             let sum: f64 = z[self.free..].iter().sum();
             z[self.free..].iter_mut().for_each(|v| *v *= self.c / sum);
@@ -81,7 +99,8 @@ impl Mcp for Embedded {
     fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
         let n = self.a.nrows();
         j.fill(0.0);
-        j.view_mut((0, 0), (n, n)).copy_from(&(&self.a + &self.b * z[n]));
+        j.view_mut((0, 0), (n, n))
+            .copy_from(&(&self.a + &self.b * z[n]));
         let by_t = &self.b * DVector::from_column_slice(&z[..n]);
         j.view_mut((0, n), (n, 1)).copy_from(&by_t);
         for i in self.free..n {
@@ -102,13 +121,20 @@ pub fn enumerate(a: &DMatrix<f64>, b: &DMatrix<f64>, free: usize) -> Vec<Truth> 
     let n = a.nrows();
     let mut found: Vec<Truth> = Vec::new();
     for mask in 1u32..(1 << (n - free)) {
-        let support: Vec<usize> = (0..n).filter(|&i| i < free || mask >> (i - free) & 1 == 1).collect();
+        let support: Vec<usize> = (0..n)
+            .filter(|&i| i < free || mask >> (i - free) & 1 == 1)
+            .collect();
         let k = support.len();
         let sub = |m: &DMatrix<f64>| DMatrix::from_fn(k, k, |i, j| m[(support[i], support[j])]);
         let (sa, sb) = (sub(a), sub(b));
-        // t with (A + tB) singular: s = 1/t eigenvalues of -A^-1 B, A being definite or at least regular.
-        let Some(inverse) = sa.clone().try_inverse() else { continue };
-        let Some(schur) = Schur::try_new(-(inverse * &sb), 1e-15, 10_000) else { continue };
+        // t with (A + tB) singular: s = 1/t eigenvalues of -A^-1 B, A being definite or at least
+        // regular.
+        let Some(inverse) = sa.clone().try_inverse() else {
+            continue;
+        };
+        let Some(schur) = Schur::try_new(-(inverse * &sb), 1e-15, 10_000) else {
+            continue;
+        };
         for s in schur.complex_eigenvalues().iter() {
             if s.im.abs() > 1e-9 * (1.0 + s.re.abs()) || s.re < 1e-8 {
                 continue;
@@ -117,14 +143,20 @@ pub fn enumerate(a: &DMatrix<f64>, b: &DMatrix<f64>, free: usize) -> Vec<Truth> 
             let svd = (&sa + &sb * t).svd(false, true);
             let Some(v_t) = svd.v_t else { continue };
             let least = svd.singular_values.imin();
-            let sum: f64 = (0..k).filter(|&i| support[i] >= free).map(|i| v_t[(least, i)]).sum();
+            let sum: f64 = (0..k)
+                .filter(|&i| support[i] >= free)
+                .map(|i| v_t[(least, i)])
+                .sum();
             let mut x = DVector::zeros(n);
             for i in 0..k {
                 x[support[i]] = v_t[(least, i)] / sum;
             }
             let y = (a + b * t) * &x;
             let fits = (free..n).all(|i| x[i] >= -1e-9 && y[i] >= -1e-8 * (1.0 + t));
-            if fits && y.rows(0, free).amax() < 1e-7 * (1.0 + t) && !contains(&found, t, x.as_slice()) {
+            if fits
+                && y.rows(0, free).amax() < 1e-7 * (1.0 + t)
+                && !contains(&found, t, x.as_slice())
+            {
                 found.push(Truth { t, x });
             }
         }
@@ -138,8 +170,13 @@ pub fn contains(list: &[Truth], t: f64, x: &[f64]) -> bool {
 }
 
 pub fn index_of(list: &[Truth], t: f64, x: &[f64]) -> Option<usize> {
-    list.iter()
-        .position(|s| (s.t - t).abs() <= 1e-6 * (1.0 + t.abs()) && s.x.iter().zip(x).all(|(p, q)| (p - q).abs() <= 1e-6 * (1.0 + p.abs())))
+    list.iter().position(|s| {
+        (s.t - t).abs() <= 1e-6 * (1.0 + t.abs())
+            && s.x
+                .iter()
+                .zip(x)
+                .all(|(p, q)| (p - q).abs() <= 1e-6 * (1.0 + p.abs()))
+    })
 }
 
 pub fn normal(rng: &mut impl Rng) -> f64 {
@@ -157,7 +194,10 @@ pub fn definite(rng: &mut impl Rng, n: usize) -> DMatrix<f64> {
 }
 
 /// "Random pencils" of peers.md: (K0, K1, M0, n_f).
-pub fn random_pencil(rng: &mut impl Rng, n: usize) -> (DMatrix<f64>, DMatrix<f64>, DMatrix<f64>, usize) {
+pub fn random_pencil(
+    rng: &mut impl Rng,
+    n: usize,
+) -> (DMatrix<f64>, DMatrix<f64>, DMatrix<f64>, usize) {
     let free = n / 2;
     let (m0, k0) = (definite(rng, n), definite(rng, n));
     let mut k1 = normal_matrix(rng, n) / (n as f64).sqrt();
@@ -168,5 +208,8 @@ pub fn random_pencil(rng: &mut impl Rng, n: usize) -> (DMatrix<f64>, DMatrix<f64
 /// Table 1 with k = m = 1: (A, I) for the angle's cosine and sine, mu and signs.
 pub fn table1(c: f64, s: f64, mu: f64, s1: f64, s2: f64) -> (DMatrix<f64>, DMatrix<f64>) {
     let (d, q) = (c * c + 1.0, mu * c * s);
-    (nalgebra::dmatrix![d - q * s1, -s1 * s2; -s1 * s2, d + q * s2], DMatrix::identity(2, 2))
+    (
+        nalgebra::dmatrix![d - q * s1, -s1 * s2; -s1 * s2, d + q * s2],
+        DMatrix::identity(2, 2),
+    )
 }

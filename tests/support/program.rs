@@ -4,7 +4,10 @@
 use std::process::{Command, Output};
 
 pub fn mceip(args: &[&str]) -> Output {
-    Command::new(env!("CARGO_BIN_EXE_mceip")).args(args).output().unwrap()
+    Command::new(env!("CARGO_BIN_EXE_mceip"))
+        .args(args)
+        .output()
+        .unwrap()
 }
 
 /// Exit 2, nothing on stdout, one line on stderr that mentions each of `words`.
@@ -13,8 +16,14 @@ pub fn refused(args: &[&str], words: &[&str]) {
     let o = mceip(args);
     let err = String::from_utf8_lossy(&o.stderr);
     assert_eq!(o.status.code(), Some(2), "{args:?}: {err}");
-    assert!(o.stdout.is_empty() && err.lines().count() == 1 && err.len() < 800, "{err}");
-    assert!(words.iter().all(|w| err.contains(w)), "{words:?} not in: {err}");
+    assert!(
+        o.stdout.is_empty() && err.lines().count() == 1 && err.len() < 800,
+        "{err}"
+    );
+    assert!(
+        words.iter().all(|w| err.contains(w)),
+        "{words:?} not in: {err}"
+    );
 }
 
 /// A folder of problem files and whatever the program writes.

@@ -1,4 +1,5 @@
-//! Structural mutants of certificate files: changes of the JSON text's tree, with no knowledge of what a field means.
+//! Structural mutants of certificate files: changes of the JSON text's tree, with no knowledge of
+//! what a field means.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
 use mceip::exact::{Rational, parse, rational};
@@ -46,7 +47,11 @@ fn collect(value: &Value, at: String, wanted: &dyn Fn(&Value) -> bool, out: &mut
 }
 
 fn draw<'a>(list: &'a [String], rng: &mut ChaCha8Rng) -> Option<&'a String> {
-    if list.is_empty() { None } else { Some(&list[rng.random_range(0..list.len())]) }
+    if list.is_empty() {
+        None
+    } else {
+        Some(&list[rng.random_range(0..list.len())])
+    }
 }
 
 fn as_number(value: &Value) -> Option<Rational> {
@@ -64,16 +69,24 @@ fn change_number(certificate: &mut Value, rng: &mut ChaCha8Rng) {
     let counted = places(certificate, &Value::is_number);
 
     if rng.random_range(0..4) == 0 {
-        let Some(place) = draw(&counted, rng) else { return };
-        let Some(value) = certificate.pointer_mut(place) else { return };
+        let Some(place) = draw(&counted, rng) else {
+            return;
+        };
+        let Some(value) = certificate.pointer_mut(place) else {
+            return;
+        };
         let old = value.as_i64().unwrap_or(0);
         *value = json!([old + 1, old - 1, 0, 2 * old, -old][rng.random_range(0..5)]);
         return;
     }
 
-    let (Some(place), Some(other)) = (draw(&spelt, rng), draw(&spelt, rng)) else { return };
+    let (Some(place), Some(other)) = (draw(&spelt, rng), draw(&spelt, rng)) else {
+        return;
+    };
     let lent = certificate.pointer(other).cloned();
-    let Some(value) = certificate.pointer_mut(place) else { return };
+    let Some(value) = certificate.pointer_mut(place) else {
+        return;
+    };
     let Some(old) = as_number(value) else { return };
     let is_integer = old.is_integer();
 
@@ -87,14 +100,23 @@ fn change_number(certificate: &mut Value, rng: &mut ChaCha8Rng) {
         _ => old * rational(rng.random_range(1..=9), rng.random_range(1..=9)),
     };
     // Most integers of a file have to stay some, or it cannot be read.
-    let new = if is_integer && rng.random_range(0..8) != 0 { new.round() } else { new };
+    let new = if is_integer && rng.random_range(0..8) != 0 {
+        new.round()
+    } else {
+        new
+    };
     *value = json!(new.to_string());
 }
 
 /// Drops, doubles or exchanges items of a list.
 fn change_list(certificate: &mut Value, rng: &mut ChaCha8Rng) {
-    let lists = places(certificate, &|v| v.as_array().is_some_and(|items| !items.is_empty()));
-    let Some(items) = draw(&lists, rng).and_then(|at| certificate.pointer_mut(at)).and_then(Value::as_array_mut) else {
+    let lists = places(certificate, &|v| {
+        v.as_array().is_some_and(|items| !items.is_empty())
+    });
+    let Some(items) = draw(&lists, rng)
+        .and_then(|at| certificate.pointer_mut(at))
+        .and_then(Value::as_array_mut)
+    else {
         return;
     };
     let first = rng.random_range(0..items.len());
@@ -109,10 +131,15 @@ fn change_list(certificate: &mut Value, rng: &mut ChaCha8Rng) {
     }
 }
 
-/// Another window, with the ends of the cover moved along; every third time with those left as they are.
+/// Another window, with the ends of the cover moved along; every third time with those left as they
+/// are.
 fn change_window(certificate: &mut Value, rng: &mut ChaCha8Rng) {
     let min = draw_rational(rng);
-    let max = if rng.random_range(0..2) == 0 { json!(null) } else { json!((&min + draw_rational(rng)).to_string()) };
+    let max = if rng.random_range(0..2) == 0 {
+        json!(null)
+    } else {
+        json!((&min + draw_rational(rng)).to_string())
+    };
 
     let is_min = rng.random_range(0..2) == 0;
     if is_min {
@@ -121,7 +148,10 @@ fn change_window(certificate: &mut Value, rng: &mut ChaCha8Rng) {
     }
 
     certificate["window"]["max"] = max.clone();
-    let last = certificate.pointer_mut("/complete_set/pieces").and_then(Value::as_array_mut).and_then(|list| list.last_mut());
+    let last = certificate
+        .pointer_mut("/complete_set/pieces")
+        .and_then(Value::as_array_mut)
+        .and_then(|list| list.last_mut());
     if let Some(piece) = last.filter(|_| rng.random_range(0..3) != 0) {
         piece["max"] = max;
     }
@@ -131,7 +161,9 @@ fn change_window(certificate: &mut Value, rng: &mut ChaCha8Rng) {
 fn change_outcome(certificate: &mut Value, rng: &mut ChaCha8Rng) {
     let window = certificate["window"].clone();
     let roots = places(certificate, &|v| v.get("outcome").is_some());
-    let Some(root) = draw(&roots, rng).and_then(|at| certificate.pointer_mut(at)) else { return };
+    let Some(root) = draw(&roots, rng).and_then(|at| certificate.pointer_mut(at)) else {
+        return;
+    };
 
     let index = rng.random_range(0..4);
     match rng.random_range(0..7) {
@@ -156,8 +188,12 @@ fn set_end(leaf: &mut Value, end: usize, to: Value) {
 /// A node of a tree by another one, of this or of another cover.
 fn exchange_node(certificate: &mut Value, pool: &[Value], rng: &mut ChaCha8Rng) {
     let trees = places(certificate, &|v| v.get("tree").is_some());
-    let Some(piece) = draw(&trees, rng).and_then(|at| certificate.pointer_mut(at)) else { return };
-    let Some(tree) = piece["tree"].as_array_mut().filter(|tree| !tree.is_empty()) else { return };
+    let Some(piece) = draw(&trees, rng).and_then(|at| certificate.pointer_mut(at)) else {
+        return;
+    };
+    let Some(tree) = piece["tree"].as_array_mut().filter(|tree| !tree.is_empty()) else {
+        return;
+    };
 
     let at = rng.random_range(0..tree.len());
     let own = tree[rng.random_range(0..tree.len())].clone();

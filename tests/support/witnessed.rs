@@ -1,8 +1,9 @@
 //! Covers of small pencils in which one leaf has an honest witness and a random claim.
 //!
-//! The inverse and the null vectors of the leaf are computed from the pencil, so that steps 1 to 3 of a `root` leaf
-//! hold as a rule; what the leaf says (outcome, interval) is drawn. Window ends are rationals with denominators other
-//! than one. All other leaves are open, hence the verdict is that of the one leaf.
+//! The inverse and the null vectors of the leaf are computed from the pencil, so that steps 1 to 3
+//! of a `root` leaf hold as a rule; what the leaf says (outcome, interval) is drawn. Window ends
+//! are rationals with denominators other than one. All other leaves are open, hence the verdict is
+//! that of the one leaf.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
 use mceip::certificate::{Certificate, CompleteSet, Node, Piece, Root, RootOutcome};
@@ -21,7 +22,8 @@ pub struct Case {
     pub certificate: Certificate,
 }
 
-/// A pencil of order 1 to 3 without free variables, a window, and a cover with one leaf that is not open.
+/// A pencil of order 1 to 3 without free variables, a window, and a cover with one leaf that is not
+/// open.
 pub fn case(rng: &mut ChaCha8Rng) -> Case {
     let order = rng.random_range(1..=3);
     let entries = Entries::draw(rng, order);
@@ -39,15 +41,25 @@ pub fn case(rng: &mut ChaCha8Rng) -> Case {
 
     let tree = tree(order, &support, &region, leaf);
     let max = hi.clone().map(Number);
-    let pieces = vec![Piece { max, anchor: None, tree }];
+    let pieces = vec![Piece {
+        max,
+        anchor: None,
+        tree,
+    }];
     let certificate = Certificate {
         problem_sha256: problem.sha256(),
         unknown: problem.unknown(),
         window: problem.window().clone(),
         claims: Vec::new(),
-        complete_set: Some(CompleteSet { condensation: None, pieces }),
+        complete_set: Some(CompleteSet {
+            condensation: None,
+            pieces,
+        }),
     };
-    Case { problem, certificate }
+    Case {
+        problem,
+        certificate,
+    }
 }
 
 /// A and B by rows.
@@ -59,7 +71,9 @@ struct Entries {
 impl Entries {
     fn draw(rng: &mut ChaCha8Rng, order: usize) -> Self {
         let mut rows = |low: i64, high: i64| -> Vec<Vec<i64>> {
-            (0..order).map(|_| (0..order).map(|_| rng.random_range(low..=high)).collect()).collect()
+            (0..order)
+                .map(|_| (0..order).map(|_| rng.random_range(low..=high)).collect())
+                .collect()
         };
         let a = rows(-9, 9);
         let mut b = rows(-2, 2);
@@ -76,7 +90,8 @@ impl Entries {
     }
 
     fn problem(&self, lo: &Rational, hi: Option<&Rational>) -> Problem {
-        let sparse = |rows: &[Vec<i64>]| Sparse::from_ints(&rows.iter().map(|r| &r[..]).collect::<Vec<_>>());
+        let sparse =
+            |rows: &[Vec<i64>]| Sparse::from_ints(&rows.iter().map(|r| &r[..]).collect::<Vec<_>>());
         let pencil = Pencil::new(sparse(&self.a), sparse(&self.b), Vec::new()).unwrap();
         let window = Window::new(lo.clone(), hi.cloned()).unwrap();
         Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
@@ -84,7 +99,11 @@ impl Entries {
 
     /// Entry of A + tB with its row divided by the power of two above the row's largest entry of A.
     fn scaled(&self, i: usize, j: usize, t: &Rational) -> Rational {
-        let largest = self.a[i].iter().map(|v| v.unsigned_abs()).max().unwrap_or(0);
+        let largest = self.a[i]
+            .iter()
+            .map(|v| v.unsigned_abs())
+            .max()
+            .unwrap_or(0);
         let bits = (u64::BITS - largest.leading_zeros()).max(1);
         (whole(self.a[i][j]) + t * whole(self.b[i][j])) / whole(1 << bits)
     }
@@ -96,7 +115,10 @@ impl Entries {
 }
 
 fn block(rows: &[Vec<i64>], support: &[usize]) -> Vec<Vec<Integer>> {
-    support.iter().map(|&i| support.iter().map(|&j| rows[i][j].into()).collect()).collect()
+    support
+        .iter()
+        .map(|&i| support.iter().map(|&j| rows[i][j].into()).collect())
+        .collect()
 }
 
 fn draw_end(rng: &mut ChaCha8Rng) -> Rational {
@@ -105,9 +127,17 @@ fn draw_end(rng: &mut ChaCha8Rng) -> Rational {
 }
 
 fn draw_window(rng: &mut ChaCha8Rng) -> (Rational, Option<Rational>) {
-    let lo = if rng.random_range(0..8) == 0 { Rational::zero() } else { draw_end(rng) };
+    let lo = if rng.random_range(0..8) == 0 {
+        Rational::zero()
+    } else {
+        draw_end(rng)
+    };
     let is_half_line = rng.random_range(0..2) == 0;
-    let hi = if is_half_line { None } else { Some(&lo + draw_end(rng)) };
+    let hi = if is_half_line {
+        None
+    } else {
+        Some(&lo + draw_end(rng))
+    };
     (lo, hi)
 }
 
@@ -137,16 +167,38 @@ impl Region {
             None => lo + draw_end(rng),
         };
         match rng.random_range(0..3) {
-            0 => Region { lo: lo.clone(), hi: hi.cloned(), cut: None },
-            1 => Region { lo: lo.clone(), hi: Some(at.clone()), cut: Some(Cut { at, is_leaf_above: false }) },
-            _ => Region { lo: at.clone(), hi: hi.cloned(), cut: Some(Cut { at, is_leaf_above: true }) },
+            0 => Region {
+                lo: lo.clone(),
+                hi: hi.cloned(),
+                cut: None,
+            },
+            1 => Region {
+                lo: lo.clone(),
+                hi: Some(at.clone()),
+                cut: Some(Cut {
+                    at,
+                    is_leaf_above: false,
+                }),
+            },
+            _ => Region {
+                lo: at.clone(),
+                hi: hi.cloned(),
+                cut: Some(Cut {
+                    at,
+                    is_leaf_above: true,
+                }),
+            },
         }
     }
 }
 
 /// A value near which the leaf's witness is computed: a zero of the determinant, or any.
 fn draw_value(rng: &mut ChaCha8Rng, determinant: &Poly, region: &Region) -> Rational {
-    let mut roots = if determinant.is_zero() { Vec::new() } else { roots_in(determinant, &whole(0), None) };
+    let mut roots = if determinant.is_zero() {
+        Vec::new()
+    } else {
+        roots_in(determinant, &whole(0), None)
+    };
 
     if roots.is_empty() || rng.random_range(0..5) == 0 {
         return &region.lo + draw_end(rng) - rational(rng.random_range(0..=1), 3);
@@ -192,7 +244,9 @@ fn root(rng: &mut ChaCha8Rng, entries: &Entries, support: &[usize], region: &Reg
 }
 
 fn in_units(v: &Rational) -> Integer {
-    (v * Rational::from_integer(Integer::one() << EXPONENT)).round().to_integer()
+    (v * Rational::from_integer(Integer::one() << EXPONENT))
+        .round()
+        .to_integer()
 }
 
 /// The inverse of the scaled block of order at most 2; zero where it is singular.
@@ -205,14 +259,22 @@ fn inverse(entries: &Entries, block: &[usize], t: &Rational) -> Vec<Vec<Rational
         1 => vec![vec![reciprocal(at(0, 0))]],
         _ => {
             let factor = reciprocal(at(0, 0) * at(1, 1) - at(0, 1) * at(1, 0));
-            vec![vec![at(1, 1) * &factor, -at(0, 1) * &factor], vec![-at(1, 0) * &factor, at(0, 0) * &factor]]
+            vec![
+                vec![at(1, 1) * &factor, -at(0, 1) * &factor],
+                vec![-at(1, 0) * &factor, at(0, 0) * &factor],
+            ]
         }
     }
 }
 
-/// An interval about the value, or where it lies if a scale is forgotten: too far by the denominator of an end. As a
-/// rule within the leaf's interval.
-fn draw_interval(rng: &mut ChaCha8Rng, value: &Rational, region: &Region, needs_width: bool) -> [Rational; 2] {
+/// An interval about the value, or where it lies if a scale is forgotten: too far by the
+/// denominator of an end. As a rule within the leaf's interval.
+fn draw_interval(
+    rng: &mut ChaCha8Rng,
+    value: &Rational,
+    region: &Region,
+    needs_width: bool,
+) -> [Rational; 2] {
     let denominator = Rational::from_integer(region.lo.denom().clone());
     let center = match rng.random_range(0..6) {
         0 => value * &denominator,
@@ -254,9 +316,17 @@ fn draw_outcome(rng: &mut ChaCha8Rng, entries: &Entries, support: &[usize]) -> R
     }
 }
 
-/// Every support in a leaf of its own, in preorder: all open but the one with the given support and region.
+/// Every support in a leaf of its own, in preorder: all open but the one with the given support and
+/// region.
 fn tree(order: usize, support: &[usize], region: &Region, leaf: Node) -> Vec<Node> {
-    let mut writer = TreeWriter { order, support, region, leaf, moving: Vec::new(), tree: Vec::new() };
+    let mut writer = TreeWriter {
+        order,
+        support,
+        region,
+        leaf,
+        moving: Vec::new(),
+        tree: Vec::new(),
+    };
     writer.branch(0);
     writer.tree
 }
@@ -296,7 +366,11 @@ impl TreeWriter<'_> {
             self.tree.push(leaf);
             return;
         };
-        let sides = if cut.is_leaf_above { [Node::Open, leaf] } else { [leaf, Node::Open] };
+        let sides = if cut.is_leaf_above {
+            [Node::Open, leaf]
+        } else {
+            [leaf, Node::Open]
+        };
         self.tree.push(Node::Split(Number(cut.at.clone())));
         self.tree.extend(sides);
     }

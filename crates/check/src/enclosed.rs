@@ -18,45 +18,85 @@ use num_traits::{One, Signed, Zero};
 /// Largest binary exponent of a preconditioner: 8 kB per entry, far beyond any use.
 const MAX_EXPONENT: u32 = 1 << 16;
 
-pub(super) fn check(rows: &Rows, window: &Window, claim: &EnclosedSolution) -> Result<AcceptedClaim, Reason> {
+pub(super) fn check(
+    rows: &Rows,
+    window: &Window,
+    claim: &EnclosedSolution,
+) -> Result<AcceptedClaim, Reason> {
     index_set(rows, "support", &claim.support)?;
     if claim.support.is_empty() {
         return Err(Reason::XZero); // e'x_s = 1 needs a slip variable
     }
     if claim.exponent > MAX_EXPONENT {
-        return Err(Reason::TooLarge { what: "exponent", limit: MAX_EXPONENT.into(), got: claim.exponent.into() });
+        return Err(Reason::TooLarge {
+            what: "exponent",
+            limit: MAX_EXPONENT.into(),
+            got: claim.exponent.into(),
+        });
     }
-    let active: Vec<usize> = (0..rows.order()).filter(|&i| rows.is_free[i] || claim.support.binary_search(&i).is_ok()).collect();
+    let active: Vec<usize> = (0..rows.order())
+        .filter(|&i| rows.is_free[i] || claim.support.binary_search(&i).is_ok())
+        .collect();
     let n = active.len() + 1;
-    for (what, got) in [("center", claim.center.len()), ("radius", claim.radius.len()), ("preconditioner", claim.preconditioner.len())] {
+    for (what, got) in [
+        ("center", claim.center.len()),
+        ("radius", claim.radius.len()),
+        ("preconditioner", claim.preconditioner.len()),
+    ] {
         if got != n {
-            return Err(Reason::Length { what, expected: n, got });
+            return Err(Reason::Length {
+                what,
+                expected: n,
+                got,
+            });
         }
     }
     if let Some(row) = claim.preconditioner.iter().find(|r| r.len() != n) {
-        return Err(Reason::Length { what: "preconditioner row", expected: n, got: row.len() });
+        return Err(Reason::Length {
+            what: "preconditioner row",
+            expected: n,
+            got: row.len(),
+        });
     }
     if let Some(index) = claim.radius.iter().position(|r| !r.0.is_positive()) {
-        return Err(Reason::Radius { index, got: claim.radius[index].0.clone() });
+        return Err(Reason::Radius {
+            index,
+            got: claim.radius[index].0.clone(),
+        });
     }
     let system = Newton::new(rows, claim, &active);
     system.contracts(claim)?;
     let boxed = |k: usize| ball(&claim.center[k].0, &claim.radius[k].0);
     let value = boxed(n - 1);
     within(window, &value)?;
-    for (k, &index) in active.iter().enumerate().filter(|(_, i)| claim.support.binary_search(i).is_ok()) {
+    for (k, &index) in active
+        .iter()
+        .enumerate()
+        .filter(|(_, i)| claim.support.binary_search(i).is_ok())
+    {
         let image = boxed(k);
         if image.certain_sign() != 1 {
-            return Err(Reason::XNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
+            return Err(Reason::XNotPositive {
+                index,
+                lo: image.lo().clone(),
+                hi: image.hi().clone(),
+            });
         }
     }
     for index in (0..rows.order()).filter(|i| active.binary_search(i).is_err()) {
         let image = system.row_over_box(&rows.rows[index]);
         if image.certain_sign() != 1 {
-            return Err(Reason::YNotPositive { index, lo: image.lo().clone(), hi: image.hi().clone() });
+            return Err(Reason::YNotPositive {
+                index,
+                lo: image.lo().clone(),
+                hi: image.hi().clone(),
+            });
         }
     }
-    Ok(AcceptedClaim { support: claim.support.clone(), value })
+    Ok(AcceptedClaim {
+        support: claim.support.clone(),
+        value,
+    })
 }
 
 fn ball(c: &Rational, r: &Rational) -> Interval {
@@ -99,7 +139,8 @@ impl Newton {
         let place: Vec<Option<usize>> = place(rows.order(), active, |k| k);
         let (mut f, mut jacobian, mut d) = (Vec::new(), Vec::new(), Vec::new());
         for &i in active {
-            let (mut f_i, mut d_i, mut column_t) = (Integer::zero(), Integer::zero(), Integer::zero());
+            let (mut f_i, mut d_i, mut column_t) =
+                (Integer::zero(), Integer::zero(), Integer::zero());
             let mut row = Vec::new();
             for (j, a, b) in &rows.rows[i] {
                 let Some(k) = place[*j] else { continue }; // x_j = 0
@@ -119,7 +160,15 @@ impl Newton {
         f.push((norm - &unit) * &unit);
         jacobian.push((0..last).filter(slip).map(|k| (k, unit.clone())).collect());
         d.push(Integer::zero());
-        Newton { unit, center: c, radius: r, place, f, jacobian, d }
+        Newton {
+            unit,
+            center: c,
+            radius: r,
+            place,
+            f,
+            jacobian,
+            d,
+        }
     }
 
     /// Encloses a row of (A + tB) x over the box. With e_j = A_ij + c_t B_ij the row at z is
@@ -168,7 +217,11 @@ impl Newton {
             if left >= right {
                 let scale = &one * &self.unit;
                 let got = Rational::new(left, scale.clone());
-                return Err(Reason::NotContracting { index, got, radius: Rational::new(right, scale) });
+                return Err(Reason::NotContracting {
+                    index,
+                    got,
+                    radius: Rational::new(right, scale),
+                });
             }
         }
         Ok(())
@@ -185,9 +238,18 @@ mod tests {
 
     /// Two active variables, and a third at rest whose row is (1 + 2t) x_0 + (-1 + t) x_1.
     fn resting_row() -> Rows {
-        let of = |v: [[i64; 2]; 2]| -> Row { v.iter().enumerate().map(|(j, [a, b])| (j, (*a).into(), (*b).into())).collect() };
+        let of = |v: [[i64; 2]; 2]| -> Row {
+            v.iter()
+                .enumerate()
+                .map(|(j, [a, b])| (j, (*a).into(), (*b).into()))
+                .collect()
+        };
         Rows {
-            rows: vec![of([[1, 0], [0, 0]]), of([[0, 0], [1, 0]]), of([[1, 2], [-1, 1]])],
+            rows: vec![
+                of([[1, 0], [0, 0]]),
+                of([[0, 0], [1, 0]]),
+                of([[1, 2], [-1, 1]]),
+            ],
             factor: vec![Integer::one(); 3],
             is_free: vec![false; 3],
         }
@@ -197,8 +259,8 @@ mod tests {
         list.map(Number).to_vec()
     }
 
-    /// At c = (1/2, 1/2), t = 1: e = (3, 0), sum e c = 3/2 and sum B c = 3/2. With radii 1/8 and r_t = 1/4 the slack
-    /// is 3/8 + 3/2 1/4 + 3 1/8 1/4 = 27/32.
+    /// At c = (1/2, 1/2), t = 1: e = (3, 0), sum e c = 3/2 and sum B c = 3/2. With radii 1/8 and
+    /// r_t = 1/4 the slack is 3/8 + 3/2 1/4 + 3 1/8 1/4 = 27/32.
     #[test]
     fn a_row_over_the_box_by_hand() {
         let rows = resting_row();
@@ -210,6 +272,9 @@ mod tests {
             exponent: 0,
         };
         let image = Newton::new(&rows, &claim, &[0, 1]).row_over_box(&rows.rows[2]);
-        assert_eq!((image.lo().clone(), image.hi().clone()), (rational(21, 32), rational(75, 32)));
+        assert_eq!(
+            (image.lo().clone(), image.hi().clone()),
+            (rational(21, 32), rational(75, 32))
+        );
     }
 }

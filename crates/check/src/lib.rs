@@ -50,12 +50,15 @@ pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, R
     verdict(problem, certificate, None)
 }
 
-/// [`check`] of the certificate with the leaves of its cover that fail made open, and which these are
-/// (piece and node): for a search, which need not check the rest again for each of them.
+/// [`check`] of the certificate with the leaves of its cover that fail made open, and which these
+/// are (piece and node): for a search, which need not check the rest again for each of them.
 ///
 /// # Errors
 /// [`Rejected`] for whatever making leaves open does not mend.
-pub fn audit(problem: &Problem, certificate: &Certificate) -> Result<(Accepted, Vec<(usize, usize)>), Rejected> {
+pub fn audit(
+    problem: &Problem,
+    certificate: &Certificate,
+) -> Result<(Accepted, Vec<(usize, usize)>), Rejected> {
     let mut refused = Vec::new();
     let accepted = verdict(problem, certificate, Some(&mut refused))?;
     Ok((accepted, refused))
@@ -70,7 +73,10 @@ pub struct ClaimChecker<'a> {
 impl<'a> ClaimChecker<'a> {
     /// The checker of claims about this problem.
     pub fn new(problem: &'a Problem) -> ClaimChecker<'a> {
-        ClaimChecker { problem, rows: Rows::of(problem) }
+        ClaimChecker {
+            problem,
+            rows: Rows::of(problem),
+        }
     }
 
     /// The verdict of [`check`] on this claim in a certificate with this window.
@@ -86,14 +92,27 @@ impl<'a> ClaimChecker<'a> {
     }
 }
 
-fn verdict(problem: &Problem, certificate: &Certificate, refused: Option<&mut Vec<(usize, usize)>>) -> Result<Accepted, Rejected> {
-    let whole = |reason| Rejected { claim: None, reason };
+fn verdict(
+    problem: &Problem,
+    certificate: &Certificate,
+    refused: Option<&mut Vec<(usize, usize)>>,
+) -> Result<Accepted, Rejected> {
+    let whole = |reason| Rejected {
+        claim: None,
+        reason,
+    };
     let digest = problem.sha256();
     if certificate.problem_sha256 != digest {
-        return Err(whole(Reason::Digest { expected: digest, got: certificate.problem_sha256.clone() }));
+        return Err(whole(Reason::Digest {
+            expected: digest,
+            got: certificate.problem_sha256.clone(),
+        }));
     }
     if certificate.unknown != problem.unknown() {
-        return Err(whole(Reason::Unknown { expected: problem.unknown().word(), got: certificate.unknown.word() }));
+        return Err(whole(Reason::Unknown {
+            expected: problem.unknown().word(),
+            got: certificate.unknown.word(),
+        }));
     }
     if certificate.claims.is_empty() && certificate.complete_set.is_none() {
         return Err(whole(Reason::NoClaims));
@@ -108,11 +127,17 @@ fn verdict(problem: &Problem, certificate: &Certificate, refused: Option<&mut Ve
             Claim::LiftedSolution(c) => &c.biactive,
             Claim::EnclosedSolution(_) => &[],
         };
-        let claim = verdict.map_err(|reason| Rejected { claim: Some(index), reason })?;
+        let claim = verdict.map_err(|reason| Rejected {
+            claim: Some(index),
+            reason,
+        })?;
         solutions.push(AcceptedSolution { claim, biactive });
     }
     let cover = match &certificate.complete_set {
-        Some(c) => Some(cover::check(&checker.rows, &certificate.window, &solutions, c, refused).map_err(whole)?),
+        Some(c) => Some(
+            cover::check(&checker.rows, &certificate.window, &solutions, c, refused)
+                .map_err(whole)?,
+        ),
         None => None,
     };
     let claims: Vec<AcceptedClaim> = solutions.into_iter().map(|s| s.claim).collect();
@@ -124,13 +149,20 @@ fn verdict(problem: &Problem, certificate: &Certificate, refused: Option<&mut Ve
 
 /// Demands that each claim belongs to a solution, a family or an open region of the cover.
 ///
-/// True claims and a true cover agree. The rejection therefore shows that a claim or the cover is false, although
-/// each met its own obligations.
+/// True claims and a true cover agree. The rejection therefore shows that a claim or the cover is
+/// false, although each met its own obligations.
 fn beside_the_cover(claims: &[AcceptedClaim], cover: &AcceptedCover) -> Result<(), Rejected> {
     for (index, claim) in claims.iter().enumerate() {
         if cover.place_of(claim).is_none() {
-            let reason = Reason::NotInCover { support: claim.support.clone(), a: claim.value.lo().clone(), b: claim.value.hi().clone() };
-            return Err(Rejected { claim: Some(index), reason });
+            let reason = Reason::NotInCover {
+                support: claim.support.clone(),
+                a: claim.value.lo().clone(),
+                b: claim.value.hi().clone(),
+            };
+            return Err(Rejected {
+                claim: Some(index),
+                reason,
+            });
         }
     }
     Ok(())
@@ -143,22 +175,41 @@ mod tests {
 
     fn claim(support: usize, value: i64) -> AcceptedClaim {
         let value = Interval::new(whole(value), whole(value)).unwrap();
-        AcceptedClaim { support: vec![support], value }
+        AcceptedClaim {
+            support: vec![support],
+            value,
+        }
     }
 
-    /// No file reaches this rejection as long as the checker accepts true claims and true covers alone, so the cover that
-    /// leaves out a solution is made here.
+    /// No file reaches this rejection as long as the checker accepts true claims and true covers
+    /// alone, so the cover that leaves out a solution is made here.
     #[test]
     fn a_claim_that_the_cover_leaves_out_is_rejected() {
-        let cover = AcceptedCover { solutions: vec![claim(0, 2)], families: vec![], open: vec![], leaves: 1 };
+        let cover = AcceptedCover {
+            solutions: vec![claim(0, 2)],
+            families: vec![],
+            open: vec![],
+            leaves: 1,
+        };
         assert_eq!(beside_the_cover(&[], &cover), Ok(()));
         assert_eq!(beside_the_cover(&[claim(0, 2)], &cover), Ok(()));
 
         let rejected = beside_the_cover(&[claim(0, 2), claim(0, 3)], &cover).unwrap_err();
         assert_eq!(rejected.claim, Some(1));
-        assert_eq!(rejected.reason, Reason::NotInCover { support: vec![0], a: whole(3), b: whole(3) });
+        assert_eq!(
+            rejected.reason,
+            Reason::NotInCover {
+                support: vec![0],
+                a: whole(3),
+                b: whole(3)
+            }
+        );
         assert_eq!(rejected.reason.name(), "NotInCover");
         let other_support = beside_the_cover(&[claim(1, 2)], &cover).unwrap_err();
-        assert!(other_support.to_string().starts_with("claim 0: complete set: expected support [1] with a value in [2, 2]"));
+        assert!(
+            other_support
+                .to_string()
+                .starts_with("claim 0: complete set: expected support [1] with a value in [2, 2]")
+        );
     }
 }

@@ -24,8 +24,16 @@ impl Rows {
     pub(super) fn of(problem: &Problem) -> Rows {
         match problem.body() {
             Body::Pencil(p) => {
-                let (rows, factor) = (0..p.order()).map(|i| merge(p.a().row(i), p.b().row(i))).unzip();
-                Rows { rows, factor, is_free: (0..p.order()).map(|i| p.free().binary_search(&i).is_ok()).collect() }
+                let (rows, factor) = (0..p.order())
+                    .map(|i| merge(p.a().row(i), p.b().row(i)))
+                    .unzip();
+                Rows {
+                    rows,
+                    factor,
+                    is_free: (0..p.order())
+                        .map(|i| p.free().binary_search(&i).is_ok())
+                        .collect(),
+                }
             }
             Body::System(s) => of_system(s, problem.unknown()),
         }
@@ -33,8 +41,16 @@ impl Rows {
 
     /// B + sA: the same solutions at s = 1 / t.
     pub(super) fn reversed(&self) -> Rows {
-        let swapped = |row: &Row| row.iter().map(|(j, a, b)| (*j, b.clone(), a.clone())).collect();
-        Rows { rows: self.rows.iter().map(swapped).collect(), factor: self.factor.clone(), is_free: self.is_free.clone() }
+        let swapped = |row: &Row| {
+            row.iter()
+                .map(|(j, a, b)| (*j, b.clone(), a.clone()))
+                .collect()
+        };
+        Rows {
+            rows: self.rows.iter().map(swapped).collect(),
+            factor: self.factor.clone(),
+            is_free: self.is_free.clone(),
+        }
     }
 
     pub(super) fn order(&self) -> usize {
@@ -53,7 +69,10 @@ fn merge(a: &[(usize, Rational)], b: &[(usize, Rational)]) -> (Row, Integer) {
     for (j, v) in b {
         row.entry(*j).or_default().1 += integral(v);
     }
-    (row.into_iter().map(|(j, (a, b))| (j, a, b)).collect(), factor)
+    (
+        row.into_iter().map(|(j, (a, b))| (j, a, b)).collect(),
+        factor,
+    )
 }
 
 fn of_system(s: &System, unknown: Unknown) -> Rows {
@@ -91,17 +110,23 @@ fn of_system(s: &System, unknown: Unknown) -> Rows {
     let (rows, factor) = p_plain
         .iter()
         .zip(&p_friction)
-        .map(|(plain, friction)| match (unknown, s.mass(), s.friction()) {
-            (Unknown::Lambda2, Some(m), Some(mu)) => {
-                let p: Direction = plain.iter().cloned().chain(scale(friction, mu)).collect();
-                merge(&product(&p, k), &product(&p, m))
-            }
-            // MCEIP-mu: the friction part is the coefficient of the unknown.
-            _ => merge(&product(plain, k), &product(friction, k)),
-        })
+        .map(
+            |(plain, friction)| match (unknown, s.mass(), s.friction()) {
+                (Unknown::Lambda2, Some(m), Some(mu)) => {
+                    let p: Direction = plain.iter().cloned().chain(scale(friction, mu)).collect();
+                    merge(&product(&p, k), &product(&p, m))
+                }
+                // MCEIP-mu: the friction part is the coefficient of the unknown.
+                _ => merge(&product(plain, k), &product(friction, k)),
+            },
+        )
         .unzip();
     let is_free = (0..t.len()).map(|i| i < free.len()).collect();
-    Rows { rows, factor, is_free }
+    Rows {
+        rows,
+        factor,
+        is_free,
+    }
 }
 
 fn scale(d: &Direction, factor: &Rational) -> Direction {
@@ -115,34 +140,57 @@ mod tests {
     use mceip_model::reduction::reduce;
     use mceip_model::{ContactState, Particle, Window};
 
-    /// An oblique particle (3/5, 4/5), one along the axes and two free degrees of freedom: the block formulas
-    /// (16) of `reduction` give the same pencil.
+    /// An oblique particle (3/5, 4/5), one along the axes and two free degrees of freedom: the
+    /// block formulas (16) of `reduction` give the same pencil.
     #[test]
     fn the_pencil_is_that_of_the_blocks() {
         let (r, w) = (rational, whole);
         let slip = |sign| ContactState::Slip { sign };
         let frame = [[r(3, 5), r(4, 5)], [r(-4, 5), r(3, 5)]];
-        let oblique = Particle { frame: Some(frame), ..Particle::plain(0, 1, slip(1)) };
-        let plain = Particle { normal_direction: -1, ..Particle::plain(4, 5, slip(-1)) };
+        let oblique = Particle {
+            frame: Some(frame),
+            ..Particle::plain(0, 1, slip(1))
+        };
+        let plain = Particle {
+            normal_direction: -1,
+            ..Particle::plain(4, 5, slip(-1))
+        };
         let symmetric = |diagonal: i64, scale: i64| {
             let entry = |i: usize, j: usize| {
                 let v = r(((3 * i.min(j) + 5 * i.max(j)) % 7) as i64 - 3, scale);
                 if i == j { v + w(diagonal) } else { v }
             };
-            let entries = (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| (i, j, entry(i, j)));
+            let entries = (0..6)
+                .flat_map(|i| (0..6).map(move |j| (i, j)))
+                .map(|(i, j)| (i, j, entry(i, j)));
             Sparse::from_entries(6, 6, entries.collect::<Vec<_>>())
         };
-        let system = System::new(symmetric(40, 1), Some(symmetric(9, 3)), Some(r(2, 7)), vec![oblique, plain]).unwrap();
+        let system = System::new(
+            symmetric(40, 1),
+            Some(symmetric(9, 3)),
+            Some(r(2, 7)),
+            vec![oblique, plain],
+        )
+        .unwrap();
         for unknown in [Unknown::Lambda2, Unknown::Mu] {
-            let problem = Problem::new(Body::System(system.clone()), unknown, Window::all()).unwrap();
+            let problem =
+                Problem::new(Body::System(system.clone()), unknown, Window::all()).unwrap();
             let (rows, pencil) = (Rows::of(&problem), reduce(&problem).unwrap().pencil);
             assert_eq!(rows.order(), pencil.order());
             for (i, row) in rows.rows.iter().enumerate() {
                 assert_eq!(rows.is_free[i], pencil.free().contains(&i));
                 for (m, which) in [(pencil.a(), 0), (pencil.b(), 1)] {
-                    let scaled: Vec<(usize, Rational)> =
-                        m.row(i).iter().map(|(j, v)| (*j, v * Rational::from_integer(rows.factor[i].clone()))).collect();
-                    let own = row.iter().map(|(j, a, b)| (*j, Rational::from_integer(if which == 0 { a.clone() } else { b.clone() })));
+                    let scaled: Vec<(usize, Rational)> = m
+                        .row(i)
+                        .iter()
+                        .map(|(j, v)| (*j, v * Rational::from_integer(rows.factor[i].clone())))
+                        .collect();
+                    let own = row.iter().map(|(j, a, b)| {
+                        (
+                            *j,
+                            Rational::from_integer(if which == 0 { a.clone() } else { b.clone() }),
+                        )
+                    });
                     assert_eq!(own.filter(|(_, v)| *v != w(0)).collect::<Vec<_>>(), scaled);
                 }
             }

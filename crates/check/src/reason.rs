@@ -16,7 +16,11 @@ pub struct Rejected {
 impl Reason {
     /// The obligation's name, as `spec/corpus` states it: `NotIsolated`, `Cover.Truncated`, ...
     pub fn name(&self) -> String {
-        let variant = |text: String| text.chars().take_while(char::is_ascii_alphanumeric).collect::<String>();
+        let variant = |text: String| {
+            text.chars()
+                .take_while(char::is_ascii_alphanumeric)
+                .collect::<String>()
+        };
         match self {
             Reason::Cover { fault, .. } => format!("Cover.{}", variant(format!("{fault:?}"))),
             other => variant(format!("{other:?}")),
@@ -48,7 +52,9 @@ pub enum Reason {
     #[error("claims: expected at least one, got none")]
     NoClaims,
     /// An index set is not an ascending list of complementarity variables.
-    #[error("E14: {set}: expected ascending indices of complementarity variables, got {got} at position {position}")]
+    #[error(
+        "E14: {set}: expected ascending indices of complementarity variables, got {got} at position {position}"
+    )]
     IndexSet {
         /// `support` or `biactive`.
         set: &'static str,
@@ -78,7 +84,9 @@ pub enum Reason {
         got: u64,
     },
     /// The polynomial is constant.
-    #[error("polynomial: expected degree >= 1, got {coefficients} coefficients without a power of t")]
+    #[error(
+        "polynomial: expected degree >= 1, got {coefficients} coefficients without a power of t"
+    )]
     ConstantPolynomial {
         /// Number of coefficients.
         coefficients: usize,
@@ -147,7 +155,9 @@ pub enum Reason {
     #[error("E12: expected some x_i certainly non-zero, got none")]
     XZero,
     /// An active row of (A + tB) x does not vanish.
-    #[error("{equation}: y[{index}]: expected 0 mod p on an active row, got a polynomial that is not")]
+    #[error(
+        "{equation}: y[{index}]: expected 0 mod p on an active row, got a polynomial that is not"
+    )]
     YNotZero {
         /// E13 for free rows, E25 for slip rows.
         equation: &'static str,
@@ -184,7 +194,9 @@ pub enum Reason {
     #[error("E9: expected a mechanical system, got a pencil")]
     NotASystem,
     /// A line of (9) does not hold, or its sign is not certain.
-    #[error("E9: expected {line} at {place} {index}, got a value in [{lo}, {hi}] up to a positive factor")]
+    #[error(
+        "E9: expected {line} at {place} {index}, got a value in [{lo}, {hi}] up to a positive factor"
+    )]
     Line {
         /// The line.
         line: &'static str,
@@ -198,7 +210,9 @@ pub enum Reason {
         hi: Rational,
     },
     /// Krawczyk's operator does not map the box into its interior.
-    #[error("Krawczyk: unknown {index}: expected |Y F(c)| + |I - Y J| r < r, got {got} >= {radius}")]
+    #[error(
+        "Krawczyk: unknown {index}: expected |Y F(c)| + |I - Y J| r < r, got {got} >= {radius}"
+    )]
     NotContracting {
         /// The unknown.
         index: usize,
@@ -232,6 +246,7 @@ pub enum Reason {
 }
 
 fn place(piece: Option<usize>, node: Option<usize>) -> String {
-    let word = |name: &str, k: Option<usize>| k.map(|k| format!(", {name} {k}")).unwrap_or_default();
+    let word =
+        |name: &str, k: Option<usize>| k.map(|k| format!(", {name} {k}")).unwrap_or_default();
     word("piece", piece) + &word("node", node)
 }

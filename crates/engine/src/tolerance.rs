@@ -3,16 +3,17 @@
 //! None of them decides a truth: they steer guesses that exact arithmetic then confirms or not.
 //! The solver's tolerances stand in the second part of this file's role, `solver/tolerance.rs`.
 
-/// Thresholds at which x_i, relative to max x_s, is guessed to be positive. Unit: none.
-/// Basis: the block's lambda^2 mode has a true component of 6e-11 of its norm, and reports of six
-/// digits have noise of 1e-6; so several guesses are tried and the exact signs decide. Last every component
-/// as given: near a threshold true components are smaller than any bound (`near:1:122` of the campaign).
+/// Thresholds at which x_i, relative to max x_s, is guessed to be positive. Unit: none. Basis: the
+/// block's lambda^2 mode has a true component of 6e-11 of its norm, and reports of six digits have
+/// noise of 1e-6; so several guesses are tried and the exact signs decide. Last every component as
+/// given: near a threshold true components are smaller than any bound (`near:1:122` of the
+/// campaign).
 pub const SUPPORT_GUESSES: [f64; 6] = [1e-9, 1e-6, 1e-4, 1e-12, 1e-3, 0.0];
 
 /// How far from a candidate's value a root is looked for, relative to 1 + |value|. Unit: none.
-/// Basis: reports carry six digits or more, but at a double root a residual of 1e-10 leaves an error
-/// of 1e-5 times the square root of the condition (seen: 3e-5). The nearest root is taken, and x
-/// must agree as well.
+/// Basis: reports carry six digits or more, but at a double root a residual of 1e-10 leaves an
+/// error of 1e-5 times the square root of the condition (seen: 3e-5). The nearest root is taken,
+/// and x must agree as well.
 pub const VALUE_RADIUS: f64 = 1e-4;
 
 /// Largest distance between candidate and certified x, both with e'x_s = 1. Unit: none.
@@ -20,11 +21,13 @@ pub const VALUE_RADIUS: f64 = 1e-4;
 /// the certified solution is another one than the candidate.
 pub const X_RADIUS: f64 = 1e-3;
 
-/// Share of a radius that the left side of Krawczyk's inequality may take where radii are proposed. Unit: none. Basis: the
-/// checker asks for less than all of it; the rest is for what doubles do not see.
+/// Share of a radius that the left side of Krawczyk's inequality may take where radii are proposed.
+/// Unit: none. Basis: the checker asks for less than all of it; the rest is for what doubles do not
+/// see.
 pub const KRAWCZYK_MARGIN: f64 = 0.75;
 
-/// Error of a sum of products in doubles, relative to the sum of their moduli. Unit: none. Basis: a few thousand terms.
+/// Error of a sum of products in doubles, relative to the sum of their moduli. Unit: none. Basis: a
+/// few thousand terms.
 pub const KRAWCZYK_NOISE: f64 = 1e-13;
 
 /// Bits of the largest entry of a Krawczyk preconditioner. Basis: 40 bits keep |I - YJ| below 1e-3
@@ -39,8 +42,9 @@ pub const PRECONDITIONER_LOSS_BITS: u32 = 10;
 /// this. Unit: none. Basis: runs stop at residuals of 1e-10; the later one is counted as repeated.
 pub const SAME_POINT: f64 = 1e-9;
 
-/// A closed curve has come back to the solution it left if it meets a point this near to it, relative
-/// to 1 + |z_i|. Unit: none. Basis: ten times what the solver calls the same point of a curve.
+/// A closed curve has come back to the solution it left if it meets a point this near to it,
+/// relative to 1 + |z_i|. Unit: none. Basis: ten times what the solver calls the same point of a
+/// curve.
 pub const SAME_CURVE_POINT: f64 = 1e-5;
 
 /// Distance of a zeta window from the value it excludes, relative to 1 + |value|. Unit: none.
@@ -61,14 +65,14 @@ pub const WITNESS_MARGIN: f64 = 1e-7;
 /// Unit: none. Basis: the checker takes off order^2 2^-32 of the largest entry.
 pub const DEFINITE_PIVOT: f64 = 1e-6;
 
-/// A pivot below minus this says that a symmetric matrix is not semidefinite, so that exact factors of it
-/// are not tried. Unit: the largest diagonal entry. Basis: rounding of an elimination of order 48 stays
-/// below 1e-13; a smaller one would only try in vain now and then.
+/// A pivot below minus this says that a symmetric matrix is not semidefinite, so that exact factors
+/// of it are not tried. Unit: the largest diagonal entry. Basis: rounding of an elimination of
+/// order 48 stays below 1e-13; a smaller one would only try in vain now and then.
 pub const SEMIDEFINITE_PIVOT: f64 = 1e-9;
 
 /// Width below which an interval is no longer cut. Unit: share of the line of theta = t / (s + t).
-/// Basis: what is still undecided on 1e-8 of the line is degenerate (a double root, a biactive index):
-/// there branching and exact solutions help, cutting does not.
+/// Basis: what is still undecided on 1e-8 of the line is degenerate (a double root, a biactive
+/// index): there branching and exact solutions help, cutting does not.
 pub const NARROW: f64 = 1e-8;
 
 /// The same where every index is decided and only cutting is left. Unit: as [`WITNESS_MARGIN`].
@@ -76,17 +80,19 @@ pub const NARROW: f64 = 1e-8;
 /// margin falls with the square of the distance, and this bounds what stays open there.
 pub const THIN_MARGIN: f64 = 1e-11;
 
-/// Error of an entry of the condensed pencil in doubles. Unit: that of rows whose largest entry of A
-/// is below one. Basis: sums of about a thousand terms. Where it is too small the checker refuses the
-/// leaf, which then stays open; a larger one could not tell the sign of the block's smallest component.
+/// Error of an entry of the condensed pencil in doubles. Unit: that of rows whose largest entry of
+/// A is below one. Basis: sums of about a thousand terms. Where it is too small the checker refuses
+/// the leaf, which then stays open; a larger one could not tell the sign of the block's smallest
+/// component.
 pub const CONDENSATION_NOISE: f64 = 5e-14;
 
 /// What is added to a matrix game's entries beyond making them positive, relative to the largest.
 /// Unit: none. Basis: a value that is not close to zero keeps the tableau's pivots well scaled.
 pub const GAME_SHIFT: f64 = 1e-3;
 
-/// Half widths tried for the interval of a root, narrowest first, relative to its value. Unit: none.
-/// Basis: a root in doubles is good to 1e-15 times its condition, which for the block is below 1e3.
+/// Half widths tried for the interval of a root, narrowest first, relative to its value. Unit:
+/// none. Basis: a root in doubles is good to 1e-15 times its condition, which for the block is
+/// below 1e3.
 pub const ROOT_HALF_WIDTHS: [f64; 5] = [1e-13, 1e-12, 1e-11, 1e-9, 1e-7];
 
 /// Rounding of one sum of a few terms in doubles. Unit: relative. Basis: a few times 2^-53.
@@ -109,54 +115,59 @@ pub const TAIL_START: f64 = 1e-6;
 /// Basis: a thousand times what the checker's exact condensation and the one in doubles differ by.
 pub const CONDENSED_MARGIN: f64 = 1e-9;
 
-/// Radii, relative to 1 + |value|, within which a refused candidate is proved to have no solution near
-/// it, largest first. Unit: none. Basis: the first is [`VALUE_RADIUS`], where certification looks; the
-/// smaller ones are for windows that another, degenerate solution keeps open.
+/// Radii, relative to 1 + |value|, within which a refused candidate is proved to have no solution
+/// near it, largest first. Unit: none. Basis: the first is [`VALUE_RADIUS`], where certification
+/// looks; the smaller ones are for windows that another, degenerate solution keeps open.
 pub const ABSENCE_RADII: [f64; 3] = [VALUE_RADIUS, 1e-7, 1e-10];
 
-/// Width of the enclosure of a root that ends definiteness, relative: 2^-this. Unit: none. Basis: 17
-/// digits can be printed.
+/// Width of the enclosure of a root that ends definiteness, relative: 2^-this. Unit: none. Basis:
+/// 17 digits can be printed.
 pub const BRACKET_BITS: u32 = 64;
 
-/// First distance from the proposed end of definiteness at which it is tried to be proved, relative:
-/// 2^-this, widening by 4. Unit: none. Basis: eigenvalues in doubles are good to 1e-14 of the largest.
+/// First distance from the proposed end of definiteness at which it is tried to be proved,
+/// relative: 2^-this, widening by 4. Unit: none. Basis: eigenvalues in doubles are good to 1e-14 of
+/// the largest.
 pub const BRACKET_START_BITS: u32 = 44;
 
-/// Sine of the angle in the complex plane from which an eigenvalue lambda^2 in doubles counts as complex.
-/// Unit: none. Basis: a double eigenvalue splits by 1e-8 in doubles; what is warned of is measured only.
+/// Sine of the angle in the complex plane from which an eigenvalue lambda^2 in doubles counts as
+/// complex. Unit: none. Basis: a double eigenvalue splits by 1e-8 in doubles; what is warned of is
+/// measured only.
 pub const FLUTTER_ANGLE: f64 = 1e-6;
 
-/// Imaginary part, relative to the largest eigenvalue, up to which an eigenvalue of the QR algorithm is
-/// offered as real, and the residual up to which Newton's method then keeps it. Unit: none. Basis: simple
-/// eigenvalues come with 1e-13 times their condition, below 1e4 for condensed meshes.
+/// Imaginary part, relative to the largest eigenvalue, up to which an eigenvalue of the QR
+/// algorithm is offered as real, and the residual up to which Newton's method then keeps it. Unit:
+/// none. Basis: simple eigenvalues come with 1e-13 times their condition, below 1e4 for condensed
+/// meshes.
 pub const REAL_EIGENVALUE: f64 = 1e-9;
 
-/// Share of the way from lo to infinity (in lo / t) that a null vector's value in doubles may be off infinity, before the exact
-/// null vector there is asked for. Unit: none. Basis: roots are good to 1e-12; where it asks in vain nothing is lost.
+/// Share of the way from lo to infinity (in lo / t) that a null vector's value in doubles may be
+/// off infinity, before the exact null vector there is asked for. Unit: none. Basis: roots are good
+/// to 1e-12; where it asks in vain nothing is lost.
 pub const AT_INFINITY: f64 = 1e-6;
 
-/// alpha up to which a point (alpha, beta) of the unit circle is the one at infinity, where t = beta / alpha is no value.
-/// Unit: none. Basis: a solution at infinity was met at alpha from 1e-18 to 3e-17 (random pencil 163 of `verify`), within
-/// the rounding of coordinates of order one.
+/// alpha up to which a point (alpha, beta) of the unit circle is the one at infinity, where t =
+/// beta / alpha is no value. Unit: none. Basis: a solution at infinity was met at alpha from 1e-18
+/// to 3e-17 (random pencil 163 of `verify`), within the rounding of coordinates of order one.
 pub const CIRCLE_END: f64 = 1e-13;
 
-/// Relative error up to which a reported value, and x scaled to largest |x_i| = 1, agree with the proven solution, if
-/// `check --tolerance` does not say otherwise. Unit: none. Basis: a program that solves in doubles and prints seven
-/// digits reaches it where the condition is below 1e9; a wrong component or value of the size of its own error bars
-/// does not pass.
+/// Relative error up to which a reported value, and x scaled to largest |x_i| = 1, agree with the
+/// proven solution, if `check --tolerance` does not say otherwise. Unit: none. Basis: a program
+/// that solves in doubles and prints seven digits reaches it where the condition is below 1e9; a
+/// wrong component or value of the size of its own error bars does not pass.
 pub const AGREEMENT: f64 = 1e-6;
 
-/// The smallest error that `check --tolerance` may ask for. Unit: relative. Basis: a few roundings of doubles, in which
-/// reports are compared.
+/// The smallest error that `check --tolerance` may ask for. Unit: relative. Basis: a few roundings
+/// of doubles, in which reports are compared.
 pub const FINEST_AGREEMENT: f64 = 1e-15;
 
 /// What `check --tolerance` takes, in words: from [`FINEST_AGREEMENT`] to [`VALUE_RADIUS`].
 pub const AGREEMENT_RANGE: &str = "a number from 1e-15 to 1e-4";
 
-/// Values below this share of the scale of values, min_i (|A||x|)_i / (|B||x|)_i, have their errors measured relative to that
-/// share. Unit: none. Basis: with [`AGREEMENT`] a value 0 may be reported as 1e-13 of the scale, some hundred times what
-/// rounding A and B to doubles moves it; lambda^2 just above a threshold is 1e-7 of the largest one on an ordinary mesh (1.3e3 beside 1e10), and must
-/// have its digits still.
+/// Values below this share of the scale of values, min_i (|A||x|)_i / (|B||x|)_i, have their errors
+/// measured relative to that share. Unit: none. Basis: with [`AGREEMENT`] a value 0 may be reported
+/// as 1e-13 of the scale, some hundred times what rounding A and B to doubles moves it; lambda^2
+/// just above a threshold is 1e-7 of the largest one on an ordinary mesh (1.3e3 beside 1e10), and
+/// must have its digits still.
 pub const VALUE_FLOOR: f64 = 1e-7;
 
 /// Probability below which a count under its floor is not put down to chance. Unit: none. Reason: a
@@ -165,7 +176,7 @@ pub const VALUE_FLOOR: f64 = 1e-7;
 /// instances.
 pub const CHANCE: f64 = 1e-4;
 
-/// Relative distance up to which the end of a run of PATH's own sequence counts as a proved value of a block state. Unit: none. Reason:
-/// runs stop at residuals of 1e-10, and values of one state lie apart by more than a part in a
-/// thousand.
+/// Relative distance up to which the end of a run of PATH's own sequence counts as a proved value
+/// of a block state. Unit: none. Reason: runs stop at residuals of 1e-10, and values of one state
+/// lie apart by more than a part in a thousand.
 pub const PATH_VALUE: f64 = 1e-8;

@@ -49,7 +49,11 @@ pub struct Algebraic {
 impl Algebraic {
     /// A rational number as an algebraic one.
     pub fn rational(value: Rational) -> Self {
-        Algebraic { poly: Poly::linear_root(&value), interval: Interval::point(value), at_lo: 0 }
+        Algebraic {
+            poly: Poly::linear_root(&value),
+            interval: Interval::point(value),
+            at_lo: 0,
+        }
     }
 
     /// The root of a squarefree `poly` isolated by `interval`; the caller has isolated it.
@@ -58,7 +62,11 @@ impl Algebraic {
             return Self::rational(interval.lo().clone());
         }
         let at_lo = poly.sign_at(interval.lo());
-        Algebraic { poly, interval, at_lo }
+        Algebraic {
+            poly,
+            interval,
+            at_lo,
+        }
     }
 
     /// The number a claim speaks of: its polynomial made squarefree, with its interval. The caller
@@ -94,7 +102,11 @@ impl Algebraic {
             *self = Self::rational(mid);
             return;
         }
-        let (lo, hi) = if at_mid == self.at_lo { (mid, hi) } else { (lo, mid) };
+        let (lo, hi) = if at_mid == self.at_lo {
+            (mid, hi)
+        } else {
+            (lo, mid)
+        };
         // lo <= hi: mid lies between the old ends.
         self.interval = Interval::new(lo, hi).unwrap_or_else(|| self.interval.clone());
     }
@@ -140,7 +152,11 @@ impl Algebraic {
             return false;
         }
         let vanishes = h.sign_at(self.interval.lo()) != h.sign_at(self.interval.hi());
-        let factor = if vanishes { Some(h) } else { self.poly.exact_div(&h) };
+        let factor = if vanishes {
+            Some(h)
+        } else {
+            self.poly.exact_div(&h)
+        };
         if let Some(f) = factor {
             self.poly = f.primitive();
             self.at_lo = self.poly.sign_at(self.interval.lo());
@@ -158,13 +174,26 @@ impl Algebraic {
     /// assert_eq!(v, [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])]); // (6 t^2, 8 t) ~ (3, 2 t)
     /// ```
     pub fn reduce(&self, vector: &[Poly]) -> Vec<Poly> {
-        let steps = vector.iter().map(|p| p.coeffs().len()).max().unwrap_or(0).saturating_sub(self.poly.coeffs().len() - 1);
-        let reduced: Vec<Poly> = vector.iter().map(|p| p.pseudo_rem_steps(&self.poly, steps)).collect();
-        let content = reduced.iter().fold(Integer::zero(), |g, p| g.gcd(&p.content()));
+        let steps = vector
+            .iter()
+            .map(|p| p.coeffs().len())
+            .max()
+            .unwrap_or(0)
+            .saturating_sub(self.poly.coeffs().len() - 1);
+        let reduced: Vec<Poly> = vector
+            .iter()
+            .map(|p| p.pseudo_rem_steps(&self.poly, steps))
+            .collect();
+        let content = reduced
+            .iter()
+            .fold(Integer::zero(), |g, p| g.gcd(&p.content()));
         if content.is_zero() || content.is_one() {
             return reduced;
         }
-        reduced.iter().map(|p| Poly::new(p.coeffs().iter().map(|c| c / &content).collect())).collect()
+        reduced
+            .iter()
+            .map(|p| Poly::new(p.coeffs().iter().map(|c| c / &content).collect()))
+            .collect()
     }
 
     /// Looks for a rational value: a root u/v of a primitive polynomial has v dividing the lead, so
@@ -256,11 +285,21 @@ mod tests {
     /// Only one of them is a point: the other one is narrowed until they part.
     #[test]
     fn a_rational_and_a_root_are_told_apart() {
-        for (n, d, expected) in
-            [(7, 5, Ordering::Greater), (3, 2, Ordering::Less), (1393, 985, Ordering::Greater), (3363, 2378, Ordering::Less)]
-        {
+        for (n, d, expected) in [
+            (7, 5, Ordering::Greater),
+            (3, 2, Ordering::Less),
+            (1393, 985, Ordering::Greater),
+            (3363, 2378, Ordering::Less),
+        ] {
             let rational = || Algebraic::rational(rational(n, d));
-            assert_eq!((sqrt(2).cmp_exact(&mut rational()), rational().cmp_exact(&mut sqrt(2))), (expected, expected.reverse()), "{n}/{d}");
+            assert_eq!(
+                (
+                    sqrt(2).cmp_exact(&mut rational()),
+                    rational().cmp_exact(&mut sqrt(2))
+                ),
+                (expected, expected.reverse()),
+                "{n}/{d}"
+            );
         }
     }
 
@@ -268,9 +307,18 @@ mod tests {
     fn signs_are_exact_also_an_inch_from_zero() {
         // 3363/2378 is a convergent of sqrt 2, below it by 6e-8.
         let mut root = sqrt(2);
-        assert_eq!(root.sign_of(&Poly::from_ints(&[-3363, 2378])), Sign::Negative);
-        assert_eq!(root.sign_of(&Poly::from_ints(&[-1393, 985])), Sign::Positive);
-        assert_eq!(root.sign_of(&Poly::from_ints(&[4, 0, 0, 0, -1])), Sign::Zero);
+        assert_eq!(
+            root.sign_of(&Poly::from_ints(&[-3363, 2378])),
+            Sign::Negative
+        );
+        assert_eq!(
+            root.sign_of(&Poly::from_ints(&[-1393, 985])),
+            Sign::Positive
+        );
+        assert_eq!(
+            root.sign_of(&Poly::from_ints(&[4, 0, 0, 0, -1])),
+            Sign::Zero
+        );
     }
 
     #[test]
@@ -280,8 +328,12 @@ mod tests {
         assert_eq!(root.sign_of(&Poly::from_ints(&[-2, 0, 1])), Sign::Zero);
         assert_eq!(root.poly(), &Poly::from_ints(&[-2, 0, 1]));
         let mut larger = nonnegative_roots(&p).remove(1);
-        assert_eq!(larger.sign_of(&Poly::from_ints(&[-2, 0, 1])), Sign::Positive);
-        // The common factor t^2 - 2 is not zero at sqrt 5, which is just below 2889/1292: the sign stays open at first.
+        assert_eq!(
+            larger.sign_of(&Poly::from_ints(&[-2, 0, 1])),
+            Sign::Positive
+        );
+        // The common factor t^2 - 2 is not zero at sqrt 5, which is just below 2889/1292: the sign
+        // stays open at first.
         let near = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-2889, 1292]);
         assert_eq!(larger.sign_of(&near), Sign::Negative);
         assert_eq!(larger.poly(), &Poly::from_ints(&[-5, 0, 1]));
@@ -321,7 +373,9 @@ mod tests {
     /// A lead of more than 256 bits would cost as many halvings: the number stays as it is.
     #[test]
     fn a_rational_with_a_long_denominator_is_not_looked_for() {
-        let long = |bits: u32| &Poly::new(vec![(-3).into(), Integer::from(1) << bits]) * &Poly::from_ints(&[-2, 0, 1]);
+        let long = |bits: u32| {
+            &Poly::new(vec![(-3).into(), Integer::from(1) << bits]) * &Poly::from_ints(&[-2, 0, 1])
+        };
         let of = |bits: u32| {
             let value = Rational::new(3.into(), Integer::from(1) << bits);
             let interval = Interval::new(
@@ -330,7 +384,11 @@ mod tests {
             )
             .unwrap();
             let at_lo = long(bits).sign_at(interval.lo());
-            let mut number = Algebraic { poly: long(bits), interval, at_lo };
+            let mut number = Algebraic {
+                poly: long(bits),
+                interval,
+                at_lo,
+            };
             number.try_rational();
             number.interval.is_point()
         };

@@ -1,4 +1,5 @@
-//! Cofactors of a matrix pencil: the null vector of a singular value by Cramer's rule, all values at once.
+//! Cofactors of a matrix pencil: the null vector of a singular value by Cramer's rule, all values
+//! at once.
 
 use super::kernel::{newton_interpolate, values_at};
 use super::{Integer, Poly};
@@ -18,8 +19,12 @@ use num_traits::{One, Zero};
 /// ```
 pub fn first_row_cofactors(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Vec<Poly> {
     let n = a.len();
-    let at: Vec<Vec<Integer>> = (0..n).map(|t| integer_cofactors(values_at(a, b, t))).collect();
-    (0..n).map(|j| newton_interpolate(at.iter().map(|values| values[j].clone()).collect())).collect()
+    let at: Vec<Vec<Integer>> = (0..n)
+        .map(|t| integer_cofactors(values_at(a, b, t)))
+        .collect();
+    (0..n)
+        .map(|j| newton_interpolate(at.iter().map(|values| values[j].clone()).collect()))
+        .collect()
 }
 
 /// The cofactors of the first row of an integer matrix: the null vector of the other rows by
@@ -54,8 +59,14 @@ fn integer_cofactors(mut m: Vec<Vec<Integer>>) -> Vec<Integer> {
     negate ^= free % 2 == 1;
     let columns = (0..n).filter(|&c| c != free);
     let mut cofactors = vec![last; n];
-    columns.enumerate().for_each(|(row, c)| cofactors[c] = -&m[row][free]);
-    if negate { cofactors.into_iter().map(|c| -c).collect() } else { cofactors }
+    columns
+        .enumerate()
+        .for_each(|(row, c)| cofactors[c] = -&m[row][free]);
+    if negate {
+        cofactors.into_iter().map(|c| -c).collect()
+    } else {
+        cofactors
+    }
 }
 
 #[cfg(test)]
@@ -68,16 +79,26 @@ mod tests {
     fn cofactors_agree_with_determinants_of_what_is_left() {
         let mut state = 12345u64;
         let mut small = || {
-            state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            state = state
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
             Integer::from((state >> 33) as i64 % 3)
         };
         let mut zero = 0;
         for k in 0..300 {
             let n = 1 + k % 5;
             let m: Vec<Vec<Integer>> = (0..n).map(|_| (0..n).map(|_| small()).collect()).collect();
-            let minor = |j: usize| m[1..].iter().map(|r| [&r[..j], &r[j + 1..]].concat()).collect();
-            let expected: Vec<Integer> =
-                (0..n).map(|j| integer_determinant(minor(j))).enumerate().map(|(j, d)| if j % 2 == 1 { -d } else { d }).collect();
+            let minor = |j: usize| {
+                m[1..]
+                    .iter()
+                    .map(|r| [&r[..j], &r[j + 1..]].concat())
+                    .collect()
+            };
+            let expected: Vec<Integer> = (0..n)
+                .map(|j| integer_determinant(minor(j)))
+                .enumerate()
+                .map(|(j, d)| if j % 2 == 1 { -d } else { d })
+                .collect();
             zero += usize::from(expected.iter().all(Zero::is_zero));
             assert_eq!(integer_cofactors(m), expected);
         }

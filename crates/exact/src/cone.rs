@@ -17,18 +17,31 @@ pub struct Generators {
 /// numbers being integer polynomials taken at `alpha`.
 ///
 /// ```
-/// use mceip_exact::{cone_generators, rational, Algebraic, Poly};
+/// use mceip_exact::{Algebraic, Poly, cone_generators, rational};
 /// let row = |v: [i64; 2]| v.map(|c| Poly::from_ints(&[c])).to_vec();
 /// let mut alpha = Algebraic::rational(rational(1, 1));
 /// let cone = cone_generators(&[row([1, 0]), row([-1, 1]), row([0, 1])], 2, &mut alpha); // 0 <= z_0 <= z_1
 /// assert_eq!((cone.lineality.len(), cone.rays.len()), (0, 2));
 /// ```
 pub fn cone_generators(rows: &[Vec<Poly>], dimension: usize, alpha: &mut Algebraic) -> Generators {
-    let unit = |k: usize| (0..dimension).map(|i| if i == k { Poly::constant(Integer::one()) } else { Poly::default() }).collect();
+    let unit = |k: usize| {
+        (0..dimension)
+            .map(|i| {
+                if i == k {
+                    Poly::constant(Integer::one())
+                } else {
+                    Poly::default()
+                }
+            })
+            .collect()
+    };
     let mut lineality: Vec<Vec<Poly>> = (0..dimension).map(unit).collect();
     let mut rays: Vec<Ray> = Vec::new();
     for (rows_before, row) in rows.iter().enumerate() {
-        match lineality.iter().position(|l| alpha.sign_of(&dot(row, l)) != Sign::Zero) {
+        match lineality
+            .iter()
+            .position(|l| alpha.sign_of(&dot(row, l)) != Sign::Zero)
+        {
             Some(k) => {
                 let direction = lineality.swap_remove(k);
                 rays = leave_lineality(row, rows_before, direction, &mut lineality, rays, alpha);
@@ -36,7 +49,10 @@ pub fn cone_generators(rows: &[Vec<Poly>], dimension: usize, alpha: &mut Algebra
             None => rays = cut(row, &rays, alpha),
         }
     }
-    Generators { lineality, rays: rays.into_iter().map(|r| r.z).collect() }
+    Generators {
+        lineality,
+        rays: rays.into_iter().map(|r| r.z).collect(),
+    }
 }
 
 /// A ray and which of the rows so far vanish on it.
@@ -45,7 +61,8 @@ struct Ray {
     zero: Vec<bool>,
 }
 
-/// The row cuts the lineality space: one direction becomes a ray, all else moves into the row's hyperplane.
+/// The row cuts the lineality space: one direction becomes a ray, all else moves into the row's
+/// hyperplane.
 fn leave_lineality(
     row: &[Poly],
     rows_before: usize,
@@ -73,20 +90,35 @@ fn leave_lineality(
 
 /// The row cuts the pointed part: rays on the wrong side are replaced by those on the plane.
 fn cut(row: &[Poly], rays: &[Ray], alpha: &mut Algebraic) -> Vec<Ray> {
-    let values: Vec<(Poly, Sign)> = rays.iter().map(|r| dot(row, &r.z)).map(|v| (v.clone(), alpha.sign_of(&v))).collect();
+    let values: Vec<(Poly, Sign)> = rays
+        .iter()
+        .map(|r| dot(row, &r.z))
+        .map(|v| (v.clone(), alpha.sign_of(&v)))
+        .collect();
     let mut kept = Vec::new();
     for (i, ray) in rays.iter().enumerate() {
         if values[i].1 != Sign::Negative {
             let zero = [&ray.zero[..], &[values[i].1 == Sign::Zero]].concat();
-            kept.push(Ray { z: ray.z.clone(), zero });
+            kept.push(Ray {
+                z: ray.z.clone(),
+                zero,
+            });
         }
         for (j, other) in rays.iter().enumerate() {
-            if values[i].1 != Sign::Positive || values[j].1 != Sign::Negative || !adjacent(i, j, rays) {
+            if values[i].1 != Sign::Positive
+                || values[j].1 != Sign::Negative
+                || !adjacent(i, j, rays)
+            {
                 continue;
             }
             // (row.p) n - (row.n) p: a positive combination on which the row vanishes.
             let z = combine(&values[i].0, &other.z, &-&values[j].0, &ray.z, alpha);
-            let mut zero: Vec<bool> = ray.zero.iter().zip(&other.zero).map(|(a, b)| *a && *b).collect();
+            let mut zero: Vec<bool> = ray
+                .zero
+                .iter()
+                .zip(&other.zero)
+                .map(|(a, b)| *a && *b)
+                .collect();
             zero.push(true);
             kept.push(Ray { z, zero });
         }
@@ -94,15 +126,24 @@ fn cut(row: &[Poly], rays: &[Ray], alpha: &mut Algebraic) -> Vec<Ray> {
     kept
 }
 
-/// Do two extreme rays span a face of two dimensions? Exactly if no third one vanishes wherever both do.
+/// Do two extreme rays span a face of two dimensions? Exactly if no third one vanishes wherever
+/// both do.
 fn adjacent(i: usize, j: usize, rays: &[Ray]) -> bool {
-    let common: Vec<usize> = (0..rays[i].zero.len()).filter(|&k| rays[i].zero[k] && rays[j].zero[k]).collect();
-    !rays.iter().enumerate().any(|(k, r)| k != i && k != j && common.iter().all(|&c| r.zero[c]))
+    let common: Vec<usize> = (0..rays[i].zero.len())
+        .filter(|&k| rays[i].zero[k] && rays[j].zero[k])
+        .collect();
+    !rays
+        .iter()
+        .enumerate()
+        .any(|(k, r)| k != i && k != j && common.iter().all(|&c| r.zero[c]))
 }
 
 /// The inner product of two vectors of polynomials.
 pub fn dot(a: &[Poly], b: &[Poly]) -> Poly {
-    a.iter().zip(b).filter(|(p, q)| !p.is_zero() && !q.is_zero()).fold(Poly::default(), |sum, (p, q)| &sum + &(p * q))
+    a.iter()
+        .zip(b)
+        .filter(|(p, q)| !p.is_zero() && !q.is_zero())
+        .fold(Poly::default(), |sum, (p, q)| &sum + &(p * q))
 }
 
 /// p u + q v at alpha, up to a positive factor.
@@ -132,12 +173,22 @@ mod tests {
         assert_eq!(counts(&[&[0, 0, 1]], 3), (2, 1)); // half-space
         assert_eq!(counts(&[&[0, 0, 1], &[0, 0, -1]], 3), (2, 0)); // plane
         assert_eq!(counts(&[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]], 3), (0, 3)); // octant
-        assert_eq!(counts(&[&[1, 0, 1], &[-1, 0, 1], &[0, 1, 1], &[0, -1, 1]], 3), (0, 4)); // over a square
+        assert_eq!(
+            counts(&[&[1, 0, 1], &[-1, 0, 1], &[0, 1, 1], &[0, -1, 1]], 3),
+            (0, 4)
+        ); // over a square
         assert_eq!(counts(&[&[1, 0], &[-1, 0], &[0, 1], &[0, -1]], 2), (0, 0)); // the origin
         assert_eq!(counts(&[&[1, 0], &[2, 0], &[0, 1], &[1, 1]], 2), (0, 2)); // redundant rows
         assert_eq!(counts(&[&[1, -1], &[-1, 1], &[1, 0]], 2), (0, 1)); // a ray
         // Over the cube: 6 facets, 8 rays; many pairs are not adjacent.
-        let cube: [&[i64]; 6] = [&[1, 0, 0, 1], &[-1, 0, 0, 1], &[0, 1, 0, 1], &[0, -1, 0, 1], &[0, 0, 1, 1], &[0, 0, -1, 1]];
+        let cube: [&[i64]; 6] = [
+            &[1, 0, 0, 1],
+            &[-1, 0, 0, 1],
+            &[0, 1, 0, 1],
+            &[0, -1, 0, 1],
+            &[0, 0, 1, 1],
+            &[0, 0, -1, 1],
+        ];
         assert_eq!(counts(&cube, 4), (0, 8));
         // Over the octahedron: 8 facets, 6 rays.
         let signs = (0..8i64).map(|k| [1 - 2 * (k & 1), 1 - (k & 2), 1 - (k & 4) / 2, 1]);
@@ -163,7 +214,10 @@ mod tests {
         for ray in &cone.rays {
             let signs: Vec<Sign> = rows.iter().map(|r| root.sign_of(&dot(r, ray))).collect();
             assert!(!signs.contains(&Sign::Negative));
-            assert!(signs.iter().filter(|s| **s == Sign::Zero).count() >= 2, "{ray:?}");
+            assert!(
+                signs.iter().filter(|s| **s == Sign::Zero).count() >= 2,
+                "{ray:?}"
+            );
         }
     }
 }

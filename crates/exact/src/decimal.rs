@@ -3,8 +3,8 @@
 use super::{Algebraic, Integer, Interval, Poly, Rational, Sign};
 use num_traits::{Pow, Signed, Zero};
 
-/// `value(number)` rounded to `digits` significant digits, half away from zero, as a decimal string.
-/// Pass `t` as the polynomial for the number itself.
+/// `value(number)` rounded to `digits` significant digits, half away from zero, as a decimal
+/// string. Pass `t` as the polynomial for the number itself.
 ///
 /// ```
 /// use mceip_exact::{nonnegative_roots, to_decimal, Poly};
@@ -21,13 +21,21 @@ pub fn to_decimal(number: &mut Algebraic, value: &Poly, digits: usize) -> String
 /// round alike; a tie is only possible at a rational, which is tested exactly. A denominator that
 /// vanishes at the number has no quotient: the result is then "0" (callers divide by sums that
 /// are positive by construction).
-pub fn ratio_to_decimal(number: &mut Algebraic, numerator: &Poly, denominator: &Poly, digits: usize) -> String {
+pub fn ratio_to_decimal(
+    number: &mut Algebraic,
+    numerator: &Poly,
+    denominator: &Poly,
+    digits: usize,
+) -> String {
     if number.sign_of(numerator) == Sign::Zero || number.sign_of(denominator) == Sign::Zero {
         return "0".into();
     }
     let mut steps = 1;
     loop {
-        let image = number.interval().horner(numerator).div(&number.interval().horner(denominator));
+        let image = number
+            .interval()
+            .horner(numerator)
+            .div(&number.interval().horner(denominator));
         if let Some(image) = image.filter(|i| i.certain_sign() != 0) {
             let (lo, hi) = (round(image.lo(), digits), round(image.hi(), digits));
             if lo == hi {
@@ -46,8 +54,8 @@ pub fn ratio_to_decimal(number: &mut Algebraic, numerator: &Poly, denominator: &
     }
 }
 
-/// Decimals with `digits` significant digits (of the larger end) that enclose an interval: the lower
-/// end rounded down, the upper end rounded up.
+/// Decimals with `digits` significant digits (of the larger end) that enclose an interval: the
+/// lower end rounded down, the upper end rounded up.
 ///
 /// ```
 /// use mceip_exact::{enclosing_decimals, rational, Interval};
@@ -72,7 +80,9 @@ pub(crate) fn round(value: &Rational, digits: usize) -> String {
     }
     let digits = digits.max(1);
     let mut exponent = decimal_exponent(&value.abs());
-    let mut mantissa = scaled(&value.abs(), digits as i64 - 1 - exponent).round().to_integer();
+    let mut mantissa = scaled(&value.abs(), digits as i64 - 1 - exponent)
+        .round()
+        .to_integer();
     if mantissa.to_string().len() > digits {
         exponent += 1; // 9.99 -> 10.0
         mantissa /= 10;
@@ -95,7 +105,11 @@ fn tie_between(lo: &Rational, hi: &Rational, digits: usize) -> Option<Rational> 
 fn decimal_exponent(value: &Rational) -> i64 {
     let guess = value.numer().to_string().len() as i64 - value.denom().to_string().len() as i64;
     // The guess is off by at most one, downwards.
-    if *value < scaled(&Rational::from_integer(1.into()), guess) { guess - 1 } else { guess }
+    if *value < scaled(&Rational::from_integer(1.into()), guess) {
+        guess - 1
+    } else {
+        guess
+    }
 }
 
 /// value * 10^k.
@@ -170,14 +184,34 @@ mod tests {
         let (square, one) = (Poly::from_ints(&[0, 0, 1]), Poly::from_ints(&[1]));
         assert_eq!(to_decimal(&mut root, &square, 2), "0.13");
         assert_eq!(ratio_to_decimal(&mut root, &one, &square, 1), "8");
-        assert_eq!(ratio_to_decimal(&mut root, &Poly::from_ints(&[0, -3]), &Poly::from_ints(&[0, 8]), 2), "-0.38");
-        assert_eq!(ratio_to_decimal(&mut root, &Poly::from_ints(&[0, 5]), &Poly::from_ints(&[0, 0, 0, 32]), 2), "1.3");
+        assert_eq!(
+            ratio_to_decimal(
+                &mut root,
+                &Poly::from_ints(&[0, -3]),
+                &Poly::from_ints(&[0, 8]),
+                2
+            ),
+            "-0.38"
+        );
+        assert_eq!(
+            ratio_to_decimal(
+                &mut root,
+                &Poly::from_ints(&[0, 5]),
+                &Poly::from_ints(&[0, 0, 0, 32]),
+                2
+            ),
+            "1.3"
+        );
     }
 
     #[test]
     fn enclosing_decimals_round_outwards() {
-        let of =
-            |lo: &str, hi: &str, digits: usize| enclosing_decimals(&Interval::new(parse(lo).unwrap(), parse(hi).unwrap()).unwrap(), digits);
+        let of = |lo: &str, hi: &str, digits: usize| {
+            enclosing_decimals(
+                &Interval::new(parse(lo).unwrap(), parse(hi).unwrap()).unwrap(),
+                digits,
+            )
+        };
         let want = |lo: &str, hi: &str| (lo.to_string(), hi.to_string());
         assert_eq!(of("1/3", "2/3", 3), want("0.333", "0.667"));
         assert_eq!(of("1.234567", "1.234568", 4), want("1.234", "1.235"));

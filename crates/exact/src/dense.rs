@@ -14,7 +14,10 @@ pub struct Dense {
 impl Dense {
     /// The zero matrix of the given shape.
     pub fn zeros(rows: usize, cols: usize) -> Self {
-        Dense { cols, data: vec![Rational::zero(); rows * cols] }
+        Dense {
+            cols,
+            data: vec![Rational::zero(); rows * cols],
+        }
     }
 
     /// A matrix from its rows, all of the same length.
@@ -24,7 +27,10 @@ impl Dense {
     pub fn from_rows(rows: Vec<Vec<Rational>>) -> Self {
         let cols = rows.first().map_or(0, Vec::len);
         assert!(rows.iter().all(|r| r.len() == cols), "ragged rows");
-        Dense { cols, data: rows.into_iter().flatten().collect() }
+        Dense {
+            cols,
+            data: rows.into_iter().flatten().collect(),
+        }
     }
 
     /// Number of rows.
@@ -45,7 +51,11 @@ impl Dense {
     /// Each row of `self` and the same row of `other` multiplied by one positive integer that
     /// makes both integral. Kernels and signs of products with a vector are unchanged.
     pub fn clear_rows(&self, other: &Dense) -> (Vec<Vec<Integer>>, Vec<Vec<Integer>>) {
-        let clear = |row: &[Rational], m: &Integer| row.iter().map(|v| v.numer() * (m / v.denom())).collect::<Vec<_>>();
+        let clear = |row: &[Rational], m: &Integer| {
+            row.iter()
+                .map(|v| v.numer() * (m / v.denom()))
+                .collect::<Vec<_>>()
+        };
         (0..self.rows())
             .map(|i| {
                 let m = common_denominator(self.row(i).iter().chain(other.row(i)));
@@ -75,8 +85,14 @@ mod tests {
 
     #[test]
     fn rows_and_columns_are_counted() {
-        let m = Dense::from_rows(vec![vec![whole(1), whole(2), whole(3)], vec![whole(4), whole(5), whole(6)]]);
-        assert_eq!((m.rows(), m.cols(), m.row(1)), (2, 3, &[4, 5, 6].map(whole)[..]));
+        let m = Dense::from_rows(vec![
+            vec![whole(1), whole(2), whole(3)],
+            vec![whole(4), whole(5), whole(6)],
+        ]);
+        assert_eq!(
+            (m.rows(), m.cols(), m.row(1)),
+            (2, 3, &[4, 5, 6].map(whole)[..])
+        );
     }
 
     #[test]

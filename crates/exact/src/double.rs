@@ -15,7 +15,11 @@ use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
 /// assert!(from_f64(f64::NAN).is_err());
 /// ```
 pub fn from_f64(value: f64) -> Result<Rational, NumberError> {
-    Rational::from_float(value).filter(|_| value.is_finite()).ok_or_else(|| NumberError::NotFinite { text: value.to_string() })
+    Rational::from_float(value)
+        .filter(|_| value.is_finite())
+        .ok_or_else(|| NumberError::NotFinite {
+            text: value.to_string(),
+        })
 }
 
 /// A finite double without its fraction; `None` for NaN and the infinities.
@@ -39,31 +43,41 @@ pub fn to_f64(value: &Rational) -> f64 {
         return 0.0;
     }
     let (num, den) = (value.numer().abs(), value.denom().clone());
-    // Scaled to a quotient of at least 66 bits, which with what the division leaves is rounded once.
+    // Scaled to a quotient of at least 66 bits, which with what the division leaves is rounded
+    // once.
     let shift = 66 - (num.bits() as i64 - den.bits() as i64);
-    let (num, den) = if shift >= 0 { (num << shift as u64, den) } else { (num, den << shift.unsigned_abs()) };
+    let (num, den) = if shift >= 0 {
+        (num << shift as u64, den)
+    } else {
+        (num, den << shift.unsigned_abs())
+    };
     let (quotient, rest) = (&num / &den, &num % &den);
     let magnitude = round_scaled(quotient, !rest.is_zero(), -shift);
     // The sign bit, set by hand: this room computes nothing in floats.
     f64::from_bits(magnitude.to_bits() + (u64::from(value.is_negative()) << 63))
 }
 
-/// `quotient * 2^exponent` (plus something below one unit if `sticky`), rounded once; the quotient has more than 53 bits.
+/// `quotient * 2^exponent` (plus something below one unit if `sticky`), rounded once; the quotient
+/// has more than 53 bits.
 fn round_scaled(quotient: Integer, sticky: bool, exponent: i64) -> f64 {
     let bits = quotient.bits() as i64;
     // Lowest exponent a bit of the result may have: subnormals stop at 2^-1074.
     let keep = 53.min(bits + exponent + 1074);
     let drop = bits - keep;
-    let (kept, below) = (&quotient >> drop as u64, &quotient % (Integer::from(1) << drop as u64));
+    let (kept, below) = (
+        &quotient >> drop as u64,
+        &quotient % (Integer::from(1) << drop as u64),
+    );
     let half = Integer::from(1) << (drop - 1) as u64;
     let up = below > half || (below == half && (sticky || kept.bit(0)));
     let mantissa = (if up { kept + 1 } else { kept }).to_u64().unwrap_or(0); // at most 2^53
     assemble(mantissa, exponent + drop)
 }
 
-/// `mantissa * 2^exponent` for a mantissa of 53 bits (or 2^53 itself), or of fewer at the lowest exponent, -1074; infinity
-/// beyond the largest double. The bits of positive doubles, read as integers, count them in their order, 2^52 to a power of
-/// two: a mantissa's leading bit raises the exponent by itself, and so does a carry.
+/// `mantissa * 2^exponent` for a mantissa of 53 bits (or 2^53 itself), or of fewer at the lowest
+/// exponent, -1074; infinity beyond the largest double. The bits of positive doubles, read as
+/// integers, count them in their order, 2^52 to a power of two: a mantissa's leading bit raises the
+/// exponent by itself, and so does a carry.
 fn assemble(mantissa: u64, exponent: i64) -> f64 {
     let rank = ((exponent + 1074).min(2046) as u64) << 52;
     f64::from_bits((rank + mantissa).min(f64::INFINITY.to_bits()))
@@ -95,7 +109,11 @@ mod tests {
             "123456789.123456789",
         ] {
             let want: f64 = text.parse().unwrap();
-            assert_eq!(to_f64(&parse(text).unwrap()).to_bits(), want.to_bits(), "{text}");
+            assert_eq!(
+                to_f64(&parse(text).unwrap()).to_bits(),
+                want.to_bits(),
+                "{text}"
+            );
         }
         assert_eq!(to_f64(&parse("1e400").unwrap()), f64::INFINITY);
         assert_eq!(to_f64(&rational(1, 3)), 1.0 / 3.0);
@@ -103,7 +121,13 @@ mod tests {
 
     #[test]
     fn doubles_round_trip() {
-        for bits in [1u64, 0x000f_ffff_ffff_ffff, 0x3ff0_0000_0000_0001, 0x7fef_ffff_ffff_ffff, 0xbfb9_9999_9999_999a] {
+        for bits in [
+            1u64,
+            0x000f_ffff_ffff_ffff,
+            0x3ff0_0000_0000_0001,
+            0x7fef_ffff_ffff_ffff,
+            0xbfb9_9999_9999_999a,
+        ] {
             let value = f64::from_bits(bits);
             assert_eq!(to_f64(&from_f64(value).unwrap()).to_bits(), bits);
         }
@@ -112,8 +136,8 @@ mod tests {
         }
     }
 
-    /// Both ends of the range, from both sides: the first infinity is half a unit above the largest double (a tie, to
-    /// even), the last zero half the smallest subnormal.
+    /// Both ends of the range, from both sides: the first infinity is half a unit above the largest
+    /// double (a tie, to even), the last zero half the smallest subnormal.
     #[test]
     fn the_ends_of_the_range() {
         let power = |k: u32| Rational::from_integer(Integer::from(1) << k);
@@ -146,6 +170,9 @@ mod tests {
             assert_eq!(to_f64(&nearly), 2f64.powi(k as i32));
             assert_eq!(to_f64(&nearly.recip()), 2f64.powi(-(k as i32)));
         }
-        assert_eq!(to_f64(&(power(53) - rational(1, 1))), 9_007_199_254_740_991.0);
+        assert_eq!(
+            to_f64(&(power(53) - rational(1, 1))),
+            9_007_199_254_740_991.0
+        );
     }
 }

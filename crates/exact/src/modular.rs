@@ -1,9 +1,9 @@
 //! Exact Schur complements of large banded matrices: modulo many primes, put together by the
 //! Chinese remainder theorem, correct by Hadamard's bound.
 //!
-//! For integer F (n x n, regular), C, R, D the number det(F) (D - R F^-1 C)_ij is the determinant of
-//! F bordered by row i and column j: an integer, at most the product of the rows' Euclidean norms
-//! (Hadamard 1893). Known modulo primes whose product exceeds twice that bound, it is known.
+//! For integer F (n x n, regular), C, R, D the number det(F) (D - R F^-1 C)_ij is the determinant
+//! of F bordered by row i and column j: an integer, at most the product of the rows' Euclidean
+//! norms (Hadamard 1893). Known modulo primes whose product exceeds twice that bound, it is known.
 
 use super::prime::{Field, primes};
 use super::{Integer, Rational, Sparse, common_denominator};
@@ -26,7 +26,9 @@ pub enum CondenseError {
     },
     /// A leading minor of F vanishes modulo so many primes that it is taken to be zero; elimination
     /// without pivoting needs them all (positive definite matrices have them).
-    #[error("condensation: expected non-zero leading minors, got a zero modulo each of {primes} primes")]
+    #[error(
+        "condensation: expected non-zero leading minors, got a zero modulo each of {primes} primes"
+    )]
     ZeroMinor {
         /// Primes tried in a row.
         primes: usize,
@@ -51,11 +53,25 @@ const MAX_SKIPPED: usize = 8;
 /// let s = schur_complement(&one(3), &one(1), &one(2), &one(5)).unwrap(); // 5 - 2 * 1/3
 /// assert_eq!(s.get(0, 0), rational(13, 3));
 /// ```
-pub fn schur_complement(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> Result<Sparse, CondenseError> {
+pub fn schur_complement(
+    f: &Sparse,
+    c: &Sparse,
+    r: &Sparse,
+    d: &Sparse,
+) -> Result<Sparse, CondenseError> {
     let n = f.rows();
-    for (what, m, expected) in [("F", f, (n, n)), ("C", c, (n, c.cols())), ("R", r, (r.rows(), n)), ("D", d, (r.rows(), c.cols()))] {
+    for (what, m, expected) in [
+        ("F", f, (n, n)),
+        ("C", c, (n, c.cols())),
+        ("R", r, (r.rows(), n)),
+        ("D", d, (r.rows(), c.cols())),
+    ] {
         if (m.rows(), m.cols()) != expected {
-            return Err(CondenseError::Shape { what, expected, got: (m.rows(), m.cols()) });
+            return Err(CondenseError::Shape {
+                what,
+                expected,
+                got: (m.rows(), m.cols()),
+            });
         }
     }
     let bordered = Bordered::new(f, c, r, d);
@@ -99,23 +115,57 @@ struct Bordered {
 impl Bordered {
     fn new(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> Bordered {
         let (n, cols) = (f.rows(), c.cols());
-        let shifted = |m: &Sparse, i: usize| m.row(i).iter().map(|(j, v)| (j + n, v.clone())).collect::<Vec<_>>();
-        let upper = (0..n).map(|i| f.row(i).iter().cloned().chain(shifted(c, i)).collect::<Vec<_>>());
-        let lower = (0..r.rows()).map(|i| r.row(i).iter().cloned().chain(shifted(d, i)).collect::<Vec<_>>());
+        let shifted = |m: &Sparse, i: usize| {
+            m.row(i)
+                .iter()
+                .map(|(j, v)| (j + n, v.clone()))
+                .collect::<Vec<_>>()
+        };
+        let upper = (0..n).map(|i| {
+            f.row(i)
+                .iter()
+                .cloned()
+                .chain(shifted(c, i))
+                .collect::<Vec<_>>()
+        });
+        let lower = (0..r.rows()).map(|i| {
+            r.row(i)
+                .iter()
+                .cloned()
+                .chain(shifted(d, i))
+                .collect::<Vec<_>>()
+        });
         let rational: Vec<Vec<(usize, Rational)>> = upper.chain(lower).collect();
         let clear = common_denominator(rational.iter().flatten().map(|e| &e.1));
         let integral = |v: &Rational| v.numer() * (&clear / v.denom());
-        let gcd = rational.iter().flatten().fold(Integer::zero(), |g, e| g.gcd(&integral(&e.1)));
+        let gcd = rational
+            .iter()
+            .flatten()
+            .fold(Integer::zero(), |g, e| g.gcd(&integral(&e.1)));
         let gcd = if gcd.is_zero() { Integer::one() } else { gcd };
-        let rows = rational.iter().map(|row| row.iter().map(|(j, v)| (*j, integral(v) / &gcd)).collect()).collect();
-        let band = f.entries().map(|(i, j, _)| i.abs_diff(j)).max().unwrap_or(0);
-        Bordered { n, cols, rows, band, unit: Rational::new(gcd, clear) }
+        let rows = rational
+            .iter()
+            .map(|row| row.iter().map(|(j, v)| (*j, integral(v) / &gcd)).collect())
+            .collect();
+        let band = f
+            .entries()
+            .map(|(i, j, _)| i.abs_diff(j))
+            .max()
+            .unwrap_or(0);
+        Bordered {
+            n,
+            cols,
+            rows,
+            band,
+            unit: Rational::new(gcd, clear),
+        }
     }
 
     /// An upper bound of log2 of every bordered determinant and of det F: the n rows of [F C] and
     /// the longest further row (or 1), each by its Euclidean norm.
     fn hadamard_bits(&self) -> u64 {
-        let half_bits = |row: &Vec<(usize, Integer)>| row.iter().map(|(_, v)| v * v).sum::<Integer>().bits();
+        let half_bits =
+            |row: &Vec<(usize, Integer)>| row.iter().map(|(_, v)| v * v).sum::<Integer>().bits();
         let inner: u64 = self.rows[..self.n].iter().map(half_bits).sum();
         let border = self.rows[self.n..].iter().map(half_bits).max().unwrap_or(0);
         (inner + border).div_ceil(2)
@@ -128,7 +178,8 @@ impl Bordered {
         let mut m = vec![0u64; self.rows.len() * width];
         for (i, row) in self.rows.iter().enumerate() {
             for (j, v) in row {
-                m[i * width + j] = field.enter(v.mod_floor(&p.into()).to_u64().unwrap_or(0)); // 0 <= v < p
+                // 0 <= v < p.
+                m[i * width + j] = field.enter(v.mod_floor(&p.into()).to_u64().unwrap_or(0));
             }
         }
         let mut det = field.enter(1);
@@ -170,7 +221,10 @@ pub struct Residues {
 impl Residues {
     /// As many zeros, modulo 1.
     pub fn new(count: usize) -> Self {
-        Residues { values: vec![Integer::zero(); count], modulus: Integer::one() }
+        Residues {
+            values: vec![Integer::zero(); count],
+            modulus: Integer::one(),
+        }
     }
 
     /// floor(log2 modulus): the product exceeds 2^bits.
@@ -194,7 +248,10 @@ impl Residues {
     /// The representatives of least absolute value.
     fn symmetric(self) -> Vec<Integer> {
         let half: Integer = &self.modulus >> 1;
-        self.values.into_iter().map(|x| if x.abs() > half { x - &self.modulus } else { x }).collect()
+        self.values
+            .into_iter()
+            .map(|x| if x.abs() > half { x - &self.modulus } else { x })
+            .collect()
     }
 }
 
@@ -230,47 +287,92 @@ mod tests {
         Sparse::from_entries(
             r.rows(),
             c.cols(),
-            (0..r.rows()).flat_map(|i| (0..c.cols()).map(move |j| (i, j))).map(|(i, j)| (i, j, m[n + i][n + j].clone())),
+            (0..r.rows())
+                .flat_map(|i| (0..c.cols()).map(move |j| (i, j)))
+                .map(|(i, j)| (i, j, m[n + i][n + j].clone())),
         )
     }
 
     #[test]
     fn agrees_with_elimination_in_fractions() {
-        let f = Sparse::from_ints(&[&[4, -1, 0, 2], &[-1, 5, 3, 0], &[0, 3, 6, -2], &[2, 0, -2, 9]])
-            .add_scaled(&rational(1, 7), &Sparse::identity(4));
+        let f = Sparse::from_ints(&[
+            &[4, -1, 0, 2],
+            &[-1, 5, 3, 0],
+            &[0, 3, 6, -2],
+            &[2, 0, -2, 9],
+        ])
+        .add_scaled(&rational(1, 7), &Sparse::identity(4));
         let c = Sparse::from_ints(&[&[1, 0], &[0, 2], &[-3, 1], &[5, 5]]);
         let r = Sparse::from_ints(&[&[1, 2, 3, 4], &[0, 0, 0, 1], &[-7, 0, 2, 0]]);
         let d = Sparse::from_ints(&[&[1, 0], &[0, 0], &[2, -9]]);
-        assert_eq!(schur_complement(&f, &c, &r, &d).unwrap(), plain(&f, &c, &r, &d));
+        assert_eq!(
+            schur_complement(&f, &c, &r, &d).unwrap(),
+            plain(&f, &c, &r, &d)
+        );
     }
 
     #[test]
     fn a_determinant_divisible_by_the_first_prime_is_survived() {
         let p = Rational::from_integer(primes().next().unwrap().into());
         let f = Sparse::from_entries(2, 2, [(0, 0, p), (1, 1, whole(3))]);
-        let (c, r, d) = (Sparse::from_ints(&[&[1], &[1]]), Sparse::from_ints(&[&[1, 1]]), Sparse::from_ints(&[&[0]]));
-        assert_eq!(schur_complement(&f, &c, &r, &d).unwrap(), plain(&f, &c, &r, &d));
+        let (c, r, d) = (
+            Sparse::from_ints(&[&[1], &[1]]),
+            Sparse::from_ints(&[&[1, 1]]),
+            Sparse::from_ints(&[&[0]]),
+        );
+        assert_eq!(
+            schur_complement(&f, &c, &r, &d).unwrap(),
+            plain(&f, &c, &r, &d)
+        );
     }
 
     #[test]
     fn empty_singular_and_misshapen() {
         let none = Sparse::zeros(0, 0);
         assert_eq!(
-            schur_complement(&none, &Sparse::zeros(0, 1), &Sparse::zeros(1, 0), &Sparse::from_ints(&[&[4]])).unwrap(),
+            schur_complement(
+                &none,
+                &Sparse::zeros(0, 1),
+                &Sparse::zeros(1, 0),
+                &Sparse::from_ints(&[&[4]])
+            )
+            .unwrap(),
             Sparse::from_ints(&[&[4]])
         );
         let singular = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
-        let (c, r, d) = (Sparse::from_ints(&[&[1], &[1]]), Sparse::from_ints(&[&[1, 1]]), Sparse::from_ints(&[&[0]]));
-        assert!(matches!(schur_complement(&singular, &c, &r, &d), Err(CondenseError::ZeroMinor { .. })));
-        assert!(matches!(schur_complement(&singular, &r, &r, &d), Err(CondenseError::Shape { what: "C", .. })));
+        let (c, r, d) = (
+            Sparse::from_ints(&[&[1], &[1]]),
+            Sparse::from_ints(&[&[1, 1]]),
+            Sparse::from_ints(&[&[0]]),
+        );
+        assert!(matches!(
+            schur_complement(&singular, &c, &r, &d),
+            Err(CondenseError::ZeroMinor { .. })
+        ));
+        assert!(matches!(
+            schur_complement(&singular, &r, &r, &d),
+            Err(CondenseError::Shape { what: "C", .. })
+        ));
     }
 
     #[test]
     fn a_singular_block_is_given_up_after_nine_primes() {
-        let ones =
-            |n: usize, m: usize| Sparse::from_entries(n, m, (0..n).flat_map(|i| (0..m).map(move |j| (i, j, whole(1)))).collect::<Vec<_>>());
+        let ones = |n: usize, m: usize| {
+            Sparse::from_entries(
+                n,
+                m,
+                (0..n)
+                    .flat_map(|i| (0..m).map(move |j| (i, j, whole(1))))
+                    .collect::<Vec<_>>(),
+            )
+        };
         let got = schur_complement(&ones(2, 2), &ones(2, 1), &ones(1, 2), &ones(1, 1));
-        assert_eq!(got, Err(CondenseError::ZeroMinor { primes: MAX_SKIPPED + 1 }));
+        assert_eq!(
+            got,
+            Err(CondenseError::ZeroMinor {
+                primes: MAX_SKIPPED + 1
+            })
+        );
     }
 
     #[test]
@@ -279,6 +381,9 @@ mod tests {
         let mut residues = Residues::new(4);
         residues.add(p, &[(p - 1) / 2, (p - 1) / 2 + 1, 0, p - 1]);
         let half = Integer::from((p - 1) / 2);
-        assert_eq!(residues.symmetric(), [half.clone(), -half, 0.into(), (-1).into()]);
+        assert_eq!(
+            residues.symmetric(),
+            [half.clone(), -half, 0.into(), (-1).into()]
+        );
     }
 }

@@ -38,7 +38,12 @@ impl Poly {
     /// The least positive integer multiple of a rational polynomial that is integral.
     pub fn from_rationals(coeffs: &[Rational]) -> Self {
         let m = common_denominator(coeffs);
-        Poly::new(coeffs.iter().map(|c| c.numer() * (&m / c.denom())).collect())
+        Poly::new(
+            coeffs
+                .iter()
+                .map(|c| c.numer() * (&m / c.denom()))
+                .collect(),
+        )
     }
 
     /// The constant polynomial `c`.
@@ -92,13 +97,24 @@ impl Poly {
             scale *= v;
         }
         // One factor v too many: value belongs to v^(n), scale ran to v^(n+1).
-        let scale = if self.coeffs.is_empty() { Integer::one() } else { scale / v };
+        let scale = if self.coeffs.is_empty() {
+            Integer::one()
+        } else {
+            scale / v
+        };
         (value, scale)
     }
 
     /// The derivative.
     pub fn derivative(&self) -> Poly {
-        Poly::new(self.coeffs.iter().enumerate().skip(1).map(|(i, c)| c * i).collect())
+        Poly::new(
+            self.coeffs
+                .iter()
+                .enumerate()
+                .skip(1)
+                .map(|(i, c)| c * i)
+                .collect(),
+        )
     }
 
     /// Greatest common divisor of the coefficients, zero for the zero polynomial.
@@ -115,8 +131,16 @@ impl Poly {
 
     /// Divided by its content, leading coefficient made positive.
     pub fn primitive(&self) -> Poly {
-        let g = if self.leading().is_negative() { -self.content() } else { self.content() };
-        if g.is_zero() || g.is_one() { self.clone() } else { Poly::new(self.coeffs.iter().map(|c| c / &g).collect()) }
+        let g = if self.leading().is_negative() {
+            -self.content()
+        } else {
+            self.content()
+        };
+        if g.is_zero() || g.is_one() {
+            self.clone()
+        } else {
+            Poly::new(self.coeffs.iter().map(|c| c / &g).collect())
+        }
     }
 
     /// Every coefficient times `factor`.
@@ -183,7 +207,13 @@ impl Mul for &Poly {
 impl std::fmt::Display for Poly {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         let mut first = true;
-        for (i, c) in self.coeffs.iter().enumerate().rev().filter(|(_, c)| !c.is_zero()) {
+        for (i, c) in self
+            .coeffs
+            .iter()
+            .enumerate()
+            .rev()
+            .filter(|(_, c)| !c.is_zero())
+        {
             let sign = if c.is_negative() {
                 "-"
             } else if first {
@@ -213,7 +243,10 @@ mod tests {
         for t in [rational(-2, 3), whole(0), rational(7, 5)] {
             assert_eq!((&p * &q).eval(&t), p.eval(&t) * q.eval(&t));
             assert_eq!((&p - &q).eval(&t), p.eval(&t) - q.eval(&t));
-            assert_eq!(i64::from(p.sign_at(&t)), i64::from(sign(p.eval(&t).numer())));
+            assert_eq!(
+                i64::from(p.sign_at(&t)),
+                i64::from(sign(p.eval(&t).numer()))
+            );
         }
         assert_eq!(p.derivative(), Poly::from_ints(&[-3, 4]));
         assert_eq!((&p - &p).degree(), None);
@@ -221,8 +254,14 @@ mod tests {
 
     #[test]
     fn primitive_part_has_positive_lead_and_content_one() {
-        assert_eq!(Poly::from_ints(&[4, 0, -6]).primitive(), Poly::from_ints(&[-2, 0, 3]));
-        assert_eq!(Poly::from_rationals(&[rational(1, 2), rational(-1, 3)]), Poly::from_ints(&[3, -2]));
+        assert_eq!(
+            Poly::from_ints(&[4, 0, -6]).primitive(),
+            Poly::from_ints(&[-2, 0, 3])
+        );
+        assert_eq!(
+            Poly::from_rationals(&[rational(1, 2), rational(-1, 3)]),
+            Poly::from_ints(&[3, -2])
+        );
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! Division of integer polynomials: pseudo-remainder, exact quotient, gcd, squarefree part, Sturm chain.
+//! Division of integer polynomials: pseudo-remainder, exact quotient, gcd, squarefree part, Sturm
+//! chain.
 
 use super::{Integer, Poly, Rational};
 use num_traits::{One, Signed, Zero};
@@ -23,8 +24,9 @@ impl Poly {
         rest
     }
 
-    /// The remainder of `self` by `divisor` times |lead(divisor)|^steps: with one number of steps for
-    /// all entries a vector keeps its direction. `steps` is at least deg self - deg divisor + 1.
+    /// The remainder of `self` by `divisor` times |lead(divisor)|^steps: with one number of steps
+    /// for all entries a vector keeps its direction. `steps` is at least deg self - deg divisor +
+    /// 1.
     #[doc(hidden)]
     pub fn pseudo_rem_steps(&self, divisor: &Poly, steps: usize) -> Poly {
         let m = divisor.coeffs().len();
@@ -84,7 +86,11 @@ impl Poly {
     pub fn sturm_chain(&self) -> Vec<Poly> {
         let positive_part = |p: &Poly| {
             let g = p.content();
-            if g.is_zero() || g.is_one() { p.clone() } else { Poly::new(p.coeffs().iter().map(|c| c / &g).collect()) }
+            if g.is_zero() || g.is_one() {
+                p.clone()
+            } else {
+                Poly::new(p.coeffs().iter().map(|c| c / &g).collect())
+            }
         };
         let mut chain = vec![positive_part(self), positive_part(&self.derivative())];
         while let [.., a, b] = &chain[..] {
@@ -101,7 +107,11 @@ impl Poly {
 
 /// Number of sign changes of a Sturm chain at a point, zeros skipped.
 pub(super) fn variations(chain: &[Poly], t: &Rational) -> usize {
-    let signs: Vec<i8> = chain.iter().map(|p| p.sign_at(t)).filter(|&s| s != 0).collect();
+    let signs: Vec<i8> = chain
+        .iter()
+        .map(|p| p.sign_at(t))
+        .filter(|&s| s != 0)
+        .collect();
     signs.windows(2).filter(|w| w[0] != w[1]).count()
 }
 
@@ -112,7 +122,11 @@ mod tests {
 
     #[test]
     fn gcd_and_exact_division_undo_multiplication() {
-        let (p, q, r) = (Poly::from_ints(&[-2, 0, 1]), Poly::from_ints(&[3, 1]), Poly::from_ints(&[1, 1, 1]));
+        let (p, q, r) = (
+            Poly::from_ints(&[-2, 0, 1]),
+            Poly::from_ints(&[3, 1]),
+            Poly::from_ints(&[1, 1, 1]),
+        );
         let (pq, pr) = (&p * &q, &p * &r);
         assert_eq!(pq.gcd(&pr), p);
         assert_eq!(pq.exact_div(&q), Some(p.clone()));
@@ -126,7 +140,8 @@ mod tests {
         // rem(t^2, -2t + 1) = 1/4 > 0.
         let r = Poly::from_ints(&[0, 0, 1]).pseudo_rem(&Poly::from_ints(&[1, -2]));
         assert!(r.degree() == Some(0) && r.leading().is_positive());
-        // One step, so that a sign turned at every step is not turned back: rem(t, -2t + 1) = 1/2 > 0.
+        // One step, so that a sign turned at every step is not turned back: rem(t, -2t + 1) = 1/2 >
+        // 0.
         let r = Poly::from_ints(&[0, 1]).pseudo_rem(&Poly::from_ints(&[1, -2]));
         assert!(r.degree() == Some(0) && r.leading().is_positive());
     }

@@ -20,7 +20,11 @@ impl Field {
         }
         let r = (1u128 << 64) % u128::from(p);
         let square = (r * r % u128::from(p)) as u64;
-        Field { p, negated_inverse: inverse.wrapping_neg(), square }
+        Field {
+            p,
+            negated_inverse: inverse.wrapping_neg(),
+            square,
+        }
     }
 
     /// The prime.
@@ -50,7 +54,11 @@ impl Field {
         let m = (product as u64).wrapping_mul(self.negated_inverse);
         // p < 2^62: the sum stays below 2^128.
         let reduced = ((product + u128::from(m) * u128::from(self.p)) >> 64) as u64;
-        if reduced >= self.p { reduced - self.p } else { reduced }
+        if reduced >= self.p {
+            reduced - self.p
+        } else {
+            reduced
+        }
     }
 
     /// a + b mod p.
@@ -92,7 +100,9 @@ impl Field {
 
 /// The primes below 2^62, descending.
 pub fn primes() -> impl Iterator<Item = u64> {
-    (0..).map(|k| (1u64 << 62) - 1 - 2 * k).filter(|&n| is_prime(n))
+    (0..)
+        .map(|k| (1u64 << 62) - 1 - 2 * k)
+        .filter(|&n| is_prime(n))
 }
 
 /// Miller-Rabin with the first twelve primes as bases: proved for all n < 3.3e24 (Sorenson and
@@ -134,7 +144,12 @@ mod tests {
 
     #[test]
     fn prime_test_against_trial_division() {
-        let slow = |n: u64| n > 1 && (2..).take_while(|d| d * d <= n).all(|d| !n.is_multiple_of(d));
+        let slow = |n: u64| {
+            n > 1
+                && (2..)
+                    .take_while(|d| d * d <= n)
+                    .all(|d| !n.is_multiple_of(d))
+        };
         assert!((0..3000).all(|n| is_prime(n) == slow(n)));
         assert!(!is_prime(3_215_031_751)); // strong pseudoprime to bases 2, 3, 5, 7
         assert_eq!(primes().next(), Some((1 << 62) - 57));
@@ -144,11 +159,22 @@ mod tests {
     fn montgomery_agrees_with_division() {
         let p = primes().next().unwrap();
         let field = Field::new(p);
-        for (a, b) in [(0, 5), (1, p - 1), (p - 1, p - 1), (123_456_789_012_345_678, 987_654_321)] {
+        for (a, b) in [
+            (0, 5),
+            (1, p - 1),
+            (p - 1, p - 1),
+            (123_456_789_012_345_678, 987_654_321),
+        ] {
             let got = field.leave(field.mul(field.enter(a), field.enter(b)));
-            assert_eq!(u128::from(got), u128::from(a) * u128::from(b) % u128::from(p));
+            assert_eq!(
+                u128::from(got),
+                u128::from(a) * u128::from(b) % u128::from(p)
+            );
         }
-        let (a, b) = ([p - 1; 20].map(|v| field.enter(v)), [p - 2; 20].map(|v| field.enter(v)));
+        let (a, b) = (
+            [p - 1; 20].map(|v| field.enter(v)),
+            [p - 2; 20].map(|v| field.enter(v)),
+        );
         assert_eq!(field.leave(field.dot(&a, &b)), 40); // 20 (-1)(-2)
         assert_eq!((field.add(p - 1, 3), field.sub(1, 3)), (2, p - 2));
         let a = field.enter(42);

@@ -21,12 +21,20 @@ impl Quadratic {
 
     /// The rational `a` on its own (radicand 0).
     pub fn embed_rational(a: Rational) -> Self {
-        Quadratic { a, b: Rational::zero(), d: Rational::zero() }
+        Quadratic {
+            a,
+            b: Rational::zero(),
+            d: Rational::zero(),
+        }
     }
 
     /// The rational `a`, living beside numbers with the radicand `d` of `self`.
     pub fn embed(&self, a: Rational) -> Self {
-        Quadratic { a, b: Rational::zero(), d: self.d.clone() }
+        Quadratic {
+            a,
+            b: Rational::zero(),
+            d: self.d.clone(),
+        }
     }
 
     /// The rational value of a number without a radical part.
@@ -37,18 +45,30 @@ impl Quadratic {
     /// Sum. The radicands must be equal.
     pub fn add(&self, other: &Self) -> Self {
         debug_assert_eq!(self.d, other.d);
-        Quadratic { a: &self.a + &other.a, b: &self.b + &other.b, d: self.d.clone() }
+        Quadratic {
+            a: &self.a + &other.a,
+            b: &self.b + &other.b,
+            d: self.d.clone(),
+        }
     }
 
     /// Product. The radicands must be equal.
     pub fn mul(&self, other: &Self) -> Self {
         debug_assert_eq!(self.d, other.d);
-        Quadratic { a: &self.a * &other.a + &self.b * &other.b * &self.d, b: &self.a * &other.b + &self.b * &other.a, d: self.d.clone() }
+        Quadratic {
+            a: &self.a * &other.a + &self.b * &other.b * &self.d,
+            b: &self.a * &other.b + &self.b * &other.a,
+            d: self.d.clone(),
+        }
     }
 
     /// Product with a rational.
     pub fn scale(&self, factor: &Rational) -> Self {
-        Quadratic { a: &self.a * factor, b: &self.b * factor, d: self.d.clone() }
+        Quadratic {
+            a: &self.a * factor,
+            b: &self.b * factor,
+            d: self.d.clone(),
+        }
     }
 
     /// The exact sign: compares a^2 with b^2 d where the two terms oppose each other.
@@ -75,12 +95,16 @@ impl Quadratic {
     /// The value of an integer polynomial at this number.
     pub fn eval(&self, p: &Poly) -> Self {
         let zero = self.embed(Rational::zero());
-        p.coeffs().iter().rev().fold(zero, |sum, c| sum.mul(self).add(&self.embed(Rational::from_integer(c.clone()))))
+        p.coeffs().iter().rev().fold(zero, |sum, c| {
+            sum.mul(self)
+                .add(&self.embed(Rational::from_integer(c.clone())))
+        })
     }
 
     /// Is the number in the closed interval [lo, hi]?
     pub fn within(&self, lo: &Rational, hi: &Rational) -> bool {
-        self.add(&self.embed(-lo)).sign() != Sign::Negative && self.add(&self.embed(-hi)).sign() != Sign::Positive
+        self.add(&self.embed(-lo)).sign() != Sign::Negative
+            && self.add(&self.embed(-hi)).sign() != Sign::Positive
     }
 }
 
@@ -101,7 +125,12 @@ mod tests {
         assert_eq!(number(0, 0, 5).sign(), Sign::Zero);
         assert_eq!(number(-1, -1, 5).sign(), Sign::Negative);
         // Parts of equal size, 2 and sqrt 4, on one side and on both.
-        for (a, b, sign) in [(2, 1, Sign::Positive), (-2, -1, Sign::Negative), (2, -1, Sign::Zero), (-2, 1, Sign::Zero)] {
+        for (a, b, sign) in [
+            (2, 1, Sign::Positive),
+            (-2, -1, Sign::Negative),
+            (2, -1, Sign::Zero),
+            (-2, 1, Sign::Zero),
+        ] {
             assert_eq!(number(a, b, 4).sign(), sign, "{a} {b}");
         }
         assert!(Quadratic::new(whole(0), whole(1), whole(-1)).is_none());
@@ -110,15 +139,27 @@ mod tests {
     #[test]
     fn minimal_polynomial_vanishes_only_here() {
         let golden = Quadratic::new(rational(1, 2), rational(1, 2), whole(5)).unwrap();
-        assert_eq!(golden.eval(&Poly::from_ints(&[-1, -1, 1])).sign(), Sign::Zero);
-        assert_eq!(golden.eval(&Poly::from_ints(&[-1, -1, 2])).sign(), Sign::Positive);
-        assert!(golden.within(&rational(8, 5), &rational(17, 10)) && !golden.within(&whole(0), &rational(8, 5)));
+        assert_eq!(
+            golden.eval(&Poly::from_ints(&[-1, -1, 1])).sign(),
+            Sign::Zero
+        );
+        assert_eq!(
+            golden.eval(&Poly::from_ints(&[-1, -1, 2])).sign(),
+            Sign::Positive
+        );
+        assert!(
+            golden.within(&rational(8, 5), &rational(17, 10))
+                && !golden.within(&whole(0), &rational(8, 5))
+        );
     }
 
     #[test]
     fn scaled_and_rational_numbers() {
         let third = number(3, -6, 7).scale(&rational(1, 3));
         assert_eq!(third.add(&number(-1, 2, 7)).sign(), Sign::Zero);
-        assert_eq!([number(5, 0, 7).as_rational(), number(5, 1, 7).as_rational()], [Some(whole(5)), None]);
+        assert_eq!(
+            [number(5, 0, 7).as_rational(), number(5, 1, 7).as_rational()],
+            [Some(whole(5)), None]
+        );
     }
 }

@@ -280,7 +280,11 @@ impl Signed for Rational {
     }
 
     fn abs_sub(&self, other: &Rational) -> Rational {
-        if self <= other { Rational::zero() } else { self - other }
+        if self <= other {
+            Rational::zero()
+        } else {
+            self - other
+        }
     }
 
     fn signum(&self) -> Rational {
@@ -322,7 +326,16 @@ mod tests {
 
     #[test]
     fn the_order_is_that_of_the_products() {
-        let ascending = [of(-3, 2), of(-4, 3), of(-1, 1000), of(0, 1), of(1, 3), of(333, 998), of(1, 2), of(2, 1)];
+        let ascending = [
+            of(-3, 2),
+            of(-4, 3),
+            of(-1, 1000),
+            of(0, 1),
+            of(1, 3),
+            of(333, 998),
+            of(1, 2),
+            of(2, 1),
+        ];
         for (i, a) in ascending.iter().enumerate() {
             for (j, b) in ascending.iter().enumerate() {
                 assert_eq!(a.cmp(b), i.cmp(&j), "{a} {b}");
@@ -349,7 +362,12 @@ mod tests {
 
     #[test]
     fn floors_and_ceilings_round_towards_their_side() {
-        for (v, floor, ceil) in [(of(7, 2), 3, 4), (of(-7, 2), -4, -3), (of(6, 2), 3, 3), (of(-1, 9), -1, 0)] {
+        for (v, floor, ceil) in [
+            (of(7, 2), 3, 4),
+            (of(-7, 2), -4, -3),
+            (of(6, 2), 3, 3),
+            (of(-1, 9), -1, 0),
+        ] {
             assert_eq!([v.floor(), v.ceil()], [of(floor, 1), of(ceil, 1)], "{v}");
         }
     }

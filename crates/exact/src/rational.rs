@@ -9,8 +9,9 @@ pub type Integer = BigInt;
 
 /// Longest spelling of one number that is read. Keeps a hostile file from buying quadratic time.
 pub const MAX_SPELLING: usize = 100_000;
-/// Largest decimal exponent that is read, in absolute value. Doubles end at 324. An exponent buys digits that the
-/// file does not have to spell, so it has to be small for the work to be bounded by the length of the file.
+/// Largest decimal exponent that is read, in absolute value. Doubles end at 324. An exponent buys
+/// digits that the file does not have to spell, so it has to be small for the work to be bounded by
+/// the length of the file.
 pub const MAX_EXPONENT: u32 = 400;
 
 /// Why a spelling is not a number.
@@ -56,8 +57,9 @@ pub enum NumberError {
     },
 }
 
-/// Reads a decimal (`-1.25`, `3e-4`, `7.`, `.5`) or a fraction (`p/q`) as exactly the value it spells. Nothing may stand
-/// before or after it: which characters are blank differs from language to language.
+/// Reads a decimal (`-1.25`, `3e-4`, `7.`, `.5`) or a fraction (`p/q`) as exactly the value it
+/// spells. Nothing may stand before or after it: which characters are blank differs from language
+/// to language.
 ///
 /// # Errors
 /// [`NumberError`] when the text is no such number, or is too long, or has an absurd exponent.
@@ -74,7 +76,10 @@ pub fn parse(text: &str) -> Result<Rational, NumberError> {
         return Err(NumberError::Empty);
     }
     if text.len() > MAX_SPELLING {
-        return Err(NumberError::TooLong { got: text.len(), limit: MAX_SPELLING });
+        return Err(NumberError::TooLong {
+            got: text.len(),
+            limit: MAX_SPELLING,
+        });
     }
     match text.split_once('/') {
         Some((p, q)) => parse_fraction(text, p, q),
@@ -100,7 +105,9 @@ pub fn whole(p: i64) -> Rational {
 /// (least common multiple of the denominators; 1 for none).
 pub fn common_denominator<'a>(values: impl IntoIterator<Item = &'a Rational>) -> Integer {
     use num_integer::Integer as _;
-    values.into_iter().fold(Integer::one(), |lcm, v| lcm.lcm(v.denom()))
+    values
+        .into_iter()
+        .fold(Integer::one(), |lcm, v| lcm.lcm(v.denom()))
 }
 
 fn malformed(text: &str) -> NumberError {
@@ -128,7 +135,11 @@ fn parse_integer(text: &str) -> Option<Integer> {
         return None;
     }
     let magnitude: Integer = digits.parse().ok()?;
-    Some(if text.starts_with('-') { -magnitude } else { magnitude })
+    Some(if text.starts_with('-') {
+        -magnitude
+    } else {
+        magnitude
+    })
 }
 
 fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
@@ -156,7 +167,10 @@ fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
 fn parse_exponent(text: &str, exponent: &str) -> Result<i32, NumberError> {
     let value = parse_integer(exponent).ok_or_else(|| malformed(text))?;
     if value.abs() > Integer::from(MAX_EXPONENT) {
-        return Err(NumberError::ExponentTooLarge { text: head(exponent), limit: MAX_EXPONENT });
+        return Err(NumberError::ExponentTooLarge {
+            text: head(exponent),
+            limit: MAX_EXPONENT,
+        });
     }
     // |value| <= MAX_EXPONENT, so it fits.
     Ok(i32::try_from(value).unwrap_or(0))
@@ -185,20 +199,37 @@ mod tests {
 
     #[test]
     fn refuses_what_is_no_number() {
-        for text in [" 5", "5 ", "5\n", "\u{a0}5", "1 /2", "1/ 2", "\u{661}", "\u{ff11}"] {
-            assert!(matches!(parse(text), Err(NumberError::Malformed { .. })), "{text:?} was read as a number");
+        for text in [
+            " 5", "5 ", "5\n", "\u{a0}5", "1 /2", "1/ 2", "\u{661}", "\u{ff11}",
+        ] {
+            assert!(
+                matches!(parse(text), Err(NumberError::Malformed { .. })),
+                "{text:?} was read as a number"
+            );
         }
         for text in [
-            "", " ", "abc", "1..2", "1e", "--1", "+-1", "-+1", "+-.5", "1/2/3", "1_000", "0x10", "inf", "NaN", ".", "-", "1e1.5", "1.-5",
-            "1.+5",
+            "", " ", "abc", "1..2", "1e", "--1", "+-1", "-+1", "+-.5", "1/2/3", "1_000", "0x10",
+            "inf", "NaN", ".", "-", "1e1.5", "1.-5", "1.+5",
         ] {
             assert!(parse(text).is_err(), "{text:?} was read as a number");
         }
-        assert!(matches!(parse("3/0"), Err(NumberError::ZeroDenominator { .. })));
-        assert!(matches!(parse("1e999999999"), Err(NumberError::ExponentTooLarge { .. })));
+        assert!(matches!(
+            parse("3/0"),
+            Err(NumberError::ZeroDenominator { .. })
+        ));
+        assert!(matches!(
+            parse("1e999999999"),
+            Err(NumberError::ExponentTooLarge { .. })
+        ));
         assert!(parse("1e400").is_ok() && parse("1e-400").is_ok());
-        assert!(matches!(parse("1e401"), Err(NumberError::ExponentTooLarge { limit: 400, .. })));
-        assert!(matches!(parse(&"9".repeat(MAX_SPELLING + 1)), Err(NumberError::TooLong { .. })));
+        assert!(matches!(
+            parse("1e401"),
+            Err(NumberError::ExponentTooLarge { limit: 400, .. })
+        ));
+        assert!(matches!(
+            parse(&"9".repeat(MAX_SPELLING + 1)),
+            Err(NumberError::TooLong { .. })
+        ));
     }
 
     #[test]
@@ -210,9 +241,18 @@ mod tests {
     #[test]
     fn a_sign_within_a_decimal_is_malformed_and_quoted() {
         for text in [".+5", ".-5", "1.+5", "-.-5", ".", "1.x"] {
-            assert_eq!(parse(text), Err(NumberError::Malformed { text: text.into() }), "{text}");
+            assert_eq!(
+                parse(text),
+                Err(NumberError::Malformed { text: text.into() }),
+                "{text}"
+            );
         }
-        assert_eq!(parse(&format!("x\n{}", "y".repeat(90))), Err(NumberError::Malformed { text: format!("x{}", "y".repeat(39)) }));
+        assert_eq!(
+            parse(&format!("x\n{}", "y".repeat(90))),
+            Err(NumberError::Malformed {
+                text: format!("x{}", "y".repeat(39))
+            })
+        );
         assert!(parse(&"9".repeat(MAX_SPELLING)).is_ok());
     }
 }

@@ -16,7 +16,8 @@ pub fn nonnegative_roots(p: &Poly) -> Vec<Algebraic> {
     roots_in(p, &Rational::zero(), None)
 }
 
-/// The distinct real roots of `p` in the closed window [min, max] (`None`: no upper end), ascending.
+/// The distinct real roots of `p` in the closed window [min, max] (`None`: no upper end),
+/// ascending.
 pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebraic> {
     let mut roots = Vec::new();
     let (mut poly, mut chain) = squarefree_chain(p);
@@ -32,7 +33,11 @@ pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebra
             poly = poly.exact_div(&Poly::linear_root(end)).unwrap_or(poly); // exact: Gauss's lemma
             chain = poly.sturm_chain();
             let root = Algebraic::rational(end.clone());
-            if is_top { at_top = Some(root) } else { roots.push(root) }
+            if is_top {
+                at_top = Some(root)
+            } else {
+                roots.push(root)
+            }
         }
     }
     if *min < top {
@@ -47,7 +52,11 @@ pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebra
 fn squarefree_chain(p: &Poly) -> (Poly, Vec<Poly>) {
     let poly = p.primitive();
     let chain = poly.sturm_chain();
-    match chain.last().filter(|g| g.degree() > Some(0)).and_then(|g| poly.exact_div(&g.primitive())) {
+    match chain
+        .last()
+        .filter(|g| g.degree() > Some(0))
+        .and_then(|g| poly.exact_div(&g.primitive()))
+    {
         Some(part) => {
             let chain = part.sturm_chain();
             (part, chain)
@@ -79,14 +88,22 @@ fn isolate(poly: &Poly, chain: &[Poly], lo: Rational, hi: Rational, roots: &mut 
 fn split_point(poly: &Poly, lo: &Rational, hi: &Rational) -> Rational {
     let width = hi - lo;
     // A polynomial has finitely many roots, so one of 1/2, 1/3, 1/4, ... is none.
-    (2u32..).map(|k| lo + &width / Rational::from_integer(k.into())).find(|t| poly.sign_at(t) != 0).unwrap_or_else(|| lo.clone())
+    (2u32..)
+        .map(|k| lo + &width / Rational::from_integer(k.into()))
+        .find(|t| poly.sign_at(t) != 0)
+        .unwrap_or_else(|| lo.clone())
 }
 
 /// A number larger than the absolute value of every root: 1 + max |c_i / c_n| (Cauchy 1829),
 /// rounded up to a power of two so that bisection meets short numbers.
 fn cauchy_bound(poly: &Poly) -> Rational {
     let lead = poly.leading().abs();
-    let largest = poly.coeffs().iter().map(|c| c.abs()).max().unwrap_or_else(One::one);
+    let largest = poly
+        .coeffs()
+        .iter()
+        .map(|c| c.abs())
+        .max()
+        .unwrap_or_else(One::one);
     let bits = (largest / lead).bits() + 1;
     Rational::from_integer(num_bigint::BigInt::one() << (bits + 1))
 }
@@ -109,7 +126,10 @@ mod tests {
                 r.as_rational().cloned().unwrap()
             })
             .collect();
-        assert_eq!(found, vec![whole(0), rational(1, 3), rational(5, 2), whole(7)]);
+        assert_eq!(
+            found,
+            vec![whole(0), rational(1, 3), rational(5, 2), whole(7)]
+        );
     }
 
     #[test]
@@ -125,7 +145,8 @@ mod tests {
 
     #[test]
     fn close_roots_are_separated_and_constants_have_none() {
-        let p = &Poly::linear_root(&rational(1_000_000, 1_000_001)) * &Poly::linear_root(&rational(1_000_001, 1_000_002));
+        let p = &Poly::linear_root(&rational(1_000_000, 1_000_001))
+            * &Poly::linear_root(&rational(1_000_001, 1_000_002));
         assert_eq!(nonnegative_roots(&p).len(), 2);
         assert!(nonnegative_roots(&Poly::from_ints(&[5])).is_empty());
         assert!(nonnegative_roots(&Poly::default()).is_empty());

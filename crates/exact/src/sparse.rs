@@ -15,22 +15,36 @@ pub struct Sparse {
 impl Sparse {
     /// The zero matrix of the given shape.
     pub fn zeros(rows: usize, cols: usize) -> Self {
-        Sparse { cols, rows: vec![Vec::new(); rows] }
+        Sparse {
+            cols,
+            rows: vec![Vec::new(); rows],
+        }
     }
 
     /// The identity of order `n`.
     pub fn identity(n: usize) -> Self {
-        Self::from_entries(n, n, (0..n).map(|i| (i, i, Rational::from_integer(1.into()))))
+        Self::from_entries(
+            n,
+            n,
+            (0..n).map(|i| (i, i, Rational::from_integer(1.into()))),
+        )
     }
 
     /// Sums entries given in any order; entries named twice are added, zeros dropped.
     ///
     /// # Panics
     /// If an index lies outside the shape: callers check indices where they read them.
-    pub fn from_entries(rows: usize, cols: usize, entries: impl IntoIterator<Item = (usize, usize, Rational)>) -> Self {
+    pub fn from_entries(
+        rows: usize,
+        cols: usize,
+        entries: impl IntoIterator<Item = (usize, usize, Rational)>,
+    ) -> Self {
         let mut lists: Vec<Vec<(usize, Rational)>> = vec![Vec::new(); rows];
         for (i, j, v) in entries {
-            assert!(i < rows && j < cols, "entry ({i}, {j}) outside a {rows} x {cols} matrix");
+            assert!(
+                i < rows && j < cols,
+                "entry ({i}, {j}) outside a {rows} x {cols} matrix"
+            );
             lists[i].push((j, v));
         }
         for list in &mut lists {
@@ -59,7 +73,11 @@ impl Sparse {
     /// # Panics
     /// If a row is longer than the first: the caller writes the numbers down.
     pub fn from_ints(rows: &[&[i64]]) -> Self {
-        let entries = rows.iter().enumerate().flat_map(|(i, r)| r.iter().enumerate().map(move |(j, &v)| (i, j, super::whole(v))));
+        let entries = rows.iter().enumerate().flat_map(|(i, r)| {
+            r.iter()
+                .enumerate()
+                .map(move |(j, &v)| (i, j, super::whole(v)))
+        });
         Sparse::from_entries(rows.len(), rows.first().map_or(0, |r| r.len()), entries)
     }
 
@@ -80,7 +98,10 @@ impl Sparse {
 
     /// All non-zero entries, row by row.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, &Rational)> {
-        self.rows.iter().enumerate().flat_map(|(i, row)| row.iter().map(move |(j, v)| (i, *j, v)))
+        self.rows
+            .iter()
+            .enumerate()
+            .flat_map(|(i, row)| row.iter().map(move |(j, v)| (i, *j, v)))
     }
 
     /// Entry (i, j), zero where none is stored.
@@ -99,7 +120,10 @@ impl Sparse {
         }
         let entries = rows.iter().enumerate().flat_map(|(k, &i)| {
             let place = &place;
-            self.rows[i].iter().filter(|e| place[e.0] != usize::MAX).map(move |(j, v)| (k, place[*j], v.clone()))
+            self.rows[i]
+                .iter()
+                .filter(|e| place[e.0] != usize::MAX)
+                .map(move |(j, v)| (k, place[*j], v.clone()))
         });
         Sparse::from_entries(rows.len(), cols.len(), entries)
     }
@@ -113,17 +137,26 @@ impl Sparse {
 
     /// The product with a vector of length `cols`.
     pub fn times(&self, x: &[Rational]) -> Vec<Rational> {
-        self.rows.iter().map(|row| row.iter().map(|(j, v)| v * &x[*j]).sum()).collect()
+        self.rows
+            .iter()
+            .map(|row| row.iter().map(|(j, v)| v * &x[*j]).sum())
+            .collect()
     }
 
     /// The transpose.
     pub fn transpose(&self) -> Sparse {
-        Sparse::from_entries(self.cols, self.rows(), self.entries().map(|(i, j, v)| (j, i, v.clone())))
+        Sparse::from_entries(
+            self.cols,
+            self.rows(),
+            self.entries().map(|(i, j, v)| (j, i, v.clone())),
+        )
     }
 
     /// The first pair (i, j), i < j in row order, at which the matrix differs from its transpose.
     pub fn first_asymmetry(&self) -> Option<(usize, usize)> {
-        self.entries().find(|&(i, j, v)| i != j && self.get(j, i) != *v).map(|(i, j, _)| (i.min(j), i.max(j)))
+        self.entries()
+            .find(|&(i, j, v)| i != j && self.get(j, i) != *v)
+            .map(|(i, j, _)| (i.min(j), i.max(j)))
     }
 
     /// The same matrix with every entry stored.
@@ -142,7 +175,17 @@ mod tests {
     use crate::{rational, whole};
 
     fn example() -> Sparse {
-        Sparse::from_entries(2, 3, [(0, 2, whole(3)), (0, 0, whole(1)), (1, 1, rational(1, 2)), (0, 2, whole(-3)), (1, 2, whole(4))])
+        Sparse::from_entries(
+            2,
+            3,
+            [
+                (0, 2, whole(3)),
+                (0, 0, whole(1)),
+                (1, 1, rational(1, 2)),
+                (0, 2, whole(-3)),
+                (1, 2, whole(4)),
+            ],
+        )
     }
 
     #[test]
@@ -156,9 +199,15 @@ mod tests {
     #[test]
     fn products_submatrices_and_transposes() {
         let m = example();
-        assert_eq!(m.times(&[whole(2), whole(4), whole(1)]), vec![whole(2), whole(6)]);
+        assert_eq!(
+            m.times(&[whole(2), whole(4), whole(1)]),
+            vec![whole(2), whole(6)]
+        );
         assert_eq!(m.transpose().transpose(), m);
-        assert_eq!(m.submatrix(&[1], &[2, 1]), Sparse::from_entries(1, 2, [(0, 0, whole(4)), (0, 1, rational(1, 2))]));
+        assert_eq!(
+            m.submatrix(&[1], &[2, 1]),
+            Sparse::from_entries(1, 2, [(0, 0, whole(4)), (0, 1, rational(1, 2))])
+        );
         assert_eq!(m.add_scaled(&whole(-1), &m), Sparse::zeros(2, 3));
     }
 

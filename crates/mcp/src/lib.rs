@@ -8,8 +8,8 @@
 //! | [`sparse`] | linear problems with sparse matrices: unknowns without bounds are eliminated first |
 //! | [`linear`] | dense and sparse factorisations |
 //!
-//! The crate knows nothing of friction, and nothing here is trusted. What a run finds is a candidate;
-//! whether it is a solution is decided elsewhere, in exact arithmetic.
+//! The crate knows nothing of friction, and nothing here is trusted. What a run finds is a
+//! candidate; whether it is a solution is decided elsewhere, in exact arithmetic.
 
 pub mod linear;
 pub mod mcp;

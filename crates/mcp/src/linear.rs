@@ -1,4 +1,5 @@
-//! The one file that names faer: dense factorisations in doubles. Sparse ones are built on its kernels.
+//! The one file that names faer: dense factorisations in doubles. Sparse ones are built on its
+//! kernels.
 //!
 //! | file | what |
 //! |---|---|
@@ -33,7 +34,9 @@ pub fn inverse(rows: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let n = rows.len();
     let m = Mat::from_fn(n, n, |i, j| rows[i][j]);
     let inverse = m.partial_piv_lu().inverse();
-    let rows: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| inverse[(i, j)]).collect()).collect();
+    let rows: Vec<Vec<f64>> = (0..n)
+        .map(|i| (0..n).map(|j| inverse[(i, j)]).collect())
+        .collect();
     rows.iter().flatten().all(|v| v.is_finite()).then_some(rows)
 }
 
@@ -45,8 +48,14 @@ pub fn solve(rows: &[Vec<f64>], columns: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
     let m = Mat::from_fn(n, n, |i, j| rows[i][j]);
     let right = Mat::from_fn(n, columns.len(), |i, j| columns[j][i]);
     let x = m.partial_piv_lu().solve(&right);
-    let columns: Vec<Vec<f64>> = (0..columns.len()).map(|j| (0..n).map(|i| x[(i, j)]).collect()).collect();
-    columns.iter().flatten().all(|v| v.is_finite()).then_some(columns)
+    let columns: Vec<Vec<f64>> = (0..columns.len())
+        .map(|j| (0..n).map(|i| x[(i, j)]).collect())
+        .collect();
+    columns
+        .iter()
+        .flatten()
+        .all(|v| v.is_finite())
+        .then_some(columns)
 }
 
 /// Factors of a sparse square matrix, by LU with row pivoting and an order that keeps them sparse.
@@ -58,17 +67,31 @@ pub struct SparseLu {
 }
 
 impl SparseLu {
-    /// From entries (row, column, value), row and column below the order; entries of one place add up.
+    /// From entries (row, column, value), row and column below the order; entries of one place add
+    /// up.
     ///
-    /// `None` where elimination finds no pivot. A matrix that is singular but for rounding may pass: the
-    /// residual of a solution tells.
-    pub fn new(order: usize, entries: impl IntoIterator<Item = (usize, usize, f64)>) -> Option<SparseLu> {
+    /// `None` where elimination finds no pivot. A matrix that is singular but for rounding may
+    /// pass: the residual of a solution tells.
+    pub fn new(
+        order: usize,
+        entries: impl IntoIterator<Item = (usize, usize, f64)>,
+    ) -> Option<SparseLu> {
         if order == 0 {
-            return Some(SparseLu { order, factors: None });
+            return Some(SparseLu {
+                order,
+                factors: None,
+            });
         }
-        let entries: Vec<Triplet<usize, usize, f64>> = entries.into_iter().map(|(i, j, v)| Triplet::new(i, j, v)).collect();
-        let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(order, order, &entries).ok()?;
-        Some(SparseLu { order, factors: Some(matrix.sp_lu().ok()?) })
+        let entries: Vec<Triplet<usize, usize, f64>> = entries
+            .into_iter()
+            .map(|(i, j, v)| Triplet::new(i, j, v))
+            .collect();
+        let matrix =
+            SparseColMat::<usize, f64>::try_new_from_triplets(order, order, &entries).ok()?;
+        Some(SparseLu {
+            order,
+            factors: Some(matrix.sp_lu().ok()?),
+        })
     }
 
     /// Replaces right-hand sides, columns of length `order`, by solutions.
@@ -77,7 +100,10 @@ impl SparseLu {
         let mut right = Mat::from_fn(self.order, columns.len(), |i, j| columns[j][i]);
         factors.solve_in_place(&mut right);
         for (j, column) in columns.iter_mut().enumerate() {
-            column.iter_mut().enumerate().for_each(|(i, v)| *v = right[(i, j)]);
+            column
+                .iter_mut()
+                .enumerate()
+                .for_each(|(i, v)| *v = right[(i, j)]);
         }
     }
 }
@@ -96,7 +122,8 @@ pub fn eigenvalues(rows: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
 
 /// The eigenvalues t of B v = t A v for symmetric B and symmetric positive definite A, ascending.
 ///
-/// `None` if A is not definite in doubles, an entry is not finite or the iteration does not converge.
+/// `None` if A is not definite in doubles, an entry is not finite or the iteration does not
+/// converge.
 pub fn definite_eigenvalues(b: &[Vec<f64>], a: &[Vec<f64>]) -> Option<Vec<f64>> {
     let n = a.len();
     if !a.iter().chain(b).flatten().all(|v| v.is_finite()) {
@@ -113,24 +140,46 @@ pub fn definite_eigenvalues(b: &[Vec<f64>], a: &[Vec<f64>]) -> Option<Vec<f64>> 
 }
 
 /// Eliminates the first `own` of `order` unknowns of a symmetric front, lower triangles by columns:
-/// `panel` holds the columns eliminated (order x own) and becomes their part of the Cholesky factor,
-/// `update` the other rows and columns, from which the elimination is taken off.
+/// `panel` holds the columns eliminated (order x own) and becomes their part of the Cholesky
+/// factor, `update` the other rows and columns, from which the elimination is taken off.
 ///
 /// `false` where a pivot is not positive.
 fn eliminate_front(panel: &mut [f64], update: &mut [f64], order: usize, own: usize) -> bool {
     let rest = order - own;
     let panel = MatMut::from_column_major_slice_mut(panel, order, own);
     let (mut top, mut bottom) = panel.split_at_row_mut(own);
-    let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(own, Par::Seq, Default::default()));
+    let mut memory = MemBuffer::new(cholesky_in_place_scratch::<f64>(
+        own,
+        Par::Seq,
+        Default::default(),
+    ));
     let stack = MemStack::new(&mut memory);
-    if cholesky_in_place(top.rb_mut(), Default::default(), Par::Seq, stack, Default::default()).is_err() {
+    if cholesky_in_place(
+        top.rb_mut(),
+        Default::default(),
+        Par::Seq,
+        stack,
+        Default::default(),
+    )
+    .is_err()
+    {
         return false;
     }
     if rest > 0 {
         solve_lower_triangular_in_place(top.rb(), bottom.rb_mut().transpose_mut(), Par::Seq);
         let update = MatMut::from_column_major_slice_mut(update, rest, rest);
         let (lower, full) = (BlockStructure::TriangularLower, BlockStructure::Rectangular);
-        matmul(update, lower, Accum::Add, bottom.rb(), full, bottom.rb().transpose(), full, -1.0, Par::Seq);
+        matmul(
+            update,
+            lower,
+            Accum::Add,
+            bottom.rb(),
+            full,
+            bottom.rb().transpose(),
+            full,
+            -1.0,
+            Par::Seq,
+        );
     }
     true
 }
@@ -157,7 +206,10 @@ mod tests {
         approx::assert_relative_eq!(turn[1].1, 2.0, epsilon = 1e-12);
         assert!(eigenvalues(&[vec![f64::NAN]]).is_none());
         // B = diag(3, -1), A = [[2, 1], [1, 2]]: 3 t^2 - 4 t - 3 = 0.
-        let (b, a) = (vec![vec![3.0, 0.0], vec![0.0, -1.0]], vec![vec![2.0, 1.0], vec![1.0, 2.0]]);
+        let (b, a) = (
+            vec![vec![3.0, 0.0], vec![0.0, -1.0]],
+            vec![vec![2.0, 1.0], vec![1.0, 2.0]],
+        );
         let t = definite_eigenvalues(&b, &a).unwrap();
         approx::assert_relative_eq!(t[0], (2.0 - 13f64.sqrt()) / 3.0, epsilon = 1e-12);
         approx::assert_relative_eq!(t[1], (2.0 + 13f64.sqrt()) / 3.0, epsilon = 1e-12);
@@ -170,6 +222,9 @@ mod tests {
         let (mut panel, mut update) = (vec![4.0, 2.0], vec![5.0]);
         assert!(eliminate_front(&mut panel, &mut update, 2, 1));
         assert_eq!((panel, update), (vec![2.0, 1.0], vec![4.0]));
-        assert!(!eliminate_front(&mut [1.0, 2.0, 0.0, 4.0], &mut [], 2, 2), "[1 2; 2 4] is singular");
+        assert!(
+            !eliminate_front(&mut [1.0, 2.0, 0.0, 4.0], &mut [], 2, 2),
+            "[1 2; 2 4] is singular"
+        );
     }
 }

@@ -86,19 +86,43 @@ impl LinearMcp {
     /// assert!(LinearMcp::new(nalgebra::dmatrix![2.0], vec![-1.0], vec![0.0], vec![inf]).is_ok());
     /// assert!(LinearMcp::new(nalgebra::dmatrix![2.0], vec![-1.0], vec![1.0], vec![0.0]).is_err());
     /// ```
-    pub fn new(m: DMatrix<f64>, q: Vec<f64>, lower: Vec<f64>, upper: Vec<f64>) -> Result<Self, McpError> {
+    pub fn new(
+        m: DMatrix<f64>,
+        q: Vec<f64>,
+        lower: Vec<f64>,
+        upper: Vec<f64>,
+    ) -> Result<Self, McpError> {
         let n = q.len();
-        for (what, got) in [("rows of M", m.nrows()), ("columns of M", m.ncols()), ("lower", lower.len()), ("upper", upper.len())] {
+        for (what, got) in [
+            ("rows of M", m.nrows()),
+            ("columns of M", m.ncols()),
+            ("lower", lower.len()),
+            ("upper", upper.len()),
+        ] {
             if got != n {
-                return Err(McpError::Shape { what, expected: n, got });
+                return Err(McpError::Shape {
+                    what,
+                    expected: n,
+                    got,
+                });
             }
         }
         for row in 0..n {
             if let Some(col) = (0..n).find(|&c| !m[(row, c)].is_finite()) {
-                return Err(McpError::NotFinite { what: "M", row, col, got: m[(row, col)] });
+                return Err(McpError::NotFinite {
+                    what: "M",
+                    row,
+                    col,
+                    got: m[(row, col)],
+                });
             }
             if !q[row].is_finite() {
-                return Err(McpError::NotFinite { what: "q", row, col: 0, got: q[row] });
+                return Err(McpError::NotFinite {
+                    what: "q",
+                    row,
+                    col: 0,
+                    got: q[row],
+                });
             }
         }
         check_bounds(&lower, &upper)?;
@@ -130,9 +154,15 @@ impl LinearMcp {
 /// # Errors
 /// [`McpError::Bounds`] with the first index.
 pub fn check_bounds(lower: &[f64], upper: &[f64]) -> Result<(), McpError> {
-    let bad = |l: f64, u: f64| l.is_nan() || u.is_nan() || l > u || l == f64::INFINITY || u == f64::NEG_INFINITY;
+    let bad = |l: f64, u: f64| {
+        l.is_nan() || u.is_nan() || l > u || l == f64::INFINITY || u == f64::NEG_INFINITY
+    };
     match lower.iter().zip(upper).position(|(&l, &u)| bad(l, u)) {
-        Some(index) => Err(McpError::Bounds { index, lower: lower[index], upper: upper[index] }),
+        Some(index) => Err(McpError::Bounds {
+            index,
+            lower: lower[index],
+            upper: upper[index],
+        }),
         None => Ok(()),
     }
 }
@@ -149,7 +179,11 @@ impl Mcp for LinearMcp {
     }
     fn function(&self, z: &[f64], f: &mut [f64]) {
         for (i, f_i) in f.iter_mut().enumerate() {
-            *f_i = self.q[i] + z.iter().enumerate().map(|(j, z_j)| self.m[(i, j)] * z_j).sum::<f64>();
+            *f_i = self.q[i]
+                + z.iter()
+                    .enumerate()
+                    .map(|(j, z_j)| self.m[(i, j)] * z_j)
+                    .sum::<f64>();
         }
     }
     fn jacobian(&self, _z: &[f64], j: &mut DMatrix<f64>) {
@@ -179,13 +213,34 @@ mod tests {
     fn refusals_name_the_place() {
         let m = || dmatrix![1.0, 0.0; 0.0, 1.0];
         let cases = [
-            (LinearMcp::lcp(m(), vec![0.0]), "expected rows of M of length 1, got 2"),
-            (LinearMcp::lcp(DMatrix::zeros(2, 3), vec![0.0; 2]), "expected columns of M of length 2, got 3"),
-            (LinearMcp::lcp(dmatrix![1.0, f64::NAN; 0.0, 1.0], vec![0.0; 2]), "expected a finite M[0][1], got NaN"),
-            (LinearMcp::lcp(m(), vec![0.0, INF]), "expected a finite q[1][0], got inf"),
-            (LinearMcp::new(m(), vec![0.0; 2], vec![0.0, 2.0], vec![1.0; 2]), "expected lower <= upper at 1, got 2 and 1"),
-            (LinearMcp::new(m(), vec![0.0; 2], vec![INF, 0.0], vec![INF; 2]), "expected lower <= upper at 0, got inf and inf"),
-            (LinearMcp::new(m(), vec![0.0; 2], vec![0.0; 2], vec![1.0, f64::NAN]), "expected lower <= upper at 1, got 0 and NaN"),
+            (
+                LinearMcp::lcp(m(), vec![0.0]),
+                "expected rows of M of length 1, got 2",
+            ),
+            (
+                LinearMcp::lcp(DMatrix::zeros(2, 3), vec![0.0; 2]),
+                "expected columns of M of length 2, got 3",
+            ),
+            (
+                LinearMcp::lcp(dmatrix![1.0, f64::NAN; 0.0, 1.0], vec![0.0; 2]),
+                "expected a finite M[0][1], got NaN",
+            ),
+            (
+                LinearMcp::lcp(m(), vec![0.0, INF]),
+                "expected a finite q[1][0], got inf",
+            ),
+            (
+                LinearMcp::new(m(), vec![0.0; 2], vec![0.0, 2.0], vec![1.0; 2]),
+                "expected lower <= upper at 1, got 2 and 1",
+            ),
+            (
+                LinearMcp::new(m(), vec![0.0; 2], vec![INF, 0.0], vec![INF; 2]),
+                "expected lower <= upper at 0, got inf and inf",
+            ),
+            (
+                LinearMcp::new(m(), vec![0.0; 2], vec![0.0; 2], vec![1.0, f64::NAN]),
+                "expected lower <= upper at 1, got 0 and NaN",
+            ),
         ];
         for (made, message) in cases {
             assert_eq!(made.unwrap_err().to_string(), message);

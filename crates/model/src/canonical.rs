@@ -15,7 +15,14 @@ pub(super) fn text(problem: &Problem) -> String {
         Body::Pencil(p) => {
             out.push_str("pencil\n");
             let free: Vec<String> = p.free().iter().map(usize::to_string).collect();
-            line(&mut out, &["free".to_string()].into_iter().chain(free).collect::<Vec<_>>().join(" "));
+            line(
+                &mut out,
+                &["free".to_string()]
+                    .into_iter()
+                    .chain(free)
+                    .collect::<Vec<_>>()
+                    .join(" "),
+            );
             matrix(&mut out, "a", p.a());
             matrix(&mut out, "b", p.b());
         }
@@ -25,10 +32,25 @@ pub(super) fn text(problem: &Problem) -> String {
                 line(&mut out, &format!("friction {mu}"));
             }
             for p in s.particles() {
-                let sign = if let ContactState::Slip { sign } = p.state { format!(" {sign}") } else { String::new() };
-                line(&mut out, &format!("particle {} {} {}{sign}", p.tangential, p.normal, p.state.word()));
+                let sign = if let ContactState::Slip { sign } = p.state {
+                    format!(" {sign}")
+                } else {
+                    String::new()
+                };
+                line(
+                    &mut out,
+                    &format!(
+                        "particle {} {} {}{sign}",
+                        p.tangential,
+                        p.normal,
+                        p.state.word()
+                    ),
+                );
                 for (word, direction) in [("tangent", p.tangent()), ("normal", p.into_obstacle())] {
-                    let pairs: Vec<String> = direction.iter().map(|(dof, c)| format!("{dof} {c}")).collect();
+                    let pairs: Vec<String> = direction
+                        .iter()
+                        .map(|(dof, c)| format!("{dof} {c}"))
+                        .collect();
                     line(&mut out, &format!("{word} {}", pairs.join(" ")));
                 }
             }
@@ -44,10 +66,12 @@ pub(super) fn text(problem: &Problem) -> String {
 /// SHA-256 of the canonical text in lower-case hexadecimal.
 pub(super) fn sha256(problem: &Problem) -> String {
     let digest = Sha256::digest(text(problem).as_bytes());
-    digest.iter().fold(String::with_capacity(64), |mut hex, byte| {
-        let _ = write!(hex, "{byte:02x}"); // writing to a String cannot fail
-        hex
-    })
+    digest
+        .iter()
+        .fold(String::with_capacity(64), |mut hex, byte| {
+            let _ = write!(hex, "{byte:02x}"); // writing to a String cannot fail
+            hex
+        })
 }
 
 fn line(out: &mut String, text: &str) {
@@ -77,10 +101,18 @@ mod tests {
     #[test]
     fn a_system_is_spelt_out_with_its_directions() {
         use crate::{Particle, System};
-        let frame = Some([[rational(3, 5), rational(4, 5)], [rational(-4, 5), rational(3, 5)]]);
-        let slip = Particle { frame, normal_direction: -1, ..Particle::plain(0, 1, ContactState::Slip { sign: -1 }) };
+        let frame = Some([
+            [rational(3, 5), rational(4, 5)],
+            [rational(-4, 5), rational(3, 5)],
+        ]);
+        let slip = Particle {
+            frame,
+            normal_direction: -1,
+            ..Particle::plain(0, 1, ContactState::Slip { sign: -1 })
+        };
         let particles = vec![slip, Particle::plain(3, 2, ContactState::Stick)];
-        let system = System::new(Sparse::identity(4), None, Some(rational(1, 2)), particles).unwrap();
+        let system =
+            System::new(Sparse::identity(4), None, Some(rational(1, 2)), particles).unwrap();
         let p = Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap();
         let head = "mceip-canonical/1\nunknown mu\nsystem\nfriction 1/2\n\
                     particle 0 1 slip -1\ntangent 0 3/5 1 4/5\nnormal 0 4/5 1 -3/5\n\
@@ -91,11 +123,20 @@ mod tests {
     #[test]
     fn digest_binds_the_mathematics_and_nothing_else() {
         let p = problem(rational(-1, 2), Unknown::Lambda2);
-        assert_eq!(text(&p), "mceip-canonical/1\nunknown lambda2\npencil\nfree\na 1 1\n0 0 -1/2\nb 1 1\n0 0 1\n");
+        assert_eq!(
+            text(&p),
+            "mceip-canonical/1\nunknown lambda2\npencil\nfree\na 1 1\n0 0 -1/2\nb 1 1\n0 0 1\n"
+        );
         assert_eq!(p.canonical_text(), text(&p));
-        let narrower = p.clone().named("x").with_window(Window::new(whole(1), None).unwrap());
+        let narrower = p
+            .clone()
+            .named("x")
+            .with_window(Window::new(whole(1), None).unwrap());
         assert_eq!(p.sha256(), narrower.sha256());
-        assert_ne!(p.sha256(), problem(rational(-1, 3), Unknown::Lambda2).sha256());
+        assert_ne!(
+            p.sha256(),
+            problem(rational(-1, 3), Unknown::Lambda2).sha256()
+        );
         assert_ne!(p.sha256(), problem(rational(-1, 2), Unknown::Mu).sha256());
     }
 }

@@ -16,7 +16,9 @@ pub struct ErrorLocation {
 #[non_exhaustive]
 pub enum ModelError {
     /// A matrix has the wrong shape.
-    #[error("{equation}: expected {what} to be {expected_rows} x {expected_cols}, got {rows} x {cols}")]
+    #[error(
+        "{equation}: expected {what} to be {expected_rows} x {expected_cols}, got {rows} x {cols}"
+    )]
     Shape {
         /// Equation id of `spec/equations.md`.
         equation: &'static str,
@@ -38,7 +40,9 @@ pub enum ModelError {
         what: &'static str,
     },
     /// A matrix that must be symmetric is not.
-    #[error("{equation}: expected {what} symmetric, got {what}[{row}][{col}] = {upper} and {what}[{col}][{row}] = {lower}")]
+    #[error(
+        "{equation}: expected {what} symmetric, got {what}[{row}][{col}] = {upper} and {what}[{col}][{row}] = {lower}"
+    )]
     NotSymmetric {
         /// Equation id.
         equation: &'static str,
@@ -54,7 +58,10 @@ pub enum ModelError {
         lower: Rational,
     },
     /// A matrix that must be positive definite is not.
-    #[error("{equation}: expected {what} positive definite, got pivot {} at index {index} of its LDL'", shortened(pivot))]
+    #[error(
+        "{equation}: expected {what} positive definite, got pivot {} at index {index} of its LDL'",
+        shortened(pivot)
+    )]
     NotDefinite {
         /// Equation, proposition or remark that needs it.
         equation: &'static str,
@@ -66,7 +73,9 @@ pub enum ModelError {
         pivot: Rational,
     },
     /// A large matrix too close to singular to be proved definite or not.
-    #[error("{equation}: expected {what} provably positive definite, got a factorisation that decides nothing at index {index}")]
+    #[error(
+        "{equation}: expected {what} provably positive definite, got a factorisation that decides nothing at index {index}"
+    )]
     DefinitenessUndecided {
         /// Equation, proposition or remark that needs it.
         equation: &'static str,
@@ -76,7 +85,9 @@ pub enum ModelError {
         index: usize,
     },
     /// A block that must vanish does not.
-    #[error("{equation}: expected {what}[{row}][{col}] = 0 (the f rows do not depend on the unknown), got {value}")]
+    #[error(
+        "{equation}: expected {what}[{row}][{col}] = 0 (the f rows do not depend on the unknown), got {value}"
+    )]
     NotZero {
         /// Equation id.
         equation: &'static str,
@@ -120,7 +131,9 @@ pub enum ModelError {
         index: usize,
     },
     /// Two contact particles claim the same degree of freedom.
-    #[error("particles {first} and {second}: expected each degree of freedom in one particle, got {dof} in both")]
+    #[error(
+        "particles {first} and {second}: expected each degree of freedom in one particle, got {dof} in both"
+    )]
     DofTwice {
         /// The degree of freedom.
         dof: usize,
@@ -154,7 +167,9 @@ pub enum ModelError {
         friction: Rational,
     },
     /// A particle in contact with zero reaction.
-    #[error("E9: particle {particle} has state \"zero\"; expected free, stick or slip (section 3 assumes no z particles)")]
+    #[error(
+        "E9: particle {particle} has state \"zero\"; expected free, stick or slip (section 3 assumes no z particles)"
+    )]
     ZeroReactionState {
         /// The particle.
         particle: usize,
@@ -172,7 +187,9 @@ pub enum ModelError {
         got: String,
     },
     /// A frame is not a rotation.
-    #[error("particle {particle}: expected frame to be a rotation (rows orthonormal, determinant 1), got {got}")]
+    #[error(
+        "particle {particle}: expected frame to be a rotation (rows orthonormal, determinant 1), got {got}"
+    )]
     FrameNotRotation {
         /// The particle.
         particle: usize,
@@ -180,7 +197,9 @@ pub enum ModelError {
         got: String,
     },
     /// A reaction contradicts the contact state.
-    #[error("E7: particle {particle} in state {state}: expected {expected}, got r_T = {tangential}, r_N = {normal}")]
+    #[error(
+        "E7: particle {particle} in state {state}: expected {expected}, got r_T = {tangential}, r_N = {normal}"
+    )]
     ReactionContradicts {
         /// The particle.
         particle: usize,
@@ -282,5 +301,9 @@ fn shortened(v: &Rational) -> String {
     const MOST: usize = 60;
 
     let text = v.to_string();
-    if text.len() <= MOST { text } else { format!("{}... ({} characters)", &text[..MOST], text.len()) }
+    if text.len() <= MOST {
+        text
+    } else {
+        format!("{}... ({} characters)", &text[..MOST], text.len())
+    }
 }

@@ -1,4 +1,5 @@
-//! The generic problem (A + tB) x = y, and the type that carries the hypotheses of Propositions 1 and 2.
+//! The generic problem (A + tB) x = y, and the type that carries the hypotheses of Propositions 1
+//! and 2.
 
 use super::ModelError;
 use mceip_exact::{DefiniteError, Sparse, positive_definite};
@@ -92,12 +93,18 @@ impl Pencil {
 
     /// Indices of the complementarity variables, ascending: the impending-slip particles.
     pub fn slip(&self) -> Vec<usize> {
-        (0..self.order()).filter(|i| self.free.binary_search(i).is_err()).collect()
+        (0..self.order())
+            .filter(|i| self.free.binary_search(i).is_err())
+            .collect()
     }
 }
 
 /// Sorts a list of indices below `limit`, each allowed once.
-pub(super) fn sorted_indices(what: &'static str, mut list: Vec<usize>, limit: usize) -> Result<Vec<usize>, ModelError> {
+pub(super) fn sorted_indices(
+    what: &'static str,
+    mut list: Vec<usize>,
+    limit: usize,
+) -> Result<Vec<usize>, ModelError> {
     list.sort_unstable();
     if let Some(&index) = list.iter().find(|&&i| i >= limit) {
         return Err(ModelError::IndexOutOfRange { what, index, limit });
@@ -126,7 +133,9 @@ impl<'a> Admissible<'a> {
     /// complementarity variables (x_s could not be normalised).
     pub fn new(pencil: &'a Pencil, unknown: Unknown) -> Result<Self, ModelError> {
         if pencil.slip().is_empty() {
-            return Err(ModelError::Empty { what: "the complementarity variables (P1, P2 normalise e'x_s)" });
+            return Err(ModelError::Empty {
+                what: "the complementarity variables (P1, P2 normalise e'x_s)",
+            });
         }
         let f = pencil.free();
         match unknown {
@@ -134,7 +143,13 @@ impl<'a> Admissible<'a> {
                 require_definite("P1", "A_ff (K_ff)", &pencil.a.submatrix(f, f))?;
                 for &i in f {
                     if let Some((j, value)) = pencil.b.row(i).iter().find(|e| !e.1.is_zero()) {
-                        return Err(ModelError::NotZero { equation: "E16", what: "B (K1)", row: i, col: *j, value: value.clone() });
+                        return Err(ModelError::NotZero {
+                            equation: "E16",
+                            what: "B (K1)",
+                            row: i,
+                            col: *j,
+                            value: value.clone(),
+                        });
                     }
                 }
             }
@@ -158,19 +173,43 @@ impl<'a> Admissible<'a> {
 }
 
 /// Refuses a matrix that is not symmetric positive definite, naming who needs it.
-pub(super) fn require_definite(equation: &'static str, what: &'static str, m: &Sparse) -> Result<(), ModelError> {
+pub(super) fn require_definite(
+    equation: &'static str,
+    what: &'static str,
+    m: &Sparse,
+) -> Result<(), ModelError> {
     require_symmetric(equation, what, m)?;
     positive_definite(m).map_err(|e| match e {
-        DefiniteError::Not(n) => ModelError::NotDefinite { equation, what, index: n.index, pivot: n.pivot },
-        DefiniteError::Undecided { index } => ModelError::DefinitenessUndecided { equation, what, index },
+        DefiniteError::Not(n) => ModelError::NotDefinite {
+            equation,
+            what,
+            index: n.index,
+            pivot: n.pivot,
+        },
+        DefiniteError::Undecided { index } => ModelError::DefinitenessUndecided {
+            equation,
+            what,
+            index,
+        },
     })
 }
 
 /// Refuses a matrix that differs from its transpose.
-pub(super) fn require_symmetric(equation: &'static str, what: &'static str, m: &Sparse) -> Result<(), ModelError> {
+pub(super) fn require_symmetric(
+    equation: &'static str,
+    what: &'static str,
+    m: &Sparse,
+) -> Result<(), ModelError> {
     match m.first_asymmetry() {
         None => Ok(()),
-        Some((row, col)) => Err(ModelError::NotSymmetric { equation, what, row, col, upper: m.get(row, col), lower: m.get(col, row) }),
+        Some((row, col)) => Err(ModelError::NotSymmetric {
+            equation,
+            what,
+            row,
+            col,
+            upper: m.get(row, col),
+            lower: m.get(col, row),
+        }),
     }
 }
 
@@ -182,13 +221,26 @@ mod tests {
     #[test]
     fn shapes_and_index_sets_are_checked() {
         let square = Sparse::from_ints(&[&[1, 0], &[0, 1]]);
-        assert!(matches!(Pencil::new(square.clone(), Sparse::from_ints(&[&[1, 0]]), vec![]), Err(ModelError::Shape { what: "b", .. })));
+        assert!(matches!(
+            Pencil::new(square.clone(), Sparse::from_ints(&[&[1, 0]]), vec![]),
+            Err(ModelError::Shape { what: "b", .. })
+        ));
         assert!(matches!(
             Pencil::new(square.clone(), square.clone(), vec![2]),
-            Err(ModelError::IndexOutOfRange { index: 2, limit: 2, .. })
+            Err(ModelError::IndexOutOfRange {
+                index: 2,
+                limit: 2,
+                ..
+            })
         ));
-        assert!(matches!(Pencil::new(square.clone(), square.clone(), vec![1, 1]), Err(ModelError::IndexTwice { index: 1, .. })));
-        assert!(matches!(Pencil::new(Sparse::zeros(0, 0), Sparse::zeros(0, 0), vec![]), Err(ModelError::Empty { .. })));
+        assert!(matches!(
+            Pencil::new(square.clone(), square.clone(), vec![1, 1]),
+            Err(ModelError::IndexTwice { index: 1, .. })
+        ));
+        assert!(matches!(
+            Pencil::new(Sparse::zeros(0, 0), Sparse::zeros(0, 0), vec![]),
+            Err(ModelError::Empty { .. })
+        ));
         let pencil = Pencil::new(square.clone(), square, vec![1]).unwrap();
         assert_eq!((pencil.free(), pencil.slip()), (&[1][..], vec![0]));
     }
@@ -199,20 +251,34 @@ mod tests {
         let b = Sparse::from_ints(&[&[-1, 0], &[0, 1]]);
         let pencil = Pencil::new(a.clone(), b.clone(), vec![1]).unwrap();
         assert!(Admissible::new(&pencil, Unknown::Lambda2).is_ok());
-        assert!(matches!(Admissible::new(&pencil, Unknown::Mu), Err(ModelError::NotZero { row: 1, col: 1, .. })));
+        assert!(matches!(
+            Admissible::new(&pencil, Unknown::Mu),
+            Err(ModelError::NotZero { row: 1, col: 1, .. })
+        ));
         let indefinite = Pencil::new(b, a, vec![0]).unwrap();
         assert!(matches!(
             Admissible::new(&indefinite, Unknown::Lambda2),
             Err(ModelError::NotDefinite { equation: "P2", index: 0, pivot, .. }) if pivot == whole(-1)
         ));
-        let all_free = Pencil::new(Sparse::from_ints(&[&[1]]), Sparse::from_ints(&[&[0]]), vec![0]).unwrap();
-        assert!(matches!(Admissible::new(&all_free, Unknown::Mu), Err(ModelError::Empty { .. })));
+        let all_free = Pencil::new(
+            Sparse::from_ints(&[&[1]]),
+            Sparse::from_ints(&[&[0]]),
+            vec![0],
+        )
+        .unwrap();
+        assert!(matches!(
+            Admissible::new(&all_free, Unknown::Mu),
+            Err(ModelError::Empty { .. })
+        ));
     }
 
     #[test]
     fn dense_view_is_the_same_matrix() {
         let m = Sparse::from_ints(&[&[1, 2], &[3, 4]]);
-        assert_eq!(m.to_dense(), Dense::from_rows(vec![vec![whole(1), whole(2)], vec![whole(3), whole(4)]]));
+        assert_eq!(
+            m.to_dense(),
+            Dense::from_rows(vec![vec![whole(1), whole(2)], vec![whole(3), whole(4)]])
+        );
         assert_eq!(m.to_dense()[(1, 0)], Rational::from_integer(3.into()));
     }
 }

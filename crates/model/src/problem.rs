@@ -32,7 +32,13 @@ impl Problem {
         if let Body::System(system) = &body {
             system.require_for(unknown)?;
         }
-        Ok(Problem { name: None, comment: None, unknown, window, body })
+        Ok(Problem {
+            name: None,
+            comment: None,
+            unknown,
+            window,
+            body,
+        })
     }
 
     /// The same problem with a name.

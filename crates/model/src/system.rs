@@ -65,7 +65,14 @@ pub type Direction = Vec<(usize, Rational)>;
 impl Particle {
     /// A particle in the paper's own directions, without frame or reaction.
     pub fn plain(tangential: usize, normal: usize, state: ContactState) -> Self {
-        Particle { tangential, normal, state, normal_direction: 1, frame: None, reaction: None }
+        Particle {
+            tangential,
+            normal,
+            state,
+            normal_direction: 1,
+            frame: None,
+            reaction: None,
+        }
     }
 
     /// The unit tangent: u_T is its inner product with the displacements.
@@ -82,7 +89,10 @@ impl Particle {
         match &self.frame {
             None if row == 0 => vec![(self.tangential, factor)],
             None => vec![(self.normal, factor)],
-            Some(f) => vec![(self.tangential, &factor * &f[row][0]), (self.normal, &factor * &f[row][1])],
+            Some(f) => vec![
+                (self.tangential, &factor * &f[row][0]),
+                (self.normal, &factor * &f[row][1]),
+            ],
         }
     }
 }
@@ -104,7 +114,12 @@ impl System {
     /// [`ModelError`] naming the equation, the index, what was expected and what was found: shapes,
     /// symmetry (3), definiteness of K_ff and M by exact LDL', dofs out of range or claimed twice,
     /// signs, frames, friction, reactions against (7).
-    pub fn new(stiffness: Sparse, mass: Option<Sparse>, friction: Option<Rational>, particles: Vec<Particle>) -> Result<Self, ModelError> {
+    pub fn new(
+        stiffness: Sparse,
+        mass: Option<Sparse>,
+        friction: Option<Rational>,
+        particles: Vec<Particle>,
+    ) -> Result<Self, ModelError> {
         let n = stiffness.rows();
         if n == 0 {
             return Err(ModelError::Empty { what: "system" });
@@ -112,13 +127,25 @@ impl System {
         for (what, m) in [("K", Some(&stiffness)), ("M", mass.as_ref())] {
             let Some(m) = m else { continue };
             if (m.rows(), m.cols()) != (n, n) {
-                return Err(ModelError::Shape { equation: "E3", what, expected_rows: n, expected_cols: n, rows: m.rows(), cols: m.cols() });
+                return Err(ModelError::Shape {
+                    equation: "E3",
+                    what,
+                    expected_rows: n,
+                    expected_cols: n,
+                    rows: m.rows(),
+                    cols: m.cols(),
+                });
             }
             require_symmetric("E3", what, m)?;
         }
         check_friction(friction.as_ref(), &particles)?;
         check_particles(n, &particles, friction.as_ref())?;
-        let system = System { stiffness, mass, friction, particles };
+        let system = System {
+            stiffness,
+            mass,
+            friction,
+            particles,
+        };
         let f = system.free_dofs();
         require_definite("P1", "K_ff", &system.stiffness.submatrix(&f, &f))?;
         if let Some(m) = &system.mass {
@@ -133,12 +160,21 @@ impl System {
     /// [`ModelError::Missing`] or [`ModelError::Empty`] (no slip particle: nothing can diverge).
     pub fn require_for(&self, unknown: Unknown) -> Result<(), ModelError> {
         if self.slip_particles().is_empty() {
-            return Err(ModelError::Empty { what: "the slip particles of the system" });
+            return Err(ModelError::Empty {
+                what: "the slip particles of the system",
+            });
         }
         if unknown == Unknown::Lambda2 {
-            for (what, present) in [("mass", self.mass.is_some()), ("friction", self.friction.is_some())] {
+            for (what, present) in [
+                ("mass", self.mass.is_some()),
+                ("friction", self.friction.is_some()),
+            ] {
                 if !present {
-                    return Err(ModelError::Missing { equation: "E12", what, unknown: unknown.word() });
+                    return Err(ModelError::Missing {
+                        equation: "E12",
+                        what,
+                        unknown: unknown.word(),
+                    });
                 }
             }
         }
@@ -184,7 +220,11 @@ impl System {
     /// f: the dofs of no particle in contact, ascending.
     pub fn free_dofs(&self) -> Vec<usize> {
         let mut held = vec![false; self.dofs()];
-        for p in self.particles.iter().filter(|p| p.state != ContactState::Free) {
+        for p in self
+            .particles
+            .iter()
+            .filter(|p| p.state != ContactState::Free)
+        {
             held[p.tangential] = true;
             held[p.normal] = true;
         }
@@ -195,28 +235,57 @@ impl System {
 fn check_friction(friction: Option<&Rational>, particles: &[Particle]) -> Result<(), ModelError> {
     let Some(mu) = friction else { return Ok(()) };
     if mu.is_negative() {
-        return Err(ModelError::FrictionNegative { friction: mu.clone() });
+        return Err(ModelError::FrictionNegative {
+            friction: mu.clone(),
+        });
     }
-    match particles.iter().position(|p| matches!(p.state, ContactState::Slip { .. })) {
-        Some(particle) if mu.is_zero() => Err(ModelError::FrictionNotPositive { particle, friction: mu.clone() }),
+    match particles
+        .iter()
+        .position(|p| matches!(p.state, ContactState::Slip { .. }))
+    {
+        Some(particle) if mu.is_zero() => Err(ModelError::FrictionNotPositive {
+            particle,
+            friction: mu.clone(),
+        }),
         _ => Ok(()),
     }
 }
 
-fn check_particles(n: usize, particles: &[Particle], friction: Option<&Rational>) -> Result<(), ModelError> {
+fn check_particles(
+    n: usize,
+    particles: &[Particle],
+    friction: Option<&Rational>,
+) -> Result<(), ModelError> {
     let mut owner: BTreeMap<usize, usize> = BTreeMap::new();
     for (index, p) in particles.iter().enumerate() {
         for (which, dof) in [("tangential", p.tangential), ("normal", p.normal)] {
             if dof >= n {
-                return Err(ModelError::DofOutOfRange { particle: index, which, dof, limit: n });
+                return Err(ModelError::DofOutOfRange {
+                    particle: index,
+                    which,
+                    dof,
+                    limit: n,
+                });
             }
             if let Some(first) = owner.insert(dof, index) {
-                return Err(ModelError::DofTwice { dof, first, second: index });
+                return Err(ModelError::DofTwice {
+                    dof,
+                    first,
+                    second: index,
+                });
             }
         }
-        for (field, value) in [("normal_direction", Some(p.normal_direction)), ("sign", slip_sign(p))] {
+        for (field, value) in [
+            ("normal_direction", Some(p.normal_direction)),
+            ("sign", slip_sign(p)),
+        ] {
             if let Some(v) = value.filter(|v| v.abs() != 1) {
-                return Err(ModelError::Sign { particle: index, field, expected: "1 or -1", got: v.to_string() });
+                return Err(ModelError::Sign {
+                    particle: index,
+                    field,
+                    expected: "1 or -1",
+                    got: v.to_string(),
+                });
             }
         }
         check_frame(index, p)?;
@@ -233,25 +302,46 @@ fn slip_sign(p: &Particle) -> Option<i8> {
 }
 
 fn check_frame(particle: usize, p: &Particle) -> Result<(), ModelError> {
-    let Some([[a, b], [c, d]]) = &p.frame else { return Ok(()) };
+    let Some([[a, b], [c, d]]) = &p.frame else {
+        return Ok(());
+    };
     let one = Rational::one();
-    let checks = [("|row 0|^2", a * a + b * b, &one), ("|row 1|^2", c * c + d * d, &one), ("the determinant", a * d - b * c, &one)];
+    let checks = [
+        ("|row 0|^2", a * a + b * b, &one),
+        ("|row 1|^2", c * c + d * d, &one),
+        ("the determinant", a * d - b * c, &one),
+    ];
     match checks.iter().find(|(_, got, want)| got != *want) {
-        Some((what, got, _)) => Err(ModelError::FrameNotRotation { particle, got: format!("{what} = {got}") }),
+        Some((what, got, _)) => Err(ModelError::FrameNotRotation {
+            particle,
+            got: format!("{what} = {got}"),
+        }),
         None => Ok(()), // two unit rows with determinant 1 are orthogonal (Lagrange's identity)
     }
 }
 
 /// (7), and the definitions of f, d, s after (9).
-fn check_reaction(particle: usize, p: &Particle, friction: Option<&Rational>) -> Result<(), ModelError> {
+fn check_reaction(
+    particle: usize,
+    p: &Particle,
+    friction: Option<&Rational>,
+) -> Result<(), ModelError> {
     let Some(r) = &p.reaction else { return Ok(()) };
     let cone = friction.map(|mu| -mu * &r.normal); // mu |r_N|
     let expected = match p.state {
         ContactState::Free if !(r.normal.is_zero() && r.tangential.is_zero()) => "no reaction",
         ContactState::Stick | ContactState::Slip { .. } if !r.normal.is_negative() => "r_N < 0",
-        ContactState::Stick if cone.as_ref().is_some_and(|c| r.tangential.abs() >= *c) => "|r_T| < -mu r_N",
-        ContactState::Slip { sign } if r.tangential.signum() != Rational::from_integer(sign.into()) => "sign(r_T) equal to sign",
-        ContactState::Slip { .. } if cone.as_ref().is_some_and(|c| r.tangential.abs() != *c) => "|r_T| = -mu r_N",
+        ContactState::Stick if cone.as_ref().is_some_and(|c| r.tangential.abs() >= *c) => {
+            "|r_T| < -mu r_N"
+        }
+        ContactState::Slip { sign }
+            if r.tangential.signum() != Rational::from_integer(sign.into()) =>
+        {
+            "sign(r_T) equal to sign"
+        }
+        ContactState::Slip { .. } if cone.as_ref().is_some_and(|c| r.tangential.abs() != *c) => {
+            "|r_T| = -mu r_N"
+        }
         _ => return Ok(()),
     };
     Err(ModelError::ReactionContradicts {
@@ -271,39 +361,96 @@ mod tests {
     const SLIP: ContactState = ContactState::Slip { sign: 1 };
 
     fn build(mu: i64, particles: Vec<Particle>) -> Result<System, ModelError> {
-        System::new(Sparse::identity(4), Some(Sparse::identity(4)), Some(whole(mu)), particles)
+        System::new(
+            Sparse::identity(4),
+            Some(Sparse::identity(4)),
+            Some(whole(mu)),
+            particles,
+        )
     }
 
     #[test]
     fn index_sets_follow_the_states() {
-        let system = build(1, vec![Particle::plain(0, 1, SLIP), Particle::plain(2, 3, ContactState::Free)]).unwrap();
+        let system = build(
+            1,
+            vec![
+                Particle::plain(0, 1, SLIP),
+                Particle::plain(2, 3, ContactState::Free),
+            ],
+        )
+        .unwrap();
         assert_eq!(system.free_dofs(), vec![2, 3]);
         assert_eq!(system.slip_particles().len(), 1);
         assert!(system.require_for(Unknown::Lambda2).is_ok());
         let stuck = build(1, vec![Particle::plain(0, 1, ContactState::Stick)]).unwrap();
-        assert!(matches!(stuck.require_for(Unknown::Mu), Err(ModelError::Empty { .. })));
+        assert!(matches!(
+            stuck.require_for(Unknown::Mu),
+            Err(ModelError::Empty { .. })
+        ));
     }
 
     #[test]
     fn contradictions_are_refused_by_name() {
         let slip = |t, n| Particle::plain(t, n, SLIP);
-        assert!(matches!(build(1, vec![slip(0, 4)]), Err(ModelError::DofOutOfRange { particle: 0, which: "normal", dof: 4, limit: 4 })));
-        assert!(matches!(build(1, vec![slip(0, 1), slip(1, 2)]), Err(ModelError::DofTwice { dof: 1, first: 0, second: 1 })));
-        assert!(matches!(build(0, vec![slip(0, 1)]), Err(ModelError::FrictionNotPositive { particle: 0, .. })));
-        assert!(matches!(build(-1, vec![slip(0, 1)]), Err(ModelError::FrictionNegative { .. })));
+        assert!(matches!(
+            build(1, vec![slip(0, 4)]),
+            Err(ModelError::DofOutOfRange {
+                particle: 0,
+                which: "normal",
+                dof: 4,
+                limit: 4
+            })
+        ));
+        assert!(matches!(
+            build(1, vec![slip(0, 1), slip(1, 2)]),
+            Err(ModelError::DofTwice {
+                dof: 1,
+                first: 0,
+                second: 1
+            })
+        ));
+        assert!(matches!(
+            build(0, vec![slip(0, 1)]),
+            Err(ModelError::FrictionNotPositive { particle: 0, .. })
+        ));
+        assert!(matches!(
+            build(-1, vec![slip(0, 1)]),
+            Err(ModelError::FrictionNegative { .. })
+        ));
         let zero_sign = Particle::plain(0, 1, ContactState::Slip { sign: 0 });
-        assert!(matches!(build(1, vec![zero_sign]), Err(ModelError::Sign { field: "sign", .. })));
-        let skew = Particle { frame: Some([[whole(1), whole(0)], [whole(0), whole(-1)]]), ..slip(0, 1) };
-        assert!(matches!(build(1, vec![skew]), Err(ModelError::FrameNotRotation { particle: 0, .. })));
+        assert!(matches!(
+            build(1, vec![zero_sign]),
+            Err(ModelError::Sign { field: "sign", .. })
+        ));
+        let skew = Particle {
+            frame: Some([[whole(1), whole(0)], [whole(0), whole(-1)]]),
+            ..slip(0, 1)
+        };
+        assert!(matches!(
+            build(1, vec![skew]),
+            Err(ModelError::FrameNotRotation { particle: 0, .. })
+        ));
     }
 
     #[test]
     fn reactions_are_held_against_the_friction_cone() {
         let with = |state, t: Rational, n: Rational| {
-            let reaction = Some(Reaction { tangential: t, normal: n });
-            build(2, vec![Particle { reaction, ..Particle::plain(0, 1, state) }])
+            let reaction = Some(Reaction {
+                tangential: t,
+                normal: n,
+            });
+            build(
+                2,
+                vec![Particle {
+                    reaction,
+                    ..Particle::plain(0, 1, state)
+                }],
+            )
         };
-        assert!(with(SLIP, whole(2), whole(-1)).is_ok() && with(ContactState::Free, whole(0), whole(0)).is_ok());
+        assert!(
+            with(SLIP, whole(2), whole(-1)).is_ok()
+                && with(ContactState::Free, whole(0), whole(0)).is_ok()
+        );
         assert!(with(ContactState::Stick, rational(19, 10), whole(-1)).is_ok());
         for (state, t, n) in [
             (SLIP, whole(-2), whole(-1)),
@@ -312,20 +459,50 @@ mod tests {
             (ContactState::Stick, whole(2), whole(-1)),
             (ContactState::Free, whole(0), whole(-1)),
         ] {
-            assert!(matches!(with(state, t, n), Err(ModelError::ReactionContradicts { particle: 0, .. })));
+            assert!(matches!(
+                with(state, t, n),
+                Err(ModelError::ReactionContradicts { particle: 0, .. })
+            ));
         }
-        for (state, n) in [(SLIP, whole(1)), (SLIP, whole(0)), (ContactState::Stick, whole(1)), (ContactState::Stick, whole(0))] {
-            assert!(matches!(with(state, whole(0), n), Err(ModelError::ReactionContradicts { expected: "r_N < 0", .. })));
+        for (state, n) in [
+            (SLIP, whole(1)),
+            (SLIP, whole(0)),
+            (ContactState::Stick, whole(1)),
+            (ContactState::Stick, whole(0)),
+        ] {
+            assert!(matches!(
+                with(state, whole(0), n),
+                Err(ModelError::ReactionContradicts {
+                    expected: "r_N < 0",
+                    ..
+                })
+            ));
         }
     }
 
     #[test]
     fn matrices_are_held_against_section_2() {
         let singular = System::new(Sparse::zeros(2, 2), None, None, vec![]);
-        assert!(matches!(singular, Err(ModelError::NotDefinite { equation: "P1", what: "K_ff", index: 0, .. })));
-        let indefinite_mass = System::new(Sparse::identity(2), Some(Sparse::zeros(2, 2)), None, vec![]);
-        assert!(matches!(indefinite_mass, Err(ModelError::NotDefinite { what: "M", .. })));
-        let skew = Sparse::from_entries(2, 2, [(0, 0, whole(1)), (1, 1, whole(1)), (0, 1, whole(1))]);
-        assert!(matches!(System::new(skew, None, None, vec![]), Err(ModelError::NotSymmetric { row: 0, col: 1, .. })));
+        assert!(matches!(
+            singular,
+            Err(ModelError::NotDefinite {
+                equation: "P1",
+                what: "K_ff",
+                index: 0,
+                ..
+            })
+        ));
+        let indefinite_mass =
+            System::new(Sparse::identity(2), Some(Sparse::zeros(2, 2)), None, vec![]);
+        assert!(matches!(
+            indefinite_mass,
+            Err(ModelError::NotDefinite { what: "M", .. })
+        ));
+        let skew =
+            Sparse::from_entries(2, 2, [(0, 0, whole(1)), (1, 1, whole(1)), (0, 1, whole(1))]);
+        assert!(matches!(
+            System::new(skew, None, None, vec![]),
+            Err(ModelError::NotSymmetric { row: 0, col: 1, .. })
+        ));
     }
 }

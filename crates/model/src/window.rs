@@ -26,7 +26,10 @@ impl Window {
 
     /// [0, infinity): all values the paper allows.
     pub fn all() -> Self {
-        Window { min: Rational::zero(), max: None }
+        Window {
+            min: Rational::zero(),
+            max: None,
+        }
     }
 
     /// Lower end.
@@ -59,10 +62,20 @@ mod tests {
     fn a_window_covers_its_parts() {
         let window = |min: i64, max: Option<i64>| Window::new(whole(min), max.map(whole)).unwrap();
         let (closed, half_line) = (window(1, Some(3)), window(1, None));
-        for part in [window(1, Some(3)), window(2, Some(3)), window(1, Some(1)), window(3, Some(3))] {
+        for part in [
+            window(1, Some(3)),
+            window(2, Some(3)),
+            window(1, Some(1)),
+            window(3, Some(3)),
+        ] {
             assert!(closed.covers(&part) && half_line.covers(&part), "{part:?}");
         }
-        for more in [window(0, Some(3)), window(1, Some(4)), window(4, Some(5)), window(1, None)] {
+        for more in [
+            window(0, Some(3)),
+            window(1, Some(4)),
+            window(4, Some(5)),
+            window(1, None),
+        ] {
             assert!(!closed.covers(&more), "{more:?}");
         }
         assert!(half_line.covers(&half_line) && !half_line.covers(&window(0, Some(2))));

@@ -1,4 +1,5 @@
-//! Value types for what is not a list: cones of solutions at one value, ranges of values of one support.
+//! Value types for what is not a list: cones of solutions at one value, ranges of values of one
+//! support.
 
 use super::Solution;
 use mceip_exact::{Algebraic, Poly, Rational, common_denominator};
@@ -33,18 +34,43 @@ impl Cone {
     /// A solution inside the cone: the mean of the rays, each scaled to e'x_s = 1 (l1 norm 1 where
     /// x_s = 0); without rays the first direction of the lineality space.
     pub fn center(&self, constrained: &[usize]) -> Solution {
-        let norms: Vec<Poly> = self.rays.iter().map(|r| r.normaliser(constrained)).collect();
-        let others = |k: usize| norms.iter().enumerate().filter(|(l, _)| *l != k).fold(Poly::from_ints(&[1]), |p, (_, n)| &p * n);
+        let norms: Vec<Poly> = self
+            .rays
+            .iter()
+            .map(|r| r.normaliser(constrained))
+            .collect();
+        let others = |k: usize| {
+            norms
+                .iter()
+                .enumerate()
+                .filter(|(l, _)| *l != k)
+                .fold(Poly::from_ints(&[1]), |p, (_, n)| &p * n)
+        };
         let n = self.rays.first().map_or(0, |r| r.x.len());
         let sum = |entry: &dyn Fn(&Solution) -> Poly| {
-            self.rays.iter().enumerate().fold(Poly::default(), |s, (k, r)| &s + &(&others(k) * &entry(r)))
+            self.rays
+                .iter()
+                .enumerate()
+                .fold(Poly::default(), |s, (k, r)| &s + &(&others(k) * &entry(r)))
         };
-        let mean = |of: &dyn Fn(&Solution, usize) -> Poly| (0..n).map(|i| sum(&|r| of(r, i))).collect::<Vec<_>>();
+        let mean = |of: &dyn Fn(&Solution, usize) -> Poly| {
+            (0..n).map(|i| sum(&|r| of(r, i))).collect::<Vec<_>>()
+        };
         let (x, y) = match (&self.rays[..], &self.lineality[..]) {
             ([], [direction, ..]) => (direction.clone(), Vec::new()),
-            _ => (self.value.reduce(&mean(&|r, i| r.x[i].clone())), self.value.reduce(&mean(&|r, i| r.y[i].clone()))),
+            _ => (
+                self.value.reduce(&mean(&|r, i| r.x[i].clone())),
+                self.value.reduce(&mean(&|r, i| r.y[i].clone())),
+            ),
         };
-        Solution { value: self.value.clone(), multiplicity: 0, slip: self.slip.clone(), biactive: self.biactive.clone(), x, y }
+        Solution {
+            value: self.value.clone(),
+            multiplicity: 0,
+            slip: self.slip.clone(),
+            biactive: self.biactive.clone(),
+            x,
+            y,
+        }
     }
 }
 
@@ -80,11 +106,16 @@ pub struct Piece {
 impl Piece {
     /// Is this number in the interval?
     pub fn contains(&self, value: &Algebraic) -> bool {
-        let side = |end: &End, out: Ordering| match value.clone().cmp_exact(&mut end.value.clone()) {
+        let side = |end: &End, out: Ordering| match value.clone().cmp_exact(&mut end.value.clone())
+        {
             Ordering::Equal => end.included,
             other => other != out,
         };
-        side(&self.from, Ordering::Less) && self.to.as_ref().is_none_or(|to| side(to, Ordering::Greater))
+        side(&self.from, Ordering::Less)
+            && self
+                .to
+                .as_ref()
+                .is_none_or(|to| side(to, Ordering::Greater))
     }
 }
 
@@ -99,7 +130,9 @@ pub struct End {
 
 /// A singular support that was left undescribed: its cells would need too many minors.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("singular support {support:?} is not described: it needs {minors} minors, the limit is {limit}")]
+#[error(
+    "singular support {support:?} is not described: it needs {minors} minors, the limit is {limit}"
+)]
 pub struct Undescribed {
     /// The support.
     pub support: Vec<usize>,
@@ -112,5 +145,7 @@ pub struct Undescribed {
 /// A rational vector as constant polynomials, up to a positive factor.
 pub(super) fn constants(x: &[Rational]) -> Vec<Poly> {
     let clear = common_denominator(x);
-    x.iter().map(|v| Poly::constant(v.numer() * (&clear / v.denom()))).collect()
+    x.iter()
+        .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))
+        .collect()
 }

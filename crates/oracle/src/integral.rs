@@ -13,11 +13,16 @@ pub(super) struct Integral<'a> {
 impl<'a> Integral<'a> {
     pub(super) fn of(pencil: &'a Pencil) -> Self {
         let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
-        Integral { a, b, free: pencil.free() }
+        Integral {
+            a,
+            b,
+            free: pencil.free(),
+        }
     }
 
-    /// log2 of a bound of every coefficient of every determinant, rounded up: prod_i (|a_i| + |b_i|) over the rows.
-    /// (Hadamard's inequality on |t| = 1 and Cauchy's estimate; (|a| + |b|)^2 <= 2 (|a|^2 + |b|^2).)
+    /// log2 of a bound of every coefficient of every determinant, rounded up: prod_i (|a_i| +
+    /// |b_i|) over the rows. (Hadamard's inequality on |t| = 1 and Cauchy's estimate; (|a| + |b|)^2
+    /// <= 2 (|a|^2 + |b|^2).)
     pub(super) fn coefficient_bits(&self) -> u64 {
         let square = |row: &Vec<Integer>| row.iter().map(|v| v * v).sum::<Integer>();
         let row_bits = |(a, b): (&Vec<Integer>, &Vec<Integer>)| {
@@ -45,12 +50,20 @@ impl<'a> Integral<'a> {
 
     /// The rows and columns `active` of A + tB.
     pub(super) fn block(&self, active: &[usize]) -> Vec<Vec<Poly>> {
-        active.iter().map(|&i| active.iter().map(|&j| self.entry(i, j)).collect()).collect()
+        active
+            .iter()
+            .map(|&i| active.iter().map(|&j| self.entry(i, j)).collect())
+            .collect()
     }
 
     /// A and B on the rows and columns `active`.
     fn matrices(&self, active: &[usize]) -> [Vec<Vec<Integer>>; 2] {
-        [&self.a, &self.b].map(|m| active.iter().map(|&i| active.iter().map(|&j| m[i][j].clone()).collect()).collect())
+        [&self.a, &self.b].map(|m| {
+            active
+                .iter()
+                .map(|&i| active.iter().map(|&j| m[i][j].clone()).collect())
+                .collect()
+        })
     }
 
     /// The determinant of the block.
@@ -59,9 +72,14 @@ impl<'a> Integral<'a> {
         determinant(&a, &b)
     }
 
-    /// The kernel of the block at each root of its determinant. Cramer's rule gives it for all roots at
-    /// once where the rank is one less than the order; elimination at the root decides the rest.
-    pub(super) fn kernels(&self, active: &[usize], roots: Vec<Algebraic>) -> Vec<(Algebraic, Vec<Vec<Poly>>)> {
+    /// The kernel of the block at each root of its determinant. Cramer's rule gives it for all
+    /// roots at once where the rank is one less than the order; elimination at the root decides the
+    /// rest.
+    pub(super) fn kernels(
+        &self,
+        active: &[usize],
+        roots: Vec<Algebraic>,
+    ) -> Vec<(Algebraic, Vec<Vec<Poly>>)> {
         if roots.is_empty() {
             return Vec::new();
         }
@@ -69,7 +87,11 @@ impl<'a> Integral<'a> {
         let cofactors = first_row_cofactors(&a, &b);
         let kernel = |mut value: Algebraic| {
             let regular = cofactors.iter().any(|c| value.sign_of(c) != Sign::Zero);
-            let kernel = if regular { vec![cofactors.clone()] } else { kernel_at(self.block(active), &mut value) };
+            let kernel = if regular {
+                vec![cofactors.clone()]
+            } else {
+                kernel_at(self.block(active), &mut value)
+            };
             (value, kernel)
         };
         roots.into_iter().map(kernel).collect()
@@ -86,7 +108,11 @@ impl<'a> Integral<'a> {
 
     /// (A + tB) x.
     pub(super) fn times(&self, x: &[Poly]) -> Vec<Poly> {
-        let row = |i: usize| x.iter().enumerate().fold(Poly::default(), |sum, (j, x_j)| &sum + &(&self.entry(i, j) * x_j));
+        let row = |i: usize| {
+            x.iter().enumerate().fold(Poly::default(), |sum, (j, x_j)| {
+                &sum + &(&self.entry(i, j) * x_j)
+            })
+        };
         (0..self.order()).map(row).collect()
     }
 }

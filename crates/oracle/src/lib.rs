@@ -1,14 +1,14 @@
 //! The slow truth: the enumerator of (24)-(26) and Table 1 in closed form. Exact, naive on purpose.
 //!
 //! What is listed where:
-//! * [`Enumeration::solutions`]: every solution that is the only one (up to its positive factor) with
-//!   its value and support; a kernel of dimension 1 always gives such a one. Biactive indices make no
-//!   second entry. Free-only x and -x are two entries.
+//! * [`Enumeration::solutions`]: every solution that is the only one (up to its positive factor)
+//!   with its value and support; a kernel of dimension 1 always gives such a one. Biactive indices
+//!   make no second entry. Free-only x and -x are two entries.
 //! * [`Enumeration::cones`]: where one support has more than one solution at a value, the largest
-//!   cone they belong to, by its extreme rays. A ray that stands alone on its own support is listed in
-//!   `solutions` too: cones describe sets by generators, `solutions` counts rays.
-//! * [`Enumeration::ranges`]: supports whose pencil is singular, with the intervals of values at which
-//!   they have a solution. What they have at isolated values only is in the two lists above.
+//!   cone they belong to, by its extreme rays. A ray that stands alone on its own support is listed
+//!   in `solutions` too: cones describe sets by generators, `solutions` counts rays.
+//! * [`Enumeration::ranges`]: supports whose pencil is singular, with the intervals of values at
+//!   which they have a solution. What they have at isolated values only is in the two lists above.
 //!
 //! Every solution in the window is in at least one of the three ([`Enumeration::contains`]).
 #![deny(clippy::float_arithmetic)]
@@ -24,7 +24,10 @@ mod table1;
 
 pub use degenerate::{Cone, End, Piece, SupportRange, Undescribed};
 pub use member::{is_rational_solution, is_solution};
-pub use plain::{MAX_BITS, MAX_FREE, MAX_SLIP, OracleError, coefficient_bits, enumerate, enumerate_with, examine_support};
+pub use plain::{
+    MAX_BITS, MAX_FREE, MAX_SLIP, OracleError, coefficient_bits, enumerate, enumerate_with,
+    examine_support,
+};
 pub use range::MAX_MINORS;
 pub use solution::{Enumeration, Solution, WideKernel};
 pub use table1::{ClosedSolution, TwoParticles, table1, thresholds};

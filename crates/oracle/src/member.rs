@@ -11,12 +11,25 @@ use mceip_model::Pencil;
 /// A vector of another length than the pencil's order is no solution.
 ///
 /// ```
-/// use mceip_exact::{rational, whole, Sparse};
+/// use mceip_exact::{Sparse, rational, whole};
 /// use mceip_model::Pencil;
 /// use mceip_oracle::is_rational_solution;
-/// let pencil = Pencil::new(Sparse::from_ints(&[&[1, -6], &[2, -6]]), Sparse::identity(2), vec![]).unwrap();
-/// assert!(is_rational_solution(&pencil, &whole(2), &[whole(2), whole(1)]));
-/// assert!(!is_rational_solution(&pencil, &rational(2001, 1000), &[whole(2), whole(1)]));
+/// let pencil = Pencil::new(
+///     Sparse::from_ints(&[&[1, -6], &[2, -6]]),
+///     Sparse::identity(2),
+///     vec![],
+/// )
+/// .unwrap();
+/// assert!(is_rational_solution(
+///     &pencil,
+///     &whole(2),
+///     &[whole(2), whole(1)]
+/// ));
+/// assert!(!is_rational_solution(
+///     &pencil,
+///     &rational(2001, 1000),
+///     &[whole(2), whole(1)]
+/// ));
 /// ```
 pub fn is_solution(pencil: &Pencil, value: &Algebraic, x: &[Poly]) -> bool {
     Signs::of(pencil, value, x).is_some_and(|s| s.solves)
@@ -40,7 +53,11 @@ impl Signs {
             return None;
         }
         let mut value = value.clone();
-        let mut signs = Signs { positive: Vec::new(), y_zero: Vec::new(), solves: false };
+        let mut signs = Signs {
+            positive: Vec::new(),
+            y_zero: Vec::new(),
+            solves: false,
+        };
         let (mut holds, mut zero) = (true, true);
         for i in 0..pencil.order() {
             let (s_x, s_y) = (value.sign_of(&x[i]), value.sign_of(&image(pencil, i, x)));
@@ -49,7 +66,10 @@ impl Signs {
                 holds &= s_y == Sign::Zero;
                 continue;
             }
-            holds &= matches!((s_x, s_y), (Sign::Zero, Sign::Zero | Sign::Positive) | (Sign::Positive, Sign::Zero));
+            holds &= matches!(
+                (s_x, s_y),
+                (Sign::Zero, Sign::Zero | Sign::Positive) | (Sign::Positive, Sign::Zero)
+            );
             signs.positive.extend((s_x == Sign::Positive).then_some(i));
             signs.y_zero.extend((s_y == Sign::Zero).then_some(i));
         }
@@ -63,8 +83,15 @@ fn image(pencil: &Pencil, i: usize, x: &[Poly]) -> Poly {
     let row = |m: &Sparse| m.row(i).to_vec();
     let (a, b) = (row(pencil.a()), row(pencil.b()));
     let clear = common_denominator(a.iter().chain(&b).map(|e| &e.1));
-    let term = |(j, v): &(usize, Rational), power: usize| x[*j].scale(&(v.numer() * (&clear / v.denom()))).shift(power);
-    let terms = a.iter().map(|e| term(e, 0)).chain(b.iter().map(|e| term(e, 1)));
+    let term = |(j, v): &(usize, Rational), power: usize| {
+        x[*j]
+            .scale(&(v.numer() * (&clear / v.denom())))
+            .shift(power)
+    };
+    let terms = a
+        .iter()
+        .map(|e| term(e, 0))
+        .chain(b.iter().map(|e| term(e, 1)));
     terms.fold(Poly::default(), |sum, p| &sum + &p)
 }
 
@@ -73,19 +100,29 @@ impl Enumeration {
     /// listed, lies in a cone, or has its value in the range of its support. For a complete
     /// enumeration of `pencil` that is every solution in the window.
     pub fn contains(&self, pencil: &Pencil, value: &Algebraic, x: &[Poly]) -> bool {
-        let Some(signs) = Signs::of(pencil, value, x).filter(|s| s.solves) else { return false };
+        let Some(signs) = Signs::of(pencil, value, x).filter(|s| s.solves) else {
+            return false;
+        };
         let at = |v: &Algebraic| v.clone().equals(&mut value.clone());
         let subset = |a: &[usize], b: &[usize]| a.iter().all(|i| b.contains(i));
-        self.solutions.iter().any(|s| s.slip == signs.positive && at(&s.value) && same_ray(&mut s.value.clone(), &s.x, x))
-            || self.cones.iter().any(|c| subset(&signs.positive, &c.slip) && subset(&c.slip, &signs.y_zero) && at(&c.value))
-            || self.ranges.iter().any(|r| r.support == signs.positive && r.contains(value))
+        self.solutions.iter().any(|s| {
+            s.slip == signs.positive && at(&s.value) && same_ray(&mut s.value.clone(), &s.x, x)
+        }) || self.cones.iter().any(|c| {
+            subset(&signs.positive, &c.slip) && subset(&c.slip, &signs.y_zero) && at(&c.value)
+        }) || self
+            .ranges
+            .iter()
+            .any(|r| r.support == signs.positive && r.contains(value))
     }
 }
 
 /// Do two non-zero vectors agree up to a positive factor?
 fn same_ray(value: &mut Algebraic, u: &[Poly], v: &[Poly]) -> bool {
-    let Some(k) = (0..u.len()).find(|&k| value.sign_of(&u[k]) != Sign::Zero) else { return false };
-    let parallel = (0..u.len()).all(|i| value.sign_of(&(&(&u[k] * &v[i]) - &(&u[i] * &v[k]))) == Sign::Zero);
+    let Some(k) = (0..u.len()).find(|&k| value.sign_of(&u[k]) != Sign::Zero) else {
+        return false;
+    };
+    let parallel =
+        (0..u.len()).all(|i| value.sign_of(&(&(&u[k] * &v[i]) - &(&u[i] * &v[k]))) == Sign::Zero);
     u.len() == v.len() && parallel && value.sign_of(&u[k]) == value.sign_of(&v[k])
 }
 
@@ -101,11 +138,23 @@ impl PartialEq for Solution {
 /// Equal as sets: values, supports, rays and lineality spaces, whose forms are canonical.
 impl PartialEq for Cone {
     fn eq(&self, other: &Cone) -> bool {
-        (&self.slip, &self.biactive, self.dimension, self.lineality.len())
-            == (&other.slip, &other.biactive, other.dimension, other.lineality.len())
-            && self.value.clone().equals(&mut other.value.clone())
+        (
+            &self.slip,
+            &self.biactive,
+            self.dimension,
+            self.lineality.len(),
+        ) == (
+            &other.slip,
+            &other.biactive,
+            other.dimension,
+            other.lineality.len(),
+        ) && self.value.clone().equals(&mut other.value.clone())
             && self.rays == other.rays
-            && self.lineality.iter().zip(&other.lineality).all(|(a, b)| same_ray(&mut self.value.clone(), a, b))
+            && self
+                .lineality
+                .iter()
+                .zip(&other.lineality)
+                .all(|(a, b)| same_ray(&mut self.value.clone(), a, b))
     }
 }
 

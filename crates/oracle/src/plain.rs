@@ -59,15 +59,37 @@ pub fn enumerate_with(
     mut progress: impl FnMut(u64, u64) -> ControlFlow<()>,
 ) -> Result<Enumeration, OracleError> {
     let slip = pencil.slip();
-    let at_most = |what, limit, got| if got > limit { Err(OracleError::TooLarge { what, limit, got }) } else { Ok(()) };
+    let at_most = |what, limit, got| {
+        if got > limit {
+            Err(OracleError::TooLarge { what, limit, got })
+        } else {
+            Ok(())
+        }
+    };
     at_most("slip variables", MAX_SLIP as u64, slip.len() as u64)?;
-    at_most("free variables", MAX_FREE as u64, pencil.free().len() as u64)?;
+    at_most(
+        "free variables",
+        MAX_FREE as u64,
+        pencil.free().len() as u64,
+    )?;
     let integral = Integral::of(pencil);
-    at_most("bits of a determinant's coefficients", MAX_BITS, integral.coefficient_bits())?;
+    at_most(
+        "bits of a determinant's coefficients",
+        MAX_BITS,
+        integral.coefficient_bits(),
+    )?;
     let total = 1u64 << slip.len();
-    let mut found = Enumeration { supports_total: total, ..Enumeration::default() };
+    let mut found = Enumeration {
+        supports_total: total,
+        ..Enumeration::default()
+    };
     for subset in 0..total {
-        let support: Vec<usize> = slip.iter().enumerate().filter(|(k, _)| subset >> k & 1 == 1).map(|(_, &i)| i).collect();
+        let support: Vec<usize> = slip
+            .iter()
+            .enumerate()
+            .filter(|(k, _)| subset >> k & 1 == 1)
+            .map(|(_, &i)| i)
+            .collect();
         examine(&integral, &support, window, &mut found);
         found.describe_new(&integral, window); // wide kernels and singular pencils, if any were met
         found.supports_done += 1;
@@ -79,7 +101,8 @@ pub fn enumerate_with(
     Ok(found)
 }
 
-/// log2 of a bound of every coefficient of every support's determinant; [`enumerate`] takes at most [`MAX_BITS`].
+/// log2 of a bound of every coefficient of every support's determinant; [`enumerate`] takes at most
+/// [`MAX_BITS`].
 pub fn coefficient_bits(pencil: &Pencil) -> u64 {
     Integral::of(pencil).coefficient_bits()
 }
@@ -88,7 +111,12 @@ pub fn coefficient_bits(pencil: &Pencil) -> u64 {
 /// through supports in their own way; nothing is sorted, no limit is checked.
 ///
 /// `support` lists complementarity variables, ascending.
-pub fn examine_support(pencil: &Pencil, support: &[usize], window: &Window, found: &mut Enumeration) {
+pub fn examine_support(
+    pencil: &Pencil,
+    support: &[usize],
+    window: &Window,
+    found: &mut Enumeration,
+) {
     examine(&Integral::of(pencil), support, window, found);
 }
 
@@ -107,9 +135,20 @@ fn examine(pencil: &Integral<'_>, support: &[usize], window: &Window, found: &mu
         match &kernel[..] {
             [vector] => {
                 let multiplicity = multiplicity(&det, &mut value);
-                found.solutions.extend(admissible(pencil, support, &active, vector, value, multiplicity));
+                found.solutions.extend(admissible(
+                    pencil,
+                    support,
+                    &active,
+                    vector,
+                    value,
+                    multiplicity,
+                ));
             }
-            wide => found.wide.push(WideKernel { value, support: support.to_vec(), dimension: wide.len() }),
+            wide => found.wide.push(WideKernel {
+                value,
+                support: support.to_vec(),
+                dimension: wide.len(),
+            }),
         }
     }
 }
@@ -134,9 +173,15 @@ fn admissible(
         None => vec![1, -1],
     };
     let oriented = orientations.into_iter().filter_map(|sign| {
-        let x: Vec<Poly> = x.iter().map(|p| if sign == 1 { p.clone() } else { -p }).collect();
+        let x: Vec<Poly> = x
+            .iter()
+            .map(|p| if sign == 1 { p.clone() } else { -p })
+            .collect();
         let mut value = value.clone();
-        if support.iter().any(|&i| value.sign_of(&x[i]) != Sign::Positive) {
+        if support
+            .iter()
+            .any(|&i| value.sign_of(&x[i]) != Sign::Positive)
+        {
             return None;
         }
         let y = pencil.times(&x);
@@ -148,7 +193,14 @@ fn admissible(
                 Sign::Positive => {}
             }
         }
-        Some(Solution { value, multiplicity, slip: support.to_vec(), biactive, x, y })
+        Some(Solution {
+            value,
+            multiplicity,
+            slip: support.to_vec(),
+            biactive,
+            x,
+            y,
+        })
     });
     oriented.collect()
 }
@@ -175,16 +227,27 @@ mod tests {
 
     fn summary(p: &Pencil) -> Vec<(String, Vec<usize>, Vec<usize>)> {
         let found = enumerate(p, &Window::all()).unwrap();
-        found.solutions.iter().map(|s| (s.decimal(8), s.slip.clone(), s.biactive.clone())).collect()
+        found
+            .solutions
+            .iter()
+            .map(|s| (s.decimal(8), s.slip.clone(), s.biactive.clone()))
+            .collect()
     }
 
-    /// The fold of `spec/errata.md`: no MCEIP-mu solution, yet two MCEIP-lambda2 solutions at mu = 2.
+    /// The fold of `spec/errata.md`: no MCEIP-mu solution, yet two MCEIP-lambda2 solutions at mu =
+    /// 2.
     #[test]
     fn the_fold_counterexample() {
         let mu = pencil(&[&[1, 0], &[0, 2]], &[&[0, -3], &[1, -4]], &[]);
         assert!(summary(&mu).is_empty());
         let lambda2 = pencil(&[&[1, -6], &[2, -6]], &[&[1, 0], &[0, 1]], &[]);
-        assert_eq!(summary(&lambda2), vec![("2".into(), vec![0, 1], vec![]), ("3".into(), vec![0, 1], vec![])]);
+        assert_eq!(
+            summary(&lambda2),
+            vec![
+                ("2".into(), vec![0, 1], vec![]),
+                ("3".into(), vec![0, 1], vec![])
+            ]
+        );
     }
 
     #[test]
@@ -199,29 +262,72 @@ mod tests {
         let found = |y_1: i64| summary(&pencil(&[&[-1, 0], &[y_1, -3]], &[&[1, 0], &[0, 1]], &[]));
         let only_the_other = vec![("3".into(), vec![1], vec![0])];
         assert_eq!(found(-1), only_the_other);
-        assert_eq!(found(1)[..2], [("1".into(), vec![0], vec![]), ("1".into(), vec![0, 1], vec![])]);
+        assert_eq!(
+            found(1)[..2],
+            [
+                ("1".into(), vec![0], vec![]),
+                ("1".into(), vec![0, 1], vec![])
+            ]
+        );
     }
 
     #[test]
     fn degenerate_cases_are_reported_as_such() {
         // A = -I, B = I: at t = 1 every vector is in the kernel.
-        let wide = enumerate(&pencil(&[&[-1, 0], &[0, -1]], &[&[1, 0], &[0, 1]], &[]), &Window::all()).unwrap();
-        assert_eq!(wide.wide.iter().map(|w| (w.support.clone(), w.dimension)).collect::<Vec<_>>(), vec![(vec![0, 1], 2)]);
+        let wide = enumerate(
+            &pencil(&[&[-1, 0], &[0, -1]], &[&[1, 0], &[0, 1]], &[]),
+            &Window::all(),
+        )
+        .unwrap();
+        assert_eq!(
+            wide.wide
+                .iter()
+                .map(|w| (w.support.clone(), w.dimension))
+                .collect::<Vec<_>>(),
+            vec![(vec![0, 1], 2)]
+        );
         assert_eq!(wide.solutions.len(), 2); // the two edges, each biactive in the other
         assert!(wide.is_complete_list() && !wide.is_plain_list());
-        assert_eq!(wide.cones.iter().map(|c| (c.slip.clone(), c.dimension, c.rays.len())).collect::<Vec<_>>(), vec![(vec![0, 1], 2, 2)]);
-        let singular = enumerate(&pencil(&[&[1, -1], &[-1, 1]], &[&[0, 0], &[0, 0]], &[]), &Window::all()).unwrap();
+        assert_eq!(
+            wide.cones
+                .iter()
+                .map(|c| (c.slip.clone(), c.dimension, c.rays.len()))
+                .collect::<Vec<_>>(),
+            vec![(vec![0, 1], 2, 2)]
+        );
+        let singular = enumerate(
+            &pencil(&[&[1, -1], &[-1, 1]], &[&[0, 0], &[0, 0]], &[]),
+            &Window::all(),
+        )
+        .unwrap();
         assert_eq!(singular.continua, vec![vec![0, 1]]);
     }
 
     #[test]
     fn repeated_roots_carry_their_multiplicity() {
         // A Jordan block: (t-1)^2, kernel of dimension 1.
-        let found = enumerate(&pencil(&[&[-1, -1], &[0, -1]], &[&[1, 0], &[0, 1]], &[]), &Window::all()).unwrap();
+        let found = enumerate(
+            &pencil(&[&[-1, -1], &[0, -1]], &[&[1, 0], &[0, 1]], &[]),
+            &Window::all(),
+        )
+        .unwrap();
         assert_eq!(found.solutions.len(), 1);
-        assert_eq!((found.solutions[0].slip.clone(), found.solutions[0].multiplicity), (vec![0], 1));
-        let free = enumerate(&pencil(&[&[-1, 1], &[0, -1]], &[&[1, 0], &[0, 1]], &[0, 1]), &Window::all()).unwrap();
-        assert_eq!((free.solutions.len(), free.solutions[0].multiplicity), (2, 2)); // x and -x
+        assert_eq!(
+            (
+                found.solutions[0].slip.clone(),
+                found.solutions[0].multiplicity
+            ),
+            (vec![0], 1)
+        );
+        let free = enumerate(
+            &pencil(&[&[-1, 1], &[0, -1]], &[&[1, 0], &[0, 1]], &[0, 1]),
+            &Window::all(),
+        )
+        .unwrap();
+        assert_eq!(
+            (free.solutions.len(), free.solutions[0].multiplicity),
+            (2, 2)
+        ); // x and -x
     }
 
     #[test]
@@ -229,31 +335,64 @@ mod tests {
         // Free variable 0 with value 1; y_1 = -x_0 >= 0 needs x_0 < 0.
         let p = pencil(&[&[-1, 0], &[-1, 1]], &[&[1, 0], &[0, 1]], &[0]);
         let found = enumerate(&p, &Window::all()).unwrap();
-        let found = found.solutions.iter().map(|s| s.x_decimals(&[1], 5)).collect::<Vec<_>>();
+        let found = found
+            .solutions
+            .iter()
+            .map(|s| s.x_decimals(&[1], 5))
+            .collect::<Vec<_>>();
         assert_eq!(found, vec![vec!["-1", "0"], vec!["2", "1"]]); // l1 norm 1; e'x_s = 1
         // Nothing depends on the sign: two rays, x and -x.
         let p = pencil(&[&[-1, 0], &[0, -5]], &[&[1, 0], &[0, 1]], &[0]);
-        let x: Vec<_> = enumerate(&p, &Window::all()).unwrap().solutions.iter().map(|s| s.x_decimals(&[1], 5)).collect();
+        let x: Vec<_> = enumerate(&p, &Window::all())
+            .unwrap()
+            .solutions
+            .iter()
+            .map(|s| s.x_decimals(&[1], 5))
+            .collect();
         assert_eq!(x, vec![vec!["1", "0"], vec!["-1", "0"], vec!["0", "1"]]);
     }
 
     #[test]
     fn the_window_is_closed_and_limits_are_said() {
         let p = pencil(&[&[-2]], &[&[1]], &[]);
-        let count = |a: i64, b: i64| enumerate(&p, &Window::new(whole(a), Some(whole(b))).unwrap()).unwrap().solutions.len();
+        let count = |a: i64, b: i64| {
+            enumerate(&p, &Window::new(whole(a), Some(whole(b))).unwrap())
+                .unwrap()
+                .solutions
+                .len()
+        };
         assert_eq!((count(0, 2), count(2, 9), count(0, 1)), (1, 1, 0));
         let window = Window::new(rational(21, 10), None).unwrap();
         assert!(enumerate(&p, &window).unwrap().solutions.is_empty());
         let large = Pencil::new(Sparse::identity(17), Sparse::identity(17), vec![]).unwrap();
-        assert!(matches!(enumerate(&large, &Window::all()), Err(OracleError::TooLarge { limit: 16, got: 17, .. })));
+        assert!(matches!(
+            enumerate(&large, &Window::all()),
+            Err(OracleError::TooLarge {
+                limit: 16,
+                got: 17,
+                ..
+            })
+        ));
     }
 
     #[test]
     fn an_interrupted_run_says_how_far_it_came() {
         let p = pencil(&[&[-2, 0], &[0, -3]], &[&[1, 0], &[0, 1]], &[]);
-        let found =
-            enumerate_with(&p, &Window::all(), |done, _| if done == 2 { ControlFlow::Break(()) } else { ControlFlow::Continue(()) });
+        let found = enumerate_with(&p, &Window::all(), |done, _| {
+            if done == 2 {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        });
         let found = found.unwrap();
-        assert_eq!((found.supports_done, found.is_finished(), found.solutions.len()), (2, false, 1));
+        assert_eq!(
+            (
+                found.supports_done,
+                found.is_finished(),
+                found.solutions.len()
+            ),
+            (2, false, 1)
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! What the enumerator finds: solutions by their exact support, cones, ranges, and what it met on the way.
+//! What the enumerator finds: solutions by their exact support, cones, ranges, and what it met on
+//! the way.
 
 use super::integral::Integral;
 use super::{Cone, SupportRange, Undescribed, cone, range};
@@ -13,7 +14,8 @@ use mceip_model::{Pencil, Window};
 pub struct Solution {
     /// t: lambda^2 or mu.
     pub value: Algebraic,
-    /// How often `value` is a root of the determinant of its support; 0 where that vanishes identically.
+    /// How often `value` is a root of the determinant of its support; 0 where that vanishes
+    /// identically.
     pub multiplicity: usize,
     /// Indices of complementarity variables with x_i > 0, ascending.
     pub slip: Vec<usize>,
@@ -26,8 +28,8 @@ pub struct Solution {
 }
 
 impl Solution {
-    /// Is x_s = 0? The hypotheses of Propositions 1 and 2 (K_ff, for lambda^2 also M_ff, definite) exclude
-    /// such solutions, so they occur for raw pencils only, and the MCP does not find them.
+    /// Is x_s = 0? The hypotheses of Propositions 1 and 2 (K_ff, for lambda^2 also M_ff, definite)
+    /// exclude such solutions, so they occur for raw pencils only, and the MCP does not find them.
     pub fn is_free_only(&self) -> bool {
         self.slip.is_empty()
     }
@@ -41,17 +43,29 @@ impl Solution {
     pub fn x_decimals(&self, constrained: &[usize], digits: usize) -> Vec<String> {
         let mut value = self.value.clone();
         let norm = self.normaliser(constrained);
-        self.x.iter().map(|p| ratio_to_decimal(&mut value, p, &norm, digits)).collect()
+        self.x
+            .iter()
+            .map(|p| ratio_to_decimal(&mut value, p, &norm, digits))
+            .collect()
     }
 
     /// The polynomial whose value x is divided by: e'x_s, or the l1 norm for free-only solutions.
     pub fn normaliser(&self, constrained: &[usize]) -> Poly {
         let add = |a: Poly, b: &Poly| &a + b;
         if !self.slip.is_empty() {
-            return constrained.iter().map(|&i| &self.x[i]).fold(Poly::default(), add);
+            return constrained
+                .iter()
+                .map(|&i| &self.x[i])
+                .fold(Poly::default(), add);
         }
         let mut value = self.value.clone();
-        let signed = self.x.iter().map(|p| if value.sign_of(p) == mceip_exact::Sign::Negative { -p } else { p.clone() });
+        let signed = self.x.iter().map(|p| {
+            if value.sign_of(p) == mceip_exact::Sign::Negative {
+                -p
+            } else {
+                p.clone()
+            }
+        });
         signed.fold(Poly::default(), |a, b| &a + &b)
     }
 }
@@ -99,7 +113,9 @@ impl Enumeration {
 
     /// Is this the complete answer: all supports examined, and everything met described?
     pub fn is_complete_list(&self) -> bool {
-        self.is_finished() && self.described == (self.wide.len(), self.continua.len()) && self.undescribed.is_empty()
+        self.is_finished()
+            && self.described == (self.wide.len(), self.continua.len())
+            && self.undescribed.is_empty()
     }
 
     /// Is the answer a plain list: nothing but `solutions`?
@@ -115,9 +131,11 @@ impl Enumeration {
             || self.ranges.iter().any(|r| r.support.is_empty())
     }
 
-    /// Dimension of the kernel that a listed solution comes from: 1 unless it was met as a wide kernel.
+    /// Dimension of the kernel that a listed solution comes from: 1 unless it was met as a wide
+    /// kernel.
     pub fn kernel_dimension(&self, s: &Solution) -> usize {
-        let same = |w: &&WideKernel| w.support == s.slip && w.value.clone().equals(&mut s.value.clone());
+        let same =
+            |w: &&WideKernel| w.support == s.slip && w.value.clone().equals(&mut s.value.clone());
         self.wide.iter().find(same).map_or(1, |w| w.dimension)
     }
 
@@ -133,7 +151,10 @@ impl Enumeration {
             all.continua.extend(part.continua);
             all.supports_done += part.supports_done;
             all.supports_total = all.supports_total.max(part.supports_total);
-            all.described = (all.described.0 + part.described.0, all.described.1 + part.described.1);
+            all.described = (
+                all.described.0 + part.described.0,
+                all.described.1 + part.described.1,
+            );
         }
         all.finish();
         all
@@ -141,7 +162,8 @@ impl Enumeration {
 
     /// Describes the wide kernels and singular supports named in `wide` and `continua` and not yet
     /// described, and puts everything into canonical order. [`super::enumerate`] has done it; who
-    /// fills an answer by hand (solutions of kernels of dimension 1, `wide`, `continua`) calls it at the end.
+    /// fills an answer by hand (solutions of kernels of dimension 1, `wide`, `continua`) calls it
+    /// at the end.
     pub fn describe(&mut self, pencil: &Pencil, window: &Window) {
         self.describe_new(&Integral::of(pencil), window);
         self.finish();
@@ -164,9 +186,12 @@ impl Enumeration {
     pub(super) fn finish(&mut self) {
         cone::keep_maximal(&mut self.cones);
         let compare = |a: &Algebraic, b: &Algebraic| a.clone().cmp_exact(&mut b.clone());
-        self.solutions.sort_by(|a, b| compare(&a.value, &b.value).then_with(|| a.slip.cmp(&b.slip)));
-        self.cones.sort_by(|a, b| compare(&a.value, &b.value).then_with(|| a.slip.cmp(&b.slip)));
-        self.wide.sort_by(|a, b| compare(&a.value, &b.value).then_with(|| a.support.cmp(&b.support)));
+        self.solutions
+            .sort_by(|a, b| compare(&a.value, &b.value).then_with(|| a.slip.cmp(&b.slip)));
+        self.cones
+            .sort_by(|a, b| compare(&a.value, &b.value).then_with(|| a.slip.cmp(&b.slip)));
+        self.wide
+            .sort_by(|a, b| compare(&a.value, &b.value).then_with(|| a.support.cmp(&b.support)));
         self.ranges.sort_by(|a, b| a.support.cmp(&b.support));
         self.undescribed.sort_by(|a, b| a.support.cmp(&b.support));
         self.continua.sort();

@@ -49,13 +49,20 @@ pub fn table1(data: &TwoParticles) -> Vec<ClosedSolution> {
     match data.signs {
         (s1, s2) if s1 == s2 => {
             let d = Rational::one() + &q * &q;
-            slip_slip(-p, d, &(&q * whole(s1.into())), &unit).into_iter().collect()
+            slip_slip(-p, d, &(&q * whole(s1.into())), &unit)
+                .into_iter()
+                .collect()
         }
         (1, _) => {
-            let one_slips = [(vec![0], [1, 0]), (vec![1], [0, 1])].map(|(slip, x)| (&q - &p, slip, x));
+            let one_slips =
+                [(vec![0], [1, 0]), (vec![1], [0, 1])].map(|(slip, x)| (&q - &p, slip, x));
             let both_slip = (&q - &p - Rational::one(), vec![0, 1], [1, 1]);
-            let all = one_slips.into_iter().chain([both_slip]).filter(|(t, _, _)| !t.is_negative());
-            all.map(|(t, slip, x)| rational_solution(t * &unit, x, slip)).collect()
+            let all = one_slips
+                .into_iter()
+                .chain([both_slip])
+                .filter(|(t, _, _)| !t.is_negative());
+            all.map(|(t, slip, x)| rational_solution(t * &unit, x, slip))
+                .collect()
         }
         _ => Vec::new(),
     }
@@ -76,12 +83,17 @@ pub fn thresholds(data: &TwoParticles) -> Option<Vec<ClosedSolution>> {
             if data.s.is_zero() {
                 return Some(Vec::new());
             }
-            // q^2 = p^2 - 1 = c^2 (c^2 + 2); x_2 / x_1 = sqrt(1 + q^2) - S q = p - S c sqrt(c^2 + 2).
+            // q^2 = p^2 - 1 = c^2 (c^2 + 2); x_2 / x_1 = sqrt(1 + q^2) - S q = p - S c sqrt(c^2 +
+            // 2).
             let d = &p + Rational::one();
             let value = Quadratic::new(Rational::zero(), data.s.recip(), d.clone())?;
             let x1 = value.embed(Rational::one());
             let x2 = Quadratic::new(p, -&data.c * whole(s1.into()), d)?;
-            vec![ClosedSolution { value, x: [x1, x2], slip: vec![0, 1] }]
+            vec![ClosedSolution {
+                value,
+                x: [x1, x2],
+                slip: vec![0, 1],
+            }]
         }
         (1, _) if !cs.is_zero() => vec![
             rational_solution(&p / &cs, [1, 0], vec![0]),
@@ -93,19 +105,32 @@ pub fn thresholds(data: &TwoParticles) -> Option<Vec<ClosedSolution>> {
 }
 
 /// t = a + sqrt(d) in units of `unit`, with x = (1, sqrt(d) - q S), if t >= 0.
-fn slip_slip(a: Rational, d: Rational, q_signed: &Rational, unit: &Rational) -> Option<ClosedSolution> {
+fn slip_slip(
+    a: Rational,
+    d: Rational,
+    q_signed: &Rational,
+    unit: &Rational,
+) -> Option<ClosedSolution> {
     let t = Quadratic::new(a, Rational::one(), d.clone())?;
     if t.sign() == Sign::Negative {
         return None;
     }
     let x2 = Quadratic::new(-q_signed, Rational::one(), d)?;
-    Some(ClosedSolution { value: t.scale(unit), x: [t.embed(Rational::one()), x2], slip: vec![0, 1] })
+    Some(ClosedSolution {
+        value: t.scale(unit),
+        x: [t.embed(Rational::one()), x2],
+        slip: vec![0, 1],
+    })
 }
 
 fn rational_solution(value: Rational, x: [i64; 2], slip: Vec<usize>) -> ClosedSolution {
     // d = 0: the field is Q itself.
     let embed = |v: Rational| Quadratic::embed_rational(v);
-    ClosedSolution { value: embed(value), x: x.map(|v| embed(whole(v))), slip }
+    ClosedSolution {
+        value: embed(value),
+        x: x.map(|v| embed(whole(v))),
+        slip,
+    }
 }
 
 #[cfg(test)]
@@ -114,7 +139,14 @@ mod tests {
     use mceip_exact::rational;
 
     fn data(mu: Rational, signs: (i8, i8)) -> TwoParticles {
-        TwoParticles { c: rational(3, 5), s: rational(4, 5), k: whole(1), m: whole(1), mu, signs }
+        TwoParticles {
+            c: rational(3, 5),
+            s: rational(4, 5),
+            k: whole(1),
+            m: whole(1),
+            mu,
+            signs,
+        }
     }
 
     #[test]
@@ -128,29 +160,51 @@ mod tests {
         assert_eq!(count((&p + whole(1)) / &cs - &tiny, (1, -1)), 2);
         assert_eq!(count((&p + whole(1)) / &cs, (1, -1)), 3);
         assert_eq!(count(whole(1000), (-1, 1)), 0);
-        assert_eq!((count(rational(19, 10), (1, 1)), count(rational(21, 10), (1, 1)), count(rational(21, 10), (-1, -1))), (0, 1, 1));
+        assert_eq!(
+            (
+                count(rational(19, 10), (1, 1)),
+                count(rational(21, 10), (1, 1)),
+                count(rational(21, 10), (-1, -1))
+            ),
+            (0, 1, 1)
+        );
     }
 
     #[test]
     fn vertical_springs_are_at_the_threshold_for_every_friction() {
-        let vertical = TwoParticles { c: whole(0), s: whole(1), ..data(rational(1, 7), (1, 1)) };
+        let vertical = TwoParticles {
+            c: whole(0),
+            s: whole(1),
+            ..data(rational(1, 7), (1, 1))
+        };
         let found = table1(&vertical);
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].value.sign(), Sign::Zero);
         assert!(thresholds(&vertical).is_none());
-        let horizontal = TwoParticles { c: whole(1), s: whole(0), ..data(whole(100), (1, 1)) };
+        let horizontal = TwoParticles {
+            c: whole(1),
+            s: whole(0),
+            ..data(whole(100), (1, 1))
+        };
         assert!(table1(&horizontal).is_empty());
         assert_eq!(thresholds(&horizontal).map(|t| t.len()), Some(0));
     }
 
-    /// The 2x2 problem of the heading with t = lambda^2 m / k and q = mu c s, exactly: is x a solution with support `slip`?
+    /// The 2x2 problem of the heading with t = lambda^2 m / k and q = mu c s, exactly: is x a
+    /// solution with support `slip`?
     fn solves(data: &TwoParticles, t: &Quadratic, q: &Quadratic, s: &ClosedSolution) {
         let (s1, s2) = (whole(data.signs.0.into()), whole(data.signs.1.into()));
         let diagonal = t.add(&t.embed(&data.c * &data.c + whole(1)));
         let off = -&s1 * &s2;
         let y = [
-            diagonal.add(&q.scale(&-s1)).mul(&s.x[0]).add(&s.x[1].scale(&off)),
-            diagonal.add(&q.scale(&s2)).mul(&s.x[1]).add(&s.x[0].scale(&off)),
+            diagonal
+                .add(&q.scale(&-s1))
+                .mul(&s.x[0])
+                .add(&s.x[1].scale(&off)),
+            diagonal
+                .add(&q.scale(&s2))
+                .mul(&s.x[1])
+                .add(&s.x[0].scale(&off)),
         ];
         for i in 0..2 {
             let signs = (s.x[i].sign(), y[i].sign());
@@ -168,7 +222,11 @@ mod tests {
         let mut seen = 0;
         for mu in [rational(21, 10), whole(5), whole(9)] {
             for signs in [(1, 1), (-1, -1), (1, -1)] {
-                let data = TwoParticles { k: whole(7), m: rational(5, 3), ..data(mu.clone(), signs) };
+                let data = TwoParticles {
+                    k: whole(7),
+                    m: rational(5, 3),
+                    ..data(mu.clone(), signs)
+                };
                 for s in table1(&data) {
                     let t = s.value.scale(&(&data.m / &data.k));
                     solves(&data, &t, &t.embed(&data.mu * &data.c * &data.s), &s);
@@ -187,11 +245,24 @@ mod tests {
             let list = thresholds(&data).unwrap();
             assert_eq!(list.len(), count);
             for s in list {
-                solves(&data, &s.value.embed(whole(0)), &s.value.scale(&(&data.c * &data.s)), &s);
+                solves(
+                    &data,
+                    &s.value.embed(whole(0)),
+                    &s.value.scale(&(&data.c * &data.s)),
+                    &s,
+                );
             }
         }
         for (c, s) in [(whole(0), whole(1)), (whole(1), whole(0))] {
-            assert_eq!(thresholds(&TwoParticles { c, s, ..data(whole(1), (1, -1)) }).map(|t| t.len()), Some(0));
+            assert_eq!(
+                thresholds(&TwoParticles {
+                    c,
+                    s,
+                    ..data(whole(1), (1, -1))
+                })
+                .map(|t| t.len()),
+                Some(0)
+            );
         }
     }
 }

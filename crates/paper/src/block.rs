@@ -28,8 +28,12 @@ pub struct Block {
 impl Block {
     /// The 800-element block of the paper, [`BlockModel::of_the_paper`] with this mass.
     pub fn of_the_paper(kind: MassKind) -> Block {
-        let model = BlockModel { mass: kind, ..BlockModel::of_the_paper() };
-        Block::new(&model).expect("200 cells of a material that exists: counts_of_the_paper builds them")
+        let model = BlockModel {
+            mass: kind,
+            ..BlockModel::of_the_paper()
+        };
+        Block::new(&model)
+            .expect("200 cells of a material that exists: counts_of_the_paper builds them")
     }
 
     /// Meshes and assembles a block. Nodes are numbered along the shorter side first.
@@ -39,9 +43,16 @@ impl Block {
     ///
     /// ```
     /// use mceip_paper::{Block, BlockModel, MeshKind, Plane};
-    /// let model = BlockModel { mesh: MeshKind::UnionJack, plane: Plane::Strain, ..BlockModel::of_the_paper().with_cells(8, 3) };
+    /// let model = BlockModel {
+    ///     mesh: MeshKind::UnionJack,
+    ///     plane: Plane::Strain,
+    ///     ..BlockModel::of_the_paper().with_cells(8, 3)
+    /// };
     /// let block = Block::new(&model).unwrap();
-    /// assert_eq!((block.triangles, block.contact.len(), block.stiffness.rows()), (48, 9, 54));
+    /// assert_eq!(
+    ///     (block.triangles, block.contact.len(), block.stiffness.rows()),
+    ///     (48, 9, 54)
+    /// );
     /// ```
     pub fn new(model: &BlockModel) -> Result<Block, SourceError> {
         model.validate()?;
@@ -54,24 +65,54 @@ impl Block {
     ///
     /// # Errors
     /// [`ModelError`] for a number of states other than that of contact nodes, or bad friction.
-    pub fn system(&self, states: &[ContactState], friction: Option<Rational>) -> Result<System, ModelError> {
+    pub fn system(
+        &self,
+        states: &[ContactState],
+        friction: Option<Rational>,
+    ) -> Result<System, ModelError> {
         if states.len() != self.contact.len() {
             let (expected_rows, rows) = (self.contact.len(), states.len());
-            return Err(ModelError::Shape { equation: "E9", what: "contact states", expected_rows, expected_cols: 1, rows, cols: 1 });
+            return Err(ModelError::Shape {
+                equation: "E9",
+                what: "contact states",
+                expected_rows,
+                expected_cols: 1,
+                rows,
+                cols: 1,
+            });
         }
-        let particle =
-            |(&node, &state): (&usize, &ContactState)| Particle { normal_direction: -1, ..Particle::plain(2 * node, 2 * node + 1, state) };
+        let particle = |(&node, &state): (&usize, &ContactState)| Particle {
+            normal_direction: -1,
+            ..Particle::plain(2 * node, 2 * node + 1, state)
+        };
         let particles = self.contact.iter().zip(states).map(particle).collect();
-        System::new(self.stiffness.clone(), Some(self.mass.clone()), friction, particles)
+        System::new(
+            self.stiffness.clone(),
+            Some(self.mass.clone()),
+            friction,
+            particles,
+        )
     }
 
     /// The MCEIP-mu problem at these contact states; with friction given, MCEIP-lambda2 at that mu.
     ///
     /// # Errors
     /// As [`Block::system`]; also for states without an impending slip.
-    pub fn problem(&self, states: &[ContactState], friction: Option<Rational>) -> Result<Problem, ModelError> {
-        let unknown = if friction.is_some() { Unknown::Lambda2 } else { Unknown::Mu };
-        Problem::new(Body::System(self.system(states, friction)?), unknown, Window::all())
+    pub fn problem(
+        &self,
+        states: &[ContactState],
+        friction: Option<Rational>,
+    ) -> Result<Problem, ModelError> {
+        let unknown = if friction.is_some() {
+            Unknown::Lambda2
+        } else {
+            Unknown::Mu
+        };
+        Problem::new(
+            Body::System(self.system(states, friction)?),
+            unknown,
+            Window::all(),
+        )
     }
 
     /// States of a block that slides to the left: the first `stick` nodes stuck, the next `slip`
@@ -79,7 +120,11 @@ impl Block {
     ///
     /// # Errors
     /// [`SourceError::TooManyContacts`].
-    pub fn sliding_states(&self, stick: usize, slip: usize) -> Result<Vec<ContactState>, SourceError> {
+    pub fn sliding_states(
+        &self,
+        stick: usize,
+        slip: usize,
+    ) -> Result<Vec<ContactState>, SourceError> {
         let nodes = self.contact.len();
         let touching = stick.checked_add(slip).filter(|&n| n <= nodes);
         let touching = touching.ok_or(SourceError::TooManyContacts { nodes, stick, slip })?;
@@ -96,7 +141,10 @@ impl Block {
     ///
     /// # Errors
     /// [`SourceError::TooManyContacts`].
-    pub fn sliding_states_with_tenth_stuck(&self, slip: usize) -> Result<Vec<ContactState>, SourceError> {
+    pub fn sliding_states_with_tenth_stuck(
+        &self,
+        slip: usize,
+    ) -> Result<Vec<ContactState>, SourceError> {
         let stick = ((self.contact.len() + 5) / 10).min(slip);
         self.sliding_states(stick, slip - stick)
     }
@@ -114,13 +162,25 @@ fn assemble(model: &BlockModel, mesh: &Mesh) -> Block {
     for triangle in &mesh.triangles {
         let shape = mesh.shape(triangle);
         let (ke, me) = shapes.entry(shape).or_insert_with(|| {
-            let p = [place(0, 0), place(shape[0].0, shape[0].1), place(shape[1].0, shape[1].1)];
-            let me = (0..3).map(|a| (0..3).map(|b| mass(&p, &model.material, model.mass, a, b)).collect()).collect();
+            let p = [
+                place(0, 0),
+                place(shape[0].0, shape[0].1),
+                place(shape[1].0, shape[1].1),
+            ];
+            let me = (0..3)
+                .map(|a| {
+                    (0..3)
+                        .map(|b| mass(&p, &model.material, model.mass, a, b))
+                        .collect()
+                })
+                .collect();
             (stiffness(&p, &model.material, model.plane), me)
         });
         for (i, row) in ke.iter().enumerate() {
             for (j, value) in row.iter().enumerate() {
-                let (Some(di), Some(dj)) = (mesh.dof(triangle, i), mesh.dof(triangle, j)) else { continue };
+                let (Some(di), Some(dj)) = (mesh.dof(triangle, i), mesh.dof(triangle, j)) else {
+                    continue;
+                };
                 k.push((di, dj, value.clone()));
                 if i % 2 == j % 2 {
                     m.push((di, dj, me[i / 2][j / 2].clone()));
@@ -128,7 +188,11 @@ fn assemble(model: &BlockModel, mesh: &Mesh) -> Block {
             }
         }
     }
-    let kept = mesh.points.iter().zip(&mesh.number).filter(|(_, n)| n.is_some());
+    let kept = mesh
+        .points
+        .iter()
+        .zip(&mesh.number)
+        .filter(|(_, n)| n.is_some());
     let nodes: Vec<Point> = kept.map(|(p, _)| place(p.0.into(), p.1.into())).collect();
     let dofs = 2 * nodes.len();
     Block {
@@ -148,33 +212,80 @@ mod tests {
 
     fn small(nx: usize, ny: usize, mass: MassKind) -> BlockModel {
         let cell = (whole(2), whole(2));
-        BlockModel { cells: (nx, ny), cell, mass, ..BlockModel::of_the_paper() }
+        BlockModel {
+            cells: (nx, ny),
+            cell,
+            mass,
+            ..BlockModel::of_the_paper()
+        }
     }
 
     #[test]
     fn counts_of_the_paper() {
         let block = Block::of_the_paper(MassKind::Consistent);
-        assert_eq!((block.triangles, block.nodes.len(), block.contact.len(), block.stiffness.rows()), (800, 410, 21, 820));
+        assert_eq!(
+            (
+                block.triangles,
+                block.nodes.len(),
+                block.contact.len(),
+                block.stiffness.rows()
+            ),
+            (800, 410, 21, 820)
+        );
         assert_eq!(block.stiffness.first_asymmetry(), None);
-        assert!(block.contact.windows(2).all(|w| block.nodes[w[0]].0 < block.nodes[w[1]].0));
-        let band = block.stiffness.entries().map(|(i, j, _)| i.abs_diff(j)).max().unwrap();
+        assert!(
+            block
+                .contact
+                .windows(2)
+                .all(|w| block.nodes[w[0]].0 < block.nodes[w[1]].0)
+        );
+        let band = block
+            .stiffness
+            .entries()
+            .map(|(i, j, _)| i.abs_diff(j))
+            .max()
+            .unwrap();
         assert!(band <= 66, "half-bandwidth {band}");
-        assert_eq!(Block::new(&BlockModel::of_the_paper()).unwrap().stiffness, block.stiffness);
+        assert_eq!(
+            Block::new(&BlockModel::of_the_paper()).unwrap().stiffness,
+            block.stiffness
+        );
     }
 
     /// A uniform strain needs no force inside, on every mesh, in both planes, on oblong cells.
     #[test]
     fn patch_test_uniform_strain_needs_no_interior_force() {
-        for (mesh, plane) in MeshKind::ALL.into_iter().flat_map(|m| Plane::ALL.map(|p| (m, p))) {
+        for (mesh, plane) in MeshKind::ALL
+            .into_iter()
+            .flat_map(|m| Plane::ALL.map(|p| (m, p)))
+        {
             let cell = (whole(2), rational(5, 3));
-            let block = Block::new(&BlockModel { cell, mesh, plane, ..small(4, 4, MassKind::Lumped) }).unwrap();
-            let u: Vec<Rational> = block.nodes.iter().flat_map(|(x, y)| [x * rational(1, 7) + y, y * rational(-2, 5)]).collect();
+            let block = Block::new(&BlockModel {
+                cell,
+                mesh,
+                plane,
+                ..small(4, 4, MassKind::Lumped)
+            })
+            .unwrap();
+            let u: Vec<Rational> = block
+                .nodes
+                .iter()
+                .flat_map(|(x, y)| [x * rational(1, 7) + y, y * rational(-2, 5)])
+                .collect();
             let force = block.stiffness.times(&u);
             let top = rational(5, 1); // the row below the glued nodes misses their forces
-            let interior = |(x, y): &Point| *x > whole(0) && *x < whole(8) && *y > whole(0) && *y < top;
-            let inside: Vec<usize> = (0..block.nodes.len()).filter(|&k| interior(&block.nodes[k])).collect();
+            let interior =
+                |(x, y): &Point| *x > whole(0) && *x < whole(8) && *y > whole(0) && *y < top;
+            let inside: Vec<usize> = (0..block.nodes.len())
+                .filter(|&k| interior(&block.nodes[k]))
+                .collect();
             assert!(inside.len() >= 6);
-            assert!(inside.iter().all(|&k| force[2 * k] == whole(0) && force[2 * k + 1] == whole(0)), "{mesh:?} {plane:?}");
+            assert!(
+                inside
+                    .iter()
+                    .all(|&k| force[2 * k] == whole(0) && force[2 * k + 1] == whole(0)),
+                "{mesh:?} {plane:?}"
+            );
             assert_ne!(force[2 * block.contact[0]], whole(0));
         }
     }
@@ -185,10 +296,14 @@ mod tests {
         let (consistent, lumped) = (of(MassKind::Consistent), of(MassKind::Lumped));
         assert!(lumped.entries().all(|(i, j, _)| i == j));
         assert_ne!(consistent, lumped);
-        // A node off the glued side keeps its row sum; the corner A lies in two of a cell's quarters.
+        // A node off the glued side keeps its row sum; the corner A lies in two of a cell's
+        // quarters.
         let row = |m: &Sparse, i: usize| m.row(i).iter().map(|e| e.1.clone()).sum::<Rational>();
         let material = Material::polyurethane();
-        assert_eq!(row(&lumped, 0), &material.density * &material.thickness * rational(2, 3));
+        assert_eq!(
+            row(&lumped, 0),
+            &material.density * &material.thickness * rational(2, 3)
+        );
         assert_eq!(row(&consistent, 0), row(&lumped, 0));
     }
 
@@ -198,12 +313,34 @@ mod tests {
         assert!(block.system(&[], None).is_err());
         let states = block.sliding_states(1, 4).unwrap();
         let words: Vec<&str> = states.iter().map(|s| s.word()).collect();
-        assert_eq!(words, ["stick", "slip", "slip", "slip", "slip", "free", "free"]);
-        assert_eq!(block.sliding_states(4, 4), Err(SourceError::TooManyContacts { nodes: 7, stick: 4, slip: 4 }));
+        assert_eq!(
+            words,
+            ["stick", "slip", "slip", "slip", "slip", "free", "free"]
+        );
+        assert_eq!(
+            block.sliding_states(4, 4),
+            Err(SourceError::TooManyContacts {
+                nodes: 7,
+                stick: 4,
+                slip: 4
+            })
+        );
         assert!(block.sliding_states(usize::MAX, 1).is_err());
-        let slips = |s: Vec<ContactState>| s.iter().filter(|c| matches!(c, ContactState::Slip { .. })).count();
+        let slips = |s: Vec<ContactState>| {
+            s.iter()
+                .filter(|c| matches!(c, ContactState::Slip { .. }))
+                .count()
+        };
         assert_eq!(slips(block.sliding_states_with_tenth_stuck(5).unwrap()), 4);
-        assert!(block.problem(&block.sliding_states(7, 0).unwrap(), None).is_err(), "nothing slips");
-        assert_eq!(block.problem(&states, Some(whole(2))).unwrap().unknown(), Unknown::Lambda2);
+        assert!(
+            block
+                .problem(&block.sliding_states(7, 0).unwrap(), None)
+                .is_err(),
+            "nothing slips"
+        );
+        assert_eq!(
+            block.problem(&states, Some(whole(2))).unwrap().unknown(),
+            Unknown::Lambda2
+        );
     }
 }

@@ -47,13 +47,18 @@ impl BlockModel {
     pub fn with_cells(self, nx: usize, ny: usize) -> BlockModel {
         let (length, height) = (self.length(), self.height());
         let part = |all: Rational, n: usize| all / Rational::from_integer(n.max(1).into());
-        BlockModel { cells: (nx, ny), cell: (part(length, nx), part(height, ny)), ..self }
+        BlockModel {
+            cells: (nx, ny),
+            cell: (part(length, nx), part(height, ny)),
+            ..self
+        }
     }
 
-    /// The paper's block refined until `slip` nodes, 17 of every 20 cells along AB as in Fig. 3, are
-    /// in impending slip: an even number of columns next to 20/17 `slip`, square crossed cells.
+    /// The paper's block refined until `slip` nodes, 17 of every 20 cells along AB as in Fig. 3,
+    /// are in impending slip: an even number of columns next to 20/17 `slip`, square crossed cells.
     /// With [`super::Block::sliding_states`] it gives the refined problems of the complete search
-    /// (`slip` = 17 is the paper's own mesh; 24, 40, 60, 80, 150, 272 have 28, 48, 70, 94, 176, 320 columns).
+    /// (`slip` = 17 is the paper's own mesh; 24, 40, 60, 80, 150, 272 have 28, 48, 70, 94, 176, 320
+    /// columns).
     pub fn refined(slip: usize) -> BlockModel {
         let half = slip.saturating_mul(20).saturating_add(17) / 34; // nearest integer to 10/17 slip
         let half = half.max(1);
@@ -63,7 +68,11 @@ impl BlockModel {
     /// 20 x 20 cells cut by `\` in plane strain, again 800 elements and 21 contact nodes: its
     /// MCEIP-mu with 17 slip nodes has 1719 solutions, a hard case for a complete search.
     pub fn backslash_strain() -> BlockModel {
-        BlockModel { mesh: MeshKind::Backslash, plane: Plane::Strain, ..BlockModel::of_the_paper().with_cells(20, 20) }
+        BlockModel {
+            mesh: MeshKind::Backslash,
+            plane: Plane::Strain,
+            ..BlockModel::of_the_paper().with_cells(20, 20)
+        }
     }
 
     /// Length L of the contact side, mm.
@@ -78,9 +87,15 @@ impl BlockModel {
 
     /// Refuses cells and materials that make no block. (The number of cells: when it is meshed.)
     pub(super) fn validate(&self) -> Result<(), SourceError> {
-        for (what, value) in [("the width of a cell (mm)", &self.cell.0), ("the height of a cell (mm)", &self.cell.1)] {
+        for (what, value) in [
+            ("the width of a cell (mm)", &self.cell.0),
+            ("the height of a cell (mm)", &self.cell.1),
+        ] {
             if !value.is_positive() {
-                return Err(SourceError::NotPositive { what, got: value.clone() });
+                return Err(SourceError::NotPositive {
+                    what,
+                    got: value.clone(),
+                });
             }
         }
         self.material.validate(self.plane)
@@ -94,7 +109,15 @@ mod tests {
 
     #[test]
     fn refined_meshes_keep_the_rectangle_and_the_share_of_slip() {
-        for (slip, columns) in [(17, 20), (24, 28), (40, 48), (60, 70), (80, 94), (150, 176), (272, 320)] {
+        for (slip, columns) in [
+            (17, 20),
+            (24, 28),
+            (40, 48),
+            (60, 70),
+            (80, 94),
+            (150, 176),
+            (272, 320),
+        ] {
             let model = BlockModel::refined(slip);
             assert_eq!(model.cells, (columns, columns / 2));
             assert_eq!(model.cell.0, model.cell.1);
@@ -106,8 +129,17 @@ mod tests {
 
     #[test]
     fn cells_without_extent_are_refused() {
-        let flat = BlockModel { cell: (whole(1), whole(0)), ..BlockModel::of_the_paper() };
-        assert!(matches!(flat.validate(), Err(SourceError::NotPositive { what: "the height of a cell (mm)", .. })));
+        let flat = BlockModel {
+            cell: (whole(1), whole(0)),
+            ..BlockModel::of_the_paper()
+        };
+        assert!(matches!(
+            flat.validate(),
+            Err(SourceError::NotPositive {
+                what: "the height of a cell (mm)",
+                ..
+            })
+        ));
         let model = BlockModel::of_the_paper().with_cells(3, 7);
         assert_eq!(model.cell, (rational(80, 3), rational(40, 7)));
         assert_eq!(model.validate(), Ok(()));

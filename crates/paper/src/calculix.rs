@@ -1,7 +1,8 @@
 //! Matrices that CalculiX writes for `*FREQUENCY, SOLVER=MATRIXSTORAGE`: `.sti`, `.mas` and `.dof`.
 //!
-//! `.sti` and `.mas` have a line `row column value` for each entry of one triangle, from 1; `.dof` has a line
-//! `node.direction` for each row. Degrees of freedom that `*BOUNDARY` fixes do not appear.
+//! `.sti` and `.mas` have a line `row column value` for each entry of one triangle, from 1; `.dof`
+//! has a line `node.direction` for each row. Degrees of freedom that `*BOUNDARY` fixes do not
+//! appear.
 
 use crate::exact::{Rational, Sparse, parse};
 use std::collections::{BTreeMap, HashMap};
@@ -19,17 +20,32 @@ pub struct CalculixError {
 }
 
 fn refuse(line: usize, expected: &'static str, text: &str) -> CalculixError {
-    CalculixError { line, expected, got: text.chars().filter(|c| !c.is_control()).take(60).collect() }
+    CalculixError {
+        line,
+        expected,
+        got: text.chars().filter(|c| !c.is_control()).take(60).collect(),
+    }
 }
 
 /// The names `node.direction` of the rows, in order, with their 0-based index.
 ///
 /// # Errors
-/// [`CalculixError`] for a line that is no `node.direction`, one that stands twice, or no line at all.
+/// [`CalculixError`] for a line that is no `node.direction`, one that stands twice, or no line at
+/// all.
 pub fn read_dofs(text: &str) -> Result<HashMap<String, usize>, CalculixError> {
     let mut names = HashMap::new();
-    for (line, row) in text.lines().enumerate().map(|(i, l)| (i + 1, l.trim())).filter(|(_, l)| !l.is_empty()) {
-        let parts = row.split_once('.').map(|(a, b)| (a.parse::<u64>().is_ok(), b.parse::<u8>().is_ok_and(|d| (1..=6).contains(&d))));
+    for (line, row) in text
+        .lines()
+        .enumerate()
+        .map(|(i, l)| (i + 1, l.trim()))
+        .filter(|(_, l)| !l.is_empty())
+    {
+        let parts = row.split_once('.').map(|(a, b)| {
+            (
+                a.parse::<u64>().is_ok(),
+                b.parse::<u8>().is_ok_and(|d| (1..=6).contains(&d)),
+            )
+        });
         if parts != Some((true, true)) {
             return Err(refuse(line, "node.direction", row));
         }
@@ -38,7 +54,11 @@ pub fn read_dofs(text: &str) -> Result<HashMap<String, usize>, CalculixError> {
             return Err(refuse(line, "each degree of freedom once", row));
         }
     }
-    if names.is_empty() { Err(refuse(1, "node.direction", "nothing")) } else { Ok(names) }
+    if names.is_empty() {
+        Err(refuse(1, "node.direction", "nothing"))
+    } else {
+        Ok(names)
+    }
 }
 
 /// A symmetric matrix of the given order from the entries of one triangle, values exactly as spelt.
@@ -54,12 +74,28 @@ pub fn read_dofs(text: &str) -> Result<HashMap<String, usize>, CalculixError> {
 /// ```
 pub fn read_triangle(text: &str, order: usize) -> Result<Sparse, CalculixError> {
     let mut entries: BTreeMap<(usize, usize), Rational> = BTreeMap::new();
-    for (line, row) in text.lines().enumerate().map(|(i, l)| (i + 1, l.trim())).filter(|(_, l)| !l.is_empty()) {
+    for (line, row) in text
+        .lines()
+        .enumerate()
+        .map(|(i, l)| (i + 1, l.trim()))
+        .filter(|(_, l)| !l.is_empty())
+    {
         let words: Vec<&str> = row.split_whitespace().collect();
-        let [i, j, value] = words[..] else { return Err(refuse(line, "row column value", row)) };
-        let index = |w: &str| w.parse::<usize>().ok().and_then(|v| v.checked_sub(1)).filter(|v| *v < order);
+        let [i, j, value] = words[..] else {
+            return Err(refuse(line, "row column value", row));
+        };
+        let index = |w: &str| {
+            w.parse::<usize>()
+                .ok()
+                .and_then(|v| v.checked_sub(1))
+                .filter(|v| *v < order)
+        };
         let (Some(i), Some(j)) = (index(i), index(j)) else {
-            return Err(refuse(line, "indices from 1 to the number of lines of .dof", row));
+            return Err(refuse(
+                line,
+                "indices from 1 to the number of lines of .dof",
+                row,
+            ));
         };
         let value = parse(value).map_err(|_| refuse(line, "a number", row))?;
         if entries.insert((i.min(j), i.max(j)), value).is_some() {
@@ -88,8 +124,17 @@ mod tests {
 
     #[test]
     fn entries_are_held_against_the_order() {
-        for (bad, line) in [("1 1\n", 1), ("1 1 2\n1 3 1\n", 2), ("0 1 1\n", 1), ("1 1 x\n", 1), ("1 2 1\n2 1 1\n", 2)] {
-            assert!(matches!(read_triangle(bad, 2), Err(CalculixError { line: l, .. }) if l == line), "{bad:?}");
+        for (bad, line) in [
+            ("1 1\n", 1),
+            ("1 1 2\n1 3 1\n", 2),
+            ("0 1 1\n", 1),
+            ("1 1 x\n", 1),
+            ("1 2 1\n2 1 1\n", 2),
+        ] {
+            assert!(
+                matches!(read_triangle(bad, 2), Err(CalculixError { line: l, .. }) if l == line),
+                "{bad:?}"
+            );
         }
     }
 }

@@ -54,7 +54,10 @@ impl DoubleBlock {
             });
             for i in 0..6 {
                 for j in 0..6 {
-                    let (Some(di), Some(dj)) = (mesh.dof(triangle, i), mesh.dof(triangle, j)) else { continue };
+                    let (Some(di), Some(dj)) = (mesh.dof(triangle, i), mesh.dof(triangle, j))
+                    else {
+                        continue;
+                    };
                     k.push((di, dj, ke[i][j]));
                     if i % 2 == j % 2 && me[i / 2][j / 2] != 0.0 {
                         m.push((di, dj, me[i / 2][j / 2]));
@@ -64,16 +67,30 @@ impl DoubleBlock {
         }
         let order = 2 * mesh.free_nodes();
         let (stiffness, mass) = (merge("K", order, k)?, merge("M", order, m)?);
-        let kept = mesh.points.iter().zip(&mesh.number).filter(|(_, n)| n.is_some());
-        let points = kept.flat_map(|(p, _)| [[half.0 * f64::from(p.0), half.1 * f64::from(p.1)]; 2]).collect();
-        Ok(DoubleBlock { stiffness, mass, contact: mesh.contact, points })
+        let kept = mesh
+            .points
+            .iter()
+            .zip(&mesh.number)
+            .filter(|(_, n)| n.is_some());
+        let points = kept
+            .flat_map(|(p, _)| [[half.0 * f64::from(p.0), half.1 * f64::from(p.1)]; 2])
+            .collect();
+        Ok(DoubleBlock {
+            stiffness,
+            mass,
+            contact: mesh.contact,
+            points,
+        })
     }
 
-    /// The contact nodes with these states, left to right, as in [`super::Block::system`]; nodes beyond
-    /// the states given are free.
+    /// The contact nodes with these states, left to right, as in [`super::Block::system`]; nodes
+    /// beyond the states given are free.
     pub fn particles(&self, states: &[ContactState]) -> Vec<Particle> {
         let state = |k: usize| states.get(k).copied().unwrap_or(ContactState::Free);
-        let particle = |(k, &n): (usize, &usize)| Particle { normal_direction: -1, ..Particle::plain(2 * n, 2 * n + 1, state(k)) };
+        let particle = |(k, &n): (usize, &usize)| Particle {
+            normal_direction: -1,
+            ..Particle::plain(2 * n, 2 * n + 1, state(k))
+        };
         self.contact.iter().enumerate().map(particle).collect()
     }
 }
@@ -85,12 +102,22 @@ fn stiffness(edges: [(f64, f64); 2], model: &BlockModel) -> [[f64; 6]; 6] {
     let d = model.material.elasticity(model.plane).map(|v| to_f64(&v));
     let scale = to_f64(&model.material.thickness) / (2.0 * twice_area);
     let (b, c) = ([y1 - y2, y2, -y1], [x2 - x1, -x2, x1]); // 2A grad of the shape functions
-    let strain = |i: usize| if i.is_multiple_of(2) { [b[i / 2], 0.0, c[i / 2]] } else { [0.0, c[i / 2], b[i / 2]] };
+    let strain = |i: usize| {
+        if i.is_multiple_of(2) {
+            [b[i / 2], 0.0, c[i / 2]]
+        } else {
+            [0.0, c[i / 2], b[i / 2]]
+        }
+    };
     let mut ke = [[0.0; 6]; 6];
     for i in 0..6 {
         for j in 0..6 {
             let (e, g) = (strain(i), strain(j));
-            let stress = [d[0] * g[0] + d[1] * g[1], d[1] * g[0] + d[0] * g[1], d[2] * g[2]];
+            let stress = [
+                d[0] * g[0] + d[1] * g[1],
+                d[1] * g[0] + d[0] * g[1],
+                d[2] * g[2],
+            ];
             ke[i][j] = scale * (e[0] * stress[0] + e[1] * stress[1] + e[2] * stress[2]);
         }
     }
@@ -100,7 +127,8 @@ fn stiffness(edges: [(f64, f64); 2], model: &BlockModel) -> [[f64; 6]; 6] {
 /// rho t A / 12 (1 + delta_ab), or rho t A / 3 on the diagonal.
 fn mass(edges: [(f64, f64); 2], model: &BlockModel) -> [[f64; 3]; 3] {
     let [(x1, y1), (x2, y2)] = edges;
-    let total = to_f64(&(&model.material.density * &model.material.thickness)) * (x1 * y2 - x2 * y1) / 2.0;
+    let total =
+        to_f64(&(&model.material.density * &model.material.thickness)) * (x1 * y2 - x2 * y1) / 2.0;
     let (diagonal, other) = match model.mass {
         MassKind::Consistent => (total / 6.0, total / 12.0),
         MassKind::Lumped => (total / 3.0, 0.0),
@@ -109,7 +137,11 @@ fn mass(edges: [(f64, f64); 2], model: &BlockModel) -> [[f64; 3]; 3] {
 }
 
 /// Sums entries of one place, in the order of the elements.
-fn merge(what: &'static str, order: usize, list: Vec<(usize, usize, f64)>) -> Result<DoubleMatrix, SourceError> {
+fn merge(
+    what: &'static str,
+    order: usize,
+    list: Vec<(usize, usize, f64)>,
+) -> Result<DoubleMatrix, SourceError> {
     // Counted into rows first: rows are short, the list is not.
     let mut next = vec![0; order + 1];
     list.iter().for_each(|e| next[e.0 + 1] += 1);
@@ -132,7 +164,10 @@ fn merge(what: &'static str, order: usize, list: Vec<(usize, usize, f64)>) -> Re
         }
     }
     match entries.iter().find(|e| !e.2.is_finite()) {
-        Some(e) => Err(SourceError::NotFinite { what, got: e.2.to_string() }),
+        Some(e) => Err(SourceError::NotFinite {
+            what,
+            got: e.2.to_string(),
+        }),
         None => Ok(DoubleMatrix { order, entries }),
     }
 }
@@ -147,31 +182,60 @@ mod tests {
     /// larger of the two diagonals; places the exact matrix leaves out hold rounding only.
     fn largest_difference(exact: &Sparse, doubles: &DoubleMatrix) -> f64 {
         assert_eq!(exact.rows(), doubles.order);
-        let diagonal: Vec<f64> = (0..doubles.order).map(|i| to_f64(&exact.get(i, i))).collect();
+        let diagonal: Vec<f64> = (0..doubles.order)
+            .map(|i| to_f64(&exact.get(i, i)))
+            .collect();
         let place = |e: &(usize, usize, f64)| (e.0, e.1);
         for (i, j, _) in exact.entries() {
-            assert!(doubles.entries.binary_search_by_key(&(i, j), place).is_ok(), "({i}, {j}) is missing");
+            assert!(
+                doubles.entries.binary_search_by_key(&(i, j), place).is_ok(),
+                "({i}, {j}) is missing"
+            );
         }
-        let error =
-            |e: &(usize, usize, f64)| (to_f64(&exact.get(e.0, e.1)) - e.2).abs() / (f64::EPSILON * diagonal[e.0].max(diagonal[e.1]));
+        let error = |e: &(usize, usize, f64)| {
+            (to_f64(&exact.get(e.0, e.1)) - e.2).abs()
+                / (f64::EPSILON * diagonal[e.0].max(diagonal[e.1]))
+        };
         doubles.entries.iter().map(error).fold(0.0, f64::max)
     }
 
     #[test]
     fn doubles_agree_with_the_exact_block_to_eight_units_in_the_last_place() {
-        for (mesh, plane) in MeshKind::ALL.into_iter().flat_map(|m| Plane::ALL.map(|p| (m, p))) {
+        for (mesh, plane) in MeshKind::ALL
+            .into_iter()
+            .flat_map(|m| Plane::ALL.map(|p| (m, p)))
+        {
             for mass in [MassKind::Consistent, MassKind::Lumped] {
                 let cell = (rational(10, 7), rational(4, 3));
-                let model = BlockModel { mesh, plane, mass, cell, cells: (5, 3), ..BlockModel::of_the_paper() };
-                let (exact, doubles) = (Block::new(&model).unwrap(), DoubleBlock::new(&model).unwrap());
+                let model = BlockModel {
+                    mesh,
+                    plane,
+                    mass,
+                    cell,
+                    cells: (5, 3),
+                    ..BlockModel::of_the_paper()
+                };
+                let (exact, doubles) = (
+                    Block::new(&model).unwrap(),
+                    DoubleBlock::new(&model).unwrap(),
+                );
                 assert_eq!(exact.contact, doubles.contact);
                 let near = |(k, p): (usize, &[f64; 2])| {
                     let (x, y) = &exact.nodes[k / 2];
                     (p[0] - to_f64(x)).abs() + (p[1] - to_f64(y)).abs() < 1e-13
                 };
-                assert!(doubles.points.len() == doubles.stiffness.order && doubles.points.iter().enumerate().all(near));
-                let errors = [largest_difference(&exact.stiffness, &doubles.stiffness), largest_difference(&exact.mass, &doubles.mass)];
-                assert!(errors.iter().all(|&e| e <= 8.0), "{mesh:?} {plane:?} {mass:?}: {errors:?}");
+                assert!(
+                    doubles.points.len() == doubles.stiffness.order
+                        && doubles.points.iter().enumerate().all(near)
+                );
+                let errors = [
+                    largest_difference(&exact.stiffness, &doubles.stiffness),
+                    largest_difference(&exact.mass, &doubles.mass),
+                ];
+                assert!(
+                    errors.iter().all(|&e| e <= 8.0),
+                    "{mesh:?} {plane:?} {mass:?}: {errors:?}"
+                );
             }
         }
     }
@@ -179,10 +243,27 @@ mod tests {
     #[test]
     fn another_block_differs_and_overflow_is_named() {
         let model = BlockModel::of_the_paper().with_cells(4, 2);
-        let other = BlockModel { plane: Plane::Strain, ..model.clone() };
+        let other = BlockModel {
+            plane: Plane::Strain,
+            ..model.clone()
+        };
         let exact = Block::new(&other).unwrap();
-        assert!(largest_difference(&exact.stiffness, &DoubleBlock::new(&model).unwrap().stiffness) > 1e9);
-        let heavy = BlockModel { material: Material { young: parse("1e400").unwrap(), ..Material::polyurethane() }, ..model };
-        assert!(matches!(DoubleBlock::new(&heavy), Err(SourceError::NotFinite { what: "K", .. })));
+        assert!(
+            largest_difference(
+                &exact.stiffness,
+                &DoubleBlock::new(&model).unwrap().stiffness
+            ) > 1e9
+        );
+        let heavy = BlockModel {
+            material: Material {
+                young: parse("1e400").unwrap(),
+                ..Material::polyurethane()
+            },
+            ..model
+        };
+        assert!(matches!(
+            DoubleBlock::new(&heavy),
+            Err(SourceError::NotFinite { what: "K", .. })
+        ));
     }
 }

@@ -42,7 +42,9 @@ pub enum SourceError {
         got: Rational,
     },
     /// More nodes in contact than the mesh has on its contact side.
-    #[error("contact states: expected at most {nodes} nodes in contact, got {stick} stuck and {slip} in impending slip")]
+    #[error(
+        "contact states: expected at most {nodes} nodes in contact, got {stick} stuck and {slip} in impending slip"
+    )]
     TooManyContacts {
         /// Nodes of the contact side.
         nodes: usize,
@@ -52,7 +54,9 @@ pub enum SourceError {
         slip: usize,
     },
     /// An entry of the assembly in doubles is too large for a double.
-    #[error("block in doubles: expected finite {what}, got {got} (units that make numbers overflow)")]
+    #[error(
+        "block in doubles: expected finite {what}, got {got} (units that make numbers overflow)"
+    )]
     NotFinite {
         /// Which matrix.
         what: &'static str,

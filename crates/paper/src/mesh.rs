@@ -21,7 +21,12 @@ pub enum MeshKind {
 
 impl MeshKind {
     /// Every kind.
-    pub const ALL: [MeshKind; 4] = [MeshKind::Crossed, MeshKind::UnionJack, MeshKind::Slash, MeshKind::Backslash];
+    pub const ALL: [MeshKind; 4] = [
+        MeshKind::Crossed,
+        MeshKind::UnionJack,
+        MeshKind::Slash,
+        MeshKind::Backslash,
+    ];
 
     /// The word used on the command line and in reports.
     pub fn word(self) -> &'static str {
@@ -54,16 +59,24 @@ impl Mesh {
             return Err(SourceError::NoCells { nx, ny });
         }
         if nx.checked_mul(ny).is_none_or(|cells| cells > MAX_CELLS) {
-            return Err(SourceError::TooManyCells { nx, ny, limit: MAX_CELLS });
+            return Err(SourceError::TooManyCells {
+                nx,
+                ny,
+                limit: MAX_CELLS,
+            });
         }
         let (width, height) = (nx as u32, ny as u32); // at most MAX_CELLS
         let columns_first = nx >= ny;
-        let mut points: Vec<(u32, u32)> = (0..=width).flat_map(|i| (0..=height).map(move |j| (2 * i, 2 * j))).collect();
+        let mut points: Vec<(u32, u32)> = (0..=width)
+            .flat_map(|i| (0..=height).map(move |j| (2 * i, 2 * j)))
+            .collect();
         if kind == MeshKind::Crossed {
-            points.extend((0..width).flat_map(|i| (0..height).map(move |j| (2 * i + 1, 2 * j + 1))));
+            points
+                .extend((0..width).flat_map(|i| (0..height).map(move |j| (2 * i + 1, 2 * j + 1))));
         }
         points.sort_unstable_by_key(|&(x, y)| if columns_first { (x, y) } else { (y, x) });
-        let place: BTreeMap<(u32, u32), usize> = points.iter().enumerate().map(|(k, &p)| (p, k)).collect();
+        let place: BTreeMap<(u32, u32), usize> =
+            points.iter().enumerate().map(|(k, &p)| (p, k)).collect();
         let mut triangles = Vec::new();
         for i in 0..width {
             for j in 0..height {
@@ -79,8 +92,15 @@ impl Mesh {
             free.then(|| next - 1)
         };
         let number: Vec<Option<usize>> = points.iter().map(|p| count(p.1 != 2 * height)).collect();
-        let contact = (0..=width).filter_map(|i| number[place[&(2 * i, 0)]]).collect();
-        Ok(Mesh { points, triangles, number, contact })
+        let contact = (0..=width)
+            .filter_map(|i| number[place[&(2 * i, 0)]])
+            .collect();
+        Ok(Mesh {
+            points,
+            triangles,
+            number,
+            contact,
+        })
     }
 
     /// Number of nodes below the glued side.
@@ -97,7 +117,10 @@ impl Mesh {
     /// are translates of each other and share their element matrices.
     pub(super) fn shape(&self, triangle: &[usize; 3]) -> Shape {
         let p = triangle.map(|v| (i64::from(self.points[v].0), i64::from(self.points[v].1)));
-        [(p[1].0 - p[0].0, p[1].1 - p[0].1), (p[2].0 - p[0].0, p[2].1 - p[0].1)]
+        [
+            (p[1].0 - p[0].0, p[1].1 - p[0].1),
+            (p[2].0 - p[0].0, p[2].1 - p[0].1),
+        ]
     }
 }
 
@@ -141,7 +164,11 @@ mod tests {
                 }
             }
             assert!(edges.values().all(|&n| n <= 2));
-            assert_eq!(edges.values().filter(|&&n| n == 1).count(), 2 * (3 + 2), "edges of the boundary");
+            assert_eq!(
+                edges.values().filter(|&&n| n == 1).count(),
+                2 * (3 + 2),
+                "edges of the boundary"
+            );
         }
     }
 
@@ -149,14 +176,24 @@ mod tests {
     fn diagonals_point_as_named() {
         let has = |kind, cell: (u32, u32), slash: bool| {
             let mesh = Mesh::new(2, 2, kind).unwrap();
-            let ends = if slash { [(0, 0), (2, 2)] } else { [(2, 0), (0, 2)] };
+            let ends = if slash {
+                [(0, 0), (2, 2)]
+            } else {
+                [(2, 0), (0, 2)]
+            };
             let ends = ends.map(|(x, y)| (2 * cell.0 + x, 2 * cell.1 + y));
-            mesh.triangles.iter().filter(|t| ends.iter().all(|e| t.iter().any(|&v| mesh.points[v] == *e))).count() == 2
+            mesh.triangles
+                .iter()
+                .filter(|t| ends.iter().all(|e| t.iter().any(|&v| mesh.points[v] == *e)))
+                .count()
+                == 2
         };
         assert!(has(MeshKind::Slash, (1, 0), true) && !has(MeshKind::Slash, (1, 0), false));
         assert!(has(MeshKind::Backslash, (1, 0), false) && !has(MeshKind::Backslash, (1, 0), true));
         assert!(
-            has(MeshKind::UnionJack, (0, 0), true) && has(MeshKind::UnionJack, (1, 0), false) && has(MeshKind::UnionJack, (1, 1), true)
+            has(MeshKind::UnionJack, (0, 0), true)
+                && has(MeshKind::UnionJack, (1, 0), false)
+                && has(MeshKind::UnionJack, (1, 1), true)
         );
     }
 
@@ -176,9 +213,23 @@ mod tests {
                 all.iter().max().unwrap_or(&0) - all.iter().min().unwrap_or(&0)
             }
         }
-        assert!(band(12, 2) <= 6 && band(2, 12) <= 6, "{} {}", band(12, 2), band(2, 12));
-        assert!(matches!(Mesh::new(0, 3, MeshKind::Slash), Err(SourceError::NoCells { nx: 0, ny: 3 })));
-        assert!(matches!(Mesh::new(usize::MAX, 2, MeshKind::Slash), Err(SourceError::TooManyCells { .. })));
-        assert!(matches!(Mesh::new(MAX_CELLS, 2, MeshKind::Slash), Err(SourceError::TooManyCells { .. })));
+        assert!(
+            band(12, 2) <= 6 && band(2, 12) <= 6,
+            "{} {}",
+            band(12, 2),
+            band(2, 12)
+        );
+        assert!(matches!(
+            Mesh::new(0, 3, MeshKind::Slash),
+            Err(SourceError::NoCells { nx: 0, ny: 3 })
+        ));
+        assert!(matches!(
+            Mesh::new(usize::MAX, 2, MeshKind::Slash),
+            Err(SourceError::TooManyCells { .. })
+        ));
+        assert!(matches!(
+            Mesh::new(MAX_CELLS, 2, MeshKind::Slash),
+            Err(SourceError::TooManyCells { .. })
+        ));
     }
 }

@@ -14,7 +14,8 @@ pub enum PublishedState {
 
 impl PublishedState {
     /// Both, in the paper's order.
-    pub const ALL: [PublishedState; 2] = [PublishedState::FifteenSlip, PublishedState::SeventeenSlip];
+    pub const ALL: [PublishedState; 2] =
+        [PublishedState::FifteenSlip, PublishedState::SeventeenSlip];
 
     /// The value of mu as printed in the paper.
     pub fn printed_mu(self) -> &'static str {
@@ -34,7 +35,11 @@ impl PublishedState {
 
     /// The states of the 21 contact nodes, left to right.
     pub fn states(self) -> Vec<ContactState> {
-        let stick = if self == PublishedState::FifteenSlip { 2 } else { 0 };
+        let stick = if self == PublishedState::FifteenSlip {
+            2
+        } else {
+            0
+        };
         let state = |i: usize| match i {
             i if i < stick => ContactState::Stick,
             i if i < 17 => ContactState::Slip { sign: 1 },
@@ -49,7 +54,10 @@ impl PublishedState {
     /// [`ModelError`]; none for the block as given.
     pub fn problem(self, block: &Block) -> Result<Problem, ModelError> {
         let system = block.system(&self.states(), None)?;
-        Ok(Problem::new(Body::System(system), Unknown::Mu, Window::all())?.named(format!("block, {}", self.name())))
+        Ok(
+            Problem::new(Body::System(system), Unknown::Mu, Window::all())?
+                .named(format!("block, {}", self.name())),
+        )
     }
 }
 
@@ -59,9 +67,20 @@ mod tests {
 
     #[test]
     fn states_are_the_published_ones() {
-        let count = |s: PublishedState, f: fn(&ContactState) -> bool| s.states().iter().filter(|c| f(c)).count();
+        let count = |s: PublishedState, f: fn(&ContactState) -> bool| {
+            s.states().iter().filter(|c| f(c)).count()
+        };
         let slip = |c: &ContactState| matches!(c, ContactState::Slip { sign: 1 });
-        assert_eq!((count(PublishedState::FifteenSlip, slip), count(PublishedState::SeventeenSlip, slip)), (15, 17));
-        assert_eq!(count(PublishedState::FifteenSlip, |c| *c == ContactState::Stick), 2);
+        assert_eq!(
+            (
+                count(PublishedState::FifteenSlip, slip),
+                count(PublishedState::SeventeenSlip, slip)
+            ),
+            (15, 17)
+        );
+        assert_eq!(
+            count(PublishedState::FifteenSlip, |c| *c == ContactState::Stick),
+            2
+        );
     }
 }

@@ -12,8 +12,8 @@ pub struct Triangulation {
     pub points: Vec<Point>,
     /// Vertices of each triangle, counter-clockwise, by point.
     pub triangles: Vec<[usize; 3]>,
-    /// The node that each point is, as in [`super::Block`] (node k owns dofs 2k and 2k + 1); `None` on the
-    /// glued side.
+    /// The node that each point is, as in [`super::Block`] (node k owns dofs 2k and 2k + 1); `None`
+    /// on the glued side.
     pub nodes: Vec<Option<usize>>,
     /// Points of the contact side AB, left to right.
     pub contact: Vec<usize>,
@@ -34,10 +34,19 @@ impl BlockModel {
         let mesh = Mesh::new(self.cells.0, self.cells.1, self.mesh)?;
         let half = (&self.cell.0 / whole(2), &self.cell.1 / whole(2));
         let scaled = |unit: &Rational, count: u32| unit * Rational::from_integer(count.into());
-        let points = mesh.points.iter().map(|&(x, y)| (scaled(&half.0, x), scaled(&half.1, y))).collect();
+        let points = mesh
+            .points
+            .iter()
+            .map(|&(x, y)| (scaled(&half.0, x), scaled(&half.1, y)))
+            .collect();
         let point = |node: &usize| mesh.number.iter().position(|n| n.as_ref() == Some(node));
         let contact = mesh.contact.iter().filter_map(point).collect(); // every node is a point
-        Ok(Triangulation { points, triangles: mesh.triangles, nodes: mesh.number, contact })
+        Ok(Triangulation {
+            points,
+            triangles: mesh.triangles,
+            nodes: mesh.number,
+            contact,
+        })
     }
 }
 
@@ -49,19 +58,41 @@ mod tests {
     #[test]
     fn its_nodes_are_those_of_the_block() {
         for mesh in MeshKind::ALL {
-            let model = BlockModel { mesh, ..BlockModel::of_the_paper().with_cells(4, 3) };
+            let model = BlockModel {
+                mesh,
+                ..BlockModel::of_the_paper().with_cells(4, 3)
+            };
             let (mesh, block) = (model.triangulation().unwrap(), Block::new(&model).unwrap());
             let mut seen = 0;
-            for (point, node) in mesh.nodes.iter().enumerate().filter_map(|(p, n)| n.map(|n| (p, n))) {
+            for (point, node) in mesh
+                .nodes
+                .iter()
+                .enumerate()
+                .filter_map(|(p, n)| n.map(|n| (p, n)))
+            {
                 assert_eq!(mesh.points[point], block.nodes[node]);
                 seen += 1;
             }
-            assert_eq!((seen, mesh.triangles.len()), (block.nodes.len(), block.triangles));
+            assert_eq!(
+                (seen, mesh.triangles.len()),
+                (block.nodes.len(), block.triangles)
+            );
             let contact: Vec<usize> = mesh.contact.iter().filter_map(|&p| mesh.nodes[p]).collect();
             assert_eq!(contact, block.contact);
-            let glued = mesh.nodes.iter().zip(&mesh.points).filter(|(n, _)| n.is_none());
-            assert!(glued.clone().count() == 5 && glued.clone().all(|(_, p)| p.1 == model.height()));
+            let glued = mesh
+                .nodes
+                .iter()
+                .zip(&mesh.points)
+                .filter(|(n, _)| n.is_none());
+            assert!(
+                glued.clone().count() == 5 && glued.clone().all(|(_, p)| p.1 == model.height())
+            );
         }
-        assert!(BlockModel::of_the_paper().with_cells(0, 3).triangulation().is_err());
+        assert!(
+            BlockModel::of_the_paper()
+                .with_cells(0, 3)
+                .triangulation()
+                .is_err()
+        );
     }
 }

@@ -70,7 +70,8 @@ pub struct BlockReport {
     pub cover: AcceptedCover,
     /// Accepted solutions that the complete set does not contain: a bug.
     pub missing: usize,
-    /// Solutions of the complete set that the search did not find: the states have one each, and it has to be found.
+    /// Solutions of the complete set that the search did not find: the states have one each, and it
+    /// has to be found.
     pub unfound: usize,
     /// PATH's own sequence from interior starts; each start counts as an instance.
     pub path: Coverage,
@@ -110,9 +111,16 @@ pub fn block_state(
         return Ok(None);
     }
     progress("condensing exactly and searching");
-    let search = Search { window_starts: 2, ..Search::default() };
+    let search = Search {
+        window_starts: 2,
+        ..Search::default()
+    };
     let (found, condensed) = multistart_large(&problem, &full, &search, &|_| {
-        if stopped() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if stopped() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     })?;
     if stopped() {
         return Ok(None);
@@ -120,12 +128,18 @@ pub fn block_state(
     progress("proving that there are no other solutions");
     let cover = complete(&problem, &Options::default(), stop, &|_| {})?.cover;
     progress("checking");
-    let entries = condensed.iter().flat_map(|p| p.a().entries().chain(p.b().entries()));
+    let entries = condensed
+        .iter()
+        .flat_map(|p| p.a().entries().chain(p.b().entries()));
     let bits = entries.map(|e| e.2.denom().bits()).max().unwrap_or(0);
     let mut report = BlockReport {
         state,
         accepted: Vec::new(),
-        uncertified: found.uncertified.iter().map(|u| format!("mu = {}: {}", u.candidate.value, u.reason)).collect(),
+        uncertified: found
+            .uncertified
+            .iter()
+            .map(|u| format!("mu = {}: {}", u.candidate.value, u.reason))
+            .collect(),
         rejected: Vec::new(),
         forgeries: 0,
         rejected_forgeries: 0,
@@ -141,20 +155,31 @@ pub fn block_state(
     };
     if let Some(condensed) = &condensed {
         let small = Admissible::new(condensed, Unknown::Mu)?;
-        let values: Vec<f64> = report.cover.solutions.iter().map(|s| to_f64(&s.value.mid())).collect();
-        report.path = path_coverage(&small, &values, BLOCK_STARTS, search.seed).map_err(SearchError::from)?;
+        let values: Vec<f64> = report
+            .cover
+            .solutions
+            .iter()
+            .map(|s| to_f64(&s.value.mid()))
+            .collect();
+        report.path =
+            path_coverage(&small, &values, BLOCK_STARTS, search.seed).map_err(SearchError::from)?;
     }
     if found.certified.is_empty() {
         return Ok(Some(report));
     }
-    let certificate = certificate(&problem, found.certified.into_iter().map(|c| c.claim).collect());
+    let certificate = certificate(
+        &problem,
+        found.certified.into_iter().map(|c| c.claim).collect(),
+    );
     submit(&problem, &pencil.slip(), &certificate, &mut report);
     for forgery in forgeries(&certificate) {
         if stopped() {
             return Ok(None);
         }
         report.forgeries += 1;
-        report.rejected_forgeries += usize::from(check(&problem, &forgery.certificate).is_err_and(|e| (forgery.expected)(&e.reason)));
+        report.rejected_forgeries += usize::from(
+            check(&problem, &forgery.certificate).is_err_and(|e| (forgery.expected)(&e.reason)),
+        );
     }
     report.certificate = Some(certificate);
     Ok(Some(report))
@@ -165,11 +190,19 @@ fn submit(problem: &Problem, slip: &[usize], certificate: &Certificate, report: 
     match check(problem, certificate) {
         Ok(accepted) => {
             let claims = &accepted.claims;
-            report.missing =
-                claims.iter().filter(|c| report.is_complete() && !report.cover.solutions.iter().any(|s| may_be_same(s, c))).count();
+            report.missing = claims
+                .iter()
+                .filter(|c| {
+                    report.is_complete()
+                        && !report.cover.solutions.iter().any(|s| may_be_same(s, c))
+                })
+                .count();
             let is_found = |s: &&AcceptedClaim| claims.iter().any(|c| may_be_same(s, c));
             report.unfound -= report.cover.solutions.iter().filter(is_found).count();
-            report.accepted = claims.iter().map(|c| accepted_state(slip, report.state, &c.support, &c.value.mid())).collect();
+            report.accepted = claims
+                .iter()
+                .map(|c| accepted_state(slip, report.state, &c.support, &c.value.mid()))
+                .collect();
         }
         Err(e) => report.rejected.push(e),
     }
@@ -180,9 +213,23 @@ fn may_be_same(a: &AcceptedClaim, b: &AcceptedClaim) -> bool {
     a.support == b.support && a.value.lo() <= b.value.hi() && b.value.lo() <= a.value.hi()
 }
 
-fn accepted_state(slip: &[usize], state: PublishedState, support: &[usize], value: &Rational) -> AcceptedState {
+fn accepted_state(
+    slip: &[usize],
+    state: PublishedState,
+    support: &[usize],
+    value: &Rational,
+) -> AcceptedState {
     // Slip variables stand for the slip nodes from left to right; the stick nodes come before them.
     let first = state.states().len() - 4 - slip.len();
-    let stuck = slip.iter().enumerate().filter(|(_, i)| !support.contains(i)).map(|(k, _)| first + k + 1).collect();
-    AcceptedState { value: format!("{:.12}", to_f64(value)), slipping: support.len(), stuck }
+    let stuck = slip
+        .iter()
+        .enumerate()
+        .filter(|(_, i)| !support.contains(i))
+        .map(|(k, _)| first + k + 1)
+        .collect();
+    AcceptedState {
+        value: format!("{:.12}", to_f64(value)),
+        slipping: support.len(),
+        stuck,
+    }
 }

@@ -24,8 +24,8 @@ pub struct InstanceReport {
     pub label: String,
     /// Solutions the enumerator lists.
     pub oracle: usize,
-    /// Of these, found by the solver and certified. On Table 1 those found from interior starts alone, because
-    /// starts of the search are solutions themselves.
+    /// Of these, found by the solver and certified. On Table 1 those found from interior starts
+    /// alone, because starts of the search are solutions themselves.
     pub found: usize,
     /// What each kind of start led to; empty where the solver was not run.
     pub reached: Vec<Reached>,
@@ -50,7 +50,8 @@ pub struct InstanceReport {
 }
 
 impl InstanceReport {
-    /// Coverage of each kind of start over this one instance: empty if the solver was not run or nothing is to be found.
+    /// Coverage of each kind of start over this one instance: empty if the solver was not run or
+    /// nothing is to be found.
     pub fn coverage(&self) -> Vec<(Starts, Coverage)> {
         let mut out = Vec::new();
         if self.oracle == 0 {
@@ -77,7 +78,8 @@ pub struct Reached {
     pub found: usize,
 }
 
-/// What is asked for the solutions of a problem: [`multistart`], [`from_interior`], or one that is wrong on purpose.
+/// What is asked for the solutions of a problem: [`multistart`], [`from_interior`], or one that is
+/// wrong on purpose.
 pub type Solver = fn(&Problem, &Admissible<'_>, &Search) -> Result<Found, SolverError>;
 
 /// How an instance is treated.
@@ -96,13 +98,22 @@ pub struct Treatment {
 impl Treatment {
     /// The project's own search and solver, and nodes for small instances.
     pub fn of(search: &Search) -> Treatment {
-        Treatment { search: search.clone(), solver: multistart, interior: from_interior, nodes: super::completed::NODES }
+        Treatment {
+            search: search.clone(),
+            solver: multistart,
+            interior: from_interior,
+            nodes: super::completed::NODES,
+        }
     }
 
     /// The same with another solver in both places.
     #[must_use]
     pub fn with_solver(self, solver: Solver) -> Treatment {
-        Treatment { solver, interior: solver, ..self }
+        Treatment {
+            solver,
+            interior: solver,
+            ..self
+        }
     }
 }
 
@@ -113,7 +124,11 @@ pub fn compare(instance: &Instance, search: &Search) -> InstanceReport {
 
 /// [`compare`] with a treatment of one's own.
 pub fn compare_by(instance: &Instance, treatment: &Treatment) -> InstanceReport {
-    let mut report = InstanceReport { label: instance.label.clone(), corners: instance.corners.clone(), ..InstanceReport::default() };
+    let mut report = InstanceReport {
+        label: instance.label.clone(),
+        corners: instance.corners.clone(),
+        ..InstanceReport::default()
+    };
     match engines(&instance.problem) {
         Ok((reduced, oracle)) => compare_with(instance, &reduced, &oracle, treatment, &mut report),
         Err(disagreement) => report.disagreements.push(disagreement),
@@ -121,14 +136,21 @@ pub fn compare_by(instance: &Instance, treatment: &Treatment) -> InstanceReport 
     report
 }
 
-/// Coverage alone: enumerator and solver, without closed form, lift, complete search, certificates of the enumerator's
-/// solutions and forgeries. By this the floors are measured.
+/// Coverage alone: enumerator and solver, without closed form, lift, complete search, certificates
+/// of the enumerator's solutions and forgeries. By this the floors are measured.
 ///
 /// # Errors
 /// [`Disagreement`] if an engine refuses the instance.
-pub fn coverage_of(instance: &Instance, treatment: &Treatment) -> Result<InstanceReport, Disagreement> {
+pub fn coverage_of(
+    instance: &Instance,
+    treatment: &Treatment,
+) -> Result<InstanceReport, Disagreement> {
     let (reduced, oracle) = engines(&instance.problem)?;
-    let mut report = InstanceReport { label: instance.label.clone(), oracle: oracle.solutions.len(), ..InstanceReport::default() };
+    let mut report = InstanceReport {
+        label: instance.label.clone(),
+        oracle: oracle.solutions.len(),
+        ..InstanceReport::default()
+    };
     run_solver(instance, &reduced.pencil, &oracle, treatment, &mut report);
     Ok(report)
 }
@@ -158,14 +180,30 @@ pub(super) fn compare_with(
     run_solver(instance, &reduced.pencil, oracle, treatment, report);
 }
 
-/// The solver on an instance that fulfils the hypotheses of Proposition 1 or 2; on Table 1 also from interior starts.
-fn run_solver(instance: &Instance, pencil: &Pencil, oracle: &Enumeration, treatment: &Treatment, report: &mut InstanceReport) {
+/// The solver on an instance that fulfils the hypotheses of Proposition 1 or 2; on Table 1 also
+/// from interior starts.
+fn run_solver(
+    instance: &Instance,
+    pencil: &Pencil,
+    oracle: &Enumeration,
+    treatment: &Treatment,
+    report: &mut InstanceReport,
+) {
     let problem = &instance.problem;
-    let Ok(admissible) = Admissible::new(pencil, problem.unknown()) else { return };
+    let Ok(admissible) = Admissible::new(pencil, problem.unknown()) else {
+        return;
+    };
     report.solved = true;
 
-    let interior = Search { starts: INTERIOR_STARTS, ..treatment.search.clone() };
-    let path = Search { curves: false, options: path_options(), ..interior.clone() };
+    let interior = Search {
+        starts: INTERIOR_STARTS,
+        ..treatment.search.clone()
+    };
+    let path = Search {
+        curves: false,
+        options: path_options(),
+        ..interior.clone()
+    };
     let mut runs = vec![(Starts::Search, treatment.solver, treatment.search.clone())];
     if instance.closed_form.is_some() {
         runs.push((Starts::Interior, treatment.interior, interior));
@@ -175,7 +213,10 @@ fn run_solver(instance: &Instance, pencil: &Pencil, oracle: &Enumeration, treatm
     for (starts, solver, search) in runs {
         match solver(problem, &admissible, &search) {
             Ok(found) => compare_found(problem, pencil, oracle, (starts, found), report),
-            Err(e) => report.disagreements.push(Disagreement::Refused { engine: "solver", reason: e.to_string() }),
+            Err(e) => report.disagreements.push(Disagreement::Refused {
+                engine: "solver",
+                reason: e.to_string(),
+            }),
         }
     }
 }
@@ -184,7 +225,8 @@ fn run_solver(instance: &Instance, pencil: &Pencil, oracle: &Enumeration, treatm
 pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disagreement> {
     let refused = |engine, reason: String| Disagreement::Refused { engine, reason };
     let reduced = reduce(problem).map_err(|e| refused("reduction", e.to_string()))?;
-    let oracle = enumerate(&reduced.pencil, problem.window()).map_err(|e| refused("enumerator", e.to_string()))?;
+    let oracle = enumerate(&reduced.pencil, problem.window())
+        .map_err(|e| refused("enumerator", e.to_string()))?;
     Ok((reduced, oracle))
 }
 
@@ -211,52 +253,97 @@ pub(super) fn observed(oracle: &Enumeration) -> Vec<Corner> {
 }
 
 /// Same solutions in value, support and direction of x? Decided in Q(sqrt d).
-fn compare_closed_form(oracle: &Enumeration, closed: &[ClosedSolution], report: &mut InstanceReport) {
-    let matched = closed.iter().all(|c| oracle.solutions.iter().filter(|s| s.slip == c.slip && equals(s, c)).count() == 1);
+fn compare_closed_form(
+    oracle: &Enumeration,
+    closed: &[ClosedSolution],
+    report: &mut InstanceReport,
+) {
+    let matched = closed.iter().all(|c| {
+        oracle
+            .solutions
+            .iter()
+            .filter(|s| s.slip == c.slip && equals(s, c))
+            .count()
+            == 1
+    });
     if !matched || closed.len() != oracle.solutions.len() {
-        report.disagreements.push(Disagreement::ClosedForm { closed: closed.len(), enumerated: oracle.solutions.len() });
+        report.disagreements.push(Disagreement::ClosedForm {
+            closed: closed.len(),
+            enumerated: oracle.solutions.len(),
+        });
     }
 }
 
 /// Is the closed form's number the root isolated by the enumerator, with the same ratio of x?
 fn equals(s: &Solution, c: &ClosedSolution) -> bool {
     let value = &s.value;
-    let root = c.value.eval(value.poly()).sign() == Sign::Zero && c.value.within(value.interval().lo(), value.interval().hi());
-    // x_1 X_2 = x_2 X_1 with the polynomials of the enumerator evaluated at the closed form's number.
+    let root = c.value.eval(value.poly()).sign() == Sign::Zero
+        && c.value.within(value.interval().lo(), value.interval().hi());
+    // x_1 X_2 = x_2 X_1 with the polynomials of the enumerator evaluated at the closed form's
+    // number.
     let x: Vec<Quadratic> = s.x.iter().map(|p: &Poly| c.value.eval(p)).collect();
     let x = [same_field(&x[0], &c.x[0]), same_field(&x[1], &c.x[1])];
-    let cross = x[0].mul(&c.x[1]).add(&x[1].mul(&c.x[0]).scale(&Rational::from_integer((-1).into())));
+    let cross = x[0].mul(&c.x[1]).add(
+        &x[1]
+            .mul(&c.x[0])
+            .scale(&Rational::from_integer((-1).into())),
+    );
     root && cross.sign() == Sign::Zero
 }
 
 /// A number of Q carries no radicand of its own: give it the other's.
 fn same_field(x: &Quadratic, other: &Quadratic) -> Quadratic {
-    x.as_rational().map_or_else(|| x.clone(), |a| other.embed(a))
+    x.as_rational()
+        .map_or_else(|| x.clone(), |a| other.embed(a))
 }
 
-fn check_lifts(problem: &Problem, reduced: &Reduced, oracle: &Enumeration, report: &mut InstanceReport) {
-    let Body::System(system) = problem.body() else { return };
+fn check_lifts(
+    problem: &Problem,
+    reduced: &Reduced,
+    oracle: &Enumeration,
+    report: &mut InstanceReport,
+) {
+    let Body::System(system) = problem.body() else {
+        return;
+    };
     for (index, s) in oracle.solutions.iter().enumerate() {
         let lifted = lift(system, problem.unknown(), &reduced.variables, &s.x);
         if let Err(line) = check_lines(system, problem.unknown(), &lifted, &mut s.value.clone()) {
-            report.disagreements.push(Disagreement::Lift { index, line: line.to_string() });
+            report.disagreements.push(Disagreement::Lift {
+                index,
+                line: line.to_string(),
+            });
         }
     }
 }
 
 /// The enumerator's own solutions, through 17-digit decimals, must be certifiable.
-fn certify_oracle(problem: &Problem, reduced: &Reduced, oracle: &Enumeration, report: &mut InstanceReport) -> Vec<Claim> {
+fn certify_oracle(
+    problem: &Problem,
+    reduced: &Reduced,
+    oracle: &Enumeration,
+    report: &mut InstanceReport,
+) -> Vec<Claim> {
     let slip = reduced.pencil.slip();
     let certifier = Certifier::new(problem, &reduced.pencil);
     let mut claims = Vec::new();
     for (index, s) in oracle.solutions.iter().enumerate() {
         let double = |text: String| text.parse().unwrap_or(f64::NAN); // our own decimals parse
-        let candidate = Candidate { value: double(s.decimal(17)), x: s.x_decimals(&slip, 17).into_iter().map(double).collect() };
+        let candidate = Candidate {
+            value: double(s.decimal(17)),
+            x: s.x_decimals(&slip, 17).into_iter().map(double).collect(),
+        };
         match certifier.certify(&candidate) {
             Ok(claim) => claims.push(claim),
-            // A singular support has a root everywhere: its value, if irrational, cannot be told from doubles.
-            Err(reason) if s.multiplicity == 0 => report.uncertified.push(format!("solution {index}, singular support: {reason}")),
-            Err(reason) => report.disagreements.push(Disagreement::OracleNotCertified { index, reason: reason.to_string() }),
+            // A singular support has a root everywhere: its value, if irrational, cannot be told
+            // from doubles.
+            Err(reason) if s.multiplicity == 0 => report
+                .uncertified
+                .push(format!("solution {index}, singular support: {reason}")),
+            Err(reason) => report.disagreements.push(Disagreement::OracleNotCertified {
+                index,
+                reason: reason.to_string(),
+            }),
         }
     }
     claims
@@ -271,7 +358,9 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
     let certificate = certificate(problem, claims);
     match check(problem, &certificate) {
         Ok(_) => report.accepted += count,
-        Err(e) => report.disagreements.push(Disagreement::Rejected { reason: e.to_string() }),
+        Err(e) => report.disagreements.push(Disagreement::Rejected {
+            reason: e.to_string(),
+        }),
     }
     for forgery in forgeries(&certificate) {
         report.forgeries += 1;
@@ -280,15 +369,29 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
             Err(e) if (forgery.expected)(&e.reason) => continue,
             Err(e) => format!("rejected for another reason: {e}"),
         };
-        report.disagreements.push(Disagreement::Forgery { name: forgery.name, got });
+        report.disagreements.push(Disagreement::Forgery {
+            name: forgery.name,
+            got,
+        });
     }
 }
 
-fn compare_found(problem: &Problem, pencil: &Pencil, oracle: &Enumeration, found: (Starts, Found), report: &mut InstanceReport) {
+fn compare_found(
+    problem: &Problem,
+    pencil: &Pencil,
+    oracle: &Enumeration,
+    found: (Starts, Found),
+    report: &mut InstanceReport,
+) {
     let (starts, found) = found;
     report.pivots += found.pivots;
     if starts == Starts::Search {
-        report.uncertified.extend(found.uncertified.iter().map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)));
+        report.uncertified.extend(
+            found
+                .uncertified
+                .iter()
+                .map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)),
+        );
     }
     let mut claims = Vec::new();
     let mut hit = vec![false; oracle.solutions.len()];
@@ -302,13 +405,19 @@ fn compare_found(problem: &Problem, pencil: &Pencil, oracle: &Enumeration, found
             }
             // In a cone, or in the range of a singular pencil.
             None if described(oracle, pencil, &c.claim) => first |= is_first,
-            None => report.disagreements.push(Disagreement::NotInOracle { support: support(&c.claim).to_vec() }),
+            None => report.disagreements.push(Disagreement::NotInOracle {
+                support: support(&c.claim).to_vec(),
+            }),
         }
         claims.push(c.claim);
     }
 
     let count = hit.iter().filter(|h| **h).count();
-    report.reached.push(Reached { starts, first, found: count });
+    report.reached.push(Reached {
+        starts,
+        first,
+        found: count,
+    });
     if starts != Starts::Path {
         report.found = count; // on Table 1 the interior starts come after the search
     }
@@ -319,31 +428,52 @@ fn compare_found(problem: &Problem, pencil: &Pencil, oracle: &Enumeration, found
 
 /// The enumerator's solution with this support and value.
 fn place(oracle: &Enumeration, claim: &Claim) -> Option<usize> {
-    oracle.solutions.iter().position(|s| s.slip == support(claim) && same_value(&s.value, claim))
+    oracle
+        .solutions
+        .iter()
+        .position(|s| s.slip == support(claim) && same_value(&s.value, claim))
 }
 
 fn same_value(value: &Algebraic, claim: &Claim) -> bool {
     match exact_value(claim) {
         Some(mut exact) => exact.equals(&mut value.clone()),
         None => match claim {
-            Claim::EnclosedSolution(c) => c.center.last().zip(c.radius.last()).is_some_and(|(center, radius)| {
-                let mut value = value.clone();
-                value.refine_to(&(&radius.0 / Rational::from_integer(16.into())));
-                (value.interval().mid() - &center.0).abs() <= radius.0
-            }),
+            Claim::EnclosedSolution(c) => {
+                c.center
+                    .last()
+                    .zip(c.radius.last())
+                    .is_some_and(|(center, radius)| {
+                        let mut value = value.clone();
+                        value.refine_to(&(&radius.0 / Rational::from_integer(16.into())));
+                        (value.interval().mid() - &center.0).abs() <= radius.0
+                    })
+            }
             Claim::ExactSolution(_) | Claim::LiftedSolution(_) => false,
         },
     }
 }
 
-/// Does the enumerator's answer hold the claimed solution? Exactly for exact claims; a box stands for
-/// an isolated solution, for which its support must have been met as wide or singular.
+/// Does the enumerator's answer hold the claimed solution? Exactly for exact claims; a box stands
+/// for an isolated solution, for which its support must have been met as wide or singular.
 fn described(oracle: &Enumeration, pencil: &Pencil, claim: &Claim) -> bool {
     if let (Claim::ExactSolution(c), Some(value)) = (claim, exact_value(claim)) {
         let clear = common_denominator(c.x.iter().flatten().map(|n| &n.0));
-        let x: Vec<Poly> = c.x.iter().map(|p| Poly::new(p.iter().map(|n| n.0.numer() * (&clear / n.0.denom())).collect())).collect();
+        let x: Vec<Poly> =
+            c.x.iter()
+                .map(|p| {
+                    Poly::new(
+                        p.iter()
+                            .map(|n| n.0.numer() * (&clear / n.0.denom()))
+                            .collect(),
+                    )
+                })
+                .collect();
         return oracle.contains(pencil, &value, &x);
     }
     let on = |set: &[usize]| set == support(claim);
-    oracle.wide.iter().any(|w| on(&w.support) && same_value(&w.value, claim)) || oracle.continua.iter().any(|c| on(c))
+    oracle
+        .wide
+        .iter()
+        .any(|w| on(&w.support) && same_value(&w.value, claim))
+        || oracle.continua.iter().any(|c| on(c))
 }

@@ -5,7 +5,9 @@
 #[non_exhaustive]
 pub enum Disagreement {
     /// The closed form of Table 1 and the enumerator differ.
-    #[error("closed form lists {closed} solutions, the enumerator {enumerated}, or they differ in value, x or support")]
+    #[error(
+        "closed form lists {closed} solutions, the enumerator {enumerated}, or they differ in value, x or support"
+    )]
     ClosedForm {
         /// Solutions of the closed form.
         closed: usize,
@@ -19,7 +21,9 @@ pub enum Disagreement {
         support: Vec<usize>,
     },
     /// The complete search claims a complete set that is not the enumerator's.
-    #[error("complete set of {claimed} solutions, the enumerator lists {enumerated} (or a cone, or a continuum)")]
+    #[error(
+        "complete set of {claimed} solutions, the enumerator lists {enumerated} (or a cone, or a continuum)"
+    )]
     Incomplete {
         /// Solutions of the complete set.
         claimed: usize,
@@ -57,7 +61,9 @@ pub enum Disagreement {
         line: String,
     },
     /// Another enumerator answers otherwise than the plain one.
-    #[error("{got} solutions, the enumerator lists {enumerated}, or they differ in value, support, x, cones or ranges")]
+    #[error(
+        "{got} solutions, the enumerator lists {enumerated}, or they differ in value, support, x, cones or ranges"
+    )]
     Enumerators {
         /// Solutions of the other.
         got: usize,

@@ -114,7 +114,11 @@ impl fmt::Display for Shortfall {
             Rate::All => ("all solutions", self.floor.all),
         };
         let (family, starts) = (self.floor.family, self.floor.starts.word());
-        write!(f, "{family}, {starts}: {what} found in {} of {} instances, floor {least:.1} %", self.found, self.solvable)
+        write!(
+            f,
+            "{family}, {starts}: {what} found in {} of {} instances, floor {least:.1} %",
+            self.found, self.solvable
+        )
     }
 }
 
@@ -151,19 +155,31 @@ impl Covered {
 
 /// The floor of a family, `None` for a family without one.
 pub fn floor(family: &str, starts: Starts) -> Option<&'static Floor> {
-    FLOORS.iter().find(|f| f.family == family && f.starts == starts)
+    FLOORS
+        .iter()
+        .find(|f| f.family == family && f.starts == starts)
 }
 
 /// The rates of a family that are below its floor by more than chance explains; none for a family
 /// without a floor.
 pub fn shortfalls(family: &str, starts: Starts, coverage: &Coverage) -> Vec<Shortfall> {
-    let Some(floor) = floor(family, starts) else { return Vec::new() };
+    let Some(floor) = floor(family, starts) else {
+        return Vec::new();
+    };
 
-    let rates = [(Rate::First, coverage.first, floor.first), (Rate::All, coverage.all, floor.all)];
+    let rates = [
+        (Rate::First, coverage.first, floor.first),
+        (Rate::All, coverage.all, floor.all),
+    ];
     let mut out = Vec::new();
     for (rate, found, least) in rates {
         if at_most(found, coverage.solvable, least / 100.0) < CHANCE {
-            out.push(Shortfall { floor: *floor, rate, found, solvable: coverage.solvable });
+            out.push(Shortfall {
+                floor: *floor,
+                rate,
+                found,
+                solvable: coverage.solvable,
+            });
         }
     }
     out
@@ -211,27 +227,39 @@ fn at_most(found: u64, of: u64, probability: f64) -> f64 {
 pub const FLOORS: [Floor; 40] = [
     // `mceip verify`; instances of seeds 9001 and 9002 (Table 1 is one grid, its starts have these
     // seeds).
-    row("Table 1 (two particles)", Starts::Search, 98.0, 98.0),              // 100.00, 100.00 of 604
-    row("Table 1 (two particles)", Starts::Interior, 98.0, 98.0),            // 100.00, 100.00 of 604
+    // 100.00, 100.00 of 604.
+    row("Table 1 (two particles)", Starts::Search, 98.0, 98.0),
+    // 100.00, 100.00 of 604.
+    row("Table 1 (two particles)", Starts::Interior, 98.0, 98.0),
     row("Table 1 (two particles)", Starts::Path, 98.0, 91.0),                // 100.00, 93.05 of 604
     row("degenerate cases", Starts::Search, 98.0, 98.0),                     // 100.00, 100.00 of 20
-    row("mechanical systems", Starts::Search, 97.9, 98.0),                   // 99.91, 100.00 of 1158
-    row("random pencils", Starts::Search, 97.9, 98.0),                       // 99.92, 100.00 of 1265
+    // 99.91, 100.00 of 1158.
+    row("mechanical systems", Starts::Search, 97.9, 98.0),
+    // 99.92, 100.00 of 1265.
+    row("random pencils", Starts::Search, 97.9, 98.0),
     // The published states of the block, 1,000 interior starts of each seed.
-    row("2 stick + 15 slip + 4 free", Starts::Path, 98.0, 98.0),             // 100.00, 100.00 of 2000
-    row("17 slip + 4 free", Starts::Path, 98.0, 98.0),                       // 100.00, 100.00 of 2000
+    // 100.00, 100.00 of 2000.
+    row("2 stick + 15 slip + 4 free", Starts::Path, 98.0, 98.0),
+    // 100.00, 100.00 of 2000.
+    row("17 slip + 4 free", Starts::Path, 98.0, 98.0),
     // `mceip campaign`, 200 instances of each seed, of `table1` 1,000 for the search and PATH's own
     // sequence.
-    row("table1", Starts::Search, 98.0, 98.0),                               // 100.00, 100.00 of 1363
-    row("table1", Starts::Interior, 98.0, 98.0),                             // 100.00, 100.00 of 260
-    row("table1", Starts::Path, 98.0, 83.5),                                 // 100.00, 85.47 of 1363
+    // 100.00, 100.00 of 1363.
+    row("table1", Starts::Search, 98.0, 98.0),
+    // 100.00, 100.00 of 260.
+    row("table1", Starts::Interior, 98.0, 98.0),
+    // 100.00, 85.47 of 1363.
+    row("table1", Starts::Path, 98.0, 83.5),
     row("table1-near", Starts::Search, 92.3, 98.0),                          // 94.35, 100.00 of 177
     row("table1-near", Starts::Interior, 95.2, 98.0),                        // 97.18, 100.00 of 177
     row("table1-near", Starts::Path, 94.0, 86.7),                            // 96.05, 88.70 of 177
-    row("elements", Starts::Search, 98.0, 98.0),                             // 100.00, 100.00 of 207
+    // 100.00, 100.00 of 207.
+    row("elements", Starts::Search, 98.0, 98.0),
     row("states", Starts::Search, 97.5, 98.0),                               // 99.53, 100.00 of 215
-    row("systems", Starts::Search, 98.0, 98.0),                              // 100.00, 100.00 of 234
-    row("pencils", Starts::Search, 98.0, 98.0),                              // 100.00, 100.00 of 248
+    // 100.00, 100.00 of 234.
+    row("systems", Starts::Search, 98.0, 98.0),
+    // 100.00, 100.00 of 248.
+    row("pencils", Starts::Search, 98.0, 98.0),
     row("digits", Starts::Search, 93.2, 98.0),                               // 95.17, 100.00 of 207
     row("integers", Starts::Search, 97.1, 97.5),                             // 99.06, 99.53 of 212
     row("doubles", Starts::Search, 95.7, 98.0),                              // 97.70, 100.00 of 174
@@ -242,25 +270,39 @@ pub const FLOORS: [Floor; 40] = [
     row("free-anywhere", Starts::Search, 94.8, 94.8),                        // 96.83, 96.83 of 63
     row("degenerate", Starts::Search, 98.0, 96.8),                           // 100.00, 98.80 of 334
     row("known", Starts::Search, 90.7, 94.0),                                // 92.68, 95.96 of 396
-    row("pareto", Starts::Search, 98.0, 98.0),                               // 100.00, 100.00 of 400
+    // 100.00, 100.00 of 400.
+    row("pareto", Starts::Search, 98.0, 98.0),
     row("planted", Starts::Search, 87.3, 96.7),                              // 89.29, 98.70 of 308
     row("near", Starts::Search, 94.8, 97.2),                                 // 96.79, 99.20 of 374
     row("scales", Starts::Search, 96.8, 97.6),                               // 98.81, 99.60 of 253
     // Fuzz targets, less ten points: 200 random inputs and 200 changed ones of the corpus for each
     // seed, the lower rate.
-    row("fuzz: solver_against_oracle", Starts::Search, 90.0, 90.0),          // 100.00, 100.00 of 60 and 104
-    row("fuzz: mechanical_systems", Starts::Search, 89.2, 90.0),             // 99.18, 100.00 of 236 and 243
-    row("fuzz: two_particle_problems", Starts::Search, 89.5, 90.0),          // 99.48, 100.00 of 203 and 193
-    row("fuzz: two_particle_problems", Starts::Interior, 90.0, 90.0),        // 100.00, 100.00 of 203 and 193
-    row("fuzz: two_particle_problems", Starts::Path, 90.0, 73.9),            // 100.00, 83.94 of 203 and 193
+    // 100.00, 100.00 of 60 and 104.
+    row("fuzz: solver_against_oracle", Starts::Search, 90.0, 90.0),
+    // 99.18, 100.00 of 236 and 243.
+    row("fuzz: mechanical_systems", Starts::Search, 89.2, 90.0),
+    // 99.48, 100.00 of 203 and 193.
+    row("fuzz: two_particle_problems", Starts::Search, 89.5, 90.0),
+    // 100.00, 100.00 of 203 and 193.
+    row("fuzz: two_particle_problems", Starts::Interior, 90.0, 90.0),
+    // 100.00, 83.94 of 203 and 193.
+    row("fuzz: two_particle_problems", Starts::Path, 90.0, 73.9),
     // `tests/solver/solver_properties.rs`, 1,000 values of the seeds 91 and 92.
-    row("property: systems", Starts::Search, 98.0, 98.0),                    // 100.00, 100.00 of 1052
-    row("property: pencils", Starts::Search, 97.9, 98.0),                    // 99.92, 100.00 of 1263
-    row("property: two particles", Starts::Interior, 98.0, 98.0),            // 100.00, 100.00 of 998
+    // 100.00, 100.00 of 1052.
+    row("property: systems", Starts::Search, 98.0, 98.0),
+    // 99.92, 100.00 of 1263.
+    row("property: pencils", Starts::Search, 97.9, 98.0),
+    // 100.00, 100.00 of 998.
+    row("property: two particles", Starts::Interior, 98.0, 98.0),
 ];
 
 const fn row(family: &'static str, starts: Starts, first: f64, all: f64) -> Floor {
-    Floor { family, starts, first, all }
+    Floor {
+        family,
+        starts,
+        first,
+        all,
+    }
 }
 
 #[cfg(test)]
@@ -270,7 +312,12 @@ mod tests {
     /// Against sums written out: 1/4 of (1/2)^2; 0.02^3; 0.5^4 (1 + 4).
     #[test]
     fn probabilities_are_those_of_the_binomial_distribution() {
-        let near = |got: f64, want: f64| assert!((got - want).abs() <= 1e-12 * want, "{got:e}, expected {want:e}");
+        let near = |got: f64, want: f64| {
+            assert!(
+                (got - want).abs() <= 1e-12 * want,
+                "{got:e}, expected {want:e}"
+            )
+        };
         near(at_most(0, 2, 0.5), 0.25);
         near(at_most(0, 3, 0.98), 8e-6);
         near(at_most(1, 4, 0.5), 0.3125);
@@ -282,13 +329,46 @@ mod tests {
 
     #[test]
     fn a_solver_that_finds_nothing_falls_short_after_few_instances() {
-        let floor = FLOORS.iter().find(|f| f.first > 97.0 && f.all > 97.0).expect("a floor above 97 %");
-        let seen = |solvable| shortfalls(floor.family, floor.starts, &Coverage { solvable, first: 0, all: 0 });
+        let floor = FLOORS
+            .iter()
+            .find(|f| f.first > 97.0 && f.all > 97.0)
+            .expect("a floor above 97 %");
+        let seen = |solvable| {
+            shortfalls(
+                floor.family,
+                floor.starts,
+                &Coverage {
+                    solvable,
+                    first: 0,
+                    all: 0,
+                },
+            )
+        };
         assert!(seen(2).is_empty());
         let list = seen(4);
-        assert_eq!(list.iter().map(|s| s.rate).collect::<Vec<_>>(), [Rate::First, Rate::All]);
-        assert!(list[0].to_string().contains("first start found in 0 of 4 instances, floor"), "{}", list[0]);
-        assert!(shortfalls("no such family", Starts::Search, &Coverage { solvable: 9, first: 0, all: 0 }).is_empty());
+        assert_eq!(
+            list.iter().map(|s| s.rate).collect::<Vec<_>>(),
+            [Rate::First, Rate::All]
+        );
+        assert!(
+            list[0]
+                .to_string()
+                .contains("first start found in 0 of 4 instances, floor"),
+            "{}",
+            list[0]
+        );
+        assert!(
+            shortfalls(
+                "no such family",
+                Starts::Search,
+                &Coverage {
+                    solvable: 9,
+                    first: 0,
+                    all: 0
+                }
+            )
+            .is_empty()
+        );
     }
 
     /// At the floor itself nothing is said, and half of it is always too little.
@@ -296,19 +376,42 @@ mod tests {
     fn the_floor_is_no_shortfall_and_half_of_it_is() {
         for floor in FLOORS.iter().filter(|f| f.all > 10.0) {
             let of = |share: f64| (10.0 * share).round() as u64;
-            let at = Coverage { solvable: 1000, first: of(floor.first), all: of(floor.all) };
-            assert!(shortfalls(floor.family, floor.starts, &at).is_empty(), "{floor:?}");
-            let half = Coverage { solvable: 1000, first: at.first / 2, all: at.all / 2 };
+            let at = Coverage {
+                solvable: 1000,
+                first: of(floor.first),
+                all: of(floor.all),
+            };
+            assert!(
+                shortfalls(floor.family, floor.starts, &at).is_empty(),
+                "{floor:?}"
+            );
+            let half = Coverage {
+                solvable: 1000,
+                first: at.first / 2,
+                all: at.all / 2,
+            };
             let expected = usize::from(floor.first > 10.0) + 1;
-            assert_eq!(shortfalls(floor.family, floor.starts, &half).len(), expected, "{floor:?}");
+            assert_eq!(
+                shortfalls(floor.family, floor.starts, &half).len(),
+                expected,
+                "{floor:?}"
+            );
         }
     }
 
     #[test]
     fn each_family_has_one_floor_for_each_kind_of_start() {
         for (k, floor) in FLOORS.iter().enumerate() {
-            assert!(FLOORS[..k].iter().all(|f| (f.family, f.starts) != (floor.family, floor.starts)), "{floor:?} twice");
-            assert!((0.0..=98.0).contains(&floor.first) && (0.0..=98.0).contains(&floor.all), "{floor:?}");
+            assert!(
+                FLOORS[..k]
+                    .iter()
+                    .all(|f| (f.family, f.starts) != (floor.family, floor.starts)),
+                "{floor:?} twice"
+            );
+            assert!(
+                (0.0..=98.0).contains(&floor.first) && (0.0..=98.0).contains(&floor.all),
+                "{floor:?}"
+            );
         }
     }
 }

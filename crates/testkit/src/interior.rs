@@ -23,7 +23,11 @@ pub const INTERIOR_STARTS: usize = 22;
 /// Options of PATH's own sequence: projected Newton and paths. No Fischer-Burmeister, no curve of
 /// the homotopy.
 pub fn path_options() -> Options {
-    Options { crash_method: CrashMethod::ProjectedNewton, curve_step_limit: 0, ..Options::default() }
+    Options {
+        crash_method: CrashMethod::ProjectedNewton,
+        curve_step_limit: 0,
+        ..Options::default()
+    }
 }
 
 /// A start: a value of the unknown and x.
@@ -53,14 +57,20 @@ pub fn interior_starts(admissible: &Admissible<'_>, count: usize, seed: u64) -> 
             x[i] = -uniform.ln();
         }
         let decades: f64 = rng.random_range(-3.0..3.0);
-        starts.push(InteriorStart { value: unit * 10f64.powf(decades), x });
+        starts.push(InteriorStart {
+            value: unit * 10f64.powf(decades),
+            x,
+        });
     }
     starts
 }
 
 /// Absolute value of the largest entry.
 fn largest(matrix: &Sparse) -> f64 {
-    matrix.entries().map(|(_, _, v)| to_f64(v).abs()).fold(0.0, f64::max)
+    matrix
+        .entries()
+        .map(|(_, _, v)| to_f64(v).abs())
+        .fold(0.0, f64::max)
 }
 
 /// One run of the solver from each of `search.starts` interior starts and, if `search.curves` says
@@ -70,14 +80,25 @@ fn largest(matrix: &Sparse) -> f64 {
 ///
 /// # Errors
 /// [`SolverError`] for options out of range.
-pub fn from_interior(problem: &Problem, admissible: &Admissible<'_>, search: &Search) -> Result<Found, SolverError> {
+pub fn from_interior(
+    problem: &Problem,
+    admissible: &Admissible<'_>,
+    search: &Search,
+) -> Result<Found, SolverError> {
     let bottom = to_f64(problem.window().min());
     let certifier = Certifier::new(problem, admissible.pencil());
     let embedding = Embedding::new(admissible, Side::Above(bottom));
-    let mut attempt = Attempt { certifier, embedding, found: Found::default() };
+    let mut attempt = Attempt {
+        certifier,
+        embedding,
+        found: Found::default(),
+    };
 
     let starts = interior_starts(admissible, search.starts, search.seed);
-    let points: Vec<Vec<f64>> = starts.iter().map(|s| attempt.embedding.point(bottom + s.value, &s.x)).collect();
+    let points: Vec<Vec<f64>> = starts
+        .iter()
+        .map(|s| attempt.embedding.point(bottom + s.value, &s.x))
+        .collect();
     for point in &points {
         attempt.run(point, Origin::Start, &search.options)?;
     }
@@ -85,7 +106,8 @@ pub fn from_interior(problem: &Problem, admissible: &Admissible<'_>, search: &Se
     if search.curves {
         for point in &points {
             for sense in [Sense::Down, Sense::Up] {
-                let curve = continuation(&attempt.embedding, point, sense, PER_CURVE, &search.options)?;
+                let curve =
+                    continuation(&attempt.embedding, point, sense, PER_CURVE, &search.options)?;
                 for met in &curve.solutions {
                     attempt.run(met, Origin::Curve, &search.options)?;
                 }
@@ -125,10 +147,18 @@ impl Attempt<'_> {
         match self.certifier.certify(&candidate) {
             Ok(claim) => {
                 if !self.found.certified.iter().any(|c| same(&c.claim, &claim)) {
-                    self.found.certified.push(Certified { claim, candidate, run, origin });
+                    self.found.certified.push(Certified {
+                        claim,
+                        candidate,
+                        run,
+                        origin,
+                    });
                 }
             }
-            Err(reason) => self.found.uncertified.push(Uncertified { candidate, reason }),
+            Err(reason) => self
+                .found
+                .uncertified
+                .push(Uncertified { candidate, reason }),
         }
         Ok(())
     }
@@ -146,7 +176,11 @@ fn is_same_point(a: &Candidate, b: &Candidate) -> bool {
     let norm_a: f64 = a.x.iter().map(|v| v.abs()).sum();
     let norm_b: f64 = b.x.iter().map(|v| v.abs()).sum();
     let is_same_value = (a.value - b.value).abs() <= SAME_POINT * (1.0 + a.value.abs());
-    is_same_value && a.x.iter().zip(&b.x).all(|(p, q)| (p / norm_a - q / norm_b).abs() <= SAME_POINT)
+    is_same_value
+        && a.x
+            .iter()
+            .zip(&b.x)
+            .all(|(p, q)| (p / norm_a - q / norm_b).abs() <= SAME_POINT)
 }
 
 /// Of the interior starts, those from which PATH's own sequence comes to one of the proved
@@ -155,15 +189,26 @@ fn is_same_point(a: &Candidate, b: &Candidate) -> bool {
 ///
 /// # Errors
 /// [`SolverError`]; none, the options are in range.
-pub fn path_coverage(admissible: &Admissible<'_>, values: &[f64], count: usize, seed: u64) -> Result<Coverage, SolverError> {
+pub fn path_coverage(
+    admissible: &Admissible<'_>,
+    values: &[f64],
+    count: usize,
+    seed: u64,
+) -> Result<Coverage, SolverError> {
     let embedding = Embedding::new(admissible, Side::Above(0.0));
     let options = path_options();
     let mut coverage = Coverage::default();
 
     for start in interior_starts(admissible, count, seed) {
-        let outcome = solve(&embedding, &embedding.point(start.value, &start.x), &options)?;
+        let outcome = solve(
+            &embedding,
+            &embedding.point(start.value, &start.x),
+            &options,
+        )?;
         let value = embedding.candidate(&outcome.point).value;
-        let is_proved = values.iter().any(|v| (v - value).abs() <= PATH_VALUE * v.abs());
+        let is_proved = values
+            .iter()
+            .any(|v| (v - value).abs() <= PATH_VALUE * v.abs());
         let found = outcome.termination.reached_tolerance() && is_proved;
         coverage.count(found, found);
     }
@@ -200,10 +245,17 @@ mod tests {
 
             for start in interior_starts(&admissible, INTERIOR_STARTS, 7) {
                 assert!(start.x.iter().all(|x| *x > 0.0));
-                assert!(violation(&embedding, &embedding.point(start.value, &start.x)) > 1e-6, "{}", instance.label);
+                assert!(
+                    violation(&embedding, &embedding.point(start.value, &start.x)) > 1e-6,
+                    "{}",
+                    instance.label
+                );
                 interior += 1;
             }
-            ritz += embedding.starts(4, 1)[2..].iter().filter(|z| violation(&embedding, z) < 1e-12).count();
+            ritz += embedding.starts(4, 1)[2..]
+                .iter()
+                .filter(|z| violation(&embedding, z) < 1e-12)
+                .count();
         }
         assert!(interior > 2000 && ritz > 20, "{interior} {ritz}");
     }
@@ -216,11 +268,19 @@ mod tests {
             let reduced = reduce(&instance.problem).unwrap();
             let admissible = Admissible::new(&reduced.pencil, Unknown::Lambda2).unwrap();
             let problem = &instance.problem;
-            let search = Search { starts: INTERIOR_STARTS, ..Search::default() };
+            let search = Search {
+                starts: INTERIOR_STARTS,
+                ..Search::default()
+            };
 
             let interior = from_interior(problem, &admissible, &search).unwrap();
             let whole = multistart(problem, &admissible, &search).unwrap();
-            assert!(interior.runs >= INTERIOR_STARTS && interior.certified.len() <= whole.certified.len(), "{}", instance.label);
+            assert!(
+                interior.runs >= INTERIOR_STARTS
+                    && interior.certified.len() <= whole.certified.len(),
+                "{}",
+                instance.label
+            );
             for c in &interior.certified {
                 assert!(whole.certified.iter().any(|w| same(&w.claim, &c.claim)));
                 found += 1;

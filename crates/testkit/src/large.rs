@@ -1,4 +1,5 @@
-//! Problems beyond 2^n: random mechanical pencils of `peers.md`, refined blocks, condensed in doubles.
+//! Problems beyond 2^n: random mechanical pencils of `peers.md`, refined blocks, condensed in
+//! doubles.
 
 use crate::exact::{Rational, Sparse, from_f64, to_f64, whole};
 use crate::model::{Body, ModelError, Pencil, Problem, Unknown, Window};
@@ -25,8 +26,9 @@ pub enum LargeError {
     Complete(#[from] CompleteError),
 }
 
-/// A random pencil of the family of `peers.md` without free variables: M and K0 = GG'/n + I/2,
-/// K1 normal / sqrt n, mu = 3 where lambda^2 is unknown. Drawn in doubles, which are then the exact data.
+/// A random pencil of the family of `peers.md` without free variables: M and K0 = GG'/n + I/2, K1
+/// normal / sqrt n, mu = 3 where lambda^2 is unknown. Drawn in doubles, which are then the exact
+/// data.
 ///
 /// # Errors
 /// [`ModelError`]; for n = 0 only.
@@ -40,20 +42,30 @@ pub fn mechanical_pencil(n: usize, unknown: Unknown, seed: u64) -> Result<Proble
         Unknown::Lambda2 => (square(n, |i, j| k0[i][j] + 3.0 * k1[i][j]), mass),
     };
     let pencil = Pencil::new(exact(&a), exact(&b), Vec::new())?;
-    let name = format!("random mechanical pencil n={n} {} seed {seed}", unknown.word());
+    let name = format!(
+        "random mechanical pencil n={n} {} seed {seed}",
+        unknown.word()
+    );
     Ok(Problem::new(Body::Pencil(pencil), unknown, Window::all())?.named(name))
 }
 
-/// The paper's block refined until `slip` nodes touch the cone, MCEIP-mu; with a tenth of the contact
-/// nodes stuck where asked ([`Block::sliding_states_with_tenth_stuck`]).
+/// The paper's block refined until `slip` nodes touch the cone, MCEIP-mu; with a tenth of the
+/// contact nodes stuck where asked ([`Block::sliding_states_with_tenth_stuck`]).
 ///
 /// # Errors
 /// [`LargeError`].
 pub fn refined_block(slip: usize, tenth_stuck: bool) -> Result<Problem, LargeError> {
     let block = Block::new(&BlockModel::refined(slip))?;
-    let states = if tenth_stuck { block.sliding_states_with_tenth_stuck(slip)? } else { block.sliding_states(0, slip)? };
+    let states = if tenth_stuck {
+        block.sliding_states_with_tenth_stuck(slip)?
+    } else {
+        block.sliding_states(0, slip)?
+    };
     let system = block.system(&states, None)?;
-    Ok(Problem::new(Body::System(system), Unknown::Mu, Window::all())?.named(format!("refined block, {slip} slip")))
+    Ok(
+        Problem::new(Body::System(system), Unknown::Mu, Window::all())?
+            .named(format!("refined block, {slip} slip")),
+    )
 }
 
 /// The plane-strain block of `\` cells with 17 slip nodes, MCEIP-mu: 1719 solutions.
@@ -63,25 +75,44 @@ pub fn refined_block(slip: usize, tenth_stuck: bool) -> Result<Problem, LargeErr
 pub fn backslash_block() -> Result<Problem, LargeError> {
     let block = Block::new(&BlockModel::backslash_strain())?;
     let system = block.system(&block.sliding_states(0, 17)?, None)?;
-    Ok(Problem::new(Body::System(system), Unknown::Mu, Window::all())?.named("backslash block, plane strain, 17 slip"))
+    Ok(
+        Problem::new(Body::System(system), Unknown::Mu, Window::all())?
+            .named("backslash block, plane strain, 17 slip"),
+    )
 }
 
-/// An MCEIP-mu problem with its free variables eliminated in doubles, the result taken as exact data:
-/// another problem, close to the given one, for measuring the search alone. (Its certificate proves
-/// nothing about the given problem; the route from the mesh does.)
+/// An MCEIP-mu problem with its free variables eliminated in doubles, the result taken as exact
+/// data: another problem, close to the given one, for measuring the search alone. (Its certificate
+/// proves nothing about the given problem; the route from the mesh does.)
 ///
 /// # Errors
 /// [`LargeError`]; also where the unknown multiplies free rows or columns, as in MCEIP-lambda2.
 pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
     let pencil = reduce(problem)?.pencil;
     // A search that is stopped at once leaves the condensation, T_ff^-1 T_fs among it.
-    let options = Options { threads: Some(1), ..Options::default() };
+    let options = Options {
+        threads: Some(1),
+        ..Options::default()
+    };
     let start = complete(problem, &options, &AtomicBool::new(true), &|_| {})?;
     let set = start.certificate.complete_set.and_then(|s| s.condensation);
-    let Some(w) = set.as_ref().and_then(|c| c.anchors.first()).and_then(|a| a.right.first()) else { return Ok(problem.clone()) };
+    let Some(w) = set
+        .as_ref()
+        .and_then(|c| c.anchors.first())
+        .and_then(|a| a.right.first())
+    else {
+        return Ok(problem.clone());
+    };
     let unit = Rational::new(One::one(), crate::exact::Integer::one() << w.exponent);
-    let w: Vec<Vec<f64>> =
-        w.rows.iter().map(|r| r.iter().map(|v| to_f64(&(Rational::from_integer(v.clone()) * &unit))).collect()).collect();
+    let w: Vec<Vec<f64>> = w
+        .rows
+        .iter()
+        .map(|r| {
+            r.iter()
+                .map(|v| to_f64(&(Rational::from_integer(v.clone()) * &unit)))
+                .collect()
+        })
+        .collect();
     let (slip, free) = (pencil.slip(), pencil.free().to_vec());
     let condensed = |m: &Sparse| {
         let (ss, sf) = (m.submatrix(&slip, &slip), m.submatrix(&slip, &free));
@@ -93,23 +124,36 @@ pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
         exact(&out)
     };
     let small = Pencil::new(condensed(pencil.a()), condensed(pencil.b()), Vec::new())?;
-    Ok(Problem::new(Body::Pencil(small), problem.unknown(), problem.window().clone())?)
+    Ok(Problem::new(
+        Body::Pencil(small),
+        problem.unknown(),
+        problem.window().clone(),
+    )?)
 }
 
 fn square(n: usize, mut entry: impl FnMut(usize, usize) -> f64) -> Vec<Vec<f64>> {
-    (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+    (0..n)
+        .map(|i| (0..n).map(|j| entry(i, j)).collect())
+        .collect()
 }
 
 /// Every finite double is a rational number; those that are not finite (none here) would be zero.
 fn exact(m: &[Vec<f64>]) -> Sparse {
     let value = |i: usize, j: usize| from_f64(m[i][j]).unwrap_or_else(|_| whole(0));
-    Sparse::from_entries(m.len(), m.len(), (0..m.len()).flat_map(|i| (0..m.len()).map(move |j| (i, j))).map(|(i, j)| (i, j, value(i, j))))
+    Sparse::from_entries(
+        m.len(),
+        m.len(),
+        (0..m.len())
+            .flat_map(|i| (0..m.len()).map(move |j| (i, j)))
+            .map(|(i, j)| (i, j, value(i, j))),
+    )
 }
 
 /// GG'/n + I/2, G standard normal.
 fn definite(rng: &mut ChaCha8Rng, n: usize) -> Vec<Vec<f64>> {
     let g = square(n, |_, _| normal(rng));
-    let dot = |i: usize, j: usize| g[i].iter().zip(&g[j]).map(|(a, b)| a * b).sum::<f64>() / n as f64;
+    let dot =
+        |i: usize, j: usize| g[i].iter().zip(&g[j]).map(|(a, b)| a * b).sum::<f64>() / n as f64;
     square(n, |i, j| dot(i, j) + if i == j { 0.5 } else { 0.0 })
 }
 
@@ -128,10 +172,13 @@ mod tests {
     #[test]
     fn a_seed_gives_one_admissible_pencil() {
         for unknown in [Unknown::Mu, Unknown::Lambda2] {
-            let [one, same, other] = [1, 1, 2].map(|seed| mechanical_pencil(7, unknown, seed).unwrap());
+            let [one, same, other] =
+                [1, 1, 2].map(|seed| mechanical_pencil(7, unknown, seed).unwrap());
             assert_eq!(one.sha256(), same.sha256());
             assert_ne!(one.sha256(), other.sha256());
-            let Body::Pencil(pencil) = one.body() else { unreachable!() };
+            let Body::Pencil(pencil) = one.body() else {
+                unreachable!()
+            };
             assert!(Admissible::new(pencil, unknown).is_ok());
             assert_eq!(pencil.slip().len(), 7);
         }
@@ -140,9 +187,17 @@ mod tests {
     #[test]
     fn condensing_in_doubles_keeps_the_value() {
         let states = crate::source::PublishedState::SeventeenSlip;
-        let problem = states.problem(&Block::of_the_paper(crate::source::MassKind::Consistent)).unwrap();
+        let problem = states
+            .problem(&Block::of_the_paper(crate::source::MassKind::Consistent))
+            .unwrap();
         let small = condensed_in_doubles(&problem).unwrap();
-        let found = complete(&small, &Options::default(), &AtomicBool::new(false), &|_| {}).unwrap();
+        let found = complete(
+            &small,
+            &Options::default(),
+            &AtomicBool::new(false),
+            &|_| {},
+        )
+        .unwrap();
         assert_eq!(found.cover.solutions.len(), 1);
         assert!((to_f64(&found.cover.solutions[0].value.mid()) - 1.71).abs() < 0.01);
         // The near problem's certificate is none for the given one.

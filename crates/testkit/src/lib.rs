@@ -1,7 +1,9 @@
-//! Generators, comparison of engines, forgeries, the verification run, and the bodies of fuzz targets.
+//! Generators, comparison of engines, forgeries, the verification run, and the bodies of fuzz
+//! targets.
 
 use mceip_engine::{
-    candidate, certificate, certify, check, exact, foreign, model, multistart, oracle, reduction, report, search, solver, tolerance,
+    candidate, certificate, certify, check, exact, foreign, model, multistart, oracle, reduction,
+    report, search, solver, tolerance,
 };
 use mceip_paper as source;
 
@@ -29,7 +31,11 @@ pub use completed::compare_complete;
 pub use disagreement::Disagreement;
 pub use families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
 pub use forge::{Forgery, forgeries};
-pub use interior::{INTERIOR_STARTS, InteriorStart, from_interior, interior_starts, path_coverage, path_options};
-pub use large::{LargeError, backslash_block, condensed_in_doubles, mechanical_pencil, refined_block};
+pub use interior::{
+    INTERIOR_STARTS, InteriorStart, from_interior, interior_starts, path_coverage, path_options,
+};
+pub use large::{
+    LargeError, backslash_block, condensed_in_doubles, mechanical_pencil, refined_block,
+};
 pub use mutate::mutate;
 pub use verify::{FamilyReport, Verification, verify, verify_family};

@@ -1,5 +1,5 @@
-//! Random changes of claims: most make a certificate false, some leave it true. Whoever checks the result
-//! has to know which (`tests/checker/mutated_claims.rs` asks the oracle).
+//! Random changes of claims: most make a certificate false, some leave it true. Whoever checks the
+//! result has to know which (`tests/checker/mutated_claims.rs` asks the oracle).
 
 use crate::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution};
 use crate::exact::{Integer, Rational, rational, whole};
@@ -12,7 +12,13 @@ use rand_chacha::ChaCha8Rng;
 pub fn mutate(certificate: &mut Certificate, rng: &mut ChaCha8Rng) {
     let count = certificate.claims.len();
     match rng.random_range(0..24) {
-        0 => certificate.unknown = if certificate.unknown == Unknown::Mu { Unknown::Lambda2 } else { Unknown::Mu },
+        0 => {
+            certificate.unknown = if certificate.unknown == Unknown::Mu {
+                Unknown::Lambda2
+            } else {
+                Unknown::Mu
+            }
+        }
         1 if count > 0 => {
             let claim = certificate.claims[rng.random_range(0..count)].clone();
             certificate.claims.push(claim);
@@ -21,8 +27,19 @@ pub fn mutate(certificate: &mut Certificate, rng: &mut ChaCha8Rng) {
         _ => match &mut certificate.claims[rng.random_range(0..count)] {
             Claim::ExactSolution(c) => exact(c, rng),
             Claim::LiftedSolution(c) => {
-                let part = if rng.random_range(0..2) == 0 { &mut c.v } else { &mut c.w };
-                common(&mut c.support, &mut c.biactive, &mut c.polynomial, &mut c.interval, part, rng);
+                let part = if rng.random_range(0..2) == 0 {
+                    &mut c.v
+                } else {
+                    &mut c.w
+                };
+                common(
+                    &mut c.support,
+                    &mut c.biactive,
+                    &mut c.polynomial,
+                    &mut c.interval,
+                    part,
+                    rng,
+                );
             }
             Claim::EnclosedSolution(c) => enclosed(c, rng),
         },
@@ -30,7 +47,14 @@ pub fn mutate(certificate: &mut Certificate, rng: &mut ChaCha8Rng) {
 }
 
 fn exact(c: &mut ExactSolution, rng: &mut ChaCha8Rng) {
-    common(&mut c.support, &mut c.biactive, &mut c.polynomial, &mut c.interval, &mut c.x, rng);
+    common(
+        &mut c.support,
+        &mut c.biactive,
+        &mut c.polynomial,
+        &mut c.interval,
+        &mut c.x,
+        rng,
+    );
 }
 
 /// What exact and lifted claims have in common.
@@ -81,14 +105,22 @@ fn common(
         }
         // A multiple of p added: the same number.
         9 => {
-            let (k, factor) = (rng.random_range(0..variables), rational(rng.random_range(-3..=3), 2));
+            let (k, factor) = (
+                rng.random_range(0..variables),
+                rational(rng.random_range(-3..=3), 2),
+            );
             if let Some(g) = x.get_mut(k) {
                 g.resize_with(g.len().max(polynomial.len()), || Number(whole(0)));
-                g.iter_mut().zip(polynomial.iter()).for_each(|(n, c)| n.0 += &factor * Rational::from_integer(c.clone()));
+                g.iter_mut()
+                    .zip(polynomial.iter())
+                    .for_each(|(n, c)| n.0 += &factor * Rational::from_integer(c.clone()));
             }
         }
         10 => {
-            let (i, j) = (rng.random_range(0..variables), rng.random_range(0..variables));
+            let (i, j) = (
+                rng.random_range(0..variables),
+                rng.random_range(0..variables),
+            );
             if i.max(j) < x.len() {
                 x.swap(i, j);
             }
@@ -112,10 +144,21 @@ fn enclosed(c: &mut EnclosedSolution, rng: &mut ChaCha8Rng) {
     match rng.random_range(0..7) {
         0 => toggle(&mut c.support, k),
         1 | 2 => c.center.iter_mut().skip(k).take(1).for_each(|v| v.0 += &by),
-        3 => c.radius.iter_mut().skip(k).take(1).for_each(|v| v.0 *= rational(1i64 << rng.random_range(0..24u32), 16)),
+        3 => c
+            .radius
+            .iter_mut()
+            .skip(k)
+            .take(1)
+            .for_each(|v| v.0 *= rational(1i64 << rng.random_range(0..24u32), 16)),
         4 => c.radius.iter_mut().skip(k).take(1).for_each(|v| v.0 += &by),
         5 => c.exponent = c.exponent.saturating_add_signed(rng.random_range(-1..=1)),
-        _ => c.preconditioner.iter_mut().skip(k).flatten().take(1).for_each(|v| *v += Integer::from(rng.random_range(-3i64..=3))),
+        _ => c
+            .preconditioner
+            .iter_mut()
+            .skip(k)
+            .flatten()
+            .take(1)
+            .for_each(|v| *v += Integer::from(rng.random_range(-3i64..=3))),
     }
 }
 
@@ -130,7 +173,11 @@ fn toggle(set: &mut Vec<usize>, index: usize) {
 
 /// A step between one and 1e-30, of either sign.
 fn small(rng: &mut ChaCha8Rng) -> Rational {
-    let sign = if rng.random_range(0..2) == 0 { 1i64 } else { -1 };
+    let sign = if rng.random_range(0..2) == 0 {
+        1i64
+    } else {
+        -1
+    };
     let size = Integer::from(10).pow(rng.random_range(0..=30));
     Rational::new(Integer::from(sign), size)
 }

@@ -11,7 +11,9 @@ pub use arithmetic::exact_against_naive;
 pub use certificates::{certificate_reader, certificate_seeds, hostile_report};
 pub use coverage::{Counter, Seen};
 pub use enumerators::complete_against_plain;
-pub use systems::{SYSTEMS, TWO_PARTICLES, fuzz_treatment, mechanical_systems, mechanical_systems_by};
+pub use systems::{
+    SYSTEMS, TWO_PARTICLES, fuzz_treatment, mechanical_systems, mechanical_systems_by,
+};
 pub use systems::{two_particle_problems, two_particle_problems_by};
 
 use super::{Disagreement, Instance, Treatment, compare_by, forgeries};
@@ -25,7 +27,9 @@ use std::path::Path;
 /// Problem reader: what is read is written and read again as the same problem with the same digest;
 /// what is refused is refused in one line.
 pub fn problem_reader(data: &[u8]) {
-    let Ok(text) = std::str::from_utf8(data) else { return };
+    let Ok(text) = std::str::from_utf8(data) else {
+        return;
+    };
     match read_problem(text, Path::new("/nonexistent")) {
         Ok(problem) => {
             let again = read_problem(&write_problem(&problem), Path::new("/nonexistent"));
@@ -41,35 +45,64 @@ pub fn problem_reader(data: &[u8]) {
 /// Process-wide counts of [`solver_against_oracle`].
 pub static SMALL_PENCILS: Counter = Counter::new("fuzz: solver_against_oracle");
 
-/// Solver, certificate and checker against the enumerator on a small integer pencil; what the solver finds is counted over
-/// the process and held against its floor.
+/// Solver, certificate and checker against the enumerator on a small integer pencil; what the
+/// solver finds is counted over the process and held against its floor.
 pub fn solver_against_oracle(data: &[u8]) {
     solver_against_oracle_by(data, &fuzz_treatment(), &SMALL_PENCILS);
 }
 
 /// [`solver_against_oracle`] with a solver and a counter of one's own.
 pub fn solver_against_oracle_by(data: &[u8], treatment: &Treatment, counter: &Counter) {
-    let Some(problem) = small_problem(data) else { return };
-    let instance = Instance { label: format!("fuzz {data:?}"), problem, closed_form: None, corners: Vec::new() };
+    let Some(problem) = small_problem(data) else {
+        return;
+    };
+    let instance = Instance {
+        label: format!("fuzz {data:?}"),
+        problem,
+        closed_form: None,
+        corners: Vec::new(),
+    };
     let report = compare_by(&instance, treatment);
-    assert!(report.disagreements.is_empty(), "{}: {:?}\n{}", report.label, report.disagreements, write_problem(&instance.problem));
+    assert!(
+        report.disagreements.is_empty(),
+        "{}: {:?}\n{}",
+        report.label,
+        report.disagreements,
+        write_problem(&instance.problem)
+    );
     counter.add(&report);
 }
 
 /// Checker against forgeries: the first byte picks one, the rest makes the problem; and the file
 /// form of every certificate round-trips.
 pub fn checker_against_forgeries(data: &[u8]) {
-    let Some((&pick, rest)) = data.split_first() else { return };
-    let Some(problem) = small_problem(rest) else { return };
-    let instance = Instance { label: "fuzz".into(), problem, closed_form: None, corners: Vec::new() };
+    let Some((&pick, rest)) = data.split_first() else {
+        return;
+    };
+    let Some(problem) = small_problem(rest) else {
+        return;
+    };
+    let instance = Instance {
+        label: "fuzz".into(),
+        problem,
+        closed_form: None,
+        corners: Vec::new(),
+    };
     for certificate in certificates(&instance.problem) {
         assert!(check(&instance.problem, &certificate).is_ok());
-        let again = Certificate::from_json(&certificate.to_json()).unwrap_or_else(|e| panic!("written certificate is refused: {e}"));
+        let again = Certificate::from_json(&certificate.to_json())
+            .unwrap_or_else(|e| panic!("written certificate is refused: {e}"));
         assert_eq!(again, certificate);
         let list = forgeries(&certificate);
         let forgery = &list[usize::from(pick) % list.len()];
         match check(&instance.problem, &forgery.certificate) {
-            Ok(_) => panic!("{}", Disagreement::Forgery { name: forgery.name, got: "accepted".into() }),
+            Ok(_) => panic!(
+                "{}",
+                Disagreement::Forgery {
+                    name: forgery.name,
+                    got: "accepted".into()
+                }
+            ),
             Err(e) => assert!((forgery.expected)(&e.reason), "{}: {e}", forgery.name),
         }
     }
@@ -79,23 +112,38 @@ pub fn checker_against_forgeries(data: &[u8]) {
 fn certificates(problem: &Problem) -> Vec<Certificate> {
     use crate::candidate::Candidate;
     use crate::certify::{certificate, propose};
-    let Ok(reduced) = crate::reduction::reduce(problem) else { return Vec::new() };
-    let Ok(oracle) = crate::oracle::enumerate(&reduced.pencil, problem.window()) else { return Vec::new() };
+    let Ok(reduced) = crate::reduction::reduce(problem) else {
+        return Vec::new();
+    };
+    let Ok(oracle) = crate::oracle::enumerate(&reduced.pencil, problem.window()) else {
+        return Vec::new();
+    };
     let slip = reduced.pencil.slip();
     let candidates = oracle.solutions.iter().map(|s| Candidate {
         value: s.decimal(17).parse().unwrap_or(f64::NAN), // our own decimals parse
-        x: s.x_decimals(&slip, 17).iter().map(|t| t.parse().unwrap_or(f64::NAN)).collect(),
+        x: s.x_decimals(&slip, 17)
+            .iter()
+            .map(|t| t.parse().unwrap_or(f64::NAN))
+            .collect(),
     });
-    let claims = candidates
-        .map(|c| propose(&reduced.pencil, problem.window(), &c).unwrap_or_else(|e| panic!("oracle's solution not certified: {e}")));
-    claims.map(|claim| certificate(problem, vec![claim])).collect()
+    let claims = candidates.map(|c| {
+        propose(&reduced.pencil, problem.window(), &c)
+            .unwrap_or_else(|e| panic!("oracle's solution not certified: {e}"))
+    });
+    claims
+        .map(|claim| certificate(problem, vec![claim]))
+        .collect()
 }
 
 /// A pencil of order 1 to 4 with entries from -4 to 4, free variables by a bit mask.
 fn small_problem(data: &[u8]) -> Option<Problem> {
     let (&head, &mask) = (data.first()?, data.get(1)?);
     let n = usize::from(head % 4) + 1;
-    let unknown = if head & 0x10 == 0 { Unknown::Mu } else { Unknown::Lambda2 };
+    let unknown = if head & 0x10 == 0 {
+        Unknown::Mu
+    } else {
+        Unknown::Lambda2
+    };
     let matrix = |offset: usize| {
         let entries = (0..n * n).map(|k| {
             let byte = data.get(2 + offset + k).copied().unwrap_or(0);

@@ -1,7 +1,9 @@
 //! The main job: every family through every engine, one row each, one verdict.
 
 use super::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
-use super::{BlockError, BlockReport, Corner, Instance, InstanceReport, Treatment, block_state, compare_by};
+use super::{
+    BlockError, BlockReport, Corner, Instance, InstanceReport, Treatment, block_state, compare_by,
+};
 use super::{degenerate, mechanical, random_pencils, table1_grid};
 use crate::model::ModelError;
 use crate::multistart::Search;
@@ -48,7 +50,10 @@ pub struct FamilyReport {
 impl FamilyReport {
     /// Rates that are below their floors by more than chance explains.
     pub fn shortfalls(&self) -> Vec<Shortfall> {
-        self.coverage.iter().flat_map(|(starts, coverage)| shortfalls(self.name, *starts, coverage)).collect()
+        self.coverage
+            .iter()
+            .flat_map(|(starts, coverage)| shortfalls(self.name, *starts, coverage))
+            .collect()
     }
 }
 
@@ -68,9 +73,16 @@ pub struct Verification {
 impl Verification {
     /// Number of disagreements in all, shortfalls among them.
     pub fn disagreements(&self) -> usize {
-        let of = |b: &BlockReport| b.rejected.len() + b.forgeries - b.rejected_forgeries + b.missing + b.unfound;
+        let of = |b: &BlockReport| {
+            b.rejected.len() + b.forgeries - b.rejected_forgeries + b.missing + b.unfound
+        };
         let block: usize = self.block.iter().map(of).sum();
-        self.families.iter().map(|f| f.disagreements.len()).sum::<usize>() + block + self.shortfalls().len()
+        self.families
+            .iter()
+            .map(|f| f.disagreements.len())
+            .sum::<usize>()
+            + block
+            + self.shortfalls().len()
     }
 
     /// Coverage of the families, and of PATH's own sequence on the block's states.
@@ -78,12 +90,20 @@ impl Verification {
         let mut out = Vec::new();
         for family in &self.families {
             for (starts, coverage) in &family.coverage {
-                out.push(Covered { family: family.name.into(), starts: *starts, coverage: *coverage });
+                out.push(Covered {
+                    family: family.name.into(),
+                    starts: *starts,
+                    coverage: *coverage,
+                });
             }
         }
 
         for block in &self.block {
-            out.push(Covered { family: block.state.name().into(), starts: Starts::Path, coverage: block.path });
+            out.push(Covered {
+                family: block.state.name().into(),
+                starts: Starts::Path,
+                coverage: block.path,
+            });
         }
         out
     }
@@ -91,11 +111,14 @@ impl Verification {
     /// Every rate that is below its floor by more than chance explains.
     pub fn shortfalls(&self) -> Vec<Shortfall> {
         let families = self.families.iter().flat_map(FamilyReport::shortfalls);
-        families.chain(self.block.iter().flat_map(BlockReport::shortfalls)).collect()
+        families
+            .chain(self.block.iter().flat_map(BlockReport::shortfalls))
+            .collect()
     }
 }
 
-/// Runs everything embedded: Table 1, `random` random pencils, systems, degenerate cases, the block.
+/// Runs everything embedded: Table 1, `random` random pencils, systems, degenerate cases, the
+/// block.
 ///
 /// `stop` ends the run after the instances at work; `progress` hears (family, done, of). The result
 /// does not depend on the number of threads.
@@ -108,7 +131,10 @@ pub fn verify(
     stop: &AtomicBool,
     progress: &(dyn Fn(&str, usize, usize) + Sync),
 ) -> Result<Verification, BlockError> {
-    let treatment = Treatment::of(&Search { seed, ..Search::default() });
+    let treatment = Treatment::of(&Search {
+        seed,
+        ..Search::default()
+    });
     let families: [(&'static str, Result<Vec<Instance>, ModelError>); 4] = [
         ("Table 1 (two particles)", table1_grid()),
         ("random pencils", random_pencils(random, seed)),
@@ -128,7 +154,12 @@ pub fn verify(
         progress("block of section 5", k, 2);
         block.extend(block_state(&model, state, stop, &|_| {})?);
     }
-    Ok(Verification { seed, families: rows, block, interrupted: stop.load(Ordering::Relaxed) })
+    Ok(Verification {
+        seed,
+        families: rows,
+        block,
+        interrupted: stop.load(Ordering::Relaxed),
+    })
 }
 
 /// Runs one family, instances in parallel; the row does not depend on the number of threads.
@@ -147,11 +178,20 @@ pub fn verify_family(
                 return None;
             }
             let report = compare_by(instance, treatment);
-            progress(name, done.fetch_add(1, Ordering::Relaxed) + 1, instances.len());
+            progress(
+                name,
+                done.fetch_add(1, Ordering::Relaxed) + 1,
+                instances.len(),
+            );
             Some(report)
         })
         .collect(); // in the order of the instances
-    let mut row = FamilyReport { name, instances: instances.len(), done: reports.len(), ..FamilyReport::default() };
+    let mut row = FamilyReport {
+        name,
+        instances: instances.len(),
+        done: reports.len(),
+        ..FamilyReport::default()
+    };
     for r in reports {
         row.oracle += r.oracle;
         row.findable += if r.solved { r.oracle } else { 0 };
@@ -160,13 +200,19 @@ pub fn verify_family(
         row.degenerate += usize::from(r.degenerate);
         row.completed += usize::from(r.completed);
         row.pivots += r.pivots;
-        let wrong_forgeries = r.disagreements.iter().filter(|d| matches!(d, super::Disagreement::Forgery { .. })).count();
+        let wrong_forgeries = r
+            .disagreements
+            .iter()
+            .filter(|d| matches!(d, super::Disagreement::Forgery { .. }))
+            .count();
         row.rejected += r.forgeries - wrong_forgeries;
         for (starts, coverage) in r.coverage() {
             row.coverage.entry(starts).or_default().add(&coverage);
         }
-        row.uncertified.extend(r.uncertified.iter().map(|u| format!("{}: {u}", r.label)));
-        row.disagreements.extend(r.disagreements.iter().map(|d| format!("{}: {d}", r.label)));
+        row.uncertified
+            .extend(r.uncertified.iter().map(|u| format!("{}: {u}", r.label)));
+        row.disagreements
+            .extend(r.disagreements.iter().map(|d| format!("{}: {d}", r.label)));
         let mut corners = r.corners;
         corners.sort();
         corners.dedup();

@@ -1,4 +1,5 @@
-//! `mceip block --lambda2`: growth rates by sparse condensation, certified where the mesh is small enough.
+//! `mceip block --lambda2`: growth rates by sparse condensation, certified where the mesh is small
+//! enough.
 
 use super::scale::{self, ScaleError};
 use super::{Args, published};
@@ -36,18 +37,37 @@ struct Row {
 
 /// Searches each case at each friction and prints the table.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    let bad = |got: &str| CliError::Option { option: "lambda2", expected: "a friction mu > 0", got: got.chars().take(60).collect() };
-    let friction = |text: &String| parse(text).ok().filter(Rational::is_positive).ok_or_else(|| bad(text));
-    let frictions = args.lambda2.iter().map(friction).collect::<Result<Vec<_>, _>>()?;
+    let bad = |got: &str| CliError::Option {
+        option: "lambda2",
+        expected: "a friction mu > 0",
+        got: got.chars().take(60).collect(),
+    };
+    let friction = |text: &String| {
+        parse(text)
+            .ok()
+            .filter(Rational::is_positive)
+            .ok_or_else(|| bad(text))
+    };
+    let frictions = args
+        .lambda2
+        .iter()
+        .map(friction)
+        .collect::<Result<Vec<_>, _>>()?;
     let cases = cases(args)?;
     let stop = interrupt_flag();
     let bar = progress_spinner("block");
-    let search = CondensedSearch { starts: args.starts, seed: args.seed, ..CondensedSearch::default() };
+    let search = CondensedSearch {
+        starts: args.starts,
+        seed: args.seed,
+        ..CondensedSearch::default()
+    };
     let mut rows = Vec::new();
     for case in &cases {
         bar.set_message(format!("{}: assembling", case.name));
         let condensation = condensation(case)?;
-        let exact = (condensation.dofs() <= ENCLOSED_ORDER).then(|| Block::new(&case.model)).transpose()?;
+        let exact = (condensation.dofs() <= ENCLOSED_ORDER)
+            .then(|| Block::new(&case.model))
+            .transpose()?;
         for (mu, text) in frictions.iter().zip(&args.lambda2) {
             let heard = |what: &str| bar.set_message(format!("{}, mu = {text}: {what}", case.name));
             let clock = Instant::now();
@@ -56,7 +76,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             heard("certifying");
             let evidence = evidence(exact.as_ref(), case, mu, &found.solutions, &stop)?;
             let orders = (condensation.dofs(), condensation.slip_count());
-            rows.push(Row { name: case.name.clone(), mu: text.clone(), orders, found, evidence, seconds });
+            rows.push(Row {
+                name: case.name.clone(),
+                mu: text.clone(),
+                orders,
+                found,
+                evidence,
+                seconds,
+            });
             if stop.load(Ordering::Relaxed) {
                 break;
             }
@@ -67,11 +94,16 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     bar.finish_and_clear();
     print(&if args.json {
-        format!("{}\n", json!({ "lambda2": rows.iter().map(json_of).collect::<Vec<_>>() }))
+        format!(
+            "{}\n",
+            json!({ "lambda2": rows.iter().map(json_of).collect::<Vec<_>>() })
+        )
     } else {
         text_of(&rows, args.seed)
     })?;
-    let certified = rows.iter().all(|r| !r.evidence.is_empty() && r.evidence.iter().all(Result::is_ok));
+    let certified = rows
+        .iter()
+        .all(|r| !r.evidence.is_empty() && r.evidence.iter().all(Result::is_ok));
     Ok(match () {
         () if stop.load(Ordering::Relaxed) => exit::INTERRUPTED,
         () if certified => exit::DONE,
@@ -81,27 +113,49 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 
 /// The published states on the paper's mesh, or all-slip states on the meshes of --scale.
 fn cases(args: &Args) -> Result<Vec<Case>, CliError> {
-    let mass = if args.lumped { MassKind::Lumped } else { MassKind::Consistent };
+    let mass = if args.lumped {
+        MassKind::Lumped
+    } else {
+        MassKind::Consistent
+    };
     if args.scale.is_empty() {
         let case = |s: crate::source::PublishedState| Case {
             name: s.name().to_string(),
-            model: BlockModel { mass, ..BlockModel::of_the_paper() },
+            model: BlockModel {
+                mass,
+                ..BlockModel::of_the_paper()
+            },
             states: s.states(),
         };
         return Ok(published(args.state)?.into_iter().map(case).collect());
     }
     let case = |text: &String| {
-        let model = BlockModel { mass, ..scale::model(text)? };
+        let model = BlockModel {
+            mass,
+            ..scale::model(text)?
+        };
         let states = scale::states(model.cells.0);
-        Ok(Case { name: format!("{}x{} cells", model.cells.0, model.cells.1), model, states })
+        Ok(Case {
+            name: format!("{}x{} cells", model.cells.0, model.cells.1),
+            model,
+            states,
+        })
     };
     args.scale.iter().map(case).collect()
 }
 
 fn condensation(case: &Case) -> Result<SparseCondensation, ScaleError> {
     let block = DoubleBlock::new(&case.model)?;
-    let (stiffness, mass) = (scale::symmetric("K", &block.stiffness)?, scale::symmetric("M", &block.mass)?);
-    Ok(SparseCondensation::new(stiffness, Some(mass), &block.particles(&case.states), Some(&block.points))?)
+    let (stiffness, mass) = (
+        scale::symmetric("K", &block.stiffness)?,
+        scale::symmetric("M", &block.mass)?,
+    );
+    Ok(SparseCondensation::new(
+        stiffness,
+        Some(mass),
+        &block.particles(&case.states),
+        Some(&block.points),
+    )?)
 }
 
 fn searched(
@@ -119,9 +173,18 @@ fn searched(
             found.factorisations,
             found.solutions.len()
         ));
-        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if stop.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     };
-    Ok(search_condensed(condensation, to_f64(mu), search, &progress)?)
+    Ok(search_condensed(
+        condensation,
+        to_f64(mu),
+        search,
+        &progress,
+    )?)
 }
 
 /// Certifies each solution on the exact K and M: the checker has accepted its claim.
@@ -133,7 +196,10 @@ fn evidence(
     stop: &AtomicBool,
 ) -> Result<Vec<Result<f64, String>>, CliError> {
     let Some(block) = block else {
-        return Ok(solutions.iter().map(|_| Err(format!("more than {ENCLOSED_ORDER} dofs"))).collect());
+        return Ok(solutions
+            .iter()
+            .map(|_| Err(format!("more than {ENCLOSED_ORDER} dofs")))
+            .collect());
     };
     let mut states = case.states.clone();
     states.resize(block.contact.len(), ContactState::Free);
@@ -141,13 +207,21 @@ fn evidence(
     let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
     let pencil = reduce(&problem)?.pencil;
     let certifier = Certifier::new(&problem, &pencil);
-    let one = |s: &CondensedSolution| if stop.load(Ordering::Relaxed) { Err("interrupted".into()) } else { accepted(&certifier, s) };
+    let one = |s: &CondensedSolution| {
+        if stop.load(Ordering::Relaxed) {
+            Err("interrupted".into())
+        } else {
+            accepted(&certifier, s)
+        }
+    };
     Ok(solutions.iter().map(one).collect())
 }
 
 /// The value of a solution that the checker accepts.
 fn accepted(certifier: &Certifier<'_>, solution: &CondensedSolution) -> Result<f64, String> {
-    let (_, proved) = certifier.certify_with_verdict(&solution.candidate).map_err(|e| e.to_string())?;
+    let (_, proved) = certifier
+        .certify_with_verdict(&solution.candidate)
+        .map_err(|e| e.to_string())?;
     Ok(to_f64(&proved.value.mid()))
 }
 
@@ -166,22 +240,51 @@ fn text_of(rows: &[Row], seed: u64) -> String {
         "evidence",
     ]);
     for r in rows {
-        let head = || vec![r.name.clone(), r.orders.0.to_string(), r.orders.1.to_string(), r.mu.clone()];
-        let tail =
-            |runs: usize| vec![format!("{runs} of {}", r.found.runs), r.found.factorisations.to_string(), format!("{:.2}", r.seconds)];
+        let head = || {
+            vec![
+                r.name.clone(),
+                r.orders.0.to_string(),
+                r.orders.1.to_string(),
+                r.mu.clone(),
+            ]
+        };
+        let tail = |runs: usize| {
+            vec![
+                format!("{runs} of {}", r.found.runs),
+                r.found.factorisations.to_string(),
+                format!("{:.2}", r.seconds),
+            ]
+        };
         if r.found.solutions.is_empty() {
             let none = ["none found", "", ""].map(String::from).to_vec();
-            table.row([head(), none, tail(0), vec!["none: this proves nothing".into()]].concat());
+            table.row(
+                [
+                    head(),
+                    none,
+                    tail(0),
+                    vec!["none: this proves nothing".into()],
+                ]
+                .concat(),
+            );
         }
         for (s, evidence) in r.found.solutions.iter().zip(&r.evidence) {
             let value = *evidence.as_ref().unwrap_or(&s.candidate.value);
             let slipping = s.slip.iter().filter(|x| **x > 0.0).count();
-            let middle = vec![format!("{value:.4}"), format!("{:.6}", value.sqrt()), slipping.to_string()];
-            let why = evidence.as_ref().map_or_else(|e| format!("UNCERTIFIED: {e}"), |_| "certified, accepted".into());
+            let middle = vec![
+                format!("{value:.4}"),
+                format!("{:.6}", value.sqrt()),
+                slipping.to_string(),
+            ];
+            let why = evidence.as_ref().map_or_else(
+                |e| format!("UNCERTIFIED: {e}"),
+                |_| "certified, accepted".into(),
+            );
             table.row([head(), middle, tail(s.runs), vec![why]].concat());
         }
     }
-    format!("{table}MCEIP-lambda2 by many starts (seed {seed}): other solutions may exist; `mceip complete` proves that there are none\n")
+    format!(
+        "{table}MCEIP-lambda2 by many starts (seed {seed}): other solutions may exist; `mceip complete` proves that there are none\n"
+    )
 }
 
 fn json_of(r: &Row) -> Value {

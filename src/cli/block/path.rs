@@ -9,7 +9,10 @@ use crate::cli::output::{Folder, Output};
 use crate::exact::{Integer, Rational, parse, to_f64};
 use crate::model::ContactState;
 use crate::report::Table;
-use crate::source::path::{Bound, Comparison, Contact, Equilibrium, Event, Finder, Interval, Loading, LoadingPath, PathEnd, step_path};
+use crate::source::path::{
+    Bound, Comparison, Contact, Equilibrium, Event, Finder, Interval, Loading, LoadingPath,
+    PathEnd, step_path,
+};
 use crate::source::{Block, BlockModel, MassKind, MeshKind, Plane};
 use num_traits::{Signed, ToPrimitive};
 use pages::Shown;
@@ -25,10 +28,22 @@ use std::time::Duration;
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let (model, loading) = (model(args)?, loading(args)?);
     let step = args.step.as_deref().map(positive_step).transpose()?;
-    let at = args.at_mu.iter().map(|mu| positive("at-mu", mu)).collect::<Result<Vec<_>, _>>()?;
+    let at = args
+        .at_mu
+        .iter()
+        .map(|mu| positive("at-mu", mu))
+        .collect::<Result<Vec<_>, _>>()?;
     let block = Block::new(&model)?;
-    let report = args.report.as_ref().map(|file| Output::prepare("report", file, &[])).transpose()?;
-    let folder = args.pictures.as_ref().map(|f| Folder::prepare("pictures", f)).transpose()?;
+    let report = args
+        .report
+        .as_ref()
+        .map(|file| Output::prepare("report", file, &[]))
+        .transpose()?;
+    let folder = args
+        .pictures
+        .as_ref()
+        .map(|f| Folder::prepare("pictures", f))
+        .transpose()?;
     let stop = interrupt_flag();
     let bar = progress_spinner("condensing exactly to the contact nodes");
     let Some(contact) = condense(block.clone(), &stop)? else {
@@ -36,22 +51,57 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         return Ok(exit::INTERRUPTED);
     };
     let path = LoadingPath::follow(&contact, &loading, &|stretch, motion| {
-        bar.set_message(format!("stretch {stretch}, motion {:.4} mm", to_f64(motion)));
-        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        bar.set_message(format!(
+            "stretch {stretch}, motion {:.4} mm",
+            to_f64(motion)
+        ));
+        if stop.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     })?;
     let heard = |step: usize| {
         bar.set_message(format!("stepping, step {step}"));
-        if stop.load(Ordering::Relaxed) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+        if stop.load(Ordering::Relaxed) {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
     };
-    let steps = step.as_ref().map(|h| compare(&contact, &path, h, &heard)).transpose()?;
+    let steps = step
+        .as_ref()
+        .map(|h| compare(&contact, &path, h, &heard))
+        .transpose()?;
     let shows = report.is_some() || folder.is_some();
-    let wanted = Wanted { uncondensed: args.uncondensed, conditions: args.conditions || shows, at: &at, modes: args.modes || shows };
+    let wanted = Wanted {
+        uncondensed: args.uncondensed,
+        conditions: args.conditions || shows,
+        at: &at,
+        modes: args.modes || shows,
+    };
     let told = |what: String| bar.set_message(what);
-    let states = if args.complete || shows { Some(states::of((&block, &contact, &path), &wanted, &stop, &told)?) } else { None };
+    let states = if args.complete || shows {
+        Some(states::of(
+            (&block, &contact, &path),
+            &wanted,
+            &stop,
+            &told,
+        )?)
+    } else {
+        None
+    };
     if let (true, Some(states)) = (shows, &states) {
         let branches = pages::branches(&block, &path, states, &stop, &told)?;
         let (model, block, path, uncondensed) = (&model, &block, &path, args.uncondensed);
-        let shown = Shown { model, block, path, states, branches, uncondensed };
+        let shown = Shown {
+            model,
+            block,
+            path,
+            states,
+            branches,
+            uncondensed,
+        };
         if !stop.load(Ordering::Relaxed) {
             show(&shown, report, folder)?; // an interrupted run leaves no pictures
         }
@@ -63,15 +113,23 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             out["complete_sets"] = states::json_of(states, &path);
         }
         if args.modes {
-            out["nodes_mm"] = block.nodes.iter().map(|(x, y)| json!([to_f64(x), to_f64(y)])).collect();
+            out["nodes_mm"] = block
+                .nodes
+                .iter()
+                .map(|(x, y)| json!([to_f64(x), to_f64(y)]))
+                .collect();
         }
         format!("{out}\n")
     } else {
         text_of(&model, &path)
             + &steps.as_ref().map_or(String::new(), comparison_text)
-            + &states.as_deref().map_or(String::new(), |s| states::text_of(s, &path))
+            + &states
+                .as_deref()
+                .map_or(String::new(), |s| states::text_of(s, &path))
     })?;
-    let open = states.as_ref().is_some_and(|s| s.iter().any(State::is_open));
+    let open = states
+        .as_ref()
+        .is_some_and(|s| s.iter().any(State::is_open));
     let unproved = matches!(path.end, PathEnd::NoContinuation { proved: false, .. });
     Ok(if stop.load(Ordering::Relaxed) {
         exit::INTERRUPTED
@@ -91,9 +149,16 @@ fn show(shown: &Shown<'_>, report: Option<Output>, folder: Option<Folder>) -> Re
     if let Some(file) = report {
         file.write(&shown.report()?.to_html())?;
     }
-    for named in if folder.is_some() { shown.pictures()? } else { Vec::new() } {
+    for named in if folder.is_some() {
+        shown.pictures()?
+    } else {
+        Vec::new()
+    } {
         let Some(folder) = &folder else { break };
-        folder.write(&format!("{}.svg", named.name), named.picture.to_svg().as_bytes())?;
+        folder.write(
+            &format!("{}.svg", named.name),
+            named.picture.to_svg().as_bytes(),
+        )?;
         #[cfg(feature = "png")]
         folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
     }
@@ -107,26 +172,56 @@ fn compare(
     h: &Rational,
     progress: &dyn Fn(usize) -> ControlFlow<()>,
 ) -> Result<Comparison, CliError> {
-    let last = path.intervals.last().map(|i| i.stop.as_ref().unwrap_or(&i.start).motion().clone());
+    let last = path
+        .intervals
+        .last()
+        .map(|i| i.stop.as_ref().unwrap_or(&i.start).motion().clone());
     let steps: Integer = (last.unwrap_or_default() / h).ceil().to_integer() + 1;
     let count = steps.to_usize().filter(|&n| n <= MAX_STEPS);
-    let count = count.ok_or_else(|| option("step", "a step with at most 1000000 of them on the path", &h.to_string()))?;
-    Ok(Comparison::of(path, &step_path(contact, &path.loading, h, count, progress)?))
+    let count = count.ok_or_else(|| {
+        option(
+            "step",
+            "a step with at most 1000000 of them on the path",
+            &h.to_string(),
+        )
+    })?;
+    Ok(Comparison::of(
+        path,
+        &step_path(contact, &path.loading, h, count, progress)?,
+    ))
 }
 
 /// More steps than anybody waits for.
 const MAX_STEPS: usize = 1_000_000;
 
 fn positive_step(text: &str) -> Result<Rational, CliError> {
-    number("step", text).and_then(|h| if h.is_positive() { Ok(h) } else { Err(option("step", "a length > 0", text)) })
+    number("step", text).and_then(|h| {
+        if h.is_positive() {
+            Ok(h)
+        } else {
+            Err(option("step", "a length > 0", text))
+        }
+    })
 }
 
 fn positive(name: &'static str, text: &str) -> Result<Rational, CliError> {
-    number(name, text).and_then(|v| if v.is_positive() { Ok(v) } else { Err(option(name, "a number > 0", text)) })
+    number(name, text).and_then(|v| {
+        if v.is_positive() {
+            Ok(v)
+        } else {
+            Err(option(name, "a number > 0", text))
+        }
+    })
 }
 
 fn comparison_text(c: &Comparison) -> String {
-    let list = |v: &[usize]| if v.is_empty() { "none".into() } else { format!("{v:?}") };
+    let list = |v: &[usize]| {
+        if v.is_empty() {
+            "none".into()
+        } else {
+            format!("{v:?}")
+        }
+    };
     format!(
         "stepping: {} steps in doubles; no step ends in stretches {}; steps inside a stretch with other states: {}; largest difference of a reaction {:.3e} N\n",
         c.steps,
@@ -152,23 +247,55 @@ fn condense(block: Block, stop: &Arc<AtomicBool>) -> Result<Option<Contact>, Cli
 fn model(args: &Args) -> Result<BlockModel, CliError> {
     let paper = BlockModel::of_the_paper();
     let word = |text: &str| text.to_ascii_lowercase();
-    let mesh = MeshKind::ALL.into_iter().find(|m| m.word() == word(&args.mesh));
-    let mesh = mesh.ok_or_else(|| option("mesh", "crossed, union-jack, slash or backslash", &args.mesh))?;
-    let plane = Plane::ALL.into_iter().find(|p| p.word() == word(&args.plane));
+    let mesh = MeshKind::ALL
+        .into_iter()
+        .find(|m| m.word() == word(&args.mesh));
+    let mesh = mesh.ok_or_else(|| {
+        option(
+            "mesh",
+            "crossed, union-jack, slash or backslash",
+            &args.mesh,
+        )
+    })?;
+    let plane = Plane::ALL
+        .into_iter()
+        .find(|p| p.word() == word(&args.plane));
     let plane = plane.ok_or_else(|| option("plane", "stress or strain", &args.plane))?;
     let bad_cells = || option("cells", "NXxNY, such as 20x10", &args.cells);
     let (nx, ny) = args.cells.split_once('x').ok_or_else(bad_cells)?;
-    let (nx, ny) = (nx.parse().map_err(|_| bad_cells())?, ny.parse().map_err(|_| bad_cells())?);
-    let mass = if args.lumped { MassKind::Lumped } else { MassKind::Consistent };
+    let (nx, ny) = (
+        nx.parse().map_err(|_| bad_cells())?,
+        ny.parse().map_err(|_| bad_cells())?,
+    );
+    let mass = if args.lumped {
+        MassKind::Lumped
+    } else {
+        MassKind::Consistent
+    };
     let height = number("height", &args.height)?;
     let length = paper.length();
     let cell = |all: &Rational, n: usize| all / Rational::from_integer(n.max(1).into());
-    Ok(BlockModel { cells: (nx, ny), cell: (cell(&length, nx), cell(&height, ny)), mesh, plane, mass, ..paper })
+    Ok(BlockModel {
+        cells: (nx, ny),
+        cell: (cell(&length, nx), cell(&height, ny)),
+        mesh,
+        plane,
+        mass,
+        ..paper
+    })
 }
 
 fn loading(args: &Args) -> Result<Loading, CliError> {
-    let until = args.until.as_deref().map(|u| number("until", u)).transpose()?;
-    Ok(Loading { friction: number("mu", &args.mu)?, force: number("force", &args.force)?, until })
+    let until = args
+        .until
+        .as_deref()
+        .map(|u| number("until", u))
+        .transpose()?;
+    Ok(Loading {
+        friction: number("mu", &args.mu)?,
+        force: number("force", &args.force)?,
+        until,
+    })
 }
 
 fn number(name: &'static str, text: &str) -> Result<Rational, CliError> {
@@ -176,7 +303,11 @@ fn number(name: &'static str, text: &str) -> Result<Rational, CliError> {
 }
 
 fn option(option: &'static str, expected: &'static str, got: &str) -> CliError {
-    CliError::Option { option, expected, got: got.chars().take(60).collect() }
+    CliError::Option {
+        option,
+        expected,
+        got: got.chars().take(60).collect(),
+    }
 }
 
 fn text_of(model: &BlockModel, path: &LoadingPath) -> String {
@@ -187,20 +318,43 @@ fn text_of(model: &BlockModel, path: &LoadingPath) -> String {
     };
     let (mesh, plane) = (model.mesh.word(), model.plane.word());
     let [mu, force, depth] = [&path.loading.friction, &path.loading.force, &path.depth].map(to_f64);
-    line(format!("{nx} x {ny} cells, {mesh}, plane {plane}; mu = {mu}; pressed {depth:.6} mm to {force} N, then moved to the left"));
+    line(format!(
+        "{nx} x {ny} cells, {mesh}, plane {plane}; mu = {mu}; pressed {depth:.6} mm to {force} N, then moved to the left"
+    ));
     line("nodes from left to right: . stick, < slips to the left (S = 1), > slips to the right (S = -1), o free".into());
-    let mut table =
-        Table::new(&["#", "from mm", "to mm", "nodes", "stick", "left", "right", "free", "T at start N", "event it begins with"]);
+    let mut table = Table::new(&[
+        "#",
+        "from mm",
+        "to mm",
+        "nodes",
+        "stick",
+        "left",
+        "right",
+        "free",
+        "T at start N",
+        "event it begins with",
+    ]);
     for (k, interval) in path.intervals.iter().enumerate() {
         let [stick, left, right, free] = interval.counts();
         let to = interval.stop.as_ref().map_or("-".into(), motion);
-        let mut row = vec![k.to_string(), motion(&interval.start), to, interval.picture()];
+        let mut row = vec![
+            k.to_string(),
+            motion(&interval.start),
+            to,
+            interval.picture(),
+        ];
         row.extend([stick, left, right, free].map(|c| c.to_string()));
-        row.extend([format!("{:.6}", to_f64(&interval.start.resultants().0)), event_text(&interval.begin)]);
+        row.extend([
+            format!("{:.6}", to_f64(&interval.start.resultants().0)),
+            event_text(&interval.begin),
+        ]);
         table.row(row);
     }
     line(table.to_string());
-    line(format!("every event is an exact rational number; (1), (2), (5), (7) verified exactly at both ends; {}", end_text(path)));
+    line(format!(
+        "every event is an exact rational number; (1), (2), (5), (7) verified exactly at both ends; {}",
+        end_text(path)
+    ));
     out
 }
 
@@ -220,22 +374,41 @@ fn event_text(event: &Event) -> String {
 
 fn end_text(path: &LoadingPath) -> String {
     match &path.end {
-        PathEnd::NoFurtherEvent if path.slides() => "the block slides: nothing changes any more".into(),
+        PathEnd::NoFurtherEvent if path.slides() => {
+            "the block slides: nothing changes any more".into()
+        }
         PathEnd::NoFurtherEvent => "no further event: some nodes stick for ever".into(),
         PathEnd::Range => "end of the range".into(),
         PathEnd::Interrupted => "INTERRUPTED".into(),
-        PathEnd::NoContinuation { causes, proved: true, .. } => {
-            format!("the quasi-static path ends ({}): no states satisfy the rate conditions, every set was tried", causes_text(causes))
+        PathEnd::NoContinuation {
+            causes,
+            proved: true,
+            ..
+        } => {
+            format!(
+                "the quasi-static path ends ({}): no states satisfy the rate conditions, every set was tried",
+                causes_text(causes)
+            )
         }
         PathEnd::NoContinuation { causes, tried, .. } => {
-            format!("UNDECIDED ({}): no admissible states among {tried} sets tried", causes_text(causes))
+            format!(
+                "UNDECIDED ({}): no admissible states among {tried} sets tried",
+                causes_text(causes)
+            )
         }
     }
 }
 
 fn causes_text(causes: &[Bound]) -> String {
-    let causes: Vec<String> = causes.iter().map(|b| format!("node {}: {}", b.node() + 1, b.word())).collect();
-    if causes.is_empty() { "motion begins".into() } else { causes.join(", ") }
+    let causes: Vec<String> = causes
+        .iter()
+        .map(|b| format!("node {}: {}", b.node() + 1, b.word()))
+        .collect();
+    if causes.is_empty() {
+        "motion begins".into()
+    } else {
+        causes.join(", ")
+    }
 }
 
 fn json_of(model: &BlockModel, path: &LoadingPath, steps: Option<&Comparison>) -> Value {
@@ -273,7 +446,11 @@ fn cause_json(bound: &Bound) -> Value {
 
 fn equilibrium_json(at: &Equilibrium) -> Value {
     let (t, n) = at.resultants();
-    let reactions: Vec<Value> = at.reactions_f64().into_iter().map(|(t, n)| json!([t, n])).collect();
+    let reactions: Vec<Value> = at
+        .reactions_f64()
+        .into_iter()
+        .map(|(t, n)| json!([t, n]))
+        .collect();
     // bits of the exact motion: its fraction fills pages
     let bits = at.motion().numer().bits() + at.motion().denom().bits();
     json!({ "motion_bits": bits, "resultant_T_N": to_f64(&t), "resultant_N_N": to_f64(&n), "reactions_T_N": reactions })

@@ -8,7 +8,9 @@ use crate::linear::SymmetricError;
 use crate::model::file::write_problem;
 use crate::model::{Body, ContactState, ModelError, Pencil, Problem, Unknown, Window};
 use crate::multistart::{AllSlip, CondensedSearchError, all_slip};
-use crate::reduction::{CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed};
+use crate::reduction::{
+    CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed,
+};
 use crate::report::Table;
 use crate::search::complete::{Options, complete};
 use crate::source::{BlockModel, DoubleBlock, DoubleMatrix, SourceError};
@@ -28,7 +30,10 @@ pub(in crate::cli) enum ScaleError {
     #[error(transparent)]
     Source(#[from] SourceError),
     #[error("{what} in doubles: {source}")]
-    Matrix { what: &'static str, source: SymmetricError },
+    Matrix {
+        what: &'static str,
+        source: SymmetricError,
+    },
     #[error(transparent)]
     Condensation(#[from] SparseCondensationError),
     #[error(transparent)]
@@ -51,46 +56,82 @@ struct Row {
 
 /// Condenses each mesh and prints the table.
 pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result<u8, CliError> {
-    let models = scales.iter().map(|s| model(s)).collect::<Result<Vec<_>, _>>()?;
+    let models = scales
+        .iter()
+        .map(|s| model(s))
+        .collect::<Result<Vec<_>, _>>()?;
     let mut outputs = Vec::new();
     for m in &models {
         let path = write.map(|w| w.join(format!("block-{}x{}.json", m.cells.0, m.cells.1)));
-        outputs.push(path.map(|p| Output::prepare("write", &p, &[])).transpose()?); // writable, before the work
+        outputs.push(
+            path.map(|p| Output::prepare("write", &p, &[]))
+                .transpose()?,
+        ); // writable, before the work
     }
     let stop = interrupt_flag();
     let bar = progress_spinner("block");
     let mut rows = Vec::new();
     for (model, output) in models.iter().zip(outputs) {
-        let heard = |what: &str| bar.set_message(format!("{} x {} cells: {what}", model.cells.0, model.cells.1));
+        let heard = |what: &str| {
+            bar.set_message(format!(
+                "{} x {} cells: {what}",
+                model.cells.0, model.cells.1
+            ))
+        };
         match row(model, output, &stop, &heard)? {
             Some(row) => rows.push(row),
             None => break,
         }
     }
     bar.finish_and_clear();
-    print(&if json { format!("{}\n", json!({ "scale": rows.iter().map(json_of).collect::<Vec<_>>() })) } else { text_of(&rows) })?;
-    Ok(if stop.load(Ordering::Relaxed) { exit::INTERRUPTED } else { exit::DONE })
+    print(&if json {
+        format!(
+            "{}\n",
+            json!({ "scale": rows.iter().map(json_of).collect::<Vec<_>>() })
+        )
+    } else {
+        text_of(&rows)
+    })?;
+    Ok(if stop.load(Ordering::Relaxed) {
+        exit::INTERRUPTED
+    } else {
+        exit::DONE
+    })
 }
 
 /// `NXxNY` cells of the paper's block.
 pub(super) fn model(text: &str) -> Result<BlockModel, CliError> {
-    let bad = || CliError::Option { option: "scale", expected: "NXxNY, such as 320x160", got: text.chars().take(60).collect() };
+    let bad = || CliError::Option {
+        option: "scale",
+        expected: "NXxNY, such as 320x160",
+        got: text.chars().take(60).collect(),
+    };
     let (nx, ny) = text.split_once('x').ok_or_else(bad)?;
-    Ok(BlockModel::of_the_paper().with_cells(nx.parse().map_err(|_| bad())?, ny.parse().map_err(|_| bad())?))
+    Ok(BlockModel::of_the_paper().with_cells(
+        nx.parse().map_err(|_| bad())?,
+        ny.parse().map_err(|_| bad())?,
+    ))
 }
 
-/// 17 of every 20 cells, as in Fig. 3: the first nodes from the left slip with S = 1, the others are free.
+/// 17 of every 20 cells, as in Fig. 3: the first nodes from the left slip with S = 1, the others
+/// are free.
 pub(super) fn states(nx: usize) -> Vec<ContactState> {
     vec![ContactState::Slip { sign: 1 }; (17 * nx / 20).max(1)]
 }
 
 /// Symmetric K or M of a block in doubles.
 pub(super) fn symmetric(what: &'static str, m: &DoubleMatrix) -> Result<Symmetric, ScaleError> {
-    Symmetric::new(m.order, m.entries.iter().copied()).map_err(|source| ScaleError::Matrix { what, source })
+    Symmetric::new(m.order, m.entries.iter().copied())
+        .map_err(|source| ScaleError::Matrix { what, source })
 }
 
 /// One mesh; `None` if interrupted before its condensation was done.
-fn row(model: &BlockModel, output: Option<Output>, stop: &AtomicBool, heard: &dyn Fn(&str)) -> Result<Option<Row>, CliError> {
+fn row(
+    model: &BlockModel,
+    output: Option<Output>,
+    stop: &AtomicBool,
+    heard: &dyn Fn(&str),
+) -> Result<Option<Row>, CliError> {
     let stopped = || stop.load(Ordering::Relaxed);
     let clock = Instant::now();
     heard("assembling");
@@ -102,7 +143,8 @@ fn row(model: &BlockModel, output: Option<Output>, stop: &AtomicBool, heard: &dy
     }
     heard("ordering");
     let particles = block.particles(&states(model.cells.0));
-    let condensation = SparseCondensation::new(stiffness, None, &particles, Some(&block.points)).map_err(ScaleError::from)?;
+    let condensation = SparseCondensation::new(stiffness, None, &particles, Some(&block.points))
+        .map_err(ScaleError::from)?;
     let ordered = clock.elapsed().as_secs_f64();
     if stopped() {
         return Ok(None);
@@ -125,7 +167,12 @@ fn row(model: &BlockModel, output: Option<Output>, stop: &AtomicBool, heard: &dy
         cells: model.cells,
         dofs: condensation.dofs(),
         slip: condensation.slip_count(),
-        seconds: [assembled, ordered - assembled, factored - ordered, solved - factored],
+        seconds: [
+            assembled,
+            ordered - assembled,
+            factored - ordered,
+            solved - factored,
+        ],
         entries: condensation.analysis().factor_entries(),
         residual,
         all_slip: found,
@@ -133,19 +180,35 @@ fn row(model: &BlockModel, output: Option<Output>, stop: &AtomicBool, heard: &dy
     }))
 }
 
-/// The condensed pencil, its doubles taken as exact data: another problem than the block's, close to it.
+/// The condensed pencil, its doubles taken as exact data: another problem than the block's, close
+/// to it.
 fn problem(model: &BlockModel, condensed: &SparseCondensed<'_>) -> Result<Problem, ModelError> {
-    let number = |m: &[Vec<f64>], i: usize, j: usize| -> Result<(usize, usize, Rational), ModelError> {
-        let value = from_f64(m[i][j]).map_err(|source| ModelError::Number { place: format!("condensed pencil[{i}][{j}]"), source })?;
-        Ok((i, j, value))
-    };
+    let number =
+        |m: &[Vec<f64>], i: usize, j: usize| -> Result<(usize, usize, Rational), ModelError> {
+            let value = from_f64(m[i][j]).map_err(|source| ModelError::Number {
+                place: format!("condensed pencil[{i}][{j}]"),
+                source,
+            })?;
+            Ok((i, j, value))
+        };
     let exact = |m: &[Vec<f64>]| {
         let n = m.len();
-        let entries = (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).map(|(i, j)| number(m, i, j));
-        Ok::<Sparse, ModelError>(Sparse::from_entries(n, n, entries.collect::<Result<Vec<_>, _>>()?))
+        let entries = (0..n)
+            .flat_map(|i| (0..n).map(move |j| (i, j)))
+            .map(|(i, j)| number(m, i, j));
+        Ok::<Sparse, ModelError>(Sparse::from_entries(
+            n,
+            n,
+            entries.collect::<Result<Vec<_>, _>>()?,
+        ))
     };
     let pencil = Pencil::new(exact(&condensed.a)?, exact(&condensed.b)?, Vec::new())?;
-    let name = format!("block of {} x {} cells, {} slip, condensed in doubles", model.cells.0, model.cells.1, condensed.a.len());
+    let name = format!(
+        "block of {} x {} cells, {} slip, condensed in doubles",
+        model.cells.0,
+        model.cells.1,
+        condensed.a.len()
+    );
     Ok(Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?.named(name))
 }
 
@@ -160,7 +223,11 @@ fn closed(problem: &Problem, slip: usize, stop: &AtomicBool) -> String {
         Ok(found) => {
             let (n, seconds) = (found.cover.solutions.len(), clock.elapsed().as_secs_f64());
             let open = found.cover.open.len() + found.cover.families.len();
-            if open == 0 { format!("{n}, proved ({seconds:.1} s)") } else { format!("{n}, {open} regions open ({seconds:.1} s)") }
+            if open == 0 {
+                format!("{n}, proved ({seconds:.1} s)")
+            } else {
+                format!("{n}, {open} regions open ({seconds:.1} s)")
+            }
         }
     }
 }
@@ -181,14 +248,26 @@ fn text_of(rows: &[Row]) -> String {
         "complete",
     ]);
     for r in rows {
-        let mut cells = vec![format!("{}x{}", r.cells.0, r.cells.1), r.dofs.to_string(), r.slip.to_string()];
+        let mut cells = vec![
+            format!("{}x{}", r.cells.0, r.cells.1),
+            r.dofs.to_string(),
+            r.slip.to_string(),
+        ];
         cells.extend(r.seconds[..3].iter().map(|s| format!("{s:.3}")));
         cells.push(format!("{:.1}", mebibytes(r.entries)));
         cells.extend([r.residual.balance, r.residual.change].map(|v| format!("{v:.1e}")));
         let list = |f: &dyn Fn(&AllSlip) -> String| {
-            if r.all_slip.is_empty() { "none found".into() } else { r.all_slip.iter().map(f).collect::<Vec<_>>().join(", ") }
+            if r.all_slip.is_empty() {
+                "none found".into()
+            } else {
+                r.all_slip.iter().map(f).collect::<Vec<_>>().join(", ")
+            }
         };
-        cells.extend([list(&|s| format!("{:.12}", s.mu)), list(&|s| format!("{:.1e}", s.residual)), r.complete.clone()]);
+        cells.extend([
+            list(&|s| format!("{:.12}", s.mu)),
+            list(&|s| format!("{:.1e}", s.residual)),
+            r.complete.clone(),
+        ]);
         table.row(cells);
     }
     format!(

@@ -1,4 +1,5 @@
-//! The summary of a campaign: coverage per family, disagreements, a verdict. No times, so that equal runs are equal.
+//! The summary of a campaign: coverage per family, disagreements, a verdict. No times, so that
+//! equal runs are equal.
 
 use crate::cli::verify::covered_json;
 use crate::report::Table;
@@ -29,18 +30,32 @@ pub(super) fn text_of(state: &State) -> String {
     let mut out = format!("{table}\n{}\n", coverage_of(state));
     for (name, t) in state.families.iter().zip(&state.tallies) {
         let corners: Vec<String> = t.corners.iter().map(|(c, n)| format!("{c} {n}")).collect();
-        let corners = if corners.is_empty() { "none".into() } else { corners.join(", ") };
+        let corners = if corners.is_empty() {
+            "none".into()
+        } else {
+            corners.join(", ")
+        };
         out += &format!("{name}: corners reached: {corners}; {} pivots\n", t.pivots);
-        out += &t.disagreements.iter().map(|d| format!("  DISAGREEMENT {d}\n")).collect::<String>();
+        out += &t
+            .disagreements
+            .iter()
+            .map(|d| format!("  DISAGREEMENT {d}\n"))
+            .collect::<String>();
     }
     out + &format!("\n{}\n", verdict(state))
 }
 
-/// What was found of the instances that have solutions, each rate beside its floor; then the rates below it.
+/// What was found of the instances that have solutions, each rate beside its floor; then the rates
+/// below it.
 fn coverage_of(state: &State) -> String {
     let mut table = Table::new(&["coverage", "starts", "first start", "all solutions"]);
     for c in state.covered() {
-        table.row(vec![c.family.clone(), c.starts.word().into(), c.first_text(), c.all_text()]);
+        table.row(vec![
+            c.family.clone(),
+            c.starts.word().into(),
+            c.first_text(),
+            c.all_text(),
+        ]);
     }
 
     let mut out = table.to_string();
@@ -81,10 +96,20 @@ fn row(name: &str, t: &Tally) -> Vec<String> {
 
 fn verdict(state: &State) -> String {
     let (seed, (i, n)) = (state.seed, state.shard);
-    let part = if n == 1 { String::new() } else { format!(", part {} of {n}", i + 1) };
+    let part = if n == 1 {
+        String::new()
+    } else {
+        format!(", part {} of {n}", i + 1)
+    };
     match state.disagreements() {
-        0 => format!("CLEAN: no disagreement in {} instances (seed {seed}{part})", state.instances()),
-        wrong => format!("DISAGREEMENT: {wrong} in {} instances (seed {seed}{part})", state.instances()),
+        0 => format!(
+            "CLEAN: no disagreement in {} instances (seed {seed}{part})",
+            state.instances()
+        ),
+        wrong => format!(
+            "DISAGREEMENT: {wrong} in {} instances (seed {seed}{part})",
+            state.instances()
+        ),
     }
 }
 
@@ -105,10 +130,20 @@ pub(super) fn json_of(state: &State) -> Value {
 }
 
 pub(super) fn replay_text(replay: &Replay, judged: &Judgement) -> String {
-    let mut out = format!("{}:{}:{} was: {}: {}\n", replay.family, replay.seed, replay.index, replay.engine, replay.disagreement);
-    out += &judged.findings.iter().map(|f| format!("DISAGREEMENT {}: {}\n", f.engine, f.disagreement)).collect::<String>();
+    let mut out = format!(
+        "{}:{}:{} was: {}: {}\n",
+        replay.family, replay.seed, replay.index, replay.engine, replay.disagreement
+    );
+    out += &judged
+        .findings
+        .iter()
+        .map(|f| format!("DISAGREEMENT {}: {}\n", f.engine, f.disagreement))
+        .collect::<String>();
     if judged.findings.is_empty() {
-        out += &format!("CLEAN: {} solutions, every engine agrees\n", judged.report.oracle);
+        out += &format!(
+            "CLEAN: {} solutions, every engine agrees\n",
+            judged.report.oracle
+        );
     }
     out
 }

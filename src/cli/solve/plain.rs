@@ -16,14 +16,28 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
     if let Some(solution) = &args.check {
         return verdict(path, source, solution);
     }
-    let named = |source: FileError| CliError::Plain { path: path.display().to_string(), source };
+    let named = |source: FileError| CliError::Plain {
+        path: path.display().to_string(),
+        source,
+    };
     let problem = read_mcp(source).map_err(named)?;
-    let output = args.certificate.as_ref().map(|out| Output::prepare("certificate", out, &[path])).transpose()?;
-    let trace_output = args.trace.as_ref().map(|out| Output::prepare("trace", out, &[path])).transpose()?;
+    let output = args
+        .certificate
+        .as_ref()
+        .map(|out| Output::prepare("certificate", out, &[path]))
+        .transpose()?;
+    let trace_output = args
+        .trace
+        .as_ref()
+        .map(|out| Output::prepare("trace", out, &[path]))
+        .transpose()?;
     let how = search_of(args.starts, args.seed, args.all, args.trace.is_some());
     let found = search(&problem, &how).map_err(SearchError::from)?;
     if let Some(output) = trace_output {
-        output.write(&trace::render_plain(&trace::Header::plain(&problem, &how), &found))?;
+        output.write(&trace::render_plain(
+            &trace::Header::plain(&problem, &how),
+            &found,
+        ))?;
     }
     for (point, reason) in &found.uncertified {
         eprintln!("uncertified: z = {point:?}: {reason}");
@@ -31,7 +45,11 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
     if let (true, Some(first)) = (args.log, &found.first) {
         eprint!("{}", trace_outcome(first));
     }
-    print(&if args.json { json(&problem, &found) } else { listing(&problem, &found) })?;
+    print(&if args.json {
+        json(&problem, &found)
+    } else {
+        listing(&problem, &found)
+    })?;
     let any = !found.certified.is_empty();
     if let (Some(output), true) = (output, any) {
         output.write(&write_solution(&problem, &found.certified))?;
@@ -41,7 +59,13 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
 
 /// The search that the options ask for.
 pub(super) fn search_of(starts: usize, seed: u64, all: bool, trace: bool) -> Search {
-    Search { starts, all, seed, trace, options: Options::for_search() }
+    Search {
+        starts,
+        all,
+        seed,
+        trace,
+        options: Options::for_search(),
+    }
 }
 
 fn evidence(found: &Found) -> String {
@@ -59,7 +83,12 @@ fn listing(problem: &ExactMcp, found: &Found) -> String {
     for z in &found.certified {
         let _ = writeln!(out, "certified solution");
         for (i, (z_i, f_i)) in z.iter().zip(problem.function(z)).enumerate() {
-            let _ = writeln!(out, "  z[{i}] = {z_i} ({}), F[{i}] = {f_i} ({})", to_f64(z_i), to_f64(&f_i));
+            let _ = writeln!(
+                out,
+                "  z[{i}] = {z_i} ({}), F[{i}] = {f_i} ({})",
+                to_f64(z_i),
+                to_f64(&f_i)
+            );
         }
     }
     let _ = writeln!(out, "{}", evidence(found));
@@ -68,10 +97,16 @@ fn listing(problem: &ExactMcp, found: &Found) -> String {
 
 fn json(problem: &ExactMcp, found: &Found) -> String {
     let texts = |list: &[Rational]| list.iter().map(ToString::to_string).collect::<Vec<_>>();
-    let solutions: Vec<_> =
-        found.certified.iter().map(|z| serde_json::json!({ "z": texts(z), "f": texts(&problem.function(z)) })).collect();
-    let uncertified: Vec<_> =
-        found.uncertified.iter().map(|(z, reason)| serde_json::json!({ "z": z, "reason": reason.to_string() })).collect();
+    let solutions: Vec<_> = found
+        .certified
+        .iter()
+        .map(|z| serde_json::json!({ "z": texts(z), "f": texts(&problem.function(z)) }))
+        .collect();
+    let uncertified: Vec<_> = found
+        .uncertified
+        .iter()
+        .map(|(z, reason)| serde_json::json!({ "z": z, "reason": reason.to_string() }))
+        .collect();
     let value = serde_json::json!({
         "format": "mceip-mcp-solutions/1",
         "problem_sha256": problem.sha256(),

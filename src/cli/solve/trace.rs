@@ -56,10 +56,17 @@ impl Header {
     }
 }
 
-/// A header made again, in the words of the recorded one: before there was a choice traces did not name the crash.
+/// A header made again, in the words of the recorded one: before there was a choice traces did not
+/// name the crash.
 fn in_old_words(again: Header, recorded: &Header) -> Header {
     let names_it = recorded.options.contains("crash_method: ");
-    let options = if names_it { again.options } else { again.options.replacen("crash_method: ProjectedNewton, ", "", 1) };
+    let options = if names_it {
+        again.options
+    } else {
+        again
+            .options
+            .replacen("crash_method: ProjectedNewton, ", "", 1)
+    };
     Header { options, ..again }
 }
 
@@ -84,7 +91,13 @@ pub(super) fn render_plain(header: &Header, found: &lcp::Found) -> String {
     let mut out = format!("{head}\n");
     found.trace.iter().for_each(|run| out += run);
     for z in &found.certified {
-        out += &format!("certified: {}\n", z.iter().map(ToString::to_string).collect::<Vec<_>>().join(" "));
+        out += &format!(
+            "certified: {}\n",
+            z.iter()
+                .map(ToString::to_string)
+                .collect::<Vec<_>>()
+                .join(" ")
+        );
     }
     for (z, reason) in &found.uncertified {
         out += &format!("uncertified: {z:?}: {reason}\n");
@@ -95,39 +108,80 @@ pub(super) fn render_plain(header: &Header, found: &lcp::Found) -> String {
 /// Runs a trace again and compares.
 pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
     let recorded = text("the trace", path)?;
-    let file = |source| CliError::File { path: path.display().to_string(), source };
+    let file = |source| CliError::File {
+        path: path.display().to_string(),
+        source,
+    };
     let head = recorded.lines().next().unwrap_or_default();
     require_format(head, TRACE_FORMAT).map_err(file)?;
     let header: Header = from_json(head).map_err(file)?;
     if header.starts == 0 {
-        return Err(CliError::Option { option: "replay", expected: "a trace of at least 1 start", got: "starts: 0".into() });
+        return Err(CliError::Option {
+            option: "replay",
+            expected: "a trace of at least 1 start",
+            got: "starts: 0".into(),
+        });
     }
     let is_plain = require_format(&header.problem, lcp::MCP_FORMAT).is_ok();
-    let (again, runs) = if is_plain { again_plain(&header, path)? } else { again(&header, path)? };
+    let (again, runs) = if is_plain {
+        again_plain(&header, path)?
+    } else {
+        again(&header, path)?
+    };
     if again == recorded {
-        print(&format!("IDENTICAL: {runs} runs, {} bytes\n", recorded.len()))?;
+        print(&format!(
+            "IDENTICAL: {runs} runs, {} bytes\n",
+            recorded.len()
+        ))?;
         return Ok(exit::DONE);
     }
-    let line = again.lines().zip(recorded.lines()).take_while(|(a, b)| a == b).count();
-    print(&format!("DIFFERENT: first in line {} of the trace\n", line + 1))?;
+    let line = again
+        .lines()
+        .zip(recorded.lines())
+        .take_while(|(a, b)| a == b)
+        .count();
+    print(&format!(
+        "DIFFERENT: first in line {} of the trace\n",
+        line + 1
+    ))?;
     Ok(exit::REJECTED)
 }
 
 /// The trace of a header's eigenproblem, made again, with its number of runs.
 fn again(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
     let problem =
-        read_problem(&header.problem, Path::new(".")).map_err(|source| CliError::File { path: path.display().to_string(), source })?;
+        read_problem(&header.problem, Path::new(".")).map_err(|source| CliError::File {
+            path: path.display().to_string(),
+            source,
+        })?;
     let search = super::search_of(header.starts, header.seed, header.all, true);
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
-    let (found, _) = multistart_large(&problem, &admissible, &search, &|_| ControlFlow::Continue(()))?;
-    Ok((render(&in_old_words(Header::new(&problem, &search, header.all), header), &found), found.runs))
+    let (found, _) = multistart_large(&problem, &admissible, &search, &|_| {
+        ControlFlow::Continue(())
+    })?;
+    Ok((
+        render(
+            &in_old_words(Header::new(&problem, &search, header.all), header),
+            &found,
+        ),
+        found.runs,
+    ))
 }
 
 /// The same for a plain problem.
 fn again_plain(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
-    let problem = lcp::read_mcp(&header.problem).map_err(|source| CliError::Plain { path: path.display().to_string(), source })?;
+    let problem = lcp::read_mcp(&header.problem).map_err(|source| CliError::Plain {
+        path: path.display().to_string(),
+        source,
+    })?;
     let search = super::plain::search_of(header.starts, header.seed, header.all, true);
     let found = lcp::search(&problem, &search).map_err(SearchError::from)?;
-    Ok((render_plain(&in_old_words(Header::plain(&problem, &search), header), &found), found.runs))
+    Ok((
+        render_plain(
+            &in_old_words(Header::plain(&problem, &search), header),
+            &found,
+        ),
+        found.runs,
+    ))
 }

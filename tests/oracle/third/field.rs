@@ -1,7 +1,9 @@
-//! The field Q(alpha) as Q[t] modulo a squarefree polynomial that shrinks when a zero divisor shows up,
-//! and the null space of a matrix over it by plain Gauss elimination with division.
+//! The field Q(alpha) as Q[t] modulo a squarefree polynomial that shrinks when a zero divisor shows
+//! up, and the null space of a matrix over it by plain Gauss elimination with division.
 
-use super::poly::{P, add, changes, compose, derivative, divide, eval, gcd, half, monic, mul, q, scale, trim};
+use super::poly::{
+    P, add, changes, compose, derivative, divide, eval, gcd, half, monic, mul, q, scale, trim,
+};
 use dashu_ratio::RBig;
 
 /// A real number: the only root of `p` in (lo, hi), or lo = hi.
@@ -15,8 +17,20 @@ pub struct Alpha {
 impl Alpha {
     /// From an isolating open interval with Descartes count 1, shrunk until its ends are no roots.
     pub fn new(p: &[RBig], (lo, hi): (RBig, RBig)) -> Alpha {
-        let mut alpha = if lo == hi { Alpha::rational(lo) } else { Alpha { p: monic(p), lo, hi } };
-        while alpha.lo != alpha.hi && [&alpha.lo, &alpha.hi].into_iter().any(|end| eval(&alpha.p, end) == RBig::ZERO) {
+        let mut alpha = if lo == hi {
+            Alpha::rational(lo)
+        } else {
+            Alpha {
+                p: monic(p),
+                lo,
+                hi,
+            }
+        };
+        while alpha.lo != alpha.hi
+            && [&alpha.lo, &alpha.hi]
+                .into_iter()
+                .any(|end| eval(&alpha.p, end) == RBig::ZERO)
+        {
             let mid = (&alpha.lo + &alpha.hi) * half();
             if eval(&alpha.p, &mid) == RBig::ZERO {
                 alpha = Alpha::rational(mid);
@@ -30,7 +44,11 @@ impl Alpha {
     }
 
     pub fn rational(v: RBig) -> Alpha {
-        Alpha { p: vec![-v.clone(), q(1)], lo: v.clone(), hi: v }
+        Alpha {
+            p: vec![-v.clone(), q(1)],
+            lo: v.clone(),
+            hi: v,
+        }
     }
 
     pub fn halve(&mut self) {
@@ -62,7 +80,11 @@ impl Alpha {
         // Exactly one of g and p / g vanishes at alpha: the one that has a root inside.
         let rest = divide(&self.p, &g).0;
         let zero = RBig::ZERO;
-        let here = if self.lo == self.hi { true } else { (eval(&g, &self.lo) > zero) != (eval(&g, &self.hi) > zero) };
+        let here = if self.lo == self.hi {
+            true
+        } else {
+            (eval(&g, &self.lo) > zero) != (eval(&g, &self.hi) > zero)
+        };
         self.p = monic(if here { &g } else { &rest });
         here
     }
@@ -74,10 +96,20 @@ impl Alpha {
         }
         let e = self.reduce(e);
         let slope = derivative(&e);
-        let magnitude = |v: &RBig| if *v < RBig::ZERO { -v.clone() } else { v.clone() };
+        let magnitude = |v: &RBig| {
+            if *v < RBig::ZERO {
+                -v.clone()
+            } else {
+                v.clone()
+            }
+        };
         loop {
             let mid = (&self.lo + &self.hi) * half();
-            let largest = if magnitude(&self.lo) > magnitude(&self.hi) { magnitude(&self.lo) } else { magnitude(&self.hi) };
+            let largest = if magnitude(&self.lo) > magnitude(&self.hi) {
+                magnitude(&self.lo)
+            } else {
+                magnitude(&self.hi)
+            };
             let steepest = eval(&slope.iter().map(magnitude).collect::<P>(), &largest);
             let (value, slack) = (eval(&e, &mid), steepest * (&self.hi - &self.lo));
             if magnitude(&value) > slack {
@@ -106,13 +138,20 @@ impl Alpha {
         let mut pivots: Vec<usize> = Vec::new();
         for c in 0..cols {
             let top = pivots.len();
-            let Some(r) = (top..m.len()).find(|&r| !self.is_zero(&m[r][c])) else { continue };
+            let Some(r) = (top..m.len()).find(|&r| !self.is_zero(&m[r][c])) else {
+                continue;
+            };
             m.swap(top, r);
             let inverse = self.invert(&m[top][c]);
-            m[top] = m[top].iter().map(|e| self.reduce(&mul(e, &inverse))).collect();
+            m[top] = m[top]
+                .iter()
+                .map(|e| self.reduce(&mul(e, &inverse)))
+                .collect();
             for i in (0..m.len()).filter(|&i| i != top) {
                 let factor = scale(&m[i][c], &q(-1));
-                m[i] = (0..cols).map(|j| self.reduce(&add(&m[i][j], &mul(&factor, &m[top][j])))).collect();
+                m[i] = (0..cols)
+                    .map(|j| self.reduce(&add(&m[i][j], &mul(&factor, &m[top][j]))))
+                    .collect();
             }
             pivots.push(c);
         }
@@ -120,7 +159,10 @@ impl Alpha {
         let vector = |f: usize| {
             let mut v: Vec<P> = vec![Vec::new(); cols];
             v[f] = vec![q(1)];
-            pivots.iter().enumerate().for_each(|(r, &c)| v[c] = scale(&trim(m[r][f].clone()), &q(-1)));
+            pivots
+                .iter()
+                .enumerate()
+                .for_each(|(r, &c)| v[c] = scale(&trim(m[r][f].clone()), &q(-1)));
             v
         };
         free.map(vector).collect()

@@ -21,7 +21,11 @@ pub fn trim(mut p: P) -> P {
 
 pub fn add(a: &[RBig], b: &[RBig]) -> P {
     let at = |p: &[RBig], i: usize| p.get(i).cloned().unwrap_or(RBig::ZERO);
-    trim((0..a.len().max(b.len())).map(|i| at(a, i) + at(b, i)).collect())
+    trim(
+        (0..a.len().max(b.len()))
+            .map(|i| at(a, i) + at(b, i))
+            .collect(),
+    )
 }
 
 pub fn scale(a: &[RBig], f: &RBig) -> P {
@@ -40,7 +44,10 @@ pub fn mul(a: &[RBig], b: &[RBig]) -> P {
 
 /// Quotient and remainder over Q.
 pub fn divide(a: &[RBig], b: &[RBig]) -> (P, P) {
-    let (mut rest, mut quotient) = (a.to_vec(), vec![RBig::ZERO; (a.len() + 1).saturating_sub(b.len())]);
+    let (mut rest, mut quotient) = (
+        a.to_vec(),
+        vec![RBig::ZERO; (a.len() + 1).saturating_sub(b.len())],
+    );
     while rest.len() >= b.len() {
         let shift = rest.len() - b.len();
         let f = rest[rest.len() - 1].clone() / &b[b.len() - 1];
@@ -68,7 +75,11 @@ pub fn monic(a: &[RBig]) -> P {
 }
 
 pub fn derivative(a: &[RBig]) -> P {
-    a.iter().enumerate().skip(1).map(|(i, c)| c * q(i as i64)).collect()
+    a.iter()
+        .enumerate()
+        .skip(1)
+        .map(|(i, c)| c * q(i as i64))
+        .collect()
 }
 
 pub fn squarefree(a: &[RBig]) -> P {
@@ -102,7 +113,11 @@ pub fn compose(p: &[RBig], u: &RBig, v: &RBig) -> P {
 pub fn changes(p: &[RBig]) -> usize {
     let reversed: P = p.iter().rev().cloned().collect();
     let shifted = compose(&trim(reversed), &q(1), &q(1));
-    let signs: Vec<bool> = shifted.iter().filter(|c| **c != RBig::ZERO).map(|c| *c > RBig::ZERO).collect();
+    let signs: Vec<bool> = shifted
+        .iter()
+        .filter(|c| **c != RBig::ZERO)
+        .map(|c| *c > RBig::ZERO)
+        .collect();
     signs.windows(2).filter(|w| w[0] != w[1]).count()
 }
 
@@ -115,7 +130,13 @@ pub fn roots(p: &[RBig]) -> Vec<(RBig, RBig)> {
         p.remove(0);
     }
     // Lagrange's bound, a power of two above it.
-    let magnitude = |c: &RBig| if *c < RBig::ZERO { -c.clone() } else { c.clone() };
+    let magnitude = |c: &RBig| {
+        if *c < RBig::ZERO {
+            -c.clone()
+        } else {
+            c.clone()
+        }
+    };
     let sum = p.iter().fold(q(1), |s, c| s + magnitude(c));
     let mut bound = q(1);
     while bound <= sum {

@@ -14,7 +14,11 @@ use serde::{Deserialize, Deserializer, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct CompleteSet {
     /// How the free variables were eliminated; absent where there are none.
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
     pub condensation: Option<Condensation>,
     /// Consecutive intervals from the lower to the upper end of the window.
     #[serde(deserialize_with = "object::list")]
@@ -76,7 +80,8 @@ pub struct Root {
     pub pivot: usize,
     /// Interval in which the value lies.
     pub interval: [Number; 2],
-    /// Approximate inverse of T on the moving set without the pivot, in units of 2^-`inverse_exponent`.
+    /// Approximate inverse of T on the moving set without the pivot, in units of
+    /// 2^-`inverse_exponent`.
     #[serde(with = "integer_rows")]
     pub inverse: Vec<Vec<Integer>>,
     /// Binary exponent of `inverse`.
@@ -107,17 +112,18 @@ pub enum RootOutcome {
     NegativeY(usize),
     /// The solution of the claim with this number in the certificate, so nothing else is here.
     Claim(usize),
-    /// In a region that reaches to infinity: this vector, an entry per variable of the pencil, is a null vector of the
-    /// pencil's limit there, so nothing is here.
+    /// In a region that reaches to infinity: this vector, an entry per variable of the pencil, is a
+    /// null vector of the pencil's limit there, so nothing is here.
     Infinity(#[serde(with = "integers")] Vec<Integer>),
 }
 
-/// All solutions of one support over a closed interval: it is cut at `points`, and each point and each
-/// open cell between two points (or from the last one to infinity) has its reason.
+/// All solutions of one support over a closed interval: it is cut at `points`, and each point and
+/// each open cell between two points (or from the last one to infinity) has its reason.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Support {
-    /// Ascending; the first is the lower end of the interval, the last the upper end unless that is infinite.
+    /// Ascending; the first is the lower end of the interval, the last the upper end unless that is
+    /// infinite.
     #[serde(deserialize_with = "object::list")]
     pub points: Vec<Point>,
     /// The reason of each cell, a number in `reasons`.
@@ -143,7 +149,8 @@ pub struct Point {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Exact {
-    /// Nothing: weights w(t), one polynomial per variable of the pencil, with w'T >= 0 impossible (Farkas).
+    /// Nothing: weights w(t), one polynomial per variable of the pencil, with w'T >= 0 impossible
+    /// (Farkas).
     None(Polynomials),
     /// Solutions with exactly this support.
     #[serde(deserialize_with = "object::one")]
@@ -157,7 +164,11 @@ pub struct Member {
     /// x(t), one polynomial per variable of the pencil.
     pub x: Polynomials,
     /// Proof that at each value it is the only one up to its factor; without it, one of a cone.
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
     pub alone: Option<Alone>,
 }
 
@@ -167,9 +178,9 @@ pub struct Member {
 pub struct Alone {
     /// A moving variable k.
     pub pivot: usize,
-    /// An active j and weights l(t), one polynomial per variable of the pencil, with l'T = c e_j + d e_k on the active
-    /// columns, c not zero. For each j one with l = 0 off the active rows, or two with c > 0 and c < 0 and
-    /// l >= 0 on resting rows where y = 0 and l = 0 on the others.
+    /// An active j and weights l(t), one polynomial per variable of the pencil, with l'T = c e_j +
+    /// d e_k on the active columns, c not zero. For each j one with l = 0 off the active rows, or
+    /// two with c > 0 and c < 0 and l >= 0 on resting rows where y = 0 and l = 0 on the others.
     pub rows: Vec<(usize, Polynomials)>,
 }
 
@@ -178,8 +189,8 @@ pub struct Alone {
 #[serde(transparent)]
 pub struct Polynomials(#[serde(with = "integer_rows")] pub Vec<Vec<Integer>>);
 
-/// Exact factors of sym(A + tB) on the free variables and what may move, at both ends; at an infinite
-/// end of sym(B).
+/// Exact factors of sym(A + tB) on the free variables and what may move, at both ends; at an
+/// infinite end of sym(B).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ldl {
@@ -212,14 +223,23 @@ pub struct Condensation {
     pub stiffness_factor: Factor,
     /// tau >= 0 with B_ff - tau I positive semidefinite.
     pub mass_sigma: Number,
-    /// Approximate Cholesky factor of B_ff - tau I, where that is neither zero nor a non-negative diagonal.
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    /// Approximate Cholesky factor of B_ff - tau I, where that is neither zero nor a non-negative
+    /// diagonal.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
     pub mass_factor: Option<Factor>,
     /// Centres at which the condensed pencil is expanded.
     #[serde(deserialize_with = "object::list")]
     pub anchors: Vec<Anchor>,
     /// Proof that nothing lies above some value, for [`Node::Tail`].
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
     pub tail: Option<Tail>,
 }
 
@@ -232,8 +252,13 @@ pub struct Tail {
     /// Approximate Cholesky factor of sym(A + from B).
     #[serde(deserialize_with = "object::one")]
     pub factor: Factor,
-    /// Approximate Cholesky factor of sym(B), where that is neither zero nor a non-negative diagonal.
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    /// Approximate Cholesky factor of sym(B), where that is neither zero nor a non-negative
+    /// diagonal.
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
     pub mass_factor: Option<Factor>,
 }
 
@@ -251,14 +276,16 @@ pub struct Factor {
     pub exponent: u32,
 }
 
-/// Approximations in powers of (t - center): `right[k]` of F^-1 T_fs, `left[k]` of F^-1 T_sf'; each a
-/// matrix with a row per free and a column per complementarity variable, in units of 2^-`exponent`.
+/// Approximations in powers of (t - center): `right[k]` of F^-1 T_fs, `left[k]` of F^-1 T_sf'; each
+/// a matrix with a row per free and a column per complementarity variable, in units of
+/// 2^-`exponent`.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Anchor {
     /// The value expanded about; of a reversed anchor its reciprocal.
     pub center: Number,
-    /// Does it expand B + sA in powers of s - center, s = 1 / t? Such an anchor reaches to infinity.
+    /// Does it expand B + sA in powers of s - center, s = 1 / t? Such an anchor reaches to
+    /// infinity.
     #[serde(default, skip_serializing_if = "is_false")]
     pub reversed: bool,
     /// Coefficients of the right solutions.
@@ -336,7 +363,10 @@ impl From<NodeKind> for Node {
 
 impl<'de> Deserialize<'de> for Node {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        word_or_kind::<D, NodeWord, NodeKind, Node>(deserializer, "a node: a word, or an object with one key")
+        word_or_kind::<D, NodeWord, NodeKind, Node>(
+            deserializer,
+            "a node: a word, or an object with one key",
+        )
     }
 }
 
@@ -380,6 +410,9 @@ impl From<OutcomeKind> for RootOutcome {
 
 impl<'de> Deserialize<'de> for RootOutcome {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        word_or_kind::<D, OutcomeWord, OutcomeKind, RootOutcome>(deserializer, "an outcome: a word, or an object with one key")
+        word_or_kind::<D, OutcomeWord, OutcomeKind, RootOutcome>(
+            deserializer,
+            "an outcome: a word, or an object with one key",
+        )
     }
 }

@@ -1,4 +1,5 @@
-//! `mceip-certificate/1`: what a certificate says, and its file form. Data only, nothing decides here.
+//! `mceip-certificate/1`: what a certificate says, and its file form. Data only, nothing decides
+//! here.
 
 use mceip_exact::{Integer, Rational};
 use mceip_model::file::{Number, from_json, require_format};
@@ -7,8 +8,8 @@ use serde::{Deserialize, Serialize};
 
 mod cover;
 pub use cover::{
-    Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Ldl, LdlFactor, Member, Node, Piece, Point, Polynomials, Root,
-    RootOutcome, Support, Tail,
+    Alone, Anchor, CompleteSet, Condensation, Exact, Factor, IntegerMatrix, Ldl, LdlFactor, Member,
+    Node, Piece, Point, Polynomials, Root, RootOutcome, Support, Tail,
 };
 
 /// The format this program reads and writes.
@@ -61,8 +62,9 @@ pub struct ExactSolution {
     pub x: Vec<Vec<Number>>,
 }
 
-/// v and w of (9) at alpha, as rational polynomials in alpha, constant term first, one list per degree of
-/// freedom. Indices are those of the pencil: free dofs ascending, then slip particles in file order.
+/// v and w of (9) at alpha, as rational polynomials in alpha, constant term first, one list per
+/// degree of freedom. Indices are those of the pencil: free dofs ascending, then slip particles in
+/// file order.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LiftedSolution {
@@ -110,7 +112,11 @@ struct File {
     #[serde(deserialize_with = "object::one")]
     window: FileWindow,
     claims: Vec<Claim>,
-    #[serde(default, skip_serializing_if = "Option::is_none", deserialize_with = "object::option")]
+    #[serde(
+        default,
+        skip_serializing_if = "Option::is_none",
+        deserialize_with = "object::option"
+    )]
     complete_set: Option<CompleteSet>,
 }
 
@@ -124,7 +130,10 @@ struct FileWindow {
 impl Certificate {
     /// The certificate as JSON.
     pub fn to_json(&self) -> String {
-        let window = FileWindow { min: Number(self.window.min().clone()), max: self.window.max().cloned().map(Number) };
+        let window = FileWindow {
+            min: Number(self.window.min().clone()),
+            max: self.window.max().cloned().map(Number),
+        };
         let file = File {
             format: CERTIFICATE_FORMAT.into(),
             problem_sha256: self.problem_sha256.clone(),
@@ -147,7 +156,13 @@ impl Certificate {
         let file: File = from_json(text)?;
         let window = Window::new(file.window.min.0, file.window.max.map(|n| n.0))?;
         let (problem_sha256, unknown) = (file.problem_sha256, file.unknown);
-        Ok(Certificate { problem_sha256, unknown, window, claims: file.claims, complete_set: file.complete_set })
+        Ok(Certificate {
+            problem_sha256,
+            unknown,
+            window,
+            claims: file.claims,
+            complete_set: file.complete_set,
+        })
     }
 }
 
@@ -160,15 +175,21 @@ mod object {
         Object::deserialize(d).map(|o| o.0)
     }
 
-    pub(super) fn word<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<T, D::Error> {
+    pub(super) fn word<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+        d: D,
+    ) -> Result<T, D::Error> {
         Word::deserialize(d).map(|w| w.0)
     }
 
-    pub(super) fn option<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<Option<T>, D::Error> {
+    pub(super) fn option<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+        d: D,
+    ) -> Result<Option<T>, D::Error> {
         Option::<Object<T>>::deserialize(d).map(|o| o.map(|o| o.0))
     }
 
-    pub(super) fn list<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<Vec<T>, D::Error> {
+    pub(super) fn list<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
+        d: D,
+    ) -> Result<Vec<T>, D::Error> {
         Vec::<Object<T>>::deserialize(d).map(|list| list.into_iter().map(|o| o.0).collect())
     }
 }
@@ -180,15 +201,28 @@ mod integers {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub(super) fn serialize<S: Serializer>(list: &[Integer], s: S) -> Result<S::Ok, S::Error> {
-        list.iter().map(|i| Number(Rational::from_integer(i.clone()))).collect::<Vec<_>>().serialize(s)
+        list.iter()
+            .map(|i| Number(Rational::from_integer(i.clone())))
+            .collect::<Vec<_>>()
+            .serialize(s)
     }
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Vec<Integer>, D::Error> {
-        Vec::<Number>::deserialize(d)?.into_iter().map(integer::<D>).collect()
+        Vec::<Number>::deserialize(d)?
+            .into_iter()
+            .map(integer::<D>)
+            .collect()
     }
 
     pub(super) fn integer<'de, D: Deserializer<'de>>(n: Number) -> Result<Integer, D::Error> {
-        if n.0.is_integer() { Ok(n.0.to_integer()) } else { Err(D::Error::custom(format!("expected an integer, got {}", n.0))) }
+        if n.0.is_integer() {
+            Ok(n.0.to_integer())
+        } else {
+            Err(D::Error::custom(format!(
+                "expected an integer, got {}",
+                n.0
+            )))
+        }
     }
 }
 
@@ -198,13 +232,24 @@ mod integer_rows {
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub(super) fn serialize<S: Serializer>(rows: &[Vec<Integer>], s: S) -> Result<S::Ok, S::Error> {
-        let rows: Vec<Vec<Number>> = rows.iter().map(|r| r.iter().map(|i| Number(Rational::from_integer(i.clone()))).collect()).collect();
+        let rows: Vec<Vec<Number>> = rows
+            .iter()
+            .map(|r| {
+                r.iter()
+                    .map(|i| Number(Rational::from_integer(i.clone())))
+                    .collect()
+            })
+            .collect();
         rows.serialize(s)
     }
 
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Vec<Vec<Integer>>, D::Error> {
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        d: D,
+    ) -> Result<Vec<Vec<Integer>>, D::Error> {
         let rows = Vec::<Vec<Number>>::deserialize(d)?;
-        rows.into_iter().map(|r| r.into_iter().map(integers::integer::<D>).collect()).collect()
+        rows.into_iter()
+            .map(|r| r.into_iter().map(integers::integer::<D>).collect())
+            .collect()
     }
 }
 
@@ -232,7 +277,10 @@ mod tests {
 
     #[test]
     fn files_round_trip() {
-        assert_eq!(Certificate::from_json(&example().to_json()).unwrap(), example());
+        assert_eq!(
+            Certificate::from_json(&example().to_json()).unwrap(),
+            example()
+        );
     }
 
     #[test]
@@ -249,7 +297,10 @@ mod tests {
             ("\"3/2\"", "null"),
         ] {
             assert!(good.contains(from));
-            assert!(Certificate::from_json(&good.replace(from, to)).is_err(), "{from} -> {to}");
+            assert!(
+                Certificate::from_json(&good.replace(from, to)).is_err(),
+                "{from} -> {to}"
+            );
         }
         assert!(Certificate::from_json(&good[..good.len() - 1]).is_err());
     }

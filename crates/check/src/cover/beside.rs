@@ -1,12 +1,12 @@
 //! Claims beside a cover: where the cover holds a solution that a claim has proved.
 //!
-//! A claim proves: there is a solution with support J and a value in [a, b]. A cover proves: every solution in the
-//! window is one of its solutions, lies in one of its families, or in one of its open regions. So each claim has its
-//! place in the cover. A claim without one shows that either the claim or the cover is false, although both passed
-//! their own obligations.
+//! A claim proves: there is a solution with support J and a value in [a, b]. A cover proves: every
+//! solution in the window is one of its solutions, lies in one of its families, or in one of its
+//! open regions. So each claim has its place in the cover. A claim without one shows that either
+//! the claim or the cover is false, although both passed their own obligations.
 //!
-//! Input: an accepted claim, whose value lies in the window of the cover, and the accepted cover. Called by
-//! `check::beside_the_cover` and by `mceip check`, which prints the place.
+//! Input: an accepted claim, whose value lies in the window of the cover, and the accepted cover.
+//! Called by `check::beside_the_cover` and by `mceip check`, which prints the place.
 
 use super::{AcceptedCover, OpenRegion, SolutionFamily};
 use crate::AcceptedClaim;
@@ -23,15 +23,18 @@ pub enum Place {
 }
 
 impl AcceptedCover {
-    /// The first part of the cover to which a claim of its window may belong: a solution or a family with the same
-    /// support whose values meet those of the claim, or an open region that admits both. `None` contradicts the cover.
+    /// The first part of the cover to which a claim of its window may belong: a solution or a
+    /// family with the same support whose values meet those of the claim, or an open region that
+    /// admits both. `None` contradicts the cover.
     pub fn place_of(&self, claim: &AcceptedClaim) -> Option<Place> {
         let solution = self.solutions.iter().position(|s| is_near(s, claim));
         let family = || self.families.iter().position(|f| f.may_hold(claim));
         let open = || self.open.iter().position(|r| r.may_hold(claim));
 
         let listed = solution.map(Place::Solution);
-        listed.or_else(|| family().map(Place::Family)).or_else(|| open().map(Place::Open))
+        listed
+            .or_else(|| family().map(Place::Family))
+            .or_else(|| open().map(Place::Open))
     }
 }
 
@@ -42,17 +45,21 @@ fn is_near(p: &AcceptedClaim, q: &AcceptedClaim) -> bool {
 }
 
 impl SolutionFamily {
-    /// Can the claim's solution be of this family: the same support, and a value between its outermost ends?
+    /// Can the claim's solution be of this family: the same support, and a value between its
+    /// outermost ends?
     fn may_hold(&self, claim: &AcceptedClaim) -> bool {
-        let ends_before = self.to.as_ref().is_some_and(|to| to.hi() < claim.value.lo());
+        let ends_before = self
+            .to
+            .as_ref()
+            .is_some_and(|to| to.hi() < claim.value.lo());
         let begins_after = self.from.lo() > claim.value.hi();
         self.support == claim.support && !ends_before && !begins_after
     }
 }
 
 impl OpenRegion {
-    /// Can the claim's solution lie in this region: all that moves here is in its support J, all of J may move here,
-    /// and the values meet?
+    /// Can the claim's solution lie in this region: all that moves here is in its support J, all of
+    /// J may move here, and the values meet?
     fn may_hold(&self, claim: &AcceptedClaim) -> bool {
         let ends_before = self.max.as_ref().is_some_and(|max| max < claim.value.lo());
         let begins_after = self.min > *claim.value.hi();
@@ -74,19 +81,35 @@ mod tests {
     }
 
     fn claim(support: &[usize], a: i64, b: i64) -> AcceptedClaim {
-        AcceptedClaim { support: support.to_vec(), value: interval(a, b) }
+        AcceptedClaim {
+            support: support.to_vec(),
+            value: interval(a, b),
+        }
     }
 
     fn cover() -> AcceptedCover {
-        AcceptedCover { solutions: vec![], families: vec![], open: vec![], leaves: 1 }
+        AcceptedCover {
+            solutions: vec![],
+            families: vec![],
+            open: vec![],
+            leaves: 1,
+        }
     }
 
-    /// Values [4, 6] of support {0, 2}: a claim belongs to it if it has that support and meets these values, ends included.
+    /// Values [4, 6] of support {0, 2}: a claim belongs to it if it has that support and meets
+    /// these values, ends included.
     #[test]
     fn a_claim_belongs_to_the_solution_it_overlaps() {
-        let cover = AcceptedCover { solutions: vec![claim(&[1], 4, 6), claim(&[0, 2], 4, 6)], ..cover() };
+        let cover = AcceptedCover {
+            solutions: vec![claim(&[1], 4, 6), claim(&[0, 2], 4, 6)],
+            ..cover()
+        };
         for (a, b) in [(3, 4), (4, 4), (5, 5), (6, 7), (3, 7)] {
-            assert_eq!(cover.place_of(&claim(&[0, 2], a, b)), Some(Place::Solution(1)), "[{a}, {b}]");
+            assert_eq!(
+                cover.place_of(&claim(&[0, 2], a, b)),
+                Some(Place::Solution(1)),
+                "[{a}, {b}]"
+            );
             assert_eq!(cover.place_of(&claim(&[0], a, b)), None, "[{a}, {b}]");
             assert_eq!(cover.place_of(&claim(&[0, 1, 2], a, b)), None, "[{a}, {b}]");
         }
@@ -95,39 +118,88 @@ mod tests {
         }
     }
 
-    /// A family from [2, 3] to [7, 8] may begin at 2 and end at 8; one without upper end holds every larger value.
+    /// A family from [2, 3] to [7, 8] may begin at 2 and end at 8; one without upper end holds
+    /// every larger value.
     #[test]
     fn a_claim_belongs_to_the_family_it_meets() {
         let of = |to: Option<Interval>| {
-            let family = SolutionFamily { support: vec![0], from: interval(2, 3), to, is_point: false, is_alone: true };
-            AcceptedCover { families: vec![family], ..cover() }
+            let family = SolutionFamily {
+                support: vec![0],
+                from: interval(2, 3),
+                to,
+                is_point: false,
+                is_alone: true,
+            };
+            AcceptedCover {
+                families: vec![family],
+                ..cover()
+            }
         };
         let (range, half_line) = (of(Some(interval(7, 8))), of(None));
         for (a, b) in [(1, 2), (2, 2), (5, 5), (8, 8), (8, 9)] {
-            assert_eq!(range.place_of(&claim(&[0], a, b)), Some(Place::Family(0)), "[{a}, {b}]");
-            assert_eq!(half_line.place_of(&claim(&[0], a, b)), Some(Place::Family(0)), "[{a}, {b}]");
+            assert_eq!(
+                range.place_of(&claim(&[0], a, b)),
+                Some(Place::Family(0)),
+                "[{a}, {b}]"
+            );
+            assert_eq!(
+                half_line.place_of(&claim(&[0], a, b)),
+                Some(Place::Family(0)),
+                "[{a}, {b}]"
+            );
             assert_eq!(range.place_of(&claim(&[1], a, b)), None, "[{a}, {b}]");
         }
-        assert_eq!([range.place_of(&claim(&[0], 0, 1)), half_line.place_of(&claim(&[0], 0, 1))], [None, None]);
+        assert_eq!(
+            [
+                range.place_of(&claim(&[0], 0, 1)),
+                half_line.place_of(&claim(&[0], 0, 1))
+            ],
+            [None, None]
+        );
         assert_eq!(range.place_of(&claim(&[0], 9, 10)), None);
-        assert_eq!(half_line.place_of(&claim(&[0], 900, 901)), Some(Place::Family(0)));
+        assert_eq!(
+            half_line.place_of(&claim(&[0], 900, 901)),
+            Some(Place::Family(0))
+        );
     }
 
-    /// In [3, 5] with 1 moving, 2 and 4 undecided, the supports {1}, {1, 2}, {1, 4} and {1, 2, 4} may be.
+    /// In [3, 5] with 1 moving, 2 and 4 undecided, the supports {1}, {1, 2}, {1, 4} and {1, 2, 4}
+    /// may be.
     #[test]
     fn a_claim_belongs_to_an_open_region_that_admits_its_support() {
         let of = |max: Option<i64>| {
-            let region = OpenRegion { min: whole(3), max: max.map(whole), moving: vec![1], undecided: vec![2, 4] };
-            AcceptedCover { open: vec![region], ..cover() }
+            let region = OpenRegion {
+                min: whole(3),
+                max: max.map(whole),
+                moving: vec![1],
+                undecided: vec![2, 4],
+            };
+            AcceptedCover {
+                open: vec![region],
+                ..cover()
+            }
         };
         let (region, half_line) = (of(Some(5)), of(None));
         for support in [&[1][..], &[1, 2], &[1, 4], &[1, 2, 4]] {
             for (a, b) in [(2, 3), (3, 3), (4, 4), (5, 5), (5, 6)] {
-                assert_eq!(region.place_of(&claim(support, a, b)), Some(Place::Open(0)), "{support:?} [{a}, {b}]");
+                assert_eq!(
+                    region.place_of(&claim(support, a, b)),
+                    Some(Place::Open(0)),
+                    "{support:?} [{a}, {b}]"
+                );
             }
-            assert_eq!([region.place_of(&claim(support, 1, 2)), region.place_of(&claim(support, 6, 7))], [None, None]);
             assert_eq!(
-                [half_line.place_of(&claim(support, 1, 2)), half_line.place_of(&claim(support, 6, 7))],
+                [
+                    region.place_of(&claim(support, 1, 2)),
+                    region.place_of(&claim(support, 6, 7))
+                ],
+                [None, None]
+            );
+            assert_eq!(
+                [
+                    half_line.place_of(&claim(support, 1, 2)),
+                    half_line.place_of(&claim(support, 6, 7))
+                ],
                 [None, Some(Place::Open(0))]
             );
         }
@@ -139,10 +211,33 @@ mod tests {
     /// Proved places come before possible ones.
     #[test]
     fn a_listed_solution_comes_first() {
-        let region = OpenRegion { min: whole(0), max: None, moving: vec![], undecided: vec![0] };
-        let family = SolutionFamily { support: vec![0], from: interval(1, 1), to: None, is_point: false, is_alone: false };
-        let all = AcceptedCover { solutions: vec![claim(&[0], 5, 6)], families: vec![family], open: vec![region], leaves: 3 };
+        let region = OpenRegion {
+            min: whole(0),
+            max: None,
+            moving: vec![],
+            undecided: vec![0],
+        };
+        let family = SolutionFamily {
+            support: vec![0],
+            from: interval(1, 1),
+            to: None,
+            is_point: false,
+            is_alone: false,
+        };
+        let all = AcceptedCover {
+            solutions: vec![claim(&[0], 5, 6)],
+            families: vec![family],
+            open: vec![region],
+            leaves: 3,
+        };
         let places = [5, 2, 0].map(|t| all.place_of(&claim(&[0], t, t)));
-        assert_eq!(places, [Some(Place::Solution(0)), Some(Place::Family(0)), Some(Place::Open(0))]);
+        assert_eq!(
+            places,
+            [
+                Some(Place::Solution(0)),
+                Some(Place::Family(0)),
+                Some(Place::Open(0))
+            ]
+        );
     }
 }

@@ -26,9 +26,15 @@ const MAX_ORDER: usize = 4096;
 const MAX_EXACT_ORDER: usize = 12;
 const MAX_EXACT_BITS: u64 = 1024;
 
-/// Is `sign` sym(M) definite on `moving`, whatever the radius takes away? `Err(k)`: the k-th variable of
-/// `moving` breaks it, or the matrix is too large and too close to a singular one to say.
-pub(super) fn long_definite(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) -> Result<(), usize> {
+/// Is `sign` sym(M) definite on `moving`, whatever the radius takes away? `Err(k)`: the k-th
+/// variable of `moving` breaks it, or the matrix is too large and too close to a singular one to
+/// say.
+pub(super) fn long_definite(
+    m: &Matrix,
+    r: &Matrix,
+    moving: &[usize],
+    sign: i8,
+) -> Result<(), usize> {
     // Cut to what moves: it may be small beside the rest.
     let short = Short::of(m, r, moving);
     let all: Vec<usize> = (0..moving.len()).collect();
@@ -40,13 +46,20 @@ pub(super) fn long_definite(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) 
 
     let least = primitive(least_member(m, r, moving, sign));
     let bits = least.iter().flatten().map(Integer::bits).max().unwrap_or(0);
-    if bits > MAX_EXACT_BITS { verdict } else { eliminate(least) }
+    if bits > MAX_EXACT_BITS {
+        verdict
+    } else {
+        eliminate(least)
+    }
 }
 
 /// 2 `sign` sym(M) on `moving`, less the row sums of twice the symmetric radius on its diagonal.
 fn least_member(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) -> Matrix {
     let entry = |i: usize, j: usize| (&m[i][j] + &m[j][i]) * sign;
-    let mut least: Matrix = moving.iter().map(|&i| moving.iter().map(|&j| entry(i, j)).collect()).collect();
+    let mut least: Matrix = moving
+        .iter()
+        .map(|&i| moving.iter().map(|&j| entry(i, j)).collect())
+        .collect();
 
     for (row, &i) in moving.iter().enumerate() {
         let radius: Integer = moving.iter().map(|&j| &r[i][j] + &r[j][i]).sum();
@@ -57,14 +70,18 @@ fn least_member(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) -> Matrix {
 
 /// Without a common factor: the unit of the ends may be a small part of every entry.
 fn primitive(mut s: Matrix) -> Matrix {
-    let factor = s.iter().flatten().fold(Integer::zero(), |factor, v| factor.gcd(v));
+    let factor = s
+        .iter()
+        .flatten()
+        .fold(Integer::zero(), |factor, v| factor.gcd(v));
     if factor > Integer::one() {
         s.iter_mut().flatten().for_each(|v| *v /= &factor);
     }
     s
 }
 
-/// Elimination without fractions (Bareiss): the pivots are the leading minors. `Err(k)`: minor k is not positive.
+/// Elimination without fractions (Bareiss): the pivots are the leading minors. `Err(k)`: minor k is
+/// not positive.
 fn eliminate(mut s: Matrix) -> Result<(), usize> {
     let n = s.len();
     let mut previous = Integer::one();
@@ -91,11 +108,17 @@ pub(super) fn positive_definite(t: &Short, moving: &[usize], sign: i8) -> Result
     if n > MAX_ORDER {
         return Err(0);
     }
-    let twice = |m: &[Vec<i64>], i: usize, j: usize| i128::from(m[moving[i]][moving[j]]) + i128::from(m[moving[j]][moving[i]]);
-    let largest =
-        (0..n).flat_map(|i| (0..n).map(move |j| (i, j))).fold(0, |most: u64, (i, j)| most | t.m[moving[i]][moving[j]].unsigned_abs());
+    let twice = |m: &[Vec<i64>], i: usize, j: usize| {
+        i128::from(m[moving[i]][moving[j]]) + i128::from(m[moving[j]][moving[i]])
+    };
+    let largest = (0..n)
+        .flat_map(|i| (0..n).map(move |j| (i, j)))
+        .fold(0, |most: u64, (i, j)| {
+            most | t.m[moving[i]][moving[j]].unsigned_abs()
+        });
     let cut = (u64::BITS - largest.leading_zeros() + 1).saturating_sub(BITS);
-    let s = |i: usize, j: usize| (twice(&t.m, i, j) * i128::from(sign)) >> cut; // at most BITS + 1 bits
+    // At most BITS + 1 bits.
+    let s = |i: usize, j: usize| (twice(&t.m, i, j) * i128::from(sign)) >> cut;
     let slack = |i: usize| -> i128 {
         let sum: i128 = (0..n).map(|j| twice(&t.r, i, j)).sum();
         let lost = if cut > 0 { n as i128 } else { 0 };
@@ -103,7 +126,13 @@ pub(super) fn positive_definite(t: &Short, moving: &[usize], sign: i8) -> Result
         ((sum >> cut) + i128::from(sum > 0 && cut > 0)).min(1 << 60) + lost
     };
     let shift_all = SHIFT * n as i128;
-    let lower: Vec<Vec<i128>> = (0..n).map(|i| (0..=i).map(|j| s(i, j) - if i == j { slack(i) } else { 0 }).collect()).collect();
+    let lower: Vec<Vec<i128>> = (0..n)
+        .map(|i| {
+            (0..=i)
+                .map(|j| s(i, j) - if i == j { slack(i) } else { 0 })
+                .collect()
+        })
+        .collect();
     let (l, d) = factor(&lower, shift_all)?;
     dominated(&lower, &l, &d, n)
 }
@@ -111,19 +140,26 @@ pub(super) fn positive_definite(t: &Short, moving: &[usize], sign: i8) -> Result
 /// Rows of L below the diagonal in units of 2^-UNIT, and D.
 type Ldl = (Vec<Vec<i128>>, Vec<i128>);
 
-/// LDL' of the matrix less the shift, rounded. For a definite matrix |l_ij|^2 d_j <= S_ii bounds every
-/// product; an overflow therefore means that it is not (or hardly) definite.
+/// LDL' of the matrix less the shift, rounded. For a definite matrix |l_ij|^2 d_j <= S_ii bounds
+/// every product; an overflow therefore means that it is not (or hardly) definite.
 fn factor(lower: &[Vec<i128>], shift_all: i128) -> Result<Ldl, usize> {
     let (mut l, mut d): Ldl = (Vec::new(), Vec::new());
     for (i, given) in lower.iter().enumerate() {
-        let (row, pivot) = factor_row(given, &l, &d, shift_all).filter(|(_, pivot)| *pivot > 0).ok_or(i)?;
+        let (row, pivot) = factor_row(given, &l, &d, shift_all)
+            .filter(|(_, pivot)| *pivot > 0)
+            .ok_or(i)?;
         l.push(row);
         d.push(pivot);
     }
     Ok((l, d))
 }
 
-fn factor_row(given: &[i128], l: &[Vec<i128>], d: &[i128], shift_all: i128) -> Option<(Vec<i128>, i128)> {
+fn factor_row(
+    given: &[i128],
+    l: &[Vec<i128>],
+    d: &[i128],
+    shift_all: i128,
+) -> Option<(Vec<i128>, i128)> {
     let i = given.len() - 1;
     let mut row: Vec<i128> = Vec::with_capacity(i);
     let mut scaled: Vec<i128> = Vec::with_capacity(i); // l_ik d_k in units of 1
@@ -151,11 +187,17 @@ fn factor_row(given: &[i128], l: &[Vec<i128>], d: &[i128], shift_all: i128) -> O
 /// The residual of the unshifted matrix is diagonally dominant, computed without rounding.
 fn dominated(lower: &[Vec<i128>], l: &[Vec<i128>], d: &[i128], n: usize) -> Result<(), usize> {
     let entry = |i: usize, k: usize| if k == i { 1 << UNIT } else { l[i][k] };
-    let nonzero: Vec<Vec<usize>> = (0..n).map(|i| (0..=i).filter(|&k| entry(i, k) != 0).collect()).collect();
+    let nonzero: Vec<Vec<usize>> = (0..n)
+        .map(|i| (0..=i).filter(|&k| entry(i, k) != 0).collect())
+        .collect();
     let residual = |i: usize, j: usize| {
         let mut rest = lower[i][j].checked_mul(1 << (2 * UNIT))?;
         // Column k counts where both rows have it.
-        let shorter = if nonzero[i].len() < nonzero[j].len() { &nonzero[i] } else { &nonzero[j] };
+        let shorter = if nonzero[i].len() < nonzero[j].len() {
+            &nonzero[i]
+        } else {
+            &nonzero[j]
+        };
         for &k in shorter.iter().take_while(|&&k| k <= j) {
             rest = rest.checked_sub(entry(i, k).checked_mul(d[k])?.checked_mul(entry(j, k))?)?;
         }
@@ -187,7 +229,9 @@ mod tests {
     }
 
     fn matrix(rows: &[&[i64]]) -> Matrix {
-        rows.iter().map(|r| r.iter().map(|&v| Integer::from(v) << 64).collect()).collect()
+        rows.iter()
+            .map(|r| r.iter().map(|&v| Integer::from(v) << 64).collect())
+            .collect()
     }
 
     fn zero(n: usize) -> Matrix {
@@ -203,9 +247,15 @@ mod tests {
         let singular = matrix(&[&[1, 1], &[1, 1]]);
         assert_eq!(positive_definite(&singular, &zero(2), &[0, 1], 1), Err(1));
         let indefinite = matrix(&[&[1, 0, 3], &[0, 9, 0], &[1, 0, 3]]);
-        assert_eq!(positive_definite(&indefinite, &zero(3), &[0, 1, 2], 1), Err(2));
+        assert_eq!(
+            positive_definite(&indefinite, &zero(3), &[0, 1, 2], 1),
+            Err(2)
+        );
         assert_eq!(positive_definite(&indefinite, &zero(3), &[0, 1], 1), Ok(()));
-        assert_eq!(positive_definite(&matrix(&[&[-2]]), &zero(1), &[0], -1), Ok(()));
+        assert_eq!(
+            positive_definite(&matrix(&[&[-2]]), &zero(1), &[0], -1),
+            Ok(())
+        );
     }
 
     #[test]
@@ -220,18 +270,30 @@ mod tests {
     fn nearly_singular_is_never_accepted() {
         let near = |e: u32| {
             let one = Integer::from(1) << 200u32;
-            vec![vec![one.clone(), one.clone()], vec![one.clone(), one.clone() - (Integer::from(1) << (200 - e))]]
+            vec![
+                vec![one.clone(), one.clone()],
+                vec![one.clone(), one.clone() - (Integer::from(1) << (200 - e))],
+            ]
         };
         for e in [20, 39, 40, 60, 100] {
-            assert!(positive_definite(&near(e), &zero(2), &[0, 1], 1).is_err(), "{e}");
+            assert!(
+                positive_definite(&near(e), &zero(2), &[0, 1], 1).is_err(),
+                "{e}"
+            );
         }
     }
 
-    /// Both diagonal entries, the radius of the lower row, and what must hold at the edge: with `cut` bits cut off
-    /// S = 2 m, row 1 needs S_11 - slack > 2 SHIFT.
+    /// Both diagonal entries, the radius of the lower row, and what must hold at the edge: with
+    /// `cut` bits cut off S = 2 m, row 1 needs S_11 - slack > 2 SHIFT.
     fn two(m: [i64; 2], r: [[i64; 2]; 2]) -> Result<(), usize> {
-        let m = vec![vec![m[0].into(), Integer::zero()], vec![Integer::zero(), m[1].into()]];
-        let r = r.iter().map(|row| row.map(Integer::from).to_vec()).collect();
+        let m = vec![
+            vec![m[0].into(), Integer::zero()],
+            vec![Integer::zero(), m[1].into()],
+        ];
+        let r = r
+            .iter()
+            .map(|row| row.map(Integer::from).to_vec())
+            .collect();
         positive_definite(&m, &r, &[0, 1], 1)
     }
 
@@ -240,21 +302,43 @@ mod tests {
         let none = [[0, 0], [0, 0]];
         // Nothing is cut: S = 2 m, the slack is the radius alone.
         let short = 1 << 30;
-        assert_eq!([two([short, 257], none), two([short, 256], none)], [Ok(()), Err(1)]);
+        assert_eq!(
+            [two([short, 257], none), two([short, 256], none)],
+            [Ok(()), Err(1)]
+        );
         let r = [[0, 3], [5, 4]]; // each radius becomes two more as a short one: 5 + 7 + 2 * 6 = 24
-        assert_eq!([two([short, 269], r), two([short, 268], r)], [Ok(()), Err(1)]);
+        assert_eq!(
+            [two([short, 269], r), two([short, 268], r)],
+            [Ok(()), Err(1)]
+        );
         let r = [[0, 3], [0, 4]]; // 5 + 2 * 6 = 17
-        assert_eq!([two([short, 265], r), two([short, 264], r)], [Ok(()), Err(1)]);
+        assert_eq!(
+            [two([short, 265], r), two([short, 264], r)],
+            [Ok(()), Err(1)]
+        );
         // 12 bits are cut: every row loses two units by it, and one more where there is a radius.
         let (long, unit) = (1 << 50, 1 << 11); // 2 unit = 2^12
-        assert_eq!([two([long, 515 * unit], none), two([long, 515 * unit - 1], none)], [Ok(()), Err(1)]);
+        assert_eq!(
+            [
+                two([long, 515 * unit], none),
+                two([long, 515 * unit - 1], none)
+            ],
+            [Ok(()), Err(1)]
+        );
         let r = [[0, 3 << 12], [2 << 12, 1 << 12]]; // 7 units of 2^12
-        assert_eq!([two([long, 523 * unit], r), two([long, 523 * unit - 1], r)], [Ok(()), Err(1)]);
+        assert_eq!(
+            [two([long, 523 * unit], r), two([long, 523 * unit - 1], r)],
+            [Ok(()), Err(1)]
+        );
         let r = [[0, 0], [1, 0]]; // less than a unit
-        assert_eq!([two([long, 516 * unit], r), two([long, 516 * unit - 1], r)], [Ok(()), Err(1)]);
+        assert_eq!(
+            [two([long, 516 * unit], r), two([long, 516 * unit - 1], r)],
+            [Ok(()), Err(1)]
+        );
     }
 
-    /// Bits are cut off S so that 41 are left: one bit more of the largest entry is one bit less of the others.
+    /// Bits are cut off S so that 41 are left: one bit more of the largest entry is one bit less of
+    /// the others.
     #[test]
     fn what_is_cut_follows_the_largest_entry() {
         let none = [[0, 0], [0, 0]];
@@ -264,17 +348,26 @@ mod tests {
             let edge = (513 + lost) << cut;
             let half = |v: i64| (v + 1) / 2;
             assert_eq!(
-                [two([1 << (bits - 1), half(edge)], none), two([1 << (bits - 1), half(edge) - 1], none)],
+                [
+                    two([1 << (bits - 1), half(edge)], none),
+                    two([1 << (bits - 1), half(edge) - 1], none)
+                ],
                 [Ok(()), Err(1)],
                 "{bits}"
             );
         }
     }
 
-    /// The factors of this matrix are all positive and hide an eigenvalue that is not: the residual tells.
+    /// The factors of this matrix are all positive and hide an eigenvalue that is not: the residual
+    /// tells.
     #[test]
     fn factors_that_do_not_multiply_out_prove_nothing() {
-        let lower: [&[i128]; 4] = [&[1028], &[2, 1028], &[6160, 4662, 12_653_620], &[84_137, 63_657, 172_869_770, 4_528_399_482]];
+        let lower: [&[i128]; 4] = [
+            &[1028],
+            &[2, 1028],
+            &[6160, 4662, 12_653_620],
+            &[84_137, 63_657, 172_869_770, 4_528_399_482],
+        ];
         let lower: Vec<Vec<i128>> = lower.iter().map(|row| row.to_vec()).collect();
         let (l, d) = factor(&lower, SHIFT * 4).unwrap();
         assert_eq!(dominated(&lower, &l, &d, 4), Err(3));
@@ -284,19 +377,34 @@ mod tests {
             std::cmp::Ordering::Equal => lower[i][j] / 2,
             std::cmp::Ordering::Greater => lower[i][j],
         };
-        let m: Matrix = (0..4).map(|i| (0..4).map(|j| Integer::from(entry(i, j))).collect()).collect();
+        let m: Matrix = (0..4)
+            .map(|i| (0..4).map(|j| Integer::from(entry(i, j))).collect())
+            .collect();
         assert_eq!(positive_definite(&m, &zero(4), &[0, 1, 2, 3], 1), Err(3));
     }
 
-    /// T = [[1, 1 - e], [1 - e, 1]] with e = 2^-90, far below any margin: definite, and not with a radius of e.
+    /// T = [[1, 1 - e], [1 - e, 1]] with e = 2^-90, far below any margin: definite, and not with a
+    /// radius of e.
     #[test]
     fn small_matrices_are_decided_without_a_margin() {
         let one: Integer = Integer::one() << 90;
         let m = vec![vec![one.clone(), &one - 1], vec![&one - 1, one.clone()]];
-        let singular = vec![vec![one.clone(), one.clone()], vec![one.clone(), one.clone()]];
-        let radius = |v: i64| vec![vec![Integer::from(v), Integer::zero()], vec![Integer::zero(), Integer::zero()]];
+        let singular = vec![
+            vec![one.clone(), one.clone()],
+            vec![one.clone(), one.clone()],
+        ];
+        let radius = |v: i64| {
+            vec![
+                vec![Integer::from(v), Integer::zero()],
+                vec![Integer::zero(), Integer::zero()],
+            ]
+        };
 
-        assert_eq!(positive_definite(&m, &zero(2), &[0, 1], 1), Err(1), "the margin is too small for short numbers");
+        assert_eq!(
+            positive_definite(&m, &zero(2), &[0, 1], 1),
+            Err(1),
+            "the margin is too small for short numbers"
+        );
         assert_eq!(long_definite(&m, &zero(2), &[0, 1], 1), Ok(()));
         assert_eq!(long_definite(&singular, &zero(2), &[0, 1], 1), Err(1));
 
@@ -304,8 +412,17 @@ mod tests {
         assert_eq!(long_definite(&m, &radius(1), &[0, 1], 1), Ok(()));
         assert_eq!(long_definite(&m, &radius(2), &[0, 1], 1), Err(1));
 
-        let negative: Matrix = m.iter().map(|row| row.iter().map(|v| -v).collect()).collect();
-        assert_eq!([long_definite(&negative, &zero(2), &[0, 1], -1), long_definite(&m, &zero(2), &[0, 1], -1)], [Ok(()), Err(0)]);
+        let negative: Matrix = m
+            .iter()
+            .map(|row| row.iter().map(|v| -v).collect())
+            .collect();
+        assert_eq!(
+            [
+                long_definite(&negative, &zero(2), &[0, 1], -1),
+                long_definite(&m, &zero(2), &[0, 1], -1)
+            ],
+            [Ok(()), Err(0)]
+        );
     }
 
     /// Beyond the largest order of elimination, or its longest entries, the margin is asked for.
@@ -318,12 +435,19 @@ mod tests {
                 _ if i == j => one.clone(),
                 _ => Integer::zero(),
             };
-            (0..n).map(|i| (0..n).map(|j| entry(i, j)).collect()).collect()
+            (0..n)
+                .map(|i| (0..n).map(|j| entry(i, j)).collect())
+                .collect()
         };
-        let decide = |n: usize, bits: u64| long_definite(&tight(n, bits), &zero(n), &(0..n).collect::<Vec<_>>(), 1);
+        let decide = |n: usize, bits: u64| {
+            long_definite(&tight(n, bits), &zero(n), &(0..n).collect::<Vec<_>>(), 1)
+        };
 
         // Twice the entries, without their factor of two: 2^b has b + 1 bits.
-        assert_eq!([decide(12, 1023), decide(12, 1024), decide(13, 90)], [Ok(()), Err(1), Err(1)]);
+        assert_eq!(
+            [decide(12, 1023), decide(12, 1024), decide(13, 90)],
+            [Ok(()), Err(1), Err(1)]
+        );
     }
 
     /// By hand the minors are 6, 27 and 27 corner - 54: the last is zero at corner 2.
@@ -333,14 +457,26 @@ mod tests {
             let rows = [[6, -3, 0], [-3, 6, -3], [0, -3, corner]];
             rows.map(|row| row.map(Integer::from).to_vec()).to_vec()
         };
-        assert_eq!([eliminate(of(6)), eliminate(of(3)), eliminate(of(2)), eliminate(of(1))], [Ok(()), Ok(()), Err(2), Err(2)]);
+        assert_eq!(
+            [
+                eliminate(of(6)),
+                eliminate(of(3)),
+                eliminate(of(2)),
+                eliminate(of(1))
+            ],
+            [Ok(()), Ok(()), Err(2), Err(2)]
+        );
     }
 
     #[test]
     fn the_largest_order_is_still_decided() {
-        // One variable many times over is singular: row 1 says so, and row 0 beyond the largest order.
+        // One variable many times over is singular: row 1 says so, and row 0 beyond the largest
+        // order.
         let one = Short::of(&matrix(&[&[1]]), &zero(1), &[0]).unwrap();
         assert_eq!(super::positive_definite(&one, &[0; MAX_ORDER], 1), Err(1));
-        assert_eq!(super::positive_definite(&one, &[0; MAX_ORDER + 1], 1), Err(0));
+        assert_eq!(
+            super::positive_definite(&one, &[0; MAX_ORDER + 1], 1),
+            Err(0)
+        );
     }
 }

@@ -79,7 +79,9 @@ pub enum CoverFault {
         end: &'static str,
     },
     /// A root where an index is open, or an interval from zero to infinity.
-    #[error("root: expected every index decided, something moving, and a lower end above 0 where the interval is infinite")]
+    #[error(
+        "root: expected every index decided, something moving, and a lower end above 0 where the interval is infinite"
+    )]
     RootTooEarly,
     /// The pivot does not move.
     #[error("root: expected a moving pivot, got {index}")]
@@ -94,7 +96,9 @@ pub enum CoverFault {
         got: Rational,
     },
     /// The Schur complement is not monotone: there could be two roots.
-    #[error("root: expected the Schur complement to be monotone over the interval, got a slope that may vanish")]
+    #[error(
+        "root: expected the Schur complement to be monotone over the interval, got a slope that may vanish"
+    )]
     NotMonotone,
     /// The Schur complement does not change sign.
     #[error("root: expected the Schur complement to change sign between {lo} and {hi}")]
@@ -105,7 +109,9 @@ pub enum CoverFault {
         hi: Rational,
     },
     /// The Schur complement is not certain to keep its sign.
-    #[error("root: expected the Schur complement to keep one sign over the leaf, got a change or none")]
+    #[error(
+        "root: expected the Schur complement to keep one sign over the leaf, got a change or none"
+    )]
     SignChange,
     /// A sign of x or y is not the one stated.
     #[error("root: expected {component}[{index}] {expected}, got another sign or none")]
@@ -118,7 +124,9 @@ pub enum CoverFault {
         expected: &'static str,
     },
     /// An exact factor is not one of the matrix.
-    #[error("ldl: expected L D L' to be sym(A + tB) at the {end} end, got another entry at ({row}, {column})")]
+    #[error(
+        "ldl: expected L D L' to be sym(A + tB) at the {end} end, got another entry at ({row}, {column})"
+    )]
     Factor {
         /// Row, by the problem's index.
         row: usize,
@@ -136,7 +144,9 @@ pub enum CoverFault {
         b: Rational,
     },
     /// An outcome that the checker does not read over a half line.
-    #[error("root: expected absent, claim or infinity over an interval to infinity without a reversed anchor, got {outcome}")]
+    #[error(
+        "root: expected absent, claim or infinity over an interval to infinity without a reversed anchor, got {outcome}"
+    )]
     OutcomeOnHalfLine {
         /// The outcome's word in the file.
         outcome: &'static str,
@@ -150,16 +160,22 @@ pub enum CoverFault {
         index: usize,
     },
     /// The claim referred to is not a solution whose null vector belongs to the leaf.
-    #[error("root: expected claim {claim} to be a solution in the interval whose active rows are the leaf's")]
+    #[error(
+        "root: expected claim {claim} to be a solution in the interval whose active rows are the leaf's"
+    )]
     NotTheClaim {
         /// The claim.
         claim: usize,
     },
-    /// A support where an index is open, or points where nothing moves, or none where something does.
+    /// A support where an index is open, or points where nothing moves, or none where something
+    /// does.
     #[error("support: expected every index decided, and points exactly if something moves")]
     SupportTooEarly,
-    /// A point that is no isolated root, or out of order; beyond the last: an end of the interval is not one.
-    #[error("support: expected point {point} to be an isolated root above the one before, the first and the last the ends of the interval")]
+    /// A point that is no isolated root, or out of order; beyond the last: an end of the interval
+    /// is not one.
+    #[error(
+        "support: expected point {point} to be an isolated root above the one before, the first and the last the ends of the interval"
+    )]
     Point {
         /// Position among the points.
         point: usize,
@@ -173,7 +189,9 @@ pub enum CoverFault {
         reasons: usize,
     },
     /// A reason does not hold at its place.
-    #[error("support: expected {expected} in place {place} (points are even), broken at index {index}")]
+    #[error(
+        "support: expected {expected} in place {place} (points are even), broken at index {index}"
+    )]
     Place {
         /// Twice the point's position, or one more for the cell above it.
         place: usize,
@@ -183,7 +201,9 @@ pub enum CoverFault {
         index: usize,
     },
     /// Two leaves hold solutions of one support that could be one or two.
-    #[error("roots: expected solutions of support {support:?} to be apart or the same, got overlapping intervals")]
+    #[error(
+        "roots: expected solutions of support {support:?} to be apart or the same, got overlapping intervals"
+    )]
     Ambiguous {
         /// The support.
         support: Vec<usize>,
@@ -199,7 +219,9 @@ pub enum CoverFault {
         got: u64,
     },
     /// The signs of the support leaves take more work than the file's budget.
-    #[error("support: expected signs within the budget of the file (spec/complete-set.md, Limits), got more work")]
+    #[error(
+        "support: expected signs within the budget of the file (spec/complete-set.md, Limits), got more work"
+    )]
     OutOfBudget,
     /// Free variables need a condensation, and none is wanted without them.
     #[error("condensation: expected {}", if *expected { "one, the problem has free variables" } else { "none, the problem has no free variables" })]

@@ -23,10 +23,17 @@ pub(super) fn farkas(
 ) -> Result<(), CoverFault> {
     let n = index.len();
     if w.len() != n {
-        return Err(CoverFault::Length { what: "farkas", expected: n, got: w.len() });
+        return Err(CoverFault::Length {
+            what: "farkas",
+            expected: n,
+            got: w.len(),
+        });
     }
     if let Some(i) = (0..n).find(|&i| w[i] < 0 && region.states[i] != State::Moving) {
-        return Err(CoverFault::NegativeWeight { index: index[i], got: w[i] });
+        return Err(CoverFault::NegativeWeight {
+            index: index[i],
+            got: w[i],
+        });
     }
     if short.is_some_and(|ends| ends.iter().all(|end| is_negative(region, end, w))) {
         return Ok(());
@@ -41,24 +48,40 @@ pub(super) fn farkas(
                 .map(|i| {
                     let radius = &ends.r[end][i][j];
                     let product = &ends.m[end][i][j] * w[i];
-                    if radius.is_zero() { product } else { product + radius * w[i].unsigned_abs() }
+                    if radius.is_zero() {
+                        product
+                    } else {
+                        product + radius * w[i].unsigned_abs()
+                    }
                 })
                 .sum();
             if bound.is_positive() {
-                return Err(CoverFault::NotNegative { index: index[j], end: ENDS[end], got: Rational::new(bound, ends.scale.clone()) });
+                return Err(CoverFault::NotNegative {
+                    index: index[j],
+                    end: ENDS[end],
+                    got: Rational::new(bound, ends.scale.clone()),
+                });
             }
             strict &= bound.is_negative() || (end == 1 && ends.infinite);
         }
         strict_on_all &= strict;
         strict_on_one |= strict && region.states[j] == State::Moving;
     }
-    if strict_on_all || strict_on_one { Ok(()) } else { Err(CoverFault::NotStrict) }
+    if strict_on_all || strict_on_one {
+        Ok(())
+    } else {
+        Err(CoverFault::NotStrict)
+    }
 }
 
 /// Is w'T < 0 on all that may move?
 fn is_negative(region: &Region, end: &Short, w: &[i64]) -> bool {
     let bounds = end.product(w);
-    bounds.is_some_and(|list| list.iter().zip(&region.states).all(|(bound, state)| *bound < 0 || *state == State::Rest))
+    bounds.is_some_and(|list| {
+        list.iter()
+            .zip(&region.states)
+            .all(|(bound, state)| *bound < 0 || *state == State::Rest)
+    })
 }
 
 /// `sign` sym(T) is positive definite on what may move at both ends, and so between: x'Tx = 0 on
@@ -70,18 +93,32 @@ pub(super) fn definite(
     index: &[usize],
     sign: i8,
 ) -> Result<(), CoverFault> {
-    let moving: Vec<usize> = (0..region.states.len()).filter(|&i| region.states[i] != State::Rest).collect();
-    if short.is_some_and(|ends| ends.iter().all(|end| positive_definite(end, &moving, sign).is_ok())) {
+    let moving: Vec<usize> = (0..region.states.len())
+        .filter(|&i| region.states[i] != State::Rest)
+        .collect();
+    if short.is_some_and(|ends| {
+        ends.iter()
+            .all(|end| positive_definite(end, &moving, sign).is_ok())
+    }) {
         return Ok(());
     }
     let ends = ends()?;
     for end in 0..2 {
         let (m, r) = (&ends.m[end], &ends.r[end]);
-        let is_zero = || moving.iter().all(|&i| moving.iter().all(|&j| (&m[i][j] + &m[j][i]).is_zero() && r[i][j].is_zero()));
+        let is_zero = || {
+            moving.iter().all(|&i| {
+                moving
+                    .iter()
+                    .all(|&j| (&m[i][j] + &m[j][i]).is_zero() && r[i][j].is_zero())
+            })
+        };
         if end == 1 && ends.infinite && is_zero() {
             continue;
         }
-        let not_definite = |p: usize| CoverFault::NotDefinite { index: index[moving[p]], end: ENDS[end] };
+        let not_definite = |p: usize| CoverFault::NotDefinite {
+            index: index[moving[p]],
+            end: ENDS[end],
+        };
         long_definite(m, r, &moving, sign).map_err(not_definite)?;
     }
     Ok(())
@@ -98,13 +135,28 @@ mod tests {
         m.map(|row| row.map(Integer::from).to_vec()).to_vec()
     }
 
-    fn ends(m: [[[i64; 2]; 2]; 2], r: [[[i64; 2]; 2]; 2], infinite: bool) -> Result<Rc<Ends>, CoverFault> {
+    fn ends(
+        m: [[[i64; 2]; 2]; 2],
+        r: [[[i64; 2]; 2]; 2],
+        infinite: bool,
+    ) -> Result<Rc<Ends>, CoverFault> {
         let zero = || matrix([[0, 0], [0, 0]]);
-        Ok(Rc::new(Ends { m: m.map(matrix), r: r.map(matrix), slope: zero(), scale: 1.into(), infinite }))
+        Ok(Rc::new(Ends {
+            m: m.map(matrix),
+            r: r.map(matrix),
+            slope: zero(),
+            scale: 1.into(),
+            infinite,
+        }))
     }
 
     fn region(states: [State; 2]) -> Region {
-        Region { lo: whole(0), hi: Some(whole(1)), states: states.to_vec(), matrices: Default::default() }
+        Region {
+            lo: whole(0),
+            hi: Some(whole(1)),
+            states: states.to_vec(),
+            matrices: Default::default(),
+        }
     }
 
     const NONE: [[i64; 2]; 2] = [[0, 0], [0, 0]];
@@ -129,42 +181,94 @@ mod tests {
         let states = [State::Open, State::Moving];
         let at = |c: i64, d: i64| long_farkas(states, [t(c), t(d)], [r, r], false, [2, -3]);
         assert_eq!(at(9, 9), Ok(()));
-        let fault = |end, got| Err(CoverFault::NotNegative { index: 11, end, got: whole(got) });
+        let fault = |end, got| {
+            Err(CoverFault::NotNegative {
+                index: 11,
+                end,
+                got: whole(got),
+            })
+        };
         assert_eq!([at(7, 9), at(9, 7)], [fault("lower", 3), fault("upper", 3)]);
         // At zero it is neither: here the moving variable is the one that is not strict.
-        assert_eq!([at(8, 9), at(9, 8)], [Err(CoverFault::NotStrict), Err(CoverFault::NotStrict)]);
+        assert_eq!(
+            [at(8, 9), at(9, 8)],
+            [Err(CoverFault::NotStrict), Err(CoverFault::NotStrict)]
+        );
     }
 
     /// w'T <= 0, and < 0 on all or on one that moves; at infinity <= 0 is as good.
     #[test]
     fn strict_on_all_or_on_one_that_moves() {
         let t = |a: i64, b: i64| [[-a, -b], [0, 0]];
-        let at = |states, lower, upper, infinite| long_farkas(states, [lower, upper], [NONE, NONE], infinite, [1, 0]);
+        let at = |states, lower, upper, infinite| {
+            long_farkas(states, [lower, upper], [NONE, NONE], infinite, [1, 0])
+        };
         let moving = [State::Moving, State::Open];
         let weak = Err(CoverFault::NotStrict);
         assert_eq!(at(OPEN, t(1, 1), t(1, 1), false), Ok(()));
-        assert_eq!([at(OPEN, t(1, 0), t(1, 1), false), at(OPEN, t(1, 1), t(1, 0), false)], [weak.clone(), weak.clone()]);
-        assert_eq!([at(moving, t(1, 0), t(1, 0), false), at(moving, t(0, 1), t(1, 1), false)], [Ok(()), weak.clone()]);
-        assert_eq!([at(OPEN, t(1, 1), t(1, 0), true), at(OPEN, t(1, 0), t(1, 1), true)], [Ok(()), weak.clone()]);
-        assert_eq!(at([State::Open, State::Rest], t(1, 0), t(1, 0), false), Ok(()));
+        assert_eq!(
+            [
+                at(OPEN, t(1, 0), t(1, 1), false),
+                at(OPEN, t(1, 1), t(1, 0), false)
+            ],
+            [weak.clone(), weak.clone()]
+        );
+        assert_eq!(
+            [
+                at(moving, t(1, 0), t(1, 0), false),
+                at(moving, t(0, 1), t(1, 1), false)
+            ],
+            [Ok(()), weak.clone()]
+        );
+        assert_eq!(
+            [
+                at(OPEN, t(1, 1), t(1, 0), true),
+                at(OPEN, t(1, 0), t(1, 1), true)
+            ],
+            [Ok(()), weak.clone()]
+        );
+        assert_eq!(
+            at([State::Open, State::Rest], t(1, 0), t(1, 0), false),
+            Ok(())
+        );
         assert_eq!(at(OPEN, t(1, 0), t(0, 1), true), weak);
     }
 
-    /// At an infinite end a symmetric part that vanishes on what may move will do, radius included; at no other.
+    /// At an infinite end a symmetric part that vanishes on what may move will do, radius included;
+    /// at no other.
     #[test]
     fn a_vanishing_direction_is_definite_enough() {
         let eye = [[1 << 20, 0], [0, 1 << 20]];
         let skew = [[0, 5], [-5, 0]];
-        let at = |states, m, r, infinite| definite(&region(states), None, || ends(m, r, infinite), &INDEX, 1);
+        let at = |states, m, r, infinite| {
+            definite(&region(states), None, || ends(m, r, infinite), &INDEX, 1)
+        };
         let not = |index, end| Err(CoverFault::NotDefinite { index, end });
         assert_eq!(at(OPEN, [eye, skew], [NONE, NONE], true), Ok(()));
         assert_eq!(at(OPEN, [eye, skew], [NONE, NONE], false), not(10, "upper"));
         assert_eq!(at(OPEN, [skew, eye], [NONE, NONE], true), not(10, "lower"));
-        assert_eq!(at(OPEN, [eye, [[0, 5], [5, 0]]], [NONE, NONE], true), not(10, "upper"));
-        assert_eq!(at(OPEN, [eye, skew], [NONE, [[0, 1], [0, 0]]], true), not(10, "upper"));
-        assert_eq!(at([State::Rest, State::Open], [eye, [[7, 9], [9, 0]]], [NONE, [[5, 5], [5, 0]]], true), Ok(()));
+        assert_eq!(
+            at(OPEN, [eye, [[0, 5], [5, 0]]], [NONE, NONE], true),
+            not(10, "upper")
+        );
+        assert_eq!(
+            at(OPEN, [eye, skew], [NONE, [[0, 1], [0, 0]]], true),
+            not(10, "upper")
+        );
+        assert_eq!(
+            at(
+                [State::Rest, State::Open],
+                [eye, [[7, 9], [9, 0]]],
+                [NONE, [[5, 5], [5, 0]]],
+                true
+            ),
+            Ok(())
+        );
         assert_eq!(at(OPEN, [eye, eye], [NONE, NONE], true), Ok(()));
-        assert_eq!(at(OPEN, [eye, [[1 << 20, 0], [0, 0]]], [NONE, NONE], true), not(11, "upper"));
+        assert_eq!(
+            at(OPEN, [eye, [[1 << 20, 0], [0, 0]]], [NONE, NONE], true),
+            not(11, "upper")
+        );
     }
 
     /// The short numbers only ever say what the long ones say.
@@ -173,13 +277,34 @@ mod tests {
         let short = |m: [[i64; 2]; 2]| Short::of(&matrix(m), &matrix(NONE), &[0, 1]).unwrap();
         let never = || Err(CoverFault::Trailing);
         let negative = || [short([[-1, -1], [0, 0]]), short([[-1, -2], [0, 0]])];
-        assert_eq!(farkas(&region(OPEN), Some(&negative()), never, &INDEX, &[1, 0]), Ok(()));
+        assert_eq!(
+            farkas(&region(OPEN), Some(&negative()), never, &INDEX, &[1, 0]),
+            Ok(())
+        );
         let unclear = [short([[-1, 0], [0, 0]]), short([[-1, -2], [0, 0]])];
-        assert_eq!(farkas(&region(OPEN), Some(&unclear), never, &INDEX, &[1, 0]), Err(CoverFault::Trailing));
+        assert_eq!(
+            farkas(&region(OPEN), Some(&unclear), never, &INDEX, &[1, 0]),
+            Err(CoverFault::Trailing)
+        );
         // What rests need not be negative.
-        assert_eq!(farkas(&region([State::Open, State::Rest]), Some(&unclear), never, &INDEX, &[1, 0]), Ok(()));
+        assert_eq!(
+            farkas(
+                &region([State::Open, State::Rest]),
+                Some(&unclear),
+                never,
+                &INDEX,
+                &[1, 0]
+            ),
+            Ok(())
+        );
         let eye = || short([[1 << 20, 0], [0, 1 << 20]]);
-        assert_eq!(definite(&region(OPEN), Some(&[eye(), eye()]), never, &INDEX, 1), Ok(()));
-        assert_eq!(definite(&region(OPEN), Some(&[eye(), short(NONE)]), never, &INDEX, 1), Err(CoverFault::Trailing));
+        assert_eq!(
+            definite(&region(OPEN), Some(&[eye(), eye()]), never, &INDEX, 1),
+            Ok(())
+        );
+        assert_eq!(
+            definite(&region(OPEN), Some(&[eye(), short(NONE)]), never, &INDEX, 1),
+            Err(CoverFault::Trailing)
+        );
     }
 }

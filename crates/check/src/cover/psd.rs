@@ -24,11 +24,24 @@ pub(super) fn semidefinite(
     strictly: bool,
     what: &'static str,
 ) -> Result<(), CoverFault> {
-    let fault = |row| CoverFault::Hypothesis { expected: what, row };
+    let fault = |row| CoverFault::Hypothesis {
+        expected: what,
+        row,
+    };
     let Some(factor) = factor else {
-        let bad = |i: &usize| s[*i].iter().any(|(j, v)| if j == i { v.is_negative() } else { !v.is_zero() });
+        let bad = |i: &usize| {
+            s[*i].iter().any(|(j, v)| {
+                if j == i {
+                    v.is_negative()
+                } else {
+                    !v.is_zero()
+                }
+            })
+        };
         let missing = |i: &usize| strictly && !s[*i].get(i).is_some_and(Signed::is_positive);
-        return (0..s.len()).find(|i| bad(i) || missing(i)).map_or(Ok(()), |row| Err(fault(row)));
+        return (0..s.len())
+            .find(|i| bad(i) || missing(i))
+            .map_or(Ok(()), |row| Err(fault(row)));
     };
     shape(factor, s.len())?;
     // Everything in units of 1 / (scale 4^exponent).
@@ -60,24 +73,58 @@ pub(super) fn semidefinite(
             }
         }
     }
-    off.iter_mut().zip(&fill).filter(|(_, fill)| **fill > 0).for_each(|(off, fill)| *off += Integer::from(*fill) * scale);
-    let holds = |i: usize| if strictly { diagonal[i] > off[i] } else { diagonal[i] >= off[i] };
-    (0..n).find(|&i| !holds(i)).map_or(Ok(()), |row| Err(fault(row)))
+    off.iter_mut()
+        .zip(&fill)
+        .filter(|(_, fill)| **fill > 0)
+        .for_each(|(off, fill)| *off += Integer::from(*fill) * scale);
+    let holds = |i: usize| {
+        if strictly {
+            diagonal[i] > off[i]
+        } else {
+            diagonal[i] >= off[i]
+        }
+    };
+    (0..n)
+        .find(|&i| !holds(i))
+        .map_or(Ok(()), |row| Err(fault(row)))
 }
 
 /// (L L')_ij.
 fn product(factor: &Factor, i: usize, j: usize) -> Integer {
     let start = factor.first[i].max(factor.first[j]);
-    let from = |r: usize| factor.rows[r].iter().skip(start.saturating_sub(factor.first[r]));
-    from(i).zip(from(j)).take((j + 1).saturating_sub(start)).map(|(p, q)| p * q).sum()
+    let from = |r: usize| {
+        factor.rows[r]
+            .iter()
+            .skip(start.saturating_sub(factor.first[r]))
+    };
+    from(i)
+        .zip(from(j))
+        .take((j + 1).saturating_sub(start))
+        .map(|(p, q)| p * q)
+        .sum()
 }
 
-/// The factor's rows in machine integers, if a row sum of |L L'|, of at most n^2 products, fits into 128 bits.
+/// The factor's rows in machine integers, if a row sum of |L L'|, of at most n^2 products, fits
+/// into 128 bits.
 fn short(factor: &Factor) -> Option<Vec<Vec<i64>>> {
-    let bits = factor.rows.iter().flatten().map(Integer::bits).max().unwrap_or(0);
+    let bits = factor
+        .rows
+        .iter()
+        .flatten()
+        .map(Integer::bits)
+        .max()
+        .unwrap_or(0);
     let order = u64::from(usize::BITS - factor.rows.len().leading_zeros());
-    let row = |row: &Vec<Integer>| row.iter().map(ToPrimitive::to_i64).collect::<Option<Vec<i64>>>();
-    if 2 * bits + 2 * order > SHORT_BITS { None } else { factor.rows.iter().map(row).collect() }
+    let row = |row: &Vec<Integer>| {
+        row.iter()
+            .map(ToPrimitive::to_i64)
+            .collect::<Option<Vec<i64>>>()
+    };
+    if 2 * bits + 2 * order > SHORT_BITS {
+        None
+    } else {
+        factor.rows.iter().map(row).collect()
+    }
 }
 
 /// [`product`] of such rows.
@@ -85,24 +132,45 @@ fn short_product(factor: &Factor, rows: &[Vec<i64>], i: usize, j: usize) -> i128
     let start = factor.first[i].max(factor.first[j]);
     let from = |r: usize| &rows[r][(start - factor.first[r]).min(rows[r].len())..];
     let terms = (j + 1).saturating_sub(start);
-    from(i).iter().zip(from(j)).take(terms).map(|(p, q)| i128::from(*p) * i128::from(*q)).sum()
+    from(i)
+        .iter()
+        .zip(from(j))
+        .take(terms)
+        .map(|(p, q)| i128::from(*p) * i128::from(*q))
+        .sum()
 }
 
 /// Row i holds columns first[i] to i.
 fn shape(factor: &Factor, n: usize) -> Result<(), CoverFault> {
-    for (what, got) in [("factor", factor.rows.len()), ("first columns of the factor", factor.first.len())] {
+    for (what, got) in [
+        ("factor", factor.rows.len()),
+        ("first columns of the factor", factor.first.len()),
+    ] {
         if got != n {
-            return Err(CoverFault::Length { what, expected: n, got });
+            return Err(CoverFault::Length {
+                what,
+                expected: n,
+                got,
+            });
         }
     }
     if factor.exponent > MAX_EXPONENT {
-        return Err(CoverFault::TooLarge { what: "exponent", limit: MAX_EXPONENT.into(), got: factor.exponent.into() });
+        return Err(CoverFault::TooLarge {
+            what: "exponent",
+            limit: MAX_EXPONENT.into(),
+            got: factor.exponent.into(),
+        });
     }
-    let bad = (0..n).find(|&i| factor.first[i] > i || factor.rows[i].len() != i + 1 - factor.first[i]);
+    let bad =
+        (0..n).find(|&i| factor.first[i] > i || factor.rows[i].len() != i + 1 - factor.first[i]);
     match bad {
         Some(i) => {
             let expected = (i + 1).saturating_sub(factor.first[i]);
-            Err(CoverFault::Length { what: "row of the factor", expected, got: factor.rows[i].len() })
+            Err(CoverFault::Length {
+                what: "row of the factor",
+                expected,
+                got: factor.rows[i].len(),
+            })
         }
         None => Ok(()),
     }
@@ -128,29 +196,56 @@ mod tests {
 
     /// [[2, 0], [-2, 2]] squared is [[4, -4], [-4, 8]].
     fn factor() -> Factor {
-        let rows = vec![vec![Integer::from(2)], vec![Integer::from(-2), Integer::from(2)]];
-        Factor { first: vec![0, 0], rows, exponent: 0 }
+        let rows = vec![
+            vec![Integer::from(2)],
+            vec![Integer::from(-2), Integer::from(2)],
+        ];
+        Factor {
+            first: vec![0, 0],
+            rows,
+            exponent: 0,
+        }
     }
 
     #[test]
     fn the_residual_decides() {
-        let check = |d: i64, strictly| semidefinite(&tridiagonal(2, d), &Integer::one(), Some(&factor()), strictly, "S").is_ok();
+        let check = |d: i64, strictly| {
+            semidefinite(
+                &tridiagonal(2, d),
+                &Integer::one(),
+                Some(&factor()),
+                strictly,
+                "S",
+            )
+            .is_ok()
+        };
         assert!(check(8, false) && check(9, true));
-        assert!(!check(8, true) && !check(7, false)); // residual 0 is semidefinite only; -1 is neither
+        // Residual 0 is semidefinite only; -1 is neither.
+        assert!(!check(8, true) && !check(7, false));
     }
 
     /// Rows of different beginnings, at both sides of the length at which machine integers end.
     #[test]
     fn short_and_long_products_agree() {
-        let row = |list: &[i64], bits: u32| list.iter().map(|v| Integer::from(*v) << bits).collect::<Vec<_>>();
-        let of =
-            |bits| Factor { first: vec![0, 0, 2], rows: vec![row(&[15], bits), row(&[-15, 14], bits), row(&[-13], bits)], exponent: 0 };
+        let row = |list: &[i64], bits: u32| {
+            list.iter()
+                .map(|v| Integer::from(*v) << bits)
+                .collect::<Vec<_>>()
+        };
+        let of = |bits| Factor {
+            first: vec![0, 0, 2],
+            rows: vec![row(&[15], bits), row(&[-15, 14], bits), row(&[-13], bits)],
+            exponent: 0,
+        };
         for bits in [0, 55, 56, 57] {
             let (factor, rows) = (of(bits), short(&of(bits)));
             // Three rows are 2 bits, entries 4 + bits: 2 (4 + bits) + 4 may be at most 126.
             assert_eq!(rows.is_some(), bits <= 57, "{bits}");
             for (i, j) in [(0, 0), (1, 0), (1, 1), (2, 0), (2, 1), (2, 2)] {
-                assert_eq!(Integer::from(short_product(&factor, rows.as_ref().unwrap(), i, j)), product(&factor, i, j));
+                assert_eq!(
+                    Integer::from(short_product(&factor, rows.as_ref().unwrap(), i, j)),
+                    product(&factor, i, j)
+                );
             }
         }
         assert!(short(&of(58)).is_none() && short(&of(70)).is_none());
@@ -161,22 +256,36 @@ mod tests {
     fn the_number_of_rows_counts_twice() {
         let of = |bits: u32| {
             let rows = vec![vec![Integer::one() << (bits - 1)]; 8];
-            short(&Factor { first: (0..8).collect(), rows, exponent: 0 }).is_some()
+            short(&Factor {
+                first: (0..8).collect(),
+                rows,
+                exponent: 0,
+            })
+            .is_some()
         };
         assert_eq!([of(59), of(60)], [true, false]);
     }
 
-    /// S = L L' + E with an S that is zero where L L' is not, for short and for long factors and two scales: E_ii - sum |E_ij|
-    /// is `more` units, row by row, and the sign of that decides.
+    /// S = L L' + E with an S that is zero where L L' is not, for short and for long factors and
+    /// two scales: E_ii - sum |E_ij| is `more` units, row by row, and the sign of that decides.
     #[test]
     fn fill_counts_in_both_arithmetics() {
         let verdict = |bits: u32, scale: i64, more: [i64; 3], strictly: bool| {
             let value = |v: i64| Integer::from(v) << bits;
             // L = [[3], [-1, 3], [-1, 1, 3]]: L L' = [[9, -3, -3], [-3, 10, 4], [-3, 4, 11]].
-            let rows = vec![vec![value(3)], vec![value(-1), value(3)], vec![value(-1), value(1), value(3)]];
-            let factor = Factor { first: vec![0, 0, 0], rows, exponent: 0 };
+            let rows = vec![
+                vec![value(3)],
+                vec![value(-1), value(3)],
+                vec![value(-1), value(1), value(3)],
+            ];
+            let factor = Factor {
+                first: vec![0, 0, 0],
+                rows,
+                exponent: 0,
+            };
             let entry = |v: i64| Integer::from(v * scale) << (2 * bits);
-            // Off the diagonal S holds (1, 0) only, -3 + 1: row sums of |E| are 1 + 3, 1 + 4, 3 + 4.
+            // Off the diagonal S holds (1, 0) only, -3 + 1: row sums of |E| are 1 + 3, 1 + 4, 3 +
+            // 4.
             let s = vec![
                 BTreeMap::from([(0, entry(9 + 4) + more[0]), (1, entry(-2))]),
                 BTreeMap::from([(0, entry(-2)), (1, entry(10 + 5) + more[1])]),
@@ -186,12 +295,22 @@ mod tests {
             semidefinite(&s, &Integer::from(scale), Some(&factor), strictly, "S")
         };
         for (bits, scale) in [(0, 1), (0, 3), (40, 7), (59, 3), (60, 3), (90, 1)] {
-            assert_eq!((verdict(bits, scale, [0; 3], false), verdict(bits, scale, [1; 3], true)), (Ok(()), Ok(())), "{bits}");
+            assert_eq!(
+                (
+                    verdict(bits, scale, [0; 3], false),
+                    verdict(bits, scale, [1; 3], true)
+                ),
+                (Ok(()), Ok(())),
+                "{bits}"
+            );
             for row in 0..3 {
                 let but = |all: i64| std::array::from_fn(|i| all - i64::from(i == row));
                 let broken = Err(CoverFault::Hypothesis { expected: "S", row });
                 assert_eq!(
-                    (verdict(bits, scale, but(0), false), verdict(bits, scale, but(1), true)),
+                    (
+                        verdict(bits, scale, but(0), false),
+                        verdict(bits, scale, but(1), true)
+                    ),
                     (broken.clone(), broken),
                     "{bits} {row}"
                 );
@@ -219,7 +338,10 @@ mod tests {
         let mut few = factor();
         few.rows.pop();
         for bad in [short, beyond, few] {
-            assert!(matches!(semidefinite(&tridiagonal(2, 9), &Integer::one(), Some(&bad), false, "S"), Err(CoverFault::Length { .. })));
+            assert!(matches!(
+                semidefinite(&tridiagonal(2, 9), &Integer::one(), Some(&bad), false, "S"),
+                Err(CoverFault::Length { .. })
+            ));
         }
     }
 
@@ -228,21 +350,47 @@ mod tests {
     fn every_residual_off_the_diagonal_counts_for_both_its_rows() {
         // L in units of 1/2: L L' = [[4, 2, 6], [2, 10, 9], [6, 9, 38]] / 4.
         let rows = [vec![2], vec![1, 3], vec![3, 2, 5]];
-        let factor = Factor { first: vec![0; 3], rows: rows.iter().map(|r| r.iter().map(|&v| v.into()).collect()).collect(), exponent: 1 };
+        let factor = Factor {
+            first: vec![0; 3],
+            rows: rows
+                .iter()
+                .map(|r| r.iter().map(|&v| v.into()).collect())
+                .collect(),
+            exponent: 1,
+        };
         let product = [[4, 2, 6], [2, 10, 9], [6, 9, 38]];
         let check = |diagonal: [i64; 3], strictly| {
             // E_10 = 1, E_20 = -2, E_21 = 3; one unit of S is 4 / 7 of those of L L'.
             let off = [[0, 1, -2], [1, 0, 3], [-2, 3, 0]];
             let scale = 7;
-            let entry = |i: usize, j: usize| scale * (product[i][j] + if i == j { diagonal[i] } else { off[i][j] });
+            let entry = |i: usize, j: usize| {
+                scale * (product[i][j] + if i == j { diagonal[i] } else { off[i][j] })
+            };
             let row = |i: usize| (0..3).map(|j| (j, Integer::from(entry(i, j)))).collect();
             let s: Symmetric = (0..3).map(row).collect();
             semidefinite(&s, &Integer::from(4 * scale), Some(&factor), strictly, "S")
         };
         let fault = |row| Err(CoverFault::Hypothesis { expected: "S", row });
-        assert_eq!([check([3, 4, 5], false), check([4, 5, 6], true)], [Ok(()), Ok(())]);
-        assert_eq!([check([2, 4, 5], false), check([3, 3, 5], false), check([3, 4, 4], false)], [fault(0), fault(1), fault(2)]);
-        assert_eq!([check([3, 5, 6], true), check([4, 4, 6], true), check([4, 5, 5], true)], [fault(0), fault(1), fault(2)]);
+        assert_eq!(
+            [check([3, 4, 5], false), check([4, 5, 6], true)],
+            [Ok(()), Ok(())]
+        );
+        assert_eq!(
+            [
+                check([2, 4, 5], false),
+                check([3, 3, 5], false),
+                check([3, 4, 4], false)
+            ],
+            [fault(0), fault(1), fault(2)]
+        );
+        assert_eq!(
+            [
+                check([3, 5, 6], true),
+                check([4, 4, 6], true),
+                check([4, 5, 5], true)
+            ],
+            [fault(0), fault(1), fault(2)]
+        );
     }
 
     /// Rows of a factor that begin beside the first column.
@@ -250,15 +398,29 @@ mod tests {
     fn a_banded_factor_is_multiplied_out_from_where_it_begins() {
         // L = [[2, ., .], [1, 3, .], [., 4, 5]]: L L' = [[4, 2, 0], [2, 10, 12], [0, 12, 41]].
         let rows = [vec![2], vec![1, 3], vec![4, 5]];
-        let factor =
-            Factor { first: vec![0, 0, 1], rows: rows.iter().map(|r| r.iter().map(|&v| v.into()).collect()).collect(), exponent: 0 };
+        let factor = Factor {
+            first: vec![0, 0, 1],
+            rows: rows
+                .iter()
+                .map(|r| r.iter().map(|&v| v.into()).collect())
+                .collect(),
+            exponent: 0,
+        };
         let check = |s: [[i64; 3]; 3]| {
-            let row = |i: usize| (0..3).filter(|&j| s[i][j] != 0).map(|j| (j, Integer::from(s[i][j]))).collect();
+            let row = |i: usize| {
+                (0..3)
+                    .filter(|&j| s[i][j] != 0)
+                    .map(|j| (j, Integer::from(s[i][j])))
+                    .collect()
+            };
             let s: Symmetric = (0..3).map(row).collect();
             semidefinite(&s, &Integer::one(), Some(&factor), false, "S").is_ok()
         };
         assert!(check([[4, 2, 0], [2, 10, 12], [0, 12, 41]]));
-        assert!(!check([[4, 2, 1], [2, 10, 12], [1, 12, 41]]) && !check([[4, 2, 0], [2, 10, 13], [0, 13, 41]]));
+        assert!(
+            !check([[4, 2, 1], [2, 10, 12], [1, 12, 41]])
+                && !check([[4, 2, 0], [2, 10, 13], [0, 13, 41]])
+        );
         assert!(!check([[4, 2, 0], [2, 10, 12], [0, 12, 40]]));
     }
 
@@ -269,16 +431,44 @@ mod tests {
             change(&mut f);
             shape(&f, 2)
         };
-        let length = |what, expected, got| Err(CoverFault::Length { what, expected, got });
-        assert_eq!([with(&|_| {}), with(&|f| f.exponent = MAX_EXPONENT)], [Ok(()), Ok(())]);
-        assert_eq!(with(&|f| f.exponent = 4097), Err(CoverFault::TooLarge { what: "exponent", limit: 4096, got: 4097 }));
-        assert_eq!(with(&|f| f.rows[1].truncate(1)), length("row of the factor", 2, 1));
+        let length = |what, expected, got| {
+            Err(CoverFault::Length {
+                what,
+                expected,
+                got,
+            })
+        };
+        assert_eq!(
+            [with(&|_| {}), with(&|f| f.exponent = MAX_EXPONENT)],
+            [Ok(()), Ok(())]
+        );
+        assert_eq!(
+            with(&|f| f.exponent = 4097),
+            Err(CoverFault::TooLarge {
+                what: "exponent",
+                limit: 4096,
+                got: 4097
+            })
+        );
+        assert_eq!(
+            with(&|f| f.rows[1].truncate(1)),
+            length("row of the factor", 2, 1)
+        );
         assert_eq!(with(&|f| f.first[1] = 1), length("row of the factor", 1, 2));
         assert_eq!(with(&|f| f.first[1] = 2), length("row of the factor", 0, 2));
-        assert_eq!(with(&|f| f.rows[0].clear()), length("row of the factor", 1, 0));
         assert_eq!(
-            [with(&|f| f.rows.truncate(1)), with(&|f| f.first.truncate(1))],
-            [length("factor", 2, 1), length("first columns of the factor", 2, 1)]
+            with(&|f| f.rows[0].clear()),
+            length("row of the factor", 1, 0)
+        );
+        assert_eq!(
+            [
+                with(&|f| f.rows.truncate(1)),
+                with(&|f| f.first.truncate(1))
+            ],
+            [
+                length("factor", 2, 1),
+                length("first columns of the factor", 2, 1)
+            ]
         );
     }
 }

@@ -1,10 +1,11 @@
 //! Leaves whose pencil has one null vector at most, and what it is.
 //!
 //! With k the pivot, T' the moving block without it, Y ~ T'^-1, v and u the right and left vectors:
-//! |I - Y T'| < 1 makes T' regular, so a null vector of T has a component k other than zero and is unique
-//! where the Schur complement phi(t) = T_kk - T_k' T'^-1 T_'k vanishes. phi' = u_true' (dT/dt) v_true of one
-//! sign leaves one t at most. |v_true - v| <= |Y (T_'k + T'v)| / (1 - |I - YT'|), likewise u with |I - T'Y|.
-//! phi = u'Tv - (residual of u)' T'^-1 (residual of v) locates the sign change.
+//! |I - Y T'| < 1 makes T' regular, so a null vector of T has a component k other than zero and is
+//! unique where the Schur complement phi(t) = T_kk - T_k' T'^-1 T_'k vanishes. phi' = u_true'
+//! (dT/dt) v_true of one sign leaves one t at most. |v_true - v| <= |Y (T_'k + T'v)| / (1 - |I -
+//! YT'|), likewise u with |I - T'Y|. phi = u'Tv - (residual of u)' T'^-1 (residual of v) locates
+//! the sign change.
 
 use super::family::{Ends, Matrix};
 use super::{CoverFault, Region, State};
@@ -25,7 +26,10 @@ pub(super) fn check(
     root: &Root,
 ) -> Result<(), CoverFault> {
     let system = System::new(region, index, root)?;
-    let (rho, eta) = (system.norm(wide, Side::Right)?, system.norm(wide, Side::Left)?);
+    let (rho, eta) = (
+        system.norm(wide, Side::Right)?,
+        system.norm(wide, Side::Left)?,
+    );
     let right = system.error(wide, Side::Right, &rho);
     let left = system.error(wide, Side::Left, &eta);
     if !system.monotone(wide, &left, &right) {
@@ -41,7 +45,10 @@ pub(super) fn check(
     let narrow = narrow()?;
     if system.schur_sign(&narrow, 0, &rho) * system.schur_sign(&narrow, 1, &rho) != -1 {
         let [lo, hi] = &root.interval;
-        return Err(CoverFault::NoSignChange { lo: lo.0.clone(), hi: hi.0.clone() });
+        return Err(CoverFault::NoSignChange {
+            lo: lo.0.clone(),
+            hi: hi.0.clone(),
+        });
     }
     let error = system.error(&narrow, Side::Right, &rho);
     system.signs(region, &narrow, &error, index, root)
@@ -68,28 +75,55 @@ struct System<'a> {
 impl<'a> System<'a> {
     fn new(region: &Region, index: &[usize], root: &'a Root) -> Result<Self, CoverFault> {
         let all_decided = region.states.iter().all(|s| *s != State::Open);
-        let mut moving: Vec<usize> = (0..index.len()).filter(|&i| region.states[i] == State::Moving).collect();
+        let mut moving: Vec<usize> = (0..index.len())
+            .filter(|&i| region.states[i] == State::Moving)
+            .collect();
         if !all_decided || moving.is_empty() {
             return Err(CoverFault::RootTooEarly);
         }
-        let pivot = moving.iter().position(|&i| index[i] == root.pivot).ok_or(CoverFault::Pivot { index: root.pivot })?;
+        let pivot = moving
+            .iter()
+            .position(|&i| index[i] == root.pivot)
+            .ok_or(CoverFault::Pivot { index: root.pivot })?;
         let pivot = moving.remove(pivot);
         let n = moving.len();
         moving.push(pivot);
-        let lengths = [("left", root.left.len()), ("right", root.right.len()), ("inverse", root.inverse.len())];
-        for (what, got) in lengths.into_iter().chain(root.inverse.iter().map(|r| ("inverse row", r.len()))) {
+        let lengths = [
+            ("left", root.left.len()),
+            ("right", root.right.len()),
+            ("inverse", root.inverse.len()),
+        ];
+        for (what, got) in lengths
+            .into_iter()
+            .chain(root.inverse.iter().map(|r| ("inverse row", r.len())))
+        {
             if got != n {
-                return Err(CoverFault::Length { what, expected: n, got });
+                return Err(CoverFault::Length {
+                    what,
+                    expected: n,
+                    got,
+                });
             }
         }
         let largest = root.exponent.max(root.inverse_exponent);
         if largest > MAX_EXPONENT {
-            return Err(CoverFault::TooLarge { what: "exponent", limit: MAX_EXPONENT.into(), got: largest.into() });
+            return Err(CoverFault::TooLarge {
+                what: "exponent",
+                limit: MAX_EXPONENT.into(),
+                got: largest.into(),
+            });
         }
         let one = Integer::one() << root.exponent;
         let with_one = |list: &[Integer]| list.iter().cloned().chain([one.clone()]).collect();
         let (u, v) = (with_one(&root.left), with_one(&root.right));
-        Ok(System { moving, y: &root.inverse, y_one: Integer::one() << root.inverse_exponent, u, v, one })
+        Ok(System {
+            moving,
+            y: &root.inverse,
+            y_one: Integer::one() << root.inverse_exponent,
+            u,
+            v,
+            one,
+        })
     }
 
     /// Order of T'.
@@ -97,7 +131,8 @@ impl<'a> System<'a> {
         self.moving.len() - 1
     }
 
-    /// |I - Y T'| in the row norm (right) or |I - T'Y| in the column norm (left) over both ends, < 1.
+    /// |I - Y T'| in the row norm (right) or |I - T'Y| in the column norm (left) over both ends, <
+    /// 1.
     fn norm(&self, ends: &Ends, side: Side) -> Result<Rational, CoverFault> {
         let (n, one) = (self.order(), &self.y_one * &ends.scale);
         let mut largest = Integer::zero();
@@ -127,11 +162,15 @@ impl<'a> System<'a> {
             }
         }
         let norm = Rational::new(largest, one);
-        if norm < Rational::one() { Ok(norm) } else { Err(CoverFault::NotRegular { got: norm }) }
+        if norm < Rational::one() {
+            Ok(norm)
+        } else {
+            Err(CoverFault::NotRegular { got: norm })
+        }
     }
 
-    /// Residual T_'k + T'v (right) or T_k' + u'T' (left) at an end, each entry with its radius, in units of
-    /// 1 / (one scale).
+    /// Residual T_'k + T'v (right) or T_k' + u'T' (left) at an end, each entry with its radius, in
+    /// units of 1 / (one scale).
     fn residual(&self, ends: &Ends, end: usize, side: &Side) -> Vec<(Integer, Integer)> {
         let n = self.order();
         (0..n)
@@ -155,7 +194,10 @@ impl<'a> System<'a> {
 
     /// Bound of |v_true - v| (right) or |u_true - u| (left) in every component over both ends.
     fn error(&self, ends: &Ends, side: Side, norm: &Rational) -> Rational {
-        (0..2).map(|end| self.error_at(ends, end, &side, norm)).max().unwrap_or_else(Rational::zero)
+        (0..2)
+            .map(|end| self.error_at(ends, end, &side, norm))
+            .max()
+            .unwrap_or_else(Rational::zero)
     }
 
     fn error_at(&self, ends: &Ends, end: usize, side: &Side, norm: &Rational) -> Rational {
@@ -164,7 +206,11 @@ impl<'a> System<'a> {
         let largest = (0..n).map(|i| {
             let (mut sum, mut radius) = (Integer::zero(), Integer::zero());
             for (k, (value, around)) in residual.iter().enumerate() {
-                let y = if matches!(side, Side::Right) { &self.y[i][k] } else { &self.y[k][i] };
+                let y = if matches!(side, Side::Right) {
+                    &self.y[i][k]
+                } else {
+                    &self.y[k][i]
+                };
                 sum += y * value;
                 radius += y.abs() * around;
             }
@@ -177,18 +223,29 @@ impl<'a> System<'a> {
     /// Is u_true' (dT/dt) v_true certainly not zero over the interval?
     fn monotone(&self, ends: &Ends, left: &Rational, right: &Rational) -> bool {
         let n = self.order();
-        let units = |e: &Rational| (e * Rational::from_integer(self.one.clone())).ceil().to_integer();
+        let units = |e: &Rational| {
+            (e * Rational::from_integer(self.one.clone()))
+                .ceil()
+                .to_integer()
+        };
         let (e_u, e_v) = (units(left), units(right));
         let (mut slope, mut radius) = (Integer::zero(), Integer::zero());
         for i in 0..=n {
-            let (u, e_u) = (&self.u[i], if i < n { e_u.clone() } else { Integer::zero() });
+            let (u, e_u) = (
+                &self.u[i],
+                if i < n { e_u.clone() } else { Integer::zero() },
+            );
             for j in 0..=n {
-                let (v, e_v) = (&self.v[j], if j < n { e_v.clone() } else { Integer::zero() });
+                let (v, e_v) = (
+                    &self.v[j],
+                    if j < n { e_v.clone() } else { Integer::zero() },
+                );
                 let (row, col) = (self.moving[i], self.moving[j]);
                 let d = &ends.m[1][row][col] - &ends.m[0][row][col];
                 let around = &ends.slope[row][col];
                 slope += u * &d * v;
-                radius += around * u.abs() * v.abs() + (d.abs() + around) * (&e_u * v.abs() + u.abs() * &e_v + &e_u * &e_v);
+                radius += around * u.abs() * v.abs()
+                    + (d.abs() + around) * (&e_u * v.abs() + u.abs() * &e_v + &e_u * &e_v);
             }
         }
         slope.abs() > radius
@@ -205,9 +262,15 @@ impl<'a> System<'a> {
                 radius += self.u[i].abs() * &ends.r[end][row][col] * self.v[j].abs();
             }
         }
-        let left: Integer = self.residual(ends, end, &Side::Left).iter().map(|(value, around)| value.abs() + around).sum();
+        let left: Integer = self
+            .residual(ends, end, &Side::Left)
+            .iter()
+            .map(|(value, around)| value.abs() + around)
+            .sum();
         let error = self.error_at(ends, end, &Side::Right, norm);
-        let second = (Rational::from_integer(left * &self.one) * error).ceil().to_integer();
+        let second = (Rational::from_integer(left * &self.one) * error)
+            .ceil()
+            .to_integer();
         radius += second;
         if phi > radius {
             1
@@ -219,7 +282,14 @@ impl<'a> System<'a> {
     }
 
     /// The signs of x and y that the outcome states, over the narrow interval.
-    fn signs(&self, region: &Region, ends: &Ends, error: &Rational, index: &[usize], root: &Root) -> Result<(), CoverFault> {
+    fn signs(
+        &self,
+        region: &Region,
+        ends: &Ends,
+        error: &Rational,
+        index: &[usize],
+        root: &Root,
+    ) -> Result<(), CoverFault> {
         // eps' in units of v, as a fraction that is not rounded.
         let error = error * Rational::from_integer(self.one.clone());
         let none = Rational::zero();
@@ -228,10 +298,19 @@ impl<'a> System<'a> {
             certain(&(&self.v[p] * error.denom()), error.numer())
         };
         let y = |s: usize| {
-            let signs = [self.row_sign(ends, 0, s, &error), self.row_sign(ends, 1, s, &error)];
+            let signs = [
+                self.row_sign(ends, 0, s, &error),
+                self.row_sign(ends, 1, s, &error),
+            ];
             if signs[0] == signs[1] { signs[0] } else { 0 }
         };
-        let fault = |component, index, expected| Err(CoverFault::Sign { component, index, expected });
+        let fault = |component, index, expected| {
+            Err(CoverFault::Sign {
+                component,
+                index,
+                expected,
+            })
+        };
         match root.outcome {
             RootOutcome::Solution => {
                 if let Some(p) = (0..self.moving.len()).find(|&p| x(p) != 1) {
@@ -250,11 +329,13 @@ impl<'a> System<'a> {
                 Some(s) if region.states[s] == State::Rest && y(s) == -1 => Ok(()),
                 _ => fault("y", i, "< 0"),
             },
-            RootOutcome::Claim(_) | RootOutcome::Absent | RootOutcome::Infinity(_) => Ok(()), // dealt with before
+            // Dealt with before.
+            RootOutcome::Claim(_) | RootOutcome::Absent | RootOutcome::Infinity(_) => Ok(()),
         }
     }
 
-    /// Certain sign of row s of T v_true at an end; every component of v but the pivot's is within `error` units.
+    /// Certain sign of row s of T v_true at an end; every component of v but the pivot's is within
+    /// `error` units.
     fn row_sign(&self, ends: &Ends, end: usize, s: usize, error: &Rational) -> i8 {
         let mut sum = Integer::zero();
         let mut radius = Integer::zero();
@@ -267,7 +348,10 @@ impl<'a> System<'a> {
                 reach += m.abs() + r;
             }
         }
-        certain(&(sum * error.denom()), &(radius * error.denom() + reach * error.numer()))
+        certain(
+            &(sum * error.denom()),
+            &(radius * error.denom() + reach * error.numer()),
+        )
     }
 }
 

@@ -1,9 +1,10 @@
 //! Polynomials that keep their sign between two algebraic numbers.
 //!
-//! Descartes' rule of signs: p has no root in (a, b) if (1 + x)^n p((a + bx) / (1 + x)) has coefficients of one
-//! sign. Where that is not so the interval is halved, a few times. A transformation of a polynomial with n coefficients
-//! takes n^2 / 2 additions of numbers of n times the bits of a and b: it is counted as n^3 (bits + 64), and the leaves of
-//! a file have a budget of such counts.
+//! Descartes' rule of signs: p has no root in (a, b) if (1 + x)^n p((a + bx) / (1 + x)) has
+//! coefficients of one sign. Where that is not so the interval is halved, a few times. A
+//! transformation of a polynomial with n coefficients takes n^2 / 2 additions of numbers of n times
+//! the bits of a and b: it is counted as n^3 (bits + 64), and the leaves of a file have a budget of
+//! such counts.
 
 use mceip_exact::{Integer, Interval, Poly, Rational};
 use num_integer::Integer as _;
@@ -17,7 +18,8 @@ const MAX_HALVINGS: usize = 200;
 /// What a file may count without any coefficient, and for each coefficient of its support leaves.
 const BASE_BUDGET: u64 = 1 << 35;
 const BUDGET_PER_COEFFICIENT: u64 = 1 << 24;
-/// A remainder counts 2^-9 of steps^2 x coefficients x bits^2: products of words against additions of bits.
+/// A remainder counts 2^-9 of steps^2 x coefficients x bits^2: products of words against additions
+/// of bits.
 const REMAINDER_SHIFT: u32 = 9;
 /// Horner's rule at a point counts 2^-8 of the square of coefficients x bits.
 const EVALUATION_SHIFT: u32 = 8;
@@ -30,7 +32,10 @@ pub(super) struct Budget {
 
 impl Budget {
     pub(super) fn new() -> Self {
-        Budget { left: Cell::new(BASE_BUDGET), is_spent: Cell::new(false) }
+        Budget {
+            left: Cell::new(BASE_BUDGET),
+            is_spent: Cell::new(false),
+        }
     }
 
     /// A leaf with this many coefficients is about to be checked.
@@ -44,7 +49,8 @@ impl Budget {
         self.is_spent.get()
     }
 
-    /// Takes what the remainder of g by p costs: every step makes it longer by the leading coefficient of p.
+    /// Takes what the remainder of g by p costs: every step makes it longer by the leading
+    /// coefficient of p.
     fn spend_remainder(&self, g: &Poly, p: &Poly) -> bool {
         let [length, divisor] = [g, p].map(|q| q.coeffs().len() as u64);
         let steps = (length + 1).saturating_sub(divisor);
@@ -54,7 +60,8 @@ impl Budget {
         self.take(products.saturating_mul(bits).saturating_mul(bits) >> REMAINDER_SHIFT)
     }
 
-    /// Takes what Horner's rule for p over an interval costs: its numbers grow by the bits of the ends at each coefficient.
+    /// Takes what Horner's rule for p over an interval costs: its numbers grow by the bits of the
+    /// ends at each coefficient.
     fn spend_evaluation(&self, p: &Poly, at: &Interval) -> bool {
         let bits_of = |v: &Rational| v.numer().bits() + v.denom().bits();
         let bits = bits_of(at.lo()) + bits_of(at.hi()) + 64;
@@ -114,20 +121,35 @@ impl Root {
     }
 }
 
-/// The sign of g strictly between two roots (`None`: infinity), if it has one there and it can be told.
-pub(super) fn sign_between(g: &Poly, left: &Root, right: Option<&Root>, budget: &Budget) -> Option<i8> {
+/// The sign of g strictly between two roots (`None`: infinity), if it has one there and it can be
+/// told.
+pub(super) fn sign_between(
+    g: &Poly,
+    left: &Root,
+    right: Option<&Root>,
+    budget: &Budget,
+) -> Option<i8> {
     if g.is_zero() {
         return Some(0);
     }
     let (a, b) = (left.value.hi(), right.map(|r| r.value.lo()));
-    let sample = b.map_or_else(|| a + Rational::one(), |b| (a + b) / Rational::from_integer(2.into()));
-    let near = left.is_only_root_of(g, budget) && right.is_none_or(|r| r.is_only_root_of(g, budget));
+    let sample = b.map_or_else(
+        || a + Rational::one(),
+        |b| (a + b) / Rational::from_integer(2.into()),
+    );
+    let near =
+        left.is_only_root_of(g, budget) && right.is_none_or(|r| r.is_only_root_of(g, budget));
     (near && has_no_root(g, a, b, budget)).then(|| g.sign_at(&sample))
 }
 
 /// Is it certain that p has no root in the open interval?
 pub(super) fn has_no_root(p: &Poly, a: &Rational, b: Option<&Rational>, budget: &Budget) -> bool {
-    Halving { p, halvings: MAX_HALVINGS, budget }.has_none(a, b, MAX_DEPTH)
+    Halving {
+        p,
+        halvings: MAX_HALVINGS,
+        budget,
+    }
+    .has_none(a, b, MAX_DEPTH)
 }
 
 struct Halving<'a> {
@@ -149,7 +171,9 @@ impl Halving<'_> {
             _ => {
                 self.halvings -= 1;
                 let middle = middle_of(a, b);
-                self.p.sign_at(&middle) != 0 && self.has_none(a, Some(&middle), depth - 1) && self.has_none(&middle, b, depth - 1)
+                self.p.sign_at(&middle) != 0
+                    && self.has_none(a, Some(&middle), depth - 1)
+                    && self.has_none(&middle, b, depth - 1)
             }
         }
     }
@@ -166,7 +190,9 @@ fn middle_of(a: &Rational, b: Option<&Rational>) -> Rational {
 /// Descartes' bound of the number of roots in the open interval.
 fn sign_changes(p: &Poly, a: &Rational, b: Option<&Rational>) -> usize {
     let width = b.map(|b| b - a);
-    let unit = width.as_ref().map_or(a.denom().clone(), |w| a.denom().lcm(w.denom()));
+    let unit = width
+        .as_ref()
+        .map_or(a.denom().clone(), |w| a.denom().lcm(w.denom()));
     let in_units = |v: &Rational| v.numer() * (&unit / v.denom());
     // p(y / unit) unit^n, shifted to begin at a.
     let mut power = Integer::one();
@@ -186,7 +212,11 @@ fn sign_changes(p: &Poly, a: &Rational, b: Option<&Rational>) -> usize {
         c.reverse();
         shift(&mut c, &Integer::one());
     }
-    let signs: Vec<bool> = c.iter().filter(|v| !v.is_zero()).map(Signed::is_positive).collect();
+    let signs: Vec<bool> = c
+        .iter()
+        .filter(|v| !v.is_zero())
+        .map(Signed::is_positive)
+        .collect();
     signs.windows(2).filter(|w| w[0] != w[1]).count()
 }
 
@@ -203,7 +233,10 @@ fn shift(c: &mut [Integer], a: &Integer) {
 /// g without its factors q.
 fn stripped(g: &Poly, q: &Poly, budget: &Budget) -> Poly {
     let mut rest = g.clone();
-    while rest.degree() >= q.degree() && budget.spend_remainder(&rest, q) && rest.pseudo_rem(q).is_zero() {
+    while rest.degree() >= q.degree()
+        && budget.spend_remainder(&rest, q)
+        && rest.pseudo_rem(q).is_zero()
+    {
         rest = quotient(&rest, q);
     }
     rest
@@ -230,7 +263,10 @@ mod tests {
     use mceip_exact::{rational, whole};
 
     fn root(c: &[i64], a: (i64, i64), b: (i64, i64)) -> Root {
-        Root { poly: Poly::from_ints(c), value: Interval::new(rational(a.0, a.1), rational(b.0, b.1)).unwrap() }
+        Root {
+            poly: Poly::from_ints(c),
+            value: Interval::new(rational(a.0, a.1), rational(b.0, b.1)).unwrap(),
+        }
     }
 
     #[test]
@@ -242,8 +278,18 @@ mod tests {
         assert!(has_no_root(&p, &whole(1), Some(&whole(2)), &Budget::new()));
         assert!(has_no_root(&p, &whole(2), None, &Budget::new()));
         // A double root does not change the sign and is one.
-        assert!(!has_no_root(&Poly::from_ints(&[1, -2, 1]), &whole(0), Some(&whole(3)), &Budget::new()));
-        assert!(!has_no_root(&Poly::from_ints(&[1, -2, 1]), &whole(0), None, &Budget::new()));
+        assert!(!has_no_root(
+            &Poly::from_ints(&[1, -2, 1]),
+            &whole(0),
+            Some(&whole(3)),
+            &Budget::new()
+        ));
+        assert!(!has_no_root(
+            &Poly::from_ints(&[1, -2, 1]),
+            &whole(0),
+            None,
+            &Budget::new()
+        ));
     }
 
     #[test]
@@ -251,56 +297,137 @@ mod tests {
         // (t - 1)^2 + 1/100
         let p = Poly::from_ints(&[101, -200, 100]);
         assert!(sign_changes(&p, &whole(0), Some(&whole(2))) > 0);
-        assert!(has_no_root(&p, &whole(0), Some(&whole(2)), &Budget::new()) && has_no_root(&p, &whole(0), None, &Budget::new()));
+        assert!(
+            has_no_root(&p, &whole(0), Some(&whole(2)), &Budget::new())
+                && has_no_root(&p, &whole(0), None, &Budget::new())
+        );
     }
 
     #[test]
     fn signs_between_roots() {
-        let (one, sqrt2) = (root(&[-1, 1], (1, 1), (1, 1)), root(&[-2, 0, 1], (7, 5), (3, 2)));
+        let (one, sqrt2) = (
+            root(&[-1, 1], (1, 1), (1, 1)),
+            root(&[-2, 0, 1], (7, 5), (3, 2)),
+        );
         let g = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-1, 1]);
-        assert_eq!(sign_between(&g, &one, Some(&sqrt2), &Budget::new()), Some(-1));
+        assert_eq!(
+            sign_between(&g, &one, Some(&sqrt2), &Budget::new()),
+            Some(-1)
+        );
         assert_eq!(sign_between(&g, &sqrt2, None, &Budget::new()), Some(1));
-        assert_eq!(sign_between(&(&g * &g), &sqrt2, None, &Budget::new()), Some(1));
-        assert_eq!(sign_between(&Poly::from_ints(&[-3, 2]), &one, None, &Budget::new()), None);
+        assert_eq!(
+            sign_between(&(&g * &g), &sqrt2, None, &Budget::new()),
+            Some(1)
+        );
+        assert_eq!(
+            sign_between(&Poly::from_ints(&[-3, 2]), &one, None, &Budget::new()),
+            None
+        );
         // A root within the isolating interval, on either side of the isolated one.
-        assert_eq!(sign_between(&Poly::from_ints(&[-29, 20]), &sqrt2, None, &Budget::new()), None);
-        assert_eq!(sign_between(&Poly::from_ints(&[-141, 100]), &one, Some(&sqrt2), &Budget::new()), None);
-        assert_eq!(sign_between(&Poly::default(), &one, None, &Budget::new()), Some(0));
-        assert_eq!([&g, &Poly::from_ints(&[-1, 1])].map(|p| sqrt2.sign(p, &Budget::new())), [Some(0), Some(1)]);
+        assert_eq!(
+            sign_between(&Poly::from_ints(&[-29, 20]), &sqrt2, None, &Budget::new()),
+            None
+        );
+        assert_eq!(
+            sign_between(
+                &Poly::from_ints(&[-141, 100]),
+                &one,
+                Some(&sqrt2),
+                &Budget::new()
+            ),
+            None
+        );
+        assert_eq!(
+            sign_between(&Poly::default(), &one, None, &Budget::new()),
+            Some(0)
+        );
+        assert_eq!(
+            [&g, &Poly::from_ints(&[-1, 1])].map(|p| sqrt2.sign(p, &Budget::new())),
+            [Some(0), Some(1)]
+        );
     }
 
     /// The sample lies above the last point: a root just below it does not count.
     #[test]
     fn the_sign_to_infinity_is_taken_above() {
         let three = root(&[-3, 1], (3, 1), (3, 1));
-        assert_eq!(sign_between(&Poly::from_ints(&[-5, 2]), &three, None, &Budget::new()), Some(1));
-        assert_eq!(sign_between(&Poly::from_ints(&[5, -2]), &three, None, &Budget::new()), Some(-1));
+        assert_eq!(
+            sign_between(&Poly::from_ints(&[-5, 2]), &three, None, &Budget::new()),
+            Some(1)
+        );
+        assert_eq!(
+            sign_between(&Poly::from_ints(&[5, -2]), &three, None, &Budget::new()),
+            Some(-1)
+        );
         let half = root(&[-1, 2], (1, 2), (1, 2));
-        assert_eq!(sign_between(&Poly::from_ints(&[1, 4]), &half, Some(&three), &Budget::new()), Some(1));
+        assert_eq!(
+            sign_between(
+                &Poly::from_ints(&[1, 4]),
+                &half,
+                Some(&three),
+                &Budget::new()
+            ),
+            Some(1)
+        );
     }
 
-    /// sqrt 2 in [7/5, 3/2], with another root of g, 29/20, beside it: told whether or not sqrt 2 is one as well.
+    /// sqrt 2 in [7/5, 3/2], with another root of g, 29/20, beside it: told whether or not sqrt 2
+    /// is one as well.
     #[test]
     fn another_root_in_the_isolating_interval_is_seen() {
-        let (sqrt2, nine) = (root(&[-2, 0, 1], (7, 5), (3, 2)), root(&[-9, 1], (9, 1), (9, 1)));
+        let (sqrt2, nine) = (
+            root(&[-2, 0, 1], (7, 5), (3, 2)),
+            root(&[-9, 1], (9, 1), (9, 1)),
+        );
         let (beside, far) = (Poly::from_ints(&[-29, 20]), Poly::from_ints(&[-10, 1]));
         let square = &sqrt2.poly * &sqrt2.poly;
-        for g in [&beside * &far, &(&beside * &far) * &sqrt2.poly, &(&beside * &far) * &square] {
+        for g in [
+            &beside * &far,
+            &(&beside * &far) * &sqrt2.poly,
+            &(&beside * &far) * &square,
+        ] {
             assert_eq!(sign_between(&g, &sqrt2, Some(&nine), &Budget::new()), None);
         }
-        assert_eq!(sign_between(&(&far * &square), &sqrt2, Some(&nine), &Budget::new()), Some(-1));
-        assert_eq!(sign_between(&(&far * &Poly::from_ints(&[-10, 3])), &sqrt2, Some(&nine), &Budget::new()), None);
-        assert_eq!(sign_between(&(&far * &Poly::from_ints(&[-1, 3])), &sqrt2, Some(&nine), &Budget::new()), Some(-1));
+        assert_eq!(
+            sign_between(&(&far * &square), &sqrt2, Some(&nine), &Budget::new()),
+            Some(-1)
+        );
+        assert_eq!(
+            sign_between(
+                &(&far * &Poly::from_ints(&[-10, 3])),
+                &sqrt2,
+                Some(&nine),
+                &Budget::new()
+            ),
+            None
+        );
+        assert_eq!(
+            sign_between(
+                &(&far * &Poly::from_ints(&[-1, 3])),
+                &sqrt2,
+                Some(&nine),
+                &Budget::new()
+            ),
+            Some(-1)
+        );
     }
 
     /// A half line from `a` is halved above `a`, also where that is negative.
     #[test]
     fn half_lines_are_halved_above_their_end() {
         // Complex roots about `at` and a real one.
-        let p = |at: i64, real: i64| &Poly::from_ints(&[100 * at * at + 1, -200 * at, 100]) * &Poly::from_ints(&[-real, 1]);
+        let p = |at: i64, real: i64| {
+            &Poly::from_ints(&[100 * at * at + 1, -200 * at, 100]) * &Poly::from_ints(&[-real, 1])
+        };
         assert!(has_no_root(&p(8, 2), &whole(3), None, &Budget::new())); // 2 is below
-        assert!(has_no_root(&p(1, -5), &whole(-3), None, &Budget::new()) && has_no_root(&p(-1, -5), &whole(-3), None, &Budget::new()));
-        assert!(!has_no_root(&p(8, 5), &whole(3), None, &Budget::new()) && !has_no_root(&p(8, 30), &whole(3), None, &Budget::new()));
+        assert!(
+            has_no_root(&p(1, -5), &whole(-3), None, &Budget::new())
+                && has_no_root(&p(-1, -5), &whole(-3), None, &Budget::new())
+        );
+        assert!(
+            !has_no_root(&p(8, 5), &whole(3), None, &Budget::new())
+                && !has_no_root(&p(8, 30), &whole(3), None, &Budget::new())
+        );
     }
 
     /// (t - c)^2 + 1/10^4 takes about seven halvings on the way to c, on either side of the middle.
@@ -310,7 +437,11 @@ mod tests {
         for c in [1, 19] {
             let of = |depth: u32, halvings: usize| {
                 let (p, budget) = (near(c), Budget::new());
-                let mut halving = Halving { p: &p, halvings, budget: &budget };
+                let mut halving = Halving {
+                    p: &p,
+                    halvings,
+                    budget: &budget,
+                };
                 let verdict = halving.has_none(&whole(0), Some(&whole(2)), depth);
                 (verdict, halving.halvings)
             };
@@ -324,13 +455,17 @@ mod tests {
         }
     }
 
-    /// (t - 1)^2 + 1/100 has three coefficients and takes some halvings. The ends 0 and 2 have 1 + 1 and 2 + 1 bits.
+    /// (t - 1)^2 + 1/100 has three coefficients and takes some halvings. The ends 0 and 2 have 1 +
+    /// 1 and 2 + 1 bits.
     #[test]
     fn a_budget_ends_the_halvings() {
         let p = Poly::from_ints(&[101, -200, 100]);
         let first = 27 * (1 + 3 + 64);
         let with = |left: u64| {
-            let budget = Budget { left: Cell::new(left), is_spent: Cell::new(false) };
+            let budget = Budget {
+                left: Cell::new(left),
+                is_spent: Cell::new(false),
+            };
             let verdict = has_no_root(&p, &whole(0), Some(&whole(2)), &budget);
             (verdict, budget.is_spent(), budget.left.get())
         };
@@ -361,7 +496,10 @@ mod tests {
         let (g, p) = (Poly::from_ints(&[1, 2, 3]), Poly::from_ints(&[-7, 2]));
         let cost = (2 * 2 * 3 * 67 * 67) >> 9;
         let with = |left: u64| {
-            let budget = Budget { left: Cell::new(left), is_spent: Cell::new(false) };
+            let budget = Budget {
+                left: Cell::new(left),
+                is_spent: Cell::new(false),
+            };
             let is_told = root(&[-7, 2], (7, 2), (7, 2)).sign(&g, &budget).is_some();
             (is_told, budget.is_spent(), budget.left.get())
         };
@@ -373,7 +511,10 @@ mod tests {
         assert_eq!(with(cost - 1), (false, true, cost - 1));
 
         // Nothing to divide costs nothing.
-        let free = Budget { left: Cell::new(0), is_spent: Cell::new(false) };
+        let free = Budget {
+            left: Cell::new(0),
+            is_spent: Cell::new(false),
+        };
         assert!(free.spend_remainder(&Poly::from_ints(&[5]), &p) && !free.is_spent());
     }
 }

@@ -5,8 +5,8 @@
 //! concave function of mu. (19) holds from the end of the shorter of two such intervals on.
 
 use crate::exact::{
-    Algebraic, DefiniteError, Interval, Rational, Sparse, common_denominator, determinant, from_f64, positive_definite, roots_in, to_f64,
-    whole,
+    Algebraic, DefiniteError, Interval, Rational, Sparse, common_denominator, determinant,
+    from_f64, positive_definite, roots_in, to_f64, whole,
 };
 use crate::linear::definite_eigenvalues;
 use crate::model::{ModelError, Pencil, Window};
@@ -43,7 +43,8 @@ impl DefiniteUntil {
         }
     }
 
-    /// Decides definiteness of sym(A + mu B) for all mu >= 0, exactly; doubles only propose the end.
+    /// Decides definiteness of sym(A + mu B) for all mu >= 0, exactly; doubles only propose the
+    /// end.
     ///
     /// # Errors
     /// [`ModelError::DefinitenessUndecided`] for a matrix of order above 48 too close to singular.
@@ -67,9 +68,13 @@ impl DefiniteUntil {
             && let Some(mut end) = smallest_root(&a, &b)
         {
             end.try_rational();
-            let width = end.interval().hi() / Rational::from_integer(num_bigint::BigInt::one() << BRACKET_BITS);
+            let width = end.interval().hi()
+                / Rational::from_integer(num_bigint::BigInt::one() << BRACKET_BITS);
             end.refine_to(&width);
-            return Ok(DefiniteUntil::End { end: end.interval().clone(), exact: Some(Box::new(end)) });
+            return Ok(DefiniteUntil::End {
+                end: end.interval().clone(),
+                exact: Some(Box::new(end)),
+            });
         }
         bracket(what, &a, &b)
     }
@@ -78,14 +83,20 @@ impl DefiniteUntil {
 /// (A + A') / 2.
 fn symmetric_part(a: &Sparse) -> Sparse {
     let half = crate::exact::rational(1, 2);
-    Sparse::zeros(a.rows(), a.cols()).add_scaled(&half, a).add_scaled(&half, &a.transpose())
+    Sparse::zeros(a.rows(), a.cols())
+        .add_scaled(&half, a)
+        .add_scaled(&half, &a.transpose())
 }
 
 fn is_definite(what: &'static str, m: &Sparse) -> Result<bool, ModelError> {
     match positive_definite(m) {
         Ok(()) => Ok(true),
         Err(DefiniteError::Not(_)) => Ok(false),
-        Err(DefiniteError::Undecided { index }) => Err(ModelError::DefinitenessUndecided { equation: "E19", what, index }),
+        Err(DefiniteError::Undecided { index }) => Err(ModelError::DefinitenessUndecided {
+            equation: "E19",
+            what,
+            index,
+        }),
     }
 }
 
@@ -99,7 +110,8 @@ fn is_semidefinite(m: &Sparse) -> bool {
     let mut a = m.submatrix(&rows, &rows).to_dense();
     for k in 0..rows.len() {
         let pivot = a[(k, k)].clone();
-        if pivot.is_negative() || (pivot.is_zero() && (k..rows.len()).any(|j| !a[(k, j)].is_zero())) {
+        if pivot.is_negative() || (pivot.is_zero() && (k..rows.len()).any(|j| !a[(k, j)].is_zero()))
+        {
             return false;
         }
         for i in k + 1..rows.len() {
@@ -121,22 +133,44 @@ fn smallest_root(a: &Sparse, b: &Sparse) -> Option<Algebraic> {
     let scale = common_denominator(a.entries().chain(b.entries()).map(|(_, _, v)| v));
     let integral = |m: &Sparse| -> Vec<Vec<_>> {
         let d = m.to_dense();
-        (0..m.rows()).map(|i| (0..m.rows()).map(|j| (&d[(i, j)] * Rational::from_integer(scale.clone())).to_integer()).collect()).collect()
+        (0..m.rows())
+            .map(|i| {
+                (0..m.rows())
+                    .map(|j| (&d[(i, j)] * Rational::from_integer(scale.clone())).to_integer())
+                    .collect()
+            })
+            .collect()
     };
-    roots_in(&determinant(&integral(a), &integral(b)), &Rational::zero(), None).into_iter().next()
+    roots_in(
+        &determinant(&integral(a), &integral(b)),
+        &Rational::zero(),
+        None,
+    )
+    .into_iter()
+    .next()
 }
 
 /// The end between a value at which LDL' proves definiteness and one at which it refutes it.
 fn bracket(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, ModelError> {
-    let undecided = || ModelError::DefinitenessUndecided { equation: "E19", what, index: 0 };
+    let undecided = || ModelError::DefinitenessUndecided {
+        equation: "E19",
+        what,
+        index: 0,
+    };
     let dense = |m: &Sparse| -> Vec<Vec<f64>> {
         let mut rows = vec![vec![0.0; m.cols()]; m.rows()];
         m.entries().for_each(|(i, j, v)| rows[i][j] = to_f64(v));
         rows
     };
     // 1 + mu t >= 0 for the eigenvalues t of B v = t A v.
-    let smallest = *definite_eigenvalues(&dense(b), &dense(a)).ok_or_else(undecided)?.first().ok_or_else(undecided)?;
-    let guess = from_f64(-smallest.recip()).ok().filter(Rational::is_positive).ok_or_else(undecided)?;
+    let smallest = *definite_eigenvalues(&dense(b), &dense(a))
+        .ok_or_else(undecided)?
+        .first()
+        .ok_or_else(undecided)?;
+    let guess = from_f64(-smallest.recip())
+        .ok()
+        .filter(Rational::is_positive)
+        .ok_or_else(undecided)?;
     let definite_at = |mu: &Rational| match positive_definite(&a.add_scaled(mu, b)) {
         Ok(()) => Some(true),
         Err(DefiniteError::Not(_)) => Some(false),
@@ -145,14 +179,22 @@ fn bracket(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, 
     // Each end steps outwards until it is proved.
     let end = |sense: i64, wanted: bool| {
         (0..=BRACKET_START_BITS / 2).find_map(|k| {
-            let step = Rational::new(sense.into(), num_bigint::BigInt::one() << (BRACKET_START_BITS - 2 * k));
+            let step = Rational::new(
+                sense.into(),
+                num_bigint::BigInt::one() << (BRACKET_START_BITS - 2 * k),
+            );
             let mu = shorten(&(&guess * (Rational::one() + step)));
-            (mu.is_positive() || mu.is_zero()).then_some(mu).filter(|mu| definite_at(mu) == Some(wanted))
+            (mu.is_positive() || mu.is_zero())
+                .then_some(mu)
+                .filter(|mu| definite_at(mu) == Some(wanted))
         })
     };
     let lo = end(-1, true).ok_or_else(undecided)?;
     let hi = end(1, false).ok_or_else(undecided)?;
-    Ok(DefiniteUntil::End { end: Interval::new(lo, hi).ok_or_else(undecided)?, exact: None })
+    Ok(DefiniteUntil::End {
+        end: Interval::new(lo, hi).ok_or_else(undecided)?,
+        exact: None,
+    })
 }
 
 /// The same number to a double's digits: short numbers keep LDL' cheap.
@@ -178,9 +220,20 @@ impl Necessary {
     /// As [`DefiniteUntil::of`].
     pub fn of(family: &MuFamily) -> Result<Necessary, ModelError> {
         let stiffness = DefiniteUntil::of("K*", family.stiffness.a(), family.stiffness.b())?;
-        let mass = family.mass.as_ref().map(|m| DefiniteUntil::of("M*", m.a(), m.b())).transpose()?;
-        let mass_is_constant = family.mass.as_ref().is_some_and(|m| m.b().entries().next().is_none());
-        Ok(Necessary { stiffness, mass, mass_is_constant })
+        let mass = family
+            .mass
+            .as_ref()
+            .map(|m| DefiniteUntil::of("M*", m.a(), m.b()))
+            .transpose()?;
+        let mass_is_constant = family
+            .mass
+            .as_ref()
+            .is_some_and(|m| m.b().entries().next().is_none());
+        Ok(Necessary {
+            stiffness,
+            mass,
+            mass_is_constant,
+        })
     }
 
     /// Does the condition hold at this mu: may there be divergence? `None` if mu lies inside the
@@ -194,7 +247,8 @@ impl Necessary {
         }
     }
 
-    /// mu up to which (this value not included) divergence is excluded by the condition; `None` if for all mu.
+    /// mu up to which (this value not included) divergence is excluded by the condition; `None` if
+    /// for all mu.
     pub fn excluded_below(&self) -> Option<Rational> {
         let lo = |until: &DefiniteUntil| match until {
             DefiniteUntil::Never => Some(Rational::zero()),
@@ -213,7 +267,9 @@ fn past(until: &DefiniteUntil, mu: &Rational, open: bool) -> Option<bool> {
     match until {
         DefiniteUntil::Never => Some(true),
         DefiniteUntil::Always => Some(false),
-        DefiniteUntil::End { exact: Some(end), .. } => {
+        DefiniteUntil::End {
+            exact: Some(end), ..
+        } => {
             let order = end.clone().cmp_rational(mu);
             Some(if open { order.is_lt() } else { order.is_le() })
         }
@@ -229,7 +285,8 @@ fn past(until: &DefiniteUntil, mu: &Rational, open: bool) -> Option<bool> {
     }
 }
 
-/// Is K* positive definite and M* positive semidefinite at this mu, so that no divergence is possible? // E19
+/// Is K* positive definite and M* positive semidefinite at this mu, so that no divergence is
+/// possible? // E19
 ///
 /// Two factorisations only, for a single mu; [`Necessary`] answers for all of them.
 ///
@@ -244,11 +301,12 @@ pub fn excluded_at(family: &MuFamily, mu: &Rational) -> Result<bool, ModelError>
         })
 }
 
-/// The all-slip solutions of a pencil in a window, exactly: (17)-(18), sufficient for divergence. With the
-/// pencil (K0, K1) the same at lambda = 0. // E17, E18
+/// The all-slip solutions of a pencil in a window, exactly: (17)-(18), sufficient for divergence.
+/// With the pencil (K0, K1) the same at lambda = 0. // E17, E18
 ///
-/// Solutions with x > 0 on every slip variable; where (18) holds with some x_i = 0 the solution belongs to
-/// a smaller support with biactive indices: [`is_all_slip`] knows it. The exact eigenproblem costs the order's determinant polynomial: for condensed or small pencils.
+/// Solutions with x > 0 on every slip variable; where (18) holds with some x_i = 0 the solution
+/// belongs to a smaller support with biactive indices: [`is_all_slip`] knows it. The exact
+/// eigenproblem costs the order's determinant polynomial: for condensed or small pencils.
 pub fn all_slip(pencil: &Pencil, window: &Window) -> Vec<Solution> {
     let mut found = Enumeration::default();
     let slip = pencil.slip();
@@ -256,9 +314,13 @@ pub fn all_slip(pencil: &Pencil, window: &Window) -> Vec<Solution> {
     found.solutions
 }
 
-/// Does an accepted solution with this support and these biactive indices satisfy (17)-(18)? // E17, E18
+/// Does an accepted solution with this support and these biactive indices satisfy (17)-(18)? //
+/// E17, E18
 pub fn is_all_slip(pencil: &Pencil, support: &[usize], biactive: &[usize]) -> bool {
-    pencil.slip().iter().all(|i| support.contains(i) || biactive.contains(i))
+    pencil
+        .slip()
+        .iter()
+        .all(|i| support.contains(i) || biactive.contains(i))
 }
 
 /// The value of mu in the middle of an enclosure, for people.
@@ -276,13 +338,20 @@ mod tests {
     use mceip_paper::two_particles;
 
     fn table(mu: Rational, signs: (i8, i8)) -> (TwoParticles, MuFamily) {
-        let data = TwoParticles { c: rational(3, 5), s: rational(4, 5), k: whole(7), m: whole(2), mu, signs };
+        let data = TwoParticles {
+            c: rational(3, 5),
+            s: rational(4, 5),
+            k: whole(7),
+            m: whole(2),
+            mu,
+            signs,
+        };
         let family = mu_family(&two_particles(&data).unwrap()).unwrap();
         (data, family)
     }
 
-    /// Two particles: S1 = S2 loses definiteness exactly at the threshold sqrt(c^2 + 2) / s, the pair
-    /// (1, -1) before it, at c / s; (-1, 1) loses it as well but never diverges.
+    /// Two particles: S1 = S2 loses definiteness exactly at the threshold sqrt(c^2 + 2) / s, the
+    /// pair (1, -1) before it, at c / s; (-1, 1) loses it as well but never diverges.
     #[test]
     fn two_particles_in_closed_form() {
         let (data, family) = table(whole(1), (1, 1));
@@ -290,7 +359,9 @@ mod tests {
         assert!(necessary.mass_is_constant);
         let threshold = thresholds(&data).unwrap().remove(0).value;
         let end = necessary.stiffness.end().unwrap();
-        assert!(threshold.within(end.lo(), end.hi()) && end.width() < rational(1, 1_000_000_000_000));
+        assert!(
+            threshold.within(end.lo(), end.hi()) && end.width() < rational(1, 1_000_000_000_000)
+        );
         let pair = Necessary::of(&table(whole(1), (1, -1)).1).unwrap();
         assert_eq!(pair.stiffness.end(), Some(&Interval::point(rational(3, 4))));
         assert_eq!(pair.holds_at(&rational(3, 4)), Some(true)); // singular is not definite
@@ -321,11 +392,28 @@ mod tests {
     fn a_consistent_mass_may_come_first() {
         let k = Sparse::from_ints(&[&[4, 0], &[0, 4]]);
         let m = Sparse::from_ints(&[&[4, -2], &[-2, 4]]);
-        let system = System::new(k, Some(m), None, vec![Particle::plain(0, 1, ContactState::Slip { sign: 1 })]).unwrap();
+        let system = System::new(
+            k,
+            Some(m),
+            None,
+            vec![Particle::plain(0, 1, ContactState::Slip { sign: 1 })],
+        )
+        .unwrap();
         let necessary = Necessary::of(&mu_family(&system).unwrap()).unwrap();
-        assert!(!necessary.mass_is_constant && matches!(necessary.stiffness, DefiniteUntil::Always));
-        assert_eq!(necessary.mass.as_ref().unwrap().end(), Some(&Interval::point(whole(2))));
-        assert_eq!((necessary.holds_at(&whole(2)), necessary.holds_at(&rational(21, 10))), (Some(false), Some(true)));
+        assert!(
+            !necessary.mass_is_constant && matches!(necessary.stiffness, DefiniteUntil::Always)
+        );
+        assert_eq!(
+            necessary.mass.as_ref().unwrap().end(),
+            Some(&Interval::point(whole(2)))
+        );
+        assert_eq!(
+            (
+                necessary.holds_at(&whole(2)),
+                necessary.holds_at(&rational(21, 10))
+            ),
+            (Some(false), Some(true))
+        );
     }
 
     #[test]
@@ -334,21 +422,40 @@ mod tests {
         for n in [EXACT_ORDER + 1, 60] {
             let until = DefiniteUntil::of("K*", &Sparse::identity(n), &coupling(n)).unwrap();
             let end = until.end().unwrap();
-            assert!(end.contains(&whole(1)) && end.width() < rational(1, 1_000_000) && !end.is_point(), "{end:?}");
+            assert!(
+                end.contains(&whole(1)) && end.width() < rational(1, 1_000_000) && !end.is_point(),
+                "{end:?}"
+            );
         }
         let semi = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
-        assert!(matches!(DefiniteUntil::of("K*", &Sparse::identity(2), &semi).unwrap(), DefiniteUntil::Always));
-        assert!(matches!(DefiniteUntil::of("K*", &semi, &semi).unwrap(), DefiniteUntil::Never));
+        assert!(matches!(
+            DefiniteUntil::of("K*", &Sparse::identity(2), &semi).unwrap(),
+            DefiniteUntil::Always
+        ));
+        assert!(matches!(
+            DefiniteUntil::of("K*", &semi, &semi).unwrap(),
+            DefiniteUntil::Never
+        ));
     }
 
     #[test]
     fn all_slip_solutions_are_those_of_17_and_18() {
         // The fold of errata.md: both particles slip, at lambda^2 = 2 and 3.
-        let fold = Pencil::new(Sparse::from_ints(&[&[1, -6], &[2, -6]]), Sparse::identity(2), vec![]).unwrap();
+        let fold = Pencil::new(
+            Sparse::from_ints(&[&[1, -6], &[2, -6]]),
+            Sparse::identity(2),
+            vec![],
+        )
+        .unwrap();
         assert_eq!(all_slip(&fold, &Window::all()).len(), 2);
         assert!(is_all_slip(&fold, &[0], &[1]) && !is_all_slip(&fold, &[0], &[]));
         // Slip-stick alone is no all-slip mode.
-        let one = Pencil::new(Sparse::from_ints(&[&[-1, 0], &[5, 1]]), Sparse::identity(2), vec![]).unwrap();
+        let one = Pencil::new(
+            Sparse::from_ints(&[&[-1, 0], &[5, 1]]),
+            Sparse::identity(2),
+            vec![],
+        )
+        .unwrap();
         assert!(all_slip(&one, &Window::all()).is_empty());
     }
 }

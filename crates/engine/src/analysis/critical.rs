@@ -1,4 +1,5 @@
-//! The critical mu: infimum over all lambda^2 >= 0, folds included, between a proved bound and a solution.
+//! The critical mu: infimum over all lambda^2 >= 0, folds included, between a proved bound and a
+//! solution.
 
 use super::absence::{Absence, absence};
 use super::conditions::Necessary;
@@ -22,7 +23,8 @@ pub struct CertifiedSolution {
 /// What is proved about the smallest mu with divergence.
 #[derive(Debug, Clone)]
 pub struct Critical {
-    /// For no lambda^2 >= 0 is there a solution with mu below this (not included); `None`: for no mu at all.
+    /// For no lambda^2 >= 0 is there a solution with mu below this (not included); `None`: for no
+    /// mu at all.
     pub absent_below: Option<Rational>,
     /// Why.
     pub evidence: Evidence,
@@ -32,9 +34,12 @@ pub struct Critical {
     pub cover: Option<Absence>,
 }
 
-const BY_CONDITION: Evidence =
-    Evidence::Exact("condition (19): K* positive definite and M* positive semidefinite below it, by exact LDL' and linearity in mu");
-const BY_COVER: Evidence = Evidence::Exact("cover of lambda^2 >= 0 and smaller mu by boxes with Farkas vectors, verified in integers");
+const BY_CONDITION: Evidence = Evidence::Exact(
+    "condition (19): K* positive definite and M* positive semidefinite below it, by exact LDL' and linearity in mu",
+);
+const BY_COVER: Evidence = Evidence::Exact(
+    "cover of lambda^2 >= 0 and smaller mu by boxes with Farkas vectors, verified in integers",
+);
 
 /// Bounds the infimum from both sides.
 pub(super) fn critical(
@@ -48,7 +53,12 @@ pub(super) fn critical(
 ) -> Result<Critical, AnalysisError> {
     let excluded = necessary.excluded_below();
     let Some(excluded) = excluded else {
-        return Ok(Critical { absent_below: None, evidence: BY_CONDITION, solution: None, cover: None });
+        return Ok(Critical {
+            absent_below: None,
+            evidence: BY_CONDITION,
+            solution: None,
+            cover: None,
+        });
     };
     let mut solution = threshold.values.first().map(|mu| CertifiedSolution {
         mu: mu.clone(),
@@ -59,9 +69,17 @@ pub(super) fn critical(
         && solution.as_ref().is_none_or(|s| s.mu.hi() > friction)
     {
         let lambda2 = mode.lambda2.clone();
-        solution = Some(CertifiedSolution { mu: Interval::point(friction.clone()), lambda2, evidence: divergence.evidence.clone() });
+        solution = Some(CertifiedSolution {
+            mu: Interval::point(friction.clone()),
+            lambda2,
+            evidence: divergence.evidence.clone(),
+        });
     }
-    let cover = if model.stopped() { None } else { absence(family, &excluded, model.options.limits, model.stop) };
+    let cover = if model.stopped() {
+        None
+    } else {
+        absence(family, &excluded, model.options.limits, model.stop)
+    };
     let (absent_below, evidence) = match &cover {
         Some(c) if c.below.as_ref().is_none_or(|b| *b > excluded) => (c.below.clone(), BY_COVER),
         _ => (Some(excluded), BY_CONDITION),
@@ -74,7 +92,12 @@ pub(super) fn critical(
             }
         }
     }
-    Ok(Critical { absent_below, evidence, solution, cover })
+    Ok(Critical {
+        absent_below,
+        evidence,
+        solution,
+        cover,
+    })
 }
 
 /// Values of lambda^2 in the box that could not be emptied.
@@ -101,14 +124,26 @@ fn at(
     if model.stopped() || lambda2.is_zero() || top <= *below {
         return Ok(None); // lambda = 0 is the static threshold
     }
-    let problem = model.at_lambda2(lambda2)?.with_window(Window::new(below.clone(), Some(top))?);
+    let problem = model
+        .at_lambda2(lambda2)?
+        .with_window(Window::new(below.clone(), Some(top))?);
     let found = model.complete(&problem)?;
-    let Some(first) = found.cover.solutions.first() else { return Ok(None) };
+    let Some(first) = found.cover.solutions.first() else {
+        return Ok(None);
+    };
     if known.is_some_and(|s| first.value.hi() >= s.mu.hi()) {
         return Ok(None);
     }
     let (mu, lambda2) = (first.value.clone(), Interval::point(lambda2.clone()));
     proofs.retain(|p| p.name != "critical");
-    proofs.push(Proof { name: "critical".into(), problem, certificate: found.certificate });
-    Ok(Some(CertifiedSolution { mu, lambda2, evidence: Evidence::Certificate(proofs.len() - 1) }))
+    proofs.push(Proof {
+        name: "critical".into(),
+        problem,
+        certificate: found.certificate,
+    });
+    Ok(Some(CertifiedSolution {
+        mu,
+        lambda2,
+        evidence: Evidence::Certificate(proofs.len() - 1),
+    }))
 }

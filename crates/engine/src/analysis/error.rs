@@ -15,7 +15,9 @@ pub enum AnalysisError {
     #[error(transparent)]
     Complete(#[from] CompleteError),
     /// A pencil has no mu.
-    #[error("analyze: expected a mechanical system (stiffness, mass, friction, particles), got a pencil")]
+    #[error(
+        "analyze: expected a mechanical system (stiffness, mass, friction, particles), got a pencil"
+    )]
     NotASystem,
     /// Divergence needs inertia.
     #[error("E3: expected mass, got none (analyze needs K, M and mu)")]
@@ -24,7 +26,9 @@ pub enum AnalysisError {
     #[error("E2: expected friction in the file or by --friction, got none")]
     NoFriction,
     /// Units that doubles cannot carry.
-    #[error("{what}[{row}][{col}]: expected a magnitude between 10^-150 and 10^150 (choose other units), got about 10^{exponent}")]
+    #[error(
+        "{what}[{row}][{col}]: expected a magnitude between 10^-150 and 10^150 (choose other units), got about 10^{exponent}"
+    )]
     Units {
         /// The matrix.
         what: &'static str,
@@ -44,7 +48,12 @@ pub(super) fn require_doubles(system: &System) -> Result<(), AnalysisError> {
             let size = to_f64(v).abs();
             if !(1e150f64.recip()..=1e150).contains(&size) {
                 let bits = v.numer().bits() as i64 - v.denom().bits() as i64;
-                return Err(AnalysisError::Units { what, row, col, exponent: bits * 301 / 1000 });
+                return Err(AnalysisError::Units {
+                    what,
+                    row,
+                    col,
+                    exponent: bits * 301 / 1000,
+                });
             }
         }
     }

@@ -40,18 +40,31 @@ pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
     let n = k.len();
     let columns: Vec<Vec<f64>> = (0..n).map(|j| (0..n).map(|i| -k[i][j]).collect()).collect();
     let solved = solve(&m, &columns)?;
-    let rows: Vec<Vec<f64>> = (0..n).map(|i| (0..n).map(|j| solved[j][i]).collect()).collect();
+    let rows: Vec<Vec<f64>> = (0..n)
+        .map(|i| (0..n).map(|j| solved[j][i]).collect())
+        .collect();
     let all = eigenvalues(&rows)?;
-    let mut complex: Vec<(f64, f64)> = all.into_iter().filter(|(re, im)| *im > FLUTTER_ANGLE * re.hypot(*im)).collect();
+    let mut complex: Vec<(f64, f64)> = all
+        .into_iter()
+        .filter(|(re, im)| *im > FLUTTER_ANGLE * re.hypot(*im))
+        .collect();
     complex.sort_by(|p, q| root(*q).0.total_cmp(&root(*p).0).then(p.1.total_cmp(&q.1)));
     let (growth_rate, frequency) = complex.first().map_or((0.0, 0.0), |z| root(*z));
-    Some(Flutter { eigenvalues: complex, growth_rate, frequency })
+    Some(Flutter {
+        eigenvalues: complex,
+        growth_rate,
+        frequency,
+    })
 }
 
 /// The square root with positive real part.
 fn root((re, im): (f64, f64)) -> (f64, f64) {
     let size = re.hypot(im);
     // |z| + re without cancellation where re < 0.
-    let growth = if re >= 0.0 { (0.5 * (size + re)).sqrt() } else { 0.5 * im.abs() / (0.5 * (size - re)).sqrt() };
+    let growth = if re >= 0.0 {
+        (0.5 * (size + re)).sqrt()
+    } else {
+        0.5 * im.abs() / (0.5 * (size - re)).sqrt()
+    };
     (growth, 0.5 * im / growth)
 }

@@ -26,7 +26,13 @@ fn until(u: &DefiniteUntil) -> Value {
         DefiniteUntil::Never => json!({ "definite": "never" }),
         DefiniteUntil::Always => json!({ "definite": "always" }),
         DefiniteUntil::End { end, exact } => {
-            let polynomial = exact.as_ref().map(|e| e.poly().coeffs().iter().map(ToString::to_string).collect::<Vec<_>>());
+            let polynomial = exact.as_ref().map(|e| {
+                e.poly()
+                    .coeffs()
+                    .iter()
+                    .map(ToString::to_string)
+                    .collect::<Vec<_>>()
+            });
             json!({ "definite": "below", "end": enclosure(end), "polynomial": polynomial })
         }
     }
@@ -52,7 +58,10 @@ impl Analysis {
         match evidence {
             Evidence::Certificate(i) => match paths.get(*i) {
                 Some(path) => format!("proved, certificate {path}"),
-                None => format!("proved, certificate {:.12} (--certificates writes it)", self.certificate_sha256(*i).unwrap_or_default()),
+                None => format!(
+                    "proved, certificate {:.12} (--certificates writes it)",
+                    self.certificate_sha256(*i).unwrap_or_default()
+                ),
             },
             Evidence::Exact(what) => format!("exact: {what}"),
             Evidence::Measured(what) => format!("measured: {what}"),
@@ -79,7 +88,11 @@ impl Analysis {
             .iter()
             .map(|s| json!({ "topic": s.topic, "text": s.text, "evidence": self.evidence_json(&s.evidence, paths) }))
             .collect();
-        let samples: Vec<Value> = self.samples.iter().map(|s| json!({ "mu": s.mu.to_string(), "verdict": s.verdict.word() })).collect();
+        let samples: Vec<Value> = self
+            .samples
+            .iter()
+            .map(|s| json!({ "mu": s.mu.to_string(), "verdict": s.verdict.word() }))
+            .collect();
         let ranges: Vec<Value> = self
             .ranges
             .iter()

@@ -2,8 +2,9 @@
 //! thresholds, conditions (17)-(20), and the evidence behind each sentence.
 //!
 //! [`analyse`] makes plain data ([`Analysis`]); [`Analysis::sentences`] says it in words,
-//! [`Analysis::to_json`] as `mceip-analysis/1`. A sentence rests on a certificate that [`crate::check`] has
-//! accepted, on an exact condition, or on a measurement in doubles, and says which.
+//! [`Analysis::to_json`] as `mceip-analysis/1`. A sentence rests on a certificate that
+//! [`crate::check`] has accepted, on an exact condition, or on a measurement in doubles, and says
+//! which.
 
 pub mod absence;
 pub mod conditions;
@@ -45,7 +46,11 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options { samples: 16, threads: None, limits: absence::Limits::default() }
+        Options {
+            samples: 16,
+            threads: None,
+            limits: absence::Limits::default(),
+        }
     }
 }
 
@@ -71,7 +76,8 @@ pub struct Proof {
     pub certificate: Certificate,
 }
 
-/// Does divergence of the form (8) exist? Never "stable": flutter and stick-slip growth lie outside (8).
+/// Does divergence of the form (8) exist? Never "stable": flutter and stick-slip growth lie outside
+/// (8).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Verdict {
     /// A solution of MCEIP-lambda2 is proved.
@@ -100,7 +106,8 @@ pub struct Divergence {
     pub verdict: Verdict,
     /// Every proved solution, with growth rate and mode, by ascending lambda^2.
     pub modes: Vec<Mode>,
-    /// Families beside them: cones, and supports with a range of lambda^2. The certificate describes them.
+    /// Families beside them: cones, and supports with a range of lambda^2. The certificate
+    /// describes them.
     pub families: usize,
     /// Parts of [0, infinity) x supports in which nothing is proved.
     pub open: Vec<OpenRegion>,
@@ -120,11 +127,17 @@ pub struct StaticThreshold {
 }
 
 impl StaticThreshold {
-    /// Single values of families count as values; of a family over an interval the ends alone are known,
-    /// so that it is left open.
+    /// Single values of families count as values; of a family over an interval the ends alone are
+    /// known, so that it is left open.
     fn of(found: &Completed) -> StaticThreshold {
-        let (points, intervals): (Vec<_>, Vec<_>) = found.cover.families.iter().partition(|f| f.is_point);
-        let mut values: Vec<Interval> = found.cover.solutions.iter().map(|s| s.value.clone()).collect();
+        let (points, intervals): (Vec<_>, Vec<_>) =
+            found.cover.families.iter().partition(|f| f.is_point);
+        let mut values: Vec<Interval> = found
+            .cover
+            .solutions
+            .iter()
+            .map(|s| s.value.clone())
+            .collect();
         values.extend(points.into_iter().map(|f| f.from.clone()));
         values.sort_by(|p, q| p.lo().cmp(q.lo()));
         let region = |f: &SolutionFamily| OpenRegion {
@@ -133,13 +146,25 @@ impl StaticThreshold {
             moving: f.support.clone(),
             undecided: Vec::new(),
         };
-        let open = found.cover.open.iter().cloned().chain(intervals.into_iter().map(region)).collect();
-        StaticThreshold { values, open, evidence: Evidence::Certificate(1) }
+        let open = found
+            .cover
+            .open
+            .iter()
+            .cloned()
+            .chain(intervals.into_iter().map(region))
+            .collect();
+        StaticThreshold {
+            values,
+            open,
+            evidence: Evidence::Certificate(1),
+        }
     }
 
     /// The smallest value, if it is proved that there is no smaller one.
     pub fn smallest(&self) -> Option<&Interval> {
-        self.values.first().filter(|v| self.open.iter().all(|o| o.min > *v.hi()))
+        self.values
+            .first()
+            .filter(|v| self.open.iter().all(|o| o.min > *v.hi()))
     }
 }
 
@@ -176,12 +201,13 @@ pub struct Analysis {
     pub interrupted: bool,
 }
 
-/// Analyses a mechanical system at a mu. Contact states are those of the system, taken as impending slip
-/// at mu: reactions in it are not used. `progress` hears what is being done; `stop` ends the work early and
-/// leaves open what is not done.
+/// Analyses a mechanical system at a mu. Contact states are those of the system, taken as impending
+/// slip at mu: reactions in it are not used. `progress` hears what is being done; `stop` ends the
+/// work early and leaves open what is not done.
 ///
 /// # Errors
-/// [`AnalysisError`]: no mass, no slip particle, numbers beyond doubles, a definiteness not decided.
+/// [`AnalysisError`]: no mass, no slip particle, numbers beyond doubles, a definiteness not
+/// decided.
 pub fn analyse(
     name: Option<String>,
     system: &System,
@@ -191,7 +217,11 @@ pub fn analyse(
     progress: &(dyn Fn(&str) + Sync),
 ) -> Result<Analysis, AnalysisError> {
     error::require_doubles(system)?;
-    let model = Model { system, options, stop };
+    let model = Model {
+        system,
+        options,
+        stop,
+    };
     let here = model.problem(Some(friction))?;
     let family = mu_family(system)?;
     let mut proofs = Vec::new();
@@ -201,14 +231,30 @@ pub fn analyse(
     let found = model.complete(&here)?;
     let divergence = divergence(system, &family, &found);
     let sufficient = sufficient(&family, &found, divergence.verdict);
-    proofs.push(Proof { name: "lambda2".into(), problem: here.clone(), certificate: found.certificate });
+    proofs.push(Proof {
+        name: "lambda2".into(),
+        problem: here.clone(),
+        certificate: found.certificate,
+    });
     progress("static threshold: all mu >= 0");
     let at_zero = model.problem(None)?;
     let found = model.complete(&at_zero)?;
     let threshold = StaticThreshold::of(&found);
-    proofs.push(Proof { name: "mu".into(), problem: at_zero, certificate: found.certificate });
+    proofs.push(Proof {
+        name: "mu".into(),
+        problem: at_zero,
+        certificate: found.certificate,
+    });
     progress("critical mu: all lambda^2 >= 0 and all smaller mu");
-    let critical = critical::critical(&model, &family, &necessary, friction, &divergence, &threshold, &mut proofs)?;
+    let critical = critical::critical(
+        &model,
+        &family,
+        &necessary,
+        friction,
+        &divergence,
+        &threshold,
+        &mut proofs,
+    )?;
     progress("ranges of mu");
     let (ranges, samples) = ranges::ranges(&model, friction, &threshold, &critical)?;
     let count = |f: fn(&Particle) -> bool| system.particles().iter().filter(|p| f(p)).count();
@@ -217,7 +263,12 @@ pub fn analyse(
         name,
         problem_sha256: here.sha256(),
         friction: friction.clone(),
-        sizes: [system.dofs(), system.free_dofs().len(), system.slip_particles().len(), stick],
+        sizes: [
+            system.dofs(),
+            system.free_dofs().len(),
+            system.slip_particles().len(),
+            stick,
+        ],
         flutter: flutter::flutter(&family, friction),
         divergence,
         threshold,
@@ -248,22 +299,46 @@ impl Model<'_> {
     /// MCEIP-mu at a fixed lambda^2: that of K + lambda^2 M.
     fn at_lambda2(&self, lambda2: &Rational) -> Result<Problem, AnalysisError> {
         let mass = self.system.mass().ok_or(AnalysisError::NoMass)?;
-        self.with(self.system.stiffness().add_scaled(lambda2, mass), None, None)
+        self.with(
+            self.system.stiffness().add_scaled(lambda2, mass),
+            None,
+            None,
+        )
     }
 
-    fn with(&self, stiffness: Sparse, mass: Option<Sparse>, friction: Option<&Rational>) -> Result<Problem, AnalysisError> {
+    fn with(
+        &self,
+        stiffness: Sparse,
+        mass: Option<Sparse>,
+        friction: Option<&Rational>,
+    ) -> Result<Problem, AnalysisError> {
         if mass.is_none() && self.system.mass().is_none() {
             return Err(AnalysisError::NoMass);
         }
-        let particles = self.system.particles().iter().map(|p| Particle { reaction: None, ..p.clone() }).collect();
-        let unknown = if friction.is_some() { Unknown::Lambda2 } else { Unknown::Mu };
+        let particles = self
+            .system
+            .particles()
+            .iter()
+            .map(|p| Particle {
+                reaction: None,
+                ..p.clone()
+            })
+            .collect();
+        let unknown = if friction.is_some() {
+            Unknown::Lambda2
+        } else {
+            Unknown::Mu
+        };
         let mass = mass.filter(|_| friction.is_some());
         let system = System::new(stiffness, mass, friction.cloned(), particles)?;
         Ok(Problem::new(Body::System(system), unknown, Window::all())?)
     }
 
     fn complete(&self, problem: &Problem) -> Result<Completed, AnalysisError> {
-        let options = complete::Options { threads: self.options.threads, ..complete::Options::default() };
+        let options = complete::Options {
+            threads: self.options.threads,
+            ..complete::Options::default()
+        };
         Ok(complete(problem, &options, self.stop, &|_| {})?)
     }
 
@@ -273,7 +348,10 @@ impl Model<'_> {
 }
 
 fn verdict(found: &Completed) -> Verdict {
-    match (found.cover.solutions.is_empty() && found.cover.families.is_empty(), found.is_complete()) {
+    match (
+        found.cover.solutions.is_empty() && found.cover.families.is_empty(),
+        found.is_complete(),
+    ) {
         (false, _) => Verdict::Present,
         (true, true) => Verdict::Absent,
         (true, false) => Verdict::Undecided,
@@ -281,9 +359,18 @@ fn verdict(found: &Completed) -> Verdict {
 }
 
 fn divergence(system: &System, family: &MuFamily, found: &Completed) -> Divergence {
-    let modes = found.solutions().map(|(s, x)| Mode::of(system, family, s, x)).collect();
+    let modes = found
+        .solutions()
+        .map(|(s, x)| Mode::of(system, family, s, x))
+        .collect();
     let families = found.cover.families.len();
-    Divergence { verdict: verdict(found), modes, families, open: found.cover.open.clone(), evidence: Evidence::Certificate(0) }
+    Divergence {
+        verdict: verdict(found),
+        modes,
+        families,
+        open: found.cover.open.clone(),
+        evidence: Evidence::Certificate(0),
+    }
 }
 
 /// (17)-(18): is one of the solutions an all-slip one?
@@ -295,7 +382,11 @@ fn sufficient(family: &MuFamily, found: &Completed, verdict: Verdict) -> Option<
         });
         same.flatten().collect()
     };
-    let all = found.cover.solutions.iter().any(|s| is_all_slip(&family.stiffness, &s.support, &claimed(&s.support)));
+    let all = found
+        .cover
+        .solutions
+        .iter()
+        .any(|s| is_all_slip(&family.stiffness, &s.support, &claimed(&s.support)));
     if all {
         Some(true)
     } else if verdict == Verdict::Undecided || !found.cover.is_plain_list() {

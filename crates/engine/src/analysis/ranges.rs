@@ -1,11 +1,12 @@
-//! Where in mu does divergence exist? Decided with certificates at values of mu; between them measured.
+//! Where in mu does divergence exist? Decided with certificates at values of mu; between them
+//! measured.
 
 use super::{AnalysisError, Critical, Model, StaticThreshold, Verdict, verdict};
 use crate::exact::{Rational, from_f64, to_f64, whole};
 use num_traits::Zero;
 
-/// Divergence at one mu, decided by a complete search over lambda^2 in [0, infinity), or below the proved
-/// bound of the critical mu.
+/// Divergence at one mu, decided by a complete search over lambda^2 in [0, infinity), or below the
+/// proved bound of the critical mu.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Sample {
     /// mu.
@@ -36,9 +37,22 @@ pub(super) fn ranges(
     critical: &Critical,
 ) -> Result<(Vec<Range>, Vec<Sample>), AnalysisError> {
     let count = model.options.samples;
-    let known = threshold.values.iter().map(|v| v.hi().clone()).chain(critical.solution.iter().map(|s| s.mu.hi().clone()));
-    let top = known.chain([friction.clone()]).max().unwrap_or_else(Rational::zero) * whole(2);
-    let short = |v: Rational| from_f64((to_f64(&v) * 1e6).round() / 1e6).ok().filter(|s| *s > Rational::zero()).unwrap_or(v);
+    let known = threshold
+        .values
+        .iter()
+        .map(|v| v.hi().clone())
+        .chain(critical.solution.iter().map(|s| s.mu.hi().clone()));
+    let top = known
+        .chain([friction.clone()])
+        .max()
+        .unwrap_or_else(Rational::zero)
+        * whole(2);
+    let short = |v: Rational| {
+        from_f64((to_f64(&v) * 1e6).round() / 1e6)
+            .ok()
+            .filter(|s| *s > Rational::zero())
+            .unwrap_or(v)
+    };
     let mut samples = Vec::new();
     for k in 1..=count {
         let mu = short(&top * Rational::new(k.into(), count.into()));
@@ -51,7 +65,9 @@ pub(super) fn ranges(
             if a.verdict == b.verdict {
                 break;
             }
-            let Some(middle) = sample(model, critical, (&a.mu + &b.mu) / whole(2))? else { break };
+            let Some(middle) = sample(model, critical, (&a.mu + &b.mu) / whole(2))? else {
+                break;
+            };
             let below = middle.verdict == a.verdict;
             samples.insert(i + 1, middle);
             i += usize::from(below);
@@ -61,9 +77,20 @@ pub(super) fn ranges(
     Ok((grouped(&samples), samples))
 }
 
-fn sample(model: &Model<'_>, critical: &Critical, mu: Rational) -> Result<Option<Sample>, AnalysisError> {
-    if critical.absent_below.as_ref().is_none_or(|below| mu < *below) {
-        return Ok(Some(Sample { mu, verdict: Verdict::Absent }));
+fn sample(
+    model: &Model<'_>,
+    critical: &Critical,
+    mu: Rational,
+) -> Result<Option<Sample>, AnalysisError> {
+    if critical
+        .absent_below
+        .as_ref()
+        .is_none_or(|below| mu < *below)
+    {
+        return Ok(Some(Sample {
+            mu,
+            verdict: Verdict::Absent,
+        }));
     }
     if model.stopped() {
         return Ok(None);
@@ -77,7 +104,11 @@ fn grouped(samples: &[Sample]) -> Vec<Range> {
     for s in samples {
         match ranges.last_mut() {
             Some(r) if r.verdict == s.verdict => r.to = s.mu.clone(),
-            _ => ranges.push(Range { verdict: s.verdict, from: s.mu.clone(), to: s.mu.clone() }),
+            _ => ranges.push(Range {
+                verdict: s.verdict,
+                from: s.mu.clone(),
+                to: s.mu.clone(),
+            }),
         }
     }
     ranges

@@ -22,7 +22,11 @@ const OUTSIDE: &str = "Outside (8), and so not answered: flutter, stick-slip gro
 /// Ends of an enclosure in short decimals, rounded outwards.
 fn between(v: &Interval) -> String {
     let (lo, hi) = enclosing_decimals(v, 9);
-    if lo == hi { format!("= {lo}") } else { format!("in [{lo}, {hi}]") }
+    if lo == hi {
+        format!("= {lo}")
+    } else {
+        format!("in [{lo}, {hi}]")
+    }
 }
 
 /// A rational as a decimal that is not above it: for bounds below which nothing exists.
@@ -41,26 +45,41 @@ fn open_text(word: &str, open: &[OpenRegion]) -> String {
         format!("{word} in [{}, {max}]", short(&o.min))
     };
     let first: Vec<String> = open.iter().take(3).map(region).collect();
-    let more = if open.len() > 3 { format!(" and {} more regions", open.len() - 3) } else { String::new() };
+    let more = if open.len() > 3 {
+        format!(" and {} more regions", open.len() - 3)
+    } else {
+        String::new()
+    };
     format!("{}{more}", first.join(", "))
 }
 
 impl Analysis {
-    /// The sentences, most important first. Growth rates in 1/s and lambda^2 in 1/s^2 if K and M are in
-    /// consistent units (N/m and kg; N/mm and t).
+    /// The sentences, most important first. Growth rates in 1/s and lambda^2 in 1/s^2 if K and M
+    /// are in consistent units (N/m and kg; N/mm and t).
     pub fn sentences(&self) -> Vec<Sentence> {
         let mut all = vec![self.say_divergence()];
         all.extend(self.say_modes());
         all.extend([self.say_threshold(), self.say_critical()]);
         all.extend(self.say_solution());
         all.extend(self.say_ranges());
-        all.extend([self.say_necessary(), self.say_sufficient(), self.say_flutter()]);
-        all.push(Sentence { topic: "outside", text: OUTSIDE.into(), evidence: Evidence::Exact("definition (8)") });
+        all.extend([
+            self.say_necessary(),
+            self.say_sufficient(),
+            self.say_flutter(),
+        ]);
+        all.push(Sentence {
+            topic: "outside",
+            text: OUTSIDE.into(),
+            evidence: Evidence::Exact("definition (8)"),
+        });
         all
     }
 
     fn state(&self) -> String {
-        format!("For this contact state, taken as impending slip at mu = {},", short(&self.friction))
+        format!(
+            "For this contact state, taken as impending slip at mu = {},",
+            short(&self.friction)
+        )
     }
 
     fn say_divergence(&self) -> Sentence {
@@ -70,19 +89,35 @@ impl Analysis {
             Verdict::Present => format!(
                 "divergence instability of the form (8) is PRESENT: {n} solution{}{}{}.",
                 if n == 1 { "" } else { "s" },
-                if d.families == 0 { String::new() } else { format!(" and {} families of solutions (cones or ranges)", d.families) },
+                if d.families == 0 {
+                    String::new()
+                } else {
+                    format!(
+                        " and {} families of solutions (cones or ranges)",
+                        d.families
+                    )
+                },
                 if d.open.is_empty() {
                     " and no other".into()
                 } else {
                     format!(", others undecided for {}", open_text("lambda^2", &d.open))
                 }
             ),
-            Verdict::Absent => "divergence instability of the form (8) is ABSENT for every lambda^2 >= 0.".into(),
+            Verdict::Absent => {
+                "divergence instability of the form (8) is ABSENT for every lambda^2 >= 0.".into()
+            }
             Verdict::Undecided => {
-                format!("divergence instability of the form (8) is UNDECIDED: open for {}.", open_text("lambda^2", &d.open))
+                format!(
+                    "divergence instability of the form (8) is UNDECIDED: open for {}.",
+                    open_text("lambda^2", &d.open)
+                )
             }
         };
-        Sentence { topic: "divergence", text: format!("{} {what}", self.state()), evidence: d.evidence.clone() }
+        Sentence {
+            topic: "divergence",
+            text: format!("{} {what}", self.state()),
+            evidence: d.evidence.clone(),
+        }
     }
 
     fn say_modes(&self) -> Vec<Sentence> {
@@ -99,7 +134,11 @@ impl Analysis {
                 m.slipping,
                 m.sticking
             );
-            Sentence { topic: "mode", text, evidence: self.divergence.evidence.clone() }
+            Sentence {
+                topic: "mode",
+                text,
+                evidence: self.divergence.evidence.clone(),
+            }
         };
         self.divergence.modes.iter().enumerate().map(say).collect()
     }
@@ -107,19 +146,40 @@ impl Analysis {
     fn say_threshold(&self) -> Sentence {
         let t = &self.threshold;
         let text = match (t.smallest(), t.open.is_empty()) {
-            (Some(mu), _) => format!("Static threshold: the smallest mu with lambda = 0: mu {}.", between(mu)),
-            (None, true) => "Static threshold: none; no mu >= 0 has a solution with lambda = 0.".into(),
-            (None, false) => format!("Static threshold: UNDECIDED for {}.", open_text("mu", &t.open)),
+            (Some(mu), _) => format!(
+                "Static threshold: the smallest mu with lambda = 0: mu {}.",
+                between(mu)
+            ),
+            (None, true) => {
+                "Static threshold: none; no mu >= 0 has a solution with lambda = 0.".into()
+            }
+            (None, false) => format!(
+                "Static threshold: UNDECIDED for {}.",
+                open_text("mu", &t.open)
+            ),
         };
-        Sentence { topic: "static_threshold", text, evidence: t.evidence.clone() }
+        Sentence {
+            topic: "static_threshold",
+            text,
+            evidence: t.evidence.clone(),
+        }
     }
 
     fn say_critical(&self) -> Sentence {
         let text = match &self.critical.absent_below {
-            None => "Critical mu: no mu has divergence of the form (8), for any lambda^2 >= 0.".into(),
-            Some(b) => format!("Critical mu: for 0 <= mu < {} there is no solution for any lambda^2 >= 0.", down(b)),
+            None => {
+                "Critical mu: no mu has divergence of the form (8), for any lambda^2 >= 0.".into()
+            }
+            Some(b) => format!(
+                "Critical mu: for 0 <= mu < {} there is no solution for any lambda^2 >= 0.",
+                down(b)
+            ),
         };
-        Sentence { topic: "critical_absence", text, evidence: self.critical.evidence.clone() }
+        Sentence {
+            topic: "critical_absence",
+            text,
+            evidence: self.critical.evidence.clone(),
+        }
     }
 
     fn say_solution(&self) -> Option<Sentence> {
@@ -129,16 +189,32 @@ impl Analysis {
             between(&s.mu),
             between(&s.lambda2)
         );
-        Some(Sentence { topic: "critical_solution", text, evidence: s.evidence.clone() })
+        Some(Sentence {
+            topic: "critical_solution",
+            text,
+            evidence: s.evidence.clone(),
+        })
     }
 
     fn say_ranges(&self) -> Option<Sentence> {
-        let say = |r: &super::Range| format!("{} from {} to {}", r.verdict.word(), short(&r.from), short(&r.to));
+        let say = |r: &super::Range| {
+            format!(
+                "{} from {} to {}",
+                r.verdict.word(),
+                short(&r.from),
+                short(&r.to)
+            )
+        };
         let parts: Vec<String> = self.ranges.iter().map(say).collect();
         (!parts.is_empty()).then(|| Sentence {
             topic: "ranges",
-            text: format!("Divergence against mu, with this contact state: {}.", parts.join(", ")),
-            evidence: Evidence::Measured("decided by a complete search at each of the sampled mu, not between them"),
+            text: format!(
+                "Divergence against mu, with this contact state: {}.",
+                parts.join(", ")
+            ),
+            evidence: Evidence::Measured(
+                "decided by a complete search at each of the sampled mu, not between them",
+            ),
         })
     }
 
@@ -160,28 +236,43 @@ impl Analysis {
                 until(&n.stiffness, ">="),
                 until(m, ">")
             ),
-            _ => format!("Necessary condition (20): K* is not positive definite {}; {here}.", until(&n.stiffness, ">=")),
+            _ => format!(
+                "Necessary condition (20): K* is not positive definite {}; {here}.",
+                until(&n.stiffness, ">=")
+            ),
         };
         Sentence {
             topic: "necessary",
             text,
-            evidence: Evidence::Exact("exact LDL' on both sides of the end of definiteness, or its polynomial"),
+            evidence: Evidence::Exact(
+                "exact LDL' on both sides of the end of definiteness, or its polynomial",
+            ),
         }
     }
 
     fn say_sufficient(&self) -> Sentence {
         let text = match self.sufficient {
-            Some(true) => "Sufficient condition (17)-(18): holds at this mu; every slip particle moves or may move.",
-            Some(false) => "Sufficient condition (17)-(18): does not hold at this mu; no all-slip solution.",
+            Some(true) => {
+                "Sufficient condition (17)-(18): holds at this mu; every slip particle moves or may move."
+            }
+            Some(false) => {
+                "Sufficient condition (17)-(18): does not hold at this mu; no all-slip solution."
+            }
             None => "Sufficient condition (17)-(18): UNDECIDED at this mu.",
         };
-        Sentence { topic: "sufficient", text: text.into(), evidence: self.divergence.evidence.clone() }
+        Sentence {
+            topic: "sufficient",
+            text: text.into(),
+            evidence: self.divergence.evidence.clone(),
+        }
     }
 
     fn say_flutter(&self) -> Sentence {
         let text = match &self.flutter {
             None => "Flutter: not examined (no all-slip eigenvalues in doubles).".into(),
-            Some(f) if f.eigenvalues.is_empty() => "Flutter: the all-slip pencil at this mu has no complex lambda^2.".into(),
+            Some(f) if f.eigenvalues.is_empty() => {
+                "Flutter: the all-slip pencil at this mu has no complex lambda^2.".into()
+            }
             Some(f) => format!(
                 "WARNING of flutter: the all-slip pencil at this mu has {} complex pair{} lambda^2; the fastest grows at {:.6} 1/s, {:.6} rad/s.",
                 f.eigenvalues.len(),
@@ -190,6 +281,10 @@ impl Analysis {
                 f.frequency
             ),
         };
-        Sentence { topic: "flutter", text, evidence: Evidence::Measured("eigenvalues in doubles") }
+        Sentence {
+            topic: "flutter",
+            text,
+            evidence: Evidence::Measured("eigenvalues in doubles"),
+        }
     }
 }

@@ -19,13 +19,19 @@ impl<'a> Certifier<'a> {
     pub fn new(problem: &'a Problem, pencil: &'a Pencil) -> Certifier<'a> {
         let rows = IntegralRows::of(pencil);
         let checker = ClaimChecker::new(problem);
-        Certifier { problem, pencil, rows, checker }
+        Certifier {
+            problem,
+            pencil,
+            rows,
+            checker,
+        }
     }
 
     /// A claim that the candidate suggests and the checker accepts, in the problem's window.
     ///
     /// # Errors
-    /// [`NotCertified`] with every support tried and what failed on it; among the failures the checker's reasons.
+    /// [`NotCertified`] with every support tried and what failed on it; among the failures the
+    /// checker's reasons.
     pub fn certify(&self, candidate: &Candidate) -> Result<Claim, NotCertified> {
         self.certify_with_verdict(candidate).map(|(claim, _)| claim)
     }
@@ -34,13 +40,19 @@ impl<'a> Certifier<'a> {
     ///
     /// # Errors
     /// As [`Certifier::certify`].
-    pub fn certify_with_verdict(&self, candidate: &Candidate) -> Result<(Claim, AcceptedClaim), NotCertified> {
+    pub fn certify_with_verdict(
+        &self,
+        candidate: &Candidate,
+    ) -> Result<(Claim, AcceptedClaim), NotCertified> {
         let proposals = proposals(self.pencil, &self.rows, self.problem.window(), candidate)?;
         self.first_accepted(proposals)
     }
 
     /// The first proposal that the checker accepts.
-    fn first_accepted(&self, proposals: impl Iterator<Item = Proposal>) -> Result<(Claim, AcceptedClaim), NotCertified> {
+    fn first_accepted(
+        &self,
+        proposals: impl Iterator<Item = Proposal>,
+    ) -> Result<(Claim, AcceptedClaim), NotCertified> {
         let mut attempts = Vec::new();
         for Proposal { support, claim } in proposals {
             let accepted = claim.and_then(|claim| self.examined(claim));
@@ -56,16 +68,23 @@ impl<'a> Certifier<'a> {
     fn examined(&self, claim: Claim) -> Result<(Claim, AcceptedClaim), AttemptFailure> {
         match self.checker.verdict(self.problem.window(), &claim) {
             Ok(verdict) => Ok((claim, verdict)),
-            Err(reason) => Err(AttemptFailure::Refused { reason: Box::new(reason) }),
+            Err(reason) => Err(AttemptFailure::Refused {
+                reason: Box::new(reason),
+            }),
         }
     }
 }
 
-/// A claim that the candidate suggests and the checker accepts; for several candidates a [`Certifier`] is cheaper.
+/// A claim that the candidate suggests and the checker accepts; for several candidates a
+/// [`Certifier`] is cheaper.
 ///
 /// # Errors
 /// As [`Certifier::certify`].
-pub fn certify(problem: &Problem, pencil: &Pencil, candidate: &Candidate) -> Result<Claim, NotCertified> {
+pub fn certify(
+    problem: &Problem,
+    pencil: &Pencil,
+    candidate: &Candidate,
+) -> Result<Claim, NotCertified> {
     Certifier::new(problem, pencil).certify(candidate)
 }
 
@@ -108,18 +127,25 @@ mod tests {
     }
 
     fn pencil(problem: &Problem) -> &Pencil {
-        let Body::Pencil(pencil) = problem.body() else { panic!("a pencil") };
+        let Body::Pencil(pencil) = problem.body() else {
+            panic!("a pencil")
+        };
         pencil
     }
 
     fn good(problem: &Problem) -> Claim {
-        let candidate = Candidate { value: 2.0, x: vec![0.666667, 0.333333] };
+        let candidate = Candidate {
+            value: 2.0,
+            x: vec![0.666667, 0.333333],
+        };
         propose(pencil(problem), problem.window(), &candidate).unwrap()
     }
 
     /// The claim with an x that solves nothing.
     fn forged(problem: &Problem) -> Claim {
-        let Claim::ExactSolution(claim) = good(problem) else { panic!("an exact claim") };
+        let Claim::ExactSolution(claim) = good(problem) else {
+            panic!("an exact claim")
+        };
         let x = vec![vec![Number(whole(1))], vec![Number(whole(1))]];
         Claim::ExactSolution(ExactSolution { x, ..claim })
     }
@@ -130,7 +156,9 @@ mod tests {
         let sifted = sift(&problem, vec![forged(&problem), good(&problem)]);
 
         assert_eq!(sifted.accepted, [good(&problem)]);
-        let [(0, reason)] = &sifted.refused[..] else { panic!("one refusal: {:?}", sifted.refused) };
+        let [(0, reason)] = &sifted.refused[..] else {
+            panic!("one refusal: {:?}", sifted.refused)
+        };
         assert_eq!(reason.name(), "YNotZero");
     }
 
@@ -139,14 +167,34 @@ mod tests {
     fn a_forged_proposal_is_no_certified_solution() {
         let problem = problem();
         let certifier = Certifier::new(&problem, pencil(&problem));
-        let proposal = |claim: Claim| Proposal { support: vec![0, 1], claim: Ok(claim) };
+        let proposal = |claim: Claim| Proposal {
+            support: vec![0, 1],
+            claim: Ok(claim),
+        };
 
-        let alone = certifier.first_accepted([proposal(forged(&problem))].into_iter()).map(|_| ()).unwrap_err();
-        let [Attempt { failure: AttemptFailure::Refused { .. }, .. }] = &alone.attempts[..] else { panic!("{alone}") };
-        assert!(alone.to_string().contains("the checker refuses the claim"), "{alone}");
+        let alone = certifier
+            .first_accepted([proposal(forged(&problem))].into_iter())
+            .map(|_| ())
+            .unwrap_err();
+        let [
+            Attempt {
+                failure: AttemptFailure::Refused { .. },
+                ..
+            },
+        ] = &alone.attempts[..]
+        else {
+            panic!("{alone}")
+        };
+        assert!(
+            alone.to_string().contains("the checker refuses the claim"),
+            "{alone}"
+        );
 
         let both = [proposal(forged(&problem)), proposal(good(&problem))];
-        assert_eq!(certifier.first_accepted(both.into_iter()).unwrap().0, good(&problem));
+        assert_eq!(
+            certifier.first_accepted(both.into_iter()).unwrap().0,
+            good(&problem)
+        );
     }
 
     #[test]
@@ -154,11 +202,20 @@ mod tests {
         let problem = problem();
         let certifier = Certifier::new(&problem, pencil(&problem));
 
-        let near = Candidate { value: 2.000001, x: vec![0.666667, 0.333333] };
+        let near = Candidate {
+            value: 2.000001,
+            x: vec![0.666667, 0.333333],
+        };
         assert_eq!(certifier.certify(&near), Ok(good(&problem)));
-        assert_eq!(certify(&problem, pencil(&problem), &near), Ok(good(&problem)));
+        assert_eq!(
+            certify(&problem, pencil(&problem), &near),
+            Ok(good(&problem))
+        );
 
-        let between = Candidate { value: 2.5, x: vec![0.6, 0.4] };
+        let between = Candidate {
+            value: 2.5,
+            x: vec![0.6, 0.4],
+        };
         assert!(certifier.certify(&between).is_err());
     }
 }

@@ -1,9 +1,9 @@
 //! Enclosed claims: a box around a candidate in which Krawczyk's test holds.
 //!
-//! The centre comes from Newton's method with exact residuals ([`newton`]), the radii from Krawczyk's inequality
-//! ([`krawczyk`]). Both start on a grid of [`FIRST_GRID_BITS`] bits. Where a sign that the claim needs is not decided over
-//! the box (a local mode has components of 1e-20 of the largest), the grid is made finer and the box shrinks with it,
-//! down to [`LAST_GRID_BITS`].
+//! The centre comes from Newton's method with exact residuals ([`newton`]), the radii from
+//! Krawczyk's inequality ([`krawczyk`]). Both start on a grid of [`FIRST_GRID_BITS`] bits. Where a
+//! sign that the claim needs is not decided over the box (a local mode has components of 1e-20 of
+//! the largest), the grid is made finer and the box shrinks with it, down to [`LAST_GRID_BITS`].
 
 mod krawczyk;
 pub(super) mod newton;
@@ -19,14 +19,15 @@ use krawczyk::Krawczyk;
 use newton::{Newton, Point};
 use num_traits::Signed;
 
-/// Bits of the centre's largest component of x, and of its value, that are tried first. Basis: a value is printed with 17
-/// digits, which are 57 bits.
+/// Bits of the centre's largest component of x, and of its value, that are tried first. Basis: a
+/// value is printed with 17 digits, which are 57 bits.
 const FIRST_GRID_BITS: u32 = 64;
-/// The same, tried last; each try has twice the bits of the one before. Basis: components of 1e-150 of the largest are
-/// decided, and a component that is zero costs four tries.
+/// The same, tried last; each try has twice the bits of the one before. Basis: components of 1e-150
+/// of the largest are decided, and a component that is zero costs four tries.
 const LAST_GRID_BITS: u32 = 512;
 
-/// A box around the candidate in which Krawczyk's test should hold; `check` decides whether it does.
+/// A box around the candidate in which Krawczyk's test should hold; `check` decides whether it
+/// does.
 pub(super) fn make(
     pencil: &Pencil,
     rows: &IntegralRows,
@@ -40,19 +41,29 @@ pub(super) fn make(
     let newton = Newton::new(pencil, rows, support);
     let mut point = newton.start(candidate, FIRST_GRID_BITS)?;
 
-    let first_inverse = newton.inverse(&point).ok_or(AttemptFailure::SingularJacobian)?;
+    let first_inverse = newton
+        .inverse(&point)
+        .ok_or(AttemptFailure::SingularJacobian)?;
     newton.polish(&mut point, &first_inverse);
     is_near(&newton, &point, candidate)?;
 
     // At the polished centre the inverse is better.
-    let inverse = newton.inverse(&point).ok_or(AttemptFailure::SingularJacobian)?;
+    let inverse = newton
+        .inverse(&point)
+        .ok_or(AttemptFailure::SingularJacobian)?;
     let krawczyk = Krawczyk::new(&newton, &point, &inverse)?;
 
     let mut bits = FIRST_GRID_BITS;
     loop {
         newton.polish(&mut point, &inverse);
-        let radius = krawczyk.radii(&newton, &point).ok_or(AttemptFailure::NotContracting)?;
-        let enclosure = Enclosure { newton: &newton, point: &point, radius: &radius };
+        let radius = krawczyk
+            .radii(&newton, &point)
+            .ok_or(AttemptFailure::NotContracting)?;
+        let enclosure = Enclosure {
+            newton: &newton,
+            point: &point,
+            radius: &radius,
+        };
 
         match enclosure.undecided(window)? {
             None => return Ok(claim(support, &point, &radius, krawczyk)),
@@ -64,24 +75,50 @@ pub(super) fn make(
     }
 }
 
-fn claim(support: &[usize], point: &Point, radius: &[Integer], krawczyk: Krawczyk) -> EnclosedSolution {
+fn claim(
+    support: &[usize],
+    point: &Point,
+    radius: &[Integer],
+    krawczyk: Krawczyk,
+) -> EnclosedSolution {
     let last = point.x.len();
     let number = |k: usize, units: &Integer| Number(point.in_units(k, units));
 
     let center = (0..=last).map(|k| number(k, point.component(k))).collect();
-    let radius = radius.iter().enumerate().map(|(k, r)| number(k, r)).collect();
+    let radius = radius
+        .iter()
+        .enumerate()
+        .map(|(k, r)| number(k, r))
+        .collect();
     let (preconditioner, exponent) = krawczyk.into_preconditioner();
-    EnclosedSolution { support: support.to_vec(), center, radius, preconditioner, exponent }
+    EnclosedSolution {
+        support: support.to_vec(),
+        center,
+        radius,
+        preconditioner,
+        exponent,
+    }
 }
 
 /// Is the polished point the candidate, up to its rounding?
-fn is_near(newton: &Newton<'_>, point: &Point, candidate: &Candidate) -> Result<(), AttemptFailure> {
+fn is_near(
+    newton: &Newton<'_>,
+    point: &Point,
+    candidate: &Candidate,
+) -> Result<(), AttemptFailure> {
     let start = newton.start(candidate, FIRST_GRID_BITS)?;
     let difference = |k: usize| to_f64(&(point.value(k) - start.value(k))).abs();
     let distance = (0..=point.x.len()).map(difference).fold(0.0, f64::max);
 
     let limit = X_RADIUS.max(VALUE_RADIUS * (1.0 + candidate.value.abs()));
-    if distance > limit { Err(AttemptFailure::TooFar { distance, limit: X_RADIUS }) } else { Ok(()) }
+    if distance > limit {
+        Err(AttemptFailure::TooFar {
+            distance,
+            limit: X_RADIUS,
+        })
+    } else {
+        Ok(())
+    }
 }
 
 /// A sign that the claim needs and that is not the same all over the box.
@@ -95,9 +132,18 @@ enum Undecided {
 impl Undecided {
     fn failure(self, bits: u32) -> AttemptFailure {
         match self {
-            Undecided::Value => AttemptFailure::Undecided { what: "value - end of the window".into(), bits },
-            Undecided::X(index) => AttemptFailure::Undecided { what: format!("x[{index}]"), bits },
-            Undecided::Y(index) => AttemptFailure::Undecided { what: format!("y[{index}]"), bits },
+            Undecided::Value => AttemptFailure::Undecided {
+                what: "value - end of the window".into(),
+                bits,
+            },
+            Undecided::X(index) => AttemptFailure::Undecided {
+                what: format!("x[{index}]"),
+                bits,
+            },
+            Undecided::Y(index) => AttemptFailure::Undecided {
+                what: format!("y[{index}]"),
+                bits,
+            },
         }
     }
 }
@@ -137,13 +183,16 @@ struct Enclosure<'a> {
 }
 
 impl Enclosure<'_> {
-    /// The first sign that the box leaves open: of the value in the window, of x on the support, of y off it.
+    /// The first sign that the box leaves open: of the value in the window, of x on the support, of
+    /// y off it.
     ///
     /// # Errors
     /// A sign that is wrong all over the box.
     fn undecided(&self, window: &Window) -> Result<Option<Undecided>, AttemptFailure> {
-        let outside =
-            || AttemptFailure::NoRootNear { lo: window.min().to_string(), hi: window.max().map_or("infinity".into(), ToString::to_string) };
+        let outside = || AttemptFailure::NoRootNear {
+            lo: window.min().to_string(),
+            hi: window.max().map_or("infinity".into(), ToString::to_string),
+        };
         match self.value_in(window) {
             Side::Above => {}
             Side::Below => return Err(outside()),
@@ -154,7 +203,10 @@ impl Enclosure<'_> {
             if !self.newton.is_in_support(index) {
                 continue;
             }
-            let x = Ball { center: self.point.x[k].clone(), radius: self.radius[k].clone() };
+            let x = Ball {
+                center: self.point.x[k].clone(),
+                radius: self.radius[k].clone(),
+            };
             match x.side() {
                 Side::Above => {}
                 Side::Below => return Err(AttemptFailure::XNotPositive { index }),
@@ -172,10 +224,14 @@ impl Enclosure<'_> {
         Ok(None)
     }
 
-    /// `Above` where all values of the box lie in the window, whose ends belong to it; `Below` where none does.
+    /// `Above` where all values of the box lie in the window, whose ends belong to it; `Below`
+    /// where none does.
     fn value_in(&self, window: &Window) -> Side {
         let last = self.point.x.len();
-        let (center, radius) = (self.point.value(last), self.point.in_units(last, &self.radius[last]));
+        let (center, radius) = (
+            self.point.value(last),
+            self.point.in_units(last, &self.radius[last]),
+        );
         let (lo, hi) = (&center - &radius, &center + &radius);
 
         let holds = lo >= *window.min() && window.max().is_none_or(|max| hi <= *max);
@@ -192,7 +248,10 @@ impl Enclosure<'_> {
     /// y_i = sum_j (a_ij + t b_ij) x_j over the box, in units of the grid of x times that of t.
     fn y(&self, index: usize) -> Ball {
         let last = self.point.x.len();
-        let mut y = Ball { center: Integer::default(), radius: Integer::default() };
+        let mut y = Ball {
+            center: Integer::default(),
+            radius: Integer::default(),
+        };
 
         for (k, a, b) in self.newton.active_entries(index) {
             let (x, around_x) = (&self.point.x[k], &self.radius[k]);

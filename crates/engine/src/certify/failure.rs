@@ -74,7 +74,9 @@ pub enum AttemptFailure {
         limit: f64,
     },
     /// A sign that the claim needs is not the same all over the smallest box that is tried.
-    #[error("expected one sign of {what} over a box of 2^-{bits} of the largest component, got both or zero")]
+    #[error(
+        "expected one sign of {what} over a box of 2^-{bits} of the largest component, got both or zero"
+    )]
     Undecided {
         /// What has no certain sign: x, y, or the value's distance to an end of the window.
         what: String,
@@ -104,13 +106,22 @@ pub enum AttemptFailure {
 impl NotCertified {
     /// A failure before any support was tried.
     pub(super) fn of(failure: AttemptFailure) -> Self {
-        NotCertified { attempts: vec![Attempt { support: Vec::new(), failure }] }
+        NotCertified {
+            attempts: vec![Attempt {
+                support: Vec::new(),
+                failure,
+            }],
+        }
     }
 }
 
 impl std::fmt::Display for NotCertified {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let parts: Vec<String> = self.attempts.iter().map(|a| format!("support {:?}: {}", a.support, a.failure)).collect();
+        let parts: Vec<String> = self
+            .attempts
+            .iter()
+            .map(|a| format!("support {:?}: {}", a.support, a.failure))
+            .collect();
         f.write_str(&parts.join("; "))
     }
 }
@@ -124,10 +135,19 @@ mod tests {
     #[test]
     fn every_attempt_is_told() {
         let attempts = vec![
-            Attempt { support: vec![0, 2], failure: AttemptFailure::XNotPositive { index: 2 } },
-            Attempt { support: vec![1], failure: AttemptFailure::NotContracting },
+            Attempt {
+                support: vec![0, 2],
+                failure: AttemptFailure::XNotPositive { index: 2 },
+            },
+            Attempt {
+                support: vec![1],
+                failure: AttemptFailure::NotContracting,
+            },
         ];
         let told = NotCertified { attempts }.to_string();
-        assert!(told.starts_with("support [0, 2]: ") && told.contains("; support [1]: "), "{told}");
+        assert!(
+            told.starts_with("support [0, 2]: ") && told.contains("; support [1]: "),
+            "{told}"
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! An exact claim about the pencil as a claim about the mechanical system: v and w for every line of (9).
+//! An exact claim about the pencil as a claim about the mechanical system: v and w for every line
+//! of (9).
 
 use crate::certificate::{ExactSolution, LiftedSolution};
 use crate::exact::{Rational, Sparse};
@@ -16,19 +17,37 @@ pub fn lifted(system: &System, unknown: Unknown, claim: &ExactSolution) -> Lifte
     for (dof, x) in free.iter().zip(&claim.x) {
         v[*dof] = x.iter().map(number).collect();
     }
-    for ((particle, sign), x) in system.slip_particles().into_iter().zip(claim.x.iter().skip(free.len())) {
+    for ((particle, sign), x) in system
+        .slip_particles()
+        .into_iter()
+        .zip(claim.x.iter().skip(free.len()))
+    {
         let x: Vec<Rational> = x.iter().map(number).collect();
         let minus_s = Rational::from_integer((-sign).into());
-        particle.tangent().iter().for_each(|(dof, c)| add(&mut v[*dof], &(c * &minus_s), &x, 0));
+        particle
+            .tangent()
+            .iter()
+            .for_each(|(dof, c)| add(&mut v[*dof], &(c * &minus_s), &x, 0));
     }
     let mut w: Vec<Vec<Rational>> = vec![Vec::new(); system.dofs()];
-    let mut accumulate = |m: &Sparse, shift| m.entries().for_each(|(i, j, value)| add(&mut w[i], value, &v[j], shift));
+    let mut accumulate = |m: &Sparse, shift| {
+        m.entries()
+            .for_each(|(i, j, value)| add(&mut w[i], value, &v[j], shift))
+    };
     accumulate(system.stiffness(), 0);
     if let (Unknown::Lambda2, Some(mass)) = (unknown, system.mass()) {
         accumulate(mass, 1);
     }
-    let p: Vec<Rational> = claim.polynomial.iter().map(|c| &one * Rational::from_integer(c.clone())).collect();
-    let reduced = |list: Vec<Vec<Rational>>| list.into_iter().map(|g| remainder(g, &p).into_iter().map(Number).collect()).collect();
+    let p: Vec<Rational> = claim
+        .polynomial
+        .iter()
+        .map(|c| &one * Rational::from_integer(c.clone()))
+        .collect();
+    let reduced = |list: Vec<Vec<Rational>>| {
+        list.into_iter()
+            .map(|g| remainder(g, &p).into_iter().map(Number).collect())
+            .collect()
+    };
     LiftedSolution {
         support: claim.support.clone(),
         biactive: claim.biactive.clone(),
@@ -42,12 +61,21 @@ pub fn lifted(system: &System, unknown: Unknown, claim: &ExactSolution) -> Lifte
 /// The pencil's x behind a lifted claim: the way back of [`lifted`].
 pub fn flattened(system: &System, claim: &LiftedSolution) -> ExactSolution {
     let number = |p: &Vec<Number>| p.iter().map(|n| n.0.clone()).collect::<Vec<_>>();
-    let mut x: Vec<Vec<Rational>> = system.free_dofs().iter().map(|&d| claim.v.get(d).map(number).unwrap_or_default()).collect();
+    let mut x: Vec<Vec<Rational>> = system
+        .free_dofs()
+        .iter()
+        .map(|&d| claim.v.get(d).map(number).unwrap_or_default())
+        .collect();
     for (particle, sign) in system.slip_particles() {
         let minus_s = Rational::from_integer((-sign).into());
         let mut sum = Vec::new();
         for (dof, c) in particle.tangent() {
-            add(&mut sum, &(c * &minus_s), &claim.v.get(dof).map(number).unwrap_or_default(), 0);
+            add(
+                &mut sum,
+                &(c * &minus_s),
+                &claim.v.get(dof).map(number).unwrap_or_default(),
+                0,
+            );
         }
         x.push(sum);
     }
@@ -56,7 +84,9 @@ pub fn flattened(system: &System, claim: &LiftedSolution) -> ExactSolution {
         biactive: claim.biactive.clone(),
         polynomial: claim.polynomial.clone(),
         interval: claim.interval.clone(),
-        x: x.into_iter().map(|p| p.into_iter().map(Number).collect()).collect(),
+        x: x.into_iter()
+            .map(|p| p.into_iter().map(Number).collect())
+            .collect(),
     }
 }
 
@@ -72,7 +102,9 @@ fn add(sum: &mut Vec<Rational>, factor: &Rational, p: &[Rational], shift: usize)
 /// g mod p over Q.
 pub(super) fn remainder(mut rest: Vec<Rational>, p: &[Rational]) -> Vec<Rational> {
     let m = p.len();
-    let Some(lead) = p.last().filter(|l| m > 1 && !l.is_zero()) else { return rest };
+    let Some(lead) = p.last().filter(|l| m > 1 && !l.is_zero()) else {
+        return rest;
+    };
     while rest.len() >= m {
         let top = rest.pop().unwrap_or_else(Rational::zero) / lead;
         let shift = rest.len() + 1 - m;
@@ -93,7 +125,12 @@ mod tests {
 
     #[test]
     fn remainders_are_shorter_than_the_divisor() {
-        let of = |g: &[i64], p: &[i64]| remainder(g.iter().map(|&c| whole(c)).collect(), &p.iter().map(|&c| whole(c)).collect::<Vec<_>>());
+        let of = |g: &[i64], p: &[i64]| {
+            remainder(
+                g.iter().map(|&c| whole(c)).collect(),
+                &p.iter().map(|&c| whole(c)).collect::<Vec<_>>(),
+            )
+        };
         assert_eq!(of(&[1, 2, 3, 4], &[-2, 0, 1]), [whole(7), whole(10)]); // t^2 = 2
         assert_eq!(of(&[0, 0, 1], &[1, 0, 3]), [rational(-1, 3)]);
         assert_eq!(of(&[5, 1], &[-2, 1]), [whole(7)]);

@@ -1,4 +1,5 @@
-//! From a candidate in doubles to a claim that `check` has accepted ([`certify`], [`Certifier`]). May fail; is not trusted.
+//! From a candidate in doubles to a claim that `check` has accepted ([`certify`], [`Certifier`]).
+//! May fail; is not trusted.
 
 mod accepted;
 mod enclose;
@@ -37,9 +38,9 @@ struct Proposal {
 
 /// The claims that a candidate suggests, one per support that its components suggest, best first.
 ///
-/// They are made when they are asked for: the first one is accepted in general. Where a sign is wrong at a component that
-/// doubles cannot tell from zero, the support with that component changed comes next (for enclosures: exact claims have the
-/// support that was guessed).
+/// They are made when they are asked for: the first one is accepted in general. Where a sign is
+/// wrong at a component that doubles cannot tell from zero, the support with that component changed
+/// comes next (for enclosures: exact claims have the support that was guessed).
 struct Proposals<'a> {
     pencil: &'a Pencil,
     rows: &'a IntegralRows,
@@ -52,11 +53,18 @@ struct Proposals<'a> {
 }
 
 impl Proposals<'_> {
-    /// Puts the support with the component of a wrong sign changed next, where claims about it are enclosures.
+    /// Puts the support with the component of a wrong sign changed next, where claims about it are
+    /// enclosures.
     fn repair(&mut self, support: &[usize], failure: &AttemptFailure) {
-        let Some(repaired) = support::repaired(self.pencil, self.candidate, support, failure) else { return };
+        let Some(repaired) = support::repaired(self.pencil, self.candidate, support, failure)
+        else {
+            return;
+        };
         let is_known = self.guesses.contains(&repaired) || self.repaired.contains(&repaired);
-        if is_known || self.repaired.len() >= MAX_REPAIRS || is_short(self.pencil, self.rows, &repaired) {
+        if is_known
+            || self.repaired.len() >= MAX_REPAIRS
+            || is_short(self.pencil, self.rows, &repaired)
+        {
             return;
         }
         self.repaired.push(repaired.clone());
@@ -72,7 +80,15 @@ fn proposals<'a>(
 ) -> Result<Proposals<'a>, NotCertified> {
     let guesses = support::guesses(pencil, candidate).map_err(NotCertified::of)?;
     let waiting = guesses.iter().cloned().collect();
-    Ok(Proposals { pencil, rows, window, candidate, waiting, guesses, repaired: Vec::new() })
+    Ok(Proposals {
+        pencil,
+        rows,
+        window,
+        candidate,
+        waiting,
+        guesses,
+        repaired: Vec::new(),
+    })
 }
 
 impl Iterator for Proposals<'_> {
@@ -81,9 +97,16 @@ impl Iterator for Proposals<'_> {
     fn next(&mut self) -> Option<Proposal> {
         let support = self.waiting.pop_front()?;
         let is_repaired = self.repaired.contains(&support);
-        let mut claim = claim(self.pencil, self.rows, self.window, &support, self.candidate);
+        let mut claim = claim(
+            self.pencil,
+            self.rows,
+            self.window,
+            &support,
+            self.candidate,
+        );
         if is_repaired {
-            claim = claim.and_then(|claim| support::within_rounding(self.pencil, self.candidate, claim));
+            claim = claim
+                .and_then(|claim| support::within_rounding(self.pencil, self.candidate, claim));
         }
 
         if let Err(failure) = &claim {
@@ -93,11 +116,21 @@ impl Iterator for Proposals<'_> {
     }
 }
 
-/// A claim about the solution with this support near the candidate: exact where that is short, else an enclosure.
-fn claim(pencil: &Pencil, rows: &IntegralRows, window: &Window, support: &[usize], candidate: &Candidate) -> Result<Claim, AttemptFailure> {
+/// A claim about the solution with this support near the candidate: exact where that is short, else
+/// an enclosure.
+fn claim(
+    pencil: &Pencil,
+    rows: &IntegralRows,
+    window: &Window,
+    support: &[usize],
+    candidate: &Candidate,
+) -> Result<Claim, AttemptFailure> {
     let order = pencil.free().len() + support.len();
     if order > ENCLOSED_ORDER {
-        return Err(AttemptFailure::TooLarge { limit: ENCLOSED_ORDER, got: order });
+        return Err(AttemptFailure::TooLarge {
+            limit: ENCLOSED_ORDER,
+            got: order,
+        });
     }
 
     if is_short(pencil, rows, support) {
@@ -113,13 +146,18 @@ fn is_short(pencil: &Pencil, rows: &IntegralRows, support: &[usize]) -> bool {
     order <= EXACT_ORDER && order as u64 * rows.bits() <= EXACT_BITS
 }
 
-/// A claim that *nobody has checked*, for tools and tests that submit it themselves; [`certify`] is what to call.
+/// A claim that *nobody has checked*, for tools and tests that submit it themselves; [`certify`] is
+/// what to call.
 ///
 /// `pencil` is the reduced pencil of the problem in whose window the value must lie.
 ///
 /// # Errors
 /// [`NotCertified`] with every attempt and what failed in it.
-pub fn propose(pencil: &Pencil, window: &Window, candidate: &Candidate) -> Result<Claim, NotCertified> {
+pub fn propose(
+    pencil: &Pencil,
+    window: &Window,
+    candidate: &Candidate,
+) -> Result<Claim, NotCertified> {
     let rows = IntegralRows::of(pencil);
     let mut attempts = Vec::new();
     for Proposal { support, claim } in proposals(pencil, &rows, window, candidate)? {
@@ -166,7 +204,12 @@ impl IntegralRows {
 
     /// Bits of the largest coefficient.
     fn bits(&self) -> u64 {
-        self.0.iter().flatten().map(|(_, a, b)| a.bits().max(b.bits())).max().unwrap_or(0)
+        self.0
+            .iter()
+            .flatten()
+            .map(|(_, a, b)| a.bits().max(b.bits()))
+            .max()
+            .unwrap_or(0)
     }
 }
 
@@ -189,31 +232,56 @@ mod tests {
 
     fn kind(pencil: &Pencil, value: f64) -> &'static str {
         let n = pencil.order();
-        let candidate = Candidate { value, x: vec![1.0 / n as f64; n] };
+        let candidate = Candidate {
+            value,
+            x: vec![1.0 / n as f64; n],
+        };
         match propose(pencil, &Window::all(), &candidate) {
             Ok(Claim::ExactSolution(_)) => "exact",
             Ok(_) => "enclosed",
-            Err(e) if matches!(e.attempts.last(), Some(a) if matches!(a.failure, AttemptFailure::TooLarge { .. })) => "too large",
+            Err(e) if matches!(e.attempts.last(), Some(a) if matches!(a.failure, AttemptFailure::TooLarge { .. })) => {
+                "too large"
+            }
             Err(_) => "refused",
         }
     }
 
-    /// Small supports of short numbers are solved exactly; order times bits decides, and the order alone.
+    /// Small supports of short numbers are solved exactly; order times bits decides, and the order
+    /// alone.
     #[test]
     fn the_kind_of_a_claim_follows_the_size() {
-        let bits = |b: u64| rational(1, 1) + Rational::new(1.into(), Integer::from(1) << (b - 2)); // b - 1 bits over b - 1
+        // B - 1 bits over b - 1.
+        let bits = |b: u64| rational(1, 1) + Rational::new(1.into(), Integer::from(1) << (b - 2));
         assert_eq!(IntegralRows::of(&diagonal(2, &bits(100))).bits(), 99);
-        assert_eq!([kind(&diagonal(1, &bits(100)), 1.0), kind(&diagonal(1, &bits(EXACT_BITS)), 1.0)], ["exact", "exact"]);
+        assert_eq!(
+            [
+                kind(&diagonal(1, &bits(100)), 1.0),
+                kind(&diagonal(1, &bits(EXACT_BITS)), 1.0)
+            ],
+            ["exact", "exact"]
+        );
         assert_eq!(kind(&diagonal(1, &bits(EXACT_BITS + 3)), 1.0), "enclosed");
         // Two variables on one cycle, so that the null vector is the only one.
         let long = bits(EXACT_BITS / 2 + 10);
         let a = Sparse::from_entries(2, 2, [(0, 1, -long.clone()), (1, 0, -long)]);
-        assert_eq!(kind(&Pencil::new(a, Sparse::identity(2), vec![]).unwrap(), 1.0), "enclosed");
+        assert_eq!(
+            kind(&Pencil::new(a, Sparse::identity(2), vec![]).unwrap(), 1.0),
+            "enclosed"
+        );
         let cycle = |n: usize| {
             let a = Sparse::from_entries(n, n, (0..n).map(|i| (i, (i + 1) % n, whole(-1))));
             Pencil::new(a, Sparse::identity(n), vec![]).unwrap()
         };
-        assert_eq!([kind(&cycle(EXACT_ORDER), 1.0), kind(&cycle(EXACT_ORDER + 1), 1.0)], ["exact", "enclosed"]);
-        assert_eq!(kind(&diagonal(ENCLOSED_ORDER + 2, &whole(1)), 1.0), "too large");
+        assert_eq!(
+            [
+                kind(&cycle(EXACT_ORDER), 1.0),
+                kind(&cycle(EXACT_ORDER + 1), 1.0)
+            ],
+            ["exact", "enclosed"]
+        );
+        assert_eq!(
+            kind(&diagonal(ENCLOSED_ORDER + 2, &whole(1)), 1.0),
+            "too large"
+        );
     }
 }

@@ -1,4 +1,5 @@
-//! A null vector of the pencil on a given set, to any number of bits: signs beyond doubles are read off it.
+//! A null vector of the pencil on a given set, to any number of bits: signs beyond doubles are read
+//! off it.
 
 use super::IntegralRows;
 use super::enclose::newton::Newton;
@@ -19,9 +20,15 @@ pub(crate) struct PreciseNull {
     pub(crate) y: Vec<(usize, Rational)>,
 }
 
-/// Newton's method with exact residuals from a candidate, on a grid with `bits` bits for the largest component of x and
-/// for t. `None` where the Jacobian is singular in doubles or the candidate has no sum on the moving set.
-pub(crate) fn precise_null(pencil: &Pencil, moving: &[usize], candidate: &Candidate, bits: u32) -> Option<PreciseNull> {
+/// Newton's method with exact residuals from a candidate, on a grid with `bits` bits for the
+/// largest component of x and for t. `None` where the Jacobian is singular in doubles or the
+/// candidate has no sum on the moving set.
+pub(crate) fn precise_null(
+    pencil: &Pencil,
+    moving: &[usize],
+    candidate: &Candidate,
+    bits: u32,
+) -> Option<PreciseNull> {
     let rows = IntegralRows::of(pencil);
     let newton = Newton::new(pencil, &rows, moving);
 
@@ -34,12 +41,28 @@ pub(crate) fn precise_null(pencil: &Pencil, moving: &[usize], candidate: &Candid
     newton.polish(&mut point, &inverse);
 
     let is_moving = |index: &usize| moving.contains(index);
-    let positions = newton.active.iter().enumerate().filter(|(_, i)| is_moving(i));
+    let positions = newton
+        .active
+        .iter()
+        .enumerate()
+        .filter(|(_, i)| is_moving(i));
     let x = positions.map(|(k, &i)| (i, point.value(k))).collect();
 
-    let row = |i: usize| -> Integer { newton.active_entries(i).map(|(k, a, b)| point.entry(a, b) * &point.x[k]).sum() };
-    let y = newton.inactive().map(|i| (i, Rational::from_integer(row(i)))).collect();
-    Some(PreciseNull { value: point.value(newton.active.len()), x, y })
+    let row = |i: usize| -> Integer {
+        newton
+            .active_entries(i)
+            .map(|(k, a, b)| point.entry(a, b) * &point.x[k])
+            .sum()
+    };
+    let y = newton
+        .inactive()
+        .map(|i| (i, Rational::from_integer(row(i))))
+        .collect();
+    Some(PreciseNull {
+        value: point.value(newton.active.len()),
+        x,
+        y,
+    })
 }
 
 #[cfg(test)]
@@ -48,28 +71,68 @@ mod tests {
     use crate::exact::{Sparse, parse, whole};
     use num_traits::{One, Signed};
 
-    /// [[-2, 1e-30], [1e-30, 3]] + t I: on {0, 1} the small eigenvector component is about -1e-30 / 5, at rest y_1 = 1e-30.
+    /// [[-2, 1e-30], [1e-30, 3]] + t I: on {0, 1} the small eigenvector component is about -1e-30 /
+    /// 5, at rest y_1 = 1e-30.
     #[test]
     fn signs_beyond_doubles_are_right() {
         let small = parse("1e-30").unwrap();
-        let entries = [(0, 0, whole(-2)), (0, 1, small.clone()), (1, 0, small.clone()), (1, 1, whole(3))];
-        let pencil = Pencil::new(Sparse::from_entries(2, 2, entries), Sparse::identity(2), vec![]).unwrap();
-        let candidate = Candidate { value: 2.0, x: vec![1.0, 0.0] };
+        let entries = [
+            (0, 0, whole(-2)),
+            (0, 1, small.clone()),
+            (1, 0, small.clone()),
+            (1, 1, whole(3)),
+        ];
+        let pencil = Pencil::new(
+            Sparse::from_entries(2, 2, entries),
+            Sparse::identity(2),
+            vec![],
+        )
+        .unwrap();
+        let candidate = Candidate {
+            value: 2.0,
+            x: vec![1.0, 0.0],
+        };
 
         let both = precise_null(&pencil, &[0, 1], &candidate, 256).unwrap();
         let (index, x) = &both.x[1];
         let expected = -&small / whole(5);
-        assert!(*index == 1 && x.is_negative() && (x / expected - Rational::one()).abs() < parse("1e-20").unwrap(), "{x}");
+        assert!(
+            *index == 1
+                && x.is_negative()
+                && (x / expected - Rational::one()).abs() < parse("1e-20").unwrap(),
+            "{x}"
+        );
         assert!((&both.value - whole(2)).abs() < parse("1e-59").unwrap());
 
         let alone = precise_null(&pencil, &[0], &candidate, 256).unwrap();
-        assert!(alone.x.len() == 1 && alone.y.len() == 1 && alone.y[0].0 == 1 && alone.y[0].1.is_positive());
+        assert!(
+            alone.x.len() == 1
+                && alone.y.len() == 1
+                && alone.y[0].0 == 1
+                && alone.y[0].1.is_positive()
+        );
         assert_eq!(alone.value, whole(2));
     }
 
     #[test]
     fn a_candidate_without_a_sum_has_none() {
-        let pencil = Pencil::new(Sparse::from_ints(&[&[-1, 0], &[0, -1]]), Sparse::identity(2), vec![]).unwrap();
-        assert!(precise_null(&pencil, &[0, 1], &Candidate { value: 1.0, x: vec![1.0, -1.0] }, 128).is_none());
+        let pencil = Pencil::new(
+            Sparse::from_ints(&[&[-1, 0], &[0, -1]]),
+            Sparse::identity(2),
+            vec![],
+        )
+        .unwrap();
+        assert!(
+            precise_null(
+                &pencil,
+                &[0, 1],
+                &Candidate {
+                    value: 1.0,
+                    x: vec![1.0, -1.0]
+                },
+                128
+            )
+            .is_none()
+        );
     }
 }

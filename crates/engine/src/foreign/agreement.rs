@@ -1,10 +1,11 @@
 //! How near a reported solution is to the proven one.
 //!
-//! Value: |reported - proven| / max(|proven|, floor). The floor, VALUE_FLOOR times the least (|A||x|)_i / (|B||x|)_i over the
-//! active rows i in which B takes part, keeps the error of a value at or near 0 meaningful: t B x balances A x in each of these
-//! rows. x: both vectors are scaled to largest |x_i| = 1, and the largest difference of a
-//! component counts. What a proof leaves open (the half widths of an enclosure) is added to each difference, so that
-//! an error is never understated. A v that leaves v_d = 0 or v_Ns = 0 counts like a component of x.
+//! Value: |reported - proven| / max(|proven|, floor). The floor, VALUE_FLOOR times the least
+//! (|A||x|)_i / (|B||x|)_i over the active rows i in which B takes part, keeps the error of a value
+//! at or near 0 meaningful: t B x balances A x in each of these rows. x: both vectors are scaled to
+//! largest |x_i| = 1, and the largest difference of a component counts. What a proof leaves open
+//! (the half widths of an enclosure) is added to each difference, so that an error is never
+//! understated. A v that leaves v_d = 0 or v_Ns = 0 counts like a component of x.
 //!
 //! Input: an accepted claim and the report's numbers in doubles. Called by `judge`.
 
@@ -29,7 +30,8 @@ pub struct Agreement {
     pub proven: Vec<f64>,
 }
 
-/// A component of x (or of v) as reported and as proven, both vectors scaled to largest component 1.
+/// A component of x (or of v) as reported and as proven, both vectors scaled to largest component
+/// 1.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Component {
     /// `x` or `v`.
@@ -69,16 +71,23 @@ impl Proven {
     /// `None` for numbers beyond the range of doubles.
     fn of(problem: &Problem, reduced: &Reduced, claim: &Claim) -> Option<Proven> {
         let listed = Listed::of_claim(problem, reduced, claim);
-        let mut value = Ball { center: finite(&listed.value)?, radius: 0.0 };
+        let mut value = Ball {
+            center: finite(&listed.value)?,
+            radius: 0.0,
+        };
         let mut x = Vec::with_capacity(listed.x.len());
         for decimal in &listed.x {
-            x.push(Ball { center: finite(decimal)?, radius: 0.0 });
+            x.push(Ball {
+                center: finite(decimal)?,
+                radius: 0.0,
+            });
         }
 
         if let Claim::EnclosedSolution(c) = claim {
             value.radius = to_f64(&c.radius.last()?.0);
             let pencil = &reduced.pencil;
-            let is_active = |i: &usize| pencil.free().binary_search(i).is_ok() || c.support.contains(i);
+            let is_active =
+                |i: &usize| pencil.free().binary_search(i).is_ok() || c.support.contains(i);
             let active = (0..pencil.order()).filter(is_active);
             for (i, radius) in active.zip(&c.radius) {
                 x[i].radius = to_f64(&radius.0);
@@ -94,27 +103,53 @@ fn finite(decimal: &str) -> Option<f64> {
 }
 
 /// The errors of a reported solution against the claim that proves one near it.
-pub(super) fn agreement(problem: &Problem, reduced: &Reduced, claim: &Claim, reported: &Reported) -> Option<Agreement> {
+pub(super) fn agreement(
+    problem: &Problem,
+    reduced: &Reduced,
+    claim: &Claim,
+    reported: &Reported,
+) -> Option<Agreement> {
     let proven = Proven::of(problem, reduced, claim)?;
-    let value = value_error(reported.candidate.value, proven.value, value_floor(&reduced.pencil, support(claim), &proven.x));
+    let value = value_error(
+        reported.candidate.value,
+        proven.value,
+        value_floor(&reduced.pencil, support(claim), &proven.x),
+    );
     let (mut worst, scaled) = worst_component(&reported.candidate.x, &proven.x)?;
 
     if let Some(off) = reported.off.filter(|off| off.size > worst.error) {
-        worst = Component { vector: "v", index: off.dof, reported: off.size, proven: 0.0, error: off.size };
+        worst = Component {
+            vector: "v",
+            index: off.dof,
+            reported: off.size,
+            proven: 0.0,
+            error: off.size,
+        };
     }
-    Some(Agreement { value, worst, proven: scaled })
+    Some(Agreement {
+        value,
+        worst,
+        proven: scaled,
+    })
 }
 
 /// |reported - proven| / max(|proven|, floor), with the radius added to the difference.
 fn value_error(reported: f64, proven: Ball, floor: f64) -> f64 {
     let difference = (reported - proven.center).abs() + proven.radius;
-    if difference == 0.0 { 0.0 } else { difference / proven.center.abs().max(floor) }
+    if difference == 0.0 {
+        0.0
+    } else {
+        difference / proven.center.abs().max(floor)
+    }
 }
 
-/// VALUE_FLOOR min_i (|A||x|)_i / (|B||x|)_i over the active rows with (|B||x|)_i > 0; 0 where there are none, since then there
-/// is no scale of values.
+/// VALUE_FLOOR min_i (|A||x|)_i / (|B||x|)_i over the active rows with (|B||x|)_i > 0; 0 where
+/// there are none, since then there is no scale of values.
 fn value_floor(pencil: &Pencil, support: &[usize], x: &[Ball]) -> f64 {
-    let moduli: Vec<Rational> = x.iter().map(|ball| from_f64(ball.center.abs()).unwrap_or_default()).collect();
+    let moduli: Vec<Rational> = x
+        .iter()
+        .map(|ball| from_f64(ball.center.abs()).unwrap_or_default())
+        .collect();
     let active = pencil.free().iter().chain(support);
 
     let mut least: Option<Rational> = None;
@@ -129,7 +164,11 @@ fn value_floor(pencil: &Pencil, support: &[usize], x: &[Ball]) -> f64 {
         }
     }
     let scale = to_f64(&least.unwrap_or_default());
-    if scale.is_finite() { VALUE_FLOOR * scale } else { 0.0 }
+    if scale.is_finite() {
+        VALUE_FLOOR * scale
+    } else {
+        0.0
+    }
 }
 
 /// sum_j |row_j| |x_j|.
@@ -139,10 +178,18 @@ fn weighted(row: &[(usize, Rational)], moduli: &[Rational]) -> Rational {
 
 /// The component that differs most, and the proven x scaled to largest |x_i| = 1.
 fn worst_component(reported: &[f64], proven: &[Ball]) -> Option<(Component, Vec<f64>)> {
-    let largest_reported = reported.iter().map(|v| v.abs()).max_by(f64::total_cmp).filter(|v| *v > 0.0)?;
-    let largest_proven = proven.iter().max_by(|p, q| p.center.abs().total_cmp(&q.center.abs())).filter(|p| p.center != 0.0)?;
+    let largest_reported = reported
+        .iter()
+        .map(|v| v.abs())
+        .max_by(f64::total_cmp)
+        .filter(|v| *v > 0.0)?;
+    let largest_proven = proven
+        .iter()
+        .max_by(|p, q| p.center.abs().total_cmp(&q.center.abs()))
+        .filter(|p| p.center != 0.0)?;
     let scale = largest_proven.center.abs();
-    // Division by a scale known up to this relative error moves each component by as much of itself.
+    // Division by a scale known up to this relative error moves each component by as much of
+    // itself.
     let scale_error = largest_proven.radius / scale;
 
     let mut worst: Option<Component> = None;
@@ -155,7 +202,13 @@ fn worst_component(reported: &[f64], proven: &[Ball]) -> Option<(Component, Vec<
 
         scaled.push(proven);
         if worst.is_none_or(|w| error > w.error) {
-            worst = Some(Component { vector: "x", index, reported, proven, error });
+            worst = Some(Component {
+                vector: "x",
+                index,
+                reported,
+                proven,
+                error,
+            });
         }
     }
     worst.map(|worst| (worst, scaled))
@@ -167,7 +220,10 @@ mod tests {
     use crate::exact::Sparse;
 
     fn ball(center: f64) -> Ball {
-        Ball { center, radius: 0.0 }
+        Ball {
+            center,
+            radius: 0.0,
+        }
     }
 
     #[test]
@@ -176,44 +232,87 @@ mod tests {
         assert_eq!(value_error(2.5, ball(2.0), 4.0), 0.125);
         assert_eq!(value_error(0.5, ball(0.0), 2.0), 0.25);
         assert_eq!(value_error(0.0, ball(0.0), 0.0), 0.0);
-        assert_eq!(value_error(2.5, Ball { center: 2.0, radius: 0.5 }, 0.0), 0.5);
+        assert_eq!(
+            value_error(
+                2.5,
+                Ball {
+                    center: 2.0,
+                    radius: 0.5
+                },
+                0.0
+            ),
+            0.5
+        );
     }
 
     fn floor(a: &[&[i64]], b: &[&[i64]], free: &[usize], support: &[usize], x: &[f64]) -> f64 {
-        let pencil = Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec()).unwrap();
+        let pencil =
+            Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec()).unwrap();
         let x: Vec<Ball> = x.iter().map(|v| ball(*v)).collect();
         value_floor(&pencil, support, &x)
     }
 
-    /// The floor follows the unit of values: A in other units moves it, and so does B. Signs do not cancel.
+    /// The floor follows the unit of values: A in other units moves it, and so does B. Signs do not
+    /// cancel.
     #[test]
     fn the_floor_is_in_the_unit_of_values() {
-        let of = |a: i64, b: i64| floor(&[&[a, a], &[-a, a]], &[&[b, 0], &[0, b]], &[], &[0, 1], &[1.0, -1.0]);
+        let of = |a: i64, b: i64| {
+            floor(
+                &[&[a, a], &[-a, a]],
+                &[&[b, 0], &[0, b]],
+                &[],
+                &[0, 1],
+                &[1.0, -1.0],
+            )
+        };
         assert_eq!(of(-6, 2), 6.0 * VALUE_FLOOR);
         assert_eq!(of(-6000, 2), 6000.0 * VALUE_FLOOR);
         assert_eq!(of(-6, 0), 0.0);
     }
 
-    /// What takes no part in the solution does not move the floor: rows at rest, and rows multiplied by a large number.
+    /// What takes no part in the solution does not move the floor: rows at rest, and rows
+    /// multiplied by a large number.
     #[test]
     fn stiff_rows_elsewhere_do_not_move_the_floor() {
         let beside: &[&[i64]] = &[&[-3, 0], &[0, 1_000_000_000]];
-        assert_eq!(floor(beside, &[&[1, 0], &[0, 1]], &[], &[0], &[1.0, 0.0]), 3.0 * VALUE_FLOOR);
+        assert_eq!(
+            floor(beside, &[&[1, 0], &[0, 1]], &[], &[0], &[1.0, 0.0]),
+            3.0 * VALUE_FLOOR
+        );
 
         let scaled: &[&[i64]] = &[&[-3, 0], &[1_000_000_000, -1_000_000_000]];
-        assert_eq!(floor(scaled, &[&[1, 0], &[0, 0]], &[1], &[0], &[1.0, 1.0]), 3.0 * VALUE_FLOOR);
+        assert_eq!(
+            floor(scaled, &[&[1, 0], &[0, 0]], &[1], &[0], &[1.0, 1.0]),
+            3.0 * VALUE_FLOOR
+        );
     }
 
     /// Any positive scale; the largest component of each vector is 1 before they are compared.
     #[test]
     fn components_are_compared_at_largest_component_one() {
-        let (worst, scaled) = worst_component(&[-8.0, 2.0, 0.0], &[ball(-4.0), ball(1.0), ball(0.5)]).unwrap();
+        let (worst, scaled) =
+            worst_component(&[-8.0, 2.0, 0.0], &[ball(-4.0), ball(1.0), ball(0.5)]).unwrap();
         assert_eq!(scaled, [-1.0, 0.25, 0.125]);
-        assert_eq!(worst, Component { vector: "x", index: 2, reported: 0.0, proven: 0.125, error: 0.125 });
+        assert_eq!(
+            worst,
+            Component {
+                vector: "x",
+                index: 2,
+                reported: 0.0,
+                proven: 0.125,
+                error: 0.125
+            }
+        );
 
-        let wide = Ball { center: 4.0, radius: 1.0 };
+        let wide = Ball {
+            center: 4.0,
+            radius: 1.0,
+        };
         let (worst, _) = worst_component(&[8.0, 2.0], &[wide, ball(1.0)]).unwrap();
         assert_eq!((worst.index, worst.error), (0, 0.5));
-        assert!(worst_component(&[0.0], &[ball(1.0)]).is_none() && worst_component(&[1.0], &[ball(0.0)]).is_none());
+        assert!(
+            worst_component(&[0.0], &[ball(1.0)]).is_none()
+                && worst_component(&[1.0], &[ball(0.0)]).is_none()
+        );
     }
 }

@@ -41,7 +41,9 @@ pub struct Off {
 #[non_exhaustive]
 pub enum BadPoint {
     /// A v that leaves (9): v_d = 0 and v_Ns = 0 do not hold.
-    #[error("E9: v[{dof}]: expected no rate of sticking or into the obstacle, got {size:e} of the largest component")]
+    #[error(
+        "E9: v[{dof}]: expected no rate of sticking or into the obstacle, got {size:e} of the largest component"
+    )]
     OffConstraints {
         /// The degree of freedom where it is worst.
         dof: usize,
@@ -49,7 +51,9 @@ pub enum BadPoint {
         size: f64,
     },
     /// A vector of the wrong length.
-    #[error("solutions[{solution}]: expected {what} with {expected} components (see spec/formats.md for their order), got {got}")]
+    #[error(
+        "solutions[{solution}]: expected {what} with {expected} components (see spec/formats.md for their order), got {got}"
+    )]
     Length {
         /// Index in the report.
         solution: usize,
@@ -69,7 +73,9 @@ pub enum BadPoint {
         expected: &'static str,
     },
     /// A number beyond the range of doubles that have all their digits.
-    #[error("solutions[{solution}].{field}: expected 0 or a number between 2^-1022 and 2^1024 in size, got another one")]
+    #[error(
+        "solutions[{solution}].{field}: expected 0 or a number between 2^-1022 and 2^1024 in size, got another one"
+    )]
     OutOfRange {
         /// Index in the report.
         solution: usize,
@@ -153,27 +159,45 @@ struct RawSolution {
 }
 
 impl ForeignReport {
-    /// Reads a report on `problem`, whose reduction is `reduced`. Where a solution of a system has no x,
-    /// its v is projected by (10); what v_d and v_Ns may be at most is `X_RADIUS` of `tolerance.rs`.
+    /// Reads a report on `problem`, whose reduction is `reduced`. Where a solution of a system has
+    /// no x, its v is projected by (10); what v_d and v_Ns may be at most is `X_RADIUS` of
+    /// `tolerance.rs`.
     ///
     /// # Errors
-    /// [`ForeignError`]: not JSON of this shape, another version or problem. A solution that does not fit the
-    /// problem is no error of the report: its entry says why it is none.
-    pub fn read(text: &str, problem: &Problem, reduced: &Reduced) -> Result<ForeignReport, ForeignError> {
+    /// [`ForeignError`]: not JSON of this shape, another version or problem. A solution that does
+    /// not fit the problem is no error of the report: its entry says why it is none.
+    pub fn read(
+        text: &str,
+        problem: &Problem,
+        reduced: &Reduced,
+    ) -> Result<ForeignReport, ForeignError> {
         require_format(text, SOLUTIONS_FORMAT)?;
         let Object(raw): Object<Raw> = from_json(text)?;
         let expected = problem.sha256();
         if let Some(got) = raw.problem_sha256.filter(|d| *d != expected) {
-            return Err(ForeignError::Digest { expected, got: got.chars().take(80).collect() });
+            return Err(ForeignError::Digest {
+                expected,
+                got: got.chars().take(80).collect(),
+            });
         }
 
         let numbered = raw.solutions.iter().enumerate();
-        let solutions = numbered.map(|(k, Object(s))| solution(k, s, problem, reduced)).collect();
-        Ok(ForeignReport { solutions, continua: raw.continua })
+        let solutions = numbered
+            .map(|(k, Object(s))| solution(k, s, problem, reduced))
+            .collect();
+        Ok(ForeignReport {
+            solutions,
+            continua: raw.continua,
+        })
     }
 }
 
-fn solution(k: usize, s: &RawSolution, problem: &Problem, reduced: &Reduced) -> Result<Reported, BadPoint> {
+fn solution(
+    k: usize,
+    s: &RawSolution,
+    problem: &Problem,
+    reduced: &Reduced,
+) -> Result<Reported, BadPoint> {
     let mut off = None;
     let exact: Vec<Rational> = match (&s.x, &s.v, problem.body()) {
         (Some(x), _, _) => {
@@ -184,31 +208,72 @@ fn solution(k: usize, s: &RawSolution, problem: &Problem, reduced: &Reduced) -> 
             require_length(k, "v", system.dofs(), v.len())?;
             let v: Vec<Rational> = v.iter().map(|n| n.0.clone()).collect();
             let projected = project(&reduced.variables, &v);
-            off = projected.off.map(|(dof, size)| Off { dof, size: to_f64(&size) });
+            off = projected.off.map(|(dof, size)| Off {
+                dof,
+                size: to_f64(&size),
+            });
             projected.x
         }
-        (None, _, Body::System(_)) => return Err(BadPoint::NoVector { solution: k, expected: "x or v" }),
-        (None, _, Body::Pencil(_)) => return Err(BadPoint::NoVector { solution: k, expected: "x" }),
+        (None, _, Body::System(_)) => {
+            return Err(BadPoint::NoVector {
+                solution: k,
+                expected: "x or v",
+            });
+        }
+        (None, _, Body::Pencil(_)) => {
+            return Err(BadPoint::NoVector {
+                solution: k,
+                expected: "x",
+            });
+        }
     };
     if let Some(Off { dof, size }) = off.filter(|off| off.size > X_RADIUS) {
         return Err(BadPoint::OffConstraints { dof, size });
     }
 
-    let value = normal_double(&s.value.0).ok_or(BadPoint::OutOfRange { solution: k, field: "value" })?;
-    Ok(Reported { candidate: Candidate { value, x: scaled_doubles(&exact) }, off })
+    let value = normal_double(&s.value.0).ok_or(BadPoint::OutOfRange {
+        solution: k,
+        field: "value",
+    })?;
+    Ok(Reported {
+        candidate: Candidate {
+            value,
+            x: scaled_doubles(&exact),
+        },
+        off,
+    })
 }
 
-fn require_length(solution: usize, what: &'static str, expected: usize, got: usize) -> Result<(), BadPoint> {
-    if got == expected { Ok(()) } else { Err(BadPoint::Length { solution, what, expected, got }) }
+fn require_length(
+    solution: usize,
+    what: &'static str,
+    expected: usize,
+    got: usize,
+) -> Result<(), BadPoint> {
+    if got == expected {
+        Ok(())
+    } else {
+        Err(BadPoint::Length {
+            solution,
+            what,
+            expected,
+            got,
+        })
+    }
 }
 
 /// The nearest double, where it has all its digits.
 fn normal_double(v: &Rational) -> Option<f64> {
     let rounded = to_f64(v);
-    if v.is_zero() || rounded.is_normal() { Some(rounded) } else { None }
+    if v.is_zero() || rounded.is_normal() {
+        Some(rounded)
+    } else {
+        None
+    }
 }
 
-/// x with its largest component 1, rounded after that: x may be given in any scale, also beyond the doubles.
+/// x with its largest component 1, rounded after that: x may be given in any scale, also beyond the
+/// doubles.
 fn scaled_doubles(x: &[Rational]) -> Vec<f64> {
     let largest = x.iter().map(|v| v.abs()).max().filter(|v| !v.is_zero());
     match largest {

@@ -4,8 +4,8 @@ use super::ExactMcp;
 use crate::exact::{Integer, Rational, common_denominator};
 use num_traits::{Signed, Zero};
 
-/// (Unknowns) x (bits of a point over its common denominator) at most, so that a small file cannot buy
-/// much time. Unit: bits.
+/// (Unknowns) x (bits of a point over its common denominator) at most, so that a small file cannot
+/// buy much time. Unit: bits.
 pub const POINT_BITS: u64 = 1 << 24;
 /// Bits of a point over its common denominator, at most. Unit: bits.
 pub const NUMBER_BITS: u64 = 1 << 19;
@@ -56,13 +56,19 @@ pub enum Violated {
 /// [`Violated`], the first line that fails.
 pub fn check(problem: &ExactMcp, z: &[Rational]) -> Result<(), Violated> {
     if z.len() != problem.dimension() {
-        return Err(Violated::Length { expected: problem.dimension(), got: z.len() });
+        return Err(Violated::Length {
+            expected: problem.dimension(),
+            got: z.len(),
+        });
     }
     let (denominator, numerators) = over_common_denominator(z)?;
     for (index, z_i) in z.iter().enumerate() {
         let (lower, upper) = problem.bounds(index);
         if lower.is_some_and(|l| z_i < l) || upper.is_some_and(|u| z_i > u) {
-            return Err(Violated::Bounds { index, got: z_i.clone() });
+            return Err(Violated::Bounds {
+                index,
+                got: z_i.clone(),
+            });
         }
         let (at_lower, at_upper) = (lower == Some(z_i), upper == Some(z_i));
         let (row, scale) = scaled_row(problem, index, &numerators, &denominator);
@@ -73,7 +79,11 @@ pub fn check(problem: &ExactMcp, z: &[Rational]) -> Result<(), Violated> {
             (false, false) => (row.is_zero(), "0 between the bounds"),
         };
         if !holds {
-            return Err(Violated::Sign { index, expected, got: Rational::new(row, scale) });
+            return Err(Violated::Sign {
+                index,
+                expected,
+                got: Rational::new(row, scale),
+            });
         }
     }
     Ok(())
@@ -82,24 +92,47 @@ pub fn check(problem: &ExactMcp, z: &[Rational]) -> Result<(), Violated> {
 /// z as integers over one denominator, if that is not too long.
 fn over_common_denominator(z: &[Rational]) -> Result<(Integer, Vec<Integer>), Violated> {
     let expected = (POINT_BITS / (z.len() as u64).max(1)).min(NUMBER_BITS);
-    let fits = |bits: u64| if bits <= expected { Ok(()) } else { Err(Violated::TooLarge { expected, got: bits }) };
+    let fits = |bits: u64| {
+        if bits <= expected {
+            Ok(())
+        } else {
+            Err(Violated::TooLarge {
+                expected,
+                got: bits,
+            })
+        }
+    };
     let mut denominator = Integer::from(1);
     for z_i in z {
         fits(z_i.denom().bits().max(z_i.numer().bits()))?;
         denominator = common_denominator([&Rational::new_raw(1.into(), denominator), z_i]);
         fits(denominator.bits())?;
     }
-    let numerators: Vec<Integer> = z.iter().map(|z_i| z_i.numer() * (&denominator / z_i.denom())).collect();
+    let numerators: Vec<Integer> = z
+        .iter()
+        .map(|z_i| z_i.numer() * (&denominator / z_i.denom()))
+        .collect();
     fits(denominator.bits() + numerators.iter().map(Integer::bits).max().unwrap_or(0))?;
     Ok((denominator, numerators))
 }
 
 /// F_i times a positive integer, and that integer.
-fn scaled_row(problem: &ExactMcp, i: usize, z: &[Integer], denominator: &Integer) -> (Integer, Integer) {
+fn scaled_row(
+    problem: &ExactMcp,
+    i: usize,
+    z: &[Integer],
+    denominator: &Integer,
+) -> (Integer, Integer) {
     let (row, q) = problem.row(i);
     let scale = common_denominator(row.iter().chain([q]));
     let integral = |v: &Rational| v.numer() * (&scale / v.denom());
-    let sum = row.iter().zip(z).filter(|(m, _)| !m.is_zero()).fold(integral(q) * denominator, |sum, (m, z)| sum + integral(m) * z);
+    let sum = row
+        .iter()
+        .zip(z)
+        .filter(|(m, _)| !m.is_zero())
+        .fold(integral(q) * denominator, |sum, (m, z)| {
+            sum + integral(m) * z
+        });
     (sum, scale * denominator)
 }
 
@@ -109,7 +142,8 @@ mod tests {
     use crate::exact::{rational, whole};
     use crate::lcp::read_mcp;
 
-    /// z0 in [0, 3/2] with F0 = 1 - z0 (solutions 0, 1, 3/2 once z1 is free and F1 = z1 / 3 + z0 / 7 vanishes).
+    /// z0 in [0, 3/2] with F0 = 1 - z0 (solutions 0, 1, 3/2 once z1 is free and F1 = z1 / 3 + z0 /
+    /// 7 vanishes).
     fn problem() -> ExactMcp {
         read_mcp(r#"{"format":"mceip-mcp/1","m":[[-1,0],["1/7","1/3"]],"q":[1,0],"lower":[0,null],"upper":["3/2",null]}"#).unwrap()
     }
@@ -123,17 +157,44 @@ mod tests {
             // The scaled row is F itself, and a thousandth of it off is seen.
             let off = &z1 + rational(1, 1000);
             let got = p.function(&[z0.clone(), off.clone()])[1].clone();
-            assert_eq!(check(&p, &[z0, off]), Err(Violated::Sign { index: 1, expected: "0 between the bounds", got }));
+            assert_eq!(
+                check(&p, &[z0, off]),
+                Err(Violated::Sign {
+                    index: 1,
+                    expected: "0 between the bounds",
+                    got
+                })
+            );
         }
-        assert!(matches!(check(&p, &[rational(1, 2), whole(0)]), Err(Violated::Sign { index: 0, .. })));
-        assert!(matches!(check(&p, &[whole(2), whole(0)]), Err(Violated::Bounds { index: 0, .. })));
-        let narrow = read_mcp(r#"{"format":"mceip-mcp/1","m":[[1]],"q":[-2],"upper":[1]}"#).unwrap();
+        assert!(matches!(
+            check(&p, &[rational(1, 2), whole(0)]),
+            Err(Violated::Sign { index: 0, .. })
+        ));
+        assert!(matches!(
+            check(&p, &[whole(2), whole(0)]),
+            Err(Violated::Bounds { index: 0, .. })
+        ));
+        let narrow =
+            read_mcp(r#"{"format":"mceip-mcp/1","m":[[1]],"q":[-2],"upper":[1]}"#).unwrap();
         assert_eq!(check(&narrow, &[whole(1)]), Ok(()));
-        let wrong = read_mcp(r#"{"format":"mceip-mcp/1","m":[[1]],"q":[2],"lower":[-1],"upper":[1]}"#).unwrap();
-        assert!(matches!(check(&wrong, &[whole(1)]), Err(Violated::Sign { expected: "<= 0 at the upper bound", .. })));
-        let fixed = read_mcp(r#"{"format":"mceip-mcp/1","m":[[1]],"q":[-9],"lower":[1],"upper":[1]}"#).unwrap();
+        let wrong =
+            read_mcp(r#"{"format":"mceip-mcp/1","m":[[1]],"q":[2],"lower":[-1],"upper":[1]}"#)
+                .unwrap();
+        assert!(matches!(
+            check(&wrong, &[whole(1)]),
+            Err(Violated::Sign {
+                expected: "<= 0 at the upper bound",
+                ..
+            })
+        ));
+        let fixed =
+            read_mcp(r#"{"format":"mceip-mcp/1","m":[[1]],"q":[-9],"lower":[1],"upper":[1]}"#)
+                .unwrap();
         assert_eq!(check(&fixed, &[whole(1)]), Ok(()));
-        assert!(matches!(check(&fixed, &[whole(2)]), Err(Violated::Bounds { .. })));
+        assert!(matches!(
+            check(&fixed, &[whole(2)]),
+            Err(Violated::Bounds { .. })
+        ));
     }
 
     /// Long numbers with denominators of their own are refused before they are multiplied.
@@ -144,8 +205,20 @@ mod tests {
         let p = ExactMcp::new(m, vec![whole(0); n], vec![None; n], vec![None; n]).unwrap();
         let long = |i: usize| Rational::new(1.into(), (Integer::from(1) << 16_000) + 2 * i + 1);
         let z: Vec<Rational> = (0..n).map(long).collect();
-        assert!(matches!(check(&p, &z), Err(Violated::TooLarge { expected: 262_144, .. })));
+        assert!(matches!(
+            check(&p, &z),
+            Err(Violated::TooLarge {
+                expected: 262_144,
+                ..
+            })
+        ));
         assert_eq!(check(&p, &vec![long(1); n]), Ok(()));
-        assert!(matches!(check(&p, &vec![Rational::from_integer(Integer::from(1) << 300_000); n]), Err(Violated::TooLarge { .. })));
+        assert!(matches!(
+            check(
+                &p,
+                &vec![Rational::from_integer(Integer::from(1) << 300_000); n]
+            ),
+            Err(Violated::TooLarge { .. })
+        ));
     }
 }

@@ -40,8 +40,8 @@ pub enum FileError {
 
 /// Reads `{"format": "mceip-mcp/1", "m": [[...]], "q": [...], "lower": [...], "upper": [...]}`.
 ///
-/// Numbers are read exactly. Bounds are optional: without `lower` all are 0, without `upper` there are
-/// none; an entry `null` is an absent bound. An LCP needs m and q only.
+/// Numbers are read exactly. Bounds are optional: without `lower` all are 0, without `upper` there
+/// are none; an entry `null` is an absent bound. An LCP needs m and q only.
 ///
 /// # Errors
 /// [`FileError`] with the place, what was expected and what was found.
@@ -50,7 +50,10 @@ pub enum FileError {
 /// use mceip_engine::lcp::read_mcp;
 /// let lcp = read_mcp(r#"{"format": "mceip-mcp/1", "m": [["1/2"]], "q": [-1]}"#).unwrap();
 /// assert_eq!(lcp.dimension(), 1);
-/// assert!(read_mcp(r#"{"format": "mceip-mcp/1", "m": [[1]], "q": [-1], "lower": [2], "upper": [1]}"#).is_err());
+/// assert!(
+///     read_mcp(r#"{"format": "mceip-mcp/1", "m": [[1]], "q": [-1], "lower": [2], "upper": [1]}"#)
+///         .is_err()
+/// );
 /// ```
 pub fn read_mcp(text: &str) -> Result<ExactMcp, FileError> {
     require_format(text, MCP_FORMAT)?;
@@ -62,7 +65,12 @@ pub fn read_mcp(text: &str) -> Result<ExactMcp, FileError> {
         None => vec![default; n],
     };
     let m = raw.m.into_iter().map(exact).collect();
-    Ok(ExactMcp::new(m, exact(raw.q), bounds(raw.lower, Some(whole(0))), bounds(raw.upper, None))?)
+    Ok(ExactMcp::new(
+        m,
+        exact(raw.q),
+        bounds(raw.lower, Some(whole(0))),
+        bounds(raw.upper, None),
+    )?)
 }
 
 #[derive(Deserialize)]
@@ -97,8 +105,15 @@ pub fn write_solution(problem: &ExactMcp, points: &[Vec<Rational>]) -> String {
 pub fn read_solution(text: &str) -> Result<McpCertificate, FileError> {
     require_format(text, SOLUTION_FORMAT)?;
     let raw: RawSolution = from_json(text)?;
-    let points = raw.z.into_iter().map(|z| z.into_iter().map(|v| v.0).collect()).collect();
-    Ok(McpCertificate { problem_sha256: raw.problem_sha256, points })
+    let points = raw
+        .z
+        .into_iter()
+        .map(|z| z.into_iter().map(|v| v.0).collect())
+        .collect();
+    Ok(McpCertificate {
+        problem_sha256: raw.problem_sha256,
+        points,
+    })
 }
 
 /// The problem as a file on one line, every bound spelt out; reading it gives the same problem.
@@ -107,8 +122,12 @@ pub fn write_mcp(problem: &ExactMcp) -> String {
     let m: Vec<Vec<String>> = (0..n).map(|i| fractions(problem.row(i).0)).collect();
     let q: Vec<String> = (0..n).map(|i| problem.row(i).1.to_string()).collect();
     let bound = |b: Option<&Rational>| b.map(ToString::to_string);
-    let (lower, upper): (Vec<_>, Vec<_>) = (0..n).map(|i| problem.bounds(i)).map(|(l, u)| (bound(l), bound(u))).unzip();
-    serde_json::json!({ "format": MCP_FORMAT, "m": m, "q": q, "lower": lower, "upper": upper }).to_string()
+    let (lower, upper): (Vec<_>, Vec<_>) = (0..n)
+        .map(|i| problem.bounds(i))
+        .map(|(l, u)| (bound(l), bound(u)))
+        .unzip();
+    serde_json::json!({ "format": MCP_FORMAT, "m": m, "q": q, "lower": lower, "upper": upper })
+        .to_string()
 }
 
 fn fractions(list: &[Rational]) -> Vec<String> {
@@ -124,27 +143,66 @@ mod tests {
     #[test]
     fn defaults_round_trip_and_refusals() {
         let p = read_mcp(r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,"-6"],"lower":[null,0],"upper":[3,null]}"#).unwrap();
-        assert_eq!((p.bounds(0), p.bounds(1)), ((None, Some(&whole(3))), (Some(&whole(0)), None)));
+        assert_eq!(
+            (p.bounds(0), p.bounds(1)),
+            ((None, Some(&whole(3))), (Some(&whole(0)), None))
+        );
         let text = write_solution(&p, &[vec![whole(1), whole(2)]]);
         let certificate = read_solution(&text).unwrap();
         assert_eq!(certificate.points, vec![vec![whole(1), whole(2)]]);
-        assert!(matches!(judge(&p, &certificate), Err(McpRejected::Solution { index: 0, violated: Violated::Sign { index: 0, .. } })));
-        let good = McpCertificate { points: vec![vec![rational(4, 3), rational(7, 3)]], ..certificate.clone() };
+        assert!(matches!(
+            judge(&p, &certificate),
+            Err(McpRejected::Solution {
+                index: 0,
+                violated: Violated::Sign { index: 0, .. }
+            })
+        ));
+        let good = McpCertificate {
+            points: vec![vec![rational(4, 3), rational(7, 3)]],
+            ..certificate.clone()
+        };
         assert_eq!(judge(&p, &good), Ok(1));
-        assert_eq!(judge(&p, &McpCertificate { points: vec![], ..certificate.clone() }), Err(McpRejected::NoClaims));
+        assert_eq!(
+            judge(
+                &p,
+                &McpCertificate {
+                    points: vec![],
+                    ..certificate.clone()
+                }
+            ),
+            Err(McpRejected::NoClaims)
+        );
         let other = read_mcp(r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,-6]}"#).unwrap();
-        assert!(matches!(judge(&other, &good), Err(McpRejected::Digest { .. })));
+        assert!(matches!(
+            judge(&other, &good),
+            Err(McpRejected::Digest { .. })
+        ));
         assert_eq!(read_mcp(&write_mcp(&p)).unwrap(), p);
         assert_eq!(read_mcp(&write_mcp(&other)).unwrap(), other);
         for (bad, message) in [
-            (r#"{"format":"mceip-mcp/1","m":[[2,1]],"q":[-5,1]}"#, "expected m of length 2, got 1"),
-            (r#"{"format":"mceip-mcp/1","m":[[2,1],[1]],"q":[-5,1]}"#, "expected row 1 of m of length 2, got 1"),
-            (r#"{"format":"mceip-mcp/1","m":[[2]],"q":[-5],"lower":[1],"upper":["1/2"]}"#, "expected lower <= upper at 0, got 1 and 1/2"),
-            (r#"{"format":"mceip-mcp/1","m":[["nan"]],"q":[-5]}"#, "expected a decimal or p/q"),
+            (
+                r#"{"format":"mceip-mcp/1","m":[[2,1]],"q":[-5,1]}"#,
+                "expected m of length 2, got 1",
+            ),
+            (
+                r#"{"format":"mceip-mcp/1","m":[[2,1],[1]],"q":[-5,1]}"#,
+                "expected row 1 of m of length 2, got 1",
+            ),
+            (
+                r#"{"format":"mceip-mcp/1","m":[[2]],"q":[-5],"lower":[1],"upper":["1/2"]}"#,
+                "expected lower <= upper at 0, got 1 and 1/2",
+            ),
+            (
+                r#"{"format":"mceip-mcp/1","m":[["nan"]],"q":[-5]}"#,
+                "expected a decimal or p/q",
+            ),
             (r#"{"format":"mceip-problem/1"}"#, "mceip-mcp/1"),
         ] {
             let error = read_mcp(bad).unwrap_err().to_string();
-            assert!(error.contains(message) && error.lines().count() == 1, "{error}");
+            assert!(
+                error.contains(message) && error.lines().count() == 1,
+                "{error}"
+            );
         }
     }
 }

@@ -1,8 +1,8 @@
 //! Plain linear MCPs and LCPs in exact numbers, apart from friction: file, solution, exact check.
 //!
 //! F(z) = M z + q on [l, u]. `file` reads `mceip-mcp/1`, `certify` turns a solver's point into an
-//! exact one, `check` decides (multiplies and compares, nothing else), `verdict` applies it to a file,
-//! `search` runs the solver.
+//! exact one, `check` decides (multiplies and compares, nothing else), `verdict` applies it to a
+//! file, `search` runs the solver.
 
 mod certify;
 mod check;
@@ -12,7 +12,10 @@ mod verdict;
 
 pub use certify::{Uncertifiable, certify};
 pub use check::{NUMBER_BITS, POINT_BITS, Violated, check};
-pub use file::{FileError, MCP_FORMAT, McpCertificate, SOLUTION_FORMAT, read_mcp, read_solution, write_mcp, write_solution};
+pub use file::{
+    FileError, MCP_FORMAT, McpCertificate, SOLUTION_FORMAT, read_mcp, read_solution, write_mcp,
+    write_solution,
+};
 pub use search::{Found, Search, search};
 pub use verdict::{McpRejected, judge};
 
@@ -69,18 +72,33 @@ impl ExactMcp {
         upper: Vec<Option<Rational>>,
     ) -> Result<Self, ExactMcpError> {
         let n = q.len();
-        let rows = m.iter().enumerate().map(|(i, row)| (format!("row {i} of m"), row.len()));
-        let parts = [("m".to_string(), m.len()), ("lower".into(), lower.len()), ("upper".into(), upper.len())];
+        let rows = m
+            .iter()
+            .enumerate()
+            .map(|(i, row)| (format!("row {i} of m"), row.len()));
+        let parts = [
+            ("m".to_string(), m.len()),
+            ("lower".into(), lower.len()),
+            ("upper".into(), upper.len()),
+        ];
         for (what, got) in parts.into_iter().chain(rows) {
             if got != n {
-                return Err(ExactMcpError::Shape { what, expected: n, got });
+                return Err(ExactMcpError::Shape {
+                    what,
+                    expected: n,
+                    got,
+                });
             }
         }
         for (index, bounds) in lower.iter().zip(&upper).enumerate() {
             if let (Some(l), Some(u)) = bounds
                 && l > u
             {
-                return Err(ExactMcpError::Bounds { index, lower: l.clone(), upper: u.clone() });
+                return Err(ExactMcpError::Bounds {
+                    index,
+                    lower: l.clone(),
+                    upper: u.clone(),
+                });
             }
         }
         Ok(ExactMcp { m, q, lower, upper })
@@ -98,7 +116,13 @@ impl ExactMcp {
 
     /// M z + q, exactly; z of length n.
     pub fn function(&self, z: &[Rational]) -> Vec<Rational> {
-        let row = |i: usize| self.m[i].iter().zip(z).filter(|(a, _)| !a.is_zero()).fold(self.q[i].clone(), |sum, (a, b)| sum + a * b);
+        let row = |i: usize| {
+            self.m[i]
+                .iter()
+                .zip(z)
+                .filter(|(a, _)| !a.is_zero())
+                .fold(self.q[i].clone(), |sum, (a, b)| sum + a * b)
+        };
         (0..self.q.len()).map(row).collect()
     }
 
@@ -122,20 +146,32 @@ impl ExactMcp {
         LinearMcp::new(
             DMatrix::from_fn(n, n, |i, j| to_f64(&self.m[i][j])),
             self.q.iter().map(to_f64).collect(),
-            self.lower.iter().map(|b| bound(b, f64::NEG_INFINITY)).collect(),
+            self.lower
+                .iter()
+                .map(|b| bound(b, f64::NEG_INFINITY))
+                .collect(),
             self.upper.iter().map(|b| bound(b, f64::INFINITY)).collect(),
         )
     }
 
-    /// SHA-256, lower-case hex, of the canonical text: `mceip-mcp-canonical/1`, n, then a line for each
-    /// row of M with q, l and u appended, rationals in lowest terms, `-` for an absent bound.
+    /// SHA-256, lower-case hex, of the canonical text: `mceip-mcp-canonical/1`, n, then a line for
+    /// each row of M with q, l and u appended, rationals in lowest terms, `-` for an absent bound.
     pub fn sha256(&self) -> String {
         let mut text = format!("mceip-mcp-canonical/1\n{}\n", self.q.len());
         let bound = |b: &Option<Rational>| b.as_ref().map_or("-".to_string(), ToString::to_string);
         for i in 0..self.q.len() {
             let row: Vec<String> = self.m[i].iter().map(ToString::to_string).collect();
-            text += &format!("{} {} {} {}\n", row.join(" "), self.q[i], bound(&self.lower[i]), bound(&self.upper[i]));
+            text += &format!(
+                "{} {} {} {}\n",
+                row.join(" "),
+                self.q[i],
+                bound(&self.lower[i]),
+                bound(&self.upper[i])
+            );
         }
-        Sha256::digest(text.as_bytes()).iter().map(|b| format!("{b:02x}")).collect()
+        Sha256::digest(text.as_bytes())
+            .iter()
+            .map(|b| format!("{b:02x}"))
+            .collect()
     }
 }

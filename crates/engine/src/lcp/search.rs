@@ -1,10 +1,13 @@
-//! Many starts on a plain problem: Lemke's ray first, then the solver and curves from seeded points.
+//! Many starts on a plain problem: Lemke's ray first, then the solver and curves from seeded
+//! points.
 #![allow(clippy::float_arithmetic)]
 
 use super::{ExactMcp, Uncertifiable, certify};
 use crate::exact::Rational;
 use crate::multistart::trace_outcome;
-use crate::solver::{Counters, Options, Outcome, Sense, SolverError, Termination, continuation, solve, solve_linear};
+use crate::solver::{
+    Counters, Options, Outcome, Sense, SolverError, Termination, continuation, solve, solve_linear,
+};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
@@ -43,8 +46,8 @@ pub struct Search {
     pub options: Options,
 }
 
-/// Run 0 is Lemke's method, run 1 the solver from 0; then by turns the solver and, with `all`, curves
-/// from random points (standard Cauchy components, so that all scales occur).
+/// Run 0 is Lemke's method, run 1 the solver from 0; then by turns the solver and, with `all`,
+/// curves from random points (standard Cauchy components, so that all scales occur).
 ///
 /// Without `all` it stops at the first certified solution.
 ///
@@ -53,24 +56,39 @@ pub struct Search {
 pub fn search(problem: &ExactMcp, how: &Search) -> Result<Found, SolverError> {
     let doubles = problem.to_f64()?;
     let mut rng = ChaCha8Rng::seed_from_u64(how.seed);
-    let mut hunt = Hunt { problem, is_traced: how.trace, found: Found::default() };
+    let mut hunt = Hunt {
+        problem,
+        is_traced: how.trace,
+        found: Found::default(),
+    };
     for k in 0..how.starts {
         if !how.all && !hunt.found.certified.is_empty() {
             break;
         }
         let mut cauchy = || (std::f64::consts::PI * (rng.random_range(0.01..0.99) - 0.5)).tan();
-        let start: Vec<f64> = (0..problem.dimension()).map(|_| if k < 2 { 0.0 } else { cauchy() }).collect();
+        let start: Vec<f64> = (0..problem.dimension())
+            .map(|_| if k < 2 { 0.0 } else { cauchy() })
+            .collect();
         if how.all && k % 2 == 1 {
             for sense in [Sense::Down, Sense::Up] {
                 let curve = continuation(&doubles, &start, sense, 16, &how.options)?;
                 hunt.count(&curve.counters);
-                hunt.trace(|| format!("curve from {start:?} {sense:?} ended {:?}, met {:?}\n", curve.end, curve.solutions));
+                hunt.trace(|| {
+                    format!(
+                        "curve from {start:?} {sense:?} ended {:?}, met {:?}\n",
+                        curve.end, curve.solutions
+                    )
+                });
                 for point in curve.solutions {
                     hunt.run(solve(&doubles, &point, &how.options)?, &point);
                 }
             }
         }
-        let outcome = if k == 0 { solve_linear(&doubles, &how.options)? } else { solve(&doubles, &start, &how.options)? };
+        let outcome = if k == 0 {
+            solve_linear(&doubles, &how.options)?
+        } else {
+            solve(&doubles, &start, &how.options)?
+        };
         hunt.run(outcome, &start);
     }
     Ok(hunt.found)

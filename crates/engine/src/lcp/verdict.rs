@@ -29,24 +29,31 @@ pub enum McpRejected {
 }
 
 impl McpRejected {
-    /// The obligation's name, as `spec/corpus` states it: `Digest`, `NoClaims`, `Length`, `TooLarge`, `Bounds`, `Sign`.
+    /// The obligation's name, as `spec/corpus` states it: `Digest`, `NoClaims`, `Length`,
+    /// `TooLarge`, `Bounds`, `Sign`.
     pub fn name(&self) -> String {
         let text = match self {
             McpRejected::Solution { violated, .. } => format!("{violated:?}"),
             other => format!("{other:?}"),
         };
-        text.chars().take_while(char::is_ascii_alphanumeric).collect()
+        text.chars()
+            .take_while(char::is_ascii_alphanumeric)
+            .collect()
     }
 }
 
-/// The number of points of an accepted file; an accepted file has one at least, and each is a solution.
+/// The number of points of an accepted file; an accepted file has one at least, and each is a
+/// solution.
 ///
 /// # Errors
 /// [`McpRejected`], the first obligation that fails.
 pub fn judge(problem: &ExactMcp, certificate: &McpCertificate) -> Result<usize, McpRejected> {
     let expected = problem.sha256();
     if certificate.problem_sha256 != expected {
-        return Err(McpRejected::Digest { expected, got: certificate.problem_sha256.chars().take(80).collect() });
+        return Err(McpRejected::Digest {
+            expected,
+            got: certificate.problem_sha256.chars().take(80).collect(),
+        });
     }
     if certificate.points.is_empty() {
         return Err(McpRejected::NoClaims);

@@ -1,5 +1,6 @@
-//! MCEIP-lambda2 at finite-element size: many starts on the condensed problem, each value of lambda^2 by
-//! one sparse factorisation. Finds; says nothing about what it does not find, and certifies nothing.
+//! MCEIP-lambda2 at finite-element size: many starts on the condensed problem, each value of
+//! lambda^2 by one sparse factorisation. Finds; says nothing about what it does not find, and
+//! certifies nothing.
 
 use super::same::repeats;
 use crate::candidate::Candidate;
@@ -27,14 +28,22 @@ pub struct CondensedSearch {
 impl Default for CondensedSearch {
     fn default() -> Self {
         // A curve costs a factorisation a step: the starts do without.
-        CondensedSearch { starts: 22, seed: 1, options: Options { curve_step_limit: 0, ..Options::for_search() } }
+        CondensedSearch {
+            starts: 22,
+            seed: 1,
+            options: Options {
+                curve_step_limit: 0,
+                ..Options::for_search()
+            },
+        }
     }
 }
 
 /// A solution in doubles, uncertified.
 #[derive(Debug, Clone, PartialEq)]
 pub struct CondensedSolution {
-    /// lambda^2 (s^-2), with x over the variables of the reduced pencil: f ascending, then slip; e'x_s = 1.
+    /// lambda^2 (s^-2), with x over the variables of the reduced pencil: f ascending, then slip;
+    /// e'x_s = 1.
     pub candidate: Candidate,
     /// x of the slip particles.
     pub slip: Vec<f64>,
@@ -71,7 +80,8 @@ pub enum CondensedSearchError {
     Solver(#[from] SolverError),
 }
 
-/// Searches MCEIP-lambda2 at friction mu. `progress` is told after each run and may break the search off.
+/// Searches MCEIP-lambda2 at friction mu. `progress` is told after each run and may break the
+/// search off.
 ///
 /// # Errors
 /// [`CondensedSearchError`].
@@ -88,7 +98,12 @@ pub fn search_condensed(
         *found.terminations.entry(outcome.termination).or_default() += 1;
         found.runs += 1;
         if outcome.termination.reached_tolerance() {
-            file(&embedding, mu, &polished(&embedding, outcome.point), &mut found);
+            file(
+                &embedding,
+                mu,
+                &polished(&embedding, outcome.point),
+                &mut found,
+            );
         }
         found.factorisations = embedding.factorisations();
         if progress(&found).is_break() {
@@ -96,31 +111,43 @@ pub fn search_condensed(
             break;
         }
     }
-    found.solutions.sort_by(|p, q| p.candidate.value.total_cmp(&q.candidate.value));
+    found
+        .solutions
+        .sort_by(|p, q| p.candidate.value.total_cmp(&q.candidate.value));
     Ok(found)
 }
 
-/// Newton's method on the places of a point (u_i > F_i slips, the others stick), while it gains: runs stop
-/// at residuals that leave the value of a near-threshold solution with eight digits.
+/// Newton's method on the places of a point (u_i > F_i slips, the others stick), while it gains:
+/// runs stop at residuals that leave the value of a near-threshold solution with eight digits.
 fn polished(embedding: &CondensedEmbedding<'_>, mut z: Vec<f64>) -> Vec<f64> {
     let n = z.len();
     let mut f = vec![0.0; n];
     embedding.function(&z, &mut f);
     let places: Vec<usize> = (0..n).filter(|&i| i == n - 1 || z[i] > f[i]).collect();
     let size = |f: &[f64]| places.iter().map(|&i| f[i].abs()).fold(0.0, f64::max);
-    (0..n).filter(|i| !places.contains(i)).for_each(|i| z[i] = 0.0);
+    (0..n)
+        .filter(|i| !places.contains(i))
+        .for_each(|i| z[i] = 0.0);
     embedding.function(&z, &mut f);
     for _ in 0..POLISH_STEPS {
         let mut j = nalgebra::DMatrix::zeros(n, n);
         embedding.jacobian(&z, &mut j);
-        let rows: Vec<Vec<f64>> = places.iter().map(|&p| places.iter().map(|&q| j[(p, q)]).collect()).collect();
+        let rows: Vec<Vec<f64>> = places
+            .iter()
+            .map(|&p| places.iter().map(|&q| j[(p, q)]).collect())
+            .collect();
         let right = vec![places.iter().map(|&p| -f[p]).collect()];
-        let Some(step) = solve_dense(&rows, &right).and_then(|mut s| s.pop()) else { return z };
+        let Some(step) = solve_dense(&rows, &right).and_then(|mut s| s.pop()) else {
+            return z;
+        };
         let mut next = z.clone();
         places.iter().zip(step).for_each(|(&p, d)| next[p] += d);
         let mut image = vec![0.0; n];
         embedding.function(&next, &mut image);
-        if size(&image) >= size(&f) || places.iter().any(|&p| next[p] < 0.0) || image.iter().any(|v| !v.is_finite()) {
+        if size(&image) >= size(&f)
+            || places.iter().any(|&p| next[p] < 0.0)
+            || image.iter().any(|v| !v.is_finite())
+        {
             return z;
         }
         (z, f) = (next, image);
@@ -132,9 +159,15 @@ fn polished(embedding: &CondensedEmbedding<'_>, mut z: Vec<f64>) -> Vec<f64> {
 fn file(embedding: &CondensedEmbedding<'_>, mu: f64, point: &[f64], found: &mut CondensedFound) {
     let (value, slip) = embedding.value_and_x(point);
     // On the slip particles alone, so that a repeated one costs no lift.
-    let small = |x: &[f64]| Candidate { value, x: x.to_vec() };
+    let small = |x: &[f64]| Candidate {
+        value,
+        x: x.to_vec(),
+    };
     let known = found.solutions.iter_mut().find(|s| {
-        let other = Candidate { value: s.candidate.value, x: s.slip.clone() };
+        let other = Candidate {
+            value: s.candidate.value,
+            x: s.slip.clone(),
+        };
         repeats(&other, &small(&slip))
     });
     if let Some(known) = known {
@@ -143,10 +176,19 @@ fn file(embedding: &CondensedEmbedding<'_>, mu: f64, point: &[f64], found: &mut 
     }
     let Some(zeta) = point.last() else { return };
     let parts = embedding.with(*zeta, |c| {
-        let reaction = c.pencil(mu).iter().map(|r| r.iter().zip(&slip).map(|(t, x)| t * x).sum()).collect();
+        let reaction = c
+            .pencil(mu)
+            .iter()
+            .map(|r| r.iter().zip(&slip).map(|(t, x)| t * x).sum())
+            .collect();
         (c.reduced(&slip), reaction)
     });
     if let Some((x, reaction)) = parts {
-        found.solutions.push(CondensedSolution { candidate: Candidate { value, x }, slip, reaction, runs: 1 });
+        found.solutions.push(CondensedSolution {
+            candidate: Candidate { value, x },
+            slip,
+            reaction,
+            runs: 1,
+        });
     }
 }

@@ -1,4 +1,5 @@
-//! One search under way: runs from starts, then curves ([`super::curves`]), and the lists of results.
+//! One search under way: runs from starts, then curves ([`super::curves`]), and the lists of
+//! results.
 
 use super::curves::{Ground, is_known};
 use super::same::same;
@@ -29,16 +30,28 @@ pub(super) struct Hunt<'a> {
 }
 
 impl Hunt<'_> {
-    /// Fresh starts on one side of an origin: by turns a run of the solver and a curve, the runs first. Between
-    /// the curves every solution that is known is left on new ones, [`Search::departures`] times.
+    /// Fresh starts on one side of an origin: by turns a run of the solver and a curve, the runs
+    /// first. Between the curves every solution that is known is left on new ones,
+    /// [`Search::departures`] times.
     pub(super) fn side(&mut self, side: Side, starts: usize, salt: u64) -> Result<(), SolverError> {
         let seed = self.search.seed.wrapping_add(salt);
         let mut ground = Ground::new(self.admissible, side, seed);
-        let mut points = ground.embedding.starts(starts + self.search.budget.map_or(0, |budget| budget.min(MOST_BETWEEN)), seed);
+        let mut points = ground.embedding.starts(
+            starts
+                + self
+                    .search
+                    .budget
+                    .map_or(0, |budget| budget.min(MOST_BETWEEN)),
+            seed,
+        );
         ground.spare = points.split_off(starts.min(points.len()));
         ground.spare.reverse();
-        if let (Unknown::Lambda2, Some(zeta)) = (self.admissible.unknown(), points.get_mut(1).and_then(|p| p.last_mut())) {
-            // At large lambda^2 the pencil is a P matrix, as it is at mu = 0: one end of the curve is there.
+        if let (Unknown::Lambda2, Some(zeta)) = (
+            self.admissible.unknown(),
+            points.get_mut(1).and_then(|p| p.last_mut()),
+        ) {
+            // At large lambda^2 the pencil is a P matrix, as it is at mu = 0: one end of the curve
+            // is there.
             *zeta = FAR_START;
         }
         // All runs first: they say what a run costs, and give the curves something to leave.
@@ -53,7 +66,12 @@ impl Hunt<'_> {
         let mut curves = points.iter().enumerate().filter(|(k, _)| is_curve(*k));
         while follows && !self.is_spent() {
             self.depart(&mut ground)?;
-            let Some((_, point)) = curves.next().filter(|_| !self.found.interrupted && !self.is_spent()) else { break };
+            let Some((_, point)) = curves
+                .next()
+                .filter(|_| !self.found.interrupted && !self.is_spent())
+            else {
+                break;
+            };
             self.runs_between(&mut ground)?;
             self.curve(&mut ground, point)?;
             if self.is_interrupted() {
@@ -68,11 +86,16 @@ impl Hunt<'_> {
         self.left() == Some(0)
     }
 
-    /// Pivots and factorisations that [`Search::budget`] leaves; `None` without a budget, and before the first run. The mean of
-    /// the runs made says what a run costs, and [`least_work`] what it costs at least.
+    /// Pivots and factorisations that [`Search::budget`] leaves; `None` without a budget, and
+    /// before the first run. The mean of the runs made says what a run costs, and [`least_work`]
+    /// what it costs at least.
     pub(super) fn left(&self) -> Option<usize> {
         let budget = self.search.budget.filter(|_| self.found.plain.0 > 0)?;
-        Some(budget.saturating_mul(self.run_cost()).saturating_sub(self.found.pivots + self.found.factorisations))
+        Some(
+            budget
+                .saturating_mul(self.run_cost())
+                .saturating_sub(self.found.pivots + self.found.factorisations),
+        )
     }
 
     /// What a run costs in a budget.
@@ -87,9 +110,17 @@ impl Hunt<'_> {
     }
 
     /// A run of the solver.
-    pub(super) fn plain(&mut self, embedding: &Embedding, start: &[f64]) -> Result<(), SolverError> {
+    pub(super) fn plain(
+        &mut self,
+        embedding: &Embedding,
+        start: &[f64],
+    ) -> Result<(), SolverError> {
         let outcome = solve(embedding, start, &self.search.options)?;
-        *self.found.terminations.entry(outcome.termination).or_default() += 1;
+        *self
+            .found
+            .terminations
+            .entry(outcome.termination)
+            .or_default() += 1;
         self.trace(|run| format!("run {run} from {start:?}\n{}", trace_outcome(&outcome)));
         self.count(&outcome.counters);
         self.found.plain.0 += 1;
@@ -119,7 +150,12 @@ impl Hunt<'_> {
     /// Certifies a candidate and lists it, once.
     pub(super) fn file(&mut self, candidate: Candidate, run: usize, origin: Origin) {
         let slack = WINDOW_GAP * (1.0 + candidate.value.abs());
-        if candidate.value < to_f64(self.window.min()) - slack || self.window.max().is_some_and(|m| candidate.value > to_f64(m) + slack) {
+        if candidate.value < to_f64(self.window.min()) - slack
+            || self
+                .window
+                .max()
+                .is_some_and(|m| candidate.value > to_f64(m) + slack)
+        {
             self.found.outside += 1;
             return;
         }
@@ -130,18 +166,27 @@ impl Hunt<'_> {
         match (self.certifier)(&candidate) {
             Ok(claim) => {
                 if !self.found.certified.iter().any(|c| same(&c.claim, &claim)) {
-                    self.found.certified.push(Certified { claim, candidate, run, origin });
+                    self.found.certified.push(Certified {
+                        claim,
+                        candidate,
+                        run,
+                        origin,
+                    });
                 }
             }
-            Err(reason) => self.found.uncertified.push(Uncertified { candidate, reason }),
+            Err(reason) => self
+                .found
+                .uncertified
+                .push(Uncertified { candidate, reason }),
         }
     }
 }
 
-/// Pivots and factorisations that a run over n variables costs at least in a budget. Short runs buy few curves, but the curves
-/// of an instance are no shorter where its runs are: one has some n pieces, and of each solution up to n / 2 are followed.
-/// The plain runs of Table 1 and the mu families cost 8 to 19 a variable in the mean (`spec/solver.md`), this is 3 at n = 2 and
-/// 12 at n = 20.
+/// Pivots and factorisations that a run over n variables costs at least in a budget. Short runs buy
+/// few curves, but the curves of an instance are no shorter where its runs are: one has some n
+/// pieces, and of each solution up to n / 2 are followed. The plain runs of Table 1 and the mu
+/// families cost 8 to 19 a variable in the mean (`spec/solver.md`), this is 3 at n = 2 and 12 at n
+/// = 20.
 fn least_work(n: usize) -> usize {
     n * (n + 4) / 2
 }

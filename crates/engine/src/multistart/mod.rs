@@ -8,7 +8,9 @@ mod same;
 mod trace;
 
 pub use all_slip::{AllSlip, all_slip};
-pub use condensed::{CondensedFound, CondensedSearch, CondensedSearchError, CondensedSolution, search_condensed};
+pub use condensed::{
+    CondensedFound, CondensedSearch, CondensedSearchError, CondensedSolution, search_condensed,
+};
 pub use same::{exact_value, same, support};
 pub use trace::trace_outcome;
 
@@ -37,12 +39,13 @@ pub struct Search {
     pub origins: Vec<f64>,
     /// Follow curves of the Newton homotopy, from starts and through solutions found?
     pub curves: bool,
-    /// Curves on which each solution found is left, each followed both ways. By default half the slip
-    /// variables, rounded up, at most 3: each connects it with others.
+    /// Curves on which each solution found is left, each followed both ways. By default half the
+    /// slip variables, rounded up, at most 3: each connects it with others.
     pub departures: Option<usize>,
-    /// End curves when the pivots and factorisations of everything done reach those of this many runs of the
-    /// solver, by the mean of those made, or n (n + 4) / 2 for n variables where that is more; the last curve may pass it by its last steps
-    /// and what polishing costs. Within it further runs are made where a curve costs many. `None` for no such end.
+    /// End curves when the pivots and factorisations of everything done reach those of this many
+    /// runs of the solver, by the mean of those made, or n (n + 4) / 2 for n variables where that
+    /// is more; the last curve may pass it by its last steps and what polishing costs. Within it
+    /// further runs are made where a curve costs many. `None` for no such end.
     pub budget: Option<usize>,
     /// Keep the log of every run as text?
     pub trace: bool,
@@ -111,7 +114,8 @@ pub struct Found {
     pub uncertified: Vec<Uncertified>,
     /// Candidates outside the window (a search downwards may leave it): counted, not certified.
     pub outside: usize,
-    /// Candidates equal to an earlier one within rounding ([`SAME_POINT`](crate::tolerance::SAME_POINT)).
+    /// Candidates equal to an earlier one within rounding
+    /// ([`SAME_POINT`](crate::tolerance::SAME_POINT)).
     pub repeated: usize,
     /// Points of curves that are a known solution within rounding: not polished again.
     pub met_again: usize,
@@ -135,15 +139,21 @@ pub struct Found {
     pub first: Option<Outcome>,
 }
 
-/// Searches for solutions in the problem's window: plain starts, then above and below each value found.
-/// `admissible` is the problem's reduced pencil.
+/// Searches for solutions in the problem's window: plain starts, then above and below each value
+/// found. `admissible` is the problem's reduced pencil.
 ///
 /// # Errors
 /// [`SolverError`] for options out of range.
-pub fn multistart(problem: &Problem, admissible: &Admissible<'_>, search: &Search) -> Result<Found, SolverError> {
+pub fn multistart(
+    problem: &Problem,
+    admissible: &Admissible<'_>,
+    search: &Search,
+) -> Result<Found, SolverError> {
     let certifier = certify::Certifier::new(problem, admissible.pencil());
     let certify = |candidate: &Candidate| certifier.certify(candidate);
-    multistart_with(admissible, problem.window(), search, &certify, &|_| ControlFlow::Continue(()))
+    multistart_with(admissible, problem.window(), search, &certify, &|_| {
+        ControlFlow::Continue(())
+    })
 }
 
 /// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
@@ -192,29 +202,46 @@ pub fn multistart_large(
     let window = problem.window();
     if admissible.unknown() != Unknown::Mu || pencil.free().len() < CONDENSE_FROM {
         require_dense_order(pencil)?;
-        return Ok((multistart_with(admissible, window, search, &direct, progress)?, None));
+        return Ok((
+            multistart_with(admissible, window, search, &direct, progress)?,
+            None,
+        ));
     }
     let condensed = condense(admissible)?;
     let expansion = Expansion::new(pencil).ok_or(SearchError::SingularInDoubles)?;
     require_dense_order(&condensed)?;
     let small = Admissible::new(&condensed, Unknown::Mu)?;
-    let found = multistart_with(&small, window, search, &|c| direct(&expansion.expand(c)), progress)?;
+    let found = multistart_with(
+        &small,
+        window,
+        search,
+        &|c| direct(&expansion.expand(c)),
+        progress,
+    )?;
     Ok((found, Some(condensed)))
 }
 
-/// Largest number of variables of a search: two dense matrices in doubles, 576 MB, and their factors.
+/// Largest number of variables of a search: two dense matrices in doubles, 576 MB, and their
+/// factors.
 const MAX_DENSE_ORDER: usize = 6000;
 
 fn require_dense_order(pencil: &Pencil) -> Result<(), SearchError> {
     let got = pencil.order();
-    if got > MAX_DENSE_ORDER { Err(SearchError::TooLarge { limit: MAX_DENSE_ORDER, got }) } else { Ok(()) }
+    if got > MAX_DENSE_ORDER {
+        Err(SearchError::TooLarge {
+            limit: MAX_DENSE_ORDER,
+            got,
+        })
+    } else {
+        Ok(())
+    }
 }
 
 /// Told after each run what has been found; breaking ends the search and keeps it.
 pub type Progress<'a> = dyn Fn(&Found) -> ControlFlow<()> + 'a;
 
-/// What turns a candidate into a claim that the checker has accepted: [`multistart_with`] takes any, so that a condensed
-/// pencil can be searched and the claim made about the full one.
+/// What turns a candidate into a claim that the checker has accepted: [`multistart_with`] takes
+/// any, so that a condensed pencil can be searched and the claim made about the full one.
 pub type Certifier<'a> = dyn Fn(&Candidate) -> Result<Claim, NotCertified> + 'a;
 
 /// [`multistart`] with a certifier of one's own.
@@ -230,20 +257,45 @@ pub fn multistart_with(
 ) -> Result<Found, SolverError> {
     let mut found = Found::default();
     let bottom = to_f64(window.min());
-    let mut hunt = Hunt { admissible, window, search, certifier, progress, found: &mut found };
-    for (k, origin) in [bottom].into_iter().chain(search.origins.iter().copied()).enumerate() {
+    let mut hunt = Hunt {
+        admissible,
+        window,
+        search,
+        certifier,
+        progress,
+        found: &mut found,
+    };
+    for (k, origin) in [bottom]
+        .into_iter()
+        .chain(search.origins.iter().copied())
+        .enumerate()
+    {
         hunt.side(Side::Above(origin), search.starts, k as u64)?;
     }
     let mut treated = 0;
-    while treated < hunt.found.certified.len().min(search.window_limit) && search.window_starts > 0 {
+    while treated < hunt.found.certified.len().min(search.window_limit) && search.window_starts > 0
+    {
         let value = hunt.found.certified[treated].candidate.value;
         // Strictly on either side: at the value itself the solution found would be found again.
         let gap = WINDOW_GAP * (1.0 + value.abs());
-        hunt.side(Side::Above(value + gap), search.window_starts, WINDOW_SALT + 2 * treated as u64)?;
-        hunt.side(Side::Below(value - gap), search.window_starts, WINDOW_SALT + 1 + 2 * treated as u64)?;
+        hunt.side(
+            Side::Above(value + gap),
+            search.window_starts,
+            WINDOW_SALT + 2 * treated as u64,
+        )?;
+        hunt.side(
+            Side::Below(value - gap),
+            search.window_starts,
+            WINDOW_SALT + 1 + 2 * treated as u64,
+        )?;
         treated += 1;
     }
-    found.certified.sort_by(|a, b| a.candidate.value.total_cmp(&b.candidate.value).then_with(|| support(&a.claim).cmp(support(&b.claim))));
+    found.certified.sort_by(|a, b| {
+        a.candidate
+            .value
+            .total_cmp(&b.candidate.value)
+            .then_with(|| support(&a.claim).cmp(support(&b.claim)))
+    });
     Ok(found)
 }
 
@@ -261,46 +313,90 @@ mod tests {
     fn fold() -> (Problem, Pencil) {
         let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
         let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
-        (Problem::new(Body::Pencil(pencil.clone()), Unknown::Lambda2, Window::all()).unwrap(), pencil)
+        (
+            Problem::new(
+                Body::Pencil(pencil.clone()),
+                Unknown::Lambda2,
+                Window::all(),
+            )
+            .unwrap(),
+            pencil,
+        )
     }
 
     fn refusal(reason: Reason) -> NotCertified {
-        let failure = AttemptFailure::Refused { reason: Box::new(reason) };
-        NotCertified { attempts: vec![Attempt { support: vec![0, 1], failure }] }
+        let failure = AttemptFailure::Refused {
+            reason: Box::new(reason),
+        };
+        NotCertified {
+            attempts: vec![Attempt {
+                support: vec![0, 1],
+                failure,
+            }],
+        }
     }
 
     #[test]
     fn a_search_has_a_largest_order() {
-        let identity = |n: usize| Pencil::new(Sparse::identity(n), Sparse::identity(n), vec![]).unwrap();
+        let identity =
+            |n: usize| Pencil::new(Sparse::identity(n), Sparse::identity(n), vec![]).unwrap();
 
         assert!(require_dense_order(&identity(6000)).is_ok());
         let refused = require_dense_order(&identity(6001));
-        assert!(matches!(refused, Err(SearchError::TooLarge { limit: 6000, got: 6001 })));
+        assert!(matches!(
+            refused,
+            Err(SearchError::TooLarge {
+                limit: 6000,
+                got: 6001
+            })
+        ));
     }
 
-    /// A certifier that makes a wrong claim of everything above 5/2: with the checker behind it such points stay uncertified.
+    /// A certifier that makes a wrong claim of everything above 5/2: with the checker behind it
+    /// such points stay uncertified.
     #[test]
     fn what_the_checker_refuses_is_uncertified() {
         let (problem, pencil) = fold();
         let admissible = Admissible::new(&pencil, Unknown::Lambda2).unwrap();
         let proposed = |candidate: &Candidate| {
-            let Claim::ExactSolution(claim) = propose(&pencil, problem.window(), candidate)? else { panic!("an exact claim") };
+            let Claim::ExactSolution(claim) = propose(&pencil, problem.window(), candidate)? else {
+                panic!("an exact claim")
+            };
             let one = || vec![Number(whole(1))];
-            let x = if candidate.value > 2.5 { vec![one(), one()] } else { claim.x.clone() };
+            let x = if candidate.value > 2.5 {
+                vec![one(), one()]
+            } else {
+                claim.x.clone()
+            };
             Ok(Claim::ExactSolution(ExactSolution { x, ..claim }))
         };
         let checked = |candidate: &Candidate| {
             let mut sifted = sift(&problem, vec![proposed(candidate)?]);
-            sifted.accepted.pop().ok_or_else(|| refusal(sifted.refused.remove(0).1))
+            sifted
+                .accepted
+                .pop()
+                .ok_or_else(|| refusal(sifted.refused.remove(0).1))
         };
         let search = Search::default();
-        let found = multistart_with(&admissible, problem.window(), &search, &checked, &|_| ControlFlow::Continue(())).unwrap();
+        let found = multistart_with(&admissible, problem.window(), &search, &checked, &|_| {
+            ControlFlow::Continue(())
+        })
+        .unwrap();
 
         assert_eq!(found.certified.len(), 1);
         assert!((found.certified[0].candidate.value - 2.0).abs() < 1e-6);
-        let [refused] = &found.uncertified[..] else { panic!("{:?}", found.uncertified) };
+        let [refused] = &found.uncertified[..] else {
+            panic!("{:?}", found.uncertified)
+        };
         assert!((refused.candidate.value - 3.0).abs() < 1e-6);
-        assert!(matches!(refused.reason.attempts[0].failure, AttemptFailure::Refused { .. }), "{}", refused.reason);
+        assert!(
+            matches!(
+                refused.reason.attempts[0].failure,
+                AttemptFailure::Refused { .. }
+            ),
+            "{}",
+            refused.reason
+        );
 
         let all = multistart(&problem, &admissible, &search).unwrap();
         assert_eq!((all.certified.len(), all.uncertified.len()), (2, 0));

@@ -26,7 +26,10 @@ pub fn exact_value(claim: &Claim) -> Option<Algebraic> {
 
 fn root(polynomial: &[Integer], interval: &[Number; 2]) -> Option<Algebraic> {
     let interval = Interval::new(interval[0].0.clone(), interval[1].0.clone())?;
-    Some(Algebraic::from_claim(Poly::new(polynomial.to_vec()), interval))
+    Some(Algebraic::from_claim(
+        Poly::new(polynomial.to_vec()),
+        interval,
+    ))
 }
 
 /// Do two claims speak of the same solution: same support and equal value (exact), or a box that
@@ -56,7 +59,10 @@ pub(super) fn repeats(a: &Candidate, b: &Candidate) -> bool {
     let (na, nb) = (norm(a), norm(b));
     (a.value - b.value).abs() <= SAME_POINT * (1.0 + a.value.abs())
         && a.x.len() == b.x.len()
-        && a.x.iter().zip(&b.x).all(|(p, q)| (p / na - q / nb).abs() <= SAME_POINT)
+        && a.x
+            .iter()
+            .zip(&b.x)
+            .all(|(p, q)| (p / na - q / nb).abs() <= SAME_POINT)
 }
 
 #[cfg(test)]
@@ -64,7 +70,10 @@ mod tests {
     use super::*;
 
     fn candidate(value: f64, x: &[f64]) -> Candidate {
-        Candidate { value, x: x.to_vec() }
+        Candidate {
+            value,
+            x: x.to_vec(),
+        }
     }
 
     /// Every component has to agree: two solutions at one value may share their zeros.
@@ -72,10 +81,22 @@ mod tests {
     fn candidates_at_one_value_repeat_only_if_all_of_x_agrees() {
         let known = candidate(3.0, &[1.0, 0.0, 0.0]);
 
-        assert!(repeats(&known, &candidate(3.0, &[7.0, 0.0, 0.0])), "in another scale");
-        assert!(!repeats(&known, &candidate(3.0, &[0.0, 1.0, 0.0])), "the third component alone is shared");
+        assert!(
+            repeats(&known, &candidate(3.0, &[7.0, 0.0, 0.0])),
+            "in another scale"
+        );
+        assert!(
+            !repeats(&known, &candidate(3.0, &[0.0, 1.0, 0.0])),
+            "the third component alone is shared"
+        );
         assert!(!repeats(&known, &candidate(3.0, &[1.0, 0.0, 1e-3])));
-        assert!(!repeats(&known, &candidate(3.001, &[1.0, 0.0, 0.0])), "another value");
-        assert!(!repeats(&known, &candidate(3.0, &[1.0, 0.0])), "another length");
+        assert!(
+            !repeats(&known, &candidate(3.001, &[1.0, 0.0, 0.0])),
+            "another value"
+        );
+        assert!(
+            !repeats(&known, &candidate(3.0, &[1.0, 0.0])),
+            "another length"
+        );
     }
 }

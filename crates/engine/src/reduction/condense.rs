@@ -29,18 +29,29 @@ pub enum CondensationError {
 /// [`CondensationError`]; for an admissible MCEIP-mu pencil of definite A_ff, none.
 pub fn condense(admissible: &Admissible<'_>) -> Result<Pencil, CondensationError> {
     if admissible.unknown() != Unknown::Mu {
-        return Err(CondensationError::Unknown { got: admissible.unknown().word() });
+        return Err(CondensationError::Unknown {
+            got: admissible.unknown().word(),
+        });
     }
     let pencil = admissible.pencil();
     let (f, s) = (pencil.free(), pencil.slip());
     let n = s.len();
     // One elimination with the rows of A and of B below each other.
     let a_fs = pencil.a().submatrix(f, &s);
-    let below = |cols: &[usize]| stack(&pencil.a().submatrix(&s, cols), &pencil.b().submatrix(&s, cols));
+    let below = |cols: &[usize]| {
+        stack(
+            &pencil.a().submatrix(&s, cols),
+            &pencil.b().submatrix(&s, cols),
+        )
+    };
     let both = schur_complement(&pencil.a().submatrix(f, f), &a_fs, &below(f), &below(&s))?;
     let all: Vec<usize> = (0..n).collect();
     let lower: Vec<usize> = (n..2 * n).collect();
-    Ok(Pencil::new(both.submatrix(&all, &all), both.submatrix(&lower, &all), Vec::new())?)
+    Ok(Pencil::new(
+        both.submatrix(&all, &all),
+        both.submatrix(&lower, &all),
+        Vec::new(),
+    )?)
 }
 
 fn stack(a: &crate::exact::Sparse, b: &crate::exact::Sparse) -> crate::exact::Sparse {
@@ -59,7 +70,12 @@ mod tests {
     #[test]
     fn solutions_are_those_of_the_full_pencil() {
         let a = Sparse::from_ints(&[&[4, 1, 0, -1], &[1, 5, 2, 0], &[0, 2, 6, 1], &[-1, 0, 1, 3]]);
-        let b = Sparse::from_ints(&[&[0, 0, 0, 0], &[-3, -2, 1, -4], &[0, 0, 0, 0], &[2, -5, 3, -1]]);
+        let b = Sparse::from_ints(&[
+            &[0, 0, 0, 0],
+            &[-3, -2, 1, -4],
+            &[0, 0, 0, 0],
+            &[2, -5, 3, -1],
+        ]);
         let full = Pencil::new(a, b, vec![0, 2]).unwrap();
         let small = condense(&Admissible::new(&full, Unknown::Mu).unwrap()).unwrap();
         let list = |p: &Pencil| enumerate(p, &Window::all()).unwrap().solutions;
@@ -77,10 +93,14 @@ mod tests {
     fn lambda2_is_refused_by_name() {
         let p = Pencil::new(Sparse::identity(2), Sparse::identity(2), vec![0]).unwrap();
         let admissible = Admissible::new(&p, Unknown::Lambda2).unwrap();
-        assert!(matches!(condense(&admissible), Err(CondensationError::Unknown { got: "lambda2" })));
+        assert!(matches!(
+            condense(&admissible),
+            Err(CondensationError::Unknown { got: "lambda2" })
+        ));
     }
 
-    /// Three slip variables, one free: x_0 = -(x_1 + 2 x_2 - x_3) / 4 put into the other rows by hand.
+    /// Three slip variables, one free: x_0 = -(x_1 + 2 x_2 - x_3) / 4 put into the other rows by
+    /// hand.
     #[test]
     fn each_row_of_a_and_of_b_gets_its_share() {
         let a = Sparse::from_ints(&[&[4, 1, 2, -1], &[1, 5, 0, 0], &[2, 0, 6, 0], &[-1, 0, 0, 7]]);
@@ -89,7 +109,13 @@ mod tests {
         let small = condense(&Admissible::new(&full, Unknown::Mu).unwrap()).unwrap();
         let quarters = Sparse::from_ints(&[&[19, -2, 1], &[-2, 20, 2], &[1, 2, 27]]);
         let fourth = crate::exact::rational(1, 4);
-        assert_eq!(*small.a(), Sparse::from_entries(3, 3, []).add_scaled(&fourth, &quarters));
-        assert_eq!(*small.b(), Sparse::from_ints(&[&[0, -2, 1], &[-2, -3, 2], &[3, 6, -2]]));
+        assert_eq!(
+            *small.a(),
+            Sparse::from_entries(3, 3, []).add_scaled(&fourth, &quarters)
+        );
+        assert_eq!(
+            *small.b(),
+            Sparse::from_ints(&[&[0, -2, 1], &[-2, -3, 2], &[3, 6, -2]])
+        );
     }
 }

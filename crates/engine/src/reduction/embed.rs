@@ -61,11 +61,27 @@ impl Embedding {
         };
         let mut is_free = vec![false; n];
         pencil.free().iter().for_each(|&i| is_free[i] = true);
-        let lower = is_free.iter().map(|&f| if f { f64::NEG_INFINITY } else { 0.0 }).chain([0.0]).collect();
-        Embedding { a, b, diagonal, is_free, unit, origin, direction, c: 1.0, lower, upper: vec![f64::INFINITY; n + 1] }
+        let lower = is_free
+            .iter()
+            .map(|&f| if f { f64::NEG_INFINITY } else { 0.0 })
+            .chain([0.0])
+            .collect();
+        Embedding {
+            a,
+            b,
+            diagonal,
+            is_free,
+            unit,
+            origin,
+            direction,
+            c: 1.0,
+            lower,
+            upper: vec![f64::INFINITY; n + 1],
+        }
     }
 
-    /// The same problem with another constant c in (28), (33). `None` unless c is positive and finite.
+    /// The same problem with another constant c in (28), (33). `None` unless c is positive and
+    /// finite.
     pub fn with_c(self, c: f64) -> Option<Embedding> {
         (c > 0.0 && c.is_finite()).then_some(Embedding { c, ..self })
     }
@@ -76,17 +92,29 @@ impl Embedding {
     }
 
     fn sum(&self, z: &[f64]) -> f64 {
-        self.is_free.iter().zip(z).filter(|(free, _)| !**free).map(|(_, u)| u).sum()
+        self.is_free
+            .iter()
+            .zip(z)
+            .filter(|(free, _)| !**free)
+            .map(|(_, u)| u)
+            .sum()
     }
 
     /// The candidate that a point of the MCP stands for: t and x = D u.
     pub fn candidate(&self, z: &[f64]) -> Candidate {
         let n = self.diagonal.len();
-        Candidate { value: self.t(z[n]), x: z[..n].iter().zip(&self.diagonal).map(|(u, d)| u * d).collect() }
+        Candidate {
+            value: self.t(z[n]),
+            x: z[..n]
+                .iter()
+                .zip(&self.diagonal)
+                .map(|(u, d)| u * d)
+                .collect(),
+        }
     }
 
-    /// The MCP point of a value and x (any positive scale with e'x_s > 0): u = x / d with e'u_s = c.
-    /// The way opposite to [`Embedding::candidate`].
+    /// The MCP point of a value and x (any positive scale with e'x_s > 0): u = x / d with e'u_s =
+    /// c. The way opposite to [`Embedding::candidate`].
     pub fn point(&self, value: f64, x: &[f64]) -> Vec<f64> {
         let u: Vec<f64> = x.iter().zip(&self.diagonal).map(|(v, d)| v / d).collect();
         let sum = self.sum(&u);
@@ -121,22 +149,32 @@ impl Embedding {
         }
         starts.truncate(count);
         // Written for e'u_s = 1.
-        starts.iter_mut().for_each(|z| z[..n].iter_mut().for_each(|u| *u *= self.c));
+        starts
+            .iter_mut()
+            .for_each(|z| z[..n].iter_mut().for_each(|u| *u *= self.c));
         starts
     }
 
     /// A random residual direction for curves: standard normal in the rows of the pencil (Box and
-    /// Muller), zero in that of e'u_s, so that e'u_s = c stays.
-    /// With `uneven` each is cubed: a few rows dominate, and the curve stays near the face of its start.
+    /// Muller), zero in that of e'u_s, so that e'u_s = c stays. With `uneven` each is cubed: a few
+    /// rows dominate, and the curve stays near the face of its start.
     pub fn direction(&self, seed: u64, uneven: bool) -> Vec<f64> {
-        normals(self.diagonal.len(), seed, uneven).into_iter().chain([0.0]).collect()
+        normals(self.diagonal.len(), seed, uneven)
+            .into_iter()
+            .chain([0.0])
+            .collect()
     }
 
-    /// zeta at which the diagonal entry of particle i vanishes, or 0 if that lies on the other side.
+    /// zeta at which the diagonal entry of particle i vanishes, or 0 if that lies on the other
+    /// side.
     fn ritz(&self, i: usize) -> f64 {
         let t = -self.a[(i, i)] / self.b[(i, i)];
         let zeta = (t - self.origin) * self.direction / self.unit;
-        if zeta.is_finite() && zeta > 0.0 { zeta } else { 0.0 }
+        if zeta.is_finite() && zeta > 0.0 {
+            zeta
+        } else {
+            0.0
+        }
     }
 
     fn random_start(&self, slip: &[usize], rng: &mut ChaCha8Rng) -> Vec<f64> {
@@ -145,7 +183,10 @@ impl Embedding {
         // Exponential weights on a random face: uniform on that face of the simplex.
         let keep: f64 = rng.random_range(0.2..1.0);
         for &i in slip {
-            let (weight, kept): (f64, f64) = (rng.random_range(f64::MIN_POSITIVE..1.0), rng.random_range(0.0..1.0));
+            let (weight, kept): (f64, f64) = (
+                rng.random_range(f64::MIN_POSITIVE..1.0),
+                rng.random_range(0.0..1.0),
+            );
             z[i] = if kept < keep { -weight.ln() } else { 0.0 };
         }
         let sum: f64 = slip.iter().map(|&i| z[i]).sum();
@@ -162,7 +203,9 @@ impl Embedding {
     fn columns(&self, j: usize) -> impl Iterator<Item = (&f64, &f64)> {
         let n = self.diagonal.len();
         let place = j * n..(j + 1) * n;
-        self.a.as_slice()[place.clone()].iter().zip(&self.b.as_slice()[place])
+        self.a.as_slice()[place.clone()]
+            .iter()
+            .zip(&self.b.as_slice()[place])
     }
 
     fn t(&self, zeta: f64) -> f64 {
@@ -174,16 +217,26 @@ impl Embedding {
 pub(super) fn normals(count: usize, seed: u64, uneven: bool) -> Vec<f64> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut normal = || {
-        let (u, v): (f64, f64) = (rng.random_range(f64::MIN_POSITIVE..1.0), rng.random_range(0.0..1.0));
+        let (u, v): (f64, f64) = (
+            rng.random_range(f64::MIN_POSITIVE..1.0),
+            rng.random_range(0.0..1.0),
+        );
         (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
     };
-    (0..count).map(|_| normal()).map(|v| if uneven { v * v * v } else { v }).collect()
+    (0..count)
+        .map(|_| normal())
+        .map(|v| if uneven { v * v * v } else { v })
+        .collect()
 }
 
 /// 1 / sqrt of the larger diagonal entry, a power of two so that scaling commits no rounding.
 fn scale_of(a: f64, b: f64) -> f64 {
     let size = a.abs().max(b.abs() * f64::from(u8::from(a == 0.0)));
-    if size > 0.0 && size.is_finite() { (-0.5 * size.log2()).round().exp2() } else { 1.0 }
+    if size > 0.0 && size.is_finite() {
+        (-0.5 * size.log2()).round().exp2()
+    } else {
+        1.0
+    }
 }
 
 impl Mcp for Embedding {
@@ -202,7 +255,9 @@ impl Mcp for Embedding {
         let y = &mut f[..n];
         y.fill(0.0); // E27, E31
         for (j, u) in z[..n].iter().enumerate().filter(|(_, u)| **u != 0.0) {
-            y.iter_mut().zip(self.columns(j)).for_each(|(y, (a, b))| *y += (a + t * b) * u);
+            y.iter_mut()
+                .zip(self.columns(j))
+                .for_each(|(y, (a, b))| *y += (a + t * b) * u);
         }
         f[n] = self.gamma(z); // E28, E33
     }
@@ -212,7 +267,9 @@ impl Mcp for Embedding {
         let (left, right) = j.as_mut_slice().split_at_mut(n * (n + 1));
         right.fill(0.0);
         for (k, column) in left.chunks_exact_mut(n + 1).enumerate() {
-            for ((entry, last), (a, b)) in column.iter_mut().zip(right.iter_mut()).zip(self.columns(k)) {
+            for ((entry, last), (a, b)) in
+                column.iter_mut().zip(right.iter_mut()).zip(self.columns(k))
+            {
                 *entry = a + t * b;
                 *last += b * (rate * z[k]);
             }

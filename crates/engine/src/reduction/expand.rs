@@ -1,4 +1,5 @@
-//! The way back from the condensed pencil in doubles: candidates only, exact arithmetic decides later.
+//! The way back from the condensed pencil in doubles: candidates only, exact arithmetic decides
+//! later.
 #![allow(clippy::float_arithmetic)]
 
 use crate::candidate::Candidate;
@@ -21,7 +22,12 @@ impl Expansion {
         let (free, slip) = (pencil.free().to_vec(), pencil.slip());
         let right = dense(&pencil.a().submatrix(&free, &slip).transpose());
         let columns = solve(&dense(&pencil.a().submatrix(&free, &free)), &right)?;
-        Some(Expansion { order: pencil.order(), free, slip, columns })
+        Some(Expansion {
+            order: pencil.order(),
+            free,
+            slip,
+            columns,
+        })
     }
 
     /// The candidate over all variables of the pencil.
@@ -29,9 +35,15 @@ impl Expansion {
         let mut x = vec![0.0; self.order];
         for ((&i, column), v) in self.slip.iter().zip(&self.columns).zip(&small.x) {
             x[i] = *v;
-            self.free.iter().zip(column).for_each(|(&k, c)| x[k] -= c * v);
+            self.free
+                .iter()
+                .zip(column)
+                .for_each(|(&k, c)| x[k] -= c * v);
         }
-        Candidate { value: small.value, x }
+        Candidate {
+            value: small.value,
+            x,
+        }
     }
 }
 
@@ -51,10 +63,28 @@ mod tests {
         let a = Sparse::from_entries(
             3,
             3,
-            [(0, 0, 4), (0, 1, 1), (1, 0, 1), (0, 2, -2), (2, 0, -2), (1, 1, 5), (2, 2, 3)].map(|(i, j, v)| (i, j, whole(v))),
+            [
+                (0, 0, 4),
+                (0, 1, 1),
+                (1, 0, 1),
+                (0, 2, -2),
+                (2, 0, -2),
+                (1, 1, 5),
+                (2, 2, 3),
+            ]
+            .map(|(i, j, v)| (i, j, whole(v))),
         );
         let pencil = Pencil::new(a, Sparse::zeros(3, 3), vec![0]).unwrap();
-        let full = Expansion::new(&pencil).unwrap().expand(&Candidate { value: 7.0, x: vec![1.0, 3.0] });
-        assert_eq!(full, Candidate { value: 7.0, x: vec![1.25, 1.0, 3.0] }); // 4 x_0 + 1 - 6 = 0
+        let full = Expansion::new(&pencil).unwrap().expand(&Candidate {
+            value: 7.0,
+            x: vec![1.0, 3.0],
+        });
+        assert_eq!(
+            full,
+            Candidate {
+                value: 7.0,
+                x: vec![1.25, 1.0, 3.0]
+            }
+        ); // 4 x_0 + 1 - 6 = 0
     }
 }

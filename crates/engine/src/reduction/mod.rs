@@ -12,10 +12,14 @@ mod reversed;
 
 pub use circle::CirclePencil;
 pub use condense::{CondensationError, condense};
-pub use condense_sparse::{CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed};
+pub use condense_sparse::{
+    CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed,
+};
 pub use condensed_mcp::{CondensedEmbedding, CondensedEmbeddingError};
 pub use embed::{Embedding, Side};
 pub use expand::Expansion;
-pub use mceip_model::reduction::{Lifted, Line, LineViolated, MuFamily, Reduced, Variable, check_lines, lift, mu_family, reduce};
+pub use mceip_model::reduction::{
+    Lifted, Line, LineViolated, MuFamily, Reduced, Variable, check_lines, lift, mu_family, reduce,
+};
 pub use project::{Projected, project};
 pub use reversed::reversed;

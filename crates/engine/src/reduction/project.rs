@@ -14,16 +14,27 @@ pub struct Projected {
     pub off: Option<(usize, Rational)>,
 }
 
-/// x_f = v_f and x_s = -S v_Ts for each slip particle, exactly; `variables` as `reduce` gives them. // E10
+/// x_f = v_f and x_s = -S v_Ts for each slip particle, exactly; `variables` as `reduce` gives them.
+/// // E10
 ///
 /// The constraints v_d = 0 and v_Ns = 0 of (9) are not imposed: `off` says how far v is from them.
 /// Components of v beyond those the variables name count as constrained.
 ///
 /// ```
-/// use mceip_engine::{exact::whole, reduction::{project, Variable}};
-/// let slip = Variable::Slip { sign: 1, tangent: vec![(0, whole(1))], normal: vec![(1, whole(1))] };
+/// use mceip_engine::{
+///     exact::whole,
+///     reduction::{Variable, project},
+/// };
+/// let slip = Variable::Slip {
+///     sign: 1,
+///     tangent: vec![(0, whole(1))],
+///     normal: vec![(1, whole(1))],
+/// };
 /// let p = project(&[slip], &[whole(-2), whole(1)]);
-/// assert_eq!((p.x, p.off), (vec![whole(2)], Some((1, whole(1) / whole(2)))));
+/// assert_eq!(
+///     (p.x, p.off),
+///     (vec![whole(2)], Some((1, whole(1) / whole(2))))
+/// );
 /// ```
 pub fn project(variables: &[Variable], v: &[Rational]) -> Projected {
     let at = |dof: usize| v.get(dof).cloned().unwrap_or_else(Rational::zero);
@@ -32,7 +43,9 @@ pub fn project(variables: &[Variable], v: &[Rational]) -> Projected {
     for variable in variables {
         let x_i = match variable {
             Variable::Free { dof } => {
-                rest.get_mut(*dof).into_iter().for_each(|r| *r = Rational::zero());
+                rest.get_mut(*dof)
+                    .into_iter()
+                    .for_each(|r| *r = Rational::zero());
                 at(*dof)
             }
             Variable::Slip { sign, tangent, .. } => {
@@ -45,9 +58,19 @@ pub fn project(variables: &[Variable], v: &[Rational]) -> Projected {
         };
         x.push(x_i);
     }
-    let largest = v.iter().map(Signed::abs).max().unwrap_or_else(Rational::zero);
-    let worst = rest.iter().map(Signed::abs).enumerate().max_by(|a, b| a.1.cmp(&b.1).then(b.0.cmp(&a.0)));
-    let off = worst.filter(|(_, size)| !size.is_zero()).map(|(dof, size)| (dof, size / largest));
+    let largest = v
+        .iter()
+        .map(Signed::abs)
+        .max()
+        .unwrap_or_else(Rational::zero);
+    let worst = rest
+        .iter()
+        .map(Signed::abs)
+        .enumerate()
+        .max_by(|a, b| a.1.cmp(&b.1).then(b.0.cmp(&a.0)));
+    let off = worst
+        .filter(|(_, size)| !size.is_zero())
+        .map(|(dof, size)| (dof, size / largest));
     Projected { x, off }
 }
 
@@ -63,22 +86,37 @@ mod tests {
     fn the_inverse_of_the_lift() {
         let mut seen = 0;
         for instance in mechanical(30, 5).unwrap() {
-            let crate::model::Body::System(system) = instance.problem.body() else { unreachable!() };
+            let crate::model::Body::System(system) = instance.problem.body() else {
+                unreachable!()
+            };
             let variables = reduce(&instance.problem).unwrap().variables;
-            let x: Vec<Poly> = (0..variables.len()).map(|i| Poly::from_ints(&[i as i64 + 1])).collect();
+            let x: Vec<Poly> = (0..variables.len())
+                .map(|i| Poly::from_ints(&[i as i64 + 1]))
+                .collect();
             let lifted = lift(system, instance.problem.unknown(), &variables, &x);
             let scale = Rational::from_integer(lifted.v_scale.clone());
             let zero = Algebraic::rational(whole(0)).interval().lo().clone();
             let mut v: Vec<Rational> = lifted.v.iter().map(|p| p.eval(&zero) / &scale).collect();
             let back = project(&variables, &v);
-            assert_eq!(back.x, (0..x.len()).map(|i| whole(i as i64 + 1)).collect::<Vec<_>>());
+            assert_eq!(
+                back.x,
+                (0..x.len())
+                    .map(|i| whole(i as i64 + 1))
+                    .collect::<Vec<_>>()
+            );
             assert_eq!(back.off, None);
             let particle = &system.particles()[0]; // slips
             let normal = particle.into_obstacle();
-            normal.iter().for_each(|(dof, c)| v[*dof] += c * rational(1, 2));
+            normal
+                .iter()
+                .for_each(|(dof, c)| v[*dof] += c * rational(1, 2));
             let off = project(&variables, &v);
             assert_eq!(off.x, back.x, "the normal component does not enter x");
-            assert!(off.off.is_some_and(|(dof, size)| normal.iter().any(|n| n.0 == dof) && size.is_positive()));
+            assert!(
+                off.off.is_some_and(
+                    |(dof, size)| normal.iter().any(|n| n.0 == dof) && size.is_positive()
+                )
+            );
             seen += 1;
         }
         assert_eq!(seen, 30);

@@ -5,7 +5,8 @@ use crate::certificate::{Claim, ExactSolution};
 use crate::certify::{Certifier, flattened};
 use crate::check::AcceptedClaim;
 use crate::exact::{
-    Algebraic, Integer, Poly, Rational, common_denominator, enclosing_decimals, from_f64, ratio_to_decimal, to_decimal, to_f64,
+    Algebraic, Integer, Poly, Rational, common_denominator, enclosing_decimals, from_f64,
+    ratio_to_decimal, to_decimal, to_f64,
 };
 use crate::model::{Body, Pencil, Problem};
 use crate::multistart::exact_value;
@@ -55,18 +56,44 @@ impl Listed {
     /// From a solution of the enumerator.
     pub fn of_solution(problem: &Problem, reduced: &Reduced, s: &Solution) -> Listed {
         let norm = s.normaliser(&reduced.pencil.slip());
-        of_polynomials(problem, reduced, s.value.clone(), &s.slip, &s.biactive, &s.x, &norm)
+        of_polynomials(
+            problem,
+            reduced,
+            s.value.clone(),
+            &s.slip,
+            &s.biactive,
+            &s.x,
+            &norm,
+        )
     }
 
     /// Solutions and cones of the enumerator in one list, by value, then by slip set.
-    pub fn of_enumeration(problem: &Problem, reduced: &Reduced, found: &Enumeration) -> Vec<Listed> {
+    pub fn of_enumeration(
+        problem: &Problem,
+        reduced: &Reduced,
+        found: &Enumeration,
+    ) -> Vec<Listed> {
         let solutions = found.solutions.iter().map(|s| {
             let kernel_dimension = found.kernel_dimension(s);
-            (&s.value, &s.slip, Listed { kernel_dimension, ..Listed::of_solution(problem, reduced, s) })
+            (
+                &s.value,
+                &s.slip,
+                Listed {
+                    kernel_dimension,
+                    ..Listed::of_solution(problem, reduced, s)
+                },
+            )
         });
-        let cones = found.cones.iter().map(|c| (&c.value, &c.slip, Listed::of_cone(problem, reduced, c)));
+        let cones = found
+            .cones
+            .iter()
+            .map(|c| (&c.value, &c.slip, Listed::of_cone(problem, reduced, c)));
         let mut all: Vec<_> = solutions.chain(cones).collect();
-        all.sort_by(|a, b| a.0.clone().cmp_exact(&mut b.0.clone()).then_with(|| a.1.cmp(b.1)));
+        all.sort_by(|a, b| {
+            a.0.clone()
+                .cmp_exact(&mut b.0.clone())
+                .then_with(|| a.1.cmp(b.1))
+        });
         all.into_iter().map(|entry| entry.2).collect()
     }
 
@@ -75,16 +102,28 @@ impl Listed {
         let center = cone.center(&reduced.pencil.slip());
         let lineality = cone.lineality.iter().map(|x| {
             // No slip variable: the normaliser is the l1 norm.
-            let direction = Solution { slip: Vec::new(), x: x.clone(), ..center.clone() };
+            let direction = Solution {
+                slip: Vec::new(),
+                x: x.clone(),
+                ..center.clone()
+            };
             direction.x_decimals(&[], DIGITS)
         });
         let listed = ListedCone {
             dimension: cone.dimension,
-            rays: cone.rays.iter().map(|r| Listed::of_solution(problem, reduced, r)).collect(),
+            rays: cone
+                .rays
+                .iter()
+                .map(|r| Listed::of_solution(problem, reduced, r))
+                .collect(),
             lineality: lineality.collect(),
         };
         let entry = Listed::of_solution(problem, reduced, &center);
-        Listed { kernel_dimension: cone.kernel_dimension, cone: Some(listed), ..entry }
+        Listed {
+            kernel_dimension: cone.kernel_dimension,
+            cone: Some(listed),
+            ..entry
+        }
     }
 
     /// From a claim: exact where it is, the centre of the box otherwise.
@@ -110,19 +149,36 @@ impl Listed {
             Claim::EnclosedSolution(c) => {
                 let pencil = &reduced.pencil;
                 let mut x = vec![Rational::default(); pencil.order()];
-                let active = (0..pencil.order()).filter(|i| pencil.free().binary_search(i).is_ok() || c.support.contains(i));
+                let active = (0..pencil.order())
+                    .filter(|i| pencil.free().binary_search(i).is_ok() || c.support.contains(i));
                 active.zip(&c.center).for_each(|(i, n)| x[i] = n.0.clone());
-                let value = c.center.last().map_or_else(Rational::default, |n| n.0.clone());
+                let value = c
+                    .center
+                    .last()
+                    .map_or_else(Rational::default, |n| n.0.clone());
                 of_point(problem, reduced, &c.support, value, &x)
             }
         }
     }
 
-    /// From a solution that a cover has proved, with x in doubles: exact where `certify` makes an exact claim of it, digits
-    /// of an enclosed claim else, and those of the doubles where there is no claim.
-    pub fn of_cover(problem: &Problem, reduced: &Reduced, certifier: &Certifier<'_>, proved: &AcceptedClaim, x: &[f64]) -> Listed {
-        let candidate = Candidate { value: to_f64(&proved.value.mid()), x: x.to_vec() };
-        let claimed = certifier.certify_with_verdict(&candidate).ok().filter(|(_, verdict)| is_about(verdict, proved));
+    /// From a solution that a cover has proved, with x in doubles: exact where `certify` makes an
+    /// exact claim of it, digits of an enclosed claim else, and those of the doubles where there is
+    /// no claim.
+    pub fn of_cover(
+        problem: &Problem,
+        reduced: &Reduced,
+        certifier: &Certifier<'_>,
+        proved: &AcceptedClaim,
+        x: &[f64],
+    ) -> Listed {
+        let candidate = Candidate {
+            value: to_f64(&proved.value.mid()),
+            x: x.to_vec(),
+        };
+        let claimed = certifier
+            .certify_with_verdict(&candidate)
+            .ok()
+            .filter(|(_, verdict)| is_about(verdict, proved));
 
         let listed = match claimed {
             Some((claim, _)) => Listed::of_claim(problem, reduced, &claim),
@@ -131,21 +187,34 @@ impl Listed {
                 of_point(problem, reduced, &proved.support, proved.value.mid(), &x)
             }
         };
-        Listed { enclosure: Some(enclosing_decimals(&proved.value, DIGITS).into()), ..listed }
+        Listed {
+            enclosure: Some(enclosing_decimals(&proved.value, DIGITS).into()),
+            ..listed
+        }
     }
 }
 
-/// Is the claim about this solution of a cover, the only one with its support in its enclosure? Surely so if the claim's
-/// values lie within it. Where they only overlap, the claim could be about another solution near by.
+/// Is the claim about this solution of a cover, the only one with its support in its enclosure?
+/// Surely so if the claim's values lie within it. Where they only overlap, the claim could be about
+/// another solution near by.
 fn is_about(claim: &AcceptedClaim, proved: &AcceptedClaim) -> bool {
     let is_within = proved.value.lo() <= claim.value.lo() && claim.value.hi() <= proved.value.hi();
     claim.support == proved.support && is_within
 }
 
 /// A solution known in rounded numbers only, x in any positive scale.
-fn of_point(problem: &Problem, reduced: &Reduced, support: &[usize], value: Rational, x: &[Rational]) -> Listed {
+fn of_point(
+    problem: &Problem,
+    reduced: &Reduced,
+    support: &[usize],
+    value: Rational,
+    x: &[Rational],
+) -> Listed {
     let clear = common_denominator(x);
-    let polys: Vec<Poly> = x.iter().map(|v| Poly::constant(v.numer() * (&clear / v.denom()))).collect();
+    let polys: Vec<Poly> = x
+        .iter()
+        .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))
+        .collect();
 
     let solution = Solution {
         value: Algebraic::rational(value),
@@ -156,19 +225,54 @@ fn of_point(problem: &Problem, reduced: &Reduced, support: &[usize], value: Rati
         y: Vec::new(),
     };
     let norm = solution.normaliser(&reduced.pencil.slip());
-    let listed = of_polynomials(problem, reduced, solution.value, support, &[], &solution.x, &norm);
-    Listed { exact: None, ..listed }
+    let listed = of_polynomials(
+        problem,
+        reduced,
+        solution.value,
+        support,
+        &[],
+        &solution.x,
+        &norm,
+    );
+    Listed {
+        exact: None,
+        ..listed
+    }
 }
 
 fn of_exact(problem: &Problem, reduced: &Reduced, claim: &Claim, c: &ExactSolution) -> Listed {
     // A claim made by `certify` has a valid interval; a foreign one prints its lower end.
     let value = exact_value(claim).unwrap_or_else(|| Algebraic::rational(c.interval[0].0.clone()));
     let clear = common_denominator(c.x.iter().flatten().map(|n| &n.0));
-    let x: Vec<Poly> = c.x.iter().map(|p| Poly::new(p.iter().map(|n| n.0.numer() * (&clear / n.0.denom())).collect())).collect();
+    let x: Vec<Poly> =
+        c.x.iter()
+            .map(|p| {
+                Poly::new(
+                    p.iter()
+                        .map(|n| n.0.numer() * (&clear / n.0.denom()))
+                        .collect(),
+                )
+            })
+            .collect();
     let slip = reduced.pencil.slip();
-    let solution = Solution { value, multiplicity: 1, slip: c.support.clone(), biactive: c.biactive.clone(), x, y: Vec::new() };
+    let solution = Solution {
+        value,
+        multiplicity: 1,
+        slip: c.support.clone(),
+        biactive: c.biactive.clone(),
+        x,
+        y: Vec::new(),
+    };
     let norm = solution.normaliser(&slip);
-    of_polynomials(problem, reduced, solution.value, &c.support, &c.biactive, &solution.x, &norm)
+    of_polynomials(
+        problem,
+        reduced,
+        solution.value,
+        &c.support,
+        &c.biactive,
+        &solution.x,
+        &norm,
+    )
 }
 
 fn of_polynomials(
@@ -180,7 +284,9 @@ fn of_polynomials(
     x: &[Poly],
     norm: &Poly,
 ) -> Listed {
-    let ratio = |value: &mut Algebraic, p: &Poly, scale: &Integer| ratio_to_decimal(value, p, &norm.scale(scale), DIGITS);
+    let ratio = |value: &mut Algebraic, p: &Poly, scale: &Integer| {
+        ratio_to_decimal(value, p, &norm.scale(scale), DIGITS)
+    };
     let one = Integer::from(1);
     let y = (0..reduced.pencil.order())
         .map(|i| {
@@ -192,8 +298,14 @@ fn of_polynomials(
         Body::Pencil(_) => None,
         Body::System(system) => {
             let l = lift(system, problem.unknown(), &reduced.variables, x);
-            let v = l.v.iter().map(|p| ratio(&mut value, p, &l.v_scale)).collect();
-            let w = l.w.iter().map(|p| ratio(&mut value, p, &l.w_scale)).collect();
+            let v =
+                l.v.iter()
+                    .map(|p| ratio(&mut value, p, &l.v_scale))
+                    .collect();
+            let w =
+                l.w.iter()
+                    .map(|p| ratio(&mut value, p, &l.w_scale))
+                    .collect();
             Some((v, w))
         }
     };
@@ -222,7 +334,10 @@ fn row_times(pencil: &Pencil, i: usize, x: &[Poly]) -> (Poly, Integer) {
     let mut sum = Poly::default();
     for (m, power) in [(a, 0), (b, 1)] {
         for (j, v) in m {
-            sum = &sum + &x[*j].scale(&(v.numer() * (&clear / v.denom()))).shift(power);
+            sum = &sum
+                + &x[*j]
+                    .scale(&(v.numer() * (&clear / v.denom())))
+                    .shift(power);
         }
     }
     (sum, clear)
@@ -237,13 +352,25 @@ mod tests {
 
     /// [[1, -6], [2, -6]] + t I: t = 2 with x = (2, 1).
     fn listed(x: &[f64]) -> Listed {
-        let pencil = Pencil::new(Sparse::from_ints(&[&[1, -6], &[2, -6]]), Sparse::identity(2), vec![]).unwrap();
+        let pencil = Pencil::new(
+            Sparse::from_ints(&[&[1, -6], &[2, -6]]),
+            Sparse::identity(2),
+            vec![],
+        )
+        .unwrap();
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
         let reduced = reduce(&problem).unwrap();
         let certifier = Certifier::new(&problem, &reduced.pencil);
 
-        let value = Interval::new(whole(2) - rational(1, 1 << 20), whole(2) + rational(1, 1 << 20)).unwrap();
-        let proved = AcceptedClaim { support: vec![0, 1], value };
+        let value = Interval::new(
+            whole(2) - rational(1, 1 << 20),
+            whole(2) + rational(1, 1 << 20),
+        )
+        .unwrap();
+        let proved = AcceptedClaim {
+            support: vec![0, 1],
+            value,
+        };
         Listed::of_cover(&problem, &reduced, &certifier, &proved, x)
     }
 
@@ -253,10 +380,14 @@ mod tests {
 
         assert_eq!((listed.value.as_str(), listed.exact.is_some()), ("2", true));
         assert_eq!(listed.x, ["0.66666666666666667", "0.33333333333333333"]);
-        assert_eq!(listed.enclosure, Some(["1.9999990463256835".into(), "2.0000009536743165".into()]));
+        assert_eq!(
+            listed.enclosure,
+            Some(["1.9999990463256835".into(), "2.0000009536743165".into()])
+        );
     }
 
-    /// A claim whose values reach out of the enclosure may be about a neighbour, and so may one with another support.
+    /// A claim whose values reach out of the enclosure may be about a neighbour, and so may one
+    /// with another support.
     #[test]
     fn a_claim_that_only_overlaps_is_not_taken() {
         let claim = |support: &[usize], a: i64, b: i64| AcceptedClaim {
@@ -265,8 +396,15 @@ mod tests {
         };
         let proved = claim(&[0, 1], 4, 6);
 
-        assert!(is_about(&claim(&[0, 1], 4, 6), &proved) && is_about(&claim(&[0, 1], 5, 5), &proved));
-        for other in [claim(&[0, 1], 3, 5), claim(&[0, 1], 5, 7), claim(&[0, 1], 3, 7), claim(&[0], 5, 5)] {
+        assert!(
+            is_about(&claim(&[0, 1], 4, 6), &proved) && is_about(&claim(&[0, 1], 5, 5), &proved)
+        );
+        for other in [
+            claim(&[0, 1], 3, 5),
+            claim(&[0, 1], 5, 7),
+            claim(&[0, 1], 3, 7),
+            claim(&[0], 5, 5),
+        ] {
             assert!(!is_about(&other, &proved), "{other:?}");
         }
     }
@@ -276,7 +414,10 @@ mod tests {
     fn a_solution_without_a_claim_has_the_digits_of_its_doubles() {
         let listed = listed(&[0.75, 0.25]);
 
-        assert_eq!((listed.value.as_str(), listed.exact.is_some()), ("2", false));
+        assert_eq!(
+            (listed.value.as_str(), listed.exact.is_some()),
+            ("2", false)
+        );
         assert_eq!(listed.x, ["0.75", "0.25"]);
         assert_eq!(listed.slip, [0, 1]);
         assert!(listed.enclosure.is_some());

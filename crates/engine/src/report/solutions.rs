@@ -28,7 +28,8 @@ pub struct Report<'a> {
     pub cover: Option<&'a AcceptedCover>,
 }
 
-/// What a list of solutions is said to be. Only the enumerator and an accepted cover may say more than `Solutions`.
+/// What a list of solutions is said to be. Only the enumerator and an accepted cover may say more
+/// than `Solutions`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Claimed {
     /// All that there is.
@@ -42,7 +43,11 @@ pub enum Claimed {
 impl Claimed {
     /// `Complete` or `Solutions`.
     pub fn complete_if(is_complete: bool) -> Claimed {
-        if is_complete { Claimed::Complete } else { Claimed::Solutions }
+        if is_complete {
+            Claimed::Complete
+        } else {
+            Claimed::Solutions
+        }
     }
 
     /// What an accepted cover proves of its solutions.
@@ -50,7 +55,11 @@ impl Claimed {
         if !cover.open.is_empty() {
             return Claimed::Solutions;
         }
-        if cover.is_plain_list() { Claimed::Complete } else { Claimed::CompleteWithFamilies }
+        if cover.is_plain_list() {
+            Claimed::Complete
+        } else {
+            Claimed::CompleteWithFamilies
+        }
     }
 
     /// The word in the file.
@@ -66,7 +75,9 @@ impl Claimed {
 /// Everything to be listed: the solutions, and between them the cones of the enumerator.
 fn entries(report: &Report<'_>) -> Vec<Listed> {
     match report.enumeration {
-        Some(e) if !(e.wide.is_empty() && e.continua.is_empty()) => Listed::of_enumeration(report.problem, report.reduced, e),
+        Some(e) if !(e.wide.is_empty() && e.continua.is_empty()) => {
+            Listed::of_enumeration(report.problem, report.reduced, e)
+        }
         _ => report.solutions.clone(),
     }
 }
@@ -74,7 +85,12 @@ fn entries(report: &Report<'_>) -> Vec<Listed> {
 /// The report as JSON.
 pub fn solutions_json(report: &Report<'_>) -> Value {
     let ranges = |e: &Enumeration| e.ranges.iter().map(range).collect::<Vec<_>>();
-    let undescribed = |e: &Enumeration| e.undescribed.iter().map(|u| json!({ "support": u.support, "reason": u.to_string() })).collect();
+    let undescribed = |e: &Enumeration| {
+        e.undescribed
+            .iter()
+            .map(|u| json!({ "support": u.support, "reason": u.to_string() }))
+            .collect()
+    };
     let mut out = json!({
         "format": SOLUTIONS_FORMAT,
         "problem_sha256": report.problem.sha256(),
@@ -112,13 +128,20 @@ fn region(r: &OpenRegion) -> Value {
 
 /// A support with the intervals of values at which it has a solution.
 fn range(r: &SupportRange) -> Value {
-    let kernel: Vec<Vec<Vec<String>>> = r.kernel.iter().map(|v| v.iter().map(|p| coefficients(p.coeffs())).collect()).collect();
+    let kernel: Vec<Vec<Vec<String>>> = r
+        .kernel
+        .iter()
+        .map(|v| v.iter().map(|p| coefficients(p.coeffs())).collect())
+        .collect();
     json!({ "slip": r.support, "intervals": r.pieces.iter().map(interval).collect::<Vec<_>>(), "kernel": kernel })
 }
 
 fn interval(piece: &Piece) -> Value {
     let end = |e: &End| {
-        let (polynomial, ends) = (coefficients(e.value.poly().coeffs()), [e.value.interval().lo(), e.value.interval().hi()]);
+        let (polynomial, ends) = (
+            coefficients(e.value.poly().coeffs()),
+            [e.value.interval().lo(), e.value.interval().hi()],
+        );
         let exact = json!({ "polynomial": polynomial, "interval": ends.map(ToString::to_string) });
         json!({ "value": decimal(e), "included": e.included, "exact": exact })
     };
@@ -126,7 +149,11 @@ fn interval(piece: &Piece) -> Value {
 }
 
 fn decimal(end: &End) -> String {
-    to_decimal(&mut end.value.clone(), &Poly::from_ints(&[0, 1]), super::listed::DIGITS)
+    to_decimal(
+        &mut end.value.clone(),
+        &Poly::from_ints(&[0, 1]),
+        super::listed::DIGITS,
+    )
 }
 
 fn coefficients(c: &[Integer]) -> Vec<String> {
@@ -171,7 +198,10 @@ fn variable(v: &Variable) -> Value {
     match v {
         Variable::Free { dof } => json!({ "free": dof }),
         Variable::Slip { sign, tangent, .. } => {
-            let tangent: Vec<Value> = tangent.iter().map(|(dof, c)| json!([dof, c.to_string()])).collect();
+            let tangent: Vec<Value> = tangent
+                .iter()
+                .map(|(dof, c)| json!([dof, c.to_string()]))
+                .collect();
             json!({ "slip": { "sign": sign, "tangent": tangent } })
         }
     }
@@ -181,35 +211,74 @@ fn variable(v: &Variable) -> Value {
 pub fn solutions_text(report: &Report<'_>) -> String {
     // All of x where that fits a line, else the slip variables.
     let order = report.reduced.pencil.order();
-    let slip = if order <= SHORT { (0..order).collect() } else { report.reduced.pencil.slip() };
-    let what = if order <= SHORT { "x (e'x_s = 1)" } else { "x (slip variables, e'x_s = 1)" };
+    let slip = if order <= SHORT {
+        (0..order).collect()
+    } else {
+        report.reduced.pencil.slip()
+    };
+    let what = if order <= SHORT {
+        "x (e'x_s = 1)"
+    } else {
+        "x (slip variables, e'x_s = 1)"
+    };
     let mut table = Table::new(&[report.problem.unknown().word(), "slip", "biactive", what]);
     for s in &report.solutions {
         let x: Vec<String> = slip.iter().map(|&i| short(&s.x[i])).collect();
-        table.row(vec![s.value.clone(), format!("{:?}", s.slip), format!("{:?}", s.biactive), x.join(" ")]);
+        table.row(vec![
+            s.value.clone(),
+            format!("{:?}", s.slip),
+            format!("{:?}", s.biactive),
+            x.join(" "),
+        ]);
     }
-    let mut out = if report.solutions.is_empty() { String::new() } else { table.to_string() + &meaning(report, &slip) };
+    let mut out = if report.solutions.is_empty() {
+        String::new()
+    } else {
+        table.to_string() + &meaning(report, &slip)
+    };
     if let Some(e) = report.enumeration {
         out += &degenerate(report, e, &slip);
     }
-    out += &format!("{} solution{}: {}\n", report.solutions.len(), if report.solutions.len() == 1 { "" } else { "s" }, report.evidence);
+    out += &format!(
+        "{} solution{}: {}\n",
+        report.solutions.len(),
+        if report.solutions.len() == 1 { "" } else { "s" },
+        report.evidence
+    );
     out
 }
 
 /// Cones and continua, and what lies outside the propositions.
 fn degenerate(report: &Report<'_>, e: &Enumeration, printed: &[usize]) -> String {
     let mut out = String::new();
-    let vector = |x: &[String]| printed.iter().map(|&i| short(&x[i])).collect::<Vec<_>>().join(" ");
+    let vector = |x: &[String]| {
+        printed
+            .iter()
+            .map(|&i| short(&x[i]))
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
     for cone in &e.cones {
         let listed = Listed::of_cone(report.problem, report.reduced, cone);
-        out += &format!("cone of dimension {} at {}, slip {:?}: combinations of\n", cone.dimension, listed.value, cone.slip);
+        out += &format!(
+            "cone of dimension {} at {}, slip {:?}: combinations of\n",
+            cone.dimension, listed.value, cone.slip
+        );
         let Some(c) = listed.cone else { continue };
-        c.rays.iter().for_each(|r| out += &format!("  ray {}\n", vector(&r.x)));
-        c.lineality.iter().for_each(|l| out += &format!("  line {} (either sign)\n", vector(l)));
+        c.rays
+            .iter()
+            .for_each(|r| out += &format!("  ray {}\n", vector(&r.x)));
+        c.lineality
+            .iter()
+            .for_each(|l| out += &format!("  line {} (either sign)\n", vector(l)));
     }
     for r in &e.ranges {
         let text: Vec<String> = r.pieces.iter().map(interval_text).collect();
-        out += &format!("continuum: slip {:?} has solutions for every value in {}\n", r.support, text.join(", "));
+        out += &format!(
+            "continuum: slip {:?} has solutions for every value in {}\n",
+            r.support,
+            text.join(", ")
+        );
     }
     e.undescribed.iter().for_each(|u| out += &format!("{u}\n"));
     if e.is_outside_propositions() {
@@ -219,9 +288,17 @@ fn degenerate(report: &Report<'_>, e: &Enumeration, printed: &[usize]) -> String
 }
 
 fn interval_text(piece: &Piece) -> String {
-    let from = format!("{}{}", if piece.from.included { "[" } else { "(" }, short(&decimal(&piece.from)));
+    let from = format!(
+        "{}{}",
+        if piece.from.included { "[" } else { "(" },
+        short(&decimal(&piece.from))
+    );
     match &piece.to {
-        Some(to) => format!("{from}, {}{}", short(&decimal(to)), if to.included { "]" } else { ")" }),
+        Some(to) => format!(
+            "{from}, {}{}",
+            short(&decimal(to)),
+            if to.included { "]" } else { ")" }
+        ),
         None => format!("{from}, infinity)"),
     }
 }
@@ -235,11 +312,17 @@ fn meaning(report: &Report<'_>, printed: &[usize]) -> String {
         Variable::Free { dof } => Some(format!("x[{i}] = v[{dof}]")),
         Variable::Slip { sign, tangent, .. } => {
             let dof = tangent.first().map_or(0, |d| d.0);
-            Some(format!("x[{i}] = -S v_T of the particle at dof {dof}, S = {sign:+}"))
+            Some(format!(
+                "x[{i}] = -S v_T of the particle at dof {dof}, S = {sign:+}"
+            ))
         }
     };
     let lines: Vec<String> = printed.iter().filter_map(one).collect();
-    if lines.is_empty() { String::new() } else { format!("where {}\n", lines.join(", ")) }
+    if lines.is_empty() {
+        String::new()
+    } else {
+        format!("where {}\n", lines.join(", "))
+    }
 }
 
 /// A decimal cut to eight significant characters for a table.

@@ -8,7 +8,8 @@ use crate::model::{Pencil, Window};
 use crate::tolerance::SEMIDEFINITE_PIVOT;
 use num_traits::{Signed, Zero};
 
-/// Largest order for which exact factors are formed: beyond it their numbers grow longer than they tell.
+/// Largest order for which exact factors are formed: beyond it their numbers grow longer than they
+/// tell.
 const MAX_ORDER: usize = 48;
 
 /// A leaf that closes the whole window, if the pencil's symmetric part is definite at both ends
@@ -19,7 +20,9 @@ pub fn leaf(pencil: &Pencil, window: &Window) -> Option<Node> {
     }
     let at = |t: &Rational| symmetric(&pencil.a().add_scaled(t, pencil.b()).to_dense());
     let lower = at(window.min());
-    let upper = window.max().map_or_else(|| symmetric(&pencil.b().to_dense()), at);
+    let upper = window
+        .max()
+        .map_or_else(|| symmetric(&pencil.b().to_dense()), at);
     // Exact factors of a large matrix take long: not where doubles see that there are none.
     if is_indefinite(&upper) || is_indefinite(&lower) {
         return None;
@@ -32,13 +35,22 @@ pub fn leaf(pencil: &Pencil, window: &Window) -> Option<Node> {
 
 fn symmetric(m: &crate::exact::Dense) -> Vec<Vec<Rational>> {
     let n = m.rows();
-    (0..n).map(|i| (0..n).map(|j| (&m.row(i)[j] + &m.row(j)[i]) * rational(1, 2)).collect()).collect()
+    (0..n)
+        .map(|i| {
+            (0..n)
+                .map(|j| (&m.row(i)[j] + &m.row(j)[i]) * rational(1, 2))
+                .collect()
+        })
+        .collect()
 }
 
-/// Is a pivot of S clearly negative in doubles? Never for a semidefinite S: there rounding stays below the
-/// margin, and what a row with a tiny pivot leaves behind is semidefinite as well.
+/// Is a pivot of S clearly negative in doubles? Never for a semidefinite S: there rounding stays
+/// below the margin, and what a row with a tiny pivot leaves behind is semidefinite as well.
 fn is_indefinite(s: &[Vec<Rational>]) -> bool {
-    let mut s: Vec<Vec<f64>> = s.iter().map(|row| row.iter().map(to_f64).collect()).collect();
+    let mut s: Vec<Vec<f64>> = s
+        .iter()
+        .map(|row| row.iter().map(to_f64).collect())
+        .collect();
     let n = s.len();
     let margin = SEMIDEFINITE_PIVOT * (0..n).fold(0.0f64, |most, i| most.max(s[i][i].abs()));
     for k in 0..n {
@@ -61,10 +73,13 @@ fn is_indefinite(s: &[Vec<Rational>]) -> bool {
 /// S = L D L' with unit lower triangular L and D >= 0; `None` if S is not positive semidefinite.
 fn ldl(s: &[Vec<Rational>]) -> Option<LdlFactor> {
     let n = s.len();
-    let (mut rows, mut diagonal): (Vec<Vec<Rational>>, Vec<Rational>) = (vec![Vec::new(); n], Vec::new());
+    let (mut rows, mut diagonal): (Vec<Vec<Rational>>, Vec<Rational>) =
+        (vec![Vec::new(); n], Vec::new());
     for k in 0..n {
         let reduced = |i: usize, rows: &[Vec<Rational>], diagonal: &[Rational]| {
-            (0..k).fold(s[i][k].clone(), |sum, l| sum - &rows[i][l] * &rows[k][l] * &diagonal[l])
+            (0..k).fold(s[i][k].clone(), |sum, l| {
+                sum - &rows[i][l] * &rows[k][l] * &diagonal[l]
+            })
         };
         let d = reduced(k, &rows, &diagonal);
         if d.is_negative() {
@@ -80,7 +95,10 @@ fn ldl(s: &[Vec<Rational>]) -> Option<LdlFactor> {
         diagonal.push(d);
     }
     let number = |list: Vec<Rational>| list.into_iter().map(Number).collect();
-    Some(LdlFactor { rows: rows.into_iter().map(number).collect(), diagonal: number(diagonal) })
+    Some(LdlFactor {
+        rows: rows.into_iter().map(number).collect(),
+        diagonal: number(diagonal),
+    })
 }
 
 #[cfg(test)]
@@ -101,30 +119,67 @@ mod tests {
         let p = pencil(&[&[2, 1], &[-1, 2]], &[&[1, 2], &[2, 4]]);
         assert!(matches!(leaf(&p, &Window::all()), Some(Node::Ldl(_))));
         let problem = Problem::new(Body::Pencil(p), Unknown::Lambda2, Window::all()).unwrap();
-        let found = complete(&problem, &Options::default(), &AtomicBool::new(false), &|_| {}).unwrap();
-        assert_eq!((found.is_complete(), found.cover.leaves, found.cover.solutions.len()), (true, 1, 0));
+        let found = complete(
+            &problem,
+            &Options::default(),
+            &AtomicBool::new(false),
+            &|_| {},
+        )
+        .unwrap();
+        assert_eq!(
+            (
+                found.is_complete(),
+                found.cover.leaves,
+                found.cover.solutions.len()
+            ),
+            (true, 1, 0)
+        );
     }
 
-    /// Rank one with entries of every size is semidefinite to the screen as it is to the exact factors; taking a
-    /// thousandth off a diagonal entry is seen.
+    /// Rank one with entries of every size is semidefinite to the screen as it is to the exact
+    /// factors; taking a thousandth off a diagonal entry is seen.
     #[test]
     fn the_screen_keeps_what_is_semidefinite() {
         let v = [7, -300, 0, 11, 1, -1, 99_991];
         let rank_one = |less: &Rational| -> Vec<Vec<Rational>> {
-            let entry = |i: usize, j: usize| rational(v[i] * v[j], 3) - if (i, j) == (4, 4) { less.clone() } else { whole(0) };
-            (0..v.len()).map(|i| (0..v.len()).map(|j| entry(i, j)).collect()).collect()
+            let entry = |i: usize, j: usize| {
+                rational(v[i] * v[j], 3)
+                    - if (i, j) == (4, 4) {
+                        less.clone()
+                    } else {
+                        whole(0)
+                    }
+            };
+            (0..v.len())
+                .map(|i| (0..v.len()).map(|j| entry(i, j)).collect())
+                .collect()
         };
         assert!(!is_indefinite(&rank_one(&whole(0))) && ldl(&rank_one(&whole(0))).is_some());
         assert!(is_indefinite(&rank_one(&whole(100_000))));
         // Too little to be seen in doubles: the exact factors refuse it.
-        assert!(!is_indefinite(&rank_one(&rational(1, 1_000_000))) && ldl(&rank_one(&rational(1, 1_000_000))).is_none());
+        assert!(
+            !is_indefinite(&rank_one(&rational(1, 1_000_000)))
+                && ldl(&rank_one(&rational(1, 1_000_000))).is_none()
+        );
     }
 
     #[test]
     fn what_is_not_definite_has_no_leaf() {
         // det sym A = 0; sym B indefinite; definite on [0, 1] only.
-        assert!(leaf(&pencil(&[&[1, 1], &[1, 1]], &[&[1, 0], &[0, 1]]), &Window::all()).is_none());
-        assert!(leaf(&pencil(&[&[1, 0], &[0, 1]], &[&[1, 2], &[2, 1]]), &Window::all()).is_none());
+        assert!(
+            leaf(
+                &pencil(&[&[1, 1], &[1, 1]], &[&[1, 0], &[0, 1]]),
+                &Window::all()
+            )
+            .is_none()
+        );
+        assert!(
+            leaf(
+                &pencil(&[&[1, 0], &[0, 1]], &[&[1, 2], &[2, 1]]),
+                &Window::all()
+            )
+            .is_none()
+        );
         let falling = pencil(&[&[2, 0], &[0, 2]], &[&[-1, 0], &[0, 0]]);
         assert!(leaf(&falling, &Window::all()).is_none());
         assert!(leaf(&falling, &Window::new(whole(0), Some(whole(2))).unwrap()).is_none());

@@ -1,4 +1,5 @@
-//! Complete answers beyond the oracle's reach: floats propose, each discard and each claim is proved.
+//! Complete answers beyond the oracle's reach: floats propose, each discard and each claim is
+//! proved.
 
 pub mod complete;
 pub mod definite;

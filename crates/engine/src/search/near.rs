@@ -1,5 +1,5 @@
-//! Is there a solution near a value that somebody claims? A complete set over [value - r, value + r]
-//! says: none, which is a proof of absence; or exactly which; or what stays open.
+//! Is there a solution near a value that somebody claims? A complete set over [value - r, value +
+//! r] says: none, which is a proof of absence; or exactly which; or what stays open.
 
 use super::complete::{CompleteError, Completed, Options, complete};
 use crate::candidate::Candidate;
@@ -25,8 +25,8 @@ pub enum Near {
     Others(Completed),
     /// The candidate's x belongs to one of the solutions there.
     Present(Completed),
-    /// Regions stay open in the smallest window tried, or families of solutions lie in it, to which the
-    /// candidate may belong.
+    /// Regions stay open in the smallest window tried, or families of solutions lie in it, to which
+    /// the candidate may belong.
     Open(Completed),
 }
 
@@ -37,25 +37,66 @@ pub enum Near {
 /// [`CompleteError`]: the problem is outside the hypotheses of the complete search.
 ///
 /// ```
-/// use mceip_engine::{candidate::Candidate, exact::Sparse, model::{Body, Pencil, Problem, Unknown, Window}, search::near::{Near, near}};
+/// use mceip_engine::{
+///     candidate::Candidate,
+///     exact::Sparse,
+///     model::{Body, Pencil, Problem, Unknown, Window},
+///     search::near::{Near, near},
+/// };
 /// use std::sync::atomic::AtomicBool;
-/// let pencil = Pencil::new(Sparse::from_ints(&[&[1, -6], &[2, -6]]), Sparse::identity(2), vec![]).unwrap();
+/// let pencil = Pencil::new(
+///     Sparse::from_ints(&[&[1, -6], &[2, -6]]),
+///     Sparse::identity(2),
+///     vec![],
+/// )
+/// .unwrap();
 /// let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
-/// let claimed = Candidate { value: 2.5, x: vec![0.6, 0.4] };
-/// assert!(matches!(near(&problem, &claimed, None, &AtomicBool::new(false)).unwrap(), Near::Absent(_)));
+/// let claimed = Candidate {
+///     value: 2.5,
+///     x: vec![0.6, 0.4],
+/// };
+/// assert!(matches!(
+///     near(&problem, &claimed, None, &AtomicBool::new(false)).unwrap(),
+///     Near::Absent(_)
+/// ));
 /// ```
-pub fn near(problem: &Problem, candidate: &Candidate, radius: Option<&Rational>, stop: &AtomicBool) -> Result<Near, CompleteError> {
-    let Ok(value) = from_f64(candidate.value) else { return Ok(Near::OutsideWindow) };
+pub fn near(
+    problem: &Problem,
+    candidate: &Candidate,
+    radius: Option<&Rational>,
+    stop: &AtomicBool,
+) -> Result<Near, CompleteError> {
+    let Ok(value) = from_f64(candidate.value) else {
+        return Ok(Near::OutsideWindow);
+    };
     let scale = Rational::from_integer(Integer::from(1)) + value.abs();
     let radii = match radius {
         Some(r) => vec![r.clone()],
-        None => ABSENCE_RADII.iter().filter_map(|r| parse(&format!("{r:e}")).ok()).map(|r| r * &scale).collect(),
+        None => ABSENCE_RADII
+            .iter()
+            .filter_map(|r| parse(&format!("{r:e}")).ok())
+            .map(|r| r * &scale)
+            .collect(),
     };
     let mut last = Near::OutsideWindow;
     for r in radii {
-        let Some(window) = around(problem.window(), &value, &r) else { return Ok(Near::OutsideWindow) };
-        let options = Options { pieces: PIECES, nodes_per_piece: NODES_PER_PIECE, ..Options::default() };
-        last = judge(complete(&problem.clone().with_window(window), &options, stop, &|_| {})?, candidate);
+        let Some(window) = around(problem.window(), &value, &r) else {
+            return Ok(Near::OutsideWindow);
+        };
+        let options = Options {
+            pieces: PIECES,
+            nodes_per_piece: NODES_PER_PIECE,
+            ..Options::default()
+        };
+        last = judge(
+            complete(
+                &problem.clone().with_window(window),
+                &options,
+                stop,
+                &|_| {},
+            )?,
+            candidate,
+        );
         if !matches!(last, Near::Open(_)) {
             break;
         }
@@ -75,7 +116,10 @@ fn around(window: &Window, value: &Rational, radius: &Rational) -> Option<Window
 /// A power of ten between r / 1000 and r / 100.
 fn grid(radius: &Rational) -> Rational {
     let ten = Rational::from_integer(Integer::from(10));
-    let (mut grid, limit) = (Rational::from_integer(Integer::from(1)), radius / (&ten * &ten));
+    let (mut grid, limit) = (
+        Rational::from_integer(Integer::from(1)),
+        radius / (&ten * &ten),
+    );
     while grid > limit {
         grid /= &ten;
     }
@@ -86,7 +130,10 @@ fn grid(radius: &Rational) -> Rational {
 }
 
 fn judge(completed: Completed, candidate: &Candidate) -> Near {
-    if completed.solutions().any(|(s, x)| distance(x, candidate, &s.support) <= X_RADIUS) {
+    if completed
+        .solutions()
+        .any(|(s, x)| distance(x, candidate, &s.support) <= X_RADIUS)
+    {
         Near::Present(completed)
     } else if !completed.cover.is_plain_list() {
         Near::Open(completed)
@@ -101,9 +148,15 @@ fn judge(completed: Completed, candidate: &Candidate) -> Near {
 fn distance(x: &[f64], candidate: &Candidate, support: &[usize]) -> f64 {
     let sum = |x: &[f64]| support.iter().filter_map(|&i| x.get(i)).sum::<f64>();
     let (ours, theirs) = (sum(x), sum(&candidate.x));
-    let difference = x.iter().zip(&candidate.x).map(|(a, b)| (a / ours - b / theirs).abs());
+    let difference = x
+        .iter()
+        .zip(&candidate.x)
+        .map(|(a, b)| (a / ours - b / theirs).abs());
     // NaN (a candidate that is zero there) is no agreement.
-    difference.fold(0.0, |m, d| if d.is_nan() { f64::INFINITY } else { d.max(m) })
+    difference.fold(
+        0.0,
+        |m, d| if d.is_nan() { f64::INFINITY } else { d.max(m) },
+    )
 }
 
 #[cfg(test)]
@@ -114,34 +167,71 @@ mod tests {
 
     /// lambda^2 = 2 with x = (2, 1) and 3 with (3, 2).
     fn fold(window: Window) -> Problem {
-        let pencil = Pencil::new(Sparse::from_ints(&[&[1, -6], &[2, -6]]), Sparse::identity(2), vec![]).unwrap();
+        let pencil = Pencil::new(
+            Sparse::from_ints(&[&[1, -6], &[2, -6]]),
+            Sparse::identity(2),
+            vec![],
+        )
+        .unwrap();
         Problem::new(Body::Pencil(pencil), Unknown::Lambda2, window).unwrap()
     }
 
     fn ask(problem: &Problem, value: f64, x: &[f64], radius: Option<Rational>) -> Near {
-        near(problem, &Candidate { value, x: x.to_vec() }, radius.as_ref(), &AtomicBool::new(false)).unwrap()
+        near(
+            problem,
+            &Candidate {
+                value,
+                x: x.to_vec(),
+            },
+            radius.as_ref(),
+            &AtomicBool::new(false),
+        )
+        .unwrap()
     }
 
     #[test]
     fn the_four_answers() {
         let all = fold(Window::all());
         assert!(matches!(ask(&all, 2.5, &[0.6, 0.4], None), Near::Absent(_)));
-        assert!(matches!(ask(&all, 2.0, &[0.5, 0.5], None), Near::Others(c) if c.cover.solutions.len() == 1));
-        assert!(matches!(ask(&all, 2.5, &[0.5, 0.5], Some(whole(1))), Near::Others(c) if c.cover.solutions.len() == 2));
-        assert!(matches!(ask(&all, 2.0, &[4.0, 2.0], None), Near::Present(_)));
-        assert!(matches!(ask(&all, -1.0, &[4.0, 2.0], None), Near::OutsideWindow));
+        assert!(
+            matches!(ask(&all, 2.0, &[0.5, 0.5], None), Near::Others(c) if c.cover.solutions.len() == 1)
+        );
+        assert!(
+            matches!(ask(&all, 2.5, &[0.5, 0.5], Some(whole(1))), Near::Others(c) if c.cover.solutions.len() == 2)
+        );
+        assert!(matches!(
+            ask(&all, 2.0, &[4.0, 2.0], None),
+            Near::Present(_)
+        ));
+        assert!(matches!(
+            ask(&all, -1.0, &[4.0, 2.0], None),
+            Near::OutsideWindow
+        ));
         let cut = fold(Window::new(whole(0), Some(rational(5, 2))).unwrap());
-        let Near::Absent(c) = ask(&cut, 2.5, &[0.6, 0.4], Some(rational(1, 10))) else { panic!("absent") };
-        assert_eq!((c.certificate.window.min(), c.certificate.window.max()), (&rational(12, 5), Some(&rational(5, 2))));
+        let Near::Absent(c) = ask(&cut, 2.5, &[0.6, 0.4], Some(rational(1, 10))) else {
+            panic!("absent")
+        };
+        assert_eq!(
+            (c.certificate.window.min(), c.certificate.window.max()),
+            (&rational(12, 5), Some(&rational(5, 2)))
+        );
     }
 
-    /// The pencil is singular on {0, 1}: a solution for every value. The cover closes, and is no absence.
+    /// The pencil is singular on {0, 1}: a solution for every value. The cover closes, and is no
+    /// absence.
     #[test]
     fn a_family_nearby_is_no_absence() {
         let a = Sparse::from_ints(&[&[1, -1], &[-1, 1]]);
         let pencil = Pencil::new(a, Sparse::zeros(2, 2), vec![]).unwrap();
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all()).unwrap();
-        let Near::Open(c) = ask(&problem, 1.0, &[1.0, 0.0], None) else { panic!("undecided") };
-        assert!(c.is_complete() && c.cover.solutions.is_empty() && !c.cover.families.is_empty() && !c.cover.proves_absence());
+        let Near::Open(c) = ask(&problem, 1.0, &[1.0, 0.0], None) else {
+            panic!("undecided")
+        };
+        assert!(
+            c.is_complete()
+                && c.cover.solutions.is_empty()
+                && !c.cover.families.is_empty()
+                && !c.cover.proves_absence()
+        );
     }
 }

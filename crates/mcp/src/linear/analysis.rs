@@ -42,23 +42,42 @@ impl Front {
 }
 
 impl Analysis {
-    /// Unknowns in `kept` come last, in that order, and are not eliminated; those in `held` are left
-    /// out (zero). `points`: positions of all unknowns in the plane, where known, make the fronts smaller.
-    /// Indices beyond the order, and those that `held` names again, are ignored.
-    pub fn new(matrix: &Symmetric, kept: &[usize], held: &[usize], points: Option<&[[f64; 2]]>) -> Analysis {
+    /// Unknowns in `kept` come last, in that order, and are not eliminated; those in `held` are
+    /// left out (zero). `points`: positions of all unknowns in the plane, where known, make the
+    /// fronts smaller. Indices beyond the order, and those that `held` names again, are ignored.
+    pub fn new(
+        matrix: &Symmetric,
+        kept: &[usize],
+        held: &[usize],
+        points: Option<&[[f64; 2]]>,
+    ) -> Analysis {
         let n = matrix.order();
         let mut wanted = vec![true; n];
-        kept.iter().chain(held).filter(|&&i| i < n).for_each(|&i| wanted[i] = false);
+        kept.iter()
+            .chain(held)
+            .filter(|&&i| i < n)
+            .for_each(|&i| wanted[i] = false);
         let points = points.filter(|p| p.len() == n);
         let parts = dissect(n, &|i| matrix.columns(i), &|i| wanted[i], points);
         let mut order: Vec<usize> = parts.iter().flat_map(|p| p.own.iter().copied()).collect();
         let eliminated = order.len();
         let mut place = vec![usize::MAX; n];
-        held.iter().filter(|&&i| i < n).for_each(|&i| wanted[i] = true);
-        order.extend(kept.iter().copied().filter(|&i| i < n && !std::mem::replace(&mut wanted[i], true)));
+        held.iter()
+            .filter(|&&i| i < n)
+            .for_each(|&i| wanted[i] = true);
+        order.extend(
+            kept.iter()
+                .copied()
+                .filter(|&i| i < n && !std::mem::replace(&mut wanted[i], true)),
+        );
         order.iter().enumerate().for_each(|(k, &i)| place[i] = k);
         let fronts = fronts(matrix, &parts, &order, &place);
-        Analysis { order, place, eliminated, fronts }
+        Analysis {
+            order,
+            place,
+            eliminated,
+            fronts,
+        }
     }
 
     /// Entries of the factor, those of dense lower triangles with their upper parts included.
@@ -88,12 +107,23 @@ fn fronts(matrix: &Symmetric, parts: &[Part], order: &[usize], place: &[usize]) 
     let mut begin = 0;
     for (k, part) in parts.iter().enumerate() {
         let end = begin + part.own.len();
-        let of_children = part.children.iter().flat_map(|&c| fronts[c].border.iter().copied());
-        let of_matrix = order[begin..end].iter().flat_map(|&i| matrix.columns(i).iter().map(|&j| place[j]));
-        let later = |&p: &usize| p != usize::MAX && p >= end && std::mem::replace(&mut seen[p], k) != k;
+        let of_children = part
+            .children
+            .iter()
+            .flat_map(|&c| fronts[c].border.iter().copied());
+        let of_matrix = order[begin..end]
+            .iter()
+            .flat_map(|&i| matrix.columns(i).iter().map(|&j| place[j]));
+        let later =
+            |&p: &usize| p != usize::MAX && p >= end && std::mem::replace(&mut seen[p], k) != k;
         let mut border: Vec<usize> = of_children.chain(of_matrix).filter(later).collect();
         border.sort_unstable();
-        fronts.push(Front { begin, end, border, children: part.children.clone() });
+        fronts.push(Front {
+            begin,
+            end,
+            border,
+            children: part.children.clone(),
+        });
         begin = end;
     }
     fronts
@@ -106,14 +136,22 @@ mod tests {
     /// A chain of seven, the middle kept, the first held: two chains that touch what is kept.
     #[test]
     fn kept_come_last_and_held_not_at_all() {
-        let chain = (0..7usize).flat_map(|i| [(i, i, 2.0)].into_iter().chain((i > 0).then(|| (i, i - 1, -1.0))));
-        let both = chain.flat_map(|(i, j, v)| [(i, j, v)].into_iter().chain((i != j).then_some((j, i, v))));
+        let chain = (0..7usize).flat_map(|i| {
+            [(i, i, 2.0)]
+                .into_iter()
+                .chain((i > 0).then(|| (i, i - 1, -1.0)))
+        });
+        let both = chain
+            .flat_map(|(i, j, v)| [(i, j, v)].into_iter().chain((i != j).then_some((j, i, v))));
         let a = Analysis::new(&Symmetric::new(7, both).unwrap(), &[3, 99, 3], &[0], None);
         assert_eq!((a.eliminated(), a.order.len(), a.order[5]), (5, 6, 3));
         assert_eq!(a.place[0], usize::MAX);
         assert_eq!(a.fronts.last().unwrap().border, [5]);
         assert_eq!(a.largest_front(), 6);
         assert_eq!(a.factor_entries(), 30);
-        assert_eq!(Analysis::new(&Symmetric::new(0, []).unwrap(), &[], &[], None).largest_front(), 0);
+        assert_eq!(
+            Analysis::new(&Symmetric::new(0, []).unwrap(), &[], &[], None).largest_front(),
+            0
+        );
     }
 }

@@ -27,7 +27,9 @@ pub enum SymmetricError {
         got: f64,
     },
     /// Two entries that differ by more than rounding.
-    #[error("expected a symmetric matrix, got ({row}, {col}) = {got} and ({col}, {row}) = {mirrored}")]
+    #[error(
+        "expected a symmetric matrix, got ({row}, {col}) = {got} and ({col}, {row}) = {mirrored}"
+    )]
     NotSymmetric {
         /// Row.
         row: usize,
@@ -57,11 +59,24 @@ impl Symmetric {
     ///
     /// ```
     /// use mceip_mcp::linear::Symmetric;
-    /// let k = Symmetric::new(2, [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0), (1, 1, 1.0)]).unwrap();
+    /// let k = Symmetric::new(
+    ///     2,
+    ///     [
+    ///         (0, 0, 2.0),
+    ///         (0, 1, -1.0),
+    ///         (1, 0, -1.0),
+    ///         (1, 1, 1.0),
+    ///         (1, 1, 1.0),
+    ///     ],
+    /// )
+    /// .unwrap();
     /// assert_eq!(k.times(&[1.0, 3.0]), [-1.0, 5.0]);
     /// assert!(Symmetric::new(2, [(0, 1, 1.0)]).is_err());
     /// ```
-    pub fn new(order: usize, entries: impl IntoIterator<Item = (usize, usize, f64)>) -> Result<Symmetric, SymmetricError> {
+    pub fn new(
+        order: usize,
+        entries: impl IntoIterator<Item = (usize, usize, f64)>,
+    ) -> Result<Symmetric, SymmetricError> {
         let entries: Vec<(usize, usize, f64)> = entries.into_iter().collect();
         for &(row, col, got) in &entries {
             if row >= order || col >= order {
@@ -74,8 +89,13 @@ impl Symmetric {
         let one = by_rows(order, entries.len(), || entries.iter().copied());
         drop(entries);
         // Transposed twice, the columns of each row are sorted.
-        let turned = by_rows(order, one.cols.len(), || one.entries().map(|(i, j, v)| (j, i, v))).summed();
-        let straight = by_rows(order, turned.cols.len(), || turned.entries().map(|(i, j, v)| (j, i, v)));
+        let turned = by_rows(order, one.cols.len(), || {
+            one.entries().map(|(i, j, v)| (j, i, v))
+        })
+        .summed();
+        let straight = by_rows(order, turned.cols.len(), || {
+            turned.entries().map(|(i, j, v)| (j, i, v))
+        });
         straight.averaged(&turned)
     }
 
@@ -87,7 +107,10 @@ impl Symmetric {
     /// (column, value) of a row, columns ascending.
     pub fn row(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
         let place = self.start[i]..self.start[i + 1];
-        self.cols[place.clone()].iter().copied().zip(self.values[place].iter().copied())
+        self.cols[place.clone()]
+            .iter()
+            .copied()
+            .zip(self.values[place].iter().copied())
     }
 
     /// Columns of a row, ascending.
@@ -107,23 +130,33 @@ impl Symmetric {
 
     /// The product with a vector of length `order`.
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
-        (0..self.order()).map(|i| self.row(i).map(|(j, v)| v * x[j]).sum()).collect()
+        (0..self.order())
+            .map(|i| self.row(i).map(|(j, v)| v * x[j]).sum())
+            .collect()
     }
 
     /// self + factor other, of the same order, on the union of both patterns.
     pub fn add_scaled(&self, factor: f64, other: &Symmetric) -> Symmetric {
-        let mut out = Symmetric { start: vec![0], cols: Vec::new(), values: Vec::new() };
+        let mut out = Symmetric {
+            start: vec![0],
+            cols: Vec::new(),
+            values: Vec::new(),
+        };
         for i in 0..self.order() {
             let (mut a, mut b) = (self.row(i).peekable(), other.row(i).peekable());
             loop {
-                let (ja, jb) = (a.peek().map_or(usize::MAX, |e| e.0), b.peek().map_or(usize::MAX, |e| e.0));
+                let (ja, jb) = (
+                    a.peek().map_or(usize::MAX, |e| e.0),
+                    b.peek().map_or(usize::MAX, |e| e.0),
+                );
                 let j = ja.min(jb);
                 if j == usize::MAX {
                     break;
                 }
                 let first = a.next_if(|e| e.0 == j).map_or(0.0, |e| e.1);
                 out.cols.push(j);
-                out.values.push(first + b.next_if(|e| e.0 == j).map_or(0.0, |e| factor * e.1));
+                out.values
+                    .push(first + b.next_if(|e| e.0 == j).map_or(0.0, |e| factor * e.1));
             }
             out.start.push(out.cols.len());
         }
@@ -155,10 +188,16 @@ impl Symmetric {
     fn averaged(self, turned: &Symmetric) -> Result<Symmetric, SymmetricError> {
         let diagonal: Vec<f64> = (0..self.order()).map(|i| self.diagonal(i).abs()).collect();
         let difference = self.add_scaled(-1.0, turned);
-        let apart = |e: &(usize, usize, f64)| e.2.abs() > ASYMMETRY * diagonal[e.0].max(diagonal[e.1]);
+        let apart =
+            |e: &(usize, usize, f64)| e.2.abs() > ASYMMETRY * diagonal[e.0].max(diagonal[e.1]);
         if let Some((row, col, _)) = difference.entries().find(apart) {
             let entry = |m: &Symmetric| m.row(row).find(|e| e.0 == col).map_or(0.0, |e| e.1);
-            return Err(SymmetricError::NotSymmetric { row, col, got: entry(&self), mirrored: entry(turned) });
+            return Err(SymmetricError::NotSymmetric {
+                row,
+                col,
+                got: entry(&self),
+                mirrored: entry(turned),
+            });
         }
         let mut sum = self.add_scaled(1.0, turned);
         sum.values.iter_mut().for_each(|v| *v *= 0.5);
@@ -167,7 +206,11 @@ impl Symmetric {
 }
 
 /// Entries sorted into rows, within a row in the order given.
-fn by_rows<I: Iterator<Item = (usize, usize, f64)>>(order: usize, count: usize, entries: impl Fn() -> I) -> Symmetric {
+fn by_rows<I: Iterator<Item = (usize, usize, f64)>>(
+    order: usize,
+    count: usize,
+    entries: impl Fn() -> I,
+) -> Symmetric {
     let mut start = vec![0; order + 1];
     entries().for_each(|(i, _, _)| start[i + 1] += 1);
     (0..order).for_each(|i| start[i + 1] += start[i]);
@@ -176,7 +219,11 @@ fn by_rows<I: Iterator<Item = (usize, usize, f64)>>(order: usize, count: usize, 
         (cols[next[i]], values[next[i]]) = (j, v);
         next[i] += 1;
     }
-    Symmetric { start, cols, values }
+    Symmetric {
+        start,
+        cols,
+        values,
+    }
 }
 
 #[cfg(test)]
@@ -185,13 +232,41 @@ mod tests {
 
     #[test]
     fn entries_in_any_order_add_up() {
-        let list = [(2, 0, 1.0), (1, 1, 2.0), (0, 2, 0.5), (0, 0, 3.0), (1, 1, 2.0), (0, 2, 0.5), (2, 2, 7.0)];
+        let list = [
+            (2, 0, 1.0),
+            (1, 1, 2.0),
+            (0, 2, 0.5),
+            (0, 0, 3.0),
+            (1, 1, 2.0),
+            (0, 2, 0.5),
+            (2, 2, 7.0),
+        ];
         let m = Symmetric::new(3, list).unwrap();
         let all: Vec<_> = m.entries().collect();
-        assert_eq!(all, [(0, 0, 3.0), (0, 2, 1.0), (1, 1, 4.0), (2, 0, 1.0), (2, 2, 7.0)]);
+        assert_eq!(
+            all,
+            [
+                (0, 0, 3.0),
+                (0, 2, 1.0),
+                (1, 1, 4.0),
+                (2, 0, 1.0),
+                (2, 2, 7.0)
+            ]
+        );
         let other = Symmetric::new(3, [(1, 0, 1.0), (0, 1, 1.0), (1, 1, -1.0)]).unwrap();
         let both: Vec<_> = m.add_scaled(2.0, &other).entries().collect();
-        assert_eq!(both, [(0, 0, 3.0), (0, 1, 2.0), (0, 2, 1.0), (1, 0, 2.0), (1, 1, 2.0), (2, 0, 1.0), (2, 2, 7.0)]);
+        assert_eq!(
+            both,
+            [
+                (0, 0, 3.0),
+                (0, 1, 2.0),
+                (0, 2, 1.0),
+                (1, 0, 2.0),
+                (1, 1, 2.0),
+                (2, 0, 1.0),
+                (2, 2, 7.0)
+            ]
+        );
     }
 
     #[test]
@@ -200,9 +275,21 @@ mod tests {
         let m = with(0.5 + 4.0 * f64::EPSILON).unwrap();
         assert_eq!(m.times(&[0.0, 1.0])[0], m.times(&[1.0, 0.0])[1]);
         let refused = |r: Result<Symmetric, SymmetricError>| r.unwrap_err().to_string();
-        assert_eq!(refused(with(0.25)), "expected a symmetric matrix, got (0, 1) = 0.5 and (1, 0) = 0.25");
-        assert_eq!(refused(Symmetric::new(2, [(0, 1, 1.0)])), "expected a symmetric matrix, got (0, 1) = 1 and (1, 0) = 0");
-        assert_eq!(refused(with(f64::NAN)), "expected a finite entry (1, 0), got NaN");
-        assert_eq!(refused(Symmetric::new(2, [(0, 2, 1.0)])), "expected row and column < 2, got (0, 2)");
+        assert_eq!(
+            refused(with(0.25)),
+            "expected a symmetric matrix, got (0, 1) = 0.5 and (1, 0) = 0.25"
+        );
+        assert_eq!(
+            refused(Symmetric::new(2, [(0, 1, 1.0)])),
+            "expected a symmetric matrix, got (0, 1) = 1 and (1, 0) = 0"
+        );
+        assert_eq!(
+            refused(with(f64::NAN)),
+            "expected a finite entry (1, 0), got NaN"
+        );
+        assert_eq!(
+            refused(Symmetric::new(2, [(0, 2, 1.0)])),
+            "expected row and column < 2, got (0, 2)"
+        );
     }
 }

@@ -1,6 +1,6 @@
 //! The crash: projected Newton on the guessed active set, before the first path (Dirkse and Ferris
-//! 1997, "Crash techniques for large-scale complementarity problems"); and in `semismooth` Newton on the
-//! Fischer-Burmeister system.
+//! 1997, "Crash techniques for large-scale complementarity problems"); and in `semismooth` Newton
+//! on the Fischer-Burmeister system.
 
 mod semismooth;
 
@@ -8,7 +8,9 @@ use super::dense::Lu;
 use super::evaluation::{Evaluated, Point};
 use super::log::Log;
 use super::outcome::{StepKind, Termination};
-use super::tolerance::{ARMIJO, BACKTRACK, CRASH_GAIN, CRASH_PROXIMAL, CRASH_PROXIMAL_LEAST, CRASH_SMALLEST};
+use super::tolerance::{
+    ARMIJO, BACKTRACK, CRASH_GAIN, CRASH_PROXIMAL, CRASH_PROXIMAL_LEAST, CRASH_SMALLEST,
+};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
 
@@ -39,7 +41,9 @@ pub(super) fn crash<P: Mcp + ?Sized>(
 ) -> Result<Point, Termination> {
     let mut point = start;
     storage.active.clear();
-    storage.active.extend((0..point.z.len()).map(|i| is_active(problem.problem, &point, i)));
+    storage
+        .active
+        .extend((0..point.z.len()).map(|i| is_active(problem.problem, &point, i)));
     for _ in 0..limit {
         let jacobian = problem.jacobian(&point)?;
         problem.counters.factorisations += 1;
@@ -48,7 +52,9 @@ pub(super) fn crash<P: Mcp + ?Sized>(
         if !solved {
             break;
         }
-        let Some((next, _)) = search(problem, &point, &storage.direction, CRASH_SMALLEST) else { break };
+        let Some((next, _)) = search(problem, &point, &storage.direction, CRASH_SMALLEST) else {
+            break;
+        };
         problem.counters.crash_steps += 1;
         log.step(point.merit, StepKind::Crash, proximal);
         let gained = next.merit <= (1.0 - CRASH_GAIN) * point.merit;
@@ -73,28 +79,54 @@ fn is_active<P: Mcp + ?Sized>(problem: &P, point: &Point, i: usize) -> bool {
 }
 
 impl Storage {
-    /// Newton's direction in the inactive components; a singular factor is perturbed proximally, with
-    /// a term that vanishes with the merit. Says if there is one, and the term used.
+    /// Newton's direction in the inactive components; a singular factor is perturbed proximally,
+    /// with a term that vanishes with the merit. Says if there is one, and the term used.
     fn newton_direction(&mut self, jacobian: &DMatrix<f64>, point: &Point) -> (bool, f64) {
-        let Storage { active, inactive, lu, step, direction, .. } = self;
+        let Storage {
+            active,
+            inactive,
+            lu,
+            step,
+            direction,
+            ..
+        } = self;
         inactive.clear();
         inactive.extend((0..active.len()).filter(|&i| !active[i]));
-        let mut solve = |proximal: f64| solve_inside(lu, step, jacobian, inactive, |_| proximal, |r| point.f[inactive[r]]);
+        let mut solve = |proximal: f64| {
+            solve_inside(
+                lu,
+                step,
+                jacobian,
+                inactive,
+                |_| proximal,
+                |r| point.f[inactive[r]],
+            )
+        };
         let mut proximal = 0.0;
         let mut solved = solve(proximal);
         if !solved {
-            let size = if jacobian.amax() > 0.0 { jacobian.amax() } else { 1.0 };
-            proximal = (CRASH_PROXIMAL * point.merit.sqrt()).clamp(CRASH_PROXIMAL_LEAST, CRASH_PROXIMAL) * size;
+            let size = if jacobian.amax() > 0.0 {
+                jacobian.amax()
+            } else {
+                1.0
+            };
+            proximal = (CRASH_PROXIMAL * point.merit.sqrt())
+                .clamp(CRASH_PROXIMAL_LEAST, CRASH_PROXIMAL)
+                * size;
             solved = solve(proximal);
         }
         direction.clear();
         direction.resize(active.len(), 0.0);
-        inactive.iter().zip(step.iter()).for_each(|(&i, v)| direction[i] = *v);
+        inactive
+            .iter()
+            .zip(step.iter())
+            .for_each(|(&i, v)| direction[i] = *v);
         (solved, proximal)
     }
 }
 
-/// Solves (F'_II + diagonal) d = -residual over the components `inside` into `step`; says if there is a solution.
+/// Solves (F'_II + diagonal) d = -residual over the components `inside` into `step`; says if there
+/// is a solution.
 fn solve_inside(
     lu: &mut Lu<f64>,
     step: &mut Vec<f64>,
@@ -117,8 +149,14 @@ fn solve_inside(
     step.iter().all(|v| v.is_finite())
 }
 
-/// Back along the projected arc, no further than to `smallest`, until the merit falls; with the length of the step.
-fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, direction: &[f64], smallest: f64) -> Option<(Point, f64)> {
+/// Back along the projected arc, no further than to `smallest`, until the merit falls; with the
+/// length of the step.
+fn search<P: Mcp + ?Sized>(
+    problem: &mut Evaluated<'_, P>,
+    point: &Point,
+    direction: &[f64],
+    smallest: f64,
+) -> Option<(Point, f64)> {
     let mut step = 1.0;
     while step >= smallest {
         let next = problem.point_with(|i| point.z[i] + direction[i] * step);
@@ -167,9 +205,19 @@ mod tests {
     /// Where F' vanishes the proximal term is absolute.
     #[test]
     fn a_zero_jacobian_is_perturbed_too() {
-        let mut storage = Storage { active: vec![false], ..Storage::default() };
-        let point = Point { z: DVector::from_element(1, 3.0), f: DVector::from_element(1, 2.0), merit: 1e6 };
-        assert_eq!(storage.newton_direction(&dmatrix![0.0], &point), (true, CRASH_PROXIMAL));
+        let mut storage = Storage {
+            active: vec![false],
+            ..Storage::default()
+        };
+        let point = Point {
+            z: DVector::from_element(1, 3.0),
+            f: DVector::from_element(1, 2.0),
+            merit: 1e6,
+        };
+        assert_eq!(
+            storage.newton_direction(&dmatrix![0.0], &point),
+            (true, CRASH_PROXIMAL)
+        );
         assert_eq!(storage.direction, [-2.0 / CRASH_PROXIMAL]);
     }
 
@@ -179,18 +227,52 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![1.0], vec![-1.0]).unwrap();
         let mut problem = Evaluated::new(&lcp);
         let solution = problem.point(&DVector::from_element(1, 1.0));
-        assert!(solution.merit == 0.0 && search(&mut problem, &solution, &[0.0], CRASH_SMALLEST).is_none());
+        assert!(
+            solution.merit == 0.0
+                && search(&mut problem, &solution, &[0.0], CRASH_SMALLEST).is_none()
+        );
     }
 
     /// At a bound with F strictly out of it; at equal bounds always.
     #[test]
     fn active_is_what_is_held_at_its_bound() {
         let p = LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![0.0], vec![4.0]).unwrap();
-        let of = |z: f64, f: f64| is_active(&p, &Point { z: DVector::from_element(1, z), f: DVector::from_element(1, f), merit: 0.0 }, 0);
-        assert_eq!([of(0.0, 1.0), of(0.0, 0.0), of(0.0, -1.0), of(1.0, 1.0), of(1.0, -1.0)], [true, false, false, false, false]);
-        assert_eq!([of(4.0, -1.0), of(4.0, 0.0), of(4.0, 1.0)], [true, false, false]);
-        let fixed = LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![4.0], vec![4.0]).unwrap();
-        assert!(is_active(&fixed, &Point { z: DVector::from_element(1, 4.0), f: DVector::from_element(1, 0.0), merit: 0.0 }, 0));
+        let of = |z: f64, f: f64| {
+            is_active(
+                &p,
+                &Point {
+                    z: DVector::from_element(1, z),
+                    f: DVector::from_element(1, f),
+                    merit: 0.0,
+                },
+                0,
+            )
+        };
+        assert_eq!(
+            [
+                of(0.0, 1.0),
+                of(0.0, 0.0),
+                of(0.0, -1.0),
+                of(1.0, 1.0),
+                of(1.0, -1.0)
+            ],
+            [true, false, false, false, false]
+        );
+        assert_eq!(
+            [of(4.0, -1.0), of(4.0, 0.0), of(4.0, 1.0)],
+            [true, false, false]
+        );
+        let fixed =
+            LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![4.0], vec![4.0]).unwrap();
+        assert!(is_active(
+            &fixed,
+            &Point {
+                z: DVector::from_element(1, 4.0),
+                f: DVector::from_element(1, 0.0),
+                merit: 0.0
+            },
+            0
+        ));
     }
 
     /// The proximal term: CRASH_PROXIMAL sqrt(merit) between its limits, times the largest entry.
@@ -198,51 +280,103 @@ mod tests {
     fn the_proximal_term_vanishes_with_the_merit() {
         let singular = dmatrix![0.0, 0.0; 0.0, 8.0];
         let of = |merit: f64| {
-            let mut storage = Storage { active: vec![false; 2], ..Storage::default() };
-            let point = Point { z: DVector::zeros(2), f: DVector::from_element(2, 1.0), merit };
+            let mut storage = Storage {
+                active: vec![false; 2],
+                ..Storage::default()
+            };
+            let point = Point {
+                z: DVector::zeros(2),
+                f: DVector::from_element(2, 1.0),
+                merit,
+            };
             let (solved, proximal) = storage.newton_direction(&singular, &point);
             (solved.then_some(storage.direction), proximal)
         };
-        for (merit, term) in [(1e9, CRASH_PROXIMAL), (0.25, 0.5 * CRASH_PROXIMAL), (0.0, CRASH_PROXIMAL_LEAST)] {
+        for (merit, term) in [
+            (1e9, CRASH_PROXIMAL),
+            (0.25, 0.5 * CRASH_PROXIMAL),
+            (0.0, CRASH_PROXIMAL_LEAST),
+        ] {
             let (direction, proximal) = of(merit);
             assert_eq!(proximal, term * 8.0);
-            approx::assert_relative_eq!(direction.unwrap()[0], -1.0 / (term * 8.0), max_relative = 1e-9);
+            approx::assert_relative_eq!(
+                direction.unwrap()[0],
+                -1.0 / (term * 8.0),
+                max_relative = 1e-9
+            );
         }
     }
 
-    /// Psi = 1/2 everywhere but where a trial lands: taken from a fall of ARMIJO times its length on.
+    /// Psi = 1/2 everywhere but where a trial lands: taken from a fall of ARMIJO times its length
+    /// on.
     #[test]
     fn a_crash_step_is_taken_from_armijo_s_fall_on() {
         let taken = |trial: f64, share: f64| {
             let value = (1.0 - share * ARMIJO * trial).sqrt();
-            let p = free(1, move |z, f| f[0] = if z[0] == 2.0 + trial { value } else { 1.0 }, |_, j| j[(0, 0)] = 0.0);
+            let p = free(
+                1,
+                move |z, f| f[0] = if z[0] == 2.0 + trial { value } else { 1.0 },
+                |_, j| j[(0, 0)] = 0.0,
+            );
             let mut problem = Evaluated::new(&p);
             let point = problem.point(&DVector::from_element(1, 2.0));
-            search(&mut problem, &point, &[1.0], CRASH_SMALLEST).map(|(next, step)| (next.z[0] - 2.0, step))
+            search(&mut problem, &point, &[1.0], CRASH_SMALLEST)
+                .map(|(next, step)| (next.z[0] - 2.0, step))
         };
         for trial in [1.0, 0.5, 0.125, CRASH_SMALLEST] {
-            assert_eq!([taken(trial, 1.01), taken(trial, 0.99)], [Some((trial, trial)), None], "{trial}");
+            assert_eq!(
+                [taken(trial, 1.01), taken(trial, 0.99)],
+                [Some((trial, trial)), None],
+                "{trial}"
+            );
         }
         assert_eq!(taken(0.5 * CRASH_SMALLEST, 1.01), None); // the path is better
     }
 
-    /// Two unknowns leave for their bounds in the first step, so that only the gain says if there is a second one. With
-    /// F_3 = z^-p Newton's step is to z (1 + 1/p), which divides the merit by (1 + 1/p)^2p.
+    /// Two unknowns leave for their bounds in the first step, so that only the gain says if there
+    /// is a second one. With F_3 = z^-p Newton's step is to z (1 + 1/p), which divides the merit by
+    /// (1 + 1/p)^2p.
     #[test]
     fn a_crash_goes_on_while_it_gains() {
         let steps = |p: f64| {
-            let f = move |z: &[f64], f: &mut [f64]| f.copy_from_slice(&[z[0] + 1.0, z[1] + 1.0, 1e3 * z[2].powf(-p)]);
-            let jacobian =
-                move |z: &[f64], j: &mut DMatrix<f64>| j.set_diagonal(&DVector::from_vec(vec![1.0, 1.0, -1e3 * p * z[2].powf(-p - 1.0)]));
-            let problem = bounded(&[0.0, 0.0, f64::NEG_INFINITY], &[f64::INFINITY; 3], f, jacobian);
+            let f = move |z: &[f64], f: &mut [f64]| {
+                f.copy_from_slice(&[z[0] + 1.0, z[1] + 1.0, 1e3 * z[2].powf(-p)])
+            };
+            let jacobian = move |z: &[f64], j: &mut DMatrix<f64>| {
+                j.set_diagonal(&DVector::from_vec(vec![
+                    1.0,
+                    1.0,
+                    -1e3 * p * z[2].powf(-p - 1.0),
+                ]))
+            };
+            let problem = bounded(
+                &[0.0, 0.0, f64::NEG_INFINITY],
+                &[f64::INFINITY; 3],
+                f,
+                jacobian,
+            );
             let mut problem = Evaluated::new(&problem);
             let start = problem.point(&DVector::from_vec(vec![1e-3, 1e-3, 1.0]));
             let before = start.merit;
-            let point = crash(&mut problem, start, 1, &mut Storage::default(), &mut Log::default()).unwrap();
+            let point = crash(
+                &mut problem,
+                start,
+                1,
+                &mut Storage::default(),
+                &mut Log::default(),
+            )
+            .unwrap();
             let gain = 1.0 - point.merit / before;
             let start = problem.point(&DVector::from_vec(vec![1e-3, 1e-3, 1.0]));
             problem.counters.crash_steps = 0;
-            crash(&mut problem, start, 9, &mut Storage::default(), &mut Log::default()).unwrap();
+            crash(
+                &mut problem,
+                start,
+                9,
+                &mut Storage::default(),
+                &mut Log::default(),
+            )
+            .unwrap();
             (gain > CRASH_GAIN, problem.counters.crash_steps)
         };
         // Gains of 0.9 and 1.1 %.

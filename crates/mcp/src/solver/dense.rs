@@ -1,5 +1,5 @@
-//! LU factors of dense matrices in storage that is kept from one matrix to the next, over the numbers
-//! of the path.
+//! LU factors of dense matrices in storage that is kept from one matrix to the next, over the
+//! numbers of the path.
 
 use super::path::Number;
 
@@ -17,14 +17,24 @@ pub(super) struct Lu<T> {
 
 impl<T> Default for Lu<T> {
     fn default() -> Self {
-        Lu { order: 0, entries: Vec::new(), rows: Vec::new(), dependent: Vec::new() }
+        Lu {
+            order: 0,
+            entries: Vec::new(),
+            rows: Vec::new(),
+            dependent: Vec::new(),
+        }
     }
 }
 
 impl<T: Number> Lu<T> {
-    /// Factors the matrix whose column j `gather(j, rows, out)` writes, in the order of `rows`. A column
-    /// of which elimination leaves at most `least(j)` is dependent. True if there is none.
-    pub(super) fn factor(&mut self, order: usize, gather: impl Fn(usize, &[usize], &mut [T]), least: impl Fn(usize) -> T) -> bool {
+    /// Factors the matrix whose column j `gather(j, rows, out)` writes, in the order of `rows`. A
+    /// column of which elimination leaves at most `least(j)` is dependent. True if there is none.
+    pub(super) fn factor(
+        &mut self,
+        order: usize,
+        gather: impl Fn(usize, &[usize], &mut [T]),
+        least: impl Fn(usize) -> T,
+    ) -> bool {
         self.order = order;
         self.entries.resize(order * order, T::zero());
         self.rows.clear();
@@ -47,17 +57,23 @@ impl<T: Number> Lu<T> {
                 }
             }
             // Also where size is NaN.
-            if !matches!(size.partial_cmp(&least(j)), Some(std::cmp::Ordering::Greater)) {
+            if !matches!(
+                size.partial_cmp(&least(j)),
+                Some(std::cmp::Ordering::Greater)
+            ) {
                 self.dependent.push(j);
                 continue;
             }
             if best != rank {
                 self.rows.swap(rank, best);
                 column.swap(rank, best);
-                left.chunks_exact_mut(order).for_each(|l| l.swap(rank, best));
+                left.chunks_exact_mut(order)
+                    .for_each(|l| l.swap(rank, best));
             }
             let pivot = column[rank].clone();
-            column[rank + 1..].iter_mut().for_each(|entry| *entry /= pivot.clone());
+            column[rank + 1..]
+                .iter_mut()
+                .for_each(|entry| *entry /= pivot.clone());
             rank += 1;
         }
         self.dependent.is_empty()
@@ -70,14 +86,21 @@ impl<T: Number> Lu<T> {
 
     /// Dependent columns, and the rows that no column has taken.
     pub(super) fn dependent(&self) -> (&[usize], &[usize]) {
-        (&self.dependent, &self.rows[self.order - self.dependent.len()..])
+        (
+            &self.dependent,
+            &self.rows[self.order - self.dependent.len()..],
+        )
     }
 
     /// Solves A x = b: `x` holds b in the order of [`Lu::rows`] before and x after.
     pub(super) fn solve(&self, x: &mut [T]) {
         for s in 0..self.order {
             let (above, below) = x.split_at_mut(s + 1);
-            subtract(below, &above[s], &self.entries[s * self.order + s + 1..(s + 1) * self.order]);
+            subtract(
+                below,
+                &above[s],
+                &self.entries[s * self.order + s + 1..(s + 1) * self.order],
+            );
         }
         for s in (0..self.order).rev() {
             let column = &self.entries[s * self.order..];
@@ -96,7 +119,10 @@ impl<T: Number> Lu<T> {
             x[s] /= column[s].clone();
         }
         for s in (0..self.order).rev() {
-            let inner = dot(&self.entries[s * self.order + s + 1..(s + 1) * self.order], &x[s + 1..]);
+            let inner = dot(
+                &self.entries[s * self.order + s + 1..(s + 1) * self.order],
+                &x[s + 1..],
+            );
             x[s] -= inner;
         }
     }
@@ -105,13 +131,17 @@ impl<T: Number> Lu<T> {
 /// y -= factor x.
 pub(super) fn subtract<T: Number>(y: &mut [T], factor: &T, x: &[T]) {
     if !factor.is_zero() {
-        y.iter_mut().zip(x).for_each(|(y, x)| *y -= factor.clone() * x.clone());
+        y.iter_mut()
+            .zip(x)
+            .for_each(|(y, x)| *y -= factor.clone() * x.clone());
     }
 }
 
 /// x'y.
 pub(super) fn dot<T: Number>(x: &[T], y: &[T]) -> T {
-    x.iter().zip(y).fold(T::zero(), |sum, (x, y)| sum + x.clone() * y.clone())
+    x.iter()
+        .zip(y)
+        .fold(T::zero(), |sum, (x, y)| sum + x.clone() * y.clone())
 }
 
 #[cfg(test)]
@@ -121,8 +151,11 @@ mod tests {
 
     fn factored(a: &DMatrix<f64>) -> (Lu<f64>, bool) {
         let mut lu = Lu::default();
-        let column = |j: usize, rows: &[usize], out: &mut [f64]| rows.iter().zip(out).for_each(|(&i, o)| *o = a[(i, j)]);
-        lu.factor(3, |_, _, out: &mut [f64]| out.fill(7.0), |_| 0.0); // storage of something else before
+        let column = |j: usize, rows: &[usize], out: &mut [f64]| {
+            rows.iter().zip(out).for_each(|(&i, o)| *o = a[(i, j)])
+        };
+        // Storage of something else before.
+        lu.factor(3, |_, _, out: &mut [f64]| out.fill(7.0), |_| 0.0);
         let regular = lu.factor(a.nrows(), column, |_| 1e-12);
         (lu, regular)
     }
@@ -152,6 +185,9 @@ mod tests {
         let (lu, _) = factored(&dmatrix![1.0, 1.0, 0.0; 2.0, 2.0, 0.0; 0.0, 0.0, 5.0]);
         assert_eq!(lu.dependent(), (&[1][..], &[0][..]));
         assert!(!factored(&dmatrix![f64::NAN]).1);
-        assert_eq!(factored(&DMatrix::zeros(2, 2)).0.dependent(), (&[0, 1][..], &[0, 1][..]));
+        assert_eq!(
+            factored(&DMatrix::zeros(2, 2)).0.dependent(),
+            (&[0, 1][..], &[0, 1][..])
+        );
     }
 }

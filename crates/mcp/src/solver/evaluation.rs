@@ -1,4 +1,5 @@
-//! F and F' with their counts, and points that carry their value and merit, in storage that is kept.
+//! F and F' with their counts, and points that carry their value and merit, in storage that is
+//! kept.
 
 use super::fischer;
 use super::outcome::{Counters, NonFinite, Termination};
@@ -36,7 +37,12 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
 
     /// With what another problem has left behind.
     pub(super) fn with_pool(problem: &'a P, pool: Pool) -> Self {
-        Evaluated { problem, counters: Counters::default(), not_finite: None, pool }
+        Evaluated {
+            problem,
+            counters: Counters::default(),
+            not_finite: None,
+            pool,
+        }
     }
 
     /// What may be used again, and the counts.
@@ -59,7 +65,8 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
             *value = z(i).max(*lower).min(*upper);
         }
         point.f.fill(0.0);
-        self.problem.function(point.z.as_slice(), point.f.as_mut_slice());
+        self.problem
+            .function(point.z.as_slice(), point.f.as_mut_slice());
         point.merit = fischer::merit(self.problem, &point.z, &point.f);
         self.not_finite = point.not_finite().or(self.not_finite);
         point
@@ -76,7 +83,11 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     pub(super) fn spare(&mut self) -> Point {
         let n = self.problem.dimension();
         let unused = self.pool.points.pop().filter(|point| point.z.len() == n);
-        unused.unwrap_or_else(|| Point { z: DVector::zeros(n), f: DVector::zeros(n), merit: f64::INFINITY })
+        unused.unwrap_or_else(|| Point {
+            z: DVector::zeros(n),
+            f: DVector::zeros(n),
+            merit: f64::INFINITY,
+        })
     }
 
     /// Gives a point back.
@@ -97,14 +108,23 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
         let j = self.raw_jacobian(point);
         let (n, shape) = (point.z.len(), j.shape());
         if shape != (n, n) {
-            return Err(Termination::JacobianShape { rows: shape.0, cols: shape.1 });
+            return Err(Termination::JacobianShape {
+                rows: shape.0,
+                cols: shape.1,
+            });
         }
         // Without a branch for each entry.
-        if j.as_slice().iter().fold(true, |finite, v| finite & v.is_finite()) {
+        if j.as_slice()
+            .iter()
+            .fold(true, |finite, v| finite & v.is_finite())
+        {
             return Ok(j);
         }
         let places = (0..n).flat_map(|row| (0..n).map(move |col| (row, col)));
-        let (row, col) = places.into_iter().find(|&place| !j[place].is_finite()).unwrap_or_default();
+        let (row, col) = places
+            .into_iter()
+            .find(|&place| !j[place].is_finite())
+            .unwrap_or_default();
         self.recycle_matrix(j);
         Err(Termination::NonFinite(NonFinite::Jacobian { row, col }))
     }
@@ -135,7 +155,11 @@ pub(super) fn jacobian_at<P: Mcp + ?Sized>(problem: &P, z: &[f64]) -> DMatrix<f6
 }
 
 fn square(j: DMatrix<f64>, n: usize) -> DMatrix<f64> {
-    if j.shape() == (n, n) { j } else { j.resize(n, n, f64::NAN) }
+    if j.shape() == (n, n) {
+        j
+    } else {
+        j.resize(n, n, f64::NAN)
+    }
 }
 
 impl Point {
@@ -164,18 +188,35 @@ mod tests {
 
     #[test]
     fn points_are_projected_and_evaluated_once() {
-        let p = bounded(&[0.0, -1.0], &[2.0, 1.0], |z, f| (f[0], f[1]) = (z[0] - 5.0, 10.0 * z[1]), |_, j| j[(0, 1)] = 7.0);
+        let p = bounded(
+            &[0.0, -1.0],
+            &[2.0, 1.0],
+            |z, f| (f[0], f[1]) = (z[0] - 5.0, 10.0 * z[1]),
+            |_, j| j[(0, 1)] = 7.0,
+        );
         let mut e = Evaluated::new(&p);
         let point = e.point(&dvector![9.0, -3.0]);
-        assert_eq!((&point.z, &point.f), (&dvector![2.0, -1.0], &dvector![-3.0, -10.0]));
+        assert_eq!(
+            (&point.z, &point.f),
+            (&dvector![2.0, -1.0], &dvector![-3.0, -10.0])
+        );
         assert_eq!(point.merit, fischer::merit(&p, &point.z, &point.f));
         assert_eq!(e.point_with(|i| i as f64).z, dvector![0.0, 1.0]);
         let mut copy = e.copy(&point);
-        assert_eq!((&copy.z, &copy.f, copy.merit), (&point.z, &point.f, point.merit));
+        assert_eq!(
+            (&copy.z, &copy.f, copy.merit),
+            (&point.z, &point.f, point.merit)
+        );
         let inside = e.point(&dvector![1.0, 0.0]);
         copy.copy_from(&inside);
-        assert_eq!((&copy.z, &copy.f, copy.merit), (&inside.z, &inside.f, inside.merit));
-        assert_eq!((e.jacobian(&point).unwrap(), e.any_jacobian(&point)), (dmatrix![0.0, 7.0; 0.0, 0.0], dmatrix![0.0, 7.0; 0.0, 0.0]));
+        assert_eq!(
+            (&copy.z, &copy.f, copy.merit),
+            (&inside.z, &inside.f, inside.merit)
+        );
+        assert_eq!(
+            (e.jacobian(&point).unwrap(), e.any_jacobian(&point)),
+            (dmatrix![0.0, 7.0; 0.0, 0.0], dmatrix![0.0, 7.0; 0.0, 0.0])
+        );
         assert_eq!((e.counters.functions, e.counters.jacobians), (3, 2));
     }
 
@@ -194,7 +235,10 @@ mod tests {
         let jacobian = e.jacobian(&point).unwrap();
         assert_eq!((point.z.as_ptr(), jacobian.as_ptr()), at);
         assert_eq!((e.pool.points.len(), e.pool.matrices.len()), (0, 0));
-        assert_eq!((&point.f, &jacobian), (&dvector![5.0, 0.0], &dmatrix![1.0, 0.0; 0.0, 0.0]));
+        assert_eq!(
+            (&point.f, &jacobian),
+            (&dvector![5.0, 0.0], &dmatrix![1.0, 0.0; 0.0, 0.0])
+        );
         e.recycle(point);
         e.recycle_matrix(jacobian);
         let (pool, counters) = e.into_parts();
@@ -202,21 +246,43 @@ mod tests {
         let other = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
         let mut e = Evaluated::with_pool(&other, pool);
         let point = e.point(&dvector![5.0]);
-        assert_eq!((point.z.len(), e.jacobian(&point).unwrap().shape()), (1, (1, 1)));
+        assert_eq!(
+            (point.z.len(), e.jacobian(&point).unwrap().shape()),
+            (1, (1, 1))
+        );
     }
 
     #[test]
     fn what_is_not_finite_is_named() {
-        let p = free(3, |z, f| f[1] = 1.0 / z[0], |z, j| (j[(0, 2)], j[(2, 0)]) = (1.0 / z[1], f64::NAN * z[2]));
+        let p = free(
+            3,
+            |z, f| f[1] = 1.0 / z[0],
+            |z, j| (j[(0, 2)], j[(2, 0)]) = (1.0 / z[1], f64::NAN * z[2]),
+        );
         let mut e = Evaluated::new(&p);
         let good = e.point(&dvector![1.0, 0.0, 0.0]);
         assert!(good.not_finite().is_none() && e.not_finite.is_none());
-        assert_eq!(e.jacobian(&good), Err(Termination::NonFinite(NonFinite::Jacobian { row: 0, col: 2 })));
+        assert_eq!(
+            e.jacobian(&good),
+            Err(Termination::NonFinite(NonFinite::Jacobian {
+                row: 0,
+                col: 2
+            }))
+        );
         let other = e.point(&dvector![1.0, 1.0, 1.0]);
-        assert_eq!(e.jacobian(&other), Err(Termination::NonFinite(NonFinite::Jacobian { row: 2, col: 0 })));
+        assert_eq!(
+            e.jacobian(&other),
+            Err(Termination::NonFinite(NonFinite::Jacobian {
+                row: 2,
+                col: 0
+            }))
+        );
         let bad = e.point(&dvector![0.0, 1.0, 1.0]);
         let reason = Some(Termination::NonFinite(NonFinite::Function { row: 1 }));
-        assert_eq!((bad.not_finite(), e.not_finite, bad.merit), (reason, reason, f64::INFINITY));
+        assert_eq!(
+            (bad.not_finite(), e.not_finite, bad.merit),
+            (reason, reason, f64::INFINITY)
+        );
         e.point(&dvector![1.0, 1.0, 1.0]);
         assert_eq!(e.not_finite, reason); // until somebody takes it
     }
@@ -224,12 +290,25 @@ mod tests {
     /// A callback that resizes what it was given is told, or filled with what is no number.
     #[test]
     fn a_jacobian_of_another_shape_is_refused() {
-        let p = free(2, |z, f| f[0] = z[0], |_, j| *j = DMatrix::from_element(1, 2, 5.0));
+        let p = free(
+            2,
+            |z, f| f[0] = z[0],
+            |_, j| *j = DMatrix::from_element(1, 2, 5.0),
+        );
         let mut e = Evaluated::new(&p);
         let point = e.point(&dvector![1.0, 1.0]);
-        assert_eq!(e.jacobian(&point), Err(Termination::JacobianShape { rows: 1, cols: 2 }));
+        assert_eq!(
+            e.jacobian(&point),
+            Err(Termination::JacobianShape { rows: 1, cols: 2 })
+        );
         for j in [e.any_jacobian(&point), jacobian_at(&p, &[1.0, 1.0])] {
-            assert!(j.shape() == (2, 2) && j[(0, 0)] == 5.0 && j[(0, 1)] == 5.0 && j[(1, 0)].is_nan() && j[(1, 1)].is_nan());
+            assert!(
+                j.shape() == (2, 2)
+                    && j[(0, 0)] == 5.0
+                    && j[(0, 1)] == 5.0
+                    && j[(1, 0)].is_nan()
+                    && j[(1, 1)].is_nan()
+            );
         }
     }
 }

@@ -19,19 +19,31 @@ pub(super) struct Fischer {
 /// phi(z - l, F) below, -phi(u - z, -F) above, phi(z - l, phi(u - z, -F)) between, -F if free.
 pub(super) fn fischer(z: f64, f: f64, l: f64, u: f64) -> Fischer {
     match (l.is_finite(), u.is_finite()) {
-        (false, false) => Fischer { value: -f, by_z: 0.0, by_f: -1.0 },
+        (false, false) => Fischer {
+            value: -f,
+            by_z: 0.0,
+            by_f: -1.0,
+        },
         (true, false) => {
             let (value, by_z, by_f) = phi(z - l, f);
             Fischer { value, by_z, by_f }
         }
         (false, true) => {
             let (value, by_z, by_f) = phi(u - z, -f);
-            Fischer { value: -value, by_z, by_f }
+            Fischer {
+                value: -value,
+                by_z,
+                by_f,
+            }
         }
         (true, true) => {
             let (inner, inner_a, inner_b) = phi(u - z, -f);
             let (value, by_a, by_b) = phi(z - l, inner);
-            Fischer { value, by_z: by_a - by_b * inner_a, by_f: -by_b * inner_b }
+            Fischer {
+                value,
+                by_z: by_a - by_b * inner_a,
+                by_f: -by_b * inner_b,
+            }
         }
     }
 }
@@ -39,8 +51,14 @@ pub(super) fn fischer(z: f64, f: f64, l: f64, u: f64) -> Fischer {
 /// Psi = |Phi|^2 / 2 at z with F(z) = f; infinite where F is not finite.
 pub(super) fn merit<P: Mcp + ?Sized>(problem: &P, z: &DVector<f64>, f: &DVector<f64>) -> f64 {
     let (l, u) = (problem.lower(), problem.upper());
-    let sum: f64 = (0..z.len()).map(|i| fischer(z[i], f[i], l[i], u[i]).value.powi(2)).sum();
-    if sum.is_finite() { 0.5 * sum } else { f64::INFINITY }
+    let sum: f64 = (0..z.len())
+        .map(|i| fischer(z[i], f[i], l[i], u[i]).value.powi(2))
+        .sum();
+    if sum.is_finite() {
+        0.5 * sum
+    } else {
+        f64::INFINITY
+    }
 }
 
 /// Gradient of Psi, D_z Phi + F'(z)' D_F Phi, into `out`; `work` is of the same length.
@@ -71,14 +89,22 @@ fn phi(a: f64, b: f64) -> (f64, f64, f64) {
         return (0.0, kink, kink);
     }
     let sum = a + b;
-    let value = if sum > 0.0 { -2.0 * (a / (norm + sum)) * b } else { norm - sum };
+    let value = if sum > 0.0 {
+        -2.0 * (a / (norm + sum)) * b
+    } else {
+        norm - sum
+    };
     (value, a / norm - 1.0, b / norm - 1.0)
 }
 
 /// sqrt(a^2 + b^2); by `hypot`, which is slow, only where a square might overflow or lose digits.
 fn length(a: f64, b: f64) -> f64 {
     let square = a * a + b * b;
-    if square > SQUARE_SAFE && square < 1.0 / SQUARE_SAFE { square.sqrt() } else { a.hypot(b) }
+    if square > SQUARE_SAFE && square < 1.0 / SQUARE_SAFE {
+        square.sqrt()
+    } else {
+        a.hypot(b)
+    }
 }
 
 #[cfg(test)]
@@ -120,7 +146,11 @@ mod tests {
             (1.0, 2.0, -INF, 1.0, false),
             (7.0, 0.0, -INF, INF, true),
         ] {
-            assert_eq!(fischer(z, f, l, u).value.abs() < 1e-15, zero, "{z} {f} [{l}, {u}]");
+            assert_eq!(
+                fischer(z, f, l, u).value.abs() < 1e-15,
+                zero,
+                "{z} {f} [{l}, {u}]"
+            );
         }
     }
 
@@ -143,7 +173,13 @@ mod tests {
         use crate::mcp::LinearMcp;
         use nalgebra::dmatrix;
         let m = dmatrix![2.0, -1.0, 0.5, 0.0; 1.0, 3.0, 0.0, 0.25; -0.5, 0.75, 1.5, 1.0; 0.25, 1.0, -1.0, 2.0];
-        let p = LinearMcp::new(m.clone(), vec![-1.0, 0.5, -0.25, 0.75], vec![0.0, -INF, -1.0, -INF], vec![INF, 2.0, 3.0, INF]).unwrap();
+        let p = LinearMcp::new(
+            m.clone(),
+            vec![-1.0, 0.5, -0.25, 0.75],
+            vec![0.0, -INF, -1.0, -INF],
+            vec![INF, 2.0, 3.0, INF],
+        )
+        .unwrap();
         let f = |z: &DVector<f64>| &m * z + DVector::from_column_slice(p.vector());
         let z = DVector::from_column_slice(&[0.75, 0.5, 0.25, -0.5]);
         let (mut got, mut work) = (DVector::zeros(4), DVector::zeros(4));
@@ -154,7 +190,12 @@ mod tests {
                 moved[i] += h;
                 merit(&p, &moved, &f(&moved))
             };
-            approx::assert_relative_eq!(got[i], (at(1e-6) - at(-1e-6)) / 2e-6, max_relative = 1e-6, epsilon = 1e-8);
+            approx::assert_relative_eq!(
+                got[i],
+                (at(1e-6) - at(-1e-6)) / 2e-6,
+                max_relative = 1e-6,
+                epsilon = 1e-8
+            );
         }
         let kink = 0.5f64.sqrt() - 1.0;
         let (value, a, b) = phi(0.0, 0.0);
@@ -167,7 +208,11 @@ mod tests {
     #[test]
     fn lengths_keep_their_digits_at_every_size() {
         for size in [1e-300, 1e-200, 1e-140, 1.0, 1e140, 1e200, 1e300] {
-            approx::assert_relative_eq!(length(3.0 * size, -4.0 * size), 5.0 * size, max_relative = 1e-15);
+            approx::assert_relative_eq!(
+                length(3.0 * size, -4.0 * size),
+                5.0 * size,
+                max_relative = 1e-15
+            );
         }
         assert_eq!(length(0.0, 0.0), 0.0);
         // Where squares are safe they are taken: hypot rounds some of these otherwise.

@@ -12,11 +12,25 @@ use nalgebra::DVector;
 ///
 /// # Errors
 /// [`Termination::NonFinite`] if F' is not finite at the point.
-pub(super) fn gradient_step<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point) -> Result<Option<Point>, Termination> {
+pub(super) fn gradient_step<P: Mcp + ?Sized>(
+    problem: &mut Evaluated<'_, P>,
+    point: &Point,
+) -> Result<Option<Point>, Termination> {
     let jacobian = problem.jacobian(point)?;
     let mut along = problem.spare();
-    let Point { z: direction, f: work, .. } = &mut along;
-    fischer::gradient(problem.problem, point.z.as_slice(), point.f.as_slice(), &jacobian, direction, work);
+    let Point {
+        z: direction,
+        f: work,
+        ..
+    } = &mut along;
+    fischer::gradient(
+        problem.problem,
+        point.z.as_slice(),
+        point.f.as_slice(),
+        &jacobian,
+        direction,
+        work,
+    );
     problem.recycle_matrix(jacobian);
     let next = search(problem, point, &along.z);
     problem.recycle(along);
@@ -24,7 +38,11 @@ pub(super) fn gradient_step<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, poi
 }
 
 /// Back along the arc until the merit falls.
-fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, gradient: &DVector<f64>) -> Option<Point> {
+fn search<P: Mcp + ?Sized>(
+    problem: &mut Evaluated<'_, P>,
+    point: &Point,
+    gradient: &DVector<f64>,
+) -> Option<Point> {
     let size = gradient.amax();
     if !(size > 0.0 && size.is_finite()) {
         return None;
@@ -33,8 +51,12 @@ fn search<P: Mcp + ?Sized>(problem: &mut Evaluated<'_, P>, point: &Point, gradie
     let mut step = (2.0 * point.merit / gradient.norm_squared()).min((1.0 + point.z.amax()) / size);
     for _ in 0..ARC_TRIALS {
         let next = problem.point_with(|i| point.z[i] - gradient[i] * step);
-        let promised: f64 = (0..gradient.len()).map(|i| gradient[i] * (point.z[i] - next.z[i])).sum();
-        if next.merit <= point.merit - ARMIJO * promised && next.merit <= (1.0 - GRADIENT_GAIN) * point.merit {
+        let promised: f64 = (0..gradient.len())
+            .map(|i| gradient[i] * (point.z[i] - next.z[i]))
+            .sum();
+        if next.merit <= point.merit - ARMIJO * promised
+            && next.merit <= (1.0 - GRADIENT_GAIN) * point.merit
+        {
             return Some(next);
         }
         problem.recycle(next);
@@ -71,15 +93,30 @@ mod tests {
         let next = gradient_step(&mut problem, &far).unwrap().unwrap();
         assert!(next.merit < far.merit);
         let solution = problem.point(&dvector![4.0 / 3.0, 7.0 / 3.0]);
-        assert!(gradient_step(&mut problem, &solution).unwrap().is_none_or(|p| p.merit < 1e-29));
+        assert!(
+            gradient_step(&mut problem, &solution)
+                .unwrap()
+                .is_none_or(|p| p.merit < 1e-29)
+        );
     }
 
-    /// The first trial removes the merit at the gradient's rate, here exactly, but goes no farther than 1 + |z|.
+    /// The first trial removes the merit at the gradient's rate, here exactly, but goes no farther
+    /// than 1 + |z|.
     #[test]
     fn the_first_trial_is_a_newton_step_of_bounded_length() {
-        for (from, root, expected) in [(0.0, 5.0, 1.0), (2.0, 9.0, 5.0), (2.0, 4.0, 4.0), (-2.0, -2.5, -2.5), (0.0, -0.5, -0.5)] {
+        for (from, root, expected) in [
+            (0.0, 5.0, 1.0),
+            (2.0, 9.0, 5.0),
+            (2.0, 4.0, 4.0),
+            (-2.0, -2.5, -2.5),
+            (0.0, -0.5, -0.5),
+        ] {
             for slope in [1.0, 3.0] {
-                let p = free(1, move |z, f| f[0] = slope * (z[0] - root), move |_, j| j[(0, 0)] = slope);
+                let p = free(
+                    1,
+                    move |z, f| f[0] = slope * (z[0] - root),
+                    move |_, j| j[(0, 0)] = slope,
+                );
                 let mut problem = Evaluated::new(&p);
                 let point = problem.point(&dvector![from]);
                 let next = gradient_step(&mut problem, &point).unwrap().unwrap();
@@ -88,19 +125,29 @@ mod tests {
         }
     }
 
-    /// Psi = 1/2 everywhere but where a trial lands: taken from a fall of ARMIJO times what the gradient promises.
+    /// Psi = 1/2 everywhere but where a trial lands: taken from a fall of ARMIJO times what the
+    /// gradient promises.
     #[test]
     fn a_trial_is_taken_from_the_promised_fall_on() {
         let taken = |trial: f64, share: f64| {
             let promised = 2.0 - trial; // gradient 1, from z = 2
             let value = (1.0 - 2.0 * share * ARMIJO * promised).sqrt();
-            let p = free(1, move |z, f| f[0] = if z[0] == trial { value } else { 1.0 }, |_, j| j[(0, 0)] = 0.0);
+            let p = free(
+                1,
+                move |z, f| f[0] = if z[0] == trial { value } else { 1.0 },
+                |_, j| j[(0, 0)] = 0.0,
+            );
             let mut problem = Evaluated::new(&p);
             let point = problem.point(&dvector![2.0]);
-            search(&mut problem, &point, &dvector![1.0]).map(|next| (next.z[0], problem.counters.functions))
+            search(&mut problem, &point, &dvector![1.0])
+                .map(|next| (next.z[0], problem.counters.functions))
         };
         for (trial, trials) in [(1.0, 1), (1.5, 2), (1.75, 3)] {
-            assert_eq!([taken(trial, 1.1), taken(trial, 0.9)], [Some((trial, trials + 1)), None], "{trial}");
+            assert_eq!(
+                [taken(trial, 1.1), taken(trial, 0.9)],
+                [Some((trial, trials + 1)), None],
+                "{trial}"
+            );
         }
     }
 

@@ -12,8 +12,8 @@ use nalgebra::DVector;
 /// One path from Lemke's ray to the end of it (Lemke 1965; Cottle, Pang and Stone 1992, chapter 4).
 ///
 /// A complete path ends with [`Termination::ToleranceReached`] if the residuals agree, else with
-/// `NoProgress`; a secondary ray with `Ray` and a point a little along it. `minor_iteration_limit` is
-/// the limit on pivots. For a P matrix the path is complete and t rises.
+/// `NoProgress`; a secondary ray with `Ray` and a point a little along it. `minor_iteration_limit`
+/// is the limit on pivots. For a P matrix the path is complete and t rises.
 ///
 /// # Errors
 /// [`SolverError::Option`] for an option out of range.
@@ -27,12 +27,25 @@ use nalgebra::DVector;
 /// ```
 pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, SolverError> {
     options.validate()?;
-    let less = options.preprocess.then(|| Preprocessed::new(problem)).filter(|less| less.reduced.is_some());
-    let reduced = less.as_ref().and_then(|less| less.reduced.as_ref()).unwrap_or(problem);
+    let less = options
+        .preprocess
+        .then(|| Preprocessed::new(problem))
+        .filter(|less| less.reduced.is_some());
+    let reduced = less
+        .as_ref()
+        .and_then(|less| less.reduced.as_ref())
+        .unwrap_or(problem);
     let mut path = lemke(reduced, options);
-    let whole = |z: &[f64]| DVector::from_vec(less.as_ref().map_or_else(|| z.to_vec(), |less| less.restore(z)));
+    let whole = |z: &[f64]| {
+        DVector::from_vec(
+            less.as_ref()
+                .map_or_else(|| z.to_vec(), |less| less.restore(z)),
+        )
+    };
     if let Some(less) = &less {
-        path.pivots.iter_mut().for_each(|pivot| *pivot = pivot.renamed(&less.kept));
+        path.pivots
+            .iter_mut()
+            .for_each(|pivot| *pivot = pivot.renamed(&less.kept));
     }
 
     let origin = vec![0.0; reduced.dimension()];
@@ -41,23 +54,67 @@ pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, S
     let point = evaluated.point(&whole(path.last().unwrap_or(&origin)));
     let residuals = Residuals::at(problem, point.z.as_slice());
     let termination = match path.end {
-        PathEnd::Complete if residuals.within(options.convergence_tolerance) => Termination::ToleranceReached,
+        PathEnd::Complete if residuals.within(options.convergence_tolerance) => {
+            Termination::ToleranceReached
+        }
         end => Termination::of(end),
     };
     let (pivots, factorisations) = (path.pivots.len(), path.factorisations);
-    let counters = Counters { majors: 1, pivots, ray_starts: 1, factorisations, ..evaluated.counters };
-    let step = if path.end == PathEnd::Complete { StepKind::Path { t: 1.0 } } else { StepKind::Failed };
-    let record = PathRecord { start: path.start, end: path.end, reach: path.reach(), pivots: path.pivots };
-    let log = vec![MajorRecord { merit: before.merit, step, proximal: 0.0, paths: vec![record] }];
-    Ok(Outcome { point: point.z.as_slice().to_vec(), residuals, termination, log, counters })
+    let counters = Counters {
+        majors: 1,
+        pivots,
+        ray_starts: 1,
+        factorisations,
+        ..evaluated.counters
+    };
+    let step = if path.end == PathEnd::Complete {
+        StepKind::Path { t: 1.0 }
+    } else {
+        StepKind::Failed
+    };
+    let record = PathRecord {
+        start: path.start,
+        end: path.end,
+        reach: path.reach(),
+        pivots: path.pivots,
+    };
+    let log = vec![MajorRecord {
+        merit: before.merit,
+        step,
+        proximal: 0.0,
+        paths: vec![record],
+    }];
+    Ok(Outcome {
+        point: point.z.as_slice().to_vec(),
+        residuals,
+        termination,
+        log,
+        counters,
+    })
 }
 
 /// The path from Lemke's ray.
 fn lemke(problem: &LinearMcp, options: &Options) -> Path {
-    let sub = Subproblem { m: problem.matrix(), q: problem.vector(), lower: problem.lower(), upper: problem.upper() };
-    let limits = Limits { pivots: options.minor_iteration_limit, cycle_entries: options.cycle_entry_limit, rule: options.ratio_test };
+    let sub = Subproblem {
+        m: problem.matrix(),
+        q: problem.vector(),
+        lower: problem.lower(),
+        upper: problem.upper(),
+    };
+    let limits = Limits {
+        pivots: options.minor_iteration_limit,
+        cycle_entries: options.cycle_entry_limit,
+        rule: options.ratio_test,
+    };
     let mut path = Path::default();
-    follow(&sub, Start::Ray, &vec![0.0; problem.dimension()], limits, &mut Storage::default(), &mut path);
+    follow(
+        &sub,
+        Start::Ray,
+        &vec![0.0; problem.dimension()],
+        limits,
+        &mut Storage::default(),
+        &mut path,
+    );
     path
 }
 
@@ -70,9 +127,19 @@ mod tests {
     /// The step is the whole path or none.
     #[test]
     fn the_step_is_that_of_the_path() {
-        let step =
-            |m: f64| solve_linear(&LinearMcp::lcp(dmatrix![m], vec![-1.0]).unwrap(), &Options { preprocess: false, ..Options::default() });
-        assert_eq!([2.0, -1.0].map(|m| step(m).unwrap().log[0].step), [StepKind::Path { t: 1.0 }, StepKind::Failed]);
+        let step = |m: f64| {
+            solve_linear(
+                &LinearMcp::lcp(dmatrix![m], vec![-1.0]).unwrap(),
+                &Options {
+                    preprocess: false,
+                    ..Options::default()
+                },
+            )
+        };
+        assert_eq!(
+            [2.0, -1.0].map(|m| step(m).unwrap().log[0].step),
+            [StepKind::Path { t: 1.0 }, StepKind::Failed]
+        );
     }
 
     /// What is counted is what is in the log: one path from the ray, its pivots and factorisations.
@@ -83,32 +150,63 @@ mod tests {
         let path = &outcome.log[0].paths[0];
         assert!(path.pivots.len() >= 2 && outcome.log.len() == 1);
         let c = &outcome.counters;
-        assert_eq!((c.majors, c.pivots, c.ray_starts), (1, path.pivots.len(), 1));
+        assert_eq!(
+            (c.majors, c.pivots, c.ray_starts),
+            (1, path.pivots.len(), 1)
+        );
         assert!(c.factorisations >= 1);
     }
 
-    /// A second path, from the ray, is only followed where the first one ends before t = 1; both are counted.
+    /// A second path, from the ray, is only followed where the first one ends before t = 1; both
+    /// are counted.
     #[test]
     fn the_ray_is_for_paths_that_fail() {
-        let options = Options { restart_limit: 0, ..Options::default() };
+        let options = Options {
+            restart_limit: 0,
+            ..Options::default()
+        };
         let good = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
-        let outcome = solve(&good, &[7.0, 9.0], &Options { crash_iteration_limit: 0, ..options.clone() }).unwrap();
+        let outcome = solve(
+            &good,
+            &[7.0, 9.0],
+            &Options {
+                crash_iteration_limit: 0,
+                ..options.clone()
+            },
+        )
+        .unwrap();
         assert!(outcome.termination.reached_tolerance());
-        let paths: Vec<usize> = outcome.log.iter().map(|m| m.paths.len()).filter(|n| *n > 0).collect();
-        assert!(!paths.is_empty() && paths.iter().all(|n| *n == 1), "{paths:?}");
+        let paths: Vec<usize> = outcome
+            .log
+            .iter()
+            .map(|m| m.paths.len())
+            .filter(|n| *n > 0)
+            .collect();
+        assert!(
+            !paths.is_empty() && paths.iter().all(|n| *n == 1),
+            "{paths:?}"
+        );
         assert_eq!(outcome.counters.ray_starts, 0);
         // F = -1 for every z: no path gets anywhere.
         let none = LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap();
         let outcome = solve(&none, &[1.0], &options).unwrap();
         assert!(!outcome.termination.reached_tolerance());
         let second = outcome.log.iter().filter(|m| m.paths.len() == 2).count();
-        assert!(second > 0 && outcome.counters.ray_starts >= second, "{:?}", outcome.counters);
+        assert!(
+            second > 0 && outcome.counters.ray_starts >= second,
+            "{:?}",
+            outcome.counters
+        );
     }
 
-    /// The merit that is logged is that of the start of the ray, where free unknowns solve their rows already.
+    /// The merit that is logged is that of the start of the ray, where free unknowns solve their
+    /// rows already.
     #[test]
     fn the_log_begins_at_the_ray() {
-        let options = Options { preprocess: false, ..Options::default() };
+        let options = Options {
+            preprocess: false,
+            ..Options::default()
+        };
         let inf = f64::INFINITY;
         let p = LinearMcp::new(dmatrix![2.0], vec![-3.0], vec![-inf], vec![inf]).unwrap();
         let outcome = solve_linear(&p, &options).unwrap();

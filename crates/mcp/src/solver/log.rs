@@ -24,13 +24,26 @@ impl Log {
     /// Logs a path; it belongs to the next step.
     pub(super) fn path(&mut self, path: &Path) {
         self.pivots.extend_from_slice(&path.pivots);
-        let record = PathRecord { start: path.start, end: path.end, reach: path.reach(), pivots: Vec::new() };
+        let record = PathRecord {
+            start: path.start,
+            end: path.end,
+            reach: path.reach(),
+            pivots: Vec::new(),
+        };
         self.paths.push((record, self.pivots.len()));
     }
 
     /// Logs a step, which takes the paths logged since the last one.
     pub(super) fn step(&mut self, merit: f64, step: StepKind, proximal: f64) {
-        self.steps.push((MajorRecord { merit, step, proximal, paths: Vec::new() }, self.paths.len()));
+        self.steps.push((
+            MajorRecord {
+                merit,
+                step,
+                proximal,
+                paths: Vec::new(),
+            },
+            self.paths.len(),
+        ));
     }
 
     /// The records with their paths and pivots.
@@ -41,7 +54,10 @@ impl Log {
                 let pivots = self.pivots[std::mem::replace(&mut pivot, *end)..*end].to_vec();
                 PathRecord { pivots, ..*record }
             };
-            let paths = self.paths[std::mem::replace(&mut path, *end)..*end].iter().map(&mut of).collect();
+            let paths = self.paths[std::mem::replace(&mut path, *end)..*end]
+                .iter()
+                .map(&mut of)
+                .collect();
             MajorRecord { paths, ..*record }
         };
         self.steps.iter().map(&mut record).collect()
@@ -61,10 +77,22 @@ mod tests {
         };
         record(&mut log, 1.0);
         record(&mut log, 2.0);
-        assert_eq!(log.records().iter().map(|r| (r.merit, r.paths.len())).collect::<Vec<_>>(), [(1.0, 1), (2.0, 1)]);
+        assert_eq!(
+            log.records()
+                .iter()
+                .map(|r| (r.merit, r.paths.len()))
+                .collect::<Vec<_>>(),
+            [(1.0, 1), (2.0, 1)]
+        );
         log.clear();
         assert!(log.records().is_empty());
         record(&mut log, 3.0);
-        assert_eq!(log.records().iter().map(|r| (r.merit, r.paths.len())).collect::<Vec<_>>(), [(3.0, 1)]);
+        assert_eq!(
+            log.records()
+                .iter()
+                .map(|r| (r.merit, r.paths.len()))
+                .collect::<Vec<_>>(),
+            [(3.0, 1)]
+        );
     }
 }

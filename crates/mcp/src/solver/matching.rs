@@ -1,8 +1,8 @@
-//! Maximum transversals (Duff 1981, algorithm MC21): can rows and columns of a sparse matrix be paired
-//! along its entries? If not it is singular whatever the values.
+//! Maximum transversals (Duff 1981, algorithm MC21): can rows and columns of a sparse matrix be
+//! paired along its entries? If not it is singular whatever the values.
 
-/// A row and a column without a partner in a maximum matching of rows and columns, the first ones; `None` if all
-/// have one. `columns[j]` lists the rows (< the number of columns) of column j.
+/// A row and a column without a partner in a maximum matching of rows and columns, the first ones;
+/// `None` if all have one. `columns[j]` lists the rows (< the number of columns) of column j.
 pub fn unmatched(columns: &[Vec<usize>]) -> Option<(usize, usize)> {
     const NONE: usize = usize::MAX;
     let n = columns.len();
@@ -11,7 +11,8 @@ pub fn unmatched(columns: &[Vec<usize>]) -> Option<(usize, usize)> {
     let mut cheap = vec![0; n]; // entries of each column already tried for a row without partner
     // Depth first, (column, next entry), each column but the first reached through its partner.
     let mut way: Vec<(usize, usize)> = Vec::with_capacity(n);
-    let mut steps: Vec<usize> = Vec::with_capacity(n); // row taken from each column of the way but the last
+    // Row taken from each column of the way but the last.
+    let mut steps: Vec<usize> = Vec::with_capacity(n);
     let mut alone = None; // the first column without partner: what has one keeps one
     for root in 0..n {
         way.clear();
@@ -19,11 +20,15 @@ pub fn unmatched(columns: &[Vec<usize>]) -> Option<(usize, usize)> {
         steps.clear();
         while let Some(&(column, next)) = way.last() {
             let rows = &columns[column];
-            let end = rows[cheap[column]..].iter().position(|&row| partner[row] == NONE);
+            let end = rows[cheap[column]..]
+                .iter()
+                .position(|&row| partner[row] == NONE);
             cheap[column] = end.map_or(rows.len(), |k| cheap[column] + k);
             if let Some(&row) = rows.get(cheap[column]) {
                 steps.push(row);
-                way.iter().zip(&steps).for_each(|(&(column, _), &row)| partner[row] = column);
+                way.iter()
+                    .zip(&steps)
+                    .for_each(|(&(column, _), &row)| partner[row] = column);
                 break;
             }
             match rows[next..].iter().position(|&row| seen[row] != root) {
@@ -55,7 +60,11 @@ mod tests {
 
     /// Is there a permutation along the entries? By all of them.
     fn by_all(columns: &[Vec<usize>], taken: u32) -> bool {
-        columns.split_first().is_none_or(|(first, rest)| first.iter().any(|&row| taken >> row & 1 == 0 && by_all(rest, taken | 1 << row)))
+        columns.split_first().is_none_or(|(first, rest)| {
+            first
+                .iter()
+                .any(|&row| taken >> row & 1 == 0 && by_all(rest, taken | 1 << row))
+        })
     }
 
     #[test]
@@ -65,10 +74,14 @@ mod tests {
             let n = k % 8;
             // Knuth's linear congruential generator, high bits.
             let mut bit = |density: u64| {
-                state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+                state = state
+                    .wrapping_mul(6_364_136_223_846_793_005)
+                    .wrapping_add(1_442_695_040_888_963_407);
                 (state >> 40) % 10 < density
             };
-            let columns: Vec<Vec<usize>> = (0..n).map(|_| (0..n).filter(|_| bit(if n < 7 { 3 } else { 4 })).collect()).collect();
+            let columns: Vec<Vec<usize>> = (0..n)
+                .map(|_| (0..n).filter(|_| bit(if n < 7 { 3 } else { 4 })).collect())
+                .collect();
             let regular = by_all(&columns, 0);
             counts[usize::from(regular)] += 1;
             assert_eq!(unmatched(&columns).is_none(), regular, "{columns:?}");
@@ -83,7 +96,9 @@ mod tests {
     fn long_ways_need_no_stack() {
         // Column j has rows j and j + 1, the last one only row 0: everything moves by one.
         let n = 100_000;
-        let columns: Vec<Vec<usize>> = (0..n).map(|j| if j + 1 < n { vec![j, j + 1] } else { vec![0] }).collect();
+        let columns: Vec<Vec<usize>> = (0..n)
+            .map(|j| if j + 1 < n { vec![j, j + 1] } else { vec![0] })
+            .collect();
         assert_eq!(unmatched(&columns), None);
     }
 }

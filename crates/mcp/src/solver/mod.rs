@@ -71,27 +71,49 @@ use crate::mcp::{Mcp, McpError, check_bounds};
 /// assert!(outcome.termination.reached_tolerance());
 /// assert!((outcome.point[0] - 4.0 / 3.0).abs() < 1e-12);
 /// ```
-pub fn solve<P: Mcp + ?Sized>(problem: &P, start: &[f64], options: &Options) -> Result<Outcome, SolverError> {
+pub fn solve<P: Mcp + ?Sized>(
+    problem: &P,
+    start: &[f64],
+    options: &Options,
+) -> Result<Outcome, SolverError> {
     let mut solver = Solver::new();
     let ended = solver.run(problem, start, options)?;
     Ok(solver.outcome(ended))
 }
 
 /// Refuses options, shapes, bounds and starts that make no sense.
-fn validate<P: Mcp + ?Sized>(problem: &P, start: &[f64], options: &Options) -> Result<(), SolverError> {
+fn validate<P: Mcp + ?Sized>(
+    problem: &P,
+    start: &[f64],
+    options: &Options,
+) -> Result<(), SolverError> {
     options.validate()?;
     let n = problem.dimension();
-    for (what, got) in [("lower", problem.lower().len()), ("upper", problem.upper().len())] {
+    for (what, got) in [
+        ("lower", problem.lower().len()),
+        ("upper", problem.upper().len()),
+    ] {
         if got != n {
-            return Err(McpError::Shape { what, expected: n, got }.into());
+            return Err(McpError::Shape {
+                what,
+                expected: n,
+                got,
+            }
+            .into());
         }
     }
     check_bounds(problem.lower(), problem.upper())?;
     if start.len() != n {
-        return Err(SolverError::StartLength { expected: n, got: start.len() });
+        return Err(SolverError::StartLength {
+            expected: n,
+            got: start.len(),
+        });
     }
     if let Some(index) = start.iter().position(|v| !v.is_finite()) {
-        return Err(SolverError::StartNotFinite { index, got: start[index] });
+        return Err(SolverError::StartNotFinite {
+            index,
+            got: start[index],
+        });
     }
     Ok(())
 }

@@ -6,7 +6,8 @@ use crate::mcp::Mcp;
 /// Runs from every start, in order. It never says that nothing else exists: report coverage.
 ///
 /// # Errors
-/// [`SolverError`] of the first problem, option or start that makes no sense, before the runs after it.
+/// [`SolverError`] of the first problem, option or start that makes no sense, before the runs after
+/// it.
 ///
 /// ```
 /// use mceip_mcp::{mcp::LinearMcp, solver::{multistart, Options}};
@@ -20,5 +21,12 @@ pub fn multistart<P: Mcp + ?Sized>(
     options: &Options,
 ) -> Result<Vec<Outcome>, SolverError> {
     let mut solver = Solver::new();
-    starts.into_iter().map(|start| solver.run(problem, &start, options).map(|end| solver.outcome(end))).collect()
+    starts
+        .into_iter()
+        .map(|start| {
+            solver
+                .run(problem, &start, options)
+                .map(|end| solver.outcome(end))
+        })
+        .collect()
 }

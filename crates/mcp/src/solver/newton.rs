@@ -1,5 +1,6 @@
 //! The outer loop: linearise, follow the path to the Newton point, accept it or fall back on
-//! watchdog, path search, gradient (`choose`) and restart, in this order (Dirkse and Ferris 1995, section 4).
+//! watchdog, path search, gradient (`choose`) and restart, in this order (Dirkse and Ferris 1995,
+//! section 4).
 
 mod choose;
 
@@ -49,7 +50,11 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     pub(super) fn new(problem: &'a P, options: &'a Options, mut space: Workspace) -> Self {
         space.log.clear();
         let problem = Evaluated::with_pool(problem, std::mem::take(&mut space.pool));
-        Run { problem, options, space }
+        Run {
+            problem,
+            options,
+            space,
+        }
     }
 
     /// Attempts from the start, the first one and the restarts, until the tolerance or a limit. The
@@ -75,7 +80,11 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             if ends_the_run(reason) {
                 break;
             }
-            let from = self.moved(&start, Attempt::far(trial), trial + 1 + self.options.restart_limit);
+            let from = self.moved(
+                &start,
+                Attempt::far(trial),
+                trial + 1 + self.options.restart_limit,
+            );
             reason = self.along_curves(&from, &mut best).unwrap_or(reason);
             self.problem.recycle(from);
         }
@@ -97,7 +106,13 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     }
 
     /// One more attempt from the start, moved; then along the curves from there.
-    fn restart(&mut self, start: &Point, attempt: Attempt, k: usize, best: &mut Point) -> Termination {
+    fn restart(
+        &mut self,
+        start: &Point,
+        attempt: Attempt,
+        k: usize,
+        best: &mut Point,
+    ) -> Termination {
         self.problem.counters.restarts += 1;
         self.space.log.step(start.merit, StepKind::Restart, 0.0);
         let from = self.moved(start, attempt, k);
@@ -111,7 +126,9 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
 
     /// The start moved as the attempt asks, if F is finite there.
     fn moved(&mut self, start: &Point, attempt: Attempt, k: usize) -> Point {
-        let mut shifted = self.problem.point_with(|i| attempt.shifted(start.z[i], i, k));
+        let mut shifted = self
+            .problem
+            .point_with(|i| attempt.shifted(start.z[i], i, k));
         if !shifted.merit.is_finite() {
             shifted.copy_from(start);
         }
@@ -120,7 +137,11 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
 
     /// Points from which curves alone are tried at the end: none without restarts or curves.
     fn trials(&self) -> usize {
-        if self.options.restart_limit > 0 && self.options.curve_step_limit > 0 { CURVE_TRIALS } else { 0 }
+        if self.options.restart_limit > 0 && self.options.curve_step_limit > 0 {
+            CURVE_TRIALS
+        } else {
+            0
+        }
     }
 
     /// To the first solution on the curve of the Newton homotopy from the start, down and then up,
@@ -165,15 +186,30 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
 
     /// The crash that the options ask for.
     fn crash(&mut self, start: Point) -> Result<Point, Termination> {
-        let Run { problem, options, space } = self;
-        let (limit, of, tolerance) = (options.crash_iteration_limit, problem.problem, options.convergence_tolerance);
+        let Run {
+            problem,
+            options,
+            space,
+        } = self;
+        let (limit, of, tolerance) = (
+            options.crash_iteration_limit,
+            problem.problem,
+            options.convergence_tolerance,
+        );
         if limit == 0 || options.crash_method == CrashMethod::None {
             return Ok(start);
         }
         let mut point = start;
         if options.crash_method == CrashMethod::FischerNewton {
             let done = |point: &Point| is_within_tolerance(of, point, tolerance);
-            let (next, done) = semismooth(problem, point, limit, done, &mut space.crash.semismooth, &mut space.log)?;
+            let (next, done) = semismooth(
+                problem,
+                point,
+                limit,
+                done,
+                &mut space.crash.semismooth,
+                &mut space.log,
+            )?;
             if done {
                 return Ok(next);
             }
@@ -183,11 +219,24 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     }
 
     /// Linearisations from a point until there is a reason to stop.
-    fn majors(&mut self, point: &mut Point, attempt: Attempt, search: &mut Search, best: &mut Point) -> Termination {
+    fn majors(
+        &mut self,
+        point: &mut Point,
+        attempt: Attempt,
+        search: &mut Search,
+        best: &mut Point,
+    ) -> Termination {
         let (majors, pivots) = self.share();
-        let last = (self.problem.counters.majors + majors, self.problem.counters.pivots + pivots);
+        let last = (
+            self.problem.counters.majors + majors,
+            self.problem.counters.pivots + pivots,
+        );
         loop {
-            if is_within_tolerance(self.problem.problem, point, self.options.convergence_tolerance) {
+            if is_within_tolerance(
+                self.problem.problem,
+                point,
+                self.options.convergence_tolerance,
+            ) {
                 best.copy_from(point);
                 return Termination::ToleranceReached;
             }
@@ -213,29 +262,53 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     /// An even share of the limits on majors and pivots, so that a wandering attempt leaves some to
     /// the restarts.
     fn share(&self) -> (usize, usize) {
-        let attempts = (1 + self.options.restart_limit) * if self.options.curve_step_limit > 0 { 2 } else { 1 };
-        let Options { major_iteration_limit: majors, cumulative_iteration_limit: pivots, .. } = self.options;
+        let attempts = (1 + self.options.restart_limit)
+            * if self.options.curve_step_limit > 0 {
+                2
+            } else {
+                1
+            };
+        let Options {
+            major_iteration_limit: majors,
+            cumulative_iteration_limit: pivots,
+            ..
+        } = self.options;
         (majors.div_ceil(attempts), pivots.div_ceil(attempts))
     }
 
     /// One linearisation and the step it leads to.
-    fn major(&mut self, point: &Point, attempt: Attempt, search: &mut Search) -> Result<Point, Termination> {
+    fn major(
+        &mut self,
+        point: &Point,
+        attempt: Attempt,
+        search: &mut Search,
+    ) -> Result<Point, Termination> {
         self.problem.counters.majors += 1;
         let mut m = self.problem.jacobian(point)?;
-        let proximal = if attempt.proximal > 0.0 { attempt.proximal * m.amax() * point.merit.sqrt().min(1.0) } else { 0.0 };
+        let proximal = if attempt.proximal > 0.0 {
+            attempt.proximal * m.amax() * point.merit.sqrt().min(1.0)
+        } else {
+            0.0
+        };
         linearise(&mut m, &point.z, &point.f, proximal, &mut self.space.q);
         let mut paths = std::mem::take(&mut self.space.paths);
         self.follow(&m, attempt.first, point, &mut paths[0]);
         let mut count = 1;
         if paths[0].end != PathEnd::Complete {
-            let other = if attempt.first == Start::Regular { Start::Ray } else { Start::Regular };
+            let other = if attempt.first == Start::Regular {
+                Start::Ray
+            } else {
+                Start::Regular
+            };
             self.follow(&m, other, point, &mut paths[1]);
             count = 2;
         }
         self.problem.recycle_matrix(m);
         let step = self.choose(point, &paths[..count], search);
         let kind = step.as_ref().map_or(StepKind::Failed, |(_, kind)| *kind);
-        paths[..count].iter().for_each(|path| self.space.log.path(path));
+        paths[..count]
+            .iter()
+            .for_each(|path| self.space.log.path(path));
         self.space.log.step(point.merit, kind, proximal);
         self.space.paths = paths;
         step.map(|(next, _)| next)
@@ -243,22 +316,51 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
 
     fn follow(&mut self, m: &DMatrix<f64>, start: Start, point: &Point, path: &mut Path) {
         let (problem, options) = (self.problem.problem, self.options);
-        let sub = Subproblem { m, q: &self.space.q, lower: problem.lower(), upper: problem.upper() };
-        let left = options.cumulative_iteration_limit.saturating_sub(self.problem.counters.pivots);
+        let sub = Subproblem {
+            m,
+            q: &self.space.q,
+            lower: problem.lower(),
+            upper: problem.upper(),
+        };
+        let left = options
+            .cumulative_iteration_limit
+            .saturating_sub(self.problem.counters.pivots);
         let pivots = options.minor_iteration_limit.min(left);
-        let limits = Limits { pivots, cycle_entries: options.cycle_entry_limit, rule: options.ratio_test };
-        follow(&sub, start, point.z.as_slice(), limits, &mut self.space.path, path);
+        let limits = Limits {
+            pivots,
+            cycle_entries: options.cycle_entry_limit,
+            rule: options.ratio_test,
+        };
+        follow(
+            &sub,
+            start,
+            point.z.as_slice(),
+            limits,
+            &mut self.space.path,
+            path,
+        );
         self.problem.counters.pivots += path.pivots.len();
         self.problem.counters.factorisations += path.factorisations;
         self.problem.counters.ray_starts += usize::from(start == Start::Ray);
     }
 
     /// The five residuals of the best point, which with the log is left in the workspace.
-    fn finish(mut self, best: Point, termination: Termination) -> (Workspace, Residuals, Termination, Counters) {
+    fn finish(
+        mut self,
+        best: Point,
+        termination: Termination,
+    ) -> (Workspace, Residuals, Termination, Counters) {
         let jacobian = self.problem.any_jacobian(&best);
         let mut work = self.problem.spare();
         let (z, f) = (best.z.as_slice(), best.f.as_slice());
-        let residuals = Residuals::with_gradient(self.problem.problem, z, f, &jacobian, &mut work.z, &mut work.f);
+        let residuals = Residuals::with_gradient(
+            self.problem.problem,
+            z,
+            f,
+            &jacobian,
+            &mut work.z,
+            &mut work.f,
+        );
         self.space.point.clear();
         self.space.point.extend_from_slice(z);
         self.problem.recycle_matrix(jacobian);
@@ -273,21 +375,33 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
 fn is_within_tolerance<P: Mcp + ?Sized>(problem: &P, point: &Point, tolerance: f64) -> bool {
     // The merit alone says so of most points.
     point.merit <= MERIT_SLACK * 0.5 * point.z.len() as f64 * tolerance * tolerance
-        && Residuals::without_gradient(problem, point.z.as_slice(), point.f.as_slice()).within(tolerance)
+        && Residuals::without_gradient(problem, point.z.as_slice(), point.f.as_slice())
+            .within(tolerance)
 }
 
 /// The unknowns strictly between their bounds, by one allocation.
 fn strictly_inside<P: Mcp + ?Sized>(problem: &P, point: &Point) -> Vec<usize> {
     let bounds = problem.lower().iter().zip(problem.upper());
     let mut inside = Vec::with_capacity(point.z.len());
-    inside.extend(point.z.iter().zip(bounds).enumerate().filter(|(_, (z, (l, u)))| *l < z && z < u).map(|(i, _)| i));
+    inside.extend(
+        point
+            .z
+            .iter()
+            .zip(bounds)
+            .enumerate()
+            .filter(|(_, (z, (l, u)))| *l < z && z < u)
+            .map(|(i, _)| i),
+    );
     inside
 }
 
 /// Reasons that no restart can mend.
 fn ends_the_run(reason: Termination) -> bool {
     use Termination as T;
-    matches!(reason, T::ToleranceReached | T::MajorLimit | T::CumulativeLimit | T::JacobianShape { .. })
+    matches!(
+        reason,
+        T::ToleranceReached | T::MajorLimit | T::CumulativeLimit | T::JacobianShape { .. }
+    )
 }
 
 #[cfg(test)]

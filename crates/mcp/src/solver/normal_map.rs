@@ -1,7 +1,8 @@
-//! Robinson's normal map F(pi(zeta)) + zeta - pi(zeta), pi the projection onto [l, u] (Robinson 1992).
+//! Robinson's normal map F(pi(zeta)) + zeta - pi(zeta), pi the projection onto [l, u] (Robinson
+//! 1992).
 //!
-//! A point of its domain is kept as the pair (z, m) with z = pi(zeta) and m = z - zeta: m = w - v is
-//! the multiplier of the bounds, w >= 0 where z = l and v >= 0 where z = u. The map is F(z) - m.
+//! A point of its domain is kept as the pair (z, m) with z = pi(zeta) and m = z - zeta: m = w - v
+//! is the multiplier of the bounds, w >= 0 where z = l and v >= 0 where z = u. The map is F(z) - m.
 
 use super::dense::subtract;
 use nalgebra::{DMatrix, DVector};
@@ -13,9 +14,15 @@ pub(super) fn least_residual(z: f64, f: f64, l: f64, u: f64) -> f64 {
     if z >= u { f.max(0.0) } else { f }
 }
 
-/// Turns F'(z) into that of the linearised problem at z: M = F'(z) + proximal I and q = F(z) - M z, so
-/// that M z + q = F(z).
-pub(super) fn linearise(jacobian: &mut DMatrix<f64>, z: &DVector<f64>, f: &DVector<f64>, proximal: f64, q: &mut Vec<f64>) {
+/// Turns F'(z) into that of the linearised problem at z: M = F'(z) + proximal I and q = F(z) - M z,
+/// so that M z + q = F(z).
+pub(super) fn linearise(
+    jacobian: &mut DMatrix<f64>,
+    z: &DVector<f64>,
+    f: &DVector<f64>,
+    proximal: f64,
+    q: &mut Vec<f64>,
+) {
     if proximal > 0.0 {
         for i in 0..z.len() {
             jacobian[(i, i)] += proximal;
@@ -24,7 +31,9 @@ pub(super) fn linearise(jacobian: &mut DMatrix<f64>, z: &DVector<f64>, f: &DVect
     q.clear();
     q.extend(f.iter());
     let n = z.len();
-    z.iter().enumerate().for_each(|(j, z)| subtract(q, z, &jacobian.as_slice()[j * n..(j + 1) * n]));
+    z.iter()
+        .enumerate()
+        .for_each(|(j, z)| subtract(q, z, &jacobian.as_slice()[j * n..(j + 1) * n]));
 }
 
 #[cfg(test)]
@@ -34,7 +43,13 @@ mod tests {
 
     #[test]
     fn the_least_residual_is_what_no_bound_absorbs() {
-        for (z, f, expected) in [(0.0, 2.0, 0.0), (0.0, -2.0, -2.0), (1.0, -2.0, 0.0), (1.0, 2.0, 2.0), (0.5, 2.0, 2.0)] {
+        for (z, f, expected) in [
+            (0.0, 2.0, 0.0),
+            (0.0, -2.0, -2.0),
+            (1.0, -2.0, 0.0),
+            (1.0, 2.0, 2.0),
+            (0.5, 2.0, 2.0),
+        ] {
             assert_eq!(least_residual(z, f, 0.0, 1.0), expected);
         }
         assert_eq!(least_residual(3.0, 2.0, 3.0, 3.0), 0.0);

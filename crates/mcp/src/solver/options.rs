@@ -5,14 +5,14 @@ use super::SolverError;
 /// Limits and tolerances of a run. Names are PATH's; so are defaults unless a reason is given.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Options {
-    /// A run ends with [`super::Termination::ToleranceReached`] when the normal-map, minimum-map and
-    /// Fischer residuals (infinity norm, units of F) are at most this, and the complementarity
+    /// A run ends with [`super::Termination::ToleranceReached`] when the normal-map, minimum-map
+    /// and Fischer residuals (infinity norm, units of F) are at most this, and the complementarity
     /// products (units of F times z) at most its square root. PATH: 1e-6. Here 1e-10: 1e-6 accepts
     /// points near thresholds where no solution exists, and Newton gives the digits for nothing.
     pub convergence_tolerance: f64,
-    /// What comes before the first path. PATH: projected Newton. Here Newton on the Fischer-Burmeister
-    /// system and, where that does not converge, projected Newton from its best point: a solution found
-    /// so costs a factorisation a step and no pivot.
+    /// What comes before the first path. PATH: projected Newton. Here Newton on the
+    /// Fischer-Burmeister system and, where that does not converge, projected Newton from its best
+    /// point: a solution found so costs a factorisation a step and no pivot.
     pub crash_method: CrashMethod,
     /// Crash steps of each kind before the first path. 0 switches the crash off. PATH: 50.
     pub crash_iteration_limit: usize,
@@ -24,8 +24,8 @@ pub struct Options {
     pub cumulative_iteration_limit: usize,
     /// Entries of one variable into the basis of a regular start, without a new maximum of t, that
     /// count as a cycle. Ours; the lexicographic rule excludes loops of bases only in exact
-    /// arithmetic, and a regular path may be a closed loop. 5 was found no worse than 20, and cheaper.
-    /// Unit: entries.
+    /// arithmetic, and a regular path may be a closed loop. 5 was found no worse than 20, and
+    /// cheaper. Unit: entries.
     pub cycle_entry_limit: usize,
     /// Merit values whose maximum is the reference of the non-monotone test. PATH: 10.
     pub nms_memory_size: usize,
@@ -39,14 +39,15 @@ pub struct Options {
     pub gradient_step_limit: usize,
     /// Restarts from the user's point, each with other settings. PATH: 3.
     pub restart_limit: usize,
-    /// Are linear problems reduced by what their bounds decide before Lemke's method starts? PATH: yes.
-    /// Used by [`super::solve_linear`] only; pivots are reported by the indices of the whole problem.
+    /// Are linear problems reduced by what their bounds decide before Lemke's method starts? PATH:
+    /// yes. Used by [`super::solve_linear`] only; pivots are reported by the indices of the whole
+    /// problem.
     pub preprocess: bool,
-    /// How ties of the ratio test are broken. PATH: EXPAND. Here lexicographic, which is finite from a
-    /// ray in exact arithmetic.
+    /// How ties of the ratio test are broken. PATH: EXPAND. Here lexicographic, which is finite
+    /// from a ray in exact arithmetic.
     pub ratio_test: RatioTest,
-    /// Steps along the curve of the Newton homotopy ([`super::continuation`]), which is followed where
-    /// the first attempt fails, and of each curve of a search; 0 for none. Ours. Unit: steps.
+    /// Steps along the curve of the Newton homotopy ([`super::continuation`]), which is followed
+    /// where the first attempt fails, and of each curve of a search; 0 for none. Ours. Unit: steps.
     pub curve_step_limit: usize,
 }
 
@@ -57,8 +58,8 @@ pub enum CrashMethod {
     None,
     /// Newton on the guessed active set, projected onto the bounds (Dirkse and Ferris 1997).
     ProjectedNewton,
-    /// Newton on the Fischer-Burmeister system within the bounds (De Luca, Facchinei and Kanzow 1996); if
-    /// it does not converge, projected Newton from the point it has come to.
+    /// Newton on the Fischer-Burmeister system within the bounds (De Luca, Facchinei and Kanzow
+    /// 1996); if it does not converge, projected Newton from the point it has come to.
     #[default]
     FischerNewton,
 }
@@ -66,20 +67,25 @@ pub enum CrashMethod {
 /// How a path decides between bounds met at nearly the same step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 pub enum RatioTest {
-    /// The right-hand side is thought perturbed by the first basis times (eps, eps^2, ...): no basis
-    /// repeats on a path from a ray (Dantzig, Orden and Wolfe 1955; Cottle, Pang and Stone 1992, 4.9).
+    /// The right-hand side is thought perturbed by the first basis times (eps, eps^2, ...): no
+    /// basis repeats on a path from a ray (Dantzig, Orden and Wolfe 1955; Cottle, Pang and Stone
+    /// 1992, 4.9).
     #[default]
     Lexicographic,
-    /// The largest pivot within bounds that widen with every pivot (Gill, Murray, Saunders and Wright
-    /// 1989), as PATH has it: better pivots, finite in practice only.
+    /// The largest pivot within bounds that widen with every pivot (Gill, Murray, Saunders and
+    /// Wright 1989), as PATH has it: better pivots, finite in practice only.
     Expand,
 }
 
 impl Options {
-    /// The defaults of a search for all solutions: PATH's own crash. What the curves of a search may cost is counted in
-    /// such runs; where Newton on the Fischer-Burmeister system makes them cheap, that buys fewer curves.
+    /// The defaults of a search for all solutions: PATH's own crash. What the curves of a search
+    /// may cost is counted in such runs; where Newton on the Fischer-Burmeister system makes them
+    /// cheap, that buys fewer curves.
     pub fn for_search() -> Self {
-        Options { crash_method: CrashMethod::ProjectedNewton, ..Options::default() }
+        Options {
+            crash_method: CrashMethod::ProjectedNewton,
+            ..Options::default()
+        }
     }
 }
 
@@ -113,7 +119,13 @@ impl Options {
     /// # Errors
     /// [`SolverError::Option`] naming the option, what it must be, and its value.
     pub fn validate(&self) -> Result<(), SolverError> {
-        let refuse = |name, expected, got| Err(SolverError::Option { name, expected, got });
+        let refuse = |name, expected, got| {
+            Err(SolverError::Option {
+                name,
+                expected,
+                got,
+            })
+        };
         let tolerance = self.convergence_tolerance;
         if !(tolerance > 0.0 && tolerance.is_finite()) {
             return refuse("convergence_tolerance", "> 0 and finite", tolerance);
@@ -125,7 +137,10 @@ impl Options {
         for (name, got) in [
             ("major_iteration_limit", self.major_iteration_limit),
             ("minor_iteration_limit", self.minor_iteration_limit),
-            ("cumulative_iteration_limit", self.cumulative_iteration_limit),
+            (
+                "cumulative_iteration_limit",
+                self.cumulative_iteration_limit,
+            ),
             ("cycle_entry_limit", self.cycle_entry_limit),
             ("nms_memory_size", self.nms_memory_size),
             ("nms_mstep_frequency", self.nms_mstep_frequency),
@@ -145,21 +160,57 @@ mod tests {
     #[test]
     fn a_search_keeps_path_s_own_crash() {
         let search = Options::for_search();
-        assert_eq!((Options::default().crash_method, search.crash_method), (CrashMethod::FischerNewton, CrashMethod::ProjectedNewton));
-        assert_eq!(Options { crash_method: CrashMethod::FischerNewton, ..search }, Options::default());
+        assert_eq!(
+            (Options::default().crash_method, search.crash_method),
+            (CrashMethod::FischerNewton, CrashMethod::ProjectedNewton)
+        );
+        assert_eq!(
+            Options {
+                crash_method: CrashMethod::FischerNewton,
+                ..search
+            },
+            Options::default()
+        );
     }
 
     #[test]
     fn defaults_are_valid_and_refusals_name_the_option() {
         assert_eq!(Options::default().validate(), Ok(()));
         let refused = [
-            (Options { convergence_tolerance: f64::NAN, ..Options::default() }, "convergence_tolerance"),
-            (Options { nms_initial_reference_factor: 0.5, ..Options::default() }, "nms_initial_reference_factor"),
-            (Options { nms_memory_size: 0, ..Options::default() }, "nms_memory_size"),
-            (Options { minor_iteration_limit: 0, ..Options::default() }, "minor_iteration_limit"),
+            (
+                Options {
+                    convergence_tolerance: f64::NAN,
+                    ..Options::default()
+                },
+                "convergence_tolerance",
+            ),
+            (
+                Options {
+                    nms_initial_reference_factor: 0.5,
+                    ..Options::default()
+                },
+                "nms_initial_reference_factor",
+            ),
+            (
+                Options {
+                    nms_memory_size: 0,
+                    ..Options::default()
+                },
+                "nms_memory_size",
+            ),
+            (
+                Options {
+                    minor_iteration_limit: 0,
+                    ..Options::default()
+                },
+                "minor_iteration_limit",
+            ),
         ];
         for (options, expected) in refused {
-            assert!(matches!(options.validate(), Err(SolverError::Option { name, .. }) if name == expected), "{expected}");
+            assert!(
+                matches!(options.validate(), Err(SolverError::Option { name, .. }) if name == expected),
+                "{expected}"
+            );
         }
     }
 }

@@ -51,8 +51,9 @@ pub enum Termination {
         /// Its columns.
         cols: usize,
     },
-    /// No attempt got on, and the Jacobian at the start is singular by its zeros alone, among the unknowns
-    /// strictly between their bounds there: no permutation pairs this row and this column with non-zeros.
+    /// No attempt got on, and the Jacobian at the start is singular by its zeros alone, among the
+    /// unknowns strictly between their bounds there: no permutation pairs this row and this column
+    /// with non-zeros.
     StructurallySingular {
         /// Row of F'.
         row: usize,
@@ -168,7 +169,8 @@ pub struct Counters {
     pub restarts: usize,
     /// Steps along curves of the Newton homotopy.
     pub curve_steps: usize,
-    /// Dense factorisations: starting bases and their repair, refreshed bases, crash and curve steps.
+    /// Dense factorisations: starting bases and their repair, refreshed bases, crash and curve
+    /// steps.
     pub factorisations: usize,
     /// Evaluations of F.
     pub functions: usize,

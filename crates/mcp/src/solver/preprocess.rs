@@ -1,9 +1,10 @@
 //! What the bounds decide before any pivot, on linear problems (the presolve of PATH: Ferris and
 //! Munson, "Preprocessing complementarity problems", 2001; here its three simplest rules).
 //!
-//! Rules, repeated until none applies: equal bounds fix z_i; a row whose value has one sign over all
-//! bounds fixes z_i at the bound of that sign; a row that depends on a fixed point of z_i alone, with a
-//! positive diagonal, is solved. A row whose sign has no bound is left alone: the path ends on a ray.
+//! Rules, repeated until none applies: equal bounds fix z_i; a row whose value has one sign over
+//! all bounds fixes z_i at the bound of that sign; a row that depends on a fixed point of z_i
+//! alone, with a positive diagonal, is solved. A row whose sign has no bound is left alone: the
+//! path ends on a ray.
 
 use super::tolerance::SIGN_SURE;
 use crate::mcp::{LinearMcp, Mcp};
@@ -24,24 +25,40 @@ impl Preprocessed {
     /// Applies the rules.
     pub(super) fn new(problem: &LinearMcp) -> Preprocessed {
         let mut decided: Vec<Option<f64>> = vec![None; problem.dimension()];
-        while let Some((i, value)) =
-            (0..decided.len()).filter(|&i| decided[i].is_none()).find_map(|i| Some((i, decide(problem, &decided, i)?)))
+        while let Some((i, value)) = (0..decided.len())
+            .filter(|&i| decided[i].is_none())
+            .find_map(|i| Some((i, decide(problem, &decided, i)?)))
         {
             decided[i] = Some(value);
         }
-        let kept: Vec<usize> = (0..decided.len()).filter(|&i| decided[i].is_none()).collect();
-        let reduced = (kept.len() < decided.len()).then(|| reduce(problem, &decided, &kept)).flatten();
+        let kept: Vec<usize> = (0..decided.len())
+            .filter(|&i| decided[i].is_none())
+            .collect();
+        let reduced = (kept.len() < decided.len())
+            .then(|| reduce(problem, &decided, &kept))
+            .flatten();
         if reduced.is_none() {
             let all = (0..decided.len()).collect();
-            return Preprocessed { reduced, kept: all, decided: vec![None; problem.dimension()] };
+            return Preprocessed {
+                reduced,
+                kept: all,
+                decided: vec![None; problem.dimension()],
+            };
         }
-        Preprocessed { reduced, kept, decided }
+        Preprocessed {
+            reduced,
+            kept,
+            decided,
+        }
     }
 
     /// The point of the whole problem over one of the reduced one.
     pub(super) fn restore(&self, z: &[f64]) -> Vec<f64> {
         let mut rest = z.iter();
-        self.decided.iter().map(|value| value.or_else(|| rest.next().copied()).unwrap_or(f64::NAN)).collect()
+        self.decided
+            .iter()
+            .map(|value| value.or_else(|| rest.next().copied()).unwrap_or(f64::NAN))
+            .collect()
     }
 }
 
@@ -54,8 +71,14 @@ fn decide(problem: &LinearMcp, decided: &[Option<f64>], i: usize) -> Option<f64>
     let row = problem.matrix().row(i);
     let others_decided = (0..row.len()).all(|j| j == i || row[j] == 0.0 || decided[j].is_some());
     if others_decided && row[i] > 0.0 {
-        let rest: f64 = (0..row.len()).filter_map(|j| decided[j].map(|z| row[j] * z)).sum();
-        return Some((-(problem.vector()[i] + rest) / row[i]).max(lower).min(upper));
+        let rest: f64 = (0..row.len())
+            .filter_map(|j| decided[j].map(|z| row[j] * z))
+            .sum();
+        return Some(
+            (-(problem.vector()[i] + rest) / row[i])
+                .max(lower)
+                .min(upper),
+        );
     }
     let (least, most, size) = range(problem, decided, i);
     if least > SIGN_SURE * size && lower.is_finite() {
@@ -71,12 +94,25 @@ fn decide(problem: &LinearMcp, decided: &[Option<f64>], i: usize) -> Option<f64>
 fn range(problem: &LinearMcp, decided: &[Option<f64>], i: usize) -> (f64, f64, f64) {
     let q = problem.vector()[i];
     let (mut least, mut most, mut size) = (q, q, q.abs());
-    for (j, &m) in problem.matrix().row(i).iter().enumerate().filter(|(_, m)| **m != 0.0) {
+    for (j, &m) in problem
+        .matrix()
+        .row(i)
+        .iter()
+        .enumerate()
+        .filter(|(_, m)| **m != 0.0)
+    {
         let (l, u) = decided[j].map_or((problem.lower()[j], problem.upper()[j]), |z| (z, z));
-        let ends = if m > 0.0 { (m * l, m * u) } else { (m * u, m * l) };
+        let ends = if m > 0.0 {
+            (m * l, m * u)
+        } else {
+            (m * u, m * l)
+        };
         least += ends.0;
         most += ends.1;
-        size += [ends.0, ends.1].into_iter().filter(|v| v.is_finite()).fold(0.0, |a: f64, v| a.max(v.abs()));
+        size += [ends.0, ends.1]
+            .into_iter()
+            .filter(|v| v.is_finite())
+            .fold(0.0, |a: f64, v| a.max(v.abs()));
     }
     (least, most, size)
 }
@@ -84,10 +120,23 @@ fn range(problem: &LinearMcp, decided: &[Option<f64>], i: usize) -> (f64, f64, f
 /// The problem in the kept unknowns; `None` if its numbers overflow.
 fn reduce(problem: &LinearMcp, decided: &[Option<f64>], kept: &[usize]) -> Option<LinearMcp> {
     let m = problem.matrix();
-    let constant = |&i: &usize| problem.vector()[i] + decided.iter().enumerate().filter_map(|(j, z)| z.map(|z| m[(i, j)] * z)).sum::<f64>();
+    let constant = |&i: &usize| {
+        problem.vector()[i]
+            + decided
+                .iter()
+                .enumerate()
+                .filter_map(|(j, z)| z.map(|z| m[(i, j)] * z))
+                .sum::<f64>()
+    };
     let of = |values: &[f64]| kept.iter().map(|&i| values[i]).collect::<Vec<f64>>();
     let matrix = DMatrix::from_fn(kept.len(), kept.len(), |a, b| m[(kept[a], kept[b])]);
-    LinearMcp::new(matrix, kept.iter().map(constant).collect(), of(problem.lower()), of(problem.upper())).ok()
+    LinearMcp::new(
+        matrix,
+        kept.iter().map(constant).collect(),
+        of(problem.lower()),
+        of(problem.upper()),
+    )
+    .ok()
 }
 
 #[cfg(test)]
@@ -107,23 +156,52 @@ mod tests {
         let both = one(coupled.clone(), &[0.0, 1.0], &[2.0, 0.0], &[2.0, INF]);
         assert!(both.kept.is_empty() && both.restore(&[]) == [2.0, 0.0]);
         // F_2 = z_1 - 1 has no sign over [0, inf).
-        assert!(one(coupled.clone(), &[0.0, -1.0], &[0.0; 2], &[INF; 2]).reduced.is_none());
+        assert!(
+            one(coupled.clone(), &[0.0, -1.0], &[0.0; 2], &[INF; 2])
+                .reduced
+                .is_none()
+        );
         // F_2 = z_1 - 9 < 0 over [0, 1]: the upper bound, or nothing where there is none.
-        assert_eq!(one(coupled.clone(), &[0.0, -9.0], &[0.0; 2], &[1.0, 3.0]).restore(&[0.5])[1], 3.0);
-        assert!(one(coupled, &[0.0, -9.0], &[0.0; 2], &[1.0, INF]).reduced.is_none());
-        // A row of its own: solved and kept within the bounds; not with a diagonal of the other sign.
-        assert_eq!(one(dmatrix![2.0], &[-3.0], &[0.0], &[INF]).restore(&[]), [1.5]);
-        assert_eq!(one(dmatrix![2.0], &[-3.0], &[0.0], &[1.0]).restore(&[]), [1.0]);
-        assert!(one(dmatrix![-2.0], &[3.0], &[0.0], &[INF]).reduced.is_none());
+        assert_eq!(
+            one(coupled.clone(), &[0.0, -9.0], &[0.0; 2], &[1.0, 3.0]).restore(&[0.5])[1],
+            3.0
+        );
+        assert!(
+            one(coupled, &[0.0, -9.0], &[0.0; 2], &[1.0, INF])
+                .reduced
+                .is_none()
+        );
+        // A row of its own: solved and kept within the bounds; not with a diagonal of the other
+        // sign.
+        assert_eq!(
+            one(dmatrix![2.0], &[-3.0], &[0.0], &[INF]).restore(&[]),
+            [1.5]
+        );
+        assert_eq!(
+            one(dmatrix![2.0], &[-3.0], &[0.0], &[1.0]).restore(&[]),
+            [1.0]
+        );
+        assert!(
+            one(dmatrix![-2.0], &[3.0], &[0.0], &[INF])
+                .reduced
+                .is_none()
+        );
     }
 
     #[test]
     fn the_reduced_problem_carries_the_decided_values() {
         let m = dmatrix![1.0, 5.0, 2.0; 0.0, 0.0, 3.0; 4.0, 0.0, 1.0];
-        let problem = LinearMcp::new(m, vec![7.0, 1.0, -50.0], vec![-INF, 0.0, 0.0], vec![INF; 3]).unwrap();
+        let problem =
+            LinearMcp::new(m, vec![7.0, 1.0, -50.0], vec![-INF, 0.0, 0.0], vec![INF; 3]).unwrap();
         let less = Preprocessed::new(&problem);
         assert_eq!(less.kept, vec![0, 2], "F_2 >= 1 puts z_2 on 0");
-        let expected = LinearMcp::new(dmatrix![1.0, 2.0; 4.0, 1.0], vec![7.0, -50.0], vec![-INF, 0.0], vec![INF; 2]).unwrap();
+        let expected = LinearMcp::new(
+            dmatrix![1.0, 2.0; 4.0, 1.0],
+            vec![7.0, -50.0],
+            vec![-INF, 0.0],
+            vec![INF; 2],
+        )
+        .unwrap();
         assert_eq!(less.reduced, Some(expected));
         assert_eq!(less.restore(&[3.0, 4.0]), [3.0, 0.0, 4.0]);
     }
@@ -131,36 +209,86 @@ mod tests {
     /// F_0 = 1 + 2 z_0 - 3 z_1 over [-1, 4] x [-2, 5]: from -16 to 15; decided values are points.
     #[test]
     fn the_range_of_a_row_takes_the_right_ends() {
-        let p = LinearMcp::new(dmatrix![2.0, -3.0; 0.0, 0.0], vec![1.0, -7.0], vec![-1.0, -2.0], vec![4.0, 5.0]).unwrap();
+        let p = LinearMcp::new(
+            dmatrix![2.0, -3.0; 0.0, 0.0],
+            vec![1.0, -7.0],
+            vec![-1.0, -2.0],
+            vec![4.0, 5.0],
+        )
+        .unwrap();
         assert_eq!(range(&p, &[None, None], 0), (-16.0, 15.0, 1.0 + 8.0 + 15.0));
-        assert_eq!(range(&p, &[Some(3.0), None], 0), (-8.0, 13.0, 1.0 + 6.0 + 15.0));
-        assert_eq!(range(&p, &[Some(3.0), Some(-2.0)], 0), (13.0, 13.0, 1.0 + 6.0 + 6.0));
+        assert_eq!(
+            range(&p, &[Some(3.0), None], 0),
+            (-8.0, 13.0, 1.0 + 6.0 + 15.0)
+        );
+        assert_eq!(
+            range(&p, &[Some(3.0), Some(-2.0)], 0),
+            (13.0, 13.0, 1.0 + 6.0 + 6.0)
+        );
         assert_eq!(range(&p, &[None, None], 1), (-7.0, -7.0, 7.0));
-        let p = LinearMcp::new(dmatrix![2.0, -3.0; 0.0, 0.0], vec![1.0, -7.0], vec![-1.0, 0.0], vec![INF, INF]).unwrap();
+        let p = LinearMcp::new(
+            dmatrix![2.0, -3.0; 0.0, 0.0],
+            vec![1.0, -7.0],
+            vec![-1.0, 0.0],
+            vec![INF, INF],
+        )
+        .unwrap();
         assert_eq!(range(&p, &[None, None], 0), (-INF, INF, 1.0 + 2.0));
     }
 
-    /// A sign is sure from SIGN_SURE of the row's terms on; zero has none, and a bound that is infinite takes nothing.
+    /// A sign is sure from SIGN_SURE of the row's terms on; zero has none, and a bound that is
+    /// infinite takes nothing.
     #[test]
     fn a_sign_is_sure_beyond_rounding() {
         let decided = |q: f64, l: f64, u: f64| {
             // F_0 = q + z_1 with z_1 in [-1, -1 + 0]: terms of size 1 + |q|.
-            let p = LinearMcp::new(dmatrix![0.0, 1.0; 0.0, 0.0], vec![q, 0.0], vec![l, -1.0], vec![u, -1.0]).unwrap();
+            let p = LinearMcp::new(
+                dmatrix![0.0, 1.0; 0.0, 0.0],
+                vec![q, 0.0],
+                vec![l, -1.0],
+                vec![u, -1.0],
+            )
+            .unwrap();
             decide(&p, &[None, None], 0)
         };
         let sure = SIGN_SURE * 2.0; // |q| + |z_1|
-        assert_eq!([decided(1.0 + 1.01 * sure, 0.0, 4.0), decided(1.0 + 0.99 * sure, 0.0, 4.0)], [Some(0.0), None]);
-        assert_eq!([decided(1.0 - 1.01 * sure, 0.0, 4.0), decided(1.0 - 0.99 * sure, 0.0, 4.0)], [Some(4.0), None]);
-        assert_eq!([decided(2.0, -INF, 4.0), decided(0.0, 0.0, INF)], [None, None]);
+        assert_eq!(
+            [
+                decided(1.0 + 1.01 * sure, 0.0, 4.0),
+                decided(1.0 + 0.99 * sure, 0.0, 4.0)
+            ],
+            [Some(0.0), None]
+        );
+        assert_eq!(
+            [
+                decided(1.0 - 1.01 * sure, 0.0, 4.0),
+                decided(1.0 - 0.99 * sure, 0.0, 4.0)
+            ],
+            [Some(4.0), None]
+        );
+        assert_eq!(
+            [decided(2.0, -INF, 4.0), decided(0.0, 0.0, INF)],
+            [None, None]
+        );
         let zero = LinearMcp::new(dmatrix![0.0], vec![0.0], vec![0.0], vec![4.0]).unwrap();
         assert_eq!(decide(&zero, &[None], 0), None);
     }
 
-    /// A row of one unknown is solved whatever others are open; a row of two waits for the other one.
+    /// A row of one unknown is solved whatever others are open; a row of two waits for the other
+    /// one.
     #[test]
     fn a_row_alone_is_solved() {
-        let p = LinearMcp::new(dmatrix![2.0, 0.0; 1.0, 4.0], vec![-3.0, -5.0], vec![-INF; 2], vec![INF; 2]).unwrap();
-        assert_eq!([decide(&p, &[None, None], 0), decide(&p, &[None, None], 1)], [Some(1.5), None]);
+        let p = LinearMcp::new(
+            dmatrix![2.0, 0.0; 1.0, 4.0],
+            vec![-3.0, -5.0],
+            vec![-INF; 2],
+            vec![INF; 2],
+        )
+        .unwrap();
+        assert_eq!(
+            [decide(&p, &[None, None], 0), decide(&p, &[None, None], 1)],
+            [Some(1.5), None]
+        );
         assert_eq!(decide(&p, &[Some(1.5), None], 1), Some(0.875));
         assert_eq!(Preprocessed::new(&p).restore(&[]), [1.5, 0.875]);
     }

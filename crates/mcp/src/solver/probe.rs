@@ -12,8 +12,17 @@ pub(super) struct Probe<F, J> {
 }
 
 /// A problem without bounds.
-pub(super) fn free<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>)>(n: usize, function: F, jacobian: J) -> Probe<F, J> {
-    bounded(&vec![f64::NEG_INFINITY; n], &vec![f64::INFINITY; n], function, jacobian)
+pub(super) fn free<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>)>(
+    n: usize,
+    function: F,
+    jacobian: J,
+) -> Probe<F, J> {
+    bounded(
+        &vec![f64::NEG_INFINITY; n],
+        &vec![f64::INFINITY; n],
+        function,
+        jacobian,
+    )
 }
 
 /// A problem with bounds.
@@ -23,7 +32,12 @@ pub(super) fn bounded<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>
     function: F,
     jacobian: J,
 ) -> Probe<F, J> {
-    Probe { lower: lower.to_vec(), upper: upper.to_vec(), function, jacobian }
+    Probe {
+        lower: lower.to_vec(),
+        upper: upper.to_vec(),
+        function,
+        jacobian,
+    }
 }
 
 impl<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>)> Mcp for Probe<F, J> {

@@ -34,7 +34,13 @@ impl Residuals {
         let n = problem.dimension();
         if z.len() < n || problem.lower().len() < n || problem.upper().len() < n {
             let nan = f64::NAN;
-            return Residuals { complementarity: nan, normal_map: nan, minimum_map: nan, fischer: nan, fischer_gradient: nan };
+            return Residuals {
+                complementarity: nan,
+                normal_map: nan,
+                minimum_map: nan,
+                fischer: nan,
+                fischer_gradient: nan,
+            };
         }
         let z = &z[..n];
         let mut f = vec![0.0; n];
@@ -54,23 +60,46 @@ impl Residuals {
         work: &mut DVector<f64>,
     ) -> Residuals {
         gradient(problem, z, f, jacobian, out, work);
-        Residuals { fischer_gradient: norm(out.iter().copied()), ..Residuals::without_gradient(problem, z, f) }
+        Residuals {
+            fischer_gradient: norm(out.iter().copied()),
+            ..Residuals::without_gradient(problem, z, f)
+        }
     }
 
     /// The first four; the gradient is left at zero.
-    pub(super) fn without_gradient<P: Mcp + ?Sized>(problem: &P, z: &[f64], f: &[f64]) -> Residuals {
+    pub(super) fn without_gradient<P: Mcp + ?Sized>(
+        problem: &P,
+        z: &[f64],
+        f: &[f64],
+    ) -> Residuals {
         Residuals::within_bounds(problem.lower(), problem.upper(), z, f)
     }
 
-    /// All five from parts: bounds, z and F(z), all of length n, and the product y -> F'(z)' y, which
-    /// writes its second argument.
-    pub fn of(l: &[f64], u: &[f64], z: &[f64], f: &[f64], product: impl Fn(&[f64], &mut [f64])) -> Residuals {
-        let phi: Vec<Fischer> = (0..z.len()).map(|i| fischer(z[i], f[i], l[i], u[i])).collect();
+    /// All five from parts: bounds, z and F(z), all of length n, and the product y -> F'(z)' y,
+    /// which writes its second argument.
+    pub fn of(
+        l: &[f64],
+        u: &[f64],
+        z: &[f64],
+        f: &[f64],
+        product: impl Fn(&[f64], &mut [f64]),
+    ) -> Residuals {
+        let phi: Vec<Fischer> = (0..z.len())
+            .map(|i| fischer(z[i], f[i], l[i], u[i]))
+            .collect();
         let by_f: Vec<f64> = phi.iter().map(|phi| phi.by_f * phi.value).collect();
         let mut gradient = vec![0.0; z.len()];
         product(&by_f, &mut gradient);
-        let gradient = norm(gradient.iter().zip(&phi).map(|(g, phi)| g + phi.by_z * phi.value));
-        Residuals { fischer_gradient: gradient, ..Residuals::within_bounds(l, u, z, f) }
+        let gradient = norm(
+            gradient
+                .iter()
+                .zip(&phi)
+                .map(|(g, phi)| g + phi.by_z * phi.value),
+        );
+        Residuals {
+            fischer_gradient: gradient,
+            ..Residuals::within_bounds(l, u, z, f)
+        }
     }
 
     /// The first four, of bounds as given.
@@ -100,12 +129,22 @@ fn product(z: f64, f: f64, l: f64, u: f64) -> f64 {
         return f64::NAN;
     }
     let gap = if f >= 0.0 { z - l } else { u - z };
-    if gap.is_finite() { gap * f.abs() } else { f.abs() }
+    if gap.is_finite() {
+        gap * f.abs()
+    } else {
+        f.abs()
+    }
 }
 
 /// Infinity norm that does not lose a NaN.
 fn norm(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |a: f64, b| if a.is_nan() || b.is_nan() { f64::NAN } else { a.max(b.abs()) })
+    values.fold(0.0, |a: f64, b| {
+        if a.is_nan() || b.is_nan() {
+            f64::NAN
+        } else {
+            a.max(b.abs())
+        }
+    })
 }
 
 #[cfg(test)]
@@ -158,7 +197,8 @@ mod tests {
         assert_eq!((r.normal_map, r.minimum_map, r.fischer), (6.0, 6.0, 12.0));
     }
 
-    /// By hand, one component each: towards both bounds, inside, free, and with |F| where the bound is infinite.
+    /// By hand, one component each: towards both bounds, inside, free, and with |F| where the bound
+    /// is infinite.
     #[test]
     fn each_residual_is_its_formula() {
         let inf = f64::INFINITY;
@@ -177,45 +217,102 @@ mod tests {
         ];
         for (z, f, l, u, product, normal, minimum) in table {
             let r = Residuals::within_bounds(&[l], &[u], &[z], &[f]);
-            assert_eq!((r.complementarity, r.normal_map, r.minimum_map), (product, normal, minimum), "{z} {f} [{l}, {u}]");
-            assert_eq!((r.fischer, r.fischer_gradient), (fischer(z, f, l, u).value.abs(), 0.0));
+            assert_eq!(
+                (r.complementarity, r.normal_map, r.minimum_map),
+                (product, normal, minimum),
+                "{z} {f} [{l}, {u}]"
+            );
+            assert_eq!(
+                (r.fischer, r.fischer_gradient),
+                (fischer(z, f, l, u).value.abs(), 0.0)
+            );
         }
         // The largest of the components, whatever their order.
         let r = Residuals::within_bounds(&[0.0; 3], &[inf; 3], &[1.0, 5.0, 2.0], &[-7.0, 1.0, 0.5]);
-        assert_eq!((r.complementarity, r.normal_map, r.minimum_map), (7.0, 7.0, 7.0));
+        assert_eq!(
+            (r.complementarity, r.normal_map, r.minimum_map),
+            (7.0, 7.0, 7.0)
+        );
     }
 
     /// From parts as from the problem, with a gradient that is none of its terms.
     #[test]
     fn parts_give_what_the_problem_gives() {
         let m = dmatrix![2.0, -1.0, 0.5; 1.0, 3.0, 0.25; -0.5, 0.75, 1.5];
-        let p =
-            LinearMcp::new(m.clone(), vec![-1.0, 0.5, -0.25], vec![0.0, f64::NEG_INFINITY, -1.0], vec![f64::INFINITY, 2.0, 3.0]).unwrap();
+        let p = LinearMcp::new(
+            m.clone(),
+            vec![-1.0, 0.5, -0.25],
+            vec![0.0, f64::NEG_INFINITY, -1.0],
+            vec![f64::INFINITY, 2.0, 3.0],
+        )
+        .unwrap();
         let z = [0.75, 0.5, 0.25];
         let at = Residuals::at(&p, &z);
         let mut f = vec![0.0; 3];
         p.function(&z, &mut f);
-        let transposed = |y: &[f64], out: &mut [f64]| out.copy_from_slice((m.transpose() * DVector::from_column_slice(y)).as_slice());
+        let transposed = |y: &[f64], out: &mut [f64]| {
+            out.copy_from_slice((m.transpose() * DVector::from_column_slice(y)).as_slice())
+        };
         let of = Residuals::of(p.lower(), p.upper(), &z, &f, transposed);
-        approx::assert_relative_eq!(of.fischer_gradient, at.fischer_gradient, max_relative = 1e-14);
-        assert_eq!(Residuals { fischer_gradient: 0.0, ..of }, Residuals { fischer_gradient: 0.0, ..at });
-        assert_eq!(Residuals::without_gradient(&p, &z, &f), Residuals { fischer_gradient: 0.0, ..at });
+        approx::assert_relative_eq!(
+            of.fischer_gradient,
+            at.fischer_gradient,
+            max_relative = 1e-14
+        );
+        assert_eq!(
+            Residuals {
+                fischer_gradient: 0.0,
+                ..of
+            },
+            Residuals {
+                fischer_gradient: 0.0,
+                ..at
+            }
+        );
+        assert_eq!(
+            Residuals::without_gradient(&p, &z, &f),
+            Residuals {
+                fischer_gradient: 0.0,
+                ..at
+            }
+        );
         assert!(at.fischer_gradient > 0.1);
-        assert_eq!(Residuals::at(&p, &[0.75, 0.5, 0.25, 99.0]), at); // components beyond are ignored
+        // Components beyond are ignored.
+        assert_eq!(Residuals::at(&p, &[0.75, 0.5, 0.25, 99.0]), at);
     }
 
-    /// Three residuals at the tolerance, the products at its root; each alone beyond it is too much.
+    /// Three residuals at the tolerance, the products at its root; each alone beyond it is too
+    /// much.
     #[test]
     fn each_of_four_residuals_must_be_within() {
         let of = |normal_map, minimum_map, fischer, complementarity| {
-            Residuals { complementarity, normal_map, minimum_map, fischer, fischer_gradient: f64::INFINITY }.within(0.0625)
+            Residuals {
+                complementarity,
+                normal_map,
+                minimum_map,
+                fischer,
+                fischer_gradient: f64::INFINITY,
+            }
+            .within(0.0625)
         };
         let (t, more) = (0.0625, 0.063);
-        assert!(of(t, t, t, 0.25) && !of(more, t, t, 0.25) && !of(t, more, t, 0.25) && !of(t, t, more, 0.25) && !of(t, t, t, 0.26));
-        assert!(!of(f64::NAN, t, t, t) && !of(t, f64::NAN, t, t) && !of(t, t, f64::NAN, t) && !of(t, t, t, f64::NAN));
+        assert!(
+            of(t, t, t, 0.25)
+                && !of(more, t, t, 0.25)
+                && !of(t, more, t, 0.25)
+                && !of(t, t, more, 0.25)
+                && !of(t, t, t, 0.26)
+        );
+        assert!(
+            !of(f64::NAN, t, t, t)
+                && !of(t, f64::NAN, t, t)
+                && !of(t, t, f64::NAN, t)
+                && !of(t, t, t, f64::NAN)
+        );
     }
 
-    /// Bounds that are shorter than the problem says give NaN, as does a short z; a NaN is not lost behind a number.
+    /// Bounds that are shorter than the problem says give NaN, as does a short z; a NaN is not lost
+    /// behind a number.
     #[test]
     fn what_is_missing_is_no_number() {
         let nan = |l: &[f64], u: &[f64], z: &[f64]| {
@@ -223,8 +320,16 @@ mod tests {
             Residuals::at(&Sized2(p), z).normal_map.is_nan()
         };
         assert!(!nan(&[0.0; 2], &[1.0; 2], &[0.5; 2]));
-        assert!(nan(&[0.0; 1], &[1.0; 2], &[0.5; 2]) && nan(&[0.0; 2], &[1.0; 1], &[0.5; 2]) && nan(&[0.0; 2], &[1.0; 2], &[0.5; 1]));
-        assert!([[f64::NAN, 1.0], [1.0, f64::NAN]].iter().all(|list| norm(list.iter().copied()).is_nan()));
+        assert!(
+            nan(&[0.0; 1], &[1.0; 2], &[0.5; 2])
+                && nan(&[0.0; 2], &[1.0; 1], &[0.5; 2])
+                && nan(&[0.0; 2], &[1.0; 2], &[0.5; 1])
+        );
+        assert!(
+            [[f64::NAN, 1.0], [1.0, f64::NAN]]
+                .iter()
+                .all(|list| norm(list.iter().copied()).is_nan())
+        );
         assert_eq!(norm([1.0, -3.0, 2.0].into_iter()), 3.0);
     }
 

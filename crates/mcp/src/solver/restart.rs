@@ -37,24 +37,54 @@ impl Attempt {
     /// The first restarts were chosen by measurement (non-monotone eigenvalue problems): plain
     /// Newton along the paths, then two that leave a cycle of Newton points by moving the start.
     pub(super) fn number(k: usize) -> Attempt {
-        let free = Attempt { crash: false, first: Start::Regular, acceptance: Acceptance::Free, fraction: 1.0, shift: 0.0, proximal: 0.0 };
+        let free = Attempt {
+            crash: false,
+            first: Start::Regular,
+            acceptance: Acceptance::Free,
+            fraction: 1.0,
+            shift: 0.0,
+            proximal: 0.0,
+        };
         match k {
-            0 => Attempt { crash: true, acceptance: Acceptance::NonMonotone, ..free },
+            0 => Attempt {
+                crash: true,
+                acceptance: Acceptance::NonMonotone,
+                ..free
+            },
             1 => free,
             _ => match k % 4 {
-                2 => Attempt { fraction: RESTART_FRACTION, shift: RESTART_SHIFT[0], ..free },
-                3 => Attempt { shift: RESTART_SHIFT[1], ..free },
-                0 => Attempt { acceptance: Acceptance::Monotone, proximal: RESTART_PROXIMAL, shift: RESTART_SHIFT[0], ..free },
-                _ => Attempt { first: Start::Ray, shift: RESTART_SHIFT[1], ..free },
+                2 => Attempt {
+                    fraction: RESTART_FRACTION,
+                    shift: RESTART_SHIFT[0],
+                    ..free
+                },
+                3 => Attempt {
+                    shift: RESTART_SHIFT[1],
+                    ..free
+                },
+                0 => Attempt {
+                    acceptance: Acceptance::Monotone,
+                    proximal: RESTART_PROXIMAL,
+                    shift: RESTART_SHIFT[0],
+                    ..free
+                },
+                _ => Attempt {
+                    first: Start::Ray,
+                    shift: RESTART_SHIFT[1],
+                    ..free
+                },
             },
         }
     }
 
-    /// Settings of a point that is only the start of curves, `trial` from 0: two at each distance, then farther
-    /// away, where other branches of the curves are.
+    /// Settings of a point that is only the start of curves, `trial` from 0: two at each distance,
+    /// then farther away, where other branches of the curves are.
     pub(super) fn far(trial: usize) -> Attempt {
         let factor = (0..trial / 2).fold(1.0, |factor, _| factor * CURVE_TRIAL_GROWTH);
-        Attempt { shift: RESTART_SHIFT[1] * factor, ..Attempt::number(1) }
+        Attempt {
+            shift: RESTART_SHIFT[1] * factor,
+            ..Attempt::number(1)
+        }
     }
 
     /// Component `i` of the start of attempt `k`: the user's, moved the same way in every run.
@@ -65,7 +95,8 @@ impl Attempt {
 
 /// A number in [-1, 1), spread over k and i by the bits of a multiplicative hash (splitmix64).
 fn spread(k: usize, i: usize) -> f64 {
-    let seed = (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (i as u64 + 1).wrapping_mul(0xd1b5_4a32_d192_ed03);
+    let seed = (k as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15)
+        ^ (i as u64 + 1).wrapping_mul(0xd1b5_4a32_d192_ed03);
     let mixed = (seed ^ (seed >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     let mixed = (mixed ^ (mixed >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
     ((mixed ^ (mixed >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
@@ -96,28 +127,71 @@ mod tests {
             assert_eq!(attempt.shifted(start, i, 3), attempt.shifted(start, i, 3));
         }
         let mean = (0..1000).map(|i| spread(3, i)).sum::<f64>() / 1000.0;
-        assert!((0..1000).all(|i| spread(3, i).abs() <= 1.0) && mean.abs() < 0.1, "{mean}");
+        assert!(
+            (0..1000).all(|i| spread(3, i).abs() <= 1.0) && mean.abs() < 0.1,
+            "{mean}"
+        );
     }
 
     /// The table of attempts, each with what sets it apart.
     #[test]
     fn each_attempt_has_its_settings() {
-        let free = Attempt { crash: false, first: Start::Regular, acceptance: Acceptance::Free, fraction: 1.0, shift: 0.0, proximal: 0.0 };
+        let free = Attempt {
+            crash: false,
+            first: Start::Regular,
+            acceptance: Acceptance::Free,
+            fraction: 1.0,
+            shift: 0.0,
+            proximal: 0.0,
+        };
         let [small, large] = RESTART_SHIFT;
         let list = [
-            Attempt { crash: true, acceptance: Acceptance::NonMonotone, ..free },
+            Attempt {
+                crash: true,
+                acceptance: Acceptance::NonMonotone,
+                ..free
+            },
             free,
-            Attempt { fraction: RESTART_FRACTION, shift: small, ..free },
-            Attempt { shift: large, ..free },
-            Attempt { acceptance: Acceptance::Monotone, proximal: RESTART_PROXIMAL, shift: small, ..free },
-            Attempt { first: Start::Ray, shift: large, ..free },
-            Attempt { fraction: RESTART_FRACTION, shift: small, ..free },
-            Attempt { shift: large, ..free },
+            Attempt {
+                fraction: RESTART_FRACTION,
+                shift: small,
+                ..free
+            },
+            Attempt {
+                shift: large,
+                ..free
+            },
+            Attempt {
+                acceptance: Acceptance::Monotone,
+                proximal: RESTART_PROXIMAL,
+                shift: small,
+                ..free
+            },
+            Attempt {
+                first: Start::Ray,
+                shift: large,
+                ..free
+            },
+            Attempt {
+                fraction: RESTART_FRACTION,
+                shift: small,
+                ..free
+            },
+            Attempt {
+                shift: large,
+                ..free
+            },
         ];
         for (k, expected) in list.into_iter().enumerate() {
             assert_eq!(Attempt::number(k), expected, "{k}");
         }
-        assert_eq!(Attempt::far(0), Attempt { shift: large, ..free });
+        assert_eq!(
+            Attempt::far(0),
+            Attempt {
+                shift: large,
+                ..free
+            }
+        );
     }
 
     /// The hash again in 128 bits (splitmix64), and the shift it makes: relative to 1 + |z|.
@@ -136,7 +210,10 @@ mod tests {
                 assert_eq!(spread(k, i), number(k as u128, i as u128));
             }
         }
-        let attempt = Attempt { shift: 0.25, ..Attempt::number(1) };
+        let attempt = Attempt {
+            shift: 0.25,
+            ..Attempt::number(1)
+        };
         assert_eq!(attempt.shifted(-7.0, 0, 3), -7.0 + 2.0 * number(3, 0));
         assert_eq!(attempt.shifted(0.5, 1, 3), 0.5 + 0.375 * number(3, 1));
     }

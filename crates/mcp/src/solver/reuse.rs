@@ -1,4 +1,5 @@
-//! A solver that keeps its storage: run after run, on one problem or many, without allocating again.
+//! A solver that keeps its storage: run after run, on one problem or many, without allocating
+//! again.
 
 use super::newton::{Run, Workspace};
 use super::outcome::{Counters, Outcome, Termination};
@@ -25,11 +26,20 @@ pub struct Ended {
 /// solved before.
 ///
 /// ```
-/// use mceip_mcp::{mcp::LinearMcp, solver::{Options, Solver}};
+/// use mceip_mcp::{
+///     mcp::LinearMcp,
+///     solver::{Options, Solver},
+/// };
 /// let lcp = LinearMcp::lcp(nalgebra::dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
 /// let mut solver = Solver::new();
 /// for start in [[0.0, 0.0], [9.0, 1.0]] {
-///     assert!(solver.run(&lcp, &start, &Options::default()).unwrap().termination.reached_tolerance());
+///     assert!(
+///         solver
+///             .run(&lcp, &start, &Options::default())
+///             .unwrap()
+///             .termination
+///             .reached_tolerance()
+///     );
 ///     assert!((solver.point()[0] - 4.0 / 3.0).abs() < 1e-12);
 /// }
 /// ```
@@ -48,24 +58,44 @@ impl Solver {
     ///
     /// # Errors
     /// [`SolverError`] as [`super::solve`].
-    pub fn run<P: Mcp + ?Sized>(&mut self, problem: &P, start: &[f64], options: &Options) -> Result<Ended, SolverError> {
+    pub fn run<P: Mcp + ?Sized>(
+        &mut self,
+        problem: &P,
+        start: &[f64],
+        options: &Options,
+    ) -> Result<Ended, SolverError> {
         validate(problem, start, options)?;
         let space = std::mem::take(&mut self.space);
-        let (space, residuals, termination, counters) = Run::new(problem, options, space).run(start);
+        let (space, residuals, termination, counters) =
+            Run::new(problem, options, space).run(start);
         self.space = space;
-        Ok(Ended { termination, residuals, counters })
+        Ok(Ended {
+            termination,
+            residuals,
+            counters,
+        })
     }
 
-    /// The point of least merit that the last run met, or the one within the tolerance; of length n,
-    /// within the bounds. Empty before the first run.
+    /// The point of least merit that the last run met, or the one within the tolerance; of length
+    /// n, within the bounds. Empty before the first run.
     pub fn point(&self) -> &[f64] {
         &self.space.point
     }
 
     /// The last run with its log. This copies.
     pub fn outcome(&self, ended: Ended) -> Outcome {
-        let Ended { termination, residuals, counters } = ended;
-        Outcome { point: self.space.point.clone(), residuals, termination, log: self.space.log.records(), counters }
+        let Ended {
+            termination,
+            residuals,
+            counters,
+        } = ended;
+        Outcome {
+            point: self.space.point.clone(),
+            residuals,
+            termination,
+            log: self.space.log.records(),
+            counters,
+        }
     }
 }
 

@@ -30,22 +30,41 @@ pub(super) struct Search {
 
 impl Search {
     /// At the first point of an attempt from `start`.
-    pub(super) fn begin(&mut self, start: &Point, first: &Point, options: &Options, attempt: Attempt) {
+    pub(super) fn begin(
+        &mut self,
+        start: &Point,
+        first: &Point,
+        options: &Options,
+        attempt: Attempt,
+    ) {
         let (factor, radius) = match attempt.acceptance {
-            Acceptance::NonMonotone => (options.nms_initial_reference_factor, TRUST * (1.0 + start.z.amax())),
+            Acceptance::NonMonotone => (
+                options.nms_initial_reference_factor,
+                TRUST * (1.0 + start.z.amax()),
+            ),
             Acceptance::Monotone => (1.0, 0.0),
-            Acceptance::Free => (FREE_REFERENCE * options.nms_initial_reference_factor, f64::INFINITY),
+            Acceptance::Free => (
+                FREE_REFERENCE * options.nms_initial_reference_factor,
+                f64::INFINITY,
+            ),
         };
         let monotone = attempt.acceptance == Acceptance::Monotone;
         self.memory.clear();
         self.memory.push_back(factor * start.merit);
         self.memory_size = if monotone { 1 } else { options.nms_memory_size };
-        self.frequency = if monotone { 1 } else { options.nms_mstep_frequency };
+        self.frequency = if monotone {
+            1
+        } else {
+            options.nms_mstep_frequency
+        };
         self.maximum_watchdogs = options.nms_maximum_watchdogs;
         self.radius = radius;
         (self.unchecked, self.watchdogs) = (0, 0);
         self.gradient_steps_left = options.gradient_step_limit;
-        self.best = self.best.take().filter(|best| best.z.len() == first.z.len());
+        self.best = self
+            .best
+            .take()
+            .filter(|best| best.z.len() == first.z.len());
         self.take_best(first);
         (self.first_merit, self.fraction) = (start.merit, attempt.fraction);
     }
@@ -57,7 +76,11 @@ impl Search {
 
     /// The fraction of a path to take from a point of this merit.
     pub(super) fn fraction(&self, merit: f64) -> f64 {
-        if merit > NEAR * self.first_merit { self.fraction } else { 1.0 }
+        if merit > NEAR * self.first_merit {
+            self.fraction
+        } else {
+            1.0
+        }
     }
 
     /// The maximum of the remembered merits.
@@ -68,7 +91,12 @@ impl Search {
     /// May this step be taken without a check? Short ones, all but every tenth in a row.
     pub(super) fn unchecked_allowed(&self, from: &Point, to: &Point) -> bool {
         let next = self.unchecked + 1;
-        let length = || to.z.iter().zip(from.z.iter()).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max);
+        let length = || {
+            to.z.iter()
+                .zip(from.z.iter())
+                .map(|(a, b)| (a - b).abs())
+                .fold(0.0, f64::max)
+        };
         to.merit.is_finite() && next < self.frequency && length() <= self.radius
     }
 
@@ -102,8 +130,8 @@ impl Search {
         self.watchdogs = 0;
     }
 
-    /// Returns to the checkpoint, if steps were taken unchecked since: says if there is one, and if its
-    /// path may be searched because watchdogs are left.
+    /// Returns to the checkpoint, if steps were taken unchecked since: says if there is one, and if
+    /// its path may be searched because watchdogs are left.
     pub(super) fn watchdog(&mut self) -> bool {
         if self.unchecked == 0 {
             return false;
@@ -114,7 +142,10 @@ impl Search {
     }
 
     /// Like [`Search::along`], on the path of the checkpoint.
-    pub(super) fn along_checkpoint<P: Mcp + ?Sized>(&self, problem: &mut Evaluated<'_, P>) -> Option<(Point, f64)> {
+    pub(super) fn along_checkpoint<P: Mcp + ?Sized>(
+        &self,
+        problem: &mut Evaluated<'_, P>,
+    ) -> Option<(Point, f64)> {
         self.along(problem, &self.checkpoint, 1.0)
     }
 
@@ -126,7 +157,12 @@ impl Search {
     }
 
     /// The first point that passes, back along the path from `t`, with its t.
-    pub(super) fn along<P: Mcp + ?Sized>(&self, problem: &mut Evaluated<'_, P>, path: &Path, t: f64) -> Option<(Point, f64)> {
+    pub(super) fn along<P: Mcp + ?Sized>(
+        &self,
+        problem: &mut Evaluated<'_, P>,
+        path: &Path,
+        t: f64,
+    ) -> Option<(Point, f64)> {
         let mut t = t;
         while t >= SMALLEST_T {
             if let Some(z) = path.at(t) {
@@ -142,7 +178,11 @@ impl Search {
     }
 
     fn keep_best(&mut self, point: &Point) {
-        if self.best.as_ref().is_none_or(|best| point.merit < best.merit) {
+        if self
+            .best
+            .as_ref()
+            .is_none_or(|best| point.merit < best.merit)
+        {
             self.take_best(point);
         }
     }
@@ -161,7 +201,11 @@ mod tests {
     use nalgebra::DVector;
 
     fn point(z: &[f64], merit: f64) -> Point {
-        Point { z: DVector::from_column_slice(z), f: DVector::zeros(z.len()), merit }
+        Point {
+            z: DVector::from_column_slice(z),
+            f: DVector::zeros(z.len()),
+            merit,
+        }
     }
 
     fn path() -> Path {
@@ -171,14 +215,30 @@ mod tests {
     fn search(k: usize, options: &Options) -> Search {
         let start = point(&[3.0, -4.0], 8.0);
         let mut search = Search::default();
-        search.begin(&start, &start, options, Attempt { fraction: 0.5, ..Attempt::number(k) });
+        search.begin(
+            &start,
+            &start,
+            options,
+            Attempt {
+                fraction: 0.5,
+                ..Attempt::number(k)
+            },
+        );
         search
     }
 
     #[test]
     fn a_fraction_of_the_path_is_taken_while_far() {
         let s = search(0, &Options::default());
-        assert_eq!([s.fraction(8.0), s.fraction(1.01 * NEAR * 8.0), s.fraction(NEAR * 8.0), s.fraction(0.0)], [0.5, 0.5, 1.0, 1.0]);
+        assert_eq!(
+            [
+                s.fraction(8.0),
+                s.fraction(1.01 * NEAR * 8.0),
+                s.fraction(NEAR * 8.0),
+                s.fraction(0.0)
+            ],
+            [0.5, 0.5, 1.0, 1.0]
+        );
     }
 
     /// The best point of an attempt is its own, also where it has the storage of another one.
@@ -194,18 +254,34 @@ mod tests {
         }
     }
 
-    /// The largest of the last merits is the reference; a point passes at (1 - sigma t) of it, and only if finite.
+    /// The largest of the last merits is the reference; a point passes at (1 - sigma t) of it, and
+    /// only if finite.
     #[test]
     fn points_pass_against_the_memory() {
-        let options = Options { nms_memory_size: 3, nms_initial_reference_factor: 2.0, ..Options::default() };
+        let options = Options {
+            nms_memory_size: 3,
+            nms_initial_reference_factor: 2.0,
+            ..Options::default()
+        };
         let mut s = search(0, &options);
         assert_eq!(s.reference(), 16.0);
-        for (merit, reference) in [(5.0, 16.0), (7.0, 16.0), (1.0, 7.0), (2.0, 7.0), (3.0, 3.0), (0.5, 3.0)] {
+        for (merit, reference) in [
+            (5.0, 16.0),
+            (7.0, 16.0),
+            (1.0, 7.0),
+            (2.0, 7.0),
+            (3.0, 3.0),
+            (0.5, 3.0),
+        ] {
             s.take_checked(&point(&[0.0, 0.0], merit));
             assert_eq!(s.reference(), reference);
         }
         let passes = |merit: f64, t: f64| s.passes(&point(&[0.0, 0.0], merit), t);
-        assert!(passes(3.0 * (1.0 - ARMIJO), 1.0) && !passes(3.0 * (1.0 - 0.9 * ARMIJO), 1.0) && passes(3.0 * (1.0 - 0.9 * ARMIJO), 0.5));
+        assert!(
+            passes(3.0 * (1.0 - ARMIJO), 1.0)
+                && !passes(3.0 * (1.0 - 0.9 * ARMIJO), 1.0)
+                && passes(3.0 * (1.0 - 0.9 * ARMIJO), 0.5)
+        );
         assert!(!passes(f64::NAN, 1.0) && !passes(f64::INFINITY, 1.0));
         let mut monotone = search(4, &options);
         assert_eq!(monotone.reference(), 8.0);
@@ -213,22 +289,36 @@ mod tests {
         assert_eq!(monotone.reference(), 6.0);
     }
 
-    /// Short steps go unchecked, all but every tenth in a row; each halves the radius; the first leaves a checkpoint.
+    /// Short steps go unchecked, all but every tenth in a row; each halves the radius; the first
+    /// leaves a checkpoint.
     #[test]
     fn unchecked_steps_are_short_and_counted() {
-        let options = Options { nms_mstep_frequency: 4, nms_maximum_watchdogs: 1, ..Options::default() };
+        let options = Options {
+            nms_mstep_frequency: 4,
+            nms_maximum_watchdogs: 1,
+            ..Options::default()
+        };
         let mut s = search(0, &options);
         let radius = TRUST * 5.0;
         assert_eq!(s.radius, radius);
-        let allowed = |s: &Search, far: f64, merit: f64| s.unchecked_allowed(&point(&[1.0, 0.0], 1.0), &point(&[1.0, far], merit));
+        let allowed = |s: &Search, far: f64, merit: f64| {
+            s.unchecked_allowed(&point(&[1.0, 0.0], 1.0), &point(&[1.0, far], merit))
+        };
         // However far from zero.
         let far = [point(&[1e9, 0.0], 1.0), point(&[1e9, 1.0], 1.0)];
         assert!(s.unchecked_allowed(&far[0], &far[1]));
-        assert!(allowed(&s, radius, 1e9) && !allowed(&s, 1.01 * radius, 1.0) && !allowed(&s, 0.0, f64::INFINITY));
+        assert!(
+            allowed(&s, radius, 1e9)
+                && !allowed(&s, 1.01 * radius, 1.0)
+                && !allowed(&s, 0.0, f64::INFINITY)
+        );
         for k in 1..=3 {
             assert!(allowed(&s, 0.0, 1.0), "{k}");
             s.take_unchecked(&path(), &point(&[k as f64, 0.0], 8.0 - k as f64));
-            assert_eq!((s.unchecked, s.radius, s.best().unwrap().merit), (k, radius * TRUST_SHRINK.powi(k as i32), 8.0 - k as f64));
+            assert_eq!(
+                (s.unchecked, s.radius, s.best().unwrap().merit),
+                (k, radius * TRUST_SHRINK.powi(k as i32), 8.0 - k as f64)
+            );
         }
         assert!(!allowed(&s, 0.0, 1.0));
         assert!(s.watchdog() && s.unchecked == 0);
@@ -246,23 +336,54 @@ mod tests {
 
     #[test]
     fn gradient_steps_are_counted() {
-        let mut s = search(0, &Options { gradient_step_limit: 2, ..Options::default() });
-        assert_eq!([s.gradient_allowed(), s.gradient_allowed(), s.gradient_allowed()], [true, true, false]);
+        let mut s = search(
+            0,
+            &Options {
+                gradient_step_limit: 2,
+                ..Options::default()
+            },
+        );
+        assert_eq!(
+            [
+                s.gradient_allowed(),
+                s.gradient_allowed(),
+                s.gradient_allowed()
+            ],
+            [true, true, false]
+        );
     }
 
-    /// The reference at the beginning: a multiple of the start's merit, far above it where all is free, the merit itself
-    /// where every step must fall.
+    /// The reference at the beginning: a multiple of the start's merit, far above it where all is
+    /// free, the merit itself where every step must fall.
     #[test]
     fn each_acceptance_begins_with_its_reference() {
-        let options = Options { nms_initial_reference_factor: 3.0, ..Options::default() };
+        let options = Options {
+            nms_initial_reference_factor: 3.0,
+            ..Options::default()
+        };
         let of = |acceptance: Acceptance| {
             let (start, first) = (point(&[3.0, -4.0], 8.0), point(&[1.0, 0.0], 2.0));
             let mut search = Search::default();
-            search.begin(&start, &first, &options, Attempt { acceptance, ..Attempt::number(1) });
-            (search.reference(), search.radius, search.best().map(|best| best.merit))
+            search.begin(
+                &start,
+                &first,
+                &options,
+                Attempt {
+                    acceptance,
+                    ..Attempt::number(1)
+                },
+            );
+            (
+                search.reference(),
+                search.radius,
+                search.best().map(|best| best.merit),
+            )
         };
         assert_eq!(of(Acceptance::NonMonotone), (24.0, TRUST * 5.0, Some(2.0)));
-        assert_eq!(of(Acceptance::Free), (24.0 * FREE_REFERENCE, f64::INFINITY, Some(2.0)));
+        assert_eq!(
+            of(Acceptance::Free),
+            (24.0 * FREE_REFERENCE, f64::INFINITY, Some(2.0))
+        );
         assert_eq!(of(Acceptance::Monotone), (8.0, 0.0, Some(2.0)));
     }
 }

@@ -3,8 +3,8 @@
 use super::matching;
 use nalgebra::DMatrix;
 
-/// A row and a column that no permutation to a non-zero diagonal can pair, among the rows and columns
-/// `inside` of J; `None` if there is such a permutation. Zero is exactly zero.
+/// A row and a column that no permutation to a non-zero diagonal can pair, among the rows and
+/// columns `inside` of J; `None` if there is such a permutation. Zero is exactly zero.
 pub(super) fn unmatched(j: &DMatrix<f64>, inside: &[usize]) -> Option<(usize, usize)> {
     let rows = |&col: &usize| {
         let mut rows = Vec::with_capacity(inside.len()); // one allocation each
@@ -23,10 +23,19 @@ mod tests {
     #[test]
     fn zeros_that_leave_no_diagonal_are_named() {
         let all = [0, 1, 2];
-        assert_eq!(unmatched(&dmatrix![0.0, 1.0, 0.0; 1.0, 0.0, 0.0; 0.0, 0.0, 1.0], &all), None);
-        assert_eq!(unmatched(&dmatrix![1.0, 1.0, 0.0; 0.0, 0.0, 0.0; 0.0, 0.0, 1.0], &all), Some((1, 1)));
+        assert_eq!(
+            unmatched(&dmatrix![0.0, 1.0, 0.0; 1.0, 0.0, 0.0; 0.0, 0.0, 1.0], &all),
+            None
+        );
+        assert_eq!(
+            unmatched(&dmatrix![1.0, 1.0, 0.0; 0.0, 0.0, 0.0; 0.0, 0.0, 1.0], &all),
+            Some((1, 1))
+        );
         // Rows 0 and 1 share the only column they have; column 1 is nobody's.
-        assert_eq!(unmatched(&dmatrix![1.0, 0.0, 0.0; 1.0, 0.0, 0.0; 1.0, 0.0, 1.0], &all), Some((1, 1)));
+        assert_eq!(
+            unmatched(&dmatrix![1.0, 0.0, 0.0; 1.0, 0.0, 0.0; 1.0, 0.0, 1.0], &all),
+            Some((1, 1))
+        );
         // Augmenting along two rows: 0 - 0, then row 1 takes column 0 and row 0 moves on.
         assert_eq!(unmatched(&dmatrix![1.0, 1.0; 1.0, 0.0], &[0, 1]), None);
         assert_eq!(unmatched(&dmatrix![0.0, 1.0; 1.0, 0.0], &[0]), Some((0, 0)));

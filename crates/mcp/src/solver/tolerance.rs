@@ -1,23 +1,24 @@
 //! Every tolerance of the solver's arithmetic, with unit, basis and reason. None decides a truth.
 
-/// Smallest pivot, relative to the largest entry of the entering direction (at least 1). Unit: none.
-/// Basis: about eps^(2/3); a smaller pivot would cost more than half the digits of the inverse.
+/// Smallest pivot, relative to the largest entry of the entering direction (at least 1). Unit:
+/// none. Basis: about eps^(2/3); a smaller pivot would cost more than half the digits of the
+/// inverse.
 pub(super) const PIVOT: f64 = 1e-11;
 
 /// Width of a tie in the ratio test, relative to 1 + the step. Unit: that of the step.
 /// Basis: some thousand units of rounding; ties wider than that are left to the exact order.
 pub(super) const TIE: f64 = 1e-12;
 
-/// First width of a bound in the EXPAND-like ratio test. Unit: that of z and F. Basis: a thousandth of
-/// what is allowed at the end (1e-9 beyond), so that early choices are nearly exact.
+/// First width of a bound in the EXPAND-like ratio test. Unit: that of z and F. Basis: a thousandth
+/// of what is allowed at the end (1e-9 beyond), so that early choices are nearly exact.
 pub(super) const EXPAND_WIDTH: f64 = 1e-12;
 
-/// By how much bounds widen with each pivot, and the least step times its pivot. Unit: that of z and F.
-/// Basis: a path of 1000 pivots (`minor_iteration_limit`) ends within 1e-9.
+/// By how much bounds widen with each pivot, and the least step times its pivot. Unit: that of z
+/// and F. Basis: a path of 1000 pivots (`minor_iteration_limit`) ends within 1e-9.
 pub(super) const EXPAND_STEP: f64 = 1e-12;
 
-/// A row's sign over its bounds is sure if it exceeds this times the size of the row's terms. Unit: none.
-/// Basis: a thousand times the rounding of a sum of some hundred terms.
+/// A row's sign over its bounds is sure if it exceeds this times the size of the row's terms. Unit:
+/// none. Basis: a thousand times the rounding of a sum of some hundred terms.
 pub(super) const SIGN_SURE: f64 = 1e-10;
 
 /// Two components of lexicographic rows are equal within this, relative to the larger row.
@@ -62,10 +63,10 @@ pub(super) const TRUST: f64 = 10.0;
 /// Basis: radii sum to a finite length, so unchecked steps alone stay bounded.
 pub(super) const TRUST_SHRINK: f64 = 0.5;
 
-/// A Newton step on the Fischer-Burmeister system takes the row of the minimum map for a component one
-/// branch of which is this much nearer than the other; the second one, the minimum map itself, by turns
-/// after steps that had to be shortened. Unit: none. Basis: a tenth changes the derivatives of phi by
-/// under 1 %; measured with it alone, 0.3, 0.01 and 1e-4 (spec/solver.md).
+/// A Newton step on the Fischer-Burmeister system takes the row of the minimum map for a component
+/// one branch of which is this much nearer than the other; the second one, the minimum map itself,
+/// by turns after steps that had to be shortened. Unit: none. Basis: a tenth changes the
+/// derivatives of phi by under 1 %; measured with it alone, 0.3, 0.01 and 1e-4 (spec/solver.md).
 pub(super) const SEMISMOOTH_NEAR: [f64; 2] = [0.1, 1.0];
 
 /// Smallest step of the search along such a direction. Unit: Newton steps.
@@ -86,8 +87,9 @@ pub(super) const CRASH_GAIN: f64 = 1e-2;
 /// Smallest step of the crash search. Unit: Newton steps. Basis: 2^-10, then the path is better.
 pub(super) const CRASH_SMALLEST: f64 = 1.0 / 1024.0;
 
-/// Proximal term of a singular crash factor: this times sqrt of the merit, at most this, relative to
-/// the largest Jacobian entry. Unit: none. Basis: vanishes with the merit, so Newton's rate survives.
+/// Proximal term of a singular crash factor: this times sqrt of the merit, at most this, relative
+/// to the largest Jacobian entry. Unit: none. Basis: vanishes with the merit, so Newton's rate
+/// survives.
 pub(super) const CRASH_PROXIMAL: f64 = 1e-2;
 
 /// Least proximal term of a singular crash factor, relative to the largest Jacobian entry.
@@ -126,8 +128,9 @@ pub(super) const CURVE_LIFT: f64 = 0.1;
 /// Basis: Newton's last step overshoots it by far; solutions are polished afterwards.
 pub(super) const CURVE_RESIDUAL: f64 = 1e-9;
 
-/// To what part of itself a correction's step must bring the residual for its factors to be kept. Unit: none.
-/// Basis: three such steps reach [`CURVE_RESIDUAL`] from the size of a usual prediction's, 1e-3 and less.
+/// To what part of itself a correction's step must bring the residual for its factors to be kept.
+/// Unit: none. Basis: three such steps reach [`CURVE_RESIDUAL`] from the size of a usual
+/// prediction's, 1e-3 and less.
 pub(super) const CURVE_KEPT: f64 = 0.01;
 
 /// Newton steps of one correction. Unit: steps. Basis: more mean that the prediction was too far.
@@ -174,6 +177,6 @@ pub(super) const CURVE_CLOSED: f64 = 0.05;
 /// rounding. Unit: none. Basis: the least normal double (2e-308) times 1e32.
 pub(super) const SQUARE_SAFE: f64 = 1e-275;
 
-/// Slack of the bound |Phi|_inf^2 <= 2 Psi <= n |Phi|_inf^2 that spares the residuals of points far from
-/// the tolerance. Unit: none. Basis: rounding of a sum of squares is far below it.
+/// Slack of the bound |Phi|_inf^2 <= 2 Psi <= n |Phi|_inf^2 that spares the residuals of points far
+/// from the tolerance. Unit: none. Basis: rounding of a sum of squares is far below it.
 pub(super) const MERIT_SLACK: f64 = 1.01;

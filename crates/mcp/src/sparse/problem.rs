@@ -22,8 +22,15 @@ impl SparseLinearMcp {
     /// ```
     /// use mceip_mcp::sparse::SparseLinearMcp;
     /// let inf = f64::INFINITY;
-    /// let m = [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 1.0), (1, 1, 1.0)];
-    /// let problem = SparseLinearMcp::new(m, vec![-1.0, 3.0], vec![-inf, 0.0], vec![inf; 2]).unwrap();
+    /// let m = [
+    ///     (0, 0, 2.0),
+    ///     (0, 1, -1.0),
+    ///     (1, 0, -1.0),
+    ///     (1, 1, 1.0),
+    ///     (1, 1, 1.0),
+    /// ];
+    /// let problem =
+    ///     SparseLinearMcp::new(m, vec![-1.0, 3.0], vec![-inf, 0.0], vec![inf; 2]).unwrap();
     /// assert_eq!(problem.value(&[1.0, 1.0]), [0.0, 4.0]);
     /// assert!(SparseLinearMcp::new([(0, 1, 2.0)], vec![0.0], vec![0.0], vec![1.0]).is_err());
     /// ```
@@ -36,7 +43,11 @@ impl SparseLinearMcp {
         let order = q.len();
         for (what, got) in [("lower", lower.len()), ("upper", upper.len())] {
             if got != order {
-                return Err(McpError::Shape { what, expected: order, got });
+                return Err(McpError::Shape {
+                    what,
+                    expected: order,
+                    got,
+                });
             }
         }
         let mut entries: Vec<(usize, usize, f64)> = entries.into_iter().collect();
@@ -45,11 +56,21 @@ impl SparseLinearMcp {
                 return Err(McpError::Index { row, col, order });
             }
             if !got.is_finite() {
-                return Err(McpError::NotFinite { what: "M", row, col, got });
+                return Err(McpError::NotFinite {
+                    what: "M",
+                    row,
+                    col,
+                    got,
+                });
             }
         }
         if let Some(row) = q.iter().position(|v| !v.is_finite()) {
-            return Err(McpError::NotFinite { what: "q", row, col: 0, got: q[row] });
+            return Err(McpError::NotFinite {
+                what: "q",
+                row,
+                col: 0,
+                got: q[row],
+            });
         }
         check_bounds(&lower, &upper)?;
         entries.sort_by_key(|&(row, col, _)| (col, row)); // stable: sums in the order given
@@ -69,10 +90,22 @@ impl SparseLinearMcp {
             start[col + 1] += 1;
         }
         (0..order).for_each(|col| start[col + 1] += start[col]);
-        let problem = SparseLinearMcp { start, rows, values, q, lower, upper };
+        let problem = SparseLinearMcp {
+            start,
+            rows,
+            values,
+            q,
+            lower,
+            upper,
+        };
         let overflown = problem.entries().find(|e| !e.2.is_finite()); // a sum of two
         match overflown {
-            Some((row, col, got)) => Err(McpError::NotFinite { what: "M", row, col, got }),
+            Some((row, col, got)) => Err(McpError::NotFinite {
+                what: "M",
+                row,
+                col,
+                got,
+            }),
             None => Ok(problem),
         }
     }
@@ -100,19 +133,24 @@ impl SparseLinearMcp {
     /// (row, value) of a column of M, rows ascending.
     pub fn column(&self, col: usize) -> impl Iterator<Item = (usize, f64)> {
         let place = self.start[col]..self.start[col + 1];
-        self.rows[place.clone()].iter().copied().zip(self.values[place].iter().copied())
+        self.rows[place.clone()]
+            .iter()
+            .copied()
+            .zip(self.values[place].iter().copied())
     }
 
     /// (row, column, value) of M, by columns.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        (0..self.dimension()).flat_map(|col| self.column(col).map(move |(row, value)| (row, col, value)))
+        (0..self.dimension())
+            .flat_map(|col| self.column(col).map(move |(row, value)| (row, col, value)))
     }
 
     /// F(z), of length n; `z` is of that length.
     pub fn value(&self, z: &[f64]) -> Vec<f64> {
         let mut f = self.q.clone();
         for (col, z) in z.iter().enumerate().filter(|(_, z)| **z != 0.0) {
-            self.column(col).for_each(|(row, value)| f[row] += value * z);
+            self.column(col)
+                .for_each(|(row, value)| f[row] += value * z);
         }
         f
     }
@@ -126,8 +164,15 @@ mod tests {
 
     #[test]
     fn entries_in_any_order_add_up() {
-        let list = [(1, 1, 2.0), (0, 1, 5.0), (2, 0, -1.0), (1, 1, 0.5), (0, 0, 1.0)];
-        let problem = SparseLinearMcp::new(list, vec![1.0, 2.0, 3.0], vec![0.0; 3], vec![INF; 3]).unwrap();
+        let list = [
+            (1, 1, 2.0),
+            (0, 1, 5.0),
+            (2, 0, -1.0),
+            (1, 1, 0.5),
+            (0, 0, 1.0),
+        ];
+        let problem =
+            SparseLinearMcp::new(list, vec![1.0, 2.0, 3.0], vec![0.0; 3], vec![INF; 3]).unwrap();
         let all: Vec<_> = problem.entries().collect();
         assert_eq!(all, [(0, 0, 1.0), (2, 0, -1.0), (0, 1, 5.0), (1, 1, 2.5)]);
         assert_eq!(problem.value(&[1.0, 2.0, 7.0]), [12.0, 7.0, 2.0]);
@@ -136,16 +181,32 @@ mod tests {
     #[test]
     fn refusals_name_the_place() {
         let of = |entry: (usize, usize, f64), q: f64, lower: Vec<f64>| {
-            SparseLinearMcp::new([(0, 0, 1.0), entry], vec![0.0, q], lower, vec![1.0; 2]).map(|_| ())
+            SparseLinearMcp::new([(0, 0, 1.0), entry], vec![0.0, q], lower, vec![1.0; 2])
+                .map(|_| ())
         };
         let zero = || vec![0.0; 2];
         assert_eq!(of((1, 1, 3.0), 0.0, zero()), Ok(()));
         let cases = [
-            (of((1, 2, 3.0), 0.0, zero()), "expected row and column of M < 2, got (1, 2)"),
-            (of((1, 0, f64::NAN), 0.0, zero()), "expected a finite M[1][0], got NaN"),
-            (of((1, 1, 3.0), INF, zero()), "expected a finite q[1][0], got inf"),
-            (of((1, 1, 3.0), 0.0, vec![0.0]), "expected lower of length 2, got 1"),
-            (of((1, 1, 3.0), 0.0, vec![0.0, 2.0]), "expected lower <= upper at 1, got 2 and 1"),
+            (
+                of((1, 2, 3.0), 0.0, zero()),
+                "expected row and column of M < 2, got (1, 2)",
+            ),
+            (
+                of((1, 0, f64::NAN), 0.0, zero()),
+                "expected a finite M[1][0], got NaN",
+            ),
+            (
+                of((1, 1, 3.0), INF, zero()),
+                "expected a finite q[1][0], got inf",
+            ),
+            (
+                of((1, 1, 3.0), 0.0, vec![0.0]),
+                "expected lower of length 2, got 1",
+            ),
+            (
+                of((1, 1, 3.0), 0.0, vec![0.0, 2.0]),
+                "expected lower <= upper at 1, got 2 and 1",
+            ),
         ];
         for (got, message) in cases {
             assert_eq!(got.unwrap_err().to_string(), message);

@@ -31,13 +31,22 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
     if symmetric && rows != cols {
         return Err(reader.complain(line, "a square size for a symmetric matrix", size));
     }
-    let places = Places { coordinate, symmetric, rows, cols };
+    let places = Places {
+        coordinate,
+        symmetric,
+        rows,
+        cols,
+    };
     let expected = places.count(&sizes);
     let mut entries: Vec<(usize, usize, Rational)> = Vec::new();
     let mut got = 0;
     for (line, text) in lines {
         if got == expected {
-            return Err(reader.complain(line, "no more entries than the size line announces", text));
+            return Err(reader.complain(
+                line,
+                "no more entries than the size line announces",
+                text,
+            ));
         }
         let (i, j, value) = reader.entry(line, text, &places, got)?;
         if symmetric && i != j {
@@ -47,7 +56,11 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
         got += 1;
     }
     if got != expected {
-        return Err(reader.complain(end, "as many entries as the size line announces", &format!("{got} of {expected}")));
+        return Err(reader.complain(
+            end,
+            "as many entries as the size line announces",
+            &format!("{got} of {expected}"),
+        ));
     }
     refuse_twice(what, &entries)?;
     Ok(Sparse::from_entries(rows, cols, entries))
@@ -65,7 +78,11 @@ fn banner(what: &'static str, line: &str) -> Result<(bool, bool), ModelError> {
             "real" | "integer" | "double",
             symmetry @ ("general" | "symmetric"),
         ] => Ok((layout == "coordinate", symmetry == "symmetric")),
-        _ => Err(Reader { what }.complain(1, "%%MatrixMarket matrix {coordinate|array} {real|integer} {general|symmetric}", line)),
+        _ => Err(Reader { what }.complain(
+            1,
+            "%%MatrixMarket matrix {coordinate|array} {real|integer} {general|symmetric}",
+            line,
+        )),
     }
 }
 
@@ -119,7 +136,12 @@ struct Reader {
 impl Reader {
     fn complain(&self, line: usize, expected: &'static str, got: &str) -> ModelError {
         let got = got.chars().filter(|c| !c.is_control()).take(60).collect();
-        ModelError::MatrixMarket { what: self.what, line, expected, got }
+        ModelError::MatrixMarket {
+            what: self.what,
+            line,
+            expected,
+            got,
+        }
     }
 
     fn integers(&self, line: usize, text: &str, count: usize) -> Result<Vec<usize>, ModelError> {
@@ -131,7 +153,13 @@ impl Reader {
         Ok(numbers)
     }
 
-    fn entry(&self, line: usize, text: &str, places: &Places, k: usize) -> Result<(usize, usize, Rational), ModelError> {
+    fn entry(
+        &self,
+        line: usize,
+        text: &str,
+        places: &Places,
+        k: usize,
+    ) -> Result<(usize, usize, Rational), ModelError> {
         let words: Vec<&str> = words_of(text).collect();
         let (i, j, value) = match (places.coordinate, &words[..]) {
             (true, [i, j, value]) => {
@@ -145,7 +173,17 @@ impl Reader {
                 let (i, j) = places.of_array(k);
                 (i, j, *value)
             }
-            _ => return Err(self.complain(line, if places.coordinate { "row column value" } else { "one value" }, text)),
+            _ => {
+                return Err(self.complain(
+                    line,
+                    if places.coordinate {
+                        "row column value"
+                    } else {
+                        "one value"
+                    },
+                    text,
+                ));
+            }
         };
         if i >= places.rows || j >= places.cols {
             return Err(self.complain(line, "indices within the size", text));
@@ -153,12 +191,18 @@ impl Reader {
         if places.symmetric && i < j {
             return Err(self.complain(line, "the lower triangle of a symmetric matrix", text));
         }
-        let value = parse(value).map_err(|source| ModelError::Number { place: format!("{} line {line}", self.what), source })?;
+        let value = parse(value).map_err(|source| ModelError::Number {
+            place: format!("{} line {line}", self.what),
+            source,
+        })?;
         Ok((i, j, value))
     }
 }
 
-fn refuse_twice(what: &'static str, entries: &[(usize, usize, Rational)]) -> Result<(), ModelError> {
+fn refuse_twice(
+    what: &'static str,
+    entries: &[(usize, usize, Rational)],
+) -> Result<(), ModelError> {
     let mut seen = std::collections::BTreeSet::new();
     match entries.iter().find(|e| !seen.insert((e.0, e.1))) {
         Some(e) => Err(ModelError::IndexTwice { what, index: e.0 }),
@@ -175,11 +219,23 @@ mod tests {
 
     #[test]
     fn arrays_run_down_the_columns() {
-        let m = read_matrix_market("K", "%%MatrixMarket matrix array real general\n% c\n2 2\n1\n2\n3\n4\n").unwrap();
+        let m = read_matrix_market(
+            "K",
+            "%%MatrixMarket matrix array real general\n% c\n2 2\n1\n2\n3\n4\n",
+        )
+        .unwrap();
         assert_eq!((m.get(1, 0), m.get(0, 1)), (whole(2), whole(3)));
-        let s = read_matrix_market("K", "%%MatrixMarket matrix array integer symmetric\n2 2\n1\n2\n3\n").unwrap();
+        let s = read_matrix_market(
+            "K",
+            "%%MatrixMarket matrix array integer symmetric\n2 2\n1\n2\n3\n",
+        )
+        .unwrap();
         assert_eq!((s.get(0, 1), s.get(1, 1)), (whole(2), whole(3)));
-        let wide = read_matrix_market("K", "%%MatrixMarket matrix array real general\n2 3\n1\n2\n3\n4\n5\n6\n").unwrap();
+        let wide = read_matrix_market(
+            "K",
+            "%%MatrixMarket matrix array real general\n2 3\n1\n2\n3\n4\n5\n6\n",
+        )
+        .unwrap();
         assert_eq!((wide.get(1, 1), wide.get(0, 2)), (whole(4), whole(5)));
     }
 
@@ -191,7 +247,11 @@ mod tests {
         for text in ["3", "3 4 5", "3 4 x", "3 x", "x 3 4", "3 x 4"] {
             assert!(reader.integers(2, text, 2).is_err(), "{text}");
         }
-        let ModelError::MatrixMarket { got, .. } = reader.complain(2, "a size line", "a\u{1b}[2Jb\u{7}") else { panic!() };
+        let ModelError::MatrixMarket { got, .. } =
+            reader.complain(2, "a size line", "a\u{1b}[2Jb\u{7}")
+        else {
+            panic!()
+        };
         assert_eq!(got, "a[2Jb");
     }
 
@@ -205,21 +265,54 @@ mod tests {
     fn malformed_files_are_refused_with_the_line() {
         for (text, line) in [
             ("", 1),
-            ("%%MatrixMarket matrix coordinate complex general\n1 1 0\n", 1),
+            (
+                "%%MatrixMarket matrix coordinate complex general\n1 1 0\n",
+                1,
+            ),
             ("%%MatrixMarket matrix coordinate real general\n", 2),
             ("%%MatrixMarket matrix coordinate real general\n1 1\n", 2),
-            ("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 2 3\n", 3),
-            ("%%MatrixMarket matrix coordinate real general\n1 1 1\n0 1 3\n", 3),
-            ("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1\n", 3),
-            ("%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n1 1 1\n", 4),
-            ("%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 2 1\n", 3),
-            ("%%MatrixMarket matrix coordinate real symmetric\n2 3 1\n1 1 1\n", 2),
+            (
+                "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 2 3\n",
+                3,
+            ),
+            (
+                "%%MatrixMarket matrix coordinate real general\n1 1 1\n0 1 3\n",
+                3,
+            ),
+            (
+                "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1\n",
+                3,
+            ),
+            (
+                "%%MatrixMarket matrix coordinate real general\n1 1 1\n1 1 1\n1 1 1\n",
+                4,
+            ),
+            (
+                "%%MatrixMarket matrix coordinate real symmetric\n2 2 1\n1 2 1\n",
+                3,
+            ),
+            (
+                "%%MatrixMarket matrix coordinate real symmetric\n2 3 1\n1 1 1\n",
+                2,
+            ),
         ] {
             let got = read_matrix_market("K", text);
-            assert!(matches!(got, Err(ModelError::MatrixMarket { line: l, .. }) if l == line), "{text:?}: {got:?}");
+            assert!(
+                matches!(got, Err(ModelError::MatrixMarket { line: l, .. }) if l == line),
+                "{text:?}: {got:?}"
+            );
         }
-        assert!(matches!(read_matrix_market("K", &format!("{HEAD}1 1 1\n1 1 nan\n")), Err(ModelError::Number { .. })));
-        assert!(matches!(read_matrix_market("K", &format!("{HEAD}1 1 2\n1 1 1\n")), Err(ModelError::MatrixMarket { .. })));
-        assert!(matches!(read_matrix_market("K", &format!("{HEAD}1 1 2\n1 1 1\n1 1 1\n")), Err(ModelError::IndexTwice { .. })));
+        assert!(matches!(
+            read_matrix_market("K", &format!("{HEAD}1 1 1\n1 1 nan\n")),
+            Err(ModelError::Number { .. })
+        ));
+        assert!(matches!(
+            read_matrix_market("K", &format!("{HEAD}1 1 2\n1 1 1\n")),
+            Err(ModelError::MatrixMarket { .. })
+        ));
+        assert!(matches!(
+            read_matrix_market("K", &format!("{HEAD}1 1 2\n1 1 1\n1 1 1\n")),
+            Err(ModelError::IndexTwice { .. })
+        ));
     }
 }

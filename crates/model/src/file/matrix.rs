@@ -44,10 +44,12 @@ impl<'de> Deserialize<'de> for RawMatrix {
                 f.write_str("dense rows, or an object with dense, entries or matrix_market")
             }
             fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<RawMatrix, A::Error> {
-                Deserialize::deserialize(de::value::SeqAccessDeserializer::new(seq)).map(RawMatrix::Dense)
+                Deserialize::deserialize(de::value::SeqAccessDeserializer::new(seq))
+                    .map(RawMatrix::Dense)
             }
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawMatrix, A::Error> {
-                Deserialize::deserialize(de::value::MapAccessDeserializer::new(map)).map(RawMatrix::Object)
+                Deserialize::deserialize(de::value::MapAccessDeserializer::new(map))
+                    .map(RawMatrix::Object)
             }
         }
         deserializer.deserialize_any(Either)
@@ -63,23 +65,49 @@ impl RawMatrix {
         };
         let read_as = object.read_as.map_or(ReadAs::Exact, |word| word.0);
         let matrix = match object {
-            RawObject { dense: Some(rows), entries: None, matrix_market: None, rows: None, cols: None, symmetric: false, .. } => {
-                dense(what, rows)?
-            }
             RawObject {
-                dense: None, entries: Some(entries), matrix_market: None, rows: Some(rows), cols: Some(cols), symmetric, ..
+                dense: Some(rows),
+                entries: None,
+                matrix_market: None,
+                rows: None,
+                cols: None,
+                symmetric: false,
+                ..
+            } => dense(what, rows)?,
+            RawObject {
+                dense: None,
+                entries: Some(entries),
+                matrix_market: None,
+                rows: Some(rows),
+                cols: Some(cols),
+                symmetric,
+                ..
             } => sparse(what, rows, cols, symmetric, entries)?,
-            RawObject { dense: None, entries: None, matrix_market: Some(file), rows: None, cols: None, symmetric: false, .. } => {
-                read_matrix_market(what, &read_text(what, &beside(what, folder, &file)?)?)?
-            }
+            RawObject {
+                dense: None,
+                entries: None,
+                matrix_market: Some(file),
+                rows: None,
+                cols: None,
+                symmetric: false,
+                ..
+            } => read_matrix_market(what, &read_text(what, &beside(what, folder, &file)?)?)?,
             _ => return Err(shape_of_object(what)),
         };
-        if read_as == ReadAs::F64 { nearest_doubles(what, &matrix) } else { Ok(matrix) }
+        if read_as == ReadAs::F64 {
+            nearest_doubles(what, &matrix)
+        } else {
+            Ok(matrix)
+        }
     }
 }
 
 fn shape_of_object(what: &'static str) -> ModelError {
-    ModelError::Missing { equation: what, what: "one of {dense}, {rows, cols, entries[, symmetric]}, {matrix_market}", unknown: "any" }
+    ModelError::Missing {
+        equation: what,
+        what: "one of {dense}, {rows, cols, entries[, symmetric]}, {matrix_market}",
+        unknown: "any",
+    }
 }
 
 fn dense(what: &'static str, rows: Vec<Vec<Number>>) -> Result<Sparse, ModelError> {
@@ -87,9 +115,17 @@ fn dense(what: &'static str, rows: Vec<Vec<Number>>) -> Result<Sparse, ModelErro
     let count = rows.len();
     require_order(what, count)?;
     if let Some((row, r)) = rows.iter().enumerate().find(|(_, r)| r.len() != cols) {
-        return Err(ModelError::Ragged { what, row, expected: cols, got: r.len() });
+        return Err(ModelError::Ragged {
+            what,
+            row,
+            expected: cols,
+            got: r.len(),
+        });
     }
-    let entries = rows.into_iter().enumerate().flat_map(|(i, r)| r.into_iter().enumerate().map(move |(j, n)| (i, j, n.0)));
+    let entries = rows
+        .into_iter()
+        .enumerate()
+        .flat_map(|(i, r)| r.into_iter().enumerate().map(move |(j, n)| (i, j, n.0)));
     Ok(Sparse::from_entries(count, cols, entries))
 }
 
@@ -104,13 +140,25 @@ fn sparse(
     require_order(what, cols)?;
     let mut seen = std::collections::BTreeSet::new();
     // A symmetric entry stands for its mirror, which must be there too.
-    let limits = if symmetric { [rows.min(cols); 2] } else { [rows, cols] };
+    let limits = if symmetric {
+        [rows.min(cols); 2]
+    } else {
+        [rows, cols]
+    };
     for &(i, j, _) in &entries {
-        if let Some((index, limit)) = [i, j].into_iter().zip(limits).find(|(index, limit)| index >= limit) {
+        if let Some((index, limit)) = [i, j]
+            .into_iter()
+            .zip(limits)
+            .find(|(index, limit)| index >= limit)
+        {
             return Err(ModelError::IndexOutOfRange { what, index, limit });
         }
         // A symmetric matrix is given by one triangle; an entry and its mirror are the same one.
-        let key = if symmetric { (i.min(j), i.max(j)) } else { (i, j) };
+        let key = if symmetric {
+            (i.min(j), i.max(j))
+        } else {
+            (i, j)
+        };
         if !seen.insert(key) {
             return Err(ModelError::IndexTwice { what, index: i });
         }
@@ -125,7 +173,11 @@ fn sparse(
 /// Refuses absurd sizes before anything is allocated for them.
 pub(super) fn require_order(what: &'static str, order: usize) -> Result<(), ModelError> {
     if order > MAX_ORDER {
-        return Err(ModelError::TooLarge { what, limit: MAX_ORDER as u64, got: order as u64 });
+        return Err(ModelError::TooLarge {
+            what,
+            limit: MAX_ORDER as u64,
+            got: order as u64,
+        });
     }
     Ok(())
 }
@@ -133,10 +185,14 @@ pub(super) fn require_order(what: &'static str, order: usize) -> Result<(), Mode
 fn nearest_doubles(what: &'static str, m: &Sparse) -> Result<Sparse, ModelError> {
     let mut entries: Vec<(usize, usize, Rational)> = Vec::new();
     for (i, j, v) in m.entries() {
-        let rounded = Number(v.clone()).through_f64().ok_or_else(|| ModelError::Number {
-            place: format!("{what}[{i}][{j}]"),
-            source: mceip_exact::NumberError::NotFinite { text: "a value beyond the range of doubles".into() },
-        })?;
+        let rounded = Number(v.clone())
+            .through_f64()
+            .ok_or_else(|| ModelError::Number {
+                place: format!("{what}[{i}][{j}]"),
+                source: mceip_exact::NumberError::NotFinite {
+                    text: "a value beyond the range of doubles".into(),
+                },
+            })?;
         entries.push((i, j, rounded.0));
     }
     Ok(Sparse::from_entries(m.rows(), m.cols(), entries))
@@ -154,24 +210,39 @@ mod tests {
     #[test]
     fn the_spellings_agree() {
         let dense = read("[[2, \"1/2\"], [\"0.5\", 0]]").unwrap();
-        let sparse = read(r#"{"rows": 2, "cols": 2, "symmetric": true, "entries": [[0,0,2],[1,0,"0.5"]]}"#).unwrap();
+        let sparse =
+            read(r#"{"rows": 2, "cols": 2, "symmetric": true, "entries": [[0,0,2],[1,0,"0.5"]]}"#)
+                .unwrap();
         assert_eq!(dense, sparse);
         assert_eq!(dense.get(0, 1), rational(1, 2));
     }
 
     #[test]
     fn entries_lie_within_the_matrix_and_their_mirrors_too() {
-        let refused = |rows: usize, cols: usize, symmetric: bool, i: usize, j: usize| match read(&format!(
-            r#"{{"rows": {rows}, "cols": {cols}, "symmetric": {symmetric}, "entries": [[{i},{j},2]]}}"#
-        )) {
+        let refused = |rows: usize, cols: usize, symmetric: bool, i: usize, j: usize| match read(
+            &format!(
+                r#"{{"rows": {rows}, "cols": {cols}, "symmetric": {symmetric}, "entries": [[{i},{j},2]]}}"#
+            ),
+        ) {
             Err(ModelError::IndexOutOfRange { index, limit, .. }) => Some((index, limit)),
             _ => None,
         };
         assert_eq!(
-            [refused(3, 2, false, 2, 1), refused(3, 2, false, 3, 0), refused(3, 2, false, 0, 2)],
+            [
+                refused(3, 2, false, 2, 1),
+                refused(3, 2, false, 3, 0),
+                refused(3, 2, false, 0, 2)
+            ],
             [None, Some((3, 3)), Some((2, 2))]
         );
-        assert_eq!([refused(3, 2, true, 1, 0), refused(3, 2, true, 2, 0), refused(2, 3, true, 0, 2)], [None, Some((2, 2)), Some((2, 2))]);
+        assert_eq!(
+            [
+                refused(3, 2, true, 1, 0),
+                refused(3, 2, true, 2, 0),
+                refused(2, 3, true, 0, 2)
+            ],
+            [None, Some((2, 2)), Some((2, 2))]
+        );
     }
 
     #[test]
@@ -179,27 +250,72 @@ mod tests {
         assert_eq!(read("[[0.1]]").unwrap().get(0, 0), rational(1, 10));
         let rounded = read(r#"{"dense": [[0.1]], "read_as": "f64"}"#).unwrap();
         assert_eq!(rounded.get(0, 0), from_f64(0.1).unwrap());
-        assert!(matches!(read(r#"{"dense": [["1e399"]], "read_as": "f64"}"#), Err(ModelError::Number { .. })));
+        assert!(matches!(
+            read(r#"{"dense": [["1e399"]], "read_as": "f64"}"#),
+            Err(ModelError::Number { .. })
+        ));
     }
 
     #[test]
     fn malformed_matrices_are_named() {
-        assert!(matches!(read("[[1,2],[3]]"), Err(ModelError::Ragged { row: 1, expected: 2, got: 1, .. })));
-        assert!(matches!(read(r#"{"rows":1,"cols":1,"entries":[[0,1,3]]}"#), Err(ModelError::IndexOutOfRange { index: 1, limit: 1, .. })));
-        assert!(matches!(read(r#"{"rows":1,"cols":1,"entries":[[0,0,3],[0,0,3]]}"#), Err(ModelError::IndexTwice { .. })));
-        assert!(matches!(read(r#"{"rows":2,"cols":2,"symmetric":true,"entries":[[0,1,3],[1,0,3]]}"#), Err(ModelError::IndexTwice { .. })));
-        assert!(matches!(read(r#"{"rows":99999999999,"cols":1,"entries":[]}"#), Err(ModelError::TooLarge { .. })));
-        assert!(matches!(read(r#"{"rows":1,"entries":[]}"#), Err(ModelError::Missing { .. })));
-        assert!(matches!(read(r#"{"rows":1,"rows":1,"cols":1,"entries":[]}"#), Err(ModelError::Json { .. })));
+        assert!(matches!(
+            read("[[1,2],[3]]"),
+            Err(ModelError::Ragged {
+                row: 1,
+                expected: 2,
+                got: 1,
+                ..
+            })
+        ));
+        assert!(matches!(
+            read(r#"{"rows":1,"cols":1,"entries":[[0,1,3]]}"#),
+            Err(ModelError::IndexOutOfRange {
+                index: 1,
+                limit: 1,
+                ..
+            })
+        ));
+        assert!(matches!(
+            read(r#"{"rows":1,"cols":1,"entries":[[0,0,3],[0,0,3]]}"#),
+            Err(ModelError::IndexTwice { .. })
+        ));
+        assert!(matches!(
+            read(r#"{"rows":2,"cols":2,"symmetric":true,"entries":[[0,1,3],[1,0,3]]}"#),
+            Err(ModelError::IndexTwice { .. })
+        ));
+        assert!(matches!(
+            read(r#"{"rows":99999999999,"cols":1,"entries":[]}"#),
+            Err(ModelError::TooLarge { .. })
+        ));
+        assert!(matches!(
+            read(r#"{"rows":1,"entries":[]}"#),
+            Err(ModelError::Missing { .. })
+        ));
+        assert!(matches!(
+            read(r#"{"rows":1,"rows":1,"cols":1,"entries":[]}"#),
+            Err(ModelError::Json { .. })
+        ));
         for name in ["/dev/zero", "../K.mtx", "src"] {
-            assert!(matches!(read(&format!(r#"{{"matrix_market":"{name}"}}"#)), Err(ModelError::Unreadable { .. })), "{name}");
+            assert!(
+                matches!(
+                    read(&format!(r#"{{"matrix_market":"{name}"}}"#)),
+                    Err(ModelError::Unreadable { .. })
+                ),
+                "{name}"
+            );
         }
-        assert_eq!(read("[[0, 0]]").unwrap(), Sparse::from_entries(1, 2, [(0, 0, whole(0))]));
+        assert_eq!(
+            read("[[0, 0]]").unwrap(),
+            Sparse::from_entries(1, 2, [(0, 0, whole(0))])
+        );
     }
 
     #[test]
     fn the_largest_order_is_allowed() {
         assert!(require_order("K", MAX_ORDER).is_ok());
-        assert!(matches!(require_order("K", MAX_ORDER + 1), Err(ModelError::TooLarge { what: "K", .. })));
+        assert!(matches!(
+            require_order("K", MAX_ORDER + 1),
+            Err(ModelError::TooLarge { what: "K", .. })
+        ));
     }
 }

@@ -51,7 +51,12 @@ pub fn read_problem(text: &str, folder: &Path) -> Result<Problem, ModelError> {
 /// [`ModelError::Unreadable`], [`ModelError::TooLarge`], or what [`read_problem`] finds.
 pub fn read_problem_file(path: &Path) -> Result<Problem, ModelError> {
     let text = read_text("the problem", path)?;
-    read_problem(&text, path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")))
+    read_problem(
+        &text,
+        path.parent()
+            .filter(|p| !p.as_os_str().is_empty())
+            .unwrap_or(Path::new(".")),
+    )
 }
 
 /// Reads a JSON list of particles, each as in `system.particles` of a problem file.
@@ -70,7 +75,11 @@ pub fn read_text(what: &'static str, path: &Path) -> Result<String, ModelError> 
     let name = path.display().to_string();
     match std::fs::File::open(path) {
         Ok(file) => read_from(what, &name, file),
-        Err(e) => Err(ModelError::Unreadable { what, path: name, problem: e.to_string() }),
+        Err(e) => Err(ModelError::Unreadable {
+            what,
+            path: name,
+            problem: e.to_string(),
+        }),
     }
 }
 
@@ -78,17 +87,37 @@ pub fn read_text(what: &'static str, path: &Path) -> Result<String, ModelError> 
 ///
 /// # Errors
 /// As [`read_text`].
-pub fn read_from(what: &'static str, name: &str, source: impl std::io::Read) -> Result<String, ModelError> {
+pub fn read_from(
+    what: &'static str,
+    name: &str,
+    source: impl std::io::Read,
+) -> Result<String, ModelError> {
     read_at_most(MAX_FILE_BYTES, what, name, source)
 }
 
-fn read_at_most(limit: u64, what: &'static str, name: &str, source: impl std::io::Read) -> Result<String, ModelError> {
-    let unreadable = |e: std::io::Error| ModelError::Unreadable { what, path: name.to_string(), problem: e.to_string() };
+fn read_at_most(
+    limit: u64,
+    what: &'static str,
+    name: &str,
+    source: impl std::io::Read,
+) -> Result<String, ModelError> {
+    let unreadable = |e: std::io::Error| ModelError::Unreadable {
+        what,
+        path: name.to_string(),
+        problem: e.to_string(),
+    };
     let mut text = String::new();
     // Bounded by what is read, not by what the directory says: devices and pipes have no length.
-    let got = source.take(limit + 1).read_to_string(&mut text).map_err(unreadable)? as u64;
+    let got = source
+        .take(limit + 1)
+        .read_to_string(&mut text)
+        .map_err(unreadable)? as u64;
     if got > limit {
-        return Err(ModelError::TooLarge { what: "file size in bytes", limit, got });
+        return Err(ModelError::TooLarge {
+            what: "file size in bytes",
+            limit,
+            got,
+        });
     }
     Ok(text)
 }
@@ -96,11 +125,23 @@ fn read_at_most(limit: u64, what: &'static str, name: &str, source: impl std::io
 /// The path of a file that a problem names: beside the problem, a regular file.
 ///
 /// # Errors
-/// [`ModelError::Unreadable`] for absolute names, names with `..`, devices, folders and links out of the folder.
-pub(super) fn beside(what: &'static str, folder: &Path, name: &str) -> Result<std::path::PathBuf, ModelError> {
+/// [`ModelError::Unreadable`] for absolute names, names with `..`, devices, folders and links out
+/// of the folder.
+pub(super) fn beside(
+    what: &'static str,
+    folder: &Path,
+    name: &str,
+) -> Result<std::path::PathBuf, ModelError> {
     use std::path::Component;
-    let refused = |problem: &str| ModelError::Unreadable { what, path: name.chars().take(200).collect(), problem: problem.into() };
-    if !Path::new(name).components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir)) {
+    let refused = |problem: &str| ModelError::Unreadable {
+        what,
+        path: name.chars().take(200).collect(),
+        problem: problem.into(),
+    };
+    if !Path::new(name)
+        .components()
+        .all(|c| matches!(c, Component::Normal(_) | Component::CurDir))
+    {
         return Err(refused("expected a name beside the problem file"));
     }
     let path = folder.join(name);
@@ -108,11 +149,17 @@ pub(super) fn beside(what: &'static str, folder: &Path, name: &str) -> Result<st
         return Err(refused("expected a regular file"));
     }
     // The folder of a plain file name is the empty path.
-    let here = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
+    let here = if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    };
     if let (Ok(real), Ok(real_folder)) = (path.canonicalize(), here.canonicalize())
         && !real.starts_with(&real_folder)
     {
-        return Err(refused("expected a file beside the problem file, got a link out of its folder"));
+        return Err(refused(
+            "expected a file beside the problem file, got a link out of its folder",
+        ));
     }
     Ok(path)
 }
@@ -129,8 +176,14 @@ pub fn require_format(text: &str, expected: &'static str) -> Result<(), ModelErr
     let Object(header): Object<Header> = from_json(text)?;
     match header.format {
         Some(serde_json::Value::String(s)) if s == expected => Ok(()),
-        Some(other) => Err(ModelError::Format { expected, got: other.to_string().chars().take(60).collect() }),
-        None => Err(ModelError::Format { expected, got: "no format field".into() }),
+        Some(other) => Err(ModelError::Format {
+            expected,
+            got: other.to_string().chars().take(60).collect(),
+        }),
+        None => Err(ModelError::Format {
+            expected,
+            got: "no format field".into(),
+        }),
     }
 }
 
@@ -143,9 +196,21 @@ pub fn from_json<'a, T: serde::Deserialize<'a>>(text: &'a str) -> Result<T, Mode
     serde_json::from_str(text).map_err(|e| {
         let full = e.to_string();
         // serde_json ends its messages with the place, which we carry as numbers.
-        let problem = full.rsplit_once(" at line ").map_or(full.as_str(), |(head, _)| head);
-        let problem: String = problem.chars().map(|c| if c.is_control() { ' ' } else { c }).take(300).collect();
-        ModelError::Json { location: ErrorLocation { line: e.line(), column: e.column() }, problem }
+        let problem = full
+            .rsplit_once(" at line ")
+            .map_or(full.as_str(), |(head, _)| head);
+        let problem: String = problem
+            .chars()
+            .map(|c| if c.is_control() { ' ' } else { c })
+            .take(300)
+            .collect();
+        ModelError::Json {
+            location: ErrorLocation {
+                line: e.line(),
+                column: e.column(),
+            },
+            problem,
+        }
     })
 }
 
@@ -157,7 +222,10 @@ mod tests {
     fn a_table_of_contact_states_keeps_its_order() {
         use crate::{ContactState, Particle};
         let text = r#"[{"tangential": 1, "normal": 2, "state": "stick"}, {"tangential": 3, "normal": 0, "state": "slip", "sign": -1}]"#;
-        let expected = [Particle::plain(1, 2, ContactState::Stick), Particle::plain(3, 0, ContactState::Slip { sign: -1 })];
+        let expected = [
+            Particle::plain(1, 2, ContactState::Stick),
+            Particle::plain(3, 0, ContactState::Slip { sign: -1 }),
+        ];
         assert_eq!(read_particles(text), Ok(expected.to_vec()));
         assert!(read_particles("[{}]").is_err());
     }
@@ -166,9 +234,22 @@ mod tests {
     #[test]
     fn sizes_are_bounded_by_what_is_read() {
         let read = |text: &'static str| read_at_most(3, "text", "-", text.as_bytes());
-        assert_eq!([read(""), read("abc")], [Ok(String::new()), Ok("abc".into())]);
-        let refused = ModelError::TooLarge { what: "file size in bytes", limit: 3, got: 4 };
-        assert_eq!([read("abcd"), read("abcdefgh")], [Err(refused.clone()), Err(refused)]);
-        assert!(matches!(read_at_most(3, "text", "-", &[0xff, 0xff][..]), Err(ModelError::Unreadable { what: "text", .. })));
+        assert_eq!(
+            [read(""), read("abc")],
+            [Ok(String::new()), Ok("abc".into())]
+        );
+        let refused = ModelError::TooLarge {
+            what: "file size in bytes",
+            limit: 3,
+            got: 4,
+        };
+        assert_eq!(
+            [read("abcd"), read("abcdefgh")],
+            [Err(refused.clone()), Err(refused)]
+        );
+        assert!(matches!(
+            read_at_most(3, "text", "-", &[0xff, 0xff][..]),
+            Err(ModelError::Unreadable { what: "text", .. })
+        ));
     }
 }

@@ -28,7 +28,12 @@ impl<'de> Deserialize<'de> for Number {
         let text = match serde_json::Value::deserialize(deserializer)? {
             serde_json::Value::Number(n) => n.to_string(), // arbitrary_precision: the text itself
             serde_json::Value::String(s) => s,
-            other => return Err(D::Error::custom(format!("expected a number or a string with one, got {}", kind(&other)))),
+            other => {
+                return Err(D::Error::custom(format!(
+                    "expected a number or a string with one, got {}",
+                    kind(&other)
+                )));
+            }
         };
         parse(&text).map(Number).map_err(D::Error::custom)
     }

@@ -1,5 +1,5 @@
-//! Values that stand in JSON in one form and no other. By itself serde reads a struct from a list of its fields too, and a
-//! word of an enum from an object `{"word": null}`.
+//! Values that stand in JSON in one form and no other. By itself serde reads a struct from a list
+//! of its fields too, and a word of an enum from an object `{"word": null}`.
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, IntoDeserializer, MapAccess, Visitor};
@@ -24,10 +24,16 @@ pub struct Object<T>(pub T);
 /// use mceip_model::file::Word;
 /// #[derive(Debug, PartialEq, serde::Deserialize)]
 /// #[serde(rename_all = "lowercase")]
-/// enum State { Free, Stick }
+/// enum State {
+///     Free,
+///     Stick,
+/// }
 /// let read = |text| serde_json::from_str::<Word<State>>(text).map(|w| w.0);
 /// assert_eq!(read(r#""stick""#).unwrap(), State::Stick);
-/// assert!(read(r#"{"stick": null}"#).is_err() && serde_json::from_str::<State>(r#"{"stick": null}"#).is_ok());
+/// assert!(
+///     read(r#"{"stick": null}"#).is_err()
+///         && serde_json::from_str::<State>(r#"{"stick": null}"#).is_ok()
+/// );
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Word<T>(pub T);
@@ -39,9 +45,12 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Word<T> {
     }
 }
 
-/// An enum whose variants without data stand in JSON as words and those with data as objects with one key. `Words` and
-/// `Kinds` are its two halves; either becomes the whole.
-pub fn word_or_kind<'de, D, Words, Kinds, Whole>(deserializer: D, expected: &'static str) -> Result<Whole, D::Error>
+/// An enum whose variants without data stand in JSON as words and those with data as objects with
+/// one key. `Words` and `Kinds` are its two halves; either becomes the whole.
+pub fn word_or_kind<'de, D, Words, Kinds, Whole>(
+    deserializer: D,
+    expected: &'static str,
+) -> Result<Whole, D::Error>
 where
     D: Deserializer<'de>,
     Words: Deserialize<'de> + Into<Whole>,
@@ -79,6 +88,8 @@ impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
                 T::deserialize(MapAccessDeserializer::new(map))
             }
         }
-        deserializer.deserialize_map(MapOnly(PhantomData)).map(Object)
+        deserializer
+            .deserialize_map(MapOnly(PhantomData))
+            .map(Object)
     }
 }

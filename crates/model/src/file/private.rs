@@ -1,6 +1,7 @@
-//! Keys that the JSON reader keeps for itself. With exact numbers `serde_json` hands a number over as an object with the
-//! key `$serde_json::private::Number`, so that an object with this key in a file would be read as a number. No format has
-//! a field of such a name: every key that begins like it is refused before anything is read.
+//! Keys that the JSON reader keeps for itself. With exact numbers `serde_json` hands a number over
+//! as an object with the key `$serde_json::private::Number`, so that an object with this key in a
+//! file would be read as a number. No format has a field of such a name: every key that begins like
+//! it is refused before anything is read.
 
 use crate::{ErrorLocation, ModelError};
 
@@ -19,7 +20,9 @@ pub(super) fn refuse_keys(text: &str) -> Result<(), ModelError> {
 
     let mut rest = 0;
     while let Some(start) = text[rest..].find('"').map(|at| rest + at) {
-        let Some(end) = end_of_string(text, start) else { return Ok(()) }; // unfinished: the reader refuses it
+        let Some(end) = end_of_string(text, start) else {
+            return Ok(());
+        }; // unfinished: the reader refuses it
         let is_key = text[end..].trim_start().starts_with(':');
         if is_key && is_private(&text[start..end]) {
             return Err(refusal(text, start));
@@ -53,7 +56,10 @@ fn refusal(text: &str, at: usize) -> ModelError {
     let line = before.matches('\n').count() + 1;
     let column = before.len() - before.rfind('\n').map_or(0, |newline| newline + 1) + 1;
     let problem = format!("expected the name of a field, got one that begins with {PRIVATE}");
-    ModelError::Json { location: ErrorLocation { line, column }, problem }
+    ModelError::Json {
+        location: ErrorLocation { line, column },
+        problem,
+    }
 }
 
 #[cfg(test)]
@@ -66,13 +72,29 @@ mod tests {
 
     #[test]
     fn private_keys_are_refused_however_they_are_spelt() {
-        for key in ["$serde_json::private::Number", "\\u0024serde_json::private::Number", "$serde_json::priv\\u0061te::RawValue"] {
+        for key in [
+            "$serde_json::private::Number",
+            "\\u0024serde_json::private::Number",
+            "$serde_json::priv\\u0061te::RawValue",
+        ] {
             assert!(is_refused(&format!(r#"{{"{key}": "1"}}"#)), "{key}");
-            assert!(is_refused(&format!("{{\"a\": [\"b\\\"\", {{\"{key}\"\n : 1}}]}}")), "{key}");
+            assert!(
+                is_refused(&format!("{{\"a\": [\"b\\\"\", {{\"{key}\"\n : 1}}]}}")),
+                "{key}"
+            );
             // As a value it is a text like any other.
-            assert!(!is_refused(&format!(r#"{{"name": "{key}", "private": "\u0061"}}"#)), "{key}");
+            assert!(
+                !is_refused(&format!(r#"{{"name": "{key}", "private": "\u0061"}}"#)),
+                "{key}"
+            );
         }
-        for text in ["", "{}", r#"{"private": 1}"#, r#"{"$serde_json": 1, "\u0061": 2}"#, r#"{"$serde_json::private"#] {
+        for text in [
+            "",
+            "{}",
+            r#"{"private": 1}"#,
+            r#"{"$serde_json": 1, "\u0061": 2}"#,
+            r#"{"$serde_json::private"#,
+        ] {
             assert!(!is_refused(text), "{text}");
         }
     }
@@ -80,7 +102,9 @@ mod tests {
     #[test]
     fn the_place_is_named() {
         let text = "{\n \"a\": {\"$serde_json::private::Number\": \"1\"}}";
-        let Err(ModelError::Json { location, .. }) = refuse_keys(text) else { panic!("refused") };
+        let Err(ModelError::Json { location, .. }) = refuse_keys(text) else {
+            panic!("refused")
+        };
         assert_eq!((location.line, location.column), (2, 8));
     }
 }

@@ -2,7 +2,9 @@
 
 use super::matrix::RawMatrix;
 use super::{Number, Object, Word};
-use crate::{Body, ContactState, ModelError, Particle, Pencil, Problem, Reaction, System, Unknown, Window};
+use crate::{
+    Body, ContactState, ModelError, Particle, Pencil, Problem, Reaction, System, Unknown, Window,
+};
 use mceip_exact::{Rational, whole};
 use serde::Deserialize;
 use std::path::Path;
@@ -78,7 +80,9 @@ impl RawProblem {
     pub(super) fn build(self, folder: &Path) -> Result<Problem, ModelError> {
         let window = match self.window {
             None => Window::all(),
-            Some(Object(w)) => Window::new(w.min.map_or_else(|| whole(0), |n| n.0), w.max.map(|n| n.0))?,
+            Some(Object(w)) => {
+                Window::new(w.min.map_or_else(|| whole(0), |n| n.0), w.max.map(|n| n.0))?
+            }
         };
         let body = match (self.pencil, self.system) {
             (Some(Object(p)), None) => Body::Pencil(p.build(folder)?),
@@ -95,7 +99,11 @@ impl RawProblem {
 
 impl RawPencil {
     fn build(self, folder: &Path) -> Result<Pencil, ModelError> {
-        Pencil::new(self.a.build("a", folder)?, self.b.build("b", folder)?, self.free)
+        Pencil::new(
+            self.a.build("a", folder)?,
+            self.b.build("b", folder)?,
+            self.free,
+        )
     }
 }
 
@@ -103,13 +111,21 @@ impl RawSystem {
     fn build(self, folder: &Path) -> Result<System, ModelError> {
         let particles = particles(self.particles)?;
         let mass = self.mass.map(|m| m.build("M", folder)).transpose()?;
-        System::new(self.stiffness.build("K", folder)?, mass, self.friction.map(|n| n.0), particles)
+        System::new(
+            self.stiffness.build("K", folder)?,
+            mass,
+            self.friction.map(|n| n.0),
+            particles,
+        )
     }
 }
 
 /// The particles of a list, numbered in complaints.
 pub(super) fn particles(list: Vec<Object<RawParticle>>) -> Result<Vec<Particle>, ModelError> {
-    list.into_iter().enumerate().map(|(i, Object(p))| p.build(i)).collect()
+    list.into_iter()
+        .enumerate()
+        .map(|(i, Object(p))| p.build(i))
+        .collect()
 }
 
 impl RawParticle {
@@ -117,13 +133,25 @@ impl RawParticle {
         let sign = |field, value: i64| match value {
             1 => Ok(1),
             -1 => Ok(-1),
-            other => Err(ModelError::Sign { particle, field, expected: "1 or -1", got: other.to_string() }),
+            other => Err(ModelError::Sign {
+                particle,
+                field,
+                expected: "1 or -1",
+                got: other.to_string(),
+            }),
         };
         let state = match (self.state.0, self.sign) {
             (RawState::Zero, _) => return Err(ModelError::ZeroReactionState { particle }),
-            (RawState::Slip, Some(s)) => ContactState::Slip { sign: sign("sign", s)? },
+            (RawState::Slip, Some(s)) => ContactState::Slip {
+                sign: sign("sign", s)?,
+            },
             (RawState::Slip, None) => {
-                return Err(ModelError::Sign { particle, field: "sign", expected: "1 or -1 on a slip particle", got: "none".into() });
+                return Err(ModelError::Sign {
+                    particle,
+                    field: "sign",
+                    expected: "1 or -1 on a slip particle",
+                    got: "none".into(),
+                });
             }
             (RawState::Free, None) => ContactState::Free,
             (RawState::Stick, None) => ContactState::Stick,
@@ -136,10 +164,21 @@ impl RawParticle {
                 });
             }
         };
-        let frame: Option<[[Rational; 2]; 2]> = self.frame.map(|rows| rows.map(|row| row.map(|n| n.0)));
-        let reaction = self.reaction.map(|Object(r)| Reaction { tangential: r.tangential.0, normal: r.normal.0 });
+        let frame: Option<[[Rational; 2]; 2]> =
+            self.frame.map(|rows| rows.map(|row| row.map(|n| n.0)));
+        let reaction = self.reaction.map(|Object(r)| Reaction {
+            tangential: r.tangential.0,
+            normal: r.normal.0,
+        });
         let normal_direction = sign("normal_direction", self.normal_direction.unwrap_or(1))?;
-        Ok(Particle { tangential: self.tangential, normal: self.normal, state, normal_direction, frame, reaction })
+        Ok(Particle {
+            tangential: self.tangential,
+            normal: self.normal,
+            state,
+            normal_direction,
+            frame,
+            reaction,
+        })
     }
 }
 
@@ -172,29 +211,64 @@ mod tests {
     #[test]
     fn particles_are_refused_by_name() {
         let zero = read(&system(r#"{"tangential":0,"normal":1,"state":"zero"}"#));
-        assert!(matches!(zero, Err(ModelError::ZeroReactionState { particle: 0 })));
+        assert!(matches!(
+            zero,
+            Err(ModelError::ZeroReactionState { particle: 0 })
+        ));
         for (particle, field) in [
             (r#"{"tangential":0,"normal":1,"state":"slip"}"#, "sign"),
-            (r#"{"tangential":0,"normal":1,"state":"slip","sign":0}"#, "sign"),
-            (r#"{"tangential":0,"normal":1,"state":"stick","sign":1}"#, "sign"),
-            (r#"{"tangential":0,"normal":1,"state":"stick","normal_direction":2}"#, "normal_direction"),
+            (
+                r#"{"tangential":0,"normal":1,"state":"slip","sign":0}"#,
+                "sign",
+            ),
+            (
+                r#"{"tangential":0,"normal":1,"state":"stick","sign":1}"#,
+                "sign",
+            ),
+            (
+                r#"{"tangential":0,"normal":1,"state":"stick","normal_direction":2}"#,
+                "normal_direction",
+            ),
         ] {
-            assert!(matches!(read(&system(particle)), Err(ModelError::Sign { particle: 0, field: f, .. }) if f == field), "{particle}");
+            assert!(
+                matches!(read(&system(particle)), Err(ModelError::Sign { particle: 0, field: f, .. }) if f == field),
+                "{particle}"
+            );
         }
         let twice = r#"{"tangential":0,"normal":1,"state":"stick"},{"tangential":0,"normal":1,"state":"slip","sign":1}"#;
-        assert!(matches!(read(&system(twice)), Err(ModelError::DofTwice { first: 0, second: 1, .. })));
+        assert!(matches!(
+            read(&system(twice)),
+            Err(ModelError::DofTwice {
+                first: 0,
+                second: 1,
+                ..
+            })
+        ));
     }
 
     #[test]
     fn bodies_windows_and_versions_are_checked() {
-        assert!(matches!(read(r#"{"format":"mceip-problem/1","unknown":"mu"}"#), Err(ModelError::Body { got: "neither" })));
-        assert!(matches!(read(r#"{"format":"mceip-problem/2"}"#), Err(ModelError::Format { .. })));
-        assert!(matches!(read(r#"{"unknown":"mu"}"#), Err(ModelError::Format { .. })));
+        assert!(matches!(
+            read(r#"{"format":"mceip-problem/1","unknown":"mu"}"#),
+            Err(ModelError::Body { got: "neither" })
+        ));
+        assert!(matches!(
+            read(r#"{"format":"mceip-problem/2"}"#),
+            Err(ModelError::Format { .. })
+        ));
+        assert!(matches!(
+            read(r#"{"unknown":"mu"}"#),
+            Err(ModelError::Format { .. })
+        ));
         let window = r#"{"format":"mceip-problem/1","unknown":"mu","window":{"min":2,"max":"1.5"},"pencil":{"a":[[1]],"b":[[1]]}}"#;
         assert!(matches!(read(window), Err(ModelError::Window { .. })));
-        let unknown_field = r#"{"format":"mceip-problem/1","unknown":"mu","pencil":{"a":[[1]],"b":[[1]],"c":1}}"#;
+        let unknown_field =
+            r#"{"format":"mceip-problem/1","unknown":"mu","pencil":{"a":[[1]],"b":[[1]],"c":1}}"#;
         assert!(matches!(read(unknown_field), Err(ModelError::Json { .. })));
         let no_mass = r#"{"format":"mceip-problem/1","unknown":"lambda2","system":{"stiffness":[[1,0],[0,1]],"friction":1,"particles":[{"tangential":0,"normal":1,"state":"slip","sign":1}]}}"#;
-        assert!(matches!(read(no_mass), Err(ModelError::Missing { what: "mass", .. })));
+        assert!(matches!(
+            read(no_mass),
+            Err(ModelError::Missing { what: "mass", .. })
+        ));
     }
 }

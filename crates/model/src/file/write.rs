@@ -17,10 +17,16 @@ pub fn write_problem(problem: &Problem) -> String {
     out.insert("unknown".into(), json!(problem.unknown().word()));
     let window = problem.window();
     let max = window.max().map(|m| m.to_string());
-    out.insert("window".into(), json!({ "min": window.min().to_string(), "max": max }));
+    out.insert(
+        "window".into(),
+        json!({ "min": window.min().to_string(), "max": max }),
+    );
     match problem.body() {
         Body::Pencil(p) => {
-            out.insert("pencil".into(), json!({ "a": write_sparse(p.a()), "b": write_sparse(p.b()), "free": p.free() }));
+            out.insert(
+                "pencil".into(),
+                json!({ "a": write_sparse(p.a()), "b": write_sparse(p.b()), "free": p.free() }),
+            );
         }
         Body::System(s) => {
             let mut system = Map::new();
@@ -31,7 +37,10 @@ pub fn write_problem(problem: &Problem) -> String {
             if let Some(mu) = s.friction() {
                 system.insert("friction".into(), json!(mu.to_string()));
             }
-            system.insert("particles".into(), s.particles().iter().map(particle).collect());
+            system.insert(
+                "particles".into(),
+                s.particles().iter().map(particle).collect(),
+            );
             out.insert("system".into(), Value::Object(system));
         }
     }
@@ -40,7 +49,10 @@ pub fn write_problem(problem: &Problem) -> String {
 
 /// A matrix as `{rows, cols, entries}` with exact entries.
 pub fn write_sparse(m: &Sparse) -> Value {
-    let entries: Vec<Value> = m.entries().map(|(i, j, v)| json!([i, j, Number(v.clone())])).collect();
+    let entries: Vec<Value> = m
+        .entries()
+        .map(|(i, j, v)| json!([i, j, Number(v.clone())]))
+        .collect();
     json!({ "rows": m.rows(), "cols": m.cols(), "entries": entries })
 }
 
@@ -54,11 +66,17 @@ fn particle(p: &Particle) -> Value {
     }
     out.insert("normal_direction".into(), json!(p.normal_direction));
     if let Some(frame) = &p.frame {
-        let rows: Vec<Vec<String>> = frame.iter().map(|r| r.iter().map(ToString::to_string).collect()).collect();
+        let rows: Vec<Vec<String>> = frame
+            .iter()
+            .map(|r| r.iter().map(ToString::to_string).collect())
+            .collect();
         out.insert("frame".into(), json!(rows));
     }
     if let Some(r) = &p.reaction {
-        out.insert("reaction".into(), json!({ "normal": r.normal.to_string(), "tangential": r.tangential.to_string() }));
+        out.insert(
+            "reaction".into(),
+            json!({ "normal": r.normal.to_string(), "tangential": r.tangential.to_string() }),
+        );
     }
     Value::Object(out)
 }

@@ -38,7 +38,10 @@ pub struct Reduced {
 /// [`ModelError::Missing`] if the system lacks what the unknown needs.
 pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
     match problem.body() {
-        Body::Pencil(p) => Ok(Reduced { pencil: p.clone(), variables: Vec::new() }),
+        Body::Pencil(p) => Ok(Reduced {
+            pencil: p.clone(),
+            variables: Vec::new(),
+        }),
         Body::System(s) => reduce_system(s, problem.unknown()),
     }
 }
@@ -65,7 +68,11 @@ pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
         let (at_zero, slope) = blocks.star(m);
         Pencil::new(at_zero, slope, (0..blocks.free.len()).collect())
     };
-    Ok(MuFamily { stiffness: pencil(system.stiffness())?, mass: system.mass().map(pencil).transpose()?, variables: blocks.variables() })
+    Ok(MuFamily {
+        stiffness: pencil(system.stiffness())?,
+        mass: system.mass().map(pencil).transpose()?,
+        variables: blocks.variables(),
+    })
 }
 
 fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelError> {
@@ -80,7 +87,10 @@ fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelErro
         _ => (k0, k1), // E21; require_for has refused lambda2 without M and mu
     };
     let free = (0..blocks.free.len()).collect();
-    Ok(Reduced { pencil: Pencil::new(a, b, free)?, variables: blocks.variables() })
+    Ok(Reduced {
+        pencil: Pencil::new(a, b, free)?,
+        variables: blocks.variables(),
+    })
 }
 
 /// The index sets of (10)-(16), with the directions of each slip particle.
@@ -91,13 +101,24 @@ struct Blocks {
 
 impl Blocks {
     fn of(system: &System) -> Blocks {
-        let slip = system.slip_particles().into_iter().map(|(p, sign)| (sign, p.tangent(), p.into_obstacle())).collect();
-        Blocks { free: system.free_dofs(), slip }
+        let slip = system
+            .slip_particles()
+            .into_iter()
+            .map(|(p, sign)| (sign, p.tangent(), p.into_obstacle()))
+            .collect();
+        Blocks {
+            free: system.free_dofs(),
+            slip,
+        }
     }
 
     fn variables(&self) -> Vec<Variable> {
         let free = self.free.iter().map(|&dof| Variable::Free { dof });
-        let slip = self.slip.iter().map(|(sign, t, n)| Variable::Slip { sign: *sign, tangent: t.clone(), normal: n.clone() });
+        let slip = self.slip.iter().map(|(sign, t, n)| Variable::Slip {
+            sign: *sign,
+            tangent: t.clone(),
+            normal: n.clone(),
+        });
         free.chain(slip).collect()
     }
 
@@ -132,7 +153,10 @@ impl Blocks {
                 e1.push((n_f + p, i, -&k_n[dof])); // -K_Nf
             }
         }
-        (Sparse::from_entries(order, order, e0), Sparse::from_entries(order, order, e1))
+        (
+            Sparse::from_entries(order, order, e0),
+            Sparse::from_entries(order, order, e1),
+        )
     }
 }
 
@@ -161,20 +185,42 @@ mod tests {
     #[test]
     fn blocks_of_16_by_hand() {
         // dofs: 0 free, (1, 2) slip with S = -1, (3, 4) stick.
-        let k = Sparse::from_ints(&[&[9, 1, 2, 3, 4], &[1, 8, 5, 0, 0], &[2, 5, 7, 0, 0], &[3, 0, 0, 9, 0], &[4, 0, 0, 0, 9]]);
-        let particles = vec![Particle::plain(1, 2, ContactState::Slip { sign: -1 }), Particle::plain(3, 4, ContactState::Stick)];
+        let k = Sparse::from_ints(&[
+            &[9, 1, 2, 3, 4],
+            &[1, 8, 5, 0, 0],
+            &[2, 5, 7, 0, 0],
+            &[3, 0, 0, 9, 0],
+            &[4, 0, 0, 0, 9],
+        ]);
+        let particles = vec![
+            Particle::plain(1, 2, ContactState::Slip { sign: -1 }),
+            Particle::plain(3, 4, ContactState::Stick),
+        ];
         let system = System::new(k, None, None, particles).unwrap();
         let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap();
         let reduced = reduce(&problem).unwrap();
-        assert_eq!(*reduced.pencil.a(), Sparse::from_ints(&[&[9, 1], &[1, 8]])); // -K_fT S = 1, S K_TT S = 8
-        assert_eq!(*reduced.pencil.b(), Sparse::from_ints(&[&[0, 0], &[-2, -5]])); // -K_Nf, K_NT S
+        // -K_fT S = 1, S K_TT S = 8.
+        assert_eq!(*reduced.pencil.a(), Sparse::from_ints(&[&[9, 1], &[1, 8]]));
+        assert_eq!(
+            *reduced.pencil.b(),
+            Sparse::from_ints(&[&[0, 0], &[-2, -5]])
+        ); // -K_Nf, K_NT S
         assert_eq!(reduced.pencil.free(), &[0]);
         assert_eq!(reduced.variables[0], Variable::Free { dof: 0 });
-        // Two slip with S = diag(1, -1): K_NT = [2 4; 3 5] is not symmetric, so its place and side of S count.
-        let k = Sparse::from_ints(&[&[20, 2, 1, 3], &[2, 20, 4, 0], &[1, 4, 20, 5], &[3, 0, 5, 20]]);
+        // Two slip with S = diag(1, -1): K_NT = [2 4; 3 5] is not symmetric, so its place and side
+        // of S count.
+        let k = Sparse::from_ints(&[
+            &[20, 2, 1, 3],
+            &[2, 20, 4, 0],
+            &[1, 4, 20, 5],
+            &[3, 0, 5, 20],
+        ]);
         let slip = |t, n, sign| Particle::plain(t, n, ContactState::Slip { sign });
         let system = System::new(k, None, None, vec![slip(0, 1, 1), slip(2, 3, -1)]).unwrap();
-        let pencil = reduce(&Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap()).unwrap().pencil;
+        let pencil =
+            reduce(&Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap())
+                .unwrap()
+                .pencil;
         assert_eq!(*pencil.a(), Sparse::from_ints(&[&[20, -1], &[-1, 20]])); // S K_TT S
         assert_eq!(*pencil.b(), Sparse::from_ints(&[&[2, -4], &[3, -5]])); // K_NT S
     }
@@ -182,8 +228,23 @@ mod tests {
     #[test]
     fn consistent_mass_gets_the_same_blocks_and_friction() {
         let k = Sparse::from_ints(&[&[2, 0], &[0, 2]]);
-        let m = Sparse::from_entries(2, 2, [(0, 0, whole(2)), (0, 1, whole(1)), (1, 0, whole(1)), (1, 1, whole(2))]);
-        let system = System::new(k, Some(m), Some(rational(1, 2)), vec![Particle::plain(0, 1, ContactState::Slip { sign: 1 })]).unwrap();
+        let m = Sparse::from_entries(
+            2,
+            2,
+            [
+                (0, 0, whole(2)),
+                (0, 1, whole(1)),
+                (1, 0, whole(1)),
+                (1, 1, whole(2)),
+            ],
+        );
+        let system = System::new(
+            k,
+            Some(m),
+            Some(rational(1, 2)),
+            vec![Particle::plain(0, 1, ContactState::Slip { sign: 1 })],
+        )
+        .unwrap();
         let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap();
         let pencil = reduce(&problem).unwrap().pencil;
         assert_eq!(pencil.a().get(0, 0), whole(2)); // K_TT + mu K_NT S = 2

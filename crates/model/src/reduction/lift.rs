@@ -29,7 +29,12 @@ pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly
             Variable::Free { dof } => add(&mut v[*dof], x_i, &Rational::from_integer(1.into()), 0),
             Variable::Slip { sign, tangent, .. } => {
                 for (dof, c) in tangent {
-                    add(&mut v[*dof], x_i, &(c * Rational::from_integer((-*sign).into())), 0); // v_T = -S x
+                    add(
+                        &mut v[*dof],
+                        x_i,
+                        &(c * Rational::from_integer((-*sign).into())),
+                        0,
+                    ); // v_T = -S x
                 }
             }
         }
@@ -43,7 +48,12 @@ pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly
     }
     let clear = common_denominator(w.iter().flatten());
     let w = w.into_iter().map(|c| to_poly(&c, &clear)).collect();
-    Lifted { v, w, w_scale: &v_scale * clear, v_scale }
+    Lifted {
+        v,
+        w,
+        w_scale: &v_scale * clear,
+        v_scale,
+    }
 }
 
 /// out += t^shift * m * v.
@@ -65,5 +75,10 @@ fn add(sum: &mut Vec<Rational>, p: &Poly, factor: &Rational, shift: usize) {
 
 /// factor * coefficients, where the factor clears every denominator.
 fn to_poly(coeffs: &[Rational], factor: &Integer) -> Poly {
-    Poly::new(coeffs.iter().map(|c| c.numer() * (factor / c.denom())).collect())
+    Poly::new(
+        coeffs
+            .iter()
+            .map(|c| c.numer() * (factor / c.denom()))
+            .collect(),
+    )
 }

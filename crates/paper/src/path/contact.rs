@@ -8,7 +8,8 @@ use crate::exact::{Integer, Rational, Sparse, common_denominator, schur_compleme
 use crate::model::ContactState;
 use num_traits::{One, Zero};
 
-/// K condensed to the contact nodes, S = K_cc - K_ci K_ii^-1 K_ic, as integers over one denominator.
+/// K condensed to the contact nodes, S = K_cc - K_ci K_ii^-1 K_ic, as integers over one
+/// denominator.
 ///
 /// Component 2k is u_T of node k (positive to the right), 2k + 1 is u_N (positive *into* the
 /// obstacle, the paper's direction). The glued side does not appear: when it moves as a rigid
@@ -27,12 +28,21 @@ impl Contact {
     /// [`PathError::Condensation`]; none for a block that was assembled.
     pub fn of(block: &Block) -> Result<Contact, PathError> {
         let k = &block.stiffness;
-        let held: Vec<usize> = block.contact.iter().flat_map(|&node| [2 * node, 2 * node + 1]).collect();
+        let held: Vec<usize> = block
+            .contact
+            .iter()
+            .flat_map(|&node| [2 * node, 2 * node + 1])
+            .collect();
         let mut inside = vec![true; k.rows()];
         held.iter().for_each(|&d| inside[d] = false);
         let inside: Vec<usize> = (0..k.rows()).filter(|&d| inside[d]).collect();
         let part = |rows: &[usize], cols: &[usize]| k.submatrix(rows, cols);
-        let condensed = schur_complement(&part(&inside, &inside), &part(&inside, &held), &part(&held, &inside), &part(&held, &held))?;
+        let condensed = schur_complement(
+            &part(&inside, &inside),
+            &part(&inside, &held),
+            &part(&held, &inside),
+            &part(&held, &held),
+        )?;
         Ok(Contact::from_condensed(&condensed))
     }
 
@@ -43,7 +53,11 @@ impl Contact {
         let mut rows = vec![vec![Integer::zero(); n]; n];
         for (i, j, v) in condensed.entries() {
             let value = v.numer() * (&denominator / v.denom());
-            rows[i][j] = if (i + j).is_multiple_of(2) { value } else { -value }; // N = -y
+            rows[i][j] = if (i + j).is_multiple_of(2) {
+                value
+            } else {
+                -value
+            }; // N = -y
         }
         Contact { rows, denominator }
     }
@@ -70,7 +84,16 @@ impl Contact {
 
     /// Numerators of S w.
     pub(super) fn times(&self, w: &[Integer]) -> Vec<Integer> {
-        self.rows.iter().map(|row| row.iter().zip(w).filter(|(_, w)| !w.is_zero()).map(|(s, w)| s * w).sum()).collect()
+        self.rows
+            .iter()
+            .map(|row| {
+                row.iter()
+                    .zip(w)
+                    .filter(|(_, w)| !w.is_zero())
+                    .map(|(s, w)| s * w)
+                    .sum()
+            })
+            .collect()
     }
 
     /// The displacement of every contact node under a rigid motion of the glued side, per mm:
@@ -78,9 +101,15 @@ impl Contact {
     pub(super) fn relative(&self, load: Load) -> Vec<Integer> {
         let n = self.rows.len();
         match load {
-            Load::Press => (0..n).map(|i| Integer::from(-i64::from(i % 2 == 1))).collect(), // g = e_N
-            Load::Left => (0..n).map(|i| Integer::from(i64::from(i % 2 == 0))).collect(),   // g = -e_T
-            Load::Held(k) => (0..n).map(|i| Integer::from(i64::from(i == 2 * k))).collect(),
+            Load::Press => (0..n)
+                .map(|i| Integer::from(-i64::from(i % 2 == 1)))
+                .collect(), // g = e_N
+            Load::Left => (0..n)
+                .map(|i| Integer::from(i64::from(i % 2 == 0)))
+                .collect(), // g = -e_T
+            Load::Held(k) => (0..n)
+                .map(|i| Integer::from(i64::from(i == 2 * k)))
+                .collect(),
         }
     }
 }
@@ -113,16 +142,23 @@ pub(super) struct Friction {
 
 impl Friction {
     pub(super) fn new(mu: &Rational) -> Friction {
-        Friction { numerator: mu.numer().clone(), denominator: mu.denom().clone() }
+        Friction {
+            numerator: mu.numer().clone(),
+            denominator: mu.denom().clone(),
+        }
     }
 
     /// The combination of a slip node's rows that vanishes: r_T + S mu r_N = 0. // E7
     pub(super) fn on_cone(&self, sign: i8) -> (Integer, Integer) {
-        (self.denominator.clone(), &self.numerator * Integer::from(sign))
+        (
+            self.denominator.clone(),
+            &self.numerator * Integer::from(sign),
+        )
     }
 }
 
-/// Solves (5) with each node in its state: free r = 0; stick u = 0; slip u_N = 0, r_T + S mu r_N = 0.
+/// Solves (5) with each node in its state: free r = 0; stick u = 0; slip u_N = 0, r_T + S mu r_N =
+/// 0.
 ///
 /// `None` if these equations are singular (mu is an eigenvalue of the state's matrix).
 pub(super) fn respond(
@@ -144,7 +180,10 @@ pub(super) fn respond(
             }
             ContactState::Free => {
                 active.extend([2 * k, 2 * k + 1]);
-                equations.extend([vec![(2 * k, Integer::one())], vec![(2 * k + 1, Integer::one())]]);
+                equations.extend([
+                    vec![(2 * k, Integer::one())],
+                    vec![(2 * k + 1, Integer::one())],
+                ]);
             }
         }
     }
@@ -155,7 +194,10 @@ pub(super) fn respond(
         Load::Held(_) => w,
         _ => {
             let g = contact.relative(*load);
-            w.iter().zip(&g).map(|(w, g)| w - g * &denominator).collect()
+            w.iter()
+                .zip(&g)
+                .map(|(w, g)| w - g * &denominator)
+                .collect()
         }
     };
     let u = relative.into_iter().zip(loads).map(back).collect();

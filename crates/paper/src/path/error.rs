@@ -14,7 +14,9 @@ pub enum PathError {
     #[error(transparent)]
     Model(#[from] ModelError),
     /// The free nodes have a singular stiffness: never for a block with a glued side.
-    #[error("condensation: expected a regular stiffness of the free contact nodes, got a singular one")]
+    #[error(
+        "condensation: expected a regular stiffness of the free contact nodes, got a singular one"
+    )]
     SingularFreeNodes,
     /// A coefficient of friction, a force, a range or a step that is zero or negative.
     #[error("loading path: expected {what} > 0, got {got}")]
@@ -24,8 +26,8 @@ pub enum PathError {
         /// Its value.
         got: Rational,
     },
-    /// No states satisfy the rate conditions of the pressing. (Later on a path ends instead of failing:
-    /// [`super::PathEnd::NoContinuation`].)
+    /// No states satisfy the rate conditions of the pressing. (Later on a path ends instead of
+    /// failing: [`super::PathEnd::NoContinuation`].)
     #[error("rate problem: no admissible states among {tried} sets tried{}", if *.all { " (every set there is)" } else { "" })]
     NoContinuation {
         /// Sets of states tried (some of them more than once).
@@ -64,7 +66,9 @@ pub enum PathError {
         limit: usize,
     },
     /// Incremental stepping found no states within its iterations.
-    #[error("step {step} at motion {motion} mm: no admissible states within {limit} active-set iterations")]
+    #[error(
+        "step {step} at motion {motion} mm: no admissible states within {limit} active-set iterations"
+    )]
     StepNotConverged {
         /// Number of the step, from 1.
         step: usize,

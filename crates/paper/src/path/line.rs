@@ -18,11 +18,22 @@ impl Line {
     /// Pressing + d times the motion + every held node at its place. `loads` belong to `response`.
     pub(super) fn new(response: &Response, loads: &[(Load, Rational)]) -> Line {
         let clear = common_denominator(loads.iter().map(|l| &l.1));
-        let scale: Vec<Integer> = loads.iter().map(|(_, c)| c.numer() * (&clear / c.denom())).collect();
+        let scale: Vec<Integer> = loads
+            .iter()
+            .map(|(_, c)| c.numer() * (&clear / c.denom()))
+            .collect();
         let sum = |fields: &[Vec<Integer>], moving: bool| -> Vec<Integer> {
-            let chosen = || loads.iter().zip(&scale).zip(fields).filter(|((l, _), _)| (l.0 == Load::Left) == moving);
+            let chosen = || {
+                loads
+                    .iter()
+                    .zip(&scale)
+                    .zip(fields)
+                    .filter(|((l, _), _)| (l.0 == Load::Left) == moving)
+            };
             let n = fields.first().map_or(0, Vec::len);
-            (0..n).map(|i| chosen().map(|((_, c), f)| c * &f[i]).sum()).collect()
+            (0..n)
+                .map(|i| chosen().map(|((_, c), f)| c * &f[i]).sum())
+                .collect()
         };
         Line {
             denominator: &response.denominator * clear,
@@ -48,13 +59,24 @@ impl Line {
 
     /// Is it the same state as `other` at d, displacement for displacement?
     pub(super) fn meets(&self, other: &Line, d: &Rational) -> bool {
-        (0..self.u[0].len()).all(|i| self.u_at(i, d) * &other.denominator == other.u_at(i, d) * &self.denominator)
+        (0..self.u[0].len())
+            .all(|i| self.u_at(i, d) * &other.denominator == other.u_at(i, d) * &self.denominator)
     }
 
     /// The equilibrium at d, in mm and N for a pressing of `depth` mm.
-    pub(super) fn equilibrium(&self, d: &Rational, depth: &Rational, contact: &Contact) -> Equilibrium {
+    pub(super) fn equilibrium(
+        &self,
+        d: &Rational,
+        depth: &Rational,
+        contact: &Contact,
+    ) -> Equilibrium {
         let n = self.u[0].len();
-        let over = |extra: &Integer| Rational::new_raw(depth.numer().clone(), depth.denom() * d.denom() * &self.denominator * extra);
+        let over = |extra: &Integer| {
+            Rational::new_raw(
+                depth.numer().clone(),
+                depth.denom() * d.denom() * &self.denominator * extra,
+            )
+        };
         Equilibrium {
             motion: d * depth,
             u: (0..n).map(|i| self.u_at(i, d)).collect(),
@@ -122,23 +144,36 @@ impl Bound {
             ContactState::Free => vec![Bound::Gap { node }],
             ContactState::Slip { .. } => vec![Bound::Pressure { node }],
             // The two cones together imply the pressure.
-            ContactState::Stick => vec![Bound::Cone { node, sign: 1 }, Bound::Cone { node, sign: -1 }],
+            ContactState::Stick => vec![
+                Bound::Cone { node, sign: 1 },
+                Bound::Cone { node, sign: -1 },
+            ],
         }
     }
 }
 
 /// The first motion after `from` at which a bound of these states becomes zero on its way down,
 /// and every bound that does so there; `None` if none ever does.
-pub(super) fn next_event(line: &Line, friction: &Friction, states: &[ContactState]) -> Option<(Rational, Vec<Bound>)> {
+pub(super) fn next_event(
+    line: &Line,
+    friction: &Friction,
+    states: &[ContactState],
+) -> Option<(Rational, Vec<Bound>)> {
     let mut first: Option<(Rational, Vec<Bound>)> = None;
-    for bound in states.iter().enumerate().flat_map(|(k, &s)| Bound::of(k, s)) {
+    for bound in states
+        .iter()
+        .enumerate()
+        .flat_map(|(k, &s)| Bound::of(k, s))
+    {
         let [constant, slope] = line.form(bound, friction);
         if !slope.is_negative() {
             continue;
         }
         let fall = -slope;
         // Compare by products; a fraction is reduced for the winner only.
-        let order = first.as_ref().map(|(d, _)| (&constant * d.denom()).cmp(&(d.numer() * &fall)));
+        let order = first
+            .as_ref()
+            .map(|(d, _)| (&constant * d.denom()).cmp(&(d.numer() * &fall)));
         match order {
             Some(std::cmp::Ordering::Greater) => {}
             Some(std::cmp::Ordering::Equal) => first.iter_mut().for_each(|f| f.1.push(bound)),
@@ -166,13 +201,21 @@ impl Equilibrium {
 
     /// (u_T, u_N) of a node (from 0 at the left), mm: to the right, and into the obstacle.
     pub fn displacement(&self, node: usize) -> (Rational, Rational) {
-        let part = |i: usize| Rational::new(&self.u[i] * self.u_unit.numer(), self.u_unit.denom().clone());
+        let part = |i: usize| {
+            Rational::new(
+                &self.u[i] * self.u_unit.numer(),
+                self.u_unit.denom().clone(),
+            )
+        };
         (part(2 * node), part(2 * node + 1))
     }
 
     /// (r_T, r_N) of a node (from 0 at the left), N: r_N <= 0 in contact.
     pub fn reaction(&self, node: usize) -> (Rational, Rational) {
-        (self.force(&self.r[2 * node]), self.force(&self.r[2 * node + 1]))
+        (
+            self.force(&self.r[2 * node]),
+            self.force(&self.r[2 * node + 1]),
+        )
     }
 
     /// Sums of r_T and of r_N over the contact nodes, N.
@@ -183,8 +226,16 @@ impl Equilibrium {
 
     /// (r_T, r_N) of every node, each correctly rounded to a double, N.
     pub fn reactions_f64(&self) -> Vec<(f64, f64)> {
-        let round = |r: &Integer| crate::exact::to_f64(&Rational::new_raw(r * self.r_unit.numer(), self.r_unit.denom().clone()));
-        self.r.chunks(2).map(|p| (round(&p[0]), round(&p[1]))).collect()
+        let round = |r: &Integer| {
+            crate::exact::to_f64(&Rational::new_raw(
+                r * self.r_unit.numer(),
+                self.r_unit.denom().clone(),
+            ))
+        };
+        self.r
+            .chunks(2)
+            .map(|p| (round(&p[0]), round(&p[1])))
+            .collect()
     }
 
     fn force(&self, r: &Integer) -> Rational {
@@ -206,7 +257,11 @@ pub(super) enum Class {
 }
 
 /// The class of each node at d; `Err` with the node and the equation that fails there.
-pub(super) fn classify(line: &Line, d: &Rational, friction: &Friction) -> Result<Vec<Class>, (usize, &'static str)> {
+pub(super) fn classify(
+    line: &Line,
+    d: &Rational,
+    friction: &Friction,
+) -> Result<Vec<Class>, (usize, &'static str)> {
     let u: Vec<Integer> = (0..line.u[0].len()).map(|i| line.u_at(i, d)).collect();
     let r: Vec<Integer> = (0..line.u[0].len()).map(|i| line.r_at(i, d)).collect();
     let class = |node: usize| {
@@ -241,7 +296,11 @@ mod tests {
 
     /// Two nodes, in the order u_T, u_N: constant and slope.
     fn line(u: [&[i64]; 2], r: [&[i64]; 2]) -> Line {
-        Line { denominator: 1.into(), u: u.map(z), r: r.map(z) }
+        Line {
+            denominator: 1.into(),
+            u: u.map(z),
+            r: r.map(z),
+        }
     }
 
     fn mu_two() -> Friction {
@@ -251,24 +310,51 @@ mod tests {
     #[test]
     fn the_first_bound_on_its_way_down_ends_the_stretch() {
         // Node 0 free, gap 3 - 2 d; node 1 sticks, r = (d, -1): cone 2 - d.
-        let path = line([&[0, -3, 0, 0], &[0, 2, 0, 0]], [&[0, 0, 0, -1], &[0, 0, 1, 0]]);
+        let path = line(
+            [&[0, -3, 0, 0], &[0, 2, 0, 0]],
+            [&[0, 0, 0, -1], &[0, 0, 1, 0]],
+        );
         let states = [ContactState::Free, ContactState::Stick];
-        assert_eq!(next_event(&path, &mu_two(), &states), Some((rational(3, 2), vec![Bound::Gap { node: 0 }])));
+        assert_eq!(
+            next_event(&path, &mu_two(), &states),
+            Some((rational(3, 2), vec![Bound::Gap { node: 0 }]))
+        );
         // Slope 3/2 instead of 2 (twice everything): both at d = 2.
-        let both = line([&[0, -6, 0, 0], &[0, 3, 0, 0]], [&[0, 0, 0, -2], &[0, 0, 2, 0]]);
+        let both = line(
+            [&[0, -6, 0, 0], &[0, 3, 0, 0]],
+            [&[0, 0, 0, -2], &[0, 0, 2, 0]],
+        );
         let bounds = vec![Bound::Gap { node: 0 }, Bound::Cone { node: 1, sign: 1 }];
-        assert_eq!(next_event(&both, &mu_two(), &states), Some((whole(2), bounds)));
+        assert_eq!(
+            next_event(&both, &mu_two(), &states),
+            Some((whole(2), bounds))
+        );
         // A slip node ends with its pressure, and nothing ends what only grows.
         let slip = [ContactState::Free, ContactState::Slip { sign: -1 }];
-        let relief = line([&[0, -3, 0, 0], &[0, -1, 0, 0]], [&[0, 0, -2, -1], &[0, 0, 2, 1]]);
-        assert_eq!(next_event(&relief, &mu_two(), &slip), Some((whole(1), vec![Bound::Pressure { node: 1 }])));
-        let growth = line([&[0, -3, 0, 0], &[0, -1, 0, 0]], [&[0, 0, -2, -1], &[0, 0, -2, -1]]);
+        let relief = line(
+            [&[0, -3, 0, 0], &[0, -1, 0, 0]],
+            [&[0, 0, -2, -1], &[0, 0, 2, 1]],
+        );
+        assert_eq!(
+            next_event(&relief, &mu_two(), &slip),
+            Some((whole(1), vec![Bound::Pressure { node: 1 }]))
+        );
+        let growth = line(
+            [&[0, -3, 0, 0], &[0, -1, 0, 0]],
+            [&[0, 0, -2, -1], &[0, 0, -2, -1]],
+        );
         assert_eq!(next_event(&growth, &mu_two(), &slip), None);
     }
 
     #[test]
     fn classes_and_the_equations_that_forbid_others() {
-        let of = |u_n: i64, r: [i64; 2]| classify(&line([&[0, u_n], &[0, 0]], [&r, &[0, 0]]), &whole(5), &mu_two());
+        let of = |u_n: i64, r: [i64; 2]| {
+            classify(
+                &line([&[0, u_n], &[0, 0]], [&r, &[0, 0]]),
+                &whole(5),
+                &mu_two(),
+            )
+        };
         assert_eq!(of(-1, [0, 0]), Ok(vec![Class::Free]));
         assert_eq!(of(0, [0, 0]), Ok(vec![Class::Zero]));
         assert_eq!(of(0, [1, -1]), Ok(vec![Class::Stick]));
@@ -282,13 +368,26 @@ mod tests {
 
     #[test]
     fn held_nodes_enter_at_their_places() {
-        let response =
-            Response { denominator: 3.into(), u: vec![z(&[1, 0]), z(&[5, 0]), z(&[7, 0])], r: vec![z(&[2, 0]), z(&[4, 0]), z(&[6, 0])] };
-        let loads = [(Load::Press, whole(1)), (Load::Left, whole(1)), (Load::Held(0), rational(-1, 2))];
+        let response = Response {
+            denominator: 3.into(),
+            u: vec![z(&[1, 0]), z(&[5, 0]), z(&[7, 0])],
+            r: vec![z(&[2, 0]), z(&[4, 0]), z(&[6, 0])],
+        };
+        let loads = [
+            (Load::Press, whole(1)),
+            (Load::Left, whole(1)),
+            (Load::Held(0), rational(-1, 2)),
+        ];
         let sum = Line::new(&response, &loads);
-        assert_eq!((sum.denominator.clone(), sum.u.clone()), (Integer::from(6), [z(&[2 - 7, 0]), z(&[10, 0])]));
+        assert_eq!(
+            (sum.denominator.clone(), sum.u.clone()),
+            (Integer::from(6), [z(&[2 - 7, 0]), z(&[10, 0])])
+        );
         assert_eq!(sum.r, [z(&[4 - 6, 0]), z(&[8, 0])]);
-        let other = Line { u: [z(&[-5, 0]), z(&[11, 0])], ..Line::new(&response, &loads) };
+        let other = Line {
+            u: [z(&[-5, 0]), z(&[11, 0])],
+            ..Line::new(&response, &loads)
+        };
         assert!(sum.meets(&other, &whole(0)) && !sum.meets(&other, &whole(1)));
     }
 }

@@ -22,7 +22,12 @@ impl Images {
         if k >= self.of.len() {
             for p in primes().skip(self.of.len()).take(k + 1 - self.of.len()) {
                 let field = Field::new(p);
-                let image = contact.rows().iter().flatten().map(|v| enter(&field, v)).collect();
+                let image = contact
+                    .rows()
+                    .iter()
+                    .flatten()
+                    .map(|v| enter(&field, v))
+                    .collect();
                 self.of.push((field, image));
             }
         }
@@ -34,7 +39,11 @@ impl Images {
 fn enter(field: &Field, v: &Integer) -> u64 {
     let magnitude = (v.magnitude() % field.prime()).to_u64().unwrap_or(0); // below p
     let value = field.enter(magnitude);
-    if v.is_negative() { field.sub(0, value) } else { value }
+    if v.is_negative() {
+        field.sub(0, value)
+    } else {
+        value
+    }
 }
 
 /// A row of equations: a combination of rows of the contact matrix, (row, coefficient).
@@ -53,7 +62,10 @@ pub(super) fn solve(
     imposed: &[Vec<Integer>],
 ) -> Option<(Integer, Vec<Vec<Integer>>)> {
     let assemble = |den: &Integer, z: &[Integer]| -> Vec<Vec<Integer>> {
-        let mut w: Vec<Vec<Integer>> = imposed.iter().map(|g| g.iter().map(|v| v * den).collect()).collect();
+        let mut w: Vec<Vec<Integer>> = imposed
+            .iter()
+            .map(|g| g.iter().map(|v| v * den).collect())
+            .collect();
         for (k, value) in z.iter().enumerate() {
             w[k % imposed.len()][active[k / imposed.len()]] += value;
         }
@@ -67,7 +79,14 @@ pub(super) fn solve(
     let mut attempt_at = images.needed.max(128);
     for k in 0.. {
         let (field, image) = images.get(k, contact);
-        match solve_modulo(field, image, contact.rows().len(), active, equations, imposed) {
+        match solve_modulo(
+            field,
+            image,
+            contact.rows().len(),
+            active,
+            equations,
+            imposed,
+        ) {
             Some(z) => {
                 residues.add(field.prime(), &z);
                 singular = 0;
@@ -95,7 +114,12 @@ pub(super) fn solve(
 /// Do the equations hold on S w, exactly?
 fn satisfied(contact: &Contact, equations: &[Equation], w: &[Integer]) -> bool {
     let s = contact.times(w);
-    equations.iter().all(|e| e.iter().map(|(row, c)| c * &s[*row]).sum::<Integer>().is_zero())
+    equations.iter().all(|e| {
+        e.iter()
+            .map(|(row, c)| c * &s[*row])
+            .sum::<Integer>()
+            .is_zero()
+    })
 }
 
 /// z modulo p, unknown by unknown, load by load; `None` where the equations are singular.
@@ -120,7 +144,11 @@ fn solve_modulo(
         }
         let mut line: Vec<u64> = active.iter().map(|&j| whole[j]).collect();
         for g in imposed {
-            let known = whole.iter().zip(g).filter(|(_, g)| !g.is_zero()).map(|(s, g)| field.mul(*s, enter(field, g)));
+            let known = whole
+                .iter()
+                .zip(g)
+                .filter(|(_, g)| !g.is_zero())
+                .map(|(s, g)| field.mul(*s, enter(field, g)));
             let known = known.fold(0, add);
             line.push(field.sub(0, known));
         }
@@ -130,7 +158,9 @@ fn solve_modulo(
         let pivot = (k..n).find(|&i| m[i][k] != 0)?;
         m.swap(k, pivot);
         let inverse = field.invert(m[k][k]);
-        m[k][k..].iter_mut().for_each(|v| *v = field.mul(*v, inverse));
+        m[k][k..]
+            .iter_mut()
+            .for_each(|v| *v = field.mul(*v, inverse));
         let pivot_row = m[k].clone();
         for (i, row) in m.iter_mut().enumerate() {
             if i == k || row[k] == 0 {
@@ -142,7 +172,11 @@ fn solve_modulo(
             }
         }
     }
-    Some(m.iter().flat_map(|row| row[n..].iter().map(|v| field.leave(*v))).collect())
+    Some(
+        m.iter()
+            .flat_map(|row| row[n..].iter().map(|v| field.leave(*v)))
+            .collect(),
+    )
 }
 
 /// Fractions with one denominator, numerators and denominator below the root of the modulus.
@@ -151,7 +185,11 @@ fn reconstruct(residues: &Residues) -> Option<(Integer, Vec<Integer>)> {
     let limit = residues.bits() / 2 - 1;
     let balanced = |v: Integer| {
         let v = v.mod_floor(modulus);
-        if &v << 1u32 > *modulus { v - modulus } else { v }
+        if &v << 1u32 > *modulus {
+            v - modulus
+        } else {
+            v
+        }
     };
     let mut den = Integer::one();
     for x in &residues.values {
@@ -199,8 +237,18 @@ mod tests {
     fn slip_equation_in_closed_form() {
         // (2 + 5 * 1) z + (1 + 5 * 3) g_N + (2 + 5) g_T = 0 for r_T + 5 r_N = 0, g = (1, 2).
         let equation = vec![(0, Integer::from(1)), (1, Integer::from(5))];
-        let (den, w) = solve(&contact(2, 1, 3), &mut Images::default(), &[0], &[equation], &[z(&[1, 2]), z(&[0, 7])]).unwrap();
-        assert_eq!((den.clone(), w), (Integer::from(7), vec![z(&[-32, 14]), z(&[-112, 49])]));
+        let (den, w) = solve(
+            &contact(2, 1, 3),
+            &mut Images::default(),
+            &[0],
+            &[equation],
+            &[z(&[1, 2]), z(&[0, 7])],
+        )
+        .unwrap();
+        assert_eq!(
+            (den.clone(), w),
+            (Integer::from(7), vec![z(&[-32, 14]), z(&[-112, 49])])
+        );
         assert!(den.is_positive());
     }
 
@@ -210,9 +258,25 @@ mod tests {
         let s = Sparse::from_entries(
             2,
             2,
-            [(0, 0, crate::exact::Rational::from_integer(&big * &big * &big)), (1, 1, whole(1)), (0, 1, whole(5)), (1, 0, whole(5))],
+            [
+                (
+                    0,
+                    0,
+                    crate::exact::Rational::from_integer(&big * &big * &big),
+                ),
+                (1, 1, whole(1)),
+                (0, 1, whole(5)),
+                (1, 0, whole(5)),
+            ],
         );
-        let (den, w) = solve(&Contact::from_condensed(&s), &mut Images::default(), &[0], &[vec![(0, 1.into())]], &[z(&[0, 1])]).unwrap();
+        let (den, w) = solve(
+            &Contact::from_condensed(&s),
+            &mut Images::default(),
+            &[0],
+            &[vec![(0, 1.into())]],
+            &[z(&[0, 1])],
+        )
+        .unwrap();
         assert_eq!((&den, &w[0][0]), (&(&big * &big * &big), &Integer::from(5)));
     }
 
@@ -220,7 +284,16 @@ mod tests {
     fn singular_equations_have_no_answer() {
         // r_T + r_N = 0 with S_TT + S_NT = 0.
         let equation = vec![(0, Integer::from(1)), (1, Integer::from(1))];
-        assert!(solve(&contact(1, -1, 3), &mut Images::default(), &[0], &[equation], &[z(&[1, 2])]).is_none());
+        assert!(
+            solve(
+                &contact(1, -1, 3),
+                &mut Images::default(),
+                &[0],
+                &[equation],
+                &[z(&[1, 2])]
+            )
+            .is_none()
+        );
     }
 
     #[test]

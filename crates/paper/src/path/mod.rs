@@ -10,8 +10,8 @@
 //! The pressing is proportional to its depth, so it is one rate problem from the unloaded block.
 //! Sliding has begun when no node sticks: reactions are constant from then on.
 //!
-//! A rate problem may have several solutions (with much friction it often has, `rates_oracle`).
-//! The states nearest to those before are taken; they are verified, their uniqueness is not claimed.
+//! A rate problem may have several solutions (with much friction it often has, `rates_oracle`). The
+//! states nearest to those before are taken; they are verified, their uniqueness is not claimed.
 
 mod check;
 mod compare;
@@ -55,14 +55,27 @@ pub struct Loading {
 impl Loading {
     /// The paper's loading: mu = 1.1, 55 N, until nothing more happens.
     pub fn of_the_paper() -> Loading {
-        Loading { friction: rational(11, 10), force: whole(55), until: None }
+        Loading {
+            friction: rational(11, 10),
+            force: whole(55),
+            until: None,
+        }
     }
 
     fn validate(&self) -> Result<(), PathError> {
-        let range = self.until.as_ref().map(|u| ("the range of the motion (mm)", u));
-        let all = [("friction", &self.friction), ("the normal force (N)", &self.force)];
+        let range = self
+            .until
+            .as_ref()
+            .map(|u| ("the range of the motion (mm)", u));
+        let all = [
+            ("friction", &self.friction),
+            ("the normal force (N)", &self.force),
+        ];
         match all.into_iter().chain(range).find(|(_, v)| !v.is_positive()) {
-            Some((what, v)) => Err(PathError::NotPositive { what, got: v.clone() }),
+            Some((what, v)) => Err(PathError::NotPositive {
+                what,
+                got: v.clone(),
+            }),
             None => Ok(()),
         }
     }
@@ -94,7 +107,12 @@ pub struct Event {
 
 impl Event {
     fn new(causes: Vec<Bound>, changes: Vec<Change>, finder: Finder, tried: usize) -> Event {
-        Event { causes, changes, finder, tried }
+        Event {
+            causes,
+            changes,
+            finder,
+            tried,
+        }
     }
 }
 
@@ -132,7 +150,11 @@ impl Interval {
     ///
     /// # Errors
     /// [`ModelError`] if no node slips.
-    pub fn problem(&self, block: &Block, friction: Option<Rational>) -> Result<Problem, ModelError> {
+    pub fn problem(
+        &self,
+        block: &Block,
+        friction: Option<Rational>,
+    ) -> Result<Problem, ModelError> {
         block.problem(&self.states, friction)
     }
 }
@@ -160,7 +182,8 @@ pub enum PathEnd {
     /// The range asked for is reached.
     Range,
     /// At the end of the last stretch no states satisfy the rate conditions: the quasi-static path
-    /// stops here, and what follows is dynamic. Met with much friction (mu >= 1.7 on coarse meshes).
+    /// stops here, and what follows is dynamic. Met with much friction (mu >= 1.7 on coarse
+    /// meshes).
     NoContinuation {
         /// The bounds that became zero there.
         causes: Vec<Bound>,
@@ -198,10 +221,16 @@ impl LoadingPath {
     /// [`PathError`]: options out of range, a moment after which no states are admissible.
     ///
     /// ```
-    /// use mceip_paper::{Block, BlockModel, path::{Contact, Loading, LoadingPath}};
+    /// use mceip_paper::{
+    ///     Block, BlockModel,
+    ///     path::{Contact, Loading, LoadingPath},
+    /// };
     /// let block = Block::new(&BlockModel::of_the_paper().with_cells(2, 1)).unwrap();
     /// let contact = Contact::of(&block).unwrap();
-    /// let path = LoadingPath::follow(&contact, &Loading::of_the_paper(), &|_, _| std::ops::ControlFlow::Continue(())).unwrap();
+    /// let path = LoadingPath::follow(&contact, &Loading::of_the_paper(), &|_, _| {
+    ///     std::ops::ControlFlow::Continue(())
+    /// })
+    /// .unwrap();
     /// assert!(path.slides());
     /// ```
     pub fn follow(
@@ -214,7 +243,11 @@ impl LoadingPath {
 
     /// Does the path end in sliding: no node sticks, and nothing changes any more?
     pub fn slides(&self) -> bool {
-        self.end == PathEnd::NoFurtherEvent && self.intervals.last().is_some_and(|i| !i.states.contains(&ContactState::Stick))
+        self.end == PathEnd::NoFurtherEvent
+            && self
+                .intervals
+                .last()
+                .is_some_and(|i| !i.states.contains(&ContactState::Stick))
     }
 
     /// The event that ends a stretch, `None` for the last one.
@@ -224,6 +257,8 @@ impl LoadingPath {
 
     /// The stretches with exactly these states, in order.
     pub fn stretches_with(&self, states: &[ContactState]) -> Vec<usize> {
-        (0..self.intervals.len()).filter(|&i| self.intervals[i].states == states).collect()
+        (0..self.intervals.len())
+            .filter(|&i| self.intervals[i].states == states)
+            .collect()
     }
 }

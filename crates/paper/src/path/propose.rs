@@ -26,20 +26,44 @@ enum Unknown {
 }
 
 /// States proposed by Lemke's method, `None` if it ends without a solution.
-pub(super) fn propose(contact: &Contact, friction: &Friction, classes: &[Class], moving: Load) -> Option<Vec<ContactState>> {
-    let mu = to_f64(&Rational::new(friction.numerator.clone(), friction.denominator.clone()));
-    let unknowns: Vec<Unknown> = classes.iter().enumerate().flat_map(|(k, c)| unknowns_of(k, *c)).collect();
+pub(super) fn propose(
+    contact: &Contact,
+    friction: &Friction,
+    classes: &[Class],
+    moving: Load,
+) -> Option<Vec<ContactState>> {
+    let mu = to_f64(&Rational::new(
+        friction.numerator.clone(),
+        friction.denominator.clone(),
+    ));
+    let unknowns: Vec<Unknown> = classes
+        .iter()
+        .enumerate()
+        .flat_map(|(k, c)| unknowns_of(k, *c))
+        .collect();
     let s = doubles(contact);
-    let g: Vec<f64> = contact.relative(moving).iter().map(|v| to_f64(&Rational::from_integer(v.clone()))).collect();
+    let g: Vec<f64> = contact
+        .relative(moving)
+        .iter()
+        .map(|v| to_f64(&Rational::from_integer(v.clone())))
+        .collect();
     let problem = assemble(&s, &g, &unknowns, mu)?;
     let outcome = solve_linear(&problem, &Options::default()).ok()?;
-    outcome.termination.reached_tolerance().then(|| states_of(&unknowns, &outcome.point, classes))
+    outcome
+        .termination
+        .reached_tolerance()
+        .then(|| states_of(&unknowns, &outcome.point, classes))
 }
 
 /// The condensed stiffness in doubles, N/mm, divided by its largest entry.
 fn doubles(contact: &Contact) -> DMatrix<f64> {
     let n = contact.rows().len();
-    let s = DMatrix::from_fn(n, n, |i, j| to_f64(&Rational::new_raw(contact.rows()[i][j].clone(), contact.denominator().clone())));
+    let s = DMatrix::from_fn(n, n, |i, j| {
+        to_f64(&Rational::new_raw(
+            contact.rows()[i][j].clone(),
+            contact.denominator().clone(),
+        ))
+    });
     let largest = s.amax();
     s / largest
 }
@@ -50,7 +74,13 @@ fn unknowns_of(k: usize, class: Class) -> Vec<Unknown> {
         Class::Stick => Vec::new(),
         Class::Cone(sign) => vec![Unknown::Slip(k, f64::from(sign))],
         Class::Zero => {
-            vec![Unknown::Component(2 * k), Unknown::Opening(k), Unknown::Part(k, 1.0), Unknown::Part(k, -1.0), Unknown::Shear(k)]
+            vec![
+                Unknown::Component(2 * k),
+                Unknown::Opening(k),
+                Unknown::Part(k, 1.0),
+                Unknown::Part(k, -1.0),
+                Unknown::Shear(k),
+            ]
         }
     }
 }
@@ -64,8 +94,16 @@ fn assemble(s: &DMatrix<f64>, g: &[f64], unknowns: &[Unknown], mu: f64) -> Optio
         Unknown::Opening(k) => Some((2 * k + 1, -1.0)),
         Unknown::Part(..) | Unknown::Shear(_) => None,
     };
-    let has_shear = |i: usize| unknowns.iter().position(|u| matches!(u, Unknown::Shear(k) if 2 * k == i));
-    let place = |i: usize| unknowns.iter().position(|u| matches!(u, Unknown::Component(c) if *c == i));
+    let has_shear = |i: usize| {
+        unknowns
+            .iter()
+            .position(|u| matches!(u, Unknown::Shear(k) if 2 * k == i))
+    };
+    let place = |i: usize| {
+        unknowns
+            .iter()
+            .position(|u| matches!(u, Unknown::Component(c) if *c == i))
+    };
     let (mut m, mut q) = (DMatrix::zeros(n, n), vec![0.0; n]);
     // w_i = sum_j S_ij v_j + (S g)_i, added to row `row` with a factor.
     let mut add = |m: &mut DMatrix<f64>, row: usize, i: usize, factor: f64| {
@@ -74,7 +112,11 @@ fn assemble(s: &DMatrix<f64>, g: &[f64], unknowns: &[Unknown], mu: f64) -> Optio
                 m[(row, col)] += factor * s[(i, j)] * c;
             }
         }
-        q[row] += factor * g.iter().enumerate().map(|(j, g)| s[(i, j)] * g).sum::<f64>();
+        q[row] += factor
+            * g.iter()
+                .enumerate()
+                .map(|(j, g)| s[(i, j)] * g)
+                .sum::<f64>();
     };
     for (row, u) in unknowns.iter().enumerate() {
         match *u {
@@ -103,19 +145,39 @@ fn assemble(s: &DMatrix<f64>, g: &[f64], unknowns: &[Unknown], mu: f64) -> Optio
             }
         }
     }
-    let signed = |u: &Unknown| matches!(u, Unknown::Slip(..) | Unknown::Opening(_) | Unknown::Part(..));
-    let lower = unknowns.iter().map(|u| if signed(u) { 0.0 } else { f64::NEG_INFINITY }).collect();
+    let signed = |u: &Unknown| {
+        matches!(
+            u,
+            Unknown::Slip(..) | Unknown::Opening(_) | Unknown::Part(..)
+        )
+    };
+    let lower = unknowns
+        .iter()
+        .map(|u| if signed(u) { 0.0 } else { f64::NEG_INFINITY })
+        .collect();
     LinearMcp::new(m, q, lower, vec![f64::INFINITY; n]).ok()
 }
 
 /// Positive unknowns name the states; the exact active set corrects what rounding blurs.
 fn states_of(unknowns: &[Unknown], z: &[f64], classes: &[Class]) -> Vec<ContactState> {
-    let mut states: Vec<ContactState> =
-        classes.iter().map(|c| if *c == Class::Free { ContactState::Free } else { ContactState::Stick }).collect();
+    let mut states: Vec<ContactState> = classes
+        .iter()
+        .map(|c| {
+            if *c == Class::Free {
+                ContactState::Free
+            } else {
+                ContactState::Stick
+            }
+        })
+        .collect();
     for (u, &value) in unknowns.iter().zip(z) {
         match *u {
-            Unknown::Slip(k, sign) | Unknown::Part(k, sign) if value > 0.0 && states[k] != ContactState::Free => {
-                states[k] = ContactState::Slip { sign: if sign > 0.0 { 1 } else { -1 } };
+            Unknown::Slip(k, sign) | Unknown::Part(k, sign)
+                if value > 0.0 && states[k] != ContactState::Free =>
+            {
+                states[k] = ContactState::Slip {
+                    sign: if sign > 0.0 { 1 } else { -1 },
+                };
             }
             Unknown::Opening(k) if value > 0.0 => states[k] = ContactState::Free,
             _ => {}

@@ -49,8 +49,17 @@ pub(super) struct Solved {
 
 impl Rates<'_> {
     /// Solves it; `start` holds the states before.
-    pub(super) fn solve(&self, images: &mut Images, start: &[ContactState]) -> Result<Solved, PathError> {
-        let start: Vec<ContactState> = self.classes.iter().zip(start).map(|(&c, &s)| first_guess(c, s)).collect();
+    pub(super) fn solve(
+        &self,
+        images: &mut Images,
+        start: &[ContactState],
+    ) -> Result<Solved, PathError> {
+        let start: Vec<ContactState> = self
+            .classes
+            .iter()
+            .zip(start)
+            .map(|(&c, &s)| first_guess(c, s))
+            .collect();
         let mut tried = 0;
         for finder in [Finder::ActiveSet, Finder::OneByOne] {
             if let Some(solved) = self.iterate(images, start.clone(), finder, &mut tried) {
@@ -58,7 +67,8 @@ impl Rates<'_> {
             }
         }
         let proposed = propose(self.contact, self.friction, self.classes, self.moving);
-        match proposed.and_then(|states| self.iterate(images, states, Finder::Pivoting, &mut tried)) {
+        match proposed.and_then(|states| self.iterate(images, states, Finder::Pivoting, &mut tried))
+        {
             Some(solved) => Ok(solved),
             None => self.enumerate(images, &mut tried),
         }
@@ -71,20 +81,35 @@ impl Rates<'_> {
         for class in self.classes {
             let choices = choices(*class);
             if sets.len() * choices.len() > ENUMERATED {
-                return Err(PathError::NoContinuation { tried: *tried, all: false });
+                return Err(PathError::NoContinuation {
+                    tried: *tried,
+                    all: false,
+                });
             }
-            sets = sets.into_iter().flat_map(|set| choices.iter().map(move |c| set.iter().copied().chain([*c]).collect())).collect();
+            sets = sets
+                .into_iter()
+                .flat_map(|set| {
+                    choices
+                        .iter()
+                        .map(move |c| set.iter().copied().chain([*c]).collect())
+                })
+                .collect();
         }
         let mut singular = false;
         for states in sets {
             *tried += 1;
             match self.attempt(images, &states) {
                 None => singular = true,
-                Some(attempt) if attempt.changes.is_empty() => return Ok(attempt.solved(states, Finder::Enumeration, *tried)),
+                Some(attempt) if attempt.changes.is_empty() => {
+                    return Ok(attempt.solved(states, Finder::Enumeration, *tried));
+                }
                 Some(_) => {}
             }
         }
-        Err(PathError::NoContinuation { tried: *tried, all: !singular })
+        Err(PathError::NoContinuation {
+            tried: *tried,
+            all: !singular,
+        })
     }
 
     /// The response in these states and what contradicts them; `None` if singular.
@@ -94,12 +119,24 @@ impl Rates<'_> {
         let at = loads.iter().position(|&l| l == self.moving)?;
         let (u, r) = (&response.u[at], &response.r[at]);
         let better = |k: usize| better(k, self.classes[k], states[k], u, r, self.friction);
-        let changes = (0..states.len()).filter_map(|k| better(k).map(|s| (k, s))).collect();
-        Some(Attempt { loads, response, changes })
+        let changes = (0..states.len())
+            .filter_map(|k| better(k).map(|s| (k, s)))
+            .collect();
+        Some(Attempt {
+            loads,
+            response,
+            changes,
+        })
     }
 
     /// Follows the violations from `states` until there is none (or a set of states comes back).
-    fn iterate(&self, images: &mut Images, mut states: Vec<ContactState>, finder: Finder, tried: &mut usize) -> Option<Solved> {
+    fn iterate(
+        &self,
+        images: &mut Images,
+        mut states: Vec<ContactState>,
+        finder: Finder,
+        tried: &mut usize,
+    ) -> Option<Solved> {
         let mut seen = BTreeSet::new();
         while seen.insert(code(&states)) {
             *tried += 1;
@@ -107,8 +144,16 @@ impl Rates<'_> {
             if attempt.changes.is_empty() {
                 return Some(attempt.solved(states, finder, *tried));
             }
-            let count = if finder == Finder::OneByOne { 1 } else { states.len() };
-            attempt.changes.into_iter().take(count).for_each(|(k, s)| states[k] = s);
+            let count = if finder == Finder::OneByOne {
+                1
+            } else {
+                states.len()
+            };
+            attempt
+                .changes
+                .into_iter()
+                .take(count)
+                .for_each(|(k, s)| states[k] = s);
         }
         None
     }
@@ -124,7 +169,13 @@ struct Attempt {
 
 impl Attempt {
     fn solved(self, states: Vec<ContactState>, finder: Finder, tried: usize) -> Solved {
-        Solved { states, loads: self.loads, response: self.response, finder, tried }
+        Solved {
+            states,
+            loads: self.loads,
+            response: self.response,
+            finder,
+            tried,
+        }
     }
 }
 
@@ -152,31 +203,63 @@ fn first_guess(class: Class, before: ContactState) -> ContactState {
 
 /// The state to try instead, if the rates contradict this one: (9) with rates for (v, w), and for
 /// nodes with zero reaction its last two lines.
-fn better(node: usize, class: Class, state: ContactState, u: &[Integer], r: &[Integer], friction: &Friction) -> Option<ContactState> {
+fn better(
+    node: usize,
+    class: Class,
+    state: ContactState,
+    u: &[Integer],
+    r: &[Integer],
+    friction: &Friction,
+) -> Option<ContactState> {
     let negative = |b: Bound| b.value(u, r, friction).is_negative();
-    let slides_wrongly = |sign: i8| (&u[2 * node] * Integer::from(sign)).is_positive(); // S v_T <= 0
+    // S v_T <= 0.
+    let slides_wrongly = |sign: i8| (&u[2 * node] * Integer::from(sign)).is_positive();
     match (class, state) {
-        (Class::Cone(_), ContactState::Slip { sign }) => slides_wrongly(sign).then_some(ContactState::Stick),
-        (Class::Cone(sign), ContactState::Stick) => negative(Bound::Cone { node, sign }).then_some(ContactState::Slip { sign }),
-        (Class::Zero, ContactState::Free) => negative(Bound::Gap { node }).then_some(ContactState::Stick),
-        (Class::Zero, ContactState::Stick | ContactState::Slip { .. }) if negative(Bound::Pressure { node }) => Some(ContactState::Free),
-        (Class::Zero, ContactState::Slip { sign }) => slides_wrongly(sign).then_some(ContactState::Stick),
-        (Class::Zero, ContactState::Stick) => {
-            [1, -1].into_iter().find(|&sign| negative(Bound::Cone { node, sign })).map(|sign| ContactState::Slip { sign })
+        (Class::Cone(_), ContactState::Slip { sign }) => {
+            slides_wrongly(sign).then_some(ContactState::Stick)
         }
+        (Class::Cone(sign), ContactState::Stick) => {
+            negative(Bound::Cone { node, sign }).then_some(ContactState::Slip { sign })
+        }
+        (Class::Zero, ContactState::Free) => {
+            negative(Bound::Gap { node }).then_some(ContactState::Stick)
+        }
+        (Class::Zero, ContactState::Stick | ContactState::Slip { .. })
+            if negative(Bound::Pressure { node }) =>
+        {
+            Some(ContactState::Free)
+        }
+        (Class::Zero, ContactState::Slip { sign }) => {
+            slides_wrongly(sign).then_some(ContactState::Stick)
+        }
+        (Class::Zero, ContactState::Stick) => [1, -1]
+            .into_iter()
+            .find(|&sign| negative(Bound::Cone { node, sign }))
+            .map(|sign| ContactState::Slip { sign }),
         _ => None,
     }
 }
 
 /// Do the rates fit class and state? The same lines as [`better`], read as (9): used to verify.
-pub(super) fn admissible(class: Class, state: ContactState, node: usize, u: &[Integer], r: &[Integer], friction: &Friction) -> bool {
+pub(super) fn admissible(
+    class: Class,
+    state: ContactState,
+    node: usize,
+    u: &[Integer],
+    r: &[Integer],
+    friction: &Friction,
+) -> bool {
     let possible = match (class, state) {
-        (Class::Free, ContactState::Free) | (Class::Stick, ContactState::Stick) | (Class::Cone(_), ContactState::Stick) => true,
+        (Class::Free, ContactState::Free)
+        | (Class::Stick, ContactState::Stick)
+        | (Class::Cone(_), ContactState::Stick) => true,
         (Class::Cone(s), ContactState::Slip { sign }) => s == sign,
         (Class::Zero, _) => true,
         _ => false,
     };
-    possible && better(node, class, state, u, r, friction).is_none() && (state != ContactState::Stick || u[2 * node].is_zero())
+    possible
+        && better(node, class, state, u, r, friction).is_none()
+        && (state != ContactState::Stick || u[2 * node].is_zero())
 }
 
 /// States as small numbers, for the set of those seen.

@@ -17,20 +17,32 @@ struct Dice(u64);
 
 impl Dice {
     fn roll(&mut self, k: i64) -> i64 {
-        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        self.0 = self
+            .0
+            .wrapping_mul(6_364_136_223_846_793_005)
+            .wrapping_add(1_442_695_040_888_963_407);
         ((self.0 >> 33) % (2 * k as u64 + 1)) as i64 - k
     }
 }
 
 /// B'B + I in (T, N) of each node: symmetric positive definite, with strong coupling of T and N.
 fn random_stiffness(dice: &mut Dice, n: usize) -> Vec<Vec<i64>> {
-    let b: Vec<Vec<i64>> = (0..n).map(|_| (0..n).map(|_| dice.roll(4)).collect()).collect();
-    (0..n).map(|i| (0..n).map(|j| (0..n).map(|k| b[k][i] * b[k][j]).sum::<i64>() + i64::from(i == j)).collect()).collect()
+    let b: Vec<Vec<i64>> = (0..n)
+        .map(|_| (0..n).map(|_| dice.roll(4)).collect())
+        .collect();
+    (0..n)
+        .map(|i| {
+            (0..n)
+                .map(|j| (0..n).map(|k| b[k][i] * b[k][j]).sum::<i64>() + i64::from(i == j))
+                .collect()
+        })
+        .collect()
 }
 
 fn contact_of(s: &[Vec<i64>]) -> Contact {
     let n = s.len();
-    let sign = |i: usize, j: usize| if (i + j).is_multiple_of(2) { 1 } else { -1 }; // the block's y points away
+    // The block's y points away.
+    let sign = |i: usize, j: usize| if (i + j).is_multiple_of(2) { 1 } else { -1 };
     let entries = (0..n).flat_map(|i| (0..n).map(move |j| (i, j, whole(sign(i, j) * s[i][j]))));
     Contact::from_condensed(&Sparse::from_entries(n, n, entries))
 }
@@ -45,7 +57,10 @@ fn random_class(dice: &mut Dice) -> Class {
     }
 }
 
-const SLIPS: [ContactState; 2] = [ContactState::Slip { sign: 1 }, ContactState::Slip { sign: -1 }];
+const SLIPS: [ContactState; 2] = [
+    ContactState::Slip { sign: 1 },
+    ContactState::Slip { sign: -1 },
+];
 
 fn choices(class: Class) -> Vec<ContactState> {
     match class {
@@ -57,7 +72,11 @@ fn choices(class: Class) -> Vec<ContactState> {
 }
 
 /// (v, w) in these states by Gauss-Jordan elimination, `None` if singular; g = e_T to be overcome.
-fn rates(s: &[Vec<i64>], mu: &Rational, states: &[ContactState]) -> Option<(Vec<Rational>, Vec<Rational>)> {
+fn rates(
+    s: &[Vec<i64>],
+    mu: &Rational,
+    states: &[ContactState],
+) -> Option<(Vec<Rational>, Vec<Rational>)> {
     let n = s.len();
     // Unknowns (v, w): S v - w = -S g, and two conditions for each node.
     let g = |j: usize| i64::from(j.is_multiple_of(2));
@@ -72,7 +91,9 @@ fn rates(s: &[Vec<i64>], mu: &Rational, states: &[ContactState]) -> Option<(Vec<
     for (k, state) in states.iter().enumerate() {
         let (t, normal) = (2 * k, 2 * k + 1);
         match state {
-            ContactState::Free => (m[n + t][n + t], m[n + normal][n + normal]) = (whole(1), whole(1)),
+            ContactState::Free => {
+                (m[n + t][n + t], m[n + normal][n + normal]) = (whole(1), whole(1))
+            }
             ContactState::Stick => (m[n + t][t], m[n + normal][normal]) = (whole(1), whole(1)),
             ContactState::Slip { sign } => {
                 m[n + t][normal] = whole(1);
@@ -125,7 +146,14 @@ fn holds(class: Class, v: &[Rational], w: &[Rational], mu: &Rational) -> bool {
 fn enumerate(s: &[Vec<i64>], mu: &Rational, classes: &[Class]) -> (Vec<Vec<ContactState>>, bool) {
     let mut all: Vec<Vec<ContactState>> = vec![Vec::new()];
     for class in classes {
-        all = all.into_iter().flat_map(|p| choices(*class).into_iter().map(move |c| p.iter().copied().chain([c]).collect())).collect();
+        all = all
+            .into_iter()
+            .flat_map(|p| {
+                choices(*class)
+                    .into_iter()
+                    .map(move |c| p.iter().copied().chain([c]).collect())
+            })
+            .collect();
     }
     let mut singular = false;
     all.retain(|states| match rates(s, mu, states) {
@@ -133,7 +161,8 @@ fn enumerate(s: &[Vec<i64>], mu: &Rational, classes: &[Class]) -> (Vec<Vec<Conta
             singular = true;
             false
         }
-        Some((v, w)) => (0..classes.len()).all(|k| holds(classes[k], &v[2 * k..2 * k + 2], &w[2 * k..2 * k + 2], mu)),
+        Some((v, w)) => (0..classes.len())
+            .all(|k| holds(classes[k], &v[2 * k..2 * k + 2], &w[2 * k..2 * k + 2], mu)),
     });
     (all, singular)
 }
@@ -151,11 +180,21 @@ fn rate_problems_agree_with_enumeration() {
         let mu = [whole(1) / whole(2), whole(1), whole(3)][round % 3].clone();
         let (contact, friction) = (contact_of(&s), Friction::new(&mu));
         let (solutions, singular) = enumerate(&s, &mu, &classes);
-        let rates = Rates { contact: &contact, friction: &friction, classes: &classes, loads: &|_| vec![Load::Left], moving: Load::Left };
+        let rates = Rates {
+            contact: &contact,
+            friction: &friction,
+            classes: &classes,
+            loads: &|_| vec![Load::Left],
+            moving: Load::Left,
+        };
         let found = rates.solve(&mut Images::default(), &vec![ContactState::Stick; nodes]);
         let word = match &found {
             Ok(solved) => {
-                assert!(solutions.contains(&solved.states), "round {round}: {:?} {classes:?}", solved.states);
+                assert!(
+                    solutions.contains(&solved.states),
+                    "round {round}: {:?} {classes:?}",
+                    solved.states
+                );
                 match solved.finder {
                     Finder::ActiveSet => "active set",
                     Finder::OneByOne => "one by one",
@@ -164,7 +203,10 @@ fn rate_problems_agree_with_enumeration() {
                 }
             }
             Err(PathError::NoContinuation { all, .. }) => {
-                assert!(solutions.is_empty(), "round {round}: {classes:?} has {solutions:?}");
+                assert!(
+                    solutions.is_empty(),
+                    "round {round}: {classes:?} has {solutions:?}"
+                );
                 assert_eq!(*all, !singular, "round {round}");
                 "none exists"
             }
@@ -178,7 +220,18 @@ fn rate_problems_agree_with_enumeration() {
             *met.entry("proposed rightly").or_default() += usize::from(solutions.contains(&states));
         }
     }
-    for word in ["active set", "one by one", "pivoting", "enumeration", "none exists", "several solutions", "singular"] {
-        assert!(met.get(word).is_some_and(|&n| n > 0), "{word} never met: {met:?}");
+    for word in [
+        "active set",
+        "one by one",
+        "pivoting",
+        "enumeration",
+        "none exists",
+        "several solutions",
+        "singular",
+    ] {
+        assert!(
+            met.get(word).is_some_and(|&n| n > 0),
+            "{word} never met: {met:?}"
+        );
     }
 }

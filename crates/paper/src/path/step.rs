@@ -9,7 +9,8 @@ use crate::model::ContactState;
 use crate::tolerance::STEP_SIGN;
 use std::ops::ControlFlow;
 
-/// Active-set iterations of one step. A step changes a few nodes; cycling is the only reason for more.
+/// Active-set iterations of one step. A step changes a few nodes; cycling is the only reason for
+/// more.
 const ITERATIONS: usize = 200;
 
 /// An equilibrium of the stepped path.
@@ -28,7 +29,9 @@ pub struct Step {
 impl Step {
     /// Sums of r_T and r_N over the nodes, N.
     pub fn resultants(&self) -> (f64, f64) {
-        self.reactions.iter().fold((0.0, 0.0), |s, r| (s.0 + r.0, s.1 + r.1))
+        self.reactions
+            .iter()
+            .fold((0.0, 0.0), |s, r| (s.0 + r.0, s.1 + r.1))
     }
 }
 
@@ -45,14 +48,32 @@ pub fn step_path(
     count: usize,
     progress: &dyn Fn(usize) -> ControlFlow<()>,
 ) -> Result<Vec<Step>, PathError> {
-    Loading { until: Some(h.clone()), ..loading.clone() }.validate()?;
+    Loading {
+        until: Some(h.clone()),
+        ..loading.clone()
+    }
+    .validate()?;
     let n = contact.nodes();
     let model = Model {
-        s: contact.rows().iter().map(|row| row.iter().map(|v| ratio(v, contact)).collect()).collect(),
+        s: contact
+            .rows()
+            .iter()
+            .map(|row| row.iter().map(|v| ratio(v, contact)).collect())
+            .collect(),
         mu: to_f64(&loading.friction),
     };
-    let start = State { states: vec![ContactState::Stick; n], u: vec![0.0; 2 * n], r: vec![0.0; 2 * n] };
-    let unit = model.advance(&start, 1.0, 0.0).ok_or(PathError::StepNotConverged { step: 0, motion: 0.0, limit: ITERATIONS })?;
+    let start = State {
+        states: vec![ContactState::Stick; n],
+        u: vec![0.0; 2 * n],
+        r: vec![0.0; 2 * n],
+    };
+    let unit = model
+        .advance(&start, 1.0, 0.0)
+        .ok_or(PathError::StepNotConverged {
+            step: 0,
+            motion: 0.0,
+            limit: ITERATIONS,
+        })?;
     let pressure: f64 = -unit.r.iter().skip(1).step_by(2).sum::<f64>();
     let depth = to_f64(&loading.force) / pressure;
     let mut state = unit.scaled(depth);
@@ -62,7 +83,13 @@ pub fn step_path(
             break;
         }
         let motion = to_f64(h) * step as f64;
-        state = model.advance(&state, depth, motion).ok_or(PathError::StepNotConverged { step, motion, limit: ITERATIONS })?;
+        state = model
+            .advance(&state, depth, motion)
+            .ok_or(PathError::StepNotConverged {
+                step,
+                motion,
+                limit: ITERATIONS,
+            })?;
         steps.push(state.step(motion));
     }
     Ok(steps)
@@ -86,13 +113,21 @@ struct State {
 
 impl State {
     fn scaled(mut self, factor: f64) -> State {
-        self.u.iter_mut().chain(&mut self.r).for_each(|v| *v *= factor);
+        self.u
+            .iter_mut()
+            .chain(&mut self.r)
+            .for_each(|v| *v *= factor);
         self
     }
 
     fn step(&self, motion: f64) -> Step {
         let pairs = |v: &[f64]| v.chunks(2).map(|p| (p[0], p[1])).collect();
-        Step { motion, states: self.states.clone(), reactions: pairs(&self.r), displacements: pairs(&self.u) }
+        Step {
+            motion,
+            states: self.states.clone(),
+            reactions: pairs(&self.r),
+            displacements: pairs(&self.u),
+        }
     }
 }
 
@@ -118,7 +153,13 @@ impl Model {
     }
 
     /// Displacements and reactions in given states.
-    fn equilibrium(&self, states: &[ContactState], from: &State, press: f64, left: f64) -> Option<State> {
+    fn equilibrium(
+        &self,
+        states: &[ContactState],
+        from: &State,
+        press: f64,
+        left: f64,
+    ) -> Option<State> {
         let n = self.s.len();
         // u = known + unknown; relative to the glued side u + shift.
         let mut u = vec![0.0; n];
@@ -130,7 +171,12 @@ impl Model {
                 ContactState::Stick => u[2 * k] = from.u[2 * k],
                 ContactState::Slip { sign } => {
                     active.push(2 * k);
-                    rows.push(t.iter().zip(normal).map(|(t, n)| t + f64::from(*sign) * self.mu * n).collect::<Vec<f64>>());
+                    rows.push(
+                        t.iter()
+                            .zip(normal)
+                            .map(|(t, n)| t + f64::from(*sign) * self.mu * n)
+                            .collect::<Vec<f64>>(),
+                    );
                 }
                 ContactState::Free => {
                     active.extend([2 * k, 2 * k + 1]);
@@ -139,22 +185,46 @@ impl Model {
             }
         }
         if !active.is_empty() {
-            let right = rows.iter().map(|row| -(0..n).map(|j| row[j] * (u[j] + shift(j))).sum::<f64>()).collect();
-            let matrix: Vec<Vec<f64>> = rows.iter().map(|row| active.iter().map(|&j| row[j]).collect()).collect();
+            let right = rows
+                .iter()
+                .map(|row| -(0..n).map(|j| row[j] * (u[j] + shift(j))).sum::<f64>())
+                .collect();
+            let matrix: Vec<Vec<f64>> = rows
+                .iter()
+                .map(|row| active.iter().map(|&j| row[j]).collect())
+                .collect();
             let z = solve(&matrix, &[right])?;
             active.iter().zip(&z[0]).for_each(|(&i, z)| u[i] = *z);
         }
-        let r = self.s.iter().map(|row| (0..n).map(|j| row[j] * (u[j] + shift(j))).sum()).collect();
-        Some(State { states: states.to_vec(), u, r })
+        let r = self
+            .s
+            .iter()
+            .map(|row| (0..n).map(|j| row[j] * (u[j] + shift(j))).sum())
+            .collect();
+        Some(State {
+            states: states.to_vec(),
+            u,
+            r,
+        })
     }
 
-    fn better(&self, state: ContactState, next: &State, from: &State, k: usize, small_u: f64, small_r: f64) -> ContactState {
+    fn better(
+        &self,
+        state: ContactState,
+        next: &State,
+        from: &State,
+        k: usize,
+        small_u: f64,
+        small_r: f64,
+    ) -> ContactState {
         let (u_n, r_t, r_n) = (next.u[2 * k + 1], next.r[2 * k], next.r[2 * k + 1]);
         let slid = next.u[2 * k] - from.u[2 * k];
         match state {
             ContactState::Free if u_n > small_u => ContactState::Stick,
             ContactState::Stick | ContactState::Slip { .. } if r_n > small_r => ContactState::Free,
-            ContactState::Stick if r_t.abs() + self.mu * r_n > small_r => ContactState::Slip { sign: if r_t > 0.0 { 1 } else { -1 } },
+            ContactState::Stick if r_t.abs() + self.mu * r_n > small_r => ContactState::Slip {
+                sign: if r_t > 0.0 { 1 } else { -1 },
+            },
             ContactState::Slip { sign } if f64::from(sign) * slid > small_u => ContactState::Stick,
             _ => state,
         }

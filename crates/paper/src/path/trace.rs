@@ -31,8 +31,17 @@ pub(super) fn trace(
     loading.validate()?;
     let n = contact.nodes();
     let friction = Friction::new(&loading.friction);
-    let mut tracer = Tracer { contact, friction, images: Images::default(), held: vec![Rational::zero(); n] };
-    let pressing = tracer.rates(&vec![Class::Zero; n], &vec![ContactState::Stick; n], Load::Press)?;
+    let mut tracer = Tracer {
+        contact,
+        friction,
+        images: Images::default(),
+        held: vec![Rational::zero(); n],
+    };
+    let pressing = tracer.rates(
+        &vec![Class::Zero; n],
+        &vec![ContactState::Stick; n],
+        Load::Press,
+    )?;
     let mut line = tracer.line(&pressing);
     let mut d = Rational::zero();
     tracer.verify(&pressing, &vec![Class::Zero; n], &line, &d, Load::Press)?;
@@ -46,17 +55,34 @@ pub(super) fn trace(
             break PathEnd::Interrupted;
         }
         if intervals.len() > EVENTS_PER_NODE * n {
-            return Err(PathError::TooManyEvents { limit: EVENTS_PER_NODE * n });
+            return Err(PathError::TooManyEvents {
+                limit: EVENTS_PER_NODE * n,
+            });
         }
         let at = |source: PathError| {
             let motion = format!("{:.6}", to_f64(&(&d * &depth)));
-            PathError::AtEvent { event: intervals.len(), motion, source: Box::new(source) }
+            PathError::AtEvent {
+                event: intervals.len(),
+                motion,
+                source: Box::new(source),
+            }
         };
         let (solved, next) = match tracer.pass(&states, &line, &d) {
-            Err(PathError::NoContinuation { tried, all }) => break PathEnd::NoContinuation { causes, tried, proved: all },
+            Err(PathError::NoContinuation { tried, all }) => {
+                break PathEnd::NoContinuation {
+                    causes,
+                    tried,
+                    proved: all,
+                };
+            }
             passed => passed.map_err(at)?,
         };
-        let event = Event::new(std::mem::take(&mut causes), changes(&states, &solved.states), solved.finder, solved.tried);
+        let event = Event::new(
+            std::mem::take(&mut causes),
+            changes(&states, &solved.states),
+            solved.finder,
+            solved.tried,
+        );
         states = solved.states;
         let found = next_event(&next, &tracer.friction, &states);
         let in_range = |(to, _): &(Rational, Vec<_>)| until.as_ref().is_none_or(|u| to < u);
@@ -65,13 +91,27 @@ pub(super) fn trace(
                 causes = bounds;
                 (Some(to), None)
             }
-            None => (until.clone(), Some(if until.is_some() { PathEnd::Range } else { PathEnd::NoFurtherEvent })),
+            None => (
+                until.clone(),
+                Some(if until.is_some() {
+                    PathEnd::Range
+                } else {
+                    PathEnd::NoFurtherEvent
+                }),
+            ),
         };
         if let Some(to) = &to {
-            check(contact, &tracer.friction, &states, &next, to, Load::Left).map_err(law).map_err(at)?;
+            check(contact, &tracer.friction, &states, &next, to, Load::Left)
+                .map_err(law)
+                .map_err(at)?;
         }
         let equilibrium = |d: &Rational| next.equilibrium(d, &depth, contact);
-        let interval = Interval { begin: event, states: states.clone(), start: equilibrium(&d), stop: to.as_ref().map(equilibrium) };
+        let interval = Interval {
+            begin: event,
+            states: states.clone(),
+            start: equilibrium(&d),
+            stop: to.as_ref().map(equilibrium),
+        };
         intervals.push(interval);
         line = next;
         match (to, reason) {
@@ -80,27 +120,58 @@ pub(super) fn trace(
             (None, None) => break PathEnd::NoFurtherEvent,
         }
     };
-    Ok(LoadingPath { loading: loading.clone(), depth, pressing: pressing.states, pressed, intervals, end })
+    Ok(LoadingPath {
+        loading: loading.clone(),
+        depth,
+        pressing: pressing.states,
+        pressed,
+        intervals,
+        end,
+    })
 }
 
 impl Tracer<'_> {
-    fn rates(&mut self, classes: &[Class], start: &[ContactState], moving: Load) -> Result<Solved, PathError> {
+    fn rates(
+        &mut self,
+        classes: &[Class],
+        start: &[ContactState],
+        moving: Load,
+    ) -> Result<Solved, PathError> {
         let held = &self.held;
         let loads = |states: &[ContactState]| {
-            let shifted = (0..states.len()).filter(|&k| states[k] == ContactState::Stick && !held[k].is_zero()).map(Load::Held);
-            let rigid = if moving == Load::Press { vec![Load::Press] } else { vec![Load::Press, Load::Left] };
+            let shifted = (0..states.len())
+                .filter(|&k| states[k] == ContactState::Stick && !held[k].is_zero())
+                .map(Load::Held);
+            let rigid = if moving == Load::Press {
+                vec![Load::Press]
+            } else {
+                vec![Load::Press, Load::Left]
+            };
             rigid.into_iter().chain(shifted).collect()
         };
-        Rates { contact: self.contact, friction: &self.friction, classes, loads: &loads, moving }.solve(&mut self.images, start)
+        Rates {
+            contact: self.contact,
+            friction: &self.friction,
+            classes,
+            loads: &loads,
+            moving,
+        }
+        .solve(&mut self.images, start)
     }
 
     /// The states after the event at d, and the stretch that begins there.
-    fn pass(&mut self, before: &[ContactState], line: &Line, d: &Rational) -> Result<(Solved, Line), PathError> {
+    fn pass(
+        &mut self,
+        before: &[ContactState],
+        line: &Line,
+        d: &Rational,
+    ) -> Result<(Solved, Line), PathError> {
         let classes = classify(line, d, &self.friction).map_err(law)?;
         for (k, state) in before.iter().enumerate() {
             if *state != ContactState::Stick {
                 let unit = &line.denominator * d.denom();
-                self.held[k] = Rational::new(line.u_at(2 * k, d), unit); // where it sticks if it does
+                // Where it sticks if it does.
+                self.held[k] = Rational::new(line.u_at(2 * k, d), unit);
             }
         }
         let solved = self.rates(&classes, before, Load::Left)?;
@@ -117,18 +188,37 @@ impl Tracer<'_> {
             Load::Held(k) => self.held[*k].clone(),
             _ => Rational::one(),
         };
-        let loads: Vec<(Load, Rational)> = solved.loads.iter().map(|l| (*l, coefficient(l))).collect();
+        let loads: Vec<(Load, Rational)> =
+            solved.loads.iter().map(|l| (*l, coefficient(l))).collect();
         Line::new(&solved.response, &loads)
     }
 
     /// The laws at d, and the rates just after it against the classes at d.
-    fn verify(&self, solved: &Solved, classes: &[Class], line: &Line, d: &Rational, moving: Load) -> Result<(), PathError> {
-        check(self.contact, &self.friction, &solved.states, line, d, moving).map_err(law)?;
+    fn verify(
+        &self,
+        solved: &Solved,
+        classes: &[Class],
+        line: &Line,
+        d: &Rational,
+        moving: Load,
+    ) -> Result<(), PathError> {
+        check(
+            self.contact,
+            &self.friction,
+            &solved.states,
+            line,
+            d,
+            moving,
+        )
+        .map_err(law)?;
         let rate = usize::from(moving == Load::Left);
         let (u, r) = (&line.u[rate], &line.r[rate]);
         let fits = |k: &usize| admissible(classes[*k], solved.states[*k], *k, u, r, &self.friction);
         match (0..classes.len()).find(|k| !fits(k)) {
-            Some(node) => Err(PathError::LawFails { equation: "E9", node }),
+            Some(node) => Err(PathError::LawFails {
+                equation: "E9",
+                node,
+            }),
             None => Ok(()),
         }
     }
@@ -140,7 +230,12 @@ fn law((node, equation): (usize, &'static str)) -> PathError {
 
 fn changes(before: &[ContactState], after: &[ContactState]) -> Vec<Change> {
     let change = |(node, (&from, &to))| (from != to).then_some(Change { node, from, to });
-    before.iter().zip(after).enumerate().filter_map(change).collect()
+    before
+        .iter()
+        .zip(after)
+        .enumerate()
+        .filter_map(change)
+        .collect()
 }
 
 /// The pressing (mm) at which the normal resultant is -force, by proportion.

@@ -36,7 +36,9 @@ pub struct Enumerator<F> {
     pub answer: F,
 }
 
-impl<F: Fn(&Pencil, &Window) -> Result<Option<Enumeration>, String> + Sync> Engine for Enumerator<F> {
+impl<F: Fn(&Pencil, &Window) -> Result<Option<Enumeration>, String> + Sync> Engine
+    for Enumerator<F>
+{
     fn name(&self) -> &str {
         self.name
     }
@@ -44,16 +46,21 @@ impl<F: Fn(&Pencil, &Window) -> Result<Option<Enumeration>, String> + Sync> Engi
     fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
         match (self.answer)(&truth.reduced.pencil, case.instance.problem.window()) {
             Ok(Some(answer)) if answer == truth.enumeration => {}
-            Ok(Some(answer)) => report
-                .disagreements
-                .push(Disagreement::Enumerators { got: answer.solutions.len(), enumerated: truth.enumeration.solutions.len() }),
+            Ok(Some(answer)) => report.disagreements.push(Disagreement::Enumerators {
+                got: answer.solutions.len(),
+                enumerated: truth.enumeration.solutions.len(),
+            }),
             Ok(None) => {}
-            Err(reason) => report.disagreements.push(Disagreement::Refused { engine: self.name, reason }),
+            Err(reason) => report.disagreements.push(Disagreement::Refused {
+                engine: self.name,
+                reason,
+            }),
         }
     }
 }
 
-/// Closed form, lift, certificates and their forgeries, complete search, solver: all of [`crate::compare`].
+/// Closed form, lift, certificates and their forgeries, complete search, solver: all of
+/// [`crate::compare`].
 pub struct Pipeline {
     /// How the solver searches, which solver it is, and nodes per piece of the complete search.
     pub treatment: Treatment,
@@ -65,7 +72,13 @@ impl Engine for Pipeline {
     }
 
     fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
-        compare_with(&case.instance, &truth.reduced, &truth.enumeration, &self.treatment, report);
+        compare_with(
+            &case.instance,
+            &truth.reduced,
+            &truth.enumeration,
+            &self.treatment,
+            report,
+        );
     }
 }
 
@@ -79,14 +92,30 @@ impl Engine for KnownAnswer {
 
     fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
         let (expected, found) = (&case.expected, &truth.enumeration);
-        let mut wrong = |text: String| report.disagreements.push(Disagreement::Known { expected: text, enumerated: found.solutions.len() });
+        let mut wrong = |text: String| {
+            report.disagreements.push(Disagreement::Known {
+                expected: text,
+                enumerated: found.solutions.len(),
+            })
+        };
         if let Some(answer) = expected.answer.as_ref().filter(|a| *a != found) {
-            wrong(format!("{} solutions, {} cones", answer.solutions.len(), answer.cones.len()));
+            wrong(format!(
+                "{} solutions, {} cones",
+                answer.solutions.len(),
+                answer.cones.len()
+            ));
         }
-        if let Some(count) = expected.count.filter(|c| *c != found.solutions.len() || !found.is_plain_list()) {
+        if let Some(count) = expected
+            .count
+            .filter(|c| *c != found.solutions.len() || !found.is_plain_list())
+        {
             wrong(format!("{count} solutions"));
         }
-        if let Some((value, x)) = expected.planted.as_ref().filter(|(value, x)| !holds(truth, value, x)) {
+        if let Some((value, x)) = expected
+            .planted
+            .as_ref()
+            .filter(|(value, x)| !holds(truth, value, x))
+        {
             wrong(format!("value {value} with x = {x:?}"));
         }
     }
@@ -94,20 +123,40 @@ impl Engine for KnownAnswer {
 
 fn holds(truth: &Truth, value: &Rational, x: &[Rational]) -> bool {
     let clear = common_denominator(x);
-    let x: Vec<Poly> = x.iter().map(|v| Poly::constant(v.numer() * (&clear / v.denom()))).collect();
-    truth.enumeration.contains(&truth.reduced.pencil, &Algebraic::rational(value.clone()), &x)
+    let x: Vec<Poly> = x
+        .iter()
+        .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))
+        .collect();
+    truth.enumeration.contains(
+        &truth.reduced.pencil,
+        &Algebraic::rational(value.clone()),
+        &x,
+    )
 }
 
 /// All engines of the project, capped so that an instance takes seconds at most.
 pub fn standard(seed: u64) -> Vec<Box<dyn Engine>> {
-    let pipeline = Pipeline { treatment: treatment(seed) };
+    let pipeline = Pipeline {
+        treatment: treatment(seed),
+    };
     vec![Box::new(KnownAnswer), Box::new(pipeline)]
 }
 
-/// How the campaign treats an instance: a search that takes seconds at most. The campaign's floors hold for it.
+/// How the campaign treats an instance: a search that takes seconds at most. The campaign's floors
+/// hold for it.
 pub fn treatment(seed: u64) -> Treatment {
-    let search = Search { starts: 10, window_starts: 1, window_limit: 6, departures: Some(2), seed, ..Search::default() };
-    Treatment { nodes: NODES, ..Treatment::of(&search) }
+    let search = Search {
+        starts: 10,
+        window_starts: 1,
+        window_limit: 6,
+        departures: Some(2),
+        seed,
+        ..Search::default()
+    };
+    Treatment {
+        nodes: NODES,
+        ..Treatment::of(&search)
+    }
 }
 
 /// Nodes per piece of the complete search: instances are small, what needs more is degenerate.
@@ -138,21 +187,36 @@ pub struct Judgement {
     pub findings: Vec<Finding>,
 }
 
-/// Holds every engine against the plain enumerator. A panic of an engine is a disagreement like any other.
+/// Holds every engine against the plain enumerator. A panic of an engine is a disagreement like any
+/// other.
 pub fn judge(case: &Case, all: &[Box<dyn Engine>]) -> Judgement {
-    let mut report =
-        InstanceReport { label: case.instance.label.clone(), corners: case.instance.corners.clone(), ..InstanceReport::default() };
+    let mut report = InstanceReport {
+        label: case.instance.label.clone(),
+        corners: case.instance.corners.clone(),
+        ..InstanceReport::default()
+    };
     let mut findings = Vec::new();
-    let mut note = |engine: &str, disagreement| findings.push(Finding { engine: engine.into(), disagreement });
+    let mut note = |engine: &str, disagreement| {
+        findings.push(Finding {
+            engine: engine.into(),
+            disagreement,
+        })
+    };
     match guarded(|| engines(&case.instance.problem)) {
         Err(panic) => note("enumerator", panic),
         Ok(Err(disagreement)) => note("enumerator", disagreement),
         Ok(Ok((reduced, enumeration))) => {
-            let truth = Truth { reduced, enumeration };
+            let truth = Truth {
+                reduced,
+                enumeration,
+            };
             report.corners.extend(shape(&truth));
             for engine in all {
                 let outcome = guarded(|| engine.compare(case, &truth, &mut report));
-                report.disagreements.drain(..).for_each(|d| note(engine.name(), d));
+                report
+                    .disagreements
+                    .drain(..)
+                    .for_each(|d| note(engine.name(), d));
                 if let Err(panic) = outcome {
                     note(engine.name(), panic);
                 }
@@ -169,13 +233,25 @@ fn shape(truth: &Truth) -> Vec<Corner> {
     let found = &truth.enumeration;
     let empty = found.is_plain_list() && found.solutions.is_empty();
     let pencil = &truth.reduced.pencil;
-    let reached = [(empty, Corner::Empty), (pencil.order() == 1, Corner::OneByOne), (!pencil.free().is_empty(), Corner::FreeVariables)];
-    observed(found).into_iter().chain(reached.into_iter().filter(|r| r.0).map(|r| r.1)).collect()
+    let reached = [
+        (empty, Corner::Empty),
+        (pencil.order() == 1, Corner::OneByOne),
+        (!pencil.free().is_empty(), Corner::FreeVariables),
+    ];
+    observed(found)
+        .into_iter()
+        .chain(reached.into_iter().filter(|r| r.0).map(|r| r.1))
+        .collect()
 }
 
 fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, Disagreement> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
-        let text = panic.downcast_ref::<String>().cloned().or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string));
-        Disagreement::Panicked { message: text.unwrap_or_else(|| "no message".into()) }
+        let text = panic
+            .downcast_ref::<String>()
+            .cloned()
+            .or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string));
+        Disagreement::Panicked {
+            message: text.unwrap_or_else(|| "no message".into()),
+        }
     })
 }

@@ -64,26 +64,94 @@ pub(super) type Made = (Instance, Expected);
 
 /// Name, what it holds, and how an instance is made.
 pub const FAMILIES: [(&str, &str, Make); 20] = [
-    ("table1", "the two particles of Fig. 1 at random rational angles, with the closed form", named::table1),
-    ("table1-near", "the same with mu at a relative distance of 0 or 10^-3 to 10^-15 from a threshold", named::table1_near),
-    ("elements", "random pencils as finite elements have them, free variables, windows", named::elements),
-    ("states", "mechanical systems with every mixture of free, stick and slip, oblique, both normals", named::states),
-    ("systems", "mechanical systems of up to four particles", named::systems),
+    (
+        "table1",
+        "the two particles of Fig. 1 at random rational angles, with the closed form",
+        named::table1,
+    ),
+    (
+        "table1-near",
+        "the same with mu at a relative distance of 0 or 10^-3 to 10^-15 from a threshold",
+        named::table1_near,
+    ),
+    (
+        "elements",
+        "random pencils as finite elements have them, free variables, windows",
+        named::elements,
+    ),
+    (
+        "states",
+        "mechanical systems with every mixture of free, stick and slip, oblique, both normals",
+        named::states,
+    ),
+    (
+        "systems",
+        "mechanical systems of up to four particles",
+        named::systems,
+    ),
     ("pencils", "the random pencils of verify", named::pencils),
     ("digits", "one-digit integers, raw", named::digits),
     ("integers", "six-digit integers, raw", named::integers),
-    ("doubles", "doubles of 53 bits over six decades, raw", named::doubles),
-    ("zeros", "three quarters zeros: singular supports, ties", named::zeros),
-    ("identity", "B = I, small integers: repeated and zero eigenvalues", named::identity),
-    ("graph", "adjacency matrices of random graphs: cones", named::graph),
-    ("doubled", "a particle that is another's double: wide kernels", named::doubled),
-    ("free-anywhere", "free variables anywhere: outside Propositions 1 and 2", named::free_anywhere),
-    ("degenerate", "hand-made corners under row scaling and permutation", named::degenerate),
-    ("known", "paths, cycles, stars, Jordan blocks, ...: the whole answer by theorem", named::known),
-    ("pareto", "Pareto matrices with a known number of solutions, raw and as systems", named::pareto),
-    ("planted", "a rational solution planted, biactive indices, windows that end beside it", named::planted),
-    ("near", "planted biactive and repeated roots, moved by 10^-3 to 10^-15", named::near),
-    ("scales", "Hilbert sections, bad scaling, 10^12 to 10^60 and their inverses", named::scales),
+    (
+        "doubles",
+        "doubles of 53 bits over six decades, raw",
+        named::doubles,
+    ),
+    (
+        "zeros",
+        "three quarters zeros: singular supports, ties",
+        named::zeros,
+    ),
+    (
+        "identity",
+        "B = I, small integers: repeated and zero eigenvalues",
+        named::identity,
+    ),
+    (
+        "graph",
+        "adjacency matrices of random graphs: cones",
+        named::graph,
+    ),
+    (
+        "doubled",
+        "a particle that is another's double: wide kernels",
+        named::doubled,
+    ),
+    (
+        "free-anywhere",
+        "free variables anywhere: outside Propositions 1 and 2",
+        named::free_anywhere,
+    ),
+    (
+        "degenerate",
+        "hand-made corners under row scaling and permutation",
+        named::degenerate,
+    ),
+    (
+        "known",
+        "paths, cycles, stars, Jordan blocks, ...: the whole answer by theorem",
+        named::known,
+    ),
+    (
+        "pareto",
+        "Pareto matrices with a known number of solutions, raw and as systems",
+        named::pareto,
+    ),
+    (
+        "planted",
+        "a rational solution planted, biactive indices, windows that end beside it",
+        named::planted,
+    ),
+    (
+        "near",
+        "planted biactive and repeated roots, moved by 10^-3 to 10^-15",
+        named::near,
+    ),
+    (
+        "scales",
+        "Hilbert sections, bad scaling, 10^12 to 10^60 and their inverses",
+        named::scales,
+    ),
 ];
 
 /// The instance with this name.
@@ -92,7 +160,23 @@ pub const FAMILIES: [(&str, &str, Make); 20] = [
 /// [`UnknownFamily`]; [`ModelError`] as text cannot occur for the families as they are, and is a
 /// disagreement of the campaign if it does.
 pub fn case(id: &Id) -> Result<Result<Case, ModelError>, UnknownFamily> {
-    let number = FAMILIES.iter().position(|f| f.0 == id.family).ok_or_else(|| UnknownFamily { name: id.family.clone() })?;
-    let made = (FAMILIES[number].2)(&Seed { family: number as u64, seed: id.seed, index: id.index });
-    Ok(made.map(|(instance, expected)| Case { id: id.clone(), instance: Instance { label: id.to_string(), ..instance }, expected }))
+    let number = FAMILIES
+        .iter()
+        .position(|f| f.0 == id.family)
+        .ok_or_else(|| UnknownFamily {
+            name: id.family.clone(),
+        })?;
+    let made = (FAMILIES[number].2)(&Seed {
+        family: number as u64,
+        seed: id.seed,
+        index: id.index,
+    });
+    Ok(made.map(|(instance, expected)| Case {
+        id: id.clone(),
+        instance: Instance {
+            label: id.to_string(),
+            ..instance
+        },
+        expected,
+    }))
 }

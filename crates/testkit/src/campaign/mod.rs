@@ -1,8 +1,8 @@
 //! The campaign: instances of named families through all engines pairwise, for seconds or for days.
 //!
 //! An instance is named by its family, the seed and its index, so that every run, on any number of
-//! threads, in any number of parts, sees the same instances. What disagrees is shrunk, and written as
-//! a replay file that needs nothing else.
+//! threads, in any number of parts, sees the same instances. What disagrees is shrunk, and written
+//! as a replay file that needs nothing else.
 
 mod engine;
 mod family;
@@ -12,7 +12,10 @@ mod run;
 mod shrink;
 mod state;
 
-pub use engine::{Engine, Enumerator, Finding, Judgement, KnownAnswer, Pipeline, Truth, judge, standard, treatment};
+pub use engine::{
+    Engine, Enumerator, Finding, Judgement, KnownAnswer, Pipeline, Truth, judge, standard,
+    treatment,
+};
 pub use family::{Case, Expected, FAMILIES, Id, UnknownFamily, case};
 pub use replay::{REPLAY_FORMAT, Replay, ReplayError};
 pub use run::{Campaign, Event, Limit};

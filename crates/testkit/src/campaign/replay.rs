@@ -1,4 +1,5 @@
-//! A disagreement as a file that needs nothing else: the shrunk problem, where it came from, what it says.
+//! A disagreement as a file that needs nothing else: the shrunk problem, where it came from, what
+//! it says.
 
 use super::{Case, Expected, Finding, Id};
 use crate::Instance;
@@ -65,7 +66,8 @@ pub struct ClosedForm {
 }
 
 impl Replay {
-    /// The file for a finding: the case as drawn with what it said, and the shrunk one with what that says.
+    /// The file for a finding: the case as drawn with what it said, and the shrunk one with what
+    /// that says.
     pub fn new(drawn: (&Case, &Finding), shrunk: (&Case, &Finding)) -> Replay {
         let (case, finding) = shrunk;
         let data = case.instance.closed_form.as_ref().map(|d| ClosedForm {
@@ -85,7 +87,8 @@ impl Replay {
             kind: finding.disagreement.kind().into(),
             disagreement: finding.disagreement.to_string(),
             as_drawn: drawn.1.disagreement.to_string(),
-            problem: serde_json::from_str(&write_problem(&case.instance.problem)).unwrap_or_default(), // our own JSON
+            problem: serde_json::from_str(&write_problem(&case.instance.problem))
+                .unwrap_or_default(), // our own JSON
             closed_form: data,
             shrunk: drawn.0.instance.problem != case.instance.problem,
         }
@@ -93,12 +96,20 @@ impl Replay {
 
     /// A name for the file that says where the instance came from.
     pub fn file_name(&self) -> String {
-        format!("{}-{}-{}-{}-{}.json", self.family, self.seed, self.index, self.engine.replace(' ', "-"), self.kind)
+        format!(
+            "{}-{}-{}-{}-{}.json",
+            self.family,
+            self.seed,
+            self.index,
+            self.engine.replace(' ', "-"),
+            self.kind
+        )
     }
 
     /// The file's text.
     pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n" // strings and numbers: cannot fail
+        // Strings and numbers: cannot fail.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
     /// Reads a file.
@@ -110,22 +121,49 @@ impl Replay {
         Ok(from_json(text)?)
     }
 
-    /// The case to judge again. Where the instance is as drawn, what is known by construction comes with it.
+    /// The case to judge again. Where the instance is as drawn, what is known by construction comes
+    /// with it.
     ///
     /// # Errors
     /// [`ReplayError`] for a problem or data that are refused.
     pub fn case(&self) -> Result<Case, ReplayError> {
-        let id = Id { family: self.family.clone(), seed: self.seed, index: self.index };
+        let id = Id {
+            family: self.family.clone(),
+            seed: self.seed,
+            index: self.index,
+        };
         let problem = read_problem(&self.problem.to_string(), Path::new("."))?;
         let closed_form = self.closed_form.as_ref().map(data).transpose()?;
-        let drawn = if self.shrunk { None } else { super::case(&id).ok().and_then(Result::ok) };
-        let expected = drawn.filter(|d| d.instance.problem == problem).map_or_else(Expected::default, |d| d.expected);
-        let instance = Instance { label: format!("{id} (replay)"), problem, closed_form, corners: Vec::new() };
-        Ok(Case { id, instance, expected })
+        let drawn = if self.shrunk {
+            None
+        } else {
+            super::case(&id).ok().and_then(Result::ok)
+        };
+        let expected = drawn
+            .filter(|d| d.instance.problem == problem)
+            .map_or_else(Expected::default, |d| d.expected);
+        let instance = Instance {
+            label: format!("{id} (replay)"),
+            problem,
+            closed_form,
+            corners: Vec::new(),
+        };
+        Ok(Case {
+            id,
+            instance,
+            expected,
+        })
     }
 }
 
 fn data(d: &ClosedForm) -> Result<TwoParticles, ReplayError> {
     let number = |text: &str| parse(text).map_err(ReplayError::from);
-    Ok(TwoParticles { c: number(&d.c)?, s: number(&d.s)?, k: number(&d.k)?, m: number(&d.m)?, mu: number(&d.mu)?, signs: d.signs })
+    Ok(TwoParticles {
+        c: number(&d.c)?,
+        s: number(&d.s)?,
+        k: number(&d.k)?,
+        m: number(&d.m)?,
+        mu: number(&d.mu)?,
+        signs: d.signs,
+    })
 }

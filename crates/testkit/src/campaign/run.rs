@@ -31,13 +31,19 @@ pub struct Campaign<'a> {
     pub limit: Limit,
 }
 
-/// Instances between two looks at the clock. They take milliseconds each, so a wave takes about a second.
+/// Instances between two looks at the clock. They take milliseconds each, so a wave takes about a
+/// second.
 const WAVE: u64 = 40;
 
 impl Campaign<'_> {
-    /// Runs from `state` on until the limit, or until `stop` is set; a wave that has begun is finished. The
-    /// state for [`Limit::Count`] does not depend on the number of threads.
-    pub fn run(&self, mut state: State, stop: &AtomicBool, hear: &mut dyn FnMut(Event<'_>)) -> State {
+    /// Runs from `state` on until the limit, or until `stop` is set; a wave that has begun is
+    /// finished. The state for [`Limit::Count`] does not depend on the number of threads.
+    pub fn run(
+        &self,
+        mut state: State,
+        stop: &AtomicBool,
+        hear: &mut dyn FnMut(Event<'_>),
+    ) -> State {
         let begun = Instant::now();
         let count = state.families.len() as u64;
         loop {
@@ -49,12 +55,18 @@ impl Campaign<'_> {
             if left == 0 || stop.load(Ordering::Relaxed) {
                 return state;
             }
-            let wave: Vec<Id> = (state.done..state.done + left.min(WAVE)).map(|k| state.id(k)).collect();
-            let judged: Vec<(Option<Case>, Judgement)> = wave.par_iter().map(|id| self.judge(id)).collect(); // in order
+            let wave: Vec<Id> = (state.done..state.done + left.min(WAVE))
+                .map(|k| state.id(k))
+                .collect();
+            let judged: Vec<(Option<Case>, Judgement)> =
+                wave.par_iter().map(|id| self.judge(id)).collect(); // in order
             for (id, (case, judgement)) in wave.iter().zip(judged) {
                 state.tallies[(state.done % count) as usize].add(id, &judgement);
                 state.done += 1;
-                for finding in case.iter().flat_map(|c| self.replays(c, &judgement.findings)) {
+                for finding in case
+                    .iter()
+                    .flat_map(|c| self.replays(c, &judgement.findings))
+                {
                     hear(Event::Disagreement(&finding));
                 }
             }
@@ -64,8 +76,17 @@ impl Campaign<'_> {
 
     fn judge(&self, id: &Id) -> (Option<Case>, Judgement) {
         let refused = |reason: String| {
-            let disagreement = Disagreement::Refused { engine: "generator", reason };
-            Judgement { findings: vec![Finding { engine: "generator".into(), disagreement }], ..Judgement::default() }
+            let disagreement = Disagreement::Refused {
+                engine: "generator",
+                reason,
+            };
+            Judgement {
+                findings: vec![Finding {
+                    engine: "generator".into(),
+                    disagreement,
+                }],
+                ..Judgement::default()
+            }
         };
         match case(id) {
             Ok(Ok(case)) => {
@@ -80,7 +101,9 @@ impl Campaign<'_> {
     /// One replay per engine and kind.
     fn replays(&self, case: &Case, findings: &[Finding]) -> Vec<Replay> {
         let first = |k: usize| findings[..k].iter().all(|f| f.kind() != findings[k].kind());
-        let kinds = (0..findings.len()).filter(|&k| first(k)).map(|k| &findings[k]);
+        let kinds = (0..findings.len())
+            .filter(|&k| first(k))
+            .map(|k| &findings[k]);
         kinds
             .map(|finding| {
                 let (small, says) = shrink(case, finding, self.engines);

@@ -71,7 +71,10 @@ impl Tally {
         self.findable += if r.solved { r.oracle as u64 } else { 0 };
         self.found += r.found as u64;
         for (starts, coverage) in r.coverage() {
-            self.coverage.entry(starts.word().into()).or_default().add(&coverage);
+            self.coverage
+                .entry(starts.word().into())
+                .or_default()
+                .add(&coverage);
         }
         self.accepted += r.accepted as u64;
         self.forgeries += r.forgeries as u64;
@@ -82,7 +85,12 @@ impl Tally {
         for corner in &r.corners {
             *self.corners.entry(format!("{corner:?}")).or_default() += 1;
         }
-        self.disagreements.extend(judged.findings.iter().map(|f| format!("{id}: {}: {}", f.engine, f.disagreement)));
+        self.disagreements.extend(
+            judged
+                .findings
+                .iter()
+                .map(|f| format!("{id}: {}: {}", f.engine, f.disagreement)),
+        );
     }
 }
 
@@ -107,14 +115,25 @@ impl State {
     /// Nothing done yet.
     pub fn new(seed: u64, shard: (u64, u64), families: Vec<String>) -> State {
         let tallies = vec![Tally::default(); families.len()];
-        State { format: STATE_FORMAT.into(), seed, shard, families, done: 0, tallies }
+        State {
+            format: STATE_FORMAT.into(),
+            seed,
+            shard,
+            families,
+            done: 0,
+            tallies,
+        }
     }
 
     /// The `k`-th instance of this part: families in turn, every n-th index.
     pub fn id(&self, k: u64) -> super::Id {
         let count = self.families.len() as u64;
         let family = self.families[(k % count) as usize].clone();
-        super::Id { family, seed: self.seed, index: k / count * self.shard.1 + self.shard.0 }
+        super::Id {
+            family,
+            seed: self.seed,
+            index: k / count * self.shard.1 + self.shard.0,
+        }
     }
 
     /// Disagreements in all families, shortfalls among them.
@@ -129,16 +148,24 @@ impl State {
         for (family, tally) in self.families.iter().zip(&self.tallies) {
             for starts in Starts::ALL {
                 if let Some(coverage) = tally.coverage.get(starts.word()) {
-                    out.push(Covered { family: family.clone(), starts, coverage: *coverage });
+                    out.push(Covered {
+                        family: family.clone(),
+                        starts,
+                        coverage: *coverage,
+                    });
                 }
             }
         }
         out
     }
 
-    /// Rates that are below their floors by more than chance explains: findings of a family, not of an instance.
+    /// Rates that are below their floors by more than chance explains: findings of a family, not of
+    /// an instance.
     pub fn shortfalls(&self) -> Vec<Shortfall> {
-        self.covered().iter().flat_map(|c| shortfalls(&c.family, c.starts, &c.coverage)).collect()
+        self.covered()
+            .iter()
+            .flat_map(|c| shortfalls(&c.family, c.starts, &c.coverage))
+            .collect()
     }
 
     /// Instances judged in all families.
@@ -148,7 +175,8 @@ impl State {
 
     /// The file's text.
     pub fn to_json(&self) -> String {
-        serde_json::to_string_pretty(self).unwrap_or_default() + "\n" // strings and numbers: cannot fail
+        // Strings and numbers: cannot fail.
+        serde_json::to_string_pretty(self).unwrap_or_default() + "\n"
     }
 
     /// Reads a state and refuses one that was made with other settings than `self`.
@@ -160,12 +188,28 @@ impl State {
         let state: State = from_json(text)?;
         let pairs = [
             ("seed", self.seed.to_string(), state.seed.to_string()),
-            ("shard", format!("{:?}", self.shard), format!("{:?}", state.shard)),
-            ("families", self.families.join(" "), state.families.join(" ")),
-            ("tallies", self.tallies.len().to_string(), state.tallies.len().to_string()),
+            (
+                "shard",
+                format!("{:?}", self.shard),
+                format!("{:?}", state.shard),
+            ),
+            (
+                "families",
+                self.families.join(" "),
+                state.families.join(" "),
+            ),
+            (
+                "tallies",
+                self.tallies.len().to_string(),
+                state.tallies.len().to_string(),
+            ),
         ];
         match pairs.into_iter().find(|(_, expected, got)| expected != got) {
-            Some((what, expected, got)) => Err(StateError::Other { what, expected, got }),
+            Some((what, expected, got)) => Err(StateError::Other {
+                what,
+                expected,
+                got,
+            }),
             None => Ok(state),
         }
     }

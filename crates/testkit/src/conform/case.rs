@@ -56,20 +56,34 @@ impl Case {
     /// pencil first (another problem with another digest, and the same values and x).
     ///
     /// # Errors
-    /// [`ConformError::Oracle`] for a problem beyond the plain oracle, [`ConformError::Problem`] for a
-    /// system that lacks what its unknown needs.
+    /// [`ConformError::Oracle`] for a problem beyond the plain oracle, [`ConformError::Problem`]
+    /// for a system that lacks what its unknown needs.
     pub fn answer(draft: &Draft, as_pencil: bool) -> Result<Case, ConformError> {
-        let at = |source| ConformError::Problem { place: draft.id.clone(), source };
+        let at = |source| ConformError::Problem {
+            place: draft.id.clone(),
+            source,
+        };
         let reduced = reduce(&draft.problem).map_err(at)?;
-        let answer =
-            enumerate(&reduced.pencil, draft.problem.window()).map_err(|source| ConformError::Oracle { case: draft.id.clone(), source })?;
+        let answer = enumerate(&reduced.pencil, draft.problem.window()).map_err(|source| {
+            ConformError::Oracle {
+                case: draft.id.clone(),
+                source,
+            }
+        })?;
         let mut flags = derive(&draft.problem, &reduced, &answer);
         flags.extend(&draft.flags);
-        let mut case =
-            Case { id: draft.id.clone(), comment: draft.comment.clone(), flags, problem: draft.problem.clone(), reduced, answer };
+        let mut case = Case {
+            id: draft.id.clone(),
+            comment: draft.comment.clone(),
+            flags,
+            problem: draft.problem.clone(),
+            reduced,
+            answer,
+        };
         if as_pencil {
             let body = crate::model::Body::Pencil(case.reduced.pencil.clone());
-            let pencil = Problem::new(body, case.problem.unknown(), case.problem.window().clone()).map_err(at)?;
+            let pencil = Problem::new(body, case.problem.unknown(), case.problem.window().clone())
+                .map_err(at)?;
             case.problem = pencil.named(draft.id.clone());
             case.reduced = reduce(&case.problem).map_err(at)?;
         }
@@ -78,13 +92,21 @@ impl Case {
 
     /// The complete answer as `mceip-solutions/1`.
     pub fn answer_json(&self) -> Value {
-        let solutions = self.answer.solutions.iter().map(|s| Listed::of_solution(&self.problem, &self.reduced, s)).collect();
+        let solutions = self
+            .answer
+            .solutions
+            .iter()
+            .map(|s| Listed::of_solution(&self.problem, &self.reduced, s))
+            .collect();
         solutions_json(&Report {
             problem: &self.problem,
             reduced: &self.reduced,
             solutions,
             claim: Claimed::complete_if(self.answer.is_complete_list()),
-            evidence: format!("plain enumeration of {} supports, exact", self.answer.supports_total),
+            evidence: format!(
+                "plain enumeration of {} supports, exact",
+                self.answer.supports_total
+            ),
             enumeration: Some(&self.answer),
             cover: None,
         })
@@ -102,7 +124,9 @@ impl Case {
 
     /// Is there anything to be found?
     pub fn has_solutions(&self) -> bool {
-        !(self.answer.solutions.is_empty() && self.answer.cones.is_empty() && self.answer.ranges.is_empty())
+        !(self.answer.solutions.is_empty()
+            && self.answer.cones.is_empty()
+            && self.answer.ranges.is_empty())
     }
 }
 

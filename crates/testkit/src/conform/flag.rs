@@ -8,8 +8,8 @@ use std::collections::BTreeSet;
 
 macro_rules! flags {
     ($($name:ident $word:literal $note:literal,)+) => {
-        /// What a case is about. All but [`Flag::Threshold`], [`Flag::NearThreshold`], [`Flag::Fold`] and
-        /// [`Flag::Random`] are read off the problem and its exact answer.
+        /// What a case is about. All but [`Flag::Threshold`], [`Flag::NearThreshold`],
+        /// [`Flag::Fold`] and [`Flag::Random`] are read off the problem and its exact answer.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
         #[allow(missing_docs, reason = "the note of each flag is its documentation")]
         pub enum Flag { $($name,)+ }
@@ -74,7 +74,10 @@ impl Flag {
 
     /// Can only the maker of a case know it?
     pub(super) fn is_given(self) -> bool {
-        matches!(self, Flag::Threshold | Flag::NearThreshold | Flag::Fold | Flag::Random)
+        matches!(
+            self,
+            Flag::Threshold | Flag::NearThreshold | Flag::Fold | Flag::Random
+        )
     }
 }
 
@@ -91,9 +94,21 @@ pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration)
     let pencil = &reduced.pencil;
     put(Flag::OneByOne, pencil.order() == 1);
     put(Flag::FreeVariables, !pencil.free().is_empty());
-    let (large, small) = (crate::exact::whole(100_000), crate::exact::rational(1, 100_000));
-    let extreme = |v: &crate::exact::Rational| !v.is_zero() && (*v > large || -v > large || (*v < small && -v < small));
-    put(Flag::Scaled, pencil.a().entries().chain(pencil.b().entries()).any(|e| extreme(e.2)));
+    let (large, small) = (
+        crate::exact::whole(100_000),
+        crate::exact::rational(1, 100_000),
+    );
+    let extreme = |v: &crate::exact::Rational| {
+        !v.is_zero() && (*v > large || -v > large || (*v < small && -v < small))
+    };
+    put(
+        Flag::Scaled,
+        pencil
+            .a()
+            .entries()
+            .chain(pencil.b().entries())
+            .any(|e| extreme(e.2)),
+    );
     match problem.body() {
         Body::Pencil(_) => put(Flag::Pencil, true),
         Body::System(system) => {
@@ -101,10 +116,18 @@ pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration)
             for p in system.particles() {
                 put(Flag::Stick, p.state == ContactState::Stick);
                 put(Flag::FreeParticle, p.state == ContactState::Free);
-                put(Flag::NormalAway, p.normal_direction == -1 && matches!(p.state, ContactState::Slip { .. }));
+                put(
+                    Flag::NormalAway,
+                    p.normal_direction == -1 && matches!(p.state, ContactState::Slip { .. }),
+                );
                 put(Flag::Oblique, p.frame.is_some());
             }
-            put(Flag::CoupledMass, system.mass().is_some_and(|m| m.entries().any(|(i, j, _)| i != j)));
+            put(
+                Flag::CoupledMass,
+                system
+                    .mass()
+                    .is_some_and(|m| m.entries().any(|(i, j, _)| i != j)),
+            );
         }
     }
     of_window(problem, answer, &mut put);
@@ -114,11 +137,23 @@ pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration)
 
 fn of_window(problem: &Problem, answer: &Enumeration, put: &mut impl FnMut(Flag, bool)) {
     let window = problem.window();
-    put(Flag::Window, window.max().is_some() || !window.min().is_zero());
+    put(
+        Flag::Window,
+        window.max().is_some() || !window.min().is_zero(),
+    );
     let ends = [Some(window.min()).filter(|m| !m.is_zero()), window.max()];
-    let values = answer.solutions.iter().map(|s| &s.value).chain(answer.cones.iter().map(|c| &c.value));
+    let values = answer
+        .solutions
+        .iter()
+        .map(|s| &s.value)
+        .chain(answer.cones.iter().map(|c| &c.value));
     for mut value in values.cloned() {
-        put(Flag::WindowEnd, ends.iter().flatten().any(|end| value.cmp_rational(end).is_eq()));
+        put(
+            Flag::WindowEnd,
+            ends.iter()
+                .flatten()
+                .any(|end| value.cmp_rational(end).is_eq()),
+        );
     }
 }
 
@@ -137,7 +172,10 @@ fn of_answer(reduced: &Reduced, answer: &Enumeration, put: &mut impl FnMut(Flag,
         let mut value = s.value.clone();
         value.try_rational();
         put(Flag::Irrational, value.as_rational().is_none());
-        put(Flag::ZeroValue, value.cmp_rational(&crate::exact::Rational::zero()).is_eq());
+        put(
+            Flag::ZeroValue,
+            value.cmp_rational(&crate::exact::Rational::zero()).is_eq(),
+        );
         put(Flag::RepeatedRoot, s.multiplicity > 1);
         put(Flag::Biactive, !s.biactive.is_empty());
         put(Flag::TinyComponent, tiny(s, &reduced.pencil.slip()));
@@ -156,11 +194,14 @@ fn of_answer(reduced: &Reduced, answer: &Enumeration, put: &mut impl FnMut(Flag,
     }
 }
 
-/// Is a positive component below 1e-3 of e'x_s? By correctly rounded decimals: 0.000... or an exponent.
+/// Is a positive component below 1e-3 of e'x_s? By correctly rounded decimals: 0.000... or an
+/// exponent.
 fn tiny(s: &crate::oracle::Solution, slip: &[usize]) -> bool {
     let limit = crate::exact::rational(1, 1000);
     let decimals = s.x_decimals(slip, 17);
-    s.slip.iter().any(|&i| crate::exact::parse(&decimals[i]).is_ok_and(|v| v < limit))
+    s.slip
+        .iter()
+        .any(|&i| crate::exact::parse(&decimals[i]).is_ok_and(|v| v < limit))
 }
 
 #[cfg(test)]
@@ -171,7 +212,11 @@ mod tests {
     fn words_are_distinct_and_read_back() {
         let words: BTreeSet<&str> = Flag::ALL.iter().map(|f| f.word()).collect();
         assert_eq!(words.len(), Flag::ALL.len());
-        assert!(Flag::ALL.iter().all(|f| Flag::of_word(f.word()) == Some(*f) && f.note().ends_with('.')));
+        assert!(
+            Flag::ALL
+                .iter()
+                .all(|f| Flag::of_word(f.word()) == Some(*f) && f.note().ends_with('.'))
+        );
         assert_eq!(Flag::of_word("anything"), None);
     }
 }

@@ -26,69 +26,151 @@ pub fn groups() -> Result<Vec<Group>, ConformError> {
         thresholds_of_folds()?,
         graphs()?,
         block()?,
-        random("random-pencils", "random admissible pencils, n_s 1 to 6, n_f 0 to 3", random_pencils(48, SEED)?),
-        random("mechanical", "random systems: free, stick and slip particles, frames, both normals, both masses", mechanical(48, SEED)?),
+        random(
+            "random-pencils",
+            "random admissible pencils, n_s 1 to 6, n_f 0 to 3",
+            random_pencils(48, SEED)?,
+        ),
+        random(
+            "mechanical",
+            "random systems: free, stick and slip particles, frames, both normals, both masses",
+            mechanical(48, SEED)?,
+        ),
     ])
 }
 
-/// Random case `k` of a seed: three pencils to one mechanical system, as the random groups have them.
+/// Random case `k` of a seed: three pencils to one mechanical system, as the random groups have
+/// them.
 ///
 /// # Errors
 /// [`ModelError`]; none, the generators make admissible problems.
 pub fn random_draft(k: usize, seed: u64) -> Result<Draft, ModelError> {
-    // The generators number their instances by the seed's own stream: one instance of a seed of its own.
-    let seed_of = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15).wrapping_add(k as u64);
-    let made = if k % 4 == 3 { mechanical(1 + k / 4 % 2, seed_of)? } else { random_pencils(1 + k % 2, seed_of)? };
-    let instance = made.into_iter().next_back().ok_or(ModelError::Empty { what: "random family" })?;
-    Ok(draft(format!("random-{seed}-{k}"), instance.label, &[Flag::Random], instance.problem))
+    // The generators number their instances by the seed's own stream: one instance of a seed of its
+    // own.
+    let seed_of = seed
+        .wrapping_mul(0x9E37_79B9_7F4A_7C15)
+        .wrapping_add(k as u64);
+    let made = if k % 4 == 3 {
+        mechanical(1 + k / 4 % 2, seed_of)?
+    } else {
+        random_pencils(1 + k % 2, seed_of)?
+    };
+    let instance = made.into_iter().next_back().ok_or(ModelError::Empty {
+        what: "random family",
+    })?;
+    Ok(draft(
+        format!("random-{seed}-{k}"),
+        instance.label,
+        &[Flag::Random],
+        instance.problem,
+    ))
 }
 
-fn draft(id: impl Into<String>, comment: impl Into<String>, flags: &[Flag], problem: Problem) -> Draft {
+fn draft(
+    id: impl Into<String>,
+    comment: impl Into<String>,
+    flags: &[Flag],
+    problem: Problem,
+) -> Draft {
     let id = id.into();
-    Draft { comment: comment.into(), flags: flags.to_vec(), problem: problem.named(id.clone()), id }
+    Draft {
+        comment: comment.into(),
+        flags: flags.to_vec(),
+        problem: problem.named(id.clone()),
+        id,
+    }
 }
 
 fn group(name: &str, comment: &str, drafts: Vec<Draft>) -> Group {
-    Group { name: name.into(), comment: comment.into(), drafts }
+    Group {
+        name: name.into(),
+        comment: comment.into(),
+        drafts,
+    }
 }
 
 fn random(name: &str, comment: &str, list: Vec<crate::Instance>) -> Group {
-    let one = |(k, i): (usize, crate::Instance)| draft(format!("{name}-{k}"), i.label, &[Flag::Random], i.problem);
-    group(name, comment, list.into_iter().enumerate().map(one).collect())
+    let one = |(k, i): (usize, crate::Instance)| {
+        draft(format!("{name}-{k}"), i.label, &[Flag::Random], i.problem)
+    };
+    group(
+        name,
+        comment,
+        list.into_iter().enumerate().map(one).collect(),
+    )
 }
 
 const SIGNS: [(i8, i8); 4] = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
 
-/// MCEIP-lambda2 of Fig. 1: every sign pattern at four angles; frictions below, on and above each rational
-/// threshold, and well away from them.
+/// MCEIP-lambda2 of Fig. 1: every sign pattern at four angles; frictions below, on and above each
+/// rational threshold, and well away from them.
 fn table1() -> Result<Group, ModelError> {
     let mut drafts = Vec::new();
     let angles = pythagorean_angles();
-    for (number, (c, s)) in [&angles[0], &angles[2], &angles[6], &angles[7]].into_iter().enumerate() {
-        let (k, m) = if number % 2 == 0 { (whole(1), whole(1)) } else { (rational(7, 3), rational(5, 2)) };
+    for (number, (c, s)) in [&angles[0], &angles[2], &angles[6], &angles[7]]
+        .into_iter()
+        .enumerate()
+    {
+        let (k, m) = if number % 2 == 0 {
+            (whole(1), whole(1))
+        } else {
+            (rational(7, 3), rational(5, 2))
+        };
         for (mu, place) in frictions(c, s) {
             for signs in SIGNS {
-                let data = TwoParticles { c: c.clone(), s: s.clone(), k: k.clone(), m: m.clone(), mu: mu.clone(), signs };
-                let flags: Vec<Flag> = if signs == (1, -1) { place.into_iter().collect() } else { Vec::new() };
-                let problem = Problem::new(Body::System(two_particles(&data)?), Unknown::Lambda2, Window::all())?;
-                let comment = format!("Table 1: cos {c}, sin {s}, k {k}, m {m}, mu {mu}, S {signs:?}");
-                drafts.push(draft(format!("table1-{:03}", drafts.len()), comment, &flags, problem));
+                let data = TwoParticles {
+                    c: c.clone(),
+                    s: s.clone(),
+                    k: k.clone(),
+                    m: m.clone(),
+                    mu: mu.clone(),
+                    signs,
+                };
+                let flags: Vec<Flag> = if signs == (1, -1) {
+                    place.into_iter().collect()
+                } else {
+                    Vec::new()
+                };
+                let problem = Problem::new(
+                    Body::System(two_particles(&data)?),
+                    Unknown::Lambda2,
+                    Window::all(),
+                )?;
+                let comment =
+                    format!("Table 1: cos {c}, sin {s}, k {k}, m {m}, mu {mu}, S {signs:?}");
+                drafts.push(draft(
+                    format!("table1-{:03}", drafts.len()),
+                    comment,
+                    &flags,
+                    problem,
+                ));
             }
         }
     }
-    Ok(group("table1", "the two particles of Fig. 1, MCEIP-lambda2", drafts))
+    Ok(group(
+        "table1",
+        "the two particles of Fig. 1, MCEIP-lambda2",
+        drafts,
+    ))
 }
 
-/// Frictions for one angle: plain ones, and the two rational thresholds of (+1, -1) with their neighbours.
+/// Frictions for one angle: plain ones, and the two rational thresholds of (+1, -1) with their
+/// neighbours.
 fn frictions(c: &Rational, s: &Rational) -> Vec<(Rational, Option<Flag>)> {
-    let mut list: Vec<(Rational, Option<Flag>)> = [rational(1, 2), whole(5), whole(20)].map(|mu| (mu, None)).to_vec();
+    let mut list: Vec<(Rational, Option<Flag>)> = [rational(1, 2), whole(5), whole(20)]
+        .map(|mu| (mu, None))
+        .to_vec();
     let cs = c * s;
     if !cs.is_zero() {
         let tiny = rational(1, 1_000_000_000);
         for top in [c * c + Rational::one(), c * c + whole(2)] {
             let mu = top / &cs;
             let near = Some(Flag::NearThreshold);
-            list.extend([(&mu - &tiny, near), (mu.clone(), Some(Flag::Threshold)), (mu + &tiny, near)]);
+            list.extend([
+                (&mu - &tiny, near),
+                (mu.clone(), Some(Flag::Threshold)),
+                (mu + &tiny, near),
+            ]);
         }
     }
     list
@@ -100,8 +182,19 @@ fn static_thresholds() -> Result<Group, ModelError> {
     let angles = pythagorean_angles();
     for (c, s) in [&angles[0], &angles[3], &angles[5], &angles[7]] {
         for signs in SIGNS {
-            let data = TwoParticles { c: c.clone(), s: s.clone(), k: whole(2), m: whole(1), mu: whole(1), signs };
-            let problem = Problem::new(Body::System(two_particles(&data)?), Unknown::Mu, Window::all())?;
+            let data = TwoParticles {
+                c: c.clone(),
+                s: s.clone(),
+                k: whole(2),
+                m: whole(1),
+                mu: whole(1),
+                signs,
+            };
+            let problem = Problem::new(
+                Body::System(two_particles(&data)?),
+                Unknown::Mu,
+                Window::all(),
+            )?;
             drafts.push(draft(
                 format!("mu-{:02}", drafts.len()),
                 format!("static thresholds: cos {c}, sin {s}, S {signs:?}"),
@@ -110,12 +203,21 @@ fn static_thresholds() -> Result<Group, ModelError> {
             ));
         }
     }
-    Ok(group("static-thresholds", "the two particles of Fig. 1, MCEIP-mu", drafts))
+    Ok(group(
+        "static-thresholds",
+        "the two particles of Fig. 1, MCEIP-mu",
+        drafts,
+    ))
 }
 
 type Rows<'a> = &'a [&'a [i64]];
 
-fn problem(a: Rows<'_>, b: Rows<'_>, free: &[usize], unknown: Unknown) -> Result<Problem, ModelError> {
+fn problem(
+    a: Rows<'_>,
+    b: Rows<'_>,
+    free: &[usize],
+    unknown: Unknown,
+) -> Result<Problem, ModelError> {
     let pencil = Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec())?;
     Problem::new(Body::Pencil(pencil), unknown, Window::all())
 }
@@ -123,59 +225,158 @@ fn problem(a: Rows<'_>, b: Rows<'_>, free: &[usize], unknown: Unknown) -> Result
 const I2: Rows<'_> = &[&[1, 0], &[0, 1]];
 const I3: Rows<'_> = &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]];
 
-/// The corners of `testkit`, and more: order 1, repeated roots, biactive indices, zero values, wide kernels.
+/// The corners of `testkit`, and more: order 1, repeated roots, biactive indices, zero values, wide
+/// kernels.
 fn degenerate() -> Result<Group, ModelError> {
     let of_testkit = crate::degenerate()?.into_iter();
-    let mut drafts: Vec<Draft> =
-        of_testkit.enumerate().map(|(k, i)| draft(format!("degenerate-{k:02}"), i.label, &[], i.problem)).collect();
+    let mut drafts: Vec<Draft> = of_testkit
+        .enumerate()
+        .map(|(k, i)| draft(format!("degenerate-{k:02}"), i.label, &[], i.problem))
+        .collect();
     let cases: [(&str, Rows<'_>, Rows<'_>, &[usize]); 17] = [
         ("order 1, t = 0", &[&[0]], &[&[1]], &[]),
         ("order 1, free only", &[&[-3]], &[&[2]], &[0]),
         ("order 1, value 1/3", &[&[-1]], &[&[3]], &[]),
-        ("triple root, Jordan block of order 3", &[&[-2, -1, 0], &[0, -2, -1], &[0, 0, -2]], I3, &[]),
-        ("scalar matrix of order 3: a cone of dimension 3", &[&[-2, 0, 0], &[0, -2, 0], &[0, 0, -2]], I3, &[]),
-        ("two equal entries: a cone of dimension 2 beside a solution", &[&[-2, 0, 0], &[0, -1, 0], &[0, 0, -2]], I3, &[]),
-        ("wide kernel with a single ray", &[&[-1, 1, 1], &[1, -1, 1], &[0, 0, -1]], I3, &[]),
+        (
+            "triple root, Jordan block of order 3",
+            &[&[-2, -1, 0], &[0, -2, -1], &[0, 0, -2]],
+            I3,
+            &[],
+        ),
+        (
+            "scalar matrix of order 3: a cone of dimension 3",
+            &[&[-2, 0, 0], &[0, -2, 0], &[0, 0, -2]],
+            I3,
+            &[],
+        ),
+        (
+            "two equal entries: a cone of dimension 2 beside a solution",
+            &[&[-2, 0, 0], &[0, -1, 0], &[0, 0, -2]],
+            I3,
+            &[],
+        ),
+        (
+            "wide kernel with a single ray",
+            &[&[-1, 1, 1], &[1, -1, 1], &[0, 0, -1]],
+            I3,
+            &[],
+        ),
         ("value 0 on every support", &[&[0, 0], &[0, 0]], I2, &[]),
-        ("two biactive indices", &[&[-1, 0, 0], &[0, 5, 0], &[0, 0, 7]], I3, &[]),
-        ("biactive at one of two equal values", &[&[-1, 1], &[0, -1]], I2, &[]),
+        (
+            "two biactive indices",
+            &[&[-1, 0, 0], &[0, 5, 0], &[0, 0, 7]],
+            I3,
+            &[],
+        ),
+        (
+            "biactive at one of two equal values",
+            &[&[-1, 1], &[0, -1]],
+            I2,
+            &[],
+        ),
         ("double root 2 on (1, 1)", &[&[-1, -1], &[1, -3]], I2, &[]),
         ("double root 6 on (3, 1)", &[&[-3, -9], &[1, -9]], I2, &[]),
-        ("triple root 2 on (1, 1, 1)", &[&[-1, -1, 0], &[2, -3, -1], &[1, -1, -2]], I3, &[]),
-        ("double root 2 on (1, 1) beside two single ones", &[&[-1, -1, 0], &[1, -3, 0], &[0, 0, -5]], I3, &[]),
+        (
+            "triple root 2 on (1, 1, 1)",
+            &[&[-1, -1, 0], &[2, -3, -1], &[1, -1, -2]],
+            I3,
+            &[],
+        ),
+        (
+            "double root 2 on (1, 1) beside two single ones",
+            &[&[-1, -1, 0], &[1, -3, 0], &[0, 0, -5]],
+            I3,
+            &[],
+        ),
         ("positive definite: nothing", &[&[2, 1], &[1, 2]], I2, &[]),
-        ("free variable with a zero pivot", &[&[0, 1], &[-1, 1]], &[&[1, 0], &[0, 1]], &[0]),
+        (
+            "free variable with a zero pivot",
+            &[&[0, 1], &[-1, 1]],
+            &[&[1, 0], &[0, 1]],
+            &[0],
+        ),
         ("complex eigenvalues only", &[&[1, 3], &[-3, 1]], I2, &[]),
     ];
     for (k, (comment, a, b, free)) in cases.into_iter().enumerate() {
-        drafts.push(draft(format!("corner-{k:02}"), comment, &[], problem(a, b, free, Unknown::Lambda2)?));
+        drafts.push(draft(
+            format!("corner-{k:02}"),
+            comment,
+            &[],
+            problem(a, b, free, Unknown::Lambda2)?,
+        ));
     }
-    Ok(group("degenerate", "degenerate corners built on purpose", drafts))
+    Ok(group(
+        "degenerate",
+        "degenerate corners built on purpose",
+        drafts,
+    ))
 }
 
 /// Pencils with det(A + tB) = 0 for all t on some support: continua, whole and in parts.
 fn singular() -> Result<Group, ModelError> {
     let cases: [(&str, Rows<'_>, Rows<'_>, &[usize]); 7] = [
         ("every value from 0", &[&[0]], &[&[0]], &[]),
-        ("from 0 to 3: y = 3 - t beside it", &[&[0, 0], &[3, 1]], &[&[0, 0], &[-1, 0]], &[]),
-        ("from 2 on: y = t - 2 beside it", &[&[0, 0], &[-2, 1]], &[&[0, 0], &[1, 0]], &[]),
+        (
+            "from 0 to 3: y = 3 - t beside it",
+            &[&[0, 0], &[3, 1]],
+            &[&[0, 0], &[-1, 0]],
+            &[],
+        ),
+        (
+            "from 2 on: y = t - 2 beside it",
+            &[&[0, 0], &[-2, 1]],
+            &[&[0, 0], &[1, 0]],
+            &[],
+        ),
         (
             "one value only: two rows against each other",
             &[&[0, 0, 0], &[-2, 1, 0], &[2, 0, 1]],
             &[&[0, 0, 0], &[1, 0, 0], &[-1, 0, 0]],
             &[],
         ),
-        ("between 1 and 2", &[&[0, 0, 0], &[-1, 1, 0], &[2, 0, 1]], &[&[0, 0, 0], &[1, 0, 0], &[-1, 0, 0]], &[]),
-        ("the kernel turns with t", &[&[-1, 0], &[-1, 0]], &[&[0, 1], &[0, 1]], &[]),
-        ("a singular free block", &[&[0, 0], &[0, -1]], &[&[0, 0], &[0, 1]], &[0]),
+        (
+            "between 1 and 2",
+            &[&[0, 0, 0], &[-1, 1, 0], &[2, 0, 1]],
+            &[&[0, 0, 0], &[1, 0, 0], &[-1, 0, 0]],
+            &[],
+        ),
+        (
+            "the kernel turns with t",
+            &[&[-1, 0], &[-1, 0]],
+            &[&[0, 1], &[0, 1]],
+            &[],
+        ),
+        (
+            "a singular free block",
+            &[&[0, 0], &[0, -1]],
+            &[&[0, 0], &[0, 1]],
+            &[0],
+        ),
     ];
     let mut drafts = Vec::new();
     for (k, (comment, a, b, free)) in cases.into_iter().enumerate() {
-        drafts.push(draft(format!("singular-{k:02}"), comment, &[], problem(a, b, free, Unknown::Mu)?));
+        drafts.push(draft(
+            format!("singular-{k:02}"),
+            comment,
+            &[],
+            problem(a, b, free, Unknown::Mu)?,
+        ));
     }
-    let cut = drafts[2].problem.clone().with_window(Window::new(whole(1), Some(whole(4)))?);
-    drafts.push(draft("singular-07", "from 2 on, cut to the window [1, 4]", &[], cut));
-    Ok(group("singular", "pencils that are singular for every value", drafts))
+    let cut = drafts[2]
+        .problem
+        .clone()
+        .with_window(Window::new(whole(1), Some(whole(4)))?);
+    drafts.push(draft(
+        "singular-07",
+        "from 2 on, cut to the window [1, 4]",
+        &[],
+        cut,
+    ));
+    Ok(group(
+        "singular",
+        "pencils that are singular for every value",
+        drafts,
+    ))
 }
 
 /// The fold 2 and 3 and the path graph in windows that cut, touch and miss their values.
@@ -186,64 +387,162 @@ fn windows() -> Result<Group, ModelError> {
     let list: Vec<(&str, &Problem, Rational, Option<Rational>)> = vec![
         ("both ends are values", &fold, whole(2), Some(whole(3))),
         ("a point that is a value", &fold, whole(2), Some(whole(2))),
-        ("a point that is none", &fold, rational(5, 2), Some(rational(5, 2))),
-        ("between the values", &fold, rational(21, 10), Some(rational(29, 10))),
-        ("just without both", &fold, whole(2) + &tiny, Some(whole(3) - &tiny)),
-        ("just with both", &fold, whole(2) - &tiny, Some(whole(3) + &tiny)),
+        (
+            "a point that is none",
+            &fold,
+            rational(5, 2),
+            Some(rational(5, 2)),
+        ),
+        (
+            "between the values",
+            &fold,
+            rational(21, 10),
+            Some(rational(29, 10)),
+        ),
+        (
+            "just without both",
+            &fold,
+            whole(2) + &tiny,
+            Some(whole(3) - &tiny),
+        ),
+        (
+            "just with both",
+            &fold,
+            whole(2) - &tiny,
+            Some(whole(3) + &tiny),
+        ),
         ("from 3 on", &fold, whole(3), None),
         ("above everything", &fold, whole(4), None),
-        ("up to 1, with cones at 0 and 1", &path, whole(0), Some(whole(1))),
+        (
+            "up to 1, with cones at 0 and 1",
+            &path,
+            whole(0),
+            Some(whole(1)),
+        ),
         ("irrational values only", &path, rational(11, 10), None),
         ("the point 1", &path, whole(1), Some(whole(1))),
     ];
     let mut drafts = Vec::new();
     for (k, (comment, base, min, max)) in list.into_iter().enumerate() {
-        drafts.push(draft(format!("window-{k:02}"), comment, &[], base.clone().with_window(Window::new(min, max)?)));
+        drafts.push(draft(
+            format!("window-{k:02}"),
+            comment,
+            &[],
+            base.clone().with_window(Window::new(min, max)?),
+        ));
     }
-    Ok(group("windows", "bounded windows: closed ends, points, nothing inside", drafts))
+    Ok(group(
+        "windows",
+        "bounded windows: closed ends, points, nothing inside",
+        drafts,
+    ))
 }
 
 /// Folds on both sides, tiny components, entries of all sizes.
 fn thresholds_of_folds() -> Result<Group, ModelError> {
     let mut drafts = Vec::new();
-    // (1 + t) x1 - 4 x2 = 0, x1 + (-3 + d + t) x2 = 0: double root t = 1 at d = 0, a pair below, none above.
+    // (1 + t) x1 - 4 x2 = 0, x1 + (-3 + d + t) x2 = 0: double root t = 1 at d = 0, a pair below,
+    // none above.
     for (d, comment) in [
         (rational(-1, 100), "a pair at distance 0.2"),
         (rational(-1, 100_000_000), "a pair at distance 2e-4"),
-        (rational(1, 1_000_000_000), "past the fold by 10^-9: nothing on the full support"),
+        (
+            rational(1, 1_000_000_000),
+            "past the fold by 10^-9: nothing on the full support",
+        ),
         (rational(1, 100), "past the fold"),
     ] {
-        let a = Sparse::from_entries(2, 2, [(0, 0, whole(1)), (0, 1, whole(-4)), (1, 0, whole(1)), (1, 1, whole(-3) + d)]);
-        drafts.push(pencil_draft(format!("fold-{:02}", drafts.len()), comment, &[Flag::Fold], a)?);
+        let a = Sparse::from_entries(
+            2,
+            2,
+            [
+                (0, 0, whole(1)),
+                (0, 1, whole(-4)),
+                (1, 0, whole(1)),
+                (1, 1, whole(-3) + d),
+            ],
+        );
+        drafts.push(pencil_draft(
+            format!("fold-{:02}", drafts.len()),
+            comment,
+            &[Flag::Fold],
+            a,
+        )?);
     }
     for exponent in [3u32, 5, 8] {
         let e = Rational::new(One::one(), num_bigint::BigInt::from(10).pow(exponent));
         let a = Sparse::from_entries(2, 2, [(0, 0, -whole(1) - &e), (0, 1, whole(1)), (1, 0, -e)]);
-        drafts.push(pencil_draft(format!("tiny-{exponent}"), format!("x = (1, 10^-{exponent}) at t = 1"), &[], a)?);
+        drafts.push(pencil_draft(
+            format!("tiny-{exponent}"),
+            format!("x = (1, 10^-{exponent}) at t = 1"),
+            &[],
+            a,
+        )?);
     }
-    for (name, factor) in [("large", whole(10_000_000)), ("small", rational(1, 10_000_000))] {
-        let fold = [(0, 0, whole(1)), (0, 1, whole(-6)), (1, 0, whole(2)), (1, 1, whole(-6))];
+    for (name, factor) in [
+        ("large", whole(10_000_000)),
+        ("small", rational(1, 10_000_000)),
+    ] {
+        let fold = [
+            (0, 0, whole(1)),
+            (0, 1, whole(-6)),
+            (1, 0, whole(2)),
+            (1, 1, whole(-6)),
+        ];
         let a = Sparse::from_entries(2, 2, fold.map(|(i, j, v)| (i, j, v * &factor)));
         let b = Sparse::from_entries(2, 2, [(0, 0, factor.clone()), (1, 1, factor.clone())]);
         let pencil = Pencil::new(a, b, vec![])?;
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())?;
-        drafts.push(draft(format!("scaled-{name}"), format!("the fold with all entries times {factor}"), &[Flag::Fold], problem));
+        drafts.push(draft(
+            format!("scaled-{name}"),
+            format!("the fold with all entries times {factor}"),
+            &[Flag::Fold],
+            problem,
+        ));
     }
     // Row scaling changes y alone; column scaling changes x.
     let a = Sparse::from_entries(
         2,
         2,
-        [(0, 0, whole(1_000_000)), (0, 1, whole(-6_000_000)), (1, 0, rational(2, 1_000_000)), (1, 1, rational(-6, 1_000_000))],
+        [
+            (0, 0, whole(1_000_000)),
+            (0, 1, whole(-6_000_000)),
+            (1, 0, rational(2, 1_000_000)),
+            (1, 1, rational(-6, 1_000_000)),
+        ],
     );
-    let b = Sparse::from_entries(2, 2, [(0, 0, whole(1_000_000)), (1, 1, rational(1, 1_000_000))]);
-    let problem = Problem::new(Body::Pencil(Pencil::new(a, b, vec![])?), Unknown::Lambda2, Window::all())?;
-    drafts.push(draft("scaled-rows", "the fold with its rows times 1e6 and 10^-6", &[Flag::Fold], problem));
+    let b = Sparse::from_entries(
+        2,
+        2,
+        [(0, 0, whole(1_000_000)), (1, 1, rational(1, 1_000_000))],
+    );
+    let problem = Problem::new(
+        Body::Pencil(Pencil::new(a, b, vec![])?),
+        Unknown::Lambda2,
+        Window::all(),
+    )?;
+    drafts.push(draft(
+        "scaled-rows",
+        "the fold with its rows times 1e6 and 10^-6",
+        &[Flag::Fold],
+        problem,
+    ));
     Ok(group("folds", "folds, tiny components, scales", drafts))
 }
 
-fn pencil_draft(id: String, comment: impl Into<String>, flags: &[Flag], a: Sparse) -> Result<Draft, ModelError> {
+fn pencil_draft(
+    id: String,
+    comment: impl Into<String>,
+    flags: &[Flag],
+    a: Sparse,
+) -> Result<Draft, ModelError> {
     let pencil = Pencil::new(a, Sparse::identity(2), vec![])?;
-    Ok(draft(id, comment, flags, Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())?))
+    Ok(draft(
+        id,
+        comment,
+        flags,
+        Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())?,
+    ))
 }
 
 /// Graphs with closed forms, and the Pareto matrices of the literature.
@@ -261,27 +560,53 @@ fn graphs() -> Result<Group, ModelError> {
     let mut drafts: Vec<Draft> = known
         .into_iter()
         .enumerate()
-        .map(|(k, g)| draft(format!("graph-{k:02}"), format!("{}: {}", g.name, g.closed_form), &[], g.problem))
+        .map(|(k, g)| {
+            draft(
+                format!("graph-{k:02}"),
+                format!("{}: {}", g.name, g.closed_form),
+                &[],
+                g.problem,
+            )
+        })
         .collect();
     for (k, p) in pareto::pareto_matrices().into_iter().enumerate() {
-        let comment = format!("Pareto eigenvalue problem of order {} with {} solutions", p.matrix.rows(), p.count);
+        let comment = format!(
+            "Pareto eigenvalue problem of order {} with {} solutions",
+            p.matrix.rows(),
+            p.count
+        );
         drafts.push(draft(format!("pareto-{k:02}"), comment, &[], p.pencil()?));
     }
-    Ok(group("graphs", "graphs with closed forms, and Pareto eigenvalue problems of the literature", drafts))
+    Ok(group(
+        "graphs",
+        "graphs with closed forms, and Pareto eigenvalue problems of the literature",
+        drafts,
+    ))
 }
 
-/// The block of section 5 on coarse meshes, free dofs eliminated exactly: fractions of hundreds of bits.
-/// (On the paper's own mesh the condensed pencil has 3,147 bits: `mceip block --write` gives it.)
+/// The block of section 5 on coarse meshes, free dofs eliminated exactly: fractions of hundreds of
+/// bits. (On the paper's own mesh the condensed pencil has 3,147 bits: `mceip block --write` gives
+/// it.)
 fn block() -> Result<Group, ConformError> {
     let mut drafts = Vec::new();
     for (slip, stick) in [(2, 0), (3, 1), (5, 0)] {
         let block = Block::new(&BlockModel::refined(slip + stick))?;
         let system = block.system(&block.sliding_states(stick, slip)?, None)?;
-        let reduced = reduce(&Problem::new(Body::System(system), Unknown::Mu, Window::all())?)?;
+        let reduced = reduce(&Problem::new(
+            Body::System(system),
+            Unknown::Mu,
+            Window::all(),
+        )?)?;
         let pencil = condense(&Admissible::new(&reduced.pencil, Unknown::Mu)?)?;
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
-        let comment = format!("the block on a coarse mesh, {slip} slip and {stick} stick nodes, condensed exactly");
+        let comment = format!(
+            "the block on a coarse mesh, {slip} slip and {stick} stick nodes, condensed exactly"
+        );
         drafts.push(draft(format!("block-{slip}"), comment, &[], problem));
     }
-    Ok(group("block", "the polyurethane block of section 5 on coarse meshes, MCEIP-mu, condensed", drafts))
+    Ok(group(
+        "block",
+        "the polyurethane block of section 5 on coarse meshes, MCEIP-mu, condensed",
+        drafts,
+    ))
 }

@@ -1,10 +1,11 @@
-//! A report on a case: correct, incomplete or wrong, decided by exact membership in the complete answer.
+//! A report on a case: correct, incomplete or wrong, decided by exact membership in the complete
+//! answer.
 //!
-//! The rule for floats: a reported solution counts if `certify` turns it into a claim (value within 1e-4
-//! of 1 + |value|, x within 1e-3 with e'x_s = 1, support by several guesses), and the exact solution of
-//! that claim is in the answer. Scale, order and repetitions do not matter. The answer is complete if
-//! every listed solution, every cone (a solution inside it, with its whole slip set) and every continuum
-//! (its intervals, or a solution on its slip set) is met.
+//! The rule for floats: a reported solution counts if `certify` turns it into a claim (value within
+//! 1e-4 of 1 + |value|, x within 1e-3 with e'x_s = 1, support by several guesses), and the exact
+//! solution of that claim is in the answer. Scale, order and repetitions do not matter. The answer
+//! is complete if every listed solution, every cone (a solution inside it, with its whole slip set)
+//! and every continuum (its intervals, or a solution on its slip set) is met.
 
 use super::Case;
 use crate::certificate::{Claim, ExactSolution};
@@ -35,7 +36,14 @@ pub enum Label {
 
 impl Label {
     /// All labels, in the order of tables.
-    pub const ALL: [Label; 6] = [Label::Correct, Label::Incomplete, Label::Wrong, Label::Crashed, Label::TimedOut, Label::Malformed];
+    pub const ALL: [Label; 6] = [
+        Label::Correct,
+        Label::Incomplete,
+        Label::Wrong,
+        Label::Crashed,
+        Label::TimedOut,
+        Label::Malformed,
+    ];
 
     /// The label in words.
     pub fn word(self) -> &'static str {
@@ -61,11 +69,15 @@ pub struct Judgement {
 
 impl Judgement {
     pub(super) fn new(label: Label, detail: impl Into<String>) -> Judgement {
-        Judgement { label, detail: detail.into() }
+        Judgement {
+            label,
+            detail: detail.into(),
+        }
     }
 }
 
-/// Most solutions of a report that are looked at: each is certified. No answer of the pack has a hundred.
+/// Most solutions of a report that are looked at: each is certified. No answer of the pack has a
+/// hundred.
 const MAX_SOLUTIONS: usize = 10_000;
 
 /// Judges the text of a report on a case.
@@ -75,12 +87,19 @@ pub fn judge_report(case: &Case, text: &str) -> Judgement {
         Err(e @ ForeignError::Digest { .. }) => return Judgement::new(Label::Wrong, e.to_string()),
         Err(e) => return Judgement::new(Label::Malformed, e.to_string()),
     };
-    let unfit = report.solutions.iter().filter_map(|s| s.as_ref().err()).find(|bad| !matches!(bad, BadPoint::OffConstraints { .. }));
+    let unfit = report
+        .solutions
+        .iter()
+        .filter_map(|s| s.as_ref().err())
+        .find(|bad| !matches!(bad, BadPoint::OffConstraints { .. }));
     if let Some(bad) = unfit {
         return Judgement::new(Label::Malformed, bad.to_string());
     }
     if report.solutions.len() > MAX_SOLUTIONS {
-        return Judgement::new(Label::Malformed, format!("more than {MAX_SOLUTIONS} solutions"));
+        return Judgement::new(
+            Label::Malformed,
+            format!("more than {MAX_SOLUTIONS} solutions"),
+        );
     }
     match met(case, &report) {
         Err(why) => Judgement::new(Label::Wrong, why),
@@ -109,22 +128,40 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
     let certifier = Certifier::new(&case.problem, &case.reduced.pencil);
     for (k, solution) in report.solutions.iter().enumerate() {
         let wrong = |why: String| format!("solution {k}: {why}");
-        let candidate = &solution.as_ref().map_err(|off| wrong(off.to_string()))?.candidate;
-        let claim = certifier.certify(candidate).map_err(|why| wrong(format!("value {} is not certified: {why}", candidate.value)))?;
+        let candidate = &solution
+            .as_ref()
+            .map_err(|off| wrong(off.to_string()))?
+            .candidate;
+        let claim = certifier
+            .certify(candidate)
+            .map_err(|why| wrong(format!("value {} is not certified: {why}", candidate.value)))?;
         let placed = match &claim {
             Claim::ExactSolution(c) => place(case, &claim, c, &mut met),
             // A lifted one is never made here; like a box it is placed by value and support.
-            Claim::EnclosedSolution(_) | Claim::LiftedSolution(_) => place_box(answer, &claim, &mut met),
+            Claim::EnclosedSolution(_) | Claim::LiftedSolution(_) => {
+                place_box(answer, &claim, &mut met)
+            }
         };
         if !placed {
-            return Err(wrong(format!("value {} is certified and not in the complete answer", candidate.value)));
+            return Err(wrong(format!(
+                "value {} is certified and not in the complete answer",
+                candidate.value
+            )));
         }
     }
     for reported in &report.continua {
-        let of_slip = answer.ranges.iter().position(|r| r.support == sorted(&reported.slip));
+        let of_slip = answer
+            .ranges
+            .iter()
+            .position(|r| r.support == sorted(&reported.slip));
         match of_slip.filter(|&k| same_intervals(&answer.ranges[k], reported)) {
             Some(k) => met.ranges[k] = true,
-            None => return Err(format!("continuum of slip {:?}: its values are not those of the answer", reported.slip)),
+            None => {
+                return Err(format!(
+                    "continuum of slip {:?}: its values are not those of the answer",
+                    reported.slip
+                ));
+            }
         }
     }
     Ok(met)
@@ -132,14 +169,31 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
 
 /// Marks what an exact claim meets; false if the answer does not hold it.
 fn place(case: &Case, claim: &Claim, c: &ExactSolution, met: &mut Met) -> bool {
-    let Some(value) = exact_value(claim) else { return false };
+    let Some(value) = exact_value(claim) else {
+        return false;
+    };
     let clear = common_denominator(c.x.iter().flatten().map(|n| &n.0));
-    let x: Vec<Poly> = c.x.iter().map(|p| Poly::new(p.iter().map(|n| n.0.numer() * (&clear / n.0.denom())).collect())).collect();
+    let x: Vec<Poly> =
+        c.x.iter()
+            .map(|p| {
+                Poly::new(
+                    p.iter()
+                        .map(|n| n.0.numer() * (&clear / n.0.denom()))
+                        .collect(),
+                )
+            })
+            .collect();
     if !case.answer.contains(&case.reduced.pencil, &value, &x) {
         return false;
     }
-    let solution =
-        Solution { value: value.clone(), multiplicity: 0, slip: c.support.clone(), biactive: c.biactive.clone(), x, y: Vec::new() };
+    let solution = Solution {
+        value: value.clone(),
+        multiplicity: 0,
+        slip: c.support.clone(),
+        biactive: c.biactive.clone(),
+        x,
+        y: Vec::new(),
+    };
     for (k, s) in case.answer.solutions.iter().enumerate() {
         met.solutions[k] |= *s == solution;
     }
@@ -152,14 +206,25 @@ fn place(case: &Case, claim: &Claim, c: &ExactSolution, met: &mut Met) -> bool {
     true
 }
 
-/// A box holds one solution of its support: the listed one with this support and a value in the box.
+/// A box holds one solution of its support: the listed one with this support and a value in the
+/// box.
 fn place_box(answer: &Enumeration, claim: &Claim, met: &mut Met) -> bool {
-    let Claim::EnclosedSolution(c) = claim else { return false };
-    let (Some(center), Some(radius)) = (c.center.last(), c.radius.last()) else { return false };
+    let Claim::EnclosedSolution(c) = claim else {
+        return false;
+    };
+    let (Some(center), Some(radius)) = (c.center.last(), c.radius.last()) else {
+        return false;
+    };
     let (lo, hi) = (&center.0 - &radius.0, &center.0 + &radius.0);
-    let inside = |v: &Algebraic| v.clone().cmp_rational(&lo).is_ge() && v.clone().cmp_rational(&hi).is_le();
+    let inside =
+        |v: &Algebraic| v.clone().cmp_rational(&lo).is_ge() && v.clone().cmp_rational(&hi).is_le();
     let mut placed = false;
-    for (k, s) in answer.solutions.iter().enumerate().filter(|(_, s)| s.slip == support(claim) && inside(&s.value)) {
+    for (k, s) in answer
+        .solutions
+        .iter()
+        .enumerate()
+        .filter(|(_, s)| s.slip == support(claim) && inside(&s.value))
+    {
         met.solutions[k] |= s.slip == support(claim);
         placed = true;
     }
@@ -178,7 +243,8 @@ fn same_intervals(range: &SupportRange, reported: &ForeignContinuum) -> bool {
         let mut value = a.value.clone();
         let radius = from_f64(VALUE_RADIUS).unwrap_or_default(); // a finite constant
         let radius = radius * (Rational::one() + b.value.0.abs());
-        let near = value.cmp_rational(&(&b.value.0 - &radius)).is_ge() && value.cmp_rational(&(&b.value.0 + &radius)).is_le();
+        let near = value.cmp_rational(&(&b.value.0 - &radius)).is_ge()
+            && value.cmp_rational(&(&b.value.0 + &radius)).is_le();
         near && b.included.is_none_or(|included| included == a.included)
     };
     range.pieces.len() == reported.intervals.len()
@@ -194,8 +260,16 @@ fn same_intervals(range: &SupportRange, reported: &ForeignContinuum) -> bool {
 
 /// The first part of the answer that was not met, and how many.
 fn missing(case: &Case, met: &Met) -> Option<String> {
-    let decimal = |value: &Algebraic| crate::exact::to_decimal(&mut value.clone(), &Poly::from_ints(&[0, 1]), 9);
-    let not = |list: &[bool]| list.iter().enumerate().filter(|(_, m)| !**m).map(|(k, _)| k).collect::<Vec<_>>();
+    let decimal = |value: &Algebraic| {
+        crate::exact::to_decimal(&mut value.clone(), &Poly::from_ints(&[0, 1]), 9)
+    };
+    let not = |list: &[bool]| {
+        list.iter()
+            .enumerate()
+            .filter(|(_, m)| !**m)
+            .map(|(k, _)| k)
+            .collect::<Vec<_>>()
+    };
     let (solutions, cones, ranges) = (not(&met.solutions), not(&met.cones), not(&met.ranges));
     let count = solutions.len() + cones.len() + ranges.len();
     let total = met.solutions.len() + met.cones.len() + met.ranges.len();
@@ -206,7 +280,10 @@ fn missing(case: &Case, met: &Met) -> Option<String> {
         let c = &case.answer.cones[k];
         format!("the cone at {} with slip {:?}", decimal(&c.value), c.slip)
     } else {
-        format!("the continuum of slip {:?}", case.answer.ranges[*ranges.first()?].support)
+        format!(
+            "the continuum of slip {:?}",
+            case.answer.ranges[*ranges.first()?].support
+        )
     };
     Some(format!("{count} of {total} missing, first {first}"))
 }

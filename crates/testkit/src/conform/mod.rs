@@ -1,4 +1,5 @@
-//! Conformance: problems with complete exact answers for other people's implementations, in the manner of Wycheproof.
+//! Conformance: problems with complete exact answers for other people's implementations, in the
+//! manner of Wycheproof.
 //!
 //! ```text
 //! groups -> drafts -> cases (plain oracle: complete answer, flags, wrong answers) -> pack files
@@ -6,8 +7,8 @@
 //!                       +-> foreign program (stdin: problem, stdout: mceip-solutions/1) -> judge -> labels per flag
 //! ```
 //!
-//! The pack in `spec/conformance-pack/` is written from this room byte for byte; `mceip conform` needs
-//! no files. The pages: `spec/conform.md`.
+//! The pack in `spec/conformance-pack/` is written from this room byte for byte; `mceip conform`
+//! needs no files. The pages: `spec/conform.md`.
 
 mod case;
 mod error;

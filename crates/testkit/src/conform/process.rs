@@ -20,7 +20,10 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { time: Duration::from_secs(10), output: 16 << 20 }
+        Limits {
+            time: Duration::from_secs(10),
+            output: 16 << 20,
+        }
     }
 }
 
@@ -55,50 +58,82 @@ const COMPLAINT: u64 = 4096;
 ///
 /// # Errors
 /// [`ConformError::Start`] if it does not start.
-pub fn run_once(command: &[String], input: &str, limits: &Limits, stop: &AtomicBool) -> Result<Ending, ConformError> {
-    let (program, arguments) = command.split_first().map_or(("", &[][..]), |(p, a)| (p.as_str(), a));
+pub fn run_once(
+    command: &[String],
+    input: &str,
+    limits: &Limits,
+    stop: &AtomicBool,
+) -> Result<Ending, ConformError> {
+    let (program, arguments) = command
+        .split_first()
+        .map_or(("", &[][..]), |(p, a)| (p.as_str(), a));
     let mut build = Command::new(program);
-    build.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+    build
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
     #[cfg(unix)]
     {
         use std::os::unix::process::CommandExt as _;
         build.process_group(0); // so that its children end with it
     }
     let start = Instant::now();
-    let mut child = build.spawn().map_err(|e| ConformError::Start { command: program.to_string(), reason: e.kind() })?;
+    let mut child = build.spawn().map_err(|e| ConformError::Start {
+        command: program.to_string(),
+        reason: e.kind(),
+    })?;
     let too_long = Arc::new(AtomicBool::new(false));
     feed(&mut child, input);
-    let stdout = child.stdout.take().map(|pipe| drain(pipe, limits.output, Some(too_long.clone())));
+    let stdout = child
+        .stdout
+        .take()
+        .map(|pipe| drain(pipe, limits.output, Some(too_long.clone())));
     let stderr = child.stderr.take().map(|pipe| drain(pipe, COMPLAINT, None));
     let ended = wait(&mut child, start, limits, stop, &too_long);
     kill(&mut child); // and whatever it has left behind
-    let taken = |pipe: Option<Receiver<Vec<u8>>>| pipe.and_then(|r| r.recv_timeout(GRACE).ok()).unwrap_or_default();
+    let taken = |pipe: Option<Receiver<Vec<u8>>>| {
+        pipe.and_then(|r| r.recv_timeout(GRACE).ok())
+            .unwrap_or_default()
+    };
     let (stdout, complaint) = (taken(stdout), taken(stderr));
     if too_long.load(Ordering::Relaxed) {
         return Ok(Ending::TooLong);
     }
     Ok(match ended {
-        Ok(status) => Ending::Ended { code: status.code(), stdout, complaint: first_line(&complaint) },
+        Ok(status) => Ending::Ended {
+            code: status.code(),
+            stdout,
+            complaint: first_line(&complaint),
+        },
         Err(ending) => ending,
     })
 }
 
-/// Writes the problem from a thread of its own: a program that reads nothing must not stop us. One that
-/// closes its stdin early is no error.
+/// Writes the problem from a thread of its own: a program that reads nothing must not stop us. One
+/// that closes its stdin early is no error.
 fn feed(child: &mut Child, input: &str) {
-    let (Some(mut stdin), text) = (child.stdin.take(), input.to_string()) else { return };
+    let (Some(mut stdin), text) = (child.stdin.take(), input.to_string()) else {
+        return;
+    };
     std::thread::spawn(move || {
-        let _ = stdin.write_all(text.as_bytes()); // a closed pipe: the program did not want the rest
+        // A closed pipe: the program did not want the rest.
+        let _ = stdin.write_all(text.as_bytes());
     });
 }
 
-/// Reads a pipe to its end, keeps the first `limit` bytes. With a flag, more than that sets it and ends
-/// the reading; without one, the rest is read and dropped.
-fn drain(mut pipe: impl Read + Send + 'static, limit: u64, too_long: Option<Arc<AtomicBool>>) -> Receiver<Vec<u8>> {
+/// Reads a pipe to its end, keeps the first `limit` bytes. With a flag, more than that sets it and
+/// ends the reading; without one, the rest is read and dropped.
+fn drain(
+    mut pipe: impl Read + Send + 'static,
+    limit: u64,
+    too_long: Option<Arc<AtomicBool>>,
+) -> Receiver<Vec<u8>> {
     let (send, receive) = channel();
     std::thread::spawn(move || {
         let mut kept = Vec::new();
-        let _ = pipe.by_ref().take(limit).read_to_end(&mut kept); // what was read until an error is kept
+        // What was read until an error is kept.
+        let _ = pipe.by_ref().take(limit).read_to_end(&mut kept);
         let mut buffer = [0u8; 1 << 14];
         while let Ok(more) = pipe.read(&mut buffer) {
             if more == 0 {
@@ -114,7 +149,13 @@ fn drain(mut pipe: impl Read + Send + 'static, limit: u64, too_long: Option<Arc<
     receive
 }
 
-fn wait(child: &mut Child, start: Instant, limits: &Limits, stop: &AtomicBool, too_long: &AtomicBool) -> Result<ExitStatus, Ending> {
+fn wait(
+    child: &mut Child,
+    start: Instant,
+    limits: &Limits,
+    stop: &AtomicBool,
+    too_long: &AtomicBool,
+) -> Result<ExitStatus, Ending> {
     loop {
         let left = limits.time.saturating_sub(start.elapsed());
         match child.wait_timeout(left.min(SLICE)) {
@@ -133,7 +174,8 @@ fn kill(child: &mut Child) {
     #[cfg(unix)]
     {
         let group = rustix::process::Pid::from_child(child);
-        let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL); // gone already: fine
+        // Gone already: fine.
+        let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
     }
     let _ = child.kill();
     let _ = child.wait();
@@ -141,7 +183,10 @@ fn kill(child: &mut Child) {
 
 fn first_line(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
-    let line = text.lines().find(|l| !l.trim().is_empty()).unwrap_or_default();
+    let line = text
+        .lines()
+        .find(|l| !l.trim().is_empty())
+        .unwrap_or_default();
     line.chars().filter(|c| !c.is_control()).take(200).collect()
 }
 
@@ -157,7 +202,10 @@ mod tests {
     }
 
     fn quick() -> Limits {
-        Limits { time: Duration::from_millis(400), output: 1000 }
+        Limits {
+            time: Duration::from_millis(400),
+            output: 1000,
+        }
     }
 
     #[test]
@@ -165,30 +213,54 @@ mod tests {
         let long = Limits::default();
         assert_eq!(
             sh("wc -c | tr -d ' '", &long),
-            Ending::Ended { code: Some(0), stdout: b"1048576\n".to_vec(), complaint: String::new() }
+            Ending::Ended {
+                code: Some(0),
+                stdout: b"1048576\n".to_vec(),
+                complaint: String::new()
+            }
         );
         assert_eq!(
             sh("echo a; exec 0<&-; exit 7", &long),
-            Ending::Ended { code: Some(7), stdout: b"a\n".to_vec(), complaint: String::new() }
+            Ending::Ended {
+                code: Some(7),
+                stdout: b"a\n".to_vec(),
+                complaint: String::new()
+            }
         );
-        assert!(matches!(sh("echo oops >&2; kill -9 $$", &long), Ending::Ended { code: None, complaint, .. } if complaint == "oops"));
+        assert!(
+            matches!(sh("echo oops >&2; kill -9 $$", &long), Ending::Ended { code: None, complaint, .. } if complaint == "oops")
+        );
         assert_eq!(sh("sleep 100", &quick()), Ending::TimedOut);
         assert_eq!(sh("sleep 100 | sleep 100", &quick()), Ending::TimedOut);
         let start = Instant::now();
         assert_eq!(sh("yes", &long), Ending::TooLong);
-        assert!(matches!(sh("yes >&2 & sleep 0.1; kill $!; echo done", &long), Ending::Ended { code: Some(0), .. }));
+        assert!(matches!(
+            sh("yes >&2 & sleep 0.1; kill $!; echo done", &long),
+            Ending::Ended { code: Some(0), .. }
+        ));
         // A grandchild that holds the pipe open for long.
-        assert!(matches!(sh("sleep 100 & echo done", &long), Ending::Ended { code: Some(0), stdout, .. } if stdout == b"done\n"));
-        assert!(start.elapsed() < Duration::from_secs(8), "{:?}", start.elapsed());
+        assert!(
+            matches!(sh("sleep 100 & echo done", &long), Ending::Ended { code: Some(0), stdout, .. } if stdout == b"done\n")
+        );
+        assert!(
+            start.elapsed() < Duration::from_secs(8),
+            "{:?}",
+            start.elapsed()
+        );
     }
 
     #[test]
     fn an_interrupt_ends_a_run_and_a_missing_program_is_named() {
         let stopped = AtomicBool::new(true);
         let sleep = ["sleep".to_string(), "100".into()];
-        assert_eq!(run_once(&sleep, "", &Limits::default(), &stopped).unwrap(), Ending::Interrupted);
+        assert_eq!(
+            run_once(&sleep, "", &Limits::default(), &stopped).unwrap(),
+            Ending::Interrupted
+        );
         let nothing = ["/nowhere/solver".to_string()];
         let refused = run_once(&nothing, "", &Limits::default(), &stopped);
-        assert!(matches!(refused, Err(ConformError::Start { command, .. }) if command == "/nowhere/solver"));
+        assert!(
+            matches!(refused, Err(ConformError::Start { command, .. }) if command == "/nowhere/solver")
+        );
     }
 }

@@ -57,12 +57,16 @@ impl Bug {
     /// Why it is wrong.
     pub fn reason(self) -> &'static str {
         match self {
-            Bug::SignFlipped => "x < 0 where x >= 0 is asked for: S, or the normal, has the wrong sign",
+            Bug::SignFlipped => {
+                "x < 0 where x >= 0 is asked for: S, or the normal, has the wrong sign"
+            }
             Bug::ShiftedValue => "no solution has this value: it is 1 per cent off",
             Bug::MixedSigns => "an eigenvector of a support whose components have both signs",
             Bug::ComplementIgnored => "a positive eigenvector of a support with y < 0 elsewhere",
             Bug::NegativeValue => "t < 0: not an answer to (12) or (21)",
-            Bug::RoundedToZero => "its value is negative and was rounded to 0: below the threshold nothing exists",
+            Bug::RoundedToZero => {
+                "its value is negative and was rounded to 0: below the threshold nothing exists"
+            }
             Bug::OutsideWindow => "a solution outside the window asked for",
             Bug::ZeroVector => "x = 0 solves every line but x != 0",
             Bug::EndlessContinuum => "the support has solutions on part of these values only",
@@ -96,8 +100,18 @@ const SPECTRUM_SLIP: usize = 5;
 pub(super) fn wrong_answers(case: &Case) -> Vec<WrongAnswer> {
     let slip = case.reduced.pencil.slip();
     let mut out = Vec::new();
-    let mut push = |bug, solutions: Vec<Value>| out.push(WrongAnswer { bug, report: report(solutions, None) });
-    let listed: Vec<Value> = case.answer.solutions.iter().map(|s| entry(s, &slip, false)).collect();
+    let mut push = |bug, solutions: Vec<Value>| {
+        out.push(WrongAnswer {
+            bug,
+            report: report(solutions, None),
+        })
+    };
+    let listed: Vec<Value> = case
+        .answer
+        .solutions
+        .iter()
+        .map(|s| entry(s, &slip, false))
+        .collect();
     if let Some(s) = case.answer.solutions.iter().find(|s| !s.is_free_only()) {
         push(Bug::SignFlipped, vec![entry(s, &slip, true)]);
         if let Some(shifted) = shifted(case, s, &slip) {
@@ -115,14 +129,33 @@ pub(super) fn wrong_answers(case: &Case) -> Vec<WrongAnswer> {
         push(Bug::OutsideWindow, vec![entry(&s, &slip, false)]);
     }
     if !case.has_solutions() {
-        push(Bug::ZeroVector, vec![json!({ "value": "1", "x": vec!["0"; case.reduced.pencil.order()] })]);
+        push(
+            Bug::ZeroVector,
+            vec![json!({ "value": "1", "x": vec!["0"; case.reduced.pencil.order()] })],
+        );
     }
     let described = case.answer.cones.is_empty() && case.answer.ranges.is_empty();
-    let shared = case.answer.solutions.windows(2).position(|w| w[0].value.clone().equals(&mut w[1].value.clone()));
+    let shared = case
+        .answer
+        .solutions
+        .windows(2)
+        .position(|w| w[0].value.clone().equals(&mut w[1].value.clone()));
     match shared.filter(|_| described) {
-        Some(k) => push(Bug::MergedByValue, listed.iter().enumerate().filter(|(i, _)| *i != k + 1).map(|(_, v)| v.clone()).collect()),
+        Some(k) => push(
+            Bug::MergedByValue,
+            listed
+                .iter()
+                .enumerate()
+                .filter(|(i, _)| *i != k + 1)
+                .map(|(_, v)| v.clone())
+                .collect(),
+        ),
         None if case.has_solutions() => {
-            let kept = if described { listed.len() - 1 } else { listed.len() };
+            let kept = if described {
+                listed.len() - 1
+            } else {
+                listed.len()
+            };
             // Cones and continua come last: a report without them has dropped them, unless a listed
             // solution lies on a continuum's slip set.
             let lies_on = |s: &Solution| case.answer.ranges.iter().any(|r| r.support == s.slip);
@@ -151,13 +184,18 @@ fn entry(s: &Solution, slip: &[usize], negated: bool) -> Value {
         (None, true) => d,
         (None, false) => format!("-{d}"),
     };
-    let x = s.x_decimals(slip, 17).into_iter().map(|d| if negated { negate(d) } else { d });
+    let x = s
+        .x_decimals(slip, 17)
+        .into_iter()
+        .map(|d| if negated { negate(d) } else { d });
     json!({ "value": s.decimal(17), "x": x.collect::<Vec<_>>() })
 }
 
 /// The solution with 1.01 value + 0.01, where no support is singular (else that may be a solution).
 fn shifted(case: &Case, s: &Solution, slip: &[usize]) -> Option<Value> {
-    let value = crate::exact::parse(&s.decimal(17)).ok().filter(|_| case.answer.continua.is_empty())?;
+    let value = crate::exact::parse(&s.decimal(17))
+        .ok()
+        .filter(|_| case.answer.continua.is_empty())?;
     let value = value * rational(101, 100) + rational(1, 100);
     let mut out = entry(s, slip, false);
     out["value"] = json!(value.to_string());
@@ -187,11 +225,19 @@ fn spurious(case: &Case) -> Vec<(Bug, Solution)> {
     if window.min().is_zero() {
         let (far, near) = (whole(-1_000_000), rational(-1, 1_000_000));
         for (kind, s) in eigenpairs(pencil, &far, Some(&Rational::zero())) {
-            if kind != Kind::Admissible || !s.value.clone().cmp_rational(&Rational::zero()).is_lt() {
+            if kind != Kind::Admissible || !s.value.clone().cmp_rational(&Rational::zero()).is_lt()
+            {
                 continue;
             }
             let close = s.value.clone().cmp_rational(&near).is_gt();
-            keep(if close { Bug::RoundedToZero } else { Bug::NegativeValue }, s);
+            keep(
+                if close {
+                    Bug::RoundedToZero
+                } else {
+                    Bug::NegativeValue
+                },
+                s,
+            );
         }
     }
     found
@@ -201,7 +247,8 @@ fn spurious(case: &Case) -> Vec<(Bug, Solution)> {
 fn clearly_mixed(s: &Solution, slip: &[usize]) -> bool {
     let limit = rational(-1, 100);
     let decimals = s.x_decimals(slip, 17);
-    slip.iter().any(|&i| crate::exact::parse(&decimals[i]).is_ok_and(|v| v < limit))
+    slip.iter()
+        .any(|&i| crate::exact::parse(&decimals[i]).is_ok_and(|v| v < limit))
 }
 
 /// A solution of the problem without its window, clearly outside of that.
@@ -211,17 +258,28 @@ fn outside(case: &Case) -> Option<Solution> {
         return None;
     }
     let all = enumerate(&case.reduced.pencil, &Window::all()).ok()?;
-    let far = |v: &Rational, from: &Rational| (v - from).abs() > rational(1, 100) * (whole(1) + v.abs());
+    let far =
+        |v: &Rational, from: &Rational| (v - from).abs() > rational(1, 100) * (whole(1) + v.abs());
     all.solutions.into_iter().find(|s| {
-        let Ok(v) = crate::exact::parse(&s.decimal(17)) else { return false };
-        (v < *window.min() && far(&v, window.min())) || window.max().is_some_and(|m| v > *m && far(&v, m))
+        let Ok(v) = crate::exact::parse(&s.decimal(17)) else {
+            return false;
+        };
+        (v < *window.min() && far(&v, window.min()))
+            || window.max().is_some_and(|m| v > *m && far(&v, m))
     })
 }
 
 /// A continuum reported for all values from 0, where it is not.
 fn endless(case: &Case) -> Option<WrongAnswer> {
-    let range = case.answer.ranges.iter().find(|r| r.pieces.len() > 1 || r.pieces.iter().any(|p| p.to.is_some()))?;
+    let range = case
+        .answer
+        .ranges
+        .iter()
+        .find(|r| r.pieces.len() > 1 || r.pieces.iter().any(|p| p.to.is_some()))?;
     let interval = json!({ "from": { "value": "0" }, "to": null });
     let continua = json!([{ "slip": range.support, "intervals": [interval] }]);
-    Some(WrongAnswer { bug: Bug::EndlessContinuum, report: report(Vec::new(), Some(continua)) })
+    Some(WrongAnswer {
+        bug: Bug::EndlessContinuum,
+        report: report(Vec::new(), Some(continua)),
+    })
 }

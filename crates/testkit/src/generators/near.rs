@@ -1,4 +1,5 @@
-//! Near a threshold: relative distances of 1e-3 to 1e-15 from where a solution appears or disappears.
+//! Near a threshold: relative distances of 1e-3 to 1e-15 from where a solution appears or
+//! disappears.
 
 use super::power_of_ten;
 use crate::exact::{Integer, Rational, Sparse, rational, whole};
@@ -18,25 +19,35 @@ pub fn distance(rng: &mut ChaCha8Rng) -> Rational {
     }
 }
 
-/// The two particles at a random rational angle. `distance` is None for mu between 1/4 and 30; otherwise mu
-/// is a threshold of Table 1 times 1 + distance.
+/// The two particles at a random rational angle. `distance` is None for mu between 1/4 and 30;
+/// otherwise mu is a threshold of Table 1 times 1 + distance.
 pub fn two_particles_data(rng: &mut ChaCha8Rng, distance: Option<Rational>) -> TwoParticles {
     // c = (p^2 - q^2) / h, s = 2pq / h with h = p^2 + q^2, p > q > 0.
     let q = rng.random_range(1..=12i64);
     let p = q + rng.random_range(1..=12i64);
     let h = p * p + q * q;
     let (c, s) = (rational(p * p - q * q, h), rational(2 * p * q, h));
-    let (k, m) = (rational(rng.random_range(1..=40), rng.random_range(1..=9)), rational(rng.random_range(1..=40), rng.random_range(1..=9)));
+    let (k, m) = (
+        rational(rng.random_range(1..=40), rng.random_range(1..=9)),
+        rational(rng.random_range(1..=40), rng.random_range(1..=9)),
+    );
     let signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)][rng.random_range(0..4)];
     let mu = match distance {
         None => rational(rng.random_range(1..=120), 4),
         Some(d) => threshold(rng, signs, &c, &s) * (Rational::one() + d),
     };
-    TwoParticles { c, s, k, m, mu, signs }
+    TwoParticles {
+        c,
+        s,
+        k,
+        m,
+        mu,
+        signs,
+    }
 }
 
-/// mu at which a solution of Table 1 appears: (c^2 + 1)/(cs) and (c^2 + 2)/(cs) for S = (+1, -1), else
-/// sqrt(c^2 + 2)/s, rounded down to 20 digits.
+/// mu at which a solution of Table 1 appears: (c^2 + 1)/(cs) and (c^2 + 2)/(cs) for S = (+1, -1),
+/// else sqrt(c^2 + 2)/s, rounded down to 20 digits.
 fn threshold(rng: &mut ChaCha8Rng, signs: (i8, i8), c: &Rational, s: &Rational) -> Rational {
     if signs.0 != signs.1 {
         return (c * c + whole(rng.random_range(1..=2))) / (c * s);
@@ -47,44 +58,86 @@ fn threshold(rng: &mut ChaCha8Rng, signs: (i8, i8), c: &Rational, s: &Rational) 
     Rational::new(root, num_traits::pow(Integer::from(10), 20))
 }
 
-/// A planted solution with y_i moved by a relative distance for each complementarity variable at rest, so
-/// that biactive indices become barely positive or barely negative.
+/// A planted solution with y_i moved by a relative distance for each complementarity variable at
+/// rest, so that biactive indices become barely positive or barely negative.
 ///
 /// # Errors
 /// [`ModelError`] for no complementarity variables.
 pub fn nearly_biactive(rng: &mut ChaCha8Rng, n: usize, free: usize) -> Result<Problem, ModelError> {
     let Planted { problem, x, .. } = planted(n, free, rng.random_range(0..u64::MAX))?;
-    let Body::Pencil(pencil) = problem.body() else { return Ok(problem) };
-    let moved = (0..n).filter(|i| !pencil.free().contains(i)).map(|i| (i, free, distance(rng) / &x[free])).collect::<Vec<_>>();
-    let a = pencil.a().add_scaled(&Rational::one(), &Sparse::from_entries(n, n, moved));
-    Problem::new(Body::Pencil(Pencil::new(a, pencil.b().clone(), pencil.free().to_vec())?), problem.unknown(), Window::all())
+    let Body::Pencil(pencil) = problem.body() else {
+        return Ok(problem);
+    };
+    let moved = (0..n)
+        .filter(|i| !pencil.free().contains(i))
+        .map(|i| (i, free, distance(rng) / &x[free]))
+        .collect::<Vec<_>>();
+    let a = pencil
+        .a()
+        .add_scaled(&Rational::one(), &Sparse::from_entries(n, n, moved));
+    Problem::new(
+        Body::Pencil(Pencil::new(a, pencil.b().clone(), pencil.free().to_vec())?),
+        problem.unknown(),
+        Window::all(),
+    )
 }
 
-/// A double root on the full support of two variables, one entry moved: two close roots, one, or none. Above
-/// it an independent third variable, so that the support is not the whole.
+/// A double root on the full support of two variables, one entry moved: two close roots, one, or
+/// none. Above it an independent third variable, so that the support is not the whole.
 ///
 /// # Errors
 /// [`ModelError`]; none for the data as given.
 pub fn nearly_repeated(rng: &mut ChaCha8Rng) -> Result<Problem, ModelError> {
     // [d, -p; q, e] with (d - e)^2 = 4pq: t = -(d + e)/2 twice, with x_1/x_2 = 2p/(d - e) > 0.
-    let (p, q, gap) = [(1, 1, 2), (4, 1, 4), (9, 1, 6), (2, 2, 4), (8, 2, 8)][rng.random_range(0..5)];
+    let (p, q, gap) =
+        [(1, 1, 2), (4, 1, 4), (9, 1, 6), (2, 2, 4), (8, 2, 8)][rng.random_range(0..5)];
     let base = rng.random_range(-8..=0i64);
-    let a = Sparse::from_ints(&[&[base + gap, -p, 0], &[q, base, 0], &[1, 1, rng.random_range(-3..=3)]]);
+    let a = Sparse::from_ints(&[
+        &[base + gap, -p, 0],
+        &[q, base, 0],
+        &[1, 1, rng.random_range(-3..=3)],
+    ]);
     let at = (rng.random_range(0..2), rng.random_range(0..2));
     let change = distance(rng) * whole(p);
-    let a = a.add_scaled(&Rational::one(), &Sparse::from_entries(3, 3, [(at.0, at.1, change)]));
-    Problem::new(Body::Pencil(Pencil::new(a, Sparse::identity(3), vec![])?), Unknown::Lambda2, Window::all())
+    let a = a.add_scaled(
+        &Rational::one(),
+        &Sparse::from_entries(3, 3, [(at.0, at.1, change)]),
+    );
+    Problem::new(
+        Body::Pencil(Pencil::new(a, Sparse::identity(3), vec![])?),
+        Unknown::Lambda2,
+        Window::all(),
+    )
 }
 
-/// A window whose end is at a relative distance from a planted value: inside, on the end, or outside.
+/// A window whose end is at a relative distance from a planted value: inside, on the end, or
+/// outside.
 ///
 /// # Errors
 /// [`ModelError`] for no complementarity variables.
-pub fn near_the_windows_end(rng: &mut ChaCha8Rng, n: usize, free: usize) -> Result<(Planted, bool), ModelError> {
+pub fn near_the_windows_end(
+    rng: &mut ChaCha8Rng,
+    n: usize,
+    free: usize,
+) -> Result<(Planted, bool), ModelError> {
     let plan = planted(n, free, rng.random_range(0..u64::MAX))?;
     let end = &plan.value * (Rational::one() + distance(rng));
     let above = rng.random_range(0..2) == 0;
-    let inside = if above { end <= plan.value } else { end >= plan.value };
-    let window = if above { Window::new(end, None)? } else { Window::new(whole(0), Some(end))? };
-    Ok((Planted { problem: plan.problem.with_window(window), ..plan }, inside))
+    let inside = if above {
+        end <= plan.value
+    } else {
+        end >= plan.value
+    };
+    let window = if above {
+        Window::new(end, None)?
+    } else {
+        Window::new(whole(0), Some(end))?
+    };
+    Ok((
+        Planted {
+            problem: plan.problem.with_window(window),
+            ..plan
+        },
+        inside,
+    ))
 }

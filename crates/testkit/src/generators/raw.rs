@@ -1,4 +1,5 @@
-//! Raw pencils: as finite elements have them, one-digit integers, mostly zeros, twins, graphs, free variables anywhere.
+//! Raw pencils: as finite elements have them, one-digit integers, mostly zeros, twins, graphs, free
+//! variables anywhere.
 
 use super::{gram, sparse};
 use crate::exact::{Rational, Sparse, rational, whole};
@@ -10,14 +11,24 @@ use rand_chacha::ChaCha8Rng;
 ///
 /// # Errors
 /// [`ModelError`] for no variables.
-pub fn elements(unknown: Unknown, rng: &mut ChaCha8Rng, n_s: usize, n_f: usize) -> Result<Pencil, ModelError> {
+pub fn elements(
+    unknown: Unknown,
+    rng: &mut ChaCha8Rng,
+    n_s: usize,
+    n_f: usize,
+) -> Result<Pencil, ModelError> {
     let n = n_s + n_f;
     let (k0, mass) = (gram(rng, n, 1), gram(rng, n, 1));
-    let mut k1: Vec<Vec<i64>> = (0..n).map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect()).collect();
+    let mut k1: Vec<Vec<i64>> = (0..n)
+        .map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect())
+        .collect();
     k1[..n_f].iter_mut().for_each(|r| r.fill(0));
     let (a, b) = match unknown {
         Unknown::Mu => (sparse(&k0), sparse(&k1)),
-        Unknown::Lambda2 => (sparse(&k0).add_scaled(&rational(rng.random_range(1..=9), 3), &sparse(&k1)), sparse(&mass)),
+        Unknown::Lambda2 => (
+            sparse(&k0).add_scaled(&rational(rng.random_range(1..=9), 3), &sparse(&k1)),
+            sparse(&mass),
+        ),
     };
     Pencil::new(a, b, (0..n_f).collect())
 }
@@ -28,7 +39,11 @@ pub fn elements(unknown: Unknown, rng: &mut ChaCha8Rng, n_s: usize, n_f: usize) 
 /// [`ModelError`] for no variables.
 pub fn digits(rng: &mut ChaCha8Rng, n_s: usize, n_f: usize) -> Result<Pencil, ModelError> {
     let n = n_s + n_f;
-    let mut draw = || -> Vec<Vec<i64>> { (0..n).map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect()).collect() };
+    let mut draw = || -> Vec<Vec<i64>> {
+        (0..n)
+            .map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect())
+            .collect()
+    };
     let (mut a, mut b) = (draw(), draw());
     let ff = gram(rng, n_f, 1);
     for i in 0..n_f {
@@ -43,8 +58,15 @@ pub fn digits(rng: &mut ChaCha8Rng, n_s: usize, n_f: usize) -> Result<Pencil, Mo
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn zeros(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
-    let mut draw =
-        || -> Vec<Vec<i64>> { (0..n).map(|_| (0..n).map(|_| [0, 0, 0, 1, 0, 0, 0, -1][rng.random_range(0..8)]).collect()).collect() };
+    let mut draw = || -> Vec<Vec<i64>> {
+        (0..n)
+            .map(|_| {
+                (0..n)
+                    .map(|_| [0, 0, 0, 1, 0, 0, 0, -1][rng.random_range(0..8)])
+                    .collect()
+            })
+            .collect()
+    };
     Pencil::new(sparse(&draw()), sparse(&draw()), Vec::new())
 }
 
@@ -54,13 +76,21 @@ pub fn zeros(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
 /// [`ModelError`] for fewer.
 pub fn doubled(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
     if n < 2 {
-        return Err(ModelError::Empty { what: "a pair of variables" });
+        return Err(ModelError::Empty {
+            what: "a pair of variables",
+        });
     }
     let twin = |m: Vec<Vec<i64>>| -> Vec<Vec<i64>> {
         let of = |i: usize| i.min(n - 2);
-        (0..n).map(|i| (0..n).map(|j| m[of(i)][of(j)]).collect()).collect()
+        (0..n)
+            .map(|i| (0..n).map(|j| m[of(i)][of(j)]).collect())
+            .collect()
     };
-    let mut draw = || -> Vec<Vec<i64>> { (0..n).map(|_| (0..n).map(|_| rng.random_range(-3..=3)).collect()).collect() };
+    let mut draw = || -> Vec<Vec<i64>> {
+        (0..n)
+            .map(|_| (0..n).map(|_| rng.random_range(-3..=3)).collect())
+            .collect()
+    };
     Pencil::new(sparse(&twin(draw())), sparse(&twin(draw())), Vec::new())
 }
 
@@ -72,10 +102,18 @@ pub fn graph(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
     let mut a = vec![vec![0; n]; n];
     for i in 0..n {
         for j in 0..i {
-            (a[i][j], a[j][i]) = if rng.random_range(0..2) == 0 { (1, 1) } else { (0, 0) };
+            (a[i][j], a[j][i]) = if rng.random_range(0..2) == 0 {
+                (1, 1)
+            } else {
+                (0, 0)
+            };
         }
     }
-    Pencil::new(sparse(&a), Sparse::identity(n).add_scaled(&whole(-2), &Sparse::identity(n)), Vec::new())
+    Pencil::new(
+        sparse(&a),
+        Sparse::identity(n).add_scaled(&whole(-2), &Sparse::identity(n)),
+        Vec::new(),
+    )
 }
 
 /// B = I and A of small integers: standard eigenvalues, often repeated, often zero.
@@ -83,18 +121,28 @@ pub fn graph(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn identity(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
-    let a: Vec<Vec<i64>> = (0..n).map(|_| (0..n).map(|_| rng.random_range(-2..=1)).collect()).collect();
+    let a: Vec<Vec<i64>> = (0..n)
+        .map(|_| (0..n).map(|_| rng.random_range(-2..=1)).collect())
+        .collect();
     Pencil::new(sparse(&a), Sparse::identity(n), Vec::new())
 }
 
-/// Zeros and units with free variables anywhere, A_ff possibly singular: outside Propositions 1 and 2.
+/// Zeros and units with free variables anywhere, A_ff possibly singular: outside Propositions 1 and
+/// 2.
 ///
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn free_anywhere(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
     let free = (0..n).filter(|_| rng.random_range(0..3) == 0).collect();
-    let mut draw =
-        || -> Vec<Vec<i64>> { (0..n).map(|_| (0..n).map(|_| [0, 0, 0, 1, -1, 1, -1, 2][rng.random_range(0..8)]).collect()).collect() };
+    let mut draw = || -> Vec<Vec<i64>> {
+        (0..n)
+            .map(|_| {
+                (0..n)
+                    .map(|_| [0, 0, 0, 1, -1, 1, -1, 2][rng.random_range(0..8)])
+                    .collect()
+            })
+            .collect()
+    };
     Pencil::new(sparse(&draw()), sparse(&draw()), free)
 }
 
@@ -104,9 +152,18 @@ pub fn free_anywhere(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelErro
 /// [`ModelError`] for no variables.
 pub fn fractions(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
     let mut entry = |i: usize, j: usize| -> Rational {
-        rational(rng.random_range(-999..=999), rng.random_range(1..=99)) * whole(10i64.pow((i + 2 * j) as u32))
+        rational(rng.random_range(-999..=999), rng.random_range(1..=99))
+            * whole(10i64.pow((i + 2 * j) as u32))
     };
-    let mut draw = || Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, entry(k / n, k % n))).collect::<Vec<_>>());
+    let mut draw = || {
+        Sparse::from_entries(
+            n,
+            n,
+            (0..n * n)
+                .map(|k| (k / n, k % n, entry(k / n, k % n)))
+                .collect::<Vec<_>>(),
+        )
+    };
     Pencil::new(draw(), draw(), Vec::new())
 }
 
@@ -115,7 +172,14 @@ pub fn fractions(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn signs(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
-    let mut draw =
-        || -> Vec<Vec<i64>> { (0..n).map(|_| (0..n).map(|_| if rng.random_range(0..2) == 0 { 1 } else { -1 }).collect()).collect() };
+    let mut draw = || -> Vec<Vec<i64>> {
+        (0..n)
+            .map(|_| {
+                (0..n)
+                    .map(|_| if rng.random_range(0..2) == 0 { 1 } else { -1 })
+                    .collect()
+            })
+            .collect()
+    };
     Pencil::new(sparse(&draw()), sparse(&draw()), Vec::new())
 }

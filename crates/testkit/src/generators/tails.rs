@@ -1,4 +1,5 @@
-//! Pencils whose last interval is hard: masses that are not definite, not everywhere, or of low rank.
+//! Pencils whose last interval is hard: masses that are not definite, not everywhere, or of low
+//! rank.
 
 use super::{gram, sparse};
 use crate::model::{ModelError, Pencil};
@@ -8,7 +9,8 @@ use rand_chacha::ChaCha8Rng;
 /// What the mass matrix of [`tails`] is like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Mass {
-    /// Definite, and coupled by friction: M* = M + mu M1, the symmetric part of which may be indefinite.
+    /// Definite, and coupled by friction: M* = M + mu M1, the symmetric part of which may be
+    /// indefinite.
     Coupled,
     /// Arbitrary digits, but definite on the free variables.
     Indefinite,
@@ -20,10 +22,18 @@ pub enum Mass {
 ///
 /// # Errors
 /// [`ModelError`] for no variables.
-pub fn tails(rng: &mut ChaCha8Rng, n_s: usize, n_f: usize, mass: Mass) -> Result<Pencil, ModelError> {
+pub fn tails(
+    rng: &mut ChaCha8Rng,
+    n_s: usize,
+    n_f: usize,
+    mass: Mass,
+) -> Result<Pencil, ModelError> {
     let n = n_s + n_f;
     let friction = |rng: &mut ChaCha8Rng, m: &mut [Vec<i64>], most: i64| {
-        m[n_f..].iter_mut().flatten().for_each(|v| *v += rng.random_range(-most..=most));
+        m[n_f..]
+            .iter_mut()
+            .flatten()
+            .for_each(|v| *v += rng.random_range(-most..=most));
     };
     let mut a = gram(rng, n, 1);
     friction(rng, &mut a, 18);
@@ -33,13 +43,20 @@ pub fn tails(rng: &mut ChaCha8Rng, n_s: usize, n_f: usize, mass: Mass) -> Result
         Mass::Indefinite => {
             for (i, row) in b.iter_mut().enumerate() {
                 let from = if i < n_f { n_f } else { 0 };
-                row[from..].iter_mut().for_each(|v| *v = rng.random_range(-9..=9));
+                row[from..]
+                    .iter_mut()
+                    .for_each(|v| *v = rng.random_range(-9..=9));
             }
         }
         Mass::Partial => {
             let has_mass: Vec<bool> = (0..n).map(|_| rng.random_range(0..5) < 3).collect();
-            let entries = b.iter_mut().enumerate().flat_map(|(i, row)| row.iter_mut().enumerate().map(move |(j, v)| (i, j, v)));
-            entries.filter(|(i, j, _)| !has_mass[*i] || !has_mass[*j]).for_each(|(_, _, v)| *v = 0);
+            let entries = b
+                .iter_mut()
+                .enumerate()
+                .flat_map(|(i, row)| row.iter_mut().enumerate().map(move |(j, v)| (i, j, v)));
+            entries
+                .filter(|(i, j, _)| !has_mass[*i] || !has_mass[*j])
+                .for_each(|(_, _, v)| *v = 0);
         }
     }
     Pencil::new(sparse(&a), sparse(&b), (0..n_f).collect())

@@ -31,18 +31,29 @@ pub struct Seen {
 impl Counter {
     /// Nothing seen yet; `family` is the name in the table of floors.
     pub const fn new(family: &'static str) -> Counter {
-        Counter { family, seen: Mutex::new(Seen { inputs: 0, coverage: BTreeMap::new() }) }
+        Counter {
+            family,
+            seen: Mutex::new(Seen {
+                inputs: 0,
+                coverage: BTreeMap::new(),
+            }),
+        }
     }
 
     /// Adds an input.
     ///
     /// # Panics
-    /// At every 16th input if a rate is below its floor by more than chance explains: for a fuzz target a finding.
+    /// At every 16th input if a rate is below its floor by more than chance explains: for a fuzz
+    /// target a finding.
     pub fn add(&self, report: &InstanceReport) {
         let seen = self.counted(report);
         if seen.inputs.is_multiple_of(EVERY) {
             let low = self.short(&seen);
-            assert!(low.is_empty(), "coverage over {} inputs of this process, not of the last input: {low:?}", seen.inputs);
+            assert!(
+                low.is_empty(),
+                "coverage over {} inputs of this process, not of the last input: {low:?}",
+                seen.inputs
+            );
         }
     }
 
@@ -53,7 +64,10 @@ impl Counter {
 
     /// What was counted so far.
     pub fn seen(&self) -> Seen {
-        self.seen.lock().unwrap_or_else(PoisonError::into_inner).clone()
+        self.seen
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+            .clone()
     }
 
     /// The counts with this input; the lock is given back before anything can panic.
@@ -67,7 +81,10 @@ impl Counter {
     }
 
     fn short(&self, seen: &Seen) -> Vec<String> {
-        let each = seen.coverage.iter().flat_map(|(starts, coverage)| shortfalls(self.family, *starts, coverage));
+        let each = seen
+            .coverage
+            .iter()
+            .flat_map(|(starts, coverage)| shortfalls(self.family, *starts, coverage));
         each.map(|s| s.to_string()).collect()
     }
 }

@@ -1,5 +1,6 @@
-//! A second implementation of the arithmetic, naive on purpose: polynomials over Q as lists of coefficients,
-//! Euclid's algorithm with division, determinants by Leibniz' formula, Sturm's theorem as in the textbook.
+//! A second implementation of the arithmetic, naive on purpose: polynomials over Q as lists of
+//! coefficients, Euclid's algorithm with division, determinants by Leibniz' formula, Sturm's
+//! theorem as in the textbook.
 
 use crate::exact::{Rational, whole};
 use num_traits::{One, Signed, Zero};
@@ -16,7 +17,11 @@ fn trimmed(mut p: List) -> List {
 
 pub(super) fn add(p: &[Rational], q: &[Rational], factor: i64) -> List {
     let at = |l: &[Rational], k: usize| l.get(k).cloned().unwrap_or_default();
-    trimmed((0..p.len().max(q.len())).map(|k| at(p, k) + at(q, k) * whole(factor)).collect())
+    trimmed(
+        (0..p.len().max(q.len()))
+            .map(|k| at(p, k) + at(q, k) * whole(factor))
+            .collect(),
+    )
 }
 
 pub(super) fn multiply(p: &[Rational], q: &[Rational]) -> List {
@@ -36,7 +41,9 @@ pub(super) fn divide(p: &[Rational], q: &[Rational]) -> Option<(List, List)> {
     while rest.len() >= q.len() {
         let shift = rest.len() - q.len();
         let factor = rest.last()? / lead;
-        q.iter().enumerate().for_each(|(k, c)| rest[shift + k] -= c * &factor);
+        q.iter()
+            .enumerate()
+            .for_each(|(k, c)| rest[shift + k] -= c * &factor);
         quotient[shift] = factor;
         rest = trimmed(rest);
     }
@@ -53,7 +60,8 @@ pub(super) fn gcd(p: &[Rational], q: &[Rational]) -> List {
 }
 
 pub(super) fn monic(p: &[Rational]) -> List {
-    p.last().map_or_else(Vec::new, |lead| p.iter().map(|c| c / lead).collect())
+    p.last()
+        .map_or_else(Vec::new, |lead| p.iter().map(|c| c / lead).collect())
 }
 
 pub(super) fn evaluate(p: &[Rational], t: &Rational) -> Rational {
@@ -67,18 +75,32 @@ pub(super) fn evaluate(p: &[Rational], t: &Rational) -> Rational {
 }
 
 fn derivative(p: &[Rational]) -> List {
-    trimmed(p.iter().enumerate().skip(1).map(|(k, c)| c * whole(k as i64)).collect())
+    trimmed(
+        p.iter()
+            .enumerate()
+            .skip(1)
+            .map(|(k, c)| c * whole(k as i64))
+            .collect(),
+    )
 }
 
-/// Number of distinct real roots in [lo, hi], lo <= hi, by Sturm's theorem on (lo, hi] and a look at lo.
+/// Number of distinct real roots in [lo, hi], lo <= hi, by Sturm's theorem on (lo, hi] and a look
+/// at lo.
 pub(super) fn count_roots(p: &[Rational], lo: &Rational, hi: &Rational) -> usize {
-    let Some((squarefree, _)) = divide(p, &gcd(p, &derivative(p))) else { return 0 };
+    let Some((squarefree, _)) = divide(p, &gcd(p, &derivative(p))) else {
+        return 0;
+    };
     let mut chain = vec![squarefree.clone(), derivative(&squarefree)];
     while let Some((_, rest)) = divide(&chain[chain.len() - 2], &chain[chain.len() - 1]) {
         chain.push(rest.iter().map(|c| -c).collect());
     }
     let changes = |t: &Rational| {
-        let signs: Vec<bool> = chain.iter().map(|q| evaluate(q, t)).filter(|v| !v.is_zero()).map(|v| v.is_positive()).collect();
+        let signs: Vec<bool> = chain
+            .iter()
+            .map(|q| evaluate(q, t))
+            .filter(|v| !v.is_zero())
+            .map(|v| v.is_positive())
+            .collect();
         signs.windows(2).filter(|w| w[0] != w[1]).count()
     };
     usize::from(evaluate(&squarefree, lo).is_zero()) + changes(lo).saturating_sub(changes(hi))
@@ -90,13 +112,21 @@ pub(super) fn determinant(m: &[Vec<List>]) -> List {
     let mut order: Vec<usize> = (0..n).collect();
     let mut sum = Vec::new();
     permutations(&mut order, 0, 1, &mut |order, sign| {
-        let product = order.iter().enumerate().fold(vec![Rational::one()], |p, (i, &j)| multiply(&p, &m[i][j]));
+        let product = order
+            .iter()
+            .enumerate()
+            .fold(vec![Rational::one()], |p, (i, &j)| multiply(&p, &m[i][j]));
         sum = add(&sum, &product, sign);
     });
     sum
 }
 
-fn permutations(order: &mut Vec<usize>, from: usize, sign: i64, see: &mut dyn FnMut(&[usize], i64)) {
+fn permutations(
+    order: &mut Vec<usize>,
+    from: usize,
+    sign: i64,
+    see: &mut dyn FnMut(&[usize], i64),
+) {
     if from == order.len() {
         return see(order, sign);
     }
@@ -119,7 +149,10 @@ mod tests {
     fn the_naive_ones_are_right_where_a_hand_can_check() {
         // (t - 1)^2 (t + 2) = t^3 - 3t + 2
         let p = list(&[2, -3, 0, 1]);
-        assert_eq!(multiply(&multiply(&list(&[-1, 1]), &list(&[-1, 1])), &list(&[2, 1])), p);
+        assert_eq!(
+            multiply(&multiply(&list(&[-1, 1]), &list(&[-1, 1])), &list(&[2, 1])),
+            p
+        );
         assert_eq!(gcd(&p, &list(&[-1, 0, 1])), list(&[-1, 1]));
         assert_eq!(count_roots(&p, &whole(-2), &whole(1)), 2);
         assert_eq!(count_roots(&p, &whole(-1), &whole(0)), 0);

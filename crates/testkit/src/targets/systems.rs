@@ -51,8 +51,8 @@ impl Bytes<'_> {
 ///
 /// * The pencil of [`reduce`] is that of the definitions (10) and (11), formed here entry by entry.
 /// * Lifted solutions satisfy each line of (9).
-/// * A certificate of the complete set is judged alike on the system, whose pencil the checker forms by itself, and on
-///   the reduced pencil given as matrices.
+/// * A certificate of the complete set is judged alike on the system, whose pencil the checker
+///   forms by itself, and on the reduced pencil given as matrices.
 /// * The solver is sound, and finds as much as its floor asks for.
 pub fn mechanical_systems(data: &[u8]) {
     mechanical_systems_by(data, &fuzz_treatment(), &SYSTEMS);
@@ -60,17 +60,40 @@ pub fn mechanical_systems(data: &[u8]) {
 
 /// [`mechanical_systems`] with a solver and a counter of one's own.
 pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Counter) {
-    let Some(problem) = system_problem(data) else { return };
-    let Body::System(system) = problem.body() else { return };
-    let Ok(reduced) = reduce(&problem) else { panic!("a system of the generator is refused: {}", write_problem(&problem)) };
+    let Some(problem) = system_problem(data) else {
+        return;
+    };
+    let Body::System(system) = problem.body() else {
+        return;
+    };
+    let Ok(reduced) = reduce(&problem) else {
+        panic!(
+            "a system of the generator is refused: {}",
+            write_problem(&problem)
+        )
+    };
 
     let defined = pencil_by_definition(system, problem.unknown());
-    assert!(reduced.pencil == defined, "reduction and definition differ: {}", write_problem(&problem));
+    assert!(
+        reduced.pencil == defined,
+        "reduction and definition differ: {}",
+        write_problem(&problem)
+    );
     same_verdict(&problem, &reduced.pencil);
 
-    let instance = Instance { label: format!("fuzz {data:?}"), problem, closed_form: None, corners: Vec::new() };
+    let instance = Instance {
+        label: format!("fuzz {data:?}"),
+        problem,
+        closed_form: None,
+        corners: Vec::new(),
+    };
     let report = compare_by(&instance, treatment);
-    assert!(report.disagreements.is_empty(), "{:?}\n{}", report.disagreements, write_problem(&instance.problem));
+    assert!(
+        report.disagreements.is_empty(),
+        "{:?}\n{}",
+        report.disagreements,
+        write_problem(&instance.problem)
+    );
     counter.add(&report);
 }
 
@@ -83,18 +106,36 @@ pub fn two_particle_problems(data: &[u8]) {
 /// [`two_particle_problems`] with a solver and a counter of one's own.
 pub fn two_particle_problems_by(data: &[u8], treatment: &Treatment, counter: &Counter) {
     let data = two_particle_data(data);
-    let Ok(system) = two_particles(&data) else { panic!("refused: {data:?}") };
-    let Ok(problem) = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()) else { panic!("refused: {data:?}") };
+    let Ok(system) = two_particles(&data) else {
+        panic!("refused: {data:?}")
+    };
+    let Ok(problem) = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()) else {
+        panic!("refused: {data:?}")
+    };
 
-    let instance = Instance { label: format!("{data:?}"), problem, closed_form: Some(data), corners: Vec::new() };
+    let instance = Instance {
+        label: format!("{data:?}"),
+        problem,
+        closed_form: Some(data),
+        corners: Vec::new(),
+    };
     let report = compare_by(&instance, treatment);
-    assert!(report.disagreements.is_empty(), "{}: {:?}", report.label, report.disagreements);
+    assert!(
+        report.disagreements.is_empty(),
+        "{}: {:?}",
+        report.label,
+        report.disagreements
+    );
     counter.add(&report);
 }
 
 /// A search that takes milliseconds on the small problems of a fuzzer.
 pub fn fuzz_treatment() -> Treatment {
-    let search = crate::multistart::Search { starts: 6, window_starts: 1, ..Default::default() };
+    let search = crate::multistart::Search {
+        starts: 6,
+        window_starts: 1,
+        ..Default::default()
+    };
     Treatment::of(&search)
 }
 
@@ -105,14 +146,24 @@ fn system_problem(data: &[u8]) -> Option<Problem> {
     let head = bytes.next();
     let count = usize::from(head % 3) + 1;
     let n = 2 * count + usize::from(head / 3 % 3);
-    let unknown = if head & 0x40 == 0 { Unknown::Lambda2 } else { Unknown::Mu };
+    let unknown = if head & 0x40 == 0 {
+        Unknown::Lambda2
+    } else {
+        Unknown::Mu
+    };
     let is_coupled = head & 0x80 != 0;
 
     let friction = bytes.positive();
     let order = permutation(&mut bytes, n);
-    let particles: Vec<Particle> = (0..count).map(|k| particle(&mut bytes, k, &order)).collect();
+    let particles: Vec<Particle> = (0..count)
+        .map(|k| particle(&mut bytes, k, &order))
+        .collect();
     let stiffness = definite(&mut bytes, n);
-    let mass = if is_coupled { definite(&mut bytes, n) } else { Sparse::zeros(n, n).add_scaled(&bytes.positive(), &Sparse::identity(n)) };
+    let mass = if is_coupled {
+        definite(&mut bytes, n)
+    } else {
+        Sparse::zeros(n, n).add_scaled(&bytes.positive(), &Sparse::identity(n))
+    };
 
     let system = System::new(stiffness, Some(mass), Some(friction), particles).ok()?;
     Problem::new(Body::System(system), unknown, Window::all()).ok()
@@ -195,7 +246,14 @@ fn two_particle_data(data: &[u8]) -> TwoParticles {
         let beside = rational(i64::from(head >> 4 & 3) - 2, 1_000_000_000);
         mu = top / cs + beside;
     }
-    TwoParticles { c, s, k, m, mu, signs }
+    TwoParticles {
+        c,
+        s,
+        k,
+        m,
+        mu,
+        signs,
+    }
 }
 
 /// Columns over the degrees of freedom, dense.
@@ -219,9 +277,16 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
 
     let free = motion.len();
     for particle in system.particles() {
-        let ContactState::Slip { sign } = particle.state else { continue };
+        let ContactState::Slip { sign } = particle.state else {
+            continue;
+        };
         let (tangent, into) = axes(particle, n);
-        motion.push(Column(tangent.into_iter().map(|v| v * whole(i64::from(-sign))).collect()));
+        motion.push(Column(
+            tangent
+                .into_iter()
+                .map(|v| v * whole(i64::from(-sign)))
+                .collect(),
+        ));
         normal.push(Column(into.into_iter().map(|v| -v).collect()));
     }
 
@@ -232,11 +297,15 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
         (Unknown::Lambda2, Some(mass)) => {
             let m_plain = products(mass, &motion, &motion);
             let m_friction = products(mass, &normal, &motion);
-            (k_plain.add_scaled(&friction, &k_friction), m_plain.add_scaled(&friction, &m_friction))
+            (
+                k_plain.add_scaled(&friction, &k_friction),
+                m_plain.add_scaled(&friction, &m_friction),
+            )
         }
         _ => (k_plain, k_friction),
     };
-    Pencil::new(a, b, (0..free).collect()).unwrap_or_else(|e| panic!("a square pencil is refused: {e}"))
+    Pencil::new(a, b, (0..free).collect())
+        .unwrap_or_else(|e| panic!("a square pencil is refused: {e}"))
 }
 
 /// Tangent and direction into the obstacle of a particle, written out from its frame.
@@ -248,7 +317,10 @@ fn axes(particle: &Particle, n: usize) -> (Vec<Rational>, Vec<Rational>) {
 
     let mut tangent = vec![Rational::zero(); n];
     let mut into = vec![Rational::zero(); n];
-    for (k, dof) in [particle.tangential, particle.normal].into_iter().enumerate() {
+    for (k, dof) in [particle.tangential, particle.normal]
+        .into_iter()
+        .enumerate()
+    {
         tangent[dof] = frame[0][k].clone();
         into[dof] = &frame[1][k] * &outward;
     }
@@ -273,16 +345,37 @@ fn products(matrix: &Sparse, left: &[Column], right: &[Column]) -> Sparse {
 /// A certificate of the complete set, as far as few nodes lead, has one verdict on the system and
 /// on its reduced pencil.
 fn same_verdict(problem: &Problem, pencil: &Pencil) {
-    let options = Options { nodes_per_piece: NODES, threads: None, ..Options::default() };
-    let Ok(found) = complete(problem, &options, &AtomicBool::new(false), &|_| {}) else { return };
-    let Ok(reduced) = Problem::new(Body::Pencil(pencil.clone()), problem.unknown(), problem.window().clone()) else { return };
+    let options = Options {
+        nodes_per_piece: NODES,
+        threads: None,
+        ..Options::default()
+    };
+    let Ok(found) = complete(problem, &options, &AtomicBool::new(false), &|_| {}) else {
+        return;
+    };
+    let Ok(reduced) = Problem::new(
+        Body::Pencil(pencil.clone()),
+        problem.unknown(),
+        problem.window().clone(),
+    ) else {
+        return;
+    };
 
     let mut certificate = found.certificate;
     let on_the_system = check(problem, &certificate);
     certificate.problem_sha256 = reduced.sha256();
     let on_the_pencil = check(&reduced, &certificate);
     match (on_the_system, on_the_pencil) {
-        (Ok(a), Ok(b)) => assert!(a == b, "accepted with different content: {}", write_problem(problem)),
-        (a, b) => panic!("on the system {:?}, on its pencil {:?}: {}", a.err(), b.err(), write_problem(problem)),
+        (Ok(a), Ok(b)) => assert!(
+            a == b,
+            "accepted with different content: {}",
+            write_problem(problem)
+        ),
+        (a, b) => panic!(
+            "on the system {:?}, on its pencil {:?}: {}",
+            a.err(),
+            b.err(),
+            write_problem(problem)
+        ),
     }
 }

@@ -74,16 +74,40 @@ pub(super) fn of(
         let thresholds = if wanted.uncondensed {
             on_the_whole(block, interval, None, wanted.modes, stop)?
         } else {
-            condensed(block, interval, pencils.of(&interval.states)?, wanted.modes, stop)?
+            condensed(
+                block,
+                interval,
+                pencils.of(&interval.states)?,
+                wanted.modes,
+                stop,
+            )?
         };
-        let mut state = State { stretch, slip: left + right, thresholds, necessary: None, growing: Vec::new() };
+        let mut state = State {
+            stretch,
+            slip: left + right,
+            thresholds,
+            necessary: None,
+            growing: Vec::new(),
+        };
         if wanted.conditions && !stop.load(Ordering::Relaxed) {
             progress(format!("stretch {stretch}: necessary condition"));
-            state.necessary = Some(Necessary::of(&mu_family(&block.system(&interval.states, None)?)?)?);
+            state.necessary = Some(Necessary::of(&mu_family(
+                &block.system(&interval.states, None)?,
+            )?)?);
         }
-        for mu in wanted.at.iter().take_while(|_| !stop.load(Ordering::Relaxed)) {
-            progress(format!("stretch {stretch}: growth rates at mu = {}", to_f64(mu)));
-            state.growing.push((mu.clone(), on_the_whole(block, interval, Some(mu), wanted.modes, stop)?));
+        for mu in wanted
+            .at
+            .iter()
+            .take_while(|_| !stop.load(Ordering::Relaxed))
+        {
+            progress(format!(
+                "stretch {stretch}: growth rates at mu = {}",
+                to_f64(mu)
+            ));
+            state.growing.push((
+                mu.clone(),
+                on_the_whole(block, interval, Some(mu), wanted.modes, stop)?,
+            ));
         }
         states.push(state);
     }
@@ -91,7 +115,13 @@ pub(super) fn of(
 }
 
 /// The set of the exactly condensed pencil, which is that of the state's problem. // E16
-fn condensed(block: &Block, interval: &Interval, pencil: Pencil, modes: bool, stop: &AtomicBool) -> Result<Set, CliError> {
+fn condensed(
+    block: &Block,
+    interval: &Interval,
+    pencil: Pencil,
+    modes: bool,
+    stop: &AtomicBool,
+) -> Result<Set, CliError> {
     let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
     let found = complete(&problem, &Options::default(), stop, &|_| {})?;
     let level = if modes && found.solutions().next().is_some() {
@@ -101,24 +131,46 @@ fn condensed(block: &Block, interval: &Interval, pencil: Pencil, modes: bool, st
     } else {
         None
     };
-    Ok(Set::of(&found, 0, |x| level.as_ref().map(|(levels, level)| levels.mode(level, x))))
+    Ok(Set::of(&found, 0, |x| {
+        level.as_ref().map(|(levels, level)| levels.mode(level, x))
+    }))
 }
 
 /// The set of the state's problem as it is: MCEIP-mu, or MCEIP-lambda2 at a given mu.
-fn on_the_whole(block: &Block, interval: &Interval, mu: Option<&Rational>, modes: bool, stop: &AtomicBool) -> Result<Set, CliError> {
+fn on_the_whole(
+    block: &Block,
+    interval: &Interval,
+    mu: Option<&Rational>,
+    modes: bool,
+    stop: &AtomicBool,
+) -> Result<Set, CliError> {
     let problem = interval.problem(block, mu.cloned())?;
     let found = complete(&problem, &Options::default(), stop, &|_| {})?;
     let reduced = reduce(&problem)?;
-    let free = reduced.variables.iter().filter(|v| matches!(v, Variable::Free { .. })).count();
-    Ok(Set::of(&found, free, |x| modes.then(|| mode(&reduced.variables, x, block.stiffness.rows()))))
+    let free = reduced
+        .variables
+        .iter()
+        .filter(|v| matches!(v, Variable::Free { .. }))
+        .count();
+    Ok(Set::of(&found, free, |x| {
+        modes.then(|| mode(&reduced.variables, x, block.stiffness.rows()))
+    }))
 }
 
 impl Set {
-    fn of(found: &Completed, free: usize, displacement: impl Fn(&[f64]) -> Option<Vec<f64>>) -> Set {
+    fn of(
+        found: &Completed,
+        free: usize,
+        displacement: impl Fn(&[f64]) -> Option<Vec<f64>>,
+    ) -> Set {
         let mode = |(claim, x): (&AcceptedClaim, &[f64])| Mode {
             claim: claim.clone(),
             value: to_f64(&claim.value.mid()),
-            moving: claim.support.iter().filter_map(|i| i.checked_sub(free)).collect(),
+            moving: claim
+                .support
+                .iter()
+                .filter_map(|i| i.checked_sub(free))
+                .collect(),
             displacement: displacement(x),
         };
         Set {
@@ -130,17 +182,25 @@ impl Set {
 }
 
 impl State {
-    /// mu from which on the necessary condition holds: the middle of its enclosure. `None` if not asked
-    /// for, or if it never holds.
+    /// mu from which on the necessary condition holds: the middle of its enclosure. `None` if not
+    /// asked for, or if it never holds.
     pub(super) fn necessary_from(&self) -> Option<f64> {
         let necessary = self.necessary.as_ref()?;
         let ends = [Some(&necessary.stiffness), necessary.mass.as_ref()];
-        ends.into_iter().flatten().filter_map(|u| u.end()).map(approximately).min_by(f64::total_cmp)
+        ends.into_iter()
+            .flatten()
+            .filter_map(|u| u.end())
+            .map(approximately)
+            .min_by(f64::total_cmp)
     }
 
     /// The equation that says so: (20) for a mass matrix M* that does not depend on mu.
     pub(super) fn necessary_equation(&self) -> &'static str {
-        if self.necessary.as_ref().is_some_and(|n| n.mass_is_constant) { "(20)" } else { "(19)" }
+        if self.necessary.as_ref().is_some_and(|n| n.mass_is_constant) {
+            "(20)"
+        } else {
+            "(19)"
+        }
     }
 
     /// Do all slip nodes slip in this mode: does it satisfy (17)-(18)? // E17, E18
@@ -163,25 +223,51 @@ impl Mode {
     /// The value, enclosed to this many digits.
     pub(super) fn enclosure(&self, digits: usize) -> String {
         let (lo, hi) = enclosing_decimals(&self.claim.value, digits);
-        if lo == hi { lo } else { format!("[{lo}, {hi}]") }
+        if lo == hi {
+            lo
+        } else {
+            format!("[{lo}, {hi}]")
+        }
     }
 }
 
 /// The solutions of a set in words.
 pub(super) fn values(set: &Set, name: &str, digits: usize) -> String {
-    let one = |m: &Mode| format!("{name} in {}, {} slipping", m.enclosure(digits), m.moving.len());
+    let one = |m: &Mode| {
+        format!(
+            "{name} in {}, {} slipping",
+            m.enclosure(digits),
+            m.moving.len()
+        )
+    };
     let all: Vec<String> = set.solutions.iter().map(one).collect();
-    if all.is_empty() { "none".into() } else { all.join("; ") }
+    if all.is_empty() {
+        "none".into()
+    } else {
+        all.join("; ")
+    }
 }
 
 /// What is proved of a set.
 pub(super) fn verdict(set: &Set) -> String {
-    if set.open == 0 { "complete, proved".into() } else { format!("{} regions open", set.open) }
+    if set.open == 0 {
+        "complete, proved".into()
+    } else {
+        format!("{} regions open", set.open)
+    }
 }
 
 /// A table for people.
 pub(super) fn text_of(states: &[State], path: &LoadingPath) -> String {
-    let mut table = Table::new(&["#", "nodes", "slip", "MCEIP-mu solutions in [0, infinity)", "leaves", "verdict", "necessary condition"]);
+    let mut table = Table::new(&[
+        "#",
+        "nodes",
+        "slip",
+        "MCEIP-mu solutions in [0, infinity)",
+        "leaves",
+        "verdict",
+        "necessary condition",
+    ]);
     for s in states {
         let necessary = match (&s.necessary, s.necessary_from()) {
             (None, _) => "".into(),
@@ -190,21 +276,52 @@ pub(super) fn text_of(states: &[State], path: &LoadingPath) -> String {
         };
         let set = &s.thresholds;
         let picture = path.intervals[s.stretch].picture();
-        let row =
-            [s.stretch.to_string(), picture, s.slip.to_string(), values(set, "mu", 10), set.leaves.to_string(), verdict(set), necessary];
+        let row = [
+            s.stretch.to_string(),
+            picture,
+            s.slip.to_string(),
+            values(set, "mu", 10),
+            set.leaves.to_string(),
+            verdict(set),
+            necessary,
+        ];
         table.row(row.to_vec());
     }
     let mut out = format!("\n{table}\n");
     if states.iter().any(|s| !s.growing.is_empty()) {
-        let mut table = Table::new(&["#", "mu", "lambda^2 (1/s^2)", "growth rate lambda (1/s)", "slipping", "verdict"]);
-        for (s, mu, set) in states.iter().flat_map(|s| s.growing.iter().map(move |(mu, set)| (s, mu, set))) {
+        let mut table = Table::new(&[
+            "#",
+            "mu",
+            "lambda^2 (1/s^2)",
+            "growth rate lambda (1/s)",
+            "slipping",
+            "verdict",
+        ]);
+        for (s, mu, set) in states
+            .iter()
+            .flat_map(|s| s.growing.iter().map(move |(mu, set)| (s, mu, set)))
+        {
             let (stretch, mu) = (s.stretch.to_string(), mu.to_string());
             if set.solutions.is_empty() {
-                table.row([&stretch, &mu, "none", "", "", &verdict(set)].map(String::from).to_vec());
+                table.row(
+                    [&stretch, &mu, "none", "", "", &verdict(set)]
+                        .map(String::from)
+                        .to_vec(),
+                );
             }
             for m in &set.solutions {
-                let (slipping, rate) = (format!("{} of {}", m.moving.len(), s.slip), format!("{:.6}", m.value.max(0.0).sqrt()));
-                table.row(vec![stretch.clone(), mu.clone(), m.enclosure(10), rate, slipping, verdict(set)]);
+                let (slipping, rate) = (
+                    format!("{} of {}", m.moving.len(), s.slip),
+                    format!("{:.6}", m.value.max(0.0).sqrt()),
+                );
+                table.row(vec![
+                    stretch.clone(),
+                    mu.clone(),
+                    m.enclosure(10),
+                    rate,
+                    slipping,
+                    verdict(set),
+                ]);
             }
         }
         out += &format!("{table}\n");
@@ -243,7 +360,9 @@ fn state_json(s: &State, path: &LoadingPath) -> Value {
         "lambda2": s.growing.iter().map(growing).collect::<Vec<_>>(),
     });
     if let Some(n) = &s.necessary {
-        let end = |u: &crate::analysis::conditions::DefiniteUntil| u.end().map(|e| [to_f64(e.lo()), to_f64(e.hi())]);
+        let end = |u: &crate::analysis::conditions::DefiniteUntil| {
+            u.end().map(|e| [to_f64(e.lo()), to_f64(e.hi())])
+        };
         out["necessary"] = json!({
             "equation": s.necessary_equation(), "holds_from": s.necessary_from(),
             "stiffness_definite_until": end(&n.stiffness), "mass_semidefinite_until": n.mass.as_ref().and_then(end),
@@ -254,8 +373,7 @@ fn state_json(s: &State, path: &LoadingPath) -> Value {
 
 fn mode_json(s: &State, m: &Mode, name: &str) -> Value {
     let (lo, hi) = enclosing_decimals(&m.claim.value, 15);
-    let mut out =
-        json!({ name: m.value, "enclosure": [lo, hi], "slipping": m.moving.len(), "moving": m.moving, "all_slip": s.is_all_slip(m) });
+    let mut out = json!({ name: m.value, "enclosure": [lo, hi], "slipping": m.moving.len(), "moving": m.moving, "all_slip": s.is_all_slip(m) });
     if let Some(v) = &m.displacement {
         out["mode"] = json!(v);
     }

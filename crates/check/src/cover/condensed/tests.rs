@@ -1,5 +1,6 @@
-//! The elimination again, with polynomial matrices of rationals as the module's heading writes it, on a pencil whose
-//! rows have different denominators and lengths; and hypotheses that hold or fail by a hair.
+//! The elimination again, with polynomial matrices of rationals as the module's heading writes it,
+//! on a pencil whose rows have different denominators and lengths; and hypotheses that hold or fail
+//! by a hair.
 
 use super::super::expanded::Expanded;
 use super::*;
@@ -23,14 +24,20 @@ fn pencil() -> (Dense, Dense) {
         [w(2), r(-1, 7), r(11, 2), w(3)],
         [r(900, 13), w(-77), w(41), r(1234, 13)],
     ];
-    let b =
-        [[r(4, 3), r(1, 2), w(1), w(0)], [w(3), r(2, 11), r(-5, 11), w(7)], [w(1), w(-2), r(7, 3), r(1, 7)], [w(0), r(3, 13), w(6), w(5)]];
+    let b = [
+        [r(4, 3), r(1, 2), w(1), w(0)],
+        [w(3), r(2, 11), r(-5, 11), w(7)],
+        [w(1), w(-2), r(7, 3), r(1, 7)],
+        [w(0), r(3, 13), w(6), w(5)],
+    ];
     (a, b)
 }
 
 fn rows((a, b): &(Dense, Dense)) -> Rows {
     let sparse = |m: &Dense| {
-        let entries = (0..4).flat_map(|i| (0..4).map(move |j| (i, j))).map(|(i, j)| (i, j, m[i][j].clone()));
+        let entries = (0..4)
+            .flat_map(|i| (0..4).map(move |j| (i, j)))
+            .map(|(i, j)| (i, j, m[i][j].clone()));
         Sparse::from_entries(4, 4, entries.collect::<Vec<_>>())
     };
     let pencil = Pencil::new(sparse(a), sparse(b), FREE.to_vec()).unwrap();
@@ -38,22 +45,44 @@ fn rows((a, b): &(Dense, Dense)) -> Rows {
 }
 
 fn integers(list: &[[i64; 2]]) -> Vec<Vec<Integer>> {
-    list.iter().map(|row| row.map(Integer::from).to_vec()).collect()
+    list.iter()
+        .map(|row| row.map(Integer::from).to_vec())
+        .collect()
 }
 
 fn matrix(exponent: u32, rows: [[i64; 2]; 2]) -> IntegerMatrix {
-    IntegerMatrix { exponent, rows: integers(&rows) }
+    IntegerMatrix {
+        exponent,
+        rows: integers(&rows),
+    }
 }
 
 /// W and V of up to three coefficients, any numbers: the identity holds for all.
 fn anchor(right: usize, left: usize) -> Anchor {
-    let w = [matrix(3, [[7, -9], [4, 13]]), matrix(5, [[-3, 8], [15, -6]]), matrix(4, [[2, 5], [-7, 1]])];
-    let v = [matrix(2, [[5, 3], [-2, 6]]), matrix(4, [[9, -11], [1, 4]]), matrix(1, [[1, -1], [3, 2]])];
-    Anchor { center: Number(rational(3, 4)), reversed: false, right: w[..right].to_vec(), left: v[..left].to_vec() }
+    let w = [
+        matrix(3, [[7, -9], [4, 13]]),
+        matrix(5, [[-3, 8], [15, -6]]),
+        matrix(4, [[2, 5], [-7, 1]]),
+    ];
+    let v = [
+        matrix(2, [[5, 3], [-2, 6]]),
+        matrix(4, [[9, -11], [1, 4]]),
+        matrix(1, [[1, -1], [3, 2]]),
+    ];
+    Anchor {
+        center: Number(rational(3, 4)),
+        reversed: false,
+        right: w[..right].to_vec(),
+        left: v[..left].to_vec(),
+    }
 }
 
 fn lower(rows: [&[i64]; 2], exponent: u32) -> Factor {
-    Factor { first: vec![0, 0], rows: rows.map(|r| r.iter().map(|&v| v.into()).collect()).to_vec(), exponent }
+    Factor {
+        first: vec![0, 0],
+        rows: rows.map(|r| r.iter().map(|&v| v.into()).collect()).to_vec(),
+        exponent,
+    }
 }
 
 fn condensation(anchors: Vec<Anchor>) -> Condensation {
@@ -86,12 +115,23 @@ fn block(p: &(Dense, Dense), rows: [usize; 2], cols: [usize; 2], center: &Ration
 }
 
 fn transposed(p: &Poly) -> Poly {
-    p.iter().map(|m| [[m[0][0].clone(), m[1][0].clone()], [m[0][1].clone(), m[1][1].clone()]]).collect()
+    p.iter()
+        .map(|m| {
+            [
+                [m[0][0].clone(), m[1][0].clone()],
+                [m[0][1].clone(), m[1][1].clone()],
+            ]
+        })
+        .collect()
 }
 
 fn true_values(list: &[IntegerMatrix]) -> Poly {
-    let of = |m: &IntegerMatrix, i: usize, j: usize| Rational::new(m.rows[i][j].clone(), Integer::one() << m.exponent);
-    list.iter().map(|m| [[of(m, 0, 0), of(m, 0, 1)], [of(m, 1, 0), of(m, 1, 1)]]).collect()
+    let of = |m: &IntegerMatrix, i: usize, j: usize| {
+        Rational::new(m.rows[i][j].clone(), Integer::one() << m.exponent)
+    };
+    list.iter()
+        .map(|m| [[of(m, 0, 0), of(m, 0, 1)], [of(m, 1, 0), of(m, 1, 1)]])
+        .collect()
 }
 
 /// a - b c
@@ -114,9 +154,12 @@ fn q(v: &Integer) -> Rational {
     Rational::from_integer(v.clone())
 }
 
-/// The norms of the columns of `p`, whose column j is multiplied by factor[j], as integers in units of 2^-32.
+/// The norms of the columns of `p`, whose column j is multiplied by factor[j], as integers in units
+/// of 2^-32.
 fn column_norms(p: &Poly, k: usize, factor: &[Rational; 2]) -> Vec<Integer> {
-    let Some(m) = p.get(k) else { return vec![Integer::zero(); 2] };
+    let Some(m) = p.get(k) else {
+        return vec![Integer::zero(); 2];
+    };
     let of = |j: usize| {
         let square: Rational = (0..2).map(|f| &m[f][j] * &factor[j]).map(|v| &v * &v).sum();
         assert!(square.is_integer());
@@ -128,10 +171,13 @@ fn column_norms(p: &Poly, k: usize, factor: &[Rational; 2]) -> Vec<Integer> {
 
 fn check_expansion(p: &(Dense, Dense), anchor: &Anchor) {
     let rows = rows(p);
-    let e: Expanded = of(&rows, &condensation(vec![anchor.clone()])).unwrap().remove(0);
+    let e: Expanded = of(&rows, &condensation(vec![anchor.clone()]))
+        .unwrap()
+        .remove(0);
     let center = &anchor.center.0;
     let (w, v) = (true_values(&anchor.right), true_values(&anchor.left));
-    let [ff, fs, sf, ss] = [(FREE, FREE), (FREE, SLIP), (SLIP, FREE), (SLIP, SLIP)].map(|(i, j)| block(p, i, j, center));
+    let [ff, fs, sf, ss] = [(FREE, FREE), (FREE, SLIP), (SLIP, FREE), (SLIP, SLIP)]
+        .map(|(i, j)| block(p, i, j, center));
     let (r, l) = (less(&fs, &ff, &w), less(&transposed(&sf), &ff, &v));
     let mut high = r.clone();
     high.iter_mut().take(w.len()).for_each(|m| *m = zero());
@@ -143,30 +189,47 @@ fn check_expansion(p: &(Dense, Dense), anchor: &Anchor) {
     for k in 0..z.len().max(e.z.len()) {
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             let expected = z.get(k).map_or_else(Rational::zero, |m| &m[i][j] * row(i));
-            let got = e.z.get(k).map_or_else(Rational::zero, |m| Rational::new(m[i][j].clone(), e.unit.clone()));
+            let got = e.z.get(k).map_or_else(Rational::zero, |m| {
+                Rational::new(m[i][j].clone(), e.unit.clone())
+            });
             assert_eq!(got, expected, "Z_{k}[{i}][{j}]");
         }
     }
     // |l|, |r| and |V| in their units.
     let exponent = |list: &[IntegerMatrix]| list.iter().map(|m| m.exponent).max().unwrap_or(0);
     let (e_w, e_v) = (exponent(&anchor.right), exponent(&anchor.left));
-    let common = q(&FREE.iter().fold(Integer::one(), |c, &i| c.lcm(&rows.factor[i]))) * q(center.denom());
+    let common = q(&FREE
+        .iter()
+        .fold(Integer::one(), |c, &i| c.lcm(&rows.factor[i])))
+        * q(center.denom());
     let two = |e: u32| q(&(Integer::one() << e));
     let units_r = [&common * two(e_w), &common * two(e_w)];
     let units_l = [0, 1].map(|i| &common * two(e_v) * &factor[i]);
     let units_v = [0, 1].map(|i| two(e_v) * &factor[i]);
     for k in 0..6 {
-        let of = |list: &[Vec<Integer>]| list.get(k).cloned().unwrap_or_else(|| vec![Integer::zero(); 2]);
+        let of = |list: &[Vec<Integer>]| {
+            list.get(k)
+                .cloned()
+                .unwrap_or_else(|| vec![Integer::zero(); 2])
+        };
         assert_eq!(of(&e.left), column_norms(&l, k, &units_l), "l_{k}");
         assert_eq!(of(&e.right), column_norms(&r, k, &units_r), "r_{k}");
         assert_eq!(of(&e.v), column_norms(&v, k, &units_v), "v_{k}");
-        let rounding = if k < w.len() { column_norms(&r, k, &units_r) } else { vec![Integer::zero(); 2] };
+        let rounding = if k < w.len() {
+            column_norms(&r, k, &units_r)
+        } else {
+            vec![Integer::zero(); 2]
+        };
         assert_eq!(of(&e.rounding), rounding, "rounding_{k}");
     }
-    // Rows of the pencil are cut to [0, 1): l' F^-1 r <= |l||r| / sigma and V'r, out of their units into those.
+    // Rows of the pencil are cut to [0, 1): l' F^-1 r <= |l||r| / sigma and V'r, out of their units
+    // into those.
     for i in 0..2 {
         let cut = two(e_w + e_v) * q(&(Integer::one() << bits[i])) * two(64);
-        assert_eq!(e.weight[i], (rational(1, 2) * &common * &common * &cut).recip());
+        assert_eq!(
+            e.weight[i],
+            (rational(1, 2) * &common * &common * &cut).recip()
+        );
         assert_eq!(e.rounding_weight[i], (&common * cut).recip());
     }
     assert_eq!((&e.center, &e.gain), (center, &rational(2, 3)));
@@ -186,12 +249,35 @@ fn the_expansion_is_that_of_the_identity() {
 #[test]
 fn degrees_and_exponents_have_a_limit() {
     let of = |count: usize, exponent: u32| {
-        let list = (0..count).map(|_| matrix(exponent, [[1, 0], [0, 1]])).collect();
-        super::of(&rows(&pencil()), &condensation(vec![Anchor { left: list, ..anchor(1, 0) }])).map(|_| ())
+        let list = (0..count)
+            .map(|_| matrix(exponent, [[1, 0], [0, 1]]))
+            .collect();
+        super::of(
+            &rows(&pencil()),
+            &condensation(vec![Anchor {
+                left: list,
+                ..anchor(1, 0)
+            }]),
+        )
+        .map(|_| ())
     };
     assert_eq!([of(8, 0), of(1, 4096)], [Ok(()), Ok(())]);
-    assert_eq!(of(9, 0), Err(CoverFault::TooLarge { what: "degree", limit: 8, got: 9 }));
-    assert_eq!(of(1, 4097), Err(CoverFault::TooLarge { what: "exponent", limit: 4096, got: 4097 }));
+    assert_eq!(
+        of(9, 0),
+        Err(CoverFault::TooLarge {
+            what: "degree",
+            limit: 8,
+            got: 9
+        })
+    );
+    assert_eq!(
+        of(1, 4097),
+        Err(CoverFault::TooLarge {
+            what: "exponent",
+            limit: 4096,
+            got: 4097
+        })
+    );
 }
 
 #[test]
@@ -208,8 +294,14 @@ fn blocks_are_definite_beyond_sigma_and_tau_only() {
         more.1[i][i] += &hair;
         let fault = |expected, row| Err(CoverFault::Hypothesis { expected, row });
         let row = usize::from(i == 2);
-        assert_eq!(verdict(&less_a, &c), fault("A_ff - sigma I positive semidefinite", row));
-        assert_eq!(verdict(&less_b, &c), fault("B_ff - mass_sigma I positive semidefinite", row));
+        assert_eq!(
+            verdict(&less_a, &c),
+            fault("A_ff - sigma I positive semidefinite", row)
+        );
+        assert_eq!(
+            verdict(&less_b, &c),
+            fault("B_ff - mass_sigma I positive semidefinite", row)
+        );
         assert_eq!(verdict(&more, &c), Ok(()));
     }
     let mut larger = condensation(vec![]);
@@ -220,19 +312,32 @@ fn blocks_are_definite_beyond_sigma_and_tau_only() {
     assert!(verdict(&pencil(), &larger).is_err());
 }
 
-/// The free block has to be symmetric in A and in B; an entry that is there and zero needs no mirror image.
+/// The free block has to be symmetric in A and in B; an entry that is there and zero needs no
+/// mirror image.
 #[test]
 fn a_free_block_that_is_not_symmetric_is_refused() {
     let one = || Integer::one();
     let with = |entry: Option<(i64, i64)>| {
         let mut first: Row = vec![(0, one(), one())];
         first.extend(entry.map(|(a, b)| (1, a.into(), b.into())));
-        let rows = Rows { rows: vec![first, vec![(1, one(), one())]], factor: vec![one(), one()], is_free: vec![true, true] };
+        let rows = Rows {
+            rows: vec![first, vec![(1, one(), one())]],
+            factor: vec![one(), one()],
+            is_free: vec![true, true],
+        };
         Blocks::of(&rows).symmetric()
     };
-    let refused = |row| Err(CoverFault::Hypothesis { expected: "T_ff symmetric", row });
+    let refused = |row| {
+        Err(CoverFault::Hypothesis {
+            expected: "T_ff symmetric",
+            row,
+        })
+    };
     assert_eq!([with(None), with(Some((0, 0)))], [Ok(()), Ok(())]);
-    assert_eq!([with(Some((1, 0))), with(Some((0, 1))), with(Some((1, 1)))], [refused(0), refused(0), refused(0)]);
+    assert_eq!(
+        [with(Some((1, 0))), with(Some((0, 1))), with(Some((1, 1)))],
+        [refused(0), refused(0), refused(0)]
+    );
     for (k, l) in [(0, 2), (2, 0)] {
         for in_a in [true, false] {
             let mut p = pencil();
@@ -243,7 +348,8 @@ fn a_free_block_that_is_not_symmetric_is_refused() {
     }
 }
 
-/// A + 3/2 B = [[4, 2], [2, 5]] + c diag(1, 10/11), with a skew part; B = [[1, 1], [1, 2]] + d I, likewise.
+/// A + 3/2 B = [[4, 2], [2, 5]] + c diag(1, 10/11), with a skew part; B = [[1, 1], [1, 2]] + d I,
+/// likewise.
 fn tail_rows(c: &Rational, d: &Rational) -> Rows {
     let (r, w) = (rational, whole);
     let mut b = [[w(1), r(1, 3)], [r(5, 3), w(2)]];
@@ -266,29 +372,71 @@ fn tail_rows(c: &Rational, d: &Rational) -> Rows {
 #[test]
 fn a_tail_begins_where_the_symmetric_part_is_definite() {
     let of = |c: Rational, d: Rational| {
-        let claim = Tail { from: Number(rational(3, 2)), factor: lower([&[2], &[1, 2]], 0), mass_factor: Some(lower([&[2], &[2, 2]], 1)) };
+        let claim = Tail {
+            from: Number(rational(3, 2)),
+            factor: lower([&[2], &[1, 2]], 0),
+            mass_factor: Some(lower([&[2], &[2, 2]], 1)),
+        };
         tail(&tail_rows(&c, &d), &claim)
     };
     let (hair, none) = (rational(1, 1000), whole(0));
-    assert_eq!([of(hair.clone(), none.clone()), of(hair.clone(), hair.clone())], [Ok(()), Ok(())]);
+    assert_eq!(
+        [
+            of(hair.clone(), none.clone()),
+            of(hair.clone(), hair.clone())
+        ],
+        [Ok(()), Ok(())]
+    );
     let fault = |expected| Err(CoverFault::Hypothesis { expected, row: 0 });
-    assert_eq!(of(none.clone(), none.clone()), fault("sym(A + from B) positive definite"));
+    assert_eq!(
+        of(none.clone(), none.clone()),
+        fault("sym(A + from B) positive definite")
+    );
     assert_eq!(of(-&hair, none), fault("sym(A + from B) positive definite"));
-    assert_eq!(of(hair.clone(), -hair), fault("sym(B) positive semidefinite"));
+    assert_eq!(
+        of(hair.clone(), -hair),
+        fault("sym(B) positive semidefinite")
+    );
 }
 
-/// 2^20 entries of one coefficient: 512 bits of exponents, center, pencil and anchor together, and none beyond.
+/// 2^20 entries of one coefficient: 512 bits of exponents, center, pencil and anchor together, and
+/// none beyond.
 #[test]
 fn an_expansion_has_a_largest_size() {
     let blocks = |longest: u64| {
         let one = Integer::from(1); // of one bit
-        Blocks { free: 1, slip: 1024, longest, common: one, ff: vec![], fs: vec![], sf: vec![], ss: vec![], factor: vec![], bits: vec![] }
+        Blocks {
+            free: 1,
+            slip: 1024,
+            longest,
+            common: one,
+            ff: vec![],
+            fs: vec![],
+            sf: vec![],
+            ss: vec![],
+            factor: vec![],
+            bits: vec![],
+        }
     };
-    let anchor = Anchor { center: Number(rational(5, 2)), reversed: false, right: vec![], left: vec![] }; // 3 + 2 bits
+    let anchor = Anchor {
+        center: Number(rational(5, 2)),
+        reversed: false,
+        right: vec![],
+        left: vec![],
+    }; // 3 + 2 bits
     let right: Matrix = vec![vec![Integer::from(7), Integer::from(-8)]]; // 4 bits
-    let size = |longest: u64, exponent: u32| blocks(longest).affordable(&anchor, 1, exponent, &[std::slice::from_ref(&right), &[]]);
+    let size = |longest: u64, exponent: u32| {
+        blocks(longest).affordable(&anchor, 1, exponent, &[std::slice::from_ref(&right), &[]])
+    };
 
     assert_eq!([size(500, 2), size(300, 202)], [Ok(()), Ok(())]);
-    let refused = CoverFault::TooLarge { what: "bits of an anchor's expansion", limit: 1 << 29, got: 513 << 20 };
-    assert_eq!([size(501, 2), size(500, 3)], [Err(refused.clone()), Err(refused)]);
+    let refused = CoverFault::TooLarge {
+        what: "bits of an anchor's expansion",
+        limit: 1 << 29,
+        got: 513 << 20,
+    };
+    assert_eq!(
+        [size(501, 2), size(500, 3)],
+        [Err(refused.clone()), Err(refused)]
+    );
 }

@@ -1,4 +1,5 @@
-//! The bounds again, in rational numbers and term by term as the formulas stand; the short form; the reversed pencil.
+//! The bounds again, in rational numbers and term by term as the formulas stand; the short form;
+//! the reversed pencil.
 
 use super::super::family::Family;
 use super::*;
@@ -56,7 +57,10 @@ fn power(x: &Rational, k: usize) -> Rational {
 }
 
 fn sum(list: &[Vec<Integer>], i: usize, x: &Rational) -> Rational {
-    list.iter().enumerate().map(|(k, l)| Rational::from_integer(l[i].clone()) * power(x, k)).sum()
+    list.iter()
+        .enumerate()
+        .map(|(k, l)| Rational::from_integer(l[i].clone()) * power(x, k))
+        .sum()
 }
 
 fn slope(list: &[Vec<Integer>], i: usize, x: &Rational) -> Rational {
@@ -75,19 +79,30 @@ fn weigh(a: &Rational, b: &Rational, w: &Rational) -> Rational {
 
 fn at(e: &Expanded, d: &Rational) -> Matrix {
     let entry = |i: usize, j: usize| {
-        let z: Rational = e.z.iter().enumerate().map(|(k, z)| Rational::from_integer(z[i][j].clone()) * power(d, k)).sum();
-        (z / Rational::from_integer(e.unit.clone()) * unit()).floor().to_integer()
+        let z: Rational =
+            e.z.iter()
+                .enumerate()
+                .map(|(k, z)| Rational::from_integer(z[i][j].clone()) * power(d, k))
+                .sum();
+        (z / Rational::from_integer(e.unit.clone()) * unit())
+            .floor()
+            .to_integer()
     };
     grid(2, entry)
 }
 
 fn remainder(e: &Expanded, reach: &Rational, weight: &[Rational], i: usize, j: usize) -> Rational {
     let of = |list: &[Vec<Integer>], i: usize| up(sum(list, i, reach));
-    weigh(&of(&e.left, i), &of(&e.right, j), &weight[i]) + weigh(&of(&e.v, i), &of(&e.rounding, j), &e.rounding_weight[i]) + whole(1)
+    weigh(&of(&e.left, i), &of(&e.right, j), &weight[i])
+        + weigh(&of(&e.v, i), &of(&e.rounding, j), &e.rounding_weight[i])
+        + whole(1)
 }
 
 fn weights(e: &Expanded, lo: &Rational) -> Vec<Rational> {
-    e.weight.iter().map(|w| w / (whole(1) + &e.gain * lo)).collect()
+    e.weight
+        .iter()
+        .map(|w| w / (whole(1) + &e.gain * lo))
+        .collect()
 }
 
 fn check_finite(e: &Expanded, is_linear: bool, lo: &Rational, hi: &Rational) {
@@ -97,24 +112,44 @@ fn check_finite(e: &Expanded, is_linear: bool, lo: &Rational, hi: &Rational) {
     let reach = d[0].abs().max(d[1].abs());
     let weight = weights(e, lo);
     let bend = |i: usize, j: usize| {
-        let term = |(k, z): (usize, &Matrix)| Rational::from_integer(z[i][j].abs() * k * (k - 1)) * power(&reach, k - 2);
+        let term = |(k, z): (usize, &Matrix)| {
+            Rational::from_integer(z[i][j].abs() * k * (k - 1)) * power(&reach, k - 2)
+        };
         let second: Rational = e.z.iter().enumerate().skip(2).map(term).sum();
         up(second * &width * &width / Rational::from_integer(e.unit.clone()))
     };
     for end in 0..2 {
         assert_eq!(got.m[end], at(e, &d[end]));
-        let reach = if is_linear { d[end].abs() } else { reach.clone() };
-        let radius = grid(2, |i, j| ((bend(i, j) / whole(8)).floor() + whole(1) + remainder(e, &reach, &weight, i, j)).to_integer());
+        let reach = if is_linear {
+            d[end].abs()
+        } else {
+            reach.clone()
+        };
+        let radius = grid(2, |i, j| {
+            ((bend(i, j) / whole(8)).floor() + whole(1) + remainder(e, &reach, &weight, i, j))
+                .to_integer()
+        });
         assert_eq!(got.r[end], radius, "end {end}");
     }
     let of = |list: &[Vec<Integer>], i: usize| up(sum(list, i, &reach));
     let d_of = |list: &[Vec<Integer>], i: usize| up(slope(list, i, &reach));
     let expected = grid(2, |i, j| {
-        let (l, r, v, q) = (of(&e.left, i), of(&e.right, j), of(&e.v, i), of(&e.rounding, j));
-        let (dl, dr, dv, dq) = (d_of(&e.left, i), d_of(&e.right, j), d_of(&e.v, i), d_of(&e.rounding, j));
+        let (l, r, v, q) = (
+            of(&e.left, i),
+            of(&e.right, j),
+            of(&e.v, i),
+            of(&e.rounding, j),
+        );
+        let (dl, dr, dv, dq) = (
+            d_of(&e.left, i),
+            d_of(&e.right, j),
+            d_of(&e.v, i),
+            d_of(&e.rounding, j),
+        );
         let w = &weight[i];
         let second = weigh(&dl, &r, w) + weigh(&l, &dr, w) + ceil(weigh(&l, &r, w) * &e.drift);
-        let rounding = weigh(&dv, &q, &e.rounding_weight[i]) + weigh(&v, &dq, &e.rounding_weight[i]);
+        let rounding =
+            weigh(&dv, &q, &e.rounding_weight[i]) + weigh(&v, &dq, &e.rounding_weight[i]);
         (bend(i, j) + ceil((second + rounding) * &width) + whole(2)).to_integer()
     });
     assert_eq!(got.slope, expected);
@@ -122,7 +157,11 @@ fn check_finite(e: &Expanded, is_linear: bool, lo: &Rational, hi: &Rational) {
 
 #[test]
 fn chord_radius_and_slope_are_those_of_the_formulas() {
-    for (lo, hi) in [(rational(1, 7), rational(5, 3)), (whole(3), rational(22, 5)), (whole(0), rational(1, 9))] {
+    for (lo, hi) in [
+        (rational(1, 7), rational(5, 3)),
+        (whole(3), rational(22, 5)),
+        (whole(0), rational(1, 9)),
+    ] {
         check_finite(&bent(), false, &lo, &hi);
         check_finite(&linear(), true, &lo, &hi);
     }
@@ -136,13 +175,24 @@ fn an_infinite_end_has_the_direction_and_its_remainder() {
     let weight = weights(&e, &lo);
     assert!(got.infinite && got.slope == grid(2, |_, _| Integer::zero()));
     assert_eq!(got.m[0], at(&e, &d));
-    assert_eq!(got.r[0], grid(2, |i, j| remainder(&e, &d, &weight, i, j).to_integer()));
-    let direction = |i: usize, j: usize| (Rational::new(e.z[1][i][j].clone(), e.unit.clone()) * unit()).floor().to_integer();
+    assert_eq!(
+        got.r[0],
+        grid(2, |i, j| remainder(&e, &d, &weight, i, j).to_integer())
+    );
+    let direction = |i: usize, j: usize| {
+        (Rational::new(e.z[1][i][j].clone(), e.unit.clone()) * unit())
+            .floor()
+            .to_integer()
+    };
     assert_eq!(got.m[1], grid(2, direction));
     let one = |l: &[Integer], i: usize| Rational::from_integer(l[i].clone()) * unit();
     let radius = |i: usize, j: usize| {
         weigh(&one(&e.left[1], i), &one(&e.right[0], j), &e.weight[i])
-            + weigh(&one(&e.v[1], i), &one(&e.rounding[0], j), &e.rounding_weight[i])
+            + weigh(
+                &one(&e.v[1], i),
+                &one(&e.rounding[0], j),
+                &e.rounding_weight[i],
+            )
             + whole(1)
     };
     assert_eq!(got.r[1], grid(2, |i, j| radius(i, j).to_integer()));
@@ -159,7 +209,10 @@ fn only_what_is_linear_reaches_infinity() {
     cases[4].rounding.push(int(&[0, 1]));
     cases[5].drift = rational(1, 100);
     for (k, e) in cases.iter().enumerate() {
-        assert!(matches!(e.ends(&whole(3), None), Err(CoverFault::Hypothesis { .. })), "{k}");
+        assert!(
+            matches!(e.ends(&whole(3), None), Err(CoverFault::Hypothesis { .. })),
+            "{k}"
+        );
         check_finite(e, false, &whole(1), &whole(2));
     }
     // Zeros beyond do not matter.
@@ -171,31 +224,58 @@ fn only_what_is_linear_reaches_infinity() {
     assert!(same.ends(&whole(3), None).is_ok());
 }
 
-/// Reversed, the ends are those of s = 1 / t from the other side; s = 0 is t at infinity, and from t = 0 nothing is said.
+/// Reversed, the ends are those of s = 1 / t from the other side; s = 0 is t at infinity, and from
+/// t = 0 nothing is said.
 #[test]
 fn reversed_ends_are_those_of_the_reciprocals() {
     let plain = linear();
-    let reversed = || Expanded { reversed: true, ..linear() };
+    let reversed = || Expanded {
+        reversed: true,
+        ..linear()
+    };
     let (lo, hi) = (rational(1, 3), rational(5, 2));
-    let (there, here) = (plain.ends(&hi.recip(), Some(&lo.recip())).unwrap(), reversed().ends(&lo, Some(&hi)).unwrap());
+    let (there, here) = (
+        plain.ends(&hi.recip(), Some(&lo.recip())).unwrap(),
+        reversed().ends(&lo, Some(&hi)).unwrap(),
+    );
     assert_eq!((&here.m[0], &here.m[1]), (&there.m[1], &there.m[0]));
-    assert_eq!((&here.r[0], &here.r[1], &here.slope), (&there.r[1], &there.r[0], &there.slope));
-    let (there, here) = (plain.ends(&whole(0), Some(&lo.recip())).unwrap(), reversed().ends(&lo, None).unwrap());
-    assert_eq!((&here.m[0], &here.m[1], here.infinite, there.infinite), (&there.m[1], &there.m[0], true, false));
-    assert!(matches!(reversed().ends(&whole(0), Some(&hi)), Err(CoverFault::Hypothesis { .. })));
+    assert_eq!(
+        (&here.r[0], &here.r[1], &here.slope),
+        (&there.r[1], &there.r[0], &there.slope)
+    );
+    let (there, here) = (
+        plain.ends(&whole(0), Some(&lo.recip())).unwrap(),
+        reversed().ends(&lo, None).unwrap(),
+    );
+    assert_eq!(
+        (&here.m[0], &here.m[1], here.infinite, there.infinite),
+        (&there.m[1], &there.m[0], true, false)
+    );
+    assert!(matches!(
+        reversed().ends(&whole(0), Some(&hi)),
+        Err(CoverFault::Hypothesis { .. })
+    ));
     let family = Family::Condensed(vec![(linear(), None), (reversed(), None)]);
-    assert_eq!([None, Some(0), Some(1), Some(2)].map(|k| family.is_reversed(k)), [false, false, true, false]);
+    assert_eq!(
+        [None, Some(0), Some(1), Some(2)].map(|k| family.is_reversed(k)),
+        [false, false, true, false]
+    );
 }
 
 fn big(rows: &[&[i64]]) -> Vec<Vec<Integer>> {
-    rows.iter().map(|r| r.iter().map(|v| Integer::from(*v)).collect()).collect()
+    rows.iter()
+        .map(|r| r.iter().map(|v| Integer::from(*v)).collect())
+        .collect()
 }
 
 /// Linear in t itself, with the two remainders of different sizes.
 fn in_t() -> Expanded {
     Expanded {
         center: whole(0),
-        z: vec![big(&[&[300, -500], &[0, 700]]), big(&[&[-100, 200], &[0, 9000]])],
+        z: vec![
+            big(&[&[300, -500], &[0, 700]]),
+            big(&[&[-100, 200], &[0, 9000]]),
+        ],
         unit: Integer::from(1024),
         left: big(&[&[1, 2], &[3, 4]]),
         right: big(&[&[5, 6], &[0, 0]]),
@@ -210,26 +290,37 @@ fn in_t() -> Expanded {
     }
 }
 
-/// Does an enclosure in some unit contain Z(t) +- `times` the remainders, times the denominator of t?
+/// Does an enclosure in some unit contain Z(t) +- `times` the remainders, times the denominator of
+/// t?
 fn contains(e: &Expanded, short: &Short, t: &Rational, times: &Rational) -> bool {
     let at = |list: &[Vec<Integer>], i: usize| -> Rational {
-        let coefficient = |k: usize| list.get(k).map_or_else(Rational::zero, |l| Rational::from_integer(l[i].clone()));
+        let coefficient = |k: usize| {
+            list.get(k)
+                .map_or_else(Rational::zero, |l| Rational::from_integer(l[i].clone()))
+        };
         coefficient(0) + t * coefficient(1)
     };
     let z = |i: usize, j: usize| {
         let [a, b] = [0, 1].map(|k| Rational::new(e.z[k][i][j].clone(), e.unit.clone()));
         a + t * b
     };
-    let radius =
-        |i: usize, j: usize| &e.weight[i] * at(&e.left, i) * at(&e.right, j) + &e.rounding_weight[i] * at(&e.v, i) * at(&e.rounding, j);
+    let radius = |i: usize, j: usize| {
+        &e.weight[i] * at(&e.left, i) * at(&e.right, j)
+            + &e.rounding_weight[i] * at(&e.v, i) * at(&e.rounding, j)
+    };
     let raised = Rational::from_integer(t.denom() << FRACTION_BITS);
     let fits = |unit: u64, i: usize, j: usize, sign: i64| {
         let unit = Integer::one() << unit;
         let value = (z(i, j) + radius(i, j) * times * whole(sign)) * &raised;
-        (value - Rational::from_integer(&unit * short.m[i][j])).abs() <= Rational::from_integer(unit * short.r[i][j])
+        (value - Rational::from_integer(&unit * short.m[i][j])).abs()
+            <= Rational::from_integer(unit * short.r[i][j])
     };
     let entries = || [(0, 0), (0, 1), (1, 0), (1, 1)];
-    (0..200).any(|unit| entries().iter().all(|&(i, j)| fits(unit, i, j, 1) && fits(unit, i, j, -1)))
+    (0..200).any(|unit| {
+        entries()
+            .iter()
+            .all(|&(i, j)| fits(unit, i, j, 1) && fits(unit, i, j, -1))
+    })
 }
 
 #[test]
@@ -239,7 +330,10 @@ fn the_short_form_of_a_linear_family_encloses_it_closely() {
     for t in [whole(0), rational(1, 3), whole(7), rational(100_001, 7)] {
         let short = a.combine(t.denom(), &b, t.numer()).unwrap();
         assert!(contains(&e, &short, &t, &whole(1)), "{t}");
-        assert!(!contains(&e, &short, &t, &rational(1_001, 1_000)), "{t}: a radius too large to be right");
+        assert!(
+            !contains(&e, &short, &t, &rational(1_001, 1_000)),
+            "{t}: a radius too large to be right"
+        );
     }
 }
 

@@ -1,5 +1,5 @@
-//! Each bound again, in rational numbers as its formula stands, on a matrix whose every entry has a radius; and
-//! each decision at the last number that is refused and the first that is accepted.
+//! Each bound again, in rational numbers as its formula stands, on a matrix whose every entry has a
+//! radius; and each decision at the last number that is refused and the first that is accepted.
 
 use super::super::family::Matrix;
 use super::*;
@@ -15,15 +15,27 @@ const ONE: i64 = 2;
 const SCALE: i64 = 1000;
 
 fn matrix(list: [[i64; 4]; 4]) -> Matrix {
-    list.iter().map(|row| row.iter().map(|&v| v.into()).collect()).collect()
+    list.iter()
+        .map(|row| row.iter().map(|&v| v.into()).collect())
+        .collect()
 }
 
 /// T' = [[2, 1], [1, 3]] on (2, 0), nearly.
 fn ends() -> Ends {
     Ends {
         m: [
-            matrix([[3010, -420, 1020, 310], [770, 2345, -1234, 88], [990, 1377, 2005, -71], [151, -333, 707, 5]]),
-            matrix([[2990, -511, 985, 290], [815, 3456, -1301, 93], [1015, 1298, 1985, -69], [160, -349, 688, 6]]),
+            matrix([
+                [3010, -420, 1020, 310],
+                [770, 2345, -1234, 88],
+                [990, 1377, 2005, -71],
+                [151, -333, 707, 5],
+            ]),
+            matrix([
+                [2990, -511, 985, 290],
+                [815, 3456, -1301, 93],
+                [1015, 1298, 1985, -69],
+                [160, -349, 688, 6],
+            ]),
         ],
         r: [
             matrix([[3, 7, 2, 4], [5, 11, 6, 1], [2, 9, 8, 3], [13, 4, 5, 2]]),
@@ -36,12 +48,22 @@ fn ends() -> Ends {
 }
 
 fn inverse() -> Matrix {
-    vec![vec![19.into(), Integer::from(-7)], vec![Integer::from(-6), 13.into()]]
+    vec![
+        vec![19.into(), Integer::from(-7)],
+        vec![Integer::from(-6), 13.into()],
+    ]
 }
 
 fn system(y: &Matrix) -> System<'_> {
     let list = |v: [i64; 3]| v.iter().map(|&v| v.into()).collect();
-    System { moving: MOVING.to_vec(), y, y_one: Y_ONE.into(), u: list([1, -3, ONE]), v: list([-5, 3, ONE]), one: ONE.into() }
+    System {
+        moving: MOVING.to_vec(),
+        y,
+        y_one: Y_ONE.into(),
+        u: list([1, -3, ONE]),
+        v: list([-5, 3, ONE]),
+        one: ONE.into(),
+    }
 }
 
 fn q(v: &Integer) -> Rational {
@@ -65,27 +87,55 @@ fn largest(list: impl Iterator<Item = Rational>) -> Rational {
 fn norm(s: &System<'_>, e: &Ends, is_right: bool) -> Rational {
     let row = |end: usize, i: usize| -> Rational {
         let cell = |j: usize| {
-            let term = |k: usize| if is_right { (y(s, i, k), entry(e, end, k, j)) } else { (y(s, k, i), entry(e, end, j, k)) };
+            let term = |k: usize| {
+                if is_right {
+                    (y(s, i, k), entry(e, end, k, j))
+                } else {
+                    (y(s, k, i), entry(e, end, j, k))
+                }
+            };
             let product: Rational = (0..2).map(|k| term(k).0 * term(k).1.0).sum();
             let radius: Rational = (0..2).map(|k| term(k).0.abs() * term(k).1.1).sum();
             (product - whole(i64::from(i == j))).abs() + radius
         };
         cell(0) + cell(1)
     };
-    largest((0..2).flat_map(|end| (0..2).map(move |i| (end, i))).map(|(end, i)| row(end, i)))
+    largest(
+        (0..2)
+            .flat_map(|end| (0..2).map(move |i| (end, i)))
+            .map(|(end, i)| row(end, i)),
+    )
 }
 
-fn residual(s: &System<'_>, e: &Ends, end: usize, is_right: bool, i: usize) -> (Rational, Rational) {
-    let term =
-        |j: usize| if is_right { (q(&s.v[j]) / whole(ONE), entry(e, end, i, j)) } else { (q(&s.u[j]) / whole(ONE), entry(e, end, j, i)) };
-    ((0..3).map(|j| term(j).0 * term(j).1.0).sum(), (0..3).map(|j| term(j).0.abs() * term(j).1.1).sum())
+fn residual(
+    s: &System<'_>,
+    e: &Ends,
+    end: usize,
+    is_right: bool,
+    i: usize,
+) -> (Rational, Rational) {
+    let term = |j: usize| {
+        if is_right {
+            (q(&s.v[j]) / whole(ONE), entry(e, end, i, j))
+        } else {
+            (q(&s.u[j]) / whole(ONE), entry(e, end, j, i))
+        }
+    };
+    (
+        (0..3).map(|j| term(j).0 * term(j).1.0).sum(),
+        (0..3).map(|j| term(j).0.abs() * term(j).1.1).sum(),
+    )
 }
 
 fn error_at(s: &System<'_>, e: &Ends, end: usize, is_right: bool, norm: &Rational) -> Rational {
     let row = |i: usize| -> Rational {
         let y = |k: usize| if is_right { y(s, i, k) } else { y(s, k, i) };
-        let sum: Rational = (0..2).map(|k| y(k) * residual(s, e, end, is_right, k).0).sum();
-        let radius: Rational = (0..2).map(|k| y(k).abs() * residual(s, e, end, is_right, k).1).sum();
+        let sum: Rational = (0..2)
+            .map(|k| y(k) * residual(s, e, end, is_right, k).0)
+            .sum();
+        let radius: Rational = (0..2)
+            .map(|k| y(k).abs() * residual(s, e, end, is_right, k).1)
+            .sum();
         sum.abs() + radius
     };
     largest((0..2).map(row)) / (whole(1) - norm)
@@ -99,11 +149,16 @@ fn norms_and_errors_are_those_of_the_formulas() {
     swapped.m.swap(0, 1);
     swapped.r.swap(0, 1);
     for e in [e, swapped] {
-        for (side, other, is_right) in [(Side::Right, Side::Right, true), (Side::Left, Side::Left, false)] {
+        for (side, other, is_right) in [
+            (Side::Right, Side::Right, true),
+            (Side::Left, Side::Left, false),
+        ] {
             let expected = norm(&s, &e, is_right);
             assert!(expected < whole(1));
             assert_eq!(s.norm(&e, side).unwrap(), expected);
-            let at: Vec<Rational> = (0..2).map(|end| error_at(&s, &e, end, is_right, &expected)).collect();
+            let at: Vec<Rational> = (0..2)
+                .map(|end| error_at(&s, &e, end, is_right, &expected))
+                .collect();
             assert_eq!(s.error_at(&e, 0, &other, &expected), at[0]);
             assert_eq!(s.error_at(&e, 1, &other, &expected), at[1]);
             assert_eq!(s.error(&e, other, &expected), largest(at.into_iter()));
@@ -112,7 +167,10 @@ fn norms_and_errors_are_those_of_the_formulas() {
             let got = s.residual(&e, end, &side);
             let unit = whole(ONE * SCALE);
             for (i, (value, radius)) in got.iter().enumerate() {
-                assert_eq!((q(value) / &unit, q(radius) / &unit), residual(&s, &e, end, matches!(side, Side::Right), i));
+                assert_eq!(
+                    (q(value) / &unit, q(radius) / &unit),
+                    residual(&s, &e, end, matches!(side, Side::Right), i)
+                );
             }
         }
     }
@@ -122,7 +180,14 @@ fn norms_and_errors_are_those_of_the_formulas() {
 #[test]
 fn one_variable_needs_no_inverse() {
     let none: Matrix = vec![];
-    let s = System { moving: vec![1], y: &none, y_one: 1.into(), u: vec![ONE.into()], v: vec![ONE.into()], one: ONE.into() };
+    let s = System {
+        moving: vec![1],
+        y: &none,
+        y_one: 1.into(),
+        u: vec![ONE.into()],
+        v: vec![ONE.into()],
+        one: ONE.into(),
+    };
     let e = ends();
     assert_eq!(s.norm(&e, Side::Right).unwrap(), whole(0));
     assert_eq!(s.error(&e, Side::Left, &whole(0)), whole(0));
@@ -139,9 +204,16 @@ fn a_norm_of_one_is_not_regular() {
 /// phi at an end and its radius, both times one^2 scale.
 fn phi(s: &System<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Integer) {
     let pairs = || (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
-    let value: Integer = pairs().map(|(i, j)| &s.u[i] * &e.m[end][MOVING[i]][MOVING[j]] * &s.v[j]).sum();
-    let around: Integer = pairs().map(|(i, j)| s.u[i].abs() * &e.r[end][MOVING[i]][MOVING[j]] * s.v[j].abs()).sum();
-    let left: Rational = (0..2).map(|i| residual(s, e, end, false, i)).map(|(value, radius)| value.abs() + radius).sum();
+    let value: Integer = pairs()
+        .map(|(i, j)| &s.u[i] * &e.m[end][MOVING[i]][MOVING[j]] * &s.v[j])
+        .sum();
+    let around: Integer = pairs()
+        .map(|(i, j)| s.u[i].abs() * &e.r[end][MOVING[i]][MOVING[j]] * s.v[j].abs())
+        .sum();
+    let left: Rational = (0..2)
+        .map(|i| residual(s, e, end, false, i))
+        .map(|(value, radius)| value.abs() + radius)
+        .sum();
     let second = left * error_at(s, e, end, true, norm) * whole(ONE * ONE * SCALE);
     (value, around + second.ceil().to_integer())
 }
@@ -166,7 +238,11 @@ fn the_schur_complement_has_a_sign_beyond_its_radius_only() {
             assert_eq!((got, over.is_positive()), (sign, sign == 1), "end {end}");
         }
         let to_edge = &to_edge - (&radius * 2 / &step);
-        assert_eq!([of(end, &(&to_edge + 2)).0, of(end, &(&to_edge - 3)).0], [0, -1], "end {end}");
+        assert_eq!(
+            [of(end, &(&to_edge + 2)).0, of(end, &(&to_edge - 3)).0],
+            [0, -1],
+            "end {end}"
+        );
     }
 }
 
@@ -174,13 +250,30 @@ fn the_schur_complement_has_a_sign_beyond_its_radius_only() {
 fn at_its_radius_the_schur_complement_has_no_sign() {
     // No inverse is needed for one variable: phi = one^2 m, its radius one^2 r.
     let none: Matrix = vec![];
-    let s = System { moving: vec![1], y: &none, y_one: 1.into(), u: vec![1.into()], v: vec![1.into()], one: 1.into() };
+    let s = System {
+        moving: vec![1],
+        y: &none,
+        y_one: 1.into(),
+        u: vec![1.into()],
+        v: vec![1.into()],
+        one: 1.into(),
+    };
     let mut e = ends();
     let mut sign = |m: i64, r: i64| {
         (e.m[0][1][1], e.r[0][1][1]) = (m.into(), r.into());
         s.schur_sign(&e, 0, &whole(0))
     };
-    assert_eq!([sign(11, 10), sign(10, 10), sign(-10, 10), sign(-11, 10), sign(1, 0), sign(0, 0)], [1, 0, 0, -1, 1, 0]);
+    assert_eq!(
+        [
+            sign(11, 10),
+            sign(10, 10),
+            sign(-10, 10),
+            sign(-11, 10),
+            sign(1, 0),
+            sign(0, 0)
+        ],
+        [1, 0, 0, -1, 1, 0]
+    );
 }
 
 /// slope and radius of the derivative of phi, times one^2 scale.
@@ -192,10 +285,14 @@ fn derivative(s: &System<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
             let d = n(&e.m[1][MOVING[i]][MOVING[j]]) - n(&e.m[0][MOVING[i]][MOVING[j]]);
             let around = n(&e.slope[MOVING[i]][MOVING[j]]);
             let (u, v) = (n(&s.u[i]), n(&s.v[j]));
-            let (a, b) = (if i == 2 { 0 } else { left }, if j == 2 { 0 } else { right });
+            let (a, b) = (
+                if i == 2 { 0 } else { left },
+                if j == 2 { 0 } else { right },
+            );
             slope += u * d * v;
             // (|d| + around) (|u| + a) (|v| + b) less |d| |u| |v|.
-            radius += (d.abs() + around) * (u.abs() + a) * (v.abs() + b) - d.abs() * u.abs() * v.abs();
+            radius +=
+                (d.abs() + around) * (u.abs() + a) * (v.abs() + b) - d.abs() * u.abs() * v.abs();
         }
     }
     (slope, radius)
@@ -206,8 +303,19 @@ fn the_derivative_has_a_sign_beyond_its_radius_only() {
     let y = inverse();
     // Components of one unit, so that every unit of the radius tells.
     let mut s = system(&y);
-    (s.u, s.v, s.one) = ([3, -4, 1].map(Integer::from).to_vec(), [-5, 2, 1].map(Integer::from).to_vec(), 1.into());
-    for (one, left, right) in [(1, 0, 0), (1, 2, 0), (1, 0, 3), (1, 5, 7), (2, 10, 4), (3, 4, 5)] {
+    (s.u, s.v, s.one) = (
+        [3, -4, 1].map(Integer::from).to_vec(),
+        [-5, 2, 1].map(Integer::from).to_vec(),
+        1.into(),
+    );
+    for (one, left, right) in [
+        (1, 0, 0),
+        (1, 2, 0),
+        (1, 0, 3),
+        (1, 5, 7),
+        (2, 10, 4),
+        (3, 4, 5),
+    ] {
         s.one = one.into(); // errors are in units of u and v
         let (e_u, e_v) = (rational(left, one), rational(right, one));
         let mut e = ends();
@@ -242,13 +350,20 @@ fn a_resting_row_has_a_sign_beyond_its_radius_only() {
         let mut e = ends();
         let m = |e: &Ends, j: usize| e.m[end][3][MOVING[j]].to_i64().unwrap();
         let r = |e: &Ends, j: usize| e.r[end][3][MOVING[j]].to_i64().unwrap();
-        let radius = 5 * r(&e, 0) + 2 * r(&e, 1) + r(&e, 2) + error * (m(&e, 0).abs() + r(&e, 0) + m(&e, 1).abs() + r(&e, 1));
+        let radius = 5 * r(&e, 0)
+            + 2 * r(&e, 1)
+            + r(&e, 2)
+            + error * (m(&e, 0).abs() + r(&e, 0) + m(&e, 1).abs() + r(&e, 1));
         let others = -5 * m(&e, 0) + 2 * m(&e, 1);
         let mut sign = |value: i64| {
             e.m[end][3][1] = (value - others).into();
             s.row_sign(&e, end, 3, &whole(error))
         };
-        assert_eq!([radius + 1, radius, -radius, -radius - 1].map(&mut sign), [1, 0, 0, -1], "end {end}");
+        assert_eq!(
+            [radius + 1, radius, -radius, -radius - 1].map(&mut sign),
+            [1, 0, 0, -1],
+            "end {end}"
+        );
     }
 }
 
@@ -270,14 +385,31 @@ const INDEX: [usize; 3] = [10, 11, 12];
 
 fn region() -> Region {
     let states = vec![State::Moving, State::Moving, State::Rest];
-    Region { lo: whole(0), hi: Some(whole(1)), states, matrices: Default::default() }
+    Region {
+        lo: whole(0),
+        hi: Some(whole(1)),
+        states,
+        matrices: Default::default(),
+    }
 }
 
-/// T = [[1, a, .], [0, t, .], [b, c, .]] with t from one value to another: x = (-a, 1), y_3 = c - a b.
+/// T = [[1, a, .], [0, t, .], [b, c, .]] with t from one value to another: x = (-a, 1), y_3 = c - a
+/// b.
 fn simple(t: [i64; 2], a: i64, b: i64, c: [i64; 2]) -> Ends {
-    let m = |k: usize| -> Matrix { [[1, a, 0], [0, t[k], 0], [b, c[k], 0]].iter().map(|r| r.map(Integer::from).to_vec()).collect() };
+    let m = |k: usize| -> Matrix {
+        [[1, a, 0], [0, t[k], 0], [b, c[k], 0]]
+            .iter()
+            .map(|r| r.map(Integer::from).to_vec())
+            .collect()
+    };
     let zero = || vec![vec![Integer::zero(); 3]; 3];
-    Ends { m: [m(0), m(1)], r: [zero(), zero()], slope: zero(), scale: 1.into(), infinite: false }
+    Ends {
+        m: [m(0), m(1)],
+        r: [zero(), zero()],
+        slope: zero(),
+        scale: 1.into(),
+        infinite: false,
+    }
 }
 
 fn verdict(outcome: RootOutcome, wide: &Ends, narrow: &Ends, x: i64) -> Result<(), CoverFault> {
@@ -288,7 +420,14 @@ fn verdict(outcome: RootOutcome, wide: &Ends, narrow: &Ends, x: i64) -> Result<(
 
 #[test]
 fn absent_means_the_same_sign_at_both_ends() {
-    let absent = |t: [i64; 2]| verdict(RootOutcome::Absent, &simple(t, 0, 0, [1, 1]), &simple([0, 0], 0, 0, [1, 1]), 0);
+    let absent = |t: [i64; 2]| {
+        verdict(
+            RootOutcome::Absent,
+            &simple(t, 0, 0, [1, 1]),
+            &simple([0, 0], 0, 0, [1, 1]),
+            0,
+        )
+    };
     assert_eq!([absent([2, 5]), absent([-5, -2])], [Ok(()), Ok(())]);
     for t in [[-2, 5], [2, 0], [0, 2], [5, -2]] {
         assert_eq!(absent(t), Err(CoverFault::SignChange), "{t:?}");
@@ -301,7 +440,10 @@ fn a_root_lies_where_the_sign_changes() {
     let found = |t: [i64; 2]| verdict(RootOutcome::Solution, &wide, &simple(t, -1, 0, [1, 1]), 1);
     assert_eq!([found([-1, 1]), found([1, -1])], [Ok(()), Ok(())]);
     for t in [[1, 2], [-2, -1], [0, 1], [1, 0], [-1, 0]] {
-        assert!(matches!(found(t), Err(CoverFault::NoSignChange { .. })), "{t:?}");
+        assert!(
+            matches!(found(t), Err(CoverFault::NoSignChange { .. })),
+            "{t:?}"
+        );
     }
 }
 
@@ -309,22 +451,54 @@ fn a_root_lies_where_the_sign_changes() {
 #[test]
 fn signs_of_x_and_y_are_those_stated() {
     let wide = simple([-9, 9], 0, 0, [1, 1]);
-    let of = |outcome, a: i64, b: i64, c: [i64; 2]| verdict(outcome, &wide, &simple([-1, 1], a, b, c), -a);
-    let fault = |component, index, expected| Err(CoverFault::Sign { component, index, expected });
+    let of = |outcome, a: i64, b: i64, c: [i64; 2]| {
+        verdict(outcome, &wide, &simple([-1, 1], a, b, c), -a)
+    };
+    let fault = |component, index, expected| {
+        Err(CoverFault::Sign {
+            component,
+            index,
+            expected,
+        })
+    };
     assert_eq!(of(RootOutcome::Solution, -1, 0, [1, 1]), Ok(()));
-    assert_eq!(of(RootOutcome::Solution, 1, 0, [1, 1]), fault("x", 10, "> 0"));
-    assert_eq!(of(RootOutcome::Solution, 0, 0, [1, 1]), fault("x", 10, "> 0"));
+    assert_eq!(
+        of(RootOutcome::Solution, 1, 0, [1, 1]),
+        fault("x", 10, "> 0")
+    );
+    assert_eq!(
+        of(RootOutcome::Solution, 0, 0, [1, 1]),
+        fault("x", 10, "> 0")
+    );
     for c in [[-1, -1], [1, -1], [-1, 1], [0, 0], [1, 0]] {
-        assert_eq!(of(RootOutcome::Solution, -1, 0, c), fault("y", 12, "> 0"), "{c:?}");
+        assert_eq!(
+            of(RootOutcome::Solution, -1, 0, c),
+            fault("y", 12, "> 0"),
+            "{c:?}"
+        );
     }
     // A negative x or y: the component named, moving or resting, is negative and no other will do.
     assert_eq!(of(RootOutcome::NegativeX(10), 1, 0, [1, 1]), Ok(()));
     for (index, a) in [(10, -1), (10, 0), (11, 1), (12, 1), (13, 1)] {
-        assert_eq!(of(RootOutcome::NegativeX(index), a, 0, [-1, -1]), fault("x", index, "< 0"), "{index} {a}");
+        assert_eq!(
+            of(RootOutcome::NegativeX(index), a, 0, [-1, -1]),
+            fault("x", index, "< 0"),
+            "{index} {a}"
+        );
     }
     assert_eq!(of(RootOutcome::NegativeY(12), -1, 0, [-1, -1]), Ok(()));
-    for (index, c) in [(12, [1, 1]), (12, [-1, 1]), (12, [1, -1]), (12, [0, 0]), (13, [-1, -1])] {
-        assert_eq!(of(RootOutcome::NegativeY(index), -1, 0, c), fault("y", index, "< 0"), "{index} {c:?}");
+    for (index, c) in [
+        (12, [1, 1]),
+        (12, [-1, 1]),
+        (12, [1, -1]),
+        (12, [0, 0]),
+        (13, [-1, -1]),
+    ] {
+        assert_eq!(
+            of(RootOutcome::NegativeY(index), -1, 0, c),
+            fault("y", index, "< 0"),
+            "{index} {c:?}"
+        );
     }
 }
 
@@ -335,17 +509,41 @@ fn components_are_positive_beyond_the_error_only() {
     let ends = simple([-1, 1], 0, 0, [100, 100]);
     let solution = |x: i64, one: i64, error: Rational| {
         let v = vec![x.into(), one.into()];
-        let s = System { moving: vec![0, 1], y: &y, y_one: 1.into(), u: v.clone(), v, one: one.into() };
-        s.signs(&region(), &ends, &error, &INDEX, &root(RootOutcome::Solution))
+        let s = System {
+            moving: vec![0, 1],
+            y: &y,
+            y_one: 1.into(),
+            u: v.clone(),
+            v,
+            one: one.into(),
+        };
+        s.signs(
+            &region(),
+            &ends,
+            &error,
+            &INDEX,
+            &root(RootOutcome::Solution),
+        )
     };
-    let fault = Err(CoverFault::Sign { component: "x", index: 10, expected: "> 0" });
+    let fault = Err(CoverFault::Sign {
+        component: "x",
+        index: 10,
+        expected: "> 0",
+    });
     // In units of 1/2 an error of 3/2 is 3, and one of 5/4 is 5/2: it is not rounded.
     for (error, least) in [(rational(3, 2), 4), (rational(5, 4), 3)] {
-        assert_eq!([solution(least, 2, error.clone()), solution(least - 1, 2, error)], [Ok(()), fault.clone()]);
+        assert_eq!(
+            [
+                solution(least, 2, error.clone()),
+                solution(least - 1, 2, error)
+            ],
+            [Ok(()), fault.clone()]
+        );
     }
 }
 
-/// y is zero on a moving row, and were a row of the block negative by rounding it is not a row of y.
+/// y is zero on a moving row, and were a row of the block negative by rounding it is not a row of
+/// y.
 #[test]
 fn a_moving_row_is_no_negative_y() {
     let wide = simple([-9, 9], 0, 0, [1, 1]);
@@ -353,11 +551,30 @@ fn a_moving_row_is_no_negative_y() {
     narrow.m[0][0] = [1, -3, 0].map(Integer::from).to_vec();
     narrow.m[1][0] = [1, -3, 0].map(Integer::from).to_vec();
     let got = verdict(RootOutcome::NegativeY(10), &wide, &narrow, -1);
-    assert_eq!(got, Err(CoverFault::Sign { component: "y", index: 10, expected: "< 0" }));
+    assert_eq!(
+        got,
+        Err(CoverFault::Sign {
+            component: "y",
+            index: 10,
+            expected: "< 0"
+        })
+    );
 }
 
 #[test]
 fn certain_signs_exclude_zero() {
     let of = |value: i64, radius: i64| certain(&value.into(), &radius.into());
-    assert_eq!([of(3, 2), of(2, 2), of(-2, 2), of(-3, 2), of(0, 0), of(1, 0), of(-1, 0), of(0, 1)], [1, 0, 0, -1, 0, 1, -1, 0]);
+    assert_eq!(
+        [
+            of(3, 2),
+            of(2, 2),
+            of(-2, 2),
+            of(-3, 2),
+            of(0, 0),
+            of(1, 0),
+            of(-1, 0),
+            of(0, 1)
+        ],
+        [1, 0, 0, -1, 0, 1, -1, 0]
+    );
 }

@@ -48,7 +48,10 @@ impl Corners {
     pub(super) fn new(strip: &Strip, m: u64, m_level: u32) -> Corners {
         let mix = |zero: &[i64], one: &[i64], m: u64| -> Vec<i128> {
             let (a, b) = (i128::from((1u64 << m_level) - m), i128::from(m));
-            zero.iter().zip(one).map(|(x, y)| a * i128::from(*x) + b * i128::from(*y)).collect()
+            zero.iter()
+                .zip(one)
+                .map(|(x, y)| a * i128::from(*x) + b * i128::from(*y))
+                .collect()
         };
         let z = |e: usize, m: u64| mix(&strip.z[0][e], &strip.z[1][e], m);
         let radius = [m, m + 1].map(|m| mix(&strip.radius[0], &strip.radius[1], m));
@@ -64,28 +67,44 @@ impl Corners {
         }
         let real: Vec<Vec<f64>> = self.at.iter().map(|m| self.reals(m)).collect();
         let either: Vec<bool> = states.iter().map(|s| *s == State::Moving).collect();
-        let columns: Vec<Vec<f64>> = real.iter().flat_map(|m| moves.iter().map(|&j| self.column(m, j))).collect();
+        let columns: Vec<Vec<f64>> = real
+            .iter()
+            .flat_map(|m| moves.iter().map(|&j| self.column(m, j)))
+            .collect();
         let solved = game::solve(&either, &columns);
         if solved.value > WITNESS_MARGIN && self.is_farkas(&round(&solved.w), &moves, states) {
             return Verdict::Empty;
         }
         if (real.iter().all(|m| self.seems_definite(m, &moves, 1.0)) && self.is_definite(&moves, 1))
-            || (real.iter().all(|m| self.seems_definite(m, &moves, -1.0)) && self.is_definite(&moves, -1))
+            || (real.iter().all(|m| self.seems_definite(m, &moves, -1.0))
+                && self.is_definite(&moves, -1))
         {
             return Verdict::Empty;
         }
-        let middle: Vec<f64> = (0..self.n * self.n).map(|k| real.iter().map(|m| 0.25 * m[k]).sum()).collect();
+        let middle: Vec<f64> = (0..self.n * self.n)
+            .map(|k| real.iter().map(|m| 0.25 * m[k]).sum())
+            .collect();
         let columns: Vec<Vec<f64>> = moves.iter().map(|&j| self.column(&middle, j)).collect();
         let here = game::solve(&either, &columns);
         let hopeful = here.value > WITNESS_MARGIN;
         if !hopeful && let Some(i) = self.most_broken(&middle, &moves, &here.mix, states) {
             return Verdict::Branch(i);
         }
-        Verdict::Split { along_m: self.varies_more_along_m(&real), hopeful }
+        Verdict::Split {
+            along_m: self.varies_more_along_m(&real),
+            hopeful,
+        }
     }
 
     fn reals(&self, m: &[i128]) -> Vec<f64> {
-        let largest = self.at.iter().flatten().map(|v| v.unsigned_abs()).max().unwrap_or(1).max(1) as f64;
+        let largest = self
+            .at
+            .iter()
+            .flatten()
+            .map(|v| v.unsigned_abs())
+            .max()
+            .unwrap_or(1)
+            .max(1) as f64;
         m.iter().map(|v| *v as f64 / largest).collect()
     }
 
@@ -96,14 +115,18 @@ impl Corners {
         c.into_iter().map(|v| v / size).collect()
     }
 
-    /// w'G < 0 in every column that may move, at every corner with its radius; w >= 0 off the moving rows.
+    /// w'G < 0 in every column that may move, at every corner with its radius; w >= 0 off the
+    /// moving rows.
     fn is_farkas(&self, w: &[i64], moves: &[usize], states: &[State]) -> bool {
         let signs = (0..self.n).all(|i| w[i] >= 0 || states[i] == State::Moving);
         signs
             && (0..4).all(|corner| {
                 let (m, r) = (&self.at[corner], &self.radius[corner / 2]);
                 moves.iter().all(|&j| {
-                    let sum = |i: usize| i128::from(w[i]) * m[i * self.n + j] + i128::from(w[i].abs()) * r[i * self.n + j];
+                    let sum = |i: usize| {
+                        i128::from(w[i]) * m[i * self.n + j]
+                            + i128::from(w[i].abs()) * r[i * self.n + j]
+                    };
                     (0..self.n).map(sum).sum::<i128>() < 0
                 })
             })
@@ -141,7 +164,10 @@ impl Corners {
                     let (here, mirror) = (i * self.n + j, j * self.n + i);
                     let slack = r[here] + r[mirror];
                     let value = Rational::from_integer((sign * (m[here] + m[mirror])).into());
-                    [(p, q, value), (p, p, Rational::from_integer((-slack).into()))]
+                    [
+                        (p, q, value),
+                        (p, p, Rational::from_integer((-slack).into())),
+                    ]
                 })
             });
             positive_definite(&Sparse::from_entries(moves.len(), moves.len(), entries)).is_ok()
@@ -149,7 +175,13 @@ impl Corners {
     }
 
     /// The open variable whose complementarity the relaxed solution of the middle breaks most.
-    fn most_broken(&self, m: &[f64], moves: &[usize], mix: &[f64], states: &[State]) -> Option<usize> {
+    fn most_broken(
+        &self,
+        m: &[f64],
+        moves: &[usize],
+        mix: &[f64],
+        states: &[State],
+    ) -> Option<usize> {
         let mut x = vec![0.0; self.n];
         moves.iter().zip(mix).for_each(|(&j, q)| x[j] = *q);
         let y = |i: usize| (0..self.n).map(|j| m[i * self.n + j] * x[j]).sum::<f64>();
@@ -159,7 +191,13 @@ impl Corners {
 
     /// Which halving changes the corners more? The radius shrinks with s alone.
     fn varies_more_along_m(&self, real: &[Vec<f64>]) -> bool {
-        let change = |a: usize, b: usize| real[a].iter().zip(&real[b]).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        let change = |a: usize, b: usize| {
+            real[a]
+                .iter()
+                .zip(&real[b])
+                .map(|(x, y)| (x - y).abs())
+                .fold(0.0, f64::max)
+        };
         let radius = self.reals(&self.radius[1]).into_iter().fold(0.0, f64::max);
         change(0, 2).max(change(1, 3)) > change(0, 1).max(change(2, 3)) + 4.0 * radius
     }
@@ -167,5 +205,7 @@ impl Corners {
 
 fn round(w: &[f64]) -> Vec<i64> {
     let largest = w.iter().fold(f64::MIN_POSITIVE, |s, v| s.max(v.abs()));
-    w.iter().map(|v| (v / largest * WEIGHT_BITS.exp2()).round() as i64).collect()
+    w.iter()
+        .map(|v| (v / largest * WEIGHT_BITS.exp2()).round() as i64)
+        .collect()
 }

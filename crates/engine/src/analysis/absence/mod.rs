@@ -1,10 +1,12 @@
-//! No solution for any lambda^2 >= 0 and any mu below a bound: a cover of the (lambda^2, mu) quadrant.
+//! No solution for any lambda^2 >= 0 and any mu below a bound: a cover of the (lambda^2, mu)
+//! quadrant.
 //!
-//! Boxes in (s, m), t = tau s/(1-s), mu = nu m/(1-m), times states of the slip variables. On a box the
-//! condensed family is a convex combination of its four corners up to a radius (`strip`), so a Farkas
-//! vector that works at the four corners, or a symmetric part definite there, empties the box. Boxes
-//! are taken in the order of mu; the first that cannot be emptied ends the search, and everything
-//! below it is proved. t = infinity (s = 1) is included. Doubles propose, integers decide.
+//! Boxes in (s, m), t = tau s/(1-s), mu = nu m/(1-m), times states of the slip variables. On a box
+//! the condensed family is a convex combination of its four corners up to a radius (`strip`), so a
+//! Farkas vector that works at the four corners, or a symmetric part definite there, empties the
+//! box. Boxes are taken in the order of mu; the first that cannot be emptied ends the search, and
+//! everything below it is proved. t = infinity (s = 1) is included. Doubles propose, integers
+//! decide.
 
 mod family;
 mod judge;
@@ -37,20 +39,27 @@ pub struct Limits {
 
 impl Default for Limits {
     fn default() -> Self {
-        Limits { boxes: 20_000, strips: 2_000, slip: 20, free: 120 }
+        Limits {
+            boxes: 20_000,
+            strips: 2_000,
+            slip: 20,
+            free: 120,
+        }
     }
 }
 
 /// What the cover has proved.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Absence {
-    /// No solution with lambda^2 >= 0 and mu below this value (not included); `None`: for no mu at all.
+    /// No solution with lambda^2 >= 0 and mu below this value (not included); `None`: for no mu at
+    /// all.
     pub below: Option<Rational>,
     /// lambda^2 of the box that could not be emptied (`None` for infinity at its upper end).
     pub blocked: Option<(Rational, Option<Rational>)>,
     /// Boxes examined.
     pub boxes: usize,
-    /// Did the budget or an interrupt end the search, rather than a box that seems to hold a solution?
+    /// Did the budget or an interrupt end the search, rather than a box that seems to hold a
+    /// solution?
     pub cut_short: bool,
 }
 
@@ -76,21 +85,37 @@ impl Region {
     }
 }
 
-/// Covers the quadrant from mu = 0 up. `excluded_below`: mu below which (20) and (19) have already excluded all.
+/// Covers the quadrant from mu = 0 up. `excluded_below`: mu below which (20) and (19) have already
+/// excluded all.
 ///
 /// `None` where the system is beyond the limits or doubles fail: then nothing is proved here.
-pub fn absence(family: &MuFamily, excluded_below: &Rational, limits: Limits, stop: &AtomicBool) -> Option<Absence> {
+pub fn absence(
+    family: &MuFamily,
+    excluded_below: &Rational,
+    limits: Limits,
+    stop: &AtomicBool,
+) -> Option<Absence> {
     let mass: &Pencil = family.mass.as_ref()?;
     if family.stiffness.slip().len() > limits.slip || family.stiffness.free().len() > limits.free {
         return None;
     }
     let scaled = Scaled::new(&family.stiffness, mass)?;
-    let mut strips = Strips { scaled: &scaled, known: HashMap::new() };
+    let mut strips = Strips {
+        scaled: &scaled,
+        known: HashMap::new(),
+    };
     let mut queue = Queue::default();
-    queue.push(Region { s: 0, s_level: 0, m: 0, m_level: 0, states: vec![State::Open; scaled.slip] });
+    queue.push(Region {
+        s: 0,
+        s_level: 0,
+        m: 0,
+        m_level: 0,
+        states: vec![State::Open; scaled.slip],
+    });
     let mut boxes = 0;
     while let Some(region) = queue.pop() {
-        let used_up = boxes >= limits.boxes || (scaled.free > 0 && strips.known.len() >= limits.strips);
+        let used_up =
+            boxes >= limits.boxes || (scaled.free > 0 && strips.known.len() >= limits.strips);
         let cut_short = used_up || stop.load(Ordering::Relaxed);
         boxes += 1;
         if upper_mu(&scaled, &region).is_some_and(|mu| mu <= *excluded_below) {
@@ -98,7 +123,10 @@ pub fn absence(family: &MuFamily, excluded_below: &Rational, limits: Limits, sto
         }
         let strip = strips.over(&region)?;
         let verdict = if strip.too_wide {
-            Verdict::Split { along_m: false, hopeful: true }
+            Verdict::Split {
+                along_m: false,
+                hopeful: true,
+            }
         } else {
             Corners::new(&strip, region.m, region.m_level).judge(&region.states)
         };
@@ -107,12 +135,28 @@ pub fn absence(family: &MuFamily, excluded_below: &Rational, limits: Limits, sto
         if ended || (cut_short && !matches!(verdict, Verdict::Empty)) {
             let below = lower_mu(&scaled, &region).max(Some(excluded_below.clone()));
             let end = |s: u64| position(&scaled.tau, s, region.s_level);
-            let blocked = Some((end(region.s).unwrap_or_else(Rational::one), end(region.s + 1)));
-            return Some(Absence { below, blocked, boxes, cut_short: !ended });
+            let blocked = Some((
+                end(region.s).unwrap_or_else(Rational::one),
+                end(region.s + 1),
+            ));
+            return Some(Absence {
+                below,
+                blocked,
+                boxes,
+                cut_short: !ended,
+            });
         }
-        children.into_iter().flatten().for_each(|child| queue.push(child));
+        children
+            .into_iter()
+            .flatten()
+            .for_each(|child| queue.push(child));
     }
-    Some(Absence { below: None, blocked: None, boxes, cut_short: false })
+    Some(Absence {
+        below: None,
+        blocked: None,
+        boxes,
+        cut_short: false,
+    })
 }
 
 /// Regions in the order of mu, then in that of arrival.
@@ -155,7 +199,8 @@ impl Strips<'_> {
     }
 }
 
-/// What is left of a region after a verdict; `None` if it should be halved and is too small for that.
+/// What is left of a region after a verdict; `None` if it should be halved and is too small for
+/// that.
 fn children(region: &Region, verdict: Verdict) -> Option<Vec<Region>> {
     let decided = |i: usize, state| {
         let mut child = region.clone();
@@ -164,7 +209,11 @@ fn children(region: &Region, verdict: Verdict) -> Option<Vec<Region>> {
     };
     match verdict {
         Verdict::Empty => Some(Vec::new()),
-        Verdict::Branch(i) => Some([State::Moving, State::Rest].map(|state| decided(i, state)).to_vec()),
+        Verdict::Branch(i) => Some(
+            [State::Moving, State::Rest]
+                .map(|state| decided(i, state))
+                .to_vec(),
+        ),
         Verdict::Split { along_m, hopeful } => halves(region, along_m, hopeful),
     }
 }
@@ -221,30 +270,64 @@ mod tests {
     use mceip_paper::two_particles;
 
     fn cover(family: &MuFamily) -> Absence {
-        absence(family, &whole(0), Limits::default(), &AtomicBool::new(false)).unwrap()
+        absence(
+            family,
+            &whole(0),
+            Limits::default(),
+            &AtomicBool::new(false),
+        )
+        .unwrap()
     }
 
-    /// Table 1 has no folds: nothing exists below the static threshold, and (-1, 1) has nothing at all.
+    /// Table 1 has no folds: nothing exists below the static threshold, and (-1, 1) has nothing at
+    /// all.
     #[test]
     fn two_particles_have_nothing_below_their_thresholds() {
-        for (signs, threshold) in [((1, 1), Some(2.0f64.sqrt() * 1.18f64.sqrt() / 0.8)), ((1, -1), Some(1.36 / 0.48)), ((-1, 1), None)] {
-            let data = TwoParticles { c: rational(3, 5), s: rational(4, 5), k: whole(1000), m: whole(2), mu: whole(1), signs };
+        for (signs, threshold) in [
+            ((1, 1), Some(2.0f64.sqrt() * 1.18f64.sqrt() / 0.8)),
+            ((1, -1), Some(1.36 / 0.48)),
+            ((-1, 1), None),
+        ] {
+            let data = TwoParticles {
+                c: rational(3, 5),
+                s: rational(4, 5),
+                k: whole(1000),
+                m: whole(2),
+                mu: whole(1),
+                signs,
+            };
             let found = cover(&mu_family(&two_particles(&data).unwrap()).unwrap());
             let below = found.below.as_ref().map(to_f64);
             match (threshold, below) {
-                (Some(t), Some(b)) => assert!(b <= t && b > t * 0.999 && !found.cut_short, "{signs:?}: {found:?}, {t}"),
-                // At m = 1, s = 1 the family vanishes (M1 = 0): a bound beyond any friction, not all of them.
+                (Some(t), Some(b)) => assert!(
+                    b <= t && b > t * 0.999 && !found.cut_short,
+                    "{signs:?}: {found:?}, {t}"
+                ),
+                // At m = 1, s = 1 the family vanishes (M1 = 0): a bound beyond any friction, not
+                // all of them.
                 (None, b) => assert!(b.is_none_or(|b| b > 1e6), "{found:?}"),
                 other => panic!("{signs:?}: {other:?} {found:?}"),
             }
         }
     }
 
-    /// The fold of errata.md as a mechanical system: no static threshold at all, yet solutions from the fold on.
+    /// The fold of errata.md as a mechanical system: no static threshold at all, yet solutions from
+    /// the fold on.
     fn fold() -> System {
-        let k = Sparse::from_ints(&[&[1, 0, 0, 1], &[0, 2, -3, -4], &[0, -3, 99, 0], &[1, -4, 0, 99]]);
+        let k = Sparse::from_ints(&[
+            &[1, 0, 0, 1],
+            &[0, 2, -3, -4],
+            &[0, -3, 99, 0],
+            &[1, -4, 0, 99],
+        ]);
         let particle = |i: usize| Particle::plain(i, i + 2, ContactState::Slip { sign: 1 });
-        System::new(k, Some(Sparse::identity(4)), Some(whole(2)), vec![particle(0), particle(1)]).unwrap()
+        System::new(
+            k,
+            Some(Sparse::identity(4)),
+            Some(whole(2)),
+            vec![particle(0), particle(1)],
+        )
+        .unwrap()
     }
 
     #[test]
@@ -252,6 +335,9 @@ mod tests {
         let found = cover(&mu_family(&fold()).unwrap());
         let below = to_f64(found.below.as_ref().unwrap());
         let least = 1.0 + 0.75f64.sqrt(); // tests/program/analyze.rs has the derivation
-        assert!(below <= least && below > 0.999 * least, "{below} {least} {found:?}");
+        assert!(
+            below <= least && below > 0.999 * least,
+            "{below} {least} {found:?}"
+        );
     }
 }

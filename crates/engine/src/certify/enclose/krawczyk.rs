@@ -2,13 +2,16 @@
 //!
 //! The box c +- r passes if, in every component,
 //!   |Y F(c)| + |I - Y F'(c)| r + |Y| d < r,   d_i = 2 r_t sum_j |B_ij| r_j
-//! (`check::enclosed`). Radii are counted in units of the point's grid: rho_k = r_k / unit_k. They grow from |Y F(c)|
-//! until the inequality holds, each a power of two of its own, so that their numbers are short.
+//! (`check::enclosed`). Radii are counted in units of the point's grid: rho_k = r_k / unit_k. They
+//! grow from |Y F(c)| until the inequality holds, each a power of two of its own, so that their
+//! numbers are short.
 
 use super::super::AttemptFailure;
 use super::newton::{Newton, Point, Slope};
 use crate::exact::{Integer, Rational, from_f64};
-use crate::tolerance::{KRAWCZYK_MARGIN, KRAWCZYK_NOISE, PRECONDITIONER_BITS, PRECONDITIONER_LOSS_BITS};
+use crate::tolerance::{
+    KRAWCZYK_MARGIN, KRAWCZYK_NOISE, PRECONDITIONER_BITS, PRECONDITIONER_LOSS_BITS,
+};
 use num_traits::One;
 
 /// Largest binary exponent of a preconditioner that the checker takes (`spec/formats.md`).
@@ -35,31 +38,50 @@ impl Krawczyk {
     ///
     /// # Errors
     /// A preconditioner with more bits than the checker takes.
-    pub(super) fn new(newton: &Newton<'_>, point: &Point, inverse: &[Vec<f64>]) -> Result<Krawczyk, AttemptFailure> {
+    pub(super) fn new(
+        newton: &Newton<'_>,
+        point: &Point,
+        inverse: &[Vec<f64>],
+    ) -> Result<Krawczyk, AttemptFailure> {
         let jacobian = newton.jacobian(point);
         let units = units(point);
         let exponent = exponent(inverse, &newton.scales, rounding_bits(&jacobian, &units));
         if exponent > MAX_EXPONENT {
-            return Err(AttemptFailure::TooLarge { limit: MAX_EXPONENT as usize, got: exponent as usize });
+            return Err(AttemptFailure::TooLarge {
+                limit: MAX_EXPONENT as usize,
+                got: exponent as usize,
+            });
         }
         let preconditioner = round(inverse, &newton.scales, exponent);
 
         let y = rounded(&preconditioner, &newton.scales, exponent);
         let error = contraction(&y, &jacobian, &units);
-        Ok(Krawczyk { preconditioner, exponent, y, error, b: newton.moduli_of_b() })
+        Ok(Krawczyk {
+            preconditioner,
+            exponent,
+            y,
+            error,
+            b: newton.moduli_of_b(),
+        })
     }
 
-    /// Radii in units of the grid, powers of two, for which the inequality holds with a margin; `None` where there
-    /// are none.
+    /// Radii in units of the grid, powers of two, for which the inequality holds with a margin;
+    /// `None` where there are none.
     pub(super) fn radii(&self, newton: &Newton<'_>, point: &Point) -> Option<Vec<Integer>> {
         let distance = self.distances(newton, point);
-        let mut radius: Vec<f64> = distance.iter().map(|d| power_above(2.0 * d + 1.0)).collect();
+        let mut radius: Vec<f64> = distance
+            .iter()
+            .map(|d| power_above(2.0 * d + 1.0))
+            .collect();
 
         for _ in 0..GROWTH_ROUNDS {
             let bound = self.bound(point, &distance, &radius);
             let is_short = |(r, b): (&f64, &f64)| *b <= KRAWCZYK_MARGIN * r;
             if radius.iter().zip(&bound).all(is_short) {
-                return radius.iter().map(|r| from_f64(*r).ok().map(|v| v.to_integer())).collect();
+                return radius
+                    .iter()
+                    .map(|r| from_f64(*r).ok().map(|v| v.to_integer()))
+                    .collect();
             }
 
             for (r, b) in radius.iter_mut().zip(&bound) {
@@ -89,7 +111,15 @@ impl Krawczyk {
     fn bound(&self, point: &Point, distance: &[f64], radius: &[f64]) -> Vec<f64> {
         let last = radius.len() - 1;
         // d in units of the grids of x and t: 2 rho_t sum_j |B_ij| rho_j.
-        let bends: Vec<f64> = self.b.iter().map(|row| row.iter().map(|(j, b)| 2.0 * radius[last] * b * radius[*j]).sum()).collect();
+        let bends: Vec<f64> = self
+            .b
+            .iter()
+            .map(|row| {
+                row.iter()
+                    .map(|(j, b)| 2.0 * radius[last] * b * radius[*j])
+                    .sum()
+            })
+            .collect();
 
         let mut bound = Vec::new();
         for k in 0..=last {
@@ -144,17 +174,23 @@ fn power_above(v: f64) -> f64 {
     v.max(1.0).log2().ceil().exp2()
 }
 
-/// Bits after the point of a preconditioner whose rounding takes at most 2^-[`PRECONDITIONER_LOSS_BITS`] of the narrowest
-/// side of a box with these radii: n entries of a row, each off by 2^-e, against sum_j |J_ij| r_j.
+/// Bits after the point of a preconditioner whose rounding takes at most
+/// 2^-[`PRECONDITIONER_LOSS_BITS`] of the narrowest side of a box with these radii: n entries of a
+/// row, each off by 2^-e, against sum_j |J_ij| r_j.
 fn rounding_bits(jacobian: &[Vec<Slope>], radius: &[f64]) -> f64 {
-    let reach = |row: &Vec<Slope>| row.iter().map(|s| s.value.abs() * radius[s.column]).sum::<f64>();
+    let reach = |row: &Vec<Slope>| {
+        row.iter()
+            .map(|s| s.value.abs() * radius[s.column])
+            .sum::<f64>()
+    };
     let widest = jacobian.iter().map(reach).fold(0.0, f64::max);
     let narrowest = radius.iter().copied().fold(f64::INFINITY, f64::min);
     (jacobian.len() as f64 * widest / narrowest).log2().ceil() + f64::from(PRECONDITIONER_LOSS_BITS)
 }
 
-/// Bits after the point of the preconditioner: its largest entry has about [`PRECONDITIONER_BITS`] bits, or more where
-/// `needed` bits after the point are more. An infinite need is beyond every limit.
+/// Bits after the point of the preconditioner: its largest entry has about [`PRECONDITIONER_BITS`]
+/// bits, or more where `needed` bits after the point are more. An infinite need is beyond every
+/// limit.
 fn exponent(y: &[Vec<f64>], scales: &[u64], needed: f64) -> u32 {
     let largest = y.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
     let widest = scales.iter().copied().max().unwrap_or(0);
@@ -168,9 +204,13 @@ fn round(y: &[Vec<f64>], scales: &[u64], exponent: u32) -> Vec<Vec<Integer>> {
     // Finite: `inverse` refuses anything else.
     let integer = |(v, k): (&f64, &u64)| {
         let scale = Rational::from_integer(Integer::one() << (u64::from(exponent) - k));
-        from_f64(*v).map(|r| (r * scale).round().to_integer()).unwrap_or_default()
+        from_f64(*v)
+            .map(|r| (r * scale).round().to_integer())
+            .unwrap_or_default()
     };
-    y.iter().map(|row| row.iter().zip(scales).map(integer).collect()).collect()
+    y.iter()
+        .map(|row| row.iter().zip(scales).map(integer).collect())
+        .collect()
 }
 
 /// A rounded preconditioner in doubles, for rows that are divided by 2^scale.
@@ -179,7 +219,10 @@ fn rounded(preconditioner: &[Vec<Integer>], scales: &[u64], exponent: u32) -> Ve
         let bits = u64::from(exponent) - k;
         crate::exact::to_f64(&Rational::new_raw(v.clone(), Integer::one() << bits))
     };
-    preconditioner.iter().map(|row| row.iter().zip(scales).map(double).collect()).collect()
+    preconditioner
+        .iter()
+        .map(|row| row.iter().zip(scales).map(double).collect())
+        .collect()
 }
 
 #[cfg(test)]

@@ -12,14 +12,30 @@ fn exact(diagonal: i64, scale: i64) -> Sparse {
         let v = rational(((3 * i.min(j) + 5 * i.max(j)) % 7) as i64 - 3, scale);
         if i == j { v + whole(diagonal) } else { v }
     };
-    Sparse::from_entries(6, 6, (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| (i, j, entry(i, j))).collect::<Vec<_>>())
+    Sparse::from_entries(
+        6,
+        6,
+        (0..6)
+            .flat_map(|i| (0..6).map(move |j| (i, j)))
+            .map(|(i, j)| (i, j, entry(i, j)))
+            .collect::<Vec<_>>(),
+    )
 }
 
 fn particles() -> Vec<Particle> {
     let r = rational;
     let slip = |sign| ContactState::Slip { sign };
-    let oblique = Particle { frame: Some([[r(3, 5), r(4, 5)], [r(-4, 5), r(3, 5)]]), ..Particle::plain(0, 1, slip(1)) };
-    vec![oblique, Particle { normal_direction: -1, ..Particle::plain(4, 5, slip(-1)) }]
+    let oblique = Particle {
+        frame: Some([[r(3, 5), r(4, 5)], [r(-4, 5), r(3, 5)]]),
+        ..Particle::plain(0, 1, slip(1))
+    };
+    vec![
+        oblique,
+        Particle {
+            normal_direction: -1,
+            ..Particle::plain(4, 5, slip(-1))
+        },
+    ]
 }
 
 fn double(m: &Sparse) -> Symmetric {
@@ -63,37 +79,67 @@ fn a_lifted_x_is_in_balance_and_has_its_energy() {
     let at = c.at(0.0).unwrap();
     let x = [2.0, 3.0];
     let v = at.lift(&x);
-    [(0, -6.0 / 5.0), (1, -8.0 / 5.0), (4, 3.0), (5, 0.0)].into_iter().for_each(|(dof, value)| close(v[dof], value));
+    [(0, -6.0 / 5.0), (1, -8.0 / 5.0), (4, 3.0), (5, 0.0)]
+        .into_iter()
+        .for_each(|(dof, value)| close(v[dof], value));
     let product = |m: &Sparse, i: usize| (0..6).map(|j| to_f64(&m.get(i, j)) * v[j]).sum::<f64>();
     [2, 3].into_iter().for_each(|i| close(product(&k, i), 0.0));
-    close(at.kinetic(&x).unwrap(), (0..6).map(|i| v[i] * product(&m, i)).sum());
+    close(
+        at.kinetic(&x).unwrap(),
+        (0..6).map(|i| v[i] * product(&m, i)).sum(),
+    );
     assert_eq!(at.reduced(&x), [v[2], v[3], 2.0, 3.0]);
-    assert!(v[2].abs() > 1e-3 && condensation(&k, None).at(0.0).unwrap().kinetic(&x).is_none());
+    assert!(
+        v[2].abs() > 1e-3
+            && condensation(&k, None)
+                .at(0.0)
+                .unwrap()
+                .kinetic(&x)
+                .is_none()
+    );
 }
 
 fn dense(m: &Sparse) -> DMatrix<f64> {
     DMatrix::from_fn(6, 6, |i, j| to_f64(&m.get(i, j)))
 }
 
-/// A factor of one matrix measured against another one, so that nothing is small: both numbers by dense algebra.
+/// A factor of one matrix measured against another one, so that nothing is small: both numbers by
+/// dense algebra.
 #[test]
 fn the_residual_is_that_of_dense_algebra() {
     let (k, mut other) = (exact(40, 1), exact(40, 1));
-    let change: Vec<(usize, usize, Rational)> =
-        (0..6).flat_map(|i| (0..6).map(move |j| (i, j))).map(|(i, j)| (i, j, rational(((i + 1) * (j + 1) % 5) as i64, 10))).collect();
+    let change: Vec<(usize, usize, Rational)> = (0..6)
+        .flat_map(|i| (0..6).map(move |j| (i, j)))
+        .map(|(i, j)| (i, j, rational(((i + 1) * (j + 1) % 5) as i64, 10)))
+        .collect();
     other = other.add_scaled(&whole(1), &Sparse::from_entries(6, 6, change));
     let (made, measured) = (condensation(&k, None), condensation(&other, None));
     let at = made.at(0.0).unwrap();
-    let mixed = SparseCondensed { system: &measured, t: 0.0, a: at.a, b: at.b, factor: at.factor };
+    let mixed = SparseCondensed {
+        system: &measured,
+        t: 0.0,
+        a: at.a,
+        b: at.b,
+        factor: at.factor,
+    };
     let (k, other) = (dense(&k), dense(&other));
     let (free, kept) = ([2, 3], made.analysis.kept().to_vec());
-    let block = |m: &DMatrix<f64>, r: &[usize], c: &[usize]| DMatrix::from_fn(r.len(), c.len(), |i, j| m[(r[i], c[j])]);
+    let block = |m: &DMatrix<f64>, r: &[usize], c: &[usize]| {
+        DMatrix::from_fn(r.len(), c.len(), |i, j| m[(r[i], c[j])])
+    };
     let inverse = block(&k, &free, &free).try_inverse().unwrap();
-    let schur = block(&k, &kept, &kept) - block(&k, &kept, &free) * &inverse * block(&k, &free, &kept);
+    let schur =
+        block(&k, &kept, &kept) - block(&k, &kept, &free) * &inverse * block(&k, &free, &kept);
     let (mut balance, mut change) = (0f64, 0f64);
     for probes in 0..4 {
         // One probe more than before.
-        let entry = |i: usize| if probes == 0 { [1.0, 0.0][i % 2] } else { sign(probes, i) };
+        let entry = |i: usize| {
+            if probes == 0 {
+                [1.0, 0.0][i % 2]
+            } else {
+                sign(probes, i)
+            }
+        };
         let c = DVector::from_fn(4, |i, _| entry(i));
         let mut u = DVector::zeros(6);
         let f = -&inverse * block(&k, &free, &kept) * &c;
@@ -102,12 +148,21 @@ fn the_residual_is_that_of_dense_algebra() {
         let load = &other * &u;
         let size = |i: usize| (0..6).map(|j| (other[(i, j)] * u[j]).abs()).sum::<f64>();
         let largest = free.iter().map(|&i| size(i)).fold(0.0, f64::max);
-        balance = free.iter().map(|&i| load[i].abs() / largest).fold(balance, f64::max);
+        balance = free
+            .iter()
+            .map(|&i| load[i].abs() / largest)
+            .fold(balance, f64::max);
         let step = &inverse * DVector::from_fn(2, |i, _| load[free[i]]);
-        free.iter().enumerate().for_each(|(i, &dof)| u[dof] -= step[i]);
+        free.iter()
+            .enumerate()
+            .for_each(|(i, &dof)| u[dof] -= step[i]);
         let (refined, z) = (&other * &u, &schur * &c);
         let largest = kept.iter().map(|&i| refined[i].abs()).fold(0.0, f64::max);
-        change = kept.iter().enumerate().map(|(k, &i)| (refined[i] - z[k]).abs() / largest).fold(change, f64::max);
+        change = kept
+            .iter()
+            .enumerate()
+            .map(|(k, &i)| (refined[i] - z[k]).abs() / largest)
+            .fold(change, f64::max);
         let got = mixed.residual(probes);
         close(got.balance, balance);
         close(got.change, change);

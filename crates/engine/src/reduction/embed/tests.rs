@@ -4,12 +4,26 @@ use super::*;
 use crate::exact::{Sparse, rational};
 use crate::model::{Pencil, Unknown};
 
-/// Variable 1 is free. The diagonals of A are 4, 64, 1/16 and 0: scales 1/2, 1/8, 4 and that of B, 1/4.
+/// Variable 1 is free. The diagonals of A are 4, 64, 1/16 and 0: scales 1/2, 1/8, 4 and that of B,
+/// 1/4.
 fn pencil() -> Pencil {
     let entries = |list: &[(usize, usize, i64, i64)]| {
-        Sparse::from_entries(4, 4, list.iter().map(|&(i, j, p, q)| (i, j, rational(p, q))).collect::<Vec<_>>())
+        Sparse::from_entries(
+            4,
+            4,
+            list.iter()
+                .map(|&(i, j, p, q)| (i, j, rational(p, q)))
+                .collect::<Vec<_>>(),
+        )
     };
-    let a = entries(&[(0, 0, -4, 1), (1, 1, 64, 1), (2, 2, 1, 16), (0, 1, 3, 1), (1, 0, 3, 1), (2, 0, -1, 2)]);
+    let a = entries(&[
+        (0, 0, -4, 1),
+        (1, 1, 64, 1),
+        (2, 2, 1, 16),
+        (0, 1, 3, 1),
+        (1, 0, 3, 1),
+        (2, 0, -1, 2),
+    ]);
     let b = entries(&[(0, 0, 2, 1), (1, 1, 5, 1), (2, 2, 1, 1), (3, 3, 16, 1)]);
     Pencil::new(a, b, vec![1]).unwrap()
 }
@@ -24,15 +38,41 @@ fn close(a: f64, b: f64) {
 
 #[test]
 fn scales_are_powers_of_two_by_the_diagonal() {
-    let list = [(4.0, 1000.0), (-16.0, 0.0), (0.0, -64.0), (0.0, 0.0), (0.25, 1e9), (8.0, 0.0), (5.0, 0.0)];
-    assert_eq!(list.map(|(a, b)| scale_of(a, b)), [0.5, 0.25, 0.125, 1.0, 2.0, 0.25, 0.5]);
-    assert_eq!([scale_of(f64::INFINITY, 1.0), scale_of(f64::NAN, 9.0), scale_of(0.0, f64::INFINITY)], [1.0; 3]);
-    assert_eq!(embedding(Side::Above(0.0)).diagonal, [0.5, 0.125, 4.0, 0.25]);
+    let list = [
+        (4.0, 1000.0),
+        (-16.0, 0.0),
+        (0.0, -64.0),
+        (0.0, 0.0),
+        (0.25, 1e9),
+        (8.0, 0.0),
+        (5.0, 0.0),
+    ];
+    assert_eq!(
+        list.map(|(a, b)| scale_of(a, b)),
+        [0.5, 0.25, 0.125, 1.0, 2.0, 0.25, 0.5]
+    );
+    assert_eq!(
+        [
+            scale_of(f64::INFINITY, 1.0),
+            scale_of(f64::NAN, 9.0),
+            scale_of(0.0, f64::INFINITY)
+        ],
+        [1.0; 3]
+    );
+    assert_eq!(
+        embedding(Side::Above(0.0)).diagonal,
+        [0.5, 0.125, 4.0, 0.25]
+    );
 }
 
 #[test]
 fn a_candidate_and_its_point_are_the_same() {
-    for (side, value) in [(Side::Above(0.0), 3.0), (Side::Above(2.0), 3.0), (Side::Below(7.0), 3.0), (Side::Below(-1.0), 0.5)] {
+    for (side, value) in [
+        (Side::Above(0.0), 3.0),
+        (Side::Above(2.0), 3.0),
+        (Side::Below(7.0), 3.0),
+        (Side::Below(-1.0), 0.5),
+    ] {
         let e = embedding(side).with_c(2.5).unwrap();
         let x = [3.0, -7.0, 0.5, 2.0];
         let z = e.point(value, &x);
@@ -46,18 +86,29 @@ fn a_candidate_and_its_point_are_the_same() {
         e.function(&z, &mut f);
         let p = pencil();
         for i in 0..4 {
-            let y: f64 = (0..4).map(|j| (to_f64(&p.a().get(i, j)) + value * to_f64(&p.b().get(i, j))) * back.x[j]).sum();
+            let y: f64 = (0..4)
+                .map(|j| (to_f64(&p.a().get(i, j)) + value * to_f64(&p.b().get(i, j))) * back.x[j])
+                .sum();
             close(f[i], e.diagonal[i] * y);
         }
     }
     let e = embedding(Side::Above(0.0));
-    assert!([0.0, -1.0, f64::NAN, f64::INFINITY].into_iter().all(|c| e.clone().with_c(c).is_none()));
+    assert!(
+        [0.0, -1.0, f64::NAN, f64::INFINITY]
+            .into_iter()
+            .all(|c| e.clone().with_c(c).is_none())
+    );
 }
 
-/// Even at the origin and one beyond it, single particles where their own diagonal vanishes, then random faces.
+/// Even at the origin and one beyond it, single particles where their own diagonal vanishes, then
+/// random faces.
 #[test]
 fn starts_are_on_the_simplex_and_where_they_say() {
-    for (side, own) in [(Side::Above(0.0), [2.0, 0.0, 0.0]), (Side::Above(3.0), [3.0; 3]), (Side::Below(1.0), [1.0, -1.0 / 16.0, 0.0])] {
+    for (side, own) in [
+        (Side::Above(0.0), [2.0, 0.0, 0.0]),
+        (Side::Above(3.0), [3.0; 3]),
+        (Side::Below(1.0), [1.0, -1.0 / 16.0, 0.0]),
+    ] {
         let e = embedding(side).with_c(2.0).unwrap();
         let origin = e.origin;
         let starts = e.starts(400, 5);
@@ -69,18 +120,36 @@ fn starts_are_on_the_simplex_and_where_they_say() {
         let value = |k: usize| e.candidate(&starts[k]).value;
         close(value(0), origin);
         close(value(1), origin + e.direction);
-        assert!([0, 1].iter().all(|&k: &usize| [0, 2, 3].iter().all(|&i| (starts[k][i] - 2.0 / 3.0).abs() < 1e-12)));
+        assert!([0, 1].iter().all(|&k: &usize| {
+            [0, 2, 3]
+                .iter()
+                .all(|&i| (starts[k][i] - 2.0 / 3.0).abs() < 1e-12)
+        }));
         for (k, i) in [0, 2, 3].into_iter().enumerate() {
             assert_eq!(starts[2 + k][i], 2.0);
             close(value(2 + k), own[k]);
         }
         // A particle is kept with probability 0.2 to 1: three fifths of them; all where none was.
-        let moving = starts[5..].iter().flat_map(|z| [z[0], z[2], z[3]]).filter(|u| *u > 0.0).count();
-        let even = starts[5..].iter().filter(|z| z[0] == z[2] && z[2] == z[3]).count();
+        let moving = starts[5..]
+            .iter()
+            .flat_map(|z| [z[0], z[2], z[3]])
+            .filter(|u| *u > 0.0)
+            .count();
+        let even = starts[5..]
+            .iter()
+            .filter(|z| z[0] == z[2] && z[2] == z[3])
+            .count();
         // None kept: the mean of (1 - keep)^3, 0.128.
-        assert!((700..950).contains(&moving) && (25..85).contains(&even), "{moving} of 1185, {even} of 395");
+        assert!(
+            (700..950).contains(&moving) && (25..85).contains(&even),
+            "{moving} of 1185, {even} of 395"
+        );
         let decades: Vec<f64> = starts[5..].iter().map(|z| z[4].log10()).collect();
-        assert!(decades.iter().all(|d| (-3.0..=3.0).contains(d)) && decades.iter().any(|d| *d < -2.0) && decades.iter().any(|d| *d > 2.0));
+        assert!(
+            decades.iter().all(|d| (-3.0..=3.0).contains(d))
+                && decades.iter().any(|d| *d < -2.0)
+                && decades.iter().any(|d| *d > 2.0)
+        );
         assert_eq!(e.starts(400, 5), starts);
         assert_eq!(e.starts(3, 5), starts[..3]);
         assert_ne!(e.starts(9, 6)[8], starts[8]);
@@ -91,7 +160,9 @@ fn starts_are_on_the_simplex_and_where_they_say() {
 #[test]
 fn directions_are_normal() {
     let e = embedding(Side::Above(0.0));
-    let list: Vec<f64> = (0..10_000).flat_map(|seed| e.direction(seed, false)[..4].to_vec()).collect();
+    let list: Vec<f64> = (0..10_000)
+        .flat_map(|seed| e.direction(seed, false)[..4].to_vec())
+        .collect();
     let moment = |k: i32| list.iter().map(|v| v.powi(k)).sum::<f64>() / list.len() as f64;
     assert!(
         moment(1).abs() < 0.025 && (moment(2) - 1.0).abs() < 0.04 && (moment(4) - 3.0).abs() < 0.25,

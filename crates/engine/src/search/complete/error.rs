@@ -15,7 +15,9 @@ pub enum CompleteError {
     #[error("complete: expected at least one slip variable, got none")]
     NothingSlips,
     /// The free variables cannot be eliminated.
-    #[error("P1, P2: expected {what} symmetric and definite (B_ff: semidefinite), got the contrary at variable {index}")]
+    #[error(
+        "P1, P2: expected {what} symmetric and definite (B_ff: semidefinite), got the contrary at variable {index}"
+    )]
     NotDefinite {
         /// Which block.
         what: &'static str,
@@ -31,7 +33,9 @@ pub enum CompleteError {
         got: usize,
     },
     /// A certificate to go on with has free variables eliminated, and nothing to search with.
-    #[error("certificate: expected a condensation with at least one anchor to go on with, got none")]
+    #[error(
+        "certificate: expected a condensation with at least one anchor to go on with, got none"
+    )]
     NoAnchor,
     /// A certificate was made for other matrices.
     #[error("certificate: expected problem {expected}, got {got:?}")]
@@ -59,7 +63,9 @@ pub enum CompleteError {
         part: usize,
     },
     /// A piece that no part has searched.
-    #[error("merge: expected every piece to be searched by a part, got none for piece {piece} of {pieces}")]
+    #[error(
+        "merge: expected every piece to be searched by a part, got none for piece {piece} of {pieces}"
+    )]
     MissingPiece {
         /// The piece, from 0.
         piece: usize,
@@ -75,18 +81,29 @@ pub enum CompleteError {
 }
 
 /// The certificate is for this problem and window.
-pub(super) fn same_problem(problem: &Problem, certificate: &Certificate) -> Result<(), CompleteError> {
+pub(super) fn same_problem(
+    problem: &Problem,
+    certificate: &Certificate,
+) -> Result<(), CompleteError> {
     let expected = problem.sha256();
     if certificate.problem_sha256 != expected {
-        return Err(CompleteError::OtherProblem { expected, got: certificate.problem_sha256.clone() });
+        return Err(CompleteError::OtherProblem {
+            expected,
+            got: certificate.problem_sha256.clone(),
+        });
     }
     if certificate.window != *problem.window() {
-        return Err(CompleteError::OtherWindow { expected: text(problem.window()), got: text(&certificate.window) });
+        return Err(CompleteError::OtherWindow {
+            expected: text(problem.window()),
+            got: text(&certificate.window),
+        });
     }
     Ok(())
 }
 
 fn text(window: &Window) -> String {
-    let max = window.max().map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
+    let max = window
+        .max()
+        .map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
     format!("[{}, {max}", window.min())
 }

@@ -1,9 +1,10 @@
 //! The Farkas test as a matrix game, solved by the simplex method without a phase 1.
 //!
-//! The row player mixes rows of T (rows of moving variables with either sign), the column player the
-//! columns that may move, at both ends of the interval. The row player's value is the largest margin
-//! with which some w makes every entry of w'T negative; the column player's mix is the x closest to a
-//! solution when there is no such w. (von Neumann 1928; Dantzig 1951 for the equivalence with LP.)
+//! The row player mixes rows of T (rows of moving variables with either sign), the column player
+//! the columns that may move, at both ends of the interval. The row player's value is the largest
+//! margin with which some w makes every entry of w'T negative; the column player's mix is the x
+//! closest to a solution when there is no such w. (von Neumann 1928; Dantzig 1951 for the
+//! equivalence with LP.)
 
 use super::skyline::dot;
 use crate::tolerance::{GAME_PIVOT, GAME_SHIFT};
@@ -22,7 +23,11 @@ pub(crate) struct Game {
 pub(crate) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
     let rows = either_sign.len();
     if columns.is_empty() {
-        return Game { value: f64::INFINITY, w: vec![0.0; rows], mix: Vec::new() };
+        return Game {
+            value: f64::INFINITY,
+            w: vec![0.0; rows],
+            mix: Vec::new(),
+        };
     }
     let mut strategies: Vec<(usize, f64)> = (0..rows).map(|i| (i, 1.0)).collect();
     strategies.extend((0..rows).filter(|&i| either_sign[i]).map(|i| (i, -1.0)));
@@ -33,11 +38,19 @@ pub(crate) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
     for (&(i, sign), p) in strategies.iter().zip(weights) {
         w[i] += sign * p.max(0.0) / total;
     }
-    let value = columns.iter().map(|c| -dot(c, &w)).fold(f64::INFINITY, f64::min);
-    Game { value, w, mix: mix.into_iter().map(|q| q / total).collect() }
+    let value = columns
+        .iter()
+        .map(|c| -dot(c, &w))
+        .fold(f64::INFINITY, f64::min);
+    Game {
+        value,
+        w,
+        mix: mix.into_iter().map(|q| q / total).collect(),
+    }
 }
 
-/// max sum q, P q <= 1, q >= 0 with P > 0 by a shift: feasible at q = 0, its dual is the row player's problem.
+/// max sum q, P q <= 1, q >= 0 with P > 0 by a shift: feasible at q = 0, its dual is the row
+/// player's problem.
 struct Tableau {
     rows: usize,
     cols: usize,
@@ -51,9 +64,14 @@ impl Tableau {
     fn new(strategies: &[(usize, f64)], columns: &[Vec<f64>]) -> Tableau {
         let (rows, cols) = (strategies.len(), columns.len());
         let payoff = |&(i, sign): &(usize, f64), c: &[f64]| -sign * c[i];
-        let all = strategies.iter().flat_map(|s| columns.iter().map(move |c| payoff(s, c)));
-        let (lo, hi) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| (lo.min(v), hi.max(v)));
-        let shift = 0.1 * (hi - lo) - lo + f64::MIN_POSITIVE.max(GAME_SHIFT * hi.abs().max(lo.abs()));
+        let all = strategies
+            .iter()
+            .flat_map(|s| columns.iter().map(move |c| payoff(s, c)));
+        let (lo, hi) = all.fold((f64::INFINITY, f64::NEG_INFINITY), |(lo, hi), v| {
+            (lo.min(v), hi.max(v))
+        });
+        let shift =
+            0.1 * (hi - lo) - lo + f64::MIN_POSITIVE.max(GAME_SHIFT * hi.abs().max(lo.abs()));
         let width = cols + 1;
         let mut t = vec![0.0; (rows + 1) * width];
         for (r, s) in strategies.iter().enumerate() {
@@ -63,22 +81,35 @@ impl Tableau {
             t[r * width + cols] = 1.0;
         }
         t[rows * width..rows * width + cols].fill(-1.0);
-        Tableau { rows, cols, t, nonbasic: (0..cols).collect(), basic: (cols..cols + rows).collect() }
+        Tableau {
+            rows,
+            cols,
+            t,
+            nonbasic: (0..cols).collect(),
+            basic: (cols..cols + rows).collect(),
+        }
     }
 
     fn optimise(&mut self) {
         // Dantzig's rule; a degenerate game may stall, so the number of pivots is capped: w is then
         // worse than it could be and its value, computed from it afterwards, says so.
         for _ in 0..20 * (self.rows + self.cols) {
-            let Some(entering) = self.entering() else { return };
-            let Some(leaving) = self.leaving(entering) else { return };
+            let Some(entering) = self.entering() else {
+                return;
+            };
+            let Some(leaving) = self.leaving(entering) else {
+                return;
+            };
             self.pivot(leaving, entering);
         }
     }
 
     fn entering(&self) -> Option<usize> {
         let objective = &self.t[self.rows * (self.cols + 1)..][..self.cols];
-        let best = objective.iter().enumerate().min_by(|a, b| a.1.total_cmp(b.1))?;
+        let best = objective
+            .iter()
+            .enumerate()
+            .min_by(|a, b| a.1.total_cmp(b.1))?;
         (*best.1 < -GAME_PIVOT).then_some(best.0)
     }
 
@@ -89,7 +120,9 @@ impl Tableau {
             let pivot = self.t[r * width + entering];
             if pivot > GAME_PIVOT {
                 let candidate = (self.t[r * width + self.cols] / pivot, -pivot, r);
-                if best.is_none_or(|b| candidate.0 < b.0 || (candidate.0 == b.0 && candidate.1 < b.1)) {
+                if best
+                    .is_none_or(|b| candidate.0 < b.0 || (candidate.0 == b.0 && candidate.1 < b.1))
+                {
                     best = Some(candidate);
                 }
             }
@@ -104,11 +137,16 @@ impl Tableau {
         let (pivot_row, after) = rest.split_at_mut(width);
         pivot_row.iter_mut().for_each(|v| *v *= inverse);
         pivot_row[entering] = inverse;
-        for row in before.chunks_exact_mut(width).chain(after.chunks_exact_mut(width)) {
+        for row in before
+            .chunks_exact_mut(width)
+            .chain(after.chunks_exact_mut(width))
+        {
             let factor = row[entering];
             if factor != 0.0 {
                 row[entering] = 0.0;
-                row.iter_mut().zip(&*pivot_row).for_each(|(v, p)| *v -= factor * p);
+                row.iter_mut()
+                    .zip(&*pivot_row)
+                    .for_each(|(v, p)| *v -= factor * p);
             }
         }
         std::mem::swap(&mut self.nonbasic[entering], &mut self.basic[leaving]);

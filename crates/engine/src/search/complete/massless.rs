@@ -1,27 +1,38 @@
-//! Evidence that a symmetric part is semidefinite where some rows are zero: degrees of freedom without mass.
+//! Evidence that a symmetric part is semidefinite where some rows are zero: degrees of freedom
+//! without mass.
 
 use super::skyline::Skyline;
 use crate::certificate::Factor;
 use crate::exact::{Integer, Sparse};
 
-/// A factor whose rest is diagonally dominant, for sym(m) positive definite on the rows that are not zero; `None` otherwise.
+/// A factor whose rest is diagonally dominant, for sym(m) positive definite on the rows that are
+/// not zero; `None` otherwise.
 pub(super) fn factor(m: &Sparse) -> Option<Factor> {
     let n = m.rows();
     let mut has_mass = vec![false; n];
-    m.entries().for_each(|(i, j, _)| (has_mass[i], has_mass[j]) = (true, true));
+    m.entries()
+        .for_each(|(i, j, _)| (has_mass[i], has_mass[j]) = (true, true));
     let kept: Vec<usize> = (0..n).filter(|&i| has_mass[i]).collect();
     let part = Skyline::symmetric(&m.submatrix(&kept, &kept));
     let slack = part.below_spectrum()?;
     let part = part.shifted(-slack).cholesky()?.rounded(slack);
     // Back among the rows without mass, which are zero in the factor.
-    let (mut first, mut rows): (Vec<usize>, Vec<Vec<Integer>>) = ((0..n).collect(), vec![vec![Integer::default()]; n]);
+    let (mut first, mut rows): (Vec<usize>, Vec<Vec<Integer>>) =
+        ((0..n).collect(), vec![vec![Integer::default()]; n]);
     for (p, &i) in kept.iter().enumerate() {
         first[i] = kept[part.first[p]];
         let mut row = vec![Integer::default(); i + 1 - first[i]];
-        part.rows[p].iter().zip(&kept[part.first[p]..]).for_each(|(v, &j)| row[j - first[i]] = v.clone());
+        part.rows[p]
+            .iter()
+            .zip(&kept[part.first[p]..])
+            .for_each(|(v, &j)| row[j - first[i]] = v.clone());
         rows[i] = row;
     }
-    Some(Factor { first, rows, exponent: part.exponent })
+    Some(Factor {
+        first,
+        rows,
+        exponent: part.exponent,
+    })
 }
 
 #[cfg(test)]
@@ -36,11 +47,19 @@ mod tests {
         let f = factor(&s).unwrap();
         let unit = Rational::from_integer(Integer::from(1) << f.exponent);
         let l = |i: usize, k: usize| {
-            if k < f.first[i] || k > i { whole(0) } else { Rational::from_integer(f.rows[i][k - f.first[i]].clone()) / &unit }
+            if k < f.first[i] || k > i {
+                whole(0)
+            } else {
+                Rational::from_integer(f.rows[i][k - f.first[i]].clone()) / &unit
+            }
         };
-        let e = |i: usize, j: usize| s.get(i, j) - (0..4).map(|k| l(i, k) * l(j, k)).sum::<Rational>();
+        let e =
+            |i: usize, j: usize| s.get(i, j) - (0..4).map(|k| l(i, k) * l(j, k)).sum::<Rational>();
         assert!((0..4).all(|j| e(0, j) == whole(0) && e(2, j) == whole(0)));
-        assert!(e(1, 1) >= num_traits::Signed::abs(&e(1, 3)) && e(3, 3) >= num_traits::Signed::abs(&e(1, 3)));
+        assert!(
+            e(1, 1) >= num_traits::Signed::abs(&e(1, 3))
+                && e(3, 3) >= num_traits::Signed::abs(&e(1, 3))
+        );
         assert!(factor(&Sparse::from_ints(&[&[0, 0], &[0, -1]])).is_none());
         assert!(factor(&Sparse::from_ints(&[&[1, 1], &[1, 1]])).is_none());
     }

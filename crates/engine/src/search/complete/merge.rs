@@ -6,40 +6,71 @@ use crate::certificate::{Certificate, Claim, CompleteSet, Node, Piece, RootOutco
 use crate::check::{AcceptedCover, check};
 use crate::model::Problem;
 
-/// One certificate from several of the same problem, window and pieces: of each piece the tree with the
-/// fewest open leaves. The checker reads the result.
+/// One certificate from several of the same problem, window and pieces: of each piece the tree with
+/// the fewest open leaves. The checker reads the result.
 ///
 /// # Errors
 /// [`CompleteError`]: parts of another problem or window, cut into other pieces, a piece that no
 /// part has searched, a certificate that the checker rejects.
-pub fn merge(problem: &Problem, parts: &[Certificate]) -> Result<(Certificate, AcceptedCover), CompleteError> {
+pub fn merge(
+    problem: &Problem,
+    parts: &[Certificate],
+) -> Result<(Certificate, AcceptedCover), CompleteError> {
     let first = parts.first().ok_or(CompleteError::NoParts)?;
     for part in parts {
         error::same_problem(problem, part)?;
     }
-    let sets: Vec<&CompleteSet> =
-        parts.iter().map(|p| p.complete_set.as_ref().ok_or(CompleteError::NoCompleteSet)).collect::<Result<_, _>>()?;
+    let sets: Vec<&CompleteSet> = parts
+        .iter()
+        .map(|p| p.complete_set.as_ref().ok_or(CompleteError::NoCompleteSet))
+        .collect::<Result<_, _>>()?;
     if let Some(part) = sets.iter().position(|s| !same_pieces(sets[0], s)) {
         return Err(CompleteError::OtherPieces { part });
     }
     let mut claims: Vec<Claim> = Vec::new();
     let mut pieces = Vec::new();
     for k in 0..sets[0].pieces.len() {
-        let open = |s: &&CompleteSet| s.pieces[k].tree.iter().filter(|n| **n == Node::Open).count();
+        let open = |s: &&CompleteSet| {
+            s.pieces[k]
+                .tree
+                .iter()
+                .filter(|n| **n == Node::Open)
+                .count()
+        };
         // The first of those with the fewest open leaves; an untouched piece is one open leaf.
         let touched = (0..sets.len()).filter(|&p| sets[p].pieces[k].tree != [Node::Open]);
-        let best = touched.min_by_key(|&p| open(&sets[p])).ok_or(CompleteError::MissingPiece { piece: k, pieces: sets[0].pieces.len() })?;
-        pieces.push(renumbered(&sets[best].pieces[k], &parts[best].claims, &mut claims));
+        let best = touched
+            .min_by_key(|&p| open(&sets[p]))
+            .ok_or(CompleteError::MissingPiece {
+                piece: k,
+                pieces: sets[0].pieces.len(),
+            })?;
+        pieces.push(renumbered(
+            &sets[best].pieces[k],
+            &parts[best].claims,
+            &mut claims,
+        ));
     }
-    let complete_set = Some(CompleteSet { condensation: sets[0].condensation.clone(), pieces });
-    let certificate = Certificate { claims, complete_set, ..first.clone() };
-    let cover = check(problem, &certificate)?.cover.ok_or(CompleteError::NoCompleteSet)?;
+    let complete_set = Some(CompleteSet {
+        condensation: sets[0].condensation.clone(),
+        pieces,
+    });
+    let certificate = Certificate {
+        claims,
+        complete_set,
+        ..first.clone()
+    };
+    let cover = check(problem, &certificate)?
+        .cover
+        .ok_or(CompleteError::NoCompleteSet)?;
     Ok((certificate, cover))
 }
 
 fn same_pieces(a: &CompleteSet, b: &CompleteSet) -> bool {
     let same = |p: &Piece, q: &Piece| p.max == q.max && p.anchor == q.anchor;
-    a.condensation == b.condensation && a.pieces.len() == b.pieces.len() && a.pieces.iter().zip(&b.pieces).all(|(p, q)| same(p, q))
+    a.condensation == b.condensation
+        && a.pieces.len() == b.pieces.len()
+        && a.pieces.iter().zip(&b.pieces).all(|(p, q)| same(p, q))
 }
 
 /// A part's piece with its references to claims turned into those of the merged list.

@@ -1,8 +1,9 @@
 //! All solutions in a window, with a certificate that there are no others.
 //!
-//! The search works in doubles and writes a certificate of kind *complete set*; the checker decides.
-//! What it reports is what the checker accepted: solutions, and regions that stay open. A certificate
-//! with open regions is also the checkpoint: [`resume`] goes on with it, [`merge`] joins parts.
+//! The search works in doubles and writes a certificate of kind *complete set*; the checker
+//! decides. What it reports is what the checker accepted: solutions, and regions that stay open. A
+//! certificate with open regions is also the checkpoint: [`resume`] goes on with it, [`merge`]
+//! joins parts.
 
 mod beyond;
 mod circuit;
@@ -31,7 +32,9 @@ pub use merge::merge;
 use super::definite;
 use crate::certificate::{Certificate, CompleteSet, Node, Piece};
 use crate::certify::certificate;
-use crate::check::{Accepted, AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check};
+use crate::check::{
+    Accepted, AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check,
+};
 use crate::model::file::Number;
 use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
@@ -66,7 +69,12 @@ pub struct Shard {
 
 impl Default for Options {
     fn default() -> Self {
-        Options { pieces: 16, nodes_per_piece: 2_000_000, threads: None, shard: None }
+        Options {
+            pieces: 16,
+            nodes_per_piece: 2_000_000,
+            threads: None,
+            shard: None,
+        }
     }
 }
 
@@ -93,14 +101,18 @@ pub struct Completed {
 }
 
 impl Completed {
-    /// Is nothing left open? There may be families beside the solutions ([`AcceptedCover::is_plain_list`]).
+    /// Is nothing left open? There may be families beside the solutions
+    /// ([`AcceptedCover::is_plain_list`]).
     pub fn is_complete(&self) -> bool {
         self.cover.open.is_empty()
     }
 
     /// The solutions with their x.
     pub fn solutions(&self) -> impl Iterator<Item = (&AcceptedClaim, &[f64])> {
-        self.cover.solutions.iter().zip(self.x.iter().map(Vec::as_slice))
+        self.cover
+            .solutions
+            .iter()
+            .zip(self.x.iter().map(Vec::as_slice))
     }
 }
 
@@ -133,9 +145,19 @@ pub fn complete(
     if options.shard.is_none()
         && let Some(node) = definite::leaf(&pencil, problem.window())
     {
-        let piece = Piece { max: problem.window().max().cloned().map(Number), anchor: None, tree: vec![node] };
-        let set = CompleteSet { pieces: vec![piece], ..prepared.open_set() };
-        let mut certificate = Certificate { complete_set: Some(set), ..certificate(problem, Vec::new()) };
+        let piece = Piece {
+            max: problem.window().max().cloned().map(Number),
+            anchor: None,
+            tree: vec![node],
+        };
+        let set = CompleteSet {
+            pieces: vec![piece],
+            ..prepared.open_set()
+        };
+        let mut certificate = Certificate {
+            complete_set: Some(set),
+            ..certificate(problem, Vec::new())
+        };
         let (accepted, refused) = audited(problem, &mut certificate)?;
         if refused.is_empty() {
             return completed(&pencil, &prepared, certificate, accepted);
@@ -143,23 +165,35 @@ pub fn complete(
     }
     if prepared.is_expanded() {
         // A first search finds where the solutions are, so that the enclosure is tight there.
-        let scout = Options { shard: None, ..*options };
-        let quiet = Shares { stop, progress: &|_| {}, state: Mutex::new(Progress::default()) };
+        let scout = Options {
+            shard: None,
+            ..*options
+        };
+        let quiet = Shares {
+            stop,
+            progress: &|_| {},
+            state: Mutex::new(Progress::default()),
+        };
         let (set, look) = (prepared.open_set(), prepared.scout());
-        let found = in_threads(options.threads, || splice::all(problem, &pencil, &look, &set, &scout, &Chosen::All, &quiet));
+        let found = in_threads(options.threads, || {
+            splice::all(problem, &pencil, &look, &set, &scout, &Chosen::All, &quiet)
+        });
         let mut values: Vec<f64> = found.into_iter().flat_map(|f| f.met).collect();
         values.sort_by(f64::total_cmp);
         prepared = prepared.refined(problem, &pencil, &values);
     }
-    let start = Certificate { complete_set: Some(prepared.open_set()), ..certificate(problem, Vec::new()) };
+    let start = Certificate {
+        complete_set: Some(prepared.open_set()),
+        ..certificate(problem, Vec::new())
+    };
     run(problem, &pencil, prepared, start, options, stop, progress)
 }
 
 /// Goes on with a certificate that leaves regions open: only these are searched.
 ///
 /// # Errors
-/// [`CompleteError`]; among them a certificate of another problem, unknown or window, and one without a
-/// complete set.
+/// [`CompleteError`]; among them a certificate of another problem, unknown or window, and one
+/// without a complete set.
 pub fn resume(
     problem: &Problem,
     earlier: &Certificate,
@@ -170,9 +204,20 @@ pub fn resume(
     let pencil = reduce(problem)?.pencil;
     error::same_problem(problem, earlier)?;
     check(problem, earlier)?;
-    let set = earlier.complete_set.as_ref().ok_or(CompleteError::NoCompleteSet)?;
+    let set = earlier
+        .complete_set
+        .as_ref()
+        .ok_or(CompleteError::NoCompleteSet)?;
     let prepared = Prepared::again(&pencil, set)?;
-    run(problem, &pencil, prepared, earlier.clone(), options, stop, progress)
+    run(
+        problem,
+        &pencil,
+        prepared,
+        earlier.clone(),
+        options,
+        stop,
+        progress,
+    )
 }
 
 /// Rounds of a search whose leaves were refused, each more cautious than the one before.
@@ -190,35 +235,69 @@ fn run(
     stop: &AtomicBool,
     progress: &(dyn Fn(Progress) + Sync),
 ) -> Result<Completed, CompleteError> {
-    let shares = |progress| Shares { stop, progress, state: Mutex::new(Progress::default()) };
-    let search = |prepared: &Prepared, certificate: &mut Certificate, chosen: &Chosen, watch: &Shares<'_>| {
-        let set = certificate.complete_set.take().ok_or(CompleteError::NoCompleteSet)?;
-        let found = in_threads(options.threads, || splice::all(problem, pencil, prepared, &set, options, chosen, watch));
+    let shares = |progress| Shares {
+        stop,
+        progress,
+        state: Mutex::new(Progress::default()),
+    };
+    let search = |prepared: &Prepared,
+                  certificate: &mut Certificate,
+                  chosen: &Chosen,
+                  watch: &Shares<'_>| {
+        let set = certificate
+            .complete_set
+            .take()
+            .ok_or(CompleteError::NoCompleteSet)?;
+        let found = in_threads(options.threads, || {
+            splice::all(problem, pencil, prepared, &set, options, chosen, watch)
+        });
         let claims = &mut certificate.claims;
-        let pieces = set.pieces.iter().zip(found).map(|(piece, found)| splice::numbered(piece, found.items, claims)).collect();
-        certificate.complete_set = Some(CompleteSet { condensation: set.condensation, pieces });
+        let pieces = set
+            .pieces
+            .iter()
+            .zip(found)
+            .map(|(piece, found)| splice::numbered(piece, found.items, claims))
+            .collect();
+        certificate.complete_set = Some(CompleteSet {
+            condensation: set.condensation,
+            pieces,
+        });
         audited(problem, certificate)
     };
-    let (mut accepted, mut refused) = search(&prepared, &mut certificate, &Chosen::All, &shares(progress))?;
-    // What was refused is open now: that alone is searched again, with more caution, and what still is refused exactly.
+    let (mut accepted, mut refused) =
+        search(&prepared, &mut certificate, &Chosen::All, &shares(progress))?;
+    // What was refused is open now: that alone is searched again, with more caution, and what still
+    // is refused exactly.
     for _ in 0..CAUTIOUS_ROUNDS {
         if refused.is_empty() || stop.load(Ordering::Relaxed) || !prepared.beware() {
             break;
         }
-        (accepted, refused) = search(&prepared, &mut certificate, &Chosen::Again(refused), &shares(&|_| {}))?;
+        (accepted, refused) = search(
+            &prepared,
+            &mut certificate,
+            &Chosen::Again(refused),
+            &shares(&|_| {}),
+        )?;
     }
     if !refused.is_empty() && refused.len() <= MAX_REFUSED && !stop.load(Ordering::Relaxed) {
-        (accepted, _) = search(&prepared, &mut certificate, &Chosen::Exactly(refused), &shares(&|_| {}))?;
+        (accepted, _) = search(
+            &prepared,
+            &mut certificate,
+            &Chosen::Exactly(refused),
+            &shares(&|_| {}),
+        )?;
     }
     if !stop.load(Ordering::Relaxed)
-        && let Some((longer, closed)) = with_long_numbers(problem, pencil, &prepared, &certificate, &accepted)
+        && let Some((longer, closed)) =
+            with_long_numbers(problem, pencil, &prepared, &certificate, &accepted)
     {
         (certificate, accepted) = (longer, closed);
     }
     completed(pencil, &prepared, certificate, accepted)
 }
 
-/// The certificate in which long numbers decide open regions, if fewer stay open according to the checker.
+/// The certificate in which long numbers decide open regions, if fewer stay open according to the
+/// checker.
 fn with_long_numbers(
     problem: &Problem,
     pencil: &Pencil,
@@ -236,16 +315,32 @@ fn with_long_numbers(
 }
 
 /// What is reported is what the checker accepted.
-fn completed(pencil: &Pencil, prepared: &Prepared, certificate: Certificate, accepted: Accepted) -> Result<Completed, CompleteError> {
+fn completed(
+    pencil: &Pencil,
+    prepared: &Prepared,
+    certificate: Certificate,
+    accepted: Accepted,
+) -> Result<Completed, CompleteError> {
     let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
     let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
-    let x = cover.solutions.iter().map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s))).collect();
-    Ok(Completed { certificate, cover, x })
+    let x = cover
+        .solutions
+        .iter()
+        .map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s)))
+        .collect();
+    Ok(Completed {
+        certificate,
+        cover,
+        x,
+    })
 }
 
-/// Lets the checker read the certificate. A leaf whose witness doubles have judged too well is left open, and so is a
-/// tail. Also returned: the places of such leaves.
-fn audited(problem: &Problem, certificate: &mut Certificate) -> Result<(Accepted, BTreeSet<(usize, usize)>), CompleteError> {
+/// Lets the checker read the certificate. A leaf whose witness doubles have judged too well is left
+/// open, and so is a tail. Also returned: the places of such leaves.
+fn audited(
+    problem: &Problem,
+    certificate: &mut Certificate,
+) -> Result<(Accepted, BTreeSet<(usize, usize)>), CompleteError> {
     // Every round opens the tail or solutions of one support, so that this comes to an end.
     let (accepted, refused) = loop {
         match audit(problem, certificate) {
@@ -254,7 +349,11 @@ fn audited(problem: &Problem, certificate: &mut Certificate) -> Result<(Accepted
         }
     };
     for &(piece, node) in &refused {
-        let leaf = certificate.complete_set.as_mut().and_then(|set| set.pieces.get_mut(piece)).and_then(|p| p.tree.get_mut(node));
+        let leaf = certificate
+            .complete_set
+            .as_mut()
+            .and_then(|set| set.pieces.get_mut(piece))
+            .and_then(|p| p.tree.get_mut(node));
         leaf.into_iter().for_each(|leaf| *leaf = Node::Open);
     }
     Ok((accepted, refused.into_iter().collect()))
@@ -287,25 +386,57 @@ fn open_solutions(tree: &mut [Node], support: &[usize]) -> usize {
     opened
 }
 
-/// Opens what is refused as a whole, the tail or solutions that cannot be told apart, else says why there
-/// is no certificate.
+/// Opens what is refused as a whole, the tail or solutions that cannot be told apart, else says why
+/// there is no certificate.
 fn without_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<(), CompleteError> {
-    let Some(set) = certificate.complete_set.as_mut() else { return Err(rejected.into()) };
+    let Some(set) = certificate.complete_set.as_mut() else {
+        return Err(rejected.into());
+    };
     match &rejected.reason {
         // Proved in doubles that rounding has misled: the scales of the rows differ too much.
-        Reason::Cover { piece: None, .. } if set.condensation.as_mut().is_some_and(|c| c.tail.take().is_some()) => {
-            let tails = set.pieces.iter_mut().flat_map(|p| &mut p.tree).filter(|n| matches!(n, Node::Tail));
+        Reason::Cover { piece: None, .. }
+            if set
+                .condensation
+                .as_mut()
+                .is_some_and(|c| c.tail.take().is_some()) =>
+        {
+            let tails = set
+                .pieces
+                .iter_mut()
+                .flat_map(|p| &mut p.tree)
+                .filter(|n| matches!(n, Node::Tail));
             tails.for_each(|n| *n = Node::Open);
             Ok(())
         }
-        // Solutions of one support so near each other that their leaves cannot tell which are the same.
-        Reason::Cover { piece: None, fault: CoverFault::Ambiguous { support }, .. } => {
-            let opened: usize = set.pieces.iter_mut().map(|piece| open_solutions(&mut piece.tree, support)).sum();
-            if opened > 0 { Ok(()) } else { Err(rejected.into()) }
+        // Solutions of one support so near each other that their leaves cannot tell which are the
+        // same.
+        Reason::Cover {
+            piece: None,
+            fault: CoverFault::Ambiguous { support },
+            ..
+        } => {
+            let opened: usize = set
+                .pieces
+                .iter_mut()
+                .map(|piece| open_solutions(&mut piece.tree, support))
+                .sum();
+            if opened > 0 {
+                Ok(())
+            } else {
+                Err(rejected.into())
+            }
         }
         // The free block is definite in doubles and not provably so.
-        Reason::Cover { piece: None, fault: CoverFault::Hypothesis { expected, row }, .. } => {
-            let what = if expected.starts_with("B_ff") { "B_ff" } else { "A_ff" };
+        Reason::Cover {
+            piece: None,
+            fault: CoverFault::Hypothesis { expected, row },
+            ..
+        } => {
+            let what = if expected.starts_with("B_ff") {
+                "B_ff"
+            } else {
+                "A_ff"
+            };
             Err(CompleteError::NotDefinite { what, index: *row })
         }
         _ => Err(rejected.into()),
@@ -335,7 +466,10 @@ impl Watch for Shares<'_> {
 
     fn closed(&self, share: f64, solution: bool) {
         // A poisoned lock means that a thread panicked; its count is still good.
-        let mut state = self.state.lock().unwrap_or_else(std::sync::PoisonError::into_inner);
+        let mut state = self
+            .state
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
         state.share += share;
         state.leaves += 1;
         state.solutions += u64::from(solution);

@@ -1,7 +1,9 @@
-//! An anchor whose W has more bits than doubles: Taylor coefficients by refinement with exact residuals.
+//! An anchor whose W has more bits than doubles: Taylor coefficients by refinement with exact
+//! residuals.
 //!
-//! F_c W_k = [k = 0] (A_fs + c B_fs) + [k = 1] B_fs - B_ff W_(k-1) is solved by the factors of F_c in doubles; each round adds
-//! the solution for the exact residual, and gains the digits that the factors are good for.
+//! F_c W_k = [k = 0] (A_fs + c B_fs) + [k = 1] B_fs - B_ff W_(k-1) is solved by the factors of F_c
+//! in doubles; each round adds the solution for the exact residual, and gains the digits that the
+//! factors are good for.
 
 use super::condense::{Blocks, FINE, expand};
 use crate::certificate::{Anchor, Condensation, IntegerMatrix};
@@ -9,7 +11,8 @@ use crate::exact::{Integer, Rational, common_denominator, from_f64, to_f64};
 use crate::model::Pencil;
 use num_traits::{One, Signed, Zero};
 
-/// Bits of the largest entry of W_0. Basis: the checker keeps 128 bits of an entry of the condensed pencil.
+/// Bits of the largest entry of W_0. Basis: the checker keeps 128 bits of an entry of the condensed
+/// pencil.
 const RIGHT_BITS: u32 = 124;
 /// Bits that each further coefficient needs less: the centre is the value in doubles, to 2^-52.
 const BITS_PER_DEGREE: u32 = 50;
@@ -17,10 +20,17 @@ const BITS_PER_DEGREE: u32 = 50;
 const ROUNDS: usize = 12;
 
 /// An anchor about the double nearest to a value; `None` where F is singular in doubles there.
-pub(super) fn precise_anchor(pencil: &Pencil, condensation: &Condensation, value: &Rational) -> Option<Anchor> {
+pub(super) fn precise_anchor(
+    pencil: &Pencil,
+    condensation: &Condensation,
+    value: &Rational,
+) -> Option<Anchor> {
     let center = from_f64(to_f64(value)).ok()?;
     let blocks = Blocks::of(pencil);
-    let bounds = [to_f64(&condensation.sigma.0), to_f64(&condensation.mass_sigma.0)];
+    let bounds = [
+        to_f64(&condensation.sigma.0),
+        to_f64(&condensation.mass_sigma.0),
+    ];
     let (mut anchor, _) = expand(pencil, &blocks, &center, bounds, FINE)?;
     let factor = blocks.factor_at(to_f64(&center))?;
 
@@ -41,8 +51,8 @@ pub(super) fn precise_anchor(pencil: &Pencil, condensation: &Condensation, value
     Some(anchor)
 }
 
-/// An entry of a free row: position among the free or the complementarity variables, F_c or A + cB, and B, both times the
-/// row's multiple.
+/// An entry of a free row: position among the free or the complementarity variables, F_c or A + cB,
+/// and B, both times the row's multiple.
 struct Entry {
     position: usize,
     at_center: Integer,
@@ -58,14 +68,26 @@ struct FreeRow {
 
 fn free_rows(pencil: &Pencil, center: &Rational) -> Vec<FreeRow> {
     let mut place = vec![(false, 0); pencil.order()];
-    pencil.free().iter().enumerate().for_each(|(k, &i)| place[i] = (true, k));
-    pencil.slip().iter().enumerate().for_each(|(k, &i)| place[i] = (false, k));
+    pencil
+        .free()
+        .iter()
+        .enumerate()
+        .for_each(|(k, &i)| place[i] = (true, k));
+    pencil
+        .slip()
+        .iter()
+        .enumerate()
+        .for_each(|(k, &i)| place[i] = (false, k));
 
     let row = |&i: &usize| {
         let (a, b) = (pencil.a().row(i), pencil.b().row(i));
         let clear = common_denominator(a.iter().chain(b).map(|e| &e.1));
         let multiple = Rational::from_integer(clear * center.denom());
-        let mut row = FreeRow { multiple: multiple.to_integer(), free: Vec::new(), slip: Vec::new() };
+        let mut row = FreeRow {
+            multiple: multiple.to_integer(),
+            free: Vec::new(),
+            slip: Vec::new(),
+        };
 
         let mut columns: Vec<usize> = a.iter().chain(b).map(|e| e.0).collect();
         columns.sort_unstable();
@@ -74,8 +96,16 @@ fn free_rows(pencil: &Pencil, center: &Rational) -> Vec<FreeRow> {
             let (a, b) = (pencil.a().get(i, column), pencil.b().get(i, column));
             let (is_free, position) = place[column];
             let at_center = ((a + center * &b) * &multiple).to_integer();
-            let entry = Entry { position, at_center, slope: (b * &multiple).to_integer() };
-            if is_free { row.free.push(entry) } else { row.slip.push(entry) }
+            let entry = Entry {
+                position,
+                at_center,
+                slope: (b * &multiple).to_integer(),
+            };
+            if is_free {
+                row.free.push(entry)
+            } else {
+                row.slip.push(entry)
+            }
         }
         row
     };
@@ -84,7 +114,13 @@ fn free_rows(pencil: &Pencil, center: &Rational) -> Vec<FreeRow> {
 
 /// Raises the exponent so that the largest entry has this many bits; more stay.
 fn widen(m: &mut IntegerMatrix, bits: u32) {
-    let largest = m.rows.iter().flatten().map(Integer::bits).max().unwrap_or(0);
+    let largest = m
+        .rows
+        .iter()
+        .flatten()
+        .map(Integer::bits)
+        .max()
+        .unwrap_or(0);
     let more = u64::from(bits).saturating_sub(largest);
     if largest > 0 {
         m.rows.iter_mut().flatten().for_each(|v| *v <<= more);
@@ -93,7 +129,12 @@ fn widen(m: &mut IntegerMatrix, bits: u32) {
 }
 
 /// The residual of W_k's equation in doubles, by columns.
-fn residual(rows: &[FreeRow], k: usize, w: &IntegerMatrix, before: Option<&IntegerMatrix>) -> Vec<Vec<f64>> {
+fn residual(
+    rows: &[FreeRow],
+    k: usize,
+    w: &IntegerMatrix,
+    before: Option<&IntegerMatrix>,
+) -> Vec<Vec<f64>> {
     let columns = w.rows.first().map_or(0, Vec::len);
     let exponent = w.exponent.max(before.map_or(0, |m| m.exponent));
     let lift = exponent - w.exponent;
@@ -110,9 +151,17 @@ fn residual(rows: &[FreeRow], k: usize, w: &IntegerMatrix, before: Option<&Integ
             }
         }
         for entry in &row.free {
-            subtract(&mut sums, &(&entry.at_center << lift), &w.rows[entry.position]);
+            subtract(
+                &mut sums,
+                &(&entry.at_center << lift),
+                &w.rows[entry.position],
+            );
             if let Some(before) = before.filter(|_| !entry.slope.is_zero()) {
-                subtract(&mut sums, &(&entry.slope << lift_before), &before.rows[entry.position]);
+                subtract(
+                    &mut sums,
+                    &(&entry.slope << lift_before),
+                    &before.rows[entry.position],
+                );
             }
         }
 
@@ -150,18 +199,26 @@ mod tests {
     use super::*;
     use crate::exact::{Sparse, whole};
 
-    /// F = [[3, -1], [-1, 2]] + t I, C = (1, 0)' + t (0, 1)': at t = 1 the coefficients are W_0 = F^-1 (1, 1)' = (4, 5)' / 11,
-    /// W_1 = F^-1 ((0, 1)' - W_0).
+    /// F = [[3, -1], [-1, 2]] + t I, C = (1, 0)' + t (0, 1)': at t = 1 the coefficients are W_0 =
+    /// F^-1 (1, 1)' = (4, 5)' / 11, W_1 = F^-1 ((0, 1)' - W_0).
     #[test]
     fn coefficients_are_right_beyond_doubles() {
         let a = Sparse::from_ints(&[&[3, -1, 1], &[-1, 2, 0], &[1, 0, 5]]);
         let b = Sparse::from_ints(&[&[1, 0, 0], &[0, 1, 1], &[0, 1, 1]]);
         let pencil = Pencil::new(a, b, vec![0, 1]).unwrap();
         let rows = free_rows(&pencil, &whole(1));
-        assert_eq!((rows[1].free[1].at_center.clone(), rows[1].slip[0].at_center.clone()), (3.into(), 1.into()));
+        assert_eq!(
+            (
+                rows[1].free[1].at_center.clone(),
+                rows[1].slip[0].at_center.clone()
+            ),
+            (3.into(), 1.into())
+        );
 
         let window = crate::model::Window::new(whole(0), Some(whole(2))).unwrap();
-        let condensation = super::super::condense::condense(&pencil, &window).unwrap().condensation;
+        let condensation = super::super::condense::condense(&pencil, &window)
+            .unwrap()
+            .condensation;
         let anchor = precise_anchor(&pencil, &condensation, &whole(1)).unwrap();
 
         let entry = |k: usize, i: usize| {
@@ -171,9 +228,13 @@ mod tests {
         let limit = |bits: u32| Rational::new(Integer::one(), Integer::one() << bits);
         // F W_0 = (1, 1)' with F = [[4, -1], [-1, 3]].
         let of = |p: i64| Rational::new(p.into(), 11.into());
-        assert!((entry(0, 0) - of(4)).abs() < limit(120) && (entry(0, 1) - of(5)).abs() < limit(120));
+        assert!(
+            (entry(0, 0) - of(4)).abs() < limit(120) && (entry(0, 1) - of(5)).abs() < limit(120)
+        );
         // F W_1 = (0, 1)' - W_0 = (-4, 6)' / 11, so W_1 = (-6, 20)' / 121.
         let of = |p: i64| Rational::new(p.into(), 121.into());
-        assert!((entry(1, 0) - of(-6)).abs() < limit(70) && (entry(1, 1) - of(20)).abs() < limit(70));
+        assert!(
+            (entry(1, 0) - of(-6)).abs() < limit(70) && (entry(1, 1) - of(20)).abs() < limit(70)
+        );
     }
 }

@@ -1,5 +1,6 @@
-//! The reversed pencil B + sA, s = 1 / t: one expansion about a small s reaches from the highest frequency of
-//! (A_ff, B_ff) to infinity, where those in t would have to follow one another for ever.
+//! The reversed pencil B + sA, s = 1 / t: one expansion about a small s reaches from the highest
+//! frequency of (A_ff, B_ff) to infinity, where those in t would have to follow one another for
+//! ever.
 
 use super::condense::{Blocks, COARSE, centers, expand, lowest_frequency};
 use super::tree::short;
@@ -17,7 +18,12 @@ pub(super) struct Beyond {
 
 /// The pencil with its matrices exchanged.
 pub(super) fn swapped(pencil: &Pencil) -> Option<Pencil> {
-    Pencil::new(pencil.b().clone(), pencil.a().clone(), pencil.free().to_vec()).ok()
+    Pencil::new(
+        pencil.b().clone(),
+        pencil.a().clone(),
+        pencil.free().to_vec(),
+    )
+    .ok()
 }
 
 /// Needs B_ff >= tau I with tau > 0; `bounds` are sigma (of A_ff) and tau.
@@ -33,5 +39,15 @@ pub(super) fn beyond(pencil: &Pencil, [sigma, tau]: [&Rational; 2]) -> Option<Be
     let (center, end) = (list.first()?, ends.first()?);
     let from = short(1.0 / end, 0.05 / end)?;
     let (anchor, expansion) = expand(&swapped, &blocks, center, bounds, COARSE)?;
-    Some(Beyond { anchor: Anchor { reversed: true, ..anchor }, expansion: Expansion { reversed: true, ..expansion }, from })
+    Some(Beyond {
+        anchor: Anchor {
+            reversed: true,
+            ..anchor
+        },
+        expansion: Expansion {
+            reversed: true,
+            ..expansion
+        },
+        from,
+    })
 }

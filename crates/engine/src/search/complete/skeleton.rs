@@ -24,19 +24,34 @@ pub(super) struct Prepared {
 
 impl Prepared {
     /// Condenses where there are free variables, and cuts the window into about `count` pieces.
-    pub(super) fn new(problem: &Problem, pencil: &Pencil, count: usize) -> Result<Prepared, CompleteError> {
+    pub(super) fn new(
+        problem: &Problem,
+        pencil: &Pencil,
+        count: usize,
+    ) -> Result<Prepared, CompleteError> {
         let slip = pencil.slip().len();
         if slip == 0 {
             return Err(CompleteError::NothingSlips);
         }
         if slip > MAX_COVERED {
-            return Err(CompleteError::TooManySlip { limit: MAX_COVERED, got: slip });
+            return Err(CompleteError::TooManySlip {
+                limit: MAX_COVERED,
+                got: slip,
+            });
         }
         let window = problem.window();
         if pencil.free().is_empty() {
             let view = View::of(pencil);
-            let pieces = cuts(&view, window.min(), window.max(), count).into_iter().map(|max| (max, None)).collect();
-            return Ok(Prepared { view, condensation: None, base: 0.0, pieces });
+            let pieces = cuts(&view, window.min(), window.max(), count)
+                .into_iter()
+                .map(|max| (max, None))
+                .collect();
+            return Ok(Prepared {
+                view,
+                condensation: None,
+                base: 0.0,
+                pieces,
+            });
         }
         let condensed = condense(pencil, window)?;
         let view = condensed.view;
@@ -45,24 +60,46 @@ impl Prepared {
         let each = count.div_ceil(condensed.ends.len()).max(MIN_PIECES);
         for (anchor, end) in condensed.ends.iter().enumerate() {
             let is_last = anchor + 1 == condensed.ends.len();
-            let tail = condensed.condensation.tail.as_ref().map(|t| &t.from.0).or(condensed.beyond.as_ref());
-            // The last anchor ends where the tail or the reversed anchor begins, or with the window.
+            let tail = condensed
+                .condensation
+                .tail
+                .as_ref()
+                .map(|t| &t.from.0)
+                .or(condensed.beyond.as_ref());
+            // The last anchor ends where the tail or the reversed anchor begins, or with the
+            // window.
             let hi = match (is_last, tail) {
                 (true, Some(from)) => Some(from.clone()),
                 // An infinite interval needs a family that is linear in t.
                 (true, None) if window.max().is_none() && view.expansions[anchor].z.len() > 2 => {
-                    // One anchor for all t, where free rows of B are zero in their own columns only: search up to here.
-                    let end = if end.is_finite() { *end } else { FAR * view.scale };
+                    // One anchor for all t, where free rows of B are zero in their own columns
+                    // only: search up to here.
+                    let end = if end.is_finite() {
+                        *end
+                    } else {
+                        FAR * view.scale
+                    };
                     short(end, 0.01 * end)
                 }
                 (true, None) => window.max().cloned(),
-                // A short number near the window's end may lie beyond it: then this anchor has no piece.
-                (false, _) => short(*end, 0.01 * end).map(|h| if window.max().is_some_and(|m| h >= *m) { lo.clone() } else { h }),
+                // A short number near the window's end may lie beyond it: then this anchor has no
+                // piece.
+                (false, _) => short(*end, 0.01 * end).map(|h| {
+                    if window.max().is_some_and(|m| h >= *m) {
+                        lo.clone()
+                    } else {
+                        h
+                    }
+                }),
             };
             let above = hi.as_ref().is_none_or(|h| *h > lo);
             let has_tail = tail.is_some() && window.max().is_none();
             if above || (is_last && pieces.is_empty() && !has_tail) {
-                pieces.extend(cuts(&view, &lo, hi.as_ref(), each).into_iter().map(|max| (max, Some(anchor))));
+                pieces.extend(
+                    cuts(&view, &lo, hi.as_ref(), each)
+                        .into_iter()
+                        .map(|max| (max, Some(anchor))),
+                );
             }
             lo = hi.filter(|h| *h > lo).unwrap_or(lo);
         }
@@ -71,12 +108,21 @@ impl Prepared {
                 Some(_) => {
                     let each = count.div_ceil(condensed.ends.len()).max(MIN_PIECES);
                     let reversed = Some(condensed.ends.len());
-                    pieces.extend(cuts(&view, &lo, None, each).into_iter().map(|max| (max, reversed)));
+                    pieces.extend(
+                        cuts(&view, &lo, None, each)
+                            .into_iter()
+                            .map(|max| (max, reversed)),
+                    );
                 }
                 None => pieces.push((None, None)), // the tail, or what no anchor reaches
             }
         }
-        Ok(Prepared { view, condensation: Some(condensed.condensation), base: condensed.base, pieces })
+        Ok(Prepared {
+            view,
+            condensation: Some(condensed.condensation),
+            base: condensed.base,
+            pieces,
+        })
     }
 
     /// Does the elimination depend on the unknown, so that solutions deserve anchors of their own?
@@ -84,30 +130,57 @@ impl Prepared {
         self.view.expansions.iter().any(|e| e.z.len() > 2)
     }
 
-    /// Takes the remainders for larger than doubles say they are, and no longer believes them at infinity; does that
-    /// change anything? Without remainders only the first time.
+    /// Takes the remainders for larger than doubles say they are, and no longer believes them at
+    /// infinity; does that change anything? Without remainders only the first time.
     pub(super) fn beware(&mut self) -> bool {
         let is_first = self.view.expansions.iter().all(|e| e.caution == 1.0);
-        self.view.expansions.iter_mut().for_each(|e| e.caution *= CAUTION);
+        self.view
+            .expansions
+            .iter_mut()
+            .for_each(|e| e.caution *= CAUTION);
         is_first || self.view.expansions.iter().any(|e| !e.is_everywhere())
     }
 
     /// The same without remainders, for a first look.
     pub(super) fn scout(&self) -> Prepared {
-        let expansions = self.view.expansions.iter().map(Expansion::without_remainder).collect();
-        let view = View { index: self.view.index.clone(), scale: self.view.scale, expansions };
-        Prepared { view, condensation: self.condensation.clone(), base: self.base, pieces: self.pieces.clone() }
+        let expansions = self
+            .view
+            .expansions
+            .iter()
+            .map(Expansion::without_remainder)
+            .collect();
+        let view = View {
+            index: self.view.index.clone(),
+            scale: self.view.scale,
+            expansions,
+        };
+        Prepared {
+            view,
+            condensation: self.condensation.clone(),
+            base: self.base,
+            pieces: self.pieces.clone(),
+        }
     }
 
     /// Gives each of these values an anchor and a piece around it, cut out of the pieces there are.
-    pub(super) fn refined(mut self, problem: &Problem, pencil: &Pencil, values: &[f64]) -> Prepared {
+    pub(super) fn refined(
+        mut self,
+        problem: &Problem,
+        pencil: &Pencil,
+        values: &[f64],
+    ) -> Prepared {
         let mut apart: Vec<f64> = Vec::new();
         for v in values.iter().filter(|v| **v > 0.0) {
-            if apart.last().is_none_or(|last| v - last > 3.0 * self.reach(*v)) {
+            if apart
+                .last()
+                .is_none_or(|last| v - last > 3.0 * self.reach(*v))
+            {
                 apart.push(*v);
             }
         }
-        let Some(condensation) = self.condensation.as_mut() else { return self };
+        let Some(condensation) = self.condensation.as_mut() else {
+            return self;
+        };
         let before = condensation.anchors.len();
         refine(pencil, condensation, &mut self.view, &apart);
         if condensation.anchors.len() != before + apart.len() {
@@ -119,7 +192,8 @@ impl Prepared {
         self
     }
 
-    /// Up to where the anchor about a value is used: the expansions reach as far as value + lowest frequency.
+    /// Up to where the anchor about a value is used: the expansions reach as far as value + lowest
+    /// frequency.
     fn reach(&self, v: f64) -> f64 {
         (NEAR * (v + self.base)).min(0.5 * v)
     }
@@ -127,12 +201,20 @@ impl Prepared {
     /// The piece around v with this anchor, the rest of the pieces it meets as before.
     fn cut_out(&mut self, min: &Rational, v: f64, anchor: usize) {
         let near = self.reach(v);
-        let (Some(a), Some(b)) = (short(v - near, 0.2 * near), short(v + near, 0.2 * near)) else { return };
-        let inside = |t: &Rational, lo: &Rational, hi: &Option<Rational>| t > lo && hi.as_ref().is_none_or(|h| t < h);
+        let (Some(a), Some(b)) = (short(v - near, 0.2 * near), short(v + near, 0.2 * near)) else {
+            return;
+        };
+        let inside = |t: &Rational, lo: &Rational, hi: &Option<Rational>| {
+            t > lo && hi.as_ref().is_none_or(|h| t < h)
+        };
         let mut out: Vec<(Option<Rational>, Option<usize>)> = Vec::new();
         let mut lo = min.clone();
         for (hi, own) in &self.pieces {
-            let mut cuts: Vec<Rational> = [&a, &b].into_iter().filter(|t| inside(t, &lo, hi)).cloned().collect();
+            let mut cuts: Vec<Rational> = [&a, &b]
+                .into_iter()
+                .filter(|t| inside(t, &lo, hi))
+                .cloned()
+                .collect();
             cuts.sort();
             for max in cuts.into_iter().map(Some).chain([hi.clone()]) {
                 // A part between a and b belongs to the new anchor.
@@ -148,48 +230,87 @@ impl Prepared {
     pub(super) fn again(pencil: &Pencil, set: &CompleteSet) -> Result<Prepared, CompleteError> {
         let view = match &set.condensation {
             None => View::of(pencil),
-            Some(condensation) if condensation.anchors.is_empty() => return Err(CompleteError::NoAnchor),
+            Some(condensation) if condensation.anchors.is_empty() => {
+                return Err(CompleteError::NoAnchor);
+            }
             Some(condensation) => view_of(pencil, condensation),
         };
-        let pieces = set.pieces.iter().map(|p| (p.max.as_ref().map(|n| n.0.clone()), p.anchor)).collect();
-        Ok(Prepared { view, condensation: set.condensation.clone(), base: 0.0, pieces })
+        let pieces = set
+            .pieces
+            .iter()
+            .map(|p| (p.max.as_ref().map(|n| n.0.clone()), p.anchor))
+            .collect();
+        Ok(Prepared {
+            view,
+            condensation: set.condensation.clone(),
+            base: 0.0,
+            pieces,
+        })
     }
 
     /// The cover with everything open, the tail excepted.
     pub(super) fn open_set(&self) -> CompleteSet {
         let has_tail = self.condensation.as_ref().is_some_and(|c| c.tail.is_some());
-        let node = |max: &Option<Rational>| if max.is_none() && has_tail { Node::Tail } else { Node::Open };
+        let node = |max: &Option<Rational>| {
+            if max.is_none() && has_tail {
+                Node::Tail
+            } else {
+                Node::Open
+            }
+        };
         let piece = |(max, anchor): &(Option<Rational>, Option<usize>)| Piece {
             max: max.clone().map(Number),
             anchor: *anchor,
             tree: vec![node(max)],
         };
-        CompleteSet { condensation: self.condensation.clone(), pieces: self.pieces.iter().map(piece).collect() }
+        CompleteSet {
+            condensation: self.condensation.clone(),
+            pieces: self.pieces.iter().map(piece).collect(),
+        }
     }
 
     /// x of an accepted solution over all variables of the pencil, e'x_s = 1, in doubles.
     pub(super) fn shape(&self, pencil: &Pencil, solution: &AcceptedClaim) -> Vec<f64> {
         let (lo, hi) = (to_f64(solution.value.lo()), to_f64(solution.value.hi()));
         let t = to_f64(&solution.value.mid());
-        let piece = self.pieces.iter().position(|(max, _)| max.as_ref().is_none_or(|m| solution.value.lo() <= m)).unwrap_or(0);
+        let piece = self
+            .pieces
+            .iter()
+            .position(|(max, _)| max.as_ref().is_none_or(|m| solution.value.lo() <= m))
+            .unwrap_or(0);
         let expansion = self.view.expansion(self.pieces[piece].1);
-        let moves = |i: &usize| if solution.support.contains(i) { State::Moving } else { State::Rest };
+        let moves = |i: &usize| {
+            if solution.support.contains(i) {
+                State::Moving
+            } else {
+                State::Rest
+            }
+        };
         let states: Vec<State> = self.view.index.iter().map(moves).collect();
         let reach = (hi - lo).max(SAME_ROOT * t.abs()).max(f64::MIN_POSITIVE);
-        let x =
-            null_vector(expansion, &states, t - reach, t + reach).map_or_else(|| vec![f64::NAN; states.len()], |n| n.spread(states.len()));
+        let x = null_vector(expansion, &states, t - reach, t + reach)
+            .map_or_else(|| vec![f64::NAN; states.len()], |n| n.spread(states.len()));
         let sum: f64 = x.iter().sum();
         let mut out = vec![0.0; pencil.order()];
-        self.view.index.iter().zip(&x).for_each(|(&i, v)| out[i] = v / sum);
+        self.view
+            .index
+            .iter()
+            .zip(&x)
+            .for_each(|(&i, v)| out[i] = v / sum);
         if let Some(free) = expansion.free_part(t, &x) {
-            pencil.free().iter().zip(free).for_each(|(&i, v)| out[i] = v / sum);
+            pencil
+                .free()
+                .iter()
+                .zip(free)
+                .for_each(|(&i, v)| out[i] = v / sum);
         }
         out
     }
 }
 
-/// Up to where an anchor that has no end of its own is used, in units of the pencil's scale: what lies above
-/// stays open. (A checker bounds a family that is not linear in t on finite intervals only.)
+/// Up to where an anchor that has no end of its own is used, in units of the pencil's scale: what
+/// lies above stays open. (A checker bounds a family that is not linear in t on finite intervals
+/// only.)
 const FAR: f64 = 1024.0;
 
 /// Factor on the remainders where the checker has refused what doubles held for proved.
@@ -199,8 +320,16 @@ const CAUTION: f64 = 8.0;
 const MIN_PIECES: usize = 4;
 
 /// Upper ends of `count` pieces of [min, max]: equal steps of theta, at short numbers.
-fn cuts(view: &View, min: &Rational, max: Option<&Rational>, count: usize) -> Vec<Option<Rational>> {
-    let (a, b) = (view.theta(to_f64(min)), view.theta(max.map_or(f64::INFINITY, to_f64)));
+fn cuts(
+    view: &View,
+    min: &Rational,
+    max: Option<&Rational>,
+    count: usize,
+) -> Vec<Option<Rational>> {
+    let (a, b) = (
+        view.theta(to_f64(min)),
+        view.theta(max.map_or(f64::INFINITY, to_f64)),
+    );
     let step = (b - a) / count.max(1) as f64;
     let mut ends: Vec<Option<Rational>> = Vec::new();
     for k in 1..count {
@@ -208,7 +337,10 @@ fn cuts(view: &View, min: &Rational, max: Option<&Rational>, count: usize) -> Ve
         let v = view.value(theta);
         let cut = short(v, v - view.value(theta - 0.2 * step));
         let last = ends.last().and_then(Option::as_ref).unwrap_or(min);
-        if cut.as_ref().is_some_and(|c| c > last && max.is_none_or(|m| c < m)) {
+        if cut
+            .as_ref()
+            .is_some_and(|c| c > last && max.is_none_or(|m| c < m))
+        {
             ends.push(cut);
         }
     }

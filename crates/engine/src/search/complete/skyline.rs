@@ -30,32 +30,55 @@ impl Skyline {
     pub(super) fn combine(&self, factor: f64, other: &Skyline, shift: f64) -> Skyline {
         let n = self.first.len();
         let first: Vec<usize> = (0..n).map(|i| self.first[i].min(other.first[i])).collect();
-        let at = |s: &Skyline, i: usize, j: usize| if j >= s.first[i] { s.rows[i][j - s.first[i]] } else { 0.0 };
-        let entry = |i: usize, j: usize| at(self, i, j) + factor * at(other, i, j) + if i == j { shift } else { 0.0 };
-        let rows = (0..n).map(|i| (first[i]..=i).map(|j| entry(i, j)).collect()).collect();
+        let at = |s: &Skyline, i: usize, j: usize| {
+            if j >= s.first[i] {
+                s.rows[i][j - s.first[i]]
+            } else {
+                0.0
+            }
+        };
+        let entry = |i: usize, j: usize| {
+            at(self, i, j) + factor * at(other, i, j) + if i == j { shift } else { 0.0 }
+        };
+        let rows = (0..n)
+            .map(|i| (first[i]..=i).map(|j| entry(i, j)).collect())
+            .collect();
         Skyline { first, rows }
     }
 
     /// self + shift I.
     pub(super) fn shifted(&self, shift: f64) -> Skyline {
-        let mut out = Skyline { first: self.first.clone(), rows: self.rows.clone() };
-        out.rows.iter_mut().for_each(|row| row.last_mut().into_iter().for_each(|d| *d += shift));
+        let mut out = Skyline {
+            first: self.first.clone(),
+            rows: self.rows.clone(),
+        };
+        out.rows
+            .iter_mut()
+            .for_each(|row| row.last_mut().into_iter().for_each(|d| *d += shift));
         out
     }
 
     /// Is the matrix a non-negative diagonal (to the checker's eye: no entry beside the diagonal)?
     pub(super) fn is_diagonal(&self) -> bool {
-        self.rows.iter().all(|row| row.iter().rev().skip(1).all(|v| *v == 0.0) && row.last().is_none_or(|d| *d >= 0.0))
+        self.rows.iter().all(|row| {
+            row.iter().rev().skip(1).all(|v| *v == 0.0) && row.last().is_none_or(|d| *d >= 0.0)
+        })
     }
 
     /// Smallest diagonal entry.
     pub(super) fn smallest_diagonal(&self) -> f64 {
-        self.rows.iter().filter_map(|r| r.last()).fold(f64::INFINITY, |s, v| v.min(s))
+        self.rows
+            .iter()
+            .filter_map(|r| r.last())
+            .fold(f64::INFINITY, |s, v| v.min(s))
     }
 
     /// Largest diagonal entry.
     pub(super) fn largest(&self) -> f64 {
-        self.rows.iter().filter_map(|r| r.last()).fold(0.0, |s, v| v.max(s))
+        self.rows
+            .iter()
+            .filter_map(|r| r.last())
+            .fold(0.0, |s, v| v.max(s))
     }
 
     /// The Cholesky factor, `None` where a pivot is not positive.
@@ -69,7 +92,10 @@ impl Skyline {
                 let (before, at) = row.split_at_mut(j - first);
                 at[0] = if j < i {
                     let other = &l[j];
-                    let sum = dot(&before[start - first..], &other[start - self.first[j]..j - self.first[j]]);
+                    let sum = dot(
+                        &before[start - first..],
+                        &other[start - self.first[j]..j - self.first[j]],
+                    );
                     (at[0] - sum) / other[j - self.first[j]]
                 } else {
                     let value = at[0] - dot(before, before);
@@ -78,7 +104,10 @@ impl Skyline {
             }
             l.push(row);
         }
-        Some(Skyline { first: self.first.clone(), rows: l })
+        Some(Skyline {
+            first: self.first.clone(),
+            rows: l,
+        })
     }
 
     /// Solves L L' x = b in place.
@@ -92,7 +121,10 @@ impl Skyline {
             let (before, at) = b.split_at_mut(i);
             let (row, pivot) = self.row(i);
             at[0] /= pivot;
-            before[self.first[i]..].iter_mut().zip(row).for_each(|(b, l)| *b -= l * at[0]);
+            before[self.first[i]..]
+                .iter_mut()
+                .zip(row)
+                .for_each(|(b, l)| *b -= l * at[0]);
         }
     }
 
@@ -139,8 +171,8 @@ impl Skyline {
 
     /// A number below the smallest eigenvalue of a definite matrix, about four fifths of it.
     pub(super) fn below_spectrum(&self) -> Option<f64> {
-        // The iteration approaches the eigenvalue from above, and a start that happens to be orthogonal to
-        // its vector ends at another one: what it says is tried.
+        // The iteration approaches the eigenvalue from above, and a start that happens to be
+        // orthogonal to its vector ends at another one: what it says is tried.
         let mut bound = 0.8 * self.cholesky()?.smallest_eigenvalue();
         for _ in 0..BOUND_STEPS {
             if self.shifted(-bound).cholesky().is_some() {
@@ -154,7 +186,9 @@ impl Skyline {
     /// An estimate of the smallest eigenvalue of L L', by inverse iteration.
     fn smallest_eigenvalue(&self) -> f64 {
         let n = self.rows.len();
-        let mut v: Vec<f64> = (0..n).map(|i| 1.0 + 0.1 * ((i * 7919) % 13) as f64).collect();
+        let mut v: Vec<f64> = (0..n)
+            .map(|i| 1.0 + 0.1 * ((i * 7919) % 13) as f64)
+            .collect();
         let mut estimate = f64::INFINITY;
         for _ in 0..INVERSE_STEPS {
             let norm = v.iter().map(|x| x * x).sum::<f64>().sqrt();
@@ -169,14 +203,26 @@ impl Skyline {
     /// The factor rounded so finely that what it loses stays below `slack` in every row sum.
     pub(super) fn rounded(&self, slack: f64) -> Factor {
         let width = self.rows.iter().map(Vec::len).max().unwrap_or(1) as f64;
-        let largest = self.rows.iter().flatten().fold(f64::MIN_POSITIVE, |s, v| s.max(v.abs()));
+        let largest = self
+            .rows
+            .iter()
+            .flatten()
+            .fold(f64::MIN_POSITIVE, |s, v| s.max(v.abs()));
         // A row of L L' changes by at most width^2 largest 2^-e, its row sum has at most n entries.
         let lost = width * width * largest / slack;
         let exponent = (lost.log2().ceil() + 2.0).clamp(0.0, 900.0);
         let unit = exponent.exp2();
         let fixed = |v: &f64| truncated((v * unit).round()).unwrap_or_default();
-        let rows = self.rows.iter().map(|row| row.iter().map(fixed).collect()).collect();
-        Factor { first: self.first.clone(), rows, exponent: exponent as u32 }
+        let rows = self
+            .rows
+            .iter()
+            .map(|row| row.iter().map(fixed).collect())
+            .collect();
+        Factor {
+            first: self.first.clone(),
+            rows,
+            exponent: exponent as u32,
+        }
     }
 }
 
@@ -187,7 +233,12 @@ const TOGETHER: usize = 8;
 pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (full_a, full_b) = (a.chunks_exact(8), b.chunks_exact(8));
-    let rest: f64 = full_a.remainder().iter().zip(full_b.remainder()).map(|(x, y)| x * y).sum();
+    let rest: f64 = full_a
+        .remainder()
+        .iter()
+        .zip(full_b.remainder())
+        .map(|(x, y)| x * y)
+        .sum();
     for (x, y) in full_a.zip(full_b) {
         (0..8).for_each(|k| sums[k] += x[k] * y[k]);
     }
@@ -224,17 +275,27 @@ mod tests {
         let l = s.cholesky().unwrap();
         let mut x: Vec<f64> = vec![1.0, 0.0, 0.0, 0.0, 0.0, 1.0]; // the chain times (1, ..., 1)
         l.solve(&mut x);
-        x.iter().for_each(|v| approx::assert_relative_eq!(*v, 1.0, epsilon = 1e-12));
+        x.iter()
+            .for_each(|v| approx::assert_relative_eq!(*v, 1.0, epsilon = 1e-12));
         // Eleven at once: a full group and a part of one; the k-th is k + 1 times the above.
-        let scaled = |k: usize| [1.0, 0.0, 0.0, 0.0, 0.0, 1.0].map(|v| v * (k + 1) as f64).to_vec();
+        let scaled = |k: usize| {
+            [1.0, 0.0, 0.0, 0.0, 0.0, 1.0]
+                .map(|v| v * (k + 1) as f64)
+                .to_vec()
+        };
         let mut columns: Vec<Vec<f64>> = (0..11).map(scaled).collect();
         l.solve_all(&mut columns);
         for (k, column) in columns.iter().enumerate() {
-            column.iter().for_each(|v| approx::assert_relative_eq!(*v, (k + 1) as f64, epsilon = 1e-11));
+            column
+                .iter()
+                .for_each(|v| approx::assert_relative_eq!(*v, (k + 1) as f64, epsilon = 1e-11));
         }
         let exact = 2.0 - 2.0 * (std::f64::consts::PI / 7.0).cos();
         approx::assert_relative_eq!(l.smallest_eigenvalue(), exact, epsilon = 1e-9);
-        assert!(s.shifted(-1.01 * exact).cholesky().is_none() && s.shifted(-0.99 * exact).cholesky().is_some());
+        assert!(
+            s.shifted(-1.01 * exact).cholesky().is_none()
+                && s.shifted(-0.99 * exact).cholesky().is_some()
+        );
         assert!(!s.is_diagonal() && Skyline::symmetric(&Sparse::identity(3)).is_diagonal());
     }
 }

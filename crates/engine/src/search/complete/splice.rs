@@ -25,7 +25,8 @@ pub(super) enum Chosen {
     All,
     /// These, as all are.
     Again(BTreeSet<(usize, usize)>),
-    /// These, support by support in exact arithmetic where that can be done: what doubles have judged too well.
+    /// These, support by support in exact arithmetic where that can be done: what doubles have
+    /// judged too well.
     Exactly(BTreeSet<(usize, usize)>),
 }
 
@@ -42,8 +43,8 @@ impl Chosen {
     }
 }
 
-/// The trees of all pieces, their chosen open leaves searched; pieces are independent of each other, so threads
-/// change nothing.
+/// The trees of all pieces, their chosen open leaves searched; pieces are independent of each
+/// other, so threads change nothing.
 pub(super) fn all(
     problem: &Problem,
     pencil: &Pencil,
@@ -57,17 +58,39 @@ pub(super) fn all(
     let certifier = Certifier::new(problem, pencil);
     let certify_at = |value: f64, x: &[f64]| {
         let exact_only = pencil.free().is_empty();
-        exact_only.then(|| certifier.certify(&Candidate { value, x: x.to_vec() }).ok()).flatten()
+        exact_only
+            .then(|| {
+                certifier
+                    .certify(&Candidate {
+                        value,
+                        x: x.to_vec(),
+                    })
+                    .ok()
+            })
+            .flatten()
     };
     let is_stopped = || watch.stopped();
-    let decide = |moving: &[usize], lo: &Rational, hi: Option<&Rational>| support::leaf(pencil, moving, lo, hi, &is_stopped);
+    let decide = |moving: &[usize], lo: &Rational, hi: Option<&Rational>| {
+        support::leaf(pencil, moving, lo, hi, &is_stopped)
+    };
     let starts: Vec<Rational> = std::iter::once(window.min().clone())
-        .chain(set.pieces.iter().map(|p| p.max.as_ref().map_or_else(|| window.min().clone(), |n| n.0.clone())))
+        .chain(set.pieces.iter().map(|p| {
+            p.max
+                .as_ref()
+                .map_or_else(|| window.min().clone(), |n| n.0.clone())
+        }))
         .collect();
     let one = |(k, piece): (usize, &Piece)| {
         let mine = options.shard.is_none_or(|s| k % s.count == s.index);
-        if !mine || chosen.places().is_some_and(|leaves| leaves.range((k, 0)..(k + 1, 0)).next().is_none()) {
-            return Found { items: piece.tree.iter().cloned().map(Item::Node).collect(), met: Vec::new() };
+        if !mine
+            || chosen
+                .places()
+                .is_some_and(|leaves| leaves.range((k, 0)..(k + 1, 0)).next().is_none())
+        {
+            return Found {
+                items: piece.tree.iter().cloned().map(Item::Node).collect(),
+                met: Vec::new(),
+            };
         }
         let expansion = prepared.view.expansion(piece.anchor);
         let limit = |moving: &[usize]| beyond::limit(pencil, moving, expansion.reversed);
@@ -86,28 +109,58 @@ pub(super) fn all(
         };
         let share = 1.0 / set.pieces.len() as f64;
         spliced(&mut search, &starts[k], piece, share, k, chosen);
-        Found { items: search.items, met: search.met }
+        Found {
+            items: search.items,
+            met: search.met,
+        }
     };
     set.pieces.par_iter().enumerate().map(one).collect()
 }
 
-/// Copies the tree of piece `k` in preorder; a chosen open leaf is replaced by what a search of its region finds.
-fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64, k: usize, chosen: &Chosen) {
+/// Copies the tree of piece `k` in preorder; a chosen open leaf is replaced by what a search of its
+/// region finds.
+fn spliced(
+    search: &mut Search<'_>,
+    lo: &Rational,
+    piece: &Piece,
+    share: f64,
+    k: usize,
+    chosen: &Chosen,
+) {
     let hi = piece.max.as_ref().map(|n| n.0.clone());
     // A piece beyond the anchors has no matrices to search with.
     let searchable = piece.anchor.is_some() || search.expansion.is_everywhere();
     let mut stack = vec![(Region::whole(lo.clone(), hi, search.view.order()), share)];
     for (place, node) in piece.tree.iter().enumerate() {
-        let Some((region, share)) = stack.pop() else { return }; // the checker has accepted the tree
+        let Some((region, share)) = stack.pop() else {
+            return;
+        }; // the checker has accepted the tree
         match node {
             Node::Split(at) => {
                 search.items.push(Item::Node(node.clone()));
-                stack.push((Region { lo: at.0.clone(), ..region.clone() }, share / 2.0));
-                stack.push((Region { hi: Some(at.0.clone()), ..region }, share / 2.0));
+                stack.push((
+                    Region {
+                        lo: at.0.clone(),
+                        ..region.clone()
+                    },
+                    share / 2.0,
+                ));
+                stack.push((
+                    Region {
+                        hi: Some(at.0.clone()),
+                        ..region
+                    },
+                    share / 2.0,
+                ));
             }
             Node::Branch(index) => {
                 search.items.push(Item::Node(node.clone()));
-                let position = search.view.index.iter().position(|i| i == index).unwrap_or(0);
+                let position = search
+                    .view
+                    .index
+                    .iter()
+                    .position(|i| i == index)
+                    .unwrap_or(0);
                 for state in [State::Moving, State::Rest] {
                     let mut child = region.clone();
                     child.states[position] = state;
@@ -115,7 +168,9 @@ fn spliced(search: &mut Search<'_>, lo: &Rational, piece: &Piece, share: f64, k:
                 }
             }
             Node::Open if !chosen.takes((k, place)) => search.items.push(Item::Node(Node::Open)),
-            Node::Open if searchable && !matches!(chosen, Chosen::Exactly(_)) => search.region(&region, share),
+            Node::Open if searchable && !matches!(chosen, Chosen::Exactly(_)) => {
+                search.region(&region, share)
+            }
             Node::Open => search.by_support(&region, share),
             _ => {
                 search.items.push(Item::Node(node.clone()));
@@ -134,7 +189,10 @@ pub(super) fn numbered(piece: &Piece, items: Vec<Item>, claims: &mut Vec<Claim>)
             Node::Root(root)
         }
     };
-    Piece { tree: items.into_iter().map(node).collect(), ..piece.clone() }
+    Piece {
+        tree: items.into_iter().map(node).collect(),
+        ..piece.clone()
+    }
 }
 
 /// The claim's number, appended if it is new.

@@ -1,4 +1,5 @@
-//! The exact leaf of one support: the interval is cut where a reason ends, and every part has its own.
+//! The exact leaf of one support: the interval is cut where a reason ends, and every part has its
+//! own.
 
 use super::reasons::Supported;
 use crate::certificate::{Certificate, Exact, Node, Point, Polynomials, Support};
@@ -26,7 +27,13 @@ pub(super) fn leaf(
         return None;
     }
     let system = Supported::new(pencil, moving)?;
-    let mut sweep = Sweep { system, is_stopped, points: Vec::new(), cells: Vec::new(), reasons: Vec::new() };
+    let mut sweep = Sweep {
+        system,
+        is_stopped,
+        points: Vec::new(),
+        cells: Vec::new(),
+        reasons: Vec::new(),
+    };
     let first = Algebraic::rational(lo.clone());
     sweep.point(first.clone())?;
     match hi {
@@ -42,16 +49,36 @@ pub(super) fn leaf(
 }
 
 /// x of a solution that a support leaf of the certificate yields, e'x_s = 1, in doubles.
-pub(super) fn shape(certificate: &Certificate, pencil: &Pencil, solution: &AcceptedClaim) -> Option<Vec<f64>> {
-    let ends = |p: &Point| p.interval[0].0 == *solution.value.lo() && p.interval[1].0 == *solution.value.hi();
-    let nodes = certificate.complete_set.iter().flat_map(|c| &c.pieces).flat_map(|p| &p.tree);
-    let leaves = nodes.filter_map(|n| if let Node::Support(leaf) = n { Some(leaf) } else { None });
+pub(super) fn shape(
+    certificate: &Certificate,
+    pencil: &Pencil,
+    solution: &AcceptedClaim,
+) -> Option<Vec<f64>> {
+    let ends = |p: &Point| {
+        p.interval[0].0 == *solution.value.lo() && p.interval[1].0 == *solution.value.hi()
+    };
+    let nodes = certificate
+        .complete_set
+        .iter()
+        .flat_map(|c| &c.pieces)
+        .flat_map(|p| &p.tree);
+    let leaves = nodes.filter_map(|n| {
+        if let Node::Support(leaf) = n {
+            Some(leaf)
+        } else {
+            None
+        }
+    });
     let at = |leaf: &'_ Support| -> Option<Vec<Poly>> {
         let point = leaf.points.iter().find(|p| ends(p))?;
-        let Exact::Some(member) = leaf.reasons.get(point.reason)? else { return None };
+        let Exact::Some(member) = leaf.reasons.get(point.reason)? else {
+            return None;
+        };
         let x: Vec<Poly> = member.x.0.iter().map(|c| Poly::new(c.clone())).collect();
         let slip = pencil.slip();
-        slip.iter().all(|i| solution.support.contains(i) != x[*i].is_zero()).then_some(x)
+        slip.iter()
+            .all(|i| solution.support.contains(i) != x[*i].is_zero())
+            .then_some(x)
     };
     let x = leaves.filter_map(|leaf| at(leaf)).next()?;
     let values: Vec<Rational> = x.iter().map(|p| p.eval(&solution.value.mid())).collect();
@@ -69,10 +96,13 @@ struct Sweep<'a> {
 
 impl Sweep<'_> {
     fn reason(&mut self, reason: Exact) -> usize {
-        self.reasons.iter().position(|r| *r == reason).unwrap_or_else(|| {
-            self.reasons.push(reason);
-            self.reasons.len() - 1
-        })
+        self.reasons
+            .iter()
+            .position(|r| *r == reason)
+            .unwrap_or_else(|| {
+                self.reasons.push(reason);
+                self.reasons.len() - 1
+            })
     }
 
     fn point(&mut self, mut value: Algebraic) -> Option<()> {
@@ -94,23 +124,40 @@ impl Sweep<'_> {
         // A number that no hand-made problem has as a critical value.
         let parts = [(487, 1024), (601, 1024), (333, 1024)];
         let (t, around) = parts.iter().find_map(|&(p, q)| {
-            let t = inside(&mut left, right.as_mut(), &Rational::new(p.into(), q.into()));
+            let t = inside(
+                &mut left,
+                right.as_mut(),
+                &Rational::new(p.into(), q.into()),
+            );
             let around = self.system.around(&t)?;
-            around.critical.iter().all(|c| c.sign_at(&t) != 0).then_some((t, around))
+            around
+                .critical
+                .iter()
+                .all(|c| c.sign_at(&t) != 0)
+                .then_some((t, around))
         })?;
-        let critical = around.critical.iter().map(Poly::squarefree).fold(Poly::from_ints(&[1]), |product, p| {
-            let shared = product.gcd(&p);
-            &product * &p.exact_div(&shared).unwrap_or(p) // exact: the gcd divides
-        });
+        let critical = around.critical.iter().map(Poly::squarefree).fold(
+            Poly::from_ints(&[1]),
+            |product, p| {
+                let shared = product.gcd(&p);
+                &product * &p.exact_div(&shared).unwrap_or(p) // exact: the gcd divides
+            },
+        );
         let top = right.as_ref().map(|r| r.interval().hi().clone());
         let is_inside = |v: &Algebraic| {
             let mut v = v.clone();
             v.cmp_exact(&mut left.clone()) == Ordering::Greater
-                && right.as_ref().is_none_or(|r| v.cmp_exact(&mut r.clone()) == Ordering::Less)
+                && right
+                    .as_ref()
+                    .is_none_or(|r| v.cmp_exact(&mut r.clone()) == Ordering::Less)
         };
-        let roots: Vec<Algebraic> = roots_in(&critical, left.interval().lo(), top.as_ref()).into_iter().filter(is_inside).collect();
-        let (below, above): (Vec<Algebraic>, Vec<Algebraic>) =
-            roots.into_iter().partition(|v| v.clone().cmp_rational(&t) == Ordering::Less);
+        let roots: Vec<Algebraic> = roots_in(&critical, left.interval().lo(), top.as_ref())
+            .into_iter()
+            .filter(is_inside)
+            .collect();
+        let (below, above): (Vec<Algebraic>, Vec<Algebraic>) = roots
+            .into_iter()
+            .partition(|v| v.clone().cmp_rational(&t) == Ordering::Less);
         if let Some(end) = below.last() {
             self.between(left, Some(end.clone()))?;
             self.point(end.clone())?;
@@ -130,9 +177,16 @@ impl Sweep<'_> {
             let (point, reason) = &mut self.points[k];
             // Signs at the point are read off remainders whose long coefficients nearly cancel.
             let bits = (2 * longest(&self.reasons[*reason])).clamp(WIDTH_BITS, MAX_WIDTH_BITS);
-            let small = (point.interval().mid() + Rational::one()) / Rational::from_integer(Integer::from(1) << bits);
+            let small = (point.interval().mid() + Rational::one())
+                / Rational::from_integer(Integer::from(1) << bits);
             point.refine_to(&small);
-            while !point.interval().is_point() && point.interval().horner(&point.poly().derivative()).certain_sign() == 0 {
+            while !point.interval().is_point()
+                && point
+                    .interval()
+                    .horner(&point.poly().derivative())
+                    .certain_sign()
+                    == 0
+            {
                 point.refine();
             }
         }
@@ -146,29 +200,45 @@ impl Sweep<'_> {
         }
         let point = |(value, reason): (Algebraic, usize)| Point {
             polynomial: value.poly().coeffs().to_vec(),
-            interval: [Number(value.interval().lo().clone()), Number(value.interval().hi().clone())],
+            interval: [
+                Number(value.interval().lo().clone()),
+                Number(value.interval().hi().clone()),
+            ],
             reason,
         };
-        Some(Support { points: self.points.into_iter().map(point).collect(), cells: self.cells, reasons: self.reasons })
+        Some(Support {
+            points: self.points.into_iter().map(point).collect(),
+            cells: self.cells,
+            reasons: self.reasons,
+        })
     }
 }
 
 /// Isolating intervals are at least this much narrower than the value, in bits.
 const WIDTH_BITS: u64 = 80;
-/// And no more than this: coefficients of 1e60 would ask for tens of thousands of halvings, one by one. What that leaves
-/// undecided the checker refuses, and it stays open. (Found by a campaign that did not end, seed 12, 2026-11-21.)
+/// And no more than this: coefficients of 1e60 would ask for tens of thousands of halvings, one by
+/// one. What that leaves undecided the checker refuses, and it stays open. (Found by a campaign
+/// that did not end, seed 12, 2026-11-21.)
 const MAX_WIDTH_BITS: u64 = 1_024;
 
 /// Bits of the longest coefficient of a reason.
 fn longest(reason: &Exact) -> u64 {
     let vectors: Vec<&Polynomials> = match reason {
         Exact::None(w) => vec![w],
-        Exact::Some(m) => std::iter::once(&m.x).chain(m.alone.iter().flat_map(|a| a.rows.iter().map(|(_, l)| l))).collect(),
+        Exact::Some(m) => std::iter::once(&m.x)
+            .chain(m.alone.iter().flat_map(|a| a.rows.iter().map(|(_, l)| l)))
+            .collect(),
     };
-    vectors.into_iter().flat_map(|v| v.0.iter().flatten()).map(Integer::bits).max().unwrap_or(0)
+    vectors
+        .into_iter()
+        .flat_map(|v| v.0.iter().flatten())
+        .map(Integer::bits)
+        .max()
+        .unwrap_or(0)
 }
 
-/// A rational strictly between two values, `part` of the way (above the last one: that far above it).
+/// A rational strictly between two values, `part` of the way (above the last one: that far above
+/// it).
 fn inside(left: &mut Algebraic, right: Option<&mut Algebraic>, part: &Rational) -> Rational {
     match right {
         None => left.interval().hi() + Rational::one() + part,

@@ -8,7 +8,8 @@ use num_traits::One;
 /// A dense square matrix by rows.
 pub(super) type Matrix = Vec<Vec<f64>>;
 
-/// The pencil on the complementarity variables: one polynomial matrix, or several about their centres.
+/// The pencil on the complementarity variables: one polynomial matrix, or several about their
+/// centres.
 pub(super) struct View {
     /// Complementarity variables by position.
     pub(super) index: Vec<usize>,
@@ -51,7 +52,8 @@ pub(super) struct Ends {
 }
 
 impl View {
-    /// The expansion of a piece with this anchor. Without a condensation there is one, and anchors are ignored.
+    /// The expansion of a piece with this anchor. Without a condensation there is one, and anchors
+    /// are ignored.
     pub(super) fn expansion(&self, anchor: Option<usize>) -> &Expansion {
         let named = anchor.and_then(|k| self.expansions.get(k));
         named.unwrap_or(&self.expansions[0])
@@ -64,11 +66,16 @@ impl View {
         for i in 0..n {
             let factor = row_factor(pencil, i);
             for (m, row) in [(&mut a, pencil.a().row(i)), (&mut b, pencil.b().row(i))] {
-                row.iter().for_each(|(j, v)| m[i][*j] = to_f64(&(v * &factor)));
+                row.iter()
+                    .for_each(|(j, v)| m[i][*j] = to_f64(&(v * &factor)));
             }
         }
         let expansion = Expansion::linear(a, b);
-        View { index: (0..n).collect(), scale: scale(&expansion.z), expansions: vec![expansion] }
+        View {
+            index: (0..n).collect(),
+            scale: scale(&expansion.z),
+            expansions: vec![expansion],
+        }
     }
 
     pub(super) fn order(&self) -> usize {
@@ -77,7 +84,11 @@ impl View {
 
     /// Position of t in [0, 1]: t / (scale + t).
     pub(super) fn theta(&self, t: f64) -> f64 {
-        if t.is_infinite() { 1.0 } else { t / (self.scale + t) }
+        if t.is_infinite() {
+            1.0
+        } else {
+            t / (self.scale + t)
+        }
     }
 
     /// The value at a position.
@@ -90,14 +101,23 @@ impl View {
 pub(super) fn row_factor(pencil: &Pencil, i: usize) -> Rational {
     let (a, b) = (pencil.a().row(i), pencil.b().row(i));
     let clear = common_denominator(a.iter().chain(b).map(|(_, v)| v));
-    let bits = a.iter().map(|(_, v)| (v.numer() * (&clear / v.denom())).bits()).max().unwrap_or(0).max(1);
+    let bits = a
+        .iter()
+        .map(|(_, v)| (v.numer() * (&clear / v.denom())).bits())
+        .max()
+        .unwrap_or(0)
+        .max(1);
     Rational::new(clear, Integer::one() << bits)
 }
 
 pub(super) fn scale(z: &[Matrix]) -> f64 {
     let largest = |m: &Matrix| m.iter().flatten().fold(0.0f64, |s, v| s.max(v.abs()));
     let (a, b) = (largest(&z[0]), largest(&z[1]));
-    if a > 0.0 && b > 0.0 && (a / b).is_finite() { a / b } else { 1.0 }
+    if a > 0.0 && b > 0.0 && (a / b).is_finite() {
+        a / b
+    } else {
+        1.0
+    }
 }
 
 impl Expansion {
@@ -124,7 +144,11 @@ impl Expansion {
 
     /// The chord between two matrices, from 0 to 1.
     pub(super) fn line(ends: &[Matrix; 2]) -> Expansion {
-        let slope = ends[0].iter().zip(&ends[1]).map(|(a, b)| a.iter().zip(b).map(|(a, b)| b - a).collect()).collect();
+        let slope = ends[0]
+            .iter()
+            .zip(&ends[1])
+            .map(|(a, b)| a.iter().zip(b).map(|(a, b)| b - a).collect())
+            .collect();
         Expansion::linear(ends[0].clone(), slope)
     }
 
@@ -147,7 +171,13 @@ impl Expansion {
 
     /// The same without its remainder: to look for solutions, not to prove anything.
     pub(super) fn without_remainder(&self) -> Expansion {
-        Expansion { left: Vec::new(), right: Vec::new(), v: Vec::new(), rounding: Vec::new(), ..self.clone() }
+        Expansion {
+            left: Vec::new(),
+            right: Vec::new(),
+            v: Vec::new(),
+            rounding: Vec::new(),
+            ..self.clone()
+        }
     }
 
     /// Is this the pencil itself, valid for every value?
@@ -193,38 +223,86 @@ impl Expansion {
         }
         let ends = self.between(1.0 / hi, 1.0 / lo);
         let [m1, m0] = ends.m;
-        Ends { lo, hi, m: [m0, m1], ..ends }
+        Ends {
+            lo,
+            hi,
+            m: [m0, m1],
+            ..ends
+        }
     }
 
     fn between(&self, lo: f64, hi: f64) -> Ends {
         if hi.is_infinite() {
-            return Ends { lo, hi, m: [self.polynomial(lo), self.z[1].clone()], r: None, slope: None };
+            return Ends {
+                lo,
+                hi,
+                m: [self.polynomial(lo), self.z[1].clone()],
+                r: None,
+                slope: None,
+            };
         }
         let lower = self.polynomial(lo);
-        let m = [lower.clone(), if lo == hi { lower } else { self.polynomial(hi) }];
+        let m = [
+            lower.clone(),
+            if lo == hi { lower } else { self.polynomial(hi) },
+        ];
         let exact = self.z.len() <= 2 && self.weight.is_empty();
         if exact {
-            return Ends { lo, hi, m, r: None, slope: None };
+            return Ends {
+                lo,
+                hi,
+                m,
+                r: None,
+                slope: None,
+            };
         }
-        let (reach, width) = ((lo - self.center).abs().max((hi - self.center).abs()), hi - lo);
+        let (reach, width) = (
+            (lo - self.center).abs().max((hi - self.center).abs()),
+            hi - lo,
+        );
         let mut bend = self.zero();
         for (k, z) in self.z.iter().enumerate().skip(2).rev() {
             for (o, v) in bend.iter_mut().flatten().zip(z.iter().flatten()) {
                 *o = *o * reach + (k * (k - 1)) as f64 * v.abs() * width * width;
             }
         }
-        let norm = |list: &[Vec<f64>], i: usize| list.iter().rev().fold(0.0, |s, l| s * reach + l[i]);
+        let norm =
+            |list: &[Vec<f64>], i: usize| list.iter().rev().fold(0.0, |s, l| s * reach + l[i]);
         let n = self.z[0].len();
         // The z_k themselves come from long sums of terms below one in doubles.
-        let size: f64 = m.iter().flatten().flatten().fold(1.0, |s, v| s.max(v.abs()));
-        let (l, r): (Vec<f64>, Vec<f64>) =
-            (0..n).map(|i| (norm(&self.left, i) * self.weight[i] / (1.0 + self.gain * lo), norm(&self.right, i))).unzip();
-        let (v, q): (Vec<f64>, Vec<f64>) = (0..n).map(|i| (norm(&self.v, i), norm(&self.rounding, i))).unzip();
-        let remainder = |i: usize, j: usize| self.caution * (l[i] * r[j] + v[i] * q[j] + CONDENSATION_NOISE * size);
-        let r = (0..n).map(|i| (0..n).map(|j| bend[i][j] / 8.0 + remainder(i, j)).collect()).collect();
-        // The remainder's slope is at most a few times remainder / width where it matters; the exact
-        // check decides.
-        let slope = (0..n).map(|i| (0..n).map(|j| bend[i][j] + 4.0 * remainder(i, j)).collect()).collect();
-        Ends { lo, hi, m, r: Some(r), slope: Some(slope) }
+        let size: f64 = m
+            .iter()
+            .flatten()
+            .flatten()
+            .fold(1.0, |s, v| s.max(v.abs()));
+        let (l, r): (Vec<f64>, Vec<f64>) = (0..n)
+            .map(|i| {
+                (
+                    norm(&self.left, i) * self.weight[i] / (1.0 + self.gain * lo),
+                    norm(&self.right, i),
+                )
+            })
+            .unzip();
+        let (v, q): (Vec<f64>, Vec<f64>) = (0..n)
+            .map(|i| (norm(&self.v, i), norm(&self.rounding, i)))
+            .unzip();
+        let remainder = |i: usize, j: usize| {
+            self.caution * (l[i] * r[j] + v[i] * q[j] + CONDENSATION_NOISE * size)
+        };
+        let r = (0..n)
+            .map(|i| (0..n).map(|j| bend[i][j] / 8.0 + remainder(i, j)).collect())
+            .collect();
+        // The remainder's slope is at most a few times remainder / width where it matters; the
+        // exact check decides.
+        let slope = (0..n)
+            .map(|i| (0..n).map(|j| bend[i][j] + 4.0 * remainder(i, j)).collect())
+            .collect();
+        Ends {
+            lo,
+            hi,
+            m,
+            r: Some(r),
+            slope: Some(slope),
+        }
     }
 }

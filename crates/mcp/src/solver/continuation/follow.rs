@@ -2,7 +2,10 @@
 
 use super::Options;
 use super::system::{Border, Corrected, Local, Place, Places, Position, Quantity, System};
-use super::tolerance::{CURVE_ANGLE, CURVE_CLOSED, CURVE_FAR, CURVE_FEASIBLE, CURVE_FIRST, CURVE_GROWTH, CURVE_SAME, CURVE_SHORTEST};
+use super::tolerance::{
+    CURVE_ANGLE, CURVE_CLOSED, CURVE_FAR, CURVE_FEASIBLE, CURVE_FIRST, CURVE_GROWTH, CURVE_SAME,
+    CURVE_SHORTEST,
+};
 use super::{CurveEnd, Sense};
 use crate::mcp::Mcp;
 use nalgebra::DVector;
@@ -26,9 +29,23 @@ struct Landing {
 }
 
 impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
-    pub(super) fn new(system: System<'p, 'a, P>, at: Position, options: &Options, enough: usize) -> Self {
+    pub(super) fn new(
+        system: System<'p, 'a, P>,
+        at: Position,
+        options: &Options,
+        enough: usize,
+    ) -> Self {
         let (start, start_places) = (at.clone(), system.places.clone());
-        Follower { system, at, start, start_places, length: CURVE_FIRST, steps_left: options.curve_step_limit, enough, found: Vec::new() }
+        Follower {
+            system,
+            at,
+            start,
+            start_places,
+            length: CURVE_FIRST,
+            steps_left: options.curve_step_limit,
+            enough,
+            found: Vec::new(),
+        }
     }
 
     pub(super) fn run(mut self, sense: Sense) -> (Vec<DVector<f64>>, CurveEnd) {
@@ -41,7 +58,9 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         let mut local = self.system.local(&self.at.z.clone())?;
         let inside = self.system.places.inside();
         let row = self.system.row(Quantity::S, &local, &inside);
-        let mut tangent = self.system.tangent(&local, &row, if sense == Sense::Down { -1.0 } else { 1.0 })?;
+        let mut tangent =
+            self.system
+                .tangent(&local, &row, if sense == Sense::Down { -1.0 } else { 1.0 })?;
         loop {
             if self.steps_left == 0 {
                 return Some(CurveEnd::StepLimit);
@@ -52,9 +71,12 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
             let before = std::mem::replace(&mut self.at, landing.there.at);
             (local, tangent) = (landing.there.local, next);
             if landing.event == Some(Quantity::S) {
-                // A curve passes a point once, unless it is closed; one that has strayed from its start closes elsewhere.
-                let is_at = |z: &DVector<f64>| (&self.at.z - z).amax() <= CURVE_SAME * (1.0 + z.amax());
-                let again = self.start.s == 0.0 && is_at(&self.start.z) || self.found.iter().any(is_at);
+                // A curve passes a point once, unless it is closed; one that has strayed from its
+                // start closes elsewhere.
+                let is_at =
+                    |z: &DVector<f64>| (&self.at.z - z).amax() <= CURVE_SAME * (1.0 + z.amax());
+                let again =
+                    self.start.s == 0.0 && is_at(&self.start.z) || self.found.iter().any(is_at);
                 self.found.push(self.at.z.clone());
                 if again {
                     return Some(CurveEnd::Closed);
@@ -63,7 +85,9 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
                     return Some(CurveEnd::Enough);
                 }
             }
-            if self.at.z.amax() > CURVE_FAR * (1.0 + self.start.z.amax()) || self.at.s.abs() > CURVE_FAR {
+            if self.at.z.amax() > CURVE_FAR * (1.0 + self.start.z.amax())
+                || self.at.s.abs() > CURVE_FAR
+            {
                 return Some(CurveEnd::Ray);
             }
             if self.is_back(&before) {
@@ -103,7 +127,8 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
     /// The end of a step of the current length, or the event before it.
     fn land(&mut self, local: &Local, tangent: &DVector<f64>, inside: &[usize]) -> Option<Landing> {
         let mut predicted = self.at.clone();
-        self.system.shift(&mut predicted, inside, tangent, self.length);
+        self.system
+            .shift(&mut predicted, inside, tangent, self.length);
         if let Some((event, distance)) = self.predicted_event(local, tangent, inside)
             && distance <= self.length
         {
@@ -118,7 +143,10 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         let Some((event, share)) = self.first_crossing(local, at, &there.local) else {
             return Some(Landing { there, event: None });
         };
-        let near = Position { z: self.at.z.lerp(&at.z, share), s: self.at.s + share * (at.s - self.at.s) };
+        let near = Position {
+            z: self.at.z.lerp(&at.z, share),
+            s: self.at.s + share * (at.s - self.at.s),
+        };
         self.land_on(event, &near, local)
     }
 
@@ -137,7 +165,10 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         }
         match self.first_crossing(local, &there.at, &there.local) {
             Some((other, _)) if other != event => None,
-            _ => Some(Landing { there, event: Some(event) }),
+            _ => Some(Landing {
+                there,
+                event: Some(event),
+            }),
         }
     }
 
@@ -147,16 +178,32 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         let kept = self.system.places.0.clone();
         let (index, place, quantity, sign) = match landing.event {
             None | Some(Quantity::S) => {
-                let known = landing.there.tangent.as_ref().map(|v| if v.dot(tangent) < 0.0 { -v } else { v.clone() });
-                let next = known.or_else(|| self.system.tangent(&landing.there.local, tangent, 1.0))?;
+                let known = landing
+                    .there
+                    .tangent
+                    .as_ref()
+                    .map(|v| if v.dot(tangent) < 0.0 { -v } else { v.clone() });
+                let next =
+                    known.or_else(|| self.system.tangent(&landing.there.local, tangent, 1.0))?;
                 return (next.dot(tangent) > CURVE_ANGLE).then_some(next);
             }
             Some(Quantity::Z(i, bound)) => {
-                // By the bound, not by the tangent: a curve that bends may come back to the bound it is leaving.
+                // By the bound, not by the tangent: a curve that bends may come back to the bound
+                // it is leaving.
                 let is_lower = bound <= self.system.problem.problem.lower()[i];
-                (i, if is_lower { Place::Lower } else { Place::Upper }, Quantity::Multiplier(i), if is_lower { 1.0 } else { -1.0 })
+                (
+                    i,
+                    if is_lower { Place::Lower } else { Place::Upper },
+                    Quantity::Multiplier(i),
+                    if is_lower { 1.0 } else { -1.0 },
+                )
             }
-            Some(Quantity::Multiplier(i)) => (i, Place::Inside, Quantity::Z(i, 0.0), if kept[i] == Place::Lower { 1.0 } else { -1.0 }),
+            Some(Quantity::Multiplier(i)) => (
+                i,
+                Place::Inside,
+                Quantity::Z(i, 0.0),
+                if kept[i] == Place::Lower { 1.0 } else { -1.0 },
+            ),
         };
         self.system.places.0[index] = place;
         let now = self.system.places.inside();
@@ -170,7 +217,10 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
 
     /// The quantities that must keep their sign: each with +1 if it must stay positive.
     fn guarded(&self) -> Vec<(Quantity, f64)> {
-        let (l, u) = (self.system.problem.problem.lower(), self.system.problem.problem.upper());
+        let (l, u) = (
+            self.system.problem.problem.lower(),
+            self.system.problem.problem.upper(),
+        );
         let mut list = Vec::new();
         for (i, place) in self.system.places.0.iter().enumerate() {
             match place {
@@ -194,23 +244,47 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
     }
 
     /// The first guarded quantity to vanish along the tangent, with its distance.
-    fn predicted_event(&self, local: &Local, tangent: &DVector<f64>, inside: &[usize]) -> Option<(Quantity, f64)> {
+    fn predicted_event(
+        &self,
+        local: &Local,
+        tangent: &DVector<f64>,
+        inside: &[usize],
+    ) -> Option<(Quantity, f64)> {
         let distance = |&(q, sign): &(Quantity, f64)| {
             let rate = sign * self.system.row(q, local, inside).dot(tangent);
             let value = (sign * self.system.value(q, &self.at, local)).max(0.0);
             (rate < 0.0).then(|| (q, value / -rate))
         };
-        self.guarded().iter().filter_map(distance).min_by(|a, b| a.1.total_cmp(&b.1))
+        self.guarded()
+            .iter()
+            .filter_map(distance)
+            .min_by(|a, b| a.1.total_cmp(&b.1))
     }
 
     /// The first guarded quantity that has the wrong sign at `to`, with its share of the way.
-    fn first_crossing(&self, local: &Local, to: &Position, there: &Local) -> Option<(Quantity, f64)> {
+    fn first_crossing(
+        &self,
+        local: &Local,
+        to: &Position,
+        there: &Local,
+    ) -> Option<(Quantity, f64)> {
         let scale = CURVE_FEASIBLE * (1.0 + to.s.abs());
         let share = |&(q, sign): &(Quantity, f64)| {
-            let (before, after) = (sign * self.system.value(q, &self.at, local), sign * self.system.value(q, to, there));
-            (after < -scale).then(|| (q, (before.max(0.0) / (before.max(0.0) - after)).clamp(0.0, 1.0)))
+            let (before, after) = (
+                sign * self.system.value(q, &self.at, local),
+                sign * self.system.value(q, to, there),
+            );
+            (after < -scale).then(|| {
+                (
+                    q,
+                    (before.max(0.0) / (before.max(0.0) - after)).clamp(0.0, 1.0),
+                )
+            })
         };
-        self.guarded().iter().filter_map(share).min_by(|a, b| a.1.total_cmp(&b.1))
+        self.guarded()
+            .iter()
+            .filter_map(share)
+            .min_by(|a, b| a.1.total_cmp(&b.1))
     }
 }
 

@@ -82,7 +82,11 @@ pub fn continuation<P: Mcp + ?Sized>(
     let mut evaluated = Evaluated::new(problem);
     let start = evaluated.point(&DVector::from_column_slice(start));
     let (solutions, end) = from_point(&mut evaluated, &start, sense, enough, options);
-    Ok(Curve { solutions: solutions.iter().map(|z| z.as_slice().to_vec()).collect(), end, counters: evaluated.counters })
+    Ok(Curve {
+        solutions: solutions.iter().map(|z| z.as_slice().to_vec()).collect(),
+        end,
+        counters: evaluated.counters,
+    })
 }
 
 /// The curve through a solution (s = 0 there) with the residual direction `r`, length n.
@@ -103,9 +107,18 @@ pub fn continuation_through<P: Mcp + ?Sized>(
     let point = evaluated.point(&DVector::from_column_slice(solution));
     let places = Places::at_solution(problem, &point);
     let r = DVector::from_column_slice(r);
-    let system = System { problem: &mut evaluated, r, places };
-    let (solutions, end) = Follower::new(system, Position { z: point.z, s: 0.0 }, options, enough).run(sense);
-    Ok(Curve { solutions: solutions.iter().map(|z| z.as_slice().to_vec()).collect(), end, counters: evaluated.counters })
+    let system = System {
+        problem: &mut evaluated,
+        r,
+        places,
+    };
+    let (solutions, end) =
+        Follower::new(system, Position { z: point.z, s: 0.0 }, options, enough).run(sense);
+    Ok(Curve {
+        solutions: solutions.iter().map(|z| z.as_slice().to_vec()).collect(),
+        end,
+        counters: evaluated.counters,
+    })
 }
 
 /// The curve from a point within the bounds. Multipliers at bounds are lifted off zero, so that the
@@ -122,9 +135,20 @@ pub(super) fn from_point<P: Mcp + ?Sized>(
     }
     let places = Places::at_bounds(problem.problem, &start.z);
     let lift = lift(start.f.amax());
-    let r = DVector::from_fn(start.z.len(), |i, _| start.f[i] - places.lifted_multiplier(i, start.f[i], lift));
+    let r = DVector::from_fn(start.z.len(), |i, _| {
+        start.f[i] - places.lifted_multiplier(i, start.f[i], lift)
+    });
     let system = System { problem, r, places };
-    Follower::new(system, Position { z: start.z.clone(), s: 1.0 }, options, enough).run(sense)
+    Follower::new(
+        system,
+        Position {
+            z: start.z.clone(),
+            s: 1.0,
+        },
+        options,
+        enough,
+    )
+    .run(sense)
 }
 
 /// How far multipliers at bounds are lifted off zero, where F is of this size.
@@ -140,7 +164,10 @@ mod tests {
 
     #[test]
     fn multipliers_are_lifted_once_or_twice_as_far() {
-        assert_eq!([lift(0.0), lift(0.5), lift(1.0), lift(7.0)], [1.0, 1.5, 2.0, 2.0].map(|v| CURVE_LIFT * v));
+        assert_eq!(
+            [lift(0.0), lift(0.5), lift(1.0), lift(7.0)],
+            [1.0, 1.5, 2.0, 2.0].map(|v| CURVE_LIFT * v)
+        );
     }
 
     fn values(curve: &Curve) -> Vec<f64> {
@@ -172,7 +199,10 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap();
         for sense in [Sense::Down, Sense::Up] {
             let curve = continuation(&lcp, &[0.5], sense, 9, &Options::default()).unwrap();
-            assert!(curve.solutions.is_empty() && curve.end == CurveEnd::Ray, "{curve:?}");
+            assert!(
+                curve.solutions.is_empty() && curve.end == CurveEnd::Ray,
+                "{curve:?}"
+            );
         }
     }
 }

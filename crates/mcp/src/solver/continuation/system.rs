@@ -49,7 +49,9 @@ impl Places {
     }
 
     pub(super) fn inside(&self) -> Vec<usize> {
-        (0..self.0.len()).filter(|&i| self.0[i] == Place::Inside).collect()
+        (0..self.0.len())
+            .filter(|&i| self.0[i] == Place::Inside)
+            .collect()
     }
 
     /// A multiplier strictly on the right side of zero.
@@ -102,16 +104,21 @@ pub(super) struct Corrected {
     pub(super) local: Local,
     /// Newton steps taken.
     pub(super) steps: usize,
-    /// A unit tangent up to its sign and to the difference between the last factors and F' here; `None` if no step was needed.
+    /// A unit tangent up to its sign and to the difference between the last factors and F' here;
+    /// `None` if no step was needed.
     pub(super) tangent: Option<DVector<f64>>,
 }
 
 /// The factors of a bordered matrix.
 type Factors = nalgebra::LU<f64, nalgebra::Dyn, nalgebra::Dyn>;
 
-/// The unit vector along which the border, row k, grows with the sign given and the other rows stay.
+/// The unit vector along which the border, row k, grows with the sign given and the other rows
+/// stay.
 fn unit(factors: &Factors, k: usize, sign: f64) -> Option<DVector<f64>> {
-    let v = factors.solve(&DVector::from_fn(k + 1, |i, _| if i == k { sign } else { 0.0 }))?;
+    let v = factors.solve(&DVector::from_fn(
+        k + 1,
+        |i, _| if i == k { sign } else { 0.0 },
+    ))?;
     let norm = v.norm();
     (norm > 0.0 && norm.is_finite()).then(|| v / norm)
 }
@@ -130,7 +137,8 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
         self.problem.counters.jacobians += 1;
         let jacobian = jacobian_at(self.problem.problem, point.z.as_slice());
         let f = &point.f + &jacobian * (z - &point.z);
-        (f.iter().all(|v| v.is_finite()) && jacobian.iter().all(|v| v.is_finite())).then_some(Local { f, jacobian })
+        (f.iter().all(|v| v.is_finite()) && jacobian.iter().all(|v| v.is_finite()))
+            .then_some(Local { f, jacobian })
     }
 
     pub(super) fn value(&self, quantity: Quantity, at: &Position, local: &Local) -> f64 {
@@ -145,8 +153,19 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
     pub(super) fn row(&self, quantity: Quantity, local: &Local, inside: &[usize]) -> DVector<f64> {
         let k = inside.len();
         match quantity {
-            Quantity::Z(i, _) => DVector::from_fn(k + 1, |c, _| if c < k && inside[c] == i { 1.0 } else { 0.0 }),
-            Quantity::Multiplier(i) => DVector::from_fn(k + 1, |c, _| if c < k { local.jacobian[(i, inside[c])] } else { -self.r[i] }),
+            Quantity::Z(i, _) => {
+                DVector::from_fn(
+                    k + 1,
+                    |c, _| if c < k && inside[c] == i { 1.0 } else { 0.0 },
+                )
+            }
+            Quantity::Multiplier(i) => DVector::from_fn(k + 1, |c, _| {
+                if c < k {
+                    local.jacobian[(i, inside[c])]
+                } else {
+                    -self.r[i]
+                }
+            }),
             Quantity::S => DVector::from_fn(k + 1, |c, _| if c < k { 0.0 } else { 1.0 }),
         }
     }
@@ -161,16 +180,25 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
     }
 
     /// The unit tangent along which the row `border` grows with the sign given.
-    pub(super) fn tangent(&mut self, local: &Local, border: &DVector<f64>, sign: f64) -> Option<DVector<f64>> {
+    pub(super) fn tangent(
+        &mut self,
+        local: &Local,
+        border: &DVector<f64>,
+        sign: f64,
+    ) -> Option<DVector<f64>> {
         let inside = self.places.inside();
         let k = inside.len();
         self.problem.counters.factorisations += 1;
         unit(&self.bordered(local, &inside, border).lu(), k, sign)
     }
 
-    /// Newton from a predicted position to the curve. The factors of a step serve the next ones while they gain
-    /// enough (Shamanskii 1967), and at last the tangent.
-    pub(super) fn correct(&mut self, predicted: &Position, border: &Border<'_>) -> Option<Corrected> {
+    /// Newton from a predicted position to the curve. The factors of a step serve the next ones
+    /// while they gain enough (Shamanskii 1967), and at last the tangent.
+    pub(super) fn correct(
+        &mut self,
+        predicted: &Position,
+        border: &Border<'_>,
+    ) -> Option<Corrected> {
         let inside = self.places.inside();
         let k = inside.len();
         let mut at = predicted.clone();
@@ -181,11 +209,22 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
                 Border::Plane(normal) => ((*normal).clone(), 0.0),
                 Border::Zero(q) => (self.row(*q, &local, &inside), self.value(*q, &at, &local)),
             };
-            let right = DVector::from_fn(k + 1, |i, _| if i < k { at.s * self.r[inside[i]] - local.f[inside[i]] } else { -rest });
+            let right = DVector::from_fn(k + 1, |i, _| {
+                if i < k {
+                    at.s * self.r[inside[i]] - local.f[inside[i]]
+                } else {
+                    -rest
+                }
+            });
             let size = 1.0 + at.s.abs() * self.r.amax();
             if right.amax() <= CURVE_RESIDUAL * size {
                 let tangent = factors.as_ref().and_then(|f| unit(f, k, 1.0));
-                return Some(Corrected { at, local, steps, tangent });
+                return Some(Corrected {
+                    at,
+                    local,
+                    steps,
+                    tangent,
+                });
             }
             if right.amax() > 2.0 * last || steps == CURVE_STEPS {
                 return None;
@@ -201,7 +240,9 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
                     self.bordered(&local, &inside, &row).lu()
                 }
             };
-            let step = lu.solve(&right).filter(|v| v.iter().all(|v| v.is_finite()))?;
+            let step = lu
+                .solve(&right)
+                .filter(|v| v.iter().all(|v| v.is_finite()))?;
             factors = Some(lu);
             self.shift(&mut at, &inside, &step, 1.0);
         }
@@ -209,7 +250,13 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
     }
 
     /// Moves a position by `length` times a direction in (z_I, s).
-    pub(super) fn shift(&self, at: &mut Position, inside: &[usize], direction: &DVector<f64>, length: f64) {
+    pub(super) fn shift(
+        &self,
+        at: &mut Position,
+        inside: &[usize],
+        direction: &DVector<f64>,
+        length: f64,
+    ) {
         for (c, &i) in inside.iter().enumerate() {
             at.z[i] += length * direction[c];
         }

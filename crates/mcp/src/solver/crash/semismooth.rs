@@ -3,17 +3,19 @@
 //! complementarity problems"), kept within the bounds. A run of them that converges costs one
 //! factorisation a step and no pivot.
 //!
-//! Row i of an element of the generalised Jacobian is by_z e_i' + by_f F'_i; divided by by_f it is a
-//! row of F' with a term on the diagonal that grows towards the bound. Where a component is far
-//! nearer to one branch than to the other the row of the minimum map stands for it: at a bound
-//! z_i goes there exactly (and leaves the system), inside F_i + F'_i d = 0.
+//! Row i of an element of the generalised Jacobian is by_z e_i' + by_f F'_i; divided by by_f it is
+//! a row of F' with a term on the diagonal that grows towards the bound. Where a component is far
+//! nearer to one branch than to the other the row of the minimum map stands for it: at a bound z_i
+//! goes there exactly (and leaves the system), inside F_i + F'_i d = 0.
 
 use super::super::dense::Lu;
 use super::super::evaluation::{Evaluated, Point};
 use super::super::fischer::fischer;
 use super::super::log::Log;
 use super::super::outcome::{StepKind, Termination};
-use super::super::tolerance::{SEMISMOOTH_GAIN, SEMISMOOTH_NEAR, SEMISMOOTH_SMALLEST, SEMISMOOTH_WINDOW};
+use super::super::tolerance::{
+    SEMISMOOTH_GAIN, SEMISMOOTH_NEAR, SEMISMOOTH_SMALLEST, SEMISMOOTH_WINDOW,
+};
 use super::{search, solve_inside};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
@@ -40,9 +42,9 @@ enum Row {
     Inside { diagonal: f64, residual: f64 },
 }
 
-/// Steps from `start`, at most `limit`, until `done`, or until there is no descent along two directions
-/// in a row, or the merit has not fallen to [`SEMISMOOTH_GAIN`] over [`SEMISMOOTH_WINDOW`] steps.
-/// Says if it is done. Never raises the merit.
+/// Steps from `start`, at most `limit`, until `done`, or until there is no descent along two
+/// directions in a row, or the merit has not fallen to [`SEMISMOOTH_GAIN`] over
+/// [`SEMISMOOTH_WINDOW`] steps. Says if it is done. Never raises the merit.
 ///
 /// # Errors
 /// [`Termination::NonFinite`] if F' is not finite at an accepted point.
@@ -69,7 +71,11 @@ pub(in super::super) fn semismooth<P: Mcp + ?Sized>(
         problem.counters.factorisations += 1;
         let solved = storage.newton_direction(problem.problem, &jacobian, &point, near[0]);
         problem.recycle_matrix(jacobian);
-        let found = if solved { search(problem, &point, &storage.direction, SEMISMOOTH_SMALLEST) } else { None };
+        let found = if solved {
+            search(problem, &point, &storage.direction, SEMISMOOTH_SMALLEST)
+        } else {
+            None
+        };
         take_turns(&mut near, found.as_ref().map(|(_, length)| *length));
         let Some((next, _)) = found else {
             if failed {
@@ -87,7 +93,8 @@ pub(in super::super) fn semismooth<P: Mcp + ?Sized>(
     Ok((point, ended))
 }
 
-/// At the end of each window of steps: is the merit still above [`SEMISMOOTH_GAIN`] times that of the last one's end?
+/// At the end of each window of steps: is the merit still above [`SEMISMOOTH_GAIN`] times that of
+/// the last one's end?
 fn stalls(step: usize, merit: f64, least: &mut f64) -> bool {
     if step == 0 || !step.is_multiple_of(SEMISMOOTH_WINDOW) {
         return false;
@@ -116,25 +123,54 @@ fn row(z: f64, f: f64, l: f64, u: f64, near: f64) -> Row {
         return Row::Bound(above);
     }
     if f.abs() <= near * below.min(above) {
-        return Row::Inside { diagonal: 0.0, residual: f };
+        return Row::Inside {
+            diagonal: 0.0,
+            residual: f,
+        };
     }
     let phi = fischer(z, f, l, u);
-    Row::Inside { diagonal: phi.by_z / phi.by_f, residual: phi.value / phi.by_f }
+    Row::Inside {
+        diagonal: phi.by_z / phi.by_f,
+        residual: phi.value / phi.by_f,
+    }
 }
 
 impl Storage {
     /// Newton's direction; says if there is one.
-    fn newton_direction<P: Mcp + ?Sized>(&mut self, problem: &P, jacobian: &DMatrix<f64>, point: &Point, near: f64) -> bool {
+    fn newton_direction<P: Mcp + ?Sized>(
+        &mut self,
+        problem: &P,
+        jacobian: &DMatrix<f64>,
+        point: &Point,
+        near: f64,
+    ) -> bool {
         self.take_rows(problem, point, near);
-        let Storage { inside, diagonal, residual, lu, step, direction } = self;
-        for (j, moved) in direction.iter().enumerate().filter(|(_, moved)| **moved != 0.0) {
+        let Storage {
+            inside,
+            diagonal,
+            residual,
+            lu,
+            step,
+            direction,
+        } = self;
+        for (j, moved) in direction
+            .iter()
+            .enumerate()
+            .filter(|(_, moved)| **moved != 0.0)
+        {
             let column = jacobian.column(j);
-            inside.iter().zip(residual.iter_mut()).for_each(|(&i, r)| *r += column[i] * moved);
+            inside
+                .iter()
+                .zip(residual.iter_mut())
+                .for_each(|(&i, r)| *r += column[i] * moved);
         }
         if !solve_inside(lu, step, jacobian, inside, |j| diagonal[j], |r| residual[r]) {
             return false;
         }
-        inside.iter().zip(step.iter()).for_each(|(&i, v)| direction[i] = *v);
+        inside
+            .iter()
+            .zip(step.iter())
+            .for_each(|(&i, v)| direction[i] = *v);
         true
     }
 
@@ -173,57 +209,127 @@ mod tests {
         let start = problem.point(&DVector::from_column_slice(start));
         let (merit, mut log) = (start.merit, Log::default());
         let done = |point: &Point| point.merit < 1e-24;
-        let (point, ended) = semismooth(&mut problem, start, 50, done, &mut Storage::default(), &mut log).unwrap();
-        assert!(point.merit <= merit && log.records().iter().all(|record| record.step == StepKind::FischerNewton));
+        let (point, ended) = semismooth(
+            &mut problem,
+            start,
+            50,
+            done,
+            &mut Storage::default(),
+            &mut log,
+        )
+        .unwrap();
+        assert!(
+            point.merit <= merit
+                && log
+                    .records()
+                    .iter()
+                    .all(|record| record.step == StepKind::FischerNewton)
+        );
         assert_eq!(log.records().len(), problem.counters.crash_steps);
         assert!(problem.counters.factorisations >= problem.counters.crash_steps);
         (point, ended, problem.counters.factorisations)
     }
 
-    /// Murty's problem, of 2^n - 1 pivots by Lemke's method, n = 12: solution 0, .., 0, 1, from far away;
-    /// components at bounds are there exactly.
+    /// Murty's problem, of 2^n - 1 pivots by Lemke's method, n = 12: solution 0, .., 0, 1, from far
+    /// away; components at bounds are there exactly.
     #[test]
     fn it_converges_to_exact_bounds() {
         let n = 12;
-        let murty = DMatrix::from_fn(n, n, |i, j| if i == j { 1.0 } else { 2.0 * f64::from(u8::from(j > i)) });
-        let (point, ended, factorisations) = crashed(&LinearMcp::lcp(murty, vec![-1.0; n]).unwrap(), &vec![1.0; n]);
-        assert!(ended && factorisations < 30, "{factorisations} {}", point.merit);
-        assert!(point.z.iter().take(n - 1).all(|v| *v == 0.0) && (point.z[n - 1] - 1.0).abs() < 1e-12);
+        let murty = DMatrix::from_fn(n, n, |i, j| {
+            if i == j {
+                1.0
+            } else {
+                2.0 * f64::from(u8::from(j > i))
+            }
+        });
+        let (point, ended, factorisations) = crashed(
+            &LinearMcp::lcp(murty, vec![-1.0; n]).unwrap(),
+            &vec![1.0; n],
+        );
+        assert!(
+            ended && factorisations < 30,
+            "{factorisations} {}",
+            point.merit
+        );
+        assert!(
+            point.z.iter().take(n - 1).all(|v| *v == 0.0) && (point.z[n - 1] - 1.0).abs() < 1e-12
+        );
     }
 
     /// Below, inside, above, fixed and free: z = (0, 1, 2, 5, 3) of F = z - (-1, 1, 4, 0, 3).
     #[test]
     fn bounds_of_every_kind() {
         let q = vec![1.0, -1.0, -4.0, 0.0, -3.0];
-        let p = LinearMcp::new(DMatrix::identity(5, 5), q, vec![0.0, -1.0, 0.0, 5.0, -INF], vec![INF, 2.0, 2.0, 5.0, INF]).unwrap();
-        for start in [[0.0, 0.0, 0.0, 5.0, 0.0], [3.0, 2.0, 2.0, 5.0, -9.0], [0.5, -1.0, 1.0, 5.0, 3.0]] {
+        let p = LinearMcp::new(
+            DMatrix::identity(5, 5),
+            q,
+            vec![0.0, -1.0, 0.0, 5.0, -INF],
+            vec![INF, 2.0, 2.0, 5.0, INF],
+        )
+        .unwrap();
+        for start in [
+            [0.0, 0.0, 0.0, 5.0, 0.0],
+            [3.0, 2.0, 2.0, 5.0, -9.0],
+            [0.5, -1.0, 1.0, 5.0, 3.0],
+        ] {
             let (point, ended, _) = crashed(&p, &start);
             assert!(ended, "{start:?}: {point:?}");
-            assert!((point.z - DVector::from_column_slice(&[0.0, 1.0, 2.0, 5.0, 3.0])).amax() < 1e-12);
+            assert!(
+                (point.z - DVector::from_column_slice(&[0.0, 1.0, 2.0, 5.0, 3.0])).amax() < 1e-12
+            );
         }
     }
 
     /// No solution: the merit has a minimum that is not zero, and the steps end soon.
     #[test]
     fn poor_progress_ends_it() {
-        let (point, ended, factorisations) = crashed(&LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap(), &[3.0]);
-        assert!(!ended && point.merit > 0.4 && factorisations <= 3 * SEMISMOOTH_WINDOW, "{factorisations}");
-        let (_, ended, factorisations) = crashed(&LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap(), &[0.0]);
-        assert!(!ended && factorisations <= 2 * SEMISMOOTH_WINDOW, "{factorisations}");
+        let (point, ended, factorisations) =
+            crashed(&LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap(), &[3.0]);
+        assert!(
+            !ended && point.merit > 0.4 && factorisations <= 3 * SEMISMOOTH_WINDOW,
+            "{factorisations}"
+        );
+        let (_, ended, factorisations) =
+            crashed(&LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap(), &[0.0]);
+        assert!(
+            !ended && factorisations <= 2 * SEMISMOOTH_WINDOW,
+            "{factorisations}"
+        );
     }
 
-    /// The derivative of what Newton solves: -diagonal and residual against the function and its parts.
+    /// The derivative of what Newton solves: -diagonal and residual against the function and its
+    /// parts.
     #[test]
     fn rows_are_those_of_the_generalised_jacobian() {
         assert_eq!(row(2.0, 7.0, 2.0, 2.0, 0.5), Row::Bound(0.0));
         assert_eq!(row(0.25, 1.0, 0.0, INF, 0.5), Row::Bound(-0.25));
         assert_eq!(row(1.75, -1.0, 0.0, 2.0, 0.5), Row::Bound(0.25));
-        assert_eq!(row(1.0, 0.25, 0.0, INF, 0.5), Row::Inside { diagonal: 0.0, residual: 0.25 });
-        assert_eq!(row(7.0, 9.0, -INF, INF, 0.5), Row::Inside { diagonal: 0.0, residual: 9.0 });
+        assert_eq!(
+            row(1.0, 0.25, 0.0, INF, 0.5),
+            Row::Inside {
+                diagonal: 0.0,
+                residual: 0.25
+            }
+        );
+        assert_eq!(
+            row(7.0, 9.0, -INF, INF, 0.5),
+            Row::Inside {
+                diagonal: 0.0,
+                residual: 9.0
+            }
+        );
         // At a bound with F = 0: F may change sign, so that the row stays.
-        assert_eq!(row(0.0, 0.0, 0.0, INF, 0.5), Row::Inside { diagonal: 0.0, residual: 0.0 });
+        assert_eq!(
+            row(0.0, 0.0, 0.0, INF, 0.5),
+            Row::Inside {
+                diagonal: 0.0,
+                residual: 0.0
+            }
+        );
         // phi(3, 4) = -2, by_z = 3/5 - 1, by_f = 4/5 - 1.
-        let Row::Inside { diagonal, residual } = row(3.0, 4.0, 0.0, INF, 0.5) else { panic!() };
+        let Row::Inside { diagonal, residual } = row(3.0, 4.0, 0.0, INF, 0.5) else {
+            panic!()
+        };
         assert!((diagonal - 2.0).abs() < 1e-14 && (residual - 10.0).abs() < 1e-13);
         // Pointing out of the bound: never to the bound.
         assert!(matches!(row(0.0, -1.0, 0.0, INF, 1.0), Row::Inside { .. }));
@@ -234,19 +340,40 @@ mod tests {
     #[test]
     fn branches_are_told_apart_by_near() {
         let is_bound = |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Bound(_));
-        assert!(is_bound(0.5, 2.0) && !is_bound(0.5, 1.9) && is_bound(7.5, -2.0) && !is_bound(7.5, -1.9));
-        let is_free = |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Inside { diagonal: 0.0, .. });
-        assert!(is_free(2.0, 0.5) && !is_free(2.0, 0.6) && is_free(6.0, -0.5) && !is_free(6.0, -0.6) && !is_free(0.2, 0.15));
+        assert!(
+            is_bound(0.5, 2.0)
+                && !is_bound(0.5, 1.9)
+                && is_bound(7.5, -2.0)
+                && !is_bound(7.5, -1.9)
+        );
+        let is_free =
+            |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Inside { diagonal: 0.0, .. });
+        assert!(
+            is_free(2.0, 0.5)
+                && !is_free(2.0, 0.6)
+                && is_free(6.0, -0.5)
+                && !is_free(6.0, -0.6)
+                && !is_free(0.2, 0.15)
+        );
     }
 
     #[test]
     fn merits_are_compared_over_a_window() {
         let mut least = 8.0;
         let mut at = |step: usize, merit: f64| (stalls(step, merit, &mut least), least);
-        assert_eq!([at(0, 8.0), at(1, 9.0), at(SEMISMOOTH_WINDOW - 1, 9.0)], [(false, 8.0); 3]);
-        assert_eq!(at(SEMISMOOTH_WINDOW, 8.0 * SEMISMOOTH_GAIN), (false, 8.0 * SEMISMOOTH_GAIN));
+        assert_eq!(
+            [at(0, 8.0), at(1, 9.0), at(SEMISMOOTH_WINDOW - 1, 9.0)],
+            [(false, 8.0); 3]
+        );
+        assert_eq!(
+            at(SEMISMOOTH_WINDOW, 8.0 * SEMISMOOTH_GAIN),
+            (false, 8.0 * SEMISMOOTH_GAIN)
+        );
         let above = 1.01 * SEMISMOOTH_GAIN * 8.0 * SEMISMOOTH_GAIN;
-        assert_eq!(at(SEMISMOOTH_WINDOW + 1, 9.0), (false, 8.0 * SEMISMOOTH_GAIN));
+        assert_eq!(
+            at(SEMISMOOTH_WINDOW + 1, 9.0),
+            (false, 8.0 * SEMISMOOTH_GAIN)
+        );
         assert_eq!(at(2 * SEMISMOOTH_WINDOW, above), (true, above));
     }
 
@@ -257,14 +384,33 @@ mod tests {
             take_turns(&mut near, length);
             near[0]
         };
-        assert_eq!([after(Some(1.0)), after(Some(0.5)), after(Some(1.0)), after(None)], [1.0, 2.0, 2.0, 1.0]);
+        assert_eq!(
+            [
+                after(Some(1.0)),
+                after(Some(0.5)),
+                after(Some(1.0)),
+                after(None)
+            ],
+            [1.0, 2.0, 2.0, 1.0]
+        );
     }
 
-    /// z_0 goes to its bound, and what that adds to F_1 is in the right-hand side: 9 - 3/4 + 4 d = 0.
+    /// z_0 goes to its bound, and what that adds to F_1 is in the right-hand side: 9 - 3/4 + 4 d =
+    /// 0.
     #[test]
     fn components_that_go_to_bounds_move_the_others() {
-        let p = LinearMcp::new(DMatrix::identity(2, 2), vec![0.0; 2], vec![0.0, -INF], vec![INF; 2]).unwrap();
-        let point = Point { z: nalgebra::dvector![0.25, 7.0], f: nalgebra::dvector![1.0, 9.0], merit: 1.0 };
+        let p = LinearMcp::new(
+            DMatrix::identity(2, 2),
+            vec![0.0; 2],
+            vec![0.0, -INF],
+            vec![INF; 2],
+        )
+        .unwrap();
+        let point = Point {
+            z: nalgebra::dvector![0.25, 7.0],
+            f: nalgebra::dvector![1.0, 9.0],
+            merit: 1.0,
+        };
         let mut storage = Storage::default();
         assert!(storage.newton_direction(&p, &dmatrix![2.0, 1.0; 3.0, 4.0], &point, 0.5));
         assert_eq!(storage.direction, [-0.25, -8.25 / 4.0]);

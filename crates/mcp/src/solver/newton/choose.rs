@@ -1,5 +1,5 @@
-//! From the paths of a linearisation to a step: the end of a path, checked or unchecked, or back along one,
-//! or a gradient step (Dirkse and Ferris 1995, section 4).
+//! From the paths of a linearisation to a step: the end of a path, checked or unchecked, or back
+//! along one, or a gradient step (Dirkse and Ferris 1995, section 4).
 
 use super::super::evaluation::Point;
 use super::super::gradient::gradient_step;
@@ -11,7 +11,12 @@ use crate::mcp::Mcp;
 
 impl<P: Mcp + ?Sized> Run<'_, P> {
     /// The Newton point if a path is complete and acceptable, else what the fallbacks give.
-    pub(super) fn choose(&mut self, point: &Point, paths: &[Path], search: &mut Search) -> Result<Step, Termination> {
+    pub(super) fn choose(
+        &mut self,
+        point: &Point,
+        paths: &[Path],
+        search: &mut Search,
+    ) -> Result<Step, Termination> {
         self.problem.not_finite = None;
         if let Some(step) = self.path_end(point, paths, search) {
             return Ok(step);
@@ -22,12 +27,19 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
         if let Some(step) = self.gradient(search)? {
             return Ok(step);
         }
-        let of_path = paths.last().map_or(Termination::NoProgress, |path| Termination::of(path.end));
+        let of_path = paths
+            .last()
+            .map_or(Termination::NoProgress, |path| Termination::of(path.end));
         Err(self.problem.not_finite.unwrap_or(of_path))
     }
 
     /// The end of the first complete path, else of a partial one, checked or unchecked.
-    pub(super) fn path_end(&mut self, point: &Point, paths: &[Path], search: &mut Search) -> Option<Step> {
+    pub(super) fn path_end(
+        &mut self,
+        point: &Point,
+        paths: &[Path],
+        search: &mut Search,
+    ) -> Option<Step> {
         let regular = paths.iter().find(|path| path.start == Start::Regular);
         let complete = paths.iter().find(|path| path.end == PathEnd::Complete);
         let path = complete.or(regular)?;
@@ -62,7 +74,11 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
             return Some((far, t));
         }
         let last = self.problem.point_with(|i| last[i]);
-        let (better, worse) = if far.merit < last.merit { ((far, t), last) } else { ((last, last_t), far) };
+        let (better, worse) = if far.merit < last.merit {
+            ((far, t), last)
+        } else {
+            ((last, last_t), far)
+        };
         self.problem.recycle(worse);
         Some(better)
     }
@@ -87,8 +103,12 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
         if !search.gradient_allowed() {
             return Ok(None);
         }
-        let Some(best) = search.best() else { return Ok(None) };
-        let Some(next) = gradient_step(&mut self.problem, best)? else { return Ok(None) };
+        let Some(best) = search.best() else {
+            return Ok(None);
+        };
+        let Some(next) = gradient_step(&mut self.problem, best)? else {
+            return Ok(None);
+        };
         self.problem.counters.gradient_steps += 1;
         search.take_checked(&next);
         Ok(Some((next, StepKind::Gradient)))

@@ -1,4 +1,5 @@
-//! The decisions of the outer loop one by one: shares, trials, where a path leads, which fallback comes next.
+//! The decisions of the outer loop one by one: shares, trials, where a path leads, which fallback
+//! comes next.
 
 use super::super::probe::free;
 use super::super::restart::Acceptance;
@@ -24,14 +25,31 @@ fn feasible() -> LinearMcp {
 
 /// The path of M z + q over `current`.
 fn path(m: DMatrix<f64>, q: &[f64], l: &[f64], u: &[f64], start: Start, current: &[f64]) -> Path {
-    let sub = Subproblem { m: &m, q, lower: l, upper: u };
-    let limits = Limits { pivots: 50, cycle_entries: 5, rule: Options::default().ratio_test };
+    let sub = Subproblem {
+        m: &m,
+        q,
+        lower: l,
+        upper: u,
+    };
+    let limits = Limits {
+        pivots: 50,
+        cycle_entries: 5,
+        rule: Options::default().ratio_test,
+    };
     let mut path = Path::default();
-    follow(&sub, start, current, limits, &mut path::Storage::default(), &mut path);
+    follow(
+        &sub,
+        start,
+        current,
+        limits,
+        &mut path::Storage::default(),
+        &mut path,
+    );
     path
 }
 
-/// One attempt and the restarts share the limits, twice as many where each is followed by curves; rounded up.
+/// One attempt and the restarts share the limits, twice as many where each is followed by curves;
+/// rounded up.
 #[test]
 fn limits_are_shared_evenly() {
     let share = |restart_limit: usize, curve_step_limit: usize| {
@@ -45,69 +63,127 @@ fn limits_are_shared_evenly() {
         run(&feasible(), &options).share()
     };
     assert_eq!(
-        [share(3, 1), share(3, 0), share(0, 1), share(0, 0), share(2, 200)],
-        [(63, 1250), (125, 2500), (250, 5000), (500, 10_000), (84, 1667)]
+        [
+            share(3, 1),
+            share(3, 0),
+            share(0, 1),
+            share(0, 0),
+            share(2, 200)
+        ],
+        [
+            (63, 1250),
+            (125, 2500),
+            (250, 5000),
+            (500, 10_000),
+            (84, 1667)
+        ]
     );
 }
 
 #[test]
 fn curves_from_afar_are_tried_where_there_are_restarts_and_curves() {
     let trials = |restart_limit: usize, curve_step_limit: usize| {
-        let options = Options { restart_limit, curve_step_limit, ..Options::default() };
+        let options = Options {
+            restart_limit,
+            curve_step_limit,
+            ..Options::default()
+        };
         run(&feasible(), &options).trials()
     };
-    assert_eq!([trials(1, 1), trials(0, 1), trials(1, 0), trials(0, 0)], [CURVE_TRIALS, 0, 0, 0]);
+    assert_eq!(
+        [trials(1, 1), trials(0, 1), trials(1, 0), trials(0, 0)],
+        [CURVE_TRIALS, 0, 0, 0]
+    );
 }
 
 /// Curves follow an attempt that has failed from a point that was moved, and no other.
 #[test]
 fn curves_are_followed_after_restarts_that_moved_and_failed() {
     let steps = |problem: &LinearMcp, attempt: Attempt, curve_step_limit: usize| {
-        let options = Options { curve_step_limit, ..Options::default() };
+        let options = Options {
+            curve_step_limit,
+            ..Options::default()
+        };
         let mut run = run(problem, &options);
         let start = run.problem.point_with(|_| 1.0);
         let mut best = run.problem.copy(&start);
         let reason = run.restart(&start, attempt, 2, &mut best);
         assert_eq!(run.problem.counters.restarts, 1);
         assert_eq!(run.space.log.records()[0].step, StepKind::Restart);
-        (reason.reached_tolerance(), run.problem.counters.curve_steps > 0)
+        (
+            reason.reached_tolerance(),
+            run.problem.counters.curve_steps > 0,
+        )
     };
     let (still, moved) = (Attempt::number(1), Attempt::number(2));
     assert_eq!(
-        [steps(&infeasible(), moved, 50), steps(&infeasible(), moved, 0), steps(&infeasible(), still, 50)],
+        [
+            steps(&infeasible(), moved, 50),
+            steps(&infeasible(), moved, 0),
+            steps(&infeasible(), still, 50)
+        ],
         [(false, true), (false, false), (false, false)]
     );
-    assert_eq!([steps(&feasible(), moved, 50), steps(&feasible(), still, 50)], [(true, false); 2]);
+    assert_eq!(
+        [steps(&feasible(), moved, 50), steps(&feasible(), still, 50)],
+        [(true, false); 2]
+    );
 }
 
-/// By number: projected Newton, none, and the Fischer-Burmeister system with projected Newton after it.
+/// By number: projected Newton, none, and the Fischer-Burmeister system with projected Newton after
+/// it.
 #[test]
 fn the_crash_is_the_one_asked_for() {
     let steps = |crash_method: CrashMethod, crash_iteration_limit: usize, problem: &LinearMcp| {
-        let options = Options { crash_method, crash_iteration_limit, ..Options::default() };
+        let options = Options {
+            crash_method,
+            crash_iteration_limit,
+            ..Options::default()
+        };
         let mut run = run(problem, &options);
         let start = run.problem.point_with(|i| if i == 0 { 3.0 } else { 0.5 });
         run.crash(start).unwrap();
         let records = run.space.log.records();
-        [StepKind::FischerNewton, StepKind::Crash].map(|kind| records.iter().filter(|record| record.step == kind).count() > 0)
+        [StepKind::FischerNewton, StepKind::Crash]
+            .map(|kind| records.iter().filter(|record| record.step == kind).count() > 0)
     };
     use CrashMethod::{FischerNewton, None, ProjectedNewton};
     let p = feasible();
-    assert_eq!([50, 0].map(|limit| steps(ProjectedNewton, limit, &p)), [[false, true], [false, false]]);
-    assert_eq!([50, 0].map(|limit| steps(None, limit, &p)), [[false, false]; 2]);
-    assert_eq!([50, 0].map(|limit| steps(FischerNewton, limit, &p)), [[true, false], [false, false]]);
+    assert_eq!(
+        [50, 0].map(|limit| steps(ProjectedNewton, limit, &p)),
+        [[false, true], [false, false]]
+    );
+    assert_eq!(
+        [50, 0].map(|limit| steps(None, limit, &p)),
+        [[false, false]; 2]
+    );
+    assert_eq!(
+        [50, 0].map(|limit| steps(FischerNewton, limit, &p)),
+        [[true, false], [false, false]]
+    );
     // Projected Newton goes on where the other one has not solved the problem.
     assert_eq!(steps(FischerNewton, 1, &p), [true, true]);
 }
 
 #[test]
 fn inside_is_strictly_between_the_bounds() {
-    let p = LinearMcp::new(DMatrix::identity(5, 5), vec![0.0; 5], vec![0.0, 0.0, 0.0, -INF, 1.0], vec![2.0, 2.0, 2.0, INF, 1.0]).unwrap();
-    let point = Point { z: dvector![0.0, 1.0, 2.0, -7.0, 1.0], f: DVector::zeros(5), merit: 0.0 };
+    let p = LinearMcp::new(
+        DMatrix::identity(5, 5),
+        vec![0.0; 5],
+        vec![0.0, 0.0, 0.0, -INF, 1.0],
+        vec![2.0, 2.0, 2.0, INF, 1.0],
+    )
+    .unwrap();
+    let point = Point {
+        z: dvector![0.0, 1.0, 2.0, -7.0, 1.0],
+        f: DVector::zeros(5),
+        merit: 0.0,
+    };
     assert_eq!(strictly_inside(&p, &point), [1, 3]);
 }
 
-/// The trials of curves are numbered on from the restarts, so that no two starts lie in one direction.
+/// The trials of curves are numbered on from the restarts, so that no two starts lie in one
+/// direction.
 #[test]
 fn trials_are_numbered_on_from_the_restarts() {
     let met = std::cell::RefCell::new(Vec::new());
@@ -119,7 +195,10 @@ fn trials_are_numbered_on_from_the_restarts() {
         },
         |z, j| j[(0, 0)] = 2.0 * z[0],
     );
-    let options = Options { restart_limit: 2, ..Options::default() };
+    let options = Options {
+        restart_limit: 2,
+        ..Options::default()
+    };
     run(&p, &options).run(&[0.5]);
     for trial in 0..CURVE_TRIALS {
         let start = Attempt::far(trial).shifted(0.5, 0, trial + 3);
@@ -131,11 +210,25 @@ fn trials_are_numbered_on_from_the_restarts() {
 #[test]
 fn curves_are_followed_after_the_first_attempt_fails() {
     let of = |problem: &LinearMcp, start: &[f64], restart_limit: usize, curve_step_limit: usize| {
-        let options = Options { restart_limit, curve_step_limit, ..Options::default() };
+        let options = Options {
+            restart_limit,
+            curve_step_limit,
+            ..Options::default()
+        };
         let (_, _, reason, counters) = run(problem, &options).run(start);
-        (reason.reached_tolerance(), counters.curve_steps > 0, counters.restarts)
+        (
+            reason.reached_tolerance(),
+            counters.curve_steps > 0,
+            counters.restarts,
+        )
     };
-    assert_eq!([of(&infeasible(), &[1.0], 0, 50), of(&infeasible(), &[1.0], 0, 0)], [(false, true, 0), (false, false, 0)]);
+    assert_eq!(
+        [
+            of(&infeasible(), &[1.0], 0, 50),
+            of(&infeasible(), &[1.0], 0, 0)
+        ],
+        [(false, true, 0), (false, false, 0)]
+    );
     assert_eq!(of(&infeasible(), &[1.0], 2, 50), (false, true, 2));
     assert_eq!(of(&feasible(), &[1.0; 2], 2, 50), (true, false, 0));
 }
@@ -143,24 +236,45 @@ fn curves_are_followed_after_the_first_attempt_fails() {
 /// Each component of F at the tolerance is within it, however many there are.
 #[test]
 fn the_tolerance_is_that_of_each_component() {
-    let options = Options { convergence_tolerance: 0.25, ..Options::default() };
+    let options = Options {
+        convergence_tolerance: 0.25,
+        ..Options::default()
+    };
     for n in [1, 2, 9] {
-        let p = free(n, |z, f| f.copy_from_slice(z), |_, j| j.fill_with_identity());
+        let p = free(
+            n,
+            |z, f| f.copy_from_slice(z),
+            |_, j| j.fill_with_identity(),
+        );
         let mut run = run(&p, &options);
         let within = |run: &mut Run<'_, _>, each: f64| {
             let point = run.problem.point_with(|_| each);
             is_within_tolerance(run.problem.problem, &point, options.convergence_tolerance)
         };
-        assert!(within(&mut run, 0.25) && within(&mut run, -0.25) && !within(&mut run, 0.2501), "{n}");
-        let one = run.problem.point_with(|i| if i == 0 { 0.2501 } else { 0.0 });
-        assert!(!is_within_tolerance(run.problem.problem, &one, options.convergence_tolerance));
+        assert!(
+            within(&mut run, 0.25) && within(&mut run, -0.25) && !within(&mut run, 0.2501),
+            "{n}"
+        );
+        let one = run
+            .problem
+            .point_with(|i| if i == 0 { 0.2501 } else { 0.0 });
+        assert!(!is_within_tolerance(
+            run.problem.problem,
+            &one,
+            options.convergence_tolerance
+        ));
     }
 }
 
-/// The attempt's share of the largest entry, times the root of the merit up to 1, and only where the attempt asks for it.
+/// The attempt's share of the largest entry, times the root of the merit up to 1, and only where
+/// the attempt asks for it.
 #[test]
 fn the_proximal_term_of_a_restart_vanishes_with_the_merit() {
-    let p = free(2, |z, f| f.copy_from_slice(z), |_, j| j.copy_from(&dmatrix![1.0, -8.0; 0.0, 1.0]));
+    let p = free(
+        2,
+        |z, f| f.copy_from_slice(z),
+        |_, j| j.copy_from(&dmatrix![1.0, -8.0; 0.0, 1.0]),
+    );
     let options = Options::default();
     let term = |attempt: Attempt, z: f64| {
         let mut run = run(&p, &options);
@@ -171,10 +285,22 @@ fn the_proximal_term_of_a_restart_vanishes_with_the_merit() {
         assert_eq!(run.problem.counters.majors, 1);
         run.space.log.records().last().unwrap().proximal
     };
-    let proximal = Attempt { proximal: RESTART_PROXIMAL, ..Attempt::number(1) };
+    let proximal = Attempt {
+        proximal: RESTART_PROXIMAL,
+        ..Attempt::number(1)
+    };
     // F = z, so that the merit is z^2 / 2.
-    for (z, share) in [(10.0, 1.0), (2f64.sqrt() * 1.0001, 1.0), (0.5f64.sqrt(), 0.5), (1e-6, 1e-6 * 0.5f64.sqrt())] {
-        approx::assert_relative_eq!(term(proximal, z), RESTART_PROXIMAL * 8.0 * share, max_relative = 1e-12);
+    for (z, share) in [
+        (10.0, 1.0),
+        (2f64.sqrt() * 1.0001, 1.0),
+        (0.5f64.sqrt(), 0.5),
+        (1e-6, 1e-6 * 0.5f64.sqrt()),
+    ] {
+        approx::assert_relative_eq!(
+            term(proximal, z),
+            RESTART_PROXIMAL * 8.0 * share,
+            max_relative = 1e-12
+        );
     }
     assert_eq!(term(Attempt::number(1), 10.0), 0.0);
 }
@@ -183,64 +309,128 @@ fn the_proximal_term_of_a_restart_vanishes_with_the_merit() {
 #[test]
 fn a_complete_path_leads_to_the_newton_point() {
     let (m, q) = (dmatrix![2.0], [-6.0]);
-    let (p, options) = (LinearMcp::lcp(m.clone(), q.to_vec()).unwrap(), Options::default());
+    let (p, options) = (
+        LinearMcp::lcp(m.clone(), q.to_vec()).unwrap(),
+        Options::default(),
+    );
     let mut run = run(&p, &options);
-    let mut target = |path: &Path, fraction: f64| run.target(path, fraction).map(|(point, t)| (point.z[0], t)).unwrap();
+    let mut target = |path: &Path, fraction: f64| {
+        run.target(path, fraction)
+            .map(|(point, t)| (point.z[0], t))
+            .unwrap()
+    };
     let regular = path(m.clone(), &q, &[0.0], &[INF], Start::Regular, &[1.0]);
-    assert_eq!([target(&regular, 1.0), target(&regular, 0.5)], [(3.0, 1.0), (2.0, 0.5)]);
+    assert_eq!(
+        [target(&regular, 1.0), target(&regular, 0.5)],
+        [(3.0, 1.0), (2.0, 0.5)]
+    );
     let ray = path(m, &q, &[0.0], &[INF], Start::Ray, &[1.0]);
     assert_eq!([target(&ray, 1.0), target(&ray, 0.5)], [(3.0, 1.0); 2]);
 }
 
-/// Of a path that ends on a ray the farthest point, or the last one where that is better; never the last one where only a
-/// fraction is asked for.
+/// Of a path that ends on a ray the farthest point, or the last one where that is better; never the
+/// last one where only a fraction is asked for.
 #[test]
 fn a_partial_path_leads_to_the_better_of_two_points() {
-    // z_2 = 3 - 2.5 t until z_1 leaves its bound at t = 0.8; from there both grow without end while t falls.
-    let partial = path(dmatrix![-1.0, 1.0; 0.0, 1.0], &[-1.0, -0.5], &[0.0; 2], &[INF; 2], Start::Regular, &[0.0, 3.0]);
+    // z_2 = 3 - 2.5 t until z_1 leaves its bound at t = 0.8; from there both grow without end while
+    // t falls.
+    let partial = path(
+        dmatrix![-1.0, 1.0; 0.0, 1.0],
+        &[-1.0, -0.5],
+        &[0.0; 2],
+        &[INF; 2],
+        Start::Regular,
+        &[0.0, 3.0],
+    );
     assert_eq!((partial.end, partial.start), (PathEnd::Ray, Start::Regular));
     let at = |t: f64| partial.at(t).map(|z| vec![z(0), z(1)]).unwrap();
     let (reach, last) = (partial.reach(), partial.last().unwrap().to_vec());
     let last_t = *partial.knots.t(partial.knots.len() - 1);
     assert!(last[0] > 0.01 && last_t < reach && (reach - 0.8).abs() < 1e-12);
     let options = Options::default();
-    for (root, better) in [(at(reach), (at(reach), reach)), (last.clone(), (last, last_t))] {
-        let p = free(2, move |z, f| f.iter_mut().zip(z).zip(&root).for_each(|((f, z), r)| *f = z - r), |_, j| j.fill_with_identity());
+    for (root, better) in [
+        (at(reach), (at(reach), reach)),
+        (last.clone(), (last, last_t)),
+    ] {
+        let p = free(
+            2,
+            move |z, f| {
+                f.iter_mut()
+                    .zip(z)
+                    .zip(&root)
+                    .for_each(|((f, z), r)| *f = z - r)
+            },
+            |_, j| j.fill_with_identity(),
+        );
         let mut run = run(&p, &options);
-        let mut target = |fraction: f64| run.target(&partial, fraction).map(|(point, t)| (point.z.as_slice().to_vec(), t)).unwrap();
+        let mut target = |fraction: f64| {
+            run.target(&partial, fraction)
+                .map(|(point, t)| (point.z.as_slice().to_vec(), t))
+                .unwrap()
+        };
         assert_eq!(target(1.0), better);
         assert_eq!(target(0.5), (at(0.5 * reach), 0.5 * reach));
     }
 }
 
-/// F = z on the line, from z = 8 with reference merit 32: a path to -80 is searched back from its end.
+/// F = z on the line, from z = 8 with reference merit 32: a path to -80 is searched back from its
+/// end.
 #[test]
 fn a_path_is_searched_back_to_a_point_that_passes() {
     let p = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
     let options = Options::default();
-    let attempt = Attempt { acceptance: Acceptance::Monotone, ..Attempt::number(1) };
+    let attempt = Attempt {
+        acceptance: Acceptance::Monotone,
+        ..Attempt::number(1)
+    };
     // A linear model that overshoots: 88 / 8 = 11 times too far.
-    let overshoot = path(dmatrix![1.0 / 11.0], &[8.0 - 8.0 / 11.0], &[-INF], &[INF], Start::Regular, &[8.0]);
+    let overshoot = path(
+        dmatrix![1.0 / 11.0],
+        &[8.0 - 8.0 / 11.0],
+        &[-INF],
+        &[INF],
+        Start::Regular,
+        &[8.0],
+    );
     assert!((overshoot.last().unwrap()[0] + 80.0).abs() < 1e-9);
     let mut run = run(&p, &options);
     let point = run.problem.point_with(|_| 8.0);
     let mut search = Search::default();
     search.begin(&point, &point, &options, attempt);
-    let (next, kind) = run.back_along_paths(std::slice::from_ref(&overshoot), &mut search).unwrap();
+    let (next, kind) = run
+        .back_along_paths(std::slice::from_ref(&overshoot), &mut search)
+        .unwrap();
     // t = 1, 1/2, 1/4 and 1/8 lead to -80, -36, -14 and -3.
     assert_eq!(kind, StepKind::Search { t: 0.125 });
     approx::assert_relative_eq!(next.z[0], -3.0, max_relative = 1e-9);
     // Its merit is what the next one must pass.
-    assert!(search.passes(&run.problem.point_with(|_| 2.99), 1.0) && !search.passes(&run.problem.point_with(|_| 3.01), 1.0));
+    assert!(
+        search.passes(&run.problem.point_with(|_| 2.99), 1.0)
+            && !search.passes(&run.problem.point_with(|_| 3.01), 1.0)
+    );
     // A ray start does not begin at the iterate.
-    let ray = Path { start: Start::Ray, ..overshoot.clone() };
+    let ray = Path {
+        start: Start::Ray,
+        ..overshoot.clone()
+    };
     search.begin(&point, &point, &options, attempt);
     assert!(run.back_along_paths(&[ray], &mut search).is_none());
     // After steps taken unchecked, back along the path of the checkpoint.
-    search.begin(&point, &point, &options, Attempt { acceptance: Acceptance::NonMonotone, ..attempt });
+    search.begin(
+        &point,
+        &point,
+        &options,
+        Attempt {
+            acceptance: Acceptance::NonMonotone,
+            ..attempt
+        },
+    );
     search.take_unchecked(&overshoot, &point);
     let (next, kind) = run.back_along_paths(&[], &mut search).unwrap();
-    assert_eq!((kind, run.problem.counters.watchdogs), (StepKind::Watchdog { t: 0.25 }, 1)); // 20 times the merit: |z| < 35.7
+    assert_eq!(
+        (kind, run.problem.counters.watchdogs),
+        (StepKind::Watchdog { t: 0.25 }, 1)
+    ); // 20 times the merit: |z| < 35.7
     approx::assert_relative_eq!(next.z[0], -14.0, max_relative = 1e-9);
 }
 
@@ -249,17 +439,42 @@ fn a_path_is_searched_back_to_a_point_that_passes() {
 fn an_end_is_checked_or_taken_unchecked() {
     let p = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
     let step = |slope: f64, acceptance: Acceptance| {
-        let options = Options { nms_initial_reference_factor: 1.0, ..Options::default() };
-        let way = path(dmatrix![slope], &[8.0 - 8.0 * slope], &[-INF], &[INF], Start::Regular, &[8.0]);
+        let options = Options {
+            nms_initial_reference_factor: 1.0,
+            ..Options::default()
+        };
+        let way = path(
+            dmatrix![slope],
+            &[8.0 - 8.0 * slope],
+            &[-INF],
+            &[INF],
+            Start::Regular,
+            &[8.0],
+        );
         let mut run = run(&p, &options);
         let point = run.problem.point_with(|_| 8.0);
         let mut search = Search::default();
-        search.begin(&point, &point, &options, Attempt { acceptance, ..Attempt::number(1) });
-        run.path_end(&point, &[way], &mut search).map(|(next, kind)| (next.z[0].round(), kind))
+        search.begin(
+            &point,
+            &point,
+            &options,
+            Attempt {
+                acceptance,
+                ..Attempt::number(1)
+            },
+        );
+        run.path_end(&point, &[way], &mut search)
+            .map(|(next, kind)| (next.z[0].round(), kind))
     };
-    assert_eq!(step(1.0, Acceptance::Monotone), Some((0.0, StepKind::Path { t: 1.0 })));
+    assert_eq!(
+        step(1.0, Acceptance::Monotone),
+        Some((0.0, StepKind::Path { t: 1.0 }))
+    );
     assert_eq!(step(0.25, Acceptance::Monotone), None); // to -24
-    assert_eq!(step(0.25, Acceptance::NonMonotone), Some((-24.0, StepKind::Unchecked { t: 1.0 })));
+    assert_eq!(
+        step(0.25, Acceptance::NonMonotone),
+        Some((-24.0, StepKind::Unchecked { t: 1.0 }))
+    );
     assert_eq!(step(1.0 / 64.0, Acceptance::NonMonotone), None); // to -504, beyond 10 (1 + 8)
 }
 
@@ -269,7 +484,17 @@ fn a_complete_path_is_preferred() {
     let p = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
     let options = Options::default();
     let complete = || path(dmatrix![1.0], &[-2.0], &[0.0], &[INF], Start::Ray, &[0.0]);
-    let partial = || Path { end: PathEnd::Ray, ..path(dmatrix![1.0], &[-5.0], &[0.0], &[INF], Start::Regular, &[8.0]) };
+    let partial = || Path {
+        end: PathEnd::Ray,
+        ..path(
+            dmatrix![1.0],
+            &[-5.0],
+            &[0.0],
+            &[INF],
+            Start::Regular,
+            &[8.0],
+        )
+    };
     for paths in [[partial(), complete()], [complete(), partial()]] {
         let mut run = run(&p, &options);
         let point = run.problem.point_with(|_| 8.0);
@@ -284,14 +509,23 @@ fn a_complete_path_is_preferred() {
 #[test]
 fn gradient_steps_leave_from_the_best_point() {
     let p = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
-    let options = Options { gradient_step_limit: 1, ..Options::default() };
+    let options = Options {
+        gradient_step_limit: 1,
+        ..Options::default()
+    };
     let mut run = run(&p, &options);
-    let (start, better) = (run.problem.point_with(|_| 8.0), run.problem.point_with(|_| 2.0));
+    let (start, better) = (
+        run.problem.point_with(|_| 8.0),
+        run.problem.point_with(|_| 2.0),
+    );
     let mut search = Search::default();
     search.begin(&start, &start, &options, Attempt::number(0));
     search.take_checked(&better);
     let (next, kind) = run.gradient(&mut search).unwrap().unwrap();
-    assert_eq!((next.z[0], kind, run.problem.counters.gradient_steps), (0.0, StepKind::Gradient, 1));
+    assert_eq!(
+        (next.z[0], kind, run.problem.counters.gradient_steps),
+        (0.0, StepKind::Gradient, 1)
+    );
     assert!(run.gradient(&mut search).unwrap().is_none());
 }
 
@@ -300,7 +534,11 @@ fn gradient_steps_leave_from_the_best_point() {
 fn attempts_end_at_the_limits() {
     let reason = |majors: usize, pivots: usize, done: Counters| {
         let p = infeasible();
-        let options = Options { major_iteration_limit: majors, cumulative_iteration_limit: pivots, ..Options::default() };
+        let options = Options {
+            major_iteration_limit: majors,
+            cumulative_iteration_limit: pivots,
+            ..Options::default()
+        };
         let mut run = run(&p, &options);
         run.problem.counters = done;
         let mut point = run.problem.point(&dvector![1.0]);
@@ -309,7 +547,11 @@ fn attempts_end_at_the_limits() {
         search.begin(&point, &point, &options, Attempt::number(1));
         run.majors(&mut point, Attempt::number(1), &mut search, &mut best)
     };
-    let done = |majors: usize, pivots: usize| Counters { majors, pivots, ..Counters::default() };
+    let done = |majors: usize, pivots: usize| Counters {
+        majors,
+        pivots,
+        ..Counters::default()
+    };
     assert_eq!(reason(10, 100, done(10, 0)), Termination::MajorLimit);
     assert_eq!(reason(10, 100, done(0, 100)), Termination::CumulativeLimit);
 }
@@ -319,11 +561,19 @@ fn attempts_end_at_the_limits() {
 fn a_start_is_moved_to_where_the_function_is_finite() {
     let options = Options::default();
     for (pole, moves) in [(false, true), (true, false)] {
-        let p = free(1, move |z, f| f[0] = if pole && z[0] != 1.0 { f64::NAN } else { z[0] }, |_, j| j[(0, 0)] = 1.0);
+        let p = free(
+            1,
+            move |z, f| f[0] = if pole && z[0] != 1.0 { f64::NAN } else { z[0] },
+            |_, j| j[(0, 0)] = 1.0,
+        );
         let mut run = run(&p, &options);
         let start = run.problem.point(&DVector::from_element(1, 1.0));
         let moved = run.moved(&start, Attempt::number(3), 3);
-        let expected = if moves { Attempt::number(3).shifted(1.0, 0, 3) } else { 1.0 };
+        let expected = if moves {
+            Attempt::number(3).shifted(1.0, 0, 3)
+        } else {
+            1.0
+        };
         assert_eq!((moved.z[0], expected != 1.0), (expected, moves));
     }
 }

@@ -66,7 +66,12 @@ impl<T: Number> Basis<T> {
     }
 
     /// How the value in a place is perturbed: its row of B^-1 B_0, into `out`.
-    pub(super) fn perturbation(&mut self, columns: &Columns<'_, T>, place: usize, out: &mut Vec<T>) {
+    pub(super) fn perturbation(
+        &mut self,
+        columns: &Columns<'_, T>,
+        place: usize,
+        out: &mut Vec<T>,
+    ) {
         let n = self.variables.len();
         out.clear();
         out.resize(n, T::zero());
@@ -79,16 +84,22 @@ impl<T: Number> Basis<T> {
         if self.refreshed > 0 {
             // Else B_k is B_0.
             self.row.resize(n, T::zero());
-            self.factor.solve_transposed(out, &mut self.row, &mut self.work);
+            self.factor
+                .solve_transposed(out, &mut self.row, &mut self.work);
             let along = |variable: &Variable| match columns.unit(*variable) {
                 Some((row, true)) => self.row[row].clone(),
                 Some((row, false)) => -self.row[row].clone(),
                 None => dot(&self.row, columns.dense(*variable)),
             };
-            out.iter_mut().zip(&self.first).for_each(|(o, v)| *o = along(v));
+            out.iter_mut()
+                .zip(&self.first)
+                .for_each(|(o, v)| *o = along(v));
         }
         let unperturbed = |v: &Variable| matches!(v, Variable::Artificial(_));
-        out.iter_mut().zip(&self.first).filter(|(_, v)| unperturbed(v)).for_each(|(o, _)| *o = T::zero());
+        out.iter_mut()
+            .zip(&self.first)
+            .filter(|(_, v)| unperturbed(v))
+            .for_each(|(o, _)| *o = T::zero());
     }
 
     /// Is it time to factorise afresh whatever the accuracy?
@@ -133,11 +144,19 @@ mod tests {
     #[test]
     fn updates_agree_with_factorisation_from_scratch() {
         let m = dmatrix![2.0, 1.0; 1.0, 3.0];
-        let sub = Subproblem { m: &m, q: &[1.0, 1.0], lower: &[0.0; 2], upper: &[f64::INFINITY; 2] };
+        let sub = Subproblem {
+            m: &m,
+            q: &[1.0, 1.0],
+            lower: &[0.0; 2],
+            upper: &[f64::INFINITY; 2],
+        };
         let mut frame = Frame::default();
         frame.set(&sub, &[0.0, 0.0], &[2.0, 3.0]);
         let columns = frame.columns(&sub);
-        let mut basis = Basis { variables: vec![Variable::W(0), Variable::W(1)], ..Basis::default() };
+        let mut basis = Basis {
+            variables: vec![Variable::W(0), Variable::W(1)],
+            ..Basis::default()
+        };
         assert!(basis.begin(&columns));
         let (mut column, mut row, mut x) = (vec![0.0; 2], Vec::new(), vec![0.0; 2]);
         basis.perturbation(&columns, 1, &mut row);
@@ -151,7 +170,10 @@ mod tests {
         basis.solve(&[5.0, -7.0], &mut x);
         basis.perturbation(&columns, 1, &mut row);
         for (a, b) in updated.iter().chain(&updated_row).zip(x.iter().chain(&row)) {
-            assert!((a - b).abs() < 1e-14, "{updated:?} {updated_row:?} {x:?} {row:?}");
+            assert!(
+                (a - b).abs() < 1e-14,
+                "{updated:?} {updated_row:?} {x:?} {row:?}"
+            );
         }
         assert_eq!(updated_row, [0.0, -1.0 / 3.0]);
     }
@@ -159,16 +181,28 @@ mod tests {
     #[test]
     fn a_basis_is_stale_after_its_updates() {
         let m = dmatrix![2.0, 1.0; 1.0, 3.0];
-        let sub = Subproblem { m: &m, q: &[1.0, 1.0], lower: &[0.0; 2], upper: &[f64::INFINITY; 2] };
+        let sub = Subproblem {
+            m: &m,
+            q: &[1.0, 1.0],
+            lower: &[0.0; 2],
+            upper: &[f64::INFINITY; 2],
+        };
         let mut frame = Frame::default();
         frame.set(&sub, &[0.0, 0.0], &[2.0, 3.0]);
         let columns = frame.columns(&sub);
-        let mut basis = Basis { variables: vec![Variable::W(0), Variable::W(1)], ..Basis::default() };
+        let mut basis = Basis {
+            variables: vec![Variable::W(0), Variable::W(1)],
+            ..Basis::default()
+        };
         assert!(basis.begin(&columns));
         let (mut given, mut column) = (Vec::new(), vec![0.0; 2]);
         for k in 0..REFACTOR_EVERY {
             assert!(!basis.is_stale(), "{k}");
-            let entering = if k % 2 == 0 { Variable::Z(1) } else { Variable::W(1) };
+            let entering = if k % 2 == 0 {
+                Variable::Z(1)
+            } else {
+                Variable::W(1)
+            };
             columns.write(entering, &mut given);
             basis.solve(&given, &mut column);
             basis.replace(1, entering, &column);

@@ -20,7 +20,13 @@ pub(super) struct Frame<T> {
 
 impl<T> Default for Frame<T> {
     fn default() -> Self {
-        Frame { covering: Vec::new(), right: Vec::new(), artificial_row: Vec::new(), sizes: Vec::new(), scale: None }
+        Frame {
+            covering: Vec::new(),
+            right: Vec::new(),
+            artificial_row: Vec::new(),
+            sizes: Vec::new(),
+            scale: None,
+        }
     }
 }
 
@@ -31,13 +37,22 @@ pub(super) struct Columns<'a, T: Number> {
 }
 
 impl<T: Number> Frame<T> {
-    /// A path of `sub` that begins at (z, multiplier), so that r = multiplier - M z - q; no artificials.
+    /// A path of `sub` that begins at (z, multiplier), so that r = multiplier - M z - q; no
+    /// artificials.
     pub(super) fn set(&mut self, sub: &Subproblem<'_, T>, z: &[T], multiplier: &[T]) {
         let n = z.len();
         sub.value(z, &mut self.covering);
-        self.covering.iter_mut().zip(multiplier).for_each(|(c, m)| *c -= m.clone());
+        self.covering
+            .iter_mut()
+            .zip(multiplier)
+            .for_each(|(c, m)| *c -= m.clone());
         self.right.clear();
-        self.right.extend(self.covering.iter().zip(sub.q).map(|(c, q)| c.clone() - q.clone()));
+        self.right.extend(
+            self.covering
+                .iter()
+                .zip(sub.q)
+                .map(|(c, q)| c.clone() - q.clone()),
+        );
         self.artificial_row.clear();
         self.artificial_row.resize(n, None);
         self.sizes.clear();
@@ -116,21 +131,35 @@ mod tests {
     #[test]
     fn columns_are_those_of_the_equation() {
         let m = dmatrix![2.0, -7.0; 1.0, 3.0];
-        let sub = Subproblem { m: &m, q: &[-1.0, 4.0], lower: &[0.0; 2], upper: &[f64::INFINITY; 2] };
+        let sub = Subproblem {
+            m: &m,
+            q: &[-1.0, 4.0],
+            lower: &[0.0; 2],
+            upper: &[f64::INFINITY; 2],
+        };
         let mut frame = Frame::default();
         frame.set(&sub, &[5.0, 1.0], &[6.0, 0.5]);
         // M z + q = (2, 12), so that r = (4, -11.5).
         frame.add_artificial(0, 1);
         let columns = frame.columns(&sub);
-        assert_eq!((columns.dense(Variable::T), columns.right()), (&[-4.0, 11.5][..], &[-3.0, 7.5][..]));
+        assert_eq!(
+            (columns.dense(Variable::T), columns.right()),
+            (&[-4.0, 11.5][..], &[-3.0, 7.5][..])
+        );
         let written = |variable: Variable| {
             let mut out = vec![9.0; 5];
             columns.write(variable, &mut out);
             (out, columns.size(variable))
         };
-        assert_eq!([written(Variable::Z(0)), written(Variable::Z(1))], [(vec![2.0, 1.0], 2.0), (vec![-7.0, 3.0], 7.0)]);
+        assert_eq!(
+            [written(Variable::Z(0)), written(Variable::Z(1))],
+            [(vec![2.0, 1.0], 2.0), (vec![-7.0, 3.0], 7.0)]
+        );
         assert_eq!(written(Variable::T), (vec![-4.0, 11.5], 11.5));
-        assert_eq!([written(Variable::W(1)), written(Variable::V(1))], [(vec![0.0, -1.0], 1.0), (vec![0.0, 1.0], 1.0)]);
+        assert_eq!(
+            [written(Variable::W(1)), written(Variable::V(1))],
+            [(vec![0.0, -1.0], 1.0), (vec![0.0, 1.0], 1.0)]
+        );
         // An artificial has its row, or else that of its own unknown.
         assert_eq!(written(Variable::Artificial(0)), (vec![0.0, 1.0], 1.0));
         assert_eq!(written(Variable::Artificial(1)), (vec![0.0, 1.0], 1.0));

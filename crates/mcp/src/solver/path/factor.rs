@@ -62,24 +62,32 @@ impl<T: Number> Factor<T> {
         }
         let gather = |j: usize, order: &[usize], out: &mut [T]| {
             let column = columns.dense(variables[places[j]]);
-            out.iter_mut().zip(order).for_each(|(o, &r)| *o = column[rows[r]].clone());
+            out.iter_mut()
+                .zip(order)
+                .for_each(|(o, &r)| *o = column[rows[r]].clone());
         };
         let least = |j: usize| T::tolerance(DEPENDENT) * columns.size(variables[places[j]]);
         if !self.core.factor(places.len(), gather, least) {
             let (dependent, left) = self.core.dependent();
-            self.repairs.extend(dependent.iter().zip(left).map(|(&j, &r)| (places[j], rows[r])));
+            self.repairs.extend(
+                dependent
+                    .iter()
+                    .zip(left)
+                    .map(|(&j, &r)| (places[j], rows[r])),
+            );
             return false;
         }
         self.border.clear();
         for &place in places.iter() {
             let column = columns.dense(variables[place]);
-            self.border.extend(self.units.iter().map(|&(_, row, _)| column[row].clone()));
+            self.border
+                .extend(self.units.iter().map(|&(_, row, _)| column[row].clone()));
         }
         true
     }
 
-    /// After a failure: places whose columns depend on others, each with a row whose unit column may
-    /// replace it.
+    /// After a failure: places whose columns depend on others, each with a row whose unit column
+    /// may replace it.
     pub(super) fn repairs(&self) -> &[(usize, usize)] {
         &self.repairs
     }
@@ -92,18 +100,34 @@ impl<T: Number> Factor<T> {
         work.extend(self.units.iter().map(|&(_, row, _)| a[row].clone()));
         let (inner, outer) = work.split_at_mut(self.places.len());
         if !self.units.is_empty() {
-            self.border.chunks_exact(self.units.len()).zip(inner.iter()).for_each(|(column, x)| subtract(outer, x, column));
+            self.border
+                .chunks_exact(self.units.len())
+                .zip(inner.iter())
+                .for_each(|(column, x)| subtract(outer, x, column));
         }
-        self.places.iter().zip(inner.iter()).for_each(|(&place, value)| x[place] = value.clone());
+        self.places
+            .iter()
+            .zip(inner.iter())
+            .for_each(|(&place, value)| x[place] = value.clone());
         for (&(place, _, positive), value) in self.units.iter().zip(outer.iter()) {
-            x[place] = if positive { value.clone() } else { -value.clone() };
+            x[place] = if positive {
+                value.clone()
+            } else {
+                -value.clone()
+            };
         }
     }
 
     /// y by rows with B' y = e, e by places.
     pub(super) fn solve_transposed(&self, e: &[T], y: &mut [T], work: &mut Vec<T>) {
         work.clear();
-        work.extend(self.units.iter().map(|&(place, _, positive)| if positive { e[place].clone() } else { -e[place].clone() }));
+        work.extend(self.units.iter().map(|&(place, _, positive)| {
+            if positive {
+                e[place].clone()
+            } else {
+                -e[place].clone()
+            }
+        }));
         let units = work.len();
         for (k, &place) in self.places.iter().enumerate() {
             let rest = dot(&self.border[k * units..(k + 1) * units], &work[..units]);
@@ -111,8 +135,15 @@ impl<T: Number> Factor<T> {
         }
         let (outer, inner) = work.split_at_mut(units);
         self.core.solve_transposed(inner);
-        self.units.iter().zip(outer.iter()).for_each(|(&(_, row, _), value)| y[row] = value.clone());
-        self.core.rows().iter().zip(inner.iter()).for_each(|(&r, value)| y[self.rows[r]] = value.clone());
+        self.units
+            .iter()
+            .zip(outer.iter())
+            .for_each(|(&(_, row, _), value)| y[row] = value.clone());
+        self.core
+            .rows()
+            .iter()
+            .zip(inner.iter())
+            .for_each(|(&r, value)| y[self.rows[r]] = value.clone());
     }
 }
 
@@ -128,12 +159,22 @@ mod tests {
     #[test]
     fn solves_a_basis_of_every_kind_of_column_both_ways() {
         let m = dmatrix![2.0, 1.0, 0.5, 3.0; 1.0, 3.0, 4.0, 1.0; 0.0, 5.0, 1.0, 2.0; 1.0, 1.0, 1.0, 7.0];
-        let sub = Subproblem { m: &m, q: &[1.0, -2.0, 3.0, 1.0], lower: &[0.0; 4], upper: &[9.0; 4] };
+        let sub = Subproblem {
+            m: &m,
+            q: &[1.0, -2.0, 3.0, 1.0],
+            lower: &[0.0; 4],
+            upper: &[9.0; 4],
+        };
         let mut frame = Frame::default();
         frame.set(&sub, &[1.0, 0.0, 2.0, 0.0], &[0.0; 4]);
         frame.add_artificial(0, 3);
         let columns = frame.columns(&sub);
-        let variables = [Variable::Z(1), Variable::Artificial(0), Variable::W(2), Variable::T];
+        let variables = [
+            Variable::Z(1),
+            Variable::Artificial(0),
+            Variable::W(2),
+            Variable::T,
+        ];
         let mut factor = Factor::default();
         assert!(factor.factor(&columns, &variables));
         let (a, mut x, mut y, mut work) = ([1.0, 2.0, 3.0, 4.0], [0.0; 4], [0.0; 4], Vec::new());
@@ -146,14 +187,22 @@ mod tests {
             (0..4).for_each(|row| ahead[row] += column[row] * x[place]);
             worst = worst.max((dot(&column, &y) - a[place]).abs());
         }
-        assert!(ahead.iter().zip(&a).all(|(p, q)| (p - q).abs() < 1e-13), "{ahead:?}");
+        assert!(
+            ahead.iter().zip(&a).all(|(p, q)| (p - q).abs() < 1e-13),
+            "{ahead:?}"
+        );
         assert!(worst < 1e-13);
     }
 
     #[test]
     fn dependent_places_are_repaired_and_two_units_of_a_row_refused() {
         let m = dmatrix![1.0, 1.0; 1.0, 1.0];
-        let sub = Subproblem { m: &m, q: &[0.0; 2], lower: &[-INF; 2], upper: &[INF; 2] };
+        let sub = Subproblem {
+            m: &m,
+            q: &[0.0; 2],
+            lower: &[-INF; 2],
+            upper: &[INF; 2],
+        };
         let mut frame = Frame::default();
         frame.set(&sub, &[0.0; 2], &[0.0; 2]);
         let mut factor = Factor::default();

@@ -1,11 +1,11 @@
 //! The pivotal path of the linear subproblem, from t = 0 at the start to the Newton point at t = 1
 //! (Ralph 1994; Dirkse and Ferris 1995, section 3).
 //!
-//! M z - w + v + D a + (1 - t) r + q = 0, with w and v complementary to the bounds of z, artificials
-//! a in a singular starting basis, and r minus the residual at the start, so that t = 0 holds there.
-//! Like Lemke's method, one complementary pair is broken at a time. Ties are broken
-//! lexicographically: the right-hand side is thought perturbed by the first basis times
-//! (eps, eps^2, ...), so that in exact arithmetic no basis repeats on a path that starts on a ray.
+//! M z - w + v + D a + (1 - t) r + q = 0, with w and v complementary to the bounds of z,
+//! artificials a in a singular starting basis, and r minus the residual at the start, so that t = 0
+//! holds there. Like Lemke's method, one complementary pair is broken at a time. Ties are broken
+//! lexicographically: the right-hand side is thought perturbed by the first basis times (eps,
+//! eps^2, ...), so that in exact arithmetic no basis repeats on a path that starts on a ray.
 //!
 //! | file | what |
 //! |---|---|
@@ -15,7 +15,8 @@
 //! | `tableau`, `ratio`, `walk` | the state and its moves, the ratio test, the pivot loop |
 //! | `knots` | the breakpoints, and points between them |
 //!
-//! All storage is kept from one path to the next: a path no longer than one before allocates nothing.
+//! All storage is kept from one path to the next: a path no longer than one before allocates
+//! nothing.
 
 mod basis;
 mod columns;
@@ -84,7 +85,9 @@ impl<T: Number> Subproblem<'_, T> {
     fn value(&self, z: &[T], out: &mut Vec<T>) {
         out.clear();
         out.extend_from_slice(self.q);
-        z.iter().enumerate().for_each(|(j, z)| subtract(out, &-z.clone(), self.column(j)));
+        z.iter()
+            .enumerate()
+            .for_each(|(j, z)| subtract(out, &-z.clone(), self.column(j)));
     }
 }
 
@@ -109,7 +112,13 @@ pub(super) struct Path<T = f64> {
 
 impl<T> Default for Path<T> {
     fn default() -> Self {
-        Path { knots: Knots::default(), pivots: Vec::new(), end: PathEnd::Singular, start: Start::Regular, factorisations: 0 }
+        Path {
+            knots: Knots::default(),
+            pivots: Vec::new(),
+            end: PathEnd::Singular,
+            start: Start::Regular,
+            factorisations: 0,
+        }
     }
 }
 
@@ -134,7 +143,8 @@ impl<T> Default for Storage<T> {
     }
 }
 
-/// Follows the path from a start into `path`; a regular one begins over `current`, within the bounds.
+/// Follows the path from a start into `path`; a regular one begins over `current`, within the
+/// bounds.
 pub(super) fn follow<T: Number>(
     sub: &Subproblem<'_, T>,
     start: Start,
@@ -143,7 +153,13 @@ pub(super) fn follow<T: Number>(
     storage: &mut Storage<T>,
     path: &mut Path<T>,
 ) {
-    let Storage { frame, basis, state, entries, free } = storage;
+    let Storage {
+        frame,
+        basis,
+        state,
+        entries,
+        free,
+    } = storage;
     path.knots.clear(current.len());
     path.pivots.clear();
     (path.start, path.end, path.factorisations) = (start, PathEnd::Singular, 0);
@@ -161,7 +177,8 @@ impl<T: Number> Path<T> {
         self.knots.len().checked_sub(1).map(|_| self.knots.z(0))
     }
 
-    /// The last point: the Newton point of a complete path, a little along the ray of one that ended so.
+    /// The last point: the Newton point of a complete path, a little along the ray of one that
+    /// ended so.
     pub(super) fn last(&self) -> Option<&[T]> {
         self.knots.len().checked_sub(1).map(|k| self.knots.z(k))
     }
@@ -170,7 +187,8 @@ impl<T: Number> Path<T> {
 impl Path {
     /// The point where the path first reaches t, linearly between knots.
     pub(super) fn at(&self, t: f64) -> Option<impl Fn(usize) -> f64> {
-        let k = (1..self.knots.len()).position(|k| self.knots.t(k - 1) < &t && self.knots.t(k) >= &t)?;
+        let k = (1..self.knots.len())
+            .position(|k| self.knots.t(k - 1) < &t && self.knots.t(k) >= &t)?;
         let (a, b) = (self.knots.z(k), self.knots.z(k + 1));
         let share = (t - self.knots.t(k)) / (self.knots.t(k + 1) - self.knots.t(k));
         Some(move |i: usize| a[i] * (1.0 - share) + b[i] * share)
@@ -178,14 +196,17 @@ impl Path {
 
     /// The largest t on the path.
     pub(super) fn reach(&self) -> f64 {
-        (0..self.knots.len()).map(|k| *self.knots.t(k)).fold(0.0, f64::max)
+        (0..self.knots.len())
+            .map(|k| *self.knots.t(k))
+            .fold(0.0, f64::max)
     }
 
     /// Takes the content of another one in place of its own.
     pub(super) fn copy_from(&mut self, other: &Path) {
         self.knots.copy_from(&other.knots);
         self.pivots.clone_from(&other.pivots);
-        (self.end, self.start, self.factorisations) = (other.end, other.start, other.factorisations);
+        (self.end, self.start, self.factorisations) =
+            (other.end, other.start, other.factorisations);
     }
 }
 

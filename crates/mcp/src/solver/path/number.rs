@@ -1,5 +1,5 @@
-//! The numbers the path is pivoted in: doubles in the solver, exact rationals in the tests that hold
-//! Lemke's method to its finiteness theorem. One code for both.
+//! The numbers the path is pivoted in: doubles in the solver, exact rationals in the tests that
+//! hold Lemke's method to its finiteness theorem. One code for both.
 
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar};
 use num_traits::{One, Zero};
@@ -8,7 +8,15 @@ use std::ops::Neg;
 
 /// A number of the path, with an infinity for absent bounds.
 pub(in super::super) trait Number:
-    Scalar + Zero + One + Neg<Output = Self> + PartialOrd + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + ClosedDivAssign
+    Scalar
+    + Zero
+    + One
+    + Neg<Output = Self>
+    + PartialOrd
+    + ClosedAddAssign
+    + ClosedSubAssign
+    + ClosedMulAssign
+    + ClosedDivAssign
 {
     /// The upper bound that is none.
     fn infinity() -> Self;
@@ -33,7 +41,9 @@ pub(in super::super) trait Number:
 
     /// The largest |entry|, 0 of nothing; entries that do not compare are passed over.
     fn largest(entries: &[Self]) -> Self {
-        entries.iter().fold(Self::zero(), |worst, entry| worst.larger(entry.magnitude()))
+        entries
+            .iter()
+            .fold(Self::zero(), |worst, entry| worst.larger(entry.magnitude()))
     }
 
     /// The larger one; `self` if they do not compare.
@@ -74,8 +84,14 @@ impl Number for f64 {
         let (blocks, rest) = entries.as_chunks::<4>();
         let mut worst = [0.0; 4];
         for block in blocks {
-            worst.iter_mut().zip(block).for_each(|(w, v)| *w = if v.abs() > *w { v.abs() } else { *w });
+            worst
+                .iter_mut()
+                .zip(block)
+                .for_each(|(w, v)| *w = if v.abs() > *w { v.abs() } else { *w });
         }
-        worst.iter().chain(rest).fold(0.0, |w, v| if v.abs() > w { v.abs() } else { w })
+        worst
+            .iter()
+            .chain(rest)
+            .fold(0.0, |w, v| if v.abs() > w { v.abs() } else { w })
     }
 }

@@ -8,9 +8,15 @@ use super::tableau::State;
 use super::variable::Variable;
 use super::{Path, Start, Subproblem};
 
-/// Sets z and the multipliers w - v of the state to the start of the given kind, a point of the normal
-/// map's domain; the regular one over `current`.
-pub(super) fn start_point<T: Number>(sub: &Subproblem<'_, T>, kind: Start, current: &[T], state: &mut State<T>, free: &mut FreeRows<T>) {
+/// Sets z and the multipliers w - v of the state to the start of the given kind, a point of the
+/// normal map's domain; the regular one over `current`.
+pub(super) fn start_point<T: Number>(
+    sub: &Subproblem<'_, T>,
+    kind: Start,
+    current: &[T],
+    state: &mut State<T>,
+    free: &mut FreeRows<T>,
+) {
     match kind {
         Start::Regular => regular(sub, current, state),
         Start::Ray => ray(sub, state, free),
@@ -31,8 +37,16 @@ fn regular<T: Number>(sub: &Subproblem<'_, T>, current: &[T], state: &mut State<
 /// The part of F_i that a bound absorbs: its positive part at a lower one, its negative part at an
 /// upper one, all of it where both hold. The residual F - m is the least over z.
 fn absorbed<T: Number>(z: &T, f: &T, lower: &T, upper: &T) -> T {
-    let at_lower = if z <= lower { f.clone().larger(T::zero()) } else { T::zero() };
-    let at_upper = if z >= upper { f.clone().smaller(T::zero()) } else { T::zero() };
+    let at_lower = if z <= lower {
+        f.clone().larger(T::zero())
+    } else {
+        T::zero()
+    };
+    let at_upper = if z >= upper {
+        f.clone().smaller(T::zero())
+    } else {
+        T::zero()
+    };
     at_lower + at_upper
 }
 
@@ -41,7 +55,12 @@ fn absorbed<T: Number>(z: &T, f: &T, lower: &T, upper: &T) -> T {
 fn ray<T: Number>(sub: &Subproblem<'_, T>, state: &mut State<T>, free: &mut FreeRows<T>) {
     let State { z, multiplier, .. } = state;
     z.clear();
-    z.extend(sub.lower.iter().zip(sub.upper).map(|(l, u)| bound_or_zero(l, u)));
+    z.extend(
+        sub.lower
+            .iter()
+            .zip(sub.upper)
+            .map(|(l, u)| bound_or_zero(l, u)),
+    );
     free.solve(sub, z, multiplier);
     sub.value(z, multiplier);
     let side = |i: usize| match (sub.lower[i].is_finite(), sub.upper[i].is_finite()) {
@@ -51,14 +70,26 @@ fn ray<T: Number>(sub: &Subproblem<'_, T>, state: &mut State<T>, free: &mut Free
         (false, false) => T::zero(),
     };
     let sided = |(i, value): (usize, &T)| side(i) * value.clone();
-    let worst = multiplier.iter().enumerate().map(|e| -sided(e)).fold(T::zero(), T::larger);
-    let size = multiplier.iter().enumerate().map(|e| sided(e).magnitude()).fold(T::zero(), T::larger);
+    let worst = multiplier
+        .iter()
+        .enumerate()
+        .map(|e| -sided(e))
+        .fold(T::zero(), T::larger);
+    let size = multiplier
+        .iter()
+        .enumerate()
+        .map(|e| sided(e).magnitude())
+        .fold(T::zero(), T::larger);
     let lift = worst + if size.is_zero() { T::one() } else { size };
     for (i, m) in multiplier.iter_mut().enumerate() {
         if sub.lower[i] == sub.upper[i] {
             continue;
         }
-        *m = if side(i).is_zero() { T::zero() } else { m.clone() + side(i) * lift.clone() };
+        *m = if side(i).is_zero() {
+            T::zero()
+        } else {
+            m.clone() + side(i) * lift.clone()
+        };
     }
 }
 
@@ -79,7 +110,11 @@ pub(super) struct FreeRows<T> {
 
 impl<T> Default for FreeRows<T> {
     fn default() -> Self {
-        FreeRows { indices: Vec::new(), lu: Lu::default(), step: Vec::new() }
+        FreeRows {
+            indices: Vec::new(),
+            lu: Lu::default(),
+            step: Vec::new(),
+        }
     }
 }
 
@@ -88,14 +123,18 @@ impl<T: Number> FreeRows<T> {
     fn solve(&mut self, sub: &Subproblem<'_, T>, z: &mut [T], value: &mut Vec<T>) {
         let FreeRows { indices, lu, step } = self;
         indices.clear();
-        indices.extend((0..z.len()).filter(|&i| !sub.lower[i].is_finite() && !sub.upper[i].is_finite()));
+        indices.extend(
+            (0..z.len()).filter(|&i| !sub.lower[i].is_finite() && !sub.upper[i].is_finite()),
+        );
         if indices.is_empty() {
             return;
         }
         sub.value(z, value);
         let gather = |j: usize, rows: &[usize], out: &mut [T]| {
             let column = sub.column(indices[j]);
-            rows.iter().zip(out).for_each(|(&i, o)| *o = column[indices[i]].clone());
+            rows.iter()
+                .zip(out)
+                .for_each(|(&i, o)| *o = column[indices[i]].clone());
         };
         if !lu.factor(indices.len(), gather, |_| T::zero()) {
             return;
@@ -104,7 +143,10 @@ impl<T: Number> FreeRows<T> {
         step.extend(lu.rows().iter().map(|&i| -value[indices[i]].clone()));
         lu.solve(step);
         if step.iter().all(T::is_finite) {
-            indices.iter().zip(step.iter()).for_each(|(&i, v)| z[i] = v.clone());
+            indices
+                .iter()
+                .zip(step.iter())
+                .for_each(|(&i, v)| z[i] = v.clone());
         }
     }
 }
@@ -124,7 +166,9 @@ pub(super) fn starting_basis<T: Number>(
         _ => Variable::Z(i),
     };
     basis.variables.clear();
-    basis.variables.extend(state.z.iter().enumerate().map(place));
+    basis
+        .variables
+        .extend(state.z.iter().enumerate().map(place));
     path.factorisations += 1;
     if basis.begin(&frame.columns(sub)) {
         return true;
@@ -147,16 +191,33 @@ mod tests {
 
     #[test]
     fn bounds_absorb_the_part_of_their_sign() {
-        for (z, f, expected) in [(0.0, 2.0, 2.0), (0.0, -2.0, 0.0), (1.0, -2.0, -2.0), (1.0, 2.0, 0.0), (0.5, 2.0, 0.0)] {
+        for (z, f, expected) in [
+            (0.0, 2.0, 2.0),
+            (0.0, -2.0, 0.0),
+            (1.0, -2.0, -2.0),
+            (1.0, 2.0, 0.0),
+            (0.5, 2.0, 0.0),
+        ] {
             assert_eq!(absorbed(&z, &f, &0.0, &1.0), expected, "z = {z}, F = {f}");
         }
-        assert_eq!((absorbed(&3.0, &-2.0, &3.0, &3.0), absorbed(&3.0, &2.0, &3.0, &3.0)), (-2.0, 2.0));
+        assert_eq!(
+            (
+                absorbed(&3.0, &-2.0, &3.0, &3.0),
+                absorbed(&3.0, &2.0, &3.0, &3.0)
+            ),
+            (-2.0, 2.0)
+        );
     }
 
     #[test]
     fn the_ray_dominates_and_free_rows_vanish() {
         let m = dmatrix![2.0, 1.0, 0.0; 0.0, 1.0, 1.0; 1.0, 0.0, 1.0];
-        let sub = Subproblem { m: &m, q: &[-4.0, -3.0, 5.0], lower: &[-INF, 0.0, -INF], upper: &[INF, INF, 1.0] };
+        let sub = Subproblem {
+            m: &m,
+            q: &[-4.0, -3.0, 5.0],
+            lower: &[-INF, 0.0, -INF],
+            upper: &[INF, INF, 1.0],
+        };
         let mut start = State::default();
         ray(&sub, &mut start, &mut FreeRows::default());
         assert_eq!(start.z, [2.0, 0.0, 1.0]);
@@ -167,27 +228,50 @@ mod tests {
     #[test]
     fn singular_bases_are_repaired() {
         let m = dmatrix![1.0, 1.0; 1.0, 1.0];
-        let sub = Subproblem { m: &m, q: &[-1.0, -1.0], lower: &[-INF; 2], upper: &[INF; 2] };
-        let (mut frame, mut basis, mut state) = (Frame::default(), Basis::default(), State::default());
+        let sub = Subproblem {
+            m: &m,
+            q: &[-1.0, -1.0],
+            lower: &[-INF; 2],
+            upper: &[INF; 2],
+        };
+        let (mut frame, mut basis, mut state) =
+            (Frame::default(), Basis::default(), State::default());
         regular(&sub, &[0.0, 0.0], &mut state);
         frame.set(&sub, &state.z, &state.multiplier);
         let mut path = Path::default();
-        assert!(starting_basis(&sub, &mut frame, &mut basis, &state, &mut path));
-        assert_eq!(basis.variables, vec![Variable::Z(0), Variable::Artificial(1)]);
+        assert!(starting_basis(
+            &sub, &mut frame, &mut basis, &state, &mut path
+        ));
+        assert_eq!(
+            basis.variables,
+            vec![Variable::Z(0), Variable::Artificial(1)]
+        );
         assert_eq!(path.factorisations, 2);
     }
 
-    /// All multipliers are lifted by the same amount: what the worst one lacks and the size of the largest. Equal bounds have
-    /// no say and are not lifted.
+    /// All multipliers are lifted by the same amount: what the worst one lacks and the size of the
+    /// largest. Equal bounds have no say and are not lifted.
     #[test]
     fn multipliers_are_lifted_until_the_worst_is_positive() {
         let m = DMatrix::<f64>::zeros(4, 4);
-        let sub = Subproblem { m: &m, q: &[-3.0, 2.0, 1.0, -100.0], lower: &[0.0, 0.0, -INF, 5.0], upper: &[INF, 1.0, 0.0, 5.0] };
+        let sub = Subproblem {
+            m: &m,
+            q: &[-3.0, 2.0, 1.0, -100.0],
+            lower: &[0.0, 0.0, -INF, 5.0],
+            upper: &[INF, 1.0, 0.0, 5.0],
+        };
         let mut state = State::default();
         ray(&sub, &mut state, &mut FreeRows::default());
-        assert_eq!((state.z, state.multiplier), (vec![0.0, 0.0, 0.0, 5.0], vec![3.0, 8.0, -5.0, -100.0]));
+        assert_eq!(
+            (state.z, state.multiplier),
+            (vec![0.0, 0.0, 0.0, 5.0], vec![3.0, 8.0, -5.0, -100.0])
+        );
         // Where all are zero the amount is one.
-        let sub = Subproblem { m: &m, q: &[0.0; 4], ..sub };
+        let sub = Subproblem {
+            m: &m,
+            q: &[0.0; 4],
+            ..sub
+        };
         let mut state = State::default();
         ray(&sub, &mut state, &mut FreeRows::default());
         assert_eq!(state.multiplier, [1.0, 1.0, -1.0, 0.0]);

@@ -61,7 +61,11 @@ pub(super) struct Tableau<'a, T: Number> {
 
 impl<'a, T: Number> Tableau<'a, T> {
     /// At t = 0, with t about to increase; z and multipliers of the state are those of the start.
-    pub(super) fn new(columns: Columns<'a, T>, basis: &'a mut Basis<T>, state: &'a mut State<T>) -> Self {
+    pub(super) fn new(
+        columns: Columns<'a, T>,
+        basis: &'a mut Basis<T>,
+        state: &'a mut State<T>,
+    ) -> Self {
         let n = state.z.len();
         state.values.clear();
         state.is_basic.clear();
@@ -80,15 +84,25 @@ impl<'a, T: Number> Tableau<'a, T> {
         for list in [&mut state.column, &mut state.rates, &mut state.sum] {
             list.resize(n, T::zero());
         }
-        Tableau { columns, basis, state, t: T::zero(), entering: Variable::T, sign: T::one() }
+        Tableau {
+            columns,
+            basis,
+            state,
+            t: T::zero(),
+            entering: Variable::T,
+            sign: T::one(),
+        }
     }
 
-    /// Bounds of an unknown. t has none below: like Lemke's covering variable 1 - t, which has none above.
+    /// Bounds of an unknown. t has none below: like Lemke's covering variable 1 - t, which has none
+    /// above.
     pub(super) fn bounds(&self, variable: Variable) -> (T, T) {
         let (lower, upper) = (self.columns.sub.lower, self.columns.sub.upper);
         match variable {
             Variable::Z(i) => (lower[i].clone(), upper[i].clone()),
-            Variable::W(i) | Variable::V(i) if lower[i] == upper[i] => (-T::infinity(), T::infinity()),
+            Variable::W(i) | Variable::V(i) if lower[i] == upper[i] => {
+                (-T::infinity(), T::infinity())
+            }
             Variable::W(_) | Variable::V(_) => (T::zero(), T::infinity()),
             Variable::Artificial(_) => (T::zero(), T::zero()),
             Variable::T => (-T::infinity(), T::one()),
@@ -110,14 +124,20 @@ impl<'a, T: Number> Tableau<'a, T> {
     pub(super) fn own_room(&self) -> T {
         let (lower, upper) = self.bounds(self.entering);
         let value = self.entering_value();
-        T::zero().larger(if self.sign > T::zero() { upper - value } else { value - lower })
+        T::zero().larger(if self.sign > T::zero() {
+            upper - value
+        } else {
+            value - lower
+        })
     }
 
     /// B^-1 a of an unknown, into the state's column.
     fn solve_for(&mut self, variable: Variable) {
         let state = &mut *self.state;
         match self.columns.unit(variable) {
-            None => self.basis.solve(self.columns.dense(variable), &mut state.column),
+            None => self
+                .basis
+                .solve(self.columns.dense(variable), &mut state.column),
             Some(_) => {
                 self.columns.write(variable, &mut state.work);
                 self.basis.solve(&state.work, &mut state.column);
@@ -129,14 +149,27 @@ impl<'a, T: Number> Tableau<'a, T> {
     pub(super) fn set_rates(&mut self) {
         self.solve_for(self.entering);
         let sign = -self.sign.clone();
-        self.state.rates.iter_mut().zip(&self.state.column).for_each(|(rate, c)| *rate = c.clone() * sign.clone());
+        self.state
+            .rates
+            .iter_mut()
+            .zip(&self.state.column)
+            .for_each(|(rate, c)| *rate = c.clone() * sign.clone());
     }
 
     /// Moves the entering unknown by `step`; basic values follow at the rates.
     pub(super) fn advance(&mut self, step: &T) {
         let entering_value = self.entering_value() + self.sign.clone() * step.clone();
-        let State { values, z, multiplier, rates, .. } = &mut *self.state;
-        values.iter_mut().zip(rates.iter()).for_each(|(value, rate)| *value += step.clone() * rate.clone());
+        let State {
+            values,
+            z,
+            multiplier,
+            rates,
+            ..
+        } = &mut *self.state;
+        values
+            .iter_mut()
+            .zip(rates.iter())
+            .for_each(|(value, rate)| *value += step.clone() * rate.clone());
         multiplier.fill(T::zero());
         let mut store = |variable: Variable, value: T| match variable {
             Variable::Z(i) => z[i] = value,
@@ -145,7 +178,11 @@ impl<'a, T: Number> Tableau<'a, T> {
             Variable::Artificial(_) => {}
             Variable::T => self.t = value.smaller(T::one()),
         };
-        self.basis.variables.iter().zip(values.iter()).for_each(|(&variable, value)| store(variable, value.clone()));
+        self.basis
+            .variables
+            .iter()
+            .zip(values.iter())
+            .for_each(|(&variable, value)| store(variable, value.clone()));
         store(self.entering, entering_value);
     }
 
@@ -153,15 +190,23 @@ impl<'a, T: Number> Tableau<'a, T> {
     pub(super) fn flip(&mut self) {
         if let Variable::Z(i) = self.entering {
             let at_upper = self.sign > T::zero();
-            self.state.z[i] = if at_upper { self.columns.sub.upper[i].clone() } else { self.columns.sub.lower[i].clone() };
-            self.entering = if at_upper { Variable::V(i) } else { Variable::W(i) };
+            self.state.z[i] = if at_upper {
+                self.columns.sub.upper[i].clone()
+            } else {
+                self.columns.sub.lower[i].clone()
+            };
+            self.entering = if at_upper {
+                Variable::V(i)
+            } else {
+                Variable::W(i)
+            };
             self.sign = T::one();
         }
     }
 
-    /// Puts the moving unknown into `place`; the complement of the leaving one moves next. The state's
-    /// column is that of the moving unknown. False if a fresh factorisation was due and found the basis
-    /// singular.
+    /// Puts the moving unknown into `place`; the complement of the leaving one moves next. The
+    /// state's column is that of the moving unknown. False if a fresh factorisation was due and
+    /// found the basis singular.
     pub(super) fn exchange(&mut self, place: usize, at_upper: bool) -> bool {
         let leaving = self.basis.variables[place];
         let value = self.entering_value();
@@ -173,7 +218,11 @@ impl<'a, T: Number> Tableau<'a, T> {
             }
         }
         (self.entering, self.sign) = self.successor(leaving, at_upper);
-        if self.basis.is_stale() || self.drift() > T::tolerance(DRIFT) { self.refactor() } else { true }
+        if self.basis.is_stale() || self.drift() > T::tolerance(DRIFT) {
+            self.refactor()
+        } else {
+            true
+        }
     }
 
     /// Values that satisfy the equations again, after an unknown was put on a bound it had passed.
@@ -188,7 +237,14 @@ impl<'a, T: Number> Tableau<'a, T> {
             Variable::Z(i) => {
                 let (lower, upper) = self.bounds(leaving);
                 self.state.z[i] = if at_upper { upper } else { lower };
-                (if at_upper { Variable::V(i) } else { Variable::W(i) }, T::one())
+                (
+                    if at_upper {
+                        Variable::V(i)
+                    } else {
+                        Variable::W(i)
+                    },
+                    T::one(),
+                )
             }
             Variable::W(i) => (Variable::Z(i), T::one()),
             Variable::V(i) => (Variable::Z(i), -T::one()),
@@ -218,7 +274,11 @@ impl<'a, T: Number> Tableau<'a, T> {
                 Some((row, false)) => sum[row] += value.clone(),
             }
         }
-        if size > T::zero() { T::largest(&*sum) / size } else { T::zero() }
+        if size > T::zero() {
+            T::largest(&*sum) / size
+        } else {
+            T::zero()
+        }
     }
 
     /// Factors and values from scratch.
@@ -232,7 +292,9 @@ impl<'a, T: Number> Tableau<'a, T> {
 
     /// -(q + r) less the columns of the z that are not basic, into the state's sum.
     fn set_right_hand_side(&mut self) {
-        let State { z, sum, is_basic, .. } = &mut *self.state;
+        let State {
+            z, sum, is_basic, ..
+        } = &mut *self.state;
         sum.clone_from_slice(self.columns.right());
         for (i, z) in z.iter().enumerate().filter(|(i, _)| !is_basic[*i]) {
             subtract(sum, z, self.columns.dense(Variable::Z(i)));

@@ -7,7 +7,11 @@ use super::*;
 use nalgebra::{DVector, dmatrix, dvector};
 
 const INF: f64 = f64::INFINITY;
-const LIMITS: Limits = Limits { pivots: 200, cycle_entries: 20, rule: RatioTest::Lexicographic };
+const LIMITS: Limits = Limits {
+    pivots: 200,
+    cycle_entries: 20,
+    rule: RatioTest::Lexicographic,
+};
 
 /// A breakpoint.
 #[derive(Debug)]
@@ -19,22 +23,57 @@ struct Knot<T: Number> {
 
 fn knots<T: Number>(path: &Path<T>) -> Vec<Knot<T>> {
     let vector = DVector::from_column_slice;
-    let knot = |k: usize| Knot { t: path.knots.t(k).clone(), z: vector(path.knots.z(k)), multiplier: vector(path.knots.multiplier(k)) };
+    let knot = |k: usize| Knot {
+        t: path.knots.t(k).clone(),
+        z: vector(path.knots.z(k)),
+        multiplier: vector(path.knots.multiplier(k)),
+    };
     (0..path.knots.len()).map(knot).collect()
 }
 
 /// Follows in storage that another path has left behind.
-fn walked<T: Number>(sub: &Subproblem<'_, T>, start: Start, current: &[T], limits: Limits) -> Path<T> {
+fn walked<T: Number>(
+    sub: &Subproblem<'_, T>,
+    start: Start,
+    current: &[T],
+    limits: Limits,
+) -> Path<T> {
     let (mut storage, mut path) = (Storage::default(), Path::default());
-    let other = if start == Start::Ray { Start::Regular } else { Start::Ray };
-    follow(sub, other, current, Limits { pivots: 3, ..limits }, &mut storage, &mut path);
+    let other = if start == Start::Ray {
+        Start::Regular
+    } else {
+        Start::Ray
+    };
+    follow(
+        sub,
+        other,
+        current,
+        Limits {
+            pivots: 3,
+            ..limits
+        },
+        &mut storage,
+        &mut path,
+    );
     follow(sub, start, current, limits, &mut storage, &mut path);
     path
 }
 
 /// Follows and checks that every knot satisfies the path equation and the bounds.
-fn followed(m: &DMatrix<f64>, q: &DVector<f64>, l: &[f64], u: &[f64], start: Start, current: &[f64]) -> Path {
-    let sub = Subproblem { m, q: q.as_slice(), lower: l, upper: u };
+fn followed(
+    m: &DMatrix<f64>,
+    q: &DVector<f64>,
+    l: &[f64],
+    u: &[f64],
+    start: Start,
+    current: &[f64],
+) -> Path {
+    let sub = Subproblem {
+        m,
+        q: q.as_slice(),
+        lower: l,
+        upper: u,
+    };
     let path = walked(&sub, start, current, LIMITS);
     let knots = knots(&path);
     let r = knots.first().map(|k| &k.multiplier - m * &k.z - q);
@@ -42,27 +81,60 @@ fn followed(m: &DMatrix<f64>, q: &DVector<f64>, l: &[f64], u: &[f64], start: Sta
         let equation = m * &knot.z - &knot.multiplier + q + r.clone().unwrap() * (1.0 - knot.t);
         assert!(equation.amax() < 1e-9, "{equation} at {knot:?}");
         for i in 0..l.len() {
-            assert!(knot.z[i] >= l[i] - 1e-9 && knot.z[i] <= u[i] + 1e-9, "{knot:?}");
-            assert!(knot.multiplier[i] < 1e-9 || knot.z[i] <= l[i] + 1e-9, "{knot:?}");
-            assert!(knot.multiplier[i] > -1e-9 || knot.z[i] >= u[i] - 1e-9, "{knot:?}");
+            assert!(
+                knot.z[i] >= l[i] - 1e-9 && knot.z[i] <= u[i] + 1e-9,
+                "{knot:?}"
+            );
+            assert!(
+                knot.multiplier[i] < 1e-9 || knot.z[i] <= l[i] + 1e-9,
+                "{knot:?}"
+            );
+            assert!(
+                knot.multiplier[i] > -1e-9 || knot.z[i] >= u[i] - 1e-9,
+                "{knot:?}"
+            );
         }
     }
     path
 }
 
 /// The tableau at the beginning of a path.
-pub(super) fn at_start<R>(sub: &Subproblem<'_, f64>, start: Start, current: &[f64], look: impl FnOnce(Tableau<'_, f64>) -> R) -> R {
-    let Storage { mut frame, mut basis, mut state, mut free, .. } = Storage::default();
+pub(super) fn at_start<R>(
+    sub: &Subproblem<'_, f64>,
+    start: Start,
+    current: &[f64],
+    look: impl FnOnce(Tableau<'_, f64>) -> R,
+) -> R {
+    let Storage {
+        mut frame,
+        mut basis,
+        mut state,
+        mut free,
+        ..
+    } = Storage::default();
     start_point(sub, start, current, &mut state, &mut free);
     frame.set(sub, &state.z, &state.multiplier);
-    assert!(starting_basis(sub, &mut frame, &mut basis, &state, &mut Path::default()));
+    assert!(starting_basis(
+        sub,
+        &mut frame,
+        &mut basis,
+        &state,
+        &mut Path::default()
+    ));
     look(Tableau::new(frame.columns(sub), &mut basis, &mut state))
 }
 
 #[test]
 fn one_by_one_from_both_starts() {
     for start in [Start::Regular, Start::Ray] {
-        let path = followed(&dmatrix![2.0], &dvector![-3.0], &[0.0], &[INF], start, &[0.0]);
+        let path = followed(
+            &dmatrix![2.0],
+            &dvector![-3.0],
+            &[0.0],
+            &[INF],
+            start,
+            &[0.0],
+        );
         assert_eq!(path.end, PathEnd::Complete);
         assert!((path.last().unwrap()[0] - 1.5).abs() < 1e-15);
         assert_eq!(path.pivots.last().unwrap().kind, PivotKind::Complete);
@@ -71,24 +143,55 @@ fn one_by_one_from_both_starts() {
 
 #[test]
 fn a_zero_residual_is_complete_at_once() {
-    let path = followed(&dmatrix![1.0], &dvector![1.0], &[0.0], &[INF], Start::Regular, &[0.0]);
-    assert_eq!((path.end, path.pivots.len(), path.reach()), (PathEnd::Complete, 1, 1.0));
+    let path = followed(
+        &dmatrix![1.0],
+        &dvector![1.0],
+        &[0.0],
+        &[INF],
+        Start::Regular,
+        &[0.0],
+    );
+    assert_eq!(
+        (path.end, path.pivots.len(), path.reach()),
+        (PathEnd::Complete, 1, 1.0)
+    );
 }
 
 #[test]
 fn a_doubly_bounded_unknown_flips() {
-    let path = followed(&dmatrix![1.0, 0.0; 0.0, 1.0], &dvector![-5.0, -1.0], &[0.0; 2], &[1.0, INF], Start::Ray, &[0.0; 2]);
+    let path = followed(
+        &dmatrix![1.0, 0.0; 0.0, 1.0],
+        &dvector![-5.0, -1.0],
+        &[0.0; 2],
+        &[1.0, INF],
+        Start::Ray,
+        &[0.0; 2],
+    );
     assert_eq!(path.end, PathEnd::Complete);
     assert!((DVector::from_column_slice(path.last().unwrap()) - dvector![1.0, 1.0]).amax() < 1e-14);
     // M = -1: z runs from bound to bound while t stands still or turns back.
-    let path = followed(&dmatrix![-1.0], &dvector![0.5], &[0.0], &[1.0], Start::Regular, &[0.9]);
+    let path = followed(
+        &dmatrix![-1.0],
+        &dvector![0.5],
+        &[0.0],
+        &[1.0],
+        Start::Regular,
+        &[0.9],
+    );
     assert_eq!(path.end, PathEnd::Complete);
 }
 
 #[test]
 fn an_infeasible_problem_ends_on_a_ray() {
     for start in [Start::Regular, Start::Ray] {
-        let path = followed(&dmatrix![-1.0], &dvector![-1.0], &[0.0], &[INF], start, &[0.0]);
+        let path = followed(
+            &dmatrix![-1.0],
+            &dvector![-1.0],
+            &[0.0],
+            &[INF],
+            start,
+            &[0.0],
+        );
         assert_eq!(path.end, PathEnd::Ray, "{start:?}");
         assert!(path.knots.len() >= 2);
     }
@@ -101,14 +204,28 @@ fn singular_starts_leave_through_artificials() {
     let path = followed(&m, &q, &[0.0; 2], &[INF; 2], Start::Regular, &[2.0, 3.0]);
     assert_eq!(path.end, PathEnd::Complete, "{path:?}");
     // A zero matrix with free unknowns has only artificials, and no way to move.
-    let path = followed(&dmatrix![0.0], &dvector![1.0], &[-INF], &[INF], Start::Regular, &[0.0]);
+    let path = followed(
+        &dmatrix![0.0],
+        &dvector![1.0],
+        &[-INF],
+        &[INF],
+        Start::Regular,
+        &[0.0],
+    );
     assert_eq!(path.end, PathEnd::Ray);
 }
 
 #[test]
 fn equal_bounds_fix_an_unknown() {
     for start in [Start::Regular, Start::Ray] {
-        let path = followed(&dmatrix![1.0, 1.0; 1.0, 2.0], &dvector![-9.0, -4.0], &[1.0, 0.0], &[1.0, INF], start, &[1.0, 0.0]);
+        let path = followed(
+            &dmatrix![1.0, 1.0; 1.0, 2.0],
+            &dvector![-9.0, -4.0],
+            &[1.0, 0.0],
+            &[1.0, INF],
+            start,
+            &[1.0, 0.0],
+        );
         assert_eq!(path.end, PathEnd::Complete);
         assert_eq!(path.last().unwrap(), [1.0, 1.5]);
     }
@@ -116,7 +233,14 @@ fn equal_bounds_fix_an_unknown() {
 
 #[test]
 fn points_along_the_path_are_found_by_t() {
-    let path = followed(&dmatrix![2.0], &dvector![-3.0], &[0.0], &[INF], Start::Regular, &[0.0]);
+    let path = followed(
+        &dmatrix![2.0],
+        &dvector![-3.0],
+        &[0.0],
+        &[INF],
+        Start::Regular,
+        &[0.0],
+    );
     assert!((path.at(0.5).unwrap()(0) - 0.75).abs() < 1e-15);
     assert!(path.at(1.5).is_none());
 }
@@ -133,15 +257,32 @@ fn ties_go_to_the_lexicographically_least() {
 #[test]
 fn the_multiplier_of_equal_bounds_changes_sign_without_a_pivot() {
     let (m, q) = (dmatrix![0.0, -1.0; 0.0, 1.0], dvector![1.0, -5.0]);
-    let path = followed(&m, &q, &[1.0, 0.0], &[1.0, INF], Start::Regular, &[1.0, 0.0]);
-    assert_eq!((path.end, path.pivots.len()), (PathEnd::Complete, 2), "{:?}", path.pivots);
+    let path = followed(
+        &m,
+        &q,
+        &[1.0, 0.0],
+        &[1.0, INF],
+        Start::Regular,
+        &[1.0, 0.0],
+    );
+    assert_eq!(
+        (path.end, path.pivots.len()),
+        (PathEnd::Complete, 2),
+        "{:?}",
+        path.pivots
+    );
     assert_eq!(path.knots.multiplier(path.knots.len() - 1), [-4.0, 0.0]);
 }
 
 #[test]
 fn drift_is_noticed_and_mended() {
     let m = dmatrix![2.0, 1.0; 1.0, 2.0];
-    let sub = Subproblem { m: &m, q: &[-5.0, -6.0], lower: &[0.0; 2], upper: &[INF; 2] };
+    let sub = Subproblem {
+        m: &m,
+        q: &[-5.0, -6.0],
+        lower: &[0.0; 2],
+        upper: &[INF; 2],
+    };
     at_start(&sub, Start::Ray, &[0.0, 0.0], |mut tableau| {
         tableau.set_rates();
         let block = ratio::ratio_test(&mut tableau, RatioTest::Lexicographic, 0).unwrap();
@@ -159,17 +300,35 @@ fn a_path_reaches_the_largest_t_of_its_knots() {
     let path = |list: &[f64]| {
         let mut path = Path::default();
         path.knots.clear(1);
-        list.iter().for_each(|&t| path.knots.push(t, &[4.0 * t], &[0.0]));
+        list.iter()
+            .for_each(|&t| path.knots.push(t, &[4.0 * t], &[0.0]));
         path
     };
-    assert_eq!([path(&[0.0, 0.25, 0.75, 0.5]).reach(), path(&[0.0, 1.0]).reach(), path(&[]).reach()], [0.75, 1.0, 0.0]);
-    assert_eq!(path(&[0.0, 0.25, 0.75, 0.5]).at(0.5).map(|z| z(0)), Some(2.0));
+    assert_eq!(
+        [
+            path(&[0.0, 0.25, 0.75, 0.5]).reach(),
+            path(&[0.0, 1.0]).reach(),
+            path(&[]).reach()
+        ],
+        [0.75, 1.0, 0.0]
+    );
+    assert_eq!(
+        path(&[0.0, 0.25, 0.75, 0.5]).at(0.5).map(|z| z(0)),
+        Some(2.0)
+    );
     assert!(path(&[0.0, 0.25]).at(0.5).is_none());
 }
 
 /// One for the start: a short path makes no other.
 #[test]
 fn factorisations_are_counted() {
-    let path = followed(&dmatrix![2.0], &dvector![-3.0], &[0.0], &[INF], Start::Regular, &[0.0]);
+    let path = followed(
+        &dmatrix![2.0],
+        &dvector![-3.0],
+        &[0.0],
+        &[INF],
+        Start::Regular,
+        &[0.0],
+    );
     assert_eq!(path.factorisations, 1);
 }

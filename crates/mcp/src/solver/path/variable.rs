@@ -42,10 +42,14 @@ pub struct Pivot {
 }
 
 impl Pivot {
-    /// The same pivot with its unknowns named by `indices` of a larger problem, which holds for every
-    /// index of the smaller one its own.
+    /// The same pivot with its unknowns named by `indices` of a larger problem, which holds for
+    /// every index of the smaller one its own.
     pub fn renamed(&self, indices: &[usize]) -> Pivot {
-        Pivot { entering: self.entering.renamed(indices), leaving: self.leaving.renamed(indices), ..*self }
+        Pivot {
+            entering: self.entering.renamed(indices),
+            leaving: self.leaving.renamed(indices),
+            ..*self
+        }
     }
 }
 
@@ -67,10 +71,20 @@ mod tests {
 
     #[test]
     fn both_unknowns_of_a_pivot_are_renamed() {
-        let pivot = Pivot { t: 0.5, entering: Variable::W(1), leaving: Variable::Z(0), kind: PivotKind::Exchange };
-        let expected = Pivot { entering: Variable::W(7), leaving: Variable::Z(4), ..pivot };
+        let pivot = Pivot {
+            t: 0.5,
+            entering: Variable::W(1),
+            leaving: Variable::Z(0),
+            kind: PivotKind::Exchange,
+        };
+        let expected = Pivot {
+            entering: Variable::W(7),
+            leaving: Variable::Z(4),
+            ..pivot
+        };
         assert_eq!(pivot.renamed(&[4, 7]), expected);
-        let list = [Variable::V(0), Variable::Artificial(1), Variable::T].map(|v| v.renamed(&[4, 7]));
+        let list =
+            [Variable::V(0), Variable::Artificial(1), Variable::T].map(|v| v.renamed(&[4, 7]));
         assert_eq!(list, [Variable::V(4), Variable::Artificial(7), Variable::T]);
     }
 }

@@ -11,7 +11,10 @@ fn a_preconditioner_keeps_its_bits() {
         let exponent = exponent(&y(largest), &[0, 0], 0.0);
         let rows = round(&y(largest), &[0, 0], exponent);
         assert_eq!(i64::from(exponent), i64::from(bits) - log);
-        assert_eq!(rows[0], [Integer::from(1) << bits, -(Integer::from(1) << (bits - 1))]);
+        assert_eq!(
+            rows[0],
+            [Integer::from(1) << bits, -(Integer::from(1) << (bits - 1))]
+        );
     }
     let power = |k: u32| Integer::from(1) << k;
     assert_eq!(exponent(&y(1.0), &[3, 0], 100.0), 103);
@@ -20,28 +23,49 @@ fn a_preconditioner_keeps_its_bits() {
     assert!(exponent(&y(1.0), &[3, 0], f64::INFINITY) > MAX_EXPONENT);
 }
 
-/// Bits for n entries of a row against the narrowest side: n = 2, reaches 4.25 and 120.5, sides 4 and 1/8: 1928 < 2^11.
+/// Bits for n entries of a row against the narrowest side: n = 2, reaches 4.25 and 120.5, sides 4
+/// and 1/8: 1928 < 2^11.
 #[test]
 fn rounding_is_small_beside_the_narrowest_side() {
-    let slope = |(column, value): (usize, f64)| Slope { column, value, size: value.abs() };
+    let slope = |(column, value): (usize, f64)| Slope {
+        column,
+        value,
+        size: value.abs(),
+    };
     let row = |list: [f64; 2]| list.into_iter().enumerate().map(slope).collect::<Vec<_>>();
     let jacobian = [row([1.0, -2.0]), row([30.0, 4.0])];
-    assert_eq!(rounding_bits(&jacobian, &[4.0, 0.125]), 11.0 + f64::from(PRECONDITIONER_LOSS_BITS));
+    assert_eq!(
+        rounding_bits(&jacobian, &[4.0, 0.125]),
+        11.0 + f64::from(PRECONDITIONER_LOSS_BITS)
+    );
 }
 
-/// Of [[2, 0], [0, 1]] with Y = [[1/2, 1/8], [0, 1]] the product leaves |I - YJ| = [[0, 1/8], [0, 0]], and the units of the
-/// second component are four times those of the first.
+/// Of [[2, 0], [0, 1]] with Y = [[1/2, 1/8], [0, 1]] the product leaves |I - YJ| = [[0, 1/8], [0,
+/// 0]], and the units of the second component are four times those of the first.
 #[test]
 fn the_contraction_is_counted_in_units_of_the_grid() {
-    let slope = |column: usize, value: f64| Slope { column, value, size: value };
+    let slope = |column: usize, value: f64| Slope {
+        column,
+        value,
+        size: value,
+    };
     let jacobian = [vec![slope(0, 2.0)], vec![slope(1, 1.0)]];
     let y = [vec![0.5, 0.125], vec![0.0, 1.0]];
     let error = contraction(&y, &jacobian, &[1.0, 4.0]);
-    assert!((error[0][1] - 0.5).abs() < 1e-12 && error[0][0] < 1e-12 && error[1][0] < 1e-12 && error[1][1] < 1e-12, "{error:?}");
+    assert!(
+        (error[0][1] - 0.5).abs() < 1e-12
+            && error[0][0] < 1e-12
+            && error[1][0] < 1e-12
+            && error[1][1] < 1e-12,
+        "{error:?}"
+    );
 }
 
 #[test]
 fn powers_of_two_are_not_below() {
-    assert_eq!([0.0, 1.0, 1.5, 2.0, 1025.0].map(power_above), [1.0, 1.0, 2.0, 2.0, 2048.0]);
+    assert_eq!(
+        [0.0, 1.0, 1.5, 2.0, 1025.0].map(power_above),
+        [1.0, 1.0, 2.0, 2.0, 2048.0]
+    );
     assert_eq!([power(3), power(-2), power(-5000)], [8.0, 0.25, 0.0]);
 }

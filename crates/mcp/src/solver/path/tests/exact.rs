@@ -7,7 +7,8 @@ use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Sub, SubAssign};
 
-/// A rational, or a bound that is none. Arithmetic on infinities is not defined beyond inf - finite.
+/// A rational, or a bound that is none. Arithmetic on infinities is not defined beyond inf -
+/// finite.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum Exact {
     Finite(BigRational),
@@ -143,13 +144,22 @@ fn factors_are_exact_and_singular_matrices_have_none() {
     let factored = |entries: [i64; 4]| {
         let of = move |row: usize, col: usize| Exact::integer(entries[2 * row + col]);
         let mut lu = Lu::default();
-        let gather = |j: usize, rows: &[usize], out: &mut [Exact]| rows.iter().zip(out).for_each(|(&i, o)| *o = of(i, j));
+        let gather = |j: usize, rows: &[usize], out: &mut [Exact]| {
+            rows.iter().zip(out).for_each(|(&i, o)| *o = of(i, j))
+        };
         lu.factor(2, gather, |_| Exact::zero()).then_some(lu)
     };
     let lu = factored([0, 3, 2, 5]).unwrap();
-    let mut x: Vec<Exact> = lu.rows().iter().map(|&i| Exact::integer([1, 0][i])).collect();
+    let mut x: Vec<Exact> = lu
+        .rows()
+        .iter()
+        .map(|&i| Exact::integer([1, 0][i]))
+        .collect();
     lu.solve(&mut x);
-    assert_eq!(x, [(-5, 6), (1, 3)].map(|(p, q)| Exact::integer(p) / Exact::integer(q)));
+    assert_eq!(
+        x,
+        [(-5, 6), (1, 3)].map(|(p, q)| Exact::integer(p) / Exact::integer(q))
+    );
     assert!(factored([1, 2, 2, 4]).is_none());
     assert!(PlusInfinity > Exact::integer(9) && MinusInfinity < Exact::integer(-9));
 }
