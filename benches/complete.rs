@@ -17,13 +17,13 @@
 #[path = "../tests/support/cost.rs"]
 mod cost;
 
-use mceip::check::check;
-use mceip::model::{Admissible, Body, Problem, Unknown, Window};
-use mceip::reduction::{condense, reduce};
-use mceip::run::{Cancel, Progress, Watch};
-use mceip::search::complete::{CompleteError, Completed, Options, complete};
-use mceip::source::{Block, MassKind, PublishedState};
-use mceip::testkit::{
+use mceip_check::check;
+use mceip_engine::reduction::{condense, reduce};
+use mceip_engine::run::{Cancel, Progress, Watch};
+use mceip_engine::search::complete::{CompleteError, Completed, Options, complete};
+use mceip_model::{Admissible, Body, Problem, Unknown, Window};
+use mceip_paper::{Block, MassKind, PublishedState};
+use mceip_testkit::{
     backslash_block, condensed_in_doubles, known, mechanical_pencil, refined_block,
 };
 use rustix::time::{ClockId, clock_gettime};
@@ -90,10 +90,10 @@ fn row(name: &str, problem: &Problem) {
         cover.open.len()
     );
     for o in cover.open.iter().take(MOST_OPEN_SHOWN) {
-        let max = o.max.as_ref().map_or(f64::INFINITY, mceip::exact::to_f64);
+        let max = o.max.as_ref().map_or(f64::INFINITY, mceip_exact::to_f64);
         println!(
             "    open: [{:.17e}, {max:.17e}] moving {:?} undecided {:?}",
-            mceip::exact::to_f64(&o.min),
+            mceip_exact::to_f64(&o.min),
             o.moving,
             o.undecided
         );

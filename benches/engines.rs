@@ -2,12 +2,12 @@
 //! are what to quote; `cargo bench` prints both.
 
 use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
-use mceip::exact::{Sparse, whole};
-use mceip::model::{Admissible, Pencil, Unknown, Window};
-use mceip::oracle::enumerate;
-use mceip::reduction::{Embedding, Side, condense, reduce};
-use mceip::solver::{Options, Solver, solve};
-use mceip::source::{Block, BlockModel, MassKind, PublishedState};
+use mceip_engine::reduction::{Embedding, Side, condense, reduce};
+use mceip_exact::{Sparse, whole};
+use mceip_mcp::solver::{Options, Solver, solve};
+use mceip_model::{Admissible, Pencil, Unknown, Window};
+use mceip_oracle::enumerate;
+use mceip_paper::{Block, BlockModel, MassKind, PublishedState};
 use std::hint::black_box;
 
 /// -(adjacency of the complete graph) + t I: every support has a solution, 2^n - 1 in all.
@@ -105,14 +105,14 @@ fn engines(c: &mut Criterion) {
             ..BlockModel::of_the_paper()
         })
         .expect("cells");
-        let states = vec![mceip::model::ContactState::Slip { sign: 1 }; nx + 1];
+        let states = vec![mceip_model::ContactState::Slip { sign: 1 }; nx + 1];
         let states = if nx == 20 {
             PublishedState::SeventeenSlip.states()
         } else {
             states
         };
-        let problem = mceip::model::Problem::new(
-            mceip::model::Body::System(block.system(&states, None).expect("block")),
+        let problem = mceip_model::Problem::new(
+            mceip_model::Body::System(block.system(&states, None).expect("block")),
             Unknown::Mu,
             Window::all(),
         );

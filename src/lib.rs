@@ -1,9 +1,45 @@
 //! Complementarity eigenproblems of elastic systems in frictional contact, verified exactly.
 //!
-//! Find t >= 0 and x != 0 with (A + tB) x = y, y_f = 0, 0 <= x_s _|_ y_s >= 0, where t is lambda^2
-//! (12)-(14) or mu (21)-(23) of Pinto da Costa, Figueiredo, Júdice and Martins, *A complementarity
-//! eigenproblem in the stability analysis of finite dimensional elastic systems with frictional
-//! contact*. A solution means that the equilibrium can diverge in the form (8).
+//! Find t >= 0 and x != 0 with
+//!
+//! ```text
+//! (A + tB) x = y,   y_f = 0,   0 <= x_s _|_ y_s >= 0
+//! ```
+//!
+//! where t is lambda^2, (12)-(14), or mu, (21)-(23), of Pinto da Costa, Figueiredo, Júdice and
+//! Martins, *A complementarity eigenproblem in the stability analysis of finite dimensional elastic
+//! systems with frictional contact*. A solution means that the equilibrium can diverge in the form
+//! (8): it is unstable.
+//!
+//! # First program
+//!
+//! ```
+//! use mceip::{Problem, check};
+//!
+//! fn main() -> Result<(), mceip::Error> {
+//!     let problem = Problem::read("spec/examples/fold.json")?;
+//!     let found = problem.solve().run()?; // the PATH-style solver, every solution certified
+//!     let all = problem.complete().run()?; // all solutions, and a proof that there are no others
+//!     check(&problem, all.certificate())?; // what anybody else would run
+//!     println!("{} found, {} in all", found.solutions.len(), all.solutions.len());
+//!     Ok(())
+//! }
+//! ```
+//!
+//! | you want to | call |
+//! |---|---|
+//! | read or make a problem | [`Problem::read`], [`Problem::from_matrices`], [`Problem::from_pencil`] |
+//! | find solutions | [`Problem::solve`] |
+//! | find all solutions, or prove that there are none | [`Problem::complete`] |
+//! | know whether an equilibrium can diverge, and from which friction on | [`Problem::analyze`] |
+//! | prove a solution that you have computed | [`Problem::certify`] |
+//! | check a certificate | [`check`](check()) |
+//!
+//! # What to trust
+//!
+//! Floating-point numbers propose, exact arithmetic decides. Every solution that these functions
+//! return has been accepted by the checker, the crate [`mceip_check`], and so has every certificate.
+//! Whoever only checks certificates depends on that crate alone.
 //!
 //! ```text
 //! problem -> reduction -> MCP -> solver -> candidates          untrusted, f64
@@ -13,68 +49,26 @@
 //!    +---------------------------------------> check -> accepted / rejected(reason)   trusted, exact
 //! ```
 //!
-//! Floats propose, exact arithmetic decides. The rooms, in the order of the data: [`exact`]
-//! numbers, [`model`] problems and files, [`source`] examples, [`reduction`] (10)-(16) and
-//! Propositions 1 and 2, [`oracle`] the slow truth, `mcp`, `solver` and `sparse` the PATH-style
-//! solver, `certify` and [`certificate`], [`check`] the verdict, `analysis` the engineer's answer,
-//! `testkit` what compares them all. The crates of `crates/` are re-exported under the names of
-//! their rooms.
-//!
-//! ```
-//! use mceip::{
-//!     exact::{Sparse, whole},
-//!     model::{Pencil, Window},
-//!     oracle::enumerate,
-//! };
-//! // The fold of spec/errata.md: lambda^2 = 2 and 3, both particles slipping.
-//! let a = Sparse::from_entries(
-//!     2,
-//!     2,
-//!     [
-//!         (0, 0, whole(1)),
-//!         (0, 1, whole(-6)),
-//!         (1, 0, whole(2)),
-//!         (1, 1, whole(-6)),
-//!     ],
-//! );
-//! let found = enumerate(
-//!     &Pencil::new(a, Sparse::identity(2), vec![]).unwrap(),
-//!     &Window::all(),
-//! )
-//! .unwrap();
-//! assert_eq!(
-//!     found
-//!         .solutions
-//!         .iter()
-//!         .map(|s| s.decimal(17))
-//!         .collect::<Vec<_>>(),
-//!     ["2", "3"]
-//! );
-//! assert!(found.is_complete_list());
-//! ```
+//! The parts are crates: `mceip_exact` numbers, `mceip_model` problems and files, `mceip_check`,
+//! `mceip_oracle` the plain enumerator, `mceip_mcp` the solver, `mceip_engine` searches,
+//! `mceip_paper` the paper's examples, `mceip_testkit` what compares them all. Whoever needs their
+//! insides uses them directly.
 
-pub use mceip_check as check;
-pub use mceip_check::certificate;
+mod front;
+
+pub use front::*;
+pub use mceip_check::certificate::Certificate;
+pub use mceip_check::{Accepted, AcceptedClaim, OpenRegion, Reason, Rejected, SolutionFamily};
 #[cfg(feature = "solver")]
-pub use mceip_engine::{
-    analysis, candidate, certify, foreign, lcp, multistart, reduction, report, run, search,
-    tolerance,
-};
-pub use mceip_exact as exact;
+pub use mceip_engine::analysis::{self, Analysis};
 #[cfg(feature = "solver")]
-pub use mceip_mcp::{linear, mcp, solver, sparse};
-pub use mceip_model as model;
-#[cfg(not(feature = "solver"))]
-pub use mceip_model::reduction;
-pub use mceip_oracle as oracle;
-#[cfg(feature = "solver")]
-pub use mceip_paper as source;
-#[cfg(feature = "testkit")]
-pub use mceip_testkit as testkit;
-#[cfg(feature = "testkit")]
-pub use mceip_testkit::conform;
+pub use mceip_engine::run::{Cancel, Progress};
+pub use mceip_exact::{Interval, Rational};
+pub use mceip_model::{ContactState, ModelError, Particle, Unknown, Window};
 
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
 #[cfg(feature = "picture")]
+#[doc(hidden)]
 pub mod picture;

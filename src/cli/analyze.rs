@@ -5,9 +5,9 @@ mod page;
 use super::common::{CliError, exit, load, positive, print, require_threads};
 use super::job::Job;
 use super::output::Output;
-use crate::analysis::{Analysis, AnalysisError, Options, analyse};
-use crate::model::Body;
-use crate::model::file::write_problem;
+use mceip_engine::analysis::{Analysis, AnalysisError, Options, analyse};
+use mceip_model::Body;
+use mceip_model::file::write_problem;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `analyze`.

@@ -8,11 +8,11 @@ pub(super) mod scale;
 use super::common::{CliError, exit, print};
 use super::job::Job;
 use super::output::Output;
-use crate::model::file::write_problem;
-use crate::report::Table;
-use crate::run::{Progress, Watch};
-use crate::source::{Block, MassKind, PublishedState};
-use crate::testkit::{BlockReport, block_state};
+use mceip_engine::report::Table;
+use mceip_engine::run::{Progress, Watch};
+use mceip_model::file::write_problem;
+use mceip_paper::{Block, MassKind, PublishedState};
+use mceip_testkit::{BlockReport, block_state};
 use serde_json::{Value, json};
 use std::path::PathBuf;
 

@@ -5,10 +5,10 @@ mod summary;
 use super::common::{CliError, exit, print, require_threads, text};
 use super::job::interrupt;
 use super::output::Output;
-use crate::testkit::campaign::{
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+use mceip_testkit::campaign::{
     Campaign, Event, FAMILIES, Limit, Replay, State, UnknownFamily, judge, standard,
 };
-use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 

@@ -3,16 +3,16 @@
 use super::common::{CliError, exit, load, print, text};
 use super::job::Job;
 use super::output::Output;
-use crate::candidate::Candidate;
-use crate::certificate::{Certificate, Claim};
-use crate::certify::{Certifier, NotCertified, certificate, lifted, sift};
-use crate::exact::{Interval, Rational, enclosing_decimals, parse};
-use crate::foreign::{ForeignError, ForeignReport};
-use crate::model::{Body, Pencil, Problem, System, Unknown};
-use crate::multistart::same;
-use crate::reduction::reduce;
-use crate::search::complete::{CompleteError, Completed};
-use crate::search::near::{Near, near};
+use mceip_check::certificate::{Certificate, Claim};
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{Certifier, NotCertified, certificate, lifted, sift};
+use mceip_engine::foreign::{ForeignError, ForeignReport};
+use mceip_engine::multistart::same;
+use mceip_engine::reduction::reduce;
+use mceip_engine::search::complete::{CompleteError, Completed};
+use mceip_engine::search::near::{Near, near};
+use mceip_exact::{Interval, Rational, enclosing_decimals, parse};
+use mceip_model::{Body, Pencil, Problem, System, Unknown};
 use num_traits::Signed;
 use std::path::PathBuf;
 

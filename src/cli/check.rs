@@ -4,16 +4,16 @@ pub(super) mod plain;
 
 use super::common::{CliError, exit, load, parse_window, print, text};
 use super::complete::solutions_text;
-use crate::candidate::SOLUTIONS_FORMAT;
-use crate::certificate::{CERTIFICATE_FORMAT, Certificate};
-use crate::check::{Accepted, AcceptedClaim, Place, check};
-use crate::exact::{enclosing_decimals, parse, to_f64};
-use crate::foreign::{Effort, ForeignError, ForeignReport, Verdict, judge};
-use crate::lcp::MCP_FORMAT;
-use crate::model::file::require_format;
-use crate::model::{Problem, Window};
-use crate::reduction::reduce;
-use crate::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALUE_RADIUS};
+use mceip_check::certificate::{CERTIFICATE_FORMAT, Certificate};
+use mceip_check::{Accepted, AcceptedClaim, Place, check};
+use mceip_engine::candidate::SOLUTIONS_FORMAT;
+use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, Verdict, judge};
+use mceip_engine::lcp::MCP_FORMAT;
+use mceip_engine::reduction::reduce;
+use mceip_engine::tolerance::{AGREEMENT, AGREEMENT_RANGE, FINEST_AGREEMENT, VALUE_RADIUS};
+use mceip_exact::{enclosing_decimals, parse, to_f64};
+use mceip_model::file::require_format;
+use mceip_model::{Problem, Window};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `check`.
@@ -140,7 +140,7 @@ fn say_accepted(
         out += &claim_text(problem, claim, place);
     }
     let window = &certificate.window;
-    let within = window_text(window);
+    let within = window;
     let smaller = smaller_text(window, problem.window());
     let digest = problem.sha256();
 
@@ -180,8 +180,7 @@ fn say_accepted(
     if let Some(demanded) = missed {
         out += &format!(
             "REJECTED: window: expected one that covers {}, got {}\n",
-            window_text(demanded),
-            window_text(window)
+            demanded, window
         );
     }
     print(&out)?;
@@ -210,23 +209,12 @@ fn claim_text(problem: &Problem, claim: &AcceptedClaim, place: Option<Place>) ->
     }
 }
 
-/// `[0, 10]` or `[0, infinity)`.
-fn window_text(window: &Window) -> String {
-    match window.max() {
-        Some(max) => format!("[{}, {max}]", window.min()),
-        None => format!("[{}, infinity)", window.min()),
-    }
-}
-
 /// Says that the certificate speaks of a part of the problem's window only.
 fn smaller_text(certified: &Window, wanted: &Window) -> String {
     if certified.covers(wanted) {
         return String::new();
     }
-    format!(
-        "; NOT the whole window {} of the problem",
-        window_text(wanted)
-    )
+    format!("; NOT the whole window {} of the problem", wanted)
 }
 
 /// One line per solution of a foreign report; the exit code is that of the worst.

@@ -1,12 +1,12 @@
 //! What subcommands share: reading problems, whole-or-nothing output, windows, interrupts,
 //! progress.
 
-use crate::exact::parse;
-use crate::model::file::{read_from, read_problem, read_problem_file, read_text};
-use crate::model::{ModelError, Problem, Window};
-use crate::multistart::SearchError;
-use crate::oracle::OracleError;
-use crate::testkit::BlockError;
+use mceip_engine::multistart::SearchError;
+use mceip_exact::parse;
+use mceip_model::file::{read_from, read_problem, read_problem_file, read_text};
+use mceip_model::{ModelError, Problem, Window};
+use mceip_oracle::OracleError;
+use mceip_testkit::BlockError;
 use std::io::Write as _;
 use std::path::Path;
 use std::sync::OnceLock;
@@ -41,7 +41,7 @@ pub(super) enum CliError {
         /// Its path.
         path: String,
         /// What is wrong with it.
-        source: crate::lcp::FileError,
+        source: mceip_engine::lcp::FileError,
     },
     /// A problem built from options.
     #[error(transparent)]
@@ -54,17 +54,17 @@ pub(super) enum CliError {
     Search(#[from] SearchError),
     /// The complete search refuses.
     #[error(transparent)]
-    Complete(#[from] crate::search::complete::CompleteError),
+    Complete(#[from] mceip_engine::search::complete::CompleteError),
     /// A system is not analysed.
     #[error(transparent)]
-    Analysis(#[from] crate::analysis::AnalysisError),
+    Analysis(#[from] mceip_engine::analysis::AnalysisError),
     /// A table of contact states.
     #[error("{path}: {source}")]
     Contacts {
         /// Its path.
         path: String,
         /// What is wrong with it.
-        source: crate::source::ContactsError,
+        source: mceip_paper::ContactsError,
     },
     /// A file of CalculiX.
     #[error("{path}: {source}")]
@@ -72,7 +72,7 @@ pub(super) enum CliError {
         /// Its path.
         path: String,
         /// What is wrong with it.
-        source: crate::source::calculix::CalculixError,
+        source: mceip_paper::calculix::CalculixError,
     },
     /// A certificate among several.
     #[error("{path}: {source}")]
@@ -80,34 +80,34 @@ pub(super) enum CliError {
         /// Its path.
         path: String,
         /// What is wrong with it.
-        source: crate::search::complete::CompleteError,
+        source: mceip_engine::search::complete::CompleteError,
     },
     /// The block was not treated.
     #[error("{0}")]
     Block(#[from] BlockError),
     /// A model of the block was refused.
     #[error("{0}")]
-    Source(#[from] crate::source::SourceError),
+    Source(#[from] mceip_paper::SourceError),
     /// A loading path was not followed.
     #[error("{0}")]
-    Path(#[from] crate::source::path::PathError),
+    Path(#[from] mceip_paper::path::PathError),
     /// Levels of lambda^2 were refused.
     #[error(transparent)]
-    Level(#[from] crate::search::levels::LevelError),
+    Level(#[from] mceip_engine::search::levels::LevelError),
     /// A picture was not drawn.
     #[cfg(feature = "png")]
     #[error(transparent)]
     Png(#[from] crate::picture::PngError),
     /// A family that does not exist, or one named twice.
     #[error("--family: {0} (each once)")]
-    Family(#[from] crate::testkit::campaign::UnknownFamily),
+    Family(#[from] mceip_testkit::campaign::UnknownFamily),
     /// The state of a campaign.
     #[error("{path}: {source}")]
     State {
         /// Its path.
         path: String,
         /// What is wrong with it.
-        source: crate::testkit::campaign::StateError,
+        source: mceip_testkit::campaign::StateError,
     },
     /// A replay file.
     #[error("{path}: {source}")]
@@ -115,11 +115,11 @@ pub(super) enum CliError {
         /// Its path.
         path: String,
         /// What is wrong with it.
-        source: crate::testkit::campaign::ReplayError,
+        source: mceip_testkit::campaign::ReplayError,
     },
     /// The condensation was refused.
     #[error("{0}")]
-    Condensation(#[from] crate::reduction::CondensationError),
+    Condensation(#[from] mceip_engine::reduction::CondensationError),
     /// A block that is not condensed in doubles.
     #[error("{0}")]
     Scale(#[from] super::block::scale::ScaleError),
@@ -155,14 +155,14 @@ pub(super) enum CliError {
         /// Its path.
         path: String,
         /// What is wrong with it.
-        source: crate::foreign::ForeignError,
+        source: mceip_engine::foreign::ForeignError,
     },
     /// The conformance run, or its pack.
     #[error(transparent)]
-    Conform(#[from] crate::conform::ConformError),
+    Conform(#[from] mceip_testkit::conform::ConformError),
     /// A solution of a report does not fit the problem.
     #[error(transparent)]
-    BadPoint(#[from] crate::foreign::BadPoint),
+    BadPoint(#[from] mceip_engine::foreign::BadPoint),
 }
 
 impl CliError {
@@ -261,7 +261,7 @@ pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
 pub(super) fn positive(
     option: &'static str,
     given: &str,
-) -> Result<crate::exact::Rational, CliError> {
+) -> Result<mceip_exact::Rational, CliError> {
     use num_traits::Signed as _;
     let bad = || CliError::Option {
         option,

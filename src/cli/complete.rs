@@ -4,15 +4,15 @@ use super::common::{CliError, exit, load, print, require_threads, text};
 use super::infinity::{AtInfinity, Files};
 use super::job::Job;
 use super::output::Output;
-use crate::certificate::Certificate;
-use crate::certify::Certifier;
-use crate::check::{AcceptedCover, OpenRegion, SolutionFamily};
-use crate::exact::enclosing_decimals;
-use crate::model::Problem;
-use crate::reduction::reduce;
-use crate::report::{Claimed, Listed, Report, solutions_json};
-use crate::run::Watch;
-use crate::search::complete::{Completed, Options, Shard, complete, resume};
+use mceip_check::certificate::Certificate;
+use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
+use mceip_engine::certify::Certifier;
+use mceip_engine::reduction::reduce;
+use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Completed, Options, Shard, complete, resume};
+use mceip_exact::enclosing_decimals;
+use mceip_model::Problem;
 use std::path::PathBuf;
 
 /// Arguments of `complete`.
@@ -171,10 +171,6 @@ pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String
             cover.families.len() - OPEN_SHOWN
         );
     }
-    let window = problem.window();
-    let max = window
-        .max()
-        .map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
     let n = cover.solutions.len();
     let mut count = if n == 1 {
         "1 solution".into()
@@ -184,7 +180,7 @@ pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String
     if !cover.families.is_empty() {
         count += &format!(" and {} families of them", cover.families.len());
     }
-    let within = format!("in [{}, {max}", window.min());
+    let within = format!("in {}", problem.window());
     if cover.open.is_empty() {
         let what = if n == 0 && cover.families.is_empty() {
             format!("COMPLETE: no solution {within}")

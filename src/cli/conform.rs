@@ -3,7 +3,7 @@
 use super::common::{CliError, exit, print};
 use super::job::Job;
 use super::output::Output;
-use crate::conform::{Flag, Limits, Plan, groups, pack_files, read_pack, run, summarise};
+use mceip_testkit::conform::{Flag, Limits, Plan, groups, pack_files, read_pack, run, summarise};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -87,7 +87,7 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     })
 }
 
-fn plan(args: &Args, groups: Vec<crate::conform::Group>) -> Result<Plan, CliError> {
+fn plan(args: &Args, groups: Vec<mceip_testkit::conform::Group>) -> Result<Plan, CliError> {
     let limit = Duration::try_from_secs_f64(args.time_limit)
         .ok()
         .filter(|d| !d.is_zero());

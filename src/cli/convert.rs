@@ -2,11 +2,11 @@
 
 use super::common::{CliError, exit, positive, print, text};
 use super::output::Output;
-use crate::exact::Sparse;
-use crate::model::file::{read_matrix_market, read_particles, write_problem};
-use crate::model::{Body, Problem, System, Unknown, Window};
-use crate::source::calculix::{CalculixError, read_dofs, read_triangle};
-use crate::source::read_contacts;
+use mceip_exact::Sparse;
+use mceip_model::file::{read_matrix_market, read_particles, write_problem};
+use mceip_model::{Body, Problem, System, Unknown, Window};
+use mceip_paper::calculix::{CalculixError, read_dofs, read_triangle};
+use mceip_paper::read_contacts;
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 

@@ -2,11 +2,11 @@
 
 use super::common::{CliError, exit, load, print};
 use super::job::Job;
-use crate::model::Problem;
-use crate::oracle::{Enumeration, enumerate_with};
-use crate::reduction::{Reduced, reduce};
-use crate::report::{Claimed, Listed, Report, solutions_json, solutions_text};
-use crate::run::Progress;
+use mceip_engine::reduction::{Reduced, reduce};
+use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
+use mceip_engine::run::Progress;
+use mceip_model::Problem;
+use mceip_oracle::{Enumeration, enumerate_with};
 use std::path::PathBuf;
 
 /// Arguments of `enumerate`.

@@ -3,13 +3,13 @@
 
 use super::common::CliError;
 use super::output::Output;
-use crate::exact::Rational;
-use crate::model::file::write_problem;
-use crate::model::{Problem, Window};
-use crate::reduction::reversed;
-use crate::report::Claimed;
-use crate::run::Watch;
-use crate::search::complete::{CompleteError, Completed, Options, complete};
+use mceip_engine::reduction::reversed;
+use mceip_engine::report::Claimed;
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{CompleteError, Completed, Options, complete};
+use mceip_exact::Rational;
+use mceip_model::file::write_problem;
+use mceip_model::{Problem, Window};
 use num_traits::Zero;
 use serde_json::json;
 use std::path::{Path, PathBuf};

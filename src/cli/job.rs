@@ -1,8 +1,8 @@
 //! The run of a subcommand as its user meets it: one line on the terminal, and Ctrl-C.
 
 use super::common::exit;
-use crate::run::{Cancel, Progress, Watch};
 use indicatif::ProgressBar;
+use mceip_engine::run::{Cancel, Progress, Watch};
 use std::ops::ControlFlow;
 use std::time::Duration;
 

@@ -4,11 +4,11 @@
 use super::common::{CliError, exit, load, print};
 use super::complete::{read, report_json, solutions_text};
 use super::output::Output;
-use crate::certificate::Certificate;
-use crate::check::check;
-use crate::model::Problem;
-use crate::run::{Cancel, Watch};
-use crate::search::complete::{CompleteError, Options, merge, resume};
+use mceip_check::certificate::Certificate;
+use mceip_check::check;
+use mceip_engine::run::{Cancel, Watch};
+use mceip_engine::search::complete::{CompleteError, Options, merge, resume};
+use mceip_model::Problem;
 use std::path::{Path, PathBuf};
 
 /// Arguments of `merge`.

@@ -1,9 +1,9 @@
 //! `mceip reduce`: the pencil of a mechanical system as a problem file.
 
 use super::common::{CliError, exit, load, print};
-use crate::model::file::write_problem;
-use crate::model::{Admissible, Body, Problem};
-use crate::reduction::{Variable, condense, reduce};
+use mceip_engine::reduction::{Variable, condense, reduce};
+use mceip_model::file::write_problem;
+use mceip_model::{Admissible, Body, Problem};
 use std::path::PathBuf;
 
 /// Arguments of `reduce`.
@@ -39,7 +39,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
                 let terms: Vec<String> = tangent
                     .iter()
                     .map(|(dof, c)| {
-                        format!("{} v[{dof}]", -c * crate::exact::whole(i64::from(*sign)))
+                        format!("{} v[{dof}]", -c * mceip_exact::whole(i64::from(*sign)))
                     })
                     .collect();
                 terms.join(" + ")

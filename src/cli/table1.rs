@@ -2,14 +2,14 @@
 
 use super::common::{CliError, exit, print};
 use super::output::Output;
-use crate::exact::{Rational, parse};
-use crate::model::{Body, Problem, Unknown, Window};
-use crate::multistart::Search;
-use crate::oracle::TwoParticles;
 use crate::picture::table1_picture;
-use crate::report::{Listed, Table};
-use crate::source::two_particles;
-use crate::testkit::{Instance, compare};
+use mceip_engine::multistart::Search;
+use mceip_engine::report::{Listed, Table};
+use mceip_exact::{Rational, parse};
+use mceip_model::{Body, Problem, Unknown, Window};
+use mceip_oracle::TwoParticles;
+use mceip_paper::two_particles;
+use mceip_testkit::{Instance, compare};
 use num_traits::{One, Signed};
 use std::path::{Path, PathBuf};
 
@@ -100,8 +100,8 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             Unknown::Lambda2,
             Window::all(),
         )?;
-        let reduced = crate::reduction::reduce(&problem)?;
-        let found = crate::oracle::enumerate(&reduced.pencil, problem.window())?;
+        let reduced = mceip_engine::reduction::reduce(&problem)?;
+        let found = mceip_oracle::enumerate(&reduced.pencil, problem.window())?;
         let instance = Instance {
             label: format!("{signs:?}"),
             problem: problem.clone(),

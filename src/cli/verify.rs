@@ -2,9 +2,9 @@
 
 use super::common::{CliError, exit, print};
 use super::job::Job;
-use crate::report::Table;
-use crate::testkit::floors::{Covered, floor};
-use crate::testkit::{FamilyReport, Verification, verify};
+use mceip_engine::report::Table;
+use mceip_testkit::floors::{Covered, floor};
+use mceip_testkit::{FamilyReport, Verification, verify};
 use serde_json::{Value, json};
 
 /// Arguments of `verify`.
@@ -197,7 +197,7 @@ pub(super) fn covered_json(c: &Covered) -> Value {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::testkit::floors::{Coverage, Starts};
+    use mceip_testkit::floors::{Coverage, Starts};
 
     fn with(first: u64, all: u64) -> Verification {
         let coverage = [(

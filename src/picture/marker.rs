@@ -1,7 +1,7 @@
 //! Contact states as markers that differ in shape and in shade: legible in black and white.
 
 use super::markup::{Element, short};
-use crate::model::ContactState;
+use mceip_model::ContactState;
 
 /// What a contact node does, as drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]

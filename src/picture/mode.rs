@@ -4,8 +4,8 @@
 use super::chart::{line, text};
 use super::markup::{Element, short};
 use super::{Mark, Picture, legend};
-use crate::exact::to_f64;
-use crate::source::Triangulation;
+use mceip_exact::to_f64;
+use mceip_paper::Triangulation;
 use std::collections::BTreeSet;
 
 /// What is drawn: a mesh, how it moves, and the marks of its contact nodes.

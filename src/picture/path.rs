@@ -4,8 +4,8 @@ use super::chart::{Axis, Chart, TEXT, dot, line, text};
 use super::markup::Element;
 use super::scale::Spread;
 use super::{Mark, Picture, legend};
-use crate::exact::to_f64;
-use crate::source::path::LoadingPath;
+use mceip_exact::to_f64;
+use mceip_paper::path::LoadingPath;
 
 const WIDTH: f64 = 860.0;
 /// Left and right ends of both charts.

@@ -4,8 +4,8 @@ use super::Picture;
 use super::chart::{Axis, Chart, line, text};
 use super::markup::{Element, short};
 use super::scale::Spread;
-use crate::exact::{Quadratic, Rational, from_f64, rational, to_f64, whole};
-use crate::oracle::{TwoParticles, table1, thresholds};
+use mceip_exact::{Quadratic, Rational, from_f64, rational, to_f64, whole};
+use mceip_oracle::{TwoParticles, table1, thresholds};
 use num_traits::One;
 
 /// Friction shown.
@@ -23,7 +23,7 @@ const NOTES: [&str; 4] = [
 ];
 
 /// The chart, all four sign patterns; boundaries and counts come from the closed forms of
-/// [`crate::oracle`], evaluated exactly (k and m play no part in them).
+/// [`mceip_oracle`], evaluated exactly (k and m play no part in them).
 pub fn table1_picture() -> Picture {
     let mut picture = Picture::new(
         "Two particles of Fig. 1: number of solutions of MCEIP-\u{3bb}\u{b2}",

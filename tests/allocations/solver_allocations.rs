@@ -3,10 +3,10 @@
 
 use crate::families::{random_case, table1_cases};
 use allocation_counter::measure;
-use mceip::mcp::{LinearMcp, Mcp};
-use mceip::model::Admissible;
-use mceip::reduction::{Embedding, Side};
-use mceip::solver::{Options, Solver, StepKind, Termination, solve};
+use mceip_engine::reduction::{Embedding, Side};
+use mceip_mcp::mcp::{LinearMcp, Mcp};
+use mceip_mcp::solver::{Options, Solver, StepKind, Termination, solve};
+use mceip_model::Admissible;
 use nalgebra::DMatrix;
 
 /// Runs twice; allocations of the second run. A run that fails looks at the zeros of its Jacobian

@@ -2,9 +2,9 @@
 #![cfg(feature = "solver")]
 
 use allocation_counter::measure;
-use mceip::mcp::LinearMcp;
-use mceip::solver::{Options, PathEnd, Pivot, Residuals, Termination, solve_linear};
-use mceip::sparse::{CondensedMcp, SparseLinearMcp};
+use mceip_mcp::mcp::LinearMcp;
+use mceip_mcp::solver::{Options, PathEnd, Pivot, Residuals, Termination, solve_linear};
+use mceip_mcp::sparse::{CondensedMcp, SparseLinearMcp};
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -2,11 +2,11 @@
 //! on purpose, seen to be reported, shrunk, written and replayed.
 #![cfg(feature = "testkit")]
 
-use mceip::model::{Body, Pencil, Window};
-use mceip::oracle::{Enumeration, enumerate};
-use mceip::run::Cancel;
-use mceip::testkit::Corner;
-use mceip::testkit::campaign::{
+use mceip_engine::run::Cancel;
+use mceip_model::{Body, Pencil, Window};
+use mceip_oracle::{Enumeration, enumerate};
+use mceip_testkit::Corner;
+use mceip_testkit::campaign::{
     Campaign, Case, Engine, Enumerator, Event, FAMILIES, Finding, Id, Limit, Replay, State, case,
     judge, smaller, standard,
 };
@@ -205,7 +205,7 @@ fn shrinking_goes_to_the_smallest_instance() {
             .find(|c| !judge(c, &engines).findings.is_empty())
             .unwrap();
         let finding: Finding = judge(&drawn, &engines).findings.remove(0);
-        let (small, says) = mceip::testkit::campaign::shrink(&drawn, &finding, &engines);
+        let (small, says) = mceip_testkit::campaign::shrink(&drawn, &finding, &engines);
         assert_eq!(says.kind(), finding.kind());
         assert_eq!(judge(&small, &engines).findings, [says]);
         match (small.instance.problem.body(), drawn.instance.problem.body()) {
@@ -255,7 +255,7 @@ fn wrong_answers_known_by_construction_and_panics_are_disagreements() {
         .find(|c| c.expected.planted.is_some())
         .unwrap();
     assert!(judge(&planted, &standard(1)).findings.is_empty());
-    planted.expected.planted.as_mut().unwrap().0 += mceip::exact::rational(1, 1_000_000_007);
+    planted.expected.planted.as_mut().unwrap().0 += mceip_exact::rational(1, 1_000_000_007);
     assert_eq!(
         judge(&planted, &standard(1)).findings[0].kind(),
         ("known answer", "known-answer")

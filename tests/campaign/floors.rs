@@ -5,21 +5,21 @@
 //! --nocapture floors::`
 #![cfg(feature = "testkit")]
 
-use mceip::model::{Admissible, Problem, Unknown};
-use mceip::multistart::{Found, Search, multistart};
-use mceip::reduction::{condense, reduce};
-use mceip::run::{Cancel, Watch};
-use mceip::solver::SolverError;
-use mceip::source::{Block, MassKind, PublishedState};
-use mceip::testkit::campaign::{
+use mceip_engine::multistart::{Found, Search, multistart};
+use mceip_engine::reduction::{condense, reduce};
+use mceip_engine::run::{Cancel, Watch};
+use mceip_mcp::solver::SolverError;
+use mceip_model::{Admissible, Problem, Unknown};
+use mceip_paper::{Block, MassKind, PublishedState};
+use mceip_testkit::campaign::{
     Campaign, Engine, FAMILIES, Id, Limit, Pipeline, State, case, treatment,
 };
-use mceip::testkit::floors::{Coverage, Starts, shortfalls};
-use mceip::testkit::targets::{self, Counter, fuzz_treatment};
-use mceip::testkit::{
+use mceip_testkit::floors::{Coverage, Starts, shortfalls};
+use mceip_testkit::targets::{self, Counter, fuzz_treatment};
+use mceip_testkit::{
     BLOCK_STARTS, Instance, Solver, Treatment, Verification, coverage_of, degenerate, mechanical,
 };
-use mceip::testkit::{path_coverage, random_pencils, table1_grid, verify_family};
+use mceip_testkit::{path_coverage, random_pencils, table1_grid, verify_family};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;

@@ -1,8 +1,8 @@
 //! Replays the fuzz corpus and the regressions on stable, without a fuzzer.
 #![cfg(feature = "testkit")]
 
-use mceip::testkit::floors::Starts;
-use mceip::testkit::targets::{self, Counter, TARGETS};
+use mceip_testkit::floors::Starts;
+use mceip_testkit::targets::{self, Counter, TARGETS};
 use std::path::{Path, PathBuf};
 
 fn fuzz() -> PathBuf {

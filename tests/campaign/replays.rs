@@ -2,7 +2,7 @@
 //! `spec/decisions.md`.
 #![cfg(feature = "testkit")]
 
-use mceip::testkit::campaign::{Replay, judge, standard};
+use mceip_testkit::campaign::{Replay, judge, standard};
 use std::path::Path;
 
 #[test]

@@ -1,10 +1,10 @@
 //! The verification run as a test: a smaller one than `mceip verify`, the same code.
 #![cfg(feature = "testkit")]
 
-use mceip::multistart::Search;
-use mceip::run::{Cancel, Watch};
-use mceip::testkit::floors::{Starts, floor};
-use mceip::testkit::{
+use mceip_engine::multistart::Search;
+use mceip_engine::run::{Cancel, Watch};
+use mceip_testkit::floors::{Starts, floor};
+use mceip_testkit::{
     BLOCK_STARTS, Corner, Treatment, degenerate, random_pencils, verify, verify_family,
 };
 use std::collections::BTreeSet;

@@ -3,15 +3,15 @@
 //! asserts a ratio only.
 #![cfg(feature = "testkit")]
 
-use mceip::candidate::Candidate;
-use mceip::certificate::{Certificate, Claim};
-use mceip::certify::{certificate, propose};
-use mceip::check::check;
-use mceip::model::Problem;
-use mceip::run::Watch;
-use mceip::search::complete::{Options, complete};
-use mceip::source::{Block, BlockModel, MassKind, PublishedState};
-use mceip::testkit::{block_state, mechanical_pencil};
+use mceip_check::certificate::{Certificate, Claim};
+use mceip_check::check;
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{certificate, propose};
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_model::Problem;
+use mceip_paper::{Block, BlockModel, MassKind, PublishedState};
+use mceip_testkit::{block_state, mechanical_pencil};
 use std::time::{Duration, Instant};
 
 /// The best of a few runs.
@@ -27,12 +27,12 @@ fn time(problem: &Problem, certificate: &Certificate) -> Duration {
 /// A solution with the largest support that a random dense pencil of order n has.
 fn exact(n: usize) -> (Problem, Certificate) {
     for seed in 1.. {
-        let problem = mechanical_pencil(n, mceip::model::Unknown::Mu, seed).unwrap();
+        let problem = mechanical_pencil(n, mceip_model::Unknown::Mu, seed).unwrap();
         let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
-        let pencil = mceip::reduction::reduce(&problem).unwrap().pencil;
+        let pencil = mceip_engine::reduction::reduce(&problem).unwrap().pencil;
         for (s, x) in found.solutions().filter(|(s, _)| 2 * s.support.len() >= n) {
             let candidate = Candidate {
-                value: mceip::exact::to_f64(&s.value.mid()),
+                value: mceip_exact::to_f64(&s.value.mid()),
                 x: x.to_vec(),
             };
             if let Ok(Claim::ExactSolution(c)) = propose(&pencil, problem.window(), &candidate) {

@@ -1,10 +1,12 @@
 //! The checker: one acceptance and, for each obligation, a certificate that breaks just that one.
 
-use mceip::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution};
-use mceip::check::{Reason, check};
-use mceip::exact::{Integer, Rational, Sparse, parse, rational, whole};
-use mceip::model::file::Number;
-use mceip::model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
+use mceip_check::certificate::{
+    Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution,
+};
+use mceip_check::{Reason, check};
+use mceip_exact::{Integer, Rational, Sparse, parse, rational, whole};
+use mceip_model::file::Number;
+use mceip_model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
 
 fn sparse(rows: &[&[&str]]) -> Sparse {
     let entries = rows.iter().enumerate().flat_map(|(i, r)| {

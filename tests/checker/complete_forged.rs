@@ -3,13 +3,13 @@
 #![cfg(feature = "testkit")]
 
 use crate::cover::{condensed, disagreements, fold, plain, proved, set, trees, truth};
-use mceip::certificate::{Certificate, Node, RootOutcome};
-use mceip::check::{CoverFault, Reason, Rejected, audit, check};
-use mceip::exact::{Integer, rational, whole};
-use mceip::model::file::Number;
-use mceip::model::{Problem, Unknown, Window};
-use mceip::reduction::reduce;
-use mceip::testkit::{degenerate, known, mechanical_pencil};
+use mceip_check::certificate::{Certificate, Node, RootOutcome};
+use mceip_check::{CoverFault, Reason, Rejected, audit, check};
+use mceip_engine::reduction::reduce;
+use mceip_exact::{Integer, rational, whole};
+use mceip_model::file::Number;
+use mceip_model::{Problem, Unknown, Window};
+use mceip_testkit::{degenerate, known, mechanical_pencil};
 
 /// Piece and position of the first node that fits.
 #[track_caller]
@@ -279,7 +279,7 @@ fn false_farkas_and_definite_leaves_are_rejected() {
 fn false_root_leaves_are_rejected() {
     let (problem, certificate) = plain();
     let (p, k) = first(&certificate, is_root(|o| *o == RootOutcome::Solution));
-    let forge = |change: &dyn Fn(&mut mceip::certificate::Root),
+    let forge = |change: &dyn Fn(&mut mceip_check::certificate::Root),
                  expected: &dyn Fn(&CoverFault) -> bool| {
         let change = |c: &mut Certificate| match &mut set(c).pieces[p].tree[k] {
             Node::Root(root) => change(root),
@@ -502,7 +502,7 @@ fn the_claim_of_another_solution_is_rejected() {
 #[test]
 fn a_false_condensation_is_rejected() {
     let (problem, certificate) = condensed();
-    fn of(c: &mut Certificate) -> &mut mceip::certificate::Condensation {
+    fn of(c: &mut Certificate) -> &mut mceip_check::certificate::Condensation {
         set(c).condensation.as_mut().unwrap()
     }
     let no = |forge: &dyn Fn(&mut Certificate), expected: &dyn Fn(&CoverFault) -> bool| {

@@ -2,14 +2,14 @@
 #![cfg(feature = "testkit")]
 
 use crate::cover::{disagreements, family_disagreements, truth};
-use mceip::certificate::{Anchor, Certificate, CompleteSet, Node, RootOutcome};
-use mceip::check::check;
-use mceip::exact::{Integer, rational, whole};
-use mceip::model::file::Number;
-use mceip::model::{Body, Problem, Unknown, Window};
-use mceip::run::Watch;
-use mceip::search::complete::{Options, complete};
-use mceip::testkit::generators::tails::{Mass, tails};
+use mceip_check::certificate::{Anchor, Certificate, CompleteSet, Node, RootOutcome};
+use mceip_check::check;
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_exact::{Integer, rational, whole};
+use mceip_model::file::Number;
+use mceip_model::{Body, Problem, Unknown, Window};
+use mceip_testkit::generators::tails::{Mass, tails};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

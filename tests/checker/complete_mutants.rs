@@ -3,11 +3,11 @@
 #![cfg(feature = "testkit")]
 
 use crate::cover::{condensed, disagreements, fold, proved, set, trees, truth};
-use mceip::certificate::{Certificate, Exact, Node, Polynomials, RootOutcome, Support};
-use mceip::check::{Reason, Rejected, check};
-use mceip::exact::{Integer, rational};
-use mceip::model::{Unknown, Window};
-use mceip::testkit::{known, mechanical_pencil};
+use mceip_check::certificate::{Certificate, Exact, Node, Polynomials, RootOutcome, Support};
+use mceip_check::{Reason, Rejected, check};
+use mceip_exact::{Integer, rational};
+use mceip_model::{Unknown, Window};
+use mceip_testkit::{known, mechanical_pencil};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

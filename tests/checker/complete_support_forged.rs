@@ -3,11 +3,13 @@
 #![cfg(feature = "testkit")]
 
 use crate::cover::{disagreements, family_disagreements, proved, set, trees, truth};
-use mceip::certificate::{Alone, Certificate, Exact, Member, Node, Point, Polynomials, Support};
-use mceip::check::{CoverFault, Reason, Rejected, check};
-use mceip::exact::{Integer, Sparse, rational, whole};
-use mceip::model::file::Number;
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_check::certificate::{
+    Alone, Certificate, Exact, Member, Node, Point, Polynomials, Support,
+};
+use mceip_check::{CoverFault, Reason, Rejected, check};
+use mceip_exact::{Integer, Sparse, rational, whole};
+use mceip_model::file::Number;
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 
 fn problem(a: &[&[i64]], b: &[&[i64]]) -> Problem {
     let pencil = Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), vec![]).unwrap();

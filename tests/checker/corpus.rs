@@ -28,10 +28,10 @@ mod corpus_mcp;
 mod corpus_support;
 
 use corpus_cases::Cases;
-use mceip::certificate::Certificate;
-use mceip::check::check;
-use mceip::lcp;
-use mceip::model::file::read_problem;
+use mceip_check::certificate::Certificate;
+use mceip_check::check;
+use mceip_engine::lcp;
+use mceip_model::file::read_problem;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 use std::process::Command;

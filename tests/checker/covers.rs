@@ -2,14 +2,14 @@
 //! they say, a leaf that refers to a claim refers to the right one. Small covers by hand, each
 //! beside its forgery.
 
-use mceip::certificate::{
+use mceip_check::certificate::{
     Certificate, Claim, CompleteSet, Condensation, ExactSolution, Factor, Node, Piece, Root,
     RootOutcome, Tail,
 };
-use mceip::check::{AcceptedCover, CoverFault, Reason, check};
-use mceip::exact::{Integer, Sparse, parse, whole};
-use mceip::model::file::Number;
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_check::{AcceptedCover, CoverFault, Reason, check};
+use mceip_exact::{Integer, Sparse, parse, whole};
+use mceip_model::file::Number;
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 
 fn number(v: &str) -> Number {
     Number(parse(v).unwrap())

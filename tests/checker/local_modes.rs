@@ -2,15 +2,15 @@
 //! `solve` calls certified is accepted by the checker, and the complete set closes.
 #![cfg(feature = "testkit")]
 
-use mceip::certificate::{Certificate, Claim};
-use mceip::certify::{certificate, sift};
-use mceip::check::check;
-use mceip::exact::{Sparse, parse, rational, whole};
-use mceip::model::{Admissible, Body, Pencil, Problem, Unknown, Window};
-use mceip::multistart::{Search, multistart};
-use mceip::reduction::reduce;
-use mceip::run::Watch;
-use mceip::search::complete::{Options, complete};
+use mceip_check::certificate::{Certificate, Claim};
+use mceip_check::check;
+use mceip_engine::certify::{certificate, sift};
+use mceip_engine::multistart::{Search, multistart};
+use mceip_engine::reduction::reduce;
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_exact::{Sparse, parse, rational, whole};
+use mceip_model::{Admissible, Body, Pencil, Problem, Unknown, Window};
 use num_traits::Signed;
 
 /// Free variables of the chain: more than exact claims are made for.
@@ -39,7 +39,7 @@ fn chain(end: i64) -> Problem {
     Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap()
 }
 
-fn found(problem: &Problem) -> mceip::multistart::Found {
+fn found(problem: &Problem) -> mceip_engine::multistart::Found {
     let pencil = reduce(problem).unwrap().pencil;
     let admissible = Admissible::new(&pencil, problem.unknown()).unwrap();
     multistart(
@@ -54,7 +54,7 @@ fn found(problem: &Problem) -> mceip::multistart::Found {
     .unwrap()
 }
 
-fn enclosed(claim: &Claim) -> mceip::certificate::EnclosedSolution {
+fn enclosed(claim: &Claim) -> mceip_check::certificate::EnclosedSolution {
     let Claim::EnclosedSolution(claim) = claim else {
         panic!("an enclosed claim: {claim:?}")
     };
@@ -128,10 +128,10 @@ fn a_component_that_doubles_see_is_not_repaired() {
         .unwrap();
         let mut x = vec![0.0; n + 1];
         x[0] = 1.0;
-        mceip::certify::propose(
+        mceip_engine::certify::propose(
             &pencil,
             &Window::all(),
-            &mceip::candidate::Candidate { value: 1.0, x },
+            &mceip_engine::candidate::Candidate { value: 1.0, x },
         )
     };
     assert_eq!(enclosed(&certified("-1e-20").unwrap()).support, [0, 18]);

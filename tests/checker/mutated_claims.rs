@@ -2,18 +2,20 @@
 //! is true.
 #![cfg(feature = "testkit")]
 
-use mceip::candidate::Candidate;
-use mceip::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution};
-use mceip::certify::{certificate, flattened, lifted, propose};
-use mceip::check::check;
-use mceip::exact::{
+use mceip_check::certificate::{
+    Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution,
+};
+use mceip_check::check;
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{certificate, flattened, lifted, propose};
+use mceip_engine::reduction::{Reduced, lift, reduce};
+use mceip_exact::{
     Algebraic, Integer, Interval, Poly, Sign, Sparse, common_denominator, rational, roots_in, whole,
 };
-use mceip::model::file::Number;
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
-use mceip::oracle::{Enumeration, enumerate, is_solution};
-use mceip::reduction::{Reduced, lift, reduce};
-use mceip::testkit::{degenerate, mechanical, mutate, random_pencils};
+use mceip_model::file::Number;
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_oracle::{Enumeration, enumerate, is_solution};
+use mceip_testkit::{degenerate, mechanical, mutate, random_pencils};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::cmp::Ordering;

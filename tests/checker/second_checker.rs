@@ -3,8 +3,8 @@
 //! and passes.
 #![cfg(feature = "cli")]
 
-use mceip::check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
-use mceip::exact::{Interval, whole};
+use mceip_check::{AcceptedClaim, AcceptedCover, OpenRegion, SolutionFamily};
+use mceip_exact::{Interval, whole};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -8,18 +8,18 @@
 #![cfg(feature = "testkit")]
 
 use crate::witnessed::Case;
-use mceip::candidate::Candidate;
-use mceip::certificate::{Certificate, Claim};
-use mceip::certify::{certificate, certify, lifted};
-use mceip::check::{Accepted, AcceptedClaim, check};
-use mceip::exact::{Algebraic, Sparse, rational};
-use mceip::model::file::{read_problem, write_problem};
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
-use mceip::oracle::{Enumeration, enumerate};
-use mceip::reduction::reduce;
-use mceip::run::Watch;
-use mceip::search::complete::{Options, complete};
-use mceip::testkit::{known, mechanical_pencil, random_pencils};
+use mceip_check::certificate::{Certificate, Claim};
+use mceip_check::{Accepted, AcceptedClaim, check};
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{certificate, certify, lifted};
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_exact::{Algebraic, Sparse, rational};
+use mceip_model::file::{read_problem, write_problem};
+use mceip_model::reduction::reduce;
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_oracle::{Enumeration, enumerate};
+use mceip_testkit::{known, mechanical_pencil, random_pencils};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use serde_json::Value;

@@ -5,10 +5,10 @@
 //!
 //!     cargo test --test checker -- --ignored verdicts::write_the_verdicts
 
-use mceip::certificate::Certificate;
-use mceip::check::{audit, check};
-use mceip::model::Problem;
-use mceip::model::file::read_problem;
+use mceip_check::certificate::Certificate;
+use mceip_check::{audit, check};
+use mceip_model::Problem;
+use mceip_model::file::read_problem;
 use serde_json::Value;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};

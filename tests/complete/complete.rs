@@ -2,9 +2,9 @@
 //! can be.
 #![cfg(feature = "testkit")]
 
-use mceip::oracle::enumerate;
-use mceip::reduction::reduce;
-use mceip::testkit::{Instance, compare_complete, degenerate, random_pencils, table1_grid};
+use mceip_engine::reduction::reduce;
+use mceip_oracle::enumerate;
+use mceip_testkit::{Instance, compare_complete, degenerate, random_pencils, table1_grid};
 
 /// Labels of the instances that stay undecided; a disagreement with the oracle fails the test.
 fn undecided(instances: Vec<Instance>) -> Vec<String> {

@@ -1,15 +1,15 @@
 //! The paper's block, closed: complete sets of its states, from K and M to the accepted claim.
 #![cfg(feature = "testkit")]
 
-use mceip::analysis::conditions::excluded_at;
-use mceip::exact::{parse, to_f64};
-use mceip::model::{Body, ContactState, Problem, Unknown, Window};
-use mceip::oracle::enumerate;
-use mceip::reduction::{mu_family, reduce};
-use mceip::run::Watch;
-use mceip::search::complete::{Completed, Options, complete};
-use mceip::source::path::{Contact, Loading, LoadingPath};
-use mceip::source::{Block, BlockModel, MassKind, PublishedState};
+use mceip_engine::analysis::conditions::excluded_at;
+use mceip_engine::reduction::{mu_family, reduce};
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Completed, Options, complete};
+use mceip_exact::{parse, to_f64};
+use mceip_model::{Body, ContactState, Problem, Unknown, Window};
+use mceip_oracle::enumerate;
+use mceip_paper::path::{Contact, Loading, LoadingPath};
+use mceip_paper::{Block, BlockModel, MassKind, PublishedState};
 use std::ops::ControlFlow;
 use std::time::Instant;
 

@@ -4,11 +4,11 @@
 #![cfg(all(feature = "testkit", feature = "picture"))]
 
 use crate::cost::{CSV, HEAD, Run, SVG, picture, read};
-use mceip::check::check;
-use mceip::reduction::reduce;
-use mceip::run::Watch;
-use mceip::search::complete::{Options, complete};
-use mceip::testkit::refined_block;
+use mceip_check::check;
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_model::reduction::reduce;
+use mceip_testkit::refined_block;
 
 #[test]
 fn the_figure_is_that_of_the_table() {

@@ -3,10 +3,10 @@
 #![cfg(feature = "testkit")]
 
 use crate::cover::{disagreements, truth};
-use mceip::exact::{Integer, Rational, Sparse, rational, whole};
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
-use mceip::run::Watch;
-use mceip::search::complete::{Completed, Options, complete, resume};
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Completed, Options, complete, resume};
+use mceip_exact::{Integer, Rational, Sparse, rational, whole};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 

@@ -4,13 +4,13 @@
 #![cfg(feature = "testkit")]
 
 use crate::cover::{disagreements, family_disagreements, truth};
-use mceip::exact::{Rational, rational};
-use mceip::model::{Body, Problem, Unknown};
-use mceip::run::Watch;
-use mceip::search::complete::{Options, complete};
-use mceip::testkit::generators::raw::{digits, doubled, elements, graph, zeros};
-use mceip::testkit::generators::window;
-use mceip::testkit::{degenerate, known, mechanical, random_pencils, table1_grid};
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_exact::{Rational, rational};
+use mceip_model::{Body, Problem, Unknown};
+use mceip_testkit::generators::raw::{digits, doubled, elements, graph, zeros};
+use mceip_testkit::generators::window;
+use mceip_testkit::{degenerate, known, mechanical, random_pencils, table1_grid};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
@@ -92,7 +92,7 @@ fn cases(general: usize, special: usize, seed: u64) -> Vec<Case> {
 /// Families of the testkit: particles, closed forms, hand-made corners.
 fn from_the_testkit(count: usize) -> Vec<Case> {
     let mut out = Vec::new();
-    let mut add = |family, is_degenerate, list: Vec<mceip::testkit::Instance>| {
+    let mut add = |family, is_degenerate, list: Vec<mceip_testkit::Instance>| {
         out.extend(list.into_iter().map(|i| Case {
             family,
             is_degenerate,

@@ -4,12 +4,12 @@
 #![cfg(feature = "testkit")]
 
 use crate::cover::{disagreements, family_disagreements, truth};
-use mceip::certificate::{Node, RootOutcome};
-use mceip::exact::{Sparse, whole};
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
-use mceip::run::Watch;
-use mceip::search::complete::{Completed, Options, complete};
-use mceip::testkit::generators::tails::{Mass, tails};
+use mceip_check::certificate::{Node, RootOutcome};
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Completed, Options, complete};
+use mceip_exact::{Sparse, whole};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_testkit::generators::tails::{Mass, tails};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;

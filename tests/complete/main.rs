@@ -1,4 +1,4 @@
-//! Complete sets: `mceip::search::complete` against the enumerator.
+//! Complete sets: `mceip_engine::search::complete` against the enumerator.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
 #[cfg(all(feature = "testkit", feature = "picture"))]

@@ -2,8 +2,8 @@
 //! truth.
 #![allow(dead_code, missing_docs, unreachable_pub, clippy::unwrap_used)]
 
-use mceip::exact::{Sparse, from_f64};
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_exact::{Sparse, from_f64};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

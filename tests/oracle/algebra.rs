@@ -1,6 +1,6 @@
 //! quickcheck on the algebra of `exact`: ring laws, gcd, Sturm counts, signs of algebraic numbers.
 
-use mceip::exact::{
+use mceip_exact::{
     Algebraic, Field, Integer, Interval, Poly, Quadratic, Rational, Sign, Sparse, from_f64,
     nonnegative_roots, parse, positive_definite, primes, roots_in, to_f64, whole,
 };

@@ -1,12 +1,12 @@
 //! The plain enumerator against answers in closed form: complete lists, cones included.
 #![cfg(feature = "testkit")]
 
-use mceip::exact::{Algebraic, Poly, Rational, parse, rational, whole};
-use mceip::model::{Admissible, Body, Problem};
-use mceip::oracle::{Enumeration, enumerate, is_rational_solution};
-use mceip::reduction::reduce;
-use mceip::testkit::known::{Known, complete_graph, cycle, diagonal, jordan, path, star, z_matrix};
-use mceip::testkit::pareto::{pareto_matrices, planted};
+use mceip_engine::reduction::reduce;
+use mceip_exact::{Algebraic, Poly, Rational, parse, rational, whole};
+use mceip_model::{Admissible, Body, Problem};
+use mceip_oracle::{Enumeration, enumerate, is_rational_solution};
+use mceip_testkit::known::{Known, complete_graph, cycle, diagonal, jordan, path, star, z_matrix};
+use mceip_testkit::pareto::{pareto_matrices, planted};
 
 fn solve(problem: &Problem) -> Enumeration {
     enumerate(&reduce(problem).unwrap().pencil, problem.window()).unwrap()
@@ -171,7 +171,7 @@ fn planted_solutions_are_found() {
             "seed {seed}"
         );
         assert!(is_rational_solution(&pencil, &p.value, &p.x), "seed {seed}");
-        let clear = mceip::exact::common_denominator(&p.x);
+        let clear = mceip_exact::common_denominator(&p.x);
         let x: Vec<Poly> =
             p.x.iter()
                 .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))

@@ -1,9 +1,9 @@
 //! Degenerate cases worked by hand: cones, ranges of values of singular supports, free-only
 //! solutions.
 
-use mceip::exact::{Algebraic, Poly, Sparse, nonnegative_roots, rational, to_decimal, whole};
-use mceip::model::{Pencil, Window};
-use mceip::oracle::{
+use mceip_exact::{Algebraic, Poly, Sparse, nonnegative_roots, rational, to_decimal, whole};
+use mceip_model::{Pencil, Window};
+use mceip_oracle::{
     Cone, End, Enumeration, SupportRange, enumerate, is_rational_solution, is_solution,
 };
 
@@ -20,7 +20,7 @@ fn all(p: &Pencil) -> Enumeration {
 /// "[1, 2)" and the like, five digits.
 fn intervals(r: &SupportRange) -> Vec<String> {
     let number = |e: &End| to_decimal(&mut e.value.clone(), &Poly::from_ints(&[0, 1]), 5);
-    let text = |p: &mceip::oracle::Piece| {
+    let text = |p: &mceip_oracle::Piece| {
         let from = format!(
             "{}{}",
             if p.from.included { "[" } else { "(" },

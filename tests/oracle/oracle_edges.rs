@@ -2,9 +2,9 @@
 //! answers are equal, and what is said of answers that are not complete. Made by hand, so that each
 //! line fails for one reason only.
 
-use mceip::exact::{Algebraic, Poly, Rational, Sparse, parse, rational, whole};
-use mceip::model::{Pencil, Window};
-use mceip::oracle::{
+use mceip_exact::{Algebraic, Poly, Rational, Sparse, parse, rational, whole};
+use mceip_model::{Pencil, Window};
+use mceip_oracle::{
     Cone, End, Enumeration, MAX_FREE, MAX_SLIP, OracleError, Piece, Solution, SupportRange,
     WideKernel, enumerate, enumerate_with, examine_support, is_rational_solution, is_solution,
 };
@@ -511,7 +511,7 @@ fn a_complete_list_is_finished_and_described() {
     let p = zero();
     let complete = enumerate(&p, &Window::all()).unwrap();
     assert!(complete.is_complete_list() && !complete.continua.is_empty());
-    let undescribed = || mceip::oracle::Undescribed {
+    let undescribed = || mceip_oracle::Undescribed {
         support: vec![0],
         minors: 9000,
         limit: 4096,

@@ -1,11 +1,11 @@
 //! What `enumerate` prints and writes where the answer is more than a list; decimals of any length.
 #![cfg(feature = "solver")]
 
-use mceip::exact::{Integer, Poly, Rational, Sparse, nonnegative_roots, parse, to_decimal};
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
-use mceip::oracle::enumerate;
-use mceip::reduction::reduce;
-use mceip::report::{Claimed, Listed, Report, solutions_json, solutions_text};
+use mceip_engine::reduction::reduce;
+use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
+use mceip_exact::{Integer, Poly, Rational, Sparse, nonnegative_roots, parse, to_decimal};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_oracle::enumerate;
 use serde_json::{Value, json};
 
 /// JSON and text for a pencil.

@@ -1,8 +1,8 @@
 //! Files around a problem: read from where they lie, and told from what they are not.
 
-use mceip::exact::Integer;
-use mceip::model::file::{read_matrix_market, read_problem, read_problem_file, read_text};
-use mceip::model::{Body, ModelError, Unknown};
+use mceip_exact::Integer;
+use mceip_model::file::{read_matrix_market, read_problem, read_problem_file, read_text};
+use mceip_model::{Body, ModelError, Unknown};
 use std::path::Path;
 
 const MARKET: &str = "%%MatrixMarket matrix array real symmetric\n3 3\n11\n21\n31\n22\n32\n33\n";
@@ -51,7 +51,7 @@ fn a_symmetric_array_lists_its_lower_triangle_by_columns() {
     for i in 0..3usize {
         for j in 0..3usize {
             let (row, column) = (i.max(j) as i64 + 1, i.min(j) as i64 + 1);
-            assert_eq!(m.get(i, j), mceip::exact::whole(10 * row + column));
+            assert_eq!(m.get(i, j), mceip_exact::whole(10 * row + column));
         }
     }
 }

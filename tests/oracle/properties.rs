@@ -1,10 +1,10 @@
 //! Laws of the problem on structured random pencils: scaling, permutation, shift, window, round
 //! trips.
 
-use mceip::exact::{Sparse, rational, whole};
-use mceip::model::file::{read_problem, write_problem};
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
-use mceip::oracle::{Enumeration, enumerate};
+use mceip_exact::{Sparse, rational, whole};
+use mceip_model::file::{read_problem, write_problem};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_oracle::{Enumeration, enumerate};
 use proptest::prelude::*;
 use std::path::Path;
 

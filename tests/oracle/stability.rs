@@ -2,14 +2,14 @@
 //! symmetric parts, changes of scale, mass, coordinates and numbering. Decided exactly.
 #![cfg(feature = "testkit")]
 
-use mceip::exact::{
+use mceip_engine::reduction::{mu_family, reduce};
+use mceip_exact::{
     Algebraic, Poly, Rational, Sparse, common_denominator, determinant, positive_definite,
     rational, roots_in, whole,
 };
-use mceip::model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
-use mceip::oracle::{Enumeration, Solution, enumerate, is_rational_solution};
-use mceip::reduction::{mu_family, reduce};
-use mceip::testkit::generators::{Seed, gram, permuted, raw, sparse, states, with_scaled_rows};
+use mceip_model::{Body, Particle, Pencil, Problem, System, Unknown, Window};
+use mceip_oracle::{Enumeration, Solution, enumerate, is_rational_solution};
+use mceip_testkit::generators::{Seed, gram, permuted, raw, sparse, states, with_scaled_rows};
 use proptest::prelude::*;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -44,7 +44,7 @@ fn times(a: &Rational, value: &Algebraic) -> Algebraic {
     let (lo, hi) = (value.interval().lo() * a, value.interval().hi() * a);
     Algebraic::from_claim(
         Poly::from_rationals(&scaled),
-        mceip::exact::Interval::new(lo, hi).unwrap(),
+        mceip_exact::Interval::new(lo, hi).unwrap(),
     )
 }
 

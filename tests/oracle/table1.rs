@@ -1,13 +1,13 @@
 //! Table 1: closed form = enumerator = what the solver finds, certified and accepted.
 #![cfg(feature = "testkit")]
 
-use mceip::exact::{Poly, Sign, rational, whole};
-use mceip::model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
-use mceip::multistart::Search;
-use mceip::oracle::{TwoParticles, enumerate, table1, thresholds};
-use mceip::reduction::reduce;
-use mceip::source::{pythagorean_angles, two_particles};
-use mceip::testkit::{compare, table1_grid};
+use mceip_engine::multistart::Search;
+use mceip_engine::reduction::reduce;
+use mceip_exact::{Poly, Sign, rational, whole};
+use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
+use mceip_oracle::{TwoParticles, enumerate, table1, thresholds};
+use mceip_paper::{pythagorean_angles, two_particles};
+use mceip_testkit::{compare, table1_grid};
 
 const SIGNS: [(i8, i8); 4] = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
 
@@ -147,7 +147,7 @@ fn modelling_up_or_down_or_oblique_is_the_same() {
     // Normal dofs mirrored: rows and columns 1 and 3 of K change sign, and normal_direction says
     // so.
     let flip = |i: usize| whole(if i % 2 == 1 { -1 } else { 1 });
-    let mirrored = mceip::exact::Sparse::from_entries(
+    let mirrored = mceip_exact::Sparse::from_entries(
         4,
         4,
         plain
@@ -174,7 +174,7 @@ fn modelling_up_or_down_or_oblique_is_the_same() {
     // Both particles in axes turned by (3/5, 4/5): K' = Q' K Q with (T, N) = frame (first, second).
     let (a, b) = (rational(3, 5), rational(4, 5));
     let frame = [[a.clone(), b.clone()], [-b, a]];
-    let q = mceip::exact::Sparse::from_entries(
+    let q = mceip_exact::Sparse::from_entries(
         4,
         4,
         (0..2)
@@ -193,7 +193,7 @@ fn modelling_up_or_down_or_oblique_is_the_same() {
                 )))
         })
         .collect();
-    let turned = mceip::exact::Sparse::from_entries(
+    let turned = mceip_exact::Sparse::from_entries(
         4,
         4,
         (0..16).map(|k| (k % 4, k / 4, columns[k / 4][k % 4].clone())),

@@ -6,9 +6,9 @@ use crate::third::poly::P;
 use crate::third::{Ray, Third, at, same_ray};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use mceip::exact::{Algebraic, Poly, Rational, Sparse, rational};
-use mceip::model::{Pencil, Window};
-use mceip::oracle::{Enumeration, Solution, enumerate};
+use mceip_exact::{Algebraic, Poly, Rational, Sparse, rational};
+use mceip_model::{Pencil, Window};
+use mceip_oracle::{Enumeration, Solution, enumerate};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -189,8 +189,8 @@ fn compare_at(
     (solutions.len(), cones.len())
 }
 
-fn holds(r: &mceip::oracle::SupportRange, alpha: &mut Alpha) -> bool {
-    let mut side = |end: &mceip::oracle::End| {
+fn holds(r: &mceip_oracle::SupportRange, alpha: &mut Alpha) -> bool {
+    let mut side = |end: &mceip_oracle::End| {
         let (p, lo, hi) = (
             polynomial(end.value.poly()),
             number(end.value.interval().lo()),

@@ -2,9 +2,11 @@
 //! friction 1/5, so that every number has a denominator. By hand.
 #![cfg(feature = "solver")]
 
-use mceip::exact::{Algebraic, Poly, Rational, Sparse, rational, whole};
-use mceip::model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
-use mceip::reduction::{Lifted, Line, Projected, check_lines, condense, lift, project, reduce};
+use mceip_engine::reduction::{
+    Lifted, Line, Projected, check_lines, condense, lift, project, reduce,
+};
+use mceip_exact::{Algebraic, Poly, Rational, Sparse, rational, whole};
+use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 
 /// Dof 0 is free; the particle slips on (1, 2) with sign S.
 fn system(sign: i8) -> System {
@@ -41,7 +43,7 @@ fn problem(sign: i8, unknown: Unknown) -> Problem {
     Problem::new(Body::System(system(sign)), unknown, Window::all()).unwrap()
 }
 
-fn at(p: &Poly, t: i64, scale: &mceip::exact::Integer) -> Rational {
+fn at(p: &Poly, t: i64, scale: &mceip_exact::Integer) -> Rational {
     p.eval(&whole(t)) / Rational::from_integer(scale.clone())
 }
 
@@ -166,8 +168,8 @@ fn a_projection_takes_the_tangential_part_off() {
 fn one_slip_variable_is_condensed() {
     let a = Sparse::from_ints(&[&[4, 2], &[2, 5]]);
     let b = Sparse::from_ints(&[&[0, 0], &[6, 7]]);
-    let pencil = mceip::model::Pencil::new(a, b, vec![0]).unwrap();
-    let small = condense(&mceip::model::Admissible::new(&pencil, Unknown::Mu).unwrap()).unwrap();
+    let pencil = mceip_model::Pencil::new(a, b, vec![0]).unwrap();
+    let small = condense(&mceip_model::Admissible::new(&pencil, Unknown::Mu).unwrap()).unwrap();
     assert_eq!(
         (small.a().get(0, 0), small.b().get(0, 0)),
         (whole(4), whole(4))

@@ -82,26 +82,6 @@ fn is_for_tests(path: &Path) -> bool {
         .contains("#[cfg(test)]\nmod tests;")
 }
 
-/// Rooms named anywhere in the code of a room (not in comments or doc examples): `crate::room` or
-/// the crate `mceip_room`.
-fn imports(code: &str) -> Vec<String> {
-    let mut rooms = Vec::new();
-    for line in code.lines().map(str::trim).filter(|l| !l.starts_with("//")) {
-        for before in ["crate::", "mceip_"] {
-            let mut rest = line;
-            while let Some(k) = rest.find(before) {
-                rest = &rest[k + before.len()..];
-                rooms.push(
-                    rest.chars()
-                        .take_while(|c| c.is_alphanumeric() || *c == '_')
-                        .collect(),
-                );
-            }
-        }
-    }
-    rooms
-}
-
 /// Crate, and all that its manifest may name: Cargo keeps the walls between crates.
 const MAY_DEPEND: [(&str, &[&str]); 8] = [
     (
@@ -191,7 +171,12 @@ const MAY_DEPEND: [(&str, &[&str]); 8] = [
     (
         "testkit",
         &[
+            "mceip-check",
             "mceip-engine",
+            "mceip-exact",
+            "mceip-mcp",
+            "mceip-model",
+            "mceip-oracle",
             "mceip-paper",
             "num-bigint",
             "num-traits",
@@ -264,73 +249,6 @@ fn the_elimination_is_not_used_by_what_stands_beside_it() {
     }
 }
 
-/// Room within a crate, and everything it may import besides itself.
-const MAY_IMPORT: [(&str, &[&str]); 4] = [
-    ("certificate", &["exact", "model"]),
-    ("solver", &["mcp"]),
-    ("sparse", &["mcp", "solver", "linear", "tolerance"]),
-    // check: what certify hands out has been accepted.
-    (
-        "certify",
-        &[
-            "exact",
-            "model",
-            "candidate",
-            "certificate",
-            "check",
-            "tolerance",
-            "linear",
-        ],
-    ),
-];
-
-#[test]
-fn imports_follow_the_house() {
-    for (room, allowed) in MAY_IMPORT {
-        let package = sources_of(package_of(room));
-        for (path, code) in sources(room) {
-            // One step up more than there are folders below the room is outside of it.
-            let outside = "super::".repeat(steps_to_outside(path.strip_prefix(&package).unwrap()));
-            assert!(
-                !code.contains(&outside),
-                "{} reaches out of its room",
-                path.display()
-            );
-            for import in imports(&code) {
-                assert!(
-                    import == room || allowed.contains(&import.as_str()),
-                    "{}: {room} imports {import}",
-                    path.display()
-                );
-            }
-        }
-    }
-}
-
-/// How many `super::` lead from a file of a room (relative to its `src`) out of it.
-fn steps_to_outside(file: &Path) -> usize {
-    // The room, folders, file; where that leaves one, it is an inline module's first step up.
-    let parts = file.iter().count() - usize::from(file.ends_with("mod.rs"));
-    parts.max(2)
-}
-
-#[test]
-fn a_deeper_file_may_step_further_up() {
-    let of = |path: &str| steps_to_outside(Path::new(path));
-    assert_eq!(
-        [of("solver/newton.rs"), of("solver/mod.rs"), of("solver.rs")],
-        [2, 2, 2]
-    );
-    assert_eq!(
-        [
-            of("solver/path/basis.rs"),
-            of("solver/path/mod.rs"),
-            of("solver/path/ratio/tests.rs")
-        ],
-        [3, 2, 4]
-    );
-}
-
 /// "The few parts of exact it names": numbers, polynomials, intervals; nothing that solves.
 #[test]
 fn the_checker_names_only_what_multiplies_and_compares() {
@@ -362,14 +280,6 @@ fn the_checker_names_only_what_multiplies_and_compares() {
         }
     }
     assert!(named > 5);
-}
-
-#[test]
-fn the_reader_of_imports_sees_a_breach() {
-    assert_eq!(
-        imports("use crate::solver::solve;\n// crate::oracle\nlet x = mceip_exact::whole(1);"),
-        vec!["solver", "exact"]
-    );
 }
 
 #[test]

@@ -1,11 +1,11 @@
 //! The polyurethane block: exact condensation, both published states found, certified, accepted.
 #![cfg(feature = "testkit")]
 
-use mceip::linear::solve;
-use mceip::model::ContactState;
-use mceip::run::Watch;
-use mceip::source::{Block, BlockModel, DoubleBlock, MassKind, MeshKind, Plane, PublishedState};
-use mceip::testkit::block_state;
+use mceip_engine::run::Watch;
+use mceip_mcp::linear::solve;
+use mceip_model::ContactState;
+use mceip_paper::{Block, BlockModel, DoubleBlock, MassKind, MeshKind, Plane, PublishedState};
+use mceip_testkit::block_state;
 
 #[test]
 fn published_states_are_found_certified_and_accepted() {

@@ -1,13 +1,13 @@
 //! The observations of section 5 on the block, over meshes, planes and ratios H/L.
 #![cfg(feature = "testkit")]
 
-use mceip::exact::{Rational, rational, to_f64, whole};
-use mceip::model::{Body, ContactState, Problem, Unknown, Window};
-use mceip::run::Watch;
-use mceip::search::complete::{Options, complete};
-use mceip::search::levels::Levels;
-use mceip::source::path::{Contact, Interval, Loading, LoadingPath, PathEnd};
-use mceip::source::{Block, BlockModel, MassKind, MeshKind, Plane};
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_engine::search::levels::Levels;
+use mceip_exact::{Rational, rational, to_f64, whole};
+use mceip_model::{Body, ContactState, Problem, Unknown, Window};
+use mceip_paper::path::{Contact, Interval, Loading, LoadingPath, PathEnd};
+use mceip_paper::{Block, BlockModel, MassKind, MeshKind, Plane};
 use std::ops::ControlFlow;
 use std::time::Instant;
 

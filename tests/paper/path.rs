@@ -2,13 +2,13 @@
 //! its states against the paper.
 #![cfg(feature = "solver")]
 
-use mceip::exact::{Rational, rational, to_f64, whole};
-use mceip::model::{ContactState, Particle, Reaction, System, Unknown};
-use mceip::source::path::{
+use mceip_exact::{Rational, rational, to_f64, whole};
+use mceip_model::{ContactState, Particle, Reaction, System, Unknown};
+use mceip_paper::path::{
     Bound, Comparison, Contact, Finder, Interval, Loading, LoadingPath, PathEnd, PathError,
     step_path,
 };
-use mceip::source::{Block, BlockModel, MeshKind, Plane, PublishedState};
+use mceip_paper::{Block, BlockModel, MeshKind, Plane, PublishedState};
 use std::ops::ControlFlow;
 
 fn follow(block: &Block, loading: &Loading) -> LoadingPath {
@@ -168,7 +168,7 @@ fn events_are_located_exactly() {
         assert!((0..7).all(|k| stop.reaction(k) == start.reaction(k)
             && stop.displacement(k) == start.displacement(k)));
         for bound in &pair[1].begin.causes {
-            let value = |at: &mceip::source::path::Equilibrium| {
+            let value = |at: &mceip_paper::path::Equilibrium| {
                 let ((t, n), gap) = (at.reaction(bound.node()), -at.displacement(bound.node()).1);
                 match bound {
                     Bound::Cone { sign, .. } => -&loading.friction * n - t * whole((*sign).into()),

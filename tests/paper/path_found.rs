@@ -3,14 +3,14 @@
 //! proved.
 #![cfg(feature = "testkit")]
 
-use mceip::exact::to_f64;
-use mceip::model::{Admissible, Unknown};
-use mceip::multistart::{Search, exact_value, multistart_large, support};
-use mceip::reduction::reduce;
-use mceip::run::Watch;
-use mceip::search::complete::{Options, complete};
-use mceip::source::path::{Contact, Loading, LoadingPath};
-use mceip::source::{Block, BlockModel, MassKind};
+use mceip_engine::multistart::{Search, exact_value, multistart_large, support};
+use mceip_engine::reduction::reduce;
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_exact::to_f64;
+use mceip_model::{Admissible, Unknown};
+use mceip_paper::path::{Contact, Loading, LoadingPath};
+use mceip_paper::{Block, BlockModel, MassKind};
 use std::ops::ControlFlow;
 
 /// Of all states with slip nodes: how many, how many have solutions, solutions, those found, work
@@ -43,7 +43,7 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
         let admissible = Admissible::new(&pencil, Unknown::Mu).unwrap();
         let (found, _) = multistart_large(&problem, &admissible, how, &Watch::nobody()).unwrap();
         let meets = |value: f64, slip: &[usize]| {
-            let same = |c: &&mceip::multistart::Certified| {
+            let same = |c: &&mceip_engine::multistart::Certified| {
                 support(&c.claim) == slip && (c.candidate.value - value).abs() <= 1e-6 * value
             };
             found.certified.iter().find(same)
@@ -67,7 +67,10 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
             );
             assert!(
                 exact_value(&c.claim).is_some()
-                    || matches!(c.claim, mceip::certificate::Claim::EnclosedSolution(_))
+                    || matches!(
+                        c.claim,
+                        mceip_check::certificate::Claim::EnclosedSolution(_)
+                    )
             );
         }
         // Nothing false: each claim is one of the complete set.

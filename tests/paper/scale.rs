@@ -2,16 +2,16 @@
 //! arithmetic.
 #![cfg(feature = "testkit")]
 
-use mceip::certify::{certificate, propose};
-use mceip::check::check;
-use mceip::exact::{parse, rational, to_f64};
-use mceip::linear::Symmetric;
-use mceip::model::{Admissible, Body, ContactState, Particle, Problem, Unknown, Window};
-use mceip::multistart::{CondensedFound, CondensedSearch, all_slip, search_condensed};
-use mceip::oracle::enumerate;
-use mceip::reduction::{SparseCondensation, SparseCondensationError, condense, reduce};
-use mceip::run::Watch;
-use mceip::source::{Block, BlockModel, DoubleBlock, MassKind, MeshKind, Plane, PublishedState};
+use mceip_check::check;
+use mceip_engine::certify::{certificate, propose};
+use mceip_engine::multistart::{CondensedFound, CondensedSearch, all_slip, search_condensed};
+use mceip_engine::reduction::{SparseCondensation, SparseCondensationError, condense, reduce};
+use mceip_engine::run::Watch;
+use mceip_exact::{parse, rational, to_f64};
+use mceip_mcp::linear::Symmetric;
+use mceip_model::{Admissible, Body, ContactState, Particle, Problem, Unknown, Window};
+use mceip_oracle::enumerate;
+use mceip_paper::{Block, BlockModel, DoubleBlock, MassKind, MeshKind, Plane, PublishedState};
 
 const RIGHT: ContactState = ContactState::Slip { sign: -1 };
 const LEFT: ContactState = ContactState::Slip { sign: 1 };

@@ -3,14 +3,14 @@
 #![cfg(feature = "cli")]
 
 use crate::program::{Folder, mceip, refused};
-use mceip::analysis::{Analysis, Evidence, Options, Verdict, analyse};
-use mceip::check::check;
-use mceip::exact::{Rational, Sparse, enclosing_decimals, rational, to_f64, whole};
-use mceip::model::{ContactState, Particle, System, Unknown, Window};
-use mceip::oracle::{TwoParticles, enumerate, table1, thresholds};
-use mceip::reduction::reduce;
-use mceip::run::{Cancel, Watch};
-use mceip::source::{Block, BlockModel, two_particles};
+use mceip_check::check;
+use mceip_engine::analysis::{Analysis, Evidence, Options, Verdict, analyse};
+use mceip_engine::reduction::reduce;
+use mceip_engine::run::{Cancel, Watch};
+use mceip_exact::{Rational, Sparse, enclosing_decimals, rational, to_f64, whole};
+use mceip_model::{ContactState, Particle, System, Unknown, Window};
+use mceip_oracle::{TwoParticles, enumerate, table1, thresholds};
+use mceip_paper::{Block, BlockModel, two_particles};
 use serde_json::Value;
 
 fn example(name: &str) -> String {
@@ -171,16 +171,16 @@ fn a_mode_is_a_motion_along_a_constant_direction() {
     );
     // Free dofs carry no reaction: w_f = 0 in the example with free variables.
     let problem =
-        mceip::model::file::read_problem_file(std::path::Path::new(&example("oblique.json")))
+        mceip_model::file::read_problem_file(std::path::Path::new(&example("oblique.json")))
             .unwrap();
-    let mceip::model::Body::System(system) = problem.body() else {
+    let mceip_model::Body::System(system) = problem.body() else {
         panic!("a system")
     };
     let mode = answer(system, &whole(9), 0).divergence.modes.remove(0);
     let lambda2 = mode.growth_rate * mode.growth_rate;
     for i in system.free_dofs() {
         let m = system.stiffness().add_scaled(
-            &mceip::exact::from_f64(lambda2).unwrap(),
+            &mceip_exact::from_f64(lambda2).unwrap(),
             system.mass().unwrap(),
         );
         let w: f64 = (0..6).map(|j| to_f64(&m.get(i, j)) * mode.v[j]).sum();
@@ -233,8 +233,8 @@ fn a_fold_lies_below_every_static_threshold() {
     for k in 0..60 {
         let k_t = fold().stiffness().add_scaled(&rational(k, 8), &mass);
         let system = System::new(k_t, None, None, fold().particles().to_vec()).unwrap();
-        let problem = mceip::model::Problem::new(
-            mceip::model::Body::System(system),
+        let problem = mceip_model::Problem::new(
+            mceip_model::Body::System(system),
             Unknown::Mu,
             Window::all(),
         )
@@ -296,7 +296,7 @@ fn a_small_block_with_free_variables() {
         )
         .unwrap();
         let problem =
-            mceip::model::Problem::new(mceip::model::Body::System(at), Unknown::Mu, Window::all())
+            mceip_model::Problem::new(mceip_model::Body::System(at), Unknown::Mu, Window::all())
                 .unwrap();
         let found = enumerate(&reduce(&problem).unwrap().pencil, &Window::all()).unwrap();
         met = found

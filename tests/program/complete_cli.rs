@@ -3,8 +3,8 @@
 #![cfg(feature = "cli")]
 
 use crate::program::{Folder, mceip, refused};
-use mceip::model::{Body, Unknown};
-use mceip::testkit::{known, mechanical_pencil};
+use mceip_model::{Body, Unknown};
+use mceip_testkit::{known, mechanical_pencil};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::process::Command;
@@ -38,11 +38,11 @@ impl Bench {
         self.0.write(name, text)
     }
 
-    fn pencil(&self, name: &str, problem: &mceip::model::Problem) -> String {
+    fn pencil(&self, name: &str, problem: &mceip_model::Problem) -> String {
         let Body::Pencil(pencil) = problem.body() else {
             panic!("a pencil")
         };
-        let dense = |m: &mceip::exact::Sparse| -> Vec<Vec<String>> {
+        let dense = |m: &mceip_exact::Sparse| -> Vec<Vec<String>> {
             (0..m.rows())
                 .map(|i| (0..m.cols()).map(|j| m.get(i, j).to_string()).collect())
                 .collect()

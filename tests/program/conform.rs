@@ -4,8 +4,8 @@
 #![cfg(feature = "cli")]
 
 use crate::program::{Folder, mceip, refused};
-use mceip::conform::{Bug, Case, Flag, Label, groups, pack_files};
-use mceip::foreign::{Effort, ForeignReport, Verdict, judge};
+use mceip_engine::foreign::{Effort, ForeignReport, Verdict, judge};
+use mceip_testkit::conform::{Bug, Case, Flag, Label, groups, pack_files};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 use std::collections::{BTreeMap, BTreeSet};

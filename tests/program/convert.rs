@@ -3,7 +3,7 @@
 #![cfg(feature = "cli")]
 
 use crate::program::{Folder, mceip, refused};
-use mceip::model::file::read_problem_file;
+use mceip_model::file::read_problem_file;
 use std::path::Path;
 
 const STI: &str =

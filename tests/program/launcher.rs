@@ -2,7 +2,7 @@
 //! they cover. `cargo test --test program -- --ignored launcher::` (Debian package `parallel`).
 #![cfg(feature = "cli")]
 
-use mceip::testkit::known;
+use mceip_testkit::known;
 use std::process::Command;
 
 #[test]
@@ -13,10 +13,10 @@ fn gnu_parallel_runs_the_shards_and_merge_proves_the_whole() {
     assert!(is_gnu, "install GNU parallel: apt-get install parallel");
     let folder = tempfile::tempdir().unwrap();
     let problem = known::complete_graph(9).unwrap().problem;
-    let mceip::model::Body::Pencil(pencil) = problem.body() else {
+    let mceip_model::Body::Pencil(pencil) = problem.body() else {
         panic!("a pencil")
     };
-    let dense = |m: &mceip::exact::Sparse| -> Vec<Vec<String>> {
+    let dense = |m: &mceip_exact::Sparse| -> Vec<Vec<String>> {
         (0..m.rows())
             .map(|i| (0..m.cols()).map(|j| m.get(i, j).to_string()).collect())
             .collect()

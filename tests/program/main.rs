@@ -17,6 +17,7 @@ mod complete_infinity_cli;
 mod conform;
 mod conform_adapter;
 mod convert;
+mod examples;
 mod launcher;
 mod pictures;
 mod schemas;

@@ -2,14 +2,14 @@
 //! files appear whole or not at all.
 #![cfg(feature = "cli")]
 
-use mceip::exact::to_f64;
-use mceip::model::ContactState;
 use mceip::picture::{
     BranchPoint, Branches, CostSeries, Mark, Mode, Picture, Threshold, ThresholdColumn,
     branch_picture, cost_picture, mode_picture, path_picture, table1_picture, threshold_picture,
 };
-use mceip::source::path::{Contact, Loading, LoadingPath};
-use mceip::source::{Block, BlockModel};
+use mceip_exact::to_f64;
+use mceip_model::ContactState;
+use mceip_paper::path::{Contact, Loading, LoadingPath};
+use mceip_paper::{Block, BlockModel};
 use roxmltree::{Document, Node};
 use serde_json::Value;
 use std::ops::ControlFlow;

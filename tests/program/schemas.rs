@@ -4,12 +4,12 @@
 
 use crate::program::{Folder, mceip};
 use jsonschema::Validator;
-use mceip::certificate::Certificate;
-use mceip::foreign::{BadPoint, ForeignError, ForeignReport};
-use mceip::lcp::{FileError, read_mcp, read_solution};
-use mceip::model::ModelError;
-use mceip::model::file::read_problem;
-use mceip::reduction::reduce;
+use mceip_check::certificate::Certificate;
+use mceip_engine::foreign::{BadPoint, ForeignError, ForeignReport};
+use mceip_engine::lcp::{FileError, read_mcp, read_solution};
+use mceip_engine::reduction::reduce;
+use mceip_model::ModelError;
+use mceip_model::file::read_problem;
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 

@@ -4,8 +4,8 @@
 #![cfg(all(unix, feature = "cli"))]
 
 use crate::program::mceip;
-use mceip::model::{Body, Problem, Unknown};
-use mceip::testkit::{known, mechanical_pencil};
+use mceip_model::{Body, Problem, Unknown};
+use mceip_testkit::{known, mechanical_pencil};
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
@@ -151,7 +151,7 @@ impl Cluster {
         let Body::Pencil(pencil) = problem.body() else {
             panic!("a pencil")
         };
-        let dense = |m: &mceip::exact::Sparse| -> Vec<Vec<String>> {
+        let dense = |m: &mceip_exact::Sparse| -> Vec<Vec<String>> {
             (0..m.rows())
                 .map(|i| (0..m.cols()).map(|j| m.get(i, j).to_string()).collect())
                 .collect()

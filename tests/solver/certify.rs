@@ -2,12 +2,12 @@
 //! reason.
 #![cfg(feature = "solver")]
 
-use mceip::candidate::Candidate;
-use mceip::certificate::Claim;
-use mceip::certify::{AttemptFailure, certificate, propose};
-use mceip::check::check;
-use mceip::exact::{Sparse, parse};
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_check::certificate::Claim;
+use mceip_check::check;
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{AttemptFailure, certificate, propose};
+use mceip_exact::{Sparse, parse};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use num_traits::Signed;
 
 fn pencil(a: &[&[&str]], b: &[&[&str]]) -> Pencil {

@@ -1,14 +1,14 @@
 //! Propositions 1 and 2 both ways, the Remark, and the zeta window, between oracle and embedding.
 #![cfg(feature = "testkit")]
 
-use mceip::exact::{to_f64, whole};
-use mceip::mcp::Mcp;
-use mceip::model::{Admissible, Unknown, Window};
-use mceip::multistart::{Search, multistart};
-use mceip::oracle::enumerate;
-use mceip::reduction::{Embedding, Side, reduce};
-use mceip::solver::{Options, Residuals, solve};
-use mceip::testkit::{Instance, mechanical, random_pencils};
+use mceip_engine::multistart::{Search, multistart};
+use mceip_engine::reduction::{Embedding, Side, reduce};
+use mceip_exact::{to_f64, whole};
+use mceip_mcp::mcp::Mcp;
+use mceip_mcp::solver::{Options, Residuals, solve};
+use mceip_model::{Admissible, Unknown, Window};
+use mceip_oracle::enumerate;
+use mceip_testkit::{Instance, mechanical, random_pencils};
 
 fn instances() -> Vec<Instance> {
     random_pencils(40, 11)

@@ -1,11 +1,11 @@
 //! The way back to (9): lifted solutions satisfy every line, and each line notices its own breach.
 #![cfg(feature = "testkit")]
 
-use mceip::exact::{Algebraic, Poly, Sparse, whole};
-use mceip::model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
-use mceip::oracle::enumerate;
-use mceip::reduction::{Lifted, Line, check_lines, lift, reduce};
-use mceip::testkit::mechanical;
+use mceip_engine::reduction::{Lifted, Line, check_lines, lift, reduce};
+use mceip_exact::{Algebraic, Poly, Sparse, whole};
+use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
+use mceip_oracle::enumerate;
+use mceip_testkit::mechanical;
 
 #[test]
 fn every_solution_of_random_systems_lifts() {

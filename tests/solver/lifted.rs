@@ -2,21 +2,21 @@
 //! accepted, and each line of (9) has a forgery that breaks just that line.
 #![cfg(feature = "testkit")]
 
-use mceip::candidate::Candidate;
-use mceip::certificate::{Certificate, Claim, ExactSolution, LiftedSolution};
-use mceip::certify::{certificate, flattened, lifted, propose};
-use mceip::check::{Reason, check};
-use mceip::exact::{Sparse, rational, whole};
-use mceip::model::file::Number;
-use mceip::model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
-use mceip::oracle::enumerate;
-use mceip::reduction::reduce;
-use mceip::testkit::{forgeries, mechanical};
+use mceip_check::certificate::{Certificate, Claim, ExactSolution, LiftedSolution};
+use mceip_check::{Reason, check};
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{certificate, flattened, lifted, propose};
+use mceip_engine::reduction::reduce;
+use mceip_exact::{Sparse, rational, whole};
+use mceip_model::file::Number;
+use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
+use mceip_oracle::enumerate;
+use mceip_testkit::{forgeries, mechanical};
 
 /// Exact claims for all that the enumerator lists.
 fn claims(problem: &Problem) -> Vec<ExactSolution> {
     let pencil = reduce(problem).unwrap().pencil;
-    let of = |s: &mceip::oracle::Solution| {
+    let of = |s: &mceip_oracle::Solution| {
         let x = s
             .x_decimals(&pencil.slip(), 17)
             .iter()
@@ -181,7 +181,7 @@ fn each_line_has_a_forgery() {
     line("S v_T < 0 on the support", 0, &backwards);
 }
 
-fn add(p: &mut Vec<Number>, k: usize, by: &mceip::exact::Rational) {
+fn add(p: &mut Vec<Number>, k: usize, by: &mceip_exact::Rational) {
     while p.len() <= k {
         p.push(Number(whole(0)));
     }
@@ -194,7 +194,7 @@ fn add(p: &mut Vec<Number>, k: usize, by: &mceip::exact::Rational) {
 fn friction_off_by_1e_30_breaks_complementarity() {
     let (problem, good) = example();
     let s = system(&problem);
-    let mu = s.friction().unwrap() + mceip::exact::parse("1e-30").unwrap();
+    let mu = s.friction().unwrap() + mceip_exact::parse("1e-30").unwrap();
     let other = System::new(
         s.stiffness().clone(),
         s.mass().cloned(),

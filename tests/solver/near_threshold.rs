@@ -5,17 +5,17 @@
 //! among its solutions.
 #![cfg(feature = "solver")]
 
-use mceip::candidate::Candidate;
-use mceip::certify::{certificate, propose};
-use mceip::check::check;
-use mceip::exact::{Rational, Sparse, from_f64, parse, to_f64, whole};
-use mceip::model::{Admissible, Body, Pencil, Problem, Unknown, Window};
-use mceip::multistart::{Found, Search, multistart};
-use mceip::oracle::{TwoParticles, enumerate, table1};
-use mceip::reduction::reduce;
-use mceip::run::Watch;
-use mceip::search::near::{Near, near};
-use mceip::source::{pythagorean_angles, two_particles};
+use mceip_check::check;
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{certificate, propose};
+use mceip_engine::multistart::{Found, Search, multistart};
+use mceip_engine::run::Watch;
+use mceip_engine::search::near::{Near, near};
+use mceip_exact::{Rational, Sparse, from_f64, parse, to_f64, whole};
+use mceip_model::reduction::reduce;
+use mceip_model::{Admissible, Body, Pencil, Problem, Unknown, Window};
+use mceip_oracle::{TwoParticles, enumerate, table1};
+use mceip_paper::{pythagorean_angles, two_particles};
 
 const GAPS: [&str; 13] = [
     "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-12", "1e-13",
@@ -169,7 +169,7 @@ fn searched(problem: &Problem) -> (Found, usize) {
         let accepted = check(problem, &certificate(problem, claims))
             .unwrap()
             .claims;
-        let is_true = |c: &mceip::check::AcceptedClaim| {
+        let is_true = |c: &mceip_check::AcceptedClaim| {
             truth.iter().any(|s| {
                 s.slip == c.support
                     && s.value.interval().hi() >= c.value.lo()

@@ -3,14 +3,14 @@
 #![cfg(feature = "testkit")]
 
 use crate::families::{Case, random_case, table1_cases};
-use mceip::mcp::{LinearMcp, Mcp};
-use mceip::model::{Admissible, Window};
-use mceip::multistart::{Search, multistart, support};
-use mceip::oracle::enumerate;
-use mceip::reduction::{Embedding, Side};
-use mceip::solver::{
+use mceip_engine::multistart::{Search, multistart, support};
+use mceip_engine::reduction::{Embedding, Side};
+use mceip_mcp::mcp::{LinearMcp, Mcp};
+use mceip_mcp::solver::{
     CurveEnd, Options, Sense, StepKind, continuation, continuation_through, solve, solve_linear,
 };
+use mceip_model::{Admissible, Window};
+use mceip_oracle::enumerate;
 use nalgebra::DMatrix;
 
 /// A smooth MCP in one or more unknowns z >= 0, the Jacobian by hand.
@@ -326,7 +326,7 @@ fn the_pocket_of_the_first_start_is_left() {
 }
 
 /// Ten fresh starts within the work of so many runs, and its work.
-fn searched(case: &Case, budget: Option<usize>) -> (mceip::multistart::Found, usize) {
+fn searched(case: &Case, budget: Option<usize>) -> (mceip_engine::multistart::Found, usize) {
     let admissible = Admissible::new(&case.pencil, case.unknown).unwrap();
     let search = Search {
         starts: 10,
@@ -401,8 +401,8 @@ fn dear_curves_make_room_for_runs() {
 #[test]
 fn a_curve_through_a_solution_leads_to_others() {
     // The fold of spec/errata.md: lambda^2 = 2 and 3 with the same support.
-    use mceip::exact::Sparse;
-    use mceip::model::{Pencil, Unknown};
+    use mceip_exact::Sparse;
+    use mceip_model::{Pencil, Unknown};
     let pencil = Pencil::new(
         Sparse::from_ints(&[&[1, -6], &[2, -6]]),
         Sparse::identity(2),

@@ -1,8 +1,8 @@
 //! Inputs that make no sense, and functions that return what they should not: reasons, no panics.
 #![cfg(feature = "solver")]
 
-use mceip::mcp::{LinearMcp, Mcp};
-use mceip::solver::{
+use mceip_mcp::mcp::{LinearMcp, Mcp};
+use mceip_mcp::solver::{
     NonFinite, Options, SolverError, Termination, multistart, solve, solve_linear,
 };
 use nalgebra::{DMatrix, dmatrix};

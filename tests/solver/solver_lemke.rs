@@ -2,8 +2,8 @@
 #![cfg(feature = "solver")]
 
 use crate::support::{definite, normal, normal_matrix};
-use mceip::mcp::LinearMcp;
-use mceip::solver::{Options, Outcome, PathEnd, Start, Termination, solve, solve_linear};
+use mceip_mcp::mcp::LinearMcp;
+use mceip_mcp::solver::{Options, Outcome, PathEnd, Start, Termination, solve, solve_linear};
 use nalgebra::{DMatrix, DVector};
 use proptest::prelude::*;
 use rand::{RngExt, SeedableRng};

@@ -2,7 +2,7 @@
 #![cfg(feature = "solver")]
 
 use crate::support::*;
-use mceip::solver::{Options, PathEnd, PathRecord, Start, multistart, solve};
+use mceip_mcp::solver::{Options, PathEnd, PathRecord, Start, multistart, solve};
 use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 

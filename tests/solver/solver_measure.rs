@@ -4,11 +4,11 @@
 #![cfg(feature = "testkit")]
 
 use crate::families::*;
-use mceip::model::{Admissible, Window};
-use mceip::multistart::{Found, Search, multistart, same, support};
-use mceip::oracle::enumerate;
-use mceip::reduction::{Embedding, Side};
-use mceip::solver::{Options, solve};
+use mceip_engine::multistart::{Found, Search, multistart, same, support};
+use mceip_engine::reduction::{Embedding, Side};
+use mceip_mcp::solver::{Options, solve};
+use mceip_model::{Admissible, Window};
+use mceip_oracle::enumerate;
 
 #[derive(Default)]
 struct Tally {
@@ -25,8 +25,8 @@ struct Tally {
     runs: usize,
     first_us: Vec<f64>,
     missed_first: Vec<String>,
-    curves: std::collections::BTreeMap<mceip::solver::CurveEnd, usize>,
-    origins: std::collections::BTreeMap<mceip::multistart::Origin, usize>,
+    curves: std::collections::BTreeMap<mceip_mcp::solver::CurveEnd, usize>,
+    origins: std::collections::BTreeMap<mceip_engine::multistart::Origin, usize>,
 }
 
 impl Tally {
@@ -56,7 +56,7 @@ impl Tally {
         for (end, count) in &found.curves {
             *self.curves.entry(*end).or_default() += count;
         }
-        let missed = |s: &&mceip::oracle::Solution| {
+        let missed = |s: &&mceip_oracle::Solution| {
             !found.certified.iter().any(|c| support(&c.claim) == s.slip)
         };
         if let Some(s) = truth.solutions.iter().find(missed) {
@@ -72,8 +72,8 @@ impl Tally {
         }
     }
 
-    fn count(&mut self, found: &Found, truth: &[mceip::oracle::Solution]) {
-        let matches = |s: &mceip::oracle::Solution| {
+    fn count(&mut self, found: &Found, truth: &[mceip_oracle::Solution]) {
+        let matches = |s: &mceip_oracle::Solution| {
             let value: f64 = s.decimal(17).parse().unwrap();
             let near = |c: &f64| (c - value).abs() <= 1e-6 * (1.0 + value);
             found

@@ -1,8 +1,10 @@
 //! The paths themselves: full from t = 0 to 1, complementary exchanges, the ray where it is needed.
 #![cfg(feature = "solver")]
 
-use mceip::mcp::LinearMcp;
-use mceip::solver::{Options, Outcome, PathEnd, PathRecord, Start, Termination, Variable, solve};
+use mceip_mcp::mcp::LinearMcp;
+use mceip_mcp::solver::{
+    Options, Outcome, PathEnd, PathRecord, Start, Termination, Variable, solve,
+};
 use nalgebra::{DMatrix, dmatrix};
 
 const INF: f64 = f64::INFINITY;

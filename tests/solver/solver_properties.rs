@@ -4,18 +4,18 @@
 //! (coverage, `crates/testkit/src/floors.rs`).
 #![cfg(feature = "testkit")]
 
-use mceip::certify::certificate;
-use mceip::check::check;
-use mceip::exact::{Rational, Sparse, rational, whole};
-use mceip::model::{
+use mceip_check::check;
+use mceip_engine::certify::certificate;
+use mceip_engine::multistart::Search;
+use mceip_engine::reduction::reduce;
+use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::{
     Admissible, Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window,
 };
-use mceip::multistart::Search;
-use mceip::oracle::{TwoParticles, table1};
-use mceip::reduction::reduce;
-use mceip::source::two_particles;
-use mceip::testkit::floors::{Coverage, Starts, shortfalls};
-use mceip::testkit::{Instance, Treatment, coverage_of, from_interior};
+use mceip_oracle::{TwoParticles, table1};
+use mceip_paper::two_particles;
+use mceip_testkit::floors::{Coverage, Starts, shortfalls};
+use mceip_testkit::{Instance, Treatment, coverage_of, from_interior};
 use proptest::prelude::*;
 use proptest::test_runner::{Config, RngAlgorithm, TestCaseError, TestError, TestRng, TestRunner};
 use quickcheck::{Arbitrary, Gen, QuickCheck};

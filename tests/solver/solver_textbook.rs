@@ -1,8 +1,8 @@
 //! Problems of the literature with known answers, and the special cases on which LCP codes fail.
 #![cfg(feature = "solver")]
 
-use mceip::mcp::{LinearMcp, Mcp};
-use mceip::solver::{
+use mceip_mcp::mcp::{LinearMcp, Mcp};
+use mceip_mcp::solver::{
     Options, Outcome, PathEnd, PivotKind, RatioTest, Termination, multistart, solve, solve_linear,
 };
 use nalgebra::{DMatrix, dmatrix};

@@ -3,8 +3,8 @@
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;
-use mceip::certificate::{Certificate, Claim, ExactSolution, Node, RootOutcome};
-use mceip::model::file::write_problem;
+use mceip_check::certificate::{Certificate, Claim, ExactSolution, Node, RootOutcome};
+use mceip_model::file::write_problem;
 use serde_json::{Value, json};
 
 const AROUND: (&str, &str) = ("31/16", "33/16");

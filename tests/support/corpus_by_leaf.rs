@@ -3,10 +3,12 @@
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;
-use mceip::certificate::{Alone, Certificate, Exact, Member, Node, Point, Polynomials, Support};
-use mceip::exact::Integer;
-use mceip::model::Problem;
-use mceip::model::file::write_problem;
+use mceip_check::certificate::{
+    Alone, Certificate, Exact, Member, Node, Point, Polynomials, Support,
+};
+use mceip_exact::Integer;
+use mceip_model::Problem;
+use mceip_model::file::write_problem;
 use serde_json::json;
 
 fn poly(c: &[i64]) -> Vec<Integer> {

@@ -2,16 +2,16 @@
 //! checker.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
-use mceip::certificate::{
+use mceip_check::certificate::{
     Certificate, Claim, CompleteSet, EnclosedSolution, ExactSolution, Ldl, LdlFactor,
     LiftedSolution, Node, Piece, Root, RootOutcome,
 };
-use mceip::certify::{certificate, lifted};
-use mceip::exact::{Integer, Rational, Sparse, parse, rational, whole};
-use mceip::model::file::{Number, write_problem};
-use mceip::model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
-use mceip::run::Watch;
-use mceip::search::complete::{Options, complete};
+use mceip_engine::certify::{certificate, lifted};
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_exact::{Integer, Rational, Sparse, parse, rational, whole};
+use mceip_model::file::{Number, write_problem};
+use mceip_model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
 use serde_json::{Value, json};
 
 /// One file of the corpus.

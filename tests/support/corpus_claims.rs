@@ -2,10 +2,12 @@
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;
-use mceip::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution};
-use mceip::exact::{Integer, Rational, rational, whole};
-use mceip::model::file::Number;
-use mceip::model::{Unknown, Window};
+use mceip_check::certificate::{
+    Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution,
+};
+use mceip_exact::{Integer, Rational, rational, whole};
+use mceip_model::file::Number;
+use mceip_model::{Unknown, Window};
 
 pub fn exact_claims(cases: &mut Cases) {
     let (p, good) = root_two();
@@ -202,7 +204,7 @@ fn signs(cases: &mut Cases) {
     let with = |y: &str| pencil(&[&["-1", "0"], &[y, "5"]], I2, &[]);
     let c = exact(&[0], &[-1, 1], ("1", "1"), &[&["1"], &[]]);
     let of =
-        |p: &mceip::model::Problem, c: &ExactSolution| claims(p, Claim::ExactSolution(c.clone()));
+        |p: &mceip_model::Problem, c: &ExactSolution| claims(p, Claim::ExactSolution(c.clone()));
     let (positive, zero, negative) = (with("1e-30"), with("0"), with("-1e-30"));
     cases.accept(
         "exact-y-1e-30",
@@ -428,12 +430,12 @@ pub fn enclosed_claims(cases: &mut Cases) {
 pub fn lifted_claims(cases: &mut Cases) {
     for (unknown, name) in [(Unknown::Lambda2, "lifted"), (Unknown::Mu, "lifted-mu")] {
         let p = mechanical(unknown);
-        let listed = mceip::reduction::reduce(&p).unwrap().pencil;
-        let found = mceip::oracle::enumerate(&listed, p.window())
+        let listed = mceip_model::reduction::reduce(&p).unwrap().pencil;
+        let found = mceip_oracle::enumerate(&listed, p.window())
             .unwrap()
             .solutions;
         let s = found.first().unwrap();
-        let candidate = mceip::candidate::Candidate {
+        let candidate = mceip_engine::candidate::Candidate {
             value: s.decimal(17).parse().unwrap(),
             x: s.x_decimals(&listed.slip(), 17)
                 .iter()
@@ -441,7 +443,7 @@ pub fn lifted_claims(cases: &mut Cases) {
                 .collect(),
         };
         let Claim::ExactSolution(exact) =
-            mceip::certify::propose(&listed, p.window(), &candidate).unwrap()
+            mceip_engine::certify::propose(&listed, p.window(), &candidate).unwrap()
         else {
             unreachable!()
         };

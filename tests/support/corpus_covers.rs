@@ -3,9 +3,9 @@
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;
-use mceip::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
-use mceip::exact::{Integer, whole};
-use mceip::model::{Problem, Unknown, Window};
+use mceip_check::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
+use mceip_exact::{Integer, whole};
+use mceip_model::{Problem, Unknown, Window};
 
 fn farkas(w: &[i64]) -> Node {
     Node::Farkas(w.to_vec())
@@ -55,7 +55,7 @@ pub fn covers(cases: &mut Cases) {
         &completed(&all),
     );
     let open = cover(&p, vec![Node::Open]);
-    let file = serde_json::json!({ "verdict": "undecided", "problem": serde_json::from_str::<serde_json::Value>(&mceip::model::file::write_problem(&p)).unwrap(),
+    let file = serde_json::json!({ "verdict": "undecided", "problem": serde_json::from_str::<serde_json::Value>(&mceip_model::file::write_problem(&p)).unwrap(),
         "certificate": serde_json::from_str::<serde_json::Value>(&open.to_json()).unwrap() });
     cases.push(
         "accept",

@@ -3,10 +3,10 @@
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;
-use mceip::certificate::{Certificate, Condensation, Node, Root, RootOutcome};
-use mceip::check::check;
-use mceip::exact::Integer;
-use mceip::model::Problem;
+use mceip_check::certificate::{Certificate, Condensation, Node, Root, RootOutcome};
+use mceip_check::check;
+use mceip_exact::Integer;
+use mceip_model::Problem;
 
 /// The supports {}, {1} and {0} by Farkas vectors where both diagonals of T are positive to
 /// infinity, {0, 1} by `leaf`.
@@ -145,7 +145,7 @@ fn scales(cases: &mut Cases) {
 /// the support {0}.
 fn two_particles(cases: &mut Cases) {
     let text = include_str!("../../spec/examples/two-particles.json");
-    let given = mceip::model::file::read_problem(text, std::path::Path::new(".")).unwrap();
+    let given = mceip_model::file::read_problem(text, std::path::Path::new(".")).unwrap();
     let problem = window(given, "1/1000", None);
     let tree = |leaf: Root| {
         vec![
@@ -170,12 +170,12 @@ fn two_particles(cases: &mut Cases) {
         &forged,
     );
 
-    let pencil = mceip::reduction::reduce(&problem).unwrap().pencil;
-    let candidate = mceip::candidate::Candidate {
+    let pencil = mceip_model::reduction::reduce(&problem).unwrap().pencil;
+    let candidate = mceip_engine::candidate::Candidate {
         value: 2.48,
         x: vec![1.0, 0.0],
     };
-    let claim = mceip::certify::certify(&problem, &pencil, &candidate).unwrap();
+    let claim = mceip_engine::certify::certify(&problem, &pencil, &candidate).unwrap();
     let with_claim = |interval: [&str; 2]| {
         let mut c = cover(&problem, tree(alone(0, interval, RootOutcome::Claim(0))));
         c.claims.push(claim.clone());

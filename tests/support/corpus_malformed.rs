@@ -3,8 +3,8 @@
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;
-use mceip::certificate::{Claim, Node};
-use mceip::model::file::write_problem;
+use mceip_check::certificate::{Claim, Node};
+use mceip_model::file::write_problem;
 use serde_json::{Value, json};
 
 pub fn malformed(cases: &mut Cases) {
@@ -479,7 +479,10 @@ pub fn spelling(cases: &mut Cases) {
     let plain = fold("15/8", Some("17/8"));
     let problem: Value = serde_json::from_str(&write_problem(&plain)).unwrap();
     let around = ("31/16", "33/16");
-    let tree = fold_tree(root_node(around, mceip::certificate::RootOutcome::Solution));
+    let tree = fold_tree(root_node(
+        around,
+        mceip_check::certificate::RootOutcome::Solution,
+    ));
     let solved = cover(&plain, tree).to_json();
     let open = cover(&plain, vec![Node::Open]).to_json();
     let mut add = |name: &str, note: &str, text: &str, from: &str, to: &str| {

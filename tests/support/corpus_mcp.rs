@@ -3,8 +3,8 @@
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::Cases;
-use mceip::exact::parse;
-use mceip::lcp::{read_mcp, write_solution};
+use mceip_engine::lcp::{read_mcp, write_solution};
+use mceip_exact::parse;
 use serde_json::{Value, json};
 
 /// z = (5/6, 1/2, 1, 2): F_0 = z_0 + z_1 / 3 - 1 = 0 inside, F_1 = 2 z_1 - z_2 = 0 free,

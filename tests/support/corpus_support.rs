@@ -3,9 +3,11 @@
 #![allow(missing_docs, unreachable_pub)]
 
 use super::corpus_cases::*;
-use mceip::certificate::{Alone, Certificate, Exact, Member, Node, Point, Polynomials, Support};
-use mceip::exact::{Sparse, whole};
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_check::certificate::{
+    Alone, Certificate, Exact, Member, Node, Point, Polynomials, Support,
+};
+use mceip_exact::{Sparse, whole};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 
 fn problem(a: &[&[i64]]) -> Problem {
     let pencil = Pencil::new(Sparse::from_ints(a), Sparse::identity(2), vec![]).unwrap();

@@ -2,15 +2,15 @@
 //! and certificates to forge.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
-use mceip::certificate::{Certificate, CompleteSet, Node};
-use mceip::check::{AcceptedClaim, AcceptedCover, SolutionFamily, check};
-use mceip::exact::{Algebraic, Interval, Sparse, whole};
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
-use mceip::oracle::{End, Enumeration, Piece, Solution, SupportRange, enumerate, examine_support};
-use mceip::reduction::reduce;
-use mceip::run::Watch;
-use mceip::search::complete::{Options, complete};
-use mceip::testkit::{mechanical_pencil, random_pencils};
+use mceip_check::certificate::{Certificate, CompleteSet, Node};
+use mceip_check::{AcceptedClaim, AcceptedCover, SolutionFamily, check};
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_exact::{Algebraic, Interval, Sparse, whole};
+use mceip_model::reduction::reduce;
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_oracle::{End, Enumeration, Piece, Solution, SupportRange, enumerate, examine_support};
+use mceip_testkit::{mechanical_pencil, random_pencils};
 use std::cmp::Ordering;
 
 pub fn truth(problem: &Problem) -> Enumeration {

@@ -2,7 +2,7 @@
 //! brute-force enumeration of all supports in floats, which the solver must not share.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
-use mceip::mcp::Mcp;
+use mceip_mcp::mcp::Mcp;
 use nalgebra::{DMatrix, DVector, Schur};
 use rand::{Rng, RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

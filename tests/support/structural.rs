@@ -2,7 +2,7 @@
 //! what a field means.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
-use mceip::exact::{Rational, parse, rational};
+use mceip_exact::{Rational, parse, rational};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 use serde_json::{Value, json};

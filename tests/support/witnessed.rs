@@ -6,10 +6,10 @@
 //! that of the one leaf.
 #![allow(dead_code, missing_docs, unreachable_pub)]
 
-use mceip::certificate::{Certificate, CompleteSet, Node, Piece, Root, RootOutcome};
-use mceip::exact::{Integer, Poly, Rational, Sparse, determinant, rational, roots_in, whole};
-use mceip::model::file::Number;
-use mceip::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_check::certificate::{Certificate, CompleteSet, Node, Piece, Root, RootOutcome};
+use mceip_exact::{Integer, Poly, Rational, Sparse, determinant, rational, roots_in, whole};
+use mceip_model::file::Number;
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use num_traits::{One, Zero};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

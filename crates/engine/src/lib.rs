@@ -11,15 +11,6 @@
 //! | [`report`] | `mceip-solutions/1`, and tables |
 //! | [`lcp`] | plain LCP and MCP files |
 //! | [`candidate`], [`tolerance`] | a claimed solution in doubles; every tolerance |
-//!
-//! The crates beneath are re-exported under the names of their rooms.
-
-pub use mceip_check as check;
-pub use mceip_check::certificate;
-pub use mceip_exact as exact;
-pub use mceip_mcp::{linear, mcp, solver, sparse};
-pub use mceip_model as model;
-pub use mceip_oracle as oracle;
 
 pub mod analysis;
 pub mod candidate;

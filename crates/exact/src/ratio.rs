@@ -14,6 +14,7 @@ use std::fmt;
 use std::hash::{Hash, Hasher};
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, DivAssign, Mul, MulAssign, Neg, Rem, Sub, SubAssign};
+use std::str::FromStr;
 
 /// An arbitrary-precision rational in lowest terms. The only rational type of the project:
 /// fixed-width rationals overflow silently to zero denominators.
@@ -94,6 +95,15 @@ impl Rational {
     /// Rounded towards zero.
     pub fn trunc(&self) -> Rational {
         Rational::from_integer(self.to_integer())
+    }
+}
+
+/// A decimal or a fraction, as [`parse`](super::parse) reads it: "1.1" is 11/10.
+impl FromStr for Rational {
+    type Err = super::NumberError;
+
+    fn from_str(text: &str) -> Result<Rational, Self::Err> {
+        super::parse(text)
     }
 }
 

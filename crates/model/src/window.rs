@@ -3,6 +3,7 @@
 use super::ModelError;
 use mceip_exact::Rational;
 use num_traits::{Signed, Zero};
+use std::fmt;
 
 /// The closed window [min, max], 0 <= min; no max means infinity.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -53,10 +54,20 @@ impl Window {
     }
 }
 
+/// "[0, 5/2]" or "[0, infinity)".
+impl fmt::Display for Window {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match &self.max {
+            Some(max) => write!(f, "[{}, {max}]", self.min),
+            None => write!(f, "[{}, infinity)", self.min),
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::whole;
+    use mceip_exact::{rational, whole};
 
     #[test]
     fn a_window_covers_its_parts() {
@@ -79,6 +90,14 @@ mod tests {
             assert!(!closed.covers(&more), "{more:?}");
         }
         assert!(half_line.covers(&half_line) && !half_line.covers(&window(0, Some(2))));
+    }
+
+    #[test]
+    fn a_window_reads_as_an_interval() {
+        let closed = Window::new(rational(1, 2), Some(whole(3))).unwrap();
+
+        assert_eq!(closed.to_string(), "[1/2, 3]");
+        assert_eq!(Window::all().to_string(), "[0, infinity)");
     }
 
     #[test]

@@ -6,8 +6,8 @@
 use super::element::{Point, mass, stiffness};
 use super::mesh::{Mesh, Shape};
 use super::{BlockModel, MassKind, SourceError};
-use crate::exact::{Rational, Sparse, whole};
-use crate::model::{Body, ContactState, ModelError, Particle, Problem, System, Unknown, Window};
+use mceip_exact::{Rational, Sparse, whole};
+use mceip_model::{Body, ContactState, ModelError, Particle, Problem, System, Unknown, Window};
 use std::collections::BTreeMap;
 
 /// A rectangular block on a flat obstacle, glued at its top.
@@ -207,8 +207,8 @@ fn assemble(model: &BlockModel, mesh: &Mesh) -> Block {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::rational;
     use crate::{Material, MeshKind, Plane};
+    use mceip_exact::rational;
 
     fn small(nx: usize, ny: usize, mass: MassKind) -> BlockModel {
         let cell = (whole(2), whole(2));

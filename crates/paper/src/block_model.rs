@@ -2,7 +2,7 @@
 
 use super::mesh::MeshKind;
 use super::{MassKind, Material, Plane, SourceError};
-use crate::exact::{Rational, whole};
+use mceip_exact::{Rational, whole};
 use num_traits::Signed;
 
 /// A rectangular block on a flat obstacle, before it is assembled.
@@ -105,7 +105,7 @@ impl BlockModel {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::rational;
+    use mceip_exact::rational;
 
     #[test]
     fn refined_meshes_keep_the_rectangle_and_the_share_of_slip() {

@@ -4,7 +4,7 @@
 //! has a line `node.direction` for each row. Degrees of freedom that `*BOUNDARY` fixes do not
 //! appear.
 
-use crate::exact::{Rational, Sparse, parse};
+use mceip_exact::{Rational, Sparse, parse};
 use std::collections::{BTreeMap, HashMap};
 
 /// Why a file of CalculiX is refused.

@@ -8,9 +8,9 @@
 //! these dofs, as the finite-element program gives it). Lines that begin with # are comments; a
 //! cell may be empty where it is optional.
 
-use crate::exact::{Rational, parse, rational};
-use crate::model::{ContactState, Particle, Reaction};
 use crate::tolerance::CONE_SLACK;
+use mceip_exact::{Rational, parse, rational};
+use mceip_model::{ContactState, Particle, Reaction};
 use num_traits::{Signed, Zero};
 
 /// Why a table of contacts is refused.
@@ -271,7 +271,7 @@ fn cut(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::whole;
+    use mceip_exact::whole;
 
     fn read(text: &str) -> Result<Vec<Particle>, ContactsError> {
         read_contacts(text, &rational(1, 2), &|t| {

@@ -4,8 +4,8 @@
 
 use super::mesh::{Mesh, Shape};
 use super::{BlockModel, MassKind, SourceError};
-use crate::exact::to_f64;
-use crate::model::{ContactState, Particle};
+use mceip_exact::to_f64;
+use mceip_model::{ContactState, Particle};
 use std::collections::BTreeMap;
 
 /// A sparse square matrix of doubles: entries sorted by row, then column, each place once.
@@ -175,8 +175,8 @@ fn merge(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, parse, rational};
     use crate::{Block, Material, MeshKind, Plane};
+    use mceip_exact::{Sparse, parse, rational};
 
     /// Every exact entry, converted, against the double one, in units in the last place of the
     /// larger of the two diagonals; places the exact matrix leaves out hold rounding only.

@@ -1,7 +1,7 @@
 //! The linear (P1) triangle: exact stiffness and mass in plane stress and plane strain.
 
 use super::SourceError;
-use crate::exact::{Rational, rational, whole};
+use mceip_exact::{Rational, rational, whole};
 use num_traits::{One, Signed};
 
 /// What the body does out of its plane.

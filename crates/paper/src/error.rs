@@ -1,7 +1,7 @@
 //! Why a model of the block is refused.
 
 use super::Plane;
-use crate::exact::Rational;
+use mceip_exact::Rational;
 
 /// A block that cannot be built, or a contact state that does not fit it.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

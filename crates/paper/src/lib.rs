@@ -15,11 +15,6 @@ mod tolerance;
 mod triangulation;
 mod two_particles;
 
-use mceip_exact as exact;
-use mceip_mcp::{linear, mcp, solver};
-use mceip_model as model;
-use mceip_oracle as oracle;
-
 pub use block::Block;
 pub use block_model::BlockModel;
 pub use contacts::{ContactsError, read_contacts};

@@ -1,7 +1,7 @@
 //! The two states of the loading path whose MCEIP-mu value the paper prints.
 
 use super::Block;
-use crate::model::{Body, ContactState, ModelError, Problem, Unknown, Window};
+use mceip_model::{Body, ContactState, ModelError, Problem, Unknown, Window};
 
 /// A state of the loading path whose MCEIP-mu value the paper prints.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 use super::element::Point;
 use super::mesh::Mesh;
 use super::{BlockModel, SourceError};
-use crate::exact::{Rational, whole};
+use mceip_exact::{Rational, whole};
 
 /// Points and triangles of a block, the glued side included.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! The structure of Fig. 1 as a mechanical system with four degrees of freedom.
 
-use crate::exact::{Rational, Sparse, whole};
-use crate::model::{ContactState, ModelError, Particle, System};
-use crate::oracle::TwoParticles;
+use mceip_exact::{Rational, Sparse, whole};
+use mceip_model::{ContactState, ModelError, Particle, System};
+use mceip_oracle::TwoParticles;
 use num_traits::One;
 
 /// M = m I and K as printed in section 5, u = (u_T1, u_N1, u_T2, u_N2), both particles in
@@ -67,9 +67,9 @@ pub fn pythagorean_angles() -> Vec<(Rational, Rational)> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::rational;
-    use crate::model::{Body, Problem, Unknown, Window};
+    use mceip_exact::rational;
     use mceip_model::reduction::reduce;
+    use mceip_model::{Body, Problem, Unknown, Window};
 
     /// The 2x2 matrix printed above Table 1, for all four sign patterns.
     #[test]

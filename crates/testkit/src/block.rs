@@ -3,16 +3,16 @@
 use super::floors::{Coverage, Shortfall, Starts, shortfalls};
 use super::forge::forgeries;
 use super::interior::path_coverage;
-use crate::certificate::Certificate;
-use crate::certify::certificate;
-use crate::check::{AcceptedClaim, AcceptedCover, Rejected, check};
-use crate::exact::{Rational, to_f64};
-use crate::model::{Admissible, ModelError, Problem, Unknown};
-use crate::multistart::{Search, SearchError, multistart_large};
-use crate::reduction::reduce;
-use crate::run::{Progress, Watch};
-use crate::search::complete::{CompleteError, Options, complete};
-use crate::source::{Block, PublishedState};
+use mceip_check::certificate::Certificate;
+use mceip_check::{AcceptedClaim, AcceptedCover, Rejected, check};
+use mceip_engine::certify::certificate;
+use mceip_engine::multistart::{Search, SearchError, multistart_large};
+use mceip_engine::reduction::reduce;
+use mceip_engine::run::{Progress, Watch};
+use mceip_engine::search::complete::{CompleteError, Options, complete};
+use mceip_exact::{Rational, to_f64};
+use mceip_model::{Admissible, ModelError, Problem, Unknown};
+use mceip_paper::{Block, PublishedState};
 
 /// Why a state of the block was not treated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

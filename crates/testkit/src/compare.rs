@@ -5,16 +5,16 @@ use super::floors::{Coverage, Starts};
 use super::forge::forgeries;
 use super::interior::{INTERIOR_STARTS, from_interior, path_options};
 use super::{Corner, Disagreement, Instance};
-use crate::candidate::Candidate;
-use crate::certificate::Claim;
-use crate::certify::{Certifier, certificate};
-use crate::check::check;
-use crate::exact::{Algebraic, Poly, Quadratic, Rational, Sign, common_denominator};
-use crate::model::{Admissible, Body, Pencil, Problem};
-use crate::multistart::{Found, Origin, Search, exact_value, multistart, support};
-use crate::oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
-use crate::reduction::{Reduced, check_lines, lift, reduce};
-use crate::solver::SolverError;
+use mceip_check::certificate::Claim;
+use mceip_check::check;
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{Certifier, certificate};
+use mceip_engine::multistart::{Found, Origin, Search, exact_value, multistart, support};
+use mceip_engine::reduction::{Reduced, check_lines, lift, reduce};
+use mceip_exact::{Algebraic, Poly, Quadratic, Rational, Sign, common_denominator};
+use mceip_mcp::solver::SolverError;
+use mceip_model::{Admissible, Body, Pencil, Problem};
+use mceip_oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
 use num_traits::Signed;
 
 /// What came of one instance.

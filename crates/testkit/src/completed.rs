@@ -1,12 +1,12 @@
 //! The complete search against the oracle: the same set, or honestly undecided.
 
 use super::Disagreement;
-use crate::check::AcceptedClaim;
-use crate::exact::Rational;
-use crate::model::Problem;
-use crate::oracle::{Enumeration, Solution};
-use crate::run::Watch;
-use crate::search::complete::{CompleteError, Options, complete};
+use mceip_check::AcceptedClaim;
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{CompleteError, Options, complete};
+use mceip_exact::Rational;
+use mceip_model::Problem;
+use mceip_oracle::{Enumeration, Solution};
 use std::cmp::Ordering;
 
 /// Nodes per piece in comparisons: instances are small, what needs more is degenerate.

@@ -1,12 +1,12 @@
 //! Families of problems: the two particles on a grid, random pencils and systems, degenerate cases.
 //! One seed per instance; corners reached on purpose are named and counted.
 
-use crate::exact::{Rational, Sparse, rational, whole};
-use crate::model::{
+use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::{
     Body, ContactState, ModelError, Particle, Pencil, Problem, System, Unknown, Window,
 };
-use crate::oracle::TwoParticles;
-use crate::source::{pythagorean_angles, two_particles};
+use mceip_oracle::TwoParticles;
+use mceip_paper::{pythagorean_angles, two_particles};
 use num_traits::{One, Zero};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

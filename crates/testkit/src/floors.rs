@@ -14,7 +14,7 @@
 //! run fails. Small samples are judged by the same rule: of a rate of 98 %, three misses in a row
 //! are a shortfall, two are not.
 
-use crate::tolerance::CHANCE;
+use mceip_engine::tolerance::CHANCE;
 use std::fmt;
 
 /// From where the solver sets out.

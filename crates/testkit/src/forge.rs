@@ -1,10 +1,10 @@
 //! Forgeries: certificates made false on purpose, each with the reason it must be rejected for.
 
-use crate::certificate::{Certificate, Claim, ExactSolution, LiftedSolution};
-use crate::check::Reason;
-use crate::exact::{Integer, rational, whole};
-use crate::model::file::Number;
-use crate::model::{Unknown, Window};
+use mceip_check::Reason;
+use mceip_check::certificate::{Certificate, Claim, ExactSolution, LiftedSolution};
+use mceip_exact::{Integer, rational, whole};
+use mceip_model::file::Number;
+use mceip_model::{Unknown, Window};
 
 /// A false certificate and what the checker must say.
 pub struct Forgery {
@@ -293,18 +293,19 @@ fn enclosed(certificate: &Certificate, index: usize) -> Vec<Forgery> {
     let Claim::EnclosedSolution(c) = &certificate.claims[index] else {
         return Vec::new();
     };
-    let forged = |name, expected, change: &dyn Fn(&mut crate::certificate::EnclosedSolution)| {
-        let mut c = c.clone();
-        change(&mut c);
-        Forgery {
-            name,
-            certificate: Certificate {
-                claims: vec![Claim::EnclosedSolution(c)],
-                ..certificate.clone()
-            },
-            expected,
-        }
-    };
+    let forged =
+        |name, expected, change: &dyn Fn(&mut mceip_check::certificate::EnclosedSolution)| {
+            let mut c = c.clone();
+            change(&mut c);
+            Forgery {
+                name,
+                certificate: Certificate {
+                    claims: vec![Claim::EnclosedSolution(c)],
+                    ..certificate.clone()
+                },
+                expected,
+            }
+        };
     vec![
         forged(
             "zero row in the preconditioner",

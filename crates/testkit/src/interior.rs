@@ -6,14 +6,14 @@
 //! support of slip-slip solutions only).
 
 use super::floors::Coverage;
-use crate::candidate::Candidate;
-use crate::certify::Certifier;
-use crate::exact::{Sparse, to_f64};
-use crate::model::{Admissible, Problem};
-use crate::multistart::{Certified, Found, Origin, Search, Uncertified, same};
-use crate::reduction::{Embedding, Side};
-use crate::solver::{CrashMethod, Options, Sense, SolverError, continuation, solve};
-use crate::tolerance::{PATH_VALUE, SAME_POINT};
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::Certifier;
+use mceip_engine::multistart::{Certified, Found, Origin, Search, Uncertified, same};
+use mceip_engine::reduction::{Embedding, Side};
+use mceip_engine::tolerance::{PATH_VALUE, SAME_POINT};
+use mceip_exact::{Sparse, to_f64};
+use mceip_mcp::solver::{CrashMethod, Options, Sense, SolverError, continuation, solve};
+use mceip_model::{Admissible, Problem};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 
@@ -76,7 +76,7 @@ fn largest(matrix: &Sparse) -> f64 {
 /// One run of the solver from each of `search.starts` interior starts and, if `search.curves` says
 /// so, the curve of the Newton homotopy from each of them both ways; every end is certified. No
 /// windows, and no curve through what was found. The signature is that of
-/// [`crate::multistart::multistart`].
+/// [`mceip_engine::multistart::multistart`].
 ///
 /// # Errors
 /// [`SolverError`] for options out of range.
@@ -219,11 +219,11 @@ pub fn path_coverage(
 #[allow(clippy::unwrap_used, reason = "a test may panic")]
 mod tests {
     use super::*;
-    use crate::model::Unknown;
-    use crate::multistart::multistart;
-    use crate::reduction::reduce;
     use crate::table1_grid;
-    use mceip_engine::mcp::Mcp;
+    use mceip_engine::multistart::multistart;
+    use mceip_engine::reduction::reduce;
+    use mceip_mcp::mcp::Mcp;
+    use mceip_model::Unknown;
 
     /// Rows of the pencil at a start, scaled to e'x_s = 1: the largest violation of
     /// complementarity.

@@ -3,9 +3,9 @@
 //! The answers are built from theorems, never by an enumerator: values by their polynomials, x by
 //! formulas, cones by combinatorics. Only the isolation of the largest root uses `exact`.
 
-use crate::exact::{Algebraic, Poly, Rational, Sparse, nonnegative_roots, whole};
-use crate::model::{Body, ModelError, Pencil, Problem, Unknown, Window};
-use crate::oracle::{Cone, Enumeration, Solution};
+use mceip_exact::{Algebraic, Poly, Rational, Sparse, nonnegative_roots, whole};
+use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
+use mceip_oracle::{Cone, Enumeration, Solution};
 
 /// A problem and its complete answer.
 #[derive(Debug, Clone)]

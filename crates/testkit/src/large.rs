@@ -1,12 +1,12 @@
 //! Problems beyond 2^n: random mechanical pencils of `peers.md`, refined blocks, condensed in
 //! doubles.
 
-use crate::exact::{Rational, Sparse, from_f64, to_f64, whole};
-use crate::model::{Body, ModelError, Pencil, Problem, Unknown, Window};
-use crate::reduction::reduce;
-use crate::run::{Cancel, Watch};
-use crate::search::complete::{CompleteError, Options, complete};
-use crate::source::{Block, BlockModel, SourceError};
+use mceip_engine::reduction::reduce;
+use mceip_engine::run::{Cancel, Watch};
+use mceip_engine::search::complete::{CompleteError, Options, complete};
+use mceip_exact::{Rational, Sparse, from_f64, to_f64, whole};
+use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
+use mceip_paper::{Block, BlockModel, SourceError};
 use num_traits::One;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -103,7 +103,7 @@ pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
     else {
         return Ok(problem.clone());
     };
-    let unit = Rational::new(One::one(), crate::exact::Integer::one() << w.exponent);
+    let unit = Rational::new(One::one(), mceip_exact::Integer::one() << w.exponent);
     let w: Vec<Vec<f64>> = w
         .rows
         .iter()
@@ -166,8 +166,8 @@ fn normal(rng: &mut ChaCha8Rng) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::check::check;
-    use crate::model::Admissible;
+    use mceip_check::check;
+    use mceip_model::Admissible;
 
     #[test]
     fn a_seed_gives_one_admissible_pencil() {
@@ -186,9 +186,9 @@ mod tests {
 
     #[test]
     fn condensing_in_doubles_keeps_the_value() {
-        let states = crate::source::PublishedState::SeventeenSlip;
+        let states = mceip_paper::PublishedState::SeventeenSlip;
         let problem = states
-            .problem(&Block::of_the_paper(crate::source::MassKind::Consistent))
+            .problem(&Block::of_the_paper(mceip_paper::MassKind::Consistent))
             .unwrap();
         let small = condensed_in_doubles(&problem).unwrap();
         let found = complete(&small, &Options::default(), &Watch::nobody()).unwrap();

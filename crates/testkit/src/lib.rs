@@ -1,12 +1,6 @@
 //! Generators, comparison of engines, forgeries, the verification run, and the bodies of fuzz
 //! targets.
 
-use mceip_engine::{
-    candidate, certificate, certify, check, exact, foreign, model, multistart, oracle, reduction,
-    report, run, search, solver, tolerance,
-};
-use mceip_paper as source;
-
 mod block;
 pub mod campaign;
 mod compare;

@@ -1,10 +1,10 @@
 //! Random changes of claims: most make a certificate false, some leave it true. Whoever checks the
 //! result has to know which (`tests/checker/mutated_claims.rs` asks the oracle).
 
-use crate::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution};
-use crate::exact::{Integer, Rational, rational, whole};
-use crate::model::Unknown;
-use crate::model::file::Number;
+use mceip_check::certificate::{Certificate, Claim, EnclosedSolution, ExactSolution};
+use mceip_exact::{Integer, Rational, rational, whole};
+use mceip_model::Unknown;
+use mceip_model::file::Number;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 

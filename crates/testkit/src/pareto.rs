@@ -1,8 +1,8 @@
 //! Pareto eigenvalue problems inside admissible mechanical systems, and solutions planted in
 //! pencils.
 
-use crate::exact::{Rational, Sparse, rational, whole};
-use crate::model::{
+use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::{
     Body, ContactState, ModelError, Particle, Pencil, Problem, System, Unknown, Window,
 };
 use num_traits::{One, Signed, Zero};

@@ -17,11 +17,11 @@ pub use systems::{
 pub use systems::{two_particle_problems, two_particle_problems_by};
 
 use super::{Disagreement, Instance, Treatment, compare_by, forgeries};
-use crate::certificate::Certificate;
-use crate::check::check;
-use crate::exact::{Sparse, whole};
-use crate::model::file::{read_problem, write_problem};
-use crate::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_check::certificate::Certificate;
+use mceip_check::check;
+use mceip_exact::{Sparse, whole};
+use mceip_model::file::{read_problem, write_problem};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use std::path::Path;
 
 /// Problem reader: what is read is written and read again as the same problem with the same digest;
@@ -110,12 +110,12 @@ pub fn checker_against_forgeries(data: &[u8]) {
 
 /// A certificate for each solution the enumerator lists.
 fn certificates(problem: &Problem) -> Vec<Certificate> {
-    use crate::candidate::Candidate;
-    use crate::certify::{certificate, propose};
-    let Ok(reduced) = crate::reduction::reduce(problem) else {
+    use mceip_engine::candidate::Candidate;
+    use mceip_engine::certify::{certificate, propose};
+    let Ok(reduced) = mceip_engine::reduction::reduce(problem) else {
         return Vec::new();
     };
-    let Ok(oracle) = crate::oracle::enumerate(&reduced.pencil, problem.window()) else {
+    let Ok(oracle) = mceip_oracle::enumerate(&reduced.pencil, problem.window()) else {
         return Vec::new();
     };
     let slip = reduced.pencil.slip();

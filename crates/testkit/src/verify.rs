@@ -5,10 +5,10 @@ use super::{
     BlockError, BlockReport, Corner, Instance, InstanceReport, Treatment, block_state, compare_by,
 };
 use super::{degenerate, mechanical, random_pencils, table1_grid};
-use crate::model::ModelError;
-use crate::multistart::Search;
-use crate::run::{Progress, Watch};
-use crate::source::{Block, MassKind, PublishedState};
+use mceip_engine::multistart::Search;
+use mceip_engine::run::{Progress, Watch};
+use mceip_model::ModelError;
+use mceip_paper::{Block, MassKind, PublishedState};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::atomic::Ordering;

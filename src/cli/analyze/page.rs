@@ -1,7 +1,7 @@
 //! `mceip analyze --report`: the answers, their evidence and the modes on one page.
 
-use crate::analysis::{Analysis, Evidence, Mode};
 use crate::picture::{Content, Report, Section};
+use mceip_engine::analysis::{Analysis, Evidence, Mode};
 
 /// The page; `paths` of the certificates as they were written.
 pub(super) fn page(analysis: &Analysis, paths: &[String]) -> String {
@@ -46,7 +46,7 @@ fn model(analysis: &Analysis) -> Section {
 
 /// Every sentence with what stands behind it; what is only measured is said to be so.
 fn answers(analysis: &Analysis, paths: &[String]) -> Section {
-    let row = |s: crate::analysis::Sentence| {
+    let row = |s: mceip_engine::analysis::Sentence| {
         let kind = match &s.evidence {
             Evidence::Certificate(_) => "proved",
             Evidence::Exact(_) => "exact",
@@ -86,7 +86,7 @@ fn modes(analysis: &Analysis) -> Section {
             .join(" ")
     };
     let row = |(k, m): (usize, &Mode)| {
-        let value = crate::exact::to_f64(&m.lambda2.mid());
+        let value = mceip_exact::to_f64(&m.lambda2.mid());
         vec![
             (k + 1).to_string(),
             format!("{value:.10e}"),

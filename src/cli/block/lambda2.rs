@@ -3,16 +3,18 @@
 
 use super::scale::{self, ScaleError};
 use super::{Args, published};
-use crate::certify::{Certifier, ENCLOSED_ORDER};
 use crate::cli::common::{CliError, exit, print};
 use crate::cli::job::Job;
-use crate::exact::{Rational, parse, to_f64};
-use crate::model::{Body, ContactState, Problem, Unknown, Window};
-use crate::multistart::{CondensedFound, CondensedSearch, CondensedSolution, search_condensed};
-use crate::reduction::{SparseCondensation, reduce};
-use crate::report::Table;
-use crate::run::{Cancel, Progress, Watch};
-use crate::source::{Block, BlockModel, DoubleBlock, MassKind};
+use mceip_engine::certify::{Certifier, ENCLOSED_ORDER};
+use mceip_engine::multistart::{
+    CondensedFound, CondensedSearch, CondensedSolution, search_condensed,
+};
+use mceip_engine::reduction::{SparseCondensation, reduce};
+use mceip_engine::report::Table;
+use mceip_engine::run::{Cancel, Progress, Watch};
+use mceip_exact::{Rational, parse, to_f64};
+use mceip_model::{Body, ContactState, Problem, Unknown, Window};
+use mceip_paper::{Block, BlockModel, DoubleBlock, MassKind};
 use num_traits::Signed;
 use serde_json::{Value, json};
 use std::time::Instant;
@@ -120,7 +122,7 @@ fn cases(args: &Args) -> Result<Vec<Case>, CliError> {
         MassKind::Consistent
     };
     if args.scale.is_empty() {
-        let case = |s: crate::source::PublishedState| Case {
+        let case = |s: mceip_paper::PublishedState| Case {
             name: s.name().to_string(),
             model: BlockModel {
                 mass,

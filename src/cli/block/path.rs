@@ -7,15 +7,15 @@ use super::Args;
 use crate::cli::common::{CliError, exit, print};
 use crate::cli::job::Job;
 use crate::cli::output::{Folder, Output};
-use crate::exact::{Integer, Rational, parse, to_f64};
-use crate::model::ContactState;
-use crate::report::Table;
-use crate::run::{Cancel, Progress, Watch};
-use crate::source::path::{
+use mceip_engine::report::Table;
+use mceip_engine::run::{Cancel, Progress, Watch};
+use mceip_exact::{Integer, Rational, parse, to_f64};
+use mceip_model::ContactState;
+use mceip_paper::path::{
     Bound, Comparison, Contact, Equilibrium, Event, Finder, Interval, Loading, LoadingPath,
     PathEnd, step_path,
 };
-use crate::source::{Block, BlockModel, MassKind, MeshKind, Plane};
+use mceip_paper::{Block, BlockModel, MassKind, MeshKind, Plane};
 use num_traits::{Signed, ToPrimitive};
 use pages::Shown;
 use serde_json::{Value, json};

@@ -3,19 +3,19 @@
 use crate::cli::common::{CliError, exit, print};
 use crate::cli::job::Job;
 use crate::cli::output::Output;
-use crate::exact::{Rational, Sparse, from_f64};
-use crate::linear::Symmetric;
-use crate::linear::SymmetricError;
-use crate::model::file::write_problem;
-use crate::model::{Body, ContactState, ModelError, Pencil, Problem, Unknown, Window};
-use crate::multistart::{AllSlip, CondensedSearchError, all_slip};
-use crate::reduction::{
+use mceip_engine::multistart::{AllSlip, CondensedSearchError, all_slip};
+use mceip_engine::reduction::{
     CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed,
 };
-use crate::report::Table;
-use crate::run::{Cancel, Watch};
-use crate::search::complete::{Options, complete};
-use crate::source::{BlockModel, DoubleBlock, DoubleMatrix, SourceError};
+use mceip_engine::report::Table;
+use mceip_engine::run::{Cancel, Watch};
+use mceip_engine::search::complete::{Options, complete};
+use mceip_exact::{Rational, Sparse, from_f64};
+use mceip_mcp::linear::Symmetric;
+use mceip_mcp::linear::SymmetricError;
+use mceip_model::file::write_problem;
+use mceip_model::{Body, ContactState, ModelError, Pencil, Problem, Unknown, Window};
+use mceip_paper::{BlockModel, DoubleBlock, DoubleMatrix, SourceError};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;

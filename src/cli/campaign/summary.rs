@@ -2,8 +2,8 @@
 //! equal runs are equal.
 
 use crate::cli::verify::covered_json;
-use crate::report::Table;
-use crate::testkit::campaign::{Judgement, Replay, State, Tally};
+use mceip_engine::report::Table;
+use mceip_testkit::campaign::{Judgement, Replay, State, Tally};
 use serde_json::{Value, json};
 
 pub(super) fn text_of(state: &State) -> String {

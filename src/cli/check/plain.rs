@@ -1,7 +1,7 @@
 //! `mceip check` on a plain LCP or MCP: every point of a solution file, exactly.
 
 use super::super::common::{CliError, exit, print, text};
-use crate::lcp::{FileError, judge, read_mcp, read_solution};
+use mceip_engine::lcp::{FileError, judge, read_mcp, read_solution};
 use std::path::Path;
 
 /// The verdict on the solution file `certificate` of the plain problem `source`, read from `path`.

@@ -4,10 +4,10 @@ use super::super::check::plain::verdict;
 use super::super::common::{CliError, exit, print};
 use super::super::output::Output;
 use super::{Args, trace};
-use crate::exact::{Rational, to_f64};
-use crate::lcp::{ExactMcp, FileError, Found, Search, read_mcp, search, write_solution};
-use crate::multistart::{SearchError, trace_outcome};
-use crate::solver::Options;
+use mceip_engine::lcp::{ExactMcp, FileError, Found, Search, read_mcp, search, write_solution};
+use mceip_engine::multistart::{SearchError, trace_outcome};
+use mceip_exact::{Rational, to_f64};
+use mceip_mcp::solver::Options;
 use std::fmt::Write as _;
 use std::path::Path;
 

@@ -2,12 +2,12 @@
 //! the replay, which must come out byte for byte.
 
 use super::super::common::{CliError, exit, print, text};
-use crate::lcp;
-use crate::model::file::{from_json, read_problem, require_format, write_problem};
-use crate::model::{Admissible, Problem};
-use crate::multistart::{Found, Search, SearchError, multistart_large};
-use crate::reduction::reduce;
-use crate::run::Watch;
+use mceip_engine::lcp;
+use mceip_engine::multistart::{Found, Search, SearchError, multistart_large};
+use mceip_engine::reduction::reduce;
+use mceip_engine::run::Watch;
+use mceip_model::file::{from_json, read_problem, require_format, write_problem};
+use mceip_model::{Admissible, Problem};
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 

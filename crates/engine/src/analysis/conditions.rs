@@ -4,15 +4,15 @@
 //! definite (its symmetric part, that is) form an interval from 0: the smallest eigenvalue is a
 //! concave function of mu. (19) holds from the end of the shorter of two such intervals on.
 
-use crate::exact::{
+use crate::reduction::MuFamily;
+use crate::tolerance::{BRACKET_BITS, BRACKET_START_BITS};
+use mceip_exact::{
     Algebraic, DefiniteError, Interval, Rational, Sparse, common_denominator, determinant,
     from_f64, positive_definite, roots_in, to_f64, whole,
 };
-use crate::linear::definite_eigenvalues;
-use crate::model::{ModelError, Pencil, Window};
-use crate::oracle::{Enumeration, Solution, examine_support};
-use crate::reduction::MuFamily;
-use crate::tolerance::{BRACKET_BITS, BRACKET_START_BITS};
+use mceip_mcp::linear::definite_eigenvalues;
+use mceip_model::{ModelError, Pencil, Window};
+use mceip_oracle::{Enumeration, Solution, examine_support};
 use num_traits::{One, Signed, Zero};
 
 /// The mu >= 0 at which the symmetric part of A + mu B is positive definite: an interval from 0.
@@ -50,7 +50,8 @@ impl DefiniteUntil {
     /// [`ModelError::DefinitenessUndecided`] for a matrix of order above 48 too close to singular.
     ///
     /// ```
-    /// use mceip_engine::{analysis::conditions::DefiniteUntil, exact::{Sparse, whole}};
+    /// use mceip_engine::analysis::conditions::DefiniteUntil;
+    /// use mceip_exact::{Sparse, whole};
     /// // [1, mu; mu, 1] is definite below mu = 1.
     /// let b = Sparse::from_ints(&[&[0, 2], &[0, 0]]);
     /// let until = DefiniteUntil::of("K*", &Sparse::identity(2), &b).unwrap();
@@ -82,7 +83,7 @@ impl DefiniteUntil {
 
 /// (A + A') / 2.
 fn symmetric_part(a: &Sparse) -> Sparse {
-    let half = crate::exact::rational(1, 2);
+    let half = mceip_exact::rational(1, 2);
     Sparse::zeros(a.rows(), a.cols())
         .add_scaled(&half, a)
         .add_scaled(&half, &a.transpose())
@@ -331,10 +332,10 @@ pub fn approximately(interval: &Interval) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::rational;
-    use crate::model::{ContactState, Particle, System};
-    use crate::oracle::{TwoParticles, table1, thresholds};
     use crate::reduction::mu_family;
+    use mceip_exact::rational;
+    use mceip_model::{ContactState, Particle, System};
+    use mceip_oracle::{TwoParticles, table1, thresholds};
     use mceip_paper::two_particles;
 
     fn table(mu: Rational, signs: (i8, i8)) -> (TwoParticles, MuFamily) {

@@ -4,9 +4,9 @@
 use super::absence::{Absence, absence};
 use super::conditions::Necessary;
 use super::{AnalysisError, Divergence, Evidence, Model, Proof, StaticThreshold};
-use crate::exact::{Interval, Rational, from_f64, to_f64, whole};
-use crate::model::Window;
 use crate::reduction::MuFamily;
+use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
+use mceip_model::Window;
 use num_traits::Zero;
 
 /// A solution that is proved to exist: with these values of lambda^2 and mu.

@@ -1,8 +1,8 @@
 //! Why a system is not analysed.
 
-use crate::exact::to_f64;
-use crate::model::{ModelError, System};
 use crate::search::complete::CompleteError;
+use mceip_exact::to_f64;
+use mceip_model::{ModelError, System};
 
 /// Why a system is not analysed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -1,9 +1,9 @@
 //! A warning from doubles: complex lambda^2 of the all-slip pencil at mu. They lie outside (8).
 
-use crate::exact::{Rational, Sparse, to_f64};
-use crate::linear::{eigenvalues, solve};
 use crate::reduction::MuFamily;
 use crate::tolerance::FLUTTER_ANGLE;
+use mceip_exact::{Rational, Sparse, to_f64};
+use mceip_mcp::linear::{eigenvalues, solve};
 
 /// Complex lambda^2 of (lambda^2 M* + K*) x = 0 with every slip particle slipping.
 #[derive(Debug, Clone, PartialEq)]

@@ -2,8 +2,8 @@
 
 use super::conditions::DefiniteUntil;
 use super::{Analysis, Evidence, Mode, Verdict};
-use crate::check::OpenRegion;
-use crate::exact::{Interval, enclosing_decimals};
+use mceip_check::OpenRegion;
+use mceip_exact::{Interval, enclosing_decimals};
 use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;

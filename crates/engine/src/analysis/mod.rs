@@ -3,7 +3,7 @@
 //!
 //! [`analyse`] makes plain data ([`Analysis`]); [`Analysis::sentences`] says it in words,
 //! [`Analysis::to_json`] as `mceip-analysis/1`. A sentence rests on a certificate that
-//! [`crate::check`] has accepted, on an exact condition, or on a measurement in doubles, and says
+//! [`mceip_check`] has accepted, on an exact condition, or on a measurement in doubles, and says
 //! which.
 
 pub mod absence;
@@ -24,14 +24,14 @@ pub use modes::Mode;
 pub use ranges::{Range, Sample};
 pub use sentences::Sentence;
 
-use crate::certificate::{Certificate, Claim};
-use crate::check::{OpenRegion, SolutionFamily};
-use crate::exact::{Interval, Rational, Sparse};
-use crate::model::{Body, Particle, Problem, System, Unknown, Window};
 use crate::reduction::{MuFamily, mu_family};
 use crate::run::{Progress, Watch};
 use crate::search::complete::{self, Completed, complete};
 use conditions::{Necessary, is_all_slip};
+use mceip_check::certificate::{Certificate, Claim};
+use mceip_check::{OpenRegion, SolutionFamily};
+use mceip_exact::{Interval, Rational, Sparse};
+use mceip_model::{Body, Particle, Problem, System, Unknown, Window};
 
 /// How much work an analysis may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -259,7 +259,7 @@ pub fn analyse(
     watch.report(&Progress::stage("ranges of mu"));
     let (ranges, samples) = ranges::ranges(&model, friction, &threshold, &critical)?;
     let count = |f: fn(&Particle) -> bool| system.particles().iter().filter(|p| f(p)).count();
-    let stick = count(|p| p.state == crate::model::ContactState::Stick);
+    let stick = count(|p| p.state == mceip_model::ContactState::Stick);
     Ok(Analysis {
         name,
         problem_sha256: here.sha256(),

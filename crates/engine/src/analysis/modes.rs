@@ -1,10 +1,10 @@
 //! Solutions as an engineer reads them: growth rate and displacement rates of all degrees of
 //! freedom.
 
-use crate::check::AcceptedClaim;
-use crate::exact::{Interval, to_f64};
-use crate::model::{ContactState, System};
 use crate::reduction::{MuFamily, Variable};
+use mceip_check::AcceptedClaim;
+use mceip_exact::{Interval, to_f64};
+use mceip_model::{ContactState, System};
 use num_traits::Signed;
 
 /// A diverging solution u(t) = u0 + alpha(t) v with alpha growing like exp(lambda t). // E8

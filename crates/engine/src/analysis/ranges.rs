@@ -2,7 +2,7 @@
 //! measured.
 
 use super::{AnalysisError, Critical, Model, StaticThreshold, Verdict, verdict};
-use crate::exact::{Rational, from_f64, to_f64, whole};
+use mceip_exact::{Rational, from_f64, to_f64, whole};
 use num_traits::Zero;
 
 /// Divergence at one mu, decided by a complete search over lambda^2 in [0, infinity), or below the

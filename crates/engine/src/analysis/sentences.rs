@@ -2,8 +2,8 @@
 
 use super::conditions::{DefiniteUntil, approximately};
 use super::{Analysis, Evidence, Verdict};
-use crate::check::OpenRegion;
-use crate::exact::{Interval, Rational, enclosing_decimals, to_f64};
+use mceip_check::OpenRegion;
+use mceip_exact::{Interval, Rational, enclosing_decimals, to_f64};
 
 /// One sentence of the answer.
 #[derive(Debug, Clone, PartialEq, Eq)]

@@ -2,9 +2,9 @@
 
 use super::{Attempt, AttemptFailure, IntegralRows, NotCertified, Proposal, proposals};
 use crate::candidate::Candidate;
-use crate::certificate::Claim;
-use crate::check::{AcceptedClaim, ClaimChecker, Reason};
-use crate::model::{Pencil, Problem};
+use mceip_check::certificate::Claim;
+use mceip_check::{AcceptedClaim, ClaimChecker, Reason};
+use mceip_model::{Pencil, Problem};
 
 /// Makes claims about one problem and has each of them checked.
 pub struct Certifier<'a> {
@@ -113,11 +113,11 @@ pub fn sift(problem: &Problem, claims: Vec<Claim>) -> Sifted {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certificate::ExactSolution;
     use crate::certify::propose;
-    use crate::exact::{Sparse, whole};
-    use crate::model::file::Number;
-    use crate::model::{Body, Unknown, Window};
+    use mceip_check::certificate::ExactSolution;
+    use mceip_exact::{Sparse, whole};
+    use mceip_model::file::Number;
+    use mceip_model::{Body, Unknown, Window};
 
     /// [[1, -6], [2, -6]] + t I: t = 2 with x = (2, 1) and t = 3 with x = (3, 2).
     fn problem() -> Problem {

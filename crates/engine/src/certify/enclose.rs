@@ -10,12 +10,12 @@ pub(super) mod newton;
 
 use super::{AttemptFailure, IntegralRows};
 use crate::candidate::Candidate;
-use crate::certificate::EnclosedSolution;
-use crate::exact::{Integer, Rational, to_f64};
-use crate::model::file::Number;
-use crate::model::{Pencil, Window};
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 use krawczyk::Krawczyk;
+use mceip_check::certificate::EnclosedSolution;
+use mceip_exact::{Integer, Rational, to_f64};
+use mceip_model::file::Number;
+use mceip_model::{Pencil, Window};
 use newton::{Newton, Point};
 use num_traits::Signed;
 

@@ -2,14 +2,14 @@
 
 use super::{AttemptFailure, IntegralRows, active};
 use crate::candidate::Candidate;
-use crate::certificate::ExactSolution;
-use crate::exact::{
+use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
+use mceip_check::certificate::ExactSolution;
+use mceip_exact::{
     Algebraic, Poly, Rational, Sign, determinant, from_f64, generic_kernel, kernel_at, roots_in,
     to_f64,
 };
-use crate::model::file::Number;
-use crate::model::{Pencil, Window};
-use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
+use mceip_model::file::Number;
+use mceip_model::{Pencil, Window};
 use num_traits::{Signed, Zero};
 
 /// Most halvings of an isolating interval: far beyond any sign the corpus needs.
@@ -78,7 +78,7 @@ impl Support<'_> {
     /// every value is one, so the candidate's own is taken, and then those where a sign may change.
     fn values_near(&self) -> Result<Vec<Algebraic>, AttemptFailure> {
         let place = |i: usize, which: usize| {
-            let mut row = vec![crate::exact::Integer::zero(); self.active.len()];
+            let mut row = vec![mceip_exact::Integer::zero(); self.active.len()];
             for (j, a, b) in &self.rows.0[i] {
                 if let Ok(k) = self.active.binary_search(j) {
                     row[k] = if which == 0 { a.clone() } else { b.clone() };
@@ -224,7 +224,7 @@ impl Support<'_> {
                 .map(|k| coordinate(k, &basis, value, &self.active, self.candidate))
                 .collect::<Result<Vec<_>, _>>()?,
         };
-        let clear = crate::exact::common_denominator(&weights);
+        let clear = mceip_exact::common_denominator(&weights);
         let mut x = vec![Poly::default(); self.pencil.order()];
         for (vector, weight) in basis.iter().zip(&weights) {
             let factor = weight.numer() * (&clear / weight.denom());
@@ -288,7 +288,7 @@ fn dot_sign(x: &[Poly], candidate: &Candidate, value: &mut Algebraic) -> bool {
 fn narrow(value: &mut Algebraic) {
     value.refine_to(&Rational::new(
         1.into(),
-        crate::exact::Integer::from(1u64 << 62),
+        mceip_exact::Integer::from(1u64 << 62),
     ));
 }
 
@@ -396,11 +396,11 @@ fn remainder(g: &Poly, p: &Poly) -> Vec<Rational> {
 /// All components times one positive rational that makes them integers without a common factor.
 fn primitive(x: Vec<Vec<Rational>>) -> Vec<Vec<Number>> {
     use num_integer::Integer as _;
-    let clear = crate::exact::common_denominator(x.iter().flatten());
+    let clear = mceip_exact::common_denominator(x.iter().flatten());
     let gcd = x
         .iter()
         .flatten()
-        .fold(crate::exact::Integer::zero(), |g, v| {
+        .fold(mceip_exact::Integer::zero(), |g, v| {
             g.gcd(&(v.numer() * (&clear / v.denom())))
         });
     let factor = if gcd.is_zero() {
@@ -414,7 +414,7 @@ fn primitive(x: Vec<Vec<Rational>>) -> Vec<Vec<Number>> {
 }
 
 /// A row of (A + tB) x.
-fn times(row: &[(usize, crate::exact::Integer, crate::exact::Integer)], x: &[Poly]) -> Poly {
+fn times(row: &[(usize, mceip_exact::Integer, mceip_exact::Integer)], x: &[Poly]) -> Poly {
     row.iter().fold(Poly::default(), |sum, (j, a, b)| {
         &sum + &(&Poly::new(vec![a.clone(), b.clone()]) * &x[*j])
     })

@@ -1,6 +1,6 @@
 //! Why a candidate was not certified: typed, one entry per support tried.
 
-use crate::check::Reason;
+use mceip_check::Reason;
 
 /// A candidate that stays uncertified, with what was tried.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,10 +1,10 @@
 //! An exact claim about the pencil as a claim about the mechanical system: v and w for every line
 //! of (9).
 
-use crate::certificate::{ExactSolution, LiftedSolution};
-use crate::exact::{Rational, Sparse};
-use crate::model::file::Number;
-use crate::model::{System, Unknown};
+use mceip_check::certificate::{ExactSolution, LiftedSolution};
+use mceip_exact::{Rational, Sparse};
+use mceip_model::file::Number;
+use mceip_model::{System, Unknown};
 use num_traits::Zero;
 
 /// Lifts x to v (E10: v_T = -S x, nothing else moves but the free dofs) and w = (t M + K) v, both
@@ -121,7 +121,7 @@ pub(super) fn remainder(mut rest: Vec<Rational>, p: &[Rational]) -> Vec<Rational
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use mceip_exact::{rational, whole};
 
     #[test]
     fn remainders_are_shorter_than_the_divisor() {

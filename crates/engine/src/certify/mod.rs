@@ -15,9 +15,9 @@ pub use lifted::{flattened, lifted};
 pub(crate) use precise::precise_null;
 
 use crate::candidate::Candidate;
-use crate::certificate::{Certificate, Claim};
-use crate::exact::Integer;
-use crate::model::{Pencil, Problem, Window};
+use mceip_check::certificate::{Certificate, Claim};
+use mceip_exact::Integer;
+use mceip_model::{Pencil, Problem, Window};
 use std::collections::VecDeque;
 
 /// Largest number of active variables for which an exact claim is attempted; above, enclosures.
@@ -185,7 +185,7 @@ struct IntegralRows(Vec<Vec<(usize, Integer, Integer)>>);
 
 impl IntegralRows {
     fn of(pencil: &Pencil) -> Self {
-        use crate::exact::common_denominator;
+        use mceip_exact::common_denominator;
         use std::collections::BTreeMap;
         let row = |i: usize| {
             let (a, b) = (pencil.a().row(i), pencil.b().row(i));
@@ -223,7 +223,7 @@ fn active(pencil: &Pencil, support: &[usize]) -> Vec<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Rational, Sparse, rational, whole};
+    use mceip_exact::{Rational, Sparse, rational, whole};
 
     fn diagonal(n: usize, entry: &Rational) -> Pencil {
         let a = Sparse::from_entries(n, n, (0..n).map(|i| (i, i, -entry.clone())));

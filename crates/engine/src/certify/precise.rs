@@ -4,8 +4,8 @@
 use super::IntegralRows;
 use super::enclose::newton::Newton;
 use crate::candidate::Candidate;
-use crate::exact::{Integer, Rational};
-use crate::model::Pencil;
+use mceip_exact::{Integer, Rational};
+use mceip_model::Pencil;
 
 /// Bits of the grid on which a candidate in doubles is polished first.
 const FIRST_BITS: u32 = 64;
@@ -68,7 +68,7 @@ pub(crate) fn precise_null(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, parse, whole};
+    use mceip_exact::{Sparse, parse, whole};
     use num_traits::{One, Signed};
 
     /// [[-2, 1e-30], [1e-30, 3]] + t I: on {0, 1} the small eigenvector component is about -1e-30 /

@@ -2,10 +2,10 @@
 
 use super::AttemptFailure;
 use crate::candidate::Candidate;
-use crate::certificate::Claim;
-use crate::exact::to_f64;
-use crate::model::Pencil;
 use crate::tolerance::SUPPORT_GUESSES;
+use mceip_check::certificate::Claim;
+use mceip_exact::to_f64;
+use mceip_model::Pencil;
 
 /// The distinct supports {i : x_i > threshold max x_s} over the thresholds, in their order.
 pub(super) fn guesses(
@@ -107,7 +107,7 @@ pub(super) fn within_rounding(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::Sparse;
+    use mceip_exact::Sparse;
 
     fn supports(x: &[f64]) -> Result<Vec<Vec<usize>>, AttemptFailure> {
         let n = 3;

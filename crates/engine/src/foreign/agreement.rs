@@ -10,13 +10,13 @@
 //! Input: an accepted claim and the report's numbers in doubles. Called by `judge`.
 
 use super::Reported;
-use crate::certificate::Claim;
-use crate::exact::{Rational, from_f64, to_f64};
-use crate::model::{Pencil, Problem};
 use crate::multistart::support;
 use crate::reduction::Reduced;
 use crate::report::Listed;
 use crate::tolerance::VALUE_FLOOR;
+use mceip_check::certificate::Claim;
+use mceip_exact::{Rational, from_f64, to_f64};
+use mceip_model::{Pencil, Problem};
 use num_traits::{Signed, Zero};
 
 /// Errors of a reported solution, relative to the proven one.
@@ -217,7 +217,7 @@ fn worst_component(reported: &[f64], proven: &[Ball]) -> Option<(Component, Vec<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::Sparse;
+    use mceip_exact::Sparse;
 
     fn ball(center: f64) -> Ball {
         Ball {

@@ -1,11 +1,11 @@
 //! Reading a foreign `mceip-solutions/1` against the problem it is about.
 
 use crate::candidate::{Candidate, SOLUTIONS_FORMAT};
-use crate::exact::{Rational, to_f64};
-use crate::model::file::{Number, Object, from_json, require_format};
-use crate::model::{Body, ModelError, Problem};
 use crate::reduction::{Reduced, project};
 use crate::tolerance::X_RADIUS;
+use mceip_exact::{Rational, to_f64};
+use mceip_model::file::{Number, Object, from_json, require_format};
+use mceip_model::{Body, ModelError, Problem};
 use num_traits::{Signed as _, Zero as _};
 use serde::{Deserialize, Deserializer};
 

@@ -4,14 +4,14 @@
 use super::Reported;
 use super::agreement::{Agreement, agreement};
 use crate::candidate::Candidate;
-use crate::certificate::Claim;
 use crate::certify::certify;
-use crate::exact::{Interval, Poly, Rational, enclosing_decimals, from_f64, to_decimal};
-use crate::model::{Pencil, Problem, Window};
 use crate::multistart::{exact_value, support};
-use crate::oracle::{Enumeration, MAX_FREE, coefficient_bits, enumerate};
 use crate::reduction::Reduced;
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
+use mceip_check::certificate::Claim;
+use mceip_exact::{Interval, Poly, Rational, enclosing_decimals, from_f64, to_decimal};
+use mceip_model::{Pencil, Problem, Window};
+use mceip_oracle::{Enumeration, MAX_FREE, coefficient_bits, enumerate};
 
 /// Most complementarity variables for which absence near a candidate is proved by enumeration.
 pub const REFUTE_SLIP: usize = 10;
@@ -229,12 +229,9 @@ fn refute(
         window.max().map_or(hi.clone(), |m| hi.min(m.clone())),
     );
     let Ok(near) = Window::new(lo.clone(), Some(hi.clone())) else {
-        let max = window
-            .max()
-            .map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
         return Ok(Refutation::OutsideWindow {
             value: candidate.value,
-            window: format!("[{}, {max}", window.min()),
+            window: window.to_string(),
         });
     };
     let slip = reduced.pencil.slip();
@@ -256,7 +253,7 @@ fn refute(
         0 => "there is none at all".to_string(),
         n => format!("{n} found with another x"),
     };
-    let as_double = crate::exact::to_f64;
+    let as_double = mceip_exact::to_f64;
     Ok(Refutation::NothingNear {
         lo: as_double(&lo),
         hi: as_double(&hi),
@@ -402,7 +399,7 @@ fn value_text(claim: &Claim) -> String {
         let decimal = to_decimal(&mut value, &Poly::from_ints(&[0, 1]), 17);
         let exact = value
             .as_rational()
-            .is_some_and(|r| crate::exact::parse(&decimal).is_ok_and(|d| d == *r));
+            .is_some_and(|r| mceip_exact::parse(&decimal).is_ok_and(|d| d == *r));
         return format!("= {decimal}{}", if exact { "" } else { "..." });
     }
     let Claim::EnclosedSolution(c) = claim else {

@@ -2,7 +2,7 @@
 #![allow(clippy::float_arithmetic)]
 
 use super::{ExactMcp, Violated, check};
-use crate::exact::{Rational, from_f64, to_f64};
+use mceip_exact::{Rational, from_f64, to_f64};
 use num_traits::Zero;
 
 /// Why a point within the tolerance is no certified solution.
@@ -104,7 +104,7 @@ fn solve_rows(problem: &ExactMcp, inside: &[usize], z: &mut [Rational]) -> bool 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use mceip_exact::{rational, whole};
 
     fn lcp(m: &[&[i64]], q: &[i64]) -> ExactMcp {
         let n = q.len();

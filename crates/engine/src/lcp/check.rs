@@ -1,7 +1,7 @@
 //! Is a rational point a solution? Exact: it multiplies and compares.
 
 use super::ExactMcp;
-use crate::exact::{Integer, Rational, common_denominator};
+use mceip_exact::{Integer, Rational, common_denominator};
 use num_traits::{Signed, Zero};
 
 /// (Unknowns) x (bits of a point over its common denominator) at most, so that a small file cannot
@@ -139,8 +139,8 @@ fn scaled_row(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
     use crate::lcp::read_mcp;
+    use mceip_exact::{rational, whole};
 
     /// z0 in [0, 3/2] with F0 = 1 - z0 (solutions 0, 1, 3/2 once z1 is free and F1 = z1 / 3 + z0 /
     /// 7 vanishes).

@@ -1,9 +1,9 @@
 //! `mceip-mcp/1` and the file of a solution.
 
 use super::{ExactMcp, ExactMcpError};
-use crate::exact::{Rational, whole};
-use crate::model::ModelError;
-use crate::model::file::{Number, from_json, require_format};
+use mceip_exact::{Rational, whole};
+use mceip_model::ModelError;
+use mceip_model::file::{Number, from_json, require_format};
 use serde::Deserialize;
 
 /// The format of plain problems.
@@ -137,8 +137,8 @@ fn fractions(list: &[Rational]) -> Vec<String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::rational;
     use crate::lcp::{McpRejected, Violated, judge};
+    use mceip_exact::rational;
 
     #[test]
     fn defaults_round_trip_and_refusals() {

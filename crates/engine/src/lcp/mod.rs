@@ -19,8 +19,8 @@ pub use file::{
 pub use search::{Found, Search, search};
 pub use verdict::{McpRejected, judge};
 
-use crate::exact::{Rational, to_f64};
-use crate::mcp::{LinearMcp, McpError};
+use mceip_exact::{Rational, to_f64};
+use mceip_mcp::mcp::{LinearMcp, McpError};
 use nalgebra::DMatrix;
 use num_traits::Zero;
 use sha2::{Digest as _, Sha256};

@@ -3,9 +3,9 @@
 #![allow(clippy::float_arithmetic)]
 
 use super::{ExactMcp, Uncertifiable, certify};
-use crate::exact::Rational;
 use crate::multistart::trace_outcome;
-use crate::solver::{
+use mceip_exact::Rational;
+use mceip_mcp::solver::{
     Counters, Options, Outcome, Sense, SolverError, Termination, continuation, solve, solve_linear,
 };
 use rand::{RngExt, SeedableRng};

@@ -1,8 +1,8 @@
 //! The all-slip solutions of a condensed pencil in doubles: positive eigenvectors, by the QR
 //! algorithm.
 
-use crate::linear::{eigenvalues, solve};
 use crate::tolerance::REAL_EIGENVALUE;
+use mceip_mcp::linear::{eigenvalues, solve};
 
 /// Newton steps from an eigenvalue of the QR algorithm and the even vector.
 const STEPS: usize = 30;

@@ -4,11 +4,11 @@
 
 use super::same::repeats;
 use crate::candidate::Candidate;
-use crate::linear::solve as solve_dense;
-use crate::mcp::Mcp;
 use crate::reduction::{CondensedEmbedding, CondensedEmbeddingError, SparseCondensation};
 use crate::run::{Progress, Watch};
-use crate::solver::{Options, SolverError, Termination, solve};
+use mceip_mcp::linear::solve as solve_dense;
+use mceip_mcp::mcp::Mcp;
+use mceip_mcp::solver::{Options, SolverError, Termination, solve};
 use std::collections::BTreeMap;
 
 /// Newton steps on the places of a point, at most: each doubles the digits.

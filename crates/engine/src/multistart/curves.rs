@@ -6,13 +6,13 @@ use super::same::repeats;
 use super::trace::trace_outcome;
 use super::{Found, Origin};
 use crate::candidate::Candidate;
-use crate::mcp::Mcp;
-use crate::model::Admissible;
 use crate::reduction::{CirclePencil, Embedding, Side};
-use crate::solver::{
+use crate::tolerance::SAME_CURVE_POINT;
+use mceip_mcp::mcp::Mcp;
+use mceip_mcp::solver::{
     Curve, CurveEnd, Options, Sense, SolverError, continuation, continuation_through, solve,
 };
-use crate::tolerance::SAME_CURVE_POINT;
+use mceip_model::Admissible;
 
 /// Solutions taken from one curve, at most: a cone of solutions is met at every step.
 const PER_CURVE: usize = 16;

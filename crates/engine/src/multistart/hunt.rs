@@ -6,12 +6,12 @@ use super::same::same;
 use super::trace::trace_outcome;
 use super::{Certified, Certifier, Found, Origin, Search, Uncertified};
 use crate::candidate::Candidate;
-use crate::exact::to_f64;
-use crate::model::{Admissible, Unknown, Window};
 use crate::reduction::{Embedding, Side};
 use crate::run::{Progress, Watch};
-use crate::solver::{Counters, SolverError, solve};
 use crate::tolerance::WINDOW_GAP;
+use mceip_exact::to_f64;
+use mceip_mcp::solver::{Counters, SolverError, solve};
+use mceip_model::{Admissible, Unknown, Window};
 
 /// zeta of the first curve of MCEIP-lambda2, in units of the embedding (|A| / |B|).
 const FAR_START: f64 = 32.0;

@@ -15,15 +15,15 @@ pub use same::{exact_value, same, support};
 pub use trace::trace_outcome;
 
 use crate::candidate::Candidate;
-use crate::certificate::Claim;
 use crate::certify::{self, NotCertified};
-use crate::exact::to_f64;
-use crate::model::{Admissible, ModelError, Pencil, Problem, Unknown, Window};
 use crate::reduction::{CondensationError, Expansion, Side, condense};
 use crate::run::Watch;
-use crate::solver::{CurveEnd, Options, Outcome, SolverError, Termination};
 use crate::tolerance::WINDOW_GAP;
 use hunt::{Hunt, WINDOW_SALT};
+use mceip_check::certificate::Claim;
+use mceip_exact::to_f64;
+use mceip_mcp::solver::{CurveEnd, Options, Outcome, SolverError, Termination};
+use mceip_model::{Admissible, ModelError, Pencil, Problem, Unknown, Window};
 use std::collections::BTreeMap;
 
 /// How to search.
@@ -303,12 +303,12 @@ pub fn multistart_with(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certificate::ExactSolution;
     use crate::certify::{Attempt, AttemptFailure, propose, sift};
-    use crate::check::Reason;
-    use crate::exact::{Sparse, whole};
-    use crate::model::Body;
-    use crate::model::file::Number;
+    use mceip_check::Reason;
+    use mceip_check::certificate::ExactSolution;
+    use mceip_exact::{Sparse, whole};
+    use mceip_model::Body;
+    use mceip_model::file::Number;
 
     /// lambda^2 = 2 with x = (2, 1) and 3 with (3, 2).
     fn fold() -> (Problem, Pencil) {

@@ -1,10 +1,10 @@
 //! When two claims, or two candidates, are the same solution.
 
 use crate::candidate::Candidate;
-use crate::certificate::Claim;
-use crate::exact::{Algebraic, Integer, Interval, Poly};
-use crate::model::file::Number;
 use crate::tolerance::SAME_POINT;
+use mceip_check::certificate::Claim;
+use mceip_exact::{Algebraic, Integer, Interval, Poly};
+use mceip_model::file::Number;
 
 /// The support of a claim.
 pub fn support(claim: &Claim) -> &[usize] {

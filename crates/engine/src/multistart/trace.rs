@@ -1,6 +1,6 @@
 //! The log of a run as text: every step, path and pivot, doubles in their shortest exact spelling.
 
-use crate::solver::Outcome;
+use mceip_mcp::solver::Outcome;
 use std::fmt::Write as _;
 
 /// One line a step, a path, a pivot; the last line says why the run ended.

@@ -12,8 +12,8 @@
 
 use super::Embedding;
 use crate::candidate::Candidate;
-use crate::mcp::Mcp;
 use crate::tolerance::CIRCLE_END;
+use mceip_mcp::mcp::Mcp;
 use nalgebra::{DMatrix, DVector};
 
 /// An eigenproblem on the circle, in doubles.
@@ -162,10 +162,10 @@ impl Mcp for CirclePencil {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, parse};
-    use crate::model::{Admissible, Pencil, Unknown};
     use crate::reduction::Side;
-    use crate::solver::{CurveEnd, Options, Residuals, Sense, continuation_through};
+    use mceip_exact::{Sparse, parse};
+    use mceip_mcp::solver::{CurveEnd, Options, Residuals, Sense, continuation_through};
+    use mceip_model::{Admissible, Pencil, Unknown};
 
     fn embedding(a: &[&[&str]], b: &[&[&str]], free: &[usize], unknown: Unknown) -> Embedding {
         let sparse = |rows: &[&[&str]]| {

@@ -1,8 +1,8 @@
 //! Exact condensation of MCEIP-mu to the slip particles: the f rows of K1 vanish (16), so x_f is
 //! eliminated by K_ff independently of mu.
 
-use crate::exact::{CondenseError, schur_complement};
-use crate::model::{Admissible, ModelError, Pencil, Unknown};
+use mceip_exact::{CondenseError, schur_complement};
+use mceip_model::{Admissible, ModelError, Pencil, Unknown};
 
 /// Why a pencil is not condensed.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -54,18 +54,18 @@ pub fn condense(admissible: &Admissible<'_>) -> Result<Pencil, CondensationError
     )?)
 }
 
-fn stack(a: &crate::exact::Sparse, b: &crate::exact::Sparse) -> crate::exact::Sparse {
+fn stack(a: &mceip_exact::Sparse, b: &mceip_exact::Sparse) -> mceip_exact::Sparse {
     let top = a.entries().map(|(i, j, v)| (i, j, v.clone()));
     let bottom = b.entries().map(|(i, j, v)| (i + a.rows(), j, v.clone()));
-    crate::exact::Sparse::from_entries(a.rows() + b.rows(), a.cols(), top.chain(bottom))
+    mceip_exact::Sparse::from_entries(a.rows() + b.rows(), a.cols(), top.chain(bottom))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::Sparse;
-    use crate::model::Window;
-    use crate::oracle::enumerate;
+    use mceip_exact::Sparse;
+    use mceip_model::Window;
+    use mceip_oracle::enumerate;
 
     #[test]
     fn solutions_are_those_of_the_full_pencil() {
@@ -108,7 +108,7 @@ mod tests {
         let full = Pencil::new(a, b, vec![0]).unwrap();
         let small = condense(&Admissible::new(&full, Unknown::Mu).unwrap()).unwrap();
         let quarters = Sparse::from_ints(&[&[19, -2, 1], &[-2, 20, 2], &[1, 2, 27]]);
-        let fourth = crate::exact::rational(1, 4);
+        let fourth = mceip_exact::rational(1, 4);
         assert_eq!(
             *small.a(),
             Sparse::from_entries(3, 3, []).add_scaled(&fourth, &quarters)

@@ -7,9 +7,9 @@
 //! condensed to order n_s, and A(0), B(0) are MCEIP-mu. Nothing here decides anything.
 #![allow(clippy::float_arithmetic)]
 
-use crate::exact::to_f64;
-use crate::linear::{Analysis, NotDefinite, SchurFactor, Symmetric};
-use crate::model::{ContactState, Direction, Particle};
+use mceip_exact::to_f64;
+use mceip_mcp::linear::{Analysis, NotDefinite, SchurFactor, Symmetric};
+use mceip_model::{ContactState, Direction, Particle};
 
 /// Why a system is not condensed in doubles.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

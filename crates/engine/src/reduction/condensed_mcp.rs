@@ -8,7 +8,7 @@
 #![allow(clippy::float_arithmetic)]
 
 use super::{SparseCondensation, SparseCondensationError, SparseCondensed};
-use crate::mcp::Mcp;
+use mceip_mcp::mcp::Mcp;
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -221,8 +221,8 @@ impl Mcp for CondensedEmbedding<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::linear::Symmetric;
-    use crate::model::ContactState;
+    use mceip_mcp::linear::Symmetric;
+    use mceip_model::ContactState;
     use mceip_paper::{BlockModel, DoubleBlock, DoubleMatrix};
 
     fn condensation(with_mass: bool) -> SparseCondensation {

@@ -7,9 +7,9 @@
 #![allow(clippy::float_arithmetic)]
 
 use crate::candidate::Candidate;
-use crate::exact::to_f64;
-use crate::mcp::Mcp;
-use crate::model::Admissible;
+use mceip_exact::to_f64;
+use mceip_mcp::mcp::Mcp;
+use mceip_model::Admissible;
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;

@@ -3,9 +3,9 @@
 #![allow(clippy::float_arithmetic)]
 
 use crate::candidate::Candidate;
-use crate::exact::{Sparse, to_f64};
-use crate::linear::solve;
-use crate::model::Pencil;
+use mceip_exact::{Sparse, to_f64};
+use mceip_mcp::linear::solve;
+use mceip_model::Pencil;
 
 /// From a candidate of the condensed pencil to one of the full pencil: x_f = -A_ff^-1 A_fs x_s.
 pub struct Expansion {
@@ -56,7 +56,7 @@ fn dense(m: &Sparse) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::whole;
+    use mceip_exact::whole;
 
     #[test]
     fn free_rows_balance_after_expansion() {

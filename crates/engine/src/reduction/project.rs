@@ -1,7 +1,7 @@
 //! From v over all degrees of freedom back to x of the pencil: the other direction of (10).
 
 use super::Variable;
-use crate::exact::Rational;
+use mceip_exact::Rational;
 use num_traits::{Signed, Zero};
 
 /// x of (10) for a given v, and what of v it leaves unexplained.
@@ -21,10 +21,8 @@ pub struct Projected {
 /// Components of v beyond those the variables name count as constrained.
 ///
 /// ```
-/// use mceip_engine::{
-///     exact::whole,
-///     reduction::{Variable, project},
-/// };
+/// use mceip_exact::whole;
+/// use mceip_engine::reduction::{Variable, project};
 /// let slip = Variable::Slip {
 ///     sign: 1,
 ///     tangent: vec![(0, whole(1))],
@@ -77,8 +75,8 @@ pub fn project(variables: &[Variable], v: &[Rational]) -> Projected {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Algebraic, Poly, rational, whole};
     use crate::reduction::{lift, reduce};
+    use mceip_exact::{Algebraic, Poly, rational, whole};
     use mceip_testkit::mechanical;
 
     /// What is lifted comes back; a component in a forbidden direction is named.
@@ -86,7 +84,7 @@ mod tests {
     fn the_inverse_of_the_lift() {
         let mut seen = 0;
         for instance in mechanical(30, 5).unwrap() {
-            let crate::model::Body::System(system) = instance.problem.body() else {
+            let mceip_model::Body::System(system) = instance.problem.body() else {
                 unreachable!()
             };
             let variables = reduce(&instance.problem).unwrap().variables;

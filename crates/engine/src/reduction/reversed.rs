@@ -1,8 +1,8 @@
 //! The pencil reversed: value s = 1 / t, so that infinity becomes zero.
 
 use super::reduce;
-use crate::exact::{Rational, Sparse};
-use crate::model::{Body, ModelError, Pencil, Problem, Window};
+use mceip_exact::{Rational, Sparse};
+use mceip_model::{Body, ModelError, Pencil, Problem, Window};
 use num_traits::Zero;
 
 /// The problem with the rows of A and B exchanged, wherever B has a row that is not zero; rows of A
@@ -17,11 +17,9 @@ use num_traits::Zero;
 /// [`ModelError`] of the reduction.
 ///
 /// ```
-/// use mceip_engine::{
-///     exact::{Sparse, rational, whole},
-///     model::{Body, Pencil, Problem, Unknown, Window},
-///     reduction::reversed,
-/// };
+/// use mceip_exact::{Sparse, rational, whole};
+/// use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+/// use mceip_engine::reduction::reversed;
 /// // (1 - t) x = y: t = 1, and s = 1 of (s - 1) x = y.
 /// let pencil = Pencil::new(
 ///     Sparse::from_ints(&[&[1]]),
@@ -79,9 +77,9 @@ pub fn reversed(problem: &Problem) -> Result<Problem, ModelError> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::whole;
-    use crate::model::Unknown;
-    use crate::oracle::enumerate;
+    use mceip_exact::whole;
+    use mceip_model::Unknown;
+    use mceip_oracle::enumerate;
 
     /// Values of the reversed problem are the reciprocals, support by support, rows without B
     /// included.
@@ -105,7 +103,7 @@ mod tests {
         ];
         let mut found = 0;
         for pencil in list {
-            let window = Window::new(crate::exact::rational(1, 100), None).unwrap();
+            let window = Window::new(mceip_exact::rational(1, 100), None).unwrap();
             let problem =
                 Problem::new(Body::Pencil(pencil.clone()), Unknown::Mu, window.clone()).unwrap();
             let back = reversed(&problem).unwrap();
@@ -114,13 +112,13 @@ mod tests {
             };
             let forth = enumerate(&pencil, &window).unwrap();
             let above = Window::new(
-                crate::exact::rational(1, 1_000_000),
+                mceip_exact::rational(1, 1_000_000),
                 back.window().max().cloned(),
             )
             .unwrap();
             let there = enumerate(other, &above).unwrap();
             assert_eq!(forth.solutions.len(), there.solutions.len());
-            let values = |e: &crate::oracle::Enumeration| -> Vec<(Vec<usize>, f64)> {
+            let values = |e: &mceip_oracle::Enumeration| -> Vec<(Vec<usize>, f64)> {
                 e.solutions
                     .iter()
                     .map(|s| (s.slip.clone(), s.decimal(17).parse().unwrap()))

@@ -1,17 +1,17 @@
 //! A solution ready to be printed: decimals of value, x, y, v and w, each correctly rounded.
 
 use crate::candidate::Candidate;
-use crate::certificate::{Claim, ExactSolution};
 use crate::certify::{Certifier, flattened};
-use crate::check::AcceptedClaim;
-use crate::exact::{
+use crate::multistart::exact_value;
+use crate::reduction::{Reduced, lift};
+use mceip_check::AcceptedClaim;
+use mceip_check::certificate::{Claim, ExactSolution};
+use mceip_exact::{
     Algebraic, Integer, Poly, Rational, common_denominator, enclosing_decimals, from_f64,
     ratio_to_decimal, to_decimal, to_f64,
 };
-use crate::model::{Body, Pencil, Problem};
-use crate::multistart::exact_value;
-use crate::oracle::{Cone, Enumeration, Solution};
-use crate::reduction::{Reduced, lift};
+use mceip_model::{Body, Pencil, Problem};
+use mceip_oracle::{Cone, Enumeration, Solution};
 
 /// Significant digits printed in reports.
 pub(super) const DIGITS: usize = 17;
@@ -346,9 +346,9 @@ fn row_times(pencil: &Pencil, i: usize, x: &[Poly]) -> (Poly, Integer) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Interval, Sparse, rational, whole};
-    use crate::model::{Unknown, Window};
     use crate::reduction::reduce;
+    use mceip_exact::{Interval, Sparse, rational, whole};
+    use mceip_model::{Unknown, Window};
 
     /// [[1, -6], [2, -6]] + t I: t = 2 with x = (2, 1).
     fn listed(x: &[f64]) -> Listed {

@@ -2,11 +2,11 @@
 
 use super::{Listed, Table};
 use crate::candidate::SOLUTIONS_FORMAT;
-use crate::check::{AcceptedCover, OpenRegion, SolutionFamily};
-use crate::exact::{Integer, Interval, Poly, enclosing_decimals, to_decimal};
-use crate::model::{Body, Problem};
-use crate::oracle::{End, Enumeration, Piece, SupportRange};
 use crate::reduction::{Reduced, Variable};
+use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
+use mceip_exact::{Integer, Interval, Poly, enclosing_decimals, to_decimal};
+use mceip_model::{Body, Problem};
+use mceip_oracle::{End, Enumeration, Piece, SupportRange};
 use serde_json::{Value, json};
 
 /// Solutions with what stands behind them.

@@ -1,11 +1,11 @@
 //! Absence over a whole window by definiteness alone: the conditions (19) and (20) with exact LDL'
 //! factors as evidence, tried before any search.
 
-use crate::certificate::{Ldl, LdlFactor, Node};
-use crate::exact::{Rational, rational, to_f64};
-use crate::model::file::Number;
-use crate::model::{Pencil, Window};
 use crate::tolerance::SEMIDEFINITE_PIVOT;
+use mceip_check::certificate::{Ldl, LdlFactor, Node};
+use mceip_exact::{Rational, rational, to_f64};
+use mceip_model::file::Number;
+use mceip_model::{Pencil, Window};
 use num_traits::{Signed, Zero};
 
 /// Largest order for which exact factors are formed: beyond it their numbers grow longer than they
@@ -33,7 +33,7 @@ pub fn leaf(pencil: &Pencil, window: &Window) -> Option<Node> {
     holds.then(|| Node::Ldl(Box::new(Ldl { lower, upper })))
 }
 
-fn symmetric(m: &crate::exact::Dense) -> Vec<Vec<Rational>> {
+fn symmetric(m: &mceip_exact::Dense) -> Vec<Vec<Rational>> {
     let n = m.rows();
     (0..n)
         .map(|i| {
@@ -104,10 +104,10 @@ fn ldl(s: &[Vec<Rational>]) -> Option<LdlFactor> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, whole};
-    use crate::model::{Body, Problem, Unknown};
     use crate::run::Watch;
     use crate::search::complete::{Options, complete};
+    use mceip_exact::{Sparse, whole};
+    use mceip_model::{Body, Problem, Unknown};
 
     fn pencil(a: &[&[i64]], b: &[&[i64]]) -> Pencil {
         Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), vec![]).unwrap()

@@ -6,11 +6,11 @@
 //! For pictures, and for starts of what is certified elsewhere.
 
 use super::complete::{CompleteError, Options, complete};
-use crate::exact::{Sparse, from_f64, to_f64};
-use crate::linear;
-use crate::model::{Body, ModelError, Pencil, Problem, System, Unknown, Window};
 use crate::reduction::{Variable, mu_family};
 use crate::run::Watch;
+use mceip_exact::{Sparse, from_f64, to_f64};
+use mceip_mcp::linear;
+use mceip_model::{Body, ModelError, Pencil, Problem, System, Unknown, Window};
 
 /// Why there are no levels.
 #[derive(Debug, thiserror::Error)]
@@ -191,7 +191,7 @@ impl Level {
             Window::all(),
         )?;
         let found = complete(&problem, &Options::default(), watch)?;
-        let solution = |(claim, x): (&crate::check::AcceptedClaim, &[f64])| LevelSolution {
+        let solution = |(claim, x): (&mceip_check::AcceptedClaim, &[f64])| LevelSolution {
             mu: to_f64(&claim.value.mid()),
             support: claim.support.clone(),
             x: x.to_vec(),
@@ -214,9 +214,9 @@ fn doubles(matrix: &Sparse) -> Vec<Vec<f64>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
-    use crate::oracle::{TwoParticles, enumerate};
     use crate::reduction::reduce;
+    use mceip_exact::{rational, whole};
+    use mceip_oracle::{TwoParticles, enumerate};
     use mceip_paper::{Block, BlockModel, two_particles};
 
     /// Table 1 for (+1, -1): t = q - p twice and t = q - p - 1, so at a level t mu = (t + p) / cs.
@@ -266,7 +266,7 @@ mod tests {
             let at_mu = enumerate(&reduce(&problem).unwrap().pencil, problem.window())
                 .unwrap()
                 .solutions;
-            let near = |v: &crate::oracle::Solution| {
+            let near = |v: &mceip_oracle::Solution| {
                 (v.decimal(17).parse::<f64>().unwrap() / lambda2 - 1.0).abs() < 1e-6
             };
             assert!(at_mu.iter().any(near));

@@ -3,10 +3,10 @@
 
 use super::complete::{CompleteError, Completed, Options, complete};
 use crate::candidate::Candidate;
-use crate::exact::{Integer, Rational, from_f64, parse};
-use crate::model::{Problem, Window};
 use crate::run::Watch;
 use crate::tolerance::{ABSENCE_RADII, X_RADIUS};
+use mceip_exact::{Integer, Rational, from_f64, parse};
+use mceip_model::{Problem, Window};
 use num_traits::Signed;
 
 /// Pieces of a small window: enough for all cores, few enough for short certificates.
@@ -37,12 +37,11 @@ pub enum Near {
 /// [`CompleteError`]: the problem is outside the hypotheses of the complete search.
 ///
 /// ```
-/// use mceip_engine::{
-///     candidate::Candidate,
-///     exact::Sparse,
-///     model::{Body, Pencil, Problem, Unknown, Window},
-///     search::near::{Near, near},
-/// };
+/// use mceip_engine::candidate::Candidate;
+/// use mceip_exact::Sparse;
+/// use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+/// use mceip_engine::run::Watch;
+/// use mceip_engine::search::near::{Near, near};
 /// let pencil = Pencil::new(
 ///     Sparse::from_ints(&[&[1, -6], &[2, -6]]),
 ///     Sparse::identity(2),
@@ -156,8 +155,8 @@ fn distance(x: &[f64], candidate: &Candidate, support: &[usize]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, rational, whole};
-    use crate::model::{Body, Pencil, Unknown};
+    use mceip_exact::{Sparse, rational, whole};
+    use mceip_model::{Body, Pencil, Unknown};
 
     /// lambda^2 = 2 with x = (2, 1) and 3 with (3, 2).
     fn fold(window: Window) -> Problem {

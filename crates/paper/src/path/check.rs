@@ -3,8 +3,8 @@
 
 use super::contact::{Contact, Friction, Load};
 use super::line::Line;
-use crate::exact::{Integer, Rational};
-use crate::model::ContactState;
+use mceip_exact::{Integer, Rational};
+use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
 
 /// A law that fails: node (from 0 at the left) and equation.
@@ -73,7 +73,7 @@ pub(super) fn check(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, rational, whole};
+    use mceip_exact::{Sparse, rational, whole};
 
     const SLIP: ContactState = ContactState::Slip { sign: 1 };
 

@@ -2,7 +2,7 @@
 #![allow(clippy::float_arithmetic)]
 
 use super::{LoadingPath, Step};
-use crate::exact::to_f64;
+use mceip_exact::to_f64;
 
 /// How a stepped path compares with the exact one.
 #[derive(Debug, Clone, PartialEq)]

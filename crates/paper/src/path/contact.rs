@@ -4,8 +4,8 @@
 use super::PathError;
 use super::linear::{Images, solve};
 use crate::Block;
-use crate::exact::{Integer, Rational, Sparse, common_denominator, schur_complement};
-use crate::model::ContactState;
+use mceip_exact::{Integer, Rational, Sparse, common_denominator, schur_complement};
+use mceip_model::ContactState;
 use num_traits::{One, Zero};
 
 /// K condensed to the contact nodes, S = K_cc - K_ci K_ii^-1 K_ic, as integers over one

@@ -1,7 +1,7 @@
 //! Why a loading path is not computed.
 
-use crate::exact::{CondenseError, Rational};
-use crate::model::ModelError;
+use mceip_exact::{CondenseError, Rational};
+use mceip_model::ModelError;
 
 /// A path that cannot be followed, or options that make no path.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]

@@ -2,8 +2,8 @@
 //! end it. All numbers are integers over common denominators: only signs and zeros are asked for.
 
 use super::contact::{Contact, Friction, Load, Response};
-use crate::exact::{Integer, Rational, common_denominator};
-use crate::model::ContactState;
+use mceip_exact::{Integer, Rational, common_denominator};
+use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
 
 /// Displacements and reactions u(d) = (u0 + d u1) / den, r(d) = (r0 + d r1) / (den contact), per
@@ -227,7 +227,7 @@ impl Equilibrium {
     /// (r_T, r_N) of every node, each correctly rounded to a double, N.
     pub fn reactions_f64(&self) -> Vec<(f64, f64)> {
         let round = |r: &Integer| {
-            crate::exact::to_f64(&Rational::new_raw(
+            mceip_exact::to_f64(&Rational::new_raw(
                 r * self.r_unit.numer(),
                 self.r_unit.denom().clone(),
             ))
@@ -288,7 +288,7 @@ pub(super) fn classify(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use mceip_exact::{rational, whole};
 
     fn z(v: &[i64]) -> Vec<Integer> {
         v.iter().map(|&v| v.into()).collect()

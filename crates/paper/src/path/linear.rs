@@ -5,7 +5,7 @@
 //! on the condensed matrix would pass through numbers forty times as long.
 
 use super::contact::Contact;
-use crate::exact::{Field, Integer, Residues, primes};
+use mceip_exact::{Field, Integer, Residues, primes};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 
@@ -222,7 +222,7 @@ fn denominator_of(v: &Integer, modulus: &Integer, limit: u64) -> Option<Integer>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, whole};
+    use mceip_exact::{Sparse, whole};
 
     fn z(v: &[i64]) -> Vec<Integer> {
         v.iter().map(|&v| v.into()).collect()
@@ -262,7 +262,7 @@ mod tests {
                 (
                     0,
                     0,
-                    crate::exact::Rational::from_integer(&big * &big * &big),
+                    mceip_exact::Rational::from_integer(&big * &big * &big),
                 ),
                 (1, 1, whole(1)),
                 (0, 1, whole(5)),

@@ -36,8 +36,8 @@ pub use rates::Finder;
 pub use step::{Step, step_path};
 
 use super::Block;
-use crate::exact::{Rational, rational, whole};
-use crate::model::{ContactState, ModelError, Problem};
+use mceip_exact::{Rational, rational, whole};
+use mceip_model::{ContactState, ModelError, Problem};
 use num_traits::Signed;
 use std::ops::ControlFlow;
 

@@ -4,8 +4,8 @@
 use super::PathError;
 use super::contact::Contact;
 use super::linear::{Images, solve};
-use crate::exact::{Integer, Rational, Sparse};
-use crate::model::{ContactState, ModelError, Pencil};
+use mceip_exact::{Integer, Rational, Sparse};
+use mceip_model::{ContactState, ModelError, Pencil};
 use num_integer::Integer as _;
 use num_traits::{One, Zero};
 
@@ -119,9 +119,9 @@ impl Scale {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Admissible, Unknown};
     use crate::{Block, BlockModel, MeshKind, Plane};
     use mceip_engine::reduction::{condense, reduce};
+    use mceip_model::{Admissible, Unknown};
 
     /// Two ways to the same exact matrices: through (10)-(16) and the uncondensed K, and from S.
     #[test]

@@ -4,10 +4,10 @@
 
 use super::contact::{Contact, Friction, Load};
 use super::line::Class;
-use crate::exact::{Rational, to_f64};
-use crate::mcp::LinearMcp;
-use crate::model::ContactState;
-use crate::solver::{Options, solve_linear};
+use mceip_exact::{Rational, to_f64};
+use mceip_mcp::mcp::LinearMcp;
+use mceip_mcp::solver::{Options, solve_linear};
+use mceip_model::ContactState;
 use nalgebra::DMatrix;
 
 /// What an unknown of the rate problem is.

@@ -6,8 +6,8 @@ use super::contact::{Contact, Friction, Load, Response, respond};
 use super::line::{Bound, Class};
 use super::linear::Images;
 use super::propose::propose;
-use crate::exact::Integer;
-use crate::model::ContactState;
+use mceip_exact::Integer;
+use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
 use std::collections::BTreeSet;
 

@@ -7,8 +7,8 @@ use super::line::Class;
 use super::linear::Images;
 use super::propose::propose;
 use super::rates::{Finder, Rates};
-use crate::exact::{Rational, Sparse, whole};
-use crate::model::ContactState;
+use mceip_exact::{Rational, Sparse, whole};
+use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
 use std::collections::BTreeMap;
 

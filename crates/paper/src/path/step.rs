@@ -3,10 +3,10 @@
 #![allow(clippy::float_arithmetic)]
 
 use super::{Contact, Loading, PathError};
-use crate::exact::{Rational, to_f64};
-use crate::linear::solve;
-use crate::model::ContactState;
 use crate::tolerance::STEP_SIGN;
+use mceip_exact::{Rational, to_f64};
+use mceip_mcp::linear::solve;
+use mceip_model::ContactState;
 use std::ops::ControlFlow;
 
 /// Active-set iterations of one step. A step changes a few nodes; cycling is the only reason for
@@ -95,7 +95,7 @@ pub fn step_path(
     Ok(steps)
 }
 
-fn ratio(v: &crate::exact::Integer, contact: &Contact) -> f64 {
+fn ratio(v: &mceip_exact::Integer, contact: &Contact) -> f64 {
     to_f64(&Rational::new_raw(v.clone(), contact.denominator().clone()))
 }
 

@@ -6,8 +6,8 @@ use super::line::{Class, Line, classify, next_event};
 use super::linear::Images;
 use super::rates::{Rates, Solved, admissible};
 use super::{Change, Event, Interval, Loading, LoadingPath, PathEnd, PathError};
-use crate::exact::{Integer, Rational, to_f64, whole};
-use crate::model::ContactState;
+use mceip_exact::{Integer, Rational, to_f64, whole};
+use mceip_model::ContactState;
 use num_traits::{One, Signed, Zero};
 use std::ops::ControlFlow;
 

@@ -2,13 +2,13 @@
 
 use super::Case;
 use crate::compare::{compare_with, engines, observed};
-use crate::exact::{Algebraic, Rational};
-use crate::exact::{Poly, common_denominator};
-use crate::model::{Pencil, Window};
-use crate::multistart::Search;
-use crate::oracle::Enumeration;
-use crate::reduction::Reduced;
 use crate::{Corner, Disagreement, InstanceReport, Treatment};
+use mceip_engine::multistart::Search;
+use mceip_engine::reduction::Reduced;
+use mceip_exact::{Algebraic, Rational};
+use mceip_exact::{Poly, common_denominator};
+use mceip_model::{Pencil, Window};
+use mceip_oracle::Enumeration;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// What every engine is held against.

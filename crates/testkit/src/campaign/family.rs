@@ -2,10 +2,10 @@
 
 use super::named;
 use crate::Instance;
-use crate::exact::Rational;
 use crate::generators::Seed;
-use crate::model::ModelError;
-use crate::oracle::Enumeration;
+use mceip_exact::Rational;
+use mceip_model::ModelError;
+use mceip_oracle::Enumeration;
 use std::fmt;
 
 /// What is known of an instance by construction.

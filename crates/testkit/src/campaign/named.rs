@@ -2,15 +2,15 @@
 //! take more than seconds in exact arithmetic.
 
 use super::family::{Expected, Made};
-use crate::exact::{Rational, rational, whole};
 use crate::generators::{
     Seed, near, permuted, raw, scales, states as mixtures, window, with_scaled_rows,
 };
-use crate::model::{Body, ModelError, Pencil, Problem, Unknown, Window};
-use crate::oracle::TwoParticles;
 use crate::pareto::{Planted, pareto_matrices};
-use crate::source::two_particles;
 use crate::{Corner, Instance, families, known as theorems};
+use mceip_exact::{Rational, rational, whole};
+use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
+use mceip_oracle::TwoParticles;
+use mceip_paper::two_particles;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 

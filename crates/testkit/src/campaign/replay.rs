@@ -3,10 +3,10 @@
 
 use super::{Case, Expected, Finding, Id};
 use crate::Instance;
-use crate::exact::parse;
-use crate::model::ModelError;
-use crate::model::file::{from_json, read_problem, require_format, write_problem};
-use crate::oracle::TwoParticles;
+use mceip_exact::parse;
+use mceip_model::ModelError;
+use mceip_model::file::{from_json, read_problem, require_format, write_problem};
+use mceip_oracle::TwoParticles;
 use serde::{Deserialize, Serialize};
 use std::path::Path;
 
@@ -22,7 +22,7 @@ pub enum ReplayError {
     Model(#[from] ModelError),
     /// Data of Table 1.
     #[error("closed_form: {0}")]
-    Number(#[from] crate::exact::NumberError),
+    Number(#[from] mceip_exact::NumberError),
 }
 
 /// What the file holds.

@@ -2,7 +2,7 @@
 
 use super::{Case, Engine, Finding, Id, Judgement, Replay, State, case, judge, shrink};
 use crate::Disagreement;
-use crate::run::Cancel;
+use mceip_engine::run::Cancel;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};
 

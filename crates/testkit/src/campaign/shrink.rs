@@ -2,10 +2,10 @@
 //! structure.
 
 use super::{Case, Engine, Finding, judge};
-use crate::exact::{Rational, Sparse, whole};
-use crate::model::{Body, ModelError, Pencil, Problem, System, Window};
-use crate::oracle::TwoParticles;
-use crate::source::two_particles;
+use mceip_exact::{Rational, Sparse, whole};
+use mceip_model::{Body, ModelError, Pencil, Problem, System, Window};
+use mceip_oracle::TwoParticles;
+use mceip_paper::two_particles;
 use num_traits::{One, Signed, Zero};
 
 /// Instances tried for one disagreement, at most: each costs a run of the engines.
@@ -93,7 +93,7 @@ fn size(case: &Case) -> (usize, usize, u64) {
         ),
         Body::System(s) => {
             let mass = s.mass().map_or(0, |m| m.entries().count());
-            let odd = |p: &crate::model::Particle| {
+            let odd = |p: &mceip_model::Particle| {
                 usize::from(p.frame.is_some()) + usize::from(p.normal_direction < 0)
             };
             let features = s.stiffness().entries().count()
@@ -148,7 +148,7 @@ fn with_data(case: &Case, data: TwoParticles) -> Result<Case, ModelError> {
 }
 
 fn simpler_data(d: &TwoParticles) -> Vec<TwoParticles> {
-    let (c, s) = (crate::exact::rational(3, 5), crate::exact::rational(4, 5));
+    let (c, s) = (mceip_exact::rational(3, 5), mceip_exact::rational(4, 5));
     let mut out = vec![TwoParticles { c, s, ..d.clone() }];
     out.push(TwoParticles {
         k: Rational::one(),
@@ -172,7 +172,7 @@ fn simpler(v: &Rational) -> Vec<Rational> {
     let part = |v: &Rational| v.trunc();
     let halved = {
         let shift = v.denom().bits() / 2;
-        let scale = crate::exact::Integer::one() << shift;
+        let scale = mceip_exact::Integer::one() << shift;
         Rational::new(
             (v * Rational::from_integer(scale.clone())).to_integer(),
             scale,
@@ -238,7 +238,7 @@ fn systems(s: &System) -> Tried<System> {
         let place = |d: usize| keep.iter().position(|k| *k == d);
         let particles = s.particles().iter().filter_map(|p| {
             let (tangential, normal) = (place(p.tangential)?, place(p.normal)?);
-            Some(crate::model::Particle {
+            Some(mceip_model::Particle {
                 tangential,
                 normal,
                 ..p.clone()
@@ -252,7 +252,7 @@ fn systems(s: &System) -> Tried<System> {
         ));
     }
     for k in 0..s.particles().len() {
-        let with = |change: &dyn Fn(&mut crate::model::Particle)| {
+        let with = |change: &dyn Fn(&mut mceip_model::Particle)| {
             let mut particles = s.particles().to_vec();
             change(&mut particles[k]);
             rebuild(s.stiffness().clone(), s.mass().cloned(), particles)

@@ -2,8 +2,8 @@
 
 use super::Judgement;
 use crate::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
-use crate::model::ModelError;
-use crate::model::file::{from_json, require_format};
+use mceip_model::ModelError;
+use mceip_model::file::{from_json, require_format};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 

@@ -3,10 +3,10 @@
 use super::flag::{Flag, derive};
 use super::wrong::{WrongAnswer, wrong_answers};
 use super::{ConformError, Label};
-use crate::model::Problem;
-use crate::oracle::{Enumeration, enumerate};
-use crate::reduction::{Reduced, reduce};
-use crate::report::{Claimed, Listed, Report, solutions_json};
+use mceip_engine::reduction::{Reduced, reduce};
+use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
+use mceip_model::Problem;
+use mceip_oracle::{Enumeration, enumerate};
 use serde_json::Value;
 use std::collections::BTreeSet;
 
@@ -81,7 +81,7 @@ impl Case {
             answer,
         };
         if as_pencil {
-            let body = crate::model::Body::Pencil(case.reduced.pencil.clone());
+            let body = mceip_model::Body::Pencil(case.reduced.pencil.clone());
             let pencil = Problem::new(body, case.problem.unknown(), case.problem.window().clone())
                 .map_err(at)?;
             case.problem = pencil.named(draft.id.clone());

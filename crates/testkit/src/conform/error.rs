@@ -1,7 +1,7 @@
 //! Why a conformance run or a pack is refused.
 
-use crate::model::ModelError;
-use crate::oracle::OracleError;
+use mceip_model::ModelError;
+use mceip_oracle::OracleError;
 
 /// A pack that cannot be used, a command that cannot be started.
 #[derive(Debug, thiserror::Error)]
@@ -52,10 +52,10 @@ pub enum ConformError {
     Model(#[from] ModelError),
     /// A mesh of the block was refused.
     #[error(transparent)]
-    Source(#[from] crate::source::SourceError),
+    Source(#[from] mceip_paper::SourceError),
     /// The block was not condensed.
     #[error(transparent)]
-    Condensation(#[from] crate::reduction::CondensationError),
+    Condensation(#[from] mceip_engine::reduction::CondensationError),
     /// The command does not start.
     #[error("cannot start {command:?}: {reason}")]
     Start {

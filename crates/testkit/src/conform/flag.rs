@@ -1,8 +1,8 @@
 //! Flags of cases: what a case is about, and the class of bugs it catches.
 
-use crate::model::{Body, ContactState, Problem, Unknown};
-use crate::oracle::Enumeration;
-use crate::reduction::Reduced;
+use mceip_engine::reduction::Reduced;
+use mceip_model::{Body, ContactState, Problem, Unknown};
+use mceip_oracle::Enumeration;
 use num_traits::Zero;
 use std::collections::BTreeSet;
 
@@ -95,10 +95,10 @@ pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration)
     put(Flag::OneByOne, pencil.order() == 1);
     put(Flag::FreeVariables, !pencil.free().is_empty());
     let (large, small) = (
-        crate::exact::whole(100_000),
-        crate::exact::rational(1, 100_000),
+        mceip_exact::whole(100_000),
+        mceip_exact::rational(1, 100_000),
     );
-    let extreme = |v: &crate::exact::Rational| {
+    let extreme = |v: &mceip_exact::Rational| {
         !v.is_zero() && (*v > large || -v > large || (*v < small && -v < small))
     };
     put(
@@ -167,14 +167,14 @@ fn of_answer(reduced: &Reduced, answer: &Enumeration, put: &mut impl FnMut(Flag,
     put(Flag::SingularPencil, !answer.continua.is_empty());
     put(Flag::Continuum, !answer.ranges.is_empty());
     put(Flag::FreeOnly, answer.is_outside_propositions());
-    let close = crate::exact::rational(1, 100);
+    let close = mceip_exact::rational(1, 100);
     for s in listed {
         let mut value = s.value.clone();
         value.try_rational();
         put(Flag::Irrational, value.as_rational().is_none());
         put(
             Flag::ZeroValue,
-            value.cmp_rational(&crate::exact::Rational::zero()).is_eq(),
+            value.cmp_rational(&mceip_exact::Rational::zero()).is_eq(),
         );
         put(Flag::RepeatedRoot, s.multiplicity > 1);
         put(Flag::Biactive, !s.biactive.is_empty());
@@ -185,8 +185,8 @@ fn of_answer(reduced: &Reduced, answer: &Enumeration, put: &mut impl FnMut(Flag,
         let gap = &pair[1].value.interval().lo().clone() - pair[0].value.interval().hi();
         let apart = {
             let (mut a, mut b) = (pair[0].value.clone(), pair[1].value.clone());
-            a.refine_to(&(&close / crate::exact::whole(100)));
-            b.refine_to(&(&close / crate::exact::whole(100)));
+            a.refine_to(&(&close / mceip_exact::whole(100)));
+            b.refine_to(&(&close / mceip_exact::whole(100)));
             b.interval().mid() - a.interval().mid()
         };
         put(Flag::SharedValue, equal);
@@ -196,12 +196,12 @@ fn of_answer(reduced: &Reduced, answer: &Enumeration, put: &mut impl FnMut(Flag,
 
 /// Is a positive component below 1e-3 of e'x_s? By correctly rounded decimals: 0.000... or an
 /// exponent.
-fn tiny(s: &crate::oracle::Solution, slip: &[usize]) -> bool {
-    let limit = crate::exact::rational(1, 1000);
+fn tiny(s: &mceip_oracle::Solution, slip: &[usize]) -> bool {
+    let limit = mceip_exact::rational(1, 1000);
     let decimals = s.x_decimals(slip, 17);
     s.slip
         .iter()
-        .any(|&i| crate::exact::parse(&decimals[i]).is_ok_and(|v| v < limit))
+        .any(|&i| mceip_exact::parse(&decimals[i]).is_ok_and(|v| v < limit))
 }
 
 #[cfg(test)]

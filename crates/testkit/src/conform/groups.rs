@@ -1,12 +1,12 @@
 //! The groups of the pack: which problems, and what only their maker knows about them.
 
 use super::{ConformError, Draft, Flag, Group};
-use crate::exact::{Rational, Sparse, rational, whole};
-use crate::model::{Admissible, Body, ModelError, Pencil, Problem, Unknown, Window};
-use crate::oracle::TwoParticles;
-use crate::reduction::{condense, reduce};
-use crate::source::{Block, BlockModel, pythagorean_angles, two_particles};
 use crate::{known, mechanical, pareto, random_pencils};
+use mceip_engine::reduction::{condense, reduce};
+use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::{Admissible, Body, ModelError, Pencil, Problem, Unknown, Window};
+use mceip_oracle::TwoParticles;
+use mceip_paper::{Block, BlockModel, pythagorean_angles, two_particles};
 use num_traits::{One, Zero};
 
 /// Seed of the random groups of the pack.

@@ -8,13 +8,13 @@
 //! and every continuum (its intervals, or a solution on its slip set) is met.
 
 use super::Case;
-use crate::certificate::{Claim, ExactSolution};
-use crate::certify::Certifier;
-use crate::exact::{Algebraic, Poly, Rational, common_denominator, from_f64};
-use crate::foreign::{BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignReport};
-use crate::multistart::{exact_value, support};
-use crate::oracle::{End, Enumeration, Solution, SupportRange};
-use crate::tolerance::VALUE_RADIUS;
+use mceip_check::certificate::{Claim, ExactSolution};
+use mceip_engine::certify::Certifier;
+use mceip_engine::foreign::{BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignReport};
+use mceip_engine::multistart::{exact_value, support};
+use mceip_engine::tolerance::VALUE_RADIUS;
+use mceip_exact::{Algebraic, Poly, Rational, common_denominator, from_f64};
+use mceip_oracle::{End, Enumeration, Solution, SupportRange};
 use num_traits::{One, Signed};
 
 /// What a program did with a case.
@@ -261,7 +261,7 @@ fn same_intervals(range: &SupportRange, reported: &ForeignContinuum) -> bool {
 /// The first part of the answer that was not met, and how many.
 fn missing(case: &Case, met: &Met) -> Option<String> {
     let decimal = |value: &Algebraic| {
-        crate::exact::to_decimal(&mut value.clone(), &Poly::from_ints(&[0, 1]), 9)
+        mceip_exact::to_decimal(&mut value.clone(), &Poly::from_ints(&[0, 1]), 9)
     };
     let not = |list: &[bool]| {
         list.iter()

@@ -2,7 +2,7 @@
 //! each time.
 
 use super::{Bug, Case, ConformError, Draft, Flag, Group};
-use crate::model::file::{from_json, read_problem, read_text, require_format, write_problem};
+use mceip_model::file::{from_json, read_problem, read_text, require_format, write_problem};
 use rayon::prelude::*;
 use serde::Deserialize;
 use serde_json::{Map, Value, json};
@@ -180,7 +180,7 @@ fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, ConformError> {
             entry.file.chars().take(80).collect(),
             "expected a name beside the index".into(),
         );
-        return Err(at(crate::model::ModelError::Unreadable {
+        return Err(at(mceip_model::ModelError::Unreadable {
             what: "a group",
             path,
             problem,

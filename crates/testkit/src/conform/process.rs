@@ -1,7 +1,7 @@
 //! One run of a foreign program: problem in, report out, bounded in time and memory.
 
 use super::ConformError;
-use crate::run::Watch;
+use mceip_engine::run::Watch;
 use std::io::{Read, Write as _};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::Arc;
@@ -195,7 +195,7 @@ fn first_line(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::run::Cancel;
+    use mceip_engine::run::Cancel;
 
     fn sh(script: &str, limits: &Limits) -> Ending {
         let command = ["sh".to_string(), "-c".into(), script.into()];

@@ -3,8 +3,8 @@
 
 use super::process::{Ending, Limits, run_once};
 use super::{Case, ConformError, Draft, Flag, Group, Judgement, Label, judge_report, random_draft};
-use crate::model::file::write_problem;
-use crate::run::{Progress, Watch};
+use mceip_engine::run::{Progress, Watch};
+use mceip_model::file::write_problem;
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 use std::sync::atomic::{AtomicUsize, Ordering};

@@ -1,10 +1,10 @@
 //! Eigenpairs of supports that are no solutions: what careless programs report.
 
-use crate::exact::{
+use mceip_exact::{
     Algebraic, Integer, Poly, Rational, Sign, common_denominator, determinant, kernel_at, roots_in,
 };
-use crate::model::Pencil;
-use crate::oracle::Solution;
+use mceip_model::Pencil;
+use mceip_oracle::Solution;
 
 /// What the eigenvector of a support looks like.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -1,7 +1,7 @@
 //! Outcomes per flag: for people, as Markdown, as JSON.
 
 use super::{Flag, Label, Outcome};
-use crate::report::Table;
+use mceip_engine::report::Table;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 

@@ -2,10 +2,10 @@
 
 use super::spectrum::{Kind, eigenpairs};
 use super::{Case, Label};
-use crate::candidate::SOLUTIONS_FORMAT;
-use crate::exact::{Rational, rational, whole};
-use crate::model::Window;
-use crate::oracle::{Solution, enumerate};
+use mceip_engine::candidate::SOLUTIONS_FORMAT;
+use mceip_exact::{Rational, rational, whole};
+use mceip_model::Window;
+use mceip_oracle::{Solution, enumerate};
 use num_traits::{Signed, Zero};
 use serde_json::{Value, json};
 
@@ -193,7 +193,7 @@ fn entry(s: &Solution, slip: &[usize], negated: bool) -> Value {
 
 /// The solution with 1.01 value + 0.01, where no support is singular (else that may be a solution).
 fn shifted(case: &Case, s: &Solution, slip: &[usize]) -> Option<Value> {
-    let value = crate::exact::parse(&s.decimal(17))
+    let value = mceip_exact::parse(&s.decimal(17))
         .ok()
         .filter(|_| case.answer.continua.is_empty())?;
     let value = value * rational(101, 100) + rational(1, 100);
@@ -248,7 +248,7 @@ fn clearly_mixed(s: &Solution, slip: &[usize]) -> bool {
     let limit = rational(-1, 100);
     let decimals = s.x_decimals(slip, 17);
     slip.iter()
-        .any(|&i| crate::exact::parse(&decimals[i]).is_ok_and(|v| v < limit))
+        .any(|&i| mceip_exact::parse(&decimals[i]).is_ok_and(|v| v < limit))
 }
 
 /// A solution of the problem without its window, clearly outside of that.
@@ -261,7 +261,7 @@ fn outside(case: &Case) -> Option<Solution> {
     let far =
         |v: &Rational, from: &Rational| (v - from).abs() > rational(1, 100) * (whole(1) + v.abs());
     all.solutions.into_iter().find(|s| {
-        let Ok(v) = crate::exact::parse(&s.decimal(17)) else {
+        let Ok(v) = mceip_exact::parse(&s.decimal(17)) else {
             return false;
         };
         (v < *window.min() && far(&v, window.min()))

@@ -6,8 +6,8 @@ pub mod scales;
 pub mod states;
 pub mod tails;
 
-use crate::exact::{Rational, Sparse, rational, whole};
-use crate::model::{Pencil, Window};
+use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::{Pencil, Window};
 use num_traits::One;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
@@ -108,7 +108,7 @@ pub(super) fn rebuilt(
 
 /// 10^k, k of either sign.
 pub(super) fn power_of_ten(k: i32) -> Rational {
-    let power = num_traits::pow(crate::exact::Integer::from(10), k.unsigned_abs() as usize);
+    let power = num_traits::pow(mceip_exact::Integer::from(10), k.unsigned_abs() as usize);
     if k < 0 {
         Rational::new(One::one(), power)
     } else {

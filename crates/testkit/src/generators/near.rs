@@ -2,10 +2,10 @@
 //! disappears.
 
 use super::power_of_ten;
-use crate::exact::{Integer, Rational, Sparse, rational, whole};
-use crate::model::{Body, ModelError, Pencil, Problem, Unknown, Window};
-use crate::oracle::TwoParticles;
 use crate::pareto::{Planted, planted};
+use mceip_exact::{Integer, Rational, Sparse, rational, whole};
+use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
+use mceip_oracle::TwoParticles;
 use num_traits::One;
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;

@@ -2,8 +2,8 @@
 //! variables anywhere.
 
 use super::{gram, sparse};
-use crate::exact::{Rational, Sparse, rational, whole};
-use crate::model::{ModelError, Pencil, Unknown};
+use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::{ModelError, Pencil, Unknown};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 

@@ -2,8 +2,8 @@
 
 use super::raw::elements;
 use super::{power_of_ten, rebuilt};
-use crate::exact::{Rational, Sparse, from_f64, rational, whole};
-use crate::model::{ModelError, Pencil, Unknown};
+use mceip_exact::{Rational, Sparse, from_f64, rational, whole};
+use mceip_model::{ModelError, Pencil, Unknown};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 

@@ -2,8 +2,8 @@
 
 use super::{gram, sparse};
 use crate::Corner;
-use crate::exact::{Rational, rational};
-use crate::model::{ContactState, ModelError, Particle, System};
+use mceip_exact::{Rational, rational};
+use mceip_model::{ContactState, ModelError, Particle, System};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 

@@ -2,7 +2,7 @@
 //! rank.
 
 use super::{gram, sparse};
-use crate::model::{ModelError, Pencil};
+use mceip_model::{ModelError, Pencil};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 

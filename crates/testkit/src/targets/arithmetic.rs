@@ -1,7 +1,7 @@
 //! `exact` against the naive second implementation beside this file.
 
 use super::naive::{self, List};
-use crate::exact::{
+use mceip_exact::{
     Integer, Poly, Rational, Sign, determinant, from_f64, nonnegative_roots, parse, roots_in,
     to_f64, whole,
 };

@@ -1,16 +1,16 @@
 //! What is read is true or refused: certificates of any text, reports of any doubles.
 
-use crate::candidate::Candidate;
-use crate::certificate::{Certificate, Claim};
-use crate::certify::{certificate, propose};
-use crate::check::{Accepted, AcceptedClaim, check};
-use crate::exact::{Sparse, from_f64};
-use crate::foreign::{BadPoint, ForeignReport, Reported};
-use crate::model::{Body, Pencil, Problem, Unknown, Window};
-use crate::multistart::support;
-use crate::oracle::{Enumeration, Solution, enumerate};
-use crate::reduction::reduce;
-use crate::run::Watch;
+use mceip_check::certificate::{Certificate, Claim};
+use mceip_check::{Accepted, AcceptedClaim, check};
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{certificate, propose};
+use mceip_engine::foreign::{BadPoint, ForeignReport, Reported};
+use mceip_engine::multistart::support;
+use mceip_engine::reduction::reduce;
+use mceip_engine::run::Watch;
+use mceip_exact::{Sparse, from_f64};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_oracle::{Enumeration, Solution, enumerate};
 use std::cmp::Ordering;
 
 /// Certificate reader and checker on any text: what is read round-trips; bound to one of a few
@@ -185,7 +185,7 @@ fn is_same(s: &Solution, claim: &AcceptedClaim) -> bool {
     s.slip == claim.support && within(&s.value, claim)
 }
 
-fn within(value: &crate::exact::Algebraic, claim: &AcceptedClaim) -> bool {
+fn within(value: &mceip_exact::Algebraic, claim: &AcceptedClaim) -> bool {
     let mut value = value.clone();
     value.cmp_rational(claim.value.lo()) != Ordering::Less
         && value.cmp_rational(claim.value.hi()) != Ordering::Greater
@@ -193,7 +193,7 @@ fn within(value: &crate::exact::Algebraic, claim: &AcceptedClaim) -> bool {
 
 /// Certificates of every kind for the fixed problems: the seeds of the corpus.
 pub fn certificate_seeds() -> Vec<String> {
-    use crate::search::complete::{Options, complete};
+    use mceip_engine::search::complete::{Options, complete};
     let mut out = Vec::new();
     for problem in subjects() {
         let options = Options {

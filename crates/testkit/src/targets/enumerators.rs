@@ -1,10 +1,10 @@
 //! The complete search against the plain enumerator.
 
 use crate::completed::compare_within;
-use crate::exact::{Rational, Sparse, rational, whole};
-use crate::model::file::write_problem;
-use crate::model::{Body, Pencil, Problem, Unknown, Window};
-use crate::oracle::enumerate;
+use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::file::write_problem;
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_oracle::enumerate;
 
 /// The complete search, cut short after few nodes, says nothing that the plain enumerator does not;
 /// and a set it calls complete is the plain one's.

@@ -2,7 +2,7 @@
 //! coefficients, Euclid's algorithm with division, determinants by Leibniz' formula, Sturm's
 //! theorem as in the textbook.
 
-use crate::exact::{Rational, whole};
+use mceip_exact::{Rational, whole};
 use num_traits::{One, Signed, Zero};
 
 /// A polynomial over Q from the constant term up, without leading zeros.

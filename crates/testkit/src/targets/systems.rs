@@ -2,16 +2,16 @@
 //! (10)-(16) and lift; Table 1 in closed form against enumerator and solver.
 
 use super::coverage::Counter;
-use crate::check::check;
-use crate::exact::{Rational, Sparse, rational, whole};
-use crate::model::file::write_problem;
-use crate::model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
-use crate::oracle::TwoParticles;
-use crate::reduction::reduce;
-use crate::run::Watch;
-use crate::search::complete::{Options, complete};
-use crate::source::two_particles;
 use crate::{Instance, Treatment, compare_by};
+use mceip_check::check;
+use mceip_engine::reduction::reduce;
+use mceip_engine::run::Watch;
+use mceip_engine::search::complete::{Options, complete};
+use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::file::write_problem;
+use mceip_model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
+use mceip_oracle::TwoParticles;
+use mceip_paper::two_particles;
 use num_traits::{One, Zero};
 
 /// Process-wide counts of [`mechanical_systems`].
@@ -131,7 +131,7 @@ pub fn two_particle_problems_by(data: &[u8], treatment: &Treatment, counter: &Co
 
 /// A search that takes milliseconds on the small problems of a fuzzer.
 pub fn fuzz_treatment() -> Treatment {
-    let search = crate::multistart::Search {
+    let search = mceip_engine::multistart::Search {
         starts: 6,
         window_starts: 1,
         ..Default::default()

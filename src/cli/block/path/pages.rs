@@ -3,15 +3,15 @@
 use super::states::{Mode, Set, State, values, verdict};
 use super::{causes_text, end_text, motion};
 use crate::cli::common::CliError;
-use crate::exact::{Rational, to_f64};
 use crate::picture::{
     BranchPoint, Branches, Content, Mode as Drawn, Picture, Report, Section, Threshold,
     ThresholdColumn, branch_picture, mode_picture, path_picture, threshold_picture,
 };
-use crate::run::{Progress, Watch};
-use crate::search::levels::Levels;
-use crate::source::path::LoadingPath;
-use crate::source::{Block, BlockModel, MassKind, SourceError, Triangulation};
+use mceip_engine::run::{Progress, Watch};
+use mceip_engine::search::levels::Levels;
+use mceip_exact::{Rational, to_f64};
+use mceip_paper::path::LoadingPath;
+use mceip_paper::{Block, BlockModel, MassKind, SourceError, Triangulation};
 
 /// Everything there is to show.
 pub(super) struct Shown<'a> {
@@ -333,7 +333,7 @@ impl Shown<'_> {
             "T at start (N)",
             "begins with",
         ];
-        let row = |(k, i): (usize, &crate::source::path::Interval)| {
+        let row = |(k, i): (usize, &mceip_paper::path::Interval)| {
             let to = i.stop.as_ref().map_or("-".into(), motion);
             let mut row = vec![k.to_string(), motion(&i.start), to, i.picture()];
             row.extend(i.counts().map(|c| c.to_string()));

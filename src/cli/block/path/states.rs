@@ -1,19 +1,19 @@
 //! What is proved of each state of the loading path: the complete MCEIP-mu set, the conditions
 //! (17)-(20), and at chosen mu the complete MCEIP-lambda2 set, each solution with its mode.
 
-use crate::analysis::conditions::{Necessary, approximately};
-use crate::check::AcceptedClaim;
 use crate::cli::common::CliError;
-use crate::exact::{Rational, enclosing_decimals, to_f64};
-use crate::model::{Body, Pencil, Problem, Unknown, Window};
 use crate::picture::Mark;
-use crate::reduction::{Variable, mu_family, reduce};
-use crate::report::Table;
-use crate::run::{Progress, Watch};
-use crate::search::complete::{Completed, Options, complete};
-use crate::search::levels::{Levels, mode};
-use crate::source::Block;
-use crate::source::path::{Contact, Interval, LoadingPath};
+use mceip_check::AcceptedClaim;
+use mceip_engine::analysis::conditions::{Necessary, approximately};
+use mceip_engine::reduction::{Variable, mu_family, reduce};
+use mceip_engine::report::Table;
+use mceip_engine::run::{Progress, Watch};
+use mceip_engine::search::complete::{Completed, Options, complete};
+use mceip_engine::search::levels::{Levels, mode};
+use mceip_exact::{Rational, enclosing_decimals, to_f64};
+use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_paper::Block;
+use mceip_paper::path::{Contact, Interval, LoadingPath};
 use serde_json::{Value, json};
 
 /// What is asked of the states.
@@ -335,7 +335,7 @@ pub(super) fn json_of(states: &[State], path: &LoadingPath) -> Value {
 
 fn state_json(s: &State, path: &LoadingPath) -> Value {
     let interval = &path.intervals[s.stretch];
-    let motion = |e: &crate::source::path::Equilibrium| to_f64(e.motion());
+    let motion = |e: &mceip_paper::path::Equilibrium| to_f64(e.motion());
     let all_slip = |set: &Set| set.solutions.iter().any(|m| s.is_all_slip(m));
     let growing = |(mu, set): &(Rational, Set)| {
         let solution = |m: &Mode| {
@@ -359,7 +359,7 @@ fn state_json(s: &State, path: &LoadingPath) -> Value {
         "lambda2": s.growing.iter().map(growing).collect::<Vec<_>>(),
     });
     if let Some(n) = &s.necessary {
-        let end = |u: &crate::analysis::conditions::DefiniteUntil| {
+        let end = |u: &mceip_engine::analysis::conditions::DefiniteUntil| {
             u.end().map(|e| [to_f64(e.lo()), to_f64(e.hi())])
         };
         out["necessary"] = json!({

@@ -1,10 +1,10 @@
 //! K*, M* as an integer family in s and m, split into free and slip variables.
 
-use crate::exact::{
+use mceip_exact::{
     Integer, Rational, Sparse, common_denominator, from_f64, positive_definite, to_f64,
 };
-use crate::linear::definite_eigenvalues;
-use crate::model::Pencil;
+use mceip_mcp::linear::definite_eigenvalues;
+use mceip_model::Pencil;
 use num_traits::{One, Signed};
 
 /// Bits beyond the common denominator, so that bounds of eigenvalues can be integers.

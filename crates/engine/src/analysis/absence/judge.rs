@@ -1,9 +1,9 @@
 //! Is a box empty? Doubles look for a reason, integers decide whether it is one.
 
 use super::strip::Strip;
-use crate::exact::{Rational, Sparse, positive_definite};
 use crate::search::complete::game;
 use crate::tolerance::{DEFINITE_PIVOT, WITNESS_MARGIN};
+use mceip_exact::{Rational, Sparse, positive_definite};
 
 /// State of a slip variable.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]

@@ -12,12 +12,12 @@ mod family;
 mod judge;
 mod strip;
 
-use crate::exact::Rational;
-use crate::model::Pencil;
 use crate::reduction::MuFamily;
 use crate::run::Watch;
 use family::Scaled;
 use judge::{Corners, State, Verdict};
+use mceip_exact::Rational;
+use mceip_model::Pencil;
 use num_traits::One;
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
@@ -263,10 +263,10 @@ fn upper_mu(scaled: &Scaled, region: &Region) -> Option<Rational> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, rational, to_f64, whole};
-    use crate::model::{ContactState, Particle, System};
-    use crate::oracle::TwoParticles;
     use crate::reduction::mu_family;
+    use mceip_exact::{Sparse, rational, to_f64, whole};
+    use mceip_model::{ContactState, Particle, System};
+    use mceip_oracle::TwoParticles;
     use mceip_paper::two_particles;
 
     fn cover(family: &MuFamily) -> Absence {

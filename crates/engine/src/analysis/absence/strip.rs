@@ -13,8 +13,8 @@
 //! the bracket is bilinear and the rest at most |l_i||R_j| / sigma, sigma <= lambda_min(F).
 
 use super::family::{Fixed, Scaled};
-use crate::exact::{Integer, from_f64};
-use crate::linear::solve;
+use mceip_exact::{Integer, from_f64};
+use mceip_mcp::linear::solve;
 use num_traits::{Signed, ToPrimitive};
 
 /// Bits of the entries of a strip's matrices: sums of products with weights and corners fit 127

@@ -8,10 +8,10 @@
 
 use super::super::AttemptFailure;
 use super::newton::{Newton, Point, Slope};
-use crate::exact::{Integer, Rational, from_f64};
 use crate::tolerance::{
     KRAWCZYK_MARGIN, KRAWCZYK_NOISE, PRECONDITIONER_BITS, PRECONDITIONER_LOSS_BITS,
 };
+use mceip_exact::{Integer, Rational, from_f64};
 use num_traits::One;
 
 /// Largest binary exponent of a preconditioner that the checker takes (`spec/formats.md`).
@@ -217,7 +217,7 @@ fn round(y: &[Vec<f64>], scales: &[u64], exponent: u32) -> Vec<Vec<Integer>> {
 fn rounded(preconditioner: &[Vec<Integer>], scales: &[u64], exponent: u32) -> Vec<Vec<f64>> {
     let double = |(v, k): (&Integer, &u64)| {
         let bits = u64::from(exponent) - k;
-        crate::exact::to_f64(&Rational::new_raw(v.clone(), Integer::one() << bits))
+        mceip_exact::to_f64(&Rational::new_raw(v.clone(), Integer::one() << bits))
     };
     preconditioner
         .iter()

@@ -7,9 +7,9 @@
 use super::super::{AttemptFailure, IntegralRows, active};
 use super::dyadic;
 use crate::candidate::Candidate;
-use crate::exact::{Integer, Rational, from_f64, to_f64};
-use crate::linear::inverse;
-use crate::model::Pencil;
+use mceip_exact::{Integer, Rational, from_f64, to_f64};
+use mceip_mcp::linear::inverse;
+use mceip_model::Pencil;
 use num_traits::{One, Signed, Zero};
 
 /// Newton steps on one grid, at most. Each gains 20 bits or more, and a finer grid has at most 256

@@ -1,7 +1,7 @@
 //! The box that is proposed: where its centre lies, how wide it is, and what is told instead of it.
 
 use super::*;
-use crate::exact::{Sparse, parse, rational, whole};
+use mceip_exact::{Sparse, parse, rational, whole};
 use num_traits::One;
 
 /// [[-1, -2], [-2, -1]] + t I: x = (1/2, 1/2), t = 3; a third variable rests with y = `rest` times
@@ -335,11 +335,11 @@ fn coupled_claim(small: &str, support: &[usize]) -> Result<EnclosedSolution, Att
 
 /// Does the checker accept the claim?
 fn is_accepted(small: &str, claim: EnclosedSolution) -> bool {
-    use crate::model::{Body, Problem, Unknown};
+    use mceip_model::{Body, Problem, Unknown};
     let problem = Problem::new(Body::Pencil(coupled(small)), Unknown::Mu, Window::all()).unwrap();
-    let verdict = crate::check::ClaimChecker::new(&problem).verdict(
+    let verdict = mceip_check::ClaimChecker::new(&problem).verdict(
         &Window::all(),
-        &crate::certificate::Claim::EnclosedSolution(claim),
+        &mceip_check::certificate::Claim::EnclosedSolution(claim),
     );
     verdict.is_ok()
 }

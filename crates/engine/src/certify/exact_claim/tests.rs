@@ -1,9 +1,9 @@
 //! What an exact claim takes from its candidate, and how narrow its interval has to be.
 
 use super::*;
-use crate::certificate::Claim;
 use crate::certify::propose;
-use crate::exact::{Interval, Sparse, nonnegative_roots, rational, whole};
+use mceip_check::certificate::Claim;
+use mceip_exact::{Interval, Sparse, nonnegative_roots, rational, whole};
 
 fn claim_of(pencil: &Pencil, window: &Window, value: f64, x: &[f64]) -> ExactSolution {
     let Claim::ExactSolution(c) = propose(
@@ -107,7 +107,7 @@ fn the_ends_of_a_window_belong_to_it() {
 /// x = (1, 10^400): doubles would see infinity.
 #[test]
 fn components_beyond_doubles_are_compared_exactly() {
-    let huge = Rational::from_integer(crate::exact::Integer::from(10).pow(400));
+    let huge = Rational::from_integer(mceip_exact::Integer::from(10).pow(400));
     let a = Sparse::from_entries(
         2,
         2,
@@ -260,7 +260,7 @@ fn roots_are_taken_near_the_candidate_nearest_first() {
         active: active(&p, &[0]),
         candidate: &candidate,
     };
-    let root = |n: i64| Poly::new([-n, 10_000].map(crate::exact::Integer::from).to_vec());
+    let root = |n: i64| Poly::new([-n, 10_000].map(mceip_exact::Integer::from).to_vec());
     let found = at
         .roots_near(&[
             root(19_999),
@@ -281,7 +281,7 @@ fn roots_are_taken_near_the_candidate_nearest_first() {
 /// 2t - 3 is 1 at t = 2, and 0 or less in the middle of an interval that begins at 0 or 1.
 #[test]
 fn a_direction_is_compared_at_the_value_itself() {
-    let of = |c: [i64; 2]| Poly::new(c.map(crate::exact::Integer::from).to_vec());
+    let of = |c: [i64; 2]| Poly::new(c.map(mceip_exact::Integer::from).to_vec());
     for (x, away) in [(1.0, false), (-1.0, true)] {
         let mut two = nonnegative_roots(&of([-2, 1])).remove(0);
         assert_eq!(

@@ -1,9 +1,9 @@
 //! Against the exact condensation of an oblique system, and the residuals against dense algebra.
 
 use super::*;
-use crate::exact::{Rational, Sparse, rational, whole};
-use crate::model::{Admissible, Body, Problem, System, Unknown, Window};
 use crate::reduction::{condense, reduce};
+use mceip_exact::{Rational, Sparse, rational, whole};
+use mceip_model::{Admissible, Body, Problem, System, Unknown, Window};
 use nalgebra::{DMatrix, DVector};
 
 /// K, M: dofs 2 and 3 are free; (0, 1) slips along an oblique frame, (4, 5) along the axes.

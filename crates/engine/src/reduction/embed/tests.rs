@@ -1,8 +1,8 @@
 //! The scaling, the way to the candidate and back, and what the starting points promise.
 
 use super::*;
-use crate::exact::{Sparse, rational};
-use crate::model::{Pencil, Unknown};
+use mceip_exact::{Sparse, rational};
+use mceip_model::{Pencil, Unknown};
 
 /// Variable 1 is free. The diagonals of A are 4, 64, 1/16 and 0: scales 1/2, 1/8, 4 and that of B,
 /// 1/4.

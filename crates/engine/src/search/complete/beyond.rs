@@ -5,11 +5,11 @@ use super::root::null_vector;
 use super::tree::{Region, Search, State};
 use super::view::{Ends, Expansion, Matrix};
 use super::witness::definite;
-use crate::certificate::{Node, RootOutcome};
-use crate::exact::{Integer, Poly, Rational, generic_kernel};
-use crate::model::{Pencil, Window};
 use crate::search::definite::leaf;
 use crate::tolerance::{AT_INFINITY, DEFINITE_PIVOT};
+use mceip_check::certificate::{Node, RootOutcome};
+use mceip_exact::{Integer, Poly, Rational, generic_kernel};
+use mceip_model::{Pencil, Window};
 use num_traits::Zero;
 
 /// Free and moving variables up to which a null vector at infinity is looked for exactly.
@@ -163,7 +163,7 @@ pub(super) fn definite_from(pencil: &Pencil, lo: &Rational, resting: &[usize]) -
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::Sparse;
+    use mceip_exact::Sparse;
 
     #[test]
     fn the_limit_is_b_and_for_free_rows_without_b_those_of_a() {

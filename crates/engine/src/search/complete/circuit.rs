@@ -1,6 +1,6 @@
 //! Rays and circuits of the rows of G, at a value and carried over to polynomials in t around one.
 
-use crate::exact::{
+use mceip_exact::{
     Algebraic, Integer, Poly, Rational, Sign, common_denominator, cone_generators, dot,
     generic_kernel,
 };

@@ -8,11 +8,11 @@ use super::massless;
 use super::reverse;
 use super::skyline::{Skyline, dot};
 use super::view::{Expansion, View, row_factor, scale};
-use crate::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
-use crate::exact::{Integer, Rational, Sparse, from_f64, to_f64, truncated};
-use crate::model::file::Number;
-use crate::model::{Pencil, Window};
 use crate::tolerance::TAIL_START;
+use mceip_check::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
+use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64, truncated};
+use mceip_model::file::Number;
+use mceip_model::{Pencil, Window};
 
 /// How an anchor is expanded: degree of W and V, and the bits of their largest entries. What W's
 /// rounding costs enters to first order (times V), what the degree leaves out enters squared.

@@ -4,10 +4,10 @@
 use super::root::{Null, Unique, null_vector};
 use super::tree::{Item, Region, Search, State, short};
 use super::view::Ends;
-use crate::certificate::{Claim, Node, RootOutcome, Support};
-use crate::exact::{Rational, from_f64, to_f64};
-use crate::model::file::Number;
 use crate::tolerance::DEGENERATE_PART;
+use mceip_check::certificate::{Claim, Node, RootOutcome, Support};
+use mceip_exact::{Rational, from_f64, to_f64};
+use mceip_model::file::Number;
 
 /// Open variables of a region that no matrices enclose, up to which it is taken support by support.
 const MAX_OPEN_EXACT: usize = 6;

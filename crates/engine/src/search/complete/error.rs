@@ -1,8 +1,8 @@
 //! Why there is no certificate.
 
-use crate::certificate::Certificate;
-use crate::check::Rejected;
-use crate::model::{ModelError, Problem, Window};
+use mceip_check::Rejected;
+use mceip_check::certificate::Certificate;
+use mceip_model::{ModelError, Problem};
 
 /// Why there is no certificate.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -94,16 +94,9 @@ pub(super) fn same_problem(
     }
     if certificate.window != *problem.window() {
         return Err(CompleteError::OtherWindow {
-            expected: text(problem.window()),
-            got: text(&certificate.window),
+            expected: problem.window().to_string(),
+            got: certificate.window.to_string(),
         });
     }
     Ok(())
-}
-
-fn text(window: &Window) -> String {
-    let max = window
-        .max()
-        .map_or_else(|| "infinity)".into(), |m| format!("{m}]"));
-    format!("[{}, {max}", window.min())
 }

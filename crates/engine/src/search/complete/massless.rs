@@ -2,8 +2,8 @@
 //! without mass.
 
 use super::skyline::Skyline;
-use crate::certificate::Factor;
-use crate::exact::{Integer, Sparse};
+use mceip_check::certificate::Factor;
+use mceip_exact::{Integer, Sparse};
 
 /// A factor whose rest is diagonally dominant, for sym(m) positive definite on the rows that are
 /// not zero; `None` otherwise.
@@ -38,7 +38,7 @@ pub(super) fn factor(m: &Sparse) -> Option<Factor> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Rational, whole};
+    use mceip_exact::{Rational, whole};
 
     /// E = S - L L' is zero on rows without mass and diagonally dominant on the others.
     #[test]

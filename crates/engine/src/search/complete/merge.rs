@@ -2,9 +2,9 @@
 
 use super::splice::number;
 use super::{CompleteError, error};
-use crate::certificate::{Certificate, Claim, CompleteSet, Node, Piece, RootOutcome};
-use crate::check::{AcceptedCover, check};
-use crate::model::Problem;
+use mceip_check::certificate::{Certificate, Claim, CompleteSet, Node, Piece, RootOutcome};
+use mceip_check::{AcceptedCover, check};
+use mceip_model::Problem;
 
 /// One certificate from several of the same problem, window and pieces: of each piece the tree with
 /// the fewest open leaves. The checker reads the result.

@@ -31,15 +31,15 @@ pub use error::CompleteError;
 pub use merge::merge;
 
 use super::definite;
-use crate::certificate::{Certificate, CompleteSet, Node, Piece};
 use crate::certify::certificate;
-use crate::check::{
-    Accepted, AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check,
-};
-use crate::model::file::Number;
-use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
 use crate::run::Watch;
+use mceip_check::certificate::{Certificate, CompleteSet, Node, Piece};
+use mceip_check::{
+    Accepted, AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check,
+};
+use mceip_model::file::Number;
+use mceip_model::{Pencil, Problem};
 use shares::Shares;
 use skeleton::Prepared;
 use splice::Chosen;
@@ -112,7 +112,8 @@ impl Completed {
 /// [`CompleteError`].
 ///
 /// ```
-/// use mceip_engine::{exact::{whole, Sparse}, model::{Body, Pencil, Problem, Unknown, Window}};
+/// use mceip_exact::{whole, Sparse};
+/// use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 /// use mceip_engine::search::complete::{complete, Options};
 /// use mceip_engine::run::Watch;
 /// // The fold of spec/errata.md: lambda^2 = 2 and 3 and nothing else in [0, infinity).

@@ -11,10 +11,10 @@ use super::skeleton::Prepared;
 use super::tree::{Region, State};
 use super::view::Expansion;
 use crate::candidate::Candidate;
-use crate::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
 use crate::certify::{ENCLOSED_ORDER, precise_null};
-use crate::exact::{Integer, Rational, to_f64};
-use crate::model::{Pencil, Problem};
+use mceip_check::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
+use mceip_exact::{Integer, Rational, to_f64};
+use mceip_model::{Pencil, Problem};
 use num_traits::{One, Signed, Zero};
 
 /// Open regions that are looked at, at most: each costs a dense inverse.
@@ -260,7 +260,7 @@ fn half_width(value: &Rational) -> Option<Rational> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{rational, whole};
+    use mceip_exact::{rational, whole};
 
     #[test]
     fn the_most_negative_component_is_named() {

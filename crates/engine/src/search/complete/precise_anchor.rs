@@ -6,9 +6,9 @@
 //! factors are good for.
 
 use super::condense::{Blocks, FINE, expand};
-use crate::certificate::{Anchor, Condensation, IntegerMatrix};
-use crate::exact::{Integer, Rational, common_denominator, from_f64, to_f64};
-use crate::model::Pencil;
+use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix};
+use mceip_exact::{Integer, Rational, common_denominator, from_f64, to_f64};
+use mceip_model::Pencil;
 use num_traits::{One, Signed, Zero};
 
 /// Bits of the largest entry of W_0. Basis: the checker keeps 128 bits of an entry of the condensed
@@ -197,7 +197,7 @@ fn add(m: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::{Sparse, whole};
+    use mceip_exact::{Sparse, whole};
 
     /// F = [[3, -1], [-1, 2]] + t I, C = (1, 0)' + t (0, 1)': at t = 1 the coefficients are W_0 =
     /// F^-1 (1, 1)' = (4, 5)' / 11, W_1 = F^-1 ((0, 1)' - W_0).
@@ -215,7 +215,7 @@ mod tests {
             (3.into(), 1.into())
         );
 
-        let window = crate::model::Window::new(whole(0), Some(whole(2))).unwrap();
+        let window = mceip_model::Window::new(whole(0), Some(whole(2))).unwrap();
         let condensation = super::super::condense::condense(&pencil, &window)
             .unwrap()
             .condensation;

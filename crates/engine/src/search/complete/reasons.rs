@@ -11,12 +11,12 @@ mod wide;
 use super::circuit::{
     coefficients, combined, constants, divided, extended, generic_circuit, impossible,
 };
-use crate::certificate::{Alone, Exact, Member, Polynomials};
-use crate::exact::{
+use mceip_check::certificate::{Alone, Exact, Member, Polynomials};
+use mceip_exact::{
     Algebraic, Integer, Poly, Rational, Sign, cone_generators, determinant, first_row_cofactors,
     generic_kernel, kernel_at,
 };
-use crate::model::Pencil;
+use mceip_model::Pencil;
 
 /// The pencil in integers, and one support.
 pub(super) struct Supported {

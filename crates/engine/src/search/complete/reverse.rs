@@ -5,9 +5,9 @@
 use super::condense::{Blocks, COARSE, centers, expand, lowest_frequency};
 use super::tree::short;
 use super::view::Expansion;
-use crate::certificate::Anchor;
-use crate::exact::{Rational, to_f64};
-use crate::model::Pencil;
+use mceip_check::certificate::Anchor;
+use mceip_exact::{Rational, to_f64};
+use mceip_model::Pencil;
 
 /// A reversed anchor and the value from which it is used.
 pub(super) struct Beyond {

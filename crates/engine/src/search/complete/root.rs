@@ -2,11 +2,11 @@
 
 use super::tree::State;
 use super::view::{Ends, Expansion, Matrix};
-use crate::certificate::{Root, RootOutcome};
-use crate::exact::{Integer, Rational, from_f64, truncated};
-use crate::linear::{inverse, solve};
-use crate::model::file::Number;
 use crate::tolerance::{ROOT_HALF_WIDTHS, ROUNDING};
+use mceip_check::certificate::{Root, RootOutcome};
+use mceip_exact::{Integer, Rational, from_f64, truncated};
+use mceip_mcp::linear::{inverse, solve};
+use mceip_model::file::Number;
 use num_traits::One;
 
 /// Newton steps on the nonlinear eigenproblem.
@@ -483,14 +483,14 @@ fn integer(v: f64) -> Integer {
 }
 
 fn to_double(v: &Integer, bits: u32) -> f64 {
-    crate::exact::to_f64(&Rational::new(v.clone(), Integer::one() << bits))
+    mceip_exact::to_f64(&Rational::new(v.clone(), Integer::one() << bits))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::Sparse;
-    use crate::model::Pencil;
+    use mceip_exact::Sparse;
+    use mceip_model::Pencil;
 
     /// The values are 4500.33 and -0.33: like those of eighty supports of the plane-strain `\\`
     /// block, from which Newton's first step went astray.
@@ -545,7 +545,7 @@ mod tests {
                 .outcome(expansion, value, ends, &states, &[0])
                 .unwrap();
             assert_eq!(
-                interval.map(|end| crate::exact::to_f64(&end)),
+                interval.map(|end| mceip_exact::to_f64(&end)),
                 [centre - half, centre + half],
                 "{value} {ends:?}"
             );

@@ -5,12 +5,12 @@ use super::condense::{NEAR, condense, refine, view_of};
 use super::root::null_vector;
 use super::tree::{State, short};
 use super::view::{Expansion, View};
-use crate::certificate::{CompleteSet, Condensation, Node, Piece};
-use crate::check::{AcceptedClaim, MAX_COVERED};
-use crate::exact::{Rational, to_f64};
-use crate::model::file::Number;
-use crate::model::{Pencil, Problem};
 use crate::tolerance::SAME_ROOT;
+use mceip_check::certificate::{CompleteSet, Condensation, Node, Piece};
+use mceip_check::{AcceptedClaim, MAX_COVERED};
+use mceip_exact::{Rational, to_f64};
+use mceip_model::file::Number;
+use mceip_model::{Pencil, Problem};
 
 /// What a search needs before it begins.
 pub(super) struct Prepared {

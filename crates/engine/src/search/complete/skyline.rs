@@ -1,7 +1,7 @@
 //! Cholesky factors of sparse symmetric matrices in skyline form, in doubles.
 
-use crate::certificate::Factor;
-use crate::exact::{Sparse, to_f64, truncated};
+use mceip_check::certificate::Factor;
+use mceip_exact::{Sparse, to_f64, truncated};
 
 /// L with L L' = S: row i holds columns first[i] to i.
 pub(super) struct Skyline {
@@ -254,7 +254,7 @@ const INVERSE_STEPS: usize = 30;
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::exact::whole;
+    use mceip_exact::whole;
 
     #[test]
     fn partial_sums_leave_nothing_out() {

@@ -6,10 +6,10 @@ use super::support;
 use super::tree::{Item, Region, Search, State};
 use super::{Options, beyond};
 use crate::candidate::Candidate;
-use crate::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
 use crate::certify::Certifier;
-use crate::exact::Rational;
-use crate::model::{Pencil, Problem};
+use mceip_check::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
+use mceip_exact::Rational;
+use mceip_model::{Pencil, Problem};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 

@@ -2,11 +2,11 @@
 //! own.
 
 use super::reasons::Supported;
-use crate::certificate::{Certificate, Exact, Node, Point, Polynomials, Support};
-use crate::check::AcceptedClaim;
-use crate::exact::{Algebraic, Integer, Poly, Rational, roots_in, to_f64};
-use crate::model::Pencil;
-use crate::model::file::Number;
+use mceip_check::AcceptedClaim;
+use mceip_check::certificate::{Certificate, Exact, Node, Point, Polynomials, Support};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, roots_in, to_f64};
+use mceip_model::Pencil;
+use mceip_model::file::Number;
 use num_traits::One;
 use std::cmp::Ordering;
 

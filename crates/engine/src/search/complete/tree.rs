@@ -11,10 +11,10 @@ use super::shares::Shares;
 use super::skyline::dot;
 use super::view::{Ends, Expansion, Matrix, View};
 use super::witness::{Columns, definite, vanishes};
-use crate::certificate::{Claim, Node, Root, RootOutcome, Support};
-use crate::exact::{Integer, Rational, from_f64, to_f64};
-use crate::model::file::Number;
 use crate::tolerance::{NARROW, THIN_MARGIN, WITNESS_MARGIN};
+use mceip_check::certificate::{Claim, Node, Root, RootOutcome, Support};
+use mceip_exact::{Integer, Rational, from_f64, to_f64};
+use mceip_model::file::Number;
 use std::rc::Rc;
 
 /// State of a complementarity variable.

@@ -1,8 +1,8 @@
 //! The f64 view of the family of matrices that the checker encloses, row for row in the same scale.
 
-use crate::exact::{Integer, Rational, common_denominator, to_f64};
-use crate::model::Pencil;
 use crate::tolerance::CONDENSATION_NOISE;
+use mceip_exact::{Integer, Rational, common_denominator, to_f64};
+use mceip_model::Pencil;
 use num_traits::One;
 
 /// A dense square matrix by rows.

@@ -1,11 +1,11 @@
 //! A solution that is alone though the kernel is wide: the inequalities y >= 0 single it out.
 
 use super::Supported;
-use crate::certificate::{Alone, Polynomials};
-use crate::exact::{
+use crate::search::complete::circuit::{coefficients, constants, generic_circuit, impossible};
+use mceip_check::certificate::{Alone, Polynomials};
+use mceip_exact::{
     Algebraic, Poly, Rational, Sign, cone_generators, dot, generic_kernel, kernel_at,
 };
-use crate::search::complete::circuit::{coefficients, constants, generic_circuit, impossible};
 
 impl Supported {
     /// Where the inequalities y >= 0 make x the only one of a wide kernel: +-(x_k e_j - x_j e_k) is

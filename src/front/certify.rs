@@ -1,0 +1,58 @@
+//! A proof for a point that somebody has computed.
+
+use super::{Error, Problem, Solution};
+use mceip_check::certificate::Certificate;
+use mceip_engine::candidate::Candidate;
+use mceip_engine::certify::{Certifier, certificate};
+use mceip_engine::report::Listed;
+use mceip_model::reduction::reduce;
+
+/// A solution with its own certificate.
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Certified {
+    /// The solution near the point.
+    pub solution: Solution,
+    certificate: Certificate,
+}
+
+impl Certified {
+    /// The certificate, which the checker has accepted.
+    pub fn certificate(&self) -> &Certificate {
+        &self.certificate
+    }
+}
+
+impl Problem {
+    /// Proves that there is a solution near a point in doubles: a value of the unknown, and x over
+    /// the variables of the pencil in any positive scale.
+    ///
+    /// # Errors
+    /// [`Error::NotCertified`] with every support that was tried and what failed on it. That is no
+    /// proof that there is none: see [`Problem::complete`].
+    ///
+    /// ```
+    /// use mceip::Problem;
+    /// let problem = Problem::read("spec/examples/fold.json")?;
+    /// let certified = problem.certify(2.0000001, &[0.666667, 0.333333])?;
+    /// assert_eq!(certified.solution.value, 2.0);
+    /// assert!(problem.certify(2.5, &[0.5, 0.5]).is_err());
+    /// # Ok::<(), mceip::Error>(())
+    /// ```
+    pub fn certify(&self, value: f64, x: &[f64]) -> Result<Certified, Error> {
+        let problem = self.as_model();
+        let reduced = reduce(problem)?;
+        let certifier = Certifier::new(problem, &reduced.pencil);
+        let candidate = Candidate {
+            value,
+            x: x.to_vec(),
+        };
+        let (claim, proved) = certifier.certify_with_verdict(&candidate)?;
+
+        let listed = Listed::of_claim(problem, &reduced, &claim);
+        Ok(Certified {
+            solution: Solution::new(problem.unknown(), &proved, &listed),
+            certificate: certificate(problem, vec![claim]),
+        })
+    }
+}

@@ -1,0 +1,31 @@
+//! The library as its users meet it: read a problem, ask, get what the checker has accepted.
+
+#[cfg(feature = "solver")]
+mod analyze;
+#[cfg(feature = "solver")]
+mod certify;
+#[cfg(feature = "solver")]
+mod complete;
+mod error;
+mod matrix;
+mod problem;
+#[cfg(feature = "solver")]
+mod run;
+#[cfg(feature = "solver")]
+mod solution;
+#[cfg(feature = "solver")]
+mod solve;
+
+#[cfg(feature = "solver")]
+pub use analyze::Analyze;
+#[cfg(feature = "solver")]
+pub use certify::Certified;
+#[cfg(feature = "solver")]
+pub use complete::{Complete, SolutionSet};
+pub use error::Error;
+pub use matrix::Matrix;
+pub use problem::{Problem, check};
+#[cfg(feature = "solver")]
+pub use solution::Solution;
+#[cfg(feature = "solver")]
+pub use solve::{Found, Solve};

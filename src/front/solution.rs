@@ -1,0 +1,76 @@
+//! A solution as a caller reads it.
+
+use mceip_check::AcceptedClaim;
+use mceip_engine::report::Listed;
+use mceip_exact::{Interval, Rational};
+use mceip_model::Unknown;
+use std::fmt;
+
+/// A solution that the checker has accepted.
+///
+/// What is proved is that the problem has a solution with this support and a value in
+/// [`Solution::enclosure`]; `value`, `x`, `y`, `v` and `w` are its components to the precision of
+/// doubles.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Solution {
+    /// Which number `value` is.
+    pub unknown: Unknown,
+    /// lambda^2 or mu.
+    pub value: f64,
+    /// Encloses the value, with rational ends.
+    pub enclosure: Interval,
+    /// The support: indices of complementarity variables with x_i > 0, impending slip that becomes
+    /// slip.
+    pub support: Vec<usize>,
+    /// Indices with x_i = y_i = 0, where that is proved; empty where the solution is only enclosed.
+    pub biactive: Vec<usize>,
+    /// x over the variables of the pencil, scaled so that the slip variables sum to one.
+    pub x: Vec<f64>,
+    /// y = (A + tB) x.
+    pub y: Vec<f64>,
+    /// Displacements v over the degrees of freedom, the mode of (8); `None` for a problem that was
+    /// given as a pencil.
+    pub v: Option<Vec<f64>>,
+    /// Reaction rates w over the degrees of freedom; `None` for a problem given as a pencil.
+    pub w: Option<Vec<f64>>,
+}
+
+impl Solution {
+    pub(super) fn new(unknown: Unknown, proved: &AcceptedClaim, listed: &Listed) -> Solution {
+        let lifted = listed.lifted.as_ref();
+        Solution {
+            unknown,
+            value: double(&listed.value),
+            enclosure: proved.value.clone(),
+            support: proved.support.clone(),
+            biactive: listed.biactive.clone(),
+            x: doubles(&listed.x),
+            y: doubles(&listed.y),
+            v: lifted.map(|(v, _)| doubles(v)),
+            w: lifted.map(|(_, w)| doubles(w)),
+        }
+    }
+
+    /// The value itself, where it is rational and known.
+    pub fn exact_value(&self) -> Option<&Rational> {
+        self.enclosure.is_point().then(|| self.enclosure.lo())
+    }
+}
+
+/// "lambda2 = 2, slip [0, 1]".
+impl fmt::Display for Solution {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let unknown = self.unknown.word();
+        write!(f, "{unknown} = {}, slip {:?}", self.value, self.support)
+    }
+}
+
+/// The nearest double of a decimal that our own writer has made.
+fn double(decimal: &str) -> f64 {
+    decimal.parse().unwrap_or(f64::NAN)
+}
+
+fn doubles(decimals: &[String]) -> Vec<f64> {
+    decimals.iter().map(|d| double(d)).collect()
+}

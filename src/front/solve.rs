@@ -1,0 +1,131 @@
+//! Solutions by the PATH-style solver from many starts.
+
+use super::run::Watched;
+use super::{Error, Problem, Solution};
+use mceip_check::certificate::{Certificate, Claim};
+use mceip_check::{Accepted, check};
+use mceip_engine::certify::certificate;
+use mceip_engine::multistart::{Search, Uncertified, multistart_large};
+use mceip_engine::report::Listed;
+use mceip_engine::run::{Cancel, Progress};
+use mceip_model::Admissible;
+use mceip_model::reduction::reduce;
+
+/// A search for solutions; see [`Problem::solve`].
+pub struct Solve<'a> {
+    problem: &'a Problem,
+    search: Search,
+    watched: Watched<'a>,
+}
+
+/// What a search has found. It does not say that there is nothing else: for that,
+/// [`Problem::complete`].
+#[derive(Debug, Clone)]
+#[non_exhaustive]
+pub struct Found {
+    /// The solutions, by value. The checker has accepted each of them.
+    pub solutions: Vec<Solution>,
+    /// Points at which the solver stopped and that could not be certified, each with the reason.
+    pub uncertified: Vec<Uncertified>,
+    /// Runs made.
+    pub runs: usize,
+    /// Was the search cancelled?
+    pub is_cancelled: bool,
+    certificate: Certificate,
+}
+
+impl Found {
+    /// The certificate of all solutions.
+    pub fn certificate(&self) -> &Certificate {
+        &self.certificate
+    }
+}
+
+impl Problem {
+    /// Looks for solutions with the PATH-style solver, from many starts.
+    ///
+    /// ```
+    /// use mceip::Problem;
+    /// let problem = Problem::read("spec/examples/fold.json")?;
+    /// let found = problem.solve().starts(22).run()?;
+    /// let values: Vec<f64> = found.solutions.iter().map(|s| s.value).collect();
+    /// assert_eq!(values, [2.0, 3.0]);
+    /// # Ok::<(), mceip::Error>(())
+    /// ```
+    pub fn solve(&self) -> Solve<'_> {
+        let search = Search {
+            window_starts: 0,
+            curves: false,
+            ..Search::default()
+        };
+        Solve {
+            problem: self,
+            search,
+            watched: Watched::default(),
+        }
+    }
+}
+
+impl<'a> Solve<'a> {
+    /// Starts on the whole window; 22 if not said.
+    pub fn starts(mut self, starts: usize) -> Self {
+        self.search.starts = starts;
+        self
+    }
+
+    /// Seed of the random starts; 1 if not said. One seed gives one result.
+    pub fn seed(mut self, seed: u64) -> Self {
+        self.search.seed = seed;
+        self
+    }
+
+    /// Looks for all solutions: also above and below each value found, and along curves through each
+    /// solution. Slower.
+    pub fn all(mut self) -> Self {
+        self.search.window_starts = Search::default().window_starts;
+        self.search.curves = true;
+        self
+    }
+
+    /// The switch that ends the search early; what has been found is kept.
+    pub fn cancel(mut self, cancel: &Cancel) -> Self {
+        self.watched.cancel(cancel);
+        self
+    }
+
+    /// Hears how far the search has come.
+    pub fn on_progress(mut self, hear: impl Fn(&Progress<'_>) + Sync + 'a) -> Self {
+        self.watched.on_progress(hear);
+        self
+    }
+
+    /// Searches.
+    ///
+    /// # Errors
+    /// [`Error::Model`] where the hypotheses of the propositions fail, [`Error::Solve`] where the
+    /// problem is beyond the solver.
+    pub fn run(self) -> Result<Found, Error> {
+        let problem = self.problem.as_model();
+        let reduced = reduce(problem)?;
+        let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
+        let watch = self.watched.watch();
+        let (found, _) = multistart_large(problem, &admissible, &self.search, &watch)?;
+
+        let claims: Vec<Claim> = found.certified.iter().map(|c| c.claim.clone()).collect();
+        let certificate = certificate(problem, claims);
+        let Accepted { claims: proved, .. } = check(problem, &certificate)?;
+
+        let mut solutions = Vec::new();
+        for (proved, claim) in proved.iter().zip(&certificate.claims) {
+            let listed = Listed::of_claim(problem, &reduced, claim);
+            solutions.push(Solution::new(problem.unknown(), proved, &listed));
+        }
+        Ok(Found {
+            solutions,
+            uncertified: found.uncertified,
+            runs: found.runs,
+            is_cancelled: found.interrupted,
+            certificate,
+        })
+    }
+}
