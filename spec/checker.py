@@ -4,7 +4,7 @@
     python3 spec/checker.py PROBLEM CERTIFICATE
 
 Prints ACCEPTED (exit 0), UNDECIDED (3: a cover with open leaves) or REJECTED with the reason (1); files that cannot be read end with one
-line on stderr and exit 2. Standard library only; all arithmetic is exact (int and Fraction). References: F = formats.md, C = complete-set.md.
+line on stderr and exit 2. Standard library only; all arithmetic is exact (int and Fraction). References: F = formats.md, C = certificates.md.
 """
 import hashlib
 import json
@@ -634,7 +634,7 @@ def exact_solution(p, rows, window, obj):
 
 
 def lifted_solution(p, rows, window, obj):
-    """v and w over all dofs: the lines of (9), from K, M, mu and the states (F, lifted_solution)."""
+    """v and w over all dofs: the lines of (9), from K, M, mu and the states (C, 5.4)."""
     support, biactive, poly, interval, v, w = fields(obj, "support biactive polynomial interval v w")
     support, biactive = ([place_in(i, p.n) for i in sequence(l)] for l in (support, biactive))
     poly = [integer(c) for c in sequence(poly)]
