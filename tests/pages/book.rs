@@ -52,7 +52,10 @@ fn the_summary_lists_every_page_once() {
 
 #[test]
 fn every_link_leads_to_a_file() {
-    let mut list: Vec<PathBuf> = pages().iter().map(|p| root().join("spec").join(p)).collect();
+    let mut list: Vec<PathBuf> = pages()
+        .iter()
+        .map(|p| root().join("spec").join(p))
+        .collect();
     list.push(root().join("spec/SUMMARY.md"));
     list.push(root().join("README.md"));
 
@@ -79,7 +82,11 @@ fn lines_have_at_most_a_hundred_columns() {
             }
             let is_free = in_code || line.starts_with("    ") || line.trim_start().starts_with('|');
             let columns = line.chars().count();
-            assert!(is_free || columns <= 100, "{page}:{}: {columns}", number + 1);
+            assert!(
+                is_free || columns <= 100,
+                "{page}:{}: {columns}",
+                number + 1
+            );
         }
     }
 }

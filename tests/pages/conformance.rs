@@ -160,10 +160,7 @@ fn every_id_of_the_equations_page_has_a_row() {
     for id in wanted {
         assert!(ids.contains(&id), "no row for {id}");
         let words = equations.split(|c: char| !c.is_alphanumeric());
-        assert!(
-            words.clone().any(|w| w == id),
-            "no chapter defines {id}"
-        );
+        assert!(words.clone().any(|w| w == id), "no chapter defines {id}");
     }
 }
 

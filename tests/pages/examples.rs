@@ -104,7 +104,10 @@ fn every_block_of_the_page_stands_in_a_file() {
         blocks += 1;
     }
     for name in names() {
-        assert!(page.contains(&format!("(`{name}`")), "{name} is not in the page");
+        assert!(
+            page.contains(&format!("(`{name}`")),
+            "{name} is not in the page"
+        );
     }
     assert!(blocks > 15, "{blocks}");
 }
