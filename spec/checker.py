@@ -1255,6 +1255,7 @@ class Root:
             demand(c[0] and set(c[0]) <= set(self.support) <= {*c[0], *c[1]}, "root 5: not a claim of this moving set")
             demand(self.a <= c[2] and c[3] <= self.b, "root 5: the claim's value is not in the interval")
             self.yields = set(c[0]) == set(self.support)
+            self.a, self.b = c[2], c[3]  # what is yielded is the claim, with its own interval
             return
         if isinstance(outcome, dict) and "infinity" in outcome:
             x = [integer(v) for v in sequence(fields(outcome, "infinity")[0])]
