@@ -484,7 +484,8 @@ class Problem:
         if reaction is not None:  # E7
             rn, rt = map(number, fields(reaction, "normal tangential"))
             bound = None if mu is None else -mu * rn
-            bad = rn > 0 or (state == "free" and (rn or rt)) or (state == "slip" and (rt * sign <= 0 or (mu is not None and abs(rt) != bound)))
+            bad = (rn or rt) if state == "free" else rn >= 0
+            bad = bad or (state == "slip" and (rt * sign <= 0 or (mu is not None and abs(rt) != bound)))
             if bad or (state == "stick" and mu is not None and abs(rt) >= bound):
                 raise Unreadable("reaction against (7), state or sign")
         if frame is None:
