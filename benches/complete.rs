@@ -20,13 +20,13 @@ mod cost;
 use mceip::check::check;
 use mceip::model::{Admissible, Body, Problem, Unknown, Window};
 use mceip::reduction::{condense, reduce};
+use mceip::run::{Cancel, Progress, Watch};
 use mceip::search::complete::{CompleteError, Completed, Options, complete};
 use mceip::source::{Block, MassKind, PublishedState};
 use mceip::testkit::{
     backslash_block, condensed_in_doubles, known, mechanical_pencil, refined_block,
 };
 use rustix::time::{ClockId, clock_gettime};
-use std::sync::atomic::AtomicBool;
 
 /// A run is stopped after this and reported with what is open. `BENCH_LIMIT` (seconds) changes it.
 const LIMIT_SECONDS: u64 = 120;
@@ -49,15 +49,18 @@ fn measure(problem: &Problem) -> Result<Measured, CompleteError> {
         .ok()
         .and_then(|t| t.parse().ok())
         .unwrap_or(LIMIT_SECONDS);
-    let (start, limit, stop) = (cpu(), limit as f64, AtomicBool::new(false));
+    let start = cpu();
+    let cancel = Cancel::new();
     let options = Options {
         threads: Some(1),
         ..Options::default()
     };
-    let hear = |_| stop.fetch_or(cpu() - start > limit, std::sync::atomic::Ordering::Relaxed);
-    let completed = complete(problem, &options, &stop, &|p| {
-        hear(p);
-    })?;
+    let end_when_late = |_: &Progress<'_>| {
+        if cpu() - start > limit as f64 {
+            cancel.request();
+        }
+    };
+    let completed = complete(problem, &options, &Watch::new(&cancel, &end_when_late))?;
     let total = cpu() - start;
     let start = cpu();
     check(problem, &completed.certificate).expect("accepted before");

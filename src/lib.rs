@@ -57,7 +57,8 @@ pub use mceip_check as check;
 pub use mceip_check::certificate;
 #[cfg(feature = "solver")]
 pub use mceip_engine::{
-    analysis, candidate, certify, foreign, lcp, multistart, reduction, report, search, tolerance,
+    analysis, candidate, certify, foreign, lcp, multistart, reduction, report, run, search,
+    tolerance,
 };
 pub use mceip_exact as exact;
 #[cfg(feature = "solver")]

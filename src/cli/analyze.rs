@@ -2,9 +2,8 @@
 
 mod page;
 
-use super::common::{
-    CliError, exit, interrupt_flag, load, positive, print, progress_spinner, require_threads,
-};
+use super::common::{CliError, exit, load, positive, print, require_threads};
+use super::job::Job;
 use super::output::Output;
 use crate::analysis::{Analysis, AnalysisError, Options, analyse};
 use crate::model::Body;
@@ -81,18 +80,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         ..Options::default()
     };
     options.limits.boxes = args.boxes;
-    let stop = interrupt_flag();
-    let spinner = progress_spinner("reading");
-    let hear = |what: &str| spinner.set_message(what.to_string());
-    let analysis = analyse(
-        problem.name.clone(),
-        system,
-        &friction,
-        &options,
-        &stop,
-        &hear,
-    )?;
-    spinner.finish_and_clear();
+    let job = Job::begin("reading");
+    let name = problem.name.clone();
+    let analysis = job.watched(|watch| analyse(name, system, &friction, &options, watch))?;
+    job.end();
     let paths = match &args.certificates {
         Some(folder) => write_proofs(folder, &analysis, &args.file)?,
         None => Vec::new(),

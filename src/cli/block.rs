@@ -5,10 +5,12 @@ mod lambda2;
 mod path;
 pub(super) mod scale;
 
-use super::common::{CliError, exit, interrupt_flag, print};
+use super::common::{CliError, exit, print};
+use super::job::Job;
 use super::output::Output;
 use crate::model::file::write_problem;
 use crate::report::Table;
+use crate::run::{Progress, Watch};
 use crate::source::{Block, MassKind, PublishedState};
 use crate::testkit::{BlockReport, block_state};
 use serde_json::{Value, json};
@@ -141,21 +143,20 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         MassKind::Consistent
     });
-    let bar = super::common::progress_spinner("block");
-    let stop = interrupt_flag();
+    let job = Job::begin("block");
     let mut reports = Vec::new();
     for state in states {
         if let Some(folder) = &args.write {
             Output::prepare("write", &folder.join("block.json"), &[])?; // writable, before the work
         }
-        match block_state(&block, state, &stop, &|what| {
-            bar.set_message(format!("{}: {what}", state.name()))
-        })? {
+        let told = |progress: &Progress<'_>| job.say(format!("{}: {progress}", state.name()));
+        let watch = Watch::new(job.cancel(), &told);
+        match block_state(&block, state, &watch)? {
             Some(report) => reports.push(report),
             None => break,
         }
     }
-    bar.finish_and_clear();
+    job.end();
     for report in &reports {
         if let Some(folder) = &args.write {
             write_files(&block, report, folder)?;
@@ -181,7 +182,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         .iter()
         .any(|r| !r.rejected.is_empty() || r.missing > 0);
     let none = reports.iter().any(|r| r.accepted.is_empty());
-    let interrupted = stop.load(std::sync::atomic::Ordering::Relaxed);
+    let interrupted = job.is_cancelled();
     Ok(if interrupted {
         exit::INTERRUPTED
     } else if wrong {

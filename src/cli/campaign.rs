@@ -2,14 +2,14 @@
 
 mod summary;
 
-use super::common::{CliError, exit, interrupt_flag, print, require_threads, text};
+use super::common::{CliError, exit, print, require_threads, text};
+use super::job::interrupt;
 use super::output::Output;
 use crate::testkit::campaign::{
     Campaign, Event, FAMILIES, Limit, Replay, State, UnknownFamily, judge, standard,
 };
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
 /// Arguments of `campaign`.
@@ -57,7 +57,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     let state = start(args)?;
     require_threads(args.threads)?;
-    let stop = interrupt_flag();
+    let cancel = interrupt();
     let engines = standard(args.seed);
     let campaign = Campaign {
         engines: &engines,
@@ -78,10 +78,10 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             Event::Disagreement(replay) => keeper.write(replay, &bars),
         }
         if keeper.failed.is_some() {
-            stop.store(true, Ordering::Relaxed); // what cannot be kept need not be computed
+            cancel.request(); // what cannot be kept need not be computed
         }
     };
-    let state = in_threads(args.threads, || campaign.run(state, &stop, &mut hear));
+    let state = in_threads(args.threads, || campaign.run(state, &cancel, &mut hear));
     keeper.keep(&state, true);
     bars.all.clear().unwrap_or_default(); // a terminal that has gone away
     print(&if args.json {
@@ -92,13 +92,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(e) = keeper.failed {
         return Err(e);
     }
-    Ok(
-        match (state.disagreements(), stop.load(Ordering::Relaxed)) {
-            (0, false) => exit::DONE,
-            (0, true) => exit::INTERRUPTED,
-            _ => exit::REJECTED,
-        },
-    )
+    Ok(match (state.disagreements(), cancel.is_requested()) {
+        (0, false) => exit::DONE,
+        (0, true) => exit::INTERRUPTED,
+        _ => exit::REJECTED,
+    })
 }
 
 /// The state to go on from: the file's, or a new one.

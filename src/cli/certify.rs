@@ -1,6 +1,7 @@
 //! `mceip certify`: somebody's floats to certificates, of existence or of absence.
 
-use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinner, text};
+use super::common::{CliError, exit, load, print, text};
+use super::job::Job;
 use super::output::Output;
 use crate::candidate::Candidate;
 use crate::certificate::{Certificate, Claim};
@@ -14,7 +15,6 @@ use crate::search::complete::{CompleteError, Completed};
 use crate::search::near::{Near, near};
 use num_traits::Signed;
 use std::path::PathBuf;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Arguments of `certify`.
 #[derive(clap::Args)]
@@ -68,14 +68,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         .map(parse_radius)
         .transpose()?;
     let outputs = absence_outputs(args, candidates.len())?;
-    let stop = interrupt_flag();
+    let job = Job::begin("certifying");
     let mut judged = judge(
         &problem,
         &reduced.pencil,
         &candidates,
         radius.as_ref(),
-        &stop,
+        &job,
     );
+    job.end();
     if let (true, Body::System(system)) = (args.lifted, problem.body()) {
         judged.lift(&problem, system);
     }
@@ -101,7 +102,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         }
     }
     Ok(match () {
-        () if stop.load(Ordering::Relaxed) => exit::INTERRUPTED,
+        () if job.is_cancelled() => exit::INTERRUPTED,
         () if disproved > 0 => exit::REJECTED,
         () if undecided > 0 || candidates.is_empty() => exit::UNDECIDED,
         () => exit::DONE,
@@ -179,23 +180,31 @@ fn judge(
     pencil: &Pencil,
     candidates: &[Candidate],
     radius: Option<&Rational>,
-    stop: &AtomicBool,
+    job: &Job,
 ) -> Judged {
     let certifier = Certifier::new(problem, pencil);
     let mut judged = Judged::default();
     for (k, candidate) in candidates.iter().enumerate() {
-        if stop.load(Ordering::Relaxed) {
-            eprintln!("solution {k}: interrupted before it was looked at");
+        if job.is_cancelled() {
+            job.note(&format!(
+                "solution {k}: interrupted before it was looked at"
+            ));
             break;
         }
         match certifier.certify(candidate) {
             Ok(claim) if judged.claims.iter().any(|c| same(c, &claim)) => {
-                eprintln!("solution {k} (value {}): listed before", candidate.value);
+                job.note(&format!(
+                    "solution {k} (value {}): listed before",
+                    candidate.value
+                ));
             }
             Ok(claim) => judged.claims.push(claim),
             Err(reason) => {
-                let r = Refused::of(problem, candidate, radius, &reason, stop);
-                eprintln!("solution {k} (value {}): {}", candidate.value, r.text);
+                let r = Refused::of(problem, candidate, radius, &reason, job);
+                job.note(&format!(
+                    "solution {k} (value {}): {}",
+                    candidate.value, r.text
+                ));
                 judged.refused.push(Refused { index: k, ..r });
             }
         }
@@ -251,13 +260,10 @@ impl Refused {
         candidate: &Candidate,
         radius: Option<&Rational>,
         reason: &NotCertified,
-        stop: &AtomicBool,
+        job: &Job,
     ) -> Refused {
-        let spinner = progress_spinner(
-            "no certificate: looking for a proof that there is no solution nearby",
-        );
-        let found = near(problem, candidate, radius, stop);
-        spinner.finish_and_clear();
+        job.say("no certificate: looking for a proof that there is no solution nearby");
+        let found = job.watched(|watch| near(problem, candidate, radius, watch));
         let with = |verdict, text, proof: Completed| Refused {
             index: 0,
             verdict,

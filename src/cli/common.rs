@@ -7,11 +7,9 @@ use crate::model::{ModelError, Problem, Window};
 use crate::multistart::SearchError;
 use crate::oracle::OracleError;
 use crate::testkit::BlockError;
-use indicatif::{ProgressBar, ProgressStyle};
 use std::io::Write as _;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 /// Exit codes (README, and `mceip --help`).
 pub(super) mod exit {
@@ -283,37 +281,4 @@ pub(super) fn print(text: &str) -> Result<(), CliError> {
         Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(CliError::write("stdout", &e)),
         _ => Ok(()),
     }
-}
-
-/// A flag that Ctrl-C sets; a second Ctrl-C ends the process at once.
-pub(super) fn interrupt_flag() -> Arc<AtomicBool> {
-    let flag = Arc::new(AtomicBool::new(false));
-    let set = flag.clone();
-    // Fails only if a handler exists already: then the default behaviour stays.
-    let _ = ctrlc::set_handler(move || {
-        if set.swap(true, Ordering::Relaxed) {
-            std::process::exit(i32::from(exit::INTERRUPTED));
-        }
-    });
-    flag
-}
-
-/// A progress bar on stderr, drawn only on a terminal.
-pub(super) fn progress_bar(total: u64, what: &str) -> ProgressBar {
-    let bar = ProgressBar::new(total);
-    if let Ok(style) =
-        ProgressStyle::with_template("{msg} [{bar:30}] {pos}/{len} {per_sec} eta {eta}")
-    {
-        bar.set_style(style);
-    }
-    bar.set_message(what.to_string());
-    bar
-}
-
-/// A spinner on stderr for work of unknown length, drawn only on a terminal.
-pub(super) fn progress_spinner(what: &str) -> ProgressBar {
-    let bar = ProgressBar::new_spinner();
-    bar.enable_steady_tick(std::time::Duration::from_millis(200));
-    bar.set_message(what.to_string());
-    bar
 }

@@ -1,7 +1,8 @@
 //! `mceip complete`: all solutions in a window, with a proof that there are no others.
 
-use super::common::{CliError, exit, interrupt_flag, load, print, require_threads, text};
+use super::common::{CliError, exit, load, print, require_threads, text};
 use super::infinity::{AtInfinity, Files};
+use super::job::Job;
 use super::output::Output;
 use crate::certificate::Certificate;
 use crate::certify::Certifier;
@@ -10,8 +11,8 @@ use crate::exact::enclosing_decimals;
 use crate::model::Problem;
 use crate::reduction::reduce;
 use crate::report::{Claimed, Listed, Report, solutions_json};
+use crate::run::Watch;
 use crate::search::complete::{Completed, Options, Shard, complete, resume};
-use indicatif::{ProgressBar, ProgressStyle};
 use std::path::PathBuf;
 
 /// Arguments of `complete`.
@@ -77,28 +78,27 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         .filter(|_| args.infinity)
         .map(|path| Files::prepare(path, &args.file))
         .transpose()?;
-    let stop = interrupt_flag();
-    let bar = share_bar();
+    let job = Job::begin("searching");
     let options = Options {
         pieces: args.pieces,
         threads: args.threads,
         shard,
         ..Options::default()
     };
-    let hear = |p: crate::search::complete::Progress| {
-        bar.set_position((p.share * 1000.0) as u64);
-        bar.set_message(format!("{} leaves, {} solutions", p.leaves, p.solutions));
-    };
-    let completed = match &earlier {
-        None => complete(&problem, &options, &stop, &hear)?,
-        Some(certificate) => resume(&problem, certificate, &options, &stop, &hear)?,
-    };
-    bar.finish_and_clear();
+    let completed = job.watched(|watch| match &earlier {
+        None => complete(&problem, &options, watch),
+        Some(certificate) => resume(&problem, certificate, &options, watch),
+    })?;
     let beyond = if args.infinity {
-        Some(AtInfinity::search(&problem, &options, &stop)?)
+        Some(AtInfinity::search(
+            &problem,
+            &options,
+            &Watch::silent(job.cancel()),
+        )?)
     } else {
         None
     };
+    job.end();
     let out = if args.json {
         let mut report = report_json(&problem, &completed)?;
         if let Some(beyond) = &beyond {
@@ -118,13 +118,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     let is_complete =
         completed.is_complete() && beyond.as_ref().is_none_or(AtInfinity::is_complete);
-    Ok(
-        match (stop.load(std::sync::atomic::Ordering::Relaxed), is_complete) {
-            (_, true) => exit::DONE,
-            (true, false) => exit::INTERRUPTED,
-            (false, false) => exit::UNDECIDED,
-        },
-    )
+    Ok(match (job.is_cancelled(), is_complete) {
+        (_, true) => exit::DONE,
+        (true, false) => exit::INTERRUPTED,
+        (false, false) => exit::UNDECIDED,
+    })
 }
 
 /// Reads a certificate; errors name the file.
@@ -154,16 +152,6 @@ fn parse_shard(given: &str) -> Result<Shard, CliError> {
     } else {
         Err(bad())
     }
-}
-
-fn share_bar() -> ProgressBar {
-    let bar = ProgressBar::new(1000);
-    if let Ok(style) = ProgressStyle::with_template(
-        "closed [{bar:30}] {percent}% of the search space, {msg}, {elapsed}",
-    ) {
-        bar.set_style(style);
-    }
-    bar
 }
 
 /// What a cover has proved, for people.

@@ -1,10 +1,10 @@
 //! `mceip conform`: somebody else's program against problems with complete exact answers.
 
-use super::common::{CliError, exit, interrupt_flag, print, progress_bar};
+use super::common::{CliError, exit, print};
+use super::job::Job;
 use super::output::Output;
 use crate::conform::{Flag, Limits, Plan, groups, pack_files, read_pack, run, summarise};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 /// Arguments of `conform`.
@@ -68,13 +68,9 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
         .as_ref()
         .map(|path| Output::prepare("markdown", path, &[]))
         .transpose()?;
-    let stop = interrupt_flag();
-    let bar = progress_bar(0, "cases");
-    let outcomes = run(&plan, &args.command, &stop, &|done, of| {
-        bar.set_length(of as u64);
-        bar.set_position(done as u64);
-    })?;
-    bar.finish_and_clear();
+    let job = Job::begin("cases");
+    let outcomes = job.watched(|watch| run(&plan, &args.command, watch))?;
+    job.end();
     let summary = summarise(&outcomes);
     print(&if args.json {
         format!("{:#}\n", summary.json(&args.command))
@@ -84,13 +80,11 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     if let Some(output) = markdown {
         output.write(&summary.markdown(&args.command))?;
     }
-    Ok(
-        match (stop.load(Ordering::Relaxed), summary.all_correct()) {
-            (true, _) => exit::INTERRUPTED,
-            (false, true) => exit::DONE,
-            (false, false) => exit::REJECTED,
-        },
-    )
+    Ok(match (job.is_cancelled(), summary.all_correct()) {
+        (true, _) => exit::INTERRUPTED,
+        (false, true) => exit::DONE,
+        (false, false) => exit::REJECTED,
+    })
 }
 
 fn plan(args: &Args, groups: Vec<crate::conform::Group>) -> Result<Plan, CliError> {

@@ -1,13 +1,13 @@
 //! `mceip enumerate`: every support of a small problem by exact arithmetic (the oracle).
 
-use super::common::{CliError, exit, interrupt_flag, load, print, progress_bar};
+use super::common::{CliError, exit, load, print};
+use super::job::Job;
 use crate::model::Problem;
 use crate::oracle::{Enumeration, enumerate_with};
 use crate::reduction::{Reduced, reduce};
 use crate::report::{Claimed, Listed, Report, solutions_json, solutions_text};
-use std::ops::ControlFlow;
+use crate::run::Progress;
 use std::path::PathBuf;
-use std::sync::atomic::Ordering;
 
 /// Arguments of `enumerate`.
 #[derive(clap::Args)]
@@ -26,18 +26,13 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, args.window.as_deref())?;
     let reduced = reduce(&problem)?;
 
-    let stop = interrupt_flag();
-    let bar = progress_bar(0, "supports");
-    let found = enumerate_with(&reduced.pencil, problem.window(), |done, total| {
-        bar.set_length(total);
-        bar.set_position(done);
-        if stop.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    })?;
-    bar.finish_and_clear();
+    let job = Job::begin("supports");
+    let told = |done: u64, total: u64| {
+        job.say(Progress::of("supports", done as usize, total as usize));
+        job.flow()
+    };
+    let found = enumerate_with(&reduced.pencil, problem.window(), told)?;
+    job.end();
 
     print(&report(&problem, &reduced, &found, args.json))?;
     Ok(code(&found))

@@ -8,11 +8,11 @@ use crate::model::file::write_problem;
 use crate::model::{Problem, Window};
 use crate::reduction::reversed;
 use crate::report::Claimed;
+use crate::run::Watch;
 use crate::search::complete::{CompleteError, Completed, Options, complete};
 use num_traits::Zero;
 use serde_json::json;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
 
 /// What there is at infinity.
 pub(super) struct AtInfinity {
@@ -44,7 +44,7 @@ impl AtInfinity {
     pub(super) fn search(
         problem: &Problem,
         options: &Options,
-        stop: &AtomicBool,
+        watch: &Watch<'_>,
     ) -> Result<AtInfinity, CliError> {
         let zero = Window::new(Rational::zero(), Some(Rational::zero()))?;
         let mut at_zero = reversed(problem)?.with_window(zero);
@@ -57,7 +57,7 @@ impl AtInfinity {
             shard: None,
             ..*options
         };
-        let completed = complete(&at_zero, &options, stop, &|_| {});
+        let completed = complete(&at_zero, &options, watch);
         Ok(AtInfinity {
             problem: at_zero,
             completed,

@@ -7,9 +7,9 @@ use super::output::Output;
 use crate::certificate::Certificate;
 use crate::check::check;
 use crate::model::Problem;
+use crate::run::{Cancel, Watch};
 use crate::search::complete::{CompleteError, Options, merge, resume};
 use std::path::{Path, PathBuf};
-use std::sync::atomic::AtomicBool;
 
 /// Arguments of `merge`.
 #[derive(clap::Args)]
@@ -73,8 +73,7 @@ fn to_json(problem: &Problem, certificate: &Certificate) -> Result<String, CliEr
         problem,
         certificate,
         &Options::default(),
-        &AtomicBool::new(true),
-        &|_| {},
+        &Watch::silent(&Cancel::requested()),
     )?;
     Ok(format!("{}\n", report_json(problem, &completed)?))
 }

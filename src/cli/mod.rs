@@ -11,6 +11,7 @@ mod conform;
 mod convert;
 mod enumerate;
 mod infinity;
+mod job;
 mod merge;
 mod output;
 mod reduce;

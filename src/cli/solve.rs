@@ -3,7 +3,8 @@
 mod plain;
 mod trace;
 
-use super::common::{CliError, exit, interrupt_flag, load, print, progress_spinner, text};
+use super::common::{CliError, exit, load, print, text};
+use super::job::Job;
 use super::output::Output;
 use crate::certify::certificate;
 use crate::lcp::MCP_FORMAT;
@@ -13,9 +14,7 @@ use crate::multistart::{Found, Search, multistart_large, support, trace_outcome}
 use crate::reduction::reduce;
 use crate::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
-use std::sync::atomic::Ordering;
 
 /// Arguments of `solve`.
 #[derive(clap::Args)]
@@ -117,22 +116,10 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let search = search_of(args.starts, args.seed, args.all, args.trace.is_some());
-    let stop = interrupt_flag();
-    let bar = progress_spinner("searching");
-    let (found, _) = multistart_large(&problem, &admissible, &search, &|found| {
-        bar.set_message(format!(
-            "{} runs, {} certified solutions",
-            found.runs,
-            found.certified.len()
-        ));
-        bar.tick();
-        if stop.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    })?;
-    bar.finish_and_clear();
+    let job = Job::begin("searching");
+    let (found, _) =
+        job.watched(|watch| multistart_large(&problem, &admissible, &search, watch))?;
+    job.end();
     print_asides(args, &problem, &reduced.pencil, &found);
     if let (Some(output), false) = (trace_output, found.interrupted) {
         output.write(&trace::render(

@@ -1,6 +1,7 @@
 //! `mceip verify`: the main job, a table and a verdict.
 
-use super::common::{CliError, exit, interrupt_flag, print, progress_bar};
+use super::common::{CliError, exit, print};
+use super::job::Job;
 use crate::report::Table;
 use crate::testkit::floors::{Covered, floor};
 use crate::testkit::{FamilyReport, Verification, verify};
@@ -21,14 +22,9 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    let stop = interrupt_flag();
-    let bar = progress_bar(0, "verify");
-    let outcome = verify(args.random, args.seed, &stop, &|family, done, of| {
-        bar.set_message(family.to_string());
-        bar.set_length(of as u64);
-        bar.set_position(done as u64);
-    })?;
-    bar.finish_and_clear();
+    let job = Job::begin("verify");
+    let outcome = job.watched(|watch| verify(args.random, args.seed, watch))?;
+    job.end();
     print(&if args.json {
         format!("{}\n", json_of(&outcome))
     } else {

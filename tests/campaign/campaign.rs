@@ -4,13 +4,13 @@
 
 use mceip::model::{Body, Pencil, Window};
 use mceip::oracle::{Enumeration, enumerate};
+use mceip::run::Cancel;
 use mceip::testkit::Corner;
 use mceip::testkit::campaign::{
     Campaign, Case, Engine, Enumerator, Event, FAMILIES, Finding, Id, Limit, Replay, State, case,
     judge, smaller, standard,
 };
 use std::collections::BTreeSet;
-use std::sync::atomic::AtomicBool;
 
 fn names(list: &[&str]) -> Vec<String> {
     list.iter().map(ToString::to_string).collect()
@@ -27,7 +27,7 @@ fn run(engines: &[Box<dyn Engine>], state: State, count: u64) -> (State, Vec<Rep
         engines,
         limit: Limit::Count(count),
     };
-    let state = campaign.run(state, &AtomicBool::new(false), &mut |event| {
+    let state = campaign.run(state, &Cancel::new(), &mut |event| {
         if let Event::Disagreement(replay) = event {
             replays.push(replay.clone());
         }
@@ -157,7 +157,7 @@ fn a_campaign_goes_on_from_its_state_file() {
         limit: Limit::Count(8),
     };
     assert_eq!(
-        campaign.run(first.clone(), &AtomicBool::new(true), &mut |_| {}),
+        campaign.run(first.clone(), &Cancel::requested(), &mut |_| {}),
         first
     );
 }

@@ -8,6 +8,7 @@
 use mceip::model::{Admissible, Problem, Unknown};
 use mceip::multistart::{Found, Search, multistart};
 use mceip::reduction::{condense, reduce};
+use mceip::run::{Cancel, Watch};
 use mceip::solver::SolverError;
 use mceip::source::{Block, MassKind, PublishedState};
 use mceip::testkit::campaign::{
@@ -25,7 +26,6 @@ use rayon::prelude::*;
 use std::collections::{BTreeMap, BTreeSet};
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
-use std::sync::atomic::AtomicBool;
 
 type ByStarts = BTreeMap<Starts, Coverage>;
 
@@ -264,7 +264,7 @@ fn quick_search() -> Search {
 /// project's own solver has none is `tests/campaign/verify.rs::no_disagreement`.
 #[test]
 fn verify_fails_with_a_solver_that_misses_solutions() {
-    let stop = AtomicBool::new(false);
+    let stop = Cancel::new();
     let families: [(&'static str, Vec<Instance>); 4] = [
         // Every seventh, so that all four sign patterns occur.
         (
@@ -291,8 +291,7 @@ fn verify_fails_with_a_solver_that_misses_solutions() {
                 name,
                 instances,
                 &treatment.with_solver(solver),
-                &stop,
-                &|_, _, _| {},
+                &Watch::silent(&stop),
             );
             assert!(
                 planted.disagreements.is_empty(),
@@ -339,7 +338,7 @@ fn the_campaign_fails_with_a_solver_that_misses_solutions() {
         };
         campaign.run(
             State::new(3, (0, 1), families.clone()),
-            &AtomicBool::new(false),
+            &Cancel::new(),
             &mut |_| {},
         )
     };

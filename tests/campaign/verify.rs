@@ -2,16 +2,16 @@
 #![cfg(feature = "testkit")]
 
 use mceip::multistart::Search;
+use mceip::run::{Cancel, Watch};
 use mceip::testkit::floors::{Starts, floor};
 use mceip::testkit::{
     BLOCK_STARTS, Corner, Treatment, degenerate, random_pencils, verify, verify_family,
 };
 use std::collections::BTreeSet;
-use std::sync::atomic::AtomicBool;
 
 #[test]
 fn no_disagreement() {
-    let v = verify(60, 1, &AtomicBool::new(false), &|_, _, _| {}).unwrap();
+    let v = verify(60, 1, &Watch::nobody()).unwrap();
     for f in &v.families {
         assert!(
             f.disagreements.is_empty(),
@@ -91,8 +91,7 @@ fn the_number_of_threads_changes_nothing() {
                     "few",
                     &instances,
                     &Treatment::of(&Search::default()),
-                    &AtomicBool::new(false),
-                    &|_, _, _| {}
+                    &Watch::nobody()
                 )
             )
         })
@@ -102,7 +101,7 @@ fn the_number_of_threads_changes_nothing() {
 
 #[test]
 fn a_stopped_run_keeps_what_was_done_and_says_so() {
-    let v = verify(4, 1, &AtomicBool::new(true), &|_, _, _| {}).unwrap();
+    let v = verify(4, 1, &Watch::silent(&Cancel::requested())).unwrap();
     assert!(
         v.interrupted
             && v.block.is_empty()

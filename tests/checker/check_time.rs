@@ -8,10 +8,10 @@ use mceip::certificate::{Certificate, Claim};
 use mceip::certify::{certificate, propose};
 use mceip::check::check;
 use mceip::model::Problem;
+use mceip::run::Watch;
 use mceip::search::complete::{Options, complete};
 use mceip::source::{Block, BlockModel, MassKind, PublishedState};
 use mceip::testkit::{block_state, mechanical_pencil};
-use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 /// The best of a few runs.
@@ -28,13 +28,7 @@ fn time(problem: &Problem, certificate: &Certificate) -> Duration {
 fn exact(n: usize) -> (Problem, Certificate) {
     for seed in 1.. {
         let problem = mechanical_pencil(n, mceip::model::Unknown::Mu, seed).unwrap();
-        let found = complete(
-            &problem,
-            &Options::default(),
-            &AtomicBool::new(false),
-            &|_| {},
-        )
-        .unwrap();
+        let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
         let pencil = mceip::reduction::reduce(&problem).unwrap().pencil;
         for (s, x) in found.solutions().filter(|(s, _)| 2 * s.support.len() >= n) {
             let candidate = Candidate {
@@ -73,7 +67,7 @@ fn checking_takes_milliseconds() {
     })
     .unwrap();
     for state in PublishedState::ALL {
-        let certificate = block_state(&block, state, &AtomicBool::new(false), &|_| {})
+        let certificate = block_state(&block, state, &Watch::nobody())
             .unwrap()
             .unwrap()
             .certificate

@@ -7,11 +7,11 @@ use mceip::check::check;
 use mceip::exact::{Integer, rational, whole};
 use mceip::model::file::Number;
 use mceip::model::{Body, Problem, Unknown, Window};
+use mceip::run::Watch;
 use mceip::search::complete::{Options, complete};
 use mceip::testkit::generators::tails::{Mass, tails};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::sync::atomic::AtomicBool;
 
 fn set(c: &mut Certificate) -> &mut CompleteSet {
     c.complete_set.as_mut().unwrap()
@@ -166,8 +166,7 @@ fn judged(cases: &[usize]) -> [usize; 3] {
                 pieces: 4,
                 ..Options::default()
             },
-            &AtomicBool::new(false),
-            &|_| {},
+            &Watch::nobody(),
         )
         .unwrap()
         .certificate;

@@ -9,9 +9,9 @@ use mceip::exact::{Sparse, parse, rational, whole};
 use mceip::model::{Admissible, Body, Pencil, Problem, Unknown, Window};
 use mceip::multistart::{Search, multistart};
 use mceip::reduction::reduce;
+use mceip::run::Watch;
 use mceip::search::complete::{Options, complete};
 use num_traits::Signed;
-use std::sync::atomic::AtomicBool;
 
 /// Free variables of the chain: more than exact claims are made for.
 const LINKS: usize = 17;
@@ -173,13 +173,7 @@ fn one_radius_for_all_components_is_refused() {
 fn the_complete_set_of_a_local_mode_closes() {
     for (end, support) in [(1, vec![0]), (-1, vec![0, LINKS + 1])] {
         let problem = chain(end);
-        let completed = complete(
-            &problem,
-            &Options::default(),
-            &AtomicBool::new(false),
-            &|_| {},
-        )
-        .unwrap();
+        let completed = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
         assert!(
             completed.cover.open.is_empty(),
             "{:?}",

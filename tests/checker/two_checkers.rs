@@ -17,6 +17,7 @@ use mceip::model::file::{read_problem, write_problem};
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};
 use mceip::oracle::{Enumeration, enumerate};
 use mceip::reduction::reduce;
+use mceip::run::Watch;
 use mceip::search::complete::{Options, complete};
 use mceip::testkit::{known, mechanical_pencil, random_pencils};
 use rand::{RngExt, SeedableRng};
@@ -27,7 +28,6 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::Command;
-use std::sync::atomic::AtomicBool;
 
 /// Exit codes of both programs.
 const ACCEPTED: i32 = 0;
@@ -315,7 +315,7 @@ fn covered(problem: &Problem) -> Option<Forgery> {
         nodes_per_piece: 200,
         ..Options::default()
     };
-    let found = complete(problem, &options, &AtomicBool::new(false), &|_| {}).ok()?;
+    let found = complete(problem, &options, &Watch::nobody()).ok()?;
     Some(Forgery {
         problem: problem.clone(),
         text: found.certificate.to_json(),

@@ -6,21 +6,15 @@ use mceip::exact::{parse, to_f64};
 use mceip::model::{Body, ContactState, Problem, Unknown, Window};
 use mceip::oracle::enumerate;
 use mceip::reduction::{mu_family, reduce};
+use mceip::run::Watch;
 use mceip::search::complete::{Completed, Options, complete};
 use mceip::source::path::{Contact, Loading, LoadingPath};
 use mceip::source::{Block, BlockModel, MassKind, PublishedState};
 use std::ops::ControlFlow;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 fn search(problem: &Problem) -> Completed {
-    complete(
-        problem,
-        &Options::default(),
-        &AtomicBool::new(false),
-        &|_| {},
-    )
-    .unwrap()
+    complete(problem, &Options::default(), &Watch::nobody()).unwrap()
 }
 
 /// The only solution's value and number of slipping nodes, in a set proved to be complete.

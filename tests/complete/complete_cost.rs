@@ -6,9 +6,9 @@
 use crate::cost::{CSV, HEAD, Run, SVG, picture, read};
 use mceip::check::check;
 use mceip::reduction::reduce;
+use mceip::run::Watch;
 use mceip::search::complete::{Options, complete};
 use mceip::testkit::refined_block;
-use std::sync::atomic::AtomicBool;
 
 #[test]
 fn the_figure_is_that_of_the_table() {
@@ -65,13 +65,7 @@ fn a_table_of_another_shape_is_refused() {
 fn the_smallest_mesh_is_as_in_the_table() {
     let problem = refined_block(10, false).unwrap();
     let pencil = reduce(&problem).unwrap().pencil;
-    let found = complete(
-        &problem,
-        &Options::default(),
-        &AtomicBool::new(false),
-        &|_| {},
-    )
-    .unwrap();
+    let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
     let cover = check(&problem, &found.certificate).unwrap().cover.unwrap();
     let runs = read(&std::fs::read_to_string(CSV).unwrap()).unwrap();
     let listed = runs

@@ -5,10 +5,10 @@
 use crate::cover::{disagreements, truth};
 use mceip::exact::{Integer, Rational, Sparse, rational, whole};
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip::run::Watch;
 use mceip::search::complete::{Completed, Options, complete, resume};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::sync::atomic::AtomicBool;
 
 fn problem(a: Sparse, b: Sparse, lo: &Rational, hi: Option<&Rational>) -> Problem {
     let window = Window::new(lo.clone(), hi.cloned()).unwrap();
@@ -27,8 +27,7 @@ fn search(problem: &Problem) -> Completed {
             pieces: 4,
             ..Options::default()
         },
-        &AtomicBool::new(false),
-        &|_| {},
+        &Watch::nobody(),
     )
     .unwrap()
 }
@@ -192,16 +191,8 @@ fn larger_supports_that_end_a_window_are_listed_through_their_claim() {
 fn a_checkpoint_of_another_problem_or_window_is_refused() {
     let own = fold(whole(0), Some(whole(5)));
     let certificate = search(&own).certificate;
-    let go_on = |p: &Problem| {
-        resume(
-            p,
-            &certificate,
-            &Options::default(),
-            &AtomicBool::new(false),
-            &|_| {},
-        )
-        .map(|_| ())
-    };
+    let go_on =
+        |p: &Problem| resume(p, &certificate, &Options::default(), &Watch::nobody()).map(|_| ());
     assert_eq!(go_on(&own), Ok(()));
     let refused = |p: &Problem| go_on(p).unwrap_err().to_string();
     assert!(

@@ -6,6 +6,7 @@
 use crate::cover::{disagreements, family_disagreements, truth};
 use mceip::exact::{Rational, rational};
 use mceip::model::{Body, Problem, Unknown};
+use mceip::run::Watch;
 use mceip::search::complete::{Options, complete};
 use mceip::testkit::generators::raw::{digits, doubled, elements, graph, zeros};
 use mceip::testkit::generators::window;
@@ -14,7 +15,6 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::sync::atomic::AtomicBool;
 
 /// Family, whether it is degenerate by construction, what it is, and the problem.
 struct Case {
@@ -151,14 +151,7 @@ fn campaign(cases: &[&Case]) -> (BTreeMap<(&'static str, bool), Count>, usize) {
             .map(|c| {
                 // An error and a panic are disagreements like any other: the campaign goes on and
                 // lists them.
-                let run = || {
-                    complete(
-                        &c.problem,
-                        &Options::default(),
-                        &AtomicBool::new(false),
-                        &|_| {},
-                    )
-                };
+                let run = || complete(&c.problem, &Options::default(), &Watch::nobody());
                 let found = match std::panic::catch_unwind(run) {
                     Ok(Ok(found)) => found,
                     Ok(Err(e)) => {

@@ -7,21 +7,15 @@ use crate::cover::{disagreements, family_disagreements, truth};
 use mceip::certificate::{Node, RootOutcome};
 use mceip::exact::{Sparse, whole};
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};
+use mceip::run::Watch;
 use mceip::search::complete::{Completed, Options, complete};
 use mceip::testkit::generators::tails::{Mass, tails};
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
-use std::sync::atomic::AtomicBool;
 
 fn search(problem: &Problem) -> Completed {
-    complete(
-        problem,
-        &Options::default(),
-        &AtomicBool::new(false),
-        &|_| {},
-    )
-    .unwrap()
+    complete(problem, &Options::default(), &Watch::nobody()).unwrap()
 }
 
 fn problem(pencil: Pencil) -> Problem {

@@ -3,9 +3,9 @@
 
 use mceip::linear::solve;
 use mceip::model::ContactState;
+use mceip::run::Watch;
 use mceip::source::{Block, BlockModel, DoubleBlock, MassKind, MeshKind, Plane, PublishedState};
 use mceip::testkit::block_state;
-use std::sync::atomic::AtomicBool;
 
 #[test]
 fn published_states_are_found_certified_and_accepted() {
@@ -14,7 +14,7 @@ fn published_states_are_found_certified_and_accepted() {
         (PublishedState::FifteenSlip, "60.805842", 14),
         (PublishedState::SeventeenSlip, "1.7048043", 17),
     ] {
-        let report = block_state(&block, state, &AtomicBool::new(false), &|_| {})
+        let report = block_state(&block, state, &Watch::nobody())
             .unwrap()
             .unwrap();
         assert_eq!(report.accepted.len(), 1, "{}", state.name());

@@ -3,15 +3,13 @@
 
 use mceip::exact::{Rational, rational, to_f64, whole};
 use mceip::model::{Body, ContactState, Problem, Unknown, Window};
+use mceip::run::Watch;
 use mceip::search::complete::{Options, complete};
 use mceip::search::levels::Levels;
 use mceip::source::path::{Contact, Interval, Loading, LoadingPath, PathEnd};
 use mceip::source::{Block, BlockModel, MassKind, MeshKind, Plane};
 use std::ops::ControlFlow;
-use std::sync::atomic::AtomicBool;
 use std::time::Instant;
-
-static GO: AtomicBool = AtomicBool::new(false);
 
 /// What one state of a path has: slip nodes, and (mu, slip nodes that move) of its MCEIP-mu set.
 struct State {
@@ -48,7 +46,7 @@ impl Observed {
                 Window::all(),
             )
             .unwrap();
-            let found = complete(&problem, &Options::default(), &GO, &|_| {}).unwrap();
+            let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
             let set = found
                 .cover
                 .solutions
@@ -157,7 +155,11 @@ fn above(block: &Block, states: &[ContactState]) -> Vec<(f64, Option<f64>)> {
         .count();
     let levels = Levels::new(&block.system(states, None).unwrap()).unwrap();
     let at = |lambda2: f64| {
-        let (found, _) = levels.at(lambda2).unwrap().solutions(&GO).unwrap();
+        let (found, _) = levels
+            .at(lambda2)
+            .unwrap()
+            .solutions(&Watch::nobody())
+            .unwrap();
         (
             lambda2,
             found

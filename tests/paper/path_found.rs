@@ -7,11 +7,11 @@ use mceip::exact::to_f64;
 use mceip::model::{Admissible, Unknown};
 use mceip::multistart::{Search, exact_value, multistart_large, support};
 use mceip::reduction::reduce;
+use mceip::run::Watch;
 use mceip::search::complete::{Options, complete};
 use mceip::source::path::{Contact, Loading, LoadingPath};
 use mceip::source::{Block, BlockModel, MassKind};
 use std::ops::ControlFlow;
-use std::sync::atomic::AtomicBool;
 
 /// Of all states with slip nodes: how many, how many have solutions, solutions, those found, work
 /// (pivots, factorisations).
@@ -37,18 +37,11 @@ fn search_the_path(block: &Block, how: &Search) -> Tally {
             continue;
         }
         let problem = interval.problem(block, None).unwrap();
-        let truth = complete(
-            &problem,
-            &Options::default(),
-            &AtomicBool::new(false),
-            &|_| {},
-        )
-        .unwrap();
+        let truth = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
         assert!(truth.is_complete());
         let pencil = reduce(&problem).unwrap().pencil;
         let admissible = Admissible::new(&pencil, Unknown::Mu).unwrap();
-        let (found, _) =
-            multistart_large(&problem, &admissible, how, &|_| ControlFlow::Continue(())).unwrap();
+        let (found, _) = multistart_large(&problem, &admissible, how, &Watch::nobody()).unwrap();
         let meets = |value: f64, slip: &[usize]| {
             let same = |c: &&mceip::multistart::Certified| {
                 support(&c.claim) == slip && (c.candidate.value - value).abs() <= 1e-6 * value

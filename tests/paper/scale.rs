@@ -10,8 +10,8 @@ use mceip::model::{Admissible, Body, ContactState, Particle, Problem, Unknown, W
 use mceip::multistart::{CondensedFound, CondensedSearch, all_slip, search_condensed};
 use mceip::oracle::enumerate;
 use mceip::reduction::{SparseCondensation, SparseCondensationError, condense, reduce};
+use mceip::run::Watch;
 use mceip::source::{Block, BlockModel, DoubleBlock, MassKind, MeshKind, Plane, PublishedState};
-use std::ops::ControlFlow;
 
 const RIGHT: ContactState = ContactState::Slip { sign: -1 };
 const LEFT: ContactState = ContactState::Slip { sign: 1 };
@@ -250,10 +250,8 @@ fn certified(
         starts,
         ..CondensedSearch::default()
     };
-    let found = search_condensed(&condensation, to_f64(&friction), &search, &|_| {
-        ControlFlow::Continue(())
-    })
-    .unwrap();
+    let found =
+        search_condensed(&condensation, to_f64(&friction), &search, &Watch::nobody()).unwrap();
     let system = block.system(states, Some(friction)).unwrap();
     let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap();
     let pencil = reduce(&problem).unwrap().pencil;

@@ -140,3 +140,29 @@ fn lifted_claims_are_written_and_checked() {
         assert_eq!(mceip(&["check", &problem, &out]).status.code(), Some(0));
     }
 }
+
+/// Entries from 1e-400 to 1e400: an exact decision of a support takes minors of thousands of bits
+/// and as many halvings. `certify` did not end on this file; such supports stay open.
+#[test]
+fn numbers_of_every_magnitude_stay_undecided_at_once() {
+    let folder = Folder::new();
+    let problem = folder.write(
+        "problem.json",
+        r#"{"format": "mceip-problem/1", "unknown": "mu", "pencil": {
+            "a": [["3", "1e308", "1", "-3"], ["2", "3", "-1e-400", ".5"],
+                  ["-1", "-3", "0", "0"], ["7", ".5", "-1", "9"]],
+            "b": [["1", "-1e400", "1e300", "0"],
+                  ["-3", "1.7976931348623159e308", "1", "1e300"],
+                  ["-1", "3", "3", "2.2250738585072014e-308"], ["0", "1e-400", "0", "0"]],
+            "free": [3]}}"#,
+    );
+    let file = report(&folder, r#"[{"value": 0, "x": [1, 1, 2, 0]}]"#);
+
+    let started = std::time::Instant::now();
+    let o = mceip(&["certify", &problem, &file]);
+
+    let said = String::from_utf8_lossy(&o.stderr);
+    assert_eq!(o.status.code(), Some(3), "{said}");
+    assert!(said.contains("regions stay open"), "{said}");
+    assert!(started.elapsed().as_secs() < 20, "{:?}", started.elapsed());
+}

@@ -9,9 +9,9 @@ use mceip::exact::{Rational, Sparse, enclosing_decimals, rational, to_f64, whole
 use mceip::model::{ContactState, Particle, System, Unknown, Window};
 use mceip::oracle::{TwoParticles, enumerate, table1, thresholds};
 use mceip::reduction::reduce;
+use mceip::run::{Cancel, Watch};
 use mceip::source::{Block, BlockModel, two_particles};
 use serde_json::Value;
-use std::sync::atomic::AtomicBool;
 
 fn example(name: &str) -> String {
     format!("{}/spec/examples/{name}", env!("CARGO_MANIFEST_DIR"))
@@ -24,7 +24,7 @@ fn answer(system: &System, mu: &Rational, samples: usize) -> Analysis {
         threads: Some(1),
         ..Options::default()
     };
-    let analysis = analyse(None, system, mu, &options, &AtomicBool::new(false), &|_| {}).unwrap();
+    let analysis = analyse(None, system, mu, &options, &Watch::nobody()).unwrap();
     for proof in &analysis.proofs {
         check(&proof.problem, &proof.certificate).unwrap();
     }
@@ -421,14 +421,13 @@ fn the_report_says_what_the_text_says() {
 
 #[test]
 fn interrupted_work_is_undecided() {
-    let stop = AtomicBool::new(true);
+    let stop = Cancel::requested();
     let a = analyse(
         None,
         &fold(),
         &whole(2),
         &Options::default(),
-        &stop,
-        &|_| {},
+        &Watch::silent(&stop),
     )
     .unwrap();
     assert!(a.interrupted && !a.is_decided() && a.divergence.modes.is_empty());

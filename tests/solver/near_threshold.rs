@@ -13,9 +13,9 @@ use mceip::model::{Admissible, Body, Pencil, Problem, Unknown, Window};
 use mceip::multistart::{Found, Search, multistart};
 use mceip::oracle::{TwoParticles, enumerate, table1};
 use mceip::reduction::reduce;
+use mceip::run::Watch;
 use mceip::search::near::{Near, near};
 use mceip::source::{pythagorean_angles, two_particles};
-use std::sync::atomic::AtomicBool;
 
 const GAPS: [&str; 13] = [
     "1e-3", "1e-4", "1e-5", "1e-6", "1e-7", "1e-8", "1e-9", "1e-10", "1e-11", "1e-12", "1e-13",
@@ -95,7 +95,7 @@ fn below_the_threshold_absence_is_proved() {
                     x: t.x.clone(),
                 };
                 assert!(propose(&pencil, problem.window(), &claimed).is_err());
-                match near(&problem, &claimed, None, &AtomicBool::new(false)).unwrap() {
+                match near(&problem, &claimed, None, &Watch::nobody()).unwrap() {
                     Near::Absent(c) => {
                         let cover = check(&problem, &c.certificate).unwrap().cover.unwrap();
                         assert!(cover.solutions.is_empty() && cover.open.is_empty());

@@ -10,9 +10,9 @@ use mceip::certify::{certificate, lifted};
 use mceip::exact::{Integer, Rational, Sparse, parse, rational, whole};
 use mceip::model::file::{Number, write_problem};
 use mceip::model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
+use mceip::run::Watch;
 use mceip::search::complete::{Options, complete};
 use serde_json::{Value, json};
-use std::sync::atomic::AtomicBool;
 
 /// One file of the corpus.
 pub struct Case {
@@ -190,7 +190,7 @@ pub fn completed(problem: &Problem) -> Certificate {
         threads: Some(1),
         ..Options::default()
     };
-    complete(problem, &options, &AtomicBool::new(false), &|_| {})
+    complete(problem, &options, &Watch::nobody())
         .unwrap()
         .certificate
 }

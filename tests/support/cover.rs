@@ -8,10 +8,10 @@ use mceip::exact::{Algebraic, Interval, Sparse, whole};
 use mceip::model::{Body, Pencil, Problem, Unknown, Window};
 use mceip::oracle::{End, Enumeration, Piece, Solution, SupportRange, enumerate, examine_support};
 use mceip::reduction::reduce;
+use mceip::run::Watch;
 use mceip::search::complete::{Options, complete};
 use mceip::testkit::{mechanical_pencil, random_pencils};
 use std::cmp::Ordering;
-use std::sync::atomic::AtomicBool;
 
 pub fn truth(problem: &Problem) -> Enumeration {
     enumerate(&reduce(problem).unwrap().pencil, problem.window()).unwrap()
@@ -268,7 +268,7 @@ pub fn proved(problem: &Problem) -> Certificate {
         pieces: 6,
         ..Options::default()
     };
-    let certificate = complete(problem, &options, &AtomicBool::new(false), &|_| {})
+    let certificate = complete(problem, &options, &Watch::nobody())
         .unwrap()
         .certificate;
     assert!(check(problem, &certificate).is_ok());

@@ -29,5 +29,6 @@ pub mod lcp;
 pub mod multistart;
 pub mod reduction;
 pub mod report;
+pub mod run;
 pub mod search;
 pub mod tolerance;

@@ -10,10 +10,9 @@ use crate::exact::{Rational, to_f64};
 use crate::model::{Admissible, ModelError, Problem, Unknown};
 use crate::multistart::{Search, SearchError, multistart_large};
 use crate::reduction::reduce;
+use crate::run::{Progress, Watch};
 use crate::search::complete::{CompleteError, Options, complete};
 use crate::source::{Block, PublishedState};
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Why a state of the block was not treated.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -92,42 +91,36 @@ impl BlockReport {
     }
 }
 
-/// Treats one published state; `progress` is told what is being done. `None` if `stop` was set.
+/// Treats one published state. `None` if it was cancelled.
 ///
 /// # Errors
 /// [`BlockError`]; none for the paper's block.
 pub fn block_state(
     block: &Block,
     state: PublishedState,
-    stop: &AtomicBool,
-    progress: &dyn Fn(&str),
+    watch: &Watch<'_>,
 ) -> Result<Option<BlockReport>, BlockError> {
-    let stopped = || stop.load(Ordering::Relaxed);
-    progress("reducing");
+    watch.report(&Progress::stage("reducing"));
     let problem = state.problem(block)?;
     let pencil = reduce(&problem)?.pencil;
     let full = Admissible::new(&pencil, Unknown::Mu)?;
-    if stopped() {
+    if watch.is_cancelled() {
         return Ok(None);
     }
-    progress("condensing exactly and searching");
+    watch.report(&Progress::stage("condensing exactly and searching"));
     let search = Search {
         window_starts: 2,
         ..Search::default()
     };
-    let (found, condensed) = multistart_large(&problem, &full, &search, &|_| {
-        if stopped() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    })?;
-    if stopped() {
+    let (found, condensed) = multistart_large(&problem, &full, &search, &watch.quiet())?;
+    if watch.is_cancelled() {
         return Ok(None);
     }
-    progress("proving that there are no other solutions");
-    let cover = complete(&problem, &Options::default(), stop, &|_| {})?.cover;
-    progress("checking");
+    watch.report(&Progress::stage(
+        "proving that there are no other solutions",
+    ));
+    let cover = complete(&problem, &Options::default(), &watch.quiet())?.cover;
+    watch.report(&Progress::stage("checking"));
     let entries = condensed
         .iter()
         .flat_map(|p| p.a().entries().chain(p.b().entries()));
@@ -173,7 +166,7 @@ pub fn block_state(
     );
     submit(&problem, &pencil.slip(), &certificate, &mut report);
     for forgery in forgeries(&certificate) {
-        if stopped() {
+        if watch.is_cancelled() {
             return Ok(None);
         }
         report.forgeries += 1;

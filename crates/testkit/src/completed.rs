@@ -5,9 +5,9 @@ use crate::check::AcceptedClaim;
 use crate::exact::Rational;
 use crate::model::Problem;
 use crate::oracle::{Enumeration, Solution};
+use crate::run::Watch;
 use crate::search::complete::{CompleteError, Options, complete};
 use std::cmp::Ordering;
-use std::sync::atomic::AtomicBool;
 
 /// Nodes per piece in comparisons: instances are small, what needs more is degenerate.
 pub(super) const NODES: usize = 20_000;
@@ -36,7 +36,7 @@ pub(super) fn compare_within(
         threads: None,
         ..Options::default()
     };
-    let completed = match complete(problem, &options, &AtomicBool::new(false), &|_| {}) {
+    let completed = match complete(problem, &options, &Watch::nobody()) {
         Ok(completed) => completed,
         Err(CompleteError::NotDefinite { .. } | CompleteError::NothingSlips) => return Ok(false),
         Err(e) => {

@@ -4,12 +4,12 @@
 use crate::exact::{Rational, Sparse, from_f64, to_f64, whole};
 use crate::model::{Body, ModelError, Pencil, Problem, Unknown, Window};
 use crate::reduction::reduce;
+use crate::run::{Cancel, Watch};
 use crate::search::complete::{CompleteError, Options, complete};
 use crate::source::{Block, BlockModel, SourceError};
 use num_traits::One;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-use std::sync::atomic::AtomicBool;
 
 /// Why a large problem was not made.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -94,7 +94,7 @@ pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
         threads: Some(1),
         ..Options::default()
     };
-    let start = complete(problem, &options, &AtomicBool::new(true), &|_| {})?;
+    let start = complete(problem, &options, &Watch::silent(&Cancel::requested()))?;
     let set = start.certificate.complete_set.and_then(|s| s.condensation);
     let Some(w) = set
         .as_ref()
@@ -191,13 +191,7 @@ mod tests {
             .problem(&Block::of_the_paper(crate::source::MassKind::Consistent))
             .unwrap();
         let small = condensed_in_doubles(&problem).unwrap();
-        let found = complete(
-            &small,
-            &Options::default(),
-            &AtomicBool::new(false),
-            &|_| {},
-        )
-        .unwrap();
+        let found = complete(&small, &Options::default(), &Watch::nobody()).unwrap();
         assert_eq!(found.cover.solutions.len(), 1);
         assert!((to_f64(&found.cover.solutions[0].value.mid()) - 1.71).abs() < 0.01);
         // The near problem's certificate is none for the given one.

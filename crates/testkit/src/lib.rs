@@ -3,7 +3,7 @@
 
 use mceip_engine::{
     candidate, certificate, certify, check, exact, foreign, model, multistart, oracle, reduction,
-    report, search, solver, tolerance,
+    report, run, search, solver, tolerance,
 };
 use mceip_paper as source;
 

@@ -21,10 +21,10 @@ pub struct Pareto {
 /// Matrices with many Pareto eigenvalues for their order: 3, 9, 23 and 57 for orders 2 to 5.
 ///
 /// Orders 3 to 5 are due to A. Pinto da Costa and A. Seeger ("Cone-constrained eigenvalue problems:
-/// theory and algorithms", Comput. Optim. Appl. 45 (2010) 25-57), here with the sign that makes (P
-/// - lambda I) x >= 0: the literature has both. The counts are what identifies them, and they are
-/// recomputed in `tests/oracle/known_answers.rs`. Order 2 is any with p_12, p_21 >= 0 and different
-/// diagonal entries.
+/// theory and algorithms", Comput. Optim. Appl. 45 (2010) 25-57), here with the sign that makes
+/// (P - lambda I) x >= 0: the literature has both. The counts are what identifies them, and they
+/// are recomputed in `tests/oracle/known_answers.rs`. Order 2 is any with p_12, p_21 >= 0 and
+/// different diagonal entries.
 pub fn pareto_matrices() -> Vec<Pareto> {
     let half = |sign: i64| rational(sign, 2);
     let three = [

@@ -7,10 +7,11 @@ use super::{
 use super::{degenerate, mechanical, random_pencils, table1_grid};
 use crate::model::ModelError;
 use crate::multistart::Search;
+use crate::run::{Progress, Watch};
 use crate::source::{Block, MassKind, PublishedState};
 use rayon::prelude::*;
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
 /// A family's row.
 #[derive(Debug, Clone, Default)]
@@ -120,17 +121,12 @@ impl Verification {
 /// Runs everything embedded: Table 1, `random` random pencils, systems, degenerate cases, the
 /// block.
 ///
-/// `stop` ends the run after the instances at work; `progress` hears (family, done, of). The result
-/// does not depend on the number of threads.
+/// A run that is cancelled ends after the instances at work. Progress counts the instances of each
+/// family. The result does not depend on the number of threads.
 ///
 /// # Errors
 /// [`BlockError`] if an embedded problem is refused: a bug.
-pub fn verify(
-    random: usize,
-    seed: u64,
-    stop: &AtomicBool,
-    progress: &(dyn Fn(&str, usize, usize) + Sync),
-) -> Result<Verification, BlockError> {
+pub fn verify(random: usize, seed: u64, watch: &Watch<'_>) -> Result<Verification, BlockError> {
     let treatment = Treatment::of(&Search {
         seed,
         ..Search::default()
@@ -143,22 +139,22 @@ pub fn verify(
     ];
     let mut rows = Vec::new();
     for (name, instances) in families {
-        rows.push(verify_family(name, &instances?, &treatment, stop, progress));
+        rows.push(verify_family(name, &instances?, &treatment, watch));
     }
     let mut block = Vec::new();
     let model = Block::of_the_paper(MassKind::Consistent);
     for (k, state) in PublishedState::ALL.into_iter().enumerate() {
-        if stop.load(Ordering::Relaxed) {
+        if watch.is_cancelled() {
             break;
         }
-        progress("block of section 5", k, 2);
-        block.extend(block_state(&model, state, stop, &|_| {})?);
+        watch.report(&Progress::of("block of section 5", k, 2));
+        block.extend(block_state(&model, state, &watch.quiet())?);
     }
     Ok(Verification {
         seed,
         families: rows,
         block,
-        interrupted: stop.load(Ordering::Relaxed),
+        interrupted: watch.is_cancelled(),
     })
 }
 
@@ -167,22 +163,18 @@ pub fn verify_family(
     name: &'static str,
     instances: &[Instance],
     treatment: &Treatment,
-    stop: &AtomicBool,
-    progress: &(dyn Fn(&str, usize, usize) + Sync),
+    watch: &Watch<'_>,
 ) -> FamilyReport {
     let done = std::sync::atomic::AtomicUsize::new(0);
     let reports: Vec<InstanceReport> = instances
         .par_iter()
         .filter_map(|instance| {
-            if stop.load(Ordering::Relaxed) {
+            if watch.is_cancelled() {
                 return None;
             }
             let report = compare_by(instance, treatment);
-            progress(
-                name,
-                done.fetch_add(1, Ordering::Relaxed) + 1,
-                instances.len(),
-            );
+            let finished = done.fetch_add(1, Ordering::Relaxed) + 1;
+            watch.report(&Progress::of(name, finished, instances.len()));
             Some(report)
         })
         .collect(); // in the order of the instances

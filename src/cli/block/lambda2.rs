@@ -4,17 +4,17 @@
 use super::scale::{self, ScaleError};
 use super::{Args, published};
 use crate::certify::{Certifier, ENCLOSED_ORDER};
-use crate::cli::common::{CliError, exit, interrupt_flag, print, progress_spinner};
+use crate::cli::common::{CliError, exit, print};
+use crate::cli::job::Job;
 use crate::exact::{Rational, parse, to_f64};
 use crate::model::{Body, ContactState, Problem, Unknown, Window};
 use crate::multistart::{CondensedFound, CondensedSearch, CondensedSolution, search_condensed};
 use crate::reduction::{SparseCondensation, reduce};
 use crate::report::Table;
+use crate::run::{Cancel, Progress, Watch};
 use crate::source::{Block, BlockModel, DoubleBlock, MassKind};
 use num_traits::Signed;
 use serde_json::{Value, json};
-use std::ops::ControlFlow;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// A mesh with its contact states.
@@ -54,8 +54,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         .map(friction)
         .collect::<Result<Vec<_>, _>>()?;
     let cases = cases(args)?;
-    let stop = interrupt_flag();
-    let bar = progress_spinner("block");
+    let job = Job::begin("block");
     let search = CondensedSearch {
         starts: args.starts,
         seed: args.seed,
@@ -63,18 +62,20 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     let mut rows = Vec::new();
     for case in &cases {
-        bar.set_message(format!("{}: assembling", case.name));
+        job.say(format!("{}: assembling", case.name));
         let condensation = condensation(case)?;
         let exact = (condensation.dofs() <= ENCLOSED_ORDER)
             .then(|| Block::new(&case.model))
             .transpose()?;
         for (mu, text) in frictions.iter().zip(&args.lambda2) {
-            let heard = |what: &str| bar.set_message(format!("{}, mu = {text}: {what}", case.name));
+            let heard = |what: &str| job.say(format!("{}, mu = {text}: {what}", case.name));
             let clock = Instant::now();
-            let found = searched(&condensation, mu, &search, &stop, &heard)?;
+            let told = |progress: &Progress<'_>| heard(&progress.to_string());
+            let watch = Watch::new(job.cancel(), &told);
+            let found = searched(&condensation, mu, &search, &watch)?;
             let seconds = clock.elapsed().as_secs_f64();
             heard("certifying");
-            let evidence = evidence(exact.as_ref(), case, mu, &found.solutions, &stop)?;
+            let evidence = evidence(exact.as_ref(), case, mu, &found.solutions, job.cancel())?;
             let orders = (condensation.dofs(), condensation.slip_count());
             rows.push(Row {
                 name: case.name.clone(),
@@ -84,15 +85,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
                 evidence,
                 seconds,
             });
-            if stop.load(Ordering::Relaxed) {
+            if job.is_cancelled() {
                 break;
             }
         }
-        if stop.load(Ordering::Relaxed) {
+        if job.is_cancelled() {
             break;
         }
     }
-    bar.finish_and_clear();
+    job.end();
     print(&if args.json {
         format!(
             "{}\n",
@@ -105,7 +106,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         .iter()
         .all(|r| !r.evidence.is_empty() && r.evidence.iter().all(Result::is_ok));
     Ok(match () {
-        () if stop.load(Ordering::Relaxed) => exit::INTERRUPTED,
+        () if job.is_cancelled() => exit::INTERRUPTED,
         () if certified => exit::DONE,
         () => exit::UNDECIDED,
     })
@@ -162,29 +163,9 @@ fn searched(
     condensation: &SparseCondensation,
     mu: &Rational,
     search: &CondensedSearch,
-    stop: &AtomicBool,
-    heard: &dyn Fn(&str),
+    watch: &Watch<'_>,
 ) -> Result<CondensedFound, ScaleError> {
-    let progress = |found: &CondensedFound| {
-        heard(&format!(
-            "{} of {} starts, {} factorisations, {} solutions",
-            found.runs,
-            search.starts,
-            found.factorisations,
-            found.solutions.len()
-        ));
-        if stop.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
-    };
-    Ok(search_condensed(
-        condensation,
-        to_f64(mu),
-        search,
-        &progress,
-    )?)
+    Ok(search_condensed(condensation, to_f64(mu), search, watch)?)
 }
 
 /// Certifies each solution on the exact K and M: the checker has accepted its claim.
@@ -193,7 +174,7 @@ fn evidence(
     case: &Case,
     mu: &Rational,
     solutions: &[CondensedSolution],
-    stop: &AtomicBool,
+    cancel: &Cancel,
 ) -> Result<Vec<Result<f64, String>>, CliError> {
     let Some(block) = block else {
         return Ok(solutions
@@ -208,7 +189,7 @@ fn evidence(
     let pencil = reduce(&problem)?.pencil;
     let certifier = Certifier::new(&problem, &pencil);
     let one = |s: &CondensedSolution| {
-        if stop.load(Ordering::Relaxed) {
+        if cancel.is_requested() {
             Err("interrupted".into())
         } else {
             accepted(&certifier, s)

@@ -4,11 +4,13 @@ mod pages;
 mod states;
 
 use super::Args;
-use crate::cli::common::{CliError, exit, interrupt_flag, print, progress_spinner};
+use crate::cli::common::{CliError, exit, print};
+use crate::cli::job::Job;
 use crate::cli::output::{Folder, Output};
 use crate::exact::{Integer, Rational, parse, to_f64};
 use crate::model::ContactState;
 use crate::report::Table;
+use crate::run::{Cancel, Progress, Watch};
 use crate::source::path::{
     Bound, Comparison, Contact, Equilibrium, Event, Finder, Interval, Loading, LoadingPath,
     PathEnd, step_path,
@@ -20,8 +22,6 @@ use serde_json::{Value, json};
 use states::{State, Wanted};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// Follows the path and prints it.
@@ -44,30 +44,21 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         .as_ref()
         .map(|f| Folder::prepare("pictures", f))
         .transpose()?;
-    let stop = interrupt_flag();
-    let bar = progress_spinner("condensing exactly to the contact nodes");
-    let Some(contact) = condense(block.clone(), &stop)? else {
-        bar.finish_and_clear();
+    let job = Job::begin("condensing exactly to the contact nodes");
+    let Some(contact) = condense(block.clone(), job.cancel())? else {
+        job.end();
         return Ok(exit::INTERRUPTED);
     };
     let path = LoadingPath::follow(&contact, &loading, &|stretch, motion| {
-        bar.set_message(format!(
+        job.say(format!(
             "stretch {stretch}, motion {:.4} mm",
             to_f64(motion)
         ));
-        if stop.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        job.flow()
     })?;
     let heard = |step: usize| {
-        bar.set_message(format!("stepping, step {step}"));
-        if stop.load(Ordering::Relaxed) {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
+        job.say(format!("stepping, step {step}"));
+        job.flow()
     };
     let steps = step
         .as_ref()
@@ -80,19 +71,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         at: &at,
         modes: args.modes || shows,
     };
-    let told = |what: String| bar.set_message(what);
+    let told = |progress: &Progress<'_>| job.say(progress);
+    let watch = Watch::new(job.cancel(), &told);
     let states = if args.complete || shows {
-        Some(states::of(
-            (&block, &contact, &path),
-            &wanted,
-            &stop,
-            &told,
-        )?)
+        Some(states::of((&block, &contact, &path), &wanted, &watch)?)
     } else {
         None
     };
     if let (true, Some(states)) = (shows, &states) {
-        let branches = pages::branches(&block, &path, states, &stop, &told)?;
+        let branches = pages::branches(&block, &path, states, &watch)?;
         let (model, block, path, uncondensed) = (&model, &block, &path, args.uncondensed);
         let shown = Shown {
             model,
@@ -102,11 +89,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             branches,
             uncondensed,
         };
-        if !stop.load(Ordering::Relaxed) {
+        if !job.is_cancelled() {
             show(&shown, report, folder)?; // an interrupted run leaves no pictures
         }
     }
-    bar.finish_and_clear();
+    job.end();
     print(&if args.json {
         let mut out = json_of(&model, &path, steps.as_ref());
         if let Some(states) = &states {
@@ -131,7 +118,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         .as_ref()
         .is_some_and(|s| s.iter().any(State::is_open));
     let unproved = matches!(path.end, PathEnd::NoContinuation { proved: false, .. });
-    Ok(if stop.load(Ordering::Relaxed) {
+    Ok(if job.is_cancelled() {
         exit::INTERRUPTED
     } else if unproved || open {
         exit::UNDECIDED
@@ -232,13 +219,13 @@ fn comparison_text(c: &Comparison) -> String {
 }
 
 /// The condensation in a thread of its own: it cannot be broken off, but it can be left behind.
-fn condense(block: Block, stop: &Arc<AtomicBool>) -> Result<Option<Contact>, CliError> {
+fn condense(block: Block, cancel: &Cancel) -> Result<Option<Contact>, CliError> {
     let (send, receive) = std::sync::mpsc::channel();
     std::thread::spawn(move || send.send(Contact::of(&block)));
     loop {
         match receive.recv_timeout(Duration::from_millis(50)) {
             Ok(contact) => return Ok(Some(contact?)),
-            Err(std::sync::mpsc::RecvTimeoutError::Timeout) if !stop.load(Ordering::Relaxed) => {}
+            Err(std::sync::mpsc::RecvTimeoutError::Timeout) if !cancel.is_requested() => {}
             Err(_) => return Ok(None), // interrupted (or the thread died, which has printed why)
         }
     }

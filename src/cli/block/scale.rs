@@ -1,6 +1,7 @@
 //! `mceip block --scale`: the block refined, condensed in doubles by one sparse Cholesky.
 
-use crate::cli::common::{CliError, exit, interrupt_flag, print, progress_spinner};
+use crate::cli::common::{CliError, exit, print};
+use crate::cli::job::Job;
 use crate::cli::output::Output;
 use crate::exact::{Rational, Sparse, from_f64};
 use crate::linear::Symmetric;
@@ -12,11 +13,11 @@ use crate::reduction::{
     CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed,
 };
 use crate::report::Table;
+use crate::run::{Cancel, Watch};
 use crate::search::complete::{Options, complete};
 use crate::source::{BlockModel, DoubleBlock, DoubleMatrix, SourceError};
 use serde_json::{Value, json};
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
 /// Slip particles up to which the complete search is tried on the condensed pencil.
@@ -68,22 +69,21 @@ pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result
                 .transpose()?,
         ); // writable, before the work
     }
-    let stop = interrupt_flag();
-    let bar = progress_spinner("block");
+    let job = Job::begin("block");
     let mut rows = Vec::new();
     for (model, output) in models.iter().zip(outputs) {
         let heard = |what: &str| {
-            bar.set_message(format!(
+            job.say(format!(
                 "{} x {} cells: {what}",
                 model.cells.0, model.cells.1
             ))
         };
-        match row(model, output, &stop, &heard)? {
+        match row(model, output, job.cancel(), &heard)? {
             Some(row) => rows.push(row),
             None => break,
         }
     }
-    bar.finish_and_clear();
+    job.end();
     print(&if json {
         format!(
             "{}\n",
@@ -92,7 +92,7 @@ pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result
     } else {
         text_of(&rows)
     })?;
-    Ok(if stop.load(Ordering::Relaxed) {
+    Ok(if job.is_cancelled() {
         exit::INTERRUPTED
     } else {
         exit::DONE
@@ -129,10 +129,10 @@ pub(super) fn symmetric(what: &'static str, m: &DoubleMatrix) -> Result<Symmetri
 fn row(
     model: &BlockModel,
     output: Option<Output>,
-    stop: &AtomicBool,
+    cancel: &Cancel,
     heard: &dyn Fn(&str),
 ) -> Result<Option<Row>, CliError> {
-    let stopped = || stop.load(Ordering::Relaxed);
+    let stopped = || cancel.is_requested();
     let clock = Instant::now();
     heard("assembling");
     let block = DoubleBlock::new(model).map_err(ScaleError::from)?;
@@ -162,7 +162,7 @@ fn row(
     heard("residuals");
     let residual = condensed.residual(PROBES);
     heard("complete search of the condensed pencil");
-    let complete = closed(&problem, condensation.slip_count(), stop);
+    let complete = closed(&problem, condensation.slip_count(), cancel);
     Ok(Some(Row {
         cells: model.cells,
         dofs: condensation.dofs(),
@@ -213,12 +213,12 @@ fn problem(model: &BlockModel, condensed: &SparseCondensed<'_>) -> Result<Proble
 }
 
 /// What the complete search says of the condensed pencil.
-fn closed(problem: &Problem, slip: usize, stop: &AtomicBool) -> String {
+fn closed(problem: &Problem, slip: usize, cancel: &Cancel) -> String {
     if slip > COMPLETE_UP_TO {
         return format!("not tried (n_s > {COMPLETE_UP_TO})");
     }
     let clock = Instant::now();
-    match complete(problem, &Options::default(), stop, &|_| {}) {
+    match complete(problem, &Options::default(), &Watch::silent(cancel)) {
         Err(e) => format!("failed: {e}"),
         Ok(found) => {
             let (n, seconds) = (found.cover.solutions.len(), clock.elapsed().as_secs_f64());

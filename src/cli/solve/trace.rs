@@ -7,8 +7,8 @@ use crate::model::file::{from_json, read_problem, require_format, write_problem}
 use crate::model::{Admissible, Problem};
 use crate::multistart::{Found, Search, SearchError, multistart_large};
 use crate::reduction::reduce;
+use crate::run::Watch;
 use serde::{Deserialize, Serialize};
-use std::ops::ControlFlow;
 use std::path::Path;
 
 /// The format of trace files.
@@ -157,9 +157,7 @@ fn again(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
     let search = super::search_of(header.starts, header.seed, header.all, true);
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
-    let (found, _) = multistart_large(&problem, &admissible, &search, &|_| {
-        ControlFlow::Continue(())
-    })?;
+    let (found, _) = multistart_large(&problem, &admissible, &search, &Watch::nobody())?;
     Ok((
         render(
             &in_old_words(Header::new(&problem, &search, header.all), header),

@@ -78,7 +78,7 @@ pub(super) fn critical(
     let cover = if model.stopped() {
         None
     } else {
-        absence(family, &excluded, model.options.limits, model.stop)
+        absence(family, &excluded, model.options.limits, &model.watch)
     };
     let (absent_below, evidence) = match &cover {
         Some(c) if c.below.as_ref().is_none_or(|b| *b > excluded) => (c.below.clone(), BY_COVER),

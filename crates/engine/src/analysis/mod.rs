@@ -29,9 +29,9 @@ use crate::check::{OpenRegion, SolutionFamily};
 use crate::exact::{Interval, Rational, Sparse};
 use crate::model::{Body, Particle, Problem, System, Unknown, Window};
 use crate::reduction::{MuFamily, mu_family};
+use crate::run::{Progress, Watch};
 use crate::search::complete::{self, Completed, complete};
 use conditions::{Necessary, is_all_slip};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// How much work an analysis may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -202,8 +202,8 @@ pub struct Analysis {
 }
 
 /// Analyses a mechanical system at a mu. Contact states are those of the system, taken as impending
-/// slip at mu: reactions in it are not used. `progress` hears what is being done; `stop` ends the
-/// work early and leaves open what is not done.
+/// slip at mu: reactions in it are not used. An analysis that is cancelled leaves open what is not
+/// done.
 ///
 /// # Errors
 /// [`AnalysisError`]: no mass, no slip particle, numbers beyond doubles, a definiteness not
@@ -213,21 +213,20 @@ pub fn analyse(
     system: &System,
     friction: &Rational,
     options: &Options,
-    stop: &AtomicBool,
-    progress: &(dyn Fn(&str) + Sync),
+    watch: &Watch<'_>,
 ) -> Result<Analysis, AnalysisError> {
     error::require_doubles(system)?;
     let model = Model {
         system,
         options,
-        stop,
+        watch: watch.quiet(),
     };
     let here = model.problem(Some(friction))?;
     let family = mu_family(system)?;
     let mut proofs = Vec::new();
-    progress("conditions (19), (20)");
+    watch.report(&Progress::stage("conditions (19), (20)"));
     let necessary = Necessary::of(&family)?;
-    progress("divergence at mu: all lambda^2 >= 0");
+    watch.report(&Progress::stage("divergence at mu: all lambda^2 >= 0"));
     let found = model.complete(&here)?;
     let divergence = divergence(system, &family, &found);
     let sufficient = sufficient(&family, &found, divergence.verdict);
@@ -236,7 +235,7 @@ pub fn analyse(
         problem: here.clone(),
         certificate: found.certificate,
     });
-    progress("static threshold: all mu >= 0");
+    watch.report(&Progress::stage("static threshold: all mu >= 0"));
     let at_zero = model.problem(None)?;
     let found = model.complete(&at_zero)?;
     let threshold = StaticThreshold::of(&found);
@@ -245,7 +244,9 @@ pub fn analyse(
         problem: at_zero,
         certificate: found.certificate,
     });
-    progress("critical mu: all lambda^2 >= 0 and all smaller mu");
+    watch.report(&Progress::stage(
+        "critical mu: all lambda^2 >= 0 and all smaller mu",
+    ));
     let critical = critical::critical(
         &model,
         &family,
@@ -255,7 +256,7 @@ pub fn analyse(
         &threshold,
         &mut proofs,
     )?;
-    progress("ranges of mu");
+    watch.report(&Progress::stage("ranges of mu"));
     let (ranges, samples) = ranges::ranges(&model, friction, &threshold, &critical)?;
     let count = |f: fn(&Particle) -> bool| system.particles().iter().filter(|p| f(p)).count();
     let stick = count(|p| p.state == crate::model::ContactState::Stick);
@@ -278,7 +279,7 @@ pub fn analyse(
         necessary,
         sufficient,
         proofs,
-        interrupted: stop.load(Ordering::Relaxed),
+        interrupted: watch.is_cancelled(),
     })
 }
 
@@ -286,7 +287,7 @@ pub fn analyse(
 struct Model<'a> {
     system: &'a System,
     options: &'a Options,
-    stop: &'a AtomicBool,
+    watch: Watch<'a>,
 }
 
 impl Model<'_> {
@@ -339,11 +340,11 @@ impl Model<'_> {
             threads: self.options.threads,
             ..complete::Options::default()
         };
-        Ok(complete(problem, &options, self.stop, &|_| {})?)
+        Ok(complete(problem, &options, &self.watch)?)
     }
 
     fn stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
+        self.watch.is_cancelled()
     }
 }
 

@@ -7,9 +7,9 @@ use crate::candidate::Candidate;
 use crate::linear::solve as solve_dense;
 use crate::mcp::Mcp;
 use crate::reduction::{CondensedEmbedding, CondensedEmbeddingError, SparseCondensation};
+use crate::run::{Progress, Watch};
 use crate::solver::{Options, SolverError, Termination, solve};
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
 /// Newton steps on the places of a point, at most: each doubles the digits.
 const POLISH_STEPS: usize = 6;
@@ -64,7 +64,7 @@ pub struct CondensedFound {
     pub factorisations: usize,
     /// How often each reason ended a run.
     pub terminations: BTreeMap<Termination, usize>,
-    /// Was the search ended by its progress callback?
+    /// Was the search cancelled?
     pub interrupted: bool,
 }
 
@@ -80,8 +80,8 @@ pub enum CondensedSearchError {
     Solver(#[from] SolverError),
 }
 
-/// Searches MCEIP-lambda2 at friction mu. `progress` is told after each run and may break the
-/// search off.
+/// Searches MCEIP-lambda2 at friction mu. Progress counts runs; a search that is cancelled keeps what
+/// it has found.
 ///
 /// # Errors
 /// [`CondensedSearchError`].
@@ -89,7 +89,7 @@ pub fn search_condensed(
     condensation: &SparseCondensation,
     mu: f64,
     search: &CondensedSearch,
-    progress: &dyn Fn(&CondensedFound) -> ControlFlow<()>,
+    watch: &Watch<'_>,
 ) -> Result<CondensedFound, CondensedSearchError> {
     let embedding = CondensedEmbedding::new(condensation, mu)?;
     let mut found = CondensedFound::default();
@@ -106,7 +106,12 @@ pub fn search_condensed(
             );
         }
         found.factorisations = embedding.factorisations();
-        if progress(&found).is_break() {
+        watch.report(&Progress {
+            done: found.runs as u64,
+            solutions: Some(found.solutions.len() as u64),
+            ..Progress::stage("searching")
+        });
+        if watch.is_cancelled() {
             found.interrupted = true;
             break;
         }

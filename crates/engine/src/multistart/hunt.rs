@@ -4,11 +4,12 @@
 use super::curves::{Ground, is_known};
 use super::same::same;
 use super::trace::trace_outcome;
-use super::{Certified, Certifier, Found, Origin, Progress, Search, Uncertified};
+use super::{Certified, Certifier, Found, Origin, Search, Uncertified};
 use crate::candidate::Candidate;
 use crate::exact::to_f64;
 use crate::model::{Admissible, Unknown, Window};
 use crate::reduction::{Embedding, Side};
+use crate::run::{Progress, Watch};
 use crate::solver::{Counters, SolverError, solve};
 use crate::tolerance::WINDOW_GAP;
 
@@ -25,7 +26,7 @@ pub(super) struct Hunt<'a> {
     pub(super) window: &'a Window,
     pub(super) search: &'a Search,
     pub(super) certifier: &'a Certifier<'a>,
-    pub(super) progress: &'a Progress<'a>,
+    pub(super) watch: Watch<'a>,
     pub(super) found: &'a mut Found,
 }
 
@@ -105,7 +106,12 @@ impl Hunt<'_> {
     }
 
     pub(super) fn is_interrupted(&mut self) -> bool {
-        self.found.interrupted = self.found.interrupted || (self.progress)(self.found).is_break();
+        self.watch.report(&Progress {
+            done: self.found.runs as u64,
+            solutions: Some(self.found.certified.len() as u64),
+            ..Progress::stage("searching")
+        });
+        self.found.interrupted = self.found.interrupted || self.watch.is_cancelled();
         self.found.interrupted
     }
 

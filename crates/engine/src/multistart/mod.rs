@@ -20,11 +20,11 @@ use crate::certify::{self, NotCertified};
 use crate::exact::to_f64;
 use crate::model::{Admissible, ModelError, Pencil, Problem, Unknown, Window};
 use crate::reduction::{CondensationError, Expansion, Side, condense};
+use crate::run::Watch;
 use crate::solver::{CurveEnd, Options, Outcome, SolverError, Termination};
 use crate::tolerance::WINDOW_GAP;
 use hunt::{Hunt, WINDOW_SALT};
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
 
 /// How to search.
 #[derive(Debug, Clone, PartialEq)]
@@ -133,7 +133,7 @@ pub struct Found {
     pub trace: Vec<String>,
     /// Runs from starts, and their pivots and factorisations in all.
     pub plain: (usize, usize),
-    /// Was the search ended by its progress callback?
+    /// Was the search cancelled?
     pub interrupted: bool,
     /// Outcome of the very first run.
     pub first: Option<Outcome>,
@@ -151,9 +151,13 @@ pub fn multistart(
 ) -> Result<Found, SolverError> {
     let certifier = certify::Certifier::new(problem, admissible.pencil());
     let certify = |candidate: &Candidate| certifier.certify(candidate);
-    multistart_with(admissible, problem.window(), search, &certify, &|_| {
-        ControlFlow::Continue(())
-    })
+    multistart_with(
+        admissible,
+        problem.window(),
+        search,
+        &certify,
+        &Watch::nobody(),
+    )
 }
 
 /// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
@@ -194,7 +198,7 @@ pub fn multistart_large(
     problem: &Problem,
     admissible: &Admissible<'_>,
     search: &Search,
-    progress: &Progress<'_>,
+    watch: &Watch<'_>,
 ) -> Result<(Found, Option<Pencil>), SearchError> {
     let pencil = admissible.pencil();
     let certifier = certify::Certifier::new(problem, pencil);
@@ -203,7 +207,7 @@ pub fn multistart_large(
     if admissible.unknown() != Unknown::Mu || pencil.free().len() < CONDENSE_FROM {
         require_dense_order(pencil)?;
         return Ok((
-            multistart_with(admissible, window, search, &direct, progress)?,
+            multistart_with(admissible, window, search, &direct, watch)?,
             None,
         ));
     }
@@ -216,7 +220,7 @@ pub fn multistart_large(
         window,
         search,
         &|c| direct(&expansion.expand(c)),
-        progress,
+        watch,
     )?;
     Ok((found, Some(condensed)))
 }
@@ -237,9 +241,6 @@ fn require_dense_order(pencil: &Pencil) -> Result<(), SearchError> {
     }
 }
 
-/// Told after each run what has been found; breaking ends the search and keeps it.
-pub type Progress<'a> = dyn Fn(&Found) -> ControlFlow<()> + 'a;
-
 /// What turns a candidate into a claim that the checker has accepted: [`multistart_with`] takes
 /// any, so that a condensed pencil can be searched and the claim made about the full one.
 pub type Certifier<'a> = dyn Fn(&Candidate) -> Result<Claim, NotCertified> + 'a;
@@ -253,7 +254,7 @@ pub fn multistart_with(
     window: &Window,
     search: &Search,
     certifier: &Certifier<'_>,
-    progress: &Progress<'_>,
+    watch: &Watch<'_>,
 ) -> Result<Found, SolverError> {
     let mut found = Found::default();
     let bottom = to_f64(window.min());
@@ -262,7 +263,7 @@ pub fn multistart_with(
         window,
         search,
         certifier,
-        progress,
+        watch: *watch,
         found: &mut found,
     };
     for (k, origin) in [bottom]
@@ -378,9 +379,13 @@ mod tests {
                 .ok_or_else(|| refusal(sifted.refused.remove(0).1))
         };
         let search = Search::default();
-        let found = multistart_with(&admissible, problem.window(), &search, &checked, &|_| {
-            ControlFlow::Continue(())
-        })
+        let found = multistart_with(
+            &admissible,
+            problem.window(),
+            &search,
+            &checked,
+            &Watch::nobody(),
+        )
         .unwrap();
 
         assert_eq!(found.certified.len(), 1);

@@ -106,8 +106,8 @@ mod tests {
     use super::*;
     use crate::exact::{Sparse, whole};
     use crate::model::{Body, Problem, Unknown};
+    use crate::run::Watch;
     use crate::search::complete::{Options, complete};
-    use std::sync::atomic::AtomicBool;
 
     fn pencil(a: &[&[i64]], b: &[&[i64]]) -> Pencil {
         Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), vec![]).unwrap()
@@ -119,13 +119,7 @@ mod tests {
         let p = pencil(&[&[2, 1], &[-1, 2]], &[&[1, 2], &[2, 4]]);
         assert!(matches!(leaf(&p, &Window::all()), Some(Node::Ldl(_))));
         let problem = Problem::new(Body::Pencil(p), Unknown::Lambda2, Window::all()).unwrap();
-        let found = complete(
-            &problem,
-            &Options::default(),
-            &AtomicBool::new(false),
-            &|_| {},
-        )
-        .unwrap();
+        let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
         assert_eq!(
             (
                 found.is_complete(),

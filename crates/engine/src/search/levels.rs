@@ -10,7 +10,7 @@ use crate::exact::{Sparse, from_f64, to_f64};
 use crate::linear;
 use crate::model::{Body, ModelError, Pencil, Problem, System, Unknown, Window};
 use crate::reduction::{Variable, mu_family};
-use std::sync::atomic::AtomicBool;
+use crate::run::Watch;
 
 /// Why there are no levels.
 #[derive(Debug, thiserror::Error)]
@@ -172,7 +172,7 @@ impl Level {
     ///
     /// # Errors
     /// [`LevelError`]; entries that are not finite are refused.
-    pub fn solutions(&self, stop: &AtomicBool) -> Result<(Vec<LevelSolution>, bool), LevelError> {
+    pub fn solutions(&self, watch: &Watch<'_>) -> Result<(Vec<LevelSolution>, bool), LevelError> {
         let n = self.a.len();
         let exact = |rows: &[Vec<f64>]| -> Option<Sparse> {
             let entry = |i: usize, j: usize| from_f64(rows[i][j]).ok().map(|v| (i, j, v));
@@ -190,7 +190,7 @@ impl Level {
             Unknown::Mu,
             Window::all(),
         )?;
-        let found = complete(&problem, &Options::default(), stop, &|_| {})?;
+        let found = complete(&problem, &Options::default(), watch)?;
         let solution = |(claim, x): (&crate::check::AcceptedClaim, &[f64])| LevelSolution {
             mu: to_f64(&claim.value.mid()),
             support: claim.support.clone(),
@@ -219,8 +219,6 @@ mod tests {
     use crate::reduction::reduce;
     use mceip_paper::{Block, BlockModel, two_particles};
 
-    static GO: AtomicBool = AtomicBool::new(false);
-
     /// Table 1 for (+1, -1): t = q - p twice and t = q - p - 1, so at a level t mu = (t + p) / cs.
     #[test]
     fn levels_of_the_two_particles_in_closed_form() {
@@ -234,7 +232,7 @@ mod tests {
         };
         let levels = Levels::new(&two_particles(&data).unwrap()).unwrap();
         for t in [0.0, 0.5, 3.0] {
-            let (found, complete) = levels.at(t).unwrap().solutions(&GO).unwrap();
+            let (found, complete) = levels.at(t).unwrap().solutions(&Watch::nobody()).unwrap();
             let mut values: Vec<f64> = found.iter().map(|s| s.mu).collect();
             values.sort_by(f64::total_cmp);
             let first = (t + 1.36) / 0.48;
@@ -259,7 +257,7 @@ mod tests {
         let levels = Levels::new(&block.system(&states, None).unwrap()).unwrap();
         let lambda2 = levels.lowest_frequency2().unwrap();
         let level = levels.at(lambda2).unwrap();
-        let (found, complete) = level.solutions(&GO).unwrap();
+        let (found, complete) = level.solutions(&Watch::nobody()).unwrap();
         assert!(complete && !found.is_empty());
         for s in &found {
             let problem = block

@@ -5,9 +5,9 @@ use super::complete::{CompleteError, Completed, Options, complete};
 use crate::candidate::Candidate;
 use crate::exact::{Integer, Rational, from_f64, parse};
 use crate::model::{Problem, Window};
+use crate::run::Watch;
 use crate::tolerance::{ABSENCE_RADII, X_RADIUS};
 use num_traits::Signed;
-use std::sync::atomic::AtomicBool;
 
 /// Pieces of a small window: enough for all cores, few enough for short certificates.
 const PIECES: usize = 4;
@@ -43,7 +43,6 @@ pub enum Near {
 ///     model::{Body, Pencil, Problem, Unknown, Window},
 ///     search::near::{Near, near},
 /// };
-/// use std::sync::atomic::AtomicBool;
 /// let pencil = Pencil::new(
 ///     Sparse::from_ints(&[&[1, -6], &[2, -6]]),
 ///     Sparse::identity(2),
@@ -56,7 +55,7 @@ pub enum Near {
 ///     x: vec![0.6, 0.4],
 /// };
 /// assert!(matches!(
-///     near(&problem, &claimed, None, &AtomicBool::new(false)).unwrap(),
+///     near(&problem, &claimed, None, &Watch::nobody()).unwrap(),
 ///     Near::Absent(_)
 /// ));
 /// ```
@@ -64,7 +63,7 @@ pub fn near(
     problem: &Problem,
     candidate: &Candidate,
     radius: Option<&Rational>,
-    stop: &AtomicBool,
+    watch: &Watch<'_>,
 ) -> Result<Near, CompleteError> {
     let Ok(value) = from_f64(candidate.value) else {
         return Ok(Near::OutsideWindow);
@@ -89,12 +88,7 @@ pub fn near(
             ..Options::default()
         };
         last = judge(
-            complete(
-                &problem.clone().with_window(window),
-                &options,
-                stop,
-                &|_| {},
-            )?,
+            complete(&problem.clone().with_window(window), &options, watch)?,
             candidate,
         );
         if !matches!(last, Near::Open(_)) {
@@ -184,7 +178,7 @@ mod tests {
                 x: x.to_vec(),
             },
             radius.as_ref(),
-            &AtomicBool::new(false),
+            &Watch::nobody(),
         )
         .unwrap()
     }

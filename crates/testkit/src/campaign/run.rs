@@ -2,8 +2,8 @@
 
 use super::{Case, Engine, Finding, Id, Judgement, Replay, State, case, judge, shrink};
 use crate::Disagreement;
+use crate::run::Cancel;
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// When a campaign ends by itself.
@@ -36,14 +36,9 @@ pub struct Campaign<'a> {
 const WAVE: u64 = 40;
 
 impl Campaign<'_> {
-    /// Runs from `state` on until the limit, or until `stop` is set; a wave that has begun is
+    /// Runs from `state` on until the limit, or until it is cancelled; a wave that has begun is
     /// finished. The state for [`Limit::Count`] does not depend on the number of threads.
-    pub fn run(
-        &self,
-        mut state: State,
-        stop: &AtomicBool,
-        hear: &mut dyn FnMut(Event<'_>),
-    ) -> State {
+    pub fn run(&self, mut state: State, cancel: &Cancel, hear: &mut dyn FnMut(Event<'_>)) -> State {
         let begun = Instant::now();
         let count = state.families.len() as u64;
         loop {
@@ -52,7 +47,7 @@ impl Campaign<'_> {
                 Limit::For(time) if begun.elapsed() >= time => 0,
                 Limit::For(_) => WAVE,
             };
-            if left == 0 || stop.load(Ordering::Relaxed) {
+            if left == 0 || cancel.is_requested() {
                 return state;
             }
             let wave: Vec<Id> = (state.done..state.done + left.min(WAVE))

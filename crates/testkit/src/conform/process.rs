@@ -1,6 +1,7 @@
 //! One run of a foreign program: problem in, report out, bounded in time and memory.
 
 use super::ConformError;
+use crate::run::Watch;
 use std::io::{Read, Write as _};
 use std::process::{Child, Command, ExitStatus, Stdio};
 use std::sync::Arc;
@@ -62,7 +63,7 @@ pub fn run_once(
     command: &[String],
     input: &str,
     limits: &Limits,
-    stop: &AtomicBool,
+    watch: &Watch<'_>,
 ) -> Result<Ending, ConformError> {
     let (program, arguments) = command
         .split_first()
@@ -90,7 +91,7 @@ pub fn run_once(
         .take()
         .map(|pipe| drain(pipe, limits.output, Some(too_long.clone())));
     let stderr = child.stderr.take().map(|pipe| drain(pipe, COMPLAINT, None));
-    let ended = wait(&mut child, start, limits, stop, &too_long);
+    let ended = wait(&mut child, start, limits, watch, &too_long);
     kill(&mut child); // and whatever it has left behind
     let taken = |pipe: Option<Receiver<Vec<u8>>>| {
         pipe.and_then(|r| r.recv_timeout(GRACE).ok())
@@ -153,7 +154,7 @@ fn wait(
     child: &mut Child,
     start: Instant,
     limits: &Limits,
-    stop: &AtomicBool,
+    watch: &Watch<'_>,
     too_long: &AtomicBool,
 ) -> Result<ExitStatus, Ending> {
     loop {
@@ -162,7 +163,7 @@ fn wait(
             Ok(Some(status)) => return Ok(status),
             Err(_) => return Err(Ending::Interrupted), // the child cannot be waited for
             Ok(None) if too_long.load(Ordering::Relaxed) => return Err(Ending::TooLong),
-            Ok(None) if stop.load(Ordering::Relaxed) => return Err(Ending::Interrupted),
+            Ok(None) if watch.is_cancelled() => return Err(Ending::Interrupted),
             Ok(None) if left.is_zero() => return Err(Ending::TimedOut),
             Ok(None) => {}
         }
@@ -194,11 +195,12 @@ fn first_line(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::run::Cancel;
 
     fn sh(script: &str, limits: &Limits) -> Ending {
         let command = ["sh".to_string(), "-c".into(), script.into()];
         let input = "x".repeat(1 << 20); // more than a pipe holds
-        run_once(&command, &input, limits, &AtomicBool::new(false)).unwrap()
+        run_once(&command, &input, limits, &Watch::nobody()).unwrap()
     }
 
     fn quick() -> Limits {
@@ -251,14 +253,14 @@ mod tests {
 
     #[test]
     fn an_interrupt_ends_a_run_and_a_missing_program_is_named() {
-        let stopped = AtomicBool::new(true);
+        let stopped = Cancel::requested();
         let sleep = ["sleep".to_string(), "100".into()];
         assert_eq!(
-            run_once(&sleep, "", &Limits::default(), &stopped).unwrap(),
+            run_once(&sleep, "", &Limits::default(), &Watch::silent(&stopped)).unwrap(),
             Ending::Interrupted
         );
         let nothing = ["/nowhere/solver".to_string()];
-        let refused = run_once(&nothing, "", &Limits::default(), &stopped);
+        let refused = run_once(&nothing, "", &Limits::default(), &Watch::silent(&stopped));
         assert!(
             matches!(refused, Err(ConformError::Start { command, .. }) if command == "/nowhere/solver")
         );

@@ -4,9 +4,10 @@
 use super::process::{Ending, Limits, run_once};
 use super::{Case, ConformError, Draft, Flag, Group, Judgement, Label, judge_report, random_draft};
 use crate::model::file::write_problem;
+use crate::run::{Progress, Watch};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// What to run.
 #[derive(Debug, Clone)]
@@ -47,8 +48,7 @@ pub struct Outcome {
 pub fn run(
     plan: &Plan,
     command: &[String],
-    stop: &AtomicBool,
-    done: &(dyn Fn(usize, usize) + Sync),
+    watch: &Watch<'_>,
 ) -> Result<Vec<Outcome>, ConformError> {
     let fixed: Vec<&Draft> = plan.groups.iter().flat_map(|g| &g.drafts).collect();
     let total = fixed.len() + plan.random;
@@ -59,7 +59,7 @@ pub fn run(
         .map_err(|_| ConformError::Threads { threads })?;
     let count = AtomicUsize::new(0);
     let one = |k: usize| -> Result<Option<Outcome>, ConformError> {
-        if stop.load(Ordering::Relaxed) {
+        if watch.is_cancelled() {
             return Ok(None);
         }
         let case = match fixed.get(k) {
@@ -77,11 +77,12 @@ pub fn run(
         };
         let wanted = plan.only.is_empty() || plan.only.iter().any(|f| case.flags.contains(f));
         let outcome = if wanted {
-            one_case(case, command, &plan.limits, stop)?
+            one_case(case, command, &plan.limits, watch)?
         } else {
             None
         };
-        done(count.fetch_add(1, Ordering::Relaxed) + 1, total);
+        let finished = count.fetch_add(1, Ordering::Relaxed) + 1;
+        watch.report(&Progress::of("cases", finished, total));
         Ok(outcome)
     };
     // One case per task: they take very different times.
@@ -99,9 +100,9 @@ fn one_case(
     case: Case,
     command: &[String],
     limits: &Limits,
-    stop: &AtomicBool,
+    watch: &Watch<'_>,
 ) -> Result<Option<Outcome>, ConformError> {
-    let judgement = match run_once(command, &write_problem(&case.problem), limits, stop)? {
+    let judgement = match run_once(command, &write_problem(&case.problem), limits, watch)? {
         Ending::Interrupted => return Ok(None),
         Ending::TimedOut => Judgement::new(
             Label::TimedOut,

@@ -10,6 +10,7 @@ use crate::model::{Body, Pencil, Problem, Unknown, Window};
 use crate::multistart::support;
 use crate::oracle::{Enumeration, Solution, enumerate};
 use crate::reduction::reduce;
+use crate::run::Watch;
 use std::cmp::Ordering;
 
 /// Certificate reader and checker on any text: what is read round-trips; bound to one of a few
@@ -200,12 +201,7 @@ pub fn certificate_seeds() -> Vec<String> {
             nodes_per_piece: 200,
             ..Options::default()
         };
-        if let Ok(found) = complete(
-            &problem,
-            &options,
-            &std::sync::atomic::AtomicBool::new(false),
-            &|_| {},
-        ) {
+        if let Ok(found) = complete(&problem, &options, &Watch::nobody()) {
             out.push(found.certificate.to_json());
         }
         let Ok(reduced) = reduce(&problem) else {

@@ -8,11 +8,11 @@ use crate::model::file::write_problem;
 use crate::model::{Body, ContactState, Particle, Pencil, Problem, System, Unknown, Window};
 use crate::oracle::TwoParticles;
 use crate::reduction::reduce;
+use crate::run::Watch;
 use crate::search::complete::{Options, complete};
 use crate::source::two_particles;
 use crate::{Instance, Treatment, compare_by};
 use num_traits::{One, Zero};
-use std::sync::atomic::AtomicBool;
 
 /// Process-wide counts of [`mechanical_systems`].
 pub static SYSTEMS: Counter = Counter::new("fuzz: mechanical_systems");
@@ -350,7 +350,7 @@ fn same_verdict(problem: &Problem, pencil: &Pencil) {
         threads: None,
         ..Options::default()
     };
-    let Ok(found) = complete(problem, &options, &AtomicBool::new(false), &|_| {}) else {
+    let Ok(found) = complete(problem, &options, &Watch::nobody()) else {
         return;
     };
     let Ok(reduced) = Problem::new(

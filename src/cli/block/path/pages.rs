@@ -8,10 +8,10 @@ use crate::picture::{
     BranchPoint, Branches, Content, Mode as Drawn, Picture, Report, Section, Threshold,
     ThresholdColumn, branch_picture, mode_picture, path_picture, threshold_picture,
 };
+use crate::run::{Progress, Watch};
 use crate::search::levels::Levels;
 use crate::source::path::LoadingPath;
 use crate::source::{Block, BlockModel, MassKind, SourceError, Triangulation};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// Everything there is to show.
 pub(super) struct Shown<'a> {
@@ -41,8 +41,7 @@ pub(super) fn branches(
     block: &Block,
     path: &LoadingPath,
     states: &[State],
-    stop: &AtomicBool,
-    progress: &dyn Fn(String),
+    watch: &Watch<'_>,
 ) -> Result<Option<(usize, Branches)>, CliError> {
     let Some(state) = states
         .iter()
@@ -74,16 +73,16 @@ pub(super) fn branches(
     let system = Levels::new(&block.system(&path.intervals[state.stretch].states, None)?)?;
     let unit = system.lowest_frequency2().unwrap_or(1.0);
     for (k, exponent) in LEVELS.enumerate() {
-        if stop.load(Ordering::Relaxed) {
+        if watch.is_cancelled() {
             break;
         }
-        progress(format!(
+        watch.report(&Progress::stage(&format!(
             "lambda^2 against mu: level {} of {}",
             k + 1,
             LEVELS.len()
-        ));
+        )));
         let lambda2 = unit * 1.5f64.powi(exponent);
-        let (found, _) = system.at(lambda2)?.solutions(stop)?;
+        let (found, _) = system.at(lambda2)?.solutions(&watch.quiet())?;
         levels.push(
             found
                 .iter()

@@ -9,12 +9,12 @@ use crate::model::{Body, Pencil, Problem, Unknown, Window};
 use crate::picture::Mark;
 use crate::reduction::{Variable, mu_family, reduce};
 use crate::report::Table;
+use crate::run::{Progress, Watch};
 use crate::search::complete::{Completed, Options, complete};
 use crate::search::levels::{Levels, mode};
 use crate::source::Block;
 use crate::source::path::{Contact, Interval, LoadingPath};
 use serde_json::{Value, json};
-use std::sync::atomic::{AtomicBool, Ordering};
 
 /// What is asked of the states.
 pub(super) struct Wanted<'a> {
@@ -56,30 +56,31 @@ pub(super) struct Mode {
     pub(super) displacement: Option<Vec<f64>>,
 }
 
-/// The states in which a node slips, until `stop` is set.
+/// The states in which a node slips, until the work is cancelled.
 pub(super) fn of(
     (block, contact, path): (&Block, &Contact, &LoadingPath),
     wanted: &Wanted<'_>,
-    stop: &AtomicBool,
-    progress: &dyn Fn(String),
+    watch: &Watch<'_>,
 ) -> Result<Vec<State>, CliError> {
     let mut pencils = contact.pencils();
     let mut states = Vec::new();
     for (stretch, interval) in path.intervals.iter().enumerate() {
         let [_, left, right, _] = interval.counts();
-        if left + right == 0 || stop.load(Ordering::Relaxed) {
+        if left + right == 0 || watch.is_cancelled() {
             continue;
         }
-        progress(format!("stretch {stretch}: all solutions"));
+        watch.report(&Progress::stage(&format!(
+            "stretch {stretch}: all solutions"
+        )));
         let thresholds = if wanted.uncondensed {
-            on_the_whole(block, interval, None, wanted.modes, stop)?
+            on_the_whole(block, interval, None, wanted.modes, &watch.quiet())?
         } else {
             condensed(
                 block,
                 interval,
                 pencils.of(&interval.states)?,
                 wanted.modes,
-                stop,
+                &watch.quiet(),
             )?
         };
         let mut state = State {
@@ -89,24 +90,22 @@ pub(super) fn of(
             necessary: None,
             growing: Vec::new(),
         };
-        if wanted.conditions && !stop.load(Ordering::Relaxed) {
-            progress(format!("stretch {stretch}: necessary condition"));
+        if wanted.conditions && !watch.is_cancelled() {
+            watch.report(&Progress::stage(&format!(
+                "stretch {stretch}: necessary condition"
+            )));
             state.necessary = Some(Necessary::of(&mu_family(
                 &block.system(&interval.states, None)?,
             )?)?);
         }
-        for mu in wanted
-            .at
-            .iter()
-            .take_while(|_| !stop.load(Ordering::Relaxed))
-        {
-            progress(format!(
+        for mu in wanted.at.iter().take_while(|_| !watch.is_cancelled()) {
+            watch.report(&Progress::stage(&format!(
                 "stretch {stretch}: growth rates at mu = {}",
                 to_f64(mu)
-            ));
+            )));
             state.growing.push((
                 mu.clone(),
-                on_the_whole(block, interval, Some(mu), wanted.modes, stop)?,
+                on_the_whole(block, interval, Some(mu), wanted.modes, &watch.quiet())?,
             ));
         }
         states.push(state);
@@ -120,10 +119,10 @@ fn condensed(
     interval: &Interval,
     pencil: Pencil,
     modes: bool,
-    stop: &AtomicBool,
+    watch: &Watch<'_>,
 ) -> Result<Set, CliError> {
     let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
-    let found = complete(&problem, &Options::default(), stop, &|_| {})?;
+    let found = complete(&problem, &Options::default(), watch)?;
     let level = if modes && found.solutions().next().is_some() {
         let levels = Levels::new(&block.system(&interval.states, None)?)?;
         let level = levels.at(0.0)?;
@@ -142,10 +141,10 @@ fn on_the_whole(
     interval: &Interval,
     mu: Option<&Rational>,
     modes: bool,
-    stop: &AtomicBool,
+    watch: &Watch<'_>,
 ) -> Result<Set, CliError> {
     let problem = interval.problem(block, mu.cloned())?;
-    let found = complete(&problem, &Options::default(), stop, &|_| {})?;
+    let found = complete(&problem, &Options::default(), watch)?;
     let reduced = reduce(&problem)?;
     let free = reduced
         .variables

@@ -15,13 +15,13 @@ mod strip;
 use crate::exact::Rational;
 use crate::model::Pencil;
 use crate::reduction::MuFamily;
+use crate::run::Watch;
 use family::Scaled;
 use judge::{Corners, State, Verdict};
 use num_traits::One;
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 use std::rc::Rc;
-use std::sync::atomic::{AtomicBool, Ordering};
 use strip::Strip;
 
 /// How much work the cover may take.
@@ -93,7 +93,7 @@ pub fn absence(
     family: &MuFamily,
     excluded_below: &Rational,
     limits: Limits,
-    stop: &AtomicBool,
+    watch: &Watch<'_>,
 ) -> Option<Absence> {
     let mass: &Pencil = family.mass.as_ref()?;
     if family.stiffness.slip().len() > limits.slip || family.stiffness.free().len() > limits.free {
@@ -116,7 +116,7 @@ pub fn absence(
     while let Some(region) = queue.pop() {
         let used_up =
             boxes >= limits.boxes || (scaled.free > 0 && strips.known.len() >= limits.strips);
-        let cut_short = used_up || stop.load(Ordering::Relaxed);
+        let cut_short = used_up || watch.is_cancelled();
         boxes += 1;
         if upper_mu(&scaled, &region).is_some_and(|mu| mu <= *excluded_below) {
             continue;
@@ -270,13 +270,7 @@ mod tests {
     use mceip_paper::two_particles;
 
     fn cover(family: &MuFamily) -> Absence {
-        absence(
-            family,
-            &whole(0),
-            Limits::default(),
-            &AtomicBool::new(false),
-        )
-        .unwrap()
+        absence(family, &whole(0), Limits::default(), &Watch::nobody()).unwrap()
     }
 
     /// Table 1 has no folds: nothing exists below the static threshold, and (-1, 1) has nothing at

@@ -93,7 +93,7 @@ impl Search<'_> {
             }
             return self.give_up(region, share);
         };
-        if open.len() > MAX_OPEN_EXACT || self.watch.stopped() {
+        if open.len() > MAX_OPEN_EXACT || self.shares.is_cancelled() {
             return self.leaf(Node::Open, share);
         }
         self.items
@@ -235,13 +235,13 @@ impl Search<'_> {
         }
         let solution = is_solution(&leaf);
         self.items.push(leaf);
-        self.watch.closed(part, solution);
+        self.shares.closed(part, solution);
         match &above {
             Some(above) => self.region(above, part),
-            None => self.watch.closed(part, false),
+            None => self.shares.closed(part, false),
         }
         if below.is_none() {
-            self.watch.closed(part, false);
+            self.shares.closed(part, false);
         }
     }
 }

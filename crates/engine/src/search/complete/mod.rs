@@ -18,6 +18,7 @@ mod precise_anchor;
 mod reasons;
 mod reverse;
 mod root;
+mod shares;
 mod skeleton;
 mod skyline;
 mod splice;
@@ -38,12 +39,11 @@ use crate::check::{
 use crate::model::file::Number;
 use crate::model::{Pencil, Problem};
 use crate::reduction::reduce;
+use crate::run::Watch;
+use shares::Shares;
 use skeleton::Prepared;
 use splice::Chosen;
 use std::collections::BTreeSet;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, Ordering};
-use tree::Watch;
 
 /// How to search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -78,17 +78,6 @@ impl Default for Options {
     }
 }
 
-/// How far a search has come.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Progress {
-    /// Share of the search space that has been dealt with, 0 to 1.
-    pub share: f64,
-    /// Leaves so far.
-    pub leaves: u64,
-    /// Solutions met so far.
-    pub solutions: u64,
-}
-
 /// What a search has proved.
 #[derive(Debug, Clone)]
 pub struct Completed {
@@ -116,7 +105,8 @@ impl Completed {
     }
 }
 
-/// Searches the problem's window. `stop` ends the search early; what is not done is left open.
+/// Searches the problem's window. A search that is cancelled leaves open what is not done. Progress
+/// counts leaves, and the share of the search space that they close.
 ///
 /// # Errors
 /// [`CompleteError`].
@@ -124,12 +114,12 @@ impl Completed {
 /// ```
 /// use mceip_engine::{exact::{whole, Sparse}, model::{Body, Pencil, Problem, Unknown, Window}};
 /// use mceip_engine::search::complete::{complete, Options};
-/// use std::sync::atomic::AtomicBool;
+/// use mceip_engine::run::Watch;
 /// // The fold of spec/errata.md: lambda^2 = 2 and 3 and nothing else in [0, infinity).
 /// let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
 /// let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
 /// let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
-/// let found = complete(&problem, &Options::default(), &AtomicBool::new(false), &|_| {}).unwrap();
+/// let found = complete(&problem, &Options::default(), &Watch::nobody()).unwrap();
 /// assert!(found.is_complete());
 /// assert_eq!(found.cover.solutions.len(), 2);
 /// assert!(found.cover.solutions[0].value.contains(&whole(2)));
@@ -137,8 +127,7 @@ impl Completed {
 pub fn complete(
     problem: &Problem,
     options: &Options,
-    stop: &AtomicBool,
-    progress: &(dyn Fn(Progress) + Sync),
+    watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
     let pencil = reduce(problem)?.pencil;
     let mut prepared = Prepared::new(problem, &pencil, options.pieces)?;
@@ -169,11 +158,7 @@ pub fn complete(
             shard: None,
             ..*options
         };
-        let quiet = Shares {
-            stop,
-            progress: &|_| {},
-            state: Mutex::new(Progress::default()),
-        };
+        let quiet = Shares::new(watch.quiet());
         let (set, look) = (prepared.open_set(), prepared.scout());
         let found = in_threads(options.threads, || {
             splice::all(problem, &pencil, &look, &set, &scout, &Chosen::All, &quiet)
@@ -186,7 +171,7 @@ pub fn complete(
         complete_set: Some(prepared.open_set()),
         ..certificate(problem, Vec::new())
     };
-    run(problem, &pencil, prepared, start, options, stop, progress)
+    run(problem, &pencil, prepared, start, options, watch)
 }
 
 /// Goes on with a certificate that leaves regions open: only these are searched.
@@ -198,8 +183,7 @@ pub fn resume(
     problem: &Problem,
     earlier: &Certificate,
     options: &Options,
-    stop: &AtomicBool,
-    progress: &(dyn Fn(Progress) + Sync),
+    watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
     let pencil = reduce(problem)?.pencil;
     error::same_problem(problem, earlier)?;
@@ -209,15 +193,7 @@ pub fn resume(
         .as_ref()
         .ok_or(CompleteError::NoCompleteSet)?;
     let prepared = Prepared::again(&pencil, set)?;
-    run(
-        problem,
-        &pencil,
-        prepared,
-        earlier.clone(),
-        options,
-        stop,
-        progress,
-    )
+    run(problem, &pencil, prepared, earlier.clone(), options, watch)
 }
 
 /// Rounds of a search whose leaves were refused, each more cautious than the one before.
@@ -232,24 +208,18 @@ fn run(
     mut prepared: Prepared,
     mut certificate: Certificate,
     options: &Options,
-    stop: &AtomicBool,
-    progress: &(dyn Fn(Progress) + Sync),
+    watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
-    let shares = |progress| Shares {
-        stop,
-        progress,
-        state: Mutex::new(Progress::default()),
-    };
     let search = |prepared: &Prepared,
                   certificate: &mut Certificate,
                   chosen: &Chosen,
-                  watch: &Shares<'_>| {
+                  shares: &Shares<'_>| {
         let set = certificate
             .complete_set
             .take()
             .ok_or(CompleteError::NoCompleteSet)?;
         let found = in_threads(options.threads, || {
-            splice::all(problem, pencil, prepared, &set, options, chosen, watch)
+            splice::all(problem, pencil, prepared, &set, options, chosen, shares)
         });
         let claims = &mut certificate.claims;
         let pieces = set
@@ -264,30 +234,34 @@ fn run(
         });
         audited(problem, certificate)
     };
-    let (mut accepted, mut refused) =
-        search(&prepared, &mut certificate, &Chosen::All, &shares(progress))?;
+    let (mut accepted, mut refused) = search(
+        &prepared,
+        &mut certificate,
+        &Chosen::All,
+        &Shares::new(*watch),
+    )?;
     // What was refused is open now: that alone is searched again, with more caution, and what still
     // is refused exactly.
     for _ in 0..CAUTIOUS_ROUNDS {
-        if refused.is_empty() || stop.load(Ordering::Relaxed) || !prepared.beware() {
+        if refused.is_empty() || watch.is_cancelled() || !prepared.beware() {
             break;
         }
         (accepted, refused) = search(
             &prepared,
             &mut certificate,
             &Chosen::Again(refused),
-            &shares(&|_| {}),
+            &Shares::new(watch.quiet()),
         )?;
     }
-    if !refused.is_empty() && refused.len() <= MAX_REFUSED && !stop.load(Ordering::Relaxed) {
+    if !refused.is_empty() && refused.len() <= MAX_REFUSED && !watch.is_cancelled() {
         (accepted, _) = search(
             &prepared,
             &mut certificate,
             &Chosen::Exactly(refused),
-            &shares(&|_| {}),
+            &Shares::new(watch.quiet()),
         )?;
     }
-    if !stop.load(Ordering::Relaxed)
+    if !watch.is_cancelled()
         && let Some((longer, closed)) =
             with_long_numbers(problem, pencil, &prepared, &certificate, &accepted)
     {
@@ -449,30 +423,5 @@ fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) 
         Some(Ok(pool)) => pool.install(work),
         // Without a pool of one's own the default one does the same work.
         _ => work(),
-    }
-}
-
-/// Counts shares as pieces report them.
-struct Shares<'a> {
-    stop: &'a AtomicBool,
-    progress: &'a (dyn Fn(Progress) + Sync),
-    state: Mutex<Progress>,
-}
-
-impl Watch for Shares<'_> {
-    fn stopped(&self) -> bool {
-        self.stop.load(Ordering::Relaxed)
-    }
-
-    fn closed(&self, share: f64, solution: bool) {
-        // A poisoned lock means that a thread panicked; its count is still good.
-        let mut state = self
-            .state
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
-        state.share += share;
-        state.leaves += 1;
-        state.solutions += u64::from(solution);
-        (self.progress)(*state);
     }
 }

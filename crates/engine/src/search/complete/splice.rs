@@ -1,8 +1,9 @@
 //! Searches the open leaves of a cover and puts what is found in their place.
 
+use super::shares::Shares;
 use super::skeleton::Prepared;
 use super::support;
-use super::tree::{Item, Region, Search, State, Watch};
+use super::tree::{Item, Region, Search, State};
 use super::{Options, beyond};
 use crate::candidate::Candidate;
 use crate::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
@@ -52,7 +53,7 @@ pub(super) fn all(
     set: &CompleteSet,
     options: &Options,
     chosen: &Chosen,
-    watch: &(dyn Watch + Sync),
+    shares: &Shares<'_>,
 ) -> Vec<Found> {
     let window = problem.window();
     let certifier = Certifier::new(problem, pencil);
@@ -69,7 +70,7 @@ pub(super) fn all(
             })
             .flatten()
     };
-    let is_stopped = || watch.stopped();
+    let is_stopped = || shares.is_cancelled();
     let decide = |moving: &[usize], lo: &Rational, hi: Option<&Rational>| {
         support::leaf(pencil, moving, lo, hi, &is_stopped)
     };
@@ -101,7 +102,7 @@ pub(super) fn all(
             definite_from: &|lo, resting| beyond::definite_from(pencil, lo, resting),
             certify: &certify_at,
             decide: &decide,
-            watch,
+            shares,
             budget: options.nodes_per_piece,
             items: Vec::new(),
             met: Vec::new(),
@@ -174,7 +175,7 @@ fn spliced(
             Node::Open => search.by_support(&region, share),
             _ => {
                 search.items.push(Item::Node(node.clone()));
-                search.watch.closed(share, false);
+                search.shares.closed(share, false);
             }
         }
     }

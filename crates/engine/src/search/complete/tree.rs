@@ -7,6 +7,7 @@
 //! complementarity the relaxed solution breaks most is decided.
 
 use super::game::Game;
+use super::shares::Shares;
 use super::skyline::dot;
 use super::view::{Ends, Expansion, Matrix, View};
 use super::witness::{Columns, definite, vanishes};
@@ -70,15 +71,6 @@ const CUTS_BEFORE_EXACT: usize = 8;
 /// Cuts on both sides of a null vector that is not provably alone, before the rest stays open.
 const MAX_CUTS_SUSPECT: usize = 6;
 
-/// Tells a walk when to stop, and hears what it closes.
-pub(super) trait Watch: Sync {
-    /// Should the rest be left open?
-    fn stopped(&self) -> bool;
-    /// A region of this share of the whole has been closed (or left open); a solution was met in
-    /// it.
-    fn closed(&self, share: f64, solution: bool);
-}
-
 /// Exact solutions where doubles cannot tell: value and x over the positions to a claim.
 pub(super) type Certify<'a> = dyn Fn(f64, &[f64]) -> Option<Claim> + Sync + 'a;
 
@@ -102,7 +94,7 @@ pub(super) struct Search<'a> {
     pub(super) decide: &'a Decide<'a>,
     pub(super) limit: &'a Limit<'a>,
     pub(super) definite_from: &'a DefiniteFrom<'a>,
-    pub(super) watch: &'a dyn Watch,
+    pub(super) shares: &'a Shares<'a>,
     /// Nodes this piece may still use.
     pub(super) budget: usize,
     pub(super) items: Vec<Item>,
@@ -131,11 +123,11 @@ impl Search<'_> {
     pub(super) fn leaf(&mut self, node: Node, share: f64) {
         let solution = matches!(&node, Node::Root(r) if matches!(r.outcome, RootOutcome::Solution | RootOutcome::Claim(_)));
         self.items.push(Item::Node(node));
-        self.watch.closed(share, solution);
+        self.shares.closed(share, solution);
     }
 
     fn node(&mut self, region: &Region, ends: &Rc<Ends>, share: f64) {
-        if self.budget == 0 || self.watch.stopped() {
+        if self.budget == 0 || self.shares.is_cancelled() {
             return self.leaf(Node::Open, share);
         }
         self.budget -= 1;

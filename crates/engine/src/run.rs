@@ -1,0 +1,204 @@
+//! What a long run hears and says: the order to end, and how far it has come.
+//!
+//! Every search of this crate takes a [`Watch`]. It looks at [`Watch::is_cancelled`] between steps;
+//! what has been found by then is kept and returned, and what has not been looked at is left open.
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// A switch that ends runs early. Clones share it, so that another thread or a signal handler can
+/// keep one.
+#[derive(Debug, Clone, Default)]
+pub struct Cancel(Arc<AtomicBool>);
+
+impl Cancel {
+    /// A switch that nobody has set.
+    pub fn new() -> Cancel {
+        Cancel::default()
+    }
+
+    /// A switch that is set: a run that hears it does no more than begin.
+    pub fn requested() -> Cancel {
+        let cancel = Cancel::new();
+        cancel.request();
+        cancel
+    }
+
+    /// Asks the runs that watch this switch to end. Returns whether somebody had asked before.
+    pub fn request(&self) -> bool {
+        self.0.swap(true, Ordering::Relaxed)
+    }
+
+    /// Has somebody asked?
+    pub fn is_requested(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// How far a run has come.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[non_exhaustive]
+pub struct Progress<'a> {
+    /// What is being done, in words.
+    pub stage: &'a str,
+    /// Steps done: runs of the solver, leaves of a tree, instances.
+    pub done: u64,
+    /// Steps in all, where that is known.
+    pub total: Option<u64>,
+    /// Part of the search space that has been dealt with, 0 to 1, where that is known.
+    pub share: Option<f64>,
+    /// Solutions met so far, where they are counted.
+    pub solutions: Option<u64>,
+}
+
+impl<'a> Progress<'a> {
+    /// A stage that has just begun.
+    pub fn stage(stage: &'a str) -> Progress<'a> {
+        Progress {
+            stage,
+            ..Progress::default()
+        }
+    }
+
+    /// `done` steps of `total`.
+    pub fn of(stage: &'a str, done: usize, total: usize) -> Progress<'a> {
+        Progress {
+            stage,
+            done: done as u64,
+            total: Some(total as u64),
+            ..Progress::default()
+        }
+    }
+}
+
+/// One line: "searching: 120 of 600, 45 % of the search space closed, 3 solutions".
+impl fmt::Display for Progress<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.stage)?;
+
+        match self.total {
+            Some(total) => write!(f, ": {} of {total}", self.done)?,
+            None if self.done > 0 => write!(f, ": {}", self.done)?,
+            None => {}
+        }
+        if let Some(share) = self.share {
+            write!(f, ", {:.1} % of the search space closed", 100.0 * share)?;
+        }
+        match self.solutions {
+            Some(1) => write!(f, ", 1 solution"),
+            Some(count) => write!(f, ", {count} solutions"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// What hears the progress of a run; it may be called from several threads.
+pub type OnProgress<'a> = dyn Fn(&Progress<'_>) + Sync + 'a;
+
+/// The switch and the listener of a run.
+///
+/// ```
+/// use mceip_engine::run::{Cancel, Progress, Watch};
+/// let cancel = Cancel::new();
+/// let print = |p: &Progress<'_>| eprintln!("{}: {} steps", p.stage, p.done);
+/// let watch = Watch::new(&cancel, &print);
+/// cancel.request();
+/// assert!(watch.is_cancelled());
+/// ```
+#[derive(Clone, Copy)]
+pub struct Watch<'a> {
+    cancel: Option<&'a Cancel>,
+    on_progress: &'a OnProgress<'a>,
+}
+
+impl<'a> Watch<'a> {
+    /// A run that can be ended and tells how far it has come.
+    pub fn new(cancel: &'a Cancel, on_progress: &'a OnProgress<'a>) -> Watch<'a> {
+        Watch {
+            cancel: Some(cancel),
+            on_progress,
+        }
+    }
+
+    /// A run that goes on to its end and tells nothing.
+    pub fn nobody() -> Watch<'static> {
+        Watch {
+            cancel: None,
+            on_progress: &|_| {},
+        }
+    }
+
+    /// A run that can be ended and tells nothing.
+    pub fn silent(cancel: &'a Cancel) -> Watch<'a> {
+        Watch::new(cancel, &|_| {})
+    }
+
+    /// The same switch, and nobody who hears the progress: for a part of a run.
+    pub fn quiet(self) -> Watch<'a> {
+        Watch {
+            on_progress: &|_| {},
+            ..self
+        }
+    }
+
+    /// Has somebody asked the run to end?
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel.is_some_and(Cancel::is_requested)
+    }
+
+    /// Tells how far the run has come.
+    pub fn report(&self, progress: &Progress<'_>) {
+        (self.on_progress)(progress);
+    }
+}
+
+impl fmt::Debug for Watch<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Watch")
+            .field("is_cancelled", &self.is_cancelled())
+            .finish_non_exhaustive()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::Mutex;
+
+    #[test]
+    fn progress_is_one_line() {
+        let leaves = Progress {
+            done: 120,
+            share: Some(0.4567),
+            solutions: Some(1),
+            ..Progress::stage("searching")
+        };
+
+        assert_eq!(
+            leaves.to_string(),
+            "searching: 120, 45.7 % of the search space closed, 1 solution"
+        );
+        assert_eq!(Progress::of("cases", 0, 9).to_string(), "cases: 0 of 9");
+        assert_eq!(Progress::stage("reading").to_string(), "reading");
+    }
+
+    #[test]
+    fn a_watch_hears_its_switch_and_tells_its_listener() {
+        let heard = Mutex::new(Vec::new());
+        let listen = |p: &Progress<'_>| heard.lock().unwrap().push((p.stage.to_string(), p.done));
+        let cancel = Cancel::new();
+        let watch = Watch::new(&cancel, &listen);
+
+        watch.report(&Progress::of("search", 3, 7));
+        watch.quiet().report(&Progress::stage("unheard"));
+        let before = watch.is_cancelled();
+        let first = cancel.clone().request();
+        let second = cancel.request();
+
+        assert_eq!(*heard.lock().unwrap(), [("search".to_string(), 3)]);
+        assert!(!before && watch.is_cancelled() && watch.quiet().is_cancelled());
+        assert!(!first && second);
+        assert!(!Watch::nobody().is_cancelled());
+    }
+}

@@ -1,0 +1,85 @@
+//! The run of a subcommand as its user meets it: one line on the terminal, and Ctrl-C.
+
+use super::common::exit;
+use crate::run::{Cancel, Progress, Watch};
+use indicatif::ProgressBar;
+use std::ops::ControlFlow;
+use std::time::Duration;
+
+/// A switch that Ctrl-C sets; a second Ctrl-C ends the process.
+pub(super) fn interrupt() -> Cancel {
+    let cancel = Cancel::new();
+    let shared = cancel.clone();
+    // Fails only if a handler exists already: then the default behaviour stays.
+    let _ = ctrlc::set_handler(move || {
+        let was_requested = shared.request();
+        if was_requested {
+            std::process::exit(i32::from(exit::INTERRUPTED));
+        }
+    });
+    cancel
+}
+
+/// A run that Ctrl-C ends, with what has been found kept.
+pub(super) struct Job {
+    cancel: Cancel,
+    line: ProgressBar,
+}
+
+impl Job {
+    /// Begins, with a line on stderr if that is a terminal.
+    pub(super) fn begin(what: &str) -> Job {
+        let cancel = interrupt();
+
+        let line = ProgressBar::new_spinner();
+        line.enable_steady_tick(Duration::from_millis(200));
+        line.set_message(what.to_string());
+        Job { cancel, line }
+    }
+
+    /// What Ctrl-C sets.
+    pub(super) fn cancel(&self) -> &Cancel {
+        &self.cancel
+    }
+
+    /// Has the user asked the run to end?
+    pub(super) fn is_cancelled(&self) -> bool {
+        self.cancel.is_requested()
+    }
+
+    /// The same for callbacks that break off.
+    pub(super) fn flow(&self) -> ControlFlow<()> {
+        if self.is_cancelled() {
+            ControlFlow::Break(())
+        } else {
+            ControlFlow::Continue(())
+        }
+    }
+
+    /// Writes what is being done.
+    pub(super) fn say(&self, text: impl ToString) {
+        self.line.set_message(text.to_string());
+    }
+
+    /// Prints a line on stderr above the one that is shown.
+    pub(super) fn note(&self, text: &str) {
+        self.line.suspend(|| eprintln!("{text}"));
+    }
+
+    /// Does work that hears Ctrl-C and whose progress is shown.
+    pub(super) fn watched<T>(&self, work: impl FnOnce(&Watch<'_>) -> T) -> T {
+        let show = |progress: &Progress<'_>| self.say(progress);
+        work(&Watch::new(&self.cancel, &show))
+    }
+
+    /// Takes the line away, so that results can be printed.
+    pub(super) fn end(&self) {
+        self.line.finish_and_clear();
+    }
+}
+
+impl Drop for Job {
+    fn drop(&mut self) {
+        self.end();
+    }
+}
