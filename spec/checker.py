@@ -4,7 +4,7 @@
     python3 spec/checker.py PROBLEM CERTIFICATE
 
 Prints ACCEPTED (exit 0), UNDECIDED (3: a cover with open leaves) or REJECTED with the reason (1); files that cannot be read end with one
-line on stderr and exit 2. Standard library only; all arithmetic is exact (int and Fraction). References: F = formats.md, C = complete-set.md.
+line on stderr and exit 2. Standard library only; all arithmetic is exact (int and Fraction). References: F = formats.md, C = certificates.md.
 """
 import hashlib
 import json
@@ -484,7 +484,8 @@ class Problem:
         if reaction is not None:  # E7
             rn, rt = map(number, fields(reaction, "normal tangential"))
             bound = None if mu is None else -mu * rn
-            bad = rn > 0 or (state == "free" and (rn or rt)) or (state == "slip" and (rt * sign <= 0 or (mu is not None and abs(rt) != bound)))
+            bad = (rn or rt) if state == "free" else rn >= 0
+            bad = bad or (state == "slip" and (rt * sign <= 0 or (mu is not None and abs(rt) != bound)))
             if bad or (state == "stick" and mu is not None and abs(rt) >= bound):
                 raise Unreadable("reaction against (7), state or sign")
         if frame is None:
@@ -634,7 +635,7 @@ def exact_solution(p, rows, window, obj):
 
 
 def lifted_solution(p, rows, window, obj):
-    """v and w over all dofs: the lines of (9), from K, M, mu and the states (F, lifted_solution)."""
+    """v and w over all dofs: the lines of (9), from K, M, mu and the states (C, 5.4)."""
     support, biactive, poly, interval, v, w = fields(obj, "support biactive polynomial interval v w")
     support, biactive = ([place_in(i, p.n) for i in sequence(l)] for l in (support, biactive))
     poly = [integer(c) for c in sequence(poly)]
@@ -1255,6 +1256,7 @@ class Root:
             demand(c[0] and set(c[0]) <= set(self.support) <= {*c[0], *c[1]}, "root 5: not a claim of this moving set")
             demand(self.a <= c[2] and c[3] <= self.b, "root 5: the claim's value is not in the interval")
             self.yields = set(c[0]) == set(self.support)
+            self.a, self.b = c[2], c[3]  # what is yielded is the claim, with its own interval
             return
         if isinstance(outcome, dict) and "infinity" in outcome:
             x = [integer(v) for v in sequence(fields(outcome, "infinity")[0])]

@@ -1,5 +1,5 @@
 //! What the campaign has found, shrunk by it: none of it may come back. The stories are in
-//! `spec/decisions.md`.
+//! `spec/verifying.md`.
 #![cfg(feature = "testkit")]
 
 use mceip_testkit::campaign::{Replay, judge, standard};

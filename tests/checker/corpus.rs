@@ -4,7 +4,7 @@
 //!
 //!     cargo test --test checker -- --ignored corpus::write_the_corpus
 //!
-//! but for the files `hostile-*` whose work is limited (spec/complete-set.md, Limits), which are
+//! but for the files `hostile-*` whose work is limited (spec/certificates.md, Limits), which are
 //! written by hand.
 #![cfg(feature = "cli")]
 

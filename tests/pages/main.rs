@@ -1,7 +1,9 @@
 //! Tests that read the repository's own text: laws of the house, pages, planted bugs, mutants.
 #![allow(clippy::unwrap_used, reason = "a test may panic")]
 
+mod book;
 mod conformance;
+mod examples;
 mod laws;
 mod mutants;
 mod planted;

@@ -252,7 +252,7 @@ fn observations_on_a_small_crossed_block() {
 }
 
 /// `cargo test --release --test paper -- --ignored --nocapture block_observations::`: the table of
-/// spec/block-observations.md.
+/// spec/measurements.md, D.6.
 #[test]
 #[ignore = "minutes in the release profile"]
 fn observations_over_meshes_planes_and_ratios() {

@@ -264,7 +264,7 @@ fn the_curve_is_in_the_log_where_the_first_attempt_fails() {
 }
 
 /// First starts and coverage on two families against the plain enumerator; the full tables are in
-/// `spec/solver.md`.
+/// `spec/measurements.md`, D.3.
 #[test]
 fn first_starts_and_coverage_on_held_out_seeds() {
     for family in ["lambda2", "mu"] {

@@ -396,7 +396,7 @@ fn condensed(cases: &mut Cases) {
     );
 }
 
-/// The table at the end of `spec/complete-set.md`.
+/// The table of absence in `spec/certificates.md`, 5.15.
 pub fn absence(cases: &mut Cases) {
     let unit = |a: &[&[&str]], b: &[&[&str]]| window(pencil(a, b, &[]), "0", Some("1"));
     let mut pair = |name: &str,

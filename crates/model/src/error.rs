@@ -20,7 +20,7 @@ pub enum ModelError {
         "{equation}: expected {what} to be {expected_rows} x {expected_cols}, got {rows} x {cols}"
     )]
     Shape {
-        /// Equation id of `spec/equations.md`.
+        /// Equation id (`spec/README.md` says where it is defined).
         equation: &'static str,
         /// Name of the matrix.
         what: &'static str,

@@ -220,7 +220,7 @@ pub enum CoverFault {
     },
     /// The signs of the support leaves take more work than the file's budget.
     #[error(
-        "support: expected signs within the budget of the file (spec/complete-set.md, Limits), got more work"
+        "support: expected signs within the budget of the file (spec/certificates.md, Limits), got more work"
     )]
     OutOfBudget,
     /// Free variables need a condensation, and none is wanted without them.

@@ -57,7 +57,7 @@ const DEFINITE_PER_ENTRY: u64 = 1 << 16;
 const MATRIX_BASE: u64 = 1 << 30;
 const MATRIX_PER_NODE: u64 = 1 << 24;
 
-/// What the definite leaves of a file may cost in all (spec/complete-set.md, Limits).
+/// What the definite leaves of a file may cost in all (spec/certificates.md, Limits).
 fn definite_budget(rows: &Rows, cover: &CompleteSet) -> u64 {
     let mut entries = 0;
     for row in &rows.rows {
@@ -74,7 +74,7 @@ fn definite_budget(rows: &Rows, cover: &CompleteSet) -> u64 {
         .saturating_add(by_entries)
 }
 
-/// What the matrices of all regions may cost (spec/complete-set.md, Limits).
+/// What the matrices of all regions may cost (spec/certificates.md, Limits).
 fn matrix_budget(cover: &CompleteSet) -> u64 {
     MATRIX_BASE.saturating_add(MATRIX_PER_NODE.saturating_mul(nodes(cover)))
 }

@@ -66,7 +66,8 @@ pub(super) const TRUST_SHRINK: f64 = 0.5;
 /// A Newton step on the Fischer-Burmeister system takes the row of the minimum map for a component
 /// one branch of which is this much nearer than the other; the second one, the minimum map itself,
 /// by turns after steps that had to be shortened. Unit: none. Basis: a tenth changes the
-/// derivatives of phi by under 1 %; measured with it alone, 0.3, 0.01 and 1e-4 (spec/solver.md).
+/// derivatives of phi by under 1 %; measured with it alone, 0.3, 0.01 and 1e-4
+/// (spec/measurements.md, D.4).
 pub(super) const SEMISMOOTH_NEAR: [f64; 2] = [0.1, 1.0];
 
 /// Smallest step of the search along such a direction. Unit: Newton steps.

@@ -14,7 +14,8 @@ use crate::tolerance::{
 use mceip_exact::{Integer, Rational, from_f64};
 use num_traits::One;
 
-/// Largest binary exponent of a preconditioner that the checker takes (`spec/formats.md`).
+/// Largest binary exponent of a preconditioner that the checker takes
+/// (`spec/certificates.md`, 5.5).
 const MAX_EXPONENT: u32 = 1 << 16;
 /// Rounds in which the radii grow. Each gains the factor by which |I - YF'| is below one.
 const GROWTH_ROUNDS: usize = 60;

@@ -1,0 +1,98 @@
+//! `spec/` as a book: `SUMMARY.md` lists every page once, and every link to a file of the repository
+//! leads to one.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+fn root() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).to_path_buf()
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// The targets of the links and pictures of a page, code left out.
+fn targets(page: &str) -> Vec<String> {
+    let mut list = Vec::new();
+    let mut in_code = false;
+    for line in page.lines() {
+        if line.trim_start().starts_with("```") {
+            in_code = !in_code;
+        }
+        if in_code || line.starts_with("    ") {
+            continue;
+        }
+        for part in line.split("](").skip(1) {
+            let target = part.split(')').next().unwrap();
+            list.push(target.split('#').next().unwrap().to_string());
+        }
+    }
+    list.retain(|target| !target.is_empty() && !target.contains("://"));
+    list
+}
+
+/// The pages of the book: those beside the summary.
+fn pages() -> BTreeSet<String> {
+    let files = std::fs::read_dir(root().join("spec")).unwrap();
+    files
+        .map(|e| e.unwrap().file_name().into_string().unwrap())
+        .filter(|name| name.ends_with(".md") && name != "SUMMARY.md")
+        .collect()
+}
+
+#[test]
+fn the_summary_lists_every_page_once() {
+    let listed = targets(&read(&root().join("spec/SUMMARY.md")));
+    for page in pages() {
+        let times = listed.iter().filter(|target| **target == page).count();
+        assert_eq!(times, 1, "{page} in SUMMARY.md");
+    }
+}
+
+#[test]
+fn every_link_leads_to_a_file() {
+    let mut list: Vec<PathBuf> = pages()
+        .iter()
+        .map(|p| root().join("spec").join(p))
+        .collect();
+    list.push(root().join("spec/SUMMARY.md"));
+    list.push(root().join("README.md"));
+
+    let mut links = 0;
+    for page in list {
+        for target in targets(&read(&page)) {
+            let path = page.parent().unwrap().join(&target);
+            assert!(path.exists(), "{}: {target}", page.display());
+            links += 1;
+        }
+    }
+    assert!(links > 50, "{links}");
+}
+
+/// Tables aside, and what programs print, a page can be read in a window of 100 columns.
+#[test]
+fn lines_have_at_most_a_hundred_columns() {
+    for page in pages() {
+        let text = read(&root().join("spec").join(&page));
+        let mut in_code = false;
+        for (number, line) in text.lines().enumerate() {
+            if line.trim_start().starts_with("```") {
+                in_code = !in_code;
+            }
+            let is_free = in_code || line.starts_with("    ") || line.trim_start().starts_with('|');
+            let columns = line.chars().count();
+            assert!(
+                is_free || columns <= 100,
+                "{page}:{}: {columns}",
+                number + 1
+            );
+        }
+    }
+}
+
+#[test]
+fn targets_are_found_and_code_is_not() {
+    let page = "[a](b.md#c) and [d](https://e) ![f](g/h.svg)\n\n    [i](j)\n```\n[k](l)\n```\n";
+    assert_eq!(targets(page), ["b.md", "g/h.svg"]);
+}

@@ -1,0 +1,113 @@
+//! The worked examples of `spec/certificates.md`: the checker gives the verdict that the page
+//! states, and every JSON block of the page stands in one of the files.
+
+use mceip::certificate::Certificate;
+use mceip::check::check;
+use mceip::model::file::read_problem;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+fn spec() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("spec")
+}
+
+fn folder() -> PathBuf {
+    spec().join("examples/certificates")
+}
+
+fn read(path: &Path) -> String {
+    std::fs::read_to_string(path).unwrap()
+}
+
+/// The names of the examples: each has a problem and a certificate.
+fn names() -> BTreeSet<String> {
+    let files = std::fs::read_dir(folder()).unwrap();
+    let names = files.map(|e| e.unwrap().file_name().into_string().unwrap());
+    names
+        .filter_map(|n| n.strip_suffix(".problem.json").map(str::to_string))
+        .collect()
+}
+
+/// Kinds of evidence that the certificate of an example contains.
+const EVIDENCE: [&str; 14] = [
+    "\"exact_solution\"",
+    "\"lifted_solution\"",
+    "\"enclosed_solution\"",
+    "\"farkas\"",
+    "\"positive_definite\"",
+    "\"ldl\"",
+    "\"root\"",
+    "\"support\": {",
+    "\"tail\"]",
+    "\"open\"",
+    "\"condensation\"",
+    "\"reversed\"",
+    "\"infinity\"",
+    "\"z\"",
+];
+
+#[test]
+fn the_checker_gives_each_example_its_verdict() {
+    let names = names();
+    for name in names.iter().filter(|name| *name != "mcp") {
+        let problem = read(&folder().join(format!("{name}.problem.json")));
+        let certificate = read(&folder().join(format!("{name}.json")));
+
+        let problem = read_problem(&problem, &folder()).unwrap();
+        let certificate = Certificate::from_json(&certificate).unwrap();
+        let accepted = check(&problem, &certificate).unwrap_or_else(|e| panic!("{name}: {e}"));
+
+        let open = accepted.cover.map_or(0, |cover| cover.open.len());
+        assert_eq!(open, usize::from(name == "open"), "{name}");
+    }
+    assert!(names.len() > 15);
+}
+
+#[cfg(feature = "solver")]
+#[test]
+fn the_plain_problem_has_the_solution_of_the_page() {
+    use mceip::lcp::{judge, read_mcp, read_solution};
+
+    let problem = read_mcp(&read(&folder().join("mcp.problem.json"))).unwrap();
+    let solution = read_solution(&read(&folder().join("mcp.json"))).unwrap();
+    assert!(judge(&problem, &solution).is_ok());
+}
+
+#[test]
+fn every_kind_of_evidence_has_an_example() {
+    let all: Vec<String> = names()
+        .iter()
+        .map(|name| read(&folder().join(format!("{name}.json"))))
+        .collect();
+    for kind in EVIDENCE {
+        assert!(all.iter().any(|text| text.contains(kind)), "{kind}");
+    }
+}
+
+/// Text without blanks: the page breaks lines where the file does not.
+fn dense(text: &str) -> String {
+    text.chars().filter(|c| !c.is_whitespace()).collect()
+}
+
+#[test]
+fn every_block_of_the_page_stands_in_a_file() {
+    let page = read(&spec().join("certificates.md"));
+    let files: Vec<String> = names()
+        .iter()
+        .map(|name| dense(&read(&folder().join(format!("{name}.json")))))
+        .collect();
+
+    let mut blocks = 0;
+    for part in page.split("```json\n").skip(1) {
+        let block = dense(part.split("```").next().unwrap());
+        assert!(files.iter().any(|file| file.contains(&block)), "{part}");
+        blocks += 1;
+    }
+    for name in names() {
+        assert!(
+            page.contains(&format!("(`{name}`")),
+            "{name} is not in the page"
+        );
+    }
+    assert!(blocks > 15, "{blocks}");
+}
