@@ -1,9 +1,9 @@
 //! The worked examples of `spec/certificates.md`: the checker gives the verdict that the page
 //! states, and every JSON block of the page stands in one of the files.
 
-use mceip::certificate::Certificate;
-use mceip::check::check;
-use mceip::model::file::read_problem;
+use mceip_check::certificate::Certificate;
+use mceip_check::check;
+use mceip_model::file::read_problem;
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
@@ -66,7 +66,7 @@ fn the_checker_gives_each_example_its_verdict() {
 #[cfg(feature = "solver")]
 #[test]
 fn the_plain_problem_has_the_solution_of_the_page() {
-    use mceip::lcp::{judge, read_mcp, read_solution};
+    use mceip_engine::lcp::{judge, read_mcp, read_solution};
 
     let problem = read_mcp(&read(&folder().join("mcp.problem.json"))).unwrap();
     let solution = read_solution(&read(&folder().join("mcp.json"))).unwrap();
