@@ -1,9 +1,26 @@
-//! Exact solutions: alpha is a root isolated by [a, b], x a vector of polynomials in alpha.
+//! Exact solutions: the value is a root alpha of an integer polynomial p, x a vector of polynomials
+//! in alpha.
 //!
-//! Obligations, in this order: index sets; [a, b] within the window and isolating one root of p;
-//! x = 0 off the support, x > 0 on it; (A + tB) x = 0 mod p on active rows; y > 0 or y = 0 mod p
-//! elsewhere, with the biactive set exactly the latter. "0 mod p" is a remainder, "> 0" is
-//! interval Horner of the remainder on [a, b].
+//! A number g(alpha), g a rational polynomial, is zero if p divides g. It has the sign of the
+//! remainder r of g by p, which takes the same value at alpha; and if interval Horner of r on an
+//! interval [a, b] that contains alpha gives positive numbers only, r(alpha) > 0. So both "= 0" and
+//! "> 0" at alpha are decided by exact arithmetic on the coefficients. The test of zero may refuse a
+//! true claim if p is reducible, but what it accepts is true for every root of p in [a, b].
+//!
+//! The obligations, in the order of `spec/formats.md`:
+//!
+//! 1. `support` and `biactive` are ascending lists of complementarity variables, and the numbers are
+//!    small enough to be multiplied out.
+//! 2. [a, b] contains exactly one root of p: a = b and p(a) = 0; or p(a) p(b) < 0, so that there is
+//!    one, and p' has one sign on [a, b], so that there are no two.
+//! 3. [a, b] lies in the window.
+//! 4. x_i > 0 on the support and x_i = 0 on the other complementarity variables; x is not zero.  // (14)
+//! 5. y = (A + tB) x is zero on the free rows (13) and on the support (25), zero on the biactive
+//!    rows, and positive on all other rows (26).
+//!
+//! Together these are (12)-(14). Input: the integral rows of the pencil, the window and the claim.
+//! The functions on index sets, sizes, intervals and remainders serve `lifted_solution` too, and
+//! those on index sets and windows serve `enclosed`.
 
 use super::AcceptedClaim;
 use super::pencil::{Row, Rows};
@@ -15,8 +32,8 @@ use mceip_model::file::Number;
 use num_integer::Integer as _;
 use num_traits::{One, Zero};
 
-/// Largest number of coefficients of p and of each x_i. A support of n variables needs at most n +
-/// 1.
+/// Largest number of coefficients of p and of each x_i. A support of n variables needs at most
+/// n + 1.
 const MAX_COEFFICIENTS: u64 = 512;
 /// Largest product of the number of coefficients (of p and of the longest x_i) and the bits of the
 /// longest number of the claim: bounds the work on a file that is small but hostile.
@@ -24,11 +41,15 @@ const MAX_SIZE: u64 = 1 << 21;
 /// Largest product of the number of polynomials and the square of that size: Horner's rule is asked
 /// for each row.
 const MAX_WORK: u64 = 1 << 46;
-/// By how many coefficients x may exceed p for numbers of any length (y = (A + tB) x has one more
-/// than x), and the largest product of a larger excess with the bits of the longest number: every
-/// coefficient in excess makes a remainder longer by the leading coefficient of p.
+/// By how many coefficients x may exceed p for numbers of any length: y = (A + tB) x has one more
+/// than x.
 const FREE_EXCESS: u64 = 1;
+/// Largest product of a larger excess with the bits of the longest number: every coefficient in
+/// excess makes a remainder longer by the leading coefficient of p.
 const MAX_EXCESS_SIZE: u64 = 1 << 13;
+
+/// A rational polynomial, constant term first.
+pub(super) type Polynomial = Vec<Rational>;
 
 pub(super) fn check(
     rows: &Rows,
@@ -38,90 +59,78 @@ pub(super) fn check(
     index_set(rows, "support", &claim.support)?;
     index_set(rows, "biactive", &claim.biactive)?;
     bounded(&claim.polynomial, &claim.interval, &claim.x)?;
+
     let p = Poly::new(claim.polynomial.clone()).primitive();
     let value = isolate(&p, &claim.interval)?;
     within(window, &value)?;
-    if claim.x.len() != rows.order() {
-        return Err(Reason::Length {
-            what: "x",
-            expected: rows.order(),
-            got: claim.x.len(),
-        });
-    }
+    Reason::length("x", rows.order(), claim.x.len())?;
+
     let alpha = Alpha { p, value };
     let x = coefficients(&claim.x, &alpha.p);
     check_x(rows, claim, &alpha, &x)?;
     check_y(rows, claim, &alpha, &x)?;
+
     Ok(AcceptedClaim {
         support: claim.support.clone(),
         value: alpha.value,
     })
 }
 
-/// The claim is small enough to be multiplied out.
+/// Demands that the claim is small enough to be multiplied out.
+///
+/// `x` are its polynomials: those of x, or of v and w.
 pub(super) fn bounded<'a>(
     polynomial: &[Integer],
     interval: &'a [Number; 2],
     x: impl IntoIterator<Item = &'a Vec<Number>> + Clone,
 ) -> Result<(), Reason> {
-    let at_most = |what, limit, got| {
-        if got > limit {
-            Err(Reason::TooLarge { what, limit, got })
-        } else {
-            Ok(())
-        }
-    };
     let coefficients = polynomial.len() as u64;
-    at_most(
-        "coefficients of the polynomial",
-        MAX_COEFFICIENTS,
-        coefficients,
-    )?;
+    let what = "coefficients of the polynomial";
+    Reason::at_most(what, MAX_COEFFICIENTS, coefficients)?;
 
     let polynomials = x.clone().into_iter().count() as u64;
     let longest_x = x.clone().into_iter().map(Vec::len).max().unwrap_or(0) as u64;
-    at_most("coefficients of x", MAX_COEFFICIENTS, longest_x)?;
+    Reason::at_most("coefficients of x", MAX_COEFFICIENTS, longest_x)?;
 
-    let of = |n: &Number| n.0.numer().bits() + n.0.denom().bits();
-    let numbers = interval.iter().chain(x.into_iter().flatten()).map(of);
-    let bits = numbers
-        .chain(polynomial.iter().map(|c| c.bits()))
+    let rationals = interval.iter().chain(x.into_iter().flatten());
+    let bits = rationals
+        .map(|n| n.0.numer().bits() + n.0.denom().bits())
+        .chain(polynomial.iter().map(Integer::bits))
         .max()
         .unwrap_or(0);
     let size = bits.saturating_mul(coefficients + longest_x);
-    at_most("size (coefficients times bits)", MAX_SIZE, size)?;
+    Reason::at_most("size (coefficients times bits)", MAX_SIZE, size)?;
 
+    let what = "work (polynomials times the square of coefficients times bits)";
     let work = size.saturating_mul(size).saturating_mul(polynomials);
-    at_most(
-        "work (polynomials times the square of coefficients times bits)",
-        MAX_WORK,
-        work,
-    )?;
+    Reason::at_most(what, MAX_WORK, work)?;
 
     let excess = longest_x.saturating_sub(coefficients);
     if excess <= FREE_EXCESS {
         return Ok(());
     }
     let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
-    at_most(what, MAX_EXCESS_SIZE, bits.saturating_mul(excess))
+    Reason::at_most(what, MAX_EXCESS_SIZE, bits.saturating_mul(excess))
 }
 
-/// Ascending indices of complementarity variables.
+/// Demands an ascending list of complementarity variables.
 pub(super) fn index_set(rows: &Rows, set: &'static str, list: &[usize]) -> Result<(), Reason> {
-    let bad = |k: usize| {
-        list[k] >= rows.order() || rows.is_free[list[k]] || (k > 0 && list[k - 1] >= list[k])
-    };
-    match (0..list.len()).find(|&k| bad(k)) {
-        Some(position) => Err(Reason::IndexSet {
-            set,
-            position,
-            got: list[position],
-        }),
-        None => Ok(()),
+    for (position, &index) in list.iter().enumerate() {
+        let is_complementarity_variable = index < rows.order() && !rows.is_free[index];
+        let ascends = position == 0 || list[position - 1] < index;
+
+        if !is_complementarity_variable || !ascends {
+            return Err(Reason::IndexSet {
+                set,
+                position,
+                got: index,
+            });
+        }
     }
+    Ok(())
 }
 
-/// [a, b] contains exactly one root of p.
+/// Demands that [a, b] contains exactly one root of p, and returns it.
 pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason> {
     if p.degree().unwrap_or(0) == 0 {
         return Err(Reason::ConstantPolynomial {
@@ -134,17 +143,19 @@ pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason
             b: b.0.clone(),
         });
     };
-    let (at_a, at_b) = (p.sign_at(&a.0), p.sign_at(&b.0));
+
+    let at_a = p.sign_at(&a.0);
     if value.is_point() {
-        return if at_a == 0 {
-            Ok(value)
-        } else {
-            Err(Reason::NotARoot {
+        if at_a != 0 {
+            return Err(Reason::NotARoot {
                 a: a.0.clone(),
                 sign: at_a,
-            })
-        };
+            });
+        }
+        return Ok(value);
     }
+
+    let at_b = p.sign_at(&b.0);
     if at_a * at_b != -1 {
         return Err(Reason::NoSignChange { at_a, at_b });
     }
@@ -158,14 +169,18 @@ pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason
     Ok(value)
 }
 
-/// [a, b] lies in the closed window.
+/// Demands that an interval lies in the closed window.
 pub(super) fn within(window: &Window, value: &Interval) -> Result<(), Reason> {
-    if value.lo() >= window.min() && window.max().is_none_or(|max| value.hi() <= max) {
+    let is_above_min = value.lo() >= window.min();
+    let is_below_max = window.max().is_none_or(|max| value.hi() <= max);
+    if is_above_min && is_below_max {
         return Ok(());
     }
-    let max = window
-        .max()
-        .map_or_else(|| "infinity".into(), ToString::to_string);
+
+    let max = match window.max() {
+        Some(max) => max.to_string(),
+        None => "infinity".into(),
+    };
     Err(Reason::OutsideWindow {
         min: window.min().clone(),
         max,
@@ -174,117 +189,119 @@ pub(super) fn within(window: &Window, value: &Interval) -> Result<(), Reason> {
     })
 }
 
-/// The value: a root of p in an interval.
+/// The value of the unknown: the root of p in an interval.
 pub(super) struct Alpha {
     pub(super) p: Poly,
     pub(super) value: Interval,
 }
 
 impl Alpha {
-    /// A positive multiple of g mod p: zero exactly if p divides g over Q.
+    /// A positive multiple of the remainder of g by p. It is zero exactly if p divides g over Q.
     pub(super) fn remainder(&self, g: &[Rational]) -> Poly {
         Poly::from_rationals(g).pseudo_rem(&self.p)
     }
 
+    /// Encloses a positive multiple of g(alpha).
     pub(super) fn enclose(&self, g: &[Rational]) -> Interval {
         self.value.horner_rounded(&self.remainder(g))
     }
 }
 
+/// x_i > 0 on the support, x_i = 0 elsewhere, and x is not zero.
 fn check_x(
     rows: &Rows,
     claim: &ExactSolution,
     alpha: &Alpha,
-    x: &[Vec<Rational>],
+    x: &[Polynomial],
 ) -> Result<(), Reason> {
-    let mut non_zero = !claim.support.is_empty();
-    for (index, x) in x.iter().enumerate() {
+    let mut is_non_zero = !claim.support.is_empty();
+
+    for (index, x_i) in x.iter().enumerate() {
+        let is_in_support = claim.support.binary_search(&index).is_ok();
+
         if rows.is_free[index] {
-            non_zero |= alpha.enclose(x).certain_sign() != 0;
-        } else if claim.support.binary_search(&index).is_err() {
-            if !alpha.remainder(x).is_zero() {
-                return Err(Reason::XOffSupport { index });
-            }
-        } else {
-            let image = alpha.enclose(x);
-            if image.certain_sign() != 1 {
-                return Err(Reason::XNotPositive {
-                    index,
-                    lo: image.lo().clone(),
-                    hi: image.hi().clone(),
-                });
-            }
+            is_non_zero |= alpha.enclose(x_i).certain_sign() != 0;
+        } else if is_in_support {
+            let image = alpha.enclose(x_i);
+            Reason::x_positive(index, &image)?;
+        } else if !alpha.remainder(x_i).is_zero() {
+            return Err(Reason::XOffSupport { index });
         }
     }
-    if non_zero { Ok(()) } else { Err(Reason::XZero) }
+
+    if is_non_zero {
+        Ok(())
+    } else {
+        Err(Reason::XZero)
+    }
 }
 
+/// y_i = 0 on the free rows, the support and the biactive rows, y_i > 0 on all others.
 fn check_y(
     rows: &Rows,
     claim: &ExactSolution,
     alpha: &Alpha,
-    x: &[Vec<Rational>],
+    x: &[Polynomial],
 ) -> Result<(), Reason> {
     for (index, row) in rows.rows.iter().enumerate() {
         let y = alpha.remainder(&times(row, x));
         let is_zero = y.is_zero();
-        if rows.is_free[index] || claim.support.binary_search(&index).is_ok() {
-            if !is_zero {
-                let equation = if rows.is_free[index] { "E13" } else { "E25" };
-                return Err(Reason::YNotZero { equation, index });
-            }
-            if claim.biactive.binary_search(&index).is_ok() {
-                return Err(Reason::Biactive {
-                    index,
-                    expected: false,
-                });
-            }
-            continue;
+        let is_free = rows.is_free[index];
+        let is_active = is_free || claim.support.binary_search(&index).is_ok();
+        let is_biactive = claim.biactive.binary_search(&index).is_ok();
+
+        if is_active && !is_zero {
+            let equation = if is_free { "E13" } else { "E25" };
+            return Err(Reason::YNotZero { equation, index });
         }
-        if claim.biactive.binary_search(&index).is_ok() != is_zero {
-            return Err(Reason::Biactive {
-                index,
-                expected: is_zero,
-            });
+
+        let expected = !is_active && is_zero;
+        if is_biactive != expected {
+            return Err(Reason::Biactive { index, expected });
         }
-        let image = alpha.value.horner_rounded(&y);
-        if !is_zero && image.certain_sign() != 1 {
-            return Err(Reason::YNotPositive {
-                index,
-                lo: image.lo().clone(),
-                hi: image.hi().clone(),
-            });
+
+        if !is_zero {
+            let image = alpha.value.horner_rounded(&y);
+            Reason::y_positive(index, &image)?;
         }
     }
     Ok(())
 }
 
-/// The polynomials of a list. Where one is much longer than p, all of them modulo p, times one
-/// positive number: many rows then do not divide it once each.
+/// The polynomials of a list, ready to be multiplied by rows of the pencil.
+///
+/// Where one of them is much longer than p, all are replaced by their remainders by p times one
+/// common positive number. The rows then need not divide a long polynomial once each, and as the
+/// factor is common, linear equations and signs remain what they are.
 pub(super) fn coefficients<'a>(
     list: impl IntoIterator<Item = &'a Vec<Number>> + Clone,
     p: &Poly,
-) -> Vec<Vec<Rational>> {
-    let plain = |g: &Vec<Number>| g.iter().map(|n| n.0.clone()).collect::<Vec<Rational>>();
+) -> Vec<Polynomial> {
     let coefficients = p.coeffs().len();
     let longest = list.clone().into_iter().map(Vec::len).max().unwrap_or(0);
+    let is_long = longest > coefficients + FREE_EXCESS as usize;
 
-    if longest <= coefficients + FREE_EXCESS as usize {
-        return list.into_iter().map(plain).collect();
+    let mut polynomials = Vec::new();
+    for numbers in list {
+        let g: Polynomial = numbers.iter().map(|n| n.0.clone()).collect();
+        if is_long {
+            let steps = longest + 1 - coefficients;
+            polynomials.push(reduced(&g, p, steps));
+        } else {
+            polynomials.push(g);
+        }
     }
-    let steps = longest + 1 - coefficients;
-    list.into_iter()
-        .map(|g| reduced(&plain(g), p, steps))
-        .collect()
+    polynomials
 }
 
 /// g modulo p, times |lead(p)|^steps.
-fn reduced(g: &[Rational], p: &Poly, steps: usize) -> Vec<Rational> {
+fn reduced(g: &[Rational], p: &Poly, steps: usize) -> Polynomial {
     let common = common_denominator(g);
     let integral = g
         .iter()
         .map(|c| c.numer() * (&common / c.denom()))
         .collect();
+
     let remainder = Poly::new(integral).pseudo_rem_steps(p, steps);
     remainder
         .coeffs()
@@ -293,46 +310,63 @@ fn reduced(g: &[Rational], p: &Poly, steps: usize) -> Vec<Rational> {
         .collect()
 }
 
-/// A row of A + tB times x, as a polynomial in t.
-fn times(row: &Row, x: &[Vec<Rational>]) -> Vec<Rational> {
+/// A row of A + tB times x, as a polynomial in t: its coefficient of t^k is
+/// sum_j A_j x_j,k + B_j x_j,k-1.
+fn times(row: &Row, x: &[Polynomial]) -> Polynomial {
     let degree = x.iter().map(Vec::len).max().unwrap_or(0);
-    (0..=degree)
-        .map(|k| {
-            sum(row.iter().flat_map(|(j, a, b)| {
-                [
-                    (a, x[*j].get(k)),
-                    (b, k.checked_sub(1).and_then(|k| x[*j].get(k))),
-                ]
-            }))
-        })
-        .collect()
+    let mut product = Vec::with_capacity(degree + 1);
+
+    for k in 0..=degree {
+        let mut sum = FractionSum::default();
+        for (j, a, b) in row {
+            sum.add(a, x[*j].get(k));
+            if k > 0 {
+                sum.add(b, x[*j].get(k - 1));
+            }
+        }
+        product.push(sum.value());
+    }
+    product
 }
 
-/// A sum of multiples over the common denominator of these terms, which as a rule is that of each:
-/// one gcd instead of two for every term. (Per sum, not per claim: the worst file makes fractions
-/// added one by one as long.)
-fn sum<'a>(terms: impl Iterator<Item = (&'a Integer, Option<&'a Rational>)> + Clone) -> Rational {
-    let given = terms
-        .filter_map(|(factor, v)| Some((factor, v?)))
-        .filter(|(factor, v)| !factor.is_zero() && !v.is_zero());
-    let lift = |common: Integer, (_, v): (&Integer, &Rational)| {
-        if common == *v.denom() {
-            common
-        } else {
-            common.lcm(v.denom())
+/// A sum of products of an integer and a fraction.
+///
+/// The sum is taken over the common denominator of its terms, which as a rule is that of each: this
+/// needs one gcd instead of two for every term.
+#[derive(Default)]
+struct FractionSum<'a> {
+    terms: Vec<(&'a Integer, &'a Rational)>,
+}
+
+impl<'a> FractionSum<'a> {
+    /// Adds factor * value; no value stands for 0.
+    fn add(&mut self, factor: &'a Integer, value: Option<&'a Rational>) {
+        let Some(value) = value else { return };
+        if factor.is_zero() || value.is_zero() {
+            return;
         }
-    };
-    let common = given.clone().fold(Integer::one(), lift);
-    let lifted = |(factor, v): (&Integer, &Rational)| {
-        let numerator = factor * v.numer();
-        if common == *v.denom() {
-            numerator
-        } else {
-            numerator * (&common / v.denom())
+        self.terms.push((factor, value));
+    }
+
+    fn value(&self) -> Rational {
+        let mut common = Integer::one();
+        for (_, value) in &self.terms {
+            if common != *value.denom() {
+                common = common.lcm(value.denom());
+            }
         }
-    };
-    let numerator: Integer = given.map(lifted).sum();
-    Rational::new(numerator, common)
+
+        let mut numerator = Integer::zero();
+        for (factor, value) in &self.terms {
+            let product = *factor * value.numer();
+            if common == *value.denom() {
+                numerator += product;
+            } else {
+                numerator += product * (&common / value.denom());
+            }
+        }
+        Rational::new(numerator, common)
+    }
 }
 
 #[cfg(test)]
