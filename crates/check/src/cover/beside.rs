@@ -8,7 +8,7 @@
 //! Input: an accepted claim, whose value lies in the window of the cover, and the accepted cover.
 //! Called by `check::beside_the_cover` and by `mceip check`, which prints the place.
 
-use super::{AcceptedCover, OpenRegion, SolutionFamily};
+use super::proved::{AcceptedCover, OpenRegion, SolutionFamily};
 use crate::AcceptedClaim;
 
 /// A part of a cover that holds, or may hold, a solution.

@@ -8,9 +8,9 @@
 //! matrix. Of V'r only the coefficients of r beyond the degree of W are multiplied out: the others
 //! are rounding, at most |V_i| |r_j|.
 
-use super::CoverFault;
+use super::fault::CoverFault;
 use super::expanded::Expanded;
-use super::family::{Matrix, largest_bits, rational_bits, within_matrix_bits};
+use super::ends::{Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::product::{Linear, Part, times};
 use super::psd::{Symmetric, semidefinite};
 use crate::certificate::{Anchor, Condensation, IntegerMatrix, Tail};

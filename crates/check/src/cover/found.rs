@@ -1,111 +1,135 @@
-//! What leaves yield, put together: single solutions, each once, and families.
+//! What the leaves yield, put together: every solution once, and every family once.
+//!
+//! Two leaves may yield the same solution, because intervals share their ends and the interval of a
+//! root may reach beyond its leaf. A leaf that yields a solution with the interval v has proved that
+//! it is the only one of its support with a value in the hull h, and v lies in h. So of two solutions
+//! of one support with intervals v, v' and hulls h, h':
+//!
+//! * if v and v' have no point in common, they are different;
+//! * if v lies in h', or v' in h, they are the same;
+//! * else they could be one or two, and the cover is rejected.
 
-use super::{CoverFault, Found};
+use super::fault::CoverFault;
+use super::proved::{Found, SolutionFamily};
 use crate::AcceptedClaim;
-use mceip_exact::Interval;
-
-/// Solutions of one support that no list holds: a cone of them at one value, or some at every value
-/// of an interval. There is at least one at each value named; they are all x with x_i > 0 on the
-/// support that solve.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub struct SolutionFamily {
-    /// Complementarity variables with x_i > 0.
-    pub support: Vec<usize>,
-    /// Encloses the value, or the lower end of the open interval of values.
-    pub from: Interval,
-    /// Encloses the upper end, the same as `from` for a single value; `None` for infinity.
-    pub to: Option<Interval>,
-    /// One value only?
-    pub is_point: bool,
-    /// Is there only one solution at each value, up to its factor?
-    pub is_alone: bool,
-}
+use mceip_exact::{Interval, Rational};
 
 impl SolutionFamily {
     /// Does the solution lie in it, or at an end of it?
     fn meets(&self, s: &AcceptedClaim) -> bool {
-        let below = self.to.as_ref().is_none_or(|end| end.lo() >= s.value.hi());
-        self.support == s.support && self.from.hi() <= s.value.lo() && below
+        let begins_before = self.from.hi() <= s.value.lo();
+        let ends_after = match &self.to {
+            Some(to) => to.lo() >= s.value.hi(),
+            None => true,
+        };
+        self.support == s.support && begins_before && ends_after
+    }
+
+    /// The family of one solution alone at one value.
+    fn of_single(solution: AcceptedClaim) -> SolutionFamily {
+        SolutionFamily {
+            support: solution.support,
+            from: solution.value.clone(),
+            to: Some(solution.value),
+            is_point: true,
+            is_alone: true,
+        }
+    }
+
+    /// Families are listed by support and lower end, points first, and of two that are the same
+    /// first the one of which more is proved.
+    fn order_key(&self) -> impl Ord + use<> {
+        let to = self.to.as_ref().map(|t| (t.lo().clone(), t.hi().clone()));
+        (
+            self.support.clone(),
+            self.from.lo().clone(),
+            !self.is_point,
+            to,
+            !self.is_alone,
+        )
+    }
+
+    fn is_same(&self, other: &SolutionFamily) -> bool {
+        self.support == other.support
+            && self.from == other.from
+            && self.to == other.to
+            && self.is_point == other.is_point
     }
 }
 
-/// Families in order, each once; a solution at the end of one leaf may be the first of an interval
-/// of them in the next, and then it is no single one.
+/// Lists the families in order, each once.
+///
+/// A solution at the end of one leaf may be the first of a family in the next. Then it is no single
+/// solution: it is taken out of `found` and listed as a family of one point.
 pub(super) fn families(
     found: &mut Vec<Found>,
     mut list: Vec<SolutionFamily>,
 ) -> Vec<SolutionFamily> {
-    let (single, more): (Vec<Found>, Vec<Found>) = found
-        .drain(..)
-        .partition(|f| !list.iter().any(|g| g.meets(&f.solution)));
+    let is_single = |f: &Found| !list.iter().any(|family| family.meets(&f.solution));
+    let (single, of_families): (Vec<Found>, Vec<Found>) = found.drain(..).partition(is_single);
     *found = single;
-    list.extend(more.into_iter().map(|f| SolutionFamily {
-        support: f.solution.support,
-        from: f.solution.value.clone(),
-        to: Some(f.solution.value),
-        is_point: true,
-        is_alone: true,
-    }));
-    let place = |f: &SolutionFamily| {
-        let to = f.to.as_ref().map(|t| (t.lo().clone(), t.hi().clone()));
-        (
-            f.support.clone(),
-            f.from.lo().clone(),
-            !f.is_point,
-            to,
-            !f.is_alone,
-        )
-    };
-    list.sort_by_key(place);
-    // Two leaves share their end; one of them may have proved more of it.
-    list.dedup_by(|b, a| {
-        (&a.support, &a.from, &a.to, a.is_point) == (&b.support, &b.from, &b.to, b.is_point)
-    });
+
+    for f in of_families {
+        list.push(SolutionFamily::of_single(f.solution));
+    }
+
+    list.sort_by_key(SolutionFamily::order_key);
+    // Two leaves share their end, and one of them may have proved more of it: that one is kept.
+    list.dedup_by(|next, kept| kept.is_same(next));
     list
 }
 
-/// Lists each solution once. Two of one support are the same if one lies where the other is unique.
+/// Lists each solution once, by value, then by support.
+///
+/// A group holds intervals of one solution. In the order of lower ends, an interval that overlaps
+/// none of the group begins the next solution.
 pub(super) fn distinct(mut found: Vec<Found>) -> Result<Vec<AcceptedClaim>, CoverFault> {
-    found.sort_by(|p, q| {
-        (
-            &p.solution.support,
-            p.solution.value.lo(),
-            p.solution.value.hi(),
-        )
-            .cmp(&(
-                &q.solution.support,
-                q.solution.value.lo(),
-                q.solution.value.hi(),
-            ))
-    });
-    let mut kept: Vec<Found> = Vec::new();
-    // Those that are the solution kept last: what is one of them is that solution.
+    found.sort_by(|p, q| by_support(&p.solution).cmp(&by_support(&q.solution)));
+
+    let mut solutions: Vec<AcceptedClaim> = Vec::new();
     let mut group: Vec<Found> = Vec::new();
     for next in found {
-        let overlaps = |f: &Found| {
-            f.solution.support == next.solution.support
-                && f.solution.value.hi() >= next.solution.value.lo()
-        };
-        if !group.iter().any(overlaps) {
-            kept.extend(group.drain(..).next());
-            group.push(next);
-            continue;
-        }
-        let within = |v: &Interval, hull: &Interval| v.lo() >= hull.lo() && v.hi() <= hull.hi();
-        let same = |f: &Found| {
-            within(&next.solution.value, &f.hull) || within(&f.solution.value, &next.hull)
-        };
-        if !group.iter().any(same) {
+        if !group.iter().any(|f| overlaps(f, &next)) {
+            solutions.extend(first_of(&mut group));
+        } else if !group.iter().any(|f| is_same(f, &next)) {
             return Err(CoverFault::Ambiguous {
                 support: next.solution.support,
             });
         }
         group.push(next);
     }
-    kept.extend(group.drain(..).next());
-    let mut list: Vec<AcceptedClaim> = kept.into_iter().map(|f| f.solution).collect();
-    list.sort_by(|p, q| (p.value.lo(), &p.support).cmp(&(q.value.lo(), &q.support)));
-    Ok(list)
+    solutions.extend(first_of(&mut group));
+
+    solutions.sort_by(|p, q| by_value(p).cmp(&by_value(q)));
+    Ok(solutions)
+}
+
+/// Empties a group; its solution, as the first of its members gives it.
+fn first_of(group: &mut Vec<Found>) -> Option<AcceptedClaim> {
+    group.drain(..).next().map(|f| f.solution)
+}
+
+fn by_support(s: &AcceptedClaim) -> (&[usize], &Rational, &Rational) {
+    (&s.support, s.value.lo(), s.value.hi())
+}
+
+fn by_value(s: &AcceptedClaim) -> (&Rational, &[usize]) {
+    (s.value.lo(), &s.support)
+}
+
+/// Can both be one solution? `next` does not begin before `f`.
+fn overlaps(f: &Found, next: &Found) -> bool {
+    f.solution.support == next.solution.support
+        && f.solution.value.hi() >= next.solution.value.lo()
+}
+
+/// Does one lie where the other is the only solution of the support?
+fn is_same(f: &Found, next: &Found) -> bool {
+    lies_in(&next.solution.value, &f.hull) || lies_in(&f.solution.value, &next.hull)
+}
+
+fn lies_in(inner: &Interval, outer: &Interval) -> bool {
+    inner.lo() >= outer.lo() && inner.hi() <= outer.hi()
 }
 
 #[cfg(test)]

@@ -1,19 +1,36 @@
-//! Leaves in which nothing lies: a Farkas vector, or a definite symmetric part, at both ends. Short
-//! numbers are tried first; where they cannot tell, `ends` gives the long ones.
+//! Leaves without a solution, by enclosures of T at both ends of the interval: a Farkas vector, or a
+//! definite symmetric part.
+//!
+//! Every T(t) of the region is a convex combination of a matrix within R0 of M0 and one within R1 of
+//! M1 (at an infinite end: the one plus a non-negative multiple of the other; see `family`). Both
+//! proofs are inequalities linear in T, so they hold between if they hold at both ends.
+//!
+//! *Farkas.* Let w_i >= 0 for all i outside the support. Since y_i = 0 on the support,
+//! w'y >= 0 for a solution. If (w'T)_j <= 0 for all j that may be in the support, then
+//! w'y = w'Tx <= 0, and it is < 0 if (w'T)_j < 0 for all those j, because x is not zero, or for one j
+//! in the support, because x_j > 0. Then there is no solution.
+//!
+//! *Definite.* A solution has x'Tx = x'y = 0. If sym(T), or -sym(T), is positive definite on the
+//! variables that may be in the support, then x = 0, and there is no solution.
+//!
+//! At an infinite end, which is no value of the window, the weak inequality suffices: the matrix at
+//! the lower end adds the strict one.
+//!
+//! Short numbers (`short`) are tried first. Where they cannot tell, `ends` gives the long ones.
+//! Called by the walk through the trees.
 
 use super::definite::{long_definite, positive_definite};
-use super::family::Ends;
+use super::ends::{Ends, Matrix};
+use super::fault::CoverFault;
+use super::region::{Region, State};
 use super::short::Short;
-use super::{CoverFault, Region, State};
 use mceip_exact::{Integer, Rational};
 use num_traits::{Signed, Zero};
 use std::rc::Rc;
 
 const ENDS: [&str; 2] = ["lower", "upper"];
 
-/// w'T <= 0 on what may move, at both ends and so between: then 0 <= w'y = w'Tx <= 0. It excludes x
-/// where it is < 0 on all that may move, or on one variable that does. At an infinite end, which is
-/// not part of the window, <= suffices.
+/// Checks the weights `w`, one per complementarity variable, as a Farkas vector.
 pub(super) fn farkas(
     region: &Region,
     short: Option<&[Short; 2]>,
@@ -21,40 +38,27 @@ pub(super) fn farkas(
     index: &[usize],
     w: &[i64],
 ) -> Result<(), CoverFault> {
-    let n = index.len();
-    if w.len() != n {
-        return Err(CoverFault::Length {
-            what: "farkas",
-            expected: n,
-            got: w.len(),
-        });
+    CoverFault::length("farkas", index.len(), w.len())?;
+    for (i, &weight) in w.iter().enumerate() {
+        if weight < 0 && region.states[i] != State::InSupport {
+            return Err(CoverFault::NegativeWeight {
+                index: index[i],
+                got: weight,
+            });
+        }
     }
-    if let Some(i) = (0..n).find(|&i| w[i] < 0 && region.states[i] != State::Moving) {
-        return Err(CoverFault::NegativeWeight {
-            index: index[i],
-            got: w[i],
-        });
-    }
+
     if short.is_some_and(|ends| ends.iter().all(|end| is_negative(region, end, w))) {
         return Ok(());
     }
+
     let ends = ends()?;
-    let (mut strict_on_all, mut strict_on_one) = (true, false);
-    for j in (0..n).filter(|&j| region.states[j] != State::Rest) {
+    let mut strict_on_all = true;
+    let mut strict_on_support = false;
+    for j in region.possible_support() {
         let mut strict = true;
         for end in 0..2 {
-            let bound: Integer = (0..n)
-                .filter(|&i| w[i] != 0)
-                .map(|i| {
-                    let radius = &ends.r[end][i][j];
-                    let product = &ends.m[end][i][j] * w[i];
-                    if radius.is_zero() {
-                        product
-                    } else {
-                        product + radius * w[i].unsigned_abs()
-                    }
-                })
-                .sum();
+            let bound = upper_bound(&ends, end, w, j);
             if bound.is_positive() {
                 return Err(CoverFault::NotNegative {
                     index: index[j],
@@ -62,30 +66,49 @@ pub(super) fn farkas(
                     got: Rational::new(bound, ends.scale.clone()),
                 });
             }
-            strict &= bound.is_negative() || (end == 1 && ends.infinite);
+            let is_infinite = end == 1 && ends.infinite;
+            strict &= bound.is_negative() || is_infinite;
         }
         strict_on_all &= strict;
-        strict_on_one |= strict && region.states[j] == State::Moving;
+        strict_on_support |= strict && region.states[j] == State::InSupport;
     }
-    if strict_on_all || strict_on_one {
+
+    if strict_on_all || strict_on_support {
         Ok(())
     } else {
         Err(CoverFault::NotStrict)
     }
 }
 
-/// Is w'T < 0 on all that may move?
+/// Is w'T < 0 on all variables that may be in the support?
 fn is_negative(region: &Region, end: &Short, w: &[i64]) -> bool {
-    let bounds = end.product(w);
-    bounds.is_some_and(|list| {
-        list.iter()
-            .zip(&region.states)
-            .all(|(bound, state)| *bound < 0 || *state == State::Rest)
-    })
+    let Some(bounds) = end.product(w) else {
+        return false;
+    };
+    bounds
+        .iter()
+        .zip(&region.states)
+        .all(|(bound, state)| *bound < 0 || *state == State::AtZero)
 }
 
-/// `sign` sym(T) is positive definite on what may move at both ends, and so between: x'Tx = 0 on
-/// solutions leaves x = 0 only. At an infinite end zero will do.
+/// Upper bound of (w'T)_j at an end: sum_i w_i M_ij + |w_i| R_ij.
+fn upper_bound(ends: &Ends, end: usize, w: &[i64], j: usize) -> Integer {
+    let mut bound = Integer::zero();
+    for (i, &weight) in w.iter().enumerate() {
+        if weight == 0 {
+            continue;
+        }
+        bound += &ends.m[end][i][j] * weight;
+
+        let radius = &ends.r[end][i][j];
+        if !radius.is_zero() {
+            bound += radius * weight.unsigned_abs();
+        }
+    }
+    bound
+}
+
+/// Demands that `sign` sym(T) is positive definite on the variables that may be in the support.
 pub(super) fn definite(
     region: &Region,
     short: Option<&[Short; 2]>,
@@ -93,35 +116,39 @@ pub(super) fn definite(
     index: &[usize],
     sign: i8,
 ) -> Result<(), CoverFault> {
-    let moving: Vec<usize> = (0..region.states.len())
-        .filter(|&i| region.states[i] != State::Rest)
-        .collect();
-    if short.is_some_and(|ends| {
-        ends.iter()
-            .all(|end| positive_definite(end, &moving, sign).is_ok())
-    }) {
+    let possible = region.possible_support();
+    let is_definite = |end: &Short| positive_definite(end, &possible, sign).is_ok();
+    if short.is_some_and(|ends| ends.iter().all(is_definite)) {
         return Ok(());
     }
+
     let ends = ends()?;
     for end in 0..2 {
-        let (m, r) = (&ends.m[end], &ends.r[end]);
-        let is_zero = || {
-            moving.iter().all(|&i| {
-                moving
-                    .iter()
-                    .all(|&j| (&m[i][j] + &m[j][i]).is_zero() && r[i][j].is_zero())
-            })
-        };
-        if end == 1 && ends.infinite && is_zero() {
-            continue;
+        let m = &ends.m[end];
+        let r = &ends.r[end];
+        let is_infinite = end == 1 && ends.infinite;
+        if is_infinite && is_skew(m, r, &possible) {
+            continue; // semidefinite, which suffices there
         }
-        let not_definite = |p: usize| CoverFault::NotDefinite {
-            index: index[moving[p]],
+
+        long_definite(m, r, &possible, sign).map_err(|pivot| CoverFault::NotDefinite {
+            index: index[possible[pivot]],
             end: ENDS[end],
-        };
-        long_definite(m, r, &moving, sign).map_err(not_definite)?;
+        })?;
     }
     Ok(())
+}
+
+/// Is the symmetric part on these variables exactly zero, with zero radius?
+fn is_skew(m: &Matrix, r: &Matrix, variables: &[usize]) -> bool {
+    for &i in variables {
+        for &j in variables {
+            if !(&m[i][j] + &m[j][i]).is_zero() || !r[i][j].is_zero() {
+                return false;
+            }
+        }
+    }
+    true
 }
 
 #[cfg(test)]
@@ -160,7 +187,7 @@ mod tests {
     }
 
     const NONE: [[i64; 2]; 2] = [[0, 0], [0, 0]];
-    const OPEN: [State; 2] = [State::Open; 2];
+    const OPEN: [State; 2] = [State::Undecided; 2];
 
     fn long_farkas(
         states: [State; 2],
@@ -178,7 +205,7 @@ mod tests {
         // (2, -3)'T = (-16, 10 - 3 c) with radii 2 * 3 + 3 * 2 = 12 and 2 * 1 + 3 * 4 = 14.
         let t = |c: i64| [[-5, 5], [2, c]];
         let r = [[3, 1], [2, 4]];
-        let states = [State::Open, State::Moving];
+        let states = [State::Undecided, State::InSupport];
         let at = |c: i64, d: i64| long_farkas(states, [t(c), t(d)], [r, r], false, [2, -3]);
         assert_eq!(at(9, 9), Ok(()));
         let fault = |end, got| {
@@ -203,7 +230,7 @@ mod tests {
         let at = |states, lower, upper, infinite| {
             long_farkas(states, [lower, upper], [NONE, NONE], infinite, [1, 0])
         };
-        let moving = [State::Moving, State::Open];
+        let moving = [State::InSupport, State::Undecided];
         let weak = Err(CoverFault::NotStrict);
         assert_eq!(at(OPEN, t(1, 1), t(1, 1), false), Ok(()));
         assert_eq!(
@@ -228,7 +255,7 @@ mod tests {
             [Ok(()), weak.clone()]
         );
         assert_eq!(
-            at([State::Open, State::Rest], t(1, 0), t(1, 0), false),
+            at([State::Undecided, State::AtZero], t(1, 0), t(1, 0), false),
             Ok(())
         );
         assert_eq!(at(OPEN, t(1, 0), t(0, 1), true), weak);
@@ -257,7 +284,7 @@ mod tests {
         );
         assert_eq!(
             at(
-                [State::Rest, State::Open],
+                [State::AtZero, State::Undecided],
                 [eye, [[7, 9], [9, 0]]],
                 [NONE, [[5, 5], [5, 0]]],
                 true
@@ -289,7 +316,7 @@ mod tests {
         // What rests need not be negative.
         assert_eq!(
             farkas(
-                &region([State::Open, State::Rest]),
+                &region([State::Undecided, State::AtZero]),
                 Some(&unclear),
                 never,
                 &INDEX,

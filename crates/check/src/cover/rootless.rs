@@ -1,11 +1,23 @@
-//! Polynomials that keep their sign between two algebraic numbers.
+//! Signs of polynomials at algebraic numbers and between two of them, and the budget for them.
 //!
-//! Descartes' rule of signs: p has no root in (a, b) if (1 + x)^n p((a + bx) / (1 + x)) has
-//! coefficients of one sign. Where that is not so the interval is halved, a few times. A
-//! transformation of a polynomial with n coefficients takes n^2 / 2 additions of numbers of n times
-//! the bits of a and b: it is counted as n^3 (bits + 64), and the leaves of a file have a budget of
-//! such counts.
+//! *Descartes' rule of signs.* If the polynomial (1 + x)^n p((a + bx) / (1 + x)) has coefficients of
+//! one sign, p has no root in (a, b); if they change once, it has exactly one. (For (a, infinity) the
+//! polynomial is p(a + x).) Where there are more changes the interval is halved, a few times; what is
+//! not decided then counts as a possible root.
+//!
+//! *Between two roots.* Let [a, b] isolate a root r of p, and [a', b'] the next one. A polynomial g
+//! has no root in (r, r') if it has none in (b, a') and none in [a, b] and [a', b'] other than the
+//! isolated ones. For the latter g is divided by p as often as p divides it. Then the sign of g in the
+//! middle of [b, a'] is its sign all between.
+//!
+//! *Budget.* A transformation of a polynomial with n coefficients takes n^2 / 2 additions of numbers
+//! of n times the bits of a and b: it is counted as n^3 (bits + 64). Remainders and evaluations are
+//! counted in the same unit. All leaves of a file share one budget (`spec/complete-set.md`, Limits).
+//! Once it is spent, no sign can be told any more.
+//!
+//! Called by `support`.
 
+use super::ends::rational_bits;
 use mceip_exact::{Integer, Interval, Poly, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -52,7 +64,8 @@ impl Budget {
     /// Takes what the remainder of g by p costs: every step makes it longer by the leading
     /// coefficient of p.
     fn spend_remainder(&self, g: &Poly, p: &Poly) -> bool {
-        let [length, divisor] = [g, p].map(|q| q.coeffs().len() as u64);
+        let length = g.coeffs().len() as u64;
+        let divisor = p.coeffs().len() as u64;
         let steps = (length + 1).saturating_sub(divisor);
         let bits = p.coeffs().iter().map(Integer::bits).max().unwrap_or(0) + 64;
 
@@ -63,8 +76,7 @@ impl Budget {
     /// Takes what Horner's rule for p over an interval costs: its numbers grow by the bits of the
     /// ends at each coefficient.
     fn spend_evaluation(&self, p: &Poly, at: &Interval) -> bool {
-        let bits_of = |v: &Rational| v.numer().bits() + v.denom().bits();
-        let bits = bits_of(at.lo()) + bits_of(at.hi()) + 64;
+        let bits = rational_bits(at.lo()) + rational_bits(at.hi()) + 64;
 
         let size = bits.saturating_mul(p.coeffs().len() as u64);
         self.take(size.saturating_mul(size) >> EVALUATION_SHIFT)
@@ -72,8 +84,7 @@ impl Budget {
 
     /// Takes what transforming the polynomial costs; false if that is more than is left.
     fn spend(&self, p: &Poly, a: &Rational, b: Option<&Rational>) -> bool {
-        let bits_of = |v: &Rational| v.numer().bits() + v.denom().bits();
-        let bits = bits_of(a) + b.map_or(0, bits_of);
+        let bits = rational_bits(a) + b.map_or(0, rational_bits);
 
         let count = p.coeffs().len() as u64;
         self.take(count.saturating_pow(3).saturating_mul(bits + 64))
@@ -100,14 +111,18 @@ impl Root {
         if !budget.spend_remainder(g, &self.poly) {
             return None;
         }
-        let rest = g.pseudo_rem(&self.poly);
-        if rest.is_zero() {
+        let remainder = g.pseudo_rem(&self.poly);
+        if remainder.is_zero() {
             return Some(0);
         }
-        if !budget.spend_evaluation(&rest, &self.value) {
+
+        if !budget.spend_evaluation(&remainder, &self.value) {
             return None;
         }
-        Some(self.value.horner_rounded(&rest).certain_sign()).filter(|s| *s != 0)
+        match self.value.horner_rounded(&remainder).certain_sign() {
+            0 => None,
+            sign => Some(sign),
+        }
     }
 
     /// Has g no root in the isolating interval but possibly this one?
@@ -115,8 +130,10 @@ impl Root {
         if self.value.is_point() {
             return true;
         }
+        let a = self.value.lo();
+        let b = self.value.hi();
         let rest = stripped(g, &self.poly, budget);
-        let (a, b) = (self.value.lo(), self.value.hi());
+
         rest.sign_at(a) != 0 && rest.sign_at(b) != 0 && has_no_root(&rest, a, Some(b), budget)
     }
 }
@@ -132,24 +149,33 @@ pub(super) fn sign_between(
     if g.is_zero() {
         return Some(0);
     }
-    let (a, b) = (left.value.hi(), right.map(|r| r.value.lo()));
-    let sample = b.map_or_else(
-        || a + Rational::one(),
-        |b| (a + b) / Rational::from_integer(2.into()),
-    );
-    let near =
-        left.is_only_root_of(g, budget) && right.is_none_or(|r| r.is_only_root_of(g, budget));
-    (near && has_no_root(g, a, b, budget)).then(|| g.sign_at(&sample))
+
+    let is_only_root = |root: &Root| root.is_only_root_of(g, budget);
+    if !is_only_root(left) || !right.is_none_or(is_only_root) {
+        return None;
+    }
+
+    let a = left.value.hi();
+    let b = right.map(|root| root.value.lo());
+    if !has_no_root(g, a, b, budget) {
+        return None;
+    }
+
+    let sample = match b {
+        Some(b) => (a + b) / Rational::from_integer(2.into()),
+        None => a + Rational::one(),
+    };
+    Some(g.sign_at(&sample))
 }
 
 /// Is it certain that p has no root in the open interval?
 pub(super) fn has_no_root(p: &Poly, a: &Rational, b: Option<&Rational>, budget: &Budget) -> bool {
-    Halving {
+    let mut halving = Halving {
         p,
         halvings: MAX_HALVINGS,
         budget,
-    }
-    .has_none(a, b, MAX_DEPTH)
+    };
+    halving.has_none(a, b, MAX_DEPTH)
 }
 
 struct Halving<'a> {
@@ -164,6 +190,7 @@ impl Halving<'_> {
         if !self.budget.spend(self.p, a, b) {
             return false;
         }
+
         match sign_changes(self.p, a, b) {
             0 => true,
             1 => false,
@@ -190,34 +217,44 @@ fn middle_of(a: &Rational, b: Option<&Rational>) -> Rational {
 /// Descartes' bound of the number of roots in the open interval.
 fn sign_changes(p: &Poly, a: &Rational, b: Option<&Rational>) -> usize {
     let width = b.map(|b| b - a);
-    let unit = width
-        .as_ref()
-        .map_or(a.denom().clone(), |w| a.denom().lcm(w.denom()));
+    let unit = match &width {
+        Some(width) => a.denom().lcm(width.denom()),
+        None => a.denom().clone(),
+    };
     let in_units = |v: &Rational| v.numer() * (&unit / v.denom());
+
     // p(y / unit) unit^n, shifted to begin at a.
-    let mut power = Integer::one();
-    let mut c: Vec<Integer> = p.coeffs().to_vec();
-    for c_k in c.iter_mut().rev() {
-        *c_k *= &power;
-        power *= &unit;
-    }
-    shift(&mut c, &in_units(a));
+    let mut coefficients: Vec<Integer> = p.coeffs().to_vec();
+    multiply_by_powers(coefficients.iter_mut().rev(), &unit);
+    shift(&mut coefficients, &in_units(a));
+
     if let Some(width) = width {
         // y = width s with s = 1 / (1 + x).
-        let (width, mut power) = (in_units(&width), Integer::one());
-        for c_k in &mut c {
-            *c_k *= &power;
-            power *= &width;
-        }
-        c.reverse();
-        shift(&mut c, &Integer::one());
+        multiply_by_powers(coefficients.iter_mut(), &in_units(&width));
+        coefficients.reverse();
+        shift(&mut coefficients, &Integer::one());
     }
-    let signs: Vec<bool> = c
+
+    changes(&coefficients)
+}
+
+/// Multiplies the k-th of the coefficients by factor^k.
+fn multiply_by_powers<'a>(coefficients: impl Iterator<Item = &'a mut Integer>, factor: &Integer) {
+    let mut power = Integer::one();
+    for coefficient in coefficients {
+        *coefficient *= &power;
+        power *= factor;
+    }
+}
+
+/// Changes of sign in a list, zeros left out.
+fn changes(coefficients: &[Integer]) -> usize {
+    let signs: Vec<bool> = coefficients
         .iter()
         .filter(|v| !v.is_zero())
         .map(Signed::is_positive)
         .collect();
-    signs.windows(2).filter(|w| w[0] != w[1]).count()
+    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
 /// p(y) to p(y + a).
@@ -245,16 +282,18 @@ fn stripped(g: &Poly, q: &Poly, budget: &Budget) -> Poly {
 /// A multiple of g / q, which q divides over the rationals.
 fn quotient(g: &Poly, q: &Poly) -> Poly {
     let lead = q.leading();
-    let (mut rest, mut out) = (g.clone(), Poly::default());
+    let mut rest = g.clone();
+    let mut quotient = Poly::default();
+
     while let (Some(n), Some(m)) = (rest.degree(), q.degree()) {
         if n < m {
             break;
         }
         let top = Poly::constant(rest.leading()).shift(n - m);
         rest = &rest.scale(&lead) - &(&top * q);
-        out = &out.scale(&lead) + &top;
+        quotient = &quotient.scale(&lead) + &top;
     }
-    out.primitive()
+    quotient.primitive()
 }
 
 #[cfg(test)]

@@ -1,9 +1,22 @@
 //! The bounds again, in rational numbers and term by term as the formulas stand; the short form;
 //! the reversed pencil.
 
-use super::super::family::Family;
+use super::super::family::{AnchorExpansion, Family};
 use super::*;
 use mceip_exact::{rational, whole};
+
+fn grid(n: usize, entry: impl Fn(usize, usize) -> Integer) -> Matrix {
+    (0..n)
+        .map(|i| (0..n).map(|j| entry(i, j)).collect())
+        .collect()
+}
+
+fn without_short(expanded: Expanded) -> AnchorExpansion {
+    AnchorExpansion {
+        expanded,
+        short: None,
+    }
+}
 
 fn int(list: &[i64]) -> Vec<Integer> {
     list.iter().map(|&v| v.into()).collect()
@@ -255,7 +268,7 @@ fn reversed_ends_are_those_of_the_reciprocals() {
         reversed().ends(&whole(0), Some(&hi)),
         Err(CoverFault::Hypothesis { .. })
     ));
-    let family = Family::Condensed(vec![(linear(), None), (reversed(), None)]);
+    let family = Family::Condensed(vec![without_short(linear()), without_short(reversed())]);
     assert_eq!(
         [None, Some(0), Some(1), Some(2)].map(|k| family.is_reversed(k)),
         [false, false, true, false]

@@ -1,15 +1,15 @@
 //! Each bound again, in rational numbers as its formula stands, on a matrix whose every entry has a
 //! radius; and each decision at the last number that is refused and the first that is accepted.
 
-use super::super::family::Matrix;
+use super::super::ends::Matrix;
 use super::*;
 use crate::certificate::Root;
 use mceip_exact::{rational, whole};
 use mceip_model::file::Number;
 use num_traits::ToPrimitive;
 
-/// Variables 2 and 0 move, and 1, the pivot; 3 rests.
-const MOVING: [usize; 3] = [2, 0, 1];
+/// Variables 2, 0 and 1, the pivot; variable 3 is at zero.
+const SUPPORT: [usize; 3] = [2, 0, 1];
 const Y_ONE: i64 = 32;
 const ONE: i64 = 2;
 const SCALE: i64 = 1000;
@@ -57,7 +57,7 @@ fn inverse() -> Matrix {
 fn system(y: &Matrix) -> System<'_> {
     let list = |v: [i64; 3]| v.iter().map(|&v| v.into()).collect();
     System {
-        moving: MOVING.to_vec(),
+        support: SUPPORT.to_vec(),
         y,
         y_one: Y_ONE.into(),
         u: list([1, -3, ONE]),
@@ -70,9 +70,9 @@ fn q(v: &Integer) -> Rational {
     Rational::from_integer(v.clone())
 }
 
-/// An entry among the moving variables and its radius, as real numbers.
+/// An entry among the variables of the support and its radius, as real numbers.
 fn entry(e: &Ends, end: usize, i: usize, j: usize) -> (Rational, Rational) {
-    let of = |m: &Matrix| q(&m[MOVING[i]][MOVING[j]]) / whole(SCALE);
+    let of = |m: &Matrix| q(&m[SUPPORT[i]][SUPPORT[j]]) / whole(SCALE);
     (of(&e.m[end]), of(&e.r[end]))
 }
 
@@ -159,16 +159,16 @@ fn norms_and_errors_are_those_of_the_formulas() {
             let at: Vec<Rational> = (0..2)
                 .map(|end| error_at(&s, &e, end, is_right, &expected))
                 .collect();
-            assert_eq!(s.error_at(&e, 0, &other, &expected), at[0]);
-            assert_eq!(s.error_at(&e, 1, &other, &expected), at[1]);
+            assert_eq!(s.error_at(&e, 0, other, &expected), at[0]);
+            assert_eq!(s.error_at(&e, 1, other, &expected), at[1]);
             assert_eq!(s.error(&e, other, &expected), largest(at.into_iter()));
         }
         for (end, side) in [(0, Side::Right), (1, Side::Left)] {
-            let got = s.residual(&e, end, &side);
+            let got = s.residual(&e, end, side);
             let unit = whole(ONE * SCALE);
-            for (i, (value, radius)) in got.iter().enumerate() {
+            for (i, ball) in got.iter().enumerate() {
                 assert_eq!(
-                    (q(value) / &unit, q(radius) / &unit),
+                    (q(&ball.center) / &unit, q(&ball.radius) / &unit),
                     residual(&s, &e, end, matches!(side, Side::Right), i)
                 );
             }
@@ -181,7 +181,7 @@ fn norms_and_errors_are_those_of_the_formulas() {
 fn one_variable_needs_no_inverse() {
     let none: Matrix = vec![];
     let s = System {
-        moving: vec![1],
+        support: vec![1],
         y: &none,
         y_one: 1.into(),
         u: vec![ONE.into()],
@@ -205,10 +205,10 @@ fn a_norm_of_one_is_not_regular() {
 fn phi(s: &System<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Integer) {
     let pairs = || (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
     let value: Integer = pairs()
-        .map(|(i, j)| &s.u[i] * &e.m[end][MOVING[i]][MOVING[j]] * &s.v[j])
+        .map(|(i, j)| &s.u[i] * &e.m[end][SUPPORT[i]][SUPPORT[j]] * &s.v[j])
         .sum();
     let around: Integer = pairs()
-        .map(|(i, j)| s.u[i].abs() * &e.r[end][MOVING[i]][MOVING[j]] * s.v[j].abs())
+        .map(|(i, j)| s.u[i].abs() * &e.r[end][SUPPORT[i]][SUPPORT[j]] * s.v[j].abs())
         .sum();
     let left: Rational = (0..2)
         .map(|i| residual(s, e, end, false, i))
@@ -251,7 +251,7 @@ fn at_its_radius_the_schur_complement_has_no_sign() {
     // No inverse is needed for one variable: phi = one^2 m, its radius one^2 r.
     let none: Matrix = vec![];
     let s = System {
-        moving: vec![1],
+        support: vec![1],
         y: &none,
         y_one: 1.into(),
         u: vec![1.into()],
@@ -282,8 +282,8 @@ fn derivative(s: &System<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
     let n = |v: &Integer| v.to_i64().unwrap();
     for i in 0..3 {
         for j in 0..3 {
-            let d = n(&e.m[1][MOVING[i]][MOVING[j]]) - n(&e.m[0][MOVING[i]][MOVING[j]]);
-            let around = n(&e.slope[MOVING[i]][MOVING[j]]);
+            let d = n(&e.m[1][SUPPORT[i]][SUPPORT[j]]) - n(&e.m[0][SUPPORT[i]][SUPPORT[j]]);
+            let around = n(&e.slope[SUPPORT[i]][SUPPORT[j]]);
             let (u, v) = (n(&s.u[i]), n(&s.v[j]));
             let (a, b) = (
                 if i == 2 { 0 } else { left },
@@ -348,8 +348,8 @@ fn a_resting_row_has_a_sign_beyond_its_radius_only() {
     (s.v, s.one) = ([-5, 2, 1].map(Integer::from).to_vec(), 1.into());
     for (end, error) in [(0, 0), (1, 0), (0, 4), (1, 9)] {
         let mut e = ends();
-        let m = |e: &Ends, j: usize| e.m[end][3][MOVING[j]].to_i64().unwrap();
-        let r = |e: &Ends, j: usize| e.r[end][3][MOVING[j]].to_i64().unwrap();
+        let m = |e: &Ends, j: usize| e.m[end][3][SUPPORT[j]].to_i64().unwrap();
+        let r = |e: &Ends, j: usize| e.r[end][3][SUPPORT[j]].to_i64().unwrap();
         let radius = 5 * r(&e, 0)
             + 2 * r(&e, 1)
             + r(&e, 2)
@@ -384,7 +384,7 @@ fn root(outcome: RootOutcome) -> Root {
 const INDEX: [usize; 3] = [10, 11, 12];
 
 fn region() -> Region {
-    let states = vec![State::Moving, State::Moving, State::Rest];
+    let states = vec![State::InSupport, State::InSupport, State::AtZero];
     Region {
         lo: whole(0),
         hi: Some(whole(1)),
@@ -510,20 +510,14 @@ fn components_are_positive_beyond_the_error_only() {
     let solution = |x: i64, one: i64, error: Rational| {
         let v = vec![x.into(), one.into()];
         let s = System {
-            moving: vec![0, 1],
+            support: vec![0, 1],
             y: &y,
             y_one: 1.into(),
             u: v.clone(),
             v,
             one: one.into(),
         };
-        s.signs(
-            &region(),
-            &ends,
-            &error,
-            &INDEX,
-            &root(RootOutcome::Solution),
-        )
+        s.check_outcome(&region(), &ends, &error, &INDEX, &RootOutcome::Solution)
     };
     let fault = Err(CoverFault::Sign {
         component: "x",
@@ -542,8 +536,8 @@ fn components_are_positive_beyond_the_error_only() {
     }
 }
 
-/// y is zero on a moving row, and were a row of the block negative by rounding it is not a row of
-/// y.
+/// y is zero on the rows of the support: a row of the block that is negative by rounding is no
+/// negative y.
 #[test]
 fn a_moving_row_is_no_negative_y() {
     let wide = simple([-9, 9], 0, 0, [1, 1]);

@@ -1,6 +1,7 @@
 //! Where solutions of a support are single, where they are alone, and how far a leaf's word
 //! reaches.
 
+use super::super::region::State;
 use super::*;
 use crate::certificate::{Member, Point};
 use mceip_exact::{Integer, rational, whole};
@@ -28,9 +29,9 @@ fn region(lo: i64, hi: Option<i64>, moving: &[usize], order: usize) -> Region {
     let states = (0..order)
         .map(|i| {
             if moving.contains(&i) {
-                State::Moving
+                State::InSupport
             } else {
-                State::Rest
+                State::AtZero
             }
         })
         .collect();
