@@ -19,9 +19,7 @@
 //! slip particles in file order.
 
 use super::AcceptedClaim;
-use super::exact_solution::{
-    Alpha, Polynomial, bounded, coefficients, index_set, isolate, within,
-};
+use super::exact_solution::{Alpha, Polynomial, bounded, coefficients, index_set, isolate, within};
 use super::pencil::Rows;
 use super::reason::Reason;
 use crate::certificate::LiftedSolution;
@@ -150,13 +148,7 @@ impl Lines<'_> {
     }
 
     /// v_N = 0, and the signs of S v_T and S w_T + mu w_N.
-    fn slip(
-        &self,
-        index: usize,
-        particle: &Particle,
-        sign: i8,
-        slip: Slip,
-    ) -> Result<(), Reason> {
+    fn slip(&self, index: usize, particle: &Particle, sign: i8, slip: Slip) -> Result<(), Reason> {
         let normal_rate = along(&particle.into_obstacle(), &self.v, &Rational::one());
         self.zero("v_N = 0", "particle", index, &normal_rate)?;
 

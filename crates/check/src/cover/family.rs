@@ -12,9 +12,7 @@
 //! Called by the walk: `affordable` and `matrix_work` bound the work before `ends` does it, and
 //! `short` gives the ends in short numbers where it can.
 
-use super::ends::{
-    Ends, FRACTION_BITS, Matrix, largest_bits, rational_bits, within_matrix_bits,
-};
+use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::Expanded;
 use super::fault::CoverFault;
 use super::short::Short;

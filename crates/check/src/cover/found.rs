@@ -119,8 +119,7 @@ fn by_value(s: &AcceptedClaim) -> (&Rational, &[usize]) {
 
 /// Can both be one solution? `next` does not begin before `f`.
 fn overlaps(f: &Found, next: &Found) -> bool {
-    f.solution.support == next.solution.support
-        && f.solution.value.hi() >= next.solution.value.lo()
+    f.solution.support == next.solution.support && f.solution.value.hi() >= next.solution.value.lo()
 }
 
 /// Does one lie where the other is the only solution of the support?

@@ -346,10 +346,7 @@ mod tests {
         let definite = WorkBudget::of_definite_leaves(&rows, &cover);
         let matrices = WorkBudget::of_matrices(&cover);
 
-        assert_eq!(
-            definite.left(),
-            (1 << 29) + 7 * (1 << 20) + 2 * (1 << 16)
-        );
+        assert_eq!(definite.left(), (1 << 29) + 7 * (1 << 20) + 2 * (1 << 16));
         assert_eq!(matrices.left(), (1 << 30) + 7 * (1 << 24));
     }
 

@@ -80,11 +80,7 @@ fn short(v: &Integer) -> i128 {
 }
 
 /// F W: each row is a sum of rows of W times entries of F.
-fn product<T: Clone + Zero + AddAssign>(
-    f: &Sparse<T>,
-    w: &[Vec<T>],
-    cols: usize,
-) -> Vec<Vec<T>>
+fn product<T: Clone + Zero + AddAssign>(f: &Sparse<T>, w: &[Vec<T>], cols: usize) -> Vec<Vec<T>>
 where
     for<'b> &'b T: Mul<&'b T, Output = T>,
 {

@@ -48,12 +48,16 @@ impl Ends {
 impl Short {
     /// M +- R, the principal part on `keep`; `None` where the radius is far larger than the matrix.
     pub(super) fn of(m: &Matrix, r: &Matrix, keep: &[usize]) -> Option<Short> {
-        let kept = keep.iter().flat_map(|&i| keep.iter().map(move |&j| &m[i][j]));
+        let kept = keep
+            .iter()
+            .flat_map(|&i| keep.iter().map(move |&j| &m[i][j]));
         let unit = largest_bits(kept).saturating_sub(BITS);
 
         let mut short = Short::with_unit(unit, keep.len());
         for &i in keep {
-            let row = keep.iter().map(|&j| ShortBall::cut(&m[i][j], &r[i][j], unit));
+            let row = keep
+                .iter()
+                .map(|&j| ShortBall::cut(&m[i][j], &r[i][j], unit));
             short.push_row(row)?;
         }
         Some(short)

@@ -54,7 +54,9 @@ pub(super) struct Held {
 enum Content {
     Nothing,
     /// Solutions; are they alone, one up to its factor at each value?
-    Solutions { is_alone: bool },
+    Solutions {
+        is_alone: bool,
+    },
 }
 
 /// Checks a leaf and returns where it holds solutions. The budget is that of all leaves of the file.

@@ -79,7 +79,8 @@ impl Walk<'_> {
                 Node::Branch(index) => self.branch(region, *index, &mut stack).map_err(at_node)?,
                 _ => {
                     let verdict = self.leaf(&region, piece.anchor, node);
-                    self.settle(&region, verdict, (number, k)).map_err(at_node)?;
+                    self.settle(&region, verdict, (number, k))
+                        .map_err(at_node)?;
                 }
             }
         }
@@ -179,24 +180,14 @@ impl Walk<'_> {
         }
     }
 
-    fn farkas(
-        &self,
-        region: &Region,
-        anchor: Option<usize>,
-        w: &[i64],
-    ) -> Result<(), CoverFault> {
+    fn farkas(&self, region: &Region, anchor: Option<usize>, w: &[i64]) -> Result<(), CoverFault> {
         self.affordable(region, anchor)?;
         let short = self.short(region, anchor);
         let ends = || self.ends(region, anchor);
         leaf::farkas(region, short.as_deref(), ends, &self.index, w)
     }
 
-    fn definite(
-        &self,
-        region: &Region,
-        anchor: Option<usize>,
-        sign: i8,
-    ) -> Result<(), CoverFault> {
+    fn definite(&self, region: &Region, anchor: Option<usize>, sign: i8) -> Result<(), CoverFault> {
         self.spend_definite(region)?;
         self.affordable(region, anchor)?;
         let short = self.short(region, anchor);
@@ -259,8 +250,8 @@ impl Walk<'_> {
         let hull_hi = region.hi.as_ref().map(|hi| hi.max(value.hi()));
         // What is the only one up to infinity is the only one up to b.
         let hull_end = hull_hi.unwrap_or(value.hi());
-        let hull = Interval::new(hull_lo.clone(), hull_end.clone())
-            .ok_or_else(|| outside_window(leaf))?;
+        let hull =
+            Interval::new(hull_lo.clone(), hull_end.clone()).ok_or_else(|| outside_window(leaf))?;
 
         self.spend_matrix(anchor, hull_lo, hull_hi)?;
         let wide = self.family.hull_ends(anchor, hull_lo, hull_hi)?;
@@ -389,9 +380,7 @@ impl Walk<'_> {
             return known.clone();
         }
 
-        let mut short = self
-            .family
-            .short(anchor, &region.lo, region.hi.as_ref());
+        let mut short = self.family.short(anchor, &region.lo, region.hi.as_ref());
         if short.is_none() && matches!(self.family, Family::Condensed(_)) {
             short = self.ends(region, anchor).ok().and_then(|ends| ends.short());
         }
