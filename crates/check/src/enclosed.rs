@@ -36,6 +36,7 @@ use super::reason::Reason;
 use crate::certificate::EnclosedSolution;
 use mceip_exact::{Integer, Interval, Rational, common_denominator};
 use mceip_model::Window;
+use mceip_model::file::Number;
 use num_traits::{One, Signed, Zero};
 
 /// Largest binary exponent of a preconditioner: 8 kB per entry, far beyond any use.
@@ -100,6 +101,14 @@ fn check_shape(claim: &EnclosedSolution, unknowns: usize) -> Result<(), Reason> 
     Ok(())
 }
 
+/// The numbers times `unit`, a common multiple of their denominators.
+fn in_units(unit: &Integer, numbers: &[Number]) -> Vec<Integer> {
+    numbers
+        .iter()
+        .map(|n| n.0.numer() * (unit / n.0.denom()))
+        .collect()
+}
+
 /// [center - radius, center + radius]. All radii here are sums of absolute values or have been found
 /// positive, so the ends are in order.
 fn ball(center: &Rational, radius: &Rational) -> Interval {
@@ -129,16 +138,14 @@ impl Krawczyk {
     fn new(rows: &Rows, claim: &EnclosedSolution, active: &[usize]) -> Krawczyk {
         let numbers = claim.center.iter().chain(&claim.radius);
         let unit = common_denominator(numbers.map(|n| &n.0));
-        let in_units = |v: &Rational| v.numer() * (&unit / v.denom());
-
         let mut place = vec![None; rows.order()];
         for (k, &i) in active.iter().enumerate() {
             place[i] = Some(k);
         }
 
         let mut system = Krawczyk {
-            center: claim.center.iter().map(|n| in_units(&n.0)).collect(),
-            radius: claim.radius.iter().map(|n| in_units(&n.0)).collect(),
+            center: in_units(&unit, &claim.center),
+            radius: in_units(&unit, &claim.radius),
             unit,
             place,
             f: Vec::new(),
@@ -285,7 +292,6 @@ mod tests {
 
     use super::*;
     use mceip_exact::rational;
-    use mceip_model::file::Number;
 
     /// Two active variables, and a third at rest whose row is (1 + 2t) x_0 + (-1 + t) x_1.
     fn resting_row() -> Rows {

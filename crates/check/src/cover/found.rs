@@ -65,13 +65,15 @@ pub(super) fn families(
     found: &mut Vec<Found>,
     mut list: Vec<SolutionFamily>,
 ) -> Vec<SolutionFamily> {
-    let is_single = |f: &Found| !list.iter().any(|family| family.meets(&f.solution));
-    let (single, of_families): (Vec<Found>, Vec<Found>) = found.drain(..).partition(is_single);
-    *found = single;
-
-    for f in of_families {
-        list.push(SolutionFamily::of_single(f.solution));
+    let mut of_families = Vec::new();
+    for f in std::mem::take(found) {
+        if list.iter().any(|family| family.meets(&f.solution)) {
+            of_families.push(SolutionFamily::of_single(f.solution));
+        } else {
+            found.push(f);
+        }
     }
+    list.extend(of_families);
 
     list.sort_by_key(SolutionFamily::order_key);
     // Two leaves share their end, and one of them may have proved more of it: that one is kept.

@@ -97,15 +97,26 @@ fn check_places(
     let mut at_points = Vec::new();
     for (k, root) in roots.iter().enumerate() {
         let reason = reason(leaf, leaf.points[k].reason)?;
-        let sign = |g: &Poly| root.sign(g, budget);
-        at_points.push(system.content(reason, &sign, 2 * k)?);
+        let place = Place {
+            number: 2 * k,
+            location: Location::Point(root),
+            budget,
+        };
+        at_points.push(system.content(reason, &place)?);
     }
 
     let mut in_cells = Vec::new();
     for (k, &cell) in leaf.cells.iter().enumerate() {
         let reason = reason(leaf, cell)?;
-        let sign = |g: &Poly| sign_between(g, &roots[k], roots.get(k + 1), budget);
-        in_cells.push(system.content(reason, &sign, 2 * k + 1)?);
+        let place = Place {
+            number: 2 * k + 1,
+            location: Location::Cell {
+                below: &roots[k],
+                above: roots.get(k + 1),
+            },
+            budget,
+        };
+        in_cells.push(system.content(reason, &place)?);
     }
 
     Ok(collect(&roots, &at_points, &in_cells))
@@ -247,8 +258,40 @@ fn polynomials(leaf: &Support) -> Vec<&Vec<Integer>> {
     list
 }
 
-/// The sign of a polynomial at a place, if it can be told.
-type Sign<'a> = dyn Fn(&Poly) -> Option<i8> + 'a;
+/// A place of the leaf, where signs of polynomials are asked for.
+struct Place<'a> {
+    /// Twice the point's position, or one more for the cell above it.
+    number: usize,
+    location: Location<'a>,
+    budget: &'a Budget,
+}
+
+enum Location<'a> {
+    Point(&'a Root),
+    /// `above` is `None` for a cell that reaches to infinity.
+    Cell {
+        below: &'a Root,
+        above: Option<&'a Root>,
+    },
+}
+
+impl Place<'_> {
+    /// The sign of g at every value of the place, if it can be told.
+    fn sign(&self, g: &Poly) -> Option<i8> {
+        match self.location {
+            Location::Point(root) => root.sign(g, self.budget),
+            Location::Cell { below, above } => sign_between(g, below, above, self.budget),
+        }
+    }
+
+    fn fault(&self, expected: &'static str, index: usize) -> CoverFault {
+        CoverFault::Place {
+            place: self.number,
+            expected,
+            index,
+        }
+    }
+}
 
 /// The rows of the pencil and the support of a leaf, by the indices of the problem.
 struct System<'a> {
@@ -271,23 +314,18 @@ impl<'a> System<'a> {
     }
 
     /// Checks a reason at a place and returns what it proves.
-    fn content(
-        &self,
-        reason: &Exact,
-        sign: &Sign<'_>,
-        place: usize,
-    ) -> Result<Content, CoverFault> {
+    fn content(&self, reason: &Exact, place: &Place<'_>) -> Result<Content, CoverFault> {
         match reason {
             Exact::None(w) => {
                 let w = self.vector("none", w)?;
-                self.check_nothing(&w, sign, place)?;
+                self.check_nothing(&w, place)?;
                 Ok(Content::Nothing)
             }
             Exact::Some(member) => {
                 let x = self.vector("x", &member.x)?;
-                let y = self.check_solution(&x, sign, place)?;
+                let y = self.check_solution(&x, place)?;
                 if let Some(alone) = &member.alone {
-                    self.check_alone(alone, &y, sign, place)?;
+                    self.check_alone(alone, &y, place)?;
                 }
                 let is_alone = member.alone.is_some();
                 Ok(Content::Solutions { is_alone })
@@ -318,29 +356,30 @@ impl<'a> System<'a> {
     }
 
     /// Demands that w is a Farkas vector.
-    fn check_nothing(&self, w: &[Poly], sign: &Sign<'_>, place: usize) -> Result<(), CoverFault> {
+    fn check_nothing(&self, w: &[Poly], place: &Place<'_>) -> Result<(), CoverFault> {
         // Is some weight of R certainly positive? Then w'y >= 0 is all that is known of w'y.
         let mut is_one_sided = false;
         for (i, w_i) in w.iter().enumerate() {
             if self.active.contains(&i) {
                 continue;
             }
-            match sign(w_i) {
+            match place.sign(w_i) {
                 Some(s) if s >= 0 => is_one_sided |= s > 0,
-                _ => return Err(fault_at(place, "weights >= 0 off the moving set", i)),
+                _ => return Err(place.fault("weights >= 0 off the moving set", i)),
             }
         }
 
         let mut has_negative = false;
         let mut has_positive = false;
         for (product, &j) in self.columns(w).iter().zip(&self.active) {
-            let s = sign(product)
-                .ok_or_else(|| fault_at(place, "a sign of w'T that can be told", j))?;
+            let s = place
+                .sign(product)
+                .ok_or_else(|| place.fault("a sign of w'T that can be told", j))?;
             if s != 0 && self.rows.is_free[j] {
-                return Err(fault_at(place, "w'T = 0 on the free columns", j));
+                return Err(place.fault("w'T = 0 on the free columns", j));
             }
             if s > 0 && is_one_sided {
-                return Err(fault_at(place, "w'T <= 0 on the moving columns", j));
+                return Err(place.fault("w'T <= 0 on the moving columns", j));
             }
             has_negative |= s < 0;
             has_positive |= s > 0;
@@ -348,41 +387,36 @@ impl<'a> System<'a> {
 
         if has_negative == has_positive {
             let expected = "w'T of one sign and not zero";
-            return Err(fault_at(place, expected, self.support[0]));
+            return Err(place.fault(expected, self.support[0]));
         }
         Ok(())
     }
 
     /// Demands that x is a solution with exactly this support; the signs of its y.
-    fn check_solution(
-        &self,
-        x: &[Poly],
-        sign: &Sign<'_>,
-        place: usize,
-    ) -> Result<Vec<Option<i8>>, CoverFault> {
+    fn check_solution(&self, x: &[Poly], place: &Place<'_>) -> Result<Vec<Option<i8>>, CoverFault> {
         for (i, x_i) in x.iter().enumerate() {
             if self.rows.is_free[i] {
                 continue;
             }
             let is_in_support = self.support.contains(&i);
-            let s = sign(x_i);
+            let s = place.sign(x_i);
             if is_in_support && s != Some(1) {
-                return Err(fault_at(place, "x > 0 on the moving set", i));
+                return Err(place.fault("x > 0 on the moving set", i));
             }
             if !is_in_support && s != Some(0) {
-                return Err(fault_at(place, "x = 0 off it", i));
+                return Err(place.fault("x = 0 off it", i));
             }
         }
 
         let mut signs = Vec::new();
         for (i, row) in self.rows.rows.iter().enumerate() {
-            let s = sign(&self.times(row, x));
+            let s = place.sign(&self.times(row, x));
             let is_active = self.active.contains(&i);
             if is_active && s != Some(0) {
-                return Err(fault_at(place, "y = 0 on active rows", i));
+                return Err(place.fault("y = 0 on active rows", i));
             }
             if !is_active && s.is_none_or(|s| s < 0) {
-                return Err(fault_at(place, "y >= 0 off them", i));
+                return Err(place.fault("y >= 0 off them", i));
             }
             signs.push(s);
         }
@@ -408,8 +442,7 @@ impl<'a> System<'a> {
         &self,
         alone: &Alone,
         y: &[Option<i8>],
-        sign: &Sign<'_>,
-        place: usize,
+        place: &Place<'_>,
     ) -> Result<(), CoverFault> {
         if !self.support.contains(&alone.pivot) {
             return Err(CoverFault::Pivot { index: alone.pivot });
@@ -419,20 +452,16 @@ impl<'a> System<'a> {
         for (own, l) in &alone.rows {
             let own = *own;
             if own == alone.pivot || !self.active.contains(&own) {
-                return Err(fault_at(
-                    place,
-                    "an active index that is not the pivot",
-                    own,
-                ));
+                return Err(place.fault("an active index that is not the pivot", own));
             }
 
             let l = self.vector("alone", l)?;
-            let is_equation = self.check_weights(&l, y, sign, place)?;
+            let is_equation = self.check_weights(&l, y, place)?;
             for (product, &j) in self.columns(&l).iter().zip(&self.active) {
                 if j == alone.pivot {
                     continue;
                 }
-                match sign(product) {
+                match place.sign(product) {
                     Some(0) if j != own => {}
                     Some(s) if j == own && s != 0 => {
                         bounds[own].below |= s > 0 || is_equation;
@@ -440,7 +469,7 @@ impl<'a> System<'a> {
                     }
                     _ => {
                         let expected = "l'T zero but in its own column and the pivot's";
-                        return Err(fault_at(place, expected, j));
+                        return Err(place.fault(expected, j));
                     }
                 }
             }
@@ -449,7 +478,7 @@ impl<'a> System<'a> {
         for &j in &self.active {
             let is_bounded = bounds[j].below && bounds[j].above;
             if j != alone.pivot && !is_bounded {
-                return Err(fault_at(place, "x determined by the pivot's component", j));
+                return Err(place.fault("x determined by the pivot's component", j));
             }
         }
         Ok(())
@@ -461,17 +490,16 @@ impl<'a> System<'a> {
         &self,
         l: &[Poly],
         y: &[Option<i8>],
-        sign: &Sign<'_>,
-        place: usize,
+        place: &Place<'_>,
     ) -> Result<bool, CoverFault> {
         let mut is_equation = true;
         for (i, l_i) in l.iter().enumerate() {
             if self.active.contains(&i) || l_i.is_zero() {
                 continue;
             }
-            if y[i] != Some(0) || sign(l_i).is_none_or(|s| s < 0) {
+            if y[i] != Some(0) || place.sign(l_i).is_none_or(|s| s < 0) {
                 let expected = "weights >= 0 where y = 0, and none where y > 0";
-                return Err(fault_at(place, expected, i));
+                return Err(place.fault(expected, i));
             }
             is_equation = false;
         }
@@ -485,14 +513,6 @@ impl<'a> System<'a> {
 struct Bounds {
     below: bool,
     above: bool,
-}
-
-fn fault_at(place: usize, expected: &'static str, index: usize) -> CoverFault {
-    CoverFault::Place {
-        place,
-        expected,
-        index,
-    }
 }
 
 #[cfg(test)]
