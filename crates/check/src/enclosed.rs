@@ -1,7 +1,7 @@
 //! Enclosed solutions: a box that contains exactly one solution, by Krawczyk's test.
 //!
-//! Unknowns z = (x on the active variables, t), where the active variables are the free ones and the
-//! support. Equations F(z) = 0, with
+//! Unknowns z = (x on the active variables, t), where the active variables are the free ones and
+//! the support. Equations F(z) = 0, with
 //!
 //! ```text
 //!     F(z) = ( (A + tB) x on the active rows,  e'x_s - 1 ).                  // (13), (25)
@@ -14,20 +14,20 @@
 //! ```
 //!
 //! then z -> z - Y F(z) maps Z into its interior, so that it has a fixed point there; Y and every
-//! F'(z) are regular, so that F has a zero in Z, and only one (Krawczyk 1969, Moore 1977). Here F is
-//! quadratic: F'(z) - F'(c) is linear in z - c, and |F'(z) - F'(c)| r <= d with
-//! d_i = 2 r_t sum_j |B_ij| r_j. So it suffices that
+//! F'(z) are regular, so that F has a zero in Z, and only one (Krawczyk 1969, Moore 1977). Here F
+//! is quadratic: F'(z) - F'(c) is linear in z - c, and |F'(z) - F'(c)| r <= d with d_i = 2 r_t
+//! sum_j |B_ij| r_j. So it suffices that
 //!
 //! ```text
 //!     |Y F(c)| + |I - Y F'(c)| r + |Y| d  <  r.
 //! ```
 //!
-//! The zero is a solution of (12)-(14) if t lies in the window, x > 0 on the support and y > 0 on the
-//! other rows; these are demanded of the whole box.
+//! The zero is a solution of (12)-(14) if t lies in the window, x > 0 on the support and y > 0 on
+//! the other rows; these are demanded of the whole box.
 //!
-//! Input: the integral rows of the pencil, the window and the claim. The rows of F that belong to the
-//! pencil are the integral ones, multiples of the given rows; their zeros are the same. All numbers
-//! are integers over one common unit, so nothing is rounded.
+//! Input: the integral rows of the pencil, the window and the claim. The rows of F that belong to
+//! the pencil are the integral ones, multiples of the given rows; their zeros are the same. All
+//! numbers are integers over one common unit, so nothing is rounded.
 
 use super::AcceptedClaim;
 use super::exact_solution::{index_set, within};
@@ -51,6 +51,7 @@ pub(super) fn check(
     if claim.support.is_empty() {
         return Err(Reason::XZero); // e'x_s = 1 needs a slip variable
     }
+
     Reason::at_most("exponent", MAX_EXPONENT.into(), claim.exponent.into())?;
 
     let is_in_support = |i: &usize| claim.support.binary_search(i).is_ok();
@@ -69,6 +70,7 @@ pub(super) fn check(
             Reason::x_positive(index, &system.component(k))?;
         }
     }
+
     for (index, row) in rows.rows.iter().enumerate() {
         if active.binary_search(&index).is_err() {
             Reason::y_positive(index, &system.row_over_box(row))?;
@@ -98,6 +100,7 @@ fn check_shape(claim: &EnclosedSolution, unknowns: usize) -> Result<(), Reason> 
             });
         }
     }
+
     Ok(())
 }
 
@@ -109,8 +112,8 @@ fn in_units(unit: &Integer, numbers: &[Number]) -> Vec<Integer> {
         .collect()
 }
 
-/// [center - radius, center + radius]. All radii here are sums of absolute values or have been found
-/// positive, so the ends are in order.
+/// [center - radius, center + radius]. All radii here are sums of absolute values or have been
+/// found positive, so the ends are in order.
 fn ball(center: &Rational, radius: &Rational) -> Interval {
     Interval::new(center - radius, center + radius)
         .unwrap_or_else(|| Interval::point(center.clone()))
@@ -155,6 +158,7 @@ impl Krawczyk {
         for &i in active {
             system.push_row(&rows.rows[i]);
         }
+
         system.push_normalisation(rows, active);
         system
     }
@@ -181,6 +185,7 @@ impl Krawczyk {
             b_x += b * &self.center[k];
             jacobian_row.push((k, coefficient));
         }
+
         jacobian_row.push((t, b_x));
 
         self.f.push(f_i);
@@ -237,6 +242,7 @@ impl Krawczyk {
             slack += b.abs() * &self.radius[k] * radius_t;
             slope += b * &self.center[k];
         }
+
         slack += slope.abs() * radius_t;
 
         let unit = &self.unit * &self.unit;
@@ -260,6 +266,7 @@ impl Krawczyk {
                 if y_i.is_zero() {
                     continue;
                 }
+
                 y_f += y_i * &self.f[i];
                 y_d += y_i.abs() * &self.d[i];
                 for (k, value) in &self.jacobian[i] {
@@ -271,6 +278,7 @@ impl Krawczyk {
             for (k, entry) in defect.iter().enumerate() {
                 left += entry.abs() * &self.radius[k];
             }
+
             let right = &self.radius[index] * &one;
 
             if left >= right {
@@ -282,6 +290,7 @@ impl Krawczyk {
                 });
             }
         }
+
         Ok(())
     }
 }

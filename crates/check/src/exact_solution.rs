@@ -4,17 +4,18 @@
 //! A number g(alpha), g a rational polynomial, is zero if p divides g. It has the sign of the
 //! remainder r of g by p, which takes the same value at alpha; and if interval Horner of r on an
 //! interval [a, b] that contains alpha gives positive numbers only, r(alpha) > 0. So both "= 0" and
-//! "> 0" at alpha are decided by exact arithmetic on the coefficients. The test of zero may refuse a
-//! true claim if p is reducible, but what it accepts is true for every root of p in [a, b].
+//! "> 0" at alpha are decided by exact arithmetic on the coefficients. The test of zero may refuse
+//! a true claim if p is reducible, but what it accepts is true for every root of p in [a, b].
 //!
 //! The obligations, in the order of `spec/formats.md`:
 //!
-//! 1. `support` and `biactive` are ascending lists of complementarity variables, and the numbers are
-//!    small enough to be multiplied out.
+//! 1. `support` and `biactive` are ascending lists of complementarity variables, and the numbers
+//!    are small enough to be multiplied out.
 //! 2. [a, b] contains exactly one root of p: a = b and p(a) = 0; or p(a) p(b) < 0, so that there is
 //!    one, and p' has one sign on [a, b], so that there are no two.
 //! 3. [a, b] lies in the window.
-//! 4. x_i > 0 on the support and x_i = 0 on the other complementarity variables; x is not zero.  // (14)
+//! 4. x_i > 0 on the support and x_i = 0 on the other complementarity variables; x is not zero
+//!    (14).
 //! 5. y = (A + tB) x is zero on the free rows (13) and on the support (25), zero on the biactive
 //!    rows, and positive on all other rows (26).
 //!
@@ -109,6 +110,7 @@ pub(super) fn bounded<'a>(
     if excess <= FREE_EXCESS {
         return Ok(());
     }
+
     let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
     Reason::at_most(what, MAX_EXCESS_SIZE, bits.saturating_mul(excess))
 }
@@ -127,6 +129,7 @@ pub(super) fn index_set(rows: &Rows, set: &'static str, list: &[usize]) -> Resul
             });
         }
     }
+
     Ok(())
 }
 
@@ -137,6 +140,7 @@ pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason
             coefficients: p.coeffs().len(),
         });
     }
+
     let Some(value) = Interval::new(a.0.clone(), b.0.clone()) else {
         return Err(Reason::ReversedInterval {
             a: a.0.clone(),
@@ -152,6 +156,7 @@ pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason
                 sign: at_a,
             });
         }
+
         return Ok(value);
     }
 
@@ -159,6 +164,7 @@ pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason
     if at_a * at_b != -1 {
         return Err(Reason::NoSignChange { at_a, at_b });
     }
+
     let slope = value.horner_rounded(&p.derivative());
     if slope.certain_sign() == 0 {
         return Err(Reason::NotIsolated {
@@ -166,6 +172,7 @@ pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason
             hi: slope.hi().clone(),
         });
     }
+
     Ok(value)
 }
 
@@ -265,6 +272,7 @@ fn check_y(
             Reason::y_positive(index, &image)?;
         }
     }
+
     Ok(())
 }
 
@@ -291,6 +299,7 @@ pub(super) fn coefficients<'a>(
             polynomials.push(g);
         }
     }
+
     polynomials
 }
 
@@ -324,8 +333,10 @@ fn times(row: &Row, x: &[Polynomial]) -> Polynomial {
                 sum.add(b, x[*j].get(k - 1));
             }
         }
+
         product.push(sum.value());
     }
+
     product
 }
 
@@ -345,6 +356,7 @@ impl<'a> FractionSum<'a> {
         if factor.is_zero() || value.is_zero() {
             return;
         }
+
         self.terms.push((factor, value));
     }
 
@@ -365,6 +377,7 @@ impl<'a> FractionSum<'a> {
                 numerator += product * (&common / value.denom());
             }
         }
+
         Rational::new(numerator, common)
     }
 }
@@ -373,6 +386,33 @@ impl<'a> FractionSum<'a> {
 mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
+
+    fn zero() -> Number {
+        Number(whole(0))
+    }
+
+    /// An integer whose numerator and denominator have so many bits together.
+    fn number_of_bits(bits: u64) -> Number {
+        // 2^k has k + 1 bits and the denominator one.
+        Number(Rational::from_integer(Integer::from(1) << (bits - 2)))
+    }
+
+    /// The verdict on p with so many coefficients, x with so many polynomials of zeros, and one long
+    /// number.
+    fn verdict(
+        coefficients: usize,
+        polynomials: usize,
+        length_of_x: usize,
+        number: Number,
+    ) -> Result<(), Reason> {
+        let p = vec![Integer::from(1); coefficients];
+        let x = vec![vec![zero(); length_of_x]; polynomials];
+        bounded(&p, &[zero(), number], &x)
+    }
+
+    fn too_large(what: &'static str, limit: u64, got: u64) -> Result<(), Reason> {
+        Err(Reason::TooLarge { what, limit, got })
+    }
 
     /// Equal, unequal and cancelling denominators, a zero among the factors, polynomials of unequal
     /// length.
@@ -384,62 +424,55 @@ mod tests {
             vec![],
             vec![rational(-1, 6), whole(0), rational(2, 7)],
         ];
-        let row = |entries: &[(usize, i64, i64)]| -> Row {
-            entries
-                .iter()
-                .map(|&(j, a, b)| (j, a.into(), b.into()))
-                .collect()
-        };
+
         for entries in [
             &[(0, 1, 2), (3, 1, -2)][..],
             &[(0, 7, -3), (1, 0, 5), (2, 4, 4), (3, -11, 13)],
             &[(1, 2, 0)],
             &[],
         ] {
-            let mut plain = vec![whole(0); 4];
+            let mut row = Row::new();
+            let mut expected = vec![whole(0); 4];
             for &(j, a, b) in entries {
+                row.push((j, a.into(), b.into()));
                 for (k, c) in x[j].iter().enumerate() {
-                    plain[k] += c * whole(a);
-                    plain[k + 1] += c * whole(b);
+                    expected[k] += c * whole(a);
+                    expected[k + 1] += c * whole(b);
                 }
             }
-            assert_eq!(times(&row(entries), &x), plain);
+
+            assert_eq!(times(&row, &x), expected);
         }
     }
 
     /// The limits themselves are allowed; beyond them the reason says by how much.
     #[test]
     fn a_claim_has_a_largest_size() {
-        let zero = || Number(whole(0));
-        let of = |coefficients: usize, longest_x: usize, (up, down): (u64, u64)| {
-            let value = Rational::new(
-                Integer::from(1) << (up - 1),
-                (Integer::from(1) << (down - 1)) + i32::from(down > 1),
-            );
-            bounded(
-                &vec![Integer::from(1); coefficients],
-                &[zero(), Number(value)],
-                &[vec![zero(); longest_x], vec![]],
-            )
+        let one = || Number(whole(1));
+        assert_eq!(verdict(512, 1, 0, one()), Ok(()));
+        assert_eq!(verdict(1, 1, 512, one()), Ok(()));
+
+        let what = "coefficients of the polynomial";
+        assert_eq!(verdict(513, 1, 0, one()), too_large(what, 512, 513));
+        let what = "coefficients of x";
+        assert_eq!(verdict(1, 1, 513, one()), too_large(what, 512, 513));
+
+        // 4 + 4 coefficients: 2^21 in all. The bits of numerator and denominator count together.
+        let what = "size (coefficients times bits)";
+        let edge = 1u64 << 18;
+        let fraction = |numerator_bits: u64, denominator_bits: u64| {
+            let numerator = Integer::from(1) << (numerator_bits - 1);
+            let denominator: Integer = Integer::from(1) << (denominator_bits - 1);
+            Number(Rational::new(numerator, denominator + 1))
         };
-        let large = |what, limit, got| Err(Reason::TooLarge { what, limit, got });
-        assert_eq!([of(512, 0, (1, 1)), of(1, 512, (1, 1))], [Ok(()), Ok(())]);
-        assert_eq!(
-            of(513, 0, (1, 1)),
-            large("coefficients of the polynomial", 512, 513)
-        );
-        assert_eq!(of(1, 513, (1, 1)), large("coefficients of x", 512, 513));
-        let size = "size (coefficients times bits)";
-        let edge = 1u64 << 18; // 4 + 4 coefficients: 2^21 in all
-        assert_eq!(
-            [of(4, 4, (edge - 1, 1)), of(4, 4, (edge / 2, edge / 2))],
-            [Ok(()), Ok(())]
-        );
-        assert_eq!(of(4, 4, (edge, 1)), large(size, 1 << 21, (1 << 21) + 8));
-        assert_eq!(
-            of(4, 4, (edge / 2, edge / 2 + 1)),
-            large(size, 1 << 21, (1 << 21) + 8)
-        );
+        let at_the_edge = fraction(edge / 2, edge / 2);
+        let beyond = fraction(edge / 2, edge / 2 + 1);
+
+        assert_eq!(verdict(4, 1, 4, number_of_bits(edge)), Ok(()));
+        assert_eq!(verdict(4, 1, 4, at_the_edge), Ok(()));
+        let expected = too_large(what, 1 << 21, (1 << 21) + 8);
+        assert_eq!(verdict(4, 1, 4, number_of_bits(edge + 1)), expected);
+        assert_eq!(verdict(4, 1, 4, beyond), expected);
     }
 
     /// By hand: t^3 and 1/2 + t modulo 2t - 3 are 27/8 and 2, times 2^3. Short polynomials stay as
@@ -447,24 +480,24 @@ mod tests {
     #[test]
     fn long_polynomials_are_reduced_by_one_factor() {
         let p = Poly::new(vec![(-3).into(), 2.into()]);
-        let list = |polynomials: &[&[Rational]]| -> Vec<Vec<Number>> {
-            polynomials
-                .iter()
-                .map(|g| g.iter().cloned().map(Number).collect())
-                .collect()
+        let numbers = |polynomial: &[Rational]| -> Vec<Number> {
+            polynomial.iter().cloned().map(Number).collect()
         };
 
-        let long = list(&[
-            &[whole(0), whole(0), whole(0), whole(1)],
-            &[rational(1, 2), whole(1)],
-            &[],
-        ]);
+        let long = vec![
+            numbers(&[whole(0), whole(0), whole(0), whole(1)]),
+            numbers(&[rational(1, 2), whole(1)]),
+            vec![],
+        ];
         assert_eq!(
             coefficients(&long, &p),
             [vec![whole(27)], vec![whole(16)], vec![]]
         );
 
-        let short = list(&[&[whole(0), whole(0), whole(1)], &[rational(1, 2)]]);
+        let short = vec![
+            numbers(&[whole(0), whole(0), whole(1)]),
+            numbers(&[rational(1, 2)]),
+        ];
         assert_eq!(
             coefficients(&short, &p),
             [vec![whole(0), whole(0), whole(1)], vec![rational(1, 2)]]
@@ -474,58 +507,36 @@ mod tests {
     /// Each polynomial may be evaluated once; together they have a largest work.
     #[test]
     fn a_claim_has_a_largest_work() {
-        let zero = || Number(whole(0));
         // 4 + 4 coefficients of 2^k bits: size 2^(k + 3).
-        let of = |polynomials: usize, bits: u64| {
-            let number = Number(Rational::from_integer(Integer::from(1) << (bits - 2)));
-            let x = vec![vec![zero(); 4]; polynomials];
-            bounded(&vec![Integer::from(1); 4], &[zero(), number], &x)
-        };
-        let what = "work (polynomials times the square of coefficients times bits)";
-        let large = |got| {
-            Err(Reason::TooLarge {
-                what,
-                limit: 1 << 46,
-                got,
-            })
-        };
+        let work_of =
+            |polynomials: usize, bits: u64| verdict(4, polynomials, 4, number_of_bits(bits));
+        assert_eq!(work_of(16, 1 << 18), Ok(()));
+        assert_eq!(work_of(1 << 10, 1 << 15), Ok(()));
 
-        assert_eq!([of(16, 1 << 18), of(1 << 10, 1 << 15)], [Ok(()), Ok(())]);
-        assert_eq!(
-            [of(17, 1 << 18), of((1 << 10) + 1, 1 << 15)],
-            [large(17 << 42), large(1025 << 36)]
-        );
+        let what = "work (polynomials times the square of coefficients times bits)";
+        assert_eq!(work_of(17, 1 << 18), too_large(what, 1 << 46, 17 << 42));
+        let more = (1 << 10) + 1;
+        assert_eq!(work_of(more, 1 << 15), too_large(what, 1 << 46, 1025 << 36));
     }
 
     /// One coefficient more than p is free for numbers of any length; each further one counts with
     /// the bits.
     #[test]
     fn x_has_a_largest_excess() {
-        let zero = || Number(whole(0));
-        let of = |coefficients: usize, longest_x: usize, bits: u64| {
-            let number = Number(Rational::from_integer(Integer::from(1) << (bits - 2)));
-            bounded(
-                &vec![Integer::from(1); coefficients],
-                &[zero(), number],
-                &[vec![zero(); longest_x]],
-            )
-        };
-        let large = |got| {
-            let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
-            Err(Reason::TooLarge {
-                what,
-                limit: 1 << 13,
-                got,
-            })
-        };
+        let of_three =
+            |length_of_x: usize, bits: u64| verdict(3, 1, length_of_x, number_of_bits(bits));
+        for length_of_x in [2, 3, 4] {
+            assert_eq!(of_three(length_of_x, 1 << 17), Ok(()), "{length_of_x}");
+        }
+        assert_eq!(of_three(5, 1 << 12), Ok(()));
+        assert_eq!(of_three(11, 1 << 10), Ok(()));
 
-        // 2^k has k + 1 bits and the denominator one.
+        let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
+        let one_bit_more = (1 << 12) + 1;
         assert_eq!(
-            [of(3, 4, 1 << 17), of(3, 3, 1 << 17), of(3, 2, 1 << 17)],
-            [Ok(()), Ok(()), Ok(())]
+            of_three(5, one_bit_more),
+            too_large(what, 1 << 13, (1 << 13) + 2)
         );
-        assert_eq!([of(3, 5, 1 << 12), of(3, 11, 1 << 10)], [Ok(()), Ok(())]);
-        assert_eq!(of(3, 5, (1 << 12) + 1), large((1 << 13) + 2));
-        assert_eq!(of(3, 12, 1 << 10), large(9 << 10));
+        assert_eq!(of_three(12, 1 << 10), too_large(what, 1 << 13, 9 << 10));
     }
 }

@@ -3,10 +3,10 @@
 //! This crate is the only code of the project that has to be trusted. The problem is
 //!
 //! ```text
-//!     (A + t B) x = y,    y_f = 0,    0 <= x_s _|_ y_s >= 0,    x != 0,        // (12)-(14), (21)-(23)
+//!     (A + t B) x = y,    y_f = 0,    0 <= x_s _|_ y_s >= 0,    x != 0
 //! ```
 //!
-//! with the unknown t (lambda^2 or mu), the free variables f and the complementarity variables s.
+//! (equations (12)-(14), (21)-(23)), with the unknown t (lambda^2 or mu), the free variables f and the complementarity variables s.
 //! A certificate ([`certificate`]) makes two kinds of claims, and each kind has its checker:
 //!
 //! * *There is a solution* with this support and a value t in this interval. The evidence is the
@@ -158,6 +158,7 @@ fn verdict(
     if let Some(cover) = &cover {
         beside_the_cover(&claims, cover)?;
     }
+
     Ok(Accepted { claims, cover })
 }
 
@@ -181,6 +182,7 @@ fn check_frame(problem: &Problem, certificate: &Certificate) -> Result<(), Reaso
     if certificate.claims.is_empty() && certificate.complete_set.is_none() {
         return Err(Reason::NoClaims);
     }
+
     Ok(())
 }
 
@@ -225,6 +227,7 @@ fn beside_the_cover(claims: &[AcceptedClaim], cover: &AcceptedCover) -> Result<(
             return Err(of_claim(index, reason));
         }
     }
+
     Ok(())
 }
 

@@ -1,5 +1,5 @@
-//! Lifted solutions: v and w over all degrees of freedom, each line of (9) checked from K, M, mu and
-//! the contact states themselves.
+//! Lifted solutions: v and w over all degrees of freedom, each line of (9) checked from K, M, mu
+//! and the contact states themselves.
 //!
 //! The pencil is not used here, so that a wrong reduction (10)-(16) cannot hide. The value t is an
 //! algebraic number alpha, and v and w are polynomials in it, as in `exact_solution`. The
@@ -102,6 +102,7 @@ impl Lines<'_> {
 
             self.zero("(lambda^2 M + K) v = w", "dof", dof, &difference)?;
         }
+
         Ok(())
     }
 
@@ -117,6 +118,7 @@ impl Lines<'_> {
         for dof in self.system.free_dofs() {
             self.zero("w_f = 0", "dof", dof, &self.w[dof])?;
         }
+
         Ok(())
     }
 
@@ -136,6 +138,7 @@ impl Lines<'_> {
                 }
             }
         }
+
         Ok(())
     }
 
@@ -144,6 +147,7 @@ impl Lines<'_> {
         for dof in [particle.tangential, particle.normal] {
             self.zero("v_d = 0", "particle", index, &self.v[dof])?;
         }
+
         Ok(())
     }
 
@@ -186,6 +190,7 @@ impl Lines<'_> {
                 add(&mut sum, &one, &normal, 1);
             }
         }
+
         sum
     }
 
@@ -194,11 +199,13 @@ impl Lines<'_> {
         if !claim.support.is_empty() {
             return Ok(());
         }
+
         for dof in self.system.free_dofs() {
             if self.alpha.enclose(&self.v[dof]).certain_sign() != 0 {
                 return Ok(());
             }
         }
+
         Err(Reason::XZero)
     }
 
@@ -213,6 +220,7 @@ impl Lines<'_> {
         if self.alpha.remainder(g).is_zero() {
             return Ok(());
         }
+
         Err(self.fails(line, place, index, g))
     }
 
@@ -221,6 +229,7 @@ impl Lines<'_> {
         if self.alpha.enclose(g).certain_sign() == -1 {
             return Ok(());
         }
+
         Err(self.fails(line, "particle", index, g))
     }
 
@@ -264,6 +273,7 @@ fn along(direction: &Direction, list: &[Polynomial], factor: &Rational) -> Polyn
     for (dof, c) in direction {
         add(&mut sum, &(c * factor), &list[*dof], 0);
     }
+
     sum
 }
 
@@ -272,6 +282,7 @@ fn add(sum: &mut Polynomial, factor: &Rational, p: &[Rational], shift: usize) {
     if sum.len() < p.len() + shift {
         sum.resize(p.len() + shift, Rational::zero());
     }
+
     for (k, c) in p.iter().enumerate() {
         sum[k + shift] += factor * c;
     }

@@ -17,9 +17,9 @@
 //!     e_dof for a free dof,    -(S t + mu n) for a slip particle,           // (11)
 //! ```
 //!
-//! n its unit normal into the obstacle. Then w = (K + lambda^2 M) v gives y = P' (K + lambda^2 M) T x.
-//! The block formulas (16) are not used: `reduction` in the model crate does that, and a test holds
-//! the two equal, so that one mistake cannot be in both.
+//! n its unit normal into the obstacle. Then w = (K + lambda^2 M) v gives y = P' (K + lambda^2 M) T
+//! x. The block formulas (16) are not used: `reduction` in the model crate does that, and a test
+//! holds the two equal, so that one mistake cannot be in both.
 //!
 //! Input: a [`Problem`], whose constructor has checked its shape. Every checker of a claim reads
 //! the [`Rows`] made here.
@@ -51,6 +51,7 @@ impl Rows {
                     let is_free = pencil.free().binary_search(&i).is_ok();
                     rows.push(pencil.a().row(i), pencil.b().row(i), is_free);
                 }
+
                 rows
             }
             Body::System(system) => of_system(system, problem.unknown()),
@@ -73,6 +74,7 @@ impl Rows {
         for (column, value) in a {
             entries.entry(*column).or_default().0 += integral(value, &factor);
         }
+
         for (column, value) in b {
             entries.entry(*column).or_default().1 += integral(value, &factor);
         }
@@ -196,6 +198,7 @@ impl Variables {
                 }
             }
         }
+
         row.into_iter().collect()
     }
 }

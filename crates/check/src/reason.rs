@@ -1,8 +1,8 @@
 //! Every reason for rejection, as a typed value: equation, index, expected, got.
 //!
-//! A rejection names the first obligation that fails, in the order of `spec/formats.md`. Its message
-//! says "expected ..., got ..."; its name ([`Reason::name`]) is what the corpus of forgeries
-//! (`spec/corpus`) expects. What is wrong with a complete set is a [`CoverFault`].
+//! A rejection names the first obligation that fails, in the order of `spec/formats.md`. Its
+//! message says "expected ..., got ..."; its name ([`Reason::name`]) is what the corpus of
+//! forgeries (`spec/corpus`) expects. What is wrong with a complete set is a [`CoverFault`].
 
 use super::cover::CoverFault;
 use mceip_exact::{Interval, Rational};
@@ -31,6 +31,7 @@ impl Reason {
         if got > limit {
             return Err(Reason::TooLarge { what, limit, got });
         }
+
         Ok(())
     }
 
@@ -43,6 +44,7 @@ impl Reason {
                 got,
             });
         }
+
         Ok(())
     }
 
@@ -51,6 +53,7 @@ impl Reason {
         if enclosure.certain_sign() == 1 {
             return Ok(());
         }
+
         Err(Reason::XNotPositive {
             index,
             lo: enclosure.lo().clone(),
@@ -63,6 +66,7 @@ impl Reason {
         if enclosure.certain_sign() == 1 {
             return Ok(());
         }
+
         Err(Reason::YNotPositive {
             index,
             lo: enclosure.lo().clone(),
@@ -308,8 +312,10 @@ fn place(piece: Option<usize>, node: Option<usize>) -> String {
     if let Some(piece) = piece {
         text += &format!(", piece {piece}");
     }
+
     if let Some(node) = node {
         text += &format!(", node {node}");
     }
+
     text
 }

@@ -1,7 +1,7 @@
 //! The claim *complete set* as data: a cover of (supports) x (window), each part with its proof.
 //!
-//! The window is cut into *pieces*, intervals of the unknown t. Each piece has a binary tree. A node
-//! of the tree stands for a *region*: an interval of t and a state for each complementarity
+//! The window is cut into *pieces*, intervals of the unknown t. Each piece has a binary tree. A
+//! node of the tree stands for a *region*: an interval of t and a state for each complementarity
 //! variable, undecided, at zero (x_i = 0; "rest" in the file format) or in the support (x_i > 0,
 //! y_i = 0; "moving" in the file format). An inner node divides its region in two, by a cut of the
 //! interval or by the two states of one variable, and a leaf proves what its region holds. Every
@@ -66,8 +66,8 @@ pub enum Node {
     PositiveDefinite,
     /// sym(T) is negative definite on the variables that may be positive.
     NegativeDefinite,
-    /// sym(A + tB) of the pencil as given is definite on the free variables and on those that may be
-    /// positive, by exact factors.
+    /// sym(A + tB) of the pencil as given is definite on the free variables and on those that may
+    /// be positive, by exact factors.
     Ldl(Box<Ldl>),
     /// The condensation's tail begins at or below this region.
     Tail,

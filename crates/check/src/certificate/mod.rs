@@ -2,8 +2,9 @@
 //!
 //! This module holds data and reads and writes it; it decides nothing. A certificate names its
 //! problem by digest, states a window of values and makes claims: solutions ([`Claim`]), and
-//! possibly that there are no others in the window ([`CompleteSet`]). What each claim has to meet is
-//! checked elsewhere in this crate, one module per kind. The normative text is `spec/formats.md`.
+//! possibly that there are no others in the window ([`CompleteSet`]). What each claim has to meet
+//! is checked elsewhere in this crate, one module per kind. The normative text is
+//! `spec/formats.md`.
 //!
 //! Numbers are read exactly as they are spelt. Unknown and duplicate fields are refused, so that no
 //! reader can pass over a part of a claim it does not understand.
@@ -240,6 +241,7 @@ mod integers {
         if n.0.is_integer() {
             return Ok(n.0.to_integer());
         }
+
         let message = format!("expected an integer, got {}", n.0);
         Err(D::Error::custom(message))
     }

@@ -30,9 +30,11 @@ impl AcceptedCover {
         if let Some(k) = self.solutions.iter().position(|s| is_near(s, claim)) {
             return Some(Place::Solution(k));
         }
+
         if let Some(k) = self.families.iter().position(|f| f.may_hold(claim)) {
             return Some(Place::Family(k));
         }
+
         let open = self.open.iter().position(|region| region.may_hold(claim));
         open.map(Place::Open)
     }
@@ -58,8 +60,8 @@ impl SolutionFamily {
 }
 
 impl OpenRegion {
-    /// Can the claim's solution lie in this region: the claim's support J holds all that is known to
-    /// be in the support here, nothing of J is zero here, and the values meet?
+    /// Can the claim's solution lie in this region: the claim's support J holds all that is known
+    /// to be in the support here, nothing of J is zero here, and the values meet?
     fn may_hold(&self, claim: &AcceptedClaim) -> bool {
         let ends_before = match &self.max {
             Some(max) => max < claim.value.lo(),

@@ -1,8 +1,8 @@
 //! Budgets of work for a file: the sum of what its leaves cost may not exceed what its size allows.
 //!
-//! The limits are those of `spec/complete-set.md`, Limits. They keep the time of the checker bounded
-//! by a polynomial in the size of the file and of the problem. The budget for signs on support
-//! leaves is in `rootless`.
+//! The limits are those of `spec/complete-set.md`, Limits. They keep the time of the checker
+//! bounded by a polynomial in the size of the file and of the problem. The budget for signs on
+//! support leaves is in `rootless`.
 
 use super::fault::CoverFault;
 use crate::certificate::CompleteSet;

@@ -6,10 +6,10 @@
 //!     T_ss - T_sf F^-1 T_fs = (T_ss - T_sf W - V'r) - l' F^-1 r.
 //! ```
 //!
-//! F is symmetric, and F(t) >= (sigma + t tau) I for t >= 0, because A_ff >= sigma I and B_ff >= tau I
-//! are hypotheses that the certificate proves (`psd`). So entry (i, j) of the last term is at most
-//! |l_i| |r_j| / (sigma + t tau), with Euclidean norms of columns. W and V approximate F^-1 T_fs and
-//! F^-1 T_sf', which makes r and l small, but nothing depends on that.
+//! F is symmetric, and F(t) >= (sigma + t tau) I for t >= 0, because A_ff >= sigma I and B_ff >=
+//! tau I are hypotheses that the certificate proves (`psd`). So entry (i, j) of the last term is at
+//! most |l_i| |r_j| / (sigma + t tau), with Euclidean norms of columns. W and V approximate F^-1
+//! T_fs and F^-1 T_sf', which makes r and l small, but nothing depends on that.
 //!
 //! W and V are polynomials in d = t - center, so r and l are too, and the bracket is a polynomial
 //! matrix Z(d), computed exactly. Of V'r only the coefficients of r beyond the degree of W are
@@ -18,11 +18,11 @@
 //! *Reversed* anchors do the same with A and B, sigma and tau exchanged, in s = 1 / t:
 //! F(t) / t = B_ff + s A_ff >= (tau + s sigma) I.
 //!
-//! *Tail.* If sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite, then
-//! sym(A + tB) is definite for all t >= from, and x'(A + tB)x = x'y = 0 leaves x = 0 only.
+//! *Tail.* If sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite,
+//! then sym(A + tB) is definite for all t >= from, and x'(A + tB)x = x'y = 0 leaves x = 0 only.
 //!
-//! Input: the integral rows of the pencil and the condensation. Output: an expansion of the condensed
-//! pencil for each anchor. Called by the checker of covers.
+//! Input: the integral rows of the pencil and the condensation. Output: an expansion of the
+//! condensed pencil for each anchor. Called by the checker of covers.
 
 use super::ends::{Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::{Expanded, Norms};
@@ -61,11 +61,13 @@ pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expande
         if tau.is_zero() {
             return Err(hypothesis("mass_sigma > 0 for a reversed anchor", 0));
         }
+
         let blocks = reversed_blocks.get_or_insert_with(|| Blocks::of(&rows.reversed()));
         let mut expanded = blocks.expand(anchor, tau, sigma)?;
         expanded.reversed = true;
         expansions.push(expanded);
     }
+
     Ok(expansions)
 }
 
@@ -76,6 +78,7 @@ fn check_hypotheses(blocks: &Blocks, condensation: &Condensation) -> Result<(), 
     if !sigma.is_positive() {
         return Err(hypothesis("sigma > 0", 0));
     }
+
     blocks.symmetric()?;
     if tau.is_negative() {
         return Err(hypothesis("mass_sigma >= 0", 0));
@@ -138,6 +141,7 @@ fn twice_symmetric(rows: &Rows, common: &Integer, q: &Integer, p: &Integer) -> S
             *sum[*j].entry(i).or_default() += value;
         }
     }
+
     sum
 }
 
@@ -239,6 +243,7 @@ impl Blocks {
                 blocks.ss.push(slip_columns);
             }
         }
+
         blocks
     }
 
@@ -255,6 +260,7 @@ impl Blocks {
                 }
             }
         }
+
         Ok(())
     }
 
@@ -279,9 +285,11 @@ impl Blocks {
                 };
                 entries.insert(*j, entry * shift.denom());
             }
+
             *entries.entry(i).or_default() -= &diagonal_shift;
             block.push(entries);
         }
+
         block
     }
 
@@ -393,6 +401,7 @@ impl Blocks {
                 .map(|row| row.iter().map(|v| v << lift).collect());
             coefficients.push(lifted.collect());
         }
+
         Ok(Polynomial {
             coefficients,
             exponent,
@@ -449,10 +458,12 @@ impl Blocks {
             if r_m.iter().flatten().all(Zero::is_zero) {
                 continue;
             }
+
             for (k, v_k) in v.coefficients.iter().enumerate() {
                 subtract_transposed_product(&mut z[k + m], v_k, r_m);
             }
         }
+
         z
     }
 
@@ -463,6 +474,7 @@ impl Blocks {
             let sum: Integer = row.iter().map(|(_, _, b)| b.abs()).sum();
             largest = largest.max(sum);
         }
+
         Rational::new(largest, self.common.clone()) / sigma
     }
 }
@@ -478,8 +490,10 @@ fn about(block: &Linear, center: &Rational, factor: &Integer) -> Linear {
         for (j, a, b) in row {
             entries.push((*j, (q * a + p * b) * factor, q * b * factor));
         }
+
         shifted.push(entries);
     }
+
     shifted
 }
 
@@ -490,6 +504,7 @@ fn transpose(m: &Linear, cols: usize) -> Linear {
             transposed[*j].push((i, constant.clone(), linear.clone()));
         }
     }
+
     transposed
 }
 
@@ -517,6 +532,7 @@ fn residual(f: &Linear, c: &Linear, w: &Polynomial, cols: usize) -> Vec<Matrix> 
             }
         }
     }
+
     residual
 }
 
@@ -527,6 +543,7 @@ fn subtract_transposed_product(z: &mut Matrix, v: &Matrix, r: &Matrix) {
             if v_fi.is_zero() {
                 continue;
             }
+
             for (z_ij, r_fj) in z[i].iter_mut().zip(r_f) {
                 if !r_fj.is_zero() {
                     *z_ij -= v_fi * r_fj;
@@ -545,6 +562,7 @@ fn raise_rows(mut z: Vec<Matrix>, factors: &[Integer]) -> Vec<Matrix> {
             }
         }
     }
+
     z
 }
 
@@ -559,6 +577,7 @@ fn norms(list: &[Matrix], cols: usize) -> Norms {
     for matrix in list {
         norms.push((0..cols).map(|j| column_norm(matrix, j)).collect());
     }
+
     norms
 }
 
@@ -567,6 +586,7 @@ fn column_norm(matrix: &Matrix, j: usize) -> Integer {
     if square.is_zero() {
         return square;
     }
+
     (square << (2 * NORM_BITS)).sqrt() + 1
 }
 

@@ -1,14 +1,14 @@
 //! Is the symmetric part of every matrix within R of M positive definite?
 //!
 //! Let S = 2 sym(M), cut to 40 bits, and let c_i be what the radius and the cutting may take away
-//! from row i: the row sum of R + R' and one unit per entry that was cut. Every matrix of the family
-//! is S + C with |C|_ii + sum_(j not i) |C_ij| <= c_i, so it is definite if S - diag(c) is
+//! from row i: the row sum of R + R' and one unit per entry that was cut. Every matrix of the
+//! family is S + C with |C|_ii + sum_(j not i) |C_ij| <= c_i, so it is definite if S - diag(c) is
 //! (Gershgorin).
 //!
-//! In machine integers: an LDL' of S - diag(c) - s I is computed with rounding, for a small shift s.
-//! Then E = S - diag(c) - LDL' is computed exactly. If D > 0 and E is strictly diagonally dominant
-//! with a positive diagonal, S - diag(c) = LDL' + E is definite. The shift makes room for E; the
-//! factors may be anything, because only the exact residual decides.
+//! In machine integers: an LDL' of S - diag(c) - s I is computed with rounding, for a small shift
+//! s. Then E = S - diag(c) - LDL' is computed exactly. If D > 0 and E is strictly diagonally
+//! dominant with a positive diagonal, S - diag(c) = LDL' + E is definite. The shift makes room for
+//! E; the factors may be anything, because only the exact residual decides.
 //!
 //! A small matrix that is too close to a singular one for that is decided by elimination in long
 //! integers without a margin.
@@ -75,9 +75,11 @@ fn least_member(m: &Matrix, r: &Matrix, variables: &[usize], sign: i8) -> Matrix
             row.push((&m[i][j] + &m[j][i]) * sign);
             radius += &r[i][j] + &r[j][i];
         }
+
         row[position] -= radius;
         least.push(row);
     }
+
     least
 }
 
@@ -93,6 +95,7 @@ fn primitive(mut s: Matrix) -> Matrix {
             *entry /= &factor;
         }
     }
+
     s
 }
 
@@ -107,14 +110,17 @@ fn eliminate(mut s: Matrix) -> Result<(), usize> {
         if !pivot.is_positive() {
             return Err(k);
         }
+
         for i in k + 1..n {
             for j in k + 1..n {
                 // The division is exact.
                 s[i][j] = (&pivot * &s[i][j] - &s[i][k] * &s[k][j]) / &previous;
             }
         }
+
         previous = pivot;
     }
+
     Ok(())
 }
 
@@ -142,6 +148,7 @@ fn least_lower_triangle(t: &Short, variables: &[usize], sign: i8) -> Vec<Vec<i12
             largest |= t.m[i][j].unsigned_abs();
         }
     }
+
     let bits_of_twice = u64::BITS - largest.leading_zeros() + 1;
     let cut = bits_of_twice.saturating_sub(BITS);
 
@@ -152,9 +159,11 @@ fn least_lower_triangle(t: &Short, variables: &[usize], sign: i8) -> Vec<Vec<i12
             let twice = i128::from(t.m[i][j]) + i128::from(t.m[j][i]);
             row.push((twice * i128::from(sign)) >> cut);
         }
+
         row[position] -= slack(t, variables, i, cut);
         lower.push(row);
     }
+
     lower
 }
 
@@ -191,6 +200,7 @@ impl Ldl {
         for (i, given) in lower.iter().enumerate() {
             ldl.push_row(given, shift).ok_or(i)?;
         }
+
         Ok(ldl)
     }
 
@@ -206,6 +216,7 @@ impl Ldl {
             for &k in &nonzero {
                 rest = rest.checked_sub(scaled[k].checked_mul(self.l[j][k])?)?;
             }
+
             row.push(rest / self.d[j]);
             scaled.push(rest >> UNIT);
             if scaled[j] != 0 {
@@ -217,6 +228,7 @@ impl Ldl {
         for &k in &nonzero {
             pivot = pivot.checked_sub(scaled[k].checked_mul(row[k])?)?;
         }
+
         let pivot = pivot >> UNIT;
         if pivot <= 0 {
             return None;
@@ -227,8 +239,8 @@ impl Ldl {
         Some(())
     }
 
-    /// Demands that the matrix less L D L', computed without rounding, is strictly diagonally dominant
-    /// with a positive diagonal. `Err(i)`: row i is not, or overflows.
+    /// Demands that the matrix less L D L', computed without rounding, is strictly diagonally
+    /// dominant with a positive diagonal. `Err(i)`: row i is not, or overflows.
     fn check_residual(&self, lower: &[Vec<i128>]) -> Result<(), usize> {
         let n = lower.len();
         let nonzero: Vec<Vec<usize>> = (0..n)
@@ -261,6 +273,7 @@ impl Ldl {
                 return Err(i);
             }
         }
+
         Ok(())
     }
 
@@ -276,9 +289,11 @@ impl Ldl {
             if k > j {
                 break;
             }
+
             let left = self.entry(i, k).checked_mul(self.d[k])?;
             rest = rest.checked_sub(left.checked_mul(self.entry(j, k))?)?;
         }
+
         Some(rest)
     }
 }

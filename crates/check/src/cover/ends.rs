@@ -1,7 +1,7 @@
 //! The enclosure of T(t) over an interval by two matrices with radii, its *ends*.
 //!
-//! An entry of a matrix here is an integer in units of 1 / `scale`. The radius of an entry bounds how
-//! far the true number may be from it.
+//! An entry of a matrix here is an integer in units of 1 / `scale`. The radius of an entry bounds
+//! how far the true number may be from it.
 
 use super::fault::CoverFault;
 use mceip_exact::{Integer, Rational};
@@ -16,12 +16,12 @@ pub(super) const FRACTION_BITS: u64 = 128;
 /// together.
 pub(super) const MAX_MATRIX_BITS: u64 = 1 << 29;
 
-/// T(t) for t between two values: convex combinations of a matrix within r[0] of m[0] and one within
-/// r[1] of m[1], all in units of 1 / `scale`.
+/// T(t) for t between two values: convex combinations of a matrix within r[0] of m[0] and one
+/// within r[1] of m[1], all in units of 1 / `scale`.
 ///
 /// At an infinite end m[1] is a direction: T(t) is a matrix within r[0] of m[0] plus a non-negative
-/// multiple of one within r[1] of m[1]. (Of a reversed expansion and of a chord, m[1] is the limit at
-/// infinity of a positive multiple of T(t), and all between are convex combinations.)
+/// multiple of one within r[1] of m[1]. (Of a reversed expansion and of a chord, m[1] is the limit
+/// at infinity of a positive multiple of T(t), and all between are convex combinations.)
 #[derive(Clone)]
 pub(super) struct Ends {
     pub(super) m: [Matrix; 2],

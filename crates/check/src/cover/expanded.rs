@@ -13,12 +13,12 @@
 //! Z(hi) - Z(lo) by at most (hi - lo)^2 max |Z''| plus (hi - lo) times the remainders' derivatives.
 //! Polynomials are bounded on |d| <= reach by the sum of |coefficient| reach^k.
 //!
-//! If everything is linear in d, remainders included, there is nothing to bound between the ends: the
-//! remainder at each end is the one there, and an infinite end is allowed, with the coefficients of d
-//! as its direction.
+//! If everything is linear in d, remainders included, there is nothing to bound between the ends:
+//! the remainder at each end is the one there, and an infinite end is allowed, with the
+//! coefficients of d as its direction.
 //!
-//! A *reversed* expansion is one of B + sA in s = 1 / t; an interval [lo, hi] of t is [1 / hi, 1 / lo]
-//! there, and it reaches to infinity, s = 0.
+//! A *reversed* expansion is one of B + sA in s = 1 / t; an interval [lo, hi] of t is [1 / hi, 1 /
+//! lo] there, and it reaches to infinity, s = 0.
 //!
 //! Entries are rounded to units of 2^-128, outward. Fractions are kept as numerator and denominator
 //! without reducing them, because a gcd costs more than all else here. Called by `family`.
@@ -68,8 +68,8 @@ struct Factors {
 }
 
 impl Expanded {
-    /// The ends over [lo, hi]; of a reversed expansion those over the interval of s, the first still
-    /// that of the lower t.
+    /// The ends over [lo, hi]; of a reversed expansion those over the interval of s, the first
+    /// still that of the lower t.
     pub(super) fn ends(&self, lo: &Rational, hi: Option<&Rational>) -> Result<Ends, CoverFault> {
         if !self.reversed {
             return match hi {
@@ -77,6 +77,7 @@ impl Expanded {
                 None => self.from(lo),
             };
         }
+
         if lo.is_zero() {
             return Err(CoverFault::Hypothesis {
                 expected: "a region above 0 for a reversed anchor",
@@ -92,8 +93,8 @@ impl Expanded {
         Ok(ends)
     }
 
-    /// The ends over [lo, infinity): T(t) = T(lo) + (t - lo) Z_1, and the remainder is linear in t as
-    /// well.
+    /// The ends over [lo, infinity): T(t) = T(lo) + (t - lo) Z_1, and the remainder is linear in t
+    /// as well.
     fn from(&self, lo: &Rational) -> Result<Ends, CoverFault> {
         if !self.is_linear() {
             return Err(CoverFault::Hypothesis {
@@ -158,6 +159,7 @@ impl Expanded {
         if self.reversed || !self.center.is_zero() || !self.is_linear() {
             return None;
         }
+
         let all: Vec<usize> = (0..self.order()).collect();
         let zero = Rational::zero();
 
@@ -181,8 +183,8 @@ impl Expanded {
             && vanishes_from(2, &self.v)
     }
 
-    /// The weights for values from `lo` on: the smallest eigenvalue of F is at least that at the lower
-    /// end, which is not negative.
+    /// The weights for values from `lo` on: the smallest eigenvalue of F is at least that at the
+    /// lower end, which is not negative.
     fn weight_above(&self, lo: &Rational) -> Vec<Rational> {
         let factor = (Rational::one() + &self.gain * lo).recip();
         self.weight.iter().map(|w| w * &factor).collect()
@@ -211,6 +213,7 @@ impl Expanded {
         if self.z.iter().skip(2).flatten().flatten().all(Zero::is_zero) {
             return self.grid(|_, _| Integer::zero());
         }
+
         let square_numerator = width.numer() * width.numer();
         let square_denominator = width.denom() * width.denom();
 
@@ -231,8 +234,8 @@ impl Expanded {
         self.weighted(&factors, weight)
     }
 
-    /// The remainder of the direction Z_1 of a pencil that is linear: l and V may be linear, r and q
-    /// are constant.
+    /// The remainder of the direction Z_1 of a pencil that is linear: l and V may be linear, r and
+    /// q are constant.
     fn remainder_direction(&self) -> Matrix {
         let factors = Factors {
             left: self.coefficient(&self.left, 1),
@@ -256,8 +259,8 @@ impl Expanded {
         })
     }
 
-    /// Bound of the remainders' derivatives times the width: l' F^-1 r and V'q differentiated factor
-    /// by factor, where d/dt F^-1 contributes the drift.
+    /// Bound of the remainders' derivatives times the width: l' F^-1 r and V'q differentiated
+    /// factor by factor, where d/dt F^-1 contributes the drift.
     fn remainder_slope(&self, reach: &Rational, width: &Rational, weight: &[Rational]) -> Matrix {
         let bound = self.factors(|norms, i| norm(norms, i, reach));
         let slope = self.factors(|norms, i| norm_slope(norms, i, reach));
@@ -351,6 +354,7 @@ fn weigh(a: &Integer, b: &Integer, weight: &Rational) -> Integer {
     if a.is_zero() || b.is_zero() {
         return Integer::zero();
     }
+
     (a * b * weight.numer()).div_ceil(&(weight.denom() << FRACTION_BITS))
 }
 

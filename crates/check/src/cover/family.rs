@@ -1,8 +1,8 @@
 //! T(t) on the complementarity variables, enclosed over intervals.
 //!
 //! Without free variables T(t) = A + tB ([`Linear`]): the ends of [lo, hi] are T(lo) and T(hi), and
-//! those of a half line T(lo) and the direction B. With free variables T(t) is the Schur complement,
-//! expanded about the anchors of the condensation ([`Expanded`]).
+//! those of a half line T(lo) and the direction B. With free variables T(t) is the Schur
+//! complement, expanded about the anchors of the condensation ([`Expanded`]).
 //!
 //! Each row of A + tB is an integral row of the pencil divided by a power of two that makes its
 //! largest entry of A less than one. Numbers are integers in units of 2^-128; what is cut off is
@@ -76,8 +76,8 @@ impl Family {
     /// Demands that a matrix of the interval is small enough.
     ///
     /// It has n_s^2 entries of at most about K (128 + bits of lo and hi) bits, K the number of
-    /// coefficients of the anchor's expansion, 1 without one. A condensation without the anchor that
-    /// is asked for is refused by name elsewhere.
+    /// coefficients of the anchor's expansion, 1 without one. A condensation without the anchor
+    /// that is asked for is refused by name elsewhere.
     pub(super) fn affordable(
         &self,
         anchor: Option<usize>,
@@ -195,6 +195,7 @@ impl Linear {
                 a[*j] = shift(a_j, lift);
                 b[*j] = shift(b_j, lift);
             }
+
             linear.a.push(a);
             linear.b.push(b);
 
@@ -228,6 +229,7 @@ impl Linear {
         for (a, b) in self.a.iter().zip(&self.b) {
             sum.push(a.iter().zip(b).map(|(a, b)| q * a + p * b).collect());
         }
+
         sum
     }
 

@@ -176,8 +176,8 @@ pub enum CoverFault {
         /// The claim.
         claim: usize,
     },
-    /// A support leaf of an undecided variable, or without points where the support is not empty, or
-    /// with points where it is.
+    /// A support leaf of an undecided variable, or without points where the support is not empty,
+    /// or with points where it is.
     #[error("support: expected every index decided, and points exactly if something moves")]
     SupportTooEarly,
     /// A point that is no isolated root, or out of order; the number of points: an end of the
@@ -272,6 +272,7 @@ impl CoverFault {
         if got > limit {
             return Err(CoverFault::TooLarge { what, limit, got });
         }
+
         Ok(())
     }
 
@@ -288,6 +289,7 @@ impl CoverFault {
                 got,
             });
         }
+
         Ok(())
     }
 }

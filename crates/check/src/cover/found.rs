@@ -1,9 +1,9 @@
 //! What the leaves yield, put together: every solution once, and every family once.
 //!
 //! Two leaves may yield the same solution, because intervals share their ends and the interval of a
-//! root may reach beyond its leaf. A leaf that yields a solution with the interval v has proved that
-//! it is the only one of its support with a value in the hull h, and v lies in h. So of two solutions
-//! of one support with intervals v, v' and hulls h, h':
+//! root may reach beyond its leaf. A leaf that yields a solution with the interval v has proved
+//! that it is the only one of its support with a value in the hull h, and v lies in h. So of two
+//! solutions of one support with intervals v, v' and hulls h, h':
 //!
 //! * if v and v' have no point in common, they are different;
 //! * if v lies in h', or v' in h, they are the same;
@@ -73,6 +73,7 @@ pub(super) fn families(
             found.push(f);
         }
     }
+
     list.extend(of_families);
 
     list.sort_by_key(SolutionFamily::order_key);
@@ -98,8 +99,10 @@ pub(super) fn distinct(mut found: Vec<Found>) -> Result<Vec<AcceptedClaim>, Cove
                 support: next.solution.support,
             });
         }
+
         group.push(next);
     }
+
     solutions.extend(first_of(&mut group));
 
     solutions.sort_by(|p, q| by_value(p).cmp(&by_value(q)));

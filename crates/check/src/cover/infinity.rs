@@ -8,11 +8,11 @@
 //!     s T(t) = s T(lo) + (1 - s) lo B
 //! ```
 //!
-//! is the chord from T(lo) to lo B. It needs lo > 0. A reversed expansion (B + sA in place of A + tB,
-//! see `condensed`) has a chord already.
+//! is the chord from T(lo) to lo B. It needs lo > 0. A reversed expansion (B + sA in place of A +
+//! tB, see `condensed`) has a chord already.
 //!
-//! s = 0 is no value of the window. So if the chord has at most one null vector, and one is known at
-//! s = 0, there is none at a value of the window ([`null_vector`], outcome `infinity`).
+//! s = 0 is no value of the window. So if the chord has at most one null vector, and one is known
+//! at s = 0, there is none at a value of the window ([`null_vector`], outcome `infinity`).
 //!
 //! Called by the walk for the ends of root leaves and for that outcome.
 
@@ -40,6 +40,7 @@ impl Family {
         if hi.is_some() || self.is_reversed(anchor) {
             return self.ends(anchor, lo, hi);
         }
+
         if lo.is_zero() {
             return Err(CoverFault::RootTooEarly);
         }
@@ -84,14 +85,15 @@ fn sum(left: &Matrix, right: &Matrix) -> Matrix {
     for (l, r) in left.iter().zip(right) {
         sum.push(l.iter().zip(r).map(|(l, r)| l + r).collect());
     }
+
     sum
 }
 
 /// Demands that x is a null vector of the pencil's limit at infinity on the support.
 ///
 /// That is: B x = 0 on the support and the free rows, x zero off them and not zero on the support.
-/// Without a reversed expansion the limit has a free row only where B is zero there: it is the row of
-/// A, and all free rows have to be of this kind.
+/// Without a reversed expansion the limit has a free row only where B is zero there: it is the row
+/// of A, and all free rows have to be of this kind.
 pub(super) fn null_vector(
     rows: &Rows,
     support: &[usize],
@@ -103,6 +105,7 @@ pub(super) fn null_vector(
     if !is_infinite {
         return Err(fault("a region that reaches to infinity", 0));
     }
+
     if support.iter().all(|&i| x[i].is_zero()) {
         let index = support.first().copied().unwrap_or(0);
         return Err(fault("x not zero on the moving set", index));
@@ -115,6 +118,7 @@ pub(super) fn null_vector(
             if !x[i].is_zero() {
                 return Err(fault("x = 0 off the active variables", i));
             }
+
             continue;
         }
 
@@ -129,10 +133,12 @@ pub(super) fn null_vector(
             let entry = if is_row_of_a { a } else { b };
             y += entry * &x[*j];
         }
+
         if !y.is_zero() {
             return Err(fault("B x = 0 on the active rows", i));
         }
     }
+
     Ok(())
 }
 

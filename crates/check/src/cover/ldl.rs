@@ -2,17 +2,17 @@
 //!
 //! Here A and B are the matrices as given, with the free variables: rows are not scaled, nothing is
 //! condensed. Let P be the free variables and those that may be in the support. A solution is zero
-//! outside P, so x'(A + tB)x = x'y = 0. If S(t) = sym(A + tB), restricted to P, is positive definite
-//! for every t of the interval, or negative definite for every t, then x = 0, and there is no
-//! solution.
+//! outside P, so x'(A + tB)x = x'y = 0. If S(t) = sym(A + tB), restricted to P, is positive
+//! definite for every t of the interval, or negative definite for every t, then x = 0, and there is
+//! no solution.
 //!
-//! The leaf gives a unit lower triangular L and a diagonal D at each end with L D L' = S exactly. S is
-//! definite if all d_i have one sign. S between two ends is a convex combination, so it is definite
-//! with them if the sign is the same. On a half line S(t) = S(lo) + (t - lo) sym(B): there the second
-//! factors are those of sym(B), and d_i = 0 is allowed.
+//! The leaf gives a unit lower triangular L and a diagonal D at each end with L D L' = S exactly. S
+//! is definite if all d_i have one sign. S between two ends is a convex combination, so it is
+//! definite with them if the sign is the same. On a half line S(t) = S(lo) + (t - lo) sym(B): there
+//! the second factors are those of sym(B), and d_i = 0 is allowed.
 //!
-//! These are conditions (19) and (20) over an interval of any length, with no margin lost. Called by
-//! the walk through the trees.
+//! These are conditions (19) and (20) over an interval of any length, with no margin lost. Called
+//! by the walk through the trees.
 
 use super::fault::CoverFault;
 use super::region::{Region, State};
@@ -110,6 +110,7 @@ fn check_end(
             }
         }
     }
+
     Ok(())
 }
 
@@ -120,12 +121,14 @@ fn check_shape(factor: &LdlFactor, order: usize) -> Result<(), CoverFault> {
     for (i, row) in factor.rows.iter().enumerate() {
         CoverFault::length("ldl row", i, row.len())?;
     }
+
     CoverFault::at_most("ldl order", MAX_ORDER, order as u64)?;
 
     let mut bits = 0;
     for n in factor.rows.iter().flatten().chain(&factor.diagonal) {
         bits = bits.max(n.0.numer().bits() + n.0.denom().bits());
     }
+
     let size = bits.saturating_mul((order * order) as u64);
     CoverFault::at_most("ldl size (order squared times bits)", MAX_SIZE, size)
 }
@@ -139,11 +142,14 @@ fn product(factor: &LdlFactor, i: usize, j: usize) -> Rational {
         if k < i {
             term *= &factor.rows[i][k].0;
         }
+
         if k < j {
             term *= &factor.rows[j][k].0;
         }
+
         sum += term;
     }
+
     sum
 }
 
@@ -172,6 +178,7 @@ fn symmetric_part(rows: &Rows, variables: &[usize], end: &End) -> Vec<Vec<Ration
             sum[i.max(j)][i.min(j)] += entry * share;
         }
     }
+
     sum
 }
 

@@ -1,14 +1,14 @@
-//! Leaves without a solution, by enclosures of T at both ends of the interval: a Farkas vector, or a
-//! definite symmetric part.
+//! Leaves without a solution, by enclosures of T at both ends of the interval: a Farkas vector, or
+//! a definite symmetric part.
 //!
-//! Every T(t) of the region is a convex combination of a matrix within R0 of M0 and one within R1 of
-//! M1 (at an infinite end: the one plus a non-negative multiple of the other; see `family`). Both
-//! proofs are inequalities linear in T, so they hold between if they hold at both ends.
+//! Every T(t) of the region is a convex combination of a matrix within R0 of M0 and one within R1
+//! of M1 (at an infinite end: the one plus a non-negative multiple of the other; see `family`).
+//! Both proofs are inequalities linear in T, so they hold between if they hold at both ends.
 //!
-//! *Farkas.* Let w_i >= 0 for all i outside the support. Since y_i = 0 on the support,
-//! w'y >= 0 for a solution. If (w'T)_j <= 0 for all j that may be in the support, then
-//! w'y = w'Tx <= 0, and it is < 0 if (w'T)_j < 0 for all those j, because x is not zero, or for one j
-//! in the support, because x_j > 0. Then there is no solution.
+//! *Farkas.* Let w_i >= 0 for all i outside the support. Since y_i = 0 on the support, w'y >= 0 for
+//! a solution. If (w'T)_j <= 0 for all j that may be in the support, then w'y = w'Tx <= 0, and it
+//! is < 0 if (w'T)_j < 0 for all those j, because x is not zero, or for one j in the support,
+//! because x_j > 0. Then there is no solution.
 //!
 //! *Definite.* A solution has x'Tx = x'y = 0. If sym(T), or -sym(T), is positive definite on the
 //! variables that may be in the support, then x = 0, and there is no solution.
@@ -48,7 +48,10 @@ pub(super) fn farkas(
         }
     }
 
-    if short.is_some_and(|ends| ends.iter().all(|end| is_negative(region, end, w))) {
+    if let Some([lower, upper]) = short
+        && is_negative(region, lower, w)
+        && is_negative(region, upper, w)
+    {
         return Ok(());
     }
 
@@ -66,9 +69,11 @@ pub(super) fn farkas(
                     got: Rational::new(bound, ends.scale.clone()),
                 });
             }
+
             let is_infinite = end == 1 && ends.infinite;
             strict &= bound.is_negative() || is_infinite;
         }
+
         strict_on_all &= strict;
         strict_on_support |= strict && region.states[j] == State::InSupport;
     }
@@ -98,6 +103,7 @@ fn upper_bound(ends: &Ends, end: usize, w: &[i64], j: usize) -> Integer {
         if weight == 0 {
             continue;
         }
+
         bound += &ends.m[end][i][j] * weight;
 
         let radius = &ends.r[end][i][j];
@@ -105,6 +111,7 @@ fn upper_bound(ends: &Ends, end: usize, w: &[i64], j: usize) -> Integer {
             bound += radius * weight.unsigned_abs();
         }
     }
+
     bound
 }
 
@@ -117,8 +124,10 @@ pub(super) fn definite(
     sign: i8,
 ) -> Result<(), CoverFault> {
     let possible = region.possible_support();
-    let is_definite = |end: &Short| positive_definite(end, &possible, sign).is_ok();
-    if short.is_some_and(|ends| ends.iter().all(is_definite)) {
+    if let Some([lower, upper]) = short
+        && positive_definite(lower, &possible, sign).is_ok()
+        && positive_definite(upper, &possible, sign).is_ok()
+    {
         return Ok(());
     }
 
@@ -136,6 +145,7 @@ pub(super) fn definite(
             end: ENDS[end],
         })?;
     }
+
     Ok(())
 }
 
@@ -148,6 +158,7 @@ fn is_skew(m: &Matrix, r: &Matrix, variables: &[usize]) -> bool {
             }
         }
     }
+
     true
 }
 

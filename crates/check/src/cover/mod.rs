@@ -7,7 +7,8 @@
 //! undecided. Each region is a leaf of a tree with a proof of one of these statements:
 //!
 //! * it holds no solution: `leaf` (Farkas, definite in enclosures), `ldl` (definite, exact),
-//!   [`condensed::tail`] (definite from some value on), `root` and `support` (their other outcomes);
+//!   [`condensed::tail`] (definite from some value on), `root` and `support` (their other
+//!   outcomes);
 //! * it holds exactly one, with an enclosure of its value: `root`, `support`;
 //! * it holds a family of solutions, described exactly: `support`;
 //! * nothing is proved of it: an *open* region.
@@ -17,9 +18,9 @@
 //! factor, or lies in a family or an open region. What two leaves yield alike is counted once
 //! (`found`).
 //!
-//! `ends`, `family`, `expanded` and `condensed` enclose T(t) over an interval, `infinity` over a half line.
-//! `product`, `short`, `definite` and `psd` are the arithmetic behind it. `walk` goes through the
-//! trees, and `budget` bounds the work.
+//! `ends`, `family`, `expanded` and `condensed` enclose T(t) over an interval, `infinity` over a
+//! half line. `product`, `short`, `definite` and `psd` are the arithmetic behind it. `walk` goes
+//! through the trees, and `budget` bounds the work.
 //!
 //! Input: the integral rows of the pencil, the window, the claims of the certificate that have been
 //! accepted, and the cover. Called by [`crate::check`].
@@ -136,6 +137,7 @@ fn family(rows: &Rows, has_free: bool, cover: &CompleteSet) -> Result<Family, Co
                 let short = expanded.short();
                 anchors.push(AnchorExpansion { expanded, short });
             }
+
             Ok(Family::Condensed(anchors))
         }
         _ => Err(CoverFault::Condensation { expected: has_free }),
@@ -151,8 +153,8 @@ fn tail<'a>(rows: &Rows, cover: &'a CompleteSet) -> Result<Option<&'a Rational>,
     Ok(Some(&tail.from.0))
 }
 
-/// Checks the pieces: they follow one another from one end of the window to the other, and each tree
-/// covers its piece.
+/// Checks the pieces: they follow one another from one end of the window to the other, and each
+/// tree covers its piece.
 fn check_pieces(walk: &mut Walk<'_>, pieces: &[Piece]) -> Result<(), Reason> {
     let mut lo = walk.window.min().clone();
 
@@ -173,6 +175,7 @@ fn check_pieces(walk: &mut Walk<'_>, pieces: &[Piece]) -> Result<(), Reason> {
             got: lo.to_string(),
         }));
     }
+
     Ok(())
 }
 
@@ -190,8 +193,8 @@ fn check_anchor(family: &Family, piece: &Piece) -> Result<(), CoverFault> {
     }
 }
 
-/// Demands that a piece ends above `lo`, where it begins, and within the window; the last one at the
-/// end of the window. A window of one point is one piece.
+/// Demands that a piece ends above `lo`, where it begins, and within the window; the last one at
+/// the end of the window. A window of one point is one piece.
 fn check_end(
     window: &Window,
     lo: &Rational,
@@ -218,6 +221,7 @@ fn check_end(
     if rises && is_inside {
         return Ok(());
     }
+
     Err(CoverFault::PieceEnd {
         expected: format!("a value above {lo} within the window"),
         got: end(max),

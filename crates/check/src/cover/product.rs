@@ -70,8 +70,10 @@ fn nonzero(f: &Linear, part: Part) -> Sparse<Integer> {
                 entries.push((*column, entry.clone()));
             }
         }
+
         rows.push(entries);
     }
+
     rows
 }
 
@@ -92,8 +94,10 @@ where
                 *s += factor * v;
             }
         }
+
         product.push(sum);
     }
+
     product
 }
 

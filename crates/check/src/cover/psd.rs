@@ -1,9 +1,9 @@
 //! Is a large symmetric matrix positive semidefinite?
 //!
-//! The certificate brings a rounded Cholesky factor L. The residual E = S - L L' is computed exactly;
-//! if it is diagonally dominant, E_ii >= sum_(j not i) |E_ij|, it is positive semidefinite
-//! (Gershgorin), and so is S = L L' + E. If it is strictly dominant, S is definite. Without a factor S
-//! has to be a non-negative diagonal.
+//! The certificate brings a rounded Cholesky factor L. The residual E = S - L L' is computed
+//! exactly; if it is diagonally dominant, E_ii >= sum_(j not i) |E_ij|, it is positive semidefinite
+//! (Gershgorin), and so is S = L L' + E. If it is strictly dominant, S is definite. Without a
+//! factor S has to be a non-negative diagonal.
 //!
 //! Only the lower triangle is looked at, so S must be symmetric. Entries of L L' are computed in
 //! machine integers where they fit. Called by `condensed` for its hypotheses.
@@ -23,8 +23,8 @@ const SHORT_BITS: u64 = 126;
 /// A symmetric matrix by rows: column to entry.
 pub(super) type Symmetric = Vec<BTreeMap<usize, Integer>>;
 
-/// Demands that S is positive semidefinite (`strictly`: definite). S is in units of 1 / `scale`, the
-/// factor in its own. `what` names the hypothesis in the fault.
+/// Demands that S is positive semidefinite (`strictly`: definite). S is in units of 1 / `scale`,
+/// the factor in its own. `what` names the hypothesis in the fault.
 pub(super) fn semidefinite(
     s: &Symmetric,
     scale: &Integer,
@@ -62,6 +62,7 @@ fn is_diagonal_row(s: &Symmetric, i: usize, strictly: bool) -> bool {
             return false;
         }
     }
+
     !strictly || s[i].get(&i).is_some_and(Signed::is_positive)
 }
 
@@ -96,6 +97,7 @@ impl RowSums {
                             fill[j] += product.abs();
                             continue;
                         }
+
                         Integer::from(product)
                     }
                     None => product(factor, i, j),
@@ -105,6 +107,7 @@ impl RowSums {
                 if let Some(given) = given {
                     residual += given * &lift;
                 }
+
                 sums.add(i, j, residual);
             }
         }
@@ -114,6 +117,7 @@ impl RowSums {
                 *sum += Integer::from(fill) * scale;
             }
         }
+
         sums
     }
 
@@ -146,6 +150,7 @@ fn product(factor: &Factor, i: usize, j: usize) -> Integer {
     for (p, q) in left.iter().zip(right.unwrap_or_default()) {
         sum += p * q;
     }
+
     sum
 }
 
@@ -162,6 +167,7 @@ fn short(factor: &Factor) -> Option<Vec<Vec<i64>>> {
     for row in &factor.rows {
         rows.push(row.iter().map(ToPrimitive::to_i64).collect::<Option<_>>()?);
     }
+
     Some(rows)
 }
 
@@ -175,6 +181,7 @@ fn short_product(factor: &Factor, rows: &[Vec<i64>], i: usize, j: usize) -> i128
     for (p, q) in left.iter().zip(right.unwrap_or_default()) {
         sum += i128::from(*p) * i128::from(*q);
     }
+
     sum
 }
 
@@ -194,6 +201,7 @@ fn shape(factor: &Factor, n: usize) -> Result<(), CoverFault> {
             });
         }
     }
+
     Ok(())
 }
 

@@ -48,8 +48,8 @@ impl Region {
     }
 }
 
-/// The matrices at the ends of an interval, computed when they are asked for. Regions of one interval
-/// share them.
+/// The matrices at the ends of an interval, computed when they are asked for. Regions of one
+/// interval share them.
 #[derive(Default)]
 pub(super) struct Matrices {
     pub(super) exact: RefCell<Option<Rc<Ends>>>,
@@ -58,8 +58,8 @@ pub(super) struct Matrices {
 }
 
 impl Matrices {
-    /// Frees the memory. A region that is split needs its matrices no more, and its siblings compute
-    /// them again, so that a deep tree of splits holds the matrices of one interval.
+    /// Frees the memory. A region that is split needs its matrices no more, and its siblings
+    /// compute them again, so that a deep tree of splits holds the matrices of one interval.
     pub(super) fn forget(&self) {
         self.exact.take();
         self.short.take();

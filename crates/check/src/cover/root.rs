@@ -4,21 +4,22 @@
 //! without k. The witness is Y ~ T'^-1 and vectors v, u ~ the right and left null vectors, with
 //! v_k = u_k = 1. All bounds hold for every T(t) of the enclosure:
 //!
-//! 1. |I - Y T'| <= rho < 1 and |I - T'Y| <= eta < 1 make Y and T' regular. So a null vector of T_SS
-//!    has a component k other than zero; scaled to 1 there it is v_true = -T'^-1 T_'k on the rest, and
-//!    it exists exactly where the Schur complement phi(t) = T_kk - T_k' T'^-1 T_'k is zero.
+//! 1. |I - Y T'| <= rho < 1 and |I - T'Y| <= eta < 1 make Y and T' regular. So a null vector of
+//!    T_SS has a component k other than zero; scaled to 1 there it is v_true = -T'^-1 T_'k on the
+//!    rest, and it exists exactly where the Schur complement phi(t) = T_kk - T_k' T'^-1 T_'k is
+//!    zero.
 //! 2. |v_true - v| = |T'^-1 (T_'k + T'v)| <= |Y (T_'k + T'v)| / (1 - rho) =: eps_v, as
 //!    T'^-1 = (Y T')^-1 Y. Likewise eps_u for u, with Y on the other side and eta.
-//! 3. phi' = u_true' (dT/dt) v_true. If this is certainly not zero (*monotone*), phi has at most one
-//!    zero t.
+//! 3. phi' = u_true' (dT/dt) v_true. If this is certainly not zero (*monotone*), phi has at most
+//!    one zero t.
 //! 4. phi = u'Tv - (residual of u)' T'^-1 (residual of v), where the second term is at most the sum
 //!    of |residual of u| times eps_v. So the sign of phi at an end can be told.
-//! 5. If phi has the same sign at both ends there is no null vector. If it has opposite signs at the
-//!    ends of [a, b], the only null vector is at a t in [a, b], and lies within eps of v there: signs
-//!    of x = v_true and of y = T x outside the support decide whether it is a solution.
+//! 5. If phi has the same sign at both ends there is no null vector. If it has opposite signs at
+//!    the ends of [a, b], the only null vector is at a t in [a, b], and lies within eps of v there:
+//!    signs of x = v_true and of y = T x outside the support decide whether it is a solution.
 //!
-//! Norms are the largest row sum (right side) and the largest column sum (left side); |v_true - v| is
-//! the largest component.
+//! Norms are the largest row sum (right side) and the largest column sum (left side); |v_true - v|
+//! is the largest component.
 //!
 //! Input: the region, the *wide* ends over the hull of its interval and [a, b], the *narrow* ends
 //! over [a, b], the witness. Called by the walk, which treats the outcomes `claim` and `infinity`.
@@ -33,8 +34,8 @@ use num_traits::{One, Signed, Zero};
 /// Largest binary exponent of a witness.
 const MAX_EXPONENT: u32 = 1 << 14;
 
-/// Checks the witness. For [`RootOutcome::Claim`] and [`RootOutcome::Infinity`] it checks uniqueness
-/// only, steps 1 to 3.
+/// Checks the witness. For [`RootOutcome::Claim`] and [`RootOutcome::Infinity`] it checks
+/// uniqueness only, steps 1 to 3.
 pub(super) fn check(
     region: &Region,
     wide: &Ends,
@@ -166,8 +167,10 @@ impl<'a> System<'a> {
                     if i == j {
                         product.center -= &one;
                     }
+
                     sum += product.magnitude();
                 }
+
                 largest = largest.max(sum);
             }
         }
@@ -193,6 +196,7 @@ impl<'a> System<'a> {
                 Side::Left => sum.add(&self.y[k][i], &m[s[j]][s[k]], &r[s[j]][s[k]]),
             }
         }
+
         sum
     }
 
@@ -211,8 +215,10 @@ impl<'a> System<'a> {
                     Side::Left => sum.add(&self.u[j], &m[s[j]][s[i]], &r[s[j]][s[i]]),
                 }
             }
+
             residual.push(sum);
         }
+
         residual
     }
 
@@ -237,6 +243,7 @@ impl<'a> System<'a> {
                 };
                 sum.add(y, &entry.center, &entry.radius);
             }
+
             largest = largest.max(sum.magnitude());
         }
 
@@ -246,8 +253,8 @@ impl<'a> System<'a> {
 
     /// Is u_true' (dT/dt) v_true certainly not zero over the interval?
     ///
-    /// `left` and `right` bound |u_true - u| and |v_true - v|. The interval's length times dT/dt lies
-    /// within D (`slope`) of M1 - M0.
+    /// `left` and `right` bound |u_true - u| and |v_true - v|. The interval's length times dT/dt
+    /// lies within D (`slope`) of M1 - M0.
     fn monotone(&self, ends: &Ends, left: &Rational, right: &Rational) -> bool {
         let left = self.rounded_up(left);
         let right = self.rounded_up(right);
@@ -301,6 +308,7 @@ impl<'a> System<'a> {
         for entry in self.residual(ends, end, Side::Left) {
             left_residual += entry.magnitude();
         }
+
         let error = self.error_at(ends, end, Side::Right, norm);
         let second_term = Rational::from_integer(left_residual * &self.one) * error;
         radius += second_term.ceil().to_integer();
@@ -327,11 +335,13 @@ impl<'a> System<'a> {
                         return Err(sign_fault("x", index[i], "> 0"));
                     }
                 }
+
                 for i in region.positions(|state| state == State::AtZero) {
                     if self.y_sign(ends, i, &error) != 1 {
                         return Err(sign_fault("y", index[i], "> 0"));
                     }
                 }
+
                 Ok(())
             }
             RootOutcome::NegativeX(stated) => {
@@ -352,12 +362,13 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Certain sign of component p of v_true, which is within `error` units of v_p; that of the pivot
-    /// is 1.
+    /// Certain sign of component p of v_true, which is within `error` units of v_p; that of the
+    /// pivot is 1.
     fn x_sign(&self, p: usize, error: &Rational) -> i8 {
         if p == self.order() {
             return 1;
         }
+
         certain(&(&self.v[p] * error.denom()), error.numer())
     }
 

@@ -1,19 +1,19 @@
 //! Signs of polynomials at algebraic numbers and between two of them, and the budget for them.
 //!
-//! *Descartes' rule of signs.* If the polynomial (1 + x)^n p((a + bx) / (1 + x)) has coefficients of
-//! one sign, p has no root in (a, b); if they change once, it has exactly one. (For (a, infinity) the
-//! polynomial is p(a + x).) Where there are more changes the interval is halved, a few times; what is
-//! not decided then counts as a possible root.
+//! *Descartes' rule of signs.* If the polynomial (1 + x)^n p((a + bx) / (1 + x)) has coefficients
+//! of one sign, p has no root in (a, b); if they change once, it has exactly one. (For (a,
+//! infinity) the polynomial is p(a + x).) Where there are more changes the interval is halved, a
+//! few times; what is not decided then counts as a possible root.
 //!
 //! *Between two roots.* Let [a, b] isolate a root r of p, and [a', b'] the next one. A polynomial g
 //! has no root in (r, r') if it has none in (b, a') and none in [a, b] and [a', b'] other than the
-//! isolated ones. For the latter g is divided by p as often as p divides it. Then the sign of g in the
-//! middle of [b, a'] is its sign all between.
+//! isolated ones. For the latter g is divided by p as often as p divides it. Then the sign of g in
+//! the middle of [b, a'] is its sign all between.
 //!
-//! *Budget.* A transformation of a polynomial with n coefficients takes n^2 / 2 additions of numbers
-//! of n times the bits of a and b: it is counted as n^3 (bits + 64). Remainders and evaluations are
-//! counted in the same unit. All leaves of a file share one budget (`spec/complete-set.md`, Limits).
-//! Once it is spent, no sign can be told any more.
+//! *Budget.* A transformation of a polynomial with n coefficients takes n^2 / 2 additions of
+//! numbers of n times the bits of a and b: it is counted as n^3 (bits + 64). Remainders and
+//! evaluations are counted in the same unit. All leaves of a file share one budget
+//! (`spec/complete-set.md`, Limits). Once it is spent, no sign can be told any more.
 //!
 //! Called by `support`.
 
@@ -95,6 +95,7 @@ impl Budget {
             Some(left) => self.left.set(left),
             None => self.is_spent.set(true),
         }
+
         !self.is_spent.get()
     }
 }
@@ -111,6 +112,7 @@ impl Root {
         if !budget.spend_remainder(g, &self.poly) {
             return None;
         }
+
         let remainder = g.pseudo_rem(&self.poly);
         if remainder.is_zero() {
             return Some(0);
@@ -119,6 +121,7 @@ impl Root {
         if !budget.spend_evaluation(&remainder, &self.value) {
             return None;
         }
+
         match self.value.horner_rounded(&remainder).certain_sign() {
             0 => None,
             sign => Some(sign),
@@ -130,6 +133,7 @@ impl Root {
         if self.value.is_point() {
             return true;
         }
+
         let a = self.value.lo();
         let b = self.value.hi();
         let rest = stripped(g, &self.poly, budget);
@@ -276,6 +280,7 @@ fn stripped(g: &Poly, q: &Poly, budget: &Budget) -> Poly {
     {
         rest = quotient(&rest, q);
     }
+
     rest
 }
 
@@ -289,10 +294,12 @@ fn quotient(g: &Poly, q: &Poly) -> Poly {
         if n < m {
             break;
         }
+
         let top = Poly::constant(rest.leading()).shift(n - m);
         rest = &rest.scale(&lead) - &(&top * q);
         quotient = &quotient.scale(&lead) + &top;
     }
+
     quotient.primitive()
 }
 

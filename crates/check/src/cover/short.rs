@@ -1,8 +1,8 @@
 //! Matrices with radii in machine integers, for speed only.
 //!
 //! Each entry of the long matrix lies within `r` of `m` in a common unit. What is proved of every
-//! matrix within these radii holds for the long one; what these numbers cannot tell is computed with
-//! the long numbers of `ends`. So a leaf may be accepted by short numbers, but never rejected.
+//! matrix within these radii holds for the long one; what these numbers cannot tell is computed
+//! with the long numbers of `ends`. So a leaf may be accepted by short numbers, but never rejected.
 //!
 //! Overflow: entries and radii are at most 2^62 in absolute value, so that the products of two have
 //! at most 124 bits and a sum of four of them fits into an `i128`.
@@ -60,6 +60,7 @@ impl Short {
                 .map(|&j| ShortBall::cut(&m[i][j], &r[i][j], unit));
             short.push_row(row)?;
         }
+
         Some(short)
     }
 
@@ -80,6 +81,7 @@ impl Short {
             centers.push(entry.center);
             radii.push(entry.radius);
         }
+
         self.m.push(centers);
         self.r.push(radii);
         Some(())
@@ -120,6 +122,7 @@ impl Short {
         for row in sums.chunks_exact(n.max(1)) {
             short.push_row(row.iter().map(|sum| sum.cut(unit)))?;
         }
+
         Some(short)
     }
 
@@ -136,6 +139,7 @@ impl Short {
             if w_i == 0 {
                 continue;
             }
+
             let weight = i128::from(w_i);
             let size = i128::from(w_i.unsigned_abs());
             let row = self.m[i].iter().zip(&self.r[i]);
@@ -143,6 +147,7 @@ impl Short {
                 *bound += weight * i128::from(*m) + size * i128::from(*r);
             }
         }
+
         Some(bounds)
     }
 }
@@ -155,8 +160,8 @@ impl ShortBall {
         ShortBall::rounded(center.to_i64()?, (r >> unit).to_i64()?, is_exact)
     }
 
-    /// A center and a radius that have been rounded down: rounding each has cost less than one unit.
-    /// `None` if one of them is larger than an entry may be.
+    /// A center and a radius that have been rounded down: rounding each has cost less than one
+    /// unit. `None` if one of them is larger than an entry may be.
     fn rounded(center: i64, radius: i64, is_exact: bool) -> Option<ShortBall> {
         let radius = if is_exact { 0 } else { radius.checked_add(2)? };
         let fits = center.unsigned_abs() <= 1 << BITS && radius <= 1 << BITS;

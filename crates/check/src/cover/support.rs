@@ -1,28 +1,29 @@
 //! Support leaves: what one support holds at every value of an interval, exactly.
 //!
 //! Every variable is decided. Let J be the support, R the other complementarity variables and f the
-//! free ones; *active* are J and f. At a value t, x is a solution with support J if x_J > 0, x_R = 0,
-//! T x = 0 on the active rows and T x >= 0 on R. Here T(t) = A + tB is the whole integral pencil:
-//! nothing is condensed and nothing is rounded.
+//! free ones; *active* are J and f. At a value t, x is a solution with support J if x_J > 0, x_R =
+//! 0, T x = 0 on the active rows and T x >= 0 on R. Here T(t) = A + tB is the whole integral
+//! pencil: nothing is condensed and nothing is rounded.
 //!
-//! The leaf cuts the closed interval at *points*, algebraic numbers, the first and the last being its
-//! ends, and gives a reason for each *place*: a point, or an open cell between two points (above the
-//! last one, if the interval is infinite). A reason is a list of polynomials in t with signs that
-//! hold at every value of the place:
+//! The leaf cuts the closed interval at *points*, algebraic numbers, the first and the last being
+//! its ends, and gives a reason for each *place*: a point, or an open cell between two points
+//! (above the last one, if the interval is infinite). A reason is a list of polynomials in t with
+//! signs that hold at every value of the place:
 //!
 //! * *none*: weights w with w_R >= 0, (w'T)_f = 0 and (w'T)_J <= 0, somewhere < 0. Then a solution
 //!   would have 0 <= w'y = w'Tx < 0. (If w_R = 0, then w'y = 0, and w'T may be >= 0 as well.)
-//! * *some*: x(t) that solves. With *alone* it is the only solution up to a factor: for each active j
-//!   but the pivot k, weights l with l'T = c e_j + d e_k on the active columns, c not zero. If l = 0
-//!   on R, every solution z has c z_j + d z_k = l'Tz = 0. If l >= 0 on the rows of R where x has y = 0
-//!   and l = 0 on the others, c z_j + d z_k = l'Tz >= 0, with equality for x: z_j / z_k is bounded by
-//!   x_j / x_k from one side, and with a second l of the other sign of c from the other side too.
+//! * *some*: x(t) that solves. With *alone* it is the only solution up to a factor: for each active
+//!   j but the pivot k, weights l with l'T = c e_j + d e_k on the active columns, c not zero. If l
+//!   = 0 on R, every solution z has c z_j + d z_k = l'Tz = 0. If l >= 0 on the rows of R where x
+//!   has y = 0 and l = 0 on the others, c z_j + d z_k = l'Tz >= 0, with equality for x: z_j / z_k
+//!   is bounded by x_j / x_k from one side, and with a second l of the other sign of c from the
+//!   other side too.
 //!
-//! A point that is alone, with nothing in the neighbouring cells, is an isolated solution. All other
-//! places that hold something are families.
+//! A point that is alone, with nothing in the neighbouring cells, is an isolated solution. All
+//! other places that hold something are families.
 //!
-//! Signs at a point are those of remainders, signs on a cell come from `rootless`. Called by the walk
-//! through the trees, with the budget of signs for the whole file.
+//! Signs at a point are those of remainders, signs on a cell come from `rootless`. Called by the
+//! walk through the trees, with the budget of signs for the whole file.
 
 use super::fault::CoverFault;
 use super::region::Region;
@@ -59,7 +60,8 @@ enum Content {
     },
 }
 
-/// Checks a leaf and returns where it holds solutions. The budget is that of all leaves of the file.
+/// Checks a leaf and returns where it holds solutions. The budget is that of all leaves of the
+/// file.
 pub(super) fn check(
     rows: &Rows,
     region: &Region,
@@ -72,6 +74,7 @@ pub(super) fn check(
     if budget.is_spent() {
         return Err(CoverFault::OutOfBudget);
     }
+
     verdict
 }
 
@@ -86,9 +89,11 @@ fn check_places(
     if !region.is_decided() || support.is_empty() != is_empty {
         return Err(CoverFault::SupportTooEarly);
     }
+
     if support.is_empty() {
         return Ok(Vec::new()); // x_s = 0, and T_ff is regular: x = 0
     }
+
     budget.add_coefficients(bounded(leaf)?);
 
     let system = System::new(rows, support);
@@ -156,6 +161,7 @@ fn collect(roots: &[Root], at_points: &[Content], in_cells: &[Content]) -> Vec<H
             });
         }
     }
+
     held
 }
 
@@ -186,6 +192,7 @@ fn points(region: &Region, leaf: &Support) -> Result<Vec<Root>, CoverFault> {
         if roots.last().is_some_and(|r| r.value.hi() >= value.lo()) {
             return Err(CoverFault::Point { point: k });
         }
+
         roots.push(Root { poly, value });
     }
 
@@ -226,6 +233,7 @@ fn bounded(leaf: &Support) -> Result<u64, CoverFault> {
             bits = bits.max(coefficient.bits());
         }
     }
+
     for end in leaf.points.iter().flat_map(|p| &p.interval) {
         bits = bits.max(end.0.numer().bits() + end.0.denom().bits());
     }
@@ -254,6 +262,7 @@ fn polynomials(leaf: &Support) -> Vec<&Vec<Integer>> {
             }
         }
     }
+
     list.extend(leaf.points.iter().map(|point| &point.polynomial));
     list
 }
@@ -327,6 +336,7 @@ impl<'a> System<'a> {
                 if let Some(alone) = &member.alone {
                     self.check_alone(alone, &y, place)?;
                 }
+
                 let is_alone = member.alone.is_some();
                 Ok(Content::Solutions { is_alone })
             }
@@ -345,6 +355,7 @@ impl<'a> System<'a> {
             if w_i.is_zero() {
                 continue;
             }
+
             for (j, a, b) in row {
                 if self.active.contains(j) {
                     let entry = Poly::new(vec![a.clone(), b.clone()]);
@@ -352,6 +363,7 @@ impl<'a> System<'a> {
                 }
             }
         }
+
         self.active.iter().map(|&j| sums[j].clone()).collect()
     }
 
@@ -363,6 +375,7 @@ impl<'a> System<'a> {
             if self.active.contains(&i) {
                 continue;
             }
+
             match place.sign(w_i) {
                 Some(s) if s >= 0 => is_one_sided |= s > 0,
                 _ => return Err(place.fault("weights >= 0 off the moving set", i)),
@@ -378,9 +391,11 @@ impl<'a> System<'a> {
             if s != 0 && self.rows.is_free[j] {
                 return Err(place.fault("w'T = 0 on the free columns", j));
             }
+
             if s > 0 && is_one_sided {
                 return Err(place.fault("w'T <= 0 on the moving columns", j));
             }
+
             has_negative |= s < 0;
             has_positive |= s > 0;
         }
@@ -389,6 +404,7 @@ impl<'a> System<'a> {
             let expected = "w'T of one sign and not zero";
             return Err(place.fault(expected, self.support[0]));
         }
+
         Ok(())
     }
 
@@ -398,11 +414,13 @@ impl<'a> System<'a> {
             if self.rows.is_free[i] {
                 continue;
             }
+
             let is_in_support = self.support.contains(&i);
             let s = place.sign(x_i);
             if is_in_support && s != Some(1) {
                 return Err(place.fault("x > 0 on the moving set", i));
             }
+
             if !is_in_support && s != Some(0) {
                 return Err(place.fault("x = 0 off it", i));
             }
@@ -415,11 +433,14 @@ impl<'a> System<'a> {
             if is_active && s != Some(0) {
                 return Err(place.fault("y = 0 on active rows", i));
             }
+
             if !is_active && s.is_none_or(|s| s < 0) {
                 return Err(place.fault("y >= 0 off them", i));
             }
+
             signs.push(s);
         }
+
         Ok(signs)
     }
 
@@ -433,6 +454,7 @@ impl<'a> System<'a> {
                 y = &y + &(&x[*j] * &entry);
             }
         }
+
         y
     }
 
@@ -461,6 +483,7 @@ impl<'a> System<'a> {
                 if j == alone.pivot {
                     continue;
                 }
+
                 match place.sign(product) {
                     Some(0) if j != own => {}
                     Some(s) if j == own && s != 0 => {
@@ -481,11 +504,12 @@ impl<'a> System<'a> {
                 return Err(place.fault("x determined by the pivot's component", j));
             }
         }
+
         Ok(())
     }
 
-    /// Demands l >= 0 on rows of R where y = 0, and l = 0 on the other rows of R. Is l zero on all of
-    /// R, so that l'Tz = 0 for every solution z?
+    /// Demands l >= 0 on rows of R where y = 0, and l = 0 on the other rows of R. Is l zero on all
+    /// of R, so that l'Tz = 0 for every solution z?
     fn check_weights(
         &self,
         l: &[Poly],
@@ -497,18 +521,21 @@ impl<'a> System<'a> {
             if self.active.contains(&i) || l_i.is_zero() {
                 continue;
             }
+
             if y[i] != Some(0) || place.sign(l_i).is_none_or(|s| s < 0) {
                 let expected = "weights >= 0 where y = 0, and none where y > 0";
                 return Err(place.fault(expected, i));
             }
+
             is_equation = false;
         }
+
         Ok(is_equation)
     }
 }
 
-/// Is c z_j + d z_k >= 0 proved for all solutions z, with equality for x: with c > 0 (`below`), with
-/// c < 0 (`above`)?
+/// Is c z_j + d z_k >= 0 proved for all solutions z, with equality for x: with c > 0 (`below`),
+/// with c < 0 (`above`)?
 #[derive(Clone, Copy, Default)]
 struct Bounds {
     below: bool,

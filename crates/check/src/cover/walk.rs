@@ -1,10 +1,10 @@
 //! The walk through the trees of a cover: the region of each node is computed, each leaf has its
 //! proof checked.
 //!
-//! A tree is written in preorder. The walk keeps the regions that are still to be closed on a stack.
-//! A node takes the region on top: a cut or a branch puts two in its place, whose union is the
-//! region that was taken; a leaf proves what its region holds. A tree that ends exactly when the
-//! stack is empty has therefore accounted for every (support, value) of its piece.
+//! A tree is written in preorder. The walk keeps the regions that are still to be closed on a
+//! stack. A node takes the region on top: a cut or a branch puts two in its place, whose union is
+//! the region that was taken; a leaf proves what its region holds. A tree that ends exactly when
+//! the stack is empty has therefore accounted for every (support, value) of its piece.
 //!
 //! Matrices of a region are computed once for all regions of one interval, and their work is taken
 //! from the budget of the file.
@@ -88,6 +88,7 @@ impl Walk<'_> {
         if stack.is_empty() {
             return Ok(());
         }
+
         Err(NodeFault {
             node: piece.tree.len(),
             fault: CoverFault::Truncated {
@@ -96,7 +97,8 @@ impl Walk<'_> {
         })
     }
 
-    /// Passes on the verdict on a leaf, or leaves the region of one that fails open and notes where.
+    /// Passes on the verdict on a leaf, or leaves the region of one that fails open and notes
+    /// where.
     fn settle(
         &mut self,
         region: &Region,
@@ -183,16 +185,26 @@ impl Walk<'_> {
     fn farkas(&self, region: &Region, anchor: Option<usize>, w: &[i64]) -> Result<(), CoverFault> {
         self.affordable(region, anchor)?;
         let short = self.short(region, anchor);
-        let ends = || self.ends(region, anchor);
-        leaf::farkas(region, short.as_deref(), ends, &self.index, w)
+        leaf::farkas(
+            region,
+            short.as_deref(),
+            || self.ends(region, anchor),
+            &self.index,
+            w,
+        )
     }
 
     fn definite(&self, region: &Region, anchor: Option<usize>, sign: i8) -> Result<(), CoverFault> {
         self.spend_definite(region)?;
         self.affordable(region, anchor)?;
         let short = self.short(region, anchor);
-        let ends = || self.ends(region, anchor);
-        leaf::definite(region, short.as_deref(), ends, &self.index, sign)
+        leaf::definite(
+            region,
+            short.as_deref(),
+            || self.ends(region, anchor),
+            &self.index,
+            sign,
+        )
     }
 
     /// A definite leaf costs the cube of the number of variables that may be in the support.
@@ -232,6 +244,7 @@ impl Walk<'_> {
                 }),
             }
         }
+
         Ok(())
     }
 
@@ -300,6 +313,7 @@ impl Walk<'_> {
         if is_below || is_above || (value.is_point() && !may_be_point) {
             return Err(outside_window(leaf));
         }
+
         Ok(value)
     }
 
@@ -323,6 +337,7 @@ impl Walk<'_> {
         if is_chord {
             return Err(CoverFault::OutcomeOnHalfLine { outcome });
         }
+
         Ok(())
     }
 
@@ -434,6 +449,7 @@ fn split(region: Region, at: &Rational, stack: &mut Vec<Region>) -> Result<(), C
             got: at.clone(),
         });
     }
+
     region.matrices.forget();
 
     // The region on top of the stack is the next one: the lower part comes first.
