@@ -325,8 +325,9 @@ fn times(row: &Row, x: &[Polynomial]) -> Polynomial {
     let degree = x.iter().map(Vec::len).max().unwrap_or(0);
     let mut product = Vec::with_capacity(degree + 1);
 
+    let mut sum = FractionSum::default();
     for k in 0..=degree {
-        let mut sum = FractionSum::default();
+        sum.terms.clear();
         for (j, a, b) in row {
             sum.add(a, x[*j].get(k));
             if k > 0 {

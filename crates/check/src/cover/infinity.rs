@@ -230,14 +230,14 @@ mod tests {
 
     #[test]
     fn a_null_vector_at_infinity_is_multiplied_out() {
-        let x = |v: &[i64]| v.iter().map(|&v| Integer::from(v)).collect::<Vec<_>>();
+        let integers = |v: &[i64]| v.iter().map(|&v| Integer::from(v)).collect::<Vec<_>>();
         let plain = rows(&[&[(3, 1), (-5, -2)], &[(7, -2), (0, 4)]], &[]);
         assert_eq!(
-            null_vector(&plain, &[0, 1], true, false, &x(&[2, 1])),
+            null_vector(&plain, &[0, 1], true, false, &integers(&[2, 1])),
             Ok(())
         );
         let wrong = |moving: &[usize], infinite, v: &[i64]| {
-            null_vector(&plain, moving, infinite, false, &x(v)).unwrap_err()
+            null_vector(&plain, moving, infinite, false, &integers(v)).unwrap_err()
         };
         assert!(matches!(
             wrong(&[0, 1], true, &[2]),
@@ -270,10 +270,16 @@ mod tests {
         ));
         // A free row: that of A where B has none, that of B if the expansion is reversed.
         let free = rows(&[&[(2, 0), (-1, 0)], &[(1, 4), (1, -2)]], &[0]);
-        assert_eq!(null_vector(&free, &[1], true, false, &x(&[1, 2])), Ok(()));
+        assert_eq!(
+            null_vector(&free, &[1], true, false, &integers(&[1, 2])),
+            Ok(())
+        );
         let mass = rows(&[&[(2, 1), (-1, 3)], &[(1, 3), (1, 9)]], &[0]);
-        assert_eq!(null_vector(&mass, &[1], true, true, &x(&[-3, 1])), Ok(()));
-        let refused = null_vector(&mass, &[1], true, false, &x(&[-3, 1]));
+        assert_eq!(
+            null_vector(&mass, &[1], true, true, &integers(&[-3, 1])),
+            Ok(())
+        );
+        let refused = null_vector(&mass, &[1], true, false, &integers(&[-3, 1]));
         assert!(matches!(
             refused,
             Err(CoverFault::NotAtInfinity {

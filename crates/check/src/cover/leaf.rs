@@ -167,25 +167,18 @@ mod tests {
     use super::*;
     use mceip_exact::whole;
 
-    const INDEX: [usize; 2] = [10, 11];
+    type Square = [[i64; 2]; 2];
 
-    fn matrix(m: [[i64; 2]; 2]) -> Vec<Vec<Integer>> {
+    const INDEX: [usize; 2] = [10, 11];
+    const ZERO: Square = [[0, 0], [0, 0]];
+    const UNDECIDED: [State; 2] = [State::Undecided; 2];
+
+    fn matrix(m: Square) -> Matrix {
         m.map(|row| row.map(Integer::from).to_vec()).to_vec()
     }
 
-    fn ends(
-        m: [[[i64; 2]; 2]; 2],
-        r: [[[i64; 2]; 2]; 2],
-        infinite: bool,
-    ) -> Result<Rc<Ends>, CoverFault> {
-        let zero = || matrix([[0, 0], [0, 0]]);
-        Ok(Rc::new(Ends {
-            m: m.map(matrix),
-            r: r.map(matrix),
-            slope: zero(),
-            scale: 1.into(),
-            infinite,
-        }))
+    fn short(m: Square) -> Short {
+        Short::of(&matrix(m), &matrix(ZERO), &[0, 1]).unwrap()
     }
 
     fn region(states: [State; 2]) -> Region {
@@ -197,152 +190,136 @@ mod tests {
         }
     }
 
-    const NONE: [[i64; 2]; 2] = [[0, 0], [0, 0]];
-    const OPEN: [State; 2] = [State::Undecided; 2];
+    fn ends(m: [Square; 2], r: [Square; 2], infinite: bool) -> Rc<Ends> {
+        Rc::new(Ends {
+            m: m.map(matrix),
+            r: r.map(matrix),
+            slope: matrix(ZERO),
+            scale: 1.into(),
+            infinite,
+        })
+    }
 
-    fn long_farkas(
-        states: [State; 2],
-        m: [[[i64; 2]; 2]; 2],
-        r: [[[i64; 2]; 2]; 2],
-        infinite: bool,
-        w: [i64; 2],
-    ) -> Result<(), CoverFault> {
-        farkas(&region(states), None, || ends(m, r, infinite), &INDEX, &w)
+    /// Stands for long numbers that must not be asked for.
+    fn no_ends() -> Result<Rc<Ends>, CoverFault> {
+        Err(CoverFault::Trailing)
+    }
+
+    fn long_farkas(states: [State; 2], ends: Rc<Ends>, w: [i64; 2]) -> Result<(), CoverFault> {
+        farkas(&region(states), None, || Ok(ends), &INDEX, &w)
+    }
+
+    fn long_definite_leaf(states: [State; 2], ends: Rc<Ends>) -> Result<(), CoverFault> {
+        definite(&region(states), None, || Ok(ends), &INDEX, 1)
+    }
+
+    fn not_definite(index: usize, end: &'static str) -> Result<(), CoverFault> {
+        Err(CoverFault::NotDefinite { index, end })
     }
 
     /// (w'T)_j at its largest: the radius counts with |w|, whatever the sign of w.
     #[test]
     fn radii_count_against_a_farkas_vector() {
         // (2, -3)'T = (-16, 10 - 3 c) with radii 2 * 3 + 3 * 2 = 12 and 2 * 1 + 3 * 4 = 14.
-        let t = |c: i64| [[-5, 5], [2, c]];
-        let r = [[3, 1], [2, 4]];
+        let radius = [[3, 1], [2, 4]];
         let states = [State::Undecided, State::InSupport];
-        let at = |c: i64, d: i64| long_farkas(states, [t(c), t(d)], [r, r], false, [2, -3]);
-        assert_eq!(at(9, 9), Ok(()));
-        let fault = |end, got| {
+        let verdict = |lower: i64, upper: i64| {
+            let m = [lower, upper].map(|c| [[-5, 5], [2, c]]);
+            long_farkas(states, ends(m, [radius, radius], false), [2, -3])
+        };
+        let not_negative = |end| {
             Err(CoverFault::NotNegative {
                 index: 11,
                 end,
-                got: whole(got),
+                got: whole(3),
             })
         };
-        assert_eq!([at(7, 9), at(9, 7)], [fault("lower", 3), fault("upper", 3)]);
-        // At zero it is neither: here the moving variable is the one that is not strict.
-        assert_eq!(
-            [at(8, 9), at(9, 8)],
-            [Err(CoverFault::NotStrict), Err(CoverFault::NotStrict)]
-        );
+
+        assert_eq!(verdict(9, 9), Ok(()));
+        assert_eq!(verdict(7, 9), not_negative("lower"));
+        assert_eq!(verdict(9, 7), not_negative("upper"));
+
+        // At zero it is neither: here the variable of the support is the one that is not strict.
+        assert_eq!(verdict(8, 9), Err(CoverFault::NotStrict));
+        assert_eq!(verdict(9, 8), Err(CoverFault::NotStrict));
     }
 
-    /// w'T <= 0, and < 0 on all or on one that moves; at infinity <= 0 is as good.
+    /// w'T <= 0, and < 0 on all or on one of the support; at infinity <= 0 is as good.
     #[test]
     fn strict_on_all_or_on_one_that_moves() {
-        let t = |a: i64, b: i64| [[-a, -b], [0, 0]];
-        let at = |states, lower, upper, infinite| {
-            long_farkas(states, [lower, upper], [NONE, NONE], infinite, [1, 0])
+        let verdict = |states, lower: [i64; 2], upper: [i64; 2], infinite| {
+            let m = [lower, upper].map(|[a, b]| [[-a, -b], [0, 0]]);
+            long_farkas(states, ends(m, [ZERO, ZERO], infinite), [1, 0])
         };
-        let moving = [State::InSupport, State::Undecided];
         let weak = Err(CoverFault::NotStrict);
-        assert_eq!(at(OPEN, t(1, 1), t(1, 1), false), Ok(()));
-        assert_eq!(
-            [
-                at(OPEN, t(1, 0), t(1, 1), false),
-                at(OPEN, t(1, 1), t(1, 0), false)
-            ],
-            [weak.clone(), weak.clone()]
-        );
-        assert_eq!(
-            [
-                at(moving, t(1, 0), t(1, 0), false),
-                at(moving, t(0, 1), t(1, 1), false)
-            ],
-            [Ok(()), weak.clone()]
-        );
-        assert_eq!(
-            [
-                at(OPEN, t(1, 1), t(1, 0), true),
-                at(OPEN, t(1, 0), t(1, 1), true)
-            ],
-            [Ok(()), weak.clone()]
-        );
-        assert_eq!(
-            at([State::Undecided, State::AtZero], t(1, 0), t(1, 0), false),
-            Ok(())
-        );
-        assert_eq!(at(OPEN, t(1, 0), t(0, 1), true), weak);
+
+        assert_eq!(verdict(UNDECIDED, [1, 1], [1, 1], false), Ok(()));
+        assert_eq!(verdict(UNDECIDED, [1, 0], [1, 1], false), weak);
+        assert_eq!(verdict(UNDECIDED, [1, 1], [1, 0], false), weak);
+
+        let first_in_support = [State::InSupport, State::Undecided];
+        assert_eq!(verdict(first_in_support, [1, 0], [1, 0], false), Ok(()));
+        assert_eq!(verdict(first_in_support, [0, 1], [1, 1], false), weak);
+
+        assert_eq!(verdict(UNDECIDED, [1, 1], [1, 0], true), Ok(()));
+        assert_eq!(verdict(UNDECIDED, [1, 0], [1, 1], true), weak);
+        assert_eq!(verdict(UNDECIDED, [1, 0], [0, 1], true), weak);
+
+        let second_at_zero = [State::Undecided, State::AtZero];
+        assert_eq!(verdict(second_at_zero, [1, 0], [1, 0], false), Ok(()));
     }
 
-    /// At an infinite end a symmetric part that vanishes on what may move will do, radius included;
-    /// at no other.
+    /// At an infinite end a symmetric part that vanishes on the possible support will do, radius
+    /// included; at no other.
     #[test]
     fn a_vanishing_direction_is_definite_enough() {
         let eye = [[1 << 20, 0], [0, 1 << 20]];
         let skew = [[0, 5], [-5, 0]];
-        let at = |states, m, r, infinite| {
-            definite(&region(states), None, || ends(m, r, infinite), &INDEX, 1)
+        let verdict = |m: [Square; 2], infinite: bool| {
+            long_definite_leaf(UNDECIDED, ends(m, [ZERO, ZERO], infinite))
         };
-        let not = |index, end| Err(CoverFault::NotDefinite { index, end });
-        assert_eq!(at(OPEN, [eye, skew], [NONE, NONE], true), Ok(()));
-        assert_eq!(at(OPEN, [eye, skew], [NONE, NONE], false), not(10, "upper"));
-        assert_eq!(at(OPEN, [skew, eye], [NONE, NONE], true), not(10, "lower"));
-        assert_eq!(
-            at(OPEN, [eye, [[0, 5], [5, 0]]], [NONE, NONE], true),
-            not(10, "upper")
-        );
-        assert_eq!(
-            at(OPEN, [eye, skew], [NONE, [[0, 1], [0, 0]]], true),
-            not(10, "upper")
-        );
-        assert_eq!(
-            at(
-                [State::AtZero, State::Undecided],
-                [eye, [[7, 9], [9, 0]]],
-                [NONE, [[5, 5], [5, 0]]],
-                true
-            ),
-            Ok(())
-        );
-        assert_eq!(at(OPEN, [eye, eye], [NONE, NONE], true), Ok(()));
-        assert_eq!(
-            at(OPEN, [eye, [[1 << 20, 0], [0, 0]]], [NONE, NONE], true),
-            not(11, "upper")
-        );
+
+        assert_eq!(verdict([eye, eye], true), Ok(()));
+        assert_eq!(verdict([eye, skew], true), Ok(()));
+        assert_eq!(verdict([eye, skew], false), not_definite(10, "upper"));
+        assert_eq!(verdict([skew, eye], true), not_definite(10, "lower"));
+
+        let symmetric = [[0, 5], [5, 0]];
+        assert_eq!(verdict([eye, symmetric], true), not_definite(10, "upper"));
+        let singular = [[1 << 20, 0], [0, 0]];
+        assert_eq!(verdict([eye, singular], true), not_definite(11, "upper"));
+
+        let with_radius = ends([eye, skew], [ZERO, [[0, 1], [0, 0]]], true);
+        let refused = long_definite_leaf(UNDECIDED, with_radius);
+        assert_eq!(refused, not_definite(10, "upper"));
+
+        // Only entry (1, 1) counts, which is zero with its radius.
+        let m = [eye, [[7, 9], [9, 0]]];
+        let r = [ZERO, [[5, 5], [5, 0]]];
+        let first_at_zero = [State::AtZero, State::Undecided];
+        assert_eq!(long_definite_leaf(first_at_zero, ends(m, r, true)), Ok(()));
     }
 
     /// The short numbers only ever say what the long ones say.
     #[test]
     fn short_numbers_are_asked_first() {
-        let short = |m: [[i64; 2]; 2]| Short::of(&matrix(m), &matrix(NONE), &[0, 1]).unwrap();
-        let never = || Err(CoverFault::Trailing);
-        let negative = || [short([[-1, -1], [0, 0]]), short([[-1, -2], [0, 0]])];
-        assert_eq!(
-            farkas(&region(OPEN), Some(&negative()), never, &INDEX, &[1, 0]),
-            Ok(())
-        );
+        let verdict = |states, short: &[Short; 2]| {
+            farkas(&region(states), Some(short), no_ends, &INDEX, &[1, 0])
+        };
+        let negative = [short([[-1, -1], [0, 0]]), short([[-1, -2], [0, 0]])];
         let unclear = [short([[-1, 0], [0, 0]]), short([[-1, -2], [0, 0]])];
-        assert_eq!(
-            farkas(&region(OPEN), Some(&unclear), never, &INDEX, &[1, 0]),
-            Err(CoverFault::Trailing)
-        );
-        // What rests need not be negative.
-        assert_eq!(
-            farkas(
-                &region([State::Undecided, State::AtZero]),
-                Some(&unclear),
-                never,
-                &INDEX,
-                &[1, 0]
-            ),
-            Ok(())
-        );
-        let eye = || short([[1 << 20, 0], [0, 1 << 20]]);
-        assert_eq!(
-            definite(&region(OPEN), Some(&[eye(), eye()]), never, &INDEX, 1),
-            Ok(())
-        );
-        assert_eq!(
-            definite(&region(OPEN), Some(&[eye(), short(NONE)]), never, &INDEX, 1),
-            Err(CoverFault::Trailing)
-        );
+        assert_eq!(verdict(UNDECIDED, &negative), Ok(()));
+        assert_eq!(verdict(UNDECIDED, &unclear), Err(CoverFault::Trailing));
+
+        // w'T need not be negative on a variable at zero.
+        let second_at_zero = [State::Undecided, State::AtZero];
+        assert_eq!(verdict(second_at_zero, &unclear), Ok(()));
+
+        let eye = [[1 << 20, 0], [0, 1 << 20]];
+        let verdict =
+            |short: &[Short; 2]| definite(&region(UNDECIDED), Some(short), no_ends, &INDEX, 1);
+        assert_eq!(verdict(&[short(eye), short(eye)]), Ok(()));
+        let unclear = verdict(&[short(eye), short(ZERO)]);
+        assert_eq!(unclear, Err(CoverFault::Trailing));
     }
 }

@@ -462,18 +462,20 @@ mod tests {
     #[test]
     fn half_lines_are_halved_above_their_end() {
         // Complex roots about `at` and a real one.
-        let p = |at: i64, real: i64| {
-            &Poly::from_ints(&[100 * at * at + 1, -200 * at, 100]) * &Poly::from_ints(&[-real, 1])
+        let with_roots = |at: i64, real: i64| {
+            let complex = Poly::from_ints(&[100 * at * at + 1, -200 * at, 100]);
+            &complex * &Poly::from_ints(&[-real, 1])
         };
-        assert!(has_no_root(&p(8, 2), &whole(3), None, &Budget::new())); // 2 is below
-        assert!(
-            has_no_root(&p(1, -5), &whole(-3), None, &Budget::new())
-                && has_no_root(&p(-1, -5), &whole(-3), None, &Budget::new())
-        );
-        assert!(
-            !has_no_root(&p(8, 5), &whole(3), None, &Budget::new())
-                && !has_no_root(&p(8, 30), &whole(3), None, &Budget::new())
-        );
+        let is_free_from = |start: i64, at: i64, real: i64| {
+            has_no_root(&with_roots(at, real), &whole(start), None, &Budget::new())
+        };
+
+        assert!(is_free_from(3, 8, 2)); // 2 is below
+        assert!(is_free_from(-3, 1, -5));
+        assert!(is_free_from(-3, -1, -5));
+
+        assert!(!is_free_from(3, 8, 5));
+        assert!(!is_free_from(3, 8, 30));
     }
 
     /// (t - c)^2 + 1/10^4 takes about seven halvings on the way to c, on either side of the middle.

@@ -313,7 +313,7 @@ fn contains(e: &Expanded, short: &Short, t: &Rational, times: &Rational) -> bool
         };
         coefficient(0) + t * coefficient(1)
     };
-    let z = |i: usize, j: usize| {
+    let center = |i: usize, j: usize| {
         let [a, b] = [0, 1].map(|k| Rational::new(e.z[k][i][j].clone(), e.unit.clone()));
         a + t * b
     };
@@ -324,7 +324,7 @@ fn contains(e: &Expanded, short: &Short, t: &Rational, times: &Rational) -> bool
     let raised = Rational::from_integer(t.denom() << FRACTION_BITS);
     let fits = |unit: u64, i: usize, j: usize, sign: i64| {
         let unit = Integer::one() << unit;
-        let value = (z(i, j) + radius(i, j) * times * whole(sign)) * &raised;
+        let value = (center(i, j) + radius(i, j) * times * whole(sign)) * &raised;
         (value - Rational::from_integer(&unit * short.m[i][j])).abs()
             <= Rational::from_integer(unit * short.r[i][j])
     };

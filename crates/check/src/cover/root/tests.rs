@@ -66,18 +66,18 @@ fn system(y: &Matrix) -> System<'_> {
     }
 }
 
-fn q(v: &Integer) -> Rational {
+fn rational_of(v: &Integer) -> Rational {
     Rational::from_integer(v.clone())
 }
 
 /// An entry among the variables of the support and its radius, as real numbers.
 fn entry(e: &Ends, end: usize, i: usize, j: usize) -> (Rational, Rational) {
-    let of = |m: &Matrix| q(&m[SUPPORT[i]][SUPPORT[j]]) / whole(SCALE);
+    let of = |m: &Matrix| rational_of(&m[SUPPORT[i]][SUPPORT[j]]) / whole(SCALE);
     (of(&e.m[end]), of(&e.r[end]))
 }
 
-fn y(s: &System<'_>, i: usize, k: usize) -> Rational {
-    q(&s.y[i][k]) / whole(Y_ONE)
+fn inverse_entry(s: &System<'_>, i: usize, k: usize) -> Rational {
+    rational_of(&s.y[i][k]) / whole(Y_ONE)
 }
 
 fn largest(list: impl Iterator<Item = Rational>) -> Rational {
@@ -89,9 +89,9 @@ fn norm(s: &System<'_>, e: &Ends, is_right: bool) -> Rational {
         let cell = |j: usize| {
             let term = |k: usize| {
                 if is_right {
-                    (y(s, i, k), entry(e, end, k, j))
+                    (inverse_entry(s, i, k), entry(e, end, k, j))
                 } else {
-                    (y(s, k, i), entry(e, end, j, k))
+                    (inverse_entry(s, k, i), entry(e, end, j, k))
                 }
             };
             let product: Rational = (0..2).map(|k| term(k).0 * term(k).1.0).sum();
@@ -116,9 +116,9 @@ fn residual(
 ) -> (Rational, Rational) {
     let term = |j: usize| {
         if is_right {
-            (q(&s.v[j]) / whole(ONE), entry(e, end, i, j))
+            (rational_of(&s.v[j]) / whole(ONE), entry(e, end, i, j))
         } else {
-            (q(&s.u[j]) / whole(ONE), entry(e, end, j, i))
+            (rational_of(&s.u[j]) / whole(ONE), entry(e, end, j, i))
         }
     };
     (
@@ -129,12 +129,18 @@ fn residual(
 
 fn error_at(s: &System<'_>, e: &Ends, end: usize, is_right: bool, norm: &Rational) -> Rational {
     let row = |i: usize| -> Rational {
-        let y = |k: usize| if is_right { y(s, i, k) } else { y(s, k, i) };
+        let entry = |k: usize| {
+            if is_right {
+                inverse_entry(s, i, k)
+            } else {
+                inverse_entry(s, k, i)
+            }
+        };
         let sum: Rational = (0..2)
-            .map(|k| y(k) * residual(s, e, end, is_right, k).0)
+            .map(|k| entry(k) * residual(s, e, end, is_right, k).0)
             .sum();
         let radius: Rational = (0..2)
-            .map(|k| y(k).abs() * residual(s, e, end, is_right, k).1)
+            .map(|k| entry(k).abs() * residual(s, e, end, is_right, k).1)
             .sum();
         sum.abs() + radius
     };
@@ -168,7 +174,10 @@ fn norms_and_errors_are_those_of_the_formulas() {
             let unit = whole(ONE * SCALE);
             for (i, ball) in got.iter().enumerate() {
                 assert_eq!(
-                    (q(&ball.center) / &unit, q(&ball.radius) / &unit),
+                    (
+                        rational_of(&ball.center) / &unit,
+                        rational_of(&ball.radius) / &unit
+                    ),
                     residual(&s, &e, end, matches!(side, Side::Right), i)
                 );
             }
@@ -278,17 +287,17 @@ fn at_its_radius_the_schur_complement_has_no_sign() {
 
 /// slope and radius of the derivative of phi, times one^2 scale.
 fn derivative(s: &System<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
-    let (mut slope, mut radius) = (0, 0);
-    let n = |v: &Integer| v.to_i64().unwrap();
+    let mut slope = 0;
+    let mut radius = 0;
+    let short = |v: &Integer| v.to_i64().unwrap();
     for i in 0..3 {
         for j in 0..3 {
-            let d = n(&e.m[1][SUPPORT[i]][SUPPORT[j]]) - n(&e.m[0][SUPPORT[i]][SUPPORT[j]]);
-            let around = n(&e.slope[SUPPORT[i]][SUPPORT[j]]);
-            let (u, v) = (n(&s.u[i]), n(&s.v[j]));
-            let (a, b) = (
-                if i == 2 { 0 } else { left },
-                if j == 2 { 0 } else { right },
-            );
+            let d = short(&e.m[1][SUPPORT[i]][SUPPORT[j]]) - short(&e.m[0][SUPPORT[i]][SUPPORT[j]]);
+            let around = short(&e.slope[SUPPORT[i]][SUPPORT[j]]);
+            let u = short(&s.u[i]);
+            let v = short(&s.v[j]);
+            let a = if i == 2 { 0 } else { left };
+            let b = if j == 2 { 0 } else { right };
             slope += u * d * v;
             // (|d| + around) (|u| + a) (|v| + b) less |d| |u| |v|.
             radius +=
@@ -348,13 +357,14 @@ fn a_resting_row_has_a_sign_beyond_its_radius_only() {
     (s.v, s.one) = ([-5, 2, 1].map(Integer::from).to_vec(), 1.into());
     for (end, error) in [(0, 0), (1, 0), (0, 4), (1, 9)] {
         let mut e = ends();
-        let m = |e: &Ends, j: usize| e.m[end][3][SUPPORT[j]].to_i64().unwrap();
-        let r = |e: &Ends, j: usize| e.r[end][3][SUPPORT[j]].to_i64().unwrap();
-        let radius = 5 * r(&e, 0)
-            + 2 * r(&e, 1)
-            + r(&e, 2)
-            + error * (m(&e, 0).abs() + r(&e, 0) + m(&e, 1).abs() + r(&e, 1));
-        let others = -5 * m(&e, 0) + 2 * m(&e, 1);
+        let entry = |e: &Ends, j: usize| e.m[end][3][SUPPORT[j]].to_i64().unwrap();
+        let radius_of = |e: &Ends, j: usize| e.r[end][3][SUPPORT[j]].to_i64().unwrap();
+        let radius = 5 * radius_of(&e, 0)
+            + 2 * radius_of(&e, 1)
+            + radius_of(&e, 2)
+            + error
+                * (entry(&e, 0).abs() + radius_of(&e, 0) + entry(&e, 1).abs() + radius_of(&e, 1));
+        let others = -5 * entry(&e, 0) + 2 * entry(&e, 1);
         let mut sign = |value: i64| {
             e.m[end][3][1] = (value - others).into();
             s.row_sign(&e, end, 3, &whole(error))
@@ -396,7 +406,7 @@ fn region() -> Region {
 /// T = [[1, a, .], [0, t, .], [b, c, .]] with t from one value to another: x = (-a, 1), y_3 = c - a
 /// b.
 fn simple(t: [i64; 2], a: i64, b: i64, c: [i64; 2]) -> Ends {
-    let m = |k: usize| -> Matrix {
+    let at_end = |k: usize| -> Matrix {
         [[1, a, 0], [0, t[k], 0], [b, c[k], 0]]
             .iter()
             .map(|r| r.map(Integer::from).to_vec())
@@ -404,7 +414,7 @@ fn simple(t: [i64; 2], a: i64, b: i64, c: [i64; 2]) -> Ends {
     };
     let zero = || vec![vec![Integer::zero(); 3]; 3];
     Ends {
-        m: [m(0), m(1)],
+        m: [at_end(0), at_end(1)],
         r: [zero(), zero()],
         slope: zero(),
         scale: 1.into(),
