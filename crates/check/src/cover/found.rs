@@ -172,85 +172,77 @@ mod tests {
         }
     }
 
+    fn range() -> SolutionFamily {
+        family([2, 3], Some([7, 8]), false, true)
+    }
+
+    fn half_line() -> SolutionFamily {
+        family([2, 3], None, false, true)
+    }
+
+    /// Does a solution stay single beside a family?
+    fn is_single(support: usize, value: [i64; 2], beside: SolutionFamily) -> bool {
+        let mut list = vec![found(support, value, value)];
+        let families = families(&mut list, vec![beside]);
+        assert_eq!(families.len() + list.len(), 2);
+        list.len() == 1
+    }
+
     /// A solution within a family or at an end of it is a point of it; beside it, or of another
     /// support, it is single.
     #[test]
     fn a_single_solution_at_a_family_belongs_to_it() {
-        let is_single = |support: usize, value: [i64; 2], f: SolutionFamily| {
-            let mut list = vec![found(support, value, value)];
-            let families = families(&mut list, vec![f]);
-            assert_eq!(families.len() + list.len(), 2);
-            list.len() == 1
-        };
-        let range = || family([2, 3], Some([7, 8]), false, true);
-        let half_line = || family([2, 3], None, false, true);
         for value in [[3, 3], [3, 4], [5, 6], [7, 7], [5, 7]] {
-            assert!(
-                !is_single(0, value, range()) && is_single(1, value, range()),
-                "{value:?}"
-            );
-            assert!(!is_single(0, value, half_line()));
+            assert!(!is_single(0, value, range()), "{value:?}");
+            assert!(is_single(1, value, range()), "{value:?}");
+            assert!(!is_single(0, value, half_line()), "{value:?}");
         }
         for value in [[2, 3], [1, 1], [7, 8], [8, 8], [9, 9]] {
             assert!(is_single(0, value, range()), "{value:?}");
         }
-        assert!(!is_single(0, [900, 901], half_line()) && is_single(0, [1, 2], half_line()));
+        assert!(!is_single(0, [900, 901], half_line()));
+        assert!(is_single(0, [1, 2], half_line()));
+
         let mut list = vec![found(0, [5, 6], [4, 7])];
-        let point = SolutionFamily {
-            from: interval(5, 6),
-            to: Some(interval(5, 6)),
-            is_point: true,
-            is_alone: true,
-            support: vec![0],
-        };
+        let point = family([5, 6], Some([5, 6]), true, true);
         assert_eq!(families(&mut list, vec![range()]), [range(), point]);
     }
 
     /// Of two leaves that share an end the one that has proved more counts, in either order.
     #[test]
     fn alone_is_kept_of_two_that_are_the_same() {
-        let of = |is_alone| family([2, 2], Some([2, 2]), true, is_alone);
-        for list in [vec![of(true), of(false)], vec![of(false), of(true)]] {
-            assert_eq!(families(&mut Vec::new(), list), [of(true)]);
-        }
-        assert_eq!(
-            families(&mut Vec::new(), vec![of(false), of(false)]),
-            [of(false)]
-        );
+        let alone = || family([2, 2], Some([2, 2]), true, true);
+        let cone = || family([2, 2], Some([2, 2]), true, false);
+        let merged = |list| families(&mut Vec::new(), list);
+
+        assert_eq!(merged(vec![alone(), cone()]), [alone()]);
+        assert_eq!(merged(vec![cone(), alone()]), [alone()]);
+        assert_eq!(merged(vec![cone(), cone()]), [cone()]);
+
         // A range and the point at its end are two.
         let range = || family([2, 2], Some([2, 2]), false, true);
-        assert_eq!(
-            families(&mut Vec::new(), vec![range(), of(true)]),
-            [of(true), range()]
-        );
+        assert_eq!(merged(vec![range(), alone()]), [alone(), range()]);
     }
 
     #[test]
     fn two_that_overlap_are_one_if_either_lies_where_the_other_is_unique() {
-        let list = |a: Found, b: Found| distinct(vec![a, b]).map(|l| l.len());
-        assert_eq!(
-            list(found(0, [1, 4], [1, 4]), found(0, [3, 6], [0, 9])),
-            Ok(1)
-        );
-        assert_eq!(
-            list(found(0, [1, 4], [0, 9]), found(0, [3, 6], [3, 6])),
-            Ok(1)
-        );
-        assert_eq!(
-            list(found(0, [1, 4], [1, 4]), found(0, [3, 6], [3, 6])),
-            Err(CoverFault::Ambiguous { support: vec![0] })
-        );
-        assert_eq!(
-            list(found(0, [1, 4], [1, 5]), found(0, [3, 6], [2, 6])),
-            Err(CoverFault::Ambiguous { support: vec![0] })
-        );
-        assert_eq!(
-            list(found(0, [1, 4], [1, 4]), found(0, [5, 6], [5, 6])),
-            Ok(2)
-        );
-        assert_eq!(
-            list(found(0, [1, 4], [1, 4]), found(1, [3, 6], [3, 6])),
-            Ok(2)
-        );
+        let count = |first: Found, second: Found| {
+            let list = distinct(vec![first, second])?;
+            Ok(list.len())
+        };
+        let ambiguous = Err(CoverFault::Ambiguous { support: vec![0] });
+
+        let wide_hull = found(0, [3, 6], [0, 9]);
+        assert_eq!(count(found(0, [1, 4], [1, 4]), wide_hull), Ok(1));
+        let wide_hull = found(0, [1, 4], [0, 9]);
+        assert_eq!(count(wide_hull, found(0, [3, 6], [3, 6])), Ok(1));
+
+        let first = || found(0, [1, 4], [1, 4]);
+        assert_eq!(count(first(), found(0, [3, 6], [3, 6])), ambiguous);
+        let longer = found(0, [1, 4], [1, 5]);
+        assert_eq!(count(longer, found(0, [3, 6], [2, 6])), ambiguous);
+
+        assert_eq!(count(first(), found(0, [5, 6], [5, 6])), Ok(2));
+        assert_eq!(count(first(), found(1, [3, 6], [3, 6])), Ok(2));
     }
 }

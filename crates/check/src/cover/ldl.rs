@@ -339,14 +339,14 @@ mod tests {
     /// Order 128 and 2^22 bits in all are the largest that are multiplied out.
     #[test]
     fn what_is_multiplied_out_has_a_limit() {
-        let of = |order: usize, entry: Rational| {
+        let shape_of = |order: usize, entry: Rational| {
             let rows = (0..order).map(|i| vec![Number(whole(0)); i]).collect();
             let diagonal = (0..order).map(|_| Number(entry.clone())).collect();
             check_shape(&LdlFactor { rows, diagonal }, order)
         };
         let large = |what, limit, got| Err(CoverFault::TooLarge { what, limit, got });
         assert_eq!(
-            [of(128, whole(1)), of(129, whole(1))],
+            [shape_of(128, whole(1)), shape_of(129, whole(1))],
             [Ok(()), large("ldl order", 128, 129)]
         );
         // Numerator and denominator count: 2^k has k + 1 bits.
@@ -354,13 +354,13 @@ mod tests {
             Rational::new(Integer::from(1) << up, (Integer::from(1) << down) + 1)
         };
         let size = "ldl size (order squared times bits)";
-        assert_eq!(of(4, power((1 << 18) - 3, 1)), Ok(()));
+        assert_eq!(shape_of(4, power((1 << 18) - 3, 1)), Ok(()));
         assert_eq!(
-            of(4, power((1 << 18) - 2, 1)),
+            shape_of(4, power((1 << 18) - 2, 1)),
             large(size, 1 << 22, (1 << 22) + 16)
         );
         assert_eq!(
-            of(4, power(1 << 17, 1 << 17)),
+            shape_of(4, power(1 << 17, 1 << 17)),
             large(size, 1 << 22, (1 << 22) + 32)
         );
     }

@@ -59,7 +59,7 @@ use budget::WorkBudget;
 use family::{AnchorExpansion, Family, Linear};
 use mceip_exact::Rational;
 use mceip_model::Window;
-use rootless::Budget;
+use rootless::SignBudget;
 use walk::{NodeFault, Walk, end};
 
 /// Largest number of complementarity variables of a cover: a region has dense matrices of this
@@ -99,7 +99,7 @@ pub(super) fn check(
         families: Vec::new(),
         open: Vec::new(),
         leaves: 0,
-        sign_budget: Budget::new(),
+        sign_budget: SignBudget::new(),
         definite_budget: WorkBudget::of_definite_leaves(rows, cover),
         matrix_budget: WorkBudget::of_matrices(cover),
         refused,
@@ -297,7 +297,7 @@ mod tests {
             families: Vec::new(),
             open: Vec::new(),
             leaves: 0,
-            sign_budget: Budget::new(),
+            sign_budget: SignBudget::new(),
             definite_budget: WorkBudget::definite_leaves(0),
             matrix_budget: WorkBudget::matrices(0),
             refused: None,

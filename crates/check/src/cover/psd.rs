@@ -185,7 +185,7 @@ fn short_product(factor: &Factor, rows: &[Vec<i64>], i: usize, j: usize) -> i128
     sum
 }
 
-/// Demands that row i holds columns first[i] to i, and that the exponent is within the limit.
+/// Demands that row i holds the columns from `first` on, and that the exponent is within the limit.
 fn shape(factor: &Factor, n: usize) -> Result<(), CoverFault> {
     CoverFault::length("factor", n, factor.rows.len())?;
     CoverFault::length("first columns of the factor", n, factor.first.len())?;

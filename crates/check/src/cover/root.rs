@@ -43,25 +43,25 @@ pub(super) fn check(
     index: &[usize],
     root: &Root,
 ) -> Result<(), CoverFault> {
-    let system = System::new(region, index, root)?;
+    let witness = Witness::new(region, index, root)?;
 
-    let rho = system.norm(wide, Side::Right)?;
-    let eta = system.norm(wide, Side::Left)?;
-    let right = system.error(wide, Side::Right, &rho);
-    let left = system.error(wide, Side::Left, &eta);
-    if !system.monotone(wide, &left, &right) {
+    let rho = witness.norm(wide, Side::Right)?;
+    let eta = witness.norm(wide, Side::Left)?;
+    let right = witness.error(wide, Side::Right, &rho);
+    let left = witness.error(wide, Side::Left, &eta);
+    if !witness.monotone(wide, &left, &right) {
         return Err(CoverFault::NotMonotone);
     }
 
     match root.outcome {
         RootOutcome::Claim(_) | RootOutcome::Infinity(_) => return Ok(()),
-        RootOutcome::Absent if system.schur_signs(wide, &rho) == 1 => return Ok(()),
+        RootOutcome::Absent if witness.schur_signs(wide, &rho) == 1 => return Ok(()),
         RootOutcome::Absent => return Err(CoverFault::SignChange),
         RootOutcome::Solution | RootOutcome::NegativeX(_) | RootOutcome::NegativeY(_) => {}
     }
 
     let narrow = narrow()?;
-    if system.schur_signs(&narrow, &rho) != -1 {
+    if witness.schur_signs(&narrow, &rho) != -1 {
         let [lo, hi] = &root.interval;
         return Err(CoverFault::NoSignChange {
             lo: lo.0.clone(),
@@ -70,8 +70,8 @@ pub(super) fn check(
     }
 
     // rho bounds |I - Y T'(t)| for every t of the hull, so for those of [a, b].
-    let error = system.error(&narrow, Side::Right, &rho);
-    system.check_outcome(region, &narrow, &error, index, &root.outcome)
+    let error = witness.error(&narrow, Side::Right, &rho);
+    witness.check_outcome(region, &narrow, &error, index, &root.outcome)
 }
 
 /// Which null vector is meant: T v = 0 or u'T = 0.
@@ -105,7 +105,7 @@ impl Ball {
 
 /// The witness, with positions among the complementarity variables. All vectors are over `support`,
 /// whose last entry is the pivot, with component 1.
-struct System<'a> {
+struct Witness<'a> {
     support: Vec<usize>,
     /// Y.
     y: &'a Matrix,
@@ -117,7 +117,7 @@ struct System<'a> {
     one: Integer,
 }
 
-impl<'a> System<'a> {
+impl<'a> Witness<'a> {
     fn new(region: &Region, index: &[usize], root: &'a Root) -> Result<Self, CoverFault> {
         let mut support = region.support();
         if !region.is_decided() || support.is_empty() {
@@ -138,7 +138,7 @@ impl<'a> System<'a> {
         u.push(one.clone());
         v.push(one.clone());
 
-        Ok(System {
+        Ok(Witness {
             support,
             y: &root.inverse,
             y_one: Integer::one() << root.inverse_exponent,

@@ -10,7 +10,7 @@
 //! isolated ones. For the latter g is divided by p as often as p divides it. Then the sign of g in
 //! the middle of [b, a'] is its sign all between.
 //!
-//! *Budget.* A transformation of a polynomial with n coefficients takes n^2 / 2 additions of
+//! *SignBudget.* A transformation of a polynomial with n coefficients takes n^2 / 2 additions of
 //! numbers of n times the bits of a and b: it is counted as n^3 (bits + 64). Remainders and
 //! evaluations are counted in the same unit. All leaves of a file share one budget
 //! (`spec/complete-set.md`, Limits). Once it is spent, no sign can be told any more.
@@ -37,14 +37,14 @@ const REMAINDER_SHIFT: u32 = 9;
 const EVALUATION_SHIFT: u32 = 8;
 
 /// What is left of the counts of a file.
-pub(super) struct Budget {
+pub(super) struct SignBudget {
     left: Cell<u64>,
     is_spent: Cell<bool>,
 }
 
-impl Budget {
+impl SignBudget {
     pub(super) fn new() -> Self {
-        Budget {
+        SignBudget {
             left: Cell::new(BASE_BUDGET),
             is_spent: Cell::new(false),
         }
@@ -101,14 +101,14 @@ impl Budget {
 }
 
 /// The only root of `poly` in `value`.
-pub(super) struct Root {
+pub(super) struct AlgebraicValue {
     pub(super) poly: Poly,
     pub(super) value: Interval,
 }
 
-impl Root {
+impl AlgebraicValue {
     /// The sign of g here, if it can be told.
-    pub(super) fn sign(&self, g: &Poly, budget: &Budget) -> Option<i8> {
+    pub(super) fn sign(&self, g: &Poly, budget: &SignBudget) -> Option<i8> {
         if !budget.spend_remainder(g, &self.poly) {
             return None;
         }
@@ -129,7 +129,7 @@ impl Root {
     }
 
     /// Has g no root in the isolating interval but possibly this one?
-    fn is_only_root_of(&self, g: &Poly, budget: &Budget) -> bool {
+    fn is_only_root_of(&self, g: &Poly, budget: &SignBudget) -> bool {
         if self.value.is_point() {
             return true;
         }
@@ -146,15 +146,15 @@ impl Root {
 /// told.
 pub(super) fn sign_between(
     g: &Poly,
-    left: &Root,
-    right: Option<&Root>,
-    budget: &Budget,
+    left: &AlgebraicValue,
+    right: Option<&AlgebraicValue>,
+    budget: &SignBudget,
 ) -> Option<i8> {
     if g.is_zero() {
         return Some(0);
     }
 
-    let is_only_root = |root: &Root| root.is_only_root_of(g, budget);
+    let is_only_root = |root: &AlgebraicValue| root.is_only_root_of(g, budget);
     if !is_only_root(left) || !right.is_none_or(is_only_root) {
         return None;
     }
@@ -173,7 +173,12 @@ pub(super) fn sign_between(
 }
 
 /// Is it certain that p has no root in the open interval?
-pub(super) fn has_no_root(p: &Poly, a: &Rational, b: Option<&Rational>, budget: &Budget) -> bool {
+pub(super) fn has_no_root(
+    p: &Poly,
+    a: &Rational,
+    b: Option<&Rational>,
+    budget: &SignBudget,
+) -> bool {
     let mut halving = Halving {
         p,
         halvings: MAX_HALVINGS,
@@ -186,7 +191,7 @@ struct Halving<'a> {
     p: &'a Poly,
     /// Halvings left.
     halvings: usize,
-    budget: &'a Budget,
+    budget: &'a SignBudget,
 }
 
 impl Halving<'_> {
@@ -272,7 +277,7 @@ fn shift(c: &mut [Integer], a: &Integer) {
 }
 
 /// g without its factors q.
-fn stripped(g: &Poly, q: &Poly, budget: &Budget) -> Poly {
+fn stripped(g: &Poly, q: &Poly, budget: &SignBudget) -> Poly {
     let mut rest = g.clone();
     while rest.degree() >= q.degree()
         && budget.spend_remainder(&rest, q)
@@ -308,8 +313,8 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
 
-    fn root(c: &[i64], a: (i64, i64), b: (i64, i64)) -> Root {
-        Root {
+    fn root(c: &[i64], a: (i64, i64), b: (i64, i64)) -> AlgebraicValue {
+        AlgebraicValue {
             poly: Poly::from_ints(c),
             value: Interval::new(rational(a.0, a.1), rational(b.0, b.1)).unwrap(),
         }
@@ -318,23 +323,33 @@ mod tests {
     #[test]
     fn roots_are_not_overlooked() {
         let p = Poly::from_ints(&[2, -3, 1]); // 1 and 2
-        assert!(!has_no_root(&p, &whole(0), Some(&whole(3)), &Budget::new()));
-        assert!(!has_no_root(&p, &rational(3, 2), None, &Budget::new()));
+        assert!(!has_no_root(
+            &p,
+            &whole(0),
+            Some(&whole(3)),
+            &SignBudget::new()
+        ));
+        assert!(!has_no_root(&p, &rational(3, 2), None, &SignBudget::new()));
         // Ends do not count.
-        assert!(has_no_root(&p, &whole(1), Some(&whole(2)), &Budget::new()));
-        assert!(has_no_root(&p, &whole(2), None, &Budget::new()));
+        assert!(has_no_root(
+            &p,
+            &whole(1),
+            Some(&whole(2)),
+            &SignBudget::new()
+        ));
+        assert!(has_no_root(&p, &whole(2), None, &SignBudget::new()));
         // A double root does not change the sign and is one.
         assert!(!has_no_root(
             &Poly::from_ints(&[1, -2, 1]),
             &whole(0),
             Some(&whole(3)),
-            &Budget::new()
+            &SignBudget::new()
         ));
         assert!(!has_no_root(
             &Poly::from_ints(&[1, -2, 1]),
             &whole(0),
             None,
-            &Budget::new()
+            &SignBudget::new()
         ));
     }
 
@@ -344,8 +359,8 @@ mod tests {
         let p = Poly::from_ints(&[101, -200, 100]);
         assert!(sign_changes(&p, &whole(0), Some(&whole(2))) > 0);
         assert!(
-            has_no_root(&p, &whole(0), Some(&whole(2)), &Budget::new())
-                && has_no_root(&p, &whole(0), None, &Budget::new())
+            has_no_root(&p, &whole(0), Some(&whole(2)), &SignBudget::new())
+                && has_no_root(&p, &whole(0), None, &SignBudget::new())
         );
     }
 
@@ -357,21 +372,26 @@ mod tests {
         );
         let g = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-1, 1]);
         assert_eq!(
-            sign_between(&g, &one, Some(&sqrt2), &Budget::new()),
+            sign_between(&g, &one, Some(&sqrt2), &SignBudget::new()),
             Some(-1)
         );
-        assert_eq!(sign_between(&g, &sqrt2, None, &Budget::new()), Some(1));
+        assert_eq!(sign_between(&g, &sqrt2, None, &SignBudget::new()), Some(1));
         assert_eq!(
-            sign_between(&(&g * &g), &sqrt2, None, &Budget::new()),
+            sign_between(&(&g * &g), &sqrt2, None, &SignBudget::new()),
             Some(1)
         );
         assert_eq!(
-            sign_between(&Poly::from_ints(&[-3, 2]), &one, None, &Budget::new()),
+            sign_between(&Poly::from_ints(&[-3, 2]), &one, None, &SignBudget::new()),
             None
         );
         // A root within the isolating interval, on either side of the isolated one.
         assert_eq!(
-            sign_between(&Poly::from_ints(&[-29, 20]), &sqrt2, None, &Budget::new()),
+            sign_between(
+                &Poly::from_ints(&[-29, 20]),
+                &sqrt2,
+                None,
+                &SignBudget::new()
+            ),
             None
         );
         assert_eq!(
@@ -379,16 +399,16 @@ mod tests {
                 &Poly::from_ints(&[-141, 100]),
                 &one,
                 Some(&sqrt2),
-                &Budget::new()
+                &SignBudget::new()
             ),
             None
         );
         assert_eq!(
-            sign_between(&Poly::default(), &one, None, &Budget::new()),
+            sign_between(&Poly::default(), &one, None, &SignBudget::new()),
             Some(0)
         );
         assert_eq!(
-            [&g, &Poly::from_ints(&[-1, 1])].map(|p| sqrt2.sign(p, &Budget::new())),
+            [&g, &Poly::from_ints(&[-1, 1])].map(|p| sqrt2.sign(p, &SignBudget::new())),
             [Some(0), Some(1)]
         );
     }
@@ -398,11 +418,11 @@ mod tests {
     fn the_sign_to_infinity_is_taken_above() {
         let three = root(&[-3, 1], (3, 1), (3, 1));
         assert_eq!(
-            sign_between(&Poly::from_ints(&[-5, 2]), &three, None, &Budget::new()),
+            sign_between(&Poly::from_ints(&[-5, 2]), &three, None, &SignBudget::new()),
             Some(1)
         );
         assert_eq!(
-            sign_between(&Poly::from_ints(&[5, -2]), &three, None, &Budget::new()),
+            sign_between(&Poly::from_ints(&[5, -2]), &three, None, &SignBudget::new()),
             Some(-1)
         );
         let half = root(&[-1, 2], (1, 2), (1, 2));
@@ -411,7 +431,7 @@ mod tests {
                 &Poly::from_ints(&[1, 4]),
                 &half,
                 Some(&three),
-                &Budget::new()
+                &SignBudget::new()
             ),
             Some(1)
         );
@@ -432,10 +452,13 @@ mod tests {
             &(&beside * &far) * &sqrt2.poly,
             &(&beside * &far) * &square,
         ] {
-            assert_eq!(sign_between(&g, &sqrt2, Some(&nine), &Budget::new()), None);
+            assert_eq!(
+                sign_between(&g, &sqrt2, Some(&nine), &SignBudget::new()),
+                None
+            );
         }
         assert_eq!(
-            sign_between(&(&far * &square), &sqrt2, Some(&nine), &Budget::new()),
+            sign_between(&(&far * &square), &sqrt2, Some(&nine), &SignBudget::new()),
             Some(-1)
         );
         assert_eq!(
@@ -443,7 +466,7 @@ mod tests {
                 &(&far * &Poly::from_ints(&[-10, 3])),
                 &sqrt2,
                 Some(&nine),
-                &Budget::new()
+                &SignBudget::new()
             ),
             None
         );
@@ -452,7 +475,7 @@ mod tests {
                 &(&far * &Poly::from_ints(&[-1, 3])),
                 &sqrt2,
                 Some(&nine),
-                &Budget::new()
+                &SignBudget::new()
             ),
             Some(-1)
         );
@@ -467,7 +490,12 @@ mod tests {
             &complex * &Poly::from_ints(&[-real, 1])
         };
         let is_free_from = |start: i64, at: i64, real: i64| {
-            has_no_root(&with_roots(at, real), &whole(start), None, &Budget::new())
+            has_no_root(
+                &with_roots(at, real),
+                &whole(start),
+                None,
+                &SignBudget::new(),
+            )
         };
 
         assert!(is_free_from(3, 8, 2)); // 2 is below
@@ -484,7 +512,7 @@ mod tests {
         let near = |c: i64| Poly::from_ints(&[c * c * 100 + 1, -2000 * c, 10_000]); // c in tenths
         for c in [1, 19] {
             let of = |depth: u32, halvings: usize| {
-                let (p, budget) = (near(c), Budget::new());
+                let (p, budget) = (near(c), SignBudget::new());
                 let mut halving = Halving {
                     p: &p,
                     halvings,
@@ -510,7 +538,7 @@ mod tests {
         let p = Poly::from_ints(&[101, -200, 100]);
         let first = 27 * (1 + 3 + 64);
         let with = |left: u64| {
-            let budget = Budget {
+            let budget = SignBudget {
                 left: Cell::new(left),
                 is_spent: Cell::new(false),
             };
@@ -531,7 +559,7 @@ mod tests {
 
     #[test]
     fn coefficients_add_to_the_budget() {
-        let budget = Budget::new();
+        let budget = SignBudget::new();
         budget.add_coefficients(3);
         assert_eq!(budget.left.get(), (1 << 35) + 3 * (1 << 24));
         budget.add_coefficients(u64::MAX);
@@ -544,7 +572,7 @@ mod tests {
         let (g, p) = (Poly::from_ints(&[1, 2, 3]), Poly::from_ints(&[-7, 2]));
         let cost = (2 * 2 * 3 * 67 * 67) >> 9;
         let with = |left: u64| {
-            let budget = Budget {
+            let budget = SignBudget {
                 left: Cell::new(left),
                 is_spent: Cell::new(false),
             };
@@ -559,7 +587,7 @@ mod tests {
         assert_eq!(with(cost - 1), (false, true, cost - 1));
 
         // Nothing to divide costs nothing.
-        let free = Budget {
+        let free = SignBudget {
             left: Cell::new(0),
             is_spent: Cell::new(false),
         };

@@ -27,7 +27,7 @@
 
 use super::fault::CoverFault;
 use super::region::Region;
-use super::rootless::{Budget, Root, sign_between};
+use super::rootless::{AlgebraicValue, SignBudget, sign_between};
 use crate::certificate::{Alone, Exact, Polynomials, Support};
 use crate::exact_solution::isolate;
 use crate::pencil::{Row, Rows};
@@ -67,7 +67,7 @@ pub(super) fn check(
     region: &Region,
     index: &[usize],
     leaf: &Support,
-    budget: &Budget,
+    budget: &SignBudget,
 ) -> Result<Vec<Held>, CoverFault> {
     let support: Vec<usize> = region.support().into_iter().map(|p| index[p]).collect();
     let verdict = check_places(rows, region, &support, leaf, budget);
@@ -83,7 +83,7 @@ fn check_places(
     region: &Region,
     support: &[usize],
     leaf: &Support,
-    budget: &Budget,
+    budget: &SignBudget,
 ) -> Result<Vec<Held>, CoverFault> {
     let is_empty = leaf.points.is_empty() && leaf.cells.is_empty();
     if !region.is_decided() || support.is_empty() != is_empty {
@@ -96,24 +96,24 @@ fn check_places(
 
     budget.add_coefficients(bounded(leaf)?);
 
-    let system = System::new(rows, support);
+    let pencil = SupportPencil::new(rows, support);
     let roots = points(region, leaf)?;
 
     let mut at_points = Vec::new();
     for (k, root) in roots.iter().enumerate() {
         let reason = reason(leaf, leaf.points[k].reason)?;
-        let place = Place {
+        let place = LeafPlace {
             number: 2 * k,
             location: Location::Point(root),
             budget,
         };
-        at_points.push(system.content(reason, &place)?);
+        at_points.push(pencil.content(reason, &place)?);
     }
 
     let mut in_cells = Vec::new();
     for (k, &cell) in leaf.cells.iter().enumerate() {
         let reason = reason(leaf, cell)?;
-        let place = Place {
+        let place = LeafPlace {
             number: 2 * k + 1,
             location: Location::Cell {
                 below: &roots[k],
@@ -121,7 +121,7 @@ fn check_places(
             },
             budget,
         };
-        in_cells.push(system.content(reason, &place)?);
+        in_cells.push(pencil.content(reason, &place)?);
     }
 
     Ok(collect(&roots, &at_points, &in_cells))
@@ -135,7 +135,7 @@ fn reason(leaf: &Support, number: usize) -> Result<&Exact, CoverFault> {
 }
 
 /// The places that hold solutions, from below. Cell k lies above point k.
-fn collect(roots: &[Root], at_points: &[Content], in_cells: &[Content]) -> Vec<Held> {
+fn collect(roots: &[AlgebraicValue], at_points: &[Content], in_cells: &[Content]) -> Vec<Held> {
     let is_empty_cell = |k: usize| in_cells.get(k).is_none_or(|c| *c == Content::Nothing);
     let mut held = Vec::new();
 
@@ -166,7 +166,7 @@ fn collect(roots: &[Root], at_points: &[Content], in_cells: &[Content]) -> Vec<H
 }
 
 /// From half way to the point before to half way to the point after.
-fn hull(roots: &[Root], k: usize) -> Option<Interval> {
+fn hull(roots: &[AlgebraicValue], k: usize) -> Option<Interval> {
     let value = &roots[k].value;
     let lo = match k.checked_sub(1) {
         Some(before) => half_way(roots[before].value.hi(), value.lo()),
@@ -184,8 +184,8 @@ fn half_way(a: &Rational, b: &Rational) -> Rational {
 }
 
 /// The points: each isolated, apart from each other, from one end of the region to the other.
-fn points(region: &Region, leaf: &Support) -> Result<Vec<Root>, CoverFault> {
-    let mut roots: Vec<Root> = Vec::new();
+fn points(region: &Region, leaf: &Support) -> Result<Vec<AlgebraicValue>, CoverFault> {
+    let mut roots: Vec<AlgebraicValue> = Vec::new();
     for (k, point) in leaf.points.iter().enumerate() {
         let poly = Poly::new(point.polynomial.clone()).primitive();
         let value = isolate(&poly, &point.interval).map_err(|_| CoverFault::Point { point: k })?;
@@ -193,7 +193,7 @@ fn points(region: &Region, leaf: &Support) -> Result<Vec<Root>, CoverFault> {
             return Err(CoverFault::Point { point: k });
         }
 
-        roots.push(Root { poly, value });
+        roots.push(AlgebraicValue { poly, value });
     }
 
     let begins_at_lo = is_at(roots.first(), &region.lo);
@@ -215,7 +215,7 @@ fn points(region: &Region, leaf: &Support) -> Result<Vec<Root>, CoverFault> {
 }
 
 /// Is the root this very number?
-fn is_at(root: Option<&Root>, end: &Rational) -> bool {
+fn is_at(root: Option<&AlgebraicValue>, end: &Rational) -> bool {
     root.is_some_and(|r| r.value.is_point() && r.value.lo() == end)
 }
 
@@ -268,23 +268,23 @@ fn polynomials(leaf: &Support) -> Vec<&Vec<Integer>> {
 }
 
 /// A place of the leaf, where signs of polynomials are asked for.
-struct Place<'a> {
+struct LeafPlace<'a> {
     /// Twice the point's position, or one more for the cell above it.
     number: usize,
     location: Location<'a>,
-    budget: &'a Budget,
+    budget: &'a SignBudget,
 }
 
 enum Location<'a> {
-    Point(&'a Root),
+    Point(&'a AlgebraicValue),
     /// `above` is `None` for a cell that reaches to infinity.
     Cell {
-        below: &'a Root,
-        above: Option<&'a Root>,
+        below: &'a AlgebraicValue,
+        above: Option<&'a AlgebraicValue>,
     },
 }
 
-impl Place<'_> {
+impl LeafPlace<'_> {
     /// The sign of g at every value of the place, if it can be told.
     fn sign(&self, g: &Poly) -> Option<i8> {
         match self.location {
@@ -303,19 +303,19 @@ impl Place<'_> {
 }
 
 /// The rows of the pencil and the support of a leaf, by the indices of the problem.
-struct System<'a> {
+struct SupportPencil<'a> {
     rows: &'a Rows,
     support: &'a [usize],
     /// The support and the free variables.
     active: Vec<usize>,
 }
 
-impl<'a> System<'a> {
+impl<'a> SupportPencil<'a> {
     fn new(rows: &'a Rows, support: &'a [usize]) -> Self {
         let active = (0..rows.order())
             .filter(|i| rows.is_free[*i] || support.contains(i))
             .collect();
-        System {
+        SupportPencil {
             rows,
             support,
             active,
@@ -323,7 +323,7 @@ impl<'a> System<'a> {
     }
 
     /// Checks a reason at a place and returns what it proves.
-    fn content(&self, reason: &Exact, place: &Place<'_>) -> Result<Content, CoverFault> {
+    fn content(&self, reason: &Exact, place: &LeafPlace<'_>) -> Result<Content, CoverFault> {
         match reason {
             Exact::None(w) => {
                 let w = self.vector("none", w)?;
@@ -368,7 +368,7 @@ impl<'a> System<'a> {
     }
 
     /// Demands that w is a Farkas vector.
-    fn check_nothing(&self, w: &[Poly], place: &Place<'_>) -> Result<(), CoverFault> {
+    fn check_nothing(&self, w: &[Poly], place: &LeafPlace<'_>) -> Result<(), CoverFault> {
         // Is some weight of R certainly positive? Then w'y >= 0 is all that is known of w'y.
         let mut is_one_sided = false;
         for (i, w_i) in w.iter().enumerate() {
@@ -409,7 +409,11 @@ impl<'a> System<'a> {
     }
 
     /// Demands that x is a solution with exactly this support; the signs of its y.
-    fn check_solution(&self, x: &[Poly], place: &Place<'_>) -> Result<Vec<Option<i8>>, CoverFault> {
+    fn check_solution(
+        &self,
+        x: &[Poly],
+        place: &LeafPlace<'_>,
+    ) -> Result<Vec<Option<i8>>, CoverFault> {
         for (i, x_i) in x.iter().enumerate() {
             if self.rows.is_free[i] {
                 continue;
@@ -464,7 +468,7 @@ impl<'a> System<'a> {
         &self,
         alone: &Alone,
         y: &[Option<i8>],
-        place: &Place<'_>,
+        place: &LeafPlace<'_>,
     ) -> Result<(), CoverFault> {
         if !self.support.contains(&alone.pivot) {
             return Err(CoverFault::Pivot { index: alone.pivot });
@@ -514,7 +518,7 @@ impl<'a> System<'a> {
         &self,
         l: &[Poly],
         y: &[Option<i8>],
-        place: &Place<'_>,
+        place: &LeafPlace<'_>,
     ) -> Result<bool, CoverFault> {
         let mut is_equation = true;
         for (i, l_i) in l.iter().enumerate() {

@@ -15,7 +15,7 @@ use super::family::Family;
 use super::fault::CoverFault;
 use super::proved::{AcceptedSolution, Found, OpenRegion, SolutionFamily};
 use super::region::{Region, State};
-use super::rootless::Budget;
+use super::rootless::SignBudget;
 use super::short::Short;
 use super::support::Held;
 use super::{infinity, ldl, leaf, root, support};
@@ -42,7 +42,7 @@ pub(super) struct Walk<'a> {
     pub(super) open: Vec<OpenRegion>,
     pub(super) leaves: usize,
     /// For the signs of support leaves.
-    pub(super) sign_budget: Budget,
+    pub(super) sign_budget: SignBudget,
     pub(super) definite_budget: WorkBudget,
     pub(super) matrix_budget: WorkBudget,
     /// Where leaves that fail are noted (piece, node), if they are to be left open.

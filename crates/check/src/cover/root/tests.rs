@@ -54,9 +54,9 @@ fn inverse() -> Matrix {
     ]
 }
 
-fn system(y: &Matrix) -> System<'_> {
+fn witness(y: &Matrix) -> Witness<'_> {
     let list = |v: [i64; 3]| v.iter().map(|&v| v.into()).collect();
-    System {
+    Witness {
         support: SUPPORT.to_vec(),
         y,
         y_one: Y_ONE.into(),
@@ -76,7 +76,7 @@ fn entry(e: &Ends, end: usize, i: usize, j: usize) -> (Rational, Rational) {
     (of(&e.m[end]), of(&e.r[end]))
 }
 
-fn inverse_entry(s: &System<'_>, i: usize, k: usize) -> Rational {
+fn inverse_entry(s: &Witness<'_>, i: usize, k: usize) -> Rational {
     rational_of(&s.y[i][k]) / whole(Y_ONE)
 }
 
@@ -84,7 +84,7 @@ fn largest(list: impl Iterator<Item = Rational>) -> Rational {
     list.max().unwrap()
 }
 
-fn norm(s: &System<'_>, e: &Ends, is_right: bool) -> Rational {
+fn norm(s: &Witness<'_>, e: &Ends, is_right: bool) -> Rational {
     let row = |end: usize, i: usize| -> Rational {
         let cell = |j: usize| {
             let term = |k: usize| {
@@ -108,7 +108,7 @@ fn norm(s: &System<'_>, e: &Ends, is_right: bool) -> Rational {
 }
 
 fn residual(
-    s: &System<'_>,
+    s: &Witness<'_>,
     e: &Ends,
     end: usize,
     is_right: bool,
@@ -127,7 +127,7 @@ fn residual(
     )
 }
 
-fn error_at(s: &System<'_>, e: &Ends, end: usize, is_right: bool, norm: &Rational) -> Rational {
+fn error_at(s: &Witness<'_>, e: &Ends, end: usize, is_right: bool, norm: &Rational) -> Rational {
     let row = |i: usize| -> Rational {
         let entry = |k: usize| {
             if is_right {
@@ -150,7 +150,7 @@ fn error_at(s: &System<'_>, e: &Ends, end: usize, is_right: bool, norm: &Rationa
 #[test]
 fn norms_and_errors_are_those_of_the_formulas() {
     let (y, e) = (inverse(), ends());
-    let s = system(&y);
+    let s = witness(&y);
     let mut swapped = ends();
     swapped.m.swap(0, 1);
     swapped.r.swap(0, 1);
@@ -189,7 +189,7 @@ fn norms_and_errors_are_those_of_the_formulas() {
 #[test]
 fn one_variable_needs_no_inverse() {
     let none: Matrix = vec![];
-    let s = System {
+    let s = Witness {
         support: vec![1],
         y: &none,
         y_one: 1.into(),
@@ -206,12 +206,12 @@ fn one_variable_needs_no_inverse() {
 #[test]
 fn a_norm_of_one_is_not_regular() {
     let y = vec![vec![0.into(), 0.into()], vec![0.into(), 0.into()]];
-    let got = system(&y).norm(&ends(), Side::Right);
+    let got = witness(&y).norm(&ends(), Side::Right);
     assert!(matches!(got, Err(CoverFault::NotRegular { got }) if got == whole(1)));
 }
 
 /// phi at an end and its radius, both times one^2 scale.
-fn phi(s: &System<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Integer) {
+fn phi(s: &Witness<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Integer) {
     let pairs = || (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
     let value: Integer = pairs()
         .map(|(i, j)| &s.u[i] * &e.m[end][SUPPORT[i]][SUPPORT[j]] * &s.v[j])
@@ -231,7 +231,7 @@ fn phi(s: &System<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Integ
 #[test]
 fn the_schur_complement_has_a_sign_beyond_its_radius_only() {
     let y = inverse();
-    let s = system(&y);
+    let s = witness(&y);
     let (rho, step) = (norm(&s, &ends(), true), Integer::from(ONE * ONE));
     let of = |end: usize, shift: &Integer| {
         let mut e = ends();
@@ -259,7 +259,7 @@ fn the_schur_complement_has_a_sign_beyond_its_radius_only() {
 fn at_its_radius_the_schur_complement_has_no_sign() {
     // No inverse is needed for one variable: phi = one^2 m, its radius one^2 r.
     let none: Matrix = vec![];
-    let s = System {
+    let s = Witness {
         support: vec![1],
         y: &none,
         y_one: 1.into(),
@@ -286,7 +286,7 @@ fn at_its_radius_the_schur_complement_has_no_sign() {
 }
 
 /// slope and radius of the derivative of phi, times one^2 scale.
-fn derivative(s: &System<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
+fn derivative(s: &Witness<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
     let mut slope = 0;
     let mut radius = 0;
     let short = |v: &Integer| v.to_i64().unwrap();
@@ -311,7 +311,7 @@ fn derivative(s: &System<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
 fn the_derivative_has_a_sign_beyond_its_radius_only() {
     let y = inverse();
     // Components of one unit, so that every unit of the radius tells.
-    let mut s = system(&y);
+    let mut s = witness(&y);
     (s.u, s.v, s.one) = (
         [3, -4, 1].map(Integer::from).to_vec(),
         [-5, 2, 1].map(Integer::from).to_vec(),
@@ -353,7 +353,7 @@ fn the_derivative_has_a_sign_beyond_its_radius_only() {
 #[test]
 fn a_resting_row_has_a_sign_beyond_its_radius_only() {
     let y = inverse();
-    let mut s = system(&y);
+    let mut s = witness(&y);
     (s.v, s.one) = ([-5, 2, 1].map(Integer::from).to_vec(), 1.into());
     for (end, error) in [(0, 0), (1, 0), (0, 4), (1, 9)] {
         let mut e = ends();
@@ -519,7 +519,7 @@ fn components_are_positive_beyond_the_error_only() {
     let ends = simple([-1, 1], 0, 0, [100, 100]);
     let solution = |x: i64, one: i64, error: Rational| {
         let v = vec![x.into(), one.into()];
-        let s = System {
+        let s = Witness {
             support: vec![0, 1],
             y: &y,
             y_one: 1.into(),

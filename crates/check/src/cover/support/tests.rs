@@ -73,7 +73,7 @@ fn some(x: &[&[i64]], alone: Option<Alone>) -> Exact {
 
 fn verdict(rows: &Rows, region: &Region, leaf: &Support) -> Result<Vec<Held>, CoverFault> {
     let index: Vec<usize> = (0..rows.order()).collect();
-    check(rows, region, &index, leaf, &Budget::new())
+    check(rows, region, &index, leaf, &SignBudget::new())
 }
 
 /// (t - 1) x_0: one solution, at 1, between points where nothing is.
