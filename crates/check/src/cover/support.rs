@@ -1,9 +1,13 @@
 //! Support leaves: what one support holds at every value of an interval, exactly.
 //!
 //! Every variable is decided. Let J be the support, R the other complementarity variables and f the
-//! free ones; *active* are J and f. At a value t, x is a solution with support J if x_J > 0, x_R =
-//! 0, T x = 0 on the active rows and T x >= 0 on R. Here T(t) = A + tB is the whole integral
-//! pencil: nothing is condensed and nothing is rounded.
+//! free ones; *active* are J and f. At a value t, x is a solution with support J if
+//!
+//! ```text
+//!     x_J > 0,    x_R = 0,    T x = 0 on the active rows,    T x >= 0 on R.
+//! ```
+//!
+//! Here T(t) = A + tB is the whole integral pencil: nothing is condensed and nothing is rounded.
 //!
 //! The leaf cuts the closed interval at *points*, algebraic numbers, the first and the last being
 //! its ends, and gives a reason for each *place*: a point, or an open cell between two points
@@ -12,12 +16,12 @@
 //!
 //! * *none*: weights w with w_R >= 0, (w'T)_f = 0 and (w'T)_J <= 0, somewhere < 0. Then a solution
 //!   would have 0 <= w'y = w'Tx < 0. (If w_R = 0, then w'y = 0, and w'T may be >= 0 as well.)
-//! * *some*: x(t) that solves. With *alone* it is the only solution up to a factor: for each active
-//!   j but the pivot k, weights l with l'T = c e_j + d e_k on the active columns, c not zero. If l
-//!   = 0 on R, every solution z has c z_j + d z_k = l'Tz = 0. If l >= 0 on the rows of R where x
-//!   has y = 0 and l = 0 on the others, c z_j + d z_k = l'Tz >= 0, with equality for x: z_j / z_k
-//!   is bounded by x_j / x_k from one side, and with a second l of the other sign of c from the
-//!   other side too.
+//! * *some*: x(t) that solves. With *alone* it is the only solution up to a factor. For each active
+//!   j but the pivot k there are weights l with l'T = c e_j + d e_k on the active columns, c not
+//!   zero. If l = 0 on R, every solution z has c z_j + d z_k = l'Tz = 0. If l >= 0 on the rows of R
+//!   where x has y = 0, and l = 0 on the others, then c z_j + d z_k = l'Tz >= 0, with equality for
+//!   x: this bounds z_j / z_k by x_j / x_k from one side, and a second l with the other sign of c
+//!   bounds it from the other side.
 //!
 //! A point that is alone, with nothing in the neighbouring cells, is an isolated solution. All
 //! other places that hold something are families.
