@@ -398,8 +398,8 @@ mod tests {
         Number(Rational::from_integer(Integer::from(1) << (bits - 2)))
     }
 
-    /// The verdict on p with so many coefficients, x with so many polynomials of zeros, and one long
-    /// number.
+    /// The verdict on p with so many coefficients, x with so many polynomials of zeros, and one
+    /// long number.
     fn verdict(
         coefficients: usize,
         polynomials: usize,

@@ -6,8 +6,9 @@
 //!     (A + t B) x = y,    y_f = 0,    0 <= x_s _|_ y_s >= 0,    x != 0
 //! ```
 //!
-//! (equations (12)-(14), (21)-(23)), with the unknown t (lambda^2 or mu), the free variables f and the complementarity variables s.
-//! A certificate ([`certificate`]) makes two kinds of claims, and each kind has its checker:
+//! (equations (12)-(14), (21)-(23)), with the unknown t (lambda^2 or mu), the free variables f and
+//! the complementarity variables s. A certificate ([`certificate`]) makes two kinds of claims, and
+//! each kind has its checker:
 //!
 //! * *There is a solution* with this support and a value t in this interval. The evidence is the
 //!   solution over an algebraic number field (`exact_solution`), the same in the degrees of freedom

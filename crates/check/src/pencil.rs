@@ -18,8 +18,8 @@
 //! ```
 //!
 //! n its unit normal into the obstacle. Then w = (K + lambda^2 M) v gives
-//! y = P' (K + lambda^2 M) T x. The block formulas (16) are not used: `reduction` in the model crate
-//! does that, and a test holds the two equal, so that one mistake cannot be in both.
+//! y = P' (K + lambda^2 M) T x. The block formulas (16) are not used: `reduction` in the model
+//! crate does that, and a test holds the two equal, so that one mistake cannot be in both.
 //!
 //! Input: a [`Problem`], whose constructor has checked its shape. Every checker of a claim reads
 //! the [`Rows`] made here.
