@@ -124,12 +124,16 @@ fn by_value(s: &AcceptedClaim) -> (&Rational, &[usize]) {
 
 /// Can both be one solution? `next` does not begin before `f`.
 fn overlaps(f: &Found, next: &Found) -> bool {
-    f.solution.support == next.solution.support && f.solution.value.hi() >= next.solution.value.lo()
+    let has_same_support = f.solution.support == next.solution.support;
+    let reaches_next = f.solution.value.hi() >= next.solution.value.lo();
+    has_same_support && reaches_next
 }
 
 /// Does one lie where the other is the only solution of the support?
 fn is_same(f: &Found, next: &Found) -> bool {
-    lies_in(&next.solution.value, &f.hull) || lies_in(&f.solution.value, &next.hull)
+    let next_lies_in_hull = lies_in(&next.solution.value, &f.hull);
+    let lies_in_hull_of_next = lies_in(&f.solution.value, &next.hull);
+    next_lies_in_hull || lies_in_hull_of_next
 }
 
 fn lies_in(inner: &Interval, outer: &Interval) -> bool {
