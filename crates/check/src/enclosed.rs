@@ -1,10 +1,33 @@
-//! Enclosed solutions: Krawczyk's test (Krawczyk 1969, Moore 1977) in exact arithmetic.
+//! Enclosed solutions: a box that contains exactly one solution, by Krawczyk's test.
 //!
-//! Unknowns z = (x on active variables, t); F(z) = ((A + tB) x on active rows, e'x_s - 1).
-//! With Z the box c +- r and any matrix Y: if |Y F(c)| + max_{z in Z} |I - Y F'(z)| r < r in every
-//! component, then F has exactly one zero in Z (and Y is regular). F' is linear in z:
-//! |F'(z) - F'(c)| r <= d with d_i = 2 r_t sum_j |B_ij| r_j, so the bound used is
-//! |Y F(c)| + |I - Y F'(c)| r + |Y| d < r. Everything is an integer over a power of two.
+//! Unknowns z = (x on the active variables, t), where the active variables are the free ones and
+//! the support. Equations F(z) = 0, with
+//!
+//! ```text
+//!     F(z) = ( (A + tB) x on the active rows,  e'x_s - 1 ).                  // (13), (25)
+//! ```
+//!
+//! Let Z be the box |z - c| <= r, and Y any matrix. If in every component
+//!
+//! ```text
+//!     |Y F(c)| + max over z in Z of |I - Y F'(z)| r  <  r,
+//! ```
+//!
+//! then z -> z - Y F(z) maps Z into its interior, so that it has a fixed point there; Y and every
+//! F'(z) are regular, so that F has a zero in Z, and only one (Krawczyk 1969, Moore 1977). Here F
+//! is quadratic: F'(z) - F'(c) is linear in z - c, and |F'(z) - F'(c)| r <= d with d_i = 2 r_t
+//! sum_j |B_ij| r_j. So it suffices that
+//!
+//! ```text
+//!     |Y F(c)| + |I - Y F'(c)| r + |Y| d  <  r.
+//! ```
+//!
+//! The zero is a solution of (12)-(14) if t lies in the window, x > 0 on the support and y > 0 on
+//! the other rows; these are demanded of the whole box.
+//!
+//! Input: the integral rows of the pencil, the window and the claim. The rows of F that belong to
+//! the pencil are the integral ones, multiples of the given rows; their zeros are the same. All
+//! numbers are integers over one common unit, so nothing is rounded.
 
 use super::AcceptedClaim;
 use super::exact_solution::{index_set, within};
@@ -13,6 +36,7 @@ use super::reason::Reason;
 use crate::certificate::EnclosedSolution;
 use mceip_exact::{Integer, Interval, Rational, common_denominator};
 use mceip_model::Window;
+use mceip_model::file::Number;
 use num_traits::{One, Signed, Zero};
 
 /// Largest binary exponent of a preconditioner: 8 kB per entry, far beyond any use.
@@ -27,99 +51,83 @@ pub(super) fn check(
     if claim.support.is_empty() {
         return Err(Reason::XZero); // e'x_s = 1 needs a slip variable
     }
-    if claim.exponent > MAX_EXPONENT {
-        return Err(Reason::TooLarge {
-            what: "exponent",
-            limit: MAX_EXPONENT.into(),
-            got: claim.exponent.into(),
-        });
-    }
+
+    Reason::at_most("exponent", MAX_EXPONENT.into(), claim.exponent.into())?;
+
+    let is_in_support = |i: &usize| claim.support.binary_search(i).is_ok();
     let active: Vec<usize> = (0..rows.order())
-        .filter(|&i| rows.is_free[i] || claim.support.binary_search(&i).is_ok())
+        .filter(|i| rows.is_free[*i] || is_in_support(i))
         .collect();
-    let n = active.len() + 1;
-    for (what, got) in [
-        ("center", claim.center.len()),
-        ("radius", claim.radius.len()),
-        ("preconditioner", claim.preconditioner.len()),
-    ] {
-        if got != n {
-            return Err(Reason::Length {
-                what,
-                expected: n,
-                got,
-            });
-        }
-    }
-    if let Some(row) = claim.preconditioner.iter().find(|r| r.len() != n) {
-        return Err(Reason::Length {
-            what: "preconditioner row",
-            expected: n,
-            got: row.len(),
-        });
-    }
-    if let Some(index) = claim.radius.iter().position(|r| !r.0.is_positive()) {
-        return Err(Reason::Radius {
-            index,
-            got: claim.radius[index].0.clone(),
-        });
-    }
-    let system = Newton::new(rows, claim, &active);
+    check_shape(claim, active.len() + 1)?;
+
+    let system = Krawczyk::new(rows, claim, &active);
     system.contracts(claim)?;
-    let boxed = |k: usize| ball(&claim.center[k].0, &claim.radius[k].0);
-    let value = boxed(n - 1);
+
+    let value = system.component(active.len());
     within(window, &value)?;
-    for (k, &index) in active
-        .iter()
-        .enumerate()
-        .filter(|(_, i)| claim.support.binary_search(i).is_ok())
-    {
-        let image = boxed(k);
-        if image.certain_sign() != 1 {
-            return Err(Reason::XNotPositive {
-                index,
-                lo: image.lo().clone(),
-                hi: image.hi().clone(),
-            });
+    for (k, &index) in active.iter().enumerate() {
+        if is_in_support(&index) {
+            Reason::x_positive(index, &system.component(k))?;
         }
     }
-    for index in (0..rows.order()).filter(|i| active.binary_search(i).is_err()) {
-        let image = system.row_over_box(&rows.rows[index]);
-        if image.certain_sign() != 1 {
-            return Err(Reason::YNotPositive {
-                index,
-                lo: image.lo().clone(),
-                hi: image.hi().clone(),
-            });
+
+    for (index, row) in rows.rows.iter().enumerate() {
+        if active.binary_search(&index).is_err() {
+            Reason::y_positive(index, &system.row_over_box(row))?;
         }
     }
+
     Ok(AcceptedClaim {
         support: claim.support.clone(),
         value,
     })
 }
 
-fn ball(c: &Rational, r: &Rational) -> Interval {
-    // r > 0 has been checked, so the ends are in order; a point otherwise.
-    Interval::new(c - r, c + r).unwrap_or_else(|| Interval::point(c.clone()))
-}
-
-fn place<T: Clone>(order: usize, active: &[usize], at: impl Fn(usize) -> T) -> Vec<Option<T>> {
-    let mut out = vec![None; order];
-    for (k, &i) in active.iter().enumerate() {
-        out[i] = Some(at(k));
+/// Demands `unknowns` entries in every list, and positive radii.
+fn check_shape(claim: &EnclosedSolution, unknowns: usize) -> Result<(), Reason> {
+    Reason::length("center", unknowns, claim.center.len())?;
+    Reason::length("radius", unknowns, claim.radius.len())?;
+    Reason::length("preconditioner", unknowns, claim.preconditioner.len())?;
+    for row in &claim.preconditioner {
+        Reason::length("preconditioner row", unknowns, row.len())?;
     }
-    out
+
+    for (index, radius) in claim.radius.iter().enumerate() {
+        if !radius.0.is_positive() {
+            return Err(Reason::Radius {
+                index,
+                got: radius.0.clone(),
+            });
+        }
+    }
+
+    Ok(())
 }
 
-/// F(c), F'(c) and d, all integers: F in units of 1/unit^2, F' and d in units given beside them.
-struct Newton {
+/// The numbers times `unit`, a common multiple of their denominators.
+fn in_units(unit: &Integer, numbers: &[Number]) -> Vec<Integer> {
+    numbers
+        .iter()
+        .map(|n| n.0.numer() * (unit / n.0.denom()))
+        .collect()
+}
+
+/// [center - radius, center + radius]. All radii here are sums of absolute values or have been
+/// found positive, so the ends are in order.
+fn ball(center: &Rational, radius: &Rational) -> Interval {
+    Interval::new(center - radius, center + radius)
+        .unwrap_or_else(|| Interval::point(center.clone()))
+}
+
+/// The box, F(c), F'(c) and d in integers. One `unit` is the number 1 in the units of c and r.
+struct Krawczyk {
     /// Common denominator of centre and radius.
     unit: Integer,
-    /// unit c and unit r; the last entry is that of t.
+    /// unit c; the last entry is that of t.
     center: Vec<Integer>,
+    /// unit r.
     radius: Vec<Integer>,
-    /// Where a variable stands among the unknowns, if it is active.
+    /// Where a variable of the pencil stands among the unknowns, if it is active.
     place: Vec<Option<usize>>,
     /// unit^2 F(c).
     f: Vec<Integer>,
@@ -129,53 +137,97 @@ struct Newton {
     d: Vec<Integer>,
 }
 
-impl Newton {
-    fn new(rows: &Rows, claim: &EnclosedSolution, active: &[usize]) -> Newton {
-        let unit = common_denominator(claim.center.iter().chain(&claim.radius).map(|n| &n.0));
-        let scaled = |v: &Rational| v.numer() * (&unit / v.denom());
-        let c: Vec<Integer> = claim.center.iter().map(|n| scaled(&n.0)).collect();
-        let r: Vec<Integer> = claim.radius.iter().map(|n| scaled(&n.0)).collect();
-        let last = active.len();
-        let place: Vec<Option<usize>> = place(rows.order(), active, |k| k);
-        let (mut f, mut jacobian, mut d) = (Vec::new(), Vec::new(), Vec::new());
-        for &i in active {
-            let (mut f_i, mut d_i, mut column_t) =
-                (Integer::zero(), Integer::zero(), Integer::zero());
-            let mut row = Vec::new();
-            for (j, a, b) in &rows.rows[i] {
-                let Some(k) = place[*j] else { continue }; // x_j = 0
-                let coefficient = a * &unit + b * &c[last]; // unit (A + tB)_ij
-                f_i += &coefficient * &c[k];
-                column_t += b * &c[k]; // unit (B x)_i
-                d_i += b.abs() * &r[k] * &r[last] * 2;
-                row.push((k, coefficient));
-            }
-            row.push((last, column_t));
-            f.push(f_i);
-            jacobian.push(row);
-            d.push(d_i);
+impl Krawczyk {
+    fn new(rows: &Rows, claim: &EnclosedSolution, active: &[usize]) -> Krawczyk {
+        let numbers = claim.center.iter().chain(&claim.radius);
+        let unit = common_denominator(numbers.map(|n| &n.0));
+        let mut place = vec![None; rows.order()];
+        for (k, &i) in active.iter().enumerate() {
+            place[i] = Some(k);
         }
-        let slip = |k: &usize| !rows.is_free[active[*k]];
-        let norm: Integer = (0..last).filter(slip).map(|k| &c[k]).sum();
-        f.push((norm - &unit) * &unit);
-        jacobian.push((0..last).filter(slip).map(|k| (k, unit.clone())).collect());
-        d.push(Integer::zero());
-        Newton {
+
+        let mut system = Krawczyk {
+            center: in_units(&unit, &claim.center),
+            radius: in_units(&unit, &claim.radius),
             unit,
-            center: c,
-            radius: r,
             place,
-            f,
-            jacobian,
-            d,
+            f: Vec::new(),
+            jacobian: Vec::new(),
+            d: Vec::new(),
+        };
+        for &i in active {
+            system.push_row(&rows.rows[i]);
         }
+
+        system.push_normalisation(rows, active);
+        system
     }
 
-    /// Encloses a row of (A + tB) x over the box. With e_j = A_ij + c_t B_ij the row at z is
-    /// sum e_j c_j + sum e_j (x_j - c_j) + (t - c_t) sum B_ij c_j + (t - c_t) sum B_ij (x_j - c_j).
+    /// The position of t, after the active variables.
+    fn t(&self) -> usize {
+        self.center.len() - 1
+    }
+
+    /// Appends the equation sum_j (A_ij + t B_ij) x_j = 0.
+    fn push_row(&mut self, row: &Row) {
+        let t = self.t();
+        let mut f_i = Integer::zero();
+        let mut d_i = Integer::zero();
+        let mut b_x = Integer::zero(); // unit (B c_x)_i, the derivative with respect to t
+        let mut jacobian_row = Vec::new();
+
+        for (j, a, b) in row {
+            let Some(k) = self.place[*j] else { continue }; // x_j = 0
+            let coefficient = a * &self.unit + b * &self.center[t]; // unit (A + c_t B)_ij
+
+            f_i += &coefficient * &self.center[k];
+            d_i += b.abs() * &self.radius[k] * &self.radius[t] * 2;
+            b_x += b * &self.center[k];
+            jacobian_row.push((k, coefficient));
+        }
+
+        jacobian_row.push((t, b_x));
+
+        self.f.push(f_i);
+        self.jacobian.push(jacobian_row);
+        self.d.push(d_i);
+    }
+
+    /// Appends the equation e'x_s - 1 = 0, which is linear.
+    fn push_normalisation(&mut self, rows: &Rows, active: &[usize]) {
+        let mut sum = Integer::zero(); // unit e'c_s
+        let mut jacobian_row = Vec::new();
+
+        for (k, &i) in active.iter().enumerate() {
+            if !rows.is_free[i] {
+                sum += &self.center[k];
+                jacobian_row.push((k, self.unit.clone()));
+            }
+        }
+
+        self.f.push((sum - &self.unit) * &self.unit);
+        self.jacobian.push(jacobian_row);
+        self.d.push(Integer::zero());
+    }
+
+    /// The interval of one unknown.
+    fn component(&self, unknown: usize) -> Interval {
+        let center = Rational::new(self.center[unknown].clone(), self.unit.clone());
+        let radius = Rational::new(self.radius[unknown].clone(), self.unit.clone());
+        ball(&center, &radius)
+    }
+
+    /// Encloses a row of (A + tB) x over the box, by the centred form.
+    ///
+    /// With e_j = A_ij + c_t B_ij the row at z is
+    ///
+    /// ```text
+    ///     sum e_j c_j + sum e_j (x_j - c_j)
+    ///         + (t - c_t) sum B_ij c_j + (t - c_t) sum B_ij (x_j - c_j).
+    /// ```
     fn row_over_box(&self, row: &Row) -> Interval {
-        let last = self.center.len() - 1;
-        let (center_t, radius_t) = (&self.center[last], &self.radius[last]);
+        let center_t = &self.center[self.t()];
+        let radius_t = &self.radius[self.t()];
 
         // All in units of 1 / unit^2.
         let mut middle = Integer::zero();
@@ -184,46 +236,61 @@ impl Newton {
         for (j, a, b) in row {
             let Some(k) = self.place[*j] else { continue }; // x_j = 0
             let e = a * &self.unit + b * center_t;
+
             middle += &e * &self.center[k];
             slack += e.abs() * &self.radius[k];
             slack += b.abs() * &self.radius[k] * radius_t;
             slope += b * &self.center[k];
         }
+
         slack += slope.abs() * radius_t;
 
         let unit = &self.unit * &self.unit;
-        let end = |v: Integer| Rational::new(v, unit.clone());
-        ball(&end(middle), &end(slack))
+        ball(
+            &Rational::new(middle, unit.clone()),
+            &Rational::new(slack, unit),
+        )
     }
 
-    /// |Y F(c)| + |I - Y F'(c)| r + |Y| d < r, in units of 1 / (2^exponent unit^2).
+    /// Demands |Y F(c)| + |I - Y F'(c)| r + |Y| d < r, in units of 1 / (2^exponent unit^2).
     fn contracts(&self, claim: &EnclosedSolution) -> Result<(), Reason> {
-        let n = self.f.len();
         let one = (Integer::one() << claim.exponent) * &self.unit; // 1 in units of Y F'
+
         for (index, y) in claim.preconditioner.iter().enumerate() {
-            let mut g = vec![Integer::zero(); n]; // row of I - Y F'(c)
-            g[index] = one.clone();
-            let (mut y_f, mut y_d) = (Integer::zero(), Integer::zero());
-            for (i, y_i) in y.iter().enumerate().filter(|(_, v)| !v.is_zero()) {
+            let mut y_f = Integer::zero();
+            let mut y_d = Integer::zero();
+            let mut defect = vec![Integer::zero(); self.f.len()]; // row of I - Y F'(c)
+            defect[index] = one.clone();
+
+            for (i, y_i) in y.iter().enumerate() {
+                if y_i.is_zero() {
+                    continue;
+                }
+
                 y_f += y_i * &self.f[i];
                 y_d += y_i.abs() * &self.d[i];
                 for (k, value) in &self.jacobian[i] {
-                    g[*k] -= y_i * value;
+                    defect[*k] -= y_i * value;
                 }
             }
-            let g_r: Integer = g.iter().zip(&self.radius).map(|(g, r)| g.abs() * r).sum();
-            let left = y_f.abs() + g_r + y_d;
+
+            let mut left = y_f.abs() + y_d;
+            for (k, entry) in defect.iter().enumerate() {
+                left += entry.abs() * &self.radius[k];
+            }
+
             let right = &self.radius[index] * &one;
+
             if left >= right {
                 let scale = &one * &self.unit;
-                let got = Rational::new(left, scale.clone());
                 return Err(Reason::NotContracting {
                     index,
-                    got,
+                    got: Rational::new(left, scale.clone()),
                     radius: Rational::new(right, scale),
                 });
             }
         }
+
         Ok(())
     }
 }
@@ -234,7 +301,6 @@ mod tests {
 
     use super::*;
     use mceip_exact::rational;
-    use mceip_model::file::Number;
 
     /// Two active variables, and a third at rest whose row is (1 + 2t) x_0 + (-1 + t) x_1.
     fn resting_row() -> Rows {
@@ -271,7 +337,7 @@ mod tests {
             preconditioner: vec![],
             exponent: 0,
         };
-        let image = Newton::new(&rows, &claim, &[0, 1]).row_over_box(&rows.rows[2]);
+        let image = Krawczyk::new(&rows, &claim, &[0, 1]).row_over_box(&rows.rows[2]);
         assert_eq!(
             (image.lo().clone(), image.hi().clone()),
             (rational(21, 32), rational(75, 32))

@@ -1,9 +1,27 @@
-//! Exact solutions: alpha is a root isolated by [a, b], x a vector of polynomials in alpha.
+//! Exact solutions: the value is a root alpha of an integer polynomial p, x a vector of polynomials
+//! in alpha.
 //!
-//! Obligations, in this order: index sets; [a, b] within the window and isolating one root of p;
-//! x = 0 off the support, x > 0 on it; (A + tB) x = 0 mod p on active rows; y > 0 or y = 0 mod p
-//! elsewhere, with the biactive set exactly the latter. "0 mod p" is a remainder, "> 0" is
-//! interval Horner of the remainder on [a, b].
+//! A number g(alpha), g a rational polynomial, is zero if p divides g. It has the sign of the
+//! remainder r of g by p, which takes the same value at alpha; and if interval Horner of r on an
+//! interval [a, b] that contains alpha gives positive numbers only, r(alpha) > 0. So both "= 0" and
+//! "> 0" at alpha are decided by exact arithmetic on the coefficients. The test of zero may refuse
+//! a true claim if p is reducible, but what it accepts is true for every root of p in [a, b].
+//!
+//! The obligations, in the order of `spec/formats.md`:
+//!
+//! 1. `support` and `biactive` are ascending lists of complementarity variables, and the numbers
+//!    are small enough to be multiplied out.
+//! 2. [a, b] contains exactly one root of p: a = b and p(a) = 0; or p(a) p(b) < 0, so that there is
+//!    one, and p' has one sign on [a, b], so that there are no two.
+//! 3. [a, b] lies in the window.
+//! 4. x_i > 0 on the support and x_i = 0 on the other complementarity variables; x is not zero
+//!    (14).
+//! 5. y = (A + tB) x is zero on the free rows (13) and on the support (25), zero on the biactive
+//!    rows, and positive on all other rows (26).
+//!
+//! Together these are (12)-(14). Input: the integral rows of the pencil, the window and the claim.
+//! The functions on index sets, sizes, intervals and remainders serve `lifted_solution` too, and
+//! those on index sets and windows serve `enclosed`.
 
 use super::AcceptedClaim;
 use super::pencil::{Row, Rows};
@@ -15,8 +33,8 @@ use mceip_model::file::Number;
 use num_integer::Integer as _;
 use num_traits::{One, Zero};
 
-/// Largest number of coefficients of p and of each x_i. A support of n variables needs at most n +
-/// 1.
+/// Largest number of coefficients of p and of each x_i. A support of n variables needs at most
+/// n + 1.
 const MAX_COEFFICIENTS: u64 = 512;
 /// Largest product of the number of coefficients (of p and of the longest x_i) and the bits of the
 /// longest number of the claim: bounds the work on a file that is small but hostile.
@@ -24,11 +42,15 @@ const MAX_SIZE: u64 = 1 << 21;
 /// Largest product of the number of polynomials and the square of that size: Horner's rule is asked
 /// for each row.
 const MAX_WORK: u64 = 1 << 46;
-/// By how many coefficients x may exceed p for numbers of any length (y = (A + tB) x has one more
-/// than x), and the largest product of a larger excess with the bits of the longest number: every
-/// coefficient in excess makes a remainder longer by the leading coefficient of p.
+/// By how many coefficients x may exceed p for numbers of any length: y = (A + tB) x has one more
+/// than x.
 const FREE_EXCESS: u64 = 1;
+/// Largest product of a larger excess with the bits of the longest number: every coefficient in
+/// excess makes a remainder longer by the leading coefficient of p.
 const MAX_EXCESS_SIZE: u64 = 1 << 13;
+
+/// A rational polynomial, constant term first.
+pub(super) type Polynomial = Vec<Rational>;
 
 pub(super) fn check(
     rows: &Rows,
@@ -38,116 +60,111 @@ pub(super) fn check(
     index_set(rows, "support", &claim.support)?;
     index_set(rows, "biactive", &claim.biactive)?;
     bounded(&claim.polynomial, &claim.interval, &claim.x)?;
+
     let p = Poly::new(claim.polynomial.clone()).primitive();
     let value = isolate(&p, &claim.interval)?;
     within(window, &value)?;
-    if claim.x.len() != rows.order() {
-        return Err(Reason::Length {
-            what: "x",
-            expected: rows.order(),
-            got: claim.x.len(),
-        });
-    }
+    Reason::length("x", rows.order(), claim.x.len())?;
+
     let alpha = Alpha { p, value };
     let x = coefficients(&claim.x, &alpha.p);
     check_x(rows, claim, &alpha, &x)?;
     check_y(rows, claim, &alpha, &x)?;
+
     Ok(AcceptedClaim {
         support: claim.support.clone(),
         value: alpha.value,
     })
 }
 
-/// The claim is small enough to be multiplied out.
+/// Demands that the claim is small enough to be multiplied out.
+///
+/// `x` are its polynomials: those of x, or of v and w.
 pub(super) fn bounded<'a>(
     polynomial: &[Integer],
     interval: &'a [Number; 2],
     x: impl IntoIterator<Item = &'a Vec<Number>> + Clone,
 ) -> Result<(), Reason> {
-    let at_most = |what, limit, got| {
-        if got > limit {
-            Err(Reason::TooLarge { what, limit, got })
-        } else {
-            Ok(())
-        }
-    };
     let coefficients = polynomial.len() as u64;
-    at_most(
-        "coefficients of the polynomial",
-        MAX_COEFFICIENTS,
-        coefficients,
-    )?;
+    let what = "coefficients of the polynomial";
+    Reason::at_most(what, MAX_COEFFICIENTS, coefficients)?;
 
     let polynomials = x.clone().into_iter().count() as u64;
     let longest_x = x.clone().into_iter().map(Vec::len).max().unwrap_or(0) as u64;
-    at_most("coefficients of x", MAX_COEFFICIENTS, longest_x)?;
+    Reason::at_most("coefficients of x", MAX_COEFFICIENTS, longest_x)?;
 
-    let of = |n: &Number| n.0.numer().bits() + n.0.denom().bits();
-    let numbers = interval.iter().chain(x.into_iter().flatten()).map(of);
-    let bits = numbers
-        .chain(polynomial.iter().map(|c| c.bits()))
+    let rationals = interval.iter().chain(x.into_iter().flatten());
+    let bits = rationals
+        .map(|n| n.0.numer().bits() + n.0.denom().bits())
+        .chain(polynomial.iter().map(Integer::bits))
         .max()
         .unwrap_or(0);
     let size = bits.saturating_mul(coefficients + longest_x);
-    at_most("size (coefficients times bits)", MAX_SIZE, size)?;
+    Reason::at_most("size (coefficients times bits)", MAX_SIZE, size)?;
 
+    let what = "work (polynomials times the square of coefficients times bits)";
     let work = size.saturating_mul(size).saturating_mul(polynomials);
-    at_most(
-        "work (polynomials times the square of coefficients times bits)",
-        MAX_WORK,
-        work,
-    )?;
+    Reason::at_most(what, MAX_WORK, work)?;
 
     let excess = longest_x.saturating_sub(coefficients);
     if excess <= FREE_EXCESS {
         return Ok(());
     }
+
     let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
-    at_most(what, MAX_EXCESS_SIZE, bits.saturating_mul(excess))
+    Reason::at_most(what, MAX_EXCESS_SIZE, bits.saturating_mul(excess))
 }
 
-/// Ascending indices of complementarity variables.
+/// Demands an ascending list of complementarity variables.
 pub(super) fn index_set(rows: &Rows, set: &'static str, list: &[usize]) -> Result<(), Reason> {
-    let bad = |k: usize| {
-        list[k] >= rows.order() || rows.is_free[list[k]] || (k > 0 && list[k - 1] >= list[k])
-    };
-    match (0..list.len()).find(|&k| bad(k)) {
-        Some(position) => Err(Reason::IndexSet {
-            set,
-            position,
-            got: list[position],
-        }),
-        None => Ok(()),
+    for (position, &index) in list.iter().enumerate() {
+        let is_complementarity_variable = index < rows.order() && !rows.is_free[index];
+        let ascends = position == 0 || list[position - 1] < index;
+
+        if !is_complementarity_variable || !ascends {
+            return Err(Reason::IndexSet {
+                set,
+                position,
+                got: index,
+            });
+        }
     }
+
+    Ok(())
 }
 
-/// [a, b] contains exactly one root of p.
+/// Demands that [a, b] contains exactly one root of p, and returns it.
 pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason> {
     if p.degree().unwrap_or(0) == 0 {
         return Err(Reason::ConstantPolynomial {
             coefficients: p.coeffs().len(),
         });
     }
+
     let Some(value) = Interval::new(a.0.clone(), b.0.clone()) else {
         return Err(Reason::ReversedInterval {
             a: a.0.clone(),
             b: b.0.clone(),
         });
     };
-    let (at_a, at_b) = (p.sign_at(&a.0), p.sign_at(&b.0));
+
+    let at_a = p.sign_at(&a.0);
     if value.is_point() {
-        return if at_a == 0 {
-            Ok(value)
-        } else {
-            Err(Reason::NotARoot {
+        if at_a != 0 {
+            return Err(Reason::NotARoot {
                 a: a.0.clone(),
                 sign: at_a,
-            })
-        };
+            });
+        }
+
+        return Ok(value);
     }
+
+    let at_b = p.sign_at(&b.0);
     if at_a * at_b != -1 {
         return Err(Reason::NoSignChange { at_a, at_b });
     }
+
     let slope = value.horner_rounded(&p.derivative());
     if slope.certain_sign() == 0 {
         return Err(Reason::NotIsolated {
@@ -155,17 +172,22 @@ pub(super) fn isolate(p: &Poly, [a, b]: &[Number; 2]) -> Result<Interval, Reason
             hi: slope.hi().clone(),
         });
     }
+
     Ok(value)
 }
 
-/// [a, b] lies in the closed window.
+/// Demands that an interval lies in the closed window.
 pub(super) fn within(window: &Window, value: &Interval) -> Result<(), Reason> {
-    if value.lo() >= window.min() && window.max().is_none_or(|max| value.hi() <= max) {
+    let is_above_min = value.lo() >= window.min();
+    let is_below_max = window.max().is_none_or(|max| value.hi() <= max);
+    if is_above_min && is_below_max {
         return Ok(());
     }
-    let max = window
-        .max()
-        .map_or_else(|| "infinity".into(), ToString::to_string);
+
+    let max = match window.max() {
+        Some(max) => max.to_string(),
+        None => "infinity".into(),
+    };
     Err(Reason::OutsideWindow {
         min: window.min().clone(),
         max,
@@ -174,117 +196,121 @@ pub(super) fn within(window: &Window, value: &Interval) -> Result<(), Reason> {
     })
 }
 
-/// The value: a root of p in an interval.
+/// The value of the unknown: the root of p in an interval.
 pub(super) struct Alpha {
     pub(super) p: Poly,
     pub(super) value: Interval,
 }
 
 impl Alpha {
-    /// A positive multiple of g mod p: zero exactly if p divides g over Q.
+    /// A positive multiple of the remainder of g by p. It is zero exactly if p divides g over Q.
     pub(super) fn remainder(&self, g: &[Rational]) -> Poly {
         Poly::from_rationals(g).pseudo_rem(&self.p)
     }
 
+    /// Encloses a positive multiple of g(alpha).
     pub(super) fn enclose(&self, g: &[Rational]) -> Interval {
         self.value.horner_rounded(&self.remainder(g))
     }
 }
 
+/// x_i > 0 on the support, x_i = 0 elsewhere, and x is not zero.
 fn check_x(
     rows: &Rows,
     claim: &ExactSolution,
     alpha: &Alpha,
-    x: &[Vec<Rational>],
+    x: &[Polynomial],
 ) -> Result<(), Reason> {
-    let mut non_zero = !claim.support.is_empty();
-    for (index, x) in x.iter().enumerate() {
+    let mut is_non_zero = !claim.support.is_empty();
+
+    for (index, x_i) in x.iter().enumerate() {
+        let is_in_support = claim.support.binary_search(&index).is_ok();
+
         if rows.is_free[index] {
-            non_zero |= alpha.enclose(x).certain_sign() != 0;
-        } else if claim.support.binary_search(&index).is_err() {
-            if !alpha.remainder(x).is_zero() {
-                return Err(Reason::XOffSupport { index });
-            }
-        } else {
-            let image = alpha.enclose(x);
-            if image.certain_sign() != 1 {
-                return Err(Reason::XNotPositive {
-                    index,
-                    lo: image.lo().clone(),
-                    hi: image.hi().clone(),
-                });
-            }
+            is_non_zero |= alpha.enclose(x_i).certain_sign() != 0;
+        } else if is_in_support {
+            let image = alpha.enclose(x_i);
+            Reason::x_positive(index, &image)?;
+        } else if !alpha.remainder(x_i).is_zero() {
+            return Err(Reason::XOffSupport { index });
         }
     }
-    if non_zero { Ok(()) } else { Err(Reason::XZero) }
+
+    if is_non_zero {
+        Ok(())
+    } else {
+        Err(Reason::XZero)
+    }
 }
 
+/// y_i = 0 on the free rows, the support and the biactive rows, y_i > 0 on all others.
 fn check_y(
     rows: &Rows,
     claim: &ExactSolution,
     alpha: &Alpha,
-    x: &[Vec<Rational>],
+    x: &[Polynomial],
 ) -> Result<(), Reason> {
     for (index, row) in rows.rows.iter().enumerate() {
         let y = alpha.remainder(&times(row, x));
         let is_zero = y.is_zero();
-        if rows.is_free[index] || claim.support.binary_search(&index).is_ok() {
-            if !is_zero {
-                let equation = if rows.is_free[index] { "E13" } else { "E25" };
-                return Err(Reason::YNotZero { equation, index });
-            }
-            if claim.biactive.binary_search(&index).is_ok() {
-                return Err(Reason::Biactive {
-                    index,
-                    expected: false,
-                });
-            }
-            continue;
+        let is_free = rows.is_free[index];
+        let is_active = is_free || claim.support.binary_search(&index).is_ok();
+        let is_biactive = claim.biactive.binary_search(&index).is_ok();
+
+        if is_active && !is_zero {
+            let equation = if is_free { "E13" } else { "E25" };
+            return Err(Reason::YNotZero { equation, index });
         }
-        if claim.biactive.binary_search(&index).is_ok() != is_zero {
-            return Err(Reason::Biactive {
-                index,
-                expected: is_zero,
-            });
+
+        let expected = !is_active && is_zero;
+        if is_biactive != expected {
+            return Err(Reason::Biactive { index, expected });
         }
-        let image = alpha.value.horner_rounded(&y);
-        if !is_zero && image.certain_sign() != 1 {
-            return Err(Reason::YNotPositive {
-                index,
-                lo: image.lo().clone(),
-                hi: image.hi().clone(),
-            });
+
+        if !is_zero {
+            let image = alpha.value.horner_rounded(&y);
+            Reason::y_positive(index, &image)?;
         }
     }
+
     Ok(())
 }
 
-/// The polynomials of a list. Where one is much longer than p, all of them modulo p, times one
-/// positive number: many rows then do not divide it once each.
+/// The polynomials of a list, ready to be multiplied by rows of the pencil.
+///
+/// Where one of them is much longer than p, all are replaced by their remainders by p times one
+/// common positive number. The rows then need not divide a long polynomial once each, and as the
+/// factor is common, linear equations and signs remain what they are.
 pub(super) fn coefficients<'a>(
     list: impl IntoIterator<Item = &'a Vec<Number>> + Clone,
     p: &Poly,
-) -> Vec<Vec<Rational>> {
-    let plain = |g: &Vec<Number>| g.iter().map(|n| n.0.clone()).collect::<Vec<Rational>>();
+) -> Vec<Polynomial> {
     let coefficients = p.coeffs().len();
     let longest = list.clone().into_iter().map(Vec::len).max().unwrap_or(0);
+    let is_long = longest > coefficients + FREE_EXCESS as usize;
 
-    if longest <= coefficients + FREE_EXCESS as usize {
-        return list.into_iter().map(plain).collect();
+    let mut polynomials = Vec::new();
+    for numbers in list {
+        let g: Polynomial = numbers.iter().map(|n| n.0.clone()).collect();
+        if is_long {
+            let steps = longest + 1 - coefficients;
+            polynomials.push(reduced(&g, p, steps));
+        } else {
+            polynomials.push(g);
+        }
     }
-    let steps = longest + 1 - coefficients;
-    list.into_iter()
-        .map(|g| reduced(&plain(g), p, steps))
-        .collect()
+
+    polynomials
 }
 
 /// g modulo p, times |lead(p)|^steps.
-fn reduced(g: &[Rational], p: &Poly, steps: usize) -> Vec<Rational> {
+fn reduced(g: &[Rational], p: &Poly, steps: usize) -> Polynomial {
     let common = common_denominator(g);
     let integral = g
         .iter()
         .map(|c| c.numer() * (&common / c.denom()))
         .collect();
+
     let remainder = Poly::new(integral).pseudo_rem_steps(p, steps);
     remainder
         .coeffs()
@@ -293,52 +319,101 @@ fn reduced(g: &[Rational], p: &Poly, steps: usize) -> Vec<Rational> {
         .collect()
 }
 
-/// A row of A + tB times x, as a polynomial in t.
-fn times(row: &Row, x: &[Vec<Rational>]) -> Vec<Rational> {
+/// A row of A + tB times x, as a polynomial in t: its coefficient of t^k is
+/// sum_j A_j x_j,k + B_j x_j,k-1.
+fn times(row: &Row, x: &[Polynomial]) -> Polynomial {
     let degree = x.iter().map(Vec::len).max().unwrap_or(0);
-    (0..=degree)
-        .map(|k| {
-            sum(row.iter().flat_map(|(j, a, b)| {
-                [
-                    (a, x[*j].get(k)),
-                    (b, k.checked_sub(1).and_then(|k| x[*j].get(k))),
-                ]
-            }))
-        })
-        .collect()
+    let mut product = Vec::with_capacity(degree + 1);
+
+    let mut sum = FractionSum::default();
+    for k in 0..=degree {
+        sum.terms.clear();
+        for (j, a, b) in row {
+            sum.add(a, x[*j].get(k));
+            if k > 0 {
+                sum.add(b, x[*j].get(k - 1));
+            }
+        }
+
+        product.push(sum.value());
+    }
+
+    product
 }
 
-/// A sum of multiples over the common denominator of these terms, which as a rule is that of each:
-/// one gcd instead of two for every term. (Per sum, not per claim: the worst file makes fractions
-/// added one by one as long.)
-fn sum<'a>(terms: impl Iterator<Item = (&'a Integer, Option<&'a Rational>)> + Clone) -> Rational {
-    let given = terms
-        .filter_map(|(factor, v)| Some((factor, v?)))
-        .filter(|(factor, v)| !factor.is_zero() && !v.is_zero());
-    let lift = |common: Integer, (_, v): (&Integer, &Rational)| {
-        if common == *v.denom() {
-            common
-        } else {
-            common.lcm(v.denom())
+/// A sum of products of an integer and a fraction.
+///
+/// The sum is taken over the common denominator of its terms, which as a rule is that of each: this
+/// needs one gcd instead of two for every term.
+#[derive(Default)]
+struct FractionSum<'a> {
+    terms: Vec<(&'a Integer, &'a Rational)>,
+}
+
+impl<'a> FractionSum<'a> {
+    /// Adds factor * value; no value stands for 0.
+    fn add(&mut self, factor: &'a Integer, value: Option<&'a Rational>) {
+        let Some(value) = value else { return };
+        if factor.is_zero() || value.is_zero() {
+            return;
         }
-    };
-    let common = given.clone().fold(Integer::one(), lift);
-    let lifted = |(factor, v): (&Integer, &Rational)| {
-        let numerator = factor * v.numer();
-        if common == *v.denom() {
-            numerator
-        } else {
-            numerator * (&common / v.denom())
+
+        self.terms.push((factor, value));
+    }
+
+    fn value(&self) -> Rational {
+        let mut common = Integer::one();
+        for (_, value) in &self.terms {
+            if common != *value.denom() {
+                common = common.lcm(value.denom());
+            }
         }
-    };
-    let numerator: Integer = given.map(lifted).sum();
-    Rational::new(numerator, common)
+
+        let mut numerator = Integer::zero();
+        for (factor, value) in &self.terms {
+            let product = *factor * value.numer();
+            if common == *value.denom() {
+                numerator += product;
+            } else {
+                numerator += product * (&common / value.denom());
+            }
+        }
+
+        Rational::new(numerator, common)
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
+
+    fn zero() -> Number {
+        Number(whole(0))
+    }
+
+    /// An integer whose numerator and denominator have so many bits together.
+    fn number_of_bits(bits: u64) -> Number {
+        // 2^k has k + 1 bits and the denominator one.
+        Number(Rational::from_integer(Integer::from(1) << (bits - 2)))
+    }
+
+    /// The verdict on p with so many coefficients, x with so many polynomials of zeros, and one
+    /// long number.
+    fn verdict(
+        coefficients: usize,
+        polynomials: usize,
+        length_of_x: usize,
+        number: Number,
+    ) -> Result<(), Reason> {
+        let p = vec![Integer::from(1); coefficients];
+        let x = vec![vec![zero(); length_of_x]; polynomials];
+        bounded(&p, &[zero(), number], &x)
+    }
+
+    fn too_large(what: &'static str, limit: u64, got: u64) -> Result<(), Reason> {
+        Err(Reason::TooLarge { what, limit, got })
+    }
 
     /// Equal, unequal and cancelling denominators, a zero among the factors, polynomials of unequal
     /// length.
@@ -350,62 +425,55 @@ mod tests {
             vec![],
             vec![rational(-1, 6), whole(0), rational(2, 7)],
         ];
-        let row = |entries: &[(usize, i64, i64)]| -> Row {
-            entries
-                .iter()
-                .map(|&(j, a, b)| (j, a.into(), b.into()))
-                .collect()
-        };
+
         for entries in [
             &[(0, 1, 2), (3, 1, -2)][..],
             &[(0, 7, -3), (1, 0, 5), (2, 4, 4), (3, -11, 13)],
             &[(1, 2, 0)],
             &[],
         ] {
-            let mut plain = vec![whole(0); 4];
+            let mut row = Row::new();
+            let mut expected = vec![whole(0); 4];
             for &(j, a, b) in entries {
+                row.push((j, a.into(), b.into()));
                 for (k, c) in x[j].iter().enumerate() {
-                    plain[k] += c * whole(a);
-                    plain[k + 1] += c * whole(b);
+                    expected[k] += c * whole(a);
+                    expected[k + 1] += c * whole(b);
                 }
             }
-            assert_eq!(times(&row(entries), &x), plain);
+
+            assert_eq!(times(&row, &x), expected);
         }
     }
 
     /// The limits themselves are allowed; beyond them the reason says by how much.
     #[test]
     fn a_claim_has_a_largest_size() {
-        let zero = || Number(whole(0));
-        let of = |coefficients: usize, longest_x: usize, (up, down): (u64, u64)| {
-            let value = Rational::new(
-                Integer::from(1) << (up - 1),
-                (Integer::from(1) << (down - 1)) + i32::from(down > 1),
-            );
-            bounded(
-                &vec![Integer::from(1); coefficients],
-                &[zero(), Number(value)],
-                &[vec![zero(); longest_x], vec![]],
-            )
+        let one = || Number(whole(1));
+        assert_eq!(verdict(512, 1, 0, one()), Ok(()));
+        assert_eq!(verdict(1, 1, 512, one()), Ok(()));
+
+        let what = "coefficients of the polynomial";
+        assert_eq!(verdict(513, 1, 0, one()), too_large(what, 512, 513));
+        let what = "coefficients of x";
+        assert_eq!(verdict(1, 1, 513, one()), too_large(what, 512, 513));
+
+        // 4 + 4 coefficients: 2^21 in all. The bits of numerator and denominator count together.
+        let what = "size (coefficients times bits)";
+        let edge = 1u64 << 18;
+        let fraction = |numerator_bits: u64, denominator_bits: u64| {
+            let numerator = Integer::from(1) << (numerator_bits - 1);
+            let denominator: Integer = Integer::from(1) << (denominator_bits - 1);
+            Number(Rational::new(numerator, denominator + 1))
         };
-        let large = |what, limit, got| Err(Reason::TooLarge { what, limit, got });
-        assert_eq!([of(512, 0, (1, 1)), of(1, 512, (1, 1))], [Ok(()), Ok(())]);
-        assert_eq!(
-            of(513, 0, (1, 1)),
-            large("coefficients of the polynomial", 512, 513)
-        );
-        assert_eq!(of(1, 513, (1, 1)), large("coefficients of x", 512, 513));
-        let size = "size (coefficients times bits)";
-        let edge = 1u64 << 18; // 4 + 4 coefficients: 2^21 in all
-        assert_eq!(
-            [of(4, 4, (edge - 1, 1)), of(4, 4, (edge / 2, edge / 2))],
-            [Ok(()), Ok(())]
-        );
-        assert_eq!(of(4, 4, (edge, 1)), large(size, 1 << 21, (1 << 21) + 8));
-        assert_eq!(
-            of(4, 4, (edge / 2, edge / 2 + 1)),
-            large(size, 1 << 21, (1 << 21) + 8)
-        );
+        let at_the_edge = fraction(edge / 2, edge / 2);
+        let beyond = fraction(edge / 2, edge / 2 + 1);
+
+        assert_eq!(verdict(4, 1, 4, number_of_bits(edge)), Ok(()));
+        assert_eq!(verdict(4, 1, 4, at_the_edge), Ok(()));
+        let expected = too_large(what, 1 << 21, (1 << 21) + 8);
+        assert_eq!(verdict(4, 1, 4, number_of_bits(edge + 1)), expected);
+        assert_eq!(verdict(4, 1, 4, beyond), expected);
     }
 
     /// By hand: t^3 and 1/2 + t modulo 2t - 3 are 27/8 and 2, times 2^3. Short polynomials stay as
@@ -413,24 +481,24 @@ mod tests {
     #[test]
     fn long_polynomials_are_reduced_by_one_factor() {
         let p = Poly::new(vec![(-3).into(), 2.into()]);
-        let list = |polynomials: &[&[Rational]]| -> Vec<Vec<Number>> {
-            polynomials
-                .iter()
-                .map(|g| g.iter().cloned().map(Number).collect())
-                .collect()
+        let numbers = |polynomial: &[Rational]| -> Vec<Number> {
+            polynomial.iter().cloned().map(Number).collect()
         };
 
-        let long = list(&[
-            &[whole(0), whole(0), whole(0), whole(1)],
-            &[rational(1, 2), whole(1)],
-            &[],
-        ]);
+        let long = vec![
+            numbers(&[whole(0), whole(0), whole(0), whole(1)]),
+            numbers(&[rational(1, 2), whole(1)]),
+            vec![],
+        ];
         assert_eq!(
             coefficients(&long, &p),
             [vec![whole(27)], vec![whole(16)], vec![]]
         );
 
-        let short = list(&[&[whole(0), whole(0), whole(1)], &[rational(1, 2)]]);
+        let short = vec![
+            numbers(&[whole(0), whole(0), whole(1)]),
+            numbers(&[rational(1, 2)]),
+        ];
         assert_eq!(
             coefficients(&short, &p),
             [vec![whole(0), whole(0), whole(1)], vec![rational(1, 2)]]
@@ -440,58 +508,36 @@ mod tests {
     /// Each polynomial may be evaluated once; together they have a largest work.
     #[test]
     fn a_claim_has_a_largest_work() {
-        let zero = || Number(whole(0));
         // 4 + 4 coefficients of 2^k bits: size 2^(k + 3).
-        let of = |polynomials: usize, bits: u64| {
-            let number = Number(Rational::from_integer(Integer::from(1) << (bits - 2)));
-            let x = vec![vec![zero(); 4]; polynomials];
-            bounded(&vec![Integer::from(1); 4], &[zero(), number], &x)
-        };
-        let what = "work (polynomials times the square of coefficients times bits)";
-        let large = |got| {
-            Err(Reason::TooLarge {
-                what,
-                limit: 1 << 46,
-                got,
-            })
-        };
+        let work_of =
+            |polynomials: usize, bits: u64| verdict(4, polynomials, 4, number_of_bits(bits));
+        assert_eq!(work_of(16, 1 << 18), Ok(()));
+        assert_eq!(work_of(1 << 10, 1 << 15), Ok(()));
 
-        assert_eq!([of(16, 1 << 18), of(1 << 10, 1 << 15)], [Ok(()), Ok(())]);
-        assert_eq!(
-            [of(17, 1 << 18), of((1 << 10) + 1, 1 << 15)],
-            [large(17 << 42), large(1025 << 36)]
-        );
+        let what = "work (polynomials times the square of coefficients times bits)";
+        assert_eq!(work_of(17, 1 << 18), too_large(what, 1 << 46, 17 << 42));
+        let more = (1 << 10) + 1;
+        assert_eq!(work_of(more, 1 << 15), too_large(what, 1 << 46, 1025 << 36));
     }
 
     /// One coefficient more than p is free for numbers of any length; each further one counts with
     /// the bits.
     #[test]
     fn x_has_a_largest_excess() {
-        let zero = || Number(whole(0));
-        let of = |coefficients: usize, longest_x: usize, bits: u64| {
-            let number = Number(Rational::from_integer(Integer::from(1) << (bits - 2)));
-            bounded(
-                &vec![Integer::from(1); coefficients],
-                &[zero(), number],
-                &[vec![zero(); longest_x]],
-            )
-        };
-        let large = |got| {
-            let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
-            Err(Reason::TooLarge {
-                what,
-                limit: 1 << 13,
-                got,
-            })
-        };
+        let of_three =
+            |length_of_x: usize, bits: u64| verdict(3, 1, length_of_x, number_of_bits(bits));
+        for length_of_x in [2, 3, 4] {
+            assert_eq!(of_three(length_of_x, 1 << 17), Ok(()), "{length_of_x}");
+        }
+        assert_eq!(of_three(5, 1 << 12), Ok(()));
+        assert_eq!(of_three(11, 1 << 10), Ok(()));
 
-        // 2^k has k + 1 bits and the denominator one.
+        let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
+        let one_bit_more = (1 << 12) + 1;
         assert_eq!(
-            [of(3, 4, 1 << 17), of(3, 3, 1 << 17), of(3, 2, 1 << 17)],
-            [Ok(()), Ok(()), Ok(())]
+            of_three(5, one_bit_more),
+            too_large(what, 1 << 13, (1 << 13) + 2)
         );
-        assert_eq!([of(3, 5, 1 << 12), of(3, 11, 1 << 10)], [Ok(()), Ok(())]);
-        assert_eq!(of(3, 5, (1 << 12) + 1), large((1 << 13) + 2));
-        assert_eq!(of(3, 12, 1 << 10), large(9 << 10));
+        assert_eq!(of_three(12, 1 << 10), too_large(what, 1 << 13, 9 << 10));
     }
 }

@@ -1,10 +1,28 @@
-//! The checker: problem and certificate to a verdict. The only code that has to be trusted.
+//! The checker: from a problem and a certificate to a verdict, in exact arithmetic.
 //!
-//! It multiplies and compares exact numbers, nothing else: no floats, no linear solver, no root
-//! finder, nothing shared with the rooms that find solutions. For a mechanical system it forms
-//! the pencil (10)-(16) by its own short route (`pencil.rs`).
+//! This crate is the only code of the project that has to be trusted. The problem is
 //!
-//! Two verdicts: `Ok(Accepted)` or `Err(Rejected)`. A file that cannot be read never gets here.
+//! ```text
+//!     (A + t B) x = y,    y_f = 0,    0 <= x_s _|_ y_s >= 0,    x != 0
+//! ```
+//!
+//! (equations (12)-(14), (21)-(23)), with the unknown t (lambda^2 or mu), the free variables f and
+//! the complementarity variables s. A certificate ([`certificate`]) makes two kinds of claims, and
+//! each kind has its checker:
+//!
+//! * *There is a solution* with this support and a value t in this interval. The evidence is the
+//!   solution over an algebraic number field (`exact_solution`), the same in the degrees of freedom
+//!   of the body (`lifted_solution`), or a box that contains one by Krawczyk's test (`enclosed`).
+//! * *There are no others* with a value in the window (`cover`). The evidence is a partition of
+//!   (supports) x (window) into regions, each with a proof of what it holds.
+//!
+//! The checker multiplies and compares integers and fractions. It has no floating point number, it
+//! solves no linear system and finds no root, and it shares no algorithm with the code that finds
+//! solutions. Of a mechanical system it forms A and B itself (`pencil`).
+//!
+//! A certificate is accepted, or rejected with the first obligation that fails. There is no third
+//! verdict: a file that cannot be read is an error of [`Certificate::from_json`] and never gets
+//! here. The obligations are those of `spec/certificates.md`.
 #![deny(clippy::float_arithmetic)]
 
 pub mod certificate;
@@ -50,11 +68,14 @@ pub fn check(problem: &Problem, certificate: &Certificate) -> Result<Accepted, R
     verdict(problem, certificate, None)
 }
 
-/// [`check`] of the certificate with the leaves of its cover that fail made open, and which these
-/// are (piece and node): for a search, which need not check the rest again for each of them.
+/// Checks a certificate as [`check`] does, but leaves open each leaf of its cover that fails.
+///
+/// Beside the verdict on the rest it returns those leaves, as pairs of the number of the piece and
+/// the number of the node in the tree of the piece. A search that wants to replace all leaves that
+/// fail calls this once, where it would have to call [`check`] once for each of them.
 ///
 /// # Errors
-/// [`Rejected`] for whatever making leaves open does not mend.
+/// [`Rejected`] with an obligation that fails although these leaves are open.
 pub fn audit(
     problem: &Problem,
     certificate: &Certificate,
@@ -90,61 +111,106 @@ impl<'a> ClaimChecker<'a> {
             Claim::EnclosedSolution(c) => enclosed::check(&self.rows, window, c),
         }
     }
+
+    /// Checks all claims of a certificate, in its order.
+    fn solutions<'c>(
+        &self,
+        certificate: &'c Certificate,
+    ) -> Result<Vec<AcceptedSolution<'c>>, Rejected> {
+        let mut solutions = Vec::new();
+
+        for (index, claim) in certificate.claims.iter().enumerate() {
+            let accepted = self
+                .verdict(&certificate.window, claim)
+                .map_err(|reason| of_claim(index, reason))?;
+
+            solutions.push(AcceptedSolution {
+                claim: accepted,
+                biactive: biactive_set(claim),
+            });
+        }
+
+        Ok(solutions)
+    }
 }
 
+/// The verdict of [`check`], or with a list `refused` that of [`audit`].
 fn verdict(
     problem: &Problem,
     certificate: &Certificate,
     refused: Option<&mut Vec<(usize, usize)>>,
 ) -> Result<Accepted, Rejected> {
-    let whole = |reason| Rejected {
-        claim: None,
-        reason,
-    };
-    let digest = problem.sha256();
-    if certificate.problem_sha256 != digest {
-        return Err(whole(Reason::Digest {
-            expected: digest,
-            got: certificate.problem_sha256.clone(),
-        }));
-    }
-    if certificate.unknown != problem.unknown() {
-        return Err(whole(Reason::Unknown {
-            expected: problem.unknown().word(),
-            got: certificate.unknown.word(),
-        }));
-    }
-    if certificate.claims.is_empty() && certificate.complete_set.is_none() {
-        return Err(whole(Reason::NoClaims));
-    }
+    check_frame(problem, certificate).map_err(of_certificate)?;
+
+    // The solutions come first, because a cover may refer to them.
     let checker = ClaimChecker::new(problem);
-    // Solutions first: a complete set may refer to them.
-    let mut solutions: Vec<AcceptedSolution<'_>> = Vec::new();
-    for (index, claim) in certificate.claims.iter().enumerate() {
-        let verdict = checker.verdict(&certificate.window, claim);
-        let biactive: &[usize] = match claim {
-            Claim::ExactSolution(c) => &c.biactive,
-            Claim::LiftedSolution(c) => &c.biactive,
-            Claim::EnclosedSolution(_) => &[],
-        };
-        let claim = verdict.map_err(|reason| Rejected {
-            claim: Some(index),
-            reason,
-        })?;
-        solutions.push(AcceptedSolution { claim, biactive });
-    }
+    let solutions = checker.solutions(certificate)?;
+
     let cover = match &certificate.complete_set {
-        Some(c) => Some(
-            cover::check(&checker.rows, &certificate.window, &solutions, c, refused)
-                .map_err(whole)?,
-        ),
+        Some(complete_set) => {
+            let window = &certificate.window;
+            let accepted = cover::check(&checker.rows, window, &solutions, complete_set, refused);
+            Some(accepted.map_err(of_certificate)?)
+        }
         None => None,
     };
+
     let claims: Vec<AcceptedClaim> = solutions.into_iter().map(|s| s.claim).collect();
     if let Some(cover) = &cover {
         beside_the_cover(&claims, cover)?;
     }
+
     Ok(Accepted { claims, cover })
+}
+
+/// Demands that the certificate belongs to this problem and claims something.
+fn check_frame(problem: &Problem, certificate: &Certificate) -> Result<(), Reason> {
+    let digest = problem.sha256();
+    if certificate.problem_sha256 != digest {
+        return Err(Reason::Digest {
+            expected: digest,
+            got: certificate.problem_sha256.clone(),
+        });
+    }
+
+    if certificate.unknown != problem.unknown() {
+        return Err(Reason::Unknown {
+            expected: problem.unknown().word(),
+            got: certificate.unknown.word(),
+        });
+    }
+
+    if certificate.claims.is_empty() && certificate.complete_set.is_none() {
+        return Err(Reason::NoClaims);
+    }
+
+    Ok(())
+}
+
+/// The variables of which a claim says that x_i = y_i = 0. An enclosed solution has none, because
+/// its signs are strict.
+fn biactive_set(claim: &Claim) -> &[usize] {
+    match claim {
+        Claim::ExactSolution(c) => &c.biactive,
+        Claim::LiftedSolution(c) => &c.biactive,
+        Claim::EnclosedSolution(_) => &[],
+    }
+}
+
+/// The rejection of the claim with this number.
+fn of_claim(index: usize, reason: Reason) -> Rejected {
+    Rejected {
+        claim: Some(index),
+        reason,
+    }
+}
+
+/// The rejection of the certificate as a whole.
+fn of_certificate(reason: Reason) -> Rejected {
+    Rejected {
+        claim: None,
+        reason,
+    }
 }
 
 /// Demands that each claim belongs to a solution, a family or an open region of the cover.
@@ -159,12 +225,10 @@ fn beside_the_cover(claims: &[AcceptedClaim], cover: &AcceptedCover) -> Result<(
                 a: claim.value.lo().clone(),
                 b: claim.value.hi().clone(),
             };
-            return Err(Rejected {
-                claim: Some(index),
-                reason,
-            });
+            return Err(of_claim(index, reason));
         }
     }
+
     Ok(())
 }
 
@@ -174,15 +238,14 @@ mod tests {
     use mceip_exact::whole;
 
     fn claim(support: usize, value: i64) -> AcceptedClaim {
-        let value = Interval::new(whole(value), whole(value)).unwrap();
         AcceptedClaim {
             support: vec![support],
-            value,
+            value: Interval::point(whole(value)),
         }
     }
 
     /// No file reaches this rejection as long as the checker accepts true claims and true covers
-    /// alone, so the cover that leaves out a solution is made here.
+    /// alone. The cover that leaves out a solution is therefore made here.
     #[test]
     fn a_claim_that_the_cover_leaves_out_is_rejected() {
         let cover = AcceptedCover {
@@ -191,25 +254,22 @@ mod tests {
             open: vec![],
             leaves: 1,
         };
+
         assert_eq!(beside_the_cover(&[], &cover), Ok(()));
         assert_eq!(beside_the_cover(&[claim(0, 2)], &cover), Ok(()));
 
-        let rejected = beside_the_cover(&[claim(0, 2), claim(0, 3)], &cover).unwrap_err();
-        assert_eq!(rejected.claim, Some(1));
-        assert_eq!(
-            rejected.reason,
-            Reason::NotInCover {
-                support: vec![0],
-                a: whole(3),
-                b: whole(3)
-            }
-        );
-        assert_eq!(rejected.reason.name(), "NotInCover");
+        let other_value = beside_the_cover(&[claim(0, 2), claim(0, 3)], &cover).unwrap_err();
+        let not_in_cover = Reason::NotInCover {
+            support: vec![0],
+            a: whole(3),
+            b: whole(3),
+        };
+        assert_eq!(other_value.claim, Some(1));
+        assert_eq!(other_value.reason, not_in_cover);
+        assert_eq!(other_value.reason.name(), "NotInCover");
+
         let other_support = beside_the_cover(&[claim(1, 2)], &cover).unwrap_err();
-        assert!(
-            other_support
-                .to_string()
-                .starts_with("claim 0: complete set: expected support [1] with a value in [2, 2]")
-        );
+        let message = "claim 0: complete set: expected support [1] with a value in [2, 2]";
+        assert!(other_support.to_string().starts_with(message));
     }
 }

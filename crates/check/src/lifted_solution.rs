@@ -1,13 +1,25 @@
 //! Lifted solutions: v and w over all degrees of freedom, each line of (9) checked from K, M, mu
-//! and the contact states themselves. The pencil is not used, so a wrong reduction cannot hide
-//! here.
+//! and the contact states themselves.
 //!
-//! Obligations, in this order: index sets and sizes; [a, b] isolates one root in the window; then,
-//! at that root, the lines of (9): (t M + K) v = w, w_f = 0, v_d = 0, v_N = 0, S v_T <= 0, S w_T +
-//! mu w_N <= 0, their product zero with `support` and `biactive` saying which; v != 0.
+//! The pencil is not used here, so that a wrong reduction (10)-(16) cannot hide. The value t is an
+//! algebraic number alpha, and v and w are polynomials in it, as in `exact_solution`. The
+//! obligations, in the order of `spec/formats.md`:
+//!
+//! 1. Those of an exact solution on index sets, sizes, the isolating interval and the window.
+//! 2. (t M + K) v = w at every degree of freedom; K v = w where mu is the unknown.
+//! 3. w_f = 0 at the free degrees of freedom.
+//! 4. Stick: v = 0 at both degrees of freedom of the particle. Slip: v_N = 0; S v_T < 0 on the
+//!    support, else S v_T = 0; S w_T + mu w_N = 0 on the support and where biactive, else < 0.
+//! 5. v is not zero.
+//!
+//! Line 4 states (9) with the two inequalities and the product resolved: on the support the first
+//! factor of (S w_T + mu w_N) (S v_T) is zero, elsewhere the second.
+//!
+//! Indices of `support` and `biactive` are those of the pencil: free degrees of freedom first, then
+//! slip particles in file order.
 
 use super::AcceptedClaim;
-use super::exact_solution::{Alpha, bounded, coefficients, index_set, isolate, within};
+use super::exact_solution::{Alpha, Polynomial, bounded, coefficients, index_set, isolate, within};
 use super::pencil::Rows;
 use super::reason::Reason;
 use crate::certificate::LiftedSolution;
@@ -24,26 +36,18 @@ pub(super) fn check(
     let Body::System(system) = problem.body() else {
         return Err(Reason::NotASystem);
     };
+    let polynomials = claim.v.iter().chain(&claim.w);
     index_set(rows, "support", &claim.support)?;
     index_set(rows, "biactive", &claim.biactive)?;
-    bounded(
-        &claim.polynomial,
-        &claim.interval,
-        claim.v.iter().chain(&claim.w),
-    )?;
+    bounded(&claim.polynomial, &claim.interval, polynomials.clone())?;
+
     let p = Poly::new(claim.polynomial.clone()).primitive();
     let value = isolate(&p, &claim.interval)?;
     within(window, &value)?;
-    for (what, list) in [("v", &claim.v), ("w", &claim.w)] {
-        if list.len() != system.dofs() {
-            return Err(Reason::Length {
-                what,
-                expected: system.dofs(),
-                got: list.len(),
-            });
-        }
-    }
-    let mut v = coefficients(claim.v.iter().chain(&claim.w), &p);
+    Reason::length("v", system.dofs(), claim.v.len())?;
+    Reason::length("w", system.dofs(), claim.w.len())?;
+
+    let mut v = coefficients(polynomials, &p);
     let w = v.split_off(claim.v.len());
     let lines = Lines {
         system,
@@ -53,41 +57,28 @@ pub(super) fn check(
         w,
     };
     lines.motion()?;
-    let mut position = lines.free()?; // slip variables follow the free ones in the pencil
-    for (index, particle) in system.particles().iter().enumerate() {
-        match particle.state {
-            ContactState::Free => {}
-            ContactState::Stick => lines.stick(index, particle)?,
-            ContactState::Slip { sign } => {
-                let slips = claim.support.binary_search(&position).is_ok();
-                let biactive = claim.biactive.binary_search(&position).is_ok();
-                if slips && biactive {
-                    return Err(Reason::Biactive {
-                        index: position,
-                        expected: false,
-                    });
-                }
-                lines.slip(index, particle, sign, slips, biactive)?;
-                position += 1;
-            }
-        }
-    }
-    if claim.support.is_empty()
-        && system
-            .free_dofs()
-            .iter()
-            .all(|&d| lines.alpha.enclose(&lines.v[d]).certain_sign() == 0)
-    {
-        return Err(Reason::XZero);
-    }
+    lines.free()?;
+    lines.particles(claim)?;
+    lines.not_zero(claim)?;
+
     Ok(AcceptedClaim {
         support: claim.support.clone(),
         value: lines.alpha.value,
     })
 }
 
-type Polynomial = Vec<Rational>;
+/// What a claim says of a slip particle.
+#[derive(Clone, Copy, PartialEq)]
+enum Slip {
+    /// S v_T < 0, S w_T + mu w_N = 0.
+    InSupport,
+    /// S v_T = 0, S w_T + mu w_N = 0.
+    Biactive,
+    /// S v_T = 0, S w_T + mu w_N < 0.
+    Sticks,
+}
 
+/// The lines of (9) for one v, w and t.
 struct Lines<'a> {
     system: &'a System,
     unknown: Unknown,
@@ -99,92 +90,126 @@ struct Lines<'a> {
 impl Lines<'_> {
     /// (t M + K) v = w; for MCEIP-mu K v = w.
     fn motion(&self) -> Result<(), Reason> {
-        let mass = self
-            .system
-            .mass()
-            .filter(|_| self.unknown == Unknown::Lambda2);
         for dof in 0..self.system.dofs() {
-            let mut sum: Polynomial = self.w[dof].iter().map(|c| -c).collect();
-            let mut product = |m: &Sparse, shift: usize| {
-                m.row(dof)
-                    .iter()
-                    .for_each(|(j, k)| add(&mut sum, k, &self.v[*j], shift))
-            };
-            product(self.system.stiffness(), 0);
-            if let Some(mass) = mass {
-                product(mass, 1);
+            let mut difference: Polynomial = self.w[dof].iter().map(|c| -c).collect();
+
+            self.add_row(&mut difference, self.system.stiffness(), dof, 0);
+            if self.unknown == Unknown::Lambda2
+                && let Some(mass) = self.system.mass()
+            {
+                self.add_row(&mut difference, mass, dof, 1);
             }
-            self.zero("(lambda^2 M + K) v = w", "dof", dof, &sum)?;
+
+            self.zero("(lambda^2 M + K) v = w", "dof", dof, &difference)?;
         }
+
         Ok(())
     }
 
-    /// w_f = 0; the number of free dofs.
-    fn free(&self) -> Result<usize, Reason> {
-        let free = self.system.free_dofs();
-        free.iter()
-            .try_for_each(|&dof| self.zero("w_f = 0", "dof", dof, &self.w[dof]))?;
-        Ok(free.len())
+    /// sum += t^shift (matrix v)_dof.
+    fn add_row(&self, sum: &mut Polynomial, matrix: &Sparse, dof: usize, shift: usize) {
+        for (j, entry) in matrix.row(dof) {
+            add(sum, entry, &self.v[*j], shift);
+        }
+    }
+
+    /// w_f = 0.
+    fn free(&self) -> Result<(), Reason> {
+        for dof in self.system.free_dofs() {
+            self.zero("w_f = 0", "dof", dof, &self.w[dof])?;
+        }
+
+        Ok(())
+    }
+
+    /// The lines of each particle in contact.
+    fn particles(&self, claim: &LiftedSolution) -> Result<(), Reason> {
+        // In the pencil the slip variables follow the free ones.
+        let mut variable = self.system.free_dofs().len();
+
+        for (index, particle) in self.system.particles().iter().enumerate() {
+            match particle.state {
+                ContactState::Free => {}
+                ContactState::Stick => self.stick(index, particle)?,
+                ContactState::Slip { sign } => {
+                    let slip = claimed_slip(claim, variable)?;
+                    self.slip(index, particle, sign, slip)?;
+                    variable += 1;
+                }
+            }
+        }
+
+        Ok(())
     }
 
     /// v_d = 0.
-    fn stick(&self, index: usize, p: &Particle) -> Result<(), Reason> {
-        [p.tangential, p.normal]
-            .into_iter()
-            .try_for_each(|dof| self.zero("v_d = 0", "particle", index, &self.v[dof]))
+    fn stick(&self, index: usize, particle: &Particle) -> Result<(), Reason> {
+        for dof in [particle.tangential, particle.normal] {
+            self.zero("v_d = 0", "particle", index, &self.v[dof])?;
+        }
+
+        Ok(())
     }
 
-    fn slip(
-        &self,
-        index: usize,
-        p: &Particle,
-        sign: i8,
-        slips: bool,
-        biactive: bool,
-    ) -> Result<(), Reason> {
+    /// v_N = 0, and the signs of S v_T and S w_T + mu w_N.
+    fn slip(&self, index: usize, particle: &Particle, sign: i8, slip: Slip) -> Result<(), Reason> {
+        let normal_rate = along(&particle.into_obstacle(), &self.v, &Rational::one());
+        self.zero("v_N = 0", "particle", index, &normal_rate)?;
+
         let s = Rational::from_integer(sign.into());
-        self.zero(
-            "v_N = 0",
-            "particle",
-            index,
-            &along(&p.into_obstacle(), &self.v, &Rational::one()),
-        )?;
-        let rate = along(&p.tangent(), &self.v, &s);
-        if slips {
-            self.negative("S v_T < 0 on the support", index, &rate)?;
+        let slip_rate = along(&particle.tangent(), &self.v, &s);
+        if slip == Slip::InSupport {
+            self.negative("S v_T < 0 on the support", index, &slip_rate)?;
         } else {
-            self.zero("S v_T = 0 off the support", "particle", index, &rate)?;
+            self.zero("S v_T = 0 off the support", "particle", index, &slip_rate)?;
         }
-        // mu is a number of the system or the unknown itself.
-        let mut cone = along(&p.tangent(), &self.w, &s);
-        match (self.unknown, self.system.friction()) {
-            (Unknown::Lambda2, Some(mu)) => add(
-                &mut cone,
-                &Rational::one(),
-                &along(&p.into_obstacle(), &self.w, mu),
-                0,
-            ),
-            _ => add(
-                &mut cone,
-                &Rational::one(),
-                &along(&p.into_obstacle(), &self.w, &Rational::one()),
-                1,
-            ),
-        }
-        if slips {
-            self.zero("(S w_T + mu w_N) (S v_T) = 0", "particle", index, &cone)
-        } else if biactive {
-            self.zero(
-                "S w_T + mu w_N = 0 where biactive",
-                "particle",
-                index,
-                &cone,
-            )
-        } else {
-            self.negative("S w_T + mu w_N < 0 where not biactive", index, &cone)
-        }
+
+        let cone = self.cone(particle, &s);
+        let line = match slip {
+            Slip::InSupport => "(S w_T + mu w_N) (S v_T) = 0",
+            Slip::Biactive => "S w_T + mu w_N = 0 where biactive",
+            Slip::Sticks => {
+                return self.negative("S w_T + mu w_N < 0 where not biactive", index, &cone);
+            }
+        };
+        self.zero(line, "particle", index, &cone)
     }
 
+    /// S w_T + mu w_N, where mu is a number of the system or the unknown itself.
+    fn cone(&self, particle: &Particle, s: &Rational) -> Polynomial {
+        let one = Rational::one();
+        let mut sum = along(&particle.tangent(), &self.w, s);
+
+        match (self.unknown, self.system.friction()) {
+            (Unknown::Lambda2, Some(mu)) => {
+                let friction = along(&particle.into_obstacle(), &self.w, mu);
+                add(&mut sum, &one, &friction, 0);
+            }
+            _ => {
+                let normal = along(&particle.into_obstacle(), &self.w, &one);
+                add(&mut sum, &one, &normal, 1);
+            }
+        }
+
+        sum
+    }
+
+    /// v != 0. On the support this has been seen; without one some free v_i must not be zero.
+    fn not_zero(&self, claim: &LiftedSolution) -> Result<(), Reason> {
+        if !claim.support.is_empty() {
+            return Ok(());
+        }
+
+        for dof in self.system.free_dofs() {
+            if self.alpha.enclose(&self.v[dof]).certain_sign() != 0 {
+                return Ok(());
+            }
+        }
+
+        Err(Reason::XZero)
+    }
+
+    /// Demands g(alpha) = 0.
     fn zero(
         &self,
         line: &'static str,
@@ -193,18 +218,19 @@ impl Lines<'_> {
         g: &Polynomial,
     ) -> Result<(), Reason> {
         if self.alpha.remainder(g).is_zero() {
-            Ok(())
-        } else {
-            Err(self.fails(line, place, index, g))
+            return Ok(());
         }
+
+        Err(self.fails(line, place, index, g))
     }
 
+    /// Demands g(alpha) < 0 of a particle.
     fn negative(&self, line: &'static str, index: usize, g: &Polynomial) -> Result<(), Reason> {
         if self.alpha.enclose(g).certain_sign() == -1 {
-            Ok(())
-        } else {
-            Err(self.fails(line, "particle", index, g))
+            return Ok(());
         }
+
+        Err(self.fails(line, "particle", index, g))
     }
 
     fn fails(
@@ -225,12 +251,29 @@ impl Lines<'_> {
     }
 }
 
+/// What the claim says of the slip particle with this variable. It cannot be in both sets.
+fn claimed_slip(claim: &LiftedSolution, variable: usize) -> Result<Slip, Reason> {
+    let is_in_support = claim.support.binary_search(&variable).is_ok();
+    let is_biactive = claim.biactive.binary_search(&variable).is_ok();
+
+    match (is_in_support, is_biactive) {
+        (true, true) => Err(Reason::Biactive {
+            index: variable,
+            expected: false,
+        }),
+        (true, false) => Ok(Slip::InSupport),
+        (false, true) => Ok(Slip::Biactive),
+        (false, false) => Ok(Slip::Sticks),
+    }
+}
+
 /// factor * direction' list.
 fn along(direction: &Direction, list: &[Polynomial], factor: &Rational) -> Polynomial {
     let mut sum = Vec::new();
     for (dof, c) in direction {
         add(&mut sum, &(c * factor), &list[*dof], 0);
     }
+
     sum
 }
 
@@ -239,6 +282,7 @@ fn add(sum: &mut Polynomial, factor: &Rational, p: &[Rational], shift: usize) {
     if sum.len() < p.len() + shift {
         sum.resize(p.len() + shift, Rational::zero());
     }
+
     for (k, c) in p.iter().enumerate() {
         sum[k + shift] += factor * c;
     }

@@ -1,9 +1,28 @@
-//! The pencil of a problem, formed by the checker itself, independently of `reduction`.
+//! The rows of A and B with denominators cleared, formed by the checker itself.
 //!
-//! For a system the change of variables is read as two families of vectors over the degrees of
-//! freedom: v = T x (columns of T: e_dof for a free dof, -S t for a slip particle, equation (10))
-//! and y = P' w (columns of P: e_dof, or -(S t + mu n), equation (11)). Then y = P'(K + l M) T x.
-//! No block formula (16) is used: that is what `reduction` does, and tests hold the two equal.
+//! Of a pencil they are the rows given, each multiplied by the least positive integer that makes
+//! its entries in A and in B integers. A positive multiple of row i changes y_i by a positive
+//! factor, so that (12)-(14) keep their solutions.
+//!
+//! Of a mechanical system, the change of variables (10), (11) is read as two lists of vectors over
+//! the degrees of freedom: v = T x with the columns
+//!
+//! ```text
+//!     e_dof for a free dof,    -S t for a slip particle,                    // (10)
+//! ```
+//!
+//! t its unit tangent, and y = P' w with the columns
+//!
+//! ```text
+//!     e_dof for a free dof,    -(S t + mu n) for a slip particle,           // (11)
+//! ```
+//!
+//! n its unit normal into the obstacle. Then w = (K + lambda^2 M) v gives
+//! y = P' (K + lambda^2 M) T x. The block formulas (16) are not used: `reduction` in the model
+//! crate does that, and a test holds the two equal, so that one mistake cannot be in both.
+//!
+//! Input: a [`Problem`], whose constructor has checked its shape. Every checker of a claim reads
+//! the [`Rows`] made here.
 
 use mceip_exact::{Integer, Rational, Sparse, common_denominator};
 use mceip_model::{Body, Direction, Problem, System, Unknown};
@@ -11,6 +30,9 @@ use std::collections::BTreeMap;
 
 /// One row of A + tB with denominators cleared: (column, coefficient in A, coefficient in B).
 pub(super) type Row = Vec<(usize, Integer, Integer)>;
+
+/// One row of A or of B before that: (column, value).
+type RationalRow = Vec<(usize, Rational)>;
 
 /// The rows of the pencil, each multiplied by a positive integer, and the free variables.
 pub(super) struct Rows {
@@ -23,31 +45,56 @@ pub(super) struct Rows {
 impl Rows {
     pub(super) fn of(problem: &Problem) -> Rows {
         match problem.body() {
-            Body::Pencil(p) => {
-                let (rows, factor) = (0..p.order())
-                    .map(|i| merge(p.a().row(i), p.b().row(i)))
-                    .unzip();
-                Rows {
-                    rows,
-                    factor,
-                    is_free: (0..p.order())
-                        .map(|i| p.free().binary_search(&i).is_ok())
-                        .collect(),
+            Body::Pencil(pencil) => {
+                let mut rows = Rows::with_capacity(pencil.order());
+                for i in 0..pencil.order() {
+                    let is_free = pencil.free().binary_search(&i).is_ok();
+                    rows.push(pencil.a().row(i), pencil.b().row(i), is_free);
                 }
+
+                rows
             }
-            Body::System(s) => of_system(s, problem.unknown()),
+            Body::System(system) => of_system(system, problem.unknown()),
         }
+    }
+
+    fn with_capacity(order: usize) -> Rows {
+        Rows {
+            rows: Vec::with_capacity(order),
+            factor: Vec::with_capacity(order),
+            is_free: Vec::with_capacity(order),
+        }
+    }
+
+    /// Joins a row of A and a row of B and clears their denominators.
+    fn push(&mut self, a: &[(usize, Rational)], b: &[(usize, Rational)], is_free: bool) {
+        let factor = common_denominator(a.iter().chain(b).map(|(_, value)| value));
+
+        let mut entries: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
+        for (column, value) in a {
+            entries.entry(*column).or_default().0 += integral(value, &factor);
+        }
+
+        for (column, value) in b {
+            entries.entry(*column).or_default().1 += integral(value, &factor);
+        }
+
+        let row = entries.into_iter().map(|(column, (a, b))| (column, a, b));
+        self.rows.push(row.collect());
+        self.factor.push(factor);
+        self.is_free.push(is_free);
     }
 
     /// B + sA: the same solutions at s = 1 / t.
     pub(super) fn reversed(&self) -> Rows {
-        let swapped = |row: &Row| {
-            row.iter()
-                .map(|(j, a, b)| (*j, b.clone(), a.clone()))
-                .collect()
-        };
+        let mut rows = Vec::with_capacity(self.order());
+        for row in &self.rows {
+            let exchanged = row.iter().map(|(j, a, b)| (*j, b.clone(), a.clone()));
+            rows.push(exchanged.collect());
+        }
+
         Rows {
-            rows: self.rows.iter().map(swapped).collect(),
+            rows,
             factor: self.factor.clone(),
             is_free: self.is_free.clone(),
         }
@@ -58,79 +105,109 @@ impl Rows {
     }
 }
 
-/// Joins a row of A and a row of B and clears denominators: the row and its multiplier.
-fn merge(a: &[(usize, Rational)], b: &[(usize, Rational)]) -> (Row, Integer) {
-    let factor = common_denominator(a.iter().chain(b).map(|(_, v)| v));
-    let integral = |v: &Rational| v.numer() * (&factor / v.denom());
-    let mut row: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
-    for (j, v) in a {
-        row.entry(*j).or_default().0 += integral(v);
-    }
-    for (j, v) in b {
-        row.entry(*j).or_default().1 += integral(v);
-    }
-    (
-        row.into_iter().map(|(j, (a, b))| (j, a, b)).collect(),
-        factor,
-    )
+/// value * factor, where the denominator of `value` divides `factor`.
+fn integral(value: &Rational, factor: &Integer) -> Integer {
+    value.numer() * (factor / value.denom())
 }
 
-fn of_system(s: &System, unknown: Unknown) -> Rows {
-    let one = Rational::from_integer(1.into());
-    let free: Vec<usize> = s.free_dofs();
-    // Columns of T; columns of P without friction, and its friction part.
-    let mut t: Vec<Direction> = free.iter().map(|&d| vec![(d, one.clone())]).collect();
-    let mut p_plain = t.clone();
-    let mut p_friction: Vec<Direction> = vec![Vec::new(); free.len()];
-    for (particle, sign) in s.slip_particles() {
-        let minus_s = Rational::from_integer((-sign).into());
-        t.push(scale(&particle.tangent(), &minus_s)); // E10: v_T = -S x
-        p_plain.push(scale(&particle.tangent(), &minus_s)); // E11: y = -(S w_T + mu w_N)
-        p_friction.push(scale(&particle.into_obstacle(), &-&one));
+/// The rows of y = P' (K + lambda^2 M) T x, or of y = P' K T x with mu as the unknown.
+fn of_system(system: &System, unknown: Unknown) -> Rows {
+    let variables = Variables::of(system);
+    let stiffness = system.stiffness();
+    let mut rows = Rows::with_capacity(variables.columns.len());
+
+    for (i, plain) in variables.rows.iter().enumerate() {
+        let friction = &variables.friction[i];
+
+        let (a, b) = match (unknown, system.mass(), system.friction()) {
+            (Unknown::Lambda2, Some(mass), Some(mu)) => {
+                let mut p = plain.clone();
+                p.extend(scale(friction, mu));
+                (
+                    variables.reduced(&p, stiffness),
+                    variables.reduced(&p, mass),
+                )
+            }
+            // For MCEIP-mu the friction part is the coefficient of the unknown.
+            _ => (
+                variables.reduced(plain, stiffness),
+                variables.reduced(friction, stiffness),
+            ),
+        };
+        rows.push(&a, &b, i < variables.free);
     }
-    // Transposed T: for each dof, the variables that move it.
-    let mut moves: Vec<Vec<(usize, Rational)>> = vec![Vec::new(); s.dofs()];
-    for (j, column) in t.iter().enumerate() {
-        for (dof, c) in column {
-            moves[*dof].push((j, c.clone()));
+
+    rows
+}
+
+/// The changes of variables v = T x and y = P' w.
+struct Variables {
+    /// The number of free degrees of freedom: these variables come first.
+    free: usize,
+    /// Columns of T.
+    columns: Vec<Direction>,
+    /// Columns of P without friction.
+    rows: Vec<Direction>,
+    /// What friction adds to each column of P, divided by mu.
+    friction: Vec<Direction>,
+    /// T by rows: for each degree of freedom, the variables that move it and by how much.
+    moved_by: Vec<RationalRow>,
+}
+
+impl Variables {
+    fn of(system: &System) -> Variables {
+        let one = Rational::from_integer(1.into());
+        let minus_one = -&one;
+
+        let free_dofs: Vec<usize> = system.free_dofs();
+        let mut columns: Vec<Direction> =
+            free_dofs.iter().map(|&d| vec![(d, one.clone())]).collect();
+        let mut rows = columns.clone();
+        let mut friction: Vec<Direction> = vec![Vec::new(); free_dofs.len()];
+
+        for (particle, sign) in system.slip_particles() {
+            let minus_s = Rational::from_integer((-sign).into());
+            columns.push(scale(&particle.tangent(), &minus_s)); // (10): v_T = -S x
+            rows.push(scale(&particle.tangent(), &minus_s)); // (11): y = -(S w_T + mu w_N)
+            friction.push(scale(&particle.into_obstacle(), &minus_one));
+        }
+
+        let mut moved_by: Vec<RationalRow> = vec![Vec::new(); system.dofs()];
+        for (j, column) in columns.iter().enumerate() {
+            for (dof, c) in column {
+                moved_by[*dof].push((j, c.clone()));
+            }
+        }
+
+        Variables {
+            free: free_dofs.len(),
+            columns,
+            rows,
+            friction,
+            moved_by,
         }
     }
-    let product = |p: &Direction, m: &Sparse| -> Vec<(usize, Rational)> {
+
+    /// The row p' M T.
+    fn reduced(&self, p: &Direction, matrix: &Sparse) -> RationalRow {
         let mut row: BTreeMap<usize, Rational> = BTreeMap::new();
         for (d, p_d) in p {
-            for (e, m_de) in m.row(*d) {
-                for (j, t_ej) in &moves[*e] {
+            for (e, m_de) in matrix.row(*d) {
+                for (j, t_ej) in &self.moved_by[*e] {
                     *row.entry(*j).or_default() += p_d * m_de * t_ej;
                 }
             }
         }
+
         row.into_iter().collect()
-    };
-    let k = s.stiffness();
-    let (rows, factor) = p_plain
-        .iter()
-        .zip(&p_friction)
-        .map(
-            |(plain, friction)| match (unknown, s.mass(), s.friction()) {
-                (Unknown::Lambda2, Some(m), Some(mu)) => {
-                    let p: Direction = plain.iter().cloned().chain(scale(friction, mu)).collect();
-                    merge(&product(&p, k), &product(&p, m))
-                }
-                // MCEIP-mu: the friction part is the coefficient of the unknown.
-                _ => merge(&product(plain, k), &product(friction, k)),
-            },
-        )
-        .unzip();
-    let is_free = (0..t.len()).map(|i| i < free.len()).collect();
-    Rows {
-        rows,
-        factor,
-        is_free,
     }
 }
 
-fn scale(d: &Direction, factor: &Rational) -> Direction {
-    d.iter().map(|(dof, c)| (*dof, c * factor)).collect()
+fn scale(direction: &Direction, factor: &Rational) -> Direction {
+    direction
+        .iter()
+        .map(|(dof, c)| (*dof, c * factor))
+        .collect()
 }
 
 #[cfg(test)]
@@ -138,61 +215,75 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
     use mceip_model::reduction::reduce;
-    use mceip_model::{ContactState, Particle, Window};
+    use mceip_model::{ContactState, Particle, Pencil, Window};
 
-    /// An oblique particle (3/5, 4/5), one along the axes and two free degrees of freedom: the
-    /// block formulas (16) of `reduction` give the same pencil.
-    #[test]
-    fn the_pencil_is_that_of_the_blocks() {
-        let (r, w) = (rational, whole);
-        let slip = |sign| ContactState::Slip { sign };
-        let frame = [[r(3, 5), r(4, 5)], [r(-4, 5), r(3, 5)]];
+    /// A symmetric matrix of order 6 with entries from -3 to 3 over `denominator`, and `diagonal`
+    /// added to its diagonal.
+    fn symmetric(diagonal: i64, denominator: i64) -> Sparse {
+        let mut entries = Vec::new();
+        for i in 0..6 {
+            for j in 0..6 {
+                let digit = (3 * i.min(j) + 5 * i.max(j)) % 7;
+                let value = rational(digit as i64 - 3, denominator);
+                let shift = whole(if i == j { diagonal } else { 0 });
+                entries.push((i, j, value + shift));
+            }
+        }
+        Sparse::from_entries(6, 6, entries)
+    }
+
+    /// An oblique particle (3/5, 4/5), one along the axes and two free degrees of freedom.
+    fn system() -> System {
         let oblique = Particle {
-            frame: Some(frame),
-            ..Particle::plain(0, 1, slip(1))
+            frame: Some([
+                [rational(3, 5), rational(4, 5)],
+                [rational(-4, 5), rational(3, 5)],
+            ]),
+            ..Particle::plain(0, 1, ContactState::Slip { sign: 1 })
         };
-        let plain = Particle {
+        let along_the_axes = Particle {
             normal_direction: -1,
-            ..Particle::plain(4, 5, slip(-1))
+            ..Particle::plain(4, 5, ContactState::Slip { sign: -1 })
         };
-        let symmetric = |diagonal: i64, scale: i64| {
-            let entry = |i: usize, j: usize| {
-                let v = r(((3 * i.min(j) + 5 * i.max(j)) % 7) as i64 - 3, scale);
-                if i == j { v + w(diagonal) } else { v }
-            };
-            let entries = (0..6)
-                .flat_map(|i| (0..6).map(move |j| (i, j)))
-                .map(|(i, j)| (i, j, entry(i, j)));
-            Sparse::from_entries(6, 6, entries.collect::<Vec<_>>())
-        };
-        let system = System::new(
+        System::new(
             symmetric(40, 1),
             Some(symmetric(9, 3)),
-            Some(r(2, 7)),
-            vec![oblique, plain],
+            Some(rational(2, 7)),
+            vec![oblique, along_the_axes],
         )
-        .unwrap();
+        .unwrap()
+    }
+
+    /// Demands that row i of `rows` is its factor times row i of the pencil.
+    fn assert_row(rows: &Rows, pencil: &Pencil, i: usize) {
+        let factor = Rational::from_integer(rows.factor[i].clone());
+        let mut a = RationalRow::new();
+        let mut b = RationalRow::new();
+        for (j, a_j, b_j) in &rows.rows[i] {
+            a.push((*j, Rational::from_integer(a_j.clone())));
+            b.push((*j, Rational::from_integer(b_j.clone())));
+        }
+        a.retain(|(_, v)| *v != whole(0));
+        b.retain(|(_, v)| *v != whole(0));
+
+        assert_eq!(rows.is_free[i], pencil.free().contains(&i));
+        assert_eq!(a, scale(&pencil.a().row(i).to_vec(), &factor));
+        assert_eq!(b, scale(&pencil.b().row(i).to_vec(), &factor));
+    }
+
+    /// The block formulas (16) of `reduction` give the same pencil.
+    #[test]
+    fn the_pencil_is_that_of_the_blocks() {
         for unknown in [Unknown::Lambda2, Unknown::Mu] {
-            let problem =
-                Problem::new(Body::System(system.clone()), unknown, Window::all()).unwrap();
-            let (rows, pencil) = (Rows::of(&problem), reduce(&problem).unwrap().pencil);
+            let body = Body::System(system());
+            let problem = Problem::new(body, unknown, Window::all()).unwrap();
+
+            let rows = Rows::of(&problem);
+            let pencil = reduce(&problem).unwrap().pencil;
+
             assert_eq!(rows.order(), pencil.order());
-            for (i, row) in rows.rows.iter().enumerate() {
-                assert_eq!(rows.is_free[i], pencil.free().contains(&i));
-                for (m, which) in [(pencil.a(), 0), (pencil.b(), 1)] {
-                    let scaled: Vec<(usize, Rational)> = m
-                        .row(i)
-                        .iter()
-                        .map(|(j, v)| (*j, v * Rational::from_integer(rows.factor[i].clone())))
-                        .collect();
-                    let own = row.iter().map(|(j, a, b)| {
-                        (
-                            *j,
-                            Rational::from_integer(if which == 0 { a.clone() } else { b.clone() }),
-                        )
-                    });
-                    assert_eq!(own.filter(|(_, v)| *v != w(0)).collect::<Vec<_>>(), scaled);
-                }
+            for i in 0..rows.order() {
+                assert_row(&rows, &pencil, i);
             }
         }
     }

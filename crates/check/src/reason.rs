@@ -1,7 +1,11 @@
 //! Every reason for rejection, as a typed value: equation, index, expected, got.
+//!
+//! A rejection names the first obligation that fails, in the order of `spec/formats.md`. Its
+//! message says "expected ..., got ..."; its name ([`Reason::name`]) is what the corpus of
+//! forgeries (`spec/corpus`) expects. What is wrong with a complete set is a [`CoverFault`].
 
 use super::cover::CoverFault;
-use mceip_exact::Rational;
+use mceip_exact::{Interval, Rational};
 
 /// A rejected certificate.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
@@ -16,16 +20,67 @@ pub struct Rejected {
 impl Reason {
     /// The obligation's name, as `spec/corpus` states it: `NotIsolated`, `Cover.Truncated`, ...
     pub fn name(&self) -> String {
-        let variant = |text: String| {
-            text.chars()
-                .take_while(char::is_ascii_alphanumeric)
-                .collect::<String>()
-        };
         match self {
-            Reason::Cover { fault, .. } => format!("Cover.{}", variant(format!("{fault:?}"))),
-            other => variant(format!("{other:?}")),
+            Reason::Cover { fault, .. } => format!("Cover.{}", variant_name(&format!("{fault:?}"))),
+            other => variant_name(&format!("{other:?}")),
         }
     }
+
+    /// [`Reason::TooLarge`] if `got` exceeds `limit`.
+    pub(super) fn at_most(what: &'static str, limit: u64, got: u64) -> Result<(), Reason> {
+        if got > limit {
+            return Err(Reason::TooLarge { what, limit, got });
+        }
+
+        Ok(())
+    }
+
+    /// [`Reason::Length`] if a list has not the entries it should have.
+    pub(super) fn length(what: &'static str, expected: usize, got: usize) -> Result<(), Reason> {
+        if got != expected {
+            return Err(Reason::Length {
+                what,
+                expected,
+                got,
+            });
+        }
+
+        Ok(())
+    }
+
+    /// [`Reason::XNotPositive`] unless every number of the enclosure of x_i is positive.
+    pub(super) fn x_positive(index: usize, enclosure: &Interval) -> Result<(), Reason> {
+        if enclosure.certain_sign() == 1 {
+            return Ok(());
+        }
+
+        Err(Reason::XNotPositive {
+            index,
+            lo: enclosure.lo().clone(),
+            hi: enclosure.hi().clone(),
+        })
+    }
+
+    /// [`Reason::YNotPositive`] unless every number of the enclosure of y_i is positive.
+    pub(super) fn y_positive(index: usize, enclosure: &Interval) -> Result<(), Reason> {
+        if enclosure.certain_sign() == 1 {
+            return Ok(());
+        }
+
+        Err(Reason::YNotPositive {
+            index,
+            lo: enclosure.lo().clone(),
+            hi: enclosure.hi().clone(),
+        })
+    }
+}
+
+/// The name of a variant, with which its debug form begins.
+fn variant_name(debug: &str) -> String {
+    debug
+        .chars()
+        .take_while(char::is_ascii_alphanumeric)
+        .collect()
 }
 
 /// The obligation that fails.
@@ -53,7 +108,8 @@ pub enum Reason {
     NoClaims,
     /// An index set is not an ascending list of complementarity variables.
     #[error(
-        "E14: {set}: expected ascending indices of complementarity variables, got {got} at position {position}"
+        "E14: {set}: expected ascending indices of complementarity variables, \
+         got {got} at position {position}"
     )]
     IndexSet {
         /// `support` or `biactive`.
@@ -175,7 +231,10 @@ pub enum Reason {
         hi: Rational,
     },
     /// The biactive set is not the set of rows off the support with y_i = 0.
-    #[error("E14: biactive: expected {index} {}listed, got the opposite", if *expected { "" } else { "not " })]
+    #[error(
+        "E14: biactive: expected {index} {}listed, got the opposite",
+        if *expected { "" } else { "not " }
+    )]
     Biactive {
         /// The variable.
         index: usize,
@@ -195,7 +254,8 @@ pub enum Reason {
     NotASystem,
     /// A line of (9) does not hold, or its sign is not certain.
     #[error(
-        "E9: expected {line} at {place} {index}, got a value in [{lo}, {hi}] up to a positive factor"
+        "E9: expected {line} at {place} {index}, \
+         got a value in [{lo}, {hi}] up to a positive factor"
     )]
     Line {
         /// The line.
@@ -223,7 +283,8 @@ pub enum Reason {
     },
     /// An accepted claim has no place in the accepted cover: one of both is false.
     #[error(
-        "complete set: expected support {support:?} with a value in [{a}, {b}] among its solutions, families or open regions, got none"
+        "complete set: expected support {support:?} with a value in [{a}, {b}] \
+         among its solutions, families or open regions, got none"
     )]
     NotInCover {
         /// The claim's support.
@@ -245,8 +306,16 @@ pub enum Reason {
     },
 }
 
+/// Where in a cover, as the message says it: ", piece 2, node 5".
 fn place(piece: Option<usize>, node: Option<usize>) -> String {
-    let word =
-        |name: &str, k: Option<usize>| k.map(|k| format!(", {name} {k}")).unwrap_or_default();
-    word("piece", piece) + &word("node", node)
+    let mut text = String::new();
+    if let Some(piece) = piece {
+        text += &format!(", piece {piece}");
+    }
+
+    if let Some(node) = node {
+        text += &format!(", node {node}");
+    }
+
+    text
 }

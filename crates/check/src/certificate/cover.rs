@@ -1,9 +1,15 @@
-//! The claim *complete set*: a cover of (supports) x (window), each piece with its reason.
+//! The claim *complete set* as data: a cover of (supports) x (window), each part with its proof.
 //!
-//! A piece is an interval of the unknown with a binary tree over index states. At a node each
-//! complementarity variable is *open*, *at rest* (x_i = 0) or *moving* (x_i > 0, y_i = 0); rest and
-//! moving exclude each other, so a solution lies in one leaf of the piece. The checker rebuilds
-//! intervals and states itself; the file holds cuts, branches and witnesses only.
+//! The window is cut into *pieces*, intervals of the unknown t. Each piece has a binary tree. A
+//! node of the tree stands for a *region*: an interval of t and a state for each complementarity
+//! variable, undecided, at zero (x_i = 0; "rest" in the file format) or in the support (x_i > 0,
+//! y_i = 0; "moving" in the file format). An inner node divides its region in two, by a cut of the
+//! interval or by the two states of one variable, and a leaf proves what its region holds. Every
+//! solution has a value of t and a support, so it lies in a region of some leaf.
+//!
+//! The checker (`crate::cover`) computes regions itself: the file holds cuts, branches and proofs
+//! only. The normative text is `spec/certificates.md`; symbols are explained there and in the
+//! modules of the checker, one for each kind of leaf.
 
 use super::{Integer, Number, integer_rows, integers, object};
 use mceip_model::file::word_or_kind;
@@ -48,45 +54,47 @@ fn present<'de, D: serde::Deserializer<'de>>(d: D) -> Result<Option<Number>, D::
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Node {
-    /// Cuts the interval at this value: the lower half follows, then the upper half.
+    /// Cuts the interval at this value: the lower part follows, then the upper part.
     Split(Number),
-    /// Decides a complementarity variable: at rest follows, then moving.
+    /// Decides a complementarity variable: x_i = 0 follows, then x_i > 0.
     Branch(usize),
-    /// Weights w, one per complementarity variable: w >= 0 off the moving set and w'T < 0 on what
-    /// may move, so 0 <= w'y = w'Tx < 0 (Farkas, Gordan).
+    /// Weights w, one per complementarity variable: w >= 0 off the support and w'T < 0 on all
+    /// variables that may be positive, so 0 <= w'y = w'Tx < 0 (Farkas, Gordan).
     Farkas(Vec<i64>),
-    /// The symmetric part is positive definite on what may move: x'Tx = 0 has no solution.
+    /// sym(T) is positive definite on the variables that may be positive: x'Tx = x'y = 0 leaves
+    /// x = 0 only.
     PositiveDefinite,
-    /// The symmetric part is negative definite on what may move.
+    /// sym(T) is negative definite on the variables that may be positive.
     NegativeDefinite,
-    /// sym(A + tB) of the pencil as given is definite on what may move, by exact factors.
+    /// sym(A + tB) of the pencil as given is definite on the free variables and on those that may
+    /// be positive, by exact factors.
     Ldl(Box<Ldl>),
     /// The condensation's tail begins at or below this region.
     Tail,
-    /// Every index is decided and the pencil has at most one null vector.
+    /// Every variable is decided, and the pencil has at most one null vector on the support.
     Root(Box<Root>),
-    /// Every index is decided: what there is at every value of the interval, exactly.
+    /// Every variable is decided: what there is at every value of the interval, exactly.
     Support(Box<Support>),
     /// Not decided.
     Open,
 }
 
-/// Witness that T(t) restricted to the moving set has one null vector at most (up to scale, over
-/// the whole interval of the leaf and `interval` together), and what that vector is.
+/// Proof that T(t) restricted to the support has one null vector at most (up to scale, over the
+/// interval of the leaf and `interval` together), and what that vector is.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Root {
-    /// The moving variable whose component is set to 1.
+    /// The variable of the support whose component is set to 1.
     pub pivot: usize,
     /// Interval in which the value lies.
     pub interval: [Number; 2],
-    /// Approximate inverse of T on the moving set without the pivot, in units of
+    /// Approximate inverse of T on the support without the pivot, in units of
     /// 2^-`inverse_exponent`.
     #[serde(with = "integer_rows")]
     pub inverse: Vec<Vec<Integer>>,
     /// Binary exponent of `inverse`.
     pub inverse_exponent: u32,
-    /// Approximate left null vector on the moving set without the pivot, in units of 2^-`exponent`.
+    /// Approximate left null vector on the support without the pivot, in units of 2^-`exponent`.
     #[serde(with = "integers")]
     pub left: Vec<Integer>,
     /// Approximate right null vector, likewise.
@@ -149,8 +157,8 @@ pub struct Point {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Exact {
-    /// Nothing: weights w(t), one polynomial per variable of the pencil, with w'T >= 0 impossible
-    /// (Farkas).
+    /// No solution: weights w(t), one polynomial per variable of the pencil, with w'y >= 0 and
+    /// w'Tx < 0 for every x with this support (Farkas).
     None(Polynomials),
     /// Solutions with exactly this support.
     #[serde(deserialize_with = "object::one")]
@@ -176,11 +184,12 @@ pub struct Member {
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Alone {
-    /// A moving variable k.
+    /// A variable k of the support.
     pub pivot: usize,
     /// An active j and weights l(t), one polynomial per variable of the pencil, with l'T = c e_j +
     /// d e_k on the active columns, c not zero. For each j one with l = 0 off the active rows, or
-    /// two with c > 0 and c < 0 and l >= 0 on resting rows where y = 0 and l = 0 on the others.
+    /// two with c > 0 and c < 0, and l >= 0 on rows off the support where y = 0 and l = 0 on the
+    /// others.
     pub rows: Vec<(usize, Polynomials)>,
 }
 
@@ -189,8 +198,8 @@ pub struct Alone {
 #[serde(transparent)]
 pub struct Polynomials(#[serde(with = "integer_rows")] pub Vec<Vec<Integer>>);
 
-/// Exact factors of sym(A + tB) on the free variables and what may move, at both ends; at an
-/// infinite end of sym(B).
+/// Exact factors of sym(A + tB) on the free variables and those that may be positive, at both ends;
+/// at an infinite end of sym(B).
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Ldl {

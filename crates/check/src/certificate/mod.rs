@@ -1,5 +1,13 @@
-//! `mceip-certificate/1`: what a certificate says, and its file form. Data only, nothing decides
-//! here.
+//! `mceip-certificate/1`: what a certificate says, and its file form.
+//!
+//! This module holds data and reads and writes it; it decides nothing. A certificate names its
+//! problem by digest, states a window of values and makes claims: solutions ([`Claim`]), and
+//! possibly that there are no others in the window ([`CompleteSet`]). What each claim has to meet
+//! is checked elsewhere in this crate, one module per kind. The normative text is
+//! `spec/formats.md`.
+//!
+//! Numbers are read exactly as they are spelt. Unknown and duplicate fields are refused, so that no
+//! reader can pass over a part of a claim it does not understand.
 
 use mceip_exact::{Integer, Rational};
 use mceip_model::file::{Number, from_json, require_format};
@@ -62,9 +70,10 @@ pub struct ExactSolution {
     pub x: Vec<Vec<Number>>,
 }
 
-/// v and w of (9) at alpha, as rational polynomials in alpha, constant term first, one list per
-/// degree of freedom. Indices are those of the pencil: free dofs ascending, then slip particles in
-/// file order.
+/// A solution in the degrees of freedom of a mechanical system: v and w of (9).
+///
+/// Both are rational polynomials in alpha, constant term first, one list per degree of freedom.
+/// Indices are those of the pencil: free dofs ascending, then slip particles in file order.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LiftedSolution {
@@ -83,8 +92,10 @@ pub struct LiftedSolution {
     pub w: Vec<Vec<Number>>,
 }
 
-/// A solution of (A + tB) x = 0 on the active rows and e'x_s = 1, proved to exist and to be unique
-/// in a box around `center`, with strict signs. Unknowns: active variables ascending, then t.
+/// A box that contains exactly one solution, with strict signs.
+///
+/// The equations are (A + tB) x = 0 on the active rows and e'x_s = 1; the unknowns are the active
+/// variables (free or in the support) ascending, then t.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct EnclosedSolution {
@@ -102,6 +113,7 @@ pub struct EnclosedSolution {
     pub exponent: u32,
 }
 
+/// The file form of a [`Certificate`].
 #[derive(Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -134,6 +146,7 @@ impl Certificate {
             min: Number(self.window.min().clone()),
             max: self.window.max().cloned().map(Number),
         };
+
         let file = File {
             format: CERTIFICATE_FORMAT.into(),
             problem_sha256: self.problem_sha256.clone(),
@@ -142,7 +155,8 @@ impl Certificate {
             claims: self.claims.clone(),
             complete_set: self.complete_set.clone(),
         };
-        // Strings, numbers and lists only: nothing in it that JSON cannot carry.
+
+        // The file consists of strings, numbers and lists, so writing it cannot fail.
         serde_json::to_string(&file).unwrap_or_default()
     }
 
@@ -155,10 +169,10 @@ impl Certificate {
         require_format(text, CERTIFICATE_FORMAT)?;
         let file: File = from_json(text)?;
         let window = Window::new(file.window.min.0, file.window.max.map(|n| n.0))?;
-        let (problem_sha256, unknown) = (file.problem_sha256, file.unknown);
+
         Ok(Certificate {
-            problem_sha256,
-            unknown,
+            problem_sha256: file.problem_sha256,
+            unknown: file.unknown,
             window,
             claims: file.claims,
             complete_set: file.complete_set,
@@ -166,80 +180,80 @@ impl Certificate {
     }
 }
 
-/// What is read from an object, and not from a list of its fields.
+/// Readers of JSON objects: the library would also read a struct from a list of its fields, or a
+/// word from an object with one key, which the format does not allow.
 mod object {
     use mceip_model::file::{Object, Word};
     use serde::{Deserialize, Deserializer};
 
     pub(super) fn one<'de, D: Deserializer<'de>, T: Deserialize<'de>>(d: D) -> Result<T, D::Error> {
-        Object::deserialize(d).map(|o| o.0)
+        Ok(Object::deserialize(d)?.0)
     }
 
     pub(super) fn word<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
         d: D,
     ) -> Result<T, D::Error> {
-        Word::deserialize(d).map(|w| w.0)
+        Ok(Word::deserialize(d)?.0)
     }
 
     pub(super) fn option<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
         d: D,
     ) -> Result<Option<T>, D::Error> {
-        Option::<Object<T>>::deserialize(d).map(|o| o.map(|o| o.0))
+        let object = Option::<Object<T>>::deserialize(d)?;
+        Ok(object.map(|o| o.0))
     }
 
     pub(super) fn list<'de, D: Deserializer<'de>, T: Deserialize<'de>>(
         d: D,
     ) -> Result<Vec<T>, D::Error> {
-        Vec::<Object<T>>::deserialize(d).map(|list| list.into_iter().map(|o| o.0).collect())
+        let objects = Vec::<Object<T>>::deserialize(d)?;
+        Ok(objects.into_iter().map(|o| o.0).collect())
     }
 }
 
-/// Integers as JSON strings.
+/// A list of integers in a file: JSON strings.
 mod integers {
     use super::{Integer, Number, Rational};
     use serde::de::Error as _;
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub(super) fn serialize<S: Serializer>(list: &[Integer], s: S) -> Result<S::Ok, S::Error> {
-        list.iter()
-            .map(|i| Number(Rational::from_integer(i.clone())))
-            .collect::<Vec<_>>()
-            .serialize(s)
+        numbers(list).serialize(s)
     }
 
     pub(super) fn deserialize<'de, D: Deserializer<'de>>(d: D) -> Result<Vec<Integer>, D::Error> {
-        Vec::<Number>::deserialize(d)?
-            .into_iter()
-            .map(integer::<D>)
+        from_numbers::<D>(Vec::<Number>::deserialize(d)?)
+    }
+
+    pub(super) fn numbers(list: &[Integer]) -> Vec<Number> {
+        list.iter()
+            .map(|i| Number(Rational::from_integer(i.clone())))
             .collect()
     }
 
-    pub(super) fn integer<'de, D: Deserializer<'de>>(n: Number) -> Result<Integer, D::Error> {
+    pub(super) fn from_numbers<'de, D: Deserializer<'de>>(
+        list: Vec<Number>,
+    ) -> Result<Vec<Integer>, D::Error> {
+        list.into_iter().map(integer::<D>).collect()
+    }
+
+    fn integer<'de, D: Deserializer<'de>>(n: Number) -> Result<Integer, D::Error> {
         if n.0.is_integer() {
-            Ok(n.0.to_integer())
-        } else {
-            Err(D::Error::custom(format!(
-                "expected an integer, got {}",
-                n.0
-            )))
+            return Ok(n.0.to_integer());
         }
+
+        let message = format!("expected an integer, got {}", n.0);
+        Err(D::Error::custom(message))
     }
 }
 
-/// Rows of integers as JSON strings.
+/// A list of lists of integers in a file.
 mod integer_rows {
-    use super::{Integer, Number, Rational, integers};
+    use super::{Integer, Number, integers};
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
     pub(super) fn serialize<S: Serializer>(rows: &[Vec<Integer>], s: S) -> Result<S::Ok, S::Error> {
-        let rows: Vec<Vec<Number>> = rows
-            .iter()
-            .map(|r| {
-                r.iter()
-                    .map(|i| Number(Rational::from_integer(i.clone())))
-                    .collect()
-            })
-            .collect();
+        let rows: Vec<Vec<Number>> = rows.iter().map(|row| integers::numbers(row)).collect();
         rows.serialize(s)
     }
 
@@ -247,9 +261,7 @@ mod integer_rows {
         d: D,
     ) -> Result<Vec<Vec<Integer>>, D::Error> {
         let rows = Vec::<Vec<Number>>::deserialize(d)?;
-        rows.into_iter()
-            .map(|r| r.into_iter().map(integers::integer::<D>).collect())
-            .collect()
+        rows.into_iter().map(integers::from_numbers::<D>).collect()
     }
 }
 

@@ -8,7 +8,7 @@
 //! Input: an accepted claim, whose value lies in the window of the cover, and the accepted cover.
 //! Called by `check::beside_the_cover` and by `mceip check`, which prints the place.
 
-use super::{AcceptedCover, OpenRegion, SolutionFamily};
+use super::proved::{AcceptedCover, OpenRegion, SolutionFamily};
 use crate::AcceptedClaim;
 
 /// A part of a cover that holds, or may hold, a solution.
@@ -27,14 +27,16 @@ impl AcceptedCover {
     /// family with the same support whose values meet those of the claim, or an open region that
     /// admits both. `None` contradicts the cover.
     pub fn place_of(&self, claim: &AcceptedClaim) -> Option<Place> {
-        let solution = self.solutions.iter().position(|s| is_near(s, claim));
-        let family = || self.families.iter().position(|f| f.may_hold(claim));
-        let open = || self.open.iter().position(|r| r.may_hold(claim));
+        if let Some(k) = self.solutions.iter().position(|s| is_near(s, claim)) {
+            return Some(Place::Solution(k));
+        }
 
-        let listed = solution.map(Place::Solution);
-        listed
-            .or_else(|| family().map(Place::Family))
-            .or_else(|| open().map(Place::Open))
+        if let Some(k) = self.families.iter().position(|f| f.may_hold(claim)) {
+            return Some(Place::Family(k));
+        }
+
+        let open = self.open.iter().position(|region| region.may_hold(claim));
+        open.map(Place::Open)
     }
 }
 
@@ -48,26 +50,30 @@ impl SolutionFamily {
     /// Can the claim's solution be of this family: the same support, and a value between its
     /// outermost ends?
     fn may_hold(&self, claim: &AcceptedClaim) -> bool {
-        let ends_before = self
-            .to
-            .as_ref()
-            .is_some_and(|to| to.hi() < claim.value.lo());
+        let ends_before = match &self.to {
+            Some(to) => to.hi() < claim.value.lo(),
+            None => false,
+        };
         let begins_after = self.from.lo() > claim.value.hi();
         self.support == claim.support && !ends_before && !begins_after
     }
 }
 
 impl OpenRegion {
-    /// Can the claim's solution lie in this region: all that moves here is in its support J, all of
-    /// J may move here, and the values meet?
+    /// Can the claim's solution lie in this region: the claim's support J holds all that is known
+    /// to be in the support here, nothing of J is zero here, and the values meet?
     fn may_hold(&self, claim: &AcceptedClaim) -> bool {
-        let ends_before = self.max.as_ref().is_some_and(|max| max < claim.value.lo());
+        let ends_before = match &self.max {
+            Some(max) => max < claim.value.lo(),
+            None => false,
+        };
         let begins_after = self.min > *claim.value.hi();
-        let may_move = |i: &usize| self.moving.contains(i) || self.undecided.contains(i);
+        let meets = !ends_before && !begins_after;
 
-        let moves_enough = self.moving.iter().all(|i| claim.support.contains(i));
-        let moves_nothing_else = claim.support.iter().all(may_move);
-        moves_enough && moves_nothing_else && !ends_before && !begins_after
+        let is_possible = |i: &usize| self.moving.contains(i) || self.undecided.contains(i);
+        let holds_known = self.moving.iter().all(|i| claim.support.contains(i));
+        let holds_possible_only = claim.support.iter().all(is_possible);
+        holds_known && holds_possible_only && meets
     }
 }
 

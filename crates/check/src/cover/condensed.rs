@@ -1,16 +1,32 @@
 //! Elimination of the free variables without inverting F(t) = T_ff(t).
 //!
-//! For any W and V the Schur complement is, exactly,
-//!   T_ss - T_sf F^-1 T_fs = (T_ss - T_sf W - V'r) - l' F^-1 r,   r = T_fs - F W,   l = T_sf' - F
-//!   V.
-//! With F(t) >= (sigma + t tau) I the last term is at most |l_i| |r_j| / (sigma + t tau) in
-//! absolute value. W and V are polynomials in d = t - center, so the bracket is a polynomial
-//! matrix. Of V'r only the coefficients of r beyond the degree of W are multiplied out: the others
-//! are rounding, at most |V_i| |r_j|.
+//! For any W and V, with r = T_fs - F W and l = T_sf' - F V, the Schur complement is exactly
+//!
+//! ```text
+//!     T_ss - T_sf F^-1 T_fs = (T_ss - T_sf W - V'r) - l' F^-1 r.
+//! ```
+//!
+//! F is symmetric, and F(t) >= (sigma + t tau) I for t >= 0, because A_ff >= sigma I and B_ff >=
+//! tau I are hypotheses that the certificate proves (`psd`). So entry (i, j) of the last term is at
+//! most |l_i| |r_j| / (sigma + t tau), with Euclidean norms of columns. W and V approximate F^-1
+//! T_fs and F^-1 T_sf', which makes r and l small, but nothing depends on that.
+//!
+//! W and V are polynomials in d = t - center, so r and l are too, and the bracket is a polynomial
+//! matrix Z(d), computed exactly. Of V'r only the coefficients of r beyond the degree of W are
+//! multiplied out. The others are rounding: they are bounded by |V_i| |r_j|.
+//!
+//! *Reversed* anchors do the same with A and B, sigma and tau exchanged, in s = 1 / t:
+//! F(t) / t = B_ff + s A_ff >= (tau + s sigma) I.
+//!
+//! *Tail.* If sym(A + from B) of the whole pencil is positive definite and sym(B) semidefinite,
+//! then sym(A + tB) is definite for all t >= from, and x'(A + tB)x = x'y = 0 leaves x = 0 only.
+//!
+//! Input: the integral rows of the pencil and the condensation. Output: an expansion of the
+//! condensed pencil for each anchor. Called by the checker of covers.
 
-use super::CoverFault;
-use super::expanded::Expanded;
-use super::family::{Matrix, largest_bits, rational_bits, within_matrix_bits};
+use super::ends::{Matrix, largest_bits, rational_bits, within_matrix_bits};
+use super::expanded::{Expanded, Norms};
+use super::fault::CoverFault;
 use super::product::{Linear, Part, times};
 use super::psd::{Symmetric, semidefinite};
 use crate::certificate::{Anchor, Condensation, IntegerMatrix, Tail};
@@ -18,100 +34,85 @@ use crate::pencil::{Row, Rows};
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
-use std::cell::OnceCell;
 use std::collections::BTreeMap;
 
-/// Largest degree of an expansion.
+/// Largest number of coefficients of an expansion.
 const MAX_DEGREE: usize = 8;
 /// Largest binary exponent of an expansion.
 const MAX_EXPONENT: u32 = 1 << 12;
 /// Fraction bits of norms of columns: the numbers of an expansion may be small integers.
 const NORM_BITS: u32 = 32;
 
-/// Hypotheses, then one expansion per anchor.
+/// Checks the hypotheses and expands the condensed pencil about each anchor.
 pub(super) fn of(rows: &Rows, condensation: &Condensation) -> Result<Vec<Expanded>, CoverFault> {
-    let blocks = Blocks::of(rows);
     let sigma = &condensation.sigma.0;
-    if !sigma.is_positive() {
-        return Err(CoverFault::Hypothesis {
-            expected: "sigma > 0",
-            row: 0,
-        });
-    }
-    blocks.symmetric()?;
     let tau = &condensation.mass_sigma.0;
-    if tau.is_negative() {
-        return Err(CoverFault::Hypothesis {
-            expected: "mass_sigma >= 0",
-            row: 0,
-        });
-    }
-    let block = |k: usize, shift: &Rational| -> (Symmetric, Integer) {
-        // In units of 1 / (common denom(shift)).
-        let entry = |a: &Integer, b: &Integer| (if k == 0 { a } else { b }) * shift.denom();
-        let mut out: Symmetric = blocks
-            .ff
-            .iter()
-            .map(|row| row.iter().map(|(j, a, b)| (*j, entry(a, b))).collect())
-            .collect();
-        for (i, row) in out.iter_mut().enumerate() {
-            *row.entry(i).or_default() -= &blocks.common * shift.numer();
+    let blocks = Blocks::of(rows);
+    check_hypotheses(&blocks, condensation)?;
+
+    let mut reversed_blocks: Option<Blocks> = None;
+    let mut expansions = Vec::with_capacity(condensation.anchors.len());
+    for anchor in &condensation.anchors {
+        if !anchor.reversed {
+            expansions.push(blocks.expand(anchor, sigma, tau)?);
+            continue;
         }
-        (out, &blocks.common * shift.denom())
-    };
-    let (shifted, scale) = block(0, sigma);
+
+        if tau.is_zero() {
+            return Err(hypothesis("mass_sigma > 0 for a reversed anchor", 0));
+        }
+
+        let blocks = reversed_blocks.get_or_insert_with(|| Blocks::of(&rows.reversed()));
+        let mut expanded = blocks.expand(anchor, tau, sigma)?;
+        expanded.reversed = true;
+        expansions.push(expanded);
+    }
+
+    Ok(expansions)
+}
+
+/// F is symmetric, A_ff - sigma I and B_ff - tau I are positive semidefinite, sigma > 0, tau >= 0.
+fn check_hypotheses(blocks: &Blocks, condensation: &Condensation) -> Result<(), CoverFault> {
+    let sigma = &condensation.sigma.0;
+    let tau = &condensation.mass_sigma.0;
+    if !sigma.is_positive() {
+        return Err(hypothesis("sigma > 0", 0));
+    }
+
+    blocks.symmetric()?;
+    if tau.is_negative() {
+        return Err(hypothesis("mass_sigma >= 0", 0));
+    }
+
+    let stiffness = blocks.shifted_free_block(Which::A, sigma);
     semidefinite(
-        &shifted,
-        &scale,
+        &stiffness,
+        &(&blocks.common * sigma.denom()),
         Some(&condensation.stiffness_factor),
         false,
         "A_ff - sigma I positive semidefinite",
     )?;
-    let (shifted, scale) = block(1, tau);
+    let mass = blocks.shifted_free_block(Which::B, tau);
     semidefinite(
-        &shifted,
-        &scale,
+        &mass,
+        &(&blocks.common * tau.denom()),
         condensation.mass_factor.as_ref(),
         false,
         "B_ff - mass_sigma I positive semidefinite",
-    )?;
-    // F(t) / t = B_ff + s A_ff >= (tau + s sigma) I for s = 1 / t.
-    let reversed = OnceCell::new();
-    let expand = |anchor: &Anchor| match anchor.reversed {
-        false => blocks.expand(anchor, sigma, tau),
-        true if tau.is_zero() => Err(CoverFault::Hypothesis {
-            expected: "mass_sigma > 0 for a reversed anchor",
-            row: 0,
-        }),
-        true => reversed
-            .get_or_init(|| Blocks::of(&rows.reversed()))
-            .expand(anchor, tau, sigma)
-            .map(|e| Expanded {
-                reversed: true,
-                ..e
-            }),
-    };
-    condensation.anchors.iter().map(expand).collect()
+    )
 }
 
-/// sym(A + from B) is positive definite and sym(B) semidefinite on all variables.
+/// Demands that sym(A + from B) is positive definite and sym(B) semidefinite on all variables.
 pub(super) fn tail(rows: &Rows, tail: &Tail) -> Result<(), CoverFault> {
-    let common = rows.factor.iter().fold(Integer::one(), |l, f| l.lcm(f));
     let from = &tail.from.0;
-    let symmetric = |entry: &dyn Fn(&Integer, &Integer) -> Integer| {
-        let mut out: Symmetric = vec![BTreeMap::new(); rows.order()];
-        for (i, row) in rows.rows.iter().enumerate() {
-            for (j, a, b) in row {
-                let value = entry(a, b) * (&common / &rows.factor[i]);
-                *out[i].entry(*j).or_default() += &value;
-                *out[*j].entry(i).or_default() += value;
-            }
-        }
-        out
-    };
+    let mut common = Integer::one();
+    for factor in &rows.factor {
+        common = common.lcm(factor);
+    }
+
     // Twice the symmetric parts; both factors are of the symmetric part itself.
     let twice: Integer = &common * 2;
-    let pencil = symmetric(&|a, b| a * from.denom() + b * from.numer());
+    let pencil = twice_symmetric(rows, &common, from.denom(), from.numer());
     semidefinite(
         &pencil,
         &(&twice * from.denom()),
@@ -119,7 +120,7 @@ pub(super) fn tail(rows: &Rows, tail: &Tail) -> Result<(), CoverFault> {
         true,
         "sym(A + from B) positive definite",
     )?;
-    let mass = symmetric(&|_, b| b.clone());
+    let mass = twice_symmetric(rows, &common, &Integer::zero(), &Integer::one());
     semidefinite(
         &mass,
         &twice,
@@ -129,8 +130,30 @@ pub(super) fn tail(rows: &Rows, tail: &Tail) -> Result<(), CoverFault> {
     )
 }
 
+/// 2 sym(q A + p B) times `common`.
+fn twice_symmetric(rows: &Rows, common: &Integer, q: &Integer, p: &Integer) -> Symmetric {
+    let mut sum: Symmetric = vec![BTreeMap::new(); rows.order()];
+    for (i, row) in rows.rows.iter().enumerate() {
+        let lift = common / &rows.factor[i];
+        for (j, a, b) in row {
+            let value = (a * q + b * p) * &lift;
+            *sum[i].entry(*j).or_default() += &value;
+            *sum[*j].entry(i).or_default() += value;
+        }
+    }
+
+    sum
+}
+
+/// One of the two matrices of the pencil.
+#[derive(Clone, Copy)]
+enum Which {
+    A,
+    B,
+}
+
 /// The blocks of the pencil; free rows multiplied by one common integer, slip rows each by its own
-/// power of two over an integer.
+/// integer.
 struct Blocks {
     free: usize,
     slip: usize,
@@ -149,25 +172,27 @@ struct Blocks {
     bits: Vec<u64>,
 }
 
+/// The blocks as matrices linear in d = t - p/q, all of them times D q.
+struct ShiftedBlocks {
+    ff: Linear,
+    fs: Linear,
+    sf: Linear,
+    ss: Linear,
+}
+
+/// A polynomial in d with matrices for coefficients, in units of 2^-`exponent`.
+struct Polynomial {
+    coefficients: Vec<Matrix>,
+    exponent: u32,
+}
+
 impl Blocks {
     fn of(rows: &Rows) -> Blocks {
-        let mut place = Vec::new(); // position among its kind
-        let (mut free, mut slip) = (0, 0);
-        for &is_free in &rows.is_free {
-            let count = if is_free { &mut free } else { &mut slip };
-            place.push(*count);
-            *count += 1;
-        }
-        let is_free = |i: &usize| rows.is_free[*i];
-        let common = (0..rows.order())
-            .filter(is_free)
-            .fold(Integer::one(), |l, i| l.lcm(&rows.factor[i]));
-        let longest = largest_bits(rows.rows.iter().flatten().flat_map(|(_, a, b)| [a, b]));
         let mut blocks = Blocks {
-            free,
-            slip,
-            longest,
-            common,
+            free: 0,
+            slip: 0,
+            longest: largest_bits(rows.rows.iter().flatten().flat_map(|(_, a, b)| [a, b])),
+            common: Integer::one(),
             ff: vec![],
             fs: vec![],
             sf: vec![],
@@ -175,112 +200,157 @@ impl Blocks {
             factor: vec![],
             bits: vec![],
         };
+
+        let mut place = Vec::with_capacity(rows.order()); // position among its kind
+        for (i, &is_free) in rows.is_free.iter().enumerate() {
+            if is_free {
+                place.push(blocks.free);
+                blocks.free += 1;
+                blocks.common = blocks.common.lcm(&rows.factor[i]);
+            } else {
+                place.push(blocks.slip);
+                blocks.slip += 1;
+            }
+        }
+
         for (i, row) in rows.rows.iter().enumerate() {
-            let lift = if rows.is_free[i] {
+            let is_free = rows.is_free[i];
+            let lift = if is_free {
                 &blocks.common / &rows.factor[i]
             } else {
                 Integer::one()
             };
-            let (f, s): (Vec<_>, Vec<_>) = row
-                .iter()
-                .map(|(j, a, b)| (*j, a * &lift, b * &lift))
-                .partition(|(j, ..)| rows.is_free[*j]);
-            let renumber = |list: Row| {
-                list.into_iter()
-                    .map(|(j, a, b)| (place[j], a, b))
-                    .collect::<Row>()
-            };
-            let (f, s) = (renumber(f), renumber(s));
-            if rows.is_free[i] {
-                blocks.ff.push(f);
-                blocks.fs.push(s);
+
+            let mut free_columns = Row::new();
+            let mut slip_columns = Row::new();
+            for (j, a, b) in row {
+                let entry = (place[*j], a * &lift, b * &lift);
+                if rows.is_free[*j] {
+                    free_columns.push(entry);
+                } else {
+                    slip_columns.push(entry);
+                }
+            }
+
+            if is_free {
+                blocks.ff.push(free_columns);
+                blocks.fs.push(slip_columns);
             } else {
-                blocks.bits.push(
-                    row.iter()
-                        .map(|(_, a, _)| a.bits())
-                        .max()
-                        .unwrap_or(0)
-                        .max(1),
-                );
+                let bits = largest_bits(row.iter().map(|(_, a, _)| a)).max(1);
+                blocks.bits.push(bits);
                 blocks.factor.push(rows.factor[i].clone());
-                blocks.sf.push(f);
-                blocks.ss.push(s);
+                blocks.sf.push(free_columns);
+                blocks.ss.push(slip_columns);
             }
         }
+
         blocks
     }
 
+    /// Demands that T_ff is symmetric, A_ff and B_ff each.
     fn symmetric(&self) -> Result<(), CoverFault> {
-        let at = |i: usize, j: usize| {
-            self.ff[i]
-                .binary_search_by_key(&j, |e| e.0)
-                .ok()
-                .map(|k| (&self.ff[i][k].1, &self.ff[i][k].2))
-        };
-        let bad = |i: &usize| {
-            self.ff[*i]
-                .iter()
-                .any(|(j, a, b)| at(*j, *i).map_or(!(a.is_zero() && b.is_zero()), |v| v != (a, b)))
-        };
-        match (0..self.free).find(bad) {
-            Some(row) => Err(CoverFault::Hypothesis {
-                expected: "T_ff symmetric",
-                row,
-            }),
-            None => Ok(()),
+        for (i, row) in self.ff.iter().enumerate() {
+            for (j, a, b) in row {
+                let has_mirror = match self.free_entry(*j, i) {
+                    Some((_, mirror_a, mirror_b)) => (a, b) == (mirror_a, mirror_b),
+                    None => a.is_zero() && b.is_zero(),
+                };
+                if !has_mirror {
+                    return Err(hypothesis("T_ff symmetric", i));
+                }
+            }
         }
+
+        Ok(())
     }
 
+    /// The stored entry (i, j) of D T_ff.
+    fn free_entry(&self, i: usize, j: usize) -> Option<&(usize, Integer, Integer)> {
+        let row = &self.ff[i];
+        let position = row.binary_search_by_key(&j, |entry| entry.0).ok()?;
+        Some(&row[position])
+    }
+
+    /// A_ff - shift I or B_ff - shift I, in units of 1 / (D times the denominator of the shift).
+    fn shifted_free_block(&self, which: Which, shift: &Rational) -> Symmetric {
+        let diagonal_shift = &self.common * shift.numer();
+
+        let mut block = Symmetric::with_capacity(self.free);
+        for (i, row) in self.ff.iter().enumerate() {
+            let mut entries: BTreeMap<usize, Integer> = BTreeMap::new();
+            for (j, a, b) in row {
+                let entry = match which {
+                    Which::A => a,
+                    Which::B => b,
+                };
+                entries.insert(*j, entry * shift.denom());
+            }
+
+            *entries.entry(i).or_default() -= &diagonal_shift;
+            block.push(entries);
+        }
+
+        block
+    }
+
+    /// The condensed pencil about an anchor, given A_ff >= sigma I and B_ff >= tau I.
     fn expand(
         &self,
         anchor: &Anchor,
         sigma: &Rational,
         tau: &Rational,
     ) -> Result<Expanded, CoverFault> {
-        let (w, e_w) = self.coefficients(&anchor.right)?;
-        let (mut v, e_v) = self.coefficients(&anchor.left)?;
-        let coefficients = w.len() + v.len() + 1;
-        self.affordable(anchor, coefficients, e_w + e_v, &[&w, &v])?;
+        let w = self.polynomial(&anchor.right)?;
+        let mut v = self.polynomial(&anchor.left)?;
+        let exponent = w.exponent + v.exponent;
+        let coefficients = w.coefficients.len() + v.coefficients.len() + 1;
+        let expansions = [&w.coefficients[..], &v.coefficients[..]];
+        self.affordable(anchor, coefficients, exponent, &expansions)?;
+
         // V belongs to the pencil as given, the slip rows here are multiples of its rows.
-        for row in v.iter_mut().flatten() {
-            row.iter_mut().zip(&self.factor).for_each(|(v, f)| *v *= f);
+        for row in v.coefficients.iter_mut().flatten() {
+            for (entry, factor) in row.iter_mut().zip(&self.factor) {
+                *entry *= factor;
+            }
         }
-        let (center, q) = (&anchor.center.0, anchor.center.0.denom());
-        let one = Integer::one();
-        let [ff, fs] = [&self.ff, &self.fs].map(|block| about(block, center, &one));
-        let [sf, ss] = [&self.sf, &self.ss].map(|block| about(block, center, &self.common));
+
         // Residuals in units of 1 / (q 2^e), D times the true ones.
-        let r = residual(&ff, &fs, &w, e_w, self.slip);
-        let l = residual(&ff, &transpose(&sf, self.free), &v, e_v, self.slip);
-        let z = self.bracket(&ss, &sf, &w, &v, &r, e_w, e_v);
-        let rounding = &r[..w.len().min(r.len())];
-        // Z in units of 1 / (D q 2^(e_w + e_v)), the remainder in |l||r| / (D q sigma) of them; the
-        // common unit of rows that are divided by different powers of two is that of the largest.
+        let center = &anchor.center.0;
+        let about = self.about(center);
+        let r = residual(&about.ff, &about.fs, &w, self.slip);
+        let l = residual(&about.ff, &transpose(&about.sf, self.free), &v, self.slip);
+        let z = self.bracket(&about, &w, &v, &r);
+        let rounding = &r[..w.coefficients.len().min(r.len())];
+
+        // Z is in units of 1 / (D q 2^(e_w + e_v)), the remainder in |l||r| / (D q sigma) of them.
+        // Rows are divided by different powers of two: their common unit is that of the largest.
+        let q = center.denom();
         let largest = self.bits.iter().copied().max().unwrap_or(1);
-        let unit = (&self.common * q) << (u64::from(e_w + e_v) + largest);
-        let weight = (sigma * Rational::from_integer(&self.common * q)).recip();
+        let unit = (&self.common * q) << (u64::from(exponent) + largest);
+        let raised: Vec<Integer> = self
+            .bits
+            .iter()
+            .map(|bits| Integer::one() << (largest - bits))
+            .collect();
+
         // Each remainder is a product of two norms.
         let norm_unit = &unit << (2 * NORM_BITS);
-        let raised = |i: usize| Integer::one() << (largest - self.bits[i]);
-        let z = z.into_iter().map(|m| {
-            m.into_iter()
-                .enumerate()
-                .map(|(i, row)| row.into_iter().map(|v| v * raised(i)).collect())
-                .collect()
-        });
+        let rounding_weight: Vec<Rational> = raised
+            .iter()
+            .map(|raised| Rational::new(raised.clone(), norm_unit.clone()))
+            .collect();
+        let by_sigma = (sigma * Rational::from_integer(&self.common * q)).recip();
+        let weight = rounding_weight.iter().map(|w| &by_sigma * w).collect();
+
         Ok(Expanded {
             center: center.clone(),
-            z: z.collect(),
+            z: raise_rows(z, &raised),
             left: norms(&l, self.slip),
             right: norms(&r, self.slip),
-            v: norms(&v, self.slip),
+            v: norms(&v.coefficients, self.slip),
             rounding: norms(rounding, self.slip),
-            rounding_weight: (0..self.slip)
-                .map(|i| Rational::new(raised(i), norm_unit.clone()))
-                .collect(),
-            weight: (0..self.slip)
-                .map(|i| &weight * Rational::new(raised(i), norm_unit.clone()))
-                .collect(),
+            rounding_weight,
+            weight,
             unit,
             drift: self.drift(sigma),
             gain: tau / sigma,
@@ -289,7 +359,9 @@ impl Blocks {
         })
     }
 
-    /// Z has n_s^2 entries, each of so many coefficients; a coefficient is a sum of products of an
+    /// Demands that Z is small enough to be formed.
+    ///
+    /// It has n_s^2 entries, each of so many coefficients; a coefficient is a sum of products of an
     /// entry of the pencil, one of W and one of V, in units of 2^-`exponent` / D, shifted by the
     /// center.
     fn affordable(
@@ -299,176 +371,227 @@ impl Blocks {
         exponent: u32,
         expansions: &[&[Matrix]],
     ) -> Result<(), CoverFault> {
-        let longest = |m: &[Matrix]| largest_bits(m.iter().flatten().flatten());
-        let of_anchor: u64 = expansions.iter().map(|m| longest(m)).sum();
-        let of_pencil = self.longest + self.common.bits();
-        let bits = of_anchor + of_pencil + rational_bits(&anchor.center.0) + u64::from(exponent);
-        within_matrix_bits(
-            "bits of an anchor's expansion",
-            self.slip,
-            coefficients,
-            bits,
-        )
+        let mut bits = self.longest + self.common.bits();
+        bits += rational_bits(&anchor.center.0) + u64::from(exponent);
+        for matrices in expansions {
+            bits += largest_bits(matrices.iter().flatten().flatten());
+        }
+
+        let what = "bits of an anchor's expansion";
+        within_matrix_bits(what, self.slip, coefficients, bits)
     }
 
     /// Coefficient matrices brought to one exponent.
-    fn coefficients(&self, list: &[IntegerMatrix]) -> Result<(Vec<Matrix>, u32), CoverFault> {
-        let length = |what, expected, got| {
-            if expected == got {
-                Ok(())
-            } else {
-                Err(CoverFault::Length {
-                    what,
-                    expected,
-                    got,
-                })
-            }
-        };
+    fn polynomial(&self, list: &[IntegerMatrix]) -> Result<Polynomial, CoverFault> {
         let exponent = list.iter().map(|m| m.exponent).max().unwrap_or(0);
-        for (what, limit, got) in [
-            ("degree", MAX_DEGREE as u64, list.len() as u64),
-            ("exponent", MAX_EXPONENT.into(), exponent.into()),
-        ] {
-            if got > limit {
-                return Err(CoverFault::TooLarge { what, limit, got });
-            }
-        }
+        CoverFault::at_most("degree", MAX_DEGREE as u64, list.len() as u64)?;
+        CoverFault::at_most("exponent", MAX_EXPONENT.into(), exponent.into())?;
+
+        let mut coefficients = Vec::with_capacity(list.len());
         for m in list {
-            length("anchor", self.free, m.rows.len())?;
-            m.rows
+            CoverFault::length("anchor", self.free, m.rows.len())?;
+            for row in &m.rows {
+                CoverFault::length("anchor row", self.slip, row.len())?;
+            }
+
+            let lift = exponent - m.exponent;
+            let lifted = m
+                .rows
                 .iter()
-                .try_for_each(|row| length("anchor row", self.slip, row.len()))?;
+                .map(|row| row.iter().map(|v| v << lift).collect());
+            coefficients.push(lifted.collect());
         }
-        let lifted = |m: &IntegerMatrix| {
-            m.rows
-                .iter()
-                .map(|row| row.iter().map(|v| v << (exponent - m.exponent)).collect())
-                .collect()
-        };
-        Ok((list.iter().map(lifted).collect(), exponent))
+
+        Ok(Polynomial {
+            coefficients,
+            exponent,
+        })
     }
 
-    /// D T_ss - D T_sf W - V'r, coefficient by coefficient.
-    #[allow(clippy::too_many_arguments)]
+    /// The blocks as matrices linear in d = t - center.
+    fn about(&self, center: &Rational) -> ShiftedBlocks {
+        // The free rows are multiples of D already.
+        let one = Integer::one();
+        ShiftedBlocks {
+            ff: about(&self.ff, center, &one),
+            fs: about(&self.fs, center, &one),
+            sf: about(&self.sf, center, &self.common),
+            ss: about(&self.ss, center, &self.common),
+        }
+    }
+
+    /// Z times D q: T_ss - T_sf W - V'r, coefficient by coefficient, where of r the coefficients
+    /// beyond the degree of W are meant.
     fn bracket(
         &self,
-        ss: &Linear,
-        sf: &Linear,
-        w: &[Matrix],
-        v: &[Matrix],
+        about: &ShiftedBlocks,
+        w: &Polynomial,
+        v: &Polynomial,
         r: &[Matrix],
-        e_w: u32,
-        e_v: u32,
     ) -> Vec<Matrix> {
-        let degree = 1 + w.len().max((v.len() + r.len()).saturating_sub(2)).max(1);
-        let mut z = vec![vec![vec![Integer::zero(); self.slip]; self.slip]; degree];
-        for i in 0..self.slip {
-            for (j, c, l) in &ss[i] {
-                z[0][i][*j] += c << (e_w + e_v);
-                z[1][i][*j] += l << (e_w + e_v);
+        let w_len = w.coefficients.len();
+        let v_len = v.coefficients.len();
+        // The highest powers of d: 1 in T_ss, that of W and one more, those of V and r together.
+        let degree = w_len.max((v_len + r.len()).saturating_sub(2)).max(1);
+        let mut z = vec![zero(self.slip, self.slip); degree + 1];
+
+        for (i, row) in about.ss.iter().enumerate() {
+            for (j, constant, linear) in row {
+                z[0][i][*j] += constant << (w.exponent + v.exponent);
+                z[1][i][*j] += linear << (w.exponent + v.exponent);
             }
         }
-        for (k, w_k) in w.iter().enumerate() {
-            for (m, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
-                let product = times(sf, part, w_k, self.slip)
-                    .into_iter()
-                    .flatten()
-                    .flatten();
-                z[m].iter_mut()
-                    .flatten()
-                    .zip(product)
-                    .for_each(|(z, p)| *z -= p << e_v);
-            }
-        }
-        for (k, v_k) in v.iter().enumerate() {
-            for (m, r_m) in r
-                .iter()
-                .enumerate()
-                .skip(w.len())
-                .filter(|(_, r_m)| !r_m.iter().flatten().all(Zero::is_zero))
-            {
-                for f in 0..self.free {
-                    for i in (0..self.slip).filter(|&i| !v_k[f][i].is_zero()) {
-                        for j in (0..self.slip).filter(|&j| !r_m[f][j].is_zero()) {
-                            z[k + m][i][j] -= &v_k[f][i] * &r_m[f][j];
-                        }
-                    }
+
+        for (k, w_k) in w.coefficients.iter().enumerate() {
+            for (power, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
+                let Some(product) = times(&about.sf, part, w_k, self.slip) else {
+                    continue;
+                };
+                let entries = z[power].iter_mut().flatten();
+                for (z_ij, entry) in entries.zip(product.into_iter().flatten()) {
+                    *z_ij -= entry << v.exponent;
                 }
             }
         }
+
+        for (m, r_m) in r.iter().enumerate().skip(w_len) {
+            if r_m.iter().flatten().all(Zero::is_zero) {
+                continue;
+            }
+
+            for (k, v_k) in v.coefficients.iter().enumerate() {
+                subtract_transposed_product(&mut z[k + m], v_k, r_m);
+            }
+        }
+
         z
     }
 
     /// |dF/dt| / sigma in the maximum row sum.
     fn drift(&self, sigma: &Rational) -> Rational {
-        let largest = self
-            .ff
-            .iter()
-            .map(|row| row.iter().map(|(_, _, b)| b.abs()).sum::<Integer>())
-            .max()
-            .unwrap_or_default();
+        let mut largest = Integer::zero();
+        for row in &self.ff {
+            let sum: Integer = row.iter().map(|(_, _, b)| b.abs()).sum();
+            largest = largest.max(sum);
+        }
+
         Rational::new(largest, self.common.clone()) / sigma
     }
 }
 
 /// `factor` q T as a matrix linear in d = t - p/q: q A + p B and q B.
 fn about(block: &Linear, center: &Rational, factor: &Integer) -> Linear {
-    let (p, q) = (center.numer(), center.denom());
-    let entry =
-        |(j, a, b): &(usize, Integer, Integer)| (*j, (q * a + p * b) * factor, q * b * factor);
-    block
-        .iter()
-        .map(|row| row.iter().map(entry).collect())
-        .collect()
+    let p = center.numer();
+    let q = center.denom();
+
+    let mut shifted = Linear::with_capacity(block.len());
+    for row in block {
+        let mut entries = Row::with_capacity(row.len());
+        for (j, a, b) in row {
+            entries.push((*j, (q * a + p * b) * factor, q * b * factor));
+        }
+
+        shifted.push(entries);
+    }
+
+    shifted
 }
 
 fn transpose(m: &Linear, cols: usize) -> Linear {
-    let mut out = vec![Vec::new(); cols];
+    let mut transposed = vec![Row::new(); cols];
     for (i, row) in m.iter().enumerate() {
-        for (j, c, l) in row {
-            out[*j].push((i, c.clone(), l.clone()));
+        for (j, constant, linear) in row {
+            transposed[*j].push((i, constant.clone(), linear.clone()));
         }
     }
-    out
+
+    transposed
 }
 
-/// Coefficients of C(d) - F(d) W(d), with W in units of 2^-e.
-fn residual(f: &Linear, c: &Linear, w: &[Matrix], e: u32, cols: usize) -> Vec<Matrix> {
-    let mut out =
-        vec![vec![vec![Integer::zero(); cols]; f.len()]; w.len() + 1 + usize::from(w.is_empty())];
+/// Coefficients of C(d) - F(d) W(d), in the units of W.
+fn residual(f: &Linear, c: &Linear, w: &Polynomial, cols: usize) -> Vec<Matrix> {
+    // C is linear, and the product has one coefficient more than W.
+    let terms = (w.coefficients.len() + 1).max(2);
+    let mut residual = vec![zero(f.len(), cols); terms];
+
     for (i, row) in c.iter().enumerate() {
         for (j, constant, linear) in row {
-            out[0][i][*j] += constant << e;
-            out[1][i][*j] += linear << e;
+            residual[0][i][*j] += constant << w.exponent;
+            residual[1][i][*j] += linear << w.exponent;
         }
     }
-    for (k, w_k) in w.iter().enumerate() {
-        for (m, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
-            let product = times(f, part, w_k, cols).into_iter().flatten().flatten();
-            out[m]
-                .iter_mut()
-                .flatten()
-                .zip(product)
-                .for_each(|(o, p)| *o -= p);
+
+    for (k, w_k) in w.coefficients.iter().enumerate() {
+        for (power, part) in [(k, Part::Constant), (k + 1, Part::Linear)] {
+            let Some(product) = times(f, part, w_k, cols) else {
+                continue;
+            };
+            let entries = residual[power].iter_mut().flatten();
+            for (entry, p) in entries.zip(product.into_iter().flatten()) {
+                *entry -= p;
+            }
         }
     }
-    out
+
+    residual
+}
+
+/// z -= v' r.
+fn subtract_transposed_product(z: &mut Matrix, v: &Matrix, r: &Matrix) {
+    for (v_f, r_f) in v.iter().zip(r) {
+        for (i, v_fi) in v_f.iter().enumerate() {
+            if v_fi.is_zero() {
+                continue;
+            }
+
+            for (z_ij, r_fj) in z[i].iter_mut().zip(r_f) {
+                if !r_fj.is_zero() {
+                    *z_ij -= v_fi * r_fj;
+                }
+            }
+        }
+    }
+}
+
+/// Multiplies each row of every coefficient by its factor.
+fn raise_rows(mut z: Vec<Matrix>, factors: &[Integer]) -> Vec<Matrix> {
+    for matrix in &mut z {
+        for (row, factor) in matrix.iter_mut().zip(factors) {
+            for entry in row {
+                *entry *= factor;
+            }
+        }
+    }
+
+    z
+}
+
+fn zero(rows: usize, cols: usize) -> Matrix {
+    vec![vec![Integer::zero(); cols]; rows]
 }
 
 /// Upper bounds of the Euclidean norm of each column, coefficient by coefficient, in units of
 /// 2^-[`NORM_BITS`].
-fn norms(list: &[Matrix], cols: usize) -> Vec<Vec<Integer>> {
-    let norm = |m: &Matrix, j: usize| {
-        let square: Integer = m.iter().map(|row| &row[j] * &row[j]).sum();
-        if square.is_zero() {
-            square
-        } else {
-            (square << (2 * NORM_BITS)).sqrt() + 1
-        }
-    };
-    list.iter()
-        .map(|m| (0..cols).map(|j| norm(m, j)).collect())
-        .collect()
+fn norms(list: &[Matrix], cols: usize) -> Norms {
+    let mut norms = Norms::with_capacity(list.len());
+    for matrix in list {
+        norms.push((0..cols).map(|j| column_norm(matrix, j)).collect());
+    }
+
+    norms
+}
+
+fn column_norm(matrix: &Matrix, j: usize) -> Integer {
+    let square: Integer = matrix.iter().map(|row| &row[j] * &row[j]).sum();
+    if square.is_zero() {
+        return square;
+    }
+
+    (square << (2 * NORM_BITS)).sqrt() + 1
+}
+
+fn hypothesis(expected: &'static str, row: usize) -> CoverFault {
+    CoverFault::Hypothesis { expected, row }
 }
 
 #[cfg(test)]

@@ -1,13 +1,21 @@
-//! Is the symmetric part of a matrix with a radius positive definite? Proved by an LDL' in short
-//! integers whose residual is multiplied out exactly and dominated by a shift (Gershgorin).
+//! Is the symmetric part of every matrix within R of M positive definite?
 //!
-//! With S = 2 sym(T) cut to 40 bits, c_i what cutting and radius may take away from row i, and a
-//! shift s: if S - diag(c) - s I = LDL' + E exactly, D > 0 and s I + E is diagonally dominant, then
-//! S - diag(c) is definite, and so is every matrix of the family.
+//! Let S = 2 sym(M), cut to 40 bits, and let c_i be what the radius and the cutting may take away
+//! from row i: the row sum of R + R' and one unit per entry that was cut. Every matrix of the
+//! family is S + C with |C|_ii + sum_(j not i) |C_ij| <= c_i, so it is definite if S - diag(c) is
+//! (Gershgorin).
 //!
-//! A small matrix too close to a singular one for that is decided by elimination in long integers.
+//! In machine integers: an LDL' of S - diag(c) - s I is computed with rounding, for a small shift
+//! s. Then E = S - diag(c) - LDL' is computed exactly. If D > 0 and E is strictly diagonally
+//! dominant with a positive diagonal, S - diag(c) = LDL' + E is definite. The shift makes room for
+//! E; the factors may be anything, because only the exact residual decides.
+//!
+//! A small matrix that is too close to a singular one for that is decided by elimination in long
+//! integers without a margin.
+//!
+//! Called by `leaf`: `positive_definite` with short numbers, `long_definite` with the long ones.
 
-use super::family::Matrix;
+use super::ends::{Matrix, largest_bits};
 use super::short::Short;
 use mceip_exact::Integer;
 use num_integer::Integer as _;
@@ -26,57 +34,68 @@ const MAX_ORDER: usize = 4096;
 const MAX_EXACT_ORDER: usize = 12;
 const MAX_EXACT_BITS: u64 = 1024;
 
-/// Is `sign` sym(M) definite on `moving`, whatever the radius takes away? `Err(k)`: the k-th
-/// variable of `moving` breaks it, or the matrix is too large and too close to a singular one to
-/// say.
+/// Is `sign` sym(M) definite on `variables`, whatever the radius takes away?
+///
+/// `Err(k)`: the k-th of the variables breaks it, or the matrix is too large and too close to a
+/// singular one to say.
 pub(super) fn long_definite(
     m: &Matrix,
     r: &Matrix,
-    moving: &[usize],
+    variables: &[usize],
     sign: i8,
 ) -> Result<(), usize> {
-    // Cut to what moves: it may be small beside the rest.
-    let short = Short::of(m, r, moving);
-    let all: Vec<usize> = (0..moving.len()).collect();
-    let verdict = short.map_or(Err(0), |block| positive_definite(&block, &all, sign));
-
-    if verdict.is_ok() || moving.len() > MAX_EXACT_ORDER {
+    // The principal part is cut by itself: it may be small beside the rest.
+    let verdict = match Short::of(m, r, variables) {
+        Some(block) => {
+            let all: Vec<usize> = (0..variables.len()).collect();
+            positive_definite(&block, &all, sign)
+        }
+        None => Err(0),
+    };
+    if verdict.is_ok() || variables.len() > MAX_EXACT_ORDER {
         return verdict;
     }
 
-    let least = primitive(least_member(m, r, moving, sign));
-    let bits = least.iter().flatten().map(Integer::bits).max().unwrap_or(0);
-    if bits > MAX_EXACT_BITS {
+    let least = primitive(least_member(m, r, variables, sign));
+    if largest_bits(least.iter().flatten()) > MAX_EXACT_BITS {
         verdict
     } else {
         eliminate(least)
     }
 }
 
-/// 2 `sign` sym(M) on `moving`, less the row sums of twice the symmetric radius on its diagonal.
-fn least_member(m: &Matrix, r: &Matrix, moving: &[usize], sign: i8) -> Matrix {
-    let entry = |i: usize, j: usize| (&m[i][j] + &m[j][i]) * sign;
-    let mut least: Matrix = moving
-        .iter()
-        .map(|&i| moving.iter().map(|&j| entry(i, j)).collect())
-        .collect();
+/// 2 `sign` sym(M) on `variables`, less the row sums of twice the symmetric radius on its diagonal.
+fn least_member(m: &Matrix, r: &Matrix, variables: &[usize], sign: i8) -> Matrix {
+    let mut least = Matrix::with_capacity(variables.len());
 
-    for (row, &i) in moving.iter().enumerate() {
-        let radius: Integer = moving.iter().map(|&j| &r[i][j] + &r[j][i]).sum();
-        least[row][row] -= radius;
+    for (position, &i) in variables.iter().enumerate() {
+        let mut row = Vec::with_capacity(variables.len());
+        let mut radius = Integer::zero();
+        for &j in variables {
+            row.push((&m[i][j] + &m[j][i]) * sign);
+            radius += &r[i][j] + &r[j][i];
+        }
+
+        row[position] -= radius;
+        least.push(row);
     }
+
     least
 }
 
-/// Without a common factor: the unit of the ends may be a small part of every entry.
+/// Divides by the common factor: the unit of the ends may be a small part of every entry.
 fn primitive(mut s: Matrix) -> Matrix {
-    let factor = s
-        .iter()
-        .flatten()
-        .fold(Integer::zero(), |factor, v| factor.gcd(v));
-    if factor > Integer::one() {
-        s.iter_mut().flatten().for_each(|v| *v /= &factor);
+    let mut factor = Integer::zero();
+    for entry in s.iter().flatten() {
+        factor = factor.gcd(entry);
     }
+
+    if factor > Integer::one() {
+        for entry in s.iter_mut().flatten() {
+            *entry /= &factor;
+        }
+    }
+
     s
 }
 
@@ -91,131 +110,192 @@ fn eliminate(mut s: Matrix) -> Result<(), usize> {
         if !pivot.is_positive() {
             return Err(k);
         }
+
         for i in k + 1..n {
             for j in k + 1..n {
                 // The division is exact.
                 s[i][j] = (&pivot * &s[i][j] - &s[i][k] * &s[k][j]) / &previous;
             }
         }
+
         previous = pivot;
     }
+
     Ok(())
 }
 
-/// `Err(k)`: the k-th variable of `moving` breaks it, or it is too close to say.
-pub(super) fn positive_definite(t: &Short, moving: &[usize], sign: i8) -> Result<(), usize> {
-    let n = moving.len();
-    if n > MAX_ORDER {
+/// The same as [`long_definite`] for short numbers.
+///
+/// `Err(k)`: the k-th of the variables breaks it, or the matrix is too close to a singular one to
+/// say.
+pub(super) fn positive_definite(t: &Short, variables: &[usize], sign: i8) -> Result<(), usize> {
+    let order = variables.len();
+    if order > MAX_ORDER {
         return Err(0);
     }
-    let twice = |m: &[Vec<i64>], i: usize, j: usize| {
-        i128::from(m[moving[i]][moving[j]]) + i128::from(m[moving[j]][moving[i]])
-    };
-    let largest = (0..n)
-        .flat_map(|i| (0..n).map(move |j| (i, j)))
-        .fold(0, |most: u64, (i, j)| {
-            most | t.m[moving[i]][moving[j]].unsigned_abs()
-        });
-    let cut = (u64::BITS - largest.leading_zeros() + 1).saturating_sub(BITS);
-    // At most BITS + 1 bits.
-    let s = |i: usize, j: usize| (twice(&t.m, i, j) * i128::from(sign)) >> cut;
-    let slack = |i: usize| -> i128 {
-        let sum: i128 = (0..n).map(|j| twice(&t.r, i, j)).sum();
-        let lost = if cut > 0 { n as i128 } else { 0 };
-        // A radius of 2^60 is far more than S itself: nothing is definite then.
-        ((sum >> cut) + i128::from(sum > 0 && cut > 0)).min(1 << 60) + lost
-    };
-    let shift_all = SHIFT * n as i128;
-    let lower: Vec<Vec<i128>> = (0..n)
-        .map(|i| {
-            (0..=i)
-                .map(|j| s(i, j) - if i == j { slack(i) } else { 0 })
-                .collect()
-        })
-        .collect();
-    let (l, d) = factor(&lower, shift_all)?;
-    dominated(&lower, &l, &d, n)
+
+    let lower = least_lower_triangle(t, variables, sign);
+    let shift = SHIFT * order as i128;
+    let ldl = Ldl::of(&lower, shift)?;
+    ldl.check_residual(&lower)
 }
 
-/// Rows of L below the diagonal in units of 2^-UNIT, and D.
-type Ldl = (Vec<Vec<i128>>, Vec<i128>);
-
-/// LDL' of the matrix less the shift, rounded. For a definite matrix |l_ij|^2 d_j <= S_ii bounds
-/// every product; an overflow therefore means that it is not (or hardly) definite.
-fn factor(lower: &[Vec<i128>], shift_all: i128) -> Result<Ldl, usize> {
-    let (mut l, mut d): Ldl = (Vec::new(), Vec::new());
-    for (i, given) in lower.iter().enumerate() {
-        let (row, pivot) = factor_row(given, &l, &d, shift_all)
-            .filter(|(_, pivot)| *pivot > 0)
-            .ok_or(i)?;
-        l.push(row);
-        d.push(pivot);
-    }
-    Ok((l, d))
-}
-
-fn factor_row(
-    given: &[i128],
-    l: &[Vec<i128>],
-    d: &[i128],
-    shift_all: i128,
-) -> Option<(Vec<i128>, i128)> {
-    let i = given.len() - 1;
-    let mut row: Vec<i128> = Vec::with_capacity(i);
-    let mut scaled: Vec<i128> = Vec::with_capacity(i); // l_ik d_k in units of 1
-    let mut nonzero: Vec<usize> = Vec::with_capacity(i); // columns k with l_ik d_k not 0
-
-    for j in 0..i {
-        let mut rest = given[j] << UNIT;
-        for &k in &nonzero {
-            rest = rest.checked_sub(scaled[k].checked_mul(l[j][k])?)?;
-        }
-        row.push(rest / d[j]);
-        scaled.push(rest >> UNIT);
-        if scaled[j] != 0 {
-            nonzero.push(j);
+/// The lower triangle of S - diag(c), cut to `BITS` bits and a sign.
+fn least_lower_triangle(t: &Short, variables: &[usize], sign: i8) -> Vec<Vec<i128>> {
+    let mut largest: u64 = 0;
+    for &i in variables {
+        for &j in variables {
+            largest |= t.m[i][j].unsigned_abs();
         }
     }
 
-    let mut pivot = (given[i] - shift_all) << UNIT;
-    for &k in &nonzero {
-        pivot = pivot.checked_sub(scaled[k].checked_mul(row[k])?)?;
+    let bits_of_twice = u64::BITS - largest.leading_zeros() + 1;
+    let cut = bits_of_twice.saturating_sub(BITS);
+
+    let mut lower = Vec::with_capacity(variables.len());
+    for (position, &i) in variables.iter().enumerate() {
+        let mut row = Vec::with_capacity(position + 1);
+        for &j in &variables[..=position] {
+            let twice = i128::from(t.m[i][j]) + i128::from(t.m[j][i]);
+            row.push((twice * i128::from(sign)) >> cut);
+        }
+
+        row[position] -= slack(t, variables, i, cut);
+        lower.push(row);
     }
-    Some((row, pivot >> UNIT))
+
+    lower
 }
 
-/// The residual of the unshifted matrix is diagonally dominant, computed without rounding.
-fn dominated(lower: &[Vec<i128>], l: &[Vec<i128>], d: &[i128], n: usize) -> Result<(), usize> {
-    let entry = |i: usize, k: usize| if k == i { 1 << UNIT } else { l[i][k] };
-    let nonzero: Vec<Vec<usize>> = (0..n)
-        .map(|i| (0..=i).filter(|&k| entry(i, k) != 0).collect())
-        .collect();
-    let residual = |i: usize, j: usize| {
-        let mut rest = lower[i][j].checked_mul(1 << (2 * UNIT))?;
-        // Column k counts where both rows have it.
-        let shorter = if nonzero[i].len() < nonzero[j].len() {
-            &nonzero[i]
-        } else {
-            &nonzero[j]
+/// c_i: the radius of row i, cut and rounded up, and one unit for every entry that was cut.
+fn slack(t: &Short, variables: &[usize], i: usize, cut: u32) -> i128 {
+    let mut radius: i128 = 0;
+    for &j in variables {
+        radius += i128::from(t.r[i][j]) + i128::from(t.r[j][i]);
+    }
+
+    let rounded_up = (radius >> cut) + i128::from(radius > 0 && cut > 0);
+    let lost = if cut > 0 { variables.len() as i128 } else { 0 };
+    // A radius of 2^60 is far more than S itself: nothing is definite then.
+    rounded_up.min(1 << 60) + lost
+}
+
+/// Rounded factors L D L'.
+struct Ldl {
+    /// Rows of L below the diagonal, in units of 2^-UNIT.
+    l: Vec<Vec<i128>>,
+    d: Vec<i128>,
+}
+
+impl Ldl {
+    /// Factors the matrix less the shift. `Err(i)`: row i has no positive pivot.
+    ///
+    /// For a definite matrix |l_ij|^2 d_j <= S_ii bounds every product. An overflow therefore means
+    /// that it is not definite, or hardly.
+    fn of(lower: &[Vec<i128>], shift: i128) -> Result<Ldl, usize> {
+        let mut ldl = Ldl {
+            l: Vec::with_capacity(lower.len()),
+            d: Vec::with_capacity(lower.len()),
         };
-        for &k in shorter.iter().take_while(|&&k| k <= j) {
-            rest = rest.checked_sub(entry(i, k).checked_mul(d[k])?.checked_mul(entry(j, k))?)?;
+        for (i, given) in lower.iter().enumerate() {
+            ldl.push_row(given, shift).ok_or(i)?;
         }
-        Some(rest)
-    };
-    let (mut diagonal, mut off) = (vec![0i128; n], vec![0i128; n]);
-    for i in 0..n {
-        for j in 0..=i {
-            let value = residual(i, j).ok_or(i)?;
-            if i == j {
-                diagonal[i] = value;
-            } else {
-                off[i] = off[i].saturating_add(value.abs());
-                off[j] = off[j].saturating_add(value.abs());
+
+        Ok(ldl)
+    }
+
+    /// Appends a row of L and its pivot; `None` if that is not positive or a product overflows.
+    fn push_row(&mut self, given: &[i128], shift: i128) -> Option<()> {
+        let i = given.len() - 1;
+        let mut row: Vec<i128> = Vec::with_capacity(i);
+        let mut scaled: Vec<i128> = Vec::with_capacity(i); // l_ik d_k in units of 1
+        let mut nonzero: Vec<usize> = Vec::with_capacity(i); // columns k with l_ik d_k not 0
+
+        for j in 0..i {
+            let mut rest = given[j] << UNIT;
+            for &k in &nonzero {
+                rest = rest.checked_sub(scaled[k].checked_mul(self.l[j][k])?)?;
+            }
+
+            row.push(rest / self.d[j]);
+            scaled.push(rest >> UNIT);
+            if scaled[j] != 0 {
+                nonzero.push(j);
             }
         }
+
+        let mut pivot = (given[i] - shift) << UNIT;
+        for &k in &nonzero {
+            pivot = pivot.checked_sub(scaled[k].checked_mul(row[k])?)?;
+        }
+
+        let pivot = pivot >> UNIT;
+        if pivot <= 0 {
+            return None;
+        }
+
+        self.l.push(row);
+        self.d.push(pivot);
+        Some(())
     }
-    (0..n).find(|&i| diagonal[i] <= off[i]).map_or(Ok(()), Err)
+
+    /// Demands that the matrix less L D L', computed without rounding, is strictly diagonally
+    /// dominant with a positive diagonal. `Err(i)`: row i is not, or overflows.
+    fn check_residual(&self, lower: &[Vec<i128>]) -> Result<(), usize> {
+        let n = lower.len();
+        let nonzero: Vec<Vec<usize>> = (0..n)
+            .map(|i| (0..=i).filter(|&k| self.entry(i, k) != 0).collect())
+            .collect();
+
+        let mut diagonal = vec![0i128; n];
+        let mut off_diagonal = vec![0i128; n];
+        for i in 0..n {
+            for j in 0..=i {
+                // Column k counts where both rows have it.
+                let columns = if nonzero[i].len() < nonzero[j].len() {
+                    &nonzero[i]
+                } else {
+                    &nonzero[j]
+                };
+                let residual = self.residual(lower[i][j], i, j, columns).ok_or(i)?;
+
+                if i == j {
+                    diagonal[i] = residual;
+                } else {
+                    off_diagonal[i] = off_diagonal[i].saturating_add(residual.abs());
+                    off_diagonal[j] = off_diagonal[j].saturating_add(residual.abs());
+                }
+            }
+        }
+
+        for i in 0..n {
+            if diagonal[i] <= off_diagonal[i] {
+                return Err(i);
+            }
+        }
+
+        Ok(())
+    }
+
+    /// L_ik for k <= i, in units of 2^-UNIT.
+    fn entry(&self, i: usize, k: usize) -> i128 {
+        if k == i { 1 << UNIT } else { self.l[i][k] }
+    }
+
+    /// given - (L D L')_ij for j <= i, in units of 2^-(2 UNIT), summed over `columns` up to j.
+    fn residual(&self, given: i128, i: usize, j: usize, columns: &[usize]) -> Option<i128> {
+        let mut rest = given.checked_mul(1 << (2 * UNIT))?;
+        for &k in columns {
+            if k > j {
+                break;
+            }
+
+            let left = self.entry(i, k).checked_mul(self.d[k])?;
+            rest = rest.checked_sub(left.checked_mul(self.entry(j, k))?)?;
+        }
+
+        Some(rest)
+    }
 }
 
 #[cfg(test)]
@@ -369,8 +449,8 @@ mod tests {
             &[84_137, 63_657, 172_869_770, 4_528_399_482],
         ];
         let lower: Vec<Vec<i128>> = lower.iter().map(|row| row.to_vec()).collect();
-        let (l, d) = factor(&lower, SHIFT * 4).unwrap();
-        assert_eq!(dominated(&lower, &l, &d, 4), Err(3));
+        let factors = Ldl::of(&lower, SHIFT * 4);
+        assert_eq!(factors.and_then(|ldl| ldl.check_residual(&lower)), Err(3));
         // S = 2 sym(m)
         let entry = |i: usize, j: usize| match i.cmp(&j) {
             std::cmp::Ordering::Less => 0,

@@ -1,44 +1,38 @@
-//! The pencil on the complementarity variables as a family of matrices over an interval: its two
-//! ends, and how far the matrices between may be from them.
+//! T(t) on the complementarity variables, enclosed over intervals.
 //!
-//! Numbers are integers in units of 2^-128 after each row has been divided by a power of two that
-//! makes its largest entry of A less than one; what is cut off is counted as a radius.
+//! Without free variables T(t) = A + tB ([`Linear`]): the ends of [lo, hi] are T(lo) and T(hi), and
+//! those of a half line T(lo) and the direction B. With free variables T(t) is the Schur
+//! complement, expanded about the anchors of the condensation ([`Expanded`]).
+//!
+//! Each row of A + tB is an integral row of the pencil divided by a power of two that makes its
+//! largest entry of A less than one. Numbers are integers in units of 2^-128; what is cut off is
+//! counted as a radius. Rows multiplied by positive numbers d_i keep the null vectors of T and the
+//! signs of y = Tx, and x'Tx becomes sum d_i x_i y_i, which is zero for solutions as before.
+//!
+//! Called by the walk: `affordable` and `matrix_work` bound the work before `ends` does it, and
+//! `short` gives the ends in short numbers where it can.
 
-use super::CoverFault;
+use super::ends::{Ends, FRACTION_BITS, Matrix, largest_bits, rational_bits, within_matrix_bits};
 use super::expanded::Expanded;
+use super::fault::CoverFault;
 use super::short::Short;
 use crate::pencil::Rows;
 use mceip_exact::{Integer, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
 
-/// A dense square integer matrix, by rows.
-pub(super) type Matrix = Vec<Vec<Integer>>;
-
-/// Fraction bits kept of each entry of a row scaled to below one.
-const FRACTION_BITS: u64 = 128;
-/// Most bits that the entries of one matrix of a region, or of an anchor's expansion, may take
-/// together.
-pub(super) const MAX_MATRIX_BITS: u64 = 1 << 29;
-
-/// T(t) for t between two values: convex combinations of (m[0] +- r[0]) and (m[1] +- r[1]), all in
-/// units of 1 / `scale`. At an infinite end m[1] is the direction B, in the same units.
-#[derive(Clone)]
-pub(super) struct Ends {
-    pub(super) m: [Matrix; 2],
-    pub(super) r: [Matrix; 2],
-    /// (t1 - t0) T'(t) lies within this of m[1] - m[0].
-    pub(super) slope: Matrix,
-    pub(super) scale: Integer,
-    pub(super) infinite: bool,
-}
-
-/// The pencil over the window.
+/// T(t) over the window.
 pub(super) enum Family {
     /// A + tB.
     Linear(Linear),
-    /// The condensed pencil about several anchors, and what [`Expanded::short`] gives for each.
-    Condensed(Vec<(Expanded, Option<[Short; 2]>)>),
+    /// The condensed pencil about several anchors.
+    Condensed(Vec<AnchorExpansion>),
+}
+
+/// The condensed pencil about one anchor, and what [`Expanded::short`] gives for it.
+pub(super) struct AnchorExpansion {
+    pub(super) expanded: Expanded,
+    pub(super) short: Option<[Short; 2]>,
 }
 
 /// A + tB with a radius per row for what was cut off.
@@ -62,7 +56,7 @@ impl Family {
         match self {
             Family::Linear(linear) => Ok(linear.ends(lo, hi)),
             Family::Condensed(list) => {
-                let (expanded, _) = anchor.and_then(|k| list.get(k)).ok_or(CoverFault::Anchor {
+                let expanded = self.anchor(anchor).ok_or(CoverFault::Anchor {
                     anchors: list.len(),
                     got: anchor,
                 })?;
@@ -71,61 +65,68 @@ impl Family {
         }
     }
 
-    /// A matrix of the interval has n_s^2 entries of at most about K (128 + bits of lo and hi)
-    /// bits, K the number of coefficients of the anchor's expansion, 1 without one.
+    /// The expansion about the anchor that a piece names, if there is one.
+    pub(super) fn anchor(&self, anchor: Option<usize>) -> Option<&Expanded> {
+        match self {
+            Family::Linear(_) => None,
+            Family::Condensed(list) => Some(&list.get(anchor?)?.expanded),
+        }
+    }
+
+    /// Demands that a matrix of the interval is small enough.
+    ///
+    /// It has n_s^2 entries of at most about K (128 + bits of lo and hi) bits, K the number of
+    /// coefficients of the anchor's expansion, 1 without one. A condensation without the anchor
+    /// that is asked for is refused by name elsewhere.
     pub(super) fn affordable(
         &self,
         anchor: Option<usize>,
         lo: &Rational,
         hi: Option<&Rational>,
     ) -> Result<(), CoverFault> {
-        let (order, coefficients) = match self {
-            Family::Linear(linear) => (linear.a.len(), 1),
-            // What is no anchor is refused by name elsewhere.
-            Family::Condensed(list) => anchor
-                .and_then(|k| list.get(k))
-                .map_or((0, 0), |(e, _)| (e.weight.len(), e.coefficients)),
-        };
-        let per_coefficient = FRACTION_BITS + rational_bits(lo) + hi.map_or(0, rational_bits);
-        within_matrix_bits(
-            "bits of a region's matrix",
-            order,
-            coefficients,
-            per_coefficient,
-        )
+        let per_coefficient = FRACTION_BITS + end_bits(lo, hi);
+        let what = "bits of a region's matrix";
+
+        match (self, self.anchor(anchor)) {
+            (Family::Linear(linear), _) => {
+                within_matrix_bits(what, linear.a.len(), 1, per_coefficient)
+            }
+            (_, Some(e)) => {
+                within_matrix_bits(what, e.weight.len(), e.coefficients, per_coefficient)
+            }
+            (_, None) => Ok(()),
+        }
     }
 
-    /// Products of machine words that the matrices of the interval take: n_s^2 values of a
-    /// polynomial of K coefficients, each of C words, at an end of E words. Horner's rule
-    /// multiplies a sum of C + k E words by E words, k < K.
+    /// Products of machine words that the matrices of the interval take.
+    ///
+    /// They are n_s^2 values of a polynomial of K coefficients, each of C words, at an end of E
+    /// words. Horner's rule multiplies a sum of C + k E words by E words, k < K.
     pub(super) fn matrix_work(
         &self,
         anchor: Option<usize>,
         lo: &Rational,
         hi: Option<&Rational>,
     ) -> u64 {
-        let (order, coefficients, bits, center) = match self {
-            Family::Linear(linear) => (linear.a.len(), 1, FRACTION_BITS, 0),
-            Family::Condensed(list) => match anchor.and_then(|k| list.get(k)) {
-                Some((e, _)) => (
-                    e.weight.len(),
-                    e.coefficients,
-                    e.unit.bits(),
-                    rational_bits(&e.center),
-                ),
-                None => return 0,
-            },
-        };
+        let bits = FRACTION_BITS + end_bits(lo, hi);
 
-        let end_words =
-            words(FRACTION_BITS + center + rational_bits(lo) + hi.map_or(0, rational_bits));
-        let end_powers = end_words.saturating_mul(coefficients as u64);
-        let value_words = words(bits).saturating_add(end_powers);
-
-        let entries = (order as u64).saturating_mul(order as u64);
-        entries
-            .saturating_mul(end_powers)
-            .saturating_mul(value_words)
+        match (self, self.anchor(anchor)) {
+            (Family::Linear(linear), _) => HornerWork {
+                order: linear.a.len(),
+                coefficients: 1,
+                coefficient_words: words(FRACTION_BITS),
+                end_words: words(bits),
+            }
+            .products(),
+            (_, Some(e)) => HornerWork {
+                order: e.weight.len(),
+                coefficients: e.coefficients,
+                coefficient_words: words(e.unit.bits()),
+                end_words: words(bits + rational_bits(&e.center)),
+            }
+            .products(),
+            (_, None) => 0,
+        }
     }
 
     /// The ends in short numbers, where the family is linear: T_0 + tT_1 is (q T_0 + p T_1) / q at
@@ -137,27 +138,39 @@ impl Family {
         hi: Option<&Rational>,
     ) -> Option<[Short; 2]> {
         let parts = match self {
-            Family::Linear(linear) => &linear.short,
-            Family::Condensed(list) => anchor
-                .and_then(|k| list.get(k))
-                .map_or(&None, |(_, short)| short),
+            Family::Linear(linear) => linear.short.as_ref(),
+            Family::Condensed(list) => list.get(anchor?)?.short.as_ref(),
         };
-        let [a, b] = parts.as_ref()?;
-        let at = |t: &Rational| a.combine(t.denom(), b, t.numer());
+        let [constant, direction] = parts?;
+        let at = |t: &Rational| constant.combine(t.denom(), direction, t.numer());
+
         let upper = match hi {
             Some(hi) => at(hi),
-            None => a.combine(&Integer::zero(), b, &Integer::one()),
+            None => constant.combine(&Integer::zero(), direction, &Integer::one()),
         };
         Some([at(lo)?, upper?])
     }
 }
 
-impl Ends {
-    /// Both ends in short numbers.
-    pub(super) fn short(&self) -> Option<[Short; 2]> {
-        let all: Vec<usize> = (0..self.slope.len()).collect();
-        let of = |end: usize| Short::of(&self.m[end], &self.r[end], &all);
-        Some([of(0)?, of(1)?])
+/// The sizes that the work of one matrix depends on.
+struct HornerWork {
+    order: usize,
+    coefficients: usize,
+    coefficient_words: u64,
+    end_words: u64,
+}
+
+impl HornerWork {
+    /// n_s^2 E K (C + E K).
+    fn products(&self) -> u64 {
+        let order = self.order as u64;
+        let entries = order.saturating_mul(order);
+        let end_powers = self.end_words.saturating_mul(self.coefficients as u64);
+        let value_words = self.coefficient_words.saturating_add(end_powers);
+
+        entries
+            .saturating_mul(end_powers)
+            .saturating_mul(value_words)
     }
 }
 
@@ -166,108 +179,102 @@ impl Linear {
     pub(super) fn of(rows: &Rows) -> Linear {
         let n = rows.order();
         let mut linear = Linear {
-            a: Vec::new(),
-            b: Vec::new(),
-            radius: Vec::new(),
+            a: Vec::with_capacity(n),
+            b: Vec::with_capacity(n),
+            radius: Vec::with_capacity(n),
             short: None,
         };
+
         for row in &rows.rows {
             let bits = largest_bits(row.iter().map(|(_, a, _)| a)).max(1);
-            let (mut a, mut b) = (vec![Integer::zero(); n], vec![Integer::zero(); n]);
+            let lift = FRACTION_BITS as i64 - bits as i64;
+
+            let mut a = vec![Integer::zero(); n];
+            let mut b = vec![Integer::zero(); n];
             for (j, a_j, b_j) in row {
-                a[*j] = shift(a_j, FRACTION_BITS as i64 - bits as i64);
-                b[*j] = shift(b_j, FRACTION_BITS as i64 - bits as i64);
+                a[*j] = shift(a_j, lift);
+                b[*j] = shift(b_j, lift);
             }
+
             linear.a.push(a);
             linear.b.push(b);
-            linear
-                .radius
-                .push(Integer::from(u8::from(bits > FRACTION_BITS)));
+
+            // Rounding down costs less than one unit.
+            let is_cut = lift < 0;
+            linear.radius.push(Integer::from(u8::from(is_cut)));
         }
-        let (all, radius): (Vec<usize>, Matrix) = (
-            (0..n).collect(),
-            linear.radius.iter().map(|r| vec![r.clone(); n]).collect(),
-        );
-        let [a, b] = [&linear.a, &linear.b].map(|m| Short::of(m, &radius, &all));
-        linear.short = a.zip(b).map(|(a, b)| [a, b]);
+
+        linear.short = linear.short_parts();
         linear
     }
 
+    /// A and B in short numbers.
+    fn short_parts(&self) -> Option<[Short; 2]> {
+        let all: Vec<usize> = (0..self.a.len()).collect();
+        let radius = self.by_row(&Integer::one());
+        let a = Short::of(&self.a, &radius, &all)?;
+        let b = Short::of(&self.b, &radius, &all)?;
+        Some([a, b])
+    }
+
+    /// A factor times the radius, for every entry.
+    fn by_row(&self, factor: &Integer) -> Matrix {
+        let n = self.radius.len();
+        self.radius.iter().map(|r| vec![factor * r; n]).collect()
+    }
+
+    /// p B + q A.
+    fn combination(&self, p: &Integer, q: &Integer) -> Matrix {
+        let mut sum = Matrix::with_capacity(self.a.len());
+        for (a, b) in self.a.iter().zip(&self.b) {
+            sum.push(a.iter().zip(b).map(|(a, b)| q * a + p * b).collect());
+        }
+
+        sum
+    }
+
+    /// factor B.
+    fn direction(&self, factor: &Integer) -> Matrix {
+        self.b
+            .iter()
+            .map(|row| row.iter().map(|v| v * factor).collect())
+            .collect()
+    }
+
+    /// The ends over [lo, hi], in units of 1 / (common 2^128) with a common denominator of both.
     fn ends(&self, lo: &Rational, hi: Option<&Rational>) -> Ends {
-        let n = self.a.len();
         let common = lo.denom().lcm(hi.unwrap_or(lo).denom());
-        let at = |t: &Rational| {
-            let (p, q) = (t.numer() * (&common / t.denom()), &common);
-            let m: Matrix = (0..n)
-                .map(|i| {
-                    (0..n)
-                        .map(|j| q * &self.a[i][j] + &p * &self.b[i][j])
-                        .collect()
-                })
-                .collect();
-            let r = (0..n)
-                .map(|i| vec![(q + p.abs()) * &self.radius[i]; n])
-                .collect();
-            (m, r)
+        let scale = &common << FRACTION_BITS;
+        let lower = lo.numer() * (&common / lo.denom());
+        let m0 = self.combination(&lower, &common);
+        let r0 = self.by_row(&(&common + lower.abs()));
+
+        let Some(hi) = hi else {
+            let none = self.by_row(&Integer::zero());
+            return Ends {
+                m: [m0, self.direction(&common)],
+                r: [r0, self.by_row(&common)],
+                slope: none,
+                scale,
+                infinite: true,
+            };
         };
-        let by_row = |factor: &Integer| {
-            (0..n)
-                .map(|i| vec![factor * &self.radius[i]; n])
-                .collect::<Matrix>()
-        };
-        let (m0, r0) = at(lo);
-        let (m1, r1, slope) = match hi {
-            Some(hi) => {
-                let (m1, r1) = at(hi);
-                // Common clears both.
-                let width = ((hi - lo) * Rational::from_integer(common.clone())).to_integer();
-                (m1, r1, by_row(&width))
-            }
-            None => {
-                // The direction B, in the unit of the lower end.
-                let direction = self
-                    .b
-                    .iter()
-                    .map(|row| row.iter().map(|v| v * &common).collect())
-                    .collect();
-                (direction, by_row(&common), by_row(&Integer::zero()))
-            }
-        };
+
+        let upper = hi.numer() * (&common / hi.denom());
+        let width = &upper - &lower;
         Ends {
-            m: [m0, m1],
-            r: [r0, r1],
-            slope,
-            scale: common << FRACTION_BITS,
-            infinite: hi.is_none(),
+            m: [m0, self.combination(&upper, &common)],
+            r: [r0, self.by_row(&(&common + upper.abs()))],
+            slope: self.by_row(&width),
+            scale,
+            infinite: false,
         }
     }
 }
 
-/// order^2 entries of so many coefficients of so many bits are at most [`MAX_MATRIX_BITS`].
-pub(super) fn within_matrix_bits(
-    what: &'static str,
-    order: usize,
-    coefficients: usize,
-    bits: u64,
-) -> Result<(), CoverFault> {
-    let entries = (order as u64).saturating_mul(order as u64);
-    let got = entries
-        .saturating_mul(coefficients as u64)
-        .saturating_mul(bits);
-    if got > MAX_MATRIX_BITS {
-        Err(CoverFault::TooLarge {
-            what,
-            limit: MAX_MATRIX_BITS,
-            got,
-        })
-    } else {
-        Ok(())
-    }
-}
-
-/// Bit length of numerator and denominator.
-pub(super) fn rational_bits(v: &Rational) -> u64 {
-    v.numer().bits() + v.denom().bits()
+/// Bits of both ends of an interval.
+fn end_bits(lo: &Rational, hi: Option<&Rational>) -> u64 {
+    rational_bits(lo) + hi.map_or(0, rational_bits)
 }
 
 /// Words of 64 bits, one too many for a multiple of 64.
@@ -276,17 +283,12 @@ fn words(bits: u64) -> u64 {
 }
 
 /// v 2^bits, rounded down.
-pub(super) fn shift(v: &Integer, bits: i64) -> Integer {
+fn shift(v: &Integer, bits: i64) -> Integer {
     if bits >= 0 {
         v << bits.unsigned_abs()
     } else {
         v >> bits.unsigned_abs()
     }
-}
-
-/// Bit length of the largest number.
-pub(super) fn largest_bits<'a>(values: impl Iterator<Item = &'a Integer>) -> u64 {
-    values.map(Integer::bits).max().unwrap_or(0)
 }
 
 #[cfg(test)]

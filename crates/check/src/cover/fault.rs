@@ -1,4 +1,7 @@
-//! What is wrong with a cover, as typed values.
+//! What is wrong with a cover, as typed values: obligation, index, expected, got.
+//!
+//! Each variant is an obligation of `spec/certificates.md`. [`crate::Reason::Cover`] adds the piece
+//! and the node of its tree at which it fails.
 
 use mceip_exact::Rational;
 
@@ -49,7 +52,7 @@ pub enum CoverFault {
         /// Entries found.
         got: usize,
     },
-    /// A weight that must not be negative.
+    /// A negative weight of a variable for which y_i = 0 is not known.
     #[error("farkas: expected weight {index} >= 0 off the moving set, got {got}")]
     NegativeWeight {
         /// The variable.
@@ -67,7 +70,7 @@ pub enum CoverFault {
         /// Upper bound of the entry, in the units of the scaled row.
         got: Rational,
     },
-    /// w'T vanishes where strictness is needed.
+    /// w'T may vanish on a variable where it has to be negative.
     #[error("farkas: expected a strict sign on one moving variable or on all that may move")]
     NotStrict,
     /// The symmetric part is not proved definite.
@@ -78,12 +81,13 @@ pub enum CoverFault {
         /// `lower` or `upper`.
         end: &'static str,
     },
-    /// A root where an index is open, or an interval from zero to infinity.
+    /// A root leaf of an undecided variable, of an empty support, or from zero to infinity.
     #[error(
-        "root: expected every index decided, something moving, and a lower end above 0 where the interval is infinite"
+        "root: expected every index decided, something moving, \
+         and a lower end above 0 where the interval is infinite"
     )]
     RootTooEarly,
-    /// The pivot does not move.
+    /// The pivot is not in the support.
     #[error("root: expected a moving pivot, got {index}")]
     Pivot {
         /// The index.
@@ -97,7 +101,8 @@ pub enum CoverFault {
     },
     /// The Schur complement is not monotone: there could be two roots.
     #[error(
-        "root: expected the Schur complement to be monotone over the interval, got a slope that may vanish"
+        "root: expected the Schur complement to be monotone over the interval, \
+         got a slope that may vanish"
     )]
     NotMonotone,
     /// The Schur complement does not change sign.
@@ -110,7 +115,8 @@ pub enum CoverFault {
     },
     /// The Schur complement is not certain to keep its sign.
     #[error(
-        "root: expected the Schur complement to keep one sign over the leaf, got a change or none"
+        "root: expected the Schur complement to keep one sign over the leaf, \
+         got a change or none"
     )]
     SignChange,
     /// A sign of x or y is not the one stated.
@@ -125,7 +131,8 @@ pub enum CoverFault {
     },
     /// An exact factor is not one of the matrix.
     #[error(
-        "ldl: expected L D L' to be sym(A + tB) at the {end} end, got another entry at ({row}, {column})"
+        "ldl: expected L D L' to be sym(A + tB) at the {end} end, \
+         got another entry at ({row}, {column})"
     )]
     Factor {
         /// Row, by the problem's index.
@@ -145,13 +152,14 @@ pub enum CoverFault {
     },
     /// An outcome that the checker does not read over a half line.
     #[error(
-        "root: expected absent, claim or infinity over an interval to infinity without a reversed anchor, got {outcome}"
+        "root: expected absent, claim or infinity over an interval to infinity \
+         without a reversed anchor, got {outcome}"
     )]
     OutcomeOnHalfLine {
         /// The outcome's word in the file.
         outcome: &'static str,
     },
-    /// What is given for the null vector at infinity is none.
+    /// The vector given for infinity is not a null vector of the pencil's limit there.
     #[error("root: expected {expected} for the null vector at infinity, broken at index {index}")]
     NotAtInfinity {
         /// The obligation.
@@ -161,20 +169,22 @@ pub enum CoverFault {
     },
     /// The claim referred to is not a solution whose null vector belongs to the leaf.
     #[error(
-        "root: expected claim {claim} to be a solution in the interval whose active rows are the leaf's"
+        "root: expected claim {claim} to be a solution in the interval \
+         whose active rows are the leaf's"
     )]
     NotTheClaim {
         /// The claim.
         claim: usize,
     },
-    /// A support where an index is open, or points where nothing moves, or none where something
-    /// does.
+    /// A support leaf of an undecided variable, or without points where the support is not empty,
+    /// or with points where it is.
     #[error("support: expected every index decided, and points exactly if something moves")]
     SupportTooEarly,
-    /// A point that is no isolated root, or out of order; beyond the last: an end of the interval
-    /// is not one.
+    /// A point that is no isolated root, or out of order; the number of points: an end of the
+    /// interval is not a point.
     #[error(
-        "support: expected point {point} to be an isolated root above the one before, the first and the last the ends of the interval"
+        "support: expected point {point} to be an isolated root above the one before, \
+         the first and the last the ends of the interval"
     )]
     Point {
         /// Position among the points.
@@ -202,7 +212,8 @@ pub enum CoverFault {
     },
     /// Two leaves hold solutions of one support that could be one or two.
     #[error(
-        "roots: expected solutions of support {support:?} to be apart or the same, got overlapping intervals"
+        "roots: expected solutions of support {support:?} to be apart or the same, \
+         got overlapping intervals"
     )]
     Ambiguous {
         /// The support.
@@ -220,11 +231,19 @@ pub enum CoverFault {
     },
     /// The signs of the support leaves take more work than the file's budget.
     #[error(
-        "support: expected signs within the budget of the file (spec/certificates.md, Limits), got more work"
+        "support: expected signs within the budget of the file \
+         (spec/certificates.md, Limits), got more work"
     )]
     OutOfBudget,
     /// Free variables need a condensation, and none is wanted without them.
-    #[error("condensation: expected {}", if *expected { "one, the problem has free variables" } else { "none, the problem has no free variables" })]
+    #[error(
+        "condensation: expected {}",
+        if *expected {
+            "one, the problem has free variables"
+        } else {
+            "none, the problem has no free variables"
+        }
+    )]
     Condensation {
         /// Is one needed?
         expected: bool,
@@ -245,4 +264,32 @@ pub enum CoverFault {
         /// What the piece names.
         got: Option<usize>,
     },
+}
+
+impl CoverFault {
+    /// [`CoverFault::TooLarge`] if `got` exceeds `limit`.
+    pub(super) fn at_most(what: &'static str, limit: u64, got: u64) -> Result<(), CoverFault> {
+        if got > limit {
+            return Err(CoverFault::TooLarge { what, limit, got });
+        }
+
+        Ok(())
+    }
+
+    /// [`CoverFault::Length`] if a list has not the entries it should have.
+    pub(super) fn length(
+        what: &'static str,
+        expected: usize,
+        got: usize,
+    ) -> Result<(), CoverFault> {
+        if got != expected {
+            return Err(CoverFault::Length {
+                what,
+                expected,
+                got,
+            });
+        }
+
+        Ok(())
+    }
 }

@@ -1,12 +1,24 @@
-//! Regions that reach to infinity, for leaves that need a chord between two matrices: s = lo / t
-//! falls from 1 to 0, and s T(t) = s T(lo) + (1 - s) lo B for a pencil linear in t. A reversed
-//! expansion is such a chord already.
+//! Root leaves over a half line [lo, infinity).
 //!
-//! A null vector of the limit at s = 0 belongs to no value in the window; where there is one null
-//! vector at most on the whole chord, nothing else is there.
+//! A root leaf needs the convex hull of two matrices, and a half line has none. With s = lo / t,
+//! which falls from 1 to 0, s T(t) has the null vectors and the signs of T(t), and for a pencil
+//! linear in t
+//!
+//! ```text
+//!     s T(t) = s T(lo) + (1 - s) lo B
+//! ```
+//!
+//! is the chord from T(lo) to lo B. It needs lo > 0. A reversed expansion (B + sA in place of A +
+//! tB, see `condensed`) has a chord already.
+//!
+//! s = 0 is no value of the window. So if the chord has at most one null vector, and one is known
+//! at s = 0, there is none at a value of the window ([`null_vector`], outcome `infinity`).
+//!
+//! Called by the walk for the ends of root leaves and for that outcome.
 
-use super::CoverFault;
-use super::family::{Ends, Family, Matrix};
+use super::ends::{Ends, Matrix};
+use super::family::Family;
+use super::fault::CoverFault;
 use crate::pencil::Rows;
 use mceip_exact::{Integer, Rational};
 use num_traits::Zero;
@@ -14,12 +26,7 @@ use num_traits::Zero;
 impl Family {
     /// Does the piece's anchor expand B + sA?
     pub(super) fn is_reversed(&self, anchor: Option<usize>) -> bool {
-        match self {
-            Family::Linear(_) => false,
-            Family::Condensed(list) => anchor
-                .and_then(|k| list.get(k))
-                .is_some_and(|(e, _)| e.reversed),
-        }
+        self.anchor(anchor).is_some_and(|e| e.reversed)
     }
 
     /// The ends that a root leaf over the hull [lo, hi] is judged by: those of T itself, over a
@@ -33,6 +40,7 @@ impl Family {
         if hi.is_some() || self.is_reversed(anchor) {
             return self.ends(anchor, lo, hi);
         }
+
         if lo.is_zero() {
             return Err(CoverFault::RootTooEarly);
         }
@@ -49,7 +57,8 @@ impl Family {
 fn chord(cone: &Ends, lo: &Rational) -> Ends {
     let [at_lo, direction] = &cone.m;
     let [radius_at_lo, radius_of_direction] = &cone.r;
-    let (p, q) = (lo.numer(), lo.denom());
+    let p = lo.numer();
+    let q = lo.denom();
 
     let radius = [multiple(q, radius_at_lo), multiple(p, radius_of_direction)];
     // d(sT)/ds = T(lo) - lo B, and each of the two lies within its radius.
@@ -72,57 +81,69 @@ fn multiple(factor: &Integer, matrix: &Matrix) -> Matrix {
 }
 
 fn sum(left: &Matrix, right: &Matrix) -> Matrix {
-    let row =
-        |(l, r): (&Vec<Integer>, &Vec<Integer>)| l.iter().zip(r).map(|(l, r)| l + r).collect();
-    left.iter().zip(right).map(row).collect()
+    let mut sum = Matrix::with_capacity(left.len());
+    for (l, r) in left.iter().zip(right) {
+        sum.push(l.iter().zip(r).map(|(l, r)| l + r).collect());
+    }
+
+    sum
 }
 
-/// x is a null vector of the limit at infinity on the moving set: B x = 0 on the moving and the
-/// free rows, x zero at rest and not zero on the moving set. Free rows that are zero in B have the
-/// row of A for their limit, if all are.
+/// Demands that x is a null vector of the pencil's limit at infinity on the support.
+///
+/// That is: B x = 0 on the support and the free rows, x zero off them and not zero on the support.
+/// Without a reversed expansion the limit has a free row only where B is zero there: it is the row
+/// of A, and all free rows have to be of this kind.
 pub(super) fn null_vector(
     rows: &Rows,
-    moving: &[usize],
+    support: &[usize],
     is_infinite: bool,
-    reversed: bool,
+    is_reversed: bool,
     x: &[Integer],
 ) -> Result<(), CoverFault> {
-    let fault = |expected, index| Err(CoverFault::NotAtInfinity { expected, index });
-    if x.len() != rows.order() {
-        return Err(CoverFault::Length {
-            what: "infinity",
-            expected: rows.order(),
-            got: x.len(),
-        });
-    }
+    CoverFault::length("infinity", rows.order(), x.len())?;
     if !is_infinite {
-        return fault("a region that reaches to infinity", 0);
+        return Err(fault("a region that reaches to infinity", 0));
     }
-    if moving.iter().all(|&i| x[i].is_zero()) {
-        return fault(
-            "x not zero on the moving set",
-            moving.first().copied().unwrap_or(0),
-        );
+
+    if support.iter().all(|&i| x[i].is_zero()) {
+        let index = support.first().copied().unwrap_or(0);
+        return Err(fault("x not zero on the moving set", index));
     }
+
     for (i, row) in rows.rows.iter().enumerate() {
-        let is_active = rows.is_free[i] || moving.contains(&i);
-        if !is_active && !x[i].is_zero() {
-            return fault("x = 0 off the active variables", i);
+        let is_free = rows.is_free[i];
+        let is_active = is_free || support.contains(&i);
+        if !is_active {
+            if !x[i].is_zero() {
+                return Err(fault("x = 0 off the active variables", i));
+            }
+
+            continue;
         }
+
         // The free block of B is regular in a reversed expansion, of A in the other.
-        let by_a = rows.is_free[i] && !reversed;
-        if by_a && row.iter().any(|(_, _, b)| !b.is_zero()) {
-            return fault("free rows that are zero in B", i);
+        let is_row_of_a = is_free && !is_reversed;
+        if is_row_of_a && row.iter().any(|(_, _, b)| !b.is_zero()) {
+            return Err(fault("free rows that are zero in B", i));
         }
-        let y: Integer = row
-            .iter()
-            .map(|(j, a, b)| if by_a { a } else { b } * &x[*j])
-            .sum();
-        if is_active && !y.is_zero() {
-            return fault("B x = 0 on the active rows", i);
+
+        let mut y = Integer::zero();
+        for (j, a, b) in row {
+            let entry = if is_row_of_a { a } else { b };
+            y += entry * &x[*j];
+        }
+
+        if !y.is_zero() {
+            return Err(fault("B x = 0 on the active rows", i));
         }
     }
+
     Ok(())
+}
+
+fn fault(expected: &'static str, index: usize) -> CoverFault {
+    CoverFault::NotAtInfinity { expected, index }
 }
 
 #[cfg(test)]
@@ -209,14 +230,14 @@ mod tests {
 
     #[test]
     fn a_null_vector_at_infinity_is_multiplied_out() {
-        let x = |v: &[i64]| v.iter().map(|&v| Integer::from(v)).collect::<Vec<_>>();
+        let integers = |v: &[i64]| v.iter().map(|&v| Integer::from(v)).collect::<Vec<_>>();
         let plain = rows(&[&[(3, 1), (-5, -2)], &[(7, -2), (0, 4)]], &[]);
         assert_eq!(
-            null_vector(&plain, &[0, 1], true, false, &x(&[2, 1])),
+            null_vector(&plain, &[0, 1], true, false, &integers(&[2, 1])),
             Ok(())
         );
         let wrong = |moving: &[usize], infinite, v: &[i64]| {
-            null_vector(&plain, moving, infinite, false, &x(v)).unwrap_err()
+            null_vector(&plain, moving, infinite, false, &integers(v)).unwrap_err()
         };
         assert!(matches!(
             wrong(&[0, 1], true, &[2]),
@@ -249,10 +270,16 @@ mod tests {
         ));
         // A free row: that of A where B has none, that of B if the expansion is reversed.
         let free = rows(&[&[(2, 0), (-1, 0)], &[(1, 4), (1, -2)]], &[0]);
-        assert_eq!(null_vector(&free, &[1], true, false, &x(&[1, 2])), Ok(()));
+        assert_eq!(
+            null_vector(&free, &[1], true, false, &integers(&[1, 2])),
+            Ok(())
+        );
         let mass = rows(&[&[(2, 1), (-1, 3)], &[(1, 3), (1, 9)]], &[0]);
-        assert_eq!(null_vector(&mass, &[1], true, true, &x(&[-3, 1])), Ok(()));
-        let refused = null_vector(&mass, &[1], true, false, &x(&[-3, 1]));
+        assert_eq!(
+            null_vector(&mass, &[1], true, true, &integers(&[-3, 1])),
+            Ok(())
+        );
+        let refused = null_vector(&mass, &[1], true, false, &integers(&[-3, 1]));
         assert!(matches!(
             refused,
             Err(CoverFault::NotAtInfinity {

@@ -1,20 +1,39 @@
-//! Leaf `ldl`: sym(A + tB) of the pencil as given is definite on what may move, by an exact LDL' at
-//! each end. The conditions (19) and (20) themselves, over an interval of any length, with no
-//! margin lost.
+//! Leaf `ldl`: sym(A + tB) is definite on the interval, by exact factors at both ends.
 //!
-//! x'T(t)x = x'y = 0 for a solution. If sym T is definite at the lower end and at the upper one, it
-//! is so between; at an infinite end the direction B may be semidefinite.
+//! Here A and B are the matrices as given, with the free variables: rows are not scaled, nothing is
+//! condensed. Let P be the free variables and those that may be in the support. A solution is zero
+//! outside P, so x'(A + tB)x = x'y = 0. If S(t) = sym(A + tB), restricted to P, is positive
+//! definite for every t of the interval, or negative definite for every t, then x = 0, and there is
+//! no solution.
+//!
+//! The leaf gives a unit lower triangular L and a diagonal D at each end with L D L' = S exactly. S
+//! is definite if all d_i have one sign. S between two ends is a convex combination, so it is
+//! definite with them if the sign is the same. On a half line S(t) = S(lo) + (t - lo) sym(B): there
+//! the second factors are those of sym(B), and d_i = 0 is allowed.
+//!
+//! These are conditions (19) and (20) over an interval of any length, with no margin lost. Called
+//! by the walk through the trees.
 
-use super::{CoverFault, Region, State};
+use super::fault::CoverFault;
+use super::region::{Region, State};
 use crate::certificate::{Ldl, LdlFactor};
 use crate::pencil::Rows;
 use mceip_exact::{Integer, Rational};
-use num_traits::{Signed, Zero};
+use num_traits::{One, Signed, Zero};
 
-const ENDS: [&str; 2] = ["lower", "upper"];
-/// Largest order, and order^2 times bits of the longest number: bounds the work on a small file.
+/// Largest order.
 const MAX_ORDER: u64 = 128;
+/// Largest product of order^2 and the bits of the longest number: bounds the work on a small file.
 const MAX_SIZE: u64 = 1 << 22;
+
+/// The matrix a A + b B at one end of the interval.
+struct End {
+    name: &'static str,
+    a: Rational,
+    b: Rational,
+    /// Is this the direction B, at infinity, so that semidefinite suffices?
+    is_infinite: bool,
+}
 
 pub(super) fn check(
     rows: &Rows,
@@ -22,136 +41,145 @@ pub(super) fn check(
     index: &[usize],
     ldl: &Ldl,
 ) -> Result<(), CoverFault> {
-    let at_rest = |i: &usize| {
-        index
-            .binary_search(i)
-            .is_ok_and(|p| region.states[p] == State::Rest)
+    let at_zero = region.positions(|state| state == State::AtZero);
+    let at_zero: Vec<usize> = at_zero.into_iter().map(|p| index[p]).collect();
+    let possible: Vec<usize> = (0..rows.order())
+        .filter(|i| at_zero.binary_search(i).is_err())
+        .collect();
+
+    let lower = End {
+        name: "lower",
+        a: Rational::one(),
+        b: region.lo.clone(),
+        is_infinite: false,
     };
-    let active: Vec<usize> = (0..rows.order()).filter(|i| !at_rest(i)).collect();
-    let one = Rational::from_integer(Integer::from(1));
-    // T(t) = A + tB at the ends, the direction B at infinity.
-    let upper = region.hi.as_ref().map_or_else(
-        || (Rational::zero(), one.clone()),
-        |hi| (one.clone(), hi.clone()),
-    );
-    let weights = [(one.clone(), region.lo.clone()), upper];
-    let sign = ldl
-        .lower
-        .diagonal
-        .first()
-        .map_or(1, |d| if d.0.is_negative() { -1 } else { 1 });
-    for (end, (factor, (a, b))) in [&ldl.lower, &ldl.upper]
-        .into_iter()
-        .zip(&weights)
-        .enumerate()
-    {
-        lengths(factor, active.len())?;
-        let weak = end == 1 && region.hi.is_none();
-        let wrong = |d: &Rational| {
-            if d.is_zero() {
-                !weak
-            } else {
-                d.is_negative() != (sign < 0)
-            }
+    let upper = match &region.hi {
+        Some(hi) => End {
+            name: "upper",
+            a: Rational::one(),
+            b: hi.clone(),
+            is_infinite: false,
+        },
+        None => End {
+            name: "upper",
+            a: Rational::zero(),
+            b: Rational::one(),
+            is_infinite: true,
+        },
+    };
+
+    let first = ldl.lower.diagonal.first();
+    let is_negative = first.is_some_and(|d| d.0.is_negative());
+    check_end(rows, &possible, &lower, &ldl.lower, is_negative)?;
+    check_end(rows, &possible, &upper, &ldl.upper, is_negative)
+}
+
+/// Demands that the factors are those of the symmetric part at this end, and that D has the sign.
+fn check_end(
+    rows: &Rows,
+    variables: &[usize],
+    end: &End,
+    factor: &LdlFactor,
+    is_negative: bool,
+) -> Result<(), CoverFault> {
+    check_shape(factor, variables.len())?;
+
+    for (k, d) in factor.diagonal.iter().enumerate() {
+        let has_sign = if d.0.is_zero() {
+            end.is_infinite
+        } else {
+            d.0.is_negative() == is_negative
         };
-        if let Some(k) = factor.diagonal.iter().position(|d| wrong(&d.0)) {
+        if !has_sign {
             return Err(CoverFault::NotDefinite {
-                index: active[k],
-                end: ENDS[end],
+                index: variables[k],
+                end: end.name,
             });
         }
-        let symmetric = symmetric_part(rows, &active, a, b);
-        for i in 0..active.len() {
-            for j in 0..=i {
-                if product(factor, i, j) != symmetric[i][j] {
-                    return Err(CoverFault::Factor {
-                        row: active[i],
-                        column: active[j],
-                        end: ENDS[end],
-                    });
-                }
+    }
+
+    let symmetric = symmetric_part(rows, variables, end);
+    for i in 0..variables.len() {
+        for j in 0..=i {
+            if product(factor, i, j) != symmetric[i][j] {
+                return Err(CoverFault::Factor {
+                    row: variables[i],
+                    column: variables[j],
+                    end: end.name,
+                });
             }
         }
     }
+
     Ok(())
 }
 
-fn lengths(factor: &LdlFactor, order: usize) -> Result<(), CoverFault> {
-    let length = |what, expected, got| {
-        if expected == got {
-            Ok(())
-        } else {
-            Err(CoverFault::Length {
-                what,
-                expected,
-                got,
-            })
-        }
-    };
-    length("ldl diagonal", order, factor.diagonal.len())?;
-    length("ldl rows", order, factor.rows.len())?;
-    factor
-        .rows
-        .iter()
-        .enumerate()
-        .try_for_each(|(i, row)| length("ldl row", i, row.len()))?;
-    let at_most = |what, limit, got| {
-        if got > limit {
-            Err(CoverFault::TooLarge { what, limit, got })
-        } else {
-            Ok(())
-        }
-    };
-    at_most("ldl order", MAX_ORDER, order as u64)?;
-    let numbers = factor.rows.iter().flatten().chain(&factor.diagonal);
-    let bits = numbers
-        .map(|n| n.0.numer().bits() + n.0.denom().bits())
-        .max()
-        .unwrap_or(0);
-    at_most(
-        "ldl size (order squared times bits)",
-        MAX_SIZE,
-        bits.saturating_mul((order * order) as u64),
-    )
+/// Demands the shape of a triangle and a diagonal of this order, within the limits.
+fn check_shape(factor: &LdlFactor, order: usize) -> Result<(), CoverFault> {
+    CoverFault::length("ldl diagonal", order, factor.diagonal.len())?;
+    CoverFault::length("ldl rows", order, factor.rows.len())?;
+    for (i, row) in factor.rows.iter().enumerate() {
+        CoverFault::length("ldl row", i, row.len())?;
+    }
+
+    CoverFault::at_most("ldl order", MAX_ORDER, order as u64)?;
+
+    let mut bits = 0;
+    for n in factor.rows.iter().flatten().chain(&factor.diagonal) {
+        bits = bits.max(n.0.numer().bits() + n.0.denom().bits());
+    }
+
+    let size = bits.saturating_mul((order * order) as u64);
+    CoverFault::at_most("ldl size (order squared times bits)", MAX_SIZE, size)
 }
 
 /// (L D L')_ij for j <= i.
-fn product(f: &LdlFactor, i: usize, j: usize) -> Rational {
-    let entry = |r: usize, k: usize| if k == r { None } else { Some(&f.rows[r][k].0) };
+fn product(factor: &LdlFactor, i: usize, j: usize) -> Rational {
     let mut sum = Rational::zero();
     for k in 0..=j {
-        let mut term = f.diagonal[k].0.clone();
-        for l in [entry(i, k), entry(j, k)].into_iter().flatten() {
-            term *= l;
+        let mut term = factor.diagonal[k].0.clone();
+        // L_kk = 1.
+        if k < i {
+            term *= &factor.rows[i][k].0;
         }
+
+        if k < j {
+            term *= &factor.rows[j][k].0;
+        }
+
         sum += term;
     }
+
     sum
 }
 
-/// sym(a A + b B) on the active variables, lower triangle.
-fn symmetric_part(rows: &Rows, active: &[usize], a: &Rational, b: &Rational) -> Vec<Vec<Rational>> {
-    let mut out: Vec<Vec<Rational>> = (0..active.len())
-        .map(|i| vec![Rational::zero(); i + 1])
-        .collect();
-    for (i, &row) in active.iter().enumerate() {
-        let half = Rational::new(Integer::from(1), &rows.factor[row] * 2);
-        for (column, c, l) in &rows.rows[row] {
-            let Ok(j) = active.binary_search(column) else {
+/// sym(a A + b B) on these variables, lower triangle.
+fn symmetric_part(rows: &Rows, variables: &[usize], end: &End) -> Vec<Vec<Rational>> {
+    let mut sum: Vec<Vec<Rational>> = Vec::with_capacity(variables.len());
+    for i in 0..variables.len() {
+        sum.push(vec![Rational::zero(); i + 1]);
+    }
+
+    for (i, &row) in variables.iter().enumerate() {
+        // Rows are integral multiples of the given ones.
+        let factor = Rational::new(Integer::one(), rows.factor[row].clone());
+        let half = Rational::new(Integer::one(), &rows.factor[row] * 2);
+
+        for (column, a, b) in &rows.rows[row] {
+            let Ok(j) = variables.binary_search(column) else {
                 continue;
             };
-            let value = (a * Rational::from_integer(c.clone())
-                + b * Rational::from_integer(l.clone()))
-                * &half;
-            // The diagonal entry is met once, halved.
-            out[i.max(j)][i.min(j)] += if i == j {
-                value * Rational::from_integer(Integer::from(2))
-            } else {
-                value
-            };
+            let a = Rational::from_integer(a.clone());
+            let b = Rational::from_integer(b.clone());
+            let entry = &end.a * a + &end.b * b;
+
+            // An entry off the diagonal is half of the symmetric one; the other half is its mirror.
+            let share = if i == j { &factor } else { &half };
+            sum[i.max(j)][i.min(j)] += entry * share;
         }
     }
-    out
+
+    sum
 }
 
 #[cfg(test)]
@@ -184,7 +212,7 @@ mod tests {
             Pencil::new(sparse([[2, 3], [-1, 4]]), sparse([[1, 0], [0, 0]]), vec![]).unwrap();
         let rows =
             Rows::of(&Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap());
-        let states = vec![State::Open, State::Moving];
+        let states = vec![State::Undecided, State::InSupport];
         let region = Region {
             lo: whole(1),
             hi: hi.map(whole),
@@ -311,14 +339,14 @@ mod tests {
     /// Order 128 and 2^22 bits in all are the largest that are multiplied out.
     #[test]
     fn what_is_multiplied_out_has_a_limit() {
-        let of = |order: usize, entry: Rational| {
+        let shape_of = |order: usize, entry: Rational| {
             let rows = (0..order).map(|i| vec![Number(whole(0)); i]).collect();
             let diagonal = (0..order).map(|_| Number(entry.clone())).collect();
-            lengths(&LdlFactor { rows, diagonal }, order)
+            check_shape(&LdlFactor { rows, diagonal }, order)
         };
         let large = |what, limit, got| Err(CoverFault::TooLarge { what, limit, got });
         assert_eq!(
-            [of(128, whole(1)), of(129, whole(1))],
+            [shape_of(128, whole(1)), shape_of(129, whole(1))],
             [Ok(()), large("ldl order", 128, 129)]
         );
         // Numerator and denominator count: 2^k has k + 1 bits.
@@ -326,13 +354,13 @@ mod tests {
             Rational::new(Integer::from(1) << up, (Integer::from(1) << down) + 1)
         };
         let size = "ldl size (order squared times bits)";
-        assert_eq!(of(4, power((1 << 18) - 3, 1)), Ok(()));
+        assert_eq!(shape_of(4, power((1 << 18) - 3, 1)), Ok(()));
         assert_eq!(
-            of(4, power((1 << 18) - 2, 1)),
+            shape_of(4, power((1 << 18) - 2, 1)),
             large(size, 1 << 22, (1 << 22) + 16)
         );
         assert_eq!(
-            of(4, power(1 << 17, 1 << 17)),
+            shape_of(4, power(1 << 17, 1 << 17)),
             large(size, 1 << 22, (1 << 22) + 32)
         );
     }

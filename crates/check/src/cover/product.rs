@@ -1,6 +1,9 @@
-//! Products of a sparse matrix and a dense one, exactly: in machine integers where all sums fit.
+//! The product of a sparse matrix linear in d and a dense one, exactly.
+//!
+//! The sums are formed in machine integers where all of them fit into 128 bits, for speed, and in
+//! long integers else; the result is the same. Called by `condensed`.
 
-use super::family::Matrix;
+use super::ends::{Matrix, largest_bits};
 use crate::pencil::Row;
 use mceip_exact::Integer;
 use num_traits::{ToPrimitive, Zero};
@@ -12,6 +15,9 @@ const SHORT_BITS: u64 = 127;
 /// Rows of a matrix linear in t or d: column, constant, coefficient.
 pub(super) type Linear = Vec<Row>;
 
+/// Rows of a sparse matrix: column, entry.
+type Sparse<T> = Vec<Vec<(usize, T)>>;
+
 /// One of the two coefficients of a matrix linear in d.
 #[derive(Clone, Copy)]
 pub(super) enum Part {
@@ -21,65 +27,78 @@ pub(super) enum Part {
     Linear,
 }
 
-/// The product of one part of F and W, exactly; in machine integers where the sums fit into 128
-/// bits. `None` where the part is zero.
+/// The product of one part of F and W, which has `cols` columns. `None` where the part is zero.
 pub(super) fn times(f: &Linear, part: Part, w: &Matrix, cols: usize) -> Option<Matrix> {
-    let pick = |(g, c, l): &'_ (usize, Integer, Integer)| {
-        (
-            *g,
-            if matches!(part, Part::Constant) {
-                c.clone()
-            } else {
-                l.clone()
-            },
-        )
-    };
-    let f: Vec<Vec<(usize, Integer)>> = f
-        .iter()
-        .map(|row| row.iter().map(pick).filter(|(_, v)| !v.is_zero()).collect())
-        .collect();
+    let f = nonzero(f, part);
     let terms = f.iter().map(Vec::len).max().filter(|most| *most > 0)?;
-    let bits =
-        |values: &mut dyn Iterator<Item = &Integer>| values.map(Integer::bits).max().unwrap_or(0);
-    let [f_bits, w_bits] = [
-        bits(&mut f.iter().flatten().map(|(_, v)| v)),
-        bits(&mut w.iter().flatten()),
-    ];
-    if f_bits + w_bits + u64::from(usize::BITS - terms.leading_zeros()) >= SHORT_BITS {
-        return Some(
-            f.iter()
-                .map(|row| sums(row.iter().map(|(g, c)| (&w[*g], c.clone())), cols))
-                .collect(),
-        );
+
+    let bits_of_f = largest_bits(f.iter().flatten().map(|(_, v)| v));
+    let bits_of_w = largest_bits(w.iter().flatten());
+    let bits_of_terms = u64::from(usize::BITS - terms.leading_zeros());
+    if bits_of_f + bits_of_w + bits_of_terms >= SHORT_BITS {
+        return Some(product(&f, w, cols));
     }
-    // Nothing is longer than a sum, so that all of it fits.
-    let short = |v: &Integer| v.to_i128().unwrap_or_default();
+
+    // No entry is longer than a sum, so that all of them fit.
+    let f: Sparse<i128> = f
+        .iter()
+        .map(|row| row.iter().map(|(g, c)| (*g, short(c))).collect())
+        .collect();
     let w: Vec<Vec<i128>> = w
         .iter()
         .map(|row| row.iter().map(short).collect())
         .collect();
-    let row = |row: &Vec<(usize, Integer)>| {
-        sums(row.iter().map(|(g, c)| (&w[*g], short(c))), cols)
-            .into_iter()
-            .map(Integer::from)
-            .collect()
-    };
-    Some(f.iter().map(row).collect())
+    let sums = product(&f, &w, cols);
+    Some(
+        sums.into_iter()
+            .map(|row| row.into_iter().map(Integer::from).collect())
+            .collect(),
+    )
 }
 
-/// sum of rows times factors.
-fn sums<'a, T: 'a + Clone + Zero + AddAssign>(
-    terms: impl Iterator<Item = (&'a Vec<T>, T)>,
-    cols: usize,
-) -> Vec<T>
+/// The entries of one part that are not zero.
+fn nonzero(f: &Linear, part: Part) -> Sparse<Integer> {
+    let mut rows = Vec::with_capacity(f.len());
+    for row in f {
+        let mut entries = Vec::with_capacity(row.len());
+        for (column, constant, linear) in row {
+            let entry = match part {
+                Part::Constant => constant,
+                Part::Linear => linear,
+            };
+            if !entry.is_zero() {
+                entries.push((*column, entry.clone()));
+            }
+        }
+
+        rows.push(entries);
+    }
+
+    rows
+}
+
+fn short(v: &Integer) -> i128 {
+    v.to_i128().unwrap_or_default()
+}
+
+/// F W: each row is a sum of rows of W times entries of F.
+fn product<T: Clone + Zero + AddAssign>(f: &Sparse<T>, w: &[Vec<T>], cols: usize) -> Vec<Vec<T>>
 where
     for<'b> &'b T: Mul<&'b T, Output = T>,
 {
-    let mut sum = vec![T::zero(); cols];
-    for (row, factor) in terms {
-        sum.iter_mut().zip(row).for_each(|(s, v)| *s += &factor * v);
+    let mut product = Vec::with_capacity(f.len());
+    for entries in f {
+        let mut sum = vec![T::zero(); cols];
+        for (g, factor) in entries {
+            for (s, v) in sum.iter_mut().zip(&w[*g]) {
+                *s += factor * v;
+            }
+        }
+
+        product.push(sum);
     }
-    sum
+
+    product
 }
 
 #[cfg(test)]

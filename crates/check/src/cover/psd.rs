@@ -1,7 +1,15 @@
-//! Is a large symmetric matrix positive semidefinite? A rounded Cholesky factor comes with the
-//! certificate, here it is multiplied out: S = L L' + E, E diagonally dominant (Gershgorin).
+//! Is a large symmetric matrix positive semidefinite?
+//!
+//! The certificate brings a rounded Cholesky factor L. The residual E = S - L L' is computed
+//! exactly; if it is diagonally dominant, E_ii >= sum_(j not i) |E_ij|, it is positive semidefinite
+//! (Gershgorin), and so is S = L L' + E. If it is strictly dominant, S is definite. Without a
+//! factor S has to be a non-negative diagonal.
+//!
+//! Only the lower triangle is looked at, so S must be symmetric. Entries of L L' are computed in
+//! machine integers where they fit. Called by `condensed` for its hypotheses.
 
-use super::CoverFault;
+use super::ends::largest_bits;
+use super::fault::CoverFault;
 use crate::certificate::Factor;
 use mceip_exact::Integer;
 use num_traits::{One, Signed, ToPrimitive, Zero};
@@ -15,8 +23,8 @@ const SHORT_BITS: u64 = 126;
 /// A symmetric matrix by rows: column to entry.
 pub(super) type Symmetric = Vec<BTreeMap<usize, Integer>>;
 
-/// S is positive semidefinite (`strictly`: definite). Without a factor S must be a non-negative
-/// diagonal. S is in units of 1 / `scale`, the factor in its own.
+/// Demands that S is positive semidefinite (`strictly`: definite). S is in units of 1 / `scale`,
+/// the factor in its own. `what` names the hypothesis in the fault.
 pub(super) fn semidefinite(
     s: &Symmetric,
     scale: &Integer,
@@ -24,156 +32,177 @@ pub(super) fn semidefinite(
     strictly: bool,
     what: &'static str,
 ) -> Result<(), CoverFault> {
-    let fault = |row| CoverFault::Hypothesis {
-        expected: what,
-        row,
-    };
-    let Some(factor) = factor else {
-        let bad = |i: &usize| {
-            s[*i].iter().any(|(j, v)| {
-                if j == i {
-                    v.is_negative()
-                } else {
-                    !v.is_zero()
-                }
-            })
-        };
-        let missing = |i: &usize| strictly && !s[*i].get(i).is_some_and(Signed::is_positive);
-        return (0..s.len())
-            .find(|i| bad(i) || missing(i))
-            .map_or(Ok(()), |row| Err(fault(row)));
-    };
-    shape(factor, s.len())?;
-    // Everything in units of 1 / (scale 4^exponent).
-    let (lift, n) = (Integer::one() << (2 * factor.exponent), s.len());
-    let short = short(factor);
-    let (mut diagonal, mut off) = (vec![Integer::zero(); n], vec![Integer::zero(); n]);
-    // The same sums over the entries where S is zero, in units of 1 / 4^exponent.
-    let mut fill = vec![0i128; n];
-    for i in 0..n {
-        let start = factor.first[i].min(s[i].keys().next().copied().unwrap_or(i));
-        for j in start..=i {
-            let given = s[i].get(&j);
-            let product = match (&short, given) {
-                (Some(rows), None) if i != j => {
-                    let size = short_product(factor, rows, i, j).abs();
-                    fill[i] += size;
-                    fill[j] += size;
-                    continue;
-                }
-                (Some(rows), _) => short_product(factor, rows, i, j).into(),
-                (None, _) => product(factor, i, j),
-            };
-            let residual = given.map_or_else(Integer::zero, |v| v * &lift) - product * scale;
-            if i == j {
-                diagonal[i] = residual;
-            } else {
-                off[i] += residual.abs();
-                off[j] += residual.abs();
-            }
+    let broken = match factor {
+        None => (0..s.len()).find(|&i| !is_diagonal_row(s, i, strictly)),
+        Some(factor) => {
+            shape(factor, s.len())?;
+            let residual = RowSums::of_residual(s, scale, factor);
+            (0..s.len()).find(|&i| !residual.is_dominant(i, strictly))
         }
+    };
+
+    match broken {
+        None => Ok(()),
+        Some(row) => Err(CoverFault::Hypothesis {
+            expected: what,
+            row,
+        }),
     }
-    off.iter_mut()
-        .zip(&fill)
-        .filter(|(_, fill)| **fill > 0)
-        .for_each(|(off, fill)| *off += Integer::from(*fill) * scale);
-    let holds = |i: usize| {
-        if strictly {
-            diagonal[i] > off[i]
-        } else {
-            diagonal[i] >= off[i]
-        }
-    };
-    (0..n)
-        .find(|&i| !holds(i))
-        .map_or(Ok(()), |row| Err(fault(row)))
 }
 
-/// (L L')_ij.
+/// Is row i zero but for its diagonal entry, which is >= 0 (`strictly`: > 0)?
+fn is_diagonal_row(s: &Symmetric, i: usize, strictly: bool) -> bool {
+    for (j, entry) in &s[i] {
+        let is_allowed = if *j == i {
+            !entry.is_negative()
+        } else {
+            entry.is_zero()
+        };
+        if !is_allowed {
+            return false;
+        }
+    }
+
+    !strictly || s[i].get(&i).is_some_and(Signed::is_positive)
+}
+
+/// Of each row the diagonal entry and the sum of the absolute values of the others.
+struct RowSums {
+    diagonal: Vec<Integer>,
+    off_diagonal: Vec<Integer>,
+}
+
+impl RowSums {
+    /// The row sums of E = S - L L', in units of 1 / (scale 4^exponent).
+    fn of_residual(s: &Symmetric, scale: &Integer, factor: &Factor) -> RowSums {
+        let n = s.len();
+        let lift = Integer::one() << (2 * factor.exponent);
+        let short = short(factor);
+        let mut sums = RowSums {
+            diagonal: vec![Integer::zero(); n],
+            off_diagonal: vec![Integer::zero(); n],
+        };
+        // The sums over the entries where S is zero, in units of 1 / 4^exponent.
+        let mut fill = vec![0i128; n];
+
+        for i in 0..n {
+            let first_of_s = s[i].keys().next().copied().unwrap_or(i);
+            for j in factor.first[i].min(first_of_s)..=i {
+                let given = s[i].get(&j);
+                let product = match &short {
+                    Some(rows) => {
+                        let product = short_product(factor, rows, i, j);
+                        if given.is_none() && i != j {
+                            fill[i] += product.abs();
+                            fill[j] += product.abs();
+                            continue;
+                        }
+
+                        Integer::from(product)
+                    }
+                    None => product(factor, i, j),
+                };
+
+                let mut residual = -product * scale;
+                if let Some(given) = given {
+                    residual += given * &lift;
+                }
+
+                sums.add(i, j, residual);
+            }
+        }
+
+        for (sum, fill) in sums.off_diagonal.iter_mut().zip(fill) {
+            if fill > 0 {
+                *sum += Integer::from(fill) * scale;
+            }
+        }
+
+        sums
+    }
+
+    /// Counts entry (i, j) of the lower triangle, and its mirror.
+    fn add(&mut self, i: usize, j: usize, entry: Integer) {
+        if i == j {
+            self.diagonal[i] = entry;
+        } else {
+            self.off_diagonal[i] += entry.abs();
+            self.off_diagonal[j] += entry.abs();
+        }
+    }
+
+    fn is_dominant(&self, i: usize, strictly: bool) -> bool {
+        if strictly {
+            self.diagonal[i] > self.off_diagonal[i]
+        } else {
+            self.diagonal[i] >= self.off_diagonal[i]
+        }
+    }
+}
+
+/// (L L')_ij for j <= i: the sum over the columns that both rows hold, up to j, where row j ends.
 fn product(factor: &Factor, i: usize, j: usize) -> Integer {
     let start = factor.first[i].max(factor.first[j]);
-    let from = |r: usize| {
-        factor.rows[r]
-            .iter()
-            .skip(start.saturating_sub(factor.first[r]))
-    };
-    from(i)
-        .zip(from(j))
-        .take((j + 1).saturating_sub(start))
-        .map(|(p, q)| p * q)
-        .sum()
+    let left = &factor.rows[i][start - factor.first[i]..];
+    let right = factor.rows[j].get(start - factor.first[j]..);
+
+    let mut sum = Integer::zero();
+    for (p, q) in left.iter().zip(right.unwrap_or_default()) {
+        sum += p * q;
+    }
+
+    sum
 }
 
 /// The factor's rows in machine integers, if a row sum of |L L'|, of at most n^2 products, fits
 /// into 128 bits.
 fn short(factor: &Factor) -> Option<Vec<Vec<i64>>> {
-    let bits = factor
-        .rows
-        .iter()
-        .flatten()
-        .map(Integer::bits)
-        .max()
-        .unwrap_or(0);
-    let order = u64::from(usize::BITS - factor.rows.len().leading_zeros());
-    let row = |row: &Vec<Integer>| {
-        row.iter()
-            .map(ToPrimitive::to_i64)
-            .collect::<Option<Vec<i64>>>()
-    };
-    if 2 * bits + 2 * order > SHORT_BITS {
-        None
-    } else {
-        factor.rows.iter().map(row).collect()
+    let bits = largest_bits(factor.rows.iter().flatten());
+    let bits_of_order = u64::from(usize::BITS - factor.rows.len().leading_zeros());
+    if 2 * bits + 2 * bits_of_order > SHORT_BITS {
+        return None;
     }
+
+    let mut rows = Vec::with_capacity(factor.rows.len());
+    for row in &factor.rows {
+        rows.push(row.iter().map(ToPrimitive::to_i64).collect::<Option<_>>()?);
+    }
+
+    Some(rows)
 }
 
 /// [`product`] of such rows.
 fn short_product(factor: &Factor, rows: &[Vec<i64>], i: usize, j: usize) -> i128 {
     let start = factor.first[i].max(factor.first[j]);
-    let from = |r: usize| &rows[r][(start - factor.first[r]).min(rows[r].len())..];
-    let terms = (j + 1).saturating_sub(start);
-    from(i)
-        .iter()
-        .zip(from(j))
-        .take(terms)
-        .map(|(p, q)| i128::from(*p) * i128::from(*q))
-        .sum()
+    let left = &rows[i][start - factor.first[i]..];
+    let right = rows[j].get(start - factor.first[j]..);
+
+    let mut sum = 0;
+    for (p, q) in left.iter().zip(right.unwrap_or_default()) {
+        sum += i128::from(*p) * i128::from(*q);
+    }
+
+    sum
 }
 
-/// Row i holds columns first[i] to i.
+/// Demands that row i holds the columns from `first` on, and that the exponent is within the limit.
 fn shape(factor: &Factor, n: usize) -> Result<(), CoverFault> {
-    for (what, got) in [
-        ("factor", factor.rows.len()),
-        ("first columns of the factor", factor.first.len()),
-    ] {
-        if got != n {
+    CoverFault::length("factor", n, factor.rows.len())?;
+    CoverFault::length("first columns of the factor", n, factor.first.len())?;
+    CoverFault::at_most("exponent", MAX_EXPONENT.into(), factor.exponent.into())?;
+
+    for (i, row) in factor.rows.iter().enumerate() {
+        let first = factor.first[i];
+        if first > i || row.len() != i + 1 - first {
             return Err(CoverFault::Length {
-                what,
-                expected: n,
-                got,
+                what: "row of the factor",
+                expected: (i + 1).saturating_sub(first),
+                got: row.len(),
             });
         }
     }
-    if factor.exponent > MAX_EXPONENT {
-        return Err(CoverFault::TooLarge {
-            what: "exponent",
-            limit: MAX_EXPONENT.into(),
-            got: factor.exponent.into(),
-        });
-    }
-    let bad =
-        (0..n).find(|&i| factor.first[i] > i || factor.rows[i].len() != i + 1 - factor.first[i]);
-    match bad {
-        Some(i) => {
-            let expected = (i + 1).saturating_sub(factor.first[i]);
-            Err(CoverFault::Length {
-                what: "row of the factor",
-                expected,
-                got: factor.rows[i].len(),
-            })
-        }
-        None => Ok(()),
-    }
+
+    Ok(())
 }
 
 #[cfg(test)]

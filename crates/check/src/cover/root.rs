@@ -1,14 +1,32 @@
-//! Leaves whose pencil has one null vector at most, and what it is.
+//! Root leaves: T(t) on a support has at most one null vector over the interval, and what it is.
 //!
-//! With k the pivot, T' the moving block without it, Y ~ T'^-1, v and u the right and left vectors:
-//! |I - Y T'| < 1 makes T' regular, so a null vector of T has a component k other than zero and is
-//! unique where the Schur complement phi(t) = T_kk - T_k' T'^-1 T_'k vanishes. phi' = u_true'
-//! (dT/dt) v_true of one sign leaves one t at most. |v_true - v| <= |Y (T_'k + T'v)| / (1 - |I -
-//! YT'|), likewise u with |I - T'Y|. phi = u'Tv - (residual of u)' T'^-1 (residual of v) locates
-//! the sign change.
+//! Every variable is decided. Let S be the support, k in S the *pivot*, and T' the block of T on S
+//! without k. The witness is Y ~ T'^-1 and vectors v, u ~ the right and left null vectors, with
+//! v_k = u_k = 1. All bounds hold for every T(t) of the enclosure:
+//!
+//! 1. |I - Y T'| <= rho < 1 and |I - T'Y| <= eta < 1 make Y and T' regular. So a null vector of
+//!    T_SS has a component k other than zero; scaled to 1 there it is v_true = -T'^-1 T_'k on the
+//!    rest, and it exists exactly where the Schur complement phi(t) = T_kk - T_k' T'^-1 T_'k is
+//!    zero.
+//! 2. |v_true - v| = |T'^-1 (T_'k + T'v)| <= |Y (T_'k + T'v)| / (1 - rho) =: eps_v, as
+//!    T'^-1 = (Y T')^-1 Y. Likewise eps_u for u, with Y on the other side and eta.
+//! 3. phi' = u_true' (dT/dt) v_true. If this is certainly not zero (*monotone*), phi has at most
+//!    one zero t.
+//! 4. phi = u'Tv - (residual of u)' T'^-1 (residual of v), where the second term is at most the sum
+//!    of |residual of u| times eps_v. So the sign of phi at an end can be told.
+//! 5. If phi has the same sign at both ends there is no null vector. If it has opposite signs at
+//!    the ends of [a, b], the only null vector is at a t in [a, b], and lies within eps of v there:
+//!    signs of x = v_true and of y = T x outside the support decide whether it is a solution.
+//!
+//! Norms are the largest row sum (right side) and the largest column sum (left side); |v_true - v|
+//! is the largest component.
+//!
+//! Input: the region, the *wide* ends over the hull of its interval and [a, b], the *narrow* ends
+//! over [a, b], the witness. Called by the walk, which treats the outcomes `claim` and `infinity`.
 
-use super::family::{Ends, Matrix};
-use super::{CoverFault, Region, State};
+use super::ends::{Ends, Matrix};
+use super::fault::CoverFault;
+use super::region::{Region, State};
 use crate::certificate::{Root, RootOutcome};
 use mceip_exact::{Integer, Rational};
 use num_traits::{One, Signed, Zero};
@@ -16,8 +34,8 @@ use num_traits::{One, Signed, Zero};
 /// Largest binary exponent of a witness.
 const MAX_EXPONENT: u32 = 1 << 14;
 
-/// `wide`: ends over the hull of the leaf and the root's interval; `narrow`: over that interval.
-/// For [`RootOutcome::Claim`] and [`RootOutcome::Infinity`] only uniqueness is checked here.
+/// Checks the witness. For [`RootOutcome::Claim`] and [`RootOutcome::Infinity`] it checks
+/// uniqueness only, steps 1 to 3.
 pub(super) fn check(
     region: &Region,
     wide: &Ends,
@@ -25,46 +43,73 @@ pub(super) fn check(
     index: &[usize],
     root: &Root,
 ) -> Result<(), CoverFault> {
-    let system = System::new(region, index, root)?;
-    let (rho, eta) = (
-        system.norm(wide, Side::Right)?,
-        system.norm(wide, Side::Left)?,
-    );
-    let right = system.error(wide, Side::Right, &rho);
-    let left = system.error(wide, Side::Left, &eta);
-    if !system.monotone(wide, &left, &right) {
+    let witness = Witness::new(region, index, root)?;
+
+    let rho = witness.norm(wide, Side::Right)?;
+    let eta = witness.norm(wide, Side::Left)?;
+    let right = witness.error(wide, Side::Right, &rho);
+    let left = witness.error(wide, Side::Left, &eta);
+    if !witness.monotone(wide, &left, &right) {
         return Err(CoverFault::NotMonotone);
     }
-    let at_wide_ends = || system.schur_sign(wide, 0, &rho) * system.schur_sign(wide, 1, &rho);
+
     match root.outcome {
         RootOutcome::Claim(_) | RootOutcome::Infinity(_) => return Ok(()),
-        RootOutcome::Absent if at_wide_ends() == 1 => return Ok(()),
+        RootOutcome::Absent if witness.schur_signs(wide, &rho) == 1 => return Ok(()),
         RootOutcome::Absent => return Err(CoverFault::SignChange),
-        _ => {}
+        RootOutcome::Solution | RootOutcome::NegativeX(_) | RootOutcome::NegativeY(_) => {}
     }
+
     let narrow = narrow()?;
-    if system.schur_sign(&narrow, 0, &rho) * system.schur_sign(&narrow, 1, &rho) != -1 {
+    if witness.schur_signs(&narrow, &rho) != -1 {
         let [lo, hi] = &root.interval;
         return Err(CoverFault::NoSignChange {
             lo: lo.0.clone(),
             hi: hi.0.clone(),
         });
     }
-    let error = system.error(&narrow, Side::Right, &rho);
-    system.signs(region, &narrow, &error, index, root)
+
+    // rho bounds |I - Y T'(t)| for every t of the hull, so for those of [a, b].
+    let error = witness.error(&narrow, Side::Right, &rho);
+    witness.check_outcome(region, &narrow, &error, index, &root.outcome)
 }
 
+/// Which null vector is meant: T v = 0 or u'T = 0.
+#[derive(Clone, Copy)]
 enum Side {
     Left,
     Right,
 }
 
-/// The witness, with positions among the complementarity variables. All vectors are over `moving`,
+/// Every number within `radius` of `center`.
+#[derive(Default)]
+struct Ball {
+    center: Integer,
+    radius: Integer,
+}
+
+impl Ball {
+    /// Adds factor * (center +- radius).
+    fn add(&mut self, factor: &Integer, center: &Integer, radius: &Integer) {
+        self.center += factor * center;
+        if !radius.is_zero() {
+            self.radius += factor.abs() * radius;
+        }
+    }
+
+    /// The largest absolute value.
+    fn magnitude(&self) -> Integer {
+        self.center.abs() + &self.radius
+    }
+}
+
+/// The witness, with positions among the complementarity variables. All vectors are over `support`,
 /// whose last entry is the pivot, with component 1.
-struct System<'a> {
-    moving: Vec<usize>,
-    /// Y, and 1 in its units.
+struct Witness<'a> {
+    support: Vec<usize>,
+    /// Y.
     y: &'a Matrix,
+    /// 1 in units of Y.
     y_one: Integer,
     u: Vec<Integer>,
     v: Vec<Integer>,
@@ -72,52 +117,29 @@ struct System<'a> {
     one: Integer,
 }
 
-impl<'a> System<'a> {
+impl<'a> Witness<'a> {
     fn new(region: &Region, index: &[usize], root: &'a Root) -> Result<Self, CoverFault> {
-        let all_decided = region.states.iter().all(|s| *s != State::Open);
-        let mut moving: Vec<usize> = (0..index.len())
-            .filter(|&i| region.states[i] == State::Moving)
-            .collect();
-        if !all_decided || moving.is_empty() {
+        let mut support = region.support();
+        if !region.is_decided() || support.is_empty() {
             return Err(CoverFault::RootTooEarly);
         }
-        let pivot = moving
+
+        let pivot = support
             .iter()
             .position(|&i| index[i] == root.pivot)
             .ok_or(CoverFault::Pivot { index: root.pivot })?;
-        let pivot = moving.remove(pivot);
-        let n = moving.len();
-        moving.push(pivot);
-        let lengths = [
-            ("left", root.left.len()),
-            ("right", root.right.len()),
-            ("inverse", root.inverse.len()),
-        ];
-        for (what, got) in lengths
-            .into_iter()
-            .chain(root.inverse.iter().map(|r| ("inverse row", r.len())))
-        {
-            if got != n {
-                return Err(CoverFault::Length {
-                    what,
-                    expected: n,
-                    got,
-                });
-            }
-        }
-        let largest = root.exponent.max(root.inverse_exponent);
-        if largest > MAX_EXPONENT {
-            return Err(CoverFault::TooLarge {
-                what: "exponent",
-                limit: MAX_EXPONENT.into(),
-                got: largest.into(),
-            });
-        }
+        let pivot = support.remove(pivot);
+        check_shape(root, support.len())?;
+        support.push(pivot);
+
         let one = Integer::one() << root.exponent;
-        let with_one = |list: &[Integer]| list.iter().cloned().chain([one.clone()]).collect();
-        let (u, v) = (with_one(&root.left), with_one(&root.right));
-        Ok(System {
-            moving,
+        let mut u = root.left.clone();
+        let mut v = root.right.clone();
+        u.push(one.clone());
+        v.push(one.clone());
+
+        Ok(Witness {
+            support,
             y: &root.inverse,
             y_one: Integer::one() << root.inverse_exponent,
             u,
@@ -128,39 +150,31 @@ impl<'a> System<'a> {
 
     /// Order of T'.
     fn order(&self) -> usize {
-        self.moving.len() - 1
+        self.support.len() - 1
     }
 
-    /// |I - Y T'| in the row norm (right) or |I - T'Y| in the column norm (left) over both ends, <
-    /// 1.
+    /// rho or eta: |I - Y T'| in the row norm (right) or |I - T'Y| in the column norm (left) over
+    /// both ends. Demands that it is less than 1.
     fn norm(&self, ends: &Ends, side: Side) -> Result<Rational, CoverFault> {
-        let (n, one) = (self.order(), &self.y_one * &ends.scale);
+        let one = &self.y_one * &ends.scale;
         let mut largest = Integer::zero();
+
         for end in 0..2 {
-            for i in 0..n {
+            for i in 0..self.order() {
                 let mut sum = Integer::zero();
-                for j in 0..n {
-                    let (mut product, mut radius) = (Integer::zero(), Integer::zero());
-                    for k in 0..n {
-                        // Right: (Y T')_ij; left: (T' Y)_ji.
-                        let (y, row, col) = match side {
-                            Side::Right => (&self.y[i][k], self.moving[k], self.moving[j]),
-                            Side::Left => (&self.y[k][i], self.moving[j], self.moving[k]),
-                        };
-                        product += y * &ends.m[end][row][col];
-                        let r = &ends.r[end][row][col];
-                        if !r.is_zero() {
-                            radius += y.abs() * r;
-                        }
-                    }
+                for j in 0..self.order() {
+                    let mut product = self.product(ends, end, side, (i, j));
                     if i == j {
-                        product -= &one;
+                        product.center -= &one;
                     }
-                    sum += product.abs() + radius;
+
+                    sum += product.magnitude();
                 }
+
                 largest = largest.max(sum);
             }
         }
+
         let norm = Rational::new(largest, one);
         if norm < Rational::one() {
             Ok(norm)
@@ -169,190 +183,234 @@ impl<'a> System<'a> {
         }
     }
 
-    /// Residual T_'k + T'v (right) or T_k' + u'T' (left) at an end, each entry with its radius, in
-    /// units of 1 / (one scale).
-    fn residual(&self, ends: &Ends, end: usize, side: &Side) -> Vec<(Integer, Integer)> {
-        let n = self.order();
-        (0..n)
-            .map(|i| {
-                let (mut sum, mut radius) = (Integer::zero(), Integer::zero());
-                for j in 0..=n {
-                    let (x, row, col) = match side {
-                        Side::Right => (&self.v[j], self.moving[i], self.moving[j]),
-                        Side::Left => (&self.u[j], self.moving[j], self.moving[i]),
-                    };
-                    sum += x * &ends.m[end][row][col];
-                    let r = &ends.r[end][row][col];
-                    if !r.is_zero() {
-                        radius += x.abs() * r;
-                    }
-                }
-                (sum, radius)
-            })
-            .collect()
-    }
+    /// (Y T')_ij (right) or (T'Y)_ji (left) at an end.
+    fn product(&self, ends: &Ends, end: usize, side: Side, (i, j): (usize, usize)) -> Ball {
+        let m = &ends.m[end];
+        let r = &ends.r[end];
+        let s = &self.support;
 
-    /// Bound of |v_true - v| (right) or |u_true - u| (left) in every component over both ends.
-    fn error(&self, ends: &Ends, side: Side, norm: &Rational) -> Rational {
-        (0..2)
-            .map(|end| self.error_at(ends, end, &side, norm))
-            .max()
-            .unwrap_or_else(Rational::zero)
-    }
-
-    fn error_at(&self, ends: &Ends, end: usize, side: &Side, norm: &Rational) -> Rational {
-        let n = self.order();
-        let residual = self.residual(ends, end, side);
-        let largest = (0..n).map(|i| {
-            let (mut sum, mut radius) = (Integer::zero(), Integer::zero());
-            for (k, (value, around)) in residual.iter().enumerate() {
-                let y = if matches!(side, Side::Right) {
-                    &self.y[i][k]
-                } else {
-                    &self.y[k][i]
-                };
-                sum += y * value;
-                radius += y.abs() * around;
+        let mut sum = Ball::default();
+        for k in 0..self.order() {
+            match side {
+                Side::Right => sum.add(&self.y[i][k], &m[s[k]][s[j]], &r[s[k]][s[j]]),
+                Side::Left => sum.add(&self.y[k][i], &m[s[j]][s[k]], &r[s[j]][s[k]]),
             }
-            sum.abs() + radius
-        });
+        }
+
+        sum
+    }
+
+    /// Residual T_'k + T'v (right) or T_k' + u'T' (left) at an end, in units of 1 / (one scale).
+    fn residual(&self, ends: &Ends, end: usize, side: Side) -> Vec<Ball> {
+        let m = &ends.m[end];
+        let r = &ends.r[end];
+        let s = &self.support;
+
+        let mut residual = Vec::with_capacity(self.order());
+        for i in 0..self.order() {
+            let mut sum = Ball::default();
+            for j in 0..s.len() {
+                match side {
+                    Side::Right => sum.add(&self.v[j], &m[s[i]][s[j]], &r[s[i]][s[j]]),
+                    Side::Left => sum.add(&self.u[j], &m[s[j]][s[i]], &r[s[j]][s[i]]),
+                }
+            }
+
+            residual.push(sum);
+        }
+
+        residual
+    }
+
+    /// eps: bound of |v_true - v| (right) or |u_true - u| (left) over both ends.
+    fn error(&self, ends: &Ends, side: Side, norm: &Rational) -> Rational {
+        let lower = self.error_at(ends, 0, side, norm);
+        let upper = self.error_at(ends, 1, side, norm);
+        lower.max(upper)
+    }
+
+    /// The same at one end: the largest component of |Y residual| / (1 - norm).
+    fn error_at(&self, ends: &Ends, end: usize, side: Side, norm: &Rational) -> Rational {
+        let residual = self.residual(ends, end, side);
+        let mut largest = Integer::zero();
+
+        for i in 0..self.order() {
+            let mut sum = Ball::default();
+            for (k, entry) in residual.iter().enumerate() {
+                let y = match side {
+                    Side::Right => &self.y[i][k],
+                    Side::Left => &self.y[k][i],
+                };
+                sum.add(y, &entry.center, &entry.radius);
+            }
+
+            largest = largest.max(sum.magnitude());
+        }
+
         let unit = &self.y_one * &self.one * &ends.scale;
-        Rational::new(largest.max().unwrap_or_default(), unit) / (Rational::one() - norm)
+        Rational::new(largest, unit) / (Rational::one() - norm)
     }
 
     /// Is u_true' (dT/dt) v_true certainly not zero over the interval?
+    ///
+    /// `left` and `right` bound |u_true - u| and |v_true - v|. The interval's length times dT/dt
+    /// lies within D (`slope`) of M1 - M0.
     fn monotone(&self, ends: &Ends, left: &Rational, right: &Rational) -> bool {
-        let n = self.order();
-        let units = |e: &Rational| {
-            (e * Rational::from_integer(self.one.clone()))
-                .ceil()
-                .to_integer()
-        };
-        let (e_u, e_v) = (units(left), units(right));
-        let (mut slope, mut radius) = (Integer::zero(), Integer::zero());
-        for i in 0..=n {
-            let (u, e_u) = (
-                &self.u[i],
-                if i < n { e_u.clone() } else { Integer::zero() },
-            );
-            for j in 0..=n {
-                let (v, e_v) = (
-                    &self.v[j],
-                    if j < n { e_v.clone() } else { Integer::zero() },
-                );
-                let (row, col) = (self.moving[i], self.moving[j]);
-                let d = &ends.m[1][row][col] - &ends.m[0][row][col];
-                let around = &ends.slope[row][col];
-                slope += u * &d * v;
-                radius += around * u.abs() * v.abs()
-                    + (d.abs() + around) * (&e_u * v.abs() + u.abs() * &e_v + &e_u * &e_v);
+        let left = self.rounded_up(left);
+        let right = self.rounded_up(right);
+        let exact = Integer::zero();
+        let order = self.order();
+
+        let mut slope = Integer::zero();
+        let mut radius = Integer::zero();
+        for (i, &row) in self.support.iter().enumerate() {
+            let u = &self.u[i];
+            let e_u = if i < order { &left } else { &exact };
+
+            for (j, &column) in self.support.iter().enumerate() {
+                let v = &self.v[j];
+                let e_v = if j < order { &right } else { &exact };
+
+                let difference = &ends.m[1][row][column] - &ends.m[0][row][column];
+                let around = &ends.slope[row][column];
+                slope += u * &difference * v;
+                radius += around * u.abs() * v.abs();
+                radius += (difference.abs() + around) * (e_u * v.abs() + u.abs() * e_v + e_u * e_v);
             }
         }
+
         slope.abs() > radius
+    }
+
+    /// A bound of a component of u or v in their units.
+    fn rounded_up(&self, bound: &Rational) -> Integer {
+        let in_units = bound * Rational::from_integer(self.one.clone());
+        in_units.ceil().to_integer()
+    }
+
+    /// 1 if phi certainly has one sign at both ends, -1 if it certainly changes, else 0.
+    fn schur_signs(&self, ends: &Ends, norm: &Rational) -> i8 {
+        self.schur_sign(ends, 0, norm) * self.schur_sign(ends, 1, norm)
     }
 
     /// Certain sign of phi at an end, 0 if none.
     fn schur_sign(&self, ends: &Ends, end: usize, norm: &Rational) -> i8 {
-        let n = self.order();
-        let (mut phi, mut radius) = (Integer::zero(), Integer::zero());
-        for i in 0..=n {
-            for j in 0..=n {
-                let (row, col) = (self.moving[i], self.moving[j]);
-                phi += &self.u[i] * &ends.m[end][row][col] * &self.v[j];
-                radius += self.u[i].abs() * &ends.r[end][row][col] * self.v[j].abs();
+        let mut phi = Integer::zero(); // u'Tv
+        let mut radius = Integer::zero();
+        for (i, &row) in self.support.iter().enumerate() {
+            for (j, &column) in self.support.iter().enumerate() {
+                phi += &self.u[i] * &ends.m[end][row][column] * &self.v[j];
+                radius += self.u[i].abs() * &ends.r[end][row][column] * self.v[j].abs();
             }
         }
-        let left: Integer = self
-            .residual(ends, end, &Side::Left)
-            .iter()
-            .map(|(value, around)| value.abs() + around)
-            .sum();
-        let error = self.error_at(ends, end, &Side::Right, norm);
-        let second = (Rational::from_integer(left * &self.one) * error)
-            .ceil()
-            .to_integer();
-        radius += second;
-        if phi > radius {
-            1
-        } else if -phi > radius {
-            -1
-        } else {
-            0
+
+        let mut left_residual = Integer::zero();
+        for entry in self.residual(ends, end, Side::Left) {
+            left_residual += entry.magnitude();
         }
+
+        let error = self.error_at(ends, end, Side::Right, norm);
+        let second_term = Rational::from_integer(left_residual * &self.one) * error;
+        radius += second_term.ceil().to_integer();
+
+        certain(&phi, &radius)
     }
 
-    /// The signs of x and y that the outcome states, over the narrow interval.
-    fn signs(
+    /// Demands the signs of x and y that the outcome states, over the narrow interval.
+    fn check_outcome(
         &self,
         region: &Region,
         ends: &Ends,
         error: &Rational,
         index: &[usize],
-        root: &Root,
+        outcome: &RootOutcome,
     ) -> Result<(), CoverFault> {
-        // eps' in units of v, as a fraction that is not rounded.
+        // eps in units of v, as a fraction that is not rounded.
         let error = error * Rational::from_integer(self.one.clone());
-        let none = Rational::zero();
-        let x = |p: usize| {
-            let error = if p < self.order() { &error } else { &none };
-            certain(&(&self.v[p] * error.denom()), error.numer())
-        };
-        let y = |s: usize| {
-            let signs = [
-                self.row_sign(ends, 0, s, &error),
-                self.row_sign(ends, 1, s, &error),
-            ];
-            if signs[0] == signs[1] { signs[0] } else { 0 }
-        };
-        let fault = |component, index, expected| {
-            Err(CoverFault::Sign {
-                component,
-                index,
-                expected,
-            })
-        };
-        match root.outcome {
+
+        match *outcome {
             RootOutcome::Solution => {
-                if let Some(p) = (0..self.moving.len()).find(|&p| x(p) != 1) {
-                    return fault("x", index[self.moving[p]], "> 0");
+                for (p, &i) in self.support.iter().enumerate() {
+                    if self.x_sign(p, &error) != 1 {
+                        return Err(sign_fault("x", index[i], "> 0"));
+                    }
                 }
-                match (0..index.len()).find(|&s| region.states[s] == State::Rest && y(s) != 1) {
-                    Some(s) => fault("y", index[s], "> 0"),
-                    None => Ok(()),
+
+                for i in region.positions(|state| state == State::AtZero) {
+                    if self.y_sign(ends, i, &error) != 1 {
+                        return Err(sign_fault("y", index[i], "> 0"));
+                    }
+                }
+
+                Ok(())
+            }
+            RootOutcome::NegativeX(stated) => {
+                match self.support.iter().position(|&i| index[i] == stated) {
+                    Some(p) if self.x_sign(p, &error) == -1 => Ok(()),
+                    _ => Err(sign_fault("x", stated, "< 0")),
                 }
             }
-            RootOutcome::NegativeX(i) => match self.moving.iter().position(|&p| index[p] == i) {
-                Some(p) if x(p) == -1 => Ok(()),
-                _ => fault("x", i, "< 0"),
-            },
-            RootOutcome::NegativeY(i) => match index.iter().position(|&s| s == i) {
-                Some(s) if region.states[s] == State::Rest && y(s) == -1 => Ok(()),
-                _ => fault("y", i, "< 0"),
-            },
-            // Dealt with before.
+            RootOutcome::NegativeY(stated) => {
+                let is_at_zero = |i: &usize| region.states[*i] == State::AtZero;
+                match index.iter().position(|&i| i == stated).filter(is_at_zero) {
+                    Some(i) if self.y_sign(ends, i, &error) == -1 => Ok(()),
+                    _ => Err(sign_fault("y", stated, "< 0")),
+                }
+            }
+            // `check` has returned before for these.
             RootOutcome::Claim(_) | RootOutcome::Absent | RootOutcome::Infinity(_) => Ok(()),
         }
     }
 
-    /// Certain sign of row s of T v_true at an end; every component of v but the pivot's is within
+    /// Certain sign of component p of v_true, which is within `error` units of v_p; that of the
+    /// pivot is 1.
+    fn x_sign(&self, p: usize, error: &Rational) -> i8 {
+        if p == self.order() {
+            return 1;
+        }
+
+        certain(&(&self.v[p] * error.denom()), error.numer())
+    }
+
+    /// Certain sign of row i of T v_true over the interval.
+    fn y_sign(&self, ends: &Ends, i: usize, error: &Rational) -> i8 {
+        let lower = self.row_sign(ends, 0, i, error);
+        let upper = self.row_sign(ends, 1, i, error);
+        if lower == upper { lower } else { 0 }
+    }
+
+    /// Certain sign of row i of T v_true at an end; every component of v but the pivot's is within
     /// `error` units.
-    fn row_sign(&self, ends: &Ends, end: usize, s: usize, error: &Rational) -> i8 {
-        let mut sum = Integer::zero();
-        let mut radius = Integer::zero();
+    fn row_sign(&self, ends: &Ends, end: usize, i: usize, error: &Rational) -> i8 {
+        let mut sum = Ball::default();
         let mut reach = Integer::zero(); // sum of |m| + r, to be multiplied by the error
-        for (p, &col) in self.moving.iter().enumerate() {
-            let (m, r) = (&ends.m[end][s][col], &ends.r[end][s][col]);
-            sum += m * &self.v[p];
-            radius += r * self.v[p].abs();
+        for (p, &column) in self.support.iter().enumerate() {
+            let m = &ends.m[end][i][column];
+            let r = &ends.r[end][i][column];
+            sum.add(&self.v[p], m, r);
             if p < self.order() {
                 reach += m.abs() + r;
             }
         }
+
         certain(
-            &(sum * error.denom()),
-            &(radius * error.denom() + reach * error.numer()),
+            &(sum.center * error.denom()),
+            &(sum.radius * error.denom() + reach * error.numer()),
         )
     }
+}
+
+/// Demands that u, v and Y have order n, and that their exponents are within the limit.
+fn check_shape(root: &Root, n: usize) -> Result<(), CoverFault> {
+    CoverFault::length("left", n, root.left.len())?;
+    CoverFault::length("right", n, root.right.len())?;
+    CoverFault::length("inverse", n, root.inverse.len())?;
+    for row in &root.inverse {
+        CoverFault::length("inverse row", n, row.len())?;
+    }
+
+    let exponent = root.exponent.max(root.inverse_exponent);
+    CoverFault::at_most("exponent", MAX_EXPONENT.into(), exponent.into())
 }
 
 /// Sign of every number within `radius` of `value`, 0 if they differ.
@@ -363,6 +421,14 @@ fn certain(value: &Integer, radius: &Integer) -> i8 {
         -1
     } else {
         0
+    }
+}
+
+fn sign_fault(component: &'static str, index: usize, expected: &'static str) -> CoverFault {
+    CoverFault::Sign {
+        component,
+        index,
+        expected,
     }
 }
 

@@ -1,11 +1,23 @@
-//! Polynomials that keep their sign between two algebraic numbers.
+//! Signs of polynomials at algebraic numbers and between two of them, and the budget for them.
 //!
-//! Descartes' rule of signs: p has no root in (a, b) if (1 + x)^n p((a + bx) / (1 + x)) has
-//! coefficients of one sign. Where that is not so the interval is halved, a few times. A
-//! transformation of a polynomial with n coefficients takes n^2 / 2 additions of numbers of n times
-//! the bits of a and b: it is counted as n^3 (bits + 64), and the leaves of a file have a budget of
-//! such counts.
+//! *Descartes' rule of signs.* If the polynomial (1 + x)^n p((a + bx) / (1 + x)) has coefficients
+//! of one sign, p has no root in (a, b); if they change once, it has exactly one. (For (a,
+//! infinity) the polynomial is p(a + x).) Where there are more changes the interval is halved, a
+//! few times; what is not decided then counts as a possible root.
+//!
+//! *Between two roots.* Let [a, b] isolate a root r of p, and [a', b'] the next one. A polynomial g
+//! has no root in (r, r') if it has none in (b, a') and none in [a, b] and [a', b'] other than the
+//! isolated ones. For the latter g is divided by p as often as p divides it. Then the sign of g in
+//! the middle of [b, a'] is its sign all between.
+//!
+//! *SignBudget.* A transformation of a polynomial with n coefficients takes n^2 / 2 additions of
+//! numbers of n times the bits of a and b: it is counted as n^3 (bits + 64). Remainders and
+//! evaluations are counted in the same unit. All leaves of a file share one budget
+//! (`spec/certificates.md`, Limits). Once it is spent, no sign can be told any more.
+//!
+//! Called by `support`.
 
+use super::ends::rational_bits;
 use mceip_exact::{Integer, Interval, Poly, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
@@ -25,14 +37,14 @@ const REMAINDER_SHIFT: u32 = 9;
 const EVALUATION_SHIFT: u32 = 8;
 
 /// What is left of the counts of a file.
-pub(super) struct Budget {
+pub(super) struct SignBudget {
     left: Cell<u64>,
     is_spent: Cell<bool>,
 }
 
-impl Budget {
+impl SignBudget {
     pub(super) fn new() -> Self {
-        Budget {
+        SignBudget {
             left: Cell::new(BASE_BUDGET),
             is_spent: Cell::new(false),
         }
@@ -52,7 +64,8 @@ impl Budget {
     /// Takes what the remainder of g by p costs: every step makes it longer by the leading
     /// coefficient of p.
     fn spend_remainder(&self, g: &Poly, p: &Poly) -> bool {
-        let [length, divisor] = [g, p].map(|q| q.coeffs().len() as u64);
+        let length = g.coeffs().len() as u64;
+        let divisor = p.coeffs().len() as u64;
         let steps = (length + 1).saturating_sub(divisor);
         let bits = p.coeffs().iter().map(Integer::bits).max().unwrap_or(0) + 64;
 
@@ -63,8 +76,7 @@ impl Budget {
     /// Takes what Horner's rule for p over an interval costs: its numbers grow by the bits of the
     /// ends at each coefficient.
     fn spend_evaluation(&self, p: &Poly, at: &Interval) -> bool {
-        let bits_of = |v: &Rational| v.numer().bits() + v.denom().bits();
-        let bits = bits_of(at.lo()) + bits_of(at.hi()) + 64;
+        let bits = rational_bits(at.lo()) + rational_bits(at.hi()) + 64;
 
         let size = bits.saturating_mul(p.coeffs().len() as u64);
         self.take(size.saturating_mul(size) >> EVALUATION_SHIFT)
@@ -72,8 +84,7 @@ impl Budget {
 
     /// Takes what transforming the polynomial costs; false if that is more than is left.
     fn spend(&self, p: &Poly, a: &Rational, b: Option<&Rational>) -> bool {
-        let bits_of = |v: &Rational| v.numer().bits() + v.denom().bits();
-        let bits = bits_of(a) + b.map_or(0, bits_of);
+        let bits = rational_bits(a) + b.map_or(0, rational_bits);
 
         let count = p.coeffs().len() as u64;
         self.take(count.saturating_pow(3).saturating_mul(bits + 64))
@@ -84,39 +95,49 @@ impl Budget {
             Some(left) => self.left.set(left),
             None => self.is_spent.set(true),
         }
+
         !self.is_spent.get()
     }
 }
 
 /// The only root of `poly` in `value`.
-pub(super) struct Root {
+pub(super) struct AlgebraicValue {
     pub(super) poly: Poly,
     pub(super) value: Interval,
 }
 
-impl Root {
+impl AlgebraicValue {
     /// The sign of g here, if it can be told.
-    pub(super) fn sign(&self, g: &Poly, budget: &Budget) -> Option<i8> {
+    pub(super) fn sign(&self, g: &Poly, budget: &SignBudget) -> Option<i8> {
         if !budget.spend_remainder(g, &self.poly) {
             return None;
         }
-        let rest = g.pseudo_rem(&self.poly);
-        if rest.is_zero() {
+
+        let remainder = g.pseudo_rem(&self.poly);
+        if remainder.is_zero() {
             return Some(0);
         }
-        if !budget.spend_evaluation(&rest, &self.value) {
+
+        if !budget.spend_evaluation(&remainder, &self.value) {
             return None;
         }
-        Some(self.value.horner_rounded(&rest).certain_sign()).filter(|s| *s != 0)
+
+        match self.value.horner_rounded(&remainder).certain_sign() {
+            0 => None,
+            sign => Some(sign),
+        }
     }
 
     /// Has g no root in the isolating interval but possibly this one?
-    fn is_only_root_of(&self, g: &Poly, budget: &Budget) -> bool {
+    fn is_only_root_of(&self, g: &Poly, budget: &SignBudget) -> bool {
         if self.value.is_point() {
             return true;
         }
+
+        let a = self.value.lo();
+        let b = self.value.hi();
         let rest = stripped(g, &self.poly, budget);
-        let (a, b) = (self.value.lo(), self.value.hi());
+
         rest.sign_at(a) != 0 && rest.sign_at(b) != 0 && has_no_root(&rest, a, Some(b), budget)
     }
 }
@@ -125,38 +146,52 @@ impl Root {
 /// told.
 pub(super) fn sign_between(
     g: &Poly,
-    left: &Root,
-    right: Option<&Root>,
-    budget: &Budget,
+    left: &AlgebraicValue,
+    right: Option<&AlgebraicValue>,
+    budget: &SignBudget,
 ) -> Option<i8> {
     if g.is_zero() {
         return Some(0);
     }
-    let (a, b) = (left.value.hi(), right.map(|r| r.value.lo()));
-    let sample = b.map_or_else(
-        || a + Rational::one(),
-        |b| (a + b) / Rational::from_integer(2.into()),
-    );
-    let near =
-        left.is_only_root_of(g, budget) && right.is_none_or(|r| r.is_only_root_of(g, budget));
-    (near && has_no_root(g, a, b, budget)).then(|| g.sign_at(&sample))
+
+    let is_only_root = |root: &AlgebraicValue| root.is_only_root_of(g, budget);
+    if !is_only_root(left) || !right.is_none_or(is_only_root) {
+        return None;
+    }
+
+    let a = left.value.hi();
+    let b = right.map(|root| root.value.lo());
+    if !has_no_root(g, a, b, budget) {
+        return None;
+    }
+
+    let sample = match b {
+        Some(b) => (a + b) / Rational::from_integer(2.into()),
+        None => a + Rational::one(),
+    };
+    Some(g.sign_at(&sample))
 }
 
 /// Is it certain that p has no root in the open interval?
-pub(super) fn has_no_root(p: &Poly, a: &Rational, b: Option<&Rational>, budget: &Budget) -> bool {
-    Halving {
+pub(super) fn has_no_root(
+    p: &Poly,
+    a: &Rational,
+    b: Option<&Rational>,
+    budget: &SignBudget,
+) -> bool {
+    let mut halving = Halving {
         p,
         halvings: MAX_HALVINGS,
         budget,
-    }
-    .has_none(a, b, MAX_DEPTH)
+    };
+    halving.has_none(a, b, MAX_DEPTH)
 }
 
 struct Halving<'a> {
     p: &'a Poly,
     /// Halvings left.
     halvings: usize,
-    budget: &'a Budget,
+    budget: &'a SignBudget,
 }
 
 impl Halving<'_> {
@@ -164,6 +199,7 @@ impl Halving<'_> {
         if !self.budget.spend(self.p, a, b) {
             return false;
         }
+
         match sign_changes(self.p, a, b) {
             0 => true,
             1 => false,
@@ -190,34 +226,44 @@ fn middle_of(a: &Rational, b: Option<&Rational>) -> Rational {
 /// Descartes' bound of the number of roots in the open interval.
 fn sign_changes(p: &Poly, a: &Rational, b: Option<&Rational>) -> usize {
     let width = b.map(|b| b - a);
-    let unit = width
-        .as_ref()
-        .map_or(a.denom().clone(), |w| a.denom().lcm(w.denom()));
+    let unit = match &width {
+        Some(width) => a.denom().lcm(width.denom()),
+        None => a.denom().clone(),
+    };
     let in_units = |v: &Rational| v.numer() * (&unit / v.denom());
+
     // p(y / unit) unit^n, shifted to begin at a.
-    let mut power = Integer::one();
-    let mut c: Vec<Integer> = p.coeffs().to_vec();
-    for c_k in c.iter_mut().rev() {
-        *c_k *= &power;
-        power *= &unit;
-    }
-    shift(&mut c, &in_units(a));
+    let mut coefficients: Vec<Integer> = p.coeffs().to_vec();
+    multiply_by_powers(coefficients.iter_mut().rev(), &unit);
+    shift(&mut coefficients, &in_units(a));
+
     if let Some(width) = width {
         // y = width s with s = 1 / (1 + x).
-        let (width, mut power) = (in_units(&width), Integer::one());
-        for c_k in &mut c {
-            *c_k *= &power;
-            power *= &width;
-        }
-        c.reverse();
-        shift(&mut c, &Integer::one());
+        multiply_by_powers(coefficients.iter_mut(), &in_units(&width));
+        coefficients.reverse();
+        shift(&mut coefficients, &Integer::one());
     }
-    let signs: Vec<bool> = c
+
+    changes(&coefficients)
+}
+
+/// Multiplies the k-th of the coefficients by factor^k.
+fn multiply_by_powers<'a>(coefficients: impl Iterator<Item = &'a mut Integer>, factor: &Integer) {
+    let mut power = Integer::one();
+    for coefficient in coefficients {
+        *coefficient *= &power;
+        power *= factor;
+    }
+}
+
+/// Changes of sign in a list, zeros left out.
+fn changes(coefficients: &[Integer]) -> usize {
+    let signs: Vec<bool> = coefficients
         .iter()
         .filter(|v| !v.is_zero())
         .map(Signed::is_positive)
         .collect();
-    signs.windows(2).filter(|w| w[0] != w[1]).count()
+    signs.windows(2).filter(|pair| pair[0] != pair[1]).count()
 }
 
 /// p(y) to p(y + a).
@@ -231,7 +277,7 @@ fn shift(c: &mut [Integer], a: &Integer) {
 }
 
 /// g without its factors q.
-fn stripped(g: &Poly, q: &Poly, budget: &Budget) -> Poly {
+fn stripped(g: &Poly, q: &Poly, budget: &SignBudget) -> Poly {
     let mut rest = g.clone();
     while rest.degree() >= q.degree()
         && budget.spend_remainder(&rest, q)
@@ -239,22 +285,27 @@ fn stripped(g: &Poly, q: &Poly, budget: &Budget) -> Poly {
     {
         rest = quotient(&rest, q);
     }
+
     rest
 }
 
 /// A multiple of g / q, which q divides over the rationals.
 fn quotient(g: &Poly, q: &Poly) -> Poly {
     let lead = q.leading();
-    let (mut rest, mut out) = (g.clone(), Poly::default());
+    let mut rest = g.clone();
+    let mut quotient = Poly::default();
+
     while let (Some(n), Some(m)) = (rest.degree(), q.degree()) {
         if n < m {
             break;
         }
+
         let top = Poly::constant(rest.leading()).shift(n - m);
         rest = &rest.scale(&lead) - &(&top * q);
-        out = &out.scale(&lead) + &top;
+        quotient = &quotient.scale(&lead) + &top;
     }
-    out.primitive()
+
+    quotient.primitive()
 }
 
 #[cfg(test)]
@@ -262,8 +313,8 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
 
-    fn root(c: &[i64], a: (i64, i64), b: (i64, i64)) -> Root {
-        Root {
+    fn root(c: &[i64], a: (i64, i64), b: (i64, i64)) -> AlgebraicValue {
+        AlgebraicValue {
             poly: Poly::from_ints(c),
             value: Interval::new(rational(a.0, a.1), rational(b.0, b.1)).unwrap(),
         }
@@ -272,23 +323,33 @@ mod tests {
     #[test]
     fn roots_are_not_overlooked() {
         let p = Poly::from_ints(&[2, -3, 1]); // 1 and 2
-        assert!(!has_no_root(&p, &whole(0), Some(&whole(3)), &Budget::new()));
-        assert!(!has_no_root(&p, &rational(3, 2), None, &Budget::new()));
+        assert!(!has_no_root(
+            &p,
+            &whole(0),
+            Some(&whole(3)),
+            &SignBudget::new()
+        ));
+        assert!(!has_no_root(&p, &rational(3, 2), None, &SignBudget::new()));
         // Ends do not count.
-        assert!(has_no_root(&p, &whole(1), Some(&whole(2)), &Budget::new()));
-        assert!(has_no_root(&p, &whole(2), None, &Budget::new()));
+        assert!(has_no_root(
+            &p,
+            &whole(1),
+            Some(&whole(2)),
+            &SignBudget::new()
+        ));
+        assert!(has_no_root(&p, &whole(2), None, &SignBudget::new()));
         // A double root does not change the sign and is one.
         assert!(!has_no_root(
             &Poly::from_ints(&[1, -2, 1]),
             &whole(0),
             Some(&whole(3)),
-            &Budget::new()
+            &SignBudget::new()
         ));
         assert!(!has_no_root(
             &Poly::from_ints(&[1, -2, 1]),
             &whole(0),
             None,
-            &Budget::new()
+            &SignBudget::new()
         ));
     }
 
@@ -298,8 +359,8 @@ mod tests {
         let p = Poly::from_ints(&[101, -200, 100]);
         assert!(sign_changes(&p, &whole(0), Some(&whole(2))) > 0);
         assert!(
-            has_no_root(&p, &whole(0), Some(&whole(2)), &Budget::new())
-                && has_no_root(&p, &whole(0), None, &Budget::new())
+            has_no_root(&p, &whole(0), Some(&whole(2)), &SignBudget::new())
+                && has_no_root(&p, &whole(0), None, &SignBudget::new())
         );
     }
 
@@ -311,21 +372,26 @@ mod tests {
         );
         let g = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-1, 1]);
         assert_eq!(
-            sign_between(&g, &one, Some(&sqrt2), &Budget::new()),
+            sign_between(&g, &one, Some(&sqrt2), &SignBudget::new()),
             Some(-1)
         );
-        assert_eq!(sign_between(&g, &sqrt2, None, &Budget::new()), Some(1));
+        assert_eq!(sign_between(&g, &sqrt2, None, &SignBudget::new()), Some(1));
         assert_eq!(
-            sign_between(&(&g * &g), &sqrt2, None, &Budget::new()),
+            sign_between(&(&g * &g), &sqrt2, None, &SignBudget::new()),
             Some(1)
         );
         assert_eq!(
-            sign_between(&Poly::from_ints(&[-3, 2]), &one, None, &Budget::new()),
+            sign_between(&Poly::from_ints(&[-3, 2]), &one, None, &SignBudget::new()),
             None
         );
         // A root within the isolating interval, on either side of the isolated one.
         assert_eq!(
-            sign_between(&Poly::from_ints(&[-29, 20]), &sqrt2, None, &Budget::new()),
+            sign_between(
+                &Poly::from_ints(&[-29, 20]),
+                &sqrt2,
+                None,
+                &SignBudget::new()
+            ),
             None
         );
         assert_eq!(
@@ -333,16 +399,16 @@ mod tests {
                 &Poly::from_ints(&[-141, 100]),
                 &one,
                 Some(&sqrt2),
-                &Budget::new()
+                &SignBudget::new()
             ),
             None
         );
         assert_eq!(
-            sign_between(&Poly::default(), &one, None, &Budget::new()),
+            sign_between(&Poly::default(), &one, None, &SignBudget::new()),
             Some(0)
         );
         assert_eq!(
-            [&g, &Poly::from_ints(&[-1, 1])].map(|p| sqrt2.sign(p, &Budget::new())),
+            [&g, &Poly::from_ints(&[-1, 1])].map(|p| sqrt2.sign(p, &SignBudget::new())),
             [Some(0), Some(1)]
         );
     }
@@ -352,11 +418,11 @@ mod tests {
     fn the_sign_to_infinity_is_taken_above() {
         let three = root(&[-3, 1], (3, 1), (3, 1));
         assert_eq!(
-            sign_between(&Poly::from_ints(&[-5, 2]), &three, None, &Budget::new()),
+            sign_between(&Poly::from_ints(&[-5, 2]), &three, None, &SignBudget::new()),
             Some(1)
         );
         assert_eq!(
-            sign_between(&Poly::from_ints(&[5, -2]), &three, None, &Budget::new()),
+            sign_between(&Poly::from_ints(&[5, -2]), &three, None, &SignBudget::new()),
             Some(-1)
         );
         let half = root(&[-1, 2], (1, 2), (1, 2));
@@ -365,7 +431,7 @@ mod tests {
                 &Poly::from_ints(&[1, 4]),
                 &half,
                 Some(&three),
-                &Budget::new()
+                &SignBudget::new()
             ),
             Some(1)
         );
@@ -386,10 +452,13 @@ mod tests {
             &(&beside * &far) * &sqrt2.poly,
             &(&beside * &far) * &square,
         ] {
-            assert_eq!(sign_between(&g, &sqrt2, Some(&nine), &Budget::new()), None);
+            assert_eq!(
+                sign_between(&g, &sqrt2, Some(&nine), &SignBudget::new()),
+                None
+            );
         }
         assert_eq!(
-            sign_between(&(&far * &square), &sqrt2, Some(&nine), &Budget::new()),
+            sign_between(&(&far * &square), &sqrt2, Some(&nine), &SignBudget::new()),
             Some(-1)
         );
         assert_eq!(
@@ -397,7 +466,7 @@ mod tests {
                 &(&far * &Poly::from_ints(&[-10, 3])),
                 &sqrt2,
                 Some(&nine),
-                &Budget::new()
+                &SignBudget::new()
             ),
             None
         );
@@ -406,7 +475,7 @@ mod tests {
                 &(&far * &Poly::from_ints(&[-1, 3])),
                 &sqrt2,
                 Some(&nine),
-                &Budget::new()
+                &SignBudget::new()
             ),
             Some(-1)
         );
@@ -416,18 +485,25 @@ mod tests {
     #[test]
     fn half_lines_are_halved_above_their_end() {
         // Complex roots about `at` and a real one.
-        let p = |at: i64, real: i64| {
-            &Poly::from_ints(&[100 * at * at + 1, -200 * at, 100]) * &Poly::from_ints(&[-real, 1])
+        let with_roots = |at: i64, real: i64| {
+            let complex = Poly::from_ints(&[100 * at * at + 1, -200 * at, 100]);
+            &complex * &Poly::from_ints(&[-real, 1])
         };
-        assert!(has_no_root(&p(8, 2), &whole(3), None, &Budget::new())); // 2 is below
-        assert!(
-            has_no_root(&p(1, -5), &whole(-3), None, &Budget::new())
-                && has_no_root(&p(-1, -5), &whole(-3), None, &Budget::new())
-        );
-        assert!(
-            !has_no_root(&p(8, 5), &whole(3), None, &Budget::new())
-                && !has_no_root(&p(8, 30), &whole(3), None, &Budget::new())
-        );
+        let is_free_from = |start: i64, at: i64, real: i64| {
+            has_no_root(
+                &with_roots(at, real),
+                &whole(start),
+                None,
+                &SignBudget::new(),
+            )
+        };
+
+        assert!(is_free_from(3, 8, 2)); // 2 is below
+        assert!(is_free_from(-3, 1, -5));
+        assert!(is_free_from(-3, -1, -5));
+
+        assert!(!is_free_from(3, 8, 5));
+        assert!(!is_free_from(3, 8, 30));
     }
 
     /// (t - c)^2 + 1/10^4 takes about seven halvings on the way to c, on either side of the middle.
@@ -436,7 +512,7 @@ mod tests {
         let near = |c: i64| Poly::from_ints(&[c * c * 100 + 1, -2000 * c, 10_000]); // c in tenths
         for c in [1, 19] {
             let of = |depth: u32, halvings: usize| {
-                let (p, budget) = (near(c), Budget::new());
+                let (p, budget) = (near(c), SignBudget::new());
                 let mut halving = Halving {
                     p: &p,
                     halvings,
@@ -462,7 +538,7 @@ mod tests {
         let p = Poly::from_ints(&[101, -200, 100]);
         let first = 27 * (1 + 3 + 64);
         let with = |left: u64| {
-            let budget = Budget {
+            let budget = SignBudget {
                 left: Cell::new(left),
                 is_spent: Cell::new(false),
             };
@@ -483,7 +559,7 @@ mod tests {
 
     #[test]
     fn coefficients_add_to_the_budget() {
-        let budget = Budget::new();
+        let budget = SignBudget::new();
         budget.add_coefficients(3);
         assert_eq!(budget.left.get(), (1 << 35) + 3 * (1 << 24));
         budget.add_coefficients(u64::MAX);
@@ -496,7 +572,7 @@ mod tests {
         let (g, p) = (Poly::from_ints(&[1, 2, 3]), Poly::from_ints(&[-7, 2]));
         let cost = (2 * 2 * 3 * 67 * 67) >> 9;
         let with = |left: u64| {
-            let budget = Budget {
+            let budget = SignBudget {
                 left: Cell::new(left),
                 is_spent: Cell::new(false),
             };
@@ -511,7 +587,7 @@ mod tests {
         assert_eq!(with(cost - 1), (false, true, cost - 1));
 
         // Nothing to divide costs nothing.
-        let free = Budget {
+        let free = SignBudget {
             left: Cell::new(0),
             is_spent: Cell::new(false),
         };

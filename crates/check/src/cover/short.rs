@@ -1,7 +1,13 @@
-//! Enclosures of a matrix in machine integers. What holds for them holds for the matrix; what they
-//! cannot tell is computed with the long numbers of `family`. They are there for speed only.
+//! Matrices with radii in machine integers, for speed only.
+//!
+//! Each entry of the long matrix lies within `r` of `m` in a common unit. What is proved of every
+//! matrix within these radii holds for the long one; what these numbers cannot tell is computed
+//! with the long numbers of `ends`. So a leaf may be accepted by short numbers, but never rejected.
+//!
+//! Overflow: entries and radii are at most 2^62 in absolute value, so that the products of two have
+//! at most 124 bits and a sum of four of them fits into an `i128`.
 
-use super::family::Matrix;
+use super::ends::{Ends, Matrix, largest_bits};
 use mceip_exact::Integer;
 use num_traits::{Signed, ToPrimitive};
 
@@ -16,117 +22,172 @@ pub(super) struct Short {
     unit: u64,
 }
 
+/// Every number within `radius` of `center`, as an entry.
+struct ShortBall {
+    center: i64,
+    radius: i64,
+}
+
+/// The same before it is cut to an entry.
+#[derive(Clone, Copy)]
+struct WideBall {
+    center: i128,
+    radius: i128,
+}
+
+impl Ends {
+    /// Both ends in short numbers.
+    pub(super) fn short(&self) -> Option<[Short; 2]> {
+        let all: Vec<usize> = (0..self.slope.len()).collect();
+        let lower = Short::of(&self.m[0], &self.r[0], &all)?;
+        let upper = Short::of(&self.m[1], &self.r[1], &all)?;
+        Some([lower, upper])
+    }
+}
+
 impl Short {
     /// M +- R, the principal part on `keep`; `None` where the radius is far larger than the matrix.
     pub(super) fn of(m: &Matrix, r: &Matrix, keep: &[usize]) -> Option<Short> {
-        let pick = |list: &Matrix| {
-            keep.iter()
-                .map(|&i| keep.iter().map(|&j| list[i][j].clone()).collect())
-                .collect::<Matrix>()
-        };
-        let (m, r) = (pick(m), pick(r));
-        let unit = m
+        let kept = keep
             .iter()
-            .flatten()
-            .map(Integer::bits)
-            .max()
-            .unwrap_or(0)
-            .saturating_sub(BITS);
-        let cut = |v: &Integer, r: &Integer| {
-            let low = v >> unit;
-            let is_exact = &low << unit == *v;
-            around(
-                low.to_i64()?,
-                (r >> unit).to_i64()?,
-                is_exact && !r.is_positive(),
-            )
-        };
-        Short::from_entries(
-            m.iter()
-                .zip(&r)
-                .map(|(m, r)| m.iter().zip(r).map(|(v, r)| cut(v, r))),
+            .flat_map(|&i| keep.iter().map(move |&j| &m[i][j]));
+        let unit = largest_bits(kept).saturating_sub(BITS);
+
+        let mut short = Short::with_unit(unit, keep.len());
+        for &i in keep {
+            let row = keep
+                .iter()
+                .map(|&j| ShortBall::cut(&m[i][j], &r[i][j], unit));
+            short.push_row(row)?;
+        }
+
+        Some(short)
+    }
+
+    fn with_unit(unit: u64, order: usize) -> Short {
+        Short {
+            m: Vec::with_capacity(order),
+            r: Vec::with_capacity(order),
             unit,
-        )
+        }
+    }
+
+    /// Appends a row; `None` if an entry does not fit.
+    fn push_row(&mut self, row: impl ExactSizeIterator<Item = Option<ShortBall>>) -> Option<()> {
+        let mut centers = Vec::with_capacity(row.len());
+        let mut radii = Vec::with_capacity(row.len());
+        for entry in row {
+            let entry = entry?;
+            centers.push(entry.center);
+            radii.push(entry.radius);
+        }
+
+        self.m.push(centers);
+        self.r.push(radii);
+        Some(())
     }
 
     /// p times this plus q times the other (p, q >= 0), in some unit.
     pub(super) fn combine(&self, p: &Integer, other: &Short, q: &Integer) -> Option<Short> {
+        // Both factors in a common unit, cut to short numbers.
         let low = self.unit.min(other.unit);
-        let (p, q) = (p << (self.unit - low), q << (other.unit - low));
+        let p = p << (self.unit - low);
+        let q = q << (other.unit - low);
         let cut = p.bits().max(q.bits()).saturating_sub(BITS);
         let is_exact = &p >> cut << cut == p && &q >> cut << cut == q;
-        let (p, q) = ((p >> cut).to_i64()?, (q >> cut).to_i64()?);
+        let p = i128::from((p >> cut).to_i64()?);
+        let q = i128::from((q >> cut).to_i64()?);
         // A factor that was cut may be larger by one unit. Sums stay below 2^126.
-        let (n, lost) = (self.m.len(), i128::from(!is_exact));
-        let (mut sums, mut largest) = (Vec::with_capacity(n * n), 0u128);
-        for ((m, r), (other_m, other_r)) in
-            self.m.iter().zip(&self.r).zip(other.m.iter().zip(&other.r))
-        {
-            for ((a, s), (b, t)) in m.iter().zip(r).zip(other_m.iter().zip(other_r)) {
-                let [a, b, s, t] = [a, b, s, t].map(|v| i128::from(*v));
-                let value = i128::from(p) * a + i128::from(q) * b;
-                largest |= value.unsigned_abs();
-                sums.push((
-                    value,
-                    i128::from(p) * s + i128::from(q) * t + lost * (a.abs() + s + b.abs() + t),
-                ));
+        let lost = i128::from(!is_exact);
+
+        let n = self.m.len();
+        let mut sums = Vec::with_capacity(n * n);
+        let mut largest = 0u128;
+        for i in 0..n {
+            let own = self.m[i].iter().zip(&self.r[i]);
+            let others = other.m[i].iter().zip(&other.r[i]);
+            for ((&a, &s), (&b, &t)) in own.zip(others) {
+                let a = WideBall::new(a, s);
+                let b = WideBall::new(b, t);
+                let center = p * a.center + q * b.center;
+                let radius = p * a.radius + q * b.radius + lost * (a.magnitude() + b.magnitude());
+
+                largest |= center.unsigned_abs();
+                sums.push(WideBall { center, radius });
             }
         }
+
         let unit = (128 - u64::from(largest.leading_zeros())).saturating_sub(BITS);
-        let cut = |(v, r): &(i128, i128)| {
-            around(
-                (v >> unit).to_i64()?,
-                (r >> unit).to_i64()?,
-                v >> unit << unit == *v && *r == 0,
-            )
-        };
-        Short::from_entries(
-            sums.chunks_exact(n.max(1)).map(|row| row.iter().map(cut)),
-            unit,
-        )
-    }
-
-    fn from_entries(
-        rows: impl Iterator<Item = impl ExactSizeIterator<Item = Option<(i64, i64)>>>,
-        unit: u64,
-    ) -> Option<Short> {
-        let (mut m, mut r) = (Vec::new(), Vec::new());
-        for row in rows {
-            let (mut values, mut radii) =
-                (Vec::with_capacity(row.len()), Vec::with_capacity(row.len()));
-            for entry in row {
-                let (value, radius) = entry?;
-                values.push(value);
-                radii.push(radius);
-            }
-            m.push(values);
-            r.push(radii);
+        let mut short = Short::with_unit(unit, n);
+        for row in sums.chunks_exact(n.max(1)) {
+            short.push_row(row.iter().map(|sum| sum.cut(unit)))?;
         }
-        Some(Short { m, r, unit })
+
+        Some(short)
     }
 
-    /// Upper bounds of (w'T)_j for every j of both signs of error; `None` for weights too long.
+    /// Upper bounds of (w'T)_j for every j; `None` for weights too long.
     pub(super) fn product(&self, w: &[i64]) -> Option<Vec<i128>> {
         // With |w| summing to less than 2^63 every sum below stays under 2^126.
         let size: u128 = w.iter().map(|w| u128::from(w.unsigned_abs())).sum();
         if size >= 1 << 63 {
             return None;
         }
-        let mut bound = vec![0i128; w.len()];
-        for (i, &w) in w.iter().enumerate().filter(|(_, w)| **w != 0) {
-            let (value, size) = (i128::from(w), i128::from(w.unsigned_abs()));
-            for (bound, (m, r)) in bound.iter_mut().zip(self.m[i].iter().zip(&self.r[i])) {
-                *bound += value * i128::from(*m) + size * i128::from(*r);
+
+        let mut bounds = vec![0i128; w.len()];
+        for (i, &w_i) in w.iter().enumerate() {
+            if w_i == 0 {
+                continue;
+            }
+
+            let weight = i128::from(w_i);
+            let size = i128::from(w_i.unsigned_abs());
+            let row = self.m[i].iter().zip(&self.r[i]);
+            for (bound, (m, r)) in bounds.iter_mut().zip(row) {
+                *bound += weight * i128::from(*m) + size * i128::from(*r);
             }
         }
-        Some(bound)
+
+        Some(bounds)
     }
 }
 
-/// A number and radius rounded down, with what rounding both may have cost.
-fn around(value: i64, radius: i64, is_exact: bool) -> Option<(i64, i64)> {
-    let radius = if is_exact { 0 } else { radius.checked_add(2)? };
-    (value.unsigned_abs() <= 1 << BITS && radius <= 1 << BITS).then_some((value, radius))
+impl ShortBall {
+    /// v +- r in units of 2^unit.
+    fn cut(v: &Integer, r: &Integer, unit: u64) -> Option<ShortBall> {
+        let center = v >> unit;
+        let is_exact = &center << unit == *v && !r.is_positive();
+        ShortBall::rounded(center.to_i64()?, (r >> unit).to_i64()?, is_exact)
+    }
+
+    /// A center and a radius that have been rounded down: rounding each has cost less than one
+    /// unit. `None` if one of them is larger than an entry may be.
+    fn rounded(center: i64, radius: i64, is_exact: bool) -> Option<ShortBall> {
+        let radius = if is_exact { 0 } else { radius.checked_add(2)? };
+        let fits = center.unsigned_abs() <= 1 << BITS && radius <= 1 << BITS;
+        fits.then_some(ShortBall { center, radius })
+    }
+}
+
+impl WideBall {
+    fn new(center: i64, radius: i64) -> WideBall {
+        WideBall {
+            center: center.into(),
+            radius: radius.into(),
+        }
+    }
+
+    fn magnitude(&self) -> i128 {
+        self.center.abs() + self.radius
+    }
+
+    /// The same in units of 2^unit.
+    fn cut(&self, unit: u64) -> Option<ShortBall> {
+        let center = self.center >> unit;
+        let is_exact = center << unit == self.center && self.radius == 0;
+        let radius = self.radius >> unit;
+        ShortBall::rounded(center.to_i64()?, radius.to_i64()?, is_exact)
+    }
 }
 
 #[cfg(test)]
@@ -346,18 +407,16 @@ mod tests {
     #[test]
     fn values_and_radii_have_a_limit() {
         let limit = 1i64 << BITS;
-        assert_eq!(
-            [
-                around(limit, 0, true),
-                around(-limit, 0, true),
-                around(limit + 1, 0, true)
-            ],
-            [Some((limit, 0)), Some((-limit, 0)), None]
-        );
-        assert_eq!(
-            [around(1, limit - 2, false), around(1, limit - 1, false)],
-            [Some((1, limit)), None]
-        );
-        assert_eq!(around(1, i64::MAX, false), None);
+        let rounded = |center: i64, radius: i64, is_exact: bool| {
+            ShortBall::rounded(center, radius, is_exact).map(|ball| (ball.center, ball.radius))
+        };
+
+        assert_eq!(rounded(limit, 0, true), Some((limit, 0)));
+        assert_eq!(rounded(-limit, 0, true), Some((-limit, 0)));
+        assert_eq!(rounded(limit + 1, 0, true), None);
+
+        assert_eq!(rounded(1, limit - 2, false), Some((1, limit)));
+        assert_eq!(rounded(1, limit - 1, false), None);
+        assert_eq!(rounded(1, i64::MAX, false), None);
     }
 }

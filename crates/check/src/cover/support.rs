@@ -1,22 +1,45 @@
-//! Leaves that say exactly what one support holds, value by value: points and the cells between
-//! them.
+//! Support leaves: what one support holds at every value of an interval, exactly.
 //!
-//! With J the moving and R the resting variables and f the free ones, x(t) solves with support J if
-//! x_J > 0, Tx = 0 on J and f, Tx >= 0 on R. Nothing is there if some w has w_R >= 0 and w'T zero
-//! on f, <= 0 on J and < 0 somewhere on it (either sign if w_R = 0): then 0 <= w'Tx < 0. x is alone
-//! if for every other active j weights bound c x_j + d x_k from below and from above by what x
-//! itself has. Signs at a point are those of remainders, signs on a cell come from `rootless`.
+//! Every variable is decided. Let J be the support, R the other complementarity variables and f the
+//! free ones; *active* are J and f. At a value t, x is a solution with support J if
+//!
+//! ```text
+//!     x_J > 0,    x_R = 0,    T x = 0 on the active rows,    T x >= 0 on R.
+//! ```
+//!
+//! Here T(t) = A + tB is the whole integral pencil: nothing is condensed and nothing is rounded.
+//!
+//! The leaf cuts the closed interval at *points*, algebraic numbers, the first and the last being
+//! its ends, and gives a reason for each *place*: a point, or an open cell between two points
+//! (above the last one, if the interval is infinite). A reason is a list of polynomials in t with
+//! signs that hold at every value of the place:
+//!
+//! * *none*: weights w with w_R >= 0, (w'T)_f = 0 and (w'T)_J <= 0, somewhere < 0. Then a solution
+//!   would have 0 <= w'y = w'Tx < 0. (If w_R = 0, then w'y = 0, and w'T may be >= 0 as well.)
+//! * *some*: x(t) that solves. With *alone* it is the only solution up to a factor. For each active
+//!   j but the pivot k there are weights l with l'T = c e_j + d e_k on the active columns, c not
+//!   zero. If l = 0 on R, every solution z has c z_j + d z_k = l'Tz = 0. If l >= 0 on the rows of R
+//!   where x has y = 0, and l = 0 on the others, then c z_j + d z_k = l'Tz >= 0, with equality for
+//!   x: this bounds z_j / z_k by x_j / x_k from one side, and a second l with the other sign of c
+//!   bounds it from the other side.
+//!
+//! A point that is alone, with nothing in the neighbouring cells, is an isolated solution. All
+//! other places that hold something are families.
+//!
+//! Signs at a point are those of remainders, signs on a cell come from `rootless`. Called by the
+//! walk through the trees, with the budget of signs for the whole file.
 
-use super::rootless::{Budget, Root, sign_between};
-use super::{CoverFault, Region, State};
+use super::fault::CoverFault;
+use super::region::Region;
+use super::rootless::{AlgebraicValue, SignBudget, sign_between};
 use crate::certificate::{Alone, Exact, Polynomials, Support};
 use crate::exact_solution::isolate;
-use crate::pencil::Rows;
-use mceip_exact::{Interval, Poly, Rational};
+use crate::pencil::{Row, Rows};
+use mceip_exact::{Integer, Interval, Poly, Rational};
 
-/// Largest number of coefficients of a polynomial, and coefficients times bits of the longest
-/// number of a leaf.
+/// Largest number of coefficients of a polynomial.
 const MAX_COEFFICIENTS: usize = 256;
+/// Largest product of coefficients and places with the bits of the longest number of a leaf.
 const MAX_SIZE: u64 = 1 << 23;
 
 /// Solutions of the support in one place of the leaf.
@@ -31,380 +54,500 @@ pub(super) struct Held {
     pub(super) hull: Option<Interval>,
 }
 
-/// Checks a leaf; where it holds solutions. The budget is that of all leaves of the file.
+/// What a place holds.
+#[derive(Clone, Copy, PartialEq)]
+enum Content {
+    Nothing,
+    /// Solutions; are they alone, one up to its factor at each value?
+    Solutions {
+        is_alone: bool,
+    },
+}
+
+/// Checks a leaf and returns where it holds solutions. The budget is that of all leaves of the
+/// file.
 pub(super) fn check(
     rows: &Rows,
     region: &Region,
     index: &[usize],
     leaf: &Support,
-    budget: &Budget,
+    budget: &SignBudget,
 ) -> Result<Vec<Held>, CoverFault> {
-    let verdict = held(rows, region, index, leaf, budget);
+    let support: Vec<usize> = region.support().into_iter().map(|p| index[p]).collect();
+    let verdict = check_places(rows, region, &support, leaf, budget);
     if budget.is_spent() {
         return Err(CoverFault::OutOfBudget);
     }
+
     verdict
 }
 
-fn held(
+fn check_places(
     rows: &Rows,
     region: &Region,
-    index: &[usize],
+    support: &[usize],
     leaf: &Support,
-    budget: &Budget,
+    budget: &SignBudget,
 ) -> Result<Vec<Held>, CoverFault> {
-    let moving: Vec<usize> = (0..index.len())
-        .filter(|&p| region.states[p] == State::Moving)
-        .map(|p| index[p])
-        .collect();
     let is_empty = leaf.points.is_empty() && leaf.cells.is_empty();
-    if region.states.contains(&State::Open) || moving.is_empty() != is_empty {
+    if !region.is_decided() || support.is_empty() != is_empty {
         return Err(CoverFault::SupportTooEarly);
     }
-    if moving.is_empty() {
+
+    if support.is_empty() {
         return Ok(Vec::new()); // x_s = 0, and T_ff is regular: x = 0
     }
+
     budget.add_coefficients(bounded(leaf)?);
-    let system = System::new(rows, &moving);
+
+    let pencil = SupportPencil::new(rows, support);
     let roots = points(region, leaf)?;
-    let reason = |k: usize| {
-        leaf.reasons.get(k).ok_or(CoverFault::NoReason {
-            reason: k,
-            reasons: leaf.reasons.len(),
-        })
-    };
-    let mut held = vec![None; 2 * roots.len() + 1];
+
+    let mut at_points = Vec::new();
     for (k, root) in roots.iter().enumerate() {
-        held[2 * k + 1] = system.holds(
-            reason(leaf.points[k].reason)?,
-            &|g| root.sign(g, budget),
-            2 * k,
-        )?;
-    }
-    for (k, cell) in leaf.cells.iter().enumerate() {
-        held[2 * k + 2] = system.holds(
-            reason(*cell)?,
-            &|g| sign_between(g, &roots[k], roots.get(k + 1), budget),
-            2 * k + 1,
-        )?;
-    }
-    let mut out = Vec::new();
-    for (k, is_alone) in (1..held.len()).filter_map(|k| held[k].map(|alone| (k, alone))) {
-        let (left, is_point) = ((k - 1) / 2, k % 2 == 1);
-        let from = roots[left].value.clone();
-        let to = if is_point {
-            Some(from.clone())
-        } else {
-            roots.get(left + 1).map(|r| r.value.clone())
+        let reason = reason(leaf, leaf.points[k].reason)?;
+        let place = LeafPlace {
+            number: 2 * k,
+            location: Location::Point(root),
+            budget,
         };
-        let is_isolated =
-            is_point && held[k - 1].is_none() && held.get(k + 1).is_none_or(Option::is_none);
-        let hull = if is_isolated {
-            hull(&roots, left)
-        } else {
-            None
-        };
-        out.push(Held {
-            from,
-            to,
-            is_point,
-            is_alone,
-            hull,
-        });
+        at_points.push(pencil.content(reason, &place)?);
     }
-    Ok(out)
+
+    let mut in_cells = Vec::new();
+    for (k, &cell) in leaf.cells.iter().enumerate() {
+        let reason = reason(leaf, cell)?;
+        let place = LeafPlace {
+            number: 2 * k + 1,
+            location: Location::Cell {
+                below: &roots[k],
+                above: roots.get(k + 1),
+            },
+            budget,
+        };
+        in_cells.push(pencil.content(reason, &place)?);
+    }
+
+    Ok(collect(&roots, &at_points, &in_cells))
+}
+
+fn reason(leaf: &Support, number: usize) -> Result<&Exact, CoverFault> {
+    leaf.reasons.get(number).ok_or(CoverFault::NoReason {
+        reason: number,
+        reasons: leaf.reasons.len(),
+    })
+}
+
+/// The places that hold solutions, from below. Cell k lies above point k.
+fn collect(roots: &[AlgebraicValue], at_points: &[Content], in_cells: &[Content]) -> Vec<Held> {
+    let is_empty_cell = |k: usize| in_cells.get(k).is_none_or(|c| *c == Content::Nothing);
+    let mut held = Vec::new();
+
+    for (k, root) in roots.iter().enumerate() {
+        if let Content::Solutions { is_alone } = at_points[k] {
+            let is_isolated = (k == 0 || is_empty_cell(k - 1)) && is_empty_cell(k);
+            held.push(Held {
+                from: root.value.clone(),
+                to: Some(root.value.clone()),
+                is_point: true,
+                is_alone,
+                hull: if is_isolated { hull(roots, k) } else { None },
+            });
+        }
+
+        if let Some(Content::Solutions { is_alone }) = in_cells.get(k) {
+            held.push(Held {
+                from: root.value.clone(),
+                to: roots.get(k + 1).map(|next| next.value.clone()),
+                is_point: false,
+                is_alone: *is_alone,
+                hull: None,
+            });
+        }
+    }
+
+    held
 }
 
 /// From half way to the point before to half way to the point after.
-fn hull(roots: &[Root], k: usize) -> Option<Interval> {
-    let half = |a: &Rational, b: &Rational| (a + b) / Rational::from_integer(2.into());
+fn hull(roots: &[AlgebraicValue], k: usize) -> Option<Interval> {
     let value = &roots[k].value;
-    let lo = k.checked_sub(1).map_or_else(
-        || value.lo().clone(),
-        |p| half(roots[p].value.hi(), value.lo()),
-    );
-    let hi = roots
-        .get(k + 1)
-        .map_or_else(|| value.hi().clone(), |n| half(value.hi(), n.value.lo()));
+    let lo = match k.checked_sub(1) {
+        Some(before) => half_way(roots[before].value.hi(), value.lo()),
+        None => value.lo().clone(),
+    };
+    let hi = match roots.get(k + 1) {
+        Some(after) => half_way(value.hi(), after.value.lo()),
+        None => value.hi().clone(),
+    };
     Interval::new(lo, hi)
 }
 
+fn half_way(a: &Rational, b: &Rational) -> Rational {
+    (a + b) / Rational::from_integer(2.into())
+}
+
 /// The points: each isolated, apart from each other, from one end of the region to the other.
-fn points(region: &Region, leaf: &Support) -> Result<Vec<Root>, CoverFault> {
-    let mut roots: Vec<Root> = Vec::new();
+fn points(region: &Region, leaf: &Support) -> Result<Vec<AlgebraicValue>, CoverFault> {
+    let mut roots: Vec<AlgebraicValue> = Vec::new();
     for (k, point) in leaf.points.iter().enumerate() {
         let poly = Poly::new(point.polynomial.clone()).primitive();
         let value = isolate(&poly, &point.interval).map_err(|_| CoverFault::Point { point: k })?;
         if roots.last().is_some_and(|r| r.value.hi() >= value.lo()) {
             return Err(CoverFault::Point { point: k });
         }
-        roots.push(Root { poly, value });
+
+        roots.push(AlgebraicValue { poly, value });
     }
-    let is_at =
-        |root: Option<&Root>, end| root.is_some_and(|r| r.value.is_point() && r.value.lo() == end);
-    let cells = roots.len() - usize::from(region.hi.is_some() && !roots.is_empty());
-    if !is_at(roots.first(), &region.lo)
-        || region
-            .hi
-            .as_ref()
-            .is_some_and(|hi| !is_at(roots.last(), hi))
-    {
+
+    let begins_at_lo = is_at(roots.first(), &region.lo);
+    let ends_at_hi = match &region.hi {
+        Some(hi) => is_at(roots.last(), hi),
+        None => true,
+    };
+    if !begins_at_lo || !ends_at_hi {
         return Err(CoverFault::Point { point: roots.len() });
     }
-    if leaf.cells.len() != cells {
-        return Err(CoverFault::Length {
-            what: "cells",
-            expected: cells,
-            got: leaf.cells.len(),
-        });
-    }
+
+    // There is a cell above each point, but for the last one of a finite interval.
+    let cells = match &region.hi {
+        Some(_) => roots.len() - 1,
+        None => roots.len(),
+    };
+    CoverFault::length("cells", cells, leaf.cells.len())?;
     Ok(roots)
 }
 
-/// The leaf is small enough to be multiplied out; its number of coefficients.
+/// Is the root this very number?
+fn is_at(root: Option<&AlgebraicValue>, end: &Rational) -> bool {
+    root.is_some_and(|r| r.value.is_point() && r.value.lo() == end)
+}
+
+/// Demands that the leaf is small enough to be multiplied out; its number of coefficients.
 fn bounded(leaf: &Support) -> Result<u64, CoverFault> {
-    let vectors = leaf.reasons.iter().flat_map(|reason| match reason {
-        Exact::None(w) => vec![w],
-        Exact::Some(m) => std::iter::once(&m.x)
-            .chain(m.alone.iter().flat_map(|a| a.rows.iter().map(|(_, l)| l)))
-            .collect(),
-    });
-    let polynomials = vectors
-        .flat_map(|v| &v.0)
-        .chain(leaf.points.iter().map(|p| &p.polynomial));
-    let (mut longest, mut coefficients, mut bits) = (0, 0u64, 0);
-    for p in polynomials {
-        longest = longest.max(p.len());
-        coefficients += p.len() as u64;
-        bits = p.iter().map(|c| c.bits()).max().unwrap_or(0).max(bits);
-    }
-    let numbers = leaf.points.iter().flat_map(|p| &p.interval);
-    bits = numbers
-        .map(|n| n.0.numer().bits() + n.0.denom().bits())
-        .max()
-        .unwrap_or(0)
-        .max(bits);
-    let places = (leaf.points.len() + leaf.cells.len()) as u64;
-    let at_most = |what, limit, got| {
-        if got > limit {
-            Err(CoverFault::TooLarge { what, limit, got })
-        } else {
-            Ok(())
+    let mut longest: u64 = 0;
+    let mut coefficients: u64 = 0;
+    let mut bits: u64 = 0;
+
+    for polynomial in polynomials(leaf) {
+        let length = polynomial.len() as u64;
+        longest = longest.max(length);
+        coefficients += length;
+        for coefficient in polynomial {
+            bits = bits.max(coefficient.bits());
         }
-    };
-    at_most(
-        "coefficients of a polynomial",
-        MAX_COEFFICIENTS as u64,
-        longest as u64,
-    )?;
-    at_most(
-        "coefficients and places times bits",
-        MAX_SIZE,
-        (coefficients + places).saturating_mul(bits),
-    )?;
+    }
+
+    for end in leaf.points.iter().flat_map(|p| &p.interval) {
+        bits = bits.max(end.0.numer().bits() + end.0.denom().bits());
+    }
+
+    let what = "coefficients of a polynomial";
+    CoverFault::at_most(what, MAX_COEFFICIENTS as u64, longest)?;
+
+    let what = "coefficients and places times bits";
+    let places = (leaf.points.len() + leaf.cells.len()) as u64;
+    let size = (coefficients + places).saturating_mul(bits);
+    CoverFault::at_most(what, MAX_SIZE, size)?;
     Ok(coefficients)
 }
 
-/// The sign of a polynomial at a place, if it can be told.
-type Sign<'a> = dyn Fn(&Poly) -> Option<i8> + 'a;
+/// All polynomials of a leaf.
+fn polynomials(leaf: &Support) -> Vec<&Vec<Integer>> {
+    let mut list: Vec<&Vec<Integer>> = Vec::new();
+    for reason in &leaf.reasons {
+        match reason {
+            Exact::None(w) => list.extend(&w.0),
+            Exact::Some(member) => {
+                list.extend(&member.x.0);
+                if let Some(alone) = &member.alone {
+                    list.extend(alone.rows.iter().flat_map(|(_, l)| &l.0));
+                }
+            }
+        }
+    }
 
-struct System<'a> {
+    list.extend(leaf.points.iter().map(|point| &point.polynomial));
+    list
+}
+
+/// A place of the leaf, where signs of polynomials are asked for.
+struct LeafPlace<'a> {
+    /// Twice the point's position, or one more for the cell above it.
+    number: usize,
+    location: Location<'a>,
+    budget: &'a SignBudget,
+}
+
+enum Location<'a> {
+    Point(&'a AlgebraicValue),
+    /// `above` is `None` for a cell that reaches to infinity.
+    Cell {
+        below: &'a AlgebraicValue,
+        above: Option<&'a AlgebraicValue>,
+    },
+}
+
+impl LeafPlace<'_> {
+    /// The sign of g at every value of the place, if it can be told.
+    fn sign(&self, g: &Poly) -> Option<i8> {
+        match self.location {
+            Location::Point(root) => root.sign(g, self.budget),
+            Location::Cell { below, above } => sign_between(g, below, above, self.budget),
+        }
+    }
+
+    fn fault(&self, expected: &'static str, index: usize) -> CoverFault {
+        CoverFault::Place {
+            place: self.number,
+            expected,
+            index,
+        }
+    }
+}
+
+/// The rows of the pencil and the support of a leaf, by the indices of the problem.
+struct SupportPencil<'a> {
     rows: &'a Rows,
-    moving: &'a [usize],
-    /// Moving and free.
+    support: &'a [usize],
+    /// The support and the free variables.
     active: Vec<usize>,
 }
 
-impl<'a> System<'a> {
-    fn new(rows: &'a Rows, moving: &'a [usize]) -> Self {
+impl<'a> SupportPencil<'a> {
+    fn new(rows: &'a Rows, support: &'a [usize]) -> Self {
         let active = (0..rows.order())
-            .filter(|i| rows.is_free[*i] || moving.contains(i))
+            .filter(|i| rows.is_free[*i] || support.contains(i))
             .collect();
-        System {
+        SupportPencil {
             rows,
-            moving,
+            support,
             active,
         }
     }
 
-    /// Checks a reason at a place: `None` if it holds nothing, else whether what it holds is alone.
-    fn holds(
-        &self,
-        reason: &Exact,
-        sign: &Sign<'_>,
-        place: usize,
-    ) -> Result<Option<bool>, CoverFault> {
+    /// Checks a reason at a place and returns what it proves.
+    fn content(&self, reason: &Exact, place: &LeafPlace<'_>) -> Result<Content, CoverFault> {
         match reason {
-            Exact::None(w) => self
-                .nothing(&self.vector("none", w)?, sign, place)
-                .map(|()| None),
+            Exact::None(w) => {
+                let w = self.vector("none", w)?;
+                self.check_nothing(&w, place)?;
+                Ok(Content::Nothing)
+            }
             Exact::Some(member) => {
-                let y = self.solves(&self.vector("x", &member.x)?, sign, place)?;
+                let x = self.vector("x", &member.x)?;
+                let y = self.check_solution(&x, place)?;
                 if let Some(alone) = &member.alone {
-                    self.alone(alone, &y, sign, place)?;
+                    self.check_alone(alone, &y, place)?;
                 }
-                Ok(Some(member.alone.is_some()))
+
+                let is_alone = member.alone.is_some();
+                Ok(Content::Solutions { is_alone })
             }
         }
     }
 
     fn vector(&self, what: &'static str, v: &Polynomials) -> Result<Vec<Poly>, CoverFault> {
-        if v.0.len() != self.rows.order() {
-            return Err(CoverFault::Length {
-                what,
-                expected: self.rows.order(),
-                got: v.0.len(),
-            });
-        }
+        CoverFault::length(what, self.rows.order(), v.0.len())?;
         Ok(v.0.iter().map(|c| Poly::new(c.clone())).collect())
     }
 
-    /// w'T on the active columns.
+    /// w'T on the active columns, in their order.
     fn columns(&self, w: &[Poly]) -> Vec<Poly> {
         let mut sums = vec![Poly::default(); self.rows.order()];
-        for (row, w_i) in self
-            .rows
-            .rows
-            .iter()
-            .zip(w)
-            .filter(|(_, w_i)| !w_i.is_zero())
-        {
-            for (j, a, b) in row.iter().filter(|(j, ..)| self.active.contains(j)) {
-                sums[*j] = &sums[*j] + &(w_i * &Poly::new(vec![a.clone(), b.clone()]));
+        for (row, w_i) in self.rows.rows.iter().zip(w) {
+            if w_i.is_zero() {
+                continue;
+            }
+
+            for (j, a, b) in row {
+                if self.active.contains(j) {
+                    let entry = Poly::new(vec![a.clone(), b.clone()]);
+                    sums[*j] = &sums[*j] + &(w_i * &entry);
+                }
             }
         }
+
         self.active.iter().map(|&j| sums[j].clone()).collect()
     }
 
-    /// A Farkas vector.
-    fn nothing(&self, w: &[Poly], sign: &Sign<'_>, place: usize) -> Result<(), CoverFault> {
-        let fault = |expected, index| CoverFault::Place {
-            place,
-            expected,
-            index,
-        };
-        let mut one_sided = false;
-        for i in (0..w.len()).filter(|i| !self.active.contains(i)) {
-            let s = sign(&w[i])
-                .filter(|s| *s >= 0)
-                .ok_or(fault("weights >= 0 off the moving set", i))?;
-            one_sided |= s > 0;
+    /// Demands that w is a Farkas vector.
+    fn check_nothing(&self, w: &[Poly], place: &LeafPlace<'_>) -> Result<(), CoverFault> {
+        // Is some weight of R certainly positive? Then w'y >= 0 is all that is known of w'y.
+        let mut is_one_sided = false;
+        for (i, w_i) in w.iter().enumerate() {
+            if self.active.contains(&i) {
+                continue;
+            }
+
+            match place.sign(w_i) {
+                Some(s) if s >= 0 => is_one_sided |= s > 0,
+                _ => return Err(place.fault("weights >= 0 off the moving set", i)),
+            }
         }
-        let mut seen = [false; 2];
+
+        let mut has_negative = false;
+        let mut has_positive = false;
         for (product, &j) in self.columns(w).iter().zip(&self.active) {
-            let s = sign(product).ok_or(fault("a sign of w'T that can be told", j))?;
+            let s = place
+                .sign(product)
+                .ok_or_else(|| place.fault("a sign of w'T that can be told", j))?;
             if s != 0 && self.rows.is_free[j] {
-                return Err(fault("w'T = 0 on the free columns", j));
+                return Err(place.fault("w'T = 0 on the free columns", j));
             }
-            if s > 0 && one_sided {
-                return Err(fault("w'T <= 0 on the moving columns", j));
+
+            if s > 0 && is_one_sided {
+                return Err(place.fault("w'T <= 0 on the moving columns", j));
             }
-            seen[0] |= s < 0;
-            seen[1] |= s > 0;
+
+            has_negative |= s < 0;
+            has_positive |= s > 0;
         }
-        if seen[0] == seen[1] {
-            Err(fault("w'T of one sign and not zero", self.moving[0]))
-        } else {
-            Ok(())
+
+        if has_negative == has_positive {
+            let expected = "w'T of one sign and not zero";
+            return Err(place.fault(expected, self.support[0]));
         }
+
+        Ok(())
     }
 
-    /// A solution with exactly the moving variables as its support; the signs of its y.
-    fn solves(
+    /// Demands that x is a solution with exactly this support; the signs of its y.
+    fn check_solution(
         &self,
         x: &[Poly],
-        sign: &Sign<'_>,
-        place: usize,
+        place: &LeafPlace<'_>,
     ) -> Result<Vec<Option<i8>>, CoverFault> {
-        let fault = |expected, index| CoverFault::Place {
-            place,
-            expected,
-            index,
-        };
-        for (i, x_i) in x.iter().enumerate().filter(|(i, _)| !self.rows.is_free[*i]) {
-            let moves = self.moving.contains(&i);
-            if sign(x_i) != Some(i8::from(moves)) {
-                return Err(fault(
-                    if moves {
-                        "x > 0 on the moving set"
-                    } else {
-                        "x = 0 off it"
-                    },
-                    i,
-                ));
+        for (i, x_i) in x.iter().enumerate() {
+            if self.rows.is_free[i] {
+                continue;
+            }
+
+            let is_in_support = self.support.contains(&i);
+            let s = place.sign(x_i);
+            if is_in_support && s != Some(1) {
+                return Err(place.fault("x > 0 on the moving set", i));
+            }
+
+            if !is_in_support && s != Some(0) {
+                return Err(place.fault("x = 0 off it", i));
             }
         }
+
         let mut signs = Vec::new();
         for (i, row) in self.rows.rows.iter().enumerate() {
-            // x is zero at this place off the active columns, whatever it is elsewhere.
-            let terms = row.iter().filter(|(j, ..)| self.active.contains(j));
-            let y = terms.fold(Poly::default(), |sum, (j, a, b)| {
-                &sum + &(&x[*j] * &Poly::new(vec![a.clone(), b.clone()]))
-            });
-            signs.push(sign(&y));
-            match (signs[i], self.active.contains(&i)) {
-                (Some(0), _) | (Some(1), false) => {}
-                (_, true) => return Err(fault("y = 0 on active rows", i)),
-                (_, false) => return Err(fault("y >= 0 off them", i)),
+            let s = place.sign(&self.times(row, x));
+            let is_active = self.active.contains(&i);
+            if is_active && s != Some(0) {
+                return Err(place.fault("y = 0 on active rows", i));
             }
+
+            if !is_active && s.is_none_or(|s| s < 0) {
+                return Err(place.fault("y >= 0 off them", i));
+            }
+
+            signs.push(s);
         }
+
         Ok(signs)
     }
 
-    /// Every active component is determined by the pivot's. `y` of the member: l'Tx = l_R'y >= 0
-    /// for all others.
-    fn alone(
+    /// A row of T times x, over the active columns: off them x is zero at this place, whatever its
+    /// polynomials are elsewhere.
+    fn times(&self, row: &Row, x: &[Poly]) -> Poly {
+        let mut y = Poly::default();
+        for (j, a, b) in row {
+            if self.active.contains(j) {
+                let entry = Poly::new(vec![a.clone(), b.clone()]);
+                y = &y + &(&x[*j] * &entry);
+            }
+        }
+
+        y
+    }
+
+    /// Demands that the pivot's component determines every other active one. `y` holds the signs of
+    /// the solution's y: l'Tx = l_R'y_R.
+    fn check_alone(
         &self,
         alone: &Alone,
         y: &[Option<i8>],
-        sign: &Sign<'_>,
-        place: usize,
+        place: &LeafPlace<'_>,
     ) -> Result<(), CoverFault> {
-        let fault = |expected, index| CoverFault::Place {
-            place,
-            expected,
-            index,
-        };
-        if !self.moving.contains(&alone.pivot) {
+        if !self.support.contains(&alone.pivot) {
             return Err(CoverFault::Pivot { index: alone.pivot });
         }
-        // Is c x_j + d x_k known to be >= 0 with c > 0, with c < 0?
-        let mut bounds = vec![[false; 2]; self.rows.order()];
+
+        let mut bounds = vec![Bounds::default(); self.rows.order()];
         for (own, l) in &alone.rows {
             let own = *own;
             if own == alone.pivot || !self.active.contains(&own) {
-                return Err(fault("an active index that is not the pivot", own));
+                return Err(place.fault("an active index that is not the pivot", own));
             }
+
             let l = self.vector("alone", l)?;
-            let mut is_equation = true;
-            for i in (0..l.len()).filter(|&i| !self.active.contains(&i) && !l[i].is_zero()) {
-                if y[i] != Some(0) || sign(&l[i]).is_none_or(|s| s < 0) {
-                    return Err(fault("weights >= 0 where y = 0, and none where y > 0", i));
+            let is_equation = self.check_weights(&l, y, place)?;
+            for (product, &j) in self.columns(&l).iter().zip(&self.active) {
+                if j == alone.pivot {
+                    continue;
                 }
-                is_equation = false;
-            }
-            for (product, &j) in self
-                .columns(&l)
-                .iter()
-                .zip(&self.active)
-                .filter(|(_, j)| **j != alone.pivot)
-            {
-                match sign(product) {
+
+                match place.sign(product) {
                     Some(0) if j != own => {}
                     Some(s) if j == own && s != 0 => {
-                        bounds[own][0] |= s > 0 || is_equation;
-                        bounds[own][1] |= s < 0 || is_equation;
+                        bounds[own].below |= s > 0 || is_equation;
+                        bounds[own].above |= s < 0 || is_equation;
                     }
-                    _ => return Err(fault("l'T zero but in its own column and the pivot's", j)),
+                    _ => {
+                        let expected = "l'T zero but in its own column and the pivot's";
+                        return Err(place.fault(expected, j));
+                    }
                 }
             }
         }
-        let others = self.active.iter().filter(|&&j| j != alone.pivot);
-        match others.into_iter().find(|&&j| bounds[j] != [true; 2]) {
-            Some(&j) => Err(fault("x determined by the pivot's component", j)),
-            None => Ok(()),
+
+        for &j in &self.active {
+            let is_bounded = bounds[j].below && bounds[j].above;
+            if j != alone.pivot && !is_bounded {
+                return Err(place.fault("x determined by the pivot's component", j));
+            }
         }
+
+        Ok(())
     }
+
+    /// Demands l >= 0 on rows of R where y = 0, and l = 0 on the other rows of R. Is l zero on all
+    /// of R, so that l'Tz = 0 for every solution z?
+    fn check_weights(
+        &self,
+        l: &[Poly],
+        y: &[Option<i8>],
+        place: &LeafPlace<'_>,
+    ) -> Result<bool, CoverFault> {
+        let mut is_equation = true;
+        for (i, l_i) in l.iter().enumerate() {
+            if self.active.contains(&i) || l_i.is_zero() {
+                continue;
+            }
+
+            if y[i] != Some(0) || place.sign(l_i).is_none_or(|s| s < 0) {
+                let expected = "weights >= 0 where y = 0, and none where y > 0";
+                return Err(place.fault(expected, i));
+            }
+
+            is_equation = false;
+        }
+
+        Ok(is_equation)
+    }
+}
+
+/// Is c z_j + d z_k >= 0 proved for all solutions z, with equality for x: with c > 0 (`below`),
+/// with c < 0 (`above`)?
+#[derive(Clone, Copy, Default)]
+struct Bounds {
+    below: bool,
+    above: bool,
 }
 
 #[cfg(test)]

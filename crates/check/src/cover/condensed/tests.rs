@@ -17,18 +17,17 @@ type Dense = [[Rational; 4]; 4];
 
 /// A_ff = [[4, 2], [2, 5]] + I / 2, B_ff = [[1, 1], [1, 2]] + I / 3.
 fn pencil() -> (Dense, Dense) {
-    let (r, w) = (rational, whole);
     let a = [
-        [r(9, 2), r(7, 3), w(2), r(-4, 5)],
-        [r(5, 11), w(31), r(-3, 11), w(2)],
-        [w(2), r(-1, 7), r(11, 2), w(3)],
-        [r(900, 13), w(-77), w(41), r(1234, 13)],
+        [rational(9, 2), rational(7, 3), whole(2), rational(-4, 5)],
+        [rational(5, 11), whole(31), rational(-3, 11), whole(2)],
+        [whole(2), rational(-1, 7), rational(11, 2), whole(3)],
+        [rational(900, 13), whole(-77), whole(41), rational(1234, 13)],
     ];
     let b = [
-        [r(4, 3), r(1, 2), w(1), w(0)],
-        [w(3), r(2, 11), r(-5, 11), w(7)],
-        [w(1), w(-2), r(7, 3), r(1, 7)],
-        [w(0), r(3, 13), w(6), w(5)],
+        [rational(4, 3), rational(1, 2), whole(1), whole(0)],
+        [whole(3), rational(2, 11), rational(-5, 11), whole(7)],
+        [whole(1), whole(-2), rational(7, 3), rational(1, 7)],
+        [whole(0), rational(3, 13), whole(6), whole(5)],
     ];
     (a, b)
 }
@@ -150,7 +149,7 @@ fn less(a: &Poly, b: &Poly, c: &Poly) -> Poly {
     out
 }
 
-fn q(v: &Integer) -> Rational {
+fn rational_of(v: &Integer) -> Rational {
     Rational::from_integer(v.clone())
 }
 
@@ -182,10 +181,10 @@ fn check_expansion(p: &(Dense, Dense), anchor: &Anchor) {
     let mut high = r.clone();
     high.iter_mut().take(w.len()).for_each(|m| *m = zero());
     let z = less(&less(&ss, &sf, &w), &transposed(&v), &high);
-    let factor = SLIP.map(|i| q(&rows.factor[i]));
+    let factor = SLIP.map(|i| rational_of(&rows.factor[i]));
     let bits = SLIP.map(|i| rows.rows[i].iter().map(|(_, a, _)| a.bits()).max().unwrap());
     assert_ne!(bits[0], bits[1]);
-    let row = |i: usize| &factor[i] / q(&(Integer::one() << bits[i]));
+    let row = |i: usize| &factor[i] / rational_of(&(Integer::one() << bits[i]));
     for k in 0..z.len().max(e.z.len()) {
         for (i, j) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
             let expected = z.get(k).map_or_else(Rational::zero, |m| &m[i][j] * row(i));
@@ -198,11 +197,12 @@ fn check_expansion(p: &(Dense, Dense), anchor: &Anchor) {
     // |l|, |r| and |V| in their units.
     let exponent = |list: &[IntegerMatrix]| list.iter().map(|m| m.exponent).max().unwrap_or(0);
     let (e_w, e_v) = (exponent(&anchor.right), exponent(&anchor.left));
-    let common = q(&FREE
-        .iter()
-        .fold(Integer::one(), |c, &i| c.lcm(&rows.factor[i])))
-        * q(center.denom());
-    let two = |e: u32| q(&(Integer::one() << e));
+    let common = rational_of(
+        &FREE
+            .iter()
+            .fold(Integer::one(), |c, &i| c.lcm(&rows.factor[i])),
+    ) * rational_of(center.denom());
+    let two = |e: u32| rational_of(&(Integer::one() << e));
     let units_r = [&common * two(e_w), &common * two(e_w)];
     let units_l = [0, 1].map(|i| &common * two(e_v) * &factor[i]);
     let units_v = [0, 1].map(|i| two(e_v) * &factor[i]);
@@ -225,7 +225,7 @@ fn check_expansion(p: &(Dense, Dense), anchor: &Anchor) {
     // Rows of the pencil are cut to [0, 1): l' F^-1 r <= |l||r| / sigma and V'r, out of their units
     // into those.
     for i in 0..2 {
-        let cut = two(e_w + e_v) * q(&(Integer::one() << bits[i])) * two(64);
+        let cut = two(e_w + e_v) * rational_of(&(Integer::one() << bits[i])) * two(64);
         assert_eq!(
             e.weight[i],
             (rational(1, 2) * &common * &common * &cut).recip()
@@ -351,14 +351,13 @@ fn a_free_block_that_is_not_symmetric_is_refused() {
 /// A + 3/2 B = [[4, 2], [2, 5]] + c diag(1, 10/11), with a skew part; B = [[1, 1], [1, 2]] + d I,
 /// likewise.
 fn tail_rows(c: &Rational, d: &Rational) -> Rows {
-    let (r, w) = (rational, whole);
-    let mut b = [[w(1), r(1, 3)], [r(5, 3), w(2)]];
-    let mut a = [[w(4), r(2, 7)], [r(26, 7), w(5)]];
+    let mut b = [[whole(1), rational(1, 3)], [rational(5, 3), whole(2)]];
+    let mut a = [[whole(4), rational(2, 7)], [rational(26, 7), whole(5)]];
     for i in 0..2 {
         b[i][i] += d;
-        a[i][i] += c * if i == 0 { w(1) } else { r(10, 11) };
+        a[i][i] += c * if i == 0 { whole(1) } else { rational(10, 11) };
         for j in 0..2 {
-            a[i][j] -= &b[i][j] * r(3, 2);
+            a[i][j] -= &b[i][j] * rational(3, 2);
         }
     }
     let sparse = |m: &[[Rational; 2]; 2]| {

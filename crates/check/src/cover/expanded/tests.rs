@@ -1,9 +1,22 @@
 //! The bounds again, in rational numbers and term by term as the formulas stand; the short form;
 //! the reversed pencil.
 
-use super::super::family::Family;
+use super::super::family::{AnchorExpansion, Family};
 use super::*;
 use mceip_exact::{rational, whole};
+
+fn grid(n: usize, entry: impl Fn(usize, usize) -> Integer) -> Matrix {
+    (0..n)
+        .map(|i| (0..n).map(|j| entry(i, j)).collect())
+        .collect()
+}
+
+fn without_short(expanded: Expanded) -> AnchorExpansion {
+    AnchorExpansion {
+        expanded,
+        short: None,
+    }
+}
 
 fn int(list: &[i64]) -> Vec<Integer> {
     list.iter().map(|&v| v.into()).collect()
@@ -255,7 +268,7 @@ fn reversed_ends_are_those_of_the_reciprocals() {
         reversed().ends(&whole(0), Some(&hi)),
         Err(CoverFault::Hypothesis { .. })
     ));
-    let family = Family::Condensed(vec![(linear(), None), (reversed(), None)]);
+    let family = Family::Condensed(vec![without_short(linear()), without_short(reversed())]);
     assert_eq!(
         [None, Some(0), Some(1), Some(2)].map(|k| family.is_reversed(k)),
         [false, false, true, false]
@@ -300,7 +313,7 @@ fn contains(e: &Expanded, short: &Short, t: &Rational, times: &Rational) -> bool
         };
         coefficient(0) + t * coefficient(1)
     };
-    let z = |i: usize, j: usize| {
+    let center = |i: usize, j: usize| {
         let [a, b] = [0, 1].map(|k| Rational::new(e.z[k][i][j].clone(), e.unit.clone()));
         a + t * b
     };
@@ -311,7 +324,7 @@ fn contains(e: &Expanded, short: &Short, t: &Rational, times: &Rational) -> bool
     let raised = Rational::from_integer(t.denom() << FRACTION_BITS);
     let fits = |unit: u64, i: usize, j: usize, sign: i64| {
         let unit = Integer::one() << unit;
-        let value = (z(i, j) + radius(i, j) * times * whole(sign)) * &raised;
+        let value = (center(i, j) + radius(i, j) * times * whole(sign)) * &raised;
         (value - Rational::from_integer(&unit * short.m[i][j])).abs()
             <= Rational::from_integer(unit * short.r[i][j])
     };

@@ -1,15 +1,15 @@
 //! Each bound again, in rational numbers as its formula stands, on a matrix whose every entry has a
 //! radius; and each decision at the last number that is refused and the first that is accepted.
 
-use super::super::family::Matrix;
+use super::super::ends::Matrix;
 use super::*;
 use crate::certificate::Root;
 use mceip_exact::{rational, whole};
 use mceip_model::file::Number;
 use num_traits::ToPrimitive;
 
-/// Variables 2 and 0 move, and 1, the pivot; 3 rests.
-const MOVING: [usize; 3] = [2, 0, 1];
+/// Variables 2, 0 and 1, the pivot; variable 3 is at zero.
+const SUPPORT: [usize; 3] = [2, 0, 1];
 const Y_ONE: i64 = 32;
 const ONE: i64 = 2;
 const SCALE: i64 = 1000;
@@ -54,10 +54,10 @@ fn inverse() -> Matrix {
     ]
 }
 
-fn system(y: &Matrix) -> System<'_> {
+fn witness(y: &Matrix) -> Witness<'_> {
     let list = |v: [i64; 3]| v.iter().map(|&v| v.into()).collect();
-    System {
-        moving: MOVING.to_vec(),
+    Witness {
+        support: SUPPORT.to_vec(),
         y,
         y_one: Y_ONE.into(),
         u: list([1, -3, ONE]),
@@ -66,32 +66,32 @@ fn system(y: &Matrix) -> System<'_> {
     }
 }
 
-fn q(v: &Integer) -> Rational {
+fn rational_of(v: &Integer) -> Rational {
     Rational::from_integer(v.clone())
 }
 
-/// An entry among the moving variables and its radius, as real numbers.
+/// An entry among the variables of the support and its radius, as real numbers.
 fn entry(e: &Ends, end: usize, i: usize, j: usize) -> (Rational, Rational) {
-    let of = |m: &Matrix| q(&m[MOVING[i]][MOVING[j]]) / whole(SCALE);
+    let of = |m: &Matrix| rational_of(&m[SUPPORT[i]][SUPPORT[j]]) / whole(SCALE);
     (of(&e.m[end]), of(&e.r[end]))
 }
 
-fn y(s: &System<'_>, i: usize, k: usize) -> Rational {
-    q(&s.y[i][k]) / whole(Y_ONE)
+fn inverse_entry(s: &Witness<'_>, i: usize, k: usize) -> Rational {
+    rational_of(&s.y[i][k]) / whole(Y_ONE)
 }
 
 fn largest(list: impl Iterator<Item = Rational>) -> Rational {
     list.max().unwrap()
 }
 
-fn norm(s: &System<'_>, e: &Ends, is_right: bool) -> Rational {
+fn norm(s: &Witness<'_>, e: &Ends, is_right: bool) -> Rational {
     let row = |end: usize, i: usize| -> Rational {
         let cell = |j: usize| {
             let term = |k: usize| {
                 if is_right {
-                    (y(s, i, k), entry(e, end, k, j))
+                    (inverse_entry(s, i, k), entry(e, end, k, j))
                 } else {
-                    (y(s, k, i), entry(e, end, j, k))
+                    (inverse_entry(s, k, i), entry(e, end, j, k))
                 }
             };
             let product: Rational = (0..2).map(|k| term(k).0 * term(k).1.0).sum();
@@ -108,7 +108,7 @@ fn norm(s: &System<'_>, e: &Ends, is_right: bool) -> Rational {
 }
 
 fn residual(
-    s: &System<'_>,
+    s: &Witness<'_>,
     e: &Ends,
     end: usize,
     is_right: bool,
@@ -116,9 +116,9 @@ fn residual(
 ) -> (Rational, Rational) {
     let term = |j: usize| {
         if is_right {
-            (q(&s.v[j]) / whole(ONE), entry(e, end, i, j))
+            (rational_of(&s.v[j]) / whole(ONE), entry(e, end, i, j))
         } else {
-            (q(&s.u[j]) / whole(ONE), entry(e, end, j, i))
+            (rational_of(&s.u[j]) / whole(ONE), entry(e, end, j, i))
         }
     };
     (
@@ -127,14 +127,20 @@ fn residual(
     )
 }
 
-fn error_at(s: &System<'_>, e: &Ends, end: usize, is_right: bool, norm: &Rational) -> Rational {
+fn error_at(s: &Witness<'_>, e: &Ends, end: usize, is_right: bool, norm: &Rational) -> Rational {
     let row = |i: usize| -> Rational {
-        let y = |k: usize| if is_right { y(s, i, k) } else { y(s, k, i) };
+        let entry = |k: usize| {
+            if is_right {
+                inverse_entry(s, i, k)
+            } else {
+                inverse_entry(s, k, i)
+            }
+        };
         let sum: Rational = (0..2)
-            .map(|k| y(k) * residual(s, e, end, is_right, k).0)
+            .map(|k| entry(k) * residual(s, e, end, is_right, k).0)
             .sum();
         let radius: Rational = (0..2)
-            .map(|k| y(k).abs() * residual(s, e, end, is_right, k).1)
+            .map(|k| entry(k).abs() * residual(s, e, end, is_right, k).1)
             .sum();
         sum.abs() + radius
     };
@@ -144,7 +150,7 @@ fn error_at(s: &System<'_>, e: &Ends, end: usize, is_right: bool, norm: &Rationa
 #[test]
 fn norms_and_errors_are_those_of_the_formulas() {
     let (y, e) = (inverse(), ends());
-    let s = system(&y);
+    let s = witness(&y);
     let mut swapped = ends();
     swapped.m.swap(0, 1);
     swapped.r.swap(0, 1);
@@ -159,16 +165,19 @@ fn norms_and_errors_are_those_of_the_formulas() {
             let at: Vec<Rational> = (0..2)
                 .map(|end| error_at(&s, &e, end, is_right, &expected))
                 .collect();
-            assert_eq!(s.error_at(&e, 0, &other, &expected), at[0]);
-            assert_eq!(s.error_at(&e, 1, &other, &expected), at[1]);
+            assert_eq!(s.error_at(&e, 0, other, &expected), at[0]);
+            assert_eq!(s.error_at(&e, 1, other, &expected), at[1]);
             assert_eq!(s.error(&e, other, &expected), largest(at.into_iter()));
         }
         for (end, side) in [(0, Side::Right), (1, Side::Left)] {
-            let got = s.residual(&e, end, &side);
+            let got = s.residual(&e, end, side);
             let unit = whole(ONE * SCALE);
-            for (i, (value, radius)) in got.iter().enumerate() {
+            for (i, ball) in got.iter().enumerate() {
                 assert_eq!(
-                    (q(value) / &unit, q(radius) / &unit),
+                    (
+                        rational_of(&ball.center) / &unit,
+                        rational_of(&ball.radius) / &unit
+                    ),
                     residual(&s, &e, end, matches!(side, Side::Right), i)
                 );
             }
@@ -180,8 +189,8 @@ fn norms_and_errors_are_those_of_the_formulas() {
 #[test]
 fn one_variable_needs_no_inverse() {
     let none: Matrix = vec![];
-    let s = System {
-        moving: vec![1],
+    let s = Witness {
+        support: vec![1],
         y: &none,
         y_one: 1.into(),
         u: vec![ONE.into()],
@@ -197,18 +206,18 @@ fn one_variable_needs_no_inverse() {
 #[test]
 fn a_norm_of_one_is_not_regular() {
     let y = vec![vec![0.into(), 0.into()], vec![0.into(), 0.into()]];
-    let got = system(&y).norm(&ends(), Side::Right);
+    let got = witness(&y).norm(&ends(), Side::Right);
     assert!(matches!(got, Err(CoverFault::NotRegular { got }) if got == whole(1)));
 }
 
 /// phi at an end and its radius, both times one^2 scale.
-fn phi(s: &System<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Integer) {
+fn phi(s: &Witness<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Integer) {
     let pairs = || (0..3).flat_map(|i| (0..3).map(move |j| (i, j)));
     let value: Integer = pairs()
-        .map(|(i, j)| &s.u[i] * &e.m[end][MOVING[i]][MOVING[j]] * &s.v[j])
+        .map(|(i, j)| &s.u[i] * &e.m[end][SUPPORT[i]][SUPPORT[j]] * &s.v[j])
         .sum();
     let around: Integer = pairs()
-        .map(|(i, j)| s.u[i].abs() * &e.r[end][MOVING[i]][MOVING[j]] * s.v[j].abs())
+        .map(|(i, j)| s.u[i].abs() * &e.r[end][SUPPORT[i]][SUPPORT[j]] * s.v[j].abs())
         .sum();
     let left: Rational = (0..2)
         .map(|i| residual(s, e, end, false, i))
@@ -222,7 +231,7 @@ fn phi(s: &System<'_>, e: &Ends, end: usize, norm: &Rational) -> (Integer, Integ
 #[test]
 fn the_schur_complement_has_a_sign_beyond_its_radius_only() {
     let y = inverse();
-    let s = system(&y);
+    let s = witness(&y);
     let (rho, step) = (norm(&s, &ends(), true), Integer::from(ONE * ONE));
     let of = |end: usize, shift: &Integer| {
         let mut e = ends();
@@ -250,8 +259,8 @@ fn the_schur_complement_has_a_sign_beyond_its_radius_only() {
 fn at_its_radius_the_schur_complement_has_no_sign() {
     // No inverse is needed for one variable: phi = one^2 m, its radius one^2 r.
     let none: Matrix = vec![];
-    let s = System {
-        moving: vec![1],
+    let s = Witness {
+        support: vec![1],
         y: &none,
         y_one: 1.into(),
         u: vec![1.into()],
@@ -277,18 +286,18 @@ fn at_its_radius_the_schur_complement_has_no_sign() {
 }
 
 /// slope and radius of the derivative of phi, times one^2 scale.
-fn derivative(s: &System<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
-    let (mut slope, mut radius) = (0, 0);
-    let n = |v: &Integer| v.to_i64().unwrap();
+fn derivative(s: &Witness<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
+    let mut slope = 0;
+    let mut radius = 0;
+    let short = |v: &Integer| v.to_i64().unwrap();
     for i in 0..3 {
         for j in 0..3 {
-            let d = n(&e.m[1][MOVING[i]][MOVING[j]]) - n(&e.m[0][MOVING[i]][MOVING[j]]);
-            let around = n(&e.slope[MOVING[i]][MOVING[j]]);
-            let (u, v) = (n(&s.u[i]), n(&s.v[j]));
-            let (a, b) = (
-                if i == 2 { 0 } else { left },
-                if j == 2 { 0 } else { right },
-            );
+            let d = short(&e.m[1][SUPPORT[i]][SUPPORT[j]]) - short(&e.m[0][SUPPORT[i]][SUPPORT[j]]);
+            let around = short(&e.slope[SUPPORT[i]][SUPPORT[j]]);
+            let u = short(&s.u[i]);
+            let v = short(&s.v[j]);
+            let a = if i == 2 { 0 } else { left };
+            let b = if j == 2 { 0 } else { right };
             slope += u * d * v;
             // (|d| + around) (|u| + a) (|v| + b) less |d| |u| |v|.
             radius +=
@@ -302,7 +311,7 @@ fn derivative(s: &System<'_>, e: &Ends, left: i64, right: i64) -> (i64, i64) {
 fn the_derivative_has_a_sign_beyond_its_radius_only() {
     let y = inverse();
     // Components of one unit, so that every unit of the radius tells.
-    let mut s = system(&y);
+    let mut s = witness(&y);
     (s.u, s.v, s.one) = (
         [3, -4, 1].map(Integer::from).to_vec(),
         [-5, 2, 1].map(Integer::from).to_vec(),
@@ -344,17 +353,18 @@ fn the_derivative_has_a_sign_beyond_its_radius_only() {
 #[test]
 fn a_resting_row_has_a_sign_beyond_its_radius_only() {
     let y = inverse();
-    let mut s = system(&y);
+    let mut s = witness(&y);
     (s.v, s.one) = ([-5, 2, 1].map(Integer::from).to_vec(), 1.into());
     for (end, error) in [(0, 0), (1, 0), (0, 4), (1, 9)] {
         let mut e = ends();
-        let m = |e: &Ends, j: usize| e.m[end][3][MOVING[j]].to_i64().unwrap();
-        let r = |e: &Ends, j: usize| e.r[end][3][MOVING[j]].to_i64().unwrap();
-        let radius = 5 * r(&e, 0)
-            + 2 * r(&e, 1)
-            + r(&e, 2)
-            + error * (m(&e, 0).abs() + r(&e, 0) + m(&e, 1).abs() + r(&e, 1));
-        let others = -5 * m(&e, 0) + 2 * m(&e, 1);
+        let entry = |e: &Ends, j: usize| e.m[end][3][SUPPORT[j]].to_i64().unwrap();
+        let radius_of = |e: &Ends, j: usize| e.r[end][3][SUPPORT[j]].to_i64().unwrap();
+        let radius = 5 * radius_of(&e, 0)
+            + 2 * radius_of(&e, 1)
+            + radius_of(&e, 2)
+            + error
+                * (entry(&e, 0).abs() + radius_of(&e, 0) + entry(&e, 1).abs() + radius_of(&e, 1));
+        let others = -5 * entry(&e, 0) + 2 * entry(&e, 1);
         let mut sign = |value: i64| {
             e.m[end][3][1] = (value - others).into();
             s.row_sign(&e, end, 3, &whole(error))
@@ -384,7 +394,7 @@ fn root(outcome: RootOutcome) -> Root {
 const INDEX: [usize; 3] = [10, 11, 12];
 
 fn region() -> Region {
-    let states = vec![State::Moving, State::Moving, State::Rest];
+    let states = vec![State::InSupport, State::InSupport, State::AtZero];
     Region {
         lo: whole(0),
         hi: Some(whole(1)),
@@ -396,7 +406,7 @@ fn region() -> Region {
 /// T = [[1, a, .], [0, t, .], [b, c, .]] with t from one value to another: x = (-a, 1), y_3 = c - a
 /// b.
 fn simple(t: [i64; 2], a: i64, b: i64, c: [i64; 2]) -> Ends {
-    let m = |k: usize| -> Matrix {
+    let at_end = |k: usize| -> Matrix {
         [[1, a, 0], [0, t[k], 0], [b, c[k], 0]]
             .iter()
             .map(|r| r.map(Integer::from).to_vec())
@@ -404,7 +414,7 @@ fn simple(t: [i64; 2], a: i64, b: i64, c: [i64; 2]) -> Ends {
     };
     let zero = || vec![vec![Integer::zero(); 3]; 3];
     Ends {
-        m: [m(0), m(1)],
+        m: [at_end(0), at_end(1)],
         r: [zero(), zero()],
         slope: zero(),
         scale: 1.into(),
@@ -509,21 +519,15 @@ fn components_are_positive_beyond_the_error_only() {
     let ends = simple([-1, 1], 0, 0, [100, 100]);
     let solution = |x: i64, one: i64, error: Rational| {
         let v = vec![x.into(), one.into()];
-        let s = System {
-            moving: vec![0, 1],
+        let s = Witness {
+            support: vec![0, 1],
             y: &y,
             y_one: 1.into(),
             u: v.clone(),
             v,
             one: one.into(),
         };
-        s.signs(
-            &region(),
-            &ends,
-            &error,
-            &INDEX,
-            &root(RootOutcome::Solution),
-        )
+        s.check_outcome(&region(), &ends, &error, &INDEX, &RootOutcome::Solution)
     };
     let fault = Err(CoverFault::Sign {
         component: "x",
@@ -542,8 +546,8 @@ fn components_are_positive_beyond_the_error_only() {
     }
 }
 
-/// y is zero on a moving row, and were a row of the block negative by rounding it is not a row of
-/// y.
+/// y is zero on the rows of the support: a row of the block that is negative by rounding is no
+/// negative y.
 #[test]
 fn a_moving_row_is_no_negative_y() {
     let wide = simple([-9, 9], 0, 0, [1, 1]);

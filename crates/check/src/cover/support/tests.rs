@@ -1,6 +1,7 @@
 //! Where solutions of a support are single, where they are alone, and how far a leaf's word
 //! reaches.
 
+use super::super::region::State;
 use super::*;
 use crate::certificate::{Member, Point};
 use mceip_exact::{Integer, rational, whole};
@@ -28,9 +29,9 @@ fn region(lo: i64, hi: Option<i64>, moving: &[usize], order: usize) -> Region {
     let states = (0..order)
         .map(|i| {
             if moving.contains(&i) {
-                State::Moving
+                State::InSupport
             } else {
-                State::Rest
+                State::AtZero
             }
         })
         .collect();
@@ -72,7 +73,7 @@ fn some(x: &[&[i64]], alone: Option<Alone>) -> Exact {
 
 fn verdict(rows: &Rows, region: &Region, leaf: &Support) -> Result<Vec<Held>, CoverFault> {
     let index: Vec<usize> = (0..rows.order()).collect();
-    check(rows, region, &index, leaf, &Budget::new())
+    check(rows, region, &index, leaf, &SignBudget::new())
 }
 
 /// (t - 1) x_0: one solution, at 1, between points where nothing is.
