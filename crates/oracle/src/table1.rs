@@ -1,8 +1,16 @@
-//! Table 1 in closed form, re-derived from the 2x2 problem printed above it (`spec/errata.md`).
+//! Table 1 in closed form, re-derived from the 2x2 problem printed above it (`spec/errata.md`, X1).
 //!
-//! With t = lambda^2 m / k, p = c^2 + 1, q = mu c s the problem is
-//! [ t + p - q S1, -S1 S2; -S1 S2, t + p + q S2 ] x = y / k.
-//! The table as printed scrambles its rows; nothing here is copied from it.
+//! With t = lambda^2 m / k, p = c^2 + 1 and q = mu c s the problem of the two particles is
+//!
+//!     [ t + p - q S1     -S1 S2     ]
+//!     [   -S1 S2      t + p + q S2  ] x = y / k,    0 <= x _|_ y >= 0,  x != 0.
+//!
+//! Its three supports are solved by hand. The table as printed scrambles its rows; nothing here is
+//! copied from it. The values lie in a quadratic field, so they are exact.
+//!
+//! Input: the data of Fig. 1. Output: all solutions of MCEIP-lambda2 ([`table1`]) or of MCEIP-mu
+//! ([`thresholds`]). Called by tests, which hold it against the enumerator and the solver, and by
+//! the picture of the table.
 
 use mceip_exact::{Quadratic, Rational, Sign, whole};
 use num_traits::{One, Signed, Zero};
@@ -24,6 +32,18 @@ pub struct TwoParticles {
     pub signs: (i8, i8),
 }
 
+impl TwoParticles {
+    /// p = c^2 + 1.
+    fn p(&self) -> Rational {
+        &self.c * &self.c + Rational::one()
+    }
+
+    /// q = mu c s.
+    fn q(&self) -> Rational {
+        &self.mu * &self.c * &self.s
+    }
+}
+
 /// A solution of Table 1: value and x in Q(sqrt d), x up to a positive factor.
 #[derive(Debug, Clone)]
 pub struct ClosedSolution {
@@ -35,7 +55,7 @@ pub struct ClosedSolution {
     pub slip: Vec<usize>,
 }
 
-/// All solutions of MCEIP-lambda2 for the two particles.
+/// All solutions of MCEIP-lambda2 for the two particles; the value is lambda^2 = t k / m.
 ///
 /// * S1 = S2: slip-slip with t = -p + sqrt(1 + q^2) if that is >= 0 (mu^2 s^2 >= c^2 + 2, or c = 0:
 ///   then t = 0 for every mu); x_2 / x_1 = sqrt(1 + q^2) - S q.
@@ -43,29 +63,47 @@ pub struct ClosedSolution {
 ///   t = q - p - 1 if q >= p + 1.
 /// * (-1, +1): none.
 pub fn table1(data: &TwoParticles) -> Vec<ClosedSolution> {
-    let p = &data.c * &data.c + Rational::one();
-    let q = &data.mu * &data.c * &data.s;
-    let unit = &data.k / &data.m;
     match data.signs {
-        (s1, s2) if s1 == s2 => {
-            let d = Rational::one() + &q * &q;
-            slip_slip(-p, d, &(&q * whole(s1.into())), &unit)
-                .into_iter()
-                .collect()
-        }
-        (1, _) => {
-            let one_slips =
-                [(vec![0], [1, 0]), (vec![1], [0, 1])].map(|(slip, x)| (&q - &p, slip, x));
-            let both_slip = (&q - &p - Rational::one(), vec![0, 1], [1, 1]);
-            let all = one_slips
-                .into_iter()
-                .chain([both_slip])
-                .filter(|(t, _, _)| !t.is_negative());
-            all.map(|(t, slip, x)| rational_solution(t * &unit, x, slip))
-                .collect()
-        }
+        (s1, s2) if s1 == s2 => equal_signs(data, s1).into_iter().collect(),
+        (1, _) => opposite_signs(data),
         _ => Vec::new(),
     }
+}
+
+/// S1 = S2 = S: the determinant (t + p)^2 - q^2 - 1 vanishes at t = -p + sqrt(1 + q^2), and there
+/// the second row gives x_2 / x_1 = 1 / (t + p + q S) = sqrt(1 + q^2) - q S.
+fn equal_signs(data: &TwoParticles, sign: i8) -> Option<ClosedSolution> {
+    let q = data.q();
+    let d = Rational::one() + &q * &q;
+    let t = Quadratic::new(-data.p(), Rational::one(), d.clone())?;
+    if t.sign() == Sign::Negative {
+        return None;
+    }
+
+    let x1 = t.embed(Rational::one());
+    let x2 = Quadratic::new(-(q * whole(sign.into())), Rational::one(), d)?;
+    Some(ClosedSolution {
+        value: t.scale(&(&data.k / &data.m)),
+        x: [x1, x2],
+        slip: vec![0, 1],
+    })
+}
+
+/// S1 = +1, S2 = -1: both diagonal entries are t + p - q, both others 1.
+fn opposite_signs(data: &TwoParticles) -> Vec<ClosedSolution> {
+    let unit = &data.k / &data.m;
+    let one_slips = data.q() - data.p();
+    let both_slip = &one_slips - Rational::one();
+
+    let mut solutions = Vec::new();
+    if !one_slips.is_negative() {
+        solutions.push(rational_solution(&one_slips * &unit, [1, 0]));
+        solutions.push(rational_solution(&one_slips * &unit, [0, 1]));
+    }
+    if !both_slip.is_negative() {
+        solutions.push(rational_solution(&both_slip * &unit, [1, 1]));
+    }
+    solutions
 }
 
 /// The values of mu at which a solution with lambda^2 = 0 exists (MCEIP-mu), for c > 0 and s > 0;
@@ -73,9 +111,7 @@ pub fn table1(data: &TwoParticles) -> Vec<ClosedSolution> {
 ///
 /// S1 = S2: mu = sqrt(c^2 + 2) / s; (+1, -1): mu = (c^2 + 1)/(c s) twice, mu = (c^2 + 2)/(c s).
 pub fn thresholds(data: &TwoParticles) -> Option<Vec<ClosedSolution>> {
-    let p = &data.c * &data.c + Rational::one();
-    let cs = &data.c * &data.s;
-    Some(match data.signs {
+    match data.signs {
         (s1, s2) if s1 == s2 => {
             if data.c.is_zero() {
                 return None;
@@ -83,53 +119,48 @@ pub fn thresholds(data: &TwoParticles) -> Option<Vec<ClosedSolution>> {
             if data.s.is_zero() {
                 return Some(Vec::new());
             }
-            // q^2 = p^2 - 1 = c^2 (c^2 + 2); x_2 / x_1 = sqrt(1 + q^2) - S q = p - S c sqrt(c^2 +
-            // 2).
-            let d = &p + Rational::one();
-            let value = Quadratic::new(Rational::zero(), data.s.recip(), d.clone())?;
-            let x1 = value.embed(Rational::one());
-            let x2 = Quadratic::new(p, -&data.c * whole(s1.into()), d)?;
-            vec![ClosedSolution {
-                value,
-                x: [x1, x2],
-                slip: vec![0, 1],
-            }]
+            Some(vec![threshold_of_equal_signs(data, s1)?])
         }
-        (1, _) if !cs.is_zero() => vec![
-            rational_solution(&p / &cs, [1, 0], vec![0]),
-            rational_solution(&p / &cs, [0, 1], vec![1]),
-            rational_solution((&p + Rational::one()) / &cs, [1, 1], vec![0, 1]),
-        ],
-        _ => Vec::new(),
-    })
+        (1, _) => Some(thresholds_of_opposite_signs(data)),
+        _ => Some(Vec::new()),
+    }
 }
 
-/// t = a + sqrt(d) in units of `unit`, with x = (1, sqrt(d) - q S), if t >= 0.
-fn slip_slip(
-    a: Rational,
-    d: Rational,
-    q_signed: &Rational,
-    unit: &Rational,
-) -> Option<ClosedSolution> {
-    let t = Quadratic::new(a, Rational::one(), d.clone())?;
-    if t.sign() == Sign::Negative {
-        return None;
-    }
-    let x2 = Quadratic::new(-q_signed, Rational::one(), d)?;
+/// S1 = S2 = S, t = 0: q^2 = p^2 - 1 = c^2 (c^2 + 2), hence mu = q / (c s) = sqrt(c^2 + 2) / s and
+/// x_2 / x_1 = sqrt(1 + q^2) - S q = p - S c sqrt(c^2 + 2).
+fn threshold_of_equal_signs(data: &TwoParticles, sign: i8) -> Option<ClosedSolution> {
+    let d = data.p() + Rational::one();
+    let value = Quadratic::new(Rational::zero(), data.s.recip(), d.clone())?;
+    let x1 = value.embed(Rational::one());
+    let x2 = Quadratic::new(data.p(), -&data.c * whole(sign.into()), d)?;
     Some(ClosedSolution {
-        value: t.scale(unit),
-        x: [t.embed(Rational::one()), x2],
+        value,
+        x: [x1, x2],
         slip: vec![0, 1],
     })
 }
 
-fn rational_solution(value: Rational, x: [i64; 2], slip: Vec<usize>) -> ClosedSolution {
-    // d = 0: the field is Q itself.
-    let embed = |v: Rational| Quadratic::embed_rational(v);
+/// S1 = +1, S2 = -1, t = 0: q = p and q = p + 1; none if c s = 0.
+fn thresholds_of_opposite_signs(data: &TwoParticles) -> Vec<ClosedSolution> {
+    let cs = &data.c * &data.s;
+    if cs.is_zero() {
+        return Vec::new();
+    }
+
+    let one_slips = data.p() / &cs;
+    let both_slip = (data.p() + Rational::one()) / &cs;
+    vec![
+        rational_solution(one_slips.clone(), [1, 0]),
+        rational_solution(one_slips, [0, 1]),
+        rational_solution(both_slip, [1, 1]),
+    ]
+}
+
+fn rational_solution(value: Rational, x: [i64; 2]) -> ClosedSolution {
     ClosedSolution {
-        value: embed(value),
-        x: x.map(|v| embed(whole(v))),
-        slip,
+        value: Quadratic::embed_rational(value),
+        x: x.map(|x_i| Quadratic::embed_rational(whole(x_i))),
+        slip: (0..2).filter(|&i| x[i] > 0).collect(),
     }
 }
 
