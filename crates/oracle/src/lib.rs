@@ -3,7 +3,9 @@
 //! The problem: given square rational matrices A and B and a set f of free variables, find all
 //! t >= 0 in a window and all x != 0 with
 //!
-//!     y = (A + tB) x,    y_f = 0,    0 <= x_s _|_ y_s >= 0,
+//! ```text
+//! y = (A + tB) x,    y_f = 0,    0 <= x_s _|_ y_s >= 0,
+//! ```
 //!
 //! where s are the other variables, the complementarity variables ((12)-(14) with t = lambda^2,
 //! (21)-(23) with t = mu). [`enumerate`] goes through all supports, that is, through all sets of

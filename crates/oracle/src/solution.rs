@@ -206,12 +206,12 @@ impl Enumeration {
         cone::keep_maximal(&mut self.cones);
 
         self.solutions
-            .sort_by(|a, b| compare_values(&a.value, &b.value).then_with(|| a.slip.cmp(&b.slip)));
+            .sort_by(|a, b| compare_places((&a.value, &a.slip), (&b.value, &b.slip)));
         self.cones
-            .sort_by(|a, b| compare_values(&a.value, &b.value).then_with(|| a.slip.cmp(&b.slip)));
-        self.wide.sort_by(|a, b| {
-            compare_values(&a.value, &b.value).then_with(|| a.support.cmp(&b.support))
-        });
+            .sort_by(|a, b| compare_places((&a.value, &a.slip), (&b.value, &b.slip)));
+        self.wide
+            .sort_by(|a, b| compare_places((&a.value, &a.support), (&b.value, &b.support)));
+
         self.ranges.sort_by(|a, b| a.support.cmp(&b.support));
         self.undescribed.sort_by(|a, b| a.support.cmp(&b.support));
         self.continua.sort();
@@ -223,7 +223,11 @@ pub(super) fn equal_values(a: &Algebraic, b: &Algebraic) -> bool {
     a.clone().equals(&mut b.clone())
 }
 
-/// The order of two numbers. The comparison refines copies, the numbers stay as they are.
-fn compare_values(a: &Algebraic, b: &Algebraic) -> Ordering {
-    a.clone().cmp_exact(&mut b.clone())
+/// A value and a set of slip variables: what a list of solutions is sorted by.
+type Place<'a> = (&'a Algebraic, &'a [usize]);
+
+/// By value, then by slip set. The comparison refines copies, the numbers stay as they are.
+fn compare_places(a: Place<'_>, b: Place<'_>) -> Ordering {
+    let by_value = a.0.clone().cmp_exact(&mut b.0.clone());
+    by_value.then_with(|| a.1.cmp(b.1))
 }

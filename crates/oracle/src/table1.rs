@@ -2,8 +2,10 @@
 //!
 //! With t = lambda^2 m / k, p = c^2 + 1 and q = mu c s the problem of the two particles is
 //!
-//!     [ t + p - q S1     -S1 S2     ]
-//!     [   -S1 S2      t + p + q S2  ] x = y / k,    0 <= x _|_ y >= 0,  x != 0.
+//! ```text
+//! [ t + p - q S1     -S1 S2     ]
+//! [   -S1 S2      t + p + q S2  ] x = y / k,    0 <= x _|_ y >= 0,  x != 0.
+//! ```
 //!
 //! Its three supports are solved by hand. The table as printed scrambles its rows; nothing here is
 //! copied from it. The values lie in a quadratic field, so they are exact.

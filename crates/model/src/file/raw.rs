@@ -1,4 +1,8 @@
-//! The JSON shape of `mceip-problem/1`, and its way to a [`Problem`].
+//! The JSON shape of `mceip-problem/1` (`spec/formats.md`), and its way to a [`Problem`].
+//!
+//! Two steps. First `serde` reads the text into the `Raw` types, which say what fields there are
+//! and nothing else; unknown fields are refused. Then `build` makes the types of the model out of
+//! them, which establish every precondition.
 
 use super::matrix::RawMatrix;
 use super::{Number, Object, Word};
@@ -9,6 +13,7 @@ use mceip_exact::{Rational, whole};
 use serde::Deserialize;
 use std::path::Path;
 
+/// The whole file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawProblem {
@@ -76,20 +81,19 @@ struct RawReaction {
 }
 
 impl RawProblem {
-    /// Builds the problem, establishing every precondition.
+    /// Builds the problem; Matrix Market files that it names are looked for in `folder`.
     pub(super) fn build(self, folder: &Path) -> Result<Problem, ModelError> {
         let window = match self.window {
             None => Window::all(),
-            Some(Object(w)) => {
-                Window::new(w.min.map_or_else(|| whole(0), |n| n.0), w.max.map(|n| n.0))?
-            }
+            Some(Object(window)) => window.build()?,
         };
         let body = match (self.pencil, self.system) {
-            (Some(Object(p)), None) => Body::Pencil(p.build(folder)?),
-            (None, Some(Object(s))) => Body::System(s.build(folder)?),
+            (Some(Object(pencil)), None) => Body::Pencil(pencil.build(folder)?),
+            (None, Some(Object(system))) => Body::System(system.build(folder)?),
             (None, None) => return Err(ModelError::Body { got: "neither" }),
             (Some(_), Some(_)) => return Err(ModelError::Body { got: "both" }),
         };
+
         let mut problem = Problem::new(body, self.unknown.0, window)?;
         problem.name = self.name;
         problem.comment = self.comment;
@@ -97,80 +101,64 @@ impl RawProblem {
     }
 }
 
+impl RawWindow {
+    /// No `min` means 0, no `max` means infinity.
+    fn build(self) -> Result<Window, ModelError> {
+        let min = match self.min {
+            Some(number) => number.0,
+            None => whole(0),
+        };
+        let max = self.max.map(|number| number.0);
+        Window::new(min, max)
+    }
+}
+
 impl RawPencil {
     fn build(self, folder: &Path) -> Result<Pencil, ModelError> {
-        Pencil::new(
-            self.a.build("a", folder)?,
-            self.b.build("b", folder)?,
-            self.free,
-        )
+        let a = self.a.build("a", folder)?;
+        let b = self.b.build("b", folder)?;
+        Pencil::new(a, b, self.free)
     }
 }
 
 impl RawSystem {
     fn build(self, folder: &Path) -> Result<System, ModelError> {
         let particles = particles(self.particles)?;
-        let mass = self.mass.map(|m| m.build("M", folder)).transpose()?;
-        System::new(
-            self.stiffness.build("K", folder)?,
-            mass,
-            self.friction.map(|n| n.0),
-            particles,
-        )
+        let mass = match self.mass {
+            Some(mass) => Some(mass.build("M", folder)?),
+            None => None,
+        };
+        let stiffness = self.stiffness.build("K", folder)?;
+        let friction = self.friction.map(|number| number.0);
+        System::new(stiffness, mass, friction, particles)
     }
 }
 
 /// The particles of a list, numbered in complaints.
 pub(super) fn particles(list: Vec<Object<RawParticle>>) -> Result<Vec<Particle>, ModelError> {
-    list.into_iter()
-        .enumerate()
-        .map(|(i, Object(p))| p.build(i))
-        .collect()
+    let mut particles = Vec::with_capacity(list.len());
+    for (index, Object(particle)) in list.into_iter().enumerate() {
+        particles.push(particle.build(index)?);
+    }
+    Ok(particles)
 }
 
 impl RawParticle {
-    fn build(self, particle: usize) -> Result<Particle, ModelError> {
-        let sign = |field, value: i64| match value {
-            1 => Ok(1),
-            -1 => Ok(-1),
-            other => Err(ModelError::Sign {
-                particle,
-                field,
-                expected: "1 or -1",
-                got: other.to_string(),
-            }),
-        };
-        let state = match (self.state.0, self.sign) {
-            (RawState::Zero, _) => return Err(ModelError::ZeroReactionState { particle }),
-            (RawState::Slip, Some(s)) => ContactState::Slip {
-                sign: sign("sign", s)?,
-            },
-            (RawState::Slip, None) => {
-                return Err(ModelError::Sign {
-                    particle,
-                    field: "sign",
-                    expected: "1 or -1 on a slip particle",
-                    got: "none".into(),
-                });
-            }
-            (RawState::Free, None) => ContactState::Free,
-            (RawState::Stick, None) => ContactState::Stick,
-            (_, Some(s)) => {
-                return Err(ModelError::Sign {
-                    particle,
-                    field: "sign",
-                    expected: "none on a particle that does not slip",
-                    got: s.to_string(),
-                });
-            }
-        };
-        let frame: Option<[[Rational; 2]; 2]> =
-            self.frame.map(|rows| rows.map(|row| row.map(|n| n.0)));
-        let reaction = self.reaction.map(|Object(r)| Reaction {
-            tangential: r.tangential.0,
-            normal: r.normal.0,
+    fn build(self, index: usize) -> Result<Particle, ModelError> {
+        let state = contact_state(index, self.state.0, self.sign)?;
+
+        let frame: Option<[[Rational; 2]; 2]> = self
+            .frame
+            .map(|rows| rows.map(|row| row.map(|number| number.0)));
+        let reaction = self.reaction.map(|Object(reaction)| Reaction {
+            tangential: reaction.tangential.0,
+            normal: reaction.normal.0,
         });
-        let normal_direction = sign("normal_direction", self.normal_direction.unwrap_or(1))?;
+        let normal_direction = match self.normal_direction {
+            Some(direction) => sign(index, "normal_direction", direction)?,
+            None => 1,
+        };
+
         Ok(Particle {
             tangential: self.tangential,
             normal: self.normal,
@@ -179,6 +167,47 @@ impl RawParticle {
             frame,
             reaction,
         })
+    }
+}
+
+/// The state with its sign, which a slip particle has and no other.
+fn contact_state(
+    particle: usize,
+    state: RawState,
+    given: Option<i64>,
+) -> Result<ContactState, ModelError> {
+    match (state, given) {
+        (RawState::Zero, _) => Err(ModelError::ZeroReactionState { particle }),
+        (RawState::Free, None) => Ok(ContactState::Free),
+        (RawState::Stick, None) => Ok(ContactState::Stick),
+        (RawState::Slip, Some(value)) => Ok(ContactState::Slip {
+            sign: sign(particle, "sign", value)?,
+        }),
+        (RawState::Slip, None) => Err(ModelError::Sign {
+            particle,
+            field: "sign",
+            expected: "1 or -1 on a slip particle",
+            got: "none".into(),
+        }),
+        (RawState::Free | RawState::Stick, Some(value)) => Err(ModelError::Sign {
+            particle,
+            field: "sign",
+            expected: "none on a particle that does not slip",
+            got: value.to_string(),
+        }),
+    }
+}
+
+fn sign(particle: usize, field: &'static str, value: i64) -> Result<i8, ModelError> {
+    match value {
+        1 => Ok(1),
+        -1 => Ok(-1),
+        other => Err(ModelError::Sign {
+            particle,
+            field,
+            expected: "1 or -1",
+            got: other.to_string(),
+        }),
     }
 }
 
