@@ -1,4 +1,19 @@
 //! Real algebraic numbers as (squarefree polynomial, isolating interval), and exact signs at them.
+//!
+//! alpha is the one root of p in [lo, hi]. Everything about alpha is the sign of some integer
+//! polynomial g there:
+//!
+//! 1. interval arithmetic encloses g over [lo, hi]; if 0 is not in the enclosure, that is the sign;
+//! 2. otherwise g(alpha) = 0 exactly if h = gcd(p, g) vanishes at alpha, that is, if h changes sign
+//!    over [lo, hi], because all roots of p are simple;
+//! 3. if it does not, bisection narrows the interval until 1. decides.
+//!
+//! A gcd that is neither 1 nor p splits p, and the factor that vanishes at alpha replaces it
+//! (dynamic evaluation: Duval, Dynamic evaluation, 1989). Basu, Pollack and Roy, Algorithms in Real
+//! Algebraic Geometry, chapter 10, treat the rest.
+//!
+//! Input: a polynomial with an interval that isolates one root of it (`roots`), or a rational.
+//! Called by everything exact that leaves the rationals: `kernel`, `cone`, the oracle, the checker.
 
 use super::{Integer, Interval, Poly, Rational};
 use num_integer::Integer as _;
@@ -61,6 +76,7 @@ impl Algebraic {
         if interval.is_point() {
             return Self::rational(interval.lo().clone());
         }
+
         let at_lo = poly.sign_at(interval.lo());
         Algebraic {
             poly,
@@ -95,20 +111,22 @@ impl Algebraic {
         if self.interval.is_point() {
             return;
         }
+
         let mid = self.interval.mid();
         let at_mid = self.poly.sign_at(&mid);
-        let (lo, hi) = (self.interval.lo().clone(), self.interval.hi().clone());
         if at_mid == 0 {
             *self = Self::rational(mid);
             return;
         }
-        let (lo, hi) = if at_mid == self.at_lo {
-            (mid, hi)
+
+        let half = if at_mid == self.at_lo {
+            Interval::new(mid, self.interval.hi().clone())
         } else {
-            (lo, mid)
+            Interval::new(self.interval.lo().clone(), mid)
         };
-        // lo <= hi: mid lies between the old ends.
-        self.interval = Interval::new(lo, hi).unwrap_or_else(|| self.interval.clone());
+        if let Some(half) = half {
+            self.interval = half; // always: lo <= mid <= hi
+        }
     }
 
     /// Refines until the interval is at most `width` wide.
@@ -126,39 +144,44 @@ impl Algebraic {
         if let Some(value) = self.as_rational() {
             return Sign::from(g.sign_at(value));
         }
-        let quick = self.interval.sign_on(g);
-        if quick != 0 {
-            return Sign::from(quick);
+
+        let sign = self.interval.sign_on(g);
+        if sign != 0 {
+            return Sign::from(sign);
         }
-        if g.is_zero() || self.splits_off(g) {
+        if g.is_zero() || self.is_root_of(g) {
             return Sign::Zero;
         }
+
+        // This ends: g is not zero here, and the enclosure narrows with the interval.
         loop {
             if let Some(value) = self.as_rational() {
                 return Sign::from(g.sign_at(value));
             }
-            match self.interval.sign_on(g) {
-                0 => self.refine(), // ends: g is not zero here and Horner converges with the width
-                s => return Sign::from(s),
+            let sign = self.interval.sign_on(g);
+            if sign != 0 {
+                return Sign::from(sign);
             }
+            self.refine();
         }
     }
 
-    /// Does `g` vanish here? If a proper factor of the polynomial shows either way, keep the
-    /// factor that vanishes here as the new, smaller polynomial (dynamic evaluation, Duval 1989).
-    fn splits_off(&mut self, g: &Poly) -> bool {
+    /// Does `g` vanish here? If h = gcd(p, g) is a proper factor of the polynomial p, the one of h
+    /// and p / h that vanishes here becomes the new, smaller polynomial.
+    fn is_root_of(&mut self, g: &Poly) -> bool {
         let h = self.poly.gcd(g);
         if h.degree() == Some(0) {
             return false;
         }
+
         let vanishes = h.sign_at(self.interval.lo()) != h.sign_at(self.interval.hi());
         let factor = if vanishes {
             Some(h)
         } else {
             self.poly.exact_div(&h)
         };
-        if let Some(f) = factor {
-            self.poly = f.primitive();
+        if let Some(factor) = factor {
+            self.poly = factor.primitive();
             self.at_lo = self.poly.sign_at(self.interval.lo());
         }
         vanishes
@@ -174,26 +197,23 @@ impl Algebraic {
     /// assert_eq!(v, [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])]); // (6 t^2, 8 t) ~ (3, 2 t)
     /// ```
     pub fn reduce(&self, vector: &[Poly]) -> Vec<Poly> {
-        let steps = vector
-            .iter()
-            .map(|p| p.coeffs().len())
-            .max()
-            .unwrap_or(0)
-            .saturating_sub(self.poly.coeffs().len() - 1);
-        let reduced: Vec<Poly> = vector
+        let longest = vector.iter().map(|p| p.coeffs().len()).max().unwrap_or(0);
+        let degree = self.poly.coeffs().len() - 1;
+        let steps = longest.saturating_sub(degree);
+
+        let remainders: Vec<Poly> = vector
             .iter()
             .map(|p| p.pseudo_rem_steps(&self.poly, steps))
             .collect();
-        let content = reduced
-            .iter()
-            .fold(Integer::zero(), |g, p| g.gcd(&p.content()));
-        if content.is_zero() || content.is_one() {
-            return reduced;
+
+        let mut content = Integer::zero();
+        for p in &remainders {
+            content = content.gcd(&p.content());
         }
-        reduced
-            .iter()
-            .map(|p| Poly::new(p.coeffs().iter().map(|c| c / &content).collect()))
-            .collect()
+        if content.is_zero() || content.is_one() {
+            return remainders;
+        }
+        remainders.iter().map(|p| p.divided_by(&content)).collect()
     }
 
     /// Looks for a rational value: a root u/v of a primitive polynomial has v dividing the lead, so
@@ -205,8 +225,11 @@ impl Algebraic {
         if self.interval.is_point() || self.poly.leading().bits() > 256 {
             return;
         }
+
         let lead = Rational::from_integer(self.poly.leading());
-        self.refine_to(&(Rational::one() / (&lead * &lead * Rational::from_integer(2.into()))));
+        let two = Rational::from_integer(2.into());
+        self.refine_to(&(&lead * &lead * two).recip());
+
         let simplest = simplest_between(self.interval.lo(), self.interval.hi());
         if self.poly.sign_at(&simplest) == 0 {
             *self = Self::rational(simplest);
@@ -227,6 +250,8 @@ impl Algebraic {
         if self.equals(other) {
             return Ordering::Equal;
         }
+
+        // This ends: the numbers differ, so narrow intervals around them do not meet.
         loop {
             if self.interval.hi() < other.interval.lo() {
                 return Ordering::Less;
@@ -243,23 +268,25 @@ impl Algebraic {
     }
 
     /// Are the two numbers equal?
+    ///
+    /// If the polynomial of `other` vanishes at `self`, the two are conjugates, and they are equal
+    /// exactly if `self` lies in the interval of `other`, which isolates one conjugate.
     pub fn equals(&mut self, other: &mut Algebraic) -> bool {
-        if let Some(v) = other.as_rational() {
-            return self.sign_of(&Poly::linear_root(v)) == Sign::Zero;
+        if let Some(value) = other.as_rational() {
+            return self.sign_of(&Poly::linear_root(value)) == Sign::Zero;
         }
-        if let Some(v) = self.as_rational() {
-            return other.sign_of(&Poly::linear_root(v)) == Sign::Zero;
+        if let Some(value) = self.as_rational() {
+            return other.sign_of(&Poly::linear_root(value)) == Sign::Zero;
         }
-        // `other`'s polynomial vanishes at self exactly if the gcd does; then self is one of
-        // other's conjugates, and it is other itself exactly if it lies in other's interval.
-        let polynomial = other.poly.clone();
-        self.sign_of(&polynomial) == Sign::Zero
+
+        self.sign_of(&other.poly) == Sign::Zero
             && self.cmp_rational(other.interval.lo()) == Ordering::Greater
             && self.cmp_rational(other.interval.hi()) == Ordering::Less
     }
 }
 
-/// The fraction of least denominator in [lo, hi] (Stern-Brocot).
+/// The fraction of least denominator in [lo, hi], found in the Stern-Brocot tree (Graham, Knuth and
+/// Patashnik, Concrete Mathematics, section 4.5).
 fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
     let floor = lo.floor();
     if floor == *lo {
@@ -269,8 +296,12 @@ fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
     if next <= *hi {
         return next;
     }
-    // Both lie strictly between floor and floor + 1: recurse on the reciprocals of the fractions.
-    floor.clone() + simplest_between(&(hi - &floor).recip(), &(lo - &floor).recip()).recip()
+
+    // Both ends lie strictly between floor and floor + 1. The reciprocal of a fraction between 0
+    // and 1 turns its numerator into the denominator, which is the shorter of the two.
+    let reciprocal_lo = (hi - &floor).recip();
+    let reciprocal_hi = (lo - &floor).recip();
+    floor + simplest_between(&reciprocal_lo, &reciprocal_hi).recip()
 }
 
 #[cfg(test)]
