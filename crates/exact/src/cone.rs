@@ -5,7 +5,7 @@
 //! At each step it is held as generators: a basis of the lineality space (the largest subspace in
 //! it) and the extreme rays modulo that space. A new row
 //!
-//! * that does not vanish on the lineality space takes one direction out of it, which becomes a ray;
+//! * that does not vanish on the lineality space takes one direction out of it, and makes it a ray;
 //! * that does vanish there keeps the rays on its side, and replaces the others by the points at
 //!   which the two-dimensional faces between a kept and a lost ray meet its hyperplane.
 //!

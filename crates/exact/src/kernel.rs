@@ -78,8 +78,8 @@ pub(super) fn integer_determinant(mut m: Vec<Vec<Integer>>) -> Integer {
 
 /// The integer polynomial of degree <= n with the given values at 0, ..., n.
 ///
-/// Newton's formula: p(t) = sum_k (D^k p)(0) t (t-1) ... (t-k+1) / k!, D the forward difference. All
-/// is multiplied by n! and divided by it at the end.
+/// Newton's formula: p(t) = sum_k (D^k p)(0) t (t-1) ... (t-k+1) / k!, D the forward difference.
+/// All is multiplied by n! and divided by it at the end.
 pub(super) fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
     let n = values.len().saturating_sub(1);
     let factorial: Integer = (1..=n).map(Integer::from).product();
@@ -169,8 +169,8 @@ pub fn row_echelon_at(m: Vec<Vec<Poly>>, alpha: &mut Algebraic) -> (Vec<Vec<Poly
     (echelon.rows, echelon.pivots)
 }
 
-/// What fraction-free Gauss-Jordan elimination leaves: row k has `last_pivot` in column `pivots[k]`,
-/// where all other rows have 0.
+/// What fraction-free Gauss-Jordan elimination leaves: row k has `last_pivot` in column
+/// `pivots[k]`, where all other rows have 0.
 struct Echelon {
     rows: Vec<Vec<Poly>>,
     pivots: Vec<usize>,

@@ -2,6 +2,9 @@
 //!
 //! p/q < r/s where p s < r q, since denominators are positive.
 //!
+//! Called by everything: this is the only type of rationals in the workspace. Reading and spelling
+//! rationals is in `rational`.
+//!
 //! num-rational compares by continued fractions instead, with one recursive step for each term. Two
 //! long numbers that lie close together have about as many terms as bits, so that a file of a
 //! hundred kilobytes overflowed the stack.
@@ -112,7 +115,10 @@ impl Ord for Rational {
         if by_sign != Ordering::Equal {
             return by_sign;
         }
-        (self.numer() * other.denom()).cmp(&(other.numer() * self.denom()))
+
+        let left = self.numer() * other.denom();
+        let right = other.numer() * self.denom();
+        left.cmp(&right)
     }
 }
 
@@ -155,67 +161,86 @@ macro_rules! operator {
     ($trait:ident, $method:ident, $assign:ident, $assign_method:ident) => {
         impl $trait<Rational> for Rational {
             type Output = Rational;
+
             fn $method(self, other: Rational) -> Rational {
                 Rational(self.0.$method(other.0))
             }
         }
+
         impl $trait<&Rational> for Rational {
             type Output = Rational;
+
             fn $method(self, other: &Rational) -> Rational {
                 Rational(self.0.$method(&other.0))
             }
         }
+
         impl $trait<Rational> for &Rational {
             type Output = Rational;
+
             fn $method(self, other: Rational) -> Rational {
                 Rational((&self.0).$method(other.0))
             }
         }
+
         impl $trait<&Rational> for &Rational {
             type Output = Rational;
+
             fn $method(self, other: &Rational) -> Rational {
                 Rational((&self.0).$method(&other.0))
             }
         }
+
         impl $trait<Integer> for Rational {
             type Output = Rational;
+
             fn $method(self, other: Integer) -> Rational {
                 Rational(self.0.$method(other))
             }
         }
+
         impl $trait<&Integer> for Rational {
             type Output = Rational;
+
             fn $method(self, other: &Integer) -> Rational {
                 Rational(self.0.$method(other))
             }
         }
+
         impl $trait<Integer> for &Rational {
             type Output = Rational;
+
             fn $method(self, other: Integer) -> Rational {
                 Rational((&self.0).$method(other))
             }
         }
+
         impl $trait<&Integer> for &Rational {
             type Output = Rational;
+
             fn $method(self, other: &Integer) -> Rational {
                 Rational((&self.0).$method(other))
             }
         }
+
         impl $assign<Rational> for Rational {
             fn $assign_method(&mut self, other: Rational) {
                 self.0.$assign_method(other.0);
             }
         }
+
         impl $assign<&Rational> for Rational {
             fn $assign_method(&mut self, other: &Rational) {
                 self.0.$assign_method(&other.0);
             }
         }
+
         impl $assign<Integer> for Rational {
             fn $assign_method(&mut self, other: Integer) {
                 self.0.$assign_method(other);
             }
         }
+
         impl $assign<&Integer> for Rational {
             fn $assign_method(&mut self, other: &Integer) {
                 self.0.$assign_method(other);
@@ -231,6 +256,7 @@ operator!(Div, div, DivAssign, div_assign);
 
 impl Neg for Rational {
     type Output = Rational;
+
     fn neg(self) -> Rational {
         Rational(-self.0)
     }
@@ -238,6 +264,7 @@ impl Neg for Rational {
 
 impl Neg for &Rational {
     type Output = Rational;
+
     fn neg(self) -> Rational {
         Rational(-&self.0)
     }
@@ -245,6 +272,7 @@ impl Neg for &Rational {
 
 impl Rem for Rational {
     type Output = Rational;
+
     fn rem(self, other: Rational) -> Rational {
         Rational(self.0 % other.0)
     }

@@ -66,8 +66,8 @@ impl Cone {
         center
     }
 
-    /// The weights 1 / n_k of the rays with norms n_k, times the product of all norms: prod_{l != k}
-    /// n_l.
+    /// The weights 1 / n_k of the rays with norms n_k, times the product of all norms: the products
+    /// of the other norms n_l, l != k.
     fn weights(&self, constrained: &[usize]) -> Vec<Poly> {
         let norms: Vec<Poly> = self
             .rays

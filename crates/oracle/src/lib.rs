@@ -23,9 +23,9 @@
 //!
 //! Every solution in the window is in at least one of the three ([`Enumeration::contains`]).
 //!
-//! To read: `plain` (the algorithm), `integer_pencil` (its linear algebra), `solution` (its answer);
-//! then, for what is not a list, `degenerate`, `cone` and `range`. `member` and `table1` stand
-//! alone.
+//! To read: `plain` (the algorithm), `integer_pencil` (its linear algebra), `solution` (its
+//! answer); then, for what is not a list, `degenerate`, `cone` and `range`. `member` and `table1`
+//! stand alone.
 #![deny(clippy::float_arithmetic)]
 
 mod cone;

@@ -5,8 +5,9 @@
 //! number, the entries of x and y are integer polynomials to be evaluated at it; so every question
 //! about a solution is a sign of a polynomial at an algebraic number.
 //!
-//! An [`Enumeration`] collects them. It is filled in two steps: `plain` names what it meets (kernels
-//! of more than one dimension, singular supports), [`Enumeration::describe`] says what these hold.
+//! An [`Enumeration`] collects them. It is filled in two steps: `plain` names what it meets
+//! (kernels of more than one dimension, singular supports), [`Enumeration::describe`] says what
+//! these hold.
 
 use super::integer_pencil::IntegerPencil;
 use super::{Cone, SupportRange, Undescribed, cone, range};
