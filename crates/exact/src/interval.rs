@@ -5,7 +5,8 @@
 //! interval arithmetic encloses p(t) for all t there, and narrows to p(t) with the interval.
 //!
 //! Horner's rule runs on integers: with the common denominator v of the ends, lo = a/v and
-//! hi = b/v, and after k steps both ends of the enclosure are integers over v^k. Signs need no more.
+//! hi = b/v, and after k steps both ends of the enclosure are integers over v^k. Signs need no
+//! more.
 //!
 //! Called by `algebraic` for signs at isolating intervals, by `decimal`, and by the checker.
 

@@ -2,9 +2,9 @@
 //! chain.
 //!
 //! Over Z a remainder needs a multiplier: |lead(b)|^k a = q b + r with deg r < deg b. The
-//! multiplier is taken positive, so that r has the sign of the remainder over Q. Remainder sequences
-//! a, b, r, ... are kept short by dividing each member by its content (the primitive remainder
-//! sequence; Knuth, The Art of Computer Programming 2, section 4.6.1).
+//! multiplier is taken positive, so that r has the sign of the remainder over Q. Remainder
+//! sequences a, b, r, ... are kept short by dividing each member by its content (the primitive
+//! remainder sequence; Knuth, The Art of Computer Programming 2, section 4.6.1).
 //!
 //! With r negated at each step and p' after p the sequence is a Sturm chain: between two points at
 //! which p does not vanish it loses as many sign changes as p has distinct roots there (Sturm 1829;

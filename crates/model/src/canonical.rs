@@ -5,7 +5,7 @@
 //!
 //! The digest is SHA-256 (FIPS 180-4) of that text. Two problems with one digest are, for all that
 //! anybody can do, the same mathematical problem; so a certificate that names the digest is bound
-//! to its matrices. The text is specified in `spec/formats.md`, where another program can follow it.
+//! to its matrices. `spec/formats.md` specifies the text, so that other programs can write it.
 
 use super::{Body, ContactState, Direction, Particle, Pencil, Problem, System};
 use mceip_exact::Sparse;

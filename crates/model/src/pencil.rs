@@ -273,6 +273,7 @@ mod tests {
             Pencil::new(Sparse::zeros(0, 0), Sparse::zeros(0, 0), vec![]),
             Err(ModelError::Empty { .. })
         ));
+
         let pencil = Pencil::new(square.clone(), square, vec![1]).unwrap();
         assert_eq!((pencil.free(), pencil.slip()), (&[1][..], vec![0]));
     }
@@ -282,16 +283,25 @@ mod tests {
         let a = Sparse::from_ints(&[&[1, 0], &[5, 2]]);
         let b = Sparse::from_ints(&[&[-1, 0], &[0, 1]]);
         let pencil = Pencil::new(a.clone(), b.clone(), vec![1]).unwrap();
+
         assert!(Admissible::new(&pencil, Unknown::Lambda2).is_ok());
         assert!(matches!(
             Admissible::new(&pencil, Unknown::Mu),
             Err(ModelError::NotZero { row: 1, col: 1, .. })
         ));
+
         let indefinite = Pencil::new(b, a, vec![0]).unwrap();
+        let refused = Admissible::new(&indefinite, Unknown::Lambda2);
         assert!(matches!(
-            Admissible::new(&indefinite, Unknown::Lambda2),
-            Err(ModelError::NotDefinite { equation: "P2", index: 0, pivot, .. }) if pivot == whole(-1)
+            refused,
+            Err(ModelError::NotDefinite {
+                equation: "P2",
+                index: 0,
+                pivot,
+                ..
+            }) if pivot == whole(-1)
         ));
+
         let all_free = Pencil::new(
             Sparse::from_ints(&[&[1]]),
             Sparse::from_ints(&[&[0]]),
@@ -306,11 +316,12 @@ mod tests {
 
     #[test]
     fn dense_view_is_the_same_matrix() {
-        let m = Sparse::from_ints(&[&[1, 2], &[3, 4]]);
-        assert_eq!(
-            m.to_dense(),
-            Dense::from_rows(vec![vec![whole(1), whole(2)], vec![whole(3), whole(4)]])
-        );
-        assert_eq!(m.to_dense()[(1, 0)], Rational::from_integer(3.into()));
+        let sparse = Sparse::from_ints(&[&[1, 2], &[3, 4]]);
+
+        let dense = sparse.to_dense();
+
+        let rows = vec![vec![whole(1), whole(2)], vec![whole(3), whole(4)]];
+        assert_eq!(dense, Dense::from_rows(rows));
+        assert_eq!(dense[(1, 0)], Rational::from_integer(3.into()));
     }
 }

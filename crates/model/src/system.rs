@@ -411,17 +411,17 @@ mod tests {
 
     #[test]
     fn index_sets_follow_the_states() {
-        let system = build(
-            1,
-            vec![
-                Particle::plain(0, 1, SLIP),
-                Particle::plain(2, 3, ContactState::Free),
-            ],
-        )
-        .unwrap();
+        let particles = vec![
+            Particle::plain(0, 1, SLIP),
+            Particle::plain(2, 3, ContactState::Free),
+        ];
+
+        let system = build(1, particles).unwrap();
+
         assert_eq!(system.free_dofs(), vec![2, 3]);
         assert_eq!(system.slip_particles().len(), 1);
         assert!(system.require_for(Unknown::Lambda2).is_ok());
+
         let stuck = build(1, vec![Particle::plain(0, 1, ContactState::Stick)]).unwrap();
         assert!(matches!(
             stuck.require_for(Unknown::Mu),
@@ -457,11 +457,13 @@ mod tests {
             build(-1, vec![slip(0, 1)]),
             Err(ModelError::FrictionNegative { .. })
         ));
+
         let zero_sign = Particle::plain(0, 1, ContactState::Slip { sign: 0 });
         assert!(matches!(
             build(1, vec![zero_sign]),
             Err(ModelError::Sign { field: "sign", .. })
         ));
+
         let skew = Particle {
             frame: Some([[whole(1), whole(0)], [whole(0), whole(-1)]]),
             ..slip(0, 1)
@@ -472,46 +474,53 @@ mod tests {
         ));
     }
 
+    /// A system with mu = 2 and one particle with this reaction.
+    fn with_reaction(
+        state: ContactState,
+        tangential: Rational,
+        normal: Rational,
+    ) -> Result<System, ModelError> {
+        let particle = Particle {
+            reaction: Some(Reaction { tangential, normal }),
+            ..Particle::plain(0, 1, state)
+        };
+        build(2, vec![particle])
+    }
+
     #[test]
     fn reactions_are_held_against_the_friction_cone() {
-        let with = |state, t: Rational, n: Rational| {
-            let reaction = Some(Reaction {
-                tangential: t,
-                normal: n,
-            });
-            build(
-                2,
-                vec![Particle {
-                    reaction,
-                    ..Particle::plain(0, 1, state)
-                }],
-            )
-        };
-        assert!(
-            with(SLIP, whole(2), whole(-1)).is_ok()
-                && with(ContactState::Free, whole(0), whole(0)).is_ok()
-        );
-        assert!(with(ContactState::Stick, rational(19, 10), whole(-1)).is_ok());
-        for (state, t, n) in [
+        let accepted = [
+            (SLIP, whole(2), whole(-1)),
+            (ContactState::Free, whole(0), whole(0)),
+            (ContactState::Stick, rational(19, 10), whole(-1)),
+        ];
+        for (state, tangential, normal) in accepted {
+            assert!(with_reaction(state, tangential, normal).is_ok());
+        }
+
+        let refused = [
             (SLIP, whole(-2), whole(-1)),
             (SLIP, rational(19, 10), whole(-1)),
             (SLIP, whole(2), whole(1)),
             (ContactState::Stick, whole(2), whole(-1)),
             (ContactState::Free, whole(0), whole(-1)),
-        ] {
+        ];
+        for (state, tangential, normal) in refused {
             assert!(matches!(
-                with(state, t, n),
+                with_reaction(state, tangential, normal),
                 Err(ModelError::ReactionContradicts { particle: 0, .. })
             ));
         }
-        for (state, n) in [
+
+        let pulling = [
             (SLIP, whole(1)),
             (SLIP, whole(0)),
             (ContactState::Stick, whole(1)),
             (ContactState::Stick, whole(0)),
-        ] {
+        ];
+        for (state, normal) in pulling {
             assert!(matches!(
-                with(state, whole(0), n),
+                with_reaction(state, whole(0), normal),
                 Err(ModelError::ReactionContradicts {
                     expected: "r_N < 0",
                     ..
@@ -532,12 +541,14 @@ mod tests {
                 ..
             })
         ));
+
         let indefinite_mass =
             System::new(Sparse::identity(2), Some(Sparse::zeros(2, 2)), None, vec![]);
         assert!(matches!(
             indefinite_mass,
             Err(ModelError::NotDefinite { what: "M", .. })
         ));
+
         let skew =
             Sparse::from_entries(2, 2, [(0, 0, whole(1)), (1, 1, whole(1)), (0, 1, whole(1))]);
         assert!(matches!(

@@ -1,7 +1,7 @@
 //! Matrix Market, read exactly. Our own reader because the libraries read values as doubles.
 //!
-//! The format (Boisvert, Pozo and Remington, The Matrix Market Exchange Formats, NISTIR 5935, 1996):
-//! a banner, comments (`%`), a size line, and then one entry a line:
+//! The format (Boisvert, Pozo and Remington, The Matrix Market Exchange Formats, NISTIR 5935,
+//! 1996): a banner, comments (`%`), a size line, and then one entry a line:
 //!
 //! ```text
 //! %%MatrixMarket matrix coordinate real general      %%MatrixMarket matrix array real symmetric

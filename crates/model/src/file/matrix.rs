@@ -280,32 +280,36 @@ mod tests {
         assert_eq!(dense.get(0, 1), rational(1, 2));
     }
 
-    #[test]
-    fn entries_lie_within_the_matrix_and_their_mirrors_too() {
-        let refused = |rows: usize, cols: usize, symmetric: bool, i: usize, j: usize| match read(
-            &format!(
-                r#"{{"rows": {rows}, "cols": {cols}, "symmetric": {symmetric}, "entries": [[{i},{j},2]]}}"#
-            ),
-        ) {
+    /// The index and the limit for which a matrix with one entry is refused.
+    fn refused_index(
+        [rows, cols]: [usize; 2],
+        symmetric: bool,
+        [i, j]: [usize; 2],
+    ) -> Option<(usize, usize)> {
+        let text = format!(
+            r#"{{"rows": {rows}, "cols": {cols}, "symmetric": {symmetric},
+                "entries": [[{i}, {j}, 2]]}}"#
+        );
+        match read(&text) {
             Err(ModelError::IndexOutOfRange { index, limit, .. }) => Some((index, limit)),
             _ => None,
-        };
-        assert_eq!(
-            [
-                refused(3, 2, false, 2, 1),
-                refused(3, 2, false, 3, 0),
-                refused(3, 2, false, 0, 2)
-            ],
-            [None, Some((3, 3)), Some((2, 2))]
-        );
-        assert_eq!(
-            [
-                refused(3, 2, true, 1, 0),
-                refused(3, 2, true, 2, 0),
-                refused(2, 3, true, 0, 2)
-            ],
-            [None, Some((2, 2)), Some((2, 2))]
-        );
+        }
+    }
+
+    #[test]
+    fn entries_lie_within_the_matrix_and_their_mirrors_too() {
+        let cases = [
+            ([3, 2], false, [2, 1], None),
+            ([3, 2], false, [3, 0], Some((3, 3))),
+            ([3, 2], false, [0, 2], Some((2, 2))),
+            ([3, 2], true, [1, 0], None),
+            ([3, 2], true, [2, 0], Some((2, 2))),
+            ([2, 3], true, [0, 2], Some((2, 2))),
+        ];
+
+        for (shape, symmetric, place, expected) in cases {
+            assert_eq!(refused_index(shape, symmetric, place), expected);
+        }
     }
 
     #[test]

@@ -240,12 +240,16 @@ mod tests {
     #[test]
     fn a_table_of_contact_states_keeps_its_order() {
         use crate::{ContactState, Particle};
-        let text = r#"[{"tangential": 1, "normal": 2, "state": "stick"}, {"tangential": 3, "normal": 0, "state": "slip", "sign": -1}]"#;
+        let text = r#"[{"tangential": 1, "normal": 2, "state": "stick"},
+                       {"tangential": 3, "normal": 0, "state": "slip", "sign": -1}]"#;
+
+        let particles = read_particles(text);
+
         let expected = [
             Particle::plain(1, 2, ContactState::Stick),
             Particle::plain(3, 0, ContactState::Slip { sign: -1 }),
         ];
-        assert_eq!(read_particles(text), Ok(expected.to_vec()));
+        assert_eq!(particles, Ok(expected.to_vec()));
         assert!(read_particles("[{}]").is_err());
     }
 
@@ -257,6 +261,7 @@ mod tests {
             [read(""), read("abc")],
             [Ok(String::new()), Ok("abc".into())]
         );
+
         let refused = ModelError::TooLarge {
             what: "file size in bytes",
             limit: 3,
@@ -266,6 +271,7 @@ mod tests {
             [read("abcd"), read("abcdefgh")],
             [Err(refused.clone()), Err(refused)]
         );
+
         assert!(matches!(
             read_at_most(3, "text", "-", &[0xff, 0xff][..]),
             Err(ModelError::Unreadable { what: "text", .. })

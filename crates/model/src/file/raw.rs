@@ -218,7 +218,9 @@ mod tests {
 
     fn system(particles: &str) -> String {
         format!(
-            r#"{{"format":"mceip-problem/1","unknown":"lambda2","system":{{"stiffness":[[2,0],[0,2]],"mass":[[1,0],[0,1]],"friction":"1.1","particles":[{particles}]}}}}"#
+            r#"{{"format": "mceip-problem/1", "unknown": "lambda2",
+                "system": {{"stiffness": [[2, 0], [0, 2]], "mass": [[1, 0], [0, 1]],
+                            "friction": "1.1", "particles": [{particles}]}}}}"#
         )
     }
 
@@ -229,10 +231,14 @@ mod tests {
     #[test]
     fn a_system_round_trips() {
         let text = system(
-            r#"{"tangential":0,"normal":1,"state":"slip","sign":-1,"normal_direction":-1,"frame":[["3/5","4/5"],["-4/5","3/5"]],"reaction":{"normal":-1,"tangential":"-1.1"}}"#,
+            r#"{"tangential": 0, "normal": 1, "state": "slip", "sign": -1, "normal_direction": -1,
+                "frame": [["3/5", "4/5"], ["-4/5", "3/5"]],
+                "reaction": {"normal": -1, "tangential": "-1.1"}}"#,
         );
+
         let problem = read(&text).unwrap();
         let again = read(&write_problem(&problem)).unwrap();
+
         assert_eq!(problem, again);
         assert_eq!(problem.sha256(), again.sha256());
     }
@@ -259,12 +265,19 @@ mod tests {
                 "normal_direction",
             ),
         ] {
-            assert!(
-                matches!(read(&system(particle)), Err(ModelError::Sign { particle: 0, field: f, .. }) if f == field),
-                "{particle}"
-            );
+            let Err(ModelError::Sign {
+                particle: 0,
+                field: refused,
+                ..
+            }) = read(&system(particle))
+            else {
+                panic!("{particle}")
+            };
+            assert_eq!(refused, field, "{particle}");
         }
-        let twice = r#"{"tangential":0,"normal":1,"state":"stick"},{"tangential":0,"normal":1,"state":"slip","sign":1}"#;
+
+        let twice = r#"{"tangential": 0, "normal": 1, "state": "stick"},
+                       {"tangential": 0, "normal": 1, "state": "slip", "sign": 1}"#;
         assert!(matches!(
             read(&system(twice)),
             Err(ModelError::DofTwice {
@@ -289,14 +302,24 @@ mod tests {
             read(r#"{"unknown":"mu"}"#),
             Err(ModelError::Format { .. })
         ));
-        let window = r#"{"format":"mceip-problem/1","unknown":"mu","window":{"min":2,"max":"1.5"},"pencil":{"a":[[1]],"b":[[1]]}}"#;
+
+        let window = r#"{"format": "mceip-problem/1", "unknown": "mu",
+                         "window": {"min": 2, "max": "1.5"},
+                         "pencil": {"a": [[1]], "b": [[1]]}}"#;
         assert!(matches!(read(window), Err(ModelError::Window { .. })));
+
         let unknown_field =
             r#"{"format":"mceip-problem/1","unknown":"mu","pencil":{"a":[[1]],"b":[[1]],"c":1}}"#;
         assert!(matches!(read(unknown_field), Err(ModelError::Json { .. })));
-        let no_mass = r#"{"format":"mceip-problem/1","unknown":"lambda2","system":{"stiffness":[[1,0],[0,1]],"friction":1,"particles":[{"tangential":0,"normal":1,"state":"slip","sign":1}]}}"#;
+
+        let slip = r#"{"tangential": 0, "normal": 1, "state": "slip", "sign": 1}"#;
+        let no_mass = format!(
+            r#"{{"format": "mceip-problem/1", "unknown": "lambda2",
+                "system": {{"stiffness": [[1, 0], [0, 1]], "friction": 1,
+                            "particles": [{slip}]}}}}"#
+        );
         assert!(matches!(
-            read(no_mass),
+            read(&no_mass),
             Err(ModelError::Missing { what: "mass", .. })
         ));
     }

@@ -13,7 +13,8 @@
 //! M0 and M1 likewise. MCEIP-mu is the pencil K0 + mu K1; MCEIP-lambda2 is K* + lambda^2 M* with
 //! K* = K0 + mu K1 and M* = M0 + mu M1.
 //!
-//! Directions t_p and n_p may be oblique: K_TT is t_p' K t_q, K_NT is n_p' K t_q, K_fT is (K t_q)_f.
+//! Directions t_p and n_p may be oblique: the entries of K_TT are t_p' K t_q, those of K_NT are
+//! n_p' K t_q, and the columns of K_fT are (K t_q)_f.
 //!
 //! Input: a [`Problem`] or [`System`] whose preconditions have been established (K symmetric).
 //! Called by everything that solves or enumerates, never by `check`, which has its own way.
@@ -279,15 +280,17 @@ mod tests {
         ];
         let system = System::new(k, None, None, particles).unwrap();
         let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap();
+
         let reduced = reduce(&problem).unwrap();
-        // -K_fT S = 1, S K_TT S = 8.
-        assert_eq!(*reduced.pencil.a(), Sparse::from_ints(&[&[9, 1], &[1, 8]]));
-        assert_eq!(
-            *reduced.pencil.b(),
-            Sparse::from_ints(&[&[0, 0], &[-2, -5]])
-        ); // -K_Nf, K_NT S
+
+        // -K_fT S = 1, S K_TT S = 8; -K_Nf = -2, K_NT S = -5.
+        let k0 = Sparse::from_ints(&[&[9, 1], &[1, 8]]);
+        let k1 = Sparse::from_ints(&[&[0, 0], &[-2, -5]]);
+        assert_eq!(*reduced.pencil.a(), k0);
+        assert_eq!(*reduced.pencil.b(), k1);
         assert_eq!(reduced.pencil.free(), &[0]);
         assert_eq!(reduced.variables[0], Variable::Free { dof: 0 });
+
         // Two slip with S = diag(1, -1): K_NT = [2 4; 3 5] is not symmetric, so its place and side
         // of S count.
         let k = Sparse::from_ints(&[
@@ -296,12 +299,15 @@ mod tests {
             &[1, 4, 20, 5],
             &[3, 0, 5, 20],
         ]);
-        let slip = |t, n, sign| Particle::plain(t, n, ContactState::Slip { sign });
-        let system = System::new(k, None, None, vec![slip(0, 1, 1), slip(2, 3, -1)]).unwrap();
-        let pencil =
-            reduce(&Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap())
-                .unwrap()
-                .pencil;
+        let particles = vec![
+            Particle::plain(0, 1, ContactState::Slip { sign: 1 }),
+            Particle::plain(2, 3, ContactState::Slip { sign: -1 }),
+        ];
+        let system = System::new(k, None, None, particles).unwrap();
+        let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap();
+
+        let pencil = reduce(&problem).unwrap().pencil;
+
         assert_eq!(*pencil.a(), Sparse::from_ints(&[&[20, -1], &[-1, 20]])); // S K_TT S
         assert_eq!(*pencil.b(), Sparse::from_ints(&[&[2, -4], &[3, -5]])); // K_NT S
     }
@@ -309,25 +315,14 @@ mod tests {
     #[test]
     fn consistent_mass_gets_the_same_blocks_and_friction() {
         let k = Sparse::from_ints(&[&[2, 0], &[0, 2]]);
-        let m = Sparse::from_entries(
-            2,
-            2,
-            [
-                (0, 0, whole(2)),
-                (0, 1, whole(1)),
-                (1, 0, whole(1)),
-                (1, 1, whole(2)),
-            ],
-        );
-        let system = System::new(
-            k,
-            Some(m),
-            Some(rational(1, 2)),
-            vec![Particle::plain(0, 1, ContactState::Slip { sign: 1 })],
-        )
-        .unwrap();
+        let m = Sparse::from_ints(&[&[2, 1], &[1, 2]]);
+        let friction = rational(1, 2);
+        let particles = vec![Particle::plain(0, 1, ContactState::Slip { sign: 1 })];
+        let system = System::new(k, Some(m), Some(friction), particles).unwrap();
         let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap();
+
         let pencil = reduce(&problem).unwrap().pencil;
+
         assert_eq!(pencil.a().get(0, 0), whole(2)); // K_TT + mu K_NT S = 2
         assert_eq!(pencil.b().get(0, 0), rational(5, 2)); // M_TT + mu M_NT S
     }
