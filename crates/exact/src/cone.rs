@@ -212,7 +212,7 @@ pub fn dot(a: &[Poly], b: &[Poly]) -> Poly {
     let mut sum = Poly::default();
     for (a_i, b_i) in a.iter().zip(b) {
         if !a_i.is_zero() && !b_i.is_zero() {
-            sum = &sum + &(a_i * b_i);
+            sum += &(a_i * b_i);
         }
     }
     sum

@@ -89,7 +89,7 @@ pub(super) fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
     let mut weight = factorial.clone(); // n! / k!
     for k in 0..=n {
         let difference = &values[0]; // (D^k p)(0)
-        sum = &sum + &falling.scale(&(difference * &weight));
+        sum += &falling.scale(&(difference * &weight));
 
         for i in 0..values.len() - 1 {
             values[i] = &values[i + 1] - &values[i];

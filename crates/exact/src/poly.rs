@@ -9,7 +9,7 @@
 use super::{Integer, Rational, common_denominator};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 /// A polynomial over Z, coefficients from the constant term up, no trailing zeros.
 ///
@@ -29,11 +29,16 @@ impl Poly {
     /// assert_eq!(p.degree(), Some(2));
     /// assert_eq!(p.eval(&rational(3, 2)), rational(1, 4));
     /// ```
-    pub fn new(mut coeffs: Vec<Integer>) -> Self {
-        while coeffs.last().is_some_and(Zero::is_zero) {
-            coeffs.pop();
+    pub fn new(coeffs: Vec<Integer>) -> Self {
+        let mut p = Poly { coeffs };
+        p.drop_leading_zeros();
+        p
+    }
+
+    fn drop_leading_zeros(&mut self) {
+        while self.coeffs.last().is_some_and(Zero::is_zero) {
+            self.coeffs.pop();
         }
-        Poly { coeffs }
     }
 
     /// [`Poly::new`] from machine integers.
@@ -188,11 +193,21 @@ impl Add for &Poly {
         if self.coeffs.len() < other.coeffs.len() {
             return other + self;
         }
-        let mut sum = self.coeffs.clone();
-        for (c, other_c) in sum.iter_mut().zip(&other.coeffs) {
+        let mut sum = self.clone();
+        sum += other;
+        sum
+    }
+}
+
+impl AddAssign<&Poly> for Poly {
+    fn add_assign(&mut self, other: &Poly) {
+        if self.coeffs.len() < other.coeffs.len() {
+            self.coeffs.resize(other.coeffs.len(), Integer::zero());
+        }
+        for (c, other_c) in self.coeffs.iter_mut().zip(&other.coeffs) {
             *c += other_c;
         }
-        Poly::new(sum)
+        self.drop_leading_zeros();
     }
 }
 

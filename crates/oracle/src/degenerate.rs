@@ -95,7 +95,7 @@ fn weighted_sum(weights: &[Poly], vectors: &[&[Poly]]) -> Vec<Poly> {
     let mut sum = vec![Poly::default(); order];
     for (weight, vector) in weights.iter().zip(vectors) {
         for (sum_i, entry) in sum.iter_mut().zip(*vector) {
-            *sum_i = &*sum_i + &(weight * entry);
+            *sum_i += &(weight * entry);
         }
     }
     sum

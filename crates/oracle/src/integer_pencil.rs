@@ -130,7 +130,7 @@ impl<'a> IntegerPencil<'a> {
         for i in 0..self.order() {
             let mut y_i = Poly::default();
             for (j, x_j) in x.iter().enumerate() {
-                y_i = &y_i + &(&self.entry(i, j) * x_j);
+                y_i += &(&self.entry(i, j) * x_j);
             }
             y.push(y_i);
         }

@@ -108,10 +108,10 @@ fn image(pencil: &Pencil, i: usize, x: &[Poly]) -> Poly {
 
     let mut sum = Poly::default();
     for (j, a_ij) in a_row {
-        sum = &sum + &x[*j].scale(&cleared(a_ij, &clear));
+        sum += &x[*j].scale(&cleared(a_ij, &clear));
     }
     for (j, b_ij) in b_row {
-        sum = &sum + &x[*j].scale(&cleared(b_ij, &clear)).shift(1);
+        sum += &x[*j].scale(&cleared(b_ij, &clear)).shift(1);
     }
     sum
 }

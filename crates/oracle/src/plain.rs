@@ -262,15 +262,21 @@ fn admissible(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::{Sparse, rational, whole};
+    use mceip_exact::{Rational, Sparse, rational, whole};
+
+    const IDENTITY: &[&[i64]] = &[&[1, 0], &[0, 1]];
 
     fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
         Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec()).unwrap()
     }
 
-    fn summary(p: &Pencil) -> Vec<(String, Vec<usize>, Vec<usize>)> {
-        let found = enumerate(p, &Window::all()).unwrap();
-        found
+    fn enumerate_all(pencil: &Pencil) -> Enumeration {
+        enumerate(pencil, &Window::all()).unwrap()
+    }
+
+    /// Value, slip set and biactive set of each solution.
+    fn summary(pencil: &Pencil) -> Vec<(String, Vec<usize>, Vec<usize>)> {
+        enumerate_all(pencil)
             .solutions
             .iter()
             .map(|s| (s.decimal(8), s.slip.clone(), s.biactive.clone()))
@@ -282,131 +288,112 @@ mod tests {
     #[test]
     fn the_fold_counterexample() {
         let mu = pencil(&[&[1, 0], &[0, 2]], &[&[0, -3], &[1, -4]], &[]);
+        let lambda2 = pencil(&[&[1, -6], &[2, -6]], IDENTITY, &[]);
+
         assert!(summary(&mu).is_empty());
-        let lambda2 = pencil(&[&[1, -6], &[2, -6]], &[&[1, 0], &[0, 1]], &[]);
-        assert_eq!(
-            summary(&lambda2),
-            vec![
-                ("2".into(), vec![0, 1], vec![]),
-                ("3".into(), vec![0, 1], vec![])
-            ]
-        );
+        let expected = [
+            ("2".into(), vec![0, 1], vec![]),
+            ("3".into(), vec![0, 1], vec![]),
+        ];
+        assert_eq!(summary(&lambda2), expected);
     }
 
     #[test]
     fn biactive_solutions_are_listed_once_and_named() {
         // t = 1, x = (1, 0): y_2 = 0 as well.
-        let p = pencil(&[&[-1, 5], &[0, 7]], &[&[1, 0], &[0, 1]], &[]);
-        assert_eq!(summary(&p), vec![("1".into(), vec![0], vec![1])]);
+        let biactive = pencil(&[&[-1, 5], &[0, 7]], IDENTITY, &[]);
+
+        assert_eq!(summary(&biactive), [("1".into(), vec![0], vec![1])]);
     }
 
     #[test]
     fn a_near_miss_in_the_sign_of_y_is_no_solution() {
-        let found = |y_1: i64| summary(&pencil(&[&[-1, 0], &[y_1, -3]], &[&[1, 0], &[0, 1]], &[]));
-        let only_the_other = vec![("3".into(), vec![1], vec![0])];
-        assert_eq!(found(-1), only_the_other);
-        assert_eq!(
-            found(1)[..2],
-            [
-                ("1".into(), vec![0], vec![]),
-                ("1".into(), vec![0, 1], vec![])
-            ]
-        );
+        let negative = pencil(&[&[-1, 0], &[-1, -3]], IDENTITY, &[]);
+        let positive = pencil(&[&[-1, 0], &[1, -3]], IDENTITY, &[]);
+
+        assert_eq!(summary(&negative), [("3".into(), vec![1], vec![0])]);
+        let expected = [
+            ("1".into(), vec![0], vec![]),
+            ("1".into(), vec![0, 1], vec![]),
+        ];
+        assert_eq!(summary(&positive)[..2], expected);
     }
 
     #[test]
     fn degenerate_cases_are_reported_as_such() {
         // A = -I, B = I: at t = 1 every vector is in the kernel.
-        let wide = enumerate(
-            &pencil(&[&[-1, 0], &[0, -1]], &[&[1, 0], &[0, 1]], &[]),
-            &Window::all(),
-        )
-        .unwrap();
-        assert_eq!(
-            wide.wide
-                .iter()
-                .map(|w| (w.support.clone(), w.dimension))
-                .collect::<Vec<_>>(),
-            vec![(vec![0, 1], 2)]
-        );
+        let wide = enumerate_all(&pencil(&[&[-1, 0], &[0, -1]], IDENTITY, &[]));
+
+        let [kernel] = &wide.wide[..] else {
+            panic!("{:?}", wide.wide)
+        };
+        assert_eq!((&kernel.support[..], kernel.dimension), (&[0, 1][..], 2));
         assert_eq!(wide.solutions.len(), 2); // the two edges, each biactive in the other
         assert!(wide.is_complete_list() && !wide.is_plain_list());
-        assert_eq!(
-            wide.cones
-                .iter()
-                .map(|c| (c.slip.clone(), c.dimension, c.rays.len()))
-                .collect::<Vec<_>>(),
-            vec![(vec![0, 1], 2, 2)]
-        );
-        let singular = enumerate(
-            &pencil(&[&[1, -1], &[-1, 1]], &[&[0, 0], &[0, 0]], &[]),
-            &Window::all(),
-        )
-        .unwrap();
-        assert_eq!(singular.continua, vec![vec![0, 1]]);
+        let [cone] = &wide.cones[..] else {
+            panic!("{:?}", wide.cones)
+        };
+        assert_eq!(cone.slip, [0, 1]);
+        assert_eq!((cone.dimension, cone.rays.len()), (2, 2));
+
+        let singular = enumerate_all(&pencil(&[&[1, -1], &[-1, 1]], &[&[0, 0], &[0, 0]], &[]));
+
+        assert_eq!(singular.continua, [[0, 1]]);
     }
 
     #[test]
     fn repeated_roots_carry_their_multiplicity() {
         // A Jordan block: (t-1)^2, kernel of dimension 1.
-        let found = enumerate(
-            &pencil(&[&[-1, -1], &[0, -1]], &[&[1, 0], &[0, 1]], &[]),
-            &Window::all(),
-        )
-        .unwrap();
-        assert_eq!(found.solutions.len(), 1);
-        assert_eq!(
-            (
-                found.solutions[0].slip.clone(),
-                found.solutions[0].multiplicity
-            ),
-            (vec![0], 1)
-        );
-        let free = enumerate(
-            &pencil(&[&[-1, 1], &[0, -1]], &[&[1, 0], &[0, 1]], &[0, 1]),
-            &Window::all(),
-        )
-        .unwrap();
-        assert_eq!(
-            (free.solutions.len(), free.solutions[0].multiplicity),
-            (2, 2)
-        ); // x and -x
+        let slip = enumerate_all(&pencil(&[&[-1, -1], &[0, -1]], IDENTITY, &[]));
+
+        assert_eq!(slip.solutions.len(), 1);
+        assert_eq!(slip.solutions[0].slip, [0]);
+        assert_eq!(slip.solutions[0].multiplicity, 1);
+
+        let free = enumerate_all(&pencil(&[&[-1, 1], &[0, -1]], IDENTITY, &[0, 1]));
+
+        assert_eq!(free.solutions.len(), 2); // x and -x
+        assert_eq!(free.solutions[0].multiplicity, 2);
+    }
+
+    /// x of each solution where variable 1 is the only complementarity variable.
+    fn x_of_solutions(pencil: &Pencil) -> Vec<Vec<String>> {
+        enumerate_all(pencil)
+            .solutions
+            .iter()
+            .map(|s| s.x_decimals(&[1], 5))
+            .collect()
     }
 
     #[test]
     fn free_only_solutions_try_both_orientations() {
         // Free variable 0 with value 1; y_1 = -x_0 >= 0 needs x_0 < 0.
-        let p = pencil(&[&[-1, 0], &[-1, 1]], &[&[1, 0], &[0, 1]], &[0]);
-        let found = enumerate(&p, &Window::all()).unwrap();
-        let found = found
-            .solutions
-            .iter()
-            .map(|s| s.x_decimals(&[1], 5))
-            .collect::<Vec<_>>();
-        assert_eq!(found, vec![vec!["-1", "0"], vec!["2", "1"]]); // l1 norm 1; e'x_s = 1
+        let one_orientation = pencil(&[&[-1, 0], &[-1, 1]], IDENTITY, &[0]);
         // Nothing depends on the sign: two rays, x and -x.
-        let p = pencil(&[&[-1, 0], &[0, -5]], &[&[1, 0], &[0, 1]], &[0]);
-        let x: Vec<_> = enumerate(&p, &Window::all())
-            .unwrap()
-            .solutions
-            .iter()
-            .map(|s| s.x_decimals(&[1], 5))
-            .collect();
-        assert_eq!(x, vec![vec!["1", "0"], vec!["-1", "0"], vec!["0", "1"]]);
+        let both_orientations = pencil(&[&[-1, 0], &[0, -5]], IDENTITY, &[0]);
+
+        // l1 norm 1; e'x_s = 1.
+        assert_eq!(x_of_solutions(&one_orientation), [["-1", "0"], ["2", "1"]]);
+        assert_eq!(
+            x_of_solutions(&both_orientations),
+            [["1", "0"], ["-1", "0"], ["0", "1"]]
+        );
+    }
+
+    /// Solutions of (t - 2) x = y in a window.
+    fn count_in_window(min: Rational, max: Option<Rational>) -> usize {
+        let window = Window::new(min, max).unwrap();
+        let found = enumerate(&pencil(&[&[-2]], &[&[1]], &[]), &window).unwrap();
+        found.solutions.len()
     }
 
     #[test]
     fn the_window_is_closed_and_limits_are_said() {
-        let p = pencil(&[&[-2]], &[&[1]], &[]);
-        let count = |a: i64, b: i64| {
-            enumerate(&p, &Window::new(whole(a), Some(whole(b))).unwrap())
-                .unwrap()
-                .solutions
-                .len()
-        };
-        assert_eq!((count(0, 2), count(2, 9), count(0, 1)), (1, 1, 0));
-        let window = Window::new(rational(21, 10), None).unwrap();
-        assert!(enumerate(&p, &window).unwrap().solutions.is_empty());
+        assert_eq!(count_in_window(whole(0), Some(whole(2))), 1);
+        assert_eq!(count_in_window(whole(2), Some(whole(9))), 1);
+        assert_eq!(count_in_window(whole(0), Some(whole(1))), 0);
+        assert_eq!(count_in_window(rational(21, 10), None), 0);
+
         let large = Pencil::new(Sparse::identity(17), Sparse::identity(17), vec![]).unwrap();
         assert!(matches!(
             enumerate(&large, &Window::all()),
@@ -420,22 +407,19 @@ mod tests {
 
     #[test]
     fn an_interrupted_run_says_how_far_it_came() {
-        let p = pencil(&[&[-2, 0], &[0, -3]], &[&[1, 0], &[0, 1]], &[]);
-        let found = enumerate_with(&p, &Window::all(), |done, _| {
+        let two_solutions = pencil(&[&[-2, 0], &[0, -3]], IDENTITY, &[]);
+
+        let found = enumerate_with(&two_solutions, &Window::all(), |done, _| {
             if done == 2 {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
-        });
-        let found = found.unwrap();
-        assert_eq!(
-            (
-                found.supports_done,
-                found.is_finished(),
-                found.solutions.len()
-            ),
-            (2, false, 1)
-        );
+        })
+        .unwrap();
+
+        assert_eq!(found.supports_done, 2);
+        assert!(!found.is_finished());
+        assert_eq!(found.solutions.len(), 1);
     }
 }

@@ -303,28 +303,36 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
 
+    /// t times the linear factors of these roots.
+    fn with_roots(roots: &[(i64, i64)]) -> Poly {
+        let mut product = Poly::from_ints(&[0, 1]);
+        for &(numerator, denominator) in roots {
+            product = &product * &Poly::from_ints(&[-numerator, denominator]);
+        }
+        product
+    }
+
     /// Between zero and the negative root nearest to it, wherever the positive ones are.
     #[test]
     fn the_sample_below_zero_is_above_all_negative_roots() {
-        let linear = |root: (i64, i64)| Poly::from_ints(&[-root.0, root.1]);
-        let t = Poly::from_ints(&[0, 1]);
-        for (near, others) in [
-            ((-1, 10), vec![(5, 1)]),
-            ((-4, 1), vec![(1, 100), (-9, 1)]),
-            ((-3, 1), vec![(-7, 2), (1, 3), (8, 1)]),
-        ] {
-            let poly = others
-                .iter()
-                .fold(&t * &linear(near), |p, r| &p * &linear(*r));
-            let sample = sample_below_zero(&poly);
+        let cases = [
+            ((-1, 10), vec![(-1, 10), (5, 1)]),
+            ((-4, 1), vec![(-4, 1), (1, 100), (-9, 1)]),
+            ((-3, 1), vec![(-3, 1), (-7, 2), (1, 3), (8, 1)]),
+        ];
+        for ((numerator, denominator), roots) in cases {
+            let nearest = rational(numerator, denominator);
+            let sample = sample_below_zero(&with_roots(&roots));
             assert!(
-                sample > rational(near.0, near.1) && sample < whole(0),
-                "{near:?}: {sample}"
+                sample > nearest && sample < whole(0),
+                "{nearest:?}: {sample}"
             );
         }
+
         // Irrational: t (t^2 + 3 t + 1) has -0.381966.
-        let sample = sample_below_zero(&(&t * &Poly::from_ints(&[1, 3, 1])));
+        let sample = sample_below_zero(&Poly::from_ints(&[0, 1, 3, 1]));
         assert!(sample > rational(-38, 100) && sample < whole(0), "{sample}");
-        assert_eq!(sample_below_zero(&(&t * &linear((2, 1)))), whole(-1));
+
+        assert_eq!(sample_below_zero(&with_roots(&[(2, 1)])), whole(-1));
     }
 }

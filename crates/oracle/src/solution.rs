@@ -69,17 +69,18 @@ impl Solution {
 
         if !self.is_free_only() {
             for &i in constrained {
-                norm = &norm + &self.x[i];
+                norm += &self.x[i];
             }
             return norm;
         }
 
         let mut value = self.value.clone();
         for x_i in &self.x {
-            norm = match value.sign_of(x_i) {
-                Sign::Negative => &norm - x_i,
-                Sign::Zero | Sign::Positive => &norm + x_i,
-            };
+            if value.sign_of(x_i) == Sign::Negative {
+                norm += &-x_i;
+            } else {
+                norm += x_i;
+            }
         }
         norm
     }

@@ -182,25 +182,28 @@ mod tests {
         }
     }
 
+    fn count(mu: Rational, signs: (i8, i8)) -> usize {
+        table1(&data(mu, signs)).len()
+    }
+
     #[test]
     fn counts_around_the_rational_thresholds() {
         let p = rational(34, 25);
         let cs = rational(12, 25);
-        let count = |mu: Rational, signs| table1(&data(mu, signs)).len();
+        let one_slips = &p / &cs;
+        let both_slip = (&p + whole(1)) / &cs;
         let tiny = rational(1, 1_000_000);
-        assert_eq!(count(&p / &cs - &tiny, (1, -1)), 0);
-        assert_eq!(count(&p / &cs, (1, -1)), 2);
-        assert_eq!(count((&p + whole(1)) / &cs - &tiny, (1, -1)), 2);
-        assert_eq!(count((&p + whole(1)) / &cs, (1, -1)), 3);
+
+        assert_eq!(count(&one_slips - &tiny, (1, -1)), 0);
+        assert_eq!(count(one_slips, (1, -1)), 2);
+        assert_eq!(count(&both_slip - &tiny, (1, -1)), 2);
+        assert_eq!(count(both_slip, (1, -1)), 3);
         assert_eq!(count(whole(1000), (-1, 1)), 0);
-        assert_eq!(
-            (
-                count(rational(19, 10), (1, 1)),
-                count(rational(21, 10), (1, 1)),
-                count(rational(21, 10), (-1, -1))
-            ),
-            (0, 1, 1)
-        );
+
+        // sqrt(c^2 + 2) / s = 1.92.
+        assert_eq!(count(rational(19, 10), (1, 1)), 0);
+        assert_eq!(count(rational(21, 10), (1, 1)), 1);
+        assert_eq!(count(rational(21, 10), (-1, -1)), 1);
     }
 
     #[test]
@@ -210,43 +213,45 @@ mod tests {
             s: whole(1),
             ..data(rational(1, 7), (1, 1))
         };
+
         let found = table1(&vertical);
+
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].value.sign(), Sign::Zero);
         assert!(thresholds(&vertical).is_none());
+
         let horizontal = TwoParticles {
             c: whole(1),
             s: whole(0),
             ..data(whole(100), (1, 1))
         };
+
         assert!(table1(&horizontal).is_empty());
         assert_eq!(thresholds(&horizontal).map(|t| t.len()), Some(0));
     }
 
     /// The 2x2 problem of the heading with t = lambda^2 m / k and q = mu c s, exactly: is x a
     /// solution with support `slip`?
-    fn solves(data: &TwoParticles, t: &Quadratic, q: &Quadratic, s: &ClosedSolution) {
-        let (s1, s2) = (whole(data.signs.0.into()), whole(data.signs.1.into()));
-        let diagonal = t.add(&t.embed(&data.c * &data.c + whole(1)));
-        let off = -&s1 * &s2;
-        let y = [
-            diagonal
-                .add(&q.scale(&-s1))
-                .mul(&s.x[0])
-                .add(&s.x[1].scale(&off)),
-            diagonal
-                .add(&q.scale(&s2))
-                .mul(&s.x[1])
-                .add(&s.x[0].scale(&off)),
-        ];
-        for i in 0..2 {
-            let signs = (s.x[i].sign(), y[i].sign());
-            let fits = if s.slip.contains(&i) {
-                signs == (Sign::Positive, Sign::Zero)
+    fn assert_solves(data: &TwoParticles, t: &Quadratic, q: &Quadratic, s: &ClosedSolution) {
+        let s1 = whole(data.signs.0.into());
+        let s2 = whole(data.signs.1.into());
+        let off_diagonal = -&s1 * &s2;
+        let t_plus_p = t.add(&t.embed(&data.c * &data.c + whole(1)));
+        let diagonal_1 = t_plus_p.add(&q.scale(&-s1));
+        let diagonal_2 = t_plus_p.add(&q.scale(&s2));
+
+        let [x_1, x_2] = &s.x;
+        let y_1 = diagonal_1.mul(x_1).add(&x_2.scale(&off_diagonal));
+        let y_2 = diagonal_2.mul(x_2).add(&x_1.scale(&off_diagonal));
+
+        for (i, x_i, y_i) in [(0, x_1, y_1), (1, x_2, y_2)] {
+            let (sign_x, sign_y) = (x_i.sign(), y_i.sign());
+            let is_admissible = if s.slip.contains(&i) {
+                sign_x == Sign::Positive && sign_y == Sign::Zero
             } else {
-                signs.0 == Sign::Zero && signs.1 != Sign::Negative
+                sign_x == Sign::Zero && sign_y != Sign::Negative
             };
-            assert!(fits, "{data:?} {i} {signs:?}");
+            assert!(is_admissible, "{data:?} {i} {sign_x:?} {sign_y:?}");
         }
     }
 
@@ -260,9 +265,11 @@ mod tests {
                     m: rational(5, 3),
                     ..data(mu.clone(), signs)
                 };
-                for s in table1(&data) {
-                    let t = s.value.scale(&(&data.m / &data.k));
-                    solves(&data, &t, &t.embed(&data.mu * &data.c * &data.s), &s);
+
+                for solution in table1(&data) {
+                    let t = solution.value.scale(&(&data.m / &data.k));
+                    let q = t.embed(&data.mu * &data.c * &data.s);
+                    assert_solves(&data, &t, &q, &solution);
                     seen += 1;
                 }
             }
@@ -276,26 +283,22 @@ mod tests {
         for (signs, count) in [((1, 1), 1), ((-1, -1), 1), ((1, -1), 3), ((-1, 1), 0)] {
             let data = data(whole(1), signs);
             let list = thresholds(&data).unwrap();
+
             assert_eq!(list.len(), count);
-            for s in list {
-                solves(
-                    &data,
-                    &s.value.embed(whole(0)),
-                    &s.value.scale(&(&data.c * &data.s)),
-                    &s,
-                );
+            for solution in list {
+                let t = solution.value.embed(whole(0));
+                let q = solution.value.scale(&(&data.c * &data.s));
+                assert_solves(&data, &t, &q, &solution);
             }
         }
+
         for (c, s) in [(whole(0), whole(1)), (whole(1), whole(0))] {
-            assert_eq!(
-                thresholds(&TwoParticles {
-                    c,
-                    s,
-                    ..data(whole(1), (1, -1))
-                })
-                .map(|t| t.len()),
-                Some(0)
-            );
+            let degenerate = TwoParticles {
+                c,
+                s,
+                ..data(whole(1), (1, -1))
+            };
+            assert_eq!(thresholds(&degenerate).map(|t| t.len()), Some(0));
         }
     }
 }

@@ -206,7 +206,7 @@ fn integral_inner_product(direction: &Direction, clear: &Integer, p: &[Poly]) ->
     let mut sum = Poly::default();
     for (dof, coefficient) in direction {
         let integer = coefficient.numer() * (clear / coefficient.denom());
-        sum = &sum + &p[*dof].scale(&integer);
+        sum += &p[*dof].scale(&integer);
     }
     sum
 }
