@@ -316,64 +316,63 @@ mod tests {
     /// Only one of them is a point: the other one is narrowed until they part.
     #[test]
     fn a_rational_and_a_root_are_told_apart() {
-        for (n, d, expected) in [
-            (7, 5, Ordering::Greater),
-            (3, 2, Ordering::Less),
-            (1393, 985, Ordering::Greater),
-            (3363, 2378, Ordering::Less),
-        ] {
-            let rational = || Algebraic::rational(rational(n, d));
-            assert_eq!(
-                (
-                    sqrt(2).cmp_exact(&mut rational()),
-                    rational().cmp_exact(&mut sqrt(2))
-                ),
-                (expected, expected.reverse()),
-                "{n}/{d}"
-            );
+        let cases = [
+            (rational(7, 5), Ordering::Greater),
+            (rational(3, 2), Ordering::Less),
+            (rational(1393, 985), Ordering::Greater),
+            (rational(3363, 2378), Ordering::Less),
+        ];
+        for (value, expected) in cases {
+            let mut point = Algebraic::rational(value.clone());
+
+            let root_against_point = sqrt(2).cmp_exact(&mut point.clone());
+            let point_against_root = point.cmp_exact(&mut sqrt(2));
+
+            assert_eq!(root_against_point, expected, "{value}");
+            assert_eq!(point_against_root, expected.reverse(), "{value}");
         }
     }
 
     #[test]
     fn signs_are_exact_also_an_inch_from_zero() {
-        // 3363/2378 is a convergent of sqrt 2, below it by 6e-8.
+        // 3363/2378 is a convergent of sqrt 2, above it by 6e-8.
+        let above = Poly::from_ints(&[-3363, 2378]);
+        let below = Poly::from_ints(&[-1393, 985]);
+        let zero = Poly::from_ints(&[4, 0, 0, 0, -1]);
+
         let mut root = sqrt(2);
-        assert_eq!(
-            root.sign_of(&Poly::from_ints(&[-3363, 2378])),
-            Sign::Negative
-        );
-        assert_eq!(
-            root.sign_of(&Poly::from_ints(&[-1393, 985])),
-            Sign::Positive
-        );
-        assert_eq!(
-            root.sign_of(&Poly::from_ints(&[4, 0, 0, 0, -1])),
-            Sign::Zero
-        );
+
+        assert_eq!(root.sign_of(&above), Sign::Negative);
+        assert_eq!(root.sign_of(&below), Sign::Positive);
+        assert_eq!(root.sign_of(&zero), Sign::Zero);
     }
 
     #[test]
     fn zero_tests_shrink_a_reducible_polynomial() {
-        let p = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-5, 0, 1]);
-        let mut root = nonnegative_roots(&p).remove(0);
-        assert_eq!(root.sign_of(&Poly::from_ints(&[-2, 0, 1])), Sign::Zero);
-        assert_eq!(root.poly(), &Poly::from_ints(&[-2, 0, 1]));
-        let mut larger = nonnegative_roots(&p).remove(1);
-        assert_eq!(
-            larger.sign_of(&Poly::from_ints(&[-2, 0, 1])),
-            Sign::Positive
-        );
+        let factor_of_sqrt_2 = Poly::from_ints(&[-2, 0, 1]);
+        let factor_of_sqrt_5 = Poly::from_ints(&[-5, 0, 1]);
+        let roots = nonnegative_roots(&(&factor_of_sqrt_2 * &factor_of_sqrt_5));
+
+        let mut sqrt_2 = roots[0].clone();
+        assert_eq!(sqrt_2.sign_of(&factor_of_sqrt_2), Sign::Zero);
+        assert_eq!(sqrt_2.poly(), &factor_of_sqrt_2);
+
+        let mut sqrt_5 = roots[1].clone();
+        assert_eq!(sqrt_5.sign_of(&factor_of_sqrt_2), Sign::Positive);
+
         // The common factor t^2 - 2 is not zero at sqrt 5, which is just below 2889/1292: the sign
         // stays open at first.
-        let near = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-2889, 1292]);
-        assert_eq!(larger.sign_of(&near), Sign::Negative);
-        assert_eq!(larger.poly(), &Poly::from_ints(&[-5, 0, 1]));
+        let near = &factor_of_sqrt_2 * &Poly::from_ints(&[-2889, 1292]);
+        assert_eq!(sqrt_5.sign_of(&near), Sign::Negative);
+        assert_eq!(sqrt_5.poly(), &factor_of_sqrt_5);
     }
 
     #[test]
     fn equality_and_order_across_polynomials() {
         let p = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-3, 1]);
+
         let mut from_product = nonnegative_roots(&p).remove(0);
+
         assert!(from_product.equals(&mut sqrt(2)));
         assert!(!from_product.equals(&mut sqrt(3)));
         assert_eq!(sqrt(2).cmp_exact(&mut sqrt(3)), Ordering::Less);
@@ -384,9 +383,11 @@ mod tests {
     #[test]
     fn rational_values_are_recognised() {
         let p = &Poly::from_ints(&[-7, 3]) * &Poly::from_ints(&[-2, 0, 1]);
+
         let mut root = nonnegative_roots(&p).remove(1);
         root.try_rational();
         assert_eq!(root.as_rational(), Some(&rational(7, 3)));
+
         let mut irrational = sqrt(2);
         irrational.try_rational();
         assert_eq!(irrational.as_rational(), None);
@@ -394,35 +395,38 @@ mod tests {
 
     #[test]
     fn a_vector_is_reduced_to_least_degree() {
-        let root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
-        let v = root.reduce(&[Poly::from_ints(&[0, 0, 6]), Poly::from_ints(&[0, 8])]);
-        assert_eq!(v, [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])]);
-        let v = root.reduce(&[Poly::from_ints(&[0, 1, 0, 0, 0, 1])]); // t + 4 t
-        assert_eq!(v, [Poly::from_ints(&[0, 1])]);
+        let vector = [Poly::from_ints(&[0, 0, 6]), Poly::from_ints(&[0, 8])]; // (12, 8 t)
+        let number = [Poly::from_ints(&[0, 1, 0, 0, 0, 1])]; // t + 4 t
+
+        let root = sqrt(2);
+
+        let expected = [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])];
+        assert_eq!(root.reduce(&vector), expected);
+        assert_eq!(root.reduce(&number), [Poly::from_ints(&[0, 1])]);
+    }
+
+    /// 3 / 2^bits as a root of (2^bits t - 3) (t^2 - 2).
+    fn hidden_rational(bits: u32) -> Algebraic {
+        let denominator = Integer::from(1) << bits;
+        let value = Rational::new(3.into(), denominator.clone());
+        let factor = Poly::new(vec![(-3).into(), denominator]);
+
+        let lo = &value - Rational::new(1.into(), Integer::from(1) << (bits + 3));
+        let hi = value * whole(2);
+        let interval = Interval::new(lo, hi).unwrap();
+        Algebraic::isolated(&factor * &Poly::from_ints(&[-2, 0, 1]), interval)
     }
 
     /// A lead of more than 256 bits would cost as many halvings: the number stays as it is.
     #[test]
     fn a_rational_with_a_long_denominator_is_not_looked_for() {
-        let long = |bits: u32| {
-            &Poly::new(vec![(-3).into(), Integer::from(1) << bits]) * &Poly::from_ints(&[-2, 0, 1])
-        };
-        let of = |bits: u32| {
-            let value = Rational::new(3.into(), Integer::from(1) << bits);
-            let interval = Interval::new(
-                &value - Rational::new(1.into(), Integer::from(1) << (bits + 3)),
-                value.clone() * Rational::from_integer(2.into()),
-            )
-            .unwrap();
-            let at_lo = long(bits).sign_at(interval.lo());
-            let mut number = Algebraic {
-                poly: long(bits),
-                interval,
-                at_lo,
-            };
-            number.try_rational();
-            number.interval.is_point()
-        };
-        assert!(of(20) && !of(300));
+        let mut short = hidden_rational(20);
+        let mut long = hidden_rational(300);
+
+        short.try_rational();
+        long.try_rational();
+
+        assert!(short.interval.is_point());
+        assert!(!long.interval.is_point());
     }
 }

@@ -246,6 +246,7 @@ mod tests {
         assert_eq!(counts(&[&[1, 0], &[-1, 0], &[0, 1], &[0, -1]], 2), (0, 0)); // the origin
         assert_eq!(counts(&[&[1, 0], &[2, 0], &[0, 1], &[1, 1]], 2), (0, 2)); // redundant rows
         assert_eq!(counts(&[&[1, -1], &[-1, 1], &[1, 0]], 2), (0, 1)); // a ray
+
         // Over the cube: 6 facets, 8 rays; many pairs are not adjacent.
         let cube: [&[i64]; 6] = [
             &[1, 0, 0, 1],
@@ -256,6 +257,7 @@ mod tests {
             &[0, 0, -1, 1],
         ];
         assert_eq!(counts(&cube, 4), (0, 8));
+
         // Over the octahedron: 8 facets, 6 rays.
         let signs = (0..8i64).map(|k| [1 - 2 * (k & 1), 1 - (k & 2), 1 - (k & 4) / 2, 1]);
         let octahedron: Vec<[i64; 4]> = signs.collect();
@@ -263,19 +265,23 @@ mod tests {
         assert_eq!(counts(&rows, 4), (0, 6));
     }
 
+    fn vector(entries: [&[i64]; 3]) -> Vec<Poly> {
+        entries.map(Poly::from_ints).to_vec()
+    }
+
     /// Each ray satisfies all rows, and is the only one (up to scale) where its active rows vanish.
     #[test]
     fn rays_satisfy_and_are_extreme_at_an_irrational_number() {
         let mut root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
-        let p = |c: &[i64]| Poly::from_ints(c);
-        // z_0 >= 0, z_1 >= sqrt 2 z_0, z_2 >= 0, 2 z_0 + z_2 >= sqrt 2 z_1
         let rows = [
-            vec![p(&[1]), p(&[]), p(&[])],
-            vec![p(&[0, -1]), p(&[1]), p(&[])],
-            vec![p(&[]), p(&[]), p(&[1])],
-            vec![p(&[2]), p(&[0, -1]), p(&[1])],
+            vector([&[1], &[], &[]]),       // z_0 >= 0
+            vector([&[0, -1], &[1], &[]]),  // z_1 >= sqrt 2 z_0
+            vector([&[], &[], &[1]]),       // z_2 >= 0
+            vector([&[2], &[0, -1], &[1]]), // 2 z_0 + z_2 >= sqrt 2 z_1
         ];
+
         let cone = cone_generators(&rows, 3, &mut root);
+
         assert_eq!((cone.lineality.len(), cone.rays.len()), (0, 3));
         for ray in &cone.rays {
             let signs: Vec<Sign> = rows.iter().map(|r| root.sign_of(&dot(r, ray))).collect();

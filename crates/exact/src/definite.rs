@@ -319,122 +319,131 @@ mod tests {
 
     #[test]
     fn both_methods_accept_the_chain() {
-        assert_eq!(leading_minors(&chain(12, whole(2))), Ok(()));
-        assert_eq!(rounded_ldl(&chain(12, whole(2))), Ok(()));
-        let tiny = Sparse::zeros(12, 12)
-            .add_scaled(&rational(1, 1_000_000_000_000_000), &chain(12, whole(2)));
+        let small = chain(12, whole(2));
+        let factor = rational(1, 1_000_000_000_000_000);
+        let tiny = Sparse::zeros(12, 12).add_scaled(&factor, &small);
+        let large = chain(120, whole(2));
+
+        assert_eq!(leading_minors(&small), Ok(()));
+        assert_eq!(rounded_ldl(&small), Ok(()));
         assert_eq!(rounded_ldl(&tiny), Ok(()));
-        assert_eq!(positive_definite(&chain(120, whole(2))), Ok(()));
+        assert_eq!(positive_definite(&large), Ok(()));
+    }
+
+    /// [[2, 1, 0], [1, 2, 1/1000], [0, 1/1000, corner]].
+    fn with_corner(corner: Rational) -> Sparse {
+        let entries = [
+            (0, 0, whole(2)),
+            (0, 1, whole(1)),
+            (1, 0, whole(1)),
+            (1, 1, whole(2)),
+            (1, 2, rational(1, 1000)),
+            (2, 1, rational(1, 1000)),
+            (2, 2, corner),
+        ];
+        Sparse::from_entries(3, 3, entries)
+    }
+
+    fn refused_at_2(pivot: Rational) -> Result<(), DefiniteError> {
+        Err(DefiniteError::Not(NotDefinite { index: 2, pivot }))
     }
 
     /// Rows with denominators of their own, and the value of the pivot that is refused.
     #[test]
     fn minors_of_fractions_give_the_pivot() {
-        let of = |corner: Rational| {
-            let entries = [(0, 0, whole(2)), (1, 1, whole(2)), (2, 2, corner)];
-            let off = [
-                (0, 1, whole(1)),
-                (1, 0, whole(1)),
-                (1, 2, rational(1, 1000)),
-                (2, 1, rational(1, 1000)),
-            ];
-            leading_minors(&Sparse::from_entries(3, 3, entries.into_iter().chain(off)))
-        };
         let edge = rational(2, 3_000_000); // (1/1000)^2 / (3/2)
-        let refused = |pivot| Err(DefiniteError::Not(NotDefinite { index: 2, pivot }));
+        let definite = with_corner(&edge + rational(1, 1_000_000_000));
+        let singular = with_corner(edge.clone());
+        let indefinite = with_corner(&edge - rational(1, 7));
 
-        assert_eq!(of(&edge + rational(1, 1_000_000_000)), Ok(()));
-        assert_eq!(of(edge.clone()), refused(whole(0)));
-        assert_eq!(of(&edge - rational(1, 7)), refused(rational(-1, 7)));
+        assert_eq!(leading_minors(&definite), Ok(()));
+        assert_eq!(leading_minors(&singular), refused_at_2(whole(0)));
+        assert_eq!(leading_minors(&indefinite), refused_at_2(rational(-1, 7)));
     }
 
     #[test]
     fn both_methods_refuse_the_indefinite_chain_with_a_witness() {
-        for result in [
-            leading_minors(&chain(12, rational(19, 10))),
-            rounded_ldl(&chain(12, rational(19, 10))),
-        ] {
+        let small = chain(12, rational(19, 10));
+        let large = chain(120, rational(19, 10));
+
+        for result in [leading_minors(&small), rounded_ldl(&small)] {
             let Err(DefiniteError::Not(refuted)) = result else {
                 panic!("{result:?}")
             };
             assert!(!refuted.pivot.is_positive());
         }
-        assert!(matches!(
-            positive_definite(&chain(120, rational(19, 10))),
-            Err(DefiniteError::Not(_))
-        ));
+        let refused = positive_definite(&large);
+        assert!(matches!(refused, Err(DefiniteError::Not(_))));
+    }
+
+    /// Entries (i, j) and (j, i) larger by 10^-6.
+    fn disturbed(m: &Sparse, i: usize, j: usize) -> Sparse {
+        let small = rational(1, 1_000_000);
+        let entries = [(i, j, small.clone()), (j, i, small)];
+        let off_diagonal = Sparse::from_entries(m.rows(), m.cols(), entries);
+        m.add_scaled(&whole(1), &off_diagonal)
     }
 
     /// The factors of one matrix prove nothing about another one: the exact residual notices.
     #[test]
     fn a_factorisation_of_another_matrix_is_not_dominated() {
-        let (good, other) = (chain(12, whole(2)), chain(12, rational(19, 10)));
+        let good = chain(12, whole(2));
+        let other = chain(12, rational(19, 10));
+        let disturbed = disturbed(&good, 11, 0);
         let fixed = Fixed::of(&good);
         let ldl = RoundedLdl::of(&good, &fixed).unwrap_or_else(|e| panic!("{e:?}"));
 
         assert_eq!(ldl.first_undominated(&good, &fixed), None);
         assert_eq!(ldl.first_undominated(&other, &fixed), Some(0));
-
-        let off = Sparse::from_entries(
-            12,
-            12,
-            [
-                (11, 0, rational(1, 1_000_000)),
-                (0, 11, rational(1, 1_000_000)),
-            ],
-        );
-        let disturbed = good.add_scaled(&whole(1), &off);
         assert!(ldl.first_undominated(&disturbed, &fixed).is_some());
+    }
+
+    /// A matrix of order n by its entries.
+    fn symmetric(n: usize, entry: impl Fn(usize, usize) -> Rational) -> Sparse {
+        let mut entries = Vec::new();
+        for i in 0..n {
+            for j in 0..n {
+                entries.push((i, j, entry(i, j)));
+            }
+        }
+        Sparse::from_entries(n, n, entries)
     }
 
     #[test]
     fn a_singular_matrix_is_never_accepted() {
-        let ones = |n: usize| {
-            Sparse::from_entries(
-                n,
-                n,
-                (0..n).flat_map(|i| (0..n).map(move |j| (i, j, whole(1)))),
-            )
-        };
+        let ones = symmetric(3, |_, _| whole(1));
+        let many_ones = symmetric(60, |_, _| whole(1));
+
         assert!(matches!(
-            positive_definite(&ones(3)),
+            positive_definite(&ones),
             Err(DefiniteError::Not(NotDefinite { index: 1, .. }))
         ));
-        assert!(positive_definite(&ones(60)).is_err());
+        assert!(positive_definite(&many_ones).is_err());
         assert!(matches!(
             positive_definite(&Sparse::zeros(2, 2)),
             Err(DefiniteError::Not(NotDefinite { index: 0, .. }))
         ));
     }
 
-    /// I + ones: every row has its products.
+    /// Order 6, without a zero: every row has its products.
+    fn dense(diagonal: Rational) -> Sparse {
+        symmetric(6, |i, j| {
+            if i == j {
+                diagonal.clone()
+            } else {
+                rational(1 + (i * j % 3) as i64, 4)
+            }
+        })
+    }
+
     #[test]
     fn a_dense_matrix_is_accepted() {
-        let dense = |n: usize, d: Rational| {
-            let entry = move |i: usize, j: usize| {
-                if i == j {
-                    whole(1) + &d
-                } else {
-                    rational(1 + (i * j % 3) as i64, 4)
-                }
-            };
-            Sparse::from_entries(
-                n,
-                n,
-                (0..n)
-                    .flat_map(|i| (0..n).map(move |j| (i, j)))
-                    .map(|(i, j)| (i, j, entry(i, j)))
-                    .collect::<Vec<_>>(),
-            )
-        };
-        assert_eq!(
-            [
-                rounded_ldl(&dense(6, whole(1))),
-                leading_minors(&dense(6, whole(1)))
-            ],
-            [Ok(()), Ok(())]
-        );
-        assert!(rounded_ldl(&dense(6, rational(-9, 10))).is_err());
+        let definite = dense(whole(2));
+        let indefinite = dense(rational(1, 10));
+
+        assert_eq!(rounded_ldl(&definite), Ok(()));
+        assert_eq!(leading_minors(&definite), Ok(()));
+        assert!(rounded_ldl(&indefinite).is_err());
     }
 
     /// An entry off the diagonal is a residual of both its rows: the first of them is named.
@@ -445,15 +454,7 @@ mod tests {
         let ldl = RoundedLdl::of(&good, &fixed).unwrap_or_else(|e| panic!("{e:?}"));
 
         for (i, j) in [(11, 0), (9, 4), (5, 4)] {
-            let off = Sparse::from_entries(
-                12,
-                12,
-                [
-                    (i, j, rational(1, 1_000_000)),
-                    (j, i, rational(1, 1_000_000)),
-                ],
-            );
-            let disturbed = good.add_scaled(&whole(1), &off);
+            let disturbed = disturbed(&good, i, j);
             assert_eq!(ldl.first_undominated(&disturbed, &fixed), Some(j));
         }
     }

@@ -184,28 +184,31 @@ mod tests {
         for (u, v) in [(0, 1), (1, 3), (1, 3), (5, 2), (-4, 1), (7, 1)] {
             p = &p * &Poly::linear_root(&rational(u, v));
         }
-        let found: Vec<_> = nonnegative_roots(&p)
-            .into_iter()
-            .map(|mut r| {
-                r.try_rational();
-                r.as_rational().cloned().unwrap()
-            })
-            .collect();
-        assert_eq!(
-            found,
-            vec![whole(0), rational(1, 3), rational(5, 2), whole(7)]
-        );
+
+        let mut found = Vec::new();
+        for mut root in nonnegative_roots(&p) {
+            root.try_rational();
+            found.push(root.as_rational().cloned().unwrap());
+        }
+
+        let expected = [whole(0), rational(1, 3), rational(5, 2), whole(7)];
+        assert_eq!(found, expected);
     }
 
     #[test]
     fn the_window_is_closed_and_excludes_the_rest() {
         let p = Poly::from_ints(&[-6, 11, -6, 1]); // 1, 2, 3
-        let count = |a: Rational, b: Option<Rational>| roots_in(&p, &a, b.as_ref()).len();
-        assert_eq!(count(whole(1), Some(whole(2))), 2);
-        assert_eq!(count(rational(11, 10), Some(rational(19, 10))), 0);
-        assert_eq!(count(whole(2), Some(whole(2))), 1);
-        assert_eq!(count(whole(3), None), 1);
-        assert_eq!(count(whole(4), None), 0);
+        let windows = [
+            (whole(1), Some(whole(2)), 2),
+            (rational(11, 10), Some(rational(19, 10)), 0),
+            (whole(2), Some(whole(2)), 1),
+            (whole(3), None, 1),
+            (whole(4), None, 0),
+        ];
+        for (min, max, expected) in windows {
+            let roots = roots_in(&p, &min, max.as_ref());
+            assert_eq!(roots.len(), expected, "{min} {max:?}");
+        }
     }
 
     #[test]
