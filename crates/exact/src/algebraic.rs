@@ -13,7 +13,8 @@
 //! Algebraic Geometry, chapter 10, treat the rest.
 //!
 //! Input: a polynomial with an interval that isolates one root of it (`roots`), or a rational.
-//! Called by everything exact that leaves the rationals: `kernel`, `cone`, the oracle, the checker.
+//! Called by everything exact that leaves the rationals: `kernel`, `cone`, the oracle, the search.
+//! (The checker does without: its claims carry intervals of their own.)
 
 use super::{Integer, Interval, Poly, Rational};
 use num_integer::Integer as _;

@@ -19,7 +19,7 @@
 //! computed exactly, refutes it; between the two the answer is that it is undecided.
 //!
 //! Input: a symmetric matrix over Q (the caller has checked symmetry). Called where a hypothesis of
-//! the paper is established: K_ff and M in `model`, K* and its like in `engine` and `check`.
+//! the paper is established: K_ff and M in `model`, K* and its like in `engine`.
 
 use super::definite_short::certainly_definite;
 use super::{Integer, Rational, Sparse, common_denominator};

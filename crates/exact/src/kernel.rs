@@ -16,7 +16,7 @@
 //! and the division is exact, because all entries stay minors of the given matrix (Sylvester's
 //! identity). So numbers stay as short as minors are.
 //!
-//! Matrices are lists of rows. Called by the oracle, the search and the checks of supports.
+//! Matrices are lists of rows. Called by the oracle and the search.
 
 use super::{Algebraic, Integer, Poly, Sign};
 use num_traits::{One, Zero};

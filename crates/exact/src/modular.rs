@@ -344,35 +344,38 @@ mod tests {
 
     /// D - R F^-1 C by elimination in fractions.
     fn plain(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> Sparse {
-        let (n, w) = (f.rows(), f.rows() + c.cols());
-        let mut m: Vec<Vec<Rational>> = (0..n + r.rows())
-            .map(|i| {
-                (0..w)
-                    .map(|j| match (i < n, j < n) {
-                        (true, true) => f.get(i, j),
-                        (true, false) => c.get(i, j - n),
-                        (false, true) => r.get(i - n, j),
-                        _ => d.get(i - n, j - n),
-                    })
-                    .collect()
-            })
-            .collect();
+        let n = f.rows();
+        let rows = n + r.rows();
+        let width = n + c.cols();
+        let mut m = vec![vec![whole(0); width]; rows];
+        for i in 0..rows {
+            for j in 0..width {
+                m[i][j] = match (i < n, j < n) {
+                    (true, true) => f.get(i, j),
+                    (true, false) => c.get(i, j - n),
+                    (false, true) => r.get(i - n, j),
+                    (false, false) => d.get(i - n, j - n),
+                };
+            }
+        }
+
         for k in 0..n {
-            for i in k + 1..m.len() {
+            for i in k + 1..rows {
                 let factor = &m[i][k] / &m[k][k];
-                for j in k..w {
+                for j in k..width {
                     let update = &factor * &m[k][j];
                     m[i][j] -= update;
                 }
             }
         }
-        Sparse::from_entries(
-            r.rows(),
-            c.cols(),
-            (0..r.rows())
-                .flat_map(|i| (0..c.cols()).map(move |j| (i, j)))
-                .map(|(i, j)| (i, j, m[n + i][n + j].clone())),
-        )
+
+        let mut entries = Vec::new();
+        for i in n..rows {
+            for j in n..width {
+                entries.push((i - n, j - n, m[i][j].clone()));
+            }
+        }
+        Sparse::from_entries(r.rows(), c.cols(), entries)
     }
 
     #[test]
@@ -387,46 +390,36 @@ mod tests {
         let c = Sparse::from_ints(&[&[1, 0], &[0, 2], &[-3, 1], &[5, 5]]);
         let r = Sparse::from_ints(&[&[1, 2, 3, 4], &[0, 0, 0, 1], &[-7, 0, 2, 0]]);
         let d = Sparse::from_ints(&[&[1, 0], &[0, 0], &[2, -9]]);
-        assert_eq!(
-            schur_complement(&f, &c, &r, &d).unwrap(),
-            plain(&f, &c, &r, &d)
-        );
+
+        let complement = schur_complement(&f, &c, &r, &d).unwrap();
+
+        assert_eq!(complement, plain(&f, &c, &r, &d));
     }
 
     #[test]
     fn a_determinant_divisible_by_the_first_prime_is_survived() {
         let p = Rational::from_integer(primes().next().unwrap().into());
         let f = Sparse::from_entries(2, 2, [(0, 0, p), (1, 1, whole(3))]);
-        let (c, r, d) = (
-            Sparse::from_ints(&[&[1], &[1]]),
-            Sparse::from_ints(&[&[1, 1]]),
-            Sparse::from_ints(&[&[0]]),
-        );
-        assert_eq!(
-            schur_complement(&f, &c, &r, &d).unwrap(),
-            plain(&f, &c, &r, &d)
-        );
+        let c = Sparse::from_ints(&[&[1], &[1]]);
+        let r = Sparse::from_ints(&[&[1, 1]]);
+        let d = Sparse::from_ints(&[&[0]]);
+
+        let complement = schur_complement(&f, &c, &r, &d).unwrap();
+
+        assert_eq!(complement, plain(&f, &c, &r, &d));
     }
 
     #[test]
     fn empty_singular_and_misshapen() {
-        let none = Sparse::zeros(0, 0);
-        assert_eq!(
-            schur_complement(
-                &none,
-                &Sparse::zeros(0, 1),
-                &Sparse::zeros(1, 0),
-                &Sparse::from_ints(&[&[4]])
-            )
-            .unwrap(),
-            Sparse::from_ints(&[&[4]])
-        );
+        let empty = [(0, 0), (0, 1), (1, 0)].map(|(rows, cols)| Sparse::zeros(rows, cols));
+        let four = Sparse::from_ints(&[&[4]]);
+        let complement = schur_complement(&empty[0], &empty[1], &empty[2], &four);
+        assert_eq!(complement, Ok(four));
+
         let singular = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
-        let (c, r, d) = (
-            Sparse::from_ints(&[&[1], &[1]]),
-            Sparse::from_ints(&[&[1, 1]]),
-            Sparse::from_ints(&[&[0]]),
-        );
+        let c = Sparse::from_ints(&[&[1], &[1]]);
+        let r = Sparse::from_ints(&[&[1, 1]]);
+        let d = Sparse::from_ints(&[&[0]]);
         assert!(matches!(
             schur_complement(&singular, &c, &r, &d),
             Err(CondenseError::ZeroMinor { .. })
@@ -439,29 +432,24 @@ mod tests {
 
     #[test]
     fn a_singular_block_is_given_up_after_nine_primes() {
-        let ones = |n: usize, m: usize| {
-            Sparse::from_entries(
-                n,
-                m,
-                (0..n)
-                    .flat_map(|i| (0..m).map(move |j| (i, j, whole(1))))
-                    .collect::<Vec<_>>(),
-            )
-        };
-        let got = schur_complement(&ones(2, 2), &ones(2, 1), &ones(1, 2), &ones(1, 1));
-        assert_eq!(
-            got,
-            Err(CondenseError::ZeroMinor {
-                primes: MAX_SKIPPED + 1
-            })
-        );
+        let f = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
+        let c = Sparse::from_ints(&[&[1], &[1]]);
+        let r = Sparse::from_ints(&[&[1, 1]]);
+        let d = Sparse::from_ints(&[&[1]]);
+
+        let refused = schur_complement(&f, &c, &r, &d);
+
+        let primes = MAX_SKIPPED + 1;
+        assert_eq!(refused, Err(CondenseError::ZeroMinor { primes }));
     }
 
     #[test]
     fn the_representative_of_least_absolute_value_is_taken() {
         let p = primes().next().unwrap();
         let mut residues = Residues::new(4);
+
         residues.add(p, &[(p - 1) / 2, (p - 1) / 2 + 1, 0, p - 1]);
+
         let half = Integer::from((p - 1) / 2);
         assert_eq!(
             residues.symmetric(),

@@ -8,7 +8,7 @@
 //! The sign of a + b sqrt(d) is that of the term of larger absolute value, found by comparing a^2
 //! with b^2 d. Nothing is approximated.
 //!
-//! Called by `mceip_oracle::table1` and the tests that hold it against the enumerator.
+//! Called by `mceip_oracle::table1` and by what compares other answers with that table.
 
 use super::{Poly, Rational, Sign};
 use num_traits::{Signed, Zero};
