@@ -214,46 +214,50 @@ mod tests {
     #[test]
     fn a_tie_of_a_quotient_of_irrational_terms_terminates() {
         let mut root = nonnegative_roots(&Poly::from_ints(&[-1, 0, 8])).remove(0);
-        let (square, one) = (Poly::from_ints(&[0, 0, 1]), Poly::from_ints(&[1]));
+        let square = Poly::from_ints(&[0, 0, 1]);
         assert_eq!(to_decimal(&mut root, &square, 2), "0.13");
-        assert_eq!(ratio_to_decimal(&mut root, &one, &square, 1), "8");
-        assert_eq!(
-            ratio_to_decimal(
-                &mut root,
-                &Poly::from_ints(&[0, -3]),
-                &Poly::from_ints(&[0, 8]),
-                2
+
+        let quotients = [
+            (Poly::from_ints(&[1]), square, 1, "8"),
+            (
+                Poly::from_ints(&[0, -3]),
+                Poly::from_ints(&[0, 8]),
+                2,
+                "-0.38",
             ),
-            "-0.38"
-        );
-        assert_eq!(
-            ratio_to_decimal(
-                &mut root,
-                &Poly::from_ints(&[0, 5]),
-                &Poly::from_ints(&[0, 0, 0, 32]),
-                2
+            (
+                Poly::from_ints(&[0, 5]),
+                Poly::from_ints(&[0, 0, 0, 32]),
+                2,
+                "1.3",
             ),
-            "1.3"
-        );
+        ];
+        for (numerator, denominator, digits, expected) in quotients {
+            let decimal = ratio_to_decimal(&mut root, &numerator, &denominator, digits);
+            assert_eq!(decimal, expected);
+        }
     }
 
     #[test]
     fn enclosing_decimals_round_outwards() {
-        let of = |lo: &str, hi: &str, digits: usize| {
-            enclosing_decimals(
-                &Interval::new(parse(lo).unwrap(), parse(hi).unwrap()).unwrap(),
-                digits,
-            )
-        };
-        let want = |lo: &str, hi: &str| (lo.to_string(), hi.to_string());
-        assert_eq!(of("1/3", "2/3", 3), want("0.333", "0.667"));
-        assert_eq!(of("1.234567", "1.234568", 4), want("1.234", "1.235"));
-        assert_eq!(of("-1.234567", "-1.234561", 4), want("-1.235", "-1.234"));
-        assert_eq!(of("0.1234", "0.99991", 3), want("0.123", "1"));
-        assert_eq!(of("12344", "99999", 3), want("12300", "100000"));
-        assert_eq!(of("12344", "99999", 1), want("10000", "100000"));
-        assert_eq!(of("0", "0", 3), want("0", "0"));
-        assert_eq!(of("-1/8", "1/3", 2), want("-0.13", "0.34"));
-        assert_eq!(of("1.25", "1.5", 3), want("1.25", "1.5"));
+        let cases = [
+            (["1/3", "2/3"], 3, ["0.333", "0.667"]),
+            (["1.234567", "1.234568"], 4, ["1.234", "1.235"]),
+            (["-1.234567", "-1.234561"], 4, ["-1.235", "-1.234"]),
+            (["0.1234", "0.99991"], 3, ["0.123", "1"]),
+            (["12344", "99999"], 3, ["12300", "100000"]),
+            (["12344", "99999"], 1, ["10000", "100000"]),
+            (["0", "0"], 3, ["0", "0"]),
+            (["-1/8", "1/3"], 2, ["-0.13", "0.34"]),
+            (["1.25", "1.5"], 3, ["1.25", "1.5"]),
+        ];
+        for (ends, digits, expected) in cases {
+            let [lo, hi] = ends.map(|text| parse(text).unwrap());
+            let interval = Interval::new(lo, hi).unwrap();
+
+            let (down, up) = enclosing_decimals(&interval, digits);
+
+            assert_eq!([down, up], expected, "{ends:?}");
+        }
     }
 }

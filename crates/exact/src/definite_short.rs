@@ -312,10 +312,8 @@ mod tests {
     /// The factors of one matrix prove nothing about another one: the exact residual notices.
     #[test]
     fn a_factorisation_of_another_matrix_is_not_dominated() {
-        let (good, other) = (
-            chain(12, whole(2), &whole(1)),
-            chain(12, rational(19, 10), &whole(1)),
-        );
+        let good = chain(12, whole(2), &whole(1));
+        let other = chain(12, rational(19, 10), &whole(1));
         let good_rows = rounded_down(&good).unwrap();
         let other_rows = rounded_down(&other).unwrap();
         let mut wrong_rows = rounded_down(&good).unwrap();

@@ -97,18 +97,20 @@ mod tests {
             vec![whole(1), whole(2), whole(3)],
             vec![whole(4), whole(5), whole(6)],
         ]);
-        assert_eq!(
-            (m.rows(), m.cols(), m.row(1)),
-            (2, 3, &[4, 5, 6].map(whole)[..])
-        );
+
+        assert_eq!(m.rows(), 2);
+        assert_eq!(m.cols(), 3);
+        assert_eq!(m.row(1), [4, 5, 6].map(whole));
     }
 
     #[test]
     fn clearing_a_row_scales_both_matrices_alike() {
         let a = Dense::from_rows(vec![vec![rational(1, 2), whole(0)]]);
         let b = Dense::from_rows(vec![vec![rational(1, 3), whole(-1)]]);
-        let (ia, ib) = a.clear_rows(&b);
-        assert_eq!(ia, vec![vec![Integer::from(3), Integer::from(0)]]);
-        assert_eq!(ib, vec![vec![Integer::from(2), Integer::from(-6)]]);
+
+        let (integers_of_a, integers_of_b) = a.clear_rows(&b);
+
+        assert_eq!(integers_of_a, [[Integer::from(3), Integer::from(0)]]);
+        assert_eq!(integers_of_b, [[Integer::from(2), Integer::from(-6)]]);
     }
 }

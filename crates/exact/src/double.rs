@@ -138,13 +138,13 @@ mod tests {
             "2.2250738585072011e-308",
             "123456789.123456789",
         ] {
-            let want: f64 = text.parse().unwrap();
-            assert_eq!(
-                to_f64(&parse(text).unwrap()).to_bits(),
-                want.to_bits(),
-                "{text}"
-            );
+            let expected: f64 = text.parse().unwrap();
+
+            let nearest = to_f64(&parse(text).unwrap());
+
+            assert_eq!(nearest.to_bits(), expected.to_bits(), "{text}");
         }
+
         assert_eq!(to_f64(&parse("1e400").unwrap()), f64::INFINITY);
         assert_eq!(to_f64(&rational(1, 3)), 1.0 / 3.0);
     }

@@ -284,17 +284,20 @@ mod tests {
 
     #[test]
     fn arithmetic_and_evaluation_agree() {
-        let (p, q) = (Poly::from_ints(&[1, -3, 2]), Poly::from_ints(&[0, 5]));
+        let p = Poly::from_ints(&[1, -3, 2]);
+        let q = Poly::from_ints(&[0, 5]);
+
         for t in [rational(-2, 3), whole(0), rational(7, 5)] {
             assert_eq!((&p * &q).eval(&t), p.eval(&t) * q.eval(&t));
             assert_eq!((&p - &q).eval(&t), p.eval(&t) - q.eval(&t));
-            assert_eq!(
-                i64::from(p.sign_at(&t)),
-                i64::from(sign(p.eval(&t).numer()))
-            );
+            assert_eq!((&q - &p).eval(&t), q.eval(&t) - p.eval(&t));
+            assert_eq!((&q + &p).eval(&t), q.eval(&t) + p.eval(&t));
+            assert_eq!(p.sign_at(&t), sign(p.eval(&t).numer()));
         }
+
         assert_eq!(p.derivative(), Poly::from_ints(&[-3, 4]));
         assert_eq!((&p - &p).degree(), None);
+        assert_eq!((&p + &-&p).degree(), None);
     }
 
     #[test]

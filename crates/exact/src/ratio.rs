@@ -376,13 +376,15 @@ mod tests {
     /// Fibonacci numbers.
     #[test]
     fn close_and_long_numbers_are_compared_without_a_stack() {
-        let (mut a, mut b) = (Integer::one(), Integer::one());
+        let mut a = Integer::one();
+        let mut b = Integer::one();
         for _ in 0..200_000 {
             let next = &a + &b;
             a = std::mem::replace(&mut b, next);
         }
         let next = &a + &b;
-        let (one, other) = (Rational::new_raw(b.clone(), a), Rational::new_raw(next, b));
+        let one = Rational::new_raw(b.clone(), a);
+        let other = Rational::new_raw(next, b);
 
         assert_ne!(one, other);
         assert_eq!(one.cmp(&other), other.cmp(&one).reverse());

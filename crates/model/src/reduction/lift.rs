@@ -41,7 +41,9 @@ pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly
 
     let mut w = RationalVector::zero(system.dofs());
     w.add_product(system.stiffness(), &v.entries, 0);
-    if let (Unknown::Lambda2, Some(mass)) = (unknown, system.mass()) {
+    if unknown == Unknown::Lambda2
+        && let Some(mass) = system.mass()
+    {
         w.add_product(mass, &v.entries, 1);
     }
     let w = w.cleared();
