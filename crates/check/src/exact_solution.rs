@@ -7,7 +7,7 @@
 //! "> 0" at alpha are decided by exact arithmetic on the coefficients. The test of zero may refuse
 //! a true claim if p is reducible, but what it accepts is true for every root of p in [a, b].
 //!
-//! The obligations, in the order of `spec/formats.md`:
+//! The obligations, in the order of `spec/certificates.md`:
 //!
 //! 1. `support` and `biactive` are ascending lists of complementarity variables, and the numbers
 //!    are small enough to be multiplied out.

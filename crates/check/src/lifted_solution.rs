@@ -3,7 +3,7 @@
 //!
 //! The pencil is not used here, so that a wrong reduction (10)-(16) cannot hide. The value t is an
 //! algebraic number alpha, and v and w are polynomials in it, as in `exact_solution`. The
-//! obligations, in the order of `spec/formats.md`:
+//! obligations, in the order of `spec/certificates.md`:
 //!
 //! 1. Those of an exact solution on index sets, sizes, the isolating interval and the window.
 //! 2. (t M + K) v = w at every degree of freedom; K v = w where mu is the unknown.

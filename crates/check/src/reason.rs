@@ -1,6 +1,6 @@
 //! Every reason for rejection, as a typed value: equation, index, expected, got.
 //!
-//! A rejection names the first obligation that fails, in the order of `spec/formats.md`. Its
+//! A rejection names the first obligation that fails, in the order of `spec/certificates.md`. Its
 //! message says "expected ..., got ..."; its name ([`Reason::name`]) is what the corpus of
 //! forgeries (`spec/corpus`) expects. What is wrong with a complete set is a [`CoverFault`].
 

@@ -1,4 +1,20 @@
 //! Real algebraic numbers as (squarefree polynomial, isolating interval), and exact signs at them.
+//!
+//! alpha is the one root of p in [lo, hi]. Everything about alpha is the sign of some integer
+//! polynomial g there:
+//!
+//! 1. interval arithmetic encloses g over [lo, hi]; if 0 is not in the enclosure, that is the sign;
+//! 2. otherwise g(alpha) = 0 exactly if h = gcd(p, g) vanishes at alpha, that is, if h changes sign
+//!    over [lo, hi], because all roots of p are simple;
+//! 3. if it does not, bisection narrows the interval until 1. decides.
+//!
+//! A gcd that is neither 1 nor p splits p, and the factor that vanishes at alpha replaces it
+//! (dynamic evaluation: Duval, Dynamic evaluation, 1989). Basu, Pollack and Roy, Algorithms in Real
+//! Algebraic Geometry, chapter 10, treat the rest.
+//!
+//! Input: a polynomial with an interval that isolates one root of it (`roots`), or a rational.
+//! Called by everything exact that leaves the rationals: `kernel`, `cone`, the oracle, the search.
+//! (The checker does without: its claims carry intervals of their own.)
 
 use super::{Integer, Interval, Poly, Rational};
 use num_integer::Integer as _;
@@ -61,6 +77,7 @@ impl Algebraic {
         if interval.is_point() {
             return Self::rational(interval.lo().clone());
         }
+
         let at_lo = poly.sign_at(interval.lo());
         Algebraic {
             poly,
@@ -95,20 +112,22 @@ impl Algebraic {
         if self.interval.is_point() {
             return;
         }
+
         let mid = self.interval.mid();
         let at_mid = self.poly.sign_at(&mid);
-        let (lo, hi) = (self.interval.lo().clone(), self.interval.hi().clone());
         if at_mid == 0 {
             *self = Self::rational(mid);
             return;
         }
-        let (lo, hi) = if at_mid == self.at_lo {
-            (mid, hi)
+
+        let half = if at_mid == self.at_lo {
+            Interval::new(mid, self.interval.hi().clone())
         } else {
-            (lo, mid)
+            Interval::new(self.interval.lo().clone(), mid)
         };
-        // lo <= hi: mid lies between the old ends.
-        self.interval = Interval::new(lo, hi).unwrap_or_else(|| self.interval.clone());
+        if let Some(half) = half {
+            self.interval = half; // always: lo <= mid <= hi
+        }
     }
 
     /// Refines until the interval is at most `width` wide.
@@ -126,39 +145,44 @@ impl Algebraic {
         if let Some(value) = self.as_rational() {
             return Sign::from(g.sign_at(value));
         }
-        let quick = self.interval.sign_on(g);
-        if quick != 0 {
-            return Sign::from(quick);
+
+        let sign = self.interval.sign_on(g);
+        if sign != 0 {
+            return Sign::from(sign);
         }
-        if g.is_zero() || self.splits_off(g) {
+        if g.is_zero() || self.is_root_of(g) {
             return Sign::Zero;
         }
+
+        // This ends: g is not zero here, and the enclosure narrows with the interval.
         loop {
             if let Some(value) = self.as_rational() {
                 return Sign::from(g.sign_at(value));
             }
-            match self.interval.sign_on(g) {
-                0 => self.refine(), // ends: g is not zero here and Horner converges with the width
-                s => return Sign::from(s),
+            let sign = self.interval.sign_on(g);
+            if sign != 0 {
+                return Sign::from(sign);
             }
+            self.refine();
         }
     }
 
-    /// Does `g` vanish here? If a proper factor of the polynomial shows either way, keep the
-    /// factor that vanishes here as the new, smaller polynomial (dynamic evaluation, Duval 1989).
-    fn splits_off(&mut self, g: &Poly) -> bool {
+    /// Does `g` vanish here? If h = gcd(p, g) is a proper factor of the polynomial p, the one of h
+    /// and p / h that vanishes here becomes the new, smaller polynomial.
+    fn is_root_of(&mut self, g: &Poly) -> bool {
         let h = self.poly.gcd(g);
         if h.degree() == Some(0) {
             return false;
         }
+
         let vanishes = h.sign_at(self.interval.lo()) != h.sign_at(self.interval.hi());
         let factor = if vanishes {
             Some(h)
         } else {
             self.poly.exact_div(&h)
         };
-        if let Some(f) = factor {
-            self.poly = f.primitive();
+        if let Some(factor) = factor {
+            self.poly = factor.primitive();
             self.at_lo = self.poly.sign_at(self.interval.lo());
         }
         vanishes
@@ -174,26 +198,23 @@ impl Algebraic {
     /// assert_eq!(v, [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])]); // (6 t^2, 8 t) ~ (3, 2 t)
     /// ```
     pub fn reduce(&self, vector: &[Poly]) -> Vec<Poly> {
-        let steps = vector
-            .iter()
-            .map(|p| p.coeffs().len())
-            .max()
-            .unwrap_or(0)
-            .saturating_sub(self.poly.coeffs().len() - 1);
-        let reduced: Vec<Poly> = vector
+        let longest = vector.iter().map(|p| p.coeffs().len()).max().unwrap_or(0);
+        let degree = self.poly.coeffs().len() - 1;
+        let steps = longest.saturating_sub(degree);
+
+        let remainders: Vec<Poly> = vector
             .iter()
             .map(|p| p.pseudo_rem_steps(&self.poly, steps))
             .collect();
-        let content = reduced
-            .iter()
-            .fold(Integer::zero(), |g, p| g.gcd(&p.content()));
-        if content.is_zero() || content.is_one() {
-            return reduced;
+
+        let mut content = Integer::zero();
+        for p in &remainders {
+            content = content.gcd(&p.content());
         }
-        reduced
-            .iter()
-            .map(|p| Poly::new(p.coeffs().iter().map(|c| c / &content).collect()))
-            .collect()
+        if content.is_zero() || content.is_one() {
+            return remainders;
+        }
+        remainders.iter().map(|p| p.divided_by(&content)).collect()
     }
 
     /// Looks for a rational value: a root u/v of a primitive polynomial has v dividing the lead, so
@@ -205,8 +226,11 @@ impl Algebraic {
         if self.interval.is_point() || self.poly.leading().bits() > 256 {
             return;
         }
+
         let lead = Rational::from_integer(self.poly.leading());
-        self.refine_to(&(Rational::one() / (&lead * &lead * Rational::from_integer(2.into()))));
+        let two = Rational::from_integer(2.into());
+        self.refine_to(&(&lead * &lead * two).recip());
+
         let simplest = simplest_between(self.interval.lo(), self.interval.hi());
         if self.poly.sign_at(&simplest) == 0 {
             *self = Self::rational(simplest);
@@ -227,6 +251,8 @@ impl Algebraic {
         if self.equals(other) {
             return Ordering::Equal;
         }
+
+        // This ends: the numbers differ, so narrow intervals around them do not meet.
         loop {
             if self.interval.hi() < other.interval.lo() {
                 return Ordering::Less;
@@ -243,23 +269,25 @@ impl Algebraic {
     }
 
     /// Are the two numbers equal?
+    ///
+    /// If the polynomial of `other` vanishes at `self`, the two are conjugates, and they are equal
+    /// exactly if `self` lies in the interval of `other`, which isolates one conjugate.
     pub fn equals(&mut self, other: &mut Algebraic) -> bool {
-        if let Some(v) = other.as_rational() {
-            return self.sign_of(&Poly::linear_root(v)) == Sign::Zero;
+        if let Some(value) = other.as_rational() {
+            return self.sign_of(&Poly::linear_root(value)) == Sign::Zero;
         }
-        if let Some(v) = self.as_rational() {
-            return other.sign_of(&Poly::linear_root(v)) == Sign::Zero;
+        if let Some(value) = self.as_rational() {
+            return other.sign_of(&Poly::linear_root(value)) == Sign::Zero;
         }
-        // `other`'s polynomial vanishes at self exactly if the gcd does; then self is one of
-        // other's conjugates, and it is other itself exactly if it lies in other's interval.
-        let polynomial = other.poly.clone();
-        self.sign_of(&polynomial) == Sign::Zero
+
+        self.sign_of(&other.poly) == Sign::Zero
             && self.cmp_rational(other.interval.lo()) == Ordering::Greater
             && self.cmp_rational(other.interval.hi()) == Ordering::Less
     }
 }
 
-/// The fraction of least denominator in [lo, hi] (Stern-Brocot).
+/// The fraction of least denominator in [lo, hi], found in the Stern-Brocot tree (Graham, Knuth and
+/// Patashnik, Concrete Mathematics, section 4.5).
 fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
     let floor = lo.floor();
     if floor == *lo {
@@ -269,8 +297,12 @@ fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
     if next <= *hi {
         return next;
     }
-    // Both lie strictly between floor and floor + 1: recurse on the reciprocals of the fractions.
-    floor.clone() + simplest_between(&(hi - &floor).recip(), &(lo - &floor).recip()).recip()
+
+    // Both ends lie strictly between floor and floor + 1. The reciprocal of a fraction between 0
+    // and 1 turns its numerator into the denominator, which is the shorter of the two.
+    let reciprocal_lo = (hi - &floor).recip();
+    let reciprocal_hi = (lo - &floor).recip();
+    floor + simplest_between(&reciprocal_lo, &reciprocal_hi).recip()
 }
 
 #[cfg(test)]
@@ -285,64 +317,63 @@ mod tests {
     /// Only one of them is a point: the other one is narrowed until they part.
     #[test]
     fn a_rational_and_a_root_are_told_apart() {
-        for (n, d, expected) in [
-            (7, 5, Ordering::Greater),
-            (3, 2, Ordering::Less),
-            (1393, 985, Ordering::Greater),
-            (3363, 2378, Ordering::Less),
-        ] {
-            let rational = || Algebraic::rational(rational(n, d));
-            assert_eq!(
-                (
-                    sqrt(2).cmp_exact(&mut rational()),
-                    rational().cmp_exact(&mut sqrt(2))
-                ),
-                (expected, expected.reverse()),
-                "{n}/{d}"
-            );
+        let cases = [
+            (rational(7, 5), Ordering::Greater),
+            (rational(3, 2), Ordering::Less),
+            (rational(1393, 985), Ordering::Greater),
+            (rational(3363, 2378), Ordering::Less),
+        ];
+        for (value, expected) in cases {
+            let mut point = Algebraic::rational(value.clone());
+
+            let root_against_point = sqrt(2).cmp_exact(&mut point.clone());
+            let point_against_root = point.cmp_exact(&mut sqrt(2));
+
+            assert_eq!(root_against_point, expected, "{value}");
+            assert_eq!(point_against_root, expected.reverse(), "{value}");
         }
     }
 
     #[test]
     fn signs_are_exact_also_an_inch_from_zero() {
-        // 3363/2378 is a convergent of sqrt 2, below it by 6e-8.
+        // 3363/2378 is a convergent of sqrt 2, above it by 6e-8.
+        let above = Poly::from_ints(&[-3363, 2378]);
+        let below = Poly::from_ints(&[-1393, 985]);
+        let zero = Poly::from_ints(&[4, 0, 0, 0, -1]);
+
         let mut root = sqrt(2);
-        assert_eq!(
-            root.sign_of(&Poly::from_ints(&[-3363, 2378])),
-            Sign::Negative
-        );
-        assert_eq!(
-            root.sign_of(&Poly::from_ints(&[-1393, 985])),
-            Sign::Positive
-        );
-        assert_eq!(
-            root.sign_of(&Poly::from_ints(&[4, 0, 0, 0, -1])),
-            Sign::Zero
-        );
+
+        assert_eq!(root.sign_of(&above), Sign::Negative);
+        assert_eq!(root.sign_of(&below), Sign::Positive);
+        assert_eq!(root.sign_of(&zero), Sign::Zero);
     }
 
     #[test]
     fn zero_tests_shrink_a_reducible_polynomial() {
-        let p = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-5, 0, 1]);
-        let mut root = nonnegative_roots(&p).remove(0);
-        assert_eq!(root.sign_of(&Poly::from_ints(&[-2, 0, 1])), Sign::Zero);
-        assert_eq!(root.poly(), &Poly::from_ints(&[-2, 0, 1]));
-        let mut larger = nonnegative_roots(&p).remove(1);
-        assert_eq!(
-            larger.sign_of(&Poly::from_ints(&[-2, 0, 1])),
-            Sign::Positive
-        );
+        let factor_of_sqrt_2 = Poly::from_ints(&[-2, 0, 1]);
+        let factor_of_sqrt_5 = Poly::from_ints(&[-5, 0, 1]);
+        let roots = nonnegative_roots(&(&factor_of_sqrt_2 * &factor_of_sqrt_5));
+
+        let mut sqrt_2 = roots[0].clone();
+        assert_eq!(sqrt_2.sign_of(&factor_of_sqrt_2), Sign::Zero);
+        assert_eq!(sqrt_2.poly(), &factor_of_sqrt_2);
+
+        let mut sqrt_5 = roots[1].clone();
+        assert_eq!(sqrt_5.sign_of(&factor_of_sqrt_2), Sign::Positive);
+
         // The common factor t^2 - 2 is not zero at sqrt 5, which is just below 2889/1292: the sign
         // stays open at first.
-        let near = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-2889, 1292]);
-        assert_eq!(larger.sign_of(&near), Sign::Negative);
-        assert_eq!(larger.poly(), &Poly::from_ints(&[-5, 0, 1]));
+        let near = &factor_of_sqrt_2 * &Poly::from_ints(&[-2889, 1292]);
+        assert_eq!(sqrt_5.sign_of(&near), Sign::Negative);
+        assert_eq!(sqrt_5.poly(), &factor_of_sqrt_5);
     }
 
     #[test]
     fn equality_and_order_across_polynomials() {
         let p = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-3, 1]);
+
         let mut from_product = nonnegative_roots(&p).remove(0);
+
         assert!(from_product.equals(&mut sqrt(2)));
         assert!(!from_product.equals(&mut sqrt(3)));
         assert_eq!(sqrt(2).cmp_exact(&mut sqrt(3)), Ordering::Less);
@@ -353,9 +384,11 @@ mod tests {
     #[test]
     fn rational_values_are_recognised() {
         let p = &Poly::from_ints(&[-7, 3]) * &Poly::from_ints(&[-2, 0, 1]);
+
         let mut root = nonnegative_roots(&p).remove(1);
         root.try_rational();
         assert_eq!(root.as_rational(), Some(&rational(7, 3)));
+
         let mut irrational = sqrt(2);
         irrational.try_rational();
         assert_eq!(irrational.as_rational(), None);
@@ -363,35 +396,38 @@ mod tests {
 
     #[test]
     fn a_vector_is_reduced_to_least_degree() {
-        let root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
-        let v = root.reduce(&[Poly::from_ints(&[0, 0, 6]), Poly::from_ints(&[0, 8])]);
-        assert_eq!(v, [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])]);
-        let v = root.reduce(&[Poly::from_ints(&[0, 1, 0, 0, 0, 1])]); // t + 4 t
-        assert_eq!(v, [Poly::from_ints(&[0, 1])]);
+        let vector = [Poly::from_ints(&[0, 0, 6]), Poly::from_ints(&[0, 8])]; // (12, 8 t)
+        let number = [Poly::from_ints(&[0, 1, 0, 0, 0, 1])]; // t + 4 t
+
+        let root = sqrt(2);
+
+        let expected = [Poly::from_ints(&[3]), Poly::from_ints(&[0, 2])];
+        assert_eq!(root.reduce(&vector), expected);
+        assert_eq!(root.reduce(&number), [Poly::from_ints(&[0, 1])]);
+    }
+
+    /// 3 / 2^bits as a root of (2^bits t - 3) (t^2 - 2).
+    fn hidden_rational(bits: u32) -> Algebraic {
+        let denominator = Integer::from(1) << bits;
+        let value = Rational::new(3.into(), denominator.clone());
+        let factor = Poly::new(vec![(-3).into(), denominator]);
+
+        let lo = &value - Rational::new(1.into(), Integer::from(1) << (bits + 3));
+        let hi = value * whole(2);
+        let interval = Interval::new(lo, hi).unwrap();
+        Algebraic::isolated(&factor * &Poly::from_ints(&[-2, 0, 1]), interval)
     }
 
     /// A lead of more than 256 bits would cost as many halvings: the number stays as it is.
     #[test]
     fn a_rational_with_a_long_denominator_is_not_looked_for() {
-        let long = |bits: u32| {
-            &Poly::new(vec![(-3).into(), Integer::from(1) << bits]) * &Poly::from_ints(&[-2, 0, 1])
-        };
-        let of = |bits: u32| {
-            let value = Rational::new(3.into(), Integer::from(1) << bits);
-            let interval = Interval::new(
-                &value - Rational::new(1.into(), Integer::from(1) << (bits + 3)),
-                value.clone() * Rational::from_integer(2.into()),
-            )
-            .unwrap();
-            let at_lo = long(bits).sign_at(interval.lo());
-            let mut number = Algebraic {
-                poly: long(bits),
-                interval,
-                at_lo,
-            };
-            number.try_rational();
-            number.interval.is_point()
-        };
-        assert!(of(20) && !of(300));
+        let mut short = hidden_rational(20);
+        let mut long = hidden_rational(300);
+
+        short.try_rational();
+        long.try_rational();
+
+        assert!(short.interval.is_point());
+        assert!(!long.interval.is_point());
     }
 }

@@ -1,5 +1,15 @@
 //! Cofactors of a matrix pencil: the null vector of a singular value by Cramer's rule, all values
 //! at once.
+//!
+//! The cofactors C_1, ..., C_n of the first row of M = A + tB satisfy sum_j m_ij C_j = 0 for i > 1
+//! (expansion of a determinant with two equal rows) and sum_j m_1j C_j = det M. So where det M = 0
+//! the vector C is in the kernel of M, and where C != 0 the rank is n - 1 and C spans it.
+//!
+//! C is, up to a sign, the null vector of the last n - 1 rows whose entries are their maximal
+//! minors; fraction-free elimination finds it at the integers t = 0, ..., n - 1, and interpolation
+//! gives the polynomials, of degree < n.
+//!
+//! Called by the oracle and the search, which then need no elimination at an algebraic number.
 
 use super::kernel::{newton_interpolate, values_at};
 use super::{Integer, Poly};
@@ -19,12 +29,16 @@ use num_traits::{One, Zero};
 /// ```
 pub fn first_row_cofactors(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Vec<Poly> {
     let n = a.len();
-    let at: Vec<Vec<Integer>> = (0..n)
+    let cofactors_at: Vec<Vec<Integer>> = (0..n)
         .map(|t| integer_cofactors(values_at(a, b, t)))
         .collect();
-    (0..n)
-        .map(|j| newton_interpolate(at.iter().map(|values| values[j].clone()).collect()))
-        .collect()
+
+    let mut polynomials = Vec::with_capacity(n);
+    for j in 0..n {
+        let values = cofactors_at.iter().map(|at_t| at_t[j].clone()).collect();
+        polynomials.push(newton_interpolate(values));
+    }
+    polynomials
 }
 
 /// The cofactors of the first row of an integer matrix: the null vector of the other rows by
@@ -32,41 +46,52 @@ pub fn first_row_cofactors(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Vec<Poly> 
 fn integer_cofactors(mut m: Vec<Vec<Integer>>) -> Vec<Integer> {
     let n = m.len();
     let mut m = m.split_off(1);
-    let mut passed = None; // the one column without a pivot
-    let mut last = Integer::one();
+    let mut free_column = None; // the one column without a pivot
+    let mut previous = Integer::one();
     let mut negate = false;
-    for c in 0..n {
-        let rank = c - usize::from(passed.is_some());
-        let Some(pivot) = (rank..n - 1).find(|&i| !m[i][c].is_zero()) else {
-            if passed.replace(c).is_some() {
+
+    for column in 0..n {
+        let rank = column - usize::from(free_column.is_some());
+        let Some(pivot_row) = (rank..n - 1).find(|&i| !m[i][column].is_zero()) else {
+            if free_column.is_some() {
                 return vec![Integer::zero(); n]; // rank < n - 1: every minor vanishes
             }
+            free_column = Some(column);
             continue;
         };
-        negate ^= pivot != rank;
-        m.swap(rank, pivot);
-        let pivot_row = m[rank].clone();
-        for (_, row) in m.iter_mut().enumerate().filter(|(i, _)| *i != rank) {
-            let factor = row[c].clone();
+        negate ^= pivot_row != rank;
+        m.swap(rank, pivot_row);
+
+        let pivots = m[rank].clone();
+        let pivot = &pivots[column];
+        for (i, row) in m.iter_mut().enumerate() {
+            if i == rank {
+                continue;
+            }
+            let factor = row[column].clone();
             // Earlier pivot columns hold a multiple of the identity, which nobody reads.
-            for j in (c + 1..n).chain(passed) {
-                row[j] = (&pivot_row[c] * &row[j] - &factor * &pivot_row[j]) / &last;
+            for j in (column + 1..n).chain(free_column) {
+                row[j] = (pivot * &row[j] - &factor * &pivots[j]) / &previous;
             }
         }
-        last = pivot_row[c].clone();
+        previous = pivot.clone();
     }
-    let free = passed.unwrap_or(n - 1); // n - 1 rows: one column is left over
-    negate ^= free % 2 == 1;
-    let columns = (0..n).filter(|&c| c != free);
-    let mut cofactors = vec![last; n];
-    columns
-        .enumerate()
-        .for_each(|(row, c)| cofactors[c] = -&m[row][free]);
+
+    // n - 1 rows: one column is left over. Its minor is the last pivot, up to the row exchanges;
+    // the cofactor has the sign (-1)^j.
+    let free_column = free_column.unwrap_or(n - 1);
+    negate ^= free_column % 2 == 1;
+
+    let mut cofactors = vec![previous; n];
+    for (row, column) in (0..n).filter(|&column| column != free_column).enumerate() {
+        cofactors[column] = -&m[row][free_column];
+    }
     if negate {
-        cofactors.into_iter().map(|c| -c).collect()
-    } else {
-        cofactors
+        for cofactor in &mut cofactors {
+            *cofactor = -&*cofactor;
+        }
     }
+    cofactors
 }
 
 #[cfg(test)]
@@ -74,35 +99,46 @@ mod tests {
     use super::*;
     use crate::kernel::integer_determinant;
 
+    /// A linear congruential generator (Knuth's MMIX).
+    struct Random(u64);
+
+    impl Random {
+        /// 0, 1 or 2.
+        fn small(&mut self) -> Integer {
+            self.0 = self
+                .0
+                .wrapping_mul(6_364_136_223_846_793_005)
+                .wrapping_add(1_442_695_040_888_963_407);
+            Integer::from((self.0 >> 33) as i64 % 3)
+        }
+    }
+
+    /// The cofactor of entry (0, j) by its definition.
+    fn cofactor(m: &[Vec<Integer>], j: usize) -> Integer {
+        let minor = m[1..]
+            .iter()
+            .map(|row| [&row[..j], &row[j + 1..]].concat())
+            .collect();
+        let det = integer_determinant(minor);
+        if j % 2 == 1 { -det } else { det }
+    }
+
     /// Each cofactor as the determinant it is defined by, on matrices of every rank.
     #[test]
     fn cofactors_agree_with_determinants_of_what_is_left() {
-        let mut state = 12345u64;
-        let mut small = || {
-            state = state
-                .wrapping_mul(6_364_136_223_846_793_005)
-                .wrapping_add(1_442_695_040_888_963_407);
-            Integer::from((state >> 33) as i64 % 3)
-        };
-        let mut zero = 0;
+        let mut random = Random(12345);
+        let mut singular = 0;
         for k in 0..300 {
             let n = 1 + k % 5;
-            let m: Vec<Vec<Integer>> = (0..n).map(|_| (0..n).map(|_| small()).collect()).collect();
-            let minor = |j: usize| {
-                m[1..]
-                    .iter()
-                    .map(|r| [&r[..j], &r[j + 1..]].concat())
-                    .collect()
-            };
-            let expected: Vec<Integer> = (0..n)
-                .map(|j| integer_determinant(minor(j)))
-                .enumerate()
-                .map(|(j, d)| if j % 2 == 1 { -d } else { d })
+            let m: Vec<Vec<Integer>> = (0..n)
+                .map(|_| (0..n).map(|_| random.small()).collect())
                 .collect();
-            zero += usize::from(expected.iter().all(Zero::is_zero));
+            let expected: Vec<Integer> = (0..n).map(|j| cofactor(&m, j)).collect();
+            singular += usize::from(expected.iter().all(Zero::is_zero));
+
             assert_eq!(integer_cofactors(m), expected);
         }
-        assert!(zero > 5);
+        assert!(singular > 5);
     }
 
     #[test]

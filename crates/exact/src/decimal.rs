@@ -1,4 +1,11 @@
 //! Decimals for people: correctly rounded at any number of significant digits.
+//!
+//! A rational is scaled by a power of ten so that the digits wanted stand before the point, and
+//! rounded half away from zero. An algebraic number is enclosed by narrower and narrower intervals
+//! until both ends round alike. That never happens at a tie (a number half-way between two
+//! decimals), so the one tie within the interval is tested for equality by exact signs.
+//!
+//! Called by reports. No decision is made on a decimal.
 
 use super::{Algebraic, Integer, Interval, Poly, Rational, Sign};
 use num_traits::{Pow, Signed, Zero};
@@ -30,27 +37,32 @@ pub fn ratio_to_decimal(
     if number.sign_of(numerator) == Sign::Zero || number.sign_of(denominator) == Sign::Zero {
         return "0".into();
     }
-    let mut steps = 1;
+
+    let mut halvings = 1;
     loop {
-        let image = number
-            .interval()
-            .horner(numerator)
-            .div(&number.interval().horner(denominator));
-        if let Some(image) = image.filter(|i| i.certain_sign() != 0) {
-            let (lo, hi) = (round(image.lo(), digits), round(image.hi(), digits));
-            if lo == hi {
-                return lo;
+        let top = number.interval().horner(numerator);
+        let bottom = number.interval().horner(denominator);
+        if let Some(quotient) = top.div(&bottom)
+            && quotient.certain_sign() != 0
+        {
+            let rounded_lo = round(quotient.lo(), digits);
+            let rounded_hi = round(quotient.hi(), digits);
+            if rounded_lo == rounded_hi {
+                return rounded_lo;
             }
-            if let Some(tie) = tie_between(image.lo(), image.hi(), digits) {
+            if let Some(tie) = tie_in(&quotient, digits) {
                 // numerator - tie * denominator vanishes here exactly when the quotient is the tie.
-                let shifted = &numerator.scale(tie.denom()) - &denominator.scale(tie.numer());
-                if number.sign_of(&shifted) == Sign::Zero {
+                let difference = &numerator.scale(tie.denom()) - &denominator.scale(tie.numer());
+                if number.sign_of(&difference) == Sign::Zero {
                     return round(&tie, digits);
                 }
             }
         }
-        (0..steps).for_each(|_| number.refine());
-        steps = (2 * steps).min(1024); // rounding costs more than halving
+
+        for _ in 0..halvings {
+            number.refine();
+        }
+        halvings = (2 * halvings).min(1024); // rounding costs more than halving
     }
 }
 
@@ -67,9 +79,10 @@ pub fn enclosing_decimals(interval: &Interval, digits: usize) -> (String, String
     if largest.is_zero() {
         return ("0".into(), "0".into());
     }
-    let unit = digits.max(1) as i64 - 1 - decimal_exponent(&largest);
-    let down = scaled(&scaled(interval.lo(), unit).floor(), -unit);
-    let up = scaled(&scaled(interval.hi(), unit).ceil(), -unit);
+
+    let power = scaling_power(&largest, digits);
+    let down = times_power_of_ten(&times_power_of_ten(interval.lo(), power).floor(), -power);
+    let up = times_power_of_ten(&times_power_of_ten(interval.hi(), power).ceil(), -power);
     (round(&down, digits + 1), round(&up, digits + 1)) // both are exact at that length
 }
 
@@ -78,62 +91,82 @@ pub(crate) fn round(value: &Rational, digits: usize) -> String {
     if value.is_zero() {
         return "0".into();
     }
-    let digits = digits.max(1);
-    let mut exponent = decimal_exponent(&value.abs());
-    let mut mantissa = scaled(&value.abs(), digits as i64 - 1 - exponent)
+
+    let magnitude = value.abs();
+    let mut exponent = decimal_exponent(&magnitude);
+    let mut mantissa = times_power_of_ten(&magnitude, scaling_power(&magnitude, digits))
         .round()
         .to_integer();
-    if mantissa.to_string().len() > digits {
+    if mantissa.to_string().len() > digits.max(1) {
         exponent += 1; // 9.99 -> 10.0
         mantissa /= 10;
     }
+
     let sign = if value.is_negative() { "-" } else { "" };
     format!("{sign}{}", layout(&mantissa.to_string(), exponent))
 }
 
-/// The one rounding tie strictly between two close positive or two close negative numbers, if any.
-fn tie_between(lo: &Rational, hi: &Rational, digits: usize) -> Option<Rational> {
-    let exponent = decimal_exponent(&hi.abs());
-    let unit = digits.max(1) as i64 - 1 - exponent;
+/// The one rounding tie in a narrow interval of positive or of negative numbers, if any.
+fn tie_in(interval: &Interval, digits: usize) -> Option<Rational> {
     let half = Rational::new(1.into(), 2.into());
-    let tie = (scaled(lo, unit) - &half).ceil() + half;
-    let tie = scaled(&tie, -unit);
-    (lo <= &tie && &tie <= hi).then_some(tie)
+    let power = scaling_power(&interval.hi().abs(), digits);
+
+    // Scaled, the ties are the integers plus one half.
+    let scaled_lo = times_power_of_ten(interval.lo(), power);
+    let scaled_tie = (scaled_lo - &half).ceil() + half;
+    let tie = times_power_of_ten(&scaled_tie, -power);
+    interval.contains(&tie).then_some(tie)
+}
+
+/// The k for which value * 10^k has `digits` digits before the point (one for none), value > 0.
+fn scaling_power(value: &Rational, digits: usize) -> i64 {
+    digits.max(1) as i64 - 1 - decimal_exponent(value)
 }
 
 /// floor(log10(value)) for value > 0.
 fn decimal_exponent(value: &Rational) -> i64 {
-    let guess = value.numer().to_string().len() as i64 - value.denom().to_string().len() as i64;
-    // The guess is off by at most one, downwards.
-    if *value < scaled(&Rational::from_integer(1.into()), guess) {
-        guess - 1
-    } else {
-        guess
-    }
+    let numerator_digits = value.numer().to_string().len() as i64;
+    let denominator_digits = value.denom().to_string().len() as i64;
+    let guess = numerator_digits - denominator_digits; // right, or one too large
+
+    let power = times_power_of_ten(&Rational::from_integer(1.into()), guess);
+    if *value < power { guess - 1 } else { guess }
 }
 
 /// value * 10^k.
-fn scaled(value: &Rational, k: i64) -> Rational {
+fn times_power_of_ten(value: &Rational, k: i64) -> Rational {
     let power = Rational::from_integer(Integer::from(10).pow(k.unsigned_abs()));
     if k >= 0 { value * power } else { value / power }
 }
 
-/// Digits with the decimal point where it belongs; scientific outside 1e-5 .. 1e21.
+/// The number d.ddd * 10^exponent by its digits, without zeros at the end: the decimal point where
+/// it belongs, or scientific outside 1e-5 .. 1e21.
 fn layout(digits: &str, exponent: i64) -> String {
-    let trimmed = digits.trim_end_matches('0');
-    let trimmed = if trimmed.is_empty() { "0" } else { trimmed };
+    let trimmed = match digits.trim_end_matches('0') {
+        "" => "0",
+        trimmed => trimmed,
+    };
+
     match exponent {
         0..=20 => {
             let point = exponent as usize + 1;
             if trimmed.len() <= point {
-                format!("{trimmed}{}", "0".repeat(point - trimmed.len()))
+                let zeros = "0".repeat(point - trimmed.len());
+                format!("{trimmed}{zeros}")
             } else {
-                format!("{}.{}", &trimmed[..point], &trimmed[point..])
+                let (whole, fraction) = trimmed.split_at(point);
+                format!("{whole}.{fraction}")
             }
         }
-        -5..=-1 => format!("0.{}{trimmed}", "0".repeat((-exponent - 1) as usize)),
+        -5..=-1 => {
+            let zeros = "0".repeat((-exponent - 1) as usize);
+            format!("0.{zeros}{trimmed}")
+        }
         _ if trimmed.len() == 1 => format!("{trimmed}e{exponent}"),
-        _ => format!("{}.{}e{exponent}", &trimmed[..1], &trimmed[1..]),
+        _ => {
+            let (whole, fraction) = trimmed.split_at(1);
+            format!("{whole}.{fraction}e{exponent}")
+        }
     }
 }
 
@@ -181,46 +214,50 @@ mod tests {
     #[test]
     fn a_tie_of_a_quotient_of_irrational_terms_terminates() {
         let mut root = nonnegative_roots(&Poly::from_ints(&[-1, 0, 8])).remove(0);
-        let (square, one) = (Poly::from_ints(&[0, 0, 1]), Poly::from_ints(&[1]));
+        let square = Poly::from_ints(&[0, 0, 1]);
         assert_eq!(to_decimal(&mut root, &square, 2), "0.13");
-        assert_eq!(ratio_to_decimal(&mut root, &one, &square, 1), "8");
-        assert_eq!(
-            ratio_to_decimal(
-                &mut root,
-                &Poly::from_ints(&[0, -3]),
-                &Poly::from_ints(&[0, 8]),
-                2
+
+        let quotients = [
+            (Poly::from_ints(&[1]), square, 1, "8"),
+            (
+                Poly::from_ints(&[0, -3]),
+                Poly::from_ints(&[0, 8]),
+                2,
+                "-0.38",
             ),
-            "-0.38"
-        );
-        assert_eq!(
-            ratio_to_decimal(
-                &mut root,
-                &Poly::from_ints(&[0, 5]),
-                &Poly::from_ints(&[0, 0, 0, 32]),
-                2
+            (
+                Poly::from_ints(&[0, 5]),
+                Poly::from_ints(&[0, 0, 0, 32]),
+                2,
+                "1.3",
             ),
-            "1.3"
-        );
+        ];
+        for (numerator, denominator, digits, expected) in quotients {
+            let decimal = ratio_to_decimal(&mut root, &numerator, &denominator, digits);
+            assert_eq!(decimal, expected);
+        }
     }
 
     #[test]
     fn enclosing_decimals_round_outwards() {
-        let of = |lo: &str, hi: &str, digits: usize| {
-            enclosing_decimals(
-                &Interval::new(parse(lo).unwrap(), parse(hi).unwrap()).unwrap(),
-                digits,
-            )
-        };
-        let want = |lo: &str, hi: &str| (lo.to_string(), hi.to_string());
-        assert_eq!(of("1/3", "2/3", 3), want("0.333", "0.667"));
-        assert_eq!(of("1.234567", "1.234568", 4), want("1.234", "1.235"));
-        assert_eq!(of("-1.234567", "-1.234561", 4), want("-1.235", "-1.234"));
-        assert_eq!(of("0.1234", "0.99991", 3), want("0.123", "1"));
-        assert_eq!(of("12344", "99999", 3), want("12300", "100000"));
-        assert_eq!(of("12344", "99999", 1), want("10000", "100000"));
-        assert_eq!(of("0", "0", 3), want("0", "0"));
-        assert_eq!(of("-1/8", "1/3", 2), want("-0.13", "0.34"));
-        assert_eq!(of("1.25", "1.5", 3), want("1.25", "1.5"));
+        let cases = [
+            (["1/3", "2/3"], 3, ["0.333", "0.667"]),
+            (["1.234567", "1.234568"], 4, ["1.234", "1.235"]),
+            (["-1.234567", "-1.234561"], 4, ["-1.235", "-1.234"]),
+            (["0.1234", "0.99991"], 3, ["0.123", "1"]),
+            (["12344", "99999"], 3, ["12300", "100000"]),
+            (["12344", "99999"], 1, ["10000", "100000"]),
+            (["0", "0"], 3, ["0", "0"]),
+            (["-1/8", "1/3"], 2, ["-0.13", "0.34"]),
+            (["1.25", "1.5"], 3, ["1.25", "1.5"]),
+        ];
+        for (ends, digits, expected) in cases {
+            let [lo, hi] = ends.map(|text| parse(text).unwrap());
+            let interval = Interval::new(lo, hi).unwrap();
+
+            let (down, up) = enclosing_decimals(&interval, digits);
+
+            assert_eq!([down, up], expected, "{ends:?}");
+        }
     }
 }

@@ -1,9 +1,25 @@
 //! Is a symmetric rational matrix positive definite? Proved either way, without floats.
 //!
-//! Small matrices: the leading minors. Large sparse ones, where exact elimination grows unbearable:
-//! an LDL' rounded to short dyadic numbers whose *residual is computed exactly*, A = L D L' + E,
-//! and A is definite if D > 0 and a shift s covers E: the factorisation is of A - sI, so A = LDL' +
-//! (E' + sI) with E' + sI diagonally dominant (Gershgorin).
+//! Three methods, the first that decides:
+//!
+//! 1. machine integers (`definite_short`): most matrices are far from singular;
+//! 2. up to order 48 the leading minors (Sylvester's criterion);
+//! 3. beyond, where exact elimination grows unbearable, a rounded factorisation with an exact
+//!    residual, as follows.
+//!
+//! With a small s > 0 the matrix A - sI is factored as L D L' in numbers rounded to a fixed unit,
+//! and the residual E = A - sI - L D L' is computed *exactly*. Then
+//!
+//! ```text
+//! A = L D L' + (E + sI),
+//! ```
+//!
+//! and A is positive definite if D > 0 and E + sI = A - L D L' is strictly diagonally dominant with
+//! a positive diagonal (Gershgorin). If a pivot of D is not positive, a direction x with x'Ax <= 0,
+//! computed exactly, refutes it; between the two the answer is that it is undecided.
+//!
+//! Input: a symmetric matrix over Q (the caller has checked symmetry). Called where a hypothesis of
+//! the paper is established: K_ff and M in `model`, K* and its like in `engine`.
 
 use super::definite_short::certainly_definite;
 use super::{Integer, Rational, Sparse, common_denominator};
@@ -46,32 +62,14 @@ pub enum DefiniteError {
 /// for matrices of order above 48 that are within about 2^-40 (relative) of singular.
 ///
 /// ```
-/// use mceip_exact::{Sparse, positive_definite, whole};
-/// let m = Sparse::from_entries(
-///     2,
-///     2,
-///     [
-///         (0, 0, whole(2)),
-///         (0, 1, whole(1)),
-///         (1, 0, whole(1)),
-///         (1, 1, whole(1)),
-///     ],
-/// );
-/// assert!(positive_definite(&m).is_ok());
-/// let semi = Sparse::from_entries(
-///     2,
-///     2,
-///     [
-///         (0, 0, whole(1)),
-///         (0, 1, whole(1)),
-///         (1, 0, whole(1)),
-///         (1, 1, whole(1)),
-///     ],
-/// );
-/// assert!(positive_definite(&semi).is_err());
+/// use mceip_exact::{Sparse, positive_definite};
+/// let definite = Sparse::from_ints(&[&[2, 1], &[1, 1]]);
+/// assert!(positive_definite(&definite).is_ok());
+///
+/// let semidefinite = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
+/// assert!(positive_definite(&semidefinite).is_err());
 /// ```
 pub fn positive_definite(m: &Sparse) -> Result<(), DefiniteError> {
-    // Most are far from singular: then machine integers prove it, a hundred times faster.
     if certainly_definite(m) {
         return Ok(());
     }
@@ -88,12 +86,12 @@ pub fn positive_definite(m: &Sparse) -> Result<(), DefiniteError> {
 fn leading_minors(m: &Sparse) -> Result<(), DefiniteError> {
     let n = m.rows();
     let factors: Vec<Integer> = (0..n)
-        .map(|i| common_denominator(m.row(i).iter().map(|(_, v)| v)))
+        .map(|i| common_denominator(m.row(i).iter().map(|(_, entry)| entry)))
         .collect();
     let mut s = vec![vec![Integer::zero(); n]; n];
     for (i, factor) in factors.iter().enumerate() {
-        for (j, v) in m.row(i) {
-            s[i][*j] = v.numer() * (factor / v.denom());
+        for (j, entry) in m.row(i) {
+            s[i][*j] = entry.numer() * (factor / entry.denom());
         }
     }
 
@@ -106,17 +104,27 @@ fn leading_minors(m: &Sparse) -> Result<(), DefiniteError> {
             let pivot = Rational::new(minor, &previous * &factors[k]);
             return Err(DefiniteError::Not(NotDefinite { index: k, pivot }));
         }
+
         for i in k + 1..n {
             // Each number is a minor times the factors of its rows, so the lower triangle follows
             // from the upper one.
-            let below = &s[k][i] * &factors[i] / &factors[k];
+            let s_ik = &s[k][i] * &factors[i] / &factors[k];
             for j in i..n {
-                s[i][j] = (&minor * &s[i][j] - &below * &s[k][j]) / &previous; // exact
+                s[i][j] = (&minor * &s[i][j] - &s_ik * &s[k][j]) / &previous; // exact
             }
         }
         previous = minor;
     }
     Ok(())
+}
+
+fn rounded_ldl(m: &Sparse) -> Result<(), DefiniteError> {
+    let fixed = Fixed::of(m);
+    let ldl = RoundedLdl::of(m, &fixed)?;
+    match ldl.first_undominated(m, &fixed) {
+        None => Ok(()),
+        Some(index) => Err(DefiniteError::Undecided { index }),
+    }
 }
 
 /// Fixed-point numbers: integers in units of `scale / 2^FRACTION_BITS`.
@@ -142,148 +150,159 @@ impl Fixed {
         &self.scale / Rational::from_integer(Integer::one() << FRACTION_BITS)
     }
 
-    fn round(&self, v: &Rational) -> Integer {
-        (v / self.unit()).round().to_integer()
+    fn round(&self, value: &Rational) -> Integer {
+        (value / self.unit()).round().to_integer()
     }
 }
 
-fn rounded_ldl(m: &Sparse) -> Result<(), DefiniteError> {
-    let fixed = Fixed::of(m);
-    let (lower, pivots) = factor(m, &fixed)?;
-    match first_undominated(m, &fixed, &lower, &pivots) {
-        None => Ok(()),
-        Some(index) => Err(DefiniteError::Undecided { index }),
-    }
+/// One row of L left of the diagonal, by column, in units of 2^-FRACTION_BITS.
+type LowerRow = BTreeMap<usize, Integer>;
+
+/// The rounded factors L and D of A - sI.
+struct RoundedLdl {
+    /// Rows of L; the diagonal of ones is not stored.
+    lower: Vec<LowerRow>,
+    /// D in fixed units.
+    pivots: Vec<Integer>,
 }
 
-/// Rows of a unit lower factor, below the diagonal, in units of 2^-FRACTION_BITS.
-type Lower = Vec<BTreeMap<usize, Integer>>;
+impl RoundedLdl {
+    /// Factors A - sI, or says what the first pivot that is not positive shows.
+    fn of(m: &Sparse, fixed: &Fixed) -> Result<RoundedLdl, DefiniteError> {
+        let shift = Integer::one() << (FRACTION_BITS - SHIFT_BITS);
+        let mut ldl = RoundedLdl {
+            lower: Vec::with_capacity(m.rows()),
+            pivots: Vec::with_capacity(m.rows()),
+        };
 
-/// The rounded factors L and D of A - sI, or what the first pivot that is not positive shows.
-fn factor(m: &Sparse, fixed: &Fixed) -> Result<(Lower, Vec<Integer>), DefiniteError> {
-    let shift = Integer::one() << (FRACTION_BITS - SHIFT_BITS);
-    // Pivots in fixed units.
-    let mut lower: Lower = Vec::with_capacity(m.rows());
-    let mut pivots: Vec<Integer> = Vec::with_capacity(m.rows());
-    for i in 0..m.rows() {
-        let row = factor_row(m, fixed, i, &lower, &pivots);
-        let square: Integer = row
-            .iter()
-            .map(|(k, l)| (l * l * &pivots[*k]) >> (2 * FRACTION_BITS))
-            .sum();
-        let pivot = fixed.round(&m.get(i, i)) - &shift - square;
-        if !pivot.is_positive() {
-            return Err(refute(m, i, &row, &lower));
+        for i in 0..m.rows() {
+            let row = ldl.next_row(m, fixed);
+            let mut squares = Integer::zero(); // sum_k l_ik^2 d_k
+            for (k, l_ik) in &row {
+                squares += (l_ik * l_ik * &ldl.pivots[*k]) >> (2 * FRACTION_BITS);
+            }
+
+            let pivot = fixed.round(&m.get(i, i)) - &shift - squares;
+            if !pivot.is_positive() {
+                return Err(ldl.refute(m, &row));
+            }
+            ldl.lower.push(row);
+            ldl.pivots.push(pivot);
         }
-        lower.push(row);
-        pivots.push(pivot);
+        Ok(ldl)
     }
-    Ok((lower, pivots))
-}
 
-/// Row i of L from the rows above: l_ij d_j = a_ij - sum_k l_ik d_k l_jk, within the skyline.
-fn factor_row(
-    m: &Sparse,
-    fixed: &Fixed,
-    i: usize,
-    lower: &[BTreeMap<usize, Integer>],
-    pivots: &[Integer],
-) -> BTreeMap<usize, Integer> {
-    let given: BTreeMap<usize, Integer> = m
-        .row(i)
-        .iter()
-        .filter(|e| e.0 < i)
-        .map(|(j, v)| (*j, fixed.round(v)))
-        .collect();
-    let Some((&first, _)) = given.first_key_value() else {
-        return BTreeMap::new();
-    };
-    let mut scaled: BTreeMap<usize, Integer> = BTreeMap::new(); // l_ik d_k, fixed units
-    let mut row = BTreeMap::new();
-    for j in first..i {
-        let mut value = given.get(&j).cloned().unwrap_or_default();
-        for (k, l_jk) in lower[j].range(first..) {
-            if let Some(s) = scaled.get(k) {
-                value -= (s * l_jk) >> FRACTION_BITS;
+    /// Row i of L from the rows above: l_ij d_j = a_ij - sum_k l_ik d_k l_jk, within the skyline,
+    /// that is, from the first non-zero column of A on.
+    fn next_row(&self, m: &Sparse, fixed: &Fixed) -> LowerRow {
+        let i = self.lower.len();
+        let mut given = LowerRow::new();
+        for (j, entry) in m.row(i) {
+            if *j < i {
+                given.insert(*j, fixed.round(entry));
             }
         }
-        if !value.is_zero() {
-            row.insert(j, (&value << FRACTION_BITS) / &pivots[j]);
-            scaled.insert(j, value);
-        }
-    }
-    row
-}
+        let Some((&first, _)) = given.first_key_value() else {
+            return LowerRow::new();
+        };
 
-/// Exact residual of the rounded factorisation of A - sI: the first row whose off-diagonal
-/// residual is not covered by s plus its diagonal residual.
-fn first_undominated(
-    m: &Sparse,
-    fixed: &Fixed,
-    lower: &[BTreeMap<usize, Integer>],
-    pivots: &[Integer],
-) -> Option<usize> {
-    // (L D L')_ij exactly, in units of fixed.unit() * 2^(-2 FRACTION_BITS).
-    let one = Integer::one() << FRACTION_BITS;
-    let with_diagonal = |i: usize| lower[i].iter().map(|(k, v)| (*k, v)).chain([(i, &one)]);
-    let unit = fixed.unit() / Rational::from_integer(Integer::one() << (2 * FRACTION_BITS));
-    let mut diagonal = vec![Rational::zero(); m.rows()];
-    let mut off = vec![Rational::zero(); m.rows()];
-    for i in 0..m.rows() {
-        let scaled: BTreeMap<usize, Integer> =
-            with_diagonal(i).map(|(k, l)| (k, l * &pivots[k])).collect();
-        let start = scaled
-            .first_key_value()
-            .map_or(i, |e| *e.0)
-            .min(m.row(i).first().map_or(i, |e| e.0));
-        // Columns where either the product or A can be non-zero lie between start and i.
-        for j in start..=i {
-            let product: Integer = with_diagonal(j)
-                .filter_map(|(k, l)| scaled.get(&k).map(|s| s * l))
-                .sum();
-            let residual = m.get(i, j) - &unit * Rational::from_integer(product);
-            if i == j {
-                diagonal[i] = residual;
-            } else {
-                off[i] += residual.abs();
-                off[j] += residual.abs();
+        let mut row = LowerRow::new();
+        let mut scaled = LowerRow::new(); // l_ik d_k in fixed units
+        for j in first..i {
+            let mut l_ij_d_j = given.get(&j).cloned().unwrap_or_default();
+            for (k, l_jk) in self.lower[j].range(first..) {
+                if let Some(l_ik_d_k) = scaled.get(k) {
+                    l_ij_d_j -= (l_ik_d_k * l_jk) >> FRACTION_BITS;
+                }
+            }
+            if !l_ij_d_j.is_zero() {
+                row.insert(j, (&l_ij_d_j << FRACTION_BITS) / &self.pivots[j]);
+                scaled.insert(j, l_ij_d_j);
             }
         }
+        row
     }
-    (0..m.rows()).find(|&i| diagonal[i] <= off[i])
-}
 
-/// The pivot of A - sI at row i is not positive: the direction x with L'x = e_i shows, exactly,
-/// whether x'Ax <= 0.
-fn refute(
-    m: &Sparse,
-    i: usize,
-    row: &BTreeMap<usize, Integer>,
-    lower: &[BTreeMap<usize, Integer>],
-) -> DefiniteError {
-    let mut x = vec![Integer::zero(); m.rows()];
-    x[i] = Integer::one() << FRACTION_BITS;
-    for (k, l) in row {
-        x[*k] = -l.clone();
-    }
-    for j in (0..i).rev() {
-        let value = x[j].clone();
-        for (k, l) in &lower[j] {
-            x[*k] -= (l * &value) >> FRACTION_BITS;
+    /// The first row of A - L D L' that is not strictly diagonally dominant with a positive
+    /// diagonal entry. All numbers are exact.
+    fn first_undominated(&self, m: &Sparse, fixed: &Fixed) -> Option<usize> {
+        let n = m.rows();
+        let one = Integer::one() << FRACTION_BITS;
+        let two_roundings = Rational::from_integer(Integer::one() << (2 * FRACTION_BITS));
+        let unit = fixed.unit() / two_roundings; // of the products l_ik d_k l_jk
+
+        let mut diagonal = vec![Rational::zero(); n];
+        let mut off_diagonal = vec![Rational::zero(); n]; // row sums of absolute values
+        for i in 0..n {
+            let mut scaled = LowerRow::new(); // row i of L D
+            for (k, l_ik) in self.row_with_diagonal(i, &one) {
+                scaled.insert(k, l_ik * &self.pivots[k]);
+            }
+
+            // Columns where either the product or A can be non-zero lie between first and i.
+            let first_of_product = self.lower[i].first_key_value().map_or(i, |(k, _)| *k);
+            let first_of_given = m.row(i).first().map_or(i, |(k, _)| *k);
+            for j in first_of_product.min(first_of_given)..=i {
+                let mut product = Integer::zero(); // (L D L')_ij
+                for (k, l_jk) in self.row_with_diagonal(j, &one) {
+                    if let Some(l_ik_d_k) = scaled.get(&k) {
+                        product += l_ik_d_k * l_jk;
+                    }
+                }
+                let residual = m.get(i, j) - &unit * Rational::from_integer(product);
+
+                if i == j {
+                    diagonal[i] = residual;
+                } else {
+                    off_diagonal[i] += residual.abs();
+                    off_diagonal[j] += residual.abs();
+                }
+            }
         }
+        (0..n).find(|&i| diagonal[i] <= off_diagonal[i])
     }
-    let x: Vec<Rational> = x
-        .into_iter()
-        .map(|v| Rational::new(v, Integer::one() << FRACTION_BITS))
-        .collect();
-    let quadratic: Rational = m.times(&x).iter().zip(&x).map(|(a, b)| a * b).sum();
-    if quadratic.is_positive() {
-        DefiniteError::Undecided { index: i }
-    } else {
-        DefiniteError::Not(NotDefinite {
-            index: i,
-            pivot: quadratic,
-        })
+
+    /// Row i of L with its diagonal entry, by column.
+    fn row_with_diagonal<'a>(
+        &'a self,
+        i: usize,
+        one: &'a Integer,
+    ) -> impl Iterator<Item = (usize, &'a Integer)> {
+        let left = self.lower[i].iter().map(|(k, l_ik)| (*k, l_ik));
+        left.chain([(i, one)])
+    }
+
+    /// The pivot after these rows is not positive: the direction x with L'x = e_i shows, exactly,
+    /// whether x'Ax <= 0. `row` is row i of L.
+    fn refute(&self, m: &Sparse, row: &LowerRow) -> DefiniteError {
+        let i = self.lower.len();
+        let mut x = vec![Integer::zero(); m.rows()]; // in units of 2^-FRACTION_BITS
+        x[i] = Integer::one() << FRACTION_BITS;
+        for (k, l_ik) in row {
+            x[*k] = -l_ik.clone();
+        }
+        for j in (0..i).rev() {
+            let x_j = x[j].clone();
+            for (k, l_jk) in &self.lower[j] {
+                x[*k] -= (l_jk * &x_j) >> FRACTION_BITS;
+            }
+        }
+
+        let x: Vec<Rational> = x
+            .into_iter()
+            .map(|x_j| Rational::new(x_j, Integer::one() << FRACTION_BITS))
+            .collect();
+        let image = m.times(&x);
+        let quadratic_form: Rational = image.iter().zip(&x).map(|(y_j, x_j)| y_j * x_j).sum();
+
+        if quadratic_form.is_positive() {
+            DefiniteError::Undecided { index: i }
+        } else {
+            DefiniteError::Not(NotDefinite {
+                index: i,
+                pivot: quadratic_form,
+            })
+        }
     }
 }
 
@@ -300,120 +319,131 @@ mod tests {
 
     #[test]
     fn both_methods_accept_the_chain() {
-        assert_eq!(leading_minors(&chain(12, whole(2))), Ok(()));
-        assert_eq!(rounded_ldl(&chain(12, whole(2))), Ok(()));
-        let tiny = Sparse::zeros(12, 12)
-            .add_scaled(&rational(1, 1_000_000_000_000_000), &chain(12, whole(2)));
+        let small = chain(12, whole(2));
+        let factor = rational(1, 1_000_000_000_000_000);
+        let tiny = Sparse::zeros(12, 12).add_scaled(&factor, &small);
+        let large = chain(120, whole(2));
+
+        assert_eq!(leading_minors(&small), Ok(()));
+        assert_eq!(rounded_ldl(&small), Ok(()));
         assert_eq!(rounded_ldl(&tiny), Ok(()));
-        assert_eq!(positive_definite(&chain(120, whole(2))), Ok(()));
+        assert_eq!(positive_definite(&large), Ok(()));
+    }
+
+    /// [[2, 1, 0], [1, 2, 1/1000], [0, 1/1000, corner]].
+    fn with_corner(corner: Rational) -> Sparse {
+        let entries = [
+            (0, 0, whole(2)),
+            (0, 1, whole(1)),
+            (1, 0, whole(1)),
+            (1, 1, whole(2)),
+            (1, 2, rational(1, 1000)),
+            (2, 1, rational(1, 1000)),
+            (2, 2, corner),
+        ];
+        Sparse::from_entries(3, 3, entries)
+    }
+
+    fn refused_at_2(pivot: Rational) -> Result<(), DefiniteError> {
+        Err(DefiniteError::Not(NotDefinite { index: 2, pivot }))
     }
 
     /// Rows with denominators of their own, and the value of the pivot that is refused.
     #[test]
     fn minors_of_fractions_give_the_pivot() {
-        let of = |corner: Rational| {
-            let entries = [(0, 0, whole(2)), (1, 1, whole(2)), (2, 2, corner)];
-            let off = [
-                (0, 1, whole(1)),
-                (1, 0, whole(1)),
-                (1, 2, rational(1, 1000)),
-                (2, 1, rational(1, 1000)),
-            ];
-            leading_minors(&Sparse::from_entries(3, 3, entries.into_iter().chain(off)))
-        };
         let edge = rational(2, 3_000_000); // (1/1000)^2 / (3/2)
-        let refused = |pivot| Err(DefiniteError::Not(NotDefinite { index: 2, pivot }));
+        let definite = with_corner(&edge + rational(1, 1_000_000_000));
+        let singular = with_corner(edge.clone());
+        let indefinite = with_corner(&edge - rational(1, 7));
 
-        assert_eq!(of(&edge + rational(1, 1_000_000_000)), Ok(()));
-        assert_eq!(of(edge.clone()), refused(whole(0)));
-        assert_eq!(of(&edge - rational(1, 7)), refused(rational(-1, 7)));
+        assert_eq!(leading_minors(&definite), Ok(()));
+        assert_eq!(leading_minors(&singular), refused_at_2(whole(0)));
+        assert_eq!(leading_minors(&indefinite), refused_at_2(rational(-1, 7)));
     }
 
     #[test]
     fn both_methods_refuse_the_indefinite_chain_with_a_witness() {
-        for result in [
-            leading_minors(&chain(12, rational(19, 10))),
-            rounded_ldl(&chain(12, rational(19, 10))),
-        ] {
-            assert!(
-                matches!(result, Err(DefiniteError::Not(NotDefinite { pivot, .. })) if !pivot.is_positive())
-            );
+        let small = chain(12, rational(19, 10));
+        let large = chain(120, rational(19, 10));
+
+        for result in [leading_minors(&small), rounded_ldl(&small)] {
+            let Err(DefiniteError::Not(refuted)) = result else {
+                panic!("{result:?}")
+            };
+            assert!(!refuted.pivot.is_positive());
         }
-        assert!(matches!(
-            positive_definite(&chain(120, rational(19, 10))),
-            Err(DefiniteError::Not(_))
-        ));
+        let refused = positive_definite(&large);
+        assert!(matches!(refused, Err(DefiniteError::Not(_))));
+    }
+
+    /// Entries (i, j) and (j, i) larger by 10^-6.
+    fn disturbed(m: &Sparse, i: usize, j: usize) -> Sparse {
+        let small = rational(1, 1_000_000);
+        let entries = [(i, j, small.clone()), (j, i, small)];
+        let off_diagonal = Sparse::from_entries(m.rows(), m.cols(), entries);
+        m.add_scaled(&whole(1), &off_diagonal)
     }
 
     /// The factors of one matrix prove nothing about another one: the exact residual notices.
     #[test]
     fn a_factorisation_of_another_matrix_is_not_dominated() {
-        let (good, other) = (chain(12, whole(2)), chain(12, rational(19, 10)));
+        let good = chain(12, whole(2));
+        let other = chain(12, rational(19, 10));
+        let disturbed = disturbed(&good, 11, 0);
         let fixed = Fixed::of(&good);
-        let (lower, pivots) = factor(&good, &fixed).unwrap();
-        assert_eq!(first_undominated(&good, &fixed, &lower, &pivots), None);
-        assert_eq!(first_undominated(&other, &fixed, &lower, &pivots), Some(0));
-        let off = Sparse::from_entries(
-            12,
-            12,
-            [
-                (11, 0, rational(1, 1_000_000)),
-                (0, 11, rational(1, 1_000_000)),
-            ],
-        );
-        assert!(
-            first_undominated(&good.add_scaled(&whole(1), &off), &fixed, &lower, &pivots).is_some()
-        );
+        let ldl = RoundedLdl::of(&good, &fixed).unwrap_or_else(|e| panic!("{e:?}"));
+
+        assert_eq!(ldl.first_undominated(&good, &fixed), None);
+        assert_eq!(ldl.first_undominated(&other, &fixed), Some(0));
+        assert!(ldl.first_undominated(&disturbed, &fixed).is_some());
+    }
+
+    /// A matrix of order n by its entries.
+    fn symmetric(n: usize, entry: impl Fn(usize, usize) -> Rational) -> Sparse {
+        let mut entries = Vec::new();
+        for i in 0..n {
+            for j in 0..n {
+                entries.push((i, j, entry(i, j)));
+            }
+        }
+        Sparse::from_entries(n, n, entries)
     }
 
     #[test]
     fn a_singular_matrix_is_never_accepted() {
-        let ones = |n: usize| {
-            Sparse::from_entries(
-                n,
-                n,
-                (0..n).flat_map(|i| (0..n).map(move |j| (i, j, whole(1)))),
-            )
-        };
+        let ones = symmetric(3, |_, _| whole(1));
+        let many_ones = symmetric(60, |_, _| whole(1));
+
         assert!(matches!(
-            positive_definite(&ones(3)),
+            positive_definite(&ones),
             Err(DefiniteError::Not(NotDefinite { index: 1, .. }))
         ));
-        assert!(positive_definite(&ones(60)).is_err());
+        assert!(positive_definite(&many_ones).is_err());
         assert!(matches!(
             positive_definite(&Sparse::zeros(2, 2)),
             Err(DefiniteError::Not(NotDefinite { index: 0, .. }))
         ));
     }
 
-    /// I + ones: every row has its products.
+    /// Order 6, without a zero: every row has its products.
+    fn dense(diagonal: Rational) -> Sparse {
+        symmetric(6, |i, j| {
+            if i == j {
+                diagonal.clone()
+            } else {
+                rational(1 + (i * j % 3) as i64, 4)
+            }
+        })
+    }
+
     #[test]
     fn a_dense_matrix_is_accepted() {
-        let dense = |n: usize, d: Rational| {
-            let entry = move |i: usize, j: usize| {
-                if i == j {
-                    whole(1) + &d
-                } else {
-                    rational(1 + (i * j % 3) as i64, 4)
-                }
-            };
-            Sparse::from_entries(
-                n,
-                n,
-                (0..n)
-                    .flat_map(|i| (0..n).map(move |j| (i, j)))
-                    .map(|(i, j)| (i, j, entry(i, j)))
-                    .collect::<Vec<_>>(),
-            )
-        };
-        assert_eq!(
-            [
-                rounded_ldl(&dense(6, whole(1))),
-                leading_minors(&dense(6, whole(1)))
-            ],
-            [Ok(()), Ok(())]
-        );
-        assert!(rounded_ldl(&dense(6, rational(-9, 10))).is_err());
+        let definite = dense(whole(2));
+        let indefinite = dense(rational(1, 10));
+
+        assert_eq!(rounded_ldl(&definite), Ok(()));
+        assert_eq!(leading_minors(&definite), Ok(()));
+        assert!(rounded_ldl(&indefinite).is_err());
     }
 
     /// An entry off the diagonal is a residual of both its rows: the first of them is named.
@@ -421,20 +451,11 @@ mod tests {
     fn a_residual_off_the_diagonal_counts_for_both_rows() {
         let good = chain(12, whole(2));
         let fixed = Fixed::of(&good);
-        let (lower, pivots) = factor(&good, &fixed).unwrap();
+        let ldl = RoundedLdl::of(&good, &fixed).unwrap_or_else(|e| panic!("{e:?}"));
+
         for (i, j) in [(11, 0), (9, 4), (5, 4)] {
-            let off = Sparse::from_entries(
-                12,
-                12,
-                [
-                    (i, j, rational(1, 1_000_000)),
-                    (j, i, rational(1, 1_000_000)),
-                ],
-            );
-            assert_eq!(
-                first_undominated(&good.add_scaled(&whole(1), &off), &fixed, &lower, &pivots),
-                Some(j)
-            );
+            let disturbed = disturbed(&good, i, j);
+            assert_eq!(ldl.first_undominated(&disturbed, &fixed), Some(j));
         }
     }
 }

@@ -1,4 +1,7 @@
 //! Dense matrices over Q, for the small problems that elimination is run on.
+//!
+//! Elimination itself runs on integers: [`Dense::clear_rows`] makes the rows of two matrices
+//! integral together. Called by the oracle and by whoever condenses small pencils.
 
 use super::{Integer, Rational, common_denominator};
 use num_traits::Zero;
@@ -51,22 +54,27 @@ impl Dense {
     /// Each row of `self` and the same row of `other` multiplied by one positive integer that
     /// makes both integral. Kernels and signs of products with a vector are unchanged.
     pub fn clear_rows(&self, other: &Dense) -> (Vec<Vec<Integer>>, Vec<Vec<Integer>>) {
-        let clear = |row: &[Rational], m: &Integer| {
-            row.iter()
-                .map(|v| v.numer() * (m / v.denom()))
-                .collect::<Vec<_>>()
-        };
-        (0..self.rows())
-            .map(|i| {
-                let m = common_denominator(self.row(i).iter().chain(other.row(i)));
-                (clear(self.row(i), &m), clear(other.row(i), &m))
-            })
-            .unzip()
+        let mut own_rows = Vec::with_capacity(self.rows());
+        let mut other_rows = Vec::with_capacity(self.rows());
+        for i in 0..self.rows() {
+            let clear = common_denominator(self.row(i).iter().chain(other.row(i)));
+            own_rows.push(cleared(self.row(i), &clear));
+            other_rows.push(cleared(other.row(i), &clear));
+        }
+        (own_rows, other_rows)
     }
+}
+
+/// clear * row, integers because `clear` is a multiple of every denominator.
+fn cleared(row: &[Rational], clear: &Integer) -> Vec<Integer> {
+    row.iter()
+        .map(|entry| entry.numer() * (clear / entry.denom()))
+        .collect()
 }
 
 impl Index<(usize, usize)> for Dense {
     type Output = Rational;
+
     fn index(&self, (i, j): (usize, usize)) -> &Rational {
         &self.data[i * self.cols + j]
     }
@@ -89,18 +97,20 @@ mod tests {
             vec![whole(1), whole(2), whole(3)],
             vec![whole(4), whole(5), whole(6)],
         ]);
-        assert_eq!(
-            (m.rows(), m.cols(), m.row(1)),
-            (2, 3, &[4, 5, 6].map(whole)[..])
-        );
+
+        assert_eq!(m.rows(), 2);
+        assert_eq!(m.cols(), 3);
+        assert_eq!(m.row(1), [4, 5, 6].map(whole));
     }
 
     #[test]
     fn clearing_a_row_scales_both_matrices_alike() {
         let a = Dense::from_rows(vec![vec![rational(1, 2), whole(0)]]);
         let b = Dense::from_rows(vec![vec![rational(1, 3), whole(-1)]]);
-        let (ia, ib) = a.clear_rows(&b);
-        assert_eq!(ia, vec![vec![Integer::from(3), Integer::from(0)]]);
-        assert_eq!(ib, vec![vec![Integer::from(2), Integer::from(-6)]]);
+
+        let (integers_of_a, integers_of_b) = a.clear_rows(&b);
+
+        assert_eq!(integers_of_a, [[Integer::from(3), Integer::from(0)]]);
+        assert_eq!(integers_of_b, [[Integer::from(2), Integer::from(-6)]]);
     }
 }

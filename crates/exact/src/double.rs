@@ -1,8 +1,16 @@
 //! The border between doubles and rationals. The only file of `exact` that names `f64`;
 //! it converts, it never computes with floats.
+//!
+//! A positive double is m 2^e with a mantissa m < 2^53 and e >= -1074; it has 53 bits unless e is
+//! the lowest exponent (subnormal numbers). Read as integers, the 64 bits of the positive doubles
+//! count them in ascending order (IEEE 754-2019, section 3.4).
+//!
+//! Called where solvers propose ([`from_f64`]) and where reports print or plot ([`to_f64`]).
 
 use super::{Integer, NumberError, Rational};
+use num_integer::Integer as _;
 use num_traits::{FromPrimitive, Signed, ToPrimitive, Zero};
+use std::cmp::Ordering;
 
 /// The exact value of a finite double (a dyadic rational).
 ///
@@ -42,36 +50,58 @@ pub fn to_f64(value: &Rational) -> f64 {
     if value.is_zero() {
         return 0.0;
     }
-    let (num, den) = (value.numer().abs(), value.denom().clone());
+    let mut numerator = value.numer().abs();
+    let mut denominator = value.denom().clone();
+
     // Scaled to a quotient of at least 66 bits, which with what the division leaves is rounded
     // once.
-    let shift = 66 - (num.bits() as i64 - den.bits() as i64);
-    let (num, den) = if shift >= 0 {
-        (num << shift as u64, den)
+    let shift = 66 - (numerator.bits() as i64 - denominator.bits() as i64);
+    if shift >= 0 {
+        numerator <<= shift.unsigned_abs();
     } else {
-        (num, den << shift.unsigned_abs())
+        denominator <<= shift.unsigned_abs();
+    }
+    let (quotient, remainder) = numerator.div_rem(&denominator);
+    let scaled = Scaled {
+        quotient,
+        is_inexact: !remainder.is_zero(),
+        exponent: -shift,
     };
-    let (quotient, rest) = (&num / &den, &num % &den);
-    let magnitude = round_scaled(quotient, !rest.is_zero(), -shift);
-    // The sign bit, set by hand: this room computes nothing in floats.
-    f64::from_bits(magnitude.to_bits() + (u64::from(value.is_negative()) << 63))
+
+    let magnitude = scaled.nearest();
+    let sign_bit = u64::from(value.is_negative()) << 63;
+    f64::from_bits(magnitude.to_bits() + sign_bit)
 }
 
-/// `quotient * 2^exponent` (plus something below one unit if `sticky`), rounded once; the quotient
-/// has more than 53 bits.
-fn round_scaled(quotient: Integer, sticky: bool, exponent: i64) -> f64 {
-    let bits = quotient.bits() as i64;
-    // Lowest exponent a bit of the result may have: subnormals stop at 2^-1074.
-    let keep = 53.min(bits + exponent + 1074);
-    let drop = bits - keep;
-    let (kept, below) = (
-        &quotient >> drop as u64,
-        &quotient % (Integer::from(1) << drop as u64),
-    );
-    let half = Integer::from(1) << (drop - 1) as u64;
-    let up = below > half || (below == half && (sticky || kept.bit(0)));
-    let mantissa = (if up { kept + 1 } else { kept }).to_u64().unwrap_or(0); // at most 2^53
-    assemble(mantissa, exponent + drop)
+/// `quotient * 2^exponent`, or more by less than one unit if inexact. The quotient has more than 53
+/// bits.
+struct Scaled {
+    quotient: Integer,
+    is_inexact: bool,
+    exponent: i64,
+}
+
+impl Scaled {
+    /// The nearest double, ties to even, rounded once.
+    fn nearest(&self) -> f64 {
+        let bits = self.quotient.bits() as i64;
+        // Lowest exponent a bit of the result may have: subnormals stop at 2^-1074.
+        let keep = 53.min(bits + self.exponent + 1074);
+        let drop = bits - keep;
+
+        let kept = &self.quotient >> drop as u64;
+        let below = &self.quotient % (Integer::from(1) << drop as u64);
+        let half = Integer::from(1) << (drop - 1) as u64;
+        let is_up = match below.cmp(&half) {
+            Ordering::Less => false,
+            Ordering::Equal => self.is_inexact || kept.bit(0),
+            Ordering::Greater => true,
+        };
+
+        let rounded = if is_up { kept + 1 } else { kept };
+        let mantissa = rounded.to_u64().unwrap_or(0); // at most 2^53
+        assemble(mantissa, self.exponent + drop)
+    }
 }
 
 /// `mantissa * 2^exponent` for a mantissa of 53 bits (or 2^53 itself), or of fewer at the lowest
@@ -108,13 +138,13 @@ mod tests {
             "2.2250738585072011e-308",
             "123456789.123456789",
         ] {
-            let want: f64 = text.parse().unwrap();
-            assert_eq!(
-                to_f64(&parse(text).unwrap()).to_bits(),
-                want.to_bits(),
-                "{text}"
-            );
+            let expected: f64 = text.parse().unwrap();
+
+            let nearest = to_f64(&parse(text).unwrap());
+
+            assert_eq!(nearest.to_bits(), expected.to_bits(), "{text}");
         }
+
         assert_eq!(to_f64(&parse("1e400").unwrap()), f64::INFINITY);
         assert_eq!(to_f64(&rational(1, 3)), 1.0 / 3.0);
     }

@@ -1,14 +1,31 @@
 //! Closed intervals with rational ends, and interval Horner: the enclosure a checker can afford.
+//!
+//! Every operation gives the smallest interval with all results (Moore, Interval Analysis, 1966),
+//! exactly: nothing is rounded, except where a name says so. For p over [lo, hi] Horner's rule in
+//! interval arithmetic encloses p(t) for all t there, and narrows to p(t) with the interval.
+//!
+//! Horner's rule runs on integers: with the common denominator v of the ends, lo = a/v and
+//! hi = b/v, and after k steps both ends of the enclosure are integers over v^k. Signs need no
+//! more.
+//!
+//! Called by `algebraic` for signs at isolating intervals, by `decimal`, and by the checker.
 
 use super::{Integer, Poly, Rational};
 use num_integer::Integer as _;
-use num_traits::{One, Signed, Zero};
+use num_traits::{One, Signed};
 
 /// The closed interval [lo, hi], lo <= hi.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Interval {
     lo: Rational,
     hi: Rational,
+}
+
+/// The ends of an interval times a positive integer, and that integer.
+struct ScaledEnds {
+    lo: Integer,
+    hi: Integer,
+    scale: Integer,
 }
 
 impl Interval {
@@ -47,18 +64,29 @@ impl Interval {
 
     /// Midpoint.
     pub fn mid(&self) -> Rational {
-        let v = self.lo.denom().lcm(self.hi.denom());
-        let sum =
-            self.lo.numer() * (&v / self.lo.denom()) + self.hi.numer() * (&v / self.hi.denom());
-        let shift = v.trailing_zeros().unwrap_or(0);
-        if v.bits() != shift + 1 {
-            return Rational::new(sum, v * 2);
+        let ends = self.cleared();
+        let sum = ends.lo + ends.hi;
+
+        let power = ends.scale.trailing_zeros().unwrap_or(0);
+        let is_power_of_two = ends.scale.bits() == power + 1;
+        if !is_power_of_two {
+            return Rational::new(sum, ends.scale * 2);
         }
+
         // Ends of bisection are dyadic: p / 2^k is reduced by counting zeros, without a gcd.
-        let common = sum
-            .trailing_zeros()
-            .map_or(shift + 1, |zeros| zeros.min(shift + 1));
-        Rational::new_raw(sum >> common, Integer::one() << (shift + 1 - common))
+        let zeros = sum.trailing_zeros().unwrap_or(power + 1);
+        let common = zeros.min(power + 1);
+        Rational::new_raw(sum >> common, Integer::one() << (power + 1 - common))
+    }
+
+    /// The ends over their common denominator.
+    fn cleared(&self) -> ScaledEnds {
+        let scale = self.lo.denom().lcm(self.hi.denom());
+        ScaledEnds {
+            lo: self.lo.numer() * (&scale / self.lo.denom()),
+            hi: self.hi.numer() * (&scale / self.hi.denom()),
+            scale,
+        }
     }
 
     /// Is `v` in the closed interval?
@@ -93,26 +121,28 @@ impl Interval {
             &self.hi * &other.lo,
             &self.hi * &other.hi,
         ];
-        let (mut lo, mut hi) = (products[0].clone(), products[0].clone());
-        for p in &products[1..] {
-            if *p < lo {
-                lo = p.clone();
-            }
-            if *p > hi {
-                hi = p.clone();
-            }
+        let mut smallest = &products[0];
+        let mut largest = &products[0];
+        for product in &products[1..] {
+            smallest = smallest.min(product);
+            largest = largest.max(product);
         }
-        Interval { lo, hi }
+        Interval {
+            lo: smallest.clone(),
+            hi: largest.clone(),
+        }
     }
 
     /// The smallest interval with every quotient, or `None` if the divisor may be zero.
     pub fn div(&self, divisor: &Interval) -> Option<Interval> {
-        (divisor.certain_sign() != 0).then(|| {
-            self.mul(&Interval {
-                lo: divisor.hi.recip(),
-                hi: divisor.lo.recip(),
-            })
-        })
+        if divisor.certain_sign() == 0 {
+            return None;
+        }
+        let reciprocal = Interval {
+            lo: divisor.hi.recip(),
+            hi: divisor.lo.recip(),
+        };
+        Some(self.mul(&reciprocal))
     }
 
     /// An interval that contains p(t) for every t in `self`, by Horner's rule.
@@ -125,11 +155,7 @@ impl Interval {
     /// assert_eq!(t.horner(&Poly::from_ints(&[-1, 1])).certain_sign(), 1);
     /// ```
     pub fn horner(&self, p: &Poly) -> Interval {
-        let (lo, hi, scale) = self.horner_scaled(p);
-        Interval {
-            lo: Rational::new(lo, scale.clone()),
-            hi: Rational::new(hi, scale),
-        }
+        self.horner_scaled(p).exactly()
     }
 
     /// [`Interval::horner`], with both ends rounded outward to 64 bits where their fractions are
@@ -137,58 +163,61 @@ impl Interval {
     pub fn horner_rounded(&self, p: &Poly) -> Interval {
         const SHORT: u64 = 256;
 
-        let (lo, hi, scale) = self.horner_scaled(p);
-        let longest = lo.bits().max(hi.bits()).max(scale.bits());
+        let image = self.horner_scaled(p);
+        let longest = image.lo.bits().max(image.hi.bits()).max(image.scale.bits());
         if longest <= SHORT {
-            return Interval {
-                lo: Rational::new(lo, scale.clone()),
-                hi: Rational::new(hi, scale),
-            };
+            return image.exactly();
         }
 
-        let hi_below = rounded_down(&-hi, &scale);
+        let minus_hi = rounded_down(&-image.hi, &image.scale);
         Interval {
-            lo: rounded_down(&lo, &scale),
-            hi: -hi_below,
+            lo: rounded_down(&image.lo, &image.scale),
+            hi: -minus_hi,
         }
     }
 
     /// [`Interval::certain_sign`] of [`Interval::horner`], without reducing a fraction.
     pub(super) fn sign_on(&self, p: &Poly) -> i8 {
-        let (lo, hi, _) = self.horner_scaled(p);
-        if lo.is_positive() {
+        let image = self.horner_scaled(p);
+        if image.lo.is_positive() {
             1
-        } else if hi.is_negative() {
+        } else if image.hi.is_negative() {
             -1
         } else {
             0
         }
     }
 
-    /// The ends of [`Interval::horner`] times a positive integer, and that integer.
-    fn horner_scaled(&self, p: &Poly) -> (Integer, Integer, Integer) {
-        // Integers over powers of the ends' common denominator v.
-        let v = self.lo.denom().lcm(self.hi.denom());
-        let (a, b) = (
-            self.lo.numer() * (&v / self.lo.denom()),
-            self.hi.numer() * (&v / self.hi.denom()),
-        );
-        let (mut lo, mut hi, mut scale) = (Integer::zero(), Integer::zero(), Integer::one());
-        for (k, c) in p.coeffs().iter().rev().enumerate() {
-            if k > 0 {
-                scale *= &v;
-                let products = [&lo * &a, &lo * &b, &hi * &a, &hi * &b];
-                let [p, q, r, s] = &products;
-                (lo, hi) = (
-                    p.min(q).min(r).min(s).clone(),
-                    p.max(q).max(r).max(s).clone(),
-                );
-            }
-            let c = c * &scale;
-            lo += &c;
-            hi += c;
+    /// The enclosure of p, over a power of the ends' common denominator.
+    fn horner_scaled(&self, p: &Poly) -> ScaledEnds {
+        let t = self.cleared();
+        let leading = p.leading();
+        let mut lo = leading.clone();
+        let mut hi = leading;
+        let mut scale = Integer::one();
+
+        for coefficient in p.coeffs().iter().rev().skip(1) {
+            let products = [&lo * &t.lo, &lo * &t.hi, &hi * &t.lo, &hi * &t.hi];
+            let [p, q, r, s] = &products;
+            lo = p.min(q).min(r).min(s).clone();
+            hi = p.max(q).max(r).max(s).clone();
+
+            scale *= &t.scale;
+            let scaled_coefficient = coefficient * &scale;
+            lo += &scaled_coefficient;
+            hi += scaled_coefficient;
         }
-        (lo, hi, scale)
+        ScaledEnds { lo, hi, scale }
+    }
+}
+
+impl ScaledEnds {
+    /// [lo / scale, hi / scale].
+    fn exactly(self) -> Interval {
+        Interval {
+            lo: Rational::new(self.lo, self.scale.clone()),
+            hi: Rational::new(self.hi, self.scale),
+        }
     }
 }
 
@@ -202,11 +231,13 @@ fn rounded_down(numerator: &Integer, denominator: &Integer) -> Rational {
     let shift = BITS - quotient_bits;
 
     if shift >= 0 {
-        let quotient = (numerator << shift.unsigned_abs()).div_floor(denominator);
+        let scaled = numerator << shift.unsigned_abs();
+        let quotient = scaled.div_floor(denominator);
         Rational::new(quotient, Integer::one() << shift.unsigned_abs())
     } else {
         let unit = denominator << shift.unsigned_abs();
-        Rational::from_integer(numerator.div_floor(&unit) << shift.unsigned_abs())
+        let quotient = numerator.div_floor(&unit);
+        Rational::from_integer(quotient << shift.unsigned_abs())
     }
 }
 
@@ -219,7 +250,9 @@ mod tests {
     fn horner_encloses_sampled_values() {
         let p = Poly::from_ints(&[3, -4, 0, 1]);
         let t = Interval::new(whole(-1), rational(3, 2)).unwrap();
+
         let image = t.horner(&p);
+
         for k in -10..=15 {
             assert!(image.contains(&p.eval(&rational(k, 10))));
         }
@@ -256,18 +289,15 @@ mod tests {
         {
             let t = Interval::new(a.clone(), b.clone()).unwrap();
             for p in polynomials.iter().map(|c| Poly::from_ints(c)) {
-                let (exact, rounded) = (t.horner(&p), t.horner_rounded(&p));
+                let exact = t.horner(&p);
+                let rounded = t.horner_rounded(&p);
 
-                assert!(
-                    rounded.lo <= exact.lo && exact.hi <= rounded.hi,
-                    "{a} {b} {p}"
-                );
+                let is_outward = rounded.lo <= exact.lo && exact.hi <= rounded.hi;
+                assert!(is_outward, "{a} {b} {p}");
                 assert_eq!(rounded.certain_sign(), exact.certain_sign(), "{a} {b} {p}");
                 for (close, end) in [(&rounded.lo, &exact.lo), (&rounded.hi, &exact.hi)] {
-                    assert!(
-                        (close - end).abs() * whole(1 << 62) <= end.abs(),
-                        "{a} {b} {p}"
-                    );
+                    let error = (close - end).abs();
+                    assert!(error * whole(1 << 62) <= end.abs(), "{a} {b} {p}");
                 }
             }
         }
@@ -297,12 +327,11 @@ mod tests {
             (whole(3), whole(3)),
         ] {
             let mid = Interval::new(lo.clone(), hi.clone()).unwrap().mid();
+
+            let reduced = Rational::new(mid.numer().clone(), mid.denom().clone());
             assert_eq!(&mid + &mid, lo + hi);
-            assert_eq!(mid, Rational::new(mid.numer().clone(), mid.denom().clone()));
-            assert_eq!(
-                mid.denom(),
-                Rational::new(mid.numer().clone(), mid.denom().clone()).denom()
-            );
+            assert_eq!(mid.numer(), reduced.numer());
+            assert_eq!(mid.denom(), reduced.denom());
         }
     }
 

@@ -1,4 +1,22 @@
 //! Determinants and kernels of matrix pencils A + tB: fraction-free elimination (Bareiss 1968).
+//!
+//! Two ways, both without fractions:
+//!
+//! * det(A + tB) from its values at t = 0, ..., n, which are determinants of integer matrices, by
+//!   Newton's interpolation;
+//! * kernels by Gauss-Jordan elimination over `Z[t]`, with the pivots that are not zero at a given
+//!   algebraic number, or not zero identically.
+//!
+//! Each step of fraction-free elimination with the pivot p and the previous pivot p' is
+//!
+//! ```text
+//! m_ij <- (p m_ij - m_ic m_rj) / p'        (pivot row r, pivot column c)
+//! ```
+//!
+//! and the division is exact, because all entries stay minors of the given matrix (Sylvester's
+//! identity). So numbers stay as short as minors are.
+//!
+//! Matrices are lists of rows. Called by the oracle and the search.
 
 use super::{Algebraic, Integer, Poly, Sign};
 use num_traits::{One, Zero};
@@ -16,19 +34,20 @@ use num_traits::{One, Zero};
 /// assert_eq!(d, Poly::from_ints(&[-2, 5, 1])); // (1+t)(4+t) - 6
 /// ```
 pub fn determinant(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Poly {
-    newton_interpolate(
-        (0..=a.len())
-            .map(|t| integer_determinant(values_at(a, b, t)))
-            .collect(),
-    )
+    let values = (0..=a.len())
+        .map(|t| integer_determinant(values_at(a, b, t)))
+        .collect();
+    newton_interpolate(values)
 }
 
 /// A + tB at an integer.
 pub(super) fn values_at(a: &[Vec<Integer>], b: &[Vec<Integer>], t: usize) -> Vec<Vec<Integer>> {
-    a.iter()
-        .zip(b)
-        .map(|(ra, rb)| ra.iter().zip(rb).map(|(x, y)| x + y * t).collect())
-        .collect()
+    let mut rows = Vec::with_capacity(a.len());
+    for (a_row, b_row) in a.iter().zip(b) {
+        let entries = a_row.iter().zip(b_row);
+        rows.push(entries.map(|(a_ij, b_ij)| a_ij + b_ij * t).collect());
+    }
+    rows
 }
 
 /// Determinant of an integer matrix by Bareiss' elimination; every division is exact.
@@ -36,12 +55,14 @@ pub(super) fn integer_determinant(mut m: Vec<Vec<Integer>>) -> Integer {
     let n = m.len();
     let mut previous = Integer::one();
     let mut negate = false;
+
     for k in 0..n {
         let Some(pivot_row) = (k..n).find(|&i| !m[i][k].is_zero()) else {
             return Integer::zero();
         };
         negate ^= pivot_row != k;
         m.swap(k, pivot_row);
+
         let (top, below) = m.split_at_mut(k + 1);
         let pivot = &top[k];
         for row in below {
@@ -51,18 +72,25 @@ pub(super) fn integer_determinant(mut m: Vec<Vec<Integer>>) -> Integer {
         }
         previous = m[k][k].clone();
     }
+
     if negate { -previous } else { previous }
 }
 
 /// The integer polynomial of degree <= n with the given values at 0, ..., n.
+///
+/// Newton's formula: p(t) = sum_k (D^k p)(0) t (t-1) ... (t-k+1) / k!, D the forward difference.
+/// All is multiplied by n! and divided by it at the end.
 pub(super) fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
     let n = values.len().saturating_sub(1);
     let factorial: Integer = (1..=n).map(Integer::from).product();
+
     let mut sum = Poly::default();
     let mut falling = Poly::constant(Integer::one()); // t (t-1) ... (t-k+1)
     let mut weight = factorial.clone(); // n! / k!
     for k in 0..=n {
-        sum = &sum + &falling.scale(&(&values[0] * &weight));
+        let difference = &values[0]; // (D^k p)(0)
+        sum += &falling.scale(&(difference * &weight));
+
         for i in 0..values.len() - 1 {
             values[i] = &values[i + 1] - &values[i];
         }
@@ -70,7 +98,7 @@ pub(super) fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
         falling = &falling * &Poly::from_ints(&[-(k as i64), 1]);
         weight /= k + 1;
     }
-    Poly::new(sum.coeffs().iter().map(|c| c / &factorial).collect())
+    sum.divided_by(&factorial)
 }
 
 /// A basis of the kernel of a matrix over `Z[t]` at t = `alpha`, as vectors of integer polynomials
@@ -81,129 +109,137 @@ pub(super) fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
 /// divisions are exact whatever columns were passed over. What is left below the pivots vanishes
 /// at alpha, so the rank there is the number of pivots.
 pub fn kernel_at(m: Vec<Vec<Poly>>, alpha: &mut Algebraic) -> Vec<Vec<Poly>> {
-    let Echelon {
-        rows,
-        pivots,
-        last,
-        cols,
-    } = echelon(m, |p| alpha.sign_of(p) != Sign::Zero);
-    (0..cols)
-        .filter(|j| !pivots.contains(j))
-        .map(|j| kernel_vector(&rows, &pivots, &last, j, cols))
-        .collect()
+    let echelon = Echelon::of(m, |entry| alpha.sign_of(entry) != Sign::Zero);
+    echelon.kernel()
 }
 
 /// A basis over Q(t) of the kernel of a matrix over `Z[t]`, the columns of the pivots, and the last
 /// pivot: a minor of the order of the rank. Where that minor does not vanish, the rank is the same
 /// and the basis is one of the kernel at that t.
 pub fn generic_kernel(m: Vec<Vec<Poly>>) -> (Vec<Vec<Poly>>, Vec<usize>, Poly) {
-    let Echelon {
-        rows,
-        pivots,
-        last,
-        cols,
-    } = echelon(m, |p| !p.is_zero());
-    let basis = (0..cols)
-        .filter(|j| !pivots.contains(j))
-        .map(|j| kernel_vector(&rows, &pivots, &last, j, cols))
-        .collect();
-    (basis, pivots, last)
+    let echelon = Echelon::of(m, |entry| !entry.is_zero());
+    (echelon.kernel(), echelon.pivots, echelon.last_pivot)
 }
 
-/// All minors of full order of the given columns that are not identically zero, for a matrix over
-/// `Z[t]` with at least as many rows. With no column the one minor is 1.
+/// All minors of full order of the given columns that are not identically zero, up to sign, for a
+/// matrix over `Z[t]` with at least as many rows. With no column the one minor is 1.
 pub fn minors(m: &[Vec<Poly>], columns: &[usize]) -> Vec<Poly> {
     let order = columns.len();
     let mut found = Vec::new();
-    let mut chosen: Vec<usize> = (0..order).collect();
-    while chosen.last().is_none_or(|&r| r < m.len()) {
-        let square = chosen
-            .iter()
-            .map(|&i| columns.iter().map(|&j| m[i][j].clone()).collect())
-            .collect();
-        let minor = echelon(square, |p| !p.is_zero());
-        if minor.pivots.len() == order {
-            found.push(minor.last); // up to sign
-        }
-        // The next combination of rows in lexicographic order.
-        let Some(k) = (0..order).rev().find(|&k| chosen[k] + order - k < m.len()) else {
-            break;
-        };
-        chosen[k] += 1;
-        (k + 1..order).for_each(|l| chosen[l] = chosen[l - 1] + 1);
+    let mut rows: Vec<usize> = (0..order).collect();
+    if order > m.len() {
+        return found;
     }
-    found
+
+    loop {
+        let echelon = Echelon::of(submatrix(m, &rows, columns), |entry| !entry.is_zero());
+        if echelon.pivots.len() == order {
+            found.push(echelon.last_pivot);
+        }
+        if !advance_combination(&mut rows, m.len()) {
+            return found;
+        }
+    }
+}
+
+fn submatrix(m: &[Vec<Poly>], rows: &[usize], columns: &[usize]) -> Vec<Vec<Poly>> {
+    rows.iter()
+        .map(|&i| columns.iter().map(|&j| m[i][j].clone()).collect())
+        .collect()
+}
+
+/// The next combination of indices below `limit` in lexicographic order; `false` after the last.
+fn advance_combination(chosen: &mut [usize], limit: usize) -> bool {
+    let order = chosen.len();
+    let Some(k) = (0..order).rev().find(|&k| chosen[k] + order - k < limit) else {
+        return false;
+    };
+    chosen[k] += 1;
+    for later in k + 1..order {
+        chosen[later] = chosen[later - 1] + 1;
+    }
+    true
 }
 
 /// The non-zero rows of a reduced row echelon form at `alpha` (up to factors), and their pivots:
 /// their number is the rank.
 pub fn row_echelon_at(m: Vec<Vec<Poly>>, alpha: &mut Algebraic) -> (Vec<Vec<Poly>>, Vec<usize>) {
-    let mut e = echelon(m, |p| alpha.sign_of(p) != Sign::Zero);
-    e.rows.truncate(e.pivots.len());
-    (e.rows, e.pivots)
+    let mut echelon = Echelon::of(m, |entry| alpha.sign_of(entry) != Sign::Zero);
+    echelon.rows.truncate(echelon.pivots.len());
+    (echelon.rows, echelon.pivots)
 }
 
-/// What fraction-free Gauss-Jordan elimination leaves.
+/// What fraction-free Gauss-Jordan elimination leaves: row k has `last_pivot` in column
+/// `pivots[k]`, where all other rows have 0.
 struct Echelon {
     rows: Vec<Vec<Poly>>,
     pivots: Vec<usize>,
-    last: Poly,
-    cols: usize,
+    /// 1 without pivots.
+    last_pivot: Poly,
+    columns: usize,
 }
 
-/// Fraction-free Gauss-Jordan elimination with the pivots that `usable` accepts.
-fn echelon(mut m: Vec<Vec<Poly>>, mut usable: impl FnMut(&Poly) -> bool) -> Echelon {
-    let (rows, cols) = (m.len(), m.first().map_or(0, Vec::len));
-    let mut pivots: Vec<usize> = Vec::new();
-    let mut last = Poly::constant(Integer::one());
-    for col in 0..cols {
-        let rank = pivots.len();
-        let Some(r) = (rank..rows).find(|&i| usable(&m[i][col])) else {
-            continue;
+impl Echelon {
+    /// Eliminates with the pivots that `is_usable` accepts, column by column.
+    fn of(rows: Vec<Vec<Poly>>, mut is_usable: impl FnMut(&Poly) -> bool) -> Echelon {
+        let columns = rows.first().map_or(0, Vec::len);
+        let mut echelon = Echelon {
+            rows,
+            pivots: Vec::new(),
+            last_pivot: Poly::constant(Integer::one()),
+            columns,
         };
-        m.swap(rank, r);
-        eliminate(&mut m, rank, col, &last);
-        last = m[rank][col].clone();
-        pivots.push(col);
-    }
-    Echelon {
-        rows: m,
-        pivots,
-        last,
-        cols,
-    }
-}
 
-/// Clears column `col` in every row but `rank`; divides by the previous pivot.
-fn eliminate(m: &mut [Vec<Poly>], rank: usize, col: usize, last: &Poly) {
-    let pivot_row = m[rank].clone();
-    for (i, row) in m.iter_mut().enumerate() {
-        if i == rank {
-            continue;
+        for column in 0..columns {
+            let rank = echelon.pivots.len();
+            let pivot_row =
+                (rank..echelon.rows.len()).find(|&i| is_usable(&echelon.rows[i][column]));
+            if let Some(pivot_row) = pivot_row {
+                echelon.rows.swap(rank, pivot_row);
+                echelon.eliminate(rank, column);
+                echelon.pivots.push(column);
+            }
         }
-        let factor = row[col].clone();
-        for (entry, p) in row.iter_mut().zip(&pivot_row) {
-            let numerator = &(&pivot_row[col] * entry) - &(&factor * p);
-            // Exact: both sides are minors of the matrix (Sylvester's identity).
-            *entry = numerator.exact_div(last).unwrap_or(numerator);
-        }
+        echelon
     }
-}
 
-/// The kernel vector with `last` at the free column `j`: d x_c + m_j d' = 0 in each pivot row.
-fn kernel_vector(
-    m: &[Vec<Poly>],
-    pivots: &[usize],
-    last: &Poly,
-    j: usize,
-    cols: usize,
-) -> Vec<Poly> {
-    let mut v = vec![Poly::default(); cols];
-    v[j] = last.clone();
-    for (k, &c) in pivots.iter().enumerate() {
-        v[c] = -&m[k][j];
+    /// Clears the column in every row but the pivot row; divides by the previous pivot.
+    fn eliminate(&mut self, pivot_row: usize, column: usize) {
+        let pivots = self.rows[pivot_row].clone();
+        let pivot = &pivots[column];
+
+        for (i, row) in self.rows.iter_mut().enumerate() {
+            if i == pivot_row {
+                continue;
+            }
+            let factor = row[column].clone();
+            for (entry, pivot_entry) in row.iter_mut().zip(&pivots) {
+                let numerator = &(pivot * entry) - &(&factor * pivot_entry);
+                // Exact: both sides are minors of the matrix (Sylvester's identity).
+                *entry = numerator.exact_div(&self.last_pivot).unwrap_or(numerator);
+            }
+        }
+        self.last_pivot = pivot.clone();
     }
-    v
+
+    /// One vector for each column without a pivot.
+    fn kernel(&self) -> Vec<Vec<Poly>> {
+        (0..self.columns)
+            .filter(|column| !self.pivots.contains(column))
+            .map(|column| self.kernel_vector(column))
+            .collect()
+    }
+
+    /// The kernel vector v that is d = `last_pivot` at one column j without a pivot and 0 at the
+    /// others: pivot row k says d v_c + m_kj d = 0 at its pivot column c.
+    fn kernel_vector(&self, free_column: usize) -> Vec<Poly> {
+        let mut vector = vec![Poly::default(); self.columns];
+        vector[free_column] = self.last_pivot.clone();
+        for (row, &pivot_column) in self.rows.iter().zip(&self.pivots) {
+            vector[pivot_column] = -&row[free_column];
+        }
+        vector
+    }
 }
 
 #[cfg(test)]
@@ -265,13 +301,14 @@ mod tests {
             &[1, 1, 1, -6],
         ];
         let b: &[&[i64]] = &[&[1, 0, 2, 0], &[-3, 0, 0, 1], &[0, 4, 1, 0], &[2, 0, 0, 5]];
-        assert_eq!(
-            determinant(&integers(a), &integers(b)),
-            leibniz(&pencil(a, b))
-        );
-        assert_eq!(determinant(&[], &[]), Poly::from_ints(&[1]));
         let singular: &[&[i64]] = &[&[1, 2], &[2, 4]];
-        assert!(determinant(&integers(singular), &integers(singular)).is_zero());
+
+        let det = determinant(&integers(a), &integers(b));
+        let det_of_singular = determinant(&integers(singular), &integers(singular));
+
+        assert_eq!(det, leibniz(&pencil(a, b)));
+        assert!(det_of_singular.is_zero());
+        assert_eq!(determinant(&[], &[]), Poly::from_ints(&[1]));
     }
 
     #[test]
@@ -288,10 +325,7 @@ mod tests {
             for v in &basis {
                 assert!(v.iter().any(|p| alpha.sign_of(p) != Sign::Zero));
                 for row in &m {
-                    let product = row
-                        .iter()
-                        .zip(v)
-                        .fold(Poly::default(), |s, (p, x)| &s + &(p * x));
+                    let product = crate::dot(row, v);
                     assert_eq!(alpha.sign_of(&product), Sign::Zero);
                 }
             }

@@ -1,7 +1,16 @@
 //! Exact arithmetic: rationals, matrices over Q, integer polynomials, real algebraic numbers.
 //!
 //! Everything here is decided without floats. `double` is the one file that converts to and from
-//! them. The rooms that decide truths (`oracle`, `check`) build on this one alone.
+//! them. The crates that decide (`oracle`, `check`) build on this one and on `model` alone.
+//!
+//! Numbers: `ratio` and `rational` (Q, and its spelling), `interval` (closed intervals over Q),
+//! `quadratic` (a + b sqrt d), `decimal` and `double` (for people and for solvers).
+//!
+//! Matrices over Q: `sparse` and `dense`, `definite` and `definite_short` (is a matrix positive
+//! definite?), `modular` and `prime` (Schur complements of large matrices).
+//!
+//! The unknown t: `poly` and `poly_gcd` (`Z[t]`), `roots` (isolation of real roots), `algebraic`
+//! (signs at a root), `kernel` and `cofactor` (of A + tB), `cone` (polyhedral cones at a root).
 #![deny(clippy::float_arithmetic)]
 
 mod algebraic;

@@ -1,9 +1,15 @@
 //! Polynomials with integer coefficients: arithmetic and evaluation. Division lives in `poly_gcd`.
+//!
+//! p(t) = c_0 + c_1 t + ... + c_n t^n is the list (c_0, ..., c_n) with c_n != 0; zero is the empty
+//! list. Values at a rational u/v are computed without fractions, by Horner's rule for
+//! v^n p(u/v) = sum c_i u^i v^(n-i); as v > 0, its sign is that of p(u/v).
+//!
+//! Called by everything in this crate that has an unknown t in it.
 
 use super::{Integer, Rational, common_denominator};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
-use std::ops::{Add, Mul, Neg, Sub};
+use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
 /// A polynomial over Z, coefficients from the constant term up, no trailing zeros.
 ///
@@ -23,11 +29,16 @@ impl Poly {
     /// assert_eq!(p.degree(), Some(2));
     /// assert_eq!(p.eval(&rational(3, 2)), rational(1, 4));
     /// ```
-    pub fn new(mut coeffs: Vec<Integer>) -> Self {
-        while coeffs.last().is_some_and(Zero::is_zero) {
-            coeffs.pop();
+    pub fn new(coeffs: Vec<Integer>) -> Self {
+        let mut p = Poly { coeffs };
+        p.drop_leading_zeros();
+        p
+    }
+
+    fn drop_leading_zeros(&mut self) {
+        while self.coeffs.last().is_some_and(Zero::is_zero) {
+            self.coeffs.pop();
         }
-        Poly { coeffs }
     }
 
     /// [`Poly::new`] from machine integers.
@@ -37,13 +48,12 @@ impl Poly {
 
     /// The least positive integer multiple of a rational polynomial that is integral.
     pub fn from_rationals(coeffs: &[Rational]) -> Self {
-        let m = common_denominator(coeffs);
-        Poly::new(
-            coeffs
-                .iter()
-                .map(|c| c.numer() * (&m / c.denom()))
-                .collect(),
-        )
+        let clear = common_denominator(coeffs);
+        let integers = coeffs
+            .iter()
+            .map(|c| c.numer() * (&clear / c.denom()))
+            .collect();
+        Poly::new(integers)
     }
 
     /// The constant polynomial `c`.
@@ -78,43 +88,36 @@ impl Poly {
 
     /// Value at a rational point (Horner on numerator and denominator, one division at the end).
     pub fn eval(&self, t: &Rational) -> Rational {
-        let (value, scale) = self.eval_homogeneous(t);
-        Rational::new(value, scale)
+        let value = self.homogeneous_value(t);
+        Rational::new(value.numerator, value.denominator)
     }
 
     /// Sign (-1, 0, 1) at a rational point; no fraction is ever reduced.
     pub fn sign_at(&self, t: &Rational) -> i8 {
-        sign(&self.eval_homogeneous(t).0)
+        sign(&self.homogeneous_value(t).numerator)
     }
 
-    /// `(sum c_i u^i v^(n-i), v^n)` at t = u/v, v > 0.
-    fn eval_homogeneous(&self, t: &Rational) -> (Integer, Integer) {
-        let (u, v) = (t.numer(), t.denom());
-        let mut scale = Integer::one();
-        let mut value = Integer::zero();
-        for c in self.coeffs.iter().rev() {
-            value = value * u + c * &scale;
-            scale *= v;
+    /// p(u/v) as a fraction over v^n, for t = u/v.
+    fn homogeneous_value(&self, t: &Rational) -> HomogeneousValue {
+        let u = t.numer();
+        let v = t.denom();
+        let mut numerator = self.leading();
+        let mut denominator = Integer::one();
+
+        for c in self.coeffs.iter().rev().skip(1) {
+            denominator *= v;
+            numerator = numerator * u + c * &denominator;
         }
-        // One factor v too many: value belongs to v^(n), scale ran to v^(n+1).
-        let scale = if self.coeffs.is_empty() {
-            Integer::one()
-        } else {
-            scale / v
-        };
-        (value, scale)
+        HomogeneousValue {
+            numerator,
+            denominator,
+        }
     }
 
     /// The derivative.
     pub fn derivative(&self) -> Poly {
-        Poly::new(
-            self.coeffs
-                .iter()
-                .enumerate()
-                .skip(1)
-                .map(|(i, c)| c * i)
-                .collect(),
-        )
+        let powers = self.coeffs.iter().enumerate().skip(1);
+        Poly::new(powers.map(|(i, c)| c * i).collect())
     }
 
     /// Greatest common divisor of the coefficients, zero for the zero polynomial.
@@ -131,16 +134,28 @@ impl Poly {
 
     /// Divided by its content, leading coefficient made positive.
     pub fn primitive(&self) -> Poly {
-        let g = if self.leading().is_negative() {
-            -self.content()
-        } else {
-            self.content()
-        };
-        if g.is_zero() || g.is_one() {
-            self.clone()
-        } else {
-            Poly::new(self.coeffs.iter().map(|c| c / &g).collect())
+        let mut divisor = self.content();
+        if self.leading().is_negative() {
+            divisor = -divisor;
         }
+        if divisor.is_zero() || divisor.is_one() {
+            return self.clone();
+        }
+        self.divided_by(&divisor)
+    }
+
+    /// Divided by its content, the sign left as it is.
+    pub(super) fn divided_by_content(&self) -> Poly {
+        let content = self.content();
+        if content.is_zero() || content.is_one() {
+            return self.clone();
+        }
+        self.divided_by(&content)
+    }
+
+    /// Every coefficient divided by a divisor of all of them.
+    pub(super) fn divided_by(&self, divisor: &Integer) -> Poly {
+        Poly::new(self.coeffs.iter().map(|c| c / divisor).collect())
     }
 
     /// Every coefficient times `factor`.
@@ -156,6 +171,12 @@ impl Poly {
     }
 }
 
+/// numerator / denominator, not reduced; the denominator is positive.
+struct HomogeneousValue {
+    numerator: Integer,
+    denominator: Integer,
+}
+
 /// Sign of an integer as -1, 0 or 1.
 pub(super) fn sign(value: &Integer) -> i8 {
     match value.sign() {
@@ -167,15 +188,32 @@ pub(super) fn sign(value: &Integer) -> i8 {
 
 impl Add for &Poly {
     type Output = Poly;
+
     fn add(self, other: &Poly) -> Poly {
-        let n = self.coeffs.len().max(other.coeffs.len());
-        let at = |p: &Poly, i: usize| p.coeffs.get(i).cloned().unwrap_or_default();
-        Poly::new((0..n).map(|i| at(self, i) + at(other, i)).collect())
+        if self.coeffs.len() < other.coeffs.len() {
+            return other + self;
+        }
+        let mut sum = self.clone();
+        sum += other;
+        sum
+    }
+}
+
+impl AddAssign<&Poly> for Poly {
+    fn add_assign(&mut self, other: &Poly) {
+        if self.coeffs.len() < other.coeffs.len() {
+            self.coeffs.resize(other.coeffs.len(), Integer::zero());
+        }
+        for (c, other_c) in self.coeffs.iter_mut().zip(&other.coeffs) {
+            *c += other_c;
+        }
+        self.drop_leading_zeros();
     }
 }
 
 impl Neg for &Poly {
     type Output = Poly;
+
     fn neg(self) -> Poly {
         Poly::new(self.coeffs.iter().map(|c| -c).collect())
     }
@@ -183,52 +221,59 @@ impl Neg for &Poly {
 
 impl Sub for &Poly {
     type Output = Poly;
+
     fn sub(self, other: &Poly) -> Poly {
-        self + &-other
+        let mut difference = self.coeffs.clone();
+        if difference.len() < other.coeffs.len() {
+            difference.resize(other.coeffs.len(), Integer::zero());
+        }
+        for (c, other_c) in difference.iter_mut().zip(&other.coeffs) {
+            *c -= other_c;
+        }
+        Poly::new(difference)
     }
 }
 
 impl Mul for &Poly {
     type Output = Poly;
+
     fn mul(self, other: &Poly) -> Poly {
         if self.is_zero() || other.is_zero() {
             return Poly::default();
         }
-        let mut coeffs = vec![Integer::zero(); self.coeffs.len() + other.coeffs.len() - 1];
+
+        let mut product = vec![Integer::zero(); self.coeffs.len() + other.coeffs.len() - 1];
         for (i, a) in self.coeffs.iter().enumerate() {
             for (j, b) in other.coeffs.iter().enumerate() {
-                coeffs[i + j] += a * b;
+                product[i + j] += a * b;
             }
         }
-        Poly::new(coeffs)
+        Poly::new(product)
     }
 }
 
+/// The highest power first: `3 t^2-1 t+5`.
 impl std::fmt::Display for Poly {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let mut first = true;
-        for (i, c) in self
-            .coeffs
-            .iter()
-            .enumerate()
-            .rev()
-            .filter(|(_, c)| !c.is_zero())
-        {
-            let sign = if c.is_negative() {
-                "-"
-            } else if first {
-                ""
-            } else {
-                "+"
-            };
-            match (i, c.abs()) {
-                (0, c) => write!(f, "{sign}{c}")?,
-                (1, c) => write!(f, "{sign}{c} t")?,
-                (_, c) => write!(f, "{sign}{c} t^{i}")?,
-            }
-            first = false;
+        if self.is_zero() {
+            return write!(f, "0");
         }
-        if first { write!(f, "0") } else { Ok(()) }
+
+        for (power, c) in self.coeffs.iter().enumerate().rev() {
+            if c.is_zero() {
+                continue;
+            }
+            let is_first = power + 1 == self.coeffs.len();
+            if !is_first && c.is_positive() {
+                write!(f, "+")?;
+            }
+            match power {
+                0 => write!(f, "{c}")?,
+                1 => write!(f, "{c} t")?,
+                _ => write!(f, "{c} t^{power}")?,
+            }
+        }
+        Ok(())
     }
 }
 
@@ -239,17 +284,20 @@ mod tests {
 
     #[test]
     fn arithmetic_and_evaluation_agree() {
-        let (p, q) = (Poly::from_ints(&[1, -3, 2]), Poly::from_ints(&[0, 5]));
+        let p = Poly::from_ints(&[1, -3, 2]);
+        let q = Poly::from_ints(&[0, 5]);
+
         for t in [rational(-2, 3), whole(0), rational(7, 5)] {
             assert_eq!((&p * &q).eval(&t), p.eval(&t) * q.eval(&t));
             assert_eq!((&p - &q).eval(&t), p.eval(&t) - q.eval(&t));
-            assert_eq!(
-                i64::from(p.sign_at(&t)),
-                i64::from(sign(p.eval(&t).numer()))
-            );
+            assert_eq!((&q - &p).eval(&t), q.eval(&t) - p.eval(&t));
+            assert_eq!((&q + &p).eval(&t), q.eval(&t) + p.eval(&t));
+            assert_eq!(p.sign_at(&t), sign(p.eval(&t).numer()));
         }
+
         assert_eq!(p.derivative(), Poly::from_ints(&[-3, 4]));
         assert_eq!((&p - &p).degree(), None);
+        assert_eq!((&p + &-&p).degree(), None);
     }
 
     #[test]

@@ -1,9 +1,15 @@
 //! Arithmetic modulo primes just below 2^62: Montgomery products and a deterministic prime test.
+//!
+//! A number a modulo p is kept as a 2^64 mod p (Montgomery 1985): then the product of two numbers,
+//! a b 2^128 / 2^64, needs no division by p. [`Field::enter`] and [`Field::leave`] go to this form
+//! and back; sums and differences are those of any residues.
+//!
+//! Called by `modular`, and by `paper`, which lifts solutions of linear systems p-adically.
 
 /// A prime p < 2^62 with what Montgomery's product needs; numbers are kept in Montgomery form.
 #[derive(Debug, Clone)]
 pub struct Field {
-    pub(crate) p: u64,
+    p: u64,
     /// -p^-1 mod 2^64.
     negated_inverse: u64,
     /// 2^128 mod p.
@@ -16,8 +22,10 @@ impl Field {
         // Newton's iteration for the inverse modulo 2^64 doubles the correct bits each time.
         let mut inverse = p;
         for _ in 0..6 {
-            inverse = inverse.wrapping_mul(2u64.wrapping_sub(p.wrapping_mul(inverse)));
+            let product = p.wrapping_mul(inverse);
+            inverse = inverse.wrapping_mul(2u64.wrapping_sub(product));
         }
+
         let r = (1u128 << 64) % u128::from(p);
         let square = (r * r % u128::from(p)) as u64;
         Field {
@@ -41,23 +49,27 @@ impl Field {
     /// sum a_k b_k / 2^64 mod p, reduced once.
     pub fn dot(&self, a: &[u64], b: &[u64]) -> u64 {
         let limit = u128::from(self.p) << 64; // < 2^126; a product is < 2^124
-        let sum = a.iter().zip(b).fold(0u128, |sum, (&x, &y)| {
-            let next = sum + u128::from(x) * u128::from(y);
-            if next >= limit { next - limit } else { next }
-        });
+        let mut sum = 0u128;
+        for (&a_k, &b_k) in a.iter().zip(b) {
+            sum += u128::from(a_k) * u128::from(b_k);
+            if sum >= limit {
+                sum -= limit;
+            }
+        }
         self.reduce(sum)
     }
 
     /// product / 2^64 mod p, for product < 2^64 p.
     #[inline]
     fn reduce(&self, product: u128) -> u64 {
+        // product + m p is divisible by 2^64; as p < 2^62, it stays below 2^128.
         let m = (product as u64).wrapping_mul(self.negated_inverse);
-        // p < 2^62: the sum stays below 2^128.
-        let reduced = ((product + u128::from(m) * u128::from(self.p)) >> 64) as u64;
-        if reduced >= self.p {
-            reduced - self.p
+        let sum = product + u128::from(m) * u128::from(self.p);
+        let quotient = (sum >> 64) as u64;
+        if quotient >= self.p {
+            quotient - self.p
         } else {
-            reduced
+            quotient
         }
     }
 
@@ -84,15 +96,17 @@ impl Field {
         self.mul(a, 1)
     }
 
-    /// a^-1 by Fermat, in Montgomery form.
+    /// a^-1 = a^(p-2) by Fermat, in Montgomery form.
     pub fn invert(&self, a: u64) -> u64 {
-        let (mut result, mut base, mut e) = (self.enter(1), a, self.p - 2);
-        while e > 0 {
-            if e & 1 == 1 {
-                result = self.mul(result, base);
+        let mut result = self.enter(1);
+        let mut square = a; // a^(2^k)
+        let mut exponent = self.p - 2;
+        while exponent > 0 {
+            if exponent & 1 == 1 {
+                result = self.mul(result, square);
             }
-            base = self.mul(base, base);
-            e >>= 1;
+            square = self.mul(square, square);
+            exponent >>= 1;
         }
         result
     }
@@ -109,31 +123,41 @@ pub fn primes() -> impl Iterator<Item = u64> {
 /// Webster 2015).
 fn is_prime(n: u64) -> bool {
     const BASES: [u64; 12] = [2, 3, 5, 7, 11, 13, 17, 19, 23, 29, 31, 37];
-    if n < 2 || BASES.iter().any(|&b| n.is_multiple_of(b)) {
+    if n < 2 || BASES.iter().any(|&base| n.is_multiple_of(base)) {
         return BASES.contains(&n);
     }
-    let twos = (n - 1).trailing_zeros();
-    let odd = (n - 1) >> twos;
-    BASES.iter().all(|&base| {
-        let mut x = power(base, odd, n);
-        if x == 1 || x == n - 1 {
-            return true;
-        }
-        (1..twos).any(|_| {
-            x = (u128::from(x) * u128::from(x) % u128::from(n)) as u64;
-            x == n - 1
-        })
-    })
+    BASES.iter().all(|&base| is_strong_probable_prime(n, base))
 }
 
-fn power(base: u64, mut e: u64, n: u64) -> u64 {
-    let (mut result, mut b) = (1u128, u128::from(base));
-    while e > 0 {
-        if e & 1 == 1 {
-            result = result * b % u128::from(n);
+/// With n - 1 = odd 2^twos: is base^odd = 1 or base^(odd 2^k) = -1 mod n for some k < twos?
+fn is_strong_probable_prime(n: u64, base: u64) -> bool {
+    let twos = (n - 1).trailing_zeros();
+    let odd = (n - 1) >> twos;
+
+    let mut x = power(base, odd, n);
+    if x == 1 || x == n - 1 {
+        return true;
+    }
+    for _ in 1..twos {
+        x = (u128::from(x) * u128::from(x) % u128::from(n)) as u64;
+        if x == n - 1 {
+            return true;
         }
-        b = b * b % u128::from(n);
-        e >>= 1;
+    }
+    false
+}
+
+/// base^exponent mod n, by squaring.
+fn power(base: u64, mut exponent: u64, n: u64) -> u64 {
+    let modulus = u128::from(n);
+    let mut result = 1u128;
+    let mut square = u128::from(base); // base^(2^k)
+    while exponent > 0 {
+        if exponent & 1 == 1 {
+            result = result * square % modulus;
+        }
+        square = square * square % modulus;
+        exponent >>= 1;
     }
     result as u64
 }
@@ -144,13 +168,10 @@ mod tests {
 
     #[test]
     fn prime_test_against_trial_division() {
-        let slow = |n: u64| {
-            n > 1
-                && (2..)
-                    .take_while(|d| d * d <= n)
-                    .all(|d| !n.is_multiple_of(d))
-        };
-        assert!((0..3000).all(|n| is_prime(n) == slow(n)));
+        for n in 0..3000u64 {
+            let has_divisor = (2..n).any(|d| n.is_multiple_of(d));
+            assert_eq!(is_prime(n), n > 1 && !has_divisor, "{n}");
+        }
         assert!(!is_prime(3_215_031_751)); // strong pseudoprime to bases 2, 3, 5, 7
         assert_eq!(primes().next(), Some((1 << 62) - 57));
     }
@@ -165,18 +186,18 @@ mod tests {
             (p - 1, p - 1),
             (123_456_789_012_345_678, 987_654_321),
         ] {
-            let got = field.leave(field.mul(field.enter(a), field.enter(b)));
-            assert_eq!(
-                u128::from(got),
-                u128::from(a) * u128::from(b) % u128::from(p)
-            );
+            let product = field.leave(field.mul(field.enter(a), field.enter(b)));
+            let expected = u128::from(a) * u128::from(b) % u128::from(p);
+            assert_eq!(u128::from(product), expected);
         }
-        let (a, b) = (
-            [p - 1; 20].map(|v| field.enter(v)),
-            [p - 2; 20].map(|v| field.enter(v)),
-        );
+
+        let a = [p - 1; 20].map(|v| field.enter(v));
+        let b = [p - 2; 20].map(|v| field.enter(v));
         assert_eq!(field.leave(field.dot(&a, &b)), 40); // 20 (-1)(-2)
-        assert_eq!((field.add(p - 1, 3), field.sub(1, 3)), (2, p - 2));
+
+        assert_eq!(field.add(p - 1, 3), 2);
+        assert_eq!(field.sub(1, 3), p - 2);
+
         let a = field.enter(42);
         assert_eq!(field.leave(field.mul(a, field.invert(a))), 1);
     }

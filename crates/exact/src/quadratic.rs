@@ -1,7 +1,18 @@
 //! Numbers a + b sqrt(d) with rational a, b, d: the field in which Table 1 is exact.
+//!
+//! ```text
+//! (a + b sqrt d) + (a' + b' sqrt d) = (a + a') + (b + b') sqrt d
+//! (a + b sqrt d) (a' + b' sqrt d)   = (a a' + b b' d) + (a b' + b a') sqrt d
+//! ```
+//!
+//! The sign of a + b sqrt(d) is that of the term of larger absolute value, found by comparing a^2
+//! with b^2 d. Nothing is approximated.
+//!
+//! Called by `mceip_oracle::table1` and by what compares other answers with that table.
 
 use super::{Poly, Rational, Sign};
 use num_traits::{Signed, Zero};
+use std::cmp::Ordering;
 
 /// The real number `a + b * sqrt(d)`, d >= 0.
 ///
@@ -73,38 +84,40 @@ impl Quadratic {
 
     /// The exact sign: compares a^2 with b^2 d where the two terms oppose each other.
     pub fn sign(&self) -> Sign {
-        let (a2, b2d) = (&self.a * &self.a, &self.b * &self.b * &self.d);
-        let rational_wins = a2.cmp(&b2d);
-        let of = |v: &Rational| {
-            if v.is_positive() {
-                Sign::Positive
-            } else if v.is_negative() {
-                Sign::Negative
-            } else {
-                Sign::Zero
-            }
-        };
-        match rational_wins {
-            std::cmp::Ordering::Greater => of(&self.a),
-            std::cmp::Ordering::Less => of(&self.b),
-            std::cmp::Ordering::Equal if (&self.a * &self.b).is_negative() => Sign::Zero,
-            std::cmp::Ordering::Equal => of(&(&self.a + &self.b)),
+        let square_of_a = &self.a * &self.a;
+        let square_of_root_term = &self.b * &self.b * &self.d;
+        match square_of_a.cmp(&square_of_root_term) {
+            Ordering::Greater => sign_of(&self.a),
+            Ordering::Less => sign_of(&self.b),
+            // The terms cancel, or they have one sign.
+            Ordering::Equal if (&self.a * &self.b).is_negative() => Sign::Zero,
+            Ordering::Equal => sign_of(&(&self.a + &self.b)),
         }
     }
 
-    /// The value of an integer polynomial at this number.
+    /// The value of an integer polynomial at this number, by Horner's rule.
     pub fn eval(&self, p: &Poly) -> Self {
-        let zero = self.embed(Rational::zero());
-        p.coeffs().iter().rev().fold(zero, |sum, c| {
-            sum.mul(self)
-                .add(&self.embed(Rational::from_integer(c.clone())))
-        })
+        let mut value = self.embed(Rational::zero());
+        for coefficient in p.coeffs().iter().rev() {
+            let coefficient = Rational::from_integer(coefficient.clone());
+            value = value.mul(self).add(&self.embed(coefficient));
+        }
+        value
     }
 
     /// Is the number in the closed interval [lo, hi]?
     pub fn within(&self, lo: &Rational, hi: &Rational) -> bool {
-        self.add(&self.embed(-lo)).sign() != Sign::Negative
-            && self.add(&self.embed(-hi)).sign() != Sign::Positive
+        let above_lo = self.add(&self.embed(-lo));
+        let above_hi = self.add(&self.embed(-hi));
+        above_lo.sign() != Sign::Negative && above_hi.sign() != Sign::Positive
+    }
+}
+
+fn sign_of(value: &Rational) -> Sign {
+    match value.cmp(&Rational::zero()) {
+        Ordering::Less => Sign::Negative,
+        Ordering::Equal => Sign::Zero,
+        Ordering::Greater => Sign::Positive,
     }
 }
 

@@ -2,6 +2,9 @@
 //!
 //! p/q < r/s where p s < r q, since denominators are positive.
 //!
+//! Called by everything: this is the only type of rationals in the workspace. Reading and spelling
+//! rationals is in `rational`.
+//!
 //! num-rational compares by continued fractions instead, with one recursive step for each term. Two
 //! long numbers that lie close together have about as many terms as bits, so that a file of a
 //! hundred kilobytes overflowed the stack.
@@ -122,7 +125,10 @@ impl Ord for Rational {
         if by_sign != Ordering::Equal {
             return by_sign;
         }
-        (self.numer() * other.denom()).cmp(&(other.numer() * self.denom()))
+
+        let left = self.numer() * other.denom();
+        let right = other.numer() * self.denom();
+        left.cmp(&right)
     }
 }
 
@@ -165,67 +171,86 @@ macro_rules! operator {
     ($trait:ident, $method:ident, $assign:ident, $assign_method:ident) => {
         impl $trait<Rational> for Rational {
             type Output = Rational;
+
             fn $method(self, other: Rational) -> Rational {
                 Rational(self.0.$method(other.0))
             }
         }
+
         impl $trait<&Rational> for Rational {
             type Output = Rational;
+
             fn $method(self, other: &Rational) -> Rational {
                 Rational(self.0.$method(&other.0))
             }
         }
+
         impl $trait<Rational> for &Rational {
             type Output = Rational;
+
             fn $method(self, other: Rational) -> Rational {
                 Rational((&self.0).$method(other.0))
             }
         }
+
         impl $trait<&Rational> for &Rational {
             type Output = Rational;
+
             fn $method(self, other: &Rational) -> Rational {
                 Rational((&self.0).$method(&other.0))
             }
         }
+
         impl $trait<Integer> for Rational {
             type Output = Rational;
+
             fn $method(self, other: Integer) -> Rational {
                 Rational(self.0.$method(other))
             }
         }
+
         impl $trait<&Integer> for Rational {
             type Output = Rational;
+
             fn $method(self, other: &Integer) -> Rational {
                 Rational(self.0.$method(other))
             }
         }
+
         impl $trait<Integer> for &Rational {
             type Output = Rational;
+
             fn $method(self, other: Integer) -> Rational {
                 Rational((&self.0).$method(other))
             }
         }
+
         impl $trait<&Integer> for &Rational {
             type Output = Rational;
+
             fn $method(self, other: &Integer) -> Rational {
                 Rational((&self.0).$method(other))
             }
         }
+
         impl $assign<Rational> for Rational {
             fn $assign_method(&mut self, other: Rational) {
                 self.0.$assign_method(other.0);
             }
         }
+
         impl $assign<&Rational> for Rational {
             fn $assign_method(&mut self, other: &Rational) {
                 self.0.$assign_method(&other.0);
             }
         }
+
         impl $assign<Integer> for Rational {
             fn $assign_method(&mut self, other: Integer) {
                 self.0.$assign_method(other);
             }
         }
+
         impl $assign<&Integer> for Rational {
             fn $assign_method(&mut self, other: &Integer) {
                 self.0.$assign_method(other);
@@ -241,6 +266,7 @@ operator!(Div, div, DivAssign, div_assign);
 
 impl Neg for Rational {
     type Output = Rational;
+
     fn neg(self) -> Rational {
         Rational(-self.0)
     }
@@ -248,6 +274,7 @@ impl Neg for Rational {
 
 impl Neg for &Rational {
     type Output = Rational;
+
     fn neg(self) -> Rational {
         Rational(-&self.0)
     }
@@ -255,6 +282,7 @@ impl Neg for &Rational {
 
 impl Rem for Rational {
     type Output = Rational;
+
     fn rem(self, other: Rational) -> Rational {
         Rational(self.0 % other.0)
     }
@@ -358,13 +386,15 @@ mod tests {
     /// Fibonacci numbers.
     #[test]
     fn close_and_long_numbers_are_compared_without_a_stack() {
-        let (mut a, mut b) = (Integer::one(), Integer::one());
+        let mut a = Integer::one();
+        let mut b = Integer::one();
         for _ in 0..200_000 {
             let next = &a + &b;
             a = std::mem::replace(&mut b, next);
         }
         let next = &a + &b;
-        let (one, other) = (Rational::new_raw(b.clone(), a), Rational::new_raw(next, b));
+        let one = Rational::new_raw(b.clone(), a);
+        let other = Rational::new_raw(next, b);
 
         assert_ne!(one, other);
         assert_eq!(one.cmp(&other), other.cmp(&one).reverse());

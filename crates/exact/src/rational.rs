@@ -1,7 +1,20 @@
 //! Rational numbers, and reading them exactly: "1.1" is 11/10, never the nearest double.
+//!
+//! The grammar, without blanks anywhere:
+//!
+//! ```text
+//! number   = fraction | decimal
+//! fraction = integer "/" integer
+//! decimal  = [sign] (digits ["." [digits]] | "." digits) [("e" | "E") integer]
+//! integer  = [sign] digits
+//! ```
+//!
+//! The length and the exponent are bounded, so that the work is bounded by the length of the text.
+//! Called by the readers of files and of command lines.
 
 use super::Rational;
 use num_bigint::BigInt;
+use num_integer::Integer as _;
 use num_traits::{One, Pow, Signed, Zero};
 
 /// An arbitrary-precision integer.
@@ -104,10 +117,11 @@ pub fn whole(p: i64) -> Rational {
 /// The common positive multiplier that makes every number of `values` an integer
 /// (least common multiple of the denominators; 1 for none).
 pub fn common_denominator<'a>(values: impl IntoIterator<Item = &'a Rational>) -> Integer {
-    use num_integer::Integer as _;
-    values
-        .into_iter()
-        .fold(Integer::one(), |lcm, v| lcm.lcm(v.denom()))
+    let mut multiple = Integer::one();
+    for value in values {
+        multiple = multiple.lcm(value.denom());
+    }
+    multiple
 }
 
 fn malformed(text: &str) -> NumberError {
@@ -131,37 +145,50 @@ fn parse_fraction(text: &str, p: &str, q: &str) -> Result<Rational, NumberError>
 /// Optional sign, then at least one ASCII digit, nothing else (no `_`, no blanks inside).
 fn parse_integer(text: &str) -> Option<Integer> {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
-    if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
-        return None;
+    let magnitude = parse_unsigned(digits)?;
+    if text.starts_with('-') {
+        Some(-magnitude)
+    } else {
+        Some(magnitude)
     }
-    let magnitude: Integer = digits.parse().ok()?;
-    Some(if text.starts_with('-') {
+}
+
+/// The digits of both sides of the point as one integer, times a power of ten.
+fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
+    let (mantissa, exponent) = match text.split_once(['e', 'E']) {
+        Some((mantissa, exponent)) => (mantissa, parse_exponent(text, exponent)?),
+        None => (text, 0),
+    };
+    let (signed_whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let unsigned_whole = signed_whole
+        .strip_prefix(['+', '-'])
+        .unwrap_or(signed_whole);
+
+    let digits = format!("{unsigned_whole}{fraction}");
+    let Some(magnitude) = parse_unsigned(&digits) else {
+        return Err(malformed(text));
+    };
+    let integer = if signed_whole.starts_with('-') {
         -magnitude
     } else {
         magnitude
-    })
+    };
+
+    let power = i64::from(exponent) - fraction.len() as i64;
+    let scale = Integer::from(10).pow(power.unsigned_abs());
+    if power >= 0 {
+        Ok(Rational::from_integer(integer * scale))
+    } else {
+        Ok(Rational::new(integer, scale))
+    }
 }
 
-fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
-    let (mantissa, exponent) = match text.split_once(['e', 'E']) {
-        Some((m, e)) => (m, parse_exponent(text, e)?),
-        None => (text, 0),
-    };
-    let (int, frac) = mantissa.split_once('.').unwrap_or((mantissa, ""));
-    let bare = int.strip_prefix(['+', '-']).unwrap_or(int);
-    let are_digits = bare.bytes().chain(frac.bytes()).all(|b| b.is_ascii_digit());
-    if bare.is_empty() && frac.is_empty() || !are_digits {
-        return Err(malformed(text));
+/// At least one ASCII digit, nothing else.
+fn parse_unsigned(digits: &str) -> Option<Integer> {
+    if digits.is_empty() || !digits.bytes().all(|b| b.is_ascii_digit()) {
+        return None;
     }
-    let sign = if int.starts_with('-') { "-" } else { "" };
-    let digits = parse_integer(&format!("{sign}{bare}{frac}")).ok_or_else(|| malformed(text))?;
-    let shift = i64::from(exponent) - frac.len() as i64;
-    let ten = Integer::from(10);
-    Ok(if shift >= 0 {
-        Rational::from_integer(digits * ten.pow(shift.unsigned_abs()))
-    } else {
-        Rational::new(digits, ten.pow(shift.unsigned_abs()))
-    })
+    digits.parse().ok()
 }
 
 fn parse_exponent(text: &str, exponent: &str) -> Result<i32, NumberError> {

@@ -1,7 +1,18 @@
 //! Isolation of real roots by Sturm's theorem and bisection.
+//!
+//! 1. p is replaced by its squarefree part, which has the same roots.
+//! 2. All roots are below Cauchy's bound, so the window becomes bounded.
+//! 3. Roots at the two ends are divided out.
+//! 4. The number of roots in an open interval whose ends are no roots is the difference of the sign
+//!    changes of the Sturm chain at the ends (`poly_gcd`). Intervals with more than one root are
+//!    halved until each has one.
+//!
+//! Input: a polynomial over Z, not zero, and a closed window. Output: its distinct roots in the
+//! window, ascending, each as a polynomial with an isolating interval. Called by the oracle and by
+//! the search for eigenvalues of a support, with a determinant.
 
 use super::poly_gcd::variations;
-use super::{Algebraic, Interval, Poly, Rational};
+use super::{Algebraic, Integer, Interval, Poly, Rational};
 use num_traits::{One, Signed, Zero};
 
 /// The distinct real roots of `p` that are >= 0, ascending. Multiplicities are not kept.
@@ -20,78 +31,132 @@ pub fn nonnegative_roots(p: &Poly) -> Vec<Algebraic> {
 /// ascending.
 pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebraic> {
     let mut roots = Vec::new();
-    let (mut poly, mut chain) = squarefree_chain(p);
-    if poly.degree().unwrap_or(0) == 0 {
+    let mut squarefree = Squarefree::part_of(p);
+    if squarefree.poly.degree().unwrap_or(0) == 0 {
         return roots;
     }
-    let bound = cauchy_bound(&poly);
-    let top = max.filter(|m| **m < bound).unwrap_or(&bound).clone();
+
+    let bound = cauchy_bound(&squarefree.poly);
+    let top = match max {
+        Some(max) if *max < bound => max.clone(),
+        _ => bound,
+    };
+
     // Roots exactly at the ends are divided out, so that the rest lie strictly inside.
-    let mut at_top = None;
-    for (end, is_top) in [(min, false), (&top, true)] {
-        if poly.sign_at(end) == 0 && !(is_top && *end == *min) {
-            poly = poly.exact_div(&Poly::linear_root(end)).unwrap_or(poly); // exact: Gauss's lemma
-            chain = poly.sturm_chain();
-            let root = Algebraic::rational(end.clone());
-            if is_top {
-                at_top = Some(root)
-            } else {
-                roots.push(root)
-            }
-        }
+    if squarefree.poly.sign_at(min) == 0 {
+        squarefree = squarefree.without_root(min);
+        roots.push(Algebraic::rational(min.clone()));
     }
+    let mut at_top = None;
+    if squarefree.poly.sign_at(&top) == 0 && top != *min {
+        squarefree = squarefree.without_root(&top);
+        at_top = Some(Algebraic::rational(top.clone()));
+    }
+
     if *min < top {
-        isolate(&poly, &chain, min.clone(), top, &mut roots);
+        squarefree.isolate(min.clone(), top, &mut roots);
     }
     roots.extend(at_top);
     roots
 }
 
-/// The squarefree part and its Sturm chain. The chain of `p` ends with gcd(p, p'), so that for a
-/// squarefree `p`, nearly always, one remainder sequence is enough.
-fn squarefree_chain(p: &Poly) -> (Poly, Vec<Poly>) {
-    let poly = p.primitive();
-    let chain = poly.sturm_chain();
-    match chain
-        .last()
-        .filter(|g| g.degree() > Some(0))
-        .and_then(|g| poly.exact_div(&g.primitive()))
-    {
-        Some(part) => {
-            let chain = part.sturm_chain();
-            (part, chain)
-        }
-        None => (poly, chain),
-    }
+/// A squarefree polynomial and its Sturm chain.
+struct Squarefree {
+    poly: Poly,
+    chain: Vec<Poly>,
 }
 
-/// Appends the roots of a squarefree `poly` with this Sturm chain in the open interval (lo, hi),
-/// ascending. Neither end is a root.
-fn isolate(poly: &Poly, chain: &[Poly], lo: Rational, hi: Rational, roots: &mut Vec<Algebraic>) {
-    let (at_lo, at_hi) = (variations(chain, &lo), variations(chain, &hi));
-    let mut stack = vec![(lo, at_lo, hi, at_hi)];
-    while let Some((lo, at_lo, hi, at_hi)) = stack.pop() {
-        match at_lo - at_hi {
-            0 => {}
-            1 => roots.extend(Interval::new(lo, hi).map(|i| Algebraic::isolated(poly.clone(), i))),
-            _ => {
-                let mid = split_point(poly, &lo, &hi);
-                let at_mid = variations(chain, &mid);
-                stack.push((mid.clone(), at_mid, hi, at_hi));
-                stack.push((lo, at_lo, mid, at_mid)); // popped first: ascending order
+/// An open interval whose ends are no roots, with the sign changes of the Sturm chain there.
+struct Section {
+    lo: Rational,
+    hi: Rational,
+    changes_at_lo: usize,
+    changes_at_hi: usize,
+}
+
+impl Squarefree {
+    /// The squarefree part. The chain of `p` ends with gcd(p, p'), so that for a squarefree `p`,
+    /// nearly always, one remainder sequence is enough.
+    fn part_of(p: &Poly) -> Squarefree {
+        let poly = p.primitive();
+        let chain = poly.sturm_chain();
+
+        if let Some(gcd) = chain.last()
+            && gcd.degree() > Some(0)
+            && let Some(part) = poly.exact_div(&gcd.primitive())
+        {
+            return Squarefree::of(part);
+        }
+        Squarefree { poly, chain }
+    }
+
+    fn of(poly: Poly) -> Squarefree {
+        let chain = poly.sturm_chain();
+        Squarefree { poly, chain }
+    }
+
+    /// Divided by the linear factor of a rational root; exact by Gauss's lemma.
+    fn without_root(self, root: &Rational) -> Squarefree {
+        let quotient = self.poly.exact_div(&Poly::linear_root(root));
+        Squarefree::of(quotient.unwrap_or(self.poly))
+    }
+
+    /// Appends the roots in the open interval (lo, hi), ascending. Neither end is a root.
+    fn isolate(&self, lo: Rational, hi: Rational, roots: &mut Vec<Algebraic>) {
+        let mut stack = vec![Section {
+            changes_at_lo: variations(&self.chain, &lo),
+            changes_at_hi: variations(&self.chain, &hi),
+            lo,
+            hi,
+        }];
+
+        while let Some(section) = stack.pop() {
+            match section.changes_at_lo - section.changes_at_hi {
+                0 => {}
+                1 => {
+                    let interval = Interval::new(section.lo, section.hi);
+                    roots.extend(interval.map(|i| Algebraic::isolated(self.poly.clone(), i)));
+                }
+                _ => {
+                    let [lower, upper] = self.halves(section);
+                    stack.push(upper);
+                    stack.push(lower); // popped first: ascending order
+                }
             }
         }
     }
-}
 
-/// A point inside (lo, hi) that is not a root: the midpoint, or a point a little off it.
-fn split_point(poly: &Poly, lo: &Rational, hi: &Rational) -> Rational {
-    let width = hi - lo;
-    // A polynomial has finitely many roots, so one of 1/2, 1/3, 1/4, ... is none.
-    (2u32..)
-        .map(|k| lo + &width / Rational::from_integer(k.into()))
-        .find(|t| poly.sign_at(t) != 0)
-        .unwrap_or_else(|| lo.clone())
+    fn halves(&self, section: Section) -> [Section; 2] {
+        let mid = self.split_point(&section.lo, &section.hi);
+        let changes_at_mid = variations(&self.chain, &mid);
+        let lower = Section {
+            lo: section.lo,
+            hi: mid.clone(),
+            changes_at_lo: section.changes_at_lo,
+            changes_at_hi: changes_at_mid,
+        };
+        let upper = Section {
+            lo: mid,
+            hi: section.hi,
+            changes_at_lo: changes_at_mid,
+            changes_at_hi: section.changes_at_hi,
+        };
+        [lower, upper]
+    }
+
+    /// A point inside (lo, hi) that is not a root: the midpoint, or a point a little off it. A
+    /// polynomial has finitely many roots, so one of lo + width/2, lo + width/3, ... is none.
+    fn split_point(&self, lo: &Rational, hi: &Rational) -> Rational {
+        let width = hi - lo;
+        let mut divisor = 2u32;
+        loop {
+            let point = lo + &width / Rational::from_integer(divisor.into());
+            if self.poly.sign_at(&point) != 0 {
+                return point;
+            }
+            divisor += 1;
+        }
+    }
 }
 
 /// A number larger than the absolute value of every root: 1 + max |c_i / c_n| (Cauchy 1829),
@@ -105,7 +170,7 @@ fn cauchy_bound(poly: &Poly) -> Rational {
         .max()
         .unwrap_or_else(One::one);
     let bits = (largest / lead).bits() + 1;
-    Rational::from_integer(num_bigint::BigInt::one() << (bits + 1))
+    Rational::from_integer(Integer::one() << (bits + 1))
 }
 
 #[cfg(test)]
@@ -119,28 +184,31 @@ mod tests {
         for (u, v) in [(0, 1), (1, 3), (1, 3), (5, 2), (-4, 1), (7, 1)] {
             p = &p * &Poly::linear_root(&rational(u, v));
         }
-        let found: Vec<_> = nonnegative_roots(&p)
-            .into_iter()
-            .map(|mut r| {
-                r.try_rational();
-                r.as_rational().cloned().unwrap()
-            })
-            .collect();
-        assert_eq!(
-            found,
-            vec![whole(0), rational(1, 3), rational(5, 2), whole(7)]
-        );
+
+        let mut found = Vec::new();
+        for mut root in nonnegative_roots(&p) {
+            root.try_rational();
+            found.push(root.as_rational().cloned().unwrap());
+        }
+
+        let expected = [whole(0), rational(1, 3), rational(5, 2), whole(7)];
+        assert_eq!(found, expected);
     }
 
     #[test]
     fn the_window_is_closed_and_excludes_the_rest() {
         let p = Poly::from_ints(&[-6, 11, -6, 1]); // 1, 2, 3
-        let count = |a: Rational, b: Option<Rational>| roots_in(&p, &a, b.as_ref()).len();
-        assert_eq!(count(whole(1), Some(whole(2))), 2);
-        assert_eq!(count(rational(11, 10), Some(rational(19, 10))), 0);
-        assert_eq!(count(whole(2), Some(whole(2))), 1);
-        assert_eq!(count(whole(3), None), 1);
-        assert_eq!(count(whole(4), None), 0);
+        let windows = [
+            (whole(1), Some(whole(2)), 2),
+            (rational(11, 10), Some(rational(19, 10)), 0),
+            (whole(2), Some(whole(2)), 1),
+            (whole(3), None, 1),
+            (whole(4), None, 0),
+        ];
+        for (min, max, expected) in windows {
+            let roots = roots_in(&p, &min, max.as_ref());
+            assert_eq!(roots.len(), expected, "{min} {max:?}");
+        }
     }
 
     #[test]

@@ -1,4 +1,7 @@
 //! Sparse matrices over Q: rows of (column, value), the form every given matrix takes.
+//!
+//! Rows are sorted by column and hold no zeros, so equal matrices have equal rows. Called by every
+//! crate of the workspace; elimination runs on [`Dense`] and integer matrices made of it.
 
 use super::{Dense, Rational};
 use num_traits::Zero;

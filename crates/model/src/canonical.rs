@@ -2,63 +2,25 @@
 //!
 //! Mathematical fields only, matrices inlined, entries sorted, rationals in lowest terms; no name,
 //! comment or window, and no reaction (it is checked when read, and changes nothing after that).
+//!
+//! The digest is SHA-256 (FIPS 180-4) of that text. Two problems with one digest are, for all that
+//! anybody can do, the same mathematical problem; so a certificate that names the digest is bound
+//! to its matrices. `spec/formats.md` specifies the text, so that other programs can write it.
 
-use super::{Body, ContactState, Problem};
+use super::{Body, ContactState, Direction, Particle, Pencil, Problem, System};
 use mceip_exact::Sparse;
 use sha2::{Digest, Sha256};
 use std::fmt::Write as _;
 
 /// The canonical text: one fact per line, as `spec/formats.md` lists them.
 pub(super) fn text(problem: &Problem) -> String {
-    let mut out = format!("mceip-canonical/1\nunknown {}\n", problem.unknown().word());
+    let mut out = String::new();
+    line(&mut out, "mceip-canonical/1");
+    line(&mut out, &format!("unknown {}", problem.unknown().word()));
+
     match problem.body() {
-        Body::Pencil(p) => {
-            out.push_str("pencil\n");
-            let free: Vec<String> = p.free().iter().map(usize::to_string).collect();
-            line(
-                &mut out,
-                &["free".to_string()]
-                    .into_iter()
-                    .chain(free)
-                    .collect::<Vec<_>>()
-                    .join(" "),
-            );
-            matrix(&mut out, "a", p.a());
-            matrix(&mut out, "b", p.b());
-        }
-        Body::System(s) => {
-            out.push_str("system\n");
-            if let Some(mu) = s.friction() {
-                line(&mut out, &format!("friction {mu}"));
-            }
-            for p in s.particles() {
-                let sign = if let ContactState::Slip { sign } = p.state {
-                    format!(" {sign}")
-                } else {
-                    String::new()
-                };
-                line(
-                    &mut out,
-                    &format!(
-                        "particle {} {} {}{sign}",
-                        p.tangential,
-                        p.normal,
-                        p.state.word()
-                    ),
-                );
-                for (word, direction) in [("tangent", p.tangent()), ("normal", p.into_obstacle())] {
-                    let pairs: Vec<String> = direction
-                        .iter()
-                        .map(|(dof, c)| format!("{dof} {c}"))
-                        .collect();
-                    line(&mut out, &format!("{word} {}", pairs.join(" ")));
-                }
-            }
-            matrix(&mut out, "stiffness", s.stiffness());
-            if let Some(m) = s.mass() {
-                matrix(&mut out, "mass", m);
-            }
-        }
+        Body::Pencil(pencil) => write_pencil(&mut out, pencil),
+        Body::System(system) => write_system(&mut out, system),
     }
     out
 }
@@ -66,12 +28,72 @@ pub(super) fn text(problem: &Problem) -> String {
 /// SHA-256 of the canonical text in lower-case hexadecimal.
 pub(super) fn sha256(problem: &Problem) -> String {
     let digest = Sha256::digest(text(problem).as_bytes());
-    digest
-        .iter()
-        .fold(String::with_capacity(64), |mut hex, byte| {
-            let _ = write!(hex, "{byte:02x}"); // writing to a String cannot fail
-            hex
-        })
+
+    let mut hexadecimal = String::with_capacity(64);
+    for byte in digest.iter() {
+        let _ = write!(hexadecimal, "{byte:02x}"); // writing to a String cannot fail
+    }
+    hexadecimal
+}
+
+fn write_pencil(out: &mut String, pencil: &Pencil) {
+    line(out, "pencil");
+
+    let mut free = String::from("free");
+    for index in pencil.free() {
+        let _ = write!(free, " {index}"); // writing to a String cannot fail
+    }
+    line(out, &free);
+
+    write_matrix(out, "a", pencil.a());
+    write_matrix(out, "b", pencil.b());
+}
+
+fn write_system(out: &mut String, system: &System) {
+    line(out, "system");
+    if let Some(mu) = system.friction() {
+        line(out, &format!("friction {mu}"));
+    }
+    for particle in system.particles() {
+        write_particle(out, particle);
+    }
+    write_matrix(out, "stiffness", system.stiffness());
+    if let Some(mass) = system.mass() {
+        write_matrix(out, "mass", mass);
+    }
+}
+
+fn write_particle(out: &mut String, particle: &Particle) {
+    let sign = match particle.state {
+        ContactState::Slip { sign } => format!(" {sign}"),
+        ContactState::Free | ContactState::Stick => String::new(),
+    };
+    let state = particle.state.word();
+    let Particle {
+        tangential, normal, ..
+    } = particle;
+    line(
+        out,
+        &format!("particle {tangential} {normal} {state}{sign}"),
+    );
+
+    write_direction(out, "tangent", &particle.tangent());
+    write_direction(out, "normal", &particle.into_obstacle());
+}
+
+fn write_direction(out: &mut String, name: &str, direction: &Direction) {
+    let mut text = String::from(name);
+    for (dof, coefficient) in direction {
+        let _ = write!(text, " {dof} {coefficient}"); // writing to a String cannot fail
+    }
+    line(out, &text);
+}
+
+fn write_matrix(out: &mut String, name: &str, m: &Sparse) {
+    line(out, &format!("{name} {} {}", m.rows(), m.cols()));
+    for (i, j, entry) in m.entries() {
+        let _ = writeln!(out, "{i} {j} {entry}"); // writing to a String cannot fail
+    }
 }
 
 fn line(out: &mut String, text: &str) {
@@ -79,17 +101,10 @@ fn line(out: &mut String, text: &str) {
     out.push('\n');
 }
 
-fn matrix(out: &mut String, name: &str, m: &Sparse) {
-    line(out, &format!("{name} {} {}", m.rows(), m.cols()));
-    for (i, j, v) in m.entries() {
-        let _ = writeln!(out, "{i} {j} {v}"); // writing to a String cannot fail
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Pencil, Unknown, Window};
+    use crate::{Unknown, Window};
     use mceip_exact::{rational, whole};
 
     fn problem(v: mceip_exact::Rational, unknown: Unknown) -> Problem {
@@ -100,7 +115,6 @@ mod tests {
 
     #[test]
     fn a_system_is_spelt_out_with_its_directions() {
-        use crate::{Particle, System};
         let frame = Some([
             [rational(3, 5), rational(4, 5)],
             [rational(-4, 5), rational(3, 5)],

@@ -1,4 +1,7 @@
 //! Every way in which a problem is refused: equation or field, index, expected, got.
+//!
+//! Each message is one line that names the place in the file or the equation of
+//! `spec/equations.md` (as E12), what was expected there and what was found.
 
 use mceip_exact::{NumberError, Rational};
 
@@ -41,7 +44,8 @@ pub enum ModelError {
     },
     /// A matrix that must be symmetric is not.
     #[error(
-        "{equation}: expected {what} symmetric, got {what}[{row}][{col}] = {upper} and {what}[{col}][{row}] = {lower}"
+        "{equation}: expected {what} symmetric, \
+         got {what}[{row}][{col}] = {upper} and {what}[{col}][{row}] = {lower}"
     )]
     NotSymmetric {
         /// Equation id.
@@ -74,7 +78,8 @@ pub enum ModelError {
     },
     /// A large matrix too close to singular to be proved definite or not.
     #[error(
-        "{equation}: expected {what} provably positive definite, got a factorisation that decides nothing at index {index}"
+        "{equation}: expected {what} provably positive definite, \
+         got a factorisation that decides nothing at index {index}"
     )]
     DefinitenessUndecided {
         /// Equation, proposition or remark that needs it.
@@ -86,7 +91,8 @@ pub enum ModelError {
     },
     /// A block that must vanish does not.
     #[error(
-        "{equation}: expected {what}[{row}][{col}] = 0 (the f rows do not depend on the unknown), got {value}"
+        "{equation}: expected {what}[{row}][{col}] = 0 \
+         (the f rows do not depend on the unknown), got {value}"
     )]
     NotZero {
         /// Equation id.
@@ -132,7 +138,8 @@ pub enum ModelError {
     },
     /// Two contact particles claim the same degree of freedom.
     #[error(
-        "particles {first} and {second}: expected each degree of freedom in one particle, got {dof} in both"
+        "particles {first} and {second}: expected each degree of freedom in one particle, \
+         got {dof} in both"
     )]
     DofTwice {
         /// The degree of freedom.
@@ -168,7 +175,8 @@ pub enum ModelError {
     },
     /// A particle in contact with zero reaction.
     #[error(
-        "E9: particle {particle} has state \"zero\"; expected free, stick or slip (section 3 assumes no z particles)"
+        "E9: particle {particle} has state \"zero\"; expected free, stick or slip \
+         (section 3 assumes no z particles)"
     )]
     ZeroReactionState {
         /// The particle.
@@ -188,7 +196,8 @@ pub enum ModelError {
     },
     /// A frame is not a rotation.
     #[error(
-        "particle {particle}: expected frame to be a rotation (rows orthonormal, determinant 1), got {got}"
+        "particle {particle}: expected frame to be a rotation \
+         (rows orthonormal, determinant 1), got {got}"
     )]
     FrameNotRotation {
         /// The particle.
@@ -198,7 +207,8 @@ pub enum ModelError {
     },
     /// A reaction contradicts the contact state.
     #[error(
-        "E7: particle {particle} in state {state}: expected {expected}, got r_T = {tangential}, r_N = {normal}"
+        "E7: particle {particle} in state {state}: expected {expected}, \
+         got r_T = {tangential}, r_N = {normal}"
     )]
     ReactionContradicts {
         /// The particle.

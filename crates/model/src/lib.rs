@@ -1,5 +1,10 @@
 //! The problem: contact states, mechanical systems (1)-(9), pencils (15), and their file form.
 //!
+//! A [`Problem`] is a [`System`] (stiffness K, mass M, friction mu, contact particles) or a
+//! [`Pencil`] A + tB given directly, with the [`Unknown`] t and the [`Window`] in which it is
+//! sought. [`mod@reduction`] makes a pencil of a system, [`mod@file`] reads and writes problems,
+//! and a problem's digest ([`Problem::sha256`]) binds certificates to it.
+//!
 //! A value that exists satisfies its preconditions: shapes, symmetry, definiteness and index sets
 //! are established at construction, and whatever fails is refused with a [`ModelError`].
 

@@ -1,5 +1,13 @@
 //! The generic problem (A + tB) x = y, and the type that carries the hypotheses of Propositions 1
 //! and 2.
+//!
+//! ```text
+//! find t >= 0, x != 0:   y = (A + tB) x,   y_f = 0,   0 <= x_s _|_ y_s >= 0
+//! ```
+//!
+//! with f the free and s the complementarity variables. A [`Pencil`] is any such problem; an
+//! [`Admissible`] one is proved to satisfy what the mixed complementarity problems MCP-mu and
+//! MCP-lambda2 need in order to find all of its solutions.
 
 use super::ModelError;
 use mceip_exact::{DefiniteError, Sparse, positive_definite};
@@ -52,21 +60,12 @@ impl Pencil {
     /// [`ModelError`] for shapes that do not fit, an order of zero, an index out of range or twice.
     pub fn new(a: Sparse, b: Sparse, free: Vec<usize>) -> Result<Self, ModelError> {
         let n = a.rows();
-        for (what, m) in [("a", &a), ("b", &b)] {
-            if (m.rows(), m.cols()) != (n, n) {
-                return Err(ModelError::Shape {
-                    equation: "E12",
-                    what,
-                    expected_rows: n,
-                    expected_cols: n,
-                    rows: m.rows(),
-                    cols: m.cols(),
-                });
-            }
-        }
+        require_square("E12", "a", &a, n)?;
+        require_square("E12", "b", &b, n)?;
         if n == 0 {
             return Err(ModelError::Empty { what: "pencil" });
         }
+
         let free = sorted_indices("free", free, n)?;
         Ok(Pencil { a, b, free })
     }
@@ -109,6 +108,7 @@ pub(super) fn sorted_indices(
     if let Some(&index) = list.iter().find(|&&i| i >= limit) {
         return Err(ModelError::IndexOutOfRange { what, index, limit });
     }
+
     match list.windows(2).find(|w| w[0] == w[1]) {
         Some(w) => Err(ModelError::IndexTwice { what, index: w[0] }),
         None => Ok(list),
@@ -137,27 +137,21 @@ impl<'a> Admissible<'a> {
                 what: "the complementarity variables (P1, P2 normalise e'x_s)",
             });
         }
+
         let f = pencil.free();
+        let a_ff = pencil.a.submatrix(f, f);
         match unknown {
             Unknown::Mu => {
-                require_definite("P1", "A_ff (K_ff)", &pencil.a.submatrix(f, f))?;
-                for &i in f {
-                    if let Some((j, value)) = pencil.b.row(i).iter().find(|e| !e.1.is_zero()) {
-                        return Err(ModelError::NotZero {
-                            equation: "E16",
-                            what: "B (K1)",
-                            row: i,
-                            col: *j,
-                            value: value.clone(),
-                        });
-                    }
-                }
+                require_definite("P1", "A_ff (K_ff)", &a_ff)?;
+                require_zero_rows(&pencil.b, f)?;
             }
             Unknown::Lambda2 => {
-                require_definite("P2", "A_ff (K_ff)", &pencil.a.submatrix(f, f))?;
-                require_definite("P2", "B_ff (M_ff)", &pencil.b.submatrix(f, f))?;
+                let b_ff = pencil.b.submatrix(f, f);
+                require_definite("P2", "A_ff (K_ff)", &a_ff)?;
+                require_definite("P2", "B_ff (M_ff)", &b_ff)?;
             }
         }
+
         Ok(Admissible { pencil, unknown })
     }
 
@@ -172,6 +166,42 @@ impl<'a> Admissible<'a> {
     }
 }
 
+/// Refuses a matrix of another shape than n x n, naming the equation that needs it.
+pub(super) fn require_square(
+    equation: &'static str,
+    what: &'static str,
+    m: &Sparse,
+    n: usize,
+) -> Result<(), ModelError> {
+    if m.rows() == n && m.cols() == n {
+        return Ok(());
+    }
+    Err(ModelError::Shape {
+        equation,
+        what,
+        expected_rows: n,
+        expected_cols: n,
+        rows: m.rows(),
+        cols: m.cols(),
+    })
+}
+
+/// Refuses a matrix B with an entry in one of the rows f: K1 has none there. // (16)
+fn require_zero_rows(b: &Sparse, f: &[usize]) -> Result<(), ModelError> {
+    for &row in f {
+        if let Some((col, value)) = b.row(row).iter().find(|(_, value)| !value.is_zero()) {
+            return Err(ModelError::NotZero {
+                equation: "E16",
+                what: "B (K1)",
+                row,
+                col: *col,
+                value: value.clone(),
+            });
+        }
+    }
+    Ok(())
+}
+
 /// Refuses a matrix that is not symmetric positive definite, naming who needs it.
 pub(super) fn require_definite(
     equation: &'static str,
@@ -179,19 +209,21 @@ pub(super) fn require_definite(
     m: &Sparse,
 ) -> Result<(), ModelError> {
     require_symmetric(equation, what, m)?;
-    positive_definite(m).map_err(|e| match e {
-        DefiniteError::Not(n) => ModelError::NotDefinite {
+
+    match positive_definite(m) {
+        Ok(()) => Ok(()),
+        Err(DefiniteError::Not(refuted)) => Err(ModelError::NotDefinite {
             equation,
             what,
-            index: n.index,
-            pivot: n.pivot,
-        },
-        DefiniteError::Undecided { index } => ModelError::DefinitenessUndecided {
+            index: refuted.index,
+            pivot: refuted.pivot,
+        }),
+        Err(DefiniteError::Undecided { index }) => Err(ModelError::DefinitenessUndecided {
             equation,
             what,
             index,
-        },
-    })
+        }),
+    }
 }
 
 /// Refuses a matrix that differs from its transpose.
@@ -241,6 +273,7 @@ mod tests {
             Pencil::new(Sparse::zeros(0, 0), Sparse::zeros(0, 0), vec![]),
             Err(ModelError::Empty { .. })
         ));
+
         let pencil = Pencil::new(square.clone(), square, vec![1]).unwrap();
         assert_eq!((pencil.free(), pencil.slip()), (&[1][..], vec![0]));
     }
@@ -250,16 +283,25 @@ mod tests {
         let a = Sparse::from_ints(&[&[1, 0], &[5, 2]]);
         let b = Sparse::from_ints(&[&[-1, 0], &[0, 1]]);
         let pencil = Pencil::new(a.clone(), b.clone(), vec![1]).unwrap();
+
         assert!(Admissible::new(&pencil, Unknown::Lambda2).is_ok());
         assert!(matches!(
             Admissible::new(&pencil, Unknown::Mu),
             Err(ModelError::NotZero { row: 1, col: 1, .. })
         ));
+
         let indefinite = Pencil::new(b, a, vec![0]).unwrap();
+        let refused = Admissible::new(&indefinite, Unknown::Lambda2);
         assert!(matches!(
-            Admissible::new(&indefinite, Unknown::Lambda2),
-            Err(ModelError::NotDefinite { equation: "P2", index: 0, pivot, .. }) if pivot == whole(-1)
+            refused,
+            Err(ModelError::NotDefinite {
+                equation: "P2",
+                index: 0,
+                pivot,
+                ..
+            }) if pivot == whole(-1)
         ));
+
         let all_free = Pencil::new(
             Sparse::from_ints(&[&[1]]),
             Sparse::from_ints(&[&[0]]),
@@ -274,11 +316,12 @@ mod tests {
 
     #[test]
     fn dense_view_is_the_same_matrix() {
-        let m = Sparse::from_ints(&[&[1, 2], &[3, 4]]);
-        assert_eq!(
-            m.to_dense(),
-            Dense::from_rows(vec![vec![whole(1), whole(2)], vec![whole(3), whole(4)]])
-        );
-        assert_eq!(m.to_dense()[(1, 0)], Rational::from_integer(3.into()));
+        let sparse = Sparse::from_ints(&[&[1, 2], &[3, 4]]);
+
+        let dense = sparse.to_dense();
+
+        let rows = vec![vec![whole(1), whole(2)], vec![whole(3), whole(4)]];
+        assert_eq!(dense, Dense::from_rows(rows));
+        assert_eq!(dense[(1, 0)], Rational::from_integer(3.into()));
     }
 }

@@ -1,4 +1,10 @@
 //! A problem: a pencil or a mechanical system, the unknown, and the window.
+//!
+//! The question is always the same: for which t in the window is there an x != 0 with
+//! y = (A + tB) x, y_f = 0 and 0 <= x_s _|_ y_s >= 0? A system has to be reduced to its pencil
+//! first ([`crate::reduction::reduce`]).
+//!
+//! A problem is read from a file ([`crate::file::read_problem`]) or put together here.
 
 use super::{ModelError, Pencil, System, Unknown, Window, canonical};
 
@@ -32,6 +38,7 @@ impl Problem {
         if let Body::System(system) = &body {
             system.require_for(unknown)?;
         }
+
         Ok(Problem {
             name: None,
             comment: None,

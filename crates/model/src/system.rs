@@ -1,7 +1,17 @@
 //! The mechanical system of section 2: K, M, mu and the contact particles with their states.
+//!
+//! ```text
+//! M u'' + K u = f^0 + r,   u_N <= 0,   r_N <= 0,   u_N r_N = 0,   |r_T| + mu r_N <= 0      (1)-(3)
+//! ```
+//!
+//! at an equilibrium state, which says of every contact candidate particle whether it is out of
+//! contact (f), sticks (d) or is about to slip (s, with the sign S of its tangential reaction).
+//!
+//! Input: matrices over Q of order N, one row per degree of freedom, and the particles. What
+//! section 2 supposes is established when a [`System`] is made: every system that exists is one.
 
 use super::ModelError;
-use super::pencil::{Unknown, require_definite, require_symmetric};
+use super::pencil::{Unknown, require_definite, require_square, require_symmetric};
 use mceip_exact::{Rational, Sparse};
 use num_traits::{One, Signed, Zero};
 use std::collections::BTreeMap;
@@ -124,32 +134,29 @@ impl System {
         if n == 0 {
             return Err(ModelError::Empty { what: "system" });
         }
-        for (what, m) in [("K", Some(&stiffness)), ("M", mass.as_ref())] {
-            let Some(m) = m else { continue };
-            if (m.rows(), m.cols()) != (n, n) {
-                return Err(ModelError::Shape {
-                    equation: "E3",
-                    what,
-                    expected_rows: n,
-                    expected_cols: n,
-                    rows: m.rows(),
-                    cols: m.cols(),
-                });
-            }
-            require_symmetric("E3", what, m)?;
+
+        require_square("E3", "K", &stiffness, n)?;
+        require_symmetric("E3", "K", &stiffness)?;
+        if let Some(mass) = &mass {
+            require_square("E3", "M", mass, n)?;
+            require_symmetric("E3", "M", mass)?;
         }
+
         check_friction(friction.as_ref(), &particles)?;
         check_particles(n, &particles, friction.as_ref())?;
+
         let system = System {
             stiffness,
             mass,
             friction,
             particles,
         };
+
         let f = system.free_dofs();
-        require_definite("P1", "K_ff", &system.stiffness.submatrix(&f, &f))?;
-        if let Some(m) = &system.mass {
-            require_definite("E3", "M", m)?;
+        let k_ff = system.stiffness.submatrix(&f, &f);
+        require_definite("P1", "K_ff", &k_ff)?;
+        if let Some(mass) = &system.mass {
+            require_definite("E3", "M", mass)?;
         }
         Ok(system)
     }
@@ -164,21 +171,22 @@ impl System {
                 what: "the slip particles of the system",
             });
         }
-        if unknown == Unknown::Lambda2 {
-            for (what, present) in [
-                ("mass", self.mass.is_some()),
-                ("friction", self.friction.is_some()),
-            ] {
-                if !present {
-                    return Err(ModelError::Missing {
-                        equation: "E12",
-                        what,
-                        unknown: unknown.word(),
-                    });
-                }
-            }
+        if unknown == Unknown::Mu {
+            return Ok(());
         }
-        Ok(())
+
+        let missing = if self.mass.is_none() {
+            "mass"
+        } else if self.friction.is_none() {
+            "friction"
+        } else {
+            return Ok(());
+        };
+        Err(ModelError::Missing {
+            equation: "E12",
+            what: missing,
+            unknown: unknown.word(),
+        })
     }
 
     /// Number of degrees of freedom, N.
@@ -208,46 +216,51 @@ impl System {
 
     /// The particles in impending slip, in file order, with their S.
     pub fn slip_particles(&self) -> Vec<(&Particle, i8)> {
-        self.particles
-            .iter()
-            .filter_map(|p| match p.state {
-                ContactState::Slip { sign } => Some((p, sign)),
-                _ => None,
-            })
-            .collect()
+        let mut slip = Vec::new();
+        for particle in &self.particles {
+            if let ContactState::Slip { sign } = particle.state {
+                slip.push((particle, sign));
+            }
+        }
+        slip
     }
 
     /// f: the dofs of no particle in contact, ascending.
     pub fn free_dofs(&self) -> Vec<usize> {
-        let mut held = vec![false; self.dofs()];
-        for p in self
-            .particles
-            .iter()
-            .filter(|p| p.state != ContactState::Free)
-        {
-            held[p.tangential] = true;
-            held[p.normal] = true;
+        let mut in_contact = vec![false; self.dofs()];
+        for particle in &self.particles {
+            if particle.state != ContactState::Free {
+                in_contact[particle.tangential] = true;
+                in_contact[particle.normal] = true;
+            }
         }
-        (0..self.dofs()).filter(|&i| !held[i]).collect()
+        (0..self.dofs()).filter(|&dof| !in_contact[dof]).collect()
     }
 }
 
+/// mu >= 0, and mu > 0 with slip particles: their reaction is on the cone and not zero.
 fn check_friction(friction: Option<&Rational>, particles: &[Particle]) -> Result<(), ModelError> {
-    let Some(mu) = friction else { return Ok(()) };
+    let Some(mu) = friction else {
+        return Ok(());
+    };
     if mu.is_negative() {
         return Err(ModelError::FrictionNegative {
             friction: mu.clone(),
         });
     }
-    match particles
+    if !mu.is_zero() {
+        return Ok(());
+    }
+
+    let first_slip = particles
         .iter()
-        .position(|p| matches!(p.state, ContactState::Slip { .. }))
-    {
-        Some(particle) if mu.is_zero() => Err(ModelError::FrictionNotPositive {
+        .position(|p| matches!(p.state, ContactState::Slip { .. }));
+    match first_slip {
+        Some(particle) => Err(ModelError::FrictionNotPositive {
             particle,
             friction: mu.clone(),
         }),
-        _ => Ok(()),
+        None => Ok(()),
     }
 }
 
@@ -257,8 +270,11 @@ fn check_particles(
     friction: Option<&Rational>,
 ) -> Result<(), ModelError> {
     let mut owner: BTreeMap<usize, usize> = BTreeMap::new();
-    for (index, p) in particles.iter().enumerate() {
-        for (which, dof) in [("tangential", p.tangential), ("normal", p.normal)] {
+    for (index, particle) in particles.iter().enumerate() {
+        for (which, dof) in [
+            ("tangential", particle.tangential),
+            ("normal", particle.normal),
+        ] {
             if dof >= n {
                 return Err(ModelError::DofOutOfRange {
                     particle: index,
@@ -275,82 +291,106 @@ fn check_particles(
                 });
             }
         }
-        for (field, value) in [
-            ("normal_direction", Some(p.normal_direction)),
-            ("sign", slip_sign(p)),
-        ] {
-            if let Some(v) = value.filter(|v| v.abs() != 1) {
-                return Err(ModelError::Sign {
-                    particle: index,
-                    field,
-                    expected: "1 or -1",
-                    got: v.to_string(),
-                });
-            }
+
+        require_sign(index, "normal_direction", particle.normal_direction)?;
+        if let ContactState::Slip { sign } = particle.state {
+            require_sign(index, "sign", sign)?;
         }
-        check_frame(index, p)?;
-        check_reaction(index, p, friction)?;
+        check_frame(index, particle)?;
+        check_reaction(index, particle, friction)?;
     }
     Ok(())
 }
 
-fn slip_sign(p: &Particle) -> Option<i8> {
-    match p.state {
-        ContactState::Slip { sign } => Some(sign),
-        _ => None,
+fn require_sign(particle: usize, field: &'static str, value: i8) -> Result<(), ModelError> {
+    if matches!(value, -1 | 1) {
+        return Ok(());
     }
+    Err(ModelError::Sign {
+        particle,
+        field,
+        expected: "1 or -1",
+        got: value.to_string(),
+    })
 }
 
-fn check_frame(particle: usize, p: &Particle) -> Result<(), ModelError> {
-    let Some([[a, b], [c, d]]) = &p.frame else {
+/// The frame [[a, b], [c, d]] is a rotation: unit rows and determinant 1. By Lagrange's identity
+/// (ac + bd)^2 = |row 0|^2 |row 1|^2 - (ad - bc)^2 = 0, the rows are orthogonal then.
+fn check_frame(index: usize, particle: &Particle) -> Result<(), ModelError> {
+    let Some([[a, b], [c, d]]) = &particle.frame else {
         return Ok(());
     };
-    let one = Rational::one();
-    let checks = [
-        ("|row 0|^2", a * a + b * b, &one),
-        ("|row 1|^2", c * c + d * d, &one),
-        ("the determinant", a * d - b * c, &one),
+
+    let numbers = [
+        ("|row 0|^2", a * a + b * b),
+        ("|row 1|^2", c * c + d * d),
+        ("the determinant", a * d - b * c),
     ];
-    match checks.iter().find(|(_, got, want)| got != *want) {
-        Some((what, got, _)) => Err(ModelError::FrameNotRotation {
-            particle,
-            got: format!("{what} = {got}"),
-        }),
-        None => Ok(()), // two unit rows with determinant 1 are orthogonal (Lagrange's identity)
+    for (what, got) in numbers {
+        if !got.is_one() {
+            return Err(ModelError::FrameNotRotation {
+                particle: index,
+                got: format!("{what} = {got}"),
+            });
+        }
     }
+    Ok(())
 }
 
 /// (7), and the definitions of f, d, s after (9).
 fn check_reaction(
-    particle: usize,
-    p: &Particle,
+    index: usize,
+    particle: &Particle,
     friction: Option<&Rational>,
 ) -> Result<(), ModelError> {
-    let Some(r) = &p.reaction else { return Ok(()) };
-    let cone = friction.map(|mu| -mu * &r.normal); // mu |r_N|
-    let expected = match p.state {
-        ContactState::Free if !(r.normal.is_zero() && r.tangential.is_zero()) => "no reaction",
-        ContactState::Stick | ContactState::Slip { .. } if !r.normal.is_negative() => "r_N < 0",
-        ContactState::Stick if cone.as_ref().is_some_and(|c| r.tangential.abs() >= *c) => {
-            "|r_T| < -mu r_N"
-        }
-        ContactState::Slip { sign }
-            if r.tangential.signum() != Rational::from_integer(sign.into()) =>
-        {
-            "sign(r_T) equal to sign"
-        }
-        ContactState::Slip { .. } if cone.as_ref().is_some_and(|c| r.tangential.abs() != *c) => {
-            "|r_T| = -mu r_N"
-        }
-        _ => return Ok(()),
+    let Some(reaction) = &particle.reaction else {
+        return Ok(());
+    };
+    let Some(expected) = broken_condition(particle.state, reaction, friction) else {
+        return Ok(());
     };
     Err(ModelError::ReactionContradicts {
-        particle,
-        state: p.state.word(),
+        particle: index,
+        state: particle.state.word(),
         expected,
-        tangential: r.tangential.clone(),
-        normal: r.normal.clone(),
+        tangential: reaction.tangential.clone(),
+        normal: reaction.normal.clone(),
     })
+}
+
+/// The first condition on a reaction that does not hold. Those with mu are left out where mu is the
+/// unknown.
+fn broken_condition(
+    state: ContactState,
+    reaction: &Reaction,
+    friction: Option<&Rational>,
+) -> Option<&'static str> {
+    let Reaction { tangential, normal } = reaction;
+
+    if state == ContactState::Free {
+        let is_zero = normal.is_zero() && tangential.is_zero();
+        return (!is_zero).then_some("no reaction");
+    }
+    if !normal.is_negative() {
+        return Some("r_N < 0");
+    }
+
+    let cone = friction.map(|mu| -mu * normal); // mu |r_N|
+    let size = tangential.abs();
+    match state {
+        ContactState::Free => None,
+        ContactState::Stick => {
+            let is_inside = cone.is_none_or(|cone| size < cone);
+            (!is_inside).then_some("|r_T| < -mu r_N")
+        }
+        ContactState::Slip { sign } => {
+            if tangential.signum() != Rational::from_integer(sign.into()) {
+                return Some("sign(r_T) equal to sign");
+            }
+            let is_on_cone = cone.is_none_or(|cone| size == cone);
+            (!is_on_cone).then_some("|r_T| = -mu r_N")
+        }
+    }
 }
 
 #[cfg(test)]
@@ -371,17 +411,17 @@ mod tests {
 
     #[test]
     fn index_sets_follow_the_states() {
-        let system = build(
-            1,
-            vec![
-                Particle::plain(0, 1, SLIP),
-                Particle::plain(2, 3, ContactState::Free),
-            ],
-        )
-        .unwrap();
+        let particles = vec![
+            Particle::plain(0, 1, SLIP),
+            Particle::plain(2, 3, ContactState::Free),
+        ];
+
+        let system = build(1, particles).unwrap();
+
         assert_eq!(system.free_dofs(), vec![2, 3]);
         assert_eq!(system.slip_particles().len(), 1);
         assert!(system.require_for(Unknown::Lambda2).is_ok());
+
         let stuck = build(1, vec![Particle::plain(0, 1, ContactState::Stick)]).unwrap();
         assert!(matches!(
             stuck.require_for(Unknown::Mu),
@@ -417,11 +457,13 @@ mod tests {
             build(-1, vec![slip(0, 1)]),
             Err(ModelError::FrictionNegative { .. })
         ));
+
         let zero_sign = Particle::plain(0, 1, ContactState::Slip { sign: 0 });
         assert!(matches!(
             build(1, vec![zero_sign]),
             Err(ModelError::Sign { field: "sign", .. })
         ));
+
         let skew = Particle {
             frame: Some([[whole(1), whole(0)], [whole(0), whole(-1)]]),
             ..slip(0, 1)
@@ -432,46 +474,53 @@ mod tests {
         ));
     }
 
+    /// A system with mu = 2 and one particle with this reaction.
+    fn with_reaction(
+        state: ContactState,
+        tangential: Rational,
+        normal: Rational,
+    ) -> Result<System, ModelError> {
+        let particle = Particle {
+            reaction: Some(Reaction { tangential, normal }),
+            ..Particle::plain(0, 1, state)
+        };
+        build(2, vec![particle])
+    }
+
     #[test]
     fn reactions_are_held_against_the_friction_cone() {
-        let with = |state, t: Rational, n: Rational| {
-            let reaction = Some(Reaction {
-                tangential: t,
-                normal: n,
-            });
-            build(
-                2,
-                vec![Particle {
-                    reaction,
-                    ..Particle::plain(0, 1, state)
-                }],
-            )
-        };
-        assert!(
-            with(SLIP, whole(2), whole(-1)).is_ok()
-                && with(ContactState::Free, whole(0), whole(0)).is_ok()
-        );
-        assert!(with(ContactState::Stick, rational(19, 10), whole(-1)).is_ok());
-        for (state, t, n) in [
+        let accepted = [
+            (SLIP, whole(2), whole(-1)),
+            (ContactState::Free, whole(0), whole(0)),
+            (ContactState::Stick, rational(19, 10), whole(-1)),
+        ];
+        for (state, tangential, normal) in accepted {
+            assert!(with_reaction(state, tangential, normal).is_ok());
+        }
+
+        let refused = [
             (SLIP, whole(-2), whole(-1)),
             (SLIP, rational(19, 10), whole(-1)),
             (SLIP, whole(2), whole(1)),
             (ContactState::Stick, whole(2), whole(-1)),
             (ContactState::Free, whole(0), whole(-1)),
-        ] {
+        ];
+        for (state, tangential, normal) in refused {
             assert!(matches!(
-                with(state, t, n),
+                with_reaction(state, tangential, normal),
                 Err(ModelError::ReactionContradicts { particle: 0, .. })
             ));
         }
-        for (state, n) in [
+
+        let pulling = [
             (SLIP, whole(1)),
             (SLIP, whole(0)),
             (ContactState::Stick, whole(1)),
             (ContactState::Stick, whole(0)),
-        ] {
+        ];
+        for (state, normal) in pulling {
             assert!(matches!(
-                with(state, whole(0), n),
+                with_reaction(state, whole(0), normal),
                 Err(ModelError::ReactionContradicts {
                     expected: "r_N < 0",
                     ..
@@ -492,12 +541,14 @@ mod tests {
                 ..
             })
         ));
+
         let indefinite_mass =
             System::new(Sparse::identity(2), Some(Sparse::zeros(2, 2)), None, vec![]);
         assert!(matches!(
             indefinite_mass,
             Err(ModelError::NotDefinite { what: "M", .. })
         ));
+
         let skew =
             Sparse::from_entries(2, 2, [(0, 0, whole(1)), (1, 1, whole(1)), (0, 1, whole(1))]);
         assert!(matches!(

@@ -1,30 +1,42 @@
 //! Kernels of dimension > 1: all solutions on one support at one value, as a polyhedral cone.
 //!
-//! At a fixed t a support J spans C_J = {x : x = 0 off J and f, y = 0 on J and f, x_J >= 0, y >= 0
-//! elsewhere}: kernel combinations under finitely many inequalities. The solutions at t are the
-//! union of all C_J. With J the indices that are positive somewhere on C_J (else a smaller support
-//! has the same cone) and Z those whose y vanishes on all of it, C_J lies in C_J' exactly if J <=
-//! J' <= Z: that is how a cone that is a face of another is left out.
+//! At a fixed t a support J has the set
+//!
+//! C_J = { x : x = 0 off J and f, y = 0 on J and f, x_J >= 0, y >= 0 elsewhere },  y = (A + tB) x,
+//!
+//! the combinations of kernel vectors that satisfy finitely many inequalities: a polyhedral cone,
+//! given by its extreme rays and its lineality space. The solutions at t are the union of all C_J,
+//! without 0.
+//!
+//! Let J be the indices that are positive somewhere on C_J (otherwise a smaller support has the
+//! same cone) and Z those whose y vanishes on all of it. Then C_J lies in C_J' exactly if
+//! J <= J' <= Z as sets: so a cone that is a face of another one is recognised and left out.
+//!
+//! Input: a support and a value, an eigenvalue of its block. Called by `solution` for the kernels
+//! that `plain` met, and by `range` at single values of a singular support.
 
-use super::integral::Integral;
+use super::integer_pencil::{IntegerPencil, entries_of};
 use super::plain::multiplicity;
+use super::solution::equal_values;
 use super::{Cone, Enumeration, Solution, WideKernel};
 use mceip_exact::{Algebraic, Poly, Sign, cone_generators, dot, kernel_at, row_echelon_at};
 
-/// Describes what is on the support of a wide kernel: nothing, ordinary solutions, or a cone.
-pub(super) fn describe(pencil: &Integral<'_>, kernel: &WideKernel, found: &mut Enumeration) {
+/// Adds what is on the support of a wide kernel: nothing, ordinary solutions, or a cone.
+pub(super) fn describe(pencil: &IntegerPencil<'_>, kernel: &WideKernel, found: &mut Enumeration) {
     let cone = cone_at(pencil, &kernel.support, &kernel.value);
     if cone.slip != kernel.support {
-        return; // C_J is the cone of a smaller support, which is described there
+        return; // C_J is the cone of a smaller support, which is described there.
     }
+
     match (cone.dimension, &cone.lineality[..]) {
         (0, _) => {}
         (1, []) => found.solutions.extend(cone.rays),
         (1, [x, ..]) => {
-            let opposite: Vec<Poly> = x.iter().map(|p| -p).collect();
+            let opposite: Vec<Poly> = x.iter().map(|x_i| -x_i).collect();
+            found.solutions.push(solution(pencil, x, &cone.value));
             found
                 .solutions
-                .extend([x, &opposite].map(|x| solution(pencil, x, &cone.value)));
+                .push(solution(pencil, &opposite, &cone.value));
         }
         _ => found.cones.push(cone),
     }
@@ -32,127 +44,155 @@ pub(super) fn describe(pencil: &Integral<'_>, kernel: &WideKernel, found: &mut E
 
 /// Drops every cone that is a face of another one at the same value. Each has its generic support.
 pub(super) fn keep_maximal(cones: &mut Vec<Cone>) {
-    let face = |small: &Cone, large: &Cone| {
-        let inside = |i: &usize| small.slip.contains(i) || small.biactive.contains(i);
-        small.slip.len() < large.slip.len()
-            && small.slip.iter().all(|i| large.slip.contains(i))
-            && large.slip.iter().all(inside)
-            && small.value.clone().equals(&mut large.value.clone())
-    };
-    let keep: Vec<bool> = cones
+    let is_maximal: Vec<bool> = cones
         .iter()
-        .map(|c| !cones.iter().any(|other| face(c, other)))
+        .map(|cone| !cones.iter().any(|other| is_face(cone, other)))
         .collect();
-    let mut keep = keep.into_iter();
-    cones.retain(|_| keep.next().unwrap_or(true));
+
+    let mut is_maximal = is_maximal.into_iter();
+    cones.retain(|_| is_maximal.next().unwrap_or(true));
+}
+
+/// J < J' <= Z, at the same value.
+fn is_face(small: &Cone, large: &Cone) -> bool {
+    small.slip.len() < large.slip.len()
+        && small.slip.iter().all(|i| large.slip.contains(i))
+        && large
+            .slip
+            .iter()
+            .all(|i| small.slip.contains(i) || small.biactive.contains(i))
+        && equal_values(&small.value, &large.value)
 }
 
 /// C_J at a value: `slip` are the indices positive somewhere on it, `biactive` the other
 /// complementarity variables whose y vanishes on all of it.
-pub(super) fn cone_at(pencil: &Integral<'_>, support: &[usize], value: &Algebraic) -> Cone {
+pub(super) fn cone_at(pencil: &IntegerPencil<'_>, support: &[usize], value: &Algebraic) -> Cone {
     let mut value = value.clone();
     let active = pencil.active(support);
+
+    // C_J in the coordinates z of the kernel: x = sum_k z_k v_k, under the inequalities of (26).
     let basis: Vec<Vec<Poly>> = kernel_at(pencil.block(&active), &mut value)
         .iter()
         .map(|v| value.reduce(&pencil.extend(&active, v)))
         .collect();
-    let images: Vec<Vec<Poly>> = basis.iter().map(|x| pencil.times(x)).collect();
-    let x_rows = support
+    let inequalities: Vec<Vec<Poly>> = pencil
+        .inequalities(support, &basis)
         .iter()
-        .map(|&i| basis.iter().map(|x| x[i].clone()).collect::<Vec<_>>());
-    let off = (0..pencil.order()).filter(|i| !active.contains(i));
-    let y_rows = off.map(|i| images.iter().map(|y| y[i].clone()).collect());
-    let rows: Vec<Vec<Poly>> = x_rows.chain(y_rows).map(|row| value.reduce(&row)).collect();
-    let generators = cone_generators(&rows, basis.len(), &mut value);
-    let to_x = |z: &Vec<Poly>| -> Vec<Poly> {
-        let entry = |i: usize| dot(z, &basis.iter().map(|x| x[i].clone()).collect::<Vec<_>>());
-        value.reduce(&(0..pencil.order()).map(entry).collect::<Vec<_>>())
-    };
-    let lineality: Vec<Vec<Poly>> = generators.lineality.iter().map(to_x).collect();
-    let rays: Vec<Vec<Poly>> = generators.rays.iter().map(to_x).collect();
-    let (lineality, rays) = canonical(lineality, rays, &mut value);
-    let mut rays: Vec<Solution> = rays.iter().map(|x| solution(pencil, x, &value)).collect();
+        .map(|row| value.reduce(row))
+        .collect();
+    let generators = cone_generators(&inequalities, basis.len(), &mut value);
+
+    // The generators as vectors x over all variables.
+    let lineality = combinations(pencil, &basis, &generators.lineality, &value);
+    let rays = combinations(pencil, &basis, &generators.rays, &value);
+    let lineality = Lineality::of(lineality, &mut value);
+    let mut rays: Vec<Solution> = rays
+        .into_iter()
+        .map(|x| lineality.project(x, &value))
+        .map(|x| solution(pencil, &x, &value))
+        .collect();
     rays.sort_by(|a, b| (&a.slip, &a.biactive).cmp(&(&b.slip, &b.biactive)));
+
+    // What holds on all of the cone is what holds on all of its rays.
     let slip: Vec<usize> = support
         .iter()
         .copied()
-        .filter(|i| rays.iter().any(|r| r.slip.contains(i)))
+        .filter(|i| rays.iter().any(|ray| ray.slip.contains(i)))
         .collect();
-    let vanishes = |i: &usize| !slip.contains(i) && rays.iter().all(|r| r.biactive.contains(i));
-    let biactive = (0..pencil.order())
-        .filter(|i| pencil.free.binary_search(i).is_err())
-        .filter(vanishes)
+    let biactive: Vec<usize> = (0..pencil.order())
+        .filter(|&i| pencil.is_complementarity(i))
+        .filter(|i| !slip.contains(i) && rays.iter().all(|ray| ray.biactive.contains(i)))
         .collect();
-    let generators: Vec<Vec<Poly>> = rays
-        .iter()
-        .map(|r| r.x.clone())
-        .chain(lineality.iter().cloned())
-        .collect();
-    let dimension = row_echelon_at(generators, &mut value).1.len();
+
+    let mut spanning: Vec<Vec<Poly>> = rays.iter().map(|ray| ray.x.clone()).collect();
+    spanning.extend(lineality.basis.iter().cloned());
+    let (_, pivots) = row_echelon_at(spanning, &mut value);
+
     Cone {
         value,
         slip,
         biactive,
         kernel_dimension: basis.len(),
-        dimension,
+        dimension: pivots.len(),
         rays,
-        lineality,
+        lineality: lineality.basis,
     }
 }
 
-/// The reduced echelon basis of the lineality space, pivots positive, and rays that vanish at its
-/// pivots: both are unique up to positive factors.
-fn canonical(
-    lineality: Vec<Vec<Poly>>,
-    rays: Vec<Vec<Poly>>,
-    value: &mut Algebraic,
-) -> (Vec<Vec<Poly>>, Vec<Vec<Poly>>) {
-    let (rows, pivots) = row_echelon_at(lineality, value);
-    let orient = |(row, &p): (Vec<Poly>, &usize)| {
-        let negative = value.sign_of(&row[p]) == Sign::Negative;
-        value.reduce(&if negative {
-            row.iter().map(|e| -e).collect()
-        } else {
-            row
-        })
-    };
-    let basis: Vec<Vec<Poly>> = rows.into_iter().zip(&pivots).map(orient).collect();
-    let project = |mut ray: Vec<Poly>| {
-        for (row, &p) in basis.iter().zip(&pivots) {
-            let step: Vec<Poly> = ray
-                .iter()
-                .zip(row)
-                .map(|(r, l)| &(&row[p] * r) - &(&ray[p] * l))
-                .collect();
-            ray = value.reduce(&step);
+/// sum_k z_k v_k over the basis vectors v_k, for each of the given z.
+fn combinations(
+    pencil: &IntegerPencil<'_>,
+    basis: &[Vec<Poly>],
+    coordinates: &[Vec<Poly>],
+    value: &Algebraic,
+) -> Vec<Vec<Poly>> {
+    let mut vectors = Vec::with_capacity(coordinates.len());
+    for z in coordinates {
+        let x: Vec<Poly> = (0..pencil.order())
+            .map(|i| dot(z, &entries_of(basis, i)))
+            .collect();
+        vectors.push(value.reduce(&x));
+    }
+    vectors
+}
+
+/// A lineality space by its reduced echelon basis: the one basis whose pivots are positive and
+/// whose vectors vanish at the pivots of the others. It is unique up to positive factors.
+struct Lineality {
+    basis: Vec<Vec<Poly>>,
+    pivots: Vec<usize>,
+}
+
+impl Lineality {
+    /// The space spanned by `vectors`.
+    fn of(vectors: Vec<Vec<Poly>>, value: &mut Algebraic) -> Lineality {
+        let (rows, pivots) = row_echelon_at(vectors, value);
+
+        let mut basis = Vec::with_capacity(rows.len());
+        for (mut row, &pivot) in rows.into_iter().zip(&pivots) {
+            if value.sign_of(&row[pivot]) == Sign::Negative {
+                row = row.iter().map(|entry| -entry).collect();
+            }
+            basis.push(value.reduce(&row));
+        }
+        Lineality { basis, pivots }
+    }
+
+    /// The vector of ray + space that vanishes at the pivots, up to a positive factor: it makes the
+    /// choice of an extreme ray unique.
+    fn project(&self, mut ray: Vec<Poly>, value: &Algebraic) -> Vec<Poly> {
+        for (row, &pivot) in self.basis.iter().zip(&self.pivots) {
+            let mut difference = Vec::with_capacity(ray.len());
+            for (ray_i, row_i) in ray.iter().zip(row) {
+                difference.push(&(&row[pivot] * ray_i) - &(&ray[pivot] * row_i));
+            }
+            ray = value.reduce(&difference);
         }
         ray
-    };
-    let rays = rays.into_iter().map(project).collect();
-    (basis, rays)
+    }
 }
 
 /// The ray x as a solution, with the support and the biactive indices it really has.
-fn solution(pencil: &Integral<'_>, x: &[Poly], value: &Algebraic) -> Solution {
+fn solution(pencil: &IntegerPencil<'_>, x: &[Poly], value: &Algebraic) -> Solution {
     let mut value = value.clone();
     let y = pencil.times(x);
-    let constrained: Vec<usize> = (0..pencil.order())
-        .filter(|i| pencil.free.binary_search(i).is_err())
-        .collect();
-    let (slip, rest): (Vec<usize>, Vec<usize>) = constrained
-        .into_iter()
+
+    let (slip, at_zero): (Vec<usize>, Vec<usize>) = (0..pencil.order())
+        .filter(|&i| pencil.is_complementarity(i))
         .partition(|&i| value.sign_of(&x[i]) == Sign::Positive);
-    let biactive = rest
+    let biactive = at_zero
         .into_iter()
         .filter(|&i| value.sign_of(&y[i]) == Sign::Zero)
         .collect();
+
+    // Where the block of its own support is singular every value is a root: no multiplicity.
     let det = pencil.determinant(&pencil.active(&slip));
-    // Where the pencil of its own support is singular every value is a root: no multiplicity.
     let multiplicity = if det.is_zero() {
         0
     } else {
         multiplicity(&det, &mut value)
     };
+
     Solution {
         value,
         multiplicity,

@@ -1,5 +1,11 @@
-//! Value types for what is not a list: cones of solutions at one value, ranges of values of one
-//! support.
+//! Value types for what is not a list: a [`Cone`] of solutions at one value, and a [`SupportRange`]
+//! of values at which one support has a solution.
+//!
+//! A cone with the extreme rays r_1, ..., r_k and the lineality basis l_1, ..., l_m is the set of
+//! all x = sum_j a_j r_j + sum_j b_j l_j != 0 with a_j >= 0 and any b_j. A range is a union of
+//! intervals whose ends are algebraic numbers.
+//!
+//! Filled in by `cone` and `range`; compared by `member`.
 
 use super::Solution;
 use mceip_exact::{Algebraic, Poly, Rational, common_denominator};
@@ -32,46 +38,67 @@ pub struct Cone {
 
 impl Cone {
     /// A solution inside the cone: the mean of the rays, each scaled to e'x_s = 1 (l1 norm 1 where
-    /// x_s = 0); without rays the first direction of the lineality space.
+    /// x_s = 0); without rays the first direction of the lineality space, without y.
+    ///
+    /// `constrained` lists the complementarity variables of the pencil.
     pub fn center(&self, constrained: &[usize]) -> Solution {
-        let norms: Vec<Poly> = self
-            .rays
-            .iter()
-            .map(|r| r.normaliser(constrained))
-            .collect();
-        let others = |k: usize| {
-            norms
-                .iter()
-                .enumerate()
-                .filter(|(l, _)| *l != k)
-                .fold(Poly::from_ints(&[1]), |p, (_, n)| &p * n)
-        };
-        let n = self.rays.first().map_or(0, |r| r.x.len());
-        let sum = |entry: &dyn Fn(&Solution) -> Poly| {
-            self.rays
-                .iter()
-                .enumerate()
-                .fold(Poly::default(), |s, (k, r)| &s + &(&others(k) * &entry(r)))
-        };
-        let mean = |of: &dyn Fn(&Solution, usize) -> Poly| {
-            (0..n).map(|i| sum(&|r| of(r, i))).collect::<Vec<_>>()
-        };
-        let (x, y) = match (&self.rays[..], &self.lineality[..]) {
-            ([], [direction, ..]) => (direction.clone(), Vec::new()),
-            _ => (
-                self.value.reduce(&mean(&|r, i| r.x[i].clone())),
-                self.value.reduce(&mean(&|r, i| r.y[i].clone())),
-            ),
-        };
-        Solution {
+        let mut center = Solution {
             value: self.value.clone(),
             multiplicity: 0,
             slip: self.slip.clone(),
             biactive: self.biactive.clone(),
-            x,
-            y,
+            x: Vec::new(),
+            y: Vec::new(),
+        };
+
+        if self.rays.is_empty()
+            && let Some(direction) = self.lineality.first()
+        {
+            center.x = direction.clone();
+            return center;
+        }
+
+        let weights = self.weights(constrained);
+        let rays_x: Vec<&[Poly]> = self.rays.iter().map(|ray| &ray.x[..]).collect();
+        let rays_y: Vec<&[Poly]> = self.rays.iter().map(|ray| &ray.y[..]).collect();
+        center.x = self.value.reduce(&weighted_sum(&weights, &rays_x));
+        center.y = self.value.reduce(&weighted_sum(&weights, &rays_y));
+        center
+    }
+
+    /// The weights 1 / n_k of the rays with norms n_k, times the product of all norms: the products
+    /// of the other norms n_l, l != k.
+    fn weights(&self, constrained: &[usize]) -> Vec<Poly> {
+        let norms: Vec<Poly> = self
+            .rays
+            .iter()
+            .map(|ray| ray.normaliser(constrained))
+            .collect();
+
+        let mut weights = Vec::with_capacity(norms.len());
+        for k in 0..norms.len() {
+            let mut weight = Poly::from_ints(&[1]);
+            for (l, norm) in norms.iter().enumerate() {
+                if l != k {
+                    weight = &weight * norm;
+                }
+            }
+            weights.push(weight);
+        }
+        weights
+    }
+}
+
+/// sum_k weight_k vector_k.
+fn weighted_sum(weights: &[Poly], vectors: &[&[Poly]]) -> Vec<Poly> {
+    let order = vectors.first().map_or(0, |vector| vector.len());
+    let mut sum = vec![Poly::default(); order];
+    for (weight, vector) in weights.iter().zip(vectors) {
+        for (sum_i, entry) in sum.iter_mut().zip(*vector) {
+            *sum_i += &(weight * entry);
         }
     }
+    sum
 }
 
 /// A support whose pencil is singular, and the values at which a solution with exactly that support
@@ -90,7 +117,7 @@ pub struct SupportRange {
 impl SupportRange {
     /// Is this number in one of the pieces?
     pub fn contains(&self, value: &Algebraic) -> bool {
-        self.pieces.iter().any(|p| p.contains(value))
+        self.pieces.iter().any(|piece| piece.contains(value))
     }
 }
 
@@ -106,16 +133,23 @@ pub struct Piece {
 impl Piece {
     /// Is this number in the interval?
     pub fn contains(&self, value: &Algebraic) -> bool {
-        let side = |end: &End, out: Ordering| match value.clone().cmp_exact(&mut end.value.clone())
-        {
-            Ordering::Equal => end.included,
-            other => other != out,
+        let is_below_from = match self.from.place_of(value) {
+            Ordering::Less => true,
+            Ordering::Equal => !self.from.included,
+            Ordering::Greater => false,
         };
-        side(&self.from, Ordering::Less)
-            && self
-                .to
-                .as_ref()
-                .is_none_or(|to| side(to, Ordering::Greater))
+        if is_below_from {
+            return false;
+        }
+
+        let Some(to) = &self.to else {
+            return true;
+        };
+        match to.place_of(value) {
+            Ordering::Less => true,
+            Ordering::Equal => to.included,
+            Ordering::Greater => false,
+        }
     }
 }
 
@@ -126,6 +160,13 @@ pub struct End {
     pub value: Algebraic,
     /// Does it belong to the interval?
     pub included: bool,
+}
+
+impl End {
+    /// How `value` compares with this end.
+    fn place_of(&self, value: &Algebraic) -> Ordering {
+        value.clone().cmp_exact(&mut self.value.clone())
+    }
 }
 
 /// A singular support that was left undescribed: its cells would need too many minors.
@@ -146,6 +187,6 @@ pub struct Undescribed {
 pub(super) fn constants(x: &[Rational]) -> Vec<Poly> {
     let clear = common_denominator(x);
     x.iter()
-        .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))
+        .map(|x_i| Poly::constant(x_i.numer() * (&clear / x_i.denom())))
         .collect()
 }

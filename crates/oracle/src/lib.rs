@@ -1,5 +1,16 @@
 //! The slow truth: the enumerator of (24)-(26) and Table 1 in closed form. Exact, naive on purpose.
 //!
+//! The problem: given square rational matrices A and B and a set f of free variables, find all
+//! t >= 0 in a window and all x != 0 with
+//!
+//! ```text
+//! y = (A + tB) x,    y_f = 0,    0 <= x_s _|_ y_s >= 0,
+//! ```
+//!
+//! where s are the other variables, the complementarity variables ((12)-(14) with t = lambda^2,
+//! (21)-(23) with t = mu). [`enumerate`] goes through all supports, that is, through all sets of
+//! positive x_s.
+//!
 //! What is listed where:
 //! * [`Enumeration::solutions`]: every solution that is the only one (up to its positive factor)
 //!   with its value and support; a kernel of dimension 1 always gives such a one. Biactive indices
@@ -11,11 +22,15 @@
 //!   which they have a solution. What they have at isolated values only is in the two lists above.
 //!
 //! Every solution in the window is in at least one of the three ([`Enumeration::contains`]).
+//!
+//! To read: `plain` (the algorithm), `integer_pencil` (its linear algebra), `solution` (its
+//! answer); then, for what is not a list, `degenerate`, `cone` and `range`. `member` and `table1`
+//! stand alone.
 #![deny(clippy::float_arithmetic)]
 
 mod cone;
 mod degenerate;
-mod integral;
+mod integer_pencil;
 mod member;
 mod plain;
 mod range;

@@ -1,8 +1,16 @@
-//! "Is this (t, x) a solution?", and equality of answers: both by exact signs alone.
+//! "Is this (t, x) a solution?", "is it in this answer?", and equality of answers.
+//!
+//! All three are decided by signs of integer polynomials at algebraic numbers: of x_i and of
+//! y_i = ((A + tB) x)_i against the definition (12)-(14), (21)-(23), and of 2 x 2 minors of two
+//! vectors that may be one ray.
+//!
+//! Nothing here enumerates: the question whether (t, x) is a solution is answered from the pencil
+//! alone. Called by tests of everything that claims a solution.
 
 use super::degenerate::constants;
+use super::solution::equal_values;
 use super::{Cone, End, Enumeration, Piece, Solution, SupportRange};
-use mceip_exact::{Algebraic, Poly, Rational, Sign, Sparse, common_denominator};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator};
 use mceip_model::Pencil;
 
 /// Is (t, x) a solution: t >= 0, x != 0, y = (A + tB) x with y_f = 0 and 0 <= x_s _|_ y_s >= 0?
@@ -32,7 +40,7 @@ use mceip_model::Pencil;
 /// ));
 /// ```
 pub fn is_solution(pencil: &Pencil, value: &Algebraic, x: &[Poly]) -> bool {
-    Signs::of(pencil, value, x).is_some_and(|s| s.solves)
+    Signs::of(pencil, value, x).is_some_and(|signs| signs.is_solution)
 }
 
 /// [`is_solution`] for a rational value and vector.
@@ -40,59 +48,77 @@ pub fn is_rational_solution(pencil: &Pencil, value: &Rational, x: &[Rational]) -
     is_solution(pencil, &Algebraic::rational(value.clone()), &constants(x))
 }
 
-/// Where x is positive and y vanishes, and whether the definition holds.
+/// The signs of x and y at the complementarity variables, and what follows from all signs.
 struct Signs {
-    positive: Vec<usize>,
-    y_zero: Vec<usize>,
-    solves: bool,
+    /// Complementarity variables with x_i > 0, ascending.
+    positive_x: Vec<usize>,
+    /// Complementarity variables with y_i = 0, ascending.
+    zero_y: Vec<usize>,
+    /// Does the definition hold?
+    is_solution: bool,
 }
 
 impl Signs {
+    /// `None` for a vector of another length than the pencil's order, and for t < 0.
     fn of(pencil: &Pencil, value: &Algebraic, x: &[Poly]) -> Option<Signs> {
-        if x.len() != pencil.order() || value.clone().cmp_rational(&Rational::default()).is_lt() {
+        let mut value = value.clone();
+        if x.len() != pencil.order() || value.cmp_rational(&Rational::default()).is_lt() {
             return None;
         }
-        let mut value = value.clone();
-        let mut signs = Signs {
-            positive: Vec::new(),
-            y_zero: Vec::new(),
-            solves: false,
-        };
-        let (mut holds, mut zero) = (true, true);
+
+        let mut positive_x = Vec::new();
+        let mut zero_y = Vec::new();
+        let mut conditions_hold = true;
+        let mut is_zero_vector = true;
+
         for i in 0..pencil.order() {
-            let (s_x, s_y) = (value.sign_of(&x[i]), value.sign_of(&image(pencil, i, x)));
-            zero &= s_x == Sign::Zero;
+            let sign_x = value.sign_of(&x[i]);
+            let sign_y = value.sign_of(&image(pencil, i, x));
+            is_zero_vector &= sign_x == Sign::Zero;
+
             if pencil.free().binary_search(&i).is_ok() {
-                holds &= s_y == Sign::Zero;
+                conditions_hold &= sign_y == Sign::Zero; // (13), (22)
                 continue;
             }
-            holds &= matches!(
-                (s_x, s_y),
-                (Sign::Zero, Sign::Zero | Sign::Positive) | (Sign::Positive, Sign::Zero)
-            );
-            signs.positive.extend((s_x == Sign::Positive).then_some(i));
-            signs.y_zero.extend((s_y == Sign::Zero).then_some(i));
+
+            // (14), (23): both nonnegative, at least one of them zero.
+            conditions_hold &= sign_x != Sign::Negative && sign_y != Sign::Negative;
+            conditions_hold &= sign_x == Sign::Zero || sign_y == Sign::Zero;
+            if sign_x == Sign::Positive {
+                positive_x.push(i);
+            }
+            if sign_y == Sign::Zero {
+                zero_y.push(i);
+            }
         }
-        signs.solves = holds && !zero;
-        Some(signs)
+
+        Some(Signs {
+            positive_x,
+            zero_y,
+            is_solution: conditions_hold && !is_zero_vector,
+        })
     }
 }
 
 /// A positive multiple of row i of (A + tB) x.
 fn image(pencil: &Pencil, i: usize, x: &[Poly]) -> Poly {
-    let row = |m: &Sparse| m.row(i).to_vec();
-    let (a, b) = (row(pencil.a()), row(pencil.b()));
-    let clear = common_denominator(a.iter().chain(&b).map(|e| &e.1));
-    let term = |(j, v): &(usize, Rational), power: usize| {
-        x[*j]
-            .scale(&(v.numer() * (&clear / v.denom())))
-            .shift(power)
-    };
-    let terms = a
-        .iter()
-        .map(|e| term(e, 0))
-        .chain(b.iter().map(|e| term(e, 1)));
-    terms.fold(Poly::default(), |sum, p| &sum + &p)
+    let a_row = pencil.a().row(i);
+    let b_row = pencil.b().row(i);
+    let clear = common_denominator(a_row.iter().chain(b_row).map(|(_, entry)| entry));
+
+    let mut sum = Poly::default();
+    for (j, a_ij) in a_row {
+        sum += &x[*j].scale(&cleared(a_ij, &clear));
+    }
+    for (j, b_ij) in b_row {
+        sum += &x[*j].scale(&cleared(b_ij, &clear)).shift(1);
+    }
+    sum
+}
+
+/// factor * number, an integer because the factor is a multiple of the denominator.
+fn cleared(number: &Rational, factor: &Integer) -> Integer {
+    number.numer() * (factor / number.denom())
 }
 
 impl Enumeration {
@@ -100,67 +126,91 @@ impl Enumeration {
     /// listed, lies in a cone, or has its value in the range of its support. For a complete
     /// enumeration of `pencil` that is every solution in the window.
     pub fn contains(&self, pencil: &Pencil, value: &Algebraic, x: &[Poly]) -> bool {
-        let Some(signs) = Signs::of(pencil, value, x).filter(|s| s.solves) else {
+        let Some(signs) = Signs::of(pencil, value, x) else {
             return false;
         };
-        let at = |v: &Algebraic| v.clone().equals(&mut value.clone());
-        let subset = |a: &[usize], b: &[usize]| a.iter().all(|i| b.contains(i));
-        self.solutions.iter().any(|s| {
-            s.slip == signs.positive && at(&s.value) && same_ray(&mut s.value.clone(), &s.x, x)
-        }) || self.cones.iter().any(|c| {
-            subset(&signs.positive, &c.slip) && subset(&c.slip, &signs.y_zero) && at(&c.value)
-        }) || self
-            .ranges
+        signs.is_solution
+            && (self.lists(&signs, value, x)
+                || self.has_cone_with(&signs, value)
+                || self.has_range_with(&signs, value))
+    }
+
+    fn lists(&self, signs: &Signs, value: &Algebraic, x: &[Poly]) -> bool {
+        self.solutions.iter().any(|solution| {
+            solution.slip == signs.positive_x
+                && equal_values(&solution.value, value)
+                && same_ray(&solution.value, &solution.x, x)
+        })
+    }
+
+    /// A solution is in a cone exactly if x = 0 off the cone's support and y = 0 on it.
+    fn has_cone_with(&self, signs: &Signs, value: &Algebraic) -> bool {
+        self.cones.iter().any(|cone| {
+            signs.positive_x.iter().all(|i| cone.slip.contains(i))
+                && cone.slip.iter().all(|i| signs.zero_y.contains(i))
+                && equal_values(&cone.value, value)
+        })
+    }
+
+    fn has_range_with(&self, signs: &Signs, value: &Algebraic) -> bool {
+        self.ranges
             .iter()
-            .any(|r| r.support == signs.positive && r.contains(value))
+            .any(|range| range.support == signs.positive_x && range.contains(value))
     }
 }
 
-/// Do two non-zero vectors agree up to a positive factor?
-fn same_ray(value: &mut Algebraic, u: &[Poly], v: &[Poly]) -> bool {
+/// Do two non-zero vectors u and v agree up to a positive factor?
+///
+/// With u_k != 0 they do exactly if u_k v_i = u_i v_k for all i, and u_k and v_k have one sign.
+fn same_ray(value: &Algebraic, u: &[Poly], v: &[Poly]) -> bool {
+    let mut value = value.clone();
+    if u.len() != v.len() {
+        return false;
+    }
     let Some(k) = (0..u.len()).find(|&k| value.sign_of(&u[k]) != Sign::Zero) else {
         return false;
     };
-    let parallel =
-        (0..u.len()).all(|i| value.sign_of(&(&(&u[k] * &v[i]) - &(&u[i] * &v[k]))) == Sign::Zero);
-    u.len() == v.len() && parallel && value.sign_of(&u[k]) == value.sign_of(&v[k])
+
+    for i in 0..u.len() {
+        let minor = &(&u[k] * &v[i]) - &(&u[i] * &v[k]);
+        if value.sign_of(&minor) != Sign::Zero {
+            return false;
+        }
+    }
+    value.sign_of(&u[k]) == value.sign_of(&v[k])
 }
 
 /// Equal values, supports and rays; x and y count up to the positive factor they share.
 impl PartialEq for Solution {
     fn eq(&self, other: &Solution) -> bool {
-        (&self.slip, &self.biactive, self.x.len()) == (&other.slip, &other.biactive, other.x.len())
-            && self.value.clone().equals(&mut other.value.clone())
-            && same_ray(&mut self.value.clone(), &self.x, &other.x)
+        self.slip == other.slip
+            && self.biactive == other.biactive
+            && self.x.len() == other.x.len()
+            && equal_values(&self.value, &other.value)
+            && same_ray(&self.value, &self.x, &other.x)
     }
 }
 
 /// Equal as sets: values, supports, rays and lineality spaces, whose forms are canonical.
 impl PartialEq for Cone {
     fn eq(&self, other: &Cone) -> bool {
-        (
-            &self.slip,
-            &self.biactive,
-            self.dimension,
-            self.lineality.len(),
-        ) == (
-            &other.slip,
-            &other.biactive,
-            other.dimension,
-            other.lineality.len(),
-        ) && self.value.clone().equals(&mut other.value.clone())
+        self.slip == other.slip
+            && self.biactive == other.biactive
+            && self.dimension == other.dimension
+            && self.lineality.len() == other.lineality.len()
+            && equal_values(&self.value, &other.value)
             && self.rays == other.rays
             && self
                 .lineality
                 .iter()
                 .zip(&other.lineality)
-                .all(|(a, b)| same_ray(&mut self.value.clone(), a, b))
+                .all(|(own, others)| same_ray(&self.value, own, others))
     }
 }
 
 impl PartialEq for End {
     fn eq(&self, other: &End) -> bool {
-        self.included == other.included && self.value.clone().equals(&mut other.value.clone())
+        self.included == other.included && equal_values(&self.value, &other.value)
     }
 }
 
@@ -181,7 +231,9 @@ impl PartialEq for SupportRange {
 /// and which wide kernels and singular supports were met on the way is no part of the answer.
 impl PartialEq for Enumeration {
     fn eq(&self, other: &Enumeration) -> bool {
-        (&self.solutions, &self.cones) == (&other.solutions, &other.cones)
-            && (&self.ranges, &self.undescribed) == (&other.ranges, &other.undescribed)
+        self.solutions == other.solutions
+            && self.cones == other.cones
+            && self.ranges == other.ranges
+            && self.undescribed == other.undescribed
     }
 }

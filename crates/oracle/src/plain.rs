@@ -1,6 +1,20 @@
-//! The plain enumerator: the definition (24)-(26) turned into Rust, support by support.
+//! The plain enumerator: the definition (24)-(26) turned into Rust, one support after the other.
+//!
+//! A support J is the set of complementarity variables that are positive; the others are zero. For
+//! each of the 2^n_s supports:
+//!
+//! 1. the block of A + tB on the free variables and J has the determinant det(t);
+//! 2. each root t of det in the window is an eigenvalue of the block, (25), with its kernel;
+//! 3. a kernel vector x, zero elsewhere, is a solution where x_J > 0 and y = (A + tB) x is >= 0 off
+//!    the block, (26). On the block y = 0 already.
+//!
+//! A solution with x_i = y_i = 0 belongs to one support only, because x_J > 0 is strict; so nothing
+//! is listed twice. Two things are not decided here: kernels of more than one dimension (`cone`)
+//! and blocks whose determinant vanishes identically (`range`).
+//!
+//! Input: any [`Pencil`], no hypothesis, and a closed [`Window`]. Every decision is exact.
 
-use super::integral::Integral;
+use super::integer_pencil::{Eigenspace, IntegerPencil};
 use super::{Enumeration, Solution, WideKernel};
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
 use mceip_model::{Pencil, Window};
@@ -8,7 +22,7 @@ use std::ops::ControlFlow;
 
 /// Largest number of complementarity variables: each one more doubles the supports.
 pub const MAX_SLIP: usize = 16;
-/// Largest number of free variables: every support's pencil contains them all.
+/// Largest number of free variables: every support's block contains them all.
 pub const MAX_FREE: usize = 16;
 /// Largest bound of the coefficients of a determinant, in bits: time grows with the square of it.
 pub const MAX_BITS: u64 = 8192;
@@ -35,12 +49,14 @@ pub enum OracleError {
 /// [`OracleError::TooLarge`] beyond [`MAX_SLIP`], [`MAX_FREE`] or [`MAX_BITS`].
 ///
 /// ```
-/// use mceip_exact::{whole, Sparse};
+/// use mceip_exact::{Sparse, whole};
 /// use mceip_model::{Pencil, Window};
 /// use mceip_oracle::enumerate;
+///
 /// // x = (1): (-2 + t) x = y has the one solution t = 2.
 /// let a = Sparse::from_entries(1, 1, [(0, 0, whole(-2))]);
 /// let pencil = Pencil::new(a, Sparse::identity(1), vec![]).unwrap();
+///
 /// let found = enumerate(&pencil, &Window::all()).unwrap();
 /// assert_eq!(found.solutions[0].decimal(17), "2");
 /// ```
@@ -59,39 +75,24 @@ pub fn enumerate_with(
     mut progress: impl FnMut(u64, u64) -> ControlFlow<()>,
 ) -> Result<Enumeration, OracleError> {
     let slip = pencil.slip();
-    let at_most = |what, limit, got| {
-        if got > limit {
-            Err(OracleError::TooLarge { what, limit, got })
-        } else {
-            Ok(())
-        }
-    };
-    at_most("slip variables", MAX_SLIP as u64, slip.len() as u64)?;
-    at_most(
-        "free variables",
-        MAX_FREE as u64,
-        pencil.free().len() as u64,
-    )?;
-    let integral = Integral::of(pencil);
-    at_most(
-        "bits of a determinant's coefficients",
-        MAX_BITS,
-        integral.coefficient_bits(),
-    )?;
+    let free = pencil.free();
+    require_at_most(MAX_SLIP as u64, "slip variables", slip.len() as u64)?;
+    require_at_most(MAX_FREE as u64, "free variables", free.len() as u64)?;
+
+    let integers = IntegerPencil::of(pencil);
+    let bits = integers.coefficient_bits();
+    require_at_most(MAX_BITS, "bits of a determinant's coefficients", bits)?;
+
     let total = 1u64 << slip.len();
     let mut found = Enumeration {
         supports_total: total,
         ..Enumeration::default()
     };
-    for subset in 0..total {
-        let support: Vec<usize> = slip
-            .iter()
-            .enumerate()
-            .filter(|(k, _)| subset >> k & 1 == 1)
-            .map(|(_, &i)| i)
-            .collect();
-        examine(&integral, &support, window, &mut found);
-        found.describe_new(&integral, window); // wide kernels and singular pencils, if any were met
+    for number in 0..total {
+        let support = support_of_number(&slip, number);
+        examine(&integers, &support, window, &mut found);
+        found.describe_new(&integers, window);
+
         found.supports_done += 1;
         if progress(found.supports_done, total).is_break() {
             break;
@@ -101,10 +102,26 @@ pub fn enumerate_with(
     Ok(found)
 }
 
+fn require_at_most(limit: u64, what: &'static str, got: u64) -> Result<(), OracleError> {
+    if got > limit {
+        return Err(OracleError::TooLarge { what, limit, got });
+    }
+    Ok(())
+}
+
+/// The variables whose bits are set in `number`.
+fn support_of_number(slip: &[usize], number: u64) -> Vec<usize> {
+    slip.iter()
+        .enumerate()
+        .filter(|(bit, _)| number >> bit & 1 == 1)
+        .map(|(_, &variable)| variable)
+        .collect()
+}
+
 /// log2 of a bound of every coefficient of every support's determinant; [`enumerate`] takes at most
 /// [`MAX_BITS`].
 pub fn coefficient_bits(pencil: &Pencil) -> u64 {
-    Integral::of(pencil).coefficient_bits()
+    IntegerPencil::of(pencil).coefficient_bits()
 }
 
 /// One support by the definition: appends what [`enumerate`] finds on it. For callers that go
@@ -117,117 +134,149 @@ pub fn examine_support(
     window: &Window,
     found: &mut Enumeration,
 ) {
-    examine(&Integral::of(pencil), support, window, found);
+    examine(&IntegerPencil::of(pencil), support, window, found);
 }
 
 /// One support: the linear eigenproblem (25) on free and slip variables, then (26).
-fn examine(pencil: &Integral<'_>, support: &[usize], window: &Window, found: &mut Enumeration) {
+fn examine(
+    pencil: &IntegerPencil<'_>,
+    support: &[usize],
+    window: &Window,
+    found: &mut Enumeration,
+) {
     let active = pencil.active(support);
     if active.is_empty() {
         return; // x = 0
     }
+
     let det = pencil.determinant(&active);
     if det.is_zero() {
         found.continua.push(support.to_vec());
         return;
     }
-    for (mut value, kernel) in pencil.kernels(&active, roots_in(&det, window.min(), window.max())) {
-        match &kernel[..] {
-            [vector] => {
-                let multiplicity = multiplicity(&det, &mut value);
-                found.solutions.extend(admissible(
-                    pencil,
-                    support,
-                    &active,
-                    vector,
-                    value,
-                    multiplicity,
-                ));
-            }
-            wide => found.wide.push(WideKernel {
+
+    let roots = roots_in(&det, window.min(), window.max());
+    for eigenspace in pencil.eigenspaces(&active, roots) {
+        let Eigenspace { mut value, basis } = eigenspace;
+
+        if let [vector] = &basis[..] {
+            let multiplicity = multiplicity(&det, &mut value);
+            let line = Line {
+                x: pencil.extend(&active, vector),
+                value,
+                multiplicity,
+            };
+            found.solutions.extend(line.solutions(pencil, support));
+        } else {
+            found.wide.push(WideKernel {
                 value,
                 support: support.to_vec(),
-                dimension: wide.len(),
-            }),
+                dimension: basis.len(),
+            });
         }
     }
 }
 
-/// (26) with the support taken literally: x > 0 on all of it, y >= 0 off it. So a solution with
-/// x_i = y_i = 0 is accepted for one support only, and listed once.
-fn admissible(
-    pencil: &Integral<'_>,
-    support: &[usize],
-    active: &[usize],
-    vector: &[Poly],
-    mut value: Algebraic,
-    multiplicity: usize,
-) -> Vec<Solution> {
-    let x = pencil.extend(active, vector);
-    // The kernel is a line: orient it. Without slip variables both orientations may do, and then
-    // x and -x are two solutions.
-    let orientations = match support.first().map(|&i| value.sign_of(&x[i])) {
-        Some(Sign::Zero) => return Vec::new(),
-        Some(Sign::Positive) => vec![1],
-        Some(Sign::Negative) => vec![-1],
-        None => vec![1, -1],
-    };
-    let oriented = orientations.into_iter().filter_map(|sign| {
-        let x: Vec<Poly> = x
-            .iter()
-            .map(|p| if sign == 1 { p.clone() } else { -p })
-            .collect();
-        let mut value = value.clone();
-        if support
-            .iter()
-            .any(|&i| value.sign_of(&x[i]) != Sign::Positive)
-        {
-            return None;
-        }
-        let y = pencil.times(&x);
-        let mut biactive = Vec::new();
-        for i in (0..pencil.order()).filter(|i| !active.contains(i)) {
-            match value.sign_of(&y[i]) {
-                Sign::Negative => return None,
-                Sign::Zero => biactive.push(i),
-                Sign::Positive => {}
-            }
-        }
-        Some(Solution {
-            value,
-            multiplicity,
-            slip: support.to_vec(),
-            biactive,
-            x,
-            y,
-        })
-    });
-    oriented.collect()
-}
-
-/// Multiplicity of a root: the first derivative that does not vanish there.
+/// Multiplicity of a root: the order of the first derivative that does not vanish there.
 pub(super) fn multiplicity(det: &Poly, value: &mut Algebraic) -> usize {
     let mut derivative = det.derivative();
-    let mut m = 1;
+    let mut order = 1;
     while !derivative.is_zero() && value.sign_of(&derivative) == Sign::Zero {
         derivative = derivative.derivative();
-        m += 1;
+        order += 1;
     }
-    m
+    order
+}
+
+/// A kernel of one dimension: the multiples of x, a vector over all variables.
+struct Line {
+    x: Vec<Poly>,
+    value: Algebraic,
+    multiplicity: usize,
+}
+
+impl Line {
+    /// The rays of the line that satisfy (26): at most one, but without slip variables both x and
+    /// -x may.
+    fn solutions(mut self, pencil: &IntegerPencil<'_>, support: &[usize]) -> Vec<Solution> {
+        let opposite: Vec<Poly> = self.x.iter().map(|x_i| -x_i).collect();
+        let rays = match support.first().map(|&i| self.value.sign_of(&self.x[i])) {
+            Some(Sign::Zero) => vec![],
+            Some(Sign::Positive) => vec![self.x],
+            Some(Sign::Negative) => vec![opposite],
+            None => vec![self.x, opposite],
+        };
+
+        let mut solutions = Vec::new();
+        for x in rays {
+            let mut value = self.value.clone();
+            if let Some(ray) = admissible(pencil, support, x, &mut value) {
+                solutions.push(Solution {
+                    value,
+                    multiplicity: self.multiplicity,
+                    slip: support.to_vec(),
+                    biactive: ray.biactive,
+                    x: ray.x,
+                    y: ray.y,
+                });
+            }
+        }
+        solutions
+    }
+}
+
+/// A kernel vector that satisfies (26).
+struct AdmissibleRay {
+    x: Vec<Poly>,
+    y: Vec<Poly>,
+    /// Variables off the block with y_i = 0.
+    biactive: Vec<usize>,
+}
+
+/// (26) with the support taken literally: x > 0 on all of it, y >= 0 off it.
+fn admissible(
+    pencil: &IntegerPencil<'_>,
+    support: &[usize],
+    x: Vec<Poly>,
+    value: &mut Algebraic,
+) -> Option<AdmissibleRay> {
+    for &i in support {
+        if value.sign_of(&x[i]) != Sign::Positive {
+            return None;
+        }
+    }
+
+    let y = pencil.times(&x);
+    let active = pencil.active(support);
+    let mut biactive = Vec::new();
+    for i in (0..pencil.order()).filter(|i| !active.contains(i)) {
+        match value.sign_of(&y[i]) {
+            Sign::Negative => return None,
+            Sign::Zero => biactive.push(i),
+            Sign::Positive => {}
+        }
+    }
+    Some(AdmissibleRay { x, y, biactive })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::{Sparse, rational, whole};
+    use mceip_exact::{Rational, Sparse, rational, whole};
+
+    const IDENTITY: &[&[i64]] = &[&[1, 0], &[0, 1]];
 
     fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
         Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec()).unwrap()
     }
 
-    fn summary(p: &Pencil) -> Vec<(String, Vec<usize>, Vec<usize>)> {
-        let found = enumerate(p, &Window::all()).unwrap();
-        found
+    fn enumerate_all(pencil: &Pencil) -> Enumeration {
+        enumerate(pencil, &Window::all()).unwrap()
+    }
+
+    /// Value, slip set and biactive set of each solution.
+    fn summary(pencil: &Pencil) -> Vec<(String, Vec<usize>, Vec<usize>)> {
+        enumerate_all(pencil)
             .solutions
             .iter()
             .map(|s| (s.decimal(8), s.slip.clone(), s.biactive.clone()))
@@ -239,131 +288,112 @@ mod tests {
     #[test]
     fn the_fold_counterexample() {
         let mu = pencil(&[&[1, 0], &[0, 2]], &[&[0, -3], &[1, -4]], &[]);
+        let lambda2 = pencil(&[&[1, -6], &[2, -6]], IDENTITY, &[]);
+
         assert!(summary(&mu).is_empty());
-        let lambda2 = pencil(&[&[1, -6], &[2, -6]], &[&[1, 0], &[0, 1]], &[]);
-        assert_eq!(
-            summary(&lambda2),
-            vec![
-                ("2".into(), vec![0, 1], vec![]),
-                ("3".into(), vec![0, 1], vec![])
-            ]
-        );
+        let expected = [
+            ("2".into(), vec![0, 1], vec![]),
+            ("3".into(), vec![0, 1], vec![]),
+        ];
+        assert_eq!(summary(&lambda2), expected);
     }
 
     #[test]
     fn biactive_solutions_are_listed_once_and_named() {
         // t = 1, x = (1, 0): y_2 = 0 as well.
-        let p = pencil(&[&[-1, 5], &[0, 7]], &[&[1, 0], &[0, 1]], &[]);
-        assert_eq!(summary(&p), vec![("1".into(), vec![0], vec![1])]);
+        let biactive = pencil(&[&[-1, 5], &[0, 7]], IDENTITY, &[]);
+
+        assert_eq!(summary(&biactive), [("1".into(), vec![0], vec![1])]);
     }
 
     #[test]
     fn a_near_miss_in_the_sign_of_y_is_no_solution() {
-        let found = |y_1: i64| summary(&pencil(&[&[-1, 0], &[y_1, -3]], &[&[1, 0], &[0, 1]], &[]));
-        let only_the_other = vec![("3".into(), vec![1], vec![0])];
-        assert_eq!(found(-1), only_the_other);
-        assert_eq!(
-            found(1)[..2],
-            [
-                ("1".into(), vec![0], vec![]),
-                ("1".into(), vec![0, 1], vec![])
-            ]
-        );
+        let negative = pencil(&[&[-1, 0], &[-1, -3]], IDENTITY, &[]);
+        let positive = pencil(&[&[-1, 0], &[1, -3]], IDENTITY, &[]);
+
+        assert_eq!(summary(&negative), [("3".into(), vec![1], vec![0])]);
+        let expected = [
+            ("1".into(), vec![0], vec![]),
+            ("1".into(), vec![0, 1], vec![]),
+        ];
+        assert_eq!(summary(&positive)[..2], expected);
     }
 
     #[test]
     fn degenerate_cases_are_reported_as_such() {
         // A = -I, B = I: at t = 1 every vector is in the kernel.
-        let wide = enumerate(
-            &pencil(&[&[-1, 0], &[0, -1]], &[&[1, 0], &[0, 1]], &[]),
-            &Window::all(),
-        )
-        .unwrap();
-        assert_eq!(
-            wide.wide
-                .iter()
-                .map(|w| (w.support.clone(), w.dimension))
-                .collect::<Vec<_>>(),
-            vec![(vec![0, 1], 2)]
-        );
+        let wide = enumerate_all(&pencil(&[&[-1, 0], &[0, -1]], IDENTITY, &[]));
+
+        let [kernel] = &wide.wide[..] else {
+            panic!("{:?}", wide.wide)
+        };
+        assert_eq!((&kernel.support[..], kernel.dimension), (&[0, 1][..], 2));
         assert_eq!(wide.solutions.len(), 2); // the two edges, each biactive in the other
         assert!(wide.is_complete_list() && !wide.is_plain_list());
-        assert_eq!(
-            wide.cones
-                .iter()
-                .map(|c| (c.slip.clone(), c.dimension, c.rays.len()))
-                .collect::<Vec<_>>(),
-            vec![(vec![0, 1], 2, 2)]
-        );
-        let singular = enumerate(
-            &pencil(&[&[1, -1], &[-1, 1]], &[&[0, 0], &[0, 0]], &[]),
-            &Window::all(),
-        )
-        .unwrap();
-        assert_eq!(singular.continua, vec![vec![0, 1]]);
+        let [cone] = &wide.cones[..] else {
+            panic!("{:?}", wide.cones)
+        };
+        assert_eq!(cone.slip, [0, 1]);
+        assert_eq!((cone.dimension, cone.rays.len()), (2, 2));
+
+        let singular = enumerate_all(&pencil(&[&[1, -1], &[-1, 1]], &[&[0, 0], &[0, 0]], &[]));
+
+        assert_eq!(singular.continua, [[0, 1]]);
     }
 
     #[test]
     fn repeated_roots_carry_their_multiplicity() {
         // A Jordan block: (t-1)^2, kernel of dimension 1.
-        let found = enumerate(
-            &pencil(&[&[-1, -1], &[0, -1]], &[&[1, 0], &[0, 1]], &[]),
-            &Window::all(),
-        )
-        .unwrap();
-        assert_eq!(found.solutions.len(), 1);
-        assert_eq!(
-            (
-                found.solutions[0].slip.clone(),
-                found.solutions[0].multiplicity
-            ),
-            (vec![0], 1)
-        );
-        let free = enumerate(
-            &pencil(&[&[-1, 1], &[0, -1]], &[&[1, 0], &[0, 1]], &[0, 1]),
-            &Window::all(),
-        )
-        .unwrap();
-        assert_eq!(
-            (free.solutions.len(), free.solutions[0].multiplicity),
-            (2, 2)
-        ); // x and -x
+        let slip = enumerate_all(&pencil(&[&[-1, -1], &[0, -1]], IDENTITY, &[]));
+
+        assert_eq!(slip.solutions.len(), 1);
+        assert_eq!(slip.solutions[0].slip, [0]);
+        assert_eq!(slip.solutions[0].multiplicity, 1);
+
+        let free = enumerate_all(&pencil(&[&[-1, 1], &[0, -1]], IDENTITY, &[0, 1]));
+
+        assert_eq!(free.solutions.len(), 2); // x and -x
+        assert_eq!(free.solutions[0].multiplicity, 2);
+    }
+
+    /// x of each solution where variable 1 is the only complementarity variable.
+    fn x_of_solutions(pencil: &Pencil) -> Vec<Vec<String>> {
+        enumerate_all(pencil)
+            .solutions
+            .iter()
+            .map(|s| s.x_decimals(&[1], 5))
+            .collect()
     }
 
     #[test]
     fn free_only_solutions_try_both_orientations() {
         // Free variable 0 with value 1; y_1 = -x_0 >= 0 needs x_0 < 0.
-        let p = pencil(&[&[-1, 0], &[-1, 1]], &[&[1, 0], &[0, 1]], &[0]);
-        let found = enumerate(&p, &Window::all()).unwrap();
-        let found = found
-            .solutions
-            .iter()
-            .map(|s| s.x_decimals(&[1], 5))
-            .collect::<Vec<_>>();
-        assert_eq!(found, vec![vec!["-1", "0"], vec!["2", "1"]]); // l1 norm 1; e'x_s = 1
+        let one_orientation = pencil(&[&[-1, 0], &[-1, 1]], IDENTITY, &[0]);
         // Nothing depends on the sign: two rays, x and -x.
-        let p = pencil(&[&[-1, 0], &[0, -5]], &[&[1, 0], &[0, 1]], &[0]);
-        let x: Vec<_> = enumerate(&p, &Window::all())
-            .unwrap()
-            .solutions
-            .iter()
-            .map(|s| s.x_decimals(&[1], 5))
-            .collect();
-        assert_eq!(x, vec![vec!["1", "0"], vec!["-1", "0"], vec!["0", "1"]]);
+        let both_orientations = pencil(&[&[-1, 0], &[0, -5]], IDENTITY, &[0]);
+
+        // l1 norm 1; e'x_s = 1.
+        assert_eq!(x_of_solutions(&one_orientation), [["-1", "0"], ["2", "1"]]);
+        assert_eq!(
+            x_of_solutions(&both_orientations),
+            [["1", "0"], ["-1", "0"], ["0", "1"]]
+        );
+    }
+
+    /// Solutions of (t - 2) x = y in a window.
+    fn count_in_window(min: Rational, max: Option<Rational>) -> usize {
+        let window = Window::new(min, max).unwrap();
+        let found = enumerate(&pencil(&[&[-2]], &[&[1]], &[]), &window).unwrap();
+        found.solutions.len()
     }
 
     #[test]
     fn the_window_is_closed_and_limits_are_said() {
-        let p = pencil(&[&[-2]], &[&[1]], &[]);
-        let count = |a: i64, b: i64| {
-            enumerate(&p, &Window::new(whole(a), Some(whole(b))).unwrap())
-                .unwrap()
-                .solutions
-                .len()
-        };
-        assert_eq!((count(0, 2), count(2, 9), count(0, 1)), (1, 1, 0));
-        let window = Window::new(rational(21, 10), None).unwrap();
-        assert!(enumerate(&p, &window).unwrap().solutions.is_empty());
+        assert_eq!(count_in_window(whole(0), Some(whole(2))), 1);
+        assert_eq!(count_in_window(whole(2), Some(whole(9))), 1);
+        assert_eq!(count_in_window(whole(0), Some(whole(1))), 0);
+        assert_eq!(count_in_window(rational(21, 10), None), 0);
+
         let large = Pencil::new(Sparse::identity(17), Sparse::identity(17), vec![]).unwrap();
         assert!(matches!(
             enumerate(&large, &Window::all()),
@@ -377,22 +407,19 @@ mod tests {
 
     #[test]
     fn an_interrupted_run_says_how_far_it_came() {
-        let p = pencil(&[&[-2, 0], &[0, -3]], &[&[1, 0], &[0, 1]], &[]);
-        let found = enumerate_with(&p, &Window::all(), |done, _| {
+        let two_solutions = pencil(&[&[-2, 0], &[0, -3]], IDENTITY, &[]);
+
+        let found = enumerate_with(&two_solutions, &Window::all(), |done, _| {
             if done == 2 {
                 ControlFlow::Break(())
             } else {
                 ControlFlow::Continue(())
             }
-        });
-        let found = found.unwrap();
-        assert_eq!(
-            (
-                found.supports_done,
-                found.is_finished(),
-                found.solutions.len()
-            ),
-            (2, false, 1)
-        );
+        })
+        .unwrap();
+
+        assert_eq!(found.supports_done, 2);
+        assert!(!found.is_finished());
+        assert_eq!(found.solutions.len(), 1);
     }
 }

@@ -2,15 +2,23 @@
 //!
 //! Let V(t) span the kernel of the pencil on f and J over Q(t), and let G(t) hold the rows of V
 //! that must be positive (x_J) and those of y = (A + tB) V that must be nonnegative. A solution
-//! with support J exists at t exactly if some z has (G z)_J > 0 and G z >= 0 (and V z != 0). Which
-//! sign vectors G z takes depends only on the signs of the maximal minors of r independent columns
-//! of G, r its rank (the covectors of an oriented matroid are determined by its chirotope;
-//! Bjoerner, Las Vergnas, Sturmfels, White and Ziegler 1993, chapter 3). So between the roots of
-//! these minors, and of the minors that say V is a basis and r the rank, nothing changes: one
-//! rational sample decides each open cell, and each root is decided exactly by its own cone.
+//! with support J exists at t exactly if some z has (G z)_J > 0 and G z >= 0 (and V z != 0).
+//!
+//! Which sign vectors G z takes depends only on the signs of the maximal minors of r independent
+//! columns of G, r its rank: the covectors of an oriented matroid are determined by its chirotope
+//! (Bjoerner, Las Vergnas, Sturmfels, White and Ziegler, Oriented Matroids, 1993, chapter 3). So
+//! nothing changes between neighbouring roots of these minors and of the two minors that say where
+//! V is a basis and where the rank is r. Hence the procedure, as in a cylindrical decomposition of
+//! the line:
+//!
+//! 1. the *critical values* are the nonnegative roots of all these minors, and 0;
+//! 2. one rational sample decides each open interval (*cell*) between them;
+//! 3. each critical value is decided by the cone of its own (`cone`).
+//!
+//! Input: a support whose determinant vanishes identically, and the window. Called by `solution`.
 
 use super::cone::cone_at;
-use super::integral::Integral;
+use super::integer_pencil::IntegerPencil;
 use super::{End, Enumeration, Piece, SupportRange, Undescribed, WideKernel};
 use mceip_exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots};
 use mceip_model::Window;
@@ -20,33 +28,30 @@ use std::cmp::Ordering;
 /// Most minors formed for one support: beyond it the support is named as undescribed.
 pub const MAX_MINORS: usize = 4096;
 
-/// Describes one singular support: its range of values, and what exists at isolated values only.
+/// Adds what one singular support has: its range of values, and what exists at isolated values
+/// only.
 pub(super) fn describe(
-    pencil: &Integral<'_>,
+    pencil: &IntegerPencil<'_>,
     support: &[usize],
     window: &Window,
     found: &mut Enumeration,
 ) {
-    let active = pencil.active(support);
-    let (kernel, _, pivot) = generic_kernel(pencil.block(&active));
-    let kernel: Vec<Vec<Poly>> = kernel.iter().map(|v| pencil.extend(&active, v)).collect();
-    let critical = match critical(pencil, support, &active, &kernel, pivot) {
+    let generic = GenericKernel::of(pencil, support);
+    let critical = match critical(pencil, support, &generic) {
         Ok(poly) => poly,
         Err(undescribed) => {
             found.undescribed.push(undescribed);
             return;
         }
     };
-    let exists = |t: &Algebraic| {
-        let cone = cone_at(pencil, support, t);
-        cone.slip == support && cone.dimension > 0
-    };
-    let below_zero = exists(&Algebraic::rational(sample_below_zero(&critical)));
-    let (pieces, points) = pieces(nonnegative_roots(&critical), below_zero, exists);
-    for value in points
-        .into_iter()
-        .filter(|v| within(&mut v.clone(), window))
-    {
+
+    let singular = SingularSupport { pencil, support };
+    let extent = singular.extent(&critical);
+
+    for value in extent.isolated {
+        if !is_within(&mut value.clone(), window) {
+            continue;
+        }
         let dimension = cone_at(pencil, support, &value).kernel_dimension;
         let kernel = WideKernel {
             value,
@@ -58,36 +63,51 @@ pub(super) fn describe(
             found.wide.push(kernel);
         }
     }
-    let pieces: Vec<Piece> = pieces.into_iter().filter_map(|p| clip(p, window)).collect();
+
+    let pieces: Vec<Piece> = extent
+        .intervals
+        .into_iter()
+        .filter_map(|interval| clip(interval, window))
+        .collect();
     if !pieces.is_empty() {
         found.ranges.push(SupportRange {
             support: support.to_vec(),
             pieces,
-            kernel,
+            kernel: generic.basis,
         });
     }
 }
 
-/// A polynomial that vanishes at 0 and wherever the existence of solutions may change.
+/// The kernel of a support's block over Q(t).
+struct GenericKernel {
+    /// Vectors over all variables.
+    basis: Vec<Vec<Poly>>,
+    /// A minor of the block: where it does not vanish, `basis` is a basis of the kernel at t.
+    minor: Poly,
+}
+
+impl GenericKernel {
+    fn of(pencil: &IntegerPencil<'_>, support: &[usize]) -> GenericKernel {
+        let active = pencil.active(support);
+        let (basis, _, minor) = generic_kernel(pencil.block(&active));
+        let basis = basis.iter().map(|v| pencil.extend(&active, v)).collect();
+        GenericKernel { basis, minor }
+    }
+}
+
+/// A squarefree polynomial that vanishes at 0 and wherever the existence of solutions may change:
+/// the least common multiple of t, the minor of the basis, the minor of the rank of G and the
+/// maximal minors of G.
 fn critical(
-    pencil: &Integral<'_>,
+    pencil: &IntegerPencil<'_>,
     support: &[usize],
-    active: &[usize],
-    kernel: &[Vec<Poly>],
-    pivot: Poly,
+    generic: &GenericKernel,
 ) -> Result<Poly, Undescribed> {
-    let images: Vec<Vec<Poly>> = kernel.iter().map(|x| pencil.times(x)).collect();
-    let x_rows = support
-        .iter()
-        .map(|&i| kernel.iter().map(|x| x[i].clone()).collect::<Vec<_>>());
-    let off = (0..pencil.order()).filter(|i| !active.contains(i));
-    let y_rows = off.map(|i| images.iter().map(|y| y[i].clone()).collect());
-    let rows: Vec<Vec<Poly>> = x_rows
-        .chain(y_rows)
-        .filter(|row: &Vec<Poly>| row.iter().any(|p| !p.is_zero()))
-        .collect();
+    let mut rows = pencil.inequalities(support, &generic.basis);
+    rows.retain(|row| row.iter().any(|entry| !entry.is_zero()));
     let (_, columns, rank_minor) = generic_kernel(rows.clone());
-    let count = (0..columns.len()).fold(1usize, |c, k| c.saturating_mul(rows.len() - k) / (k + 1));
+
+    let count = binomial(rows.len(), columns.len());
     if count > MAX_MINORS {
         return Err(Undescribed {
             support: support.to_vec(),
@@ -95,132 +115,186 @@ fn critical(
             limit: MAX_MINORS,
         });
     }
-    let all = [Poly::from_ints(&[0, 1]), pivot, rank_minor]
-        .into_iter()
-        .chain(minors(&rows, &columns));
-    // The least common multiple of the squarefree parts.
-    Ok(all
-        .map(|p| p.squarefree())
-        .fold(Poly::from_ints(&[1]), |product, p| {
-            let shared = product.gcd(&p);
-            &product * &p.exact_div(&shared).unwrap_or(p) // exact: the gcd divides
-        }))
+
+    let t = Poly::from_ints(&[0, 1]);
+    let mut factors = vec![t, generic.minor.clone(), rank_minor];
+    factors.extend(minors(&rows, &columns));
+
+    let mut multiple = Poly::from_ints(&[1]);
+    for factor in factors {
+        let factor = factor.squarefree();
+        let shared = multiple.gcd(&factor);
+        let cofactor = factor.exact_div(&shared).unwrap_or(factor); // exact: the gcd divides
+        multiple = &multiple * &cofactor;
+    }
+    Ok(multiple)
 }
 
-/// The maximal intervals of values at which something exists, cut to [0, infinity), and the values
-/// isolated on the real line (so that no window decides what is isolated). `critical` begins with
-/// 0; between neighbours nothing changes; `below_zero`: does something exist just below 0?
-fn pieces(
-    mut critical: Vec<Algebraic>,
-    below_zero: bool,
-    exists: impl Fn(&Algebraic) -> bool,
-) -> (Vec<Piece>, Vec<Algebraic>) {
-    let (mut pieces, mut points) = (Vec::new(), Vec::new());
-    // Where the interval under way began.
-    let mut open: Option<End> = critical
-        .first()
-        .filter(|zero| below_zero && exists(zero))
-        .map(|zero| End {
-            value: zero.clone(),
-            included: true,
-        });
-    for k in 0..critical.len() {
-        let here = critical[k].clone();
-        let at = exists(&here);
-        let cell = exists(&Algebraic::rational(sample(&mut critical, k)));
-        match (open.take(), at) {
-            (Some(from), true) if cell => open = Some(from),
-            (Some(from), _) => {
-                pieces.push(Piece {
-                    from,
-                    to: Some(End {
-                        value: here.clone(),
-                        included: at,
-                    }),
-                });
-                open = cell.then_some(End {
-                    value: here,
-                    included: false,
-                });
-            }
-            (None, _) if cell => {
-                open = Some(End {
-                    value: here,
-                    included: at,
-                })
-            }
-            (None, true) => points.push(here),
-            (None, false) => {}
-        }
+/// The number of choices of k among n, k <= n, or a large number instead of an overflow.
+fn binomial(n: usize, k: usize) -> usize {
+    let mut count: usize = 1;
+    for chosen in 0..k {
+        count = count.saturating_mul(n - chosen) / (chosen + 1);
     }
-    pieces.extend(open.map(|from| Piece { from, to: None }));
-    (pieces, points)
+    count
+}
+
+/// The values >= 0 at which something exists.
+struct Extent {
+    /// Maximal intervals, cut to [0, infinity).
+    intervals: Vec<Piece>,
+    /// Values that are isolated on the whole real line, so that no window decides what is isolated.
+    isolated: Vec<Algebraic>,
+}
+
+struct SingularSupport<'a> {
+    pencil: &'a IntegerPencil<'a>,
+    support: &'a [usize],
+}
+
+impl SingularSupport<'_> {
+    /// Is there a solution with exactly this support at t?
+    fn exists_at(&self, t: &Algebraic) -> bool {
+        let cone = cone_at(self.pencil, self.support, t);
+        cone.slip == self.support && cone.dimension > 0
+    }
+
+    /// Goes up through the critical values and the cells between them.
+    fn extent(&self, critical: &Poly) -> Extent {
+        let below_zero = Algebraic::rational(sample_below_zero(critical));
+        let exists_below_zero = self.exists_at(&below_zero);
+        let mut critical = nonnegative_roots(critical);
+
+        let mut extent = Extent {
+            intervals: Vec::new(),
+            isolated: Vec::new(),
+        };
+
+        // The lower end of the interval that has begun and not yet ended.
+        let mut begun: Option<End> = None;
+        if exists_below_zero
+            && let Some(zero) = critical.first()
+            && self.exists_at(zero)
+        {
+            begun = Some(End {
+                value: zero.clone(),
+                included: true,
+            });
+        }
+
+        for k in 0..critical.len() {
+            let value = critical[k].clone();
+            let exists_here = self.exists_at(&value);
+            let cell = Algebraic::rational(sample_above(&mut critical, k));
+            let exists_above = self.exists_at(&cell);
+
+            if begun.is_some() && exists_here && exists_above {
+                continue;
+            }
+            let end = End {
+                value,
+                included: exists_here,
+            };
+            if let Some(from) = begun.take() {
+                extent.intervals.push(Piece {
+                    from,
+                    to: Some(end.clone()),
+                });
+                // If the cell above has solutions, the value itself has none: the next one begins.
+                begun = exists_above.then_some(End {
+                    included: false,
+                    ..end
+                });
+            } else if exists_above {
+                begun = Some(end);
+            } else if exists_here {
+                extent.isolated.push(end.value);
+            }
+        }
+
+        if let Some(from) = begun {
+            extent.intervals.push(Piece { from, to: None });
+        }
+        extent
+    }
 }
 
 /// A rational number strictly between the k-th critical value and the next (or infinity).
-fn sample(critical: &mut [Algebraic], k: usize) -> Rational {
+fn sample_above(critical: &mut [Algebraic], k: usize) -> Rational {
     if k + 1 == critical.len() {
         return critical[k].interval().hi() + Rational::one();
     }
-    // Ends: the two numbers differ.
+
+    // This ends, because the two numbers differ.
     while critical[k].interval().hi() >= critical[k + 1].interval().lo() {
         critical[k].refine();
         critical[k + 1].refine();
     }
-    (critical[k].interval().hi() + critical[k + 1].interval().lo())
-        / Rational::from_integer(2.into())
+
+    let below = critical[k].interval().hi();
+    let above = critical[k + 1].interval().lo();
+    (below + above) / Rational::from_integer(2.into())
 }
 
 /// A negative rational above all negative roots of a polynomial that vanishes at 0.
 fn sample_below_zero(critical: &Poly) -> Rational {
-    let mirrored = critical
-        .coeffs()
-        .iter()
-        .enumerate()
-        .map(|(k, c)| if k % 2 == 1 { -c } else { c.clone() })
-        .collect();
-    let Some(mut nearest) = nonnegative_roots(&Poly::new(mirrored)).into_iter().nth(1) else {
+    // The negative roots of p(t) are the positive roots of p(-t).
+    let mut mirrored = critical.coeffs().to_vec();
+    for odd in mirrored.iter_mut().skip(1).step_by(2) {
+        *odd = -&*odd;
+    }
+    let roots = nonnegative_roots(&Poly::new(mirrored));
+    let Some(mut nearest) = roots.into_iter().nth(1) else {
         return -Rational::one();
     };
-    // Ends: the number is not 0, which is the root before it.
+
+    // This ends, because the number is not 0, which is the root before it.
     while !nearest.interval().lo().is_positive() {
         nearest.refine();
     }
     -nearest.interval().lo() / Rational::from_integer(2.into())
 }
 
-fn within(value: &mut Algebraic, window: &Window) -> bool {
-    value.cmp_rational(window.min()) != Ordering::Less
-        && window
-            .max()
-            .is_none_or(|m| value.cmp_rational(m) != Ordering::Greater)
+fn is_within(value: &mut Algebraic, window: &Window) -> bool {
+    if value.cmp_rational(window.min()) == Ordering::Less {
+        return false;
+    }
+    match window.max() {
+        Some(max) => value.cmp_rational(max) != Ordering::Greater,
+        None => true,
+    }
 }
 
 /// The part of a piece in the closed window; a single number may remain.
-fn clip(piece: Piece, window: &Window) -> Option<Piece> {
-    let closed = |v: &Rational| End {
-        value: Algebraic::rational(v.clone()),
-        included: true,
-    };
-    let mut piece = piece;
+fn clip(mut piece: Piece, window: &Window) -> Option<Piece> {
     if piece.from.value.cmp_rational(window.min()) == Ordering::Less {
-        piece.from = closed(window.min());
+        piece.from = closed_end(window.min());
     }
-    if let Some(max) = window.max()
-        && piece
-            .to
-            .as_mut()
-            .is_none_or(|to| to.value.cmp_rational(max) == Ordering::Greater)
-    {
-        piece.to = Some(closed(max));
+    if let Some(max) = window.max() {
+        let is_cut = match &mut piece.to {
+            Some(to) => to.value.cmp_rational(max) == Ordering::Greater,
+            None => true,
+        };
+        if is_cut {
+            piece.to = Some(closed_end(max));
+        }
     }
+
     let Some(to) = &mut piece.to else {
         return Some(piece);
     };
-    match piece.from.value.cmp_exact(&mut to.value) {
-        Ordering::Less => Some(piece),
-        Ordering::Equal if piece.from.included && to.included => Some(piece),
-        _ => None,
+    let is_kept = match piece.from.value.cmp_exact(&mut to.value) {
+        Ordering::Less => true,
+        Ordering::Equal => piece.from.included && to.included,
+        Ordering::Greater => false,
+    };
+    is_kept.then_some(piece)
+}
+
+fn closed_end(value: &Rational) -> End {
+    End {
+        value: Algebraic::rational(value.clone()),
+        included: true,
     }
 }
 
@@ -229,28 +303,36 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
 
+    /// t times the linear factors of these roots.
+    fn with_roots(roots: &[(i64, i64)]) -> Poly {
+        let mut product = Poly::from_ints(&[0, 1]);
+        for &(numerator, denominator) in roots {
+            product = &product * &Poly::from_ints(&[-numerator, denominator]);
+        }
+        product
+    }
+
     /// Between zero and the negative root nearest to it, wherever the positive ones are.
     #[test]
     fn the_sample_below_zero_is_above_all_negative_roots() {
-        let linear = |root: (i64, i64)| Poly::from_ints(&[-root.0, root.1]);
-        let t = Poly::from_ints(&[0, 1]);
-        for (near, others) in [
-            ((-1, 10), vec![(5, 1)]),
-            ((-4, 1), vec![(1, 100), (-9, 1)]),
-            ((-3, 1), vec![(-7, 2), (1, 3), (8, 1)]),
-        ] {
-            let poly = others
-                .iter()
-                .fold(&t * &linear(near), |p, r| &p * &linear(*r));
-            let sample = sample_below_zero(&poly);
+        let cases = [
+            ((-1, 10), vec![(-1, 10), (5, 1)]),
+            ((-4, 1), vec![(-4, 1), (1, 100), (-9, 1)]),
+            ((-3, 1), vec![(-3, 1), (-7, 2), (1, 3), (8, 1)]),
+        ];
+        for ((numerator, denominator), roots) in cases {
+            let nearest = rational(numerator, denominator);
+            let sample = sample_below_zero(&with_roots(&roots));
             assert!(
-                sample > rational(near.0, near.1) && sample < whole(0),
-                "{near:?}: {sample}"
+                sample > nearest && sample < whole(0),
+                "{nearest:?}: {sample}"
             );
         }
+
         // Irrational: t (t^2 + 3 t + 1) has -0.381966.
-        let sample = sample_below_zero(&(&t * &Poly::from_ints(&[1, 3, 1])));
+        let sample = sample_below_zero(&Poly::from_ints(&[0, 1, 3, 1]));
         assert!(sample > rational(-38, 100) && sample < whole(0), "{sample}");
-        assert_eq!(sample_below_zero(&(&t * &linear((2, 1)))), whole(-1));
+
+        assert_eq!(sample_below_zero(&with_roots(&[(2, 1)])), whole(-1));
     }
 }

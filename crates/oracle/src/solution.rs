@@ -1,10 +1,19 @@
 //! What the enumerator finds: solutions by their exact support, cones, ranges, and what it met on
 //! the way.
+//!
+//! A [`Solution`] is t and x with y = (A + tB) x, up to one positive factor. t is an algebraic
+//! number, the entries of x and y are integer polynomials to be evaluated at it; so every question
+//! about a solution is a sign of a polynomial at an algebraic number.
+//!
+//! An [`Enumeration`] collects them. It is filled in two steps: `plain` names what it meets
+//! (kernels of more than one dimension, singular supports), [`Enumeration::describe`] says what
+//! these hold.
 
-use super::integral::Integral;
+use super::integer_pencil::IntegerPencil;
 use super::{Cone, SupportRange, Undescribed, cone, range};
-use mceip_exact::{Algebraic, Poly, ratio_to_decimal, to_decimal};
+use mceip_exact::{Algebraic, Poly, Sign, ratio_to_decimal, to_decimal};
 use mceip_model::{Pencil, Window};
+use std::cmp::Ordering;
 
 /// One solution of (12)-(14) or (21)-(23), up to the positive factor that x and y share.
 ///
@@ -36,37 +45,44 @@ impl Solution {
 
     /// The value as a decimal with `digits` correctly rounded significant digits.
     pub fn decimal(&self, digits: usize) -> String {
-        to_decimal(&mut self.value.clone(), &Poly::from_ints(&[0, 1]), digits)
+        let t = Poly::from_ints(&[0, 1]);
+        to_decimal(&mut self.value.clone(), &t, digits)
     }
 
     /// x scaled to e'x_s = 1 (l1 norm 1 where x_s = 0), each entry correctly rounded.
+    ///
+    /// `constrained` lists the complementarity variables of the pencil.
     pub fn x_decimals(&self, constrained: &[usize], digits: usize) -> Vec<String> {
         let mut value = self.value.clone();
         let norm = self.normaliser(constrained);
         self.x
             .iter()
-            .map(|p| ratio_to_decimal(&mut value, p, &norm, digits))
+            .map(|x_i| ratio_to_decimal(&mut value, x_i, &norm, digits))
             .collect()
     }
 
     /// The polynomial whose value x is divided by: e'x_s, or the l1 norm for free-only solutions.
+    ///
+    /// `constrained` lists the complementarity variables of the pencil.
     pub fn normaliser(&self, constrained: &[usize]) -> Poly {
-        let add = |a: Poly, b: &Poly| &a + b;
-        if !self.slip.is_empty() {
-            return constrained
-                .iter()
-                .map(|&i| &self.x[i])
-                .fold(Poly::default(), add);
-        }
-        let mut value = self.value.clone();
-        let signed = self.x.iter().map(|p| {
-            if value.sign_of(p) == mceip_exact::Sign::Negative {
-                -p
-            } else {
-                p.clone()
+        let mut norm = Poly::default();
+
+        if !self.is_free_only() {
+            for &i in constrained {
+                norm += &self.x[i];
             }
-        });
-        signed.fold(Poly::default(), |a, b| &a + &b)
+            return norm;
+        }
+
+        let mut value = self.value.clone();
+        for x_i in &self.x {
+            if value.sign_of(x_i) == Sign::Negative {
+                norm += &-x_i;
+            } else {
+                norm += x_i;
+            }
+        }
+        norm
     }
 }
 
@@ -125,18 +141,23 @@ impl Enumeration {
 
     /// Is there a solution with x_s = 0, which Propositions 1 and 2 exclude by their hypotheses?
     pub fn is_outside_propositions(&self) -> bool {
-        let lineality = |c: &Cone| c.slip.is_empty() || !c.lineality.is_empty();
         self.solutions.iter().any(Solution::is_free_only)
-            || self.cones.iter().any(lineality)
-            || self.ranges.iter().any(|r| r.support.is_empty())
+            || self
+                .cones
+                .iter()
+                .any(|cone| cone.slip.is_empty() || !cone.lineality.is_empty())
+            || self.ranges.iter().any(|range| range.support.is_empty())
     }
 
     /// Dimension of the kernel that a listed solution comes from: 1 unless it was met as a wide
     /// kernel.
-    pub fn kernel_dimension(&self, s: &Solution) -> usize {
-        let same =
-            |w: &&WideKernel| w.support == s.slip && w.value.clone().equals(&mut s.value.clone());
-        self.wide.iter().find(same).map_or(1, |w| w.dimension)
+    pub fn kernel_dimension(&self, solution: &Solution) -> usize {
+        self.wide
+            .iter()
+            .find(|kernel| {
+                kernel.support == solution.slip && equal_values(&kernel.value, &solution.value)
+            })
+            .map_or(1, |kernel| kernel.dimension)
     }
 
     /// One answer from the answers for disjoint sets of supports of one pencil and window.
@@ -149,12 +170,11 @@ impl Enumeration {
             all.undescribed.extend(part.undescribed);
             all.wide.extend(part.wide);
             all.continua.extend(part.continua);
+
             all.supports_done += part.supports_done;
             all.supports_total = all.supports_total.max(part.supports_total);
-            all.described = (
-                all.described.0 + part.described.0,
-                all.described.1 + part.described.1,
-            );
+            all.described.0 += part.described.0;
+            all.described.1 += part.described.1;
         }
         all.finish();
         all
@@ -165,35 +185,51 @@ impl Enumeration {
     /// fills an answer by hand (solutions of kernels of dimension 1, `wide`, `continua`) calls it
     /// at the end.
     pub fn describe(&mut self, pencil: &Pencil, window: &Window) {
-        self.describe_new(&Integral::of(pencil), window);
+        self.describe_new(&IntegerPencil::of(pencil), window);
         self.finish();
     }
 
     /// Describes what was named since the last time.
-    pub(super) fn describe_new(&mut self, pencil: &Integral<'_>, window: &Window) {
-        let (wide, continua) = (self.wide.len(), self.continua.len());
-        for k in self.described.0..wide {
-            cone::describe(pencil, &self.wide[k].clone(), self);
+    pub(super) fn describe_new(&mut self, pencil: &IntegerPencil<'_>, window: &Window) {
+        for k in self.described.0..self.wide.len() {
+            let kernel = self.wide[k].clone();
+            cone::describe(pencil, &kernel, self);
         }
-        for k in self.described.1..continua {
-            range::describe(pencil, &self.continua[k].clone(), window, self);
+        for k in self.described.1..self.continua.len() {
+            let support = self.continua[k].clone();
+            range::describe(pencil, &support, window, self);
         }
-        // Wide kernels named by `range` come with their description.
-        self.described = (self.wide.len(), continua);
+        // `range::describe` names further wide kernels, together with their description.
+        self.described = (self.wide.len(), self.continua.len());
     }
 
     /// Leaves out cones inside others and puts everything into canonical order.
     pub(super) fn finish(&mut self) {
         cone::keep_maximal(&mut self.cones);
-        let compare = |a: &Algebraic, b: &Algebraic| a.clone().cmp_exact(&mut b.clone());
+
         self.solutions
-            .sort_by(|a, b| compare(&a.value, &b.value).then_with(|| a.slip.cmp(&b.slip)));
+            .sort_by(|a, b| compare_places((&a.value, &a.slip), (&b.value, &b.slip)));
         self.cones
-            .sort_by(|a, b| compare(&a.value, &b.value).then_with(|| a.slip.cmp(&b.slip)));
+            .sort_by(|a, b| compare_places((&a.value, &a.slip), (&b.value, &b.slip)));
         self.wide
-            .sort_by(|a, b| compare(&a.value, &b.value).then_with(|| a.support.cmp(&b.support)));
+            .sort_by(|a, b| compare_places((&a.value, &a.support), (&b.value, &b.support)));
+
         self.ranges.sort_by(|a, b| a.support.cmp(&b.support));
         self.undescribed.sort_by(|a, b| a.support.cmp(&b.support));
         self.continua.sort();
     }
+}
+
+/// Are two numbers equal? The comparison refines copies, the numbers stay as they are.
+pub(super) fn equal_values(a: &Algebraic, b: &Algebraic) -> bool {
+    a.clone().equals(&mut b.clone())
+}
+
+/// A value and a set of slip variables: what a list of solutions is sorted by.
+type Place<'a> = (&'a Algebraic, &'a [usize]);
+
+/// By value, then by slip set. The comparison refines copies, the numbers stay as they are.
+fn compare_places(a: Place<'_>, b: Place<'_>) -> Ordering {
+    let by_value = a.0.clone().cmp_exact(&mut b.0.clone());
+    by_value.then_with(|| a.1.cmp(b.1))
 }

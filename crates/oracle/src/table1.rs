@@ -1,8 +1,18 @@
-//! Table 1 in closed form, re-derived from the 2x2 problem printed above it (`spec/errata.md`).
+//! Table 1 in closed form, re-derived from the 2x2 problem printed above it (`spec/errata.md`, X1).
 //!
-//! With t = lambda^2 m / k, p = c^2 + 1, q = mu c s the problem is
-//! [ t + p - q S1, -S1 S2; -S1 S2, t + p + q S2 ] x = y / k.
-//! The table as printed scrambles its rows; nothing here is copied from it.
+//! With t = lambda^2 m / k, p = c^2 + 1 and q = mu c s the problem of the two particles is
+//!
+//! ```text
+//! [ t + p - q S1     -S1 S2     ]
+//! [   -S1 S2      t + p + q S2  ] x = y / k,    0 <= x _|_ y >= 0,  x != 0.
+//! ```
+//!
+//! Its three supports are solved by hand. The table as printed scrambles its rows; nothing here is
+//! copied from it. The values lie in a quadratic field, so they are exact.
+//!
+//! Input: the data of Fig. 1. Output: all solutions of MCEIP-lambda2 ([`table1`]) or of MCEIP-mu
+//! ([`thresholds`]). Called by tests, which hold it against the enumerator and the solver, and by
+//! the picture of the table.
 
 use mceip_exact::{Quadratic, Rational, Sign, whole};
 use num_traits::{One, Signed, Zero};
@@ -24,6 +34,18 @@ pub struct TwoParticles {
     pub signs: (i8, i8),
 }
 
+impl TwoParticles {
+    /// p = c^2 + 1.
+    fn p(&self) -> Rational {
+        &self.c * &self.c + Rational::one()
+    }
+
+    /// q = mu c s.
+    fn q(&self) -> Rational {
+        &self.mu * &self.c * &self.s
+    }
+}
+
 /// A solution of Table 1: value and x in Q(sqrt d), x up to a positive factor.
 #[derive(Debug, Clone)]
 pub struct ClosedSolution {
@@ -35,7 +57,7 @@ pub struct ClosedSolution {
     pub slip: Vec<usize>,
 }
 
-/// All solutions of MCEIP-lambda2 for the two particles.
+/// All solutions of MCEIP-lambda2 for the two particles; the value is lambda^2 = t k / m.
 ///
 /// * S1 = S2: slip-slip with t = -p + sqrt(1 + q^2) if that is >= 0 (mu^2 s^2 >= c^2 + 2, or c = 0:
 ///   then t = 0 for every mu); x_2 / x_1 = sqrt(1 + q^2) - S q.
@@ -43,29 +65,47 @@ pub struct ClosedSolution {
 ///   t = q - p - 1 if q >= p + 1.
 /// * (-1, +1): none.
 pub fn table1(data: &TwoParticles) -> Vec<ClosedSolution> {
-    let p = &data.c * &data.c + Rational::one();
-    let q = &data.mu * &data.c * &data.s;
-    let unit = &data.k / &data.m;
     match data.signs {
-        (s1, s2) if s1 == s2 => {
-            let d = Rational::one() + &q * &q;
-            slip_slip(-p, d, &(&q * whole(s1.into())), &unit)
-                .into_iter()
-                .collect()
-        }
-        (1, _) => {
-            let one_slips =
-                [(vec![0], [1, 0]), (vec![1], [0, 1])].map(|(slip, x)| (&q - &p, slip, x));
-            let both_slip = (&q - &p - Rational::one(), vec![0, 1], [1, 1]);
-            let all = one_slips
-                .into_iter()
-                .chain([both_slip])
-                .filter(|(t, _, _)| !t.is_negative());
-            all.map(|(t, slip, x)| rational_solution(t * &unit, x, slip))
-                .collect()
-        }
+        (s1, s2) if s1 == s2 => equal_signs(data, s1).into_iter().collect(),
+        (1, _) => opposite_signs(data),
         _ => Vec::new(),
     }
+}
+
+/// S1 = S2 = S: the determinant (t + p)^2 - q^2 - 1 vanishes at t = -p + sqrt(1 + q^2), and there
+/// the second row gives x_2 / x_1 = 1 / (t + p + q S) = sqrt(1 + q^2) - q S.
+fn equal_signs(data: &TwoParticles, sign: i8) -> Option<ClosedSolution> {
+    let q = data.q();
+    let d = Rational::one() + &q * &q;
+    let t = Quadratic::new(-data.p(), Rational::one(), d.clone())?;
+    if t.sign() == Sign::Negative {
+        return None;
+    }
+
+    let x1 = t.embed(Rational::one());
+    let x2 = Quadratic::new(-(q * whole(sign.into())), Rational::one(), d)?;
+    Some(ClosedSolution {
+        value: t.scale(&(&data.k / &data.m)),
+        x: [x1, x2],
+        slip: vec![0, 1],
+    })
+}
+
+/// S1 = +1, S2 = -1: both diagonal entries are t + p - q, both others 1.
+fn opposite_signs(data: &TwoParticles) -> Vec<ClosedSolution> {
+    let unit = &data.k / &data.m;
+    let one_slips = data.q() - data.p();
+    let both_slip = &one_slips - Rational::one();
+
+    let mut solutions = Vec::new();
+    if !one_slips.is_negative() {
+        solutions.push(rational_solution(&one_slips * &unit, [1, 0]));
+        solutions.push(rational_solution(&one_slips * &unit, [0, 1]));
+    }
+    if !both_slip.is_negative() {
+        solutions.push(rational_solution(&both_slip * &unit, [1, 1]));
+    }
+    solutions
 }
 
 /// The values of mu at which a solution with lambda^2 = 0 exists (MCEIP-mu), for c > 0 and s > 0;
@@ -73,9 +113,7 @@ pub fn table1(data: &TwoParticles) -> Vec<ClosedSolution> {
 ///
 /// S1 = S2: mu = sqrt(c^2 + 2) / s; (+1, -1): mu = (c^2 + 1)/(c s) twice, mu = (c^2 + 2)/(c s).
 pub fn thresholds(data: &TwoParticles) -> Option<Vec<ClosedSolution>> {
-    let p = &data.c * &data.c + Rational::one();
-    let cs = &data.c * &data.s;
-    Some(match data.signs {
+    match data.signs {
         (s1, s2) if s1 == s2 => {
             if data.c.is_zero() {
                 return None;
@@ -83,53 +121,48 @@ pub fn thresholds(data: &TwoParticles) -> Option<Vec<ClosedSolution>> {
             if data.s.is_zero() {
                 return Some(Vec::new());
             }
-            // q^2 = p^2 - 1 = c^2 (c^2 + 2); x_2 / x_1 = sqrt(1 + q^2) - S q = p - S c sqrt(c^2 +
-            // 2).
-            let d = &p + Rational::one();
-            let value = Quadratic::new(Rational::zero(), data.s.recip(), d.clone())?;
-            let x1 = value.embed(Rational::one());
-            let x2 = Quadratic::new(p, -&data.c * whole(s1.into()), d)?;
-            vec![ClosedSolution {
-                value,
-                x: [x1, x2],
-                slip: vec![0, 1],
-            }]
+            Some(vec![threshold_of_equal_signs(data, s1)?])
         }
-        (1, _) if !cs.is_zero() => vec![
-            rational_solution(&p / &cs, [1, 0], vec![0]),
-            rational_solution(&p / &cs, [0, 1], vec![1]),
-            rational_solution((&p + Rational::one()) / &cs, [1, 1], vec![0, 1]),
-        ],
-        _ => Vec::new(),
-    })
+        (1, _) => Some(thresholds_of_opposite_signs(data)),
+        _ => Some(Vec::new()),
+    }
 }
 
-/// t = a + sqrt(d) in units of `unit`, with x = (1, sqrt(d) - q S), if t >= 0.
-fn slip_slip(
-    a: Rational,
-    d: Rational,
-    q_signed: &Rational,
-    unit: &Rational,
-) -> Option<ClosedSolution> {
-    let t = Quadratic::new(a, Rational::one(), d.clone())?;
-    if t.sign() == Sign::Negative {
-        return None;
-    }
-    let x2 = Quadratic::new(-q_signed, Rational::one(), d)?;
+/// S1 = S2 = S, t = 0: q^2 = p^2 - 1 = c^2 (c^2 + 2), hence mu = q / (c s) = sqrt(c^2 + 2) / s and
+/// x_2 / x_1 = sqrt(1 + q^2) - S q = p - S c sqrt(c^2 + 2).
+fn threshold_of_equal_signs(data: &TwoParticles, sign: i8) -> Option<ClosedSolution> {
+    let d = data.p() + Rational::one();
+    let value = Quadratic::new(Rational::zero(), data.s.recip(), d.clone())?;
+    let x1 = value.embed(Rational::one());
+    let x2 = Quadratic::new(data.p(), -&data.c * whole(sign.into()), d)?;
     Some(ClosedSolution {
-        value: t.scale(unit),
-        x: [t.embed(Rational::one()), x2],
+        value,
+        x: [x1, x2],
         slip: vec![0, 1],
     })
 }
 
-fn rational_solution(value: Rational, x: [i64; 2], slip: Vec<usize>) -> ClosedSolution {
-    // d = 0: the field is Q itself.
-    let embed = |v: Rational| Quadratic::embed_rational(v);
+/// S1 = +1, S2 = -1, t = 0: q = p and q = p + 1; none if c s = 0.
+fn thresholds_of_opposite_signs(data: &TwoParticles) -> Vec<ClosedSolution> {
+    let cs = &data.c * &data.s;
+    if cs.is_zero() {
+        return Vec::new();
+    }
+
+    let one_slips = data.p() / &cs;
+    let both_slip = (data.p() + Rational::one()) / &cs;
+    vec![
+        rational_solution(one_slips.clone(), [1, 0]),
+        rational_solution(one_slips, [0, 1]),
+        rational_solution(both_slip, [1, 1]),
+    ]
+}
+
+fn rational_solution(value: Rational, x: [i64; 2]) -> ClosedSolution {
     ClosedSolution {
-        value: embed(value),
-        x: x.map(|v| embed(whole(v))),
-        slip,
+        value: Quadratic::embed_rational(value),
+        x: x.map(|x_i| Quadratic::embed_rational(whole(x_i))),
+        slip: (0..2).filter(|&i| x[i] > 0).collect(),
     }
 }
 
@@ -149,25 +182,28 @@ mod tests {
         }
     }
 
+    fn count(mu: Rational, signs: (i8, i8)) -> usize {
+        table1(&data(mu, signs)).len()
+    }
+
     #[test]
     fn counts_around_the_rational_thresholds() {
         let p = rational(34, 25);
         let cs = rational(12, 25);
-        let count = |mu: Rational, signs| table1(&data(mu, signs)).len();
+        let one_slips = &p / &cs;
+        let both_slip = (&p + whole(1)) / &cs;
         let tiny = rational(1, 1_000_000);
-        assert_eq!(count(&p / &cs - &tiny, (1, -1)), 0);
-        assert_eq!(count(&p / &cs, (1, -1)), 2);
-        assert_eq!(count((&p + whole(1)) / &cs - &tiny, (1, -1)), 2);
-        assert_eq!(count((&p + whole(1)) / &cs, (1, -1)), 3);
+
+        assert_eq!(count(&one_slips - &tiny, (1, -1)), 0);
+        assert_eq!(count(one_slips, (1, -1)), 2);
+        assert_eq!(count(&both_slip - &tiny, (1, -1)), 2);
+        assert_eq!(count(both_slip, (1, -1)), 3);
         assert_eq!(count(whole(1000), (-1, 1)), 0);
-        assert_eq!(
-            (
-                count(rational(19, 10), (1, 1)),
-                count(rational(21, 10), (1, 1)),
-                count(rational(21, 10), (-1, -1))
-            ),
-            (0, 1, 1)
-        );
+
+        // sqrt(c^2 + 2) / s = 1.92.
+        assert_eq!(count(rational(19, 10), (1, 1)), 0);
+        assert_eq!(count(rational(21, 10), (1, 1)), 1);
+        assert_eq!(count(rational(21, 10), (-1, -1)), 1);
     }
 
     #[test]
@@ -177,43 +213,45 @@ mod tests {
             s: whole(1),
             ..data(rational(1, 7), (1, 1))
         };
+
         let found = table1(&vertical);
+
         assert_eq!(found.len(), 1);
         assert_eq!(found[0].value.sign(), Sign::Zero);
         assert!(thresholds(&vertical).is_none());
+
         let horizontal = TwoParticles {
             c: whole(1),
             s: whole(0),
             ..data(whole(100), (1, 1))
         };
+
         assert!(table1(&horizontal).is_empty());
         assert_eq!(thresholds(&horizontal).map(|t| t.len()), Some(0));
     }
 
     /// The 2x2 problem of the heading with t = lambda^2 m / k and q = mu c s, exactly: is x a
     /// solution with support `slip`?
-    fn solves(data: &TwoParticles, t: &Quadratic, q: &Quadratic, s: &ClosedSolution) {
-        let (s1, s2) = (whole(data.signs.0.into()), whole(data.signs.1.into()));
-        let diagonal = t.add(&t.embed(&data.c * &data.c + whole(1)));
-        let off = -&s1 * &s2;
-        let y = [
-            diagonal
-                .add(&q.scale(&-s1))
-                .mul(&s.x[0])
-                .add(&s.x[1].scale(&off)),
-            diagonal
-                .add(&q.scale(&s2))
-                .mul(&s.x[1])
-                .add(&s.x[0].scale(&off)),
-        ];
-        for i in 0..2 {
-            let signs = (s.x[i].sign(), y[i].sign());
-            let fits = if s.slip.contains(&i) {
-                signs == (Sign::Positive, Sign::Zero)
+    fn assert_solves(data: &TwoParticles, t: &Quadratic, q: &Quadratic, s: &ClosedSolution) {
+        let s1 = whole(data.signs.0.into());
+        let s2 = whole(data.signs.1.into());
+        let off_diagonal = -&s1 * &s2;
+        let t_plus_p = t.add(&t.embed(&data.c * &data.c + whole(1)));
+        let diagonal_1 = t_plus_p.add(&q.scale(&-s1));
+        let diagonal_2 = t_plus_p.add(&q.scale(&s2));
+
+        let [x_1, x_2] = &s.x;
+        let y_1 = diagonal_1.mul(x_1).add(&x_2.scale(&off_diagonal));
+        let y_2 = diagonal_2.mul(x_2).add(&x_1.scale(&off_diagonal));
+
+        for (i, x_i, y_i) in [(0, x_1, y_1), (1, x_2, y_2)] {
+            let (sign_x, sign_y) = (x_i.sign(), y_i.sign());
+            let is_admissible = if s.slip.contains(&i) {
+                sign_x == Sign::Positive && sign_y == Sign::Zero
             } else {
-                signs.0 == Sign::Zero && signs.1 != Sign::Negative
+                sign_x == Sign::Zero && sign_y != Sign::Negative
             };
-            assert!(fits, "{data:?} {i} {signs:?}");
+            assert!(is_admissible, "{data:?} {i} {sign_x:?} {sign_y:?}");
         }
     }
 
@@ -227,9 +265,11 @@ mod tests {
                     m: rational(5, 3),
                     ..data(mu.clone(), signs)
                 };
-                for s in table1(&data) {
-                    let t = s.value.scale(&(&data.m / &data.k));
-                    solves(&data, &t, &t.embed(&data.mu * &data.c * &data.s), &s);
+
+                for solution in table1(&data) {
+                    let t = solution.value.scale(&(&data.m / &data.k));
+                    let q = t.embed(&data.mu * &data.c * &data.s);
+                    assert_solves(&data, &t, &q, &solution);
                     seen += 1;
                 }
             }
@@ -243,26 +283,22 @@ mod tests {
         for (signs, count) in [((1, 1), 1), ((-1, -1), 1), ((1, -1), 3), ((-1, 1), 0)] {
             let data = data(whole(1), signs);
             let list = thresholds(&data).unwrap();
+
             assert_eq!(list.len(), count);
-            for s in list {
-                solves(
-                    &data,
-                    &s.value.embed(whole(0)),
-                    &s.value.scale(&(&data.c * &data.s)),
-                    &s,
-                );
+            for solution in list {
+                let t = solution.value.embed(whole(0));
+                let q = solution.value.scale(&(&data.c * &data.s));
+                assert_solves(&data, &t, &q, &solution);
             }
         }
+
         for (c, s) in [(whole(0), whole(1)), (whole(1), whole(0))] {
-            assert_eq!(
-                thresholds(&TwoParticles {
-                    c,
-                    s,
-                    ..data(whole(1), (1, -1))
-                })
-                .map(|t| t.len()),
-                Some(0)
-            );
+            let degenerate = TwoParticles {
+                c,
+                s,
+                ..data(whole(1), (1, -1))
+            };
+            assert_eq!(thresholds(&degenerate).map(|t| t.len()), Some(0));
         }
     }
 }

@@ -4,7 +4,7 @@
 //! problem by digest, states a window of values and makes claims: solutions ([`Claim`]), and
 //! possibly that there are no others in the window ([`CompleteSet`]). What each claim has to meet
 //! is checked elsewhere in this crate, one module per kind. The normative text is
-//! `spec/formats.md`.
+//! `spec/certificates.md`.
 //!
 //! Numbers are read exactly as they are spelt. Unknown and duplicate fields are refused, so that no
 //! reader can pass over a part of a claim it does not understand.

@@ -1,8 +1,21 @@
 //! Matrix Market, read exactly. Our own reader because the libraries read values as doubles.
+//!
+//! The format (Boisvert, Pozo and Remington, The Matrix Market Exchange Formats, NISTIR 5935,
+//! 1996): a banner, comments (`%`), a size line, and then one entry a line:
+//!
+//! ```text
+//! %%MatrixMarket matrix coordinate real general      %%MatrixMarket matrix array real symmetric
+//! rows columns entries                               rows columns
+//! row column value                                   value, down the columns
+//! ```
+//!
+//! Indices count from 1. A symmetric file holds the lower triangle. A value may also be a fraction
+//! `p/q`, which other programs do not read.
 
 use super::matrix::require_order;
 use crate::ModelError;
 use mceip_exact::{Rational, Sparse, parse};
+use std::collections::BTreeSet;
 
 /// Reads a real or integer Matrix Market file, `coordinate` or `array`, `general` or `symmetric`;
 /// decimals and fractions as exactly the value they spell. `what` names the matrix in complaints.
@@ -18,103 +31,73 @@ use mceip_exact::{Rational, Sparse, parse};
 /// assert_eq!((m.get(0, 0), m.get(0, 1)), (rational(11, 10), rational(-3, 10)));
 /// ```
 pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, ModelError> {
-    let mut lines = text.lines().enumerate().map(|(i, l)| (i + 1, l));
-    let (coordinate, symmetric) = banner(what, lines.next().map_or("", |l| l.1))?;
-    let mut lines = lines.filter(|(_, l)| words_of(l).next().is_some() && !l.starts_with('%'));
-    let end = text.lines().count() + 1;
     let reader = Reader { what };
+    let mut lines = text.lines().enumerate().map(|(i, text)| (i + 1, text));
+    let end = text.lines().count() + 1;
+
+    let banner = reader.banner(lines.next().map_or("", |(_, text)| text))?;
+    let mut lines =
+        lines.filter(|(_, text)| words_of(text).next().is_some() && !text.starts_with('%'));
     let (line, size) = lines.next().unwrap_or((end, ""));
-    let sizes = reader.integers(line, size, if coordinate { 3 } else { 2 })?;
-    let (rows, cols) = (sizes[0], sizes[1]);
-    require_order(what, rows)?;
-    require_order(what, cols)?;
-    if symmetric && rows != cols {
-        return Err(reader.complain(line, "a square size for a symmetric matrix", size));
-    }
-    let places = Places {
-        coordinate,
-        symmetric,
-        rows,
-        cols,
-    };
-    let expected = places.count(&sizes);
+    let layout = reader.size_line(line, size, banner)?;
+
     let mut entries: Vec<(usize, usize, Rational)> = Vec::new();
     let mut got = 0;
     for (line, text) in lines {
-        if got == expected {
-            return Err(reader.complain(
-                line,
-                "no more entries than the size line announces",
-                text,
-            ));
+        if got == layout.count {
+            let expected = "no more entries than the size line announces";
+            return Err(reader.complain(line, expected, text));
         }
-        let (i, j, value) = reader.entry(line, text, &places, got)?;
-        if symmetric && i != j {
+        let (i, j, value) = reader.entry(line, text, &layout, got)?;
+        if layout.symmetric && i != j {
             entries.push((j, i, value.clone()));
         }
         entries.push((i, j, value));
         got += 1;
     }
-    if got != expected {
-        return Err(reader.complain(
-            end,
-            "as many entries as the size line announces",
-            &format!("{got} of {expected}"),
-        ));
+    if got != layout.count {
+        let expected = "as many entries as the size line announces";
+        let found = format!("{got} of {}", layout.count);
+        return Err(reader.complain(end, expected, &found));
     }
+
     refuse_twice(what, &entries)?;
-    Ok(Sparse::from_entries(rows, cols, entries))
+    Ok(Sparse::from_entries(layout.rows, layout.cols, entries))
 }
 
-/// `%%MatrixMarket matrix {coordinate|array} {real|integer|double} {general|symmetric}`.
-fn banner(what: &'static str, line: &str) -> Result<(bool, bool), ModelError> {
-    let words: Vec<String> = words_of(line).map(str::to_lowercase).collect();
-    let words: Vec<&str> = words.iter().map(String::as_str).collect();
-    match words[..] {
-        [
-            "%%matrixmarket",
-            "matrix",
-            layout @ ("coordinate" | "array"),
-            "real" | "integer" | "double",
-            symmetry @ ("general" | "symmetric"),
-        ] => Ok((layout == "coordinate", symmetry == "symmetric")),
-        _ => Err(Reader { what }.complain(
-            1,
-            "%%MatrixMarket matrix {coordinate|array} {real|integer} {general|symmetric}",
-            line,
-        )),
-    }
+/// What the first line says.
+#[derive(Clone, Copy)]
+struct Banner {
+    /// Entries with their indices, not all values in order.
+    coordinate: bool,
+    /// The lower triangle only.
+    symmetric: bool,
 }
 
-/// How entries of the file map to places of the matrix.
-struct Places {
+/// How the entries of the file map to places of the matrix.
+struct Layout {
     coordinate: bool,
     symmetric: bool,
     rows: usize,
     cols: usize,
+    /// Number of entry lines.
+    count: usize,
 }
 
-impl Places {
-    /// Number of entry lines that must follow.
-    fn count(&self, sizes: &[usize]) -> usize {
-        match (self.coordinate, self.symmetric) {
-            (true, _) => sizes[2],
-            (false, true) => self.rows * (self.rows + 1) / 2,
-            (false, false) => self.rows * self.cols,
-        }
-    }
-
+impl Layout {
     /// Place of the k-th value of an array file: column by column, lower triangle if symmetric.
-    fn of_array(&self, k: usize) -> (usize, usize) {
+    fn place_in_array(&self, k: usize) -> (usize, usize) {
         if !self.symmetric {
             return (k % self.rows, k / self.rows);
         }
-        let (mut k, mut j) = (k, 0);
-        while k >= self.rows - j {
-            k -= self.rows - j;
-            j += 1;
+
+        let mut below_diagonal = k;
+        let mut column = 0;
+        while below_diagonal >= self.rows - column {
+            below_diagonal -= self.rows - column;
+            column += 1;
         }
-        (j + k, j)
+        (column + below_diagonal, column)
     }
 }
 
@@ -129,6 +112,12 @@ fn index(word: &str) -> Option<usize> {
     if is_plain { word.parse().ok() } else { None }
 }
 
+/// An index of the file, which counts from 1, as one that counts from 0.
+fn index_from_one(word: &str) -> Option<usize> {
+    index(word)?.checked_sub(1)
+}
+
+/// Reads single lines and names the matrix in complaints.
 struct Reader {
     what: &'static str,
 }
@@ -144,6 +133,54 @@ impl Reader {
         }
     }
 
+    /// `%%MatrixMarket matrix {coordinate|array} {real|integer|double} {general|symmetric}`.
+    fn banner(&self, line: &str) -> Result<Banner, ModelError> {
+        let words: Vec<String> = words_of(line).map(str::to_lowercase).collect();
+        let words: Vec<&str> = words.iter().map(String::as_str).collect();
+        match words[..] {
+            [
+                "%%matrixmarket",
+                "matrix",
+                layout @ ("coordinate" | "array"),
+                "real" | "integer" | "double",
+                symmetry @ ("general" | "symmetric"),
+            ] => Ok(Banner {
+                coordinate: layout == "coordinate",
+                symmetric: symmetry == "symmetric",
+            }),
+            _ => Err(self.complain(
+                1,
+                "%%MatrixMarket matrix {coordinate|array} {real|integer} {general|symmetric}",
+                line,
+            )),
+        }
+    }
+
+    /// `rows columns entries` of a coordinate file, `rows columns` of an array.
+    fn size_line(&self, line: usize, text: &str, banner: Banner) -> Result<Layout, ModelError> {
+        let sizes = self.integers(line, text, if banner.coordinate { 3 } else { 2 })?;
+        let rows = sizes[0];
+        let cols = sizes[1];
+        require_order(self.what, rows)?;
+        require_order(self.what, cols)?;
+        if banner.symmetric && rows != cols {
+            return Err(self.complain(line, "a square size for a symmetric matrix", text));
+        }
+
+        let count = match (banner.coordinate, banner.symmetric) {
+            (true, _) => sizes[2],
+            (false, true) => rows * (rows + 1) / 2,
+            (false, false) => rows * cols,
+        };
+        Ok(Layout {
+            coordinate: banner.coordinate,
+            symmetric: banner.symmetric,
+            rows,
+            cols,
+            count,
+        })
+    }
+
     fn integers(&self, line: usize, text: &str, count: usize) -> Result<Vec<usize>, ModelError> {
         let numbers: Vec<usize> = words_of(text).map_while(index).collect();
         let words = words_of(text).count();
@@ -153,44 +190,39 @@ impl Reader {
         Ok(numbers)
     }
 
+    /// The k-th entry line.
     fn entry(
         &self,
         line: usize,
         text: &str,
-        places: &Places,
+        layout: &Layout,
         k: usize,
     ) -> Result<(usize, usize, Rational), ModelError> {
         let words: Vec<&str> = words_of(text).collect();
-        let (i, j, value) = match (places.coordinate, &words[..]) {
-            (true, [i, j, value]) => {
-                let from_one = |w: &str| index(w).and_then(|v| v.checked_sub(1));
-                let (Some(i), Some(j)) = (from_one(i), from_one(j)) else {
+        let (i, j, value) = match words[..] {
+            [i, j, value] if layout.coordinate => {
+                let (Some(i), Some(j)) = (index_from_one(i), index_from_one(j)) else {
                     return Err(self.complain(line, "1-based indices", text));
                 };
-                (i, j, *value)
+                (i, j, value)
             }
-            (false, [value]) => {
-                let (i, j) = places.of_array(k);
-                (i, j, *value)
+            [value] if !layout.coordinate => {
+                let (i, j) = layout.place_in_array(k);
+                (i, j, value)
             }
-            _ => {
-                return Err(self.complain(
-                    line,
-                    if places.coordinate {
-                        "row column value"
-                    } else {
-                        "one value"
-                    },
-                    text,
-                ));
+            _ if layout.coordinate => {
+                return Err(self.complain(line, "row column value", text));
             }
+            _ => return Err(self.complain(line, "one value", text)),
         };
-        if i >= places.rows || j >= places.cols {
+
+        if i >= layout.rows || j >= layout.cols {
             return Err(self.complain(line, "indices within the size", text));
         }
-        if places.symmetric && i < j {
+        if layout.symmetric && i < j {
             return Err(self.complain(line, "the lower triangle of a symmetric matrix", text));
         }
+
         let value = parse(value).map_err(|source| ModelError::Number {
             place: format!("{} line {line}", self.what),
             source,
@@ -203,11 +235,13 @@ fn refuse_twice(
     what: &'static str,
     entries: &[(usize, usize, Rational)],
 ) -> Result<(), ModelError> {
-    let mut seen = std::collections::BTreeSet::new();
-    match entries.iter().find(|e| !seen.insert((e.0, e.1))) {
-        Some(e) => Err(ModelError::IndexTwice { what, index: e.0 }),
-        None => Ok(()),
+    let mut seen = BTreeSet::new();
+    for (i, j, _) in entries {
+        if !seen.insert((i, j)) {
+            return Err(ModelError::IndexTwice { what, index: *i });
+        }
     }
+    Ok(())
 }
 
 #[cfg(test)]

@@ -1,11 +1,22 @@
 //! A matrix in a file: dense rows, sparse entries, or a Matrix Market file beside the problem.
+//!
+//! ```text
+//! [[2, "1/2"], ["0.5", 0]]
+//! {"dense": [[...]]}
+//! {"rows": 2, "cols": 2, "symmetric": true, "entries": [[0, 0, 2], [1, 0, "0.5"]]}
+//! {"matrix_market": "K.mtx"}
+//! ```
+//!
+//! Indices count from 0. Any object may say `"read_as": "f64"`: then each number stands for the
+//! nearest double's exact value.
 
 use super::market::read_matrix_market;
 use super::{MAX_ORDER, Number, Word, beside, read_text};
 use crate::ModelError;
-use mceip_exact::{Rational, Sparse};
+use mceip_exact::{NumberError, Rational, Sparse};
 use serde::Deserialize;
 use serde::de::{self, Deserializer, MapAccess, SeqAccess, Visitor};
+use std::collections::BTreeSet;
 use std::path::Path;
 
 /// The three spellings of a matrix.
@@ -15,6 +26,7 @@ pub(super) enum RawMatrix {
     Object(RawObject),
 }
 
+/// The fields of the three objects above; which of them stand together is checked afterwards.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawObject {
@@ -35,18 +47,22 @@ enum ReadAs {
     F64,
 }
 
+/// A list is dense, a map is one of the objects.
 impl<'de> Deserialize<'de> for RawMatrix {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct Either;
         impl<'de> Visitor<'de> for Either {
             type Value = RawMatrix;
+
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
                 f.write_str("dense rows, or an object with dense, entries or matrix_market")
             }
+
             fn visit_seq<A: SeqAccess<'de>>(self, seq: A) -> Result<RawMatrix, A::Error> {
                 Deserialize::deserialize(de::value::SeqAccessDeserializer::new(seq))
                     .map(RawMatrix::Dense)
             }
+
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<RawMatrix, A::Error> {
                 Deserialize::deserialize(de::value::MapAccessDeserializer::new(map))
                     .map(RawMatrix::Object)
@@ -59,12 +75,17 @@ impl<'de> Deserialize<'de> for RawMatrix {
 impl RawMatrix {
     /// The matrix itself, named `what` in complaints.
     pub(super) fn build(self, what: &'static str, folder: &Path) -> Result<Sparse, ModelError> {
-        let object = match self {
-            RawMatrix::Dense(rows) => return dense(what, rows),
-            RawMatrix::Object(object) => object,
-        };
-        let read_as = object.read_as.map_or(ReadAs::Exact, |word| word.0);
-        let matrix = match object {
+        match self {
+            RawMatrix::Dense(rows) => dense(what, rows),
+            RawMatrix::Object(object) => object.build(what, folder),
+        }
+    }
+}
+
+impl RawObject {
+    fn build(self, what: &'static str, folder: &Path) -> Result<Sparse, ModelError> {
+        let read_as = self.read_as.as_ref().map_or(ReadAs::Exact, |word| word.0);
+        let matrix = match self {
             RawObject {
                 dense: Some(rows),
                 entries: None,
@@ -80,9 +101,18 @@ impl RawMatrix {
                 matrix_market: None,
                 rows: Some(rows),
                 cols: Some(cols),
-                symmetric,
+                symmetric: false,
                 ..
-            } => sparse(what, rows, cols, symmetric, entries)?,
+            } => general(what, rows, cols, entries)?,
+            RawObject {
+                dense: None,
+                entries: Some(entries),
+                matrix_market: None,
+                rows: Some(rows),
+                cols: Some(cols),
+                symmetric: true,
+                ..
+            } => symmetric(what, rows, cols, entries)?,
             RawObject {
                 dense: None,
                 entries: None,
@@ -91,18 +121,22 @@ impl RawMatrix {
                 cols: None,
                 symmetric: false,
                 ..
-            } => read_matrix_market(what, &read_text(what, &beside(what, folder, &file)?)?)?,
-            _ => return Err(shape_of_object(what)),
+            } => {
+                let path = beside(what, folder, &file)?;
+                let text = read_text(what, &path)?;
+                read_matrix_market(what, &text)?
+            }
+            _ => return Err(not_one_spelling(what)),
         };
-        if read_as == ReadAs::F64 {
-            nearest_doubles(what, &matrix)
-        } else {
-            Ok(matrix)
+
+        match read_as {
+            ReadAs::Exact => Ok(matrix),
+            ReadAs::F64 => nearest_doubles(what, &matrix),
         }
     }
 }
 
-fn shape_of_object(what: &'static str) -> ModelError {
+fn not_one_spelling(what: &'static str) -> ModelError {
     ModelError::Missing {
         equation: what,
         what: "one of {dense}, {rows, cols, entries[, symmetric]}, {matrix_market}",
@@ -114,60 +148,88 @@ fn dense(what: &'static str, rows: Vec<Vec<Number>>) -> Result<Sparse, ModelErro
     let cols = rows.first().map_or(0, Vec::len);
     let count = rows.len();
     require_order(what, count)?;
-    if let Some((row, r)) = rows.iter().enumerate().find(|(_, r)| r.len() != cols) {
-        return Err(ModelError::Ragged {
-            what,
-            row,
-            expected: cols,
-            got: r.len(),
-        });
+    for (row, numbers) in rows.iter().enumerate() {
+        if numbers.len() != cols {
+            return Err(ModelError::Ragged {
+                what,
+                row,
+                expected: cols,
+                got: numbers.len(),
+            });
+        }
     }
-    let entries = rows
-        .into_iter()
-        .enumerate()
-        .flat_map(|(i, r)| r.into_iter().enumerate().map(move |(j, n)| (i, j, n.0)));
+
+    let mut entries = Vec::with_capacity(count * cols);
+    for (i, numbers) in rows.into_iter().enumerate() {
+        for (j, number) in numbers.into_iter().enumerate() {
+            entries.push((i, j, number.0));
+        }
+    }
     Ok(Sparse::from_entries(count, cols, entries))
 }
 
-fn sparse(
+/// An entry as it stands in a file: row, column, value.
+type Entry = (usize, usize, Number);
+
+/// A matrix by its non-zero entries.
+fn general(
     what: &'static str,
     rows: usize,
     cols: usize,
-    symmetric: bool,
-    entries: Vec<(usize, usize, Number)>,
+    entries: Vec<Entry>,
 ) -> Result<Sparse, ModelError> {
     require_order(what, rows)?;
     require_order(what, cols)?;
-    let mut seen = std::collections::BTreeSet::new();
-    // A symmetric entry stands for its mirror, which must be there too.
-    let limits = if symmetric {
-        [rows.min(cols); 2]
-    } else {
-        [rows, cols]
-    };
+
+    let mut seen = BTreeSet::new();
     for &(i, j, _) in &entries {
-        if let Some((index, limit)) = [i, j]
-            .into_iter()
-            .zip(limits)
-            .find(|(index, limit)| index >= limit)
-        {
-            return Err(ModelError::IndexOutOfRange { what, index, limit });
-        }
-        // A symmetric matrix is given by one triangle; an entry and its mirror are the same one.
-        let key = if symmetric {
-            (i.min(j), i.max(j))
-        } else {
-            (i, j)
-        };
-        if !seen.insert(key) {
+        require_below(what, i, rows)?;
+        require_below(what, j, cols)?;
+        if !seen.insert((i, j)) {
             return Err(ModelError::IndexTwice { what, index: i });
         }
     }
-    let mirrored = entries.into_iter().flat_map(|(i, j, n)| {
-        let mirror = (symmetric && i != j).then(|| (j, i, n.0.clone()));
-        [(i, j, n.0)].into_iter().chain(mirror)
-    });
+
+    let entries = entries.into_iter().map(|(i, j, number)| (i, j, number.0));
+    Ok(Sparse::from_entries(rows, cols, entries))
+}
+
+/// A symmetric matrix by the non-zero entries of one triangle. An entry and its mirror are the same
+/// one, and both must lie within the shape.
+fn symmetric(
+    what: &'static str,
+    rows: usize,
+    cols: usize,
+    entries: Vec<Entry>,
+) -> Result<Sparse, ModelError> {
+    require_order(what, rows)?;
+    require_order(what, cols)?;
+
+    let order = rows.min(cols);
+    let mut seen = BTreeSet::new();
+    for &(i, j, _) in &entries {
+        require_below(what, i, order)?;
+        require_below(what, j, order)?;
+        if !seen.insert((i.min(j), i.max(j))) {
+            return Err(ModelError::IndexTwice { what, index: i });
+        }
+    }
+
+    let mut mirrored = Vec::with_capacity(2 * entries.len());
+    for (i, j, number) in entries {
+        if i != j {
+            mirrored.push((j, i, number.0.clone()));
+        }
+        mirrored.push((i, j, number.0));
+    }
     Ok(Sparse::from_entries(rows, cols, mirrored))
+}
+
+fn require_below(what: &'static str, index: usize, limit: usize) -> Result<(), ModelError> {
+    if index >= limit {
+        return Err(ModelError::IndexOutOfRange { what, index, limit });
+    }
+    Ok(())
 }
 
 /// Refuses absurd sizes before anything is allocated for them.
@@ -182,17 +244,18 @@ pub(super) fn require_order(what: &'static str, order: usize) -> Result<(), Mode
     Ok(())
 }
 
+/// Each entry as the exact value of its nearest double.
 fn nearest_doubles(what: &'static str, m: &Sparse) -> Result<Sparse, ModelError> {
     let mut entries: Vec<(usize, usize, Rational)> = Vec::new();
-    for (i, j, v) in m.entries() {
-        let rounded = Number(v.clone())
-            .through_f64()
-            .ok_or_else(|| ModelError::Number {
+    for (i, j, value) in m.entries() {
+        let Some(rounded) = Number(value.clone()).through_f64() else {
+            return Err(ModelError::Number {
                 place: format!("{what}[{i}][{j}]"),
-                source: mceip_exact::NumberError::NotFinite {
+                source: NumberError::NotFinite {
                     text: "a value beyond the range of doubles".into(),
                 },
-            })?;
+            });
+        };
         entries.push((i, j, rounded.0));
     }
     Ok(Sparse::from_entries(m.rows(), m.cols(), entries))
@@ -217,32 +280,36 @@ mod tests {
         assert_eq!(dense.get(0, 1), rational(1, 2));
     }
 
-    #[test]
-    fn entries_lie_within_the_matrix_and_their_mirrors_too() {
-        let refused = |rows: usize, cols: usize, symmetric: bool, i: usize, j: usize| match read(
-            &format!(
-                r#"{{"rows": {rows}, "cols": {cols}, "symmetric": {symmetric}, "entries": [[{i},{j},2]]}}"#
-            ),
-        ) {
+    /// The index and the limit for which a matrix with one entry is refused.
+    fn refused_index(
+        [rows, cols]: [usize; 2],
+        symmetric: bool,
+        [i, j]: [usize; 2],
+    ) -> Option<(usize, usize)> {
+        let text = format!(
+            r#"{{"rows": {rows}, "cols": {cols}, "symmetric": {symmetric},
+                "entries": [[{i}, {j}, 2]]}}"#
+        );
+        match read(&text) {
             Err(ModelError::IndexOutOfRange { index, limit, .. }) => Some((index, limit)),
             _ => None,
-        };
-        assert_eq!(
-            [
-                refused(3, 2, false, 2, 1),
-                refused(3, 2, false, 3, 0),
-                refused(3, 2, false, 0, 2)
-            ],
-            [None, Some((3, 3)), Some((2, 2))]
-        );
-        assert_eq!(
-            [
-                refused(3, 2, true, 1, 0),
-                refused(3, 2, true, 2, 0),
-                refused(2, 3, true, 0, 2)
-            ],
-            [None, Some((2, 2)), Some((2, 2))]
-        );
+        }
+    }
+
+    #[test]
+    fn entries_lie_within_the_matrix_and_their_mirrors_too() {
+        let cases = [
+            ([3, 2], false, [2, 1], None),
+            ([3, 2], false, [3, 0], Some((3, 3))),
+            ([3, 2], false, [0, 2], Some((2, 2))),
+            ([3, 2], true, [1, 0], None),
+            ([3, 2], true, [2, 0], Some((2, 2))),
+            ([2, 3], true, [0, 2], Some((2, 2))),
+        ];
+
+        for (shape, symmetric, place, expected) in cases {
+            assert_eq!(refused_index(shape, symmetric, place), expected);
+        }
     }
 
     #[test]

@@ -1,4 +1,10 @@
 //! `mceip-problem/1`: reading and writing problem files, every number exactly as spelt.
+//!
+//! A file is text of bounded size (`read_text`), JSON of a known format (`require_format`,
+//! `from_json`), a problem whose preconditions are established (`raw`). Each step refuses with a
+//! [`ModelError`] that names the place. The format is specified in `spec/formats.md`.
+//!
+//! Other crates read their own formats with the same pieces: [`Number`], [`Object`], [`Word`].
 
 mod market;
 mod matrix;
@@ -17,7 +23,7 @@ pub use write::{write_problem, write_sparse};
 
 use super::{ErrorLocation, ModelError, Problem};
 use std::io::Read as _;
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// The format this program reads and writes.
 pub const PROBLEM_FORMAT: &str = "mceip-problem/1";
@@ -51,12 +57,17 @@ pub fn read_problem(text: &str, folder: &Path) -> Result<Problem, ModelError> {
 /// [`ModelError::Unreadable`], [`ModelError::TooLarge`], or what [`read_problem`] finds.
 pub fn read_problem_file(path: &Path) -> Result<Problem, ModelError> {
     let text = read_text("the problem", path)?;
-    read_problem(
-        &text,
-        path.parent()
-            .filter(|p| !p.as_os_str().is_empty())
-            .unwrap_or(Path::new(".")),
-    )
+    let folder = path.parent().map_or(Path::new("."), or_here);
+    read_problem(&text, folder)
+}
+
+/// The folder of a plain file name is the empty path, which stands for the current folder.
+fn or_here(folder: &Path) -> &Path {
+    if folder.as_os_str().is_empty() {
+        Path::new(".")
+    } else {
+        folder
+    }
 }
 
 /// Reads a JSON list of particles, each as in `system.particles` of a problem file.
@@ -101,17 +112,20 @@ fn read_at_most(
     name: &str,
     source: impl std::io::Read,
 ) -> Result<String, ModelError> {
-    let unreadable = |e: std::io::Error| ModelError::Unreadable {
-        what,
-        path: name.to_string(),
-        problem: e.to_string(),
-    };
-    let mut text = String::new();
     // Bounded by what is read, not by what the directory says: devices and pipes have no length.
-    let got = source
-        .take(limit + 1)
-        .read_to_string(&mut text)
-        .map_err(unreadable)? as u64;
+    let mut bounded = source.take(limit + 1);
+    let mut text = String::new();
+    let got = match bounded.read_to_string(&mut text) {
+        Ok(bytes) => bytes as u64,
+        Err(e) => {
+            return Err(ModelError::Unreadable {
+                what,
+                path: name.to_string(),
+                problem: e.to_string(),
+            });
+        }
+    };
+
     if got > limit {
         return Err(ModelError::TooLarge {
             what: "file size in bytes",
@@ -132,36 +146,35 @@ pub(super) fn beside(
     folder: &Path,
     name: &str,
 ) -> Result<std::path::PathBuf, ModelError> {
-    use std::path::Component;
-    let refused = |problem: &str| ModelError::Unreadable {
+    let path = folder.join(name);
+
+    let problem = if !Path::new(name).components().all(stays_below) {
+        "expected a name beside the problem file"
+    } else if path.exists() && !path.is_file() {
+        "expected a regular file"
+    } else if leads_out_of(or_here(folder), &path) {
+        "expected a file beside the problem file, got a link out of its folder"
+    } else {
+        return Ok(path);
+    };
+    Err(ModelError::Unreadable {
         what,
         path: name.chars().take(200).collect(),
         problem: problem.into(),
-    };
-    if !Path::new(name)
-        .components()
-        .all(|c| matches!(c, Component::Normal(_) | Component::CurDir))
-    {
-        return Err(refused("expected a name beside the problem file"));
+    })
+}
+
+/// Is this component of a path neither a root nor `..`?
+fn stays_below(component: Component<'_>) -> bool {
+    matches!(component, Component::Normal(_) | Component::CurDir)
+}
+
+/// Is the path a link to a place outside of the folder? A path that does not exist is none.
+fn leads_out_of(folder: &Path, path: &Path) -> bool {
+    match (path.canonicalize(), folder.canonicalize()) {
+        (Ok(real), Ok(real_folder)) => !real.starts_with(&real_folder),
+        _ => false,
     }
-    let path = folder.join(name);
-    if path.exists() && !path.is_file() {
-        return Err(refused("expected a regular file"));
-    }
-    // The folder of a plain file name is the empty path.
-    let here = if folder.as_os_str().is_empty() {
-        Path::new(".")
-    } else {
-        folder
-    };
-    if let (Ok(real), Ok(real_folder)) = (path.canonicalize(), here.canonicalize())
-        && !real.starts_with(&real_folder)
-    {
-        return Err(refused(
-            "expected a file beside the problem file, got a link out of its folder",
-        ));
-    }
-    Ok(path)
 }
 
 /// Checks the `format` field before anything else, so that another version is named as such.
@@ -173,6 +186,7 @@ pub fn require_format(text: &str, expected: &'static str) -> Result<(), ModelErr
     struct Header {
         format: Option<serde_json::Value>,
     }
+
     let Object(header): Object<Header> = from_json(text)?;
     match header.format {
         Some(serde_json::Value::String(s)) if s == expected => Ok(()),
@@ -193,25 +207,30 @@ pub fn require_format(text: &str, expected: &'static str) -> Result<(), ModelErr
 /// [`ModelError::Json`].
 pub fn from_json<'a, T: serde::Deserialize<'a>>(text: &'a str) -> Result<T, ModelError> {
     private::refuse_keys(text)?;
-    serde_json::from_str(text).map_err(|e| {
-        let full = e.to_string();
-        // serde_json ends its messages with the place, which we carry as numbers.
-        let problem = full
-            .rsplit_once(" at line ")
-            .map_or(full.as_str(), |(head, _)| head);
-        let problem: String = problem
-            .chars()
-            .map(|c| if c.is_control() { ' ' } else { c })
-            .take(300)
-            .collect();
-        ModelError::Json {
-            location: ErrorLocation {
-                line: e.line(),
-                column: e.column(),
-            },
-            problem,
-        }
-    })
+    serde_json::from_str(text).map_err(|e| complaint(&e))
+}
+
+/// The reader's complaint in one line of bounded length, its place as numbers.
+fn complaint(error: &serde_json::Error) -> ModelError {
+    let full = error.to_string();
+    // serde_json ends its messages with the place.
+    let without_place = match full.rsplit_once(" at line ") {
+        Some((head, _)) => head,
+        None => &full,
+    };
+    let problem = without_place
+        .chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .take(300)
+        .collect();
+
+    ModelError::Json {
+        location: ErrorLocation {
+            line: error.line(),
+            column: error.column(),
+        },
+        problem,
+    }
 }
 
 #[cfg(test)]
@@ -221,12 +240,16 @@ mod tests {
     #[test]
     fn a_table_of_contact_states_keeps_its_order() {
         use crate::{ContactState, Particle};
-        let text = r#"[{"tangential": 1, "normal": 2, "state": "stick"}, {"tangential": 3, "normal": 0, "state": "slip", "sign": -1}]"#;
+        let text = r#"[{"tangential": 1, "normal": 2, "state": "stick"},
+                       {"tangential": 3, "normal": 0, "state": "slip", "sign": -1}]"#;
+
+        let particles = read_particles(text);
+
         let expected = [
             Particle::plain(1, 2, ContactState::Stick),
             Particle::plain(3, 0, ContactState::Slip { sign: -1 }),
         ];
-        assert_eq!(read_particles(text), Ok(expected.to_vec()));
+        assert_eq!(particles, Ok(expected.to_vec()));
         assert!(read_particles("[{}]").is_err());
     }
 
@@ -238,6 +261,7 @@ mod tests {
             [read(""), read("abc")],
             [Ok(String::new()), Ok("abc".into())]
         );
+
         let refused = ModelError::TooLarge {
             what: "file size in bytes",
             limit: 3,
@@ -247,6 +271,7 @@ mod tests {
             [read("abcd"), read("abcdefgh")],
             [Err(refused.clone()), Err(refused)]
         );
+
         assert!(matches!(
             read_at_most(3, "text", "-", &[0xff, 0xff][..]),
             Err(ModelError::Unreadable { what: "text", .. })

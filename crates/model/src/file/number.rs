@@ -1,8 +1,12 @@
 //! A number in a file: a JSON string or a JSON number, read as exactly the value it spells.
+//!
+//! `serde_json` keeps the text of a JSON number (its feature `arbitrary_precision`), so that `0.1`
+//! is 1/10 and never the nearest double. Written numbers are strings.
 
 use mceip_exact::{Rational, from_f64, parse, to_f64};
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde_json::Value;
 
 /// A rational as it stands in JSON: `"p/q"`, `"1.1"` or `1.1`, never through a double.
 ///
@@ -25,14 +29,13 @@ impl Number {
 
 impl<'de> Deserialize<'de> for Number {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        let text = match serde_json::Value::deserialize(deserializer)? {
-            serde_json::Value::Number(n) => n.to_string(), // arbitrary_precision: the text itself
-            serde_json::Value::String(s) => s,
+        let text = match Value::deserialize(deserializer)? {
+            Value::Number(number) => number.to_string(), // the text itself
+            Value::String(text) => text,
             other => {
-                return Err(D::Error::custom(format!(
-                    "expected a number or a string with one, got {}",
-                    kind(&other)
-                )));
+                let got = kind(&other);
+                let message = format!("expected a number or a string with one, got {got}");
+                return Err(D::Error::custom(message));
             }
         };
         parse(&text).map(Number).map_err(D::Error::custom)
@@ -45,14 +48,14 @@ impl Serialize for Number {
     }
 }
 
-fn kind(value: &serde_json::Value) -> &'static str {
+fn kind(value: &Value) -> &'static str {
     match value {
-        serde_json::Value::Null => "null",
-        serde_json::Value::Bool(_) => "a boolean",
-        serde_json::Value::Array(_) => "an array",
-        serde_json::Value::Object(_) => "an object",
-        serde_json::Value::Number(_) => "a number",
-        serde_json::Value::String(_) => "a string",
+        Value::Null => "null",
+        Value::Bool(_) => "a boolean",
+        Value::Array(_) => "an array",
+        Value::Object(_) => "an object",
+        Value::Number(_) => "a number",
+        Value::String(_) => "a string",
     }
 }
 

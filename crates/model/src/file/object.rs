@@ -1,5 +1,8 @@
-//! Values that stand in JSON in one form and no other. By itself serde reads a struct from a list
-//! of its fields too, and a word of an enum from an object `{"word": null}`.
+//! Values that stand in JSON in one form and no other.
+//!
+//! By itself serde reads a struct from a list of its fields too, and a word of an enum from an
+//! object `{"word": null}`. [`Object`] and [`Word`] refuse that, so that a file has one spelling
+//! and every reader of the format, in whatever language, accepts the same files.
 
 use serde::de::value::MapAccessDeserializer;
 use serde::de::{Deserialize, Deserializer, IntoDeserializer, MapAccess, Visitor};
@@ -57,37 +60,46 @@ where
     Kinds: Deserialize<'de> + Into<Whole>,
 {
     struct Either<Words, Kinds, Whole>(&'static str, PhantomData<(Words, Kinds, Whole)>);
+
     impl<'de, Words, Kinds, Whole> Visitor<'de> for Either<Words, Kinds, Whole>
     where
         Words: Deserialize<'de> + Into<Whole>,
         Kinds: Deserialize<'de> + Into<Whole>,
     {
         type Value = Whole;
+
         fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
             f.write_str(self.0)
         }
+
         fn visit_str<E: serde::de::Error>(self, word: &str) -> Result<Whole, E> {
             Words::deserialize(word.into_deserializer()).map(Into::into)
         }
+
         fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<Whole, A::Error> {
             Kinds::deserialize(MapAccessDeserializer::new(map)).map(Into::into)
         }
     }
+
     deserializer.deserialize_any(Either::<Words, Kinds, Whole>(expected, PhantomData))
 }
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Object<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
         struct MapOnly<T>(PhantomData<T>);
+
         impl<'de, T: Deserialize<'de>> Visitor<'de> for MapOnly<T> {
             type Value = T;
+
             fn expecting(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
                 f.write_str("an object")
             }
+
             fn visit_map<A: MapAccess<'de>>(self, map: A) -> Result<T, A::Error> {
                 T::deserialize(MapAccessDeserializer::new(map))
             }
         }
+
         deserializer
             .deserialize_map(MapOnly(PhantomData))
             .map(Object)

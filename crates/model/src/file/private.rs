@@ -1,4 +1,6 @@
-//! Keys that the JSON reader keeps for itself. With exact numbers `serde_json` hands a number over
+//! Keys that the JSON reader keeps for itself.
+//!
+//! With exact numbers `serde_json` hands a number over
 //! as an object with the key `$serde_json::private::Number`, so that an object with this key in a
 //! file would be read as a number. No format has a field of such a name: every key that begins like
 //! it is refused before anything is read.
@@ -21,8 +23,9 @@ pub(super) fn refuse_keys(text: &str) -> Result<(), ModelError> {
     let mut rest = 0;
     while let Some(start) = text[rest..].find('"').map(|at| rest + at) {
         let Some(end) = end_of_string(text, start) else {
-            return Ok(());
-        }; // unfinished: the reader refuses it
+            return Ok(()); // an unfinished string, which the reader refuses
+        };
+
         let is_key = text[end..].trim_start().starts_with(':');
         if is_key && is_private(&text[start..end]) {
             return Err(refusal(text, start));

@@ -1,4 +1,8 @@
-//! The JSON shape of `mceip-problem/1`, and its way to a [`Problem`].
+//! The JSON shape of `mceip-problem/1` (`spec/formats.md`), and its way to a [`Problem`].
+//!
+//! Two steps. First `serde` reads the text into the `Raw` types, which say what fields there are
+//! and nothing else; unknown fields are refused. Then `build` makes the types of the model out of
+//! them, which establish every precondition.
 
 use super::matrix::RawMatrix;
 use super::{Number, Object, Word};
@@ -9,6 +13,7 @@ use mceip_exact::{Rational, whole};
 use serde::Deserialize;
 use std::path::Path;
 
+/// The whole file.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct RawProblem {
@@ -76,20 +81,19 @@ struct RawReaction {
 }
 
 impl RawProblem {
-    /// Builds the problem, establishing every precondition.
+    /// Builds the problem; Matrix Market files that it names are looked for in `folder`.
     pub(super) fn build(self, folder: &Path) -> Result<Problem, ModelError> {
         let window = match self.window {
             None => Window::all(),
-            Some(Object(w)) => {
-                Window::new(w.min.map_or_else(|| whole(0), |n| n.0), w.max.map(|n| n.0))?
-            }
+            Some(Object(window)) => window.build()?,
         };
         let body = match (self.pencil, self.system) {
-            (Some(Object(p)), None) => Body::Pencil(p.build(folder)?),
-            (None, Some(Object(s))) => Body::System(s.build(folder)?),
+            (Some(Object(pencil)), None) => Body::Pencil(pencil.build(folder)?),
+            (None, Some(Object(system))) => Body::System(system.build(folder)?),
             (None, None) => return Err(ModelError::Body { got: "neither" }),
             (Some(_), Some(_)) => return Err(ModelError::Body { got: "both" }),
         };
+
         let mut problem = Problem::new(body, self.unknown.0, window)?;
         problem.name = self.name;
         problem.comment = self.comment;
@@ -97,80 +101,64 @@ impl RawProblem {
     }
 }
 
+impl RawWindow {
+    /// No `min` means 0, no `max` means infinity.
+    fn build(self) -> Result<Window, ModelError> {
+        let min = match self.min {
+            Some(number) => number.0,
+            None => whole(0),
+        };
+        let max = self.max.map(|number| number.0);
+        Window::new(min, max)
+    }
+}
+
 impl RawPencil {
     fn build(self, folder: &Path) -> Result<Pencil, ModelError> {
-        Pencil::new(
-            self.a.build("a", folder)?,
-            self.b.build("b", folder)?,
-            self.free,
-        )
+        let a = self.a.build("a", folder)?;
+        let b = self.b.build("b", folder)?;
+        Pencil::new(a, b, self.free)
     }
 }
 
 impl RawSystem {
     fn build(self, folder: &Path) -> Result<System, ModelError> {
         let particles = particles(self.particles)?;
-        let mass = self.mass.map(|m| m.build("M", folder)).transpose()?;
-        System::new(
-            self.stiffness.build("K", folder)?,
-            mass,
-            self.friction.map(|n| n.0),
-            particles,
-        )
+        let mass = match self.mass {
+            Some(mass) => Some(mass.build("M", folder)?),
+            None => None,
+        };
+        let stiffness = self.stiffness.build("K", folder)?;
+        let friction = self.friction.map(|number| number.0);
+        System::new(stiffness, mass, friction, particles)
     }
 }
 
 /// The particles of a list, numbered in complaints.
 pub(super) fn particles(list: Vec<Object<RawParticle>>) -> Result<Vec<Particle>, ModelError> {
-    list.into_iter()
-        .enumerate()
-        .map(|(i, Object(p))| p.build(i))
-        .collect()
+    let mut particles = Vec::with_capacity(list.len());
+    for (index, Object(particle)) in list.into_iter().enumerate() {
+        particles.push(particle.build(index)?);
+    }
+    Ok(particles)
 }
 
 impl RawParticle {
-    fn build(self, particle: usize) -> Result<Particle, ModelError> {
-        let sign = |field, value: i64| match value {
-            1 => Ok(1),
-            -1 => Ok(-1),
-            other => Err(ModelError::Sign {
-                particle,
-                field,
-                expected: "1 or -1",
-                got: other.to_string(),
-            }),
-        };
-        let state = match (self.state.0, self.sign) {
-            (RawState::Zero, _) => return Err(ModelError::ZeroReactionState { particle }),
-            (RawState::Slip, Some(s)) => ContactState::Slip {
-                sign: sign("sign", s)?,
-            },
-            (RawState::Slip, None) => {
-                return Err(ModelError::Sign {
-                    particle,
-                    field: "sign",
-                    expected: "1 or -1 on a slip particle",
-                    got: "none".into(),
-                });
-            }
-            (RawState::Free, None) => ContactState::Free,
-            (RawState::Stick, None) => ContactState::Stick,
-            (_, Some(s)) => {
-                return Err(ModelError::Sign {
-                    particle,
-                    field: "sign",
-                    expected: "none on a particle that does not slip",
-                    got: s.to_string(),
-                });
-            }
-        };
-        let frame: Option<[[Rational; 2]; 2]> =
-            self.frame.map(|rows| rows.map(|row| row.map(|n| n.0)));
-        let reaction = self.reaction.map(|Object(r)| Reaction {
-            tangential: r.tangential.0,
-            normal: r.normal.0,
+    fn build(self, index: usize) -> Result<Particle, ModelError> {
+        let state = contact_state(index, self.state.0, self.sign)?;
+
+        let frame: Option<[[Rational; 2]; 2]> = self
+            .frame
+            .map(|rows| rows.map(|row| row.map(|number| number.0)));
+        let reaction = self.reaction.map(|Object(reaction)| Reaction {
+            tangential: reaction.tangential.0,
+            normal: reaction.normal.0,
         });
-        let normal_direction = sign("normal_direction", self.normal_direction.unwrap_or(1))?;
+        let normal_direction = match self.normal_direction {
+            Some(direction) => sign(index, "normal_direction", direction)?,
+            None => 1,
+        };
+
         Ok(Particle {
             tangential: self.tangential,
             normal: self.normal,
@@ -182,6 +170,47 @@ impl RawParticle {
     }
 }
 
+/// The state with its sign, which a slip particle has and no other.
+fn contact_state(
+    particle: usize,
+    state: RawState,
+    given: Option<i64>,
+) -> Result<ContactState, ModelError> {
+    match (state, given) {
+        (RawState::Zero, _) => Err(ModelError::ZeroReactionState { particle }),
+        (RawState::Free, None) => Ok(ContactState::Free),
+        (RawState::Stick, None) => Ok(ContactState::Stick),
+        (RawState::Slip, Some(value)) => Ok(ContactState::Slip {
+            sign: sign(particle, "sign", value)?,
+        }),
+        (RawState::Slip, None) => Err(ModelError::Sign {
+            particle,
+            field: "sign",
+            expected: "1 or -1 on a slip particle",
+            got: "none".into(),
+        }),
+        (RawState::Free | RawState::Stick, Some(value)) => Err(ModelError::Sign {
+            particle,
+            field: "sign",
+            expected: "none on a particle that does not slip",
+            got: value.to_string(),
+        }),
+    }
+}
+
+fn sign(particle: usize, field: &'static str, value: i64) -> Result<i8, ModelError> {
+    match value {
+        1 => Ok(1),
+        -1 => Ok(-1),
+        other => Err(ModelError::Sign {
+            particle,
+            field,
+            expected: "1 or -1",
+            got: other.to_string(),
+        }),
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::{read_problem, write_problem};
@@ -189,7 +218,9 @@ mod tests {
 
     fn system(particles: &str) -> String {
         format!(
-            r#"{{"format":"mceip-problem/1","unknown":"lambda2","system":{{"stiffness":[[2,0],[0,2]],"mass":[[1,0],[0,1]],"friction":"1.1","particles":[{particles}]}}}}"#
+            r#"{{"format": "mceip-problem/1", "unknown": "lambda2",
+                "system": {{"stiffness": [[2, 0], [0, 2]], "mass": [[1, 0], [0, 1]],
+                            "friction": "1.1", "particles": [{particles}]}}}}"#
         )
     }
 
@@ -200,10 +231,14 @@ mod tests {
     #[test]
     fn a_system_round_trips() {
         let text = system(
-            r#"{"tangential":0,"normal":1,"state":"slip","sign":-1,"normal_direction":-1,"frame":[["3/5","4/5"],["-4/5","3/5"]],"reaction":{"normal":-1,"tangential":"-1.1"}}"#,
+            r#"{"tangential": 0, "normal": 1, "state": "slip", "sign": -1, "normal_direction": -1,
+                "frame": [["3/5", "4/5"], ["-4/5", "3/5"]],
+                "reaction": {"normal": -1, "tangential": "-1.1"}}"#,
         );
+
         let problem = read(&text).unwrap();
         let again = read(&write_problem(&problem)).unwrap();
+
         assert_eq!(problem, again);
         assert_eq!(problem.sha256(), again.sha256());
     }
@@ -230,12 +265,19 @@ mod tests {
                 "normal_direction",
             ),
         ] {
-            assert!(
-                matches!(read(&system(particle)), Err(ModelError::Sign { particle: 0, field: f, .. }) if f == field),
-                "{particle}"
-            );
+            let Err(ModelError::Sign {
+                particle: 0,
+                field: refused,
+                ..
+            }) = read(&system(particle))
+            else {
+                panic!("{particle}")
+            };
+            assert_eq!(refused, field, "{particle}");
         }
-        let twice = r#"{"tangential":0,"normal":1,"state":"stick"},{"tangential":0,"normal":1,"state":"slip","sign":1}"#;
+
+        let twice = r#"{"tangential": 0, "normal": 1, "state": "stick"},
+                       {"tangential": 0, "normal": 1, "state": "slip", "sign": 1}"#;
         assert!(matches!(
             read(&system(twice)),
             Err(ModelError::DofTwice {
@@ -260,14 +302,24 @@ mod tests {
             read(r#"{"unknown":"mu"}"#),
             Err(ModelError::Format { .. })
         ));
-        let window = r#"{"format":"mceip-problem/1","unknown":"mu","window":{"min":2,"max":"1.5"},"pencil":{"a":[[1]],"b":[[1]]}}"#;
+
+        let window = r#"{"format": "mceip-problem/1", "unknown": "mu",
+                         "window": {"min": 2, "max": "1.5"},
+                         "pencil": {"a": [[1]], "b": [[1]]}}"#;
         assert!(matches!(read(window), Err(ModelError::Window { .. })));
+
         let unknown_field =
             r#"{"format":"mceip-problem/1","unknown":"mu","pencil":{"a":[[1]],"b":[[1]],"c":1}}"#;
         assert!(matches!(read(unknown_field), Err(ModelError::Json { .. })));
-        let no_mass = r#"{"format":"mceip-problem/1","unknown":"lambda2","system":{"stiffness":[[1,0],[0,1]],"friction":1,"particles":[{"tangential":0,"normal":1,"state":"slip","sign":1}]}}"#;
+
+        let slip = r#"{"tangential": 0, "normal": 1, "state": "slip", "sign": 1}"#;
+        let no_mass = format!(
+            r#"{{"format": "mceip-problem/1", "unknown": "lambda2",
+                "system": {{"stiffness": [[1, 0], [0, 1]], "friction": 1,
+                            "particles": [{slip}]}}}}"#
+        );
         assert!(matches!(
-            read(no_mass),
+            read(&no_mass),
             Err(ModelError::Missing { what: "mass", .. })
         ));
     }

@@ -1,49 +1,30 @@
 //! Writing a problem file: what `reduce`, `block` and the generators hand to other programs.
+//!
+//! Every number is written as an exact string, matrices as sparse entries, so that reading the file
+//! gives an equal problem with the same digest.
 
 use super::{Number, PROBLEM_FORMAT};
-use crate::{Body, ContactState, Particle, Problem};
-use mceip_exact::Sparse;
+use crate::{Body, ContactState, Particle, Pencil, Problem, System, Window};
+use mceip_exact::{Rational, Sparse};
 use serde_json::{Map, Value, json};
 
 /// The problem as `mceip-problem/1`, matrices inlined as sparse entries.
 pub fn write_problem(problem: &Problem) -> String {
     let mut out = Map::new();
     out.insert("format".into(), json!(PROBLEM_FORMAT));
-    for (key, text) in [("name", &problem.name), ("comment", &problem.comment)] {
-        if let Some(text) = text {
-            out.insert(key.into(), json!(text));
-        }
+    if let Some(name) = &problem.name {
+        out.insert("name".into(), json!(name));
+    }
+    if let Some(comment) = &problem.comment {
+        out.insert("comment".into(), json!(comment));
     }
     out.insert("unknown".into(), json!(problem.unknown().word()));
-    let window = problem.window();
-    let max = window.max().map(|m| m.to_string());
-    out.insert(
-        "window".into(),
-        json!({ "min": window.min().to_string(), "max": max }),
-    );
+    out.insert("window".into(), write_window(problem.window()));
+
     match problem.body() {
-        Body::Pencil(p) => {
-            out.insert(
-                "pencil".into(),
-                json!({ "a": write_sparse(p.a()), "b": write_sparse(p.b()), "free": p.free() }),
-            );
-        }
-        Body::System(s) => {
-            let mut system = Map::new();
-            system.insert("stiffness".into(), write_sparse(s.stiffness()));
-            if let Some(m) = s.mass() {
-                system.insert("mass".into(), write_sparse(m));
-            }
-            if let Some(mu) = s.friction() {
-                system.insert("friction".into(), json!(mu.to_string()));
-            }
-            system.insert(
-                "particles".into(),
-                s.particles().iter().map(particle).collect(),
-            );
-            out.insert("system".into(), Value::Object(system));
-        }
-    }
+        Body::Pencil(pencil) => out.insert("pencil".into(), write_pencil(pencil)),
+        Body::System(system) => out.insert("system".into(), write_system(system)),
+    };
     Value::Object(out).to_string()
 }
 
@@ -51,32 +32,60 @@ pub fn write_problem(problem: &Problem) -> String {
 pub fn write_sparse(m: &Sparse) -> Value {
     let entries: Vec<Value> = m
         .entries()
-        .map(|(i, j, v)| json!([i, j, Number(v.clone())]))
+        .map(|(i, j, entry)| json!([i, j, Number(entry.clone())]))
         .collect();
     json!({ "rows": m.rows(), "cols": m.cols(), "entries": entries })
 }
 
-fn particle(p: &Particle) -> Value {
+fn write_window(window: &Window) -> Value {
+    let max = window.max().map(Rational::to_string);
+    json!({ "min": window.min().to_string(), "max": max })
+}
+
+fn write_pencil(pencil: &Pencil) -> Value {
+    json!({
+        "a": write_sparse(pencil.a()),
+        "b": write_sparse(pencil.b()),
+        "free": pencil.free(),
+    })
+}
+
+fn write_system(system: &System) -> Value {
     let mut out = Map::new();
-    out.insert("tangential".into(), json!(p.tangential));
-    out.insert("normal".into(), json!(p.normal));
-    out.insert("state".into(), json!(p.state.word()));
-    if let ContactState::Slip { sign } = p.state {
+    out.insert("stiffness".into(), write_sparse(system.stiffness()));
+    if let Some(mass) = system.mass() {
+        out.insert("mass".into(), write_sparse(mass));
+    }
+    if let Some(mu) = system.friction() {
+        out.insert("friction".into(), json!(mu.to_string()));
+    }
+    let particles = system.particles().iter().map(write_particle).collect();
+    out.insert("particles".into(), particles);
+    Value::Object(out)
+}
+
+fn write_particle(particle: &Particle) -> Value {
+    let mut out = Map::new();
+    out.insert("tangential".into(), json!(particle.tangential));
+    out.insert("normal".into(), json!(particle.normal));
+    out.insert("state".into(), json!(particle.state.word()));
+    if let ContactState::Slip { sign } = particle.state {
         out.insert("sign".into(), json!(sign));
     }
-    out.insert("normal_direction".into(), json!(p.normal_direction));
-    if let Some(frame) = &p.frame {
-        let rows: Vec<Vec<String>> = frame
-            .iter()
-            .map(|r| r.iter().map(ToString::to_string).collect())
-            .collect();
+    out.insert("normal_direction".into(), json!(particle.normal_direction));
+
+    if let Some(frame) = &particle.frame {
+        let rows = frame
+            .each_ref()
+            .map(|row| row.each_ref().map(Rational::to_string));
         out.insert("frame".into(), json!(rows));
     }
-    if let Some(r) = &p.reaction {
-        out.insert(
-            "reaction".into(),
-            json!({ "normal": r.normal.to_string(), "tangential": r.tangential.to_string() }),
-        );
+    if let Some(reaction) = &particle.reaction {
+        let numbers = json!({
+            "normal": reaction.normal.to_string(),
+            "tangential": reaction.tangential.to_string(),
+        });
+        out.insert("reaction".into(), numbers);
     }
     Value::Object(out)
 }

@@ -1,4 +1,23 @@
-//! Elimination (10)-(16): stick particles and normal dofs of slip particles leave, signs turn.
+//! The elimination (10)-(16): from a mechanical system to the pencil of its eigenproblem.
+//!
+//! Stick particles and the normal degrees of freedom of slip particles leave the problem (v = 0),
+//! and v_T = -S x turns the slip rates into x >= 0. With G = lambda^2 M + K, f the free degrees of
+//! freedom, T and N the tangential and normal directions of the slip particles, the lines w_f = 0
+//! and -(S w_T + mu w_N) = y of (9) become, by (16),
+//!
+//! ```text
+//! K0 = [  K_ff     -K_fT S  ]      K1 = [   0       0     ]
+//!      [ -S K_Tf  S K_TT S  ],          [ -K_Nf   K_NT S  ],
+//! ```
+//!
+//! M0 and M1 likewise. MCEIP-mu is the pencil K0 + mu K1; MCEIP-lambda2 is K* + lambda^2 M* with
+//! K* = K0 + mu K1 and M* = M0 + mu M1.
+//!
+//! Directions t_p and n_p may be oblique: the entries of K_TT are t_p' K t_q, those of K_NT are
+//! n_p' K t_q, and the columns of K_fT are (K t_q)_f.
+//!
+//! Input: a [`Problem`] or [`System`] whose preconditions have been established (K symmetric).
+//! Called by everything that solves or enumerates, never by `check`, which has its own way.
 
 use crate::{Body, Direction, ModelError, Pencil, Problem, System, Unknown};
 use mceip_exact::{Rational, Sparse};
@@ -38,15 +57,15 @@ pub struct Reduced {
 /// [`ModelError::Missing`] if the system lacks what the unknown needs.
 pub fn reduce(problem: &Problem) -> Result<Reduced, ModelError> {
     match problem.body() {
-        Body::Pencil(p) => Ok(Reduced {
-            pencil: p.clone(),
+        Body::Pencil(pencil) => Ok(Reduced {
+            pencil: pencil.clone(),
             variables: Vec::new(),
         }),
-        Body::System(s) => reduce_system(s, problem.unknown()),
+        Body::System(system) => reduce_system(system, problem.unknown()),
     }
 }
 
-/// K* and M* as functions of mu, before a value of mu is put in. // E15
+/// K* and M* as functions of mu, before a value of mu is put in. // (15)
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct MuFamily {
     /// K* = K0 + mu K1.
@@ -63,116 +82,179 @@ pub struct MuFamily {
 /// [`ModelError::Empty`] if no particle slips.
 pub fn mu_family(system: &System) -> Result<MuFamily, ModelError> {
     system.require_for(Unknown::Mu)?;
-    let blocks = Blocks::of(system);
-    let pencil = |m: &Sparse| {
-        let (at_zero, slope) = blocks.star(m);
-        Pencil::new(at_zero, slope, (0..blocks.free.len()).collect())
+    let kept = KeptVariables::of(system);
+
+    let stiffness = kept.blocks(system.stiffness());
+    let stiffness = Pencil::new(stiffness.constant, stiffness.slope, kept.free_indices())?;
+
+    let mass = match system.mass() {
+        None => None,
+        Some(mass) => {
+            let mass = kept.blocks(mass);
+            Some(Pencil::new(mass.constant, mass.slope, kept.free_indices())?)
+        }
     };
+
     Ok(MuFamily {
-        stiffness: pencil(system.stiffness())?,
-        mass: system.mass().map(pencil).transpose()?,
-        variables: blocks.variables(),
+        stiffness,
+        mass,
+        variables: kept.variables(),
     })
 }
 
 fn reduce_system(system: &System, unknown: Unknown) -> Result<Reduced, ModelError> {
     system.require_for(unknown)?;
-    let blocks = Blocks::of(system);
-    let (k0, k1) = blocks.star(system.stiffness());
+    let kept = KeptVariables::of(system);
+    let stiffness = kept.blocks(system.stiffness());
+
     let (a, b) = match (unknown, system.mass(), system.friction()) {
+        // (12), (15)
         (Unknown::Lambda2, Some(mass), Some(mu)) => {
-            let (m0, m1) = blocks.star(mass); // E15
-            (k0.add_scaled(mu, &k1), m0.add_scaled(mu, &m1))
+            let mass = kept.blocks(mass);
+            (stiffness.at(mu), mass.at(mu))
         }
-        _ => (k0, k1), // E21; require_for has refused lambda2 without M and mu
+        // (21); require_for has refused lambda2 without M and mu.
+        _ => (stiffness.constant, stiffness.slope),
     };
-    let free = (0..blocks.free.len()).collect();
+
     Ok(Reduced {
-        pencil: Pencil::new(a, b, free)?,
-        variables: blocks.variables(),
+        pencil: Pencil::new(a, b, kept.free_indices())?,
+        variables: kept.variables(),
     })
 }
 
-/// The index sets of (10)-(16), with the directions of each slip particle.
+/// K0 and K1 of (16), or M0 and M1: a matrix that is linear in mu.
 struct Blocks {
-    free: Vec<usize>,
-    slip: Vec<(i8, Direction, Direction)>,
+    constant: Sparse,
+    slope: Sparse,
 }
 
 impl Blocks {
-    fn of(system: &System) -> Blocks {
-        let slip = system
-            .slip_particles()
-            .into_iter()
-            .map(|(p, sign)| (sign, p.tangent(), p.into_obstacle()))
-            .collect();
-        Blocks {
-            free: system.free_dofs(),
-            slip,
+    /// constant + mu slope. // (15)
+    fn at(&self, mu: &Rational) -> Sparse {
+        self.constant.add_scaled(mu, &self.slope)
+    }
+}
+
+/// What is left of the degrees of freedom, in the order of the pencil's variables.
+struct KeptVariables {
+    /// f, ascending.
+    free: Vec<usize>,
+    /// The slip particles in file order.
+    slip: Vec<SlipDirections>,
+}
+
+/// S and the directions of a particle in impending slip.
+struct SlipDirections {
+    sign: i8,
+    tangent: Direction,
+    normal: Direction,
+}
+
+impl SlipDirections {
+    fn s(&self) -> Rational {
+        Rational::from_integer(self.sign.into())
+    }
+}
+
+impl KeptVariables {
+    fn of(system: &System) -> KeptVariables {
+        let mut slip = Vec::new();
+        for (particle, sign) in system.slip_particles() {
+            slip.push(SlipDirections {
+                sign,
+                tangent: particle.tangent(),
+                normal: particle.into_obstacle(),
+            });
         }
+        let free = system.free_dofs();
+        KeptVariables { free, slip }
     }
 
     fn variables(&self) -> Vec<Variable> {
-        let free = self.free.iter().map(|&dof| Variable::Free { dof });
-        let slip = self.slip.iter().map(|(sign, t, n)| Variable::Slip {
-            sign: *sign,
-            tangent: t.clone(),
-            normal: n.clone(),
-        });
-        free.chain(slip).collect()
+        let mut variables = Vec::new();
+        for &dof in &self.free {
+            variables.push(Variable::Free { dof });
+        }
+        for particle in &self.slip {
+            variables.push(Variable::Slip {
+                sign: particle.sign,
+                tangent: particle.tangent.clone(),
+                normal: particle.normal.clone(),
+            });
+        }
+        variables
     }
 
-    /// (K0, K1) of (16) from K; the same for M. // E16
-    ///
-    /// K0 = [ K_ff, -K_fT S; -S K_Tf, S K_TT S ],  K1 = [ 0, 0; -K_Nf, K_NT S ].
-    fn star(&self, k: &Sparse) -> (Sparse, Sparse) {
+    /// The free variables of the pencil: they come first.
+    fn free_indices(&self) -> Vec<usize> {
+        (0..self.free.len()).collect()
+    }
+
+    /// K0 and K1 from K, M0 and M1 from M. // (16)
+    fn blocks(&self, k: &Sparse) -> Blocks {
         let n_f = self.free.len();
         let order = n_f + self.slip.len();
-        let mut e0 = Vec::new();
-        let mut e1 = Vec::new();
-        for (i, j, v) in k.submatrix(&self.free, &self.free).entries() {
-            e0.push((i, j, v.clone())); // K_ff
+        let mut constant = Vec::new();
+        let mut slope = Vec::new();
+
+        for (i, j, entry) in k.submatrix(&self.free, &self.free).entries() {
+            constant.push((i, j, entry.clone())); // K_ff
         }
-        for (q, (s_q, t_q, _)) in self.slip.iter().enumerate() {
-            let s_q = Rational::from_integer((*s_q).into());
-            let k_t = column(k, t_q); // K t_q
+
+        for (q, of_q) in self.slip.iter().enumerate() {
+            let column = n_f + q;
+            let s_q = of_q.s();
+            let k_t = times_direction(k, &of_q.tangent); // K t_q
+
             for (i, &dof) in self.free.iter().enumerate() {
-                let value = -&k_t[dof] * &s_q; // -K_fT S and its mirror
-                e0.push((i, n_f + q, value.clone()));
-                e0.push((n_f + q, i, value));
+                let entry = -&k_t[dof] * &s_q; // -K_fT S
+                constant.push((i, column, entry.clone()));
+                constant.push((column, i, entry)); // -S K_Tf
             }
-            for (p, (s_p, t_p, n_p)) in self.slip.iter().enumerate() {
-                let s_p = Rational::from_integer((*s_p).into());
-                e0.push((n_f + p, n_f + q, &s_p * inner(t_p, &k_t) * &s_q)); // S K_TT S
-                e1.push((n_f + p, n_f + q, inner(n_p, &k_t) * &s_q)); // K_NT S
+
+            for (p, of_p) in self.slip.iter().enumerate() {
+                let row = n_f + p;
+                let s_p = of_p.s();
+                let k_tt = inner_product(&of_p.tangent, &k_t);
+                let k_nt = inner_product(&of_p.normal, &k_t);
+                constant.push((row, column, &s_p * k_tt * &s_q)); // S K_TT S
+                slope.push((row, column, k_nt * &s_q)); // K_NT S
             }
         }
-        for (p, (_, _, n_p)) in self.slip.iter().enumerate() {
-            let k_n = column(k, n_p); // K symmetric: n_p' K as a column
+
+        for (p, of_p) in self.slip.iter().enumerate() {
+            let row = n_f + p;
+            let k_n = times_direction(k, &of_p.normal); // K n_p, which is (n_p' K)'
+
             for (i, &dof) in self.free.iter().enumerate() {
-                e1.push((n_f + p, i, -&k_n[dof])); // -K_Nf
+                slope.push((row, i, -&k_n[dof])); // -K_Nf
             }
         }
-        (
-            Sparse::from_entries(order, order, e0),
-            Sparse::from_entries(order, order, e1),
-        )
+
+        Blocks {
+            constant: Sparse::from_entries(order, order, constant),
+            slope: Sparse::from_entries(order, order, slope),
+        }
     }
 }
 
-/// K d for a direction d (K symmetric, so rows serve as columns).
-fn column(k: &Sparse, d: &Direction) -> Vec<Rational> {
-    let mut out = vec![Rational::zero(); k.rows()];
-    for (dof, c) in d {
-        for (j, v) in k.row(*dof) {
-            out[*j] += c * v;
+/// K d for a direction d. K is symmetric, so that rows serve as columns.
+fn times_direction(k: &Sparse, direction: &Direction) -> Vec<Rational> {
+    let mut product = vec![Rational::zero(); k.rows()];
+    for (dof, coefficient) in direction {
+        for (j, entry) in k.row(*dof) {
+            product[*j] += coefficient * entry;
         }
     }
-    out
+    product
 }
 
-fn inner(d: &Direction, v: &[Rational]) -> Rational {
-    d.iter().map(|(dof, c)| c * &v[*dof]).sum()
+fn inner_product(direction: &Direction, vector: &[Rational]) -> Rational {
+    direction
+        .iter()
+        .map(|(dof, coefficient)| coefficient * &vector[*dof])
+        .sum()
 }
 
 #[cfg(test)]
@@ -198,15 +280,17 @@ mod tests {
         ];
         let system = System::new(k, None, None, particles).unwrap();
         let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap();
+
         let reduced = reduce(&problem).unwrap();
-        // -K_fT S = 1, S K_TT S = 8.
-        assert_eq!(*reduced.pencil.a(), Sparse::from_ints(&[&[9, 1], &[1, 8]]));
-        assert_eq!(
-            *reduced.pencil.b(),
-            Sparse::from_ints(&[&[0, 0], &[-2, -5]])
-        ); // -K_Nf, K_NT S
+
+        // -K_fT S = 1, S K_TT S = 8; -K_Nf = -2, K_NT S = -5.
+        let k0 = Sparse::from_ints(&[&[9, 1], &[1, 8]]);
+        let k1 = Sparse::from_ints(&[&[0, 0], &[-2, -5]]);
+        assert_eq!(*reduced.pencil.a(), k0);
+        assert_eq!(*reduced.pencil.b(), k1);
         assert_eq!(reduced.pencil.free(), &[0]);
         assert_eq!(reduced.variables[0], Variable::Free { dof: 0 });
+
         // Two slip with S = diag(1, -1): K_NT = [2 4; 3 5] is not symmetric, so its place and side
         // of S count.
         let k = Sparse::from_ints(&[
@@ -215,12 +299,15 @@ mod tests {
             &[1, 4, 20, 5],
             &[3, 0, 5, 20],
         ]);
-        let slip = |t, n, sign| Particle::plain(t, n, ContactState::Slip { sign });
-        let system = System::new(k, None, None, vec![slip(0, 1, 1), slip(2, 3, -1)]).unwrap();
-        let pencil =
-            reduce(&Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap())
-                .unwrap()
-                .pencil;
+        let particles = vec![
+            Particle::plain(0, 1, ContactState::Slip { sign: 1 }),
+            Particle::plain(2, 3, ContactState::Slip { sign: -1 }),
+        ];
+        let system = System::new(k, None, None, particles).unwrap();
+        let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap();
+
+        let pencil = reduce(&problem).unwrap().pencil;
+
         assert_eq!(*pencil.a(), Sparse::from_ints(&[&[20, -1], &[-1, 20]])); // S K_TT S
         assert_eq!(*pencil.b(), Sparse::from_ints(&[&[2, -4], &[3, -5]])); // K_NT S
     }
@@ -228,25 +315,14 @@ mod tests {
     #[test]
     fn consistent_mass_gets_the_same_blocks_and_friction() {
         let k = Sparse::from_ints(&[&[2, 0], &[0, 2]]);
-        let m = Sparse::from_entries(
-            2,
-            2,
-            [
-                (0, 0, whole(2)),
-                (0, 1, whole(1)),
-                (1, 0, whole(1)),
-                (1, 1, whole(2)),
-            ],
-        );
-        let system = System::new(
-            k,
-            Some(m),
-            Some(rational(1, 2)),
-            vec![Particle::plain(0, 1, ContactState::Slip { sign: 1 })],
-        )
-        .unwrap();
+        let m = Sparse::from_ints(&[&[2, 1], &[1, 2]]);
+        let friction = rational(1, 2);
+        let particles = vec![Particle::plain(0, 1, ContactState::Slip { sign: 1 })];
+        let system = System::new(k, Some(m), Some(friction), particles).unwrap();
         let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()).unwrap();
+
         let pencil = reduce(&problem).unwrap().pencil;
+
         assert_eq!(pencil.a().get(0, 0), whole(2)); // K_TT + mu K_NT S = 2
         assert_eq!(pencil.b().get(0, 0), rational(5, 2)); // M_TT + mu M_NT S
     }

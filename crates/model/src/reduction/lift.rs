@@ -1,7 +1,15 @@
 //! The way back: from (t, x) of the pencil to (v, w) over all degrees of freedom of (9).
+//!
+//! By (10), v_f = x_f and v_T = -S x for the slip particles; all other components of v vanish. By
+//! the first line of (9), w = (t M + K) v, or w = K v for MCEIP-mu, where t is mu.
+//!
+//! x is given by integer polynomials in t. K, M and oblique directions are rational, so v and w are
+//! multiplied by positive integers that clear all denominators, given beside them.
+//!
+//! Called by `engine` for reports; [`super::check_lines`] holds the result against (9).
 
 use super::Variable;
-use crate::{System, Unknown};
+use crate::{Direction, System, Unknown};
 use mceip_exact::{Integer, Poly, Rational, Sparse, common_denominator};
 use num_traits::Zero;
 
@@ -18,67 +26,93 @@ pub struct Lifted {
     pub w_scale: Integer,
 }
 
-/// Lifts x (integer polynomials in t) to v and w = (t M + K) v, or K v for MCEIP-mu. // E10, E9
+/// Lifts x (integer polynomials in t) to v (10) and w = (t M + K) v (9), or w = K v for MCEIP-mu.
 ///
-/// Stick particles and normal dofs of slip particles get v = 0. Directions may be oblique, so v
-/// and w are multiplied by positive integers that clear denominators, given beside them.
+/// `variables` says what each entry of `x` stands for, as [`super::reduce`] gave it.
 pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly]) -> Lifted {
-    let mut v: Vec<Vec<Rational>> = vec![Vec::new(); system.dofs()];
+    let mut v = RationalVector::zero(system.dofs());
     for (variable, x_i) in variables.iter().zip(x) {
         match variable {
-            Variable::Free { dof } => add(&mut v[*dof], x_i, &Rational::from_integer(1.into()), 0),
-            Variable::Slip { sign, tangent, .. } => {
-                for (dof, c) in tangent {
-                    add(
-                        &mut v[*dof],
-                        x_i,
-                        &(c * Rational::from_integer((-*sign).into())),
-                        0,
-                    ); // v_T = -S x
-                }
-            }
+            Variable::Free { dof } => v.add(*dof, x_i),
+            Variable::Slip { sign, tangent, .. } => v.subtract_slip(*sign, tangent, x_i),
         }
     }
-    let v_scale = common_denominator(v.iter().flatten());
-    let v: Vec<Poly> = v.into_iter().map(|c| to_poly(&c, &v_scale)).collect();
-    let mut w: Vec<Vec<Rational>> = vec![Vec::new(); system.dofs()];
-    accumulate(&mut w, system.stiffness(), &v, 0);
-    if let (Unknown::Lambda2, Some(mass)) = (unknown, system.mass()) {
-        accumulate(&mut w, mass, &v, 1);
+    let v = v.cleared();
+
+    let mut w = RationalVector::zero(system.dofs());
+    w.add_product(system.stiffness(), &v.entries, 0);
+    if unknown == Unknown::Lambda2
+        && let Some(mass) = system.mass()
+    {
+        w.add_product(mass, &v.entries, 1);
     }
-    let clear = common_denominator(w.iter().flatten());
-    let w = w.into_iter().map(|c| to_poly(&c, &clear)).collect();
+    let w = w.cleared();
+
     Lifted {
-        v,
-        w,
-        w_scale: &v_scale * clear,
-        v_scale,
+        v: v.entries,
+        w: w.entries,
+        w_scale: &v.scale * w.scale,
+        v_scale: v.scale,
     }
 }
 
-/// out += t^shift * m * v.
-fn accumulate(out: &mut [Vec<Rational>], m: &Sparse, v: &[Poly], shift: usize) {
-    for (i, j, value) in m.entries() {
-        add(&mut out[i], &v[j], value, shift);
+/// A vector of polynomials with rational coefficients: for each degree of freedom the coefficients
+/// of 1, t, t^2, ...
+struct RationalVector(Vec<Vec<Rational>>);
+
+/// `scale` times a rational vector.
+struct ClearedVector {
+    entries: Vec<Poly>,
+    scale: Integer,
+}
+
+impl RationalVector {
+    fn zero(dofs: usize) -> RationalVector {
+        RationalVector(vec![Vec::new(); dofs])
+    }
+
+    fn add(&mut self, dof: usize, p: &Poly) {
+        add_scaled(&mut self.0[dof], &Rational::from_integer(1.into()), p, 0);
+    }
+
+    /// v_T = -S x along the tangent. // (10)
+    fn subtract_slip(&mut self, sign: i8, tangent: &Direction, x_i: &Poly) {
+        let minus_s = Rational::from_integer((-sign).into());
+        for (dof, coefficient) in tangent {
+            let factor = coefficient * &minus_s;
+            add_scaled(&mut self.0[*dof], &factor, x_i, 0);
+        }
+    }
+
+    /// self += t^power matrix v.
+    fn add_product(&mut self, matrix: &Sparse, v: &[Poly], power: usize) {
+        for (i, j, entry) in matrix.entries() {
+            add_scaled(&mut self.0[i], entry, &v[j], power);
+        }
+    }
+
+    /// The vector times the common denominator of all its coefficients.
+    fn cleared(self) -> ClearedVector {
+        let scale = common_denominator(self.0.iter().flatten());
+        let mut entries = Vec::with_capacity(self.0.len());
+        for coefficients in &self.0 {
+            let integers = coefficients
+                .iter()
+                .map(|c| c.numer() * (&scale / c.denom()))
+                .collect();
+            entries.push(Poly::new(integers));
+        }
+        ClearedVector { entries, scale }
     }
 }
 
-/// sum += factor * t^shift * p.
-fn add(sum: &mut Vec<Rational>, p: &Poly, factor: &Rational, shift: usize) {
-    if sum.len() < p.coeffs().len() + shift {
-        sum.resize(p.coeffs().len() + shift, Rational::zero());
+/// sum += factor t^power p, where `sum` holds the coefficients of 1, t, t^2, ...
+fn add_scaled(sum: &mut Vec<Rational>, factor: &Rational, p: &Poly, power: usize) {
+    let length = p.coeffs().len() + power;
+    if sum.len() < length {
+        sum.resize(length, Rational::zero());
     }
-    for (k, c) in p.coeffs().iter().enumerate() {
-        sum[k + shift] += factor * Rational::from_integer(c.clone());
+    for (k, coefficient) in p.coeffs().iter().enumerate() {
+        sum[k + power] += factor * Rational::from_integer(coefficient.clone());
     }
-}
-
-/// factor * coefficients, where the factor clears every denominator.
-fn to_poly(coeffs: &[Rational], factor: &Integer) -> Poly {
-    Poly::new(
-        coeffs
-            .iter()
-            .map(|c| c.numer() * (factor / c.denom()))
-            .collect(),
-    )
 }

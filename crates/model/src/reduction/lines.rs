@@ -1,9 +1,21 @@
-//! Does a lifted pair satisfy every line of (9)? Decided exactly at an algebraic number.
+//! Does a lifted pair (v, w) satisfy every line of (9)? Decided exactly at an algebraic number.
+//!
+//! | particles | lines of (9) |
+//! |---|---|
+//! | all | v != 0 |
+//! | f | w_f = 0 |
+//! | d (stick) | v_d = 0 |
+//! | s (slip) | v_N = 0, S v_T <= 0, S w_T + mu w_N <= 0, and the product of the last two is 0 |
+//!
+//! Each side is a polynomial in t up to a positive factor; its sign at t decides the line. The
+//! first line of (9), (t M + K) v = w, holds by construction of [`super::lift`].
+//!
+//! Called by `testkit` and the tests, which hold every lifted solution against (9).
 
 use super::Lifted;
-use crate::{ContactState, Direction, System, Unknown};
+use crate::{ContactState, Direction, Particle, System, Unknown};
 use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator};
-use num_traits::{One, Zero};
+use num_traits::One;
 
 /// The lines of (9) that apply without z particles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -49,7 +61,7 @@ pub fn check_lines(
     lifted: &Lifted,
     value: &mut Algebraic,
 ) -> Result<(), LineViolated> {
-    if lifted.v.iter().all(|p| value.sign_of(p) == Sign::Zero) {
+    if lifted.v.iter().all(|v_i| value.sign_of(v_i) == Sign::Zero) {
         return Err(LineViolated {
             line: Line::NonTrivial,
             place: "dof",
@@ -57,146 +69,144 @@ pub fn check_lines(
             got: Sign::Zero,
         });
     }
+
     for dof in system.free_dofs() {
-        require(
-            Line::FreeReaction,
-            "dof",
-            dof,
-            value.sign_of(&lifted.w[dof]),
-            &[Sign::Zero],
-        )?;
+        let w_f = value.sign_of(&lifted.w[dof]);
+        require(w_f == Sign::Zero, Line::FreeReaction, Place::Dof(dof), w_f)?;
     }
-    for (index, p) in system.particles().iter().enumerate() {
-        match p.state {
+
+    for (index, particle) in system.particles().iter().enumerate() {
+        let place = Place::Particle(index);
+        match particle.state {
             ContactState::Free => {}
             ContactState::Stick => {
-                for dof in [p.tangential, p.normal] {
-                    require(
-                        Line::StickRate,
-                        "particle",
-                        index,
-                        value.sign_of(&lifted.v[dof]),
-                        &[Sign::Zero],
-                    )?;
+                for dof in [particle.tangential, particle.normal] {
+                    let v_d = value.sign_of(&lifted.v[dof]);
+                    require(v_d == Sign::Zero, Line::StickRate, place, v_d)?;
                 }
             }
             ContactState::Slip { sign } => {
                 let s = Rational::from_integer(sign.into());
-                let v_n = combine(&p.into_obstacle(), &lifted.v, &Rational::one());
-                require(
-                    Line::NormalRate,
-                    "particle",
-                    index,
-                    value.sign_of(&v_n),
-                    &[Sign::Zero],
-                )?;
-                let slip = value.sign_of(&combine(&p.tangent(), &lifted.v, &s)); // S v_T
-                require(
-                    Line::SlipDirection,
-                    "particle",
-                    index,
-                    slip,
-                    &[Sign::Zero, Sign::Negative],
-                )?;
-                let cone = cone(
-                    system,
-                    unknown,
-                    &p.tangent(),
-                    &p.into_obstacle(),
-                    &s,
-                    &lifted.w,
-                );
-                let cone = value.sign_of(&cone);
-                require(
-                    Line::FrictionCone,
-                    "particle",
-                    index,
-                    cone,
-                    &[Sign::Zero, Sign::Negative],
-                )?;
-                let product = if slip == Sign::Zero || cone == Sign::Zero {
-                    Sign::Zero
-                } else {
-                    Sign::Positive
+                let sides = SlipSides {
+                    v_n: positive_multiple(&particle.into_obstacle(), &Rational::one(), &lifted.v),
+                    s_v_t: positive_multiple(&particle.tangent(), &s, &lifted.v),
+                    cone: cone_side(particle, &s, friction(system, unknown), &lifted.w),
                 };
-                require(
-                    Line::Complementarity,
-                    "particle",
-                    index,
-                    product,
-                    &[Sign::Zero],
-                )?;
+                sides.check(place, value)?;
             }
         }
     }
     Ok(())
 }
 
-fn require(
-    line: Line,
-    place: &'static str,
-    index: usize,
-    got: Sign,
-    allowed: &[Sign],
-) -> Result<(), LineViolated> {
-    if allowed.contains(&got) {
-        Ok(())
-    } else {
-        Err(LineViolated {
-            line,
-            place,
-            index,
-            got,
-        })
+/// The coefficient of friction in (9).
+enum Friction {
+    /// mu as the system gives it (MCEIP-lambda2).
+    Given(Rational),
+    /// mu is the number t itself (MCEIP-mu).
+    IsUnknown,
+}
+
+fn friction(system: &System, unknown: Unknown) -> Friction {
+    match (unknown, system.friction()) {
+        (Unknown::Mu, _) => Friction::IsUnknown,
+        (Unknown::Lambda2, Some(mu)) => Friction::Given(mu.clone()),
+        // A system without mu has no MCEIP-lambda2: `System::require_for` refuses it.
+        (Unknown::Lambda2, None) => Friction::Given(Rational::one()),
     }
 }
 
-/// S t'w + mu n'w as a polynomial; mu is the number itself for MCEIP-mu.
-fn cone(
-    system: &System,
-    unknown: Unknown,
-    tangent: &Direction,
-    normal: &Direction,
-    s: &Rational,
-    w: &[Poly],
-) -> Poly {
-    let mu = match (unknown, system.friction()) {
-        (Unknown::Lambda2, Some(mu)) => mu.clone(),
-        _ => Rational::one(),
-    };
-    let weights: Vec<Rational> = tangent
-        .iter()
-        .map(|(_, c)| c * s)
-        .chain(normal.iter().map(|(_, c)| c * &mu))
-        .collect();
-    let clear = common_denominator(&weights);
-    let integral = |c: &Rational, factor: &Rational| {
-        (c * factor * Rational::from_integer(clear.clone())).to_integer()
-    };
-    let w_t = sum(tangent
-        .iter()
-        .map(|(dof, c)| w[*dof].scale(&integral(c, s))));
-    let w_n = sum(normal
-        .iter()
-        .map(|(dof, c)| w[*dof].scale(&integral(c, &mu))));
-    match unknown {
-        Unknown::Lambda2 => &w_t + &w_n,
-        Unknown::Mu => &w_t + &w_n.shift(1),
+/// The left-hand sides of (9) at a slip particle, each times a positive number.
+struct SlipSides {
+    /// v_N.
+    v_n: Poly,
+    /// S v_T.
+    s_v_t: Poly,
+    /// S w_T + mu w_N.
+    cone: Poly,
+}
+
+impl SlipSides {
+    fn check(&self, place: Place, value: &mut Algebraic) -> Result<(), LineViolated> {
+        let v_n = value.sign_of(&self.v_n);
+        require(v_n == Sign::Zero, Line::NormalRate, place, v_n)?;
+
+        let slip = value.sign_of(&self.s_v_t);
+        require(slip != Sign::Positive, Line::SlipDirection, place, slip)?;
+
+        let cone = value.sign_of(&self.cone);
+        require(cone != Sign::Positive, Line::FrictionCone, place, cone)?;
+
+        // Neither factor is positive, so their product is not negative.
+        let product = if slip == Sign::Zero || cone == Sign::Zero {
+            Sign::Zero
+        } else {
+            Sign::Positive
+        };
+        require(product == Sign::Zero, Line::Complementarity, place, product)
     }
+}
+
+/// What a line of (9) is about.
+#[derive(Clone, Copy)]
+enum Place {
+    Dof(usize),
+    Particle(usize),
+}
+
+fn require(holds: bool, line: Line, place: Place, got: Sign) -> Result<(), LineViolated> {
+    if holds {
+        return Ok(());
+    }
+    let (place, index) = match place {
+        Place::Dof(dof) => ("dof", dof),
+        Place::Particle(particle) => ("particle", particle),
+    };
+    Err(LineViolated {
+        line,
+        place,
+        index,
+        got,
+    })
+}
+
+/// A positive multiple of S t'w + mu n'w.
+fn cone_side(particle: &Particle, s: &Rational, friction: Friction, w: &[Poly]) -> Poly {
+    let (mu, power) = match friction {
+        Friction::Given(mu) => (mu, 0),
+        Friction::IsUnknown => (Rational::one(), 1),
+    };
+    let tangential = times(&particle.tangent(), s);
+    let normal = times(&particle.into_obstacle(), &mu);
+
+    let coefficients = tangential.iter().chain(&normal).map(|(_, c)| c);
+    let clear = common_denominator(coefficients);
+    let w_t = integral_inner_product(&tangential, &clear, w);
+    let w_n = integral_inner_product(&normal, &clear, w);
+    &w_t + &w_n.shift(power)
 }
 
 /// A positive multiple of factor * d'p.
-fn combine(d: &Direction, p: &[Poly], factor: &Rational) -> Poly {
-    let clear =
-        Rational::from_integer(common_denominator(d.iter().map(|(_, c)| c)) * factor.denom());
-    let integral = |c: &Rational| -> Integer { (c * factor * &clear).to_integer() };
-    debug_assert!(
-        d.iter()
-            .all(|(_, c)| (c * factor * &clear).is_integer() && !clear.is_zero())
-    );
-    sum(d.iter().map(|(dof, c)| p[*dof].scale(&integral(c))))
+fn positive_multiple(direction: &Direction, factor: &Rational, p: &[Poly]) -> Poly {
+    let scaled = times(direction, factor);
+    let clear = common_denominator(scaled.iter().map(|(_, c)| c));
+    integral_inner_product(&scaled, &clear, p)
 }
 
-fn sum(terms: impl Iterator<Item = Poly>) -> Poly {
-    terms.fold(Poly::default(), |a, b| &a + &b)
+/// factor * d.
+fn times(direction: &Direction, factor: &Rational) -> Direction {
+    direction
+        .iter()
+        .map(|(dof, coefficient)| (*dof, coefficient * factor))
+        .collect()
+}
+
+/// clear * d'p, where `clear` is a multiple of every denominator of d.
+fn integral_inner_product(direction: &Direction, clear: &Integer, p: &[Poly]) -> Poly {
+    let mut sum = Poly::default();
+    for (dof, coefficient) in direction {
+        let integer = coefficient.numer() * (clear / coefficient.denom());
+        sum += &p[*dof].scale(&integer);
+    }
+    sum
 }

@@ -1,4 +1,7 @@
 //! From the mechanical system to the pencil (10)-(16), the lift back, and the lines of (9).
+//!
+//! `eliminate` goes from (v, w) to (x, y), `lift` goes back from x to (v, w), and `lines` checks
+//! that what comes back satisfies (9).
 #![deny(clippy::float_arithmetic)]
 
 mod eliminate;

@@ -1,0 +1,169 @@
+//! The pencil A + tB with integer entries, and the linear algebra that (24)-(26) ask of its blocks.
+//!
+//! Each row of (A, B) is multiplied by a positive integer that clears its denominators. Neither the
+//! kernel of a block of rows and columns nor the sign of an entry of y = (A + tB) x changes, and
+//! (24)-(26) speak of nothing else.
+//!
+//! A block is named by the list `active` of its rows and columns, ascending: the free variables and
+//! the variables of a support. Vectors are lists of integer polynomials in t.
+//!
+//! Called by `plain` (one support after the other), `cone` (one support at one value) and `range`
+//! (supports whose block is singular for every t).
+
+use mceip_exact::{Algebraic, Integer, Poly, Sign, determinant, first_row_cofactors, kernel_at};
+use mceip_model::Pencil;
+
+/// A pencil whose rows have been made integral, and its free variables.
+pub(super) struct IntegerPencil<'a> {
+    a: Vec<Vec<Integer>>,
+    b: Vec<Vec<Integer>>,
+    free: &'a [usize],
+}
+
+/// The kernel of a block at a root of its determinant.
+pub(super) struct Eigenspace {
+    pub(super) value: Algebraic,
+    /// A basis of the kernel over the variables of the block, to be evaluated at `value`.
+    pub(super) basis: Vec<Vec<Poly>>,
+}
+
+impl<'a> IntegerPencil<'a> {
+    pub(super) fn of(pencil: &'a Pencil) -> Self {
+        let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
+        let free = pencil.free();
+        IntegerPencil { a, b, free }
+    }
+
+    pub(super) fn order(&self) -> usize {
+        self.a.len()
+    }
+
+    /// Is variable i a complementarity variable, that is, not a free one?
+    pub(super) fn is_complementarity(&self, i: usize) -> bool {
+        self.free.binary_search(&i).is_err()
+    }
+
+    /// A bound, as a power of two, of every coefficient of the determinant of every block: its
+    /// exponent.
+    ///
+    /// The determinant at |t| = 1 is at most prod_i (|a_i| + |b_i|) over the rows (Hadamard's
+    /// inequality), and so is each of its coefficients (Cauchy's estimate). The exponent is summed
+    /// up row by row from (|a_i| + |b_i|)^2 <= 2 (|a_i|^2 + |b_i|^2).
+    pub(super) fn coefficient_bits(&self) -> u64 {
+        let mut bits = 0;
+        for (a_row, b_row) in self.a.iter().zip(&self.b) {
+            let square: Integer = a_row.iter().chain(b_row).map(|entry| entry * entry).sum();
+            let bound: Integer = square * 2;
+            bits += bound.bits().div_ceil(2);
+        }
+        bits
+    }
+
+    /// The free variables and those of the support, ascending.
+    pub(super) fn active(&self, support: &[usize]) -> Vec<usize> {
+        let mut active = [self.free, support].concat();
+        active.sort_unstable();
+        active
+    }
+
+    /// Entry (i, j) of A + tB.
+    fn entry(&self, i: usize, j: usize) -> Poly {
+        Poly::new(vec![self.a[i][j].clone(), self.b[i][j].clone()])
+    }
+
+    /// The block of A + tB, over `Z[t]`.
+    pub(super) fn block(&self, active: &[usize]) -> Vec<Vec<Poly>> {
+        active
+            .iter()
+            .map(|&i| active.iter().map(|&j| self.entry(i, j)).collect())
+            .collect()
+    }
+
+    /// The determinant of the block, a polynomial in t.
+    pub(super) fn determinant(&self, active: &[usize]) -> Poly {
+        determinant(
+            &principal_submatrix(&self.a, active),
+            &principal_submatrix(&self.b, active),
+        )
+    }
+
+    /// The kernel of the block at each of the given roots of its determinant.
+    ///
+    /// Where the rank is one less than the order, the cofactors of the first row span the kernel
+    /// (Cramer's rule), for all such roots at once. They all vanish where the rank is less; there
+    /// the kernel is found by elimination at the root.
+    pub(super) fn eigenspaces(&self, active: &[usize], roots: Vec<Algebraic>) -> Vec<Eigenspace> {
+        if roots.is_empty() {
+            return Vec::new();
+        }
+
+        let cofactors = first_row_cofactors(
+            &principal_submatrix(&self.a, active),
+            &principal_submatrix(&self.b, active),
+        );
+
+        let mut eigenspaces = Vec::with_capacity(roots.len());
+        for mut value in roots {
+            let spans_kernel = cofactors.iter().any(|c| value.sign_of(c) != Sign::Zero);
+            let basis = if spans_kernel {
+                vec![cofactors.clone()]
+            } else {
+                kernel_at(self.block(active), &mut value)
+            };
+            eigenspaces.push(Eigenspace { value, basis });
+        }
+        eigenspaces
+    }
+
+    /// A vector over `active` as one over all variables, zero elsewhere.
+    pub(super) fn extend(&self, active: &[usize], vector: &[Poly]) -> Vec<Poly> {
+        let mut x = vec![Poly::default(); self.order()];
+        for (&i, x_i) in active.iter().zip(vector) {
+            x[i] = x_i.clone();
+        }
+        x
+    }
+
+    /// y = (A + tB) x.
+    pub(super) fn times(&self, x: &[Poly]) -> Vec<Poly> {
+        let mut y = Vec::with_capacity(self.order());
+        for i in 0..self.order() {
+            let mut y_i = Poly::default();
+            for (j, x_j) in x.iter().enumerate() {
+                y_i += &(&self.entry(i, j) * x_j);
+            }
+            y.push(y_i);
+        }
+        y
+    }
+
+    /// The inequalities of (26) for a combination z of the basis vectors v_1, ..., v_k of a kernel:
+    /// one row of coefficients for each x_i >= 0 on the support, then one for each y_i >= 0 off the
+    /// block.
+    pub(super) fn inequalities(&self, support: &[usize], basis: &[Vec<Poly>]) -> Vec<Vec<Poly>> {
+        let active = self.active(support);
+        let images: Vec<Vec<Poly>> = basis.iter().map(|v| self.times(v)).collect();
+
+        let mut rows = Vec::new();
+        for &i in support {
+            rows.push(entries_of(basis, i));
+        }
+        for i in (0..self.order()).filter(|i| !active.contains(i)) {
+            rows.push(entries_of(&images, i));
+        }
+        rows
+    }
+}
+
+/// Entry i of each of the vectors.
+pub(super) fn entries_of(vectors: &[Vec<Poly>], i: usize) -> Vec<Poly> {
+    vectors.iter().map(|vector| vector[i].clone()).collect()
+}
+
+/// The rows and columns `active` of a matrix.
+fn principal_submatrix(matrix: &[Vec<Integer>], active: &[usize]) -> Vec<Vec<Integer>> {
+    active
+        .iter()
+        .map(|&i| active.iter().map(|&j| matrix[i][j].clone()).collect())
+        .collect()
+}
