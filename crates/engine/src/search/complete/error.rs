@@ -24,6 +24,14 @@ pub enum CompleteError {
         /// A free variable of it.
         index: usize,
     },
+    /// The free variables can be eliminated in doubles and not provably so.
+    #[error("P1, P2: expected {expected}, got row {row} of the free block that breaks it")]
+    Hypothesis {
+        /// What the checker demands.
+        expected: &'static str,
+        /// Row of the free block.
+        row: usize,
+    },
     /// More complementarity variables than a cover may have.
     #[error("complete: expected at most {limit} complementarity variables, got {got}")]
     TooManySlip {

@@ -1,4 +1,10 @@
 //! Joins the parts of a search that was shared out over several runs.
+//!
+//! Every part has a tree for every piece. Two trees of one region are joined from the root down: a
+//! subtree in which nothing is open is taken, an open leaf gives way to whatever the other part has
+//! there, and where both divide the region in the same way, their halves are joined. Where they
+//! divide it differently, the subtree with fewer open leaves is taken. So no region is open that
+//! some part has closed by the same divisions.
 
 use super::splice::number;
 use super::{CompleteError, error};
@@ -6,8 +12,8 @@ use mceip_check::certificate::{Certificate, Claim, CompleteSet, Node, Piece, Roo
 use mceip_check::{AcceptedCover, check};
 use mceip_model::Problem;
 
-/// One certificate from several of the same problem, window and pieces: of each piece the tree with
-/// the fewest open leaves. The checker reads the result.
+/// One certificate from several of the same problem, window and pieces. The checker reads the
+/// result.
 ///
 /// # Errors
 /// [`CompleteError`]: parts of another problem or window, cut into other pieces, a piece that no
@@ -30,26 +36,20 @@ pub fn merge(
     let mut claims: Vec<Claim> = Vec::new();
     let mut pieces = Vec::new();
     for k in 0..sets[0].pieces.len() {
-        let open = |s: &&CompleteSet| {
-            s.pieces[k]
-                .tree
-                .iter()
-                .filter(|n| **n == Node::Open)
-                .count()
-        };
-        // The first of those with the fewest open leaves; an untouched piece is one open leaf.
-        let touched = (0..sets.len()).filter(|&p| sets[p].pieces[k].tree != [Node::Open]);
-        let best = touched
-            .min_by_key(|&p| open(&sets[p]))
-            .ok_or(CompleteError::MissingPiece {
-                piece: k,
-                pieces: sets[0].pieces.len(),
-            })?;
-        pieces.push(renumbered(
-            &sets[best].pieces[k],
-            &parts[best].claims,
-            &mut claims,
-        ));
+        let mut searched = (0..sets.len()).filter(|&p| sets[p].pieces[k].tree != [Node::Open]);
+        let first = searched.next().ok_or(CompleteError::MissingPiece {
+            piece: k,
+            pieces: sets[0].pieces.len(),
+        })?;
+
+        let mut tree = Preorder::of(first, &sets[first].pieces[k].tree);
+        for part in searched {
+            tree = tree.joined(&Preorder::of(part, &sets[part].pieces[k].tree));
+        }
+        pieces.push(Piece {
+            tree: tree.numbered(parts, &mut claims),
+            ..sets[0].pieces[k].clone()
+        });
     }
     let complete_set = Some(CompleteSet {
         condensation: sets[0].condensation.clone(),
@@ -73,16 +73,174 @@ fn same_pieces(a: &CompleteSet, b: &CompleteSet) -> bool {
         && a.pieces.iter().zip(&b.pieces).all(|(p, q)| same(p, q))
 }
 
-/// A part's piece with its references to claims turned into those of the merged list.
-fn renumbered(piece: &Piece, own: &[Claim], claims: &mut Vec<Claim>) -> Piece {
-    let mut piece = piece.clone();
-    for node in &mut piece.tree {
-        if let Node::Root(root) = node
-            && let RootOutcome::Claim(k) = root.outcome
-            && let Some(claim) = own.get(k)
-        {
-            root.outcome = RootOutcome::Claim(number(claims, claim.clone()));
-        }
+/// A node of a tree, and the part that it comes from.
+#[derive(Clone, Copy)]
+struct PartNode<'a> {
+    part: usize,
+    node: &'a Node,
+}
+
+/// A tree in preorder, with what is known of each subtree.
+///
+/// Nothing here relies on the tree being well formed: an end that is not there is the end of the
+/// list, and the checker refuses what comes of it.
+struct Preorder<'a> {
+    nodes: Vec<PartNode<'a>>,
+    /// Where the subtree of each node ends.
+    end: Vec<usize>,
+    /// Open leaves of each subtree.
+    open: Vec<usize>,
+}
+
+impl<'a> Preorder<'a> {
+    fn of(part: usize, tree: &'a [Node]) -> Preorder<'a> {
+        let nodes = tree.iter().map(|node| PartNode { part, node }).collect();
+        Preorder::new(nodes)
     }
-    piece
+
+    fn new(nodes: Vec<PartNode<'a>>) -> Preorder<'a> {
+        let count = nodes.len();
+        let mut end = vec![count; count];
+        let mut open = vec![0; count];
+
+        // Children stand behind their parent, so that they are known before it.
+        for k in (0..count).rev() {
+            if is_inner(nodes[k].node) {
+                let first_child = k + 1;
+                let second_child = end.get(first_child).copied().unwrap_or(count);
+                end[k] = end.get(second_child).copied().unwrap_or(count);
+                open[k] = open.get(first_child).copied().unwrap_or(0)
+                    + open.get(second_child).copied().unwrap_or(0);
+            } else {
+                end[k] = k + 1;
+                open[k] = usize::from(*nodes[k].node == Node::Open);
+            }
+        }
+        Preorder { nodes, end, open }
+    }
+
+    /// The tree in which every region is taken from the part that has closed it, or joined.
+    fn joined(&self, other: &Preorder<'a>) -> Preorder<'a> {
+        let mut nodes = Vec::new();
+        // Pairs of subtrees of one region that are still to be joined, the next one last.
+        let mut waiting = vec![(0, 0)];
+        while let Some((mine, theirs)) = waiting.pop() {
+            let (Some(my_node), Some(their_node)) = (self.nodes.get(mine), other.nodes.get(theirs))
+            else {
+                continue;
+            };
+
+            let both_open = self.open[mine] > 0 && other.open[theirs] > 0;
+            if both_open && is_inner(my_node.node) && my_node.node == their_node.node {
+                nodes.push(*my_node);
+                let second_halves = (self.end_of(mine + 1), other.end_of(theirs + 1));
+                waiting.push(second_halves);
+                waiting.push((mine + 1, theirs + 1));
+            } else if self.is_no_worse(mine, other, theirs) {
+                nodes.extend_from_slice(&self.nodes[mine..self.end[mine]]);
+            } else {
+                nodes.extend_from_slice(&other.nodes[theirs..other.end[theirs]]);
+            }
+        }
+        Preorder::new(nodes)
+    }
+
+    fn end_of(&self, k: usize) -> usize {
+        self.end.get(k).copied().unwrap_or(self.nodes.len())
+    }
+
+    /// Has this subtree no more left to prove than the other one of the same region? An open leaf
+    /// that is the whole subtree has everything left.
+    fn is_no_worse(&self, mine: usize, other: &Preorder<'a>, theirs: usize) -> bool {
+        let mine_untouched = *self.nodes[mine].node == Node::Open;
+        let theirs_untouched = *other.nodes[theirs].node == Node::Open;
+        if mine_untouched != theirs_untouched {
+            return theirs_untouched;
+        }
+        self.open[mine] <= other.open[theirs]
+    }
+
+    /// The nodes with their references to claims turned into those of the merged list.
+    fn numbered(&self, parts: &[Certificate], claims: &mut Vec<Claim>) -> Vec<Node> {
+        let mut tree = Vec::new();
+        for PartNode { part, node } in &self.nodes {
+            let mut node = (*node).clone();
+            if let Node::Root(root) = &mut node
+                && let RootOutcome::Claim(own) = root.outcome
+                && let Some(claim) = parts[*part].claims.get(own)
+            {
+                root.outcome = RootOutcome::Claim(number(claims, claim.clone()));
+            }
+            tree.push(node);
+        }
+        tree
+    }
+}
+
+/// Does the node divide its region in two?
+fn is_inner(node: &Node) -> bool {
+    matches!(node, Node::Split(_) | Node::Branch(_))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn joined(first: &[Node], second: &[Node]) -> Vec<Node> {
+        let tree = Preorder::of(0, first).joined(&Preorder::of(1, second));
+        tree.nodes.iter().map(|n| n.node.clone()).collect()
+    }
+
+    fn branch(index: usize) -> Node {
+        Node::Branch(index)
+    }
+
+    const CLOSED: Node = Node::PositiveDefinite;
+    const CLOSED_OTHERWISE: Node = Node::NegativeDefinite;
+
+    /// One part has closed the first half of a region, the other the second half: with the tree of
+    /// fewer open leaves alone, one of the two would be lost.
+    #[test]
+    fn halves_closed_by_different_parts_are_both_kept() {
+        let first = [branch(0), CLOSED, Node::Open];
+        let second = [branch(0), Node::Open, branch(1), CLOSED, CLOSED_OTHERWISE];
+
+        let tree = joined(&first, &second);
+
+        assert_eq!(
+            tree,
+            [branch(0), CLOSED, branch(1), CLOSED, CLOSED_OTHERWISE]
+        );
+        assert_eq!(joined(&second, &first), tree);
+    }
+
+    #[test]
+    fn a_closed_region_is_taken_whole_and_an_untouched_one_gives_way() {
+        let closed = [branch(0), CLOSED, CLOSED];
+        let untouched = [Node::Open];
+        let begun = [branch(1), Node::Open, Node::Open];
+
+        assert_eq!(joined(&begun, &closed), closed);
+        assert_eq!(joined(&untouched, &begun), begun);
+        assert_eq!(joined(&begun, &untouched), begun);
+    }
+
+    #[test]
+    fn regions_divided_differently_are_taken_with_fewer_open_leaves() {
+        let one_open = [branch(0), CLOSED, Node::Open];
+        let two_open = [branch(1), branch(2), CLOSED, Node::Open, Node::Open];
+
+        assert_eq!(joined(&one_open, &two_open), one_open);
+        assert_eq!(joined(&two_open, &one_open), one_open);
+    }
+
+    /// A list that breaks off is no tree; the checker says so of what is made of it.
+    #[test]
+    fn a_tree_that_breaks_off_does_no_harm() {
+        let broken = [branch(0), branch(1), Node::Open];
+
+        let tree = joined(&broken, &[branch(0), Node::Open, CLOSED]);
+
+        assert!(!tree.is_empty());
+    }
 }

@@ -406,14 +406,10 @@ fn without_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<
             piece: None,
             fault: CoverFault::Hypothesis { expected, row },
             ..
-        } => {
-            let what = if expected.starts_with("B_ff") {
-                "B_ff"
-            } else {
-                "A_ff"
-            };
-            Err(CompleteError::NotDefinite { what, index: *row })
-        }
+        } => Err(CompleteError::Hypothesis {
+            expected,
+            row: *row,
+        }),
         _ => Err(rejected.into()),
     }
 }
