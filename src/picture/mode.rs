@@ -2,8 +2,9 @@
 //! paper.
 
 use super::chart::{line, text};
+use super::marker::Mark;
 use super::markup::{Element, short};
-use super::{Mark, Picture, legend};
+use super::{Picture, legend};
 use mceip_exact::to_f64;
 use mceip_paper::Triangulation;
 use std::collections::BTreeSet;

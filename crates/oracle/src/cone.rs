@@ -6,9 +6,10 @@
 //! has the same cone) and Z those whose y vanishes on all of it, C_J lies in C_J' exactly if J <=
 //! J' <= Z: that is how a cone that is a face of another is left out.
 
+use super::degenerate::Cone;
 use super::integral::Integral;
 use super::plain::multiplicity;
-use super::{Cone, Enumeration, Solution, WideKernel};
+use super::solution::{Enumeration, Solution, WideKernel};
 use mceip_exact::{Algebraic, Poly, Sign, cone_generators, dot, kernel_at, row_echelon_at};
 
 /// Describes what is on the support of a wide kernel: nothing, ordinary solutions, or a cone.

@@ -1,7 +1,7 @@
 //! Value types for what is not a list: cones of solutions at one value, ranges of values of one
 //! support.
 
-use super::Solution;
+use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Rational, common_denominator};
 use std::cmp::Ordering;
 

@@ -1,7 +1,7 @@
 //! "Is this (t, x) a solution?", and equality of answers: both by exact signs alone.
 
-use super::degenerate::constants;
-use super::{Cone, End, Enumeration, Piece, Solution, SupportRange};
+use super::degenerate::{Cone, End, Piece, SupportRange, constants};
+use super::solution::{Enumeration, Solution};
 use mceip_exact::{Algebraic, Poly, Rational, Sign, Sparse, common_denominator};
 use mceip_model::Pencil;
 

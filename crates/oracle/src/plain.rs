@@ -1,7 +1,7 @@
 //! The plain enumerator: the definition (24)-(26) turned into Rust, support by support.
 
 use super::integral::Integral;
-use super::{Enumeration, Solution, WideKernel};
+use super::solution::{Enumeration, Solution, WideKernel};
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
 use mceip_model::{Pencil, Window};
 use std::ops::ControlFlow;

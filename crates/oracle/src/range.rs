@@ -10,8 +10,9 @@
 //! rational sample decides each open cell, and each root is decided exactly by its own cone.
 
 use super::cone::cone_at;
+use super::degenerate::{End, Piece, SupportRange, Undescribed};
 use super::integral::Integral;
-use super::{End, Enumeration, Piece, SupportRange, Undescribed, WideKernel};
+use super::solution::{Enumeration, WideKernel};
 use mceip_exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots};
 use mceip_model::Window;
 use num_traits::{One, Signed};

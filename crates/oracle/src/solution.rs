@@ -1,8 +1,9 @@
 //! What the enumerator finds: solutions by their exact support, cones, ranges, and what it met on
 //! the way.
 
+use super::degenerate::{Cone, SupportRange, Undescribed};
 use super::integral::Integral;
-use super::{Cone, SupportRange, Undescribed, cone, range};
+use super::{cone, range};
 use mceip_exact::{Algebraic, Poly, ratio_to_decimal, to_decimal};
 use mceip_model::{Pencil, Window};
 

@@ -1,7 +1,8 @@
 //! What a block is made of: cells, triangulation, plane, material, mass. All lengths in mm.
 
+use super::element::{MassKind, Material, Plane};
+use super::error::SourceError;
 use super::mesh::MeshKind;
-use super::{MassKind, Material, Plane, SourceError};
 use mceip_exact::{Rational, whole};
 use num_traits::Signed;
 

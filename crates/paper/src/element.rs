@@ -1,6 +1,6 @@
 //! The linear (P1) triangle: exact stiffness and mass in plane stress and plane strain.
 
-use super::SourceError;
+use super::error::SourceError;
 use mceip_exact::{Rational, rational, whole};
 use num_traits::{One, Signed};
 

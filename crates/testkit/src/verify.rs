@@ -1,10 +1,9 @@
 //! The main job: every family through every engine, one row each, one verdict.
 
+use super::block::{BlockError, BlockReport, block_state};
+use super::compare::{InstanceReport, Treatment, compare_by};
+use super::families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
 use super::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
-use super::{
-    BlockError, BlockReport, Corner, Instance, InstanceReport, Treatment, block_state, compare_by,
-};
-use super::{degenerate, mechanical, random_pencils, table1_grid};
 use mceip_engine::multistart::Search;
 use mceip_engine::run::{Progress, Watch};
 use mceip_model::ModelError;

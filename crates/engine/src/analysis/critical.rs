@@ -3,7 +3,8 @@
 
 use super::absence::{Absence, absence};
 use super::conditions::Necessary;
-use super::{AnalysisError, Divergence, Evidence, Model, Proof, StaticThreshold};
+use super::error::AnalysisError;
+use super::{Divergence, Evidence, Model, Proof, StaticThreshold};
 use crate::reduction::MuFamily;
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
 use mceip_model::Window;

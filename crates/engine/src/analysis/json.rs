@@ -1,7 +1,8 @@
 //! `mceip-analysis/1`: the answer for programs.
 
 use super::conditions::DefiniteUntil;
-use super::{Analysis, Evidence, Mode, Verdict};
+use super::modes::Mode;
+use super::{Analysis, Evidence, Verdict};
 use mceip_check::OpenRegion;
 use mceip_exact::{Interval, enclosing_decimals};
 use serde_json::{Value, json};

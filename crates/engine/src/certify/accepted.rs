@@ -1,6 +1,7 @@
 //! Claims that the checker has accepted: the one way from a candidate to the word "certified".
 
-use super::{Attempt, AttemptFailure, IntegralRows, NotCertified, Proposal, proposals};
+use super::failure::{Attempt, AttemptFailure, NotCertified};
+use super::{IntegralRows, Proposal, proposals};
 use crate::candidate::Candidate;
 use mceip_check::certificate::Claim;
 use mceip_check::{AcceptedClaim, ClaimChecker, Reason};

@@ -8,7 +8,8 @@
 mod krawczyk;
 pub(super) mod newton;
 
-use super::{AttemptFailure, IntegralRows};
+use super::IntegralRows;
+use super::failure::AttemptFailure;
 use crate::candidate::Candidate;
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 use krawczyk::Krawczyk;

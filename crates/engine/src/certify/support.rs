@@ -1,6 +1,6 @@
 //! Which complementarity variables a candidate takes as slipping: several guesses, best first.
 
-use super::AttemptFailure;
+use super::failure::AttemptFailure;
 use crate::candidate::Candidate;
 use crate::tolerance::SUPPORT_GUESSES;
 use mceip_check::certificate::Claim;

@@ -1,7 +1,8 @@
 //! From a point in doubles to an exact solution: read off the active set, solve it over Q, check.
 #![allow(clippy::float_arithmetic)]
 
-use super::{ExactMcp, Violated, check};
+use super::check::Violated;
+use super::{ExactMcp, check};
 use mceip_exact::{Rational, from_f64, to_f64};
 use num_traits::Zero;
 

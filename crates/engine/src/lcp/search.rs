@@ -2,7 +2,8 @@
 //! points.
 #![allow(clippy::float_arithmetic)]
 
-use super::{ExactMcp, Uncertifiable, certify};
+use super::certify::Uncertifiable;
+use super::{ExactMcp, certify};
 use crate::multistart::trace_outcome;
 use mceip_exact::Rational;
 use mceip_mcp::solver::{

@@ -1,7 +1,8 @@
 //! The stepped path beside the exact one: what the steps miss, and by how much they are off.
 #![allow(clippy::float_arithmetic)]
 
-use super::{LoadingPath, Step};
+use super::LoadingPath;
+use super::step::Step;
 use mceip_exact::to_f64;
 
 /// How a stepped path compares with the exact one.

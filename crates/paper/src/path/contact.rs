@@ -1,9 +1,9 @@
 //! The block seen from its contact side: the condensed stiffness in tangential and normal
 //! directions, exactly, and what the contact nodes do under imposed displacements.
 
-use super::PathError;
+use super::error::PathError;
 use super::linear::{Images, solve};
-use crate::Block;
+use crate::block::Block;
 use mceip_exact::{Integer, Rational, Sparse, common_denominator, schur_complement};
 use mceip_model::ContactState;
 use num_traits::{One, Zero};

@@ -35,7 +35,7 @@ pub use pencils::Pencils;
 pub use rates::Finder;
 pub use step::{Step, step_path};
 
-use super::Block;
+use super::block::Block;
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::{ContactState, ModelError, Problem};
 use num_traits::Signed;

@@ -1,7 +1,7 @@
 //! The families of the campaign by name, and their instances by number.
 
 use super::named;
-use crate::Instance;
+use crate::families::Instance;
 use crate::generators::Seed;
 use mceip_exact::Rational;
 use mceip_model::ModelError;

@@ -1,8 +1,9 @@
 //! A disagreement as a file that needs nothing else: the shrunk problem, where it came from, what
 //! it says.
 
-use super::{Case, Expected, Finding, Id};
-use crate::Instance;
+use super::engine::Finding;
+use super::family::{Case, Expected, Id};
+use crate::families::Instance;
 use mceip_exact::parse;
 use mceip_model::ModelError;
 use mceip_model::file::{from_json, read_problem, require_format, write_problem};

@@ -1,7 +1,8 @@
 //! Smaller instances that still disagree: fewer particles and variables, simpler numbers, the same
 //! structure.
 
-use super::{Case, Engine, Finding, judge};
+use super::engine::{Engine, Finding, judge};
+use super::family::Case;
 use mceip_exact::{Rational, Sparse, whole};
 use mceip_model::{Body, ModelError, Pencil, Problem, System, Window};
 use mceip_oracle::TwoParticles;

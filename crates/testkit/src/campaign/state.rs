@@ -1,6 +1,6 @@
 //! What a campaign has done so far: counts per family, as a file to go on from.
 
-use super::Judgement;
+use super::engine::Judgement;
 use crate::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
 use mceip_model::ModelError;
 use mceip_model::file::{from_json, require_format};

@@ -1,8 +1,9 @@
 //! A case: a problem, its complete exact answer, what it is about, and answers that are wrong.
 
+use super::error::ConformError;
 use super::flag::{Flag, derive};
+use super::judge::Label;
 use super::wrong::{WrongAnswer, wrong_answers};
-use super::{ConformError, Label};
 use mceip_engine::reduction::{Reduced, reduce};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_model::Problem;

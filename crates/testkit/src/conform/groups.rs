@@ -1,7 +1,10 @@
 //! The groups of the pack: which problems, and what only their maker knows about them.
 
-use super::{ConformError, Draft, Flag, Group};
-use crate::{known, mechanical, pareto, random_pencils};
+use super::case::{Draft, Group};
+use super::error::ConformError;
+use super::flag::Flag;
+use crate::families::{mechanical, random_pencils};
+use crate::{known, pareto};
 use mceip_engine::reduction::{condense, reduce};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{Admissible, Body, ModelError, Pencil, Problem, Unknown, Window};

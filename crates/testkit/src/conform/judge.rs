@@ -7,7 +7,7 @@
 //! is complete if every listed solution, every cone (a solution inside it, with its whole slip set)
 //! and every continuum (its intervals, or a solution on its slip set) is met.
 
-use super::Case;
+use super::case::Case;
 use mceip_check::certificate::{Claim, ExactSolution};
 use mceip_engine::certify::Certifier;
 use mceip_engine::foreign::{BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignReport};

@@ -1,7 +1,8 @@
 //! Wrong answers on purpose: reports that must be rejected, each with the bug it stands for.
 
+use super::case::Case;
+use super::judge::Label;
 use super::spectrum::{Kind, eigenpairs};
-use super::{Case, Label};
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::Window;

@@ -4,7 +4,8 @@
 //! The inverse of F' is taken in doubles once, F is computed in integers, so each step gains the
 //! digits that the inverse is good for.
 
-use super::super::{AttemptFailure, IntegralRows, active};
+use super::super::failure::AttemptFailure;
+use super::super::{IntegralRows, active};
 use super::dyadic;
 use crate::candidate::Candidate;
 use mceip_exact::{Integer, Rational, from_f64, to_f64};

@@ -3,11 +3,10 @@
 //! W and V are Taylor polynomials of F^-1 T_fs and F^-1 T_sf' about a few centres; what they leave
 //! out enters the enclosure squared (see `check::cover::condensed`).
 
-use super::CompleteError;
-use super::massless;
-use super::reverse;
+use super::error::CompleteError;
 use super::skyline::{Skyline, dot};
 use super::view::{Expansion, View, row_factor, scale};
+use super::{massless, reverse};
 use crate::tolerance::TAIL_START;
 use mceip_check::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
 use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64, truncated};

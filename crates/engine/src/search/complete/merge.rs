@@ -1,7 +1,8 @@
 //! Joins the parts of a search that was shared out over several runs.
 
+use super::error;
+use super::error::CompleteError;
 use super::splice::number;
-use super::{CompleteError, error};
 use mceip_check::certificate::{Certificate, Claim, CompleteSet, Node, Piece, RootOutcome};
 use mceip_check::{AcceptedCover, check};
 use mceip_model::Problem;

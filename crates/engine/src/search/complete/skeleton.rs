@@ -1,7 +1,7 @@
 //! The view of a problem and the pieces its window is cut into before the search.
 
-use super::CompleteError;
 use super::condense::{NEAR, condense, refine, view_of};
+use super::error::CompleteError;
 use super::root::null_vector;
 use super::tree::{State, short};
 use super::view::{Expansion, View};

@@ -13,8 +13,10 @@ mod follow;
 mod system;
 
 // The solver's own modules, for `system` and `follow`.
+use super::error::SolverError;
+use super::options::Options;
 use super::outcome::Counters;
-use super::{Options, SolverError, evaluation, tolerance, validate};
+use super::{evaluation, tolerance, validate};
 use crate::mcp::Mcp;
 use evaluation::{Evaluated, Point};
 use follow::Follower;

@@ -31,8 +31,8 @@ mod walk;
 
 pub use variable::{Pivot, PivotKind, Variable};
 
-use super::RatioTest;
 use super::dense::subtract;
+use super::options::RatioTest;
 use basis::Basis;
 use columns::Frame;
 pub(super) use knots::Knots;

@@ -1,7 +1,7 @@
 //! The ratio test: which unknown stops the moving one. Ties are decided lexicographically, or, as
 //! in PATH itself, for the largest pivot within bounds that widen a little with every pivot.
 
-use super::super::RatioTest;
+use super::super::options::RatioTest;
 use super::super::tolerance::{EXPAND_STEP, EXPAND_WIDTH, LEXICOGRAPHIC, PIVOT, TIE};
 use super::number::Number;
 use super::tableau::Tableau;

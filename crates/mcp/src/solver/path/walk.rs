@@ -1,6 +1,6 @@
 //! The pivot loop: along the path from t = 0 until t = 1, a ray, a cycle or a limit.
 
-use super::super::RatioTest;
+use super::super::options::RatioTest;
 use super::super::tolerance::{RAY_STEP, TIE};
 use super::number::Number;
 use super::ratio::{Block, ratio_test};
