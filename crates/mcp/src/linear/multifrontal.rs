@@ -6,7 +6,7 @@
 //! complement of the kept unknowns: no right-hand sides.
 
 use super::analysis::{Analysis, Front};
-use super::eliminate_front;
+use super::dense::eliminate_front;
 use super::symmetric::Symmetric;
 use crate::tolerance::SINGULAR_PIVOT;
 

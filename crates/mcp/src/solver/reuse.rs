@@ -6,7 +6,7 @@ use super::newton::{Run, Workspace};
 use super::options::Options;
 use super::outcome::{Counters, Outcome, Termination};
 use super::residual::Residuals;
-use super::validate;
+use super::validate::validate;
 use crate::mcp::Mcp;
 
 /// How a run of a [`Solver`] ended.
