@@ -2,8 +2,10 @@
 //! measured.
 
 use super::critical::Critical;
+use super::divergence::{Verdict, verdict};
 use super::error::AnalysisError;
-use super::{Model, StaticThreshold, Verdict, verdict};
+use super::model::Model;
+use super::threshold::StaticThreshold;
 use mceip_exact::{Rational, from_f64, to_f64, whole};
 use num_traits::Zero;
 

@@ -2,7 +2,8 @@
 #![allow(clippy::float_arithmetic)]
 
 use super::check::Violated;
-use super::{ExactMcp, check};
+use super::check::check;
+use super::exact::ExactMcp;
 use mceip_exact::{Rational, from_f64, to_f64};
 use num_traits::Zero;
 

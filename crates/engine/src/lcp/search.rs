@@ -3,7 +3,8 @@
 #![allow(clippy::float_arithmetic)]
 
 use super::certify::Uncertifiable;
-use super::{ExactMcp, certify};
+use super::certify::certify;
+use super::exact::ExactMcp;
 use crate::multistart::trace_outcome;
 use mceip_exact::Rational;
 use mceip_mcp::solver::{
