@@ -7,9 +7,9 @@
 //! J' <= Z: that is how a cone that is a face of another is left out.
 
 use super::degenerate::Cone;
-use super::integral::Integral;
-use super::plain::multiplicity;
-use super::solution::{Enumeration, Solution, WideKernel};
+use super::enumeration::{Enumeration, WideKernel};
+use super::integral::{Integral, multiplicity};
+use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Sign, cone_generators, dot, kernel_at, row_echelon_at};
 
 /// Describes what is on the support of a wide kernel: nothing, ordinary solutions, or a cone.

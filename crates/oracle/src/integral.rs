@@ -116,3 +116,14 @@ impl<'a> Integral<'a> {
         (0..self.order()).map(row).collect()
     }
 }
+
+/// Multiplicity of a root: the first derivative that does not vanish there.
+pub(super) fn multiplicity(det: &Poly, value: &mut Algebraic) -> usize {
+    let mut derivative = det.derivative();
+    let mut m = 1;
+    while !derivative.is_zero() && value.sign_of(&derivative) == Sign::Zero {
+        derivative = derivative.derivative();
+        m += 1;
+    }
+    m
+}

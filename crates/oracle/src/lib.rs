@@ -15,6 +15,8 @@
 
 mod cone;
 mod degenerate;
+mod describe;
+mod enumeration;
 mod integral;
 mod member;
 mod plain;
@@ -23,11 +25,12 @@ mod solution;
 mod table1;
 
 pub use degenerate::{Cone, End, Piece, SupportRange, Undescribed};
+pub use enumeration::{Enumeration, WideKernel};
 pub use member::{is_rational_solution, is_solution};
 pub use plain::{
     MAX_BITS, MAX_FREE, MAX_SLIP, OracleError, coefficient_bits, enumerate, enumerate_with,
     examine_support,
 };
 pub use range::MAX_MINORS;
-pub use solution::{Enumeration, Solution, WideKernel};
+pub use solution::Solution;
 pub use table1::{ClosedSolution, TwoParticles, table1, thresholds};

@@ -1,7 +1,8 @@
 //! "Is this (t, x) a solution?", and equality of answers: both by exact signs alone.
 
 use super::degenerate::{Cone, End, Piece, SupportRange, constants};
-use super::solution::{Enumeration, Solution};
+use super::enumeration::Enumeration;
+use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Rational, Sign, Sparse, common_denominator};
 use mceip_model::Pencil;
 

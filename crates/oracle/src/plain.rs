@@ -1,7 +1,8 @@
 //! The plain enumerator: the definition (24)-(26) turned into Rust, support by support.
 
-use super::integral::Integral;
-use super::solution::{Enumeration, Solution, WideKernel};
+use super::enumeration::{Enumeration, WideKernel};
+use super::integral::{Integral, multiplicity};
+use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
 use mceip_model::{Pencil, Window};
 use std::ops::ControlFlow;
@@ -203,17 +204,6 @@ fn admissible(
         })
     });
     oriented.collect()
-}
-
-/// Multiplicity of a root: the first derivative that does not vanish there.
-pub(super) fn multiplicity(det: &Poly, value: &mut Algebraic) -> usize {
-    let mut derivative = det.derivative();
-    let mut m = 1;
-    while !derivative.is_zero() && value.sign_of(&derivative) == Sign::Zero {
-        derivative = derivative.derivative();
-        m += 1;
-    }
-    m
 }
 
 #[cfg(test)]

@@ -11,8 +11,8 @@
 
 use super::cone::cone_at;
 use super::degenerate::{End, Piece, SupportRange, Undescribed};
+use super::enumeration::{Enumeration, WideKernel};
 use super::integral::Integral;
-use super::solution::{Enumeration, WideKernel};
 use mceip_exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots};
 use mceip_model::Window;
 use num_traits::{One, Signed};
