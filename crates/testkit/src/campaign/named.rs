@@ -1,7 +1,7 @@
 //! How an instance of each family is made from its three numbers. Orders are small: no instance may
 //! take more than seconds in exact arithmetic.
 
-use super::family::{Expected, Made};
+use super::expected::{Expected, Made};
 use crate::families::{Corner, Instance};
 use crate::generators::{
     Seed, near, permuted, raw, scales, states as mixtures, window, with_scaled_rows,

@@ -2,7 +2,8 @@
 //! it says.
 
 use super::engine::Finding;
-use super::family::{Case, Expected, Id};
+use super::expected::Expected;
+use super::family::{Case, Id, case};
 use crate::families::Instance;
 use mceip_exact::parse;
 use mceip_model::ModelError;
@@ -138,7 +139,7 @@ impl Replay {
         let drawn = if self.shrunk {
             None
         } else {
-            super::case(&id).ok().and_then(Result::ok)
+            case(&id).ok().and_then(Result::ok)
         };
         let expected = drawn
             .filter(|d| d.instance.problem == problem)

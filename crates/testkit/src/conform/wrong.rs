@@ -97,8 +97,15 @@ pub struct WrongAnswer {
 /// Most slip variables for which eigenpairs of all supports are formed.
 const SPECTRUM_SLIP: usize = 5;
 
+impl Case {
+    /// Answers that must not be called correct, each with the label it must get.
+    pub fn wrong_answers(&self) -> Vec<WrongAnswer> {
+        wrong_answers(self)
+    }
+}
+
 /// The wrong answers of a case: true by construction that they are wrong, at most one of each bug.
-pub(super) fn wrong_answers(case: &Case) -> Vec<WrongAnswer> {
+fn wrong_answers(case: &Case) -> Vec<WrongAnswer> {
     let slip = case.reduced.pencil.slip();
     let mut out = Vec::new();
     let mut push = |bug, solutions: Vec<Value>| {
