@@ -1,6 +1,6 @@
 //! A report as one HTML file: text, tables and pictures, nothing from outside, no scripts.
 
-use super::Picture;
+use super::drawing::Picture;
 use super::markup::Element;
 
 /// A page.

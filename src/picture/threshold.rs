@@ -1,7 +1,7 @@
 //! The static thresholds along the loading path: MCEIP-mu of each state, on a logarithmic axis.
 
-use super::Picture;
 use super::chart::{Axis, Chart, TEXT, line, text};
+use super::drawing::Picture;
 use super::markup::{Element, short};
 use super::scale::{Scale, Spread};
 
