@@ -1,5 +1,5 @@
-//! Divergence of the form (8) at one mu, as a complete search over lambda^2 in [0, infinity) decides
-//! it.
+//! Divergence of the form (8) at one mu, as decided by a complete search over lambda^2 in
+//! [0, infinity).
 
 use super::evidence::Evidence;
 use super::modes::Mode;

@@ -1,5 +1,6 @@
-//! Anchors of a condensation: centres along the unknown, and about each the Taylor polynomials of W
-//! = F^-1 T_fs and V = F^-1 T_sf', rounded, with the condensed pencil they give.
+//! Anchors of a condensation: centres along the unknown, and about each the Taylor polynomials of
+//! W = F^-1 T_fs and V = F^-1 T_sf', rounded, with the condensed pencil they give. What the
+//! polynomials leave out enters the enclosure squared (see `check::cover::condensed`).
 
 use super::blocks::{Blocks, times};
 use super::skyline::dot;

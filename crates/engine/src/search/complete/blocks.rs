@@ -1,5 +1,5 @@
-//! The blocks of a pencil A + tB that the elimination of its free variables needs: F = A_ff + t
-//! B_ff, and the columns of A_fs, B_fs, A_sf' and B_sf'.
+//! The blocks of a pencil A + tB that the elimination of its free variables needs: those of
+//! F = A_ff + t B_ff, and the columns of A_fs, B_fs, A_sf' and B_sf'.
 
 use super::skyline::{Skyline, dot};
 use mceip_exact::{Sparse, to_f64};

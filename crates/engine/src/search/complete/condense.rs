@@ -1,7 +1,4 @@
 //! The free variables eliminated: the certificate's condensation and the f64 view of it.
-//!
-//! W and V are Taylor polynomials of F^-1 T_fs and F^-1 T_sf' about a few centres; what they leave
-//! out enters the enclosure squared (see `check::cover::condensed`).
 
 use super::anchor::{COARSE, CONSTANT, FINE, centers, expand, expansion};
 use super::blocks::{Blocks, lowest_frequency};

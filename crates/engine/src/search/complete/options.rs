@@ -1,4 +1,4 @@
-//! How a complete search is made: pieces, nodes, threads, and the share of one run.
+//! The options of a complete search: pieces, nodes, threads, and the part of one run.
 
 /// How to search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

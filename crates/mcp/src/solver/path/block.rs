@@ -1,4 +1,4 @@
-//! What stops the moving unknown of a path.
+//! A candidate of the ratio test: the unknown that stops the moving one, and after which step.
 
 /// What stops the moving unknown.
 #[derive(Debug, Clone, PartialEq)]
