@@ -138,8 +138,8 @@ fn is_short(pencil: &Pencil, rows: &IntegralRows, support: &[usize]) -> bool {
     order <= EXACT_ORDER && order as u64 * rows.bits() <= EXACT_BITS
 }
 
-/// A claim that *nobody has checked*, for tools and tests that submit it themselves; [`certify`] is
-/// what to call.
+/// A claim that *nobody has checked*, for tools and tests that submit it themselves;
+/// [`certify`](super::certify) is what to call.
 ///
 /// `pencil` is the reduced pencil of the problem in whose window the value must lie.
 ///
