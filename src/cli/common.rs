@@ -122,7 +122,7 @@ pub(super) enum CliError {
     Condensation(#[from] mceip_engine::reduction::CondensationError),
     /// A block that is not condensed in doubles.
     #[error("{0}")]
-    Scale(#[from] super::block::scale::ScaleError),
+    Scale(#[from] super::block::scale_error::ScaleError),
     /// An option has a value it cannot have.
     #[error("--{option}: expected {expected}, got {got:?}")]
     Option {

@@ -1,60 +1,25 @@
 //! `mceip solve`: the PATH-style solver with many starts, every claim certified.
 
+mod args;
 mod plain;
+mod search;
 mod trace;
+
+pub(super) use args::Args;
 
 use super::common::{CliError, exit, load, print, text};
 use super::job::Job;
 use super::output::Output;
 use mceip_engine::certify::certificate;
 use mceip_engine::lcp::MCP_FORMAT;
-use mceip_engine::multistart::{Found, Search, multistart_large, support, trace_outcome};
+use mceip_engine::multistart::{Found, multistart_large, support, trace_outcome};
 use mceip_engine::reduction::reduce;
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json, solutions_text};
 use mceip_model::file::require_format;
 use mceip_model::{Admissible, Pencil, Problem};
+use search::search_of;
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
-
-/// Arguments of `solve`.
-#[derive(clap::Args)]
-pub(super) struct Args {
-    /// Problem file (mceip-problem/1), or a plain LCP or MCP (mceip-mcp/1).
-    #[arg(required_unless_present = "replay")]
-    file: Option<PathBuf>,
-    /// Look for all solutions: also follow curves, from starts and through each solution found, and
-    /// search above and below each value found (the zeta windows of section 4).
-    #[arg(long)]
-    all: bool,
-    /// Number of starts on the whole window.
-    #[arg(long, default_value_t = 22)]
-    starts: usize,
-    /// Seed of the random starts.
-    #[arg(long, default_value_t = 1)]
-    seed: u64,
-    /// Closed window a,b of values instead of the file's (b empty or inf: no upper end).
-    #[arg(long, allow_hyphen_values = true)]
-    window: Option<String>,
-    /// Print the linearisations and pivots of the first run.
-    #[arg(long)]
-    log: bool,
-    /// Write problem, options, seed and every pivot to this file.
-    #[arg(long, value_name = "OUT")]
-    trace: Option<PathBuf>,
-    /// Run a trace again: identical, or the first line that differs.
-    #[arg(long, value_name = "TRACE", conflicts_with_all = ["file", "trace", "certificate", "json", "log", "window"])]
-    replay: Option<PathBuf>,
-    /// Of a plain LCP or MCP: check this solution file exactly instead of solving (as `mceip check`
-    /// does).
-    #[arg(long, value_name = "SOLUTION")]
-    check: Option<PathBuf>,
-    /// Write the certificate of everything found to this file.
-    #[arg(long, value_name = "OUT")]
-    certificate: Option<PathBuf>,
-    /// Print mceip-solutions/1.
-    #[arg(long)]
-    json: bool,
-}
+use std::path::Path;
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.starts == 0 {
@@ -209,21 +174,4 @@ fn singular_supports(pencil: &Pencil, found: &Found) -> Vec<Vec<usize>> {
         .filter(|(s, count)| *count > s.len() + pencil.free().len())
         .map(|(s, _)| s)
         .collect()
-}
-
-/// The search that the options ask for.
-fn search_of(starts: usize, seed: u64, all: bool, trace: bool) -> Search {
-    let window_starts = if all {
-        Search::default().window_starts
-    } else {
-        0
-    };
-    Search {
-        starts,
-        window_starts,
-        curves: all,
-        seed,
-        trace,
-        ..Search::default()
-    }
 }

@@ -1,7 +1,8 @@
 //! The engineer's answer.
 
+use super::error::Error;
+use super::problem::Problem;
 use super::run::Watched;
-use super::{Error, Problem};
 use mceip_engine::analysis::{Analysis, Options, analyse};
 use mceip_engine::run::{Cancel, Progress};
 use mceip_exact::Rational;

@@ -1,6 +1,8 @@
 //! A proof for a point that somebody has computed.
 
-use super::{Error, Problem, Solution};
+use super::error::Error;
+use super::problem::Problem;
+use super::solution::Solution;
 use mceip_check::certificate::Certificate;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate};

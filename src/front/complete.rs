@@ -1,7 +1,9 @@
 //! All solutions, with a proof that there are no others.
 
+use super::error::Error;
+use super::problem::Problem;
 use super::run::Watched;
-use super::{Error, Problem, Solution};
+use super::solution::Solution;
 use mceip_check::certificate::Certificate;
 use mceip_check::{OpenRegion, SolutionFamily};
 use mceip_engine::certify::Certifier;

@@ -1,6 +1,6 @@
 //! Matrices from what callers have: doubles in rows, triplets or nalgebra, decimals, files.
 
-use super::Error;
+use super::error::Error;
 use mceip_exact::{NumberError, Rational, Sparse, from_f64, parse};
 use mceip_model::ModelError;
 use mceip_model::file::{read_matrix_market, read_text};

@@ -1,6 +1,7 @@
 //! A problem, from a file or from matrices, and the questions that can be put to it.
 
-use super::{Error, Matrix};
+use super::error::Error;
+use super::matrix::Matrix;
 use mceip_check::certificate::Certificate;
 use mceip_check::{Accepted, Rejected};
 use mceip_exact::Rational;

@@ -1,7 +1,9 @@
 //! Solutions by the PATH-style solver from many starts.
 
+use super::error::Error;
+use super::problem::Problem;
 use super::run::Watched;
-use super::{Error, Problem, Solution};
+use super::solution::Solution;
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_check::{Accepted, check};
 use mceip_engine::certify::certificate;

@@ -1,9 +1,10 @@
 //! lambda^2 against mu for one state: where it can diverge, and how fast.
 
 use super::chart::{Axis, Chart, TEXT, dot, line, text};
+use super::drawing::Picture;
+use super::markup;
 use super::markup::Element;
 use super::scale::Spread;
-use super::{Picture, markup};
 
 /// A solution of MCEIP-lambda2 as a point of the (mu, lambda^2) plane.
 #[derive(Debug, Clone, PartialEq)]

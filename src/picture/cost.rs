@@ -1,7 +1,7 @@
 //! What runs cost against their size, both on logarithmic axes.
 
-use super::Picture;
 use super::chart::{Axis, Chart, dot, line, text};
+use super::drawing::Picture;
 use super::scale::Spread;
 
 /// Runs of one kind.

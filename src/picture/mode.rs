@@ -2,8 +2,10 @@
 //! paper.
 
 use super::chart::{line, text};
+use super::drawing::Picture;
+use super::legend::legend;
+use super::marker::Mark;
 use super::markup::{Element, short};
-use super::{Mark, Picture, legend};
 use mceip_exact::to_f64;
 use mceip_paper::Triangulation;
 use std::collections::BTreeSet;

@@ -1,9 +1,11 @@
 //! The loading path: resultants against the motion, and the state of every node on every stretch.
 
 use super::chart::{Axis, Chart, TEXT, dot, line, text};
+use super::drawing::Picture;
+use super::legend::legend;
+use super::marker::Mark;
 use super::markup::Element;
 use super::scale::Spread;
-use super::{Mark, Picture, legend};
 use mceip_exact::to_f64;
 use mceip_paper::path::LoadingPath;
 

@@ -1,6 +1,7 @@
 //! A report as one HTML file: text, tables and pictures, nothing from outside, no scripts.
 
-use super::{Element, Picture};
+use super::drawing::Picture;
+use super::markup::Element;
 
 /// A page.
 #[derive(Debug, Clone, PartialEq, Default)]

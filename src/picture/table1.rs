@@ -1,7 +1,7 @@
 //! Table 1 as a chart: over the angle and the friction, how many solutions each sign pattern has.
 
-use super::Picture;
 use super::chart::{Axis, Chart, line, text};
+use super::drawing::Picture;
 use super::markup::{Element, short};
 use super::scale::Spread;
 use mceip_exact::{Quadratic, Rational, from_f64, rational, to_f64, whole};

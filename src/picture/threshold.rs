@@ -1,9 +1,9 @@
 //! The static thresholds along the loading path: MCEIP-mu of each state, on a logarithmic axis.
 
 use super::chart::{Axis, Chart, TEXT, line, text};
+use super::drawing::Picture;
 use super::markup::{Element, short};
-use super::scale::Spread;
-use super::{Picture, Scale};
+use super::scale::{Scale, Spread};
 
 /// What is drawn of one stretch.
 #[derive(Debug, Clone, PartialEq)]

@@ -3,9 +3,10 @@
 //! What the paper leaves open (`spec/decisions.md`): the paper's cells are cut by both diagonals,
 //! plane stress, side CD (the top) glued and eliminated, slip to the left (S = 1).
 
-use super::element::{Point, mass, stiffness};
+use super::block_model::BlockModel;
+use super::element::{MassKind, Point, mass, stiffness};
+use super::error::SourceError;
 use super::mesh::{Mesh, Shape};
-use super::{BlockModel, MassKind, SourceError};
 use mceip_exact::{Rational, Sparse, whole};
 use mceip_model::{Body, ContactState, ModelError, Particle, Problem, System, Unknown, Window};
 use std::collections::BTreeMap;

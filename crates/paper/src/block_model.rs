@@ -1,7 +1,9 @@
 //! What a block is made of: cells, triangulation, plane, material, mass. All lengths in mm.
 
+use super::element::{MassKind, Material};
+use super::error::SourceError;
 use super::mesh::MeshKind;
-use super::{MassKind, Material, Plane, SourceError};
+use super::plane::Plane;
 use mceip_exact::{Rational, whole};
 use num_traits::Signed;
 

@@ -2,8 +2,10 @@
 //! the two assemblies check each other.
 #![allow(clippy::float_arithmetic)]
 
+use super::block_model::BlockModel;
+use super::element::MassKind;
+use super::error::SourceError;
 use super::mesh::{Mesh, Shape};
-use super::{BlockModel, MassKind, SourceError};
 use mceip_exact::to_f64;
 use mceip_model::{ContactState, Particle};
 use std::collections::BTreeMap;

@@ -1,6 +1,6 @@
 //! Why a model of the block is refused.
 
-use super::Plane;
+use super::plane::Plane;
 use mceip_exact::Rational;
 
 /// A block that cannot be built, or a contact state that does not fit it.

@@ -1,6 +1,6 @@
 //! Uniform triangulations of a rectangle: cells cut by both diagonals or by one.
 
-use super::SourceError;
+use super::error::SourceError;
 use std::collections::BTreeMap;
 
 /// Largest number of cells of a mesh: a typing error should not cost all memory.

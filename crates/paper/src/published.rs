@@ -1,6 +1,6 @@
 //! The two states of the loading path whose MCEIP-mu value the paper prints.
 
-use super::Block;
+use super::block::Block;
 use mceip_model::{Body, ContactState, ModelError, Problem, Unknown, Window};
 
 /// A state of the loading path whose MCEIP-mu value the paper prints.

@@ -1,8 +1,9 @@
 //! The mesh of a block as anybody can read it: points, triangles, nodes, contact side.
 
+use super::block_model::BlockModel;
 use super::element::Point;
+use super::error::SourceError;
 use super::mesh::Mesh;
-use super::{BlockModel, SourceError};
 use mceip_exact::{Rational, whole};
 
 /// Points and triangles of a block, the glued side included.

@@ -1,10 +1,11 @@
 //! One instance through every engine: closed form, enumerator, solver, certificate, checker.
 
 use super::completed::compare_within;
+use super::disagreement::Disagreement;
+use super::families::{Corner, Instance};
 use super::floors::{Coverage, Starts};
 use super::forge::forgeries;
 use super::interior::{INTERIOR_STARTS, from_interior, path_options};
-use super::{Corner, Disagreement, Instance};
 use mceip_check::certificate::Claim;
 use mceip_check::check;
 use mceip_engine::candidate::Candidate;

@@ -1,6 +1,6 @@
 //! The complete search against the oracle: the same set, or honestly undecided.
 
-use super::Disagreement;
+use super::disagreement::Disagreement;
 use mceip_check::AcceptedClaim;
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteError, Options, complete};

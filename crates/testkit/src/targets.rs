@@ -16,7 +16,10 @@ pub use systems::{
 };
 pub use systems::{two_particle_problems, two_particle_problems_by};
 
-use super::{Disagreement, Instance, Treatment, compare_by, forgeries};
+use super::compare::{Treatment, compare_by};
+use super::disagreement::Disagreement;
+use super::families::Instance;
+use super::forge::forgeries;
 use mceip_check::certificate::Certificate;
 use mceip_check::check;
 use mceip_exact::{Sparse, whole};

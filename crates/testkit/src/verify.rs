@@ -1,10 +1,10 @@
 //! The main job: every family through every engine, one row each, one verdict.
 
+use super::block::{BlockError, BlockReport, block_state};
+use super::compare::{InstanceReport, Treatment, compare_by};
+use super::disagreement::Disagreement;
+use super::families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
 use super::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
-use super::{
-    BlockError, BlockReport, Corner, Instance, InstanceReport, Treatment, block_state, compare_by,
-};
-use super::{degenerate, mechanical, random_pencils, table1_grid};
 use mceip_engine::multistart::Search;
 use mceip_engine::run::{Progress, Watch};
 use mceip_model::ModelError;
@@ -195,7 +195,7 @@ pub fn verify_family(
         let wrong_forgeries = r
             .disagreements
             .iter()
-            .filter(|d| matches!(d, super::Disagreement::Forgery { .. }))
+            .filter(|d| matches!(d, Disagreement::Forgery { .. }))
             .count();
         row.rejected += r.forgeries - wrong_forgeries;
         for (starts, coverage) in r.coverage() {

@@ -1,8 +1,9 @@
 //! `mceip block --lambda2`: growth rates by sparse condensation, certified where the mesh is small
 //! enough.
 
-use super::scale::{self, ScaleError};
-use super::{Args, published};
+use super::args::{Args, published};
+use super::scale;
+use super::scale_error::ScaleError;
 use crate::cli::common::{CliError, exit, print};
 use crate::cli::job::Job;
 use mceip_engine::certify::{Certifier, ENCLOSED_ORDER};

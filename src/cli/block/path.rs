@@ -2,8 +2,9 @@
 
 mod pages;
 mod states;
+mod words;
 
-use super::Args;
+use super::args::Args;
 use crate::cli::common::{CliError, exit, print};
 use crate::cli::job::Job;
 use crate::cli::output::{Folder, Output};
@@ -23,6 +24,7 @@ use states::{State, Wanted};
 use std::fmt::Write as _;
 use std::ops::ControlFlow;
 use std::time::Duration;
+use words::{causes_text, end_text, motion};
 
 /// Follows the path and prints it.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
@@ -345,10 +347,6 @@ fn text_of(model: &BlockModel, path: &LoadingPath) -> String {
     out
 }
 
-fn motion(at: &Equilibrium) -> String {
-    format!("{:.9}", to_f64(at.motion()))
-}
-
 fn event_text(event: &Event) -> String {
     let causes = causes_text(&event.causes);
     match event.finder {
@@ -356,45 +354,6 @@ fn event_text(event: &Event) -> String {
         Finder::OneByOne => format!("{causes} (states found one by one)"),
         Finder::Pivoting => format!("{causes} (states found by pivoting)"),
         Finder::Enumeration => format!("{causes} (states found by trying all)"),
-    }
-}
-
-fn end_text(path: &LoadingPath) -> String {
-    match &path.end {
-        PathEnd::NoFurtherEvent if path.slides() => {
-            "the block slides: nothing changes any more".into()
-        }
-        PathEnd::NoFurtherEvent => "no further event: some nodes stick for ever".into(),
-        PathEnd::Range => "end of the range".into(),
-        PathEnd::Interrupted => "INTERRUPTED".into(),
-        PathEnd::NoContinuation {
-            causes,
-            proved: true,
-            ..
-        } => {
-            format!(
-                "the quasi-static path ends ({}): no states satisfy the rate conditions, every set was tried",
-                causes_text(causes)
-            )
-        }
-        PathEnd::NoContinuation { causes, tried, .. } => {
-            format!(
-                "UNDECIDED ({}): no admissible states among {tried} sets tried",
-                causes_text(causes)
-            )
-        }
-    }
-}
-
-fn causes_text(causes: &[Bound]) -> String {
-    let causes: Vec<String> = causes
-        .iter()
-        .map(|b| format!("node {}: {}", b.node() + 1, b.word()))
-        .collect();
-    if causes.is_empty() {
-        "motion begins".into()
-    } else {
-        causes.join(", ")
     }
 }
 

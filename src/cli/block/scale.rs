@@ -1,21 +1,19 @@
 //! `mceip block --scale`: the block refined, condensed in doubles by one sparse Cholesky.
 
+use super::scale_error::ScaleError;
 use crate::cli::common::{CliError, exit, print};
 use crate::cli::job::Job;
 use crate::cli::output::Output;
-use mceip_engine::multistart::{AllSlip, CondensedSearchError, all_slip};
-use mceip_engine::reduction::{
-    CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed,
-};
+use mceip_engine::multistart::{AllSlip, all_slip};
+use mceip_engine::reduction::{CondensationResidual, SparseCondensation, SparseCondensed};
 use mceip_engine::report::Table;
 use mceip_engine::run::{Cancel, Watch};
 use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::{Rational, Sparse, from_f64};
 use mceip_mcp::linear::Symmetric;
-use mceip_mcp::linear::SymmetricError;
 use mceip_model::file::write_problem;
 use mceip_model::{Body, ContactState, ModelError, Pencil, Problem, Unknown, Window};
-use mceip_paper::{BlockModel, DoubleBlock, DoubleMatrix, SourceError};
+use mceip_paper::{BlockModel, DoubleBlock, DoubleMatrix};
 use serde_json::{Value, json};
 use std::path::Path;
 use std::time::Instant;
@@ -24,22 +22,6 @@ use std::time::Instant;
 const COMPLETE_UP_TO: usize = 80;
 /// Patterns of signs on which the condensation is measured, beside one that moves all alike.
 const PROBES: usize = 3;
-
-/// Why a block is not condensed in doubles.
-#[derive(Debug, thiserror::Error)]
-pub(in crate::cli) enum ScaleError {
-    #[error(transparent)]
-    Source(#[from] SourceError),
-    #[error("{what} in doubles: {source}")]
-    Matrix {
-        what: &'static str,
-        source: SymmetricError,
-    },
-    #[error(transparent)]
-    Condensation(#[from] SparseCondensationError),
-    #[error(transparent)]
-    Search(#[from] CondensedSearchError),
-}
 
 /// A line of the study.
 struct Row {

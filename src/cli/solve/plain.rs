@@ -3,11 +3,12 @@
 use super::super::check::plain::verdict;
 use super::super::common::{CliError, exit, print};
 use super::super::output::Output;
-use super::{Args, trace};
-use mceip_engine::lcp::{ExactMcp, FileError, Found, Search, read_mcp, search, write_solution};
+use super::args::Args;
+use super::search::plain_search_of;
+use super::trace;
+use mceip_engine::lcp::{ExactMcp, FileError, Found, read_mcp, search, write_solution};
 use mceip_engine::multistart::{SearchError, trace_outcome};
 use mceip_exact::{Rational, to_f64};
-use mceip_mcp::solver::Options;
 use std::fmt::Write as _;
 use std::path::Path;
 
@@ -31,7 +32,7 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
         .as_ref()
         .map(|out| Output::prepare("trace", out, &[path]))
         .transpose()?;
-    let how = search_of(args.starts, args.seed, args.all, args.trace.is_some());
+    let how = plain_search_of(args.starts, args.seed, args.all, args.trace.is_some());
     let found = search(&problem, &how).map_err(SearchError::from)?;
     if let Some(output) = trace_output {
         output.write(&trace::render_plain(
@@ -55,17 +56,6 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
         output.write(&write_solution(&problem, &found.certified))?;
     }
     Ok(if any { exit::DONE } else { exit::UNDECIDED })
-}
-
-/// The search that the options ask for.
-pub(super) fn search_of(starts: usize, seed: u64, all: bool, trace: bool) -> Search {
-    Search {
-        starts,
-        all,
-        seed,
-        trace,
-        options: Options::for_search(),
-    }
 }
 
 fn evidence(found: &Found) -> String {

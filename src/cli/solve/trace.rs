@@ -2,6 +2,7 @@
 //! the replay, which must come out byte for byte.
 
 use super::super::common::{CliError, exit, print, text};
+use super::search::{plain_search_of, search_of};
 use mceip_engine::lcp;
 use mceip_engine::multistart::{Found, Search, SearchError, multistart_large};
 use mceip_engine::reduction::reduce;
@@ -154,7 +155,7 @@ fn again(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
             path: path.display().to_string(),
             source,
         })?;
-    let search = super::search_of(header.starts, header.seed, header.all, true);
+    let search = search_of(header.starts, header.seed, header.all, true);
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let (found, _) = multistart_large(&problem, &admissible, &search, &Watch::nobody())?;
@@ -173,7 +174,7 @@ fn again_plain(header: &Header, path: &Path) -> Result<(String, usize), CliError
         path: path.display().to_string(),
         source,
     })?;
-    let search = super::plain::search_of(header.starts, header.seed, header.all, true);
+    let search = plain_search_of(header.starts, header.seed, header.all, true);
     let found = lcp::search(&problem, &search).map_err(SearchError::from)?;
     Ok((
         render_plain(

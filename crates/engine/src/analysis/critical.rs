@@ -3,7 +3,11 @@
 
 use super::absence::{Absence, absence};
 use super::conditions::Necessary;
-use super::{AnalysisError, Divergence, Evidence, Model, Proof, StaticThreshold};
+use super::divergence::Divergence;
+use super::error::AnalysisError;
+use super::evidence::{Evidence, Proof};
+use super::model::Model;
+use super::threshold::StaticThreshold;
 use crate::reduction::MuFamily;
 use mceip_exact::{Interval, Rational, from_f64, to_f64, whole};
 use mceip_model::Window;

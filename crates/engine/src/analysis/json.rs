@@ -1,7 +1,10 @@
 //! `mceip-analysis/1`: the answer for programs.
 
+use super::answer::Analysis;
 use super::conditions::DefiniteUntil;
-use super::{Analysis, Evidence, Mode, Verdict};
+use super::divergence::Verdict;
+use super::evidence::Evidence;
+use super::modes::Mode;
 use mceip_check::OpenRegion;
 use mceip_exact::{Interval, enclosing_decimals};
 use serde_json::{Value, json};

@@ -7,199 +7,42 @@
 //! which.
 
 pub mod absence;
+mod answer;
 pub mod conditions;
 mod critical;
+mod divergence;
 mod error;
+mod evidence;
 mod flutter;
 mod json;
+mod model;
 mod modes;
 mod ranges;
 mod sentences;
+mod threshold;
 
+pub use answer::Analysis;
 pub use critical::{CertifiedSolution, Critical};
+pub use divergence::{Divergence, Verdict};
 pub use error::AnalysisError;
+pub use evidence::{Evidence, Proof};
 pub use flutter::Flutter;
 pub use json::ANALYSIS_FORMAT;
+pub use model::Options;
 pub use modes::Mode;
 pub use ranges::{Range, Sample};
 pub use sentences::Sentence;
+pub use threshold::StaticThreshold;
 
 use crate::reduction::{MuFamily, mu_family};
 use crate::run::{Progress, Watch};
-use crate::search::complete::{self, Completed, complete};
+use crate::search::complete::Completed;
 use conditions::{Necessary, is_all_slip};
-use mceip_check::certificate::{Certificate, Claim};
-use mceip_check::{OpenRegion, SolutionFamily};
-use mceip_exact::{Interval, Rational, Sparse};
-use mceip_model::{Body, Particle, Problem, System, Unknown, Window};
-
-/// How much work an analysis may take.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Options {
-    /// Values of mu at which divergence is decided, to find the ranges in which it exists; 0: none.
-    pub samples: usize,
-    /// Threads, all cores if not given. The answer does not depend on it.
-    pub threads: Option<usize>,
-    /// Work for the bound of the critical mu.
-    pub limits: absence::Limits,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            samples: 16,
-            threads: None,
-            limits: absence::Limits::default(),
-        }
-    }
-}
-
-/// What stands behind a sentence.
-#[derive(Debug, Clone, PartialEq, Eq)]
-pub enum Evidence {
-    /// A certificate, accepted by the checker: index into [`Analysis::proofs`].
-    Certificate(usize),
-    /// Decided in exact arithmetic, named here; running the analysis again is the check.
-    Exact(&'static str),
-    /// Computed in doubles: no proof.
-    Measured(&'static str),
-}
-
-/// A problem and a certificate for it that the checker has accepted.
-#[derive(Debug, Clone)]
-pub struct Proof {
-    /// Name of the pair, for files.
-    pub name: String,
-    /// The problem.
-    pub problem: Problem,
-    /// The certificate.
-    pub certificate: Certificate,
-}
-
-/// Does divergence of the form (8) exist? Never "stable": flutter and stick-slip growth lie outside
-/// (8).
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Verdict {
-    /// A solution of MCEIP-lambda2 is proved.
-    Present,
-    /// It is proved that there is none.
-    Absent,
-    /// Neither: what is left open is listed.
-    Undecided,
-}
-
-impl Verdict {
-    /// The word used in files.
-    pub fn word(self) -> &'static str {
-        match self {
-            Verdict::Present => "present",
-            Verdict::Absent => "absent",
-            Verdict::Undecided => "undecided",
-        }
-    }
-}
-
-/// Divergence at the given mu.
-#[derive(Debug, Clone)]
-pub struct Divergence {
-    /// The verdict.
-    pub verdict: Verdict,
-    /// Every proved solution, with growth rate and mode, by ascending lambda^2.
-    pub modes: Vec<Mode>,
-    /// Families beside them: cones, and supports with a range of lambda^2. The certificate
-    /// describes them.
-    pub families: usize,
-    /// Parts of [0, infinity) x supports in which nothing is proved.
-    pub open: Vec<OpenRegion>,
-    /// The certificate.
-    pub evidence: Evidence,
-}
-
-/// The static threshold: the smallest MCEIP-mu value (lambda = 0).
-#[derive(Debug, Clone)]
-pub struct StaticThreshold {
-    /// All values found in [0, infinity), ascending.
-    pub values: Vec<Interval>,
-    /// Parts of [0, infinity) in which nothing is proved.
-    pub open: Vec<OpenRegion>,
-    /// The certificate.
-    pub evidence: Evidence,
-}
-
-impl StaticThreshold {
-    /// Single values of families count as values; of a family over an interval the ends alone are
-    /// known, so that it is left open.
-    fn of(found: &Completed) -> StaticThreshold {
-        let (points, intervals): (Vec<_>, Vec<_>) =
-            found.cover.families.iter().partition(|f| f.is_point);
-        let mut values: Vec<Interval> = found
-            .cover
-            .solutions
-            .iter()
-            .map(|s| s.value.clone())
-            .collect();
-        values.extend(points.into_iter().map(|f| f.from.clone()));
-        values.sort_by(|p, q| p.lo().cmp(q.lo()));
-        let region = |f: &SolutionFamily| OpenRegion {
-            min: f.from.lo().clone(),
-            max: f.to.as_ref().map(|end| end.hi().clone()),
-            moving: f.support.clone(),
-            undecided: Vec::new(),
-        };
-        let open = found
-            .cover
-            .open
-            .iter()
-            .cloned()
-            .chain(intervals.into_iter().map(region))
-            .collect();
-        StaticThreshold {
-            values,
-            open,
-            evidence: Evidence::Certificate(1),
-        }
-    }
-
-    /// The smallest value, if it is proved that there is no smaller one.
-    pub fn smallest(&self) -> Option<&Interval> {
-        self.values
-            .first()
-            .filter(|v| self.open.iter().all(|o| o.min > *v.hi()))
-    }
-}
-
-/// Everything that is said about a system at one mu.
-#[derive(Debug, Clone)]
-pub struct Analysis {
-    /// Name of the problem.
-    pub name: Option<String>,
-    /// Digest of the MCEIP-lambda2 problem that was analysed.
-    pub problem_sha256: String,
-    /// mu.
-    pub friction: Rational,
-    /// Numbers of degrees of freedom, free degrees of freedom, slip particles, stick particles.
-    pub sizes: [usize; 4],
-    /// Divergence at mu.
-    pub divergence: Divergence,
-    /// The smallest mu with lambda = 0.
-    pub threshold: StaticThreshold,
-    /// The infimum of mu over all lambda^2 >= 0.
-    pub critical: Critical,
-    /// Where in mu divergence exists.
-    pub ranges: Vec<Range>,
-    /// The decided values of mu behind the ranges.
-    pub samples: Vec<Sample>,
-    /// (19), (20).
-    pub necessary: Necessary,
-    /// (17)-(18) at mu; `None` if undecided.
-    pub sufficient: Option<bool>,
-    /// Complex eigenvalues of the all-slip pencil at mu.
-    pub flutter: Option<Flutter>,
-    /// The certificates.
-    pub proofs: Vec<Proof>,
-    /// Was the work interrupted?
-    pub interrupted: bool,
-}
+use divergence::divergence;
+use mceip_check::certificate::Claim;
+use mceip_exact::Rational;
+use mceip_model::{Particle, System};
+use model::Model;
 
 /// Analyses a mechanical system at a mu. Contact states are those of the system, taken as impending
 /// slip at mu: reactions in it are not used. An analysis that is cancelled leaves open what is not
@@ -281,97 +124,6 @@ pub fn analyse(
         proofs,
         interrupted: watch.is_cancelled(),
     })
-}
-
-/// The system and how to search it.
-struct Model<'a> {
-    system: &'a System,
-    options: &'a Options,
-    watch: Watch<'a>,
-}
-
-impl Model<'_> {
-    /// MCEIP-lambda2 at a mu, or MCEIP-mu, for the contact states of the system.
-    fn problem(&self, friction: Option<&Rational>) -> Result<Problem, AnalysisError> {
-        let mass = self.system.mass().cloned();
-        self.with(self.system.stiffness().clone(), mass, friction)
-    }
-
-    /// MCEIP-mu at a fixed lambda^2: that of K + lambda^2 M.
-    fn at_lambda2(&self, lambda2: &Rational) -> Result<Problem, AnalysisError> {
-        let mass = self.system.mass().ok_or(AnalysisError::NoMass)?;
-        self.with(
-            self.system.stiffness().add_scaled(lambda2, mass),
-            None,
-            None,
-        )
-    }
-
-    fn with(
-        &self,
-        stiffness: Sparse,
-        mass: Option<Sparse>,
-        friction: Option<&Rational>,
-    ) -> Result<Problem, AnalysisError> {
-        if mass.is_none() && self.system.mass().is_none() {
-            return Err(AnalysisError::NoMass);
-        }
-        let particles = self
-            .system
-            .particles()
-            .iter()
-            .map(|p| Particle {
-                reaction: None,
-                ..p.clone()
-            })
-            .collect();
-        let unknown = if friction.is_some() {
-            Unknown::Lambda2
-        } else {
-            Unknown::Mu
-        };
-        let mass = mass.filter(|_| friction.is_some());
-        let system = System::new(stiffness, mass, friction.cloned(), particles)?;
-        Ok(Problem::new(Body::System(system), unknown, Window::all())?)
-    }
-
-    fn complete(&self, problem: &Problem) -> Result<Completed, AnalysisError> {
-        let options = complete::Options {
-            threads: self.options.threads,
-            ..complete::Options::default()
-        };
-        Ok(complete(problem, &options, &self.watch)?)
-    }
-
-    fn stopped(&self) -> bool {
-        self.watch.is_cancelled()
-    }
-}
-
-fn verdict(found: &Completed) -> Verdict {
-    match (
-        found.cover.solutions.is_empty() && found.cover.families.is_empty(),
-        found.is_complete(),
-    ) {
-        (false, _) => Verdict::Present,
-        (true, true) => Verdict::Absent,
-        (true, false) => Verdict::Undecided,
-    }
-}
-
-fn divergence(system: &System, family: &MuFamily, found: &Completed) -> Divergence {
-    let modes = found
-        .solutions()
-        .map(|(s, x)| Mode::of(system, family, s, x))
-        .collect();
-    let families = found.cover.families.len();
-    Divergence {
-        verdict: verdict(found),
-        modes,
-        families,
-        open: found.cover.open.clone(),
-        evidence: Evidence::Certificate(0),
-    }
 }
 
 /// (17)-(18): is one of the solutions an all-slip one?

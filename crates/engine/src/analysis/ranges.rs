@@ -1,7 +1,11 @@
 //! Where in mu does divergence exist? Decided with certificates at values of mu; between them
 //! measured.
 
-use super::{AnalysisError, Critical, Model, StaticThreshold, Verdict, verdict};
+use super::critical::Critical;
+use super::divergence::{Verdict, verdict};
+use super::error::AnalysisError;
+use super::model::Model;
+use super::threshold::StaticThreshold;
 use mceip_exact::{Rational, from_f64, to_f64, whole};
 use num_traits::Zero;
 

@@ -1,7 +1,11 @@
 //! The answer in words: one short sentence for each question, with what stands behind it.
 
+use super::answer::Analysis;
 use super::conditions::{DefiniteUntil, approximately};
-use super::{Analysis, Evidence, Verdict};
+use super::divergence::Verdict;
+use super::evidence::Evidence;
+use super::modes::Mode;
+use super::ranges::Range;
 use mceip_check::OpenRegion;
 use mceip_exact::{Interval, Rational, enclosing_decimals, to_f64};
 
@@ -121,7 +125,7 @@ impl Analysis {
     }
 
     fn say_modes(&self) -> Vec<Sentence> {
-        let say = |(k, m): (usize, &super::Mode)| {
+        let say = |(k, m): (usize, &Mode)| {
             let growth = if m.growth_rate > 0.0 {
                 format!("growth rate lambda = {:.6} 1/s", m.growth_rate)
             } else {
@@ -197,7 +201,7 @@ impl Analysis {
     }
 
     fn say_ranges(&self) -> Option<Sentence> {
-        let say = |r: &super::Range| {
+        let say = |r: &Range| {
             format!(
                 "{} from {} to {}",
                 r.verdict.word(),

@@ -1,6 +1,8 @@
 //! Claims that the checker has accepted: the one way from a candidate to the word "certified".
 
-use super::{Attempt, AttemptFailure, IntegralRows, NotCertified, Proposal, proposals};
+use super::failure::{Attempt, AttemptFailure, NotCertified};
+use super::proposals::{Proposal, proposals};
+use super::rows::IntegralRows;
 use crate::candidate::Candidate;
 use mceip_check::certificate::Claim;
 use mceip_check::{AcceptedClaim, ClaimChecker, Reason};

@@ -8,12 +8,13 @@
 mod krawczyk;
 pub(super) mod newton;
 
-use super::{AttemptFailure, IntegralRows};
+use super::failure::AttemptFailure;
+use super::rows::IntegralRows;
 use crate::candidate::Candidate;
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 use krawczyk::Krawczyk;
 use mceip_check::certificate::EnclosedSolution;
-use mceip_exact::{Integer, Rational, to_f64};
+use mceip_exact::{Integer, to_f64};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
 use newton::{Newton, Point};
@@ -263,11 +264,6 @@ impl Enclosure<'_> {
         }
         y
     }
-}
-
-/// A rational with a power of two as denominator.
-fn dyadic(numerator: Integer, bits: u64) -> Rational {
-    Rational::new(numerator, Integer::from(1) << bits)
 }
 
 #[cfg(test)]

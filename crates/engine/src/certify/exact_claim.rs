@@ -1,6 +1,7 @@
 //! Exact claims: the root of the support's determinant nearest the candidate, and the kernel there.
 
-use super::{AttemptFailure, IntegralRows, active};
+use super::failure::AttemptFailure;
+use super::rows::{IntegralRows, active};
 use crate::candidate::Candidate;
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 use mceip_check::certificate::ExactSolution;

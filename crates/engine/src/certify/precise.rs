@@ -1,8 +1,8 @@
 //! A null vector of the pencil on a given set, to any number of bits: signs beyond doubles are read
 //! off it.
 
-use super::IntegralRows;
 use super::enclose::newton::Newton;
+use super::rows::IntegralRows;
 use crate::candidate::Candidate;
 use mceip_exact::{Integer, Rational};
 use mceip_model::Pencil;

@@ -1,6 +1,7 @@
 //! Which complementarity variables a candidate takes as slipping: several guesses, best first.
 
-use super::AttemptFailure;
+use super::failure::AttemptFailure;
+use super::rows::active;
 use crate::candidate::Candidate;
 use crate::tolerance::SUPPORT_GUESSES;
 use mceip_check::certificate::Claim;
@@ -83,7 +84,7 @@ pub(super) fn within_rounding(
     };
     let slip = pencil.slip();
     let largest = slip.iter().map(|&i| candidate.x[i]).fold(0.0, f64::max);
-    let active = super::active(pencil, &c.support);
+    let active = active(pencil, &c.support);
     let centers: Vec<(usize, f64)> = active
         .into_iter()
         .zip(&c.center)

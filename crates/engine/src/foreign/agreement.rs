@@ -9,7 +9,7 @@
 //!
 //! Input: an accepted claim and the report's numbers in doubles. Called by `judge`.
 
-use super::Reported;
+use super::report::Reported;
 use crate::multistart::support;
 use crate::reduction::Reduced;
 use crate::report::Listed;

@@ -1,8 +1,8 @@
 //! One foreign solution, one verdict: it exists (certified and checked), nothing is near
 //! (enumerated), or undecided.
 
-use super::Reported;
 use super::agreement::{Agreement, agreement};
+use super::report::Reported;
 use crate::candidate::Candidate;
 use crate::certify::certify;
 use crate::multistart::{exact_value, support};

@@ -1,7 +1,9 @@
 //! From a point in doubles to an exact solution: read off the active set, solve it over Q, check.
 #![allow(clippy::float_arithmetic)]
 
-use super::{ExactMcp, Violated, check};
+use super::check::Violated;
+use super::check::check;
+use super::exact::ExactMcp;
 use mceip_exact::{Rational, from_f64, to_f64};
 use num_traits::Zero;
 

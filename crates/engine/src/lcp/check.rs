@@ -1,6 +1,6 @@
 //! Is a rational point a solution? Exact: it multiplies and compares.
 
-use super::ExactMcp;
+use super::exact::ExactMcp;
 use mceip_exact::{Integer, Rational, common_denominator};
 use num_traits::{Signed, Zero};
 

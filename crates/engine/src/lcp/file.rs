@@ -1,6 +1,6 @@
 //! `mceip-mcp/1` and the file of a solution.
 
-use super::{ExactMcp, ExactMcpError};
+use super::exact::{ExactMcp, ExactMcpError};
 use mceip_exact::{Rational, whole};
 use mceip_model::ModelError;
 use mceip_model::file::{Number, from_json, require_format};

@@ -2,7 +2,9 @@
 //! points.
 #![allow(clippy::float_arithmetic)]
 
-use super::{ExactMcp, Uncertifiable, certify};
+use super::certify::Uncertifiable;
+use super::certify::certify;
+use super::exact::ExactMcp;
 use crate::multistart::trace_outcome;
 use mceip_exact::Rational;
 use mceip_mcp::solver::{

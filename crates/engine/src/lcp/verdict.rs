@@ -1,7 +1,9 @@
 //! The verdict on a solution file: is it of this problem, and is every point of it a solution?
 
+use super::check::Violated;
+use super::check::check;
+use super::exact::ExactMcp;
 use super::file::McpCertificate;
-use super::{ExactMcp, Violated, check};
 
 /// Why a solution file is rejected.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

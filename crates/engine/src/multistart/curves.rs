@@ -1,108 +1,19 @@
 //! The curves of a search: from starts, and through solutions found; on the circle where there is
 //! one.
 
+use super::found::{Origin, is_known};
+use super::ground::Ground;
 use super::hunt::Hunt;
-use super::same::repeats;
 use super::trace::trace_outcome;
-use super::{Found, Origin};
-use crate::candidate::Candidate;
-use crate::reduction::{CirclePencil, Embedding, Side};
 use crate::tolerance::SAME_CURVE_POINT;
-use mceip_mcp::mcp::Mcp;
 use mceip_mcp::solver::{
     Curve, CurveEnd, Options, Sense, SolverError, continuation, continuation_through, solve,
 };
-use mceip_model::Admissible;
 
-/// Solutions taken from one curve, at most: a cone of solutions is met at every step.
-const PER_CURVE: usize = 16;
-/// The same on the circle, where most of what a curve meets is no solution of the eigenproblem.
-const PER_CIRCLE: usize = 64;
 /// Largest default number of curves on which a solution is left.
 const MOST_DEPARTURES: usize = 3;
 /// Solutions that are left on curves, at most: a singular pencil has a continuum of them.
 const KNOWN_LIMIT: usize = 64;
-
-/// The MCPs on which curves are followed and their solutions polished.
-pub(super) struct Ground {
-    /// One side of an origin: where runs start.
-    pub(super) embedding: Embedding,
-    /// All t >= 0: the circle knows no sides.
-    whole: Embedding,
-    circle: Option<CirclePencil>,
-    /// Seed of the directions.
-    seed: u64,
-    /// How often each solution was left, in the order of discovery.
-    departed: Vec<usize>,
-    /// Starts of runs between curves, the last one first.
-    pub(super) spare: Vec<Vec<f64>>,
-    /// Curves followed, and their pivots and factorisations.
-    followed: (usize, usize),
-}
-
-impl Ground {
-    pub(super) fn new(admissible: &Admissible<'_>, side: Side, seed: u64) -> Ground {
-        let embedding = Embedding::new(admissible, side);
-        let circle = CirclePencil::new(&embedding);
-        let whole = Embedding::new(admissible, Side::Above(0.0));
-        Ground {
-            embedding,
-            whole,
-            circle,
-            seed,
-            departed: Vec::new(),
-            spare: Vec::new(),
-            followed: (0, 0),
-        }
-    }
-
-    /// The embedding in which a curve's solutions are polished.
-    fn polisher(&self) -> &Embedding {
-        if self.circle.is_some() {
-            &self.whole
-        } else {
-            &self.embedding
-        }
-    }
-
-    /// The MCP of the curves.
-    fn problem(&self) -> &dyn Mcp {
-        match &self.circle {
-            Some(circle) => circle,
-            None => &self.embedding,
-        }
-    }
-
-    fn point(&self, c: &Candidate) -> Vec<f64> {
-        self.circle.as_ref().map_or_else(
-            || self.embedding.point(c.value, &c.x),
-            |circle| circle.point(c.value, &c.x),
-        )
-    }
-
-    fn candidate(&self, z: &[f64]) -> Option<Candidate> {
-        self.circle.as_ref().map_or_else(
-            || Some(self.embedding.candidate(z)),
-            |circle| circle.candidate(z),
-        )
-    }
-
-    fn direction(&self, seed: u64, uneven: bool) -> Vec<f64> {
-        self.circle.as_ref().map_or_else(
-            || self.embedding.direction(seed, uneven),
-            |circle| circle.direction(seed, uneven),
-        )
-    }
-
-    /// Solutions taken from one curve, at most.
-    fn enough(&self) -> usize {
-        if self.circle.is_some() {
-            PER_CIRCLE
-        } else {
-            PER_CURVE
-        }
-    }
-}
 
 impl Hunt<'_> {
     /// The curve from a start: down, and up too unless it has closed.
@@ -261,12 +172,4 @@ impl Hunt<'_> {
         }
         Ok(())
     }
-}
-
-/// Is a candidate the same point as one that was found, within rounding?
-pub(super) fn is_known(found: &Found, candidate: &Candidate) -> bool {
-    let certified = found.certified.iter().map(|c| &c.candidate);
-    certified
-        .chain(found.uncertified.iter().map(|u| &u.candidate))
-        .any(|c| repeats(c, candidate))
 }

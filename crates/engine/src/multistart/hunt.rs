@@ -1,10 +1,11 @@
 //! One search under way: runs from starts, then curves ([`super::curves`]), and the lists of
 //! results.
 
-use super::curves::{Ground, is_known};
+use super::found::{Certified, Found, Origin, Uncertified, is_known};
+use super::ground::Ground;
 use super::same::same;
+use super::search::{Certifier, Search};
 use super::trace::trace_outcome;
-use super::{Certified, Certifier, Found, Origin, Search, Uncertified};
 use crate::candidate::Candidate;
 use crate::reduction::{Embedding, Side};
 use crate::run::{Progress, Watch};

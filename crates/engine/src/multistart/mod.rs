@@ -3,141 +3,31 @@
 mod all_slip;
 mod condensed;
 mod curves;
+mod found;
+mod ground;
 mod hunt;
 mod same;
+mod search;
 mod trace;
 
 pub use all_slip::{AllSlip, all_slip};
 pub use condensed::{
     CondensedFound, CondensedSearch, CondensedSearchError, CondensedSolution, search_condensed,
 };
+pub use found::{Certified, Found, Origin, Uncertified};
 pub use same::{exact_value, same, support};
+pub use search::{Certifier, Search};
 pub use trace::trace_outcome;
 
 use crate::candidate::Candidate;
-use crate::certify::{self, NotCertified};
+use crate::certify;
 use crate::reduction::{CondensationError, Expansion, Side, condense};
 use crate::run::Watch;
 use crate::tolerance::WINDOW_GAP;
 use hunt::{Hunt, WINDOW_SALT};
-use mceip_check::certificate::Claim;
 use mceip_exact::to_f64;
-use mceip_mcp::solver::{CurveEnd, Options, Outcome, SolverError, Termination};
+use mceip_mcp::solver::SolverError;
 use mceip_model::{Admissible, ModelError, Pencil, Problem, Unknown, Window};
-use std::collections::BTreeMap;
-
-/// How to search.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Search {
-    /// Starts on the whole window.
-    pub starts: usize,
-    /// Starts above and below each value found (zeta of section 4); 0 for none.
-    pub window_starts: usize,
-    /// Values around which windows are opened, at most: a singular pencil has a continuum of them.
-    pub window_limit: usize,
-    /// Further origins from which values above are sought.
-    pub origins: Vec<f64>,
-    /// Follow curves of the Newton homotopy, from starts and through solutions found?
-    pub curves: bool,
-    /// Curves on which each solution found is left, each followed both ways. By default half the
-    /// slip variables, rounded up, at most 3: each connects it with others.
-    pub departures: Option<usize>,
-    /// End curves when the pivots and factorisations of everything done reach those of this many
-    /// runs of the solver, by the mean of those made, or n (n + 4) / 2 for n variables where that
-    /// is more; the last curve may pass it by its last steps and what polishing costs. Within it
-    /// further runs are made where a curve costs many. `None` for no such end.
-    pub budget: Option<usize>,
-    /// Keep the log of every run as text?
-    pub trace: bool,
-    /// Seed of the random starts.
-    pub seed: u64,
-    /// Options of each run.
-    pub options: Options,
-}
-
-impl Default for Search {
-    fn default() -> Self {
-        Search {
-            starts: 22,
-            window_starts: 4,
-            window_limit: 16,
-            origins: Vec::new(),
-            curves: true,
-            departures: None,
-            budget: None,
-            trace: false,
-            seed: 1,
-            options: Options::for_search(),
-        }
-    }
-}
-
-/// A point whose residuals were small but which could not be certified.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Uncertified {
-    /// The point.
-    pub candidate: Candidate,
-    /// Why.
-    pub reason: NotCertified,
-}
-
-/// A certified solution (the checker has accepted its claim) and the start that led to it first.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Certified {
-    /// The claim for the certificate.
-    pub claim: Claim,
-    /// The candidate it was made from.
-    pub candidate: Candidate,
-    /// Number of the run, from 0.
-    pub run: usize,
-    /// What kind of run.
-    pub origin: Origin,
-}
-
-/// The kinds of runs of a search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Origin {
-    /// A run of the solver from a start.
-    Start,
-    /// A curve of the Newton homotopy from a start.
-    Curve,
-    /// A curve through a solution found before.
-    Departure,
-}
-
-/// What a search found. It never says that nothing else exists.
-#[derive(Debug, Clone, Default)]
-pub struct Found {
-    /// Distinct certified solutions, by value.
-    pub certified: Vec<Certified>,
-    /// Distinct candidates that stayed uncertified.
-    pub uncertified: Vec<Uncertified>,
-    /// Candidates outside the window (a search downwards may leave it): counted, not certified.
-    pub outside: usize,
-    /// Candidates equal to an earlier one within rounding
-    /// ([`SAME_POINT`](crate::tolerance::SAME_POINT)).
-    pub repeated: usize,
-    /// Points of curves that are a known solution within rounding: not polished again.
-    pub met_again: usize,
-    /// How often each reason ended a run of the solver, also those that polish a point of a curve.
-    pub terminations: BTreeMap<Termination, usize>,
-    /// How often each reason ended a curve.
-    pub curves: BTreeMap<CurveEnd, usize>,
-    /// Runs and curves made.
-    pub runs: usize,
-    /// Pivots made.
-    pub pivots: usize,
-    /// Dense factorisations made.
-    pub factorisations: usize,
-    /// The log of every run and curve, if it was asked for.
-    pub trace: Vec<String>,
-    /// Runs from starts, and their pivots and factorisations in all.
-    pub plain: (usize, usize),
-    /// Was the search cancelled?
-    pub interrupted: bool,
-    /// Outcome of the very first run.
-    pub first: Option<Outcome>,
-}
 
 /// Searches for solutions in the problem's window: plain starts, then above and below each value
 /// found. `admissible` is the problem's reduced pencil.
@@ -241,10 +131,6 @@ fn require_dense_order(pencil: &Pencil) -> Result<(), SearchError> {
     }
 }
 
-/// What turns a candidate into a claim that the checker has accepted: [`multistart_with`] takes
-/// any, so that a condensed pencil can be searched and the claim made about the full one.
-pub type Certifier<'a> = dyn Fn(&Candidate) -> Result<Claim, NotCertified> + 'a;
-
 /// [`multistart`] with a certifier of one's own.
 ///
 /// # Errors
@@ -303,9 +189,9 @@ pub fn multistart_with(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::certify::{Attempt, AttemptFailure, propose, sift};
+    use crate::certify::{Attempt, AttemptFailure, NotCertified, propose, sift};
     use mceip_check::Reason;
-    use mceip_check::certificate::ExactSolution;
+    use mceip_check::certificate::{Claim, ExactSolution};
     use mceip_exact::{Sparse, whole};
     use mceip_model::Body;
     use mceip_model::file::Number;

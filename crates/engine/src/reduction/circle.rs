@@ -10,7 +10,7 @@
 //! infinity.
 #![allow(clippy::float_arithmetic)]
 
-use super::Embedding;
+use super::embed::Embedding;
 use crate::candidate::Candidate;
 use crate::tolerance::CIRCLE_END;
 use mceip_mcp::mcp::Mcp;

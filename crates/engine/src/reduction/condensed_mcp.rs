@@ -7,7 +7,7 @@
 //! 0.
 #![allow(clippy::float_arithmetic)]
 
-use super::{SparseCondensation, SparseCondensationError, SparseCondensed};
+use super::condense_sparse::{SparseCondensation, SparseCondensationError, SparseCondensed};
 use mceip_mcp::mcp::Mcp;
 use nalgebra::DMatrix;
 use rand::{RngExt, SeedableRng};

@@ -1,7 +1,7 @@
 //! From v over all degrees of freedom back to x of the pencil: the other direction of (10).
 
-use super::Variable;
 use mceip_exact::Rational;
+use mceip_model::reduction::Variable;
 use num_traits::{Signed, Zero};
 
 /// x of (10) for a given v, and what of v it leaves unexplained.

@@ -1,7 +1,7 @@
 //! The pencil reversed: value s = 1 / t, so that infinity becomes zero.
 
-use super::reduce;
 use mceip_exact::{Rational, Sparse};
+use mceip_model::reduction::reduce;
 use mceip_model::{Body, ModelError, Pencil, Problem, Window};
 use num_traits::Zero;
 

@@ -1,6 +1,7 @@
 //! `mceip-solutions/1`, and the same for people.
 
-use super::{Listed, Table};
+use super::listed::Listed;
+use super::table::Table;
 use crate::candidate::SOLUTIONS_FORMAT;
 use crate::reduction::{Reduced, Variable};
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};

@@ -1,7 +1,7 @@
 //! The fronts of a sparse Cholesky factorisation, from the pattern alone.
 
-use super::Symmetric;
 use super::dissection::{Part, dissect};
+use super::symmetric::Symmetric;
 
 /// Which unknowns are eliminated in which front. Serves every matrix with this pattern, or less.
 #[derive(Debug, Clone)]

@@ -6,7 +6,8 @@
 //! complement of the kept unknowns: no right-hand sides.
 
 use super::analysis::{Analysis, Front};
-use super::{Symmetric, eliminate_front};
+use super::dense::eliminate_front;
+use super::symmetric::Symmetric;
 use crate::tolerance::SINGULAR_PIVOT;
 
 /// The matrix is not positive definite on the eliminated unknowns, as far as doubles can tell.

@@ -3,18 +3,18 @@
 //! on the Fischer-Burmeister system.
 
 mod semismooth;
+mod step;
 
 use super::dense::Lu;
 use super::evaluation::{Evaluated, Point};
 use super::log::Log;
 use super::outcome::{StepKind, Termination};
-use super::tolerance::{
-    ARMIJO, BACKTRACK, CRASH_GAIN, CRASH_PROXIMAL, CRASH_PROXIMAL_LEAST, CRASH_SMALLEST,
-};
+use super::tolerance::{CRASH_GAIN, CRASH_PROXIMAL, CRASH_PROXIMAL_LEAST, CRASH_SMALLEST};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
 
 pub(super) use semismooth::semismooth;
+use step::{search, solve_inside};
 
 /// What a crash works with, kept from one to the next.
 #[derive(Default)]
@@ -125,53 +125,10 @@ impl Storage {
     }
 }
 
-/// Solves (F'_II + diagonal) d = -residual over the components `inside` into `step`; says if there
-/// is a solution.
-fn solve_inside(
-    lu: &mut Lu<f64>,
-    step: &mut Vec<f64>,
-    jacobian: &DMatrix<f64>,
-    inside: &[usize],
-    diagonal: impl Fn(usize) -> f64,
-    residual: impl Fn(usize) -> f64,
-) -> bool {
-    let gather = |j: usize, rows: &[usize], out: &mut [f64]| {
-        let column = jacobian.column(inside[j]);
-        let entry = |r: usize| column[inside[r]] + if r == j { diagonal(j) } else { 0.0 };
-        rows.iter().zip(out).for_each(|(&r, o)| *o = entry(r));
-    };
-    if !lu.factor(inside.len(), gather, |_| 0.0) {
-        return false;
-    }
-    step.clear();
-    step.extend(lu.rows().iter().map(|&r| -residual(r)));
-    lu.solve(step);
-    step.iter().all(|v| v.is_finite())
-}
-
-/// Back along the projected arc, no further than to `smallest`, until the merit falls; with the
-/// length of the step.
-fn search<P: Mcp + ?Sized>(
-    problem: &mut Evaluated<'_, P>,
-    point: &Point,
-    direction: &[f64],
-    smallest: f64,
-) -> Option<(Point, f64)> {
-    let mut step = 1.0;
-    while step >= smallest {
-        let next = problem.point_with(|i| point.z[i] + direction[i] * step);
-        if next.merit <= (1.0 - ARMIJO * step) * point.merit && next.merit < point.merit {
-            return Some((next, step));
-        }
-        problem.recycle(next);
-        step *= BACKTRACK;
-    }
-    None
-}
-
 #[cfg(test)]
 mod tests {
     use super::super::probe::{bounded, free};
+    use super::super::tolerance::ARMIJO;
     use super::*;
     use crate::mcp::LinearMcp;
     use nalgebra::{DVector, dmatrix};

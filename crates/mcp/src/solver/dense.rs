@@ -1,7 +1,7 @@
 //! LU factors of dense matrices in storage that is kept from one matrix to the next, over the
 //! numbers of the path.
 
-use super::path::Number;
+use super::number::Number;
 
 /// P A = L U with row pivoting, column by column, so that dependent columns are found on the way.
 #[derive(Debug, Clone)]

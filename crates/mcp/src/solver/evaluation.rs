@@ -2,6 +2,7 @@
 //! kept.
 
 use super::fischer;
+use super::jacobian::square;
 use super::outcome::{Counters, NonFinite, Termination};
 use crate::mcp::Mcp;
 use nalgebra::{DMatrix, DVector};
@@ -147,21 +148,6 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     }
 }
 
-/// F' at z, n x n even if the callback has resized it: what it left out is NaN.
-pub(super) fn jacobian_at<P: Mcp + ?Sized>(problem: &P, z: &[f64]) -> DMatrix<f64> {
-    let mut j = DMatrix::zeros(z.len(), z.len());
-    problem.jacobian(z, &mut j);
-    square(j, z.len())
-}
-
-fn square(j: DMatrix<f64>, n: usize) -> DMatrix<f64> {
-    if j.shape() == (n, n) {
-        j
-    } else {
-        j.resize(n, n, f64::NAN)
-    }
-}
-
 impl Point {
     /// The first component of F that is not finite, as a reason to stop.
     pub(super) fn not_finite(&self) -> Option<Termination> {
@@ -182,6 +168,7 @@ impl Point {
 
 #[cfg(test)]
 mod tests {
+    use super::super::jacobian::jacobian_at;
     use super::super::probe::{bounded, free};
     use super::*;
     use nalgebra::{dmatrix, dvector};

@@ -1,11 +1,12 @@
 //! Linear problems without an outer loop: Lemke's method with a lexicographic ray start.
 
+use super::error::SolverError;
 use super::evaluation::Evaluated;
+use super::options::Options;
 use super::outcome::{Counters, MajorRecord, Outcome, PathRecord, StepKind, Termination};
 use super::path::{Limits, Path, PathEnd, Start, Storage, Subproblem, follow};
 use super::preprocess::Preprocessed;
 use super::residual::Residuals;
-use super::{Options, SolverError};
 use crate::mcp::{LinearMcp, Mcp};
 use nalgebra::DVector;
 

@@ -6,10 +6,10 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `options`, `tolerance`, `error` | limits with PATH's names; every tolerance; refusals |
-//! | `dense` | dense factors in storage that is kept |
-//! | `evaluation`, `fischer`, `normal_map`, `residual` | F and its merits; the five residuals |
-//! | `crash`, `crash/semismooth` | projected Newton to a good active set; Newton on Fischer-Burmeister |
+//! | `options`, `tolerance`, `validate`, `error` | limits with PATH's names; every tolerance; refusals |
+//! | `number`, `dense` | the arithmetic, doubles or exact; dense factors in storage that is kept |
+//! | `evaluation`, `jacobian`, `fischer`, `normal_map`, `residual` | F, F' and its merits; the five residuals |
+//! | `crash`, `crash/semismooth`, `crash/step` | projected Newton to a good active set; Newton on Fischer-Burmeister; a step of both |
 //! | `path/` | the linear subproblem, solved by pivoting along the path |
 //! | `search`, `gradient`, `restart` | what makes a step acceptable, and what if none is |
 //! | `continuation/` | the Newton homotopy: a curve that meets several solutions |
@@ -26,12 +26,14 @@ mod error;
 mod evaluation;
 mod fischer;
 mod gradient;
+mod jacobian;
 mod linear;
 mod log;
 mod matching;
 mod multistart;
 mod newton;
 mod normal_map;
+mod number;
 mod options;
 mod outcome;
 mod path;
@@ -44,6 +46,7 @@ mod reuse;
 mod search;
 mod structure;
 mod tolerance;
+mod validate;
 
 pub use continuation::{Curve, CurveEnd, Sense, continuation, continuation_through};
 pub use error::SolverError;
@@ -56,7 +59,7 @@ pub use path::{PathEnd, Pivot, PivotKind, Start, Variable};
 pub use residual::Residuals;
 pub use reuse::{Ended, Solver};
 
-use crate::mcp::{Mcp, McpError, check_bounds};
+use crate::mcp::Mcp;
 
 /// Runs from `start` (length n, projected onto the bounds) until a reason to stop.
 ///
@@ -79,41 +82,4 @@ pub fn solve<P: Mcp + ?Sized>(
     let mut solver = Solver::new();
     let ended = solver.run(problem, start, options)?;
     Ok(solver.outcome(ended))
-}
-
-/// Refuses options, shapes, bounds and starts that make no sense.
-fn validate<P: Mcp + ?Sized>(
-    problem: &P,
-    start: &[f64],
-    options: &Options,
-) -> Result<(), SolverError> {
-    options.validate()?;
-    let n = problem.dimension();
-    for (what, got) in [
-        ("lower", problem.lower().len()),
-        ("upper", problem.upper().len()),
-    ] {
-        if got != n {
-            return Err(McpError::Shape {
-                what,
-                expected: n,
-                got,
-            }
-            .into());
-        }
-    }
-    check_bounds(problem.lower(), problem.upper())?;
-    if start.len() != n {
-        return Err(SolverError::StartLength {
-            expected: n,
-            got: start.len(),
-        });
-    }
-    if let Some(index) = start.iter().position(|v| !v.is_finite()) {
-        return Err(SolverError::StartNotFinite {
-            index,
-            got: start[index],
-        });
-    }
-    Ok(())
 }

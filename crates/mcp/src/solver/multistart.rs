@@ -1,6 +1,9 @@
 //! Many starts, one after the other: the same starts give the same outcomes.
 
-use super::{Options, Outcome, Solver, SolverError};
+use super::error::SolverError;
+use super::options::Options;
+use super::outcome::Outcome;
+use super::reuse::Solver;
 use crate::mcp::Mcp;
 
 /// Runs from every start, in order. It never says that nothing else exists: report coverage.

@@ -5,18 +5,19 @@
 mod choose;
 
 use super::continuation::{Sense, from_point};
-use super::crash::{self, crash, semismooth};
+use super::crash::{crash, semismooth};
 use super::evaluation::{Evaluated, Point, Pool};
 use super::log::Log;
 use super::normal_map::linearise;
+use super::options::{CrashMethod, Options};
 use super::outcome::{Counters, StepKind, Termination};
-use super::path::{self, Limits, Path, PathEnd, Start, Subproblem, follow};
+use super::path::{Limits, Path, PathEnd, Start, Subproblem, follow};
 use super::residual::Residuals;
 use super::restart::Attempt;
 use super::search::Search;
 use super::structure::unmatched;
 use super::tolerance::{CURVE_TRIALS, MERIT_SLACK};
-use super::{CrashMethod, Options};
+use super::{crash, path};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
 

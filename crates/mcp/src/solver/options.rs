@@ -1,6 +1,6 @@
 //! Options of a run, with PATH's names and defaults (Ferris and Munson, the PATH manual).
 
-use super::SolverError;
+use super::error::SolverError;
 
 /// Limits and tolerances of a run. Names are PATH's; so are defaults unless a reason is given.
 #[derive(Debug, Clone, PartialEq)]

@@ -1,7 +1,7 @@
 //! The five residuals, always reported together, each with its definition. None of them certifies.
 
-use super::evaluation::jacobian_at;
 use super::fischer::{Fischer, fischer, gradient};
+use super::jacobian::jacobian_at;
 use super::normal_map::least_residual;
 use crate::mcp::Mcp;
 use nalgebra::{DMatrix, DVector};

@@ -1,10 +1,12 @@
 //! A solver that keeps its storage: run after run, on one problem or many, without allocating
 //! again.
 
+use super::error::SolverError;
 use super::newton::{Run, Workspace};
+use super::options::Options;
 use super::outcome::{Counters, Outcome, Termination};
 use super::residual::Residuals;
-use super::{Options, SolverError, validate};
+use super::validate::validate;
 use crate::mcp::Mcp;
 
 /// How a run of a [`Solver`] ended.

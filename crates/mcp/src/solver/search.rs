@@ -2,8 +2,8 @@
 //! and the search back along a stored path (Grippo, Lampariello and Lucidi 1986; Dirkse and Ferris
 //! 1995, section 4).
 
-use super::Options;
 use super::evaluation::{Evaluated, Point};
+use super::options::Options;
 use super::path::Path;
 use super::restart::{Acceptance, Attempt};
 use super::tolerance::{ARMIJO, BACKTRACK, FREE_REFERENCE, NEAR, SMALLEST_T, TRUST, TRUST_SHRINK};

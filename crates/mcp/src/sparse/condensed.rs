@@ -6,11 +6,12 @@
 //! the whole problem is a function of that on s: from Lemke's ray, where the rows of f vanish at
 //! the start, both are the same pivot for pivot.
 
-use super::SparseLinearMcp;
+use super::problem::SparseLinearMcp;
 use crate::linear::SparseLu;
 use crate::mcp::{LinearMcp, McpError};
-use crate::solver::unmatched;
-use crate::solver::{Options, Outcome, Residuals, SolverError, Termination, solve, solve_linear};
+use crate::solver::{
+    Options, Outcome, Residuals, SolverError, Termination, solve, solve_linear, unmatched,
+};
 use crate::tolerance::REFINED;
 
 /// Why a sparse problem is not condensed or not run.

@@ -1,7 +1,8 @@
 //! The stepped path beside the exact one: what the steps miss, and by how much they are off.
 #![allow(clippy::float_arithmetic)]
 
-use super::{LoadingPath, Step};
+use super::loading_path::LoadingPath;
+use super::step::Step;
 use mceip_exact::to_f64;
 
 /// How a stepped path compares with the exact one.
@@ -71,7 +72,7 @@ struct Knot {
 }
 
 impl Knot {
-    fn of(interval: &super::Interval, slides: bool) -> Knot {
+    fn of(interval: &super::stretch::Interval, slides: bool) -> Knot {
         let start = interval.start.reactions_f64();
         let stop = match &interval.stop {
             Some(s) => Some((to_f64(s.motion()), s.reactions_f64())),

@@ -1,8 +1,8 @@
 //! The condensed MCEIP-mu pencil of any contact state, from the one condensation of the path: only
 //! the free contact nodes are left to eliminate.
 
-use super::PathError;
 use super::contact::Contact;
+use super::error::PathError;
 use super::linear::{Images, solve};
 use mceip_exact::{Integer, Rational, Sparse};
 use mceip_model::{ContactState, ModelError, Pencil};

@@ -1,11 +1,12 @@
 //! The rate problem: which nodes on their limits stick, slip, open or stay open in the next
 //! moment. An active set from the state before, else the project's pivoting; exact signs decide.
 
-use super::PathError;
-use super::contact::{Contact, Friction, Load, Response, respond};
+use super::contact::{Contact, Friction, Load, Response};
+use super::error::PathError;
 use super::line::{Bound, Class};
 use super::linear::Images;
 use super::propose::propose;
+use super::respond::respond;
 use mceip_exact::Integer;
 use mceip_model::ContactState;
 use num_traits::{Signed, Zero};

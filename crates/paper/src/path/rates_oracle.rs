@@ -1,8 +1,8 @@
 //! The rate problem against plain enumeration: every set of states tried by elimination in
 //! fractions, the lines of (9) written out. For tests; shares nothing with the solver.
 
-use super::PathError;
 use super::contact::{Contact, Friction, Load};
+use super::error::PathError;
 use super::line::Class;
 use super::linear::Images;
 use super::propose::propose;

@@ -2,7 +2,9 @@
 //! an active set from the step before. What happens within a step is lost.
 #![allow(clippy::float_arithmetic)]
 
-use super::{Contact, Loading, PathError};
+use super::contact::Contact;
+use super::error::PathError;
+use super::loading::Loading;
 use crate::tolerance::STEP_SIGN;
 use mceip_exact::{Rational, to_f64};
 use mceip_mcp::linear::solve;

@@ -2,10 +2,13 @@
 
 use super::check::check;
 use super::contact::{Contact, Friction, Load};
+use super::error::PathError;
 use super::line::{Class, Line, classify, next_event};
 use super::linear::Images;
+use super::loading::Loading;
+use super::loading_path::{LoadingPath, PathEnd};
 use super::rates::{Rates, Solved, admissible};
-use super::{Change, Event, Interval, Loading, LoadingPath, PathEnd, PathError};
+use super::stretch::{Change, Event, Interval};
 use mceip_exact::{Integer, Rational, to_f64, whole};
 use mceip_model::ContactState;
 use num_traits::{One, Signed, Zero};

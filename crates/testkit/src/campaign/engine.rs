@@ -1,8 +1,9 @@
 //! The engines, each held against the plain enumerator's answer. Engines of one's own are welcome.
 
-use super::Case;
-use crate::compare::{compare_with, engines, observed};
-use crate::{Corner, Disagreement, InstanceReport, Treatment};
+use super::family::Case;
+use crate::compare::{InstanceReport, Treatment, compare_with, engines, observed};
+use crate::disagreement::Disagreement;
+use crate::families::Corner;
 use mceip_engine::multistart::Search;
 use mceip_engine::reduction::Reduced;
 use mceip_exact::{Algebraic, Rational};

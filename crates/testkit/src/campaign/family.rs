@@ -1,23 +1,11 @@
 //! The families of the campaign by name, and their instances by number.
 
+use super::expected::{Expected, Made};
 use super::named;
-use crate::Instance;
+use crate::families::Instance;
 use crate::generators::Seed;
-use mceip_exact::Rational;
 use mceip_model::ModelError;
-use mceip_oracle::Enumeration;
 use std::fmt;
-
-/// What is known of an instance by construction.
-#[derive(Debug, Clone, Default)]
-pub struct Expected {
-    /// The whole answer.
-    pub answer: Option<Enumeration>,
-    /// How many solutions there are.
-    pub count: Option<usize>,
-    /// A solution: the value and x over all variables of the pencil.
-    pub planted: Option<(Rational, Vec<Rational>)>,
-}
 
 /// An instance of a family, and what is known of it.
 #[derive(Debug, Clone)]
@@ -60,7 +48,6 @@ fn names() -> String {
 }
 
 pub(super) type Make = fn(&Seed) -> Result<Made, ModelError>;
-pub(super) type Made = (Instance, Expected);
 
 /// Name, what it holds, and how an instance is made.
 pub const FAMILIES: [(&str, &str, Make); 20] = [

@@ -5,6 +5,7 @@
 //! as a replay file that needs nothing else.
 
 mod engine;
+mod expected;
 mod family;
 mod named;
 mod replay;
@@ -16,7 +17,8 @@ pub use engine::{
     Engine, Enumerator, Finding, Judgement, KnownAnswer, Pipeline, Truth, judge, standard,
     treatment,
 };
-pub use family::{Case, Expected, FAMILIES, Id, UnknownFamily, case};
+pub use expected::Expected;
+pub use family::{Case, FAMILIES, Id, UnknownFamily, case};
 pub use replay::{REPLAY_FORMAT, Replay, ReplayError};
 pub use run::{Campaign, Event, Limit};
 pub use shrink::{MAX_TRIES, shrink, smaller};

@@ -1,12 +1,13 @@
 //! How an instance of each family is made from its three numbers. Orders are small: no instance may
 //! take more than seconds in exact arithmetic.
 
-use super::family::{Expected, Made};
+use super::expected::{Expected, Made};
+use crate::families::{Corner, Instance};
 use crate::generators::{
     Seed, near, permuted, raw, scales, states as mixtures, window, with_scaled_rows,
 };
 use crate::pareto::{Planted, pareto_matrices};
-use crate::{Corner, Instance, families, known as theorems};
+use crate::{families, known as theorems};
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
 use mceip_oracle::TwoParticles;

@@ -1,8 +1,10 @@
 //! A disagreement as a file that needs nothing else: the shrunk problem, where it came from, what
 //! it says.
 
-use super::{Case, Expected, Finding, Id};
-use crate::Instance;
+use super::engine::Finding;
+use super::expected::Expected;
+use super::family::{Case, Id, case};
+use crate::families::Instance;
 use mceip_exact::parse;
 use mceip_model::ModelError;
 use mceip_model::file::{from_json, read_problem, require_format, write_problem};
@@ -137,7 +139,7 @@ impl Replay {
         let drawn = if self.shrunk {
             None
         } else {
-            super::case(&id).ok().and_then(Result::ok)
+            case(&id).ok().and_then(Result::ok)
         };
         let expected = drawn
             .filter(|d| d.instance.problem == problem)

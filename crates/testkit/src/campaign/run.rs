@@ -1,7 +1,11 @@
 //! The run: waves of instances in parallel, added up in their order.
 
-use super::{Case, Engine, Finding, Id, Judgement, Replay, State, case, judge, shrink};
-use crate::Disagreement;
+use super::engine::{Engine, Finding, Judgement, judge};
+use super::family::{Case, Id, case};
+use super::replay::Replay;
+use super::shrink;
+use super::state::State;
+use crate::disagreement::Disagreement;
 use mceip_engine::run::Cancel;
 use rayon::prelude::*;
 use std::time::{Duration, Instant};

@@ -1,7 +1,10 @@
 //! Smaller instances that still disagree: fewer particles and variables, simpler numbers, the same
 //! structure.
 
-use super::{Case, Engine, Finding, judge};
+use super::engine::{Engine, Finding, judge};
+use super::expected::Expected;
+use super::family::Case;
+use crate::families::Instance;
 use mceip_exact::{Rational, Sparse, whole};
 use mceip_model::{Body, ModelError, Pencil, Problem, System, Window};
 use mceip_oracle::TwoParticles;
@@ -117,7 +120,7 @@ fn bits(v: &Rational) -> u64 {
 }
 
 fn changed(case: &Case, problem: Problem) -> Case {
-    let instance = crate::Instance {
+    let instance = Instance {
         problem,
         closed_form: None,
         ..case.instance.clone()
@@ -125,7 +128,7 @@ fn changed(case: &Case, problem: Problem) -> Case {
     Case {
         id: case.id.clone(),
         instance,
-        expected: super::Expected::default(),
+        expected: Expected::default(),
     }
 }
 
@@ -135,7 +138,7 @@ fn with_data(case: &Case, data: TwoParticles) -> Result<Case, ModelError> {
         case.instance.problem.unknown(),
         Window::all(),
     )?;
-    let instance = crate::Instance {
+    let instance = Instance {
         problem,
         closed_form: Some(data),
         ..case.instance.clone()
@@ -143,7 +146,7 @@ fn with_data(case: &Case, data: TwoParticles) -> Result<Case, ModelError> {
     Ok(Case {
         id: case.id.clone(),
         instance,
-        expected: super::Expected::default(),
+        expected: Expected::default(),
     })
 }
 

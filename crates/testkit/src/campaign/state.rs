@@ -1,6 +1,7 @@
 //! What a campaign has done so far: counts per family, as a file to go on from.
 
-use super::Judgement;
+use super::engine::Judgement;
+use super::family::Id;
 use crate::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
 use mceip_model::ModelError;
 use mceip_model::file::{from_json, require_format};
@@ -64,7 +65,7 @@ pub struct Tally {
 
 impl Tally {
     /// Adds what came of one instance.
-    pub fn add(&mut self, id: &super::Id, judged: &Judgement) {
+    pub fn add(&mut self, id: &Id, judged: &Judgement) {
         let r = &judged.report;
         self.instances += 1;
         self.solutions += r.oracle as u64;
@@ -126,10 +127,10 @@ impl State {
     }
 
     /// The `k`-th instance of this part: families in turn, every n-th index.
-    pub fn id(&self, k: u64) -> super::Id {
+    pub fn id(&self, k: u64) -> Id {
         let count = self.families.len() as u64;
         let family = self.families[(k % count) as usize].clone();
-        super::Id {
+        Id {
             family,
             seed: self.seed,
             index: k / count * self.shard.1 + self.shard.0,

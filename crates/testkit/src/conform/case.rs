@@ -1,8 +1,7 @@
-//! A case: a problem, its complete exact answer, what it is about, and answers that are wrong.
+//! A case: a problem, its complete exact answer, and what it is about.
 
+use super::error::ConformError;
 use super::flag::{Flag, derive};
-use super::wrong::{WrongAnswer, wrong_answers};
-use super::{ConformError, Label};
 use mceip_engine::reduction::{Reduced, reduce};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_model::Problem;
@@ -112,27 +111,10 @@ impl Case {
         })
     }
 
-    /// Answers that must not be called correct, each with the label it must get.
-    pub fn wrong_answers(&self) -> Vec<WrongAnswer> {
-        wrong_answers(self)
-    }
-
-    /// Judges a report on this case.
-    pub fn judge(&self, report: &str) -> super::Judgement {
-        super::judge_report(self, report)
-    }
-
     /// Is there anything to be found?
     pub fn has_solutions(&self) -> bool {
         !(self.answer.solutions.is_empty()
             && self.answer.cones.is_empty()
             && self.answer.ranges.is_empty())
-    }
-}
-
-impl Label {
-    /// Did the program do what the case asks for?
-    pub fn is_correct(self) -> bool {
-        self == Label::Correct
     }
 }

@@ -1,7 +1,10 @@
 //! The groups of the pack: which problems, and what only their maker knows about them.
 
-use super::{ConformError, Draft, Flag, Group};
-use crate::{known, mechanical, pareto, random_pencils};
+use super::case::{Draft, Group};
+use super::error::ConformError;
+use super::flag::Flag;
+use crate::families::{Instance, mechanical, random_pencils};
+use crate::{known, pareto};
 use mceip_engine::reduction::{condense, reduce};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{Admissible, Body, ModelError, Pencil, Problem, Unknown, Window};
@@ -89,8 +92,8 @@ fn group(name: &str, comment: &str, drafts: Vec<Draft>) -> Group {
     }
 }
 
-fn random(name: &str, comment: &str, list: Vec<crate::Instance>) -> Group {
-    let one = |(k, i): (usize, crate::Instance)| {
+fn random(name: &str, comment: &str, list: Vec<Instance>) -> Group {
+    let one = |(k, i): (usize, Instance)| {
         draft(format!("{name}-{k}"), i.label, &[Flag::Random], i.problem)
     };
     group(
@@ -228,7 +231,7 @@ const I3: Rows<'_> = &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]];
 /// The corners of `testkit`, and more: order 1, repeated roots, biactive indices, zero values, wide
 /// kernels.
 fn degenerate() -> Result<Group, ModelError> {
-    let of_testkit = crate::degenerate()?.into_iter();
+    let of_testkit = crate::families::degenerate()?.into_iter();
     let mut drafts: Vec<Draft> = of_testkit
         .enumerate()
         .map(|(k, i)| draft(format!("degenerate-{k:02}"), i.label, &[], i.problem))

@@ -7,7 +7,7 @@
 //! is complete if every listed solution, every cone (a solution inside it, with its whole slip set)
 //! and every continuum (its intervals, or a solution on its slip set) is met.
 
-use super::Case;
+use super::case::Case;
 use mceip_check::certificate::{Claim, ExactSolution};
 use mceip_engine::certify::Certifier;
 use mceip_engine::foreign::{BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignReport};
@@ -45,6 +45,11 @@ impl Label {
         Label::Malformed,
     ];
 
+    /// Did the program do what the case asks for?
+    pub fn is_correct(self) -> bool {
+        self == Label::Correct
+    }
+
     /// The label in words.
     pub fn word(self) -> &'static str {
         match self {
@@ -79,6 +84,13 @@ impl Judgement {
 /// Most solutions of a report that are looked at: each is certified. No answer of the pack has a
 /// hundred.
 const MAX_SOLUTIONS: usize = 10_000;
+
+impl Case {
+    /// Judges a report on this case.
+    pub fn judge(&self, report: &str) -> Judgement {
+        judge_report(self, report)
+    }
+}
 
 /// Judges the text of a report on a case.
 pub fn judge_report(case: &Case, text: &str) -> Judgement {

@@ -1,7 +1,10 @@
 //! The pack as files: one per group and an index with counts and digests, byte for byte the same
 //! each time.
 
-use super::{Bug, Case, ConformError, Draft, Flag, Group};
+use super::case::{Case, Draft, Group};
+use super::error::ConformError;
+use super::flag::Flag;
+use super::wrong::Bug;
 use mceip_model::file::{from_json, read_problem, read_text, require_format, write_problem};
 use rayon::prelude::*;
 use serde::Deserialize;

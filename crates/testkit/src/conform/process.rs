@@ -1,6 +1,6 @@
 //! One run of a foreign program: problem in, report out, bounded in time and memory.
 
-use super::ConformError;
+use super::error::ConformError;
 use mceip_engine::run::Watch;
 use std::io::{Read, Write as _};
 use std::process::{Child, Command, ExitStatus, Stdio};

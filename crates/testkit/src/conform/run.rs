@@ -1,8 +1,12 @@
 //! All cases through a foreign program, in parallel; the outcome does not depend on the number of
 //! threads.
 
+use super::case::{Case, Draft, Group};
+use super::error::ConformError;
+use super::flag::Flag;
+use super::groups::random_draft;
+use super::judge::{Judgement, Label, judge_report};
 use super::process::{Ending, Limits, run_once};
-use super::{Case, ConformError, Draft, Flag, Group, Judgement, Label, judge_report, random_draft};
 use mceip_engine::run::{Progress, Watch};
 use mceip_model::file::write_problem;
 use rayon::prelude::*;

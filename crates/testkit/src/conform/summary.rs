@@ -1,6 +1,8 @@
 //! Outcomes per flag: for people, as Markdown, as JSON.
 
-use super::{Flag, Label, Outcome};
+use super::flag::Flag;
+use super::judge::Label;
+use super::run::Outcome;
 use mceip_engine::report::Table;
 use serde_json::{Value, json};
 use std::collections::BTreeMap;

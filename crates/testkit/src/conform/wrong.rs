@@ -1,7 +1,8 @@
 //! Wrong answers on purpose: reports that must be rejected, each with the bug it stands for.
 
+use super::case::Case;
+use super::judge::Label;
 use super::spectrum::{Kind, eigenpairs};
-use super::{Case, Label};
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_exact::{Rational, rational, whole};
 use mceip_model::Window;
@@ -96,8 +97,15 @@ pub struct WrongAnswer {
 /// Most slip variables for which eigenpairs of all supports are formed.
 const SPECTRUM_SLIP: usize = 5;
 
+impl Case {
+    /// Answers that must not be called correct, each with the label it must get.
+    pub fn wrong_answers(&self) -> Vec<WrongAnswer> {
+        wrong_answers(self)
+    }
+}
+
 /// The wrong answers of a case: true by construction that they are wrong, at most one of each bug.
-pub(super) fn wrong_answers(case: &Case) -> Vec<WrongAnswer> {
+fn wrong_answers(case: &Case) -> Vec<WrongAnswer> {
     let slip = case.reduced.pencil.slip();
     let mut out = Vec::new();
     let mut push = |bug, solutions: Vec<Value>| {

@@ -1,7 +1,7 @@
 //! Mechanical systems with every mixture of contact states, one after the other.
 
 use super::{gram, sparse};
-use crate::Corner;
+use crate::families::Corner;
 use mceip_exact::{Rational, rational};
 use mceip_model::{ContactState, ModelError, Particle, System};
 use rand::RngExt;

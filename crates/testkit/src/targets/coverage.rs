@@ -4,7 +4,7 @@
 //! many inputs says more. The floors of fuzz targets leave ten points, not two, because a fuzzer's
 //! inputs are not independent: it changes one input over and over.
 
-use crate::InstanceReport;
+use crate::compare::InstanceReport;
 use crate::floors::{Coverage, Starts, shortfalls};
 use std::collections::BTreeMap;
 use std::sync::{Mutex, PoisonError};

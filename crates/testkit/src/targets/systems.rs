@@ -2,7 +2,8 @@
 //! (10)-(16) and lift; Table 1 in closed form against enumerator and solver.
 
 use super::coverage::Counter;
-use crate::{Instance, Treatment, compare_by};
+use crate::compare::{Treatment, compare_by};
+use crate::families::Instance;
 use mceip_check::check;
 use mceip_engine::reduction::reduce;
 use mceip_engine::run::Watch;

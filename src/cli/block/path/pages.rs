@@ -1,7 +1,7 @@
 //! Pictures and the report of the loading path.
 
 use super::states::{Mode, Set, State, values, verdict};
-use super::{causes_text, end_text, motion};
+use super::words::{causes_text, end_text, motion};
 use crate::cli::common::CliError;
 use crate::picture::{
     BranchPoint, Branches, Content, Mode as Drawn, Picture, Report, Section, Threshold,

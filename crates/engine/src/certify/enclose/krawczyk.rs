@@ -6,7 +6,7 @@
 //! grow from |Y F(c)| until the inequality holds, each a power of two of its own, so that their
 //! numbers are short.
 
-use super::super::AttemptFailure;
+use super::super::failure::AttemptFailure;
 use super::newton::{Newton, Point, Slope};
 use crate::tolerance::{
     KRAWCZYK_MARGIN, KRAWCZYK_NOISE, PRECONDITIONER_BITS, PRECONDITIONER_LOSS_BITS,

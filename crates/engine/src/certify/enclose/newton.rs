@@ -4,8 +4,8 @@
 //! The inverse of F' is taken in doubles once, F is computed in integers, so each step gains the
 //! digits that the inverse is good for.
 
-use super::super::{AttemptFailure, IntegralRows, active};
-use super::dyadic;
+use super::super::failure::AttemptFailure;
+use super::super::rows::{IntegralRows, active};
 use crate::candidate::Candidate;
 use mceip_exact::{Integer, Rational, from_f64, to_f64};
 use mceip_mcp::linear::inverse;
@@ -416,4 +416,9 @@ fn equilibrated_inverse(jacobian: &[Vec<f64>], value: f64) -> Option<Vec<Vec<f64
             .for_each(|(v, s)| *v *= column(j) / s);
     }
     y.iter().flatten().all(|v| v.is_finite()).then_some(y)
+}
+
+/// A rational with a power of two as denominator.
+pub(super) fn dyadic(numerator: Integer, bits: u64) -> Rational {
+    Rational::new(numerator, Integer::from(1) << bits)
 }

@@ -1,7 +1,7 @@
 //! The box that is proposed: where its centre lies, how wide it is, and what is told instead of it.
 
 use super::*;
-use mceip_exact::{Sparse, parse, rational, whole};
+use mceip_exact::{Rational, Sparse, parse, rational, whole};
 use num_traits::One;
 
 /// [[-1, -2], [-2, -1]] + t I: x = (1/2, 1/2), t = 3; a third variable rests with y = `rest` times

@@ -1,8 +1,9 @@
 //! Decided regions that reach to infinity: their null vector lies below them, at infinity itself or
 //! beyond it.
 
+use super::region::{Region, State};
 use super::root::null_vector;
-use super::tree::{Region, Search, State};
+use super::tree::Search;
 use super::view::{Ends, Expansion, Matrix};
 use super::witness::definite;
 use crate::search::definite::leaf;

@@ -1,8 +1,9 @@
 //! Regions in which every index is decided: their null vectors, exact arithmetic, and what both
 //! leave over.
 
+use super::region::{Item, Region, State};
 use super::root::{Null, Unique, null_vector};
-use super::tree::{Item, Region, Search, State, short};
+use super::tree::{Search, short};
 use super::view::Ends;
 use crate::tolerance::DEGENERATE_PART;
 use mceip_check::certificate::{Claim, Node, RootOutcome, Support};

@@ -5,7 +5,9 @@
 //! certificate with open regions is also the checkpoint: [`resume`] goes on with it, [`merge`]
 //! joins parts.
 
+mod anchor;
 mod beyond;
+mod blocks;
 mod circuit;
 mod condense;
 mod decided;
@@ -13,9 +15,11 @@ mod error;
 pub(crate) mod game;
 mod massless;
 mod merge;
+mod options;
 mod precise;
 mod precise_anchor;
 mod reasons;
+mod region;
 mod reverse;
 mod root;
 mod shares;
@@ -29,6 +33,7 @@ mod witness;
 
 pub use error::CompleteError;
 pub use merge::merge;
+pub use options::{Options, Shard};
 
 use super::definite;
 use crate::certify::certificate;
@@ -44,39 +49,6 @@ use shares::Shares;
 use skeleton::Prepared;
 use splice::Chosen;
 use std::collections::BTreeSet;
-
-/// How to search.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Options {
-    /// Pieces into which the window is cut before the search; the work is shared out by piece.
-    pub pieces: usize,
-    /// Nodes that one piece may use before the rest of it is left open.
-    pub nodes_per_piece: usize,
-    /// Threads, all cores if not given. The certificate does not depend on it.
-    pub threads: Option<usize>,
-    /// The part of the pieces to search; the others are left open.
-    pub shard: Option<Shard>,
-}
-
-/// Every `count`-th piece from `index` on.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Shard {
-    /// Which part, from 0.
-    pub index: usize,
-    /// Parts in all.
-    pub count: usize,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options {
-            pieces: 16,
-            nodes_per_piece: 2_000_000,
-            threads: None,
-            shard: None,
-        }
-    }
-}
 
 /// What a search has proved.
 #[derive(Debug, Clone)]

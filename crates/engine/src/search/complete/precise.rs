@@ -6,9 +6,9 @@
 //! exact, reads the signs off both.
 
 use super::precise_anchor::precise_anchor;
+use super::region::{Region, State};
 use super::root::null_vector;
 use super::skeleton::Prepared;
-use super::tree::{Region, State};
 use super::view::Expansion;
 use crate::candidate::Candidate;
 use crate::certify::{ENCLOSED_ORDER, precise_null};

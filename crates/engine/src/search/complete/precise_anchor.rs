@@ -5,7 +5,8 @@
 //! in doubles; each round adds the solution for the exact residual, and gains the digits that the
 //! factors are good for.
 
-use super::condense::{Blocks, FINE, expand};
+use super::anchor::{FINE, expand};
+use super::blocks::Blocks;
 use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix};
 use mceip_exact::{Integer, Rational, common_denominator, from_f64, to_f64};
 use mceip_model::Pencil;

@@ -2,7 +2,8 @@
 //! frequency of (A_ff, B_ff) to infinity, where those in t would have to follow one another for
 //! ever.
 
-use super::condense::{Blocks, COARSE, centers, expand, lowest_frequency};
+use super::anchor::{COARSE, centers, expand};
+use super::blocks::{Blocks, lowest_frequency};
 use super::tree::short;
 use super::view::Expansion;
 use mceip_check::certificate::Anchor;

@@ -1,6 +1,6 @@
 //! Leaves with one null vector: where it is, and the numbers that let the checker see that.
 
-use super::tree::State;
+use super::region::State;
 use super::view::{Ends, Expansion, Matrix};
 use crate::tolerance::{ROOT_HALF_WIDTHS, ROUNDING};
 use mceip_check::certificate::{Root, RootOutcome};

@@ -1,9 +1,11 @@
 //! The view of a problem and the pieces its window is cut into before the search.
 
-use super::CompleteError;
-use super::condense::{NEAR, condense, refine, view_of};
+use super::anchor::NEAR;
+use super::condense::{condense, refine, view_of};
+use super::error::CompleteError;
+use super::region::State;
 use super::root::null_vector;
-use super::tree::{State, short};
+use super::tree::short;
 use super::view::{Expansion, View};
 use crate::tolerance::SAME_ROOT;
 use mceip_check::certificate::{CompleteSet, Condensation, Node, Piece};

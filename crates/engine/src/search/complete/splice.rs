@@ -1,10 +1,12 @@
 //! Searches the open leaves of a cover and puts what is found in their place.
 
+use super::beyond;
+use super::options::Options;
+use super::region::{Item, Region, State};
 use super::shares::Shares;
 use super::skeleton::Prepared;
 use super::support;
-use super::tree::{Item, Region, Search, State};
-use super::{Options, beyond};
+use super::tree::Search;
 use crate::candidate::Candidate;
 use crate::certify::Certifier;
 use mceip_check::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};

@@ -1,8 +1,8 @@
 //! Witnesses that a region is empty: Farkas vectors in short integers, definite symmetric parts.
 
 use super::game::{self, Game};
+use super::region::State;
 use super::skyline::dot;
-use super::tree::State;
 use super::view::{Ends, Matrix};
 use crate::tolerance::{CONDENSED_MARGIN, DEFINITE_PIVOT, THIN_MARGIN, WITNESS_MARGIN};
 

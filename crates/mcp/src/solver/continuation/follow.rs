@@ -1,12 +1,12 @@
 //! Predictor, corrector and events along a curve.
 
-use super::Options;
-use super::system::{Border, Corrected, Local, Place, Places, Position, Quantity, System};
-use super::tolerance::{
+use super::super::options::Options;
+use super::super::tolerance::{
     CURVE_ANGLE, CURVE_CLOSED, CURVE_FAR, CURVE_FEASIBLE, CURVE_FIRST, CURVE_GROWTH, CURVE_SAME,
     CURVE_SHORTEST,
 };
-use super::{CurveEnd, Sense};
+use super::curve::{CurveEnd, Sense};
+use super::system::{Border, Corrected, Local, Place, Places, Position, Quantity, System};
 use crate::mcp::Mcp;
 use nalgebra::DVector;
 

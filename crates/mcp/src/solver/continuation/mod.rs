@@ -7,56 +7,22 @@
 //! changes places as in a complementary pivot. The curve turns back in s where it likes and goes on
 //! after a solution, so that one curve meets several of them.
 //!
-//! `system` the equations on the current places, `follow` predictor, corrector and events.
+//! `curve` what a curve leaves, `system` the equations on the current places, `follow` predictor, corrector and events.
 
+mod curve;
 mod follow;
 mod system;
 
-// The solver's own modules, for `system` and `follow`.
-use super::outcome::Counters;
-use super::{Options, SolverError, evaluation, tolerance, validate};
+use super::error::SolverError;
+use super::evaluation::{Evaluated, Point};
+use super::options::Options;
+use super::tolerance::CURVE_LIFT;
+use super::validate::validate;
 use crate::mcp::Mcp;
-use evaluation::{Evaluated, Point};
+pub use curve::{Curve, CurveEnd, Sense};
 use follow::Follower;
 use nalgebra::DVector;
 use system::{Places, Position, System};
-use tolerance::CURVE_LIFT;
-
-/// Which way a curve is followed at first.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub enum Sense {
-    /// s decreases.
-    Down,
-    /// s increases.
-    Up,
-}
-
-/// Why a curve ended.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
-#[non_exhaustive]
-pub enum CurveEnd {
-    /// The number of solutions asked for.
-    Enough,
-    /// z or s has left every bounded region.
-    Ray,
-    /// The limit on steps.
-    StepLimit,
-    /// Back at its start or at a solution it has met before: the curve is closed.
-    Closed,
-    /// No step is short enough: a bifurcation, a degenerate corner, or F not finite.
-    Stuck,
-}
-
-/// What a curve met.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Curve {
-    /// Points with s = 0, in order; within the bounds.
-    pub solutions: Vec<Vec<f64>>,
-    /// Why it ended.
-    pub end: CurveEnd,
-    /// The work done.
-    pub counters: Counters,
-}
 
 /// Follows the curve from `start` (length n, projected onto the bounds), where s = 1, until
 /// `enough` points with s = 0 were met or the curve ends.

@@ -1,8 +1,9 @@
 //! The equations of a curve on the current places: F_I(z) = s r_I for the unknowns inside, and one
 //! more row that fixes a point or a direction.
 
-use super::evaluation::{Evaluated, Point, jacobian_at};
-use super::tolerance::{CURVE_KEPT, CURVE_RESIDUAL, CURVE_STEPS};
+use super::super::evaluation::{Evaluated, Point};
+use super::super::jacobian::jacobian_at;
+use super::super::tolerance::{CURVE_KEPT, CURVE_RESIDUAL, CURVE_STEPS};
 use crate::mcp::Mcp;
 use nalgebra::{DMatrix, DVector};
 

@@ -16,7 +16,7 @@ use super::super::outcome::{StepKind, Termination};
 use super::super::tolerance::{
     SEMISMOOTH_GAIN, SEMISMOOTH_NEAR, SEMISMOOTH_SMALLEST, SEMISMOOTH_WINDOW,
 };
-use super::{search, solve_inside};
+use super::step::{search, solve_inside};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
 

@@ -2,10 +2,10 @@
 //! product form of what was exchanged since.
 
 use super::super::dense::dot;
+use super::super::number::Number;
 use super::super::tolerance::REFACTOR_EVERY;
 use super::columns::Columns;
 use super::factor::Factor;
-use super::number::Number;
 use super::variable::Variable;
 
 /// A regular basis B = B_k E_1 ... E_m: factors of B_k, and one column of each exchange since.

@@ -1,7 +1,7 @@
 //! The columns of M z - w + v + D a - t r = -(q + r): unit columns, those of M, and that of t.
 
-use super::Subproblem;
-use super::number::Number;
+use super::super::number::Number;
+use super::subproblem::Subproblem;
 use super::variable::Variable;
 
 /// What belongs to one path besides its subproblem. Storage is kept.

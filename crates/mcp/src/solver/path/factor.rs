@@ -2,9 +2,9 @@
 //! takes are eliminated, by LU with row pivoting; the others follow by substitution.
 
 use super::super::dense::{Lu, dot, subtract};
+use super::super::number::Number;
 use super::super::tolerance::DEPENDENT;
 use super::columns::Columns;
-use super::number::Number;
 use super::variable::Variable;
 
 /// B = [unit columns, other columns], ordered by places and rows kept here.

@@ -1,23 +1,13 @@
 //! The ratio test: which unknown stops the moving one. Ties are decided lexicographically, or, as
 //! in PATH itself, for the largest pivot within bounds that widen a little with every pivot.
 
-use super::super::RatioTest;
+use super::super::number::Number;
+use super::super::options::RatioTest;
 use super::super::tolerance::{EXPAND_STEP, EXPAND_WIDTH, LEXICOGRAPHIC, PIVOT, TIE};
-use super::number::Number;
+use super::block::Block;
 use super::tableau::Tableau;
 use super::variable::Variable;
 use std::cmp::Ordering;
-
-/// What stops the moving unknown.
-#[derive(Debug, Clone, PartialEq)]
-pub(super) struct Block<T> {
-    /// How far it gets.
-    pub(super) step: T,
-    /// Place of the basic unknown that stops it; `None` if it reaches its own bound.
-    pub(super) place: Option<usize>,
-    /// Is the bound reached an upper one?
-    pub(super) at_upper: bool,
-}
 
 /// The first bound met when basic values change at the state's rates, or `None` on a ray; `pivots`
 /// were made before. Only places whose pivot is large enough can block. t reaching 1 goes before

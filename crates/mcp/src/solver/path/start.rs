@@ -1,12 +1,13 @@
 //! The two starts of a path: regular, from the current point, and Lemke's ray, from the bounds.
 
 use super::super::dense::Lu;
+use super::super::number::Number;
 use super::basis::Basis;
 use super::columns::Frame;
-use super::number::Number;
+use super::record::{Path, Start};
+use super::subproblem::Subproblem;
 use super::tableau::State;
 use super::variable::Variable;
-use super::{Path, Start, Subproblem};
 
 /// Sets z and the multipliers w - v of the state to the start of the given kind, a point of the
 /// normal map's domain; the regular one over `current`.

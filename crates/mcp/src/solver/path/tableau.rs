@@ -1,11 +1,11 @@
 //! The state on a path: basis, values, the moving unknown; and the moves it can make.
 
 use super::super::dense::subtract;
+use super::super::number::Number;
 use super::super::tolerance::DRIFT;
 use super::basis::Basis;
+use super::block::Block;
 use super::columns::Columns;
-use super::number::Number;
-use super::ratio::Block;
 use super::variable::Variable;
 
 /// Numbers of a path; all unknowns not named here are zero or at a bound. Storage is kept.

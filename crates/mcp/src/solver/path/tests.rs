@@ -3,8 +3,9 @@
 mod exact;
 mod finite;
 
+use super::super::options::RatioTest;
 use super::*;
-use nalgebra::{DVector, dmatrix, dvector};
+use nalgebra::{DMatrix, DVector, dmatrix, dvector};
 
 const INF: f64 = f64::INFINITY;
 const LIMITS: Limits = Limits {

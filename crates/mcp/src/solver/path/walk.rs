@@ -1,12 +1,13 @@
 //! The pivot loop: along the path from t = 0 until t = 1, a ray, a cycle or a limit.
 
-use super::super::RatioTest;
+use super::super::number::Number;
+use super::super::options::RatioTest;
 use super::super::tolerance::{RAY_STEP, TIE};
-use super::number::Number;
-use super::ratio::{Block, ratio_test};
+use super::block::Block;
+use super::ratio::ratio_test;
+use super::record::{Limits, Path, PathEnd, Start};
 use super::tableau::Tableau;
 use super::variable::{Pivot, PivotKind, Variable};
-use super::{Limits, Path, PathEnd, Start};
 
 /// A path under way.
 pub(super) struct Walk<'a, T: Number> {

@@ -103,7 +103,7 @@ fn values_are_made_anew_when_they_drift() {
             tableau.set_rates();
             let block = super::super::ratio::ratio_test(
                 &mut tableau,
-                super::super::RatioTest::Lexicographic,
+                super::super::super::options::RatioTest::Lexicographic,
                 0,
             )
             .unwrap();

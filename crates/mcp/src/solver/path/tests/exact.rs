@@ -1,7 +1,7 @@
 //! Rationals with infinities, so that the very code of the path can be run without rounding.
 
 use super::super::super::dense::Lu;
-use super::super::number::Number;
+use super::super::super::number::Number;
 use num_rational::BigRational;
 use num_traits::{One, Signed, ToPrimitive, Zero};
 use std::cmp::Ordering;

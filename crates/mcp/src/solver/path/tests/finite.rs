@@ -3,7 +3,7 @@
 //! (Cottle, Pang and Stone 1992, section 4.9; Eaves 1971).
 
 use super::super::super::normal_map::least_residual;
-use super::super::number::Number;
+use super::super::super::number::Number;
 use super::exact::Exact;
 use super::*;
 use num_traits::Zero;

@@ -7,7 +7,7 @@ use std::cmp::Ordering;
 use std::ops::Neg;
 
 /// A number of the path, with an infinity for absent bounds.
-pub(in super::super) trait Number:
+pub(super) trait Number:
     Scalar
     + Zero
     + One

@@ -1,0 +1,27 @@
+//! What stands behind a sentence: certificates accepted by the checker, exact conditions,
+//! measurements.
+
+use mceip_check::certificate::Certificate;
+use mceip_model::Problem;
+
+/// What stands behind a sentence.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub enum Evidence {
+    /// A certificate, accepted by the checker: index into [`Analysis::proofs`](super::Analysis::proofs).
+    Certificate(usize),
+    /// Decided in exact arithmetic, named here; running the analysis again is the check.
+    Exact(&'static str),
+    /// Computed in doubles: no proof.
+    Measured(&'static str),
+}
+
+/// A problem and a certificate for it that the checker has accepted.
+#[derive(Debug, Clone)]
+pub struct Proof {
+    /// Name of the pair, for files.
+    pub name: String,
+    /// The problem.
+    pub problem: Problem,
+    /// The certificate.
+    pub certificate: Certificate,
+}

@@ -1,0 +1,84 @@
+//! What a search has found: certified solutions, candidates that stayed uncertified, and counts of
+//! the work.
+
+use super::same::repeats;
+use crate::candidate::Candidate;
+use crate::certify::NotCertified;
+use mceip_check::certificate::Claim;
+use mceip_mcp::solver::{CurveEnd, Outcome, Termination};
+use std::collections::BTreeMap;
+
+/// A point whose residuals were small but which could not be certified.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Uncertified {
+    /// The point.
+    pub candidate: Candidate,
+    /// Why.
+    pub reason: NotCertified,
+}
+
+/// A certified solution (the checker has accepted its claim) and the start that led to it first.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Certified {
+    /// The claim for the certificate.
+    pub claim: Claim,
+    /// The candidate it was made from.
+    pub candidate: Candidate,
+    /// Number of the run, from 0.
+    pub run: usize,
+    /// What kind of run.
+    pub origin: Origin,
+}
+
+/// The kinds of runs of a search.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Origin {
+    /// A run of the solver from a start.
+    Start,
+    /// A curve of the Newton homotopy from a start.
+    Curve,
+    /// A curve through a solution found before.
+    Departure,
+}
+
+/// What a search found. It never says that nothing else exists.
+#[derive(Debug, Clone, Default)]
+pub struct Found {
+    /// Distinct certified solutions, by value.
+    pub certified: Vec<Certified>,
+    /// Distinct candidates that stayed uncertified.
+    pub uncertified: Vec<Uncertified>,
+    /// Candidates outside the window (a search downwards may leave it): counted, not certified.
+    pub outside: usize,
+    /// Candidates equal to an earlier one within rounding
+    /// ([`SAME_POINT`](crate::tolerance::SAME_POINT)).
+    pub repeated: usize,
+    /// Points of curves that are a known solution within rounding: not polished again.
+    pub met_again: usize,
+    /// How often each reason ended a run of the solver, also those that polish a point of a curve.
+    pub terminations: BTreeMap<Termination, usize>,
+    /// How often each reason ended a curve.
+    pub curves: BTreeMap<CurveEnd, usize>,
+    /// Runs and curves made.
+    pub runs: usize,
+    /// Pivots made.
+    pub pivots: usize,
+    /// Dense factorisations made.
+    pub factorisations: usize,
+    /// The log of every run and curve, if it was asked for.
+    pub trace: Vec<String>,
+    /// Runs from starts, and their pivots and factorisations in all.
+    pub plain: (usize, usize),
+    /// Was the search cancelled?
+    pub interrupted: bool,
+    /// Outcome of the very first run.
+    pub first: Option<Outcome>,
+}
+
+/// Is a candidate the same point as one that was found, within rounding?
+pub(super) fn is_known(found: &Found, candidate: &Candidate) -> bool {
+    let certified = found.certified.iter().map(|c| &c.candidate);
+    certified
+        .chain(found.uncertified.iter().map(|u| &u.candidate))
+        .any(|c| repeats(c, candidate))
+}

@@ -1,0 +1,57 @@
+//! How to search, and who turns a candidate into an accepted claim.
+
+use crate::candidate::Candidate;
+use crate::certify::NotCertified;
+use mceip_check::certificate::Claim;
+use mceip_mcp::solver::Options;
+
+/// How to search.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Search {
+    /// Starts on the whole window.
+    pub starts: usize,
+    /// Starts above and below each value found (zeta of section 4); 0 for none.
+    pub window_starts: usize,
+    /// Values around which windows are opened, at most: a singular pencil has a continuum of them.
+    pub window_limit: usize,
+    /// Further origins from which values above are sought.
+    pub origins: Vec<f64>,
+    /// Follow curves of the Newton homotopy, from starts and through solutions found?
+    pub curves: bool,
+    /// Curves on which each solution found is left, each followed both ways. By default half the
+    /// slip variables, rounded up, at most 3: each connects it with others.
+    pub departures: Option<usize>,
+    /// End curves when the pivots and factorisations of everything done reach those of this many
+    /// runs of the solver, by the mean of those made, or n (n + 4) / 2 for n variables where that
+    /// is more; the last curve may pass it by its last steps and what polishing costs. Within it
+    /// further runs are made where a curve costs many. `None` for no such end.
+    pub budget: Option<usize>,
+    /// Keep the log of every run as text?
+    pub trace: bool,
+    /// Seed of the random starts.
+    pub seed: u64,
+    /// Options of each run.
+    pub options: Options,
+}
+
+impl Default for Search {
+    fn default() -> Self {
+        Search {
+            starts: 22,
+            window_starts: 4,
+            window_limit: 16,
+            origins: Vec::new(),
+            curves: true,
+            departures: None,
+            budget: None,
+            trace: false,
+            seed: 1,
+            options: Options::for_search(),
+        }
+    }
+}
+
+/// What turns a candidate into a claim that the checker has accepted:
+/// [`multistart_with`](super::multistart_with) takes any, so that a condensed pencil can be searched
+/// and the claim made about the full one.
+pub type Certifier<'a> = dyn Fn(&Candidate) -> Result<Claim, NotCertified> + 'a;

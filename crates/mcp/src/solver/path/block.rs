@@ -1,0 +1,12 @@
+//! A candidate of the ratio test: the unknown that stops the moving one, and after which step.
+
+/// What stops the moving unknown.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Block<T> {
+    /// How far it gets.
+    pub(super) step: T,
+    /// Place of the basic unknown that stops it; `None` if it reaches its own bound.
+    pub(super) place: Option<usize>,
+    /// Is the bound reached an upper one?
+    pub(super) at_upper: bool,
+}

@@ -1,0 +1,105 @@
+//! A stretch of the path between two events, with the event it begins with.
+
+use super::line::{Bound, Equilibrium};
+use super::rates::Finder;
+use crate::block::Block;
+use mceip_exact::Rational;
+use mceip_model::{ContactState, ModelError, Problem};
+
+/// A node that goes from one state to another at an event.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Change {
+    /// Contact node, from 0 at the left.
+    pub node: usize,
+    /// State before.
+    pub from: ContactState,
+    /// State after.
+    pub to: ContactState,
+}
+
+/// What happens between two stretches of the path.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Event {
+    /// The bounds that became zero; none at the end of the pressing.
+    pub causes: Vec<Bound>,
+    /// The nodes that change state.
+    pub changes: Vec<Change>,
+    /// How the states after it were found.
+    pub finder: Finder,
+    /// Sets of states tried.
+    pub tried: usize,
+}
+
+impl Event {
+    pub(super) fn new(
+        causes: Vec<Bound>,
+        changes: Vec<Change>,
+        finder: Finder,
+        tried: usize,
+    ) -> Event {
+        Event {
+            causes,
+            changes,
+            finder,
+            tried,
+        }
+    }
+}
+
+/// A stretch of the path with constant states; (1), (2), (5), (7) were verified at both ends.
+#[derive(Debug, Clone)]
+pub struct Interval {
+    /// The event it begins with.
+    pub begin: Event,
+    /// States of the contact nodes inside the stretch, left to right.
+    pub states: Vec<ContactState>,
+    /// The equilibrium at its beginning.
+    pub start: Equilibrium,
+    /// The equilibrium at its end, `None` if it never ends.
+    pub stop: Option<Equilibrium>,
+}
+
+impl Interval {
+    /// Number of nodes that stick, slip to the left (S = 1), slip to the right (S = -1), are free.
+    pub fn counts(&self) -> [usize; 4] {
+        let count = |f: fn(&ContactState) -> bool| self.states.iter().filter(|s| f(s)).count();
+        [
+            count(|s| *s == ContactState::Stick),
+            count(|s| matches!(s, ContactState::Slip { sign: 1 })),
+            count(|s| matches!(s, ContactState::Slip { sign: -1 })),
+            count(|s| *s == ContactState::Free),
+        ]
+    }
+
+    /// One letter for each node: `.` stick, `<` slip to the left, `>` to the right, `o` free.
+    pub fn picture(&self) -> String {
+        self.states.iter().map(|s| letter(*s)).collect()
+    }
+
+    /// The MCEIP-mu problem of its states, or MCEIP-lambda2 at a given mu.
+    ///
+    /// # Errors
+    /// [`ModelError`] if no node slips.
+    pub fn problem(
+        &self,
+        block: &Block,
+        friction: Option<Rational>,
+    ) -> Result<Problem, ModelError> {
+        block.problem(&self.states, friction)
+    }
+}
+
+/// `.` stick, `<` slip to the left (S = 1), `>` slip to the right, `o` free.
+fn letter(state: ContactState) -> char {
+    match state {
+        ContactState::Free => 'o',
+        ContactState::Stick => '.',
+        ContactState::Slip { sign } => {
+            if sign > 0 {
+                '<'
+            } else {
+                '>'
+            }
+        }
+    }
+}
