@@ -4,7 +4,7 @@
 //! message says "expected ..., got ..."; its name ([`Reason::name`]) is what the corpus of
 //! forgeries (`spec/corpus`) expects. What is wrong with a complete set is a [`CoverFault`].
 
-use super::cover::CoverFault;
+use crate::cover::fault::CoverFault;
 use mceip_exact::{Interval, Rational};
 
 /// A rejected certificate.

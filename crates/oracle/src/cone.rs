@@ -15,10 +15,11 @@
 //! Input: a support and a value, an eigenvalue of its block. Called by `solution` for the kernels
 //! that `plain` met, and by `range` at single values of a singular support.
 
+use super::degenerate::Cone;
+use super::enumeration::{Enumeration, WideKernel};
 use super::integer_pencil::{IntegerPencil, entries_of};
 use super::plain::multiplicity;
-use super::solution::equal_values;
-use super::{Cone, Enumeration, Solution, WideKernel};
+use super::solution::{Solution, equal_values};
 use mceip_exact::{Algebraic, Poly, Sign, cone_generators, dot, kernel_at, row_echelon_at};
 
 /// Adds what is on the support of a wide kernel: nothing, ordinary solutions, or a cone.

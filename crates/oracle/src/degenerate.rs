@@ -7,7 +7,7 @@
 //!
 //! Filled in by `cone` and `range`; compared by `member`.
 
-use super::Solution;
+use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Rational, common_denominator};
 use std::cmp::Ordering;
 

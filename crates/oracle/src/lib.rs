@@ -23,13 +23,15 @@
 //!
 //! Every solution in the window is in at least one of the three ([`Enumeration::contains`]).
 //!
-//! To read: `plain` (the algorithm), `integer_pencil` (its linear algebra), `solution` (its
-//! answer); then, for what is not a list, `degenerate`, `cone` and `range`. `member` and `table1`
-//! stand alone.
+//! To read: `plain` (the algorithm), `integer_pencil` (its linear algebra), `solution` and
+//! `enumeration` (its answer); then, for what is not a list, `degenerate`, `describe`, `cone` and
+//! `range`. `member` and `table1` stand alone.
 #![deny(clippy::float_arithmetic)]
 
 mod cone;
 mod degenerate;
+mod describe;
+mod enumeration;
 mod integer_pencil;
 mod member;
 mod plain;
@@ -38,11 +40,12 @@ mod solution;
 mod table1;
 
 pub use degenerate::{Cone, End, Piece, SupportRange, Undescribed};
+pub use enumeration::{Enumeration, WideKernel};
 pub use member::{is_rational_solution, is_solution};
 pub use plain::{
     MAX_BITS, MAX_FREE, MAX_SLIP, OracleError, coefficient_bits, enumerate, enumerate_with,
     examine_support,
 };
 pub use range::MAX_MINORS;
-pub use solution::{Enumeration, Solution, WideKernel};
+pub use solution::Solution;
 pub use table1::{ClosedSolution, TwoParticles, table1, thresholds};

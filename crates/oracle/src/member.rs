@@ -8,8 +8,10 @@
 //! alone. Called by tests of everything that claims a solution.
 
 use super::degenerate::constants;
+use super::degenerate::{Cone, End, Piece, SupportRange};
+use super::enumeration::Enumeration;
+use super::solution::Solution;
 use super::solution::equal_values;
-use super::{Cone, End, Enumeration, Piece, Solution, SupportRange};
 use mceip_exact::{Algebraic, Integer, Poly, Rational, Sign, common_denominator};
 use mceip_model::Pencil;
 

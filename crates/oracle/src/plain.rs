@@ -14,8 +14,9 @@
 //!
 //! Input: any [`Pencil`], no hypothesis, and a closed [`Window`]. Every decision is exact.
 
+use super::enumeration::{Enumeration, WideKernel};
 use super::integer_pencil::{Eigenspace, IntegerPencil};
-use super::{Enumeration, Solution, WideKernel};
+use super::solution::Solution;
 use mceip_exact::{Algebraic, Poly, Sign, roots_in};
 use mceip_model::{Pencil, Window};
 use std::ops::ControlFlow;

@@ -18,8 +18,9 @@
 //! Input: a support whose determinant vanishes identically, and the window. Called by `solution`.
 
 use super::cone::cone_at;
+use super::degenerate::{End, Piece, SupportRange, Undescribed};
+use super::enumeration::{Enumeration, WideKernel};
 use super::integer_pencil::IntegerPencil;
-use super::{End, Enumeration, Piece, SupportRange, Undescribed, WideKernel};
 use mceip_exact::{Algebraic, Poly, Rational, generic_kernel, minors, nonnegative_roots};
 use mceip_model::Window;
 use num_traits::{One, Signed};

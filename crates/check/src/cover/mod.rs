@@ -32,7 +32,7 @@ mod definite;
 mod ends;
 mod expanded;
 mod family;
-mod fault;
+pub(crate) mod fault;
 mod found;
 mod infinity;
 mod ldl;

@@ -12,7 +12,7 @@
 //! Indices count from 1. A symmetric file holds the lower triangle. A value may also be a fraction
 //! `p/q`, which other programs do not read.
 
-use super::matrix::require_order;
+use super::order::require_order;
 use crate::ModelError;
 use mceip_exact::{Rational, Sparse, parse};
 use std::collections::BTreeSet;

@@ -11,7 +11,8 @@
 //! nearest double's exact value.
 
 use super::market::read_matrix_market;
-use super::{MAX_ORDER, Number, Word, beside, read_text};
+use super::order::require_order;
+use super::{Number, Word, beside, read_text};
 use crate::ModelError;
 use mceip_exact::{NumberError, Rational, Sparse};
 use serde::Deserialize;
@@ -232,18 +233,6 @@ fn require_below(what: &'static str, index: usize, limit: usize) -> Result<(), M
     Ok(())
 }
 
-/// Refuses absurd sizes before anything is allocated for them.
-pub(super) fn require_order(what: &'static str, order: usize) -> Result<(), ModelError> {
-    if order > MAX_ORDER {
-        return Err(ModelError::TooLarge {
-            what,
-            limit: MAX_ORDER as u64,
-            got: order as u64,
-        });
-    }
-    Ok(())
-}
-
 /// Each entry as the exact value of its nearest double.
 fn nearest_doubles(what: &'static str, m: &Sparse) -> Result<Sparse, ModelError> {
     let mut entries: Vec<(usize, usize, Rational)> = Vec::new();
@@ -375,14 +364,5 @@ mod tests {
             read("[[0, 0]]").unwrap(),
             Sparse::from_entries(1, 2, [(0, 0, whole(0))])
         );
-    }
-
-    #[test]
-    fn the_largest_order_is_allowed() {
-        assert!(require_order("K", MAX_ORDER).is_ok());
-        assert!(matches!(
-            require_order("K", MAX_ORDER + 1),
-            Err(ModelError::TooLarge { what: "K", .. })
-        ));
     }
 }

@@ -10,6 +10,7 @@ mod market;
 mod matrix;
 mod number;
 mod object;
+mod order;
 mod private;
 mod raw;
 mod write;
@@ -19,6 +20,7 @@ pub use number::Number;
 #[doc(hidden)]
 pub use object::word_or_kind;
 pub use object::{Object, Word};
+pub use order::MAX_ORDER;
 pub use write::{write_problem, write_sparse};
 
 use super::{ErrorLocation, ModelError, Problem};
@@ -29,8 +31,6 @@ use std::path::{Component, Path};
 pub const PROBLEM_FORMAT: &str = "mceip-problem/1";
 /// Largest file that is read, in bytes.
 pub const MAX_FILE_BYTES: u64 = 1 << 30;
-/// Largest order of a matrix that is read.
-pub const MAX_ORDER: usize = 1_000_000;
 
 /// Reads a problem from JSON text; Matrix Market files it names are looked for in `folder`.
 ///
