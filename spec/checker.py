@@ -1356,7 +1356,7 @@ class Budget:
     @classmethod
     def spend(cls, poly, a, b):
         bits = sum(abs(v.numerator).bit_length() + v.denominator.bit_length() for v in (a, b) if v is not None)
-        cls.take(len(poly) ** 3 * (bits + 64))
+        cls.take(len(poly) ** 3 * (bits + 64) * (1 + (bits >> 10)))
 
 
 def rootless(poly, a, b):

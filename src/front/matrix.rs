@@ -144,7 +144,7 @@ fn from_exact_rows(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::{rational, whole};
+    use mceip_exact::rational;
 
     #[test]
     fn every_source_gives_the_same_matrix() {
@@ -166,7 +166,7 @@ mod tests {
         let exact = Matrix::try_from(&dense).unwrap().into_exact();
 
         assert_eq!((exact.rows(), exact.cols()), (2, 3));
-        assert_eq!(exact.get(0, 2), whole(3));
+        assert_eq!(exact.get(0, 2), rational(3, 1));
     }
 
     #[test]

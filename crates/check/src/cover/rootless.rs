@@ -10,10 +10,11 @@
 //! isolated ones. For the latter g is divided by p as often as p divides it. Then the sign of g in
 //! the middle of [b, a'] is its sign all between.
 //!
-//! *SignBudget.* A transformation of a polynomial with n coefficients takes n^2 / 2 additions of
-//! numbers of n times the bits of a and b: it is counted as n^3 (bits + 64). Remainders and
-//! evaluations are counted in the same unit. All leaves of a file share one budget
-//! (`spec/certificates.md`, Limits). Once it is spent, no sign can be told any more.
+//! *SignBudget.* A transformation of a polynomial with n coefficients takes n^2 / 2 products of
+//! numbers of n times the bits of a and b with one of these: it is counted as n^3 (bits + 64) (1 +
+//! bits / 1024). Remainders and evaluations are counted in the same unit. All leaves of a file
+//! share one budget (`spec/certificates.md`, Limits). Once it is spent, no sign can be told any
+//! more.
 //!
 //! Called by `support`.
 
@@ -33,6 +34,8 @@ const BUDGET_PER_COEFFICIENT: u64 = 1 << 24;
 /// A remainder counts 2^-9 of steps^2 x coefficients x bits^2: products of words against additions
 /// of bits.
 const REMAINDER_SHIFT: u32 = 9;
+/// Ends of more than 2^10 bits are long factors: a product with one takes as many times longer.
+const LONG_ENDS_SHIFT: u32 = 10;
 /// Horner's rule at a point counts 2^-8 of the square of coefficients x bits.
 const EVALUATION_SHIFT: u32 = 8;
 
@@ -87,7 +90,9 @@ impl SignBudget {
         let bits = rational_bits(a) + b.map_or(0, rational_bits);
 
         let count = p.coeffs().len() as u64;
-        self.take(count.saturating_pow(3).saturating_mul(bits + 64))
+        let additions = count.saturating_pow(3).saturating_mul(bits + 64);
+        let length_of_factors = 1 + (bits >> LONG_ENDS_SHIFT);
+        self.take(additions.saturating_mul(length_of_factors))
     }
 
     fn take(&self, cost: u64) -> bool {
