@@ -38,7 +38,11 @@ pub(super) fn compare_within(
     };
     let completed = match complete(problem, &options, &Watch::nobody()) {
         Ok(completed) => completed,
-        Err(CompleteError::NotDefinite { .. } | CompleteError::NothingSlips) => return Ok(false),
+        Err(
+            CompleteError::NotDefinite { .. }
+            | CompleteError::Hypothesis { .. }
+            | CompleteError::NothingSlips,
+        ) => return Ok(false),
         Err(e) => {
             return Err(Disagreement::Refused {
                 engine: "complete search",
