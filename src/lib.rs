@@ -14,8 +14,11 @@
 //! # First program
 //!
 //! ```
+//! # #[cfg(not(feature = "solver"))]
+//! # fn main() {}
 //! use mceip::{Problem, check};
 //!
+//! # #[cfg(feature = "solver")]
 //! fn main() -> Result<(), mceip::Error> {
 //!     let problem = Problem::read("spec/examples/fold.json")?;
 //!     let found = problem.solve().run()?; // the PATH-style solver, every solution certified
