@@ -138,7 +138,9 @@ fn random(n: usize, unknown: Unknown, count: u64) {
     leaves.sort_unstable();
     let (mid, last) = (search.len() / 2, search.len() - 1);
     println!(
-        "random mechanical n={n} {}: {closed}/{count} closed; search + check {:.3} median {:.3} ninth of ten {:.3} max; search {:.3} median {:.3} max; check {:.3} median {:.3} max; leaves {} median {} max; solutions {solutions:?}",
+        "random mechanical n={n} {}: {closed}/{count} closed; search + check {:.3} median {:.3} \
+         ninth of ten {:.3} max; search {:.3} median {:.3} max; check {:.3} median {:.3} max; \
+         leaves {} median {} max; solutions {solutions:?}",
         unknown.word(),
         both[mid],
         both[(9 * both.len()).div_ceil(10) - 1],

@@ -254,7 +254,8 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
         out += &format!("{line}\n");
     }
     if report.solutions.is_empty() {
-        out += "UNDECIDED: the report lists no solution; that there is none is not checked here (see mceip complete)\n";
+        out += "UNDECIDED: the report lists no solution; that there is none is not checked here \
+                (see mceip complete)\n";
     }
     print(&out)?;
     Ok(match (is_rejected, is_undecided) {

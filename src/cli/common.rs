@@ -247,7 +247,8 @@ pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(wanted).build();
     match pool {
         Err(e) => eprintln!(
-            "mceip: --threads {wanted}: cannot be started ({e}); the default number of threads is used instead"
+            "mceip: --threads {wanted}: cannot be started ({e}); the default number of threads is \
+             used instead"
         ),
         Ok(_) if wanted > given => eprintln!(
             "mceip: --threads {wanted}: the machine runs {given} at once, which they share"

@@ -45,7 +45,8 @@ fn report(problem: &Problem, reduced: &Reduced, found: &Enumeration, is_json: bo
         (true, true) => format!("complete, by the plain enumeration of {total} supports: {how}"),
         (true, false) => {
             format!(
-                "all {total} supports examined by the plain enumeration: {how}; what is named without a description is left open"
+                "all {total} supports examined by the plain enumeration: {how}; what is named \
+                 without a description is left open"
             )
         }
         (false, _) => {

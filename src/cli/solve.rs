@@ -135,7 +135,8 @@ fn print_asides(args: &Args, problem: &Problem, pencil: &Pencil, found: &Found) 
     }
     for support in singular_supports(pencil, found) {
         eprintln!(
-            "singular pencil: support {support:?} has more values than its order: every value is an eigenvalue, those listed are examples"
+            "singular pencil: support {support:?} has more values than its order: every value is \
+             an eigenvalue, those listed are examples"
         );
     }
     if let (true, Some(first)) = (args.log, &found.first) {
@@ -145,7 +146,8 @@ fn print_asides(args: &Args, problem: &Problem, pencil: &Pencil, found: &Found) 
 
 fn evidence(args: &Args, found: &Found) -> String {
     format!(
-        "{} certified found in {}{} runs (seed {}, {} pivots, {} factorisations, {} repeats, {} outside the window, endings {:?}); completeness unknown",
+        "{} certified found in {}{} runs (seed {}, {} pivots, {} factorisations, {} repeats, {} \
+         outside the window, endings {:?}); completeness unknown",
         found.certified.len(),
         if found.interrupted {
             "an interrupted search of "

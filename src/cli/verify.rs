@@ -140,7 +140,8 @@ fn verdict(v: &Verification) -> String {
         .fold((0, 0), |(i, a), f| (i + f.done, a + f.accepted));
     match (v.disagreements(), v.interrupted) {
         (0, false) => format!(
-            "VERIFIED: no disagreement in {instances} instances and {accepted} accepted certificates (seed {})",
+            "VERIFIED: no disagreement in {instances} instances and {accepted} accepted \
+             certificates (seed {})",
             v.seed
         ),
         (0, true) => format!(

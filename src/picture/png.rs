@@ -63,7 +63,8 @@ pub(super) fn png_of(svg: &str, zoom: f32) -> Result<Vec<u8>, PngError> {
 mod tests {
     use super::*;
 
-    const HEAD: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"20\" font-family=\"Verdana, sans-serif\">";
+    const HEAD: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"20\" \
+                        font-family=\"Verdana, sans-serif\">";
 
     fn dark(svg: &str) -> usize {
         let png = png_of(svg, 2.0).unwrap();

@@ -46,13 +46,18 @@ pub enum Content {
     },
 }
 
-const STYLE: &str = "body{font-family:DejaVu Sans,Verdana,Arial,sans-serif;line-height:1.45;color:#000;background:#fff;\
-max-width:64em;margin:2em auto;padding:0 1em}h1{font-size:1.5em}h2{font-size:1.2em;margin-top:2em;border-bottom:1px solid #000}\
+const STYLE: &str = "body{font-family:DejaVu \
+                     Sans,Verdana,Arial,sans-serif;line-height:1.45;color:#000;background:#fff;\
+max-width:64em;margin:2em auto;padding:0 \
+                     1em}h1{font-size:1.5em}h2{font-size:1.2em;margin-top:2em;border-bottom:1px \
+                     solid #000}\
 p{white-space:pre-line}.warning{border:2px solid #000;padding:.6em 1em;font-weight:bold}\
 .wide{overflow-x:auto}table{border-collapse:collapse;font-size:.85em;margin:1em 0}\
 caption{caption-side:top;text-align:left;padding-bottom:.4em;font-style:italic}\
-th,td{border:1px solid #999;padding:.2em .6em;text-align:left;vertical-align:top}th{background:#eee}\
-td{font-family:DejaVu Sans Mono,Consolas,monospace;font-size:.92em}figure{margin:1.5em 0;break-inside:avoid}figcaption{font-size:.9em}svg{max-width:100%;height:auto}";
+th,td{border:1px solid #999;padding:.2em \
+                     .6em;text-align:left;vertical-align:top}th{background:#eee}\
+td{font-family:DejaVu Sans Mono,Consolas,monospace;font-size:.92em}figure{margin:1.5em \
+                     0;break-inside:avoid}figcaption{font-size:.9em}svg{max-width:100%;height:auto}";
 
 impl Report {
     /// The page. Everything given is text: no markup in it comes through.

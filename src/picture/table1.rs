@@ -16,9 +16,11 @@ const PANEL: (f64, f64) = (330.0, 250.0);
 const SIGNS: [(i8, i8); 4] = [(1, 1), (-1, -1), (1, -1), (-1, 1)];
 
 const NOTES: [&str; 4] = [
-    "Number of solutions in each region. 1: slip-slip. 2: slip-stick and stick-slip, with the same \u{3bb}\u{b2}.",
+    "Number of solutions in each region. 1: slip-slip. 2: slip-stick and stick-slip, with the same \
+     \u{3bb}\u{b2}.",
     "3: these two, and slip-slip with x\u{2081} = x\u{2082}.",
-    "A boundary belongs to the region above it: there \u{3bb}\u{b2} = 0. At \u{3c6} = 90\u{b0} (thick line) K is only semidefinite,",
+    "A boundary belongs to the region above it: there \u{3bb}\u{b2} = 0. At \u{3c6} = 90\u{b0} \
+     (thick line) K is only semidefinite,",
     "and \u{3bb}\u{b2} = 0 solves the problem for every \u{3bc} if S\u{2081} = S\u{2082}.",
 ];
 

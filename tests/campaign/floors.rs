@@ -48,7 +48,8 @@ fn print(family: &str, sum: &ByStarts) {
         let (first, all) = (percent(c.first), percent(c.all));
         let (least_first, least_all) = ((first - 2.0).max(0.0), (all - 2.0).max(0.0));
         println!(
-            "    row({family:?}, Starts::{starts:?}, {least_first:.1}, {least_all:.1}), // {first:.2}, {all:.2} of {}",
+            "    row({family:?}, Starts::{starts:?}, {least_first:.1}, {least_all:.1}), // \
+             {first:.2}, {all:.2} of {}",
             c.solvable
         );
     }

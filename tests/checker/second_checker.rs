@@ -262,7 +262,8 @@ for line in sys.stdin:
     a, b = ends(case['claim'])
     single = [SimpleNamespace(support=tuple(s), a=Q(v[0]), b=Q(v[1])) for s, v in case['single']]
     families = [(tuple(s), ends(first), ends(last), False) for s, first, last in case['families']]
-    left_open = [(Q(lo), None if hi is None else Q(hi), {i: STATES[w] for i, w in enumerate(states)}) for lo, hi, states in case['open']]
+    left_open = [(Q(lo), None if hi is None else Q(hi), {i: STATES[w] for i, w in \
+                       enumerate(states)}) for lo, hi, states in case['open']]
     print(checker.belongs((case['support'], [], a, b), single, families, left_open))
 ";
 

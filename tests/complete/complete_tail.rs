@@ -83,7 +83,8 @@ fn the_last_interval_closes_whatever_the_mass() {
 fn the_last_interval_closes_on_larger_pencils() {
     let (by_kind, reversed, chords) = compare(240, 9);
     println!(
-        "open of all: {by_kind:?}, {reversed} by reversed anchors, {chords} with roots in the last piece"
+        "open of all: {by_kind:?}, {reversed} by reversed anchors, {chords} with roots in the last \
+         piece"
     );
     assert!(reversed >= 50);
 }

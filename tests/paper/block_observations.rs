@@ -180,7 +180,8 @@ fn row(model: &BlockModel, ratio: &Rational, seen: &Observed, seconds: f64) -> S
         format!("{n}{}", if on { "" } else { " (gaps)" })
     });
     format!(
-        "| {} | {} | {ratio} | {} x {} | {} | {} | {} | {onset} | {} | {} | {} | {} | {} | {} | {:.0} |",
+        "| {} | {} | {ratio} | {} x {} | {} | {} | {} | {onset} | {} | {} | {} | {} | {} | {} | \
+         {:.0} |",
         model.mesh.word(),
         model.plane.word(),
         model.cells.0,
@@ -257,7 +258,9 @@ fn observations_on_a_small_crossed_block() {
 #[ignore = "minutes in the release profile"]
 fn observations_over_meshes_planes_and_ratios() {
     println!(
-        "| mesh | plane | H/L | cells | dofs | slip nodes at the end | end of the path | slip nodes from which solutions exist | smallest mu at the end | all-slip mu | solutions at the end | mu falls | stuck at higher mu | grows above | s |"
+        "| mesh | plane | H/L | cells | dofs | slip nodes at the end | end of the path | slip \
+         nodes from which solutions exist | smallest mu at the end | all-slip mu | solutions at \
+         the end | mu falls | stuck at higher mu | grows above | s |"
     );
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     for (mesh, plane) in MeshKind::ALL

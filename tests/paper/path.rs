@@ -464,7 +464,8 @@ fn path_and_every_pencil_take_under_five_seconds() {
     let orders: Vec<usize> = made.map(|p| p.order()).collect();
     let all = start.elapsed();
     println!(
-        "condensation {condensed:?}; path {followed:?}; path and pencils of orders {orders:?} {all:?}"
+        "condensation {condensed:?}; path {followed:?}; path and pencils of orders {orders:?} \
+         {all:?}"
     );
     let bits = |r: &Rational| (r.numer().bits(), r.denom().bits());
     println!(

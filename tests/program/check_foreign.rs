@@ -31,7 +31,8 @@ fn check(problem: &str, solutions: &str) -> (i32, String) {
 fn one_line_for_each_solution() {
     let fold = example("fold");
     let good = r#"{"value":2.00000,"x":[0.666667,0.333333]}"#;
-    let accepted = "ACCEPTED: lambda2 = 2 exists with support {0, 1}; proved; its value agrees to 15 or more digits, x to 6 digits\n";
+    let accepted = "ACCEPTED: lambda2 = 2 exists with support {0, 1}; proved; its value agrees to \
+                    15 or more digits, x to 6 digits\n";
     assert_eq!(check(&fold, &format!("[{good}]")), (0, accepted.into()));
     let (code, text) = check(&fold, r#"[{"value":2.5,"x":[0.666667,0.333333]}]"#);
     assert!(
@@ -188,7 +189,8 @@ fn a_report_agrees_up_to_the_tolerance() {
     }
     let (_, text) = check(&fold, r#"[{"value":2.0001,"x":[2,1.001]}]"#);
     for words in [
-        "INACCURATE: lambda2 = 2.0001: lambda2 = 2 exists with support {0, 1}, x = (1.000000000, 0.500000000)",
+        "INACCURATE: lambda2 = 2.0001: lambda2 = 2 exists with support {0, 1}, x = (1.000000000, \
+         0.500000000)",
         "error of the value 5.0e-5",
         "x[1] is worst: expected 0.500000000, got 0.500500000, error 5.0e-4",
         "allowed 1e-6",

@@ -10,9 +10,12 @@ const STI: &str =
     "1 1  4.0e+00\n1 2 -1.0e+00\n2 2  3.0e+00\n3 3  2.5e+00\n2 3  1.5e+00\n4 4 3.0e0\n";
 const MAS: &str = "1 1  2.0e-09\n2 2  2.0e-09\n3 3  1.0e-09\n4 4 1.0e-09\n";
 const DOF: &str = "7.1\n7.2\n9.1\n9.2\n";
-const K: &str = "%%MatrixMarket matrix coordinate real symmetric\n4 4 6\n1 1 4\n2 1 -1\n2 2 3\n3 3 2.5\n3 2 1.5\n4 4 3\n";
-const GENERAL: &str = "%%MatrixMarket matrix coordinate real general\n4 4 8\n1 1 4\n2 1 -1\n1 2 -1\n2 2 3\n3 3 2.5\n3 2 1.5\n2 3 1.5\n4 4 3\n";
-const M: &str = "%%MatrixMarket matrix coordinate real symmetric\n4 4 4\n1 1 2e-9\n2 2 2e-9\n3 3 1e-9\n4 4 1e-9\n";
+const K: &str = "%%MatrixMarket matrix coordinate real symmetric\n4 4 6\n1 1 4\n2 1 -1\n2 2 3\n3 3 \
+                 2.5\n3 2 1.5\n4 4 3\n";
+const GENERAL: &str = "%%MatrixMarket matrix coordinate real general\n4 4 8\n1 1 4\n2 1 -1\n1 2 \
+                       -1\n2 2 3\n3 3 2.5\n3 2 1.5\n2 3 1.5\n4 4 3\n";
+const M: &str = "%%MatrixMarket matrix coordinate real symmetric\n4 4 4\n1 1 2e-9\n2 2 2e-9\n3 3 \
+                 1e-9\n4 4 1e-9\n";
 const CSV: &str = "particle,tangential,normal,state,normal_direction,reaction_tangential,reaction_normal\nleft,2,3,slip-,-1,0.5000001,1\n";
 const JSON: &str = r#"[{"tangential":2,"normal":3,"state":"slip","sign":1,"normal_direction":-1}]"#;
 

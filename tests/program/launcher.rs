@@ -28,8 +28,10 @@ fn gnu_parallel_runs_the_shards_and_merge_proves_the_whole() {
     // The line of spec/complete-sets.md: exit 3 of a shard (the others' pieces stay open) is no failure.
     let mceip = env!("CARGO_BIN_EXE_mceip");
     let line = format!(
-        "seq 4 | parallel -j4 '{mceip} complete problem.json --threads 1 --shard {{}}/4 --certificate part-{{}}.json >/dev/null || [ $? -eq 3 ]' \
-         && {mceip} merge --problem problem.json part-*.json --certificate whole.json && {mceip} check problem.json whole.json"
+        "seq 4 | parallel -j4 '{mceip} complete problem.json --threads 1 --shard {{}}/4 \
+         --certificate part-{{}}.json >/dev/null || [ $? -eq 3 ]' \
+         && {mceip} merge --problem problem.json part-*.json --certificate whole.json && {mceip} \
+         check problem.json whole.json"
     );
     let o = Command::new("sh")
         .args(["-c", &line])

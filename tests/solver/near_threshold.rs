@@ -197,7 +197,8 @@ fn the_search_claims_nothing_below_and_only_what_exists_above() {
         }
     }
     println!(
-        "uncertified points below in {trapped} of 234 problems, certified above {certified} of {exist}"
+        "uncertified points below in {trapped} of 234 problems, certified above {certified} of \
+         {exist}"
     );
     // The tolerance is 1e-10: within it the residual is met without a solution, and the trap
     // springs. (71 problems in the run of 2026-11-21; a solver that is never trapped would leave
@@ -247,7 +248,8 @@ fn beside_a_fold_nothing_false_is_claimed() {
         }
     }
     println!(
-        "fold: uncertified points below in {trapped} of 13 problems, certified above {certified} of {exist}"
+        "fold: uncertified points below in {trapped} of 13 problems, certified above {certified} \
+         of {exist}"
     );
     assert!(trapped >= 3, "{trapped}");
     // Both of a pair as long as doubles tell them apart (their distance is the root of the gap).

@@ -108,7 +108,9 @@ impl Tally {
     fn print(&mut self, name: &str) {
         self.first_us.sort_by(f64::total_cmp);
         println!(
-            "{name}: solvable {}; first start {} ({:.1} %, certified {}); found {}/{} ({:.1} %); all of {}; extra {} uncertified {}; runs {} pivots {} factorisations {}; median {:.0} us; {:?}; {:?}; misses {:?}",
+            "{name}: solvable {}; first start {} ({:.1} %, certified {}); found {}/{} ({:.1} %); \
+             all of {}; extra {} uncertified {}; runs {} pivots {} factorisations {}; median {:.0} \
+             us; {:?}; {:?}; misses {:?}",
             self.solvable,
             self.first,
             100.0 * self.first as f64 / self.solvable.max(1) as f64,

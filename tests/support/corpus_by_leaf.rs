@@ -521,7 +521,8 @@ fn irrational(cases: &mut Cases) {
     );
     no(
         "turn-beside-root",
-        "w'T turns at 3/2: in the cell, but within the interval of sqrt 2, not between the intervals",
+        "w'T turns at 3/2: in the cell, but within the interval of sqrt 2, not between the \
+         intervals",
         &|l| {
             l.reasons[0] = none(&[&[-3, 2], &[0, -3, 2]]);
         },

@@ -280,7 +280,8 @@ fn limit(cases: &mut Cases) {
     let good = cover(&p, tree(leaf(integers(&[1, 1]))));
     cases.accept(
         "infinity-limit",
-        "a solution at infinity is none in [4, infinity): the only null vector of the chord is its limit",
+        "a solution at infinity is none in [4, infinity): the only null vector of the chord is its \
+         limit",
         &p,
         &good,
     );

@@ -321,7 +321,8 @@ pub fn spelling(cases: &mut Cases) {
     let spelt = numbers
         .iter()
         .fold(text.clone(), |text, (from, to)| swap(&text, from, to));
-    let note = "points without digits beside them, signs, leading zeros, a negative denominator: numbers all the same";
+    let note = "points without digits beside them, signs, leading zeros, a negative denominator: \
+                numbers all the same";
     cases.push(
         "accept",
         "spelling-numbers",

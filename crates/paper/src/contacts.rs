@@ -27,7 +27,8 @@ pub enum ContactsError {
     },
     /// A column that means nothing, or one named twice.
     #[error(
-        "contacts: expected each of particle, tangential, normal, state, normal_direction, reaction_tangential, reaction_normal at most once in the header, got {got:?}"
+        "contacts: expected each of particle, tangential, normal, state, normal_direction, \
+         reaction_tangential, reaction_normal at most once in the header, got {got:?}"
     )]
     Column {
         /// The name.
@@ -57,7 +58,8 @@ pub enum ContactsError {
     },
     /// A reaction contradicts (7), or the state.
     #[error(
-        "E7: contacts line {line}, state {state}: expected {expected}, got r_T = {tangential}, r_N = {normal} along its dofs"
+        "E7: contacts line {line}, state {state}: expected {expected}, got r_T = {tangential}, r_N \
+         = {normal} along its dofs"
     )]
     Contradiction {
         /// Line of the file, from 1.
@@ -285,7 +287,8 @@ mod tests {
     #[test]
     fn states_signs_and_directions() {
         let text = format!(
-            "# a comment\n{HEADER}a,0,1,slip+,,-1,-2\nb, 2, 3, slip-, -1, 1.0000001, 2\n\nc,4,5,stick,1,,\nd,6,7,free,,0,0\n"
+            "# a comment\n{HEADER}a,0,1,slip+,,-1,-2\nb, 2, 3, slip-, -1, 1.0000001, \
+             2\n\nc,4,5,stick,1,,\nd,6,7,free,,0,0\n"
         );
         let p = read(&text).unwrap();
         assert_eq!(p[0].state, ContactState::Slip { sign: -1 });

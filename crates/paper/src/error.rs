@@ -43,7 +43,8 @@ pub enum SourceError {
     },
     /// More nodes in contact than the mesh has on its contact side.
     #[error(
-        "contact states: expected at most {nodes} nodes in contact, got {stick} stuck and {slip} in impending slip"
+        "contact states: expected at most {nodes} nodes in contact, got {stick} stuck and {slip} \
+         in impending slip"
     )]
     TooManyContacts {
         /// Nodes of the contact side.

@@ -6,7 +6,8 @@
 pub enum Disagreement {
     /// The closed form of Table 1 and the enumerator differ.
     #[error(
-        "closed form lists {closed} solutions, the enumerator {enumerated}, or they differ in value, x or support"
+        "closed form lists {closed} solutions, the enumerator {enumerated}, or they differ in \
+         value, x or support"
     )]
     ClosedForm {
         /// Solutions of the closed form.
@@ -22,7 +23,8 @@ pub enum Disagreement {
     },
     /// The complete search claims a complete set that is not the enumerator's.
     #[error(
-        "complete set of {claimed} solutions, the enumerator lists {enumerated} (or a cone, or a continuum)"
+        "complete set of {claimed} solutions, the enumerator lists {enumerated} (or a cone, or a \
+         continuum)"
     )]
     Incomplete {
         /// Solutions of the complete set.
@@ -62,7 +64,8 @@ pub enum Disagreement {
     },
     /// Another enumerator answers otherwise than the plain one.
     #[error(
-        "{got} solutions, the enumerator lists {enumerated}, or they differ in value, support, x, cones or ranges"
+        "{got} solutions, the enumerator lists {enumerated}, or they differ in value, support, x, \
+         cones or ranges"
     )]
     Enumerators {
         /// Solutions of the other.

@@ -267,7 +267,8 @@ fn text_of(rows: &[Row], seed: u64) -> String {
         }
     }
     format!(
-        "{table}MCEIP-lambda2 by many starts (seed {seed}): other solutions may exist; `mceip complete` proves that there are none\n"
+        "{table}MCEIP-lambda2 by many starts (seed {seed}): other solutions may exist; `mceip \
+         complete` proves that there are none\n"
     )
 }
 

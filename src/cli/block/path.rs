@@ -212,7 +212,8 @@ fn comparison_text(c: &Comparison) -> String {
         }
     };
     format!(
-        "stepping: {} steps in doubles; no step ends in stretches {}; steps inside a stretch with other states: {}; largest difference of a reaction {:.3e} N\n",
+        "stepping: {} steps in doubles; no step ends in stretches {}; steps inside a stretch with \
+         other states: {}; largest difference of a reaction {:.3e} N\n",
         c.steps,
         list(&c.skipped),
         list(&c.other_states),
@@ -308,9 +309,14 @@ fn text_of(model: &BlockModel, path: &LoadingPath) -> String {
     let (mesh, plane) = (model.mesh.word(), model.plane.word());
     let [mu, force, depth] = [&path.loading.friction, &path.loading.force, &path.depth].map(to_f64);
     line(format!(
-        "{nx} x {ny} cells, {mesh}, plane {plane}; mu = {mu}; pressed {depth:.6} mm to {force} N, then moved to the left"
+        "{nx} x {ny} cells, {mesh}, plane {plane}; mu = {mu}; pressed {depth:.6} mm to {force} N, \
+         then moved to the left"
     ));
-    line("nodes from left to right: . stick, < slips to the left (S = 1), > slips to the right (S = -1), o free".into());
+    line(
+        "nodes from left to right: . stick, < slips to the left (S = 1), > slips to the right (S \
+          = -1), o free"
+            .into(),
+    );
     let mut table = Table::new(&[
         "#",
         "from mm",
@@ -341,7 +347,8 @@ fn text_of(model: &BlockModel, path: &LoadingPath) -> String {
     }
     line(table.to_string());
     line(format!(
-        "every event is an exact rational number; (1), (2), (5), (7) verified exactly at both ends; {}",
+        "every event is an exact rational number; (1), (2), (5), (7) verified exactly at both \
+         ends; {}",
         end_text(path)
     ));
     out

@@ -253,8 +253,10 @@ fn text_of(rows: &[Row]) -> String {
         table.row(cells);
     }
     format!(
-        "{table}K, A, B and mu in doubles, uncertified; balance: load left on f by lifted probes; change: what a step of refinement changes of Z,\n\
-         both relative. complete: MCEIP-mu of the condensed pencil whose doubles are taken as exact data, not of the mesh.\n"
+        "{table}K, A, B and mu in doubles, uncertified; balance: load left on f by lifted probes; \
+         change: what a step of refinement changes of Z,\n\
+         both relative. complete: MCEIP-mu of the condensed pencil whose doubles are taken as \
+         exact data, not of the mesh.\n"
     )
 }
 

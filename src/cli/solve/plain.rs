@@ -61,7 +61,8 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
 fn evidence(found: &Found) -> String {
     let (pivots, factorisations) = found.counters;
     format!(
-        "{} certified found in {} runs ({pivots} pivots, {factorisations} factorisations, endings {:?}); completeness unknown",
+        "{} certified found in {} runs ({pivots} pivots, {factorisations} factorisations, endings \
+         {:?}); completeness unknown",
         found.certified.len(),
         found.runs,
         found.terminations

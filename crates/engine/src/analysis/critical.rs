@@ -39,7 +39,8 @@ pub struct Critical {
 }
 
 const BY_CONDITION: Evidence = Evidence::Exact(
-    "condition (19): K* positive definite and M* positive semidefinite below it, by exact LDL' and linearity in mu",
+    "condition (19): K* positive definite and M* positive semidefinite below it, by exact LDL' and \
+     linearity in mu",
 );
 const BY_COVER: Evidence = Evidence::Exact(
     "cover of lambda^2 >= 0 and smaller mu by boxes with Farkas vectors, verified in integers",

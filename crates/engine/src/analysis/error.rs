@@ -27,7 +27,8 @@ pub enum AnalysisError {
     NoFriction,
     /// Units that doubles cannot carry.
     #[error(
-        "{what}[{row}][{col}]: expected a magnitude between 10^-150 and 10^150 (choose other units), got about 10^{exponent}"
+        "{what}[{row}][{col}]: expected a magnitude between 10^-150 and 10^150 (choose other \
+         units), got about 10^{exponent}"
     )]
     Units {
         /// The matrix.

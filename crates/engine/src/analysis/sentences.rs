@@ -20,7 +20,8 @@ pub struct Sentence {
     pub evidence: Evidence,
 }
 
-const OUTSIDE: &str = "Outside (8), and so not answered: flutter, stick-slip growth, finite motions, other contact states; \
+const OUTSIDE: &str = "Outside (8), and so not answered: flutter, stick-slip growth, finite \
+                       motions, other contact states; \
                        absence of divergence of the form (8) is not stability.";
 
 /// Ends of an enclosure in short decimals, rounded outwards.
@@ -132,7 +133,8 @@ impl Analysis {
                 "growth rate 0 (a threshold: departure linear in time)".into()
             };
             let text = format!(
-                "Mode {}: {growth}, lambda^2 {} 1/s^2; particles {:?} slip, {:?} do not move; v over all degrees of freedom in the JSON, slip rates summing to 1.",
+                "Mode {}: {growth}, lambda^2 {} 1/s^2; particles {:?} slip, {:?} do not move; v \
+                 over all degrees of freedom in the JSON, slip rates summing to 1.",
                 k + 1,
                 between(&m.lambda2),
                 m.slipping,
@@ -189,7 +191,8 @@ impl Analysis {
     fn say_solution(&self) -> Option<Sentence> {
         let s = self.critical.solution.as_ref()?;
         let text = format!(
-            "Critical mu: a solution is proved at mu {} with lambda^2 {} 1/s^2, so the critical mu is at most that.",
+            "Critical mu: a solution is proved at mu {} with lambda^2 {} 1/s^2, so the critical mu \
+             is at most that.",
             between(&s.mu),
             between(&s.lambda2)
         );
@@ -236,7 +239,8 @@ impl Analysis {
         };
         let text = match &n.mass {
             Some(m) if !n.mass_is_constant => format!(
-                "Necessary condition (19): K* is not positive definite {}, M* is not positive semidefinite {}; {here}.",
+                "Necessary condition (19): K* is not positive definite {}, M* is not positive \
+                 semidefinite {}; {here}.",
                 until(&n.stiffness, ">="),
                 until(m, ">")
             ),
@@ -257,7 +261,8 @@ impl Analysis {
     fn say_sufficient(&self) -> Sentence {
         let text = match self.sufficient {
             Some(true) => {
-                "Sufficient condition (17)-(18): holds at this mu; every slip particle moves or may move."
+                "Sufficient condition (17)-(18): holds at this mu; every slip particle moves or \
+                 may move."
             }
             Some(false) => {
                 "Sufficient condition (17)-(18): does not hold at this mu; no all-slip solution."
@@ -278,7 +283,8 @@ impl Analysis {
                 "Flutter: the all-slip pencil at this mu has no complex lambda^2.".into()
             }
             Some(f) => format!(
-                "WARNING of flutter: the all-slip pencil at this mu has {} complex pair{} lambda^2; the fastest grows at {:.6} 1/s, {:.6} rad/s.",
+                "WARNING of flutter: the all-slip pencil at this mu has {} complex pair{} \
+                 lambda^2; the fastest grows at {:.6} 1/s, {:.6} rad/s.",
                 f.eigenvalues.len(),
                 if f.eigenvalues.len() == 1 { "" } else { "s" },
                 f.growth_rate,

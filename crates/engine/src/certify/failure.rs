@@ -75,7 +75,8 @@ pub enum AttemptFailure {
     },
     /// A sign that the claim needs is not the same all over the smallest box that is tried.
     #[error(
-        "expected one sign of {what} over a box of 2^-{bits} of the largest component, got both or zero"
+        "expected one sign of {what} over a box of 2^-{bits} of the largest component, got both or \
+         zero"
     )]
     Undecided {
         /// What has no certain sign: x, y, or the value's distance to an end of the window.

@@ -42,7 +42,8 @@ pub struct Off {
 pub enum BadPoint {
     /// A v that leaves (9): v_d = 0 and v_Ns = 0 do not hold.
     #[error(
-        "E9: v[{dof}]: expected no rate of sticking or into the obstacle, got {size:e} of the largest component"
+        "E9: v[{dof}]: expected no rate of sticking or into the obstacle, got {size:e} of the \
+         largest component"
     )]
     OffConstraints {
         /// The degree of freedom where it is worst.
@@ -52,7 +53,8 @@ pub enum BadPoint {
     },
     /// A vector of the wrong length.
     #[error(
-        "solutions[{solution}]: expected {what} with {expected} components (see spec/formats.md for their order), got {got}"
+        "solutions[{solution}]: expected {what} with {expected} components (see spec/formats.md \
+         for their order), got {got}"
     )]
     Length {
         /// Index in the report.
@@ -74,7 +76,8 @@ pub enum BadPoint {
     },
     /// A number beyond the range of doubles that have all their digits.
     #[error(
-        "solutions[{solution}].{field}: expected 0 or a number between 2^-1022 and 2^1024 in size, got another one"
+        "solutions[{solution}].{field}: expected 0 or a number between 2^-1022 and 2^1024 in size, \
+         got another one"
     )]
     OutOfRange {
         /// Index in the report.

@@ -43,7 +43,8 @@ impl Effort {
                 Ok(())
             }
             None => Err(format!(
-                "absence is proved with at most {} products of words more in this report, {cost} were needed (see mceip complete)",
+                "absence is proved with at most {} products of words more in this report, {cost} \
+                 were needed (see mceip complete)",
                 self.left
             )),
         }
@@ -117,7 +118,8 @@ pub enum Refutation {
     },
     /// The complete answer near the value holds nothing like it.
     #[error(
-        "no solution with value in [{lo:?}, {hi:?}] has x within {x_radius:e} of this one (all {supports} supports examined exactly, {others})"
+        "no solution with value in [{lo:?}, {hi:?}] has x within {x_radius:e} of this one (all \
+         {supports} supports examined exactly, {others})"
     )]
     NothingNear {
         /// Lower end of the values examined.
@@ -371,7 +373,8 @@ fn inaccurate_text(problem: &Problem, given: f64, proved: &Proved, tolerance: f6
         worst.vector, worst.index, worst.proven, worst.reported, worst.error
     );
     format!(
-        "INACCURATE: {word} = {given}: {proven}; error of the value {:.1e}; {worst_text} (largest |x_i| = 1; allowed {tolerance:e})",
+        "INACCURATE: {word} = {given}: {proven}; error of the value {:.1e}; {worst_text} (largest \
+         |x_i| = 1; allowed {tolerance:e})",
         agreement.value
     )
 }

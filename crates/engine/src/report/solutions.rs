@@ -283,7 +283,8 @@ fn degenerate(report: &Report<'_>, e: &Enumeration, printed: &[usize]) -> String
     }
     e.undescribed.iter().for_each(|u| out += &format!("{u}\n"));
     if e.is_outside_propositions() {
-        out += "some solutions have x_s = 0: outside Propositions 1 and 2 (K_ff or M_ff is not definite)\n";
+        out += "some solutions have x_s = 0: outside Propositions 1 and 2 (K_ff or M_ff is not \
+                definite)\n";
     }
     out
 }

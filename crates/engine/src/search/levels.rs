@@ -24,7 +24,8 @@ pub enum LevelError {
     Complete(#[from] CompleteError),
     /// K_ff + lambda^2 M_ff cannot be eliminated in doubles.
     #[error(
-        "E16: expected K_ff + lambda^2 M_ff invertible in doubles, got a singular matrix at lambda^2 = {lambda2}"
+        "E16: expected K_ff + lambda^2 M_ff invertible in doubles, got a singular matrix at \
+         lambda^2 = {lambda2}"
     )]
     Singular {
         /// The level.

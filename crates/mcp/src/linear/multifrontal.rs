@@ -13,7 +13,8 @@ use crate::tolerance::SINGULAR_PIVOT;
 /// The matrix is not positive definite on the eliminated unknowns, as far as doubles can tell.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 #[error(
-    "expected a positive definite matrix, got a pivot {pivot} at index {index} (diagonal entry {diagonal})"
+    "expected a positive definite matrix, got a pivot {pivot} at index {index} (diagonal entry \
+     {diagonal})"
 )]
 pub struct NotDefinite {
     /// Unknown at which elimination ended, or the first one of the front in which it did.

@@ -26,7 +26,8 @@ pub enum SparseError {
     Condensed(#[from] McpError),
     /// The block of the unknowns without bounds is singular whatever its values.
     #[error(
-        "expected an unknown without bounds to solve row {row} for, got none: those of its entries serve other rows"
+        "expected an unknown without bounds to solve row {row} for, got none: those of its entries \
+         serve other rows"
     )]
     StructurallySingular {
         /// A row left over by a largest pairing of rows and unknowns.
@@ -34,7 +35,8 @@ pub enum SparseError {
     },
     /// The block of the unknowns without bounds is singular to rounding.
     #[error(
-        "expected a regular block of the unknowns without bounds, got solutions that refinement changes by {change:e} of their size"
+        "expected a regular block of the unknowns without bounds, got solutions that refinement \
+         changes by {change:e} of their size"
     )]
     SingularFreeBlock {
         /// Change by one step of iterative refinement, relative to the solution; infinite if there

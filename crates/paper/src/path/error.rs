@@ -67,7 +67,8 @@ pub enum PathError {
     },
     /// Incremental stepping found no states within its iterations.
     #[error(
-        "step {step} at motion {motion} mm: no admissible states within {limit} active-set iterations"
+        "step {step} at motion {motion} mm: no admissible states within {limit} active-set \
+         iterations"
     )]
     StepNotConverged {
         /// Number of the step, from 1.

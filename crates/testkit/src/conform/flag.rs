@@ -33,34 +33,47 @@ macro_rules! flags {
 
 flags! {
     Lambda2 "lambda2" "A + tB built from K*, M* with the friction given; wrong sign of K1 or M1.",
-    Mu "mu" "A + tB built from K0, K1; the friction coefficient of the file used although mu is sought.",
+    Mu "mu" "A + tB built from K0, K1; the friction coefficient of the file used although mu is \
+             sought.",
     Pencil "pencil" "A pencil given directly: the order of rows and the free set.",
     System "system" "A mechanical system: elimination (10)-(16), order of variables.",
     OneByOne "one_by_one" "Order 1: codes that assume at least two variables.",
-    FreeVariables "free_variables" "Variables with y = 0 and no sign, treated as complementarity variables or dropped.",
+    FreeVariables "free_variables" "Variables with y = 0 and no sign, treated as complementarity \
+                                    variables or dropped.",
     Stick "stick" "Stick particles kept in the pencil, or their normal dofs.",
     FreeParticle "free_particle" "Particles without contact: both dofs are free.",
-    NormalAway "normal_away" "Normal dof positive away from the obstacle: the sign of K_NT, mu taken for -mu.",
+    NormalAway "normal_away" "Normal dof positive away from the obstacle: the sign of K_NT, mu \
+                              taken for -mu.",
     Oblique "oblique" "Frames: tangent and normal mix two dofs.",
     CoupledMass "coupled_mass" "M couples T and N: M1 does not vanish and mu enters B.",
-    NoSolution "no_solution" "Nothing exists: a reported solution is invented (residuals do not certify).",
+    NoSolution "no_solution" "Nothing exists: a reported solution is invented (residuals do not \
+                              certify).",
     ManySolutions "many_solutions" "Ten or more solutions: a search that ends early.",
     Irrational "irrational" "Values that are no fractions.",
-    SharedValue "shared_value" "Several solutions with one value: merged by value although x differs.",
+    SharedValue "shared_value" "Several solutions with one value: merged by value although x \
+                                differs.",
     CloseValues "close_values" "Two values closer than 10^-2 and not equal: merged by a tolerance.",
-    RepeatedRoot "repeated_root" "A multiple root of a determinant: complex or lost eigenvalues in floats (error like its square root).",
-    ZeroValue "zero_value" "A solution at t = 0: discarded by t > 0, or by a small negative rounding.",
-    Biactive "biactive" "x_i = y_i = 0: lost by y_i > tolerance, or listed once for each of its supports.",
-    TinyComponent "tiny_component" "A positive component below 10^-3 of the largest: cut to zero by a tolerance.",
-    WideKernel "wide_kernel" "A kernel of dimension > 1: an eigenvector routine returns an arbitrary basis.",
+    RepeatedRoot "repeated_root" "A multiple root of a determinant: complex or lost eigenvalues in \
+                                  floats (error like its square root).",
+    ZeroValue "zero_value" "A solution at t = 0: discarded by t > 0, or by a small negative \
+                            rounding.",
+    Biactive "biactive" "x_i = y_i = 0: lost by y_i > tolerance, or listed once for each of its \
+                         supports.",
+    TinyComponent "tiny_component" "A positive component below 10^-3 of the largest: cut to zero \
+                                    by a tolerance.",
+    WideKernel "wide_kernel" "A kernel of dimension > 1: an eigenvector routine returns an \
+                              arbitrary basis.",
     Cone "cone" "A cone of solutions: its interior is missed.",
-    SingularPencil "singular_pencil" "det(A + tB) vanishes identically on a support: generalised eigenvalues are arbitrary.",
-    Continuum "continuum" "Solutions for whole intervals of t: listed as isolated values, or missed.",
+    SingularPencil "singular_pencil" "det(A + tB) vanishes identically on a support: generalised \
+                                      eigenvalues are arbitrary.",
+    Continuum "continuum" "Solutions for whole intervals of t: listed as isolated values, or \
+                           missed.",
     FreeOnly "free_only" "x_s = 0 (outside Propositions 1 and 2): missed by e'x_s = 1.",
     Window "window" "A bounded window: values outside reported, or ends treated as open.",
     WindowEnd "window_end" "A value exactly at an end of the window: the window is closed.",
     Threshold "threshold" "Exactly on a threshold of Table 1: a new solution at lambda^2 = 0.",
-    NearThreshold "near_threshold" "At relative distance 10^-9 of a threshold: solutions reported where none exist, or lost.",
+    NearThreshold "near_threshold" "At relative distance 10^-9 of a threshold: solutions reported \
+                                    where none exist, or lost.",
     Fold "fold" "Pairs of solutions born at a positive value: missed by tracking lambda^2 = 0.",
     Scaled "scaled" "Entries beyond 1e5 or below 10^-5: absolute tolerances.",
     Random "random" "No special structure.",

@@ -107,7 +107,9 @@ impl Shown<'_> {
 
     fn charts(&self) -> Vec<Named> {
         let mu = to_f64(&self.path.loading.friction);
-        let caption = "Each event is an exact rational number; (1), (2), (5), (7) hold exactly at both ends of each stretch.".into();
+        let caption = "Each event is an exact rational number; (1), (2), (5), (7) hold exactly at \
+                       both ends of each stretch."
+            .into();
         let picture = path_picture(
             "Loading path: resultants, and the state of each contact node",
             self.path,
@@ -132,8 +134,10 @@ impl Shown<'_> {
             necessary: s.necessary_from(),
         };
         let columns: Vec<ThresholdColumn> = self.states.iter().map(column).collect();
-        let caption = "The complete set of MCEIP-\u{3bc} for each state with slip, each set certified. A state in whose column no solution \
-                       stands has none. \u{3bb} = 0 is the static threshold; divergence may begin at a lower \u{3bc} with \u{3bb}\u{b2} > 0.";
+        let caption = "The complete set of MCEIP-\u{3bc} for each state with slip, each set \
+                       certified. A state in whose column no solution \
+                       stands has none. \u{3bb} = 0 is the static threshold; divergence may begin \
+                       at a lower \u{3bc} with \u{3bb}\u{b2} > 0.";
         let picture = threshold_picture("MCEIP-\u{3bc} along the loading path", &columns, mu);
         all.push(Named {
             name: "thresholds".into(),
@@ -142,7 +146,8 @@ impl Shown<'_> {
         });
         if let Some((stretch, branches)) = &self.branches {
             let title = format!("\u{3bb}\u{b2} against \u{3bc} for the state of stretch {stretch}");
-            let caption = "Points: every solution at that \u{3bb}\u{b2}, from the pencil condensed in doubles (measured, not certified). \
+            let caption = "Points: every solution at that \u{3bb}\u{b2}, from the pencil condensed \
+                           in doubles (measured, not certified). \
                            The threshold and the squares are certified.";
             let picture = branch_picture(&title, branches);
             all.push(Named {
@@ -345,7 +350,8 @@ impl Shown<'_> {
         };
         let rows = self.path.intervals.iter().enumerate().map(row).collect();
         let caption = format!(
-            "Stretches of the path. Nodes from left to right: . stick, < slips to the left (S = 1), > slips to the right (S = -1), o free. How it ends: {}.",
+            "Stretches of the path. Nodes from left to right: . stick, < slips to the left (S = \
+             1), > slips to the right (S = -1), o free. How it ends: {}.",
             end_text(self.path)
         );
         Content::Table {
@@ -435,7 +441,14 @@ impl Shown<'_> {
             rows,
         }];
         if s.is_open() {
-            content.insert(0, Content::Warning("Not everything is decided: regions are left open, and may hold more solutions.".into()));
+            content.insert(
+                0,
+                Content::Warning(
+                    "Not everything is decided: regions are left open, \
+                and may hold more solutions."
+                        .into(),
+                ),
+            );
         }
         content.extend(figures);
         Section {
@@ -445,9 +458,13 @@ impl Shown<'_> {
     }
 }
 
-const MEANING: &str = "A solution of MCEIP-\u{3bc} is a coefficient of friction at which the equilibrium can leave in the form (8) with \u{3bb} = 0; \
-a solution of MCEIP-\u{3bb}\u{b2} at a given \u{3bc} is a divergence with the growth rate \u{3bb}. Where there is none, divergence of the form (8) is \
-excluded and nothing else: flutter and growth of stick-slip lie outside it. \"Complete, proved\" means that a certificate was written \
+const MEANING: &str = "A solution of MCEIP-\u{3bc} is a coefficient of friction at which the \
+                       equilibrium can leave in the form (8) with \u{3bb} = 0; \
+a solution of MCEIP-\u{3bb}\u{b2} at a given \u{3bc} is a divergence with the growth rate \u{3bb}. \
+                       Where there is none, divergence of the form (8) is \
+excluded and nothing else: flutter and growth of stick-slip lie outside it. \"Complete, proved\" \
+                       means that a certificate was written \
 for the whole half line and accepted by the exact checker, for the problem";
 
-const PROOF: &str = "of K and M themselves (MCEIP-\u{3bb}\u{b2}), of the state's exactly condensed pencil (MCEIP-\u{3bc}).";
+const PROOF: &str = "of K and M themselves (MCEIP-\u{3bb}\u{b2}), of the state's exactly condensed \
+                     pencil (MCEIP-\u{3bc}).";

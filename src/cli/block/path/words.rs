@@ -21,7 +21,8 @@ pub(super) fn end_text(path: &LoadingPath) -> String {
             ..
         } => {
             format!(
-                "the quasi-static path ends ({}): no states satisfy the rate conditions, every set was tried",
+                "the quasi-static path ends ({}): no states satisfy the rate conditions, every set \
+                 was tried",
                 causes_text(causes)
             )
         }

@@ -16,7 +16,8 @@ pub enum CompleteError {
     NothingSlips,
     /// The free variables cannot be eliminated.
     #[error(
-        "P1, P2: expected {what} symmetric and definite (B_ff: semidefinite), got the contrary at variable {index}"
+        "P1, P2: expected {what} symmetric and definite (B_ff: semidefinite), got the contrary at \
+         variable {index}"
     )]
     NotDefinite {
         /// Which block.
@@ -72,7 +73,8 @@ pub enum CompleteError {
     },
     /// A piece that no part has searched.
     #[error(
-        "merge: expected every piece to be searched by a part, got none for piece {piece} of {pieces}"
+        "merge: expected every piece to be searched by a part, got none for piece {piece} of \
+         {pieces}"
     )]
     MissingPiece {
         /// The piece, from 0.
