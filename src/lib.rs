@@ -41,8 +41,8 @@
 //! # What to trust
 //!
 //! Floating-point numbers propose, exact arithmetic decides. Every solution that these functions
-//! return has been accepted by the checker, the crate [`mceip_check`], and so has every certificate.
-//! Whoever only checks certificates depends on that crate alone.
+//! return has been accepted by the checker, the crate [`mceip_check`], and so has every
+//! certificate. Whoever only checks certificates depends on that crate alone.
 //!
 //! ```text
 //! problem -> reduction -> MCP -> solver -> candidates          untrusted, f64

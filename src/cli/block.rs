@@ -174,12 +174,30 @@ fn json_of(r: &BlockReport) -> Value {
     let accepted: Vec<Value> = r
         .accepted
         .iter()
-        .map(|a| json!({ "mu": a.value, "slipping": a.slipping, "stuck": a.stuck, "difference": difference(&a.value, r.state.printed_mu()) }))
+        .map(|a| {
+            json!({
+                "mu": a.value,
+                "slipping": a.slipping,
+                "stuck": a.stuck,
+                "difference": difference(&a.value, r.state.printed_mu()),
+            })
+        })
         .collect();
     json!({
-        "state": r.state.name(), "paper_mu": r.state.printed_mu(), "accepted": accepted, "uncertified": r.uncertified,
-        "dofs": r.orders.0, "pencil_order": r.orders.1, "condensed_order": r.orders.2, "denominator_bits": r.bits,
-        "complete": r.is_complete(), "solutions_in_all": r.cover.solutions.len(), "runs": r.runs, "pivots": r.pivots, "forgeries": r.forgeries, "rejected_forgeries": r.rejected_forgeries,
+        "state": r.state.name(),
+        "paper_mu": r.state.printed_mu(),
+        "accepted": accepted,
+        "uncertified": r.uncertified,
+        "dofs": r.orders.0,
+        "pencil_order": r.orders.1,
+        "condensed_order": r.orders.2,
+        "denominator_bits": r.bits,
+        "complete": r.is_complete(),
+        "solutions_in_all": r.cover.solutions.len(),
+        "runs": r.runs,
+        "pivots": r.pivots,
+        "forgeries": r.forgeries,
+        "rejected_forgeries": r.rejected_forgeries,
         "problem_sha256": r.certificate.as_ref().map(|c| c.problem_sha256.clone()),
     })
 }

@@ -125,8 +125,14 @@ impl AtInfinity {
             "claim": Claimed::of_cover(cover).word(),
             "reversed_problem_sha256": self.problem.sha256(),
             "solutions": solutions,
-            "families": cover.families.iter().map(|f| json!({ "slip": f.support })).collect::<Vec<_>>(),
-            "open": cover.open.iter().map(|o| json!({ "moving": o.moving, "undecided": o.undecided })).collect::<Vec<_>>(),
+            "families": cover.families
+                .iter()
+                .map(|f| json!({ "slip": f.support }))
+                .collect::<Vec<_>>(),
+            "open": cover.open
+                .iter()
+                .map(|o| json!({ "moving": o.moving, "undecided": o.undecided }))
+                .collect::<Vec<_>>(),
         })
     }
 

@@ -133,7 +133,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
                 l.x[1].clone(),
                 polynomial,
             ]);
-            json.push(serde_json::json!({ "signs": [signs.0, signs.1], "lambda2": l.value, "slip": l.slip, "x": l.x }));
+            json.push(serde_json::json!({
+                "signs": [signs.0, signs.1],
+                "lambda2": l.value,
+                "slip": l.slip,
+                "x": l.x,
+            }));
         }
     }
     let verdict = match (agreed, uncertified) {

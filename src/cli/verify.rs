@@ -160,9 +160,20 @@ fn json_of(v: &Verification) -> Value {
             .map(|(c, n)| (format!("{c:?}"), json!(n)))
             .collect();
         json!({
-            "name": f.name, "instances": f.instances, "done": f.done, "oracle_solutions": f.oracle, "findable": f.findable,
-            "found": f.found, "completed": f.completed, "accepted": f.accepted, "uncertified": f.uncertified, "forgeries_rejected": f.rejected,
-            "degenerate": f.degenerate, "pivots": f.pivots, "corners": corners, "disagreements": f.disagreements,
+            "name": f.name,
+            "instances": f.instances,
+            "done": f.done,
+            "oracle_solutions": f.oracle,
+            "findable": f.findable,
+            "found": f.found,
+            "completed": f.completed,
+            "accepted": f.accepted,
+            "uncertified": f.uncertified,
+            "forgeries_rejected": f.rejected,
+            "degenerate": f.degenerate,
+            "pivots": f.pivots,
+            "corners": corners,
+            "disagreements": f.disagreements,
         })
     };
     let block: Vec<Value> = v
@@ -171,17 +182,26 @@ fn json_of(v: &Verification) -> Value {
         .map(|b| {
             let mu: Vec<&String> = b.accepted.iter().map(|a| &a.value).collect();
             json!({
-                "state": b.state.name(), "mu": mu, "paper_mu": b.state.printed_mu(), "forgeries": b.forgeries,
-                "rejected_forgeries": b.rejected_forgeries, "unfound": b.unfound,
+                "state": b.state.name(),
+                "mu": mu,
+                "paper_mu": b.state.printed_mu(),
+                "forgeries": b.forgeries,
+                "rejected_forgeries": b.rejected_forgeries,
+                "unfound": b.unfound,
             })
         })
         .collect();
     let coverage: Vec<Value> = v.covered().iter().map(covered_json).collect();
     let shortfalls: Vec<String> = v.shortfalls().iter().map(ToString::to_string).collect();
     json!({
-        "coverage": coverage, "shortfalls": shortfalls,
-        "seed": v.seed, "families": v.families.iter().map(family).collect::<Vec<_>>(), "block": block,
-        "disagreements": v.disagreements(), "interrupted": v.interrupted, "verdict": verdict(v),
+        "coverage": coverage,
+        "shortfalls": shortfalls,
+        "seed": v.seed,
+        "families": v.families.iter().map(family).collect::<Vec<_>>(),
+        "block": block,
+        "disagreements": v.disagreements(),
+        "interrupted": v.interrupted,
+        "verdict": verdict(v),
     })
 }
 

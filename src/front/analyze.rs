@@ -45,8 +45,8 @@ impl<'a> Analyze<'a> {
         self
     }
 
-    /// Values of mu at which divergence is decided, to find the ranges in which it exists; 16 if not
-    /// said, 0 for none.
+    /// Values of mu at which divergence is decided, to find the ranges in which it exists; 16 if
+    /// not said, 0 for none.
     pub fn samples(mut self, samples: usize) -> Self {
         self.options.samples = samples;
         self

@@ -101,8 +101,8 @@ impl<'a> Complete<'a> {
     /// Searches.
     ///
     /// # Errors
-    /// [`Error::Complete`] where the problem is outside the hypotheses of the search, or the earlier
-    /// certificate belongs to another problem.
+    /// [`Error::Complete`] where the problem is outside the hypotheses of the search, or the
+    /// earlier certificate belongs to another problem.
     pub fn run(self) -> Result<SolutionSet, Error> {
         let problem = self.problem.as_model();
         let watch = self.watched.watch();

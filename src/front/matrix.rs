@@ -42,8 +42,8 @@ impl Matrix {
         from_exact_rows(rows.iter().map(exact))
     }
 
-    /// A matrix by its entries (row, column, value), counted from 0. Entries at one place are added,
-    /// without rounding, as in the assembly of finite elements.
+    /// A matrix by its entries (row, column, value), counted from 0. Entries at one place are
+    /// added, without rounding, as in the assembly of finite elements.
     ///
     /// # Errors
     /// [`Error::Model`] for an entry outside the matrix or a number that is not finite.

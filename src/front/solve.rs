@@ -81,8 +81,8 @@ impl<'a> Solve<'a> {
         self
     }
 
-    /// Looks for all solutions: also above and below each value found, and along curves through each
-    /// solution. Slower.
+    /// Looks for all solutions: also above and below each value found, and along curves through
+    /// each solution. Slower.
     pub fn all(mut self) -> Self {
         self.search.window_starts = Search::default().window_starts;
         self.search.curves = true;

@@ -154,8 +154,8 @@ fn a_wide_kernel_with_one_ray_is_an_ordinary_solution() {
     );
 }
 
-/// {0, 1} has the rows (1, t - 2) and (2, 2t - 4): x = (2 - t, 1), a solution while t < 2 and
-/// y_2 >= 0. The third column keeps x_2 = 0. (Without it {0, 1, 2} is singular too: the first version
+/// {0, 1} has the rows (1, t - 2) and (2, 2t - 4): x = (2 - t, 1), a solution while t < 2 and y_2
+/// >= 0. The third column keeps x_2 = 0. (Without it {0, 1, 2} is singular too: the first version
 /// of these tests forgot that, the enumerator did not.)
 fn singular(row: [[i64; 2]; 2]) -> Pencil {
     pencil(

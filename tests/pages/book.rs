@@ -1,5 +1,5 @@
-//! `spec/` as a book: `SUMMARY.md` lists every page once, and every link to a file of the repository
-//! leads to one.
+//! `spec/` as a book: `SUMMARY.md` lists every page once, and every link to a file of the
+//! repository leads to one.
 
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};

@@ -25,7 +25,8 @@ fn gnu_parallel_runs_the_shards_and_merge_proves_the_whole() {
     let file = serde_json::json!({ "format": "mceip-problem/1", "unknown": problem.unknown().word(), "pencil": pencil });
     std::fs::write(folder.path().join("problem.json"), file.to_string()).unwrap();
 
-    // The line of spec/complete-sets.md: exit 3 of a shard (the others' pieces stay open) is no failure.
+    // The line of spec/complete-sets.md: exit 3 of a shard (the others' pieces stay open) is no
+    // failure.
     let mceip = env!("CARGO_BIN_EXE_mceip");
     let line = format!(
         "seq 4 | parallel -j4 '{mceip} complete problem.json --threads 1 --shard {{}}/4 \

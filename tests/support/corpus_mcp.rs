@@ -7,8 +7,8 @@ use mceip_engine::lcp::{read_mcp, write_solution};
 use mceip_exact::parse;
 use serde_json::{Value, json};
 
-/// z = (5/6, 1/2, 1, 2): F_0 = z_0 + z_1 / 3 - 1 = 0 inside, F_1 = 2 z_1 - z_2 = 0 free,
-/// F_2 = q_2 - 2 z_2 <= 0 at the upper bound of [0, 1] for q_2 <= 2, and F_3 of any sign at equal bounds.
+/// z = (5/6, 1/2, 1, 2): F_0 = z_0 + z_1 / 3 - 1 = 0 inside, F_1 = 2 z_1 - z_2 = 0 free, F_2 = q_2
+/// - 2 z_2 <= 0 at the upper bound of [0, 1] for q_2 <= 2, and F_3 of any sign at equal bounds.
 fn every_bound(q2: &str) -> Value {
     json!({
         "format": "mceip-mcp/1",

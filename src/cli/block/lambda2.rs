@@ -275,13 +275,23 @@ fn text_of(rows: &[Row], seed: u64) -> String {
 fn json_of(r: &Row) -> Value {
     let one = |(s, evidence): (&CondensedSolution, &Result<f64, String>)| {
         json!({
-            "lambda2": evidence.as_ref().unwrap_or(&s.candidate.value), "certified": evidence.is_ok(), "reason": evidence.as_ref().err(),
-            "x_slip": s.slip, "y_slip": s.reaction, "runs": s.runs,
+            "lambda2": evidence.as_ref().unwrap_or(&s.candidate.value),
+            "certified": evidence.is_ok(),
+            "reason": evidence.as_ref().err(),
+            "x_slip": s.slip,
+            "y_slip": s.reaction,
+            "runs": s.runs,
         })
     };
     json!({
-        "state": r.name, "mu": r.mu, "dofs": r.orders.0, "slip": r.orders.1, "seconds": r.seconds, "runs": r.found.runs,
-        "factorisations": r.found.factorisations, "interrupted": r.found.interrupted,
+        "state": r.name,
+        "mu": r.mu,
+        "dofs": r.orders.0,
+        "slip": r.orders.1,
+        "seconds": r.seconds,
+        "runs": r.found.runs,
+        "factorisations": r.found.factorisations,
+        "interrupted": r.found.interrupted,
         "solutions": r.found.solutions.iter().zip(&r.evidence).map(one).collect::<Vec<_>>(),
     })
 }

@@ -366,14 +366,23 @@ fn event_text(event: &Event) -> String {
 
 fn json_of(model: &BlockModel, path: &LoadingPath, steps: Option<&Comparison>) -> Value {
     json!({
-        "cells": [model.cells.0, model.cells.1], "mesh": model.mesh.word(), "plane": model.plane.word(),
-        "length_mm": model.length().to_string(), "height_mm": model.height().to_string(),
-        "mu": path.loading.friction.to_string(), "force_N": path.loading.force.to_string(),
-        "depth_mm": to_f64(&path.depth), "pressing": states_json(&path.pressing),
+        "cells": [model.cells.0, model.cells.1],
+        "mesh": model.mesh.word(),
+        "plane": model.plane.word(),
+        "length_mm": model.length().to_string(),
+        "height_mm": model.height().to_string(),
+        "mu": path.loading.friction.to_string(),
+        "force_N": path.loading.force.to_string(),
+        "depth_mm": to_f64(&path.depth),
+        "pressing": states_json(&path.pressing),
         "intervals": path.intervals.iter().map(interval_json).collect::<Vec<_>>(),
-        "end": end_text(path), "slides": path.slides(),
+        "end": end_text(path),
+        "slides": path.slides(),
         "stepping": steps.map(|c| json!({
-            "steps": c.steps, "skipped": c.skipped, "other_states": c.other_states, "reaction_difference_N": c.reaction,
+            "steps": c.steps,
+            "skipped": c.skipped,
+            "other_states": c.other_states,
+            "reaction_difference_N": c.reaction,
         })),
     })
 }
@@ -381,13 +390,25 @@ fn json_of(model: &BlockModel, path: &LoadingPath, steps: Option<&Comparison>) -
 fn interval_json(interval: &Interval) -> Value {
     let [stick, left, right, free] = interval.counts();
     json!({
-        "from_mm": to_f64(interval.start.motion()), "to_mm": interval.stop.as_ref().map(|s| to_f64(s.motion())),
-        "states": states_json(&interval.states), "stick": stick, "slip_left": left, "slip_right": right, "free": free,
-        "start": equilibrium_json(&interval.start), "stop": interval.stop.as_ref().map(equilibrium_json),
+        "from_mm": to_f64(interval.start.motion()),
+        "to_mm": interval.stop.as_ref().map(|s| to_f64(s.motion())),
+        "states": states_json(&interval.states),
+        "stick": stick,
+        "slip_left": left,
+        "slip_right": right,
+        "free": free,
+        "start": equilibrium_json(&interval.start),
+        "stop": interval.stop.as_ref().map(equilibrium_json),
         "event": {
             "causes": interval.begin.causes.iter().map(cause_json).collect::<Vec<_>>(),
-            "changes": interval.begin.changes.iter()
-                .map(|c| json!({ "node": c.node + 1, "from": state_word(c.from), "to": state_word(c.to) })).collect::<Vec<_>>(),
+            "changes": interval.begin.changes
+                .iter()
+                .map(|c| json!({
+                    "node": c.node + 1,
+                    "from": state_word(c.from),
+                    "to": state_word(c.to),
+                }))
+                .collect::<Vec<_>>(),
             "tried": interval.begin.tried,
         },
     })
@@ -406,7 +427,12 @@ fn equilibrium_json(at: &Equilibrium) -> Value {
         .collect();
     // bits of the exact motion: its fraction fills pages
     let bits = at.motion().numer().bits() + at.motion().denom().bits();
-    json!({ "motion_bits": bits, "resultant_T_N": to_f64(&t), "resultant_N_N": to_f64(&n), "reactions_T_N": reactions })
+    json!({
+        "motion_bits": bits,
+        "resultant_T_N": to_f64(&t),
+        "resultant_N_N": to_f64(&n),
+        "reactions_T_N": reactions,
+    })
 }
 
 fn states_json(states: &[ContactState]) -> Vec<&'static str> {

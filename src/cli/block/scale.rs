@@ -266,10 +266,22 @@ fn mebibytes(entries: usize) -> f64 {
 
 fn json_of(r: &Row) -> Value {
     json!({
-        "cells": [r.cells.0, r.cells.1], "dofs": r.dofs, "slip": r.slip,
-        "seconds": { "assembly": r.seconds[0], "ordering": r.seconds[1], "factor": r.seconds[2], "all_slip": r.seconds[3] },
-        "factor_MiB": mebibytes(r.entries), "balance": r.residual.balance, "change": r.residual.change,
-        "all_slip": r.all_slip.iter().map(|s| json!({ "mu": s.mu, "residual": s.residual })).collect::<Vec<_>>(),
+        "cells": [r.cells.0, r.cells.1],
+        "dofs": r.dofs,
+        "slip": r.slip,
+        "seconds": {
+            "assembly": r.seconds[0],
+            "ordering": r.seconds[1],
+            "factor": r.seconds[2],
+            "all_slip": r.seconds[3],
+        },
+        "factor_MiB": mebibytes(r.entries),
+        "balance": r.residual.balance,
+        "change": r.residual.change,
+        "all_slip": r.all_slip
+            .iter()
+            .map(|s| json!({ "mu": s.mu, "residual": s.residual }))
+            .collect::<Vec<_>>(),
         "complete_of_condensed_doubles": r.complete,
     })
 }

@@ -116,16 +116,31 @@ fn verdict(state: &State) -> String {
 pub(super) fn json_of(state: &State) -> Value {
     let family = |(name, t): (&String, &Tally)| {
         json!({
-            "name": name, "instances": t.instances, "solutions": t.solutions, "findable": t.findable, "found": t.found, "closed": t.closed,
-            "undecided": t.instances - t.closed, "accepted": t.accepted, "forgeries": t.forgeries, "uncertified": t.uncertified,
-            "degenerate": t.degenerate, "pivots": t.pivots, "corners": t.corners, "disagreements": t.disagreements,
+            "name": name,
+            "instances": t.instances,
+            "solutions": t.solutions,
+            "findable": t.findable,
+            "found": t.found,
+            "closed": t.closed,
+            "undecided": t.instances - t.closed,
+            "accepted": t.accepted,
+            "forgeries": t.forgeries,
+            "uncertified": t.uncertified,
+            "degenerate": t.degenerate,
+            "pivots": t.pivots,
+            "corners": t.corners,
+            "disagreements": t.disagreements,
         })
     };
     json!({
-        "seed": state.seed, "shard": [state.shard.0 + 1, state.shard.1], "instances": state.instances(), "disagreements": state.disagreements(),
+        "seed": state.seed,
+        "shard": [state.shard.0 + 1, state.shard.1],
+        "instances": state.instances(),
+        "disagreements": state.disagreements(),
         "coverage": state.covered().iter().map(covered_json).collect::<Vec<_>>(),
         "shortfalls": state.shortfalls().iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "families": state.families.iter().zip(&state.tallies).map(family).collect::<Vec<_>>(), "verdict": verdict(state),
+        "families": state.families.iter().zip(&state.tallies).map(family).collect::<Vec<_>>(),
+        "verdict": verdict(state),
     })
 }
 
@@ -152,7 +167,19 @@ pub(super) fn replay_json(replay: &Replay, judged: &Judgement) -> Value {
     let now: Vec<Value> = judged
         .findings
         .iter()
-        .map(|f| json!({ "engine": f.engine, "kind": f.disagreement.kind(), "disagreement": f.disagreement.to_string() }))
+        .map(|f| {
+            json!({
+                "engine": f.engine,
+                "kind": f.disagreement.kind(),
+                "disagreement": f.disagreement.to_string(),
+            })
+        })
         .collect();
-    json!({ "family": replay.family, "seed": replay.seed, "index": replay.index, "was": replay.disagreement, "now": now })
+    json!({
+        "family": replay.family,
+        "seed": replay.seed,
+        "index": replay.index,
+        "was": replay.disagreement,
+        "now": now,
+    })
 }

@@ -7,7 +7,8 @@ use mceip_model::Problem;
 /// What stands behind a sentence.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub enum Evidence {
-    /// A certificate, accepted by the checker: index into [`Analysis::proofs`](super::Analysis::proofs).
+    /// A certificate, accepted by the checker: index into
+    /// [`Analysis::proofs`](super::Analysis::proofs).
     Certificate(usize),
     /// Decided in exact arithmetic, named here; running the analysis again is the check.
     Exact(&'static str),

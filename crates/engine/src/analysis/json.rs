@@ -20,7 +20,14 @@ fn enclosure(v: &Interval) -> Value {
 }
 
 fn open(regions: &[OpenRegion]) -> Vec<Value> {
-    let region = |r: &OpenRegion| json!({ "min": r.min.to_string(), "max": r.max.as_ref().map(ToString::to_string), "moving": r.moving, "undecided": r.undecided });
+    let region = |r: &OpenRegion| {
+        json!({
+            "min": r.min.to_string(),
+            "max": r.max.as_ref().map(ToString::to_string),
+            "moving": r.moving,
+            "undecided": r.undecided,
+        })
+    };
     regions.iter().map(region).collect()
 }
 
@@ -42,7 +49,13 @@ fn until(u: &DefiniteUntil) -> Value {
 }
 
 fn mode(m: &Mode) -> Value {
-    json!({ "lambda2": enclosure(&m.lambda2), "growth_rate": m.growth_rate, "slipping": m.slipping, "sticking": m.sticking, "v": m.v })
+    json!({
+        "lambda2": enclosure(&m.lambda2),
+        "growth_rate": m.growth_rate,
+        "slipping": m.slipping,
+        "sticking": m.sticking,
+        "v": m.v,
+    })
 }
 
 impl Analysis {
@@ -89,7 +102,13 @@ impl Analysis {
         let sentences: Vec<Value> = self
             .sentences()
             .iter()
-            .map(|s| json!({ "topic": s.topic, "text": s.text, "evidence": self.evidence_json(&s.evidence, paths) }))
+            .map(|s| {
+                json!({
+                    "topic": s.topic,
+                    "text": s.text,
+                    "evidence": self.evidence_json(&s.evidence, paths),
+                })
+            })
             .collect();
         let samples: Vec<Value> = self
             .samples
@@ -99,18 +118,33 @@ impl Analysis {
         let ranges: Vec<Value> = self
             .ranges
             .iter()
-            .map(|r| json!({ "verdict": r.verdict.word(), "from": r.from.to_string(), "to": r.to.to_string() }))
+            .map(|r| {
+                json!({
+                    "verdict": r.verdict.word(),
+                    "from": r.from.to_string(),
+                    "to": r.to.to_string(),
+                })
+            })
             .collect();
-        let solution = self.critical.solution.as_ref().map(
-            |s| json!({ "mu": enclosure(&s.mu), "lambda2": enclosure(&s.lambda2), "evidence": self.evidence_json(&s.evidence, paths) }),
-        );
+        let solution = self.critical.solution.as_ref().map(|s| {
+            json!({
+                "mu": enclosure(&s.mu),
+                "lambda2": enclosure(&s.lambda2),
+                "evidence": self.evidence_json(&s.evidence, paths),
+            })
+        });
         let [dofs, free, slip, stick] = self.sizes;
         json!({
             "format": ANALYSIS_FORMAT,
             "name": self.name,
             "problem_sha256": self.problem_sha256,
             "friction": self.friction.to_string(),
-            "sizes": { "dofs": dofs, "free_dofs": free, "slip_particles": slip, "stick_particles": stick },
+            "sizes": {
+                "dofs": dofs,
+                "free_dofs": free,
+                "slip_particles": slip,
+                "stick_particles": stick,
+            },
             "units": "lambda^2 in 1/s^2 and growth rates in 1/s for K and M in consistent units",
             "interrupted": self.interrupted,
             "divergence": {
@@ -140,7 +174,13 @@ impl Analysis {
                 "mass_is_constant": self.necessary.mass_is_constant,
             },
             "sufficient": self.sufficient,
-            "flutter": self.flutter.as_ref().map(|f| json!({ "lambda2": f.eigenvalues, "growth_rate": f.growth_rate, "frequency": f.frequency })),
+            "flutter": self.flutter
+                .as_ref()
+                .map(|f| json!({
+                    "lambda2": f.eigenvalues,
+                    "growth_rate": f.growth_rate,
+                    "frequency": f.frequency,
+                })),
             "sentences": sentences,
         })
     }

@@ -94,7 +94,11 @@ pub struct McpCertificate {
 /// Solutions as a file: the digest of the problem and the points, as exact fractions.
 pub fn write_solution(problem: &ExactMcp, points: &[Vec<Rational>]) -> String {
     let z: Vec<Vec<String>> = points.iter().map(|z| fractions(z)).collect();
-    let value = serde_json::json!({ "format": SOLUTION_FORMAT, "problem_sha256": problem.sha256(), "z": z });
+    let value = serde_json::json!({
+        "format": SOLUTION_FORMAT,
+        "problem_sha256": problem.sha256(),
+        "z": z,
+    });
     format!("{value:#}\n")
 }
 

@@ -1,8 +1,8 @@
 //! Plain linear MCPs and LCPs in exact numbers, apart from friction: file, solution, exact check.
 //!
-//! F(z) = M z + q on [l, u]. `exact` holds the problem, `file` reads `mceip-mcp/1`, `certify` turns a solver's point into an
-//! exact one, `check` decides (multiplies and compares, nothing else), `verdict` applies it to a
-//! file, `search` runs the solver.
+//! F(z) = M z + q on [l, u]. `exact` holds the problem, `file` reads `mceip-mcp/1`, `certify` turns
+//! a solver's point into an exact one, `check` decides (multiplies and compares, nothing else),
+//! `verdict` applies it to a file, `search` runs the solver.
 
 mod certify;
 mod check;

@@ -80,8 +80,8 @@ pub enum CondensedSearchError {
     Solver(#[from] SolverError),
 }
 
-/// Searches MCEIP-lambda2 at friction mu. Progress counts runs; a search that is cancelled keeps what
-/// it has found.
+/// Searches MCEIP-lambda2 at friction mu. Progress counts runs; a search that is cancelled keeps
+/// what it has found.
 ///
 /// # Errors
 /// [`CondensedSearchError`].

@@ -192,8 +192,8 @@ impl Hunt<'_> {
 /// Pivots and factorisations that a run over n variables costs at least in a budget. Short runs buy
 /// few curves, but the curves of an instance are no shorter where its runs are: one has some n
 /// pieces, and of each solution up to n / 2 are followed. The plain runs of Table 1 and the mu
-/// families cost 8 to 19 a variable in the mean (`spec/measurements.md`, D.3), this is 3 at n = 2 and
-/// 12 at n = 20.
+/// families cost 8 to 19 a variable in the mean (`spec/measurements.md`, D.3), this is 3 at n = 2
+/// and 12 at n = 20.
 fn least_work(n: usize) -> usize {
     n * (n + 4) / 2
 }

@@ -118,7 +118,13 @@ pub fn solutions_json(report: &Report<'_>) -> Value {
 /// A family of a cover: its support, and decimals that enclose the ends of its values.
 fn family(f: &SolutionFamily) -> Value {
     let ends = |v: &Interval| <[String; 2]>::from(enclosing_decimals(v, 15));
-    json!({ "slip": f.support, "from": ends(&f.from), "to": f.to.as_ref().map(ends), "one_value": f.is_point, "one_solution_each": f.is_alone })
+    json!({
+        "slip": f.support,
+        "from": ends(&f.from),
+        "to": f.to.as_ref().map(ends),
+        "one_value": f.is_point,
+        "one_solution_each": f.is_alone,
+    })
 }
 
 /// A region that a cover leaves open.
@@ -134,7 +140,11 @@ fn range(r: &SupportRange) -> Value {
         .iter()
         .map(|v| v.iter().map(|p| coefficients(p.coeffs())).collect())
         .collect();
-    json!({ "slip": r.support, "intervals": r.pieces.iter().map(interval).collect::<Vec<_>>(), "kernel": kernel })
+    json!({
+        "slip": r.support,
+        "intervals": r.pieces.iter().map(interval).collect::<Vec<_>>(),
+        "kernel": kernel,
+    })
 }
 
 fn interval(piece: &Piece) -> Value {
@@ -163,7 +173,12 @@ fn coefficients(c: &[Integer]) -> Vec<String> {
 
 fn listed(s: &Listed) -> Value {
     let mut out = json!({
-        "value": s.value, "slip": s.slip, "biactive": s.biactive, "x": s.x, "y": s.y, "kernel_dimension": s.kernel_dimension,
+        "value": s.value,
+        "slip": s.slip,
+        "biactive": s.biactive,
+        "x": s.x,
+        "y": s.y,
+        "kernel_dimension": s.kernel_dimension,
     });
     if let Some(cone) = &s.cone {
         out["cone_dimension"] = json!(cone.dimension);

@@ -46,7 +46,13 @@ pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, ConformErro
         let wrong: usize = lines.iter().map(|l| l.1.len()).sum();
         let text = group_text(group, &lines.into_iter().map(|l| l.0).collect::<Vec<_>>());
         let file = format!("{}.json", group.name);
-        entries.push(json!({ "file": file, "comment": group.comment, "cases": cases.len(), "wrong": wrong, "sha256": hex(&text) }));
+        entries.push(json!({
+            "file": file,
+            "comment": group.comment,
+            "cases": cases.len(),
+            "wrong": wrong,
+            "sha256": hex(&text),
+        }));
         files.push((file, text));
     }
     let flags: Map<String, Value> = flags
@@ -62,7 +68,13 @@ pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, ConformErro
             )
         })
         .collect();
-    let index = json!({ "format": INDEX_FORMAT, "cases": total, "groups": entries, "flags": flags, "bugs": bugs });
+    let index = json!({
+        "format": INDEX_FORMAT,
+        "cases": total,
+        "groups": entries,
+        "flags": flags,
+        "bugs": bugs,
+    });
     files.push(("index.json".into(), format!("{index:#}\n")));
     Ok(files)
 }
@@ -95,11 +107,23 @@ fn case_line(case: &Case) -> (String, Vec<Bug>) {
     let problem: Value = serde_json::from_str(&write_problem(&case.problem)).unwrap_or_default();
     let wrong: Vec<Value> = wrong
         .into_iter()
-        .map(|w| json!({ "bug": w.bug.word(), "label": w.bug.expected().word(), "reason": w.bug.reason(), "report": w.report }))
+        .map(|w| {
+            json!({
+                "bug": w.bug.word(),
+                "label": w.bug.expected().word(),
+                "reason": w.bug.reason(),
+                "report": w.report,
+            })
+        })
         .collect();
     let flags: Vec<&str> = case.flags.iter().map(|f| f.word()).collect();
     let line = json!({
-        "id": case.id, "comment": case.comment, "flags": flags, "problem": problem, "answer": case.answer_json(), "wrong": wrong,
+        "id": case.id,
+        "comment": case.comment,
+        "flags": flags,
+        "problem": problem,
+        "answer": case.answer_json(),
+        "wrong": wrong,
     });
     (line.to_string(), bugs)
 }

@@ -156,7 +156,12 @@ impl Summary {
             .collect();
         let failure = |o: &Outcome| {
             let flags: Vec<&str> = o.flags.iter().map(|f| f.word()).collect();
-            json!({ "case": o.id, "flags": flags, "label": o.judgement.label.word(), "detail": o.judgement.detail })
+            json!({
+                "case": o.id,
+                "flags": flags,
+                "label": o.judgement.label.word(),
+                "detail": o.judgement.detail,
+            })
         };
         json!({
             "command": command, "cases": self.cases, "labels": counts(&self.labels), "flags": flags,

@@ -344,8 +344,11 @@ fn state_json(s: &State, path: &LoadingPath) -> Value {
             out
         };
         json!({
-            "mu": mu.to_string(), "solutions": set.solutions.iter().map(solution).collect::<Vec<_>>(),
-            "complete": set.open == 0, "leaves": set.leaves, "all_slip": all_slip(set),
+            "mu": mu.to_string(),
+            "solutions": set.solutions.iter().map(solution).collect::<Vec<_>>(),
+            "complete": set.open == 0,
+            "leaves": set.leaves,
+            "all_slip": all_slip(set),
         })
     };
     let set = &s.thresholds;
@@ -363,8 +366,10 @@ fn state_json(s: &State, path: &LoadingPath) -> Value {
             u.end().map(|e| [to_f64(e.lo()), to_f64(e.hi())])
         };
         out["necessary"] = json!({
-            "equation": s.necessary_equation(), "holds_from": s.necessary_from(),
-            "stiffness_definite_until": end(&n.stiffness), "mass_semidefinite_until": n.mass.as_ref().and_then(end),
+            "equation": s.necessary_equation(),
+            "holds_from": s.necessary_from(),
+            "stiffness_definite_until": end(&n.stiffness),
+            "mass_semidefinite_until": n.mass.as_ref().and_then(end),
         });
     }
     out
@@ -372,7 +377,13 @@ fn state_json(s: &State, path: &LoadingPath) -> Value {
 
 fn mode_json(s: &State, m: &Mode, name: &str) -> Value {
     let (lo, hi) = enclosing_decimals(&m.claim.value, 15);
-    let mut out = json!({ name: m.value, "enclosure": [lo, hi], "slipping": m.moving.len(), "moving": m.moving, "all_slip": s.is_all_slip(m) });
+    let mut out = json!({
+        name: m.value,
+        "enclosure": [lo, hi],
+        "slipping": m.moving.len(),
+        "moving": m.moving,
+        "all_slip": s.is_all_slip(m),
+    });
     if let Some(v) = &m.displacement {
         out["mode"] = json!(v);
     }

@@ -7,7 +7,8 @@
 //! changes places as in a complementary pivot. The curve turns back in s where it likes and goes on
 //! after a solution, so that one curve meets several of them.
 //!
-//! `curve` what a curve leaves, `system` the equations on the current places, `follow` predictor, corrector and events.
+//! `curve` what a curve leaves, `system` the equations on the current places, `follow` predictor,
+//! corrector and events.
 
 mod curve;
 mod follow;
