@@ -154,9 +154,10 @@ fn a_wide_kernel_with_one_ray_is_an_ordinary_solution() {
     );
 }
 
-/// {0, 1} has the rows (1, t - 2) and (2, 2t - 4): x = (2 - t, 1), a solution while t < 2 and y_2
-/// >= 0. The third column keeps x_2 = 0. (Without it {0, 1, 2} is singular too: the first version
-/// of these tests forgot that, the enumerator did not.)
+/// {0, 1} has the rows (1, t - 2) and (2, 2t - 4).
+/// Its solution is x = (2 - t, 1), while t < 2 and y_2 >= 0.
+///
+/// The third column keeps x_2 = 0: without it {0, 1, 2} is singular too.
 fn singular(row: [[i64; 2]; 2]) -> Pencil {
     pencil(
         &[&[1, -2, 1], &[2, -4, 3], &[row[0][0], row[1][0], 9]],
