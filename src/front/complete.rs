@@ -40,7 +40,9 @@ impl SolutionSet {
         self.open.is_empty()
     }
 
-    /// Is it proved that there is no solution at all? Then there is no divergence of the form (8).
+    /// Is it proved that the window holds no solution?
+    ///
+    /// For lambda squared over the window [0, ∞) this excludes divergence of the form (8).
     pub fn is_empty(&self) -> bool {
         self.is_complete() && self.solutions.is_empty() && self.families.is_empty()
     }

@@ -1,7 +1,7 @@
 //! What a long run hears and says: the order to end, and how far it has come.
 //!
-//! Every search of this crate takes a [`Watch`]. It looks at [`Watch::is_cancelled`] between steps;
-//! what has been found by then is kept and returned, and what has not been looked at is left open.
+//! A long search takes a [`Watch`] and looks at [`Watch::is_cancelled`] between its steps. What it
+//! has found by then is kept and returned; what it has not looked at is left open.
 
 use std::fmt;
 use std::sync::Arc;

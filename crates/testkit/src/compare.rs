@@ -10,9 +10,11 @@ use mceip_check::certificate::Claim;
 use mceip_check::check;
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, certificate};
-use mceip_engine::multistart::{Found, Origin, Search, exact_value, multistart, support};
+use mceip_engine::multistart::{
+    Found, Origin, Search, exact_value, integer_x, multistart, support,
+};
 use mceip_engine::reduction::{Reduced, check_lines, lift, reduce};
-use mceip_exact::{Algebraic, Poly, Quadratic, Rational, Sign, common_denominator};
+use mceip_exact::{Algebraic, Poly, Quadratic, Rational, Sign};
 use mceip_mcp::solver::SolverError;
 use mceip_model::{Admissible, Body, Pencil, Problem};
 use mceip_oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
@@ -458,17 +460,7 @@ fn same_value(value: &Algebraic, claim: &Claim) -> bool {
 /// for an isolated solution, for which its support must have been met as wide or singular.
 fn described(oracle: &Enumeration, pencil: &Pencil, claim: &Claim) -> bool {
     if let (Claim::ExactSolution(c), Some(value)) = (claim, exact_value(claim)) {
-        let clear = common_denominator(c.x.iter().flatten().map(|n| &n.0));
-        let x: Vec<Poly> =
-            c.x.iter()
-                .map(|p| {
-                    Poly::new(
-                        p.iter()
-                            .map(|n| n.0.numer() * (&clear / n.0.denom()))
-                            .collect(),
-                    )
-                })
-                .collect();
+        let x = integer_x(c);
         return oracle.contains(pencil, &value, &x);
     }
     let on = |set: &[usize]| set == support(claim);

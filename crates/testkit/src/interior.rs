@@ -6,11 +6,10 @@
 //! support of slip-slip solutions only).
 
 use super::floors::Coverage;
-use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::Certifier;
-use mceip_engine::multistart::{Certified, Found, Origin, Search, Uncertified, same};
+use mceip_engine::multistart::{Found, Origin, Search};
 use mceip_engine::reduction::{Embedding, Side};
-use mceip_engine::tolerance::{PATH_VALUE, SAME_POINT};
+use mceip_engine::tolerance::PATH_VALUE;
 use mceip_exact::{Sparse, to_f64};
 use mceip_mcp::solver::{CrashMethod, Options, Sense, SolverError, continuation, solve};
 use mceip_model::{Admissible, Problem};
@@ -140,47 +139,15 @@ impl Attempt<'_> {
         }
 
         let candidate = self.embedding.candidate(&outcome.point);
-        if self.is_repeated(&candidate) {
+        if self.found.knows(&candidate) {
             self.found.repeated += 1;
             return Ok(());
         }
-        match self.certifier.certify(&candidate) {
-            Ok(claim) => {
-                if !self.found.certified.iter().any(|c| same(&c.claim, &claim)) {
-                    self.found.certified.push(Certified {
-                        claim,
-                        candidate,
-                        run,
-                        origin,
-                    });
-                }
-            }
-            Err(reason) => self
-                .found
-                .uncertified
-                .push(Uncertified { candidate, reason }),
-        }
+
+        let claim = self.certifier.certify(&candidate);
+        self.found.file(candidate, claim, run, origin);
         Ok(())
     }
-
-    /// Was the same point met before, certified or not?
-    fn is_repeated(&self, candidate: &Candidate) -> bool {
-        let certified = self.found.certified.iter().map(|c| &c.candidate);
-        let mut met = certified.chain(self.found.uncertified.iter().map(|u| &u.candidate));
-        met.any(|c| is_same_point(c, candidate))
-    }
-}
-
-/// Do value and x agree within rounding ([`SAME_POINT`]), in any scale of x?
-fn is_same_point(a: &Candidate, b: &Candidate) -> bool {
-    let norm_a: f64 = a.x.iter().map(|v| v.abs()).sum();
-    let norm_b: f64 = b.x.iter().map(|v| v.abs()).sum();
-    let is_same_value = (a.value - b.value).abs() <= SAME_POINT * (1.0 + a.value.abs());
-    is_same_value
-        && a.x
-            .iter()
-            .zip(&b.x)
-            .all(|(p, q)| (p / norm_a - q / norm_b).abs() <= SAME_POINT)
 }
 
 /// Of the interior starts, those from which PATH's own sequence comes to one of the proved
@@ -220,7 +187,7 @@ pub fn path_coverage(
 mod tests {
     use super::*;
     use crate::table1_grid;
-    use mceip_engine::multistart::multistart;
+    use mceip_engine::multistart::{multistart, same};
     use mceip_engine::reduction::reduce;
     use mceip_mcp::mcp::Mcp;
     use mceip_model::Unknown;

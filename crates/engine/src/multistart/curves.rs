@@ -1,7 +1,7 @@
 //! The curves of a search: from starts, and through solutions found; on the circle where there is
 //! one.
 
-use super::found::{Origin, is_known};
+use super::found::Origin;
 use super::ground::Ground;
 use super::hunt::Hunt;
 use super::trace::trace_outcome;
@@ -152,7 +152,7 @@ impl Hunt<'_> {
         let run = self.found.runs;
         self.found.runs += 1;
         for candidate in curve.solutions.iter().filter_map(|z| ground.candidate(z)) {
-            if is_known(self.found, &candidate) {
+            if self.found.knows(&candidate) {
                 self.found.met_again += 1;
                 continue;
             }

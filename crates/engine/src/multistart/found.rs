@@ -1,7 +1,7 @@
 //! What a search has found: certified solutions, candidates that stayed uncertified, and counts of
 //! the work.
 
-use super::same::repeats;
+use super::same::{repeats, same};
 use crate::candidate::Candidate;
 use crate::certify::NotCertified;
 use mceip_check::certificate::Claim;
@@ -75,10 +75,39 @@ pub struct Found {
     pub first: Option<Outcome>,
 }
 
-/// Is a candidate the same point as one that was found, within rounding?
-pub(super) fn is_known(found: &Found, candidate: &Candidate) -> bool {
-    let certified = found.certified.iter().map(|c| &c.candidate);
-    certified
-        .chain(found.uncertified.iter().map(|u| &u.candidate))
-        .any(|c| repeats(c, candidate))
+impl Found {
+    /// Is `candidate` the same point as one that was found, certified or not, within rounding?
+    pub fn knows(&self, candidate: &Candidate) -> bool {
+        let certified = self.certified.iter().map(|c| &c.candidate);
+        let uncertified = self.uncertified.iter().map(|u| &u.candidate);
+        certified.chain(uncertified).any(|c| repeats(c, candidate))
+    }
+
+    /// Lists a candidate with its claim, unless the same solution is listed, or with the reason why
+    /// it has none.
+    pub fn file(
+        &mut self,
+        candidate: Candidate,
+        claim: Result<Claim, NotCertified>,
+        run: usize,
+        origin: Origin,
+    ) {
+        let claim = match claim {
+            Ok(claim) => claim,
+            Err(reason) => {
+                self.uncertified.push(Uncertified { candidate, reason });
+                return;
+            }
+        };
+
+        let is_listed = self.certified.iter().any(|c| same(&c.claim, &claim));
+        if !is_listed {
+            self.certified.push(Certified {
+                claim,
+                candidate,
+                run,
+                origin,
+            });
+        }
+    }
 }

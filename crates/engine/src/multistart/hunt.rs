@@ -1,9 +1,8 @@
 //! One search under way: runs from starts, then curves ([`super::curves`]), and the lists of
 //! results.
 
-use super::found::{Certified, Found, Origin, Uncertified, is_known};
+use super::found::{Found, Origin};
 use super::ground::Ground;
-use super::same::same;
 use super::search::{Certifier, Search};
 use super::trace::trace_outcome;
 use crate::candidate::Candidate;
@@ -166,34 +165,20 @@ impl Hunt<'_> {
             self.found.outside += 1;
             return;
         }
-        if is_known(self.found, &candidate) {
+        if self.found.knows(&candidate) {
             self.found.repeated += 1;
             return;
         }
-        match (self.certifier)(&candidate) {
-            Ok(claim) => {
-                if !self.found.certified.iter().any(|c| same(&c.claim, &claim)) {
-                    self.found.certified.push(Certified {
-                        claim,
-                        candidate,
-                        run,
-                        origin,
-                    });
-                }
-            }
-            Err(reason) => self
-                .found
-                .uncertified
-                .push(Uncertified { candidate, reason }),
-        }
+        let claim = (self.certifier)(&candidate);
+        self.found.file(candidate, claim, run, origin);
     }
 }
 
-/// Pivots and factorisations that a run over n variables costs at least in a budget. Short runs buy
-/// few curves, but the curves of an instance are no shorter where its runs are: one has some n
-/// pieces, and of each solution up to n / 2 are followed. The plain runs of Table 1 and the mu
-/// families cost 8 to 19 a variable in the mean (`spec/measurements.md`, D.3), this is 3 at n = 2
-/// and 12 at n = 20.
+/// Pivots and factorisations that a run over n variables counts for at least in a budget.
+///
+/// The budget of curves is a share of the cost of the runs. Short runs would buy few curves, but the
+/// curves of an instance are no shorter where its runs are: a curve has some n pieces, and up to
+/// n / 2 curves leave each solution.
 fn least_work(n: usize) -> usize {
     n * (n + 4) / 2
 }

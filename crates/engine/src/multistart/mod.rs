@@ -15,7 +15,7 @@ pub use condensed::{
     CondensedFound, CondensedSearch, CondensedSearchError, CondensedSolution, search_condensed,
 };
 pub use found::{Certified, Found, Origin, Uncertified};
-pub use same::{exact_value, same, support};
+pub use same::{exact_value, integer_x, same, support};
 pub use search::{Certifier, Search};
 pub use trace::trace_outcome;
 

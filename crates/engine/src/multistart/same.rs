@@ -2,8 +2,8 @@
 
 use crate::candidate::Candidate;
 use crate::tolerance::SAME_POINT;
-use mceip_check::certificate::Claim;
-use mceip_exact::{Algebraic, Integer, Interval, Poly};
+use mceip_check::certificate::{Claim, ExactSolution};
+use mceip_exact::{Algebraic, Integer, Interval, Poly, common_denominator};
 use mceip_model::file::Number;
 
 /// The support of a claim.
@@ -22,6 +22,24 @@ pub fn exact_value(claim: &Claim) -> Option<Algebraic> {
         Claim::LiftedSolution(c) => root(&c.polynomial, &c.interval),
         Claim::EnclosedSolution(_) => None,
     }
+}
+
+/// The components of x of an exact claim, as integer polynomials in the value.
+///
+/// x is a direction: all components are multiplied by one common denominator.
+pub fn integer_x(claim: &ExactSolution) -> Vec<Poly> {
+    let denominator = common_denominator(claim.x.iter().flatten().map(|n| &n.0));
+    let mut x = Vec::new();
+
+    for component in &claim.x {
+        let mut coefficients = Vec::new();
+        for coefficient in component {
+            let factor = &denominator / coefficient.0.denom();
+            coefficients.push(coefficient.0.numer() * factor);
+        }
+        x.push(Poly::new(coefficients));
+    }
+    x
 }
 
 fn root(polynomial: &[Integer], interval: &[Number; 2]) -> Option<Algebraic> {

@@ -2,7 +2,7 @@
 
 use crate::candidate::Candidate;
 use crate::certify::{Certifier, flattened};
-use crate::multistart::exact_value;
+use crate::multistart::{exact_value, integer_x};
 use crate::reduction::{Reduced, lift};
 use mceip_check::AcceptedClaim;
 use mceip_check::certificate::{Claim, ExactSolution};
@@ -243,17 +243,7 @@ fn of_point(
 fn of_exact(problem: &Problem, reduced: &Reduced, claim: &Claim, c: &ExactSolution) -> Listed {
     // A claim made by `certify` has a valid interval; a foreign one prints its lower end.
     let value = exact_value(claim).unwrap_or_else(|| Algebraic::rational(c.interval[0].0.clone()));
-    let clear = common_denominator(c.x.iter().flatten().map(|n| &n.0));
-    let x: Vec<Poly> =
-        c.x.iter()
-            .map(|p| {
-                Poly::new(
-                    p.iter()
-                        .map(|n| n.0.numer() * (&clear / n.0.denom()))
-                        .collect(),
-                )
-            })
-            .collect();
+    let x = integer_x(c);
     let slip = reduced.pencil.slip();
     let solution = Solution {
         value,

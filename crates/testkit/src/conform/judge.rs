@@ -11,9 +11,9 @@ use super::case::Case;
 use mceip_check::certificate::{Claim, ExactSolution};
 use mceip_engine::certify::Certifier;
 use mceip_engine::foreign::{BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignReport};
-use mceip_engine::multistart::{exact_value, support};
+use mceip_engine::multistart::{exact_value, integer_x, support};
 use mceip_engine::tolerance::VALUE_RADIUS;
-use mceip_exact::{Algebraic, Poly, Rational, common_denominator, from_f64};
+use mceip_exact::{Algebraic, Poly, Rational, from_f64};
 use mceip_oracle::{End, Enumeration, Solution, SupportRange};
 use num_traits::{One, Signed};
 
@@ -184,17 +184,7 @@ fn place(case: &Case, claim: &Claim, c: &ExactSolution, met: &mut Met) -> bool {
     let Some(value) = exact_value(claim) else {
         return false;
     };
-    let clear = common_denominator(c.x.iter().flatten().map(|n| &n.0));
-    let x: Vec<Poly> =
-        c.x.iter()
-            .map(|p| {
-                Poly::new(
-                    p.iter()
-                        .map(|n| n.0.numer() * (&clear / n.0.denom()))
-                        .collect(),
-                )
-            })
-            .collect();
+    let x = integer_x(c);
     if !case.answer.contains(&case.reduced.pencil, &value, &x) {
         return false;
     }
