@@ -1498,6 +1498,7 @@ class Support:
     @staticmethod
     def isolated(q, a, b):
         q = strip(q)
+        Budget.spend_evaluation(q, a, b)
         demand(len(q) >= 2 and a <= b, "support: a point's polynomial or interval")
         g = gcd(*q)
         q = [c // (g if q[-1] > 0 else -g) for c in q]

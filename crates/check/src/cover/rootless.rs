@@ -53,6 +53,14 @@ impl SignBudget {
         }
     }
 
+    #[cfg(test)]
+    pub(super) fn of(left: u64) -> Self {
+        SignBudget {
+            left: Cell::new(left),
+            is_spent: Cell::new(false),
+        }
+    }
+
     /// A leaf with this many coefficients is about to be checked.
     pub(super) fn add_coefficients(&self, count: u64) {
         let added = count.saturating_mul(BUDGET_PER_COEFFICIENT);
@@ -76,10 +84,10 @@ impl SignBudget {
         self.take(products.saturating_mul(bits).saturating_mul(bits) >> REMAINDER_SHIFT)
     }
 
-    /// Takes what Horner's rule for p over an interval costs: its numbers grow by the bits of the
-    /// ends at each coefficient.
-    fn spend_evaluation(&self, p: &Poly, at: &Interval) -> bool {
-        let bits = rational_bits(at.lo()) + rational_bits(at.hi()) + 64;
+    /// Takes what Horner's rule for p over [lo, hi] costs: its numbers grow by the bits of the ends
+    /// at each coefficient.
+    pub(super) fn spend_evaluation(&self, p: &Poly, lo: &Rational, hi: &Rational) -> bool {
+        let bits = rational_bits(lo) + rational_bits(hi) + 64;
 
         let size = bits.saturating_mul(p.coeffs().len() as u64);
         self.take(size.saturating_mul(size) >> EVALUATION_SHIFT)
@@ -123,7 +131,7 @@ impl AlgebraicValue {
             return Some(0);
         }
 
-        if !budget.spend_evaluation(&remainder, &self.value) {
+        if !budget.spend_evaluation(&remainder, self.value.lo(), self.value.hi()) {
             return None;
         }
 

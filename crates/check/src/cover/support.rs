@@ -101,7 +101,7 @@ fn check_places(
     budget.add_coefficients(bounded(leaf)?);
 
     let pencil = SupportPencil::new(rows, support);
-    let roots = points(region, leaf)?;
+    let roots = points(region, leaf, budget)?;
 
     let mut at_points = Vec::new();
     for (k, root) in roots.iter().enumerate() {
@@ -188,10 +188,19 @@ fn half_way(a: &Rational, b: &Rational) -> Rational {
 }
 
 /// The points: each isolated, apart from each other, from one end of the region to the other.
-fn points(region: &Region, leaf: &Support) -> Result<Vec<AlgebraicValue>, CoverFault> {
+fn points(
+    region: &Region,
+    leaf: &Support,
+    budget: &SignBudget,
+) -> Result<Vec<AlgebraicValue>, CoverFault> {
     let mut roots: Vec<AlgebraicValue> = Vec::new();
     for (k, point) in leaf.points.iter().enumerate() {
         let poly = Poly::new(point.polynomial.clone()).primitive();
+        let [lo, hi] = &point.interval;
+        if !budget.spend_evaluation(&poly, &lo.0, &hi.0) {
+            return Err(CoverFault::OutOfBudget);
+        }
+
         let value = isolate(&poly, &point.interval).map_err(|_| CoverFault::Point { point: k })?;
         if roots.last().is_some_and(|r| r.value.hi() >= value.lo()) {
             return Err(CoverFault::Point { point: k });

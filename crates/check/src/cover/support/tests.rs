@@ -376,3 +376,27 @@ fn a_leaf_has_a_largest_size() {
         })
     );
 }
+
+/// Horner's rule for 2 coefficients between ends of b bits counts (2 (b + 64))^2 / 2^8: 68 for the
+/// point [0, 0], where b = 2, and 83 for [3/2, 5/2], where b = 9.
+#[test]
+fn isolating_a_point_is_counted() {
+    let leaf = Support {
+        points: vec![
+            at(0, 0),
+            point([-2, 1], [rational(3, 2), rational(5, 2)], 0),
+        ],
+        cells: vec![0; 2],
+        reasons: vec![],
+    };
+    let region = region(0, None, &[0], 1);
+
+    assert!(points(&region, &leaf, &SignBudget::of(68 + 83)).is_ok());
+
+    let spent = SignBudget::of(68 + 82);
+    assert!(matches!(
+        points(&region, &leaf, &spent),
+        Err(CoverFault::OutOfBudget)
+    ));
+    assert!(spent.is_spent());
+}
