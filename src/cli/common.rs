@@ -163,6 +163,14 @@ pub(super) enum CliError {
     /// A solution of a report does not fit the problem.
     #[error(transparent)]
     BadPoint(#[from] mceip_engine::foreign::BadPoint),
+    /// A word that no page of the book explains.
+    #[error("no page explains {term:?}; {near}")]
+    Term {
+        /// The word.
+        term: String,
+        /// What may have been meant.
+        near: String,
+    },
 }
 
 impl CliError {

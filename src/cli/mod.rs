@@ -10,6 +10,7 @@ mod complete;
 mod conform;
 mod convert;
 mod enumerate;
+mod explain;
 mod infinity;
 mod job;
 mod merge;
@@ -67,6 +68,8 @@ enum Command {
     Campaign(campaign::Args),
     /// Reduce a mechanical system to its pencil by (10)-(16).
     Reduce(reduce::Args),
+    /// What a term, an equation or a reason of rejection means.
+    Explain(explain::Args),
 }
 
 /// Runs the program on the process's arguments.
@@ -90,6 +93,7 @@ pub fn main() -> ExitCode {
         Command::Block(a) => block::run(&a),
         Command::Campaign(a) => campaign::run(&a),
         Command::Reduce(a) => reduce::run(&a),
+        Command::Explain(a) => explain::run(&a),
     };
     match result {
         Ok(code) => ExitCode::from(code),

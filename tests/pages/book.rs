@@ -96,3 +96,41 @@ fn targets_are_found_and_code_is_not() {
     let page = "[a](b.md#c) and [d](https://e) ![f](g/h.svg)\n\n    [i](j)\n```\n[k](l)\n```\n";
     assert_eq!(targets(page), ["b.md", "g/h.svg"]);
 }
+
+/// The variants of the enum that a source file declares.
+fn variants(source: &str) -> BTreeSet<String> {
+    let text = read(&root().join(source));
+    let declaration = text.split("\npub enum ").nth(1).unwrap();
+    let body = declaration.split("\n}\n").next().unwrap();
+
+    let mut names = BTreeSet::new();
+    for line in body.lines() {
+        let Some(line) = line.strip_prefix("    ") else {
+            continue;
+        };
+        if line.starts_with(|c: char| c.is_ascii_uppercase()) {
+            let name = line.split(|c: char| !c.is_ascii_alphanumeric()).next();
+            names.insert(name.unwrap().to_string());
+        }
+    }
+    names
+}
+
+/// Each reason for which the checker rejects has a row of appendix F, and no other name has.
+#[test]
+fn every_reason_of_rejection_is_explained() {
+    let mut expected = variants("crates/check/src/reason.rs");
+    for fault in variants("crates/check/src/cover/fault.rs") {
+        expected.insert(format!("Cover.{fault}"));
+    }
+
+    let page = read(&root().join("spec/reasons.md"));
+    let rows = page.lines().filter(|line| line.starts_with("| ")).skip(1);
+    let explained: Vec<String> = rows
+        .map(|row| row.split(" | ").next().unwrap()[2..].to_string())
+        .collect();
+
+    assert!(expected.len() > 50, "{}", expected.len());
+    assert_eq!(explained.iter().cloned().collect::<BTreeSet<_>>(), expected);
+    assert_eq!(explained.len(), expected.len(), "a name stands twice");
+}

@@ -18,6 +18,7 @@ mod conform;
 mod conform_adapter;
 mod convert;
 mod examples;
+mod explain;
 mod launcher;
 mod pictures;
 mod schemas;

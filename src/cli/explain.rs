@@ -1,0 +1,273 @@
+//! `mceip explain [TERM]`: what a word of the output means.
+//!
+//! A TERM is a term of the glossary, the id of an equation (`E16`, `16` or `(16)`) or of a departure
+//! from the paper (`X9`), or a reason for which `check` rejects a certificate (`NotIsolated`). The
+//! texts are those of the book in `spec/`, compiled into the program.
+
+use super::common::{CliError, exit, print};
+
+/// The pages with a table of names and meanings.
+const TABLES: [Page; 2] = [
+    Page {
+        path: "spec/glossary.md",
+        text: include_str!("../../spec/glossary.md"),
+    },
+    Page {
+        path: "spec/reasons.md",
+        text: include_str!("../../spec/reasons.md"),
+    },
+];
+
+/// The pages with a list of equations by id.
+const CHAPTERS: [Page; 4] = [
+    Page {
+        path: "spec/problem.md",
+        text: include_str!("../../spec/problem.md"),
+    },
+    Page {
+        path: "spec/reduction.md",
+        text: include_str!("../../spec/reduction.md"),
+    },
+    Page {
+        path: "spec/solver.md",
+        text: include_str!("../../spec/solver.md"),
+    },
+    Page {
+        path: "spec/enumeration.md",
+        text: include_str!("../../spec/enumeration.md"),
+    },
+];
+
+/// The page with a section for each departure from the paper.
+const ERRATA: Page = Page {
+    path: "spec/errata.md",
+    text: include_str!("../../spec/errata.md"),
+};
+
+/// Names shown for a term that is not known.
+const SUGGESTIONS: usize = 5;
+
+#[derive(clap::Args)]
+pub(super) struct Args {
+    /// A term of the output, an equation ("(16)", "E16"), a departure ("X9") or a reason of
+    /// rejection ("NotIsolated"); without one, all names
+    #[arg(allow_hyphen_values = true)]
+    term: Vec<String>,
+}
+
+/// A page of the book.
+struct Page {
+    path: &'static str,
+    text: &'static str,
+}
+
+/// A name with its meaning.
+struct Entry {
+    name: String,
+    meaning: String,
+    path: &'static str,
+}
+
+pub(super) fn run(args: &Args) -> Result<u8, CliError> {
+    let entries = entries();
+    if args.term.is_empty() {
+        print(&list_of_names(&entries))?;
+        return Ok(exit::DONE);
+    }
+
+    let term = args.term.join(" ");
+    let found: Vec<&Entry> = entries.iter().filter(|e| e.has_name(&term)).collect();
+    if found.is_empty() {
+        return Err(CliError::Term {
+            near: suggestions(&entries, &term),
+            term,
+        });
+    }
+
+    for entry in found {
+        print(&format!(
+            "{} ({})\n{}\n",
+            entry.name, entry.path, entry.meaning
+        ))?;
+    }
+    Ok(exit::DONE)
+}
+
+impl Entry {
+    /// Is `term` this name, or one of several that stand in it between commas?
+    ///
+    /// The prefix `Cover.` of a reason may be left out.
+    fn has_name(&self, term: &str) -> bool {
+        let wanted = normal_form(term);
+        let name = normal_form(&self.name);
+        if name == wanted || name.strip_prefix("cover.") == Some(&wanted) {
+            return true;
+        }
+
+        name.split(", ").any(|part| part == wanted)
+    }
+}
+
+/// Lower case, Greek letters and powers in ASCII; an equation's number becomes its id.
+fn normal_form(name: &str) -> String {
+    let name = name.trim().to_lowercase();
+    let name = name.replace('λ', "lambda").replace('μ', "mu");
+    let name = name.replace('²', "2").replace('^', "");
+
+    let number = name.trim_start_matches('(').trim_end_matches(')');
+    if !number.is_empty() && number.bytes().all(|c| c.is_ascii_digit()) {
+        return format!("e{number}");
+    }
+    name
+}
+
+fn entries() -> Vec<Entry> {
+    let mut list = Vec::new();
+    for page in &TABLES {
+        list.extend(rows(page));
+    }
+    for page in &CHAPTERS {
+        list.extend(equations(page));
+    }
+    list.extend(departures(&ERRATA));
+    list
+}
+
+/// The rows `| name | meaning |` of a page, without the head of the table.
+fn rows(page: &Page) -> Vec<Entry> {
+    let mut list = Vec::new();
+    let is_row = |line: &&str| line.starts_with("| ");
+
+    for line in page.text.lines().filter(is_row).skip(1) {
+        let row = line.trim_start_matches("| ").trim_end_matches(" |");
+        if let Some((name, meaning)) = row.split_once(" | ") {
+            list.push(Entry {
+                name: name.to_string(),
+                meaning: format!("  {}", plain(meaning)),
+                path: page.path,
+            });
+        }
+    }
+    list
+}
+
+/// The items `- **E10** ...` of a page, each up to the next item or the end of its list.
+fn equations(page: &Page) -> Vec<Entry> {
+    let mut list: Vec<Entry> = Vec::new();
+    let mut is_inside = false;
+
+    for line in page.text.lines() {
+        let item = line.strip_prefix("- **").and_then(|l| l.split_once("**"));
+        if let Some((name, beginning)) = item {
+            list.push(Entry {
+                name: name.to_string(),
+                meaning: format!("  {}", plain(beginning.trim_start())),
+                path: page.path,
+            });
+            is_inside = true;
+            continue;
+        }
+
+        let continues = line.is_empty() || line.starts_with("  ");
+        is_inside = is_inside && continues;
+        if let Some(entry) = list.last_mut().filter(|_| is_inside) {
+            entry.meaning.push('\n');
+            entry.meaning.push_str(&plain(line));
+        }
+    }
+
+    for entry in &mut list {
+        let length = entry.meaning.trim_end().len();
+        entry.meaning.truncate(length);
+    }
+    list
+}
+
+/// The sections `## X9. Title` of the errata: the title, and the paragraph that says what is true.
+fn departures(page: &Page) -> Vec<Entry> {
+    let mut list = Vec::new();
+
+    for section in page.text.split("\n## ").skip(1) {
+        let title = section.lines().next().unwrap_or_default();
+        let Some((name, title)) = title.split_once(". ") else {
+            continue;
+        };
+
+        let paragraphs = section.split("\n\n");
+        let truth = paragraphs
+            .filter(|p| p.starts_with("**DIFFERENCE"))
+            .map(|p| format!("\n\n  {}", plain(p).replace('\n', "\n  ")))
+            .next();
+        list.push(Entry {
+            name: name.to_string(),
+            meaning: format!("  {title}{}", truth.unwrap_or_default()),
+            path: page.path,
+        });
+    }
+    list
+}
+
+/// Markdown as plain text: no emphasis and no code marks, and of a link its text.
+fn plain(markdown: &str) -> String {
+    let text = markdown.replace("**", "").replace('`', "");
+    let text = text.replace("\\|", "|");
+
+    let mut out = String::new();
+    let mut rest = text.as_str();
+    while let Some((before, after)) = rest.split_once("](") {
+        let Some((target, following)) = after.split_once(')') else {
+            break;
+        };
+        let is_link = !target.contains(' ') && before.contains('[');
+        if !is_link {
+            out.push_str(before);
+            out.push_str("](");
+            rest = after;
+            continue;
+        }
+
+        let opening = before.rfind('[').unwrap_or(0);
+        out.push_str(&before[..opening]);
+        out.push_str(&before[opening + 1..]);
+        rest = following;
+    }
+    out.push_str(rest);
+    out
+}
+
+/// All names, a page at a time.
+fn list_of_names(entries: &[Entry]) -> String {
+    let mut text = String::new();
+    let mut page = "";
+
+    for entry in entries {
+        if entry.path != page {
+            page = entry.path;
+            text.push_str(&format!("{page}\n"));
+        }
+        text.push_str(&format!("  {}\n", entry.name));
+    }
+    text
+}
+
+/// The names that hold the term or begin as it does, a few.
+fn suggestions(entries: &[Entry], term: &str) -> String {
+    let wanted = normal_form(term);
+    let beginning: String = wanted.chars().take(3).collect();
+
+    let is_near = |entry: &&Entry| {
+        let name = normal_form(&entry.name);
+        name.contains(&wanted) || name.starts_with(&beginning)
+    };
+    let near: Vec<&str> = entries
+        .iter()
+        .filter(is_near)
+        .map(|e| e.name.as_str())
+        .take(SUGGESTIONS)
+        .collect();
+
+    if near.is_empty() {
+        return "mceip explain lists the names".to_string();
+    }
+    format!("near it are: {}", near.join("; "))
+}
