@@ -596,3 +596,85 @@ fn the_kernel_of_a_solution_is_that_of_its_support_and_value() {
         [1, 1, 1]
     );
 }
+
+/// The pencil with the rows and columns of a support and of the free variables alone, as (24) has
+/// it, and the indices these have in the whole pencil.
+fn without_stick(whole: &Pencil, support: &[usize]) -> (Pencil, Vec<usize>) {
+    let mut kept = [support, whole.free()].concat();
+    kept.sort_unstable();
+
+    let is_free = |k: &usize| whole.free().contains(&kept[*k]);
+    let free = (0..kept.len()).filter(is_free).collect();
+    let a = whole.a().submatrix(&kept, &kept);
+    let b = whole.b().submatrix(&kept, &kept);
+    (Pencil::new(a, b, free).unwrap(), kept)
+}
+
+/// The solutions of the linear eigenproblem (25) of one support with x_s > 0 that also meet the
+/// inequalities (26) of the whole pencil: value and x.
+fn solutions_of_support(pencil: &Pencil, support: &[usize]) -> Vec<(Algebraic, Vec<Poly>)> {
+    let (smaller, kept) = without_stick(pencil, support);
+    let mut list = Vec::new();
+
+    for solution in enumerate(&smaller, &Window::all()).unwrap().solutions {
+        if solution.slip.len() < support.len() {
+            continue; // belongs to a smaller support
+        }
+        let mut x = vec![Poly::default(); pencil.order()];
+        for (position, &index) in kept.iter().enumerate() {
+            x[index] = solution.x[position].clone();
+        }
+        if is_solution(pencil, &solution.value, &x) {
+            list.push((solution.value, x));
+        }
+    }
+    list
+}
+
+/// (24): what sticks is left out. The solutions of a pencil are those of its supports, each found in
+/// the pencil without the other complementarity variables, with y >= 0 there.
+#[test]
+fn stick_variables_are_left_out() {
+    let pencils = [
+        pencil(
+            &[&[-3, 1, 0], &[1, -2, 1], &[0, 1, -4]],
+            &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]],
+            &[],
+        ),
+        pencil(
+            &[&[2, -3, -1], &[-3, 1, 0], &[-1, 2, -3]],
+            &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]],
+            &[0],
+        ),
+        pencil(
+            &[
+                &[-2, 1, 3, 0],
+                &[1, -5, 1, 2],
+                &[3, 1, -2, 1],
+                &[0, 2, 1, -1],
+            ],
+            &[&[1, 0, 0, 0], &[0, 2, 0, 0], &[0, 0, 1, 0], &[0, 0, 0, 1]],
+            &[],
+        ),
+    ];
+    let mut with_stick = 0;
+
+    for pencil in &pencils {
+        let answer = enumerate(pencil, &Window::all()).unwrap();
+        let slip = pencil.slip();
+        let mut found = 0;
+
+        for subset in 1..1_usize << slip.len() {
+            let chosen = (0..slip.len()).filter(|k| subset >> k & 1 == 1);
+            let support: Vec<usize> = chosen.map(|k| slip[k]).collect();
+            for (value, x) in solutions_of_support(pencil, &support) {
+                assert!(answer.contains(pencil, &value, &x), "{support:?}");
+                found += 1;
+                with_stick += usize::from(support.len() < slip.len());
+            }
+        }
+
+        assert_eq!(found, answer.solutions.len());
+    }
+    assert!(with_stick > 3, "{with_stick}");
+}

@@ -2,7 +2,7 @@
 #![cfg(feature = "testkit")]
 
 use mceip_engine::reduction::{Lifted, Line, check_lines, lift, reduce};
-use mceip_exact::{Algebraic, Poly, Sparse, whole};
+use mceip_exact::{Algebraic, Poly, Rational, Sparse, to_f64, whole};
 use mceip_model::{Body, ContactState, Particle, Problem, System, Unknown, Window};
 use mceip_oracle::enumerate;
 use mceip_testkit::mechanical;
@@ -106,4 +106,117 @@ fn each_line_notices_its_breach() {
         breach(&|l| l.w[1] = &l.w[1] - &one),
         Some(Line::Complementarity)
     );
+}
+
+/// The terms of (9) at the slip particles, in doubles.
+struct AtSlip {
+    /// S v_T of each slip particle.
+    slip: Vec<f64>,
+    /// S w_T + mu w_N of each.
+    cone: Vec<f64>,
+}
+
+impl AtSlip {
+    fn new(system: &System, unknown: Unknown, lifted: &Lifted, value: f64) -> AtSlip {
+        let mu = match unknown {
+            Unknown::Mu => value,
+            Unknown::Lambda2 => to_f64(system.friction().unwrap()),
+        };
+        let mut at_slip = AtSlip {
+            slip: Vec::new(),
+            cone: Vec::new(),
+        };
+
+        for particle in system.particles() {
+            let ContactState::Slip { sign } = particle.state else {
+                continue;
+            };
+            let s = f64::from(sign);
+            let v_t = along(&particle.tangent(), &lifted.v, value);
+            let w_t = along(&particle.tangent(), &lifted.w, value);
+            let w_n = along(&particle.into_obstacle(), &lifted.w, value);
+            at_slip.slip.push(s * v_t);
+            at_slip.cone.push(s * w_t + mu * w_n);
+        }
+        at_slip
+    }
+
+    /// (S w_T + mu w_N)'(z - S v_T), which is at least 0 for every z <= 0 if (9) holds.
+    fn side(&self, z: &[f64]) -> f64 {
+        let mut sum = 0.0;
+        for (p, z_p) in z.iter().enumerate() {
+            sum += self.cone[p] * (z_p - self.slip[p]);
+        }
+        sum
+    }
+
+    /// The least side over the rays that span the half space z <= 0 at S v_T: z = 0, z = 2 S v_T,
+    /// and one step down in each component.
+    fn least_side(&self) -> f64 {
+        let origin = vec![0.0; self.slip.len()];
+        let twice: Vec<f64> = self.slip.iter().map(|s| 2.0 * s).collect();
+        let mut least = self.side(&origin).min(self.side(&twice));
+
+        for p in 0..self.slip.len() {
+            let mut down = self.slip.clone();
+            down[p] -= 1.0;
+            least = least.min(self.side(&down));
+        }
+        least
+    }
+}
+
+/// A direction times a vector of polynomials, at a value.
+fn along(direction: &[(usize, Rational)], vector: &[Poly], value: f64) -> f64 {
+    let mut sum = 0.0;
+    for (dof, coefficient) in direction {
+        let mut at_value = 0.0;
+        for c in vector[*dof].coeffs().iter().rev() {
+            at_value = at_value * value + to_f64(&Rational::from_integer(c.clone()));
+        }
+        sum += to_f64(coefficient) * at_value;
+    }
+    sum
+}
+
+/// (9) as a variational inequality: v is admissible (v_d = 0, v_Ns = 0, S v_Ts <= 0), w_f = 0, and
+/// (S w_T + mu w_N)'(z - S v_T) >= 0 for all z <= 0.
+#[test]
+fn lifted_solutions_solve_the_variational_inequality() {
+    let mut count = 0;
+    for instance in mechanical(60, 5).unwrap() {
+        let Body::System(system) = instance.problem.body() else {
+            panic!("a system")
+        };
+        let unknown = instance.problem.unknown();
+        let reduced = reduce(&instance.problem).unwrap();
+        let answer = enumerate(&reduced.pencil, instance.problem.window()).unwrap();
+
+        for s in answer.solutions {
+            let lifted = lift(system, unknown, &reduced.variables, &s.x);
+            let value = s.decimal(17).parse().unwrap();
+            let mut at_slip = AtSlip::new(system, unknown, &lifted, value);
+            let scale: f64 = at_slip
+                .cone
+                .iter()
+                .chain(&at_slip.slip)
+                .map(|v| v.abs())
+                .sum();
+
+            // Basis: sums of a few dozen doubles of this size.
+            let rounding = 1e-11 * (1.0 + scale * scale);
+            assert!(
+                at_slip.slip.iter().all(|s| *s <= rounding),
+                "{}",
+                instance.label
+            );
+            assert!(at_slip.least_side() >= -rounding, "{}", instance.label);
+
+            // A reaction outside the friction cone.
+            at_slip.cone[0] = 1.0 + scale;
+            assert!(at_slip.least_side() < -rounding, "{}", instance.label);
+            count += 1;
+        }
+    }
+    assert!(count > 20, "{count}");
 }

@@ -13,6 +13,7 @@ mod embedding;
 mod lift;
 mod lifted;
 mod near_threshold;
+mod newton_alone;
 mod solver_curves;
 mod solver_hostile;
 mod solver_lemke;
