@@ -105,6 +105,7 @@ impl BlockModel {
                 });
             }
         }
+
         self.material.validate(self.plane)
     }
 }

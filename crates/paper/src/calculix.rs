@@ -49,6 +49,7 @@ fn lines_with_content(text: &str) -> Vec<Line<'_>> {
             });
         }
     }
+
     lines
 }
 
@@ -63,6 +64,7 @@ pub fn read_dofs(text: &str) -> Result<HashMap<String, usize>, CalculixError> {
         if !is_dof(line.text) {
             return Err(line.refuse("node.direction"));
         }
+
         let index = names.len();
         if names.insert(line.text.to_string(), index).is_some() {
             return Err(line.refuse("each degree of freedom once"));
@@ -76,6 +78,7 @@ pub fn read_dofs(text: &str) -> Result<HashMap<String, usize>, CalculixError> {
         };
         return Err(empty.refuse("node.direction"));
     }
+
     Ok(names)
 }
 
@@ -114,8 +117,10 @@ pub fn read_triangle(text: &str, order: usize) -> Result<Sparse, CalculixError> 
         if row != column {
             entries.push((column, row, value.clone()));
         }
+
         entries.push((row, column, value));
     }
+
     Ok(Sparse::from_entries(order, order, entries))
 }
 

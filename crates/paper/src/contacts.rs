@@ -147,9 +147,11 @@ pub fn read_contacts(
         let row = table.row(line)?;
         particles.push(row.particle(friction, dof)?);
     }
+
     if particles.is_empty() {
         return Err(ContactsError::Empty);
     }
+
     Ok(particles)
 }
 
@@ -172,6 +174,7 @@ fn lines_with_content(text: &str) -> Vec<Line<'_>> {
             });
         }
     }
+
     lines
 }
 
@@ -205,6 +208,7 @@ impl Table {
                 });
             }
         }
+
         Ok(Table {
             place,
             width: names.len(),
@@ -220,6 +224,7 @@ impl Table {
                 got: cells.len(),
             });
         }
+
         Ok(Row {
             table: self,
             line: line.number,

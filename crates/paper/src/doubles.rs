@@ -105,6 +105,7 @@ impl DoubleBlock {
                 ..Particle::plain(2 * node, 2 * node + 1, state)
             });
         }
+
         particles
     }
 }
@@ -144,6 +145,7 @@ impl Edges {
             strains[2 * vertex] = [by_x[vertex], 0.0, by_y[vertex]];
             strains[2 * vertex + 1] = [0.0, by_y[vertex], by_x[vertex]];
         }
+
         strains
     }
 }
@@ -189,6 +191,7 @@ fn stiffness(edges: &Edges, model: &BlockModel) -> [[f64; 6]; 6] {
             matrix[i][j] = scale * work;
         }
     }
+
     matrix
 }
 
@@ -222,6 +225,7 @@ fn mass(edges: &Edges, model: &BlockModel) -> [[f64; 3]; 3] {
     for vertex in 0..3 {
         matrix[vertex][vertex] = diagonal;
     }
+
     matrix
 }
 
@@ -267,9 +271,11 @@ fn row_starts(order: usize, list: &[(usize, usize, f64)]) -> Vec<usize> {
     for entry in list {
         starts[entry.0 + 1] += 1;
     }
+
     for row in 0..order {
         starts[row + 1] += starts[row];
     }
+
     starts
 }
 

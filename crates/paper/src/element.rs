@@ -121,7 +121,9 @@ pub type Point = (Rational, Rational);
 /// Twice the signed area of a triangle, mm^2.
 pub(super) fn twice_area(p: &[Point; 3]) -> Rational {
     let [(x0, y0), (x1, y1), (x2, y2)] = p;
-    (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
+    let first_edge = (x1 - x0, y1 - y0);
+    let second_edge = (x2 - x0, y2 - y0);
+    &first_edge.0 * &second_edge.1 - &second_edge.0 * &first_edge.1
 }
 
 /// Element stiffness, 6 x 6 in (u_x, u_y) per vertex, N/mm: t A B'DB with constant strain.
@@ -141,6 +143,7 @@ pub(super) fn stiffness(p: &[Point; 3], material: &Material, plane: Plane) -> Ve
             }
         }
     }
+
     matrix
 }
 

@@ -66,6 +66,7 @@ impl Mesh {
         if nx == 0 || ny == 0 {
             return Err(SourceError::NoCells { nx, ny });
         }
+
         let cells = nx.checked_mul(ny);
         if cells.is_none_or(|cells| cells > MAX_CELLS) {
             return Err(SourceError::TooManyCells {
@@ -109,7 +110,9 @@ impl Mesh {
 
     /// Degree of freedom `i` (x, y of each vertex in turn) of a triangle, `None` if glued.
     pub(super) fn dof(&self, triangle: &[usize; 3], i: usize) -> Option<usize> {
-        self.number[triangle[i / 2]].map(|n| 2 * n + i % 2)
+        let vertex = triangle[i / 2];
+        let node = self.number[vertex]?;
+        Some(2 * node + i % 2)
     }
 
     /// The two edges from a triangle's first vertex, in half cells: triangles with the same edges
@@ -149,6 +152,7 @@ impl Grid {
                 points.push((2 * i, 2 * j));
             }
         }
+
         if self.kind == MeshKind::Crossed {
             for i in 0..self.width {
                 for j in 0..self.height {
@@ -180,6 +184,7 @@ impl Grid {
                 triangles.extend(cut(corner, center, self.kind, even));
             }
         }
+
         triangles
     }
 
@@ -196,6 +201,7 @@ impl Grid {
                 next += 1;
             }
         }
+
         number
     }
 }

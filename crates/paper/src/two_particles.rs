@@ -38,6 +38,7 @@ pub fn two_particles(data: &TwoParticles) -> Result<System, ModelError> {
         if row != column {
             entries.push((column, row, value.clone()));
         }
+
         entries.push((row, column, value));
     }
 

@@ -46,6 +46,7 @@ impl PathPoint<'_> {
                 return Err(LawFailure { node, equation });
             }
         }
+
         Ok(())
     }
 
@@ -70,6 +71,7 @@ impl PathPoint<'_> {
                 });
             }
         }
+
         Ok(())
     }
 }
@@ -98,12 +100,16 @@ impl NodeValues<'_> {
         if !self.is_in(state) {
             return Some("E9");
         }
+
         None
     }
 
     /// u_N <= 0, r_N <= 0, u_N r_N = 0. // (1)
     fn contact_holds(&self) -> bool {
-        !self.u_n.is_positive() && !self.r_n.is_positive() && (self.u_n * self.r_n).is_zero()
+        let does_not_penetrate = !self.u_n.is_positive();
+        let pushes = !self.r_n.is_positive();
+        let one_is_zero = self.u_n.is_zero() || self.r_n.is_zero();
+        does_not_penetrate && pushes && one_is_zero
     }
 
     /// |r_T| <= -mu r_N. // (7)
@@ -115,7 +121,8 @@ impl NodeValues<'_> {
     /// |v_T| r_T = mu v_T r_N: a node that moves is on the cone, on the side against its motion.
     /// // (2)
     fn friction_holds(&self) -> bool {
-        let tangential = self.v_t.abs() * self.r_t * &self.friction.denominator;
+        let power = self.v_t.abs() * self.r_t;
+        let tangential = power * &self.friction.denominator;
         tangential == self.v_t * self.mu_r_n()
     }
 

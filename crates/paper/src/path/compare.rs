@@ -81,6 +81,7 @@ fn largest_difference(a: &[(f64, f64)], b: &[(f64, f64)]) -> f64 {
         largest = largest.max((a.0 - b.0).abs());
         largest = largest.max((a.1 - b.1).abs());
     }
+
     largest
 }
 
@@ -131,6 +132,7 @@ impl Stretch {
             let normal = start.1 + share * (stop.1 - start.1);
             reactions.push((tangential, normal));
         }
+
         Some(reactions)
     }
 }

@@ -39,6 +39,7 @@ impl Contact {
                 is_inside[dof] = false;
             }
         }
+
         let inside: Vec<usize> = (0..stiffness.rows()).filter(|&d| is_inside[d]).collect();
 
         let condensed = schur_complement(
@@ -100,8 +101,10 @@ impl Contact {
                     sum += entry * component;
                 }
             }
+
             product.push(sum);
         }
+
         product
     }
 
@@ -124,6 +127,7 @@ impl Contact {
             }
             Load::Held(node) => relative[2 * node] = Integer::one(),
         }
+
         relative
     }
 }

@@ -34,7 +34,9 @@ impl Affine {
 
     /// Component `i` at d = m / n, times n.
     pub(super) fn at(&self, i: usize, d: &Rational) -> Integer {
-        &self.constant[i] * d.denom() + &self.slope[i] * d.numer()
+        let constant = &self.constant[i] * d.denom();
+        let growth = &self.slope[i] * d.numer();
+        constant + growth
     }
 
     /// Every component at d = m / n, times n.
@@ -124,8 +126,15 @@ impl Line {
 
     /// Is it the same state as `other` at d, displacement for displacement?
     pub(super) fn meets(&self, other: &Line, d: &Rational) -> bool {
-        (0..self.u.constant.len())
-            .all(|i| self.u_at(i, d) * &other.denominator == other.u_at(i, d) * &self.denominator)
+        for i in 0..self.u.constant.len() {
+            let here = self.u_at(i, d) * &other.denominator;
+            let there = other.u_at(i, d) * &self.denominator;
+            if here != there {
+                return false;
+            }
+        }
+
+        true
     }
 
     /// The equilibrium at d, in mm and N for a pressing of `depth` mm.
@@ -339,6 +348,7 @@ impl Equilibrium {
             let normal = to_f64(&times_unit_raw(&reaction[1], &self.r_unit));
             reactions.push((tangential, normal));
         }
+
         reactions
     }
 }

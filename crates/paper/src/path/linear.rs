@@ -72,6 +72,7 @@ impl Images {
                 self.of.push(Image::new(prime, contact));
             }
         }
+
         &self.of[k]
     }
 }
@@ -97,7 +98,9 @@ impl Image {
     }
 
     fn row(&self, i: usize) -> &[u64] {
-        &self.entries[i * self.order..(i + 1) * self.order]
+        let begin = i * self.order;
+        let end = begin + self.order;
+        &self.entries[begin..end]
     }
 
     /// The row vector that the equation stands for.
@@ -110,6 +113,7 @@ impl Image {
                 *sum = self.field.add(*sum, product);
             }
         }
+
         combined
     }
 
@@ -122,6 +126,7 @@ impl Image {
                 sum = self.field.add(sum, product);
             }
         }
+
         sum
     }
 }
@@ -164,6 +169,7 @@ impl ContactEquations<'_> {
             if singular > MAX_SINGULAR {
                 return None;
             }
+
             if residues.bits() < attempt_at {
                 continue;
             }
@@ -172,8 +178,10 @@ impl ContactEquations<'_> {
                 images.needed = residues.bits();
                 return Some(solved);
             }
+
             attempt_at += attempt_at / 8 + 1;
         }
+
         None
     }
 
@@ -219,6 +227,7 @@ impl ContactEquations<'_> {
                 z.push(image.field.leave(*value));
             }
         }
+
         Some(z)
     }
 
@@ -233,8 +242,10 @@ impl ContactEquations<'_> {
                 let known = image.product(&combined, g);
                 row.push(image.field.sub(0, known));
             }
+
             rows.push(row);
         }
+
         rows
     }
 }
@@ -259,12 +270,14 @@ fn eliminate(field: &Field, rows: &mut [Vec<u64>]) -> Option<()> {
             if i == k || factor == 0 {
                 continue;
             }
+
             for j in k..row.len() {
                 let multiple = field.mul(factor, pivot_row[j]);
                 row[j] = field.sub(row[j], multiple);
             }
         }
     }
+
     Some(())
 }
 
@@ -277,10 +290,12 @@ fn satisfied(contact: &Contact, equations: &[Equation], w: &[Integer]) -> bool {
         for term in equation {
             sum += &term.coefficient * &product[term.row];
         }
+
         if !sum.is_zero() {
             return false;
         }
     }
+
     true
 }
 
@@ -313,8 +328,10 @@ fn reconstruct(residues: &Residues) -> Option<CommonFractions> {
         if numerator.bits() > limit {
             return None;
         }
+
         numerators.push(numerator);
     }
+
     Some(CommonFractions {
         denominator,
         numerators,

@@ -33,6 +33,7 @@ impl Loading {
         if let Some(until) = &self.until {
             require_positive("the range of the motion (mm)", until)?;
         }
+
         Ok(())
     }
 }
@@ -41,6 +42,7 @@ fn require_positive(what: &'static str, value: &Rational) -> Result<(), PathErro
     if value.is_positive() {
         return Ok(());
     }
+
     Err(PathError::NotPositive {
         what,
         got: value.clone(),

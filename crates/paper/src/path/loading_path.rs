@@ -52,6 +52,7 @@ impl LoadingPath {
         if self.end != PathEnd::NoFurtherEvent {
             return false;
         }
+
         match self.intervals.last() {
             Some(last) => !last.states.contains(&ContactState::Stick),
             None => false,
@@ -60,7 +61,8 @@ impl LoadingPath {
 
     /// The event that ends a stretch, `None` for the last one.
     pub fn ending(&self, stretch: usize) -> Option<&Event> {
-        self.intervals.get(stretch + 1).map(|next| &next.begin)
+        let next = self.intervals.get(stretch + 1)?;
+        Some(&next.begin)
     }
 
     /// The stretches with exactly these states, in order.

@@ -68,6 +68,7 @@ impl Pencils<'_> {
                 b.push((i, j, scale.value(&normal)));
             }
         }
+
         Ok(Pencil::new(
             Sparse::from_entries(order, order, a),
             Sparse::from_entries(order, order, b),
@@ -80,6 +81,7 @@ impl Pencils<'_> {
         if states.len() == nodes {
             return Ok(());
         }
+
         Err(ModelError::Shape {
             equation: "E9",
             what: "contact states",
@@ -102,6 +104,7 @@ impl Pencils<'_> {
                 active.extend([2 * node, 2 * node + 1]);
             }
         }
+
         let equations = active.iter().map(|&i| no_reaction(i)).collect();
         let imposed = slip
             .iter()
@@ -128,6 +131,7 @@ fn slip_nodes(states: &[ContactState]) -> Vec<SlipNode> {
             slip.push(SlipNode { node, sign });
         }
     }
+
     slip
 }
 

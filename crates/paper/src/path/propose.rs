@@ -177,6 +177,7 @@ impl RateRows<'_> {
                 _ => {}
             }
         }
+
         Some(())
     }
 
@@ -189,7 +190,7 @@ impl RateRows<'_> {
         }
 
         let products = self.relative.iter().enumerate();
-        let imposed: f64 = products.map(|(j, g)| self.stiffness[(i, j)] * g).sum();
+        let imposed: f64 = products.map(|(j, v)| self.stiffness[(i, j)] * v).sum();
         self.constant[row] += factor * imposed;
     }
 
@@ -225,6 +226,7 @@ fn states_of(unknowns: &[Unknown], z: &[f64], classes: &[Class]) -> Vec<ContactS
             _ => {}
         }
     }
+
     states
 }
 

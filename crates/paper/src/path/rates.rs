@@ -110,10 +110,12 @@ impl Rates<'_> {
             if attempt.corrections.is_empty() {
                 return Some(attempt.solved(states, finder, *tried));
             }
+
             for correction in attempt.corrections.iter().take(changed_at_once) {
                 states[correction.node] = correction.state;
             }
         }
+
         None
     }
 
@@ -138,6 +140,7 @@ impl Rates<'_> {
                 Some(_) => {}
             }
         }
+
         Err(PathError::NoContinuation {
             tried: *tried,
             all: !singular,
@@ -163,8 +166,10 @@ impl Rates<'_> {
                     longer.push(set);
                 }
             }
+
             sets = longer;
         }
+
         Some(sets)
     }
 
@@ -279,6 +284,7 @@ fn better(
                     return Some(ContactState::Slip { sign });
                 }
             }
+
             None
         }
         _ => None,
@@ -287,7 +293,9 @@ fn better(
 
 /// S v_T > 0: the node would slide the way its reaction pushes it, where S v_T <= 0 is wanted.
 fn slides_against(sign: i8, node: usize, rates: NodalValues<'_>) -> bool {
-    (&rates.u[2 * node] * Integer::from(sign)).is_positive()
+    let v_t = &rates.u[2 * node];
+    let along = v_t * Integer::from(sign);
+    along.is_positive()
 }
 
 /// Do the rates fit class and state? The same lines as [`better`], read as (9): used to verify.
@@ -313,6 +321,7 @@ pub(super) fn admissible(
     if better(node, class, state, rates, friction).is_some() {
         return false;
     }
+
     state != ContactState::Stick || rates.u[2 * node].is_zero()
 }
 

@@ -55,6 +55,7 @@ impl Instance {
                 entries.push((i, j, whole(sign * self.stiffness[i][j])));
             }
         }
+
         Contact::from_condensed(&Sparse::from_entries(order, order, entries))
     }
 }
@@ -77,6 +78,7 @@ fn random_stiffness(dice: &mut Dice, order: usize) -> Vec<Vec<i64>> {
             }
         }
     }
+
     stiffness
 }
 
@@ -120,6 +122,7 @@ fn rates(instance: &Instance, states: &[ContactState]) -> Option<VelocityAndReac
     for (i, row) in rows.iter().enumerate() {
         solution.push(&row[2 * order] / &row[i]);
     }
+
     let w = solution.split_off(order);
     Some(VelocityAndReaction { v: solution, w })
 }
@@ -139,6 +142,7 @@ fn equations(instance: &Instance, states: &[ContactState]) -> Vec<Vec<Rational>>
                 right -= stiffness[i][j]; // g_j = 1
             }
         }
+
         rows[i][order + i] = whole(-1);
         rows[i][2 * order] = whole(right);
     }
@@ -165,6 +169,7 @@ fn equations(instance: &Instance, states: &[ContactState]) -> Vec<Vec<Rational>>
             }
         }
     }
+
     rows
 }
 
@@ -181,11 +186,13 @@ fn eliminate(rows: &mut [Vec<Rational>]) -> Option<()> {
             if factor.is_zero() {
                 continue;
             }
+
             for j in k..=order {
                 rows[i][j] -= &factor * &pivot_row[j];
             }
         }
     }
+
     Some(())
 }
 
@@ -231,6 +238,7 @@ fn enumerate(instance: &Instance) -> Enumerated {
                 longer.push(set);
             }
         }
+
         sets = longer;
     }
 
@@ -243,6 +251,7 @@ fn enumerate(instance: &Instance) -> Enumerated {
             Some(_) => {}
         }
     }
+
     Enumerated {
         solutions,
         singular,

@@ -51,6 +51,7 @@ pub(super) fn respond(
     for (relative, load) in solved.w.into_iter().zip(loads) {
         u.push(absolute(relative, *load, &solved.denominator, contact));
     }
+
     Some(Response {
         denominator: solved.denominator,
         u,
@@ -90,5 +91,6 @@ fn absolute(
     for (w, imposed) in relative.iter().zip(&imposed) {
         u.push(w - imposed * denominator);
     }
+
     u
 }

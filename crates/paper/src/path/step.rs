@@ -42,6 +42,7 @@ impl Step {
             tangential += reaction.0;
             normal += reaction.1;
         }
+
         (tangential, normal)
     }
 }
@@ -74,6 +75,7 @@ pub fn step_path(
         if progress(step).is_break() {
             break;
         }
+
         let glued = GluedSide {
             press: depth,
             left: to_f64(h) * step as f64,
@@ -81,6 +83,7 @@ pub fn step_path(
         state = model.advance(&state, glued, step)?;
         steps.push(state.step());
     }
+
     Ok(steps)
 }
 
@@ -150,6 +153,7 @@ impl Model {
                 let denominator = contact.denominator().clone();
                 row.push(to_f64(&Rational::new_raw(numerator.clone(), denominator)));
             }
+
             stiffness.push(row);
         }
 
@@ -184,6 +188,7 @@ impl Model {
         for value in state.u.iter_mut().chain(&mut state.r) {
             *value *= depth;
         }
+
         state.glued.press = depth;
         Ok(state)
     }
@@ -220,10 +225,12 @@ impl Model {
                 changed |= better != *state;
                 *state = better;
             }
+
             if !changed {
                 return Some(next);
             }
         }
+
         None
     }
 
@@ -294,6 +301,7 @@ impl Model {
                 }
             }
         }
+
         conditions
     }
 
@@ -334,6 +342,7 @@ fn largest(values: &[f64]) -> f64 {
     for value in values {
         largest = largest.max(value.abs());
     }
+
     largest
 }
 

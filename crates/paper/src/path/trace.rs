@@ -97,6 +97,7 @@ pub(super) fn trace(
         if progress(intervals.len(), &motion).is_break() {
             break PathEnd::Interrupted;
         }
+
         if intervals.len() > events_allowed {
             return Err(PathError::TooManyEvents {
                 limit: events_allowed,
@@ -232,6 +233,7 @@ impl<'a> Tracer<'a> {
             };
             applied.push(AppliedLoad { load, amount });
         }
+
         Line::new(&solved.response, &applied)
     }
 
@@ -255,6 +257,7 @@ impl<'a> Tracer<'a> {
                 });
             }
         }
+
         Ok(())
     }
 
@@ -263,6 +266,7 @@ impl<'a> Tracer<'a> {
         if let Some(d) = end.motion() {
             self.point(stretch, d, Load::Left).check()?;
         }
+
         Ok(())
     }
 
@@ -296,11 +300,13 @@ fn loads(states: &[ContactState], held: &[Rational], moving: Load) -> Vec<Load> 
     if moving != Load::Press {
         loads.push(Load::Left);
     }
+
     for (node, state) in states.iter().enumerate() {
         if *state == ContactState::Stick && !held[node].is_zero() {
             loads.push(Load::Held(node));
         }
     }
+
     loads
 }
 
@@ -331,6 +337,7 @@ fn changes(before: &[ContactState], after: &[ContactState]) -> Vec<Change> {
             changes.push(Change { node, from, to });
         }
     }
+
     changes
 }
 
