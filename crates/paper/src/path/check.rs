@@ -197,6 +197,11 @@ mod tests {
 
     fn unchanged(_: &mut Line) {}
 
+    /// r_T is not what S gives.
+    fn reaction_differs(line: &mut Line) {
+        line.r.constant[0] += 1;
+    }
+
     /// In equilibrium, but the obstacle pulls: u_N = -2 in contact.
     fn obstacle_pulls(line: &mut Line) {
         line.u.constant[1] = 2.into();
@@ -222,8 +227,7 @@ mod tests {
         assert_eq!(check_at(SLIP, whole(2), unchanged), Ok(()));
 
         assert_eq!(check_at(stick, rational(8, 5), unchanged), fails("E7"));
-        let other_reaction = |line: &mut Line| line.r.constant[0] += 1;
-        assert_eq!(check_at(stick, whole(1), other_reaction), fails("E5"));
+        assert_eq!(check_at(stick, whole(1), reaction_differs), fails("E5"));
         assert_eq!(check_at(stick, whole(1), obstacle_pulls), fails("E1"));
         assert_eq!(check_at(SLIP, whole(2), slides_backwards), fails("E2"));
 

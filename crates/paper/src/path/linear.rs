@@ -169,7 +169,6 @@ impl ContactEquations<'_> {
             if singular > MAX_SINGULAR {
                 return None;
             }
-
             if residues.bits() < attempt_at {
                 continue;
             }

@@ -259,40 +259,69 @@ fn better(
     rates: NodalValues<'_>,
     friction: &Friction,
 ) -> Option<ContactState> {
-    match (class, state) {
-        (Class::Cone(_), ContactState::Slip { sign }) => {
-            slides_against(sign, node, rates).then_some(ContactState::Stick)
-        }
-        (Class::Cone(sign), ContactState::Stick) => Bound::Cone { node, sign }
-            .falls(rates, friction)
-            .then_some(ContactState::Slip { sign }),
-        (Class::Zero, ContactState::Free) => Bound::Gap { node }
-            .falls(rates, friction)
-            .then_some(ContactState::Stick),
-        (Class::Zero, ContactState::Stick | ContactState::Slip { .. })
-            if Bound::Pressure { node }.falls(rates, friction) =>
-        {
-            Some(ContactState::Free)
-        }
-        (Class::Zero, ContactState::Slip { sign }) => {
-            slides_against(sign, node, rates).then_some(ContactState::Stick)
-        }
-        (Class::Zero, ContactState::Stick) => {
-            for sign in [1, -1] {
-                let bound = Bound::Cone { node, sign };
-                if bound.falls(rates, friction) {
-                    return Some(ContactState::Slip { sign });
-                }
-            }
-
-            None
-        }
-        _ => None,
+    match class {
+        Class::Free | Class::Stick => None,
+        Class::Cone(side) => better_on_cone(node, side, state, rates, friction),
+        Class::Zero => better_without_reaction(node, state, rates, friction),
     }
 }
 
-/// S v_T > 0: the node would slide the way its reaction pushes it, where S v_T <= 0 is wanted.
-fn slides_against(sign: i8, node: usize, rates: NodalValues<'_>) -> bool {
+/// On the cone 0 <= x _|_ y >= 0 with x = -S v_T, y = -(S w_T + mu w_N): slip has y = 0 and needs
+/// x >= 0, stick has x = 0 and needs y >= 0.
+fn better_on_cone(
+    node: usize,
+    side: i8,
+    state: ContactState,
+    rates: NodalValues<'_>,
+    friction: &Friction,
+) -> Option<ContactState> {
+    match state {
+        ContactState::Free => None,
+        ContactState::Slip { sign } => {
+            slides_with_friction(sign, node, rates).then_some(ContactState::Stick)
+        }
+        ContactState::Stick => {
+            let cone = Bound::Cone { node, sign: side };
+            let slip = ContactState::Slip { sign: side };
+            cone.falls(rates, friction).then_some(slip)
+        }
+    }
+}
+
+/// In contact with zero reaction, the rates satisfy what displacements and reactions themselves
+/// satisfy: contact (1) first, then friction (2).
+fn better_without_reaction(
+    node: usize,
+    state: ContactState,
+    rates: NodalValues<'_>,
+    friction: &Friction,
+) -> Option<ContactState> {
+    if state == ContactState::Free {
+        let gap = Bound::Gap { node };
+        return gap.falls(rates, friction).then_some(ContactState::Stick);
+    }
+
+    let pressure = Bound::Pressure { node };
+    if pressure.falls(rates, friction) {
+        return Some(ContactState::Free);
+    }
+
+    if let ContactState::Slip { sign } = state {
+        return slides_with_friction(sign, node, rates).then_some(ContactState::Stick);
+    }
+
+    for sign in [1, -1] {
+        let cone = Bound::Cone { node, sign };
+        if cone.falls(rates, friction) {
+            return Some(ContactState::Slip { sign });
+        }
+    }
+
+    None
+}
+
+/// S v_T > 0: the node would slide the way friction pushes it, where S v_T <= 0 is wanted.
+fn slides_with_friction(sign: i8, node: usize, rates: NodalValues<'_>) -> bool {
     let v_t = &rates.u[2 * node];
     let along = v_t * Integer::from(sign);
     along.is_positive()
@@ -317,7 +346,6 @@ pub(super) fn admissible(
     if !possible {
         return false;
     }
-
     if better(node, class, state, rates, friction).is_some() {
         return false;
     }

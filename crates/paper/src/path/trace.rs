@@ -90,7 +90,7 @@ pub(super) fn trace(
     };
     let pressed = position.line.equilibrium(&position.d, &depth, contact);
 
-    let until = loading.until.as_ref().map(|until| until / &depth);
+    let until = loading.until.as_ref().map(|until| until / &depth); // in units of the pressing
     let mut intervals = Vec::new();
     let end = loop {
         let motion = &position.d * &depth;
@@ -121,15 +121,7 @@ pub(super) fn trace(
             .verify_end(&stretch, &stretch_end)
             .map_err(|error| at_event(error, intervals.len(), &motion))?;
 
-        intervals.push(Interval {
-            begin: event_between(&position, &stretch.solved),
-            states: stretch.solved.states.clone(),
-            start: stretch.line.equilibrium(&position.d, &depth, contact),
-            stop: stretch_end
-                .motion()
-                .map(|d| stretch.line.equilibrium(d, &depth, contact)),
-        });
-
+        intervals.push(tracer.interval(&position, &stretch, &stretch_end, &depth));
         match stretch_end {
             StretchEnd::Range(_) => break PathEnd::Range,
             StretchEnd::Never => break PathEnd::NoFurtherEvent,
@@ -181,7 +173,7 @@ impl<'a> Tracer<'a> {
     fn pass(&mut self, position: &Position) -> Result<Stretch, PathError> {
         let d = &position.d;
         let classes = classify(&position.line, d, &self.friction)?;
-        self.hold_where_they_are(position);
+        self.note_where_nodes_would_stick(position);
 
         let solved = self.rates(&classes, &position.states, Load::Left)?;
         let line = self.line(&solved);
@@ -194,8 +186,8 @@ impl<'a> Tracer<'a> {
         Ok(stretch)
     }
 
-    /// Notes for every node that does not stick yet where it would from here on.
-    fn hold_where_they_are(&mut self, position: &Position) {
+    /// Notes u_T of every node that does not stick: if it sticks from here on, it does so there.
+    fn note_where_nodes_would_stick(&mut self, position: &Position) {
         let unit = &position.line.denominator * position.d.denom();
         for (node, state) in position.states.iter().enumerate() {
             if *state != ContactState::Stick {
@@ -291,6 +283,35 @@ impl<'a> Tracer<'a> {
             (None, None) => StretchEnd::Never,
         }
     }
+
+    /// The stretch as users see it, from a position to its end; `depth` is the pressing in mm.
+    fn interval(
+        &self,
+        from: &Position,
+        stretch: &Stretch,
+        end: &StretchEnd,
+        depth: &Rational,
+    ) -> Interval {
+        let line = &stretch.line;
+        let solved = &stretch.solved;
+
+        let begin = Event {
+            causes: from.causes.clone(),
+            changes: changes(&from.states, &solved.states),
+            finder: solved.finder,
+            tried: solved.tried,
+        };
+        let start = line.equilibrium(&from.d, depth, self.contact);
+        let stop = end
+            .motion()
+            .map(|d| line.equilibrium(d, depth, self.contact));
+        Interval {
+            begin,
+            states: solved.states.clone(),
+            start,
+            stop,
+        }
+    }
 }
 
 /// What is imposed while the nodes are in these states: the pressing, after it the motion, and the
@@ -316,16 +337,6 @@ fn at_event(error: PathError, event: usize, motion: &Rational) -> PathError {
         event,
         motion: format!("{:.6}", to_f64(motion)),
         source: Box::new(error),
-    }
-}
-
-/// What happens at a position, given the states after it.
-fn event_between(position: &Position, after: &Solved) -> Event {
-    Event {
-        causes: position.causes.clone(),
-        changes: changes(&position.states, &after.states),
-        finder: after.finder,
-        tried: after.tried,
     }
 }
 
