@@ -20,14 +20,14 @@ pub struct CalculixError {
 }
 
 /// A line of the file that is not empty.
-struct Line<'a> {
+struct TextLine<'a> {
     /// From 1.
     number: usize,
     /// Without space at both ends.
     text: &'a str,
 }
 
-impl Line<'_> {
+impl TextLine<'_> {
     fn refuse(&self, expected: &'static str) -> CalculixError {
         let shown = self.text.chars().filter(|c| !c.is_control()).take(60);
         CalculixError {
@@ -38,12 +38,12 @@ impl Line<'_> {
     }
 }
 
-fn lines_with_content(text: &str) -> Vec<Line<'_>> {
+fn lines_with_content(text: &str) -> Vec<TextLine<'_>> {
     let mut lines = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let text = line.trim();
         if !text.is_empty() {
-            lines.push(Line {
+            lines.push(TextLine {
                 number: index + 1,
                 text,
             });
@@ -72,7 +72,7 @@ pub fn read_dofs(text: &str) -> Result<HashMap<String, usize>, CalculixError> {
     }
 
     if names.is_empty() {
-        let empty = Line {
+        let empty = TextLine {
             number: 1,
             text: "nothing",
         };
@@ -131,7 +131,7 @@ struct Entry {
     value: Rational,
 }
 
-fn read_entry(line: &Line<'_>, order: usize) -> Result<Entry, CalculixError> {
+fn read_entry(line: &TextLine<'_>, order: usize) -> Result<Entry, CalculixError> {
     let words: Vec<&str> = line.text.split_whitespace().collect();
     let [row, column, value] = words[..] else {
         return Err(line.refuse("row column value"));

@@ -156,19 +156,19 @@ pub fn read_contacts(
 }
 
 /// A line of the file.
-struct Line<'a> {
+struct TextLine<'a> {
     /// From 1.
     number: usize,
     text: &'a str,
 }
 
 /// The lines that are neither empty nor comments, without a byte order mark.
-fn lines_with_content(text: &str) -> Vec<Line<'_>> {
+fn lines_with_content(text: &str) -> Vec<TextLine<'_>> {
     let mut lines = Vec::new();
     for (index, line) in text.lines().enumerate() {
         let text = line.trim_start_matches('\u{feff}').trim();
         if !text.is_empty() && !text.starts_with('#') {
-            lines.push(Line {
+            lines.push(TextLine {
                 number: index + 1,
                 text,
             });
@@ -215,7 +215,7 @@ impl Table {
         })
     }
 
-    fn row<'a>(&'a self, line: Line<'a>) -> Result<Row<'a>, ContactsError> {
+    fn row<'a>(&'a self, line: TextLine<'a>) -> Result<Row<'a>, ContactsError> {
         let cells: Vec<&str> = line.text.split(',').map(str::trim).collect();
         if cells.len() != self.width {
             return Err(ContactsError::Cells {

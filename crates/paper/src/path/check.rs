@@ -118,11 +118,10 @@ impl NodeValues<'_> {
         tangential <= -self.mu_r_n()
     }
 
-    /// |v_T| r_T = mu v_T r_N: a node that moves is on the cone, on the side against its motion.
-    /// // (2)
+    /// |v_T| r_T = mu v_T r_N (2): a node that moves is on the cone, on the side against its motion.
     fn friction_holds(&self) -> bool {
-        let power = self.v_t.abs() * self.r_t;
-        let tangential = power * &self.friction.denominator;
+        let speed_times_r_t = self.v_t.abs() * self.r_t;
+        let tangential = speed_times_r_t * &self.friction.denominator;
         tangential == self.v_t * self.mu_r_n()
     }
 

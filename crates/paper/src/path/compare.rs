@@ -28,10 +28,10 @@ impl Comparison {
     /// exact up to rounding. Steps in a last stretch that never ends are compared if it slides.
     pub fn of(path: &LoadingPath, steps: &[Step]) -> Comparison {
         let slides = path.slides();
-        let stretches: Vec<Stretch> = path
+        let stretches: Vec<ExactStretch> = path
             .intervals
             .iter()
-            .map(|interval| Stretch::of(interval, slides))
+            .map(|interval| ExactStretch::of(interval, slides))
             .collect();
 
         let mut result = Comparison {
@@ -68,7 +68,7 @@ impl Comparison {
 }
 
 /// The stretch in which a motion lies, its beginning left out and its end included.
-fn stretch_at(stretches: &[Stretch], motion: f64) -> usize {
+fn stretch_at(stretches: &[ExactStretch], motion: f64) -> usize {
     stretches
         .partition_point(|stretch| stretch.from < motion)
         .saturating_sub(1)
@@ -86,7 +86,7 @@ fn largest_difference(a: &[(f64, f64)], b: &[(f64, f64)]) -> f64 {
 }
 
 /// A stretch of the exact path in doubles: mm and N.
-struct Stretch {
+struct ExactStretch {
     from: f64,
     start: Vec<(f64, f64)>,
     stop: Option<Stop>,
@@ -98,8 +98,8 @@ struct Stop {
     reactions: Vec<(f64, f64)>,
 }
 
-impl Stretch {
-    fn of(interval: &Interval, slides: bool) -> Stretch {
+impl ExactStretch {
+    fn of(interval: &Interval, slides: bool) -> ExactStretch {
         let start = interval.start.reactions_f64();
 
         let stop = match &interval.stop {
@@ -114,7 +114,7 @@ impl Stretch {
             None => None,
         };
 
-        Stretch {
+        ExactStretch {
             from: to_f64(interval.start.motion()),
             start,
             stop,

@@ -1,8 +1,8 @@
-//! The rate problem as a linear complementarity problem in doubles, for when the active set goes
-//! round in circles. It proposes states; exact signs decide about them.
+//! The rate problem as a linear complementarity problem in doubles, for when the active set
+//! comes back to states it has tried. It proposes states; exact signs decide about them.
 //!
 //! Rates v of the displacements and w = S (v - g) of the reactions, in units of the largest entry
-//! of S. Each node contributes unknowns and rows by its class ([`Unknown`]); a row is F_i = 0 for an
+//! of S. Each node contributes unknowns and rows by its class ([`RateUnknown`]); a row is F_i = 0 for an
 //! unknown without a sign and 0 <= z_i _|_ F_i >= 0 for one with a sign, F(z) = M z + q. Lemke's
 //! method of `mceip_mcp` solves it, and positive unknowns name the states. Called by `rates`.
 #![allow(clippy::float_arithmetic)]
@@ -15,36 +15,38 @@ use mceip_mcp::solver::{Options, solve_linear};
 use mceip_model::ContactState;
 use nalgebra::DMatrix;
 
-/// What an unknown of the rate problem is.
+/// What an unknown of the rate problem is. Signs S are 1.0 or -1.0.
 #[derive(Clone, Copy)]
-enum Unknown {
+enum RateUnknown {
     /// A component of the velocity, no sign.
     Component(usize),
     /// x = -S v_T >= 0 of a node on the cone, against y = -(S w_T + mu w_N).
-    Slip(usize, f64),
+    Slip { node: usize, sign: f64 },
     /// -v_N >= 0 of a node with zero reaction, against -w_N.
-    Opening(usize),
+    Opening { node: usize },
     /// Parts of v_T >= 0 in the direction of S of a node with zero reaction: v_T = -sum S part.
-    Part(usize, f64),
+    Part { node: usize, sign: f64 },
     /// w_T of that node, against the row that puts v_T together.
-    Shear(usize),
+    Shear { node: usize },
 }
 
-impl Unknown {
+impl RateUnknown {
     /// The component of v to which it contributes, and the factor.
     fn velocity(self) -> Option<(usize, f64)> {
         match self {
-            Unknown::Component(i) => Some((i, 1.0)),
-            Unknown::Slip(node, sign) => Some((2 * node, -sign)),
-            Unknown::Opening(node) => Some((2 * node + 1, -1.0)),
-            Unknown::Part(..) | Unknown::Shear(_) => None,
+            RateUnknown::Component(i) => Some((i, 1.0)),
+            RateUnknown::Slip { node, sign } => Some((2 * node, -sign)),
+            RateUnknown::Opening { node } => Some((2 * node + 1, -1.0)),
+            RateUnknown::Part { .. } | RateUnknown::Shear { .. } => None,
         }
     }
 
     fn lower_bound(self) -> f64 {
         match self {
-            Unknown::Slip(..) | Unknown::Opening(_) | Unknown::Part(..) => 0.0,
-            Unknown::Component(_) | Unknown::Shear(_) => f64::NEG_INFINITY,
+            RateUnknown::Slip { .. } | RateUnknown::Opening { .. } | RateUnknown::Part { .. } => {
+                0.0
+            }
+            RateUnknown::Component(_) | RateUnknown::Shear { .. } => f64::NEG_INFINITY,
         }
     }
 }
@@ -98,19 +100,22 @@ fn scaled_stiffness(contact: &Contact) -> DMatrix<f64> {
     stiffness / largest
 }
 
-fn unknowns_of(node: usize, class: Class) -> Vec<Unknown> {
-    let tangential = Unknown::Component(2 * node);
-    let normal = Unknown::Component(2 * node + 1);
+fn unknowns_of(node: usize, class: Class) -> Vec<RateUnknown> {
+    let tangential = RateUnknown::Component(2 * node);
+    let normal = RateUnknown::Component(2 * node + 1);
     match class {
         Class::Free => vec![tangential, normal],
         Class::Stick => Vec::new(),
-        Class::Cone(sign) => vec![Unknown::Slip(node, f64::from(sign))],
+        Class::Cone(sign) => vec![RateUnknown::Slip {
+            node,
+            sign: f64::from(sign),
+        }],
         Class::Zero => vec![
             tangential,
-            Unknown::Opening(node),
-            Unknown::Part(node, 1.0),
-            Unknown::Part(node, -1.0),
-            Unknown::Shear(node),
+            RateUnknown::Opening { node },
+            RateUnknown::Part { node, sign: 1.0 },
+            RateUnknown::Part { node, sign: -1.0 },
+            RateUnknown::Shear { node },
         ],
     }
 }
@@ -123,7 +128,7 @@ struct RateRows<'a> {
     relative: Vec<f64>,
     /// Coefficient of friction.
     mu: f64,
-    unknowns: &'a [Unknown],
+    unknowns: &'a [RateUnknown],
     /// M.
     matrix: DMatrix<f64>,
     /// q.
@@ -135,14 +140,14 @@ impl RateRows<'_> {
     fn assemble(mut self) -> Option<LinearMcp> {
         for (row, &unknown) in self.unknowns.iter().enumerate() {
             match unknown {
-                Unknown::Component(i) => self.set_equilibrium(row, i),
-                Unknown::Slip(node, sign) => {
+                RateUnknown::Component(i) => self.set_equilibrium(row, i),
+                RateUnknown::Slip { node, sign } => {
                     self.add_reaction(row, 2 * node, -sign);
                     self.add_reaction(row, 2 * node + 1, -self.mu);
                 }
-                Unknown::Opening(node) => self.add_reaction(row, 2 * node + 1, -1.0),
-                Unknown::Part(node, sign) => self.set_cone(row, node, sign)?,
-                Unknown::Shear(node) => self.set_velocity(row, node)?,
+                RateUnknown::Opening { node } => self.add_reaction(row, 2 * node + 1, -1.0),
+                RateUnknown::Part { node, sign } => self.set_cone(row, node, sign)?,
+                RateUnknown::Shear { node } => self.set_velocity(row, node)?,
             }
         }
 
@@ -173,7 +178,9 @@ impl RateRows<'_> {
         self.matrix[(row, tangential)] += 1.0;
         for (column, unknown) in self.unknowns.iter().enumerate() {
             match unknown {
-                Unknown::Part(of, sign) if *of == node => self.matrix[(row, column)] += *sign,
+                RateUnknown::Part { node: of, sign } if *of == node => {
+                    self.matrix[(row, column)] += *sign
+                }
                 _ => {}
             }
         }
@@ -198,31 +205,31 @@ impl RateRows<'_> {
     fn shear_of(&self, component: usize) -> Option<usize> {
         self.unknowns
             .iter()
-            .position(|u| matches!(u, Unknown::Shear(node) if 2 * node == component))
+            .position(|u| matches!(u, RateUnknown::Shear { node } if 2 * node == component))
     }
 
     /// Place of the unknown that is this component of the velocity.
     fn place_of(&self, component: usize) -> Option<usize> {
         self.unknowns
             .iter()
-            .position(|u| matches!(u, Unknown::Component(c) if *c == component))
+            .position(|u| matches!(u, RateUnknown::Component(c) if *c == component))
     }
 }
 
 /// Positive unknowns name the states; the exact active set corrects what rounding blurs.
-fn states_of(unknowns: &[Unknown], z: &[f64], classes: &[Class]) -> Vec<ContactState> {
+fn states_of(unknowns: &[RateUnknown], z: &[f64], classes: &[Class]) -> Vec<ContactState> {
     let mut states: Vec<ContactState> = classes.iter().map(state_at_zero).collect();
 
     let positive = unknowns.iter().zip(z).filter(|(_, value)| **value > 0.0);
     for (unknown, _) in positive {
         match *unknown {
-            Unknown::Slip(node, sign) | Unknown::Part(node, sign)
+            RateUnknown::Slip { node, sign } | RateUnknown::Part { node, sign }
                 if states[node] != ContactState::Free =>
             {
                 let sign = if sign > 0.0 { 1 } else { -1 };
                 states[node] = ContactState::Slip { sign };
             }
-            Unknown::Opening(node) => states[node] = ContactState::Free,
+            RateUnknown::Opening { node } => states[node] = ContactState::Free,
             _ => {}
         }
     }

@@ -66,7 +66,7 @@ pub fn step_path(
     };
     stepped.validate()?;
 
-    let model = Model::new(contact, loading);
+    let model = CondensedBlock::new(contact, loading);
     let mut state = model.press(to_f64(&loading.force))?;
     let depth = state.glued.press;
 
@@ -109,7 +109,7 @@ impl GluedSide {
 
 /// An equilibrium, with the states that led to it. Components as in [`Contact`].
 #[derive(Clone)]
-struct State {
+struct SteppedEquilibrium {
     glued: GluedSide,
     states: Vec<ContactState>,
     /// Displacements, mm.
@@ -118,7 +118,7 @@ struct State {
     r: Vec<f64>,
 }
 
-impl State {
+impl SteppedEquilibrium {
     fn step(&self) -> Step {
         Step {
             motion: self.glued.left,
@@ -138,14 +138,14 @@ fn by_node(components: &[f64]) -> Vec<(f64, f64)> {
 }
 
 /// The condensed block and its friction.
-struct Model {
+struct CondensedBlock {
     /// S, N/mm.
     stiffness: Vec<Vec<f64>>,
     mu: f64,
 }
 
-impl Model {
-    fn new(contact: &Contact, loading: &Loading) -> Model {
+impl CondensedBlock {
+    fn new(contact: &Contact, loading: &Loading) -> CondensedBlock {
         let mut stiffness = Vec::with_capacity(contact.rows().len());
         for exact in contact.rows() {
             let mut row = Vec::with_capacity(exact.len());
@@ -157,7 +157,7 @@ impl Model {
             stiffness.push(row);
         }
 
-        Model {
+        CondensedBlock {
             stiffness,
             mu: to_f64(&loading.friction),
         }
@@ -165,9 +165,9 @@ impl Model {
 
     /// The unloaded block pressed until the normal resultant is -force: proportional to the
     /// depth, so it is solved for 1 mm and scaled.
-    fn press(&self, force: f64) -> Result<State, PathError> {
+    fn press(&self, force: f64) -> Result<SteppedEquilibrium, PathError> {
         let components = self.stiffness.len();
-        let unloaded = State {
+        let unloaded = SteppedEquilibrium {
             glued: GluedSide {
                 press: 0.0,
                 left: 0.0,
@@ -195,7 +195,12 @@ impl Model {
 
     /// The equilibrium with the glued side at its new place, after `from`; `step` is named in the
     /// error.
-    fn advance(&self, from: &State, glued: GluedSide, step: usize) -> Result<State, PathError> {
+    fn advance(
+        &self,
+        from: &SteppedEquilibrium,
+        glued: GluedSide,
+        step: usize,
+    ) -> Result<SteppedEquilibrium, PathError> {
         self.converge(from, glued)
             .ok_or(PathError::StepNotConverged {
                 step,
@@ -206,7 +211,7 @@ impl Model {
 
     /// Changes states until the equilibrium contradicts none of them. `None` for singular
     /// equations, and after too many iterations.
-    fn converge(&self, from: &State, glued: GluedSide) -> Option<State> {
+    fn converge(&self, from: &SteppedEquilibrium, glued: GluedSide) -> Option<SteppedEquilibrium> {
         let mut states = from.states.clone();
 
         for _ in 0..ITERATIONS {
@@ -238,9 +243,9 @@ impl Model {
     fn equilibrium(
         &self,
         states: &[ContactState],
-        from: &State,
+        from: &SteppedEquilibrium,
         glued: GluedSide,
-    ) -> Option<State> {
+    ) -> Option<SteppedEquilibrium> {
         let Conditions {
             mut u,
             active,
@@ -268,7 +273,7 @@ impl Model {
             .iter()
             .map(|row| dot(row, &displaced))
             .collect();
-        Some(State {
+        Some(SteppedEquilibrium {
             glued,
             states: states.to_vec(),
             u,
@@ -277,7 +282,7 @@ impl Model {
     }
 
     /// What the states say of displacements and reactions.
-    fn conditions(&self, states: &[ContactState], from: &State) -> Conditions {
+    fn conditions(&self, states: &[ContactState], from: &SteppedEquilibrium) -> Conditions {
         let mut conditions = Conditions {
             u: vec![0.0; self.stiffness.len()],
             active: Vec::new(),
@@ -349,8 +354,8 @@ fn largest(values: &[f64]) -> f64 {
 /// The equilibria before and after a step.
 struct Increment<'a> {
     mu: f64,
-    from: &'a State,
-    next: &'a State,
+    from: &'a SteppedEquilibrium,
+    next: &'a SteppedEquilibrium,
     /// Displacements below this count as zero, mm.
     small_u: f64,
     /// Reactions below this count as zero, N.

@@ -33,7 +33,7 @@ struct Tracer<'a> {
 }
 
 /// States that solve a rate problem, and the line on which they lead on.
-struct Stretch {
+struct SolvedStretch {
     solved: Solved,
     line: Line,
 }
@@ -157,20 +157,20 @@ impl<'a> Tracer<'a> {
     }
 
     /// The pressing from the unloaded block, where every node is in contact with zero reaction.
-    fn press(&mut self) -> Result<Stretch, PathError> {
+    fn press(&mut self) -> Result<SolvedStretch, PathError> {
         let nodes = self.contact.nodes();
         let classes = vec![Class::Zero; nodes];
         let unloaded = vec![ContactState::Stick; nodes];
 
         let solved = self.rates(&classes, &unloaded, Load::Press)?;
         let line = self.line(&solved);
-        let stretch = Stretch { solved, line };
+        let stretch = SolvedStretch { solved, line };
         self.verify(&stretch, &classes, &Rational::zero(), Load::Press)?;
         Ok(stretch)
     }
 
     /// The states after the event at a position, and the stretch that begins there.
-    fn pass(&mut self, position: &Position) -> Result<Stretch, PathError> {
+    fn pass(&mut self, position: &Position) -> Result<SolvedStretch, PathError> {
         let d = &position.d;
         let classes = classify(&position.line, d, &self.friction)?;
         self.note_where_nodes_would_stick(position);
@@ -181,7 +181,7 @@ impl<'a> Tracer<'a> {
             return Err(PathError::Discontinuous);
         }
 
-        let stretch = Stretch { solved, line };
+        let stretch = SolvedStretch { solved, line };
         self.verify(&stretch, &classes, d, Load::Left)?;
         Ok(stretch)
     }
@@ -232,7 +232,7 @@ impl<'a> Tracer<'a> {
     /// The laws at d, and the rates just after it against the classes at d.
     fn verify(
         &self,
-        stretch: &Stretch,
+        stretch: &SolvedStretch,
         classes: &[Class],
         d: &Rational,
         moving: Load,
@@ -254,7 +254,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// The laws at the end of a stretch, if it has one.
-    fn verify_end(&self, stretch: &Stretch, end: &StretchEnd) -> Result<(), PathError> {
+    fn verify_end(&self, stretch: &SolvedStretch, end: &StretchEnd) -> Result<(), PathError> {
         if let Some(d) = end.motion() {
             self.point(stretch, d, Load::Left).check()?;
         }
@@ -262,7 +262,12 @@ impl<'a> Tracer<'a> {
         Ok(())
     }
 
-    fn point<'b>(&'b self, stretch: &'b Stretch, d: &'b Rational, moving: Load) -> PathPoint<'b> {
+    fn point<'b>(
+        &'b self,
+        stretch: &'b SolvedStretch,
+        d: &'b Rational,
+        moving: Load,
+    ) -> PathPoint<'b> {
         PathPoint {
             contact: self.contact,
             friction: &self.friction,
@@ -274,7 +279,7 @@ impl<'a> Tracer<'a> {
     }
 
     /// The next event, or the end of the range if that comes first.
-    fn end_of(&self, stretch: &Stretch, until: Option<&Rational>) -> StretchEnd {
+    fn end_of(&self, stretch: &SolvedStretch, until: Option<&Rational>) -> StretchEnd {
         let event = next_event(&stretch.line, &self.friction, &stretch.solved.states);
         match (event, until) {
             (Some(event), None) => StretchEnd::Event(event),
@@ -288,7 +293,7 @@ impl<'a> Tracer<'a> {
     fn interval(
         &self,
         from: &Position,
-        stretch: &Stretch,
+        stretch: &SolvedStretch,
         end: &StretchEnd,
         depth: &Rational,
     ) -> Interval {
