@@ -1,7 +1,7 @@
 //! The block of section 5, assembled exactly: P1 triangles, glued top, obstacle below.
 //!
-//! K and M are sums of element matrices (`element`) over a mesh (`mesh`), with the dofs of the glued
-//! side left out. A [`BlockModel`] goes in. With the contact state of each node a block becomes a
+//! K and M are sums of element matrices (`element`) over a mesh (`mesh`), without the dofs of the
+//! glued side. A [`BlockModel`] goes in. With the contact state of each node a block becomes a
 //! mechanical system and an eigenproblem. `mceip block`, the loading path, the benchmarks and most
 //! large tests start here.
 //!

@@ -8,8 +8,8 @@
 //! these dofs, as the finite-element program gives it). Lines that begin with # are comments; a
 //! cell may be empty where it is optional.
 //!
-//! The particles go into a `System`. A reaction guards against a wrong sign or another mu: it has to
-//! satisfy (7), |r_T| <= mu |r_N|, with equality for slip.
+//! The particles go into a `System`. A reaction guards against a wrong sign or another mu: it has
+//! to satisfy (7), |r_T| <= mu |r_N|, with equality for slip.
 
 use crate::tolerance::CONE_SLACK;
 use mceip_exact::{Rational, parse, rational};
@@ -361,8 +361,8 @@ enum Fit {
 }
 
 impl GivenReaction {
-    /// Holds the reaction against (7) and the state with a relative slack; true if they hold exactly
-    /// as well.
+    /// Holds the reaction against (7) and the state with a relative slack; true if they hold
+    /// exactly as well.
     ///
     /// # Errors
     /// [`ContactsError::Contradiction`]; `line` is named in it.

@@ -1,5 +1,5 @@
-//! Where problems come from: the two particles of Fig. 1, the block of section 5 with its meshes and
-//! its loading path, and files of finite-element programs.
+//! Where problems come from: the two particles of Fig. 1, the block of section 5 with its meshes
+//! and its loading path, and files of finite-element programs.
 //!
 //! Everything here makes systems, problems or contact states for the other crates; nothing here
 //! solves an eigenproblem. Exact parts hold rationals; files that compute in doubles say so and are

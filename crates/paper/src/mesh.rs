@@ -92,7 +92,10 @@ impl Mesh {
         let number = grid.number(&points);
         let mut contact = Vec::with_capacity(nx + 1);
         for i in 0..=grid.width {
-            contact.extend(number[place[&(2 * i, 0)]]);
+            let point = place[&(2 * i, 0)];
+            if let Some(node) = number[point] {
+                contact.push(node);
+            }
         }
 
         Ok(Mesh {

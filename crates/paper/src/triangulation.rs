@@ -47,7 +47,10 @@ impl BlockModel {
 
         let mut contact = Vec::with_capacity(mesh.contact.len());
         for &node in &mesh.contact {
-            contact.extend(mesh.number.iter().position(|number| *number == Some(node)));
+            let point = mesh.number.iter().position(|number| *number == Some(node));
+            if let Some(point) = point {
+                contact.push(point);
+            }
         }
 
         Ok(Triangulation {

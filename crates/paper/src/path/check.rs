@@ -118,7 +118,8 @@ impl NodeValues<'_> {
         tangential <= -self.mu_r_n()
     }
 
-    /// |v_T| r_T = mu v_T r_N (2): a node that moves is on the cone, on the side against its motion.
+    /// |v_T| r_T = mu v_T r_N (2): a node that moves is on the cone, on the side against its
+    /// motion.
     fn friction_holds(&self) -> bool {
         let speed_times_r_t = self.v_t.abs() * self.r_t;
         let tangential = speed_times_r_t * &self.friction.denominator;

@@ -37,8 +37,8 @@ impl Contact {
 }
 
 impl Pencils<'_> {
-    /// A + mu B of order n_s, exactly: variables x = -S v_T of the slip nodes, left to right. The
-    /// same matrices as `mceip_engine::reduction::condense` of the state's MCEIP-mu problem. // (16)
+    /// A + mu B of order n_s, exactly (16): variables x = -S v_T of the slip nodes, left to right.
+    /// The same matrices as `mceip_engine::reduction::condense` of the state's MCEIP-mu problem.
     ///
     /// # Errors
     /// [`PathError::Model`] for a number of states other than that of contact nodes, or no slip

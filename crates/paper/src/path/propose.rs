@@ -2,9 +2,10 @@
 //! comes back to states it has tried. It proposes states; exact signs decide about them.
 //!
 //! Rates v of the displacements and w = S (v - g) of the reactions, in units of the largest entry
-//! of S. Each node contributes unknowns and rows by its class ([`RateUnknown`]); a row is F_i = 0 for an
-//! unknown without a sign and 0 <= z_i _|_ F_i >= 0 for one with a sign, F(z) = M z + q. Lemke's
-//! method of `mceip_mcp` solves it, and positive unknowns name the states. Called by `rates`.
+//! of S. Each node contributes unknowns and rows by its class ([`RateUnknown`]); a row is F_i = 0
+//! for an unknown without a sign and 0 <= z_i _|_ F_i >= 0 for one with a sign, F(z) = M z + q.
+//! Lemke's method of `mceip_mcp` solves it, and positive unknowns name the states. Called by
+//! `rates`.
 #![allow(clippy::float_arithmetic)]
 
 use super::contact::{Contact, Friction, Load};
