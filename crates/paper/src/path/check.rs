@@ -1,5 +1,6 @@
-//! The laws at a point of the path, from their definitions: equilibrium (5) by multiplying out S,
-//! then contact (1), friction (2), the cone (7) and the state (9) node by node.
+//! The laws at a point of the path, from their definitions: equilibrium (5) by multiplying out the
+//! condensed stiffness C, then contact (1), friction (2), the cone (7) and the state (9) node by
+//! node.
 //!
 //! Shares nothing with the search for states but the numbers it checks. Called by `trace` at both
 //! ends of every stretch.
@@ -50,7 +51,7 @@ impl PathPoint<'_> {
         Ok(())
     }
 
-    /// r = S (u - g), where g is the motion of the glued side. // (5)
+    /// r = C (u - g), where g is the motion of the glued side. // (5)
     fn check_equilibrium(&self, u: &[Integer], r: &[Integer]) -> Result<(), LawFailure> {
         let press = self.contact.relative(Load::Press);
         let left = self.contact.relative(Load::Left);
@@ -197,7 +198,7 @@ mod tests {
 
     fn unchanged(_: &mut Line) {}
 
-    /// r_T is not what S gives.
+    /// r_T is not what C gives.
     fn reaction_differs(line: &mut Line) {
         line.r.constant[0] += 1;
     }

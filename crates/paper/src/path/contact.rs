@@ -1,21 +1,21 @@
 //! The block seen from its contact side: the condensed stiffness in tangential and normal
 //! directions, exactly, and the loads, the friction and the responses of its nodes.
 //!
-//! With c the dofs of the contact nodes and i all others, S = K_cc - K_ci K_ii^-1 K_ic. Reactions
-//! are r = S (u - g), where u are the displacements of the contact nodes and g is the rigid motion
-//! of the glued side. The assembled K of a [`Block`] goes in; all of `path` reads S from here.
+//! With c the dofs of the contact nodes and i all others, C = K_cc - K_ci K_ii^-1 K_ic. Reactions
+//! are r = C (u - g), where u are the displacements of the contact nodes and g is the rigid motion
+//! of the glued side. The assembled K of a [`Block`] goes in; all of `path` reads C from here.
 
 use super::error::PathError;
 use crate::block::Block;
 use mceip_exact::{Integer, Rational, Sparse, common_denominator, schur_complement};
 use num_traits::{One, Zero};
 
-/// K condensed to the contact nodes, S = K_cc - K_ci K_ii^-1 K_ic, as integers over one
+/// K condensed to the contact nodes, C = K_cc - K_ci K_ii^-1 K_ic, as integers over one
 /// denominator.
 ///
 /// Component 2k is u_T of node k (positive to the right), 2k + 1 is u_N (positive *into* the
 /// obstacle, the paper's direction). The glued side does not appear: when it moves as a rigid
-/// body by g, the reactions are those of the displacements relative to it, r = S (u - g), because
+/// body by g, the reactions are those of the displacements relative to it, r = C (u - g), because
 /// K vanishes on translations of the whole block.
 #[derive(Debug, Clone)]
 pub struct Contact {
@@ -81,17 +81,17 @@ impl Contact {
         self.denominator.bits()
     }
 
-    /// The common denominator of S (positive).
+    /// The common denominator of C (positive).
     pub(super) fn denominator(&self) -> &Integer {
         &self.denominator
     }
 
-    /// The numerators of S, by rows.
+    /// The numerators of C, by rows.
     pub(super) fn rows(&self) -> &[Vec<Integer>] {
         &self.rows
     }
 
-    /// Numerators of S w.
+    /// Numerators of C w.
     pub(super) fn times(&self, w: &[Integer]) -> Vec<Integer> {
         let mut product = Vec::with_capacity(self.rows.len());
         for row in &self.rows {

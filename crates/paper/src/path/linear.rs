@@ -2,10 +2,10 @@
 //! satisfy the equations, which is checked in integers. No bound is trusted, none is needed.
 //!
 //! For each imposed vector g of relative displacements, w = z + g is wanted, where z is zero
-//! outside the active components and each equation, a combination of rows of S w, is zero. The
-//! steps are: Gauss-Jordan elimination modulo a prime; the Chinese remainder theorem over all
-//! primes so far ([`Residues`]); rational reconstruction; insertion into the equations. Called by
-//! `respond` and `pencils`.
+//! outside the active components and each equation, a combination of rows of C w (C the condensed
+//! stiffness), is zero. The steps are: Gauss-Jordan elimination modulo a prime; the Chinese
+//! remainder theorem over all primes so far ([`Residues`]); rational reconstruction; insertion into
+//! the equations. Called by `respond` and `pencils`.
 //!
 //! The numerators have the size of a minor of K (thousands of bits); elimination in fractions
 //! on the condensed matrix would pass through numbers forty times as long.
@@ -280,7 +280,7 @@ fn eliminate(field: &Field, rows: &mut [Vec<u64>]) -> Option<()> {
     Some(())
 }
 
-/// Do the equations hold on S w, exactly?
+/// Do the equations hold on C w, exactly?
 fn satisfied(contact: &Contact, equations: &[Equation], w: &[Integer]) -> bool {
     let product = contact.times(w);
 
@@ -448,7 +448,7 @@ mod tests {
 
     #[test]
     fn singular_equations_have_no_answer() {
-        // r_T + r_N = 0 with S_TT + S_NT = 0.
+        // r_T + r_N = 0 with C_TT + C_NT = 0.
         let equations = ContactEquations {
             contact: &contact(1, -1, 3),
             active: vec![0],

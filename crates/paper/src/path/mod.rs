@@ -20,7 +20,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `contact`, `loading` | the condensed stiffness S, the loads; friction, force and range |
+//! | `contact`, `loading` | the condensed stiffness C, the loads; friction, force and range |
 //! | `trace` | the walk from event to event |
 //! | `rates`, `propose` | the states after an event; proposals by Lemke's method in doubles |
 //! | `respond`, `linear` | displacements and reactions in given states, by exact linear algebra |

@@ -1,10 +1,10 @@
 //! The condensed MCEIP-mu pencil of any contact state, from the one condensation of the path: only
 //! the free contact nodes are left to eliminate.
 //!
-//! For v_T = 1 at one slip node, with the free nodes following, S gives the reactions at all slip
-//! nodes. Their tangential parts are a column of A = S K_TT S, their normal parts one of B = K_NT S
-//! (K condensed, S the diagonal matrix of slip signs). The reports of the loading path call this
-//! once for every stretch.
+//! For v_T = 1 at one slip node, with the free nodes following, the condensed stiffness C gives the
+//! reactions at all slip nodes. Their tangential parts are a column of C_TT, their normal parts one
+//! of C_NT, where the free nodes are eliminated from both. With the diagonal matrix S of slip signs,
+//! A = S C_TT S and B = C_NT S. The reports of the loading path call this once for every stretch.
 
 use super::contact::{Contact, Load};
 use super::error::PathError;
@@ -180,7 +180,7 @@ mod tests {
         condense(&Admissible::new(&reduced, Unknown::Mu).unwrap()).unwrap()
     }
 
-    /// Two ways to the same exact matrices: through (10)-(16) and the uncondensed K, and from S.
+    /// Two ways to the same exact matrices: through (10)-(16) and the uncondensed K, and from C.
     #[test]
     fn pencils_are_those_of_the_reduction() {
         let stick = ContactState::Stick;

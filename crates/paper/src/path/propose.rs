@@ -1,11 +1,11 @@
-//! The rate problem as a linear complementarity problem in doubles, for when the active set
-//! comes back to states it has tried. It proposes states; exact signs decide about them.
+//! The rate problem as a linear complementarity problem in doubles, for when the active set comes
+//! back to states it has tried. It proposes states; exact signs decide about them.
 //!
-//! Rates v of the displacements and w = S (v - g) of the reactions, in units of the largest entry
-//! of S. Each node contributes unknowns and rows by its class ([`RateUnknown`]); a row is F_i = 0
-//! for an unknown without a sign and 0 <= z_i _|_ F_i >= 0 for one with a sign, F(z) = M z + q.
-//! Lemke's method of `mceip_mcp` solves it, and positive unknowns name the states. Called by
-//! `rates`.
+//! Rates v of the displacements and w = C (v - g) of the reactions, in units of the largest entry
+//! of the condensed stiffness C. Each node contributes unknowns and rows by its class
+//! ([`RateUnknown`]); a row is F_i = 0 for an unknown without a sign and 0 <= z_i _|_ F_i >= 0 for
+//! one with a sign, F(z) = M z + q. Lemke's method of `mceip_mcp` solves it, and positive unknowns
+//! name the states. Called by `rates`.
 #![allow(clippy::float_arithmetic)]
 
 use super::contact::{Contact, Friction, Load};
@@ -123,7 +123,7 @@ fn unknowns_of(node: usize, class: Class) -> Vec<RateUnknown> {
 
 /// The rows F(z) = M z + q of the complementarity problem, while they are assembled.
 struct RateRows<'a> {
-    /// S, scaled.
+    /// C, scaled.
     stiffness: DMatrix<f64>,
     /// -g, relative to the glued side.
     relative: Vec<f64>,
@@ -157,7 +157,7 @@ impl RateRows<'_> {
         LinearMcp::new(self.matrix, self.constant, lower, upper).ok()
     }
 
-    /// w_i = 0; for the tangential component of a node with zero reaction: (S v)_T - w_T = 0.
+    /// w_i = 0; for the tangential component of a node with zero reaction: (C v)_T - w_T = 0.
     fn set_equilibrium(&mut self, row: usize, component: usize) {
         self.add_reaction(row, component, 1.0);
         if let Some(shear) = self.shear_of(component) {
@@ -189,7 +189,7 @@ impl RateRows<'_> {
         Some(())
     }
 
-    /// Adds factor * w_i, w_i = sum_j S_ij (v_j - g_j), to a row.
+    /// Adds factor * w_i, w_i = sum_j C_ij (v_j - g_j), to a row.
     fn add_reaction(&mut self, row: usize, i: usize, factor: f64) {
         for (column, unknown) in self.unknowns.iter().enumerate() {
             if let Some((j, share)) = unknown.velocity() {

@@ -28,7 +28,7 @@ impl Dice {
 
 /// A rate problem in small numbers.
 struct Instance {
-    /// S in (T, N) of each node.
+    /// C in (T, N) of each node.
     stiffness: Vec<Vec<i64>>,
     mu: Rational,
     classes: Vec<Class>,
@@ -127,7 +127,7 @@ fn rates(instance: &Instance, states: &[ContactState]) -> Option<VelocityAndReac
     Some(VelocityAndReaction { v: solution, w })
 }
 
-/// The equations for the unknowns (v, w), each row with its right side at the end: S v - w = -S g,
+/// The equations for the unknowns (v, w), each row with its right side at the end: C v - w = -C g,
 /// and two conditions for each node.
 fn equations(instance: &Instance, states: &[ContactState]) -> Vec<Vec<Rational>> {
     let stiffness = &instance.stiffness;

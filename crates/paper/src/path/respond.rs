@@ -1,8 +1,9 @@
 //! What the contact nodes do in given states under imposed displacements: displacements and
 //! reactions by (5), solved exactly.
 //!
-//! Each state gives two conditions: free r = 0; stick u = 0; slip u_N = 0, r_T + S mu r_N = 0.
-//! The unknowns are therefore u_T and u_N of free nodes and u_T of slip nodes. Called by `rates`.
+//! Each state gives two conditions: free r = 0; stick u = 0; slip u_N = 0, r_T + S mu r_N = 0,
+//! where S is the sign of r_T. The unknowns are therefore u_T and u_N of free nodes and u_T of slip
+//! nodes. Called by `rates`.
 
 use super::contact::{Contact, Friction, Load, Response};
 use super::linear::{ContactEquations, Equation, Images, Term, no_reaction};

@@ -1,10 +1,11 @@
-//! Ordinary incremental stepping in doubles, for comparison: equal steps of the motion, at each
-//! an active set from the step before. What happens within a step is lost.
+//! Ordinary incremental stepping in doubles, for comparison: equal steps of the motion, at each an
+//! active set from the step before. What happens within a step is lost.
 //!
-//! A step solves r = S (u - g) for the displacements u at the new position g of the glued side,
-//! with these conditions by state: stick: u as before; slip: u_N = 0, r_T + S mu r_N = 0; free:
-//! r = 0. States that the solution contradicts are changed and the step is solved again (backward
-//! Euler in the friction law). `mceip block --path` sets the result beside the exact path.
+//! A step solves r = C (u - g) (C the condensed stiffness) for the displacements u at the new
+//! position g of the glued side, with these conditions by state: stick: u as before; slip: u_N = 0,
+//! r_T + S mu r_N = 0, where S is the sign of r_T; free: r = 0. States that the solution
+//! contradicts are changed and the step is solved again (backward Euler in the friction law).
+//! `mceip block --path` sets the result beside the exact path.
 #![allow(clippy::float_arithmetic)]
 
 use super::contact::Contact;
@@ -139,7 +140,7 @@ fn by_node(components: &[f64]) -> Vec<(f64, f64)> {
 
 /// The condensed block and its friction.
 struct CondensedBlock {
-    /// S, N/mm.
+    /// C, N/mm.
     stiffness: Vec<Vec<f64>>,
     mu: f64,
 }
@@ -327,7 +328,7 @@ struct Conditions {
     u: Vec<f64>,
     /// The unknown components.
     active: Vec<usize>,
-    /// A combination of rows of S that vanishes, one for each unknown.
+    /// A combination of rows of C that vanishes, one for each unknown.
     rows: Vec<Vec<f64>>,
 }
 
