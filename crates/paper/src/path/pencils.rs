@@ -4,7 +4,8 @@
 //! For v_T = 1 at one slip node, with the free nodes following, the condensed stiffness C gives the
 //! reactions at all slip nodes. Their tangential parts are a column of C_TT, their normal parts one
 //! of C_NT, where the free nodes are eliminated from both. With the diagonal matrix S of slip
-//! signs, A = S C_TT S and B = C_NT S. The reports of the loading path call this once for every stretch.
+//! signs, A = S C_TT S and B = C_NT S. The reports of the loading path call this once for every
+//! stretch.
 
 use super::contact::{Contact, Load};
 use super::error::PathError;
