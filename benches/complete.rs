@@ -21,6 +21,7 @@ use mceip_check::check;
 use mceip_engine::reduction::{condense, reduce};
 use mceip_engine::run::{Cancel, Progress, Watch};
 use mceip_engine::search::complete::{CompleteError, Completed, Options, complete};
+use mceip_exact::to_f64;
 use mceip_model::{Admissible, Body, Problem, Unknown, Window};
 use mceip_paper::{Block, MassKind, PublishedState};
 use mceip_testkit::{
@@ -31,40 +32,148 @@ use rustix::time::{ClockId, clock_gettime};
 /// A run is stopped after this and reported with what is open. `BENCH_LIMIT` (seconds) changes it.
 const LIMIT_SECONDS: u64 = 120;
 
-/// CPU seconds of this process.
-fn cpu() -> f64 {
-    let t = clock_gettime(ClockId::ProcessCPUTime);
-    t.tv_sec as f64 + 1e-9 * t.tv_nsec as f64
+/// Open regions printed.
+const MOST_OPEN_SHOWN: usize = 200;
+
+/// Orders of the meshes of `-- cost`.
+const COST: [usize; 10] = [10, 15, 20, 30, 40, 50, 60, 70, 80, 150];
+
+/// Larger refined meshes are measured from K only: their condensation in doubles as exact data
+/// takes minutes.
+const CONDENSED_UP_TO: usize = 80;
+
+/// A refined mesh of the whole table.
+struct Refined {
+    /// Nodes in impending slip, before a tenth is stuck.
+    slip: usize,
+    tenth_stuck: bool,
 }
 
+/// The refined meshes of the whole table, in its order.
+const REFINED: [Refined; 10] = [
+    all_slip(24),
+    all_slip(40),
+    all_slip(60),
+    all_slip(80),
+    tenth_stuck(24),
+    tenth_stuck(40),
+    tenth_stuck(60),
+    tenth_stuck(80),
+    all_slip(150),
+    tenth_stuck(150),
+];
+
+const fn all_slip(slip: usize) -> Refined {
+    Refined {
+        slip,
+        tenth_stuck: false,
+    }
+}
+
+const fn tenth_stuck(slip: usize) -> Refined {
+    Refined {
+        slip,
+        tenth_stuck: true,
+    }
+}
+
+/// Orders of the random pencils, each with the number of seeds.
+const RANDOM: [(usize, u64); 4] = [(20, 20), (30, 10), (40, 10), (50, 3)];
+
+fn main() {
+    let words: Vec<String> = std::env::args()
+        .skip(1)
+        .filter(|word| !word.starts_with("--"))
+        .collect();
+
+    match words.first().map(String::as_str) {
+        Some("draw") => draw(),
+        Some("cost") => {
+            let orders: Vec<usize> = words.iter().filter_map(|word| word.parse().ok()).collect();
+            costs(&orders);
+        }
+        _ => table(&words),
+    }
+}
+
+/// Prints the cases whose name contains one of the words; without words, all.
+fn table(words: &[String]) {
+    println!(
+        "{:<44} {:>8} {:>8} {:>7} {:>6} {:>5} {:>8}",
+        "case", "search s", "check s", "leaves", "found", "open", "kB"
+    );
+
+    if wanted(words, "published") {
+        published();
+    }
+    for mesh in &REFINED {
+        let kind = if mesh.tenth_stuck { "stuck" } else { "slip" };
+        if wanted(words, &format!("refined-{}-{kind}", mesh.slip)) {
+            refined(mesh);
+        }
+    }
+    if wanted(words, "complete-graph") {
+        let graph = known::complete_graph(12).expect("n > 0");
+        row("complete graph n=12", &graph.problem);
+    }
+    if wanted(words, "backslash") {
+        backslash();
+    }
+    for unknown in [Unknown::Mu, Unknown::Lambda2] {
+        for (order, seeds) in RANDOM {
+            if wanted(words, &format!("random-{order}-{}", unknown.word())) {
+                random(order, unknown, seeds);
+            }
+        }
+    }
+}
+
+fn wanted(words: &[String], name: &str) -> bool {
+    words.is_empty() || words.iter().any(|word| name.contains(word.as_str()))
+}
+
+/// CPU seconds of this process.
+fn cpu() -> f64 {
+    let time = clock_gettime(ClockId::ProcessCPUTime);
+    time.tv_sec as f64 + 1e-9 * time.tv_nsec as f64
+}
+
+/// A complete search, and the CPU seconds that it and one check of its result took.
 struct Measured {
     search: f64,
     check: f64,
     completed: Completed,
 }
 
+impl Measured {
+    /// Length of the certificate.
+    fn kilobytes(&self) -> usize {
+        self.completed.certificate.to_json().len().div_ceil(1000)
+    }
+}
+
 /// `complete` includes one check: it is timed again and taken off.
 fn measure(problem: &Problem) -> Result<Measured, CompleteError> {
-    let limit = std::env::var("BENCH_LIMIT")
-        .ok()
-        .and_then(|t| t.parse().ok())
-        .unwrap_or(LIMIT_SECONDS);
-    let start = cpu();
-    let cancel = Cancel::new();
+    let limit = limit_seconds() as f64;
     let options = Options {
         threads: Some(1),
         ..Options::default()
     };
+    let cancel = Cancel::new();
+
+    let start = cpu();
     let end_when_late = |_: &Progress<'_>| {
-        if cpu() - start > limit as f64 {
+        if cpu() - start > limit {
             cancel.request();
         }
     };
     let completed = complete(problem, &options, &Watch::new(&cancel, &end_when_late))?;
     let total = cpu() - start;
+
     let start = cpu();
     check(problem, &completed.certificate).expect("accepted before");
     let check = cpu() - start;
+
     Ok(Measured {
         search: total - check,
         check,
@@ -72,146 +181,212 @@ fn measure(problem: &Problem) -> Result<Measured, CompleteError> {
     })
 }
 
+fn limit_seconds() -> u64 {
+    match std::env::var("BENCH_LIMIT") {
+        Ok(text) => text.parse().unwrap_or(LIMIT_SECONDS),
+        Err(_) => LIMIT_SECONDS,
+    }
+}
+
+/// Measures a problem and prints its line of the table.
 fn row(name: &str, problem: &Problem) {
-    let m = match measure(problem) {
-        Ok(m) => m,
-        Err(e) => return println!("{name:<44} {e}"),
+    let measured = match measure(problem) {
+        Ok(measured) => measured,
+        Err(error) => return println!("{name:<44} {error}"),
     };
-    let (cover, size) = (
-        &m.completed.cover,
-        m.completed.certificate.to_json().len().div_ceil(1000),
-    );
+
+    let cover = &measured.completed.cover;
     println!(
-        "{name:<44} {:>8.3} {:>8.3} {:>7} {:>6} {:>5} {size:>8}",
-        m.search,
-        m.check,
+        "{name:<44} {:>8.3} {:>8.3} {:>7} {:>6} {:>5} {:>8}",
+        measured.search,
+        measured.check,
         cover.leaves,
         cover.solutions.len(),
-        cover.open.len()
+        cover.open.len(),
+        measured.kilobytes()
     );
-    for o in cover.open.iter().take(MOST_OPEN_SHOWN) {
-        let max = o.max.as_ref().map_or(f64::INFINITY, mceip_exact::to_f64);
+
+    for open in cover.open.iter().take(MOST_OPEN_SHOWN) {
+        let min = to_f64(&open.min);
+        let max = open.max.as_ref().map_or(f64::INFINITY, to_f64);
         println!(
-            "    open: [{:.17e}, {max:.17e}] moving {:?} undecided {:?}",
-            mceip_exact::to_f64(&o.min),
-            o.moving,
-            o.undecided
+            "    open: [{min:.17e}, {max:.17e}] moving {:?} undecided {:?}",
+            open.moving, open.undecided
         );
     }
 }
 
-/// Open regions printed.
-const MOST_OPEN_SHOWN: usize = 200;
+/// The published states, from the condensed pencil and from the mesh.
+fn published() {
+    let start = cpu();
+    let block = Block::of_the_paper(MassKind::Consistent);
+
+    for state in PublishedState::ALL {
+        let problem = state.problem(&block).expect("as published");
+        let reduced = reduce(&problem).expect("as published");
+
+        let begun = cpu();
+        let admissible = Admissible::new(&reduced.pencil, Unknown::Mu).expect("admissible");
+        let condensed = condense(&admissible).expect("definite");
+        println!("    exact condensation {:.2} s", cpu() - begun);
+
+        let condensed = Problem::new(Body::Pencil(condensed), Unknown::Mu, Window::all())
+            .expect("as published");
+        row(
+            &format!("published {}, condensed", state.name()),
+            &condensed,
+        );
+        row(&format!("published {}, mesh", state.name()), &problem);
+    }
+
+    println!("    both, from nothing, all of it: {:.2} s", cpu() - start);
+}
+
+/// One refined mesh, from K and, if it is not too large, from the condensed pencil.
+fn refined(mesh: &Refined) {
+    let problem = refined_block(mesh.slip, mesh.tenth_stuck).expect("within limits");
+    let n_s = reduce(&problem).expect("a model").pencil.slip().len();
+    let kind = if mesh.tenth_stuck {
+        "tenth stuck"
+    } else {
+        "all slip"
+    };
+    row(&format!("refined {kind} n_s={n_s}, mesh"), &problem);
+    if mesh.slip > CONDENSED_UP_TO {
+        return;
+    }
+
+    let begun = cpu();
+    let condensed = condensed_in_doubles(&problem).expect("definite");
+    let seconds = cpu() - begun;
+    row(
+        &format!("refined {kind} n_s={n_s}, condensed ({seconds:.1} s)"),
+        &condensed,
+    );
+}
+
+/// The hard case of [`backslash_block`], both ways.
+fn backslash() {
+    let problem = backslash_block().expect("as given");
+    let condensed = condensed_in_doubles(&problem).expect("definite");
+    row("backslash plane strain n_s=17, condensed", &condensed);
+    row("backslash plane strain n_s=17, mesh", &problem);
+}
 
 /// `count` seeds: the sum of solutions, medians and maxima, how many are closed.
 fn random(n: usize, unknown: Unknown, count: u64) {
-    let (mut search, mut check, mut both) = (Vec::new(), Vec::new(), Vec::new());
-    let (mut leaves, mut closed, mut solutions) = (Vec::new(), 0, Vec::new());
+    let name = format!("n={n} {}", unknown.word());
+
+    let mut runs = Vec::new();
     for seed in 1..=count {
-        let m = match measure(&mechanical_pencil(n, unknown, seed).expect("n > 0")) {
-            Ok(m) => m,
-            Err(e) => {
-                println!("    n={n} {} seed {seed}: {e}", unknown.word());
-                continue;
+        let problem = mechanical_pencil(n, unknown, seed).expect("n > 0");
+        match measure(&problem) {
+            Ok(run) => {
+                let leaves = run.completed.cover.leaves;
+                println!(
+                    "    {name} seed {seed}: {:.3} {:.3} {leaves}",
+                    run.search, run.check
+                );
+                runs.push(run);
             }
-        };
-        println!(
-            "    n={n} {} seed {seed}: {:.3} {:.3} {}",
-            unknown.word(),
-            m.search,
-            m.check,
-            m.completed.cover.leaves
-        );
-        both.push(m.search + m.check);
-        search.push(m.search);
-        check.push(m.check);
-        leaves.push(m.completed.cover.leaves);
-        closed += u64::from(m.completed.is_complete());
-        solutions.push(m.completed.cover.solutions.len());
+            Err(error) => println!("    {name} seed {seed}: {error}"),
+        }
     }
-    if search.is_empty() {
-        return;
+
+    if !runs.is_empty() {
+        print_summary(&name, &runs, count);
     }
-    both.sort_by(f64::total_cmp);
-    search.sort_by(f64::total_cmp);
-    check.sort_by(f64::total_cmp);
+}
+
+fn print_summary(name: &str, runs: &[Measured], count: u64) {
+    let both = sorted(runs.iter().map(|run| run.search + run.check));
+    let search = sorted(runs.iter().map(|run| run.search));
+    let check = sorted(runs.iter().map(|run| run.check));
+    let mut leaves: Vec<_> = runs.iter().map(|run| run.completed.cover.leaves).collect();
     leaves.sort_unstable();
-    let (mid, last) = (search.len() / 2, search.len() - 1);
+    let closed = runs
+        .iter()
+        .filter(|run| run.completed.is_complete())
+        .count();
+    let solutions: Vec<usize> = runs
+        .iter()
+        .map(|run| run.completed.cover.solutions.len())
+        .collect();
+
+    let median = runs.len() / 2;
+    let ninth_of_ten = (9 * runs.len()).div_ceil(10) - 1;
+    let last = runs.len() - 1;
     println!(
-        "random mechanical n={n} {}: {closed}/{count} closed; search + check {:.3} median {:.3} \
+        "random mechanical {name}: {closed}/{count} closed; search + check {:.3} median {:.3} \
          ninth of ten {:.3} max; search {:.3} median {:.3} max; check {:.3} median {:.3} max; \
          leaves {} median {} max; solutions {solutions:?}",
-        unknown.word(),
-        both[mid],
-        both[(9 * both.len()).div_ceil(10) - 1],
+        both[median],
+        both[ninth_of_ten],
         both[last],
-        search[mid],
+        search[median],
         search[last],
-        check[mid],
+        check[median],
         check[last],
-        leaves[mid],
+        leaves[median],
         leaves[last],
     );
 }
 
-fn published() {
-    let start = cpu();
-    let block = Block::of_the_paper(MassKind::Consistent);
-    for state in PublishedState::ALL {
-        let problem = state.problem(&block).expect("as published");
-        let reduced = reduce(&problem).expect("as published");
-        let begun = cpu();
-        let small = condense(&Admissible::new(&reduced.pencil, Unknown::Mu).expect("admissible"))
-            .expect("definite");
-        println!("    exact condensation {:.2} s", cpu() - begun);
-        let small =
-            Problem::new(Body::Pencil(small), Unknown::Mu, Window::all()).expect("as published");
-        row(&format!("published {}, condensed", state.name()), &small);
-        row(&format!("published {}, mesh", state.name()), &problem);
-    }
-    println!("    both, from nothing, all of it: {:.2} s", cpu() - start);
+fn sorted(seconds: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut sorted: Vec<f64> = seconds.collect();
+    sorted.sort_by(f64::total_cmp);
+    sorted
 }
-
-/// Orders of the meshes of `-- cost`.
-const COST: [usize; 10] = [10, 15, 20, 30, 40, 50, 60, 70, 80, 150];
 
 /// Measures the refined meshes; without a list of orders of one's own, table and picture are
 /// written.
-fn costs(orders: &[usize]) {
+fn costs(own_orders: &[usize]) {
+    let orders = if own_orders.is_empty() {
+        &COST[..]
+    } else {
+        own_orders
+    };
+
     let mut runs = Vec::new();
     for (case, tenth_stuck) in [("all slip", false), ("a tenth stuck", true)] {
-        for &order in if orders.is_empty() { &COST[..] } else { orders } {
-            let problem = refined_block(order, tenth_stuck).expect("within limits");
-            let pencil = reduce(&problem).expect("a model").pencil;
-            let m = match measure(&problem) {
-                Ok(m) => m,
-                Err(e) => {
-                    println!("# {case} {order}: {e}");
-                    continue;
+        for &order in orders {
+            match measure_cost(case, order, tenth_stuck) {
+                Ok(run) => {
+                    println!("{}", run.line());
+                    runs.push(run);
                 }
-            };
-            let cover = &m.completed.cover;
-            let run = cost::Run {
-                case: case.into(),
-                slip: pencil.slip().len(),
-                free: pencil.free().len(),
-                complete: m.search + m.check,
-                check: m.check,
-                leaves: cover.leaves,
-                solutions: cover.solutions.len(),
-                open: cover.open.len(),
-                kilobytes: m.completed.certificate.to_json().len().div_ceil(1000),
-            };
-            println!("{}", run.line());
-            runs.push(run);
+                Err(error) => println!("# {case} {order}: {error}"),
+            }
         }
     }
-    if orders.is_empty() {
-        let lines: String = runs.iter().map(|r| r.line() + "\n").collect();
+
+    if own_orders.is_empty() {
+        let lines: String = runs.iter().map(|run| run.line() + "\n").collect();
         std::fs::write(cost::CSV, format!("{}\n{lines}", cost::HEAD))
             .expect("spec/figures is there");
         draw();
     }
+}
+
+/// The line of one refined mesh in the table of costs.
+fn measure_cost(case: &str, order: usize, tenth_stuck: bool) -> Result<cost::Run, CompleteError> {
+    let problem = refined_block(order, tenth_stuck).expect("within limits");
+    let pencil = reduce(&problem).expect("a model").pencil;
+
+    let measured = measure(&problem)?;
+
+    let cover = &measured.completed.cover;
+    Ok(cost::Run {
+        case: case.into(),
+        slip: pencil.slip().len(),
+        free: pencil.free().len(),
+        complete: measured.search + measured.check,
+        check: measured.check,
+        leaves: cover.leaves,
+        solutions: cover.solutions.len(),
+        open: cover.open.len(),
+        kilobytes: measured.kilobytes(),
+    })
 }
 
 /// The figure of the table as it stands in its file.
@@ -221,97 +396,4 @@ fn draw() {
         .and_then(|csv| cost::read(&csv))
         .expect("a table in spec/figures");
     std::fs::write(cost::SVG, cost::picture(&runs).to_svg()).expect("spec/figures is there");
-}
-
-/// Larger refined meshes are measured from K only: their condensation in doubles as exact data
-/// takes minutes.
-const CONDENSED_UP_TO: usize = 80;
-
-fn refined(slip: usize, tenth_stuck: bool, from_mesh: bool) {
-    let problem = refined_block(slip, tenth_stuck).expect("within limits");
-    let n = reduce(&problem).expect("a model").pencil.slip().len();
-    let kind = if tenth_stuck {
-        "tenth stuck"
-    } else {
-        "all slip"
-    };
-    if from_mesh {
-        row(&format!("refined {kind} n_s={n}, mesh"), &problem);
-    }
-    if slip > CONDENSED_UP_TO {
-        return;
-    }
-    let begun = cpu();
-    let small = condensed_in_doubles(&problem).expect("definite");
-    let seconds = cpu() - begun;
-    row(
-        &format!("refined {kind} n_s={n}, condensed ({seconds:.1} s)"),
-        &small,
-    );
-}
-
-fn main() {
-    let words: Vec<String> = std::env::args()
-        .skip(1)
-        .filter(|a| !a.starts_with("--"))
-        .collect();
-    if words.first().is_some_and(|w| w == "draw") {
-        return draw();
-    }
-    if words.first().is_some_and(|w| w == "cost") {
-        return costs(
-            &words[1..]
-                .iter()
-                .filter_map(|w| w.parse().ok())
-                .collect::<Vec<_>>(),
-        );
-    }
-    let wanted = |name: &str| words.is_empty() || words.iter().any(|w| name.contains(w.as_str()));
-    println!(
-        "{:<44} {:>8} {:>8} {:>7} {:>6} {:>5} {:>8}",
-        "case", "search s", "check s", "leaves", "found", "open", "kB"
-    );
-    if wanted("published") {
-        published();
-    }
-    for (slip, tenth_stuck, from_mesh) in [
-        (24, false, true),
-        (40, false, true),
-        (60, false, true),
-        (80, false, true),
-        (24, true, true),
-        (40, true, true),
-        (60, true, true),
-        (80, true, true),
-        (150, false, true),
-        (150, true, true),
-    ] {
-        if wanted(&format!(
-            "refined-{slip}-{}",
-            if tenth_stuck { "stuck" } else { "slip" }
-        )) {
-            refined(slip, tenth_stuck, from_mesh);
-        }
-    }
-    if wanted("complete-graph") {
-        row(
-            "complete graph n=12",
-            &known::complete_graph(12).expect("n > 0").problem,
-        );
-    }
-    if wanted("backslash") {
-        let problem = backslash_block().expect("as given");
-        row(
-            "backslash plane strain n_s=17, condensed",
-            &condensed_in_doubles(&problem).expect("definite"),
-        );
-        row("backslash plane strain n_s=17, mesh", &problem);
-    }
-    for unknown in [Unknown::Mu, Unknown::Lambda2] {
-        for (n, count) in [(20, 20), (30, 10), (40, 10), (50, 3)] {
-            if wanted(&format!("random-{n}-{}", unknown.word())) {
-                random(n, unknown, count);
-            }
-        }
-    }
 }

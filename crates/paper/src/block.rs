@@ -1,5 +1,10 @@
 //! The block of section 5, assembled exactly: P1 triangles, glued top, obstacle below.
 //!
+//! K and M are sums of element matrices (`element`) over a mesh (`mesh`), without the dofs of the
+//! glued side. A [`BlockModel`] goes in. With the contact state of each node a block becomes a
+//! mechanical system and an eigenproblem. `mceip block`, the loading path, the benchmarks and most
+//! large tests start here.
+//!
 //! What the paper leaves open (`spec/decisions.md`): the paper's cells are cut by both diagonals,
 //! plane stress, side CD (the top) glued and eliminated, slip to the left (S = 1).
 
@@ -72,27 +77,27 @@ impl Block {
         friction: Option<Rational>,
     ) -> Result<System, ModelError> {
         if states.len() != self.contact.len() {
-            let (expected_rows, rows) = (self.contact.len(), states.len());
             return Err(ModelError::Shape {
                 equation: "E9",
                 what: "contact states",
-                expected_rows,
+                expected_rows: self.contact.len(),
                 expected_cols: 1,
-                rows,
+                rows: states.len(),
                 cols: 1,
             });
         }
-        let particle = |(&node, &state): (&usize, &ContactState)| Particle {
-            normal_direction: -1,
-            ..Particle::plain(2 * node, 2 * node + 1, state)
-        };
-        let particles = self.contact.iter().zip(states).map(particle).collect();
-        System::new(
-            self.stiffness.clone(),
-            Some(self.mass.clone()),
-            friction,
-            particles,
-        )
+
+        let mut particles = Vec::with_capacity(states.len());
+        for (&node, &state) in self.contact.iter().zip(states) {
+            particles.push(Particle {
+                normal_direction: -1,
+                ..Particle::plain(2 * node, 2 * node + 1, state)
+            });
+        }
+
+        let stiffness = self.stiffness.clone();
+        let mass = self.mass.clone();
+        System::new(stiffness, Some(mass), friction, particles)
     }
 
     /// The MCEIP-mu problem at these contact states; with friction given, MCEIP-lambda2 at that mu.
@@ -109,11 +114,8 @@ impl Block {
         } else {
             Unknown::Mu
         };
-        Problem::new(
-            Body::System(self.system(states, friction)?),
-            unknown,
-            Window::all(),
-        )
+        let system = self.system(states, friction)?;
+        Problem::new(Body::System(system), unknown, Window::all())
     }
 
     /// States of a block that slides to the left: the first `stick` nodes stuck, the next `slip`
@@ -127,14 +129,15 @@ impl Block {
         slip: usize,
     ) -> Result<Vec<ContactState>, SourceError> {
         let nodes = self.contact.len();
-        let touching = stick.checked_add(slip).filter(|&n| n <= nodes);
-        let touching = touching.ok_or(SourceError::TooManyContacts { nodes, stick, slip })?;
-        let state = |i: usize| match i {
-            i if i < stick => ContactState::Stick,
-            i if i < touching => ContactState::Slip { sign: 1 },
-            _ => ContactState::Free,
-        };
-        Ok((0..nodes).map(state).collect())
+        let touching = stick
+            .checked_add(slip)
+            .filter(|&touching| touching <= nodes)
+            .ok_or(SourceError::TooManyContacts { nodes, stick, slip })?;
+
+        let mut states = vec![ContactState::Free; nodes];
+        states[..stick].fill(ContactState::Stick);
+        states[stick..touching].fill(ContactState::Slip { sign: 1 });
+        Ok(states)
     }
 
     /// The states of [`Block::sliding_states`] for `slip` nodes on the cone of which a tenth of the
@@ -146,59 +149,102 @@ impl Block {
         &self,
         slip: usize,
     ) -> Result<Vec<ContactState>, SourceError> {
-        let stick = ((self.contact.len() + 5) / 10).min(slip);
+        let tenth = (self.contact.len() + 5) / 10;
+        let stick = tenth.min(slip);
         self.sliding_states(stick, slip - stick)
     }
 }
 
-/// Element stiffness and mass of one shape of triangle: 6 x 6, and 3 x 3 for each direction.
-type ElementMatrices = (Vec<Vec<Rational>>, Vec<Vec<Rational>>);
+/// The matrices of one shape of triangle.
+struct ElementMatrices {
+    /// Of the six dofs.
+    stiffness: Vec<Vec<Rational>>,
+    /// Of the three vertices, the same in x and in y.
+    mass: Vec<Vec<Rational>>,
+}
+
+impl ElementMatrices {
+    fn new(vertices: &[Point; 3], model: &BlockModel) -> ElementMatrices {
+        let mut couplings = vec![vec![whole(0); 3]; 3];
+        for a in 0..3 {
+            for b in 0..3 {
+                couplings[a][b] = mass(vertices, &model.material, model.mass, a, b);
+            }
+        }
+
+        ElementMatrices {
+            stiffness: stiffness(vertices, &model.material, model.plane),
+            mass: couplings,
+        }
+    }
+}
+
+/// The size of half a cell, in which the mesh counts.
+struct HalfCell {
+    width: Rational,
+    height: Rational,
+}
+
+impl HalfCell {
+    fn point(&self, x: i64, y: i64) -> Point {
+        (&self.width * whole(x), &self.height * whole(y))
+    }
+
+    /// The triangle of this shape with its first vertex at the origin.
+    fn triangle(&self, shape: Shape) -> [Point; 3] {
+        let [first, second] = shape;
+        [
+            self.point(0, 0),
+            self.point(first.0, first.1),
+            self.point(second.0, second.1),
+        ]
+    }
+}
 
 /// Adds up the elements. Translates of a triangle share their matrices: a few shapes in all.
 fn assemble(model: &BlockModel, mesh: &Mesh) -> Block {
-    let half = (&model.cell.0 / whole(2), &model.cell.1 / whole(2));
-    let place = |x: i64, y: i64| (&half.0 * whole(x), &half.1 * whole(y));
+    let half_cell = HalfCell {
+        width: &model.cell.0 / whole(2),
+        height: &model.cell.1 / whole(2),
+    };
+
     let mut shapes: BTreeMap<Shape, ElementMatrices> = BTreeMap::new();
-    let (mut k, mut m) = (Vec::new(), Vec::new());
+    let mut stiffness = Vec::new();
+    let mut mass = Vec::new();
     for triangle in &mesh.triangles {
         let shape = mesh.shape(triangle);
-        let (ke, me) = shapes.entry(shape).or_insert_with(|| {
-            let p = [
-                place(0, 0),
-                place(shape[0].0, shape[0].1),
-                place(shape[1].0, shape[1].1),
-            ];
-            let me = (0..3)
-                .map(|a| {
-                    (0..3)
-                        .map(|b| mass(&p, &model.material, model.mass, a, b))
-                        .collect()
-                })
-                .collect();
-            (stiffness(&p, &model.material, model.plane), me)
-        });
-        for (i, row) in ke.iter().enumerate() {
-            for (j, value) in row.iter().enumerate() {
-                let (Some(di), Some(dj)) = (mesh.dof(triangle, i), mesh.dof(triangle, j)) else {
+        let element = shapes
+            .entry(shape)
+            .or_insert_with(|| ElementMatrices::new(&half_cell.triangle(shape), model));
+
+        for i in 0..6 {
+            for j in 0..6 {
+                let Some(row) = mesh.dof(triangle, i) else {
                     continue;
                 };
-                k.push((di, dj, value.clone()));
-                if i % 2 == j % 2 {
-                    m.push((di, dj, me[i / 2][j / 2].clone()));
+                let Some(column) = mesh.dof(triangle, j) else {
+                    continue;
+                };
+                stiffness.push((row, column, element.stiffness[i][j].clone()));
+                let same_direction = i % 2 == j % 2;
+                if same_direction {
+                    mass.push((row, column, element.mass[i / 2][j / 2].clone()));
                 }
             }
         }
     }
-    let kept = mesh
-        .points
-        .iter()
-        .zip(&mesh.number)
-        .filter(|(_, n)| n.is_some());
-    let nodes: Vec<Point> = kept.map(|(p, _)| place(p.0.into(), p.1.into())).collect();
+
+    let mut nodes = Vec::with_capacity(mesh.free_nodes());
+    for (&(x, y), number) in mesh.points.iter().zip(&mesh.number) {
+        if number.is_some() {
+            nodes.push(half_cell.point(x.into(), y.into()));
+        }
+    }
+
     let dofs = 2 * nodes.len();
     Block {
-        stiffness: Sparse::from_entries(dofs, dofs, k),
-        mass: Sparse::from_entries(dofs, dofs, m),
+        stiffness: Sparse::from_entries(dofs, dofs, stiffness),
+        mass: Sparse::from_entries(dofs, dofs, mass),
         nodes,
         contact: mesh.contact.clone(),
         triangles: mesh.triangles.len(),
@@ -211,11 +257,11 @@ mod tests {
     use crate::{Material, MeshKind, Plane};
     use mceip_exact::rational;
 
+    /// Cells of 2 mm.
     fn small(nx: usize, ny: usize, mass: MassKind) -> BlockModel {
-        let cell = (whole(2), whole(2));
         BlockModel {
             cells: (nx, ny),
-            cell,
+            cell: (whole(2), whole(2)),
             mass,
             ..BlockModel::of_the_paper()
         }
@@ -224,100 +270,103 @@ mod tests {
     #[test]
     fn counts_of_the_paper() {
         let block = Block::of_the_paper(MassKind::Consistent);
-        assert_eq!(
-            (
-                block.triangles,
-                block.nodes.len(),
-                block.contact.len(),
-                block.stiffness.rows()
-            ),
-            (800, 410, 21, 820)
-        );
+
+        assert_eq!(block.triangles, 800);
+        assert_eq!(block.nodes.len(), 410);
+        assert_eq!(block.contact.len(), 21);
+        assert_eq!(block.stiffness.rows(), 820);
         assert_eq!(block.stiffness.first_asymmetry(), None);
-        assert!(
-            block
-                .contact
-                .windows(2)
-                .all(|w| block.nodes[w[0]].0 < block.nodes[w[1]].0)
-        );
-        let band = block
-            .stiffness
-            .entries()
-            .map(|(i, j, _)| i.abs_diff(j))
-            .max()
-            .unwrap();
+
+        for neighbours in block.contact.windows(2) {
+            let left = &block.nodes[neighbours[0]];
+            let right = &block.nodes[neighbours[1]];
+            assert!(left.0 < right.0);
+        }
+
+        let entries = block.stiffness.entries();
+        let band = entries.map(|(i, j, _)| i.abs_diff(j)).max().unwrap();
         assert!(band <= 66, "half-bandwidth {band}");
-        assert_eq!(
-            Block::new(&BlockModel::of_the_paper()).unwrap().stiffness,
-            block.stiffness
-        );
+
+        let same = Block::new(&BlockModel::of_the_paper()).unwrap();
+        assert_eq!(same.stiffness, block.stiffness);
     }
 
     /// A uniform strain needs no force inside, on every mesh, in both planes, on oblong cells.
     #[test]
     fn patch_test_uniform_strain_needs_no_interior_force() {
-        for (mesh, plane) in MeshKind::ALL
-            .into_iter()
-            .flat_map(|m| Plane::ALL.map(|p| (m, p)))
-        {
-            let cell = (whole(2), rational(5, 3));
-            let block = Block::new(&BlockModel {
-                cell,
-                mesh,
-                plane,
-                ..small(4, 4, MassKind::Lumped)
-            })
-            .unwrap();
-            let u: Vec<Rational> = block
-                .nodes
-                .iter()
-                .flat_map(|(x, y)| [x * rational(1, 7) + y, y * rational(-2, 5)])
-                .collect();
-            let force = block.stiffness.times(&u);
-            let top = rational(5, 1); // the row below the glued nodes misses their forces
-            let interior =
-                |(x, y): &Point| *x > whole(0) && *x < whole(8) && *y > whole(0) && *y < top;
-            let inside: Vec<usize> = (0..block.nodes.len())
-                .filter(|&k| interior(&block.nodes[k]))
-                .collect();
-            assert!(inside.len() >= 6);
-            assert!(
-                inside
-                    .iter()
-                    .all(|&k| force[2 * k] == whole(0) && force[2 * k + 1] == whole(0)),
-                "{mesh:?} {plane:?}"
-            );
-            assert_ne!(force[2 * block.contact[0]], whole(0));
+        for mesh in MeshKind::ALL {
+            for plane in Plane::ALL {
+                patch_test(mesh, plane);
+            }
         }
+    }
+
+    fn patch_test(mesh: MeshKind, plane: Plane) {
+        let model = BlockModel {
+            cell: (whole(2), rational(5, 3)),
+            mesh,
+            plane,
+            ..small(4, 4, MassKind::Lumped)
+        };
+        let block = Block::new(&model).unwrap();
+        let mut u = Vec::new();
+        for (x, y) in &block.nodes {
+            u.extend([x * rational(1, 7) + y, y * rational(-2, 5)]);
+        }
+
+        let force = block.stiffness.times(&u);
+
+        let mut inside = 0;
+        for (node, point) in block.nodes.iter().enumerate() {
+            if is_interior(point) {
+                inside += 1;
+                assert_eq!(force[2 * node], whole(0), "{mesh:?} {plane:?}");
+                assert_eq!(force[2 * node + 1], whole(0), "{mesh:?} {plane:?}");
+            }
+        }
+        assert!(inside >= 6);
+        assert_ne!(force[2 * block.contact[0]], whole(0));
+    }
+
+    /// Off the sides of the block of [`patch_test`], and off the row of nodes below the glued side,
+    /// which misses the forces of the glued nodes.
+    fn is_interior((x, y): &Point) -> bool {
+        let top = rational(5, 1);
+        *x > whole(0) && *x < whole(8) && *y > whole(0) && *y < top
+    }
+
+    fn row_sum(matrix: &Sparse, row: usize) -> Rational {
+        matrix.row(row).iter().map(|entry| entry.1.clone()).sum()
     }
 
     #[test]
     fn lumping_keeps_the_mass_and_makes_it_diagonal() {
-        let of = |kind| Block::new(&small(2, 2, kind)).unwrap().mass;
-        let (consistent, lumped) = (of(MassKind::Consistent), of(MassKind::Lumped));
-        assert!(lumped.entries().all(|(i, j, _)| i == j));
-        assert_ne!(consistent, lumped);
+        let consistent = Block::new(&small(2, 2, MassKind::Consistent)).unwrap();
+        let lumped = Block::new(&small(2, 2, MassKind::Lumped)).unwrap();
+
+        assert!(lumped.mass.entries().all(|(i, j, _)| i == j));
+        assert_ne!(consistent.mass, lumped.mass);
+
         // A node off the glued side keeps its row sum; the corner A lies in two of a cell's
         // quarters.
-        let row = |m: &Sparse, i: usize| m.row(i).iter().map(|e| e.1.clone()).sum::<Rational>();
         let material = Material::polyurethane();
-        assert_eq!(
-            row(&lumped, 0),
-            &material.density * &material.thickness * rational(2, 3)
-        );
-        assert_eq!(row(&consistent, 0), row(&lumped, 0));
+        let corner = &material.density * &material.thickness * rational(2, 3);
+        assert_eq!(row_sum(&lumped.mass, 0), corner);
+        assert_eq!(row_sum(&consistent.mass, 0), corner);
     }
 
     #[test]
     fn states_are_counted() {
         let block = Block::new(&small(6, 1, MassKind::Lumped)).unwrap();
         assert!(block.system(&[], None).is_err());
+
         let states = block.sliding_states(1, 4).unwrap();
-        let words: Vec<&str> = states.iter().map(|s| s.word()).collect();
+        let words: Vec<&str> = states.iter().map(|state| state.word()).collect();
         assert_eq!(
             words,
             ["stick", "slip", "slip", "slip", "slip", "free", "free"]
         );
+
         assert_eq!(
             block.sliding_states(4, 4),
             Err(SourceError::TooManyContacts {
@@ -327,21 +376,14 @@ mod tests {
             })
         );
         assert!(block.sliding_states(usize::MAX, 1).is_err());
-        let slips = |s: Vec<ContactState>| {
-            s.iter()
-                .filter(|c| matches!(c, ContactState::Slip { .. }))
-                .count()
-        };
-        assert_eq!(slips(block.sliding_states_with_tenth_stuck(5).unwrap()), 4);
-        assert!(
-            block
-                .problem(&block.sliding_states(7, 0).unwrap(), None)
-                .is_err(),
-            "nothing slips"
-        );
-        assert_eq!(
-            block.problem(&states, Some(whole(2))).unwrap().unknown(),
-            Unknown::Lambda2
-        );
+
+        let tenth_stuck = block.sliding_states_with_tenth_stuck(5).unwrap();
+        let slips = tenth_stuck.iter().filter(|state| state.word() == "slip");
+        assert_eq!(slips.count(), 4);
+
+        let all_stuck = block.sliding_states(7, 0).unwrap();
+        assert!(block.problem(&all_stuck, None).is_err(), "nothing slips");
+        let problem = block.problem(&states, Some(whole(2))).unwrap();
+        assert_eq!(problem.unknown(), Unknown::Lambda2);
     }
 }

@@ -1,4 +1,7 @@
 //! What a block is made of: cells, triangulation, plane, material, mass. All lengths in mm.
+//!
+//! Input of `Block::new`, `DoubleBlock::new` and `triangulation`. The paper's block and its
+//! relatives have names here.
 
 use super::element::{MassKind, Material};
 use super::error::SourceError;
@@ -47,11 +50,11 @@ impl BlockModel {
     /// assert_eq!(fine.cell, (rational(5, 2), rational(5, 2)));
     /// ```
     pub fn with_cells(self, nx: usize, ny: usize) -> BlockModel {
-        let (length, height) = (self.length(), self.height());
-        let part = |all: Rational, n: usize| all / Rational::from_integer(n.max(1).into());
+        let width = part(self.length(), nx);
+        let height = part(self.height(), ny);
         BlockModel {
             cells: (nx, ny),
-            cell: (part(length, nx), part(height, ny)),
+            cell: (width, height),
             ..self
         }
     }
@@ -62,9 +65,10 @@ impl BlockModel {
     /// (`slip` = 17 is the paper's own mesh; 24, 40, 60, 80, 150, 272 have 28, 48, 70, 94, 176, 320
     /// columns).
     pub fn refined(slip: usize) -> BlockModel {
-        let half = slip.saturating_mul(20).saturating_add(17) / 34; // nearest integer to 10/17 slip
-        let half = half.max(1);
-        BlockModel::of_the_paper().with_cells(half.saturating_mul(2), half)
+        // The integer nearest to 10/17 slip.
+        let half = slip.saturating_mul(20).saturating_add(17) / 34;
+        let rows = half.max(1);
+        BlockModel::of_the_paper().with_cells(rows.saturating_mul(2), rows)
     }
 
     /// 20 x 20 cells cut by `\` in plane strain, again 800 elements and 21 contact nodes: its
@@ -89,10 +93,11 @@ impl BlockModel {
 
     /// Refuses cells and materials that make no block. (The number of cells: when it is meshed.)
     pub(super) fn validate(&self) -> Result<(), SourceError> {
-        for (what, value) in [
+        let positive = [
             ("the width of a cell (mm)", &self.cell.0),
             ("the height of a cell (mm)", &self.cell.1),
-        ] {
+        ];
+        for (what, value) in positive {
             if !value.is_positive() {
                 return Err(SourceError::NotPositive {
                     what,
@@ -100,8 +105,14 @@ impl BlockModel {
                 });
             }
         }
+
         self.material.validate(self.plane)
     }
+}
+
+/// One of `count` equal parts of a length; the whole if there are none.
+fn part(length: Rational, count: usize) -> Rational {
+    length / Rational::from_integer(count.max(1).into())
 }
 
 #[cfg(test)]
@@ -111,7 +122,7 @@ mod tests {
 
     #[test]
     fn refined_meshes_keep_the_rectangle_and_the_share_of_slip() {
-        for (slip, columns) in [
+        let columns_by_slip = [
             (17, 20),
             (24, 28),
             (40, 48),
@@ -119,12 +130,15 @@ mod tests {
             (80, 94),
             (150, 176),
             (272, 320),
-        ] {
+        ];
+        for (slip, columns) in columns_by_slip {
             let model = BlockModel::refined(slip);
             assert_eq!(model.cells, (columns, columns / 2));
             assert_eq!(model.cell.0, model.cell.1);
-            assert_eq!((model.length(), model.height()), (whole(80), whole(40)));
+            assert_eq!(model.length(), whole(80));
+            assert_eq!(model.height(), whole(40));
         }
+
         assert_eq!(BlockModel::refined(17), BlockModel::of_the_paper());
         assert_eq!(BlockModel::refined(0).cells, (2, 1));
     }
@@ -142,8 +156,9 @@ mod tests {
                 ..
             })
         ));
-        let model = BlockModel::of_the_paper().with_cells(3, 7);
-        assert_eq!(model.cell, (rational(80, 3), rational(40, 7)));
-        assert_eq!(model.validate(), Ok(()));
+
+        let oblong = BlockModel::of_the_paper().with_cells(3, 7);
+        assert_eq!(oblong.cell, (rational(80, 3), rational(40, 7)));
+        assert_eq!(oblong.validate(), Ok(()));
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! `.sti` and `.mas` have a line `row column value` for each entry of one triangle, from 1; `.dof`
 //! has a line `node.direction` for each row. Degrees of freedom that `*BOUNDARY` fixes do not
-//! appear.
+//! appear. `mceip convert` reads K, M and the names of dofs from here.
 
 use mceip_exact::{Rational, Sparse, parse};
 use std::collections::{BTreeMap, HashMap};
@@ -19,12 +19,38 @@ pub struct CalculixError {
     pub got: String,
 }
 
-fn refuse(line: usize, expected: &'static str, text: &str) -> CalculixError {
-    CalculixError {
-        line,
-        expected,
-        got: text.chars().filter(|c| !c.is_control()).take(60).collect(),
+/// A line of the file that is not empty.
+struct TextLine<'a> {
+    /// From 1.
+    number: usize,
+    /// Without space at both ends.
+    text: &'a str,
+}
+
+impl TextLine<'_> {
+    fn refuse(&self, expected: &'static str) -> CalculixError {
+        let shown = self.text.chars().filter(|c| !c.is_control()).take(60);
+        CalculixError {
+            line: self.number,
+            expected,
+            got: shown.collect(),
+        }
     }
+}
+
+fn lines_with_content(text: &str) -> Vec<TextLine<'_>> {
+    let mut lines = Vec::new();
+    for (index, line) in text.lines().enumerate() {
+        let text = line.trim();
+        if !text.is_empty() {
+            lines.push(TextLine {
+                number: index + 1,
+                text,
+            });
+        }
+    }
+
+    lines
 }
 
 /// The names `node.direction` of the rows, in order, with their 0-based index.
@@ -34,31 +60,35 @@ fn refuse(line: usize, expected: &'static str, text: &str) -> CalculixError {
 /// all.
 pub fn read_dofs(text: &str) -> Result<HashMap<String, usize>, CalculixError> {
     let mut names = HashMap::new();
-    for (line, row) in text
-        .lines()
-        .enumerate()
-        .map(|(i, l)| (i + 1, l.trim()))
-        .filter(|(_, l)| !l.is_empty())
-    {
-        let parts = row.split_once('.').map(|(a, b)| {
-            (
-                a.parse::<u64>().is_ok(),
-                b.parse::<u8>().is_ok_and(|d| (1..=6).contains(&d)),
-            )
-        });
-        if parts != Some((true, true)) {
-            return Err(refuse(line, "node.direction", row));
+    for line in lines_with_content(text) {
+        if !is_dof(line.text) {
+            return Err(line.refuse("node.direction"));
         }
+
         let index = names.len();
-        if names.insert(row.to_string(), index).is_some() {
-            return Err(refuse(line, "each degree of freedom once", row));
+        if names.insert(line.text.to_string(), index).is_some() {
+            return Err(line.refuse("each degree of freedom once"));
         }
     }
+
     if names.is_empty() {
-        Err(refuse(1, "node.direction", "nothing"))
-    } else {
-        Ok(names)
+        let empty = TextLine {
+            number: 1,
+            text: "nothing",
+        };
+        return Err(empty.refuse("node.direction"));
     }
+
+    Ok(names)
+}
+
+/// A node number, a dot, a direction from 1 to 6.
+fn is_dof(text: &str) -> bool {
+    let Some((node, direction)) = text.split_once('.') else {
+        return false;
+    };
+    let direction_exists = direction.parse().is_ok_and(|d: u8| (1..=6).contains(&d));
+    node.parse::<u64>().is_ok() && direction_exists
 }
 
 /// A symmetric matrix of the given order from the entries of one triangle, values exactly as spelt.
@@ -73,40 +103,54 @@ pub fn read_dofs(text: &str) -> Result<HashMap<String, usize>, CalculixError> {
 /// assert_eq!((k.get(0, 0), k.get(1, 0)), (rational(5, 2), rational(-1, 1)));
 /// ```
 pub fn read_triangle(text: &str, order: usize) -> Result<Sparse, CalculixError> {
-    let mut entries: BTreeMap<(usize, usize), Rational> = BTreeMap::new();
-    for (line, row) in text
-        .lines()
-        .enumerate()
-        .map(|(i, l)| (i + 1, l.trim()))
-        .filter(|(_, l)| !l.is_empty())
-    {
-        let words: Vec<&str> = row.split_whitespace().collect();
-        let [i, j, value] = words[..] else {
-            return Err(refuse(line, "row column value", row));
-        };
-        let index = |w: &str| {
-            w.parse::<usize>()
-                .ok()
-                .and_then(|v| v.checked_sub(1))
-                .filter(|v| *v < order)
-        };
-        let (Some(i), Some(j)) = (index(i), index(j)) else {
-            return Err(refuse(
-                line,
-                "indices from 1 to the number of lines of .dof",
-                row,
-            ));
-        };
-        let value = parse(value).map_err(|_| refuse(line, "a number", row))?;
-        if entries.insert((i.min(j), i.max(j)), value).is_some() {
-            return Err(refuse(line, "each entry of one triangle once", row));
+    let mut upper: BTreeMap<(usize, usize), Rational> = BTreeMap::new();
+    for line in lines_with_content(text) {
+        let entry = read_entry(&line, order)?;
+        let place = (entry.row.min(entry.column), entry.row.max(entry.column));
+        if upper.insert(place, entry.value).is_some() {
+            return Err(line.refuse("each entry of one triangle once"));
         }
     }
-    let mirrored = entries.into_iter().flat_map(|((i, j), v)| {
-        let mirror = (i != j).then(|| (j, i, v.clone()));
-        [(i, j, v)].into_iter().chain(mirror)
-    });
-    Ok(Sparse::from_entries(order, order, mirrored))
+
+    let mut entries = Vec::with_capacity(2 * upper.len());
+    for ((row, column), value) in upper {
+        if row != column {
+            entries.push((column, row, value.clone()));
+        }
+
+        entries.push((row, column, value));
+    }
+
+    Ok(Sparse::from_entries(order, order, entries))
+}
+
+/// An entry, indices from 0.
+struct Entry {
+    row: usize,
+    column: usize,
+    value: Rational,
+}
+
+fn read_entry(line: &TextLine<'_>, order: usize) -> Result<Entry, CalculixError> {
+    let words: Vec<&str> = line.text.split_whitespace().collect();
+    let [row, column, value] = words[..] else {
+        return Err(line.refuse("row column value"));
+    };
+
+    let indices_expected = "indices from 1 to the number of lines of .dof";
+    let row = read_index(row, order).ok_or_else(|| line.refuse(indices_expected))?;
+    let column = read_index(column, order).ok_or_else(|| line.refuse(indices_expected))?;
+    match parse(value) {
+        Ok(value) => Ok(Entry { row, column, value }),
+        Err(_) => Err(line.refuse("a number")),
+    }
+}
+
+/// A 0-based index below `order` from a 1-based one.
+fn read_index(word: &str, order: usize) -> Option<usize> {
+    let from_one: usize = word.parse().ok()?;
+    let index = from_one.checked_sub(1)?;
+    (index < order).then_some(index)
 }
 
 #[cfg(test)]
@@ -116,7 +160,10 @@ mod tests {
     #[test]
     fn names_follow_the_lines() {
         let names = read_dofs("4.1\n4.2\n17.1\n").unwrap();
-        assert_eq!((names["4.1"], names["17.1"], names.len()), (0, 2, 3));
+        assert_eq!(names["4.1"], 0);
+        assert_eq!(names["17.1"], 2);
+        assert_eq!(names.len(), 3);
+
         for bad in ["4\n", "4.7\n", "x.1\n", "4.1\n4.1\n", ""] {
             assert!(read_dofs(bad).is_err(), "{bad:?}");
         }
@@ -124,17 +171,15 @@ mod tests {
 
     #[test]
     fn entries_are_held_against_the_order() {
-        for (bad, line) in [
+        for (bad, expected_line) in [
             ("1 1\n", 1),
             ("1 1 2\n1 3 1\n", 2),
             ("0 1 1\n", 1),
             ("1 1 x\n", 1),
             ("1 2 1\n2 1 1\n", 2),
         ] {
-            assert!(
-                matches!(read_triangle(bad, 2), Err(CalculixError { line: l, .. }) if l == line),
-                "{bad:?}"
-            );
+            let refused = read_triangle(bad, 2).unwrap_err();
+            assert_eq!(refused.line, expected_line, "{bad:?}");
         }
     }
 }

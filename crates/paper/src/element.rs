@@ -1,4 +1,9 @@
 //! The linear (P1) triangle: exact stiffness and mass in plane stress and plane strain.
+//!
+//! The three shape functions N_a are linear, so strains are constant: B_a = [N_a,x 0; 0 N_a,y;
+//! N_a,y N_a,x] for each vertex, stiffness t A B'DB with D of Hooke's law, mass the integral of
+//! rho t N_a N_b. Vertices counter-clockwise and a valid material go in. `block` adds the elements
+//! up; `doubles` repeats the work in doubles and shares only the material.
 
 use super::error::SourceError;
 use super::plane::Plane;
@@ -34,11 +39,12 @@ impl Material {
     /// # Errors
     /// [`SourceError::NotPositive`], [`SourceError::Poisson`].
     pub fn validate(&self, plane: Plane) -> Result<(), SourceError> {
-        for (what, value) in [
+        let positive = [
             ("E (N/mm^2)", &self.young),
             ("the thickness (mm)", &self.thickness),
             ("the density (t/mm^3)", &self.density),
-        ] {
+        ];
+        for (what, value) in positive {
             if !value.is_positive() {
                 return Err(SourceError::NotPositive {
                     what,
@@ -46,34 +52,58 @@ impl Material {
                 });
             }
         }
-        let (nu, half) = (&self.poisson, rational(1, 2));
-        let fits = *nu > whole(-1) && (*nu < half || (plane == Plane::Stress && *nu == half));
-        if fits {
+
+        if self.poisson_fits(plane) {
             Ok(())
         } else {
             Err(SourceError::Poisson {
                 plane,
-                got: nu.clone(),
+                got: self.poisson.clone(),
             })
         }
     }
 
-    /// D11 = D22, D12 and D33 of Hooke's law in the plane, N/mm^2.
-    pub(super) fn elasticity(&self, plane: Plane) -> [Rational; 3] {
+    /// -1 < nu < 1/2; nu = 1/2 in plane stress only.
+    fn poisson_fits(&self, plane: Plane) -> bool {
+        let nu = &self.poisson;
+        let half = rational(1, 2);
+        let compressible = *nu < half;
+        let incompressible_in_stress = *nu == half && plane == Plane::Stress;
+        *nu > whole(-1) && (compressible || incompressible_in_stress)
+    }
+
+    /// Hooke's law in the plane.
+    pub(super) fn elasticity(&self, plane: Plane) -> Elasticity {
         let one = Rational::one();
         let nu = &self.poisson;
         let shear = &self.young / (whole(2) * (&one + nu));
+
         match plane {
             Plane::Stress => {
                 let factor = &self.young / (&one - nu * nu);
-                [factor.clone(), factor * nu, shear]
+                Elasticity {
+                    d11: factor.clone(),
+                    d12: factor * nu,
+                    d33: shear,
+                }
             }
             Plane::Strain => {
                 let factor = &self.young / ((&one + nu) * (&one - whole(2) * nu));
-                [&factor * (&one - nu), factor * nu, shear]
+                Elasticity {
+                    d11: &factor * (&one - nu),
+                    d12: factor * nu,
+                    d33: shear,
+                }
             }
         }
     }
+}
+
+/// The matrix D of Hooke's law in the plane, N/mm^2: D22 = D11, D21 = D12, the others are zero.
+pub(super) struct Elasticity {
+    pub(super) d11: Rational,
+    pub(super) d12: Rational,
+    pub(super) d33: Rational,
 }
 
 /// How mass is distributed to the nodes.
@@ -90,32 +120,63 @@ pub type Point = (Rational, Rational);
 
 /// Twice the signed area of a triangle, mm^2.
 pub(super) fn twice_area(p: &[Point; 3]) -> Rational {
-    (&p[1].0 - &p[0].0) * (&p[2].1 - &p[0].1) - (&p[2].0 - &p[0].0) * (&p[1].1 - &p[0].1)
+    let [(x0, y0), (x1, y1), (x2, y2)] = p;
+    let first_edge = (x1 - x0, y1 - y0);
+    let second_edge = (x2 - x0, y2 - y0);
+    &first_edge.0 * &second_edge.1 - &second_edge.0 * &first_edge.1
 }
 
 /// Element stiffness, 6 x 6 in (u_x, u_y) per vertex, N/mm: t A B'DB with constant strain.
 pub(super) fn stiffness(p: &[Point; 3], material: &Material, plane: Plane) -> Vec<Vec<Rational>> {
-    let [d11, d12, d33] = material.elasticity(plane);
+    let elasticity = material.elasticity(plane);
+    let gradients = Gradients::of(p);
     let scale = &material.thickness / (whole(2) * twice_area(p)); // t / 4A
-    let b: Vec<Rational> = (0..3)
-        .map(|a| &p[(a + 1) % 3].1 - &p[(a + 2) % 3].1)
-        .collect();
-    let c: Vec<Rational> = (0..3)
-        .map(|a| &p[(a + 2) % 3].0 - &p[(a + 1) % 3].0)
-        .collect();
-    let entry = |i: usize, j: usize| {
-        let (a, e) = (i / 2, j / 2);
-        let value = match (i % 2, j % 2) {
-            (0, 0) => &d11 * &b[a] * &b[e] + &d33 * &c[a] * &c[e],
-            (0, 1) => &d12 * &b[a] * &c[e] + &d33 * &c[a] * &b[e],
-            (1, 0) => &d12 * &c[a] * &b[e] + &d33 * &b[a] * &c[e],
-            _ => &d11 * &c[a] * &c[e] + &d33 * &b[a] * &b[e],
-        };
-        value * &scale
-    };
-    (0..6)
-        .map(|i| (0..6).map(|j| entry(i, j)).collect())
-        .collect()
+
+    let mut matrix = vec![vec![whole(0); 6]; 6];
+    for a in 0..3 {
+        for b in 0..3 {
+            let block = gradients.block(a, b, &elasticity);
+            for (i, row) in block.iter().enumerate() {
+                for (j, value) in row.iter().enumerate() {
+                    matrix[2 * a + i][2 * b + j] = value * &scale;
+                }
+            }
+        }
+    }
+
+    matrix
+}
+
+/// 2A times the derivatives of the three shape functions, mm.
+struct Gradients {
+    /// By x: y of the next vertex less y of the one after.
+    x: [Rational; 3],
+    /// By y: x of the vertex after the next less x of the next.
+    y: [Rational; 3],
+}
+
+impl Gradients {
+    fn of(p: &[Point; 3]) -> Gradients {
+        let [(x0, y0), (x1, y1), (x2, y2)] = p;
+        Gradients {
+            x: [y1 - y2, y2 - y0, y0 - y1],
+            y: [x2 - x1, x0 - x2, x1 - x0],
+        }
+    }
+
+    /// 4 A^2 B_a' D B_b: rows are the force at vertex a in x and y, columns the displacement of
+    /// vertex b. B_a maps the displacement to the strains: [N_x, 0; 0, N_y; N_y, N_x].
+    fn block(&self, a: usize, b: usize, elasticity: &Elasticity) -> [[Rational; 2]; 2] {
+        let Elasticity { d11, d12, d33 } = elasticity;
+        let xx = &self.x[a] * &self.x[b];
+        let xy = &self.x[a] * &self.y[b];
+        let yx = &self.y[a] * &self.x[b];
+        let yy = &self.y[a] * &self.y[b];
+        [
+            [d11 * &xx + d33 * &yy, d12 * &xy + d33 * &yx],
+            [d12 * &yx + d33 * &xy, d11 * &yy + d33 * &xx],
+        ]
+    }
 }
 
 /// Mass coupling of vertices a and b in each direction, t.
@@ -126,12 +187,13 @@ pub(super) fn mass(
     a: usize,
     b: usize,
 ) -> Rational {
-    let total = &material.density * &material.thickness * twice_area(p) / whole(2);
-    match (kind, a == b) {
-        (MassKind::Consistent, true) => total / whole(6),
-        (MassKind::Consistent, false) => total / whole(12),
-        (MassKind::Lumped, true) => total / whole(3),
-        (MassKind::Lumped, false) => whole(0),
+    let area = twice_area(p) / whole(2);
+    let total = &material.density * &material.thickness * area;
+    match kind {
+        MassKind::Consistent if a == b => total / whole(6),
+        MassKind::Consistent => total / whole(12),
+        MassKind::Lumped if a == b => total / whole(3),
+        MassKind::Lumped => whole(0),
     }
 }
 
@@ -147,6 +209,10 @@ mod tests {
         ]
     }
 
+    fn dot(row: &[Rational], vector: &[Rational]) -> Rational {
+        row.iter().zip(vector).map(|(a, b)| a * b).sum()
+    }
+
     #[test]
     fn reference_triangle_by_hand() {
         // E = 1, nu = 0, t = 1 on (0,0), (1,0), (0,1): D = diag(1, 1, 1/2), A = 1/2.
@@ -156,24 +222,20 @@ mod tests {
             thickness: whole(1),
             density: whole(1),
         };
-        let k = stiffness(
-            &[
-                (whole(0), whole(0)),
-                (whole(1), whole(0)),
-                (whole(0), whole(1)),
-            ],
-            &unit,
-            Plane::Stress,
-        );
-        assert_eq!(
-            (k[0][0].clone(), k[0][1].clone()),
-            (rational(3, 4), rational(1, 4))
-        );
-        assert_eq!(
-            (k[2][2].clone(), k[2][3].clone(), k[3][3].clone()),
-            (rational(1, 2), whole(0), rational(1, 4))
-        );
-        assert_eq!(k[1][2], whole(0)); // D12 c_1 b_2 + D33 b_1 c_2 = 0 + (1/2)(-1)(0)
+        let reference = [
+            (whole(0), whole(0)),
+            (whole(1), whole(0)),
+            (whole(0), whole(1)),
+        ];
+
+        let k = stiffness(&reference, &unit, Plane::Stress);
+
+        assert_eq!(k[0][0], rational(3, 4));
+        assert_eq!(k[0][1], rational(1, 4));
+        assert_eq!(k[2][2], rational(1, 2));
+        assert_eq!(k[2][3], whole(0));
+        assert_eq!(k[3][3], rational(1, 4));
+        assert_eq!(k[1][2], whole(0)); // D12 N_1y N_2x + D33 N_1x N_2y = 0 + (1/2)(-1)(0)
         assert_eq!(k[0][5], whole(0));
     }
 
@@ -185,35 +247,42 @@ mod tests {
     }
 
     fn blind_to_rigid_motions(plane: Plane) {
-        let (p, m) = (triangle(), Material::polyurethane());
-        let k = stiffness(&p, &m, plane);
-        let rotation: Vec<Rational> = p.iter().flat_map(|(x, y)| [-y, x.clone()]).collect();
-        let along_x: Vec<Rational> = (0..6).map(|i| whole(i64::from(i % 2 == 0))).collect();
+        let points = triangle();
+        let k = stiffness(&points, &Material::polyurethane(), plane);
+
+        let mut rotation = Vec::new();
+        let mut along_x = Vec::new();
+        let mut stretch = Vec::new();
+        for (x, y) in &points {
+            rotation.extend([-y, x.clone()]);
+            along_x.extend([whole(1), whole(0)]);
+            stretch.extend([x.clone(), whole(0)]);
+        }
+
         for i in 0..6 {
             for j in 0..6 {
                 assert_eq!(k[i][j], k[j][i]);
             }
-            for motion in [&rotation, &along_x] {
-                let force: Rational = k[i].iter().zip(motion).map(|(a, b)| a * b).sum();
-                assert_eq!(force, whole(0));
-            }
+            assert_eq!(dot(&k[i], &rotation), whole(0));
+            assert_eq!(dot(&k[i], &along_x), whole(0));
         }
-        let stretch: Vec<Rational> = p.iter().flat_map(|(x, _)| [x.clone(), whole(0)]).collect();
-        assert_ne!(
-            k[0].iter()
-                .zip(&stretch)
-                .map(|(a, b)| a * b)
-                .sum::<Rational>(),
-            whole(0)
-        );
+        assert_ne!(dot(&k[0], &stretch), whole(0));
     }
 
     #[test]
     fn mass_adds_up_either_way() {
-        let (p, m) = (triangle(), Material::polyurethane());
-        let total = &m.density * &m.thickness * whole(6);
+        let points = triangle();
+        let material = Material::polyurethane();
+        let area = whole(6);
+        let total = &material.density * &material.thickness * area;
+
         for kind in [MassKind::Consistent, MassKind::Lumped] {
-            let sum: Rational = (0..9).map(|k| mass(&p, &m, kind, k / 3, k % 3)).sum();
+            let mut sum = whole(0);
+            for a in 0..3 {
+                for b in 0..3 {
+                    sum += mass(&points, &material, kind, a, b);
+                }
+            }
             assert_eq!(sum, total);
         }
     }
@@ -222,50 +291,57 @@ mod tests {
     /// strain with eps_y = -nu/(1-nu): sigma_x = E/(1-nu^2), sigma_y = 0.
     #[test]
     fn uniaxial_stress_in_both_planes() {
-        let m = Material::polyurethane();
-        let nu = &m.poisson;
+        let material = Material::polyurethane();
+        let young = &material.young;
+        let nu = &material.poisson;
         let one = whole(1);
-        let [d11, d12, d33] = m.elasticity(Plane::Stress);
-        assert_eq!(
-            (&d11 - nu * &d12, &d12 - nu * &d11),
-            (m.young.clone(), whole(0))
-        );
-        let [e11, e12, e33] = m.elasticity(Plane::Strain);
+
+        let stress = material.elasticity(Plane::Stress);
+        assert_eq!(&stress.d11 - nu * &stress.d12, *young);
+        assert_eq!(&stress.d12 - nu * &stress.d11, whole(0));
+
+        let strain = material.elasticity(Plane::Strain);
         let lateral = nu / (&one - nu);
         assert_eq!(
-            (&e11 - &lateral * &e12, &e12 - &lateral * &e11),
-            (&m.young / (&one - nu * nu), whole(0))
+            &strain.d11 - &lateral * &strain.d12,
+            young / (&one - nu * nu)
         );
-        assert_eq!(
-            (d33.clone(), d33),
-            (e33, &m.young / (whole(2) * (one + nu)))
-        );
+        assert_eq!(&strain.d12 - &lateral * &strain.d11, whole(0));
+
+        let shear = young / (whole(2) * (one + nu));
+        assert_eq!(stress.d33, shear);
+        assert_eq!(strain.d33, shear);
+    }
+
+    fn with_poisson(poisson: Rational) -> Material {
+        Material {
+            poisson,
+            ..Material::polyurethane()
+        }
     }
 
     #[test]
     fn materials_that_do_not_exist_are_refused() {
-        let with = |poisson: Rational| Material {
-            poisson,
-            ..Material::polyurethane()
-        };
         let half = rational(1, 2);
-        assert_eq!(with(half.clone()).validate(Plane::Stress), Ok(()));
+        let incompressible = with_poisson(half.clone());
+        assert_eq!(incompressible.validate(Plane::Stress), Ok(()));
         assert_eq!(
-            with(half.clone()).validate(Plane::Strain),
+            incompressible.validate(Plane::Strain),
             Err(SourceError::Poisson {
                 plane: Plane::Strain,
                 got: half
             })
         );
-        assert_eq!(with(rational(-99, 100)).validate(Plane::Strain), Ok(()));
-        assert!(matches!(
-            with(whole(-1)).validate(Plane::Stress),
-            Err(SourceError::Poisson { .. })
-        ));
-        assert!(matches!(
-            with(rational(51, 100)).validate(Plane::Stress),
-            Err(SourceError::Poisson { .. })
-        ));
+
+        let just_inside = with_poisson(rational(-99, 100));
+        assert_eq!(just_inside.validate(Plane::Strain), Ok(()));
+        for outside in [whole(-1), rational(51, 100)] {
+            assert!(matches!(
+                with_poisson(outside).validate(Plane::Stress),
+                Err(SourceError::Poisson { .. })
+            ));
+        }
+
         let weightless = Material {
             density: whole(0),
             ..Material::polyurethane()

@@ -1,4 +1,5 @@
-//! Why a model of the block is refused.
+//! Why a model of the block is refused: what [`super::Block`], [`super::DoubleBlock`] and
+//! [`super::Triangulation`] return for bad data.
 
 use super::plane::Plane;
 use mceip_exact::Rational;
@@ -34,7 +35,11 @@ pub enum SourceError {
         got: Rational,
     },
     /// Poisson's ratio outside what an elastic body can have.
-    #[error("block: expected Poisson's ratio {} in plane {}, got {got}", .plane.poisson_range(), .plane.word())]
+    #[error(
+        "block: expected Poisson's ratio {} in plane {}, got {got}",
+        .plane.poisson_range(),
+        .plane.word()
+    )]
     Poisson {
         /// Plane stress or plane strain.
         plane: Plane,

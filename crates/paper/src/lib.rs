@@ -1,4 +1,19 @@
-//! Where problems come from: the two particles of Fig. 1, the block of section 5.
+//! Where problems come from: the two particles of Fig. 1, the block of section 5 with its meshes
+//! and its loading path, and files of finite-element programs.
+//!
+//! Everything here makes systems, problems or contact states for the other crates; nothing here
+//! solves an eigenproblem. Exact parts hold rationals; files that compute in doubles say so and are
+//! compared with the exact ones. Chapter 7 of the book (`spec/paper-examples.md`) describes the
+//! examples.
+//!
+//! | to read first | what |
+//! |---|---|
+//! | [`two_particles()`] | Fig. 1 as a mechanical system |
+//! | [`BlockModel`], [`Block`] | the block: its data, and K and M assembled exactly |
+//! | [`DoubleBlock`] | the same in doubles, for large meshes |
+//! | [`path`] | the loading that leads to the contact states of section 5 |
+//! | [`PublishedState`] | the two states whose value of mu the paper prints |
+//! | [`calculix`], [`read_contacts`] | matrices and contact states of a model of one's own |
 #![deny(clippy::float_arithmetic)]
 
 mod block;

@@ -1,4 +1,8 @@
 //! Uniform triangulations of a rectangle: cells cut by both diagonals or by one.
+//!
+//! All positions are integers, in half cells, so the mesh knows no lengths: `block`, `doubles` and
+//! `triangulation` multiply by the size of a cell. The top is glued: its points get no number and
+//! no degrees of freedom.
 
 use super::error::SourceError;
 use std::collections::BTreeMap;
@@ -39,10 +43,13 @@ impl MeshKind {
     }
 }
 
+/// A point of the mesh, (x, y) in half cells from the lower left corner.
+pub(super) type GridPoint = (u32, u32);
+
 /// Node positions in half cells, triangles, and the numbering of the nodes below the glued top.
 pub(super) struct Mesh {
     /// Position of each point in half cells.
-    pub(super) points: Vec<(u32, u32)>,
+    pub(super) points: Vec<GridPoint>,
     /// Vertices counter-clockwise.
     pub(super) triangles: Vec<[usize; 3]>,
     /// Number of each point, `None` on the glued side.
@@ -52,52 +59,48 @@ pub(super) struct Mesh {
 }
 
 impl Mesh {
-    /// Nodes are numbered along the shorter side first: the half-bandwidth stays near twice the
-    /// nodes of one such line, which the exact condensation profits from.
+    /// Cuts `nx` times `ny` cells. Nodes are numbered along the shorter side first: the
+    /// half-bandwidth stays near twice the nodes of one such line, which the exact condensation
+    /// profits from.
     pub(super) fn new(nx: usize, ny: usize, kind: MeshKind) -> Result<Mesh, SourceError> {
         if nx == 0 || ny == 0 {
             return Err(SourceError::NoCells { nx, ny });
         }
-        if nx.checked_mul(ny).is_none_or(|cells| cells > MAX_CELLS) {
+
+        let cells = nx.checked_mul(ny);
+        if cells.is_none_or(|cells| cells > MAX_CELLS) {
             return Err(SourceError::TooManyCells {
                 nx,
                 ny,
                 limit: MAX_CELLS,
             });
         }
-        let (width, height) = (nx as u32, ny as u32); // at most MAX_CELLS
-        let columns_first = nx >= ny;
-        let mut points: Vec<(u32, u32)> = (0..=width)
-            .flat_map(|i| (0..=height).map(move |j| (2 * i, 2 * j)))
+
+        // Both are at most MAX_CELLS.
+        let grid = Grid {
+            width: nx as u32,
+            height: ny as u32,
+            kind,
+        };
+        let points = grid.points();
+        let place: BTreeMap<GridPoint, usize> = points
+            .iter()
+            .enumerate()
+            .map(|(k, &point)| (point, k))
             .collect();
-        if kind == MeshKind::Crossed {
-            points
-                .extend((0..width).flat_map(|i| (0..height).map(move |j| (2 * i + 1, 2 * j + 1))));
-        }
-        points.sort_unstable_by_key(|&(x, y)| if columns_first { (x, y) } else { (y, x) });
-        let place: BTreeMap<(u32, u32), usize> =
-            points.iter().enumerate().map(|(k, &p)| (p, k)).collect();
-        let mut triangles = Vec::new();
-        for i in 0..width {
-            for j in 0..height {
-                let at = |x: u32, y: u32| place[&(2 * i + x, 2 * j + y)];
-                let corner = [at(0, 0), at(2, 0), at(2, 2), at(0, 2)];
-                let center = (kind == MeshKind::Crossed).then(|| at(1, 1));
-                triangles.extend(cut(corner, center, kind, (i + j) % 2 == 0));
+
+        let number = grid.number(&points);
+        let mut contact = Vec::with_capacity(nx + 1);
+        for i in 0..=grid.width {
+            let point = place[&(2 * i, 0)];
+            if let Some(node) = number[point] {
+                contact.push(node);
             }
         }
-        let mut next = 0;
-        let mut count = |free: bool| {
-            next += usize::from(free);
-            free.then(|| next - 1)
-        };
-        let number: Vec<Option<usize>> = points.iter().map(|p| count(p.1 != 2 * height)).collect();
-        let contact = (0..=width)
-            .filter_map(|i| number[place[&(2 * i, 0)]])
-            .collect();
+
         Ok(Mesh {
+            triangles: grid.triangles(&place),
             points,
-            triangles,
             number,
             contact,
         })
@@ -110,22 +113,101 @@ impl Mesh {
 
     /// Degree of freedom `i` (x, y of each vertex in turn) of a triangle, `None` if glued.
     pub(super) fn dof(&self, triangle: &[usize; 3], i: usize) -> Option<usize> {
-        self.number[triangle[i / 2]].map(|n| 2 * n + i % 2)
+        let vertex = triangle[i / 2];
+        let node = self.number[vertex]?;
+        Some(2 * node + i % 2)
     }
 
     /// The two edges from a triangle's first vertex, in half cells: triangles with the same edges
     /// are translates of each other and share their element matrices.
     pub(super) fn shape(&self, triangle: &[usize; 3]) -> Shape {
-        let p = triangle.map(|v| (i64::from(self.points[v].0), i64::from(self.points[v].1)));
-        [
-            (p[1].0 - p[0].0, p[1].1 - p[0].1),
-            (p[2].0 - p[0].0, p[2].1 - p[0].1),
-        ]
+        let [origin, first, second] = triangle.map(|vertex| self.points[vertex]);
+        [edge(origin, first), edge(origin, second)]
     }
 }
 
 /// Edges from the first vertex of a triangle, in half cells.
 pub(super) type Shape = [(i64, i64); 2];
+
+fn edge(from: GridPoint, to: GridPoint) -> (i64, i64) {
+    (
+        i64::from(to.0) - i64::from(from.0),
+        i64::from(to.1) - i64::from(from.1),
+    )
+}
+
+/// The cells of a rectangle.
+struct Grid {
+    /// Cells along the contact side.
+    width: u32,
+    /// Cells across it.
+    height: u32,
+    kind: MeshKind,
+}
+
+impl Grid {
+    /// Corners of cells, and centres where both diagonals are drawn, line by line along the shorter
+    /// side.
+    fn points(&self) -> Vec<GridPoint> {
+        let mut points = Vec::new();
+        for i in 0..=self.width {
+            for j in 0..=self.height {
+                points.push((2 * i, 2 * j));
+            }
+        }
+
+        if self.kind == MeshKind::Crossed {
+            for i in 0..self.width {
+                for j in 0..self.height {
+                    points.push((2 * i + 1, 2 * j + 1));
+                }
+            }
+        }
+
+        let columns_first = self.width >= self.height;
+        points.sort_unstable_by_key(|&(x, y)| if columns_first { (x, y) } else { (y, x) });
+        points
+    }
+
+    /// The triangles of all cells; `place` finds a point in the list.
+    fn triangles(&self, place: &BTreeMap<GridPoint, usize>) -> Vec<[usize; 3]> {
+        let mut triangles = Vec::new();
+        for i in 0..self.width {
+            for j in 0..self.height {
+                let left = 2 * i;
+                let bottom = 2 * j;
+                let corner = [
+                    place[&(left, bottom)],
+                    place[&(left + 2, bottom)],
+                    place[&(left + 2, bottom + 2)],
+                    place[&(left, bottom + 2)],
+                ];
+                let center = place.get(&(left + 1, bottom + 1)).copied();
+                let even = (i + j).is_multiple_of(2);
+                triangles.extend(cut(corner, center, self.kind, even));
+            }
+        }
+
+        triangles
+    }
+
+    /// Numbers the points below the top, in order.
+    fn number(&self, points: &[GridPoint]) -> Vec<Option<usize>> {
+        let mut next = 0;
+        let mut number = Vec::with_capacity(points.len());
+        for point in points {
+            let glued = point.1 == 2 * self.height;
+            if glued {
+                number.push(None);
+            } else {
+                number.push(Some(next));
+                next += 1;
+            }
+        }
+
+        number
+    }
+}
 
 /// The triangles of one cell; `corner` counter-clockwise from the lower left.
 fn cut(corner: [usize; 4], center: Option<usize>, kind: MeshKind, even: bool) -> Vec<[usize; 3]> {
@@ -142,6 +224,12 @@ fn cut(corner: [usize; 4], center: Option<usize>, kind: MeshKind, even: bool) ->
 mod tests {
     use super::*;
 
+    /// Twice the area in quarter cells; positive for counter-clockwise vertices.
+    fn twice_area(mesh: &Mesh, triangle: &[usize; 3]) -> i64 {
+        let [first, second] = mesh.shape(triangle);
+        first.0 * second.1 - first.1 * second.0
+    }
+
     /// The triangles cover the rectangle once: areas (in quarter cells, doubled) add up, each is
     /// counter-clockwise, and every inner edge belongs to two triangles.
     #[test]
@@ -150,86 +238,89 @@ mod tests {
             let mesh = Mesh::new(3, 2, kind).unwrap();
             let per_cell = if kind == MeshKind::Crossed { 4 } else { 2 };
             assert_eq!(mesh.triangles.len(), 6 * per_cell);
-            let area = |t: &[usize; 3]| {
-                let [p, q] = mesh.shape(t);
-                p.0 * q.1 - p.1 * q.0
-            };
-            assert!(mesh.triangles.iter().all(|t| area(t) > 0));
-            assert_eq!(mesh.triangles.iter().map(area).sum::<i64>(), 2 * 6 * 4);
+
+            let mut total = 0;
+            for triangle in &mesh.triangles {
+                let area = twice_area(&mesh, triangle);
+                assert!(area > 0);
+                total += area;
+            }
+            assert_eq!(total, 2 * 6 * 4);
+
             let mut edges: BTreeMap<(usize, usize), usize> = BTreeMap::new();
-            for t in &mesh.triangles {
+            for triangle in &mesh.triangles {
                 for k in 0..3 {
-                    let (a, b) = (t[k], t[(k + 1) % 3]);
-                    *edges.entry((a.min(b), a.max(b))).or_default() += 1;
+                    let from = triangle[k];
+                    let to = triangle[(k + 1) % 3];
+                    let edge = (from.min(to), from.max(to));
+                    *edges.entry(edge).or_default() += 1;
                 }
             }
-            assert!(edges.values().all(|&n| n <= 2));
-            assert_eq!(
-                edges.values().filter(|&&n| n == 1).count(),
-                2 * (3 + 2),
-                "edges of the boundary"
-            );
+            assert!(edges.values().all(|&uses| uses <= 2));
+            let boundary = edges.values().filter(|&&uses| uses == 1).count();
+            assert_eq!(boundary, 2 * (3 + 2), "edges of the boundary");
         }
+    }
+
+    const SLASH: [GridPoint; 2] = [(0, 0), (2, 2)];
+    const BACKSLASH: [GridPoint; 2] = [(2, 0), (0, 2)];
+
+    /// Is this diagonal of the cell an edge of two triangles, on a mesh of 2 x 2 cells?
+    fn has_diagonal(kind: MeshKind, cell: GridPoint, diagonal: [GridPoint; 2]) -> bool {
+        let mesh = Mesh::new(2, 2, kind).unwrap();
+        let ends = diagonal.map(|(x, y)| (2 * cell.0 + x, 2 * cell.1 + y));
+
+        let mut beside = 0;
+        for triangle in &mesh.triangles {
+            let vertices = triangle.map(|vertex| mesh.points[vertex]);
+            if ends.iter().all(|end| vertices.contains(end)) {
+                beside += 1;
+            }
+        }
+        beside == 2
     }
 
     #[test]
     fn diagonals_point_as_named() {
-        let has = |kind, cell: (u32, u32), slash: bool| {
-            let mesh = Mesh::new(2, 2, kind).unwrap();
-            let ends = if slash {
-                [(0, 0), (2, 2)]
-            } else {
-                [(2, 0), (0, 2)]
-            };
-            let ends = ends.map(|(x, y)| (2 * cell.0 + x, 2 * cell.1 + y));
-            mesh.triangles
-                .iter()
-                .filter(|t| ends.iter().all(|e| t.iter().any(|&v| mesh.points[v] == *e)))
-                .count()
-                == 2
-        };
-        assert!(has(MeshKind::Slash, (1, 0), true) && !has(MeshKind::Slash, (1, 0), false));
-        assert!(has(MeshKind::Backslash, (1, 0), false) && !has(MeshKind::Backslash, (1, 0), true));
-        assert!(
-            has(MeshKind::UnionJack, (0, 0), true)
-                && has(MeshKind::UnionJack, (1, 0), false)
-                && has(MeshKind::UnionJack, (1, 1), true)
-        );
+        assert!(has_diagonal(MeshKind::Slash, (1, 0), SLASH));
+        assert!(!has_diagonal(MeshKind::Slash, (1, 0), BACKSLASH));
+
+        assert!(has_diagonal(MeshKind::Backslash, (1, 0), BACKSLASH));
+        assert!(!has_diagonal(MeshKind::Backslash, (1, 0), SLASH));
+
+        assert!(has_diagonal(MeshKind::UnionJack, (0, 0), SLASH));
+        assert!(has_diagonal(MeshKind::UnionJack, (1, 0), BACKSLASH));
+        assert!(has_diagonal(MeshKind::UnionJack, (1, 1), SLASH));
+    }
+
+    /// The largest difference of two node numbers in one triangle.
+    fn largest_spread(nx: usize, ny: usize) -> usize {
+        let mesh = Mesh::new(nx, ny, MeshKind::Crossed).unwrap();
+        let mut largest = 0;
+        for triangle in &mesh.triangles {
+            let numbers: Vec<usize> = triangle.iter().filter_map(|&v| mesh.number[v]).collect();
+            let last = numbers.iter().max().unwrap_or(&0);
+            let first = numbers.iter().min().unwrap_or(&0);
+            largest = largest.max(last - first);
+        }
+        largest
     }
 
     #[test]
     fn the_shorter_side_is_numbered_first() {
-        let band = |nx, ny| {
-            let mesh = Mesh::new(nx, ny, MeshKind::Crossed).unwrap();
-            let ends = |t: &[usize; 3]| t.iter().filter_map(|&v| mesh.number[v]).minmax();
-            mesh.triangles.iter().map(ends).max().unwrap()
-        };
-        trait Spread {
-            fn minmax(self) -> usize;
-        }
-        impl<I: Iterator<Item = usize>> Spread for I {
-            fn minmax(self) -> usize {
-                let all: Vec<usize> = self.collect();
-                all.iter().max().unwrap_or(&0) - all.iter().min().unwrap_or(&0)
-            }
-        }
-        assert!(
-            band(12, 2) <= 6 && band(2, 12) <= 6,
-            "{} {}",
-            band(12, 2),
-            band(2, 12)
-        );
+        let lying = largest_spread(12, 2);
+        let standing = largest_spread(2, 12);
+        assert!(lying <= 6 && standing <= 6, "{lying} {standing}");
+
         assert!(matches!(
             Mesh::new(0, 3, MeshKind::Slash),
             Err(SourceError::NoCells { nx: 0, ny: 3 })
         ));
-        assert!(matches!(
-            Mesh::new(usize::MAX, 2, MeshKind::Slash),
-            Err(SourceError::TooManyCells { .. })
-        ));
-        assert!(matches!(
-            Mesh::new(MAX_CELLS, 2, MeshKind::Slash),
-            Err(SourceError::TooManyCells { .. })
-        ));
+        for nx in [usize::MAX, MAX_CELLS] {
+            assert!(matches!(
+                Mesh::new(nx, 2, MeshKind::Slash),
+                Err(SourceError::TooManyCells { .. })
+            ));
+        }
     }
 }

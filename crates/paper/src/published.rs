@@ -1,4 +1,5 @@
-//! The two states of the loading path whose MCEIP-mu value the paper prints.
+//! The two states of the loading path whose MCEIP-mu value the paper prints (chapter 7 of the book,
+//! 7.3). `mceip block`, the tests and the benchmarks solve them.
 
 use super::block::Block;
 use mceip_model::{Body, ContactState, ModelError, Problem, Unknown, Window};
@@ -35,17 +36,15 @@ impl PublishedState {
 
     /// The states of the 21 contact nodes, left to right.
     pub fn states(self) -> Vec<ContactState> {
-        let stick = if self == PublishedState::FifteenSlip {
-            2
-        } else {
-            0
+        let stick = match self {
+            PublishedState::FifteenSlip => 2,
+            PublishedState::SeventeenSlip => 0,
         };
-        let state = |i: usize| match i {
-            i if i < stick => ContactState::Stick,
-            i if i < 17 => ContactState::Slip { sign: 1 },
-            _ => ContactState::Free,
-        };
-        (0..21).map(state).collect()
+
+        let mut states = vec![ContactState::Free; 21];
+        states[..stick].fill(ContactState::Stick);
+        states[stick..17].fill(ContactState::Slip { sign: 1 });
+        states
     }
 
     /// The MCEIP-mu problem of this state on the paper's block.
@@ -54,10 +53,8 @@ impl PublishedState {
     /// [`ModelError`]; none for the block as given.
     pub fn problem(self, block: &Block) -> Result<Problem, ModelError> {
         let system = block.system(&self.states(), None)?;
-        Ok(
-            Problem::new(Body::System(system), Unknown::Mu, Window::all())?
-                .named(format!("block, {}", self.name())),
-        )
+        let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all())?;
+        Ok(problem.named(format!("block, {}", self.name())))
     }
 }
 
@@ -65,22 +62,16 @@ impl PublishedState {
 mod tests {
     use super::*;
 
+    fn count(published: PublishedState, state: ContactState) -> usize {
+        let states = published.states();
+        states.into_iter().filter(|s| *s == state).count()
+    }
+
     #[test]
     fn states_are_the_published_ones() {
-        let count = |s: PublishedState, f: fn(&ContactState) -> bool| {
-            s.states().iter().filter(|c| f(c)).count()
-        };
-        let slip = |c: &ContactState| matches!(c, ContactState::Slip { sign: 1 });
-        assert_eq!(
-            (
-                count(PublishedState::FifteenSlip, slip),
-                count(PublishedState::SeventeenSlip, slip)
-            ),
-            (15, 17)
-        );
-        assert_eq!(
-            count(PublishedState::FifteenSlip, |c| *c == ContactState::Stick),
-            2
-        );
+        let slip = ContactState::Slip { sign: 1 };
+        assert_eq!(count(PublishedState::FifteenSlip, slip), 15);
+        assert_eq!(count(PublishedState::SeventeenSlip, slip), 17);
+        assert_eq!(count(PublishedState::FifteenSlip, ContactState::Stick), 2);
     }
 }

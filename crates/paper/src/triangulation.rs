@@ -1,4 +1,5 @@
-//! The mesh of a block as anybody can read it: points, triangles, nodes, contact side.
+//! The mesh of a block as anybody can read it: points, triangles, nodes, contact side. Pictures of
+//! modes and of the loading path are drawn from it.
 
 use super::block_model::BlockModel;
 use super::element::Point;
@@ -33,15 +34,25 @@ impl BlockModel {
     pub fn triangulation(&self) -> Result<Triangulation, SourceError> {
         self.validate()?;
         let mesh = Mesh::new(self.cells.0, self.cells.1, self.mesh)?;
-        let half = (&self.cell.0 / whole(2), &self.cell.1 / whole(2));
-        let scaled = |unit: &Rational, count: u32| unit * Rational::from_integer(count.into());
-        let points = mesh
-            .points
-            .iter()
-            .map(|&(x, y)| (scaled(&half.0, x), scaled(&half.1, y)))
-            .collect();
-        let point = |node: &usize| mesh.number.iter().position(|n| n.as_ref() == Some(node));
-        let contact = mesh.contact.iter().filter_map(point).collect(); // every node is a point
+
+        // The mesh counts in half cells.
+        let half_width = &self.cell.0 / whole(2);
+        let half_height = &self.cell.1 / whole(2);
+        let mut points = Vec::with_capacity(mesh.points.len());
+        for &(x, y) in &mesh.points {
+            let x = &half_width * Rational::from_integer(x.into());
+            let y = &half_height * Rational::from_integer(y.into());
+            points.push((x, y));
+        }
+
+        let mut contact = Vec::with_capacity(mesh.contact.len());
+        for &node in &mesh.contact {
+            let point = mesh.number.iter().position(|number| *number == Some(node));
+            if let Some(point) = point {
+                contact.push(point);
+            }
+        }
+
         Ok(Triangulation {
             points,
             triangles: mesh.triangles,
@@ -63,37 +74,36 @@ mod tests {
                 mesh,
                 ..BlockModel::of_the_paper().with_cells(4, 3)
             };
-            let (mesh, block) = (model.triangulation().unwrap(), Block::new(&model).unwrap());
-            let mut seen = 0;
-            for (point, node) in mesh
-                .nodes
-                .iter()
-                .enumerate()
-                .filter_map(|(p, n)| n.map(|n| (p, n)))
-            {
-                assert_eq!(mesh.points[point], block.nodes[node]);
-                seen += 1;
-            }
-            assert_eq!(
-                (seen, mesh.triangles.len()),
-                (block.nodes.len(), block.triangles)
-            );
-            let contact: Vec<usize> = mesh.contact.iter().filter_map(|&p| mesh.nodes[p]).collect();
-            assert_eq!(contact, block.contact);
-            let glued = mesh
-                .nodes
-                .iter()
-                .zip(&mesh.points)
-                .filter(|(n, _)| n.is_none());
-            assert!(
-                glued.clone().count() == 5 && glued.clone().all(|(_, p)| p.1 == model.height())
-            );
+            assert_same_nodes(&model);
         }
-        assert!(
-            BlockModel::of_the_paper()
-                .with_cells(0, 3)
-                .triangulation()
-                .is_err()
-        );
+
+        let no_cells = BlockModel::of_the_paper().with_cells(0, 3);
+        assert!(no_cells.triangulation().is_err());
+    }
+
+    fn assert_same_nodes(model: &BlockModel) {
+        let mesh = model.triangulation().unwrap();
+        let block = Block::new(model).unwrap();
+
+        let mut nodes = 0;
+        let mut glued = 0;
+        for (point, node) in mesh.points.iter().zip(&mesh.nodes) {
+            match node {
+                Some(node) => {
+                    assert_eq!(*point, block.nodes[*node]);
+                    nodes += 1;
+                }
+                None => {
+                    assert_eq!(point.1, model.height());
+                    glued += 1;
+                }
+            }
+        }
+        assert_eq!(nodes, block.nodes.len());
+        assert_eq!(glued, 5);
+        assert_eq!(mesh.triangles.len(), block.triangles);
+
+        let contact: Vec<usize> = mesh.contact.iter().filter_map(|&p| mesh.nodes[p]).collect();
+        assert_eq!(contact, block.contact);
     }
 }

@@ -1,4 +1,9 @@
 //! The structure of Fig. 1 as a mechanical system with four degrees of freedom.
+//!
+//! Two particles of mass m rest on an obstacle and hang on five springs of stiffness k: for each an
+//! inclined one (angle phi, c = cos phi, s = sin phi) and a vertical one, and one between them. The
+//! same data give the solutions in closed form (Table 1, `mceip_oracle`), so this is the example on
+//! which tests compare solver, search and oracle. Chapter 7 of the book, 7.1.
 
 use mceip_exact::{Rational, Sparse, whole};
 use mceip_model::{ContactState, ModelError, Particle, System};
@@ -11,40 +16,46 @@ use num_traits::One;
 /// # Errors
 /// [`ModelError`] for data outside the hypotheses (mass or friction not positive).
 pub fn two_particles(data: &TwoParticles) -> Result<System, ModelError> {
-    let TwoParticles {
-        c,
-        s,
-        k,
-        m,
-        mu,
-        signs,
-    } = data;
-    let (p, one) = (c * c + Rational::one(), Rational::one());
-    let n = s * s + &one;
-    let cs = c * s;
-    let rows = [
-        (0, 0, p.clone()),
-        (0, 1, -&cs),
-        (0, 2, -&one),
-        (1, 1, n.clone()),
-        (2, 2, p),
-        (2, 3, cs),
-        (3, 3, n),
+    let TwoParticles { c, s, k, mu, .. } = data;
+    let one = Rational::one();
+    let tangential = c * c + &one;
+    let normal = s * s + &one;
+    let coupling = c * s;
+
+    // K / k, the upper triangle.
+    let upper = [
+        (0, 0, tangential.clone()),
+        (0, 1, -&coupling),
+        (0, 2, -one),
+        (1, 1, normal.clone()),
+        (2, 2, tangential),
+        (2, 3, coupling),
+        (3, 3, normal),
     ];
-    let mirrored = rows.into_iter().flat_map(|(i, j, v)| {
-        let mirror = (i != j).then(|| (j, i, k * &v));
-        [(i, j, k * v)].into_iter().chain(mirror)
-    });
-    let stiffness = Sparse::from_entries(4, 4, mirrored);
-    let mass = Sparse::zeros(4, 4).add_scaled(m, &Sparse::identity(4));
-    let particle =
-        |i: usize, sign: i8| Particle::plain(2 * i, 2 * i + 1, ContactState::Slip { sign });
-    System::new(
-        stiffness,
-        Some(mass),
-        Some(mu.clone()),
-        vec![particle(0, signs.0), particle(1, signs.1)],
-    )
+    let mut entries = Vec::new();
+    for (row, column, value) in upper {
+        let value = k * value;
+        if row != column {
+            entries.push((column, row, value.clone()));
+        }
+
+        entries.push((row, column, value));
+    }
+
+    let stiffness = Sparse::from_entries(4, 4, entries);
+    let mass = Sparse::zeros(4, 4).add_scaled(&data.m, &Sparse::identity(4));
+    let particles = vec![
+        slip_particle(0, data.signs.0),
+        slip_particle(1, data.signs.1),
+    ];
+    System::new(stiffness, Some(mass), Some(mu.clone()), particles)
+}
+
+/// Particle `number` (0 or 1) in impending slip.
+fn slip_particle(number: usize, sign: i8) -> Particle {
+    let tangential = 2 * number;
+    let normal = 2 * number + 1;
+    Particle::plain(tangential, normal, ContactState::Slip { sign })
 }
 
 /// The rational points (cos, sin) used for grids: Pythagorean triples and the two axes.
@@ -60,7 +71,11 @@ pub fn pythagorean_angles() -> Vec<(Rational, Rational)> {
         (1, 0, 1),
     ];
     triples
-        .map(|(c, s, h)| (whole(c) / whole(h), whole(s) / whole(h)))
+        .map(|(adjacent, opposite, hypotenuse)| {
+            let cosine = whole(adjacent) / whole(hypotenuse);
+            let sine = whole(opposite) / whole(hypotenuse);
+            (cosine, sine)
+        })
         .to_vec()
 }
 
@@ -75,39 +90,40 @@ mod tests {
     #[test]
     fn reduction_gives_the_printed_pencil() {
         for signs in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
-            let data = TwoParticles {
-                c: rational(3, 5),
-                s: rational(4, 5),
-                k: whole(7),
-                m: whole(2),
-                mu: whole(3),
-                signs,
-            };
-            let problem = Problem::new(
-                Body::System(two_particles(&data).unwrap()),
-                Unknown::Lambda2,
-                Window::all(),
-            )
-            .unwrap();
-            let pencil = reduce(&problem).unwrap().pencil;
-            let (p, q) = (rational(34, 25), rational(36, 25));
-            let (s1, s2) = (whole(signs.0.into()), whole(signs.1.into()));
-            assert_eq!(pencil.a().get(0, 0), whole(7) * (&p - &q * &s1));
-            assert_eq!(pencil.a().get(1, 1), whole(7) * (&p + &q * &s2));
-            assert_eq!(pencil.a().get(0, 1), -whole(7) * &s1 * &s2);
-            assert_eq!(
-                *pencil.b(),
-                Sparse::zeros(2, 2).add_scaled(&whole(2), &Sparse::identity(2))
-            );
+            assert_printed_pencil(signs);
         }
+    }
+
+    fn assert_printed_pencil(signs: (i8, i8)) {
+        let data = TwoParticles {
+            c: rational(3, 5),
+            s: rational(4, 5),
+            k: whole(7),
+            m: whole(2),
+            mu: whole(3),
+            signs,
+        };
+        let system = Body::System(two_particles(&data).unwrap());
+        let problem = Problem::new(system, Unknown::Lambda2, Window::all()).unwrap();
+
+        let pencil = reduce(&problem).unwrap().pencil;
+
+        let c2_plus_1 = rational(34, 25);
+        let mu_c_s = rational(36, 25);
+        let s1 = whole(signs.0.into());
+        let s2 = whole(signs.1.into());
+        let a = pencil.a();
+        assert_eq!(a.get(0, 0), whole(7) * (&c2_plus_1 - &mu_c_s * &s1));
+        assert_eq!(a.get(1, 1), whole(7) * (&c2_plus_1 + &mu_c_s * &s2));
+        assert_eq!(a.get(0, 1), -whole(7) * &s1 * &s2);
+        let twice_identity = Sparse::zeros(2, 2).add_scaled(&whole(2), &Sparse::identity(2));
+        assert_eq!(*pencil.b(), twice_identity);
     }
 
     #[test]
     fn angles_lie_on_the_unit_circle() {
-        assert!(
-            pythagorean_angles()
-                .iter()
-                .all(|(c, s)| c * c + s * s == Rational::one())
-        );
+        for (cosine, sine) in pythagorean_angles() {
+            assert_eq!(&cosine * &cosine + &sine * &sine, Rational::one());
+        }
     }
 }

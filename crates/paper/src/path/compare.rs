@@ -1,8 +1,12 @@
 //! The stepped path beside the exact one: what the steps miss, and by how much they are off.
+//!
+//! Inside a stretch of the exact path the reactions are affine in the motion, so they are known at
+//! the motion of each step by interpolation between the two ends. `mceip block --path` calls this.
 #![allow(clippy::float_arithmetic)]
 
 use super::loading_path::LoadingPath;
 use super::step::Step;
+use super::stretch::Interval;
 use mceip_exact::to_f64;
 
 /// How a stepped path compares with the exact one.
@@ -23,78 +27,112 @@ impl Comparison {
     /// Compares step by step; the exact reactions between two events are interpolated, which is
     /// exact up to rounding. Steps in a last stretch that never ends are compared if it slides.
     pub fn of(path: &LoadingPath, steps: &[Step]) -> Comparison {
-        let begins: Vec<f64> = path
+        let slides = path.slides();
+        let stretches: Vec<ExactStretch> = path
             .intervals
             .iter()
-            .map(|i| to_f64(i.start.motion()))
+            .map(|interval| ExactStretch::of(interval, slides))
             .collect();
-        let stretch = |motion: f64| begins.partition_point(|&b| b < motion).saturating_sub(1);
-        let ends: Vec<Knot> = path
-            .intervals
-            .iter()
-            .map(|i| Knot::of(i, path.slides()))
-            .collect();
+
         let mut result = Comparison {
             steps: 0,
             skipped: Vec::new(),
             other_states: Vec::new(),
             reaction: 0.0,
         };
-        let mut visited = vec![false; begins.len()];
+        let mut visited = vec![false; stretches.len()];
         for (number, step) in steps.iter().enumerate().skip(1) {
-            let k = stretch(step.motion);
-            let Some(exact) = ends.get(k).and_then(|knot| knot.at(step.motion)) else {
+            let at = stretch_at(&stretches, step.motion);
+            let Some(stretch) = stretches.get(at) else {
                 continue;
             };
+            let Some(exact) = stretch.reactions_at(step.motion) else {
+                continue;
+            };
+
             result.steps += 1;
-            visited[k] = true;
-            if stretch(steps[number - 1].motion) == k && step.states != path.intervals[k].states {
+            visited[at] = true;
+
+            let began_here = stretch_at(&stretches, steps[number - 1].motion) == at;
+            if began_here && step.states != path.intervals[at].states {
                 result.other_states.push(number);
             }
-            for (a, b) in exact.iter().zip(&step.reactions) {
-                result.reaction = result
-                    .reaction
-                    .max((a.0 - b.0).abs())
-                    .max((a.1 - b.1).abs());
-            }
+
+            let difference = largest_difference(&exact, &step.reactions);
+            result.reaction = result.reaction.max(difference);
         }
+
         result.skipped = (0..visited.len()).filter(|&k| !visited[k]).collect();
         result
     }
 }
 
-/// A stretch in doubles.
-struct Knot {
-    from: f64,
-    start: Vec<(f64, f64)>,
-    /// Where it ends, and the reactions there; the same reactions at infinity if it slides.
-    stop: Option<(f64, Vec<(f64, f64)>)>,
+/// The stretch in which a motion lies, its beginning left out and its end included.
+fn stretch_at(stretches: &[ExactStretch], motion: f64) -> usize {
+    stretches
+        .partition_point(|stretch| stretch.from < motion)
+        .saturating_sub(1)
 }
 
-impl Knot {
-    fn of(interval: &super::stretch::Interval, slides: bool) -> Knot {
+/// The largest difference of a component, N.
+fn largest_difference(a: &[(f64, f64)], b: &[(f64, f64)]) -> f64 {
+    let mut largest: f64 = 0.0;
+    for (a, b) in a.iter().zip(b) {
+        largest = largest.max((a.0 - b.0).abs());
+        largest = largest.max((a.1 - b.1).abs());
+    }
+
+    largest
+}
+
+/// A stretch of the exact path in doubles: mm and N.
+struct ExactStretch {
+    from: f64,
+    start: Vec<(f64, f64)>,
+    stop: Option<Stop>,
+}
+
+/// Where a stretch ends, and the reactions there; the same reactions at infinity if it slides.
+struct Stop {
+    to: f64,
+    reactions: Vec<(f64, f64)>,
+}
+
+impl ExactStretch {
+    fn of(interval: &Interval, slides: bool) -> ExactStretch {
         let start = interval.start.reactions_f64();
+
         let stop = match &interval.stop {
-            Some(s) => Some((to_f64(s.motion()), s.reactions_f64())),
-            None => slides.then(|| (f64::INFINITY, start.clone())),
+            Some(stop) => Some(Stop {
+                to: to_f64(stop.motion()),
+                reactions: stop.reactions_f64(),
+            }),
+            None if slides => Some(Stop {
+                to: f64::INFINITY,
+                reactions: start.clone(),
+            }),
+            None => None,
         };
-        Knot {
+
+        ExactStretch {
             from: to_f64(interval.start.motion()),
             start,
             stop,
         }
     }
 
-    fn at(&self, motion: f64) -> Option<Vec<(f64, f64)>> {
-        let (to, stop) = self.stop.as_ref().filter(|s| motion <= s.0)?;
-        let share = (motion - self.from) / (to - self.from); // 0 if `to` is infinite
-        let mix = |a: f64, b: f64| a + share * (b - a);
-        Some(
-            self.start
-                .iter()
-                .zip(stop)
-                .map(|(a, b)| (mix(a.0, b.0), mix(a.1, b.1)))
-                .collect(),
-        )
+    /// (r_T, r_N) of each node at a motion; `None` beyond the end.
+    fn reactions_at(&self, motion: f64) -> Option<Vec<(f64, f64)>> {
+        let stop = self.stop.as_ref().filter(|stop| motion <= stop.to)?;
+        let share = (motion - self.from) / (stop.to - self.from); // 0 if the stretch never ends
+
+        let mut reactions = Vec::with_capacity(self.start.len());
+        for (start, stop) in self.start.iter().zip(&stop.reactions) {
+            let tangential = start.0 + share * (stop.0 - start.0);
+            let normal = start.1 + share * (stop.1 - start.1);
+            reactions.push((tangential, normal));
+        }
+
+        Some(reactions)
     }
 }

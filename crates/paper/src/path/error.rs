@@ -1,4 +1,5 @@
-//! Why a loading path is not computed.
+//! Why a loading path is not computed: what users read ([`PathError`]), and the law that fails at a
+//! node, as the parts of the path tell each other ([`LawFailure`]).
 
 use mceip_exact::{CondenseError, Rational};
 use mceip_model::ModelError;
@@ -28,7 +29,10 @@ pub enum PathError {
     },
     /// No states satisfy the rate conditions of the pressing. (Later on a path ends instead of
     /// failing: [`super::PathEnd::NoContinuation`].)
-    #[error("rate problem: no admissible states among {tried} sets tried{}", if *.all { " (every set there is)" } else { "" })]
+    #[error(
+        "rate problem: no admissible states among {tried} sets tried{}",
+        if *.all { " (every set there is)" } else { "" }
+    )]
     NoContinuation {
         /// Sets of states tried (some of them more than once).
         tried: usize,
@@ -78,4 +82,22 @@ pub enum PathError {
         /// Iterations allowed.
         limit: usize,
     },
+}
+
+/// A law that fails at a contact node.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) struct LawFailure {
+    /// Contact node, from 0 at the left.
+    pub(super) node: usize,
+    /// Equation id.
+    pub(super) equation: &'static str,
+}
+
+impl From<LawFailure> for PathError {
+    fn from(failure: LawFailure) -> PathError {
+        PathError::LawFails {
+            equation: failure.equation,
+            node: failure.node,
+        }
+    }
 }

@@ -1,66 +1,140 @@
 //! A stretch of the path on which everything is affine in the motion, and the conditions that
-//! end it. All numbers are integers over common denominators: only signs and zeros are asked for.
+//! end it.
+//!
+//! While the states of the nodes do not change, u(d) = u0 + d u1 and r(d) = r0 + d r1, where d is
+//! the motion of the glued side in units of the pressing. So each quantity that contact and
+//! friction bound ([`Bound`]) is affine as well, and the stretch ends at the smallest d at which
+//! one of them falls to zero ([`next_event`]). There [`classify`] says what each node may do next.
+//!
+//! All numbers are integers over common denominators: only signs and zeros are asked for. Input is
+//! the [`Response`] to each load in the states of the stretch. Called by `trace`, which follows the
+//! path; `check` and `rates` read lines and classes.
 
-use super::contact::{Contact, Friction, Load, Response};
-use mceip_exact::{Integer, Rational, common_denominator};
+use super::contact::{Contact, Friction, Load, NodalValues, Response};
+use super::error::LawFailure;
+use mceip_exact::{Integer, Rational, common_denominator, to_f64};
 use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
+use std::cmp::Ordering;
 
-/// Displacements and reactions u(d) = (u0 + d u1) / den, r(d) = (r0 + d r1) / (den contact), per
-/// unit of pressing; d is the motion in units of the pressing.
+/// A vector that is affine in the motion d: constant + d slope.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) struct Affine {
+    pub(super) constant: Vec<Integer>,
+    pub(super) slope: Vec<Integer>,
+}
+
+impl Affine {
+    fn zeros(length: usize) -> Affine {
+        Affine {
+            constant: vec![Integer::zero(); length],
+            slope: vec![Integer::zero(); length],
+        }
+    }
+
+    /// Component `i` at d = m / n, times n.
+    pub(super) fn at(&self, i: usize, d: &Rational) -> Integer {
+        let constant = &self.constant[i] * d.denom();
+        let growth = &self.slope[i] * d.numer();
+        constant + growth
+    }
+
+    /// Every component at d = m / n, times n.
+    pub(super) fn all_at(&self, d: &Rational) -> Vec<Integer> {
+        (0..self.constant.len()).map(|i| self.at(i, d)).collect()
+    }
+
+    /// Adds factor * vector to the slope if `moving`, else to the constant.
+    fn add(&mut self, moving: bool, factor: &Integer, vector: &[Integer]) {
+        let target = if moving {
+            &mut self.slope
+        } else {
+            &mut self.constant
+        };
+        for (sum, component) in target.iter_mut().zip(vector) {
+            *sum += factor * component;
+        }
+    }
+}
+
+/// A load, and how much of it is applied (mm per mm of pressing).
+pub(super) struct AppliedLoad {
+    pub(super) load: Load,
+    pub(super) amount: Rational,
+}
+
+/// Displacements and reactions u(d) = (u0 + d u1) / denominator, r(d) = (r0 + d r1) / (denominator
+/// times that of the contact), per unit of pressing; d is the motion in units of the pressing.
 pub(super) struct Line {
     pub(super) denominator: Integer,
-    pub(super) u: [Vec<Integer>; 2],
-    pub(super) r: [Vec<Integer>; 2],
+    pub(super) u: Affine,
+    pub(super) r: Affine,
 }
 
 impl Line {
     /// Pressing + d times the motion + every held node at its place. `loads` belong to `response`.
-    pub(super) fn new(response: &Response, loads: &[(Load, Rational)]) -> Line {
-        let clear = common_denominator(loads.iter().map(|l| &l.1));
-        let scale: Vec<Integer> = loads
-            .iter()
-            .map(|(_, c)| c.numer() * (&clear / c.denom()))
-            .collect();
-        let sum = |fields: &[Vec<Integer>], moving: bool| -> Vec<Integer> {
-            let chosen = || {
-                loads
-                    .iter()
-                    .zip(&scale)
-                    .zip(fields)
-                    .filter(|((l, _), _)| (l.0 == Load::Left) == moving)
-            };
-            let n = fields.first().map_or(0, Vec::len);
-            (0..n)
-                .map(|i| chosen().map(|((_, c), f)| c * &f[i]).sum())
-                .collect()
-        };
+    pub(super) fn new(response: &Response, loads: &[AppliedLoad]) -> Line {
+        let clear = common_denominator(loads.iter().map(|applied| &applied.amount));
+        let components = response.u.first().map_or(0, Vec::len);
+
+        let mut u = Affine::zeros(components);
+        let mut r = Affine::zeros(components);
+        for (k, applied) in loads.iter().enumerate() {
+            let factor = applied.amount.numer() * (&clear / applied.amount.denom());
+            let moving = applied.load == Load::Left;
+            u.add(moving, &factor, &response.u[k]);
+            r.add(moving, &factor, &response.r[k]);
+        }
+
         Line {
             denominator: &response.denominator * clear,
-            u: [sum(&response.u, false), sum(&response.u, true)],
-            r: [sum(&response.r, false), sum(&response.r, true)],
+            u,
+            r,
         }
     }
 
     /// Component `i` of u at d = m / n, times `denominator` n.
     pub(super) fn u_at(&self, i: usize, d: &Rational) -> Integer {
-        &self.u[0][i] * d.denom() + &self.u[1][i] * d.numer()
+        self.u.at(i, d)
     }
 
-    /// Component `i` of r at d = m / n, times `denominator` n and the contact's denominator.
-    pub(super) fn r_at(&self, i: usize, d: &Rational) -> Integer {
-        &self.r[0][i] * d.denom() + &self.r[1][i] * d.numer()
+    /// Displacements and reactions at d = 0.
+    fn constants(&self) -> NodalValues<'_> {
+        NodalValues {
+            u: &self.u.constant,
+            r: &self.r.constant,
+        }
     }
 
-    /// The value (constant, slope) of a bound, up to a positive factor.
-    pub(super) fn form(&self, bound: Bound, friction: &Friction) -> [Integer; 2] {
-        std::array::from_fn(|k| bound.value(&self.u[k], &self.r[k], friction))
+    /// Their growth with d.
+    fn slopes(&self) -> NodalValues<'_> {
+        NodalValues {
+            u: &self.u.slope,
+            r: &self.r.slope,
+        }
+    }
+
+    /// The rates of u and r. During the pressing u and r are proportional to it: the constants are
+    /// their rates.
+    pub(super) fn rates(&self, moving: Load) -> NodalValues<'_> {
+        if moving == Load::Left {
+            self.slopes()
+        } else {
+            self.constants()
+        }
     }
 
     /// Is it the same state as `other` at d, displacement for displacement?
     pub(super) fn meets(&self, other: &Line, d: &Rational) -> bool {
-        (0..self.u[0].len())
-            .all(|i| self.u_at(i, d) * &other.denominator == other.u_at(i, d) * &self.denominator)
+        for i in 0..self.u.constant.len() {
+            let here = self.u_at(i, d) * &other.denominator;
+            let there = other.u_at(i, d) * &self.denominator;
+            if here != there {
+                return false;
+            }
+        }
+
+        true
     }
 
     /// The equilibrium at d, in mm and N for a pressing of `depth` mm.
@@ -70,19 +144,15 @@ impl Line {
         depth: &Rational,
         contact: &Contact,
     ) -> Equilibrium {
-        let n = self.u[0].len();
-        let over = |extra: &Integer| {
-            Rational::new_raw(
-                depth.numer().clone(),
-                depth.denom() * d.denom() * &self.denominator * extra,
-            )
-        };
+        let unit = depth.denom() * d.denom() * &self.denominator;
+        let r_denominator = &unit * contact.denominator();
+
         Equilibrium {
             motion: d * depth,
-            u: (0..n).map(|i| self.u_at(i, d)).collect(),
-            u_unit: over(&Integer::from(1)),
-            r: (0..n).map(|i| self.r_at(i, d)).collect(),
-            r_unit: over(contact.denominator()),
+            u: self.u.all_at(d),
+            u_unit: Rational::new_raw(depth.numer().clone(), unit),
+            r: self.r.all_at(d),
+            r_unit: Rational::new_raw(depth.numer().clone(), r_denominator),
         }
     }
 }
@@ -90,17 +160,17 @@ impl Line {
 /// A quantity that contact and friction keep from being negative.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Bound {
-    /// The gap of a free node, -u_N. // E1
+    /// The gap of a free node, -u_N. // (1)
     Gap {
         /// The node, from 0 at the left.
         node: usize,
     },
-    /// The pressure of a node in contact, -r_N. // E1
+    /// The pressure of a node in contact, -r_N. // (1)
     Pressure {
         /// The node, from 0 at the left.
         node: usize,
     },
-    /// The distance from the friction cone, -mu r_N - sign r_T. // E7
+    /// The distance from the friction cone, -mu r_N - sign r_T. // (7)
     Cone {
         /// The node, from 0 at the left.
         node: usize,
@@ -127,19 +197,26 @@ impl Bound {
     }
 
     /// Its value for these displacements and reactions, up to a positive factor.
-    pub(super) fn value(self, u: &[Integer], r: &[Integer], friction: &Friction) -> Integer {
+    pub(super) fn value(self, values: NodalValues<'_>, friction: &Friction) -> Integer {
         match self {
-            Bound::Gap { node } => -&u[2 * node + 1],
-            Bound::Pressure { node } => -&r[2 * node + 1],
+            Bound::Gap { node } => -&values.u[2 * node + 1],
+            Bound::Pressure { node } => -&values.r[2 * node + 1],
             Bound::Cone { node, sign } => {
-                let (t, n) = friction.on_cone(1);
-                -(&r[2 * node] * t * Integer::from(sign) + &r[2 * node + 1] * n)
+                let row = friction.on_cone(1);
+                let tangential = &values.r[2 * node] * row.tangential * Integer::from(sign);
+                let normal = &values.r[2 * node + 1] * row.normal;
+                -(tangential + normal)
             }
         }
     }
 
+    /// With rates for the displacements and reactions: is it about to become negative?
+    pub(super) fn falls(self, rates: NodalValues<'_>, friction: &Friction) -> bool {
+        self.value(rates, friction).is_negative()
+    }
+
     /// The bounds that can end the stay of a node in this state.
-    pub(super) fn of(node: usize, state: ContactState) -> Vec<Bound> {
+    fn of(node: usize, state: ContactState) -> Vec<Bound> {
         match state {
             ContactState::Free => vec![Bound::Gap { node }],
             ContactState::Slip { .. } => vec![Bound::Pressure { node }],
@@ -152,44 +229,79 @@ impl Bound {
     }
 }
 
-/// The first motion after `from` at which a bound of these states becomes zero on its way down,
-/// and every bound that does so there; `None` if none ever does.
+/// Where a stretch ends by itself.
+#[derive(Debug, PartialEq, Eq)]
+pub(super) struct NextEvent {
+    /// The motion, in units of the pressing.
+    pub(super) d: Rational,
+    /// Every bound that becomes zero there on its way down.
+    pub(super) causes: Vec<Bound>,
+}
+
+/// The first motion at which a bound of these states becomes zero on its way down, and every bound
+/// that does so there; `None` if none ever does.
 pub(super) fn next_event(
     line: &Line,
     friction: &Friction,
     states: &[ContactState],
-) -> Option<(Rational, Vec<Bound>)> {
-    let mut first: Option<(Rational, Vec<Bound>)> = None;
-    for bound in states
-        .iter()
-        .enumerate()
-        .flat_map(|(k, &s)| Bound::of(k, s))
-    {
-        let [constant, slope] = line.form(bound, friction);
-        if !slope.is_negative() {
-            continue;
-        }
-        let fall = -slope;
-        // Compare by products; a fraction is reduced for the winner only.
-        let order = first
-            .as_ref()
-            .map(|(d, _)| (&constant * d.denom()).cmp(&(d.numer() * &fall)));
-        match order {
-            Some(std::cmp::Ordering::Greater) => {}
-            Some(std::cmp::Ordering::Equal) => first.iter_mut().for_each(|f| f.1.push(bound)),
-            _ => first = Some((Rational::new_raw(constant, fall), vec![bound])),
+) -> Option<NextEvent> {
+    let mut first: Option<NextEvent> = None;
+
+    for (node, &state) in states.iter().enumerate() {
+        for bound in Bound::of(node, state) {
+            let slope = bound.value(line.slopes(), friction);
+            if !slope.is_negative() {
+                continue;
+            }
+
+            // constant + d slope = 0 at d = constant / fall.
+            let constant = bound.value(line.constants(), friction);
+            let fall = -slope;
+            match compare_with_first(first.as_ref(), &constant, &fall) {
+                Ordering::Greater => {}
+                Ordering::Equal => {
+                    if let Some(event) = &mut first {
+                        event.causes.push(bound);
+                    }
+                }
+                Ordering::Less => {
+                    first = Some(NextEvent {
+                        d: Rational::new_raw(constant, fall),
+                        causes: vec![bound],
+                    });
+                }
+            }
         }
     }
-    first.map(|(d, bounds)| (d.reduced(), bounds))
+
+    // Only the fraction of the first event is reduced.
+    first.map(|event| NextEvent {
+        d: event.d.reduced(),
+        causes: event.causes,
+    })
+}
+
+/// Compares constant / fall (fall > 0) with the first event so far by products; less if there is
+/// none.
+fn compare_with_first(first: Option<&NextEvent>, constant: &Integer, fall: &Integer) -> Ordering {
+    match first {
+        Some(event) => (constant * event.d.denom()).cmp(&(event.d.numer() * fall)),
+        None => Ordering::Less,
+    }
 }
 
 /// An equilibrium (5) on the path: exact displacements and reactions of the contact nodes.
 #[derive(Debug, Clone)]
 pub struct Equilibrium {
+    /// mm.
     motion: Rational,
+    /// Displacements, in units of `u_unit`.
     u: Vec<Integer>,
+    /// mm.
     u_unit: Rational,
+    /// Reactions, in units of `r_unit`.
     r: Vec<Integer>,
+    /// N.
     r_unit: Rational,
 }
 
@@ -201,46 +313,54 @@ impl Equilibrium {
 
     /// (u_T, u_N) of a node (from 0 at the left), mm: to the right, and into the obstacle.
     pub fn displacement(&self, node: usize) -> (Rational, Rational) {
-        let part = |i: usize| {
-            Rational::new(
-                &self.u[i] * self.u_unit.numer(),
-                self.u_unit.denom().clone(),
-            )
-        };
-        (part(2 * node), part(2 * node + 1))
+        let tangential = times_unit(&self.u[2 * node], &self.u_unit);
+        let normal = times_unit(&self.u[2 * node + 1], &self.u_unit);
+        (tangential, normal)
     }
 
     /// (r_T, r_N) of a node (from 0 at the left), N: r_N <= 0 in contact.
     pub fn reaction(&self, node: usize) -> (Rational, Rational) {
-        (
-            self.force(&self.r[2 * node]),
-            self.force(&self.r[2 * node + 1]),
-        )
+        let tangential = times_unit(&self.r[2 * node], &self.r_unit);
+        let normal = times_unit(&self.r[2 * node + 1], &self.r_unit);
+        (tangential, normal)
     }
 
     /// Sums of r_T and of r_N over the contact nodes, N.
     pub fn resultants(&self) -> (Rational, Rational) {
-        let sum = |offset: usize| self.force(&self.r.iter().skip(offset).step_by(2).sum());
-        (sum(0), sum(1))
+        let mut tangential = Integer::zero();
+        let mut normal = Integer::zero();
+        for reaction in self.r.chunks(2) {
+            tangential += &reaction[0];
+            normal += &reaction[1];
+        }
+
+        (
+            times_unit(&tangential, &self.r_unit),
+            times_unit(&normal, &self.r_unit),
+        )
     }
 
     /// (r_T, r_N) of every node, each correctly rounded to a double, N.
     pub fn reactions_f64(&self) -> Vec<(f64, f64)> {
-        let round = |r: &Integer| {
-            mceip_exact::to_f64(&Rational::new_raw(
-                r * self.r_unit.numer(),
-                self.r_unit.denom().clone(),
-            ))
-        };
-        self.r
-            .chunks(2)
-            .map(|p| (round(&p[0]), round(&p[1])))
-            .collect()
-    }
+        let mut reactions = Vec::with_capacity(self.r.len() / 2);
+        for reaction in self.r.chunks(2) {
+            let tangential = to_f64(&times_unit_raw(&reaction[0], &self.r_unit));
+            let normal = to_f64(&times_unit_raw(&reaction[1], &self.r_unit));
+            reactions.push((tangential, normal));
+        }
 
-    fn force(&self, r: &Integer) -> Rational {
-        Rational::new(r * self.r_unit.numer(), self.r_unit.denom().clone())
+        reactions
     }
+}
+
+/// value * unit, in lowest terms.
+fn times_unit(value: &Integer, unit: &Rational) -> Rational {
+    Rational::new(value * unit.numer(), unit.denom().clone())
+}
+
+/// value * unit, not in lowest terms: enough for rounding.
+fn times_unit_raw(value: &Integer, unit: &Rational) -> Rational {
+    Rational::new_raw(value * unit.numer(), unit.denom().clone())
 }
 
 /// What (1), (2) and (7) say of a node at an equilibrium: its class in the list after (9).
@@ -256,33 +376,60 @@ pub(super) enum Class {
     Cone(i8),
 }
 
-/// The class of each node at d; `Err` with the node and the equation that fails there.
+/// The class of each node at d.
+///
+/// # Errors
+/// The first node at which (1) or (7) fails.
 pub(super) fn classify(
     line: &Line,
     d: &Rational,
     friction: &Friction,
-) -> Result<Vec<Class>, (usize, &'static str)> {
-    let u: Vec<Integer> = (0..line.u[0].len()).map(|i| line.u_at(i, d)).collect();
-    let r: Vec<Integer> = (0..line.u[0].len()).map(|i| line.r_at(i, d)).collect();
-    let class = |node: usize| {
-        let value = |b: Bound| b.value(&u, &r, friction);
-        let (gap, pressure) = (value(Bound::Gap { node }), value(Bound::Pressure { node }));
-        let [right, left] = [1, -1].map(|sign| value(Bound::Cone { node, sign }));
-        if gap.is_negative() || pressure.is_negative() || !(gap.is_zero() || pressure.is_zero()) {
-            return Err((node, "E1"));
-        }
-        if right.is_negative() || left.is_negative() {
-            return Err((node, "E7"));
-        }
-        Ok(match (gap.is_zero(), pressure.is_zero()) {
-            (false, _) => Class::Free,
-            (true, true) => Class::Zero,
-            _ if right.is_zero() => Class::Cone(1),
-            _ if left.is_zero() => Class::Cone(-1),
-            _ => Class::Stick,
-        })
-    };
-    (0..u.len() / 2).map(class).collect()
+) -> Result<Vec<Class>, LawFailure> {
+    let u = line.u.all_at(d);
+    let r = line.r.all_at(d);
+    let values = NodalValues { u: &u, r: &r };
+
+    let nodes = u.len() / 2;
+    (0..nodes)
+        .map(|node| class_of(node, values, friction))
+        .collect()
+}
+
+fn class_of(
+    node: usize,
+    values: NodalValues<'_>,
+    friction: &Friction,
+) -> Result<Class, LawFailure> {
+    let gap = Bound::Gap { node }.value(values, friction);
+    let pressure = Bound::Pressure { node }.value(values, friction);
+    let one_is_zero = gap.is_zero() || pressure.is_zero();
+    if gap.is_negative() || pressure.is_negative() || !one_is_zero {
+        return Err(LawFailure {
+            node,
+            equation: "E1",
+        });
+    }
+
+    let positive_side = Bound::Cone { node, sign: 1 }.value(values, friction);
+    let negative_side = Bound::Cone { node, sign: -1 }.value(values, friction);
+    if positive_side.is_negative() || negative_side.is_negative() {
+        return Err(LawFailure {
+            node,
+            equation: "E7",
+        });
+    }
+
+    Ok(if !gap.is_zero() {
+        Class::Free
+    } else if pressure.is_zero() {
+        Class::Zero
+    } else if positive_side.is_zero() {
+        Class::Cone(1)
+    } else if negative_side.is_zero() {
+        Class::Cone(-1)
+    } else {
+        Class::Stick
+    })
 }
 
 #[cfg(test)]
@@ -290,16 +437,22 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
 
-    fn z(v: &[i64]) -> Vec<Integer> {
-        v.iter().map(|&v| v.into()).collect()
+    fn integers(values: &[i64]) -> Vec<Integer> {
+        values.iter().map(|&value| value.into()).collect()
     }
 
-    /// Two nodes, in the order u_T, u_N: constant and slope.
-    fn line(u: [&[i64]; 2], r: [&[i64]; 2]) -> Line {
+    fn affine(constant: &[i64], slope: &[i64]) -> Affine {
+        Affine {
+            constant: integers(constant),
+            slope: integers(slope),
+        }
+    }
+
+    fn line(u: Affine, r: Affine) -> Line {
         Line {
             denominator: 1.into(),
-            u: u.map(z),
-            r: r.map(z),
+            u,
+            r,
         }
     }
 
@@ -307,87 +460,111 @@ mod tests {
         Friction::new(&whole(2))
     }
 
+    fn event(d: Rational, causes: Vec<Bound>) -> NextEvent {
+        NextEvent { d, causes }
+    }
+
     #[test]
     fn the_first_bound_on_its_way_down_ends_the_stretch() {
+        // Two nodes, in the order u_T, u_N.
+        let free_and_stick = [ContactState::Free, ContactState::Stick];
+
         // Node 0 free, gap 3 - 2 d; node 1 sticks, r = (d, -1): cone 2 - d.
-        let path = line(
-            [&[0, -3, 0, 0], &[0, 2, 0, 0]],
-            [&[0, 0, 0, -1], &[0, 0, 1, 0]],
+        let gap_first = line(
+            affine(&[0, -3, 0, 0], &[0, 2, 0, 0]),
+            affine(&[0, 0, 0, -1], &[0, 0, 1, 0]),
         );
-        let states = [ContactState::Free, ContactState::Stick];
         assert_eq!(
-            next_event(&path, &mu_two(), &states),
-            Some((rational(3, 2), vec![Bound::Gap { node: 0 }]))
+            next_event(&gap_first, &mu_two(), &free_and_stick),
+            Some(event(rational(3, 2), vec![Bound::Gap { node: 0 }]))
         );
+
         // Slope 3/2 instead of 2 (twice everything): both at d = 2.
-        let both = line(
-            [&[0, -6, 0, 0], &[0, 3, 0, 0]],
-            [&[0, 0, 0, -2], &[0, 0, 2, 0]],
+        let both_at_once = line(
+            affine(&[0, -6, 0, 0], &[0, 3, 0, 0]),
+            affine(&[0, 0, 0, -2], &[0, 0, 2, 0]),
         );
-        let bounds = vec![Bound::Gap { node: 0 }, Bound::Cone { node: 1, sign: 1 }];
+        let gap_and_cone = vec![Bound::Gap { node: 0 }, Bound::Cone { node: 1, sign: 1 }];
         assert_eq!(
-            next_event(&both, &mu_two(), &states),
-            Some((whole(2), bounds))
+            next_event(&both_at_once, &mu_two(), &free_and_stick),
+            Some(event(whole(2), gap_and_cone))
         );
+
         // A slip node ends with its pressure, and nothing ends what only grows.
-        let slip = [ContactState::Free, ContactState::Slip { sign: -1 }];
+        let free_and_slip = [ContactState::Free, ContactState::Slip { sign: -1 }];
         let relief = line(
-            [&[0, -3, 0, 0], &[0, -1, 0, 0]],
-            [&[0, 0, -2, -1], &[0, 0, 2, 1]],
+            affine(&[0, -3, 0, 0], &[0, -1, 0, 0]),
+            affine(&[0, 0, -2, -1], &[0, 0, 2, 1]),
         );
         assert_eq!(
-            next_event(&relief, &mu_two(), &slip),
-            Some((whole(1), vec![Bound::Pressure { node: 1 }]))
+            next_event(&relief, &mu_two(), &free_and_slip),
+            Some(event(whole(1), vec![Bound::Pressure { node: 1 }]))
         );
         let growth = line(
-            [&[0, -3, 0, 0], &[0, -1, 0, 0]],
-            [&[0, 0, -2, -1], &[0, 0, -2, -1]],
+            affine(&[0, -3, 0, 0], &[0, -1, 0, 0]),
+            affine(&[0, 0, -2, -1], &[0, 0, -2, -1]),
         );
-        assert_eq!(next_event(&growth, &mu_two(), &slip), None);
+        assert_eq!(next_event(&growth, &mu_two(), &free_and_slip), None);
+    }
+
+    /// The class of one node with u_T = 0, at any d.
+    fn class_with(u_n: i64, r: [i64; 2]) -> Result<Vec<Class>, LawFailure> {
+        let constant = line(affine(&[0, u_n], &[0, 0]), affine(&r, &[0, 0]));
+        classify(&constant, &whole(5), &mu_two())
+    }
+
+    fn fails(equation: &'static str) -> Result<Vec<Class>, LawFailure> {
+        Err(LawFailure { node: 0, equation })
     }
 
     #[test]
     fn classes_and_the_equations_that_forbid_others() {
-        let of = |u_n: i64, r: [i64; 2]| {
-            classify(
-                &line([&[0, u_n], &[0, 0]], [&r, &[0, 0]]),
-                &whole(5),
-                &mu_two(),
-            )
-        };
-        assert_eq!(of(-1, [0, 0]), Ok(vec![Class::Free]));
-        assert_eq!(of(0, [0, 0]), Ok(vec![Class::Zero]));
-        assert_eq!(of(0, [1, -1]), Ok(vec![Class::Stick]));
-        assert_eq!(of(0, [2, -1]), Ok(vec![Class::Cone(1)]));
-        assert_eq!(of(0, [-2, -1]), Ok(vec![Class::Cone(-1)]));
-        assert_eq!(of(1, [0, 0]), Err((0, "E1")));
-        assert_eq!(of(0, [0, 1]), Err((0, "E1")));
-        assert_eq!(of(-1, [0, -1]), Err((0, "E1")));
-        assert_eq!(of(0, [3, -1]), Err((0, "E7")));
+        assert_eq!(class_with(-1, [0, 0]), Ok(vec![Class::Free]));
+        assert_eq!(class_with(0, [0, 0]), Ok(vec![Class::Zero]));
+        assert_eq!(class_with(0, [1, -1]), Ok(vec![Class::Stick]));
+        assert_eq!(class_with(0, [2, -1]), Ok(vec![Class::Cone(1)]));
+        assert_eq!(class_with(0, [-2, -1]), Ok(vec![Class::Cone(-1)]));
+
+        assert_eq!(class_with(1, [0, 0]), fails("E1"));
+        assert_eq!(class_with(0, [0, 1]), fails("E1"));
+        assert_eq!(class_with(-1, [0, -1]), fails("E1"));
+        assert_eq!(class_with(0, [3, -1]), fails("E7"));
     }
 
     #[test]
     fn held_nodes_enter_at_their_places() {
         let response = Response {
             denominator: 3.into(),
-            u: vec![z(&[1, 0]), z(&[5, 0]), z(&[7, 0])],
-            r: vec![z(&[2, 0]), z(&[4, 0]), z(&[6, 0])],
+            u: vec![integers(&[1, 0]), integers(&[5, 0]), integers(&[7, 0])],
+            r: vec![integers(&[2, 0]), integers(&[4, 0]), integers(&[6, 0])],
         };
         let loads = [
-            (Load::Press, whole(1)),
-            (Load::Left, whole(1)),
-            (Load::Held(0), rational(-1, 2)),
+            AppliedLoad {
+                load: Load::Press,
+                amount: whole(1),
+            },
+            AppliedLoad {
+                load: Load::Left,
+                amount: whole(1),
+            },
+            AppliedLoad {
+                load: Load::Held(0),
+                amount: rational(-1, 2),
+            },
         ];
+
         let sum = Line::new(&response, &loads);
-        assert_eq!(
-            (sum.denominator.clone(), sum.u.clone()),
-            (Integer::from(6), [z(&[2 - 7, 0]), z(&[10, 0])])
-        );
-        assert_eq!(sum.r, [z(&[4 - 6, 0]), z(&[8, 0])]);
-        let other = Line {
-            u: [z(&[-5, 0]), z(&[11, 0])],
+
+        // Twice everything, over twice the denominator, because of the half.
+        assert_eq!(sum.denominator, Integer::from(6));
+        assert_eq!(sum.u, affine(&[2 - 7, 0], &[10, 0]));
+        assert_eq!(sum.r, affine(&[4 - 6, 0], &[8, 0]));
+
+        let other_slope = Line {
+            u: affine(&[-5, 0], &[11, 0]),
             ..Line::new(&response, &loads)
         };
-        assert!(sum.meets(&other, &whole(0)) && !sum.meets(&other, &whole(1)));
+        assert!(sum.meets(&other_slope, &whole(0)));
+        assert!(!sum.meets(&other_slope, &whole(1)));
     }
 }

@@ -1,4 +1,5 @@
-//! How the block is loaded: friction, normal force, range of the motion.
+//! How the block is loaded: friction, normal force, range of the motion. Input of
+//! `LoadingPath::follow` and `step_path`, which refuse what is not positive.
 
 use super::error::PathError;
 use mceip_exact::{Rational, rational, whole};
@@ -25,21 +26,25 @@ impl Loading {
         }
     }
 
+    /// Refuses what is not positive.
     pub(super) fn validate(&self) -> Result<(), PathError> {
-        let range = self
-            .until
-            .as_ref()
-            .map(|u| ("the range of the motion (mm)", u));
-        let all = [
-            ("friction", &self.friction),
-            ("the normal force (N)", &self.force),
-        ];
-        match all.into_iter().chain(range).find(|(_, v)| !v.is_positive()) {
-            Some((what, v)) => Err(PathError::NotPositive {
-                what,
-                got: v.clone(),
-            }),
-            None => Ok(()),
+        require_positive("friction", &self.friction)?;
+        require_positive("the normal force (N)", &self.force)?;
+        if let Some(until) = &self.until {
+            require_positive("the range of the motion (mm)", until)?;
         }
+
+        Ok(())
     }
+}
+
+fn require_positive(what: &'static str, value: &Rational) -> Result<(), PathError> {
+    if value.is_positive() {
+        return Ok(());
+    }
+
+    Err(PathError::NotPositive {
+        what,
+        got: value.clone(),
+    })
 }

@@ -1,4 +1,5 @@
 //! A loading path as it was followed: the pressing, the stretches between events, and why it ends.
+//! `trace` makes it; reports, pictures and [`super::Comparison`] read it.
 
 use super::line::{Bound, Equilibrium};
 use super::loading::Loading;
@@ -48,16 +49,20 @@ pub struct LoadingPath {
 impl LoadingPath {
     /// Does the path end in sliding: no node sticks, and nothing changes any more?
     pub fn slides(&self) -> bool {
-        self.end == PathEnd::NoFurtherEvent
-            && self
-                .intervals
-                .last()
-                .is_some_and(|i| !i.states.contains(&ContactState::Stick))
+        if self.end != PathEnd::NoFurtherEvent {
+            return false;
+        }
+
+        match self.intervals.last() {
+            Some(last) => !last.states.contains(&ContactState::Stick),
+            None => false,
+        }
     }
 
     /// The event that ends a stretch, `None` for the last one.
     pub fn ending(&self, stretch: usize) -> Option<&Event> {
-        self.intervals.get(stretch + 1).map(|next| &next.begin)
+        let next = self.intervals.get(stretch + 1)?;
+        Some(&next.begin)
     }
 
     /// The stretches with exactly these states, in order.

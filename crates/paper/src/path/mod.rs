@@ -4,14 +4,31 @@
 //! The path is piecewise linear in the motion, so nothing is stepped: on each stretch everything
 //! is affine, and the motion at which the next node reaches a limit is a rational number. There
 //! the rate problem - which nodes stick, slip, open or close in the next moment - is solved by an
-//! active set from the states before, exactly; if that goes round in circles, the project's own
-//! pivoting proposes states in doubles, which are then verified exactly like the others.
+//! active set from the states before, exactly; if that comes back to a set of states it has tried,
+//! the project's own pivoting proposes states in doubles, which are then verified exactly like the
+//! others.
 //!
 //! The pressing is proportional to its depth, so it is one rate problem from the unloaded block.
 //! Sliding has begun when no node sticks: reactions are constant from then on.
 //!
 //! A rate problem may have several solutions (with much friction it often has, `rates_oracle`). The
 //! states nearest to those before are taken; they are verified, their uniqueness is not claimed.
+//!
+//! A user makes a [`Contact`] of a [`crate::Block`], follows a [`LoadingPath`] and takes from it
+//! the contact states whose eigenproblems are solved, as a problem ([`Interval::problem`]) or as a
+//! condensed pencil ([`Pencils`]). The files, from the input on:
+//!
+//! | file | what |
+//! |---|---|
+//! | `contact`, `loading` | the condensed stiffness C, the loads; friction, force and range |
+//! | `trace` | the walk from event to event |
+//! | `rates`, `propose` | the states after an event; proposals by Lemke's method in doubles |
+//! | `respond`, `linear` | displacements and reactions in given states, by exact linear algebra |
+//! | `line` | u and r as functions of the motion, the next event, the classes of nodes there |
+//! | `check` | the laws at a point of the path, from their definitions |
+//! | `loading_path`, `stretch` | the result |
+//! | `pencils` | the condensed pencil of a set of states |
+//! | `step`, `compare` | incremental stepping in doubles, and how far it is from the path |
 
 mod check;
 mod compare;

@@ -1,18 +1,30 @@
 //! The condensed MCEIP-mu pencil of any contact state, from the one condensation of the path: only
 //! the free contact nodes are left to eliminate.
+//!
+//! For v_T = 1 at one slip node, with the free nodes following, the condensed stiffness C gives the
+//! reactions at all slip nodes. Their tangential parts are a column of C_TT, their normal parts one
+//! of C_NT, where the free nodes are eliminated from both. With the diagonal matrix S of slip
+//! signs, A = S C_TT S and B = C_NT S. The reports of the loading path call this once for every
+//! stretch.
 
-use super::contact::Contact;
+use super::contact::{Contact, Load};
 use super::error::PathError;
-use super::linear::{Images, solve};
+use super::linear::{ContactEquations, Images, RelativeDisplacements, no_reaction};
 use mceip_exact::{Integer, Rational, Sparse};
 use mceip_model::{ContactState, ModelError, Pencil};
 use num_integer::Integer as _;
-use num_traits::{One, Zero};
+use num_traits::Zero;
 
 /// Makes condensed pencils; keeps what they share.
 pub struct Pencils<'a> {
     contact: &'a Contact,
     images: Images,
+}
+
+/// A node in impending slip, and its sign S.
+struct SlipNode {
+    node: usize,
+    sign: Integer,
 }
 
 impl Contact {
@@ -26,67 +38,102 @@ impl Contact {
 }
 
 impl Pencils<'_> {
-    /// A + mu B of order n_s, exactly: variables x = -S v_T of the slip nodes, left to right. The
-    /// same matrices as `mceip_engine::reduction::condense` of the state's MCEIP-mu problem. // E16
+    /// A + mu B of order n_s, exactly (16): variables x = -S v_T of the slip nodes, left to right.
+    /// The same matrices as `mceip_engine::reduction::condense` of the state's MCEIP-mu problem.
     ///
     /// # Errors
     /// [`PathError::Model`] for a number of states other than that of contact nodes, or no slip
     /// node.
     pub fn of(&mut self, states: &[ContactState]) -> Result<Pencil, PathError> {
-        let nodes = self.contact.nodes();
-        if states.len() != nodes {
-            let (expected_rows, rows) = (nodes, states.len());
-            return Err(ModelError::Shape {
-                equation: "E9",
-                what: "contact states",
-                expected_rows,
-                expected_cols: 1,
-                rows,
-                cols: 1,
-            }
-            .into());
-        }
-        let free: Vec<usize> = (0..2 * nodes)
-            .filter(|i| states[i / 2] == ContactState::Free)
-            .collect();
-        let sign = |k: usize| match states[k] {
-            ContactState::Slip { sign } => Some((k, Integer::from(sign))),
-            _ => None,
-        };
-        let slip: Vec<(usize, Integer)> = (0..nodes).filter_map(sign).collect();
+        self.require_a_state_for_each_node(states)?;
+        let slip = slip_nodes(states);
         if slip.is_empty() {
-            return Err(ModelError::Empty {
-                what: "the slip particles of the system",
-            }
-            .into());
+            let what = "the slip particles of the system";
+            return Err(ModelError::Empty { what }.into());
         }
-        let equations: Vec<_> = free.iter().map(|&i| vec![(i, Integer::one())]).collect();
-        let unit = |k: usize| {
-            (0..2 * nodes)
-                .map(|i| Integer::from(i64::from(i == 2 * k)))
-                .collect()
-        };
-        let imposed: Vec<Vec<Integer>> = slip.iter().map(|(k, _)| unit(*k)).collect();
-        let solved = solve(self.contact, &mut self.images, &free, &equations, &imposed);
-        let (den, w) = solved.ok_or(PathError::SingularFreeNodes)?;
-        // Reactions for v_T = 1 at each slip node in turn, over den times the contact's
-        // denominator.
-        let r: Vec<Vec<Integer>> = w.iter().map(|w| self.contact.times(w)).collect();
-        let scale = Scale::of(den * self.contact.denominator(), &r);
-        let n = slip.len();
-        let (mut a, mut b) = (Vec::new(), Vec::new());
-        for (p, (k, s_p)) in slip.iter().enumerate() {
-            for (q, (_, s_q)) in slip.iter().enumerate() {
-                a.push((p, q, scale.value(&(&r[q][2 * k] * s_p * s_q)))); // S K_TT S
-                b.push((p, q, scale.value(&(&r[q][2 * k + 1] * s_q)))); // K_NT S
+
+        let moved = self.move_each(&slip, states)?;
+
+        // Reactions for v_T = 1 at each slip node in turn, over the common denominator.
+        let reactions: Vec<Vec<Integer>> = moved.w.iter().map(|w| self.contact.times(w)).collect();
+        let scale = Scale::of(moved.denominator * self.contact.denominator(), &reactions);
+
+        let order = slip.len();
+        let mut a = Vec::with_capacity(order * order);
+        let mut b = Vec::with_capacity(order * order);
+        for (i, at) in slip.iter().enumerate() {
+            for (j, moving) in slip.iter().enumerate() {
+                let tangential = &reactions[j][2 * at.node] * &at.sign * &moving.sign;
+                let normal = &reactions[j][2 * at.node + 1] * &moving.sign;
+                a.push((i, j, scale.value(&tangential)));
+                b.push((i, j, scale.value(&normal)));
             }
         }
+
         Ok(Pencil::new(
-            Sparse::from_entries(n, n, a),
-            Sparse::from_entries(n, n, b),
+            Sparse::from_entries(order, order, a),
+            Sparse::from_entries(order, order, b),
             Vec::new(),
         )?)
     }
+
+    fn require_a_state_for_each_node(&self, states: &[ContactState]) -> Result<(), ModelError> {
+        let nodes = self.contact.nodes();
+        if states.len() == nodes {
+            return Ok(());
+        }
+
+        Err(ModelError::Shape {
+            equation: "E9",
+            what: "contact states",
+            expected_rows: nodes,
+            expected_cols: 1,
+            rows: states.len(),
+            cols: 1,
+        })
+    }
+
+    /// Displacements for v_T = 1 at each slip node in turn; free nodes follow without reactions.
+    fn move_each(
+        &mut self,
+        slip: &[SlipNode],
+        states: &[ContactState],
+    ) -> Result<RelativeDisplacements, PathError> {
+        let mut active = Vec::new();
+        for (node, state) in states.iter().enumerate() {
+            if *state == ContactState::Free {
+                active.extend([2 * node, 2 * node + 1]);
+            }
+        }
+
+        let equations = active.iter().map(|&i| no_reaction(i)).collect();
+        let imposed = slip
+            .iter()
+            .map(|slip| self.contact.relative(Load::Held(slip.node)))
+            .collect();
+
+        let equations = ContactEquations {
+            contact: self.contact,
+            active,
+            equations,
+            imposed,
+        };
+        equations
+            .solve(&mut self.images)
+            .ok_or(PathError::SingularFreeNodes)
+    }
+}
+
+fn slip_nodes(states: &[ContactState]) -> Vec<SlipNode> {
+    let mut slip = Vec::new();
+    for (node, state) in states.iter().enumerate() {
+        if let ContactState::Slip { sign } = *state {
+            let sign = Integer::from(sign);
+            slip.push(SlipNode { node, sign });
+        }
+    }
+
+    slip
 }
 
 /// A common denominator, and the factor that it shares with all numerators: dividing it out first
@@ -98,13 +145,14 @@ struct Scale {
 
 impl Scale {
     fn of(denominator: Integer, numerators: &[Vec<Integer>]) -> Scale {
-        let shared = numerators.iter().flatten().filter(|v| !v.is_zero()).fold(
-            denominator.clone(),
-            |g, v| {
-                // A long gcd only while it still changes.
-                if (v % &g).is_zero() { g } else { g.gcd(v) }
-            },
-        );
+        let mut shared = denominator.clone();
+        for numerator in numerators.iter().flatten() {
+            // A long gcd only while it still changes. (Zero is a multiple of everything.)
+            if !(numerator % &shared).is_zero() {
+                shared = shared.gcd(numerator);
+            }
+        }
+
         Scale {
             denominator: denominator / &shared,
             shared,
@@ -123,26 +171,25 @@ mod tests {
     use mceip_engine::reduction::{condense, reduce};
     use mceip_model::{Admissible, Unknown};
 
-    /// Two ways to the same exact matrices: through (10)-(16) and the uncondensed K, and from S.
+    const LEFT: ContactState = ContactState::Slip { sign: 1 };
+    const RIGHT: ContactState = ContactState::Slip { sign: -1 };
+
+    /// Through (10)-(16) and the uncondensed K.
+    fn condensed_by_reduction(block: &Block, states: &[ContactState]) -> Pencil {
+        let problem = block.problem(states, None).unwrap();
+        let reduced = reduce(&problem).unwrap().pencil;
+        condense(&Admissible::new(&reduced, Unknown::Mu).unwrap()).unwrap()
+    }
+
+    /// Two ways to the same exact matrices: through (10)-(16) and the uncondensed K, and from C.
     #[test]
     fn pencils_are_those_of_the_reduction() {
-        let slip = |sign| ContactState::Slip { sign };
+        let stick = ContactState::Stick;
+        let free = ContactState::Free;
         let states = [
-            vec![
-                ContactState::Stick,
-                slip(1),
-                slip(1),
-                slip(1),
-                ContactState::Free,
-            ],
-            vec![
-                ContactState::Free,
-                slip(1),
-                slip(-1),
-                ContactState::Stick,
-                slip(-1),
-            ],
-            vec![slip(1); 5],
+            vec![stick, LEFT, LEFT, LEFT, free],
+            vec![free, LEFT, RIGHT, stick, RIGHT],
+            vec![LEFT; 5],
         ];
         let model = BlockModel {
             mesh: MeshKind::UnionJack,
@@ -152,19 +199,18 @@ mod tests {
         let block = Block::new(&model).unwrap();
         let contact = Contact::of(&block).unwrap();
         let mut pencils = contact.pencils();
+
         for states in &states {
-            let reduced = reduce(&block.problem(states, None).unwrap())
-                .unwrap()
-                .pencil;
-            let expected = condense(&Admissible::new(&reduced, Unknown::Mu).unwrap()).unwrap();
+            let expected = condensed_by_reduction(&block, states);
             assert_eq!(pencils.of(states).unwrap(), expected);
         }
+
         assert!(matches!(
             pencils.of(&states[0][1..]),
             Err(PathError::Model(ModelError::Shape { .. }))
         ));
         assert!(matches!(
-            pencils.of(&[ContactState::Stick; 5]),
+            pencils.of(&[stick; 5]),
             Err(PathError::Model(ModelError::Empty { .. }))
         ));
     }

@@ -1,5 +1,11 @@
-//! The rate problem as a linear complementarity problem in doubles, for when the active set goes
-//! round in circles. It proposes states; exact signs decide about them.
+//! The rate problem as a linear complementarity problem in doubles, for when the active set comes
+//! back to states it has tried. It proposes states; exact signs decide about them.
+//!
+//! Rates v of the displacements and w = C (v - g) of the reactions, in units of the largest entry
+//! of the condensed stiffness C. Each node contributes unknowns and rows by its class
+//! ([`RateUnknown`]); a row is F_i = 0 for an unknown without a sign and 0 <= z_i _|_ F_i >= 0 for
+//! one with a sign, F(z) = M z + q. Lemke's method of `mceip_mcp` solves it, and positive unknowns
+//! name the states. Called by `rates`.
 #![allow(clippy::float_arithmetic)]
 
 use super::contact::{Contact, Friction, Load};
@@ -10,19 +16,40 @@ use mceip_mcp::solver::{Options, solve_linear};
 use mceip_model::ContactState;
 use nalgebra::DMatrix;
 
-/// What an unknown of the rate problem is.
+/// What an unknown of the rate problem is. Signs S are 1.0 or -1.0.
 #[derive(Clone, Copy)]
-enum Unknown {
+enum RateUnknown {
     /// A component of the velocity, no sign.
     Component(usize),
     /// x = -S v_T >= 0 of a node on the cone, against y = -(S w_T + mu w_N).
-    Slip(usize, f64),
+    Slip { node: usize, sign: f64 },
     /// -v_N >= 0 of a node with zero reaction, against -w_N.
-    Opening(usize),
+    Opening { node: usize },
     /// Parts of v_T >= 0 in the direction of S of a node with zero reaction: v_T = -sum S part.
-    Part(usize, f64),
+    Part { node: usize, sign: f64 },
     /// w_T of that node, against the row that puts v_T together.
-    Shear(usize),
+    Shear { node: usize },
+}
+
+impl RateUnknown {
+    /// The component of v to which it contributes, and the factor.
+    fn velocity(self) -> Option<(usize, f64)> {
+        match self {
+            RateUnknown::Component(i) => Some((i, 1.0)),
+            RateUnknown::Slip { node, sign } => Some((2 * node, -sign)),
+            RateUnknown::Opening { node } => Some((2 * node + 1, -1.0)),
+            RateUnknown::Part { .. } | RateUnknown::Shear { .. } => None,
+        }
+    }
+
+    fn lower_bound(self) -> f64 {
+        match self {
+            RateUnknown::Slip { .. } | RateUnknown::Opening { .. } | RateUnknown::Part { .. } => {
+                0.0
+            }
+            RateUnknown::Component(_) | RateUnknown::Shear { .. } => f64::NEG_INFINITY,
+        }
+    }
 }
 
 /// States proposed by Lemke's method, `None` if it ends without a solution.
@@ -32,22 +59,26 @@ pub(super) fn propose(
     classes: &[Class],
     moving: Load,
 ) -> Option<Vec<ContactState>> {
-    let mu = to_f64(&Rational::new(
-        friction.numerator.clone(),
-        friction.denominator.clone(),
-    ));
-    let unknowns: Vec<Unknown> = classes
-        .iter()
-        .enumerate()
-        .flat_map(|(k, c)| unknowns_of(k, *c))
-        .collect();
-    let s = doubles(contact);
-    let g: Vec<f64> = contact
-        .relative(moving)
-        .iter()
-        .map(|v| to_f64(&Rational::from_integer(v.clone())))
-        .collect();
-    let problem = assemble(&s, &g, &unknowns, mu)?;
+    let mut unknowns = Vec::new();
+    for (node, &class) in classes.iter().enumerate() {
+        unknowns.extend(unknowns_of(node, class));
+    }
+
+    let mut relative = Vec::new();
+    for value in contact.relative(moving) {
+        relative.push(to_f64(&Rational::from_integer(value)));
+    }
+
+    let rows = RateRows {
+        stiffness: scaled_stiffness(contact),
+        relative,
+        mu: to_f64(&friction.coefficient()),
+        matrix: DMatrix::zeros(unknowns.len(), unknowns.len()),
+        constant: vec![0.0; unknowns.len()],
+        unknowns: &unknowns,
+    };
+    let problem = rows.assemble()?;
+
     let outcome = solve_linear(&problem, &Options::default()).ok()?;
     outcome
         .termination
@@ -56,132 +87,162 @@ pub(super) fn propose(
 }
 
 /// The condensed stiffness in doubles, N/mm, divided by its largest entry.
-fn doubles(contact: &Contact) -> DMatrix<f64> {
-    let n = contact.rows().len();
-    let s = DMatrix::from_fn(n, n, |i, j| {
-        to_f64(&Rational::new_raw(
-            contact.rows()[i][j].clone(),
-            contact.denominator().clone(),
-        ))
-    });
-    let largest = s.amax();
-    s / largest
+fn scaled_stiffness(contact: &Contact) -> DMatrix<f64> {
+    let order = contact.rows().len();
+    let mut stiffness = DMatrix::zeros(order, order);
+    for (i, row) in contact.rows().iter().enumerate() {
+        for (j, numerator) in row.iter().enumerate() {
+            let denominator = contact.denominator().clone();
+            stiffness[(i, j)] = to_f64(&Rational::new_raw(numerator.clone(), denominator));
+        }
+    }
+
+    let largest = stiffness.amax();
+    stiffness / largest
 }
 
-fn unknowns_of(k: usize, class: Class) -> Vec<Unknown> {
+fn unknowns_of(node: usize, class: Class) -> Vec<RateUnknown> {
+    let tangential = RateUnknown::Component(2 * node);
+    let normal = RateUnknown::Component(2 * node + 1);
     match class {
-        Class::Free => vec![Unknown::Component(2 * k), Unknown::Component(2 * k + 1)],
+        Class::Free => vec![tangential, normal],
         Class::Stick => Vec::new(),
-        Class::Cone(sign) => vec![Unknown::Slip(k, f64::from(sign))],
-        Class::Zero => {
-            vec![
-                Unknown::Component(2 * k),
-                Unknown::Opening(k),
-                Unknown::Part(k, 1.0),
-                Unknown::Part(k, -1.0),
-                Unknown::Shear(k),
-            ]
-        }
+        Class::Cone(sign) => vec![RateUnknown::Slip {
+            node,
+            sign: f64::from(sign),
+        }],
+        Class::Zero => vec![
+            tangential,
+            RateUnknown::Opening { node },
+            RateUnknown::Part { node, sign: 1.0 },
+            RateUnknown::Part { node, sign: -1.0 },
+            RateUnknown::Shear { node },
+        ],
     }
 }
 
-/// F(z) = M z + q. Velocities enter through v = sum of (component, factor) of each unknown.
-fn assemble(s: &DMatrix<f64>, g: &[f64], unknowns: &[Unknown], mu: f64) -> Option<LinearMcp> {
-    let n = unknowns.len();
-    let velocity = |u: &Unknown| match *u {
-        Unknown::Component(i) => Some((i, 1.0)),
-        Unknown::Slip(k, sign) => Some((2 * k, -sign)),
-        Unknown::Opening(k) => Some((2 * k + 1, -1.0)),
-        Unknown::Part(..) | Unknown::Shear(_) => None,
-    };
-    let has_shear = |i: usize| {
-        unknowns
-            .iter()
-            .position(|u| matches!(u, Unknown::Shear(k) if 2 * k == i))
-    };
-    let place = |i: usize| {
-        unknowns
-            .iter()
-            .position(|u| matches!(u, Unknown::Component(c) if *c == i))
-    };
-    let (mut m, mut q) = (DMatrix::zeros(n, n), vec![0.0; n]);
-    // w_i = sum_j S_ij v_j + (S g)_i, added to row `row` with a factor.
-    let mut add = |m: &mut DMatrix<f64>, row: usize, i: usize, factor: f64| {
-        for (col, u) in unknowns.iter().enumerate() {
-            if let Some((j, c)) = velocity(u) {
-                m[(row, col)] += factor * s[(i, j)] * c;
+/// The rows F(z) = M z + q of the complementarity problem, while they are assembled.
+struct RateRows<'a> {
+    /// C, scaled.
+    stiffness: DMatrix<f64>,
+    /// -g, relative to the glued side.
+    relative: Vec<f64>,
+    /// Coefficient of friction.
+    mu: f64,
+    unknowns: &'a [RateUnknown],
+    /// M.
+    matrix: DMatrix<f64>,
+    /// q.
+    constant: Vec<f64>,
+}
+
+impl RateRows<'_> {
+    /// Assembles every row. `None` for a matrix that is no problem (an entry that is not finite).
+    fn assemble(mut self) -> Option<LinearMcp> {
+        for (row, &unknown) in self.unknowns.iter().enumerate() {
+            match unknown {
+                RateUnknown::Component(i) => self.set_equilibrium(row, i),
+                RateUnknown::Slip { node, sign } => {
+                    self.add_reaction(row, 2 * node, -sign);
+                    self.add_reaction(row, 2 * node + 1, -self.mu);
+                }
+                RateUnknown::Opening { node } => self.add_reaction(row, 2 * node + 1, -1.0),
+                RateUnknown::Part { node, sign } => self.set_cone(row, node, sign)?,
+                RateUnknown::Shear { node } => self.set_velocity(row, node)?,
             }
         }
-        q[row] += factor
-            * g.iter()
-                .enumerate()
-                .map(|(j, g)| s[(i, j)] * g)
-                .sum::<f64>();
-    };
-    for (row, u) in unknowns.iter().enumerate() {
-        match *u {
-            Unknown::Component(i) => {
-                add(&mut m, row, i, 1.0);
-                if let Some(shear) = has_shear(i) {
-                    m[(row, shear)] -= 1.0; // (S v)_T - w_T = 0
-                }
-            }
-            Unknown::Slip(k, sign) => {
-                add(&mut m, row, 2 * k, -sign);
-                add(&mut m, row, 2 * k + 1, -mu);
-            }
-            Unknown::Opening(k) => add(&mut m, row, 2 * k + 1, -1.0),
-            Unknown::Part(k, sign) => {
-                add(&mut m, row, 2 * k + 1, -mu); // -mu w_N - S w_T >= 0
-                m[(row, has_shear(2 * k)?)] -= sign;
-            }
-            Unknown::Shear(k) => {
-                m[(row, place(2 * k)?)] += 1.0; // v_T + sum S part = 0
-                for (col, part) in unknowns.iter().enumerate() {
-                    if let Unknown::Part(node, sign) = part {
-                        m[(row, col)] += if *node == k { *sign } else { 0.0 };
-                    }
-                }
-            }
+
+        let lower = self.unknowns.iter().map(|u| u.lower_bound()).collect();
+        let upper = vec![f64::INFINITY; self.unknowns.len()];
+        LinearMcp::new(self.matrix, self.constant, lower, upper).ok()
+    }
+
+    /// w_i = 0; for the tangential component of a node with zero reaction: (C v)_T - w_T = 0.
+    fn set_equilibrium(&mut self, row: usize, component: usize) {
+        self.add_reaction(row, component, 1.0);
+        if let Some(shear) = self.shear_of(component) {
+            self.matrix[(row, shear)] -= 1.0;
         }
     }
-    let signed = |u: &Unknown| {
-        matches!(
-            u,
-            Unknown::Slip(..) | Unknown::Opening(_) | Unknown::Part(..)
-        )
-    };
-    let lower = unknowns
-        .iter()
-        .map(|u| if signed(u) { 0.0 } else { f64::NEG_INFINITY })
-        .collect();
-    LinearMcp::new(m, q, lower, vec![f64::INFINITY; n]).ok()
+
+    /// -mu w_N - S w_T >= 0.
+    fn set_cone(&mut self, row: usize, node: usize, sign: f64) -> Option<()> {
+        self.add_reaction(row, 2 * node + 1, -self.mu);
+        let shear = self.shear_of(2 * node)?;
+        self.matrix[(row, shear)] -= sign;
+        Some(())
+    }
+
+    /// v_T + sum S part = 0.
+    fn set_velocity(&mut self, row: usize, node: usize) -> Option<()> {
+        let tangential = self.place_of(2 * node)?;
+        self.matrix[(row, tangential)] += 1.0;
+        for (column, unknown) in self.unknowns.iter().enumerate() {
+            match unknown {
+                RateUnknown::Part { node: of, sign } if *of == node => {
+                    self.matrix[(row, column)] += *sign
+                }
+                _ => {}
+            }
+        }
+
+        Some(())
+    }
+
+    /// Adds factor * w_i, w_i = sum_j C_ij (v_j - g_j), to a row.
+    fn add_reaction(&mut self, row: usize, i: usize, factor: f64) {
+        for (column, unknown) in self.unknowns.iter().enumerate() {
+            if let Some((j, share)) = unknown.velocity() {
+                self.matrix[(row, column)] += factor * self.stiffness[(i, j)] * share;
+            }
+        }
+
+        let products = self.relative.iter().enumerate();
+        let imposed: f64 = products.map(|(j, v)| self.stiffness[(i, j)] * v).sum();
+        self.constant[row] += factor * imposed;
+    }
+
+    /// Place of the unknown w_T of the node whose tangential component this is.
+    fn shear_of(&self, component: usize) -> Option<usize> {
+        self.unknowns
+            .iter()
+            .position(|u| matches!(u, RateUnknown::Shear { node } if 2 * node == component))
+    }
+
+    /// Place of the unknown that is this component of the velocity.
+    fn place_of(&self, component: usize) -> Option<usize> {
+        self.unknowns
+            .iter()
+            .position(|u| matches!(u, RateUnknown::Component(c) if *c == component))
+    }
 }
 
 /// Positive unknowns name the states; the exact active set corrects what rounding blurs.
-fn states_of(unknowns: &[Unknown], z: &[f64], classes: &[Class]) -> Vec<ContactState> {
-    let mut states: Vec<ContactState> = classes
-        .iter()
-        .map(|c| {
-            if *c == Class::Free {
-                ContactState::Free
-            } else {
-                ContactState::Stick
-            }
-        })
-        .collect();
-    for (u, &value) in unknowns.iter().zip(z) {
-        match *u {
-            Unknown::Slip(k, sign) | Unknown::Part(k, sign)
-                if value > 0.0 && states[k] != ContactState::Free =>
+fn states_of(unknowns: &[RateUnknown], z: &[f64], classes: &[Class]) -> Vec<ContactState> {
+    let mut states: Vec<ContactState> = classes.iter().map(state_at_zero).collect();
+
+    let positive = unknowns.iter().zip(z).filter(|(_, value)| **value > 0.0);
+    for (unknown, _) in positive {
+        match *unknown {
+            RateUnknown::Slip { node, sign } | RateUnknown::Part { node, sign }
+                if states[node] != ContactState::Free =>
             {
-                states[k] = ContactState::Slip {
-                    sign: if sign > 0.0 { 1 } else { -1 },
-                };
+                let sign = if sign > 0.0 { 1 } else { -1 };
+                states[node] = ContactState::Slip { sign };
             }
-            Unknown::Opening(k) if value > 0.0 => states[k] = ContactState::Free,
+            RateUnknown::Opening { node } => states[node] = ContactState::Free,
             _ => {}
         }
     }
+
     states
+}
+
+/// The state of a node whose unknowns with a sign are all zero.
+fn state_at_zero(class: &Class) -> ContactState {
+    if *class == Class::Free {
+        ContactState::Free
+    } else {
+        ContactState::Stick
+    }
 }

@@ -1,7 +1,14 @@
 //! The rate problem: which nodes on their limits stick, slip, open or stay open in the next
-//! moment. An active set from the state before, else the project's pivoting; exact signs decide.
+//! moment.
+//!
+//! The class of a node at an equilibrium ([`Class`]) says which of (9) it has to satisfy, with the
+//! rates of displacement and reaction for v and w. A set of states makes these conditions linear
+//! equations (`respond`); it solves the rate problem if the signs of the solution contradict no
+//! state ([`better`]). Sets are tried in this order: an active set from the states before, all
+//! violated nodes at once and then one at a time; what Lemke's method proposes (`propose`); every
+//! set there is. All signs are exact. Called by `trace` once for each event.
 
-use super::contact::{Contact, Friction, Load, Response};
+use super::contact::{Contact, Friction, Load, NodalValues, Response};
 use super::error::PathError;
 use super::line::{Bound, Class};
 use super::linear::Images;
@@ -32,9 +39,11 @@ const ENUMERATED: usize = 1024;
 pub(super) struct Rates<'a> {
     pub(super) contact: &'a Contact,
     pub(super) friction: &'a Friction,
+    /// The class of each node at this moment.
     pub(super) classes: &'a [Class],
-    /// What is imposed, and which of it grows.
+    /// What is imposed on the block if the nodes are in given states.
     pub(super) loads: &'a dyn Fn(&[ContactState]) -> Vec<Load>,
+    /// The load that grows.
     pub(super) moving: Load,
 }
 
@@ -49,85 +58,35 @@ pub(super) struct Solved {
 }
 
 impl Rates<'_> {
-    /// Solves it; `start` holds the states before.
+    /// Solves it; `before` holds the states before.
+    ///
+    /// # Errors
+    /// [`PathError::NoContinuation`] if no set of states that was tried solves it.
     pub(super) fn solve(
         &self,
         images: &mut Images,
-        start: &[ContactState],
+        before: &[ContactState],
     ) -> Result<Solved, PathError> {
-        let start: Vec<ContactState> = self
-            .classes
-            .iter()
-            .zip(start)
-            .map(|(&c, &s)| first_guess(c, s))
-            .collect();
+        let mut start = Vec::with_capacity(before.len());
+        for (&class, &state) in self.classes.iter().zip(before) {
+            start.push(first_guess(class, state));
+        }
+
         let mut tried = 0;
         for finder in [Finder::ActiveSet, Finder::OneByOne] {
             if let Some(solved) = self.iterate(images, start.clone(), finder, &mut tried) {
                 return Ok(solved);
             }
         }
+
         let proposed = propose(self.contact, self.friction, self.classes, self.moving);
-        match proposed.and_then(|states| self.iterate(images, states, Finder::Pivoting, &mut tried))
+        if let Some(states) = proposed
+            && let Some(solved) = self.iterate(images, states, Finder::Pivoting, &mut tried)
         {
-            Some(solved) => Ok(solved),
-            None => self.enumerate(images, &mut tried),
+            return Ok(solved);
         }
-    }
 
-    /// Tries every set of states, if there are few. Without a singular one among them, a failure
-    /// proves that the quasi-static path has no continuation.
-    fn enumerate(&self, images: &mut Images, tried: &mut usize) -> Result<Solved, PathError> {
-        let mut sets: Vec<Vec<ContactState>> = vec![Vec::new()];
-        for class in self.classes {
-            let choices = choices(*class);
-            if sets.len() * choices.len() > ENUMERATED {
-                return Err(PathError::NoContinuation {
-                    tried: *tried,
-                    all: false,
-                });
-            }
-            sets = sets
-                .into_iter()
-                .flat_map(|set| {
-                    choices
-                        .iter()
-                        .map(move |c| set.iter().copied().chain([*c]).collect())
-                })
-                .collect();
-        }
-        let mut singular = false;
-        for states in sets {
-            *tried += 1;
-            match self.attempt(images, &states) {
-                None => singular = true,
-                Some(attempt) if attempt.changes.is_empty() => {
-                    return Ok(attempt.solved(states, Finder::Enumeration, *tried));
-                }
-                Some(_) => {}
-            }
-        }
-        Err(PathError::NoContinuation {
-            tried: *tried,
-            all: !singular,
-        })
-    }
-
-    /// The response in these states and what contradicts them; `None` if singular.
-    fn attempt(&self, images: &mut Images, states: &[ContactState]) -> Option<Attempt> {
-        let loads = (self.loads)(states);
-        let response = respond(self.contact, images, self.friction, states, &loads)?;
-        let at = loads.iter().position(|&l| l == self.moving)?;
-        let (u, r) = (&response.u[at], &response.r[at]);
-        let better = |k: usize| better(k, self.classes[k], states[k], u, r, self.friction);
-        let changes = (0..states.len())
-            .filter_map(|k| better(k).map(|s| (k, s)))
-            .collect();
-        Some(Attempt {
-            loads,
-            response,
-            changes,
-        })
+        self.enumerate(images, &mut tried)
     }
 
     /// Follows the violations from `states` until there is none (or a set of states comes back).
@@ -138,25 +97,104 @@ impl Rates<'_> {
         finder: Finder,
         tried: &mut usize,
     ) -> Option<Solved> {
+        let changed_at_once = if finder == Finder::OneByOne {
+            1
+        } else {
+            states.len()
+        };
+
         let mut seen = BTreeSet::new();
         while seen.insert(code(&states)) {
             *tried += 1;
             let attempt = self.attempt(images, &states)?;
-            if attempt.changes.is_empty() {
+            if attempt.corrections.is_empty() {
                 return Some(attempt.solved(states, finder, *tried));
             }
-            let count = if finder == Finder::OneByOne {
-                1
-            } else {
-                states.len()
-            };
-            attempt
-                .changes
-                .into_iter()
-                .take(count)
-                .for_each(|(k, s)| states[k] = s);
+
+            for correction in attempt.corrections.iter().take(changed_at_once) {
+                states[correction.node] = correction.state;
+            }
         }
+
         None
+    }
+
+    /// Tries every set of states, if there are few. Without a singular one among them, a failure
+    /// proves that the quasi-static path has no continuation.
+    fn enumerate(&self, images: &mut Images, tried: &mut usize) -> Result<Solved, PathError> {
+        let Some(sets) = self.sets_of_states() else {
+            return Err(PathError::NoContinuation {
+                tried: *tried,
+                all: false,
+            });
+        };
+
+        let mut singular = false;
+        for states in sets {
+            *tried += 1;
+            match self.attempt(images, &states) {
+                None => singular = true,
+                Some(attempt) if attempt.corrections.is_empty() => {
+                    return Ok(attempt.solved(states, Finder::Enumeration, *tried));
+                }
+                Some(_) => {}
+            }
+        }
+
+        Err(PathError::NoContinuation {
+            tried: *tried,
+            all: !singular,
+        })
+    }
+
+    /// Every choice of a state for each node, the last node varying fastest; `None` if there are
+    /// more than [`ENUMERATED`].
+    fn sets_of_states(&self) -> Option<Vec<Vec<ContactState>>> {
+        let mut sets: Vec<Vec<ContactState>> = vec![Vec::new()];
+
+        for class in self.classes {
+            let choices = choices(*class);
+            if sets.len() * choices.len() > ENUMERATED {
+                return None;
+            }
+
+            let mut longer = Vec::with_capacity(sets.len() * choices.len());
+            for set in &sets {
+                for &state in &choices {
+                    let mut set = set.clone();
+                    set.push(state);
+                    longer.push(set);
+                }
+            }
+
+            sets = longer;
+        }
+
+        Some(sets)
+    }
+
+    /// The response in these states and what contradicts them; `None` if singular.
+    fn attempt(&self, images: &mut Images, states: &[ContactState]) -> Option<Attempt> {
+        let loads = (self.loads)(states);
+        let response = respond(self.contact, images, self.friction, states, &loads)?;
+
+        let moving = loads.iter().position(|&load| load == self.moving)?;
+        let rates = NodalValues {
+            u: &response.u[moving],
+            r: &response.r[moving],
+        };
+        let mut corrections = Vec::new();
+        for (node, &state) in states.iter().enumerate() {
+            if let Some(state) = better(node, self.classes[node], state, rates, self.friction) {
+                corrections.push(Correction { node, state });
+            }
+        }
+
+        Some(Attempt {
+            loads,
+            response,
+            corrections,
+        })
     }
 }
 
@@ -164,8 +202,14 @@ impl Rates<'_> {
 struct Attempt {
     loads: Vec<Load>,
     response: Response,
-    /// Nodes whose rates contradict their state, with the state to try instead.
-    changes: Vec<(usize, ContactState)>,
+    corrections: Vec<Correction>,
+}
+
+/// A node whose rates contradict its state.
+struct Correction {
+    node: usize,
+    /// The state to try instead.
+    state: ContactState,
 }
 
 impl Attempt {
@@ -182,12 +226,16 @@ impl Attempt {
 
 /// The states that a node of this class may take.
 fn choices(class: Class) -> Vec<ContactState> {
-    let slip = |sign| ContactState::Slip { sign };
     match class {
         Class::Free => vec![ContactState::Free],
         Class::Stick => vec![ContactState::Stick],
-        Class::Cone(sign) => vec![slip(sign), ContactState::Stick],
-        Class::Zero => vec![ContactState::Free, ContactState::Stick, slip(1), slip(-1)],
+        Class::Cone(sign) => vec![ContactState::Slip { sign }, ContactState::Stick],
+        Class::Zero => vec![
+            ContactState::Free,
+            ContactState::Stick,
+            ContactState::Slip { sign: 1 },
+            ContactState::Slip { sign: -1 },
+        ],
     }
 }
 
@@ -208,67 +256,112 @@ fn better(
     node: usize,
     class: Class,
     state: ContactState,
-    u: &[Integer],
-    r: &[Integer],
+    rates: NodalValues<'_>,
     friction: &Friction,
 ) -> Option<ContactState> {
-    let negative = |b: Bound| b.value(u, r, friction).is_negative();
-    // S v_T <= 0.
-    let slides_wrongly = |sign: i8| (&u[2 * node] * Integer::from(sign)).is_positive();
-    match (class, state) {
-        (Class::Cone(_), ContactState::Slip { sign }) => {
-            slides_wrongly(sign).then_some(ContactState::Stick)
-        }
-        (Class::Cone(sign), ContactState::Stick) => {
-            negative(Bound::Cone { node, sign }).then_some(ContactState::Slip { sign })
-        }
-        (Class::Zero, ContactState::Free) => {
-            negative(Bound::Gap { node }).then_some(ContactState::Stick)
-        }
-        (Class::Zero, ContactState::Stick | ContactState::Slip { .. })
-            if negative(Bound::Pressure { node }) =>
-        {
-            Some(ContactState::Free)
-        }
-        (Class::Zero, ContactState::Slip { sign }) => {
-            slides_wrongly(sign).then_some(ContactState::Stick)
-        }
-        (Class::Zero, ContactState::Stick) => [1, -1]
-            .into_iter()
-            .find(|&sign| negative(Bound::Cone { node, sign }))
-            .map(|sign| ContactState::Slip { sign }),
-        _ => None,
+    match class {
+        Class::Free | Class::Stick => None,
+        Class::Cone(side) => better_on_cone(node, side, state, rates, friction),
+        Class::Zero => better_without_reaction(node, state, rates, friction),
     }
+}
+
+/// On the cone 0 <= x _|_ y >= 0 with x = -S v_T, y = -(S w_T + mu w_N): slip has y = 0 and needs
+/// x >= 0, stick has x = 0 and needs y >= 0.
+fn better_on_cone(
+    node: usize,
+    side: i8,
+    state: ContactState,
+    rates: NodalValues<'_>,
+    friction: &Friction,
+) -> Option<ContactState> {
+    match state {
+        ContactState::Free => None,
+        ContactState::Slip { sign } => {
+            slides_with_friction(sign, node, rates).then_some(ContactState::Stick)
+        }
+        ContactState::Stick => {
+            let cone = Bound::Cone { node, sign: side };
+            let slip = ContactState::Slip { sign: side };
+            cone.falls(rates, friction).then_some(slip)
+        }
+    }
+}
+
+/// In contact with zero reaction, the rates satisfy what displacements and reactions themselves
+/// satisfy: contact (1) first, then friction (2).
+fn better_without_reaction(
+    node: usize,
+    state: ContactState,
+    rates: NodalValues<'_>,
+    friction: &Friction,
+) -> Option<ContactState> {
+    if state == ContactState::Free {
+        let gap = Bound::Gap { node };
+        return gap.falls(rates, friction).then_some(ContactState::Stick);
+    }
+
+    let pressure = Bound::Pressure { node };
+    if pressure.falls(rates, friction) {
+        return Some(ContactState::Free);
+    }
+
+    if let ContactState::Slip { sign } = state {
+        return slides_with_friction(sign, node, rates).then_some(ContactState::Stick);
+    }
+
+    for sign in [1, -1] {
+        let cone = Bound::Cone { node, sign };
+        if cone.falls(rates, friction) {
+            return Some(ContactState::Slip { sign });
+        }
+    }
+
+    None
+}
+
+/// S v_T > 0: the node would slide the way friction pushes it, where S v_T <= 0 is wanted.
+fn slides_with_friction(sign: i8, node: usize, rates: NodalValues<'_>) -> bool {
+    let v_t = &rates.u[2 * node];
+    let along = v_t * Integer::from(sign);
+    along.is_positive()
 }
 
 /// Do the rates fit class and state? The same lines as [`better`], read as (9): used to verify.
 pub(super) fn admissible(
+    node: usize,
     class: Class,
     state: ContactState,
-    node: usize,
-    u: &[Integer],
-    r: &[Integer],
+    rates: NodalValues<'_>,
     friction: &Friction,
 ) -> bool {
     let possible = match (class, state) {
-        (Class::Free, ContactState::Free)
-        | (Class::Stick, ContactState::Stick)
-        | (Class::Cone(_), ContactState::Stick) => true,
-        (Class::Cone(s), ContactState::Slip { sign }) => s == sign,
+        (Class::Free, ContactState::Free) => true,
+        (Class::Stick, ContactState::Stick) => true,
+        (Class::Cone(_), ContactState::Stick) => true,
+        (Class::Cone(side), ContactState::Slip { sign }) => side == sign,
         (Class::Zero, _) => true,
         _ => false,
     };
-    possible
-        && better(node, class, state, u, r, friction).is_none()
-        && (state != ContactState::Stick || u[2 * node].is_zero())
+    if !possible {
+        return false;
+    }
+    if better(node, class, state, rates, friction).is_some() {
+        return false;
+    }
+
+    state != ContactState::Stick || rates.u[2 * node].is_zero()
 }
 
 /// States as small numbers, for the set of those seen.
 fn code(states: &[ContactState]) -> Vec<i8> {
-    let digit = |s: &ContactState| match s {
+    states.iter().map(digit).collect()
+}
+
+fn digit(state: &ContactState) -> i8 {
+    match state {
         ContactState::Free => 0,
         ContactState::Stick => 2,
         ContactState::Slip { sign } => *sign,
-    };
-    states.iter().map(digit).collect()
+    }
 }

@@ -6,7 +6,7 @@ use super::error::PathError;
 use super::line::Class;
 use super::linear::Images;
 use super::propose::propose;
-use super::rates::{Finder, Rates};
+use super::rates::{Finder, Rates, Solved};
 use mceip_exact::{Rational, Sparse, whole};
 use mceip_model::ContactState;
 use num_traits::{Signed, Zero};
@@ -21,30 +21,65 @@ impl Dice {
             .0
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407);
-        ((self.0 >> 33) % (2 * k as u64 + 1)) as i64 - k
+        let faces = 2 * k as u64 + 1;
+        ((self.0 >> 33) % faces) as i64 - k
+    }
+}
+
+/// A rate problem in small numbers.
+struct Instance {
+    /// C in (T, N) of each node.
+    stiffness: Vec<Vec<i64>>,
+    mu: Rational,
+    classes: Vec<Class>,
+}
+
+impl Instance {
+    fn random(dice: &mut Dice, nodes: usize, mu: Rational) -> Instance {
+        let stiffness = random_stiffness(dice, 2 * nodes);
+        let classes = (0..nodes).map(|_| random_class(dice)).collect();
+        Instance {
+            stiffness,
+            mu,
+            classes,
+        }
+    }
+
+    fn contact(&self) -> Contact {
+        let order = self.stiffness.len();
+        let mut entries = Vec::new();
+        for i in 0..order {
+            for j in 0..order {
+                // The block's y points away from the obstacle.
+                let sign = if (i + j).is_multiple_of(2) { 1 } else { -1 };
+                entries.push((i, j, whole(sign * self.stiffness[i][j])));
+            }
+        }
+
+        Contact::from_condensed(&Sparse::from_entries(order, order, entries))
     }
 }
 
 /// B'B + I in (T, N) of each node: symmetric positive definite, with strong coupling of T and N.
-fn random_stiffness(dice: &mut Dice, n: usize) -> Vec<Vec<i64>> {
-    let b: Vec<Vec<i64>> = (0..n)
-        .map(|_| (0..n).map(|_| dice.roll(4)).collect())
-        .collect();
-    (0..n)
-        .map(|i| {
-            (0..n)
-                .map(|j| (0..n).map(|k| b[k][i] * b[k][j]).sum::<i64>() + i64::from(i == j))
-                .collect()
-        })
-        .collect()
-}
+fn random_stiffness(dice: &mut Dice, order: usize) -> Vec<Vec<i64>> {
+    let mut factor = vec![vec![0; order]; order];
+    for row in &mut factor {
+        for entry in row {
+            *entry = dice.roll(4);
+        }
+    }
 
-fn contact_of(s: &[Vec<i64>]) -> Contact {
-    let n = s.len();
-    // The block's y points away.
-    let sign = |i: usize, j: usize| if (i + j).is_multiple_of(2) { 1 } else { -1 };
-    let entries = (0..n).flat_map(|i| (0..n).map(move |j| (i, j, whole(sign(i, j) * s[i][j]))));
-    Contact::from_condensed(&Sparse::from_entries(n, n, entries))
+    let mut stiffness = vec![vec![0; order]; order];
+    for i in 0..order {
+        stiffness[i][i] = 1;
+        for j in 0..order {
+            for row in &factor {
+                stiffness[i][j] += row[i] * row[j];
+            }
+        }
+    }
+
+    stiffness
 }
 
 fn random_class(dice: &mut Dice) -> Class {
@@ -57,114 +92,213 @@ fn random_class(dice: &mut Dice) -> Class {
     }
 }
 
-const SLIPS: [ContactState; 2] = [
-    ContactState::Slip { sign: 1 },
-    ContactState::Slip { sign: -1 },
-];
-
 fn choices(class: Class) -> Vec<ContactState> {
     match class {
         Class::Free => vec![ContactState::Free],
         Class::Stick => vec![ContactState::Stick],
         Class::Cone(sign) => vec![ContactState::Stick, ContactState::Slip { sign }],
-        Class::Zero => vec![ContactState::Stick, ContactState::Free, SLIPS[0], SLIPS[1]],
+        Class::Zero => vec![
+            ContactState::Stick,
+            ContactState::Free,
+            ContactState::Slip { sign: 1 },
+            ContactState::Slip { sign: -1 },
+        ],
     }
+}
+
+/// Rates of displacements and reactions.
+struct VelocityAndReaction {
+    v: Vec<Rational>,
+    w: Vec<Rational>,
 }
 
 /// (v, w) in these states by Gauss-Jordan elimination, `None` if singular; g = e_T to be overcome.
-fn rates(
-    s: &[Vec<i64>],
-    mu: &Rational,
-    states: &[ContactState],
-) -> Option<(Vec<Rational>, Vec<Rational>)> {
-    let n = s.len();
-    // Unknowns (v, w): S v - w = -S g, and two conditions for each node.
-    let g = |j: usize| i64::from(j.is_multiple_of(2));
-    let mut m = vec![vec![whole(0); 2 * n + 1]; 2 * n];
-    for i in 0..n {
-        for j in 0..n {
-            m[i][j] = whole(s[i][j]);
-        }
-        m[i][n + i] = whole(-1);
-        m[i][2 * n] = whole(-(0..n).map(|j| s[i][j] * g(j)).sum::<i64>());
+fn rates(instance: &Instance, states: &[ContactState]) -> Option<VelocityAndReaction> {
+    let order = instance.stiffness.len();
+    let mut rows = equations(instance, states);
+    eliminate(&mut rows)?;
+
+    let mut solution = Vec::with_capacity(2 * order);
+    for (i, row) in rows.iter().enumerate() {
+        solution.push(&row[2 * order] / &row[i]);
     }
-    for (k, state) in states.iter().enumerate() {
-        let (t, normal) = (2 * k, 2 * k + 1);
+
+    let w = solution.split_off(order);
+    Some(VelocityAndReaction { v: solution, w })
+}
+
+/// The equations for the unknowns (v, w), each row with its right side at the end: C v - w = -C g,
+/// and two conditions for each node.
+fn equations(instance: &Instance, states: &[ContactState]) -> Vec<Vec<Rational>> {
+    let stiffness = &instance.stiffness;
+    let order = stiffness.len();
+    let mut rows = vec![vec![whole(0); 2 * order + 1]; 2 * order];
+
+    for i in 0..order {
+        let mut right = 0;
+        for j in 0..order {
+            rows[i][j] = whole(stiffness[i][j]);
+            if j.is_multiple_of(2) {
+                right -= stiffness[i][j]; // g_j = 1
+            }
+        }
+
+        rows[i][order + i] = whole(-1);
+        rows[i][2 * order] = whole(right);
+    }
+
+    for (node, state) in states.iter().enumerate() {
+        let v_t = 2 * node;
+        let v_n = 2 * node + 1;
+        let w_t = order + v_t;
+        let w_n = order + v_n;
+        // Two more rows, in the places below those of the node's components.
         match state {
             ContactState::Free => {
-                (m[n + t][n + t], m[n + normal][n + normal]) = (whole(1), whole(1))
+                rows[w_t][w_t] = whole(1);
+                rows[w_n][w_n] = whole(1);
             }
-            ContactState::Stick => (m[n + t][t], m[n + normal][normal]) = (whole(1), whole(1)),
+            ContactState::Stick => {
+                rows[w_t][v_t] = whole(1);
+                rows[w_n][v_n] = whole(1);
+            }
             ContactState::Slip { sign } => {
-                m[n + t][normal] = whole(1);
-                m[n + normal][n + t] = whole((*sign).into());
-                m[n + normal][n + normal] = mu.clone();
+                rows[w_t][v_n] = whole(1);
+                rows[w_n][w_t] = whole((*sign).into());
+                rows[w_n][w_n] = instance.mu.clone();
             }
         }
     }
-    for k in 0..2 * n {
-        let pivot = (k..2 * n).find(|&i| !m[i][k].is_zero())?;
-        m.swap(k, pivot);
-        for i in (0..2 * n).filter(|&i| i != k) {
-            let factor = &m[i][k] / &m[k][k];
+
+    rows
+}
+
+/// Makes the square block on the left of the rows diagonal; `None` if it is singular.
+fn eliminate(rows: &mut [Vec<Rational>]) -> Option<()> {
+    let order = rows.len();
+    for k in 0..order {
+        let pivot = (k..order).find(|&i| !rows[i][k].is_zero())?;
+        rows.swap(k, pivot);
+
+        let pivot_row = rows[k].clone();
+        for i in (0..order).filter(|&i| i != k) {
+            let factor = &rows[i][k] / &pivot_row[k];
             if factor.is_zero() {
                 continue;
             }
-            for j in k..=2 * n {
-                let update = &factor * &m[k][j];
-                m[i][j] -= update;
+
+            for j in k..=order {
+                rows[i][j] -= &factor * &pivot_row[j];
             }
         }
     }
-    let x: Vec<Rational> = (0..2 * n).map(|i| &m[i][2 * n] / &m[i][i]).collect();
-    Some((x[..n].to_vec(), x[n..].to_vec()))
+
+    Some(())
 }
 
-/// The lines of (9) for one node, rates for (v, w).
+/// The lines of (9) for one node, with rates (T, N) for v and w.
 fn holds(class: Class, v: &[Rational], w: &[Rational], mu: &Rational) -> bool {
-    let (v_t, v_n, w_t, w_n) = (&v[0], &v[1], &w[0], &w[1]);
+    let [v_t, v_n] = v else { return false };
+    let [w_t, w_n] = w else { return false };
     let zero = Rational::zero();
+
     match class {
         Class::Free => w_t.is_zero() && w_n.is_zero(),
         Class::Stick => v_t.is_zero() && v_n.is_zero(),
         Class::Cone(sign) => {
-            let s = whole(sign.into());
-            let y = w_t * &s + mu * w_n;
-            *v_n == zero && v_t * &s <= zero && y <= zero && (y * v_t).is_zero()
+            let sign = whole(sign.into());
+            let y = w_t * &sign + mu * w_n;
+            *v_n == zero && v_t * &sign <= zero && y <= zero && (y * v_t).is_zero()
         }
         Class::Zero => {
-            *v_n <= zero
-                && *w_n <= zero
-                && (v_n * w_n).is_zero()
-                && w_t.abs() + mu * w_n <= zero
-                && v_t.abs() * w_t - mu * v_t * w_n == zero
+            let contact = *v_n <= zero && *w_n <= zero && (v_n * w_n).is_zero();
+            let cone = w_t.abs() + mu * w_n <= zero;
+            let friction = v_t.abs() * w_t - mu * v_t * w_n == zero;
+            contact && cone && friction
         }
     }
 }
 
-/// Every set of states that solves the rate problem; whether some set was singular.
-fn enumerate(s: &[Vec<i64>], mu: &Rational, classes: &[Class]) -> (Vec<Vec<ContactState>>, bool) {
-    let mut all: Vec<Vec<ContactState>> = vec![Vec::new()];
-    for class in classes {
-        all = all
-            .into_iter()
-            .flat_map(|p| {
-                choices(*class)
-                    .into_iter()
-                    .map(move |c| p.iter().copied().chain([c]).collect())
-            })
-            .collect();
-    }
-    let mut singular = false;
-    all.retain(|states| match rates(s, mu, states) {
-        None => {
-            singular = true;
-            false
+/// What plain enumeration finds.
+struct Enumerated {
+    /// Every set of states that solves the rate problem.
+    solutions: Vec<Vec<ContactState>>,
+    /// The equations of some set are singular.
+    singular: bool,
+}
+
+fn enumerate(instance: &Instance) -> Enumerated {
+    let mut sets: Vec<Vec<ContactState>> = vec![Vec::new()];
+    for &class in &instance.classes {
+        let mut longer = Vec::new();
+        for set in &sets {
+            for state in choices(class) {
+                let mut set = set.clone();
+                set.push(state);
+                longer.push(set);
+            }
         }
-        Some((v, w)) => (0..classes.len())
-            .all(|k| holds(classes[k], &v[2 * k..2 * k + 2], &w[2 * k..2 * k + 2], mu)),
-    });
-    (all, singular)
+
+        sets = longer;
+    }
+
+    let mut solutions = Vec::new();
+    let mut singular = false;
+    for states in sets {
+        match rates(instance, &states) {
+            None => singular = true,
+            Some(rates) if all_hold(instance, &rates) => solutions.push(states),
+            Some(_) => {}
+        }
+    }
+
+    Enumerated {
+        solutions,
+        singular,
+    }
+}
+
+fn all_hold(instance: &Instance, rates: &VelocityAndReaction) -> bool {
+    let nodes = rates.v.chunks(2).zip(rates.w.chunks(2));
+    instance
+        .classes
+        .iter()
+        .zip(nodes)
+        .all(|(&class, (v, w))| holds(class, v, w, &instance.mu))
+}
+
+/// Holds what the solver found against the enumeration; returns how it was found.
+fn compare(
+    round: usize,
+    found: &Result<Solved, PathError>,
+    expected: &Enumerated,
+    classes: &[Class],
+) -> &'static str {
+    let solutions = &expected.solutions;
+    match found {
+        Ok(solved) => {
+            let states = &solved.states;
+            assert!(
+                solutions.contains(states),
+                "round {round}: {states:?} {classes:?}"
+            );
+            match solved.finder {
+                Finder::ActiveSet => "active set",
+                Finder::OneByOne => "one by one",
+                Finder::Pivoting => "pivoting",
+                Finder::Enumeration => "enumeration",
+            }
+        }
+        Err(PathError::NoContinuation { all, .. }) => {
+            assert!(
+                solutions.is_empty(),
+                "round {round}: {classes:?} has {solutions:?}"
+            );
+            assert_eq!(*all, !expected.singular, "round {round}");
+            "none exists"
+        }
+        Err(error) => panic!("{error}"),
+    }
 }
 
 /// Found states are among those of the enumeration, and where none are found there are none. What
@@ -173,53 +307,37 @@ fn enumerate(s: &[Vec<i64>], mu: &Rational, classes: &[Class]) -> (Vec<Vec<Conta
 fn rate_problems_agree_with_enumeration() {
     let mut dice = Dice(7);
     let mut met: BTreeMap<&str, usize> = BTreeMap::new();
+
     for round in 0..600 {
         let nodes = 2 + round % 2;
-        let s = random_stiffness(&mut dice, 2 * nodes);
-        let classes: Vec<Class> = (0..nodes).map(|_| random_class(&mut dice)).collect();
         let mu = [whole(1) / whole(2), whole(1), whole(3)][round % 3].clone();
-        let (contact, friction) = (contact_of(&s), Friction::new(&mu));
-        let (solutions, singular) = enumerate(&s, &mu, &classes);
+        let instance = Instance::random(&mut dice, nodes, mu);
+        let contact = instance.contact();
+        let friction = Friction::new(&instance.mu);
+        let classes = &instance.classes;
+
+        let expected = enumerate(&instance);
         let rates = Rates {
             contact: &contact,
             friction: &friction,
-            classes: &classes,
+            classes,
             loads: &|_| vec![Load::Left],
             moving: Load::Left,
         };
         let found = rates.solve(&mut Images::default(), &vec![ContactState::Stick; nodes]);
-        let word = match &found {
-            Ok(solved) => {
-                assert!(
-                    solutions.contains(&solved.states),
-                    "round {round}: {:?} {classes:?}",
-                    solved.states
-                );
-                match solved.finder {
-                    Finder::ActiveSet => "active set",
-                    Finder::OneByOne => "one by one",
-                    Finder::Pivoting => "pivoting",
-                    Finder::Enumeration => "enumeration",
-                }
-            }
-            Err(PathError::NoContinuation { all, .. }) => {
-                assert!(
-                    solutions.is_empty(),
-                    "round {round}: {classes:?} has {solutions:?}"
-                );
-                assert_eq!(*all, !singular, "round {round}");
-                "none exists"
-            }
-            Err(e) => panic!("{e}"),
-        };
-        *met.entry(word).or_default() += 1;
-        *met.entry("several solutions").or_default() += usize::from(solutions.len() > 1);
-        *met.entry("singular").or_default() += usize::from(singular);
-        if let Some(states) = propose(&contact, &friction, &classes, Load::Left) {
+        let finder = compare(round, &found, &expected, classes);
+
+        let several = expected.solutions.len() > 1;
+        *met.entry(finder).or_default() += 1;
+        *met.entry("several solutions").or_default() += usize::from(several);
+        *met.entry("singular").or_default() += usize::from(expected.singular);
+        if let Some(states) = propose(&contact, &friction, classes, Load::Left) {
+            let rightly = expected.solutions.contains(&states);
             *met.entry("proposed").or_default() += 1;
-            *met.entry("proposed rightly").or_default() += usize::from(solutions.contains(&states));
+            *met.entry("proposed rightly").or_default() += usize::from(rightly);
         }
     }
+
     for word in [
         "active set",
         "one by one",
@@ -229,9 +347,7 @@ fn rate_problems_agree_with_enumeration() {
         "several solutions",
         "singular",
     ] {
-        assert!(
-            met.get(word).is_some_and(|&n| n > 0),
-            "{word} never met: {met:?}"
-        );
+        let times = met.get(word).copied().unwrap_or_default();
+        assert!(times > 0, "{word} never met: {met:?}");
     }
 }

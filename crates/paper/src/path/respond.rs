@@ -1,14 +1,16 @@
 //! What the contact nodes do in given states under imposed displacements: displacements and
 //! reactions by (5), solved exactly.
+//!
+//! Each state gives two conditions: free r = 0; stick u = 0; slip u_N = 0, r_T + S mu r_N = 0,
+//! where S is the sign of r_T. The unknowns are therefore u_T and u_N of free nodes and u_T of slip
+//! nodes. Called by `rates`.
 
 use super::contact::{Contact, Friction, Load, Response};
-use super::linear::{Images, solve};
+use super::linear::{ContactEquations, Equation, Images, Term, no_reaction};
 use mceip_exact::Integer;
 use mceip_model::ContactState;
-use num_traits::One;
 
-/// Solves (5) with each node in its state: free r = 0; stick u = 0; slip u_N = 0, r_T + S mu r_N =
-/// 0.
+/// Solves (5) with each node in its state, for each load alone.
 ///
 /// `None` if these equations are singular (mu is an eigenvalue of the state's matrix).
 pub(super) fn respond(
@@ -18,38 +20,78 @@ pub(super) fn respond(
     states: &[ContactState],
     loads: &[Load],
 ) -> Option<Response> {
-    let mut active = Vec::new(); // unknown components
-    let mut equations = Vec::new(); // (row T, row N) combinations, one for each unknown
-    for (k, state) in states.iter().enumerate() {
+    let mut active = Vec::new();
+    let mut equations = Vec::new();
+    for (node, state) in states.iter().enumerate() {
+        let tangential = 2 * node;
+        let normal = 2 * node + 1;
         match state {
             ContactState::Stick => {}
             ContactState::Slip { sign } => {
-                active.push(2 * k);
-                let (t, n) = friction.on_cone(*sign);
-                equations.push(vec![(2 * k, t), (2 * k + 1, n)]);
+                active.push(tangential);
+                equations.push(on_cone(node, friction, *sign));
             }
             ContactState::Free => {
-                active.extend([2 * k, 2 * k + 1]);
-                equations.extend([
-                    vec![(2 * k, Integer::one())],
-                    vec![(2 * k + 1, Integer::one())],
-                ]);
+                active.extend([tangential, normal]);
+                equations.extend([no_reaction(tangential), no_reaction(normal)]);
             }
         }
     }
-    let imposed: Vec<Vec<Integer>> = loads.iter().map(|&l| contact.relative(l)).collect();
-    let (denominator, relative) = solve(contact, images, &active, &equations, &imposed)?;
-    let r = relative.iter().map(|w| contact.times(w)).collect();
-    let back = |(w, load): (Vec<Integer>, &Load)| match load {
-        Load::Held(_) => w,
-        _ => {
-            let g = contact.relative(*load);
-            w.iter()
-                .zip(&g)
-                .map(|(w, g)| w - g * &denominator)
-                .collect()
-        }
+
+    let imposed = loads.iter().map(|&load| contact.relative(load)).collect();
+    let equations = ContactEquations {
+        contact,
+        active,
+        equations,
+        imposed,
     };
-    let u = relative.into_iter().zip(loads).map(back).collect();
-    Some(Response { denominator, u, r })
+    let solved = equations.solve(images)?;
+
+    let r = solved.w.iter().map(|w| contact.times(w)).collect();
+    let mut u = Vec::with_capacity(loads.len());
+    for (relative, load) in solved.w.into_iter().zip(loads) {
+        u.push(absolute(relative, *load, &solved.denominator, contact));
+    }
+
+    Some(Response {
+        denominator: solved.denominator,
+        u,
+        r,
+    })
+}
+
+/// r_T + S mu r_N = 0. // (7)
+fn on_cone(node: usize, friction: &Friction, sign: i8) -> Equation {
+    let row = friction.on_cone(sign);
+    vec![
+        Term {
+            row: 2 * node,
+            coefficient: row.tangential,
+        },
+        Term {
+            row: 2 * node + 1,
+            coefficient: row.normal,
+        },
+    ]
+}
+
+/// Displacements u = w + g from those relative to the glued side. A held node displaces no glued
+/// side: there u = w.
+fn absolute(
+    relative: Vec<Integer>,
+    load: Load,
+    denominator: &Integer,
+    contact: &Contact,
+) -> Vec<Integer> {
+    if matches!(load, Load::Held(_)) {
+        return relative;
+    }
+
+    let imposed = contact.relative(load); // -g
+    let mut u = Vec::with_capacity(relative.len());
+    for (w, imposed) in relative.iter().zip(&imposed) {
+        u.push(w - imposed * denominator);
+    }
+
+    u
 }

@@ -1,5 +1,11 @@
-//! Ordinary incremental stepping in doubles, for comparison: equal steps of the motion, at each
-//! an active set from the step before. What happens within a step is lost.
+//! Ordinary incremental stepping in doubles, for comparison: equal steps of the motion, at each an
+//! active set from the step before. What happens within a step is lost.
+//!
+//! A step solves r = C (u - g) (C the condensed stiffness) for the displacements u at the new
+//! position g of the glued side, with these conditions by state: stick: u as before; slip: u_N = 0,
+//! r_T + S mu r_N = 0, where S is the sign of r_T; free: r = 0. States that the solution
+//! contradicts are changed and the step is solved again (backward Euler in the friction law).
+//! `mceip block --path` sets the result beside the exact path.
 #![allow(clippy::float_arithmetic)]
 
 use super::contact::Contact;
@@ -31,9 +37,14 @@ pub struct Step {
 impl Step {
     /// Sums of r_T and r_N over the nodes, N.
     pub fn resultants(&self) -> (f64, f64) {
-        self.reactions
-            .iter()
-            .fold((0.0, 0.0), |s, r| (s.0 + r.0, s.1 + r.1))
+        let mut tangential = 0.0;
+        let mut normal = 0.0;
+        for reaction in &self.reactions {
+            tangential += reaction.0;
+            normal += reaction.1;
+        }
+
+        (tangential, normal)
     }
 }
 
@@ -50,107 +61,182 @@ pub fn step_path(
     count: usize,
     progress: &dyn Fn(usize) -> ControlFlow<()>,
 ) -> Result<Vec<Step>, PathError> {
-    Loading {
+    let stepped = Loading {
         until: Some(h.clone()),
         ..loading.clone()
-    }
-    .validate()?;
-    let n = contact.nodes();
-    let model = Model {
-        s: contact
-            .rows()
-            .iter()
-            .map(|row| row.iter().map(|v| ratio(v, contact)).collect())
-            .collect(),
-        mu: to_f64(&loading.friction),
     };
-    let start = State {
-        states: vec![ContactState::Stick; n],
-        u: vec![0.0; 2 * n],
-        r: vec![0.0; 2 * n],
-    };
-    let unit = model
-        .advance(&start, 1.0, 0.0)
-        .ok_or(PathError::StepNotConverged {
-            step: 0,
-            motion: 0.0,
-            limit: ITERATIONS,
-        })?;
-    let pressure: f64 = -unit.r.iter().skip(1).step_by(2).sum::<f64>();
-    let depth = to_f64(&loading.force) / pressure;
-    let mut state = unit.scaled(depth);
-    let mut steps = vec![state.step(0.0)];
+    stepped.validate()?;
+
+    let model = CondensedBlock::new(contact, loading);
+    let mut state = model.press(to_f64(&loading.force))?;
+    let depth = state.glued.press;
+
+    let mut steps = vec![state.step()];
     for step in 1..=count {
         if progress(step).is_break() {
             break;
         }
-        let motion = to_f64(h) * step as f64;
-        state = model
-            .advance(&state, depth, motion)
-            .ok_or(PathError::StepNotConverged {
-                step,
-                motion,
-                limit: ITERATIONS,
-            })?;
-        steps.push(state.step(motion));
+
+        let glued = GluedSide {
+            press: depth,
+            left: to_f64(h) * step as f64,
+        };
+        state = model.advance(&state, glued, step)?;
+        steps.push(state.step());
     }
+
     Ok(steps)
 }
 
-fn ratio(v: &mceip_exact::Integer, contact: &Contact) -> f64 {
-    to_f64(&Rational::new_raw(v.clone(), contact.denominator().clone()))
+/// Where the glued side is, mm from its unloaded place.
+#[derive(Clone, Copy)]
+struct GluedSide {
+    /// Towards the obstacle.
+    press: f64,
+    /// To the left.
+    left: f64,
 }
 
-struct Model {
-    s: Vec<Vec<f64>>,
-    mu: f64,
-}
-
-#[derive(Clone)]
-struct State {
-    states: Vec<ContactState>,
-    u: Vec<f64>,
-    r: Vec<f64>,
-}
-
-impl State {
-    fn scaled(mut self, factor: f64) -> State {
-        self.u
-            .iter_mut()
-            .chain(&mut self.r)
-            .for_each(|v| *v *= factor);
-        self
-    }
-
-    fn step(&self, motion: f64) -> Step {
-        let pairs = |v: &[f64]| v.chunks(2).map(|p| (p[0], p[1])).collect();
-        Step {
-            motion,
-            states: self.states.clone(),
-            reactions: pairs(&self.r),
-            displacements: pairs(&self.u),
+impl GluedSide {
+    /// What is added to component `i` of the displacements to have them relative to the glued side.
+    fn shift(self, i: usize) -> f64 {
+        if i.is_multiple_of(2) {
+            self.left
+        } else {
+            -self.press
         }
     }
 }
 
-impl Model {
-    /// The equilibrium at (press, left) after `from`: backward Euler in the friction law.
-    fn advance(&self, from: &State, press: f64, left: f64) -> Option<State> {
+/// An equilibrium, with the states that led to it. Components as in [`Contact`].
+#[derive(Clone)]
+struct SteppedEquilibrium {
+    glued: GluedSide,
+    states: Vec<ContactState>,
+    /// Displacements, mm.
+    u: Vec<f64>,
+    /// Reactions, N.
+    r: Vec<f64>,
+}
+
+impl SteppedEquilibrium {
+    fn step(&self) -> Step {
+        Step {
+            motion: self.glued.left,
+            states: self.states.clone(),
+            reactions: by_node(&self.r),
+            displacements: by_node(&self.u),
+        }
+    }
+}
+
+/// The tangential and the normal component of each node.
+fn by_node(components: &[f64]) -> Vec<(f64, f64)> {
+    components
+        .chunks(2)
+        .map(|node| (node[0], node[1]))
+        .collect()
+}
+
+/// The condensed block and its friction.
+struct CondensedBlock {
+    /// C, N/mm.
+    stiffness: Vec<Vec<f64>>,
+    mu: f64,
+}
+
+impl CondensedBlock {
+    fn new(contact: &Contact, loading: &Loading) -> CondensedBlock {
+        let mut stiffness = Vec::with_capacity(contact.rows().len());
+        for exact in contact.rows() {
+            let mut row = Vec::with_capacity(exact.len());
+            for numerator in exact {
+                let denominator = contact.denominator().clone();
+                row.push(to_f64(&Rational::new_raw(numerator.clone(), denominator)));
+            }
+
+            stiffness.push(row);
+        }
+
+        CondensedBlock {
+            stiffness,
+            mu: to_f64(&loading.friction),
+        }
+    }
+
+    /// The unloaded block pressed until the normal resultant is -force: proportional to the
+    /// depth, so it is solved for 1 mm and scaled.
+    fn press(&self, force: f64) -> Result<SteppedEquilibrium, PathError> {
+        let components = self.stiffness.len();
+        let unloaded = SteppedEquilibrium {
+            glued: GluedSide {
+                press: 0.0,
+                left: 0.0,
+            },
+            states: vec![ContactState::Stick; components / 2],
+            u: vec![0.0; components],
+            r: vec![0.0; components],
+        };
+        let one_mm = GluedSide {
+            press: 1.0,
+            left: 0.0,
+        };
+        let mut state = self.advance(&unloaded, one_mm, 0)?;
+
+        let normal_reactions = state.r.iter().skip(1).step_by(2);
+        let per_mm: f64 = -normal_reactions.sum::<f64>();
+        let depth = force / per_mm;
+        for value in state.u.iter_mut().chain(&mut state.r) {
+            *value *= depth;
+        }
+
+        state.glued.press = depth;
+        Ok(state)
+    }
+
+    /// The equilibrium with the glued side at its new place, after `from`; `step` is named in the
+    /// error.
+    fn advance(
+        &self,
+        from: &SteppedEquilibrium,
+        glued: GluedSide,
+        step: usize,
+    ) -> Result<SteppedEquilibrium, PathError> {
+        self.converge(from, glued)
+            .ok_or(PathError::StepNotConverged {
+                step,
+                motion: glued.left,
+                limit: ITERATIONS,
+            })
+    }
+
+    /// Changes states until the equilibrium contradicts none of them. `None` for singular
+    /// equations, and after too many iterations.
+    fn converge(&self, from: &SteppedEquilibrium, glued: GluedSide) -> Option<SteppedEquilibrium> {
         let mut states = from.states.clone();
+
         for _ in 0..ITERATIONS {
-            let next = self.equilibrium(&states, from, press, left)?;
-            let size = |v: &[f64]| v.iter().fold(0.0f64, |m, x| m.max(x.abs())) * STEP_SIGN;
-            let (small_u, small_r) = (size(&next.u), size(&next.r));
+            let next = self.equilibrium(&states, from, glued)?;
+            let increment = Increment {
+                mu: self.mu,
+                from,
+                next: &next,
+                small_u: largest(&next.u) * STEP_SIGN,
+                small_r: largest(&next.r) * STEP_SIGN,
+            };
+
             let mut changed = false;
-            for (k, state) in states.iter_mut().enumerate() {
-                let better = self.better(*state, &next, from, k, small_u, small_r);
+            for (node, state) in states.iter_mut().enumerate() {
+                let better = increment.better(node, *state);
                 changed |= better != *state;
                 *state = better;
             }
+
             if !changed {
                 return Some(next);
             }
         }
+
         None
     }
 
@@ -158,76 +244,147 @@ impl Model {
     fn equilibrium(
         &self,
         states: &[ContactState],
-        from: &State,
-        press: f64,
-        left: f64,
-    ) -> Option<State> {
-        let n = self.s.len();
-        // u = known + unknown; relative to the glued side u + shift.
-        let mut u = vec![0.0; n];
-        let shift = |i: usize| if i.is_multiple_of(2) { left } else { -press };
-        let (mut active, mut rows) = (Vec::new(), Vec::new());
-        for (k, state) in states.iter().enumerate() {
-            let (t, normal) = (&self.s[2 * k], &self.s[2 * k + 1]);
-            match state {
-                ContactState::Stick => u[2 * k] = from.u[2 * k],
-                ContactState::Slip { sign } => {
-                    active.push(2 * k);
-                    rows.push(
-                        t.iter()
-                            .zip(normal)
-                            .map(|(t, n)| t + f64::from(*sign) * self.mu * n)
-                            .collect::<Vec<f64>>(),
-                    );
-                }
-                ContactState::Free => {
-                    active.extend([2 * k, 2 * k + 1]);
-                    rows.extend([t.clone(), normal.clone()]);
-                }
+        from: &SteppedEquilibrium,
+        glued: GluedSide,
+    ) -> Option<SteppedEquilibrium> {
+        let Conditions {
+            mut u,
+            active,
+            rows,
+        } = self.conditions(states, from);
+
+        if !active.is_empty() {
+            let known = relative(&u, glued);
+            let right = rows.iter().map(|row| -dot(row, &known)).collect();
+            let mut matrix = Vec::with_capacity(rows.len());
+            for row in &rows {
+                let coefficients: Vec<f64> = active.iter().map(|&j| row[j]).collect();
+                matrix.push(coefficients);
+            }
+
+            let solved = solve(&matrix, &[right])?;
+            for (&component, value) in active.iter().zip(&solved[0]) {
+                u[component] = *value;
             }
         }
-        if !active.is_empty() {
-            let right = rows
-                .iter()
-                .map(|row| -(0..n).map(|j| row[j] * (u[j] + shift(j))).sum::<f64>())
-                .collect();
-            let matrix: Vec<Vec<f64>> = rows
-                .iter()
-                .map(|row| active.iter().map(|&j| row[j]).collect())
-                .collect();
-            let z = solve(&matrix, &[right])?;
-            active.iter().zip(&z[0]).for_each(|(&i, z)| u[i] = *z);
-        }
+
+        let displaced = relative(&u, glued);
         let r = self
-            .s
+            .stiffness
             .iter()
-            .map(|row| (0..n).map(|j| row[j] * (u[j] + shift(j))).sum())
+            .map(|row| dot(row, &displaced))
             .collect();
-        Some(State {
+        Some(SteppedEquilibrium {
+            glued,
             states: states.to_vec(),
             u,
             r,
         })
     }
 
-    fn better(
-        &self,
-        state: ContactState,
-        next: &State,
-        from: &State,
-        k: usize,
-        small_u: f64,
-        small_r: f64,
-    ) -> ContactState {
-        let (u_n, r_t, r_n) = (next.u[2 * k + 1], next.r[2 * k], next.r[2 * k + 1]);
-        let slid = next.u[2 * k] - from.u[2 * k];
+    /// What the states say of displacements and reactions.
+    fn conditions(&self, states: &[ContactState], from: &SteppedEquilibrium) -> Conditions {
+        let mut conditions = Conditions {
+            u: vec![0.0; self.stiffness.len()],
+            active: Vec::new(),
+            rows: Vec::new(),
+        };
+
+        for (node, state) in states.iter().enumerate() {
+            let tangential = 2 * node;
+            let normal = 2 * node + 1;
+            match state {
+                ContactState::Stick => conditions.u[tangential] = from.u[tangential],
+                ContactState::Slip { sign } => {
+                    conditions.active.push(tangential);
+                    conditions.rows.push(self.slip_row(node, *sign));
+                }
+                ContactState::Free => {
+                    for component in [tangential, normal] {
+                        conditions.active.push(component);
+                        conditions.rows.push(self.stiffness[component].clone());
+                    }
+                }
+            }
+        }
+
+        conditions
+    }
+
+    /// The row of r_T + S mu r_N. // (7)
+    fn slip_row(&self, node: usize, sign: i8) -> Vec<f64> {
+        let factor = f64::from(sign) * self.mu;
+        let tangential = &self.stiffness[2 * node];
+        let normal = &self.stiffness[2 * node + 1];
+
+        let entries = tangential.iter().zip(normal);
+        entries.map(|(t, n)| t + factor * n).collect()
+    }
+}
+
+/// The equations of an equilibrium in given states.
+struct Conditions {
+    /// The known components of the displacements; zero for the active ones.
+    u: Vec<f64>,
+    /// The unknown components.
+    active: Vec<usize>,
+    /// A combination of rows of C that vanishes, one for each unknown.
+    rows: Vec<Vec<f64>>,
+}
+
+/// Displacements relative to the glued side.
+fn relative(u: &[f64], glued: GluedSide) -> Vec<f64> {
+    let components = u.iter().enumerate();
+    components.map(|(i, u)| u + glued.shift(i)).collect()
+}
+
+fn dot(row: &[f64], vector: &[f64]) -> f64 {
+    row.iter().zip(vector).map(|(a, b)| a * b).sum()
+}
+
+/// The largest absolute value.
+fn largest(values: &[f64]) -> f64 {
+    let mut largest: f64 = 0.0;
+    for value in values {
+        largest = largest.max(value.abs());
+    }
+
+    largest
+}
+
+/// The equilibria before and after a step.
+struct Increment<'a> {
+    mu: f64,
+    from: &'a SteppedEquilibrium,
+    next: &'a SteppedEquilibrium,
+    /// Displacements below this count as zero, mm.
+    small_u: f64,
+    /// Reactions below this count as zero, N.
+    small_r: f64,
+}
+
+impl Increment<'_> {
+    /// The state to take instead if the equilibrium contradicts this one, else the same.
+    fn better(&self, node: usize, state: ContactState) -> ContactState {
+        let u_n = self.next.u[2 * node + 1];
+        let r_t = self.next.r[2 * node];
+        let r_n = self.next.r[2 * node + 1];
+        let slid = self.next.u[2 * node] - self.from.u[2 * node];
+
+        let in_contact = state != ContactState::Free;
+        if in_contact && r_n > self.small_r {
+            return ContactState::Free;
+        }
+
         match state {
-            ContactState::Free if u_n > small_u => ContactState::Stick,
-            ContactState::Stick | ContactState::Slip { .. } if r_n > small_r => ContactState::Free,
-            ContactState::Stick if r_t.abs() + self.mu * r_n > small_r => ContactState::Slip {
-                sign: if r_t > 0.0 { 1 } else { -1 },
-            },
-            ContactState::Slip { sign } if f64::from(sign) * slid > small_u => ContactState::Stick,
+            ContactState::Free if u_n > self.small_u => ContactState::Stick,
+            ContactState::Stick if r_t.abs() + self.mu * r_n > self.small_r => {
+                let sign = if r_t > 0.0 { 1 } else { -1 };
+                ContactState::Slip { sign }
+            }
+            ContactState::Slip { sign } if f64::from(sign) * slid > self.small_u => {
+                ContactState::Stick
+            }
             _ => state,
         }
     }

@@ -1,4 +1,5 @@
-//! A stretch of the path between two events, with the event it begins with.
+//! A stretch of the path between two events, with the event it begins with: what `trace` puts
+//! together and users of a [`super::LoadingPath`] read.
 
 use super::line::{Bound, Equilibrium};
 use super::rates::Finder;
@@ -30,22 +31,6 @@ pub struct Event {
     pub tried: usize,
 }
 
-impl Event {
-    pub(super) fn new(
-        causes: Vec<Bound>,
-        changes: Vec<Change>,
-        finder: Finder,
-        tried: usize,
-    ) -> Event {
-        Event {
-            causes,
-            changes,
-            finder,
-            tried,
-        }
-    }
-}
-
 /// A stretch of the path with constant states; (1), (2), (5), (7) were verified at both ends.
 #[derive(Debug, Clone)]
 pub struct Interval {
@@ -62,18 +47,22 @@ pub struct Interval {
 impl Interval {
     /// Number of nodes that stick, slip to the left (S = 1), slip to the right (S = -1), are free.
     pub fn counts(&self) -> [usize; 4] {
-        let count = |f: fn(&ContactState) -> bool| self.states.iter().filter(|s| f(s)).count();
         [
-            count(|s| *s == ContactState::Stick),
-            count(|s| matches!(s, ContactState::Slip { sign: 1 })),
-            count(|s| matches!(s, ContactState::Slip { sign: -1 })),
-            count(|s| *s == ContactState::Free),
+            self.count(ContactState::Stick),
+            self.count(ContactState::Slip { sign: 1 }),
+            self.count(ContactState::Slip { sign: -1 }),
+            self.count(ContactState::Free),
         ]
+    }
+
+    /// Number of nodes in this state.
+    fn count(&self, state: ContactState) -> usize {
+        self.states.iter().filter(|s| **s == state).count()
     }
 
     /// One letter for each node: `.` stick, `<` slip to the left, `>` to the right, `o` free.
     pub fn picture(&self) -> String {
-        self.states.iter().map(|s| letter(*s)).collect()
+        self.states.iter().map(|state| letter(*state)).collect()
     }
 
     /// The MCEIP-mu problem of its states, or MCEIP-lambda2 at a given mu.
@@ -94,12 +83,7 @@ fn letter(state: ContactState) -> char {
     match state {
         ContactState::Free => 'o',
         ContactState::Stick => '.',
-        ContactState::Slip { sign } => {
-            if sign > 0 {
-                '<'
-            } else {
-                '>'
-            }
-        }
+        ContactState::Slip { sign } if sign > 0 => '<',
+        ContactState::Slip { .. } => '>',
     }
 }

@@ -1,9 +1,15 @@
 //! Following the path: press, then move; from event to event, each verified.
+//!
+//! The motion d is measured in units of the pressing. Each round of [`trace`] starts at an event:
+//! the classes of the nodes there give a rate problem (`rates`), its solution the states of the
+//! next stretch and the line on which u and r lie (`line`). The stretch must begin where the last
+//! one ended, satisfy the laws at both ends (`check`), and ends at its next event. Input is the
+//! condensed block and the loading; `LoadingPath::follow` calls it.
 
-use super::check::check;
+use super::check::PathPoint;
 use super::contact::{Contact, Friction, Load};
 use super::error::PathError;
-use super::line::{Class, Line, classify, next_event};
+use super::line::{AppliedLoad, Bound, Class, Line, NextEvent, classify, next_event};
 use super::linear::Images;
 use super::loading::Loading;
 use super::loading_path::{LoadingPath, PathEnd};
@@ -17,7 +23,7 @@ use std::ops::ControlFlow;
 /// Events per contact node after which a path is given up. Paths met so far have about two.
 const EVENTS_PER_NODE: usize = 200;
 
-/// What does not change along a path.
+/// What is common to the stretches of a path.
 struct Tracer<'a> {
     contact: &'a Contact,
     friction: Friction,
@@ -26,228 +32,339 @@ struct Tracer<'a> {
     held: Vec<Rational>,
 }
 
+/// States that solve a rate problem, and the line on which they lead on.
+struct SolvedStretch {
+    solved: Solved,
+    line: Line,
+}
+
+/// Where the path has got to.
+struct Position {
+    /// The motion, in units of the pressing.
+    d: Rational,
+    /// What happens there: the bounds that became zero.
+    causes: Vec<Bound>,
+    /// The stretch that ends there.
+    states: Vec<ContactState>,
+    line: Line,
+}
+
+/// How a stretch ends.
+enum StretchEnd {
+    /// With an event.
+    Event(NextEvent),
+    /// At the end of the range asked for.
+    Range(Rational),
+    /// Not at all.
+    Never,
+}
+
+impl StretchEnd {
+    fn motion(&self) -> Option<&Rational> {
+        match self {
+            StretchEnd::Event(event) => Some(&event.d),
+            StretchEnd::Range(until) => Some(until),
+            StretchEnd::Never => None,
+        }
+    }
+}
+
+/// Follows the path; see [`LoadingPath::follow`].
 pub(super) fn trace(
     contact: &Contact,
     loading: &Loading,
     progress: &dyn Fn(usize, &Rational) -> ControlFlow<()>,
 ) -> Result<LoadingPath, PathError> {
     loading.validate()?;
-    let n = contact.nodes();
-    let friction = Friction::new(&loading.friction);
-    let mut tracer = Tracer {
-        contact,
-        friction,
-        images: Images::default(),
-        held: vec![Rational::zero(); n],
+    let events_allowed = EVENTS_PER_NODE * contact.nodes();
+
+    let mut tracer = Tracer::new(contact, loading);
+    let pressing = tracer.press()?;
+    let depth = depth(contact, &pressing.line, &loading.force)?;
+    let pressing_states = pressing.solved.states;
+    let mut position = Position {
+        d: Rational::zero(),
+        causes: Vec::new(),
+        states: pressing_states.clone(),
+        line: pressing.line,
     };
-    let pressing = tracer.rates(
-        &vec![Class::Zero; n],
-        &vec![ContactState::Stick; n],
-        Load::Press,
-    )?;
-    let mut line = tracer.line(&pressing);
-    let mut d = Rational::zero();
-    tracer.verify(&pressing, &vec![Class::Zero; n], &line, &d, Load::Press)?;
-    let depth = depth(contact, &line, &loading.force)?;
-    let pressed = line.equilibrium(&d, &depth, contact);
-    let (mut intervals, mut states) = (Vec::new(), pressing.states.clone());
-    let mut causes = Vec::new();
-    let until = loading.until.as_ref().map(|u| u / &depth);
+    let pressed = position.line.equilibrium(&position.d, &depth, contact);
+
+    let until = loading.until.as_ref().map(|until| until / &depth); // in units of the pressing
+    let mut intervals = Vec::new();
     let end = loop {
-        if progress(intervals.len(), &(&d * &depth)).is_break() {
+        let motion = &position.d * &depth;
+        if progress(intervals.len(), &motion).is_break() {
             break PathEnd::Interrupted;
         }
-        if intervals.len() > EVENTS_PER_NODE * n {
+
+        if intervals.len() > events_allowed {
             return Err(PathError::TooManyEvents {
-                limit: EVENTS_PER_NODE * n,
+                limit: events_allowed,
             });
         }
-        let at = |source: PathError| {
-            let motion = format!("{:.6}", to_f64(&(&d * &depth)));
-            PathError::AtEvent {
-                event: intervals.len(),
-                motion,
-                source: Box::new(source),
-            }
-        };
-        let (solved, next) = match tracer.pass(&states, &line, &d) {
+
+        let stretch = match tracer.pass(&position) {
+            Ok(stretch) => stretch,
             Err(PathError::NoContinuation { tried, all }) => {
                 break PathEnd::NoContinuation {
-                    causes,
+                    causes: position.causes,
                     tried,
                     proved: all,
                 };
             }
-            passed => passed.map_err(at)?,
+            Err(error) => return Err(at_event(error, intervals.len(), &motion)),
         };
-        let event = Event::new(
-            std::mem::take(&mut causes),
-            changes(&states, &solved.states),
-            solved.finder,
-            solved.tried,
-        );
-        states = solved.states;
-        let found = next_event(&next, &tracer.friction, &states);
-        let in_range = |(to, _): &(Rational, Vec<_>)| until.as_ref().is_none_or(|u| to < u);
-        let (to, reason) = match found.filter(in_range) {
-            Some((to, bounds)) => {
-                causes = bounds;
-                (Some(to), None)
+
+        let stretch_end = tracer.end_of(&stretch, until.as_ref());
+        tracer
+            .verify_end(&stretch, &stretch_end)
+            .map_err(|error| at_event(error, intervals.len(), &motion))?;
+
+        intervals.push(tracer.interval(&position, &stretch, &stretch_end, &depth));
+        match stretch_end {
+            StretchEnd::Range(_) => break PathEnd::Range,
+            StretchEnd::Never => break PathEnd::NoFurtherEvent,
+            StretchEnd::Event(event) => {
+                position = Position {
+                    d: event.d,
+                    causes: event.causes,
+                    states: stretch.solved.states,
+                    line: stretch.line,
+                };
             }
-            None => (
-                until.clone(),
-                Some(if until.is_some() {
-                    PathEnd::Range
-                } else {
-                    PathEnd::NoFurtherEvent
-                }),
-            ),
-        };
-        if let Some(to) = &to {
-            check(contact, &tracer.friction, &states, &next, to, Load::Left)
-                .map_err(law)
-                .map_err(at)?;
-        }
-        let equilibrium = |d: &Rational| next.equilibrium(d, &depth, contact);
-        let interval = Interval {
-            begin: event,
-            states: states.clone(),
-            start: equilibrium(&d),
-            stop: to.as_ref().map(equilibrium),
-        };
-        intervals.push(interval);
-        line = next;
-        match (to, reason) {
-            (_, Some(reason)) => break reason,
-            (Some(to), None) => d = to,
-            (None, None) => break PathEnd::NoFurtherEvent,
         }
     };
+
     Ok(LoadingPath {
         loading: loading.clone(),
         depth,
-        pressing: pressing.states,
+        pressing: pressing_states,
         pressed,
         intervals,
         end,
     })
 }
 
-impl Tracer<'_> {
+impl<'a> Tracer<'a> {
+    fn new(contact: &'a Contact, loading: &Loading) -> Tracer<'a> {
+        Tracer {
+            contact,
+            friction: Friction::new(&loading.friction),
+            images: Images::default(),
+            held: vec![Rational::zero(); contact.nodes()],
+        }
+    }
+
+    /// The pressing from the unloaded block, where every node is in contact with zero reaction.
+    fn press(&mut self) -> Result<SolvedStretch, PathError> {
+        let nodes = self.contact.nodes();
+        let classes = vec![Class::Zero; nodes];
+        let unloaded = vec![ContactState::Stick; nodes];
+
+        let solved = self.rates(&classes, &unloaded, Load::Press)?;
+        let line = self.line(&solved);
+        let stretch = SolvedStretch { solved, line };
+        self.verify(&stretch, &classes, &Rational::zero(), Load::Press)?;
+        Ok(stretch)
+    }
+
+    /// The states after the event at a position, and the stretch that begins there.
+    fn pass(&mut self, position: &Position) -> Result<SolvedStretch, PathError> {
+        let d = &position.d;
+        let classes = classify(&position.line, d, &self.friction)?;
+        self.note_where_nodes_would_stick(position);
+
+        let solved = self.rates(&classes, &position.states, Load::Left)?;
+        let line = self.line(&solved);
+        if !line.meets(&position.line, d) {
+            return Err(PathError::Discontinuous);
+        }
+
+        let stretch = SolvedStretch { solved, line };
+        self.verify(&stretch, &classes, d, Load::Left)?;
+        Ok(stretch)
+    }
+
+    /// Notes u_T of every node that does not stick: if it sticks from here on, it does so there.
+    fn note_where_nodes_would_stick(&mut self, position: &Position) {
+        let unit = &position.line.denominator * position.d.denom();
+        for (node, state) in position.states.iter().enumerate() {
+            if *state != ContactState::Stick {
+                let u_t = position.line.u_at(2 * node, &position.d);
+                self.held[node] = Rational::new(u_t, unit.clone());
+            }
+        }
+    }
+
+    /// Solves the rate problem; `before` holds the states before.
     fn rates(
         &mut self,
         classes: &[Class],
-        start: &[ContactState],
+        before: &[ContactState],
         moving: Load,
     ) -> Result<Solved, PathError> {
         let held = &self.held;
-        let loads = |states: &[ContactState]| {
-            let shifted = (0..states.len())
-                .filter(|&k| states[k] == ContactState::Stick && !held[k].is_zero())
-                .map(Load::Held);
-            let rigid = if moving == Load::Press {
-                vec![Load::Press]
-            } else {
-                vec![Load::Press, Load::Left]
-            };
-            rigid.into_iter().chain(shifted).collect()
-        };
-        Rates {
+        let problem = Rates {
             contact: self.contact,
             friction: &self.friction,
             classes,
-            loads: &loads,
+            loads: &|states| loads(states, held, moving),
             moving,
-        }
-        .solve(&mut self.images, start)
-    }
-
-    /// The states after the event at d, and the stretch that begins there.
-    fn pass(
-        &mut self,
-        before: &[ContactState],
-        line: &Line,
-        d: &Rational,
-    ) -> Result<(Solved, Line), PathError> {
-        let classes = classify(line, d, &self.friction).map_err(law)?;
-        for (k, state) in before.iter().enumerate() {
-            if *state != ContactState::Stick {
-                let unit = &line.denominator * d.denom();
-                // Where it sticks if it does.
-                self.held[k] = Rational::new(line.u_at(2 * k, d), unit);
-            }
-        }
-        let solved = self.rates(&classes, before, Load::Left)?;
-        let next = self.line(&solved);
-        if !next.meets(line, d) {
-            return Err(PathError::Discontinuous);
-        }
-        self.verify(&solved, &classes, &next, d, Load::Left)?;
-        Ok((solved, next))
-    }
-
-    fn line(&self, solved: &Solved) -> Line {
-        let coefficient = |l: &Load| match l {
-            Load::Held(k) => self.held[*k].clone(),
-            _ => Rational::one(),
         };
-        let loads: Vec<(Load, Rational)> =
-            solved.loads.iter().map(|l| (*l, coefficient(l))).collect();
-        Line::new(&solved.response, &loads)
+        problem.solve(&mut self.images, before)
+    }
+
+    /// The line of the states found: every load as much as it is applied.
+    fn line(&self, solved: &Solved) -> Line {
+        let mut applied = Vec::with_capacity(solved.loads.len());
+        for &load in &solved.loads {
+            let amount = match load {
+                Load::Held(node) => self.held[node].clone(),
+                Load::Press | Load::Left => Rational::one(),
+            };
+            applied.push(AppliedLoad { load, amount });
+        }
+
+        Line::new(&solved.response, &applied)
     }
 
     /// The laws at d, and the rates just after it against the classes at d.
     fn verify(
         &self,
-        solved: &Solved,
+        stretch: &SolvedStretch,
         classes: &[Class],
-        line: &Line,
         d: &Rational,
         moving: Load,
     ) -> Result<(), PathError> {
-        check(
-            self.contact,
-            &self.friction,
-            &solved.states,
-            line,
+        self.point(stretch, d, moving).check()?;
+
+        let rates = stretch.line.rates(moving);
+        for (node, &class) in classes.iter().enumerate() {
+            let state = stretch.solved.states[node];
+            if !admissible(node, class, state, rates, &self.friction) {
+                return Err(PathError::LawFails {
+                    equation: "E9",
+                    node,
+                });
+            }
+        }
+
+        Ok(())
+    }
+
+    /// The laws at the end of a stretch, if it has one.
+    fn verify_end(&self, stretch: &SolvedStretch, end: &StretchEnd) -> Result<(), PathError> {
+        if let Some(d) = end.motion() {
+            self.point(stretch, d, Load::Left).check()?;
+        }
+
+        Ok(())
+    }
+
+    fn point<'b>(
+        &'b self,
+        stretch: &'b SolvedStretch,
+        d: &'b Rational,
+        moving: Load,
+    ) -> PathPoint<'b> {
+        PathPoint {
+            contact: self.contact,
+            friction: &self.friction,
+            states: &stretch.solved.states,
+            line: &stretch.line,
             d,
             moving,
-        )
-        .map_err(law)?;
-        let rate = usize::from(moving == Load::Left);
-        let (u, r) = (&line.u[rate], &line.r[rate]);
-        let fits = |k: &usize| admissible(classes[*k], solved.states[*k], *k, u, r, &self.friction);
-        match (0..classes.len()).find(|k| !fits(k)) {
-            Some(node) => Err(PathError::LawFails {
-                equation: "E9",
-                node,
-            }),
-            None => Ok(()),
+        }
+    }
+
+    /// The next event, or the end of the range if that comes first.
+    fn end_of(&self, stretch: &SolvedStretch, until: Option<&Rational>) -> StretchEnd {
+        let event = next_event(&stretch.line, &self.friction, &stretch.solved.states);
+        match (event, until) {
+            (Some(event), None) => StretchEnd::Event(event),
+            (Some(event), Some(until)) if event.d < *until => StretchEnd::Event(event),
+            (_, Some(until)) => StretchEnd::Range(until.clone()),
+            (None, None) => StretchEnd::Never,
+        }
+    }
+
+    /// The stretch as users see it, from a position to its end; `depth` is the pressing in mm.
+    fn interval(
+        &self,
+        from: &Position,
+        stretch: &SolvedStretch,
+        end: &StretchEnd,
+        depth: &Rational,
+    ) -> Interval {
+        let line = &stretch.line;
+        let solved = &stretch.solved;
+
+        let begin = Event {
+            causes: from.causes.clone(),
+            changes: changes(&from.states, &solved.states),
+            finder: solved.finder,
+            tried: solved.tried,
+        };
+        let start = line.equilibrium(&from.d, depth, self.contact);
+        let stop = end
+            .motion()
+            .map(|d| line.equilibrium(d, depth, self.contact));
+        Interval {
+            begin,
+            states: solved.states.clone(),
+            start,
+            stop,
         }
     }
 }
 
-fn law((node, equation): (usize, &'static str)) -> PathError {
-    PathError::LawFails { equation, node }
+/// What is imposed while the nodes are in these states: the pressing, after it the motion, and the
+/// places of the nodes that stick elsewhere than at zero.
+fn loads(states: &[ContactState], held: &[Rational], moving: Load) -> Vec<Load> {
+    let mut loads = vec![Load::Press];
+    if moving != Load::Press {
+        loads.push(Load::Left);
+    }
+
+    for (node, state) in states.iter().enumerate() {
+        if *state == ContactState::Stick && !held[node].is_zero() {
+            loads.push(Load::Held(node));
+        }
+    }
+
+    loads
 }
 
+/// Says at which event, and at which motion (mm), an error came up.
+fn at_event(error: PathError, event: usize, motion: &Rational) -> PathError {
+    PathError::AtEvent {
+        event,
+        motion: format!("{:.6}", to_f64(motion)),
+        source: Box::new(error),
+    }
+}
+
+/// The nodes that change their state.
 fn changes(before: &[ContactState], after: &[ContactState]) -> Vec<Change> {
-    let change = |(node, (&from, &to))| (from != to).then_some(Change { node, from, to });
-    before
-        .iter()
-        .zip(after)
-        .enumerate()
-        .filter_map(change)
-        .collect()
+    let mut changes = Vec::new();
+    for (node, (&from, &to)) in before.iter().zip(after).enumerate() {
+        if from != to {
+            changes.push(Change { node, from, to });
+        }
+    }
+
+    changes
 }
 
 /// The pressing (mm) at which the normal resultant is -force, by proportion.
 fn depth(contact: &Contact, line: &Line, force: &Rational) -> Result<Rational, PathError> {
-    let sum: Integer = line.r[0].iter().skip(1).step_by(2).sum();
-    if !sum.is_negative() {
+    let resultant: Integer = line.r.constant.iter().skip(1).step_by(2).sum();
+    if !resultant.is_negative() {
         return Err(PathError::NoPressure);
     }
-    let per_mm = Rational::new(-sum, &line.denominator * contact.denominator());
+
+    let per_mm = Rational::new(-resultant, &line.denominator * contact.denominator());
     debug_assert!(per_mm > whole(0));
     Ok(force / per_mm)
 }
