@@ -1,6 +1,12 @@
-//! The crash: projected Newton on the guessed active set, before the first path (Dirkse and Ferris
-//! 1997, "Crash techniques for large-scale complementarity problems"); and in `semismooth` Newton
-//! on the Fischer-Burmeister system.
+//! The crash: steps before the first path that find a good active set.
+//!
+//! This file: projected Newton on the guessed active set (Dirkse and Ferris 1997, "Crash techniques
+//! for large-scale complementarity problems"). A component is *active* where it is at a bound and F
+//! points out of it; Newton's direction is computed in the inactive ones, F'_II d_I = -F_I, and
+//! followed along the projected arc until the merit falls. `semismooth` is Newton on the
+//! Fischer-Burmeister system, `step` what both share.
+//!
+//! Called by `newton` at the beginning of attempt 0.
 
 mod semismooth;
 mod step;
@@ -12,18 +18,23 @@ use super::outcome::{StepKind, Termination};
 use super::tolerance::{CRASH_GAIN, CRASH_PROXIMAL, CRASH_PROXIMAL_LEAST, CRASH_SMALLEST};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
+use std::mem::replace;
 
-pub(super) use semismooth::semismooth;
-use step::{search, solve_inside};
+pub(super) use semismooth::{Ending, semismooth};
+use step::{InsideSystem, search};
 
 /// What a crash works with, kept from one to the next.
 #[derive(Default)]
 pub(super) struct Storage {
     pub(super) semismooth: semismooth::Storage,
+    /// Is the component active?
     active: Vec<bool>,
+    /// The components that are not active.
     inactive: Vec<usize>,
     lu: Lu<f64>,
+    /// Newton's step in the inactive components.
     step: Vec<f64>,
+    /// The same in all components, 0 in the active ones.
     direction: Vec<f64>,
 }
 
@@ -41,9 +52,9 @@ pub(super) fn crash<P: Mcp + ?Sized>(
 ) -> Result<Point, Termination> {
     let mut point = start;
     storage.active.clear();
-    storage
-        .active
-        .extend((0..point.z.len()).map(|i| is_active(problem.problem, &point, i)));
+    storage.active.resize(point.z.len(), false);
+    storage.update_active(problem.problem, &point);
+
     for _ in 0..limit {
         let jacobian = problem.jacobian(&point)?;
         problem.counters.factorisations += 1;
@@ -52,18 +63,17 @@ pub(super) fn crash<P: Mcp + ?Sized>(
         if !solved {
             break;
         }
-        let Some((next, _)) = search(problem, &point, &storage.direction, CRASH_SMALLEST) else {
+
+        let found = search(problem, &point, &storage.direction, CRASH_SMALLEST);
+        let Some((next, _)) = found else {
             break;
         };
         problem.counters.crash_steps += 1;
         log.step(point.merit, StepKind::Crash, proximal);
+
         let gained = next.merit <= (1.0 - CRASH_GAIN) * point.merit;
-        problem.recycle(std::mem::replace(&mut point, next));
-        let mut changes = 0;
-        for (i, active) in storage.active.iter_mut().enumerate() {
-            let before = std::mem::replace(active, is_active(problem.problem, &point, i));
-            changes += usize::from(before != *active);
-        }
+        problem.recycle(replace(&mut point, next));
+        let changes = storage.update_active(problem.problem, &point);
         if changes <= 1 || !gained {
             break;
         }
@@ -73,56 +83,70 @@ pub(super) fn crash<P: Mcp + ?Sized>(
 
 /// At a bound, with F pointing strictly out of it.
 fn is_active<P: Mcp + ?Sized>(problem: &P, point: &Point, i: usize) -> bool {
-    let (l, u) = (problem.lower()[i], problem.upper()[i]);
-    let (z, f) = (point.z[i], point.f[i]);
-    l == u || (z <= l && f > 0.0) || (z >= u && f < 0.0)
+    let lower = problem.lower()[i];
+    let upper = problem.upper()[i];
+    let z = point.z[i];
+    let f = point.f[i];
+    lower == upper || (z <= lower && f > 0.0) || (z >= upper && f < 0.0)
 }
 
 impl Storage {
+    /// Sets the active components to those at the point; returns how many have changed.
+    fn update_active<P: Mcp + ?Sized>(&mut self, problem: &P, point: &Point) -> usize {
+        let mut changes = 0;
+        for (i, active) in self.active.iter_mut().enumerate() {
+            let before = replace(active, is_active(problem, point, i));
+            changes += usize::from(before != *active);
+        }
+        changes
+    }
+
     /// Newton's direction in the inactive components; a singular factor is perturbed proximally,
     /// with a term that vanishes with the merit. Says if there is one, and the term used.
     fn newton_direction(&mut self, jacobian: &DMatrix<f64>, point: &Point) -> (bool, f64) {
-        let Storage {
-            active,
-            inactive,
-            lu,
-            step,
-            direction,
-            ..
-        } = self;
-        inactive.clear();
-        inactive.extend((0..active.len()).filter(|&i| !active[i]));
-        let mut solve = |proximal: f64| {
-            solve_inside(
-                lu,
-                step,
-                jacobian,
-                inactive,
-                |_| proximal,
-                |r| point.f[inactive[r]],
-            )
-        };
-        let mut proximal = 0.0;
-        let mut solved = solve(proximal);
-        if !solved {
-            let size = if jacobian.amax() > 0.0 {
-                jacobian.amax()
-            } else {
-                1.0
-            };
-            proximal = (CRASH_PROXIMAL * point.merit.sqrt())
-                .clamp(CRASH_PROXIMAL_LEAST, CRASH_PROXIMAL)
-                * size;
-            solved = solve(proximal);
+        self.inactive.clear();
+        for (i, active) in self.active.iter().enumerate() {
+            if !active {
+                self.inactive.push(i);
+            }
         }
-        direction.clear();
-        direction.resize(active.len(), 0.0);
-        inactive
-            .iter()
-            .zip(step.iter())
-            .for_each(|(&i, v)| direction[i] = *v);
+
+        let mut proximal = 0.0;
+        let mut solved = self.solve(jacobian, point, proximal);
+        if !solved {
+            proximal = proximal_term(jacobian, point.merit);
+            solved = self.solve(jacobian, point, proximal);
+        }
+
+        self.direction.clear();
+        self.direction.resize(self.active.len(), 0.0);
+        for (&i, value) in self.inactive.iter().zip(&self.step) {
+            self.direction[i] = *value;
+        }
         (solved, proximal)
     }
+
+    /// Solves (F'_II + proximal I) d = -F_I into the step; says if there is a solution.
+    fn solve(&mut self, jacobian: &DMatrix<f64>, point: &Point, proximal: f64) -> bool {
+        let inactive = &self.inactive;
+        let system = InsideSystem {
+            jacobian,
+            inside: inactive,
+            diagonal: |_| proximal,
+            residual: |row: usize| point.f[inactive[row]],
+        };
+        system.solve(&mut self.lu, &mut self.step)
+    }
+}
+
+/// The proximal term for a singular F': CRASH_PROXIMAL sqrt(Psi) within its limits, times the
+/// largest entry of F', or absolute where F' is zero.
+fn proximal_term(jacobian: &DMatrix<f64>, merit: f64) -> f64 {
+    let largest = jacobian.amax();
+    let size = if largest > 0.0 { largest } else { 1.0 };
+
+    let relative = CRASH_PROXIMAL * merit.sqrt();
+    relative.clamp(CRASH_PROXIMAL_LEAST, CRASH_PROXIMAL) * size
 }
 
 #[cfg(test)]

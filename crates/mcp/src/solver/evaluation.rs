@@ -1,5 +1,10 @@
 //! F and F' with their counts, and points that carry their value and merit, in storage that is
 //! kept.
+//!
+//! Whoever needs F at a point asks [`Evaluated`] for a [`Point`], which lies within the bounds and
+//! holds z, F(z) and the merit Psi(z). Points and matrices that are given back (`recycle`) are used
+//! again, so that a run like one before allocates nothing. A value that is not finite is a reason
+//! to stop, not an error: the point has an infinite merit then.
 
 use super::fischer;
 use super::jacobian::square;
@@ -60,11 +65,13 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     pub(super) fn point_with(&mut self, z: impl Fn(usize) -> f64) -> Point {
         self.counters.functions += 1;
         let mut point = self.spare();
+
         let bounds = self.problem.lower().iter().zip(self.problem.upper());
         for (i, (value, (lower, upper))) in point.z.iter_mut().zip(bounds).enumerate() {
             // max and min rather than clamp: no panic even if the bounds were crossed.
             *value = z(i).max(*lower).min(*upper);
         }
+
         point.f.fill(0.0);
         self.problem
             .function(point.z.as_slice(), point.f.as_mut_slice());
@@ -106,27 +113,18 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     /// # Errors
     /// [`Termination::JacobianShape`]; [`Termination::NonFinite`] naming the first entry.
     pub(super) fn jacobian(&mut self, point: &Point) -> Result<DMatrix<f64>, Termination> {
-        let j = self.raw_jacobian(point);
-        let (n, shape) = (point.z.len(), j.shape());
-        if shape != (n, n) {
-            return Err(Termination::JacobianShape {
-                rows: shape.0,
-                cols: shape.1,
-            });
+        let n = point.z.len();
+        let jacobian = self.raw_jacobian(point);
+        let (rows, cols) = jacobian.shape();
+        if rows != n || cols != n {
+            return Err(Termination::JacobianShape { rows, cols });
         }
-        // Without a branch for each entry.
-        if j.as_slice()
-            .iter()
-            .fold(true, |finite, v| finite & v.is_finite())
-        {
-            return Ok(j);
+        if is_finite(&jacobian) {
+            return Ok(jacobian);
         }
-        let places = (0..n).flat_map(|row| (0..n).map(move |col| (row, col)));
-        let (row, col) = places
-            .into_iter()
-            .find(|&place| !j[place].is_finite())
-            .unwrap_or_default();
-        self.recycle_matrix(j);
+
+        let (row, col) = first_not_finite(&jacobian).unwrap_or_default();
+        self.recycle_matrix(jacobian);
         Err(Termination::NonFinite(NonFinite::Jacobian { row, col }))
     }
 
@@ -141,18 +139,41 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
         self.counters.jacobians += 1;
         let n = point.z.len();
         let unused = self.pool.matrices.pop().filter(|j| j.shape() == (n, n));
-        let mut j = unused.unwrap_or_else(|| DMatrix::zeros(n, n));
-        j.as_mut_slice().fill(0.0);
-        self.problem.jacobian(point.z.as_slice(), &mut j);
-        j
+        let mut jacobian = unused.unwrap_or_else(|| DMatrix::zeros(n, n));
+
+        jacobian.as_mut_slice().fill(0.0);
+        self.problem.jacobian(point.z.as_slice(), &mut jacobian);
+        jacobian
     }
+}
+
+/// Are all entries finite? All are looked at, which needs no branch for each.
+fn is_finite(matrix: &DMatrix<f64>) -> bool {
+    let mut is_finite = true;
+    for value in matrix.as_slice() {
+        is_finite &= value.is_finite();
+    }
+    is_finite
+}
+
+/// Row and column of the first entry, row by row, that is not finite.
+fn first_not_finite(matrix: &DMatrix<f64>) -> Option<(usize, usize)> {
+    for row in 0..matrix.nrows() {
+        for col in 0..matrix.ncols() {
+            if !matrix[(row, col)].is_finite() {
+                return Some((row, col));
+            }
+        }
+    }
+    None
 }
 
 impl Point {
     /// The first component of F that is not finite, as a reason to stop.
     pub(super) fn not_finite(&self) -> Option<Termination> {
         if self.merit.is_finite() {
-            return None; // no component of F is infinite or NaN then
+            // No component of F is infinite or NaN then.
+            return None;
         }
         let row = self.f.iter().position(|v| !v.is_finite())?;
         Some(Termination::NonFinite(NonFinite::Function { row }))

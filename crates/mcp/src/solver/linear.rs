@@ -1,10 +1,15 @@
-//! Linear problems without an outer loop: Lemke's method with a lexicographic ray start.
+//! Linear problems without an outer loop: Lemke's method with a lexicographic ray start (Lemke
+//! 1965; Cottle, Pang and Stone 1992, chapter 4).
+//!
+//! The problem F(z) = M z + q is its own linearisation, so that one path from Lemke's ray is all.
+//! Where the options say so, unknowns that their bounds decide are taken out first (`preprocess`);
+//! point, pivots and residuals that are reported are those of the whole problem.
 
 use super::error::SolverError;
 use super::evaluation::Evaluated;
 use super::options::Options;
 use super::outcome::{Counters, MajorRecord, Outcome, PathRecord, StepKind, Termination};
-use super::path::{Limits, Path, PathEnd, Start, Storage, Subproblem, follow};
+use super::path::{Limits, Path, PathEnd, Start, Storage, Subproblem};
 use super::preprocess::Preprocessed;
 use super::residual::Residuals;
 use crate::mcp::{LinearMcp, Mcp};
@@ -28,75 +33,53 @@ use nalgebra::DVector;
 /// ```
 pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, SolverError> {
     options.validate()?;
-    let less = options
-        .preprocess
-        .then(|| Preprocessed::new(problem))
-        .filter(|less| less.reduced.is_some());
-    let reduced = less
-        .as_ref()
-        .and_then(|less| less.reduced.as_ref())
-        .unwrap_or(problem);
-    let mut path = lemke(reduced, options);
-    let whole = |z: &[f64]| {
-        DVector::from_vec(
-            less.as_ref()
-                .map_or_else(|| z.to_vec(), |less| less.restore(z)),
-        )
+    let preprocessed = if options.preprocess {
+        Preprocessed::new(problem)
+    } else {
+        Preprocessed::nothing(problem.dimension())
     };
-    if let Some(less) = &less {
-        path.pivots
-            .iter_mut()
-            .for_each(|pivot| *pivot = pivot.renamed(&less.kept));
+
+    let reduced = preprocessed.reduced.as_ref().unwrap_or(problem);
+    let mut path = lemke(reduced, options);
+    for pivot in &mut path.pivots {
+        *pivot = pivot.renamed(&preprocessed.kept);
     }
 
     let origin = vec![0.0; reduced.dimension()];
+    let first = preprocessed.restore(path.first().unwrap_or(&origin));
+    let last = preprocessed.restore(path.last().unwrap_or(&origin));
     let mut evaluated = Evaluated::new(problem);
-    let before = evaluated.point(&whole(path.first().unwrap_or(&origin)));
-    let point = evaluated.point(&whole(path.last().unwrap_or(&origin)));
+    let before = evaluated.point(&DVector::from_vec(first));
+    let point = evaluated.point(&DVector::from_vec(last));
+
     let residuals = Residuals::at(problem, point.z.as_slice());
-    let termination = match path.end {
-        PathEnd::Complete if residuals.within(options.convergence_tolerance) => {
-            Termination::ToleranceReached
-        }
-        end => Termination::of(end),
+    let is_within = residuals.within(options.convergence_tolerance);
+    let is_complete = path.end == PathEnd::Complete;
+    let termination = if is_complete && is_within {
+        Termination::ToleranceReached
+    } else {
+        Termination::of(path.end)
     };
-    let (pivots, factorisations) = (path.pivots.len(), path.factorisations);
+
     let counters = Counters {
         majors: 1,
-        pivots,
+        pivots: path.pivots.len(),
         ray_starts: 1,
-        factorisations,
+        factorisations: path.factorisations,
         ..evaluated.counters
     };
-    let step = if path.end == PathEnd::Complete {
-        StepKind::Path { t: 1.0 }
-    } else {
-        StepKind::Failed
-    };
-    let record = PathRecord {
-        start: path.start,
-        end: path.end,
-        reach: path.reach(),
-        pivots: path.pivots,
-    };
-    let log = vec![MajorRecord {
-        merit: before.merit,
-        step,
-        proximal: 0.0,
-        paths: vec![record],
-    }];
     Ok(Outcome {
         point: point.z.as_slice().to_vec(),
         residuals,
         termination,
-        log,
+        log: vec![record(path, before.merit)],
         counters,
     })
 }
 
 /// The path from Lemke's ray.
 fn lemke(problem: &LinearMcp, options: &Options) -> Path {
-    let sub = Subproblem {
+    let subproblem = Subproblem {
         m: problem.matrix(),
         q: problem.vector(),
         lower: problem.lower(),
@@ -107,16 +90,32 @@ fn lemke(problem: &LinearMcp, options: &Options) -> Path {
         cycle_entries: options.cycle_entry_limit,
         rule: options.ratio_test,
     };
+
+    let origin = vec![0.0; problem.dimension()];
     let mut path = Path::default();
-    follow(
-        &sub,
-        Start::Ray,
-        &vec![0.0; problem.dimension()],
-        limits,
-        &mut Storage::default(),
-        &mut path,
-    );
+    Storage::default().follow(&subproblem, Start::Ray, &origin, limits, &mut path);
     path
+}
+
+/// The only step of the log, with the merit where the path begins.
+fn record(path: Path, merit: f64) -> MajorRecord {
+    let step = if path.end == PathEnd::Complete {
+        StepKind::Path { t: 1.0 }
+    } else {
+        StepKind::Failed
+    };
+    let path = PathRecord {
+        start: path.start,
+        end: path.end,
+        reach: path.reach(),
+        pivots: path.pivots,
+    };
+    MajorRecord {
+        merit,
+        step,
+        proximal: 0.0,
+        paths: vec![path],
+    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,9 @@
 //! Robinson's normal map F(pi(zeta)) + zeta - pi(zeta), pi the projection onto [l, u] (Robinson
-//! 1992).
+//! 1992; book, 3.2), and the linearisation of F.
 //!
 //! A point of its domain is kept as the pair (z, m) with z = pi(zeta) and m = z - zeta: m = w - v
 //! is the multiplier of the bounds, w >= 0 where z = l and v >= 0 where z = u. The map is F(z) - m.
+//! The function `least_residual` is used by `residual`, `linearise` by `newton`.
 
 use super::dense::subtract;
 use nalgebra::{DMatrix, DVector};
@@ -23,17 +24,19 @@ pub(super) fn linearise(
     proximal: f64,
     q: &mut Vec<f64>,
 ) {
+    let n = z.len();
     if proximal > 0.0 {
-        for i in 0..z.len() {
+        for i in 0..n {
             jacobian[(i, i)] += proximal;
         }
     }
+
     q.clear();
     q.extend(f.iter());
-    let n = z.len();
-    z.iter()
-        .enumerate()
-        .for_each(|(j, z)| subtract(q, z, &jacobian.as_slice()[j * n..(j + 1) * n]));
+    for (j, z_j) in z.iter().enumerate() {
+        let column = &jacobian.as_slice()[j * n..(j + 1) * n];
+        subtract(q, z_j, column);
+    }
 }
 
 #[cfg(test)]

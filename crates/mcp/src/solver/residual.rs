@@ -1,6 +1,11 @@
 //! The five residuals, always reported together, each with its definition. None of them certifies.
+//!
+//! Each is the infinity norm of a vector that is zero at the solutions of the MCP (but for the last
+//! one, which is zero there and at other stationary points). A run ends where four of them are
+//! within the tolerance ([`Residuals::within`]). Input: bounds, z, F(z) and, for the gradient,
+//! F'(z) or products with its transpose.
 
-use super::fischer::{Fischer, fischer, gradient};
+use super::fischer::{Fischer, GradientStorage, fischer, gradient};
 use super::jacobian::jacobian_at;
 use super::normal_map::least_residual;
 use crate::mcp::Mcp;
@@ -25,6 +30,15 @@ pub struct Residuals {
     pub fischer_gradient: f64,
 }
 
+/// The residuals of a point that is no point of the problem.
+const UNDEFINED: Residuals = Residuals {
+    complementarity: f64::NAN,
+    normal_map: f64::NAN,
+    minimum_map: f64::NAN,
+    fischer: f64::NAN,
+    fischer_gradient: f64::NAN,
+};
+
 impl Residuals {
     /// All five at z, evaluating F and F' once.
     ///
@@ -32,36 +46,34 @@ impl Residuals {
     /// of the caller that is answered with NaN.
     pub fn at<P: Mcp + ?Sized>(problem: &P, z: &[f64]) -> Residuals {
         let n = problem.dimension();
-        if z.len() < n || problem.lower().len() < n || problem.upper().len() < n {
-            let nan = f64::NAN;
-            return Residuals {
-                complementarity: nan,
-                normal_map: nan,
-                minimum_map: nan,
-                fischer: nan,
-                fischer_gradient: nan,
-            };
+        let lengths = [z.len(), problem.lower().len(), problem.upper().len()];
+        if lengths.iter().any(|&length| length < n) {
+            return UNDEFINED;
         }
+
         let z = &z[..n];
         let mut f = vec![0.0; n];
         problem.function(z, &mut f);
         let jacobian = jacobian_at(problem, z);
-        let (mut gradient, mut work) = (DVector::zeros(n), DVector::zeros(n));
-        Residuals::with_gradient(problem, z, &f, &jacobian, &mut gradient, &mut work)
+
+        let mut storage = GradientStorage {
+            gradient: &mut DVector::zeros(n),
+            work: &mut DVector::zeros(n),
+        };
+        Residuals::with_gradient(problem, z, &f, &jacobian, &mut storage)
     }
 
-    /// All five of F and F' as given; the vectors are of length n and for work.
+    /// All five of F and F' as given; the vectors of the storage are of length n.
     pub(super) fn with_gradient<P: Mcp + ?Sized>(
         problem: &P,
         z: &[f64],
         f: &[f64],
         jacobian: &DMatrix<f64>,
-        out: &mut DVector<f64>,
-        work: &mut DVector<f64>,
+        storage: &mut GradientStorage<'_>,
     ) -> Residuals {
-        gradient(problem, z, f, jacobian, out, work);
+        gradient(problem, z, f, jacobian, storage);
         Residuals {
-            fischer_gradient: norm(out.iter().copied()),
+            fischer_gradient: norm(storage.gradient.iter().copied()),
             ..Residuals::without_gradient(problem, z, f)
         }
     }
@@ -87,29 +99,38 @@ impl Residuals {
         let phi: Vec<Fischer> = (0..z.len())
             .map(|i| fischer(z[i], f[i], l[i], u[i]))
             .collect();
+
+        // Gradient of Psi, D_z Phi + F'(z)' D_F Phi, each row times Phi_i.
         let by_f: Vec<f64> = phi.iter().map(|phi| phi.by_f * phi.value).collect();
         let mut gradient = vec![0.0; z.len()];
         product(&by_f, &mut gradient);
-        let gradient = norm(
-            gradient
-                .iter()
-                .zip(&phi)
-                .map(|(g, phi)| g + phi.by_z * phi.value),
-        );
+        for (entry, phi) in gradient.iter_mut().zip(&phi) {
+            *entry += phi.by_z * phi.value;
+        }
+
         Residuals {
-            fischer_gradient: gradient,
+            fischer_gradient: norm(gradient.into_iter()),
             ..Residuals::within_bounds(l, u, z, f)
         }
     }
 
     /// The first four, of bounds as given.
     fn within_bounds(l: &[f64], u: &[f64], z: &[f64], f: &[f64]) -> Residuals {
-        let indices = || 0..z.len();
+        let indices = 0..z.len();
+        let products = indices.clone().map(|i| product(z[i], f[i], l[i], u[i]));
+        let normal_map = indices
+            .clone()
+            .map(|i| least_residual(z[i], f[i], l[i], u[i]));
+        let minimum_map = indices
+            .clone()
+            .map(|i| z[i] - (z[i] - f[i]).max(l[i]).min(u[i]));
+        let phi = indices.map(|i| fischer(z[i], f[i], l[i], u[i]).value);
+
         Residuals {
-            complementarity: norm(indices().map(|i| product(z[i], f[i], l[i], u[i]))),
-            normal_map: norm(indices().map(|i| least_residual(z[i], f[i], l[i], u[i]))),
-            minimum_map: norm(indices().map(|i| z[i] - (z[i] - f[i]).max(l[i]).min(u[i]))),
-            fischer: norm(indices().map(|i| fischer(z[i], f[i], l[i], u[i]).value)),
+            complementarity: norm(products),
+            normal_map: norm(normal_map),
+            minimum_map: norm(minimum_map),
+            fischer: norm(phi),
             fischer_gradient: 0.0,
         }
     }
@@ -124,6 +145,8 @@ impl Residuals {
     }
 }
 
+/// The complementarity product of one component: |F_i| times the distance to the bound it points
+/// to, or |F_i| where there is none.
 fn product(z: f64, f: f64, l: f64, u: f64) -> f64 {
     if f.is_nan() {
         return f64::NAN;
@@ -138,13 +161,15 @@ fn product(z: f64, f: f64, l: f64, u: f64) -> f64 {
 
 /// Infinity norm that does not lose a NaN.
 fn norm(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |a: f64, b| {
-        if a.is_nan() || b.is_nan() {
+    let mut norm: f64 = 0.0;
+    for value in values {
+        norm = if norm.is_nan() || value.is_nan() {
             f64::NAN
         } else {
-            a.max(b.abs())
-        }
-    })
+            norm.max(value.abs())
+        };
+    }
+    norm
 }
 
 #[cfg(test)]

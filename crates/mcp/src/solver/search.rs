@@ -1,6 +1,13 @@
-//! The non-monotone acceptance: memory, unchecked steps inside a shrinking trust radius, checkpoint
-//! and the search back along a stored path (Grippo, Lampariello and Lucidi 1986; Dirkse and Ferris
-//! 1995, section 4).
+//! The non-monotone acceptance of steps: memory, unchecked steps inside a shrinking trust radius,
+//! checkpoint, and the search back along a stored path (Grippo, Lampariello and Lucidi 1986; Dirkse
+//! and Ferris 1995, section 4).
+//!
+//! A step to z at parameter t of a path passes if Psi(z) <= (1 - ARMIJO t) R, where the reference R
+//! is the largest of the last few merits: the merit may rise for some steps in a curved valley.
+//! Short steps may go unchecked some times in a row. Where one that is checked fails, the *watchdog*
+//! returns to the *checkpoint*, the last point that was checked, and searches the path from there.
+//!
+//! One [`Search`] serves one attempt of a run. Called by `newton` and `newton/choose`.
 
 use super::evaluation::{Evaluated, Point};
 use super::options::Options;
@@ -13,12 +20,17 @@ use std::collections::VecDeque;
 /// State of the non-monotone rule in one attempt. Storage is kept from one to the next.
 #[derive(Default)]
 pub(super) struct Search {
+    /// The last merits, of which the largest is the reference.
     memory: VecDeque<f64>,
     memory_size: usize,
+    /// Every so many steps in a row one is checked.
     frequency: usize,
     maximum_watchdogs: usize,
+    /// The longest step, by its largest component, that may go unchecked.
     radius: f64,
+    /// Steps taken unchecked in a row.
     unchecked: usize,
+    /// Returns to the checkpoint since a full step has passed.
     watchdogs: usize,
     gradient_steps_left: usize,
     /// The path that left the last checked point, if steps were taken unchecked since.
@@ -37,36 +49,39 @@ impl Search {
         options: &Options,
         attempt: Attempt,
     ) {
-        let (factor, radius) = match attempt.acceptance {
-            Acceptance::NonMonotone => (
-                options.nms_initial_reference_factor,
-                TRUST * (1.0 + start.z.amax()),
-            ),
-            Acceptance::Monotone => (1.0, 0.0),
-            Acceptance::Free => (
-                FREE_REFERENCE * options.nms_initial_reference_factor,
-                f64::INFINITY,
-            ),
+        let factor = options.nms_initial_reference_factor;
+        let reference_factor = match attempt.acceptance {
+            Acceptance::NonMonotone => factor,
+            Acceptance::Monotone => 1.0,
+            Acceptance::Free => FREE_REFERENCE * factor,
         };
-        let monotone = attempt.acceptance == Acceptance::Monotone;
         self.memory.clear();
-        self.memory.push_back(factor * start.merit);
-        self.memory_size = if monotone { 1 } else { options.nms_memory_size };
-        self.frequency = if monotone {
-            1
-        } else {
-            options.nms_mstep_frequency
+        self.memory.push_back(reference_factor * start.merit);
+
+        self.radius = match attempt.acceptance {
+            Acceptance::NonMonotone => TRUST * (1.0 + start.z.amax()),
+            Acceptance::Monotone => 0.0,
+            Acceptance::Free => f64::INFINITY,
         };
+        if attempt.acceptance == Acceptance::Monotone {
+            self.memory_size = 1;
+            self.frequency = 1;
+        } else {
+            self.memory_size = options.nms_memory_size;
+            self.frequency = options.nms_mstep_frequency;
+        }
+
         self.maximum_watchdogs = options.nms_maximum_watchdogs;
-        self.radius = radius;
-        (self.unchecked, self.watchdogs) = (0, 0);
+        self.unchecked = 0;
+        self.watchdogs = 0;
         self.gradient_steps_left = options.gradient_step_limit;
-        self.best = self
-            .best
-            .take()
-            .filter(|best| best.z.len() == first.z.len());
+        self.first_merit = start.merit;
+        self.fraction = attempt.fraction;
+
+        // The best point of another attempt lends its storage if it is of the same length.
+        let last_best = self.best.take();
+        self.best = last_best.filter(|best| best.z.len() == first.z.len());
         self.take_best(first);
-        (self.first_merit, self.fraction) = (start.merit, attempt.fraction);
     }
 
     /// The point of least merit in this attempt.
@@ -90,14 +105,8 @@ impl Search {
 
     /// May this step be taken without a check? Short ones, all but every tenth in a row.
     pub(super) fn unchecked_allowed(&self, from: &Point, to: &Point) -> bool {
-        let next = self.unchecked + 1;
-        let length = || {
-            to.z.iter()
-                .zip(from.z.iter())
-                .map(|(a, b)| (a - b).abs())
-                .fold(0.0, f64::max)
-        };
-        to.merit.is_finite() && next < self.frequency && length() <= self.radius
+        let is_due = self.unchecked + 1 >= self.frequency;
+        to.merit.is_finite() && !is_due && distance(from, to) <= self.radius
     }
 
     /// Does a point pass the test: (1 - sigma t) of the reference?
@@ -177,12 +186,13 @@ impl Search {
         None
     }
 
+    /// Keeps a point if no other one of this attempt has a smaller or equal merit.
     fn keep_best(&mut self, point: &Point) {
-        if self
-            .best
-            .as_ref()
-            .is_none_or(|best| point.merit < best.merit)
-        {
+        let is_better = match &self.best {
+            Some(best) => point.merit < best.merit,
+            None => true,
+        };
+        if is_better {
             self.take_best(point);
         }
     }
@@ -193,6 +203,15 @@ impl Search {
             None => self.best = Some(point.clone()),
         }
     }
+}
+
+/// The largest difference of two components.
+fn distance(from: &Point, to: &Point) -> f64 {
+    let mut largest: f64 = 0.0;
+    for (a, b) in to.z.iter().zip(from.z.iter()) {
+        largest = largest.max((a - b).abs());
+    }
+    largest
 }
 
 #[cfg(test)]

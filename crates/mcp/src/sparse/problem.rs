@@ -1,12 +1,21 @@
-//! Linear MCPs with a sparse matrix.
+//! Linear MCPs with a sparse matrix: F(z) = M z + q on [l, u], M by columns.
+//!
+//! Made from entries in any order; entries of one place add up. Everything is checked once, here:
+//! indices, lengths, finite numbers, bounds. `condensed` reads the columns.
 
-use crate::mcp::{McpError, check_bounds};
+use crate::mcp::{McpError, check_bounds, check_length};
+
+/// Row, column and value.
+type Entry = (usize, usize, f64);
 
 /// F(z) = M z + q on [l, u], M by columns with no entry stored twice.
 #[derive(Debug, Clone, PartialEq)]
 pub struct SparseLinearMcp {
+    /// For each column the index of its first entry, then the number of entries.
     start: Vec<usize>,
+    /// The row of each entry, ascending in a column.
     rows: Vec<usize>,
+    /// The value of each entry.
     values: Vec<f64>,
     q: Vec<f64>,
     lower: Vec<f64>,
@@ -41,72 +50,56 @@ impl SparseLinearMcp {
         upper: Vec<f64>,
     ) -> Result<Self, McpError> {
         let order = q.len();
-        for (what, got) in [("lower", lower.len()), ("upper", upper.len())] {
-            if got != order {
-                return Err(McpError::Shape {
-                    what,
-                    expected: order,
-                    got,
-                });
-            }
-        }
-        let mut entries: Vec<(usize, usize, f64)> = entries.into_iter().collect();
-        for &(row, col, got) in &entries {
-            if row >= order || col >= order {
-                return Err(McpError::Index { row, col, order });
-            }
-            if !got.is_finite() {
-                return Err(McpError::NotFinite {
-                    what: "M",
-                    row,
-                    col,
-                    got,
-                });
-            }
-        }
-        if let Some(row) = q.iter().position(|v| !v.is_finite()) {
-            return Err(McpError::NotFinite {
-                what: "q",
-                row,
-                col: 0,
-                got: q[row],
-            });
-        }
+        check_length("lower", order, lower.len())?;
+        check_length("upper", order, upper.len())?;
+
+        let entries: Vec<Entry> = entries.into_iter().collect();
+        check_entries(&entries, order)?;
+        check_vector(&q)?;
         check_bounds(&lower, &upper)?;
-        entries.sort_by_key(|&(row, col, _)| (col, row)); // stable: sums in the order given
-        let (mut start, mut rows, mut values) = (vec![0; order + 1], Vec::new(), Vec::new());
-        let mut last = None;
-        for (row, col, value) in entries {
-            if last == Some((row, col)) {
-                // There is one: `last` is set.
-                if let Some(sum) = values.last_mut() {
-                    *sum += value;
-                }
-                continue;
-            }
-            last = Some((row, col));
-            rows.push(row);
-            values.push(value);
-            start[col + 1] += 1;
-        }
-        (0..order).for_each(|col| start[col + 1] += start[col]);
-        let problem = SparseLinearMcp {
-            start,
-            rows,
-            values,
+
+        let mut problem = SparseLinearMcp {
+            start: vec![0; order + 1],
+            rows: Vec::new(),
+            values: Vec::new(),
             q,
             lower,
             upper,
         };
-        let overflown = problem.entries().find(|e| !e.2.is_finite()); // a sum of two
-        match overflown {
-            Some((row, col, got)) => Err(McpError::NotFinite {
-                what: "M",
-                row,
-                col,
-                got,
-            }),
-            None => Ok(problem),
+        problem.fill_columns(entries);
+        problem.check_sums()?;
+        Ok(problem)
+    }
+
+    /// Stores the entries by columns; those of one place add up in the order given.
+    fn fill_columns(&mut self, mut entries: Vec<Entry>) {
+        // The sort is stable.
+        entries.sort_by_key(|&(row, col, _)| (col, row));
+
+        let mut last_place = None;
+        for (row, col, value) in entries {
+            if last_place == Some((row, col))
+                && let Some(sum) = self.values.last_mut()
+            {
+                *sum += value;
+                continue;
+            }
+            last_place = Some((row, col));
+            self.rows.push(row);
+            self.values.push(value);
+            self.start[col + 1] += 1;
+        }
+
+        for col in 0..self.dimension() {
+            self.start[col + 1] += self.start[col];
+        }
+    }
+
+    /// Refuses entries that overflow: sums of finite ones.
+    fn check_sums(&self) -> Result<(), McpError> {
+        match self.entries().find(|(_, _, value)| !value.is_finite()) {
+            Some(entry) => Err(not_finite(entry)),
+            None => Ok(()),
         }
     }
 
@@ -133,10 +126,9 @@ impl SparseLinearMcp {
     /// (row, value) of a column of M, rows ascending.
     pub fn column(&self, col: usize) -> impl Iterator<Item = (usize, f64)> {
         let place = self.start[col]..self.start[col + 1];
-        self.rows[place.clone()]
-            .iter()
-            .copied()
-            .zip(self.values[place].iter().copied())
+        let rows = self.rows[place.clone()].iter().copied();
+        let values = self.values[place].iter().copied();
+        rows.zip(values)
     }
 
     /// (row, column, value) of M, by columns.
@@ -148,11 +140,51 @@ impl SparseLinearMcp {
     /// F(z), of length n; `z` is of that length.
     pub fn value(&self, z: &[f64]) -> Vec<f64> {
         let mut f = self.q.clone();
-        for (col, z) in z.iter().enumerate().filter(|(_, z)| **z != 0.0) {
-            self.column(col)
-                .for_each(|(row, value)| f[row] += value * z);
+        for (col, z) in z.iter().enumerate() {
+            if *z == 0.0 {
+                continue;
+            }
+            for (row, value) in self.column(col) {
+                f[row] += value * z;
+            }
         }
         f
+    }
+}
+
+/// Refuses indices beyond the order, and entries that are not finite.
+fn check_entries(entries: &[Entry], order: usize) -> Result<(), McpError> {
+    for &(row, col, value) in entries {
+        if row >= order || col >= order {
+            return Err(McpError::Index { row, col, order });
+        }
+        if !value.is_finite() {
+            return Err(not_finite((row, col, value)));
+        }
+    }
+    Ok(())
+}
+
+/// The refusal of an entry of M.
+fn not_finite((row, col, got): Entry) -> McpError {
+    McpError::NotFinite {
+        what: "M",
+        row,
+        col,
+        got,
+    }
+}
+
+/// Refuses a vector q that is not finite.
+fn check_vector(q: &[f64]) -> Result<(), McpError> {
+    match q.iter().position(|value| !value.is_finite()) {
+        Some(row) => Err(McpError::NotFinite {
+            what: "q",
+            row,
+            col: 0,
+            got: q[row],
+        }),
+        None => Ok(()),
     }
 }
 

@@ -37,14 +37,7 @@ fn path(m: DMatrix<f64>, q: &[f64], l: &[f64], u: &[f64], start: Start, current:
         rule: Options::default().ratio_test,
     };
     let mut path = Path::default();
-    follow(
-        &sub,
-        start,
-        current,
-        limits,
-        &mut path::Storage::default(),
-        &mut path,
-    );
+    path::Storage::default().follow(&sub, start, current, limits, &mut path);
     path
 }
 
@@ -60,7 +53,8 @@ fn limits_are_shared_evenly() {
             cumulative_iteration_limit: 10_000,
             ..Options::default()
         };
-        run(&feasible(), &options).share()
+        let share = run(&feasible(), &options).share();
+        (share.majors, share.pivots)
     };
     assert_eq!(
         [
@@ -215,11 +209,11 @@ fn curves_are_followed_after_the_first_attempt_fails() {
             curve_step_limit,
             ..Options::default()
         };
-        let (_, _, reason, counters) = run(problem, &options).run(start);
+        let finished = run(problem, &options).run(start);
         (
-            reason.reached_tolerance(),
-            counters.curve_steps > 0,
-            counters.restarts,
+            finished.termination.reached_tolerance(),
+            finished.counters.curve_steps > 0,
+            finished.counters.restarts,
         )
     };
     assert_eq!(

@@ -1,10 +1,13 @@
-//! The breakpoints of a path, one after the other in storage that is kept.
+//! The breakpoints of a path, one after the other in storage that is kept. The path is linear
+//! between them. Written by `walk`, read through `record`.
 
 /// t, z and the multipliers w - v at each breakpoint.
 #[derive(Debug, Clone)]
 pub(in super::super) struct Knots<T = f64> {
+    /// Number of unknowns.
     n: usize,
     t: Vec<T>,
+    /// The points, one after the other.
     z: Vec<T>,
     #[cfg(test)]
     multiplier: Vec<T>,

@@ -1,11 +1,17 @@
 //! The pivotal path of the linear subproblem, from t = 0 at the start to the Newton point at t = 1
 //! (Ralph 1994; Dirkse and Ferris 1995, section 3).
 //!
-//! M z - w + v + D a + (1 - t) r + q = 0, with w and v complementary to the bounds of z,
-//! artificials a in a singular starting basis, and r minus the residual at the start, so that t = 0
-//! holds there. Like Lemke's method, one complementary pair is broken at a time. Ties are broken
-//! lexicographically: the right-hand side is thought perturbed by the first basis times (eps,
-//! eps^2, ...), so that in exact arithmetic no basis repeats on a path that starts on a ray.
+//! On the path M z - w + v + D a + (1 - t) r + q = 0, where w >= 0 and v >= 0 are the multipliers of
+//! the lower and upper bounds of z, r is minus the residual at the start, so that t = 0 holds
+//! there, and the artificials a are there only where the starting basis is singular. At most one of
+//! z_i strictly between its bounds, w_i and v_i is not zero. As in Lemke's method, each pivot
+//! exchanges the unknown that reaches a bound for the one that moves; its complement moves next.
+//! Ties are broken lexicographically: the right-hand side is thought perturbed by the first basis
+//! times (eps, eps^2, ...), so that in exact arithmetic no basis repeats on a path that starts on a
+//! ray.
+//!
+//! Input: a [`Subproblem`], the kind of start and the current point. Output: a [`Path`], its knots
+//! and pivots and the reason why it ended. Called by `newton` and `linear`.
 //!
 //! | file | what |
 //! |---|---|
@@ -41,14 +47,15 @@ pub(super) use record::{Limits, Path};
 use start::{FreeRows, start_point, starting_basis};
 pub(super) use subproblem::Subproblem;
 use tableau::{State, Tableau};
-use walk::Walk;
+use walk::{EntryCounts, Walk};
 
 /// What paths are followed with.
 pub(super) struct Storage<T = f64> {
     frame: Frame<T>,
     basis: Basis<T>,
     state: State<T>,
-    entries: Vec<[usize; 3]>,
+    /// Times each unknown has begun to move, for the guard against cycles.
+    entries: Vec<EntryCounts>,
     free: FreeRows<T>,
 }
 
@@ -64,31 +71,32 @@ impl<T> Default for Storage<T> {
     }
 }
 
-/// Follows the path from a start into `path`; a regular one begins over `current`, within the
-/// bounds.
-pub(super) fn follow<T: Number>(
-    sub: &Subproblem<'_, T>,
-    start: Start,
-    current: &[T],
-    limits: Limits,
-    storage: &mut Storage<T>,
-    path: &mut Path<T>,
-) {
-    let Storage {
-        frame,
-        basis,
-        state,
-        entries,
-        free,
-    } = storage;
-    path.knots.clear(current.len());
-    path.pivots.clear();
-    (path.start, path.end, path.factorisations) = (start, PathEnd::Singular, 0);
-    start_point(sub, start, current, state, free);
-    frame.set(sub, &state.z, &state.multiplier);
-    if starting_basis(sub, frame, basis, state, path) {
-        let tableau = Tableau::new(frame.columns(sub), basis, state);
-        Walk::new(tableau, limits, entries, path).run();
+impl<T: Number> Storage<T> {
+    /// Follows the path from a start into `path`; a regular one begins over `current`, within the
+    /// bounds.
+    pub(super) fn follow(
+        &mut self,
+        sub: &Subproblem<'_, T>,
+        start: Start,
+        current: &[T],
+        limits: Limits,
+        path: &mut Path<T>,
+    ) {
+        let Storage {
+            frame,
+            basis,
+            state,
+            entries,
+            free,
+        } = self;
+        path.begin(start, current.len());
+
+        start_point(sub, start, current, state, free);
+        frame.set(sub, &state.z, &state.multiplier);
+        if starting_basis(sub, frame, basis, state, path) {
+            let tableau = Tableau::new(frame.columns(sub), basis, state);
+            Walk::new(tableau, limits, entries, path).run();
+        }
     }
 }
 

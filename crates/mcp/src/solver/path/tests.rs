@@ -39,24 +39,19 @@ fn walked<T: Number>(
     current: &[T],
     limits: Limits,
 ) -> Path<T> {
-    let (mut storage, mut path) = (Storage::default(), Path::default());
-    let other = if start == Start::Ray {
-        Start::Regular
-    } else {
-        Start::Ray
+    let other = match start {
+        Start::Ray => Start::Regular,
+        Start::Regular => Start::Ray,
     };
-    follow(
-        sub,
-        other,
-        current,
-        Limits {
-            pivots: 3,
-            ..limits
-        },
-        &mut storage,
-        &mut path,
-    );
-    follow(sub, start, current, limits, &mut storage, &mut path);
+    let few_pivots = Limits {
+        pivots: 3,
+        ..limits
+    };
+
+    let mut storage = Storage::default();
+    let mut path = Path::default();
+    storage.follow(sub, other, current, few_pivots, &mut path);
+    storage.follow(sub, start, current, limits, &mut path);
     path
 }
 

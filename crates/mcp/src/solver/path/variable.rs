@@ -1,4 +1,8 @@
 //! Names of the unknowns of the linear subproblem, and the record of a pivot.
+//!
+//! Each index i has the unknowns z_i, w_i and v_i, of which one is basic (or i's artificial in
+//! place of z_i); t is one more. A pivot names the unknown that was moving and the one that stopped
+//! it.
 
 /// An unknown of M z - w + v + D a + (1 - t) r + q = 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
