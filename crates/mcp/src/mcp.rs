@@ -90,6 +90,7 @@ pub(crate) fn check_length(
     if got == expected {
         return Ok(());
     }
+
     Err(McpError::Shape {
         what,
         expected,
@@ -130,6 +131,7 @@ impl LinearMcp {
                     got: m[(row, col)],
                 });
             }
+
             if !q[row].is_finite() {
                 return Err(McpError::NotFinite {
                     what: "q",
@@ -178,6 +180,7 @@ pub fn check_bounds(lower: &[f64], upper: &[f64]) -> Result<(), McpError> {
             });
         }
     }
+
     Ok(())
 }
 

@@ -76,12 +76,14 @@ impl Analysis {
                 is_eliminated[unknown] = false;
             }
         }
+
         let parts = dissect(&columns, &is_eliminated, points);
 
         let mut order = Vec::new();
         for part in &parts {
             order.extend_from_slice(&part.own);
         }
+
         let eliminated = order.len();
         order.extend(kept_once(kept, held, n));
 
@@ -141,6 +143,7 @@ fn kept_once(kept: &[usize], held: &[usize], n: usize) -> Vec<usize> {
 /// The front of each part, whose places follow each other in the order of the parts.
 fn fronts(matrix: &Symmetric, parts: &[Part], order: &[usize], place: &[usize]) -> Vec<Front> {
     let mut fronts: Vec<Front> = Vec::with_capacity(parts.len());
+
     // The last front whose border a place was put on.
     let mut last_border = vec![usize::MAX; order.len()];
     let mut begin = 0;
@@ -158,10 +161,12 @@ fn fronts(matrix: &Symmetric, parts: &[Part], order: &[usize], place: &[usize]) 
             if later == HELD || later < end {
                 continue;
             }
+
             if replace(&mut last_border[later], k) != k {
                 border.push(later);
             }
         }
+
         border.sort_unstable();
 
         fronts.push(Front {

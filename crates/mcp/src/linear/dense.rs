@@ -45,6 +45,7 @@ pub fn inverse(rows: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
             result[row][col] = inverse[(row, col)];
         }
     }
+
     are_finite(&result).then_some(result)
 }
 
@@ -62,6 +63,7 @@ pub fn solve(rows: &[Vec<f64>], columns: &[Vec<f64>]) -> Option<Vec<Vec<f64>>> {
             result[col][row] = solutions[(row, col)];
         }
     }
+
     are_finite(&result).then_some(result)
 }
 
@@ -96,6 +98,7 @@ impl SparseLu {
             .collect();
         let matrix = SparseColMat::<usize, f64>::try_new_from_triplets(order, order, &triplets);
         let factors = matrix.ok()?.sp_lu().ok()?;
+
         Some(SparseLu {
             order,
             factors: Some(factors),
@@ -124,6 +127,7 @@ pub fn eigenvalues(rows: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
     if !are_finite(rows) {
         return None;
     }
+
     let values = square(rows).eigenvalues().ok()?;
     Some(values.iter().map(|z| (z.re, z.im)).collect())
 }
@@ -140,11 +144,13 @@ pub fn definite_eigenvalues(b: &[Vec<f64>], a: &[Vec<f64>]) -> Option<Vec<f64>> 
     let factor = square(a).llt(Side::Lower).ok()?;
     let n = a.len();
     let mut c = Mat::from_fn(n, n, |row, col| b[row][col]);
+
     // L^-1 B L^-T: L^-1 is applied from the left twice, and the product is transposed each time.
     for _ in 0..2 {
         solve_lower_triangular_in_place(factor.L(), c.as_mut(), Par::Seq);
         c = c.transpose().to_owned();
     }
+
     c.self_adjoint_eigenvalues(Side::Lower).ok()
 }
 
@@ -164,6 +170,7 @@ pub(super) fn eliminate_front(
     let rest = order - own;
     let panel = MatMut::from_column_major_slice_mut(panel, order, own);
     let (mut top, mut bottom) = panel.split_at_row_mut(own);
+
     if !factor_in_place(top.rb_mut()) {
         return false;
     }

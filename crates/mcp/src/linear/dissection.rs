@@ -67,6 +67,7 @@ pub(super) fn dissect(
         distance: vec![OUTSIDE; groups],
         parts: vec![],
     };
+
     dissection.cut((0..groups as u32).collect());
     dissection.parts
 }
@@ -88,12 +89,14 @@ impl Graph {
             if group == next {
                 members.push(Vec::new());
             }
+
             members[group as usize].push(unknown);
             group_of[unknown] = group;
         }
 
         let mut neighbours = Vec::with_capacity(members.len());
         let mut positions = Vec::with_capacity(members.len());
+
         for group in &members {
             let first = group[0];
             neighbours.push(groups_touched(columns[first], group_of[first], &group_of));
@@ -174,6 +177,7 @@ impl Dissection<'_> {
         let sides = [below, above];
         let children = sides.into_iter().filter_map(|side| self.cut(side));
         let children: Vec<usize> = children.collect();
+
         self.close(&separator, children)
     }
 
@@ -187,6 +191,7 @@ impl Dissection<'_> {
         for &group in groups {
             own.extend_from_slice(&self.graph.members[group as usize]);
         }
+
         self.parts.push(Part { own, children });
         Some(self.parts.len() - 1)
     }
@@ -207,6 +212,7 @@ impl Dissection<'_> {
             at,
             separator: self.separator(sorted, at),
         });
+
         cuts.min_by_key(|cut| cut.separator.len())
     }
 
@@ -217,8 +223,10 @@ impl Dissection<'_> {
         for entry in below {
             self.side[entry.group as usize] = Side::Below;
         }
+
         let touching = above.iter().filter(|entry| self.touches_below(entry.group));
         let separator = touching.map(|entry| entry.group).collect();
+
         for entry in below {
             self.side[entry.group as usize] = Side::Elsewhere;
         }
@@ -236,9 +244,11 @@ impl Dissection<'_> {
         for &group in separator {
             self.side[group as usize] = Side::Separator;
         }
+
         let all = list.iter().map(|entry| entry.group);
         let rest = all.filter(|&group| self.side[group as usize] != Side::Separator);
         let rest = rest.collect();
+
         for &group in separator {
             self.side[group as usize] = Side::Elsewhere;
         }
@@ -277,10 +287,12 @@ impl Dissection<'_> {
         for &group in set {
             self.distance[group as usize] = UNREACHED;
         }
+
         self.distance[start as usize] = 0;
 
         let mut queue = VecDeque::from([start]);
         let mut last = start;
+
         while let Some(group) = queue.pop_front() {
             last = group;
             let next = self.distance[group as usize] + 1;
@@ -313,10 +325,12 @@ fn coordinates_along_the_longer_side(points: &[[f64; 2]]) -> Vec<f64> {
 fn extent(points: &[[f64; 2]], axis: usize) -> f64 {
     let mut low = f64::INFINITY;
     let mut high = f64::NEG_INFINITY;
+
     for point in points {
         low = point[axis].min(low);
         high = point[axis].max(high);
     }
+
     high - low
 }
 

@@ -50,6 +50,7 @@ impl Analysis {
     pub fn factor(&self, matrix: &Symmetric) -> Result<SchurFactor<'_>, NotDefinite> {
         let mut elimination = Elimination::new(self, matrix);
         let mut panels = Vec::with_capacity(self.fronts.len());
+
         for (k, front) in self.fronts.iter().enumerate() {
             let dense = elimination.eliminate(front)?;
             panels.push(dense.panel);
@@ -63,6 +64,7 @@ impl Analysis {
             border: Vec::new(),
             children: self.roots(),
         };
+
         let dense = elimination.gather(&kept);
         let schur = mirrored(&dense.panel, kept.own());
 
@@ -81,6 +83,7 @@ impl Analysis {
                 is_child[child] = true;
             }
         }
+
         (0..self.fronts.len()).filter(|&k| !is_child[k]).collect()
     }
 }
@@ -129,6 +132,7 @@ impl<'m> Elimination<'m> {
         let mut dense = self.gather(front);
         let order = front.order();
         let own = front.own();
+
         if own == 0 {
             return Ok(dense);
         }
@@ -136,6 +140,7 @@ impl<'m> Elimination<'m> {
         if !eliminate_front(&mut dense.panel, &mut dense.update, order, own) {
             return Err(self.not_definite(front.begin, f64::NAN));
         }
+
         for column in 0..own {
             let pivot = dense.panel[column * order + column].powi(2);
             self.check_pivot(front.begin + column, pivot)?;
@@ -147,6 +152,7 @@ impl<'m> Elimination<'m> {
     fn check_pivot(&self, place: usize, pivot: f64) -> Result<(), NotDefinite> {
         let diagonal = self.matrix.diagonal(self.analysis.order[place]);
         let is_large = pivot > SINGULAR_PIVOT * diagonal.abs();
+
         if is_large && pivot.is_finite() {
             Ok(())
         } else {
@@ -180,6 +186,7 @@ impl<'m> Elimination<'m> {
             update: vec![0.0; rest * rest],
         };
         self.write_matrix(front, &mut dense);
+
         for &child in &front.children {
             self.add_child(front, child, &mut dense);
         }
@@ -288,6 +295,7 @@ impl SchurFactor<'_> {
                 for row in c + 1..own.len() {
                     x[front.begin + row] -= own[row] * value;
                 }
+
                 for (&place, l) in front.border.iter().zip(border) {
                     x[place] -= l * value;
                 }

@@ -98,6 +98,7 @@ impl Symmetric {
             if row >= order || col >= order {
                 return Err(SymmetricError::Index { row, col, order });
             }
+
             if !got.is_finite() {
                 return Err(SymmetricError::NotFinite { row, col, got });
             }
@@ -110,6 +111,7 @@ impl Symmetric {
         // rows of the matrix itself are sorted. Between them entries of one place are neighbours.
         let transposed = unsorted.transposed().with_sums();
         let matrix = transposed.transposed();
+
         matrix.averaged(&transposed)
     }
 
@@ -123,6 +125,7 @@ impl Symmetric {
         let place = self.start[i]..self.start[i + 1];
         let cols = self.cols[place.clone()].iter().copied();
         let values = self.values[place].iter().copied();
+
         cols.zip(values)
     }
 
@@ -163,6 +166,7 @@ impl Symmetric {
             cols: Vec::new(),
             values: Vec::new(),
         };
+
         for i in 0..self.order() {
             sum.push_row(self.row(i), factor, other.row(i));
         }
@@ -184,6 +188,7 @@ impl Symmetric {
             let next_of_first = first.peek().map_or(usize::MAX, |entry| entry.0);
             let next_of_second = second.peek().map_or(usize::MAX, |entry| entry.0);
             let col = next_of_first.min(next_of_second);
+
             if col == usize::MAX {
                 break;
             }
@@ -195,6 +200,7 @@ impl Symmetric {
             self.cols.push(col);
             self.values.push(a + b);
         }
+
         self.start.push(self.cols.len());
     }
 
@@ -221,6 +227,7 @@ impl Symmetric {
                     written += 1;
                 }
             }
+
             read = self.start[i + 1];
             self.start[i + 1] = written;
         }
@@ -265,6 +272,7 @@ fn by_rows<I: Iterator<Item = Entry>>(
     for (row, _, _) in entries() {
         start[row + 1] += 1;
     }
+
     for row in 0..order {
         start[row + 1] += start[row];
     }
@@ -272,6 +280,7 @@ fn by_rows<I: Iterator<Item = Entry>>(
     let mut cols = vec![0; count];
     let mut values = vec![0.0; count];
     let mut next = start.clone();
+
     for (row, col, value) in entries() {
         let place = next[row];
         cols[place] = col;

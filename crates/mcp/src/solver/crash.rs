@@ -60,6 +60,7 @@ pub(super) fn crash<P: Mcp + ?Sized>(
         problem.counters.factorisations += 1;
         let (solved, proximal) = storage.newton_direction(&jacobian, &point);
         problem.recycle_matrix(jacobian);
+
         if !solved {
             break;
         }
@@ -74,6 +75,7 @@ pub(super) fn crash<P: Mcp + ?Sized>(
         let gained = next.merit <= (1.0 - CRASH_GAIN) * point.merit;
         problem.recycle(replace(&mut point, next));
         let changes = storage.update_active(problem.problem, &point);
+
         if changes <= 1 || !gained {
             break;
         }
@@ -87,6 +89,7 @@ fn is_active<P: Mcp + ?Sized>(problem: &P, point: &Point, i: usize) -> bool {
     let upper = problem.upper()[i];
     let z = point.z[i];
     let f = point.f[i];
+
     lower == upper || (z <= lower && f > 0.0) || (z >= upper && f < 0.0)
 }
 
@@ -120,9 +123,11 @@ impl Storage {
 
         self.direction.clear();
         self.direction.resize(self.active.len(), 0.0);
+
         for (&i, value) in self.inactive.iter().zip(&self.step) {
             self.direction[i] = *value;
         }
+
         (solved, proximal)
     }
 
@@ -135,6 +140,7 @@ impl Storage {
             diagonal: |_| proximal,
             residual: |row: usize| point.f[inactive[row]],
         };
+
         system.solve(&mut self.lu, &mut self.step)
     }
 }

@@ -57,6 +57,7 @@ impl<T: Number> Lu<T> {
             reduce(column, finished);
 
             let pivot = largest_from(column, rank);
+
             // A size that is NaN does not compare, and makes the column dependent.
             if pivot.size.partial_cmp(&least(j)) != Some(Ordering::Greater) {
                 self.dependent.push(j);
@@ -70,12 +71,15 @@ impl<T: Number> Lu<T> {
                     l.swap(rank, pivot.place);
                 }
             }
+
             let (above, below) = column.split_at_mut(rank + 1);
             for entry in below {
                 *entry /= above[rank].clone();
             }
+
             rank += 1;
         }
+
         self.dependent.is_empty()
     }
 
@@ -151,6 +155,7 @@ fn largest_from<T: Number>(column: &[T], first: usize) -> Candidate<T> {
         place: first,
         size: T::zero(),
     };
+
     for (place, entry) in column.iter().enumerate().skip(first) {
         let size = entry.magnitude();
         if size > best.size {
@@ -165,6 +170,7 @@ pub(super) fn subtract<T: Number>(y: &mut [T], factor: &T, x: &[T]) {
     if factor.is_zero() {
         return;
     }
+
     for (y, x) in y.iter_mut().zip(x) {
         *y -= factor.clone() * x.clone();
     }

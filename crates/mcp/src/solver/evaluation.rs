@@ -77,6 +77,7 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
             .function(point.z.as_slice(), point.f.as_mut_slice());
         point.merit = fischer::merit(self.problem, &point.z, &point.f);
         self.not_finite = point.not_finite().or(self.not_finite);
+
         point
     }
 
@@ -91,6 +92,7 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     pub(super) fn spare(&mut self) -> Point {
         let n = self.problem.dimension();
         let unused = self.pool.points.pop().filter(|point| point.z.len() == n);
+
         unused.unwrap_or_else(|| Point {
             z: DVector::zeros(n),
             f: DVector::zeros(n),
@@ -116,9 +118,11 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
         let n = point.z.len();
         let jacobian = self.raw_jacobian(point);
         let (rows, cols) = jacobian.shape();
+
         if rows != n || cols != n {
             return Err(Termination::JacobianShape { rows, cols });
         }
+
         if is_finite(&jacobian) {
             return Ok(jacobian);
         }
@@ -175,6 +179,7 @@ impl Point {
             // No component of F is infinite or NaN then.
             return None;
         }
+
         let row = self.f.iter().position(|v| !v.is_finite())?;
         Some(Termination::NonFinite(NonFinite::Function { row }))
     }

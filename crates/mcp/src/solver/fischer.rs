@@ -90,6 +90,7 @@ pub(super) fn gradient<P: Mcp + ?Sized>(
 ) {
     let lower = problem.lower();
     let upper = problem.upper();
+
     for i in 0..z.len() {
         let phi = fischer(z[i], f[i], lower[i], upper[i]);
         storage.gradient[i] = phi.by_z * phi.value;
@@ -127,6 +128,7 @@ fn phi(a: f64, b: f64) -> Phi {
     } else {
         norm - sum
     };
+
     Phi {
         value,
         by_a: a / norm - 1.0,

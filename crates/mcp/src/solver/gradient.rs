@@ -64,6 +64,7 @@ fn search<P: Mcp + ?Sized>(
         if keeps_promise && gains {
             return Some(next);
         }
+
         problem.recycle(next);
         step *= BACKTRACK;
     }

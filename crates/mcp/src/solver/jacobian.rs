@@ -18,5 +18,6 @@ pub(super) fn square(matrix: DMatrix<f64>, n: usize) -> DMatrix<f64> {
     if matrix.shape() == (n, n) {
         return matrix;
     }
+
     matrix.resize(n, n, f64::NAN)
 }

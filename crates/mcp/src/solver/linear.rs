@@ -41,6 +41,7 @@ pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, S
 
     let reduced = preprocessed.reduced.as_ref().unwrap_or(problem);
     let mut path = lemke(reduced, options);
+
     for pivot in &mut path.pivots {
         *pivot = pivot.renamed(&preprocessed.kept);
     }
@@ -68,6 +69,7 @@ pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, S
         factorisations: path.factorisations,
         ..evaluated.counters
     };
+
     Ok(Outcome {
         point: point.z.as_slice().to_vec(),
         residuals,
@@ -85,6 +87,7 @@ fn lemke(problem: &LinearMcp, options: &Options) -> Path {
         lower: problem.lower(),
         upper: problem.upper(),
     };
+
     let limits = Limits {
         pivots: options.minor_iteration_limit,
         cycle_entries: options.cycle_entry_limit,
@@ -94,6 +97,7 @@ fn lemke(problem: &LinearMcp, options: &Options) -> Path {
     let origin = vec![0.0; problem.dimension()];
     let mut path = Path::default();
     Storage::default().follow(&subproblem, Start::Ray, &origin, limits, &mut path);
+
     path
 }
 
@@ -104,12 +108,14 @@ fn record(path: Path, merit: f64) -> MajorRecord {
     } else {
         StepKind::Failed
     };
+
     let path = PathRecord {
         start: path.start,
         end: path.end,
         reach: path.reach(),
         pivots: path.pivots,
     };
+
     MajorRecord {
         merit,
         step,

@@ -48,6 +48,7 @@ impl Log {
             reach: path.reach(),
             pivots: Vec::new(),
         };
+
         self.paths.push(LoggedPath {
             record,
             pivots_end: self.pivots.len(),
@@ -62,6 +63,7 @@ impl Log {
             proximal,
             paths: Vec::new(),
         };
+
         self.steps.push(LoggedStep {
             record,
             paths_end: self.paths.len(),
@@ -73,6 +75,7 @@ impl Log {
         let mut paths = self.path_records().into_iter();
         let mut records = Vec::with_capacity(self.steps.len());
         let mut begin = 0;
+
         for step in &self.steps {
             let count = step.paths_end - begin;
             records.push(MajorRecord {
@@ -88,6 +91,7 @@ impl Log {
     fn path_records(&self) -> Vec<PathRecord> {
         let mut records = Vec::with_capacity(self.paths.len());
         let mut begin = 0;
+
         for path in &self.paths {
             let end = path.pivots_end;
             records.push(PathRecord {

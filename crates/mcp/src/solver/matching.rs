@@ -15,8 +15,10 @@ const NONE: usize = usize::MAX;
 /// `None` if all have one. `columns[j]` lists the rows (< the number of columns) of column j.
 pub fn unmatched(columns: &[Vec<usize>]) -> Option<(usize, usize)> {
     let mut matching = Matching::new(columns);
+
     // A column that has a partner keeps one, so that the first one alone stays alone.
     let mut first_alone = None;
+
     for column in 0..columns.len() {
         if !matching.pair(column) {
             first_alone = first_alone.or(Some(column));
@@ -78,6 +80,7 @@ impl<'a> Matching<'a> {
                 self.take_rows();
                 return true;
             }
+
             if !self.go_on(visit, root) {
                 self.path.pop();
                 self.rows.pop();
@@ -90,9 +93,11 @@ impl<'a> Matching<'a> {
     fn free_row(&mut self, column: usize) -> Option<usize> {
         let rows = &self.columns[column];
         let tried = &mut self.paired_entries[column];
+
         while *tried < rows.len() && self.partner[rows[*tried]] != NONE {
             *tried += 1;
         }
+
         rows.get(*tried).copied()
     }
 
@@ -117,11 +122,13 @@ impl<'a> Matching<'a> {
         if let Some(last) = self.path.last_mut() {
             last.next = visit.next + k + 1;
         }
+
         self.rows.push(row);
         self.path.push(Visit {
             column: self.partner[row],
             next: 0,
         });
+
         true
     }
 }

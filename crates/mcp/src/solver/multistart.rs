@@ -27,6 +27,7 @@ pub fn multistart<P: Mcp + ?Sized>(
 ) -> Result<Vec<Outcome>, SolverError> {
     let mut solver = Solver::new();
     let mut outcomes = Vec::new();
+
     for start in starts {
         let ended = solver.run(problem, &start, options)?;
         outcomes.push(solver.outcome(ended));

@@ -77,6 +77,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
     pub(super) fn new(problem: &'a P, options: &'a Options, mut space: Workspace) -> Self {
         space.log.clear();
         let problem = Evaluated::with_pool(problem, take(&mut space.pool));
+
         Run {
             problem,
             options,
@@ -110,6 +111,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             if ends_the_run(reason) {
                 break;
             }
+
             let k = trial + 1 + self.options.restart_limit;
             let from = self.moved(&start, Attempt::far(trial), k);
             reason = self.along_curves(&from, &mut best).unwrap_or(reason);
@@ -132,6 +134,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         let jacobian = self.problem.jacobian(start).ok()?;
         let found = unmatched(&jacobian, &inside);
         self.problem.recycle_matrix(jacobian);
+
         found.map(|(row, col)| Termination::StructurallySingular { row, col })
     }
 
@@ -151,6 +154,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         if attempt.shift > 0.0 && !ends_the_run(reason) {
             reason = self.along_curves(&from, best).unwrap_or(reason);
         }
+
         self.problem.recycle(from);
         reason
     }
@@ -160,6 +164,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         let mut shifted = self
             .problem
             .point_with(|i| attempt.shifted(start.z[i], i, k));
+
         if !shifted.merit.is_finite() {
             shifted.copy_from(start);
         }
@@ -192,6 +197,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             let next = self.attempt(&point, Attempt::number(1), best);
             self.problem.recycle(point);
             reason = Some(next);
+
             if ends_the_run(next) {
                 break;
             }
@@ -228,6 +234,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             options,
             space,
         } = self;
+
         let limit = options.crash_iteration_limit;
         if limit == 0 || options.crash_method == CrashMethod::None {
             return Ok(start);
@@ -248,6 +255,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             }
             point = next;
         }
+
         crash(problem, point, limit, &mut space.crash, &mut space.log)
     }
 
@@ -271,9 +279,11 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
                 best.copy_from(point);
                 return Termination::ToleranceReached;
             }
+
             if point.merit < best.merit {
                 best.copy_from(point);
             }
+
             if let Some(limit) = self.limit_reached(last) {
                 return limit;
             }
@@ -306,6 +316,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         let follows_curves = self.options.curve_step_limit > 0;
         let attempts_of_each = if follows_curves { 2 } else { 1 };
         let attempts = (1 + self.options.restart_limit) * attempts_of_each;
+
         Work {
             majors: self.options.major_iteration_limit.div_ceil(attempts),
             pivots: self.options.cumulative_iteration_limit.div_ceil(attempts),
@@ -326,6 +337,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         } else {
             0.0
         };
+
         linearise(&mut m, &point.z, &point.f, proximal, &mut self.space.q);
 
         let mut paths = take(&mut self.space.paths);
@@ -337,6 +349,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         for path in &paths[..count] {
             self.space.log.path(path);
         }
+
         self.space.log.step(point.merit, kind, proximal);
         self.space.paths = paths;
         step.map(|(next, _)| next)
@@ -361,6 +374,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             Start::Ray => Start::Regular,
         };
         self.follow(m, other, point, &mut paths[1]);
+
         2
     }
 
@@ -413,6 +427,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
         self.problem.recycle(best);
         let (pool, counters) = self.problem.into_parts();
         self.space.pool = pool;
+
         Finished {
             space: self.space,
             residuals,
@@ -429,6 +444,7 @@ fn is_within_tolerance<P: Mcp + ?Sized>(problem: &P, point: &Point, tolerance: f
     if point.merit > MERIT_SLACK * 0.5 * n * tolerance * tolerance {
         return false;
     }
+
     Residuals::without_gradient(problem, point.z.as_slice(), point.f.as_slice()).within(tolerance)
 }
 
@@ -436,6 +452,7 @@ fn is_within_tolerance<P: Mcp + ?Sized>(problem: &P, point: &Point, tolerance: f
 fn strictly_inside<P: Mcp + ?Sized>(problem: &P, point: &Point) -> Vec<usize> {
     let bounds = problem.lower().iter().zip(problem.upper());
     let mut inside = Vec::with_capacity(point.z.len());
+
     for (i, (z, (lower, upper))) in point.z.iter().zip(bounds).enumerate() {
         if lower < z && z < upper {
             inside.push(i);

@@ -33,6 +33,7 @@ pub(super) fn linearise(
 
     q.clear();
     q.extend(f.iter());
+
     for (j, z_j) in z.iter().enumerate() {
         let column = &jacobian.as_slice()[j * n..(j + 1) * n];
         subtract(q, z_j, column);

@@ -88,6 +88,7 @@ impl Number for f64 {
         // Four at a time, so that no entry waits for the one before.
         let (blocks, rest) = entries.as_chunks::<4>();
         let mut lanes = [0.0; 4];
+
         for block in blocks {
             for (largest, value) in lanes.iter_mut().zip(block) {
                 if value.abs() > *largest {

@@ -149,6 +149,7 @@ impl Options {
         )?;
         check_positive("cycle_entry_limit", self.cycle_entry_limit)?;
         check_positive("nms_memory_size", self.nms_memory_size)?;
+
         check_positive("nms_mstep_frequency", self.nms_mstep_frequency)
     }
 }
@@ -158,6 +159,7 @@ fn check_positive(name: &'static str, count: usize) -> Result<(), SolverError> {
     if count > 0 {
         return Ok(());
     }
+
     Err(SolverError::Option {
         name,
         expected: ">= 1",

@@ -29,6 +29,7 @@ impl Preprocessed {
     pub(super) fn new(problem: &LinearMcp) -> Preprocessed {
         let n = problem.dimension();
         let mut decided: Vec<Option<f64>> = vec![None; n];
+
         while let Some((i, value)) = next_decision(problem, &decided) {
             decided[i] = Some(value);
         }
@@ -37,6 +38,7 @@ impl Preprocessed {
         if kept.len() == n {
             return Preprocessed::nothing(n);
         }
+
         match reduce(problem, &decided, &kept) {
             Some(reduced) => Preprocessed {
                 reduced: Some(reduced),
@@ -60,6 +62,7 @@ impl Preprocessed {
     pub(super) fn restore(&self, z: &[f64]) -> Vec<f64> {
         let mut kept_values = z.iter();
         let mut whole = Vec::with_capacity(self.decided.len());
+
         for decided in &self.decided {
             let value = decided.or_else(|| kept_values.next().copied());
             whole.push(value.unwrap_or(f64::NAN));
@@ -74,6 +77,7 @@ fn next_decision(problem: &LinearMcp, decided: &[Option<f64>]) -> Option<(usize,
         if decided[i].is_some() {
             continue;
         }
+
         if let Some(value) = decide(problem, decided, i) {
             return Some((i, value));
         }
@@ -88,12 +92,14 @@ fn decide(problem: &LinearMcp, decided: &[Option<f64>], i: usize) -> Option<f64>
     if lower == upper {
         return Some(lower);
     }
+
     if let Some(value) = solve_alone(problem, decided, i) {
         return Some(value.max(lower).min(upper));
     }
 
     let range = range(problem, decided, i);
     let sure = SIGN_SURE * range.size;
+
     if range.least > sure && lower.is_finite() {
         Some(lower)
     } else if range.most < -sure && upper.is_finite() {
@@ -109,6 +115,7 @@ fn solve_alone(problem: &LinearMcp, decided: &[Option<f64>], i: usize) -> Option
     let row = problem.matrix().row(i);
     let is_alone = (0..row.len()).all(|j| j == i || row[j] == 0.0 || decided[j].is_some());
     let slope = row[i];
+
     if !is_alone || slope <= 0.0 {
         return None;
     }
@@ -140,6 +147,7 @@ fn range(problem: &LinearMcp, decided: &[Option<f64>], i: usize) -> Range {
         if m == 0.0 {
             continue;
         }
+
         let lower = decided[j].unwrap_or(problem.lower()[j]);
         let upper = decided[j].unwrap_or(problem.upper()[j]);
         let rises = m > 0.0;

@@ -60,6 +60,7 @@ impl Residuals {
             gradient: &mut DVector::zeros(n),
             work: &mut DVector::zeros(n),
         };
+
         Residuals::with_gradient(problem, z, &f, &jacobian, &mut storage)
     }
 
@@ -104,6 +105,7 @@ impl Residuals {
         let by_f: Vec<f64> = phi.iter().map(|phi| phi.by_f * phi.value).collect();
         let mut gradient = vec![0.0; z.len()];
         product(&by_f, &mut gradient);
+
         for (entry, phi) in gradient.iter_mut().zip(&phi) {
             *entry += phi.by_z * phi.value;
         }
@@ -151,6 +153,7 @@ fn product(z: f64, f: f64, l: f64, u: f64) -> f64 {
     if f.is_nan() {
         return f64::NAN;
     }
+
     let gap = if f >= 0.0 { z - l } else { u - z };
     if gap.is_finite() {
         gap * f.abs()

@@ -98,6 +98,7 @@ impl Attempt {
         for _ in 0..trial / 2 {
             factor *= CURVE_TRIAL_GROWTH;
         }
+
         Attempt {
             shift: RESTART_SHIFT[1] * factor,
             ..Attempt::number(1)

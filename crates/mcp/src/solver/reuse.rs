@@ -71,6 +71,7 @@ impl Solver {
         let space = std::mem::take(&mut self.space);
         let finished = Run::new(problem, options, space).run(start);
         self.space = finished.space;
+
         Ok(Ended {
             termination: finished.termination,
             residuals: finished.residuals,

@@ -55,6 +55,7 @@ impl Search {
             Acceptance::Monotone => 1.0,
             Acceptance::Free => FREE_REFERENCE * factor,
         };
+
         self.memory.clear();
         self.memory.push_back(reference_factor * start.merit);
 
@@ -63,6 +64,7 @@ impl Search {
             Acceptance::Monotone => 0.0,
             Acceptance::Free => f64::INFINITY,
         };
+
         if attempt.acceptance == Acceptance::Monotone {
             self.memory_size = 1;
             self.frequency = 1;
@@ -119,6 +121,7 @@ impl Search {
         if self.unchecked == 0 {
             self.checkpoint.copy_from(path);
         }
+
         self.unchecked += 1;
         self.radius *= TRUST_SHRINK;
         self.keep_best(to);
@@ -130,6 +133,7 @@ impl Search {
         while self.memory.len() > self.memory_size {
             self.memory.pop_front();
         }
+
         self.unchecked = 0;
         self.keep_best(to);
     }
@@ -145,6 +149,7 @@ impl Search {
         if self.unchecked == 0 {
             return false;
         }
+
         self.unchecked = 0;
         self.watchdogs += 1;
         self.watchdogs <= self.maximum_watchdogs
@@ -181,6 +186,7 @@ impl Search {
                 }
                 problem.recycle(point);
             }
+
             t *= BACKTRACK;
         }
         None
@@ -192,6 +198,7 @@ impl Search {
             Some(best) => point.merit < best.merit,
             None => true,
         };
+
         if is_better {
             self.take_best(point);
         }

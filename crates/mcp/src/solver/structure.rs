@@ -14,11 +14,13 @@ pub(super) fn unmatched(j: &DMatrix<f64>, inside: &[usize]) -> Option<(usize, us
     for &col in inside {
         // The capacity saves further allocations.
         let mut rows = Vec::with_capacity(inside.len());
+
         for (k, &row) in inside.iter().enumerate() {
             if j[(row, col)] != 0.0 {
                 rows.push(k);
             }
         }
+
         columns.push(rows);
     }
 

@@ -29,6 +29,7 @@ pub(super) fn validate<P: Mcp + ?Sized>(
             got: start.len(),
         });
     }
+
     match start.iter().position(|value| !value.is_finite()) {
         Some(index) => Err(SolverError::StartNotFinite {
             index,

@@ -12,7 +12,7 @@
 //! where the rows of f vanish at the start, both are the same pivot for pivot.
 //!
 //! Input: a [`SparseLinearMcp`] whose block M_ff is regular. Output: a [`CondensedMcp`], whose runs
-//! report all unknowns. Called by `mceip_engine`'s plain problems and by users of the crate.
+//! report all unknowns. For users of the crate; the engine itself condenses with `linear`.
 
 use super::problem::SparseLinearMcp;
 use crate::linear::SparseLu;
@@ -128,6 +128,7 @@ fn free_block(whole: &SparseLinearMcp, partition: &Partition) -> Vec<Vec<(usize,
                 column.push((partition.place[row], value));
             }
         }
+
         block.push(column);
     }
     block
@@ -140,6 +141,7 @@ fn unpaired_row(columns: &[Vec<(usize, f64)>]) -> Option<usize> {
     for column in columns {
         pattern.push(column.iter().map(|entry| entry.0).collect());
     }
+
     unmatched(&pattern).map(|(row, _)| row)
 }
 
@@ -147,6 +149,7 @@ fn unpaired_row(columns: &[Vec<(usize, f64)>]) -> Option<usize> {
 fn factor(block: &[Vec<(usize, f64)>]) -> Result<SparseLu, SparseError> {
     let columns = block.iter().enumerate();
     let entries = columns.flat_map(|(j, column)| column.iter().map(move |&(i, v)| (i, j, v)));
+
     SparseLu::new(block.len(), entries).ok_or(SparseError::SingularFreeBlock {
         change: f64::INFINITY,
     })
@@ -190,6 +193,7 @@ impl<'a> CondensedMcp<'a> {
             factors: factor(&block)?,
             problem: empty,
         };
+
         condensed.problem = condensed.condense()?;
         Ok(condensed)
     }
@@ -221,6 +225,7 @@ impl<'a> CondensedMcp<'a> {
         self.check_start(start)?;
         let start = self.partition.bounded_part(start);
         let outcome = solve(&self.problem, &start, options)?;
+
         Ok(self.whole_outcome(outcome, options))
     }
 
@@ -255,6 +260,7 @@ impl<'a> CondensedMcp<'a> {
             let right: Vec<f64> = self.partition.free.iter().map(|&i| -f[i]).collect();
             let mut step = [right];
             self.factors.solve(&mut step);
+
             for (&i, value) in self.partition.free.iter().zip(&step[0]) {
                 z[i] += value;
             }
@@ -268,10 +274,12 @@ impl<'a> CondensedMcp<'a> {
 
         let count = self.partition.bounded.len();
         let mut s = DMatrix::zeros(count, count);
+
         for first in (0..count).step_by(BLOCK) {
             let columns: Vec<usize> = (first..count.min(first + BLOCK)).collect();
             let right: Vec<Vec<f64>> = columns.iter().map(|&k| self.free_rows(k)).collect();
             let solved = self.solve_refined(&right)?;
+
             for (&k, x) in columns.iter().zip(&solved) {
                 self.add_column(k, x, &mut s);
             }
@@ -282,6 +290,7 @@ impl<'a> CondensedMcp<'a> {
         let q = self.partition.bounded_part(&f);
         let lower = self.partition.bounded_part(self.whole.lower());
         let upper = self.partition.bounded_part(self.whole.upper());
+
         Ok(LinearMcp::new(s, q, lower, upper)?)
     }
 
@@ -292,6 +301,7 @@ impl<'a> CondensedMcp<'a> {
         for i in 0..self.partition.free.len() {
             right.push(0.5 + (i as f64 * GOLDEN).fract());
         }
+
         self.solve_refined(&[right]).map(drop)
     }
 
@@ -306,6 +316,7 @@ impl<'a> CondensedMcp<'a> {
             if *x == 0.0 {
                 continue;
             }
+
             for (row, value) in self.bounded_rows(j) {
                 s[(place[row], k)] -= value * x;
             }
@@ -338,6 +349,7 @@ impl<'a> CondensedMcp<'a> {
         for (b, x) in right.iter().zip(&solutions) {
             steps.push(self.residual(b, x));
         }
+
         self.factors.solve(&mut steps);
 
         for (x, step) in solutions.iter_mut().zip(&steps) {

@@ -66,6 +66,7 @@ impl SparseLinearMcp {
             lower,
             upper,
         };
+
         problem.fill_columns(entries);
         problem.check_sums()?;
         Ok(problem)
@@ -128,6 +129,7 @@ impl SparseLinearMcp {
         let place = self.start[col]..self.start[col + 1];
         let rows = self.rows[place.clone()].iter().copied();
         let values = self.values[place].iter().copied();
+
         rows.zip(values)
     }
 
@@ -144,6 +146,7 @@ impl SparseLinearMcp {
             if *z == 0.0 {
                 continue;
             }
+
             for (row, value) in self.column(col) {
                 f[row] += value * z;
             }
@@ -158,10 +161,12 @@ fn check_entries(entries: &[Entry], order: usize) -> Result<(), McpError> {
         if row >= order || col >= order {
             return Err(McpError::Index { row, col, order });
         }
+
         if !value.is_finite() {
             return Err(not_finite((row, col, value)));
         }
     }
+
     Ok(())
 }
 

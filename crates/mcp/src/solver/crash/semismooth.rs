@@ -73,6 +73,7 @@ pub(in super::super) fn semismooth<P: Mcp + ?Sized, D: Fn(&Point) -> bool>(
     let mut point = start;
     let mut least = point.merit;
     let mut last_failed = false;
+
     // Two elements by turns: the other one after a step that had to be shortened.
     let mut near = SEMISMOOTH_NEAR;
 
@@ -80,6 +81,7 @@ pub(in super::super) fn semismooth<P: Mcp + ?Sized, D: Fn(&Point) -> bool>(
         if done(&point) {
             return Ok((point, true));
         }
+
         if stalls(k, point.merit, &mut least) {
             return Ok((point, false));
         }
@@ -94,6 +96,7 @@ pub(in super::super) fn semismooth<P: Mcp + ?Sized, D: Fn(&Point) -> bool>(
         } else {
             None
         };
+
         take_turns(&mut near, found.as_ref().map(|(_, length)| *length));
 
         match found {
@@ -118,6 +121,7 @@ fn stalls(step: usize, merit: f64, least: &mut f64) -> bool {
     if step == 0 || !step.is_multiple_of(SEMISMOOTH_WINDOW) {
         return false;
     }
+
     merit > SEMISMOOTH_GAIN * replace(least, merit)
 }
 
@@ -140,9 +144,11 @@ fn row(z: f64, f: f64, l: f64, u: f64, near: f64) -> Row {
     if f > 0.0 && below <= near * f {
         return Row::Bound(-below);
     }
+
     if f < 0.0 && above <= -near * f {
         return Row::Bound(above);
     }
+
     if f.abs() <= near * below.min(above) {
         return Row::Inside {
             diagonal: 0.0,
@@ -177,6 +183,7 @@ impl Storage {
             diagonal: |j: usize| diagonal[j],
             residual: |row: usize| residual[row],
         };
+
         if !system.solve(&mut self.lu, &mut self.step) {
             return false;
         }
@@ -205,6 +212,7 @@ impl Storage {
                     0.0
                 }
             };
+
             self.direction.push(to_bound);
         }
     }
@@ -215,6 +223,7 @@ impl Storage {
             if *moved == 0.0 {
                 continue;
             }
+
             let column = jacobian.column(j);
             for (&i, residual) in self.inside.iter().zip(&mut self.residual) {
                 *residual += column[i] * moved;

@@ -31,6 +31,7 @@ impl<D: Fn(usize) -> f64, G: Fn(usize) -> f64> InsideSystem<'_, D, G> {
         step.clear();
         step.extend(lu.rows().iter().map(|&row| -(self.residual)(row)));
         lu.solve(step);
+
         step.iter().all(|value| value.is_finite())
     }
 
@@ -59,6 +60,7 @@ pub(super) fn search<P: Mcp + ?Sized>(
         if keeps_promise && next.merit < point.merit {
             return Some((next, step));
         }
+
         problem.recycle(next);
         step *= BACKTRACK;
     }

@@ -27,9 +27,11 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
         if let Some(step) = self.path_end(point, paths, search) {
             return Ok(step);
         }
+
         if let Some(step) = self.back_along_paths(paths, search) {
             return Ok(step);
         }
+
         if let Some(step) = self.gradient(search)? {
             return Ok(step);
         }
@@ -38,6 +40,7 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
             Some(path) => Termination::of(path.end),
             None => Termination::NoProgress,
         };
+
         Err(self.problem.not_finite.unwrap_or(of_path))
     }
 
@@ -58,10 +61,12 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
             search.forgive_watchdogs();
             return Some((end, StepKind::Path { t }));
         }
+
         if search.unchecked_allowed(point, &end) {
             search.take_unchecked(regular.unwrap_or(path), &end);
             return Some((end, StepKind::Unchecked { t }));
         }
+
         self.problem.recycle(end);
         None
     }
@@ -81,6 +86,7 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
             return Some((self.problem.point_with(|i| last[i]), last_t));
         };
         let far = self.problem.point_with(far);
+
         if fraction < 1.0 || path.end == PathEnd::Complete {
             return Some((far, t));
         }
@@ -108,6 +114,7 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
         let path = paths.iter().find(|path| path.start == Start::Regular)?;
         let (point, t) = search.along(&mut self.problem, path, path.reach())?;
         search.take_checked(&point);
+
         Some((point, StepKind::Search { t }))
     }
 
@@ -116,6 +123,7 @@ impl<P: Mcp + ?Sized> Run<'_, P> {
         if !search.gradient_allowed() {
             return Ok(None);
         }
+
         let Some(best) = search.best() else {
             return Ok(None);
         };

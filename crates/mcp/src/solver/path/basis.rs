@@ -54,6 +54,7 @@ impl<T: Number> Basis<T> {
         self.refreshed = 0;
         self.forget();
         self.first.clone_from(&self.variables);
+
         self.factor.factor(columns, &self.variables)
     }
 
@@ -66,6 +67,7 @@ impl<T: Number> Basis<T> {
     pub(super) fn solve(&mut self, a: &[T], x: &mut [T]) {
         let n = x.len();
         self.factor.solve(a, x, &mut self.work);
+
         for (k, &place) in self.places.iter().enumerate() {
             let column = &self.exchanged[k * n..(k + 1) * n];
             exchange(x, place, column);

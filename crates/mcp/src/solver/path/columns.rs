@@ -65,6 +65,7 @@ impl<T: Number> Frame<T> {
     pub(super) fn set(&mut self, sub: &Subproblem<'_, T>, z: &[T], multiplier: &[T]) {
         let n = z.len();
         sub.value(z, &mut self.covering);
+
         for (residual, multiplier) in self.covering.iter_mut().zip(multiplier) {
             *residual -= multiplier.clone();
         }
@@ -81,6 +82,7 @@ impl<T: Number> Frame<T> {
         for j in 0..n {
             self.sizes.push(T::largest(sub.column(j)));
         }
+
         let covering_size = T::largest(&self.covering);
         self.scale = Some(T::largest(sub.q) + covering_size.clone());
         self.sizes.push(covering_size);

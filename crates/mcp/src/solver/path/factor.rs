@@ -68,6 +68,7 @@ impl<T: Number> Factor<T> {
             // Two unit columns share a row.
             return false;
         }
+
         if !self.factor_core(columns, variables) {
             self.list_repairs();
             return false;
@@ -112,6 +113,7 @@ impl<T: Number> Factor<T> {
     fn factor_core(&mut self, columns: &Columns<'_, T>, variables: &[Variable]) -> bool {
         let places = &self.places;
         let rows = &self.rows;
+
         self.core.factor(
             places.len(),
             |j, order, out| {
@@ -152,6 +154,7 @@ impl<T: Number> Factor<T> {
         // U x_U = a_U - G x_C.
         work.extend(self.units.iter().map(|u| a[u.unit.row].clone()));
         let (of_core, of_units) = work.split_at_mut(self.places.len());
+
         if !self.units.is_empty() {
             let border = self.border.chunks_exact(self.units.len());
             for (column, x) in border.zip(of_core.iter()) {
@@ -162,6 +165,7 @@ impl<T: Number> Factor<T> {
         for (&place, value) in self.places.iter().zip(of_core.iter()) {
             x[place] = value.clone();
         }
+
         for (column, value) in self.units.iter().zip(of_units.iter()) {
             x[column.place] = column.unit.times(value);
         }
@@ -175,17 +179,20 @@ impl<T: Number> Factor<T> {
 
         // C' y_C = e_C - G' y_U.
         let units = self.units.len();
+
         for (k, &place) in self.places.iter().enumerate() {
             let border = &self.border[k * units..(k + 1) * units];
             let rest = dot(border, &work[..units]);
             work.push(e[place].clone() - rest);
         }
+
         let (of_units, of_core) = work.split_at_mut(units);
         self.core.solve_transposed(of_core);
 
         for (column, value) in self.units.iter().zip(of_units.iter()) {
             y[column.unit.row] = value.clone();
         }
+
         for (&row, value) in self.core.rows().iter().zip(of_core.iter()) {
             y[self.rows[row]] = value.clone();
         }

@@ -89,10 +89,12 @@ impl<T: Number> Storage<T> {
             entries,
             free,
         } = self;
+
         path.begin(start, current.len());
 
         start_point(sub, start, current, state, free);
         frame.set(sub, &state.z, &state.multiplier);
+
         if starting_basis(sub, frame, basis, state, path) {
             let tableau = Tableau::new(frame.columns(sub), basis, state);
             Walk::new(tableau, limits, entries, path).run();

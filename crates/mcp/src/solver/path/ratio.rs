@@ -32,6 +32,7 @@ pub(super) fn ratio_test<T: Number>(
         RatioTest::Expand => expand_test(tableau, &blocks, pivots),
     };
     tableau.state.blocks = blocks;
+
     first
 }
 
@@ -48,6 +49,7 @@ fn lexicographic_test<T: Number>(
     let mut best = tied.next()?;
     let [mut best_row, mut other_row] = take(&mut tableau.state.rows);
     let mut best_row_is_known = false;
+
     for block in tied {
         match rank(tableau, block).cmp(&rank(tableau, best)) {
             Ordering::Less => {
@@ -63,12 +65,14 @@ fn lexicographic_test<T: Number>(
             perturbed_step(tableau, best, &mut best_row);
             best_row_is_known = true;
         }
+
         perturbed_step(tableau, block, &mut other_row);
         if lexicographic(&other_row, &best_row) == Ordering::Less {
             best = block;
             swap(&mut best_row, &mut other_row);
         }
     }
+
     tableau.state.rows = [best_row, other_row];
     Some(best.clone())
 }
@@ -115,6 +119,7 @@ fn list_blocks<T: Number>(tableau: &Tableau<'_, T>, blocks: &mut Vec<Block<T>>) 
     blocks.clear();
     let rates = &tableau.state.rates;
     let threshold = T::tolerance(PIVOT) * T::largest(rates).larger(T::one());
+
     for (place, rate) in rates.iter().enumerate() {
         let is_pivot = rate.magnitude() > threshold;
         if !is_pivot {
@@ -124,6 +129,7 @@ fn list_blocks<T: Number>(tableau: &Tableau<'_, T>, blocks: &mut Vec<Block<T>>) 
         let (lower, upper) = tableau.bounds(tableau.basis.variables[place]);
         let rises = *rate > T::zero();
         let bound = if rises { upper } else { lower };
+
         if bound.is_finite() {
             let room = bound - tableau.state.values[place].clone();
             blocks.push(Block {
@@ -153,6 +159,7 @@ fn rank<T: Number>(tableau: &Tableau<'_, T>, block: &Block<T>) -> u8 {
         Some(place) => tableau.basis.variables[place],
         None => tableau.entering,
     };
+
     match blocking {
         Variable::T => 0,
         Variable::Artificial(_) => 1,
@@ -191,6 +198,7 @@ fn lexicographic<T: Number>(a: &[T], b: &[T]) -> Ordering {
             return x.order(y);
         }
     }
+
     Ordering::Equal
 }
 

@@ -80,6 +80,7 @@ impl<T: Number> Path<T> {
         if self.knots.len() == 0 {
             return None;
         }
+
         Some(self.knots.z(0))
     }
 
@@ -101,6 +102,7 @@ impl Path {
         let share = (t - knots.t(begin)) / (knots.t(end) - knots.t(begin));
         let from = knots.z(begin);
         let to = knots.z(end);
+
         Some(move |i: usize| from[i] * (1.0 - share) + to[i] * share)
     }
 

@@ -50,11 +50,13 @@ fn absorbed<T: Number>(z: &T, f: &T, lower: &T, upper: &T) -> T {
     } else {
         T::zero()
     };
+
     let at_upper = if z >= upper {
         f.clone().smaller(T::zero())
     } else {
         T::zero()
     };
+
     at_lower + at_upper
 }
 
@@ -63,9 +65,11 @@ fn absorbed<T: Number>(z: &T, f: &T, lower: &T, upper: &T) -> T {
 fn ray<T: Number>(sub: &Subproblem<'_, T>, state: &mut State<T>, free: &mut FreeRows<T>) {
     let State { z, multiplier, .. } = state;
     z.clear();
+
     for (lower, upper) in sub.lower.iter().zip(sub.upper) {
         z.push(bound_or_zero(lower, upper));
     }
+
     free.solve(sub, z, multiplier);
     sub.value(z, multiplier);
 
@@ -97,6 +101,7 @@ impl Side {
     fn of<T: Number>(sub: &Subproblem<'_, T>, i: usize) -> Side {
         let lower = &sub.lower[i];
         let upper = &sub.upper[i];
+
         if lower == upper {
             Side::Fixed
         } else if lower.is_finite() {
@@ -114,12 +119,14 @@ impl Side {
 fn lift<T: Number>(sub: &Subproblem<'_, T>, multiplier: &[T]) -> T {
     let mut worst = T::zero();
     let mut size = T::zero();
+
     for (i, m) in multiplier.iter().enumerate() {
         let sided = match Side::of(sub, i) {
             Side::Lower => m.clone(),
             Side::Upper => -m.clone(),
             Side::Fixed | Side::None => continue,
         };
+
         worst = worst.larger(-sided.clone());
         size = size.larger(sided.magnitude());
     }
@@ -166,16 +173,19 @@ impl<T: Number> FreeRows<T> {
                 self.indices.push(i);
             }
         }
+
         if self.indices.is_empty() || !self.factor(sub) {
             return;
         }
 
         sub.value(z, value);
         self.step.clear();
+
         for &row in self.lu.rows() {
             let i = self.indices[row];
             self.step.push(-value[i].clone());
         }
+
         self.lu.solve(&mut self.step);
 
         if self.step.iter().all(T::is_finite) {
@@ -219,8 +229,10 @@ pub(super) fn starting_basis<T: Number>(
         } else {
             Variable::Z(i)
         };
+
         basis.variables.push(variable);
     }
+
     path.factorisations += 1;
     if basis.begin(&frame.columns(sub)) {
         return true;
@@ -231,6 +243,7 @@ pub(super) fn starting_basis<T: Number>(
         frame.add_artificial(repair.place, repair.row);
         basis.variables[repair.place] = Variable::Artificial(repair.place);
     }
+
     path.factorisations += 1;
     basis.begin(&frame.columns(sub))
 }

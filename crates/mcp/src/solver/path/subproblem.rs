@@ -23,6 +23,7 @@ impl<T: Number> Subproblem<'_, T> {
     pub(super) fn value(&self, z: &[T], out: &mut Vec<T>) {
         out.clear();
         out.extend_from_slice(self.q);
+
         for (j, z) in z.iter().enumerate() {
             subtract(out, &-z.clone(), self.column(j));
         }

@@ -86,6 +86,7 @@ impl<'a, T: Number> Tableau<'a, T> {
                 Variable::V(i) => -state.multiplier[i].clone(),
                 Variable::Artificial(_) | Variable::T => T::zero(),
             });
+
             if let Variable::Z(i) = variable {
                 state.is_basic[*i] = true;
             }
@@ -94,6 +95,7 @@ impl<'a, T: Number> Tableau<'a, T> {
         state.column.resize(n, T::zero());
         state.rates.resize(n, T::zero());
         state.sum.resize(n, T::zero());
+
         Tableau {
             columns,
             basis,
@@ -109,6 +111,7 @@ impl<'a, T: Number> Tableau<'a, T> {
     pub(super) fn bounds(&self, variable: Variable) -> (T, T) {
         let lower = self.columns.sub.lower;
         let upper = self.columns.sub.upper;
+
         match variable {
             Variable::Z(i) => (lower[i].clone(), upper[i].clone()),
             Variable::W(i) | Variable::V(i) if lower[i] == upper[i] => {
@@ -140,6 +143,7 @@ impl<'a, T: Number> Tableau<'a, T> {
         } else {
             value - lower
         };
+
         T::zero().larger(room)
     }
 
@@ -159,6 +163,7 @@ impl<'a, T: Number> Tableau<'a, T> {
     pub(super) fn set_rates(&mut self) {
         self.solve_for(self.entering);
         let sign = -self.sign.clone();
+
         for (rate, entry) in self.state.rates.iter_mut().zip(&self.state.column) {
             *rate = entry.clone() * sign.clone();
         }
@@ -176,6 +181,7 @@ impl<'a, T: Number> Tableau<'a, T> {
             let value = self.state.values[place].clone();
             self.store(self.basis.variables[place], value);
         }
+
         self.store(self.entering, entering_value);
     }
 
@@ -266,6 +272,7 @@ impl<'a, T: Number> Tableau<'a, T> {
         self.solve_for(Variable::Z(i));
         let place = self.basis.variables.iter().position(|&v| v == Variable::T);
         let falls = place.is_some_and(|p| self.state.column[p] > T::zero());
+
         if falls { -T::one() } else { T::one() }
     }
 
@@ -274,6 +281,7 @@ impl<'a, T: Number> Tableau<'a, T> {
         self.set_right_hand_side();
         let State { values, sum, .. } = &mut *self.state;
         let mut size = self.columns.scale();
+
         for (&variable, value) in self.basis.variables.iter().zip(values.iter()) {
             size = size.larger(self.columns.size(variable) * value.magnitude());
             match self.columns.unit(variable) {
@@ -294,6 +302,7 @@ impl<'a, T: Number> Tableau<'a, T> {
         if !self.basis.refactor(&self.columns) {
             return false;
         }
+
         self.settle();
         true
     }
@@ -304,6 +313,7 @@ impl<'a, T: Number> Tableau<'a, T> {
             z, sum, is_basic, ..
         } = &mut *self.state;
         sum.clone_from_slice(self.columns.right());
+
         for (i, z) in z.iter().enumerate() {
             if !is_basic[i] {
                 subtract(sum, z, self.columns.dense(Variable::Z(i)));

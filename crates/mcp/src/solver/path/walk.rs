@@ -48,6 +48,7 @@ impl<'a, T: Number> Walk<'a, T> {
             best_t: T::zero(),
             entries,
         };
+
         walk.record_knot();
         walk
     }
@@ -74,6 +75,7 @@ impl<'a, T: Number> Walk<'a, T> {
                 return end;
             }
         }
+
         PathEnd::PivotLimit
     }
 
@@ -95,6 +97,7 @@ impl<'a, T: Number> Walk<'a, T> {
                 }
             }
         }
+
         self.is_cycling().then_some(PathEnd::Cycle)
     }
 
@@ -118,6 +121,7 @@ impl<'a, T: Number> Walk<'a, T> {
             leaving,
             kind,
         });
+
         kind
     }
 
@@ -127,6 +131,7 @@ impl<'a, T: Number> Walk<'a, T> {
         if let Some(last) = self.path.pivots.last_mut() {
             last.t = 1.0;
         }
+
         PathEnd::Complete
     }
 
@@ -166,6 +171,7 @@ impl<'a, T: Number> Walk<'a, T> {
             Variable::V(i) => &mut self.entries[i].v,
             Variable::Artificial(_) | Variable::T => return false,
         };
+
         *count += 1;
         *count > self.limits.cycle_entries
     }
