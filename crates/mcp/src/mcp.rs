@@ -188,7 +188,9 @@ pub fn check_bounds(lower: &[f64], upper: &[f64]) -> Result<(), McpError> {
 fn are_bounds(lower: f64, upper: f64) -> bool {
     // False also where one of them is NaN.
     let is_ordered = lower <= upper;
-    is_ordered && lower != f64::INFINITY && upper != f64::NEG_INFINITY
+    let is_lower_bound = lower != f64::INFINITY;
+    let is_upper_bound = upper != f64::NEG_INFINITY;
+    is_ordered && is_lower_bound && is_upper_bound
 }
 
 impl Mcp for LinearMcp {
@@ -225,7 +227,9 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![1.0, 2.0; 3.0, 4.0], vec![5.0, 6.0]).unwrap();
         let mut f = [0.0; 2];
         lcp.function(&[1.0, -1.0], &mut f);
+
         assert_eq!(f, [4.0, 5.0]);
+
         let mut j = DMatrix::zeros(2, 2);
         lcp.jacobian(&[0.0, 0.0], &mut j);
         assert_eq!(&j, lcp.matrix());
@@ -264,6 +268,7 @@ mod tests {
                 "expected lower <= upper at 1, got 0 and NaN",
             ),
         ];
+
         for (made, message) in cases {
             assert_eq!(made.unwrap_err().to_string(), message);
         }

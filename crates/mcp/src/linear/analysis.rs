@@ -195,6 +195,7 @@ mod tests {
                 chain.push((i - 1, i, -1.0));
             }
         }
+
         let chain = Symmetric::new(7, chain).unwrap();
 
         let analysis = Analysis::new(&chain, &[3, 99, 3], &[0], None);

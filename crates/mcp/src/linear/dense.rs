@@ -231,6 +231,7 @@ mod tests {
         let rotation = [vec![0.0, -2.0], vec![2.0, 0.0]];
         let mut values = eigenvalues(&rotation).unwrap();
         values.sort_by(|p, q| p.1.total_cmp(&q.1));
+
         approx::assert_relative_eq!(values[0].1, -2.0, epsilon = 1e-12);
         approx::assert_relative_eq!(values[1].1, 2.0, epsilon = 1e-12);
         assert!(eigenvalues(&[vec![f64::NAN]]).is_none());
@@ -239,6 +240,7 @@ mod tests {
         let b = vec![vec![3.0, 0.0], vec![0.0, -1.0]];
         let a = vec![vec![2.0, 1.0], vec![1.0, 2.0]];
         let t = definite_eigenvalues(&b, &a).unwrap();
+
         approx::assert_relative_eq!(t[0], (2.0 - 13f64.sqrt()) / 3.0, epsilon = 1e-12);
         approx::assert_relative_eq!(t[1], (2.0 + 13f64.sqrt()) / 3.0, epsilon = 1e-12);
         assert!(definite_eigenvalues(&a, &b).is_none());

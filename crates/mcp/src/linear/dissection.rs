@@ -235,8 +235,13 @@ impl Dissection<'_> {
 
     /// Does a neighbour of the group lie below the cut?
     fn touches_below(&self, group: u32) -> bool {
-        let mut neighbours = self.graph.neighbours[group as usize].iter();
-        neighbours.any(|&neighbour| self.side[neighbour as usize] == Side::Below)
+        for &neighbour in &self.graph.neighbours[group as usize] {
+            if self.side[neighbour as usize] == Side::Below {
+                return true;
+            }
+        }
+
+        false
     }
 
     /// The groups of a list that are not in the separator.
@@ -356,6 +361,7 @@ mod tests {
                 (0..n * n).filter(|b| (a / n).abs_diff(b / n) <= 1 && (a % n).abs_diff(b % n) <= 1);
             touch.push(near.collect());
         }
+
         touch
     }
 
@@ -391,6 +397,7 @@ mod tests {
         while low < high {
             low = parent[low];
         }
+
         low == high
     }
 
@@ -405,8 +412,10 @@ mod tests {
 
         let with = dissect(&slices(&touch), &all, Some(&points));
         assert_dissection(&touch, &with);
+
         let last = with.last().unwrap();
         assert_eq!(last.own.len(), n);
+
         let column = last.own[0] % n;
         assert!(
             last.own.iter().all(|a| a % n == column),
@@ -428,12 +437,14 @@ mod tests {
             })
             .collect();
         let parts = dissect(&slices(&chains), &[true; 100], None);
+
         assert_dissection(&chains, &parts);
 
         let clique = vec![(0..90).collect::<Vec<usize>>(); 90];
         let mut all_but_one = [true; 90];
         all_but_one[7] = false;
         let parts = dissect(&slices(&clique), &all_but_one, None);
+
         assert_eq!(parts.iter().map(|p| p.own.len()).sum::<usize>(), 89);
 
         let parts = dissect(&slices(&clique[..3]), &[false; 3], None);

@@ -311,10 +311,12 @@ impl SchurFactor<'_> {
                 let pivot = front.begin + c;
                 let (own, border) = column.split_at(front.own());
 
-                let own_rows = x[front.begin..front.end].iter().zip(own).skip(c + 1);
-                let inside: f64 = own_rows.map(|(x, l)| x * l).sum();
-                let border_rows = front.border.iter().zip(border);
-                let outside: f64 = border_rows.map(|(&place, l)| x[place] * l).sum();
+                let own_values = &x[front.begin..front.end];
+                let own_terms = own_values.iter().zip(own).skip(c + 1);
+                let inside: f64 = own_terms.map(|(x, l)| x * l).sum();
+
+                let border_terms = front.border.iter().zip(border);
+                let outside: f64 = border_terms.map(|(&place, l)| x[place] * l).sum();
 
                 x[pivot] = (x[pivot] - inside - outside) / column[c];
             }
@@ -341,6 +343,7 @@ mod tests {
             list.push((at(i, j), at(i, j), shift + near.len() as f64));
             list.extend(near.into_iter().map(|(a, b)| (at(i, j), at(a, b), -1.0)));
         }
+
         let points = (0..n * n)
             .map(|k| [(k / n) as f64, (k % n) as f64])
             .collect();
@@ -375,11 +378,14 @@ mod tests {
     #[test]
     fn the_schur_complement_is_that_of_dense_elimination() {
         let (m, points) = laplacian(13, 0.1);
-        let (kept, held) = ([4, 2, 100, 168, 0], [7, 8, 90]);
+        let kept = [4, 2, 100, 168, 0];
+        let held = [7, 8, 90];
         let expected = by_lu(&m, &kept, &held);
+
         for points in [None, Some(points.as_slice())] {
             let analysis = Analysis::new(&m, &kept, &held, points);
             assert!(analysis.fronts.len() > 5);
+
             let factor = analysis.factor(&m).unwrap();
             for (row, other) in factor.schur().iter().zip(&expected) {
                 row.iter()
@@ -392,14 +398,18 @@ mod tests {
     #[test]
     fn extension_balances_and_restriction_is_its_transpose() {
         let (m, _) = laplacian(9, 0.01);
-        let (kept, held) = ([40, 3], [11]);
+        let kept = [40, 3];
+        let held = [11];
         let analysis = Analysis::new(&m, &kept, &held, None);
         let factor = analysis.factor(&m).unwrap();
         let x = factor.extend(&[2.0, -1.0]);
+
         assert_eq!((x[40], x[3], x[11]), (2.0, -1.0, 0.0));
+
         let load = m.times(&x);
         let free = |i: &usize| ![40, 3, 11].contains(i);
         assert!((0..81).filter(free).all(|i| load[i].abs() < 1e-13));
+
         for (k, &i) in kept.iter().enumerate() {
             approx::assert_relative_eq!(
                 load[i],
@@ -407,10 +417,13 @@ mod tests {
                 epsilon = 1e-13
             );
         }
+
         let g: Vec<f64> = (0..81).map(|i| (i as f64).sin()).collect();
         let small = factor.restrict(&g);
         let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+
         approx::assert_relative_eq!(dot(&small, &[2.0, -1.0]), dot(&g, &x), epsilon = 1e-12);
+
         let solved = m.times(&factor.solve(&g));
         assert!(
             (0..81)
@@ -428,11 +441,13 @@ mod tests {
                 .map(|f| f.schur().to_vec())
         };
         let refused = at(&singular, &[]).unwrap_err();
+
         assert!(
             refused.diagonal > 0.0 && (refused.pivot.is_nan() || refused.pivot <= 1e-12),
             "{refused:?}"
         );
         assert!(at(&laplacian(8, -0.5).0, &[]).is_err());
+
         // With one unknown kept the others are definite, and nothing is left of the kept one.
         assert!(at(&singular, &[5]).unwrap()[0][0].abs() < 1e-13);
         assert!(

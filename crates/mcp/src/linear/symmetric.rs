@@ -136,13 +136,22 @@ impl Symmetric {
 
     /// (row, column, value), by rows.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        (0..self.order()).flat_map(|i| self.row(i).map(move |(j, v)| (i, j, v)))
+        let rows = 0..self.order();
+        rows.flat_map(|i| {
+            let row = self.row(i);
+            row.map(move |(j, value)| (i, j, value))
+        })
     }
 
     /// An entry, 0 where there is none.
     fn entry(&self, row: usize, col: usize) -> f64 {
-        let found = self.row(row).find(|(j, _)| *j == col);
-        found.map_or(0.0, |(_, value)| value)
+        for (j, value) in self.row(row) {
+            if j == col {
+                return value;
+            }
+        }
+
+        0.0
     }
 
     /// An entry on the diagonal, 0 where there is none.
@@ -312,6 +321,7 @@ mod tests {
         ];
         let m = Symmetric::new(3, list).unwrap();
         let all: Vec<_> = m.entries().collect();
+
         assert_eq!(
             all,
             [
@@ -322,6 +332,7 @@ mod tests {
                 (2, 2, 7.0)
             ]
         );
+
         let other = Symmetric::new(3, [(1, 0, 1.0), (0, 1, 1.0), (1, 1, -1.0)]).unwrap();
         let both: Vec<_> = m.add_scaled(2.0, &other).entries().collect();
         assert_eq!(
@@ -343,6 +354,7 @@ mod tests {
         let with = |v: f64| Symmetric::new(2, [(0, 0, 1.0), (1, 1, 1.0), (0, 1, 0.5), (1, 0, v)]);
         let m = with(0.5 + 4.0 * f64::EPSILON).unwrap();
         assert_eq!(m.times(&[0.0, 1.0])[0], m.times(&[1.0, 0.0])[1]);
+
         let refused = |r: Result<Symmetric, SymmetricError>| r.unwrap_err().to_string();
         assert_eq!(
             refused(with(0.25)),

@@ -170,8 +170,10 @@ mod tests {
         let mut log = Log::default();
         let point = crash(&mut problem, start, 50, &mut Storage::default(), &mut log).unwrap();
         let steps = log.records().len();
+
         assert_eq!(steps, problem.counters.crash_steps);
         assert!(problem.counters.factorisations >= steps);
+
         (point, steps)
     }
 
@@ -185,6 +187,7 @@ mod tests {
     fn a_singular_factor_is_perturbed_and_the_merit_never_rises() {
         let (point, _) = crashed(dmatrix![0.0, 0.0; 0.0, 1.0], vec![0.0, -1.0], &[1.0, 3.0]);
         assert!(point.merit < 1e-3 && (point.z[1] - 1.0).abs() < 0.1);
+
         let (point, _) = crashed(dmatrix![-1.0], vec![-1.0], &[0.0]);
         assert!(point.merit <= 2.0);
     }
@@ -201,6 +204,7 @@ mod tests {
             f: DVector::from_element(1, 2.0),
             merit: 1e6,
         };
+
         assert_eq!(
             storage.newton_direction(&dmatrix![0.0], &point),
             (true, CRASH_PROXIMAL)
@@ -214,6 +218,7 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![1.0], vec![-1.0]).unwrap();
         let mut problem = Evaluated::new(&lcp);
         let solution = problem.point(&DVector::from_element(1, 1.0));
+
         assert!(
             solution.merit == 0.0
                 && search(&mut problem, &solution, &[0.0], CRASH_SMALLEST).is_none()
@@ -235,6 +240,7 @@ mod tests {
                 0,
             )
         };
+
         assert_eq!(
             [
                 of(0.0, 1.0),
@@ -249,6 +255,7 @@ mod tests {
             [of(4.0, -1.0), of(4.0, 0.0), of(4.0, 1.0)],
             [true, false, false]
         );
+
         let fixed =
             LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![4.0], vec![4.0]).unwrap();
         assert!(is_active(
@@ -279,6 +286,7 @@ mod tests {
             let (solved, proximal) = storage.newton_direction(&singular, &point);
             (solved.then_some(storage.direction), proximal)
         };
+
         for (merit, term) in [
             (1e9, CRASH_PROXIMAL),
             (0.25, 0.5 * CRASH_PROXIMAL),
@@ -310,6 +318,7 @@ mod tests {
             search(&mut problem, &point, &[1.0], CRASH_SMALLEST)
                 .map(|(next, step)| (next.z[0] - 2.0, step))
         };
+
         for trial in [1.0, 0.5, 0.125, CRASH_SMALLEST] {
             assert_eq!(
                 [taken(trial, 1.01), taken(trial, 0.99)],
@@ -317,6 +326,7 @@ mod tests {
                 "{trial}"
             );
         }
+
         assert_eq!(taken(0.5 * CRASH_SMALLEST, 1.01), None); // the path is better
     }
 
@@ -366,6 +376,7 @@ mod tests {
             .unwrap();
             (gain > CRASH_GAIN, problem.counters.crash_steps)
         };
+
         // Gains of 0.9 and 1.1 %.
         assert_eq!([steps(6e-4), steps(7.5e-4)], [(false, 1), (true, 2)]);
     }

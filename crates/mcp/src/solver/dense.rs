@@ -195,6 +195,7 @@ mod tests {
         let column = |j: usize, rows: &[usize], out: &mut [f64]| {
             rows.iter().zip(out).for_each(|(&i, o)| *o = a[(i, j)])
         };
+
         // Storage of something else before.
         lu.factor(3, |_, _, out: &mut [f64]| out.fill(7.0), |_| 0.0);
         let regular = lu.factor(a.nrows(), column, |_| 1e-12);
@@ -206,14 +207,18 @@ mod tests {
         let a = dmatrix![0.0, 2.0, 1.0; 4.0, 1.0, 0.0; 1.0, 1.0, 3.0];
         let (lu, regular) = factored(&a);
         assert!(regular);
+
         let b = dvector![1.0, -2.0, 5.0];
         let mut x: Vec<f64> = lu.rows().iter().map(|&i| b[i]).collect();
         lu.solve(&mut x);
+
         assert!((&a * DVector::from_vec(x) - &b).amax() < 1e-14);
+
         let mut y = b.as_slice().to_vec();
         lu.solve_transposed(&mut y);
         let mut by_row = dvector![0.0, 0.0, 0.0];
         lu.rows().iter().zip(&y).for_each(|(&i, v)| by_row[i] = *v);
+
         assert!((a.transpose() * by_row - &b).amax() < 1e-14);
     }
 
@@ -221,8 +226,10 @@ mod tests {
     fn dependent_columns_are_named_with_the_rows_left() {
         assert!(factored(&DMatrix::zeros(0, 0)).1);
         assert!(factored(&dmatrix![0.0, 2.0; 3.0, 0.0]).1);
+
         let (lu, regular) = factored(&dmatrix![1.0, 0.0, 1.0; 2.0, 1.0, 2.0; 0.0, 0.0, 0.0]);
         assert_eq!((regular, lu.dependent()), (false, (&[2][..], &[2][..])));
+
         let (lu, _) = factored(&dmatrix![1.0, 1.0, 0.0; 2.0, 2.0, 0.0; 0.0, 0.0, 5.0]);
         assert_eq!(lu.dependent(), (&[1][..], &[0][..]));
         assert!(!factored(&dmatrix![f64::NAN]).1);

@@ -209,17 +209,20 @@ mod tests {
         );
         let mut e = Evaluated::new(&p);
         let point = e.point(&dvector![9.0, -3.0]);
+
         assert_eq!(
             (&point.z, &point.f),
             (&dvector![2.0, -1.0], &dvector![-3.0, -10.0])
         );
         assert_eq!(point.merit, fischer::merit(&p, &point.z, &point.f));
         assert_eq!(e.point_with(|i| i as f64).z, dvector![0.0, 1.0]);
+
         let mut copy = e.copy(&point);
         assert_eq!(
             (&copy.z, &copy.f, copy.merit),
             (&point.z, &point.f, point.merit)
         );
+
         let inside = e.point(&dvector![1.0, 0.0]);
         copy.copy_from(&inside);
         assert_eq!(
@@ -243,7 +246,9 @@ mod tests {
         let at = (point.z.as_ptr(), jacobian.as_ptr());
         e.recycle(point);
         e.recycle_matrix(jacobian);
+
         assert_eq!((e.pool.points.len(), e.pool.matrices.len()), (1, 1));
+
         let point = e.point(&dvector![5.0, 6.0]);
         let jacobian = e.jacobian(&point).unwrap();
         assert_eq!((point.z.as_ptr(), jacobian.as_ptr()), at);
@@ -252,13 +257,17 @@ mod tests {
             (&point.f, &jacobian),
             (&dvector![5.0, 0.0], &dmatrix![1.0, 0.0; 0.0, 0.0])
         );
+
         e.recycle(point);
         e.recycle_matrix(jacobian);
         let (pool, counters) = e.into_parts();
+
         assert_eq!((counters.functions, counters.jacobians), (2, 2));
+
         let other = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
         let mut e = Evaluated::with_pool(&other, pool);
         let point = e.point(&dvector![5.0]);
+
         assert_eq!(
             (point.z.len(), e.jacobian(&point).unwrap().shape()),
             (1, (1, 1))
@@ -274,6 +283,7 @@ mod tests {
         );
         let mut e = Evaluated::new(&p);
         let good = e.point(&dvector![1.0, 0.0, 0.0]);
+
         assert!(good.not_finite().is_none() && e.not_finite.is_none());
         assert_eq!(
             e.jacobian(&good),
@@ -282,6 +292,7 @@ mod tests {
                 col: 2
             }))
         );
+
         let other = e.point(&dvector![1.0, 1.0, 1.0]);
         assert_eq!(
             e.jacobian(&other),
@@ -290,12 +301,14 @@ mod tests {
                 col: 0
             }))
         );
+
         let bad = e.point(&dvector![0.0, 1.0, 1.0]);
         let reason = Some(Termination::NonFinite(NonFinite::Function { row: 1 }));
         assert_eq!(
             (bad.not_finite(), e.not_finite, bad.merit),
             (reason, reason, f64::INFINITY)
         );
+
         e.point(&dvector![1.0, 1.0, 1.0]);
         assert_eq!(e.not_finite, reason); // until somebody takes it
     }
@@ -310,10 +323,12 @@ mod tests {
         );
         let mut e = Evaluated::new(&p);
         let point = e.point(&dvector![1.0, 1.0]);
+
         assert_eq!(
             e.jacobian(&point),
             Err(Termination::JacobianShape { rows: 1, cols: 2 })
         );
+
         for j in [e.any_jacobian(&point), jacobian_at(&p, &[1.0, 1.0])] {
             assert!(
                 j.shape() == (2, 2)

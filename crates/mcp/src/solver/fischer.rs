@@ -269,7 +269,9 @@ mod tests {
                 max_relative = 1e-15
             );
         }
+
         assert_eq!(length(0.0, 0.0), 0.0);
+
         // Where squares are safe they are taken: hypot rounds some of these otherwise.
         let pairs = (1..200).map(|i| (f64::from(i) / 7.0, f64::from(i * i) / 11.0));
         for (a, b) in pairs {

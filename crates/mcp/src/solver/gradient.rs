@@ -85,9 +85,11 @@ mod tests {
         let mut problem = Evaluated::new(&lcp);
         let point = problem.point(&dvector![3.0, 0.0]);
         let before = problem.counters.functions;
+
         for gradient in [dvector![0.0, 0.0], dvector![f64::INFINITY, 1.0]] {
             assert!(search(&mut problem, &point, &gradient).is_none());
         }
+
         assert_eq!(problem.counters.functions, before);
     }
 
@@ -97,7 +99,9 @@ mod tests {
         let mut problem = Evaluated::new(&lcp);
         let far = problem.point(&dvector![3.0, 0.0]);
         let next = gradient_step(&mut problem, &far).unwrap().unwrap();
+
         assert!(next.merit < far.merit);
+
         let solution = problem.point(&dvector![4.0 / 3.0, 7.0 / 3.0]);
         assert!(
             gradient_step(&mut problem, &solution)
@@ -126,6 +130,7 @@ mod tests {
                 let mut problem = Evaluated::new(&p);
                 let point = problem.point(&dvector![from]);
                 let next = gradient_step(&mut problem, &point).unwrap().unwrap();
+
                 approx::assert_relative_eq!(next.z[0], expected, max_relative = 1e-14);
             }
         }
@@ -148,6 +153,7 @@ mod tests {
             search(&mut problem, &point, &dvector![1.0])
                 .map(|next| (next.z[0], problem.counters.functions))
         };
+
         for (trial, trials) in [(1.0, 1), (1.5, 2), (1.75, 3)] {
             assert_eq!(
                 [taken(trial, 1.1), taken(trial, 0.9)],
@@ -163,6 +169,7 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![1.0], vec![-1.0]).unwrap();
         let mut problem = Evaluated::new(&lcp);
         let point = problem.point(&dvector![0.0]);
+
         assert!(search(&mut problem, &point, &dvector![1.0]).is_none());
         assert!(search(&mut problem, &point, &dvector![f64::NAN]).is_none());
     }

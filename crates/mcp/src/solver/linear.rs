@@ -142,6 +142,7 @@ mod tests {
                 },
             )
         };
+
         assert_eq!(
             [2.0, -1.0].map(|m| step(m).unwrap().log[0].step),
             [StepKind::Path { t: 1.0 }, StepKind::Failed]
@@ -154,7 +155,9 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
         let outcome = solve_linear(&lcp, &Options::default()).unwrap();
         let path = &outcome.log[0].paths[0];
+
         assert!(path.pivots.len() >= 2 && outcome.log.len() == 1);
+
         let c = &outcome.counters;
         assert_eq!(
             (c.majors, c.pivots, c.ray_starts),
@@ -181,22 +184,28 @@ mod tests {
             },
         )
         .unwrap();
+
         assert!(outcome.termination.reached_tolerance());
+
         let paths: Vec<usize> = outcome
             .log
             .iter()
             .map(|m| m.paths.len())
             .filter(|n| *n > 0)
             .collect();
+
         assert!(
             !paths.is_empty() && paths.iter().all(|n| *n == 1),
             "{paths:?}"
         );
         assert_eq!(outcome.counters.ray_starts, 0);
+
         // F = -1 for every z: no path gets anywhere.
         let none = LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap();
         let outcome = solve(&none, &[1.0], &options).unwrap();
+
         assert!(!outcome.termination.reached_tolerance());
+
         let second = outcome.log.iter().filter(|m| m.paths.len() == 2).count();
         assert!(
             second > 0 && outcome.counters.ray_starts >= second,
@@ -216,7 +225,9 @@ mod tests {
         let inf = f64::INFINITY;
         let p = LinearMcp::new(dmatrix![2.0], vec![-3.0], vec![-inf], vec![inf]).unwrap();
         let outcome = solve_linear(&p, &options).unwrap();
+
         assert_eq!((outcome.log[0].merit, outcome.point), (0.0, vec![1.5]));
+
         let bounded = LinearMcp::new(dmatrix![2.0], vec![-3.0], vec![0.0], vec![inf]).unwrap();
         assert!(solve_linear(&bounded, &options).unwrap().log[0].merit > 1.0);
     }

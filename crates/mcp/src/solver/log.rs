@@ -117,6 +117,7 @@ mod tests {
         };
         record(&mut log, 1.0);
         record(&mut log, 2.0);
+
         assert_eq!(
             log.records()
                 .iter()
@@ -124,8 +125,10 @@ mod tests {
                 .collect::<Vec<_>>(),
             [(1.0, 1), (2.0, 1)]
         );
+
         log.clear();
         assert!(log.records().is_empty());
+
         record(&mut log, 3.0);
         assert_eq!(
             log.records()

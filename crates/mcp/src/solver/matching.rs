@@ -148,9 +148,11 @@ mod tests {
 
     #[test]
     fn agrees_with_trying_all_permutations() {
-        let (mut state, mut counts) = (1u64, [0; 2]);
+        let mut state = 1u64;
+        let mut counts = [0; 2];
         for k in 0..2000 {
             let n = k % 8;
+
             // Knuth's linear congruential generator, high bits.
             let mut bit = |density: u64| {
                 state = state
@@ -163,10 +165,13 @@ mod tests {
                 .collect();
             let regular = by_all(&columns, 0);
             counts[usize::from(regular)] += 1;
+
             assert_eq!(unmatched(&columns).is_none(), regular, "{columns:?}");
         }
+
         assert!(counts.iter().all(|&c| c > 300), "{counts:?}");
         assert_eq!(unmatched(&[vec![0], vec![0]]), Some((1, 1)));
+
         // Rows 1 and 2 share what they have; columns 0 and 2 are nobody's.
         assert_eq!(unmatched(&[vec![], vec![0, 1, 2], vec![]]), Some((1, 0)));
     }
@@ -178,6 +183,7 @@ mod tests {
         let columns: Vec<Vec<usize>> = (0..n)
             .map(|j| if j + 1 < n { vec![j, j + 1] } else { vec![0] })
             .collect();
+
         assert_eq!(unmatched(&columns), None);
     }
 }

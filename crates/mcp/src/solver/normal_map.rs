@@ -56,15 +56,19 @@ mod tests {
         ] {
             assert_eq!(least_residual(z, f, 0.0, 1.0), expected);
         }
+
         assert_eq!(least_residual(3.0, 2.0, 3.0, 3.0), 0.0);
         assert_eq!(least_residual(3.0, -2.0, 3.0, 3.0), 0.0);
     }
 
     #[test]
     fn linearisation_keeps_the_value_whatever_the_proximal_term() {
-        let (z, f) = (dvector![1.0, 2.0], dvector![3.0, -4.0]);
-        let (mut m, mut q) = (dmatrix![1.0, 2.0; 3.0, 4.0], vec![9.0; 5]);
+        let z = dvector![1.0, 2.0];
+        let f = dvector![3.0, -4.0];
+        let mut m = dmatrix![1.0, 2.0; 3.0, 4.0];
+        let mut q = vec![9.0; 5];
         linearise(&mut m, &z, &f, 0.5, &mut q);
+
         assert_eq!(&m * &z + DVector::from_vec(q), f);
         assert_eq!(m[(0, 0)], 1.5);
     }

@@ -190,6 +190,7 @@ mod tests {
     #[test]
     fn defaults_are_valid_and_refusals_name_the_option() {
         assert_eq!(Options::default().validate(), Ok(()));
+
         let refused = [
             (
                 Options {
@@ -220,6 +221,7 @@ mod tests {
                 "minor_iteration_limit",
             ),
         ];
+
         for (options, expected) in refused {
             assert!(
                 matches!(options.validate(), Err(SolverError::Option { name, .. }) if name == expected),

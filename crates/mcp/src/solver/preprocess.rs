@@ -197,15 +197,18 @@ mod tests {
             Preprocessed::new(&LinearMcp::new(m, q.to_vec(), l.to_vec(), u.to_vec()).unwrap())
         };
         let coupled = dmatrix![0.0, 1.0; 1.0, 0.0];
+
         // Equal bounds fix z_1 = 2, then F_2 = 2 + 1 > 0 puts z_2 on its lower bound.
         let both = one(coupled.clone(), &[0.0, 1.0], &[2.0, 0.0], &[2.0, INF]);
         assert!(both.kept.is_empty() && both.restore(&[]) == [2.0, 0.0]);
+
         // F_2 = z_1 - 1 has no sign over [0, inf).
         assert!(
             one(coupled.clone(), &[0.0, -1.0], &[0.0; 2], &[INF; 2])
                 .reduced
                 .is_none()
         );
+
         // F_2 = z_1 - 9 < 0 over [0, 1]: the upper bound, or nothing where there is none.
         assert_eq!(
             one(coupled.clone(), &[0.0, -9.0], &[0.0; 2], &[1.0, 3.0]).restore(&[0.5])[1],
@@ -216,6 +219,7 @@ mod tests {
                 .reduced
                 .is_none()
         );
+
         // A row of its own: solved and kept within the bounds; not with a diagonal of the other
         // sign.
         assert_eq!(
@@ -239,7 +243,9 @@ mod tests {
         let problem =
             LinearMcp::new(m, vec![7.0, 1.0, -50.0], vec![-INF, 0.0, 0.0], vec![INF; 3]).unwrap();
         let less = Preprocessed::new(&problem);
+
         assert_eq!(less.kept, vec![0, 2], "F_2 >= 1 puts z_2 on 0");
+
         let expected = LinearMcp::new(
             dmatrix![1.0, 2.0; 4.0, 1.0],
             vec![7.0, -50.0],
@@ -247,6 +253,7 @@ mod tests {
             vec![INF; 2],
         )
         .unwrap();
+
         assert_eq!(less.reduced, Some(expected));
         assert_eq!(less.restore(&[3.0, 4.0]), [3.0, 0.0, 4.0]);
     }
@@ -264,6 +271,7 @@ mod tests {
         let nothing = [None, None];
         let first = [Some(3.0), None];
         let both = [Some(3.0), Some(-2.0)];
+
         assert_range(range(&p, &nothing, 0), -16.0, 15.0, 1.0 + 8.0 + 15.0);
         assert_range(range(&p, &first, 0), -8.0, 13.0, 1.0 + 6.0 + 15.0);
         assert_range(range(&p, &both, 0), 13.0, 13.0, 1.0 + 6.0 + 6.0);
@@ -276,6 +284,7 @@ mod tests {
             vec![INF, INF],
         )
         .unwrap();
+
         assert_range(range(&unbounded, &nothing, 0), -INF, INF, 1.0 + 2.0);
     }
 
@@ -299,6 +308,7 @@ mod tests {
             decide(&p, &[None, None], 0)
         };
         let sure = SIGN_SURE * 2.0; // |q| + |z_1|
+
         assert_eq!(
             [
                 decided(1.0 + 1.01 * sure, 0.0, 4.0),
@@ -317,6 +327,7 @@ mod tests {
             [decided(2.0, -INF, 4.0), decided(0.0, 0.0, INF)],
             [None, None]
         );
+
         let zero = LinearMcp::new(dmatrix![0.0], vec![0.0], vec![0.0], vec![4.0]).unwrap();
         assert_eq!(decide(&zero, &[None], 0), None);
     }
@@ -332,6 +343,7 @@ mod tests {
             vec![INF; 2],
         )
         .unwrap();
+
         assert_eq!(
             [decide(&p, &[None, None], 0), decide(&p, &[None, None], 1)],
             [Some(1.5), None]

@@ -221,6 +221,7 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
         let r = Residuals::at(&lcp, &[4.0 / 3.0, 7.0 / 3.0]);
         assert!(r.within(1e-14) && r.fischer_gradient < 1e-13);
+
         let r = Residuals::at(&lcp, &[0.0, 0.0]);
         assert_eq!((r.normal_map, r.minimum_map, r.fischer), (6.0, 6.0, 12.0));
     }
@@ -230,6 +231,7 @@ mod tests {
     #[test]
     fn each_residual_is_its_formula() {
         let inf = f64::INFINITY;
+
         // z, F, l, u: product, normal map, minimum map.
         let table = [
             (1.0, 2.0, 0.0, 4.0, 2.0, 2.0, 1.0),
@@ -243,6 +245,7 @@ mod tests {
             (5.0, 3.0, -inf, 6.0, 3.0, 3.0, 3.0),
             (5.0, 3.0, -inf, inf, 3.0, 3.0, 3.0),
         ];
+
         for (z, f, l, u, product, normal, minimum) in table {
             let r = Residuals::within_bounds(&[l], &[u], &[z], &[f]);
             assert_eq!(
@@ -255,6 +258,7 @@ mod tests {
                 (fischer(z, f, l, u).value.abs(), 0.0)
             );
         }
+
         // The largest of the components, whatever their order.
         let r = Residuals::within_bounds(&[0.0; 3], &[inf; 3], &[1.0, 5.0, 2.0], &[-7.0, 1.0, 0.5]);
         assert_eq!(
@@ -282,6 +286,7 @@ mod tests {
             out.copy_from_slice((m.transpose() * DVector::from_column_slice(y)).as_slice())
         };
         let of = Residuals::of(p.lower(), p.upper(), &z, &f, transposed);
+
         approx::assert_relative_eq!(
             of.fischer_gradient,
             at.fischer_gradient,
@@ -305,6 +310,7 @@ mod tests {
             }
         );
         assert!(at.fischer_gradient > 0.1);
+
         // Components beyond are ignored.
         assert_eq!(Residuals::at(&p, &[0.75, 0.5, 0.25, 99.0]), at);
     }
@@ -323,7 +329,9 @@ mod tests {
             }
             .within(0.0625)
         };
-        let (t, more) = (0.0625, 0.063);
+        let t = 0.0625;
+        let more = 0.063;
+
         assert!(
             of(t, t, t, 0.25)
                 && !of(more, t, t, 0.25)
@@ -347,6 +355,7 @@ mod tests {
             let p = bounded(l, u, |_, f| f.fill(1.0), |_, j| j.fill(0.0));
             Residuals::at(&Sized2(p), z).normal_map.is_nan()
         };
+
         assert!(!nan(&[0.0; 2], &[1.0; 2], &[0.5; 2]));
         assert!(
             nan(&[0.0; 1], &[1.0; 2], &[0.5; 2])

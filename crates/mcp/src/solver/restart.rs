@@ -107,7 +107,8 @@ impl Attempt {
 
     /// Component `i` of the start of attempt `k`: the user's, moved the same way in every run.
     pub(super) fn shifted(&self, start: f64, i: usize, k: usize) -> f64 {
-        start + self.shift * (1.0 + start.abs()) * spread(k, i)
+        let size = 1.0 + start.abs();
+        start + self.shift * size * spread(k, i)
     }
 }
 
@@ -149,6 +150,7 @@ mod tests {
             assert_eq!(Attempt::number(1).shifted(start, i, 1), start);
             assert_eq!(attempt.shifted(start, i, 3), attempt.shifted(start, i, 3));
         }
+
         let mean = (0..1000).map(|i| spread(3, i)).sum::<f64>() / 1000.0;
         assert!(
             (0..1000).all(|i| spread(3, i).abs() <= 1.0) && mean.abs() < 0.1,
@@ -205,9 +207,11 @@ mod tests {
                 ..free
             },
         ];
+
         for (k, expected) in list.into_iter().enumerate() {
             assert_eq!(Attempt::number(k), expected, "{k}");
         }
+
         assert_eq!(
             Attempt::far(0),
             Attempt {
@@ -228,15 +232,18 @@ mod tests {
             let top = (mixed ^ (mixed / (1 << 31))) / (1 << 11);
             top as f64 / 2f64.powi(52) - 1.0
         };
+
         for k in 0..40 {
             for i in 0..10 {
                 assert_eq!(spread(k, i), number(k as u128, i as u128));
             }
         }
+
         let attempt = Attempt {
             shift: 0.25,
             ..Attempt::number(1)
         };
+
         assert_eq!(attempt.shifted(-7.0, 0, 3), -7.0 + 2.0 * number(3, 0));
         assert_eq!(attempt.shifted(0.5, 1, 3), 0.5 + 0.375 * number(3, 1));
     }

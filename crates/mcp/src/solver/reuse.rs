@@ -107,6 +107,7 @@ mod tests {
     fn the_point_is_that_of_the_last_run() {
         let mut solver = Solver::new();
         assert!(solver.point().is_empty());
+
         for q in [-3.0, -7.0, 5.0] {
             let lcp = LinearMcp::lcp(dmatrix![2.0], vec![q]).unwrap();
             let ended = solver.run(&lcp, &[1.0], &Options::default()).unwrap();

@@ -108,12 +108,17 @@ impl Search {
     /// May this step be taken without a check? Short ones, all but every tenth in a row.
     pub(super) fn unchecked_allowed(&self, from: &Point, to: &Point) -> bool {
         let is_due = self.unchecked + 1 >= self.frequency;
-        to.merit.is_finite() && !is_due && distance(from, to) <= self.radius
+        if is_due || !to.merit.is_finite() {
+            return false;
+        }
+
+        distance(from, to) <= self.radius
     }
 
     /// Does a point pass the test: (1 - sigma t) of the reference?
     pub(super) fn passes(&self, point: &Point, t: f64) -> bool {
-        point.merit.is_finite() && point.merit <= (1.0 - ARMIJO * t) * self.reference()
+        let limit = (1.0 - ARMIJO * t) * self.reference();
+        point.merit.is_finite() && point.merit <= limit
     }
 
     /// Takes an unchecked step; the path from the last checked point is kept for the watchdog.
@@ -275,6 +280,7 @@ mod tests {
             let first = point(z, 9.0);
             s.begin(&first, &first, &Options::default(), Attempt::number(0));
             assert_eq!(s.best().unwrap().z.as_slice(), z);
+
             s.take_checked(&point(&vec![0.0; z.len()], 9.0)); // as good, and later
             assert_eq!(s.best().unwrap().z.as_slice(), z);
         }
@@ -290,7 +296,9 @@ mod tests {
             ..Options::default()
         };
         let mut s = search(0, &options);
+
         assert_eq!(s.reference(), 16.0);
+
         for (merit, reference) in [
             (5.0, 16.0),
             (7.0, 16.0),
@@ -302,6 +310,7 @@ mod tests {
             s.take_checked(&point(&[0.0, 0.0], merit));
             assert_eq!(s.reference(), reference);
         }
+
         let passes = |merit: f64, t: f64| s.passes(&point(&[0.0, 0.0], merit), t);
         assert!(
             passes(3.0 * (1.0 - ARMIJO), 1.0)
@@ -309,8 +318,10 @@ mod tests {
                 && passes(3.0 * (1.0 - 0.9 * ARMIJO), 0.5)
         );
         assert!(!passes(f64::NAN, 1.0) && !passes(f64::INFINITY, 1.0));
+
         let mut monotone = search(4, &options);
         assert_eq!(monotone.reference(), 8.0);
+
         monotone.take_checked(&point(&[0.0, 0.0], 6.0));
         assert_eq!(monotone.reference(), 6.0);
     }
@@ -326,10 +337,13 @@ mod tests {
         };
         let mut s = search(0, &options);
         let radius = TRUST * 5.0;
+
         assert_eq!(s.radius, radius);
+
         let allowed = |s: &Search, far: f64, merit: f64| {
             s.unchecked_allowed(&point(&[1.0, 0.0], 1.0), &point(&[1.0, far], merit))
         };
+
         // However far from zero.
         let far = [point(&[1e9, 0.0], 1.0), point(&[1e9, 1.0], 1.0)];
         assert!(s.unchecked_allowed(&far[0], &far[1]));
@@ -338,23 +352,29 @@ mod tests {
                 && !allowed(&s, 1.01 * radius, 1.0)
                 && !allowed(&s, 0.0, f64::INFINITY)
         );
+
         for k in 1..=3 {
             assert!(allowed(&s, 0.0, 1.0), "{k}");
+
             s.take_unchecked(&path(), &point(&[k as f64, 0.0], 8.0 - k as f64));
             assert_eq!(
                 (s.unchecked, s.radius, s.best().unwrap().merit),
                 (k, radius * TRUST_SHRINK.powi(k as i32), 8.0 - k as f64)
             );
         }
+
         assert!(!allowed(&s, 0.0, 1.0));
         assert!(s.watchdog() && s.unchecked == 0);
         assert!(!s.watchdog()); // nothing taken since
+
         s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
         assert_eq!(s.best().unwrap().merit, 5.0);
         assert!(!s.watchdog()); // one is all there was
+
         s.forgive_watchdogs();
         s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
         assert!(s.watchdog());
+
         s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
         s.take_checked(&point(&[0.0, 0.0], 9.0));
         assert!(s.unchecked == 0 && !s.watchdog());
@@ -369,6 +389,7 @@ mod tests {
                 ..Options::default()
             },
         );
+
         assert_eq!(
             [
                 s.gradient_allowed(),
@@ -388,7 +409,8 @@ mod tests {
             ..Options::default()
         };
         let of = |acceptance: Acceptance| {
-            let (start, first) = (point(&[3.0, -4.0], 8.0), point(&[1.0, 0.0], 2.0));
+            let start = point(&[3.0, -4.0], 8.0);
+            let first = point(&[1.0, 0.0], 2.0);
             let mut search = Search::default();
             search.begin(
                 &start,
@@ -405,6 +427,7 @@ mod tests {
                 search.best().map(|best| best.merit),
             )
         };
+
         assert_eq!(of(Acceptance::NonMonotone), (24.0, TRUST * 5.0, Some(2.0)));
         assert_eq!(
             of(Acceptance::Free),

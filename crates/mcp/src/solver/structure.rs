@@ -44,15 +44,18 @@ mod tests {
             unmatched(&dmatrix![1.0, 1.0, 0.0; 0.0, 0.0, 0.0; 0.0, 0.0, 1.0], &all),
             Some((1, 1))
         );
+
         // Rows 0 and 1 share the only column they have; column 1 is nobody's.
         assert_eq!(
             unmatched(&dmatrix![1.0, 0.0, 0.0; 1.0, 0.0, 0.0; 1.0, 0.0, 1.0], &all),
             Some((1, 1))
         );
+
         // Augmenting along two rows: 0 - 0, then row 1 takes column 0 and row 0 moves on.
         assert_eq!(unmatched(&dmatrix![1.0, 1.0; 1.0, 0.0], &[0, 1]), None);
         assert_eq!(unmatched(&dmatrix![0.0, 1.0; 1.0, 0.0], &[0]), Some((0, 0)));
         assert_eq!(unmatched(&DMatrix::zeros(2, 2), &[]), None);
+
         // Singular in numbers, not by its zeros.
         assert_eq!(unmatched(&dmatrix![1.0, 1.0; 1.0, 1.0], &[0, 1]), None);
     }

@@ -276,11 +276,11 @@ impl<'a> CondensedMcp<'a> {
         let mut s = DMatrix::zeros(count, count);
 
         for first in (0..count).step_by(BLOCK) {
-            let columns: Vec<usize> = (first..count.min(first + BLOCK)).collect();
-            let right: Vec<Vec<f64>> = columns.iter().map(|&k| self.free_rows(k)).collect();
+            let columns = first..count.min(first + BLOCK);
+            let right: Vec<Vec<f64>> = columns.clone().map(|k| self.free_rows(k)).collect();
             let solved = self.solve_refined(&right)?;
 
-            for (&k, x) in columns.iter().zip(&solved) {
+            for (k, x) in columns.zip(&solved) {
                 self.add_column(k, x, &mut s);
             }
         }
@@ -458,17 +458,20 @@ mod tests {
     #[test]
     fn singular_blocks_are_refused_with_their_row_or_residual() {
         let refused = |p: &SparseLinearMcp| CondensedMcp::new(p).map(|_| ()).unwrap_err();
+
         // Row 1 has the same single unknown as row 0.
         let structural = problem(&[(0, 0, 1.0), (1, 0, 1.0), (2, 1, 1.0)], &[0.0; 3], 2);
         assert_eq!(
             refused(&structural),
             SparseError::StructurallySingular { row: 1 }
         );
+
         let zeros = problem(&[(0, 0, 0.0), (1, 1, 1.0)], &[0.0; 2], 1);
         assert_eq!(
             refused(&zeros),
             SparseError::StructurallySingular { row: 0 }
         );
+
         let ones = [
             (0, 0, 1.0),
             (0, 1, 1.0),
@@ -477,6 +480,7 @@ mod tests {
             (0, 2, 1.0),
             (2, 2, 1.0),
         ];
+
         assert!(matches!(
             refused(&problem(&ones, &[0.0; 3], 2)),
             SparseError::SingularFreeBlock { .. }
@@ -485,9 +489,11 @@ mod tests {
             refused(&problem(&ones[..4], &[0.0; 2], 2)),
             SparseError::SingularFreeBlock { .. }
         ));
+
         // The near miss is regular.
         let mut near = ones;
         near[3].2 = 1.5;
+
         assert!(CondensedMcp::new(&problem(&near, &[0.0; 3], 2)).is_ok());
     }
 
@@ -502,14 +508,17 @@ mod tests {
             .unwrap()
             .solve(&[0.0; 2], &Options::default())
             .unwrap();
+
         assert!(
             (outcome.point[0] - 4.0 / 3.0).abs() < 1e-12 && outcome.termination.reached_tolerance()
         );
+
         let all_free = problem(&[(0, 0, 2.0), (1, 0, 1.0), (1, 1, 2.0)], &[-4.0, -6.0], 2);
         let outcome = CondensedMcp::new(&all_free)
             .unwrap()
             .solve_linear(&Options::default())
             .unwrap();
+
         assert_eq!(
             (outcome.point, outcome.termination),
             (vec![2.0, 2.0], Termination::ToleranceReached)
@@ -521,6 +530,7 @@ mod tests {
         let one = problem(&[(0, 0, 1.0)], &[-1.0], 0);
         let condensed = CondensedMcp::new(&one).unwrap();
         let refused = |start: &[f64]| condensed.solve(start, &Options::default()).unwrap_err();
+
         assert_eq!(
             refused(&[]),
             SolverError::StartLength {

@@ -211,6 +211,7 @@ mod tests {
         let problem =
             SparseLinearMcp::new(list, vec![1.0, 2.0, 3.0], vec![0.0; 3], vec![INF; 3]).unwrap();
         let all: Vec<_> = problem.entries().collect();
+
         assert_eq!(all, [(0, 0, 1.0), (2, 0, -1.0), (0, 1, 5.0), (1, 1, 2.5)]);
         assert_eq!(problem.value(&[1.0, 2.0, 7.0]), [12.0, 7.0, 2.0]);
     }
@@ -222,7 +223,9 @@ mod tests {
                 .map(|_| ())
         };
         let zero = || vec![0.0; 2];
+
         assert_eq!(of((1, 1, 3.0), 0.0, zero()), Ok(()));
+
         let cases = [
             (
                 of((1, 2, 3.0), 0.0, zero()),
@@ -245,9 +248,11 @@ mod tests {
                 "expected lower <= upper at 1, got 2 and 1",
             ),
         ];
+
         for (got, message) in cases {
             assert_eq!(got.unwrap_err().to_string(), message);
         }
+
         let twice = [(0, 0, f64::MAX), (0, 0, f64::MAX)];
         let overflow = SparseLinearMcp::new(twice, vec![0.0], vec![0.0], vec![1.0]).unwrap_err();
         assert_eq!(overflow.to_string(), "expected a finite M[0][0], got inf");

@@ -171,18 +171,24 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
 
     /// Is the current position this point?
     fn is_at(&self, z: &DVector<f64>) -> bool {
-        (&self.at.z - z).amax() <= CURVE_SAME * (1.0 + z.amax())
+        let distance = (&self.at.z - z).amax();
+        let size = 1.0 + z.amax();
+        distance <= CURVE_SAME * size
     }
 
     /// Has the curve gone to infinity?
     fn is_far(&self) -> bool {
-        let limit = CURVE_FAR * (1.0 + self.start.z.amax());
-        self.at.z.amax() > limit || self.at.s.abs() > CURVE_FAR
+        let size = 1.0 + self.start.z.amax();
+        let z_is_far = self.at.z.amax() > CURVE_FAR * size;
+        let s_is_far = self.at.s.abs() > CURVE_FAR;
+        z_is_far || s_is_far
     }
 
     /// Has the step from `before` passed the start again?
     fn is_back(&self, before: &Position) -> bool {
-        let passed = (before.s - self.start.s) * (self.at.s - self.start.s) < 0.0;
+        let above_before = before.s - self.start.s;
+        let above_after = self.at.s - self.start.s;
+        let passed = above_before * above_after < 0.0;
         if !passed || self.system.places != self.start_places {
             return false;
         }
@@ -191,7 +197,9 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         let share = (self.start.s - before.s) / (self.at.s - before.s);
         let there = before.z.lerp(&self.at.z, share);
 
-        (there - &self.start.z).amax() <= CURVE_CLOSED * (&self.at.z - &before.z).amax()
+        let distance = (there - &self.start.z).amax();
+        let step = (&self.at.z - &before.z).amax();
+        distance <= CURVE_CLOSED * step
     }
 
     /// One step, shortened until it succeeds; with the tangent at its end.

@@ -161,7 +161,9 @@ mod tests {
         // On [0, 2]: 1 - z has the solution 1, and the end points 0 (F = 1) and 2 (F = -1).
         let mcp = LinearMcp::new(dmatrix![-1.0], vec![1.0], vec![0.0], vec![2.0]).unwrap();
         let curve = continuation(&mcp, &[1.5], Sense::Up, 9, &Options::default()).unwrap();
+
         assert_eq!(values(&curve), vec![2.0], "{curve:?}");
+
         let curve = continuation(&mcp, &[1.5], Sense::Down, 9, &Options::default()).unwrap();
         assert_eq!(curve.solutions.len(), 2, "{curve:?}");
     }

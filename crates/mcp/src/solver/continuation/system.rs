@@ -167,7 +167,8 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
 
         // The point is the projection of z onto the bounds.
         let f = &point.f + &jacobian * (z - &point.z);
-        let is_finite = f.iter().all(|v| v.is_finite()) && jacobian.iter().all(|v| v.is_finite());
+        let mut entries = f.iter().chain(jacobian.iter());
+        let is_finite = entries.all(|value| value.is_finite());
 
         is_finite.then_some(Local { f, jacobian })
     }

@@ -255,11 +255,13 @@ mod tests {
             semismooth(&mut problem, start, ending, &mut storage, &mut log).unwrap();
 
         assert!(point.merit <= merit);
+
         let records = log.records();
         let is_newton = |kind: StepKind| kind == StepKind::FischerNewton;
         assert!(records.iter().all(|record| is_newton(record.step)));
         assert_eq!(records.len(), problem.counters.crash_steps);
         assert!(problem.counters.factorisations >= problem.counters.crash_steps);
+
         (point, ended, problem.counters.factorisations)
     }
 
@@ -279,6 +281,7 @@ mod tests {
             &LinearMcp::lcp(murty, vec![-1.0; n]).unwrap(),
             &vec![1.0; n],
         );
+
         assert!(
             ended && factorisations < 30,
             "{factorisations} {}",
@@ -300,6 +303,7 @@ mod tests {
             vec![INF, 2.0, 2.0, 5.0, INF],
         )
         .unwrap();
+
         for start in [
             [0.0, 0.0, 0.0, 5.0, 0.0],
             [3.0, 2.0, 2.0, 5.0, -9.0],
@@ -322,6 +326,7 @@ mod tests {
             !ended && point.merit > 0.4 && factorisations <= 3 * SEMISMOOTH_WINDOW,
             "{factorisations}"
         );
+
         let (_, ended, factorisations) =
             crashed(&LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap(), &[0.0]);
         assert!(
@@ -351,6 +356,7 @@ mod tests {
                 residual: 9.0
             }
         );
+
         // At a bound with F = 0: F may change sign, so that the row stays.
         assert_eq!(
             row(0.0, 0.0, 0.0, INF, 0.5),
@@ -359,11 +365,14 @@ mod tests {
                 residual: 0.0
             }
         );
+
         // phi(3, 4) = -2, by_z = 3/5 - 1, by_f = 4/5 - 1.
         let Row::Inside { diagonal, residual } = row(3.0, 4.0, 0.0, INF, 0.5) else {
             panic!()
         };
+
         assert!((diagonal - 2.0).abs() < 1e-14 && (residual - 10.0).abs() < 1e-13);
+
         // Pointing out of the bound: never to the bound.
         assert!(matches!(row(0.0, -1.0, 0.0, INF, 1.0), Row::Inside { .. }));
         assert!(matches!(row(2.0, 0.0, -INF, 2.0, 0.5), Row::Inside { .. }));
@@ -379,6 +388,7 @@ mod tests {
                 && is_bound(7.5, -2.0)
                 && !is_bound(7.5, -1.9)
         );
+
         let is_free =
             |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Inside { diagonal: 0.0, .. });
         assert!(
@@ -402,6 +412,7 @@ mod tests {
             at(SEMISMOOTH_WINDOW, 8.0 * SEMISMOOTH_GAIN),
             (false, 8.0 * SEMISMOOTH_GAIN)
         );
+
         let above = 1.01 * SEMISMOOTH_GAIN * 8.0 * SEMISMOOTH_GAIN;
         assert_eq!(
             at(SEMISMOOTH_WINDOW + 1, 9.0),
@@ -417,6 +428,7 @@ mod tests {
             take_turns(&mut near, length);
             near[0]
         };
+
         assert_eq!(
             [
                 after(Some(1.0)),
@@ -445,6 +457,7 @@ mod tests {
             merit: 1.0,
         };
         let mut storage = Storage::default();
+
         assert!(storage.newton_direction(&p, &dmatrix![2.0, 1.0; 3.0, 4.0], &point, 0.5));
         assert_eq!(storage.direction, [-0.25, -8.25 / 4.0]);
     }

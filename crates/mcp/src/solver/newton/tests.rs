@@ -56,6 +56,7 @@ fn limits_are_shared_evenly() {
         let share = run(&feasible(), &options).share();
         (share.majors, share.pivots)
     };
+
     assert_eq!(
         [
             share(3, 1),
@@ -84,6 +85,7 @@ fn curves_from_afar_are_tried_where_there_are_restarts_and_curves() {
         };
         run(&feasible(), &options).trials()
     };
+
     assert_eq!(
         [trials(1, 1), trials(0, 1), trials(1, 0), trials(0, 0)],
         [CURVE_TRIALS, 0, 0, 0]
@@ -109,7 +111,9 @@ fn curves_are_followed_after_restarts_that_moved_and_failed() {
             run.problem.counters.curve_steps > 0,
         )
     };
-    let (still, moved) = (Attempt::number(1), Attempt::number(2));
+    let still = Attempt::number(1);
+    let moved = Attempt::number(2);
+
     assert_eq!(
         [
             steps(&infeasible(), moved, 50),
@@ -143,6 +147,7 @@ fn the_crash_is_the_one_asked_for() {
     };
     use CrashMethod::{FischerNewton, None, ProjectedNewton};
     let p = feasible();
+
     assert_eq!(
         [50, 0].map(|limit| steps(ProjectedNewton, limit, &p)),
         [[false, true], [false, false]]
@@ -155,6 +160,7 @@ fn the_crash_is_the_one_asked_for() {
         [50, 0].map(|limit| steps(FischerNewton, limit, &p)),
         [[true, false], [false, false]]
     );
+
     // Projected Newton goes on where the other one has not solved the problem.
     assert_eq!(steps(FischerNewton, 1, &p), [true, true]);
 }
@@ -173,6 +179,7 @@ fn inside_is_strictly_between_the_bounds() {
         f: DVector::zeros(5),
         merit: 0.0,
     };
+
     assert_eq!(strictly_inside(&p, &point), [1, 3]);
 }
 
@@ -194,6 +201,7 @@ fn trials_are_numbered_on_from_the_restarts() {
         ..Options::default()
     };
     run(&p, &options).run(&[0.5]);
+
     for trial in 0..CURVE_TRIALS {
         let start = Attempt::far(trial).shifted(0.5, 0, trial + 3);
         assert!(met.borrow().contains(&start), "{trial}");
@@ -216,6 +224,7 @@ fn curves_are_followed_after_the_first_attempt_fails() {
             finished.counters.restarts,
         )
     };
+
     assert_eq!(
         [
             of(&infeasible(), &[1.0], 0, 50),
@@ -234,6 +243,7 @@ fn the_tolerance_is_that_of_each_component() {
         convergence_tolerance: 0.25,
         ..Options::default()
     };
+
     for n in [1, 2, 9] {
         let p = free(
             n,
@@ -245,13 +255,16 @@ fn the_tolerance_is_that_of_each_component() {
             let point = run.problem.point_with(|_| each);
             is_within_tolerance(run.problem.problem, &point, options.convergence_tolerance)
         };
+
         assert!(
             within(&mut run, 0.25) && within(&mut run, -0.25) && !within(&mut run, 0.2501),
             "{n}"
         );
+
         let one = run
             .problem
             .point_with(|i| if i == 0 { 0.2501 } else { 0.0 });
+
         assert!(!is_within_tolerance(
             run.problem.problem,
             &one,
@@ -283,6 +296,7 @@ fn the_proximal_term_of_a_restart_vanishes_with_the_merit() {
         proximal: RESTART_PROXIMAL,
         ..Attempt::number(1)
     };
+
     // F = z, so that the merit is z^2 / 2.
     for (z, share) in [
         (10.0, 1.0),
@@ -296,17 +310,17 @@ fn the_proximal_term_of_a_restart_vanishes_with_the_merit() {
             max_relative = 1e-12
         );
     }
+
     assert_eq!(term(Attempt::number(1), 10.0), 0.0);
 }
 
 /// Of a complete path the Newton point, or the fraction asked for; of a ray start its last point.
 #[test]
 fn a_complete_path_leads_to_the_newton_point() {
-    let (m, q) = (dmatrix![2.0], [-6.0]);
-    let (p, options) = (
-        LinearMcp::lcp(m.clone(), q.to_vec()).unwrap(),
-        Options::default(),
-    );
+    let m = dmatrix![2.0];
+    let q = [-6.0];
+    let p = LinearMcp::lcp(m.clone(), q.to_vec()).unwrap();
+    let options = Options::default();
     let mut run = run(&p, &options);
     let mut target = |path: &Path, fraction: f64| {
         run.target(path, fraction)
@@ -314,10 +328,12 @@ fn a_complete_path_leads_to_the_newton_point() {
             .unwrap()
     };
     let regular = path(m.clone(), &q, &[0.0], &[INF], Start::Regular, &[1.0]);
+
     assert_eq!(
         [target(&regular, 1.0), target(&regular, 0.5)],
         [(3.0, 1.0), (2.0, 0.5)]
     );
+
     let ray = path(m, &q, &[0.0], &[INF], Start::Ray, &[1.0]);
     assert_eq!([target(&ray, 1.0), target(&ray, 0.5)], [(3.0, 1.0); 2]);
 }
@@ -336,11 +352,16 @@ fn a_partial_path_leads_to_the_better_of_two_points() {
         Start::Regular,
         &[0.0, 3.0],
     );
+
     assert_eq!((partial.end, partial.start), (PathEnd::Ray, Start::Regular));
+
     let at = |t: f64| partial.at(t).map(|z| vec![z(0), z(1)]).unwrap();
-    let (reach, last) = (partial.reach(), partial.last().unwrap().to_vec());
+    let reach = partial.reach();
+    let last = partial.last().unwrap().to_vec();
     let last_t = *partial.knots.t(partial.knots.len() - 1);
+
     assert!(last[0] > 0.01 && last_t < reach && (reach - 0.8).abs() < 1e-12);
+
     let options = Options::default();
     for (root, better) in [
         (at(reach), (at(reach), reach)),
@@ -362,6 +383,7 @@ fn a_partial_path_leads_to_the_better_of_two_points() {
                 .map(|(point, t)| (point.z.as_slice().to_vec(), t))
                 .unwrap()
         };
+
         assert_eq!(target(1.0), better);
         assert_eq!(target(0.5), (at(0.5 * reach), 0.5 * reach));
     }
@@ -377,6 +399,7 @@ fn a_path_is_searched_back_to_a_point_that_passes() {
         acceptance: Acceptance::Monotone,
         ..Attempt::number(1)
     };
+
     // A linear model that overshoots: 88 / 8 = 11 times too far.
     let overshoot = path(
         dmatrix![1.0 / 11.0],
@@ -386,7 +409,9 @@ fn a_path_is_searched_back_to_a_point_that_passes() {
         Start::Regular,
         &[8.0],
     );
+
     assert!((overshoot.last().unwrap()[0] + 80.0).abs() < 1e-9);
+
     let mut run = run(&p, &options);
     let point = run.problem.point_with(|_| 8.0);
     let mut search = Search::default();
@@ -394,21 +419,26 @@ fn a_path_is_searched_back_to_a_point_that_passes() {
     let (next, kind) = run
         .back_along_paths(std::slice::from_ref(&overshoot), &mut search)
         .unwrap();
+
     // t = 1, 1/2, 1/4 and 1/8 lead to -80, -36, -14 and -3.
     assert_eq!(kind, StepKind::Search { t: 0.125 });
     approx::assert_relative_eq!(next.z[0], -3.0, max_relative = 1e-9);
+
     // Its merit is what the next one must pass.
     assert!(
         search.passes(&run.problem.point_with(|_| 2.99), 1.0)
             && !search.passes(&run.problem.point_with(|_| 3.01), 1.0)
     );
+
     // A ray start does not begin at the iterate.
     let ray = Path {
         start: Start::Ray,
         ..overshoot.clone()
     };
     search.begin(&point, &point, &options, attempt);
+
     assert!(run.back_along_paths(&[ray], &mut search).is_none());
+
     // After steps taken unchecked, back along the path of the checkpoint.
     search.begin(
         &point,
@@ -421,6 +451,7 @@ fn a_path_is_searched_back_to_a_point_that_passes() {
     );
     search.take_unchecked(&overshoot, &point);
     let (next, kind) = run.back_along_paths(&[], &mut search).unwrap();
+
     assert_eq!(
         (kind, run.problem.counters.watchdogs),
         (StepKind::Watchdog { t: 0.25 }, 1)
@@ -460,6 +491,7 @@ fn an_end_is_checked_or_taken_unchecked() {
         run.path_end(&point, &[way], &mut search)
             .map(|(next, kind)| (next.z[0].round(), kind))
     };
+
     assert_eq!(
         step(1.0, Acceptance::Monotone),
         Some((0.0, StepKind::Path { t: 1.0 }))
@@ -489,12 +521,14 @@ fn a_complete_path_is_preferred() {
             &[8.0],
         )
     };
+
     for paths in [[partial(), complete()], [complete(), partial()]] {
         let mut run = run(&p, &options);
         let point = run.problem.point_with(|_| 8.0);
         let mut search = Search::default();
         search.begin(&point, &point, &options, Attempt::number(1));
         let (next, _) = run.path_end(&point, &paths, &mut search).unwrap();
+
         assert_eq!(next.z[0], 2.0);
     }
 }
@@ -508,14 +542,13 @@ fn gradient_steps_leave_from_the_best_point() {
         ..Options::default()
     };
     let mut run = run(&p, &options);
-    let (start, better) = (
-        run.problem.point_with(|_| 8.0),
-        run.problem.point_with(|_| 2.0),
-    );
+    let start = run.problem.point_with(|_| 8.0);
+    let better = run.problem.point_with(|_| 2.0);
     let mut search = Search::default();
     search.begin(&start, &start, &options, Attempt::number(0));
     search.take_checked(&better);
     let (next, kind) = run.gradient(&mut search).unwrap().unwrap();
+
     assert_eq!(
         (next.z[0], kind, run.problem.counters.gradient_steps),
         (0.0, StepKind::Gradient, 1)
@@ -546,6 +579,7 @@ fn attempts_end_at_the_limits() {
         pivots,
         ..Counters::default()
     };
+
     assert_eq!(reason(10, 100, done(10, 0)), Termination::MajorLimit);
     assert_eq!(reason(10, 100, done(0, 100)), Termination::CumulativeLimit);
 }
@@ -568,6 +602,7 @@ fn a_start_is_moved_to_where_the_function_is_finite() {
         } else {
             1.0
         };
+
         assert_eq!((moved.z[0], expected != 1.0), (expected, moves));
     }
 }

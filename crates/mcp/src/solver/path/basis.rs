@@ -174,16 +174,25 @@ mod tests {
             variables: vec![Variable::W(0), Variable::W(1)],
             ..Basis::default()
         };
+
         assert!(basis.begin(&columns));
-        let (mut column, mut row, mut x) = (vec![0.0; 2], Vec::new(), vec![0.0; 2]);
+
+        let mut column = vec![0.0; 2];
+        let mut row = Vec::new();
+        let mut x = vec![0.0; 2];
         basis.perturbation(&columns, 1, &mut row);
+
         assert_eq!(row, [0.0, 1.0]);
+
         basis.solve(columns.dense(Variable::Z(1)), &mut column);
         basis.replace(1, Variable::Z(1), &column);
         basis.solve(&[5.0, -7.0], &mut x);
-        let (updated, mut updated_row) = (x.clone(), Vec::new());
+        let updated = x.clone();
+        let mut updated_row = Vec::new();
         basis.perturbation(&columns, 1, &mut updated_row);
+
         assert!(basis.refactor(&columns));
+
         basis.solve(&[5.0, -7.0], &mut x);
         basis.perturbation(&columns, 1, &mut row);
         for (a, b) in updated.iter().chain(&updated_row).zip(x.iter().chain(&row)) {
@@ -192,6 +201,7 @@ mod tests {
                 "{updated:?} {updated_row:?} {x:?} {row:?}"
             );
         }
+
         assert_eq!(updated_row, [0.0, -1.0 / 3.0]);
     }
 
@@ -211,10 +221,14 @@ mod tests {
             variables: vec![Variable::W(0), Variable::W(1)],
             ..Basis::default()
         };
+
         assert!(basis.begin(&columns));
-        let (mut given, mut column) = (Vec::new(), vec![0.0; 2]);
+
+        let mut given = Vec::new();
+        let mut column = vec![0.0; 2];
         for k in 0..REFACTOR_EVERY {
             assert!(!basis.is_stale(), "{k}");
+
             let entering = if k % 2 == 0 {
                 Variable::Z(1)
             } else {
@@ -224,6 +238,7 @@ mod tests {
             basis.solve(&given, &mut column);
             basis.replace(1, entering, &column);
         }
+
         assert!(basis.is_stale() && basis.refactor(&columns) && !basis.is_stale());
     }
 }

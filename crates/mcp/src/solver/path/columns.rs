@@ -176,18 +176,22 @@ mod tests {
         };
         let mut frame = Frame::default();
         frame.set(&sub, &[5.0, 1.0], &[6.0, 0.5]);
+
         // M z + q = (2, 12), so that r = (4, -11.5).
         frame.add_artificial(0, 1);
         let columns = frame.columns(&sub);
+
         assert_eq!(
             (columns.dense(Variable::T), columns.right()),
             (&[-4.0, 11.5][..], &[-3.0, 7.5][..])
         );
+
         let written = |variable: Variable| {
             let mut out = vec![9.0; 5];
             columns.write(variable, &mut out);
             (out, columns.size(variable))
         };
+
         assert_eq!(
             [written(Variable::Z(0)), written(Variable::Z(1))],
             [(vec![2.0, 1.0], 2.0), (vec![-7.0, 3.0], 7.0)]
@@ -197,6 +201,7 @@ mod tests {
             [written(Variable::W(1)), written(Variable::V(1))],
             [(vec![0.0, -1.0], 1.0), (vec![0.0, 1.0], 1.0)]
         );
+
         // An artificial has its row, or else that of its own unknown.
         assert_eq!(written(Variable::Artificial(0)), (vec![0.0, 1.0], 1.0));
         assert_eq!(written(Variable::Artificial(1)), (vec![0.0, 1.0], 1.0));

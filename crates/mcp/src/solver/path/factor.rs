@@ -228,17 +228,25 @@ mod tests {
             Variable::T,
         ];
         let mut factor = Factor::default();
+
         assert!(factor.factor(&columns, &variables));
-        let (a, mut x, mut y, mut work) = ([1.0, 2.0, 3.0, 4.0], [0.0; 4], [0.0; 4], Vec::new());
+
+        let a = [1.0, 2.0, 3.0, 4.0];
+        let mut x = [0.0; 4];
+        let mut y = [0.0; 4];
+        let mut work = Vec::new();
         factor.solve(&a, &mut x, &mut work);
         factor.solve_transposed(&a, &mut y, &mut work);
         let mut column = Vec::new();
-        let (mut ahead, mut worst) = ([0.0; 4], 0.0f64);
+        let mut ahead = [0.0; 4];
+        let mut worst = 0.0f64;
+
         for (place, variable) in variables.iter().enumerate() {
             columns.write(*variable, &mut column);
             (0..4).for_each(|row| ahead[row] += column[row] * x[place]);
             worst = worst.max((dot(&column, &y) - a[place]).abs());
         }
+
         assert!(
             ahead.iter().zip(&a).all(|(p, q)| (p - q).abs() < 1e-13),
             "{ahead:?}"
@@ -258,6 +266,7 @@ mod tests {
         let mut frame = Frame::default();
         frame.set(&sub, &[0.0; 2], &[0.0; 2]);
         let mut factor = Factor::default();
+
         assert!(!factor.factor(&frame.columns(&sub), &[Variable::Z(0), Variable::Z(1)]));
         assert_eq!(factor.repairs(), [Repair { place: 1, row: 1 }]);
         assert!(!factor.factor(&frame.columns(&sub), &[Variable::W(0), Variable::V(0)]));

@@ -56,13 +56,15 @@ impl<T: Clone> Knots<T> {
 
     /// z at a breakpoint.
     pub(in super::super) fn z(&self, k: usize) -> &[T] {
-        &self.z[k * self.n..(k + 1) * self.n]
+        let begin = k * self.n;
+        &self.z[begin..begin + self.n]
     }
 
     /// w - v at a breakpoint.
     #[cfg(test)]
     pub(super) fn multiplier(&self, k: usize) -> &[T] {
-        &self.multiplier[k * self.n..(k + 1) * self.n]
+        let begin = k * self.n;
+        &self.multiplier[begin..begin + self.n]
     }
 
     /// Puts the last breakpoint at t.

@@ -96,10 +96,12 @@ impl Path {
     /// The point where the path first reaches t, linearly between knots; by components.
     pub(in super::super) fn at(&self, t: f64) -> Option<impl Fn(usize) -> f64> {
         let knots = &self.knots;
-        let end = (1..knots.len()).find(|&k| knots.t(k - 1) < &t && knots.t(k) >= &t)?;
+        let passes = |k: &usize| *knots.t(*k - 1) < t && *knots.t(*k) >= t;
+        let end = (1..knots.len()).find(passes)?;
         let begin = end - 1;
 
-        let share = (t - knots.t(begin)) / (knots.t(end) - knots.t(begin));
+        let length = knots.t(end) - knots.t(begin);
+        let share = (t - knots.t(begin)) / length;
         let from = knots.z(begin);
         let to = knots.z(end);
 

@@ -266,6 +266,7 @@ mod tests {
         ] {
             assert_eq!(absorbed(&z, &f, &0.0, &1.0), expected, "z = {z}, F = {f}");
         }
+
         assert_eq!(
             (
                 absorbed(&3.0, &-2.0, &3.0, &3.0),
@@ -286,7 +287,9 @@ mod tests {
         };
         let mut start = State::default();
         ray(&sub, &mut start, &mut FreeRows::default());
+
         assert_eq!(start.z, [2.0, 0.0, 1.0]);
+
         let m = &start.multiplier;
         assert!(m[1] > 0.0 && m[2] < 0.0 && m[0] == 0.0);
     }
@@ -305,6 +308,7 @@ mod tests {
         regular(&sub, &[0.0, 0.0], &mut state);
         frame.set(&sub, &state.z, &state.multiplier);
         let mut path = Path::default();
+
         assert!(starting_basis(
             &sub, &mut frame, &mut basis, &state, &mut path
         ));
@@ -328,10 +332,12 @@ mod tests {
         };
         let mut state = State::default();
         ray(&sub, &mut state, &mut FreeRows::default());
+
         assert_eq!(
             (state.z, state.multiplier),
             (vec![0.0, 0.0, 0.0, 5.0], vec![3.0, 8.0, -5.0, -100.0])
         );
+
         // Where all are zero the amount is one.
         let sub = Subproblem {
             m: &m,
@@ -340,6 +346,7 @@ mod tests {
         };
         let mut state = State::default();
         ray(&sub, &mut state, &mut FreeRows::default());
+
         assert_eq!(state.multiplier, [1.0, 1.0, -1.0, 0.0]);
     }
 }

@@ -73,9 +73,11 @@ fn followed(
     let path = walked(&sub, start, current, LIMITS);
     let knots = knots(&path);
     let r = knots.first().map(|k| &k.multiplier - m * &k.z - q);
+
     for knot in &knots {
         let equation = m * &knot.z - &knot.multiplier + q + r.clone().unwrap() * (1.0 - knot.t);
         assert!(equation.amax() < 1e-9, "{equation} at {knot:?}");
+
         for i in 0..l.len() {
             assert!(
                 knot.z[i] >= l[i] - 1e-9 && knot.z[i] <= u[i] + 1e-9,
@@ -91,6 +93,7 @@ fn followed(
             );
         }
     }
+
     path
 }
 
@@ -110,6 +113,7 @@ pub(super) fn at_start<R>(
     } = Storage::default();
     start_point(sub, start, current, &mut state, &mut free);
     frame.set(sub, &state.z, &state.multiplier);
+
     assert!(starting_basis(
         sub,
         &mut frame,
@@ -117,6 +121,7 @@ pub(super) fn at_start<R>(
         &state,
         &mut Path::default()
     ));
+
     look(Tableau::new(frame.columns(sub), &mut basis, &mut state))
 }
 
@@ -131,6 +136,7 @@ fn one_by_one_from_both_starts() {
             start,
             &[0.0],
         );
+
         assert_eq!(path.end, PathEnd::Complete);
         assert!((path.last().unwrap()[0] - 1.5).abs() < 1e-15);
         assert_eq!(path.pivots.last().unwrap().kind, PivotKind::Complete);
@@ -147,6 +153,7 @@ fn a_zero_residual_is_complete_at_once() {
         Start::Regular,
         &[0.0],
     );
+
     assert_eq!(
         (path.end, path.pivots.len(), path.reach()),
         (PathEnd::Complete, 1, 1.0)
@@ -163,8 +170,10 @@ fn a_doubly_bounded_unknown_flips() {
         Start::Ray,
         &[0.0; 2],
     );
+
     assert_eq!(path.end, PathEnd::Complete);
     assert!((DVector::from_column_slice(path.last().unwrap()) - dvector![1.0, 1.0]).amax() < 1e-14);
+
     // M = -1: z runs from bound to bound while t stands still or turns back.
     let path = followed(
         &dmatrix![-1.0],
@@ -174,6 +183,7 @@ fn a_doubly_bounded_unknown_flips() {
         Start::Regular,
         &[0.9],
     );
+
     assert_eq!(path.end, PathEnd::Complete);
 }
 
@@ -188,6 +198,7 @@ fn an_infeasible_problem_ends_on_a_ray() {
             start,
             &[0.0],
         );
+
         assert_eq!(path.end, PathEnd::Ray, "{start:?}");
         assert!(path.knots.len() >= 2);
     }
@@ -196,9 +207,12 @@ fn an_infeasible_problem_ends_on_a_ray() {
 #[test]
 fn singular_starts_leave_through_artificials() {
     // Both z strictly inside: the block of ones is singular. Solutions z1 + z2 = 1.
-    let (m, q) = (dmatrix![1.0, 1.0; 1.0, 1.0], dvector![-1.0, -1.0]);
+    let m = dmatrix![1.0, 1.0; 1.0, 1.0];
+    let q = dvector![-1.0, -1.0];
     let path = followed(&m, &q, &[0.0; 2], &[INF; 2], Start::Regular, &[2.0, 3.0]);
+
     assert_eq!(path.end, PathEnd::Complete, "{path:?}");
+
     // A zero matrix with free unknowns has only artificials, and no way to move.
     let path = followed(
         &dmatrix![0.0],
@@ -208,6 +222,7 @@ fn singular_starts_leave_through_artificials() {
         Start::Regular,
         &[0.0],
     );
+
     assert_eq!(path.end, PathEnd::Ray);
 }
 
@@ -222,6 +237,7 @@ fn equal_bounds_fix_an_unknown() {
             start,
             &[1.0, 0.0],
         );
+
         assert_eq!(path.end, PathEnd::Complete);
         assert_eq!(path.last().unwrap(), [1.0, 1.5]);
     }
@@ -237,6 +253,7 @@ fn points_along_the_path_are_found_by_t() {
         Start::Regular,
         &[0.0],
     );
+
     assert!((path.at(0.5).unwrap()(0) - 0.75).abs() < 1e-15);
     assert!(path.at(1.5).is_none());
 }
@@ -244,15 +261,18 @@ fn points_along_the_path_are_found_by_t() {
 #[test]
 fn ties_go_to_the_lexicographically_least() {
     // Both w are tied; perturbed by (eps, eps^2) the second one is the smaller.
-    let (m, q) = (DMatrix::from_element(2, 2, 1.0), dvector![-1.0, -1.0]);
+    let m = DMatrix::from_element(2, 2, 1.0);
+    let q = dvector![-1.0, -1.0];
     let path = followed(&m, &q, &[0.0; 2], &[INF; 2], Start::Ray, &[0.0; 2]);
+
     assert_eq!(path.pivots[0].leaving, Variable::W(1));
     assert_eq!(path.end, PathEnd::Complete);
 }
 
 #[test]
 fn the_multiplier_of_equal_bounds_changes_sign_without_a_pivot() {
-    let (m, q) = (dmatrix![0.0, -1.0; 0.0, 1.0], dvector![1.0, -5.0]);
+    let m = dmatrix![0.0, -1.0; 0.0, 1.0];
+    let q = dvector![1.0, -5.0];
     let path = followed(
         &m,
         &q,
@@ -261,6 +281,7 @@ fn the_multiplier_of_equal_bounds_changes_sign_without_a_pivot() {
         Start::Regular,
         &[1.0, 0.0],
     );
+
     assert_eq!(
         (path.end, path.pivots.len()),
         (PathEnd::Complete, 2),
@@ -300,6 +321,7 @@ fn a_path_reaches_the_largest_t_of_its_knots() {
             .for_each(|&t| path.knots.push(t, &[4.0 * t], &[0.0]));
         path
     };
+
     assert_eq!(
         [
             path(&[0.0, 0.25, 0.75, 0.5]).reach(),
@@ -326,5 +348,6 @@ fn factorisations_are_counted() {
         Start::Regular,
         &[0.0],
     );
+
     assert_eq!(path.factorisations, 1);
 }

@@ -86,7 +86,9 @@ mod tests {
             leaving: Variable::Z(4),
             ..pivot
         };
+
         assert_eq!(pivot.renamed(&[4, 7]), expected);
+
         let list =
             [Variable::V(0), Variable::Artificial(1), Variable::T].map(|v| v.renamed(&[4, 7]));
         assert_eq!(list, [Variable::V(4), Variable::Artificial(7), Variable::T]);

@@ -210,6 +210,7 @@ mod tests {
             (dmatrix![-0.25, 0.0; 0.0, 1.0], [2.0, 1.0]),
             (dmatrix![-9.0, -2.0; 0.0, 1.0], [0.5, 0.0]),
         ];
+
         for (m, current) in cases {
             let sub = Subproblem {
                 m: &m,
@@ -247,6 +248,7 @@ mod tests {
             lower: &[0.0],
             upper: &[INF],
         };
+
         for start in [Start::Regular, Start::Ray] {
             at_start(&sub, start, &[2.0], |tableau| {
                 let mut path = Path::default();
@@ -309,10 +311,13 @@ mod tests {
             })
         };
         let (end, needed, _) = ends(100);
+
         assert_eq!((end, needed), (PathEnd::Complete, 3));
+
         for pivots in 0..needed {
             assert_eq!(ends(pivots), (PathEnd::PivotLimit, pivots, pivots + 1));
         }
+
         assert_eq!(ends(needed).0, PathEnd::Complete);
     }
 }

@@ -84,13 +84,16 @@ fn a_curve_is_back_where_it_passes_its_start() {
         f.is_back(&position(&[1.0, 0.0], before))
     };
     let near = 4.0 * CURVE_CLOSED;
+
     for off in [[0.9, 0.0], [-0.9, 0.0], [0.0, 0.9], [0.0, 0.0]] {
         assert!(is_back(off.map(|o| o * near), 1.3, 0.9), "{off:?}");
     }
     for off in [[1.1, 0.0], [-1.1, 0.0], [0.0, 1.1]] {
         assert!(!is_back(off.map(|o| o * near), 1.3, 0.9), "{off:?}");
     }
+
     assert!(!is_back([0.0; 2], 1.3, 1.1) && !is_back([0.0; 2], 0.7, 0.9));
+
     f.system.places = Places(vec![Place::Inside, Place::Lower]);
     (f.start, f.at.s) = (position(&[4.0, 0.0], 1.0), 0.9);
     assert!(!f.is_back(&position(&[1.0, 0.0], 1.3)));
@@ -114,11 +117,13 @@ fn the_next_event_is_the_nearest_ahead() {
         &[Place::Inside, Place::Inside, Place::Lower],
         position(&[2.0, 7.0, 0.0], 1.0),
     );
+
     // z_0 = 2 above 0, z_1 = 7 below 10, multiplier 2 z_0 + 5 - 3 s = 6, s = 1.
     let next = |f: &mut Follower<'_, '_, Linear>, tangent: [f64; 3]| {
         let local = f.system.local(&f.at.z.clone()).unwrap();
         f.predicted_event(&local, &DVector::from_column_slice(&tangent), &[0, 1])
     };
+
     assert_eq!(
         next(&mut f, [-0.5, 0.25, -0.125]),
         Some((Quantity::Z(0, 0.0), 4.0))
@@ -138,10 +143,13 @@ fn the_next_event_is_the_nearest_ahead() {
         Some((Quantity::Multiplier(2), 3.0))
     );
     assert_eq!(next(&mut f, [0.5, -0.5, 0.25]), None);
+
     f.at.s = 0.0; // already there
     assert_eq!(next(&mut f, [0.5, -0.5, -0.25]), None);
+
     f.at.s = -1.0;
     assert_eq!(next(&mut f, [1.0, -0.5, 0.5]), Some((Quantity::S, 2.0)));
+
     f.at.z[0] = -1e-9; // a little beyond: at once
     assert_eq!(
         next(&mut f, [-0.5, 0.0, 0.0]),
@@ -168,12 +176,11 @@ fn a_crossing_is_more_than_the_feasibility() {
     );
     let crossing = |f: &mut Follower<'_, '_, Linear>, z: [f64; 2], s: f64| {
         let to = position(&z, s);
-        let (here, there) = (
-            f.system.local(&f.at.z.clone()).unwrap(),
-            f.system.local(&to.z).unwrap(),
-        );
+        let here = f.system.local(&f.at.z.clone()).unwrap();
+        let there = f.system.local(&to.z).unwrap();
         f.first_crossing(&here, &to, &there)
     };
+
     for s in [0.25, 1.0, 7.0, -1e-9] {
         let least = CURVE_FEASIBLE * (1.0 + f64::abs(s));
         assert_eq!(
@@ -187,6 +194,7 @@ fn a_crossing_is_more_than_the_feasibility() {
             "{s}"
         );
     }
+
     assert_eq!(
         crossing(&mut f, [-1.0, 0.0], 1.0),
         Some((Quantity::Z(0, 0.0), 0.75))
@@ -196,6 +204,7 @@ fn a_crossing_is_more_than_the_feasibility() {
         Some((Quantity::Z(1, 4.0), 4.0 / 6.0))
     );
     assert_eq!(crossing(&mut f, [2.0, 0.0], -1.0), Some((Quantity::S, 0.5)));
+
     // What was beyond before has crossed at once.
     f.at.z[0] = -1e-9;
     assert_eq!(
@@ -222,14 +231,18 @@ fn easy_steps_grow_and_events_do_not() {
         f.step(&local, &tangent).map(|(landing, _)| landing)
     };
     let landing = step(&mut f).unwrap();
+
     assert_eq!(
         (landing.event, landing.there.steps, f.length),
         (None, 0, CURVE_GROWTH * CURVE_FIRST)
     );
+
     let way = ((&landing.there.at.z - &f.at.z).norm_squared()
         + (landing.there.at.s - f.at.s).powi(2))
     .sqrt();
+
     approx::assert_relative_eq!(way, CURVE_FIRST, max_relative = 1e-12);
+
     f.length = 90.0;
     let landing = step(&mut f).unwrap();
     assert_eq!(
@@ -237,10 +250,13 @@ fn easy_steps_grow_and_events_do_not() {
         (Some(Quantity::Z(0, 80.0)), 80.0, 90.0)
     );
     assert_eq!(f.system.places.0, [Place::Upper]);
+
     // Nothing shorter than the shortest step is tried.
     f.system.places = Places(vec![Place::Inside]);
     f.length = 1.5 * CURVE_SHORTEST;
+
     assert!(step(&mut f).is_some());
+
     f.length = CURVE_SHORTEST;
     assert!(step(&mut f).is_none());
 }
@@ -261,6 +277,7 @@ fn a_curve_that_leads_nowhere_is_left_at_the_shortest_step() {
         position(&[0.0], 0.0),
     );
     let local = f.system.local(&dvector![0.0]).unwrap();
+
     assert!(f.step(&local, &dvector![1.0, 1.0].normalize()).is_none());
     assert!(f.length <= CURVE_SHORTEST && f.length > 0.5 * CURVE_SHORTEST * (1.0 - 1e-9));
 }
@@ -283,6 +300,7 @@ fn an_event_that_is_far_is_refused() {
         f.land_on(Quantity::S, &position(&[5.0], 0.5), &local)
             .map(|landing| (landing.there.at.z[0], landing.there.at.s, landing.event))
     };
+
     assert_eq!(
         [lands(5.5 / 3.9), lands(5.5 / 4.1)],
         [Some((10.0, 0.0, Some(Quantity::S))), None]
@@ -313,6 +331,7 @@ fn an_event_beyond_another_one_is_refused() {
         f.land_on(Quantity::Z(1, 4.0), &position(&[-1.0, 4.0], 4.0), &local)
             .map(|landing| landing.there.at.z)
     };
+
     assert_eq!(
         [lands(0.0), lands(-2.0), lands(-INF)],
         [None, Some(dvector![-1.0, 4.0]), Some(dvector![-1.0, 4.0])]
@@ -336,6 +355,7 @@ fn a_predicted_event_costs_one_correction() {
         let tangent = dvector![1.0, 1.0].normalize();
         let before = f.system.problem.counters.jacobians;
         let landing = f.land(&local, &tangent, &[0]).unwrap();
+
         assert_eq!((landing.event, landing.there.steps), (event, 0), "{length}");
         assert_eq!(f.system.problem.counters.jacobians - before, corrections);
     }
@@ -373,8 +393,10 @@ fn a_tangent_from_the_correction_is_turned_forward() {
             &tangent,
         )
     };
+
     assert_eq!(turned(dvector![0.8, 0.6]), Some(dvector![0.8, 0.6]));
     assert_eq!(turned(dvector![-0.8, 0.6]), Some(dvector![0.8, -0.6]));
+
     let across = (1.0 - CURVE_ANGLE * CURVE_ANGLE).sqrt();
     assert_eq!(
         [dvector![CURVE_ANGLE, across], dvector![0.0, 1.0]].map(turned),
@@ -396,6 +418,7 @@ fn a_tangent_turns_by_no_more_than_the_angle() {
         );
         let slope = (1.0 / f64::powi(cosine, 2) - 1.0).sqrt();
         let tangent = dvector![1.0, 0.0];
+
         for event in [None, Some(Quantity::S)] {
             let local = Local {
                 f: dvector![0.0],
@@ -411,7 +434,9 @@ fn a_tangent_turns_by_no_more_than_the_angle() {
                 event,
             };
             let next = f.turn(&landing, &tangent);
+
             assert_eq!(next.is_some(), turns, "{cosine}");
+
             if let Some(next) = next {
                 approx::assert_relative_eq!(next.dot(&tangent), cosine, max_relative = 1e-12);
             }
@@ -461,6 +486,7 @@ fn a_pair_changes_places_at_its_event() {
         )
     };
     let inside = [Place::Inside; 2];
+
     assert_eq!(
         turned(inside, Quantity::Z(1, 4.0), dvector![0.0, 0.5, 0.5]),
         (Place::Upper, false, true)
@@ -469,6 +495,7 @@ fn a_pair_changes_places_at_its_event() {
         turned(inside, Quantity::Z(1, 0.0), dvector![0.0, -0.5, 0.5]),
         (Place::Lower, true, true)
     );
+
     // A curve that bends comes back to the bound its tangent leads away from: it is that bound all
     // the same.
     assert_eq!(
@@ -514,18 +541,21 @@ fn a_curve_is_a_ray_when_far() {
         f.start.z[0] = start;
         f.walk(Sense::Up)
     };
+
     for start in [0.0, 3.0, -3.0] {
         let limit = CURVE_FAR * (1.0 + f64::abs(start));
         assert_eq!(
             [0.999, 1.001].map(|share| walked(start, share * limit, 1e3, INF)),
             [Some(CurveEnd::StepLimit), Some(CurveEnd::Ray)]
         );
+
         // At the limit itself, where an event has put it, not yet.
         assert_eq!(
             walked(start, limit - 0.01, 1e3, limit),
             Some(CurveEnd::StepLimit)
         );
     }
+
     assert_eq!(
         [0.999, 1.001].map(|share| walked(0.0, share * CURVE_FAR / 1e3, 1e-3, INF)),
         [Some(CurveEnd::StepLimit), Some(CurveEnd::Ray)]
@@ -560,6 +590,7 @@ fn a_circle_closes_at_a_solution_it_has_met() {
             )
             .unwrap()
         };
+
         for (share, passages) in [(0.0, 2), (0.9, 2), (1.1, 3)] {
             let curve = met(share, 9, 500);
             assert_eq!(
@@ -573,7 +604,9 @@ fn a_circle_closes_at_a_solution_it_has_met() {
                 )
             );
         }
+
         assert_eq!(met(0.0, 1, 500).end, CurveEnd::Enough);
+
         let short = met(0.0, 9, 3);
         assert_eq!(
             (short.end, short.counters.curve_steps),

@@ -30,6 +30,7 @@ fn components_are_compared_relative_to_the_larger_row() {
                     &[of(0.0, 0.0).as_slice(), &[b * size]].concat(),
                 )
             };
+
             assert_eq!(
                 [order(0.9), order(-0.9), order(-1.1), order(1.1)],
                 [
@@ -41,6 +42,7 @@ fn components_are_compared_relative_to_the_larger_row() {
             );
         }
     }
+
     assert_eq!(lexicographic(&[0.0; 2], &[0.0; 2]), Ordering::Equal);
 }
 

@@ -12,11 +12,10 @@ const INF: f64 = f64::INFINITY;
 fn drift_by_definition(tableau: &Tableau<'_, f64>, m: &DMatrix<f64>, q: &[f64], r: &[f64]) -> f64 {
     let n = q.len();
     let largest = |list: &[f64]| list.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-    let (mut sum, mut size): (Vec<f64>, f64) = (
-        (0..n).map(|i| q[i] + r[i]).collect(),
-        largest(q) + largest(r),
-    );
+    let mut sum: Vec<f64> = (0..n).map(|i| q[i] + r[i]).collect();
+    let mut size: f64 = largest(q) + largest(r);
     let mut z = tableau.state.z.clone();
+
     for (variable, value) in tableau.basis.variables.iter().zip(&tableau.state.values) {
         size = size.max(match *variable {
             Variable::Z(i) => {
@@ -43,6 +42,7 @@ fn drift_by_definition(tableau: &Tableau<'_, f64>, m: &DMatrix<f64>, q: &[f64], 
             Variable::Artificial(_) => unreachable!("regular starts"),
         });
     }
+
     (0..n).for_each(|i| sum[i] += (0..n).map(|j| m[(i, j)] * z[j]).sum::<f64>());
     largest(&sum) / size
 }
@@ -50,6 +50,7 @@ fn drift_by_definition(tableau: &Tableau<'_, f64>, m: &DMatrix<f64>, q: &[f64], 
 #[test]
 fn drift_is_the_error_of_the_equations_relative_to_their_terms() {
     let m = dmatrix![2.0, 1.0, 0.5; 1.0, 3.0, -1.0; 0.0, 0.25, 4.0];
+
     // At the start w, v and z are basic; the errors are in one of them each, the sizes small and
     // large beside q and r.
     for (current, q) in [
@@ -98,6 +99,7 @@ fn values_are_made_anew_when_they_drift() {
         lower: &[0.0; 2],
         upper: &[INF; 2],
     };
+
     for (share, refreshed) in [(0.9, 0), (1.1, 1)] {
         at_start(&sub, Start::Ray, &[0.0; 2], |mut tableau| {
             tableau.set_rates();
@@ -211,6 +213,7 @@ fn a_flip_ends_at_the_other_bound() {
         lower: &[-2.0],
         upper: &[8.0],
     };
+
     for (sign, bound, next) in [(1.0, 8.0, Variable::V(0)), (-1.0, -2.0, Variable::W(0))] {
         at_start(&sub, Start::Ray, &[0.0], |mut tableau| {
             (tableau.entering, tableau.sign) = (Variable::Z(0), sign);

@@ -156,6 +156,7 @@ fn factors_are_exact_and_singular_matrices_have_none() {
         .map(|&i| Exact::integer([1, 0][i]))
         .collect();
     lu.solve(&mut x);
+
     assert_eq!(
         x,
         [(-5, 6), (1, 3)].map(|(p, q)| Exact::integer(p) / Exact::integer(q))

@@ -89,7 +89,8 @@ impl Case {
             .map(|b| bound(b, f64::NEG_INFINITY))
             .collect();
         let upper: Vec<f64> = self.upper.iter().map(|b| bound(b, f64::INFINITY)).collect();
-        let (m, q) = (self.m.map(|v| v as f64), self.q.map(|v| v as f64));
+        let m = self.m.map(|v| v as f64);
+        let q = self.q.map(|v| v as f64);
         let sub = Subproblem {
             m: &m,
             q: q.as_slice(),
@@ -108,10 +109,8 @@ impl Case {
     fn residual_in_doubles(&self, z: &[f64]) -> f64 {
         let f = self.m.map(|v| v as f64) * DVector::from_column_slice(z) + self.q.map(|v| v as f64);
         let of = |i: usize| {
-            let (l, u) = (
-                self.lower[i].map_or(f64::NEG_INFINITY, |v| v as f64),
-                self.upper[i].map_or(f64::INFINITY, |v| v as f64),
-            );
+            let l = self.lower[i].map_or(f64::NEG_INFINITY, |v| v as f64);
+            let u = self.upper[i].map_or(f64::INFINITY, |v| v as f64);
             let near = z[i].max(l).min(u);
             let snapped = [l, u]
                 .into_iter()
@@ -150,6 +149,7 @@ fn bases(path: &Path<Exact>, case: &Case) -> Vec<Vec<Variable>> {
         })
         .collect();
     let mut seen = Vec::new();
+
     for pivot in &path.pivots {
         if pivot.kind == PivotKind::Exchange {
             let place = basis
@@ -158,27 +158,32 @@ fn bases(path: &Path<Exact>, case: &Case) -> Vec<Vec<Variable>> {
                 .expect("a basic unknown leaves");
             basis[place] = pivot.entering;
         }
+
         let mut key = basis.clone();
         key.push(pivot.leaving); // a flip keeps the basis and changes the side
         key[..n].sort_by_key(|v| format!("{v:?}"));
         seen.push(key);
     }
+
     seen
 }
 
 #[test]
 fn from_a_ray_no_basis_comes_twice_and_the_end_is_complete_or_a_ray() {
-    let (mut ties, mut ends) = (0, [0; 2]);
+    let mut ties = 0;
+    let mut ends = [0; 2];
     for seed in 0..3000 {
         let case = degenerate(&mut ChaCha8Rng::seed_from_u64(seed), seed % 2 == 1);
         let path = case.follow_exactly();
         let bases = bases(&path, &case);
         let distinct: HashSet<_> = bases.iter().collect();
+
         assert_eq!(
             distinct.len(),
             bases.len(),
             "seed {seed}: a basis came twice"
         );
+
         // Steps of length zero: the degenerate pivots in which a careless rule cycles.
         ties += knots(&path)
             .windows(2)
@@ -193,10 +198,12 @@ fn from_a_ray_no_basis_comes_twice_and_the_end_is_complete_or_a_ray() {
             other => panic!("seed {seed}: {other:?}"),
         }
     }
+
     println!(
         "{ties} degenerate pivots; {} complete, {} rays",
         ends[0], ends[1]
     );
+
     assert!(
         ties > 500 && ends[0] > 500 && ends[1] > 100,
         "{ties} {ends:?}"
@@ -205,12 +212,15 @@ fn from_a_ray_no_basis_comes_twice_and_the_end_is_complete_or_a_ray() {
 
 #[test]
 fn doubles_walk_the_exact_path_and_expand_ends_where_it_may() {
-    let (mut same, mut solved) = (0, [0; 2]);
+    let mut same = 0;
+    let mut solved = [0; 2];
     for seed in 0..600 {
         let case = degenerate(&mut ChaCha8Rng::seed_from_u64(10_000 + seed), seed % 2 == 1);
         let exact = case.follow_exactly();
         let doubles = case.follow_in_doubles(RatioTest::Lexicographic);
+
         assert_eq!(exact.end, doubles.end, "seed {seed}");
+
         let names = |pivots: &[Pivot]| {
             pivots
                 .iter()
@@ -220,6 +230,7 @@ fn doubles_walk_the_exact_path_and_expand_ends_where_it_may() {
         same += usize::from(names(&exact.pivots) == names(&doubles.pivots));
         let expand = case.follow_in_doubles(RatioTest::Expand);
         solved[0] += usize::from(exact.end == PathEnd::Complete);
+
         if expand.end == PathEnd::Complete {
             solved[1] += 1;
             assert!(
@@ -228,10 +239,12 @@ fn doubles_walk_the_exact_path_and_expand_ends_where_it_may() {
             );
         }
     }
+
     println!(
         "{same} of 600 paths pivot for pivot alike; complete: lexicographic {}, EXPAND {}",
         solved[0], solved[1]
     );
+
     assert_eq!(same, 600);
     assert!(solved[1] * 10 >= solved[0] * 9, "{solved:?}");
 }
