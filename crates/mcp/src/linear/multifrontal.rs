@@ -404,7 +404,9 @@ mod tests {
         let factor = analysis.factor(&m).unwrap();
         let x = factor.extend(&[2.0, -1.0]);
 
-        assert_eq!((x[40], x[3], x[11]), (2.0, -1.0, 0.0));
+        assert_eq!(x[40], 2.0);
+        assert_eq!(x[3], -1.0);
+        assert_eq!(x[11], 0.0);
 
         let load = m.times(&x);
         let free = |i: &usize| ![40, 3, 11].contains(i);
@@ -442,8 +444,9 @@ mod tests {
         };
         let refused = at(&singular, &[]).unwrap_err();
 
+        assert!(refused.diagonal > 0.0, "{refused:?}");
         assert!(
-            refused.diagonal > 0.0 && (refused.pivot.is_nan() || refused.pivot <= 1e-12),
+            (refused.pivot.is_nan() || refused.pivot <= 1e-12),
             "{refused:?}"
         );
         assert!(at(&laplacian(8, -0.5).0, &[]).is_err());

@@ -180,13 +180,15 @@ mod tests {
     #[test]
     fn one_step_solves_an_inactive_linear_problem() {
         let (point, steps) = crashed(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0], &[1.0, 1.0]);
-        assert!(point.merit < 1e-28 && steps == 1);
+        assert!(point.merit < 1e-28);
+        assert_eq!(steps, 1);
     }
 
     #[test]
     fn a_singular_factor_is_perturbed_and_the_merit_never_rises() {
         let (point, _) = crashed(dmatrix![0.0, 0.0; 0.0, 1.0], vec![0.0, -1.0], &[1.0, 3.0]);
-        assert!(point.merit < 1e-3 && (point.z[1] - 1.0).abs() < 0.1);
+        assert!(point.merit < 1e-3);
+        assert!((point.z[1] - 1.0).abs() < 0.1);
 
         let (point, _) = crashed(dmatrix![-1.0], vec![-1.0], &[0.0]);
         assert!(point.merit <= 2.0);
@@ -219,10 +221,8 @@ mod tests {
         let mut problem = Evaluated::new(&lcp);
         let solution = problem.point(&DVector::from_element(1, 1.0));
 
-        assert!(
-            solution.merit == 0.0
-                && search(&mut problem, &solution, &[0.0], CRASH_SMALLEST).is_none()
-        );
+        assert_eq!(solution.merit, 0.0);
+        assert!(search(&mut problem, &solution, &[0.0], CRASH_SMALLEST).is_none());
     }
 
     /// At a bound with F strictly out of it; at equal bounds always.
@@ -241,20 +241,14 @@ mod tests {
             )
         };
 
-        assert_eq!(
-            [
-                of(0.0, 1.0),
-                of(0.0, 0.0),
-                of(0.0, -1.0),
-                of(1.0, 1.0),
-                of(1.0, -1.0)
-            ],
-            [true, false, false, false, false]
-        );
-        assert_eq!(
-            [of(4.0, -1.0), of(4.0, 0.0), of(4.0, 1.0)],
-            [true, false, false]
-        );
+        assert_eq!(of(0.0, 1.0), true);
+        assert_eq!(of(0.0, 0.0), false);
+        assert_eq!(of(0.0, -1.0), false);
+        assert_eq!(of(1.0, 1.0), false);
+        assert_eq!(of(1.0, -1.0), false);
+        assert_eq!(of(4.0, -1.0), true);
+        assert_eq!(of(4.0, 0.0), false);
+        assert_eq!(of(4.0, 1.0), false);
 
         let fixed =
             LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![4.0], vec![4.0]).unwrap();
@@ -320,11 +314,8 @@ mod tests {
         };
 
         for trial in [1.0, 0.5, 0.125, CRASH_SMALLEST] {
-            assert_eq!(
-                [taken(trial, 1.01), taken(trial, 0.99)],
-                [Some((trial, trial)), None],
-                "{trial}"
-            );
+            assert_eq!(taken(trial, 1.01), Some((trial, trial)), "{trial}");
+            assert_eq!(taken(trial, 0.99), None, "{trial}");
         }
 
         assert_eq!(taken(0.5 * CRASH_SMALLEST, 1.01), None); // the path is better
@@ -378,6 +369,7 @@ mod tests {
         };
 
         // Gains of 0.9 and 1.1 %.
-        assert_eq!([steps(6e-4), steps(7.5e-4)], [(false, 1), (true, 2)]);
+        assert_eq!(steps(6e-4), (false, 1));
+        assert_eq!(steps(7.5e-4), (true, 2));
     }
 }

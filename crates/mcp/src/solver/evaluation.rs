@@ -210,30 +210,25 @@ mod tests {
         let mut e = Evaluated::new(&p);
         let point = e.point(&dvector![9.0, -3.0]);
 
-        assert_eq!(
-            (&point.z, &point.f),
-            (&dvector![2.0, -1.0], &dvector![-3.0, -10.0])
-        );
+        assert_eq!(&point.z, &dvector![2.0, -1.0]);
+        assert_eq!(&point.f, &dvector![-3.0, -10.0]);
         assert_eq!(point.merit, fischer::merit(&p, &point.z, &point.f));
         assert_eq!(e.point_with(|i| i as f64).z, dvector![0.0, 1.0]);
 
         let mut copy = e.copy(&point);
-        assert_eq!(
-            (&copy.z, &copy.f, copy.merit),
-            (&point.z, &point.f, point.merit)
-        );
+        assert_eq!(&copy.z, &point.z);
+        assert_eq!(&copy.f, &point.f);
+        assert_eq!(copy.merit, point.merit);
 
         let inside = e.point(&dvector![1.0, 0.0]);
         copy.copy_from(&inside);
-        assert_eq!(
-            (&copy.z, &copy.f, copy.merit),
-            (&inside.z, &inside.f, inside.merit)
-        );
-        assert_eq!(
-            (e.jacobian(&point).unwrap(), e.any_jacobian(&point)),
-            (dmatrix![0.0, 7.0; 0.0, 0.0], dmatrix![0.0, 7.0; 0.0, 0.0])
-        );
-        assert_eq!((e.counters.functions, e.counters.jacobians), (3, 2));
+        assert_eq!(&copy.z, &inside.z);
+        assert_eq!(&copy.f, &inside.f);
+        assert_eq!(copy.merit, inside.merit);
+        assert_eq!(e.jacobian(&point).unwrap(), dmatrix![0.0, 7.0; 0.0, 0.0]);
+        assert_eq!(e.any_jacobian(&point), dmatrix![0.0, 7.0; 0.0, 0.0]);
+        assert_eq!(e.counters.functions, 3);
+        assert_eq!(e.counters.jacobians, 2);
     }
 
     /// What was given back is used again, cleared, unless its size is another.
@@ -247,31 +242,30 @@ mod tests {
         e.recycle(point);
         e.recycle_matrix(jacobian);
 
-        assert_eq!((e.pool.points.len(), e.pool.matrices.len()), (1, 1));
+        assert_eq!(e.pool.points.len(), 1);
+        assert_eq!(e.pool.matrices.len(), 1);
 
         let point = e.point(&dvector![5.0, 6.0]);
         let jacobian = e.jacobian(&point).unwrap();
         assert_eq!((point.z.as_ptr(), jacobian.as_ptr()), at);
-        assert_eq!((e.pool.points.len(), e.pool.matrices.len()), (0, 0));
-        assert_eq!(
-            (&point.f, &jacobian),
-            (&dvector![5.0, 0.0], &dmatrix![1.0, 0.0; 0.0, 0.0])
-        );
+        assert_eq!(e.pool.points.len(), 0);
+        assert_eq!(e.pool.matrices.len(), 0);
+        assert_eq!(&point.f, &dvector![5.0, 0.0]);
+        assert_eq!(&jacobian, &dmatrix![1.0, 0.0; 0.0, 0.0]);
 
         e.recycle(point);
         e.recycle_matrix(jacobian);
         let (pool, counters) = e.into_parts();
 
-        assert_eq!((counters.functions, counters.jacobians), (2, 2));
+        assert_eq!(counters.functions, 2);
+        assert_eq!(counters.jacobians, 2);
 
         let other = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
         let mut e = Evaluated::with_pool(&other, pool);
         let point = e.point(&dvector![5.0]);
 
-        assert_eq!(
-            (point.z.len(), e.jacobian(&point).unwrap().shape()),
-            (1, (1, 1))
-        );
+        assert_eq!(point.z.len(), 1);
+        assert_eq!(e.jacobian(&point).unwrap().shape(), (1, 1));
     }
 
     #[test]
@@ -284,7 +278,8 @@ mod tests {
         let mut e = Evaluated::new(&p);
         let good = e.point(&dvector![1.0, 0.0, 0.0]);
 
-        assert!(good.not_finite().is_none() && e.not_finite.is_none());
+        assert!(good.not_finite().is_none());
+        assert!(e.not_finite.is_none());
         assert_eq!(
             e.jacobian(&good),
             Err(Termination::NonFinite(NonFinite::Jacobian {
@@ -304,10 +299,9 @@ mod tests {
 
         let bad = e.point(&dvector![0.0, 1.0, 1.0]);
         let reason = Some(Termination::NonFinite(NonFinite::Function { row: 1 }));
-        assert_eq!(
-            (bad.not_finite(), e.not_finite, bad.merit),
-            (reason, reason, f64::INFINITY)
-        );
+        assert_eq!(bad.not_finite(), reason);
+        assert_eq!(e.not_finite, reason);
+        assert_eq!(bad.merit, f64::INFINITY);
 
         e.point(&dvector![1.0, 1.0, 1.0]);
         assert_eq!(e.not_finite, reason); // until somebody takes it
@@ -330,13 +324,11 @@ mod tests {
         );
 
         for j in [e.any_jacobian(&point), jacobian_at(&p, &[1.0, 1.0])] {
-            assert!(
-                j.shape() == (2, 2)
-                    && j[(0, 0)] == 5.0
-                    && j[(0, 1)] == 5.0
-                    && j[(1, 0)].is_nan()
-                    && j[(1, 1)].is_nan()
-            );
+            assert!(j.shape() == (2, 2));
+            assert!(j[(0, 0)] == 5.0);
+            assert!(j[(0, 1)] == 5.0);
+            assert!(j[(1, 0)].is_nan());
+            assert!(j[(1, 1)].is_nan());
         }
     }
 }

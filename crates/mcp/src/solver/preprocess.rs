@@ -200,7 +200,8 @@ mod tests {
 
         // Equal bounds fix z_1 = 2, then F_2 = 2 + 1 > 0 puts z_2 on its lower bound.
         let both = one(coupled.clone(), &[0.0, 1.0], &[2.0, 0.0], &[2.0, INF]);
-        assert!(both.kept.is_empty() && both.restore(&[]) == [2.0, 0.0]);
+        assert!(both.kept.is_empty());
+        assert!(both.restore(&[]) == [2.0, 0.0]);
 
         // F_2 = z_1 - 1 has no sign over [0, inf).
         assert!(
@@ -309,24 +310,12 @@ mod tests {
         };
         let sure = SIGN_SURE * 2.0; // |q| + |z_1|
 
-        assert_eq!(
-            [
-                decided(1.0 + 1.01 * sure, 0.0, 4.0),
-                decided(1.0 + 0.99 * sure, 0.0, 4.0)
-            ],
-            [Some(0.0), None]
-        );
-        assert_eq!(
-            [
-                decided(1.0 - 1.01 * sure, 0.0, 4.0),
-                decided(1.0 - 0.99 * sure, 0.0, 4.0)
-            ],
-            [Some(4.0), None]
-        );
-        assert_eq!(
-            [decided(2.0, -INF, 4.0), decided(0.0, 0.0, INF)],
-            [None, None]
-        );
+        assert_eq!(decided(1.0 + 1.01 * sure, 0.0, 4.0), Some(0.0));
+        assert_eq!(decided(1.0 + 0.99 * sure, 0.0, 4.0), None);
+        assert_eq!(decided(1.0 - 1.01 * sure, 0.0, 4.0), Some(4.0));
+        assert_eq!(decided(1.0 - 0.99 * sure, 0.0, 4.0), None);
+        assert_eq!(decided(2.0, -INF, 4.0), None);
+        assert_eq!(decided(0.0, 0.0, INF), None);
 
         let zero = LinearMcp::new(dmatrix![0.0], vec![0.0], vec![0.0], vec![4.0]).unwrap();
         assert_eq!(decide(&zero, &[None], 0), None);
@@ -344,10 +333,8 @@ mod tests {
         )
         .unwrap();
 
-        assert_eq!(
-            [decide(&p, &[None, None], 0), decide(&p, &[None, None], 1)],
-            [Some(1.5), None]
-        );
+        assert_eq!(decide(&p, &[None, None], 0), Some(1.5));
+        assert_eq!(decide(&p, &[None, None], 1), None);
         assert_eq!(decide(&p, &[Some(1.5), None], 1), Some(0.875));
         assert_eq!(Preprocessed::new(&p).restore(&[]), [1.5, 0.875]);
     }

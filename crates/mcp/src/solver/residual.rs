@@ -205,8 +205,11 @@ mod tests {
     #[test]
     fn only_the_products_see_a_solution_at_infinity() {
         let r = Residuals::at(&Reciprocal, &[1e16]);
-        assert!(r.minimum_map <= 1e-15 && r.normal_map <= 1e-15 && r.fischer <= 1e-15);
-        assert!((r.complementarity - 1.0).abs() < 1e-12 && !r.within(1e-10));
+        assert!(r.minimum_map <= 1e-15);
+        assert!(r.normal_map <= 1e-15);
+        assert!(r.fischer <= 1e-15);
+        assert!((r.complementarity - 1.0).abs() < 1e-12);
+        assert!(!r.within(1e-10));
     }
 
     #[test]
@@ -220,10 +223,13 @@ mod tests {
     fn all_vanish_at_a_solution_and_differ_elsewhere() {
         let lcp = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
         let r = Residuals::at(&lcp, &[4.0 / 3.0, 7.0 / 3.0]);
-        assert!(r.within(1e-14) && r.fischer_gradient < 1e-13);
+        assert!(r.within(1e-14));
+        assert!(r.fischer_gradient < 1e-13);
 
         let r = Residuals::at(&lcp, &[0.0, 0.0]);
-        assert_eq!((r.normal_map, r.minimum_map, r.fischer), (6.0, 6.0, 12.0));
+        assert_eq!(r.normal_map, 6.0);
+        assert_eq!(r.minimum_map, 6.0);
+        assert_eq!(r.fischer, 12.0);
     }
 
     /// By hand, one component each: towards both bounds, inside, free, and with |F| where the bound
@@ -248,23 +254,18 @@ mod tests {
 
         for (z, f, l, u, product, normal, minimum) in table {
             let r = Residuals::within_bounds(&[l], &[u], &[z], &[f]);
-            assert_eq!(
-                (r.complementarity, r.normal_map, r.minimum_map),
-                (product, normal, minimum),
-                "{z} {f} [{l}, {u}]"
-            );
-            assert_eq!(
-                (r.fischer, r.fischer_gradient),
-                (fischer(z, f, l, u).value.abs(), 0.0)
-            );
+            assert_eq!(r.complementarity, product, "{z} {f} [{l}, {u}]");
+            assert_eq!(r.normal_map, normal, "{z} {f} [{l}, {u}]");
+            assert_eq!(r.minimum_map, minimum, "{z} {f} [{l}, {u}]");
+            assert_eq!(r.fischer, fischer(z, f, l, u).value.abs());
+            assert_eq!(r.fischer_gradient, 0.0);
         }
 
         // The largest of the components, whatever their order.
         let r = Residuals::within_bounds(&[0.0; 3], &[inf; 3], &[1.0, 5.0, 2.0], &[-7.0, 1.0, 0.5]);
-        assert_eq!(
-            (r.complementarity, r.normal_map, r.minimum_map),
-            (7.0, 7.0, 7.0)
-        );
+        assert_eq!(r.complementarity, 7.0);
+        assert_eq!(r.normal_map, 7.0);
+        assert_eq!(r.minimum_map, 7.0);
     }
 
     /// From parts as from the problem, with a gradient that is none of its terms.
@@ -332,19 +333,15 @@ mod tests {
         let t = 0.0625;
         let more = 0.063;
 
-        assert!(
-            of(t, t, t, 0.25)
-                && !of(more, t, t, 0.25)
-                && !of(t, more, t, 0.25)
-                && !of(t, t, more, 0.25)
-                && !of(t, t, t, 0.26)
-        );
-        assert!(
-            !of(f64::NAN, t, t, t)
-                && !of(t, f64::NAN, t, t)
-                && !of(t, t, f64::NAN, t)
-                && !of(t, t, t, f64::NAN)
-        );
+        assert!(of(t, t, t, 0.25));
+        assert!(!of(more, t, t, 0.25));
+        assert!(!of(t, more, t, 0.25));
+        assert!(!of(t, t, more, 0.25));
+        assert!(!of(t, t, t, 0.26));
+        assert!(!of(f64::NAN, t, t, t));
+        assert!(!of(t, f64::NAN, t, t));
+        assert!(!of(t, t, f64::NAN, t));
+        assert!(!of(t, t, t, f64::NAN));
     }
 
     /// Bounds that are shorter than the problem says give NaN, as does a short z; a NaN is not lost
@@ -357,11 +354,9 @@ mod tests {
         };
 
         assert!(!nan(&[0.0; 2], &[1.0; 2], &[0.5; 2]));
-        assert!(
-            nan(&[0.0; 1], &[1.0; 2], &[0.5; 2])
-                && nan(&[0.0; 2], &[1.0; 1], &[0.5; 2])
-                && nan(&[0.0; 2], &[1.0; 2], &[0.5; 1])
-        );
+        assert!(nan(&[0.0; 1], &[1.0; 2], &[0.5; 2]));
+        assert!(nan(&[0.0; 2], &[1.0; 1], &[0.5; 2]));
+        assert!(nan(&[0.0; 2], &[1.0; 2], &[0.5; 1]));
         assert!(
             [[f64::NAN, 1.0], [1.0, f64::NAN]]
                 .iter()

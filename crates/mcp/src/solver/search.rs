@@ -261,15 +261,10 @@ mod tests {
     #[test]
     fn a_fraction_of_the_path_is_taken_while_far() {
         let s = search(0, &Options::default());
-        assert_eq!(
-            [
-                s.fraction(8.0),
-                s.fraction(1.01 * NEAR * 8.0),
-                s.fraction(NEAR * 8.0),
-                s.fraction(0.0)
-            ],
-            [0.5, 0.5, 1.0, 1.0]
-        );
+        assert_eq!(s.fraction(8.0), 0.5);
+        assert_eq!(s.fraction(1.01 * NEAR * 8.0), 0.5);
+        assert_eq!(s.fraction(NEAR * 8.0), 1.0);
+        assert_eq!(s.fraction(0.0), 1.0);
     }
 
     /// The best point of an attempt is its own, also where it has the storage of another one.
@@ -312,12 +307,11 @@ mod tests {
         }
 
         let passes = |merit: f64, t: f64| s.passes(&point(&[0.0, 0.0], merit), t);
-        assert!(
-            passes(3.0 * (1.0 - ARMIJO), 1.0)
-                && !passes(3.0 * (1.0 - 0.9 * ARMIJO), 1.0)
-                && passes(3.0 * (1.0 - 0.9 * ARMIJO), 0.5)
-        );
-        assert!(!passes(f64::NAN, 1.0) && !passes(f64::INFINITY, 1.0));
+        assert!(passes(3.0 * (1.0 - ARMIJO), 1.0));
+        assert!(!passes(3.0 * (1.0 - 0.9 * ARMIJO), 1.0));
+        assert!(passes(3.0 * (1.0 - 0.9 * ARMIJO), 0.5));
+        assert!(!passes(f64::NAN, 1.0));
+        assert!(!passes(f64::INFINITY, 1.0));
 
         let mut monotone = search(4, &options);
         assert_eq!(monotone.reference(), 8.0);
@@ -347,24 +341,22 @@ mod tests {
         // However far from zero.
         let far = [point(&[1e9, 0.0], 1.0), point(&[1e9, 1.0], 1.0)];
         assert!(s.unchecked_allowed(&far[0], &far[1]));
-        assert!(
-            allowed(&s, radius, 1e9)
-                && !allowed(&s, 1.01 * radius, 1.0)
-                && !allowed(&s, 0.0, f64::INFINITY)
-        );
+        assert!(allowed(&s, radius, 1e9));
+        assert!(!allowed(&s, 1.01 * radius, 1.0));
+        assert!(!allowed(&s, 0.0, f64::INFINITY));
 
         for k in 1..=3 {
             assert!(allowed(&s, 0.0, 1.0), "{k}");
 
             s.take_unchecked(&path(), &point(&[k as f64, 0.0], 8.0 - k as f64));
-            assert_eq!(
-                (s.unchecked, s.radius, s.best().unwrap().merit),
-                (k, radius * TRUST_SHRINK.powi(k as i32), 8.0 - k as f64)
-            );
+            assert_eq!(s.unchecked, k);
+            assert_eq!(s.radius, radius * TRUST_SHRINK.powi(k as i32));
+            assert_eq!(s.best().unwrap().merit, 8.0 - k as f64);
         }
 
         assert!(!allowed(&s, 0.0, 1.0));
-        assert!(s.watchdog() && s.unchecked == 0);
+        assert!(s.watchdog());
+        assert_eq!(s.unchecked, 0);
         assert!(!s.watchdog()); // nothing taken since
 
         s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
@@ -377,7 +369,8 @@ mod tests {
 
         s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
         s.take_checked(&point(&[0.0, 0.0], 9.0));
-        assert!(s.unchecked == 0 && !s.watchdog());
+        assert_eq!(s.unchecked, 0);
+        assert!(!s.watchdog());
     }
 
     #[test]
@@ -390,14 +383,9 @@ mod tests {
             },
         );
 
-        assert_eq!(
-            [
-                s.gradient_allowed(),
-                s.gradient_allowed(),
-                s.gradient_allowed()
-            ],
-            [true, true, false]
-        );
+        assert_eq!(s.gradient_allowed(), true);
+        assert_eq!(s.gradient_allowed(), true);
+        assert_eq!(s.gradient_allowed(), false);
     }
 
     /// The reference at the beginning: a multiple of the start's merit, far above it where all is

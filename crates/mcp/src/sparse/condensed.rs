@@ -509,9 +509,8 @@ mod tests {
             .solve(&[0.0; 2], &Options::default())
             .unwrap();
 
-        assert!(
-            (outcome.point[0] - 4.0 / 3.0).abs() < 1e-12 && outcome.termination.reached_tolerance()
-        );
+        assert!((outcome.point[0] - 4.0 / 3.0).abs() < 1e-12);
+        assert!(outcome.termination.reached_tolerance());
 
         let all_free = problem(&[(0, 0, 2.0), (1, 0, 1.0), (1, 1, 2.0)], &[-4.0, -6.0], 2);
         let outcome = CondensedMcp::new(&all_free)
@@ -519,10 +518,8 @@ mod tests {
             .solve_linear(&Options::default())
             .unwrap();
 
-        assert_eq!(
-            (outcome.point, outcome.termination),
-            (vec![2.0, 2.0], Termination::ToleranceReached)
-        );
+        assert_eq!(outcome.point, vec![2.0, 2.0]);
+        assert_eq!(outcome.termination, Termination::ToleranceReached);
     }
 
     #[test]

@@ -173,10 +173,8 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap();
         for sense in [Sense::Down, Sense::Up] {
             let curve = continuation(&lcp, &[0.5], sense, 9, &Options::default()).unwrap();
-            assert!(
-                curve.solutions.is_empty() && curve.end == CurveEnd::Ray,
-                "{curve:?}"
-            );
+            assert!(curve.solutions.is_empty(), "{curve:?}");
+            assert_eq!(curve.end, CurveEnd::Ray, "{curve:?}");
         }
     }
 }

@@ -282,14 +282,10 @@ mod tests {
             &vec![1.0; n],
         );
 
-        assert!(
-            ended && factorisations < 30,
-            "{factorisations} {}",
-            point.merit
-        );
-        assert!(
-            point.z.iter().take(n - 1).all(|v| *v == 0.0) && (point.z[n - 1] - 1.0).abs() < 1e-12
-        );
+        assert!(ended, "{factorisations} {}", point.merit);
+        assert!(factorisations < 30, "{factorisations} {}", point.merit);
+        assert!(point.z.iter().take(n - 1).all(|v| *v == 0.0));
+        assert!((point.z[n - 1] - 1.0).abs() < 1e-12);
     }
 
     /// Below, inside, above, fixed and free: z = (0, 1, 2, 5, 3) of F = z - (-1, 1, 4, 0, 3).
@@ -322,17 +318,14 @@ mod tests {
     fn poor_progress_ends_it() {
         let (point, ended, factorisations) =
             crashed(&LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap(), &[3.0]);
-        assert!(
-            !ended && point.merit > 0.4 && factorisations <= 3 * SEMISMOOTH_WINDOW,
-            "{factorisations}"
-        );
+        assert!(!ended, "{factorisations}");
+        assert!(point.merit > 0.4, "{factorisations}");
+        assert!(factorisations <= 3 * SEMISMOOTH_WINDOW, "{factorisations}");
 
         let (_, ended, factorisations) =
             crashed(&LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap(), &[0.0]);
-        assert!(
-            !ended && factorisations <= 2 * SEMISMOOTH_WINDOW,
-            "{factorisations}"
-        );
+        assert!(!ended, "{factorisations}");
+        assert!(factorisations <= 2 * SEMISMOOTH_WINDOW, "{factorisations}");
     }
 
     /// The derivative of what Newton solves: -diagonal and residual against the function and its
@@ -371,7 +364,8 @@ mod tests {
             panic!()
         };
 
-        assert!((diagonal - 2.0).abs() < 1e-14 && (residual - 10.0).abs() < 1e-13);
+        assert!((diagonal - 2.0).abs() < 1e-14);
+        assert!((residual - 10.0).abs() < 1e-13);
 
         // Pointing out of the bound: never to the bound.
         assert!(matches!(row(0.0, -1.0, 0.0, INF, 1.0), Row::Inside { .. }));
@@ -382,22 +376,18 @@ mod tests {
     #[test]
     fn branches_are_told_apart_by_near() {
         let is_bound = |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Bound(_));
-        assert!(
-            is_bound(0.5, 2.0)
-                && !is_bound(0.5, 1.9)
-                && is_bound(7.5, -2.0)
-                && !is_bound(7.5, -1.9)
-        );
+        assert!(is_bound(0.5, 2.0));
+        assert!(!is_bound(0.5, 1.9));
+        assert!(is_bound(7.5, -2.0));
+        assert!(!is_bound(7.5, -1.9));
 
         let is_free =
             |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Inside { diagonal: 0.0, .. });
-        assert!(
-            is_free(2.0, 0.5)
-                && !is_free(2.0, 0.6)
-                && is_free(6.0, -0.5)
-                && !is_free(6.0, -0.6)
-                && !is_free(0.2, 0.15)
-        );
+        assert!(is_free(2.0, 0.5));
+        assert!(!is_free(2.0, 0.6));
+        assert!(is_free(6.0, -0.5));
+        assert!(!is_free(6.0, -0.6));
+        assert!(!is_free(0.2, 0.15));
     }
 
     #[test]
@@ -429,15 +419,10 @@ mod tests {
             near[0]
         };
 
-        assert_eq!(
-            [
-                after(Some(1.0)),
-                after(Some(0.5)),
-                after(Some(1.0)),
-                after(None)
-            ],
-            [1.0, 2.0, 2.0, 1.0]
-        );
+        assert_eq!(after(Some(1.0)), 1.0);
+        assert_eq!(after(Some(0.5)), 2.0);
+        assert_eq!(after(Some(1.0)), 2.0);
+        assert_eq!(after(None), 1.0);
     }
 
     /// z_0 goes to its bound, and what that adds to F_1 is in the right-hand side: 9 - 3/4 + 4 d =

@@ -57,22 +57,11 @@ fn limits_are_shared_evenly() {
         (share.majors, share.pivots)
     };
 
-    assert_eq!(
-        [
-            share(3, 1),
-            share(3, 0),
-            share(0, 1),
-            share(0, 0),
-            share(2, 200)
-        ],
-        [
-            (63, 1250),
-            (125, 2500),
-            (250, 5000),
-            (500, 10_000),
-            (84, 1667)
-        ]
-    );
+    assert_eq!(share(3, 1), (63, 1250));
+    assert_eq!(share(3, 0), (125, 2500));
+    assert_eq!(share(0, 1), (250, 5000));
+    assert_eq!(share(0, 0), (500, 10_000));
+    assert_eq!(share(2, 200), (84, 1667));
 }
 
 #[test]
@@ -86,10 +75,10 @@ fn curves_from_afar_are_tried_where_there_are_restarts_and_curves() {
         run(&feasible(), &options).trials()
     };
 
-    assert_eq!(
-        [trials(1, 1), trials(0, 1), trials(1, 0), trials(0, 0)],
-        [CURVE_TRIALS, 0, 0, 0]
-    );
+    assert_eq!(trials(1, 1), CURVE_TRIALS);
+    assert_eq!(trials(0, 1), 0);
+    assert_eq!(trials(1, 0), 0);
+    assert_eq!(trials(0, 0), 0);
 }
 
 /// Curves follow an attempt that has failed from a point that was moved, and no other.
@@ -114,14 +103,9 @@ fn curves_are_followed_after_restarts_that_moved_and_failed() {
     let still = Attempt::number(1);
     let moved = Attempt::number(2);
 
-    assert_eq!(
-        [
-            steps(&infeasible(), moved, 50),
-            steps(&infeasible(), moved, 0),
-            steps(&infeasible(), still, 50)
-        ],
-        [(false, true), (false, false), (false, false)]
-    );
+    assert_eq!(steps(&infeasible(), moved, 50), (false, true));
+    assert_eq!(steps(&infeasible(), moved, 0), (false, false));
+    assert_eq!(steps(&infeasible(), still, 50), (false, false));
     assert_eq!(
         [steps(&feasible(), moved, 50), steps(&feasible(), still, 50)],
         [(true, false); 2]
@@ -225,13 +209,8 @@ fn curves_are_followed_after_the_first_attempt_fails() {
         )
     };
 
-    assert_eq!(
-        [
-            of(&infeasible(), &[1.0], 0, 50),
-            of(&infeasible(), &[1.0], 0, 0)
-        ],
-        [(false, true, 0), (false, false, 0)]
-    );
+    assert_eq!(of(&infeasible(), &[1.0], 0, 50), (false, true, 0));
+    assert_eq!(of(&infeasible(), &[1.0], 0, 0), (false, false, 0));
     assert_eq!(of(&infeasible(), &[1.0], 2, 50), (false, true, 2));
     assert_eq!(of(&feasible(), &[1.0; 2], 2, 50), (true, false, 0));
 }
@@ -256,10 +235,9 @@ fn the_tolerance_is_that_of_each_component() {
             is_within_tolerance(run.problem.problem, &point, options.convergence_tolerance)
         };
 
-        assert!(
-            within(&mut run, 0.25) && within(&mut run, -0.25) && !within(&mut run, 0.2501),
-            "{n}"
-        );
+        assert!(within(&mut run, 0.25), "{n}");
+        assert!(within(&mut run, -0.25), "{n}");
+        assert!(!within(&mut run, 0.2501), "{n}");
 
         let one = run
             .problem
@@ -329,10 +307,8 @@ fn a_complete_path_leads_to_the_newton_point() {
     };
     let regular = path(m.clone(), &q, &[0.0], &[INF], Start::Regular, &[1.0]);
 
-    assert_eq!(
-        [target(&regular, 1.0), target(&regular, 0.5)],
-        [(3.0, 1.0), (2.0, 0.5)]
-    );
+    assert_eq!(target(&regular, 1.0), (3.0, 1.0));
+    assert_eq!(target(&regular, 0.5), (2.0, 0.5));
 
     let ray = path(m, &q, &[0.0], &[INF], Start::Ray, &[1.0]);
     assert_eq!([target(&ray, 1.0), target(&ray, 0.5)], [(3.0, 1.0); 2]);
@@ -353,14 +329,17 @@ fn a_partial_path_leads_to_the_better_of_two_points() {
         &[0.0, 3.0],
     );
 
-    assert_eq!((partial.end, partial.start), (PathEnd::Ray, Start::Regular));
+    assert_eq!(partial.end, PathEnd::Ray);
+    assert_eq!(partial.start, Start::Regular);
 
     let at = |t: f64| partial.at(t).map(|z| vec![z(0), z(1)]).unwrap();
     let reach = partial.reach();
     let last = partial.last().unwrap().to_vec();
     let last_t = *partial.knots.t(partial.knots.len() - 1);
 
-    assert!(last[0] > 0.01 && last_t < reach && (reach - 0.8).abs() < 1e-12);
+    assert!(last[0] > 0.01);
+    assert!(last_t < reach);
+    assert!((reach - 0.8).abs() < 1e-12);
 
     let options = Options::default();
     for (root, better) in [
@@ -425,10 +404,8 @@ fn a_path_is_searched_back_to_a_point_that_passes() {
     approx::assert_relative_eq!(next.z[0], -3.0, max_relative = 1e-9);
 
     // Its merit is what the next one must pass.
-    assert!(
-        search.passes(&run.problem.point_with(|_| 2.99), 1.0)
-            && !search.passes(&run.problem.point_with(|_| 3.01), 1.0)
-    );
+    assert!(search.passes(&run.problem.point_with(|_| 2.99), 1.0));
+    assert!(!search.passes(&run.problem.point_with(|_| 3.01), 1.0));
 
     // A ray start does not begin at the iterate.
     let ray = Path {
@@ -452,10 +429,8 @@ fn a_path_is_searched_back_to_a_point_that_passes() {
     search.take_unchecked(&overshoot, &point);
     let (next, kind) = run.back_along_paths(&[], &mut search).unwrap();
 
-    assert_eq!(
-        (kind, run.problem.counters.watchdogs),
-        (StepKind::Watchdog { t: 0.25 }, 1)
-    ); // 20 times the merit: |z| < 35.7
+    assert_eq!(kind, StepKind::Watchdog { t: 0.25 });
+    assert_eq!(run.problem.counters.watchdogs, 1); // 20 times the merit: |z| < 35.7
     approx::assert_relative_eq!(next.z[0], -14.0, max_relative = 1e-9);
 }
 
@@ -549,10 +524,9 @@ fn gradient_steps_leave_from_the_best_point() {
     search.take_checked(&better);
     let (next, kind) = run.gradient(&mut search).unwrap().unwrap();
 
-    assert_eq!(
-        (next.z[0], kind, run.problem.counters.gradient_steps),
-        (0.0, StepKind::Gradient, 1)
-    );
+    assert_eq!(next.z[0], 0.0);
+    assert_eq!(kind, StepKind::Gradient);
+    assert_eq!(run.problem.counters.gradient_steps, 1);
     assert!(run.gradient(&mut search).unwrap().is_none());
 }
 
@@ -603,6 +577,7 @@ fn a_start_is_moved_to_where_the_function_is_finite() {
             1.0
         };
 
-        assert_eq!((moved.z[0], expected != 1.0), (expected, moves));
+        assert_eq!(moved.z[0], expected);
+        assert_eq!(expected != 1.0, moves);
     }
 }

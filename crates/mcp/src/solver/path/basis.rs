@@ -239,6 +239,8 @@ mod tests {
             basis.replace(1, entering, &column);
         }
 
-        assert!(basis.is_stale() && basis.refactor(&columns) && !basis.is_stale());
+        assert!(basis.is_stale());
+        assert!(basis.refactor(&columns));
+        assert!(!basis.is_stale());
     }
 }

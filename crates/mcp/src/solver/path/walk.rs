@@ -266,24 +266,19 @@ mod tests {
 
                 // Each slot has its own count.
                 for variable in [Variable::Z(0), Variable::W(0), Variable::V(0)] {
-                    assert_eq!(
-                        [at(0.0, variable), at(-1.0, variable), at(0.0, variable)],
-                        [false, false, cycles]
-                    );
+                    assert_eq!(at(0.0, variable), false);
+                    assert_eq!(at(-1.0, variable), false);
+                    assert_eq!(at(0.0, variable), cycles);
                 }
-                assert!(!at(0.0, Variable::T) && !at(0.0, Variable::Artificial(0)));
+                assert!(!at(0.0, Variable::T));
+                assert!(!at(0.0, Variable::Artificial(0)));
                 assert_eq!(
                     [0.9, 1.0, 1.1].map(|share| at(share * TIE, Variable::Z(0))),
                     [cycles, cycles, false]
                 );
-                assert_eq!(
-                    [
-                        at(0.5, Variable::Z(0)),
-                        at(0.25, Variable::Z(0)),
-                        at(0.5, Variable::Z(0))
-                    ],
-                    [false, false, cycles]
-                );
+                assert_eq!(at(0.5, Variable::Z(0)), false);
+                assert_eq!(at(0.25, Variable::Z(0)), false);
+                assert_eq!(at(0.5, Variable::Z(0)), cycles);
             });
         }
     }
@@ -312,7 +307,8 @@ mod tests {
         };
         let (end, needed, _) = ends(100);
 
-        assert_eq!((end, needed), (PathEnd::Complete, 3));
+        assert_eq!(end, PathEnd::Complete);
+        assert_eq!(needed, 3);
 
         for pivots in 0..needed {
             assert_eq!(ends(pivots), (PathEnd::PivotLimit, pivots, pivots + 1));

@@ -54,14 +54,14 @@ fn places_of_a_solution_are_those_of_strict_complementarity() {
         .0[0]
     };
 
-    assert_eq!(
-        [of(1e-9, 1.0), of(1.0, 1e-9), of(0.0, 0.0), of(1.0, 1.0)],
-        [Place::Lower, Place::Inside, Place::Lower, Place::Lower]
-    );
-    assert_eq!(
-        [of(4.0, -1.0), of(3.0, -1e-9), of(3.0, -1.0), of(2.0, 0.0)],
-        [Place::Upper, Place::Inside, Place::Upper, Place::Inside]
-    );
+    assert_eq!(of(1e-9, 1.0), Place::Lower);
+    assert_eq!(of(1.0, 1e-9), Place::Inside);
+    assert_eq!(of(0.0, 0.0), Place::Lower);
+    assert_eq!(of(1.0, 1.0), Place::Lower);
+    assert_eq!(of(4.0, -1.0), Place::Upper);
+    assert_eq!(of(3.0, -1e-9), Place::Inside);
+    assert_eq!(of(3.0, -1.0), Place::Upper);
+    assert_eq!(of(2.0, 0.0), Place::Inside);
 
     let fixed = problem(1, &[4.0], &[4.0]);
     assert_eq!(
@@ -88,17 +88,12 @@ fn lifted_multipliers_are_on_the_right_side() {
     ]);
     let lift = |i: usize, f: f64| p.lifted_multiplier(i, f, 0.25);
 
-    assert_eq!(
-        [
-            lift(0, 3.0),
-            lift(1, 3.0),
-            lift(1, -3.0),
-            lift(2, -3.0),
-            lift(2, 3.0),
-            lift(3, -3.0)
-        ],
-        [0.0, 3.25, 0.25, -3.25, -0.25, -3.0]
-    );
+    assert_eq!(lift(0, 3.0), 0.0);
+    assert_eq!(lift(1, 3.0), 3.25);
+    assert_eq!(lift(1, -3.0), 0.25);
+    assert_eq!(lift(2, -3.0), -3.25);
+    assert_eq!(lift(2, 3.0), -0.25);
+    assert_eq!(lift(3, -3.0), -3.0);
 }
 
 /// Values of the three quantities and their derivatives by (z_I, s).
@@ -198,7 +193,8 @@ fn a_residual_is_relative_to_the_right_hand_side() {
                 .steps
         };
 
-        assert_eq!([steps(0.9), steps(1.1)], [0, 1], "{s} {r}");
+        assert_eq!(steps(0.9), 0, "{s} {r}");
+        assert_eq!(steps(1.1), 1, "{s} {r}");
     }
 }
 
@@ -228,10 +224,8 @@ fn a_correction_has_a_number_of_steps() {
     };
     let enough = CURVE_RESIDUAL * (27.0f64 / 8.0).powi(CURVE_STEPS as i32);
 
-    assert_eq!(
-        [steps(0.95 * enough), steps(1.05 * enough)],
-        [Some(CURVE_STEPS), None]
-    );
+    assert_eq!(steps(0.95 * enough), Some(CURVE_STEPS));
+    assert_eq!(steps(1.05 * enough), None);
 }
 
 /// Outside the bounds F is continued by its tangent there; what is not finite is no value.
@@ -259,12 +253,10 @@ fn outside_the_bounds_the_function_is_linear() {
 
     // At (3, 4) F = (9, 12) and F' = [6, 0; 4, 3].
     let local = system.local(&dvector![3.5, 6.0]).unwrap();
+    assert_eq!(local.f, dvector![12.0, 20.0]);
     assert_eq!(
-        (local.f, local.jacobian),
-        (
-            dvector![12.0, 20.0],
-            DMatrix::from_row_slice(2, 2, &[6.0, 0.0, 4.0, 3.0])
-        )
+        local.jacobian,
+        DMatrix::from_row_slice(2, 2, &[6.0, 0.0, 4.0, 3.0])
     );
     assert_eq!(system.problem.counters.jacobians, 2);
 
@@ -302,11 +294,10 @@ fn tangents_satisfy_the_bordered_equations() {
     for sign in [1.0, -1.0] {
         let border = dvector![0.5, 0.0, 1.0];
         let v = system.tangent(&local, &border, sign).unwrap();
-        assert!(
-            (2.0 * v[0] + v[1] - 5.0 * v[2]).abs() < 1e-12
-                && (-v[0] + 4.0 * v[1] + 2.0 * v[2]).abs() < 1e-12
-        );
-        assert!((v.norm() - 1.0).abs() < 1e-12 && border.dot(&v) * sign > 0.0);
+        assert!((2.0 * v[0] + v[1] - 5.0 * v[2]).abs() < 1e-12);
+        assert!((-v[0] + 4.0 * v[1] + 2.0 * v[2]).abs() < 1e-12);
+        assert!((v.norm() - 1.0).abs() < 1e-12);
+        assert!(border.dot(&v) * sign > 0.0);
     }
 
     assert_eq!(system.problem.counters.factorisations, 2);
@@ -322,7 +313,8 @@ fn tangents_satisfy_the_bordered_equations() {
     };
     system.shift(&mut at, &[0, 2], &dvector![1.0, -1.0, 0.5], 2.0);
 
-    assert_eq!((at.z, at.s), (dvector![3.0, 2.0, 1.0], 5.0));
+    assert_eq!(at.z, dvector![3.0, 2.0, 1.0]);
+    assert_eq!(at.s, 5.0);
 }
 
 /// Numbers whose square or reciprocal leaves the range give no direction.
@@ -358,7 +350,8 @@ fn factors_are_kept_while_they_gain() {
                 &Border::Plane(&dvector![0.0, 1.0]),
             )
             .unwrap();
-        assert!((there.at.z[0] - 1.0).abs() < 1e-8 && there.at.s == 1.0);
+        assert!((there.at.z[0] - 1.0).abs() < 1e-8);
+        assert_eq!(there.at.s, 1.0);
         (
             there.steps,
             system.problem.counters.factorisations,
@@ -369,14 +362,13 @@ fn factors_are_kept_while_they_gain() {
     // The error e of z goes to e^2 / 2 with new factors, to e times the first error with kept ones.
     for (from, steps, factorisations) in [(1.0 + 1e-3, 2, 1), (1.1, 4, 2)] {
         let (s, f, tangent) = corrected(from);
-        assert_eq!((s, f), (steps, factorisations), "{from}");
+        assert_eq!(s, steps, "{from}");
+        assert_eq!(f, factorisations, "{from}");
 
         let tangent = tangent.unwrap();
         let along = dvector![1.0, 2.0].normalize();
-        assert!(
-            (tangent.dot(&along).abs() - 1.0).abs() < 1e-5 && (tangent.norm() - 1.0).abs() < 1e-12,
-            "{tangent}"
-        );
+        assert!((tangent.dot(&along).abs() - 1.0).abs() < 1e-5, "{tangent}");
+        assert!((tangent.norm() - 1.0).abs() < 1e-12, "{tangent}");
     }
 
     assert_eq!(corrected(1.0), (0, 0, None));
