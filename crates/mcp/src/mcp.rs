@@ -237,10 +237,10 @@ mod tests {
 
     #[test]
     fn refusals_name_the_place() {
-        let m = || dmatrix![1.0, 0.0; 0.0, 1.0];
+        let identity = || dmatrix![1.0, 0.0; 0.0, 1.0];
         let cases = [
             (
-                LinearMcp::lcp(m(), vec![0.0]),
+                LinearMcp::lcp(identity(), vec![0.0]),
                 "expected rows of M of length 1, got 2",
             ),
             (
@@ -252,19 +252,19 @@ mod tests {
                 "expected a finite M[0][1], got NaN",
             ),
             (
-                LinearMcp::lcp(m(), vec![0.0, INF]),
+                LinearMcp::lcp(identity(), vec![0.0, INF]),
                 "expected a finite q[1][0], got inf",
             ),
             (
-                LinearMcp::new(m(), vec![0.0; 2], vec![0.0, 2.0], vec![1.0; 2]),
+                LinearMcp::new(identity(), vec![0.0; 2], vec![0.0, 2.0], vec![1.0; 2]),
                 "expected lower <= upper at 1, got 2 and 1",
             ),
             (
-                LinearMcp::new(m(), vec![0.0; 2], vec![INF, 0.0], vec![INF; 2]),
+                LinearMcp::new(identity(), vec![0.0; 2], vec![INF, 0.0], vec![INF; 2]),
                 "expected lower <= upper at 0, got inf and inf",
             ),
             (
-                LinearMcp::new(m(), vec![0.0; 2], vec![0.0; 2], vec![1.0, f64::NAN]),
+                LinearMcp::new(identity(), vec![0.0; 2], vec![0.0; 2], vec![1.0, f64::NAN]),
                 "expected lower <= upper at 1, got 0 and NaN",
             ),
         ];

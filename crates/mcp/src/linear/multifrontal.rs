@@ -7,8 +7,8 @@
 //! left at the end is the Schur complement Z = C - B' F^-1 B of the kept unknowns.
 //!
 //! Input: an [`Analysis`] of the pattern and a matrix. Output: a [`SchurFactor`], which solves,
-//! extends and restricts. `mceip-engine` and `mceip-paper` eliminate the unknowns of bodies with
-//! it.
+//! extends and restricts. `mceip-engine` eliminates the unknowns of a body with it that are free of
+//! contact.
 
 use super::analysis::{Analysis, Front, HELD};
 use super::dense::eliminate_front;
@@ -328,135 +328,158 @@ impl SchurFactor<'_> {
 mod tests {
     use super::*;
 
-    /// The five-point Laplacian of an n x n grid plus a shift, with positions.
-    fn laplacian(n: usize, shift: f64) -> (Symmetric, Vec<[f64; 2]>) {
-        let at = |i: usize, j: usize| i * n + j;
-        let mut list = Vec::new();
-        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-            let near = [
-                (i.wrapping_sub(1), j),
-                (i + 1, j),
-                (i, j.wrapping_sub(1)),
-                (i, j + 1),
-            ];
-            let near: Vec<_> = near.into_iter().filter(|&(a, b)| a < n && b < n).collect();
-            list.push((at(i, j), at(i, j), shift + near.len() as f64));
-            list.extend(near.into_iter().map(|(a, b)| (at(i, j), at(a, b), -1.0)));
-        }
+    /// The five-point Laplacian of a grid of n x n nodes plus a shift of the diagonal.
+    fn laplacian(n: usize, shift: f64) -> Symmetric {
+        let mut entries = Vec::new();
+        for i in 0..n {
+            for j in 0..n {
+                let node = i * n + j;
+                let mut neighbours = Vec::new();
+                if i > 0 {
+                    neighbours.push(node - n);
+                }
+                if i + 1 < n {
+                    neighbours.push(node + n);
+                }
+                if j > 0 {
+                    neighbours.push(node - 1);
+                }
+                if j + 1 < n {
+                    neighbours.push(node + 1);
+                }
 
-        let points = (0..n * n)
-            .map(|k| [(k / n) as f64, (k % n) as f64])
-            .collect();
-        (Symmetric::new(n * n, list).unwrap(), points)
+                entries.push((node, node, shift + neighbours.len() as f64));
+                for neighbour in neighbours {
+                    entries.push((node, neighbour, -1.0));
+                }
+            }
+        }
+        Symmetric::new(n * n, entries).unwrap()
     }
 
+    /// The positions of the nodes.
+    fn positions(n: usize) -> Vec<[f64; 2]> {
+        let nodes = 0..n * n;
+        nodes.map(|k| [(k / n) as f64, (k % n) as f64]).collect()
+    }
+
+    /// Rows and columns of a matrix as a dense one.
     fn dense(m: &Symmetric, rows: &[usize], cols: &[usize]) -> Vec<Vec<f64>> {
-        let at = |i: usize, j: usize| m.row(i).find(|e| e.0 == j).map_or(0.0, |e| e.1);
-        rows.iter()
-            .map(|&i| cols.iter().map(|&j| at(i, j)).collect())
-            .collect()
+        let mut block = vec![vec![0.0; cols.len()]; rows.len()];
+        for (a, &row) in rows.iter().enumerate() {
+            for (col, value) in m.row(row) {
+                if let Some(b) = cols.iter().position(|&c| c == col) {
+                    block[a][b] = value;
+                }
+            }
+        }
+        block
+    }
+
+    fn dot(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(x, y)| x * y).sum()
     }
 
     /// C - B' F^-1 B by dense LU.
-    fn by_lu(m: &Symmetric, kept: &[usize], held: &[usize]) -> Vec<Vec<f64>> {
-        let rest: Vec<usize> = (0..m.order())
+    fn schur_by_lu(m: &Symmetric, kept: &[usize], held: &[usize]) -> Vec<Vec<f64>> {
+        let all = 0..m.order();
+        let rest: Vec<usize> = all
             .filter(|i| !kept.contains(i) && !held.contains(i))
             .collect();
         let right = dense(m, kept, &rest);
-        let w = crate::linear::solve(&dense(m, &rest, &rest), &right).unwrap();
-        let c = dense(m, kept, kept);
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-        (0..kept.len())
-            .map(|i| {
-                (0..kept.len())
-                    .map(|j| c[i][j] - dot(&right[i], &w[j]))
-                    .collect()
-            })
-            .collect()
+        let solved = crate::linear::solve(&dense(m, &rest, &rest), &right).unwrap();
+
+        let mut schur = dense(m, kept, kept);
+        for i in 0..kept.len() {
+            for j in 0..kept.len() {
+                schur[i][j] -= dot(&right[i], &solved[j]);
+            }
+        }
+        schur
+    }
+
+    /// The Schur complement of the kept unknowns, without positions.
+    fn schur(m: &Symmetric, kept: &[usize]) -> Result<Vec<Vec<f64>>, NotDefinite> {
+        let analysis = Analysis::new(m, kept, &[], None);
+        let factor = analysis.factor(m)?;
+        Ok(factor.schur().to_vec())
     }
 
     #[test]
     fn the_schur_complement_is_that_of_dense_elimination() {
-        let (m, points) = laplacian(13, 0.1);
+        let m = laplacian(13, 0.1);
+        let points = positions(13);
         let kept = [4, 2, 100, 168, 0];
         let held = [7, 8, 90];
-        let expected = by_lu(&m, &kept, &held);
+        let expected = schur_by_lu(&m, &kept, &held);
 
         for points in [None, Some(points.as_slice())] {
             let analysis = Analysis::new(&m, &kept, &held, points);
             assert!(analysis.fronts.len() > 5);
 
             let factor = analysis.factor(&m).unwrap();
-            for (row, other) in factor.schur().iter().zip(&expected) {
-                row.iter()
-                    .zip(other)
-                    .for_each(|(a, b)| approx::assert_abs_diff_eq!(*a, *b, epsilon = 1e-13));
+            for i in 0..kept.len() {
+                for j in 0..kept.len() {
+                    let got = factor.schur()[i][j];
+                    approx::assert_abs_diff_eq!(got, expected[i][j], epsilon = 1e-13);
+                }
             }
         }
     }
 
     #[test]
     fn extension_balances_and_restriction_is_its_transpose() {
-        let (m, _) = laplacian(9, 0.01);
+        let m = laplacian(9, 0.01);
         let kept = [40, 3];
         let held = [11];
+        let eliminated: Vec<usize> = (0..81).filter(|i| ![40, 3, 11].contains(i)).collect();
         let analysis = Analysis::new(&m, &kept, &held, None);
         let factor = analysis.factor(&m).unwrap();
-        let x = factor.extend(&[2.0, -1.0]);
 
+        // An extension takes the values of the kept unknowns and loads no eliminated one.
+        let x = factor.extend(&[2.0, -1.0]);
         assert_eq!(x[40], 2.0);
         assert_eq!(x[3], -1.0);
         assert_eq!(x[11], 0.0);
-
         let load = m.times(&x);
-        let free = |i: &usize| ![40, 3, 11].contains(i);
-        assert!((0..81).filter(free).all(|i| load[i].abs() < 1e-13));
-
+        for &i in &eliminated {
+            assert!(load[i].abs() < 1e-13, "{i}");
+        }
         for (k, &i) in kept.iter().enumerate() {
-            approx::assert_relative_eq!(
-                load[i],
-                2.0 * factor.schur()[k][0] - factor.schur()[k][1],
-                epsilon = 1e-13
-            );
+            let row = &factor.schur()[k];
+            let expected = 2.0 * row[0] - row[1];
+            approx::assert_relative_eq!(load[i], expected, epsilon = 1e-13);
         }
 
         let g: Vec<f64> = (0..81).map(|i| (i as f64).sin()).collect();
-        let small = factor.restrict(&g);
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
+        let restricted = factor.restrict(&g);
+        let on_kept = dot(&restricted, &[2.0, -1.0]);
+        approx::assert_relative_eq!(on_kept, dot(&g, &x), epsilon = 1e-12);
 
-        approx::assert_relative_eq!(dot(&small, &[2.0, -1.0]), dot(&g, &x), epsilon = 1e-12);
-
-        let solved = m.times(&factor.solve(&g));
-        assert!(
-            (0..81)
-                .filter(free)
-                .all(|i| (solved[i] - g[i]).abs() < 1e-12)
-        );
+        let balanced = m.times(&factor.solve(&g));
+        for &i in &eliminated {
+            assert!((balanced[i] - g[i]).abs() < 1e-12, "{i}");
+        }
     }
 
     #[test]
     fn singular_and_indefinite_matrices_are_refused() {
-        let (singular, _) = laplacian(8, 0.0);
-        let at = |m: &Symmetric, kept: &[usize]| {
-            Analysis::new(m, kept, &[], None)
-                .factor(m)
-                .map(|f| f.schur().to_vec())
-        };
-        let refused = at(&singular, &[]).unwrap_err();
-
+        let singular = laplacian(8, 0.0);
+        let refused = schur(&singular, &[]).unwrap_err();
         assert!(refused.diagonal > 0.0, "{refused:?}");
         assert!(
-            (refused.pivot.is_nan() || refused.pivot <= 1e-12),
+            refused.pivot.is_nan() || refused.pivot <= 1e-12,
             "{refused:?}"
         );
-        assert!(at(&laplacian(8, -0.5).0, &[]).is_err());
+        assert!(schur(&laplacian(8, -0.5), &[]).is_err());
 
         // With one unknown kept the others are definite, and nothing is left of the kept one.
-        assert!(at(&singular, &[5]).unwrap()[0][0].abs() < 1e-13);
-        assert!(
-            at(&Symmetric::new(2, [(0, 0, 1.0)]).unwrap(), &[]).is_err(),
-            "a row of zeros"
-        );
-        assert!(at(&Symmetric::new(0, []).unwrap(), &[]).unwrap().is_empty());
+        assert!(schur(&singular, &[5]).unwrap()[0][0].abs() < 1e-13);
+
+        let row_of_zeros = Symmetric::new(2, [(0, 0, 1.0)]).unwrap();
+        assert!(schur(&row_of_zeros, &[]).is_err());
+
+        let nothing = Symmetric::new(0, []).unwrap();
+        assert!(schur(&nothing, &[]).unwrap().is_empty());
     }
 }

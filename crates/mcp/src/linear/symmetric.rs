@@ -4,7 +4,7 @@
 //! element matrices. Mirrored entries, which assembly in doubles leaves apart by rounding, are
 //! replaced by their mean; where they differ by more the matrix is refused.
 //!
-//! Stiffness and mass matrices of bodies are kept in this form (`mceip-paper`, `mceip-engine`), and
+//! The engine keeps stiffness and mass matrices of bodies in this form, and
 //! `multifrontal` factors them.
 
 use crate::tolerance::ASYMMETRY;
@@ -349,27 +349,34 @@ mod tests {
         );
     }
 
+    /// [1 1/2; v 1].
+    fn with_mirror(v: f64) -> Result<Symmetric, SymmetricError> {
+        Symmetric::new(2, [(0, 0, 1.0), (1, 1, 1.0), (0, 1, 0.5), (1, 0, v)])
+    }
+
+    fn refusal(made: Result<Symmetric, SymmetricError>) -> String {
+        made.unwrap_err().to_string()
+    }
+
     #[test]
     fn rounding_is_averaged_and_more_is_refused() {
-        let with = |v: f64| Symmetric::new(2, [(0, 0, 1.0), (1, 1, 1.0), (0, 1, 0.5), (1, 0, v)]);
-        let m = with(0.5 + 4.0 * f64::EPSILON).unwrap();
+        let m = with_mirror(0.5 + 4.0 * f64::EPSILON).unwrap();
         assert_eq!(m.times(&[0.0, 1.0])[0], m.times(&[1.0, 0.0])[1]);
 
-        let refused = |r: Result<Symmetric, SymmetricError>| r.unwrap_err().to_string();
         assert_eq!(
-            refused(with(0.25)),
+            refusal(with_mirror(0.25)),
             "expected a symmetric matrix, got (0, 1) = 0.5 and (1, 0) = 0.25"
         );
         assert_eq!(
-            refused(Symmetric::new(2, [(0, 1, 1.0)])),
+            refusal(Symmetric::new(2, [(0, 1, 1.0)])),
             "expected a symmetric matrix, got (0, 1) = 1 and (1, 0) = 0"
         );
         assert_eq!(
-            refused(with(f64::NAN)),
+            refusal(with_mirror(f64::NAN)),
             "expected a finite entry (1, 0), got NaN"
         );
         assert_eq!(
-            refused(Symmetric::new(2, [(0, 2, 1.0)])),
+            refusal(Symmetric::new(2, [(0, 2, 1.0)])),
             "expected row and column < 2, got (0, 2)"
         );
     }

@@ -225,49 +225,40 @@ mod tests {
         assert!(search(&mut problem, &solution, &[0.0], CRASH_SMALLEST).is_none());
     }
 
+    /// A point with one component.
+    fn on_a_line(z: f64, f: f64) -> Point {
+        Point {
+            z: DVector::from_element(1, z),
+            f: DVector::from_element(1, f),
+            merit: 0.0,
+        }
+    }
+
     /// At a bound with F strictly out of it; at equal bounds always.
     #[test]
     fn active_is_what_is_held_at_its_bound() {
         let p = LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![0.0], vec![4.0]).unwrap();
-        let of = |z: f64, f: f64| {
-            is_active(
-                &p,
-                &Point {
-                    z: DVector::from_element(1, z),
-                    f: DVector::from_element(1, f),
-                    merit: 0.0,
-                },
-                0,
-            )
-        };
+        let active = |z: f64, f: f64| is_active(&p, &on_a_line(z, f), 0);
 
-        assert_eq!(of(0.0, 1.0), true);
-        assert_eq!(of(0.0, 0.0), false);
-        assert_eq!(of(0.0, -1.0), false);
-        assert_eq!(of(1.0, 1.0), false);
-        assert_eq!(of(1.0, -1.0), false);
-        assert_eq!(of(4.0, -1.0), true);
-        assert_eq!(of(4.0, 0.0), false);
-        assert_eq!(of(4.0, 1.0), false);
+        assert!(active(0.0, 1.0));
+        assert!(!active(0.0, 0.0));
+        assert!(!active(0.0, -1.0));
+        assert!(!active(1.0, 1.0));
+        assert!(!active(1.0, -1.0));
+        assert!(active(4.0, -1.0));
+        assert!(!active(4.0, 0.0));
+        assert!(!active(4.0, 1.0));
 
         let fixed =
             LinearMcp::new(DMatrix::identity(1, 1), vec![0.0], vec![4.0], vec![4.0]).unwrap();
-        assert!(is_active(
-            &fixed,
-            &Point {
-                z: DVector::from_element(1, 4.0),
-                f: DVector::from_element(1, 0.0),
-                merit: 0.0
-            },
-            0
-        ));
+        assert!(is_active(&fixed, &on_a_line(4.0, 0.0), 0));
     }
 
     /// The proximal term: CRASH_PROXIMAL sqrt(merit) between its limits, times the largest entry.
     #[test]
     fn the_proximal_term_vanishes_with_the_merit() {
         let singular = dmatrix![0.0, 0.0; 0.0, 8.0];
-        let of = |merit: f64| {
+        let direction_at = |merit: f64| {
             let mut storage = Storage {
                 active: vec![false; 2],
                 ..Storage::default()
@@ -286,7 +277,7 @@ mod tests {
             (0.25, 0.5 * CRASH_PROXIMAL),
             (0.0, CRASH_PROXIMAL_LEAST),
         ] {
-            let (direction, proximal) = of(merit);
+            let (direction, proximal) = direction_at(merit);
             assert_eq!(proximal, term * 8.0);
             approx::assert_relative_eq!(
                 direction.unwrap()[0],

@@ -228,7 +228,7 @@ mod tests {
         assert!(factored(&dmatrix![0.0, 2.0; 3.0, 0.0]).1);
 
         let (lu, regular) = factored(&dmatrix![1.0, 0.0, 1.0; 2.0, 1.0, 2.0; 0.0, 0.0, 0.0]);
-        assert_eq!(regular, false);
+        assert!(!regular);
         assert_eq!(lu.dependent(), (&[2][..], &[2][..]));
 
         let (lu, _) = factored(&dmatrix![1.0, 1.0, 0.0; 2.0, 2.0, 0.0; 0.0, 0.0, 5.0]);

@@ -193,30 +193,30 @@ mod tests {
 
     #[test]
     fn each_rule_decides_and_its_near_miss_does_not() {
-        let one = |m: DMatrix<f64>, q: &[f64], l: &[f64], u: &[f64]| {
+        let preprocessed = |m: DMatrix<f64>, q: &[f64], l: &[f64], u: &[f64]| {
             Preprocessed::new(&LinearMcp::new(m, q.to_vec(), l.to_vec(), u.to_vec()).unwrap())
         };
         let coupled = dmatrix![0.0, 1.0; 1.0, 0.0];
 
         // Equal bounds fix z_1 = 2, then F_2 = 2 + 1 > 0 puts z_2 on its lower bound.
-        let both = one(coupled.clone(), &[0.0, 1.0], &[2.0, 0.0], &[2.0, INF]);
+        let both = preprocessed(coupled.clone(), &[0.0, 1.0], &[2.0, 0.0], &[2.0, INF]);
         assert!(both.kept.is_empty());
         assert!(both.restore(&[]) == [2.0, 0.0]);
 
         // F_2 = z_1 - 1 has no sign over [0, inf).
         assert!(
-            one(coupled.clone(), &[0.0, -1.0], &[0.0; 2], &[INF; 2])
+            preprocessed(coupled.clone(), &[0.0, -1.0], &[0.0; 2], &[INF; 2])
                 .reduced
                 .is_none()
         );
 
         // F_2 = z_1 - 9 < 0 over [0, 1]: the upper bound, or nothing where there is none.
         assert_eq!(
-            one(coupled.clone(), &[0.0, -9.0], &[0.0; 2], &[1.0, 3.0]).restore(&[0.5])[1],
+            preprocessed(coupled.clone(), &[0.0, -9.0], &[0.0; 2], &[1.0, 3.0]).restore(&[0.5])[1],
             3.0
         );
         assert!(
-            one(coupled, &[0.0, -9.0], &[0.0; 2], &[1.0, INF])
+            preprocessed(coupled, &[0.0, -9.0], &[0.0; 2], &[1.0, INF])
                 .reduced
                 .is_none()
         );
@@ -224,15 +224,15 @@ mod tests {
         // A row of its own: solved and kept within the bounds; not with a diagonal of the other
         // sign.
         assert_eq!(
-            one(dmatrix![2.0], &[-3.0], &[0.0], &[INF]).restore(&[]),
+            preprocessed(dmatrix![2.0], &[-3.0], &[0.0], &[INF]).restore(&[]),
             [1.5]
         );
         assert_eq!(
-            one(dmatrix![2.0], &[-3.0], &[0.0], &[1.0]).restore(&[]),
+            preprocessed(dmatrix![2.0], &[-3.0], &[0.0], &[1.0]).restore(&[]),
             [1.0]
         );
         assert!(
-            one(dmatrix![-2.0], &[3.0], &[0.0], &[INF])
+            preprocessed(dmatrix![-2.0], &[3.0], &[0.0], &[INF])
                 .reduced
                 .is_none()
         );

@@ -320,7 +320,7 @@ mod tests {
     /// much.
     #[test]
     fn each_of_four_residuals_must_be_within() {
-        let of = |normal_map, minimum_map, fischer, complementarity| {
+        let is_within = |normal_map, minimum_map, fischer, complementarity| {
             Residuals {
                 complementarity,
                 normal_map,
@@ -333,30 +333,30 @@ mod tests {
         let t = 0.0625;
         let more = 0.063;
 
-        assert!(of(t, t, t, 0.25));
-        assert!(!of(more, t, t, 0.25));
-        assert!(!of(t, more, t, 0.25));
-        assert!(!of(t, t, more, 0.25));
-        assert!(!of(t, t, t, 0.26));
-        assert!(!of(f64::NAN, t, t, t));
-        assert!(!of(t, f64::NAN, t, t));
-        assert!(!of(t, t, f64::NAN, t));
-        assert!(!of(t, t, t, f64::NAN));
+        assert!(is_within(t, t, t, 0.25));
+        assert!(!is_within(more, t, t, 0.25));
+        assert!(!is_within(t, more, t, 0.25));
+        assert!(!is_within(t, t, more, 0.25));
+        assert!(!is_within(t, t, t, 0.26));
+        assert!(!is_within(f64::NAN, t, t, t));
+        assert!(!is_within(t, f64::NAN, t, t));
+        assert!(!is_within(t, t, f64::NAN, t));
+        assert!(!is_within(t, t, t, f64::NAN));
     }
 
     /// Bounds that are shorter than the problem says give NaN, as does a short z; a NaN is not lost
     /// behind a number.
     #[test]
     fn what_is_missing_is_no_number() {
-        let nan = |l: &[f64], u: &[f64], z: &[f64]| {
+        let is_undefined = |l: &[f64], u: &[f64], z: &[f64]| {
             let p = bounded(l, u, |_, f| f.fill(1.0), |_, j| j.fill(0.0));
             Residuals::at(&Sized2(p), z).normal_map.is_nan()
         };
 
-        assert!(!nan(&[0.0; 2], &[1.0; 2], &[0.5; 2]));
-        assert!(nan(&[0.0; 1], &[1.0; 2], &[0.5; 2]));
-        assert!(nan(&[0.0; 2], &[1.0; 1], &[0.5; 2]));
-        assert!(nan(&[0.0; 2], &[1.0; 2], &[0.5; 1]));
+        assert!(!is_undefined(&[0.0; 2], &[1.0; 2], &[0.5; 2]));
+        assert!(is_undefined(&[0.0; 1], &[1.0; 2], &[0.5; 2]));
+        assert!(is_undefined(&[0.0; 2], &[1.0; 1], &[0.5; 2]));
+        assert!(is_undefined(&[0.0; 2], &[1.0; 2], &[0.5; 1]));
         assert!(
             [[f64::NAN, 1.0], [1.0, f64::NAN]]
                 .iter()

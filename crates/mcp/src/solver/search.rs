@@ -383,9 +383,9 @@ mod tests {
             },
         );
 
-        assert_eq!(s.gradient_allowed(), true);
-        assert_eq!(s.gradient_allowed(), true);
-        assert_eq!(s.gradient_allowed(), false);
+        assert!(s.gradient_allowed());
+        assert!(s.gradient_allowed());
+        assert!(!s.gradient_allowed());
     }
 
     /// The reference at the beginning: a multiple of the start's merit, far above it where all is
@@ -396,7 +396,7 @@ mod tests {
             nms_initial_reference_factor: 3.0,
             ..Options::default()
         };
-        let of = |acceptance: Acceptance| {
+        let begun = |acceptance: Acceptance| {
             let start = point(&[3.0, -4.0], 8.0);
             let first = point(&[1.0, 0.0], 2.0);
             let mut search = Search::default();
@@ -416,11 +416,14 @@ mod tests {
             )
         };
 
-        assert_eq!(of(Acceptance::NonMonotone), (24.0, TRUST * 5.0, Some(2.0)));
         assert_eq!(
-            of(Acceptance::Free),
+            begun(Acceptance::NonMonotone),
+            (24.0, TRUST * 5.0, Some(2.0))
+        );
+        assert_eq!(
+            begun(Acceptance::Free),
             (24.0 * FREE_REFERENCE, f64::INFINITY, Some(2.0))
         );
-        assert_eq!(of(Acceptance::Monotone), (8.0, 0.0, Some(2.0)));
+        assert_eq!(begun(Acceptance::Monotone), (8.0, 0.0, Some(2.0)));
     }
 }

@@ -218,33 +218,33 @@ mod tests {
 
     #[test]
     fn refusals_name_the_place() {
-        let of = |entry: (usize, usize, f64), q: f64, lower: Vec<f64>| {
+        let made = |entry: (usize, usize, f64), q: f64, lower: Vec<f64>| {
             SparseLinearMcp::new([(0, 0, 1.0), entry], vec![0.0, q], lower, vec![1.0; 2])
                 .map(|_| ())
         };
         let zero = || vec![0.0; 2];
 
-        assert_eq!(of((1, 1, 3.0), 0.0, zero()), Ok(()));
+        assert_eq!(made((1, 1, 3.0), 0.0, zero()), Ok(()));
 
         let cases = [
             (
-                of((1, 2, 3.0), 0.0, zero()),
+                made((1, 2, 3.0), 0.0, zero()),
                 "expected row and column of M < 2, got (1, 2)",
             ),
             (
-                of((1, 0, f64::NAN), 0.0, zero()),
+                made((1, 0, f64::NAN), 0.0, zero()),
                 "expected a finite M[1][0], got NaN",
             ),
             (
-                of((1, 1, 3.0), INF, zero()),
+                made((1, 1, 3.0), INF, zero()),
                 "expected a finite q[1][0], got inf",
             ),
             (
-                of((1, 1, 3.0), 0.0, vec![0.0]),
+                made((1, 1, 3.0), 0.0, vec![0.0]),
                 "expected lower of length 2, got 1",
             ),
             (
-                of((1, 1, 3.0), 0.0, vec![0.0, 2.0]),
+                made((1, 1, 3.0), 0.0, vec![0.0, 2.0]),
                 "expected lower <= upper at 1, got 2 and 1",
             ),
         ];

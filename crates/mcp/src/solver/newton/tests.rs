@@ -45,7 +45,7 @@ fn path(m: DMatrix<f64>, q: &[f64], l: &[f64], u: &[f64], start: Start, current:
 /// rounded up.
 #[test]
 fn limits_are_shared_evenly() {
-    let share = |restart_limit: usize, curve_step_limit: usize| {
+    fn share(restart_limit: usize, curve_step_limit: usize) -> (usize, usize) {
         let options = Options {
             restart_limit,
             curve_step_limit,
@@ -55,7 +55,7 @@ fn limits_are_shared_evenly() {
         };
         let share = run(&feasible(), &options).share();
         (share.majors, share.pivots)
-    };
+    }
 
     assert_eq!(share(3, 1), (63, 1250));
     assert_eq!(share(3, 0), (125, 2500));
@@ -66,14 +66,14 @@ fn limits_are_shared_evenly() {
 
 #[test]
 fn curves_from_afar_are_tried_where_there_are_restarts_and_curves() {
-    let trials = |restart_limit: usize, curve_step_limit: usize| {
+    fn trials(restart_limit: usize, curve_step_limit: usize) -> usize {
         let options = Options {
             restart_limit,
             curve_step_limit,
             ..Options::default()
         };
         run(&feasible(), &options).trials()
-    };
+    }
 
     assert_eq!(trials(1, 1), CURVE_TRIALS);
     assert_eq!(trials(0, 1), 0);
@@ -84,7 +84,8 @@ fn curves_from_afar_are_tried_where_there_are_restarts_and_curves() {
 /// Curves follow an attempt that has failed from a point that was moved, and no other.
 #[test]
 fn curves_are_followed_after_restarts_that_moved_and_failed() {
-    let steps = |problem: &LinearMcp, attempt: Attempt, curve_step_limit: usize| {
+    /// Does the restart reach the tolerance, and does it follow curves?
+    fn restarted(problem: &LinearMcp, attempt: Attempt, curve_step_limit: usize) -> (bool, bool) {
         let options = Options {
             curve_step_limit,
             ..Options::default()
@@ -92,6 +93,7 @@ fn curves_are_followed_after_restarts_that_moved_and_failed() {
         let mut run = run(problem, &options);
         let start = run.problem.point_with(|_| 1.0);
         let mut best = run.problem.copy(&start);
+
         let reason = run.restart(&start, attempt, 2, &mut best);
         assert_eq!(run.problem.counters.restarts, 1);
         assert_eq!(run.space.log.records()[0].step, StepKind::Restart);
@@ -99,54 +101,48 @@ fn curves_are_followed_after_restarts_that_moved_and_failed() {
             reason.reached_tolerance(),
             run.problem.counters.curve_steps > 0,
         )
-    };
+    }
+
     let still = Attempt::number(1);
     let moved = Attempt::number(2);
 
-    assert_eq!(steps(&infeasible(), moved, 50), (false, true));
-    assert_eq!(steps(&infeasible(), moved, 0), (false, false));
-    assert_eq!(steps(&infeasible(), still, 50), (false, false));
-    assert_eq!(
-        [steps(&feasible(), moved, 50), steps(&feasible(), still, 50)],
-        [(true, false); 2]
-    );
+    assert_eq!(restarted(&infeasible(), moved, 50), (false, true));
+    assert_eq!(restarted(&infeasible(), moved, 0), (false, false));
+    assert_eq!(restarted(&infeasible(), still, 50), (false, false));
+    assert_eq!(restarted(&feasible(), moved, 50), (true, false));
+    assert_eq!(restarted(&feasible(), still, 50), (true, false));
 }
 
 /// By number: projected Newton, none, and the Fischer-Burmeister system with projected Newton after
 /// it.
 #[test]
 fn the_crash_is_the_one_asked_for() {
-    let steps = |crash_method: CrashMethod, crash_iteration_limit: usize, problem: &LinearMcp| {
+    /// Are there steps on the Fischer-Burmeister system, and steps of projected Newton?
+    fn steps(crash_method: CrashMethod, crash_iteration_limit: usize) -> [bool; 2] {
+        let problem = feasible();
         let options = Options {
             crash_method,
             crash_iteration_limit,
             ..Options::default()
         };
-        let mut run = run(problem, &options);
+        let mut run = run(&problem, &options);
         let start = run.problem.point_with(|i| if i == 0 { 3.0 } else { 0.5 });
         run.crash(start).unwrap();
-        let records = run.space.log.records();
-        [StepKind::FischerNewton, StepKind::Crash]
-            .map(|kind| records.iter().filter(|record| record.step == kind).count() > 0)
-    };
-    use CrashMethod::{FischerNewton, None, ProjectedNewton};
-    let p = feasible();
 
-    assert_eq!(
-        [50, 0].map(|limit| steps(ProjectedNewton, limit, &p)),
-        [[false, true], [false, false]]
-    );
-    assert_eq!(
-        [50, 0].map(|limit| steps(None, limit, &p)),
-        [[false, false]; 2]
-    );
-    assert_eq!(
-        [50, 0].map(|limit| steps(FischerNewton, limit, &p)),
-        [[true, false], [false, false]]
-    );
+        let records = run.space.log.records();
+        let kinds = [StepKind::FischerNewton, StepKind::Crash];
+        kinds.map(|kind| records.iter().any(|record| record.step == kind))
+    }
+
+    assert_eq!(steps(CrashMethod::ProjectedNewton, 50), [false, true]);
+    assert_eq!(steps(CrashMethod::ProjectedNewton, 0), [false, false]);
+    assert_eq!(steps(CrashMethod::None, 50), [false, false]);
+    assert_eq!(steps(CrashMethod::None, 0), [false, false]);
+    assert_eq!(steps(CrashMethod::FischerNewton, 50), [true, false]);
+    assert_eq!(steps(CrashMethod::FischerNewton, 0), [false, false]);
 
     // Projected Newton goes on where the other one has not solved the problem.
-    assert_eq!(steps(FischerNewton, 1, &p), [true, true]);
+    assert_eq!(steps(CrashMethod::FischerNewton, 1), [true, true]);
 }
 
 #[test]
@@ -195,7 +191,13 @@ fn trials_are_numbered_on_from_the_restarts() {
 /// The first attempt too; a limit of zero means none at all.
 #[test]
 fn curves_are_followed_after_the_first_attempt_fails() {
-    let of = |problem: &LinearMcp, start: &[f64], restart_limit: usize, curve_step_limit: usize| {
+    /// Does the run reach the tolerance, does it follow curves, and how often does it restart?
+    fn ended(
+        problem: &LinearMcp,
+        start: &[f64],
+        restart_limit: usize,
+        curve_step_limit: usize,
+    ) -> (bool, bool, usize) {
         let options = Options {
             restart_limit,
             curve_step_limit,
@@ -207,12 +209,12 @@ fn curves_are_followed_after_the_first_attempt_fails() {
             finished.counters.curve_steps > 0,
             finished.counters.restarts,
         )
-    };
+    }
 
-    assert_eq!(of(&infeasible(), &[1.0], 0, 50), (false, true, 0));
-    assert_eq!(of(&infeasible(), &[1.0], 0, 0), (false, false, 0));
-    assert_eq!(of(&infeasible(), &[1.0], 2, 50), (false, true, 2));
-    assert_eq!(of(&feasible(), &[1.0; 2], 2, 50), (true, false, 0));
+    assert_eq!(ended(&infeasible(), &[1.0], 0, 50), (false, true, 0));
+    assert_eq!(ended(&infeasible(), &[1.0], 0, 0), (false, false, 0));
+    assert_eq!(ended(&infeasible(), &[1.0], 2, 50), (false, true, 2));
+    assert_eq!(ended(&feasible(), &[1.0; 2], 2, 50), (true, false, 0));
 }
 
 /// Each component of F at the tolerance is within it, however many there are.
@@ -230,24 +232,18 @@ fn the_tolerance_is_that_of_each_component() {
             |_, j| j.fill_with_identity(),
         );
         let mut run = run(&p, &options);
-        let within = |run: &mut Run<'_, _>, each: f64| {
+        let mut all_within = |each: f64| {
             let point = run.problem.point_with(|_| each);
-            is_within_tolerance(run.problem.problem, &point, options.convergence_tolerance)
+            is_within_tolerance(&p, &point, 0.25)
         };
-
-        assert!(within(&mut run, 0.25), "{n}");
-        assert!(within(&mut run, -0.25), "{n}");
-        assert!(!within(&mut run, 0.2501), "{n}");
+        assert!(all_within(0.25), "{n}");
+        assert!(all_within(-0.25), "{n}");
+        assert!(!all_within(0.2501), "{n}");
 
         let one = run
             .problem
             .point_with(|i| if i == 0 { 0.2501 } else { 0.0 });
-
-        assert!(!is_within_tolerance(
-            run.problem.problem,
-            &one,
-            options.convergence_tolerance
-        ));
+        assert!(!is_within_tolerance(&p, &one, 0.25), "{n}");
     }
 }
 

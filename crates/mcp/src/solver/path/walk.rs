@@ -266,8 +266,8 @@ mod tests {
 
                 // Each slot has its own count.
                 for variable in [Variable::Z(0), Variable::W(0), Variable::V(0)] {
-                    assert_eq!(at(0.0, variable), false);
-                    assert_eq!(at(-1.0, variable), false);
+                    assert!(!at(0.0, variable));
+                    assert!(!at(-1.0, variable));
                     assert_eq!(at(0.0, variable), cycles);
                 }
                 assert!(!at(0.0, Variable::T));
@@ -276,8 +276,8 @@ mod tests {
                     [0.9, 1.0, 1.1].map(|share| at(share * TIE, Variable::Z(0))),
                     [cycles, cycles, false]
                 );
-                assert_eq!(at(0.5, Variable::Z(0)), false);
-                assert_eq!(at(0.25, Variable::Z(0)), false);
+                assert!(!at(0.5, Variable::Z(0)));
+                assert!(!at(0.25, Variable::Z(0)));
                 assert_eq!(at(0.5, Variable::Z(0)), cycles);
             });
         }

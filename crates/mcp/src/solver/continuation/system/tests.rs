@@ -42,7 +42,7 @@ fn places_follow_the_bounds() {
 #[test]
 fn places_of_a_solution_are_those_of_strict_complementarity() {
     let p = problem(1, &[0.0], &[4.0]);
-    let of = |z: f64, f: f64| {
+    let place = |z: f64, f: f64| {
         Places::at_solution(
             &p,
             &Point {
@@ -54,14 +54,14 @@ fn places_of_a_solution_are_those_of_strict_complementarity() {
         .0[0]
     };
 
-    assert_eq!(of(1e-9, 1.0), Place::Lower);
-    assert_eq!(of(1.0, 1e-9), Place::Inside);
-    assert_eq!(of(0.0, 0.0), Place::Lower);
-    assert_eq!(of(1.0, 1.0), Place::Lower);
-    assert_eq!(of(4.0, -1.0), Place::Upper);
-    assert_eq!(of(3.0, -1e-9), Place::Inside);
-    assert_eq!(of(3.0, -1.0), Place::Upper);
-    assert_eq!(of(2.0, 0.0), Place::Inside);
+    assert_eq!(place(1e-9, 1.0), Place::Lower);
+    assert_eq!(place(1.0, 1e-9), Place::Inside);
+    assert_eq!(place(0.0, 0.0), Place::Lower);
+    assert_eq!(place(1.0, 1.0), Place::Lower);
+    assert_eq!(place(4.0, -1.0), Place::Upper);
+    assert_eq!(place(3.0, -1e-9), Place::Inside);
+    assert_eq!(place(3.0, -1.0), Place::Upper);
+    assert_eq!(place(2.0, 0.0), Place::Inside);
 
     let fixed = problem(1, &[4.0], &[4.0]);
     assert_eq!(

@@ -21,13 +21,13 @@ fn first_difference_decides_and_rounding_does_not() {
 #[test]
 fn components_are_compared_relative_to_the_larger_row() {
     for size in [1e-9, 1.0, 1e6] {
-        let of = |more: f64, scale: f64| [scale * size, more * LEXICOGRAPHIC * size, 0.0];
+        let row = |more: f64, scale: f64| [scale * size, more * LEXICOGRAPHIC * size, 0.0];
         for (a, b) in [(1.0, 0.5), (-0.5, -1.0)] {
             // The second components decide only if they differ by enough; else the third ones.
             let order = |more: f64| {
                 lexicographic(
-                    &[of(more, 0.0).as_slice(), &[a * size]].concat(),
-                    &[of(0.0, 0.0).as_slice(), &[b * size]].concat(),
+                    &[row(more, 0.0).as_slice(), &[a * size]].concat(),
+                    &[row(0.0, 0.0).as_slice(), &[b * size]].concat(),
                 )
             };
 
@@ -192,17 +192,24 @@ fn blocks_are_the_bounds_ahead_of_values_that_move() {
             list_blocks(&tableau, &mut list);
             list
         };
-        let of = |step, place, at_upper| Block {
+        let block = |step, place, at_upper| Block {
             step,
             place,
             at_upper,
         };
-        let own = of(1.0, None, true); // t from 0 to 1
+        let own = block(1.0, None, true); // t from 0 to 1
         // The other falls without end.
-        assert_eq!(blocks([0.5, -2.0]), [of(12.0, Some(0), true), own.clone()]);
+        assert_eq!(
+            blocks([0.5, -2.0]),
+            [block(12.0, Some(0), true), own.clone()]
+        );
         assert_eq!(
             blocks([-0.5, 2.0]),
-            [of(4.0, Some(0), false), of(1.5, Some(1), true), own.clone()]
+            [
+                block(4.0, Some(0), false),
+                block(1.5, Some(1), true),
+                own.clone()
+            ]
         );
         for fast in [1.0, 0.25, 100.0] {
             let least = PIVOT * f64::max(fast, 1.0);

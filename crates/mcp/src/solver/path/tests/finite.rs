@@ -108,19 +108,16 @@ impl Case {
     /// The least residual of the normal map, with bounds overstepped counted as residual.
     fn residual_in_doubles(&self, z: &[f64]) -> f64 {
         let f = self.m.map(|v| v as f64) * DVector::from_column_slice(z) + self.q.map(|v| v as f64);
-        let of = |i: usize| {
+        let residual = |i: usize| {
             let l = self.lower[i].map_or(f64::NEG_INFINITY, |v| v as f64);
             let u = self.upper[i].map_or(f64::INFINITY, |v| v as f64);
-            let near = z[i].max(l).min(u);
-            let snapped = [l, u]
-                .into_iter()
-                .find(|b| (b - z[i]).abs() < 1e-8)
-                .unwrap_or(near);
-            least_residual(snapped, f[i], l, u)
-                .abs()
-                .max((z[i] - near).abs())
+            let nearest = z[i].max(l).min(u);
+            let bound = [l, u].into_iter().find(|b| (b - z[i]).abs() < 1e-8);
+            let snapped = bound.unwrap_or(nearest);
+            let overstepped = (z[i] - nearest).abs();
+            least_residual(snapped, f[i], l, u).abs().max(overstepped)
         };
-        (0..z.len()).map(of).fold(0.0, f64::max)
+        (0..z.len()).map(residual).fold(0.0, f64::max)
     }
 
     /// Every line of the definition, exactly.
