@@ -354,6 +354,7 @@ mod tests {
                 }
             }
         }
+
         Symmetric::new(n * n, entries).unwrap()
     }
 
@@ -373,6 +374,7 @@ mod tests {
                 }
             }
         }
+
         block
     }
 
@@ -395,6 +397,7 @@ mod tests {
                 schur[i][j] -= dot(&right[i], &solved[j]);
             }
         }
+
         schur
     }
 
@@ -441,6 +444,7 @@ mod tests {
         assert_eq!(x[40], 2.0);
         assert_eq!(x[3], -1.0);
         assert_eq!(x[11], 0.0);
+
         let load = m.times(&x);
         for &i in &eliminated {
             assert!(load[i].abs() < 1e-13, "{i}");
@@ -454,6 +458,7 @@ mod tests {
         let g: Vec<f64> = (0..81).map(|i| (i as f64).sin()).collect();
         let restricted = factor.restrict(&g);
         let on_kept = dot(&restricted, &[2.0, -1.0]);
+
         approx::assert_relative_eq!(on_kept, dot(&g, &x), epsilon = 1e-12);
 
         let balanced = m.times(&factor.solve(&g));

@@ -236,6 +236,7 @@ fn the_tolerance_is_that_of_each_component() {
             let point = run.problem.point_with(|_| each);
             is_within_tolerance(&p, &point, 0.25)
         };
+
         assert!(all_within(0.25), "{n}");
         assert!(all_within(-0.25), "{n}");
         assert!(!all_within(0.2501), "{n}");
@@ -243,6 +244,7 @@ fn the_tolerance_is_that_of_each_component() {
         let one = run
             .problem
             .point_with(|i| if i == 0 { 0.2501 } else { 0.0 });
+
         assert!(!is_within_tolerance(&p, &one, 0.25), "{n}");
     }
 }
@@ -263,7 +265,9 @@ fn the_proximal_term_of_a_restart_vanishes_with_the_merit() {
         let mut search = Search::default();
         search.begin(&point, &point, &options, attempt);
         run.major(&point, attempt, &mut search).ok();
+
         assert_eq!(run.problem.counters.majors, 1);
+
         run.space.log.records().last().unwrap().proximal
     };
     let proximal = Attempt {

@@ -299,7 +299,9 @@ fn drift_is_noticed_and_mended() {
         tableau.advance(&block.step);
         let exact = tableau.state.values.clone();
         tableau.state.values[0] += 1e-6;
+
         assert!(tableau.exchange(block.place.unwrap(), block.at_upper));
+
         let values = &tableau.state.values;
         assert!((values[0] - exact[0]).abs() < 1e-12, "{values:?} {exact:?}");
     });
@@ -307,13 +309,15 @@ fn drift_is_noticed_and_mended() {
 
 #[test]
 fn a_path_reaches_the_largest_t_of_its_knots() {
-    let path = |list: &[f64]| {
+    /// A path with knots at these t, z = 4 t.
+    fn path(list: &[f64]) -> Path {
         let mut path = Path::default();
         path.knots.clear(1);
-        list.iter()
-            .for_each(|&t| path.knots.push(t, &[4.0 * t], &[0.0]));
+        for &t in list {
+            path.knots.push(t, &[4.0 * t], &[0.0]);
+        }
         path
-    };
+    }
 
     assert_eq!(path(&[0.0, 0.25, 0.75, 0.5]).reach(), 0.75);
     assert_eq!(path(&[0.0, 1.0]).reach(), 1.0);

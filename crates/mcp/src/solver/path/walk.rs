@@ -222,6 +222,7 @@ mod tests {
                 let mut path = Path::default();
                 path.begin(Start::Regular, 2);
                 Walk::new(tableau, limits(9), &mut Vec::new(), &mut path).run();
+
                 assert_eq!(path.end, PathEnd::Ray);
 
                 let knots = &path.knots;
@@ -232,6 +233,7 @@ mod tests {
                 let t = (knots.t(last) - knots.t(before)).abs();
                 let moved = z.max(multipliers).max(t);
                 let size = distance(knots.z(before), &[0.0; 2]);
+
                 approx::assert_relative_eq!(moved, RAY_STEP * (1.0 + size), max_relative = 1e-12);
             });
         }
@@ -253,6 +255,7 @@ mod tests {
             at_start(&sub, start, &[2.0], |tableau| {
                 let mut path = Path::default();
                 path.begin(start, 1);
+
                 // Counts that another path has left behind.
                 let left = EntryCounts { z: 7, w: 7, v: 7 };
                 let mut entries = vec![left; 9];
@@ -270,6 +273,7 @@ mod tests {
                     assert!(!at(-1.0, variable));
                     assert_eq!(at(0.0, variable), cycles);
                 }
+
                 assert!(!at(0.0, Variable::T));
                 assert!(!at(0.0, Variable::Artificial(0)));
                 assert_eq!(

@@ -1,5 +1,7 @@
 //! The error of the equations against its definition, and the moves one by one.
 
+use super::super::super::options::RatioTest;
+use super::super::ratio::ratio_test;
 use super::super::tests::at_start;
 use super::super::{Start, Subproblem};
 use super::*;
@@ -11,7 +13,6 @@ const INF: f64 = f64::INFINITY;
 /// unknowns.
 fn drift_by_definition(tableau: &Tableau<'_, f64>, m: &DMatrix<f64>, q: &[f64], r: &[f64]) -> f64 {
     let n = q.len();
-    let largest = |list: &[f64]| list.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
     let mut sum: Vec<f64> = (0..n).map(|i| q[i] + r[i]).collect();
     let mut size: f64 = largest(q) + largest(r);
     let mut z = tableau.state.z.clone();
@@ -21,10 +22,9 @@ fn drift_by_definition(tableau: &Tableau<'_, f64>, m: &DMatrix<f64>, q: &[f64], 
             Variable::Z(i) => {
                 z[i] = 0.0;
                 let column: Vec<f64> = (0..n).map(|row| m[(row, i)]).collect();
-                column
-                    .iter()
-                    .zip(&mut sum)
-                    .for_each(|(c, s)| *s += c * value);
+                for row in 0..n {
+                    sum[row] += column[row] * value;
+                }
                 largest(&column) * value.abs()
             }
             Variable::W(i) => {
@@ -36,15 +36,26 @@ fn drift_by_definition(tableau: &Tableau<'_, f64>, m: &DMatrix<f64>, q: &[f64], 
                 value.abs()
             }
             Variable::T => {
-                r.iter().zip(&mut sum).for_each(|(r, s)| *s -= r * value);
+                for row in 0..n {
+                    sum[row] -= r[row] * value;
+                }
                 largest(r) * value.abs()
             }
             Variable::Artificial(_) => unreachable!("regular starts"),
         });
     }
 
-    (0..n).for_each(|i| sum[i] += (0..n).map(|j| m[(i, j)] * z[j]).sum::<f64>());
+    for i in 0..n {
+        for j in 0..n {
+            sum[i] += m[(i, j)] * z[j];
+        }
+    }
+
     largest(&sum) / size
+}
+
+fn largest(list: &[f64]) -> f64 {
+    list.iter().fold(0.0, |a: f64, b| a.max(b.abs()))
 }
 
 #[test]
@@ -70,18 +81,22 @@ fn drift_is_the_error_of_the_equations_relative_to_their_terms() {
                 [Variable::W(0), Variable::Z(1), Variable::V(2)]
             );
             assert!(tableau.drift() < 1e-15);
+
             let r: Vec<f64> = tableau
                 .columns
                 .dense(Variable::T)
                 .iter()
                 .map(|v| -v)
                 .collect();
+
             for place in 0..3 {
                 for error in [1e-3, -7.0, 1e4] {
                     let exact = tableau.state.values[place];
                     tableau.state.values[place] += error;
                     let expected = drift_by_definition(&tableau, &m, &q, &r);
+
                     approx::assert_relative_eq!(tableau.drift(), expected, max_relative = 1e-9);
+
                     tableau.state.values[place] = exact;
                 }
             }
@@ -103,18 +118,15 @@ fn values_are_made_anew_when_they_drift() {
     for (share, refreshed) in [(0.9, 0), (1.1, 1)] {
         at_start(&sub, Start::Ray, &[0.0; 2], |mut tableau| {
             tableau.set_rates();
-            let block = super::super::ratio::ratio_test(
-                &mut tableau,
-                super::super::super::options::RatioTest::Lexicographic,
-                0,
-            )
-            .unwrap();
+            let block = ratio_test(&mut tableau, RatioTest::Lexicographic, 0).unwrap();
             tableau.advance(&block.step);
             let place = block.place.unwrap();
             let other = 1 - place;
+
             // Both are zero there, and no term is larger than |q| + |r|.
             assert_eq!(tableau.state.values[other], 0.0);
             assert_eq!(tableau.columns.scale(), 3.0);
+
             tableau.state.values[other] = share * (DRIFT * 3.0);
             assert!(tableau.exchange(place, block.at_upper));
             assert_eq!(tableau.basis.refreshed, refreshed, "{share}");
@@ -152,17 +164,22 @@ fn rooms_are_up_to_the_bound_ahead() {
             (tableau.entering, tableau.sign) = (entering, sign);
             tableau.own_room()
         };
+
         assert_eq!(room(&mut tableau, Variable::Z(0), 1.0), 6.0);
         assert_eq!(room(&mut tableau, Variable::Z(0), -1.0), 4.0);
+
         tableau.t = 0.25;
         assert_eq!(room(&mut tableau, Variable::T, 1.0), 0.75);
         assert_eq!(room(&mut tableau, Variable::T, -1.0), INF);
+
         tableau.state.multiplier[0] = -5.0; // v = 5
         assert_eq!(room(&mut tableau, Variable::V(0), 1.0), INF);
         assert_eq!(room(&mut tableau, Variable::V(0), -1.0), 5.0);
+
         tableau.state.multiplier[0] = 5.0; // w = 5
         assert_eq!(room(&mut tableau, Variable::W(0), 1.0), INF);
         assert_eq!(room(&mut tableau, Variable::W(0), -1.0), 5.0);
+
         // The multiplier of equal bounds is free; an artificial stays where it is.
         assert_eq!(room(&mut tableau, Variable::W(1), 1.0), INF);
         assert_eq!(room(&mut tableau, Variable::W(1), -1.0), INF);
@@ -214,6 +231,7 @@ fn the_complement_moves_next() {
             assert_eq!(tableau.entering, next);
             assert_eq!(tableau.sign, sign);
         }
+
         assert_eq!(tableau.state.z[0], 8.0);
     });
 }
@@ -233,6 +251,7 @@ fn after_an_artificial_t_rises() {
             // The artificial stands for z_1, t for z_0.
             let mut given = Vec::new();
             let mut column = vec![0.0; 2];
+
             for (place, variable) in [(1, Variable::Artificial(1)), (0, Variable::T)] {
                 tableau.columns.write(variable, &mut given);
                 tableau.basis.solve(&given, &mut column);
@@ -240,9 +259,11 @@ fn after_an_artificial_t_rises() {
             }
 
             tableau.set_successor(Variable::Artificial(1), false);
+
             // M z - t r = const in its first row: with z_0 at rest t changes by slope / r_0 for
             // each unit of z_1.
             let r = -tableau.columns.dense(Variable::T)[0];
+
             assert_eq!(tableau.entering, Variable::Z(1));
             assert_eq!(tableau.sign, sign * r.signum());
         });
