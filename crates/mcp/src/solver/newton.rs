@@ -203,7 +203,7 @@ impl<'a, P: Mcp + ?Sized> Run<'a, P> {
             }
         }
 
-        // What a curve met beyond its end is no reason to stop.
+        // A value that was not finite on a curve is no reason to end the run.
         self.problem.not_finite = None;
         reason
     }

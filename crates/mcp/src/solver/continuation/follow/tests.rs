@@ -96,7 +96,8 @@ fn a_curve_is_back_where_it_passes_its_start() {
     assert!(!is_back([0.0; 2], 0.7, 0.9));
 
     follower.system.places = Places(vec![Place::Inside, Place::Lower]);
-    (follower.start, follower.at.s) = (position(&[4.0, 0.0], 1.0), 0.9);
+    follower.start = position(&[4.0, 0.0], 1.0);
+    follower.at.s = 0.9;
     assert!(!follower.is_back(&position(&[1.0, 0.0], 1.3)));
 }
 

@@ -98,7 +98,8 @@ fn steps_are_tied_within_a_width_relative_to_one_and_the_step() {
         // The own bound is not perturbed: what decreases with eps comes before it, what increases
         // after it.
         for (rate, expected) in [(-1.0, None), (1.0, Some(0))] {
-            (tableau.state.rates, tableau.entering) = (vec![rate, rate], Variable::Z(0));
+            tableau.state.rates = vec![rate, rate];
+            tableau.entering = Variable::Z(0);
             for tied in [
                 [at(2.0, Some(0)), at(2.0, None)],
                 [at(2.0, None), at(2.0, Some(0))],

@@ -161,7 +161,8 @@ fn rooms_are_up_to_the_bound_ahead() {
     };
     at_start(&sub, Start::Regular, &[2.0, 3.0], |mut tableau| {
         let room = |tableau: &mut Tableau<'_, f64>, entering, sign| {
-            (tableau.entering, tableau.sign) = (entering, sign);
+            tableau.entering = entering;
+            tableau.sign = sign;
             tableau.own_room()
         };
 
@@ -201,7 +202,8 @@ fn a_flip_ends_at_the_other_bound() {
 
     for (sign, bound, next) in [(1.0, 8.0, Variable::V(0)), (-1.0, -2.0, Variable::W(0))] {
         at_start(&sub, Start::Ray, &[0.0], |mut tableau| {
-            (tableau.entering, tableau.sign) = (Variable::Z(0), sign);
+            tableau.entering = Variable::Z(0);
+            tableau.sign = sign;
             tableau.flip();
             assert_eq!(tableau.state.z[0], bound);
             assert_eq!(tableau.entering, next);
