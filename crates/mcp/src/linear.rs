@@ -7,7 +7,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `dense` | dense factorisations, the kernels of a front, sparse LU: the one file that names faer |
+//! | `dense` | dense factorisations, the kernels of a front, sparse LU; only here faer is named |
 //! | `symmetric` | sparse symmetric matrices |
 //! | `dissection` | nested dissection: the order of elimination |
 //! | `analysis` | which fronts there are, and who passes what to whom |

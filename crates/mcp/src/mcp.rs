@@ -1,8 +1,12 @@
 //! Mixed complementarity problems in doubles: all that the solver sees of a problem.
 //!
-//! An MCP is: given bounds l <= u and F, find z in [l, u] with F_i(z) >= 0 where z_i = l_i,
-//! F_i(z) = 0 strictly inside, and F_i(z) <= 0 where z_i = u_i (book, 3.1). [`Mcp`] is the interface
-//! of a problem, [`LinearMcp`] the problem with F(z) = M z + q.
+//! An MCP is (book, 3.1): given bounds l <= u and a function F, find z in [l, u] with
+//!
+//! - F_i(z) >= 0 where z_i = l_i,
+//! - F_i(z) = 0 where z_i lies strictly inside,
+//! - F_i(z) <= 0 where z_i = u_i.
+//!
+//! [`Mcp`] is the interface of a problem, [`LinearMcp`] the problem with F(z) = M z + q.
 
 use nalgebra::DMatrix;
 

@@ -218,7 +218,12 @@ mod tests {
     fn the_gradient_is_that_of_the_merit() {
         use crate::mcp::LinearMcp;
         use nalgebra::dmatrix;
-        let m = dmatrix![2.0, -1.0, 0.5, 0.0; 1.0, 3.0, 0.0, 0.25; -0.5, 0.75, 1.5, 1.0; 0.25, 1.0, -1.0, 2.0];
+        let m = dmatrix![
+            2.0, -1.0, 0.5, 0.0;
+            1.0, 3.0, 0.0, 0.25;
+            -0.5, 0.75, 1.5, 1.0;
+            0.25, 1.0, -1.0, 2.0
+        ];
         let p = LinearMcp::new(
             m.clone(),
             vec![-1.0, 0.5, -0.25, 0.75],

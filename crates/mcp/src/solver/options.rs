@@ -221,10 +221,11 @@ mod tests {
         ];
 
         for (options, expected) in refused {
-            assert!(
-                matches!(options.validate(), Err(SolverError::Option { name, .. }) if name == expected),
-                "{expected}"
-            );
+            let refusal = options.validate().unwrap_err();
+            let SolverError::Option { name, .. } = refusal else {
+                panic!("{refusal}")
+            };
+            assert_eq!(name, expected);
         }
     }
 }

@@ -4,8 +4,9 @@
 //!
 //! A step to z at parameter t of a path passes if Psi(z) <= (1 - ARMIJO t) R, where the reference R
 //! is the largest of the last few merits: the merit may rise for some steps in a curved valley.
-//! Short steps may go unchecked some times in a row. Where one that is checked fails, the *watchdog*
-//! returns to the *checkpoint*, the last point that was checked, and searches the path from there.
+//! Short steps may go unchecked some times in a row. Where one that is checked fails, the
+//! *watchdog* returns to the *checkpoint*, the last point that was checked, and searches the path
+//! from there.
 //!
 //! One [`Search`] serves one attempt of a run. Called by `newton` and `newton/choose`.
 

@@ -2,10 +2,10 @@
 //! direction.
 //!
 //! Let I be the unknowns *inside*, strictly between their bounds; the others stay at their bounds.
-//! On a piece of the curve F_I(z) = s r_I, which is |I| equations for the |I| + 1 unknowns (z_I, s).
-//! A *border* row makes the matrix [F'_II, -r_I; border] square: the tangent solves it for the last
-//! unit vector, Newton's step back to the curve for the residuals. The multipliers of the unknowns
-//! at bounds follow as m = F - s r.
+//! On a piece of the curve F_I(z) = s r_I: |I| equations for the |I| + 1 unknowns z_I and s. A
+//! *border* row makes the matrix [F'_II, -r_I; border] square: the tangent solves it for the
+//! last unit vector, Newton's step back to the curve for the residuals. The multipliers of the
+//! unknowns at bounds follow as m = F - s r.
 //!
 //! Vectors of length |I| + 1 hold z_I first, in ascending order of the indices, and s last. Called
 //! by `follow`.

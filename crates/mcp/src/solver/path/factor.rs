@@ -2,11 +2,11 @@
 //! takes are eliminated, by LU with row pivoting; the others follow by substitution.
 //!
 //! With the rows that unit columns take first, B = [U G; 0 C]: U has entries 1 and -1, one in each
-//! row and column, C is the *core*, factored by `dense`, and G the *border*. A unit column whose row
-//! another one has taken makes B singular, as do dependent columns of the core.
+//! row and column, C is the *core*, factored by `dense`, and G the *border*. A unit column whose
+//! row another one has taken makes B singular, as do dependent columns of the core.
 //!
-//! Vectors are indexed by *places* (columns of B: the place of a basic unknown) or by *rows*. Called
-//! by `basis`.
+//! Vectors are indexed by *places* (columns of B: the place of a basic unknown) or by *rows*.
+//! Called by `basis`.
 
 use super::super::dense::{Lu, dot, subtract};
 use super::super::number::Number;
@@ -210,7 +210,12 @@ mod tests {
 
     #[test]
     fn solves_a_basis_of_every_kind_of_column_both_ways() {
-        let m = dmatrix![2.0, 1.0, 0.5, 3.0; 1.0, 3.0, 4.0, 1.0; 0.0, 5.0, 1.0, 2.0; 1.0, 1.0, 1.0, 7.0];
+        let m = dmatrix![
+            2.0, 1.0, 0.5, 3.0;
+            1.0, 3.0, 4.0, 1.0;
+            0.0, 5.0, 1.0, 2.0;
+            1.0, 1.0, 1.0, 7.0
+        ];
         let sub = Subproblem {
             m: &m,
             q: &[1.0, -2.0, 3.0, 1.0],

@@ -1,14 +1,13 @@
 //! The pivotal path of the linear subproblem, from t = 0 at the start to the Newton point at t = 1
 //! (Ralph 1994; Dirkse and Ferris 1995, section 3).
 //!
-//! On the path M z - w + v + D a + (1 - t) r + q = 0, where w >= 0 and v >= 0 are the multipliers of
-//! the lower and upper bounds of z, r is minus the residual at the start, so that t = 0 holds
-//! there, and the artificials a are there only where the starting basis is singular. At most one of
-//! z_i strictly between its bounds, w_i and v_i is not zero. As in Lemke's method, each pivot
-//! exchanges the unknown that reaches a bound for the one that moves; its complement moves next.
-//! Ties are broken lexicographically: the right-hand side is thought perturbed by the first basis
-//! times (eps, eps^2, ...), so that in exact arithmetic no basis repeats on a path that starts on a
-//! ray.
+//! On the path M z - w + v + D a + (1 - t) r + q = 0. Here w_i >= 0 is the multiplier of the lower
+//! bound of z_i, not zero only where z_i is at it, and v_i >= 0 that of the upper bound; r is minus
+//! the residual at the start, so that t = 0 holds there; and the artificials a repair a singular
+//! starting basis. As in Lemke's method, each pivot exchanges the unknown that reaches a bound for
+//! the one that moves, and the complement of the former moves next. Ties are broken
+//! lexicographically: the right-hand side is thought perturbed by the first basis times (eps,
+//! eps^2, ...), so that in exact arithmetic no basis repeats on a path that starts on a ray.
 //!
 //! Input: a [`Subproblem`], the kind of start and the current point. Output: a [`Path`], its knots
 //! and pivots and the reason why it ended. Called by `newton` and `linear`.
@@ -18,7 +17,8 @@
 //! | `variable`, `subproblem`, `record` | names and pivots; M, q and bounds; what a path leaves |
 //! | `columns`, `factor`, `basis` | the matrix, its factors, exchanges since |
 //! | `start` | the two starts, with the repair of singular ones |
-//! | `tableau`, `block`, `ratio`, `walk` | the state and its moves, what stops one, the ratio test, the pivot loop |
+//! | `tableau`, `walk` | the state and its moves; the pivot loop |
+//! | `block`, `ratio` | what stops a move; the ratio test |
 //! | `knots` | the breakpoints, and points between them |
 //!
 //! All storage is kept from one path to the next: a path no longer than one before allocates

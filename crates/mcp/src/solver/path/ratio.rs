@@ -3,8 +3,8 @@
 //! While the moving unknown grows by s, the basic values change to value + s rate. The first of
 //! them to reach a bound, at s = (bound - value) / rate, leaves the basis; or the moving unknown
 //! reaches its own other bound; or nothing stops it and the path ends on a ray. Ties are decided
-//! lexicographically, or, as in PATH itself, for the largest pivot within bounds that widen a little
-//! with every pivot.
+//! lexicographically, or, as in PATH itself, for the largest pivot within bounds that widen a
+//! little with every pivot.
 //!
 //! Input: a tableau whose rates are set. Output: a [`Block`]. Called by `walk`.
 
