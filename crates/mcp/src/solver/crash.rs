@@ -317,47 +317,32 @@ mod tests {
     /// (1 + 1/p)^2p.
     #[test]
     fn a_crash_goes_on_while_it_gains() {
-        let steps = |p: f64| {
-            let f = move |z: &[f64], f: &mut [f64]| {
-                f.copy_from_slice(&[z[0] + 1.0, z[1] + 1.0, 1e3 * z[2].powf(-p)])
+        /// Does the first step gain enough, and how many steps are there in all?
+        fn steps(p: f64) -> (bool, usize) {
+            let function = move |z: &[f64], f: &mut [f64]| {
+                f[0] = z[0] + 1.0;
+                f[1] = z[1] + 1.0;
+                f[2] = 1e3 * z[2].powf(-p);
             };
             let jacobian = move |z: &[f64], j: &mut DMatrix<f64>| {
-                j.set_diagonal(&DVector::from_vec(vec![
-                    1.0,
-                    1.0,
-                    -1e3 * p * z[2].powf(-p - 1.0),
-                ]))
+                j[(0, 0)] = 1.0;
+                j[(1, 1)] = 1.0;
+                j[(2, 2)] = -1e3 * p * z[2].powf(-p - 1.0);
             };
-            let problem = bounded(
-                &[0.0, 0.0, f64::NEG_INFINITY],
-                &[f64::INFINITY; 3],
-                f,
-                jacobian,
-            );
+            let lower = [0.0, 0.0, f64::NEG_INFINITY];
+            let problem = bounded(&lower, &[f64::INFINITY; 3], function, jacobian);
             let mut problem = Evaluated::new(&problem);
             let start = problem.point(&DVector::from_vec(vec![1e-3, 1e-3, 1.0]));
-            let before = start.merit;
-            let point = crash(
-                &mut problem,
-                start,
-                1,
-                &mut Storage::default(),
-                &mut Log::default(),
-            )
-            .unwrap();
-            let gain = 1.0 - point.merit / before;
-            let start = problem.point(&DVector::from_vec(vec![1e-3, 1e-3, 1.0]));
+            let mut storage = Storage::default();
+            let mut log = Log::default();
+
+            let once = crash(&mut problem, start.clone(), 1, &mut storage, &mut log).unwrap();
+            let gain = 1.0 - once.merit / start.merit;
+
             problem.counters.crash_steps = 0;
-            crash(
-                &mut problem,
-                start,
-                9,
-                &mut Storage::default(),
-                &mut Log::default(),
-            )
-            .unwrap();
+            crash(&mut problem, start, 9, &mut storage, &mut log).unwrap();
             (gain > CRASH_GAIN, problem.counters.crash_steps)
-        };
+        }
 
         // Gains of 0.9 and 1.1 %.
         assert_eq!(steps(6e-4), (false, 1));

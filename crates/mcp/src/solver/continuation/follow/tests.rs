@@ -33,7 +33,7 @@ fn position(z: &[f64], s: f64) -> Position {
 }
 
 /// A follower at a position, under way from a start at s = 1, with nothing behind it.
-fn at<'p, 'a, P: Mcp + ?Sized>(
+fn follower_at<'p, 'a, P: Mcp + ?Sized>(
     problem: &'p mut Evaluated<'a, P>,
     r: DVector<f64>,
     places: &[Place],
@@ -72,7 +72,7 @@ fn a_curve_is_back_where_it_passes_its_start() {
         &[INF; 2],
     );
     let mut evaluated = Evaluated::new(&p);
-    let mut follower = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![1.0, 1.0],
         &[Place::Inside; 2],
@@ -113,7 +113,7 @@ fn the_next_event_is_the_nearest_ahead() {
         &[INF, 10.0, INF],
     );
     let mut evaluated = Evaluated::new(&p);
-    let mut follower = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![0.0, 0.0, 3.0],
         &[Place::Inside, Place::Inside, Place::Lower],
@@ -179,7 +179,7 @@ fn a_crossing_is_more_than_the_feasibility() {
         &[INF, 4.0],
     );
     let mut evaluated = Evaluated::new(&p);
-    let mut follower = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![1.0, 1.0],
         &[Place::Inside; 2],
@@ -233,7 +233,7 @@ fn a_crossing_is_more_than_the_feasibility() {
 fn easy_steps_grow_and_events_do_not() {
     let p = linear(dmatrix![1.0], dvector![-100.0], &[-INF], &[80.0]);
     let mut evaluated = Evaluated::new(&p);
-    let mut follower = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![-100.0],
         &[Place::Inside],
@@ -282,7 +282,7 @@ fn a_curve_that_leads_nowhere_is_left_at_the_shortest_step() {
         |_, j| j[(0, 0)] = 1.0,
     );
     let mut evaluated = Evaluated::new(&p);
-    let mut follower = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![1.0],
         &[Place::Inside],
@@ -305,7 +305,7 @@ fn a_curve_that_leads_nowhere_is_left_at_the_shortest_step() {
 fn an_event_that_is_far_is_refused() {
     let p = linear(dmatrix![1.0], dvector![-10.0], &[-INF], &[INF]);
     let mut evaluated = Evaluated::new(&p);
-    let mut follower = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![-10.0],
         &[Place::Inside],
@@ -336,7 +336,7 @@ fn an_event_beyond_another_one_is_refused() {
             &[INF, 4.0],
         );
         let mut evaluated = Evaluated::new(&p);
-        let mut follower = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![-1.0, 1.0],
             &[Place::Inside; 2],
@@ -360,7 +360,7 @@ fn a_predicted_event_costs_one_correction() {
     let p = linear(dmatrix![1.0], dvector![0.0], &[-INF], &[3.0]);
     for (length, corrections, event) in [(4.0, 1, Some(Quantity::Z(0, 3.0))), (0.5, 1, None)] {
         let mut evaluated = Evaluated::new(&p);
-        let mut follower = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0],
             &[Place::Inside],
@@ -389,7 +389,7 @@ fn a_tangent_from_the_correction_is_turned_forward() {
     let tangent = dvector![1.0, 0.0];
     let turned = |given: DVector<f64>| {
         let mut evaluated = Evaluated::new(&p);
-        let mut follower = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0],
             &[Place::Inside],
@@ -430,7 +430,7 @@ fn a_tangent_turns_by_no_more_than_the_angle() {
     let p = linear(dmatrix![1.0], dvector![0.0], &[-INF], &[INF]);
     for (cosine, turns) in [(CURVE_ANGLE + 0.01, true), (CURVE_ANGLE - 0.01, false)] {
         let mut evaluated = Evaluated::new(&p);
-        let mut follower = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0],
             &[Place::Inside],
@@ -475,7 +475,7 @@ fn a_pair_changes_places_at_its_event() {
     );
     let turned = |places: [Place; 2], event: Quantity, tangent: DVector<f64>| {
         let mut evaluated = Evaluated::new(&p);
-        let mut follower = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0, 3.0],
             &places,
@@ -557,7 +557,7 @@ fn a_curve_is_a_ray_when_far() {
         // F = z with r = slope: z = slope s.
         let p = linear(dmatrix![1.0], dvector![0.0], &[-INF], &[upper]);
         let mut evaluated = Evaluated::new(&p);
-        let mut follower = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![slope],
             &[Place::Inside],
