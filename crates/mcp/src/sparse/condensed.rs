@@ -117,12 +117,14 @@ impl Partition {
     }
 }
 
-/// The non-zeros of M_ff by columns: for each free unknown its (row, value), rows counted among the
-/// free unknowns.
-fn free_block(whole: &SparseLinearMcp, partition: &Partition) -> Vec<Vec<(usize, f64)>> {
+/// (row, value) of the non-zeros of a column.
+type Column = Vec<(usize, f64)>;
+
+/// The columns of M_ff, rows counted among the free unknowns.
+fn free_block(whole: &SparseLinearMcp, partition: &Partition) -> Vec<Column> {
     let mut block = Vec::with_capacity(partition.free.len());
     for &unknown in &partition.free {
-        let mut column = Vec::new();
+        let mut column = Column::new();
         for (row, value) in whole.column(unknown) {
             if partition.is_free[row] && value != 0.0 {
                 column.push((partition.place[row], value));
@@ -136,7 +138,7 @@ fn free_block(whole: &SparseLinearMcp, partition: &Partition) -> Vec<Vec<(usize,
 
 /// A row of a matrix, given by columns, that is left over by a largest pairing of rows and columns
 /// along the non-zeros; `None` if none is.
-fn unpaired_row(columns: &[Vec<(usize, f64)>]) -> Option<usize> {
+fn unpaired_row(columns: &[Column]) -> Option<usize> {
     let mut pattern: Vec<Vec<usize>> = Vec::with_capacity(columns.len());
     for column in columns {
         pattern.push(column.iter().map(|entry| entry.0).collect());
@@ -146,7 +148,7 @@ fn unpaired_row(columns: &[Vec<(usize, f64)>]) -> Option<usize> {
 }
 
 /// The LU factors of a block given by columns.
-fn factor(block: &[Vec<(usize, f64)>]) -> Result<SparseLu, SparseError> {
+fn factor(block: &[Column]) -> Result<SparseLu, SparseError> {
     let columns = block.iter().enumerate();
     let entries = columns.flat_map(|(j, column)| column.iter().map(move |&(i, v)| (i, j, v)));
 
