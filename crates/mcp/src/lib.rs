@@ -5,7 +5,7 @@
 //! |---|---|
 //! | [`mcp`] | problems: a function with its Jacobian, and bounds |
 //! | [`solver`] | their solution as PATH does it |
-//! | [`sparse`] | linear problems with sparse matrices: unknowns without bounds are eliminated first |
+//! | [`sparse`] | sparse linear problems: unknowns without bounds are eliminated first |
 //! | [`linear`] | dense and sparse factorisations |
 //!
 //! The crate knows nothing of friction, and nothing here is trusted. What a run finds is a

@@ -1,8 +1,13 @@
 //! Dense and sparse factorisations in doubles.
 //!
+//! A sparse symmetric matrix [F B; B' C] is factored in three steps: `Analysis::new` finds an order
+//! of elimination from its pattern, `Analysis::factor` computes the Cholesky factor of F and the
+//! Schur complement C - B' F^-1 B, and the `SchurFactor` solves with both. The engine eliminates
+//! the unknowns of a body that are free of contact in this way. Nothing here is certified.
+//!
 //! | file | what |
 //! |---|---|
-//! | `dense` | dense factorisations, the kernels of a front, sparse LU: the one file that names faer |
+//! | `dense` | dense factorisations, the kernels of a front, sparse LU; only here faer is named |
 //! | `symmetric` | sparse symmetric matrices |
 //! | `dissection` | nested dissection: the order of elimination |
 //! | `analysis` | which fronts there are, and who passes what to whom |

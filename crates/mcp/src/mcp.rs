@@ -1,4 +1,12 @@
-//! The f64 view of a mixed complementarity problem: all that the solver sees.
+//! Mixed complementarity problems in doubles: all that the solver sees of a problem.
+//!
+//! An MCP is (book, 3.1): given bounds l <= u and a function F, find z in [l, u] with
+//!
+//! - F_i(z) >= 0 where z_i = l_i,
+//! - F_i(z) = 0 where z_i lies strictly inside,
+//! - F_i(z) <= 0 where z_i = u_i.
+//!
+//! [`Mcp`] is the interface of a problem, [`LinearMcp`] the problem with F(z) = M z + q.
 
 use nalgebra::DMatrix;
 
@@ -74,6 +82,26 @@ pub enum McpError {
     },
 }
 
+/// Refuses a part of another length than expected.
+///
+/// # Errors
+/// [`McpError::Shape`] naming the part.
+pub(crate) fn check_length(
+    what: &'static str,
+    expected: usize,
+    got: usize,
+) -> Result<(), McpError> {
+    if got == expected {
+        return Ok(());
+    }
+
+    Err(McpError::Shape {
+        what,
+        expected,
+        got,
+    })
+}
+
 impl LinearMcp {
     /// The problem with F(z) = M z + q on [lower, upper].
     ///
@@ -93,22 +121,13 @@ impl LinearMcp {
         upper: Vec<f64>,
     ) -> Result<Self, McpError> {
         let n = q.len();
-        for (what, got) in [
-            ("rows of M", m.nrows()),
-            ("columns of M", m.ncols()),
-            ("lower", lower.len()),
-            ("upper", upper.len()),
-        ] {
-            if got != n {
-                return Err(McpError::Shape {
-                    what,
-                    expected: n,
-                    got,
-                });
-            }
-        }
+        check_length("rows of M", n, m.nrows())?;
+        check_length("columns of M", n, m.ncols())?;
+        check_length("lower", n, lower.len())?;
+        check_length("upper", n, upper.len())?;
+
         for row in 0..n {
-            if let Some(col) = (0..n).find(|&c| !m[(row, c)].is_finite()) {
+            if let Some(col) = (0..n).find(|&col| !m[(row, col)].is_finite()) {
                 return Err(McpError::NotFinite {
                     what: "M",
                     row,
@@ -116,6 +135,7 @@ impl LinearMcp {
                     got: m[(row, col)],
                 });
             }
+
             if !q[row].is_finite() {
                 return Err(McpError::NotFinite {
                     what: "q",
@@ -125,6 +145,7 @@ impl LinearMcp {
                 });
             }
         }
+
         check_bounds(&lower, &upper)?;
         Ok(LinearMcp { m, q, lower, upper })
     }
@@ -154,17 +175,26 @@ impl LinearMcp {
 /// # Errors
 /// [`McpError::Bounds`] with the first index.
 pub fn check_bounds(lower: &[f64], upper: &[f64]) -> Result<(), McpError> {
-    let bad = |l: f64, u: f64| {
-        l.is_nan() || u.is_nan() || l > u || l == f64::INFINITY || u == f64::NEG_INFINITY
-    };
-    match lower.iter().zip(upper).position(|(&l, &u)| bad(l, u)) {
-        Some(index) => Err(McpError::Bounds {
-            index,
-            lower: lower[index],
-            upper: upper[index],
-        }),
-        None => Ok(()),
+    for (index, (&lower, &upper)) in lower.iter().zip(upper).enumerate() {
+        if !are_bounds(lower, upper) {
+            return Err(McpError::Bounds {
+                index,
+                lower,
+                upper,
+            });
+        }
     }
+
+    Ok(())
+}
+
+/// Is [lower, upper] an interval that contains a number?
+fn are_bounds(lower: f64, upper: f64) -> bool {
+    // False also where one of them is NaN.
+    let is_ordered = lower <= upper;
+    let is_lower_bound = lower != f64::INFINITY;
+    let is_upper_bound = upper != f64::NEG_INFINITY;
+    is_ordered && is_lower_bound && is_upper_bound
 }
 
 impl Mcp for LinearMcp {
@@ -179,11 +209,9 @@ impl Mcp for LinearMcp {
     }
     fn function(&self, z: &[f64], f: &mut [f64]) {
         for (i, f_i) in f.iter_mut().enumerate() {
-            *f_i = self.q[i]
-                + z.iter()
-                    .enumerate()
-                    .map(|(j, z_j)| self.m[(i, j)] * z_j)
-                    .sum::<f64>();
+            let terms = z.iter().enumerate().map(|(j, z_j)| self.m[(i, j)] * z_j);
+            let product: f64 = terms.sum();
+            *f_i = self.q[i] + product;
         }
     }
     fn jacobian(&self, _z: &[f64], j: &mut DMatrix<f64>) {
@@ -203,7 +231,9 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![1.0, 2.0; 3.0, 4.0], vec![5.0, 6.0]).unwrap();
         let mut f = [0.0; 2];
         lcp.function(&[1.0, -1.0], &mut f);
+
         assert_eq!(f, [4.0, 5.0]);
+
         let mut j = DMatrix::zeros(2, 2);
         lcp.jacobian(&[0.0, 0.0], &mut j);
         assert_eq!(&j, lcp.matrix());
@@ -211,10 +241,10 @@ mod tests {
 
     #[test]
     fn refusals_name_the_place() {
-        let m = || dmatrix![1.0, 0.0; 0.0, 1.0];
+        let identity = || dmatrix![1.0, 0.0; 0.0, 1.0];
         let cases = [
             (
-                LinearMcp::lcp(m(), vec![0.0]),
+                LinearMcp::lcp(identity(), vec![0.0]),
                 "expected rows of M of length 1, got 2",
             ),
             (
@@ -226,22 +256,23 @@ mod tests {
                 "expected a finite M[0][1], got NaN",
             ),
             (
-                LinearMcp::lcp(m(), vec![0.0, INF]),
+                LinearMcp::lcp(identity(), vec![0.0, INF]),
                 "expected a finite q[1][0], got inf",
             ),
             (
-                LinearMcp::new(m(), vec![0.0; 2], vec![0.0, 2.0], vec![1.0; 2]),
+                LinearMcp::new(identity(), vec![0.0; 2], vec![0.0, 2.0], vec![1.0; 2]),
                 "expected lower <= upper at 1, got 2 and 1",
             ),
             (
-                LinearMcp::new(m(), vec![0.0; 2], vec![INF, 0.0], vec![INF; 2]),
+                LinearMcp::new(identity(), vec![0.0; 2], vec![INF, 0.0], vec![INF; 2]),
                 "expected lower <= upper at 0, got inf and inf",
             ),
             (
-                LinearMcp::new(m(), vec![0.0; 2], vec![0.0; 2], vec![1.0, f64::NAN]),
+                LinearMcp::new(identity(), vec![0.0; 2], vec![0.0; 2], vec![1.0, f64::NAN]),
                 "expected lower <= upper at 1, got 0 and NaN",
             ),
         ];
+
         for (made, message) in cases {
             assert_eq!(made.unwrap_err().to_string(), message);
         }

@@ -1,16 +1,31 @@
-//! The fronts of a sparse Cholesky factorisation, from the pattern alone.
+//! The symbolic part of a sparse Cholesky factorisation: its fronts, from the pattern alone.
+//!
+//! Unknowns are eliminated in the order of a nested dissection (`dissection`). A *front* is the set
+//! of the unknowns of one part, eliminated together in a dense matrix whose rows are these unknowns
+//! and its *border*: the later ones that they touch, in the matrix or through what their children
+//! have left.
+//!
+//! Each unknown is one of three: *eliminated*; *kept*, in which case it comes last and the
+//! factorisation ends with a Schur complement over these; or *held* at zero and left out.
+//!
+//! Input: a symmetric matrix, of which the values play no part. Output: [`Analysis`], which
+//! `multifrontal` factors matrices with.
 
 use super::dissection::{Part, dissect};
 use super::symmetric::Symmetric;
+use std::mem::replace;
+
+/// The place of an unknown that is held.
+pub(super) const HELD: usize = usize::MAX;
 
 /// Which unknowns are eliminated in which front. Serves every matrix with this pattern, or less.
 #[derive(Debug, Clone)]
 pub struct Analysis {
     /// Unknowns in the order of elimination, then those kept.
     pub(super) order: Vec<usize>,
-    /// Place of each unknown in `order`; `usize::MAX` for those held.
+    /// Place of each unknown in `order`; [`HELD`] for those held.
     pub(super) place: Vec<usize>,
-    /// Unknowns eliminated.
+    /// Number of unknowns eliminated.
     pub(super) eliminated: usize,
     /// Fronts in the order of elimination, children first.
     pub(super) fronts: Vec<Front>,
@@ -30,7 +45,7 @@ pub(super) struct Front {
 }
 
 impl Front {
-    /// Places eliminated.
+    /// Number of places eliminated.
     pub(super) fn own(&self) -> usize {
         self.end - self.begin
     }
@@ -52,25 +67,31 @@ impl Analysis {
         points: Option<&[[f64; 2]]>,
     ) -> Analysis {
         let n = matrix.order();
-        let mut wanted = vec![true; n];
-        kept.iter()
-            .chain(held)
-            .filter(|&&i| i < n)
-            .for_each(|&i| wanted[i] = false);
-        let points = points.filter(|p| p.len() == n);
-        let parts = dissect(n, &|i| matrix.columns(i), &|i| wanted[i], points);
-        let mut order: Vec<usize> = parts.iter().flat_map(|p| p.own.iter().copied()).collect();
+        let columns: Vec<&[usize]> = (0..n).map(|i| matrix.columns(i)).collect();
+        let points = points.filter(|points| points.len() == n);
+
+        let mut is_eliminated = vec![true; n];
+        for &unknown in kept.iter().chain(held) {
+            if unknown < n {
+                is_eliminated[unknown] = false;
+            }
+        }
+
+        let parts = dissect(&columns, &is_eliminated, points);
+
+        let mut order = Vec::new();
+        for part in &parts {
+            order.extend_from_slice(&part.own);
+        }
+
         let eliminated = order.len();
-        let mut place = vec![usize::MAX; n];
-        held.iter()
-            .filter(|&&i| i < n)
-            .for_each(|&i| wanted[i] = true);
-        order.extend(
-            kept.iter()
-                .copied()
-                .filter(|&i| i < n && !std::mem::replace(&mut wanted[i], true)),
-        );
-        order.iter().enumerate().for_each(|(k, &i)| place[i] = k);
+        order.extend(kept_once(kept, held, n));
+
+        let mut place = vec![HELD; n];
+        for (k, &unknown) in order.iter().enumerate() {
+            place[unknown] = k;
+        }
+
         let fronts = fronts(matrix, &parts, &order, &place);
         Analysis {
             order,
@@ -101,23 +122,53 @@ impl Analysis {
     }
 }
 
+/// The unknowns below `n` in `kept` that are not held, each once, in the order given.
+fn kept_once(kept: &[usize], held: &[usize], n: usize) -> Vec<usize> {
+    let mut is_done = vec![false; n];
+    for &unknown in held {
+        if unknown < n {
+            is_done[unknown] = true;
+        }
+    }
+
+    let mut list = Vec::new();
+    for &unknown in kept {
+        if unknown < n && !replace(&mut is_done[unknown], true) {
+            list.push(unknown);
+        }
+    }
+    list
+}
+
+/// The front of each part, whose places follow each other in the order of the parts.
 fn fronts(matrix: &Symmetric, parts: &[Part], order: &[usize], place: &[usize]) -> Vec<Front> {
     let mut fronts: Vec<Front> = Vec::with_capacity(parts.len());
-    let mut seen = vec![usize::MAX; order.len()];
+
+    // The last front whose border a place was put on.
+    let mut last_border = vec![usize::MAX; order.len()];
     let mut begin = 0;
+
     for (k, part) in parts.iter().enumerate() {
         let end = begin + part.own.len();
-        let of_children = part
-            .children
-            .iter()
-            .flat_map(|&c| fronts[c].border.iter().copied());
-        let of_matrix = order[begin..end]
-            .iter()
-            .flat_map(|&i| matrix.columns(i).iter().map(|&j| place[j]));
-        let later =
-            |&p: &usize| p != usize::MAX && p >= end && std::mem::replace(&mut seen[p], k) != k;
-        let mut border: Vec<usize> = of_children.chain(of_matrix).filter(later).collect();
+
+        let borders = part.children.iter().map(|&child| &fronts[child].border);
+        let left_by_children = borders.flatten().copied();
+        let columns = part.own.iter().flat_map(|&i| matrix.columns(i));
+        let touched = columns.map(|&column| place[column]);
+
+        let mut border = Vec::new();
+        for later in left_by_children.chain(touched) {
+            if later == HELD || later < end {
+                continue;
+            }
+
+            if replace(&mut last_border[later], k) != k {
+                border.push(later);
+            }
+        }
+
         border.sort_unstable();
+
         fronts.push(Front {
             begin,
             end,
@@ -136,22 +187,28 @@ mod tests {
     /// A chain of seven, the middle kept, the first held: two chains that touch what is kept.
     #[test]
     fn kept_come_last_and_held_not_at_all() {
-        let chain = (0..7usize).flat_map(|i| {
-            [(i, i, 2.0)]
-                .into_iter()
-                .chain((i > 0).then(|| (i, i - 1, -1.0)))
-        });
-        let both = chain
-            .flat_map(|(i, j, v)| [(i, j, v)].into_iter().chain((i != j).then_some((j, i, v))));
-        let a = Analysis::new(&Symmetric::new(7, both).unwrap(), &[3, 99, 3], &[0], None);
-        assert_eq!((a.eliminated(), a.order.len(), a.order[5]), (5, 6, 3));
-        assert_eq!(a.place[0], usize::MAX);
-        assert_eq!(a.fronts.last().unwrap().border, [5]);
-        assert_eq!(a.largest_front(), 6);
-        assert_eq!(a.factor_entries(), 30);
-        assert_eq!(
-            Analysis::new(&Symmetric::new(0, []).unwrap(), &[], &[], None).largest_front(),
-            0
-        );
+        let mut chain = Vec::new();
+        for i in 0..7 {
+            chain.push((i, i, 2.0));
+            if i > 0 {
+                chain.push((i, i - 1, -1.0));
+                chain.push((i - 1, i, -1.0));
+            }
+        }
+
+        let chain = Symmetric::new(7, chain).unwrap();
+
+        let analysis = Analysis::new(&chain, &[3, 99, 3], &[0], None);
+        assert_eq!(analysis.eliminated(), 5);
+        assert_eq!(analysis.order.len(), 6);
+        assert_eq!(analysis.order[5], 3);
+        assert_eq!(analysis.place[0], HELD);
+        assert_eq!(analysis.fronts.last().unwrap().border, [5]);
+        assert_eq!(analysis.largest_front(), 6);
+        assert_eq!(analysis.factor_entries(), 30);
+
+        let nothing = Symmetric::new(0, []).unwrap();
+        let analysis = Analysis::new(&nothing, &[], &[], None);
+        assert_eq!(analysis.largest_front(), 0);
     }
 }

@@ -1,16 +1,34 @@
-//! Nested dissection (George 1973): which unknowns separate the others, again and again.
+//! Nested dissection (George 1973): an order of elimination that keeps Cholesky factors sparse.
 //!
-//! A part is cut at a value of a coordinate, or without coordinates at a distance in the graph from
-//! one of its ends. What touches the other side is the separator, eliminated after both sides.
+//! The unknowns of a symmetric matrix are the nodes of a graph, its entries are the edges. A set of
+//! nodes is cut into two: S separates the nodes below the cut from those above it, so that no edge
+//! joins the two sides. Both sides are eliminated first, each dissected in the same way, and S
+//! after them.
+//!
+//! The cut goes along a line: nodes are sorted by a coordinate, or, where positions are unknown, by
+//! their distance in the graph from a node at one end. Nodes with the same neighbours (the degrees
+//! of freedom of one mesh node) form a *group* and are never parted.
+//!
+//! Input: the columns of the entries of each row. Output: a tree of [`Part`]s, children first.
+//! Called by `Analysis::new`.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, VecDeque};
 
-/// Unknowns that are not cut any further, at most (in groups of [`Graph`]).
+/// Sets of at most this many groups are not cut any further. Unit: groups.
 const LEAF: usize = 24;
 
-/// Cuts tried around the middle of a part, on either side: on a mesh cut by both diagonals every
+/// Cuts tried around the middle of a set, on either side: on a mesh cut by both diagonals every
 /// second line is a separator of half the size.
 const CUTS: usize = 2;
+
+/// The group of an unknown that is not dissected.
+const NO_GROUP: u32 = u32::MAX;
+
+/// The distance of a group outside the set under work.
+const OUTSIDE: u32 = u32::MAX;
+
+/// The distance of a group of the set under work that the search has not reached.
+const UNREACHED: u32 = u32::MAX - 1;
 
 /// A node of the tree of dissection: its own unknowns, eliminated after those of its children.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,180 +39,274 @@ pub(super) struct Part {
     pub(super) children: Vec<usize>,
 }
 
-/// Groups of unknowns that have the same neighbours (the dofs of a mesh node), and who touches
-/// whom.
+/// The groups of unknowns, and which of them touch each other.
 struct Graph {
+    /// The unknowns of each group.
     members: Vec<Vec<usize>>,
+    /// The groups that each group touches, ascending, without itself.
     neighbours: Vec<Vec<u32>>,
+    /// The position of each group in the plane, where it is known.
     points: Vec<Option<[f64; 2]>>,
 }
 
-/// The parts in the order of elimination. `columns` lists what each unknown touches, ascending;
-/// only those with `wanted` are dissected. `points` are positions in the plane, where known.
-pub(super) fn dissect<'a>(
-    order: usize,
-    columns: &dyn Fn(usize) -> &'a [usize],
-    wanted: &dyn Fn(usize) -> bool,
+/// The parts in the order of elimination.
+///
+/// `columns[i]` lists the unknowns that unknown i touches, ascending; only those with `wanted[i]`
+/// are dissected. `points[i]` is the position of unknown i in the plane, where positions are known.
+pub(super) fn dissect(
+    columns: &[&[usize]],
+    wanted: &[bool],
     points: Option<&[[f64; 2]]>,
 ) -> Vec<Part> {
-    let graph = Graph::of(order, columns, wanted, points);
-    let mut work = Work {
+    let graph = Graph::new(columns, wanted, points);
+    let groups = graph.members.len();
+
+    let mut dissection = Dissection {
         graph: &graph,
-        side: vec![0; graph.members.len()],
-        distance: vec![u32::MAX; graph.members.len()],
+        side: vec![Side::Elsewhere; groups],
+        distance: vec![OUTSIDE; groups],
         parts: vec![],
     };
-    work.cut((0..graph.members.len() as u32).collect());
-    work.parts
+
+    dissection.cut((0..groups as u32).collect());
+    dissection.parts
 }
 
 impl Graph {
-    fn of<'a>(
-        order: usize,
-        columns: &dyn Fn(usize) -> &'a [usize],
-        wanted: &dyn Fn(usize) -> bool,
-        points: Option<&[[f64; 2]]>,
-    ) -> Graph {
-        let mut group = vec![u32::MAX; order];
-        let mut first: HashMap<&[usize], u32> = HashMap::new();
+    /// Groups the wanted unknowns by their lists of columns.
+    fn new(columns: &[&[usize]], wanted: &[bool], points: Option<&[[f64; 2]]>) -> Graph {
+        let mut group_of = vec![NO_GROUP; columns.len()];
+        let mut group_of_columns: HashMap<&[usize], u32> = HashMap::new();
         let mut members: Vec<Vec<usize>> = Vec::new();
-        for i in (0..order).filter(|&i| wanted(i)) {
-            let g = *first.entry(columns(i)).or_insert(members.len() as u32);
-            if g as usize == members.len() {
+
+        for unknown in 0..columns.len() {
+            if !wanted[unknown] {
+                continue;
+            }
+
+            let next = members.len() as u32;
+            let group = *group_of_columns.entry(columns[unknown]).or_insert(next);
+            if group == next {
                 members.push(Vec::new());
             }
-            members[g as usize].push(i);
-            group[i] = g;
+
+            members[group as usize].push(unknown);
+            group_of[unknown] = group;
         }
-        let touched = |m: &Vec<usize>| {
-            let mut list: Vec<u32> = columns(m[0])
-                .iter()
-                .map(|&j| group[j])
-                .filter(|&g| g != u32::MAX && g != group[m[0]])
-                .collect();
-            list.sort_unstable();
-            list.dedup();
-            list
-        };
-        let neighbours = members.iter().map(touched).collect();
-        let points = members.iter().map(|m| points.map(|p| p[m[0]])).collect();
+
+        let mut neighbours = Vec::with_capacity(members.len());
+        let mut positions = Vec::with_capacity(members.len());
+
+        for group in &members {
+            let first = group[0];
+            neighbours.push(groups_touched(columns[first], group_of[first], &group_of));
+            positions.push(points.map(|points| points[first]));
+        }
+
         Graph {
             members,
             neighbours,
-            points,
+            points: positions,
         }
     }
 }
 
-struct Work<'g> {
+/// The groups of these unknowns other than `own`, ascending.
+fn groups_touched(unknowns: &[usize], own: u32, group_of: &[u32]) -> Vec<u32> {
+    let groups = unknowns.iter().map(|&unknown| group_of[unknown]);
+    let mut others: Vec<u32> = groups
+        .filter(|&group| group != NO_GROUP && group != own)
+        .collect();
+
+    others.sort_unstable();
+    others.dedup();
+    others
+}
+
+/// Where a group lies during one cut.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    /// Below the cut.
+    Below,
+    /// In the separator of the cut.
+    Separator,
+    /// Anywhere else. All groups are marked so between two uses of the marks.
+    Elsewhere,
+}
+
+/// A group with the coordinate or distance by which its set is sorted.
+#[derive(Debug, Clone, Copy)]
+struct Keyed {
+    key: f64,
+    group: u32,
+}
+
+/// A cut of a sorted set.
+struct Cut {
+    /// Number of groups below it.
+    at: usize,
+    /// Groups above it that touch one below it.
+    separator: Vec<u32>,
+}
+
+/// A dissection under way.
+struct Dissection<'g> {
     graph: &'g Graph,
-    /// Mark of the part under work: 1 below the cut, 2 above, 0 elsewhere.
-    side: Vec<u8>,
+    side: Vec<Side>,
     distance: Vec<u32>,
     parts: Vec<Part>,
 }
 
-impl Work<'_> {
-    /// Dissects a list of groups; the index of its part, `None` for an empty list.
-    fn cut(&mut self, mut list: Vec<u32>) -> Option<usize> {
-        if list.len() <= LEAF {
-            return self.close(&list, Vec::new());
+impl Dissection<'_> {
+    /// Dissects a set of groups; returns the index of its part, `None` for an empty set.
+    fn cut(&mut self, set: Vec<u32>) -> Option<usize> {
+        if set.len() <= LEAF {
+            return self.close(&set, Vec::new());
         }
-        let keys = self.keys(&list);
-        let mut ordered: Vec<(f64, u32)> = keys.into_iter().zip(list.drain(..)).collect();
-        ordered.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
-        let best = cuts(&ordered)
-            .into_iter()
-            .map(|at| (self.separator(&ordered, at), at))
-            .min_by_key(|(s, _)| s.len());
-        let groups = |part: &[(f64, u32)]| part.iter().map(|e| e.1).collect::<Vec<u32>>();
-        let Some((separator, at)) = best else {
-            return self.close(&groups(&ordered), Vec::new());
+
+        let sorted = self.sorted(&set);
+        drop(set);
+        let Some(Cut { at, separator }) = self.smallest_cut(&sorted) else {
+            return self.close(&groups(&sorted), Vec::new());
         };
-        separator.iter().for_each(|&g| self.side[g as usize] = 1);
-        let (low, high) = ordered.split_at(at);
-        let above: Vec<u32> = high
-            .iter()
-            .map(|e| e.1)
-            .filter(|&g| self.side[g as usize] == 0)
-            .collect();
-        separator.iter().for_each(|&g| self.side[g as usize] = 0);
-        let below = groups(low);
-        drop(ordered);
-        let children: Vec<usize> = [below, above]
-            .into_iter()
-            .filter_map(|part| self.cut(part))
-            .collect();
+
+        let below = groups(&sorted[..at]);
+        let above = self.without(&sorted[at..], &separator);
+        drop(sorted);
+
+        let sides = [below, above];
+        let children = sides.into_iter().filter_map(|side| self.cut(side));
+        let children: Vec<usize> = children.collect();
+
         self.close(&separator, children)
     }
 
+    /// Appends the part with these groups of its own; returns its index, `None` if it is empty.
     fn close(&mut self, groups: &[u32], children: Vec<usize>) -> Option<usize> {
         if groups.is_empty() && children.is_empty() {
             return None;
         }
-        let own = groups
-            .iter()
-            .flat_map(|&g| self.graph.members[g as usize].iter().copied())
-            .collect();
+
+        let mut own = Vec::new();
+        for &group in groups {
+            own.extend_from_slice(&self.graph.members[group as usize]);
+        }
+
         self.parts.push(Part { own, children });
         Some(self.parts.len() - 1)
     }
 
-    /// Those from `at` on that touch one before.
-    fn separator(&mut self, ordered: &[(f64, u32)], at: usize) -> Vec<u32> {
-        let (low, high) = ordered.split_at(at);
-        low.iter().for_each(|e| self.side[e.1 as usize] = 1);
-        let touches = |g: u32| {
-            self.graph.neighbours[g as usize]
-                .iter()
-                .any(|&h| self.side[h as usize] == 1)
-        };
-        let separator = high.iter().map(|e| e.1).filter(|&g| touches(g)).collect();
-        low.iter().for_each(|e| self.side[e.1 as usize] = 0);
+    /// The set sorted by its keys, and among equal keys by the indices of the groups.
+    fn sorted(&mut self, set: &[u32]) -> Vec<Keyed> {
+        let keys = self.keys(set);
+        let pairs = keys.into_iter().zip(set);
+        let mut sorted: Vec<Keyed> = pairs.map(|(key, &group)| Keyed { key, group }).collect();
+
+        sorted.sort_unstable_by(|a, b| a.key.total_cmp(&b.key).then(a.group.cmp(&b.group)));
+        sorted
+    }
+
+    /// The cut near the middle with the smallest separator, `None` if all keys are equal.
+    fn smallest_cut(&mut self, sorted: &[Keyed]) -> Option<Cut> {
+        let cuts = cuts(sorted).into_iter().map(|at| Cut {
+            at,
+            separator: self.separator(sorted, at),
+        });
+
+        cuts.min_by_key(|cut| cut.separator.len())
+    }
+
+    /// The groups from place `at` on that touch one before it.
+    fn separator(&mut self, sorted: &[Keyed], at: usize) -> Vec<u32> {
+        let (below, above) = sorted.split_at(at);
+
+        for entry in below {
+            self.side[entry.group as usize] = Side::Below;
+        }
+
+        let touching = above.iter().filter(|entry| self.touches_below(entry.group));
+        let separator = touching.map(|entry| entry.group).collect();
+
+        for entry in below {
+            self.side[entry.group as usize] = Side::Elsewhere;
+        }
         separator
     }
 
-    /// The coordinate along the longer side of the part, or the distance from one of its ends.
-    fn keys(&mut self, list: &[u32]) -> Vec<f64> {
-        let points: Option<Vec<[f64; 2]>> = list
-            .iter()
-            .map(|&g| self.graph.points[g as usize])
-            .collect();
-        let Some(points) = points else {
-            let end = self.farthest(list, list[0]);
-            self.farthest(list, end);
-            return list
-                .iter()
-                .map(|&g| f64::from(std::mem::replace(&mut self.distance[g as usize], u32::MAX)))
-                .collect();
-        };
-        let extent = |axis: usize| {
-            let (low, high) = points
-                .iter()
-                .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| {
-                    (p[axis].min(l), p[axis].max(h))
-                });
-            high - low
-        };
-        let axis = usize::from(extent(1) > extent(0));
-        points.iter().map(|p| p[axis]).collect()
+    /// Does a neighbour of the group lie below the cut?
+    fn touches_below(&self, group: u32) -> bool {
+        for &neighbour in &self.graph.neighbours[group as usize] {
+            if self.side[neighbour as usize] == Side::Below {
+                return true;
+            }
+        }
+
+        false
     }
 
-    /// Distances within the part from `start` (`u32::MAX - 1` where it does not reach), and a group
-    /// farthest away.
-    fn farthest(&mut self, list: &[u32], start: u32) -> u32 {
-        list.iter()
-            .for_each(|&g| self.distance[g as usize] = u32::MAX - 1);
+    /// The groups of a list that are not in the separator.
+    fn without(&mut self, list: &[Keyed], separator: &[u32]) -> Vec<u32> {
+        for &group in separator {
+            self.side[group as usize] = Side::Separator;
+        }
+
+        let all = list.iter().map(|entry| entry.group);
+        let rest = all.filter(|&group| self.side[group as usize] != Side::Separator);
+        let rest = rest.collect();
+
+        for &group in separator {
+            self.side[group as usize] = Side::Elsewhere;
+        }
+        rest
+    }
+
+    /// The keys of a set: coordinates along its longer side where all positions are known, else
+    /// distances from one of its ends.
+    fn keys(&mut self, set: &[u32]) -> Vec<f64> {
+        let points = set.iter().map(|&group| self.graph.points[group as usize]);
+        let points: Option<Vec<[f64; 2]>> = points.collect();
+
+        match points {
+            Some(points) => coordinates_along_the_longer_side(&points),
+            None => self.distances_from_an_end(set),
+        }
+    }
+
+    /// The distances in the graph from a group that is farthest from the first one of the set.
+    fn distances_from_an_end(&mut self, set: &[u32]) -> Vec<f64> {
+        let end = self.farthest(set, set[0]);
+        self.farthest(set, end);
+
+        let mut keys = Vec::with_capacity(set.len());
+        for &group in set {
+            let distance = &mut self.distance[group as usize];
+            keys.push(f64::from(*distance));
+            *distance = OUTSIDE;
+        }
+        keys
+    }
+
+    /// Sets the distances within the set from `start` by breadth-first search, [`UNREACHED`] where
+    /// it does not arrive; returns a group farthest away.
+    fn farthest(&mut self, set: &[u32], start: u32) -> u32 {
+        for &group in set {
+            self.distance[group as usize] = UNREACHED;
+        }
+
         self.distance[start as usize] = 0;
-        let mut queue = std::collections::VecDeque::from([start]);
+
+        let mut queue = VecDeque::from([start]);
         let mut last = start;
-        while let Some(g) = queue.pop_front() {
-            last = g;
-            let next = self.distance[g as usize] + 1;
-            for &h in &self.graph.neighbours[g as usize] {
-                if self.distance[h as usize] == u32::MAX - 1 {
-                    self.distance[h as usize] = next;
-                    queue.push_back(h);
+
+        while let Some(group) = queue.pop_front() {
+            last = group;
+            let next = self.distance[group as usize] + 1;
+
+            for &neighbour in &self.graph.neighbours[group as usize] {
+                let distance = &mut self.distance[neighbour as usize];
+                if *distance == UNREACHED {
+                    *distance = next;
+                    queue.push_back(neighbour);
                 }
             }
         }
@@ -202,16 +314,39 @@ impl Work<'_> {
     }
 }
 
-/// Places near the middle of a sorted list at which the key changes.
-fn cuts(ordered: &[(f64, u32)]) -> Vec<usize> {
-    let changes = |k: &usize| ordered[*k].0 > ordered[*k - 1].0;
-    let middle = ordered.len() / 2;
-    let mut found: Vec<usize> = (middle.max(1)..ordered.len())
-        .filter(changes)
-        .take(CUTS)
-        .collect();
-    found.extend((1..middle.max(1)).rev().filter(changes).take(CUTS));
-    found
+/// The groups of a sorted list, in its order.
+fn groups(list: &[Keyed]) -> Vec<u32> {
+    list.iter().map(|entry| entry.group).collect()
+}
+
+/// One coordinate of each point: that in which the points extend farther, x where both are equal.
+fn coordinates_along_the_longer_side(points: &[[f64; 2]]) -> Vec<f64> {
+    let is_upright = extent(points, 1) > extent(points, 0);
+    let axis = usize::from(is_upright);
+    points.iter().map(|point| point[axis]).collect()
+}
+
+/// The largest less the smallest coordinate of the points along an axis.
+fn extent(points: &[[f64; 2]], axis: usize) -> f64 {
+    let mut low = f64::INFINITY;
+    let mut high = f64::NEG_INFINITY;
+
+    for point in points {
+        low = point[axis].min(low);
+        high = point[axis].max(high);
+    }
+
+    high - low
+}
+
+/// Up to [`CUTS`] places on either side of the middle of a sorted list at which the key changes.
+fn cuts(sorted: &[Keyed]) -> Vec<usize> {
+    let key_changes = |place: &usize| sorted[*place].key > sorted[*place - 1].key;
+    let middle = (sorted.len() / 2).max(1);
+
+    let upwards = (middle..sorted.len()).filter(key_changes).take(CUTS);
+    let downwards = (1..middle).rev().filter(key_changes).take(CUTS);
+    upwards.chain(downwards).collect()
 }
 
 #[cfg(test)]
@@ -220,11 +355,18 @@ mod tests {
 
     /// A grid of n x n points, each touching its eight neighbours.
     fn grid(n: usize) -> Vec<Vec<usize>> {
-        let near =
-            |a: usize, b: usize| (a / n).abs_diff(b / n) <= 1 && (a % n).abs_diff(b % n) <= 1;
-        (0..n * n)
-            .map(|a| (0..n * n).filter(|&b| near(a, b)).collect())
-            .collect()
+        let mut touch = Vec::new();
+        for a in 0..n * n {
+            let near =
+                (0..n * n).filter(|b| (a / n).abs_diff(b / n) <= 1 && (a % n).abs_diff(b % n) <= 1);
+            touch.push(near.collect());
+        }
+
+        touch
+    }
+
+    fn slices(touch: &[Vec<usize>]) -> Vec<&[usize]> {
+        touch.iter().map(Vec::as_slice).collect()
     }
 
     /// Every unknown once, children before parents, and what a subtree touches outside is in parts
@@ -232,6 +374,7 @@ mod tests {
     fn assert_dissection(touch: &[Vec<usize>], parts: &[Part]) {
         let mut part_of = vec![usize::MAX; touch.len()];
         let mut parent = vec![usize::MAX; parts.len()];
+
         for (p, part) in parts.iter().enumerate() {
             part.children.iter().for_each(|&c| parent[c] = p);
             assert!(part.children.iter().all(|&c| c < p));
@@ -239,57 +382,72 @@ mod tests {
                 assert_eq!(std::mem::replace(&mut part_of[i], p), usize::MAX);
             }
         }
-        let above = |mut low: usize, high: usize| {
-            while low < high {
-                low = parent[low];
-            }
-            low == high
-        };
+
         for (a, list) in touch.iter().enumerate() {
-            assert!(
-                list.iter()
-                    .all(|&b| above(part_of[a].min(part_of[b]), part_of[a].max(part_of[b]))),
-                "{a}"
-            );
+            for &b in list {
+                let low = part_of[a].min(part_of[b]);
+                let high = part_of[a].max(part_of[b]);
+                assert!(is_above(&parent, high, low), "{a}");
+            }
         }
+    }
+
+    /// Is `high` the part `low` or one of its ancestors?
+    fn is_above(parent: &[usize], high: usize, mut low: usize) -> bool {
+        while low < high {
+            low = parent[low];
+        }
+
+        low == high
     }
 
     #[test]
     fn a_grid_is_cut_along_lines() {
         let n = 20;
         let touch = grid(n);
+        let all = vec![true; n * n];
         let points: Vec<[f64; 2]> = (0..n * n)
             .map(|a| [(a / n) as f64, 1.5 * (a % n) as f64])
             .collect();
-        let with = dissect(n * n, &|i| touch[i].as_slice(), &|_| true, Some(&points));
+
+        let with = dissect(&slices(&touch), &all, Some(&points));
         assert_dissection(&touch, &with);
+
         let last = with.last().unwrap();
         assert_eq!(last.own.len(), n);
+
+        let column = last.own[0] % n;
         assert!(
-            last.own.iter().all(|a| a % n == last.own[0] % n),
+            last.own.iter().all(|a| a % n == column),
             "a line across the longer side"
         );
-        let without = dissect(n * n, &|i| touch[i].as_slice(), &|_| true, None);
+
+        let without = dissect(&slices(&touch), &all, None);
         assert_dissection(&touch, &without);
         assert!(without.last().unwrap().own.len() <= 2 * n);
     }
 
     #[test]
     fn two_bodies_one_clique_and_nothing() {
-        let touch: Vec<Vec<usize>> = (0..100usize)
+        let chains: Vec<Vec<usize>> = (0..100usize)
             .map(|a| {
                 (0..100)
                     .filter(|b| a / 50 == b / 50 && a.abs_diff(*b) <= 1)
                     .collect()
             })
             .collect();
-        assert_dissection(
-            &touch,
-            &dissect(100, &|i| touch[i].as_slice(), &|_| true, None),
-        );
-        let all: Vec<usize> = (0..90).collect();
-        let clique = dissect(90, &|_| all.as_slice(), &|i| i != 7, None);
-        assert_eq!(clique.iter().map(|p| p.own.len()).sum::<usize>(), 89);
-        assert!(dissect(3, &|_| all.as_slice(), &|_| false, None).is_empty());
+        let parts = dissect(&slices(&chains), &[true; 100], None);
+
+        assert_dissection(&chains, &parts);
+
+        let clique = vec![(0..90).collect::<Vec<usize>>(); 90];
+        let mut all_but_one = [true; 90];
+        all_but_one[7] = false;
+        let parts = dissect(&slices(&clique), &all_but_one, None);
+
+        assert_eq!(parts.iter().map(|p| p.own.len()).sum::<usize>(), 89);
+
+        let parts = dissect(&slices(&clique[..3]), &[false; 3], None);
+        assert!(parts.is_empty());
     }
 }

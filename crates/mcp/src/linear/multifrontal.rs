@@ -1,14 +1,20 @@
 //! Sparse Cholesky factors front by front (Duff and Reid 1983), and the Schur complement they end
 //! with.
 //!
-//! Each front adds up its rows of the matrix and what its children leave, eliminates its own
-//! unknowns by dense kernels and passes the rest on. What is left at the end is the Schur
-//! complement of the kept unknowns: no right-hand sides.
+//! With the eliminated unknowns first, the matrix is [F B; B' C]. The factor L with F = L L' is
+//! built front by front: each front adds up its rows of the matrix and what its children leave,
+//! eliminates its own unknowns in a dense matrix, and passes the rest on to its parent. What is
+//! left at the end is the Schur complement Z = C - B' F^-1 B of the kept unknowns.
+//!
+//! Input: an [`Analysis`] of the pattern and a matrix. Output: a [`SchurFactor`], which solves,
+//! extends and restricts. `mceip-engine` eliminates the unknowns of a body with it that are free of
+//! contact.
 
-use super::analysis::{Analysis, Front};
+use super::analysis::{Analysis, Front, HELD};
 use super::dense::eliminate_front;
 use super::symmetric::Symmetric;
 use crate::tolerance::SINGULAR_PIVOT;
+use std::mem::take;
 
 /// The matrix is not positive definite on the eliminated unknowns, as far as doubles can tell.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
@@ -40,36 +46,28 @@ impl Analysis {
     /// Factors a matrix of the analysed pattern (or less).
     ///
     /// # Errors
-    /// [`NotDefinite`].
+    /// [`NotDefinite`] if a pivot is not positive, or so small that only rounding makes it so.
     pub fn factor(&self, matrix: &Symmetric) -> Result<SchurFactor<'_>, NotDefinite> {
-        let kept = self.order.len() - self.eliminated;
-        let mut local = vec![usize::MAX; self.order.len()];
-        let mut updates: Vec<Vec<f64>> = vec![Vec::new(); self.fronts.len()];
+        let mut elimination = Elimination::new(self, matrix);
         let mut panels = Vec::with_capacity(self.fronts.len());
+
         for (k, front) in self.fronts.iter().enumerate() {
-            (front.begin..front.end)
-                .chain(front.border.iter().copied())
-                .enumerate()
-                .for_each(|(l, p)| local[p] = l);
-            let (panel, update) = self.eliminate(matrix, front, &mut updates, &local)?;
-            panels.push(panel);
-            updates[k] = update;
+            let dense = elimination.eliminate(front)?;
+            panels.push(dense.panel);
+            elimination.updates[k] = dense.update;
         }
-        let all = Front {
+
+        // The kept unknowns are gathered like a front, which is not eliminated.
+        let kept = Front {
             begin: self.eliminated,
             end: self.order.len(),
             border: Vec::new(),
             children: self.roots(),
         };
-        (all.begin..all.end).for_each(|p| local[p] = p - all.begin);
-        let (panel, _) = self.gather(matrix, &all, &mut updates, &local);
-        let schur = (0..kept)
-            .map(|i| {
-                (0..kept)
-                    .map(|j| panel[i.min(j) * kept + i.max(j)])
-                    .collect()
-            })
-            .collect();
+
+        let dense = elimination.gather(&kept);
+        let schur = mirrored(&dense.panel, kept.own());
+
         Ok(SchurFactor {
             analysis: self,
             panels,
@@ -77,94 +75,163 @@ impl Analysis {
         })
     }
 
-    /// Fronts that pass what is left to no other.
+    /// The fronts that are no child of another one.
     fn roots(&self) -> Vec<usize> {
         let mut is_child = vec![false; self.fronts.len()];
-        self.fronts
-            .iter()
-            .flat_map(|f| &f.children)
-            .for_each(|&c| is_child[c] = true);
+        for front in &self.fronts {
+            for &child in &front.children {
+                is_child[child] = true;
+            }
+        }
+
         (0..self.fronts.len()).filter(|&k| !is_child[k]).collect()
     }
+}
 
-    /// The columns of a front and its lower right part, before elimination.
-    fn gather(
-        &self,
-        matrix: &Symmetric,
-        front: &Front,
-        updates: &mut [Vec<f64>],
-        local: &[usize],
-    ) -> (Vec<f64>, Vec<f64>) {
-        let (own, order) = (front.own(), front.order());
+/// The symmetric matrix, by rows, of which `lower` holds the lower triangle by columns.
+fn mirrored(lower: &[f64], order: usize) -> Vec<Vec<f64>> {
+    let mut rows = vec![vec![0.0; order]; order];
+    for i in 0..order {
+        for j in 0..order {
+            rows[i][j] = lower[i.min(j) * order + i.max(j)];
+        }
+    }
+    rows
+}
+
+/// The dense matrix of a front, lower triangles by columns.
+struct DenseFront {
+    /// The columns of the front's own unknowns, order x own.
+    panel: Vec<f64>,
+    /// The rows and columns of its border.
+    update: Vec<f64>,
+}
+
+/// A factorisation under way.
+struct Elimination<'m> {
+    analysis: &'m Analysis,
+    matrix: &'m Symmetric,
+    /// What each eliminated front leaves of its border, until its parent takes it.
+    updates: Vec<Vec<f64>>,
+    /// The row of each place in the dense matrix of the current front.
+    local: Vec<usize>,
+}
+
+impl<'m> Elimination<'m> {
+    fn new(analysis: &'m Analysis, matrix: &'m Symmetric) -> Self {
+        Elimination {
+            analysis,
+            matrix,
+            updates: vec![Vec::new(); analysis.fronts.len()],
+            local: vec![usize::MAX; analysis.order.len()],
+        }
+    }
+
+    /// The dense matrix of a front after its own unknowns were eliminated.
+    fn eliminate(&mut self, front: &Front) -> Result<DenseFront, NotDefinite> {
+        let mut dense = self.gather(front);
+        let order = front.order();
+        let own = front.own();
+
+        if own == 0 {
+            return Ok(dense);
+        }
+
+        if !eliminate_front(&mut dense.panel, &mut dense.update, order, own) {
+            return Err(self.not_definite(front.begin, f64::NAN));
+        }
+
+        for column in 0..own {
+            let pivot = dense.panel[column * order + column].powi(2);
+            self.check_pivot(front.begin + column, pivot)?;
+        }
+        Ok(dense)
+    }
+
+    /// Refuses a pivot that is too small beside the diagonal entry, or NaN after an overflow.
+    fn check_pivot(&self, place: usize, pivot: f64) -> Result<(), NotDefinite> {
+        let diagonal = self.matrix.diagonal(self.analysis.order[place]);
+        let is_large = pivot > SINGULAR_PIVOT * diagonal.abs();
+
+        if is_large && pivot.is_finite() {
+            Ok(())
+        } else {
+            Err(self.not_definite(place, pivot))
+        }
+    }
+
+    fn not_definite(&self, place: usize, pivot: f64) -> NotDefinite {
+        let index = self.analysis.order[place];
+        NotDefinite {
+            index,
+            pivot,
+            diagonal: self.matrix.diagonal(index),
+        }
+    }
+
+    /// The dense matrix of a front before elimination: its rows of the matrix, and what its
+    /// children leave.
+    fn gather(&mut self, front: &Front) -> DenseFront {
+        let own = front.own();
+        let order = front.order();
         let rest = order - own;
-        let (mut panel, mut update) = (vec![0.0; order * own], vec![0.0; rest * rest]);
-        for (c, place) in (front.begin..front.end).enumerate() {
-            for (j, v) in matrix.row(self.order[place]) {
-                let p = self.place[j];
-                if p != usize::MAX && p >= place {
-                    panel[c * order + local[p]] = v;
+
+        let places = (front.begin..front.end).chain(front.border.iter().copied());
+        for (row, place) in places.enumerate() {
+            self.local[place] = row;
+        }
+
+        let mut dense = DenseFront {
+            panel: vec![0.0; order * own],
+            update: vec![0.0; rest * rest],
+        };
+        self.write_matrix(front, &mut dense);
+
+        for &child in &front.children {
+            self.add_child(front, child, &mut dense);
+        }
+        dense
+    }
+
+    /// Writes the entries of the matrix in the columns of the front's own unknowns, on and below
+    /// the diagonal.
+    fn write_matrix(&self, front: &Front, dense: &mut DenseFront) {
+        let order = front.order();
+        for (column, place) in (front.begin..front.end).enumerate() {
+            for (unknown, value) in self.matrix.row(self.analysis.order[place]) {
+                let other = self.analysis.place[unknown];
+                if other != HELD && other >= place {
+                    dense.panel[column * order + self.local[other]] = value;
                 }
             }
         }
-        for &child in &front.children {
-            let (border, given) = (
-                &self.fronts[child].border,
-                std::mem::take(&mut updates[child]),
-            );
-            let size = border.len();
-            for (c, &p) in border.iter().enumerate() {
-                let (column, rows) = (local[p], &given[c * size..(c + 1) * size]);
-                // Places ascend in both lists, so lower triangles add to lower triangles.
-                let (target, shift) = match column < own {
-                    true => (&mut panel[column * order..(column + 1) * order], 0),
-                    false => (
-                        &mut update[(column - own) * rest..(column - own + 1) * rest],
-                        own,
-                    ),
-                };
-                (c..size).for_each(|r| target[local[border[r]] - shift] += rows[r]);
-            }
-        }
-        (panel, update)
     }
 
-    fn eliminate(
-        &self,
-        matrix: &Symmetric,
-        front: &Front,
-        updates: &mut [Vec<f64>],
-        local: &[usize],
-    ) -> Result<(Vec<f64>, Vec<f64>), NotDefinite> {
-        let (mut panel, mut update) = self.gather(matrix, front, updates, local);
-        if front.own() == 0 {
-            return Ok((panel, update));
-        }
-        let at = |c: usize| {
-            (
-                self.order[front.begin + c],
-                matrix.diagonal(self.order[front.begin + c]),
-            )
-        };
-        if !eliminate_front(&mut panel, &mut update, front.order(), front.own()) {
-            let (index, diagonal) = at(0);
-            return Err(NotDefinite {
-                index,
-                pivot: f64::NAN,
-                diagonal,
-            });
-        }
-        for c in 0..front.own() {
-            let (pivot, (index, diagonal)) = (panel[c * front.order() + c].powi(2), at(c));
-            // Also refuses NaN, of an overflow.
-            if !(pivot > SINGULAR_PIVOT * diagonal.abs() && pivot.is_finite()) {
-                return Err(NotDefinite {
-                    index,
-                    pivot,
-                    diagonal,
-                });
+    /// Adds the update of a child, and frees it.
+    fn add_child(&mut self, front: &Front, child: usize, dense: &mut DenseFront) {
+        let own = front.own();
+        let order = front.order();
+        let rest = order - own;
+        let border = &self.analysis.fronts[child].border;
+        let size = border.len();
+        let update = take(&mut self.updates[child]);
+
+        for (k, &place) in border.iter().enumerate() {
+            let given = &update[k * size..(k + 1) * size];
+            let column = self.local[place];
+
+            // The column of the dense matrix to which this one adds, and its first row.
+            let (target, first_row) = if column < own {
+                (&mut dense.panel[column * order..][..order], 0)
+            } else {
+                (&mut dense.update[(column - own) * rest..][..rest], own)
+            };
+
+            // Places ascend in both lists, so lower triangles add to lower triangles.
+            for row in k..size {
+                target[self.local[border[row]] - first_row] += given[row];
             }
         }
-        Ok((panel, update))
     }
 }
 
@@ -179,79 +246,79 @@ impl SchurFactor<'_> {
     pub fn extend(&self, kept: &[f64]) -> Vec<f64> {
         let mut x = vec![0.0; self.analysis.order.len()];
         x[self.analysis.eliminated..].copy_from_slice(kept);
+
         self.backward(&mut x);
-        self.scattered(&x)
+        self.by_unknowns(&x)
     }
 
     /// E' g = g_c - B' F^-1 g_f: what loads on all unknowns are worth on the kept ones.
     pub fn restrict(&self, g: &[f64]) -> Vec<f64> {
-        let mut x = self.gathered(g);
+        let mut x = self.by_places(g);
         self.forward(&mut x);
         x.split_off(self.analysis.eliminated)
     }
 
     /// F^-1 g on the eliminated unknowns, 0 elsewhere.
     pub fn solve(&self, g: &[f64]) -> Vec<f64> {
-        let mut x = self.gathered(g);
+        let mut x = self.by_places(g);
         self.forward(&mut x);
+
         x[self.analysis.eliminated..].fill(0.0);
         self.backward(&mut x);
-        self.scattered(&x)
+        self.by_unknowns(&x)
     }
 
-    fn gathered(&self, g: &[f64]) -> Vec<f64> {
+    /// A vector over the unknowns in the order of elimination, without those held.
+    fn by_places(&self, g: &[f64]) -> Vec<f64> {
         self.analysis.order.iter().map(|&i| g[i]).collect()
     }
 
-    fn scattered(&self, x: &[f64]) -> Vec<f64> {
+    /// A vector in the order of elimination as one over the unknowns, 0 where they are held.
+    fn by_unknowns(&self, x: &[f64]) -> Vec<f64> {
         let mut out = vec![0.0; self.analysis.place.len()];
-        self.analysis
-            .order
-            .iter()
-            .zip(x)
-            .for_each(|(&i, v)| out[i] = *v);
+        for (&unknown, value) in self.analysis.order.iter().zip(x) {
+            out[unknown] = *value;
+        }
         out
     }
 
-    /// L^-1 on the eliminated places; the kept ones have their part taken off.
+    /// Replaces x_f by L^-1 x_f on the eliminated places and x_c by x_c - B' F^-1 x_f on the kept
+    /// ones.
     fn forward(&self, x: &mut [f64]) {
         for (front, panel) in self.analysis.fronts.iter().zip(&self.panels) {
             for (c, column) in panel.chunks_exact(front.order()).enumerate() {
-                let value = x[front.begin + c] / column[c];
-                x[front.begin + c] = value;
+                let pivot = front.begin + c;
+                let value = x[pivot] / column[c];
+                x[pivot] = value;
+
                 let (own, border) = column.split_at(front.own());
-                x[front.begin..front.end]
-                    .iter_mut()
-                    .zip(own)
-                    .skip(c + 1)
-                    .for_each(|(x, l)| *x -= l * value);
-                front
-                    .border
-                    .iter()
-                    .zip(border)
-                    .for_each(|(&p, l)| x[p] -= l * value);
+                for row in c + 1..own.len() {
+                    x[front.begin + row] -= own[row] * value;
+                }
+
+                for (&place, l) in front.border.iter().zip(border) {
+                    x[place] -= l * value;
+                }
             }
         }
     }
 
-    /// L^-T on the eliminated places, given the kept ones.
+    /// Replaces x_f by L^-T (x_f - L^-1 B x_c) on the eliminated places, for the x_c of the kept
+    /// ones.
     fn backward(&self, x: &mut [f64]) {
         for (front, panel) in self.analysis.fronts.iter().zip(&self.panels).rev() {
             for (c, column) in panel.chunks_exact(front.order()).enumerate().rev() {
+                let pivot = front.begin + c;
                 let (own, border) = column.split_at(front.own());
-                let inside: f64 = x[front.begin..front.end]
-                    .iter()
-                    .zip(own)
-                    .skip(c + 1)
-                    .map(|(x, l)| x * l)
-                    .sum();
-                let outside: f64 = front
-                    .border
-                    .iter()
-                    .zip(border)
-                    .map(|(&p, l)| x[p] * l)
-                    .sum();
-                x[front.begin + c] = (x[front.begin + c] - inside - outside) / column[c];
+
+                let own_values = &x[front.begin..front.end];
+                let own_terms = own_values.iter().zip(own).skip(c + 1);
+                let inside: f64 = own_terms.map(|(x, l)| x * l).sum();
+
+                let border_terms = front.border.iter().zip(border);
+                let outside: f64 = border_terms.map(|(&place, l)| x[place] * l).sum();
+
+                x[pivot] = (x[pivot] - inside - outside) / column[c];
             }
         }
     }
@@ -261,119 +328,163 @@ impl SchurFactor<'_> {
 mod tests {
     use super::*;
 
-    /// The five-point Laplacian of an n x n grid plus a shift, with positions.
-    fn laplacian(n: usize, shift: f64) -> (Symmetric, Vec<[f64; 2]>) {
-        let at = |i: usize, j: usize| i * n + j;
-        let mut list = Vec::new();
-        for (i, j) in (0..n).flat_map(|i| (0..n).map(move |j| (i, j))) {
-            let near = [
-                (i.wrapping_sub(1), j),
-                (i + 1, j),
-                (i, j.wrapping_sub(1)),
-                (i, j + 1),
-            ];
-            let near: Vec<_> = near.into_iter().filter(|&(a, b)| a < n && b < n).collect();
-            list.push((at(i, j), at(i, j), shift + near.len() as f64));
-            list.extend(near.into_iter().map(|(a, b)| (at(i, j), at(a, b), -1.0)));
+    /// The five-point Laplacian of a grid of n x n nodes plus a shift of the diagonal.
+    fn laplacian(n: usize, shift: f64) -> Symmetric {
+        let mut entries = Vec::new();
+        for i in 0..n {
+            for j in 0..n {
+                let node = i * n + j;
+                let mut neighbours = Vec::new();
+                if i > 0 {
+                    neighbours.push(node - n);
+                }
+                if i + 1 < n {
+                    neighbours.push(node + n);
+                }
+                if j > 0 {
+                    neighbours.push(node - 1);
+                }
+                if j + 1 < n {
+                    neighbours.push(node + 1);
+                }
+
+                entries.push((node, node, shift + neighbours.len() as f64));
+                for neighbour in neighbours {
+                    entries.push((node, neighbour, -1.0));
+                }
+            }
         }
-        let points = (0..n * n)
-            .map(|k| [(k / n) as f64, (k % n) as f64])
-            .collect();
-        (Symmetric::new(n * n, list).unwrap(), points)
+
+        Symmetric::new(n * n, entries).unwrap()
     }
 
+    /// The positions of the nodes.
+    fn positions(n: usize) -> Vec<[f64; 2]> {
+        let nodes = 0..n * n;
+        nodes.map(|k| [(k / n) as f64, (k % n) as f64]).collect()
+    }
+
+    /// Rows and columns of a matrix as a dense one.
     fn dense(m: &Symmetric, rows: &[usize], cols: &[usize]) -> Vec<Vec<f64>> {
-        let at = |i: usize, j: usize| m.row(i).find(|e| e.0 == j).map_or(0.0, |e| e.1);
-        rows.iter()
-            .map(|&i| cols.iter().map(|&j| at(i, j)).collect())
-            .collect()
+        let mut block = vec![vec![0.0; cols.len()]; rows.len()];
+        for (a, &row) in rows.iter().enumerate() {
+            for (col, value) in m.row(row) {
+                if let Some(b) = cols.iter().position(|&c| c == col) {
+                    block[a][b] = value;
+                }
+            }
+        }
+
+        block
+    }
+
+    fn dot(a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).map(|(x, y)| x * y).sum()
     }
 
     /// C - B' F^-1 B by dense LU.
-    fn by_lu(m: &Symmetric, kept: &[usize], held: &[usize]) -> Vec<Vec<f64>> {
-        let rest: Vec<usize> = (0..m.order())
+    fn schur_by_lu(m: &Symmetric, kept: &[usize], held: &[usize]) -> Vec<Vec<f64>> {
+        let all = 0..m.order();
+        let rest: Vec<usize> = all
             .filter(|i| !kept.contains(i) && !held.contains(i))
             .collect();
         let right = dense(m, kept, &rest);
-        let w = crate::linear::solve(&dense(m, &rest, &rest), &right).unwrap();
-        let c = dense(m, kept, kept);
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-        (0..kept.len())
-            .map(|i| {
-                (0..kept.len())
-                    .map(|j| c[i][j] - dot(&right[i], &w[j]))
-                    .collect()
-            })
-            .collect()
+        let solved = crate::linear::solve(&dense(m, &rest, &rest), &right).unwrap();
+
+        let mut schur = dense(m, kept, kept);
+        for i in 0..kept.len() {
+            for j in 0..kept.len() {
+                schur[i][j] -= dot(&right[i], &solved[j]);
+            }
+        }
+
+        schur
+    }
+
+    /// The Schur complement of the kept unknowns, without positions.
+    fn schur(m: &Symmetric, kept: &[usize]) -> Result<Vec<Vec<f64>>, NotDefinite> {
+        let analysis = Analysis::new(m, kept, &[], None);
+        let factor = analysis.factor(m)?;
+        Ok(factor.schur().to_vec())
     }
 
     #[test]
     fn the_schur_complement_is_that_of_dense_elimination() {
-        let (m, points) = laplacian(13, 0.1);
-        let (kept, held) = ([4, 2, 100, 168, 0], [7, 8, 90]);
-        let expected = by_lu(&m, &kept, &held);
+        let m = laplacian(13, 0.1);
+        let points = positions(13);
+        let kept = [4, 2, 100, 168, 0];
+        let held = [7, 8, 90];
+        let expected = schur_by_lu(&m, &kept, &held);
+
         for points in [None, Some(points.as_slice())] {
             let analysis = Analysis::new(&m, &kept, &held, points);
             assert!(analysis.fronts.len() > 5);
+
             let factor = analysis.factor(&m).unwrap();
-            for (row, other) in factor.schur().iter().zip(&expected) {
-                row.iter()
-                    .zip(other)
-                    .for_each(|(a, b)| approx::assert_abs_diff_eq!(*a, *b, epsilon = 1e-13));
+            for i in 0..kept.len() {
+                for j in 0..kept.len() {
+                    let got = factor.schur()[i][j];
+                    approx::assert_abs_diff_eq!(got, expected[i][j], epsilon = 1e-13);
+                }
             }
         }
     }
 
     #[test]
     fn extension_balances_and_restriction_is_its_transpose() {
-        let (m, _) = laplacian(9, 0.01);
-        let (kept, held) = ([40, 3], [11]);
+        let m = laplacian(9, 0.01);
+        let kept = [40, 3];
+        let held = [11];
+        let eliminated: Vec<usize> = (0..81).filter(|i| ![40, 3, 11].contains(i)).collect();
         let analysis = Analysis::new(&m, &kept, &held, None);
         let factor = analysis.factor(&m).unwrap();
+
+        // An extension takes the values of the kept unknowns and loads no eliminated one.
         let x = factor.extend(&[2.0, -1.0]);
-        assert_eq!((x[40], x[3], x[11]), (2.0, -1.0, 0.0));
+        assert_eq!(x[40], 2.0);
+        assert_eq!(x[3], -1.0);
+        assert_eq!(x[11], 0.0);
+
         let load = m.times(&x);
-        let free = |i: &usize| ![40, 3, 11].contains(i);
-        assert!((0..81).filter(free).all(|i| load[i].abs() < 1e-13));
-        for (k, &i) in kept.iter().enumerate() {
-            approx::assert_relative_eq!(
-                load[i],
-                2.0 * factor.schur()[k][0] - factor.schur()[k][1],
-                epsilon = 1e-13
-            );
+        for &i in &eliminated {
+            assert!(load[i].abs() < 1e-13, "{i}");
         }
+        for (k, &i) in kept.iter().enumerate() {
+            let row = &factor.schur()[k];
+            let expected = 2.0 * row[0] - row[1];
+            approx::assert_relative_eq!(load[i], expected, epsilon = 1e-13);
+        }
+
         let g: Vec<f64> = (0..81).map(|i| (i as f64).sin()).collect();
-        let small = factor.restrict(&g);
-        let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(x, y)| x * y).sum::<f64>();
-        approx::assert_relative_eq!(dot(&small, &[2.0, -1.0]), dot(&g, &x), epsilon = 1e-12);
-        let solved = m.times(&factor.solve(&g));
-        assert!(
-            (0..81)
-                .filter(free)
-                .all(|i| (solved[i] - g[i]).abs() < 1e-12)
-        );
+        let restricted = factor.restrict(&g);
+        let on_kept = dot(&restricted, &[2.0, -1.0]);
+
+        approx::assert_relative_eq!(on_kept, dot(&g, &x), epsilon = 1e-12);
+
+        let balanced = m.times(&factor.solve(&g));
+        for &i in &eliminated {
+            assert!((balanced[i] - g[i]).abs() < 1e-12, "{i}");
+        }
     }
 
     #[test]
     fn singular_and_indefinite_matrices_are_refused() {
-        let (singular, _) = laplacian(8, 0.0);
-        let at = |m: &Symmetric, kept: &[usize]| {
-            Analysis::new(m, kept, &[], None)
-                .factor(m)
-                .map(|f| f.schur().to_vec())
-        };
-        let refused = at(&singular, &[]).unwrap_err();
+        let singular = laplacian(8, 0.0);
+        let refused = schur(&singular, &[]).unwrap_err();
+        assert!(refused.diagonal > 0.0, "{refused:?}");
         assert!(
-            refused.diagonal > 0.0 && (refused.pivot.is_nan() || refused.pivot <= 1e-12),
+            refused.pivot.is_nan() || refused.pivot <= 1e-12,
             "{refused:?}"
         );
-        assert!(at(&laplacian(8, -0.5).0, &[]).is_err());
+        assert!(schur(&laplacian(8, -0.5), &[]).is_err());
+
         // With one unknown kept the others are definite, and nothing is left of the kept one.
-        assert!(at(&singular, &[5]).unwrap()[0][0].abs() < 1e-13);
-        assert!(
-            at(&Symmetric::new(2, [(0, 0, 1.0)]).unwrap(), &[]).is_err(),
-            "a row of zeros"
-        );
-        assert!(at(&Symmetric::new(0, []).unwrap(), &[]).unwrap().is_empty());
+        assert!(schur(&singular, &[5]).unwrap()[0][0].abs() < 1e-13);
+
+        let row_of_zeros = Symmetric::new(2, [(0, 0, 1.0)]).unwrap();
+        assert!(schur(&row_of_zeros, &[]).is_err());
+
+        let nothing = Symmetric::new(0, []).unwrap();
+        assert!(schur(&nothing, &[]).unwrap().is_empty());
     }
 }

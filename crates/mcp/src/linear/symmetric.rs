@@ -1,4 +1,11 @@
 //! Sparse symmetric matrices of doubles, all entries by rows.
+//!
+//! A matrix is made from entries in any order. Entries of one place add up, as in the assembly of
+//! element matrices. Mirrored entries, which assembly in doubles leaves apart by rounding, are
+//! replaced by their mean; where they differ by more the matrix is refused.
+//!
+//! The engine keeps stiffness and mass matrices of bodies in this form, and
+//! `multifrontal` factors them.
 
 use crate::tolerance::ASYMMETRY;
 
@@ -42,11 +49,20 @@ pub enum SymmetricError {
     },
 }
 
+/// Row, column and value.
+type Entry = (usize, usize, f64);
+
 /// A sparse symmetric matrix.
+///
+/// While it is made it may be unsymmetric, and hold unsorted rows with several entries of one
+/// place; a value that a public function returns does not.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Symmetric {
+    /// For each row the index of its first entry, then the number of entries.
     start: Vec<usize>,
+    /// The column of each entry.
     cols: Vec<usize>,
+    /// The value of each entry.
     values: Vec<f64>,
 }
 
@@ -77,26 +93,26 @@ impl Symmetric {
         order: usize,
         entries: impl IntoIterator<Item = (usize, usize, f64)>,
     ) -> Result<Symmetric, SymmetricError> {
-        let entries: Vec<(usize, usize, f64)> = entries.into_iter().collect();
+        let entries: Vec<Entry> = entries.into_iter().collect();
         for &(row, col, got) in &entries {
             if row >= order || col >= order {
                 return Err(SymmetricError::Index { row, col, order });
             }
+
             if !got.is_finite() {
                 return Err(SymmetricError::NotFinite { row, col, got });
             }
         }
-        let one = by_rows(order, entries.len(), || entries.iter().copied());
+
+        let unsorted = by_rows(order, entries.len(), || entries.iter().copied());
         drop(entries);
-        // Transposed twice, the columns of each row are sorted.
-        let turned = by_rows(order, one.cols.len(), || {
-            one.entries().map(|(i, j, v)| (j, i, v))
-        })
-        .summed();
-        let straight = by_rows(order, turned.cols.len(), || {
-            turned.entries().map(|(i, j, v)| (j, i, v))
-        });
-        straight.averaged(&turned)
+
+        // A transposition lists the columns of each row in ascending order: after two of them the
+        // rows of the matrix itself are sorted. Between them entries of one place are neighbours.
+        let transposed = unsorted.transposed().with_sums();
+        let matrix = transposed.transposed();
+
+        matrix.averaged(&transposed)
     }
 
     /// Number of rows.
@@ -107,10 +123,10 @@ impl Symmetric {
     /// (column, value) of a row, columns ascending.
     pub fn row(&self, i: usize) -> impl Iterator<Item = (usize, f64)> {
         let place = self.start[i]..self.start[i + 1];
-        self.cols[place.clone()]
-            .iter()
-            .copied()
-            .zip(self.values[place].iter().copied())
+        let cols = self.cols[place.clone()].iter().copied();
+        let values = self.values[place].iter().copied();
+
+        cols.zip(values)
     }
 
     /// Columns of a row, ascending.
@@ -120,105 +136,167 @@ impl Symmetric {
 
     /// (row, column, value), by rows.
     pub fn entries(&self) -> impl Iterator<Item = (usize, usize, f64)> {
-        (0..self.order()).flat_map(|i| self.row(i).map(move |(j, v)| (i, j, v)))
+        let rows = 0..self.order();
+        rows.flat_map(|i| {
+            let row = self.row(i);
+            row.map(move |(j, value)| (i, j, value))
+        })
+    }
+
+    /// An entry, 0 where there is none.
+    fn entry(&self, row: usize, col: usize) -> f64 {
+        for (j, value) in self.row(row) {
+            if j == col {
+                return value;
+            }
+        }
+
+        0.0
     }
 
     /// An entry on the diagonal, 0 where there is none.
     pub fn diagonal(&self, i: usize) -> f64 {
-        self.row(i).find(|(j, _)| *j == i).map_or(0.0, |(_, v)| v)
+        self.entry(i, i)
     }
 
     /// The product with a vector of length `order`.
     pub fn times(&self, x: &[f64]) -> Vec<f64> {
-        (0..self.order())
-            .map(|i| self.row(i).map(|(j, v)| v * x[j]).sum())
-            .collect()
+        let mut product = Vec::with_capacity(self.order());
+        for i in 0..self.order() {
+            product.push(self.row(i).map(|(j, v)| v * x[j]).sum());
+        }
+        product
     }
 
     /// self + factor other, of the same order, on the union of both patterns.
     pub fn add_scaled(&self, factor: f64, other: &Symmetric) -> Symmetric {
-        let mut out = Symmetric {
+        let mut sum = Symmetric {
             start: vec![0],
             cols: Vec::new(),
             values: Vec::new(),
         };
+
         for i in 0..self.order() {
-            let (mut a, mut b) = (self.row(i).peekable(), other.row(i).peekable());
-            loop {
-                let (ja, jb) = (
-                    a.peek().map_or(usize::MAX, |e| e.0),
-                    b.peek().map_or(usize::MAX, |e| e.0),
-                );
-                let j = ja.min(jb);
-                if j == usize::MAX {
-                    break;
-                }
-                let first = a.next_if(|e| e.0 == j).map_or(0.0, |e| e.1);
-                out.cols.push(j);
-                out.values
-                    .push(first + b.next_if(|e| e.0 == j).map_or(0.0, |e| factor * e.1));
-            }
-            out.start.push(out.cols.len());
+            sum.push_row(self.row(i), factor, other.row(i));
         }
-        out
+        sum
     }
 
-    /// Entries of one place are neighbours: adds them up.
-    fn summed(mut self) -> Symmetric {
-        let (mut from, mut to) = (0, 0);
+    /// Appends the row `first` + factor `second`. Both have their columns in ascending order, and
+    /// so has the new row.
+    fn push_row(
+        &mut self,
+        first: impl Iterator<Item = (usize, f64)>,
+        factor: f64,
+        second: impl Iterator<Item = (usize, f64)>,
+    ) {
+        let mut first = first.peekable();
+        let mut second = second.peekable();
+
+        loop {
+            let next_of_first = first.peek().map_or(usize::MAX, |entry| entry.0);
+            let next_of_second = second.peek().map_or(usize::MAX, |entry| entry.0);
+            let col = next_of_first.min(next_of_second);
+
+            if col == usize::MAX {
+                break;
+            }
+
+            let a = first.next_if(|entry| entry.0 == col);
+            let b = second.next_if(|entry| entry.0 == col);
+            let a = a.map_or(0.0, |entry| entry.1);
+            let b = b.map_or(0.0, |entry| factor * entry.1);
+            self.cols.push(col);
+            self.values.push(a + b);
+        }
+
+        self.start.push(self.cols.len());
+    }
+
+    /// The transposed matrix; in each of its rows the columns ascend.
+    fn transposed(&self) -> Symmetric {
+        by_rows(self.order(), self.cols.len(), || {
+            self.entries().map(|(i, j, v)| (j, i, v))
+        })
+    }
+
+    /// Adds up entries of one place, which are neighbours.
+    fn with_sums(mut self) -> Symmetric {
+        let mut read = 0;
+        let mut written = 0;
+
         for i in 0..self.order() {
-            let begin = to;
-            for k in from..self.start[i + 1] {
-                if to > begin && self.cols[to - 1] == self.cols[k] {
-                    self.values[to - 1] += self.values[k];
+            let begin = written;
+            for k in read..self.start[i + 1] {
+                if written > begin && self.cols[written - 1] == self.cols[k] {
+                    self.values[written - 1] += self.values[k];
                 } else {
-                    (self.cols[to], self.values[to]) = (self.cols[k], self.values[k]);
-                    to += 1;
+                    self.cols[written] = self.cols[k];
+                    self.values[written] = self.values[k];
+                    written += 1;
                 }
             }
-            from = self.start[i + 1];
-            self.start[i + 1] = to;
+
+            read = self.start[i + 1];
+            self.start[i + 1] = written;
         }
-        self.cols.truncate(to);
-        self.values.truncate(to);
+
+        self.cols.truncate(written);
+        self.values.truncate(written);
         self
     }
 
     /// The mean with its transpose, which must be the same but for rounding.
-    fn averaged(self, turned: &Symmetric) -> Result<Symmetric, SymmetricError> {
+    fn averaged(self, transposed: &Symmetric) -> Result<Symmetric, SymmetricError> {
         let diagonal: Vec<f64> = (0..self.order()).map(|i| self.diagonal(i).abs()).collect();
-        let difference = self.add_scaled(-1.0, turned);
-        let apart =
-            |e: &(usize, usize, f64)| e.2.abs() > ASYMMETRY * diagonal[e.0].max(diagonal[e.1]);
-        if let Some((row, col, _)) = difference.entries().find(apart) {
-            let entry = |m: &Symmetric| m.row(row).find(|e| e.0 == col).map_or(0.0, |e| e.1);
-            return Err(SymmetricError::NotSymmetric {
-                row,
-                col,
-                got: entry(&self),
-                mirrored: entry(turned),
-            });
+
+        let difference = self.add_scaled(-1.0, transposed);
+        for (row, col, value) in difference.entries() {
+            if value.abs() > ASYMMETRY * diagonal[row].max(diagonal[col]) {
+                return Err(SymmetricError::NotSymmetric {
+                    row,
+                    col,
+                    got: self.entry(row, col),
+                    mirrored: transposed.entry(row, col),
+                });
+            }
         }
-        let mut sum = self.add_scaled(1.0, turned);
-        sum.values.iter_mut().for_each(|v| *v *= 0.5);
-        Ok(sum)
+
+        let mut mean = self.add_scaled(1.0, transposed);
+        for value in &mut mean.values {
+            *value *= 0.5;
+        }
+        Ok(mean)
     }
 }
 
-/// Entries sorted into rows, within a row in the order given.
-fn by_rows<I: Iterator<Item = (usize, usize, f64)>>(
+/// Entries sorted into rows, within a row in the order given. `entries` is called twice: to count
+/// and to write.
+fn by_rows<I: Iterator<Item = Entry>>(
     order: usize,
     count: usize,
     entries: impl Fn() -> I,
 ) -> Symmetric {
     let mut start = vec![0; order + 1];
-    entries().for_each(|(i, _, _)| start[i + 1] += 1);
-    (0..order).for_each(|i| start[i + 1] += start[i]);
-    let (mut cols, mut values, mut next) = (vec![0; count], vec![0.0; count], start.clone());
-    for (i, j, v) in entries() {
-        (cols[next[i]], values[next[i]]) = (j, v);
-        next[i] += 1;
+    for (row, _, _) in entries() {
+        start[row + 1] += 1;
     }
+
+    for row in 0..order {
+        start[row + 1] += start[row];
+    }
+
+    let mut cols = vec![0; count];
+    let mut values = vec![0.0; count];
+    let mut next = start.clone();
+
+    for (row, col, value) in entries() {
+        let place = next[row];
+        cols[place] = col;
+        values[place] = value;
+        next[row] += 1;
+    }
+
     Symmetric {
         start,
         cols,
@@ -243,6 +321,7 @@ mod tests {
         ];
         let m = Symmetric::new(3, list).unwrap();
         let all: Vec<_> = m.entries().collect();
+
         assert_eq!(
             all,
             [
@@ -253,6 +332,7 @@ mod tests {
                 (2, 2, 7.0)
             ]
         );
+
         let other = Symmetric::new(3, [(1, 0, 1.0), (0, 1, 1.0), (1, 1, -1.0)]).unwrap();
         let both: Vec<_> = m.add_scaled(2.0, &other).entries().collect();
         assert_eq!(
@@ -269,26 +349,34 @@ mod tests {
         );
     }
 
+    /// [1 1/2; v 1].
+    fn with_mirror(v: f64) -> Result<Symmetric, SymmetricError> {
+        Symmetric::new(2, [(0, 0, 1.0), (1, 1, 1.0), (0, 1, 0.5), (1, 0, v)])
+    }
+
+    fn refusal(made: Result<Symmetric, SymmetricError>) -> String {
+        made.unwrap_err().to_string()
+    }
+
     #[test]
     fn rounding_is_averaged_and_more_is_refused() {
-        let with = |v: f64| Symmetric::new(2, [(0, 0, 1.0), (1, 1, 1.0), (0, 1, 0.5), (1, 0, v)]);
-        let m = with(0.5 + 4.0 * f64::EPSILON).unwrap();
+        let m = with_mirror(0.5 + 4.0 * f64::EPSILON).unwrap();
         assert_eq!(m.times(&[0.0, 1.0])[0], m.times(&[1.0, 0.0])[1]);
-        let refused = |r: Result<Symmetric, SymmetricError>| r.unwrap_err().to_string();
+
         assert_eq!(
-            refused(with(0.25)),
+            refusal(with_mirror(0.25)),
             "expected a symmetric matrix, got (0, 1) = 0.5 and (1, 0) = 0.25"
         );
         assert_eq!(
-            refused(Symmetric::new(2, [(0, 1, 1.0)])),
+            refusal(Symmetric::new(2, [(0, 1, 1.0)])),
             "expected a symmetric matrix, got (0, 1) = 1 and (1, 0) = 0"
         );
         assert_eq!(
-            refused(with(f64::NAN)),
+            refusal(with_mirror(f64::NAN)),
             "expected a finite entry (1, 0), got NaN"
         );
         assert_eq!(
-            refused(Symmetric::new(2, [(0, 2, 1.0)])),
+            refusal(Symmetric::new(2, [(0, 2, 1.0)])),
             "expected row and column < 2, got (0, 2)"
         );
     }

@@ -1,13 +1,21 @@
 //! LU factors of dense matrices in storage that is kept from one matrix to the next, over the
 //! numbers of the path.
+//!
+//! P A = L U with row pivoting, column by column: column j is reduced by the columns of L so far,
+//! its largest remaining entry becomes the pivot, and where nothing is left of it the column
+//! *depends* on those before. Dependent columns are skipped and named, with the rows that no pivot
+//! has taken, so that a singular basis can be repaired (`path/factor.rs`).
+//!
+//! Called by the crash (`crash/step.rs`), the factors of a basis and the start of a path.
 
 use super::number::Number;
+use std::cmp::Ordering;
 
 /// P A = L U with row pivoting, column by column, so that dependent columns are found on the way.
 #[derive(Debug, Clone)]
 pub(super) struct Lu<T> {
     order: usize,
-    /// L below the diagonal, U on and above it, by columns.
+    /// L below the diagonal (its diagonal is 1), U on and above it, by columns.
     entries: Vec<T>,
     /// The row of A in each place.
     rows: Vec<usize>,
@@ -40,42 +48,38 @@ impl<T: Number> Lu<T> {
         self.rows.clear();
         self.rows.extend(0..order);
         self.dependent.clear();
+
         let mut rank = 0;
         for j in 0..order {
-            let (left, right) = self.entries.split_at_mut(rank * order);
-            let column = &mut right[..order];
+            let (finished, rest) = self.entries.split_at_mut(rank * order);
+            let column = &mut rest[..order];
             gather(j, &self.rows, column);
-            for (s, l) in left.chunks_exact(order).enumerate() {
-                let (above, below) = column.split_at_mut(s + 1);
-                subtract(below, &above[s], &l[s + 1..]);
-            }
-            let (mut best, mut size) = (rank, T::zero());
-            for (i, entry) in column.iter().enumerate().skip(rank) {
-                let magnitude = entry.magnitude();
-                if magnitude > size {
-                    (best, size) = (i, magnitude);
-                }
-            }
-            // Also where size is NaN.
-            if !matches!(
-                size.partial_cmp(&least(j)),
-                Some(std::cmp::Ordering::Greater)
-            ) {
+            reduce(column, finished);
+
+            let pivot = largest_from(column, rank);
+
+            // A size that is NaN does not compare, and makes the column dependent.
+            if pivot.size.partial_cmp(&least(j)) != Some(Ordering::Greater) {
                 self.dependent.push(j);
                 continue;
             }
-            if best != rank {
-                self.rows.swap(rank, best);
-                column.swap(rank, best);
-                left.chunks_exact_mut(order)
-                    .for_each(|l| l.swap(rank, best));
+
+            if pivot.place != rank {
+                self.rows.swap(rank, pivot.place);
+                column.swap(rank, pivot.place);
+                for l in finished.chunks_exact_mut(order) {
+                    l.swap(rank, pivot.place);
+                }
             }
-            let pivot = column[rank].clone();
-            column[rank + 1..]
-                .iter_mut()
-                .for_each(|entry| *entry /= pivot.clone());
+
+            let (above, below) = column.split_at_mut(rank + 1);
+            for entry in below {
+                *entry /= above[rank].clone();
+            }
+
             rank += 1;
         }
+
         self.dependent.is_empty()
     }
 
@@ -86,24 +90,26 @@ impl<T: Number> Lu<T> {
 
     /// Dependent columns, and the rows that no column has taken.
     pub(super) fn dependent(&self) -> (&[usize], &[usize]) {
-        (
-            &self.dependent,
-            &self.rows[self.order - self.dependent.len()..],
-        )
+        let rank = self.order - self.dependent.len();
+        (&self.dependent, &self.rows[rank..])
+    }
+
+    /// Column s of the factors.
+    fn column(&self, s: usize) -> &[T] {
+        &self.entries[s * self.order..][..self.order]
     }
 
     /// Solves A x = b: `x` holds b in the order of [`Lu::rows`] before and x after.
     pub(super) fn solve(&self, x: &mut [T]) {
+        // L y = b, y in place of b.
         for s in 0..self.order {
             let (above, below) = x.split_at_mut(s + 1);
-            subtract(
-                below,
-                &above[s],
-                &self.entries[s * self.order + s + 1..(s + 1) * self.order],
-            );
+            subtract(below, &above[s], &self.column(s)[s + 1..]);
         }
+
+        // U x = y.
         for s in (0..self.order).rev() {
-            let column = &self.entries[s * self.order..];
+            let column = self.column(s);
             x[s] /= column[s].clone();
             let (above, below) = x.split_at_mut(s);
             subtract(above, &below[0], &column[..s]);
@@ -112,36 +118,71 @@ impl<T: Number> Lu<T> {
 
     /// Solves A' y = b: `x` holds b before, and y in the order of [`Lu::rows`] after.
     pub(super) fn solve_transposed(&self, x: &mut [T]) {
+        // U' w = b, w in place of b.
         for s in 0..self.order {
-            let column = &self.entries[s * self.order..];
+            let column = self.column(s);
             let inner = dot(&column[..s], &x[..s]);
             x[s] -= inner;
             x[s] /= column[s].clone();
         }
+
+        // L' y = w.
         for s in (0..self.order).rev() {
-            let inner = dot(
-                &self.entries[s * self.order + s + 1..(s + 1) * self.order],
-                &x[s + 1..],
-            );
+            let inner = dot(&self.column(s)[s + 1..], &x[s + 1..]);
             x[s] -= inner;
         }
     }
 }
 
+/// An entry of a column that may become the pivot.
+struct Candidate<T> {
+    place: usize,
+    size: T,
+}
+
+/// Reduces a new column by the finished ones, each with its pivot on the diagonal.
+fn reduce<T: Number>(column: &mut [T], finished: &[T]) {
+    for (s, l) in finished.chunks_exact(column.len()).enumerate() {
+        let (above, below) = column.split_at_mut(s + 1);
+        subtract(below, &above[s], &l[s + 1..]);
+    }
+}
+
+/// The entry of largest magnitude from place `first` on, the first one of equal ones; place `first`
+/// with size 0 if no entry is greater than that.
+fn largest_from<T: Number>(column: &[T], first: usize) -> Candidate<T> {
+    let mut best = Candidate {
+        place: first,
+        size: T::zero(),
+    };
+
+    for (place, entry) in column.iter().enumerate().skip(first) {
+        let size = entry.magnitude();
+        if size > best.size {
+            best = Candidate { place, size };
+        }
+    }
+    best
+}
+
 /// y -= factor x.
 pub(super) fn subtract<T: Number>(y: &mut [T], factor: &T, x: &[T]) {
-    if !factor.is_zero() {
-        y.iter_mut()
-            .zip(x)
-            .for_each(|(y, x)| *y -= factor.clone() * x.clone());
+    if factor.is_zero() {
+        return;
+    }
+
+    for (y, x) in y.iter_mut().zip(x) {
+        *y -= factor.clone() * x.clone();
     }
 }
 
 /// x'y.
 pub(super) fn dot<T: Number>(x: &[T], y: &[T]) -> T {
-    x.iter()
-        .zip(y)
-        .fold(T::zero(), |sum, (x, y)| sum + x.clone() * y.clone())
+    let mut sum = T::zero();
+    for (x, y) in x.iter().zip(y) {
+        sum += x.clone() * y.clone();
+    }
+    sum
 }
 
 #[cfg(test)]
@@ -154,6 +195,7 @@ mod tests {
         let column = |j: usize, rows: &[usize], out: &mut [f64]| {
             rows.iter().zip(out).for_each(|(&i, o)| *o = a[(i, j)])
         };
+
         // Storage of something else before.
         lu.factor(3, |_, _, out: &mut [f64]| out.fill(7.0), |_| 0.0);
         let regular = lu.factor(a.nrows(), column, |_| 1e-12);
@@ -165,14 +207,18 @@ mod tests {
         let a = dmatrix![0.0, 2.0, 1.0; 4.0, 1.0, 0.0; 1.0, 1.0, 3.0];
         let (lu, regular) = factored(&a);
         assert!(regular);
+
         let b = dvector![1.0, -2.0, 5.0];
         let mut x: Vec<f64> = lu.rows().iter().map(|&i| b[i]).collect();
         lu.solve(&mut x);
+
         assert!((&a * DVector::from_vec(x) - &b).amax() < 1e-14);
+
         let mut y = b.as_slice().to_vec();
         lu.solve_transposed(&mut y);
         let mut by_row = dvector![0.0, 0.0, 0.0];
         lu.rows().iter().zip(&y).for_each(|(&i, v)| by_row[i] = *v);
+
         assert!((a.transpose() * by_row - &b).amax() < 1e-14);
     }
 
@@ -180,8 +226,11 @@ mod tests {
     fn dependent_columns_are_named_with_the_rows_left() {
         assert!(factored(&DMatrix::zeros(0, 0)).1);
         assert!(factored(&dmatrix![0.0, 2.0; 3.0, 0.0]).1);
+
         let (lu, regular) = factored(&dmatrix![1.0, 0.0, 1.0; 2.0, 1.0, 2.0; 0.0, 0.0, 0.0]);
-        assert_eq!((regular, lu.dependent()), (false, (&[2][..], &[2][..])));
+        assert!(!regular);
+        assert_eq!(lu.dependent(), (&[2][..], &[2][..]));
+
         let (lu, _) = factored(&dmatrix![1.0, 1.0, 0.0; 2.0, 2.0, 0.0; 0.0, 0.0, 5.0]);
         assert_eq!(lu.dependent(), (&[1][..], &[0][..]));
         assert!(!factored(&dmatrix![f64::NAN]).1);

@@ -1,4 +1,6 @@
 //! Why a run does not start: inputs that make no sense, with index, expected and got.
+//!
+//! A run that has started never fails with an error; it ends with a `Termination`.
 
 use crate::mcp::McpError;
 

@@ -1,5 +1,10 @@
 //! F and F' with their counts, and points that carry their value and merit, in storage that is
 //! kept.
+//!
+//! Whoever needs F at a point asks [`Evaluated`] for a [`Point`], which lies within the bounds and
+//! holds z, F(z) and the merit Psi(z). Points and matrices that are given back (`recycle`) are used
+//! again, so that a run like one before allocates nothing. A value that is not finite is a reason
+//! to stop, not an error: the point has an infinite merit then.
 
 use super::fischer;
 use super::jacobian::square;
@@ -60,16 +65,19 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     pub(super) fn point_with(&mut self, z: impl Fn(usize) -> f64) -> Point {
         self.counters.functions += 1;
         let mut point = self.spare();
+
         let bounds = self.problem.lower().iter().zip(self.problem.upper());
         for (i, (value, (lower, upper))) in point.z.iter_mut().zip(bounds).enumerate() {
             // max and min rather than clamp: no panic even if the bounds were crossed.
             *value = z(i).max(*lower).min(*upper);
         }
+
         point.f.fill(0.0);
         self.problem
             .function(point.z.as_slice(), point.f.as_mut_slice());
         point.merit = fischer::merit(self.problem, &point.z, &point.f);
         self.not_finite = point.not_finite().or(self.not_finite);
+
         point
     }
 
@@ -84,6 +92,7 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     pub(super) fn spare(&mut self) -> Point {
         let n = self.problem.dimension();
         let unused = self.pool.points.pop().filter(|point| point.z.len() == n);
+
         unused.unwrap_or_else(|| Point {
             z: DVector::zeros(n),
             f: DVector::zeros(n),
@@ -106,27 +115,20 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
     /// # Errors
     /// [`Termination::JacobianShape`]; [`Termination::NonFinite`] naming the first entry.
     pub(super) fn jacobian(&mut self, point: &Point) -> Result<DMatrix<f64>, Termination> {
-        let j = self.raw_jacobian(point);
-        let (n, shape) = (point.z.len(), j.shape());
-        if shape != (n, n) {
-            return Err(Termination::JacobianShape {
-                rows: shape.0,
-                cols: shape.1,
-            });
+        let n = point.z.len();
+        let jacobian = self.raw_jacobian(point);
+        let (rows, cols) = jacobian.shape();
+
+        if rows != n || cols != n {
+            return Err(Termination::JacobianShape { rows, cols });
         }
-        // Without a branch for each entry.
-        if j.as_slice()
-            .iter()
-            .fold(true, |finite, v| finite & v.is_finite())
-        {
-            return Ok(j);
+
+        if is_finite(&jacobian) {
+            return Ok(jacobian);
         }
-        let places = (0..n).flat_map(|row| (0..n).map(move |col| (row, col)));
-        let (row, col) = places
-            .into_iter()
-            .find(|&place| !j[place].is_finite())
-            .unwrap_or_default();
-        self.recycle_matrix(j);
+
+        let (row, col) = first_not_finite(&jacobian).unwrap_or_default();
+        self.recycle_matrix(jacobian);
         Err(Termination::NonFinite(NonFinite::Jacobian { row, col }))
     }
 
@@ -141,19 +143,43 @@ impl<'a, P: Mcp + ?Sized> Evaluated<'a, P> {
         self.counters.jacobians += 1;
         let n = point.z.len();
         let unused = self.pool.matrices.pop().filter(|j| j.shape() == (n, n));
-        let mut j = unused.unwrap_or_else(|| DMatrix::zeros(n, n));
-        j.as_mut_slice().fill(0.0);
-        self.problem.jacobian(point.z.as_slice(), &mut j);
-        j
+        let mut jacobian = unused.unwrap_or_else(|| DMatrix::zeros(n, n));
+
+        jacobian.as_mut_slice().fill(0.0);
+        self.problem.jacobian(point.z.as_slice(), &mut jacobian);
+        jacobian
     }
+}
+
+/// Are all entries finite? All are looked at, which needs no branch for each.
+fn is_finite(matrix: &DMatrix<f64>) -> bool {
+    let mut is_finite = true;
+    for value in matrix.as_slice() {
+        is_finite &= value.is_finite();
+    }
+    is_finite
+}
+
+/// Row and column of the first entry, row by row, that is not finite.
+fn first_not_finite(matrix: &DMatrix<f64>) -> Option<(usize, usize)> {
+    for row in 0..matrix.nrows() {
+        for col in 0..matrix.ncols() {
+            if !matrix[(row, col)].is_finite() {
+                return Some((row, col));
+            }
+        }
+    }
+    None
 }
 
 impl Point {
     /// The first component of F that is not finite, as a reason to stop.
     pub(super) fn not_finite(&self) -> Option<Termination> {
         if self.merit.is_finite() {
-            return None; // no component of F is infinite or NaN then
+            // No component of F is infinite or NaN then.
+            return None;
         }
+
         let row = self.f.iter().position(|v| !v.is_finite())?;
         Some(Termination::NonFinite(NonFinite::Function { row }))
     }
@@ -183,28 +209,26 @@ mod tests {
         );
         let mut e = Evaluated::new(&p);
         let point = e.point(&dvector![9.0, -3.0]);
-        assert_eq!(
-            (&point.z, &point.f),
-            (&dvector![2.0, -1.0], &dvector![-3.0, -10.0])
-        );
+
+        assert_eq!(&point.z, &dvector![2.0, -1.0]);
+        assert_eq!(&point.f, &dvector![-3.0, -10.0]);
         assert_eq!(point.merit, fischer::merit(&p, &point.z, &point.f));
         assert_eq!(e.point_with(|i| i as f64).z, dvector![0.0, 1.0]);
+
         let mut copy = e.copy(&point);
-        assert_eq!(
-            (&copy.z, &copy.f, copy.merit),
-            (&point.z, &point.f, point.merit)
-        );
+        assert_eq!(&copy.z, &point.z);
+        assert_eq!(&copy.f, &point.f);
+        assert_eq!(copy.merit, point.merit);
+
         let inside = e.point(&dvector![1.0, 0.0]);
         copy.copy_from(&inside);
-        assert_eq!(
-            (&copy.z, &copy.f, copy.merit),
-            (&inside.z, &inside.f, inside.merit)
-        );
-        assert_eq!(
-            (e.jacobian(&point).unwrap(), e.any_jacobian(&point)),
-            (dmatrix![0.0, 7.0; 0.0, 0.0], dmatrix![0.0, 7.0; 0.0, 0.0])
-        );
-        assert_eq!((e.counters.functions, e.counters.jacobians), (3, 2));
+        assert_eq!(&copy.z, &inside.z);
+        assert_eq!(&copy.f, &inside.f);
+        assert_eq!(copy.merit, inside.merit);
+        assert_eq!(e.jacobian(&point).unwrap(), dmatrix![0.0, 7.0; 0.0, 0.0]);
+        assert_eq!(e.any_jacobian(&point), dmatrix![0.0, 7.0; 0.0, 0.0]);
+        assert_eq!(e.counters.functions, 3);
+        assert_eq!(e.counters.jacobians, 2);
     }
 
     /// What was given back is used again, cleared, unless its size is another.
@@ -217,26 +241,31 @@ mod tests {
         let at = (point.z.as_ptr(), jacobian.as_ptr());
         e.recycle(point);
         e.recycle_matrix(jacobian);
-        assert_eq!((e.pool.points.len(), e.pool.matrices.len()), (1, 1));
+
+        assert_eq!(e.pool.points.len(), 1);
+        assert_eq!(e.pool.matrices.len(), 1);
+
         let point = e.point(&dvector![5.0, 6.0]);
         let jacobian = e.jacobian(&point).unwrap();
         assert_eq!((point.z.as_ptr(), jacobian.as_ptr()), at);
-        assert_eq!((e.pool.points.len(), e.pool.matrices.len()), (0, 0));
-        assert_eq!(
-            (&point.f, &jacobian),
-            (&dvector![5.0, 0.0], &dmatrix![1.0, 0.0; 0.0, 0.0])
-        );
+        assert_eq!(e.pool.points.len(), 0);
+        assert_eq!(e.pool.matrices.len(), 0);
+        assert_eq!(&point.f, &dvector![5.0, 0.0]);
+        assert_eq!(&jacobian, &dmatrix![1.0, 0.0; 0.0, 0.0]);
+
         e.recycle(point);
         e.recycle_matrix(jacobian);
         let (pool, counters) = e.into_parts();
-        assert_eq!((counters.functions, counters.jacobians), (2, 2));
+
+        assert_eq!(counters.functions, 2);
+        assert_eq!(counters.jacobians, 2);
+
         let other = free(1, |z, f| f[0] = z[0], |_, j| j[(0, 0)] = 1.0);
         let mut e = Evaluated::with_pool(&other, pool);
         let point = e.point(&dvector![5.0]);
-        assert_eq!(
-            (point.z.len(), e.jacobian(&point).unwrap().shape()),
-            (1, (1, 1))
-        );
+
+        assert_eq!(point.z.len(), 1);
+        assert_eq!(e.jacobian(&point).unwrap().shape(), (1, 1));
     }
 
     #[test]
@@ -248,7 +277,9 @@ mod tests {
         );
         let mut e = Evaluated::new(&p);
         let good = e.point(&dvector![1.0, 0.0, 0.0]);
-        assert!(good.not_finite().is_none() && e.not_finite.is_none());
+
+        assert!(good.not_finite().is_none());
+        assert!(e.not_finite.is_none());
         assert_eq!(
             e.jacobian(&good),
             Err(Termination::NonFinite(NonFinite::Jacobian {
@@ -256,6 +287,7 @@ mod tests {
                 col: 2
             }))
         );
+
         let other = e.point(&dvector![1.0, 1.0, 1.0]);
         assert_eq!(
             e.jacobian(&other),
@@ -264,12 +296,13 @@ mod tests {
                 col: 0
             }))
         );
+
         let bad = e.point(&dvector![0.0, 1.0, 1.0]);
         let reason = Some(Termination::NonFinite(NonFinite::Function { row: 1 }));
-        assert_eq!(
-            (bad.not_finite(), e.not_finite, bad.merit),
-            (reason, reason, f64::INFINITY)
-        );
+        assert_eq!(bad.not_finite(), reason);
+        assert_eq!(e.not_finite, reason);
+        assert_eq!(bad.merit, f64::INFINITY);
+
         e.point(&dvector![1.0, 1.0, 1.0]);
         assert_eq!(e.not_finite, reason); // until somebody takes it
     }
@@ -284,18 +317,18 @@ mod tests {
         );
         let mut e = Evaluated::new(&p);
         let point = e.point(&dvector![1.0, 1.0]);
+
         assert_eq!(
             e.jacobian(&point),
             Err(Termination::JacobianShape { rows: 1, cols: 2 })
         );
+
         for j in [e.any_jacobian(&point), jacobian_at(&p, &[1.0, 1.0])] {
-            assert!(
-                j.shape() == (2, 2)
-                    && j[(0, 0)] == 5.0
-                    && j[(0, 1)] == 5.0
-                    && j[(1, 0)].is_nan()
-                    && j[(1, 1)].is_nan()
-            );
+            assert!(j.shape() == (2, 2));
+            assert!(j[(0, 0)] == 5.0);
+            assert!(j[(0, 1)] == 5.0);
+            assert!(j[(1, 0)].is_nan());
+            assert!(j[(1, 1)].is_nan());
         }
     }
 }

@@ -1,7 +1,11 @@
 //! The projected-gradient step on the Fischer merit: the fallback when no path helps.
+//!
+//! From a point z the arc z(a) = pi(z - a grad Psi(z)), pi the projection onto the bounds, is
+//! followed for a first length a, which is halved until Armijo's rule holds:
+//! Psi(z(a)) <= Psi(z) - ARMIJO grad Psi(z)'(z - z(a)). Called by `newton/choose`.
 
 use super::evaluation::{Evaluated, Point};
-use super::fischer;
+use super::fischer::{self, GradientStorage};
 use super::outcome::Termination;
 use super::tolerance::{ARC_TRIALS, ARMIJO, BACKTRACK, GRADIENT_GAIN};
 use crate::mcp::Mcp;
@@ -17,23 +21,20 @@ pub(super) fn gradient_step<P: Mcp + ?Sized>(
     point: &Point,
 ) -> Result<Option<Point>, Termination> {
     let jacobian = problem.jacobian(point)?;
-    let mut along = problem.spare();
-    let Point {
-        z: direction,
-        f: work,
-        ..
-    } = &mut along;
-    fischer::gradient(
-        problem.problem,
-        point.z.as_slice(),
-        point.f.as_slice(),
-        &jacobian,
-        direction,
-        work,
-    );
+
+    // A spare point lends its two vectors.
+    let mut spare = problem.spare();
+    let mut storage = GradientStorage {
+        gradient: &mut spare.z,
+        work: &mut spare.f,
+    };
+    let z = point.z.as_slice();
+    let f = point.f.as_slice();
+    fischer::gradient(problem.problem, z, f, &jacobian, &mut storage);
     problem.recycle_matrix(jacobian);
-    let next = search(problem, point, &along.z);
-    problem.recycle(along);
+
+    let next = search(problem, point, &spare.z);
+    problem.recycle(spare);
     Ok(next)
 }
 
@@ -47,18 +48,23 @@ fn search<P: Mcp + ?Sized>(
     if !(size > 0.0 && size.is_finite()) {
         return None;
     }
-    // First trial: the step that would remove the merit if it fell at the gradient's rate.
-    let mut step = (2.0 * point.merit / gradient.norm_squared()).min((1.0 + point.z.amax()) / size);
+
+    // First trial: the step that would remove the merit if it fell at the gradient's rate, but no
+    // longer than 1 + |z|.
+    let removing = 2.0 * point.merit / gradient.norm_squared();
+    let mut step = removing.min((1.0 + point.z.amax()) / size);
+
     for _ in 0..ARC_TRIALS {
         let next = problem.point_with(|i| point.z[i] - gradient[i] * step);
-        let promised: f64 = (0..gradient.len())
-            .map(|i| gradient[i] * (point.z[i] - next.z[i]))
-            .sum();
-        if next.merit <= point.merit - ARMIJO * promised
-            && next.merit <= (1.0 - GRADIENT_GAIN) * point.merit
-        {
+        let terms = (0..gradient.len()).map(|i| gradient[i] * (point.z[i] - next.z[i]));
+        let promised: f64 = terms.sum();
+
+        let keeps_promise = next.merit <= point.merit - ARMIJO * promised;
+        let gains = next.merit <= (1.0 - GRADIENT_GAIN) * point.merit;
+        if keeps_promise && gains {
             return Some(next);
         }
+
         problem.recycle(next);
         step *= BACKTRACK;
     }
@@ -79,9 +85,11 @@ mod tests {
         let mut problem = Evaluated::new(&lcp);
         let point = problem.point(&dvector![3.0, 0.0]);
         let before = problem.counters.functions;
+
         for gradient in [dvector![0.0, 0.0], dvector![f64::INFINITY, 1.0]] {
             assert!(search(&mut problem, &point, &gradient).is_none());
         }
+
         assert_eq!(problem.counters.functions, before);
     }
 
@@ -91,7 +99,9 @@ mod tests {
         let mut problem = Evaluated::new(&lcp);
         let far = problem.point(&dvector![3.0, 0.0]);
         let next = gradient_step(&mut problem, &far).unwrap().unwrap();
+
         assert!(next.merit < far.merit);
+
         let solution = problem.point(&dvector![4.0 / 3.0, 7.0 / 3.0]);
         assert!(
             gradient_step(&mut problem, &solution)
@@ -120,6 +130,7 @@ mod tests {
                 let mut problem = Evaluated::new(&p);
                 let point = problem.point(&dvector![from]);
                 let next = gradient_step(&mut problem, &point).unwrap().unwrap();
+
                 approx::assert_relative_eq!(next.z[0], expected, max_relative = 1e-14);
             }
         }
@@ -142,12 +153,10 @@ mod tests {
             search(&mut problem, &point, &dvector![1.0])
                 .map(|next| (next.z[0], problem.counters.functions))
         };
+
         for (trial, trials) in [(1.0, 1), (1.5, 2), (1.75, 3)] {
-            assert_eq!(
-                [taken(trial, 1.1), taken(trial, 0.9)],
-                [Some((trial, trials + 1)), None],
-                "{trial}"
-            );
+            assert_eq!(taken(trial, 1.1), Some((trial, trials + 1)), "{trial}");
+            assert_eq!(taken(trial, 0.9), None, "{trial}");
         }
     }
 
@@ -157,6 +166,7 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![1.0], vec![-1.0]).unwrap();
         let mut problem = Evaluated::new(&lcp);
         let point = problem.point(&dvector![0.0]);
+
         assert!(search(&mut problem, &point, &dvector![1.0]).is_none());
         assert!(search(&mut problem, &point, &dvector![f64::NAN]).is_none());
     }

@@ -1,10 +1,15 @@
-//! Linear problems without an outer loop: Lemke's method with a lexicographic ray start.
+//! Linear problems without an outer loop: Lemke's method with a lexicographic ray start (Lemke
+//! 1965; Cottle, Pang and Stone 1992, chapter 4).
+//!
+//! The problem F(z) = M z + q is its own linearisation, so that one path from Lemke's ray is all.
+//! Where the options say so, unknowns that their bounds decide are taken out first (`preprocess`);
+//! point, pivots and residuals that are reported are those of the whole problem.
 
 use super::error::SolverError;
 use super::evaluation::Evaluated;
 use super::options::Options;
 use super::outcome::{Counters, MajorRecord, Outcome, PathRecord, StepKind, Termination};
-use super::path::{Limits, Path, PathEnd, Start, Storage, Subproblem, follow};
+use super::path::{Limits, Path, PathEnd, Start, Storage, Subproblem};
 use super::preprocess::Preprocessed;
 use super::residual::Residuals;
 use crate::mcp::{LinearMcp, Mcp};
@@ -28,95 +33,95 @@ use nalgebra::DVector;
 /// ```
 pub fn solve_linear(problem: &LinearMcp, options: &Options) -> Result<Outcome, SolverError> {
     options.validate()?;
-    let less = options
-        .preprocess
-        .then(|| Preprocessed::new(problem))
-        .filter(|less| less.reduced.is_some());
-    let reduced = less
-        .as_ref()
-        .and_then(|less| less.reduced.as_ref())
-        .unwrap_or(problem);
-    let mut path = lemke(reduced, options);
-    let whole = |z: &[f64]| {
-        DVector::from_vec(
-            less.as_ref()
-                .map_or_else(|| z.to_vec(), |less| less.restore(z)),
-        )
+    let preprocessed = if options.preprocess {
+        Preprocessed::new(problem)
+    } else {
+        Preprocessed::nothing(problem.dimension())
     };
-    if let Some(less) = &less {
-        path.pivots
-            .iter_mut()
-            .for_each(|pivot| *pivot = pivot.renamed(&less.kept));
+
+    let reduced = preprocessed.reduced.as_ref().unwrap_or(problem);
+    let mut path = lemke(reduced, options);
+
+    for pivot in &mut path.pivots {
+        *pivot = pivot.renamed(&preprocessed.kept);
     }
 
     let origin = vec![0.0; reduced.dimension()];
+    let first = preprocessed.restore(path.first().unwrap_or(&origin));
+    let last = preprocessed.restore(path.last().unwrap_or(&origin));
     let mut evaluated = Evaluated::new(problem);
-    let before = evaluated.point(&whole(path.first().unwrap_or(&origin)));
-    let point = evaluated.point(&whole(path.last().unwrap_or(&origin)));
+    let before = evaluated.point(&DVector::from_vec(first));
+    let point = evaluated.point(&DVector::from_vec(last));
+
     let residuals = Residuals::at(problem, point.z.as_slice());
-    let termination = match path.end {
-        PathEnd::Complete if residuals.within(options.convergence_tolerance) => {
-            Termination::ToleranceReached
-        }
-        end => Termination::of(end),
+    let is_within = residuals.within(options.convergence_tolerance);
+    let is_complete = path.end == PathEnd::Complete;
+    let termination = if is_complete && is_within {
+        Termination::ToleranceReached
+    } else {
+        Termination::of(path.end)
     };
-    let (pivots, factorisations) = (path.pivots.len(), path.factorisations);
+
     let counters = Counters {
         majors: 1,
-        pivots,
+        pivots: path.pivots.len(),
         ray_starts: 1,
-        factorisations,
+        factorisations: path.factorisations,
         ..evaluated.counters
     };
-    let step = if path.end == PathEnd::Complete {
-        StepKind::Path { t: 1.0 }
-    } else {
-        StepKind::Failed
-    };
-    let record = PathRecord {
-        start: path.start,
-        end: path.end,
-        reach: path.reach(),
-        pivots: path.pivots,
-    };
-    let log = vec![MajorRecord {
-        merit: before.merit,
-        step,
-        proximal: 0.0,
-        paths: vec![record],
-    }];
+
     Ok(Outcome {
         point: point.z.as_slice().to_vec(),
         residuals,
         termination,
-        log,
+        log: vec![record(path, before.merit)],
         counters,
     })
 }
 
 /// The path from Lemke's ray.
 fn lemke(problem: &LinearMcp, options: &Options) -> Path {
-    let sub = Subproblem {
+    let subproblem = Subproblem {
         m: problem.matrix(),
         q: problem.vector(),
         lower: problem.lower(),
         upper: problem.upper(),
     };
+
     let limits = Limits {
         pivots: options.minor_iteration_limit,
         cycle_entries: options.cycle_entry_limit,
         rule: options.ratio_test,
     };
+
+    let origin = vec![0.0; problem.dimension()];
     let mut path = Path::default();
-    follow(
-        &sub,
-        Start::Ray,
-        &vec![0.0; problem.dimension()],
-        limits,
-        &mut Storage::default(),
-        &mut path,
-    );
+    Storage::default().follow(&subproblem, Start::Ray, &origin, limits, &mut path);
+
     path
+}
+
+/// The only step of the log, with the merit where the path begins.
+fn record(path: Path, merit: f64) -> MajorRecord {
+    let step = if path.end == PathEnd::Complete {
+        StepKind::Path { t: 1.0 }
+    } else {
+        StepKind::Failed
+    };
+
+    let path = PathRecord {
+        start: path.start,
+        end: path.end,
+        reach: path.reach(),
+        pivots: path.pivots,
+    };
+
+    MajorRecord {
+        merit,
+        step,
+        proximal: 0.0,
+        paths: vec![path],
+    }
 }
 
 #[cfg(test)]
@@ -137,6 +142,7 @@ mod tests {
                 },
             )
         };
+
         assert_eq!(
             [2.0, -1.0].map(|m| step(m).unwrap().log[0].step),
             [StepKind::Path { t: 1.0 }, StepKind::Failed]
@@ -149,12 +155,14 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
         let outcome = solve_linear(&lcp, &Options::default()).unwrap();
         let path = &outcome.log[0].paths[0];
-        assert!(path.pivots.len() >= 2 && outcome.log.len() == 1);
+
+        assert!(path.pivots.len() >= 2);
+        assert_eq!(outcome.log.len(), 1);
+
         let c = &outcome.counters;
-        assert_eq!(
-            (c.majors, c.pivots, c.ray_starts),
-            (1, path.pivots.len(), 1)
-        );
+        assert_eq!(c.majors, 1);
+        assert_eq!(c.pivots, path.pivots.len());
+        assert_eq!(c.ray_starts, 1);
         assert!(c.factorisations >= 1);
     }
 
@@ -176,25 +184,30 @@ mod tests {
             },
         )
         .unwrap();
+
         assert!(outcome.termination.reached_tolerance());
+
         let paths: Vec<usize> = outcome
             .log
             .iter()
             .map(|m| m.paths.len())
             .filter(|n| *n > 0)
             .collect();
-        assert!(
-            !paths.is_empty() && paths.iter().all(|n| *n == 1),
-            "{paths:?}"
-        );
+
+        assert!(!paths.is_empty(), "{paths:?}");
+        assert!(paths.iter().all(|n| *n == 1), "{paths:?}");
         assert_eq!(outcome.counters.ray_starts, 0);
+
         // F = -1 for every z: no path gets anywhere.
         let none = LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap();
         let outcome = solve(&none, &[1.0], &options).unwrap();
+
         assert!(!outcome.termination.reached_tolerance());
+
         let second = outcome.log.iter().filter(|m| m.paths.len() == 2).count();
+        assert!(second > 0, "{:?}", outcome.counters);
         assert!(
-            second > 0 && outcome.counters.ray_starts >= second,
+            outcome.counters.ray_starts >= second,
             "{:?}",
             outcome.counters
         );
@@ -211,7 +224,10 @@ mod tests {
         let inf = f64::INFINITY;
         let p = LinearMcp::new(dmatrix![2.0], vec![-3.0], vec![-inf], vec![inf]).unwrap();
         let outcome = solve_linear(&p, &options).unwrap();
-        assert_eq!((outcome.log[0].merit, outcome.point), (0.0, vec![1.5]));
+
+        assert_eq!(outcome.log[0].merit, 0.0);
+        assert_eq!(outcome.point, vec![1.5]);
+
         let bounded = LinearMcp::new(dmatrix![2.0], vec![-3.0], vec![0.0], vec![inf]).unwrap();
         assert!(solve_linear(&bounded, &options).unwrap().log[0].merit > 1.0);
     }

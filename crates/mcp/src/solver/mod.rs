@@ -1,21 +1,28 @@
-//! A PATH for mixed complementarity problems in doubles (Dirkse and Ferris 1995; Ralph 1994).
+//! A solver of mixed complementarity problems in doubles, in the manner of PATH (Dirkse and Ferris
+//! 1995; Ralph 1994; book, chapter 3).
 //!
-//! Find z in [l, u] with F_i(z) >= 0 where z_i = l_i, = 0 strictly inside, <= 0 at u_i. It knows
-//! nothing of friction, and a run ends with a *reason*; whether a point is a solution is decided
-//! elsewhere, exactly. In the order of the data flow:
+//! Find z in [l, u] with F_i(z) >= 0 where z_i = l_i, F_i(z) = 0 strictly inside and F_i(z) <= 0
+//! where z_i = u_i. F is linearised at a point, the linear problem is solved by pivoting along a
+//! path, and a search decides how far along that path the next point lies. A run ends with a
+//! *reason*; whether its point is a solution is decided elsewhere, exactly. In the order of the
+//! data flow:
 //!
 //! | file | what |
 //! |---|---|
-//! | `options`, `tolerance`, `validate`, `error` | limits with PATH's names; every tolerance; refusals |
+//! | `options`, `tolerance` | limits with PATH's names; every tolerance |
+//! | `validate`, `error` | refusals |
 //! | `number`, `dense` | the arithmetic, doubles or exact; dense factors in storage that is kept |
-//! | `evaluation`, `jacobian`, `fischer`, `normal_map`, `residual` | F, F' and its merits; the five residuals |
-//! | `crash`, `crash/semismooth`, `crash/step` | projected Newton to a good active set; Newton on Fischer-Burmeister; a step of both |
+//! | `evaluation`, `jacobian` | F and F', counted |
+//! | `fischer`, `normal_map`, `residual` | the merit, the normal map, the five residuals |
+//! | `crash` | projected Newton to a good active set |
+//! | `crash/semismooth`, `crash/step` | Newton on Fischer-Burmeister; a step of both crashes |
 //! | `path/` | the linear subproblem, solved by pivoting along the path |
 //! | `search`, `gradient`, `restart` | what makes a step acceptable, and what if none is |
 //! | `continuation/` | the Newton homotopy: a curve that meets several solutions |
 //! | `newton` | the outer loop |
-//! | `structure` | Jacobians that are singular by their zeros |
-//! | `linear`, `multistart` | Lemke's method alone; many starts |
+//! | `structure`, `matching` | Jacobians that are singular by their zeros |
+//! | `linear`, `preprocess` | Lemke's method alone; what bounds decide before it |
+//! | `multistart` | many starts |
 //! | `reuse` | a solver that keeps its storage from run to run |
 //! | `outcome`, `log` | point, residuals, reason, log of every pivot |
 

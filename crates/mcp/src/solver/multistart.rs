@@ -1,4 +1,6 @@
 //! Many starts, one after the other: the same starts give the same outcomes.
+//!
+//! Each run is one of [`super::solve`], in storage that is kept from run to run.
 
 use super::error::SolverError;
 use super::options::Options;
@@ -24,12 +26,11 @@ pub fn multistart<P: Mcp + ?Sized>(
     options: &Options,
 ) -> Result<Vec<Outcome>, SolverError> {
     let mut solver = Solver::new();
-    starts
-        .into_iter()
-        .map(|start| {
-            solver
-                .run(problem, &start, options)
-                .map(|end| solver.outcome(end))
-        })
-        .collect()
+    let mut outcomes = Vec::new();
+
+    for start in starts {
+        let ended = solver.run(problem, &start, options)?;
+        outcomes.push(solver.outcome(ended));
+    }
+    Ok(outcomes)
 }

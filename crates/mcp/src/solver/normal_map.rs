@@ -1,8 +1,9 @@
 //! Robinson's normal map F(pi(zeta)) + zeta - pi(zeta), pi the projection onto [l, u] (Robinson
-//! 1992).
+//! 1992; book, 3.2), and the linearisation of F.
 //!
 //! A point of its domain is kept as the pair (z, m) with z = pi(zeta) and m = z - zeta: m = w - v
 //! is the multiplier of the bounds, w >= 0 where z = l and v >= 0 where z = u. The map is F(z) - m.
+//! The function `least_residual` is used by `residual`, `linearise` by `newton`.
 
 use super::dense::subtract;
 use nalgebra::{DMatrix, DVector};
@@ -23,17 +24,20 @@ pub(super) fn linearise(
     proximal: f64,
     q: &mut Vec<f64>,
 ) {
+    let n = z.len();
     if proximal > 0.0 {
-        for i in 0..z.len() {
+        for i in 0..n {
             jacobian[(i, i)] += proximal;
         }
     }
+
     q.clear();
     q.extend(f.iter());
-    let n = z.len();
-    z.iter()
-        .enumerate()
-        .for_each(|(j, z)| subtract(q, z, &jacobian.as_slice()[j * n..(j + 1) * n]));
+
+    for (j, z_j) in z.iter().enumerate() {
+        let column = &jacobian.as_slice()[j * n..(j + 1) * n];
+        subtract(q, z_j, column);
+    }
 }
 
 #[cfg(test)]
@@ -52,15 +56,19 @@ mod tests {
         ] {
             assert_eq!(least_residual(z, f, 0.0, 1.0), expected);
         }
+
         assert_eq!(least_residual(3.0, 2.0, 3.0, 3.0), 0.0);
         assert_eq!(least_residual(3.0, -2.0, 3.0, 3.0), 0.0);
     }
 
     #[test]
     fn linearisation_keeps_the_value_whatever_the_proximal_term() {
-        let (z, f) = (dvector![1.0, 2.0], dvector![3.0, -4.0]);
-        let (mut m, mut q) = (dmatrix![1.0, 2.0; 3.0, 4.0], vec![9.0; 5]);
+        let z = dvector![1.0, 2.0];
+        let f = dvector![3.0, -4.0];
+        let mut m = dmatrix![1.0, 2.0; 3.0, 4.0];
+        let mut q = vec![9.0; 5];
         linearise(&mut m, &z, &f, 0.5, &mut q);
+
         assert_eq!(&m * &z + DVector::from_vec(q), f);
         assert_eq!(m[(0, 0)], 1.5);
     }

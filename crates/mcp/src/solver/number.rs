@@ -1,5 +1,8 @@
 //! The numbers the path is pivoted in: doubles in the solver, exact rationals in the tests that
 //! hold Lemke's method to its finiteness theorem. One code for both.
+//!
+//! A tolerance guards against rounding: [`Number::tolerance`] keeps it in doubles and makes it zero
+//! in exact arithmetic.
 
 use nalgebra::{ClosedAddAssign, ClosedDivAssign, ClosedMulAssign, ClosedSubAssign, Scalar};
 use num_traits::{One, Zero};
@@ -41,9 +44,11 @@ pub(super) trait Number:
 
     /// The largest |entry|, 0 of nothing; entries that do not compare are passed over.
     fn largest(entries: &[Self]) -> Self {
-        entries
-            .iter()
-            .fold(Self::zero(), |worst, entry| worst.larger(entry.magnitude()))
+        let mut largest = Self::zero();
+        for entry in entries {
+            largest = largest.larger(entry.magnitude());
+        }
+        largest
     }
 
     /// The larger one; `self` if they do not compare.
@@ -82,16 +87,22 @@ impl Number for f64 {
     fn largest(entries: &[f64]) -> f64 {
         // Four at a time, so that no entry waits for the one before.
         let (blocks, rest) = entries.as_chunks::<4>();
-        let mut worst = [0.0; 4];
+        let mut lanes = [0.0; 4];
+
         for block in blocks {
-            worst
-                .iter_mut()
-                .zip(block)
-                .for_each(|(w, v)| *w = if v.abs() > *w { v.abs() } else { *w });
+            for (largest, value) in lanes.iter_mut().zip(block) {
+                if value.abs() > *largest {
+                    *largest = value.abs();
+                }
+            }
         }
-        worst
-            .iter()
-            .chain(rest)
-            .fold(0.0, |w, v| if v.abs() > w { v.abs() } else { w })
+
+        let mut largest = 0.0;
+        for value in lanes.iter().chain(rest) {
+            if value.abs() > largest {
+                largest = value.abs();
+            }
+        }
+        largest
     }
 }

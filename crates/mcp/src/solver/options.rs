@@ -1,4 +1,8 @@
-//! Options of a run, with PATH's names and defaults (Ferris and Munson, the PATH manual).
+//! Options of a run, with PATH's names and defaults (Ferris and Munson, the PATH manual; book,
+//! 3.5).
+//!
+//! A limit on steps or pivots bounds what a run costs; none of them makes its result more or less
+//! of a solution. Checked by [`Options::validate`] before each run.
 
 use super::error::SolverError;
 
@@ -119,38 +123,48 @@ impl Options {
     /// # Errors
     /// [`SolverError::Option`] naming the option, what it must be, and its value.
     pub fn validate(&self) -> Result<(), SolverError> {
-        let refuse = |name, expected, got| {
-            Err(SolverError::Option {
-                name,
-                expected,
-                got,
-            })
-        };
         let tolerance = self.convergence_tolerance;
         if !(tolerance > 0.0 && tolerance.is_finite()) {
-            return refuse("convergence_tolerance", "> 0 and finite", tolerance);
+            return Err(SolverError::Option {
+                name: "convergence_tolerance",
+                expected: "> 0 and finite",
+                got: tolerance,
+            });
         }
+
         let factor = self.nms_initial_reference_factor;
         if !(factor >= 1.0 && factor.is_finite()) {
-            return refuse("nms_initial_reference_factor", ">= 1 and finite", factor);
+            return Err(SolverError::Option {
+                name: "nms_initial_reference_factor",
+                expected: ">= 1 and finite",
+                got: factor,
+            });
         }
-        for (name, got) in [
-            ("major_iteration_limit", self.major_iteration_limit),
-            ("minor_iteration_limit", self.minor_iteration_limit),
-            (
-                "cumulative_iteration_limit",
-                self.cumulative_iteration_limit,
-            ),
-            ("cycle_entry_limit", self.cycle_entry_limit),
-            ("nms_memory_size", self.nms_memory_size),
-            ("nms_mstep_frequency", self.nms_mstep_frequency),
-        ] {
-            if got == 0 {
-                return refuse(name, ">= 1", 0.0);
-            }
-        }
-        Ok(())
+
+        check_positive("major_iteration_limit", self.major_iteration_limit)?;
+        check_positive("minor_iteration_limit", self.minor_iteration_limit)?;
+        check_positive(
+            "cumulative_iteration_limit",
+            self.cumulative_iteration_limit,
+        )?;
+        check_positive("cycle_entry_limit", self.cycle_entry_limit)?;
+        check_positive("nms_memory_size", self.nms_memory_size)?;
+
+        check_positive("nms_mstep_frequency", self.nms_mstep_frequency)
     }
+}
+
+/// Refuses a count of zero.
+fn check_positive(name: &'static str, count: usize) -> Result<(), SolverError> {
+    if count > 0 {
+        return Ok(());
+    }
+
+    Err(SolverError::Option {
+        name,
+        expected: ">= 1",
+        got: 0.0,
+    })
 }
 
 #[cfg(test)]
@@ -160,10 +174,8 @@ mod tests {
     #[test]
     fn a_search_keeps_path_s_own_crash() {
         let search = Options::for_search();
-        assert_eq!(
-            (Options::default().crash_method, search.crash_method),
-            (CrashMethod::FischerNewton, CrashMethod::ProjectedNewton)
-        );
+        assert_eq!(Options::default().crash_method, CrashMethod::FischerNewton);
+        assert_eq!(search.crash_method, CrashMethod::ProjectedNewton);
         assert_eq!(
             Options {
                 crash_method: CrashMethod::FischerNewton,
@@ -176,6 +188,7 @@ mod tests {
     #[test]
     fn defaults_are_valid_and_refusals_name_the_option() {
         assert_eq!(Options::default().validate(), Ok(()));
+
         let refused = [
             (
                 Options {
@@ -206,11 +219,13 @@ mod tests {
                 "minor_iteration_limit",
             ),
         ];
+
         for (options, expected) in refused {
-            assert!(
-                matches!(options.validate(), Err(SolverError::Option { name, .. }) if name == expected),
-                "{expected}"
-            );
+            let refusal = options.validate().unwrap_err();
+            let SolverError::Option { name, .. } = refusal else {
+                panic!("{refusal}")
+            };
+            assert_eq!(name, expected);
         }
     }
 }

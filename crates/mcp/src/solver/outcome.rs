@@ -1,4 +1,7 @@
 //! What a run reports: the point, every residual, why it stopped, and the log of its pivots.
+//!
+//! Data only. [`Outcome`] holds the steps of the outer loop ([`MajorRecord`]), each with the paths
+//! followed from there ([`PathRecord`]), each with its pivots, and the counts of all work.
 
 use super::path::{PathEnd, Pivot, Start};
 use super::residual::Residuals;

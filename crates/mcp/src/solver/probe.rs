@@ -11,18 +11,15 @@ pub(super) struct Probe<F, J> {
     jacobian: J,
 }
 
-/// A problem without bounds.
+/// A problem with `n` unknowns without bounds.
 pub(super) fn free<F: Fn(&[f64], &mut [f64]), J: Fn(&[f64], &mut DMatrix<f64>)>(
     n: usize,
     function: F,
     jacobian: J,
 ) -> Probe<F, J> {
-    bounded(
-        &vec![f64::NEG_INFINITY; n],
-        &vec![f64::INFINITY; n],
-        function,
-        jacobian,
-    )
+    let lower = vec![f64::NEG_INFINITY; n];
+    let upper = vec![f64::INFINITY; n];
+    bounded(&lower, &upper, function, jacobian)
 }
 
 /// A problem with bounds.

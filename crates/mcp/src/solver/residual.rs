@@ -1,6 +1,11 @@
 //! The five residuals, always reported together, each with its definition. None of them certifies.
+//!
+//! Each is the infinity norm of a vector that is zero at the solutions of the MCP (but for the last
+//! one, which is zero there and at other stationary points). A run ends where four of them are
+//! within the tolerance ([`Residuals::within`]). Input: bounds, z, F(z) and, for the gradient,
+//! F'(z) or products with its transpose.
 
-use super::fischer::{Fischer, fischer, gradient};
+use super::fischer::{Fischer, GradientStorage, fischer, gradient};
 use super::jacobian::jacobian_at;
 use super::normal_map::least_residual;
 use crate::mcp::Mcp;
@@ -25,6 +30,15 @@ pub struct Residuals {
     pub fischer_gradient: f64,
 }
 
+/// The residuals of a point that is no point of the problem.
+const UNDEFINED: Residuals = Residuals {
+    complementarity: f64::NAN,
+    normal_map: f64::NAN,
+    minimum_map: f64::NAN,
+    fischer: f64::NAN,
+    fischer_gradient: f64::NAN,
+};
+
 impl Residuals {
     /// All five at z, evaluating F and F' once.
     ///
@@ -32,36 +46,35 @@ impl Residuals {
     /// of the caller that is answered with NaN.
     pub fn at<P: Mcp + ?Sized>(problem: &P, z: &[f64]) -> Residuals {
         let n = problem.dimension();
-        if z.len() < n || problem.lower().len() < n || problem.upper().len() < n {
-            let nan = f64::NAN;
-            return Residuals {
-                complementarity: nan,
-                normal_map: nan,
-                minimum_map: nan,
-                fischer: nan,
-                fischer_gradient: nan,
-            };
+        let lengths = [z.len(), problem.lower().len(), problem.upper().len()];
+        if lengths.iter().any(|&length| length < n) {
+            return UNDEFINED;
         }
+
         let z = &z[..n];
         let mut f = vec![0.0; n];
         problem.function(z, &mut f);
         let jacobian = jacobian_at(problem, z);
-        let (mut gradient, mut work) = (DVector::zeros(n), DVector::zeros(n));
-        Residuals::with_gradient(problem, z, &f, &jacobian, &mut gradient, &mut work)
+
+        let mut storage = GradientStorage {
+            gradient: &mut DVector::zeros(n),
+            work: &mut DVector::zeros(n),
+        };
+
+        Residuals::with_gradient(problem, z, &f, &jacobian, &mut storage)
     }
 
-    /// All five of F and F' as given; the vectors are of length n and for work.
+    /// All five of F and F' as given; the vectors of the storage are of length n.
     pub(super) fn with_gradient<P: Mcp + ?Sized>(
         problem: &P,
         z: &[f64],
         f: &[f64],
         jacobian: &DMatrix<f64>,
-        out: &mut DVector<f64>,
-        work: &mut DVector<f64>,
+        storage: &mut GradientStorage<'_>,
     ) -> Residuals {
-        gradient(problem, z, f, jacobian, out, work);
+        gradient(problem, z, f, jacobian, storage);
         Residuals {
-            fischer_gradient: norm(out.iter().copied()),
+            fischer_gradient: norm(storage.gradient.iter().copied()),
             ..Residuals::without_gradient(problem, z, f)
         }
     }
@@ -87,29 +100,39 @@ impl Residuals {
         let phi: Vec<Fischer> = (0..z.len())
             .map(|i| fischer(z[i], f[i], l[i], u[i]))
             .collect();
+
+        // Gradient of Psi, D_z Phi + F'(z)' D_F Phi, each row times Phi_i.
         let by_f: Vec<f64> = phi.iter().map(|phi| phi.by_f * phi.value).collect();
         let mut gradient = vec![0.0; z.len()];
         product(&by_f, &mut gradient);
-        let gradient = norm(
-            gradient
-                .iter()
-                .zip(&phi)
-                .map(|(g, phi)| g + phi.by_z * phi.value),
-        );
+
+        for (entry, phi) in gradient.iter_mut().zip(&phi) {
+            *entry += phi.by_z * phi.value;
+        }
+
         Residuals {
-            fischer_gradient: gradient,
+            fischer_gradient: norm(gradient.into_iter()),
             ..Residuals::within_bounds(l, u, z, f)
         }
     }
 
     /// The first four, of bounds as given.
     fn within_bounds(l: &[f64], u: &[f64], z: &[f64], f: &[f64]) -> Residuals {
-        let indices = || 0..z.len();
+        let indices = 0..z.len();
+        let products = indices.clone().map(|i| product(z[i], f[i], l[i], u[i]));
+        let normal_map = indices
+            .clone()
+            .map(|i| least_residual(z[i], f[i], l[i], u[i]));
+        let minimum_map = indices
+            .clone()
+            .map(|i| z[i] - (z[i] - f[i]).max(l[i]).min(u[i]));
+        let phi = indices.map(|i| fischer(z[i], f[i], l[i], u[i]).value);
+
         Residuals {
-            complementarity: norm(indices().map(|i| product(z[i], f[i], l[i], u[i]))),
-            normal_map: norm(indices().map(|i| least_residual(z[i], f[i], l[i], u[i]))),
-            minimum_map: norm(indices().map(|i| z[i] - (z[i] - f[i]).max(l[i]).min(u[i]))),
-            fischer: norm(indices().map(|i| fischer(z[i], f[i], l[i], u[i]).value)),
+            complementarity: norm(products),
+            normal_map: norm(normal_map),
+            minimum_map: norm(minimum_map),
+            fischer: norm(phi),
             fischer_gradient: 0.0,
         }
     }
@@ -124,10 +147,13 @@ impl Residuals {
     }
 }
 
+/// The complementarity product of one component: |F_i| times the distance to the bound it points
+/// to, or |F_i| where there is none.
 fn product(z: f64, f: f64, l: f64, u: f64) -> f64 {
     if f.is_nan() {
         return f64::NAN;
     }
+
     let gap = if f >= 0.0 { z - l } else { u - z };
     if gap.is_finite() {
         gap * f.abs()
@@ -138,13 +164,15 @@ fn product(z: f64, f: f64, l: f64, u: f64) -> f64 {
 
 /// Infinity norm that does not lose a NaN.
 fn norm(values: impl Iterator<Item = f64>) -> f64 {
-    values.fold(0.0, |a: f64, b| {
-        if a.is_nan() || b.is_nan() {
+    let mut norm: f64 = 0.0;
+    for value in values {
+        norm = if norm.is_nan() || value.is_nan() {
             f64::NAN
         } else {
-            a.max(b.abs())
-        }
-    })
+            norm.max(value.abs())
+        };
+    }
+    norm
 }
 
 #[cfg(test)]
@@ -177,8 +205,11 @@ mod tests {
     #[test]
     fn only_the_products_see_a_solution_at_infinity() {
         let r = Residuals::at(&Reciprocal, &[1e16]);
-        assert!(r.minimum_map <= 1e-15 && r.normal_map <= 1e-15 && r.fischer <= 1e-15);
-        assert!((r.complementarity - 1.0).abs() < 1e-12 && !r.within(1e-10));
+        assert!(r.minimum_map <= 1e-15);
+        assert!(r.normal_map <= 1e-15);
+        assert!(r.fischer <= 1e-15);
+        assert!((r.complementarity - 1.0).abs() < 1e-12);
+        assert!(!r.within(1e-10));
     }
 
     #[test]
@@ -192,9 +223,13 @@ mod tests {
     fn all_vanish_at_a_solution_and_differ_elsewhere() {
         let lcp = LinearMcp::lcp(dmatrix![2.0, 1.0; 1.0, 2.0], vec![-5.0, -6.0]).unwrap();
         let r = Residuals::at(&lcp, &[4.0 / 3.0, 7.0 / 3.0]);
-        assert!(r.within(1e-14) && r.fischer_gradient < 1e-13);
+        assert!(r.within(1e-14));
+        assert!(r.fischer_gradient < 1e-13);
+
         let r = Residuals::at(&lcp, &[0.0, 0.0]);
-        assert_eq!((r.normal_map, r.minimum_map, r.fischer), (6.0, 6.0, 12.0));
+        assert_eq!(r.normal_map, 6.0);
+        assert_eq!(r.minimum_map, 6.0);
+        assert_eq!(r.fischer, 12.0);
     }
 
     /// By hand, one component each: towards both bounds, inside, free, and with |F| where the bound
@@ -202,6 +237,7 @@ mod tests {
     #[test]
     fn each_residual_is_its_formula() {
         let inf = f64::INFINITY;
+
         // z, F, l, u: product, normal map, minimum map.
         let table = [
             (1.0, 2.0, 0.0, 4.0, 2.0, 2.0, 1.0),
@@ -215,24 +251,21 @@ mod tests {
             (5.0, 3.0, -inf, 6.0, 3.0, 3.0, 3.0),
             (5.0, 3.0, -inf, inf, 3.0, 3.0, 3.0),
         ];
+
         for (z, f, l, u, product, normal, minimum) in table {
             let r = Residuals::within_bounds(&[l], &[u], &[z], &[f]);
-            assert_eq!(
-                (r.complementarity, r.normal_map, r.minimum_map),
-                (product, normal, minimum),
-                "{z} {f} [{l}, {u}]"
-            );
-            assert_eq!(
-                (r.fischer, r.fischer_gradient),
-                (fischer(z, f, l, u).value.abs(), 0.0)
-            );
+            assert_eq!(r.complementarity, product, "{z} {f} [{l}, {u}]");
+            assert_eq!(r.normal_map, normal, "{z} {f} [{l}, {u}]");
+            assert_eq!(r.minimum_map, minimum, "{z} {f} [{l}, {u}]");
+            assert_eq!(r.fischer, fischer(z, f, l, u).value.abs());
+            assert_eq!(r.fischer_gradient, 0.0);
         }
+
         // The largest of the components, whatever their order.
         let r = Residuals::within_bounds(&[0.0; 3], &[inf; 3], &[1.0, 5.0, 2.0], &[-7.0, 1.0, 0.5]);
-        assert_eq!(
-            (r.complementarity, r.normal_map, r.minimum_map),
-            (7.0, 7.0, 7.0)
-        );
+        assert_eq!(r.complementarity, 7.0);
+        assert_eq!(r.normal_map, 7.0);
+        assert_eq!(r.minimum_map, 7.0);
     }
 
     /// From parts as from the problem, with a gradient that is none of its terms.
@@ -254,6 +287,7 @@ mod tests {
             out.copy_from_slice((m.transpose() * DVector::from_column_slice(y)).as_slice())
         };
         let of = Residuals::of(p.lower(), p.upper(), &z, &f, transposed);
+
         approx::assert_relative_eq!(
             of.fischer_gradient,
             at.fischer_gradient,
@@ -277,6 +311,7 @@ mod tests {
             }
         );
         assert!(at.fischer_gradient > 0.1);
+
         // Components beyond are ignored.
         assert_eq!(Residuals::at(&p, &[0.75, 0.5, 0.25, 99.0]), at);
     }
@@ -285,7 +320,7 @@ mod tests {
     /// much.
     #[test]
     fn each_of_four_residuals_must_be_within() {
-        let of = |normal_map, minimum_map, fischer, complementarity| {
+        let is_within = |normal_map, minimum_map, fischer, complementarity| {
             Residuals {
                 complementarity,
                 normal_map,
@@ -295,36 +330,33 @@ mod tests {
             }
             .within(0.0625)
         };
-        let (t, more) = (0.0625, 0.063);
-        assert!(
-            of(t, t, t, 0.25)
-                && !of(more, t, t, 0.25)
-                && !of(t, more, t, 0.25)
-                && !of(t, t, more, 0.25)
-                && !of(t, t, t, 0.26)
-        );
-        assert!(
-            !of(f64::NAN, t, t, t)
-                && !of(t, f64::NAN, t, t)
-                && !of(t, t, f64::NAN, t)
-                && !of(t, t, t, f64::NAN)
-        );
+        let t = 0.0625;
+        let more = 0.063;
+
+        assert!(is_within(t, t, t, 0.25));
+        assert!(!is_within(more, t, t, 0.25));
+        assert!(!is_within(t, more, t, 0.25));
+        assert!(!is_within(t, t, more, 0.25));
+        assert!(!is_within(t, t, t, 0.26));
+        assert!(!is_within(f64::NAN, t, t, t));
+        assert!(!is_within(t, f64::NAN, t, t));
+        assert!(!is_within(t, t, f64::NAN, t));
+        assert!(!is_within(t, t, t, f64::NAN));
     }
 
     /// Bounds that are shorter than the problem says give NaN, as does a short z; a NaN is not lost
     /// behind a number.
     #[test]
     fn what_is_missing_is_no_number() {
-        let nan = |l: &[f64], u: &[f64], z: &[f64]| {
+        let is_undefined = |l: &[f64], u: &[f64], z: &[f64]| {
             let p = bounded(l, u, |_, f| f.fill(1.0), |_, j| j.fill(0.0));
             Residuals::at(&Sized2(p), z).normal_map.is_nan()
         };
-        assert!(!nan(&[0.0; 2], &[1.0; 2], &[0.5; 2]));
-        assert!(
-            nan(&[0.0; 1], &[1.0; 2], &[0.5; 2])
-                && nan(&[0.0; 2], &[1.0; 1], &[0.5; 2])
-                && nan(&[0.0; 2], &[1.0; 2], &[0.5; 1])
-        );
+
+        assert!(!is_undefined(&[0.0; 2], &[1.0; 2], &[0.5; 2]));
+        assert!(is_undefined(&[0.0; 1], &[1.0; 2], &[0.5; 2]));
+        assert!(is_undefined(&[0.0; 2], &[1.0; 1], &[0.5; 2]));
+        assert!(is_undefined(&[0.0; 2], &[1.0; 2], &[0.5; 1]));
         assert!(
             [[f64::NAN, 1.0], [1.0, f64::NAN]]
                 .iter()

@@ -1,5 +1,5 @@
 //! A solver that keeps its storage: run after run, on one problem or many, without allocating
-//! again.
+//! again (book, 3.8). The public form of `newton`.
 
 use super::error::SolverError;
 use super::newton::{Run, Workspace};
@@ -67,14 +67,15 @@ impl Solver {
         options: &Options,
     ) -> Result<Ended, SolverError> {
         validate(problem, start, options)?;
+
         let space = std::mem::take(&mut self.space);
-        let (space, residuals, termination, counters) =
-            Run::new(problem, options, space).run(start);
-        self.space = space;
+        let finished = Run::new(problem, options, space).run(start);
+        self.space = finished.space;
+
         Ok(Ended {
-            termination,
-            residuals,
-            counters,
+            termination: finished.termination,
+            residuals: finished.residuals,
+            counters: finished.counters,
         })
     }
 
@@ -86,17 +87,12 @@ impl Solver {
 
     /// The last run with its log. This copies.
     pub fn outcome(&self, ended: Ended) -> Outcome {
-        let Ended {
-            termination,
-            residuals,
-            counters,
-        } = ended;
         Outcome {
             point: self.space.point.clone(),
-            residuals,
-            termination,
+            residuals: ended.residuals,
+            termination: ended.termination,
             log: self.space.log.records(),
-            counters,
+            counters: ended.counters,
         }
     }
 }
@@ -111,15 +107,16 @@ mod tests {
     fn the_point_is_that_of_the_last_run() {
         let mut solver = Solver::new();
         assert!(solver.point().is_empty());
+
         for q in [-3.0, -7.0, 5.0] {
             let lcp = LinearMcp::lcp(dmatrix![2.0], vec![q]).unwrap();
             let ended = solver.run(&lcp, &[1.0], &Options::default()).unwrap();
             assert_eq!(solver.point(), [f64::max(-q / 2.0, 0.0)]);
+
             let outcome = solver.outcome(ended);
-            assert_eq!(
-                (outcome.point, outcome.termination, outcome.counters),
-                (solver.point().to_vec(), ended.termination, ended.counters)
-            );
+            assert_eq!(outcome.point, solver.point());
+            assert_eq!(outcome.termination, ended.termination);
+            assert_eq!(outcome.counters, ended.counters);
         }
     }
 }

@@ -1,6 +1,14 @@
-//! The non-monotone acceptance: memory, unchecked steps inside a shrinking trust radius, checkpoint
-//! and the search back along a stored path (Grippo, Lampariello and Lucidi 1986; Dirkse and Ferris
-//! 1995, section 4).
+//! The non-monotone acceptance of steps: memory, unchecked steps inside a shrinking trust radius,
+//! checkpoint, and the search back along a stored path (Grippo, Lampariello and Lucidi 1986; Dirkse
+//! and Ferris 1995, section 4).
+//!
+//! A step to z at parameter t of a path passes if Psi(z) <= (1 - ARMIJO t) R, where the reference R
+//! is the largest of the last few merits: the merit may rise for some steps in a curved valley.
+//! Short steps may go unchecked some times in a row. Where one that is checked fails, the
+//! *watchdog* returns to the *checkpoint*, the last point that was checked, and searches the path
+//! from there.
+//!
+//! One [`Search`] serves one attempt of a run. Called by `newton` and `newton/choose`.
 
 use super::evaluation::{Evaluated, Point};
 use super::options::Options;
@@ -13,12 +21,17 @@ use std::collections::VecDeque;
 /// State of the non-monotone rule in one attempt. Storage is kept from one to the next.
 #[derive(Default)]
 pub(super) struct Search {
+    /// The last merits, of which the largest is the reference.
     memory: VecDeque<f64>,
     memory_size: usize,
+    /// Every so many steps in a row one is checked.
     frequency: usize,
     maximum_watchdogs: usize,
+    /// The longest step, by its largest component, that may go unchecked.
     radius: f64,
+    /// Steps taken unchecked in a row.
     unchecked: usize,
+    /// Returns to the checkpoint since a full step has passed.
     watchdogs: usize,
     gradient_steps_left: usize,
     /// The path that left the last checked point, if steps were taken unchecked since.
@@ -37,36 +50,41 @@ impl Search {
         options: &Options,
         attempt: Attempt,
     ) {
-        let (factor, radius) = match attempt.acceptance {
-            Acceptance::NonMonotone => (
-                options.nms_initial_reference_factor,
-                TRUST * (1.0 + start.z.amax()),
-            ),
-            Acceptance::Monotone => (1.0, 0.0),
-            Acceptance::Free => (
-                FREE_REFERENCE * options.nms_initial_reference_factor,
-                f64::INFINITY,
-            ),
+        let factor = options.nms_initial_reference_factor;
+        let reference_factor = match attempt.acceptance {
+            Acceptance::NonMonotone => factor,
+            Acceptance::Monotone => 1.0,
+            Acceptance::Free => FREE_REFERENCE * factor,
         };
-        let monotone = attempt.acceptance == Acceptance::Monotone;
+
         self.memory.clear();
-        self.memory.push_back(factor * start.merit);
-        self.memory_size = if monotone { 1 } else { options.nms_memory_size };
-        self.frequency = if monotone {
-            1
-        } else {
-            options.nms_mstep_frequency
+        self.memory.push_back(reference_factor * start.merit);
+
+        self.radius = match attempt.acceptance {
+            Acceptance::NonMonotone => TRUST * (1.0 + start.z.amax()),
+            Acceptance::Monotone => 0.0,
+            Acceptance::Free => f64::INFINITY,
         };
+
+        if attempt.acceptance == Acceptance::Monotone {
+            self.memory_size = 1;
+            self.frequency = 1;
+        } else {
+            self.memory_size = options.nms_memory_size;
+            self.frequency = options.nms_mstep_frequency;
+        }
+
         self.maximum_watchdogs = options.nms_maximum_watchdogs;
-        self.radius = radius;
-        (self.unchecked, self.watchdogs) = (0, 0);
+        self.unchecked = 0;
+        self.watchdogs = 0;
         self.gradient_steps_left = options.gradient_step_limit;
-        self.best = self
-            .best
-            .take()
-            .filter(|best| best.z.len() == first.z.len());
+        self.first_merit = start.merit;
+        self.fraction = attempt.fraction;
+
+        // The best point of another attempt lends its storage if it is of the same length.
+        let last_best = self.best.take();
+        self.best = last_best.filter(|best| best.z.len() == first.z.len());
         self.take_best(first);
-        (self.first_merit, self.fraction) = (start.merit, attempt.fraction);
     }
 
     /// The point of least merit in this attempt.
@@ -90,19 +108,18 @@ impl Search {
 
     /// May this step be taken without a check? Short ones, all but every tenth in a row.
     pub(super) fn unchecked_allowed(&self, from: &Point, to: &Point) -> bool {
-        let next = self.unchecked + 1;
-        let length = || {
-            to.z.iter()
-                .zip(from.z.iter())
-                .map(|(a, b)| (a - b).abs())
-                .fold(0.0, f64::max)
-        };
-        to.merit.is_finite() && next < self.frequency && length() <= self.radius
+        let is_due = self.unchecked + 1 >= self.frequency;
+        if is_due || !to.merit.is_finite() {
+            return false;
+        }
+
+        distance(from, to) <= self.radius
     }
 
     /// Does a point pass the test: (1 - sigma t) of the reference?
     pub(super) fn passes(&self, point: &Point, t: f64) -> bool {
-        point.merit.is_finite() && point.merit <= (1.0 - ARMIJO * t) * self.reference()
+        let limit = (1.0 - ARMIJO * t) * self.reference();
+        point.merit.is_finite() && point.merit <= limit
     }
 
     /// Takes an unchecked step; the path from the last checked point is kept for the watchdog.
@@ -110,6 +127,7 @@ impl Search {
         if self.unchecked == 0 {
             self.checkpoint.copy_from(path);
         }
+
         self.unchecked += 1;
         self.radius *= TRUST_SHRINK;
         self.keep_best(to);
@@ -121,6 +139,7 @@ impl Search {
         while self.memory.len() > self.memory_size {
             self.memory.pop_front();
         }
+
         self.unchecked = 0;
         self.keep_best(to);
     }
@@ -136,6 +155,7 @@ impl Search {
         if self.unchecked == 0 {
             return false;
         }
+
         self.unchecked = 0;
         self.watchdogs += 1;
         self.watchdogs <= self.maximum_watchdogs
@@ -172,17 +192,20 @@ impl Search {
                 }
                 problem.recycle(point);
             }
+
             t *= BACKTRACK;
         }
         None
     }
 
+    /// Keeps a point if no other one of this attempt has a smaller or equal merit.
     fn keep_best(&mut self, point: &Point) {
-        if self
-            .best
-            .as_ref()
-            .is_none_or(|best| point.merit < best.merit)
-        {
+        let is_better = match &self.best {
+            Some(best) => point.merit < best.merit,
+            None => true,
+        };
+
+        if is_better {
             self.take_best(point);
         }
     }
@@ -193,6 +216,15 @@ impl Search {
             None => self.best = Some(point.clone()),
         }
     }
+}
+
+/// The largest difference of two components.
+fn distance(from: &Point, to: &Point) -> f64 {
+    let mut largest: f64 = 0.0;
+    for (a, b) in to.z.iter().zip(from.z.iter()) {
+        largest = largest.max((a - b).abs());
+    }
+    largest
 }
 
 #[cfg(test)]
@@ -230,15 +262,10 @@ mod tests {
     #[test]
     fn a_fraction_of_the_path_is_taken_while_far() {
         let s = search(0, &Options::default());
-        assert_eq!(
-            [
-                s.fraction(8.0),
-                s.fraction(1.01 * NEAR * 8.0),
-                s.fraction(NEAR * 8.0),
-                s.fraction(0.0)
-            ],
-            [0.5, 0.5, 1.0, 1.0]
-        );
+        assert_eq!(s.fraction(8.0), 0.5);
+        assert_eq!(s.fraction(1.01 * NEAR * 8.0), 0.5);
+        assert_eq!(s.fraction(NEAR * 8.0), 1.0);
+        assert_eq!(s.fraction(0.0), 1.0);
     }
 
     /// The best point of an attempt is its own, also where it has the storage of another one.
@@ -249,6 +276,7 @@ mod tests {
             let first = point(z, 9.0);
             s.begin(&first, &first, &Options::default(), Attempt::number(0));
             assert_eq!(s.best().unwrap().z.as_slice(), z);
+
             s.take_checked(&point(&vec![0.0; z.len()], 9.0)); // as good, and later
             assert_eq!(s.best().unwrap().z.as_slice(), z);
         }
@@ -264,7 +292,9 @@ mod tests {
             ..Options::default()
         };
         let mut s = search(0, &options);
+
         assert_eq!(s.reference(), 16.0);
+
         for (merit, reference) in [
             (5.0, 16.0),
             (7.0, 16.0),
@@ -276,15 +306,17 @@ mod tests {
             s.take_checked(&point(&[0.0, 0.0], merit));
             assert_eq!(s.reference(), reference);
         }
+
         let passes = |merit: f64, t: f64| s.passes(&point(&[0.0, 0.0], merit), t);
-        assert!(
-            passes(3.0 * (1.0 - ARMIJO), 1.0)
-                && !passes(3.0 * (1.0 - 0.9 * ARMIJO), 1.0)
-                && passes(3.0 * (1.0 - 0.9 * ARMIJO), 0.5)
-        );
-        assert!(!passes(f64::NAN, 1.0) && !passes(f64::INFINITY, 1.0));
+        assert!(passes(3.0 * (1.0 - ARMIJO), 1.0));
+        assert!(!passes(3.0 * (1.0 - 0.9 * ARMIJO), 1.0));
+        assert!(passes(3.0 * (1.0 - 0.9 * ARMIJO), 0.5));
+        assert!(!passes(f64::NAN, 1.0));
+        assert!(!passes(f64::INFINITY, 1.0));
+
         let mut monotone = search(4, &options);
         assert_eq!(monotone.reference(), 8.0);
+
         monotone.take_checked(&point(&[0.0, 0.0], 6.0));
         assert_eq!(monotone.reference(), 6.0);
     }
@@ -300,38 +332,46 @@ mod tests {
         };
         let mut s = search(0, &options);
         let radius = TRUST * 5.0;
+
         assert_eq!(s.radius, radius);
+
         let allowed = |s: &Search, far: f64, merit: f64| {
             s.unchecked_allowed(&point(&[1.0, 0.0], 1.0), &point(&[1.0, far], merit))
         };
+
         // However far from zero.
         let far = [point(&[1e9, 0.0], 1.0), point(&[1e9, 1.0], 1.0)];
         assert!(s.unchecked_allowed(&far[0], &far[1]));
-        assert!(
-            allowed(&s, radius, 1e9)
-                && !allowed(&s, 1.01 * radius, 1.0)
-                && !allowed(&s, 0.0, f64::INFINITY)
-        );
+        assert!(allowed(&s, radius, 1e9));
+        assert!(!allowed(&s, 1.01 * radius, 1.0));
+        assert!(!allowed(&s, 0.0, f64::INFINITY));
+
         for k in 1..=3 {
             assert!(allowed(&s, 0.0, 1.0), "{k}");
+
             s.take_unchecked(&path(), &point(&[k as f64, 0.0], 8.0 - k as f64));
-            assert_eq!(
-                (s.unchecked, s.radius, s.best().unwrap().merit),
-                (k, radius * TRUST_SHRINK.powi(k as i32), 8.0 - k as f64)
-            );
+            assert_eq!(s.unchecked, k);
+            assert_eq!(s.radius, radius * TRUST_SHRINK.powi(k as i32));
+            assert_eq!(s.best().unwrap().merit, 8.0 - k as f64);
         }
+
         assert!(!allowed(&s, 0.0, 1.0));
-        assert!(s.watchdog() && s.unchecked == 0);
+        assert!(s.watchdog());
+        assert_eq!(s.unchecked, 0);
         assert!(!s.watchdog()); // nothing taken since
+
         s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
         assert_eq!(s.best().unwrap().merit, 5.0);
         assert!(!s.watchdog()); // one is all there was
+
         s.forgive_watchdogs();
         s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
         assert!(s.watchdog());
+
         s.take_unchecked(&path(), &point(&[0.0, 0.0], 9.0));
         s.take_checked(&point(&[0.0, 0.0], 9.0));
-        assert!(s.unchecked == 0 && !s.watchdog());
+        assert_eq!(s.unchecked, 0);
+        assert!(!s.watchdog());
     }
 
     #[test]
@@ -343,14 +383,10 @@ mod tests {
                 ..Options::default()
             },
         );
-        assert_eq!(
-            [
-                s.gradient_allowed(),
-                s.gradient_allowed(),
-                s.gradient_allowed()
-            ],
-            [true, true, false]
-        );
+
+        assert!(s.gradient_allowed());
+        assert!(s.gradient_allowed());
+        assert!(!s.gradient_allowed());
     }
 
     /// The reference at the beginning: a multiple of the start's merit, far above it where all is
@@ -361,8 +397,9 @@ mod tests {
             nms_initial_reference_factor: 3.0,
             ..Options::default()
         };
-        let of = |acceptance: Acceptance| {
-            let (start, first) = (point(&[3.0, -4.0], 8.0), point(&[1.0, 0.0], 2.0));
+        let begun = |acceptance: Acceptance| {
+            let start = point(&[3.0, -4.0], 8.0);
+            let first = point(&[1.0, 0.0], 2.0);
             let mut search = Search::default();
             search.begin(
                 &start,
@@ -379,11 +416,15 @@ mod tests {
                 search.best().map(|best| best.merit),
             )
         };
-        assert_eq!(of(Acceptance::NonMonotone), (24.0, TRUST * 5.0, Some(2.0)));
+
         assert_eq!(
-            of(Acceptance::Free),
+            begun(Acceptance::NonMonotone),
+            (24.0, TRUST * 5.0, Some(2.0))
+        );
+        assert_eq!(
+            begun(Acceptance::Free),
             (24.0 * FREE_REFERENCE, f64::INFINITY, Some(2.0))
         );
-        assert_eq!(of(Acceptance::Monotone), (8.0, 0.0, Some(2.0)));
+        assert_eq!(begun(Acceptance::Monotone), (8.0, 0.0, Some(2.0)));
     }
 }

@@ -1,42 +1,40 @@
 //! Refusals: options, shapes, bounds and starts that make no sense.
+//!
+//! Called at the beginning of every run and curve; what follows relies on it: options are in range,
+//! bounds and start have length n, bounds are ordered, the start is finite.
 
 use super::error::SolverError;
 use super::options::Options;
-use crate::mcp::{Mcp, McpError, check_bounds};
+use crate::mcp::{Mcp, check_bounds, check_length};
 
 /// Refuses options, shapes, bounds and starts that make no sense.
+///
+/// # Errors
+/// [`SolverError`] naming the option, part or index, what was expected and what was got.
 pub(super) fn validate<P: Mcp + ?Sized>(
     problem: &P,
     start: &[f64],
     options: &Options,
 ) -> Result<(), SolverError> {
     options.validate()?;
+
     let n = problem.dimension();
-    for (what, got) in [
-        ("lower", problem.lower().len()),
-        ("upper", problem.upper().len()),
-    ] {
-        if got != n {
-            return Err(McpError::Shape {
-                what,
-                expected: n,
-                got,
-            }
-            .into());
-        }
-    }
+    check_length("lower", n, problem.lower().len())?;
+    check_length("upper", n, problem.upper().len())?;
     check_bounds(problem.lower(), problem.upper())?;
+
     if start.len() != n {
         return Err(SolverError::StartLength {
             expected: n,
             got: start.len(),
         });
     }
-    if let Some(index) = start.iter().position(|v| !v.is_finite()) {
-        return Err(SolverError::StartNotFinite {
+
+    match start.iter().position(|value| !value.is_finite()) {
+        Some(index) => Err(SolverError::StartNotFinite {
             index,
             got: start[index],
-        });
+        }),
+        None => Ok(()),
     }
-    Ok(())
 }

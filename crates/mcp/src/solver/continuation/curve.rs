@@ -1,5 +1,5 @@
 //! What a curve is followed by and what it leaves: the sense at its start, the solutions it met
-//! and why it ended.
+//! and why it ended. Data only; `continuation` fills it.
 
 use super::super::outcome::Counters;
 

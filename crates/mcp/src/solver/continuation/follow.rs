@@ -1,4 +1,14 @@
-//! Predictor, corrector and events along a curve.
+//! Predictor, corrector and events along a curve (Allgower and Georg 1990, chapter 2).
+//!
+//! From a point of the curve a step goes a length along the unit tangent and back to the curve by
+//! Newton's method across the tangent. Some quantities must keep their sign on a piece of the
+//! curve: the distance of an inside unknown to its bounds, the multiplier of an unknown at a bound,
+//! and s. Where one vanishes on the way the step ends there exactly: an *event*. At a bound or a
+//! zero multiplier the unknown changes its place and the curve goes on along another piece; at
+//! s = 0 there is a solution, and the curve goes on as it came.
+//!
+//! Input: the equations of a `System` and a position on the curve. Output: the solutions met and a
+//! [`CurveEnd`]. Called by `continuation`.
 
 use super::super::options::Options;
 use super::super::tolerance::{
@@ -9,6 +19,7 @@ use super::curve::{CurveEnd, Sense};
 use super::system::{Border, Corrected, Local, Place, Places, Position, Quantity, System};
 use crate::mcp::Mcp;
 use nalgebra::DVector;
+use std::mem::replace;
 
 /// A curve under way.
 pub(super) struct Follower<'p, 'a, P: Mcp + ?Sized> {
@@ -16,30 +27,70 @@ pub(super) struct Follower<'p, 'a, P: Mcp + ?Sized> {
     at: Position,
     start: Position,
     start_places: Places,
+    /// Length of the next step.
     length: f64,
     steps_left: usize,
+    /// The number of solutions to find.
     enough: usize,
+    /// The solutions met, in order.
     found: Vec<DVector<f64>>,
 }
 
 /// Where a step has led.
 struct Landing {
     there: Corrected,
+    /// What has vanished there, if the step ends at an event.
     event: Option<Quantity>,
 }
 
+/// A quantity that must keep its sign.
+#[derive(Debug, Clone, Copy)]
+struct Guard {
+    quantity: Quantity,
+    /// 1 if it must stay positive, -1 if negative.
+    sign: f64,
+}
+
+impl Guard {
+    fn positive(quantity: Quantity) -> Guard {
+        Guard {
+            quantity,
+            sign: 1.0,
+        }
+    }
+
+    fn negative(quantity: Quantity) -> Guard {
+        Guard {
+            quantity,
+            sign: -1.0,
+        }
+    }
+}
+
+/// What becomes of an unknown at an event.
+struct PlaceChange {
+    index: usize,
+    /// Its new place.
+    place: Place,
+    /// What leaves zero after the event.
+    leaving: Quantity,
+    /// 1 if that grows, -1 if it falls.
+    sign: f64,
+}
+
 impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
+    /// At the start of a curve.
     pub(super) fn new(
         system: System<'p, 'a, P>,
         at: Position,
         options: &Options,
         enough: usize,
     ) -> Self {
-        let (start, start_places) = (at.clone(), system.places.clone());
+        let start_places = system.places.clone();
         Follower {
             system,
+            start: at.clone(),
             at,
-            start,
             start_places,
             length: CURVE_FIRST,
             steps_left: options.curve_step_limit,
@@ -48,63 +99,107 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         }
     }
 
+    /// Follows the curve; the solutions met, in order, and the reason why it ended.
     pub(super) fn run(mut self, sense: Sense) -> (Vec<DVector<f64>>, CurveEnd) {
         let end = self.walk(sense).unwrap_or(CurveEnd::Stuck);
         (self.found, end)
     }
 
-    /// `None` where no step leads on.
+    /// Steps until there is a reason to stop; `None` where no step leads on.
     fn walk(&mut self, sense: Sense) -> Option<CurveEnd> {
         let mut local = self.system.local(&self.at.z.clone())?;
-        let inside = self.system.places.inside();
-        let row = self.system.row(Quantity::S, &local, &inside);
-        let mut tangent =
-            self.system
-                .tangent(&local, &row, if sense == Sense::Down { -1.0 } else { 1.0 })?;
+        let mut tangent = self.first_tangent(&local, sense)?;
+
         loop {
             if self.steps_left == 0 {
                 return Some(CurveEnd::StepLimit);
             }
+
             self.steps_left -= 1;
             self.system.problem.counters.curve_steps += 1;
+
             let (landing, next) = self.step(&local, &tangent)?;
-            let before = std::mem::replace(&mut self.at, landing.there.at);
-            (local, tangent) = (landing.there.local, next);
-            if landing.event == Some(Quantity::S) {
-                // A curve passes a point once, unless it is closed; one that has strayed from its
-                // start closes elsewhere.
-                let is_at =
-                    |z: &DVector<f64>| (&self.at.z - z).amax() <= CURVE_SAME * (1.0 + z.amax());
-                let again =
-                    self.start.s == 0.0 && is_at(&self.start.z) || self.found.iter().any(is_at);
-                self.found.push(self.at.z.clone());
-                if again {
-                    return Some(CurveEnd::Closed);
-                }
-                if self.found.len() >= self.enough {
-                    return Some(CurveEnd::Enough);
-                }
-            }
-            if self.at.z.amax() > CURVE_FAR * (1.0 + self.start.z.amax())
-                || self.at.s.abs() > CURVE_FAR
+            let before = replace(&mut self.at, landing.there.at);
+            local = landing.there.local;
+            tangent = next;
+
+            if landing.event == Some(Quantity::S)
+                && let Some(end) = self.meet_solution()
             {
+                return Some(end);
+            }
+
+            if self.is_far() {
                 return Some(CurveEnd::Ray);
             }
+
             if self.is_back(&before) {
                 return Some(CurveEnd::Closed);
             }
         }
     }
 
+    /// The unit tangent at the start along which s changes as asked.
+    fn first_tangent(&mut self, local: &Local, sense: Sense) -> Option<DVector<f64>> {
+        let inside = self.system.places.inside();
+        let row = self.system.row(Quantity::S, local, &inside);
+        let sign = match sense {
+            Sense::Down => -1.0,
+            Sense::Up => 1.0,
+        };
+
+        self.system.tangent(local, &row, sign)
+    }
+
+    /// Notes the solution at the current position; the reason to stop if it is known or the last
+    /// one wanted.
+    fn meet_solution(&mut self) -> Option<CurveEnd> {
+        // A curve passes a point once, unless it is closed; one that has strayed from its start
+        // closes elsewhere.
+        let is_at_start = self.start.s == 0.0 && self.is_at(&self.start.z);
+        let is_again = is_at_start || self.found.iter().any(|z| self.is_at(z));
+
+        self.found.push(self.at.z.clone());
+        if is_again {
+            Some(CurveEnd::Closed)
+        } else if self.found.len() >= self.enough {
+            Some(CurveEnd::Enough)
+        } else {
+            None
+        }
+    }
+
+    /// Is the current position this point?
+    fn is_at(&self, z: &DVector<f64>) -> bool {
+        let distance = (&self.at.z - z).amax();
+        let size = 1.0 + z.amax();
+        distance <= CURVE_SAME * size
+    }
+
+    /// Has the curve gone to infinity?
+    fn is_far(&self) -> bool {
+        let size = 1.0 + self.start.z.amax();
+        let z_is_far = self.at.z.amax() > CURVE_FAR * size;
+        let s_is_far = self.at.s.abs() > CURVE_FAR;
+        z_is_far || s_is_far
+    }
+
     /// Has the step from `before` passed the start again?
     fn is_back(&self, before: &Position) -> bool {
-        let passed = (before.s - self.start.s) * (self.at.s - self.start.s) < 0.0;
+        let above_before = before.s - self.start.s;
+        let above_after = self.at.s - self.start.s;
+        let passed = above_before * above_after < 0.0;
         if !passed || self.system.places != self.start_places {
             return false;
         }
+
+        // The point of the chord at the start's s.
         let share = (self.start.s - before.s) / (self.at.s - before.s);
         let there = before.z.lerp(&self.at.z, share);
-        (there - &self.start.z).amax() <= CURVE_CLOSED * (&self.at.z - &before.z).amax()
+
+        let distance = (there - &self.start.z).amax();
+        let step = (&self.at.z - &before.z).amax();
+        distance <= CURVE_CLOSED * step
     }
 
     /// One step, shortened until it succeeds; with the tangent at its end.
@@ -114,7 +209,8 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
             if let Some(landing) = self.land(local, tangent, &inside)
                 && let Some(next) = self.turn(&landing, tangent)
             {
-                if landing.there.steps <= 2 && landing.event.is_none() {
+                let is_easy = landing.there.steps <= 2;
+                if is_easy && landing.event.is_none() {
                     self.length *= CURVE_GROWTH;
                 }
                 return Some((landing, next));
@@ -126,9 +222,7 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
 
     /// The end of a step of the current length, or the event before it.
     fn land(&mut self, local: &Local, tangent: &DVector<f64>, inside: &[usize]) -> Option<Landing> {
-        let mut predicted = self.at.clone();
-        self.system
-            .shift(&mut predicted, inside, tangent, self.length);
+        // An event that the tangent shows within the step is tried first.
         if let Some((event, distance)) = self.predicted_event(local, tangent, inside)
             && distance <= self.length
         {
@@ -138,15 +232,21 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
                 return Some(landing);
             }
         }
+
+        let mut predicted = self.at.clone();
+        self.system
+            .shift(&mut predicted, inside, tangent, self.length);
         let there = self.system.correct(&predicted, &Border::Plane(tangent))?;
         let at = &there.at;
         let Some((event, share)) = self.first_crossing(local, at, &there.local) else {
             return Some(Landing { there, event: None });
         };
+
         let near = Position {
             z: self.at.z.lerp(&at.z, share),
             s: self.at.s + share * (at.s - self.at.s),
         };
+
         self.land_on(event, &near, local)
     }
 
@@ -154,15 +254,19 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
     fn land_on(&mut self, event: Quantity, near: &Position, local: &Local) -> Option<Landing> {
         let mut there = self.system.correct(near, &Border::Zero(event))?;
         let at = &mut there.at;
-        let far = (&at.z - &self.at.z).norm() + (at.s - self.at.s).abs();
-        if far > 4.0 * self.length {
+        let way = (&at.z - &self.at.z).norm() + (at.s - self.at.s).abs();
+
+        if way > 4.0 * self.length {
             return None;
         }
+
+        // The quantity is zero exactly, not to rounding.
         match event {
             Quantity::Z(i, bound) => at.z[i] = bound,
             Quantity::S => at.s = 0.0,
             Quantity::Multiplier(_) => {}
         }
+
         match self.first_crossing(local, &there.at, &there.local) {
             Some((other, _)) if other != event => None,
             _ => Some(Landing {
@@ -175,72 +279,92 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
     /// The tangent after a landing: across an event the pair changes places; elsewhere the new
     /// tangent must be near the old one.
     fn turn(&mut self, landing: &Landing, tangent: &DVector<f64>) -> Option<DVector<f64>> {
-        let kept = self.system.places.0.clone();
-        let (index, place, quantity, sign) = match landing.event {
+        let local = &landing.there.local;
+        let change = match landing.event {
             None | Some(Quantity::S) => {
-                let known = landing
-                    .there
-                    .tangent
-                    .as_ref()
-                    .map(|v| if v.dot(tangent) < 0.0 { -v } else { v.clone() });
-                let next =
-                    known.or_else(|| self.system.tangent(&landing.there.local, tangent, 1.0))?;
+                let next = match &landing.there.tangent {
+                    Some(known) if known.dot(tangent) < 0.0 => -known,
+                    Some(known) => known.clone(),
+                    None => self.system.tangent(local, tangent, 1.0)?,
+                };
                 return (next.dot(tangent) > CURVE_ANGLE).then_some(next);
             }
-            Some(Quantity::Z(i, bound)) => {
-                // By the bound, not by the tangent: a curve that bends may come back to the bound
-                // it is leaving.
-                let is_lower = bound <= self.system.problem.problem.lower()[i];
-                (
-                    i,
-                    if is_lower { Place::Lower } else { Place::Upper },
-                    Quantity::Multiplier(i),
-                    if is_lower { 1.0 } else { -1.0 },
-                )
-            }
-            Some(Quantity::Multiplier(i)) => (
-                i,
-                Place::Inside,
-                Quantity::Z(i, 0.0),
-                if kept[i] == Place::Lower { 1.0 } else { -1.0 },
-            ),
+            Some(Quantity::Z(i, bound)) => self.change_to_bound(i, bound),
+            Some(Quantity::Multiplier(i)) => self.change_to_inside(i),
         };
-        self.system.places.0[index] = place;
-        let now = self.system.places.inside();
-        let row = self.system.row(quantity, &landing.there.local, &now);
-        let next = self.system.tangent(&landing.there.local, &row, sign);
+
+        self.change_places(&change, local)
+    }
+
+    /// z_i has met a bound: its multiplier leaves zero.
+    fn change_to_bound(&self, i: usize, bound: f64) -> PlaceChange {
+        // By the bound, not by the tangent: a curve that bends may come back to the bound it is
+        // leaving.
+        let is_lower = bound <= self.system.problem.problem.lower()[i];
+
+        PlaceChange {
+            index: i,
+            place: if is_lower { Place::Lower } else { Place::Upper },
+            leaving: Quantity::Multiplier(i),
+            sign: if is_lower { 1.0 } else { -1.0 },
+        }
+    }
+
+    /// The multiplier of z_i has vanished: z_i leaves its bound.
+    fn change_to_inside(&self, i: usize) -> PlaceChange {
+        let was_lower = self.system.places.0[i] == Place::Lower;
+        PlaceChange {
+            index: i,
+            place: Place::Inside,
+            leaving: Quantity::Z(i, 0.0),
+            sign: if was_lower { 1.0 } else { -1.0 },
+        }
+    }
+
+    /// Changes the place of an unknown; the tangent along which the quantity leaves zero. Without
+    /// one the places stay.
+    fn change_places(&mut self, change: &PlaceChange, local: &Local) -> Option<DVector<f64>> {
+        let place_before = replace(&mut self.system.places.0[change.index], change.place);
+        let inside = self.system.places.inside();
+        let row = self.system.row(change.leaving, local, &inside);
+        let next = self.system.tangent(local, &row, change.sign);
+
         if next.is_none() {
-            self.system.places.0 = kept;
+            self.system.places.0[change.index] = place_before;
         }
         next
     }
 
-    /// The quantities that must keep their sign: each with +1 if it must stay positive.
-    fn guarded(&self) -> Vec<(Quantity, f64)> {
-        let (l, u) = (
-            self.system.problem.problem.lower(),
-            self.system.problem.problem.upper(),
-        );
-        let mut list = Vec::new();
+    /// The quantities that must keep their sign from the current position on.
+    fn guards(&self) -> Vec<Guard> {
+        let mcp = self.system.problem.problem;
+        let mut guards = Vec::new();
+
         for (i, place) in self.system.places.0.iter().enumerate() {
             match place {
                 Place::Inside => {
-                    if l[i].is_finite() {
-                        list.push((Quantity::Z(i, l[i]), 1.0));
+                    let lower = mcp.lower()[i];
+                    if lower.is_finite() {
+                        guards.push(Guard::positive(Quantity::Z(i, lower)));
                     }
-                    if u[i].is_finite() {
-                        list.push((Quantity::Z(i, u[i]), -1.0));
+                    let upper = mcp.upper()[i];
+                    if upper.is_finite() {
+                        guards.push(Guard::negative(Quantity::Z(i, upper)));
                     }
                 }
-                Place::Lower => list.push((Quantity::Multiplier(i), 1.0)),
-                Place::Upper => list.push((Quantity::Multiplier(i), -1.0)),
+                Place::Lower => guards.push(Guard::positive(Quantity::Multiplier(i))),
+                Place::Upper => guards.push(Guard::negative(Quantity::Multiplier(i))),
                 Place::Fixed => {}
             }
         }
+
         if self.at.s != 0.0 {
-            list.push((Quantity::S, self.at.s.signum()));
+            guards.push(Guard {
+                quantity: Quantity::S,
+                sign: self.at.s.signum(),
+            });
         }
-        list
+        guards
     }
 
     /// The first guarded quantity to vanish along the tangent, with its distance.
@@ -250,15 +374,18 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         tangent: &DVector<f64>,
         inside: &[usize],
     ) -> Option<(Quantity, f64)> {
-        let distance = |&(q, sign): &(Quantity, f64)| {
-            let rate = sign * self.system.row(q, local, inside).dot(tangent);
-            let value = (sign * self.system.value(q, &self.at, local)).max(0.0);
-            (rate < 0.0).then(|| (q, value / -rate))
-        };
-        self.guarded()
-            .iter()
-            .filter_map(distance)
-            .min_by(|a, b| a.1.total_cmp(&b.1))
+        let mut events = Vec::new();
+        for Guard { quantity, sign } in self.guards() {
+            let row = self.system.row(quantity, local, inside);
+            let rate = sign * row.dot(tangent);
+            let value = (sign * self.system.value(quantity, &self.at, local)).max(0.0);
+
+            if rate < 0.0 {
+                events.push((quantity, value / -rate));
+            }
+        }
+
+        least(events)
     }
 
     /// The first guarded quantity that has the wrong sign at `to`, with its share of the way.
@@ -268,24 +395,25 @@ impl<'p, 'a, P: Mcp + ?Sized> Follower<'p, 'a, P> {
         to: &Position,
         there: &Local,
     ) -> Option<(Quantity, f64)> {
-        let scale = CURVE_FEASIBLE * (1.0 + to.s.abs());
-        let share = |&(q, sign): &(Quantity, f64)| {
-            let (before, after) = (
-                sign * self.system.value(q, &self.at, local),
-                sign * self.system.value(q, to, there),
-            );
-            (after < -scale).then(|| {
-                (
-                    q,
-                    (before.max(0.0) / (before.max(0.0) - after)).clamp(0.0, 1.0),
-                )
-            })
-        };
-        self.guarded()
-            .iter()
-            .filter_map(share)
-            .min_by(|a, b| a.1.total_cmp(&b.1))
+        let tolerance = CURVE_FEASIBLE * (1.0 + to.s.abs());
+        let mut crossings = Vec::new();
+
+        for Guard { quantity, sign } in self.guards() {
+            let before = (sign * self.system.value(quantity, &self.at, local)).max(0.0);
+            let after = sign * self.system.value(quantity, to, there);
+            if after < -tolerance {
+                let share = before / (before - after);
+                crossings.push((quantity, share.clamp(0.0, 1.0)));
+            }
+        }
+
+        least(crossings)
     }
+}
+
+/// The pair with the least number, the first one of equal ones.
+fn least(pairs: Vec<(Quantity, f64)>) -> Option<(Quantity, f64)> {
+    pairs.into_iter().min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 #[cfg(test)]

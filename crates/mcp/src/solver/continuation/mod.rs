@@ -7,8 +7,10 @@
 //! changes places as in a complementary pivot. The curve turns back in s where it likes and goes on
 //! after a solution, so that one curve meets several of them.
 //!
-//! `curve` what a curve leaves, `system` the equations on the current places, `follow` predictor,
-//! corrector and events.
+//! `curve` holds what a curve leaves, `system` the equations on the current places, `follow`
+//! predictor, corrector and events. Input: a problem, a point or a solution, and how many solutions
+//! to find. Output: a [`Curve`]. Called by `newton` where the first attempt fails, and by searches
+//! for all solutions (`mceip-engine`).
 
 mod curve;
 mod follow;
@@ -17,6 +19,7 @@ mod system;
 use super::error::SolverError;
 use super::evaluation::{Evaluated, Point};
 use super::options::Options;
+use super::outcome::Counters;
 use super::tolerance::CURVE_LIFT;
 use super::validate::validate;
 use crate::mcp::Mcp;
@@ -46,14 +49,12 @@ pub fn continuation<P: Mcp + ?Sized>(
     options: &Options,
 ) -> Result<Curve, SolverError> {
     validate(problem, start, options)?;
+
     let mut evaluated = Evaluated::new(problem);
     let start = evaluated.point(&DVector::from_column_slice(start));
     let (solutions, end) = from_point(&mut evaluated, &start, sense, enough, options);
-    Ok(Curve {
-        solutions: solutions.iter().map(|z| z.as_slice().to_vec()).collect(),
-        end,
-        counters: evaluated.counters,
-    })
+
+    Ok(curve(&solutions, end, evaluated.counters))
 }
 
 /// The curve through a solution (s = 0 there) with the residual direction `r`, length n.
@@ -70,22 +71,29 @@ pub fn continuation_through<P: Mcp + ?Sized>(
 ) -> Result<Curve, SolverError> {
     validate(problem, solution, options)?;
     validate(problem, r, options)?;
+
     let mut evaluated = Evaluated::new(problem);
     let point = evaluated.point(&DVector::from_column_slice(solution));
     let places = Places::at_solution(problem, &point);
     let r = DVector::from_column_slice(r);
+    let at = Position { z: point.z, s: 0.0 };
     let system = System {
         problem: &mut evaluated,
         r,
         places,
     };
-    let (solutions, end) =
-        Follower::new(system, Position { z: point.z, s: 0.0 }, options, enough).run(sense);
-    Ok(Curve {
+
+    let (solutions, end) = Follower::new(system, at, options, enough).run(sense);
+    Ok(curve(&solutions, end, evaluated.counters))
+}
+
+/// The public form of what a curve has met.
+fn curve(solutions: &[DVector<f64>], end: CurveEnd, counters: Counters) -> Curve {
+    Curve {
         solutions: solutions.iter().map(|z| z.as_slice().to_vec()).collect(),
         end,
-        counters: evaluated.counters,
-    })
+        counters,
+    }
 }
 
 /// The curve from a point within the bounds. Multipliers at bounds are lifted off zero, so that the
@@ -100,22 +108,19 @@ pub(super) fn from_point<P: Mcp + ?Sized>(
     if start.not_finite().is_some() {
         return (Vec::new(), CurveEnd::Stuck);
     }
+
     let places = Places::at_bounds(problem.problem, &start.z);
     let lift = lift(start.f.amax());
     let r = DVector::from_fn(start.z.len(), |i, _| {
         start.f[i] - places.lifted_multiplier(i, start.f[i], lift)
     });
+    let at = Position {
+        z: start.z.clone(),
+        s: 1.0,
+    };
+
     let system = System { problem, r, places };
-    Follower::new(
-        system,
-        Position {
-            z: start.z.clone(),
-            s: 1.0,
-        },
-        options,
-        enough,
-    )
-    .run(sense)
+    Follower::new(system, at, options, enough).run(sense)
 }
 
 /// How far multipliers at bounds are lifted off zero, where F is of this size.
@@ -156,7 +161,9 @@ mod tests {
         // On [0, 2]: 1 - z has the solution 1, and the end points 0 (F = 1) and 2 (F = -1).
         let mcp = LinearMcp::new(dmatrix![-1.0], vec![1.0], vec![0.0], vec![2.0]).unwrap();
         let curve = continuation(&mcp, &[1.5], Sense::Up, 9, &Options::default()).unwrap();
+
         assert_eq!(values(&curve), vec![2.0], "{curve:?}");
+
         let curve = continuation(&mcp, &[1.5], Sense::Down, 9, &Options::default()).unwrap();
         assert_eq!(curve.solutions.len(), 2, "{curve:?}");
     }
@@ -166,10 +173,8 @@ mod tests {
         let lcp = LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap();
         for sense in [Sense::Down, Sense::Up] {
             let curve = continuation(&lcp, &[0.5], sense, 9, &Options::default()).unwrap();
-            assert!(
-                curve.solutions.is_empty() && curve.end == CurveEnd::Ray,
-                "{curve:?}"
-            );
+            assert!(curve.solutions.is_empty(), "{curve:?}");
+            assert_eq!(curve.end, CurveEnd::Ray, "{curve:?}");
         }
     }
 }

@@ -1,5 +1,14 @@
-//! The equations of a curve on the current places: F_I(z) = s r_I for the unknowns inside, and one
-//! more row that fixes a point or a direction.
+//! The equations of a curve on the current places, and one more row that fixes a point or a
+//! direction.
+//!
+//! Let I be the unknowns *inside*, strictly between their bounds; the others stay at their bounds.
+//! On a piece of the curve F_I(z) = s r_I: |I| equations for the |I| + 1 unknowns z_I and s. A
+//! *border* row makes the matrix [F'_II, -r_I; border] square: the tangent solves it for the
+//! last unit vector, Newton's step back to the curve for the residuals. The multipliers of the
+//! unknowns at bounds follow as m = F - s r.
+//!
+//! Vectors of length |I| + 1 hold z_I first, in ascending order of the indices, and s last. Called
+//! by `follow`.
 
 use super::super::evaluation::{Evaluated, Point};
 use super::super::jacobian::jacobian_at;
@@ -27,28 +36,45 @@ pub(super) struct Places(pub(super) Vec<Place>);
 impl Places {
     /// At a bound if z is exactly there.
     pub(super) fn at_bounds<P: Mcp + ?Sized>(problem: &P, z: &DVector<f64>) -> Places {
-        let (l, u) = (problem.lower(), problem.upper());
-        let place = |i: usize| match z[i] {
-            _ if l[i] == u[i] => Place::Fixed,
-            v if v <= l[i] => Place::Lower,
-            v if v >= u[i] => Place::Upper,
-            _ => Place::Inside,
-        };
-        Places((0..z.len()).map(place).collect())
+        let mut places = Vec::with_capacity(z.len());
+        for (i, &value) in z.iter().enumerate() {
+            let lower = problem.lower()[i];
+            let upper = problem.upper()[i];
+            places.push(if lower == upper {
+                Place::Fixed
+            } else if value <= lower {
+                Place::Lower
+            } else if value >= upper {
+                Place::Upper
+            } else {
+                Place::Inside
+            });
+        }
+
+        Places(places)
     }
 
     /// At a bound if z is nearer to it than F to zero: right where complementarity is strict.
     pub(super) fn at_solution<P: Mcp + ?Sized>(problem: &P, point: &Point) -> Places {
-        let (l, u) = (problem.lower(), problem.upper());
-        let place = |i: usize| match (point.z[i], point.f[i]) {
-            _ if l[i] == u[i] => Place::Fixed,
-            (z, f) if z - l[i] <= f => Place::Lower,
-            (z, f) if u[i] - z <= -f => Place::Upper,
-            _ => Place::Inside,
-        };
-        Places((0..point.z.len()).map(place).collect())
+        let mut places = Vec::with_capacity(point.z.len());
+        for (i, (&z, &f)) in point.z.iter().zip(point.f.iter()).enumerate() {
+            let lower = problem.lower()[i];
+            let upper = problem.upper()[i];
+            places.push(if lower == upper {
+                Place::Fixed
+            } else if z - lower <= f {
+                Place::Lower
+            } else if upper - z <= -f {
+                Place::Upper
+            } else {
+                Place::Inside
+            });
+        }
+
+        Places(places)
     }
 
+    /// The unknowns inside, ascending.
     pub(super) fn inside(&self) -> Vec<usize> {
         (0..self.0.len())
             .filter(|&i| self.0[i] == Place::Inside)
@@ -116,10 +142,10 @@ type Factors = nalgebra::LU<f64, nalgebra::Dyn, nalgebra::Dyn>;
 /// The unit vector along which the border, row k, grows with the sign given and the other rows
 /// stay.
 fn unit(factors: &Factors, k: usize, sign: f64) -> Option<DVector<f64>> {
-    let v = factors.solve(&DVector::from_fn(
-        k + 1,
-        |i, _| if i == k { sign } else { 0.0 },
-    ))?;
+    let mut right = DVector::zeros(k + 1);
+    right[k] = sign;
+    let v = factors.solve(&right)?;
+
     let norm = v.norm();
     (norm > 0.0 && norm.is_finite()).then(|| v / norm)
 }
@@ -127,6 +153,7 @@ fn unit(factors: &Factors, k: usize, sign: f64) -> Option<DVector<f64>> {
 /// The equations.
 pub(super) struct System<'p, 'a, P: Mcp + ?Sized> {
     pub(super) problem: &'p mut Evaluated<'a, P>,
+    /// The residual at s = 1, over all unknowns.
     pub(super) r: DVector<f64>,
     pub(super) places: Places,
 }
@@ -137,11 +164,16 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
         let point = self.problem.point(z);
         self.problem.counters.jacobians += 1;
         let jacobian = jacobian_at(self.problem.problem, point.z.as_slice());
+
+        // The point is the projection of z onto the bounds.
         let f = &point.f + &jacobian * (z - &point.z);
-        (f.iter().all(|v| v.is_finite()) && jacobian.iter().all(|v| v.is_finite()))
-            .then_some(Local { f, jacobian })
+        let mut entries = f.iter().chain(jacobian.iter());
+        let is_finite = entries.all(|value| value.is_finite());
+
+        is_finite.then_some(Local { f, jacobian })
     }
 
+    /// The value of a quantity.
     pub(super) fn value(&self, quantity: Quantity, at: &Position, local: &Local) -> f64 {
         match quantity {
             Quantity::Z(i, bound) => at.z[i] - bound,
@@ -153,30 +185,37 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
     /// Derivative of a quantity by (z_I, s).
     pub(super) fn row(&self, quantity: Quantity, local: &Local, inside: &[usize]) -> DVector<f64> {
         let k = inside.len();
+        let mut row = DVector::zeros(k + 1);
         match quantity {
             Quantity::Z(i, _) => {
-                DVector::from_fn(
-                    k + 1,
-                    |c, _| if c < k && inside[c] == i { 1.0 } else { 0.0 },
-                )
-            }
-            Quantity::Multiplier(i) => DVector::from_fn(k + 1, |c, _| {
-                if c < k {
-                    local.jacobian[(i, inside[c])]
-                } else {
-                    -self.r[i]
+                for c in 0..k {
+                    if inside[c] == i {
+                        row[c] = 1.0;
+                    }
                 }
-            }),
-            Quantity::S => DVector::from_fn(k + 1, |c, _| if c < k { 0.0 } else { 1.0 }),
+            }
+            Quantity::Multiplier(i) => {
+                for c in 0..k {
+                    row[c] = local.jacobian[(i, inside[c])];
+                }
+                row[k] = -self.r[i];
+            }
+            Quantity::S => row[k] = 1.0,
         }
+        row
     }
 
+    /// The matrix [F'_II, -r_I; border].
     fn bordered(&self, local: &Local, inside: &[usize], border: &DVector<f64>) -> DMatrix<f64> {
         let k = inside.len();
-        DMatrix::from_fn(k + 1, k + 1, |row, col| match (row < k, col < k) {
-            (true, true) => local.jacobian[(inside[row], inside[col])],
-            (true, false) => -self.r[inside[row]],
-            _ => border[col],
+        DMatrix::from_fn(k + 1, k + 1, |row, col| {
+            if row == k {
+                border[col]
+            } else if col == k {
+                -self.r[inside[row]]
+            } else {
+                local.jacobian[(inside[row], inside[col])]
+            }
         })
     }
 
@@ -188,9 +227,14 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
         sign: f64,
     ) -> Option<DVector<f64>> {
         let inside = self.places.inside();
-        let k = inside.len();
+        let factors = self.factor(local, &inside, border);
+        unit(&factors, inside.len(), sign)
+    }
+
+    /// Factors the bordered matrix, and counts it.
+    fn factor(&mut self, local: &Local, inside: &[usize], border: &DVector<f64>) -> Factors {
         self.problem.counters.factorisations += 1;
-        unit(&self.bordered(local, &inside, border).lu(), k, sign)
+        self.bordered(local, inside, border).lu()
     }
 
     /// Newton from a predicted position to the curve. The factors of a step serve the next ones
@@ -201,25 +245,17 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
         border: &Border<'_>,
     ) -> Option<Corrected> {
         let inside = self.places.inside();
-        let k = inside.len();
         let mut at = predicted.clone();
-        let (mut last, mut factors) = (f64::INFINITY, None);
+        let mut last_size = f64::INFINITY;
+        let mut factors: Option<Factors> = None;
+
         for steps in 0..=CURVE_STEPS {
             let local = self.local(&at.z)?;
-            let (row, rest) = match border {
-                Border::Plane(normal) => ((*normal).clone(), 0.0),
-                Border::Zero(q) => (self.row(*q, &local, &inside), self.value(*q, &at, &local)),
-            };
-            let right = DVector::from_fn(k + 1, |i, _| {
-                if i < k {
-                    at.s * self.r[inside[i]] - local.f[inside[i]]
-                } else {
-                    -rest
-                }
-            });
-            let size = 1.0 + at.s.abs() * self.r.amax();
-            if right.amax() <= CURVE_RESIDUAL * size {
-                let tangent = factors.as_ref().and_then(|f| unit(f, k, 1.0));
+            let right = self.negative_residual(&at, &local, &inside, border);
+            let size = right.amax();
+
+            if size <= CURVE_RESIDUAL * (1.0 + at.s.abs() * self.r.amax()) {
+                let tangent = factors.and_then(|factors| unit(&factors, inside.len(), 1.0));
                 return Some(Corrected {
                     at,
                     local,
@@ -227,27 +263,67 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
                     tangent,
                 });
             }
-            if right.amax() > 2.0 * last || steps == CURVE_STEPS {
+
+            if size > 2.0 * last_size || steps == CURVE_STEPS {
                 return None;
             }
-            if right.amax() > CURVE_KEPT * last {
+
+            if size > CURVE_KEPT * last_size {
                 factors = None;
             }
-            last = right.amax();
+
+            last_size = size;
+
             let lu = match factors.take() {
                 Some(lu) => lu,
                 None => {
-                    self.problem.counters.factorisations += 1;
-                    self.bordered(&local, &inside, &row).lu()
+                    let row = self.border_row(border, &local, &inside);
+                    self.factor(&local, &inside, &row)
                 }
             };
-            let step = lu
-                .solve(&right)
-                .filter(|v| v.iter().all(|v| v.is_finite()))?;
+
+            let step = lu.solve(&right)?;
+            if !step.iter().all(|v| v.is_finite()) {
+                return None;
+            }
+
             factors = Some(lu);
             self.shift(&mut at, &inside, &step, 1.0);
         }
         None
+    }
+
+    /// The border as a row by (z_I, s).
+    fn border_row(&self, border: &Border<'_>, local: &Local, inside: &[usize]) -> DVector<f64> {
+        match border {
+            Border::Plane(normal) => (*normal).clone(),
+            Border::Zero(quantity) => self.row(*quantity, local, inside),
+        }
+    }
+
+    /// s r_I - F_I, and minus what the border should make zero. A plane is met from the first step
+    /// on: every step stays in it.
+    fn negative_residual(
+        &self,
+        at: &Position,
+        local: &Local,
+        inside: &[usize],
+        border: &Border<'_>,
+    ) -> DVector<f64> {
+        let k = inside.len();
+        let mut right = DVector::zeros(k + 1);
+
+        for (c, &i) in inside.iter().enumerate() {
+            right[c] = at.s * self.r[i] - local.f[i];
+        }
+
+        let rest = match border {
+            Border::Plane(_) => 0.0,
+            Border::Zero(quantity) => self.value(*quantity, at, local),
+        };
+        right[k] = -rest;
+
+        right
     }
 
     /// Moves a position by `length` times a direction in (z_I, s).
@@ -261,6 +337,7 @@ impl<P: Mcp + ?Sized> System<'_, '_, P> {
         for (c, &i) in inside.iter().enumerate() {
             at.z[i] += length * direction[c];
         }
+
         at.s += length * direction[inside.len()];
     }
 }

@@ -1,12 +1,14 @@
 //! Damped Newton steps on the Fischer-Burmeister system Phi(z) = 0 before the first path (De Luca,
 //! Facchinei and Kanzow 1996, "A semismooth equation approach to the solution of nonlinear
-//! complementarity problems"), kept within the bounds. A run of them that converges costs one
-//! factorisation a step and no pivot.
+//! complementarity problems"), kept within the bounds (book, 3.4). A run of them that converges
+//! costs one factorisation a step and no pivot.
 //!
 //! Row i of an element of the generalised Jacobian is by_z e_i' + by_f F'_i; divided by by_f it is
 //! a row of F' with a term on the diagonal that grows towards the bound. Where a component is far
 //! nearer to one branch than to the other the row of the minimum map stands for it: at a bound z_i
 //! goes there exactly (and leaves the system), inside F_i + F'_i d = 0.
+//!
+//! Called by `newton` before projected Newton, which goes on where these steps do not converge.
 
 use super::super::dense::Lu;
 use super::super::evaluation::{Evaluated, Point};
@@ -16,20 +18,24 @@ use super::super::outcome::{StepKind, Termination};
 use super::super::tolerance::{
     SEMISMOOTH_GAIN, SEMISMOOTH_NEAR, SEMISMOOTH_SMALLEST, SEMISMOOTH_WINDOW,
 };
-use super::step::{search, solve_inside};
+use super::step::{InsideSystem, search};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
+use std::mem::replace;
 
 /// What the steps work with, kept from one crash to the next.
 #[derive(Default)]
 pub(in super::super) struct Storage {
     /// Rows of the system: the components that do not go to a bound.
     inside: Vec<usize>,
-    /// Of each row: the term on the diagonal, and the residual.
+    /// The term on the diagonal of each row.
     diagonal: Vec<f64>,
+    /// The residual of each row.
     residual: Vec<f64>,
     lu: Lu<f64>,
+    /// Newton's step in the components inside.
     step: Vec<f64>,
+    /// The direction in all components.
     direction: Vec<f64>,
 }
 
@@ -42,55 +48,71 @@ enum Row {
     Inside { diagonal: f64, residual: f64 },
 }
 
-/// Steps from `start`, at most `limit`, until `done`, or until there is no descent along two
-/// directions in a row, or the merit has not fallen to [`SEMISMOOTH_GAIN`] over
-/// [`SEMISMOOTH_WINDOW`] steps. Says if it is done. Never raises the merit.
+/// When the steps end at the latest.
+pub(in super::super) struct Ending<D> {
+    /// After so many steps.
+    pub(in super::super) limit: usize,
+    /// At a point of which this is true.
+    pub(in super::super) done: D,
+}
+
+/// Steps from `start` to the `ending`, or until there is no descent along two directions in a row,
+/// or the merit has not fallen to [`SEMISMOOTH_GAIN`] over [`SEMISMOOTH_WINDOW`] steps. Says if it
+/// is done. Never raises the merit.
 ///
 /// # Errors
 /// [`Termination::NonFinite`] if F' is not finite at an accepted point.
-pub(in super::super) fn semismooth<P: Mcp + ?Sized>(
+pub(in super::super) fn semismooth<P: Mcp + ?Sized, D: Fn(&Point) -> bool>(
     problem: &mut Evaluated<'_, P>,
     start: Point,
-    limit: usize,
-    done: impl Fn(&Point) -> bool,
+    ending: Ending<D>,
     storage: &mut Storage,
     log: &mut Log,
 ) -> Result<(Point, bool), Termination> {
+    let Ending { limit, done } = ending;
     let mut point = start;
-    let (mut least, mut failed) = (point.merit, false);
+    let mut least = point.merit;
+    let mut last_failed = false;
+
     // Two elements by turns: the other one after a step that had to be shortened.
     let mut near = SEMISMOOTH_NEAR;
+
     for k in 0..limit {
         if done(&point) {
             return Ok((point, true));
         }
+
         if stalls(k, point.merit, &mut least) {
             return Ok((point, false));
         }
+
         let jacobian = problem.jacobian(&point)?;
         problem.counters.factorisations += 1;
         let solved = storage.newton_direction(problem.problem, &jacobian, &point, near[0]);
         problem.recycle_matrix(jacobian);
+
         let found = if solved {
             search(problem, &point, &storage.direction, SEMISMOOTH_SMALLEST)
         } else {
             None
         };
+
         take_turns(&mut near, found.as_ref().map(|(_, length)| *length));
-        let Some((next, _)) = found else {
-            if failed {
-                break;
+
+        match found {
+            Some((next, _)) => {
+                last_failed = false;
+                problem.counters.crash_steps += 1;
+                log.step(point.merit, StepKind::FischerNewton, 0.0);
+                problem.recycle(replace(&mut point, next));
             }
-            failed = true;
-            continue;
-        };
-        failed = false;
-        problem.counters.crash_steps += 1;
-        log.step(point.merit, StepKind::FischerNewton, 0.0);
-        problem.recycle(std::mem::replace(&mut point, next));
+            None if last_failed => break,
+            None => last_failed = true,
+        }
     }
-    let ended = done(&point);
-    Ok((point, ended))
+
+    let is_done = done(&point);
+    Ok((point, is_done))
 }
 
 /// At the end of each window of steps: is the merit still above [`SEMISMOOTH_GAIN`] times that of
@@ -99,7 +121,8 @@ fn stalls(step: usize, merit: f64, least: &mut f64) -> bool {
     if step == 0 || !step.is_multiple_of(SEMISMOOTH_WINDOW) {
         return false;
     }
-    merit > SEMISMOOTH_GAIN * std::mem::replace(least, merit)
+
+    merit > SEMISMOOTH_GAIN * replace(least, merit)
 }
 
 /// The other element comes first after a step that was not of full length, or none.
@@ -112,22 +135,27 @@ fn take_turns(near: &mut [f64; 2], length: Option<f64>) {
 /// The row for a component at z with F_i = f in [l, u]; the branches are told apart where one is
 /// `near` times as far away as the other.
 fn row(z: f64, f: f64, l: f64, u: f64, near: f64) -> Row {
-    let (below, above) = (z - l, u - z);
     if l == u {
         return Row::Bound(0.0);
     }
+
+    let below = z - l;
+    let above = u - z;
     if f > 0.0 && below <= near * f {
         return Row::Bound(-below);
     }
+
     if f < 0.0 && above <= -near * f {
         return Row::Bound(above);
     }
+
     if f.abs() <= near * below.min(above) {
         return Row::Inside {
             diagonal: 0.0,
             residual: f,
         };
     }
+
     let phi = fischer(z, f, l, u);
     Row::Inside {
         diagonal: phi.by_z / phi.by_f,
@@ -145,32 +173,24 @@ impl Storage {
         near: f64,
     ) -> bool {
         self.take_rows(problem, point, near);
-        let Storage {
-            inside,
-            diagonal,
-            residual,
-            lu,
-            step,
-            direction,
-        } = self;
-        for (j, moved) in direction
-            .iter()
-            .enumerate()
-            .filter(|(_, moved)| **moved != 0.0)
-        {
-            let column = jacobian.column(j);
-            inside
-                .iter()
-                .zip(residual.iter_mut())
-                .for_each(|(&i, r)| *r += column[i] * moved);
-        }
-        if !solve_inside(lu, step, jacobian, inside, |j| diagonal[j], |r| residual[r]) {
+        self.move_bounded(jacobian);
+
+        let diagonal = &self.diagonal;
+        let residual = &self.residual;
+        let system = InsideSystem {
+            jacobian,
+            inside: &self.inside,
+            diagonal: |j: usize| diagonal[j],
+            residual: |row: usize| residual[row],
+        };
+
+        if !system.solve(&mut self.lu, &mut self.step) {
             return false;
         }
-        inside
-            .iter()
-            .zip(step.iter())
-            .for_each(|(&i, v)| direction[i] = *v);
+
+        for (&i, value) in self.inside.iter().zip(&self.step) {
+            self.direction[i] = *value;
+        }
         true
     }
 
@@ -180,6 +200,7 @@ impl Storage {
         self.diagonal.clear();
         self.residual.clear();
         self.direction.clear();
+
         let bounds = problem.lower().iter().zip(problem.upper());
         for (i, (&l, &u)) in bounds.enumerate() {
             let to_bound = match row(point.z[i], point.f[i], l, u, near) {
@@ -191,7 +212,22 @@ impl Storage {
                     0.0
                 }
             };
+
             self.direction.push(to_bound);
+        }
+    }
+
+    /// Adds to the residuals what the components that go to their bounds change in F.
+    fn move_bounded(&mut self, jacobian: &DMatrix<f64>) {
+        for (j, moved) in self.direction.iter().enumerate() {
+            if *moved == 0.0 {
+                continue;
+            }
+
+            let column = jacobian.column(j);
+            for (&i, residual) in self.inside.iter().zip(&mut self.residual) {
+                *residual += column[i] * moved;
+            }
         }
     }
 }
@@ -207,26 +243,25 @@ mod tests {
     fn crashed(p: &LinearMcp, start: &[f64]) -> (Point, bool, usize) {
         let mut problem = Evaluated::new(p);
         let start = problem.point(&DVector::from_column_slice(start));
-        let (merit, mut log) = (start.merit, Log::default());
-        let done = |point: &Point| point.merit < 1e-24;
-        let (point, ended) = semismooth(
-            &mut problem,
-            start,
-            50,
-            done,
-            &mut Storage::default(),
-            &mut log,
-        )
-        .unwrap();
-        assert!(
-            point.merit <= merit
-                && log
-                    .records()
-                    .iter()
-                    .all(|record| record.step == StepKind::FischerNewton)
-        );
-        assert_eq!(log.records().len(), problem.counters.crash_steps);
+        let merit = start.merit;
+        let ending = Ending {
+            limit: 50,
+            done: |point: &Point| point.merit < 1e-24,
+        };
+
+        let mut storage = Storage::default();
+        let mut log = Log::default();
+        let (point, ended) =
+            semismooth(&mut problem, start, ending, &mut storage, &mut log).unwrap();
+
+        assert!(point.merit <= merit);
+
+        let records = log.records();
+        let is_newton = |kind: StepKind| kind == StepKind::FischerNewton;
+        assert!(records.iter().all(|record| is_newton(record.step)));
+        assert_eq!(records.len(), problem.counters.crash_steps);
         assert!(problem.counters.factorisations >= problem.counters.crash_steps);
+
         (point, ended, problem.counters.factorisations)
     }
 
@@ -246,14 +281,11 @@ mod tests {
             &LinearMcp::lcp(murty, vec![-1.0; n]).unwrap(),
             &vec![1.0; n],
         );
-        assert!(
-            ended && factorisations < 30,
-            "{factorisations} {}",
-            point.merit
-        );
-        assert!(
-            point.z.iter().take(n - 1).all(|v| *v == 0.0) && (point.z[n - 1] - 1.0).abs() < 1e-12
-        );
+
+        assert!(ended, "{factorisations} {}", point.merit);
+        assert!(factorisations < 30, "{factorisations} {}", point.merit);
+        assert!(point.z.iter().take(n - 1).all(|v| *v == 0.0));
+        assert!((point.z[n - 1] - 1.0).abs() < 1e-12);
     }
 
     /// Below, inside, above, fixed and free: z = (0, 1, 2, 5, 3) of F = z - (-1, 1, 4, 0, 3).
@@ -267,6 +299,7 @@ mod tests {
             vec![INF, 2.0, 2.0, 5.0, INF],
         )
         .unwrap();
+
         for start in [
             [0.0, 0.0, 0.0, 5.0, 0.0],
             [3.0, 2.0, 2.0, 5.0, -9.0],
@@ -285,16 +318,14 @@ mod tests {
     fn poor_progress_ends_it() {
         let (point, ended, factorisations) =
             crashed(&LinearMcp::lcp(dmatrix![-1.0], vec![-1.0]).unwrap(), &[3.0]);
-        assert!(
-            !ended && point.merit > 0.4 && factorisations <= 3 * SEMISMOOTH_WINDOW,
-            "{factorisations}"
-        );
+        assert!(!ended, "{factorisations}");
+        assert!(point.merit > 0.4, "{factorisations}");
+        assert!(factorisations <= 3 * SEMISMOOTH_WINDOW, "{factorisations}");
+
         let (_, ended, factorisations) =
             crashed(&LinearMcp::lcp(dmatrix![0.0], vec![-1.0]).unwrap(), &[0.0]);
-        assert!(
-            !ended && factorisations <= 2 * SEMISMOOTH_WINDOW,
-            "{factorisations}"
-        );
+        assert!(!ended, "{factorisations}");
+        assert!(factorisations <= 2 * SEMISMOOTH_WINDOW, "{factorisations}");
     }
 
     /// The derivative of what Newton solves: -diagonal and residual against the function and its
@@ -318,6 +349,7 @@ mod tests {
                 residual: 9.0
             }
         );
+
         // At a bound with F = 0: F may change sign, so that the row stays.
         assert_eq!(
             row(0.0, 0.0, 0.0, INF, 0.5),
@@ -326,11 +358,15 @@ mod tests {
                 residual: 0.0
             }
         );
+
         // phi(3, 4) = -2, by_z = 3/5 - 1, by_f = 4/5 - 1.
         let Row::Inside { diagonal, residual } = row(3.0, 4.0, 0.0, INF, 0.5) else {
             panic!()
         };
-        assert!((diagonal - 2.0).abs() < 1e-14 && (residual - 10.0).abs() < 1e-13);
+
+        assert!((diagonal - 2.0).abs() < 1e-14);
+        assert!((residual - 10.0).abs() < 1e-13);
+
         // Pointing out of the bound: never to the bound.
         assert!(matches!(row(0.0, -1.0, 0.0, INF, 1.0), Row::Inside { .. }));
         assert!(matches!(row(2.0, 0.0, -INF, 2.0, 0.5), Row::Inside { .. }));
@@ -340,21 +376,18 @@ mod tests {
     #[test]
     fn branches_are_told_apart_by_near() {
         let is_bound = |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Bound(_));
-        assert!(
-            is_bound(0.5, 2.0)
-                && !is_bound(0.5, 1.9)
-                && is_bound(7.5, -2.0)
-                && !is_bound(7.5, -1.9)
-        );
+        assert!(is_bound(0.5, 2.0));
+        assert!(!is_bound(0.5, 1.9));
+        assert!(is_bound(7.5, -2.0));
+        assert!(!is_bound(7.5, -1.9));
+
         let is_free =
             |z: f64, f: f64| matches!(row(z, f, 0.0, 8.0, 0.25), Row::Inside { diagonal: 0.0, .. });
-        assert!(
-            is_free(2.0, 0.5)
-                && !is_free(2.0, 0.6)
-                && is_free(6.0, -0.5)
-                && !is_free(6.0, -0.6)
-                && !is_free(0.2, 0.15)
-        );
+        assert!(is_free(2.0, 0.5));
+        assert!(!is_free(2.0, 0.6));
+        assert!(is_free(6.0, -0.5));
+        assert!(!is_free(6.0, -0.6));
+        assert!(!is_free(0.2, 0.15));
     }
 
     #[test]
@@ -369,6 +402,7 @@ mod tests {
             at(SEMISMOOTH_WINDOW, 8.0 * SEMISMOOTH_GAIN),
             (false, 8.0 * SEMISMOOTH_GAIN)
         );
+
         let above = 1.01 * SEMISMOOTH_GAIN * 8.0 * SEMISMOOTH_GAIN;
         assert_eq!(
             at(SEMISMOOTH_WINDOW + 1, 9.0),
@@ -384,15 +418,11 @@ mod tests {
             take_turns(&mut near, length);
             near[0]
         };
-        assert_eq!(
-            [
-                after(Some(1.0)),
-                after(Some(0.5)),
-                after(Some(1.0)),
-                after(None)
-            ],
-            [1.0, 2.0, 2.0, 1.0]
-        );
+
+        assert_eq!(after(Some(1.0)), 1.0);
+        assert_eq!(after(Some(0.5)), 2.0);
+        assert_eq!(after(Some(1.0)), 2.0);
+        assert_eq!(after(None), 1.0);
     }
 
     /// z_0 goes to its bound, and what that adds to F_1 is in the right-hand side: 9 - 3/4 + 4 d =
@@ -412,6 +442,7 @@ mod tests {
             merit: 1.0,
         };
         let mut storage = Storage::default();
+
         assert!(storage.newton_direction(&p, &dmatrix![2.0, 1.0; 3.0, 4.0], &point, 0.5));
         assert_eq!(storage.direction, [-0.25, -8.25 / 4.0]);
     }

@@ -1,5 +1,5 @@
 //! One step of a crash: the linear system over the components inside, and the way back along the
-//! projected arc until the merit falls.
+//! projected arc until the merit falls. Used by both kinds of crash.
 
 use super::super::dense::Lu;
 use super::super::evaluation::{Evaluated, Point};
@@ -7,32 +7,46 @@ use super::super::tolerance::{ARMIJO, BACKTRACK};
 use crate::mcp::Mcp;
 use nalgebra::DMatrix;
 
-/// Solves (F'_II + diagonal) d = -residual over the components `inside` into `step`; says if there
-/// is a solution.
-pub(super) fn solve_inside(
-    lu: &mut Lu<f64>,
-    step: &mut Vec<f64>,
-    jacobian: &DMatrix<f64>,
-    inside: &[usize],
-    diagonal: impl Fn(usize) -> f64,
-    residual: impl Fn(usize) -> f64,
-) -> bool {
-    let gather = |j: usize, rows: &[usize], out: &mut [f64]| {
-        let column = jacobian.column(inside[j]);
-        let entry = |r: usize| column[inside[r]] + if r == j { diagonal(j) } else { 0.0 };
-        rows.iter().zip(out).for_each(|(&r, o)| *o = entry(r));
-    };
-    if !lu.factor(inside.len(), gather, |_| 0.0) {
-        return false;
-    }
-    step.clear();
-    step.extend(lu.rows().iter().map(|&r| -residual(r)));
-    lu.solve(step);
-    step.iter().all(|v| v.is_finite())
+/// The system (F'_II + D) d = -g over the components I that do not go to a bound.
+pub(super) struct InsideSystem<'a, D, G> {
+    /// F', n x n.
+    pub(super) jacobian: &'a DMatrix<f64>,
+    /// The components I.
+    pub(super) inside: &'a [usize],
+    /// The diagonal of D, by places in I.
+    pub(super) diagonal: D,
+    /// The vector g, by places in I.
+    pub(super) residual: G,
 }
 
-/// Back along the projected arc, no further than to `smallest`, until the merit falls; with the
-/// length of the step.
+impl<D: Fn(usize) -> f64, G: Fn(usize) -> f64> InsideSystem<'_, D, G> {
+    /// Solves the system into `step`, by places in I; says if there is a finite solution.
+    pub(super) fn solve(&self, lu: &mut Lu<f64>, step: &mut Vec<f64>) -> bool {
+        let order = self.inside.len();
+        let is_regular = lu.factor(order, |j, rows, out| self.column(j, rows, out), |_| 0.0);
+        if !is_regular {
+            return false;
+        }
+
+        step.clear();
+        step.extend(lu.rows().iter().map(|&row| -(self.residual)(row)));
+        lu.solve(step);
+
+        step.iter().all(|value| value.is_finite())
+    }
+
+    /// Writes the given rows of column j of the matrix.
+    fn column(&self, j: usize, rows: &[usize], out: &mut [f64]) {
+        let column = self.jacobian.column(self.inside[j]);
+        for (&row, entry) in rows.iter().zip(out) {
+            let added = if row == j { (self.diagonal)(j) } else { 0.0 };
+            *entry = column[self.inside[row]] + added;
+        }
+    }
+}
+
+/// Back along the projected arc pi(z + a d), from a = 1 to no less than `smallest`, until the merit
+/// falls by Armijo's rule; with the length a of the step.
 pub(super) fn search<P: Mcp + ?Sized>(
     problem: &mut Evaluated<'_, P>,
     point: &Point,
@@ -42,9 +56,11 @@ pub(super) fn search<P: Mcp + ?Sized>(
     let mut step = 1.0;
     while step >= smallest {
         let next = problem.point_with(|i| point.z[i] + direction[i] * step);
-        if next.merit <= (1.0 - ARMIJO * step) * point.merit && next.merit < point.merit {
+        let keeps_promise = next.merit <= (1.0 - ARMIJO * step) * point.merit;
+        if keeps_promise && next.merit < point.merit {
             return Some((next, step));
         }
+
         problem.recycle(next);
         step *= BACKTRACK;
     }

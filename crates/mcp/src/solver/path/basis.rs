@@ -1,15 +1,22 @@
 //! The basis of the linear subproblem: which unknown stands in which place, its factors, and the
 //! product form of what was exchanged since.
+//!
+//! Let B_k be the basis factored last. Each exchange since then has put a column a in a place p;
+//! with e = B^-1 a, B before it, the new basis is B E, where E is the identity with e in column p.
+//! So B^-1 b is found from the factors of B_k and one step for each exchange. Called by `tableau`,
+//! and by the ratio test for the lexicographic rows.
 
-use super::super::dense::dot;
+use super::super::dense::{dot, subtract};
 use super::super::number::Number;
 use super::super::tolerance::REFACTOR_EVERY;
 use super::columns::Columns;
-use super::factor::Factor;
+use super::factor::{Factor, Repair};
 use super::variable::Variable;
+use std::mem::replace;
 
 /// A regular basis B = B_k E_1 ... E_m: factors of B_k, and one column of each exchange since.
 pub(super) struct Basis<T> {
+    /// The basic unknown in each place.
     pub(super) variables: Vec<Variable>,
     factor: Factor<T>,
     /// Columns B^-1 a of the unknowns that came in, one after the other, each of length n.
@@ -27,16 +34,15 @@ pub(super) struct Basis<T> {
 
 impl<T> Default for Basis<T> {
     fn default() -> Self {
-        let none = Vec::new;
         Basis {
             variables: Vec::new(),
             factor: Factor::default(),
-            exchanged: none(),
+            exchanged: Vec::new(),
             places: Vec::new(),
             first: Vec::new(),
             refreshed: 0,
-            work: none(),
-            row: none(),
+            work: Vec::new(),
+            row: Vec::new(),
         }
     }
 }
@@ -48,20 +54,23 @@ impl<T: Number> Basis<T> {
         self.refreshed = 0;
         self.forget();
         self.first.clone_from(&self.variables);
+
         self.factor.factor(columns, &self.variables)
     }
 
     /// Places whose columns depend on others, each with the row whose unit column may replace it.
-    pub(super) fn repairs(&self) -> &[(usize, usize)] {
+    pub(super) fn repairs(&self) -> &[Repair] {
         self.factor.repairs()
     }
 
     /// B^-1 a.
     pub(super) fn solve(&mut self, a: &[T], x: &mut [T]) {
-        self.factor.solve(a, x, &mut self.work);
         let n = x.len();
+        self.factor.solve(a, x, &mut self.work);
+
         for (k, &place) in self.places.iter().enumerate() {
-            exchange(x, place, &self.exchanged[k * n..(k + 1) * n]);
+            let column = &self.exchanged[k * n..(k + 1) * n];
+            exchange(x, place, column);
         }
     }
 
@@ -76,30 +85,37 @@ impl<T: Number> Basis<T> {
         out.clear();
         out.resize(n, T::zero());
         out[place] = T::one();
+
+        // The row of (E_1 ... E_m)^-1: from the last exchange to the first.
         for (k, &p) in self.places.iter().enumerate().rev() {
             let column = &self.exchanged[k * n..(k + 1) * n];
-            let value = std::mem::replace(&mut out[p], T::zero());
+            let value = replace(&mut out[p], T::zero());
             out[p] = (value - dot(out, column)) / column[p].clone();
         }
+
+        // Times B_k^-1 B_0, which is the identity unless the basis was factored afresh.
         if self.refreshed > 0 {
-            // Else B_k is B_0.
             self.row.resize(n, T::zero());
             self.factor
                 .solve_transposed(out, &mut self.row, &mut self.work);
-            let along = |variable: &Variable| match columns.unit(*variable) {
-                Some((row, true)) => self.row[row].clone(),
-                Some((row, false)) => -self.row[row].clone(),
-                None => dot(&self.row, columns.dense(*variable)),
-            };
-            out.iter_mut()
-                .zip(&self.first)
-                .for_each(|(o, v)| *o = along(v));
+            for (entry, &variable) in out.iter_mut().zip(&self.first) {
+                *entry = self.times_row(columns, variable);
+            }
         }
-        let unperturbed = |v: &Variable| matches!(v, Variable::Artificial(_));
-        out.iter_mut()
-            .zip(&self.first)
-            .filter(|(_, v)| unperturbed(v))
-            .for_each(|(o, _)| *o = T::zero());
+
+        for (entry, variable) in out.iter_mut().zip(&self.first) {
+            if matches!(variable, Variable::Artificial(_)) {
+                *entry = T::zero();
+            }
+        }
+    }
+
+    /// The product of the row with the column of an unknown.
+    fn times_row(&self, columns: &Columns<'_, T>, variable: Variable) -> T {
+        match columns.unit(variable) {
+            Some(unit) => unit.times(&self.row[unit.row]),
+            None => dot(&self.row, columns.dense(variable)),
+        }
     }
 
     /// Is it time to factorise afresh whatever the accuracy?
@@ -121,6 +137,7 @@ impl<T: Number> Basis<T> {
         self.factor.factor(columns, &self.variables)
     }
 
+    /// Drops the exchanges.
     fn forget(&mut self) {
         self.exchanged.clear();
         self.places.clear();
@@ -130,7 +147,7 @@ impl<T: Number> Basis<T> {
 /// x becomes E^-1 x, E the identity with `column` in `place`.
 fn exchange<T: Number>(x: &mut [T], place: usize, column: &[T]) {
     let value = x[place].clone() / column[place].clone();
-    super::super::dense::subtract(x, &value, column);
+    subtract(x, &value, column);
     x[place] = value;
 }
 
@@ -157,16 +174,25 @@ mod tests {
             variables: vec![Variable::W(0), Variable::W(1)],
             ..Basis::default()
         };
+
         assert!(basis.begin(&columns));
-        let (mut column, mut row, mut x) = (vec![0.0; 2], Vec::new(), vec![0.0; 2]);
+
+        let mut column = vec![0.0; 2];
+        let mut row = Vec::new();
+        let mut x = vec![0.0; 2];
         basis.perturbation(&columns, 1, &mut row);
+
         assert_eq!(row, [0.0, 1.0]);
+
         basis.solve(columns.dense(Variable::Z(1)), &mut column);
         basis.replace(1, Variable::Z(1), &column);
         basis.solve(&[5.0, -7.0], &mut x);
-        let (updated, mut updated_row) = (x.clone(), Vec::new());
+        let updated = x.clone();
+        let mut updated_row = Vec::new();
         basis.perturbation(&columns, 1, &mut updated_row);
+
         assert!(basis.refactor(&columns));
+
         basis.solve(&[5.0, -7.0], &mut x);
         basis.perturbation(&columns, 1, &mut row);
         for (a, b) in updated.iter().chain(&updated_row).zip(x.iter().chain(&row)) {
@@ -175,6 +201,7 @@ mod tests {
                 "{updated:?} {updated_row:?} {x:?} {row:?}"
             );
         }
+
         assert_eq!(updated_row, [0.0, -1.0 / 3.0]);
     }
 
@@ -194,10 +221,14 @@ mod tests {
             variables: vec![Variable::W(0), Variable::W(1)],
             ..Basis::default()
         };
+
         assert!(basis.begin(&columns));
-        let (mut given, mut column) = (Vec::new(), vec![0.0; 2]);
+
+        let mut given = Vec::new();
+        let mut column = vec![0.0; 2];
         for k in 0..REFACTOR_EVERY {
             assert!(!basis.is_stale(), "{k}");
+
             let entering = if k % 2 == 0 {
                 Variable::Z(1)
             } else {
@@ -207,6 +238,9 @@ mod tests {
             basis.solve(&given, &mut column);
             basis.replace(1, entering, &column);
         }
-        assert!(basis.is_stale() && basis.refactor(&columns) && !basis.is_stale());
+
+        assert!(basis.is_stale());
+        assert!(basis.refactor(&columns));
+        assert!(!basis.is_stale());
     }
 }

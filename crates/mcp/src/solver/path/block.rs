@@ -3,7 +3,7 @@
 /// What stops the moving unknown.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Block<T> {
-    /// How far it gets.
+    /// How far the moving unknown gets.
     pub(super) step: T,
     /// Place of the basic unknown that stops it; `None` if it reaches its own bound.
     pub(super) place: Option<usize>,

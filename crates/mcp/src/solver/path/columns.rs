@@ -1,4 +1,8 @@
 //! The columns of M z - w + v + D a - t r = -(q + r): unit columns, those of M, and that of t.
+//!
+//! A [`Frame`] holds what belongs to one path: the column of t, the right-hand side, the rows of
+//! the artificials, and the sizes by which rounding is judged. [`Columns`] shows it together with
+//! the subproblem as one matrix. Read by `factor`, `basis` and `tableau`.
 
 use super::super::number::Number;
 use super::subproblem::Subproblem;
@@ -36,29 +40,52 @@ pub(super) struct Columns<'a, T: Number> {
     frame: &'a Frame<T>,
 }
 
+/// A column with one entry, 1 or -1.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Unit {
+    pub(super) row: usize,
+    /// Is the entry 1?
+    pub(super) is_positive: bool,
+}
+
+impl Unit {
+    /// The entry times a value.
+    pub(super) fn times<T: Number>(self, value: &T) -> T {
+        if self.is_positive {
+            value.clone()
+        } else {
+            -value.clone()
+        }
+    }
+}
+
 impl<T: Number> Frame<T> {
     /// A path of `sub` that begins at (z, multiplier), so that r = multiplier - M z - q; no
     /// artificials.
     pub(super) fn set(&mut self, sub: &Subproblem<'_, T>, z: &[T], multiplier: &[T]) {
         let n = z.len();
         sub.value(z, &mut self.covering);
-        self.covering
-            .iter_mut()
-            .zip(multiplier)
-            .for_each(|(c, m)| *c -= m.clone());
+
+        for (residual, multiplier) in self.covering.iter_mut().zip(multiplier) {
+            *residual -= multiplier.clone();
+        }
+
         self.right.clear();
-        self.right.extend(
-            self.covering
-                .iter()
-                .zip(sub.q)
-                .map(|(c, q)| c.clone() - q.clone()),
-        );
+        for (residual, q) in self.covering.iter().zip(sub.q) {
+            self.right.push(residual.clone() - q.clone());
+        }
+
         self.artificial_row.clear();
         self.artificial_row.resize(n, None);
+
         self.sizes.clear();
-        self.sizes.extend((0..n).map(|i| T::largest(sub.column(i))));
-        self.sizes.push(T::largest(&self.covering));
-        self.scale = Some(T::largest(sub.q) + self.sizes[n].clone());
+        for j in 0..n {
+            self.sizes.push(T::largest(sub.column(j)));
+        }
+
+        let covering_size = T::largest(&self.covering);
+        self.scale = Some(T::largest(sub.q) + covering_size.clone());
+        self.sizes.push(covering_size);
     }
 
     /// Gives z_i an artificial whose column is the unit vector of a row.
@@ -66,18 +93,28 @@ impl<T: Number> Frame<T> {
         self.artificial_row[i] = Some(row);
     }
 
+    /// All columns of the path of `sub`.
     pub(super) fn columns<'a>(&'a self, sub: &'a Subproblem<'a, T>) -> Columns<'a, T> {
         Columns { sub, frame: self }
     }
 }
 
 impl<'a, T: Number> Columns<'a, T> {
-    /// Row and sign of a unit column; `None` for z and t.
-    pub(super) fn unit(&self, variable: Variable) -> Option<(usize, bool)> {
+    /// The unit column of a multiplier or an artificial; `None` for z and t.
+    pub(super) fn unit(&self, variable: Variable) -> Option<Unit> {
         match variable {
-            Variable::W(i) => Some((i, false)),
-            Variable::V(i) => Some((i, true)),
-            Variable::Artificial(i) => Some((self.frame.artificial_row[i].unwrap_or(i), true)),
+            Variable::W(i) => Some(Unit {
+                row: i,
+                is_positive: false,
+            }),
+            Variable::V(i) => Some(Unit {
+                row: i,
+                is_positive: true,
+            }),
+            Variable::Artificial(i) => Some(Unit {
+                row: self.frame.artificial_row[i].unwrap_or(i),
+                is_positive: true,
+            }),
             Variable::Z(_) | Variable::T => None,
         }
     }
@@ -95,9 +132,9 @@ impl<'a, T: Number> Columns<'a, T> {
         out.clear();
         match self.unit(variable) {
             None => out.extend_from_slice(self.dense(variable)),
-            Some((row, positive)) => {
+            Some(unit) => {
                 out.resize(self.frame.covering.len(), T::zero());
-                out[row] = if positive { T::one() } else { -T::one() };
+                out[unit.row] = unit.times(&T::one());
             }
         }
     }
@@ -139,27 +176,26 @@ mod tests {
         };
         let mut frame = Frame::default();
         frame.set(&sub, &[5.0, 1.0], &[6.0, 0.5]);
+
         // M z + q = (2, 12), so that r = (4, -11.5).
         frame.add_artificial(0, 1);
         let columns = frame.columns(&sub);
-        assert_eq!(
-            (columns.dense(Variable::T), columns.right()),
-            (&[-4.0, 11.5][..], &[-3.0, 7.5][..])
-        );
+
+        assert_eq!(columns.dense(Variable::T), &[-4.0, 11.5][..]);
+        assert_eq!(columns.right(), &[-3.0, 7.5][..]);
+
         let written = |variable: Variable| {
             let mut out = vec![9.0; 5];
             columns.write(variable, &mut out);
             (out, columns.size(variable))
         };
-        assert_eq!(
-            [written(Variable::Z(0)), written(Variable::Z(1))],
-            [(vec![2.0, 1.0], 2.0), (vec![-7.0, 3.0], 7.0)]
-        );
+
+        assert_eq!(written(Variable::Z(0)), (vec![2.0, 1.0], 2.0));
+        assert_eq!(written(Variable::Z(1)), (vec![-7.0, 3.0], 7.0));
         assert_eq!(written(Variable::T), (vec![-4.0, 11.5], 11.5));
-        assert_eq!(
-            [written(Variable::W(1)), written(Variable::V(1))],
-            [(vec![0.0, -1.0], 1.0), (vec![0.0, 1.0], 1.0)]
-        );
+        assert_eq!(written(Variable::W(1)), (vec![0.0, -1.0], 1.0));
+        assert_eq!(written(Variable::V(1)), (vec![0.0, 1.0], 1.0));
+
         // An artificial has its row, or else that of its own unknown.
         assert_eq!(written(Variable::Artificial(0)), (vec![0.0, 1.0], 1.0));
         assert_eq!(written(Variable::Artificial(1)), (vec![0.0, 1.0], 1.0));

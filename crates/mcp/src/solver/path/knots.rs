@@ -1,10 +1,13 @@
-//! The breakpoints of a path, one after the other in storage that is kept.
+//! The breakpoints of a path, one after the other in storage that is kept. The path is linear
+//! between them. Written by `walk`, read through `record`.
 
 /// t, z and the multipliers w - v at each breakpoint.
 #[derive(Debug, Clone)]
 pub(in super::super) struct Knots<T = f64> {
+    /// Number of unknowns.
     n: usize,
     t: Vec<T>,
+    /// The points, one after the other.
     z: Vec<T>,
     #[cfg(test)]
     multiplier: Vec<T>,
@@ -53,13 +56,15 @@ impl<T: Clone> Knots<T> {
 
     /// z at a breakpoint.
     pub(in super::super) fn z(&self, k: usize) -> &[T] {
-        &self.z[k * self.n..(k + 1) * self.n]
+        let begin = k * self.n;
+        &self.z[begin..begin + self.n]
     }
 
     /// w - v at a breakpoint.
     #[cfg(test)]
     pub(super) fn multiplier(&self, k: usize) -> &[T] {
-        &self.multiplier[k * self.n..(k + 1) * self.n]
+        let begin = k * self.n;
+        &self.multiplier[begin..begin + self.n]
     }
 
     /// Puts the last breakpoint at t.

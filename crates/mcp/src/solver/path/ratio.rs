@@ -1,5 +1,12 @@
-//! The ratio test: which unknown stops the moving one. Ties are decided lexicographically, or, as
-//! in PATH itself, for the largest pivot within bounds that widen a little with every pivot.
+//! The ratio test: which unknown stops the moving one.
+//!
+//! While the moving unknown grows by s, the basic values change to value + s rate. The first of
+//! them to reach a bound, at s = (bound - value) / rate, leaves the basis; or the moving unknown
+//! reaches its own other bound; or nothing stops it and the path ends on a ray. Ties are decided
+//! lexicographically, or, as in PATH itself, for the largest pivot within bounds that widen a
+//! little with every pivot.
+//!
+//! Input: a tableau whose rates are set. Output: a [`Block`]. Called by `walk`.
 
 use super::super::number::Number;
 use super::super::options::RatioTest;
@@ -8,6 +15,7 @@ use super::block::Block;
 use super::tableau::Tableau;
 use super::variable::Variable;
 use std::cmp::Ordering;
+use std::mem::{swap, take};
 
 /// The first bound met when basic values change at the state's rates, or `None` on a ray; `pivots`
 /// were made before. Only places whose pivot is large enough can block. t reaching 1 goes before
@@ -17,13 +25,14 @@ pub(super) fn ratio_test<T: Number>(
     rule: RatioTest,
     pivots: usize,
 ) -> Option<Block<T>> {
-    let mut blocks = std::mem::take(&mut tableau.state.blocks);
+    let mut blocks = take(&mut tableau.state.blocks);
     list_blocks(tableau, &mut blocks);
     let first = match rule {
         RatioTest::Lexicographic => lexicographic_test(tableau, &blocks),
         RatioTest::Expand => expand_test(tableau, &blocks, pivots),
     };
     tableau.state.blocks = blocks;
+
     first
 }
 
@@ -36,28 +45,35 @@ fn lexicographic_test<T: Number>(
     let least = blocks.iter().map(|b| b.step.clone()).reduce(T::smaller)?;
     let tie = least.clone() + T::tolerance(TIE) * (T::one() + least);
     let mut tied = blocks.iter().filter(|b| b.step <= tie);
+
     let mut best = tied.next()?;
-    let [mut row, mut other] = std::mem::take(&mut tableau.state.rows);
-    let mut is_known = false; // is `row` that of `best`?
+    let [mut best_row, mut other_row] = take(&mut tableau.state.rows);
+    let mut best_row_is_known = false;
+
     for block in tied {
-        let mut compared = false;
-        let order = rank(tableau, block)
-            .cmp(&rank(tableau, best))
-            .then_with(|| {
-                if !is_known {
-                    perturbed_step(tableau, best, &mut row);
-                }
-                (is_known, compared) = (true, true);
-                perturbed_step(tableau, block, &mut other);
-                lexicographic(&other, &row)
-            });
-        if order == Ordering::Less {
-            is_known = compared;
+        match rank(tableau, block).cmp(&rank(tableau, best)) {
+            Ordering::Less => {
+                best = block;
+                best_row_is_known = false;
+                continue;
+            }
+            Ordering::Greater => continue,
+            Ordering::Equal => {}
+        }
+
+        if !best_row_is_known {
+            perturbed_step(tableau, best, &mut best_row);
+            best_row_is_known = true;
+        }
+
+        perturbed_step(tableau, block, &mut other_row);
+        if lexicographic(&other_row, &best_row) == Ordering::Less {
             best = block;
-            std::mem::swap(&mut row, &mut other);
+            swap(&mut best_row, &mut other_row);
         }
     }
-    tableau.state.rows = [row, other];
+
+    tableau.state.rows = [best_row, other_row];
     Some(best.clone())
 }
 
@@ -70,55 +86,60 @@ fn expand_test<T: Number>(
     pivots: usize,
 ) -> Option<Block<T>> {
     let width = T::tolerance(EXPAND_WIDTH + EXPAND_STEP * pivots as f64);
-    let speed = |block: &Block<T>| {
-        block
-            .place
-            .map_or(T::one(), |place| tableau.state.rates[place].magnitude())
-    };
-    let reach = blocks
+    let widened = blocks
         .iter()
-        .map(|b| b.step.clone() + width.clone() / speed(b))
-        .reduce(T::smaller)?;
+        .map(|b| b.step.clone() + width.clone() / speed(tableau, b));
+    let reach = widened.reduce(T::smaller)?;
+
     let met = blocks.iter().filter(|b| b.step <= reach);
-    let mut best = met
-        .min_by(|a, b| {
-            rank(tableau, a)
-                .cmp(&rank(tableau, b))
-                .then_with(|| speed(b).order(&speed(a)))
-        })?
-        .clone();
+    let first = met.min_by(|a, b| {
+        let by_rank = rank(tableau, a).cmp(&rank(tableau, b));
+        by_rank.then_with(|| speed(tableau, b).order(&speed(tableau, a)))
+    })?;
+
     // t stops at 1 exactly; everything else moves on a little beyond its bound.
-    if best.place.is_some() && rank(tableau, &best) == 2 {
-        best.step = best
-            .step
-            .clone()
-            .larger(T::tolerance(EXPAND_STEP) / speed(&best));
+    let mut best = first.clone();
+    if best.place.is_some() && rank(tableau, &best) == OTHER_RANK {
+        let least = T::tolerance(EXPAND_STEP) / speed(tableau, &best);
+        best.step = best.step.larger(least);
     }
     Some(best)
 }
 
+/// How fast the unknown that blocks moves; 1 for the moving one itself.
+fn speed<T: Number>(tableau: &Tableau<'_, T>, block: &Block<T>) -> T {
+    match block.place {
+        Some(place) => tableau.state.rates[place].magnitude(),
+        None => T::one(),
+    }
+}
+
+/// Lists the bounds that basic unknowns meet, and that of the moving one.
 fn list_blocks<T: Number>(tableau: &Tableau<'_, T>, blocks: &mut Vec<Block<T>>) {
     blocks.clear();
     let rates = &tableau.state.rates;
     let threshold = T::tolerance(PIVOT) * T::largest(rates).larger(T::one());
-    for (place, rate) in rates
-        .iter()
-        .enumerate()
-        .filter(|(_, rate)| rate.magnitude() > threshold)
-    {
+
+    for (place, rate) in rates.iter().enumerate() {
+        let is_pivot = rate.magnitude() > threshold;
+        if !is_pivot {
+            continue;
+        }
+
         let (lower, upper) = tableau.bounds(tableau.basis.variables[place]);
         let rises = *rate > T::zero();
         let bound = if rises { upper } else { lower };
+
         if bound.is_finite() {
-            let step =
-                T::zero().larger((bound - tableau.state.values[place].clone()) / rate.clone());
+            let room = bound - tableau.state.values[place].clone();
             blocks.push(Block {
-                step,
+                step: T::zero().larger(room / rate.clone()),
                 place: Some(place),
                 at_upper: rises,
             });
         }
     }
+
     let step = tableau.own_room();
     if step.is_finite() {
         blocks.push(Block {
@@ -129,15 +150,20 @@ fn list_blocks<T: Number>(tableau: &Tableau<'_, T>, blocks: &mut Vec<Block<T>>) 
     }
 }
 
+/// The rank of all blocks but t and artificials.
+const OTHER_RANK: u8 = 2;
+
 /// 0 if the path is complete, 1 for artificials, 2 for all others.
 fn rank<T: Number>(tableau: &Tableau<'_, T>, block: &Block<T>) -> u8 {
-    match block
-        .place
-        .map_or(tableau.entering, |place| tableau.basis.variables[place])
-    {
+    let blocking = match block.place {
+        Some(place) => tableau.basis.variables[place],
+        None => tableau.entering,
+    };
+
+    match blocking {
         Variable::T => 0,
         Variable::Artificial(_) => 1,
-        _ => 2,
+        _ => OTHER_RANK,
     }
 }
 
@@ -148,7 +174,9 @@ fn perturbed_step<T: Number>(tableau: &mut Tableau<'_, T>, block: &Block<T>, row
         Some(place) => {
             tableau.basis.perturbation(&tableau.columns, place, row);
             let rate = -tableau.state.rates[place].clone();
-            row.iter_mut().for_each(|entry| *entry /= rate.clone());
+            for entry in row.iter_mut() {
+                *entry /= rate.clone();
+            }
         }
         None => {
             row.clear();
@@ -163,11 +191,15 @@ fn lexicographic<T: Number>(a: &[T], b: &[T]) -> Ordering {
         .larger(T::largest(b))
         .larger(T::tolerance(f64::MIN_POSITIVE));
     let equal = T::tolerance(LEXICOGRAPHIC) * scale;
-    let differs = a
-        .iter()
-        .zip(b)
-        .find(|(x, y)| ((*x).clone() - (*y).clone()).magnitude() > equal);
-    differs.map_or(Ordering::Equal, |(x, y)| x.order(y))
+
+    for (x, y) in a.iter().zip(b) {
+        let difference = x.clone() - y.clone();
+        if difference.magnitude() > equal {
+            return x.order(y);
+        }
+    }
+
+    Ordering::Equal
 }
 
 #[cfg(test)]

@@ -1,4 +1,10 @@
 //! The two starts of a path: regular, from the current point, and Lemke's ray, from the bounds.
+//!
+//! A start is a point of the domain of the normal map: z within the bounds and multipliers w - v of
+//! the bounds. The regular one lies over the current point; its residual F - (w - v) is the least
+//! that the multipliers allow. On Lemke's ray bounded unknowns are at a bound and all multipliers
+//! are positive, so that the path comes from t = -inf. `starting_basis` makes the basis of a start,
+//! and mends it where it is singular.
 
 use super::super::dense::Lu;
 use super::super::number::Number;
@@ -29,6 +35,7 @@ fn regular<T: Number>(sub: &Subproblem<'_, T>, current: &[T], state: &mut State<
     let State { z, multiplier, .. } = state;
     z.clear();
     z.extend_from_slice(current);
+
     sub.value(z, multiplier);
     for (i, m) in multiplier.iter_mut().enumerate() {
         *m = absorbed(&z[i], m, &sub.lower[i], &sub.upper[i]);
@@ -43,11 +50,13 @@ fn absorbed<T: Number>(z: &T, f: &T, lower: &T, upper: &T) -> T {
     } else {
         T::zero()
     };
+
     let at_upper = if z >= upper {
         f.clone().smaller(T::zero())
     } else {
         T::zero()
     };
+
     at_lower + at_upper
 }
 
@@ -56,54 +65,90 @@ fn absorbed<T: Number>(z: &T, f: &T, lower: &T, upper: &T) -> T {
 fn ray<T: Number>(sub: &Subproblem<'_, T>, state: &mut State<T>, free: &mut FreeRows<T>) {
     let State { z, multiplier, .. } = state;
     z.clear();
-    z.extend(
-        sub.lower
-            .iter()
-            .zip(sub.upper)
-            .map(|(l, u)| bound_or_zero(l, u)),
-    );
+
+    for (lower, upper) in sub.lower.iter().zip(sub.upper) {
+        z.push(bound_or_zero(lower, upper));
+    }
+
     free.solve(sub, z, multiplier);
     sub.value(z, multiplier);
-    let side = |i: usize| match (sub.lower[i].is_finite(), sub.upper[i].is_finite()) {
-        _ if sub.lower[i] == sub.upper[i] => T::zero(),
-        (true, _) => T::one(),
-        (false, true) => -T::one(),
-        (false, false) => T::zero(),
-    };
-    let sided = |(i, value): (usize, &T)| side(i) * value.clone();
-    let worst = multiplier
-        .iter()
-        .enumerate()
-        .map(|e| -sided(e))
-        .fold(T::zero(), T::larger);
-    let size = multiplier
-        .iter()
-        .enumerate()
-        .map(|e| sided(e).magnitude())
-        .fold(T::zero(), T::larger);
-    let lift = worst + if size.is_zero() { T::one() } else { size };
+
+    let lift = lift(sub, multiplier);
     for (i, m) in multiplier.iter_mut().enumerate() {
-        if sub.lower[i] == sub.upper[i] {
-            continue;
-        }
-        *m = if side(i).is_zero() {
-            T::zero()
-        } else {
-            m.clone() + side(i) * lift.clone()
+        *m = match Side::of(sub, i) {
+            Side::Lower => m.clone() + lift.clone(),
+            Side::Upper => m.clone() - lift.clone(),
+            Side::None => T::zero(),
+            Side::Fixed => continue,
         };
     }
 }
 
+/// The bound that the ray holds an unknown at.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    /// The lower bound; its multiplier is positive.
+    Lower,
+    /// The upper bound; its multiplier is negative.
+    Upper,
+    /// Both bounds, which are equal; the multiplier has any sign.
+    Fixed,
+    /// No bound; the multiplier is zero.
+    None,
+}
+
+impl Side {
+    fn of<T: Number>(sub: &Subproblem<'_, T>, i: usize) -> Side {
+        let lower = &sub.lower[i];
+        let upper = &sub.upper[i];
+
+        if lower == upper {
+            Side::Fixed
+        } else if lower.is_finite() {
+            Side::Lower
+        } else if upper.is_finite() {
+            Side::Upper
+        } else {
+            Side::None
+        }
+    }
+}
+
+/// By how much multipliers have to be lifted to be positive on their sides: what the worst of them
+/// lacks, and the size of the largest besides (1 if all are zero).
+fn lift<T: Number>(sub: &Subproblem<'_, T>, multiplier: &[T]) -> T {
+    let mut worst = T::zero();
+    let mut size = T::zero();
+
+    for (i, m) in multiplier.iter().enumerate() {
+        let sided = match Side::of(sub, i) {
+            Side::Lower => m.clone(),
+            Side::Upper => -m.clone(),
+            Side::Fixed | Side::None => continue,
+        };
+
+        worst = worst.larger(-sided.clone());
+        size = size.larger(sided.magnitude());
+    }
+
+    let size = if size.is_zero() { T::one() } else { size };
+    worst + size
+}
+
+/// The lower bound if it is finite, else the upper one if it is, else 0.
 fn bound_or_zero<T: Number>(lower: &T, upper: &T) -> T {
-    match (lower.is_finite(), upper.is_finite()) {
-        (true, _) => lower.clone(),
-        (false, true) => upper.clone(),
-        (false, false) => T::zero(),
+    if lower.is_finite() {
+        lower.clone()
+    } else if upper.is_finite() {
+        upper.clone()
+    } else {
+        T::zero()
     }
 }
 
 /// The rows of the unknowns without bounds. Storage is kept.
 pub(super) struct FreeRows<T> {
+    /// The unknowns without bounds.
     indices: Vec<usize>,
     lu: Lu<T>,
     step: Vec<T>,
@@ -122,33 +167,47 @@ impl<T> Default for FreeRows<T> {
 impl<T: Number> FreeRows<T> {
     /// Sets the free z so that their own rows vanish, if those rows are regular; else leaves them.
     fn solve(&mut self, sub: &Subproblem<'_, T>, z: &mut [T], value: &mut Vec<T>) {
-        let FreeRows { indices, lu, step } = self;
-        indices.clear();
-        indices.extend(
-            (0..z.len()).filter(|&i| !sub.lower[i].is_finite() && !sub.upper[i].is_finite()),
-        );
-        if indices.is_empty() {
+        self.indices.clear();
+        for i in 0..z.len() {
+            if !sub.lower[i].is_finite() && !sub.upper[i].is_finite() {
+                self.indices.push(i);
+            }
+        }
+
+        if self.indices.is_empty() || !self.factor(sub) {
             return;
         }
+
         sub.value(z, value);
-        let gather = |j: usize, rows: &[usize], out: &mut [T]| {
-            let column = sub.column(indices[j]);
-            rows.iter()
-                .zip(out)
-                .for_each(|(&i, o)| *o = column[indices[i]].clone());
-        };
-        if !lu.factor(indices.len(), gather, |_| T::zero()) {
-            return;
+        self.step.clear();
+
+        for &row in self.lu.rows() {
+            let i = self.indices[row];
+            self.step.push(-value[i].clone());
         }
-        step.clear();
-        step.extend(lu.rows().iter().map(|&i| -value[indices[i]].clone()));
-        lu.solve(step);
-        if step.iter().all(T::is_finite) {
-            indices
-                .iter()
-                .zip(step.iter())
-                .for_each(|(&i, v)| z[i] = v.clone());
+
+        self.lu.solve(&mut self.step);
+
+        if self.step.iter().all(T::is_finite) {
+            for (&i, step) in self.indices.iter().zip(&self.step) {
+                z[i] = step.clone();
+            }
         }
+    }
+
+    /// Factors M in the rows and columns of the free unknowns; false if it is singular.
+    fn factor(&mut self, sub: &Subproblem<'_, T>) -> bool {
+        let indices = &self.indices;
+        self.lu.factor(
+            indices.len(),
+            |j, rows, out| {
+                let column = sub.column(indices[j]);
+                for (&row, entry) in rows.iter().zip(out) {
+                    *entry = column[indices[row]].clone();
+                }
+            },
+            |_| T::zero(),
+        )
     }
 }
 
@@ -161,24 +220,30 @@ pub(super) fn starting_basis<T: Number>(
     state: &State<T>,
     path: &mut Path<T>,
 ) -> bool {
-    let place = |(i, z): (usize, &T)| match z {
-        z if *z <= sub.lower[i] => Variable::W(i),
-        z if *z >= sub.upper[i] => Variable::V(i),
-        _ => Variable::Z(i),
-    };
     basis.variables.clear();
-    basis
-        .variables
-        .extend(state.z.iter().enumerate().map(place));
+    for (i, z) in state.z.iter().enumerate() {
+        let variable = if *z <= sub.lower[i] {
+            Variable::W(i)
+        } else if *z >= sub.upper[i] {
+            Variable::V(i)
+        } else {
+            Variable::Z(i)
+        };
+
+        basis.variables.push(variable);
+    }
+
     path.factorisations += 1;
     if basis.begin(&frame.columns(sub)) {
         return true;
     }
+
     for k in 0..basis.repairs().len() {
-        let (place, row) = basis.repairs()[k];
-        frame.add_artificial(place, row);
-        basis.variables[place] = Variable::Artificial(place);
+        let repair = basis.repairs()[k];
+        frame.add_artificial(repair.place, repair.row);
+        basis.variables[repair.place] = Variable::Artificial(repair.place);
     }
+
     path.factorisations += 1;
     basis.begin(&frame.columns(sub))
 }
@@ -201,13 +266,9 @@ mod tests {
         ] {
             assert_eq!(absorbed(&z, &f, &0.0, &1.0), expected, "z = {z}, F = {f}");
         }
-        assert_eq!(
-            (
-                absorbed(&3.0, &-2.0, &3.0, &3.0),
-                absorbed(&3.0, &2.0, &3.0, &3.0)
-            ),
-            (-2.0, 2.0)
-        );
+
+        assert_eq!(absorbed(&3.0, &-2.0, &3.0, &3.0), -2.0);
+        assert_eq!(absorbed(&3.0, &2.0, &3.0, &3.0), 2.0);
     }
 
     #[test]
@@ -221,9 +282,13 @@ mod tests {
         };
         let mut start = State::default();
         ray(&sub, &mut start, &mut FreeRows::default());
+
         assert_eq!(start.z, [2.0, 0.0, 1.0]);
+
         let m = &start.multiplier;
-        assert!(m[1] > 0.0 && m[2] < 0.0 && m[0] == 0.0);
+        assert!(m[1] > 0.0);
+        assert!(m[2] < 0.0);
+        assert_eq!(m[0], 0.0);
     }
 
     #[test]
@@ -240,6 +305,7 @@ mod tests {
         regular(&sub, &[0.0, 0.0], &mut state);
         frame.set(&sub, &state.z, &state.multiplier);
         let mut path = Path::default();
+
         assert!(starting_basis(
             &sub, &mut frame, &mut basis, &state, &mut path
         ));
@@ -263,10 +329,10 @@ mod tests {
         };
         let mut state = State::default();
         ray(&sub, &mut state, &mut FreeRows::default());
-        assert_eq!(
-            (state.z, state.multiplier),
-            (vec![0.0, 0.0, 0.0, 5.0], vec![3.0, 8.0, -5.0, -100.0])
-        );
+
+        assert_eq!(state.z, vec![0.0, 0.0, 0.0, 5.0]);
+        assert_eq!(state.multiplier, vec![3.0, 8.0, -5.0, -100.0]);
+
         // Where all are zero the amount is one.
         let sub = Subproblem {
             m: &m,
@@ -275,6 +341,7 @@ mod tests {
         };
         let mut state = State::default();
         ray(&sub, &mut state, &mut FreeRows::default());
+
         assert_eq!(state.multiplier, [1.0, 1.0, -1.0, 0.0]);
     }
 }

@@ -23,8 +23,9 @@ impl<T: Number> Subproblem<'_, T> {
     pub(super) fn value(&self, z: &[T], out: &mut Vec<T>) {
         out.clear();
         out.extend_from_slice(self.q);
-        z.iter()
-            .enumerate()
-            .for_each(|(j, z)| subtract(out, &-z.clone(), self.column(j)));
+
+        for (j, z) in z.iter().enumerate() {
+            subtract(out, &-z.clone(), self.column(j));
+        }
     }
 }

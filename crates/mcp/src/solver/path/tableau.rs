@@ -1,4 +1,10 @@
 //! The state on a path: basis, values, the moving unknown; and the moves it can make.
+//!
+//! Between two pivots one unknown moves, the *entering* one, and the basic ones follow so that the
+//! equations stay true: with B^-1 a of the entering column a, a basic value changes by
+//! -sign (B^-1 a) per unit of the movement. At a pivot `walk` calls one of two moves: `exchange`
+//! puts the entering unknown into the place of the one that has stopped it, whose complement moves
+//! next; `flip` ends at the entering z_i's own other bound.
 
 use super::super::dense::subtract;
 use super::super::number::Number;
@@ -26,7 +32,9 @@ pub(super) struct State<T> {
     pub(super) rows: [Vec<T>; 2],
     /// Is z_i basic?
     is_basic: Vec<bool>,
+    /// A unit column as a dense one.
     work: Vec<T>,
+    /// A right-hand side, and what is left of it.
     sum: Vec<T>,
 }
 
@@ -70,6 +78,7 @@ impl<'a, T: Number> Tableau<'a, T> {
         state.values.clear();
         state.is_basic.clear();
         state.is_basic.resize(n, false);
+
         for variable in &basis.variables {
             state.values.push(match *variable {
                 Variable::Z(i) => state.z[i].clone(),
@@ -77,13 +86,16 @@ impl<'a, T: Number> Tableau<'a, T> {
                 Variable::V(i) => -state.multiplier[i].clone(),
                 Variable::Artificial(_) | Variable::T => T::zero(),
             });
+
             if let Variable::Z(i) = variable {
                 state.is_basic[*i] = true;
             }
         }
-        for list in [&mut state.column, &mut state.rates, &mut state.sum] {
-            list.resize(n, T::zero());
-        }
+
+        state.column.resize(n, T::zero());
+        state.rates.resize(n, T::zero());
+        state.sum.resize(n, T::zero());
+
         Tableau {
             columns,
             basis,
@@ -97,7 +109,9 @@ impl<'a, T: Number> Tableau<'a, T> {
     /// Bounds of an unknown. t has none below: like Lemke's covering variable 1 - t, which has none
     /// above.
     pub(super) fn bounds(&self, variable: Variable) -> (T, T) {
-        let (lower, upper) = (self.columns.sub.lower, self.columns.sub.upper);
+        let lower = self.columns.sub.lower;
+        let upper = self.columns.sub.upper;
+
         match variable {
             Variable::Z(i) => (lower[i].clone(), upper[i].clone()),
             Variable::W(i) | Variable::V(i) if lower[i] == upper[i] => {
@@ -124,24 +138,24 @@ impl<'a, T: Number> Tableau<'a, T> {
     pub(super) fn own_room(&self) -> T {
         let (lower, upper) = self.bounds(self.entering);
         let value = self.entering_value();
-        T::zero().larger(if self.sign > T::zero() {
+        let room = if self.sign > T::zero() {
             upper - value
         } else {
             value - lower
-        })
+        };
+
+        T::zero().larger(room)
     }
 
     /// B^-1 a of an unknown, into the state's column.
     fn solve_for(&mut self, variable: Variable) {
         let state = &mut *self.state;
-        match self.columns.unit(variable) {
-            None => self
-                .basis
-                .solve(self.columns.dense(variable), &mut state.column),
-            Some(_) => {
-                self.columns.write(variable, &mut state.work);
-                self.basis.solve(&state.work, &mut state.column);
-            }
+        if self.columns.unit(variable).is_some() {
+            self.columns.write(variable, &mut state.work);
+            self.basis.solve(&state.work, &mut state.column);
+        } else {
+            let column = self.columns.dense(variable);
+            self.basis.solve(column, &mut state.column);
         }
     }
 
@@ -149,58 +163,56 @@ impl<'a, T: Number> Tableau<'a, T> {
     pub(super) fn set_rates(&mut self) {
         self.solve_for(self.entering);
         let sign = -self.sign.clone();
-        self.state
-            .rates
-            .iter_mut()
-            .zip(&self.state.column)
-            .for_each(|(rate, c)| *rate = c.clone() * sign.clone());
+
+        for (rate, entry) in self.state.rates.iter_mut().zip(&self.state.column) {
+            *rate = entry.clone() * sign.clone();
+        }
     }
 
     /// Moves the entering unknown by `step`; basic values follow at the rates.
     pub(super) fn advance(&mut self, step: &T) {
         let entering_value = self.entering_value() + self.sign.clone() * step.clone();
-        let State {
-            values,
-            z,
-            multiplier,
-            rates,
-            ..
-        } = &mut *self.state;
-        values
-            .iter_mut()
-            .zip(rates.iter())
-            .for_each(|(value, rate)| *value += step.clone() * rate.clone());
-        multiplier.fill(T::zero());
-        let mut store = |variable: Variable, value: T| match variable {
-            Variable::Z(i) => z[i] = value,
-            Variable::W(i) => multiplier[i] = value,
-            Variable::V(i) => multiplier[i] = -value,
+        for (value, rate) in self.state.values.iter_mut().zip(&self.state.rates) {
+            *value += step.clone() * rate.clone();
+        }
+
+        self.state.multiplier.fill(T::zero());
+        for place in 0..self.basis.variables.len() {
+            let value = self.state.values[place].clone();
+            self.store(self.basis.variables[place], value);
+        }
+
+        self.store(self.entering, entering_value);
+    }
+
+    /// Writes the value of an unknown to z, the multipliers or t.
+    fn store(&mut self, variable: Variable, value: T) {
+        match variable {
+            Variable::Z(i) => self.state.z[i] = value,
+            Variable::W(i) => self.state.multiplier[i] = value,
+            Variable::V(i) => self.state.multiplier[i] = -value,
             Variable::Artificial(_) => {}
             Variable::T => self.t = value.smaller(T::one()),
-        };
-        self.basis
-            .variables
-            .iter()
-            .zip(values.iter())
-            .for_each(|(&variable, value)| store(variable, value.clone()));
-        store(self.entering, entering_value);
+        }
     }
 
     /// The moving z_i has crossed to its other bound: the multiplier of that bound moves next.
     pub(super) fn flip(&mut self) {
         if let Variable::Z(i) = self.entering {
             let at_upper = self.sign > T::zero();
-            self.state.z[i] = if at_upper {
-                self.columns.sub.upper[i].clone()
-            } else {
-                self.columns.sub.lower[i].clone()
-            };
-            self.entering = if at_upper {
-                Variable::V(i)
-            } else {
-                Variable::W(i)
-            };
+            self.leave_at_bound(i, at_upper);
             self.sign = T::one();
+        }
+    }
+
+    /// Puts z_i on a bound; the multiplier of that bound moves next.
+    fn leave_at_bound(&mut self, i: usize, at_upper: bool) {
+        if at_upper {
+            self.state.z[i] = self.columns.sub.upper[i].clone();
+            self.entering = Variable::V(i);
+        } else {
+            self.state.z[i] = self.columns.sub.lower[i].clone();
+            self.entering = Variable::W(i);
         }
     }
 
@@ -212,16 +224,21 @@ impl<'a, T: Number> Tableau<'a, T> {
         let value = self.entering_value();
         self.basis.replace(place, self.entering, &self.state.column);
         self.state.values[place] = value;
-        for (variable, is_basic) in [(leaving, false), (self.entering, true)] {
-            if let Variable::Z(i) = variable {
-                self.state.is_basic[i] = is_basic;
-            }
-        }
-        (self.entering, self.sign) = self.successor(leaving, at_upper);
+        self.mark_basic(leaving, false);
+        self.mark_basic(self.entering, true);
+
+        self.set_successor(leaving, at_upper);
         if self.basis.is_stale() || self.drift() > T::tolerance(DRIFT) {
             self.refactor()
         } else {
             true
+        }
+    }
+
+    /// Notes whether an unknown is basic, if it is one of z.
+    fn mark_basic(&mut self, variable: Variable, is_basic: bool) {
+        if let Variable::Z(i) = variable {
+            self.state.is_basic[i] = is_basic;
         }
     }
 
@@ -231,25 +248,22 @@ impl<'a, T: Number> Tableau<'a, T> {
         self.basis.solve(&self.state.sum, &mut self.state.values);
     }
 
-    /// The unknown that moves after `leaving` has reached a bound, and its direction.
-    fn successor(&mut self, leaving: Variable, at_upper: bool) -> (Variable, T) {
+    /// Sets the unknown that moves after `leaving` has reached a bound, and its direction.
+    fn set_successor(&mut self, leaving: Variable, at_upper: bool) {
+        self.sign = T::one();
         match leaving {
-            Variable::Z(i) => {
-                let (lower, upper) = self.bounds(leaving);
-                self.state.z[i] = if at_upper { upper } else { lower };
-                (
-                    if at_upper {
-                        Variable::V(i)
-                    } else {
-                        Variable::W(i)
-                    },
-                    T::one(),
-                )
+            Variable::Z(i) => self.leave_at_bound(i, at_upper),
+            Variable::W(i) => self.entering = Variable::Z(i),
+            Variable::V(i) => {
+                self.entering = Variable::Z(i);
+                self.sign = -T::one();
             }
-            Variable::W(i) => (Variable::Z(i), T::one()),
-            Variable::V(i) => (Variable::Z(i), -T::one()),
-            Variable::Artificial(i) => (Variable::Z(i), self.rising_sign(i)),
-            Variable::T => (Variable::T, T::one()), // t leaves only at 1, where the walk ends
+            Variable::Artificial(i) => {
+                self.entering = Variable::Z(i);
+                self.sign = self.rising_sign(i);
+            }
+            // t leaves only at 1, where the walk ends.
+            Variable::T => self.entering = Variable::T,
         }
     }
 
@@ -258,6 +272,7 @@ impl<'a, T: Number> Tableau<'a, T> {
         self.solve_for(Variable::Z(i));
         let place = self.basis.variables.iter().position(|&v| v == Variable::T);
         let falls = place.is_some_and(|p| self.state.column[p] > T::zero());
+
         if falls { -T::one() } else { T::one() }
     }
 
@@ -266,14 +281,15 @@ impl<'a, T: Number> Tableau<'a, T> {
         self.set_right_hand_side();
         let State { values, sum, .. } = &mut *self.state;
         let mut size = self.columns.scale();
+
         for (&variable, value) in self.basis.variables.iter().zip(values.iter()) {
             size = size.larger(self.columns.size(variable) * value.magnitude());
             match self.columns.unit(variable) {
                 None => subtract(sum, value, self.columns.dense(variable)),
-                Some((row, true)) => sum[row] -= value.clone(),
-                Some((row, false)) => sum[row] += value.clone(),
+                Some(unit) => sum[unit.row] -= unit.times(value),
             }
         }
+
         if size > T::zero() {
             T::largest(&*sum) / size
         } else {
@@ -281,11 +297,12 @@ impl<'a, T: Number> Tableau<'a, T> {
         }
     }
 
-    /// Factors and values from scratch.
+    /// Factors and values from scratch; false if the basis is numerically singular.
     fn refactor(&mut self) -> bool {
         if !self.basis.refactor(&self.columns) {
             return false;
         }
+
         self.settle();
         true
     }
@@ -296,8 +313,11 @@ impl<'a, T: Number> Tableau<'a, T> {
             z, sum, is_basic, ..
         } = &mut *self.state;
         sum.clone_from_slice(self.columns.right());
-        for (i, z) in z.iter().enumerate().filter(|(i, _)| !is_basic[*i]) {
-            subtract(sum, z, self.columns.dense(Variable::Z(i)));
+
+        for (i, z) in z.iter().enumerate() {
+            if !is_basic[i] {
+                subtract(sum, z, self.columns.dense(Variable::Z(i)));
+            }
         }
     }
 }

@@ -39,24 +39,19 @@ fn walked<T: Number>(
     current: &[T],
     limits: Limits,
 ) -> Path<T> {
-    let (mut storage, mut path) = (Storage::default(), Path::default());
-    let other = if start == Start::Ray {
-        Start::Regular
-    } else {
-        Start::Ray
+    let other = match start {
+        Start::Ray => Start::Regular,
+        Start::Regular => Start::Ray,
     };
-    follow(
-        sub,
-        other,
-        current,
-        Limits {
-            pivots: 3,
-            ..limits
-        },
-        &mut storage,
-        &mut path,
-    );
-    follow(sub, start, current, limits, &mut storage, &mut path);
+    let few_pivots = Limits {
+        pivots: 3,
+        ..limits
+    };
+
+    let mut storage = Storage::default();
+    let mut path = Path::default();
+    storage.follow(sub, other, current, few_pivots, &mut path);
+    storage.follow(sub, start, current, limits, &mut path);
     path
 }
 
@@ -78,14 +73,14 @@ fn followed(
     let path = walked(&sub, start, current, LIMITS);
     let knots = knots(&path);
     let r = knots.first().map(|k| &k.multiplier - m * &k.z - q);
+
     for knot in &knots {
         let equation = m * &knot.z - &knot.multiplier + q + r.clone().unwrap() * (1.0 - knot.t);
         assert!(equation.amax() < 1e-9, "{equation} at {knot:?}");
+
         for i in 0..l.len() {
-            assert!(
-                knot.z[i] >= l[i] - 1e-9 && knot.z[i] <= u[i] + 1e-9,
-                "{knot:?}"
-            );
+            assert!(knot.z[i] >= l[i] - 1e-9, "{knot:?}");
+            assert!(knot.z[i] <= u[i] + 1e-9, "{knot:?}");
             assert!(
                 knot.multiplier[i] < 1e-9 || knot.z[i] <= l[i] + 1e-9,
                 "{knot:?}"
@@ -96,6 +91,7 @@ fn followed(
             );
         }
     }
+
     path
 }
 
@@ -115,6 +111,7 @@ pub(super) fn at_start<R>(
     } = Storage::default();
     start_point(sub, start, current, &mut state, &mut free);
     frame.set(sub, &state.z, &state.multiplier);
+
     assert!(starting_basis(
         sub,
         &mut frame,
@@ -122,6 +119,7 @@ pub(super) fn at_start<R>(
         &state,
         &mut Path::default()
     ));
+
     look(Tableau::new(frame.columns(sub), &mut basis, &mut state))
 }
 
@@ -136,6 +134,7 @@ fn one_by_one_from_both_starts() {
             start,
             &[0.0],
         );
+
         assert_eq!(path.end, PathEnd::Complete);
         assert!((path.last().unwrap()[0] - 1.5).abs() < 1e-15);
         assert_eq!(path.pivots.last().unwrap().kind, PivotKind::Complete);
@@ -152,10 +151,10 @@ fn a_zero_residual_is_complete_at_once() {
         Start::Regular,
         &[0.0],
     );
-    assert_eq!(
-        (path.end, path.pivots.len(), path.reach()),
-        (PathEnd::Complete, 1, 1.0)
-    );
+
+    assert_eq!(path.end, PathEnd::Complete);
+    assert_eq!(path.pivots.len(), 1);
+    assert_eq!(path.reach(), 1.0);
 }
 
 #[test]
@@ -168,8 +167,10 @@ fn a_doubly_bounded_unknown_flips() {
         Start::Ray,
         &[0.0; 2],
     );
+
     assert_eq!(path.end, PathEnd::Complete);
     assert!((DVector::from_column_slice(path.last().unwrap()) - dvector![1.0, 1.0]).amax() < 1e-14);
+
     // M = -1: z runs from bound to bound while t stands still or turns back.
     let path = followed(
         &dmatrix![-1.0],
@@ -179,6 +180,7 @@ fn a_doubly_bounded_unknown_flips() {
         Start::Regular,
         &[0.9],
     );
+
     assert_eq!(path.end, PathEnd::Complete);
 }
 
@@ -193,6 +195,7 @@ fn an_infeasible_problem_ends_on_a_ray() {
             start,
             &[0.0],
         );
+
         assert_eq!(path.end, PathEnd::Ray, "{start:?}");
         assert!(path.knots.len() >= 2);
     }
@@ -201,9 +204,12 @@ fn an_infeasible_problem_ends_on_a_ray() {
 #[test]
 fn singular_starts_leave_through_artificials() {
     // Both z strictly inside: the block of ones is singular. Solutions z1 + z2 = 1.
-    let (m, q) = (dmatrix![1.0, 1.0; 1.0, 1.0], dvector![-1.0, -1.0]);
+    let m = dmatrix![1.0, 1.0; 1.0, 1.0];
+    let q = dvector![-1.0, -1.0];
     let path = followed(&m, &q, &[0.0; 2], &[INF; 2], Start::Regular, &[2.0, 3.0]);
+
     assert_eq!(path.end, PathEnd::Complete, "{path:?}");
+
     // A zero matrix with free unknowns has only artificials, and no way to move.
     let path = followed(
         &dmatrix![0.0],
@@ -213,6 +219,7 @@ fn singular_starts_leave_through_artificials() {
         Start::Regular,
         &[0.0],
     );
+
     assert_eq!(path.end, PathEnd::Ray);
 }
 
@@ -227,6 +234,7 @@ fn equal_bounds_fix_an_unknown() {
             start,
             &[1.0, 0.0],
         );
+
         assert_eq!(path.end, PathEnd::Complete);
         assert_eq!(path.last().unwrap(), [1.0, 1.5]);
     }
@@ -242,6 +250,7 @@ fn points_along_the_path_are_found_by_t() {
         Start::Regular,
         &[0.0],
     );
+
     assert!((path.at(0.5).unwrap()(0) - 0.75).abs() < 1e-15);
     assert!(path.at(1.5).is_none());
 }
@@ -249,15 +258,18 @@ fn points_along_the_path_are_found_by_t() {
 #[test]
 fn ties_go_to_the_lexicographically_least() {
     // Both w are tied; perturbed by (eps, eps^2) the second one is the smaller.
-    let (m, q) = (DMatrix::from_element(2, 2, 1.0), dvector![-1.0, -1.0]);
+    let m = DMatrix::from_element(2, 2, 1.0);
+    let q = dvector![-1.0, -1.0];
     let path = followed(&m, &q, &[0.0; 2], &[INF; 2], Start::Ray, &[0.0; 2]);
+
     assert_eq!(path.pivots[0].leaving, Variable::W(1));
     assert_eq!(path.end, PathEnd::Complete);
 }
 
 #[test]
 fn the_multiplier_of_equal_bounds_changes_sign_without_a_pivot() {
-    let (m, q) = (dmatrix![0.0, -1.0; 0.0, 1.0], dvector![1.0, -5.0]);
+    let m = dmatrix![0.0, -1.0; 0.0, 1.0];
+    let q = dvector![1.0, -5.0];
     let path = followed(
         &m,
         &q,
@@ -266,12 +278,9 @@ fn the_multiplier_of_equal_bounds_changes_sign_without_a_pivot() {
         Start::Regular,
         &[1.0, 0.0],
     );
-    assert_eq!(
-        (path.end, path.pivots.len()),
-        (PathEnd::Complete, 2),
-        "{:?}",
-        path.pivots
-    );
+
+    assert_eq!(path.end, PathEnd::Complete, "{:?}", path.pivots);
+    assert_eq!(path.pivots.len(), 2, "{:?}", path.pivots);
     assert_eq!(path.knots.multiplier(path.knots.len() - 1), [-4.0, 0.0]);
 }
 
@@ -290,7 +299,9 @@ fn drift_is_noticed_and_mended() {
         tableau.advance(&block.step);
         let exact = tableau.state.values.clone();
         tableau.state.values[0] += 1e-6;
+
         assert!(tableau.exchange(block.place.unwrap(), block.at_upper));
+
         let values = &tableau.state.values;
         assert!((values[0] - exact[0]).abs() < 1e-12, "{values:?} {exact:?}");
     });
@@ -298,21 +309,19 @@ fn drift_is_noticed_and_mended() {
 
 #[test]
 fn a_path_reaches_the_largest_t_of_its_knots() {
-    let path = |list: &[f64]| {
+    /// A path with knots at these t, z = 4 t.
+    fn path(list: &[f64]) -> Path {
         let mut path = Path::default();
         path.knots.clear(1);
-        list.iter()
-            .for_each(|&t| path.knots.push(t, &[4.0 * t], &[0.0]));
+        for &t in list {
+            path.knots.push(t, &[4.0 * t], &[0.0]);
+        }
         path
-    };
-    assert_eq!(
-        [
-            path(&[0.0, 0.25, 0.75, 0.5]).reach(),
-            path(&[0.0, 1.0]).reach(),
-            path(&[]).reach()
-        ],
-        [0.75, 1.0, 0.0]
-    );
+    }
+
+    assert_eq!(path(&[0.0, 0.25, 0.75, 0.5]).reach(), 0.75);
+    assert_eq!(path(&[0.0, 1.0]).reach(), 1.0);
+    assert_eq!(path(&[]).reach(), 0.0);
     assert_eq!(
         path(&[0.0, 0.25, 0.75, 0.5]).at(0.5).map(|z| z(0)),
         Some(2.0)
@@ -331,5 +340,6 @@ fn factorisations_are_counted() {
         Start::Regular,
         &[0.0],
     );
+
     assert_eq!(path.factorisations, 1);
 }

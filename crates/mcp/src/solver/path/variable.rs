@@ -1,4 +1,8 @@
 //! Names of the unknowns of the linear subproblem, and the record of a pivot.
+//!
+//! Each index i has the unknowns z_i, w_i and v_i, of which one is basic (or i's artificial in
+//! place of z_i); t is one more. A pivot names the unknown that was moving and the one that stopped
+//! it.
 
 /// An unknown of M z - w + v + D a + (1 - t) r + q = 0.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -82,7 +86,9 @@ mod tests {
             leaving: Variable::Z(4),
             ..pivot
         };
+
         assert_eq!(pivot.renamed(&[4, 7]), expected);
+
         let list =
             [Variable::V(0), Variable::Artificial(1), Variable::T].map(|v| v.renamed(&[4, 7]));
         assert_eq!(list, [Variable::V(4), Variable::Artificial(7), Variable::T]);

@@ -1,4 +1,8 @@
 //! The pivot loop: along the path from t = 0 until t = 1, a ray, a cycle or a limit.
+//!
+//! Each round moves the entering unknown to the first bound that is met (`ratio`), records the
+//! knot, and turns there: the path is complete, or the entering unknown flips, or it is exchanged
+//! for the one that has stopped it (`tableau`).
 
 use super::super::number::Number;
 use super::super::options::RatioTest;
@@ -9,25 +13,34 @@ use super::record::{Limits, Path, PathEnd, Start};
 use super::tableau::Tableau;
 use super::variable::{Pivot, PivotKind, Variable};
 
+/// How often the unknowns of one index have begun to move since the last new maximum of t.
+#[derive(Debug, Clone, Copy, Default)]
+pub(super) struct EntryCounts {
+    z: usize,
+    w: usize,
+    v: usize,
+}
+
 /// A path under way.
 pub(super) struct Walk<'a, T: Number> {
     tableau: Tableau<'a, T>,
     limits: Limits,
     path: &'a mut Path<T>,
     best_t: T,
-    /// Times each unknown has begun to move since the last new maximum of t: Z, W, V of each index.
-    entries: &'a mut Vec<[usize; 3]>,
+    /// By index.
+    entries: &'a mut Vec<EntryCounts>,
 }
 
 impl<'a, T: Number> Walk<'a, T> {
+    /// At the start of the tableau, which becomes the first knot.
     pub(super) fn new(
         tableau: Tableau<'a, T>,
         limits: Limits,
-        entries: &'a mut Vec<[usize; 3]>,
+        entries: &'a mut Vec<EntryCounts>,
         path: &'a mut Path<T>,
     ) -> Self {
         entries.clear();
-        entries.resize(tableau.state.z.len(), [0; 3]);
+        entries.resize(tableau.state.z.len(), EntryCounts::default());
         let mut walk = Walk {
             tableau,
             limits,
@@ -35,6 +48,7 @@ impl<'a, T: Number> Walk<'a, T> {
             best_t: T::zero(),
             entries,
         };
+
         walk.record_knot();
         walk
     }
@@ -45,44 +59,34 @@ impl<'a, T: Number> Walk<'a, T> {
         self.path.factorisations += self.tableau.basis.refreshed;
     }
 
+    /// Pivots until there is a reason to stop.
     fn pivot_until_end(&mut self) -> PathEnd {
         while self.path.pivots.len() < self.limits.pivots {
             self.tableau.set_rates();
-            let Some(block) =
-                ratio_test(&mut self.tableau, self.limits.rule, self.path.pivots.len())
-            else {
+            let pivots = self.path.pivots.len();
+            let Some(block) = ratio_test(&mut self.tableau, self.limits.rule, pivots) else {
                 self.step_along_ray();
                 return PathEnd::Ray;
             };
+
             self.tableau.advance(&block.step);
             self.record_knot();
             if let Some(end) = self.turn(&block) {
                 return end;
             }
         }
+
         PathEnd::PivotLimit
     }
 
     /// At a breakpoint: complete, flip or exchange.
     fn turn(&mut self, block: &Block<T>) -> Option<PathEnd> {
-        let entering = self.tableau.entering;
-        let leaving = block
-            .place
-            .map_or(entering, |place| self.tableau.basis.variables[place]);
-        let kind = match (leaving, block.place) {
-            (Variable::T, _) => PivotKind::Complete,
-            (_, None) => PivotKind::Flip,
-            (Variable::Artificial(_), _) => PivotKind::ArtificialLeaves,
-            _ => PivotKind::Exchange,
-        };
-        self.path.pivots.push(Pivot {
-            t: self.tableau.t.to_double(),
-            entering,
-            leaving,
-            kind,
-        });
+        let kind = self.record_pivot(block);
+        if kind == PivotKind::Complete {
+            return Some(self.complete());
+        }
+
         match block.place {
-            _ if kind == PivotKind::Complete => return Some(self.complete()),
             None => self.tableau.flip(),
             Some(place) => {
                 if !self.tableau.exchange(place, block.at_upper) {
@@ -93,7 +97,32 @@ impl<'a, T: Number> Walk<'a, T> {
                 }
             }
         }
+
         self.is_cycling().then_some(PathEnd::Cycle)
+    }
+
+    /// Records what the block leads to; returns its kind.
+    fn record_pivot(&mut self, block: &Block<T>) -> PivotKind {
+        let entering = self.tableau.entering;
+        let leaving = match block.place {
+            Some(place) => self.tableau.basis.variables[place],
+            None => entering,
+        };
+        let kind = match (leaving, block.place) {
+            (Variable::T, _) => PivotKind::Complete,
+            (_, None) => PivotKind::Flip,
+            (Variable::Artificial(_), _) => PivotKind::ArtificialLeaves,
+            _ => PivotKind::Exchange,
+        };
+
+        self.path.pivots.push(Pivot {
+            t: self.tableau.t.to_double(),
+            entering,
+            leaving,
+            kind,
+        });
+
+        kind
     }
 
     /// The last knot stands at t = 1 exactly.
@@ -102,14 +131,16 @@ impl<'a, T: Number> Walk<'a, T> {
         if let Some(last) = self.path.pivots.last_mut() {
             last.t = 1.0;
         }
+
         PathEnd::Complete
     }
 
-    /// A point a little along the ray, as the last knot.
+    /// A point a little along the ray, as the last knot: no component moves by more than
+    /// RAY_STEP (1 + |z|).
     fn step_along_ray(&mut self) {
         let speed = T::largest(&self.tableau.state.rates).larger(T::one());
-        let step =
-            T::from_double(RAY_STEP) * (T::one() + T::largest(&self.tableau.state.z)) / speed;
+        let size = T::one() + T::largest(&self.tableau.state.z);
+        let step = T::from_double(RAY_STEP) * size / speed;
         self.tableau.advance(&step);
         self.record_knot();
     }
@@ -128,18 +159,21 @@ impl<'a, T: Number> Walk<'a, T> {
         if self.path.start == Start::Ray {
             return false;
         }
+
         if self.tableau.t > self.best_t.clone() + T::tolerance(TIE) {
             self.best_t = self.tableau.t.clone();
-            self.entries.iter_mut().for_each(|counts| *counts = [0; 3]);
+            self.entries.fill(EntryCounts::default());
         }
-        let (index, slot) = match self.tableau.entering {
-            Variable::Z(i) => (i, 0),
-            Variable::W(i) => (i, 1),
-            Variable::V(i) => (i, 2),
+
+        let count = match self.tableau.entering {
+            Variable::Z(i) => &mut self.entries[i].z,
+            Variable::W(i) => &mut self.entries[i].w,
+            Variable::V(i) => &mut self.entries[i].v,
             Variable::Artificial(_) | Variable::T => return false,
         };
-        self.entries[index][slot] += 1;
-        self.entries[index][slot] > self.limits.cycle_entries
+
+        *count += 1;
+        *count > self.limits.cycle_entries
     }
 }
 
@@ -160,6 +194,12 @@ mod tests {
         }
     }
 
+    /// The largest difference of two components.
+    fn distance(a: &[f64], b: &[f64]) -> f64 {
+        let differences = a.iter().zip(b).map(|(a, b)| (a - b).abs());
+        differences.fold(0.0, f64::max)
+    }
+
     /// Between the last two knots the fastest of all unknowns, also the one that moves, goes
     /// RAY_STEP (1 + |z|).
     #[test]
@@ -170,6 +210,7 @@ mod tests {
             (dmatrix![-0.25, 0.0; 0.0, 1.0], [2.0, 1.0]),
             (dmatrix![-9.0, -2.0; 0.0, 1.0], [0.5, 0.0]),
         ];
+
         for (m, current) in cases {
             let sub = Subproblem {
                 m: &m,
@@ -178,25 +219,21 @@ mod tests {
                 upper: &[INF; 2],
             };
             at_start(&sub, Start::Regular, &current, |tableau| {
-                let (mut path, mut entries) = (Path::default(), Vec::new());
-                path.knots.clear(2);
-                Walk::new(tableau, limits(9), &mut entries, &mut path).run();
+                let mut path = Path::default();
+                path.begin(Start::Regular, 2);
+                Walk::new(tableau, limits(9), &mut Vec::new(), &mut path).run();
+
                 assert_eq!(path.end, PathEnd::Ray);
-                let [before, last] = [path.knots.len() - 2, path.knots.len() - 1];
-                let change = |a: &[f64], b: &[f64]| {
-                    a.iter()
-                        .zip(b)
-                        .map(|(a, b)| (a - b).abs())
-                        .fold(0.0, f64::max)
-                };
-                let [z, m] = [
-                    [path.knots.z(before), path.knots.z(last)],
-                    [path.knots.multiplier(before), path.knots.multiplier(last)],
-                ];
-                let moved = change(z[0], z[1])
-                    .max(change(m[0], m[1]))
-                    .max((path.knots.t(last) - path.knots.t(before)).abs());
-                let size = change(z[0], &[0.0; 2]);
+
+                let knots = &path.knots;
+                let last = knots.len() - 1;
+                let before = last - 1;
+                let z = distance(knots.z(before), knots.z(last));
+                let multipliers = distance(knots.multiplier(before), knots.multiplier(last));
+                let t = (knots.t(last) - knots.t(before)).abs();
+                let moved = z.max(multipliers).max(t);
+                let size = distance(knots.z(before), &[0.0; 2]);
+
                 approx::assert_relative_eq!(moved, RAY_STEP * (1.0 + size), max_relative = 1e-12);
             });
         }
@@ -213,42 +250,39 @@ mod tests {
             lower: &[0.0],
             upper: &[INF],
         };
+
         for start in [Start::Regular, Start::Ray] {
             at_start(&sub, start, &[2.0], |tableau| {
-                let (mut path, mut entries) = (
-                    Path {
-                        start,
-                        ..Path::default()
-                    },
-                    vec![[7; 3]; 9],
-                );
-                path.knots.clear(1);
+                let mut path = Path::default();
+                path.begin(start, 1);
+
+                // Counts that another path has left behind.
+                let left = EntryCounts { z: 7, w: 7, v: 7 };
+                let mut entries = vec![left; 9];
                 let mut walk = Walk::new(tableau, limits(2), &mut entries, &mut path);
                 let cycles = start == Start::Regular; // from a ray there is no guard
                 let mut at = |t: f64, entering: Variable| {
-                    (walk.tableau.t, walk.tableau.entering) = (t, entering);
+                    walk.tableau.t = t;
+                    walk.tableau.entering = entering;
                     walk.is_cycling()
                 };
+
                 // Each slot has its own count.
                 for variable in [Variable::Z(0), Variable::W(0), Variable::V(0)] {
-                    assert_eq!(
-                        [at(0.0, variable), at(-1.0, variable), at(0.0, variable)],
-                        [false, false, cycles]
-                    );
+                    assert!(!at(0.0, variable));
+                    assert!(!at(-1.0, variable));
+                    assert_eq!(at(0.0, variable), cycles);
                 }
-                assert!(!at(0.0, Variable::T) && !at(0.0, Variable::Artificial(0)));
+
+                assert!(!at(0.0, Variable::T));
+                assert!(!at(0.0, Variable::Artificial(0)));
                 assert_eq!(
                     [0.9, 1.0, 1.1].map(|share| at(share * TIE, Variable::Z(0))),
                     [cycles, cycles, false]
                 );
-                assert_eq!(
-                    [
-                        at(0.5, Variable::Z(0)),
-                        at(0.25, Variable::Z(0)),
-                        at(0.5, Variable::Z(0))
-                    ],
-                    [false, false, cycles]
-                );
+                assert!(!at(0.5, Variable::Z(0)));
+                assert!(!at(0.25, Variable::Z(0)));
+                assert_eq!(at(0.5, Variable::Z(0)), cycles);
             });
         }
     }
@@ -265,32 +299,25 @@ mod tests {
         };
         let ends = |pivots: usize| {
             at_start(&sub, Start::Ray, &[0.0; 2], |tableau| {
-                let (mut path, mut entries) = (
-                    Path {
-                        start: Start::Ray,
-                        ..Path::default()
-                    },
-                    Vec::new(),
-                );
-                path.knots.clear(2);
-                Walk::new(
-                    tableau,
-                    Limits {
-                        pivots,
-                        ..limits(9)
-                    },
-                    &mut entries,
-                    &mut path,
-                )
-                .run();
+                let mut path = Path::default();
+                path.begin(Start::Ray, 2);
+                let limits = Limits {
+                    pivots,
+                    ..limits(9)
+                };
+                Walk::new(tableau, limits, &mut Vec::new(), &mut path).run();
                 (path.end, path.pivots.len(), path.knots.len())
             })
         };
         let (end, needed, _) = ends(100);
-        assert_eq!((end, needed), (PathEnd::Complete, 3));
+
+        assert_eq!(end, PathEnd::Complete);
+        assert_eq!(needed, 3);
+
         for pivots in 0..needed {
             assert_eq!(ends(pivots), (PathEnd::PivotLimit, pivots, pivots + 1));
         }
+
         assert_eq!(ends(needed).0, PathEnd::Complete);
     }
 }

@@ -33,7 +33,7 @@ fn position(z: &[f64], s: f64) -> Position {
 }
 
 /// A follower at a position, under way from a start at s = 1, with nothing behind it.
-fn at<'p, 'a, P: Mcp + ?Sized>(
+fn follower_at<'p, 'a, P: Mcp + ?Sized>(
     problem: &'p mut Evaluated<'a, P>,
     r: DVector<f64>,
     places: &[Place],
@@ -72,28 +72,33 @@ fn a_curve_is_back_where_it_passes_its_start() {
         &[INF; 2],
     );
     let mut evaluated = Evaluated::new(&p);
-    let mut f = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![1.0, 1.0],
         &[Place::Inside; 2],
         position(&[5.0, 0.0], 0.9),
     );
     let mut is_back = |off: [f64; 2], before: f64, now: f64| {
-        f.start = position(&[4.0 + off[0], off[1]], 1.0);
-        f.at.s = now;
-        f.is_back(&position(&[1.0, 0.0], before))
+        follower.start = position(&[4.0 + off[0], off[1]], 1.0);
+        follower.at.s = now;
+        follower.is_back(&position(&[1.0, 0.0], before))
     };
     let near = 4.0 * CURVE_CLOSED;
+
     for off in [[0.9, 0.0], [-0.9, 0.0], [0.0, 0.9], [0.0, 0.0]] {
         assert!(is_back(off.map(|o| o * near), 1.3, 0.9), "{off:?}");
     }
     for off in [[1.1, 0.0], [-1.1, 0.0], [0.0, 1.1]] {
         assert!(!is_back(off.map(|o| o * near), 1.3, 0.9), "{off:?}");
     }
-    assert!(!is_back([0.0; 2], 1.3, 1.1) && !is_back([0.0; 2], 0.7, 0.9));
-    f.system.places = Places(vec![Place::Inside, Place::Lower]);
-    (f.start, f.at.s) = (position(&[4.0, 0.0], 1.0), 0.9);
-    assert!(!f.is_back(&position(&[1.0, 0.0], 1.3)));
+
+    assert!(!is_back([0.0; 2], 1.3, 1.1));
+    assert!(!is_back([0.0; 2], 0.7, 0.9));
+
+    follower.system.places = Places(vec![Place::Inside, Place::Lower]);
+    follower.start = position(&[4.0, 0.0], 1.0);
+    follower.at.s = 0.9;
+    assert!(!follower.is_back(&position(&[1.0, 0.0], 1.3)));
 }
 
 /// Distances to the bounds, to multiplier zero and to s = 0 along the tangent: the least of those
@@ -108,43 +113,57 @@ fn the_next_event_is_the_nearest_ahead() {
         &[INF, 10.0, INF],
     );
     let mut evaluated = Evaluated::new(&p);
-    let mut f = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![0.0, 0.0, 3.0],
         &[Place::Inside, Place::Inside, Place::Lower],
         position(&[2.0, 7.0, 0.0], 1.0),
     );
+
     // z_0 = 2 above 0, z_1 = 7 below 10, multiplier 2 z_0 + 5 - 3 s = 6, s = 1.
-    let next = |f: &mut Follower<'_, '_, Linear>, tangent: [f64; 3]| {
-        let local = f.system.local(&f.at.z.clone()).unwrap();
-        f.predicted_event(&local, &DVector::from_column_slice(&tangent), &[0, 1])
+    let next = |follower: &mut Follower<'_, '_, Linear>, tangent: [f64; 3]| {
+        let local = follower.system.local(&follower.at.z.clone()).unwrap();
+        follower.predicted_event(&local, &DVector::from_column_slice(&tangent), &[0, 1])
     };
+
     assert_eq!(
-        next(&mut f, [-0.5, 0.25, -0.125]),
+        next(&mut follower, [-0.5, 0.25, -0.125]),
         Some((Quantity::Z(0, 0.0), 4.0))
     );
     assert_eq!(
-        next(&mut f, [-0.25, 0.5, -0.125]),
+        next(&mut follower, [-0.25, 0.5, -0.125]),
         Some((Quantity::Z(1, 10.0), 6.0))
     );
-    assert_eq!(next(&mut f, [-0.25, 0.25, -0.5]), Some((Quantity::S, 2.0)));
-    assert_eq!(next(&mut f, [0.0, 0.0, -0.5]), Some((Quantity::S, 2.0)));
     assert_eq!(
-        next(&mut f, [0.0, 0.0, 0.5]),
+        next(&mut follower, [-0.25, 0.25, -0.5]),
+        Some((Quantity::S, 2.0))
+    );
+    assert_eq!(
+        next(&mut follower, [0.0, 0.0, -0.5]),
+        Some((Quantity::S, 2.0))
+    );
+    assert_eq!(
+        next(&mut follower, [0.0, 0.0, 0.5]),
         Some((Quantity::Multiplier(2), 4.0))
     );
     assert_eq!(
-        next(&mut f, [-0.25, 0.0, 0.5]),
+        next(&mut follower, [-0.25, 0.0, 0.5]),
         Some((Quantity::Multiplier(2), 3.0))
     );
-    assert_eq!(next(&mut f, [0.5, -0.5, 0.25]), None);
-    f.at.s = 0.0; // already there
-    assert_eq!(next(&mut f, [0.5, -0.5, -0.25]), None);
-    f.at.s = -1.0;
-    assert_eq!(next(&mut f, [1.0, -0.5, 0.5]), Some((Quantity::S, 2.0)));
-    f.at.z[0] = -1e-9; // a little beyond: at once
+    assert_eq!(next(&mut follower, [0.5, -0.5, 0.25]), None);
+
+    follower.at.s = 0.0; // already there
+    assert_eq!(next(&mut follower, [0.5, -0.5, -0.25]), None);
+
+    follower.at.s = -1.0;
     assert_eq!(
-        next(&mut f, [-0.5, 0.0, 0.0]),
+        next(&mut follower, [1.0, -0.5, 0.5]),
+        Some((Quantity::S, 2.0))
+    );
+
+    follower.at.z[0] = -1e-9; // a little beyond: at once
+    assert_eq!(
+        next(&mut follower, [-0.5, 0.0, 0.0]),
         Some((Quantity::Z(0, 0.0), 0.0))
     );
 }
@@ -160,46 +179,50 @@ fn a_crossing_is_more_than_the_feasibility() {
         &[INF, 4.0],
     );
     let mut evaluated = Evaluated::new(&p);
-    let mut f = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![1.0, 1.0],
         &[Place::Inside; 2],
         position(&[3.0, 0.0], 1.0),
     );
-    let crossing = |f: &mut Follower<'_, '_, Linear>, z: [f64; 2], s: f64| {
+    let crossing = |follower: &mut Follower<'_, '_, Linear>, z: [f64; 2], s: f64| {
         let to = position(&z, s);
-        let (here, there) = (
-            f.system.local(&f.at.z.clone()).unwrap(),
-            f.system.local(&to.z).unwrap(),
-        );
-        f.first_crossing(&here, &to, &there)
+        let here = follower.system.local(&follower.at.z.clone()).unwrap();
+        let there = follower.system.local(&to.z).unwrap();
+        follower.first_crossing(&here, &to, &there)
     };
+
     for s in [0.25, 1.0, 7.0, -1e-9] {
         let least = CURVE_FEASIBLE * (1.0 + f64::abs(s));
         assert_eq!(
-            [0.9, 1.0].map(|share| crossing(&mut f, [-share * least, 0.0], s)),
+            [0.9, 1.0].map(|share| crossing(&mut follower, [-share * least, 0.0], s)),
             [None; 2],
             "{s}"
         );
         assert_eq!(
-            crossing(&mut f, [-1.1 * least, 0.0], s).unwrap().0,
+            crossing(&mut follower, [-1.1 * least, 0.0], s).unwrap().0,
             Quantity::Z(0, 0.0),
             "{s}"
         );
     }
+
     assert_eq!(
-        crossing(&mut f, [-1.0, 0.0], 1.0),
+        crossing(&mut follower, [-1.0, 0.0], 1.0),
         Some((Quantity::Z(0, 0.0), 0.75))
     );
     assert_eq!(
-        crossing(&mut f, [-1.0, 6.0], 1.0),
+        crossing(&mut follower, [-1.0, 6.0], 1.0),
         Some((Quantity::Z(1, 4.0), 4.0 / 6.0))
     );
-    assert_eq!(crossing(&mut f, [2.0, 0.0], -1.0), Some((Quantity::S, 0.5)));
-    // What was beyond before has crossed at once.
-    f.at.z[0] = -1e-9;
     assert_eq!(
-        crossing(&mut f, [-1.0, 0.0], 1.0),
+        crossing(&mut follower, [2.0, 0.0], -1.0),
+        Some((Quantity::S, 0.5))
+    );
+
+    // What was beyond before has crossed at once.
+    follower.at.z[0] = -1e-9;
+    assert_eq!(
+        crossing(&mut follower, [-1.0, 0.0], 1.0),
         Some((Quantity::Z(0, 0.0), 0.0))
     );
 }
@@ -210,39 +233,44 @@ fn a_crossing_is_more_than_the_feasibility() {
 fn easy_steps_grow_and_events_do_not() {
     let p = linear(dmatrix![1.0], dvector![-100.0], &[-INF], &[80.0]);
     let mut evaluated = Evaluated::new(&p);
-    let mut f = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![-100.0],
         &[Place::Inside],
         position(&[0.0], 1.0),
     );
     let tangent = dvector![100.0, -1.0].normalize();
-    let step = |f: &mut Follower<'_, '_, Linear>| {
-        let local = f.system.local(&f.at.z.clone()).unwrap();
-        f.step(&local, &tangent).map(|(landing, _)| landing)
+    let step = |follower: &mut Follower<'_, '_, Linear>| {
+        let local = follower.system.local(&follower.at.z.clone()).unwrap();
+        follower.step(&local, &tangent).map(|(landing, _)| landing)
     };
-    let landing = step(&mut f).unwrap();
-    assert_eq!(
-        (landing.event, landing.there.steps, f.length),
-        (None, 0, CURVE_GROWTH * CURVE_FIRST)
-    );
-    let way = ((&landing.there.at.z - &f.at.z).norm_squared()
-        + (landing.there.at.s - f.at.s).powi(2))
+    let landing = step(&mut follower).unwrap();
+
+    assert_eq!(landing.event, None);
+    assert_eq!(landing.there.steps, 0);
+    assert_eq!(follower.length, CURVE_GROWTH * CURVE_FIRST);
+
+    let way = ((&landing.there.at.z - &follower.at.z).norm_squared()
+        + (landing.there.at.s - follower.at.s).powi(2))
     .sqrt();
+
     approx::assert_relative_eq!(way, CURVE_FIRST, max_relative = 1e-12);
-    f.length = 90.0;
-    let landing = step(&mut f).unwrap();
-    assert_eq!(
-        (landing.event, landing.there.at.z[0], f.length),
-        (Some(Quantity::Z(0, 80.0)), 80.0, 90.0)
-    );
-    assert_eq!(f.system.places.0, [Place::Upper]);
+
+    follower.length = 90.0;
+    let landing = step(&mut follower).unwrap();
+    assert_eq!(landing.event, Some(Quantity::Z(0, 80.0)));
+    assert_eq!(landing.there.at.z[0], 80.0);
+    assert_eq!(follower.length, 90.0);
+    assert_eq!(follower.system.places.0, [Place::Upper]);
+
     // Nothing shorter than the shortest step is tried.
-    f.system.places = Places(vec![Place::Inside]);
-    f.length = 1.5 * CURVE_SHORTEST;
-    assert!(step(&mut f).is_some());
-    f.length = CURVE_SHORTEST;
-    assert!(step(&mut f).is_none());
+    follower.system.places = Places(vec![Place::Inside]);
+    follower.length = 1.5 * CURVE_SHORTEST;
+
+    assert!(step(&mut follower).is_some());
+
+    follower.length = CURVE_SHORTEST;
+    assert!(step(&mut follower).is_none());
 }
 
 /// Where no step lands the length is halved until it is too short.
@@ -254,15 +282,21 @@ fn a_curve_that_leads_nowhere_is_left_at_the_shortest_step() {
         |_, j| j[(0, 0)] = 1.0,
     );
     let mut evaluated = Evaluated::new(&p);
-    let mut f = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![1.0],
         &[Place::Inside],
         position(&[0.0], 0.0),
     );
-    let local = f.system.local(&dvector![0.0]).unwrap();
-    assert!(f.step(&local, &dvector![1.0, 1.0].normalize()).is_none());
-    assert!(f.length <= CURVE_SHORTEST && f.length > 0.5 * CURVE_SHORTEST * (1.0 - 1e-9));
+    let local = follower.system.local(&dvector![0.0]).unwrap();
+
+    assert!(
+        follower
+            .step(&local, &dvector![1.0, 1.0].normalize())
+            .is_none()
+    );
+    assert!(follower.length <= CURVE_SHORTEST);
+    assert!(follower.length > 0.5 * CURVE_SHORTEST * (1.0 - 1e-9));
 }
 
 /// z = 10 - 10 s: from s = 0.5 the solution is |dz| + |ds| = 5.5 away, which must be within four
@@ -271,22 +305,22 @@ fn a_curve_that_leads_nowhere_is_left_at_the_shortest_step() {
 fn an_event_that_is_far_is_refused() {
     let p = linear(dmatrix![1.0], dvector![-10.0], &[-INF], &[INF]);
     let mut evaluated = Evaluated::new(&p);
-    let mut f = at(
+    let mut follower = follower_at(
         &mut evaluated,
         dvector![-10.0],
         &[Place::Inside],
         position(&[5.0], 0.5),
     );
     let mut lands = |length: f64| {
-        f.length = length;
-        let local = f.system.local(&f.at.z.clone()).unwrap();
-        f.land_on(Quantity::S, &position(&[5.0], 0.5), &local)
+        follower.length = length;
+        let local = follower.system.local(&follower.at.z.clone()).unwrap();
+        follower
+            .land_on(Quantity::S, &position(&[5.0], 0.5), &local)
             .map(|landing| (landing.there.at.z[0], landing.there.at.s, landing.event))
     };
-    assert_eq!(
-        [lands(5.5 / 3.9), lands(5.5 / 4.1)],
-        [Some((10.0, 0.0, Some(Quantity::S))), None]
-    );
+
+    assert_eq!(lands(5.5 / 3.9), Some((10.0, 0.0, Some(Quantity::S))));
+    assert_eq!(lands(5.5 / 4.1), None);
     assert!(lands(5.5 / 4.0).is_some()); // exactly four lengths
 }
 
@@ -302,21 +336,22 @@ fn an_event_beyond_another_one_is_refused() {
             &[INF, 4.0],
         );
         let mut evaluated = Evaluated::new(&p);
-        let mut f = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![-1.0, 1.0],
             &[Place::Inside; 2],
             position(&[2.0, 1.0], 1.0),
         );
-        f.length = 2.0;
-        let local = f.system.local(&f.at.z.clone()).unwrap();
-        f.land_on(Quantity::Z(1, 4.0), &position(&[-1.0, 4.0], 4.0), &local)
+        follower.length = 2.0;
+        let local = follower.system.local(&follower.at.z.clone()).unwrap();
+        follower
+            .land_on(Quantity::Z(1, 4.0), &position(&[-1.0, 4.0], 4.0), &local)
             .map(|landing| landing.there.at.z)
     };
-    assert_eq!(
-        [lands(0.0), lands(-2.0), lands(-INF)],
-        [None, Some(dvector![-1.0, 4.0]), Some(dvector![-1.0, 4.0])]
-    );
+
+    assert_eq!(lands(0.0), None);
+    assert_eq!(lands(-2.0), Some(dvector![-1.0, 4.0]));
+    assert_eq!(lands(-INF), Some(dvector![-1.0, 4.0]));
 }
 
 /// An event that the tangent shows within the step is landed on at once.
@@ -325,19 +360,24 @@ fn a_predicted_event_costs_one_correction() {
     let p = linear(dmatrix![1.0], dvector![0.0], &[-INF], &[3.0]);
     for (length, corrections, event) in [(4.0, 1, Some(Quantity::Z(0, 3.0))), (0.5, 1, None)] {
         let mut evaluated = Evaluated::new(&p);
-        let mut f = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0],
             &[Place::Inside],
             position(&[1.0], 1.0),
         );
-        f.length = length;
-        let local = f.system.local(&f.at.z.clone()).unwrap();
+        follower.length = length;
+        let local = follower.system.local(&follower.at.z.clone()).unwrap();
         let tangent = dvector![1.0, 1.0].normalize();
-        let before = f.system.problem.counters.jacobians;
-        let landing = f.land(&local, &tangent, &[0]).unwrap();
-        assert_eq!((landing.event, landing.there.steps), (event, 0), "{length}");
-        assert_eq!(f.system.problem.counters.jacobians - before, corrections);
+        let before = follower.system.problem.counters.jacobians;
+        let landing = follower.land(&local, &tangent, &[0]).unwrap();
+
+        assert_eq!(landing.event, event, "{length}");
+        assert_eq!(landing.there.steps, 0, "{length}");
+        assert_eq!(
+            follower.system.problem.counters.jacobians - before,
+            corrections
+        );
     }
 }
 
@@ -349,7 +389,7 @@ fn a_tangent_from_the_correction_is_turned_forward() {
     let tangent = dvector![1.0, 0.0];
     let turned = |given: DVector<f64>| {
         let mut evaluated = Evaluated::new(&p);
-        let mut f = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0],
             &[Place::Inside],
@@ -365,7 +405,7 @@ fn a_tangent_from_the_correction_is_turned_forward() {
             steps: 1,
             tangent: Some(given),
         };
-        f.turn(
+        follower.turn(
             &Landing {
                 there,
                 event: Some(Quantity::S),
@@ -373,8 +413,10 @@ fn a_tangent_from_the_correction_is_turned_forward() {
             &tangent,
         )
     };
+
     assert_eq!(turned(dvector![0.8, 0.6]), Some(dvector![0.8, 0.6]));
     assert_eq!(turned(dvector![-0.8, 0.6]), Some(dvector![0.8, -0.6]));
+
     let across = (1.0 - CURVE_ANGLE * CURVE_ANGLE).sqrt();
     assert_eq!(
         [dvector![CURVE_ANGLE, across], dvector![0.0, 1.0]].map(turned),
@@ -388,7 +430,7 @@ fn a_tangent_turns_by_no_more_than_the_angle() {
     let p = linear(dmatrix![1.0], dvector![0.0], &[-INF], &[INF]);
     for (cosine, turns) in [(CURVE_ANGLE + 0.01, true), (CURVE_ANGLE - 0.01, false)] {
         let mut evaluated = Evaluated::new(&p);
-        let mut f = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0],
             &[Place::Inside],
@@ -396,6 +438,7 @@ fn a_tangent_turns_by_no_more_than_the_angle() {
         );
         let slope = (1.0 / f64::powi(cosine, 2) - 1.0).sqrt();
         let tangent = dvector![1.0, 0.0];
+
         for event in [None, Some(Quantity::S)] {
             let local = Local {
                 f: dvector![0.0],
@@ -410,8 +453,10 @@ fn a_tangent_turns_by_no_more_than_the_angle() {
                 },
                 event,
             };
-            let next = f.turn(&landing, &tangent);
+            let next = follower.turn(&landing, &tangent);
+
             assert_eq!(next.is_some(), turns, "{cosine}");
+
             if let Some(next) = next {
                 approx::assert_relative_eq!(next.dot(&tangent), cosine, max_relative = 1e-12);
             }
@@ -430,37 +475,43 @@ fn a_pair_changes_places_at_its_event() {
     );
     let turned = |places: [Place; 2], event: Quantity, tangent: DVector<f64>| {
         let mut evaluated = Evaluated::new(&p);
-        let mut f = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![1.0, 3.0],
             &places,
             position(&[2.0, 0.0], 1.0),
         );
-        let local = f.system.local(&dvector![2.0, 0.0]).unwrap();
+        let local = follower.system.local(&dvector![2.0, 0.0]).unwrap();
         let landing = Landing {
             there: Corrected {
-                at: f.at.clone(),
+                at: follower.at.clone(),
                 local,
                 steps: 0,
                 tangent: None,
             },
             event: Some(event),
         };
-        let next = f.turn(&landing, &tangent).unwrap();
-        let now = f.system.places.inside();
-        let quantity = |q: Quantity| f.system.row(q, &landing.there.local, &now).dot(&next);
+        let next = follower.turn(&landing, &tangent).unwrap();
+        let now = follower.system.places.inside();
+        let quantity = |q: Quantity| {
+            follower
+                .system
+                .row(q, &landing.there.local, &now)
+                .dot(&next)
+        };
         let rate = if now.contains(&1) {
             quantity(Quantity::Z(1, 0.0))
         } else {
             quantity(Quantity::Multiplier(1))
         };
         (
-            f.system.places.0[1],
+            follower.system.places.0[1],
             rate > 0.0,
             (next.norm() - 1.0).abs() < 1e-12,
         )
     };
     let inside = [Place::Inside; 2];
+
     assert_eq!(
         turned(inside, Quantity::Z(1, 4.0), dvector![0.0, 0.5, 0.5]),
         (Place::Upper, false, true)
@@ -469,6 +520,7 @@ fn a_pair_changes_places_at_its_event() {
         turned(inside, Quantity::Z(1, 0.0), dvector![0.0, -0.5, 0.5]),
         (Place::Lower, true, true)
     );
+
     // A curve that bends comes back to the bound its tangent leads away from: it is that bound all
     // the same.
     assert_eq!(
@@ -505,27 +557,30 @@ fn a_curve_is_a_ray_when_far() {
         // F = z with r = slope: z = slope s.
         let p = linear(dmatrix![1.0], dvector![0.0], &[-INF], &[upper]);
         let mut evaluated = Evaluated::new(&p);
-        let mut f = at(
+        let mut follower = follower_at(
             &mut evaluated,
             dvector![slope],
             &[Place::Inside],
             position(&[z], z / slope),
         );
-        f.start.z[0] = start;
-        f.walk(Sense::Up)
+        follower.start.z[0] = start;
+        follower.walk(Sense::Up)
     };
+
     for start in [0.0, 3.0, -3.0] {
         let limit = CURVE_FAR * (1.0 + f64::abs(start));
         assert_eq!(
             [0.999, 1.001].map(|share| walked(start, share * limit, 1e3, INF)),
             [Some(CurveEnd::StepLimit), Some(CurveEnd::Ray)]
         );
+
         // At the limit itself, where an event has put it, not yet.
         assert_eq!(
             walked(start, limit - 0.01, 1e3, limit),
             Some(CurveEnd::StepLimit)
         );
     }
+
     assert_eq!(
         [0.999, 1.001].map(|share| walked(0.0, share * CURVE_FAR / 1e3, 1e-3, INF)),
         [Some(CurveEnd::StepLimit), Some(CurveEnd::Ray)]
@@ -560,24 +615,22 @@ fn a_circle_closes_at_a_solution_it_has_met() {
             )
             .unwrap()
         };
+
         for (share, passages) in [(0.0, 2), (0.9, 2), (1.1, 3)] {
             let curve = met(share, 9, 500);
-            assert_eq!(
-                (curve.solutions.len(), curve.end),
-                (passages, CurveEnd::Closed),
-                "{share}: {curve:?}"
-            );
+            assert_eq!(curve.solutions.len(), passages, "{share}: {curve:?}");
+            assert_eq!(curve.end, CurveEnd::Closed, "{share}: {curve:?}");
             assert!(
                 curve.solutions.iter().enumerate().all(
                     |(k, z)| (z[0].abs() - radius).abs() < 1e-6 && (z[0] > 0.0) == (k % 2 == 1)
                 )
             );
         }
+
         assert_eq!(met(0.0, 1, 500).end, CurveEnd::Enough);
+
         let short = met(0.0, 9, 3);
-        assert_eq!(
-            (short.end, short.counters.curve_steps),
-            (CurveEnd::StepLimit, 3)
-        );
+        assert_eq!(short.end, CurveEnd::StepLimit);
+        assert_eq!(short.counters.curve_steps, 3);
     }
 }

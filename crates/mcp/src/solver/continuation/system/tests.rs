@@ -24,6 +24,7 @@ fn places_follow_the_bounds() {
         &[4.0, 4.0, 4.0, 4.0, 4.0],
     );
     let at = Places::at_bounds(&p, &dvector![0.0, 4.0, 1.0, 4.0, 4.0]);
+
     assert_eq!(
         at.0,
         [
@@ -41,7 +42,7 @@ fn places_follow_the_bounds() {
 #[test]
 fn places_of_a_solution_are_those_of_strict_complementarity() {
     let p = problem(1, &[0.0], &[4.0]);
-    let of = |z: f64, f: f64| {
+    let place = |z: f64, f: f64| {
         Places::at_solution(
             &p,
             &Point {
@@ -52,14 +53,16 @@ fn places_of_a_solution_are_those_of_strict_complementarity() {
         )
         .0[0]
     };
-    assert_eq!(
-        [of(1e-9, 1.0), of(1.0, 1e-9), of(0.0, 0.0), of(1.0, 1.0)],
-        [Place::Lower, Place::Inside, Place::Lower, Place::Lower]
-    );
-    assert_eq!(
-        [of(4.0, -1.0), of(3.0, -1e-9), of(3.0, -1.0), of(2.0, 0.0)],
-        [Place::Upper, Place::Inside, Place::Upper, Place::Inside]
-    );
+
+    assert_eq!(place(1e-9, 1.0), Place::Lower);
+    assert_eq!(place(1.0, 1e-9), Place::Inside);
+    assert_eq!(place(0.0, 0.0), Place::Lower);
+    assert_eq!(place(1.0, 1.0), Place::Lower);
+    assert_eq!(place(4.0, -1.0), Place::Upper);
+    assert_eq!(place(3.0, -1e-9), Place::Inside);
+    assert_eq!(place(3.0, -1.0), Place::Upper);
+    assert_eq!(place(2.0, 0.0), Place::Inside);
+
     let fixed = problem(1, &[4.0], &[4.0]);
     assert_eq!(
         Places::at_solution(
@@ -84,17 +87,13 @@ fn lifted_multipliers_are_on_the_right_side() {
         Place::Fixed,
     ]);
     let lift = |i: usize, f: f64| p.lifted_multiplier(i, f, 0.25);
-    assert_eq!(
-        [
-            lift(0, 3.0),
-            lift(1, 3.0),
-            lift(1, -3.0),
-            lift(2, -3.0),
-            lift(2, 3.0),
-            lift(3, -3.0)
-        ],
-        [0.0, 3.25, 0.25, -3.25, -0.25, -3.0]
-    );
+
+    assert_eq!(lift(0, 3.0), 0.0);
+    assert_eq!(lift(1, 3.0), 3.25);
+    assert_eq!(lift(1, -3.0), 0.25);
+    assert_eq!(lift(2, -3.0), -3.25);
+    assert_eq!(lift(2, 3.0), -0.25);
+    assert_eq!(lift(3, -3.0), -3.0);
 }
 
 /// Values of the three quantities and their derivatives by (z_I, s).
@@ -117,10 +116,12 @@ fn rows_are_the_derivatives_of_the_quantities() {
         s: 0.125,
     };
     let quantities = [Quantity::Z(0, 4.0), Quantity::Multiplier(1), Quantity::S];
+
     assert_eq!(
         quantities.map(|q| system.value(q, &at, &local)),
         [-3.5, 3.0 - 0.125 * 7.0, 0.125]
     );
+
     let rows = quantities.map(|q| system.row(q, &local, &[0]));
     assert_eq!(
         rows,
@@ -160,6 +161,7 @@ fn a_correction_may_double_the_residual_and_no_more() {
             s: 0.0,
         };
         let found = system.correct(&at, &Border::Plane(&dvector![0.0, 1.0]));
+
         assert_eq!(
             found.map(|there| (there.at.z[0].abs() < 1e-9, there.steps)),
             passes.then_some((true, 2)),
@@ -190,7 +192,9 @@ fn a_residual_is_relative_to_the_right_hand_side() {
                 .unwrap()
                 .steps
         };
-        assert_eq!([steps(0.9), steps(1.1)], [0, 1], "{s} {r}");
+
+        assert_eq!(steps(0.9), 0, "{s} {r}");
+        assert_eq!(steps(1.1), 1, "{s} {r}");
     }
 }
 
@@ -219,10 +223,9 @@ fn a_correction_has_a_number_of_steps() {
             .map(|there| there.steps)
     };
     let enough = CURVE_RESIDUAL * (27.0f64 / 8.0).powi(CURVE_STEPS as i32);
-    assert_eq!(
-        [steps(0.95 * enough), steps(1.05 * enough)],
-        [Some(CURVE_STEPS), None]
-    );
+
+    assert_eq!(steps(0.95 * enough), Some(CURVE_STEPS));
+    assert_eq!(steps(1.05 * enough), None);
 }
 
 /// Outside the bounds F is continued by its tangent there; what is not finite is no value.
@@ -242,20 +245,21 @@ fn outside_the_bounds_the_function_is_linear() {
         r: dvector![0.0, 0.0],
         places: Places(vec![Place::Inside; 2]),
     };
+
     assert_eq!(
         system.local(&dvector![2.0, 1.0]).unwrap().f,
         dvector![4.0, 2.0]
     );
+
     // At (3, 4) F = (9, 12) and F' = [6, 0; 4, 3].
     let local = system.local(&dvector![3.5, 6.0]).unwrap();
+    assert_eq!(local.f, dvector![12.0, 20.0]);
     assert_eq!(
-        (local.f, local.jacobian),
-        (
-            dvector![12.0, 20.0],
-            DMatrix::from_row_slice(2, 2, &[6.0, 0.0, 4.0, 3.0])
-        )
+        local.jacobian,
+        DMatrix::from_row_slice(2, 2, &[6.0, 0.0, 4.0, 3.0])
     );
     assert_eq!(system.problem.counters.jacobians, 2);
+
     for (value, slope) in [(f64::NAN, 1.0), (1.0, f64::INFINITY)] {
         let p = free(1, move |_, f| f[0] = value, move |_, j| j[(0, 0)] = slope);
         let mut evaluated = Evaluated::new(&p);
@@ -264,6 +268,7 @@ fn outside_the_bounds_the_function_is_linear() {
             r: dvector![0.0],
             places: Places(vec![Place::Inside]),
         };
+
         assert!(system.local(&dvector![0.0]).is_none());
     }
 }
@@ -285,27 +290,31 @@ fn tangents_satisfy_the_bordered_equations() {
         f: DVector::zeros(3),
         jacobian,
     };
+
     for sign in [1.0, -1.0] {
         let border = dvector![0.5, 0.0, 1.0];
         let v = system.tangent(&local, &border, sign).unwrap();
-        assert!(
-            (2.0 * v[0] + v[1] - 5.0 * v[2]).abs() < 1e-12
-                && (-v[0] + 4.0 * v[1] + 2.0 * v[2]).abs() < 1e-12
-        );
-        assert!((v.norm() - 1.0).abs() < 1e-12 && border.dot(&v) * sign > 0.0);
+        assert!((2.0 * v[0] + v[1] - 5.0 * v[2]).abs() < 1e-12);
+        assert!((-v[0] + 4.0 * v[1] + 2.0 * v[2]).abs() < 1e-12);
+        assert!((v.norm() - 1.0).abs() < 1e-12);
+        assert!(border.dot(&v) * sign > 0.0);
     }
+
     assert_eq!(system.problem.counters.factorisations, 2);
     assert!(
         system
             .tangent(&local, &dvector![0.0, 0.0, 0.0], 1.0)
             .is_none()
     );
+
     let mut at = Position {
         z: dvector![1.0, 2.0, 3.0],
         s: 4.0,
     };
     system.shift(&mut at, &[0, 2], &dvector![1.0, -1.0, 0.5], 2.0);
-    assert_eq!((at.z, at.s), (dvector![3.0, 2.0, 1.0], 5.0));
+
+    assert_eq!(at.z, dvector![3.0, 2.0, 1.0]);
+    assert_eq!(at.s, 5.0);
 }
 
 /// Numbers whose square or reciprocal leaves the range give no direction.
@@ -341,23 +350,26 @@ fn factors_are_kept_while_they_gain() {
                 &Border::Plane(&dvector![0.0, 1.0]),
             )
             .unwrap();
-        assert!((there.at.z[0] - 1.0).abs() < 1e-8 && there.at.s == 1.0);
+        assert!((there.at.z[0] - 1.0).abs() < 1e-8);
+        assert_eq!(there.at.s, 1.0);
         (
             there.steps,
             system.problem.counters.factorisations,
             there.tangent,
         )
     };
+
     // The error e of z goes to e^2 / 2 with new factors, to e times the first error with kept ones.
     for (from, steps, factorisations) in [(1.0 + 1e-3, 2, 1), (1.1, 4, 2)] {
         let (s, f, tangent) = corrected(from);
-        assert_eq!((s, f), (steps, factorisations), "{from}");
+        assert_eq!(s, steps, "{from}");
+        assert_eq!(f, factorisations, "{from}");
+
         let tangent = tangent.unwrap();
         let along = dvector![1.0, 2.0].normalize();
-        assert!(
-            (tangent.dot(&along).abs() - 1.0).abs() < 1e-5 && (tangent.norm() - 1.0).abs() < 1e-12,
-            "{tangent}"
-        );
+        assert!((tangent.dot(&along).abs() - 1.0).abs() < 1e-5, "{tangent}");
+        assert!((tangent.norm() - 1.0).abs() < 1e-12, "{tangent}");
     }
+
     assert_eq!(corrected(1.0), (0, 0, None));
 }

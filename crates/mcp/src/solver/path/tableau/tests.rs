@@ -1,5 +1,7 @@
 //! The error of the equations against its definition, and the moves one by one.
 
+use super::super::super::options::RatioTest;
+use super::super::ratio::ratio_test;
 use super::super::tests::at_start;
 use super::super::{Start, Subproblem};
 use super::*;
@@ -11,21 +13,18 @@ const INF: f64 = f64::INFINITY;
 /// unknowns.
 fn drift_by_definition(tableau: &Tableau<'_, f64>, m: &DMatrix<f64>, q: &[f64], r: &[f64]) -> f64 {
     let n = q.len();
-    let largest = |list: &[f64]| list.iter().fold(0.0, |a: f64, b| a.max(b.abs()));
-    let (mut sum, mut size): (Vec<f64>, f64) = (
-        (0..n).map(|i| q[i] + r[i]).collect(),
-        largest(q) + largest(r),
-    );
+    let mut sum: Vec<f64> = (0..n).map(|i| q[i] + r[i]).collect();
+    let mut size: f64 = largest(q) + largest(r);
     let mut z = tableau.state.z.clone();
+
     for (variable, value) in tableau.basis.variables.iter().zip(&tableau.state.values) {
         size = size.max(match *variable {
             Variable::Z(i) => {
                 z[i] = 0.0;
                 let column: Vec<f64> = (0..n).map(|row| m[(row, i)]).collect();
-                column
-                    .iter()
-                    .zip(&mut sum)
-                    .for_each(|(c, s)| *s += c * value);
+                for row in 0..n {
+                    sum[row] += column[row] * value;
+                }
                 largest(&column) * value.abs()
             }
             Variable::W(i) => {
@@ -37,19 +36,32 @@ fn drift_by_definition(tableau: &Tableau<'_, f64>, m: &DMatrix<f64>, q: &[f64], 
                 value.abs()
             }
             Variable::T => {
-                r.iter().zip(&mut sum).for_each(|(r, s)| *s -= r * value);
+                for row in 0..n {
+                    sum[row] -= r[row] * value;
+                }
                 largest(r) * value.abs()
             }
             Variable::Artificial(_) => unreachable!("regular starts"),
         });
     }
-    (0..n).for_each(|i| sum[i] += (0..n).map(|j| m[(i, j)] * z[j]).sum::<f64>());
+
+    for i in 0..n {
+        for j in 0..n {
+            sum[i] += m[(i, j)] * z[j];
+        }
+    }
+
     largest(&sum) / size
+}
+
+fn largest(list: &[f64]) -> f64 {
+    list.iter().fold(0.0, |a: f64, b| a.max(b.abs()))
 }
 
 #[test]
 fn drift_is_the_error_of_the_equations_relative_to_their_terms() {
     let m = dmatrix![2.0, 1.0, 0.5; 1.0, 3.0, -1.0; 0.0, 0.25, 4.0];
+
     // At the start w, v and z are basic; the errors are in one of them each, the sizes small and
     // large beside q and r.
     for (current, q) in [
@@ -69,18 +81,22 @@ fn drift_is_the_error_of_the_equations_relative_to_their_terms() {
                 [Variable::W(0), Variable::Z(1), Variable::V(2)]
             );
             assert!(tableau.drift() < 1e-15);
+
             let r: Vec<f64> = tableau
                 .columns
                 .dense(Variable::T)
                 .iter()
                 .map(|v| -v)
                 .collect();
+
             for place in 0..3 {
                 for error in [1e-3, -7.0, 1e4] {
                     let exact = tableau.state.values[place];
                     tableau.state.values[place] += error;
                     let expected = drift_by_definition(&tableau, &m, &q, &r);
+
                     approx::assert_relative_eq!(tableau.drift(), expected, max_relative = 1e-9);
+
                     tableau.state.values[place] = exact;
                 }
             }
@@ -98,23 +114,19 @@ fn values_are_made_anew_when_they_drift() {
         lower: &[0.0; 2],
         upper: &[INF; 2],
     };
+
     for (share, refreshed) in [(0.9, 0), (1.1, 1)] {
         at_start(&sub, Start::Ray, &[0.0; 2], |mut tableau| {
             tableau.set_rates();
-            let block = super::super::ratio::ratio_test(
-                &mut tableau,
-                super::super::super::options::RatioTest::Lexicographic,
-                0,
-            )
-            .unwrap();
+            let block = ratio_test(&mut tableau, RatioTest::Lexicographic, 0).unwrap();
             tableau.advance(&block.step);
             let place = block.place.unwrap();
             let other = 1 - place;
+
             // Both are zero there, and no term is larger than |q| + |r|.
-            assert_eq!(
-                (tableau.state.values[other], tableau.columns.scale()),
-                (0.0, 3.0)
-            );
+            assert_eq!(tableau.state.values[other], 0.0);
+            assert_eq!(tableau.columns.scale(), 3.0);
+
             tableau.state.values[other] = share * (DRIFT * 3.0);
             assert!(tableau.exchange(place, block.at_upper));
             assert_eq!(tableau.basis.refreshed, refreshed, "{share}");
@@ -149,55 +161,31 @@ fn rooms_are_up_to_the_bound_ahead() {
     };
     at_start(&sub, Start::Regular, &[2.0, 3.0], |mut tableau| {
         let room = |tableau: &mut Tableau<'_, f64>, entering, sign| {
-            (tableau.entering, tableau.sign) = (entering, sign);
+            tableau.entering = entering;
+            tableau.sign = sign;
             tableau.own_room()
         };
-        assert_eq!(
-            [
-                room(&mut tableau, Variable::Z(0), 1.0),
-                room(&mut tableau, Variable::Z(0), -1.0)
-            ],
-            [6.0, 4.0]
-        );
+
+        assert_eq!(room(&mut tableau, Variable::Z(0), 1.0), 6.0);
+        assert_eq!(room(&mut tableau, Variable::Z(0), -1.0), 4.0);
+
         tableau.t = 0.25;
-        assert_eq!(
-            [
-                room(&mut tableau, Variable::T, 1.0),
-                room(&mut tableau, Variable::T, -1.0)
-            ],
-            [0.75, INF]
-        );
+        assert_eq!(room(&mut tableau, Variable::T, 1.0), 0.75);
+        assert_eq!(room(&mut tableau, Variable::T, -1.0), INF);
+
         tableau.state.multiplier[0] = -5.0; // v = 5
-        assert_eq!(
-            [
-                room(&mut tableau, Variable::V(0), 1.0),
-                room(&mut tableau, Variable::V(0), -1.0)
-            ],
-            [INF, 5.0]
-        );
+        assert_eq!(room(&mut tableau, Variable::V(0), 1.0), INF);
+        assert_eq!(room(&mut tableau, Variable::V(0), -1.0), 5.0);
+
         tableau.state.multiplier[0] = 5.0; // w = 5
-        assert_eq!(
-            [
-                room(&mut tableau, Variable::W(0), 1.0),
-                room(&mut tableau, Variable::W(0), -1.0)
-            ],
-            [INF, 5.0]
-        );
+        assert_eq!(room(&mut tableau, Variable::W(0), 1.0), INF);
+        assert_eq!(room(&mut tableau, Variable::W(0), -1.0), 5.0);
+
         // The multiplier of equal bounds is free; an artificial stays where it is.
-        assert_eq!(
-            [
-                room(&mut tableau, Variable::W(1), 1.0),
-                room(&mut tableau, Variable::W(1), -1.0)
-            ],
-            [INF, INF]
-        );
-        assert_eq!(
-            [
-                room(&mut tableau, Variable::Artificial(0), 1.0),
-                room(&mut tableau, Variable::Artificial(0), -1.0)
-            ],
-            [0.0, 0.0]
-        );
+        assert_eq!(room(&mut tableau, Variable::W(1), 1.0), INF);
+        assert_eq!(room(&mut tableau, Variable::W(1), -1.0), INF);
+        assert_eq!(room(&mut tableau, Variable::Artificial(0), 1.0), 0.0);
+        assert_eq!(room(&mut tableau, Variable::Artificial(0), -1.0), 0.0);
     });
 }
 
@@ -211,14 +199,15 @@ fn a_flip_ends_at_the_other_bound() {
         lower: &[-2.0],
         upper: &[8.0],
     };
+
     for (sign, bound, next) in [(1.0, 8.0, Variable::V(0)), (-1.0, -2.0, Variable::W(0))] {
         at_start(&sub, Start::Ray, &[0.0], |mut tableau| {
-            (tableau.entering, tableau.sign) = (Variable::Z(0), sign);
+            tableau.entering = Variable::Z(0);
+            tableau.sign = sign;
             tableau.flip();
-            assert_eq!(
-                (tableau.state.z[0], tableau.entering, tableau.sign),
-                (bound, next, 1.0)
-            );
+            assert_eq!(tableau.state.z[0], bound);
+            assert_eq!(tableau.entering, next);
+            assert_eq!(tableau.sign, 1.0);
         });
     }
 }
@@ -234,22 +223,17 @@ fn the_complement_moves_next() {
         upper: &[8.0],
     };
     at_start(&sub, Start::Ray, &[0.0], |mut tableau| {
-        let of = [
-            (Variable::W(0), false),
-            (Variable::V(0), false),
-            (Variable::Z(0), false),
-            (Variable::Z(0), true),
-        ];
-        let next = of.map(|(leaving, at_upper)| tableau.successor(leaving, at_upper));
-        assert_eq!(
-            next,
-            [
-                (Variable::Z(0), 1.0),
-                (Variable::Z(0), -1.0),
-                (Variable::W(0), 1.0),
-                (Variable::V(0), 1.0)
-            ]
-        );
+        for (leaving, at_upper, next, sign) in [
+            (Variable::W(0), false, Variable::Z(0), 1.0),
+            (Variable::V(0), false, Variable::Z(0), -1.0),
+            (Variable::Z(0), false, Variable::W(0), 1.0),
+            (Variable::Z(0), true, Variable::V(0), 1.0),
+        ] {
+            tableau.set_successor(leaving, at_upper);
+            assert_eq!(tableau.entering, next);
+            assert_eq!(tableau.sign, sign);
+        }
+
         assert_eq!(tableau.state.z[0], 8.0);
     });
 }
@@ -267,17 +251,23 @@ fn after_an_artificial_t_rises() {
         };
         at_start(&sub, Start::Regular, &[1.0, 0.0], |mut tableau| {
             // The artificial stands for z_1, t for z_0.
-            let (mut given, mut column) = (Vec::new(), vec![0.0; 2]);
+            let mut given = Vec::new();
+            let mut column = vec![0.0; 2];
+
             for (place, variable) in [(1, Variable::Artificial(1)), (0, Variable::T)] {
                 tableau.columns.write(variable, &mut given);
                 tableau.basis.solve(&given, &mut column);
                 tableau.basis.replace(place, variable, &column);
             }
-            let (next, direction) = tableau.successor(Variable::Artificial(1), false);
+
+            tableau.set_successor(Variable::Artificial(1), false);
+
             // M z - t r = const in its first row: with z_0 at rest t changes by slope / r_0 for
             // each unit of z_1.
             let r = -tableau.columns.dense(Variable::T)[0];
-            assert_eq!((next, direction), (Variable::Z(1), sign * r.signum()));
+
+            assert_eq!(tableau.entering, Variable::Z(1));
+            assert_eq!(tableau.sign, sign * r.signum());
         });
     }
 }

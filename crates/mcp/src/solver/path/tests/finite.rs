@@ -29,11 +29,13 @@ const LIMITS: Limits = Limits {
 fn degenerate(rng: &mut ChaCha8Rng, bounded: bool) -> Case {
     let n = rng.random_range(1..=6);
     let span = rng.random_range(1..=2);
+
     let m = DMatrix::from_fn(n, n, |_, _| rng.random_range(-span..=span));
     let q = DVector::from_fn(n, |_, _| rng.random_range(-1..=1));
     let kind: Vec<u8> = (0..n)
         .map(|_| if bounded { rng.random_range(0..5) } else { 0 })
         .collect();
+
     let lower = kind.iter().map(|k| (*k != 3).then_some(0)).collect();
     let upper = kind.iter().map(|k| match k {
         1 => Some(1),
@@ -41,6 +43,7 @@ fn degenerate(rng: &mut ChaCha8Rng, bounded: bool) -> Case {
         3 => Some(2),
         _ => None,
     });
+
     Case {
         m,
         q,
@@ -89,7 +92,8 @@ impl Case {
             .map(|b| bound(b, f64::NEG_INFINITY))
             .collect();
         let upper: Vec<f64> = self.upper.iter().map(|b| bound(b, f64::INFINITY)).collect();
-        let (m, q) = (self.m.map(|v| v as f64), self.q.map(|v| v as f64));
+        let m = self.m.map(|v| v as f64);
+        let q = self.q.map(|v| v as f64);
         let sub = Subproblem {
             m: &m,
             q: q.as_slice(),
@@ -107,21 +111,16 @@ impl Case {
     /// The least residual of the normal map, with bounds overstepped counted as residual.
     fn residual_in_doubles(&self, z: &[f64]) -> f64 {
         let f = self.m.map(|v| v as f64) * DVector::from_column_slice(z) + self.q.map(|v| v as f64);
-        let of = |i: usize| {
-            let (l, u) = (
-                self.lower[i].map_or(f64::NEG_INFINITY, |v| v as f64),
-                self.upper[i].map_or(f64::INFINITY, |v| v as f64),
-            );
-            let near = z[i].max(l).min(u);
-            let snapped = [l, u]
-                .into_iter()
-                .find(|b| (b - z[i]).abs() < 1e-8)
-                .unwrap_or(near);
-            least_residual(snapped, f[i], l, u)
-                .abs()
-                .max((z[i] - near).abs())
+        let residual = |i: usize| {
+            let l = self.lower[i].map_or(f64::NEG_INFINITY, |v| v as f64);
+            let u = self.upper[i].map_or(f64::INFINITY, |v| v as f64);
+            let nearest = z[i].max(l).min(u);
+            let bound = [l, u].into_iter().find(|b| (b - z[i]).abs() < 1e-8);
+            let snapped = bound.unwrap_or(nearest);
+            let overstepped = (z[i] - nearest).abs();
+            least_residual(snapped, f[i], l, u).abs().max(overstepped)
         };
-        (0..z.len()).map(of).fold(0.0, f64::max)
+        (0..z.len()).map(residual).fold(0.0, f64::max)
     }
 
     /// Every line of the definition, exactly.
@@ -129,10 +128,10 @@ impl Case {
         let (m, q, lower, upper) = self.exact();
         let f = m * DVector::from_column_slice(z) + q;
         (0..z.len()).all(|i| {
-            let inside = z[i] >= lower[i] && z[i] <= upper[i];
-            inside
-                && (f[i] <= Exact::zero() || z[i] == lower[i])
-                && (f[i] >= Exact::zero() || z[i] == upper[i])
+            let is_within = z[i] >= lower[i] && z[i] <= upper[i];
+            let not_positive = f[i] <= Exact::zero() || z[i] == lower[i];
+            let not_negative = f[i] >= Exact::zero() || z[i] == upper[i];
+            is_within && not_positive && not_negative
         })
     }
 }
@@ -140,16 +139,18 @@ impl Case {
 /// The sets of basic unknowns along a path from a ray, replayed from its pivots.
 fn bases(path: &Path<Exact>, case: &Case) -> Vec<Vec<Variable>> {
     let n = case.q.len();
-    let mut basis: Vec<Variable> = (0..n)
-        .map(|i| {
-            if case.lower[i].is_some() {
-                Variable::W(i)
-            } else {
-                Variable::V(i)
-            }
-        })
-        .collect();
+    let mut basis = Vec::new();
+    for i in 0..n {
+        let is_bounded_below = case.lower[i].is_some();
+        basis.push(if is_bounded_below {
+            Variable::W(i)
+        } else {
+            Variable::V(i)
+        });
+    }
+
     let mut seen = Vec::new();
+
     for pivot in &path.pivots {
         if pivot.kind == PivotKind::Exchange {
             let place = basis
@@ -158,80 +159,97 @@ fn bases(path: &Path<Exact>, case: &Case) -> Vec<Vec<Variable>> {
                 .expect("a basic unknown leaves");
             basis[place] = pivot.entering;
         }
+
+        // A flip keeps the basis and changes the side.
         let mut key = basis.clone();
-        key.push(pivot.leaving); // a flip keeps the basis and changes the side
+        key.push(pivot.leaving);
         key[..n].sort_by_key(|v| format!("{v:?}"));
         seen.push(key);
     }
+
     seen
+}
+
+/// Are two knots in a row the same point?
+fn is_tie(pair: &[Knot<Exact>]) -> bool {
+    let [a, b] = pair else { return false };
+    a.t == b.t && a.z == b.z && a.multiplier == b.multiplier
+}
+
+/// What happened at the pivots, without their t.
+fn names(pivots: &[Pivot]) -> Vec<(Variable, Variable, PivotKind)> {
+    let mut names = Vec::new();
+    for pivot in pivots {
+        names.push((pivot.entering, pivot.leaving, pivot.kind));
+    }
+    names
 }
 
 #[test]
 fn from_a_ray_no_basis_comes_twice_and_the_end_is_complete_or_a_ray() {
-    let (mut ties, mut ends) = (0, [0; 2]);
+    let mut ties = 0;
+    let mut complete = 0;
+    let mut rays = 0;
     for seed in 0..3000 {
         let case = degenerate(&mut ChaCha8Rng::seed_from_u64(seed), seed % 2 == 1);
         let path = case.follow_exactly();
         let bases = bases(&path, &case);
         let distinct: HashSet<_> = bases.iter().collect();
+
         assert_eq!(
             distinct.len(),
             bases.len(),
             "seed {seed}: a basis came twice"
         );
+
         // Steps of length zero: the degenerate pivots in which a careless rule cycles.
-        ties += knots(&path)
-            .windows(2)
-            .filter(|w| w[0].t == w[1].t && w[0].z == w[1].z && w[0].multiplier == w[1].multiplier)
-            .count();
+        ties += knots(&path).windows(2).filter(|w| is_tie(w)).count();
+
         match path.end {
             PathEnd::Complete => {
-                ends[0] += 1;
+                complete += 1;
                 assert!(case.is_solved_by(path.last().unwrap()), "seed {seed}");
             }
-            PathEnd::Ray => ends[1] += 1,
+            PathEnd::Ray => rays += 1,
             other => panic!("seed {seed}: {other:?}"),
         }
     }
-    println!(
-        "{ties} degenerate pivots; {} complete, {} rays",
-        ends[0], ends[1]
-    );
-    assert!(
-        ties > 500 && ends[0] > 500 && ends[1] > 100,
-        "{ties} {ends:?}"
-    );
+
+    println!("{ties} degenerate pivots; {complete} complete, {rays} rays");
+    assert!(ties > 500);
+    assert!(complete > 500);
+    assert!(rays > 100);
 }
 
 #[test]
 fn doubles_walk_the_exact_path_and_expand_ends_where_it_may() {
-    let (mut same, mut solved) = (0, [0; 2]);
+    let mut same = 0;
+    let mut solved_lexicographic = 0;
+    let mut solved_expand = 0;
     for seed in 0..600 {
         let case = degenerate(&mut ChaCha8Rng::seed_from_u64(10_000 + seed), seed % 2 == 1);
         let exact = case.follow_exactly();
         let doubles = case.follow_in_doubles(RatioTest::Lexicographic);
+
         assert_eq!(exact.end, doubles.end, "seed {seed}");
-        let names = |pivots: &[Pivot]| {
-            pivots
-                .iter()
-                .map(|p| (p.entering, p.leaving, p.kind))
-                .collect::<Vec<_>>()
-        };
-        same += usize::from(names(&exact.pivots) == names(&doubles.pivots));
+
+        if names(&exact.pivots) == names(&doubles.pivots) {
+            same += 1;
+        }
+        if exact.end == PathEnd::Complete {
+            solved_lexicographic += 1;
+        }
+
         let expand = case.follow_in_doubles(RatioTest::Expand);
-        solved[0] += usize::from(exact.end == PathEnd::Complete);
         if expand.end == PathEnd::Complete {
-            solved[1] += 1;
-            assert!(
-                case.residual_in_doubles(expand.last().unwrap()) < 1e-8,
-                "seed {seed}"
-            );
+            solved_expand += 1;
+            let residual = case.residual_in_doubles(expand.last().unwrap());
+            assert!(residual < 1e-8, "seed {seed}");
         }
     }
-    println!(
-        "{same} of 600 paths pivot for pivot alike; complete: lexicographic {}, EXPAND {}",
-        solved[0], solved[1]
-    );
+
+    println!("{same} of 600 paths pivot for pivot alike");
+    println!("complete: lexicographic {solved_lexicographic}, EXPAND {solved_expand}");
     assert_eq!(same, 600);
-    assert!(solved[1] * 10 >= solved[0] * 9, "{solved:?}");
+    assert!(solved_expand * 10 >= solved_lexicographic * 9);
 }
