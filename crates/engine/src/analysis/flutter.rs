@@ -83,7 +83,9 @@ fn transposed(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
 fn by_descending_growth(p: (f64, f64), q: (f64, f64)) -> Ordering {
     let (growth_of_p, _) = root(p);
     let (growth_of_q, _) = root(q);
-    growth_of_q.total_cmp(&growth_of_p).then(p.1.total_cmp(&q.1))
+    growth_of_q
+        .total_cmp(&growth_of_p)
+        .then(p.1.total_cmp(&q.1))
 }
 
 /// lambda of lambda^2 = re + i im: the square root with positive real part, (Re, Im).
