@@ -72,6 +72,7 @@ impl DefiniteUntil {
         if !is_definite(what, &a)? {
             return Ok(DefiniteUntil::Never);
         }
+
         if is_semidefinite(&b) {
             return Ok(DefiniteUntil::Always);
         }
@@ -81,6 +82,7 @@ impl DefiniteUntil {
         {
             return Ok(DefiniteUntil::of_root(end));
         }
+
         bracket(what, &a, &b)
     }
 
@@ -154,6 +156,7 @@ fn is_semidefinite(matrix: &Sparse) -> bool {
         }
         eliminate(&mut rest, k);
     }
+
     true
 }
 
@@ -189,6 +192,7 @@ fn integral(a: &Sparse, scale: &Rational) -> Vec<Vec<Integer>> {
     for (i, j, v) in a.entries() {
         rows[i][j] = (v * scale).to_integer();
     }
+
     rows
 }
 
@@ -199,6 +203,7 @@ fn bracket(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, 
         let hi = proved_near(a, b, &guess, Wanted::NotDefiniteAbove)?;
         Interval::new(lo, hi)
     });
+
     match end {
         Some(end) => Ok(DefiniteUntil::End { end, exact: None }),
         None => Err(ModelError::DefinitenessUndecided {
@@ -223,6 +228,7 @@ fn dense(matrix: &Sparse) -> Vec<Vec<f64>> {
     for (i, j, v) in matrix.entries() {
         rows[i][j] = to_f64(v);
     }
+
     rows
 }
 
@@ -259,6 +265,7 @@ fn proved_near(a: &Sparse, b: &Sparse, guess: &Rational, wanted: Wanted) -> Opti
             return Some(mu);
         }
     }
+
     None
 }
 
@@ -366,6 +373,7 @@ pub fn excluded_at(family: &MuFamily, mu: &Rational) -> Result<bool, ModelError>
     if !is_definite("K*", &stiffness)? {
         return Ok(false);
     }
+
     let Some(mass) = &family.mass else {
         return Ok(false);
     };
@@ -472,6 +480,7 @@ mod tests {
                 excluded += usize::from(is_excluded);
             }
         }
+
         assert!(excluded > 10 && excluded < 80);
     }
 

@@ -109,6 +109,7 @@ pub(super) fn critical(
     } else {
         absence(known.family, &excluded, model.options.limits, &model.watch)
     };
+
     let (absent_below, evidence) = match &cover {
         Some(cover) if cover.below.as_ref().is_none_or(|b| *b > excluded) => {
             (cover.below.clone(), BY_COVER)
@@ -140,6 +141,7 @@ fn sampled_values(lo: &Rational, hi: Option<&Rational>) -> Vec<Rational> {
     let Some(hi) = hi else {
         return vec![lo.clone()];
     };
+
     let middle = (lo + hi) / whole(2);
     let short_middle = from_f64(to_f64(&middle)).unwrap_or(middle);
     vec![lo.clone(), short_middle, hi.clone()]
@@ -163,6 +165,7 @@ fn smaller_solution(
         Some(solution) => solution.mu.hi().clone(),
         None => below * whole(REACH),
     };
+
     if model.stopped() || lambda2.is_zero() || top <= *below {
         return Ok(None);
     }
@@ -173,6 +176,7 @@ fn smaller_solution(
     let Some(smallest) = found.cover.solutions.first() else {
         return Ok(None);
     };
+
     let mu = smallest.value.clone();
     if known.is_some_and(|solution| mu.hi() >= solution.mu.hi()) {
         return Ok(None);
@@ -184,6 +188,7 @@ fn smaller_solution(
         problem,
         certificate: found.certificate,
     });
+
     Ok(Some(CertifiedSolution {
         mu,
         lambda2: Interval::point(lambda2.clone()),

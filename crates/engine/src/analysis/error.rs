@@ -67,5 +67,6 @@ fn require_doubles_in(what: &'static str, matrix: &Sparse) -> Result<(), Analysi
             });
         }
     }
+
     Ok(())
 }

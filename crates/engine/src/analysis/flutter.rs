@@ -40,6 +40,7 @@ pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
             *entry = -*entry;
         }
     }
+
     let solved = solve(&dense_at(mass, mu), &columns)?;
 
     let mut complex = eigenvalues(&transposed(&solved))?;
@@ -50,6 +51,7 @@ pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
         Some(fastest) => root(*fastest),
         None => (0.0, 0.0),
     };
+
     Some(Flutter {
         eigenvalues: complex,
         growth_rate,
@@ -64,6 +66,7 @@ fn dense_at(pencil: &Pencil, mu: &Rational) -> Vec<Vec<f64>> {
     for (i, j, v) in matrix.entries() {
         rows[i][j] = to_f64(v);
     }
+
     rows
 }
 
@@ -76,6 +79,7 @@ fn transposed(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
             transposed[j][i] = *entry;
         }
     }
+
     transposed
 }
 
@@ -97,6 +101,7 @@ fn root((re, im): (f64, f64)) -> (f64, f64) {
     } else {
         0.5 * im.abs() / (0.5 * (size - re)).sqrt()
     };
+
     let frequency = 0.5 * im / growth;
     (growth, frequency)
 }

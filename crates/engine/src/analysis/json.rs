@@ -104,6 +104,7 @@ impl Analysis {
         for byte in Sha256::digest(text.as_bytes()) {
             let _ = write!(hex, "{byte:02x}"); // a String takes everything
         }
+
         Some(hex)
     }
 
@@ -183,6 +184,7 @@ impl Analysis {
                 "evidence": self.evidence_json(&solution.evidence, paths),
             })
         });
+
         json!({
             "absent_below": critical.absent_below.as_ref().map(ToString::to_string),
             "absent_evidence": self.evidence_json(&critical.evidence, paths),

@@ -70,6 +70,7 @@ pub fn analyse(
         options,
         watch: watch.quiet(),
     };
+
     let at_friction = model.problem(Some(friction))?;
     let family = mu_family(system)?;
 
@@ -100,6 +101,7 @@ pub fn analyse(
         divergence: &divergence,
         threshold: &threshold,
     };
+
     let critical = critical::critical(&model, &known, &mut proofs)?;
 
     watch.report(&Progress::stage("ranges of mu"));
@@ -171,5 +173,6 @@ fn claimed_biactive(found: &Completed, support: &[usize]) -> Vec<usize> {
             biactive.extend(&claim.biactive);
         }
     }
+
     biactive
 }

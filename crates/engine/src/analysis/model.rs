@@ -72,6 +72,7 @@ impl Model<'_> {
             Some((mass, friction)) => (Unknown::Lambda2, Some(mass), Some(friction)),
             None => (Unknown::Mu, None, None),
         };
+
         let system = System::new(stiffness, mass, friction, particles)?;
         Ok(Problem::new(Body::System(system), unknown, Window::all())?)
     }
@@ -82,6 +83,7 @@ impl Model<'_> {
             threads: self.options.threads,
             ..complete::Options::default()
         };
+
         Ok(complete(problem, &options, &self.watch)?)
     }
 

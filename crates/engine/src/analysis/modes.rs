@@ -62,6 +62,7 @@ impl Mode {
         } else {
             0.0
         };
+
         Mode {
             lambda2: lambda2.clone(),
             growth_rate,
@@ -90,5 +91,6 @@ fn lift(dofs: usize, variables: &[Variable], x: &[f64]) -> Vec<f64> {
     for component in &mut v {
         *component += 0.0;
     }
+
     v
 }

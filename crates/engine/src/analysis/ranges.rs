@@ -73,6 +73,7 @@ impl Sampler<'_> {
             let part = Rational::new(k.into(), count.into());
             samples.extend(self.sample(rounded(&top * part))?);
         }
+
         Ok(samples)
     }
 
@@ -100,6 +101,7 @@ impl Sampler<'_> {
             }
             i += 1;
         }
+
         Ok(())
     }
 
@@ -112,6 +114,7 @@ impl Sampler<'_> {
                 verdict: Verdict::Absent,
             }));
         }
+
         if self.model.stopped() {
             return Ok(None);
         }
@@ -144,5 +147,6 @@ fn grouped(samples: &[Sample]) -> Vec<Range> {
             }),
         }
     }
+
     ranges
 }

@@ -68,6 +68,7 @@ fn open_text(name: &str, open: &[OpenRegion]) -> String {
     if open.len() > NAMED_REGIONS {
         text += &format!(" and {} more regions", open.len() - NAMED_REGIONS);
     }
+
     text
 }
 
@@ -125,6 +126,7 @@ impl Analysis {
                 open_text("lambda^2", &self.divergence.open)
             ),
         };
+
         let mu = short(&self.friction);
         Sentence {
             topic: "divergence",
@@ -140,12 +142,14 @@ impl Analysis {
             0 => String::new(),
             families => format!(" and {families} families of solutions (cones or ranges)"),
         };
+
         let others = if divergence.open.is_empty() {
             " and no other".into()
         } else {
             let open = open_text("lambda^2", &divergence.open);
             format!(", others undecided for {open}")
         };
+
         format!(
             "divergence instability of the form (8) is PRESENT: {count} \
              solution{}{families}{others}.",
@@ -166,6 +170,7 @@ impl Analysis {
         } else {
             "growth rate 0 (a threshold: departure linear in time)".into()
         };
+
         let text = format!(
             "Mode {number}: {growth}, lambda^2 {} 1/s^2; particles {:?} slip, {:?} do not move; v \
              over all degrees of freedom in the JSON, slip rates summing to 1.",
@@ -173,6 +178,7 @@ impl Analysis {
             mode.slipping,
             mode.sticking
         );
+
         Sentence {
             topic: "mode",
             text,
@@ -191,6 +197,7 @@ impl Analysis {
             let open = open_text("mu", &threshold.open);
             format!("Static threshold: UNDECIDED for {open}.")
         };
+
         Sentence {
             topic: "static_threshold",
             text,
@@ -208,6 +215,7 @@ impl Analysis {
                 down(bound)
             ),
         };
+
         Sentence {
             topic: "critical_absence",
             text,
@@ -219,6 +227,7 @@ impl Analysis {
         let solution = self.critical.solution.as_ref()?;
         let mu = between(&solution.mu);
         let lambda2 = between(&solution.lambda2);
+
         Some(Sentence {
             topic: "critical_solution",
             text: format!(
@@ -233,6 +242,7 @@ impl Analysis {
         if self.ranges.is_empty() {
             return None;
         }
+
         let parts: Vec<String> = self.ranges.iter().map(range_text).collect();
         Some(Sentence {
             topic: "ranges",
@@ -265,6 +275,7 @@ impl Analysis {
                 "Necessary condition (20): K* is not positive definite {stiffness}; {here}."
             ),
         };
+
         Sentence {
             topic: "necessary",
             text,
@@ -285,6 +296,7 @@ impl Analysis {
             }
             None => "Sufficient condition (17)-(18): UNDECIDED at this mu.",
         };
+
         Sentence {
             topic: "sufficient",
             text: text.into(),
@@ -309,6 +321,7 @@ impl Analysis {
                 )
             }
         };
+
         Sentence {
             topic: "flutter",
             text,

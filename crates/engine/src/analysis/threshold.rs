@@ -28,6 +28,7 @@ impl StaticThreshold {
         for solution in &found.cover.solutions {
             values.push(solution.value.clone());
         }
+
         for family in &found.cover.families {
             if family.is_point {
                 values.push(family.from.clone());
@@ -35,6 +36,7 @@ impl StaticThreshold {
                 open.push(open_region(family));
             }
         }
+
         values.sort_by(|p, q| p.lo().cmp(q.lo()));
 
         StaticThreshold {

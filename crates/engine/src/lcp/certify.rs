@@ -41,6 +41,7 @@ pub fn certify(problem: &ExactMcp, point: &[f64]) -> Result<Vec<Rational>, Uncer
         }
         .into());
     }
+
     let exact_point = point.iter().map(|v| from_f64(*v).unwrap_or_default());
     let mut z: Vec<Rational> = exact_point.collect();
 
@@ -68,6 +69,7 @@ fn move_to_bounds(problem: &ExactMcp, point: &[f64], z: &mut [Rational]) -> Vec<
             _ => inside.push(i),
         }
     }
+
     inside
 }
 
@@ -79,9 +81,11 @@ fn solve_rows(problem: &ExactMcp, inside: &[usize], z: &mut [Rational]) -> bool 
     if system.has_contradiction() {
         return false;
     }
+
     for (row, &column) in system.pivots.iter().enumerate() {
         z[inside[column]] += system.right_side(row);
     }
+
     true
 }
 
@@ -104,6 +108,7 @@ impl Tableau {
             row.push(-&f[i]);
             rows.push(row);
         }
+
         Tableau {
             rows,
             order: inside.len(),

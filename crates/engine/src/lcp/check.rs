@@ -66,6 +66,7 @@ pub fn check(problem: &ExactMcp, z: &[Rational]) -> Result<(), Violated> {
             got: z.len(),
         });
     }
+
     let point = IntegerPoint::new(z)?;
     for (index, z_i) in z.iter().enumerate() {
         let (lower, upper) = problem.bounds(index);
@@ -93,6 +94,7 @@ pub fn check(problem: &ExactMcp, z: &[Rational]) -> Result<(), Violated> {
             });
         }
     }
+
     Ok(())
 }
 
@@ -120,6 +122,7 @@ impl IntegerPoint {
         let numerators: Vec<Integer> = numerators.collect();
         let longest = numerators.iter().map(Integer::bits).max().unwrap_or(0);
         require_bits(denominator.bits() + longest, allowed)?;
+
         Ok(IntegerPoint {
             numerators,
             denominator,
@@ -155,6 +158,7 @@ impl ScaledRow {
                 multiple += times(m, &scale) * z_j;
             }
         }
+
         ScaledRow {
             multiple,
             factor: scale * &z.denominator,
@@ -198,6 +202,7 @@ mod tests {
                 })
             );
         }
+
         assert!(matches!(
             check(&problem, &[rational(1, 2), whole(0)]),
             Err(Violated::Sign { index: 0, .. })

@@ -74,6 +74,7 @@ impl ExactMcp {
                 });
             }
         }
+
         Ok(ExactMcp { m, q, lower, upper })
     }
 
@@ -97,6 +98,7 @@ impl ExactMcp {
                 }
             }
         }
+
         f
     }
 
@@ -120,6 +122,7 @@ impl ExactMcp {
         let q = self.q.iter().map(to_f64).collect();
         let lower = self.lower.iter();
         let upper = self.upper.iter();
+
         LinearMcp::new(
             m,
             q,

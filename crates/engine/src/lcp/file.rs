@@ -69,10 +69,12 @@ pub fn read_mcp(text: &str) -> Result<ExactMcp, FileError> {
         Some(bounds) => exact_bounds(bounds),
         None => vec![Some(whole(0)); n],
     };
+
     let upper = match raw.upper {
         Some(bounds) => exact_bounds(bounds),
         None => vec![None; n],
     };
+
     let m = raw.m.into_iter().map(exact).collect();
     Ok(ExactMcp::new(m, exact(raw.q), lower, upper)?)
 }
@@ -191,12 +193,14 @@ mod tests {
             points: vec![vec![rational(4, 3), rational(7, 3)]],
             ..certificate.clone()
         };
+
         assert_eq!(judge(&problem, &good), Ok(1));
 
         let empty = McpCertificate {
             points: vec![],
             ..certificate
         };
+
         assert_eq!(judge(&problem, &empty), Err(McpRejected::NoClaims));
 
         let lcp = read_mcp(r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,-6]}"#).unwrap();

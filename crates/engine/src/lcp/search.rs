@@ -67,6 +67,7 @@ pub fn search(problem: &ExactMcp, how: &Search) -> Result<Found, SolverError> {
         how,
         found: Found::default(),
     };
+
     let mut rng = ChaCha8Rng::seed_from_u64(how.seed);
 
     for run in 0..how.starts {
@@ -90,6 +91,7 @@ pub fn search(problem: &ExactMcp, how: &Search) -> Result<Found, SolverError> {
             hunt.run_solver(&start)?;
         }
     }
+
     Ok(hunt.found)
 }
 
@@ -130,6 +132,7 @@ impl Hunt<'_> {
         for point in &curve.solutions {
             self.run_solver(point)?;
         }
+
         Ok(())
     }
 
@@ -162,6 +165,7 @@ impl Hunt<'_> {
                 Err(reason) => found.uncertified.push((outcome.point.clone(), reason)),
             }
         }
+
         found.first.get_or_insert(outcome);
     }
 }

@@ -59,6 +59,7 @@ pub fn judge(problem: &ExactMcp, certificate: &McpCertificate) -> Result<usize, 
             got: certificate.problem_sha256.chars().take(80).collect(),
         });
     }
+
     if certificate.points.is_empty() {
         return Err(McpRejected::NoClaims);
     }
@@ -66,5 +67,6 @@ pub fn judge(problem: &ExactMcp, certificate: &McpCertificate) -> Result<usize, 
     for (index, z) in certificate.points.iter().enumerate() {
         check(problem, z).map_err(|violated| McpRejected::Solution { index, violated })?;
     }
+
     Ok(certificate.points.len())
 }

@@ -73,6 +73,7 @@ impl CirclePencil {
         let n = slip.len();
         let mut lower = vec![0.0; n];
         lower.extend([f64::NEG_INFINITY; 2]);
+
         Some(CirclePencil {
             a,
             b,
@@ -119,9 +120,11 @@ impl CirclePencil {
         for (&i, u) in self.slip.iter().zip(u_s) {
             x[i] = u * self.diagonal[i];
         }
+
         for (&i, u) in self.free.iter().zip(u_f.iter()) {
             x[i] = u * self.diagonal[i];
         }
+
         Some(Candidate { value, x })
     }
 
@@ -177,6 +180,7 @@ impl Mcp for CirclePencil {
         for (i, f_i) in f[..n].iter_mut().enumerate() {
             *f_i = self.row(i, u, alpha, beta);
         }
+
         f[n] = u.iter().sum::<f64>() - 1.0;
         f[n + 1] = alpha * alpha + beta * beta - 1.0;
     }
@@ -198,6 +202,7 @@ impl Mcp for CirclePencil {
             }
             j[(n, row)] = 1.0;
         }
+
         j[(n + 1, n)] = 2.0 * alpha;
         j[(n + 1, n + 1)] = 2.0 * beta;
     }
@@ -224,6 +229,7 @@ mod tests {
                 entries.push((i, j, parse(number).unwrap()));
             }
         }
+
         Sparse::from_entries(rows.len(), rows.len(), entries)
     }
 
@@ -267,6 +273,7 @@ mod tests {
         ] {
             assert!(circle.candidate(&[0.5, 0.5, alpha, beta]).is_none());
         }
+
         assert_eq!(circle.candidate(&[0.5, 0.5, 1.0, 0.0]).unwrap().value, 0.0);
         let just_before_infinity = [0.5, 0.5, 1.1 * CIRCLE_END, 1.0];
         assert!(circle.candidate(&just_before_infinity).is_some());
@@ -362,6 +369,7 @@ mod tests {
                 others += usize::from(is_other);
             }
         }
+
         assert!(closed >= 5 && others >= 5, "{closed} {others}");
     }
 }

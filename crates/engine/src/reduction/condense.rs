@@ -41,6 +41,7 @@ pub fn condense(admissible: &Admissible<'_>) -> Result<Pencil, CondensationError
             got: admissible.unknown().word(),
         });
     }
+
     let pencil = admissible.pencil();
     let free = pencil.free();
     let slip = pencil.slip();
@@ -55,6 +56,7 @@ pub fn condense(admissible: &Admissible<'_>) -> Result<Pencil, CondensationError
 
     let upper: Vec<usize> = (0..count).collect();
     let lower: Vec<usize> = (count..2 * count).collect();
+
     Ok(Pencil::new(
         both.submatrix(&upper, &upper),
         both.submatrix(&lower, &upper),

@@ -124,6 +124,7 @@ impl DofRoles {
             kept: Vec::new(),
             slip: Vec::new(),
         };
+
         let mut claimed = BTreeSet::new();
 
         for (index, particle) in particles.iter().enumerate() {
@@ -144,6 +145,7 @@ impl DofRoles {
             }
             roles.add(index, particle)?;
         }
+
         Ok(roles)
     }
 
@@ -167,6 +169,7 @@ impl DofRoles {
                 self.slip.push(SlipNode::new(particle, sign));
             }
         }
+
         Ok(())
     }
 }
@@ -229,6 +232,7 @@ impl SparseCondensation {
             Some(m) => Cow::Owned(stiffness.add_scaled(1.0, m)),
             None => Cow::Borrowed(&stiffness),
         };
+
         let analysis = Analysis::new(&pattern, &roles.kept, &roles.held, points);
         drop(pattern);
 
@@ -299,6 +303,7 @@ impl SparseCondensation {
                 a[q][p] = entry;
             }
         }
+
         a
     }
 
@@ -311,6 +316,7 @@ impl SparseCondensation {
                 *entry = self.entry(z, &self.slip[p].normal, p, q);
             }
         }
+
         b
     }
 
@@ -334,6 +340,7 @@ impl SparseCondensed<'_> {
                 *entry += mu * b;
             }
         }
+
         t
     }
 
@@ -367,6 +374,7 @@ impl SparseCondensed<'_> {
             let terms = (0..2).map(|i| (node.tangent[i] + mu * node.normal[i]) * z[i]);
             slope.push(-terms.sum::<f64>());
         }
+
         Some(slope)
     }
 
@@ -392,6 +400,7 @@ impl SparseCondensed<'_> {
             worst.balance = worst.balance.max(residual.balance);
             worst.change = worst.change.max(residual.change);
         }
+
         worst
     }
 
@@ -411,6 +420,7 @@ impl SparseCondensed<'_> {
         for (u_i, correction) in u.iter_mut().zip(self.factor.solve(&load)) {
             *u_i -= correction;
         }
+
         let refined = matrix.times(&u);
         let largest_load = largest(kept.iter().map(|&dof| refined[dof].abs()));
         let mut change: f64 = 0.0;
@@ -449,6 +459,7 @@ fn probe_vector(probe: usize, length: usize) -> Vec<f64> {
             *entry = 1.0;
         }
     }
+
     c
 }
 

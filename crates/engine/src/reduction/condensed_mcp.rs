@@ -67,6 +67,7 @@ impl<'a> CondensedEmbedding<'a> {
         if !(mu >= 0.0 && mu.is_finite()) {
             return Err(CondensedEmbeddingError::Friction { got: mu });
         }
+
         let at_zero = condensation.at(0.0)?;
         let n = condensation.slip_count();
 
@@ -103,6 +104,7 @@ impl<'a> CondensedEmbedding<'a> {
         for x_i in &mut x {
             *x_i /= sum;
         }
+
         (value, x)
     }
 
@@ -198,6 +200,7 @@ impl Mcp for CondensedEmbedding<'_> {
             // The solver reports that F is not finite.
             None => f[..n].fill(f64::NAN),
         }
+
         f[n] = u.iter().sum::<f64>() - 1.0; // (33)
     }
 

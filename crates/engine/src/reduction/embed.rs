@@ -68,6 +68,7 @@ impl Embedding {
         for (i, d) in diagonal.iter_mut().enumerate() {
             *d = scale_of(plain_a[(i, i)], plain_b[(i, i)]);
         }
+
         let a = scaled(&plain_a, &diagonal);
         let b = scaled(&plain_b, &diagonal);
 
@@ -169,6 +170,7 @@ impl Embedding {
         while starts.len() < count {
             starts.push(self.random_start(&slip, &mut rng));
         }
+
         starts.truncate(count);
 
         // All of them were written for e'u_s = 1.
@@ -177,6 +179,7 @@ impl Embedding {
                 *u *= self.c;
             }
         }
+
         starts
     }
 
@@ -187,6 +190,7 @@ impl Embedding {
         for (&i, weight) in slip.iter().zip(weights) {
             z[i] = *weight;
         }
+
         z[n] = zeta;
         z
     }
@@ -296,6 +300,7 @@ pub(super) fn normals(count: usize, seed: u64, uneven: bool) -> Vec<f64> {
         let v = normal(&mut rng);
         numbers.push(if uneven { v * v * v } else { v });
     }
+
     numbers
 }
 

@@ -33,6 +33,7 @@ impl Expansion {
 
         // The right-hand sides are the columns of A_fs.
         let columns = solve(&dense(&a_ff), &dense(&a_fs.transpose()))?;
+
         Some(Expansion {
             order: pencil.order(),
             free,
@@ -50,6 +51,7 @@ impl Expansion {
                 x[f] -= coefficient * x_s;
             }
         }
+
         Candidate {
             value: condensed.value,
             x,
@@ -86,6 +88,7 @@ mod tests {
             value: 7.0,
             x: vec![1.25, 1.0, 3.0],
         };
+
         assert_eq!(full, expected);
     }
 }

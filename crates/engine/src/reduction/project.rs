@@ -84,6 +84,7 @@ fn largest_share(unexplained: &[Rational], v: &[Rational]) -> Option<(usize, Rat
     if size.is_zero() {
         return None;
     }
+
     let largest = v.iter().map(Signed::abs).max()?;
     Some((dof, size / largest))
 }
@@ -134,6 +135,7 @@ mod tests {
             assert!(size.is_positive());
             seen += 1;
         }
+
         assert_eq!(seen, 30);
     }
 }

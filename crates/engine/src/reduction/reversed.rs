@@ -67,6 +67,7 @@ pub fn reversed(problem: &Problem) -> Result<Problem, ModelError> {
             b.extend(a_row);
         }
     }
+
     let body = Pencil::new(
         Sparse::from_entries(order, order, a),
         Sparse::from_entries(order, order, b),
@@ -92,6 +93,7 @@ fn reciprocal_window(window: &Window) -> Result<Window, ModelError> {
         Some(max) => reciprocal(max),
         None => Some(Rational::zero()),
     };
+
     match min {
         Some(min) => Window::new(min, reciprocal(window.min())),
         None => Ok(Window::all()),
@@ -170,6 +172,7 @@ mod tests {
                 found += 1;
             }
         }
+
         assert!(found >= 2, "{found}");
 
         // B = [[1, -1], [-1, 1]]: x = (1, 1) at infinity only.

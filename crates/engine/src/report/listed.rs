@@ -65,6 +65,7 @@ impl Listed {
             value: s.value.clone(),
             norm: s.normaliser(&reduced.pencil.slip()),
         };
+
         let y = digits.of_rows(&reduced.pencil, &s.x);
         let lifted = match problem.body() {
             Body::Pencil(_) => None,
@@ -75,11 +76,13 @@ impl Listed {
                 Some((v, w))
             }
         };
+
         let x = digits.of_all(&s.x, &Integer::from(1));
 
         let mut value = digits.value;
         let interval = [value.interval().lo().clone(), value.interval().hi().clone()];
         let exact = Some((value.poly().coeffs().to_vec(), interval));
+
         Listed {
             value: to_decimal(&mut value, &Poly::from_ints(&[0, 1]), DIGITS),
             enclosure: None,
@@ -112,6 +115,7 @@ impl Listed {
                 listed,
             });
         }
+
         for cone in &found.cones {
             entries.push(Entry {
                 value: &cone.value,
@@ -138,6 +142,7 @@ impl Listed {
             };
             lineality.push(direction.x_decimals(&[], DIGITS));
         }
+
         let rays = cone.rays.iter();
         let listed_cone = ListedCone {
             dimension: cone.dimension,
@@ -190,6 +195,7 @@ impl Listed {
             value: to_f64(&proved.value.mid()),
             x: x.to_vec(),
         };
+
         let claimed = certifier
             .certify_with_verdict(&candidate)
             .ok()
@@ -203,6 +209,7 @@ impl Listed {
                 of_point(problem, reduced, &proved.support, proved.value.mid(), &x)
             }
         };
+
         Listed {
             enclosure: Some(enclosing_decimals(&proved.value, DIGITS).into()),
             ..listed
@@ -275,6 +282,7 @@ fn of_enclosed(problem: &Problem, reduced: &Reduced, enclosed: &EnclosedSolution
         Some(number) => number.0.clone(),
         None => Rational::default(),
     };
+
     of_point(problem, reduced, &enclosed.support, value, &x)
 }
 
@@ -296,6 +304,7 @@ fn of_point(
         x: integers.map(Poly::constant).collect(),
         y: Vec::new(),
     };
+
     Listed {
         exact: None,
         ..Listed::of_solution(problem, reduced, &solution)
@@ -315,6 +324,7 @@ fn of_exact(problem: &Problem, reduced: &Reduced, claim: &Claim, exact: &ExactSo
         x: integer_x(exact),
         y: Vec::new(),
     };
+
     Listed::of_solution(problem, reduced, &solution)
 }
 
@@ -329,10 +339,12 @@ fn row_times(pencil: &Pencil, i: usize, x: &[Poly]) -> (Poly, Integer) {
         let coefficient = v.numer() * (&scale / v.denom());
         sum = &sum + &x[*j].scale(&coefficient);
     }
+
     for (j, v) in b {
         let coefficient = v.numer() * (&scale / v.denom());
         sum = &sum + &x[*j].scale(&coefficient).shift(1);
     }
+
     (sum, scale)
 }
 
@@ -357,6 +369,7 @@ mod tests {
             support: vec![0, 1],
             value,
         };
+
         Listed::of_cover(&problem, &reduced, &certifier, &proved, x)
     }
 

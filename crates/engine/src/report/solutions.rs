@@ -60,6 +60,7 @@ impl Claimed {
         if !cover.open.is_empty() {
             return Claimed::Solutions;
         }
+
         if cover.is_plain_list() {
             Claimed::Complete
         } else {
@@ -111,13 +112,16 @@ pub fn solutions_json(report: &Report<'_>) -> Value {
     if !undescribed.is_empty() {
         out["undescribed"] = json!(undescribed);
     }
+
     if let Some(cover) = report.cover {
         out["families"] = cover.families.iter().map(family).collect();
         out["open"] = cover.open.iter().map(region).collect();
     }
+
     if let Body::System(_) = report.problem.body() {
         out["variables"] = report.reduced.variables.iter().map(variable).collect();
     }
+
     out
 }
 
@@ -156,6 +160,7 @@ fn range(range: &SupportRange) -> Value {
         let vector: Vec<Vec<String>> = vector.iter().map(|p| coefficients(p.coeffs())).collect();
         kernel.push(vector);
     }
+
     json!({
         "slip": range.support,
         "intervals": intervals,
@@ -202,17 +207,21 @@ fn listed(s: &Listed) -> Value {
         out["rays"] = cone.rays.iter().map(ray).collect();
         out["lineality"] = json!(cone.lineality);
     }
+
     if let Some(ends) = &s.enclosure {
         out["enclosure"] = json!(ends);
     }
+
     if let Some((polynomial, interval)) = &s.exact {
         let interval: Vec<String> = interval.iter().map(ToString::to_string).collect();
         out["exact"] = json!({ "polynomial": coefficients(polynomial), "interval": interval });
     }
+
     if let Some((v, w)) = &s.lifted {
         out["v"] = json!(v);
         out["w"] = json!(w);
     }
+
     out
 }
 
@@ -247,6 +256,7 @@ pub fn solutions_text(report: &Report<'_>) -> String {
         out += &table(report).to_string();
         out += &meaning(report);
     }
+
     if let Some(enumeration) = report.enumeration {
         out += &degenerate(report, enumeration);
     }
@@ -280,6 +290,7 @@ fn table(report: &Report<'_>) -> Table {
     } else {
         "x (slip variables, e'x_s = 1)"
     };
+
     let unknown = report.problem.unknown().word();
     let mut table = Table::new(&[unknown, "slip", "biactive", title_of_x]);
     for solution in &report.solutions {
@@ -290,6 +301,7 @@ fn table(report: &Report<'_>) -> Table {
             vector_text(report, &solution.x),
         ]);
     }
+
     table
 }
 
@@ -306,6 +318,7 @@ fn degenerate(report: &Report<'_>, enumeration: &Enumeration) -> String {
     for cone in &enumeration.cones {
         out += &cone_text(report, cone);
     }
+
     for range in &enumeration.ranges {
         let intervals: Vec<String> = range.pieces.iter().map(interval_text).collect();
         out += &format!(
@@ -314,13 +327,16 @@ fn degenerate(report: &Report<'_>, enumeration: &Enumeration) -> String {
             intervals.join(", ")
         );
     }
+
     for undescribed in &enumeration.undescribed {
         out += &format!("{undescribed}\n");
     }
+
     if enumeration.is_outside_propositions() {
         out += "some solutions have x_s = 0: outside Propositions 1 and 2 (K_ff or M_ff is not \
                 definite)\n";
     }
+
     out
 }
 
@@ -334,12 +350,15 @@ fn cone_text(report: &Report<'_>, cone: &Cone) -> String {
     let Some(listed_cone) = listed.cone else {
         return out;
     };
+
     for ray in &listed_cone.rays {
         out += &format!("  ray {}\n", vector_text(report, &ray.x));
     }
+
     for line in &listed_cone.lineality {
         out += &format!("  line {} (either sign)\n", vector_text(report, line));
     }
+
     out
 }
 

@@ -23,6 +23,7 @@ impl Table {
                 *width = cell.chars().count().max(*width);
             }
         }
+
         widths
     }
 
@@ -42,6 +43,7 @@ impl std::fmt::Display for Table {
             }
             writeln!(f, "{}", cells.join("  ").trim_end())?;
         }
+
         Ok(())
     }
 }

@@ -76,6 +76,7 @@ impl Scaled {
                 smallest_eigenvalue(&parts[1].submatrix(&free, &free))?,
             ]
         };
+
         Some(Scaled {
             parts,
             free,
@@ -157,6 +158,7 @@ fn block(matrix: &Sparse, rows: &[usize], columns: &[usize]) -> IntegerMatrix {
     for (i, j, v) in block.entries() {
         integers[i].push((j, v.to_integer()));
     }
+
     IntegerMatrix {
         rows: integers,
         cols: block.cols(),
@@ -181,5 +183,6 @@ fn dense(matrix: &Sparse) -> Vec<Vec<f64>> {
     for (i, j, v) in matrix.entries() {
         rows[i][j] = to_f64(v);
     }
+
     rows
 }

@@ -86,6 +86,7 @@ impl Corners {
         if may_move.is_empty() {
             return Verdict::Empty; // x_s = 0, and then x_f = 0
         }
+
         let corners = self.at.each_ref().map(|corner| self.in_doubles(corner));
         // Rows of any sign: those of y_i = 0.
         let is_free_row: Vec<bool> = states.iter().map(|s| *s == State::Moving).collect();
@@ -94,10 +95,12 @@ impl Corners {
         for corner in &corners {
             columns.extend(self.columns(corner, &may_move));
         }
+
         let farkas = game::solve(&is_free_row, &columns);
         if farkas.value > WITNESS_MARGIN && self.is_farkas(&rounded(&farkas.w), &may_move, states) {
             return Verdict::Empty;
         }
+
         for sign in [1, -1] {
             let seems_definite = corners
                 .iter()
@@ -117,6 +120,7 @@ impl Corners {
                 return Verdict::Branch(variable);
             }
         }
+
         Verdict::Split {
             along_m: self.varies_more_along_m(&corners),
             hopeful,
@@ -141,6 +145,7 @@ impl Corners {
             }
             columns.push(column);
         }
+
         columns
     }
 
@@ -150,6 +155,7 @@ impl Corners {
         for (&j, value) in indices.iter().zip(values) {
             x[j] = *value;
         }
+
         x
     }
 
@@ -177,6 +183,7 @@ impl Corners {
                 }
             }
         }
+
         true
     }
 
@@ -204,6 +211,7 @@ impl Corners {
                 }
             }
         }
+
         true
     }
 
@@ -231,6 +239,7 @@ impl Corners {
                 entries.push((p, p, Rational::from_integer((-slack).into())));
             }
         }
+
         Sparse::from_entries(may_move.len(), may_move.len(), entries)
     }
 
@@ -280,6 +289,7 @@ impl Weights {
             let second = self.of_friction * i128::from(*one);
             sum.push(first + second);
         }
+
         sum
     }
 }

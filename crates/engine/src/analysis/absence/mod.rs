@@ -145,6 +145,7 @@ fn position(unit: &Rational, index: u64, level: u32) -> Option<Rational> {
     if distance_to_one == 0 {
         return None;
     }
+
     Some(unit * Rational::new(index.into(), distance_to_one.into()))
 }
 
@@ -163,11 +164,13 @@ pub fn absence(
     if stiffness.slip().len() > limits.slip || stiffness.free().len() > limits.free {
         return None;
     }
+
     let scaled = Scaled::new(stiffness, mass)?;
     let mut strips = Strips {
         scaled: &scaled,
         known: HashMap::new(),
     };
+
     let mut queue = Queue::default();
     queue.push(Region::whole(scaled.slip_count()));
 
@@ -251,6 +254,7 @@ impl Strips<'_> {
                 hopeful: true,
             });
         }
+
         let corners = Corners::new(&strip, region.m, region.m_level);
         Some(corners.judge(&region.states))
     }
@@ -261,6 +265,7 @@ impl Strips<'_> {
         if let Some(strip) = self.known.get(&key) {
             return Some(Rc::clone(strip));
         }
+
         let strip = Rc::new(Strip::new(self.scaled, region.s, region.s_level)?);
         self.known.insert(key, Rc::clone(&strip));
         Some(strip)

@@ -54,6 +54,7 @@ impl Strip {
             radius: Default::default(),
             too_wide: false,
         };
+
         for k in 0..2 {
             for e in 0..2 {
                 strip.z[k][e] = shortened(&condensed.bracket[k][e], dropped_bits)?;
@@ -63,6 +64,7 @@ impl Strip {
                 None => strip.too_wide = true,
             }
         }
+
         Some(strip)
     }
 }
@@ -141,6 +143,7 @@ impl Condensed {
                 radius.push(short + rounding + rounding_of_bracket);
             }
         }
+
         Some(radius)
     }
 }
@@ -176,6 +179,7 @@ impl Shapes {
                 v: [Vec::new(), Vec::new()],
             });
         }
+
         let middle = family.at(2 * index + 1, level + 1);
 
         let mut right = dense(&transposed(&middle.free_slip));
@@ -212,6 +216,7 @@ impl Shapes {
                 }
             }
         }
+
         bracket
     }
 }
@@ -227,6 +232,7 @@ fn rounded(columns: &[Vec<f64>]) -> Option<Matrix> {
             row.push(scaled.to_integer());
         }
     }
+
     Some(rows)
 }
 
@@ -243,6 +249,7 @@ fn residual(f: &IntegerMatrix, c: &IntegerMatrix, w: &Matrix) -> Matrix {
             }
         }
     }
+
     residual
 }
 
@@ -253,6 +260,7 @@ fn transposed(matrix: &IntegerMatrix) -> IntegerMatrix {
             rows[*j].push((i, v.clone()));
         }
     }
+
     IntegerMatrix {
         rows,
         cols: matrix.rows.len(),
@@ -267,5 +275,6 @@ fn dense(matrix: &IntegerMatrix) -> Vec<Vec<f64>> {
             rows[i][*j] = v.to_f64().unwrap_or(f64::NAN);
         }
     }
+
     rows
 }

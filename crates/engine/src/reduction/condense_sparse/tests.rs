@@ -29,6 +29,7 @@ fn from_function(entry: impl Fn(usize, usize) -> Rational) -> Sparse {
             entries.push((i, j, entry(i, j)));
         }
     }
+
     Sparse::from_entries(ORDER, ORDER, entries)
 }
 
@@ -104,11 +105,13 @@ fn a_lifted_x_is_in_balance_and_has_its_energy() {
     for (dof, value) in [(0, -6.0 / 5.0), (1, -8.0 / 5.0), (4, 3.0), (5, 0.0)] {
         assert_close(v[dof], value);
     }
+
     let v_vector = DVector::from_vec(v.clone());
     let load = dense(&k) * &v_vector;
     for dof in [2, 3] {
         assert_close(load[dof], 0.0);
     }
+
     let energy = v_vector.dot(&(dense(&m) * &v_vector));
     assert_close(at_zero.kinetic(&x).unwrap(), energy);
     assert_eq!(at_zero.reduced(&x), [v[2], v[3], 2.0, 3.0]);
@@ -162,6 +165,7 @@ impl DenseResidual {
         for (i, &dof) in self.kept.iter().enumerate() {
             u[dof] = c[i];
         }
+
         for (i, &dof) in self.free.iter().enumerate() {
             u[dof] = u_free[i];
         }
@@ -175,6 +179,7 @@ impl DenseResidual {
         for (i, &dof) in self.free.iter().enumerate() {
             u[dof] -= step[i];
         }
+
         let refined = (&self.measured * &u).select_rows(&self.kept);
         let change = (&refined - &self.schur * c).amax() / refined.amax();
 
@@ -199,6 +204,7 @@ fn the_residual_is_that_of_dense_algebra() {
         b: at_zero.b,
         factor: at_zero.factor,
     };
+
     let by_dense_algebra = DenseResidual::new(&dense(&k), dense(&other), made.analysis.kept());
 
     let mut balance: f64 = 0.0;
@@ -218,6 +224,7 @@ fn the_residual_is_that_of_dense_algebra() {
         assert_close(got.balance, balance);
         assert_close(got.change, change);
     }
+
     assert!(balance > 1e-4 && change > 1e-4);
 
     let good = made.at(0.0).unwrap().residual(5);

@@ -41,6 +41,7 @@ fn row_of_pencil(i: usize, t: f64, x: &[f64]) -> f64 {
         let b = to_f64(&pencil.b().get(i, j));
         sum += (a + t * b) * x_j;
     }
+
     sum
 }
 
