@@ -155,7 +155,9 @@ fn condensed(
     free: &[usize],
     lines: &DMatrix<f64>,
 ) -> DMatrix<f64> {
-    block(matrix, slip, slip) - block(matrix, slip, free) * lines
+    let slip_slip = block(matrix, slip, slip);
+    let slip_free = block(matrix, slip, free);
+    slip_slip - slip_free * lines
 }
 
 impl Mcp for CirclePencil {

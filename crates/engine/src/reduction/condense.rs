@@ -69,9 +69,14 @@ fn a_above_b(pencil: &Pencil, rows: &[usize], columns: &[usize]) -> Sparse {
     let a = pencil.a().submatrix(rows, columns);
     let b = pencil.b().submatrix(rows, columns);
 
-    let of_a = a.entries().map(|(i, j, v)| (i, j, v.clone()));
-    let of_b = b.entries().map(|(i, j, v)| (i + a.rows(), j, v.clone()));
-    Sparse::from_entries(a.rows() + b.rows(), a.cols(), of_a.chain(of_b))
+    let mut entries = Vec::new();
+    for (i, j, v) in a.entries() {
+        entries.push((i, j, v.clone()));
+    }
+    for (i, j, v) in b.entries() {
+        entries.push((i + a.rows(), j, v.clone()));
+    }
+    Sparse::from_entries(a.rows() + b.rows(), columns.len(), entries)
 }
 
 #[cfg(test)]

@@ -356,8 +356,10 @@ impl SparseCondensed<'_> {
     /// x over the variables of the reduced pencil: f ascending, then the slip particles.
     pub fn reduced(&self, x: &[f64]) -> Vec<f64> {
         let v = self.lift(x);
-        let free = self.system.free.iter().map(|&dof| v[dof]);
-        free.chain(x.iter().copied()).collect()
+        let free_dofs = self.system.free.iter();
+        let mut reduced: Vec<f64> = free_dofs.map(|&dof| v[dof]).collect();
+        reduced.extend(x);
+        reduced
     }
 
     /// T'(t) x = A'(t) x + mu B'(t) x of length n_s; `None` without M.
@@ -371,8 +373,8 @@ impl SparseCondensed<'_> {
 
         let mut slope = Vec::with_capacity(x.len());
         for (node, z) in self.system.slip.iter().zip(derivative.chunks_exact(2)) {
-            let terms = (0..2).map(|i| (node.tangent[i] + mu * node.normal[i]) * z[i]);
-            slope.push(-terms.sum::<f64>());
+            let row = [0, 1].map(|i| node.tangent[i] + mu * node.normal[i]);
+            slope.push(-dot(&row, z));
         }
 
         Some(slope)
@@ -412,9 +414,12 @@ impl SparseCondensed<'_> {
         // The load on f of the extended c should vanish.
         let mut u = self.factor.extend(c);
         let load = matrix.times(&u);
-        let largest_size = largest(free.iter().map(|&dof| sum_of_moduli(matrix, dof, &u)));
-        let balance = free.iter().map(|&dof| load[dof].abs() / largest_size);
-        let balance = balance.fold(0.0, f64::max);
+        let sizes = free.iter().map(|&dof| sum_of_moduli(matrix, dof, &u));
+        let largest_size = largest(sizes);
+        let mut balance: f64 = 0.0;
+        for &dof in free {
+            balance = balance.max(load[dof].abs() / largest_size);
+        }
 
         // One step of iterative refinement on f. Then the load on the kept dofs should be Z c.
         for (u_i, correction) in u.iter_mut().zip(self.factor.solve(&load)) {
@@ -435,12 +440,14 @@ impl SparseCondensed<'_> {
 
 /// a' b.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a_i, b_i)| a_i * b_i).sum()
+    let products = a.iter().zip(b).map(|(a_i, b_i)| a_i * b_i);
+    products.sum()
 }
 
 /// The sum of |m_ij u_j| over a row i of the matrix.
 fn sum_of_moduli(matrix: &Symmetric, row: usize, u: &[f64]) -> f64 {
-    matrix.row(row).map(|(j, m)| (m * u[j]).abs()).sum()
+    let products = matrix.row(row).map(|(j, m_ij)| m_ij * u[j]);
+    products.map(f64::abs).sum()
 }
 
 /// The largest of some numbers, positive in any case so that one can divide by it.

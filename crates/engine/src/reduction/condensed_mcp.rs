@@ -160,8 +160,10 @@ impl<'a> CondensedEmbedding<'a> {
     fn image(&self, condensed: &SparseCondensed<'_>, x: &[f64]) -> Vec<f64> {
         let mut image = Vec::with_capacity(x.len());
         for (a_row, b_row) in condensed.a.iter().zip(&condensed.b) {
-            let entries = a_row.iter().zip(b_row).map(|(a, b)| a + self.mu * b);
-            image.push(entries.zip(x).map(|(t, x_q)| t * x_q).sum());
+            let entries = a_row.iter().zip(b_row);
+            let entries = entries.map(|(a, b)| a + self.mu * b);
+            let products = entries.zip(x).map(|(t, x_q)| t * x_q);
+            image.push(products.sum());
         }
         image
     }

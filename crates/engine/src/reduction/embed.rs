@@ -109,7 +109,8 @@ impl Embedding {
     /// The same problem with another constant c in (28), (33). `None` unless c is positive and
     /// finite.
     pub fn with_c(self, c: f64) -> Option<Embedding> {
-        (c > 0.0 && c.is_finite()).then_some(Embedding { c, ..self })
+        let is_admissible = c > 0.0 && c.is_finite();
+        is_admissible.then_some(Embedding { c, ..self })
     }
 
     /// gamma = e'u_s - c of (28), (33): zero at every solution with zeta > 0, free at zeta = 0.
@@ -119,7 +120,8 @@ impl Embedding {
 
     /// e'u_s.
     fn slip_sum(&self, u: &[f64]) -> f64 {
-        let slip = self.is_free.iter().zip(u).filter(|(free, _)| !**free);
+        let variables = self.is_free.iter().zip(u);
+        let slip = variables.filter(|(is_free, _)| !**is_free);
         slip.map(|(_, u_i)| u_i).sum()
     }
 
@@ -314,8 +316,8 @@ fn normal(rng: &mut ChaCha8Rng) -> f64 {
 /// 1 / sqrt(|a|), or 1 / sqrt(|b|) where a is zero, rounded to a power of two so that scaling
 /// commits no rounding; 1 where that is no positive number.
 fn scale_of(a: f64, b: f64) -> f64 {
-    let size = a.abs().max(b.abs() * f64::from(u8::from(a == 0.0)));
-    power_of_two(size)
+    let size_of_b = if a == 0.0 { b.abs() } else { 0.0 };
+    power_of_two(a.abs().max(size_of_b))
 }
 
 /// 1 / sqrt of a positive number, rounded to a power of two; 1 for what is no positive number.

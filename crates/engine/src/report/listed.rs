@@ -221,8 +221,9 @@ impl Listed {
 /// Surely so if the claim's values lie within it. Where they only overlap, the claim could be about
 /// another solution near by.
 fn is_about(claim: &AcceptedClaim, proved: &AcceptedClaim) -> bool {
-    let is_within = proved.value.lo() <= claim.value.lo() && claim.value.hi() <= proved.value.hi();
-    claim.support == proved.support && is_within
+    let begins_within = claim.value.lo() >= proved.value.lo();
+    let ends_within = claim.value.hi() <= proved.value.hi();
+    claim.support == proved.support && begins_within && ends_within
 }
 
 /// A solution or cone of the enumerator with the keys of its place in the list.

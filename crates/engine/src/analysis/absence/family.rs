@@ -120,7 +120,9 @@ impl Scaled {
     }
 
     fn sigma_at(&self, index: u64, level: u32) -> Integer {
-        &self.sigma[0] * ((1u64 << level) - index) + &self.sigma[1] * index
+        let [of_stiffness, of_mass] = &self.sigma;
+        let one_minus_s = (1u64 << level) - index;
+        of_stiffness * one_minus_s + of_mass * index
     }
 }
 
@@ -174,8 +176,10 @@ fn smallest_eigenvalue(m: &Sparse) -> Option<Integer> {
 
     let sigma = from_f64((0.9 * estimate).floor()).ok()?;
     let shifted = m.add_scaled(&-&sigma, &identity);
-    let is_proved = sigma >= Rational::one() && positive_definite(&shifted).is_ok();
-    is_proved.then(|| sigma.to_integer())
+    if sigma < Rational::one() || positive_definite(&shifted).is_err() {
+        return None;
+    }
+    Some(sigma.to_integer())
 }
 
 fn dense(matrix: &Sparse) -> Vec<Vec<f64>> {

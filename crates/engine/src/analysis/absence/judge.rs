@@ -247,9 +247,9 @@ impl Corners {
     /// y), the first of several.
     fn most_violated(&self, matrix: &[f64], x: &[f64], states: &[State]) -> Option<usize> {
         let mut violation = Vec::with_capacity(self.n);
-        for (i, x_i) in x.iter().enumerate() {
-            let row = &matrix[i * self.n..(i + 1) * self.n];
-            let y_i: f64 = row.iter().zip(x).map(|(t, x_j)| t * x_j).sum();
+        for (row, x_i) in matrix.chunks_exact(self.n).zip(x) {
+            let products = row.iter().zip(x).map(|(t, x_j)| t * x_j);
+            let y_i: f64 = products.sum();
             violation.push(x_i.min(y_i));
         }
 

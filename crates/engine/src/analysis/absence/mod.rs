@@ -242,7 +242,8 @@ struct Strips<'a> {
 impl Strips<'_> {
     /// Have free variables been eliminated as often as the limits allow?
     fn are_used_up(&self, limits: Limits) -> bool {
-        self.scaled.free_count() > 0 && self.known.len() >= limits.strips
+        let has_free_variables = self.scaled.free_count() > 0;
+        has_free_variables && self.known.len() >= limits.strips
     }
 
     /// What to do with a region; `None` if doubles fail there.
