@@ -7,8 +7,8 @@
 //! shorter of the two intervals. Where M1 = 0 only K* counts (20).
 //!
 //! The end of an interval is the smallest positive root of det(A + mu B) with A, B the symmetric
-//! parts. For small orders it is found as that root; otherwise doubles propose it, and an exact LDL'
-//! proves definiteness just before it and refutes it just after it.
+//! parts. For small orders it is found as that root; otherwise doubles propose it, and an exact
+//! LDL' proves definiteness just before it and refutes it just after it.
 //!
 //! Input: K* and M* as linear functions of mu ([`MuFamily`]). Output: [`Necessary`]. Called by
 //! [`analyse`](super::analyse) and by the loading path of `mceip block`.

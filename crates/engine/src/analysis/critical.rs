@@ -6,8 +6,8 @@
 //! solutions at the mu of the analysis are known; where the cover met a box that it could not
 //! empty, MCEIP-mu is solved completely at some lambda^2 of that box.
 //!
-//! Input: what [`analyse`](super::analyse) has found so far ([`Known`]). Output: [`Critical`], and a
-//! proof named `critical` if a smaller solution was found.
+//! Input: what [`analyse`](super::analyse) has found so far ([`Known`]). Output: [`Critical`], and
+//! a proof named `critical` if a smaller solution was found.
 
 use super::absence::{Absence, absence};
 use super::conditions::Necessary;

@@ -26,7 +26,8 @@ pub struct Flutter {
 /// Order beyond which the dense eigenproblem is not tried.
 const LARGEST_ORDER: usize = 2500;
 
-/// The complex lambda^2 at mu; `None` beyond the largest order, without a mass, or where doubles fail.
+/// The complex lambda^2 at mu; `None` beyond the largest order, without a mass, or where doubles
+/// fail.
 pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
     let mass = family.mass.as_ref()?;
     if family.stiffness.order() > LARGEST_ORDER {

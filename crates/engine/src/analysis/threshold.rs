@@ -1,7 +1,8 @@
 //! The static threshold: the smallest value of MCEIP-mu, where lambda = 0.
 //!
-//! Input: a complete search of MCEIP-mu over all mu >= 0. Output: its values, and what it left open.
-//! Called by [`analyse`](super::analyse). Solutions with lambda^2 > 0 may exist below it (folds).
+//! Input: a complete search of MCEIP-mu over all mu >= 0. Output: its values, and what it left
+//! open. Called by [`analyse`](super::analyse). Solutions with lambda^2 > 0 may exist below it
+//! (folds).
 
 use super::evidence::Evidence;
 use crate::search::complete::Completed;

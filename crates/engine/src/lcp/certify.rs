@@ -1,8 +1,8 @@
 //! From a point in doubles to an exact solution of a plain problem.
 //!
 //! The active set is read off the point: which unknowns stand at a bound, and which between their
-//! bounds, where F vanishes. The rows F_I = 0 of the latter are solved over Q, and the exact point is
-//! checked by `check`. Called by `search`, and by `mceip certify` for plain problems.
+//! bounds, where F vanishes. The rows F_I = 0 of the latter are solved over Q, and the exact point
+//! is checked by `check`. Called by `search`.
 #![allow(clippy::float_arithmetic)]
 
 use super::check::Violated;

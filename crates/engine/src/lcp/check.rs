@@ -1,9 +1,9 @@
 //! Is a rational point a solution of a plain problem? Exact: it multiplies and compares.
 //!
-//! z is a solution if l <= z <= u and F = M z + q has F_i >= 0 where z_i = l_i, F_i <= 0 where z_i =
-//! u_i, and F_i = 0 between the bounds. z is written over one denominator first, and each row of F
-//! is multiplied by a positive integer, so that only integers are added. Called by `certify`, and by
-//! `verdict` for the points of a file.
+//! z is a solution if l <= z <= u and F = M z + q has F_i >= 0 where z_i = l_i, F_i <= 0 where z_i
+//! = u_i, and F_i = 0 between the bounds. z is written over one denominator first, and each row of
+//! F is multiplied by a positive integer, so that only integers are added. Called by `certify`, and
+//! by `verdict` for the points of a file.
 
 use super::exact::ExactMcp;
 use mceip_exact::{Integer, Rational, common_denominator};
@@ -180,7 +180,11 @@ mod tests {
     /// z0 in [0, 3/2] with F0 = 1 - z0 (solutions 0, 1, 3/2 once z1 is free and F1 = z1 / 3 + z0 /
     /// 7 vanishes).
     fn problem() -> ExactMcp {
-        read_mcp(r#"{"format":"mceip-mcp/1","m":[[-1,0],["1/7","1/3"]],"q":[1,0],"lower":[0,null],"upper":["3/2",null]}"#).unwrap()
+        read_mcp(
+            r#"{"format":"mceip-mcp/1","m":[[-1,0],["1/7","1/3"]],"q":[1,0],
+                "lower":[0,null],"upper":["3/2",null]}"#,
+        )
+        .unwrap()
     }
 
     #[test]

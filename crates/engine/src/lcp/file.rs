@@ -1,8 +1,8 @@
 //! `mceip-mcp/1` and the file of a solution, `mceip-mcp-solution/1`.
 //!
 //! Input: JSON text with exact numbers. Output: an [`ExactMcp`], or the points of a solution file
-//! with the digest of their problem; and both back to text. Called by `mceip solve`, `certify` and
-//! `check` for plain problems.
+//! with the digest of their problem; and both back to text. Called by `mceip solve`
+//! and `mceip check` for plain problems.
 
 use super::exact::{ExactMcp, ExactMcpError};
 use mceip_exact::{Rational, whole};

@@ -1,8 +1,8 @@
 //! Many starts on a plain problem: Lemke's ray first, then the solver and curves from seeded
 //! points.
 //!
-//! Input: an exact problem and how much to search ([`Search`]). Output: what was found and certified
-//! ([`Found`]). Called by `mceip solve` for plain problems.
+//! Input: an exact problem and how much to search ([`Search`]). Output: what was found and
+//! certified ([`Found`]). Called by `mceip solve` for plain problems.
 #![allow(clippy::float_arithmetic)]
 
 use super::certify::Uncertifiable;

@@ -13,8 +13,8 @@
 //! Input: K and M as sparse symmetric matrices, the particles with their contact states. K + t M
 //! must be positive definite on f, or [`SparseCondensation::at`] says that it is not. Output: A and
 //! B in doubles, the lift of x to all dofs, and a measurement of the error. Called by
-//! [`CondensedEmbedding`](super::CondensedEmbedding), by the search on large meshes and by `mceip
-//! block --scale`. All results are proposals: exact arithmetic decides later.
+//! [`CondensedEmbedding`](super::CondensedEmbedding), which `multistart` solves, and by `mceip
+//! block` for large meshes. All results are proposals: exact arithmetic decides later.
 #![allow(clippy::float_arithmetic)]
 
 use mceip_exact::to_f64;

@@ -25,7 +25,7 @@ use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::f64::consts::TAU;
 
-/// Where values are sought: the zeta substitution of section 4. // W1
+/// Where values are sought: the zeta substitution of section 4.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Side {
     /// t >= origin: zeta = t - origin. The origin 0 is the plain problem.

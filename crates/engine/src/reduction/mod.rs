@@ -1,11 +1,12 @@
 //! From the mechanical system to the pencil, from the pencil to an MCP in doubles, and back.
 //!
-//! The exact reduction (10)-(16), the lift and the lines of (9) stand in the crate `mceip-model` and
-//! are named here again. This folder adds what the engine needs besides:
+//! The exact reduction (10)-(16), the lift and the lines of (9) stand in the crate `mceip-model`
+//! and are named here again. This folder adds what the engine needs besides:
 //!
 //! | file | what |
 //! |---|---|
-//! | `condense`, `expand` | elimination of the free variables of MCEIP-mu, exactly, and its inverse in doubles |
+//! | `condense` | elimination of the free variables of MCEIP-mu, exactly |
+//! | `expand` | the eliminated variables of a candidate, in doubles |
 //! | `condense_sparse` | the same for both problems in doubles, on meshes of any size |
 //! | `embed` | Propositions 1 and 2: the pencil as an MCP |
 //! | `condensed_mcp` | Proposition 2 on the condensed matrix |

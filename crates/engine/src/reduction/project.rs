@@ -1,7 +1,8 @@
 //! From v over all degrees of freedom back to x of the pencil: the other direction of (10).
 //!
 //! x_f = v_f, and x_s = -S v_T for each slip particle, with v_T the component of v along its unit
-//! tangent. What x does not explain of v is measured: a mode has none. Exact.
+//! tangent. What x does not explain of v is measured; nothing is left of a v that x lifts to.
+//! Exact.
 //!
 //! Input: the variables that `reduce` names, and v. Output: [`Projected`]. Called by `foreign`,
 //! which reads modes that other programs report.
@@ -22,7 +23,6 @@ pub struct Projected {
 }
 
 /// x_f = v_f and x_s = -S v_Ts for each slip particle, exactly; `variables` as `reduce` gives them.
-/// // E10
 ///
 /// The constraints v_d = 0 and v_Ns = 0 of (9) are not imposed: `off` says how far v is from them.
 /// Components of v beyond those the variables name count as constrained.

@@ -5,7 +5,7 @@
 //! solutions at infinity of the given one.
 //!
 //! Input: a problem; output: the problem of s with the reciprocal window. Called by `mceip
-//! complete` and `mceip enumerate` for what lies at infinity (`cli/infinity.rs`).
+//! complete` for the solutions at infinity.
 
 use mceip_exact::{Rational, Sparse};
 use mceip_model::reduction::reduce;

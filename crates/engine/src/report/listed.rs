@@ -3,7 +3,7 @@
 //! Input: a solution of the enumerator, a claim of a certificate, or a solution that a cover has
 //! proved. All of them become a [`Solution`] with a value (an algebraic number t) and x, y
 //! (polynomials in t), scaled to e'x_s = 1. Output: [`Listed`]. Called by `mceip solve`,
-//! `enumerate`, `complete` and by `solutions.rs` beside this file.
+//! `enumerate` and `complete`, by the front door, and by `solutions.rs` beside this file.
 
 use crate::candidate::Candidate;
 use crate::certify::{Certifier, flattened};

@@ -1,7 +1,7 @@
 //! `mceip-solutions/1`, and the same for people.
 //!
-//! Input: a [`Report`], which says of its list of solutions how much it claims and why. Output: JSON
-//! ([`solutions_json`]) or text ([`solutions_text`]). Called by `mceip solve`, `enumerate` and
+//! Input: a [`Report`], which says of its list of solutions how much it claims and why. Output:
+//! JSON ([`solutions_json`]) or text ([`solutions_text`]). Called by `mceip solve`, `enumerate` and
 //! `complete` and by the conformance pack.
 
 use super::listed::{DIGITS, Listed};
