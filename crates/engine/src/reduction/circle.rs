@@ -90,7 +90,8 @@ impl CirclePencil {
     /// The point of a value and x over all variables of the pencil (any positive scale with e'x_s >
     /// 0).
     pub fn point(&self, value: f64, x: &[f64]) -> Vec<f64> {
-        let mut z: Vec<f64> = self.slip.iter().map(|&i| x[i] / self.diagonal[i]).collect();
+        let slip = self.slip.iter();
+        let mut z: Vec<f64> = slip.map(|&i| x[i] / self.diagonal[i]).collect();
         let sum: f64 = z.iter().sum();
         for u in &mut z {
             *u /= sum;
@@ -120,7 +121,6 @@ impl CirclePencil {
         for (&i, u) in self.slip.iter().zip(u_s) {
             x[i] = u * self.diagonal[i];
         }
-
         for (&i, u) in self.free.iter().zip(u_f.iter()) {
             x[i] = u * self.diagonal[i];
         }

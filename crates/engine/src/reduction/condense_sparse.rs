@@ -324,8 +324,9 @@ impl SparseCondensation {
     fn entry(&self, z: &[Vec<f64>], left: &[f64; 2], p: usize, q: usize) -> f64 {
         let tangent = &self.slip[q].tangent;
         let block_times_tangent = [2 * p, 2 * p + 1].map(|row| {
-            let z_row = &z[row];
-            z_row[2 * q] * tangent[0] + z_row[2 * q + 1] * tangent[1]
+            let first = z[row][2 * q];
+            let second = z[row][2 * q + 1];
+            first * tangent[0] + second * tangent[1]
         });
         left[0] * block_times_tangent[0] + left[1] * block_times_tangent[1]
     }
@@ -384,7 +385,8 @@ impl SparseCondensed<'_> {
     pub fn kinetic(&self, x: &[f64]) -> Option<f64> {
         let v = self.lift(x);
         let mass = self.system.mass.as_ref()?;
-        Some(dot(&mass.times(&v), &v))
+        let momentum = mass.times(&v);
+        Some(dot(&momentum, &v))
     }
 
     /// Measures the condensation on all slip particles moved alike, and on `probes` patterns of

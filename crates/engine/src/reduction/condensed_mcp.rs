@@ -111,7 +111,8 @@ impl<'a> CondensedEmbedding<'a> {
     /// D u of a point (u, zeta).
     fn unscaled(&self, z: &[f64]) -> Vec<f64> {
         let u_and_d = z.iter().zip(&self.diagonal);
-        u_and_d.map(|(u, d)| u * d).collect()
+        let x = u_and_d.map(|(u, d)| u * d);
+        x.collect()
     }
 
     /// `count` starts with e'u = 1: even ones at one unit, 32 units and zero, then seeded random

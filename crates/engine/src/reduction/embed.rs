@@ -138,7 +138,8 @@ impl Embedding {
     /// The MCP point of a value and x (any positive scale with e'x_s > 0): u = x / d with e'u_s =
     /// c. The way opposite to [`Embedding::candidate`].
     pub fn point(&self, value: f64, x: &[f64]) -> Vec<f64> {
-        let mut z: Vec<f64> = x.iter().zip(&self.diagonal).map(|(v, d)| v / d).collect();
+        let scaled = x.iter().zip(&self.diagonal).map(|(v, d)| v / d);
+        let mut z: Vec<f64> = scaled.collect();
 
         let sum = self.slip_sum(&z);
         for u in &mut z {
@@ -172,7 +173,6 @@ impl Embedding {
         while starts.len() < count {
             starts.push(self.random_start(&slip, &mut rng));
         }
-
         starts.truncate(count);
 
         // All of them were written for e'u_s = 1.
@@ -192,7 +192,6 @@ impl Embedding {
         for (&i, weight) in slip.iter().zip(weights) {
             z[i] = *weight;
         }
-
         z[n] = zeta;
         z
     }
@@ -230,12 +229,14 @@ impl Embedding {
     /// The entries of column j of D A D and D B D.
     fn columns(&self, j: usize) -> impl Iterator<Item = (&f64, &f64)> {
         let n = self.diagonal.len();
-        let place = j * n..(j + 1) * n;
-        let a = &self.a.as_slice()[place.clone()];
-        let b = &self.b.as_slice()[place];
+        let begin = j * n;
+        let end = begin + n;
+        let a = &self.a.as_slice()[begin..end];
+        let b = &self.b.as_slice()[begin..end];
         a.iter().zip(b)
     }
 
+    /// t of zeta.
     fn t(&self, zeta: f64) -> f64 {
         self.origin + self.direction * self.unit * zeta
     }

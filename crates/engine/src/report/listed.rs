@@ -59,7 +59,8 @@ pub struct ListedCone {
 }
 
 impl Listed {
-    /// From a solution of the enumerator.
+    /// From a solution of the enumerator. The decimals refine the enclosure of the value one after
+    /// the other; `exact` has the enclosure after those of x.
     pub fn of_solution(problem: &Problem, reduced: &Reduced, s: &Solution) -> Listed {
         let mut digits = Digits {
             value: s.value.clone(),
@@ -78,15 +79,14 @@ impl Listed {
         };
 
         let x = digits.of_all(&s.x, &Integer::from(1));
-
         let mut value = digits.value;
         let interval = [value.interval().lo().clone(), value.interval().hi().clone()];
-        let exact = Some((value.poly().coeffs().to_vec(), interval));
+        let polynomial = value.poly().coeffs().to_vec();
 
         Listed {
             value: to_decimal(&mut value, &Poly::from_ints(&[0, 1]), DIGITS),
             enclosure: None,
-            exact,
+            exact: Some((polynomial, interval)),
             slip: s.slip.clone(),
             biactive: s.biactive.clone(),
             x,

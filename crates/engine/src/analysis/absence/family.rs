@@ -99,6 +99,7 @@ impl Scaled {
     pub(super) fn at(&self, index: u64, level: u32) -> Blocks {
         let one_minus_s = Rational::from_integer(((1u64 << level) - index).into());
         let s = Rational::from_integer(index.into());
+
         let [k0, m0, k1, m1] = &self.parts;
         let g0 = times(k0, &one_minus_s).add_scaled(&s, m0);
         let g1 = times(k1, &one_minus_s).add_scaled(&s, m1);

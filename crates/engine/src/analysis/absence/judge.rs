@@ -171,6 +171,7 @@ impl Corners {
         for corner in 0..4 {
             let matrix = &self.at[corner];
             let radius = &self.radius[corner / 2];
+
             for &j in may_move {
                 let mut sum = 0;
                 for (i, weight) in w.iter().enumerate() {
@@ -228,6 +229,7 @@ impl Corners {
     fn less_its_radius(&self, corner: usize, may_move: &[usize], sign: i8) -> Sparse {
         let matrix = &self.at[corner];
         let radius = &self.radius[corner / 2];
+
         let mut entries = Vec::new();
         for (p, &i) in may_move.iter().enumerate() {
             for (q, &j) in may_move.iter().enumerate() {

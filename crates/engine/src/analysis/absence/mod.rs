@@ -179,6 +179,7 @@ pub fn absence(
         let is_used_up = boxes >= limits.boxes || strips.are_used_up(limits);
         let must_stop = is_used_up || watch.is_cancelled();
         boxes += 1;
+
         if let Some(mu) = region.upper_mu(&scaled)
             && mu <= *excluded_below
         {
@@ -188,6 +189,7 @@ pub fn absence(
         let verdict = strips.judge(&region)?;
         let children = children(&region, verdict);
         let is_blocked = children.is_none();
+
         if is_blocked || (must_stop && verdict != Verdict::Empty) {
             let lower = region.lower_lambda2(&scaled);
             let upper = region.upper_lambda2(&scaled);
@@ -198,6 +200,7 @@ pub fn absence(
                 cut_short: !is_blocked,
             });
         }
+
         for child in children.into_iter().flatten() {
             queue.push(child);
         }
@@ -214,7 +217,9 @@ pub fn absence(
 /// Regions in the order of mu, then in that of arrival.
 #[derive(Default)]
 struct Queue {
+    /// Keys of mu and numbers of arrival.
     order: BinaryHeap<Reverse<(u64, usize)>>,
+    /// The regions by their numbers of arrival.
     regions: HashMap<usize, Region>,
     arrived: usize,
 }
@@ -303,6 +308,7 @@ fn halves(region: &Region, along_m: bool, hopeful: bool) -> Option<Vec<Region>> 
     let avoids_m = m_is_finest || (!hopeful && m_is_tiny);
     let avoids_s = s_is_finest || (!hopeful && s_is_tiny);
     let along_m = if along_m { !avoids_m } else { avoids_s };
+
     if along_m && !m_is_finest {
         Some(vec![region.half_along_m(0), region.half_along_m(1)])
     } else if !along_m && !s_is_finest {
