@@ -1,4 +1,5 @@
-//! Everything that is said about a system at one mu.
+//! Everything that is said about a system at one mu: the data that [`analyse`](super::analyse)
+//! makes, and that `sentences` and `json` present.
 
 use super::conditions::Necessary;
 use super::critical::Critical;

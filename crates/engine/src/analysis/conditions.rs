@@ -2,13 +2,22 @@
 //!
 //! K0 and M0 are symmetric positive definite, so the mu >= 0 at which K* = K0 + mu K1 is positive
 //! definite (its symmetric part, that is) form an interval from 0: the smallest eigenvalue is a
-//! concave function of mu. (19) holds from the end of the shorter of two such intervals on.
+//! concave function of mu. The same holds of M* = M0 + mu M1. Divergence needs that K* is not
+//! positive definite or M* not positive semidefinite (19), so it is excluded up to the end of the
+//! shorter of the two intervals. Where M1 = 0 only K* counts (20).
+//!
+//! The end of an interval is the smallest positive root of det(A + mu B) with A, B the symmetric
+//! parts. For small orders it is found as that root; otherwise doubles propose it, and an exact
+//! LDL' proves definiteness just before it and refutes it just after it.
+//!
+//! Input: K* and M* as linear functions of mu ([`MuFamily`]). Output: [`Necessary`]. Called by
+//! [`analyse`](super::analyse) and by the loading path of `mceip block`.
 
 use crate::reduction::MuFamily;
 use crate::tolerance::{BRACKET_BITS, BRACKET_START_BITS};
 use mceip_exact::{
-    Algebraic, DefiniteError, Interval, Rational, Sparse, common_denominator, determinant,
-    from_f64, positive_definite, roots_in, to_f64, whole,
+    Algebraic, DefiniteError, Dense, Integer, Interval, Rational, Sparse, common_denominator,
+    determinant, from_f64, positive_definite, rational, roots_in, to_f64, whole,
 };
 use mceip_mcp::linear::definite_eigenvalues;
 use mceip_model::{ModelError, Pencil, Window};
@@ -58,39 +67,60 @@ impl DefiniteUntil {
     /// assert!(until.end().unwrap().contains(&whole(1)));
     /// ```
     pub fn of(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, ModelError> {
-        let (a, b) = (symmetric_part(a), symmetric_part(b));
+        let a = symmetric_part(a);
+        let b = symmetric_part(b);
         if !is_definite(what, &a)? {
             return Ok(DefiniteUntil::Never);
         }
+
         if is_semidefinite(&b) {
             return Ok(DefiniteUntil::Always);
         }
+
         if a.rows() <= EXACT_ORDER
-            && let Some(mut end) = smallest_root(&a, &b)
+            && let Some(end) = smallest_root(&a, &b)
         {
-            end.try_rational();
-            let width = end.interval().hi()
-                / Rational::from_integer(num_bigint::BigInt::one() << BRACKET_BITS);
-            end.refine_to(&width);
-            return Ok(DefiniteUntil::End {
-                end: end.interval().clone(),
-                exact: Some(Box::new(end)),
-            });
+            return Ok(DefiniteUntil::of_root(end));
         }
+
         bracket(what, &a, &b)
+    }
+
+    /// The interval that ends at a root, which is enclosed to 2^-64 of its value.
+    fn of_root(mut end: Algebraic) -> DefiniteUntil {
+        end.try_rational();
+        let parts = Rational::from_integer(Integer::one() << BRACKET_BITS);
+        let width = end.interval().hi() / parts;
+        end.refine_to(&width);
+
+        DefiniteUntil::End {
+            end: end.interval().clone(),
+            exact: Some(Box::new(end)),
+        }
+    }
+
+    /// mu up to which (this value not included) the matrix is proved definite; `None` if for all
+    /// mu.
+    fn proved_below(&self) -> Option<Rational> {
+        match self {
+            DefiniteUntil::Never => Some(Rational::zero()),
+            DefiniteUntil::Always => None,
+            DefiniteUntil::End { end, .. } => Some(end.lo().clone()),
+        }
     }
 }
 
 /// (A + A') / 2.
 fn symmetric_part(a: &Sparse) -> Sparse {
-    let half = mceip_exact::rational(1, 2);
+    let half = rational(1, 2);
     Sparse::zeros(a.rows(), a.cols())
         .add_scaled(&half, a)
         .add_scaled(&half, &a.transpose())
 }
 
-fn is_definite(what: &'static str, m: &Sparse) -> Result<bool, ModelError> {
-    match positive_definite(m) {
+/// Is a symmetric matrix positive definite? `what` names it in the error.
+fn is_definite(what: &'static str, matrix: &Sparse) -> Result<bool, ModelError> {
+    match positive_definite(matrix) {
         Ok(()) => Ok(true),
         Err(DefiniteError::Not(_)) => Ok(false),
         Err(DefiniteError::Undecided { index }) => Err(ModelError::DefinitenessUndecided {
@@ -101,101 +131,142 @@ fn is_definite(what: &'static str, m: &Sparse) -> Result<bool, ModelError> {
     }
 }
 
-/// Symmetric LDL' in fractions in which a zero pivot must have a zero row.
-fn is_semidefinite(m: &Sparse) -> bool {
+/// Is a symmetric matrix positive semidefinite? By LDL' in fractions, in which no pivot may be
+/// negative and a zero pivot must have a zero row.
+fn is_semidefinite(matrix: &Sparse) -> bool {
     // A zero on the diagonal beside something else refutes at once; zero rows drop out.
-    if (0..m.rows()).any(|i| m.get(i, i).is_zero() && !m.row(i).is_empty()) {
-        return false;
-    }
-    let rows: Vec<usize> = (0..m.rows()).filter(|&i| !m.row(i).is_empty()).collect();
-    let mut a = m.submatrix(&rows, &rows).to_dense();
-    for k in 0..rows.len() {
-        let pivot = a[(k, k)].clone();
-        if pivot.is_negative() || (pivot.is_zero() && (k..rows.len()).any(|j| !a[(k, j)].is_zero()))
-        {
+    let order = matrix.rows();
+    let mut rows = Vec::new();
+    for i in 0..order {
+        if matrix.row(i).is_empty() {
+            continue;
+        }
+        if matrix.get(i, i).is_zero() {
             return false;
         }
-        for i in k + 1..rows.len() {
-            if a[(i, k)].is_zero() {
-                continue;
-            }
-            let factor = &a[(i, k)] / &pivot;
-            for j in k + 1..rows.len() {
-                let update = &factor * &a[(k, j)];
-                a[(i, j)] -= update;
-            }
+        rows.push(i);
+    }
+
+    let mut rest = matrix.submatrix(&rows, &rows).to_dense();
+    for k in 0..rows.len() {
+        let pivot = rest[(k, k)].clone();
+        let row_is_zero = (k..rows.len()).all(|j| rest[(k, j)].is_zero());
+        if pivot.is_negative() || (pivot.is_zero() && !row_is_zero) {
+            return false;
+        }
+        eliminate(&mut rest, k);
+    }
+
+    true
+}
+
+/// Takes multiples of row k off the rows below it, so that column k vanishes there. The pivot may
+/// be zero only if that column is zero already.
+fn eliminate(matrix: &mut Dense, k: usize) {
+    let order = matrix.rows();
+    for i in k + 1..order {
+        if matrix[(i, k)].is_zero() {
+            continue;
+        }
+        let factor = &matrix[(i, k)] / &matrix[(k, k)];
+        for j in k + 1..order {
+            let update = &factor * &matrix[(k, j)];
+            matrix[(i, j)] -= update;
         }
     }
-    true
 }
 
 /// The smallest positive root of det(A + mu B), A definite: there definiteness ends.
 fn smallest_root(a: &Sparse, b: &Sparse) -> Option<Algebraic> {
-    let scale = common_denominator(a.entries().chain(b.entries()).map(|(_, _, v)| v));
-    let integral = |m: &Sparse| -> Vec<Vec<_>> {
-        let d = m.to_dense();
-        (0..m.rows())
-            .map(|i| {
-                (0..m.rows())
-                    .map(|j| (&d[(i, j)] * Rational::from_integer(scale.clone())).to_integer())
-                    .collect()
-            })
-            .collect()
-    };
-    roots_in(
-        &determinant(&integral(a), &integral(b)),
-        &Rational::zero(),
-        None,
-    )
-    .into_iter()
-    .next()
+    let entries = a.entries().chain(b.entries());
+    let scale = Rational::from_integer(common_denominator(entries.map(|(_, _, v)| v)));
+    let polynomial = determinant(&integral(a, &scale), &integral(b, &scale));
+
+    let roots = roots_in(&polynomial, &Rational::zero(), None);
+    roots.into_iter().next()
+}
+
+/// The entries of `scale` A by rows, which are integers.
+fn integral(a: &Sparse, scale: &Rational) -> Vec<Vec<Integer>> {
+    let mut rows = vec![vec![Integer::zero(); a.cols()]; a.rows()];
+    for (i, j, v) in a.entries() {
+        rows[i][j] = (v * scale).to_integer();
+    }
+
+    rows
 }
 
 /// The end between a value at which LDL' proves definiteness and one at which it refutes it.
 fn bracket(what: &'static str, a: &Sparse, b: &Sparse) -> Result<DefiniteUntil, ModelError> {
-    let undecided = || ModelError::DefinitenessUndecided {
-        equation: "E19",
-        what,
-        index: 0,
-    };
-    let dense = |m: &Sparse| -> Vec<Vec<f64>> {
-        let mut rows = vec![vec![0.0; m.cols()]; m.rows()];
-        m.entries().for_each(|(i, j, v)| rows[i][j] = to_f64(v));
-        rows
-    };
-    // 1 + mu t >= 0 for the eigenvalues t of B v = t A v.
-    let smallest = *definite_eigenvalues(&dense(b), &dense(a))
-        .ok_or_else(undecided)?
-        .first()
-        .ok_or_else(undecided)?;
-    let guess = from_f64(-smallest.recip())
-        .ok()
-        .filter(Rational::is_positive)
-        .ok_or_else(undecided)?;
-    let definite_at = |mu: &Rational| match positive_definite(&a.add_scaled(mu, b)) {
-        Ok(()) => Some(true),
-        Err(DefiniteError::Not(_)) => Some(false),
-        Err(DefiniteError::Undecided { .. }) => None,
-    };
-    // Each end steps outwards until it is proved.
-    let end = |sense: i64, wanted: bool| {
-        (0..=BRACKET_START_BITS / 2).find_map(|k| {
-            let step = Rational::new(
-                sense.into(),
-                num_bigint::BigInt::one() << (BRACKET_START_BITS - 2 * k),
-            );
-            let mu = shorten(&(&guess * (Rational::one() + step)));
-            (mu.is_positive() || mu.is_zero())
-                .then_some(mu)
-                .filter(|mu| definite_at(mu) == Some(wanted))
-        })
-    };
-    let lo = end(-1, true).ok_or_else(undecided)?;
-    let hi = end(1, false).ok_or_else(undecided)?;
-    Ok(DefiniteUntil::End {
-        end: Interval::new(lo, hi).ok_or_else(undecided)?,
-        exact: None,
-    })
+    let end = propose_end(a, b).and_then(|guess| {
+        let lo = proved_near(a, b, &guess, Wanted::DefiniteBelow)?;
+        let hi = proved_near(a, b, &guess, Wanted::NotDefiniteAbove)?;
+        Interval::new(lo, hi)
+    });
+
+    match end {
+        Some(end) => Ok(DefiniteUntil::End { end, exact: None }),
+        None => Err(ModelError::DefinitenessUndecided {
+            equation: "E19",
+            what,
+            index: 0,
+        }),
+    }
+}
+
+/// The mu at which A + mu B ceases to be definite, in doubles: 1 + mu t >= 0 for the eigenvalues t
+/// of B v = t A v, so the smallest one decides.
+fn propose_end(a: &Sparse, b: &Sparse) -> Option<Rational> {
+    let eigenvalues = definite_eigenvalues(&dense(b), &dense(a))?;
+    let smallest = eigenvalues.first()?;
+    let end = from_f64(-smallest.recip()).ok()?;
+    end.is_positive().then_some(end)
+}
+
+fn dense(matrix: &Sparse) -> Vec<Vec<f64>> {
+    let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
+    for (i, j, v) in matrix.entries() {
+        rows[i][j] = to_f64(v);
+    }
+
+    rows
+}
+
+/// What is to be proved on a side of the proposed end.
+#[derive(Clone, Copy)]
+enum Wanted {
+    DefiniteBelow,
+    NotDefiniteAbove,
+}
+
+/// The value nearest to the guess on one side of it, among steps that grow by 4, at which A + mu B
+/// is proved to be what is wanted.
+fn proved_near(a: &Sparse, b: &Sparse, guess: &Rational, wanted: Wanted) -> Option<Rational> {
+    for k in 0..=BRACKET_START_BITS / 2 {
+        let step = Rational::new(
+            Integer::one(),
+            Integer::one() << (BRACKET_START_BITS - 2 * k),
+        );
+        let factor = match wanted {
+            Wanted::DefiniteBelow => Rational::one() - step,
+            Wanted::NotDefiniteAbove => Rational::one() + step,
+        };
+        let mu = shorten(&(guess * factor));
+        if mu.is_negative() {
+            continue;
+        }
+
+        let decided = positive_definite(&a.add_scaled(&mu, b));
+        let is_proved = match wanted {
+            Wanted::DefiniteBelow => decided.is_ok(),
+            Wanted::NotDefiniteAbove => matches!(decided, Err(DefiniteError::Not(_))),
+        };
+        if is_proved {
+            return Some(mu);
+        }
+    }
+
+    None
 }
 
 /// The same number to a double's digits: short numbers keep LDL' cheap.
@@ -203,7 +274,7 @@ fn shorten(v: &Rational) -> Rational {
     from_f64(to_f64(v)).unwrap_or_else(|_| v.clone())
 }
 
-/// From which mu the necessary condition for divergence holds. // E19, E20
+/// From which mu the necessary condition (19), (20) for divergence holds.
 #[derive(Debug, Clone)]
 pub struct Necessary {
     /// Where K* is positive definite.
@@ -221,42 +292,46 @@ impl Necessary {
     /// As [`DefiniteUntil::of`].
     pub fn of(family: &MuFamily) -> Result<Necessary, ModelError> {
         let stiffness = DefiniteUntil::of("K*", family.stiffness.a(), family.stiffness.b())?;
-        let mass = family
-            .mass
-            .as_ref()
-            .map(|m| DefiniteUntil::of("M*", m.a(), m.b()))
-            .transpose()?;
-        let mass_is_constant = family
-            .mass
-            .as_ref()
-            .is_some_and(|m| m.b().entries().next().is_none());
+        let Some(m) = &family.mass else {
+            return Ok(Necessary {
+                stiffness,
+                mass: None,
+                mass_is_constant: false,
+            });
+        };
+
         Ok(Necessary {
             stiffness,
-            mass,
-            mass_is_constant,
+            mass: Some(DefiniteUntil::of("M*", m.a(), m.b())?),
+            mass_is_constant: m.b().entries().next().is_none(),
         })
     }
 
     /// Does the condition hold at this mu: may there be divergence? `None` if mu lies inside the
     /// enclosure of an end that is not known exactly.
     pub fn holds_at(&self, mu: &Rational) -> Option<bool> {
-        let not_definite = past(&self.stiffness, mu, false);
-        match self.mass.as_ref().map(|m| past(m, mu, true)) {
-            Some(Some(true)) => Some(true),
-            Some(None) => not_definite.filter(|k| *k),
-            _ => not_definite,
+        let stiffness_not_definite = past(&self.stiffness, mu, false);
+        let mass_not_semidefinite = match &self.mass {
+            Some(mass) => past(mass, mu, true),
+            None => Some(false),
+        };
+
+        // "Or" of two answers, each of which may be undecided.
+        if stiffness_not_definite == Some(true) || mass_not_semidefinite == Some(true) {
+            Some(true)
+        } else if stiffness_not_definite.is_none() || mass_not_semidefinite.is_none() {
+            None
+        } else {
+            Some(false)
         }
     }
 
     /// mu up to which (this value not included) divergence is excluded by the condition; `None` if
     /// for all mu.
     pub fn excluded_below(&self) -> Option<Rational> {
-        let lo = |until: &DefiniteUntil| match until {
-            DefiniteUntil::Never => Some(Rational::zero()),
-            DefiniteUntil::Always => None,
-            DefiniteUntil::End { end, .. } => Some(end.lo().clone()),
-        };
-        match (lo(&self.stiffness), self.mass.as_ref().and_then(lo)) {
+        let stiffness = self.stiffness.proved_below();
+        let mass = self.mass.as_ref().and_then(DefiniteUntil::proved_below);
+        match (stiffness, mass) {
             (Some(k), Some(m)) => Some(k.min(m)),
             (k, m) => k.or(m),
         }
@@ -287,46 +362,54 @@ fn past(until: &DefiniteUntil, mu: &Rational, open: bool) -> Option<bool> {
 }
 
 /// Is K* positive definite and M* positive semidefinite at this mu, so that no divergence is
-/// possible? // E19
+/// possible? // (19)
 ///
 /// Two factorisations only, for a single mu; [`Necessary`] answers for all of them.
 ///
 /// # Errors
 /// As [`DefiniteUntil::of`].
 pub fn excluded_at(family: &MuFamily, mu: &Rational) -> Result<bool, ModelError> {
-    let at = |p: &Pencil| symmetric_part(&p.a().add_scaled(mu, p.b()));
-    Ok(is_definite("K*", &at(&family.stiffness))?
-        && match &family.mass {
-            None => false,
-            Some(m) => is_semidefinite(&at(m)) || is_definite("M*", &at(m))?,
-        })
+    let stiffness = symmetric_part_at(&family.stiffness, mu);
+    if !is_definite("K*", &stiffness)? {
+        return Ok(false);
+    }
+
+    let Some(mass) = &family.mass else {
+        return Ok(false);
+    };
+
+    let mass = symmetric_part_at(mass, mu);
+    Ok(is_semidefinite(&mass) || is_definite("M*", &mass)?)
+}
+
+/// The symmetric part of A + mu B.
+fn symmetric_part_at(pencil: &Pencil, mu: &Rational) -> Sparse {
+    symmetric_part(&pencil.a().add_scaled(mu, pencil.b()))
 }
 
 /// The all-slip solutions of a pencil in a window, exactly: (17)-(18), sufficient for divergence.
-/// With the pencil (K0, K1) the same at lambda = 0. // E17, E18
+/// With the pencil (K0, K1) the same at lambda = 0.
 ///
 /// Solutions with x > 0 on every slip variable; where (18) holds with some x_i = 0 the solution
 /// belongs to a smaller support with biactive indices: [`is_all_slip`] knows it. The exact
 /// eigenproblem costs the order's determinant polynomial: for condensed or small pencils.
 pub fn all_slip(pencil: &Pencil, window: &Window) -> Vec<Solution> {
     let mut found = Enumeration::default();
-    let slip = pencil.slip();
-    examine_support(pencil, &slip, window, &mut found);
+    examine_support(pencil, &pencil.slip(), window, &mut found);
     found.solutions
 }
 
-/// Does an accepted solution with this support and these biactive indices satisfy (17)-(18)? //
-/// E17, E18
+/// Does an accepted solution with this support and these biactive indices satisfy (17)-(18)?
 pub fn is_all_slip(pencil: &Pencil, support: &[usize], biactive: &[usize]) -> bool {
-    pencil
-        .slip()
-        .iter()
+    let slip = pencil.slip();
+    slip.iter()
         .all(|i| support.contains(i) || biactive.contains(i))
 }
 
 /// The value of mu in the middle of an enclosure, for people.
 pub fn approximately(interval: &Interval) -> f64 {
-    to_f64(&((interval.lo() + interval.hi()) / whole(2)))
+    let middle = (interval.lo() + interval.hi()) / whole(2);
+    to_f64(&middle)
 }
 
 #[cfg(test)]
@@ -338,34 +421,39 @@ mod tests {
     use mceip_oracle::{TwoParticles, table1, thresholds};
     use mceip_paper::two_particles;
 
-    fn table(mu: Rational, signs: (i8, i8)) -> (TwoParticles, MuFamily) {
-        let data = TwoParticles {
+    fn two_particle_data(mu: Rational, signs: (i8, i8)) -> TwoParticles {
+        TwoParticles {
             c: rational(3, 5),
             s: rational(4, 5),
             k: whole(7),
             m: whole(2),
             mu,
             signs,
-        };
-        let family = mu_family(&two_particles(&data).unwrap()).unwrap();
-        (data, family)
+        }
+    }
+
+    fn family(data: &TwoParticles) -> MuFamily {
+        mu_family(&two_particles(data).unwrap()).unwrap()
     }
 
     /// Two particles: S1 = S2 loses definiteness exactly at the threshold sqrt(c^2 + 2) / s, the
     /// pair (1, -1) before it, at c / s; (-1, 1) loses it as well but never diverges.
     #[test]
     fn two_particles_in_closed_form() {
-        let (data, family) = table(whole(1), (1, 1));
-        let necessary = Necessary::of(&family).unwrap();
+        let data = two_particle_data(whole(1), (1, 1));
+
+        let necessary = Necessary::of(&family(&data)).unwrap();
+
         assert!(necessary.mass_is_constant);
         let threshold = thresholds(&data).unwrap().remove(0).value;
         let end = necessary.stiffness.end().unwrap();
-        assert!(
-            threshold.within(end.lo(), end.hi()) && end.width() < rational(1, 1_000_000_000_000)
-        );
-        let pair = Necessary::of(&table(whole(1), (1, -1)).1).unwrap();
+        assert!(threshold.within(end.lo(), end.hi()));
+        assert!(end.width() < rational(1, 1_000_000_000_000));
+
+        let pair = Necessary::of(&family(&two_particle_data(whole(1), (1, -1)))).unwrap();
         assert_eq!(pair.stiffness.end(), Some(&Interval::point(rational(3, 4))));
-        assert_eq!(pair.holds_at(&rational(3, 4)), Some(true)); // singular is not definite
+        // Singular is not definite.
+        assert_eq!(pair.holds_at(&rational(3, 4)), Some(true));
         assert_eq!(pair.holds_at(&rational(74, 100)), Some(false));
         assert_eq!(pair.excluded_below(), Some(rational(3, 4)));
     }
@@ -377,14 +465,22 @@ mod tests {
         for k in 1..24 {
             for signs in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
                 let mu = rational(k, 8);
-                let (data, family) = table(mu.clone(), signs);
+                let data = two_particle_data(mu.clone(), signs);
+                let family = family(&data);
+
                 let necessary = Necessary::of(&family).unwrap();
-                let out = excluded_at(&family, &mu).unwrap();
-                assert_eq!(necessary.holds_at(&mu), Some(!out), "mu = {mu}, {signs:?}");
-                assert!(!out || table1(&data).is_empty());
-                excluded += usize::from(out);
+                let is_excluded = excluded_at(&family, &mu).unwrap();
+
+                assert_eq!(
+                    necessary.holds_at(&mu),
+                    Some(!is_excluded),
+                    "mu = {mu}, {signs:?}"
+                );
+                assert!(!is_excluded || table1(&data).is_empty());
+                excluded += usize::from(is_excluded);
             }
         }
+
         assert!(excluded > 10 && excluded < 80);
     }
 
@@ -393,70 +489,51 @@ mod tests {
     fn a_consistent_mass_may_come_first() {
         let k = Sparse::from_ints(&[&[4, 0], &[0, 4]]);
         let m = Sparse::from_ints(&[&[4, -2], &[-2, 4]]);
-        let system = System::new(
-            k,
-            Some(m),
-            None,
-            vec![Particle::plain(0, 1, ContactState::Slip { sign: 1 })],
-        )
-        .unwrap();
+        let particle = Particle::plain(0, 1, ContactState::Slip { sign: 1 });
+        let system = System::new(k, Some(m), None, vec![particle]).unwrap();
+
         let necessary = Necessary::of(&mu_family(&system).unwrap()).unwrap();
-        assert!(
-            !necessary.mass_is_constant && matches!(necessary.stiffness, DefiniteUntil::Always)
-        );
-        assert_eq!(
-            necessary.mass.as_ref().unwrap().end(),
-            Some(&Interval::point(whole(2)))
-        );
-        assert_eq!(
-            (
-                necessary.holds_at(&whole(2)),
-                necessary.holds_at(&rational(21, 10))
-            ),
-            (Some(false), Some(true))
-        );
+
+        assert!(!necessary.mass_is_constant);
+        assert!(matches!(necessary.stiffness, DefiniteUntil::Always));
+        let mass = necessary.mass.as_ref().unwrap();
+        assert_eq!(mass.end(), Some(&Interval::point(whole(2))));
+        assert_eq!(necessary.holds_at(&whole(2)), Some(false));
+        assert_eq!(necessary.holds_at(&rational(21, 10)), Some(true));
     }
 
     #[test]
     fn large_matrices_are_bracketed_and_semidefinite_slopes_never_end() {
-        let coupling = |n| Sparse::from_entries(n, n, [(0, 1, whole(2))]);
-        for n in [EXACT_ORDER + 1, 60] {
-            let until = DefiniteUntil::of("K*", &Sparse::identity(n), &coupling(n)).unwrap();
+        for order in [EXACT_ORDER + 1, 60] {
+            let identity = Sparse::identity(order);
+            let coupling = Sparse::from_entries(order, order, [(0, 1, whole(2))]);
+
+            let until = DefiniteUntil::of("K*", &identity, &coupling).unwrap();
+
             let end = until.end().unwrap();
-            assert!(
-                end.contains(&whole(1)) && end.width() < rational(1, 1_000_000) && !end.is_point(),
-                "{end:?}"
-            );
+            assert!(end.contains(&whole(1)) && !end.is_point(), "{end:?}");
+            assert!(end.width() < rational(1, 1_000_000), "{end:?}");
         }
-        let semi = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
-        assert!(matches!(
-            DefiniteUntil::of("K*", &Sparse::identity(2), &semi).unwrap(),
-            DefiniteUntil::Always
-        ));
-        assert!(matches!(
-            DefiniteUntil::of("K*", &semi, &semi).unwrap(),
-            DefiniteUntil::Never
-        ));
+
+        let semidefinite = Sparse::from_ints(&[&[1, 1], &[1, 1]]);
+        let always = DefiniteUntil::of("K*", &Sparse::identity(2), &semidefinite).unwrap();
+        assert!(matches!(always, DefiniteUntil::Always));
+        let never = DefiniteUntil::of("K*", &semidefinite, &semidefinite).unwrap();
+        assert!(matches!(never, DefiniteUntil::Never));
     }
 
     #[test]
     fn all_slip_solutions_are_those_of_17_and_18() {
         // The fold of errata.md: both particles slip, at lambda^2 = 2 and 3.
-        let fold = Pencil::new(
-            Sparse::from_ints(&[&[1, -6], &[2, -6]]),
-            Sparse::identity(2),
-            vec![],
-        )
-        .unwrap();
+        let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
+        let fold = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
         assert_eq!(all_slip(&fold, &Window::all()).len(), 2);
-        assert!(is_all_slip(&fold, &[0], &[1]) && !is_all_slip(&fold, &[0], &[]));
+        assert!(is_all_slip(&fold, &[0], &[1]));
+        assert!(!is_all_slip(&fold, &[0], &[]));
+
         // Slip-stick alone is no all-slip mode.
-        let one = Pencil::new(
-            Sparse::from_ints(&[&[-1, 0], &[5, 1]]),
-            Sparse::identity(2),
-            vec![],
-        )
-        .unwrap();
+        let a = Sparse::from_ints(&[&[-1, 0], &[5, 1]]);
+        let one = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
         assert!(all_slip(&one, &Window::all()).is_empty());
     }
 }

@@ -1,5 +1,13 @@
-//! The critical mu: infimum over all lambda^2 >= 0, folds included, between a proved bound and a
-//! solution.
+//! The critical mu: the infimum of mu over all lambda^2 >= 0 at which a solution exists, folds
+//! included, between a proved bound and a solution.
+//!
+//! Below: condition (19) excludes solutions up to its end, and a cover of (lambda^2, mu) by boxes
+//! without solutions ([`absence`]) carries the bound further. Above: the static threshold and the
+//! solutions at the mu of the analysis are known; where the cover met a box that it could not
+//! empty, MCEIP-mu is solved completely at some lambda^2 of that box.
+//!
+//! Input: what [`analyse`](super::analyse) has found so far ([`Known`]). Output: [`Critical`], and
+//! a proof named `critical` if a smaller solution was found.
 
 use super::absence::{Absence, absence};
 use super::conditions::Necessary;
@@ -46,18 +54,48 @@ const BY_COVER: Evidence = Evidence::Exact(
     "cover of lambda^2 >= 0 and smaller mu by boxes with Farkas vectors, verified in integers",
 );
 
+/// What is known about a system before its critical mu is sought.
+pub(super) struct Known<'a> {
+    pub(super) family: &'a MuFamily,
+    pub(super) necessary: &'a Necessary,
+    /// The mu of the analysis.
+    pub(super) friction: &'a Rational,
+    /// Divergence at that mu.
+    pub(super) divergence: &'a Divergence,
+    pub(super) threshold: &'a StaticThreshold,
+}
+
+impl Known<'_> {
+    /// The known solution of smallest mu: at the static threshold (lambda = 0), or at the mu of the
+    /// analysis.
+    fn smallest_solution(&self) -> Option<CertifiedSolution> {
+        let at_threshold = self.threshold.values.first().map(|mu| CertifiedSolution {
+            mu: mu.clone(),
+            lambda2: Interval::point(Rational::zero()),
+            evidence: self.threshold.evidence.clone(),
+        });
+        let Some(mode) = self.divergence.modes.first() else {
+            return at_threshold;
+        };
+
+        match at_threshold {
+            Some(solution) if solution.mu.hi() <= self.friction => Some(solution),
+            _ => Some(CertifiedSolution {
+                mu: Interval::point(self.friction.clone()),
+                lambda2: mode.lambda2.clone(),
+                evidence: self.divergence.evidence.clone(),
+            }),
+        }
+    }
+}
+
 /// Bounds the infimum from both sides.
 pub(super) fn critical(
     model: &Model<'_>,
-    family: &MuFamily,
-    necessary: &Necessary,
-    friction: &Rational,
-    divergence: &Divergence,
-    threshold: &StaticThreshold,
+    known: &Known<'_>,
     proofs: &mut Vec<Proof>,
 ) -> Result<Critical, AnalysisError> {
-    let excluded = necessary.excluded_below();
-    let Some(excluded) = excluded else {
+    let Some(excluded) = known.necessary.excluded_below() else {
         return Ok(Critical {
             absent_below: None,
             evidence: BY_CONDITION,
@@ -65,38 +103,31 @@ pub(super) fn critical(
             cover: None,
         });
     };
-    let mut solution = threshold.values.first().map(|mu| CertifiedSolution {
-        mu: mu.clone(),
-        lambda2: Interval::point(Rational::zero()),
-        evidence: threshold.evidence.clone(),
-    });
-    if let Some(mode) = divergence.modes.first()
-        && solution.as_ref().is_none_or(|s| s.mu.hi() > friction)
-    {
-        let lambda2 = mode.lambda2.clone();
-        solution = Some(CertifiedSolution {
-            mu: Interval::point(friction.clone()),
-            lambda2,
-            evidence: divergence.evidence.clone(),
-        });
-    }
+
     let cover = if model.stopped() {
         None
     } else {
-        absence(family, &excluded, model.options.limits, &model.watch)
+        absence(known.family, &excluded, model.options.limits, &model.watch)
     };
+
     let (absent_below, evidence) = match &cover {
-        Some(c) if c.below.as_ref().is_none_or(|b| *b > excluded) => (c.below.clone(), BY_COVER),
+        Some(cover) if cover.below.as_ref().is_none_or(|b| *b > excluded) => {
+            (cover.below.clone(), BY_COVER)
+        }
         _ => (Some(excluded), BY_CONDITION),
     };
+
+    let mut solution = known.smallest_solution();
     let blocked = cover.as_ref().and_then(|c| c.blocked.as_ref());
-    if let (Some((lo, hi)), Some(below)) = (blocked, &absent_below) {
-        for lambda2 in places(lo, hi.as_ref()) {
-            if let Some(found) = at(model, &lambda2, below, solution.as_ref(), proofs)? {
-                solution = Some(found);
-            }
+    if let Some((lo, hi)) = blocked
+        && let Some(below) = &absent_below
+    {
+        for lambda2 in sampled_values(lo, hi.as_ref()) {
+            let smaller = smaller_solution(model, &lambda2, below, solution.as_ref(), proofs)?;
+            solution = smaller.or(solution);
         }
     }
+
     Ok(Critical {
         absent_below,
         evidence,
@@ -105,50 +136,62 @@ pub(super) fn critical(
     })
 }
 
-/// Values of lambda^2 in the box that could not be emptied.
-fn places(lo: &Rational, hi: Option<&Rational>) -> Vec<Rational> {
-    let short = |v: Rational| from_f64(to_f64(&v)).unwrap_or(v);
-    match hi {
-        None => vec![lo.clone()],
-        Some(hi) => vec![lo.clone(), short((lo + hi) / whole(2)), hi.clone()],
-    }
+/// Values of lambda^2 in the box that could not be emptied: its ends and its middle.
+fn sampled_values(lo: &Rational, hi: Option<&Rational>) -> Vec<Rational> {
+    let Some(hi) = hi else {
+        return vec![lo.clone()];
+    };
+
+    let middle = (lo + hi) / whole(2);
+    let short_middle = from_f64(to_f64(&middle)).unwrap_or(middle);
+    vec![lo.clone(), short_middle, hi.clone()]
 }
 
 /// How far above the bound a solution at a fixed lambda^2 is looked for when none is known.
 const REACH: i64 = 2;
 
-/// The smallest certified mu at a fixed lambda^2, if below what is known.
-fn at(
+/// The solution of smallest mu at a fixed lambda^2, if that is below the mu of the known one.
+///
+/// Its proof takes the place of the one named `critical` so far. lambda = 0 is left out: there the
+/// static threshold is the smallest.
+fn smaller_solution(
     model: &Model<'_>,
     lambda2: &Rational,
     below: &Rational,
     known: Option<&CertifiedSolution>,
     proofs: &mut Vec<Proof>,
 ) -> Result<Option<CertifiedSolution>, AnalysisError> {
-    let top = known.map_or_else(|| below * whole(REACH), |s| s.mu.hi().clone());
+    let top = match known {
+        Some(solution) => solution.mu.hi().clone(),
+        None => below * whole(REACH),
+    };
+
     if model.stopped() || lambda2.is_zero() || top <= *below {
-        return Ok(None); // lambda = 0 is the static threshold
+        return Ok(None);
     }
-    let problem = model
-        .at_lambda2(lambda2)?
-        .with_window(Window::new(below.clone(), Some(top))?);
+
+    let window = Window::new(below.clone(), Some(top))?;
+    let problem = model.at_lambda2(lambda2)?.with_window(window);
     let found = model.complete(&problem)?;
-    let Some(first) = found.cover.solutions.first() else {
+    let Some(smallest) = found.cover.solutions.first() else {
         return Ok(None);
     };
-    if known.is_some_and(|s| first.value.hi() >= s.mu.hi()) {
+
+    let mu = smallest.value.clone();
+    if known.is_some_and(|solution| mu.hi() >= solution.mu.hi()) {
         return Ok(None);
     }
-    let (mu, lambda2) = (first.value.clone(), Interval::point(lambda2.clone()));
+
     proofs.retain(|p| p.name != "critical");
     proofs.push(Proof {
         name: "critical".into(),
         problem,
         certificate: found.certificate,
     });
+
     Ok(Some(CertifiedSolution {
         mu,
-        lambda2,
+        lambda2: Interval::point(lambda2.clone()),
         evidence: Evidence::Certificate(proofs.len() - 1),
     }))
 }

@@ -1,5 +1,8 @@
 //! Divergence of the form (8) at one mu, as decided by a complete search over lambda^2 in
 //! [0, infinity).
+//!
+//! Input: what the search found. Output: [`Divergence`] with a [`Mode`] for each solution. Called
+//! by [`analyse`](super::analyse), and `verdict` for the samples of `ranges`.
 
 use super::evidence::Evidence;
 use super::modes::Mode;
@@ -47,27 +50,26 @@ pub struct Divergence {
     pub evidence: Evidence,
 }
 
+/// The verdict of a complete search.
 pub(super) fn verdict(found: &Completed) -> Verdict {
-    match (
-        found.cover.solutions.is_empty() && found.cover.families.is_empty(),
-        found.is_complete(),
-    ) {
-        (false, _) => Verdict::Present,
-        (true, true) => Verdict::Absent,
-        (true, false) => Verdict::Undecided,
+    let has_none = found.cover.solutions.is_empty() && found.cover.families.is_empty();
+    if !has_none {
+        Verdict::Present
+    } else if found.is_complete() {
+        Verdict::Absent
+    } else {
+        Verdict::Undecided
     }
 }
 
+/// The verdict of a complete search with a mode for every solution.
 pub(super) fn divergence(system: &System, family: &MuFamily, found: &Completed) -> Divergence {
-    let modes = found
-        .solutions()
-        .map(|(s, x)| Mode::of(system, family, s, x))
-        .collect();
-    let families = found.cover.families.len();
+    let solutions = found.solutions();
+    let modes = solutions.map(|(solution, x)| Mode::of(system, family, solution, x));
     Divergence {
         verdict: verdict(found),
-        modes,
-        families,
+        modes: modes.collect(),
+        families: found.cover.families.len(),
         open: found.cover.open.clone(),
         evidence: Evidence::Certificate(0),
     }

@@ -1,9 +1,16 @@
 //! A warning from doubles: complex lambda^2 of the all-slip pencil at mu. They lie outside (8).
+//!
+//! With every slip particle slipping (lambda^2 M* + K*) x = 0, so the lambda^2 are the eigenvalues
+//! of -M*^-1 K*. A complex one means growing oscillation (flutter), whatever the signs of x. Input:
+//! K* and M* as functions of mu. Output: [`Flutter`]; nothing is proved. Called by
+//! [`analyse`](super::analyse).
 
 use crate::reduction::MuFamily;
 use crate::tolerance::FLUTTER_ANGLE;
-use mceip_exact::{Rational, Sparse, to_f64};
+use mceip_exact::{Rational, to_f64};
 use mceip_mcp::linear::{eigenvalues, solve};
+use mceip_model::Pencil;
+use std::cmp::Ordering;
 
 /// Complex lambda^2 of (lambda^2 M* + K*) x = 0 with every slip particle slipping.
 #[derive(Debug, Clone, PartialEq)]
@@ -19,37 +26,33 @@ pub struct Flutter {
 /// Order beyond which the dense eigenproblem is not tried.
 const LARGEST_ORDER: usize = 2500;
 
-/// `None` beyond the largest order, without a mass, or where doubles fail.
+/// The complex lambda^2 at mu; `None` beyond the largest order, without a mass, or where doubles
+/// fail.
 pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
     let mass = family.mass.as_ref()?;
     if family.stiffness.order() > LARGEST_ORDER {
         return None;
     }
-    let dense = |at_zero: &Sparse, slope: &Sparse| -> Vec<Vec<f64>> {
-        let m = at_zero.add_scaled(mu, slope);
-        (0..m.rows())
-            .map(|i| {
-                let mut row = vec![0.0; m.cols()];
-                m.row(i).iter().for_each(|(j, v)| row[*j] = to_f64(v));
-                row
-            })
-            .collect()
+
+    // -M*^-1 K*, column by column.
+    let mut columns = transposed(&dense_at(&family.stiffness, mu));
+    for column in &mut columns {
+        for entry in column {
+            *entry = -*entry;
+        }
+    }
+
+    let solved = solve(&dense_at(mass, mu), &columns)?;
+
+    let mut complex = eigenvalues(&transposed(&solved))?;
+    complex.retain(|(re, im)| *im > FLUTTER_ANGLE * re.hypot(*im));
+    complex.sort_by(|p, q| by_descending_growth(*p, *q));
+
+    let (growth_rate, frequency) = match complex.first() {
+        Some(fastest) => root(*fastest),
+        None => (0.0, 0.0),
     };
-    let k = dense(family.stiffness.a(), family.stiffness.b());
-    let m = dense(mass.a(), mass.b());
-    let n = k.len();
-    let columns: Vec<Vec<f64>> = (0..n).map(|j| (0..n).map(|i| -k[i][j]).collect()).collect();
-    let solved = solve(&m, &columns)?;
-    let rows: Vec<Vec<f64>> = (0..n)
-        .map(|i| (0..n).map(|j| solved[j][i]).collect())
-        .collect();
-    let all = eigenvalues(&rows)?;
-    let mut complex: Vec<(f64, f64)> = all
-        .into_iter()
-        .filter(|(re, im)| *im > FLUTTER_ANGLE * re.hypot(*im))
-        .collect();
-    complex.sort_by(|p, q| root(*q).0.total_cmp(&root(*p).0).then(p.1.total_cmp(&q.1)));
-    let (growth_rate, frequency) = complex.first().map_or((0.0, 0.0), |z| root(*z));
+
     Some(Flutter {
         eigenvalues: complex,
         growth_rate,
@@ -57,7 +60,40 @@ pub(super) fn flutter(family: &MuFamily, mu: &Rational) -> Option<Flutter> {
     })
 }
 
-/// The square root with positive real part.
+/// A + mu B by rows, each entry rounded to the nearest double.
+fn dense_at(pencil: &Pencil, mu: &Rational) -> Vec<Vec<f64>> {
+    let matrix = pencil.a().add_scaled(mu, pencil.b());
+    let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
+    for (i, j, v) in matrix.entries() {
+        rows[i][j] = to_f64(v);
+    }
+
+    rows
+}
+
+/// The columns of a square matrix given by rows, or the rows of one given by columns.
+fn transposed(matrix: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let order = matrix.len();
+    let mut transposed = vec![vec![0.0; order]; order];
+    for (i, row) in matrix.iter().enumerate() {
+        for (j, entry) in row.iter().enumerate() {
+            transposed[j][i] = *entry;
+        }
+    }
+
+    transposed
+}
+
+/// Larger Re lambda first; of equal ones the smaller Im lambda^2.
+fn by_descending_growth(p: (f64, f64), q: (f64, f64)) -> Ordering {
+    let (growth_of_p, _) = root(p);
+    let (growth_of_q, _) = root(q);
+    growth_of_q
+        .total_cmp(&growth_of_p)
+        .then(p.1.total_cmp(&q.1))
+}
+
+/// lambda of lambda^2 = re + i im: the square root with positive real part, (Re, Im).
 fn root((re, im): (f64, f64)) -> (f64, f64) {
     let size = re.hypot(im);
     // |z| + re without cancellation where re < 0.
@@ -66,5 +102,7 @@ fn root((re, im): (f64, f64)) -> (f64, f64) {
     } else {
         0.5 * im.abs() / (0.5 * (size - re)).sqrt()
     };
-    (growth, 0.5 * im / growth)
+
+    let frequency = 0.5 * im / growth;
+    (growth, frequency)
 }

@@ -1,12 +1,19 @@
 //! `mceip-analysis/1`: the answer for programs.
+//!
+//! Input: an [`Analysis`], and the paths to which its certificates were written. Output: one JSON
+//! object, described in `spec/`. Enclosures are pairs of decimals rounded outwards; exact numbers
+//! are text. Called by `mceip analyze`.
 
 use super::answer::Analysis;
 use super::conditions::DefiniteUntil;
 use super::divergence::Verdict;
 use super::evidence::Evidence;
+use super::flutter::Flutter;
 use super::modes::Mode;
+use super::ranges::{Range, Sample};
+use super::sentences::Sentence;
 use mceip_check::OpenRegion;
-use mceip_exact::{Interval, enclosing_decimals};
+use mceip_exact::{Algebraic, Interval, enclosing_decimals};
 use serde_json::{Value, json};
 use sha2::{Digest as _, Sha256};
 use std::fmt::Write as _;
@@ -14,47 +21,78 @@ use std::fmt::Write as _;
 /// The format of [`Analysis::to_json`].
 pub const ANALYSIS_FORMAT: &str = "mceip-analysis/1";
 
+/// The ends of an enclosure as decimals of 17 digits, rounded outwards.
 fn enclosure(v: &Interval) -> Value {
     let (lo, hi) = enclosing_decimals(v, 17);
     json!([lo, hi])
 }
 
-fn open(regions: &[OpenRegion]) -> Vec<Value> {
-    let region = |r: &OpenRegion| {
-        json!({
-            "min": r.min.to_string(),
-            "max": r.max.as_ref().map(ToString::to_string),
-            "moving": r.moving,
-            "undecided": r.undecided,
-        })
-    };
+fn enclosures(values: &[Interval]) -> Vec<Value> {
+    values.iter().map(enclosure).collect()
+}
+
+fn regions(regions: &[OpenRegion]) -> Vec<Value> {
     regions.iter().map(region).collect()
 }
 
-fn until(u: &DefiniteUntil) -> Value {
-    match u {
+fn region(region: &OpenRegion) -> Value {
+    json!({
+        "min": region.min.to_string(),
+        "max": region.max.as_ref().map(ToString::to_string),
+        "moving": region.moving,
+        "undecided": region.undecided,
+    })
+}
+
+fn definite_until(until: &DefiniteUntil) -> Value {
+    match until {
         DefiniteUntil::Never => json!({ "definite": "never" }),
         DefiniteUntil::Always => json!({ "definite": "always" }),
-        DefiniteUntil::End { end, exact } => {
-            let polynomial = exact.as_ref().map(|e| {
-                e.poly()
-                    .coeffs()
-                    .iter()
-                    .map(ToString::to_string)
-                    .collect::<Vec<_>>()
-            });
-            json!({ "definite": "below", "end": enclosure(end), "polynomial": polynomial })
-        }
+        DefiniteUntil::End { end, exact } => json!({
+            "definite": "below",
+            "end": enclosure(end),
+            "polynomial": exact.as_deref().map(coefficients),
+        }),
     }
 }
 
-fn mode(m: &Mode) -> Value {
+/// The coefficients of the polynomial of an algebraic number, constant first.
+fn coefficients(number: &Algebraic) -> Vec<String> {
+    let polynomial = number.poly();
+    polynomial
+        .coeffs()
+        .iter()
+        .map(ToString::to_string)
+        .collect()
+}
+
+fn mode(mode: &Mode) -> Value {
     json!({
-        "lambda2": enclosure(&m.lambda2),
-        "growth_rate": m.growth_rate,
-        "slipping": m.slipping,
-        "sticking": m.sticking,
-        "v": m.v,
+        "lambda2": enclosure(&mode.lambda2),
+        "growth_rate": mode.growth_rate,
+        "slipping": mode.slipping,
+        "sticking": mode.sticking,
+        "v": mode.v,
+    })
+}
+
+fn sample(sample: &Sample) -> Value {
+    json!({ "mu": sample.mu.to_string(), "verdict": sample.verdict.word() })
+}
+
+fn range(range: &Range) -> Value {
+    json!({
+        "verdict": range.verdict.word(),
+        "from": range.from.to_string(),
+        "to": range.to.to_string(),
+    })
+}
+
+fn flutter(flutter: &Flutter) -> Value {
+    json!({
+        "lambda2": flutter.eigenvalues,
+        "growth_rate": flutter.growth_rate,
+        "frequency": flutter.frequency,
     })
 }
 
@@ -66,6 +104,7 @@ impl Analysis {
         for byte in Sha256::digest(text.as_bytes()) {
             let _ = write!(hex, "{byte:02x}"); // a String takes everything
         }
+
         Some(hex)
     }
 
@@ -84,6 +123,7 @@ impl Analysis {
         }
     }
 
+    /// The evidence for programs.
     fn evidence_json(&self, evidence: &Evidence, paths: &[String]) -> Value {
         match evidence {
             Evidence::Certificate(i) => json!({
@@ -97,90 +137,99 @@ impl Analysis {
         }
     }
 
-    /// The answer as `mceip-analysis/1`.
-    pub fn to_json(&self, paths: &[String]) -> Value {
-        let sentences: Vec<Value> = self
-            .sentences()
-            .iter()
-            .map(|s| {
-                json!({
-                    "topic": s.topic,
-                    "text": s.text,
-                    "evidence": self.evidence_json(&s.evidence, paths),
-                })
-            })
-            .collect();
-        let samples: Vec<Value> = self
-            .samples
-            .iter()
-            .map(|s| json!({ "mu": s.mu.to_string(), "verdict": s.verdict.word() }))
-            .collect();
-        let ranges: Vec<Value> = self
-            .ranges
-            .iter()
-            .map(|r| {
-                json!({
-                    "verdict": r.verdict.word(),
-                    "from": r.from.to_string(),
-                    "to": r.to.to_string(),
-                })
-            })
-            .collect();
-        let solution = self.critical.solution.as_ref().map(|s| {
+    fn sentence_json(&self, sentence: &Sentence, paths: &[String]) -> Value {
+        json!({
+            "topic": sentence.topic,
+            "text": sentence.text,
+            "evidence": self.evidence_json(&sentence.evidence, paths),
+        })
+    }
+
+    fn sizes_json(&self) -> Value {
+        let [dofs, free, slip, stick] = self.sizes;
+        json!({
+            "dofs": dofs,
+            "free_dofs": free,
+            "slip_particles": slip,
+            "stick_particles": stick,
+        })
+    }
+
+    fn divergence_json(&self) -> Value {
+        let divergence = &self.divergence;
+        let modes: Vec<Value> = divergence.modes.iter().map(mode).collect();
+        json!({
+            "verdict": divergence.verdict.word(),
+            "families": divergence.families,
+            "modes": modes,
+            "normalisation": "slip rates |v_T| of the slip particles sum to 1",
+            "open": regions(&divergence.open),
+        })
+    }
+
+    fn threshold_json(&self) -> Value {
+        json!({
+            "smallest": self.threshold.smallest().map(enclosure),
+            "values": enclosures(&self.threshold.values),
+            "open": regions(&self.threshold.open),
+        })
+    }
+
+    fn critical_json(&self, paths: &[String]) -> Value {
+        let critical = &self.critical;
+        let solution = critical.solution.as_ref().map(|solution| {
             json!({
-                "mu": enclosure(&s.mu),
-                "lambda2": enclosure(&s.lambda2),
-                "evidence": self.evidence_json(&s.evidence, paths),
+                "mu": enclosure(&solution.mu),
+                "lambda2": enclosure(&solution.lambda2),
+                "evidence": self.evidence_json(&solution.evidence, paths),
             })
         });
-        let [dofs, free, slip, stick] = self.sizes;
+
+        json!({
+            "absent_below": critical.absent_below.as_ref().map(ToString::to_string),
+            "absent_evidence": self.evidence_json(&critical.evidence, paths),
+            "solution": solution,
+            "boxes": critical.cover.as_ref().map(|cover| cover.boxes),
+        })
+    }
+
+    fn necessary_json(&self) -> Value {
+        let necessary = &self.necessary;
+        json!({
+            "holds_at_friction": necessary.holds_at(&self.friction),
+            "stiffness": definite_until(&necessary.stiffness),
+            "mass": necessary.mass.as_ref().map(definite_until),
+            "mass_is_constant": necessary.mass_is_constant,
+        })
+    }
+
+    /// The answer as `mceip-analysis/1`; `paths[i]` is where the certificate of proof i has been
+    /// written.
+    pub fn to_json(&self, paths: &[String]) -> Value {
+        let samples: Vec<Value> = self.samples.iter().map(sample).collect();
+        let ranges: Vec<Value> = self.ranges.iter().map(range).collect();
+        let sentences = self.sentences();
+        let sentences: Vec<Value> = sentences
+            .iter()
+            .map(|sentence| self.sentence_json(sentence, paths))
+            .collect();
+
         json!({
             "format": ANALYSIS_FORMAT,
             "name": self.name,
             "problem_sha256": self.problem_sha256,
             "friction": self.friction.to_string(),
-            "sizes": {
-                "dofs": dofs,
-                "free_dofs": free,
-                "slip_particles": slip,
-                "stick_particles": stick,
-            },
+            "sizes": self.sizes_json(),
             "units": "lambda^2 in 1/s^2 and growth rates in 1/s for K and M in consistent units",
             "interrupted": self.interrupted,
-            "divergence": {
-                "verdict": self.divergence.verdict.word(),
-                "families": self.divergence.families,
-                "modes": self.divergence.modes.iter().map(mode).collect::<Vec<_>>(),
-                "normalisation": "slip rates |v_T| of the slip particles sum to 1",
-                "open": open(&self.divergence.open),
-            },
-            "static_threshold": {
-                "smallest": self.threshold.smallest().map(enclosure),
-                "values": self.threshold.values.iter().map(enclosure).collect::<Vec<_>>(),
-                "open": open(&self.threshold.open),
-            },
-            "critical": {
-                "absent_below": self.critical.absent_below.as_ref().map(ToString::to_string),
-                "absent_evidence": self.evidence_json(&self.critical.evidence, paths),
-                "solution": solution,
-                "boxes": self.critical.cover.as_ref().map(|c| c.boxes),
-            },
+            "divergence": self.divergence_json(),
+            "static_threshold": self.threshold_json(),
+            "critical": self.critical_json(paths),
             "ranges": ranges,
             "samples": samples,
-            "necessary": {
-                "holds_at_friction": self.necessary.holds_at(&self.friction),
-                "stiffness": until(&self.necessary.stiffness),
-                "mass": self.necessary.mass.as_ref().map(until),
-                "mass_is_constant": self.necessary.mass_is_constant,
-            },
+            "necessary": self.necessary_json(),
             "sufficient": self.sufficient,
-            "flutter": self.flutter
-                .as_ref()
-                .map(|f| json!({
-                    "lambda2": f.eigenvalues,
-                    "growth_rate": f.growth_rate,
-                    "frequency": f.frequency,
-                })),
+            "flutter": self.flutter.as_ref().map(flutter),
             "sentences": sentences,
         })
     }

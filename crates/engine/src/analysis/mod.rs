@@ -1,10 +1,14 @@
-//! The engineer's answer for one mechanical system at one mu: divergence of the form (8), growth,
-//! thresholds, conditions (17)-(20), and the evidence behind each sentence.
+//! The engineer's answer for one mechanical system at one mu.
 //!
-//! [`analyse`] makes plain data ([`Analysis`]); [`Analysis::sentences`] says it in words,
-//! [`Analysis::to_json`] as `mceip-analysis/1`. A sentence rests on a certificate that
-//! [`mceip_check`] has accepted, on an exact condition, or on a measurement in doubles, and says
-//! which.
+//! Is there divergence of the form (8) at mu, and how fast does it grow? From which mu on is there
+//! any: at lambda = 0 (the static threshold), and over all lambda^2 >= 0 (the critical mu)? Do the
+//! conditions (17)-(20) hold? What stands behind each sentence?
+//!
+//! Input: a [`System`] with mass and at least one slip particle, and mu. [`analyse`] makes plain
+//! data ([`Analysis`]); [`Analysis::sentences`] says it in words, [`Analysis::to_json`] as
+//! `mceip-analysis/1`. A sentence rests on a certificate that [`mceip_check`] has accepted, on an
+//! exact condition, or on a measurement in doubles, and says which. Called by `mceip analyze` and
+//! by the front door.
 
 pub mod absence;
 mod answer;
@@ -38,15 +42,17 @@ use crate::reduction::{MuFamily, mu_family};
 use crate::run::{Progress, Watch};
 use crate::search::complete::Completed;
 use conditions::{Necessary, is_all_slip};
+use critical::Known;
 use divergence::divergence;
 use mceip_check::certificate::Claim;
 use mceip_exact::Rational;
-use mceip_model::{Particle, System};
+use mceip_model::{ContactState, Problem, System};
 use model::Model;
 
-/// Analyses a mechanical system at a mu. Contact states are those of the system, taken as impending
-/// slip at mu: reactions in it are not used. An analysis that is cancelled leaves open what is not
-/// done.
+/// Analyses a mechanical system at a mu.
+///
+/// Contact states are those of the system, taken as impending slip at mu: reactions in it are not
+/// used. An analysis that is cancelled leaves open what is not done.
 ///
 /// # Errors
 /// [`AnalysisError`]: no mass, no slip particle, numbers beyond doubles, a definiteness not
@@ -64,55 +70,48 @@ pub fn analyse(
         options,
         watch: watch.quiet(),
     };
-    let here = model.problem(Some(friction))?;
+
+    let at_friction = model.problem(Some(friction))?;
     let family = mu_family(system)?;
-    let mut proofs = Vec::new();
+
     watch.report(&Progress::stage("conditions (19), (20)"));
     let necessary = Necessary::of(&family)?;
+
     watch.report(&Progress::stage("divergence at mu: all lambda^2 >= 0"));
-    let found = model.complete(&here)?;
+    let found = model.complete(&at_friction)?;
     let divergence = divergence(system, &family, &found);
     let sufficient = sufficient(&family, &found, divergence.verdict);
-    proofs.push(Proof {
-        name: "lambda2".into(),
-        problem: here.clone(),
-        certificate: found.certificate,
-    });
+    let problem_sha256 = at_friction.sha256();
+    let of_lambda2 = proof("lambda2", at_friction, found);
+
     watch.report(&Progress::stage("static threshold: all mu >= 0"));
     let at_zero = model.problem(None)?;
     let found = model.complete(&at_zero)?;
     let threshold = StaticThreshold::of(&found);
-    proofs.push(Proof {
-        name: "mu".into(),
-        problem: at_zero,
-        certificate: found.certificate,
-    });
+    let of_mu = proof("mu", at_zero, found);
+
     watch.report(&Progress::stage(
         "critical mu: all lambda^2 >= 0 and all smaller mu",
     ));
-    let critical = critical::critical(
-        &model,
-        &family,
-        &necessary,
+    let mut proofs = vec![of_lambda2, of_mu];
+    let known = Known {
+        family: &family,
+        necessary: &necessary,
         friction,
-        &divergence,
-        &threshold,
-        &mut proofs,
-    )?;
+        divergence: &divergence,
+        threshold: &threshold,
+    };
+
+    let critical = critical::critical(&model, &known, &mut proofs)?;
+
     watch.report(&Progress::stage("ranges of mu"));
     let (ranges, samples) = ranges::ranges(&model, friction, &threshold, &critical)?;
-    let count = |f: fn(&Particle) -> bool| system.particles().iter().filter(|p| f(p)).count();
-    let stick = count(|p| p.state == mceip_model::ContactState::Stick);
+
     Ok(Analysis {
         name,
-        problem_sha256: here.sha256(),
+        problem_sha256,
         friction: friction.clone(),
-        sizes: [
-            system.dofs(),
-            system.free_dofs().len(),
-            system.slip_particles().len(),
-            stick,
-        ],
+        sizes: sizes(system),
         flutter: flutter::flutter(&family, friction),
         divergence,
         threshold,
@@ -126,25 +125,54 @@ pub fn analyse(
     })
 }
 
-/// (17)-(18): is one of the solutions an all-slip one?
+/// A problem with the certificate that a complete search made for it.
+fn proof(name: &str, problem: Problem, found: Completed) -> Proof {
+    Proof {
+        name: name.into(),
+        problem,
+        certificate: found.certificate,
+    }
+}
+
+/// Numbers of degrees of freedom, free degrees of freedom, slip particles, stick particles.
+fn sizes(system: &System) -> [usize; 4] {
+    let particles = system.particles().iter();
+    let sticking = particles.filter(|p| p.state == ContactState::Stick);
+    [
+        system.dofs(),
+        system.free_dofs().len(),
+        system.slip_particles().len(),
+        sticking.count(),
+    ]
+}
+
+/// (17)-(18): is one of the solutions an all-slip one? `None` where none of those found is, and
+/// others may exist.
 fn sufficient(family: &MuFamily, found: &Completed, verdict: Verdict) -> Option<bool> {
-    let claimed = |support: &[usize]| -> Vec<usize> {
-        let same = found.certificate.claims.iter().filter_map(|c| match c {
-            Claim::ExactSolution(c) if c.support == support => Some(c.biactive.clone()),
-            _ => None,
-        });
-        same.flatten().collect()
-    };
-    let all = found
-        .cover
-        .solutions
-        .iter()
-        .any(|s| is_all_slip(&family.stiffness, &s.support, &claimed(&s.support)));
-    if all {
+    let has_all_slip = found.cover.solutions.iter().any(|solution| {
+        let biactive = claimed_biactive(found, &solution.support);
+        is_all_slip(&family.stiffness, &solution.support, &biactive)
+    });
+
+    if has_all_slip {
         Some(true)
     } else if verdict == Verdict::Undecided || !found.cover.is_plain_list() {
         None
     } else {
         Some(false)
     }
+}
+
+/// The biactive indices of the claims with a support.
+fn claimed_biactive(found: &Completed, support: &[usize]) -> Vec<usize> {
+    let mut biactive = Vec::new();
+    for claim in &found.certificate.claims {
+        if let Claim::ExactSolution(claim) = claim
+            && claim.support == support
+        {
+            biactive.extend(&claim.biactive);
+        }
+    }
+
+    biactive
 }

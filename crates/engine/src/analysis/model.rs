@@ -1,11 +1,15 @@
 //! The system under analysis, the work allowed, and the problems posed on it.
+//!
+//! All problems have the contact states of the system and the window [0, infinity): MCEIP-lambda2
+//! at a mu, MCEIP-mu, and MCEIP-mu with K + lambda^2 M in place of K. Reactions are left out, which
+//! would tie the contact states to another mu. Called by the other files of this folder.
 
 use super::absence::Limits;
 use super::error::AnalysisError;
 use crate::run::Watch;
 use crate::search::complete::{self, Completed, complete};
 use mceip_exact::{Rational, Sparse};
-use mceip_model::{Body, Particle, Problem, System, Unknown, Window};
+use mceip_model::{Body, Problem, System, Unknown, Window};
 
 /// How much work an analysis may take.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -38,53 +42,48 @@ pub(super) struct Model<'a> {
 impl Model<'_> {
     /// MCEIP-lambda2 at a mu, or MCEIP-mu, for the contact states of the system.
     pub(super) fn problem(&self, friction: Option<&Rational>) -> Result<Problem, AnalysisError> {
-        let mass = self.system.mass().cloned();
-        self.with(self.system.stiffness().clone(), mass, friction)
+        let mass = self.system.mass().ok_or(AnalysisError::NoMass)?;
+        let stiffness = self.system.stiffness().clone();
+        match friction {
+            Some(mu) => self.posed(stiffness, Some((mass.clone(), mu.clone()))),
+            None => self.posed(stiffness, None),
+        }
     }
 
     /// MCEIP-mu at a fixed lambda^2: that of K + lambda^2 M.
     pub(super) fn at_lambda2(&self, lambda2: &Rational) -> Result<Problem, AnalysisError> {
         let mass = self.system.mass().ok_or(AnalysisError::NoMass)?;
-        self.with(
-            self.system.stiffness().add_scaled(lambda2, mass),
-            None,
-            None,
-        )
+        let stiffness = self.system.stiffness().add_scaled(lambda2, mass);
+        self.posed(stiffness, None)
     }
 
-    pub(super) fn with(
+    /// MCEIP-lambda2 if mass and mu are given, else MCEIP-mu.
+    fn posed(
         &self,
         stiffness: Sparse,
-        mass: Option<Sparse>,
-        friction: Option<&Rational>,
+        mass_and_friction: Option<(Sparse, Rational)>,
     ) -> Result<Problem, AnalysisError> {
-        if mass.is_none() && self.system.mass().is_none() {
-            return Err(AnalysisError::NoMass);
+        let mut particles = self.system.particles().to_vec();
+        for particle in &mut particles {
+            particle.reaction = None;
         }
-        let particles = self
-            .system
-            .particles()
-            .iter()
-            .map(|p| Particle {
-                reaction: None,
-                ..p.clone()
-            })
-            .collect();
-        let unknown = if friction.is_some() {
-            Unknown::Lambda2
-        } else {
-            Unknown::Mu
+
+        let (unknown, mass, friction) = match mass_and_friction {
+            Some((mass, friction)) => (Unknown::Lambda2, Some(mass), Some(friction)),
+            None => (Unknown::Mu, None, None),
         };
-        let mass = mass.filter(|_| friction.is_some());
-        let system = System::new(stiffness, mass, friction.cloned(), particles)?;
+
+        let system = System::new(stiffness, mass, friction, particles)?;
         Ok(Problem::new(Body::System(system), unknown, Window::all())?)
     }
 
+    /// The complete set of a problem, as far as it is found before the work is cancelled.
     pub(super) fn complete(&self, problem: &Problem) -> Result<Completed, AnalysisError> {
         let options = complete::Options {
             threads: self.options.threads,
             ..complete::Options::default()
         };
+
         Ok(complete(problem, &options, &self.watch)?)
     }
 

@@ -1,5 +1,9 @@
 //! Solutions as an engineer reads them: growth rate and displacement rates of all degrees of
 //! freedom.
+//!
+//! A solution (lambda^2, x) of MCEIP-lambda2 is the motion (8) with growth rate lambda and shape v,
+//! where v = x on the free dofs and v_T = -S x on the slip particles (10). Input: an accepted
+//! solution with its x in doubles. Output: [`Mode`]. Called by `divergence`.
 
 use crate::reduction::{MuFamily, Variable};
 use mceip_check::AcceptedClaim;
@@ -7,7 +11,7 @@ use mceip_exact::{Interval, to_f64};
 use mceip_model::{ContactState, System};
 use num_traits::Signed;
 
-/// A diverging solution u(t) = u0 + alpha(t) v with alpha growing like exp(lambda t). // E8
+/// A diverging solution u(t) = u0 + alpha(t) v with alpha growing like exp(lambda t). // (8)
 #[derive(Debug, Clone, PartialEq)]
 pub struct Mode {
     /// Encloses lambda^2, in 1/s^2 for consistent units.
@@ -25,46 +29,68 @@ pub struct Mode {
 }
 
 impl Mode {
+    /// The mode of a solution with the support of the variables of `family`.
     pub(super) fn of(
         system: &System,
         family: &MuFamily,
         solution: &AcceptedClaim,
         x: &[f64],
     ) -> Mode {
-        let impending: Vec<usize> = (0..system.particles().len())
-            .filter(|&p| matches!(system.particles()[p].state, ContactState::Slip { .. }))
-            .collect();
-        let free = family.variables.len() - impending.len();
-        let (slipping, sticking) = impending
-            .iter()
-            .enumerate()
-            .map(|(k, p)| (k + free, *p))
-            .partition::<Vec<_>, _>(|(i, _)| solution.support.contains(i));
-        let particles = |list: Vec<(usize, usize)>| list.into_iter().map(|e| e.1).collect();
-        Mode {
-            lambda2: solution.value.clone(),
-            growth_rate: if solution.value.lo().is_positive() {
-                to_f64(&solution.value.mid()).sqrt()
+        let mut impending = Vec::new();
+        for (index, particle) in system.particles().iter().enumerate() {
+            if matches!(particle.state, ContactState::Slip { .. }) {
+                impending.push(index);
+            }
+        }
+
+        // The variables of the slip particles come last, in the order of the particles.
+        let free_count = family.variables.len() - impending.len();
+        let mut slipping = Vec::new();
+        let mut sticking = Vec::new();
+        for (k, particle) in impending.into_iter().enumerate() {
+            let variable = free_count + k;
+            if solution.support.contains(&variable) {
+                slipping.push(particle);
             } else {
-                0.0
-            },
-            slipping: particles(slipping),
-            sticking: particles(sticking),
+                sticking.push(particle);
+            }
+        }
+
+        let lambda2 = &solution.value;
+        let growth_rate = if lambda2.lo().is_positive() {
+            to_f64(&lambda2.mid()).sqrt()
+        } else {
+            0.0
+        };
+
+        Mode {
+            lambda2: lambda2.clone(),
+            growth_rate,
+            slipping,
+            sticking,
             v: lift(system.dofs(), &family.variables, x),
         }
     }
 }
 
-/// v = x on free dofs, -S x along the tangents, 0 elsewhere. // E10
+/// v = x on free dofs, -S x along the tangents, 0 elsewhere. // (10)
 fn lift(dofs: usize, variables: &[Variable], x: &[f64]) -> Vec<f64> {
     let mut v = vec![0.0; dofs];
-    for (variable, x) in variables.iter().zip(x) {
+    for (variable, x_i) in variables.iter().zip(x) {
         match variable {
-            Variable::Free { dof } => v[*dof] += x,
-            Variable::Slip { sign, tangent, .. } => tangent
-                .iter()
-                .for_each(|(dof, c)| v[*dof] -= f64::from(*sign) * x * to_f64(c)),
+            Variable::Free { dof } => v[*dof] += x_i,
+            Variable::Slip { sign, tangent, .. } => {
+                for (dof, c) in tangent {
+                    v[*dof] -= f64::from(*sign) * x_i * to_f64(c);
+                }
+            }
         }
     }
-    v.iter().map(|v| v + 0.0).collect() // no negative zeros
+
+    // Adding zero turns -0 into 0.
+    for component in &mut v {
+        *component += 0.0;
+    }
+
+    v
 }

@@ -1,4 +1,8 @@
 //! The answer in words: one short sentence for each question, with what stands behind it.
+//!
+//! Input: an [`Analysis`]. Output: its sentences, for people (`mceip analyze`) and as a part of
+//! `mceip-analysis/1`. The words PRESENT, ABSENT and UNDECIDED are printed as the verdicts of
+//! accepted certificates only.
 
 use super::answer::Analysis;
 use super::conditions::{DefiniteUntil, approximately};
@@ -39,23 +43,55 @@ fn down(v: &Rational) -> String {
     enclosing_decimals(&Interval::point(v.clone()), 9).0
 }
 
+/// Six decimals without trailing zeros.
 fn short(v: &Rational) -> String {
     let text = format!("{:.6}", to_f64(v));
     text.trim_end_matches('0').trim_end_matches('.').to_string()
 }
 
-fn open_text(word: &str, open: &[OpenRegion]) -> String {
-    let region = |o: &OpenRegion| {
-        let max = o.max.as_ref().map_or_else(|| "infinity".into(), short);
-        format!("{word} in [{}, {max}]", short(&o.min))
-    };
-    let first: Vec<String> = open.iter().take(3).map(region).collect();
-    let more = if open.len() > 3 {
-        format!(" and {} more regions", open.len() - 3)
-    } else {
-        String::new()
-    };
-    format!("{}{more}", first.join(", "))
+/// Open regions named in a sentence; the others are counted.
+const NAMED_REGIONS: usize = 3;
+
+/// "mu in [..], mu in [..] and 4 more regions", where `name` is mu.
+fn open_text(name: &str, open: &[OpenRegion]) -> String {
+    let mut named = Vec::new();
+    for region in open.iter().take(NAMED_REGIONS) {
+        let min = short(&region.min);
+        let max = match &region.max {
+            Some(max) => short(max),
+            None => "infinity".into(),
+        };
+        named.push(format!("{name} in [{min}, {max}]"));
+    }
+
+    let mut text = named.join(", ");
+    if open.len() > NAMED_REGIONS {
+        text += &format!(" and {} more regions", open.len() - NAMED_REGIONS);
+    }
+
+    text
+}
+
+fn plural(count: usize) -> &'static str {
+    if count == 1 { "" } else { "s" }
+}
+
+/// Where a matrix is not definite; `relation` says whether the end belongs to it.
+fn not_definite_text(until: &DefiniteUntil, relation: &str) -> String {
+    match until {
+        DefiniteUntil::Never => "for every mu".into(),
+        DefiniteUntil::Always => "for no mu".into(),
+        DefiniteUntil::End { end, .. } => {
+            format!("for mu {relation} {:.9}", approximately(end))
+        }
+    }
+}
+
+fn range_text(range: &Range) -> String {
+    let word = range.verdict.word();
+    let from = short(&range.from);
+    let to = short(&range.to);
+    format!("{word} from {from} to {to}")
 }
 
 impl Analysis {
@@ -64,14 +100,13 @@ impl Analysis {
     pub fn sentences(&self) -> Vec<Sentence> {
         let mut all = vec![self.say_divergence()];
         all.extend(self.say_modes());
-        all.extend([self.say_threshold(), self.say_critical()]);
+        all.push(self.say_threshold());
+        all.push(self.say_critical());
         all.extend(self.say_solution());
         all.extend(self.say_ranges());
-        all.extend([
-            self.say_necessary(),
-            self.say_sufficient(),
-            self.say_flutter(),
-        ]);
+        all.push(self.say_necessary());
+        all.push(self.say_sufficient());
+        all.push(self.say_flutter());
         all.push(Sentence {
             topic: "outside",
             text: OUTSIDE.into(),
@@ -80,94 +115,93 @@ impl Analysis {
         all
     }
 
-    fn state(&self) -> String {
-        format!(
-            "For this contact state, taken as impending slip at mu = {},",
-            short(&self.friction)
-        )
-    }
-
     fn say_divergence(&self) -> Sentence {
-        let d = &self.divergence;
-        let n = d.modes.len();
-        let what = match d.verdict {
-            Verdict::Present => format!(
-                "divergence instability of the form (8) is PRESENT: {n} solution{}{}{}.",
-                if n == 1 { "" } else { "s" },
-                if d.families == 0 {
-                    String::new()
-                } else {
-                    format!(
-                        " and {} families of solutions (cones or ranges)",
-                        d.families
-                    )
-                },
-                if d.open.is_empty() {
-                    " and no other".into()
-                } else {
-                    format!(", others undecided for {}", open_text("lambda^2", &d.open))
-                }
-            ),
+        let what = match self.divergence.verdict {
+            Verdict::Present => self.present_text(),
             Verdict::Absent => {
                 "divergence instability of the form (8) is ABSENT for every lambda^2 >= 0.".into()
             }
-            Verdict::Undecided => {
-                format!(
-                    "divergence instability of the form (8) is UNDECIDED: open for {}.",
-                    open_text("lambda^2", &d.open)
-                )
-            }
+            Verdict::Undecided => format!(
+                "divergence instability of the form (8) is UNDECIDED: open for {}.",
+                open_text("lambda^2", &self.divergence.open)
+            ),
         };
+
+        let mu = short(&self.friction);
         Sentence {
             topic: "divergence",
-            text: format!("{} {what}", self.state()),
-            evidence: d.evidence.clone(),
+            text: format!("For this contact state, taken as impending slip at mu = {mu}, {what}"),
+            evidence: self.divergence.evidence.clone(),
         }
     }
 
-    fn say_modes(&self) -> Vec<Sentence> {
-        let say = |(k, m): (usize, &Mode)| {
-            let growth = if m.growth_rate > 0.0 {
-                format!("growth rate lambda = {:.6} 1/s", m.growth_rate)
-            } else {
-                "growth rate 0 (a threshold: departure linear in time)".into()
-            };
-            let text = format!(
-                "Mode {}: {growth}, lambda^2 {} 1/s^2; particles {:?} slip, {:?} do not move; v \
-                 over all degrees of freedom in the JSON, slip rates summing to 1.",
-                k + 1,
-                between(&m.lambda2),
-                m.slipping,
-                m.sticking
-            );
-            Sentence {
-                topic: "mode",
-                text,
-                evidence: self.divergence.evidence.clone(),
-            }
+    fn present_text(&self) -> String {
+        let divergence = &self.divergence;
+        let count = divergence.modes.len();
+        let families = match divergence.families {
+            0 => String::new(),
+            families => format!(" and {families} families of solutions (cones or ranges)"),
         };
-        self.divergence.modes.iter().enumerate().map(say).collect()
+
+        let others = if divergence.open.is_empty() {
+            " and no other".into()
+        } else {
+            let open = open_text("lambda^2", &divergence.open);
+            format!(", others undecided for {open}")
+        };
+
+        format!(
+            "divergence instability of the form (8) is PRESENT: {count} \
+             solution{}{families}{others}.",
+            plural(count)
+        )
+    }
+
+    fn say_modes(&self) -> Vec<Sentence> {
+        let modes = self.divergence.modes.iter().enumerate();
+        modes
+            .map(|(index, mode)| self.say_mode(index + 1, mode))
+            .collect()
+    }
+
+    fn say_mode(&self, number: usize, mode: &Mode) -> Sentence {
+        let growth = if mode.growth_rate > 0.0 {
+            format!("growth rate lambda = {:.6} 1/s", mode.growth_rate)
+        } else {
+            "growth rate 0 (a threshold: departure linear in time)".into()
+        };
+
+        let text = format!(
+            "Mode {number}: {growth}, lambda^2 {} 1/s^2; particles {:?} slip, {:?} do not move; v \
+             over all degrees of freedom in the JSON, slip rates summing to 1.",
+            between(&mode.lambda2),
+            mode.slipping,
+            mode.sticking
+        );
+
+        Sentence {
+            topic: "mode",
+            text,
+            evidence: self.divergence.evidence.clone(),
+        }
     }
 
     fn say_threshold(&self) -> Sentence {
-        let t = &self.threshold;
-        let text = match (t.smallest(), t.open.is_empty()) {
-            (Some(mu), _) => format!(
-                "Static threshold: the smallest mu with lambda = 0: mu {}.",
-                between(mu)
-            ),
-            (None, true) => {
-                "Static threshold: none; no mu >= 0 has a solution with lambda = 0.".into()
-            }
-            (None, false) => format!(
-                "Static threshold: UNDECIDED for {}.",
-                open_text("mu", &t.open)
-            ),
+        let threshold = &self.threshold;
+        let text = if let Some(mu) = threshold.smallest() {
+            let mu = between(mu);
+            format!("Static threshold: the smallest mu with lambda = 0: mu {mu}.")
+        } else if threshold.open.is_empty() {
+            "Static threshold: none; no mu >= 0 has a solution with lambda = 0.".into()
+        } else {
+            let open = open_text("mu", &threshold.open);
+            format!("Static threshold: UNDECIDED for {open}.")
         };
+
         Sentence {
             topic: "static_threshold",
             text,
-            evidence: t.evidence.clone(),
+            evidence: threshold.evidence.clone(),
         }
     }
 
@@ -176,11 +210,12 @@ impl Analysis {
             None => {
                 "Critical mu: no mu has divergence of the form (8), for any lambda^2 >= 0.".into()
             }
-            Some(b) => format!(
+            Some(bound) => format!(
                 "Critical mu: for 0 <= mu < {} there is no solution for any lambda^2 >= 0.",
-                down(b)
+                down(bound)
             ),
         };
+
         Sentence {
             topic: "critical_absence",
             text,
@@ -189,31 +224,27 @@ impl Analysis {
     }
 
     fn say_solution(&self) -> Option<Sentence> {
-        let s = self.critical.solution.as_ref()?;
-        let text = format!(
-            "Critical mu: a solution is proved at mu {} with lambda^2 {} 1/s^2, so the critical mu \
-             is at most that.",
-            between(&s.mu),
-            between(&s.lambda2)
-        );
+        let solution = self.critical.solution.as_ref()?;
+        let mu = between(&solution.mu);
+        let lambda2 = between(&solution.lambda2);
+
         Some(Sentence {
             topic: "critical_solution",
-            text,
-            evidence: s.evidence.clone(),
+            text: format!(
+                "Critical mu: a solution is proved at mu {mu} with lambda^2 {lambda2} 1/s^2, so \
+                 the critical mu is at most that."
+            ),
+            evidence: solution.evidence.clone(),
         })
     }
 
     fn say_ranges(&self) -> Option<Sentence> {
-        let say = |r: &Range| {
-            format!(
-                "{} from {} to {}",
-                r.verdict.word(),
-                short(&r.from),
-                short(&r.to)
-            )
-        };
-        let parts: Vec<String> = self.ranges.iter().map(say).collect();
-        (!parts.is_empty()).then(|| Sentence {
+        if self.ranges.is_empty() {
+            return None;
+        }
+
+        let parts: Vec<String> = self.ranges.iter().map(range_text).collect();
+        Some(Sentence {
             topic: "ranges",
             text: format!(
                 "Divergence against mu, with this contact state: {}.",
@@ -226,29 +257,25 @@ impl Analysis {
     }
 
     fn say_necessary(&self) -> Sentence {
-        let n = &self.necessary;
-        let until = |u: &DefiniteUntil, rel: &str| match u {
-            DefiniteUntil::Never => "for every mu".to_string(),
-            DefiniteUntil::Always => "for no mu".into(),
-            DefiniteUntil::End { end, .. } => format!("for mu {rel} {:.9}", approximately(end)),
-        };
-        let here = match n.holds_at(&self.friction) {
+        let necessary = &self.necessary;
+        let here = match necessary.holds_at(&self.friction) {
             Some(true) => "it holds at this mu",
             Some(false) => "it does not hold at this mu, which alone excludes divergence",
             None => "this mu is too close to the end to say",
         };
-        let text = match &n.mass {
-            Some(m) if !n.mass_is_constant => format!(
-                "Necessary condition (19): K* is not positive definite {}, M* is not positive \
-                 semidefinite {}; {here}.",
-                until(&n.stiffness, ">="),
-                until(m, ">")
+
+        let stiffness = not_definite_text(&necessary.stiffness, ">=");
+        let text = match &necessary.mass {
+            Some(mass) if !necessary.mass_is_constant => format!(
+                "Necessary condition (19): K* is not positive definite {stiffness}, M* is not \
+                 positive semidefinite {}; {here}.",
+                not_definite_text(mass, ">")
             ),
             _ => format!(
-                "Necessary condition (20): K* is not positive definite {}; {here}.",
-                until(&n.stiffness, ">=")
+                "Necessary condition (20): K* is not positive definite {stiffness}; {here}."
             ),
         };
+
         Sentence {
             topic: "necessary",
             text,
@@ -269,6 +296,7 @@ impl Analysis {
             }
             None => "Sufficient condition (17)-(18): UNDECIDED at this mu.",
         };
+
         Sentence {
             topic: "sufficient",
             text: text.into(),
@@ -279,18 +307,21 @@ impl Analysis {
     fn say_flutter(&self) -> Sentence {
         let text = match &self.flutter {
             None => "Flutter: not examined (no all-slip eigenvalues in doubles).".into(),
-            Some(f) if f.eigenvalues.is_empty() => {
+            Some(flutter) if flutter.eigenvalues.is_empty() => {
                 "Flutter: the all-slip pencil at this mu has no complex lambda^2.".into()
             }
-            Some(f) => format!(
-                "WARNING of flutter: the all-slip pencil at this mu has {} complex pair{} \
-                 lambda^2; the fastest grows at {:.6} 1/s, {:.6} rad/s.",
-                f.eigenvalues.len(),
-                if f.eigenvalues.len() == 1 { "" } else { "s" },
-                f.growth_rate,
-                f.frequency
-            ),
+            Some(flutter) => {
+                let count = flutter.eigenvalues.len();
+                format!(
+                    "WARNING of flutter: the all-slip pencil at this mu has {count} complex \
+                     pair{} lambda^2; the fastest grows at {:.6} 1/s, {:.6} rad/s.",
+                    plural(count),
+                    flutter.growth_rate,
+                    flutter.frequency
+                )
+            }
         };
+
         Sentence {
             topic: "flutter",
             text,

@@ -1,4 +1,8 @@
 //! The static threshold: the smallest value of MCEIP-mu, where lambda = 0.
+//!
+//! Input: a complete search of MCEIP-mu over all mu >= 0. Output: its values, and what it left
+//! open. Called by [`analyse`](super::analyse). Solutions with lambda^2 > 0 may exist below it
+//! (folds).
 
 use super::evidence::Evidence;
 use crate::search::complete::Completed;
@@ -20,29 +24,22 @@ impl StaticThreshold {
     /// Single values of families count as values; of a family over an interval the ends alone are
     /// known, so that it is left open.
     pub(super) fn of(found: &Completed) -> StaticThreshold {
-        let (points, intervals): (Vec<_>, Vec<_>) =
-            found.cover.families.iter().partition(|f| f.is_point);
-        let mut values: Vec<Interval> = found
-            .cover
-            .solutions
-            .iter()
-            .map(|s| s.value.clone())
-            .collect();
-        values.extend(points.into_iter().map(|f| f.from.clone()));
+        let mut values = Vec::new();
+        let mut open = found.cover.open.clone();
+        for solution in &found.cover.solutions {
+            values.push(solution.value.clone());
+        }
+
+        for family in &found.cover.families {
+            if family.is_point {
+                values.push(family.from.clone());
+            } else {
+                open.push(open_region(family));
+            }
+        }
+
         values.sort_by(|p, q| p.lo().cmp(q.lo()));
-        let region = |f: &SolutionFamily| OpenRegion {
-            min: f.from.lo().clone(),
-            max: f.to.as_ref().map(|end| end.hi().clone()),
-            moving: f.support.clone(),
-            undecided: Vec::new(),
-        };
-        let open = found
-            .cover
-            .open
-            .iter()
-            .cloned()
-            .chain(intervals.into_iter().map(region))
-            .collect();
+
         StaticThreshold {
             values,
             open,
@@ -52,8 +49,18 @@ impl StaticThreshold {
 
     /// The smallest value, if it is proved that there is no smaller one.
     pub fn smallest(&self) -> Option<&Interval> {
-        self.values
-            .first()
-            .filter(|v| self.open.iter().all(|o| o.min > *v.hi()))
+        let smallest = self.values.first()?;
+        let is_alone = self.open.iter().all(|o| o.min > *smallest.hi());
+        is_alone.then_some(smallest)
+    }
+}
+
+/// The interval of a family as a region in which nothing is proved.
+fn open_region(family: &SolutionFamily) -> OpenRegion {
+    OpenRegion {
+        min: family.from.lo().clone(),
+        max: family.to.as_ref().map(|end| end.hi().clone()),
+        moving: family.support.clone(),
+        undecided: Vec::new(),
     }
 }

@@ -1,4 +1,9 @@
-//! Is a rational point a solution? Exact: it multiplies and compares.
+//! Is a rational point a solution of a plain problem? Exact: it multiplies and compares.
+//!
+//! z is a solution if l <= z <= u and F = M z + q has F_i >= 0 where z_i = l_i, F_i <= 0 where z_i
+//! = u_i, and F_i = 0 between the bounds. z is written over one denominator first, and each row of
+//! F is multiplied by a positive integer, so that only integers are added. Called by `certify`, and
+//! by `verdict` for the points of a file.
 
 use super::exact::ExactMcp;
 use mceip_exact::{Integer, Rational, common_denominator};
@@ -61,7 +66,8 @@ pub fn check(problem: &ExactMcp, z: &[Rational]) -> Result<(), Violated> {
             got: z.len(),
         });
     }
-    let (denominator, numerators) = over_common_denominator(z)?;
+
+    let point = IntegerPoint::new(z)?;
     for (index, z_i) in z.iter().enumerate() {
         let (lower, upper) = problem.bounds(index);
         if lower.is_some_and(|l| z_i < l) || upper.is_some_and(|u| z_i > u) {
@@ -70,70 +76,99 @@ pub fn check(problem: &ExactMcp, z: &[Rational]) -> Result<(), Violated> {
                 got: z_i.clone(),
             });
         }
-        let (at_lower, at_upper) = (lower == Some(z_i), upper == Some(z_i));
-        let (row, scale) = scaled_row(problem, index, &numerators, &denominator);
-        let (holds, expected) = match (at_lower, at_upper) {
+
+        let f_i = ScaledRow::new(problem, index, &point);
+        let is_at_lower = lower == Some(z_i);
+        let is_at_upper = upper == Some(z_i);
+        let (holds, expected) = match (is_at_lower, is_at_upper) {
             (true, true) => (true, "anything"),
-            (true, false) => (!row.is_negative(), ">= 0 at the lower bound"),
-            (false, true) => (!row.is_positive(), "<= 0 at the upper bound"),
-            (false, false) => (row.is_zero(), "0 between the bounds"),
+            (true, false) => (!f_i.multiple.is_negative(), ">= 0 at the lower bound"),
+            (false, true) => (!f_i.multiple.is_positive(), "<= 0 at the upper bound"),
+            (false, false) => (f_i.multiple.is_zero(), "0 between the bounds"),
         };
         if !holds {
             return Err(Violated::Sign {
                 index,
                 expected,
-                got: Rational::new(row, scale),
+                got: Rational::new(f_i.multiple, f_i.factor),
             });
         }
     }
+
     Ok(())
 }
 
-/// z as integers over one denominator, if that is not too long.
-fn over_common_denominator(z: &[Rational]) -> Result<(Integer, Vec<Integer>), Violated> {
-    let expected = (POINT_BITS / (z.len() as u64).max(1)).min(NUMBER_BITS);
-    let fits = |bits: u64| {
-        if bits <= expected {
-            Ok(())
-        } else {
-            Err(Violated::TooLarge {
-                expected,
-                got: bits,
-            })
+/// A point as integers over one denominator.
+struct IntegerPoint {
+    numerators: Vec<Integer>,
+    denominator: Integer,
+}
+
+impl IntegerPoint {
+    /// Fails where the numbers are longer than a file of that length may ask for. The length is
+    /// checked at each step, before longer numbers are formed.
+    fn new(z: &[Rational]) -> Result<IntegerPoint, Violated> {
+        let allowed = (POINT_BITS / (z.len() as u64).max(1)).min(NUMBER_BITS);
+
+        let mut denominator = Integer::from(1);
+        for z_i in z {
+            require_bits(z_i.denom().bits().max(z_i.numer().bits()), allowed)?;
+            let so_far = Rational::new_raw(1.into(), denominator);
+            denominator = common_denominator([&so_far, z_i]);
+            require_bits(denominator.bits(), allowed)?;
         }
-    };
-    let mut denominator = Integer::from(1);
-    for z_i in z {
-        fits(z_i.denom().bits().max(z_i.numer().bits()))?;
-        denominator = common_denominator([&Rational::new_raw(1.into(), denominator), z_i]);
-        fits(denominator.bits())?;
+
+        let numerators = z.iter().map(|v| v.numer() * (&denominator / v.denom()));
+        let numerators: Vec<Integer> = numerators.collect();
+        let longest = numerators.iter().map(Integer::bits).max().unwrap_or(0);
+        require_bits(denominator.bits() + longest, allowed)?;
+
+        Ok(IntegerPoint {
+            numerators,
+            denominator,
+        })
     }
-    let numerators: Vec<Integer> = z
-        .iter()
-        .map(|z_i| z_i.numer() * (&denominator / z_i.denom()))
-        .collect();
-    fits(denominator.bits() + numerators.iter().map(Integer::bits).max().unwrap_or(0))?;
-    Ok((denominator, numerators))
+}
+
+fn require_bits(bits: u64, allowed: u64) -> Result<(), Violated> {
+    if bits <= allowed {
+        Ok(())
+    } else {
+        Err(Violated::TooLarge {
+            expected: allowed,
+            got: bits,
+        })
+    }
 }
 
 /// F_i times a positive integer, and that integer.
-fn scaled_row(
-    problem: &ExactMcp,
-    i: usize,
-    z: &[Integer],
-    denominator: &Integer,
-) -> (Integer, Integer) {
-    let (row, q) = problem.row(i);
-    let scale = common_denominator(row.iter().chain([q]));
-    let integral = |v: &Rational| v.numer() * (&scale / v.denom());
-    let sum = row
-        .iter()
-        .zip(z)
-        .filter(|(m, _)| !m.is_zero())
-        .fold(integral(q) * denominator, |sum, (m, z)| {
-            sum + integral(m) * z
-        });
-    (sum, scale * denominator)
+struct ScaledRow {
+    multiple: Integer,
+    factor: Integer,
+}
+
+impl ScaledRow {
+    fn new(problem: &ExactMcp, i: usize, z: &IntegerPoint) -> ScaledRow {
+        let (row, q) = problem.row(i);
+        let scale = common_denominator(row.iter().chain([q]));
+
+        let mut multiple = times(q, &scale) * &z.denominator;
+        for (m, z_j) in row.iter().zip(&z.numerators) {
+            if !m.is_zero() {
+                multiple += times(m, &scale) * z_j;
+            }
+        }
+
+        ScaledRow {
+            multiple,
+            factor: scale * &z.denominator,
+        }
+    }
+}
+
+/// v scale, where the scale is a multiple of the denominator of v.
+fn times(v: &Rational, scale: &Integer) -> Integer {
+    v.numer() * (scale / v.denom())
 }
 
 #[cfg(test)]
@@ -145,20 +180,25 @@ mod tests {
     /// z0 in [0, 3/2] with F0 = 1 - z0 (solutions 0, 1, 3/2 once z1 is free and F1 = z1 / 3 + z0 /
     /// 7 vanishes).
     fn problem() -> ExactMcp {
-        read_mcp(r#"{"format":"mceip-mcp/1","m":[[-1,0],["1/7","1/3"]],"q":[1,0],"lower":[0,null],"upper":["3/2",null]}"#).unwrap()
+        read_mcp(
+            r#"{"format":"mceip-mcp/1","m":[[-1,0],["1/7","1/3"]],"q":[1,0],
+                "lower":[0,null],"upper":["3/2",null]}"#,
+        )
+        .unwrap()
     }
 
     #[test]
     fn every_place_and_its_near_misses() {
-        let p = problem();
+        let problem = problem();
         for z0 in [whole(0), whole(1), rational(3, 2)] {
             let z1 = -&z0 * rational(3, 7);
-            assert_eq!(check(&p, &[z0.clone(), z1.clone()]), Ok(()));
+            assert_eq!(check(&problem, &[z0.clone(), z1.clone()]), Ok(()));
+
             // The scaled row is F itself, and a thousandth of it off is seen.
             let off = &z1 + rational(1, 1000);
-            let got = p.function(&[z0.clone(), off.clone()])[1].clone();
+            let got = problem.function(&[z0.clone(), off.clone()])[1].clone();
             assert_eq!(
-                check(&p, &[z0, off]),
+                check(&problem, &[z0, off]),
                 Err(Violated::Sign {
                     index: 1,
                     expected: "0 between the bounds",
@@ -166,17 +206,20 @@ mod tests {
                 })
             );
         }
+
         assert!(matches!(
-            check(&p, &[rational(1, 2), whole(0)]),
+            check(&problem, &[rational(1, 2), whole(0)]),
             Err(Violated::Sign { index: 0, .. })
         ));
         assert!(matches!(
-            check(&p, &[whole(2), whole(0)]),
+            check(&problem, &[whole(2), whole(0)]),
             Err(Violated::Bounds { index: 0, .. })
         ));
+
         let narrow =
             read_mcp(r#"{"format":"mceip-mcp/1","m":[[1]],"q":[-2],"upper":[1]}"#).unwrap();
         assert_eq!(check(&narrow, &[whole(1)]), Ok(()));
+
         let wrong =
             read_mcp(r#"{"format":"mceip-mcp/1","m":[[1]],"q":[2],"lower":[-1],"upper":[1]}"#)
                 .unwrap();
@@ -187,6 +230,7 @@ mod tests {
                 ..
             })
         ));
+
         let fixed =
             read_mcp(r#"{"format":"mceip-mcp/1","m":[[1]],"q":[-9],"lower":[1],"upper":[1]}"#)
                 .unwrap();
@@ -197,27 +241,32 @@ mod tests {
         ));
     }
 
+    /// 1 / d with a denominator d of 16,001 bits that depends on i.
+    fn long(i: usize) -> Rational {
+        Rational::new(1.into(), (Integer::from(1) << 16_000) + 2 * i + 1)
+    }
+
     /// Long numbers with denominators of their own are refused before they are multiplied.
     #[test]
     fn size_is_bounded() {
         let n = 64usize;
-        let m = (0..n).map(|_| vec![whole(0); n]).collect();
-        let p = ExactMcp::new(m, vec![whole(0); n], vec![None; n], vec![None; n]).unwrap();
-        let long = |i: usize| Rational::new(1.into(), (Integer::from(1) << 16_000) + 2 * i + 1);
-        let z: Vec<Rational> = (0..n).map(long).collect();
+        let m = vec![vec![whole(0); n]; n];
+        let problem = ExactMcp::new(m, vec![whole(0); n], vec![None; n], vec![None; n]).unwrap();
+
+        let different: Vec<Rational> = (0..n).map(long).collect();
         assert!(matches!(
-            check(&p, &z),
+            check(&problem, &different),
             Err(Violated::TooLarge {
                 expected: 262_144,
                 ..
             })
         ));
-        assert_eq!(check(&p, &vec![long(1); n]), Ok(()));
+
+        assert_eq!(check(&problem, &vec![long(1); n]), Ok(()));
+
+        let too_long = Rational::from_integer(Integer::from(1) << 300_000);
         assert!(matches!(
-            check(
-                &p,
-                &vec![Rational::from_integer(Integer::from(1) << 300_000); n]
-            ),
+            check(&problem, &vec![too_long; n]),
             Err(Violated::TooLarge { .. })
         ));
     }

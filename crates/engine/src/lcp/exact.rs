@@ -1,4 +1,6 @@
 //! A linear MCP over Q: F(z) = M z + q on [l, u], with its canonical text.
+//!
+//! Made by `file`; the other files of this folder search, certify and check its solutions.
 
 use mceip_exact::{Rational, to_f64};
 use mceip_mcp::mcp::{LinearMcp, McpError};
@@ -9,6 +11,7 @@ use sha2::{Digest as _, Sha256};
 /// A linear MCP over Q; `None` is an absent bound.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct ExactMcp {
+    /// M by rows, n x n.
     m: Vec<Vec<Rational>>,
     q: Vec<Rational>,
     lower: Vec<Option<Rational>>,
@@ -53,24 +56,13 @@ impl ExactMcp {
         upper: Vec<Option<Rational>>,
     ) -> Result<Self, ExactMcpError> {
         let n = q.len();
-        let rows = m
-            .iter()
-            .enumerate()
-            .map(|(i, row)| (format!("row {i} of m"), row.len()));
-        let parts = [
-            ("m".to_string(), m.len()),
-            ("lower".into(), lower.len()),
-            ("upper".into(), upper.len()),
-        ];
-        for (what, got) in parts.into_iter().chain(rows) {
-            if got != n {
-                return Err(ExactMcpError::Shape {
-                    what,
-                    expected: n,
-                    got,
-                });
-            }
+        require_length("m".into(), m.len(), n)?;
+        require_length("lower".into(), lower.len(), n)?;
+        require_length("upper".into(), upper.len(), n)?;
+        for (i, row) in m.iter().enumerate() {
+            require_length(format!("row {i} of m"), row.len(), n)?;
         }
+
         for (index, bounds) in lower.iter().zip(&upper).enumerate() {
             if let (Some(l), Some(u)) = bounds
                 && l > u
@@ -82,6 +74,7 @@ impl ExactMcp {
                 });
             }
         }
+
         Ok(ExactMcp { m, q, lower, upper })
     }
 
@@ -97,14 +90,16 @@ impl ExactMcp {
 
     /// M z + q, exactly; z of length n.
     pub fn function(&self, z: &[Rational]) -> Vec<Rational> {
-        let row = |i: usize| {
-            self.m[i]
-                .iter()
-                .zip(z)
-                .filter(|(a, _)| !a.is_zero())
-                .fold(self.q[i].clone(), |sum, (a, b)| sum + a * b)
-        };
-        (0..self.q.len()).map(row).collect()
+        let mut f = self.q.clone();
+        for (f_i, row) in f.iter_mut().zip(&self.m) {
+            for (m, z_j) in row.iter().zip(z) {
+                if !m.is_zero() {
+                    *f_i += m * z_j;
+                }
+            }
+        }
+
+        f
     }
 
     /// Row of M, and its entry of q.
@@ -123,15 +118,16 @@ impl ExactMcp {
     /// [`McpError`] for a number beyond the range of doubles.
     pub fn to_f64(&self) -> Result<LinearMcp, McpError> {
         let n = self.q.len();
-        let bound = |b: &Option<Rational>, none: f64| b.as_ref().map_or(none, to_f64);
+        let m = DMatrix::from_fn(n, n, |i, j| to_f64(&self.m[i][j]));
+        let q = self.q.iter().map(to_f64).collect();
+        let lower = self.lower.iter();
+        let upper = self.upper.iter();
+
         LinearMcp::new(
-            DMatrix::from_fn(n, n, |i, j| to_f64(&self.m[i][j])),
-            self.q.iter().map(to_f64).collect(),
-            self.lower
-                .iter()
-                .map(|b| bound(b, f64::NEG_INFINITY))
-                .collect(),
-            self.upper.iter().map(|b| bound(b, f64::INFINITY)).collect(),
+            m,
+            q,
+            lower.map(|b| bound_or(b, f64::NEG_INFINITY)).collect(),
+            upper.map(|b| bound_or(b, f64::INFINITY)).collect(),
         )
     }
 
@@ -139,20 +135,41 @@ impl ExactMcp {
     /// each row of M with q, l and u appended, rationals in lowest terms, `-` for an absent bound.
     pub fn sha256(&self) -> String {
         let mut text = format!("mceip-mcp-canonical/1\n{}\n", self.q.len());
-        let bound = |b: &Option<Rational>| b.as_ref().map_or("-".to_string(), ToString::to_string);
         for i in 0..self.q.len() {
             let row: Vec<String> = self.m[i].iter().map(ToString::to_string).collect();
-            text += &format!(
-                "{} {} {} {}\n",
-                row.join(" "),
-                self.q[i],
-                bound(&self.lower[i]),
-                bound(&self.upper[i])
-            );
+            let row = row.join(" ");
+            let q = &self.q[i];
+            let lower = canonical_bound(&self.lower[i]);
+            let upper = canonical_bound(&self.upper[i]);
+            text += &format!("{row} {q} {lower} {upper}\n");
         }
-        Sha256::digest(text.as_bytes())
-            .iter()
-            .map(|b| format!("{b:02x}"))
-            .collect()
+
+        let digest = Sha256::digest(text.as_bytes());
+        digest.iter().map(|byte| format!("{byte:02x}")).collect()
+    }
+}
+
+fn require_length(what: String, got: usize, expected: usize) -> Result<(), ExactMcpError> {
+    if got == expected {
+        Ok(())
+    } else {
+        Err(ExactMcpError::Shape {
+            what,
+            expected,
+            got,
+        })
+    }
+}
+
+/// The bound in doubles, `absent` where there is none.
+fn bound_or(bound: &Option<Rational>, absent: f64) -> f64 {
+    bound.as_ref().map_or(absent, to_f64)
+}
+
+/// The bound in the canonical text, `-` where there is none.
+fn canonical_bound(bound: &Option<Rational>) -> String {
+    match bound {
+        Some(bound) => bound.to_string(),
+        None => "-".into(),
     }
 }

@@ -1,4 +1,8 @@
-//! `mceip-mcp/1` and the file of a solution.
+//! `mceip-mcp/1` and the file of a solution, `mceip-mcp-solution/1`.
+//!
+//! Input: JSON text with exact numbers. Output: an [`ExactMcp`], or the points of a solution file
+//! with the digest of their problem; and both back to text. Called by `mceip solve`
+//! and `mceip check` for plain problems.
 
 use super::exact::{ExactMcp, ExactMcpError};
 use mceip_exact::{Rational, whole};
@@ -11,11 +15,12 @@ pub const MCP_FORMAT: &str = "mceip-mcp/1";
 /// The format of their solutions, which are their own certificates.
 pub const SOLUTION_FORMAT: &str = "mceip-mcp-solution/1";
 
+/// A problem as it stands in the file; the format has been checked before.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Raw {
     #[serde(rename = "format")]
-    _format: String, // checked before
+    _format: String,
     #[serde(rename = "name")]
     _name: Option<String>,
     #[serde(rename = "comment")]
@@ -59,20 +64,31 @@ pub fn read_mcp(text: &str) -> Result<ExactMcp, FileError> {
     require_format(text, MCP_FORMAT)?;
     let raw: Raw = from_json(text)?;
     let n = raw.q.len();
-    let exact = |list: Vec<Number>| list.into_iter().map(|v| v.0).collect::<Vec<Rational>>();
-    let bounds = |list: Option<Vec<Option<Number>>>, default: Option<Rational>| match list {
-        Some(list) => list.into_iter().map(|v| v.map(|v| v.0)).collect(),
-        None => vec![default; n],
+
+    let lower = match raw.lower {
+        Some(bounds) => exact_bounds(bounds),
+        None => vec![Some(whole(0)); n],
     };
+
+    let upper = match raw.upper {
+        Some(bounds) => exact_bounds(bounds),
+        None => vec![None; n],
+    };
+
     let m = raw.m.into_iter().map(exact).collect();
-    Ok(ExactMcp::new(
-        m,
-        exact(raw.q),
-        bounds(raw.lower, Some(whole(0))),
-        bounds(raw.upper, None),
-    )?)
+    Ok(ExactMcp::new(m, exact(raw.q), lower, upper)?)
 }
 
+fn exact(numbers: Vec<Number>) -> Vec<Rational> {
+    numbers.into_iter().map(|number| number.0).collect()
+}
+
+fn exact_bounds(bounds: Vec<Option<Number>>) -> Vec<Option<Rational>> {
+    let bounds = bounds.into_iter();
+    bounds.map(|bound| bound.map(|number| number.0)).collect()
+}
+
+/// A solution file as it stands; the format has been checked before.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawSolution {
@@ -109,31 +125,39 @@ pub fn write_solution(problem: &ExactMcp, points: &[Vec<Rational>]) -> String {
 pub fn read_solution(text: &str) -> Result<McpCertificate, FileError> {
     require_format(text, SOLUTION_FORMAT)?;
     let raw: RawSolution = from_json(text)?;
-    let points = raw
-        .z
-        .into_iter()
-        .map(|z| z.into_iter().map(|v| v.0).collect())
-        .collect();
     Ok(McpCertificate {
         problem_sha256: raw.problem_sha256,
-        points,
+        points: raw.z.into_iter().map(exact).collect(),
     })
 }
 
 /// The problem as a file on one line, every bound spelt out; reading it gives the same problem.
 pub fn write_mcp(problem: &ExactMcp) -> String {
-    let n = problem.dimension();
-    let m: Vec<Vec<String>> = (0..n).map(|i| fractions(problem.row(i).0)).collect();
-    let q: Vec<String> = (0..n).map(|i| problem.row(i).1.to_string()).collect();
-    let bound = |b: Option<&Rational>| b.map(ToString::to_string);
-    let (lower, upper): (Vec<_>, Vec<_>) = (0..n)
-        .map(|i| problem.bounds(i))
-        .map(|(l, u)| (bound(l), bound(u)))
-        .unzip();
-    serde_json::json!({ "format": MCP_FORMAT, "m": m, "q": q, "lower": lower, "upper": upper })
-        .to_string()
+    let mut m = Vec::new();
+    let mut q = Vec::new();
+    let mut lower = Vec::new();
+    let mut upper = Vec::new();
+    for i in 0..problem.dimension() {
+        let (row, q_i) = problem.row(i);
+        m.push(fractions(row));
+        q.push(q_i.to_string());
+
+        let (lower_bound, upper_bound) = problem.bounds(i);
+        lower.push(lower_bound.map(ToString::to_string));
+        upper.push(upper_bound.map(ToString::to_string));
+    }
+
+    let value = serde_json::json!({
+        "format": MCP_FORMAT,
+        "m": m,
+        "q": q,
+        "lower": lower,
+        "upper": upper,
+    });
+    value.to_string()
 }
 
+/// Exact fractions as text.
 fn fractions(list: &[Rational]) -> Vec<String> {
     list.iter().map(ToString::to_string).collect()
 }
@@ -146,16 +170,20 @@ mod tests {
 
     #[test]
     fn defaults_round_trip_and_refusals() {
-        let p = read_mcp(r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,"-6"],"lower":[null,0],"upper":[3,null]}"#).unwrap();
-        assert_eq!(
-            (p.bounds(0), p.bounds(1)),
-            ((None, Some(&whole(3))), (Some(&whole(0)), None))
-        );
-        let text = write_solution(&p, &[vec![whole(1), whole(2)]]);
+        let problem = read_mcp(
+            r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,"-6"],
+                "lower":[null,0],"upper":[3,null]}"#,
+        )
+        .unwrap();
+        assert_eq!(problem.bounds(0), (None, Some(&whole(3))));
+        assert_eq!(problem.bounds(1), (Some(&whole(0)), None));
+
+        // z = (1, 2) is no solution, z = (4/3, 7/3) is one.
+        let text = write_solution(&problem, &[vec![whole(1), whole(2)]]);
         let certificate = read_solution(&text).unwrap();
         assert_eq!(certificate.points, vec![vec![whole(1), whole(2)]]);
         assert!(matches!(
-            judge(&p, &certificate),
+            judge(&problem, &certificate),
             Err(McpRejected::Solution {
                 index: 0,
                 violated: Violated::Sign { index: 0, .. }
@@ -165,24 +193,25 @@ mod tests {
             points: vec![vec![rational(4, 3), rational(7, 3)]],
             ..certificate.clone()
         };
-        assert_eq!(judge(&p, &good), Ok(1));
-        assert_eq!(
-            judge(
-                &p,
-                &McpCertificate {
-                    points: vec![],
-                    ..certificate.clone()
-                }
-            ),
-            Err(McpRejected::NoClaims)
-        );
-        let other = read_mcp(r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,-6]}"#).unwrap();
+
+        assert_eq!(judge(&problem, &good), Ok(1));
+
+        let empty = McpCertificate {
+            points: vec![],
+            ..certificate
+        };
+
+        assert_eq!(judge(&problem, &empty), Err(McpRejected::NoClaims));
+
+        let lcp = read_mcp(r#"{"format":"mceip-mcp/1","m":[[2,1],[1,2]],"q":[-5,-6]}"#).unwrap();
         assert!(matches!(
-            judge(&other, &good),
+            judge(&lcp, &good),
             Err(McpRejected::Digest { .. })
         ));
-        assert_eq!(read_mcp(&write_mcp(&p)).unwrap(), p);
-        assert_eq!(read_mcp(&write_mcp(&other)).unwrap(), other);
+
+        assert_eq!(read_mcp(&write_mcp(&problem)).unwrap(), problem);
+        assert_eq!(read_mcp(&write_mcp(&lcp)).unwrap(), lcp);
+
         for (bad, message) in [
             (
                 r#"{"format":"mceip-mcp/1","m":[[2,1]],"q":[-5,1]}"#,

@@ -1,8 +1,9 @@
 //! Plain linear MCPs and LCPs in exact numbers, apart from friction: file, solution, exact check.
 //!
-//! F(z) = M z + q on [l, u]. `exact` holds the problem, `file` reads `mceip-mcp/1`, `certify` turns
-//! a solver's point into an exact one, `check` decides (multiplies and compares, nothing else),
-//! `verdict` applies it to a file, `search` runs the solver.
+//! The problem is F(z) = M z + q on [l, u]; an LCP has l = 0 and no upper bounds. `exact` holds the
+//! problem, `file` reads `mceip-mcp/1`, `search` runs the solver, `certify` turns a solver's point
+//! into an exact one, `check` decides (it multiplies and compares, nothing else), and `verdict`
+//! applies it to a file.
 
 mod certify;
 mod check;

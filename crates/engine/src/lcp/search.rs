@@ -1,5 +1,8 @@
 //! Many starts on a plain problem: Lemke's ray first, then the solver and curves from seeded
 //! points.
+//!
+//! Input: an exact problem and how much to search ([`Search`]). Output: what was found and
+//! certified ([`Found`]). Called by `mceip solve` for plain problems.
 #![allow(clippy::float_arithmetic)]
 
 use super::certify::Uncertifiable;
@@ -7,12 +10,14 @@ use super::certify::certify;
 use super::exact::ExactMcp;
 use crate::multistart::trace_outcome;
 use mceip_exact::Rational;
+use mceip_mcp::mcp::LinearMcp;
 use mceip_mcp::solver::{
     Counters, Options, Outcome, Sense, SolverError, Termination, continuation, solve, solve_linear,
 };
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
 use std::collections::BTreeMap;
+use std::f64::consts::PI;
 
 /// What a search of a plain problem found.
 #[derive(Debug, Clone, Default)]
@@ -56,57 +61,85 @@ pub struct Search {
 /// # Errors
 /// [`SolverError`] for options and numbers that make no sense.
 pub fn search(problem: &ExactMcp, how: &Search) -> Result<Found, SolverError> {
-    let doubles = problem.to_f64()?;
-    let mut rng = ChaCha8Rng::seed_from_u64(how.seed);
     let mut hunt = Hunt {
         problem,
-        is_traced: how.trace,
+        doubles: problem.to_f64()?,
+        how,
         found: Found::default(),
     };
-    for k in 0..how.starts {
+
+    let mut rng = ChaCha8Rng::seed_from_u64(how.seed);
+
+    for run in 0..how.starts {
         if !how.all && !hunt.found.certified.is_empty() {
             break;
         }
-        let mut cauchy = || (std::f64::consts::PI * (rng.random_range(0.01..0.99) - 0.5)).tan();
-        let start: Vec<f64> = (0..problem.dimension())
-            .map(|_| if k < 2 { 0.0 } else { cauchy() })
-            .collect();
-        if how.all && k % 2 == 1 {
-            for sense in [Sense::Down, Sense::Up] {
-                let curve = continuation(&doubles, &start, sense, 16, &how.options)?;
-                hunt.count(&curve.counters);
-                hunt.trace(|| {
-                    format!(
-                        "curve from {start:?} {sense:?} ended {:?}, met {:?}\n",
-                        curve.end, curve.solutions
-                    )
-                });
-                for point in curve.solutions {
-                    hunt.run(solve(&doubles, &point, &how.options)?, &point);
-                }
-            }
-        }
-        let outcome = if k == 0 {
-            solve_linear(&doubles, &how.options)?
+        let start = if run < 2 {
+            vec![0.0; problem.dimension()]
         } else {
-            solve(&doubles, &start, &how.options)?
+            random_start(problem.dimension(), &mut rng)
         };
-        hunt.run(outcome, &start);
+
+        if how.all && run % 2 == 1 {
+            hunt.follow_curve(&start, Sense::Down)?;
+            hunt.follow_curve(&start, Sense::Up)?;
+        }
+        if run == 0 {
+            let outcome = solve_linear(&hunt.doubles, &how.options)?;
+            hunt.record_run(outcome, &start);
+        } else {
+            hunt.run_solver(&start)?;
+        }
     }
+
     Ok(hunt.found)
 }
 
+/// Points met on a curve beyond which it is not followed.
+const CURVE_SOLUTIONS: usize = 16;
+
+/// Standard Cauchy components, cut at the outer hundredths of their distribution.
+fn random_start(dimension: usize, rng: &mut ChaCha8Rng) -> Vec<f64> {
+    let mut start = vec![0.0; dimension];
+    for component in &mut start {
+        let quantile = rng.random_range(0.01..0.99);
+        *component = (PI * (quantile - 0.5)).tan();
+    }
+    start
+}
+
+/// A search under way.
 struct Hunt<'a> {
     problem: &'a ExactMcp,
-    is_traced: bool,
+    doubles: LinearMcp,
+    how: &'a Search,
     found: Found,
 }
 
 impl Hunt<'_> {
-    fn trace(&mut self, entry: impl FnOnce() -> String) {
-        if self.is_traced {
-            self.found.trace.push(entry());
+    /// Follows the curve through a point, and solves from every solution it meets.
+    fn follow_curve(&mut self, start: &[f64], sense: Sense) -> Result<(), SolverError> {
+        let options = &self.how.options;
+        let curve = continuation(&self.doubles, start, sense, CURVE_SOLUTIONS, options)?;
+        self.count(&curve.counters);
+        if self.how.trace {
+            self.found.trace.push(format!(
+                "curve from {start:?} {sense:?} ended {:?}, met {:?}\n",
+                curve.end, curve.solutions
+            ));
         }
+
+        for point in &curve.solutions {
+            self.run_solver(point)?;
+        }
+
+        Ok(())
+    }
+
+    fn run_solver(&mut self, start: &[f64]) -> Result<(), SolverError> {
+        let outcome = solve(&self.doubles, start, &self.how.options)?;
+        self.record_run(outcome, start);
+        Ok(())
     }
 
     fn count(&mut self, counters: &Counters) {
@@ -115,9 +148,14 @@ impl Hunt<'_> {
         self.found.counters.1 += counters.factorisations;
     }
 
-    fn run(&mut self, outcome: Outcome, start: &[f64]) {
+    /// Counts a run, and certifies its point if it is within the tolerance.
+    fn record_run(&mut self, outcome: Outcome, start: &[f64]) {
         self.count(&outcome.counters);
-        self.trace(|| format!("run from {start:?}\n{}", trace_outcome(&outcome)));
+        if self.how.trace {
+            let log = trace_outcome(&outcome);
+            self.found.trace.push(format!("run from {start:?}\n{log}"));
+        }
+
         let found = &mut self.found;
         *found.terminations.entry(outcome.termination).or_default() += 1;
         if outcome.termination.reached_tolerance() {
@@ -127,6 +165,7 @@ impl Hunt<'_> {
                 Err(reason) => found.uncertified.push((outcome.point.clone(), reason)),
             }
         }
+
         found.first.get_or_insert(outcome);
     }
 }

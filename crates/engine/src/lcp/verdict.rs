@@ -1,4 +1,7 @@
 //! The verdict on a solution file: is it of this problem, and is every point of it a solution?
+//!
+//! Input: the problem and the file's content. Output: the number of points, or the first obligation
+//! that fails. Called by `mceip check`.
 
 use super::check::Violated;
 use super::check::check;
@@ -38,9 +41,8 @@ impl McpRejected {
             McpRejected::Solution { violated, .. } => format!("{violated:?}"),
             other => format!("{other:?}"),
         };
-        text.chars()
-            .take_while(char::is_ascii_alphanumeric)
-            .collect()
+        let name = text.chars().take_while(char::is_ascii_alphanumeric);
+        name.collect()
     }
 }
 
@@ -57,11 +59,14 @@ pub fn judge(problem: &ExactMcp, certificate: &McpCertificate) -> Result<usize, 
             got: certificate.problem_sha256.chars().take(80).collect(),
         });
     }
+
     if certificate.points.is_empty() {
         return Err(McpRejected::NoClaims);
     }
+
     for (index, z) in certificate.points.iter().enumerate() {
         check(problem, z).map_err(|violated| McpRejected::Solution { index, violated })?;
     }
+
     Ok(certificate.points.len())
 }

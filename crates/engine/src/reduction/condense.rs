@@ -1,7 +1,15 @@
-//! Exact condensation of MCEIP-mu to the slip particles: the f rows of K1 vanish (16), so x_f is
-//! eliminated by K_ff independently of mu.
+//! Exact condensation of MCEIP-mu to the slip particles.
+//!
+//! The f rows of K1 vanish (16), so the rows f of A + mu B are those of A for every mu, and x_f =
+//! -A_ff^-1 A_fs x_s does not depend on mu. What remains is a pencil of order n_s without free
+//! variables:
+//!
+//!   A' = A_ss - A_sf A_ff^-1 A_fs,   B' = B_ss - B_sf A_ff^-1 A_fs.
+//!
+//! Input: an admissible pencil of MCEIP-mu. Output: the condensed pencil over Q. Called by the
+//! search for solutions (`multistart`) and by `mceip reduce`.
 
-use mceip_exact::{CondenseError, schur_complement};
+use mceip_exact::{CondenseError, Sparse, schur_complement};
 use mceip_model::{Admissible, ModelError, Pencil, Unknown};
 
 /// Why a pencil is not condensed.
@@ -33,39 +41,54 @@ pub fn condense(admissible: &Admissible<'_>) -> Result<Pencil, CondensationError
             got: admissible.unknown().word(),
         });
     }
+
     let pencil = admissible.pencil();
-    let (f, s) = (pencil.free(), pencil.slip());
-    let n = s.len();
-    // One elimination with the rows of A and of B below each other.
-    let a_fs = pencil.a().submatrix(f, &s);
-    let below = |cols: &[usize]| {
-        stack(
-            &pencil.a().submatrix(&s, cols),
-            &pencil.b().submatrix(&s, cols),
-        )
-    };
-    let both = schur_complement(&pencil.a().submatrix(f, f), &a_fs, &below(f), &below(&s))?;
-    let all: Vec<usize> = (0..n).collect();
-    let lower: Vec<usize> = (n..2 * n).collect();
+    let free = pencil.free();
+    let slip = pencil.slip();
+    let count = slip.len();
+
+    // One elimination for both, with the rows of B below those of A.
+    let a_ff = pencil.a().submatrix(free, free);
+    let a_fs = pencil.a().submatrix(free, &slip);
+    let kept_times_free = a_above_b(pencil, &slip, free);
+    let kept_times_slip = a_above_b(pencil, &slip, &slip);
+    let both = schur_complement(&a_ff, &a_fs, &kept_times_free, &kept_times_slip)?;
+
+    let upper: Vec<usize> = (0..count).collect();
+    let lower: Vec<usize> = (count..2 * count).collect();
+
     Ok(Pencil::new(
-        both.submatrix(&all, &all),
-        both.submatrix(&lower, &all),
+        both.submatrix(&upper, &upper),
+        both.submatrix(&lower, &upper),
         Vec::new(),
     )?)
 }
 
-fn stack(a: &mceip_exact::Sparse, b: &mceip_exact::Sparse) -> mceip_exact::Sparse {
-    let top = a.entries().map(|(i, j, v)| (i, j, v.clone()));
-    let bottom = b.entries().map(|(i, j, v)| (i + a.rows(), j, v.clone()));
-    mceip_exact::Sparse::from_entries(a.rows() + b.rows(), a.cols(), top.chain(bottom))
+/// The given rows and columns of A, and below them those of B.
+fn a_above_b(pencil: &Pencil, rows: &[usize], columns: &[usize]) -> Sparse {
+    let a = pencil.a().submatrix(rows, columns);
+    let b = pencil.b().submatrix(rows, columns);
+
+    let mut entries = Vec::new();
+    for (i, j, v) in a.entries() {
+        entries.push((i, j, v.clone()));
+    }
+    for (i, j, v) in b.entries() {
+        entries.push((i + a.rows(), j, v.clone()));
+    }
+    Sparse::from_entries(a.rows() + b.rows(), columns.len(), entries)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::Sparse;
+    use mceip_exact::rational;
     use mceip_model::Window;
-    use mceip_oracle::enumerate;
+    use mceip_oracle::{Solution, enumerate};
+
+    fn all_solutions(pencil: &Pencil) -> Vec<Solution> {
+        enumerate(pencil, &Window::all()).unwrap().solutions
+    }
 
     #[test]
     fn solutions_are_those_of_the_full_pencil() {
@@ -78,21 +101,25 @@ mod tests {
         ]);
         let full = Pencil::new(a, b, vec![0, 2]).unwrap();
         let small = condense(&Admissible::new(&full, Unknown::Mu).unwrap()).unwrap();
-        let list = |p: &Pencil| enumerate(p, &Window::all()).unwrap().solutions;
-        let (of_full, of_small) = (list(&full), list(&small));
+
+        let of_full = all_solutions(&full);
+        let of_small = all_solutions(&small);
+
         assert!(!of_full.is_empty());
-        let back = [1, 3];
-        for (x, y) in of_full.iter().zip(&of_small) {
-            assert_eq!(x.decimal(30), y.decimal(30));
-            assert_eq!(x.slip, y.slip.iter().map(|&i| back[i]).collect::<Vec<_>>());
-        }
         assert_eq!(of_full.len(), of_small.len());
+        let slip_variables = [1, 3];
+        for (solution, condensed) in of_full.iter().zip(&of_small) {
+            assert_eq!(solution.decimal(30), condensed.decimal(30));
+            let support: Vec<usize> = condensed.slip.iter().map(|&i| slip_variables[i]).collect();
+            assert_eq!(solution.slip, support);
+        }
     }
 
     #[test]
     fn lambda2_is_refused_by_name() {
-        let p = Pencil::new(Sparse::identity(2), Sparse::identity(2), vec![0]).unwrap();
-        let admissible = Admissible::new(&p, Unknown::Lambda2).unwrap();
+        let pencil = Pencil::new(Sparse::identity(2), Sparse::identity(2), vec![0]).unwrap();
+        let admissible = Admissible::new(&pencil, Unknown::Lambda2).unwrap();
+
         assert!(matches!(
             condense(&admissible),
             Err(CondensationError::Unknown { got: "lambda2" })
@@ -106,16 +133,13 @@ mod tests {
         let a = Sparse::from_ints(&[&[4, 1, 2, -1], &[1, 5, 0, 0], &[2, 0, 6, 0], &[-1, 0, 0, 7]]);
         let b = Sparse::from_ints(&[&[0, 0, 0, 0], &[4, 1, 0, 0], &[8, 0, 1, 0], &[-12, 0, 0, 1]]);
         let full = Pencil::new(a, b, vec![0]).unwrap();
+
         let small = condense(&Admissible::new(&full, Unknown::Mu).unwrap()).unwrap();
-        let quarters = Sparse::from_ints(&[&[19, -2, 1], &[-2, 20, 2], &[1, 2, 27]]);
-        let fourth = mceip_exact::rational(1, 4);
-        assert_eq!(
-            *small.a(),
-            Sparse::from_entries(3, 3, []).add_scaled(&fourth, &quarters)
-        );
-        assert_eq!(
-            *small.b(),
-            Sparse::from_ints(&[&[0, -2, 1], &[-2, -3, 2], &[3, 6, -2]])
-        );
+
+        let four_times_a = Sparse::from_ints(&[&[19, -2, 1], &[-2, 20, 2], &[1, 2, 27]]);
+        let expected_a = Sparse::zeros(3, 3).add_scaled(&rational(1, 4), &four_times_a);
+        let expected_b = Sparse::from_ints(&[&[0, -2, 1], &[-2, -3, 2], &[3, 6, -2]]);
+        assert_eq!(*small.a(), expected_a);
+        assert_eq!(*small.b(), expected_b);
     }
 }

@@ -1,15 +1,27 @@
-//! Condensation to the slip particles in doubles, for meshes of any size: one sparse Cholesky with
-//! the contact dofs ordered last ends with a Schur complement, of which A and B are parts.
+//! Condensation to the slip particles in doubles, for meshes of any size.
 //!
-//! With Z(t) the Schur complement of K + t M on the dofs of the slip particles, unit tangents t_p,
-//! unit normals n_p into the obstacle and S_p as in (10): A_pq = S_p t_p' Z t_q S_q and B_pq = n_p'
-//! Z t_q S_q, which is (16) with x_f eliminated. So T(t) = A(t) + mu B(t) is MCEIP-lambda2
-//! condensed to order n_s, and A(0), B(0) are MCEIP-mu. Nothing here decides anything.
+//! Let Z(t) be the Schur complement of K + t M on the dofs of the slip particles, all other dofs
+//! eliminated or held. It is what remains of a sparse Cholesky factorisation in which the dofs of
+//! the slip particles come last. With the unit tangents t_p, the unit normals n_p into the
+//! obstacle and the signs S_p of (10),
+//!
+//!   A_pq(t) = S_p t_p' Z(t) t_q S_q,   B_pq(t) = n_p' Z(t) t_q S_q,
+//!
+//! which is (16) with x_f eliminated. So T(t) = A(t) + mu B(t) is MCEIP-lambda2 condensed to order
+//! n_s, and A(0), B(0) are the pencil of MCEIP-mu.
+//!
+//! Input: K and M as sparse symmetric matrices, the particles with their contact states. K + t M
+//! must be positive definite on f, or [`SparseCondensation::at`] says that it is not. Output: A and
+//! B in doubles, the lift of x to all dofs, and a measurement of the error. Called by
+//! [`CondensedEmbedding`](super::CondensedEmbedding), which `multistart` solves, and by `mceip
+//! block` for large meshes. All results are proposals: exact arithmetic decides later.
 #![allow(clippy::float_arithmetic)]
 
 use mceip_exact::to_f64;
 use mceip_mcp::linear::{Analysis, NotDefinite, SchurFactor, Symmetric};
 use mceip_model::{ContactState, Direction, Particle};
+use std::borrow::Cow;
+use std::collections::BTreeSet;
 
 /// Why a system is not condensed in doubles.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -73,14 +85,96 @@ pub struct SparseCondensation {
     free: Vec<usize>,
 }
 
-/// S t_p and n_p over the two dofs of a slip particle, which are kept side by side.
+/// The two directions of a slip particle over its two dofs, which are kept side by side.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct SlipNode {
+    /// S_p t_p.
     tangent: [f64; 2],
+    /// n_p.
     normal: [f64; 2],
 }
 
-/// A condensed system at one t.
+impl SlipNode {
+    fn new(particle: &Particle, sign: i8) -> SlipNode {
+        let tangent = on_dofs(particle, &particle.tangent());
+        SlipNode {
+            tangent: tangent.map(|c| f64::from(sign) * c),
+            normal: on_dofs(particle, &particle.into_obstacle()),
+        }
+    }
+}
+
+/// The dofs by what becomes of them: those of stick particles are held, those of slip particles
+/// kept, all others (f) eliminated.
+struct DofRoles {
+    is_free: Vec<bool>,
+    held: Vec<usize>,
+    /// Two dofs for each slip particle, in the order of `slip`.
+    kept: Vec<usize>,
+    slip: Vec<SlipNode>,
+}
+
+impl DofRoles {
+    /// The roles of `dofs` dofs, after a check that each dof of a particle exists and has no other
+    /// owner, and that each sign is 1 or -1.
+    fn new(dofs: usize, particles: &[Particle]) -> Result<DofRoles, SparseCondensationError> {
+        let mut roles = DofRoles {
+            is_free: vec![true; dofs],
+            held: Vec::new(),
+            kept: Vec::new(),
+            slip: Vec::new(),
+        };
+
+        let mut claimed = BTreeSet::new();
+
+        for (index, particle) in particles.iter().enumerate() {
+            for dof in [particle.tangential, particle.normal] {
+                if dof >= dofs {
+                    return Err(SparseCondensationError::Dof {
+                        particle: index,
+                        got: dof,
+                        dofs,
+                    });
+                }
+                if !claimed.insert(dof) {
+                    return Err(SparseCondensationError::DofTwice {
+                        particle: index,
+                        dof,
+                    });
+                }
+            }
+            roles.add(index, particle)?;
+        }
+
+        Ok(roles)
+    }
+
+    fn add(&mut self, index: usize, particle: &Particle) -> Result<(), SparseCondensationError> {
+        let dofs = [particle.tangential, particle.normal];
+        for dof in dofs {
+            self.is_free[dof] = particle.state == ContactState::Free;
+        }
+
+        match particle.state {
+            ContactState::Free => {}
+            ContactState::Stick => self.held.extend(dofs),
+            ContactState::Slip { sign } if sign.abs() != 1 => {
+                return Err(SparseCondensationError::Sign {
+                    particle: index,
+                    got: sign,
+                });
+            }
+            ContactState::Slip { sign } => {
+                self.kept.extend(dofs);
+                self.slip.push(SlipNode::new(particle, sign));
+            }
+        }
+
+        Ok(())
+    }
+}
+
+/// A condensed system at one t, with the factorisation that condensed it.
 #[derive(Debug, Clone)]
 pub struct SparseCondensed<'a> {
     system: &'a SparseCondensation,
@@ -106,7 +200,9 @@ pub struct CondensationResidual {
 
 impl SparseCondensation {
     /// Stick particles are held (v = 0), slip particles kept, all other dofs are f and eliminated.
-    /// `points`: the position of every dof in the plane, where known, makes elimination cheaper.
+    ///
+    /// `points` is the position of every dof in the plane; where it is known, elimination is
+    /// cheaper.
     ///
     /// # Errors
     /// [`SparseCondensationError`] naming the particle.
@@ -116,62 +212,40 @@ impl SparseCondensation {
         particles: &[Particle],
         points: Option<&[[f64; 2]]>,
     ) -> Result<SparseCondensation, SparseCondensationError> {
-        let n = stiffness.order();
-        if let Some(got) = mass.as_ref().map(Symmetric::order).filter(|&m| m != n) {
-            return Err(SparseCondensationError::Mass { expected: n, got });
+        let dofs = stiffness.order();
+        if let Some(m) = &mass
+            && m.order() != dofs
+        {
+            return Err(SparseCondensationError::Mass {
+                expected: dofs,
+                got: m.order(),
+            });
         }
-        let mut is_free = vec![true; n];
-        let (mut kept, mut held, mut slip) = (Vec::new(), Vec::new(), Vec::new());
-        let mut claimed = std::collections::BTreeSet::new();
-        for (particle, p) in particles.iter().enumerate() {
-            for dof in [p.tangential, p.normal] {
-                if dof >= n {
-                    return Err(SparseCondensationError::Dof {
-                        particle,
-                        got: dof,
-                        dofs: n,
-                    });
-                }
-                if !claimed.insert(dof) {
-                    return Err(SparseCondensationError::DofTwice { particle, dof });
-                }
-                is_free[dof] = p.state == ContactState::Free;
-            }
-            match p.state {
-                ContactState::Free => {}
-                ContactState::Stick => held.extend([p.tangential, p.normal]),
-                ContactState::Slip { sign: got } if got.abs() != 1 => {
-                    return Err(SparseCondensationError::Sign { particle, got });
-                }
-                ContactState::Slip { sign } => {
-                    kept.extend([p.tangential, p.normal]);
-                    let tangent = on_dofs(p, &p.tangent()).map(|c| f64::from(sign) * c);
-                    slip.push(SlipNode {
-                        tangent,
-                        normal: on_dofs(p, &p.into_obstacle()),
-                    });
-                }
-            }
-        }
-        if slip.is_empty() {
+
+        let roles = DofRoles::new(dofs, particles)?;
+        if roles.slip.is_empty() {
             return Err(SparseCondensationError::NoSlip);
         }
-        // Every matrix K + t M has this pattern, or less where entries cancel.
-        let analysis = match &mass {
-            Some(m) => Analysis::new(&stiffness.add_scaled(1.0, m), &kept, &held, points),
-            None => Analysis::new(&stiffness, &kept, &held, points),
+
+        // Every matrix K + t M has the pattern of K + M, or less where entries cancel.
+        let pattern = match &mass {
+            Some(m) => Cow::Owned(stiffness.add_scaled(1.0, m)),
+            None => Cow::Borrowed(&stiffness),
         };
-        let free = (0..n).filter(|&i| is_free[i]).collect();
+
+        let analysis = Analysis::new(&pattern, &roles.kept, &roles.held, points);
+        drop(pattern);
+
         Ok(SparseCondensation {
             stiffness,
             mass,
             analysis,
-            slip,
-            free,
+            slip: roles.slip,
+            free: (0..dofs).filter(|&dof| roles.is_free[dof]).collect(),
         })
     }
 
-    /// n_s.
+    /// n_s, the number of slip particles.
     pub fn slip_count(&self) -> usize {
         self.slip.len()
     }
@@ -186,42 +260,27 @@ impl SparseCondensation {
         &self.analysis
     }
 
-    fn matrix(&self, t: f64) -> std::borrow::Cow<'_, Symmetric> {
+    /// K + t M; without M it is K for every t.
+    fn matrix(&self, t: f64) -> Cow<'_, Symmetric> {
         match &self.mass {
-            Some(m) if t != 0.0 => std::borrow::Cow::Owned(self.stiffness.add_scaled(t, m)),
-            _ => std::borrow::Cow::Borrowed(&self.stiffness),
+            Some(m) if t != 0.0 => Cow::Owned(self.stiffness.add_scaled(t, m)),
+            _ => Cow::Borrowed(&self.stiffness),
         }
     }
 
-    /// A(t) and B(t); without M those of t = 0.
+    /// A(t) and B(t), each n_s x n_s; without M those of t = 0.
     ///
     /// # Errors
     /// [`SparseCondensationError::NotDefinite`]: K + t M is not positive definite on f, within
     /// doubles.
     pub fn at(&self, t: f64) -> Result<SparseCondensed<'_>, SparseCondensationError> {
-        let failed = |source| SparseCondensationError::NotDefinite { at: t, source };
-        let factor = self.analysis.factor(&self.matrix(t)).map_err(failed)?;
-        let z = factor.schur();
-        // t_q S_q, then S_p t_p or n_p from the left. // E16
-        let entry = |left: &[f64; 2], p: usize, q: usize| {
-            let column = |i: usize| {
-                z[2 * p + i][2 * q] * self.slip[q].tangent[0]
-                    + z[2 * p + i][2 * q + 1] * self.slip[q].tangent[1]
-            };
-            left[0] * column(0) + left[1] * column(1)
-        };
-        let n = self.slip.len();
-        // One triangle and its mirror image: A is symmetric to the last bit.
-        let a = (0..n)
-            .map(|p| {
-                (0..n)
-                    .map(|q| entry(&self.slip[p.max(q)].tangent, p.max(q), p.min(q)))
-                    .collect()
-            })
-            .collect();
-        let b = (0..n)
-            .map(|p| (0..n).map(|q| entry(&self.slip[p].normal, p, q)).collect())
-            .collect();
+        let factor = self
+            .analysis
+            .factor(&self.matrix(t))
+            .map_err(|source| SparseCondensationError::NotDefinite { at: t, source })?;
+        let a = self.tangential_block(factor.schur());
+        let b = self.normal_block(factor.schur());
+
         Ok(SparseCondensed {
             system: self,
             t,
@@ -230,128 +289,203 @@ impl SparseCondensation {
             factor,
         })
     }
+
+    /// A_pq = S_p t_p' Z t_q S_q. // (16)
+    ///
+    /// The lower triangle and its mirror image: A is symmetric to the last bit.
+    fn tangential_block(&self, z: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let n = self.slip.len();
+        let mut a = vec![vec![0.0; n]; n];
+        for p in 0..n {
+            for q in 0..=p {
+                let entry = self.entry(z, &self.slip[p].tangent, p, q);
+                a[p][q] = entry;
+                a[q][p] = entry;
+            }
+        }
+
+        a
+    }
+
+    /// B_pq = n_p' Z t_q S_q. // (16)
+    fn normal_block(&self, z: &[Vec<f64>]) -> Vec<Vec<f64>> {
+        let n = self.slip.len();
+        let mut b = vec![vec![0.0; n]; n];
+        for (p, row) in b.iter_mut().enumerate() {
+            for (q, entry) in row.iter_mut().enumerate() {
+                *entry = self.entry(z, &self.slip[p].normal, p, q);
+            }
+        }
+
+        b
+    }
+
+    /// left' Z_pq t_q S_q, with Z_pq the 2 x 2 block of Z in the dofs of the particles p and q.
+    fn entry(&self, z: &[Vec<f64>], left: &[f64; 2], p: usize, q: usize) -> f64 {
+        let tangent = &self.slip[q].tangent;
+        let block_times_tangent = [2 * p, 2 * p + 1].map(|row| {
+            let first = z[row][2 * q];
+            let second = z[row][2 * q + 1];
+            first * tangent[0] + second * tangent[1]
+        });
+        left[0] * block_times_tangent[0] + left[1] * block_times_tangent[1]
+    }
 }
 
 impl SparseCondensed<'_> {
-    /// T = A + mu B, by rows.
+    /// T = A + mu B, n_s x n_s by rows.
     pub fn pencil(&self, mu: f64) -> Vec<Vec<f64>> {
-        let row =
-            |(a, b): (&Vec<f64>, &Vec<f64>)| a.iter().zip(b).map(|(a, b)| a + mu * b).collect();
-        self.a.iter().zip(&self.b).map(row).collect()
+        let mut t = self.a.clone();
+        for (row, b_row) in t.iter_mut().zip(&self.b) {
+            for (entry, b) in row.iter_mut().zip(b_row) {
+                *entry += mu * b;
+            }
+        }
+
+        t
     }
 
-    /// v over all dofs of K for x of the slip particles: v_T = -S x, v_N = 0, f in balance. // E10
+    /// v over all dofs of K for x of the slip particles: v_T = -S x, v_N = 0, f in balance. // (10)
     pub fn lift(&self, x: &[f64]) -> Vec<f64> {
-        self.factor.extend(
-            &self
-                .system
-                .slip
-                .iter()
-                .zip(x)
-                .flat_map(|(s, x)| s.tangent.map(|c| -c * x))
-                .collect::<Vec<_>>(),
-        )
+        let mut kept = Vec::with_capacity(2 * x.len());
+        for (node, x_p) in self.system.slip.iter().zip(x) {
+            kept.extend(node.tangent.map(|c| -c * x_p));
+        }
+        self.factor.extend(&kept)
     }
 
     /// x over the variables of the reduced pencil: f ascending, then the slip particles.
     pub fn reduced(&self, x: &[f64]) -> Vec<f64> {
         let v = self.lift(x);
-        self.system
-            .free
-            .iter()
-            .map(|&i| v[i])
-            .chain(x.iter().copied())
-            .collect()
+        let free_dofs = self.system.free.iter();
+        let mut reduced: Vec<f64> = free_dofs.map(|&dof| v[dof]).collect();
+        reduced.extend(x);
+        reduced
     }
 
-    /// T'(t) x = A'(t) x + mu B'(t) x, by Z'(t) = E' M E with E the extension; `None` without M.
+    /// T'(t) x = A'(t) x + mu B'(t) x of length n_s; `None` without M.
+    ///
+    /// The derivative of the Schur complement is Z'(t) = E' M E, with E the extension from the kept
+    /// dofs to all dofs that leaves f in balance.
     pub fn slope(&self, mu: f64, x: &[f64]) -> Option<Vec<f64>> {
-        let m = self.system.mass.as_ref()?;
-        let z = self.factor.restrict(&m.times(&self.lift(x))); // of -S x: the sign turns below
-        let row = |(s, z): (&SlipNode, &[f64])| {
-            -(0..2)
-                .map(|i| (s.tangent[i] + mu * s.normal[i]) * z[i])
-                .sum::<f64>()
-        };
-        Some(
-            self.system
-                .slip
-                .iter()
-                .zip(z.chunks_exact(2))
-                .map(row)
-                .collect(),
-        )
+        let mass = self.system.mass.as_ref()?;
+        // The lift belongs to the kept dofs -S t x, so the sign is turned again below.
+        let derivative = self.factor.restrict(&mass.times(&self.lift(x)));
+
+        let mut slope = Vec::with_capacity(x.len());
+        for (node, z) in self.system.slip.iter().zip(derivative.chunks_exact(2)) {
+            let row = [0, 1].map(|i| node.tangent[i] + mu * node.normal[i]);
+            slope.push(-dot(&row, z));
+        }
+
+        Some(slope)
     }
 
     /// Twice the kinetic energy of a lifted x at unit rate, v' M v; `None` without M.
     pub fn kinetic(&self, x: &[f64]) -> Option<f64> {
         let v = self.lift(x);
-        let m = self.system.mass.as_ref()?;
-        Some(m.times(&v).iter().zip(&v).map(|(a, b)| a * b).sum())
+        let mass = self.system.mass.as_ref()?;
+        let momentum = mass.times(&v);
+        Some(dot(&momentum, &v))
     }
 
     /// Measures the condensation on all slip particles moved alike, and on `probes` patterns of
-    /// signs.
+    /// signs. Both numbers are relative, and the largest of all probes.
     pub fn residual(&self, probes: usize) -> CondensationResidual {
         let matrix = self.system.matrix(self.t);
-        let kept = self.system.analysis.kept();
+        let kept_count = self.system.analysis.kept().len();
         let mut worst = CondensationResidual {
             balance: 0.0,
             change: 0.0,
         };
+
         for probe in 0..=probes {
-            let c: Vec<f64> = (0..kept.len())
-                .map(|i| {
-                    if probe == 0 {
-                        f64::from(u8::from(i % 2 == 0))
-                    } else {
-                        sign(probe, i)
-                    }
-                })
-                .collect();
-            let mut u = self.factor.extend(&c);
-            let load = matrix.times(&u);
-            let size = |i: usize| matrix.row(i).map(|(j, v)| (v * u[j]).abs()).sum::<f64>();
-            let f = &self.system.free;
-            let largest = f.iter().map(|&i| size(i)).fold(f64::MIN_POSITIVE, f64::max);
-            worst.balance = f
-                .iter()
-                .map(|&i| load[i].abs() / largest)
-                .fold(worst.balance, f64::max);
-            u.iter_mut()
-                .zip(self.factor.solve(&load))
-                .for_each(|(u, d)| *u -= d);
-            let refined = matrix.times(&u);
-            let z: Vec<f64> = self
-                .factor
-                .schur()
-                .iter()
-                .map(|r| r.iter().zip(&c).map(|(z, c)| z * c).sum())
-                .collect();
-            let largest = kept
-                .iter()
-                .map(|&i| refined[i].abs())
-                .fold(f64::MIN_POSITIVE, f64::max);
-            worst.change = kept
-                .iter()
-                .zip(&z)
-                .map(|(&i, z)| (refined[i] - z).abs() / largest)
-                .fold(worst.change, f64::max);
+            let residual = self.residual_of(&probe_vector(probe, kept_count), &matrix);
+            worst.balance = worst.balance.max(residual.balance);
+            worst.change = worst.change.max(residual.change);
         }
+
         worst
     }
+
+    /// The residual for one vector c over the kept dofs; `matrix` is K + t M.
+    fn residual_of(&self, c: &[f64], matrix: &Symmetric) -> CondensationResidual {
+        let free = &self.system.free;
+        let kept = self.system.analysis.kept();
+
+        // The load on f of the extended c should vanish.
+        let mut u = self.factor.extend(c);
+        let load = matrix.times(&u);
+        let sizes = free.iter().map(|&dof| sum_of_moduli(matrix, dof, &u));
+        let largest_size = largest(sizes);
+        let mut balance: f64 = 0.0;
+        for &dof in free {
+            balance = balance.max(load[dof].abs() / largest_size);
+        }
+
+        // One step of iterative refinement on f. Then the load on the kept dofs should be Z c.
+        for (u_i, correction) in u.iter_mut().zip(self.factor.solve(&load)) {
+            *u_i -= correction;
+        }
+
+        let refined = matrix.times(&u);
+        let largest_load = largest(kept.iter().map(|&dof| refined[dof].abs()));
+        let mut change: f64 = 0.0;
+        for (&dof, z_row) in kept.iter().zip(self.factor.schur()) {
+            let difference = (refined[dof] - dot(z_row, c)).abs();
+            change = change.max(difference / largest_load);
+        }
+
+        CondensationResidual { balance, change }
+    }
+}
+
+/// a' b.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    let products = a.iter().zip(b).map(|(a_i, b_i)| a_i * b_i);
+    products.sum()
+}
+
+/// The sum of |m_ij u_j| over a row i of the matrix.
+fn sum_of_moduli(matrix: &Symmetric, row: usize, u: &[f64]) -> f64 {
+    let products = matrix.row(row).map(|(j, m_ij)| m_ij * u[j]);
+    products.map(f64::abs).sum()
+}
+
+/// The largest of some numbers, positive in any case so that one can divide by it.
+fn largest(numbers: impl Iterator<Item = f64>) -> f64 {
+    numbers.fold(f64::MIN_POSITIVE, f64::max)
+}
+
+/// The vector over the kept dofs on which a condensation is measured: probe 0 moves the first dof
+/// of all slip particles by one, each other probe is a pattern of signs.
+fn probe_vector(probe: usize, length: usize) -> Vec<f64> {
+    let mut c = vec![0.0; length];
+    for (i, entry) in c.iter_mut().enumerate() {
+        if probe > 0 {
+            *entry = sign(probe, i);
+        } else if i % 2 == 0 {
+            *entry = 1.0;
+        }
+    }
+
+    c
 }
 
 /// 1 or -1, by the bits of a fixed hash (Knuth's multiplicative one).
 fn sign(probe: usize, i: usize) -> f64 {
-    let h = ((i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (probe as u64) << 17)
-        .wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    if h >> 40 & 1 == 0 { 1.0 } else { -1.0 }
+    let spread = (i as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    let mixed = spread ^ ((probe as u64) << 17);
+    let hash = mixed.wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    if hash >> 40 & 1 == 0 { 1.0 } else { -1.0 }
 }
 
 /// Coefficients of a direction on the two dofs of its particle.
-fn on_dofs(p: &Particle, d: &Direction) -> [f64; 2] {
-    [p.tangential, p.normal].map(|dof| d.iter().filter(|e| e.0 == dof).map(|e| to_f64(&e.1)).sum())
+fn on_dofs(particle: &Particle, direction: &Direction) -> [f64; 2] {
+    [particle.tangential, particle.normal].map(|dof| {
+        let on_dof = direction.iter().filter(|(d, _)| *d == dof);
+        on_dof.map(|(_, coefficient)| to_f64(coefficient)).sum()
+    })
 }
 
 #[cfg(test)]

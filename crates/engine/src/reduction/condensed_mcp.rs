@@ -1,16 +1,23 @@
 //! Proposition 2 on the condensed matrix: MCEIP-lambda2 as an MCP in the n_s slip variables and t,
 //! each t by one sparse factorisation, without a matrix of all degrees of freedom.
 //!
-//! Unknowns (u, zeta): x = D u with a positive diagonal D, t = unit zeta. Rows: D T(t) D u
-//! complementary to u, with T(t) = A(t) + mu B(t) of [`SparseCondensation`], and e'u - 1
-//! complementary to zeta (31)-(34). f has been eliminated: K + t M is definite on f for every t >=
-//! 0.
+//! Unknowns (u, zeta): x = D u with a positive diagonal D, and t = unit zeta. Rows, with the
+//! complementary unknowns:
+//!
+//!   D T(t) D u  complementary to u >= 0,   e'u - 1  complementary to zeta >= 0   (31)-(34)
+//!
+//! with T(t) = A(t) + mu B(t) of [`SparseCondensation`]. The free variables have been eliminated: K
+//! + t M is definite on f for every t >= 0.
+//!
+//! Input: a condensation with mass and the friction mu. Output: an [`Mcp`] for the solver, its
+//! starting points, and t and x of its points. Called by `multistart::condensed`.
 #![allow(clippy::float_arithmetic)]
 
 use super::condense_sparse::{SparseCondensation, SparseCondensationError, SparseCondensed};
+use super::embed::{even_weights, power_of_two, random_face, random_zeta};
 use mceip_mcp::mcp::Mcp;
 use nalgebra::DMatrix;
-use rand::{RngExt, SeedableRng};
+use rand::SeedableRng;
 use rand_chacha::ChaCha8Rng;
 use std::cell::{Cell, RefCell};
 
@@ -19,7 +26,9 @@ use std::cell::{Cell, RefCell};
 pub struct CondensedEmbedding<'a> {
     condensation: &'a SparseCondensation,
     mu: f64,
+    /// The diagonal of D, powers of two.
     diagonal: Vec<f64>,
+    /// t at zeta = 1.
     unit: f64,
     lower: Vec<f64>,
     upper: Vec<f64>,
@@ -58,73 +67,70 @@ impl<'a> CondensedEmbedding<'a> {
         if !(mu >= 0.0 && mu.is_finite()) {
             return Err(CondensedEmbeddingError::Friction { got: mu });
         }
+
         let at_zero = condensation.at(0.0)?;
         let n = condensation.slip_count();
-        // The block moved as one: its frequency squared is the scale of lambda^2.
-        let even = vec![1.0; n];
+
+        // All slip particles moved by one: the frequency squared of this motion is the unit of
+        // lambda^2.
         let mass = at_zero
-            .kinetic(&even)
+            .kinetic(&vec![1.0; n])
             .ok_or(CondensedEmbeddingError::NoMass)?;
-        let ratio = at_zero.a.iter().flatten().sum::<f64>() / mass;
-        let unit = if ratio > 0.0 && ratio.is_finite() {
-            ratio.log2().round().exp2()
+        let stiffness: f64 = at_zero.a.iter().flatten().sum();
+        let frequency_squared = stiffness / mass;
+        let unit = if frequency_squared > 0.0 && frequency_squared.is_finite() {
+            frequency_squared.log2().round().exp2()
         } else {
             1.0
         };
-        let diagonal = (0..n).map(|i| power_of_two(at_zero.a[i][i])).collect();
-        let (last, factorisations) = (RefCell::new(Some(at_zero)), Cell::new(1));
-        let (lower, upper) = (vec![0.0; n + 1], vec![f64::INFINITY; n + 1]);
+
         Ok(CondensedEmbedding {
             condensation,
             mu,
-            diagonal,
+            diagonal: (0..n).map(|i| power_of_two(at_zero.a[i][i])).collect(),
             unit,
-            lower,
-            upper,
-            last,
-            factorisations,
+            lower: vec![0.0; n + 1],
+            upper: vec![f64::INFINITY; n + 1],
+            last: RefCell::new(Some(at_zero)),
+            factorisations: Cell::new(1),
         })
     }
 
     /// lambda^2 of a point, and x of its slip particles with e'x = 1.
     pub fn value_and_x(&self, z: &[f64]) -> (f64, Vec<f64>) {
-        let n = self.diagonal.len();
-        let x: Vec<f64> = z[..n]
-            .iter()
-            .zip(&self.diagonal)
-            .map(|(u, d)| u * d)
-            .collect();
+        let value = self.unit * z[self.diagonal.len()];
+        let mut x = self.unscaled(z);
         let sum: f64 = x.iter().sum();
-        (self.unit * z[n], x.iter().map(|v| v / sum).collect())
+        for x_i in &mut x {
+            *x_i /= sum;
+        }
+
+        (value, x)
     }
 
-    /// Starts with e'u = 1: even and single particles at values spread over six decades about the
-    /// unit, then seeded ones.
+    /// D u of a point (u, zeta).
+    fn unscaled(&self, z: &[f64]) -> Vec<f64> {
+        let u_and_d = z.iter().zip(&self.diagonal);
+        let x = u_and_d.map(|(u, d)| u * d);
+        x.collect()
+    }
+
+    /// `count` starts with e'u = 1: even ones at one unit, 32 units and zero, then seeded random
+    /// faces of the simplex at values spread over six decades about the unit.
     pub fn starts(&self, count: usize, seed: u64) -> Vec<Vec<f64>> {
         let n = self.diagonal.len();
-        let mut rng = ChaCha8Rng::seed_from_u64(seed);
-        let even = |zeta: f64| [vec![1.0 / n as f64; n], vec![zeta]].concat();
-        let mut starts: Vec<Vec<f64>> = [1.0, 32.0, 0.0].map(even).to_vec();
-        while starts.len() < count {
-            let keep: f64 = rng.random_range(0.2..1.0);
-            let mut weight = || {
-                let (w, kept): (f64, f64) = (
-                    rng.random_range(f64::MIN_POSITIVE..1.0),
-                    rng.random_range(0.0..1.0),
-                );
-                if kept < keep { -w.ln() } else { 0.0 }
-            };
-            let u: Vec<f64> = (0..n).map(|_| weight()).collect();
-            let (sum, zeta) = (
-                u.iter().sum::<f64>(),
-                10f64.powf(rng.random_range(-3.0..3.0)),
-            );
-            starts.push(if sum > 0.0 {
-                u.iter().map(|v| v / sum).chain([zeta]).collect()
-            } else {
-                even(zeta)
-            });
+        let mut starts = Vec::with_capacity(count.max(3));
+        for zeta in [1.0, 32.0, 0.0] {
+            starts.push(joined(even_weights(n), zeta));
         }
+
+        let mut rng = ChaCha8Rng::seed_from_u64(seed);
+        while starts.len() < count {
+            let u = random_face(n, &mut rng);
+            let zeta = random_zeta(&mut rng);
+            starts.push(joined(u, zeta));
+        }
+
         starts.truncate(count);
         starts
     }
@@ -134,84 +140,90 @@ impl<'a> CondensedEmbedding<'a> {
         self.factorisations.get()
     }
 
-    /// Something of the condensation at t = unit zeta; `None` where K + t M is not definite.
+    /// The result of `work` on the condensation at t = unit zeta; `None` where K + t M is not
+    /// definite. The condensation is kept until another t is asked for.
     pub fn with<T>(&self, zeta: f64, work: impl FnOnce(&SparseCondensed<'a>) -> T) -> Option<T> {
         let t = self.unit * zeta;
-        if let Some(last) = self.last.borrow().as_ref().filter(|l| l.t == t) {
+        if let Some(last) = self.last.borrow().as_ref()
+            && last.t == t
+        {
             return Some(work(last));
         }
+
         let fresh = self.condensation.at(t).ok()?;
         self.factorisations.set(self.factorisations.get() + 1);
         let result = work(&fresh);
         *self.last.borrow_mut() = Some(fresh);
         Some(result)
     }
+
+    /// T x = (A + mu B) x on the condensation at one t.
+    fn image(&self, condensed: &SparseCondensed<'_>, x: &[f64]) -> Vec<f64> {
+        let mut image = Vec::with_capacity(x.len());
+        for (a_row, b_row) in condensed.a.iter().zip(&condensed.b) {
+            let entries = a_row.iter().zip(b_row);
+            let entries = entries.map(|(a, b)| a + self.mu * b);
+            let products = entries.zip(x).map(|(t, x_q)| t * x_q);
+            image.push(products.sum());
+        }
+        image
+    }
 }
 
-/// 1 / sqrt of a positive number, as a power of two.
-fn power_of_two(size: f64) -> f64 {
-    if size > 0.0 && size.is_finite() {
-        (-0.5 * size.log2()).round().exp2()
-    } else {
-        1.0
-    }
+/// The point (u, zeta).
+fn joined(mut u: Vec<f64>, zeta: f64) -> Vec<f64> {
+    u.push(zeta);
+    u
 }
 
 impl Mcp for CondensedEmbedding<'_> {
     fn dimension(&self) -> usize {
         self.diagonal.len() + 1
     }
+
     fn lower(&self) -> &[f64] {
         &self.lower
     }
+
     fn upper(&self) -> &[f64] {
         &self.upper
     }
+
     fn function(&self, z: &[f64], f: &mut [f64]) {
         let n = self.diagonal.len();
-        let x: Vec<f64> = z[..n]
-            .iter()
-            .zip(&self.diagonal)
-            .map(|(u, d)| u * d)
-            .collect();
-        let row = |a: &[f64], b: &[f64]| {
-            a.iter()
-                .zip(b)
-                .zip(&x)
-                .map(|((a, b), x)| (a + self.mu * b) * x)
-                .sum::<f64>()
-        };
-        let y = self.with(z[n], |c| {
-            c.a.iter()
-                .zip(&c.b)
-                .map(|(a, b)| row(a, b))
-                .collect::<Vec<f64>>()
-        }); // E31
-        match y {
-            Some(y) => f
-                .iter_mut()
-                .zip(y)
-                .zip(&self.diagonal)
-                .for_each(|((f, y), d)| *f = d * y),
-            None => f[..n].fill(f64::NAN), // the solver says where F is not finite
+        let u = &z[..n];
+        let x = self.unscaled(u);
+
+        match self.with(z[n], |condensed| self.image(condensed, &x)) {
+            Some(image) => {
+                for p in 0..n {
+                    f[p] = self.diagonal[p] * image[p]; // (31)
+                }
+            }
+            // The solver reports that F is not finite.
+            None => f[..n].fill(f64::NAN),
         }
-        f[n] = z[..n].iter().sum::<f64>() - 1.0; // E33
+
+        f[n] = u.iter().sum::<f64>() - 1.0; // (33)
     }
+
+    /// Columns 0 to n - 1: D T D, and ones in the last row. Column n: dt/dzeta D T'(t) D u.
     fn jacobian(&self, z: &[f64], j: &mut DMatrix<f64>) {
         let n = self.diagonal.len();
-        j.fill(0.0);
-        let x: Vec<f64> = z[..n]
-            .iter()
-            .zip(&self.diagonal)
-            .map(|(u, d)| u * d)
-            .collect();
-        let parts = self.with(z[n], |c| (c.pencil(self.mu), c.slope(self.mu, &x)));
-        let Some((t, Some(slope))) = parts else {
+        let x = self.unscaled(&z[..n]);
+        let matrix_and_slope = self.with(z[n], |condensed| {
+            (condensed.pencil(self.mu), condensed.slope(self.mu, &x))
+        });
+        let Some((t, Some(slope))) = matrix_and_slope else {
             j.fill(f64::NAN);
             return;
         };
+
+        j.fill(0.0);
         for p in 0..n {
-            (0..n).for_each(|q| j[(p, q)] = self.diagonal[p] * t[p][q] * self.diagonal[q]);
+            for q in 0..n {
+                j[(p, q)] = self.diagonal[p] * t[p][q] * self.diagonal[q];
+            }
             j[(p, n)] = self.diagonal[p] * slope[p] * self.unit;
             j[(n, p)] = 1.0;
         }
@@ -225,23 +237,33 @@ mod tests {
     use mceip_model::ContactState;
     use mceip_paper::{BlockModel, DoubleBlock, DoubleMatrix};
 
+    /// A coarse block with one stick particle and three slip particles.
     fn condensation(with_mass: bool) -> SparseCondensation {
         let block = DoubleBlock::new(&BlockModel::of_the_paper().with_cells(6, 3)).unwrap();
-        let of = |m: &DoubleMatrix| Symmetric::new(m.order, m.entries.iter().copied()).unwrap();
         let states = [
             ContactState::Stick,
             ContactState::Slip { sign: 1 },
             ContactState::Slip { sign: -1 },
             ContactState::Slip { sign: 1 },
         ];
-        let mass = with_mass.then(|| of(&block.mass));
+        let mass = with_mass.then(|| symmetric(&block.mass));
         SparseCondensation::new(
-            of(&block.stiffness),
+            symmetric(&block.stiffness),
             mass,
             &block.particles(&states),
             Some(&block.points),
         )
         .unwrap()
+    }
+
+    fn symmetric(matrix: &DoubleMatrix) -> Symmetric {
+        Symmetric::new(matrix.order, matrix.entries.iter().copied()).unwrap()
+    }
+
+    fn function_at(embedding: &CondensedEmbedding<'_>, z: &[f64]) -> [f64; 4] {
+        let mut f = [0.0; 4];
+        embedding.function(z, &mut f);
+        f
     }
 
     /// Central differences: the slope by two half solves is the derivative of the condensed matrix.
@@ -250,81 +272,85 @@ mod tests {
         let condensation = condensation(true);
         let embedding = CondensedEmbedding::new(&condensation, 1.5).unwrap();
         let z = [0.2, 0.5, 0.3, 0.7];
-        let mut j = DMatrix::zeros(4, 4);
-        embedding.jacobian(&z, &mut j);
-        let h = 1.0 / 4096.0;
-        for k in 0..4 {
-            let at = |s: f64| {
-                let mut moved = z;
-                moved[k] += s * h;
-                let mut f = [0.0; 4];
-                embedding.function(&moved, &mut f);
-                f
-            };
-            let (up, down) = (at(1.0), at(-1.0));
-            (0..4).for_each(|i| {
+        let step = 1.0 / 4096.0;
+
+        let mut jacobian = DMatrix::zeros(4, 4);
+        embedding.jacobian(&z, &mut jacobian);
+
+        for column in 0..4 {
+            let mut above = z;
+            above[column] += step;
+            let mut below = z;
+            below[column] -= step;
+            let up = function_at(&embedding, &above);
+            let down = function_at(&embedding, &below);
+            for row in 0..4 {
                 approx::assert_relative_eq!(
-                    (up[i] - down[i]) / (2.0 * h),
-                    j[(i, k)],
+                    (up[row] - down[row]) / (2.0 * step),
+                    jacobian[(row, column)],
                     epsilon = 1e-6,
                     max_relative = 1e-6
-                )
-            });
+                );
+            }
         }
+
         let before = embedding.factorisations();
-        embedding.function(&z, &mut [0.0; 4]);
-        embedding.jacobian(&z, &mut j);
+        function_at(&embedding, &z);
+        embedding.jacobian(&z, &mut jacobian);
         assert_eq!(embedding.factorisations(), before + 1, "one for both");
     }
 
     #[test]
     fn what_makes_no_sense_is_refused() {
-        let light = condensation(false);
+        let massless = condensation(false);
         assert_eq!(
-            CondensedEmbedding::new(&light, 1.0).unwrap_err(),
+            CondensedEmbedding::new(&massless, 1.0).unwrap_err(),
             CondensedEmbeddingError::NoMass
         );
+
         let condensation = condensation(true);
-        for got in [-1.0, f64::NAN, f64::INFINITY] {
+        for mu in [-1.0, f64::NAN, f64::INFINITY] {
             assert!(matches!(
-                CondensedEmbedding::new(&condensation, got),
+                CondensedEmbedding::new(&condensation, mu),
                 Err(CondensedEmbeddingError::Friction { .. })
             ));
         }
-        let starts = CondensedEmbedding::new(&condensation, 1.0)
-            .unwrap()
-            .starts(9, 4);
-        assert!(
-            starts.len() == 9
-                && starts
-                    .iter()
-                    .all(|z| (z[..3].iter().sum::<f64>() - 1.0).abs() < 1e-12)
-        );
+
+        let embedding = CondensedEmbedding::new(&condensation, 1.0).unwrap();
+        let starts = embedding.starts(9, 4);
+        assert_eq!(starts.len(), 9);
+        for z in starts {
+            let sum: f64 = z[..3].iter().sum();
+            assert!((sum - 1.0).abs() < 1e-12);
+        }
     }
 
     #[test]
     fn the_mcp_has_the_bounds_and_the_row_of_the_proposition() {
         let condensation = condensation(true);
-        let mut e = CondensedEmbedding::new(&condensation, 1.5).unwrap();
-        e.diagonal = vec![0.5, 1.0, 4.0]; // those of the block are all alike
-        assert_eq!(
-            (e.dimension(), e.lower(), e.upper()),
-            (4, &[0.0; 4][..], &[f64::INFINITY; 4][..])
-        );
-        let mut f = [0.0; 4];
-        e.function(&[0.25, 0.5, 0.75, 0.125], &mut f);
-        assert_eq!(f[3], 0.5);
+        let mut embedding = CondensedEmbedding::new(&condensation, 1.5).unwrap();
+        // The scales of the block are all alike.
+        embedding.diagonal = vec![0.5, 1.0, 4.0];
+
+        assert_eq!(embedding.dimension(), 4);
+        assert_eq!(embedding.lower(), [0.0; 4]);
+        assert_eq!(embedding.upper(), [f64::INFINITY; 4]);
+        assert_eq!(function_at(&embedding, &[0.25, 0.5, 0.75, 0.125])[3], 0.5);
+
         // y = D T(t) D u at the t and x that the point stands for.
         let z = [0.2, 0.5, 0.3, 0.7];
-        e.function(&z, &mut f);
-        let (value, x) = e.value_and_x(&z);
+        let f = function_at(&embedding, &z);
+        let (value, x) = embedding.value_and_x(&z);
         approx::assert_relative_eq!(x.iter().sum::<f64>(), 1.0, max_relative = 1e-12);
+
         let t = condensation.at(value).unwrap().pencil(1.5);
-        let scale: f64 = z.iter().zip(&e.diagonal).map(|(u, d)| u * d).sum();
+        let du: Vec<f64> = (0..3).map(|i| z[i] * embedding.diagonal[i]).collect();
+        let scale: f64 = du.iter().sum();
         for i in 0..3 {
-            let y: f64 = t[i].iter().zip(&x).map(|(t, x)| t * x).sum();
-            approx::assert_relative_eq!(f[i], e.diagonal[i] * y * scale, max_relative = 1e-9);
-            approx::assert_relative_eq!(x[i] * scale, z[i] * e.diagonal[i], max_relative = 1e-12);
+            let y_i: f64 = t[i].iter().zip(&x).map(|(t, x)| t * x).sum();
+            let expected = embedding.diagonal[i] * y_i * scale;
+            approx::assert_relative_eq!(f[i], expected, max_relative = 1e-9);
+            approx::assert_relative_eq!(x[i] * scale, du[i], max_relative = 1e-12);
         }
     }
 
@@ -340,31 +366,30 @@ mod tests {
         );
     }
 
-    /// A particle is kept with probability 0.2 to 1: three fifths of them, all where none was.
+    /// A particle is kept with probability 0.2 to 1: three fifths of them, all where none was. None
+    /// is kept with the mean probability of (1 - keep)^3, 0.128.
     #[test]
     fn starts_lie_on_random_faces() {
         let condensation = condensation(true);
-        let e = CondensedEmbedding::new(&condensation, 1.0).unwrap();
-        let starts = e.starts(403, 8);
+        let embedding = CondensedEmbedding::new(&condensation, 1.0).unwrap();
+
+        let starts = embedding.starts(403, 8);
+
         assert_eq!([starts[0][3], starts[1][3], starts[2][3]], [1.0, 32.0, 0.0]);
         for z in &starts {
             approx::assert_relative_eq!(z[..3].iter().sum::<f64>(), 1.0, max_relative = 1e-12);
             assert!(z.iter().all(|u| *u >= 0.0));
         }
-        let moving = starts[3..]
-            .iter()
-            .flat_map(|z| &z[..3])
-            .filter(|u| **u > 0.0)
-            .count();
-        let even = starts[3..]
-            .iter()
-            .filter(|z| z[0] == z[1] && z[1] == z[2])
-            .count();
-        // None kept: the mean of (1 - keep)^3, 0.128.
-        assert!(
-            (700..950).contains(&moving) && (25..85).contains(&even),
-            "{moving} of 1200, {even} of 400"
-        );
-        assert_eq!((e.starts(2, 8).len(), e.starts(403, 8)), (2, starts));
+
+        let random = &starts[3..];
+        let weights = random.iter().flat_map(|z| &z[..3]);
+        let moving = weights.filter(|u| **u > 0.0).count();
+        assert!((700..950).contains(&moving), "{moving} of 1200");
+        let is_even = |z: &&Vec<f64>| z[0] == z[1] && z[1] == z[2];
+        let even = random.iter().filter(is_even).count();
+        assert!((25..85).contains(&even), "{even} of 400");
+
+        assert_eq!(embedding.starts(2, 8).len(), 2);
+        assert_eq!(embedding.starts(403, 8), starts);
     }
 }

@@ -1,5 +1,12 @@
-//! The way back from the condensed pencil in doubles: candidates only, exact arithmetic decides
-//! later.
+//! The way back from the condensed pencil in doubles: x_f of x_s.
+//!
+//! The f rows of the pencil say A_ff x_f + A_fs x_s = 0 where the f rows of B vanish (16), so
+//!
+//!   x_f = -A_ff^-1 A_fs x_s.
+//!
+//! Input: the full pencil, and candidates of the pencil that `condense` made of it. Output:
+//! candidates over all variables; exact arithmetic decides about them later. Called by
+//! `multistart`.
 #![allow(clippy::float_arithmetic)]
 
 use crate::candidate::Candidate;
@@ -19,9 +26,14 @@ pub struct Expansion {
 impl Expansion {
     /// Factors A_ff in doubles; `None` if it is numerically singular.
     pub fn new(pencil: &Pencil) -> Option<Expansion> {
-        let (free, slip) = (pencil.free().to_vec(), pencil.slip());
-        let right = dense(&pencil.a().submatrix(&free, &slip).transpose());
-        let columns = solve(&dense(&pencil.a().submatrix(&free, &free)), &right)?;
+        let free = pencil.free().to_vec();
+        let slip = pencil.slip();
+        let a_ff = pencil.a().submatrix(&free, &free);
+        let a_fs = pencil.a().submatrix(&free, &slip);
+
+        // The right-hand sides are the columns of A_fs.
+        let columns = solve(&dense(&a_ff), &dense(&a_fs.transpose()))?;
+
         Some(Expansion {
             order: pencil.order(),
             free,
@@ -31,60 +43,52 @@ impl Expansion {
     }
 
     /// The candidate over all variables of the pencil.
-    pub fn expand(&self, small: &Candidate) -> Candidate {
+    pub fn expand(&self, condensed: &Candidate) -> Candidate {
         let mut x = vec![0.0; self.order];
-        for ((&i, column), v) in self.slip.iter().zip(&self.columns).zip(&small.x) {
-            x[i] = *v;
-            self.free
-                .iter()
-                .zip(column)
-                .for_each(|(&k, c)| x[k] -= c * v);
+        for (s, x_s) in condensed.x.iter().enumerate() {
+            x[self.slip[s]] = *x_s;
+            for (&f, coefficient) in self.free.iter().zip(&self.columns[s]) {
+                x[f] -= coefficient * x_s;
+            }
         }
+
         Candidate {
-            value: small.value,
+            value: condensed.value,
             x,
         }
     }
 }
 
-fn dense(m: &Sparse) -> Vec<Vec<f64>> {
-    let mut out = vec![vec![0.0; m.cols()]; m.rows()];
-    m.entries().for_each(|(i, j, v)| out[i][j] = to_f64(v));
-    out
+/// A matrix of rationals by rows, each entry rounded to the nearest double.
+fn dense(matrix: &Sparse) -> Vec<Vec<f64>> {
+    let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
+    for (i, j, v) in matrix.entries() {
+        rows[i][j] = to_f64(v);
+    }
+    rows
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::whole;
 
     #[test]
     fn free_rows_balance_after_expansion() {
-        let a = Sparse::from_entries(
-            3,
-            3,
-            [
-                (0, 0, 4),
-                (0, 1, 1),
-                (1, 0, 1),
-                (0, 2, -2),
-                (2, 0, -2),
-                (1, 1, 5),
-                (2, 2, 3),
-            ]
-            .map(|(i, j, v)| (i, j, whole(v))),
-        );
+        let a = Sparse::from_ints(&[&[4, 1, -2], &[1, 5, 0], &[-2, 0, 3]]);
         let pencil = Pencil::new(a, Sparse::zeros(3, 3), vec![0]).unwrap();
-        let full = Expansion::new(&pencil).unwrap().expand(&Candidate {
+        let condensed = Candidate {
             value: 7.0,
             x: vec![1.0, 3.0],
-        });
-        assert_eq!(
-            full,
-            Candidate {
-                value: 7.0,
-                x: vec![1.25, 1.0, 3.0]
-            }
-        ); // 4 x_0 + 1 - 6 = 0
+        };
+
+        let full = Expansion::new(&pencil).unwrap().expand(&condensed);
+
+        // 4 x_0 + 1 - 2 * 3 = 0.
+        let expected = Candidate {
+            value: 7.0,
+            x: vec![1.25, 1.0, 3.0],
+        };
+
+        assert_eq!(full, expected);
     }
 }

@@ -1,4 +1,18 @@
-//! From the mechanical system to the pencil, and back: (10)-(16), the lift, and the lines of (9).
+//! From the mechanical system to the pencil, from the pencil to an MCP in doubles, and back.
+//!
+//! The exact reduction (10)-(16), the lift and the lines of (9) stand in the crate `mceip-model`
+//! and are named here again. This folder adds what the engine needs besides:
+//!
+//! | file | what |
+//! |---|---|
+//! | `condense` | elimination of the free variables of MCEIP-mu, exactly |
+//! | `expand` | the eliminated variables of a candidate, in doubles |
+//! | `condense_sparse` | the same for both problems in doubles, on meshes of any size |
+//! | `embed` | Propositions 1 and 2: the pencil as an MCP |
+//! | `condensed_mcp` | Proposition 2 on the condensed matrix |
+//! | `circle` | the pencil on alpha^2 + beta^2 = 1, for curves that close |
+//! | `project` | from v over all degrees of freedom to x |
+//! | `reversed` | the pencil of s = 1 / t, for solutions at infinity |
 #![deny(clippy::float_arithmetic)]
 
 mod circle;

@@ -1,8 +1,16 @@
 //! From v over all degrees of freedom back to x of the pencil: the other direction of (10).
+//!
+//! x_f = v_f, and x_s = -S v_T for each slip particle, with v_T the component of v along its unit
+//! tangent. What x does not explain of v is measured; nothing is left of a v that x lifts to.
+//! Exact.
+//!
+//! Input: the variables that `reduce` names, and v. Output: [`Projected`]. Called by `foreign`,
+//! which reads modes that other programs report.
 
 use mceip_exact::Rational;
 use mceip_model::reduction::Variable;
 use num_traits::{Signed, Zero};
+use std::cmp::Reverse;
 
 /// x of (10) for a given v, and what of v it leaves unexplained.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -15,7 +23,6 @@ pub struct Projected {
 }
 
 /// x_f = v_f and x_s = -S v_Ts for each slip particle, exactly; `variables` as `reduce` gives them.
-/// // E10
 ///
 /// The constraints v_d = 0 and v_Ns = 0 of (9) are not imposed: `off` says how far v is from them.
 /// Components of v beyond those the variables name count as constrained.
@@ -35,41 +42,51 @@ pub struct Projected {
 /// );
 /// ```
 pub fn project(variables: &[Variable], v: &[Rational]) -> Projected {
-    let at = |dof: usize| v.get(dof).cloned().unwrap_or_else(Rational::zero);
-    let mut rest = v.to_vec();
+    let mut unexplained = v.to_vec();
     let mut x = Vec::with_capacity(variables.len());
     for variable in variables {
-        let x_i = match variable {
+        match variable {
             Variable::Free { dof } => {
-                rest.get_mut(*dof)
-                    .into_iter()
-                    .for_each(|r| *r = Rational::zero());
-                at(*dof)
+                if let Some(rest) = unexplained.get_mut(*dof) {
+                    *rest = Rational::zero();
+                }
+                x.push(component(v, *dof));
             }
             Variable::Slip { sign, tangent, .. } => {
-                let v_t: Rational = tangent.iter().map(|(dof, c)| c * at(*dof)).sum();
+                let terms = tangent.iter().map(|(dof, c)| c * component(v, *dof));
+                let v_t: Rational = terms.sum();
                 for (dof, c) in tangent {
-                    rest.get_mut(*dof).into_iter().for_each(|r| *r -= c * &v_t);
+                    if let Some(rest) = unexplained.get_mut(*dof) {
+                        *rest -= c * &v_t;
+                    }
                 }
-                v_t * Rational::from_integer((-*sign).into())
+                x.push(v_t * Rational::from_integer((-*sign).into()));
             }
-        };
-        x.push(x_i);
+        }
     }
-    let largest = v
-        .iter()
-        .map(Signed::abs)
-        .max()
-        .unwrap_or_else(Rational::zero);
-    let worst = rest
-        .iter()
-        .map(Signed::abs)
-        .enumerate()
-        .max_by(|a, b| a.1.cmp(&b.1).then(b.0.cmp(&a.0)));
-    let off = worst
-        .filter(|(_, size)| !size.is_zero())
-        .map(|(dof, size)| (dof, size / largest));
-    Projected { x, off }
+
+    Projected {
+        x,
+        off: largest_share(&unexplained, v),
+    }
+}
+
+/// v of a dof, zero beyond the end of v.
+fn component(v: &[Rational], dof: usize) -> Rational {
+    v.get(dof).cloned().unwrap_or_else(Rational::zero)
+}
+
+/// The dof of the largest component of `unexplained` (the first of several) and its size relative
+/// to the largest component of v; `None` if all are zero.
+fn largest_share(unexplained: &[Rational], v: &[Rational]) -> Option<(usize, Rational)> {
+    let sizes = unexplained.iter().map(Signed::abs).enumerate();
+    let (dof, size) = sizes.max_by_key(|(dof, size)| (size.clone(), Reverse(*dof)))?;
+    if size.is_zero() {
+        return None;
+    }
+
+    let largest = v.iter().map(Signed::abs).max()?;
+    Some((dof, size / largest))
 }
 
 #[cfg(test)]
@@ -77,46 +94,48 @@ mod tests {
     use super::*;
     use crate::reduction::{lift, reduce};
     use mceip_exact::{Algebraic, Poly, rational, whole};
+    use mceip_model::{Body, System};
     use mceip_testkit::mechanical;
+
+    fn system(body: &Body) -> &System {
+        let Body::System(system) = body else {
+            unreachable!()
+        };
+        system
+    }
 
     /// What is lifted comes back; a component in a forbidden direction is named.
     #[test]
     fn the_inverse_of_the_lift() {
         let mut seen = 0;
         for instance in mechanical(30, 5).unwrap() {
-            let mceip_model::Body::System(system) = instance.problem.body() else {
-                unreachable!()
-            };
+            let system = system(instance.problem.body());
             let variables = reduce(&instance.problem).unwrap().variables;
-            let x: Vec<Poly> = (0..variables.len())
-                .map(|i| Poly::from_ints(&[i as i64 + 1]))
-                .collect();
+            let count = variables.len() as i64;
+            let x: Vec<Poly> = (1..=count).map(|i| Poly::from_ints(&[i])).collect();
             let lifted = lift(system, instance.problem.unknown(), &variables, &x);
             let scale = Rational::from_integer(lifted.v_scale.clone());
             let zero = Algebraic::rational(whole(0)).interval().lo().clone();
             let mut v: Vec<Rational> = lifted.v.iter().map(|p| p.eval(&zero) / &scale).collect();
+
             let back = project(&variables, &v);
-            assert_eq!(
-                back.x,
-                (0..x.len())
-                    .map(|i| whole(i as i64 + 1))
-                    .collect::<Vec<_>>()
-            );
+
+            assert_eq!(back.x, (1..=count).map(whole).collect::<Vec<_>>());
             assert_eq!(back.off, None);
-            let particle = &system.particles()[0]; // slips
-            let normal = particle.into_obstacle();
-            normal
-                .iter()
-                .for_each(|(dof, c)| v[*dof] += c * rational(1, 2));
-            let off = project(&variables, &v);
-            assert_eq!(off.x, back.x, "the normal component does not enter x");
-            assert!(
-                off.off.is_some_and(
-                    |(dof, size)| normal.iter().any(|n| n.0 == dof) && size.is_positive()
-                )
-            );
+
+            // The first particle slips. Half its normal is no motion of the system.
+            let normal = system.particles()[0].into_obstacle();
+            for (dof, c) in &normal {
+                v[*dof] += c * rational(1, 2);
+            }
+            let projected = project(&variables, &v);
+            assert_eq!(projected.x, back.x, "the normal component does not enter x");
+            let (worst, size) = projected.off.unwrap();
+            assert!(normal.iter().any(|(dof, _)| *dof == worst));
+            assert!(size.is_positive());
             seen += 1;
         }
+
         assert_eq!(seen, 30);
     }
 }

@@ -1,17 +1,23 @@
 //! A solution ready to be printed: decimals of value, x, y, v and w, each correctly rounded.
+//!
+//! Input: a solution of the enumerator, a claim of a certificate, or a solution that a cover has
+//! proved. All of them become a [`Solution`] with a value (an algebraic number t) and x, y
+//! (polynomials in t), scaled to e'x_s = 1. Output: [`Listed`]. Called by `mceip solve`,
+//! `enumerate` and `complete`, by the front door, and by `solutions.rs` beside this file.
 
 use crate::candidate::Candidate;
 use crate::certify::{Certifier, flattened};
 use crate::multistart::{exact_value, integer_x};
 use crate::reduction::{Reduced, lift};
 use mceip_check::AcceptedClaim;
-use mceip_check::certificate::{Claim, ExactSolution};
+use mceip_check::certificate::{Claim, EnclosedSolution, ExactSolution};
 use mceip_exact::{
     Algebraic, Integer, Poly, Rational, common_denominator, enclosing_decimals, from_f64,
     ratio_to_decimal, to_decimal, to_f64,
 };
 use mceip_model::{Body, Pencil, Problem};
 use mceip_oracle::{Cone, Enumeration, Solution};
+use std::cmp::Ordering;
 
 /// Significant digits printed in reports.
 pub(super) const DIGITS: usize = 17;
@@ -53,18 +59,42 @@ pub struct ListedCone {
 }
 
 impl Listed {
-    /// From a solution of the enumerator.
+    /// From a solution of the enumerator. The decimals refine the enclosure of the value one after
+    /// the other; `exact` has the enclosure after those of x.
     pub fn of_solution(problem: &Problem, reduced: &Reduced, s: &Solution) -> Listed {
-        let norm = s.normaliser(&reduced.pencil.slip());
-        of_polynomials(
-            problem,
-            reduced,
-            s.value.clone(),
-            &s.slip,
-            &s.biactive,
-            &s.x,
-            &norm,
-        )
+        let mut digits = Digits {
+            value: s.value.clone(),
+            norm: s.normaliser(&reduced.pencil.slip()),
+        };
+
+        let y = digits.of_rows(&reduced.pencil, &s.x);
+        let lifted = match problem.body() {
+            Body::Pencil(_) => None,
+            Body::System(system) => {
+                let lifted = lift(system, problem.unknown(), &reduced.variables, &s.x);
+                let v = digits.of_all(&lifted.v, &lifted.v_scale);
+                let w = digits.of_all(&lifted.w, &lifted.w_scale);
+                Some((v, w))
+            }
+        };
+
+        let x = digits.of_all(&s.x, &Integer::from(1));
+        let mut value = digits.value;
+        let interval = [value.interval().lo().clone(), value.interval().hi().clone()];
+        let polynomial = value.poly().coeffs().to_vec();
+
+        Listed {
+            value: to_decimal(&mut value, &Poly::from_ints(&[0, 1]), DIGITS),
+            enclosure: None,
+            exact: Some((polynomial, interval)),
+            slip: s.slip.clone(),
+            biactive: s.biactive.clone(),
+            x,
+            y,
+            lifted,
+            kernel_dimension: 1,
+            cone: None,
+        }
     }
 
     /// Solutions and cones of the enumerator in one list, by value, then by slip set.
@@ -73,91 +103,81 @@ impl Listed {
         reduced: &Reduced,
         found: &Enumeration,
     ) -> Vec<Listed> {
-        let solutions = found.solutions.iter().map(|s| {
-            let kernel_dimension = found.kernel_dimension(s);
-            (
-                &s.value,
-                &s.slip,
-                Listed {
-                    kernel_dimension,
-                    ..Listed::of_solution(problem, reduced, s)
-                },
-            )
-        });
-        let cones = found
-            .cones
-            .iter()
-            .map(|c| (&c.value, &c.slip, Listed::of_cone(problem, reduced, c)));
-        let mut all: Vec<_> = solutions.chain(cones).collect();
-        all.sort_by(|a, b| {
-            a.0.clone()
-                .cmp_exact(&mut b.0.clone())
-                .then_with(|| a.1.cmp(b.1))
-        });
-        all.into_iter().map(|entry| entry.2).collect()
+        let mut entries = Vec::new();
+        for solution in &found.solutions {
+            let listed = Listed {
+                kernel_dimension: found.kernel_dimension(solution),
+                ..Listed::of_solution(problem, reduced, solution)
+            };
+            entries.push(Entry {
+                value: &solution.value,
+                slip: &solution.slip,
+                listed,
+            });
+        }
+
+        for cone in &found.cones {
+            entries.push(Entry {
+                value: &cone.value,
+                slip: &cone.slip,
+                listed: Listed::of_cone(problem, reduced, cone),
+            });
+        }
+
+        entries.sort_by(Entry::by_value_and_slip);
+        entries.into_iter().map(|entry| entry.listed).collect()
     }
 
     /// From a cone of the enumerator: `x` is the mean of its rays.
     pub fn of_cone(problem: &Problem, reduced: &Reduced, cone: &Cone) -> Listed {
         let center = cone.center(&reduced.pencil.slip());
-        let lineality = cone.lineality.iter().map(|x| {
+
+        let mut lineality = Vec::new();
+        for x in &cone.lineality {
             // No slip variable: the normaliser is the l1 norm.
             let direction = Solution {
                 slip: Vec::new(),
                 x: x.clone(),
                 ..center.clone()
             };
-            direction.x_decimals(&[], DIGITS)
-        });
-        let listed = ListedCone {
+            lineality.push(direction.x_decimals(&[], DIGITS));
+        }
+
+        let rays = cone.rays.iter();
+        let listed_cone = ListedCone {
             dimension: cone.dimension,
-            rays: cone
-                .rays
-                .iter()
-                .map(|r| Listed::of_solution(problem, reduced, r))
+            rays: rays
+                .map(|ray| Listed::of_solution(problem, reduced, ray))
                 .collect(),
-            lineality: lineality.collect(),
+            lineality,
         };
-        let entry = Listed::of_solution(problem, reduced, &center);
+
         Listed {
             kernel_dimension: cone.kernel_dimension,
-            cone: Some(listed),
-            ..entry
+            cone: Some(listed_cone),
+            ..Listed::of_solution(problem, reduced, &center)
         }
     }
 
     /// From a claim: exact where it is, the centre of the box otherwise.
     pub fn of_claim(problem: &Problem, reduced: &Reduced, claim: &Claim) -> Listed {
         match claim {
-            Claim::ExactSolution(c) => of_exact(problem, reduced, claim, c),
-            Claim::LiftedSolution(c) => match problem.body() {
-                Body::System(system) => of_exact(problem, reduced, claim, &flattened(system, c)),
-                // The checker accepts no such claim; it is listed by what it says of itself.
-                Body::Pencil(p) => of_exact(
-                    problem,
-                    reduced,
-                    claim,
-                    &ExactSolution {
-                        support: c.support.clone(),
-                        biactive: c.biactive.clone(),
-                        polynomial: c.polynomial.clone(),
-                        interval: c.interval.clone(),
-                        x: vec![Vec::new(); p.order()],
+            Claim::ExactSolution(exact) => of_exact(problem, reduced, claim, exact),
+            Claim::LiftedSolution(lifted) => {
+                let exact = match problem.body() {
+                    Body::System(system) => flattened(system, lifted),
+                    // The checker accepts no such claim; it is listed by what it says of itself.
+                    Body::Pencil(pencil) => ExactSolution {
+                        support: lifted.support.clone(),
+                        biactive: lifted.biactive.clone(),
+                        polynomial: lifted.polynomial.clone(),
+                        interval: lifted.interval.clone(),
+                        x: vec![Vec::new(); pencil.order()],
                     },
-                ),
-            },
-            Claim::EnclosedSolution(c) => {
-                let pencil = &reduced.pencil;
-                let mut x = vec![Rational::default(); pencil.order()];
-                let active = (0..pencil.order())
-                    .filter(|i| pencil.free().binary_search(i).is_ok() || c.support.contains(i));
-                active.zip(&c.center).for_each(|(i, n)| x[i] = n.0.clone());
-                let value = c
-                    .center
-                    .last()
-                    .map_or_else(Rational::default, |n| n.0.clone());
-                of_point(problem, reduced, &c.support, value, &x)
+                };
+                of_exact(problem, reduced, claim, &exact)
             }
+            Claim::EnclosedSolution(enclosed) => of_enclosed(problem, reduced, enclosed),
         }
     }
 
@@ -175,6 +195,7 @@ impl Listed {
             value: to_f64(&proved.value.mid()),
             x: x.to_vec(),
         };
+
         let claimed = certifier
             .certify_with_verdict(&candidate)
             .ok()
@@ -183,10 +204,12 @@ impl Listed {
         let listed = match claimed {
             Some((claim, _)) => Listed::of_claim(problem, reduced, &claim),
             None => {
-                let x: Vec<Rational> = x.iter().map(|v| from_f64(*v).unwrap_or_default()).collect();
+                let x = x.iter().map(|v| from_f64(*v).unwrap_or_default());
+                let x: Vec<Rational> = x.collect();
                 of_point(problem, reduced, &proved.support, proved.value.mid(), &x)
             }
         };
+
         Listed {
             enclosure: Some(enclosing_decimals(&proved.value, DIGITS).into()),
             ..listed
@@ -198,8 +221,70 @@ impl Listed {
 /// Surely so if the claim's values lie within it. Where they only overlap, the claim could be about
 /// another solution near by.
 fn is_about(claim: &AcceptedClaim, proved: &AcceptedClaim) -> bool {
-    let is_within = proved.value.lo() <= claim.value.lo() && claim.value.hi() <= proved.value.hi();
-    claim.support == proved.support && is_within
+    let begins_within = claim.value.lo() >= proved.value.lo();
+    let ends_within = claim.value.hi() <= proved.value.hi();
+    claim.support == proved.support && begins_within && ends_within
+}
+
+/// A solution or cone of the enumerator with the keys of its place in the list.
+struct Entry<'a> {
+    value: &'a Algebraic,
+    slip: &'a [usize],
+    listed: Listed,
+}
+
+impl Entry<'_> {
+    fn by_value_and_slip(&self, other: &Entry<'_>) -> Ordering {
+        let mut value = self.value.clone();
+        let by_value = value.cmp_exact(&mut other.value.clone());
+        by_value.then_with(|| self.slip.cmp(other.slip))
+    }
+}
+
+/// Decimals of polynomials at one value, divided by the normaliser.
+struct Digits {
+    value: Algebraic,
+    norm: Poly,
+}
+
+impl Digits {
+    /// p / (norm scale) at the value.
+    fn of(&mut self, p: &Poly, scale: &Integer) -> String {
+        ratio_to_decimal(&mut self.value, p, &self.norm.scale(scale), DIGITS)
+    }
+
+    fn of_all(&mut self, list: &[Poly], scale: &Integer) -> Vec<String> {
+        list.iter().map(|p| self.of(p, scale)).collect()
+    }
+
+    /// The rows of (A + tB) x.
+    fn of_rows(&mut self, pencil: &Pencil, x: &[Poly]) -> Vec<String> {
+        let mut rows = Vec::with_capacity(pencil.order());
+        for i in 0..pencil.order() {
+            let (row, scale) = row_times(pencil, i, x);
+            rows.push(self.of(&row, &scale));
+        }
+        rows
+    }
+}
+
+/// The centre of the box of an enclosed solution: x over the free variables and the support, then
+/// the value.
+fn of_enclosed(problem: &Problem, reduced: &Reduced, enclosed: &EnclosedSolution) -> Listed {
+    let pencil = &reduced.pencil;
+    let mut x = vec![Rational::default(); pencil.order()];
+    let active = (0..pencil.order())
+        .filter(|i| pencil.free().binary_search(i).is_ok() || enclosed.support.contains(i));
+    for (i, number) in active.zip(&enclosed.center) {
+        x[i] = number.0.clone();
+    }
+
+    let value = match enclosed.center.last() {
+        Some(number) => number.0.clone(),
+        None => Rational::default(),
+    };
+
+    of_point(problem, reduced, &enclosed.support, value, &x)
 }
 
 /// A solution known in rounded numbers only, x in any positive scale.
@@ -210,127 +295,58 @@ fn of_point(
     value: Rational,
     x: &[Rational],
 ) -> Listed {
-    let clear = common_denominator(x);
-    let polys: Vec<Poly> = x
-        .iter()
-        .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))
-        .collect();
-
+    let denominator = common_denominator(x);
+    let integers = x.iter().map(|v| v.numer() * (&denominator / v.denom()));
     let solution = Solution {
         value: Algebraic::rational(value),
         multiplicity: 1,
         slip: support.to_vec(),
         biactive: Vec::new(),
-        x: polys,
+        x: integers.map(Poly::constant).collect(),
         y: Vec::new(),
     };
-    let norm = solution.normaliser(&reduced.pencil.slip());
-    let listed = of_polynomials(
-        problem,
-        reduced,
-        solution.value,
-        support,
-        &[],
-        &solution.x,
-        &norm,
-    );
+
     Listed {
         exact: None,
-        ..listed
+        ..Listed::of_solution(problem, reduced, &solution)
     }
 }
 
-fn of_exact(problem: &Problem, reduced: &Reduced, claim: &Claim, c: &ExactSolution) -> Listed {
+/// An exact solution; `claim` is the claim that says it.
+fn of_exact(problem: &Problem, reduced: &Reduced, claim: &Claim, exact: &ExactSolution) -> Listed {
     // A claim made by `certify` has a valid interval; a foreign one prints its lower end.
-    let value = exact_value(claim).unwrap_or_else(|| Algebraic::rational(c.interval[0].0.clone()));
-    let x = integer_x(c);
-    let slip = reduced.pencil.slip();
+    let value =
+        exact_value(claim).unwrap_or_else(|| Algebraic::rational(exact.interval[0].0.clone()));
     let solution = Solution {
         value,
         multiplicity: 1,
-        slip: c.support.clone(),
-        biactive: c.biactive.clone(),
-        x,
+        slip: exact.support.clone(),
+        biactive: exact.biactive.clone(),
+        x: integer_x(exact),
         y: Vec::new(),
     };
-    let norm = solution.normaliser(&slip);
-    of_polynomials(
-        problem,
-        reduced,
-        solution.value,
-        &c.support,
-        &c.biactive,
-        &solution.x,
-        &norm,
-    )
-}
 
-fn of_polynomials(
-    problem: &Problem,
-    reduced: &Reduced,
-    mut value: Algebraic,
-    slip: &[usize],
-    biactive: &[usize],
-    x: &[Poly],
-    norm: &Poly,
-) -> Listed {
-    let ratio = |value: &mut Algebraic, p: &Poly, scale: &Integer| {
-        ratio_to_decimal(value, p, &norm.scale(scale), DIGITS)
-    };
-    let one = Integer::from(1);
-    let y = (0..reduced.pencil.order())
-        .map(|i| {
-            let (p, scale) = row_times(&reduced.pencil, i, x);
-            ratio(&mut value, &p, &scale)
-        })
-        .collect();
-    let lifted = match problem.body() {
-        Body::Pencil(_) => None,
-        Body::System(system) => {
-            let l = lift(system, problem.unknown(), &reduced.variables, x);
-            let v =
-                l.v.iter()
-                    .map(|p| ratio(&mut value, p, &l.v_scale))
-                    .collect();
-            let w =
-                l.w.iter()
-                    .map(|p| ratio(&mut value, p, &l.w_scale))
-                    .collect();
-            Some((v, w))
-        }
-    };
-    let x = x.iter().map(|p| ratio(&mut value, p, &one)).collect();
-    let interval = [value.interval().lo().clone(), value.interval().hi().clone()];
-    let exact = Some((value.poly().coeffs().to_vec(), interval));
-    let decimal = to_decimal(&mut value, &Poly::from_ints(&[0, 1]), DIGITS);
-    Listed {
-        value: decimal,
-        enclosure: None,
-        exact,
-        slip: slip.to_vec(),
-        biactive: biactive.to_vec(),
-        x,
-        y,
-        lifted,
-        kernel_dimension: 1,
-        cone: None,
-    }
+    Listed::of_solution(problem, reduced, &solution)
 }
 
 /// Row i of (A + tB) x as an integer polynomial and the positive integer it was multiplied by.
 fn row_times(pencil: &Pencil, i: usize, x: &[Poly]) -> (Poly, Integer) {
-    let (a, b) = (pencil.a().row(i), pencil.b().row(i));
-    let clear = common_denominator(a.iter().chain(b).map(|e| &e.1));
+    let a = pencil.a().row(i);
+    let b = pencil.b().row(i);
+    let scale = common_denominator(a.iter().chain(b).map(|(_, v)| v));
+
     let mut sum = Poly::default();
-    for (m, power) in [(a, 0), (b, 1)] {
-        for (j, v) in m {
-            sum = &sum
-                + &x[*j]
-                    .scale(&(v.numer() * (&clear / v.denom())))
-                    .shift(power);
-        }
+    for (j, v) in a {
+        let coefficient = v.numer() * (&scale / v.denom());
+        sum = &sum + &x[*j].scale(&coefficient);
     }
-    (sum, clear)
+
+    for (j, v) in b {
+        let coefficient = v.numer() * (&scale / v.denom());
+        sum = &sum + &x[*j].scale(&coefficient).shift(1);
+    }
+
+    (sum, scale)
 }
 
 #[cfg(test)]
@@ -342,25 +358,19 @@ mod tests {
 
     /// [[1, -6], [2, -6]] + t I: t = 2 with x = (2, 1).
     fn listed(x: &[f64]) -> Listed {
-        let pencil = Pencil::new(
-            Sparse::from_ints(&[&[1, -6], &[2, -6]]),
-            Sparse::identity(2),
-            vec![],
-        )
-        .unwrap();
+        let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
+        let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all()).unwrap();
         let reduced = reduce(&problem).unwrap();
         let certifier = Certifier::new(&problem, &reduced.pencil);
 
-        let value = Interval::new(
-            whole(2) - rational(1, 1 << 20),
-            whole(2) + rational(1, 1 << 20),
-        )
-        .unwrap();
+        let radius = rational(1, 1 << 20);
+        let value = Interval::new(whole(2) - &radius, whole(2) + &radius).unwrap();
         let proved = AcceptedClaim {
             support: vec![0, 1],
             value,
         };
+
         Listed::of_cover(&problem, &reduced, &certifier, &proved, x)
     }
 
@@ -376,24 +386,26 @@ mod tests {
         );
     }
 
+    fn accepted(support: &[usize], from: i64, to: i64) -> AcceptedClaim {
+        AcceptedClaim {
+            support: support.to_vec(),
+            value: Interval::new(whole(from), whole(to)).unwrap(),
+        }
+    }
+
     /// A claim whose values reach out of the enclosure may be about a neighbour, and so may one
     /// with another support.
     #[test]
     fn a_claim_that_only_overlaps_is_not_taken() {
-        let claim = |support: &[usize], a: i64, b: i64| AcceptedClaim {
-            support: support.to_vec(),
-            value: Interval::new(whole(a), whole(b)).unwrap(),
-        };
-        let proved = claim(&[0, 1], 4, 6);
+        let proved = accepted(&[0, 1], 4, 6);
 
-        assert!(
-            is_about(&claim(&[0, 1], 4, 6), &proved) && is_about(&claim(&[0, 1], 5, 5), &proved)
-        );
+        assert!(is_about(&accepted(&[0, 1], 4, 6), &proved));
+        assert!(is_about(&accepted(&[0, 1], 5, 5), &proved));
         for other in [
-            claim(&[0, 1], 3, 5),
-            claim(&[0, 1], 5, 7),
-            claim(&[0, 1], 3, 7),
-            claim(&[0], 5, 5),
+            accepted(&[0, 1], 3, 5),
+            accepted(&[0, 1], 5, 7),
+            accepted(&[0, 1], 3, 7),
+            accepted(&[0], 5, 5),
         ] {
             assert!(!is_about(&other, &proved), "{other:?}");
         }

@@ -1,4 +1,7 @@
 //! What people and programs read: `mceip-solutions/1` and plain tables.
+//!
+//! `listed` turns a solution into decimals, `solutions` writes a list of solutions with what stands
+//! behind it, `table` aligns columns.
 
 mod listed;
 mod solutions;

@@ -1,13 +1,17 @@
 //! `mceip-solutions/1`, and the same for people.
+//!
+//! Input: a [`Report`], which says of its list of solutions how much it claims and why. Output:
+//! JSON ([`solutions_json`]) or text ([`solutions_text`]). Called by `mceip solve`, `enumerate` and
+//! `complete` and by the conformance pack.
 
-use super::listed::Listed;
+use super::listed::{DIGITS, Listed};
 use super::table::Table;
 use crate::candidate::SOLUTIONS_FORMAT;
 use crate::reduction::{Reduced, Variable};
 use mceip_check::{AcceptedCover, OpenRegion, SolutionFamily};
 use mceip_exact::{Integer, Interval, Poly, enclosing_decimals, to_decimal};
 use mceip_model::{Body, Problem};
-use mceip_oracle::{End, Enumeration, Piece, SupportRange};
+use mceip_oracle::{Cone, End, Enumeration, Piece, SupportRange};
 use serde_json::{Value, json};
 
 /// Solutions with what stands behind them.
@@ -56,6 +60,7 @@ impl Claimed {
         if !cover.open.is_empty() {
             return Claimed::Solutions;
         }
+
         if cover.is_plain_list() {
             Claimed::Complete
         } else {
@@ -76,8 +81,8 @@ impl Claimed {
 /// Everything to be listed: the solutions, and between them the cones of the enumerator.
 fn entries(report: &Report<'_>) -> Vec<Listed> {
     match report.enumeration {
-        Some(e) if !(e.wide.is_empty() && e.continua.is_empty()) => {
-            Listed::of_enumeration(report.problem, report.reduced, e)
+        Some(found) if !(found.wide.is_empty() && found.continua.is_empty()) => {
+            Listed::of_enumeration(report.problem, report.reduced, found)
         }
         _ => report.solutions.clone(),
     }
@@ -85,92 +90,109 @@ fn entries(report: &Report<'_>) -> Vec<Listed> {
 
 /// The report as JSON.
 pub fn solutions_json(report: &Report<'_>) -> Value {
-    let ranges = |e: &Enumeration| e.ranges.iter().map(range).collect::<Vec<_>>();
-    let undescribed = |e: &Enumeration| {
-        e.undescribed
-            .iter()
-            .map(|u| json!({ "support": u.support, "reason": u.to_string() }))
-            .collect()
-    };
+    let solutions: Vec<Value> = entries(report).iter().map(listed).collect();
+    let mut continua = Vec::new();
+    let mut undescribed = Vec::new();
+    if let Some(enumeration) = report.enumeration {
+        continua.extend(enumeration.ranges.iter().map(range));
+        for u in &enumeration.undescribed {
+            undescribed.push(json!({ "support": u.support, "reason": u.to_string() }));
+        }
+    }
+
     let mut out = json!({
         "format": SOLUTIONS_FORMAT,
         "problem_sha256": report.problem.sha256(),
         "unknown": report.problem.unknown().word(),
         "claim": report.claim.word(),
         "evidence": report.evidence,
-        "solutions": entries(report).iter().map(listed).collect::<Vec<_>>(),
-        "continua": report.enumeration.map_or_else(Vec::new, ranges),
+        "solutions": solutions,
+        "continua": continua,
     });
-    let open: Vec<Value> = report.enumeration.map_or_else(Vec::new, undescribed);
-    if !open.is_empty() {
-        out["undescribed"] = json!(open);
+    if !undescribed.is_empty() {
+        out["undescribed"] = json!(undescribed);
     }
+
     if let Some(cover) = report.cover {
         out["families"] = cover.families.iter().map(family).collect();
         out["open"] = cover.open.iter().map(region).collect();
     }
+
     if let Body::System(_) = report.problem.body() {
         out["variables"] = report.reduced.variables.iter().map(variable).collect();
     }
+
     out
 }
 
 /// A family of a cover: its support, and decimals that enclose the ends of its values.
-fn family(f: &SolutionFamily) -> Value {
-    let ends = |v: &Interval| <[String; 2]>::from(enclosing_decimals(v, 15));
+fn family(family: &SolutionFamily) -> Value {
     json!({
-        "slip": f.support,
-        "from": ends(&f.from),
-        "to": f.to.as_ref().map(ends),
-        "one_value": f.is_point,
-        "one_solution_each": f.is_alone,
+        "slip": family.support,
+        "from": enclosure(&family.from),
+        "to": family.to.as_ref().map(enclosure),
+        "one_value": family.is_point,
+        "one_solution_each": family.is_alone,
     })
 }
 
+/// Decimals that enclose a value.
+fn enclosure(value: &Interval) -> [String; 2] {
+    enclosing_decimals(value, 15).into()
+}
+
 /// A region that a cover leaves open.
-fn region(r: &OpenRegion) -> Value {
-    let max = r.max.as_ref().map(ToString::to_string);
-    json!({ "min": r.min.to_string(), "max": max, "moving": r.moving, "undecided": r.undecided })
+fn region(region: &OpenRegion) -> Value {
+    let max = region.max.as_ref().map(ToString::to_string);
+    json!({
+        "min": region.min.to_string(),
+        "max": max,
+        "moving": region.moving,
+        "undecided": region.undecided,
+    })
 }
 
 /// A support with the intervals of values at which it has a solution.
-fn range(r: &SupportRange) -> Value {
-    let kernel: Vec<Vec<Vec<String>>> = r
-        .kernel
-        .iter()
-        .map(|v| v.iter().map(|p| coefficients(p.coeffs())).collect())
-        .collect();
+fn range(range: &SupportRange) -> Value {
+    let intervals: Vec<Value> = range.pieces.iter().map(interval).collect();
+    let mut kernel = Vec::with_capacity(range.kernel.len());
+    for vector in &range.kernel {
+        let vector: Vec<Vec<String>> = vector.iter().map(|p| coefficients(p.coeffs())).collect();
+        kernel.push(vector);
+    }
+
     json!({
-        "slip": r.support,
-        "intervals": r.pieces.iter().map(interval).collect::<Vec<_>>(),
+        "slip": range.support,
+        "intervals": intervals,
         "kernel": kernel,
     })
 }
 
 fn interval(piece: &Piece) -> Value {
-    let end = |e: &End| {
-        let (polynomial, ends) = (
-            coefficients(e.value.poly().coeffs()),
-            [e.value.interval().lo(), e.value.interval().hi()],
-        );
-        let exact = json!({ "polynomial": polynomial, "interval": ends.map(ToString::to_string) });
-        json!({ "value": decimal(e), "included": e.included, "exact": exact })
-    };
     json!({ "from": end(&piece.from), "to": piece.to.as_ref().map(end) })
 }
 
+/// An end of an interval of values: in decimals, and exactly.
+fn end(end: &End) -> Value {
+    let interval = end.value.interval();
+    let exact = json!({
+        "polynomial": coefficients(end.value.poly().coeffs()),
+        "interval": [interval.lo().to_string(), interval.hi().to_string()],
+    });
+    json!({ "value": decimal(end), "included": end.included, "exact": exact })
+}
+
+/// The value of an end in decimals.
 fn decimal(end: &End) -> String {
-    to_decimal(
-        &mut end.value.clone(),
-        &Poly::from_ints(&[0, 1]),
-        super::listed::DIGITS,
-    )
+    let t = Poly::from_ints(&[0, 1]);
+    to_decimal(&mut end.value.clone(), &t, DIGITS)
 }
 
-fn coefficients(c: &[Integer]) -> Vec<String> {
-    c.iter().map(ToString::to_string).collect()
+fn coefficients(list: &[Integer]) -> Vec<String> {
+    list.iter().map(ToString::to_string).collect()
 }
 
+/// A solution, or a cone by the mean of its rays.
 fn listed(s: &Listed) -> Value {
     let mut out = json!({
         "value": s.value,
@@ -185,17 +207,21 @@ fn listed(s: &Listed) -> Value {
         out["rays"] = cone.rays.iter().map(ray).collect();
         out["lineality"] = json!(cone.lineality);
     }
+
     if let Some(ends) = &s.enclosure {
         out["enclosure"] = json!(ends);
     }
+
     if let Some((polynomial, interval)) = &s.exact {
         let interval: Vec<String> = interval.iter().map(ToString::to_string).collect();
         out["exact"] = json!({ "polynomial": coefficients(polynomial), "interval": interval });
     }
+
     if let Some((v, w)) = &s.lifted {
         out["v"] = json!(v);
         out["w"] = json!(w);
     }
+
     out
 }
 
@@ -214,131 +240,163 @@ fn variable(v: &Variable) -> Value {
     match v {
         Variable::Free { dof } => json!({ "free": dof }),
         Variable::Slip { sign, tangent, .. } => {
-            let tangent: Vec<Value> = tangent
-                .iter()
-                .map(|(dof, c)| json!([dof, c.to_string()]))
-                .collect();
-            json!({ "slip": { "sign": sign, "tangent": tangent } })
+            let mut terms = Vec::with_capacity(tangent.len());
+            for (dof, coefficient) in tangent {
+                terms.push(json!([dof, coefficient.to_string()]));
+            }
+            json!({ "slip": { "sign": sign, "tangent": terms } })
         }
     }
 }
 
 /// The report for people.
 pub fn solutions_text(report: &Report<'_>) -> String {
-    // All of x where that fits a line, else the slip variables.
-    let order = report.reduced.pencil.order();
-    let slip = if order <= SHORT {
-        (0..order).collect()
+    let mut out = String::new();
+    if !report.solutions.is_empty() {
+        out += &table(report).to_string();
+        out += &meaning(report);
+    }
+
+    if let Some(enumeration) = report.enumeration {
+        out += &degenerate(report, enumeration);
+    }
+
+    let count = report.solutions.len();
+    let plural = if count == 1 { "" } else { "s" };
+    out += &format!("{count} solution{plural}: {}\n", report.evidence);
+    out
+}
+
+/// Is x short enough to be printed in full?
+fn is_short(report: &Report<'_>) -> bool {
+    report.reduced.pencil.order() <= SHORT
+}
+
+/// The variables whose values are printed: all of them where that fits a line, else the slip
+/// variables.
+fn printed_variables(report: &Report<'_>) -> Vec<usize> {
+    let pencil = &report.reduced.pencil;
+    if is_short(report) {
+        (0..pencil.order()).collect()
     } else {
-        report.reduced.pencil.slip()
-    };
-    let what = if order <= SHORT {
+        pencil.slip()
+    }
+}
+
+/// The solutions, one a row.
+fn table(report: &Report<'_>) -> Table {
+    let title_of_x = if is_short(report) {
         "x (e'x_s = 1)"
     } else {
         "x (slip variables, e'x_s = 1)"
     };
-    let mut table = Table::new(&[report.problem.unknown().word(), "slip", "biactive", what]);
-    for s in &report.solutions {
-        let x: Vec<String> = slip.iter().map(|&i| short(&s.x[i])).collect();
+
+    let unknown = report.problem.unknown().word();
+    let mut table = Table::new(&[unknown, "slip", "biactive", title_of_x]);
+    for solution in &report.solutions {
         table.row(vec![
-            s.value.clone(),
-            format!("{:?}", s.slip),
-            format!("{:?}", s.biactive),
-            x.join(" "),
+            solution.value.clone(),
+            format!("{:?}", solution.slip),
+            format!("{:?}", solution.biactive),
+            vector_text(report, &solution.x),
         ]);
     }
-    let mut out = if report.solutions.is_empty() {
-        String::new()
-    } else {
-        table.to_string() + &meaning(report, &slip)
-    };
-    if let Some(e) = report.enumeration {
-        out += &degenerate(report, e, &slip);
-    }
-    out += &format!(
-        "{} solution{}: {}\n",
-        report.solutions.len(),
-        if report.solutions.len() == 1 { "" } else { "s" },
-        report.evidence
-    );
-    out
+
+    table
+}
+
+/// The printed components of x.
+fn vector_text(report: &Report<'_>, x: &[String]) -> String {
+    let printed = printed_variables(report);
+    let components: Vec<String> = printed.iter().map(|&i| short(&x[i])).collect();
+    components.join(" ")
 }
 
 /// Cones and continua, and what lies outside the propositions.
-fn degenerate(report: &Report<'_>, e: &Enumeration, printed: &[usize]) -> String {
+fn degenerate(report: &Report<'_>, enumeration: &Enumeration) -> String {
     let mut out = String::new();
-    let vector = |x: &[String]| {
-        printed
-            .iter()
-            .map(|&i| short(&x[i]))
-            .collect::<Vec<_>>()
-            .join(" ")
-    };
-    for cone in &e.cones {
-        let listed = Listed::of_cone(report.problem, report.reduced, cone);
-        out += &format!(
-            "cone of dimension {} at {}, slip {:?}: combinations of\n",
-            cone.dimension, listed.value, cone.slip
-        );
-        let Some(c) = listed.cone else { continue };
-        c.rays
-            .iter()
-            .for_each(|r| out += &format!("  ray {}\n", vector(&r.x)));
-        c.lineality
-            .iter()
-            .for_each(|l| out += &format!("  line {} (either sign)\n", vector(l)));
+    for cone in &enumeration.cones {
+        out += &cone_text(report, cone);
     }
-    for r in &e.ranges {
-        let text: Vec<String> = r.pieces.iter().map(interval_text).collect();
+
+    for range in &enumeration.ranges {
+        let intervals: Vec<String> = range.pieces.iter().map(interval_text).collect();
         out += &format!(
             "continuum: slip {:?} has solutions for every value in {}\n",
-            r.support,
-            text.join(", ")
+            range.support,
+            intervals.join(", ")
         );
     }
-    e.undescribed.iter().for_each(|u| out += &format!("{u}\n"));
-    if e.is_outside_propositions() {
+
+    for undescribed in &enumeration.undescribed {
+        out += &format!("{undescribed}\n");
+    }
+
+    if enumeration.is_outside_propositions() {
         out += "some solutions have x_s = 0: outside Propositions 1 and 2 (K_ff or M_ff is not \
                 definite)\n";
     }
+
+    out
+}
+
+/// A cone by its rays and lines.
+fn cone_text(report: &Report<'_>, cone: &Cone) -> String {
+    let listed = Listed::of_cone(report.problem, report.reduced, cone);
+    let mut out = format!(
+        "cone of dimension {} at {}, slip {:?}: combinations of\n",
+        cone.dimension, listed.value, cone.slip
+    );
+    let Some(listed_cone) = listed.cone else {
+        return out;
+    };
+
+    for ray in &listed_cone.rays {
+        out += &format!("  ray {}\n", vector_text(report, &ray.x));
+    }
+
+    for line in &listed_cone.lineality {
+        out += &format!("  line {} (either sign)\n", vector_text(report, line));
+    }
+
     out
 }
 
 fn interval_text(piece: &Piece) -> String {
-    let from = format!(
-        "{}{}",
-        if piece.from.included { "[" } else { "(" },
-        short(&decimal(&piece.from))
-    );
-    match &piece.to {
-        Some(to) => format!(
-            "{from}, {}{}",
-            short(&decimal(to)),
-            if to.included { "]" } else { ")" }
-        ),
-        None => format!("{from}, infinity)"),
-    }
+    let bracket = if piece.from.included { "[" } else { "(" };
+    let from = short(&decimal(&piece.from));
+    let Some(to) = &piece.to else {
+        return format!("{bracket}{from}, infinity)");
+    };
+
+    let closing_bracket = if to.included { "]" } else { ")" };
+    let to = short(&decimal(to));
+    format!("{bracket}{from}, {to}{closing_bracket}")
 }
 
 /// Largest order whose x is printed in full.
 const SHORT: usize = 8;
 
 /// What the printed variables of a system stand for: dofs, and particles by their dof and S.
-fn meaning(report: &Report<'_>, printed: &[usize]) -> String {
-    let one = |i: &usize| match report.reduced.variables.get(*i)? {
-        Variable::Free { dof } => Some(format!("x[{i}] = v[{dof}]")),
-        Variable::Slip { sign, tangent, .. } => {
-            let dof = tangent.first().map_or(0, |d| d.0);
-            Some(format!(
-                "x[{i}] = -S v_T of the particle at dof {dof}, S = {sign:+}"
-            ))
+fn meaning(report: &Report<'_>) -> String {
+    let mut meanings = Vec::new();
+    for i in printed_variables(report) {
+        match report.reduced.variables.get(i) {
+            None => {}
+            Some(Variable::Free { dof }) => meanings.push(format!("x[{i}] = v[{dof}]")),
+            Some(Variable::Slip { sign, tangent, .. }) => {
+                let dof = tangent.first().map_or(0, |(dof, _)| *dof);
+                meanings.push(format!(
+                    "x[{i}] = -S v_T of the particle at dof {dof}, S = {sign:+}"
+                ));
+            }
         }
-    };
-    let lines: Vec<String> = printed.iter().filter_map(one).collect();
-    if lines.is_empty() {
+    }
+
+    if meanings.is_empty() {
         String::new()
     } else {
-        format!("where {}\n", lines.join(", "))
+        format!("where {}\n", meanings.join(", "))
     }
 }
 

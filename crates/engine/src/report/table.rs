@@ -1,4 +1,4 @@
-//! A plain text table with aligned columns.
+//! A plain text table with aligned columns, two blanks between them.
 
 /// Rows of cells; the first row is the header.
 #[derive(Debug, Default)]
@@ -14,6 +14,19 @@ impl Table {
         }
     }
 
+    /// The length of the longest cell of each column.
+    fn widths(&self) -> Vec<usize> {
+        let mut widths = Vec::new();
+        for row in &self.rows {
+            widths.resize(widths.len().max(row.len()), 0);
+            for (width, cell) in widths.iter_mut().zip(row) {
+                *width = cell.chars().count().max(*width);
+            }
+        }
+
+        widths
+    }
+
     /// Adds a row.
     pub fn row(&mut self, cells: Vec<String>) {
         self.rows.push(cells);
@@ -22,24 +35,15 @@ impl Table {
 
 impl std::fmt::Display for Table {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
-        let width = |c: usize| {
-            self.rows
-                .iter()
-                .filter_map(|r| r.get(c))
-                .map(|s| s.chars().count())
-                .max()
-                .unwrap_or(0)
-        };
-        let widths: Vec<usize> = (0..columns).map(width).collect();
+        let widths = self.widths();
         for row in &self.rows {
-            let cells: Vec<String> = row
-                .iter()
-                .zip(&widths)
-                .map(|(s, &w)| format!("{s:<w$}"))
-                .collect();
+            let mut cells = Vec::with_capacity(row.len());
+            for (cell, &width) in row.iter().zip(&widths) {
+                cells.push(format!("{cell:<width$}"));
+            }
             writeln!(f, "{}", cells.join("  ").trim_end())?;
         }
+
         Ok(())
     }
 }
@@ -50,8 +54,9 @@ mod tests {
 
     #[test]
     fn columns_line_up() {
-        let mut t = Table::new(&["a", "long"]);
-        t.row(vec!["wide".into(), "x".into()]);
-        assert_eq!(t.to_string(), "a     long\nwide  x\n");
+        let mut table = Table::new(&["a", "long"]);
+        table.row(vec!["wide".into(), "x".into()]);
+
+        assert_eq!(table.to_string(), "a     long\nwide  x\n");
     }
 }

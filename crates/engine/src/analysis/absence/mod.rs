@@ -1,12 +1,16 @@
 //! No solution for any lambda^2 >= 0 and any mu below a bound: a cover of the (lambda^2, mu)
 //! quadrant.
 //!
-//! Boxes in (s, m), t = tau s/(1-s), mu = nu m/(1-m), times states of the slip variables. On a box
-//! the condensed family is a convex combination of its four corners up to a radius (`strip`), so a
-//! Farkas vector that works at the four corners, or a symmetric part definite there, empties the
-//! box. Boxes are taken in the order of mu; the first that cannot be emptied ends the search, and
-//! everything below it is proved. t = infinity (s = 1) is included. Doubles propose, integers
-//! decide.
+//! The quadrant is mapped to the unit square by lambda^2 = t = tau s/(1-s) and mu = nu m/(1-m); s =
+//! 1 (t = infinity) is included. The cover consists of boxes in (s, m), times states of the slip
+//! variables. On a box the condensed family is a convex combination of its four corners up to a
+//! radius (`strip`), so a Farkas vector that works at the four corners, or a symmetric part
+//! definite there, proves that the box holds no solution (`judge`). Boxes are taken in the order of
+//! mu; the first that cannot be emptied ends the search, and everything below it is proved. Doubles
+//! propose, integers decide.
+//!
+//! Input: K* and M* as functions of mu, and the mu below which the conditions (19), (20) have
+//! excluded all. Output: [`Absence`]. Called by `critical`.
 
 mod family;
 mod judge;
@@ -17,7 +21,6 @@ use crate::run::Watch;
 use family::Scaled;
 use judge::{Corners, State, Verdict};
 use mceip_exact::Rational;
-use mceip_model::Pencil;
 use num_traits::One;
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
@@ -68,7 +71,7 @@ const LEVEL: u32 = 22;
 /// A box of this relative size (2^-this, in s and m) that cannot be emptied ends the search.
 const TINY: u32 = 14;
 
-/// A box: [s, s + 1] / 2^s_level by [m, m + 1] / 2^m_level, and the states.
+/// A box [s, s + 1] / 2^s_level by [m, m + 1] / 2^m_level, and the state of each slip variable.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Region {
     s: u64,
@@ -79,10 +82,71 @@ struct Region {
 }
 
 impl Region {
+    /// The unit square with every slip variable open.
+    fn whole(slip_count: usize) -> Region {
+        Region {
+            s: 0,
+            s_level: 0,
+            m: 0,
+            m_level: 0,
+            states: vec![State::Open; slip_count],
+        }
+    }
+
     /// Lower end of m in units of 2^-LEVEL: the order of the search.
     fn m_key(&self) -> u64 {
         self.m << (LEVEL - self.m_level)
     }
+
+    fn lower_mu(&self, scaled: &Scaled) -> Option<Rational> {
+        position(&scaled.nu, self.m, self.m_level)
+    }
+
+    fn upper_mu(&self, scaled: &Scaled) -> Option<Rational> {
+        position(&scaled.nu, self.m + 1, self.m_level)
+    }
+
+    fn lower_lambda2(&self, scaled: &Scaled) -> Option<Rational> {
+        position(&scaled.tau, self.s, self.s_level)
+    }
+
+    fn upper_lambda2(&self, scaled: &Scaled) -> Option<Rational> {
+        position(&scaled.tau, self.s + 1, self.s_level)
+    }
+
+    fn with_state(&self, variable: usize, state: State) -> Region {
+        let mut region = self.clone();
+        region.states[variable] = state;
+        region
+    }
+
+    /// The half of lower (k = 0) or upper (k = 1) m.
+    fn half_along_m(&self, k: u64) -> Region {
+        Region {
+            m: 2 * self.m + k,
+            m_level: self.m_level + 1,
+            ..self.clone()
+        }
+    }
+
+    /// The half of lower (k = 0) or upper (k = 1) s.
+    fn half_along_s(&self, k: u64) -> Region {
+        Region {
+            s: 2 * self.s + k,
+            s_level: self.s_level + 1,
+            ..self.clone()
+        }
+    }
+}
+
+/// unit p / (1 - p) at p = index / 2^level; `None` for infinity.
+fn position(unit: &Rational, index: u64, level: u32) -> Option<Rational> {
+    let distance_to_one = (1u64 << level) - index;
+    if distance_to_one == 0 {
+        return None;
+    }
+
+    Some(unit * Rational::new(index.into(), distance_to_one.into()))
 }
 
 /// Covers the quadrant from mu = 0 up. `excluded_below`: mu below which (20) and (19) have already
@@ -95,62 +159,53 @@ pub fn absence(
     limits: Limits,
     watch: &Watch<'_>,
 ) -> Option<Absence> {
-    let mass: &Pencil = family.mass.as_ref()?;
-    if family.stiffness.slip().len() > limits.slip || family.stiffness.free().len() > limits.free {
+    let stiffness = &family.stiffness;
+    let mass = family.mass.as_ref()?;
+    if stiffness.slip().len() > limits.slip || stiffness.free().len() > limits.free {
         return None;
     }
-    let scaled = Scaled::new(&family.stiffness, mass)?;
+
+    let scaled = Scaled::new(stiffness, mass)?;
     let mut strips = Strips {
         scaled: &scaled,
         known: HashMap::new(),
     };
+
     let mut queue = Queue::default();
-    queue.push(Region {
-        s: 0,
-        s_level: 0,
-        m: 0,
-        m_level: 0,
-        states: vec![State::Open; scaled.slip],
-    });
+    queue.push(Region::whole(scaled.slip_count()));
+
     let mut boxes = 0;
     while let Some(region) = queue.pop() {
-        let used_up =
-            boxes >= limits.boxes || (scaled.free > 0 && strips.known.len() >= limits.strips);
-        let cut_short = used_up || watch.is_cancelled();
+        let is_used_up = boxes >= limits.boxes || strips.are_used_up(limits);
+        let must_stop = is_used_up || watch.is_cancelled();
         boxes += 1;
-        if upper_mu(&scaled, &region).is_some_and(|mu| mu <= *excluded_below) {
+
+        if let Some(mu) = region.upper_mu(&scaled)
+            && mu <= *excluded_below
+        {
             continue;
         }
-        let strip = strips.over(&region)?;
-        let verdict = if strip.too_wide {
-            Verdict::Split {
-                along_m: false,
-                hopeful: true,
-            }
-        } else {
-            Corners::new(&strip, region.m, region.m_level).judge(&region.states)
-        };
+
+        let verdict = strips.judge(&region)?;
         let children = children(&region, verdict);
-        let ended = children.is_none();
-        if ended || (cut_short && !matches!(verdict, Verdict::Empty)) {
-            let below = lower_mu(&scaled, &region).max(Some(excluded_below.clone()));
-            let end = |s: u64| position(&scaled.tau, s, region.s_level);
-            let blocked = Some((
-                end(region.s).unwrap_or_else(Rational::one),
-                end(region.s + 1),
-            ));
+        let is_blocked = children.is_none();
+
+        if is_blocked || (must_stop && verdict != Verdict::Empty) {
+            let lower = region.lower_lambda2(&scaled);
+            let upper = region.upper_lambda2(&scaled);
             return Some(Absence {
-                below,
-                blocked,
+                below: region.lower_mu(&scaled).max(Some(excluded_below.clone())),
+                blocked: Some((lower.unwrap_or_else(Rational::one), upper)),
                 boxes,
-                cut_short: !ended,
+                cut_short: !is_blocked,
             });
         }
-        children
-            .into_iter()
-            .flatten()
-            .for_each(|child| queue.push(child));
+
+        for child in children.into_iter().flatten() {
+            queue.push(child);
+        }
     }
+
     Some(Absence {
         below: None,
         blocked: None,
@@ -162,7 +217,9 @@ pub fn absence(
 /// Regions in the order of mu, then in that of arrival.
 #[derive(Default)]
 struct Queue {
+    /// Keys of mu and numbers of arrival.
     order: BinaryHeap<Reverse<(u64, usize)>>,
+    /// The regions by their numbers of arrival.
     regions: HashMap<usize, Region>,
     arrived: usize,
 }
@@ -180,19 +237,41 @@ impl Queue {
     }
 }
 
-/// The strips met so far, by (s, s_level): eliminating the free variables is the dear part.
+/// The strips met so far, by (s, s_level). They are kept because eliminating the free variables
+/// takes most of the time.
 struct Strips<'a> {
     scaled: &'a Scaled,
     known: HashMap<(u64, u32), Rc<Strip>>,
 }
 
 impl Strips<'_> {
+    /// Have free variables been eliminated as often as the limits allow?
+    fn are_used_up(&self, limits: Limits) -> bool {
+        let has_free_variables = self.scaled.free_count() > 0;
+        has_free_variables && self.known.len() >= limits.strips
+    }
+
+    /// What to do with a region; `None` if doubles fail there.
+    fn judge(&mut self, region: &Region) -> Option<Verdict> {
+        let strip = self.over(region)?;
+        if strip.too_wide {
+            return Some(Verdict::Split {
+                along_m: false,
+                hopeful: true,
+            });
+        }
+
+        let corners = Corners::new(&strip, region.m, region.m_level);
+        Some(corners.judge(&region.states))
+    }
+
     /// The strip a region lies in; `None` if doubles fail there.
     fn over(&mut self, region: &Region) -> Option<Rc<Strip>> {
         let key = (region.s, region.s_level);
         if let Some(strip) = self.known.get(&key) {
             return Some(Rc::clone(strip));
         }
+
         let strip = Rc::new(Strip::new(self.scaled, region.s, region.s_level)?);
         self.known.insert(key, Rc::clone(&strip));
         Some(strip)
@@ -202,62 +281,41 @@ impl Strips<'_> {
 /// What is left of a region after a verdict; `None` if it should be halved and is too small for
 /// that.
 fn children(region: &Region, verdict: Verdict) -> Option<Vec<Region>> {
-    let decided = |i: usize, state| {
-        let mut child = region.clone();
-        child.states[i] = state;
-        child
-    };
     match verdict {
         Verdict::Empty => Some(Vec::new()),
-        Verdict::Branch(i) => Some(
-            [State::Moving, State::Rest]
-                .map(|state| decided(i, state))
-                .to_vec(),
-        ),
+        Verdict::Branch(variable) => Some(vec![
+            region.with_state(variable, State::Moving),
+            region.with_state(variable, State::AtRest),
+        ]),
         Verdict::Split { along_m, hopeful } => halves(region, along_m, hopeful),
     }
 }
 
 /// The halves of a box; `None` if it is too small for that.
+///
+/// It is halved in the direction asked for, except where it is finest in that direction, or tiny
+/// and not hopeful. A box that is tiny in both directions and not hopeful seems to hold a solution.
 fn halves(region: &Region, along_m: bool, hopeful: bool) -> Option<Vec<Region>> {
+    let m_is_finest = region.m_level >= LEVEL;
+    let s_is_finest = region.s_level >= LEVEL;
     // Relative to its place in m; absolute in s.
-    let tiny_m = region.m >> TINY > 0 || region.m_level >= LEVEL;
-    let tiny_s = region.s_level >= TINY;
-    let along_m = match (along_m, hopeful) {
-        (_, false) if tiny_m && tiny_s => return None,
-        (true, false) if tiny_m => false,
-        (false, false) if tiny_s => true,
-        (true, _) if region.m_level >= LEVEL => false,
-        (false, _) if region.s_level >= LEVEL => true,
-        (along_m, _) => along_m,
-    };
-    if (along_m && region.m_level >= LEVEL) || (!along_m && region.s_level >= LEVEL) {
+    let m_is_tiny = region.m >> TINY > 0 || m_is_finest;
+    let s_is_tiny = region.s_level >= TINY;
+    if !hopeful && m_is_tiny && s_is_tiny {
         return None;
     }
-    let half = |k: u64| {
-        let mut child = region.clone();
-        if along_m {
-            (child.m, child.m_level) = (2 * region.m + k, region.m_level + 1);
-        } else {
-            (child.s, child.s_level) = (2 * region.s + k, region.s_level + 1);
-        }
-        child
-    };
-    Some(vec![half(0), half(1)])
-}
 
-/// unit p / (1 - p) at p = index / 2^level; `None` for infinity.
-fn position(unit: &Rational, index: u64, level: u32) -> Option<Rational> {
-    let rest = (1u64 << level) - index;
-    (rest > 0).then(|| unit * Rational::new(index.into(), rest.into()))
-}
+    let avoids_m = m_is_finest || (!hopeful && m_is_tiny);
+    let avoids_s = s_is_finest || (!hopeful && s_is_tiny);
+    let along_m = if along_m { !avoids_m } else { avoids_s };
 
-fn lower_mu(scaled: &Scaled, region: &Region) -> Option<Rational> {
-    position(&scaled.nu, region.m, region.m_level)
-}
-
-fn upper_mu(scaled: &Scaled, region: &Region) -> Option<Rational> {
-    position(&scaled.nu, region.m + 1, region.m_level)
+    if along_m && !m_is_finest {
+        Some(vec![region.half_along_m(0), region.half_along_m(1)])
+    } else if !along_m && !s_is_finest {
+        Some(vec![region.half_along_s(0), region.half_along_s(1)])
+    } else {
+        None
+    }
 }
 
 #[cfg(test)]
@@ -290,13 +348,15 @@ mod tests {
                 mu: whole(1),
                 signs,
             };
+
             let found = cover(&mu_family(&two_particles(&data).unwrap()).unwrap());
+
             let below = found.below.as_ref().map(to_f64);
             match (threshold, below) {
-                (Some(t), Some(b)) => assert!(
-                    b <= t && b > t * 0.999 && !found.cut_short,
-                    "{signs:?}: {found:?}, {t}"
-                ),
+                (Some(t), Some(b)) => {
+                    assert!(b <= t && b > t * 0.999, "{signs:?}: {found:?}, {t}");
+                    assert!(!found.cut_short, "{signs:?}: {found:?}");
+                }
                 // At m = 1, s = 1 the family vanishes (M1 = 0): a bound beyond any friction, not
                 // all of them.
                 (None, b) => assert!(b.is_none_or(|b| b > 1e6), "{found:?}"),
@@ -314,24 +374,20 @@ mod tests {
             &[0, -3, 99, 0],
             &[1, -4, 0, 99],
         ]);
-        let particle = |i: usize| Particle::plain(i, i + 2, ContactState::Slip { sign: 1 });
-        System::new(
-            k,
-            Some(Sparse::identity(4)),
-            Some(whole(2)),
-            vec![particle(0), particle(1)],
-        )
-        .unwrap()
+        let slip = ContactState::Slip { sign: 1 };
+        let particles = vec![Particle::plain(0, 2, slip), Particle::plain(1, 3, slip)];
+        System::new(k, Some(Sparse::identity(4)), Some(whole(2)), particles).unwrap()
     }
 
     #[test]
     fn a_fold_is_met_before_any_static_threshold() {
+        // tests/program/analyze.rs has the derivation.
+        let mu_of_fold = 1.0 + 0.75f64.sqrt();
+
         let found = cover(&mu_family(&fold()).unwrap());
+
         let below = to_f64(found.below.as_ref().unwrap());
-        let least = 1.0 + 0.75f64.sqrt(); // tests/program/analyze.rs has the derivation
-        assert!(
-            below <= least && below > 0.999 * least,
-            "{below} {least} {found:?}"
-        );
+        assert!(below <= mu_of_fold, "{below} {mu_of_fold} {found:?}");
+        assert!(below > 0.999 * mu_of_fold, "{below} {mu_of_fold} {found:?}");
     }
 }

@@ -1,18 +1,22 @@
 //! Over a short interval of s = t / (tau + t): the family condensed to the slip variables, as four
 //! integer matrices and radii, so that boxes in (s, m) are judged at their four corners.
 //!
-//! With t = tau s/(1-s) and mu = nu m/(1-m) the family (1-m)(1-s) times K + t M + mu (K1 + t M1) is
-//! bilinear in (s, m), so on a box it is a convex combination of its values at the corners. The
-//! free rows (divided by 1-m) do not depend on m: F(s) x_f + C(s) x_s = 0. For any constant W, and
-//! V affine in m, with R = C - F W and l = G_sf' - F V,
+//! The family of `family` is bilinear in (s, m), so on a box it is a convex combination of its
+//! values at the corners. Its free rows (divided by 1-m) do not depend on m: F(s) x_f + C(s) x_s =
+//! 0. For any constant W, and V affine in m, with R = C - F W and l = G_sf' - F V,
 //!
 //! ```text
 //! G_ss - G_sf F^-1 C = [G_ss - G_sf W - V'R] - l'F^-1 R,
 //! ```
 //!
-//! the bracket is bilinear and the rest at most |l_i||R_j| / sigma, sigma <= lambda_min(F).
+//! the bracket is bilinear and the rest at most |l_i||R_j| / sigma, sigma <= lambda_min(F). W and V
+//! approximate F^-1 C and F^-1 G_sf' in the middle of the interval, so that R and l are small.
+//!
+//! Below, an index k = 0, 1 says which part of the family is meant (the one without friction, the
+//! one of friction), and an index e = 0, 1 which end of the interval. Called by the cover in
+//! `mod.rs`.
 
-use super::family::{Fixed, Scaled};
+use super::family::{Blocks, IntegerMatrix, Scaled};
 use mceip_exact::{Integer, from_f64};
 use mceip_mcp::linear::solve;
 use num_traits::{Signed, ToPrimitive};
@@ -41,67 +45,121 @@ type Matrix = Vec<Vec<Integer>>;
 impl Strip {
     /// The strip over [s0, s1], in units of 2^-`level` from `index`. `None` if doubles fail.
     pub(super) fn new(family: &Scaled, index: u64, level: u32) -> Option<Strip> {
-        let shapes = Shapes::new(family, index, level)?;
-        let n = family.slip;
-        let mut z: [[Matrix; 2]; 2] = Default::default();
-        // Squared column norms, largest over the ends.
-        let mut worst_r = vec![Integer::default(); n];
-        let mut worst_l = [vec![Integer::default(); n], vec![Integer::default(); n]];
-        for e in 0..2 {
-            let at = family.at(index + e as u64, level);
-            // All in units of 2^-SHAPE_BITS: R = C - F W.
-            let r = shapes.residual(&at.free, &at.coupling, &shapes.w);
-            grow(&mut worst_r, &r, n);
-            for k in 0..2 {
-                let (ss, sf) = (&at.slip[k], &at.rows[k]);
-                let l = shapes.residual(&at.free, &transposed(sf, n, family.free), &shapes.v[k]);
-                grow(&mut worst_l[k], &l, n);
-                z[k][e] = shapes.bracket(ss, sf, &r, k);
-            }
-        }
-        let sigma = family.sigma(index, level);
-        let norm = |square: &Integer| square.sqrt() + 1; // an upper bound of the norm
-        let remainder = |k: usize, i: usize, j: usize| -> Integer {
-            if family.free == 0 {
-                return Integer::default();
-            }
-            // Units: l and R of 2^-SHAPE_BITS each; the bracket's are 2^-(2 SHAPE_BITS).
-            norm(&worst_l[k][i]) * norm(&worst_r[j]) / &sigma + 1
-        };
+        let condensed = Condensed::new(family, index, level)?;
         // One power of two takes the largest entry to ENTRY_BITS.
-        let bits = z
-            .iter()
-            .flatten()
-            .flatten()
-            .flatten()
-            .map(Integer::bits)
-            .max()
-            .unwrap_or(0);
-        let drop = bits.saturating_sub(ENTRY_BITS);
-        let short = |v: &Integer| (v >> drop).to_i64();
+        let dropped_bits = condensed.longest_entry().saturating_sub(ENTRY_BITS);
+
         let mut strip = Strip {
             z: Default::default(),
-            radius: [vec![0; n * n], vec![0; n * n]],
+            radius: Default::default(),
             too_wide: false,
         };
+
         for k in 0..2 {
             for e in 0..2 {
-                strip.z[k][e] = z[k][e].iter().flatten().map(short).collect::<Option<_>>()?;
+                strip.z[k][e] = shortened(&condensed.bracket[k][e], dropped_bits)?;
             }
-            for i in 0..n {
-                for j in 0..n {
-                    let rounding = i64::from(drop > 0);
-                    let r = remainder(k, i, j);
-                    match (&r >> drop).to_i64().filter(|v| *v < 1 << ENTRY_BITS) {
-                        Some(v) => {
-                            strip.radius[k][i * n + j] = v + i64::from(r.is_positive()) + rounding
-                        }
-                        None => strip.too_wide = true,
-                    }
-                }
+            match condensed.radius(k, dropped_bits) {
+                Some(radius) => strip.radius[k] = radius,
+                None => strip.too_wide = true,
             }
         }
+
         Some(strip)
+    }
+}
+
+/// The entries without their last bits, row by row.
+fn shortened(matrix: &Matrix, dropped_bits: u64) -> Option<Vec<i64>> {
+    let entries = matrix.iter().flatten();
+    entries.map(|v| (v >> dropped_bits).to_i64()).collect()
+}
+
+/// The bracket at both ends of an interval, and what bounds the rest between them. Units: those of
+/// the family times 2^-(2 SHAPE_BITS) for the bracket, 2^-SHAPE_BITS for R and l.
+struct Condensed {
+    slip_count: usize,
+    /// `bracket[k][e]`.
+    bracket: [[Matrix; 2]; 2],
+    /// The larger |R_j| of both ends, rounded up, for each column j.
+    norm_r: Vec<Integer>,
+    /// The larger |l_i| of both ends, rounded up, for each column i and both k.
+    norm_l: [Vec<Integer>; 2],
+    /// A lower bound of lambda_min(F) over the interval; `None` without free variables.
+    sigma: Option<Integer>,
+}
+
+impl Condensed {
+    fn new(family: &Scaled, index: u64, level: u32) -> Option<Condensed> {
+        let shapes = Shapes::new(family, index, level)?;
+        let n = family.slip_count();
+        let mut bracket: [[Matrix; 2]; 2] = Default::default();
+        let mut largest_r = vec![Integer::default(); n];
+        let mut largest_l = [vec![Integer::default(); n], vec![Integer::default(); n]];
+
+        for e in 0..2 {
+            let blocks = family.at(index + e as u64, level);
+            let r = residual(&blocks.free_free, &blocks.free_slip, &shapes.w);
+            update_squares(&mut largest_r, &r);
+            for k in 0..2 {
+                let free_slip = transposed(&blocks.slip_free[k]);
+                let l = residual(&blocks.free_free, &free_slip, &shapes.v[k]);
+                update_squares(&mut largest_l[k], &l);
+                bracket[k][e] = shapes.bracket(&blocks, &r, k);
+            }
+        }
+
+        Some(Condensed {
+            slip_count: n,
+            bracket,
+            norm_r: upper_roots(&largest_r),
+            norm_l: largest_l.map(|squares| upper_roots(&squares)),
+            sigma: (family.free_count() > 0).then(|| family.sigma(index, level)),
+        })
+    }
+
+    /// Bits of the longest entry of the brackets.
+    fn longest_entry(&self) -> u64 {
+        let entries = self.bracket.iter().flatten().flatten().flatten();
+        entries.map(Integer::bits).max().unwrap_or(0)
+    }
+
+    /// The bound of |l_i||R_j| / sigma for one k without its last bits, rounded up, and one more
+    /// for the rounding of the bracket; `None` if it is longer than ENTRY_BITS.
+    fn radius(&self, k: usize, dropped_bits: u64) -> Option<Vec<i64>> {
+        let rounding_of_bracket = i64::from(dropped_bits > 0);
+        let mut radius = Vec::with_capacity(self.slip_count * self.slip_count);
+        for norm_l in &self.norm_l[k] {
+            for norm_r in &self.norm_r {
+                let remainder = match &self.sigma {
+                    Some(sigma) => norm_l * norm_r / sigma + 1,
+                    None => Integer::default(),
+                };
+                let short = (&remainder >> dropped_bits).to_i64()?;
+                if short >= 1 << ENTRY_BITS {
+                    return None;
+                }
+                let rounding = i64::from(remainder.is_positive());
+                radius.push(short + rounding + rounding_of_bracket);
+            }
+        }
+
+        Some(radius)
+    }
+}
+
+/// Upper bounds of the square roots.
+fn upper_roots(squares: &[Integer]) -> Vec<Integer> {
+    squares.iter().map(|square| square.sqrt() + 1).collect()
+}
+
+/// Squared norms of the columns, where they exceed those so far.
+fn update_squares(largest: &mut [Integer], matrix: &Matrix) {
+    for (j, so_far) in largest.iter_mut().enumerate() {
+        let square: Integer = matrix.iter().map(|row| &row[j] * &row[j]).sum();
+        if square > *so_far {
+            *so_far = square;
+        }
     }
 }
 
@@ -115,102 +173,108 @@ impl Shapes {
     /// From the middle of the interval, in doubles: any values are right, good ones make R and l
     /// small.
     fn new(family: &Scaled, index: u64, level: u32) -> Option<Shapes> {
-        if family.free == 0 {
+        if family.free_count() == 0 {
             return Some(Shapes {
                 w: Vec::new(),
                 v: [Vec::new(), Vec::new()],
             });
         }
+
         let middle = family.at(2 * index + 1, level + 1);
-        let real = |m: &Fixed| -> Vec<Vec<f64>> {
-            let mut rows = vec![vec![0.0; m.cols]; m.rows.len()];
-            m.rows.iter().enumerate().for_each(|(i, r)| {
-                r.iter()
-                    .for_each(|(j, v)| rows[i][*j] = v.to_f64().unwrap_or(f64::NAN))
-            });
-            rows
-        };
-        let f = real(&middle.free);
-        let columns = |m: Vec<Vec<f64>>| -> Vec<Vec<f64>> {
-            (0..family.slip)
-                .map(|j| m.iter().map(|r| r[j]).collect())
-                .collect()
-        };
-        let right: Vec<Vec<f64>> = columns(real(&middle.coupling))
-            .into_iter()
-            .chain(real(&middle.rows[0]))
-            .chain(real(&middle.rows[1]))
-            .collect();
-        let x = solve(&f, &right)?;
-        let fixed = |from: usize| -> Option<Matrix> {
-            let unit = f64::from(SHAPE_BITS).exp2();
-            (0..family.free)
-                .map(|i| {
-                    (0..family.slip)
-                        .map(|j| Some(from_f64((x[from + j][i] * unit).round()).ok()?.to_integer()))
-                        .collect()
-                })
-                .collect()
-        };
+
+        let mut right = dense(&transposed(&middle.free_slip));
+        right.extend(dense(&middle.slip_free[0]));
+        right.extend(dense(&middle.slip_free[1]));
+        let columns = solve(&dense(&middle.free_free), &right)?;
+
+        let n = family.slip_count();
         Some(Shapes {
-            w: fixed(0)?,
-            v: [fixed(family.slip)?, fixed(2 * family.slip)?],
+            w: rounded(&columns[..n])?,
+            v: [rounded(&columns[n..2 * n])?, rounded(&columns[2 * n..])?],
         })
     }
 
-    /// 2^SHAPE_BITS C - F W.
-    fn residual(&self, f: &Fixed, c: &Fixed, w: &Matrix) -> Matrix {
-        let Some(n) = w.first().map(Vec::len) else {
-            return Vec::new();
-        };
-        let row = |i: usize| {
-            let mut out = vec![Integer::default(); n];
-            c.rows[i]
-                .iter()
-                .for_each(|(j, v)| out[*j] = v << SHAPE_BITS);
-            for (k, v) in &f.rows[i] {
-                (0..n).for_each(|j| out[j] -= v * &w[*k][j]);
-            }
-            out
-        };
-        (0..f.rows.len()).map(row).collect()
-    }
+    /// G_ss - G_sf W - V'R in units of 2^-(2 SHAPE_BITS), for one k.
+    fn bracket(&self, blocks: &Blocks, r: &Matrix, k: usize) -> Matrix {
+        let slip_slip = &blocks.slip_slip[k].rows;
+        let slip_free = &blocks.slip_free[k].rows;
+        let n = slip_slip.len();
+        let mut bracket = vec![vec![Integer::default(); n]; n];
 
-    /// G_ss - G_sf W - V'R in units of 2^-(2 SHAPE_BITS).
-    fn bracket(&self, ss: &Fixed, sf: &Fixed, r: &Matrix, k: usize) -> Matrix {
-        let n = ss.rows.len();
-        let row = |i: usize| {
-            let mut out = vec![Integer::default(); n];
-            ss.rows[i]
-                .iter()
-                .for_each(|(j, v)| out[*j] = v << (2 * SHAPE_BITS));
-            for (f, v) in &sf.rows[i] {
-                (0..n).for_each(|j| out[j] -= (v * &self.w[*f][j]) << SHAPE_BITS);
+        for (i, row) in bracket.iter_mut().enumerate() {
+            for (j, g) in &slip_slip[i] {
+                row[*j] = g << (2 * SHAPE_BITS);
             }
-            for (f, r) in r.iter().enumerate() {
-                (0..n).for_each(|j| out[j] -= &self.v[k][f][i] * &r[j]);
+            for (f, g) in &slip_free[i] {
+                for (entry, w) in row.iter_mut().zip(&self.w[*f]) {
+                    *entry -= (g * w) << SHAPE_BITS;
+                }
             }
-            out
-        };
-        (0..n).map(row).collect()
+            for (v_row, r_row) in self.v[k].iter().zip(r) {
+                for (entry, r) in row.iter_mut().zip(r_row) {
+                    *entry -= &v_row[i] * r;
+                }
+            }
+        }
+
+        bracket
     }
 }
 
-fn transposed(m: &Fixed, slip: usize, free: usize) -> Fixed {
-    let mut rows = vec![Vec::new(); free];
-    m.rows
-        .iter()
-        .enumerate()
-        .for_each(|(i, r)| r.iter().for_each(|(j, v)| rows[*j].push((i, v.clone()))));
-    Fixed { rows, cols: slip }
-}
-
-/// Squared norms of the columns, where they exceed those so far.
-fn grow(worst: &mut [Integer], m: &Matrix, columns: usize) {
-    for j in 0..columns {
-        let square: Integer = m.iter().map(|r| &r[j] * &r[j]).sum();
-        if square > worst[j] {
-            worst[j] = square;
+/// The matrix of the given columns, in integers of 2^-SHAPE_BITS, by rows.
+fn rounded(columns: &[Vec<f64>]) -> Option<Matrix> {
+    let unit = f64::from(SHAPE_BITS).exp2();
+    let row_count = columns.first().map_or(0, Vec::len);
+    let mut rows = vec![Vec::with_capacity(columns.len()); row_count];
+    for column in columns {
+        for (row, v) in rows.iter_mut().zip(column) {
+            let scaled = from_f64((v * unit).round()).ok()?;
+            row.push(scaled.to_integer());
         }
     }
+
+    Some(rows)
+}
+
+/// 2^SHAPE_BITS C - F W; without free variables a matrix without rows.
+fn residual(f: &IntegerMatrix, c: &IntegerMatrix, w: &Matrix) -> Matrix {
+    let mut residual = vec![vec![Integer::default(); c.cols]; f.rows.len()];
+    for (i, row) in residual.iter_mut().enumerate() {
+        for (j, v) in &c.rows[i] {
+            row[*j] = v << SHAPE_BITS;
+        }
+        for (k, v) in &f.rows[i] {
+            for (entry, w) in row.iter_mut().zip(&w[*k]) {
+                *entry -= v * w;
+            }
+        }
+    }
+
+    residual
+}
+
+fn transposed(matrix: &IntegerMatrix) -> IntegerMatrix {
+    let mut rows = vec![Vec::new(); matrix.cols];
+    for (i, row) in matrix.rows.iter().enumerate() {
+        for (j, v) in row {
+            rows[*j].push((i, v.clone()));
+        }
+    }
+
+    IntegerMatrix {
+        rows,
+        cols: matrix.rows.len(),
+    }
+}
+
+/// The matrix in doubles by rows, NaN beyond their range.
+fn dense(matrix: &IntegerMatrix) -> Vec<Vec<f64>> {
+    let mut rows = vec![vec![0.0; matrix.cols]; matrix.rows.len()];
+    for (i, row) in matrix.rows.iter().enumerate() {
+        for (j, v) in row {
+            rows[i][*j] = v.to_f64().unwrap_or(f64::NAN);
+        }
+    }
+
+    rows
 }
