@@ -104,27 +104,33 @@ pub fn block_state(
     let problem = state.problem(block)?;
     let pencil = reduce(&problem)?.pencil;
     let full = Admissible::new(&pencil, Unknown::Mu)?;
+
     if watch.is_cancelled() {
         return Ok(None);
     }
+
     watch.report(&Progress::stage("condensing exactly and searching"));
     let search = Search {
         window_starts: 2,
         ..Search::default()
     };
     let (found, condensed) = multistart_large(&problem, &full, &search, &watch.quiet())?;
+
     if watch.is_cancelled() {
         return Ok(None);
     }
+
     watch.report(&Progress::stage(
         "proving that there are no other solutions",
     ));
     let cover = complete(&problem, &Options::default(), &watch.quiet())?.cover;
     watch.report(&Progress::stage("checking"));
+
     let entries = condensed
         .iter()
         .flat_map(|p| p.a().entries().chain(p.b().entries()));
     let bits = entries.map(|e| e.2.denom().bits()).max().unwrap_or(0);
+
     let mut report = BlockReport {
         state,
         accepted: Vec::new(),
@@ -146,6 +152,7 @@ pub fn block_state(
         cover,
         missing: 0,
     };
+
     if let Some(condensed) = &condensed {
         let small = Admissible::new(condensed, Unknown::Mu)?;
         let values: Vec<f64> = report
@@ -154,26 +161,32 @@ pub fn block_state(
             .iter()
             .map(|s| to_f64(&s.value.mid()))
             .collect();
+
         report.path =
             path_coverage(&small, &values, BLOCK_STARTS, search.seed).map_err(SearchError::from)?;
     }
+
     if found.certified.is_empty() {
         return Ok(Some(report));
     }
+
     let certificate = certificate(
         &problem,
         found.certified.into_iter().map(|c| c.claim).collect(),
     );
     submit(&problem, &pencil.slip(), &certificate, &mut report);
+
     for forgery in forgeries(&certificate) {
         if watch.is_cancelled() {
             return Ok(None);
         }
+
         report.forgeries += 1;
         report.rejected_forgeries += usize::from(
             check(&problem, &forgery.certificate).is_err_and(|e| (forgery.expected)(&e.reason)),
         );
     }
+
     report.certificate = Some(certificate);
     Ok(Some(report))
 }
@@ -190,8 +203,10 @@ fn submit(problem: &Problem, slip: &[usize], certificate: &Certificate, report: 
                         && !report.cover.solutions.iter().any(|s| may_be_same(s, c))
                 })
                 .count();
+
             let is_found = |s: &&AcceptedClaim| claims.iter().any(|c| may_be_same(s, c));
             report.unfound -= report.cover.solutions.iter().filter(is_found).count();
+
             report.accepted = claims
                 .iter()
                 .map(|c| accepted_state(slip, report.state, &c.support, &c.value.mid()))
@@ -220,6 +235,7 @@ fn accepted_state(
         .filter(|(_, i)| !support.contains(i))
         .map(|(k, _)| first + k + 1)
         .collect();
+
     AcceptedState {
         value: format!("{:.12}", to_f64(value)),
         slipping: support.len(),

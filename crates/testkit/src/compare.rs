@@ -66,6 +66,7 @@ impl InstanceReport {
             coverage.count(reached.first, reached.found == self.oracle);
             out.push((reached.starts, coverage));
         }
+
         out
     }
 }
@@ -132,10 +133,12 @@ pub fn compare_by(instance: &Instance, treatment: &Treatment) -> InstanceReport 
         corners: instance.corners.clone(),
         ..InstanceReport::default()
     };
+
     match engines(&instance.problem) {
         Ok((reduced, oracle)) => compare_with(instance, &reduced, &oracle, treatment, &mut report),
         Err(disagreement) => report.disagreements.push(disagreement),
     }
+
     report
 }
 
@@ -154,6 +157,7 @@ pub fn coverage_of(
         oracle: oracle.solutions.len(),
         ..InstanceReport::default()
     };
+
     run_solver(instance, &reduced.pencil, &oracle, treatment, &mut report);
     Ok(report)
 }
@@ -170,16 +174,20 @@ pub(super) fn compare_with(
     report.oracle = oracle.solutions.len();
     report.degenerate = !(oracle.wide.is_empty() && oracle.continua.is_empty());
     report.corners.extend(observed(oracle));
+
     if let Some(data) = &instance.closed_form {
         compare_closed_form(oracle, &table1(data), report);
     }
+
     check_lifts(problem, reduced, oracle, report);
     let claims = certify_oracle(problem, reduced, oracle, report);
     submit(problem, claims, report);
+
     match compare_within(problem, oracle, treatment.nodes) {
         Ok(completed) => report.completed = completed,
         Err(disagreement) => report.disagreements.push(disagreement),
     }
+
     run_solver(instance, &reduced.pencil, oracle, treatment, report);
 }
 
@@ -196,6 +204,7 @@ fn run_solver(
     let Ok(admissible) = Admissible::new(pencil, problem.unknown()) else {
         return;
     };
+
     report.solved = true;
 
     let interior = Search {
@@ -207,6 +216,7 @@ fn run_solver(
         options: path_options(),
         ..interior.clone()
     };
+
     let mut runs = vec![(Starts::Search, treatment.solver, treatment.search.clone())];
     if instance.closed_form.is_some() {
         runs.push((Starts::Interior, treatment.interior, interior));
@@ -230,6 +240,7 @@ pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disag
     let reduced = reduce(problem).map_err(|e| refused("reduction", e.to_string()))?;
     let oracle = enumerate(&reduced.pencil, problem.window())
         .map_err(|e| refused("enumerator", e.to_string()))?;
+
     Ok((reduced, oracle))
 }
 
@@ -237,21 +248,27 @@ pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disag
 pub(super) fn observed(oracle: &Enumeration) -> Vec<Corner> {
     let mut corners = Vec::new();
     let any = |f: &dyn Fn(&Solution) -> bool| oracle.solutions.iter().any(f);
+
     if any(&|s| !s.biactive.is_empty()) {
         corners.push(Corner::Biactive);
     }
+
     if any(&|s| s.multiplicity > 1) {
         corners.push(Corner::Repeated);
     }
+
     if any(&|s| s.value.clone().cmp_rational(&Rational::default()).is_eq()) {
         corners.push(Corner::ZeroValue);
     }
+
     if !oracle.wide.is_empty() {
         corners.push(Corner::WideKernel);
     }
+
     if !oracle.continua.is_empty() {
         corners.push(Corner::Singular);
     }
+
     corners
 }
 
@@ -269,6 +286,7 @@ fn compare_closed_form(
             .count()
             == 1
     });
+
     if !matched || closed.len() != oracle.solutions.len() {
         report.disagreements.push(Disagreement::ClosedForm {
             closed: closed.len(),
@@ -282,15 +300,18 @@ fn equals(s: &Solution, c: &ClosedSolution) -> bool {
     let value = &s.value;
     let root = c.value.eval(value.poly()).sign() == Sign::Zero
         && c.value.within(value.interval().lo(), value.interval().hi());
+
     // x_1 X_2 = x_2 X_1 with the polynomials of the enumerator evaluated at the closed form's
     // number.
     let x: Vec<Quadratic> = s.x.iter().map(|p: &Poly| c.value.eval(p)).collect();
     let x = [same_field(&x[0], &c.x[0]), same_field(&x[1], &c.x[1])];
+
     let cross = x[0].mul(&c.x[1]).add(
         &x[1]
             .mul(&c.x[0])
             .scale(&Rational::from_integer((-1).into())),
     );
+
     root && cross.sign() == Sign::Zero
 }
 
@@ -309,6 +330,7 @@ fn check_lifts(
     let Body::System(system) = problem.body() else {
         return;
     };
+
     for (index, s) in oracle.solutions.iter().enumerate() {
         let lifted = lift(system, problem.unknown(), &reduced.variables, &s.x);
         if let Err(line) = check_lines(system, problem.unknown(), &lifted, &mut s.value.clone()) {
@@ -330,12 +352,14 @@ fn certify_oracle(
     let slip = reduced.pencil.slip();
     let certifier = Certifier::new(problem, &reduced.pencil);
     let mut claims = Vec::new();
+
     for (index, s) in oracle.solutions.iter().enumerate() {
         let double = |text: String| text.parse().unwrap_or(f64::NAN); // our own decimals parse
         let candidate = Candidate {
             value: double(s.decimal(17)),
             x: s.x_decimals(&slip, 17).into_iter().map(double).collect(),
         };
+
         match certifier.certify(&candidate) {
             Ok(claim) => claims.push(claim),
             // A singular support has a root everywhere: its value, if irrational, cannot be told
@@ -349,6 +373,7 @@ fn certify_oracle(
             }),
         }
     }
+
     claims
 }
 
@@ -357,14 +382,17 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
     if claims.is_empty() {
         return;
     }
+
     let count = claims.len();
     let certificate = certificate(problem, claims);
+
     match check(problem, &certificate) {
         Ok(_) => report.accepted += count,
         Err(e) => report.disagreements.push(Disagreement::Rejected {
             reason: e.to_string(),
         }),
     }
+
     for forgery in forgeries(&certificate) {
         report.forgeries += 1;
         let got = match check(problem, &forgery.certificate) {
@@ -372,6 +400,7 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
             Err(e) if (forgery.expected)(&e.reason) => continue,
             Err(e) => format!("rejected for another reason: {e}"),
         };
+
         report.disagreements.push(Disagreement::Forgery {
             name: forgery.name,
             got,
@@ -388,6 +417,7 @@ fn compare_found(
 ) {
     let (starts, found) = found;
     report.pivots += found.pivots;
+
     if starts == Starts::Search {
         report.uncertified.extend(
             found
@@ -396,9 +426,11 @@ fn compare_found(
                 .map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)),
         );
     }
+
     let mut claims = Vec::new();
     let mut hit = vec![false; oracle.solutions.len()];
     let mut first = false;
+
     for c in found.certified {
         let is_first = c.run == 0 && c.origin == Origin::Start;
         match place(oracle, &c.claim) {
@@ -412,6 +444,7 @@ fn compare_found(
                 support: support(&c.claim).to_vec(),
             }),
         }
+
         claims.push(c.claim);
     }
 
@@ -421,9 +454,11 @@ fn compare_found(
         first,
         found: count,
     });
+
     if starts != Starts::Path {
         report.found = count; // on Table 1 the interior starts come after the search
     }
+
     if starts == Starts::Search {
         submit(problem, claims, report);
     }
@@ -463,6 +498,7 @@ fn described(oracle: &Enumeration, pencil: &Pencil, claim: &Claim) -> bool {
         let x = integer_x(c);
         return oracle.contains(pencil, &value, &x);
     }
+
     let on = |set: &[usize]| set == support(claim);
     oracle
         .wide

@@ -36,6 +36,7 @@ pub(super) fn compare_within(
         threads: None,
         ..Options::default()
     };
+
     let completed = match complete(problem, &options, &Watch::nobody()) {
         Ok(completed) => completed,
         Err(
@@ -50,6 +51,7 @@ pub(super) fn compare_within(
             });
         }
     };
+
     let mut hit = vec![false; oracle.solutions.len()];
     for s in &completed.cover.solutions {
         match oracle.solutions.iter().position(|o| is_same(o, s)) {
@@ -63,7 +65,9 @@ pub(super) fn compare_within(
             }
         }
     }
+
     let complete = completed.is_complete();
+
     // What is no list is a family on the same support.
     let has_family = |support: &[usize]| {
         completed
@@ -72,6 +76,7 @@ pub(super) fn compare_within(
             .iter()
             .any(|f| f.support == support)
     };
+
     // Of a range that the window meets in its end only, one solution is listed.
     let has_one = |support: &[usize]| {
         completed
@@ -80,17 +85,20 @@ pub(super) fn compare_within(
             .iter()
             .any(|s| s.support == support)
     };
+
     let missing = oracle.cones.iter().any(|c| !has_family(&c.slip))
         || oracle
             .ranges
             .iter()
             .any(|r| !has_family(&r.support) && !has_one(&r.support));
+
     if complete && (hit.contains(&false) || missing) {
         return Err(Disagreement::Incomplete {
             claimed: completed.cover.solutions.len(),
             enumerated: oracle.solutions.len(),
         });
     }
+
     Ok(complete)
 }
 

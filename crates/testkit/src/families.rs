@@ -86,17 +86,20 @@ pub fn table1_grid() -> Result<Vec<Instance>, ModelError> {
                         mu: mu.clone(),
                         signs,
                     };
+
                     let problem = Problem::new(
                         Body::System(two_particles(&data)?),
                         Unknown::Lambda2,
                         Window::all(),
                     )?;
+
                     let label = format!("table1 c={c} s={s} k={k} m={m} mu={mu} S={signs:?}");
                     let corners = if exact && signs == (1, -1) {
                         vec![Corner::Threshold]
                     } else {
                         vec![]
                     };
+
                     out.push(Instance {
                         label,
                         problem,
@@ -107,6 +110,7 @@ pub fn table1_grid() -> Result<Vec<Instance>, ModelError> {
             }
         }
     }
+
     Ok(out)
 }
 
@@ -116,6 +120,7 @@ fn frictions(c: &Rational, s: &Rational) -> Vec<(Rational, bool)> {
         .map(|mu| (mu, false))
         .to_vec();
     let cs = c * s;
+
     if !cs.is_zero() {
         let tiny = rational(1, 1_000_000_000);
         for top in [c * c + Rational::one(), c * c + whole(2)] {
@@ -127,6 +132,7 @@ fn frictions(c: &Rational, s: &Rational) -> Vec<(Rational, bool)> {
             ]);
         }
     }
+
     list
 }
 
@@ -142,13 +148,16 @@ pub fn random_pencils(count: usize, seed: u64) -> Result<Vec<Instance>, ModelErr
 pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(k as u64));
     let n_s = rng.random_range(1..=6);
+
     let n_f = if rng.random_range(0..2) == 0 {
         0
     } else {
         rng.random_range(1..=3)
     };
+
     let n = n_s + n_f;
     let k0 = gram(&mut rng, n);
+
     let k1 = Sparse::from_entries(
         n,
         n,
@@ -156,11 +165,13 @@ pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError>
             .flat_map(|i| (0..n).map(move |j| (i, j)))
             .map(|(i, j)| (i, j, whole(rng.random_range(-6..=6)))),
     );
+
     let unknown = if k.is_multiple_of(2) {
         Unknown::Lambda2
     } else {
         Unknown::Mu
     };
+
     let (a, b) = match unknown {
         Unknown::Mu => (k0, k1),
         Unknown::Lambda2 => (
@@ -168,18 +179,23 @@ pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError>
             gram(&mut rng, n),
         ),
     };
+
     let pencil = Pencil::new(a, b, (0..n_f).collect())?;
     let mut corners = Vec::new();
+
     if n_f > 0 {
         corners.push(Corner::FreeVariables);
     }
+
     if n == 1 {
         corners.push(Corner::OneByOne);
     }
+
     let label = format!(
         "random pencil {k} (seed {seed}) n_s={n_s} n_f={n_f} {}",
         unknown.word()
     );
+
     Ok(Instance {
         label,
         problem: Problem::new(Body::Pencil(pencil), unknown, Window::all())?,
@@ -195,6 +211,7 @@ pub(super) fn gram(rng: &mut ChaCha8Rng, n: usize) -> Sparse {
         .collect();
     let entry =
         |i: usize, j: usize| (0..n).map(|k| g[i][k] * g[j][k]).sum::<i64>() + i64::from(i == j);
+
     Sparse::from_entries(
         n,
         n,
@@ -222,25 +239,31 @@ pub(super) fn mechanical_system(k: usize, seed: u64) -> Result<Instance, ModelEr
         .map(|i| random_particle(&mut rng, i, &mut corners))
         .collect();
     let lumped = rng.random_range(0..2) == 0;
+
     let mass = if lumped {
         Sparse::zeros(n, n).add_scaled(&whole(2), &Sparse::identity(n))
     } else {
         gram(&mut rng, n)
     };
+
     if !lumped {
         corners.push(Corner::CoupledMass);
     }
+
     let unknown = if k.is_multiple_of(2) {
         Unknown::Lambda2
     } else {
         Unknown::Mu
     };
+
     let friction = rational(rng.random_range(4..=60), 4);
     let system = System::new(gram(&mut rng, n), Some(mass), Some(friction), particles)?;
+
     let label = format!(
         "mechanical system {k} (seed {seed}) particles={contact} inner={inner} {}",
         unknown.word()
     );
+
     Ok(Instance {
         label,
         problem: Problem::new(Body::System(system), unknown, Window::all())?,
@@ -257,18 +280,22 @@ fn random_particle(rng: &mut ChaCha8Rng, index: usize, corners: &mut Vec<Corner>
         1 if index > 0 => ContactState::Stick,
         _ => ContactState::Slip { sign },
     };
+
     let mut particle = Particle::plain(2 * index, 2 * index + 1, state);
     particle.normal_direction = if rng.random_range(0..2) == 0 { 1 } else { -1 };
+
     if rng.random_range(0..3) == 0 {
         let (c, s) = (rational(3, 5), rational(4, 5));
         particle.frame = Some([[c.clone(), s.clone()], [-s, c]]);
         corners.push(Corner::Oblique);
     }
+
     match state {
         ContactState::Stick => corners.push(Corner::Stick),
         ContactState::Free => corners.push(Corner::FreeVariables),
         ContactState::Slip { .. } => {}
     }
+
     particle
 }
 
@@ -285,6 +312,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
         Unknown,
         Corner,
     );
+
     let identity: &[&[i64]] = &[&[1, 0], &[0, 1]];
     let cases: [Case<'_>; 12] = [
         (
@@ -384,6 +412,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             Corner::Repeated,
         ),
     ];
+
     cases
         .into_iter()
         .map(|(name, a, b, free, unknown, corner)| {

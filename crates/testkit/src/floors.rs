@@ -114,6 +114,7 @@ impl fmt::Display for Shortfall {
             Rate::All => ("all solutions", self.floor.all),
         };
         let (family, starts) = (self.floor.family, self.floor.starts.word());
+
         write!(
             f,
             "{family}, {starts}: {what} found in {} of {} instances, floor {least:.1} %",
@@ -172,6 +173,7 @@ pub fn shortfalls(family: &str, starts: Starts, coverage: &Coverage) -> Vec<Shor
         (Rate::All, coverage.all, floor.all),
     ];
     let mut out = Vec::new();
+
     for (rate, found, least) in rates {
         if at_most(found, coverage.solvable, least / 100.0) < CHANCE {
             out.push(Shortfall {
@@ -182,6 +184,7 @@ pub fn shortfalls(family: &str, starts: Starts, coverage: &Coverage) -> Vec<Shor
             });
         }
     }
+
     out
 }
 
@@ -197,11 +200,13 @@ fn at_most(found: u64, of: u64, probability: f64) -> f64 {
     let odds = (probability / (1.0 - probability)).ln();
     let mut log_term = of as f64 * (1.0 - probability).ln();
     let mut sum = log_term.exp();
+
     for j in 1..=found {
         let ways = (of - j + 1) as f64 / j as f64;
         log_term += ways.ln() + odds;
         sum += log_term.exp();
     }
+
     sum.min(1.0)
 }
 
@@ -318,11 +323,13 @@ mod tests {
                 "{got:e}, expected {want:e}"
             )
         };
+
         near(at_most(0, 2, 0.5), 0.25);
         near(at_most(0, 3, 0.98), 8e-6);
         near(at_most(1, 4, 0.5), 0.3125);
         near(at_most(7, 7, 0.5), 1.0);
         near(at_most(0, 5, 0.0), 1.0);
+
         // A count where binomial coefficients exceed doubles: the median of 10,000 throws.
         assert!((at_most(5000, 10_000, 0.5) - 0.504).abs() < 1e-3);
     }
@@ -333,6 +340,7 @@ mod tests {
             .iter()
             .find(|f| f.first > 97.0 && f.all > 97.0)
             .expect("a floor above 97 %");
+
         let seen = |solvable| {
             shortfalls(
                 floor.family,
@@ -344,12 +352,15 @@ mod tests {
                 },
             )
         };
+
         assert!(seen(2).is_empty());
+
         let list = seen(4);
         assert_eq!(
             list.iter().map(|s| s.rate).collect::<Vec<_>>(),
             [Rate::First, Rate::All]
         );
+
         assert!(
             list[0]
                 .to_string()
@@ -357,6 +368,7 @@ mod tests {
             "{}",
             list[0]
         );
+
         assert!(
             shortfalls(
                 "no such family",
@@ -381,15 +393,18 @@ mod tests {
                 first: of(floor.first),
                 all: of(floor.all),
             };
+
             assert!(
                 shortfalls(floor.family, floor.starts, &at).is_empty(),
                 "{floor:?}"
             );
+
             let half = Coverage {
                 solvable: 1000,
                 first: at.first / 2,
                 all: at.all / 2,
             };
+
             let expected = usize::from(floor.first > 10.0) + 1;
             assert_eq!(
                 shortfalls(floor.family, floor.starts, &half).len(),
@@ -408,6 +423,7 @@ mod tests {
                     .all(|f| (f.family, f.starts) != (floor.family, floor.starts)),
                 "{floor:?} twice"
             );
+
             assert!(
                 (0.0..=98.0).contains(&floor.first) && (0.0..=98.0).contains(&floor.all),
                 "{floor:?}"

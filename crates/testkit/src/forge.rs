@@ -25,6 +25,7 @@ pub fn forgeries(certificate: &Certificate) -> Vec<Forgery> {
             claims: vec![claim],
             ..certificate.clone()
         };
+
         match claim {
             Claim::ExactSolution(c) => {
                 out.extend(exact(c).into_iter().map(|(name, c, expected)| Forgery {
@@ -43,22 +44,26 @@ pub fn forgeries(certificate: &Certificate) -> Vec<Forgery> {
             Claim::EnclosedSolution(_) => out.extend(enclosed(certificate, index)),
         }
     }
+
     out
 }
 
 fn frame(certificate: &Certificate) -> Vec<Forgery> {
     let mut digest = certificate.clone();
     digest.problem_sha256 = digest.problem_sha256.chars().rev().collect();
+
     let mut unknown = certificate.clone();
     unknown.unknown = if unknown.unknown == Unknown::Mu {
         Unknown::Lambda2
     } else {
         Unknown::Mu
     };
+
     let empty = Certificate {
         claims: Vec::new(),
         ..certificate.clone()
     };
+
     vec![
         Forgery {
             name: "another problem's digest",
@@ -90,11 +95,13 @@ fn narrow_window(certificate: &Certificate) -> Option<Forgery> {
             c.center.last().map_or_else(|| whole(0), |n| n.0.clone()) + whole(1)
         }
     });
+
     let window = Window::new(top.max()? + whole(1), None).ok()?;
     let certificate = Certificate {
         window,
         ..certificate.clone()
     };
+
     Some(Forgery {
         name: "value outside the window",
         certificate,
@@ -111,6 +118,7 @@ fn exact(c: &ExactSolution) -> Vec<Broken> {
         change(&mut forged);
         out.push((name, forged, expected));
     };
+
     push("constant polynomial", &|c| c.polynomial.truncate(1), |r| {
         matches!(r, Reason::ConstantPolynomial { .. })
     });
@@ -120,11 +128,13 @@ fn exact(c: &ExactSolution) -> Vec<Broken> {
     push("x = 0", &|c| c.x.iter_mut().for_each(Vec::clear), |r| {
         matches!(r, Reason::XNotPositive { .. } | Reason::XZero)
     });
+
     push(
         "support out of range",
         &|c| c.support.push(c.x.len()),
         |r| matches!(r, Reason::IndexSet { set: "support", .. }),
     );
+
     push(
         "point that is no root",
         &|c| {
@@ -134,6 +144,7 @@ fn exact(c: &ExactSolution) -> Vec<Broken> {
         },
         |r| matches!(r, Reason::NotARoot { .. }),
     );
+
     if !c.support.is_empty() {
         push("x negative", &|c| negate(c), |r| {
             matches!(r, Reason::XNotPositive { .. })
@@ -143,11 +154,13 @@ fn exact(c: &ExactSolution) -> Vec<Broken> {
             &|c| c.support.truncate(c.support.len() - 1),
             |r| matches!(r, Reason::XOffSupport { .. }),
         );
+
         push(
             "support listed twice",
             &|c| c.support.push(c.support[0]),
             |r| matches!(r, Reason::IndexSet { set: "support", .. }),
         );
+
         push(
             "slipping variable called biactive",
             &|c| {
@@ -165,6 +178,7 @@ fn exact(c: &ExactSolution) -> Vec<Broken> {
             },
         );
     }
+
     if !c.biactive.is_empty() {
         push(
             "biactive index hidden",
@@ -172,6 +186,7 @@ fn exact(c: &ExactSolution) -> Vec<Broken> {
             |r| matches!(r, Reason::Biactive { expected: true, .. }),
         );
     }
+
     if c.interval[0] != c.interval[1] {
         push("interval reversed", &|c| c.interval.swap(0, 1), |r| {
             matches!(r, Reason::ReversedInterval { .. })
@@ -181,17 +196,20 @@ fn exact(c: &ExactSolution) -> Vec<Broken> {
             &|c| c.interval[1] = c.interval[0].clone(),
             |r| matches!(r, Reason::NotARoot { .. }),
         );
+
         push(
             "polynomial squared",
             &|c| c.polynomial = square(&c.polynomial),
             |r| matches!(r, Reason::NoSignChange { .. }),
         );
+
         push(
             "polynomial cubed",
             &|c| c.polynomial = times(&square(&c.polynomial), &c.polynomial),
             |r| matches!(r, Reason::NotIsolated { .. }),
         );
     }
+
     out
 }
 
@@ -205,17 +223,20 @@ fn lifted(c: &LiftedSolution) -> Vec<BrokenLift> {
         change(&mut forged);
         out.push((name, forged, expected));
     };
+
     push(
         "v = w = 0",
         &|c| c.v.iter_mut().chain(&mut c.w).for_each(Vec::clear),
         |r| matches!(r, Reason::Line { .. } | Reason::XZero),
     );
+
     push("v one dof short", &|c| drop(c.v.pop()), |r| {
         matches!(r, Reason::Length { what: "v", .. })
     });
     push("w one dof long", &|c| c.w.push(Vec::new()), |r| {
         matches!(r, Reason::Length { what: "w", .. })
     });
+
     push(
         "w off by a billionth at one dof",
         &|c| match c.w[0].first_mut() {
@@ -233,6 +254,7 @@ fn lifted(c: &LiftedSolution) -> Vec<BrokenLift> {
             )
         },
     );
+
     if !c.support.is_empty() {
         push(
             "everything moves backwards",
@@ -252,6 +274,7 @@ fn lifted(c: &LiftedSolution) -> Vec<BrokenLift> {
                 )
             },
         );
+
         push(
             "support one short",
             &|c| c.support.truncate(c.support.len() - 1),
@@ -266,6 +289,7 @@ fn lifted(c: &LiftedSolution) -> Vec<BrokenLift> {
             },
         );
     }
+
     out
 }
 
@@ -284,6 +308,7 @@ fn times(p: &[Integer], q: &[Integer]) -> Vec<Integer> {
             out[i + j] += a * b;
         }
     }
+
     out
 }
 
@@ -293,6 +318,7 @@ fn enclosed(certificate: &Certificate, index: usize) -> Vec<Forgery> {
     let Claim::EnclosedSolution(c) = &certificate.claims[index] else {
         return Vec::new();
     };
+
     let forged =
         |name, expected, change: &dyn Fn(&mut mceip_check::certificate::EnclosedSolution)| {
             let mut c = c.clone();
@@ -306,6 +332,7 @@ fn enclosed(certificate: &Certificate, index: usize) -> Vec<Forgery> {
                 expected,
             }
         };
+
     vec![
         forged(
             "zero row in the preconditioner",

@@ -42,6 +42,7 @@ pub struct InteriorStart {
 pub fn interior_starts(admissible: &Admissible<'_>, count: usize, seed: u64) -> Vec<InteriorStart> {
     let pencil = admissible.pencil();
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
+
     let unit = match (largest(pencil.a()), largest(pencil.b())) {
         (a, b) if a > 0.0 && b > 0.0 => a / b,
         _ => 1.0,
@@ -49,18 +50,21 @@ pub fn interior_starts(admissible: &Admissible<'_>, count: usize, seed: u64) -> 
 
     let slip = pencil.slip();
     let mut starts = Vec::new();
+
     for _ in 0..count {
         let mut x = vec![0.0; pencil.order()];
         for &i in &slip {
             let uniform: f64 = rng.random_range(f64::MIN_POSITIVE..1.0);
             x[i] = -uniform.ln();
         }
+
         let decades: f64 = rng.random_range(-3.0..3.0);
         starts.push(InteriorStart {
             value: unit * 10f64.powf(decades),
             x,
         });
     }
+
     starts
 }
 
@@ -87,6 +91,7 @@ pub fn from_interior(
     let bottom = to_f64(problem.window().min());
     let certifier = Certifier::new(problem, admissible.pencil());
     let embedding = Embedding::new(admissible, Side::Above(bottom));
+
     let mut attempt = Attempt {
         certifier,
         embedding,
@@ -98,6 +103,7 @@ pub fn from_interior(
         .iter()
         .map(|s| attempt.embedding.point(bottom + s.value, &s.x))
         .collect();
+
     for point in &points {
         attempt.run(point, Origin::Start, &search.options)?;
     }
@@ -113,6 +119,7 @@ pub fn from_interior(
             }
         }
     }
+
     Ok(attempt.found)
 }
 
@@ -134,6 +141,7 @@ impl Attempt<'_> {
         self.found.runs += 1;
         self.found.pivots += outcome.counters.pivots;
         self.found.factorisations += outcome.counters.factorisations;
+
         if !outcome.termination.reached_tolerance() {
             return Ok(());
         }
@@ -172,6 +180,7 @@ pub fn path_coverage(
             &embedding.point(start.value, &start.x),
             &options,
         )?;
+
         let value = embedding.candidate(&outcome.point).value;
         let is_proved = values
             .iter()
@@ -179,6 +188,7 @@ pub fn path_coverage(
         let found = outcome.termination.reached_tolerance() && is_proved;
         coverage.count(found, found);
     }
+
     Ok(coverage)
 }
 
@@ -197,6 +207,7 @@ mod tests {
     fn violation(embedding: &Embedding, point: &[f64]) -> f64 {
         let mut rows = vec![0.0; point.len()];
         embedding.function(point, &mut rows);
+
         let pairs = point.iter().zip(&rows);
         pairs.map(|(z, f)| z.min(*f).abs()).fold(0.0, f64::max)
     }
@@ -217,13 +228,16 @@ mod tests {
                     "{}",
                     instance.label
                 );
+
                 interior += 1;
             }
+
             ritz += embedding.starts(4, 1)[2..]
                 .iter()
                 .filter(|z| violation(&embedding, z) < 1e-12)
                 .count();
         }
+
         assert!(interior > 2000 && ritz > 20, "{interior} {ritz}");
     }
 
@@ -235,6 +249,7 @@ mod tests {
             let reduced = reduce(&instance.problem).unwrap();
             let admissible = Admissible::new(&reduced.pencil, Unknown::Lambda2).unwrap();
             let problem = &instance.problem;
+
             let search = Search {
                 starts: INTERIOR_STARTS,
                 ..Search::default()
@@ -242,17 +257,20 @@ mod tests {
 
             let interior = from_interior(problem, &admissible, &search).unwrap();
             let whole = multistart(problem, &admissible, &search).unwrap();
+
             assert!(
                 interior.runs >= INTERIOR_STARTS
                     && interior.certified.len() <= whole.certified.len(),
                 "{}",
                 instance.label
             );
+
             for c in &interior.certified {
                 assert!(whole.certified.iter().any(|w| same(&w.claim, &c.claim)));
                 found += 1;
             }
         }
+
         assert!(found > 20, "{found}");
     }
 }

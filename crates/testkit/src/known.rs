@@ -31,6 +31,7 @@ pub fn path(n: usize) -> Result<Known, ModelError> {
     let parts = (1..=n)
         .flat_map(|k| (0..=n - k).map(move |start| Part::path((start..start + k).collect())))
         .collect();
+
     graph(
         format!("path {n}"),
         "2 cos(pi/(k+1)) for each sub-path of k vertices",
@@ -51,11 +52,13 @@ pub fn cycle(n: usize) -> Result<Known, ModelError> {
             what: "cycle of fewer than three vertices",
         });
     }
+
     let arc = |start: usize, k: usize| Part::path((start..start + k).map(|i| i % n).collect());
     let mut parts: Vec<Part> = (1..n)
         .flat_map(|k| (0..n).map(move |start| arc(start, k)))
         .collect();
     parts.push(Part::constant((0..n).collect(), 2));
+
     let edges: Vec<_> = path_edges(n).into_iter().chain([(0, n - 1)]).collect();
     graph(
         format!("cycle {n}"),
@@ -80,12 +83,14 @@ pub fn star(leaves: usize) -> Result<Known, ModelError> {
             .chain(set.iter().map(|_| Poly::from_ints(&[1])))
             .collect();
         let vertices = [0].into_iter().chain(set.iter().map(|l| l + 1)).collect();
+
         parts.push(Part {
             vertices,
             polynomial: Poly::from_ints(&[-k, 0, 1]),
             x,
         });
     }
+
     let edges: Vec<_> = (1..=leaves).map(|l| (0, l)).collect();
     graph(
         format!("star {leaves}"),
@@ -108,6 +113,7 @@ pub fn complete_graph(n: usize) -> Result<Known, ModelError> {
     });
     let parts = parts.collect();
     let edges: Vec<_> = (0..n).flat_map(|i| (0..i).map(move |j| (j, i))).collect();
+
     graph(
         format!("complete graph {n}"),
         "k - 1 for each set of k vertices",
@@ -131,6 +137,7 @@ pub fn z_matrix(n: usize) -> Result<Known, ModelError> {
         Sparse::identity(n),
         vec![],
     )?;
+
     let part = Part::path((0..n).collect());
     let expected = answer(vec![part.solution(n, &[])], Vec::new(), n);
     known(
@@ -157,11 +164,13 @@ pub fn diagonal(d: &[Rational]) -> Result<Known, ModelError> {
     let cones = (0..n)
         .filter(first_of_many)
         .map(|i| cone(group(i).into_iter().map(ray).collect(), others(&group(i))));
+
     let expected = answer(
         (0..n).filter(|&i| listed(i)).map(ray).collect(),
         cones.collect(),
         n,
     );
+
     known(format!("diagonal {n}"), "the entries", pencil, expected)
 }
 
@@ -175,17 +184,20 @@ pub fn jordan(n: usize, d: u32, positive: bool) -> Result<Known, ModelError> {
     let s = whole(if positive { 1 } else { -1 });
     let diagonal = (0..n).map(|i| (i, i, whole(-i64::from(d))));
     let shift = (1..n).map(|i| (i - 1, i, s.clone()));
+
     let pencil = Pencil::new(
         Sparse::from_entries(n, n, diagonal.chain(shift)),
         Sparse::identity(n),
         vec![],
     )?;
+
     // y_i = s x_(i+1): zero for all but the predecessor of a positive entry.
     let biactive = |set: &[usize]| {
         (0..n)
             .filter(|i| !set.contains(i) && !set.contains(&(i + 1)))
             .collect::<Vec<_>>()
     };
+
     let ray = |j: usize| unit(n, j, Algebraic::rational(whole(d.into())), biactive(&[j]));
     if !positive {
         return known(
@@ -195,12 +207,14 @@ pub fn jordan(n: usize, d: u32, positive: bool) -> Result<Known, ModelError> {
             answer(vec![ray(0)], Vec::new(), n),
         );
     }
+
     let families = maximal_families(n, &|i, j| i.abs_diff(j) > 1);
     let cones = families
         .into_iter()
         .filter(|f| f.len() > 1)
         .map(|f| cone(f.iter().map(|&j| ray(j)).collect(), biactive(&f)));
     let expected = answer((0..n).map(ray).collect(), cones.collect(), n);
+
     known(format!("Jordan block {n}, +"), "d", pencil, expected)
 }
 
@@ -218,6 +232,7 @@ impl Part {
         for k in 2..=vertices.len() {
             p.push(&p[k - 1].shift(1) - &p[k - 2]);
         }
+
         Part {
             polynomial: p[vertices.len()].clone(),
             x: p[..vertices.len()].to_vec(),
@@ -241,12 +256,14 @@ impl Part {
             .pop()
             .unwrap_or_else(|| Algebraic::rational(Rational::default()));
         let mut x = vec![Poly::default(); n];
+
         self.vertices
             .iter()
             .zip(&self.x)
             .for_each(|(&v, p)| x[v] = p.clone());
         let mut slip = self.vertices.clone();
         slip.sort_unstable();
+
         Solution {
             value,
             multiplicity: 0,
@@ -277,11 +294,13 @@ fn graph(
     let minus = Sparse::from_entries(n, n, (0..n).map(|i| (i, i, whole(-1))));
     let pencil = Pencil::new(Sparse::from_entries(n, n, adjacency), minus, vec![])?;
     let adjacent = |i: usize, j: usize| edges.contains(&(i, j)) || edges.contains(&(j, i));
+
     let untouched = |set: &[usize]| {
         (0..n)
             .filter(|i| !set.contains(i) && !set.iter().any(|&j| adjacent(*i, j)))
             .collect::<Vec<_>>()
     };
+
     let rays: Vec<Solution> = parts
         .iter()
         .map(|p| p.solution(n, &untouched(&p.vertices)))
@@ -290,6 +309,7 @@ fn graph(
     let mut polynomials: Vec<&Poly> = parts.iter().map(|p| &p.polynomial).collect();
     polynomials.sort_by_key(|p| p.coeffs().to_vec());
     polynomials.dedup();
+
     for polynomial in polynomials {
         let members: Vec<usize> = (0..parts.len())
             .filter(|&k| parts[k].polynomial == *polynomial)
@@ -299,6 +319,7 @@ fn graph(
             p.iter()
                 .all(|&i| q.iter().all(|&j| i != j && !adjacent(i, j)))
         };
+
         for family in maximal_families(members.len(), &apart)
             .into_iter()
             .filter(|f| f.len() > 1)
@@ -313,6 +334,7 @@ fn graph(
             ));
         }
     }
+
     known(name, closed_form, pencil, answer(rays, cones, n))
 }
 
@@ -328,6 +350,7 @@ fn maximal_families(count: usize, compatible: &dyn Fn(usize, usize) -> bool) -> 
         if open.is_empty() && done.is_empty() {
             out.push(chosen.to_vec());
         }
+
         for (k, &v) in open.iter().enumerate() {
             let with = |list: &[usize]| {
                 list.iter()
@@ -335,6 +358,7 @@ fn maximal_families(count: usize, compatible: &dyn Fn(usize, usize) -> bool) -> 
                     .filter(|&u| ok(u, v))
                     .collect::<Vec<_>>()
             };
+
             grow(
                 &[chosen, &[v]].concat(),
                 with(&open[k + 1..]),
@@ -342,9 +366,11 @@ fn maximal_families(count: usize, compatible: &dyn Fn(usize, usize) -> bool) -> 
                 ok,
                 out,
             );
+
             done.push(v);
         }
     }
+
     let mut out = Vec::new();
     grow(&[], (0..count).collect(), Vec::new(), compatible, &mut out);
     out
@@ -360,6 +386,7 @@ fn unit(n: usize, i: usize, value: Algebraic, biactive: Vec<usize>) -> Solution 
     let x = (0..n)
         .map(|j| Poly::from_ints(&[i64::from(i == j)]))
         .collect();
+
     Solution {
         value,
         multiplicity: 0,
@@ -375,10 +402,12 @@ fn cone(mut rays: Vec<Solution>, biactive: Vec<usize>) -> Cone {
     rays.sort_by(|a, b| a.slip.cmp(&b.slip));
     let mut slip: Vec<usize> = rays.iter().flat_map(|r| r.slip.clone()).collect();
     slip.sort_unstable();
+
     let value = rays.first().map_or_else(
         || Algebraic::rational(Rational::default()),
         |r| r.value.clone(),
     );
+
     Cone {
         value,
         slip,
@@ -399,6 +428,7 @@ fn answer(solutions: Vec<Solution>, cones: Vec<Cone>, n: usize) -> Enumeration {
         supports_total: total,
         ..Enumeration::default()
     };
+
     Enumeration::merge([parts]) // puts it into canonical order
 }
 

@@ -37,15 +37,18 @@ pub fn mechanical_pencil(n: usize, unknown: Unknown, seed: u64) -> Result<Proble
     let mass = definite(&mut rng, n);
     let k0 = definite(&mut rng, n);
     let k1: Vec<Vec<f64>> = square(n, |_, _| normal(&mut rng) / (n as f64).sqrt());
+
     let (a, b) = match unknown {
         Unknown::Mu => (k0, k1),
         Unknown::Lambda2 => (square(n, |i, j| k0[i][j] + 3.0 * k1[i][j]), mass),
     };
     let pencil = Pencil::new(exact(&a), exact(&b), Vec::new())?;
+
     let name = format!(
         "random mechanical pencil n={n} {} seed {seed}",
         unknown.word()
     );
+
     Ok(Problem::new(Body::Pencil(pencil), unknown, Window::all())?.named(name))
 }
 
@@ -61,6 +64,7 @@ pub fn refined_block(slip: usize, tenth_stuck: bool) -> Result<Problem, LargeErr
     } else {
         block.sliding_states(0, slip)?
     };
+
     let system = block.system(&states, None)?;
     Ok(
         Problem::new(Body::System(system), Unknown::Mu, Window::all())?
@@ -89,6 +93,7 @@ pub fn backslash_block() -> Result<Problem, LargeError> {
 /// [`LargeError`]; also where the unknown multiplies free rows or columns, as in MCEIP-lambda2.
 pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
     let pencil = reduce(problem)?.pencil;
+
     // A search that is stopped at once leaves the condensation, T_ff^-1 T_fs among it.
     let options = Options {
         threads: Some(1),
@@ -96,6 +101,7 @@ pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
     };
     let start = complete(problem, &options, &Watch::silent(&Cancel::requested()))?;
     let set = start.certificate.complete_set.and_then(|s| s.condensation);
+
     let Some(w) = set
         .as_ref()
         .and_then(|c| c.anchors.first())
@@ -103,6 +109,7 @@ pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
     else {
         return Ok(problem.clone());
     };
+
     let unit = Rational::new(One::one(), mceip_exact::Integer::one() << w.exponent);
     let w: Vec<Vec<f64>> = w
         .rows
@@ -113,16 +120,20 @@ pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
                 .collect()
         })
         .collect();
+
     let (slip, free) = (pencil.slip(), pencil.free().to_vec());
     let condensed = |m: &Sparse| {
         let (ss, sf) = (m.submatrix(&slip, &slip), m.submatrix(&slip, &free));
         let mut out = square(slip.len(), |i, j| to_f64(&ss.get(i, j)));
+
         for (i, k, v) in sf.entries() {
             let v = to_f64(v);
             out[i].iter_mut().zip(&w[k]).for_each(|(o, w)| *o -= v * w);
         }
+
         exact(&out)
     };
+
     let small = Pencil::new(condensed(pencil.a()), condensed(pencil.b()), Vec::new())?;
     Ok(Problem::new(
         Body::Pencil(small),
@@ -176,9 +187,11 @@ mod tests {
                 [1, 1, 2].map(|seed| mechanical_pencil(7, unknown, seed).unwrap());
             assert_eq!(one.sha256(), same.sha256());
             assert_ne!(one.sha256(), other.sha256());
+
             let Body::Pencil(pencil) = one.body() else {
                 unreachable!()
             };
+
             assert!(Admissible::new(pencil, unknown).is_ok());
             assert_eq!(pencil.slip().len(), 7);
         }
@@ -192,8 +205,10 @@ mod tests {
             .unwrap();
         let small = condensed_in_doubles(&problem).unwrap();
         let found = complete(&small, &Options::default(), &Watch::nobody()).unwrap();
+
         assert_eq!(found.cover.solutions.len(), 1);
         assert!((to_f64(&found.cover.solutions[0].value.mid()) - 1.71).abs() < 0.01);
+
         // The near problem's certificate is none for the given one.
         assert!(check(&problem, &found.certificate).is_err());
     }

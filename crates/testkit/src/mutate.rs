@@ -32,6 +32,7 @@ pub fn mutate(certificate: &mut Certificate, rng: &mut ChaCha8Rng) {
                 } else {
                     &mut c.w
                 };
+
                 common(
                     &mut c.support,
                     &mut c.biactive,
@@ -81,10 +82,12 @@ fn common(
         4 => {
             let root = Integer::from(rng.random_range(-3i64..=3));
             let mut product = vec![Integer::default(); polynomial.len() + 1];
+
             for (k, c) in polynomial.iter().enumerate() {
                 product[k] -= c * &root;
                 product[k + 1] += c;
             }
+
             *polynomial = product;
         }
         5 => {
@@ -109,6 +112,7 @@ fn common(
                 rng.random_range(0..variables),
                 rational(rng.random_range(-3..=3), 2),
             );
+
             if let Some(g) = x.get_mut(k) {
                 g.resize_with(g.len().max(polynomial.len()), || Number(whole(0)));
                 g.iter_mut()
@@ -121,6 +125,7 @@ fn common(
                 rng.random_range(0..variables),
                 rng.random_range(0..variables),
             );
+
             if i.max(j) < x.len() {
                 x.swap(i, j);
             }
@@ -128,6 +133,7 @@ fn common(
         _ => {
             let k = rng.random_range(0..variables);
             let by = small(rng);
+
             if let Some(p) = x.get_mut(k) {
                 match p.len() {
                     0 => p.push(Number(by)),
@@ -141,6 +147,7 @@ fn common(
 fn enclosed(c: &mut EnclosedSolution, rng: &mut ChaCha8Rng) {
     let (n, by) = (c.center.len().max(1), small(rng));
     let k = rng.random_range(0..n);
+
     match rng.random_range(0..7) {
         0 => toggle(&mut c.support, k),
         1 | 2 => c.center.iter_mut().skip(k).take(1).for_each(|v| v.0 += &by),
@@ -178,6 +185,7 @@ fn small(rng: &mut ChaCha8Rng) -> Rational {
     } else {
         -1
     };
+
     let size = Integer::from(10).pow(rng.random_range(0..=30));
     Rational::new(Integer::from(sign), size)
 }

@@ -32,17 +32,20 @@ pub fn pareto_matrices() -> Vec<Pareto> {
         [whole(3), whole(4), half(1)],
         [whole(2), half(-1), whole(6)],
     ];
+
     let three = Sparse::from_entries(
         3,
         3,
         (0..9).map(|k| (k / 3, k % 3, three[k / 3][k % 3].clone())),
     );
+
     let four: &[&[i64]] = &[
         &[100, 106, -18, -81],
         &[92, 158, -24, -101],
         &[2, 44, 37, -7],
         &[21, 38, 0, 2],
     ];
+
     let five: &[&[i64]] = &[
         &[-788, 780, 256, -156, -191],
         &[548, -862, 190, -112, -143],
@@ -50,6 +53,7 @@ pub fn pareto_matrices() -> Vec<Pareto> {
         &[292, 374, 14, -1402, -28],
         &[304, 402, 66, -38, -1522],
     ];
+
     let two: &[&[i64]] = &[&[3, 1], &[2, 5]];
     [
         (Sparse::from_ints(two), 3),
@@ -71,6 +75,7 @@ impl Pareto {
         let n = self.matrix.rows();
         let a = self.matrix.add_scaled(&self.bound(), &Sparse::identity(n));
         let minus = Sparse::zeros(n, n).add_scaled(&whole(-1), &Sparse::identity(n));
+
         Problem::new(
             Body::Pencil(Pencil::new(a, minus, vec![])?),
             Unknown::Lambda2,
@@ -88,6 +93,7 @@ impl Pareto {
                 .map(|e| e.1.abs())
                 .sum::<Rational>()
         };
+
         (0..self.matrix.rows()).map(sum).max().unwrap_or_default() + Rational::one()
     }
 
@@ -100,6 +106,7 @@ impl Pareto {
     pub fn system(&self, a: &Rational, c: &Rational) -> Result<Problem, ModelError> {
         let n = self.matrix.rows();
         let coupling = self.matrix.add_scaled(&-c, &Sparse::identity(n));
+
         // a b > |K_NT|_F^2 makes the Schur complement bI - K_NT K_NT' / a definite.
         let frobenius: Rational = coupling.entries().map(|(_, _, v)| v * v).sum();
         let b = frobenius / a + Rational::one();
@@ -112,6 +119,7 @@ impl Pareto {
         let particles = (0..n)
             .map(|i| Particle::plain(2 * i, 2 * i + 1, ContactState::Slip { sign: 1 }))
             .collect();
+
         Problem::new(
             Body::System(System::new(k, None, None, particles)?),
             Unknown::Mu,
@@ -142,10 +150,12 @@ pub fn planted(n: usize, free: usize, seed: u64) -> Result<Planted, ModelError> 
             what: "the complementarity variables",
         });
     }
+
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
     let mut small = |lo: i64, hi: i64| rng.random_range(lo..=hi);
     let value = rational(small(0, 30), small(1, 7));
     let slips = small(1, (n - free) as i64) as usize; // the first `slips` after the free ones
+
     let x: Vec<Rational> = (0..n)
         .map(|i| match i {
             i if i < free => rational(small(-9, 9), small(1, 4)),
@@ -153,6 +163,7 @@ pub fn planted(n: usize, free: usize, seed: u64) -> Result<Planted, ModelError> 
             _ => Rational::zero(),
         })
         .collect();
+
     let y: Vec<Rational> = (0..n)
         .map(|i| {
             if i < free + slips {
@@ -162,12 +173,14 @@ pub fn planted(n: usize, free: usize, seed: u64) -> Result<Planted, ModelError> 
             }
         })
         .collect();
+
     let b = definite_block(n, free, &mut small);
     let mut a = definite_block(n, free, &mut small);
     let image = a.add_scaled(&value, &b).times(&x);
     let bend = |i: usize| (&y[i] - &image[i]) / &x[free];
     let column = Sparse::from_entries(n, n, (0..n).map(|i| (i, free, bend(i))));
     a = a.add_scaled(&Rational::one(), &column);
+
     let pencil = Pencil::new(a, b, (0..free).collect())?;
     Ok(Planted {
         problem: Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())?,
@@ -181,12 +194,15 @@ fn definite_block(n: usize, free: usize, small: &mut impl FnMut(i64, i64) -> i64
     let mut m: Vec<Vec<i64>> = (0..n)
         .map(|_| (0..n).map(|_| small(-4, 4)).collect())
         .collect();
+
     for i in 0..free {
         for j in 0..i {
             m[i][j] = m[j][i];
         }
+
         m[i][i] = 4 * n as i64 + 1;
     }
+
     Sparse::from_entries(
         n,
         n,

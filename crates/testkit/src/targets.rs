@@ -33,6 +33,7 @@ pub fn problem_reader(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {
         return;
     };
+
     match read_problem(text, Path::new("/nonexistent")) {
         Ok(problem) => {
             let again = read_problem(&write_problem(&problem), Path::new("/nonexistent"));
@@ -42,6 +43,7 @@ pub fn problem_reader(data: &[u8]) {
         }
         Err(e) => assert_eq!(e.to_string().lines().count(), 1, "{e:?}"),
     }
+
     certificates::report_reader(text);
 }
 
@@ -59,12 +61,14 @@ pub fn solver_against_oracle_by(data: &[u8], treatment: &Treatment, counter: &Co
     let Some(problem) = small_problem(data) else {
         return;
     };
+
     let instance = Instance {
         label: format!("fuzz {data:?}"),
         problem,
         closed_form: None,
         corners: Vec::new(),
     };
+
     let report = compare_by(&instance, treatment);
     assert!(
         report.disagreements.is_empty(),
@@ -73,6 +77,7 @@ pub fn solver_against_oracle_by(data: &[u8], treatment: &Treatment, counter: &Co
         report.disagreements,
         write_problem(&instance.problem)
     );
+
     counter.add(&report);
 }
 
@@ -82,22 +87,28 @@ pub fn checker_against_forgeries(data: &[u8]) {
     let Some((&pick, rest)) = data.split_first() else {
         return;
     };
+
     let Some(problem) = small_problem(rest) else {
         return;
     };
+
     let instance = Instance {
         label: "fuzz".into(),
         problem,
         closed_form: None,
         corners: Vec::new(),
     };
+
     for certificate in certificates(&instance.problem) {
         assert!(check(&instance.problem, &certificate).is_ok());
+
         let again = Certificate::from_json(&certificate.to_json())
             .unwrap_or_else(|e| panic!("written certificate is refused: {e}"));
         assert_eq!(again, certificate);
+
         let list = forgeries(&certificate);
         let forgery = &list[usize::from(pick) % list.len()];
+
         match check(&instance.problem, &forgery.certificate) {
             Ok(_) => panic!(
                 "{}",
@@ -115,12 +126,15 @@ pub fn checker_against_forgeries(data: &[u8]) {
 fn certificates(problem: &Problem) -> Vec<Certificate> {
     use mceip_engine::candidate::Candidate;
     use mceip_engine::certify::{certificate, propose};
+
     let Ok(reduced) = mceip_engine::reduction::reduce(problem) else {
         return Vec::new();
     };
+
     let Ok(oracle) = mceip_oracle::enumerate(&reduced.pencil, problem.window()) else {
         return Vec::new();
     };
+
     let slip = reduced.pencil.slip();
     let candidates = oracle.solutions.iter().map(|s| Candidate {
         value: s.decimal(17).parse().unwrap_or(f64::NAN), // our own decimals parse
@@ -129,10 +143,12 @@ fn certificates(problem: &Problem) -> Vec<Certificate> {
             .map(|t| t.parse().unwrap_or(f64::NAN))
             .collect(),
     });
+
     let claims = candidates.map(|c| {
         propose(&reduced.pencil, problem.window(), &c)
             .unwrap_or_else(|e| panic!("oracle's solution not certified: {e}"))
     });
+
     claims
         .map(|claim| certificate(problem, vec![claim]))
         .collect()
@@ -142,18 +158,22 @@ fn certificates(problem: &Problem) -> Vec<Certificate> {
 fn small_problem(data: &[u8]) -> Option<Problem> {
     let (&head, &mask) = (data.first()?, data.get(1)?);
     let n = usize::from(head % 4) + 1;
+
     let unknown = if head & 0x10 == 0 {
         Unknown::Mu
     } else {
         Unknown::Lambda2
     };
+
     let matrix = |offset: usize| {
         let entries = (0..n * n).map(|k| {
             let byte = data.get(2 + offset + k).copied().unwrap_or(0);
             (k / n, k % n, whole(i64::from(byte % 9) - 4))
         });
+
         Sparse::from_entries(n, n, entries)
     };
+
     let free = (0..n).filter(|i| mask >> i & 1 == 1).collect();
     let pencil = Pencil::new(matrix(0), matrix(n * n), free).ok()?;
     Problem::new(Body::Pencil(pencil), unknown, Window::all()).ok()

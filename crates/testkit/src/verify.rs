@@ -78,6 +78,7 @@ impl Verification {
             b.rejected.len() + b.forgeries - b.rejected_forgeries + b.missing + b.unfound
         };
         let block: usize = self.block.iter().map(of).sum();
+
         self.families
             .iter()
             .map(|f| f.disagreements.len())
@@ -106,6 +107,7 @@ impl Verification {
                 coverage: block.path,
             });
         }
+
         out
     }
 
@@ -131,25 +133,31 @@ pub fn verify(random: usize, seed: u64, watch: &Watch<'_>) -> Result<Verificatio
         seed,
         ..Search::default()
     });
+
     let families: [(&'static str, Result<Vec<Instance>, ModelError>); 4] = [
         ("Table 1 (two particles)", table1_grid()),
         ("random pencils", random_pencils(random, seed)),
         ("mechanical systems", mechanical(random / 4, seed)),
         ("degenerate cases", degenerate()),
     ];
+
     let mut rows = Vec::new();
     for (name, instances) in families {
         rows.push(verify_family(name, &instances?, &treatment, watch));
     }
+
     let mut block = Vec::new();
     let model = Block::of_the_paper(MassKind::Consistent);
+
     for (k, state) in PublishedState::ALL.into_iter().enumerate() {
         if watch.is_cancelled() {
             break;
         }
+
         watch.report(&Progress::of("block of section 5", k, 2));
         block.extend(block_state(&model, state, &watch.quiet())?);
     }
+
     Ok(Verification {
         seed,
         families: rows,
@@ -172,18 +180,22 @@ pub fn verify_family(
             if watch.is_cancelled() {
                 return None;
             }
+
             let report = compare_by(instance, treatment);
             let finished = done.fetch_add(1, Ordering::Relaxed) + 1;
             watch.report(&Progress::of(name, finished, instances.len()));
+
             Some(report)
         })
         .collect(); // in the order of the instances
+
     let mut row = FamilyReport {
         name,
         instances: instances.len(),
         done: reports.len(),
         ..FamilyReport::default()
     };
+
     for r in reports {
         row.oracle += r.oracle;
         row.findable += if r.solved { r.oracle } else { 0 };
@@ -192,25 +204,31 @@ pub fn verify_family(
         row.degenerate += usize::from(r.degenerate);
         row.completed += usize::from(r.completed);
         row.pivots += r.pivots;
+
         let wrong_forgeries = r
             .disagreements
             .iter()
             .filter(|d| matches!(d, Disagreement::Forgery { .. }))
             .count();
+
         row.rejected += r.forgeries - wrong_forgeries;
         for (starts, coverage) in r.coverage() {
             row.coverage.entry(starts).or_default().add(&coverage);
         }
+
         row.uncertified
             .extend(r.uncertified.iter().map(|u| format!("{}: {u}", r.label)));
         row.disagreements
             .extend(r.disagreements.iter().map(|d| format!("{}: {d}", r.label)));
+
         let mut corners = r.corners;
         corners.sort();
         corners.dedup();
+
         for corner in corners {
             *row.corners.entry(corner).or_default() += 1;
         }
     }
+
     row
 }

@@ -99,6 +99,7 @@ impl Engine for KnownAnswer {
                 enumerated: found.solutions.len(),
             })
         };
+
         if let Some(answer) = expected.answer.as_ref().filter(|a| *a != found) {
             wrong(format!(
                 "{} solutions, {} cones",
@@ -106,12 +107,14 @@ impl Engine for KnownAnswer {
                 answer.cones.len()
             ));
         }
+
         if let Some(count) = expected
             .count
             .filter(|c| *c != found.solutions.len() || !found.is_plain_list())
         {
             wrong(format!("{count} solutions"));
         }
+
         if let Some((value, x)) = expected
             .planted
             .as_ref()
@@ -128,6 +131,7 @@ fn holds(truth: &Truth, value: &Rational, x: &[Rational]) -> bool {
         .iter()
         .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))
         .collect();
+
     truth.enumeration.contains(
         &truth.reduced.pencil,
         &Algebraic::rational(value.clone()),
@@ -154,6 +158,7 @@ pub fn treatment(seed: u64) -> Treatment {
         seed,
         ..Search::default()
     };
+
     Treatment {
         nodes: NODES,
         ..Treatment::of(&search)
@@ -196,6 +201,7 @@ pub fn judge(case: &Case, all: &[Box<dyn Engine>]) -> Judgement {
         corners: case.instance.corners.clone(),
         ..InstanceReport::default()
     };
+
     let mut findings = Vec::new();
     let mut note = |engine: &str, disagreement| {
         findings.push(Finding {
@@ -203,6 +209,7 @@ pub fn judge(case: &Case, all: &[Box<dyn Engine>]) -> Judgement {
             disagreement,
         })
     };
+
     match guarded(|| engines(&case.instance.problem)) {
         Err(panic) => note("enumerator", panic),
         Ok(Err(disagreement)) => note("enumerator", disagreement),
@@ -212,18 +219,21 @@ pub fn judge(case: &Case, all: &[Box<dyn Engine>]) -> Judgement {
                 enumeration,
             };
             report.corners.extend(shape(&truth));
+
             for engine in all {
                 let outcome = guarded(|| engine.compare(case, &truth, &mut report));
                 report
                     .disagreements
                     .drain(..)
                     .for_each(|d| note(engine.name(), d));
+
                 if let Err(panic) = outcome {
                     note(engine.name(), panic);
                 }
             }
         }
     }
+
     report.corners.sort();
     report.corners.dedup();
     Judgement { report, findings }
@@ -234,11 +244,13 @@ fn shape(truth: &Truth) -> Vec<Corner> {
     let found = &truth.enumeration;
     let empty = found.is_plain_list() && found.solutions.is_empty();
     let pencil = &truth.reduced.pencil;
+
     let reached = [
         (empty, Corner::Empty),
         (pencil.order() == 1, Corner::OneByOne),
         (!pencil.free().is_empty(), Corner::FreeVariables),
     ];
+
     observed(found)
         .into_iter()
         .chain(reached.into_iter().filter(|r| r.0).map(|r| r.1))
@@ -251,6 +263,7 @@ fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, Disagreement> {
             .downcast_ref::<String>()
             .cloned()
             .or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string));
+
         Disagreement::Panicked {
             message: text.unwrap_or_else(|| "no message".into()),
         }

@@ -153,11 +153,13 @@ pub fn case(id: &Id) -> Result<Result<Case, ModelError>, UnknownFamily> {
         .ok_or_else(|| UnknownFamily {
             name: id.family.clone(),
         })?;
+
     let made = (FAMILIES[number].2)(&Seed {
         family: number as u64,
         seed: id.seed,
         index: id.index,
     });
+
     Ok(made.map(|(instance, expected)| Case {
         id: id.clone(),
         instance: Instance {

@@ -27,11 +27,13 @@ pub(super) fn table1_near(seed: &Seed) -> Result<Made> {
     let distance = near::distance(&mut rng);
     let on = distance == whole(0);
     let data = near::two_particles_data(&mut rng, Some(distance));
+
     let corner = if on && data.signs.0 != data.signs.1 {
         Corner::Threshold
     } else {
         Corner::NearThreshold
     };
+
     two_particle_instance(data, vec![corner])
 }
 
@@ -41,6 +43,7 @@ fn two_particle_instance(data: TwoParticles, corners: Vec<Corner>) -> Result<Mad
         Unknown::Lambda2,
         Window::all(),
     )?;
+
     Ok((
         Instance {
             label: String::new(),
@@ -59,6 +62,7 @@ pub(super) fn elements(seed: &Seed) -> Result<Made> {
         rng.random_range(1..=7),
         free_count(&mut rng),
     );
+
     let pencil = raw::elements(unknown, &mut rng, n_s, n_f)?;
     in_a_window(&mut rng, pencil, unknown)
 }
@@ -68,6 +72,7 @@ pub(super) fn states(seed: &Seed) -> Result<Made> {
     let mut corners = Vec::new();
     let system = mixtures::system(&mut rng, &mixtures::mixture(seed.index / 2), &mut corners)?;
     let problem = Problem::new(Body::System(system), unknown(seed.index), Window::all())?;
+
     Ok((
         Instance {
             label: String::new(),
@@ -97,6 +102,7 @@ pub(super) fn digits(seed: &Seed) -> Result<Made> {
     let mut rng = seed.rng();
     let (n_s, n_f) = (rng.random_range(1..=7), free_count(&mut rng));
     let pencil = raw::digits(&mut rng, n_s, n_f)?;
+
     in_a_window(&mut rng, pencil, Unknown::Mu)
 }
 
@@ -147,13 +153,16 @@ pub(super) fn degenerate(seed: &Seed) -> Result<Made> {
     let Body::Pencil(pencil) = instance.problem.body() else {
         return Ok((instance, Expected::default()));
     };
+
     let pencil = permuted(&mut rng, pencil);
     let pencil = with_scaled_rows(&mut rng, &pencil);
+
     let problem = Problem::new(
         Body::Pencil(pencil),
         instance.problem.unknown(),
         Window::all(),
     )?;
+
     Ok((
         Instance {
             problem,
@@ -166,6 +175,7 @@ pub(super) fn degenerate(seed: &Seed) -> Result<Made> {
 pub(super) fn known(seed: &Seed) -> Result<Made> {
     let mut rng = seed.rng();
     let n = rng.random_range(1..=6);
+
     let known = match seed.index % 8 {
         0 => theorems::path(n),
         1 => theorems::cycle(n.max(3)),
@@ -180,6 +190,7 @@ pub(super) fn known(seed: &Seed) -> Result<Made> {
                 .collect::<Vec<Rational>>(),
         ),
     }?;
+
     let problem = match known.problem.body() {
         Body::Pencil(p) => Problem::new(
             Body::Pencil(with_scaled_rows(&mut rng, p)),
@@ -188,6 +199,7 @@ pub(super) fn known(seed: &Seed) -> Result<Made> {
         )?,
         Body::System(_) => known.problem,
     };
+
     Ok((
         plain(problem),
         Expected {
@@ -201,6 +213,7 @@ pub(super) fn pareto(seed: &Seed) -> Result<Made> {
     let mut rng = seed.rng();
     let list = pareto_matrices();
     let pareto = &list[(seed.index % list.len() as u64) as usize];
+
     let problem = if rng.random_range(0..2) == 0 {
         let problem = pareto.pencil()?;
         let Body::Pencil(p) = problem.body() else {
@@ -216,6 +229,7 @@ pub(super) fn pareto(seed: &Seed) -> Result<Made> {
             &(pareto.bound() + rational(rng.random_range(0..=20), 3)),
         )?
     };
+
     Ok((
         plain(problem),
         Expected {
@@ -230,12 +244,14 @@ pub(super) fn planted(seed: &Seed) -> Result<Made> {
     let free = free_count(&mut rng);
     let n = free + rng.random_range(1..=5);
     let (Planted { problem, value, x }, inside) = near::near_the_windows_end(&mut rng, n, free)?;
+
     let instance = Instance {
         label: String::new(),
         problem,
         closed_form: None,
         corners: vec![Corner::Planted, Corner::NearThreshold],
     };
+
     Ok((
         instance,
         Expected {
@@ -254,6 +270,7 @@ pub(super) fn near(seed: &Seed) -> Result<Made> {
         let n = free + rng.random_range(2..=5);
         near::nearly_biactive(&mut rng, n, free)?
     };
+
     Ok((
         Instance {
             label: String::new(),
@@ -270,6 +287,7 @@ pub(super) fn scales(seed: &Seed) -> Result<Made> {
     let unknown = unknown(seed.index);
     let (n_s, n_f) = (rng.random_range(1..=4), rng.random_range(0..=2));
     let exponent = [12, 30, 60][rng.random_range(0..3)];
+
     let (pencil, corner) = match seed.index / 2 % 4 {
         0 => (
             scales::hilbert(unknown, &mut rng, n_s, n_f)?,
@@ -288,6 +306,7 @@ pub(super) fn scales(seed: &Seed) -> Result<Made> {
             Corner::TinyScale,
         ),
     };
+
     let problem = Problem::new(Body::Pencil(pencil), unknown, Window::all())?;
     Ok((
         Instance {
@@ -309,6 +328,7 @@ fn raw_family(
     let mut rng = seed.rng();
     let n = rng.random_range(1..=top);
     let pencil = make(&mut rng, n)?;
+
     in_a_window(&mut rng, pencil, unknown(seed.index))
 }
 
@@ -319,6 +339,7 @@ fn in_a_window(rng: &mut ChaCha8Rng, pencil: Pencil, unknown: Unknown) -> Result
         Some(_) => vec![Corner::FiniteWindow],
         None => vec![],
     };
+
     let problem = Problem::new(Body::Pencil(pencil), unknown, window)?;
     Ok((
         Instance {

@@ -80,6 +80,7 @@ impl Replay {
             mu: d.mu.to_string(),
             signs: d.signs,
         });
+
         Replay {
             format: REPLAY_FORMAT.into(),
             family: case.id.family.clone(),
@@ -134,22 +135,27 @@ impl Replay {
             seed: self.seed,
             index: self.index,
         };
+
         let problem = read_problem(&self.problem.to_string(), Path::new("."))?;
         let closed_form = self.closed_form.as_ref().map(data).transpose()?;
+
         let drawn = if self.shrunk {
             None
         } else {
             case(&id).ok().and_then(Result::ok)
         };
+
         let expected = drawn
             .filter(|d| d.instance.problem == problem)
             .map_or_else(Expected::default, |d| d.expected);
+
         let instance = Instance {
             label: format!("{id} (replay)"),
             problem,
             closed_form,
             corners: Vec::new(),
         };
+
         Ok(Case {
             id,
             instance,

@@ -45,23 +45,28 @@ impl Campaign<'_> {
     pub fn run(&self, mut state: State, cancel: &Cancel, hear: &mut dyn FnMut(Event<'_>)) -> State {
         let begun = Instant::now();
         let count = state.families.len() as u64;
+
         loop {
             let left = match self.limit {
                 Limit::Count(each) => (each * count).saturating_sub(state.done),
                 Limit::For(time) if begun.elapsed() >= time => 0,
                 Limit::For(_) => WAVE,
             };
+
             if left == 0 || cancel.is_requested() {
                 return state;
             }
+
             let wave: Vec<Id> = (state.done..state.done + left.min(WAVE))
                 .map(|k| state.id(k))
                 .collect();
             let judged: Vec<(Option<Case>, Judgement)> =
                 wave.par_iter().map(|id| self.judge(id)).collect(); // in order
+
             for (id, (case, judgement)) in wave.iter().zip(judged) {
                 state.tallies[(state.done % count) as usize].add(id, &judgement);
                 state.done += 1;
+
                 for finding in case
                     .iter()
                     .flat_map(|c| self.replays(c, &judgement.findings))
@@ -69,6 +74,7 @@ impl Campaign<'_> {
                     hear(Event::Disagreement(&finding));
                 }
             }
+
             hear(Event::Wave(&state));
         }
     }
@@ -79,6 +85,7 @@ impl Campaign<'_> {
                 engine: "generator",
                 reason,
             };
+
             Judgement {
                 findings: vec![Finding {
                     engine: "generator".into(),
@@ -87,6 +94,7 @@ impl Campaign<'_> {
                 ..Judgement::default()
             }
         };
+
         match case(id) {
             Ok(Ok(case)) => {
                 let judgement = judge(&case, self.engines);
@@ -103,6 +111,7 @@ impl Campaign<'_> {
         let kinds = (0..findings.len())
             .filter(|&k| first(k))
             .map(|k| &findings[k]);
+
         kinds
             .map(|finding| {
                 let (small, says) = shrink(case, finding, self.engines);

@@ -71,21 +71,25 @@ impl Tally {
         self.solutions += r.oracle as u64;
         self.findable += if r.solved { r.oracle as u64 } else { 0 };
         self.found += r.found as u64;
+
         for (starts, coverage) in r.coverage() {
             self.coverage
                 .entry(starts.word().into())
                 .or_default()
                 .add(&coverage);
         }
+
         self.accepted += r.accepted as u64;
         self.forgeries += r.forgeries as u64;
         self.closed += u64::from(r.completed);
         self.uncertified += r.uncertified.len() as u64;
         self.degenerate += u64::from(r.degenerate);
         self.pivots += r.pivots as u64;
+
         for corner in &r.corners {
             *self.corners.entry(format!("{corner:?}")).or_default() += 1;
         }
+
         self.disagreements.extend(
             judged
                 .findings
@@ -157,6 +161,7 @@ impl State {
                 }
             }
         }
+
         out
     }
 
@@ -187,6 +192,7 @@ impl State {
     pub fn resumed(&self, text: &str) -> Result<State, StateError> {
         require_format(text, STATE_FORMAT)?;
         let state: State = from_json(text)?;
+
         let pairs = [
             ("seed", self.seed.to_string(), state.seed.to_string()),
             (
@@ -205,6 +211,7 @@ impl State {
                 state.tallies.len().to_string(),
             ),
         ];
+
         match pairs.into_iter().find(|(_, expected, got)| expected != got) {
             Some((what, expected, got)) => Err(StateError::Other {
                 what,

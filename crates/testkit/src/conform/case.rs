@@ -63,14 +63,17 @@ impl Case {
             source,
         };
         let reduced = reduce(&draft.problem).map_err(at)?;
+
         let answer = enumerate(&reduced.pencil, draft.problem.window()).map_err(|source| {
             ConformError::Oracle {
                 case: draft.id.clone(),
                 source,
             }
         })?;
+
         let mut flags = derive(&draft.problem, &reduced, &answer);
         flags.extend(&draft.flags);
+
         let mut case = Case {
             id: draft.id.clone(),
             comment: draft.comment.clone(),
@@ -79,6 +82,7 @@ impl Case {
             reduced,
             answer,
         };
+
         if as_pencil {
             let body = mceip_model::Body::Pencil(case.reduced.pencil.clone());
             let pencil = Problem::new(body, case.problem.unknown(), case.problem.window().clone())
@@ -86,6 +90,7 @@ impl Case {
             case.problem = pencil.named(draft.id.clone());
             case.reduced = reduce(&case.problem).map_err(at)?;
         }
+
         Ok(case)
     }
 
@@ -97,6 +102,7 @@ impl Case {
             .iter()
             .map(|s| Listed::of_solution(&self.problem, &self.reduced, s))
             .collect();
+
         solutions_json(&Report {
             problem: &self.problem,
             reduced: &self.reduced,

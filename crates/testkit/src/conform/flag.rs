@@ -102,11 +102,14 @@ pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration)
             flags.insert(flag);
         }
     };
+
     put(Flag::Lambda2, problem.unknown() == Unknown::Lambda2);
     put(Flag::Mu, problem.unknown() == Unknown::Mu);
+
     let pencil = &reduced.pencil;
     put(Flag::OneByOne, pencil.order() == 1);
     put(Flag::FreeVariables, !pencil.free().is_empty());
+
     let (large, small) = (
         mceip_exact::whole(100_000),
         mceip_exact::rational(1, 100_000),
@@ -114,6 +117,7 @@ pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration)
     let extreme = |v: &mceip_exact::Rational| {
         !v.is_zero() && (*v > large || -v > large || (*v < small && -v < small))
     };
+
     put(
         Flag::Scaled,
         pencil
@@ -122,6 +126,7 @@ pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration)
             .chain(pencil.b().entries())
             .any(|e| extreme(e.2)),
     );
+
     match problem.body() {
         Body::Pencil(_) => put(Flag::Pencil, true),
         Body::System(system) => {
@@ -129,12 +134,14 @@ pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration)
             for p in system.particles() {
                 put(Flag::Stick, p.state == ContactState::Stick);
                 put(Flag::FreeParticle, p.state == ContactState::Free);
+
                 put(
                     Flag::NormalAway,
                     p.normal_direction == -1 && matches!(p.state, ContactState::Slip { .. }),
                 );
                 put(Flag::Oblique, p.frame.is_some());
             }
+
             put(
                 Flag::CoupledMass,
                 system
@@ -143,6 +150,7 @@ pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration)
             );
         }
     }
+
     of_window(problem, answer, &mut put);
     of_answer(reduced, answer, &mut put);
     flags
@@ -154,12 +162,14 @@ fn of_window(problem: &Problem, answer: &Enumeration, put: &mut impl FnMut(Flag,
         Flag::Window,
         window.max().is_some() || !window.min().is_zero(),
     );
+
     let ends = [Some(window.min()).filter(|m| !m.is_zero()), window.max()];
     let values = answer
         .solutions
         .iter()
         .map(|s| &s.value)
         .chain(answer.cones.iter().map(|c| &c.value));
+
     for mut value in values.cloned() {
         put(
             Flag::WindowEnd,
@@ -180,11 +190,13 @@ fn of_answer(reduced: &Reduced, answer: &Enumeration, put: &mut impl FnMut(Flag,
     put(Flag::SingularPencil, !answer.continua.is_empty());
     put(Flag::Continuum, !answer.ranges.is_empty());
     put(Flag::FreeOnly, answer.is_outside_propositions());
+
     let close = mceip_exact::rational(1, 100);
     for s in listed {
         let mut value = s.value.clone();
         value.try_rational();
         put(Flag::Irrational, value.as_rational().is_none());
+
         put(
             Flag::ZeroValue,
             value.cmp_rational(&mceip_exact::Rational::zero()).is_eq(),
@@ -193,15 +205,19 @@ fn of_answer(reduced: &Reduced, answer: &Enumeration, put: &mut impl FnMut(Flag,
         put(Flag::Biactive, !s.biactive.is_empty());
         put(Flag::TinyComponent, tiny(s, &reduced.pencil.slip()));
     }
+
     for pair in listed.windows(2) {
         let equal = pair[0].value.clone().equals(&mut pair[1].value.clone());
         let gap = &pair[1].value.interval().lo().clone() - pair[0].value.interval().hi();
+
         let apart = {
             let (mut a, mut b) = (pair[0].value.clone(), pair[1].value.clone());
             a.refine_to(&(&close / mceip_exact::whole(100)));
             b.refine_to(&(&close / mceip_exact::whole(100)));
+
             b.interval().mid() - a.interval().mid()
         };
+
         put(Flag::SharedValue, equal);
         put(Flag::CloseValues, !equal && gap < close && apart < close);
     }
@@ -225,11 +241,13 @@ mod tests {
     fn words_are_distinct_and_read_back() {
         let words: BTreeSet<&str> = Flag::ALL.iter().map(|f| f.word()).collect();
         assert_eq!(words.len(), Flag::ALL.len());
+
         assert!(
             Flag::ALL
                 .iter()
                 .all(|f| Flag::of_word(f.word()) == Some(*f) && f.note().ends_with('.'))
         );
+
         assert_eq!(Flag::of_word("anything"), None);
     }
 }

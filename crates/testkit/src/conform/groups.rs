@@ -58,9 +58,11 @@ pub fn random_draft(k: usize, seed: u64) -> Result<Draft, ModelError> {
     } else {
         random_pencils(1 + k % 2, seed_of)?
     };
+
     let instance = made.into_iter().next_back().ok_or(ModelError::Empty {
         what: "random family",
     })?;
+
     Ok(draft(
         format!("random-{seed}-{k}"),
         instance.label,
@@ -110,6 +112,7 @@ const SIGNS: [(i8, i8); 4] = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
 fn table1() -> Result<Group, ModelError> {
     let mut drafts = Vec::new();
     let angles = pythagorean_angles();
+
     for (number, (c, s)) in [&angles[0], &angles[2], &angles[6], &angles[7]]
         .into_iter()
         .enumerate()
@@ -119,6 +122,7 @@ fn table1() -> Result<Group, ModelError> {
         } else {
             (rational(7, 3), rational(5, 2))
         };
+
         for (mu, place) in frictions(c, s) {
             for signs in SIGNS {
                 let data = TwoParticles {
@@ -129,16 +133,19 @@ fn table1() -> Result<Group, ModelError> {
                     mu: mu.clone(),
                     signs,
                 };
+
                 let flags: Vec<Flag> = if signs == (1, -1) {
                     place.into_iter().collect()
                 } else {
                     Vec::new()
                 };
+
                 let problem = Problem::new(
                     Body::System(two_particles(&data)?),
                     Unknown::Lambda2,
                     Window::all(),
                 )?;
+
                 let comment =
                     format!("Table 1: cos {c}, sin {s}, k {k}, m {m}, mu {mu}, S {signs:?}");
                 drafts.push(draft(
@@ -150,6 +157,7 @@ fn table1() -> Result<Group, ModelError> {
             }
         }
     }
+
     Ok(group(
         "table1",
         "the two particles of Fig. 1, MCEIP-lambda2",
@@ -164,11 +172,13 @@ fn frictions(c: &Rational, s: &Rational) -> Vec<(Rational, Option<Flag>)> {
         .map(|mu| (mu, None))
         .to_vec();
     let cs = c * s;
+
     if !cs.is_zero() {
         let tiny = rational(1, 1_000_000_000);
         for top in [c * c + Rational::one(), c * c + whole(2)] {
             let mu = top / &cs;
             let near = Some(Flag::NearThreshold);
+
             list.extend([
                 (&mu - &tiny, near),
                 (mu.clone(), Some(Flag::Threshold)),
@@ -176,6 +186,7 @@ fn frictions(c: &Rational, s: &Rational) -> Vec<(Rational, Option<Flag>)> {
             ]);
         }
     }
+
     list
 }
 
@@ -183,6 +194,7 @@ fn frictions(c: &Rational, s: &Rational) -> Vec<(Rational, Option<Flag>)> {
 fn static_thresholds() -> Result<Group, ModelError> {
     let mut drafts = Vec::new();
     let angles = pythagorean_angles();
+
     for (c, s) in [&angles[0], &angles[3], &angles[5], &angles[7]] {
         for signs in SIGNS {
             let data = TwoParticles {
@@ -193,11 +205,13 @@ fn static_thresholds() -> Result<Group, ModelError> {
                 mu: whole(1),
                 signs,
             };
+
             let problem = Problem::new(
                 Body::System(two_particles(&data)?),
                 Unknown::Mu,
                 Window::all(),
             )?;
+
             drafts.push(draft(
                 format!("mu-{:02}", drafts.len()),
                 format!("static thresholds: cos {c}, sin {s}, S {signs:?}"),
@@ -206,6 +220,7 @@ fn static_thresholds() -> Result<Group, ModelError> {
             ));
         }
     }
+
     Ok(group(
         "static-thresholds",
         "the two particles of Fig. 1, MCEIP-mu",
@@ -236,6 +251,7 @@ fn degenerate() -> Result<Group, ModelError> {
         .enumerate()
         .map(|(k, i)| draft(format!("degenerate-{k:02}"), i.label, &[], i.problem))
         .collect();
+
     let cases: [(&str, Rows<'_>, Rows<'_>, &[usize]); 17] = [
         ("order 1, t = 0", &[&[0]], &[&[1]], &[]),
         ("order 1, free only", &[&[-3]], &[&[2]], &[0]),
@@ -300,6 +316,7 @@ fn degenerate() -> Result<Group, ModelError> {
         ),
         ("complex eigenvalues only", &[&[1, 3], &[-3, 1]], I2, &[]),
     ];
+
     for (k, (comment, a, b, free)) in cases.into_iter().enumerate() {
         drafts.push(draft(
             format!("corner-{k:02}"),
@@ -308,6 +325,7 @@ fn degenerate() -> Result<Group, ModelError> {
             problem(a, b, free, Unknown::Lambda2)?,
         ));
     }
+
     Ok(group(
         "degenerate",
         "degenerate corners built on purpose",
@@ -356,6 +374,7 @@ fn singular() -> Result<Group, ModelError> {
             &[0],
         ),
     ];
+
     let mut drafts = Vec::new();
     for (k, (comment, a, b, free)) in cases.into_iter().enumerate() {
         drafts.push(draft(
@@ -365,16 +384,19 @@ fn singular() -> Result<Group, ModelError> {
             problem(a, b, free, Unknown::Mu)?,
         ));
     }
+
     let cut = drafts[2]
         .problem
         .clone()
         .with_window(Window::new(whole(1), Some(whole(4)))?);
+
     drafts.push(draft(
         "singular-07",
         "from 2 on, cut to the window [1, 4]",
         &[],
         cut,
     ));
+
     Ok(group(
         "singular",
         "pencils that are singular for every value",
@@ -387,6 +409,7 @@ fn windows() -> Result<Group, ModelError> {
     let fold = problem(&[&[1, -6], &[2, -6]], I2, &[], Unknown::Lambda2)?;
     let path = known::path(4)?.problem;
     let tiny = rational(1, 1_000_000);
+
     let list: Vec<(&str, &Problem, Rational, Option<Rational>)> = vec![
         ("both ends are values", &fold, whole(2), Some(whole(3))),
         ("a point that is a value", &fold, whole(2), Some(whole(2))),
@@ -425,6 +448,7 @@ fn windows() -> Result<Group, ModelError> {
         ("irrational values only", &path, rational(11, 10), None),
         ("the point 1", &path, whole(1), Some(whole(1))),
     ];
+
     let mut drafts = Vec::new();
     for (k, (comment, base, min, max)) in list.into_iter().enumerate() {
         drafts.push(draft(
@@ -434,6 +458,7 @@ fn windows() -> Result<Group, ModelError> {
             base.clone().with_window(Window::new(min, max)?),
         ));
     }
+
     Ok(group(
         "windows",
         "bounded windows: closed ends, points, nothing inside",
@@ -444,6 +469,7 @@ fn windows() -> Result<Group, ModelError> {
 /// Folds on both sides, tiny components, entries of all sizes.
 fn thresholds_of_folds() -> Result<Group, ModelError> {
     let mut drafts = Vec::new();
+
     // (1 + t) x1 - 4 x2 = 0, x1 + (-3 + d + t) x2 = 0: double root t = 1 at d = 0, a pair below,
     // none above.
     for (d, comment) in [
@@ -472,9 +498,11 @@ fn thresholds_of_folds() -> Result<Group, ModelError> {
             a,
         )?);
     }
+
     for exponent in [3u32, 5, 8] {
         let e = Rational::new(One::one(), num_bigint::BigInt::from(10).pow(exponent));
         let a = Sparse::from_entries(2, 2, [(0, 0, -whole(1) - &e), (0, 1, whole(1)), (1, 0, -e)]);
+
         drafts.push(pencil_draft(
             format!("tiny-{exponent}"),
             format!("x = (1, 10^-{exponent}) at t = 1"),
@@ -482,6 +510,7 @@ fn thresholds_of_folds() -> Result<Group, ModelError> {
             a,
         )?);
     }
+
     for (name, factor) in [
         ("large", whole(10_000_000)),
         ("small", rational(1, 10_000_000)),
@@ -503,6 +532,7 @@ fn thresholds_of_folds() -> Result<Group, ModelError> {
             problem,
         ));
     }
+
     // Row scaling changes y alone; column scaling changes x.
     let a = Sparse::from_entries(
         2,
@@ -514,22 +544,26 @@ fn thresholds_of_folds() -> Result<Group, ModelError> {
             (1, 1, rational(-6, 1_000_000)),
         ],
     );
+
     let b = Sparse::from_entries(
         2,
         2,
         [(0, 0, whole(1_000_000)), (1, 1, rational(1, 1_000_000))],
     );
+
     let problem = Problem::new(
         Body::Pencil(Pencil::new(a, b, vec![])?),
         Unknown::Lambda2,
         Window::all(),
     )?;
+
     drafts.push(draft(
         "scaled-rows",
         "the fold with its rows times 1e6 and 10^-6",
         &[Flag::Fold],
         problem,
     ));
+
     Ok(group("folds", "folds, tiny components, scales", drafts))
 }
 
@@ -560,6 +594,7 @@ fn graphs() -> Result<Group, ModelError> {
         known::z_matrix(5)?,
         known::diagonal(&[whole(2), whole(2), rational(1, 3), whole(-1)])?,
     ];
+
     let mut drafts: Vec<Draft> = known
         .into_iter()
         .enumerate()
@@ -572,14 +607,17 @@ fn graphs() -> Result<Group, ModelError> {
             )
         })
         .collect();
+
     for (k, p) in pareto::pareto_matrices().into_iter().enumerate() {
         let comment = format!(
             "Pareto eigenvalue problem of order {} with {} solutions",
             p.matrix.rows(),
             p.count
         );
+
         drafts.push(draft(format!("pareto-{k:02}"), comment, &[], p.pencil()?));
     }
+
     Ok(group(
         "graphs",
         "graphs with closed forms, and Pareto eigenvalue problems of the literature",
@@ -595,11 +633,13 @@ fn block() -> Result<Group, ConformError> {
     for (slip, stick) in [(2, 0), (3, 1), (5, 0)] {
         let block = Block::new(&BlockModel::refined(slip + stick))?;
         let system = block.system(&block.sliding_states(stick, slip)?, None)?;
+
         let reduced = reduce(&Problem::new(
             Body::System(system),
             Unknown::Mu,
             Window::all(),
         )?)?;
+
         let pencil = condense(&Admissible::new(&reduced.pencil, Unknown::Mu)?)?;
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
         let comment = format!(
@@ -607,6 +647,7 @@ fn block() -> Result<Group, ConformError> {
         );
         drafts.push(draft(format!("block-{slip}"), comment, &[], problem));
     }
+
     Ok(group(
         "block",
         "the polyurethane block of section 5 on coarse meshes, MCEIP-mu, condensed",

@@ -99,20 +99,24 @@ pub fn judge_report(case: &Case, text: &str) -> Judgement {
         Err(e @ ForeignError::Digest { .. }) => return Judgement::new(Label::Wrong, e.to_string()),
         Err(e) => return Judgement::new(Label::Malformed, e.to_string()),
     };
+
     let unfit = report
         .solutions
         .iter()
         .filter_map(|s| s.as_ref().err())
         .find(|bad| !matches!(bad, BadPoint::OffConstraints { .. }));
+
     if let Some(bad) = unfit {
         return Judgement::new(Label::Malformed, bad.to_string());
     }
+
     if report.solutions.len() > MAX_SOLUTIONS {
         return Judgement::new(
             Label::Malformed,
             format!("more than {MAX_SOLUTIONS} solutions"),
         );
     }
+
     match met(case, &report) {
         Err(why) => Judgement::new(Label::Wrong, why),
         Ok(met) => match missing(case, &met) {
@@ -137,6 +141,7 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
         cones: vec![false; answer.cones.len()],
         ranges: vec![false; answer.ranges.len()],
     };
+
     let certifier = Certifier::new(&case.problem, &case.reduced.pencil);
     for (k, solution) in report.solutions.iter().enumerate() {
         let wrong = |why: String| format!("solution {k}: {why}");
@@ -147,6 +152,7 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
         let claim = certifier
             .certify(candidate)
             .map_err(|why| wrong(format!("value {} is not certified: {why}", candidate.value)))?;
+
         let placed = match &claim {
             Claim::ExactSolution(c) => place(case, &claim, c, &mut met),
             // A lifted one is never made here; like a box it is placed by value and support.
@@ -154,6 +160,7 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
                 place_box(answer, &claim, &mut met)
             }
         };
+
         if !placed {
             return Err(wrong(format!(
                 "value {} is certified and not in the complete answer",
@@ -161,11 +168,13 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
             )));
         }
     }
+
     for reported in &report.continua {
         let of_slip = answer
             .ranges
             .iter()
             .position(|r| r.support == sorted(&reported.slip));
+
         match of_slip.filter(|&k| same_intervals(&answer.ranges[k], reported)) {
             Some(k) => met.ranges[k] = true,
             None => {
@@ -176,6 +185,7 @@ fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
             }
         }
     }
+
     Ok(met)
 }
 
@@ -184,10 +194,12 @@ fn place(case: &Case, claim: &Claim, c: &ExactSolution, met: &mut Met) -> bool {
     let Some(value) = exact_value(claim) else {
         return false;
     };
+
     let x = integer_x(c);
     if !case.answer.contains(&case.reduced.pencil, &value, &x) {
         return false;
     }
+
     let solution = Solution {
         value: value.clone(),
         multiplicity: 0,
@@ -196,15 +208,19 @@ fn place(case: &Case, claim: &Claim, c: &ExactSolution, met: &mut Met) -> bool {
         x,
         y: Vec::new(),
     };
+
     for (k, s) in case.answer.solutions.iter().enumerate() {
         met.solutions[k] |= *s == solution;
     }
+
     for (k, cone) in case.answer.cones.iter().enumerate() {
         met.cones[k] |= cone.slip == c.support && cone.value.clone().equals(&mut value.clone());
     }
+
     for (k, range) in case.answer.ranges.iter().enumerate() {
         met.ranges[k] |= range.support == c.support && range.contains(&value);
     }
+
     true
 }
 
@@ -214,13 +230,16 @@ fn place_box(answer: &Enumeration, claim: &Claim, met: &mut Met) -> bool {
     let Claim::EnclosedSolution(c) = claim else {
         return false;
     };
+
     let (Some(center), Some(radius)) = (c.center.last(), c.radius.last()) else {
         return false;
     };
+
     let (lo, hi) = (&center.0 - &radius.0, &center.0 + &radius.0);
     let inside =
         |v: &Algebraic| v.clone().cmp_rational(&lo).is_ge() && v.clone().cmp_rational(&hi).is_le();
     let mut placed = false;
+
     for (k, s) in answer
         .solutions
         .iter()
@@ -230,6 +249,7 @@ fn place_box(answer: &Enumeration, claim: &Claim, met: &mut Met) -> bool {
         met.solutions[k] |= s.slip == support(claim);
         placed = true;
     }
+
     placed
 }
 
@@ -247,8 +267,10 @@ fn same_intervals(range: &SupportRange, reported: &ForeignContinuum) -> bool {
         let radius = radius * (Rational::one() + b.value.0.abs());
         let near = value.cmp_rational(&(&b.value.0 - &radius)).is_ge()
             && value.cmp_rational(&(&b.value.0 + &radius)).is_le();
+
         near && b.included.is_none_or(|included| included == a.included)
     };
+
     range.pieces.len() == reported.intervals.len()
         && range.pieces.iter().zip(&reported.intervals).all(|(a, b)| {
             end(&a.from, &b.from)
@@ -265,6 +287,7 @@ fn missing(case: &Case, met: &Met) -> Option<String> {
     let decimal = |value: &Algebraic| {
         mceip_exact::to_decimal(&mut value.clone(), &Poly::from_ints(&[0, 1]), 9)
     };
+
     let not = |list: &[bool]| {
         list.iter()
             .enumerate()
@@ -272,9 +295,11 @@ fn missing(case: &Case, met: &Met) -> Option<String> {
             .map(|(k, _)| k)
             .collect::<Vec<_>>()
     };
+
     let (solutions, cones, ranges) = (not(&met.solutions), not(&met.cones), not(&met.ranges));
     let count = solutions.len() + cones.len() + ranges.len();
     let total = met.solutions.len() + met.cones.len() + met.ranges.len();
+
     let first = if let Some(&k) = solutions.first() {
         let s = &case.answer.solutions[k];
         format!("the solution {} with slip {:?}", decimal(&s.value), s.slip)
@@ -287,5 +312,6 @@ fn missing(case: &Case, met: &Met) -> Option<String> {
             case.answer.ranges[*ranges.first()?].support
         )
     };
+
     Some(format!("{count} of {total} missing, first {first}"))
 }

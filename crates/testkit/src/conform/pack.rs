@@ -27,25 +27,30 @@ pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, ConformErro
     let mut entries = Vec::new();
     let (mut flags, mut bugs): (BTreeMap<Flag, usize>, BTreeMap<Bug, usize>) = Default::default();
     let mut total = 0;
+
     for group in groups {
         let cases: Vec<Case> = group
             .drafts
             .par_iter()
             .map(|d| Case::answer(d, false))
             .collect::<Result<_, _>>()?;
+
         let lines: Vec<(String, Vec<Bug>)> = cases.par_iter().map(case_line).collect();
         cases
             .iter()
             .flat_map(|c| &c.flags)
             .for_each(|f| *flags.entry(*f).or_default() += 1);
+
         lines
             .iter()
             .flat_map(|l| &l.1)
             .for_each(|b| *bugs.entry(*b).or_default() += 1);
         total += cases.len();
+
         let wrong: usize = lines.iter().map(|l| l.1.len()).sum();
         let text = group_text(group, &lines.into_iter().map(|l| l.0).collect::<Vec<_>>());
         let file = format!("{}.json", group.name);
+
         entries.push(json!({
             "file": file,
             "comment": group.comment,
@@ -53,12 +58,15 @@ pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, ConformErro
             "wrong": wrong,
             "sha256": hex(&text),
         }));
+
         files.push((file, text));
     }
+
     let flags: Map<String, Value> = flags
         .iter()
         .map(|(f, n)| (f.word().into(), json!({ "cases": n, "note": f.note() })))
         .collect();
+
     let bugs: Map<String, Value> = bugs
         .iter()
         .map(|(b, n)| {
@@ -68,6 +76,7 @@ pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, ConformErro
             )
         })
         .collect();
+
     let index = json!({
         "format": INDEX_FORMAT,
         "cases": total,
@@ -75,6 +84,7 @@ pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, ConformErro
         "flags": flags,
         "bugs": bugs,
     });
+
     files.push(("index.json".into(), format!("{index:#}\n")));
     Ok(files)
 }
@@ -94,6 +104,7 @@ fn group_text(group: &Group, lines: &[String]) -> String {
         head("group", &group.name),
         head("comment", &group.comment),
     );
+
     format!(
         "{{\n{format}{name}{comment}\"cases\": [\n{}\n]\n}}\n",
         lines.join(",\n")
@@ -103,6 +114,7 @@ fn group_text(group: &Group, lines: &[String]) -> String {
 fn case_line(case: &Case) -> (String, Vec<Bug>) {
     let wrong = case.wrong_answers();
     let bugs = wrong.iter().map(|w| w.bug).collect();
+
     // Our own writer's JSON.
     let problem: Value = serde_json::from_str(&write_problem(&case.problem)).unwrap_or_default();
     let wrong: Vec<Value> = wrong
@@ -116,6 +128,7 @@ fn case_line(case: &Case) -> (String, Vec<Bug>) {
             })
         })
         .collect();
+
     let flags: Vec<&str> = case.flags.iter().map(|f| f.word()).collect();
     let line = json!({
         "id": case.id,
@@ -125,6 +138,7 @@ fn case_line(case: &Case) -> (String, Vec<Bug>) {
         "answer": case.answer_json(),
         "wrong": wrong,
     });
+
     (line.to_string(), bugs)
 }
 
@@ -185,6 +199,7 @@ pub fn read_pack(folder: &Path) -> Result<Vec<Group>, ConformError> {
     let index =
         read_text("the index", &folder.join("index.json")).map_err(|e| at("index.json", e))?;
     require_format(&index, INDEX_FORMAT).map_err(|e| at("index.json", e))?;
+
     let index: RawIndex = from_json(&index).map_err(|e| at("index.json", e))?;
     index
         .groups
@@ -202,6 +217,7 @@ fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, ConformError> {
         .file
         .chars()
         .all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c));
+
     if !plain || entry.file.starts_with('.') {
         let (path, problem) = (
             entry.file.chars().take(80).collect(),
@@ -213,8 +229,10 @@ fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, ConformError> {
             problem,
         }));
     }
+
     let text = read_text("a group", &folder.join(&entry.file)).map_err(at)?;
     let got = hex(&text);
+
     if got != entry.sha256 {
         return Err(ConformError::Digest {
             file: entry.file.clone(),
@@ -222,13 +240,16 @@ fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, ConformError> {
             got,
         });
     }
+
     require_format(&text, PACK_FORMAT).map_err(at)?;
     let raw: RawGroup = from_json(&text).map_err(at)?;
+
     let drafts = raw
         .cases
         .par_iter()
         .map(read_case)
         .collect::<Result<_, _>>()?;
+
     Ok(Group {
         name: raw.group,
         comment: raw.comment,
@@ -241,6 +262,7 @@ fn read_case(raw: &RawCase) -> Result<Draft, ConformError> {
         place: raw.id.clone(),
         source,
     };
+
     let flag = |word: &String| {
         let got = || word.chars().take(60).collect();
         Flag::of_word(word).ok_or_else(|| ConformError::Flag {
@@ -248,19 +270,24 @@ fn read_case(raw: &RawCase) -> Result<Draft, ConformError> {
             got: got(),
         })
     };
+
     let flags: Vec<Flag> = raw.flags.iter().map(flag).collect::<Result<_, _>>()?;
+
     // Files beside the pack are not read: its problems are inlined.
     let problem = read_problem(&raw.problem.to_string(), Path::new("/nonexistent")).map_err(at)?;
     let flags = flags.into_iter().filter(|f| f.is_given()).collect();
+
     let draft = Draft {
         id: raw.id.clone(),
         comment: raw.comment.clone(),
         flags,
         problem,
     };
+
     let case = Case::answer(&draft, false)?;
     if case.answer_json() != raw.answer {
         return Err(ConformError::Answer { case: draft.id });
     }
+
     Ok(draft)
 }

@@ -69,11 +69,13 @@ pub fn run_once(
         .split_first()
         .map_or(("", &[][..]), |(p, a)| (p.as_str(), a));
     let mut build = Command::new(program);
+
     build
         .args(arguments)
         .stdin(Stdio::piped())
         .stdout(Stdio::piped())
         .stderr(Stdio::piped());
+
     #[cfg(unix)]
     {
         use std::os::unix::process::CommandExt as _;
@@ -86,6 +88,7 @@ pub fn run_once(
     })?;
     let too_long = Arc::new(AtomicBool::new(false));
     feed(&mut child, input);
+
     let stdout = child
         .stdout
         .take()
@@ -93,14 +96,17 @@ pub fn run_once(
     let stderr = child.stderr.take().map(|pipe| drain(pipe, COMPLAINT, None));
     let ended = wait(&mut child, start, limits, watch, &too_long);
     kill(&mut child); // and whatever it has left behind
+
     let taken = |pipe: Option<Receiver<Vec<u8>>>| {
         pipe.and_then(|r| r.recv_timeout(GRACE).ok())
             .unwrap_or_default()
     };
     let (stdout, complaint) = (taken(stdout), taken(stderr));
+
     if too_long.load(Ordering::Relaxed) {
         return Ok(Ending::TooLong);
     }
+
     Ok(match ended {
         Ok(status) => Ending::Ended {
             code: status.code(),
@@ -117,6 +123,7 @@ fn feed(child: &mut Child, input: &str) {
     let (Some(mut stdin), text) = (child.stdin.take(), input.to_string()) else {
         return;
     };
+
     std::thread::spawn(move || {
         // A closed pipe: the program did not want the rest.
         let _ = stdin.write_all(text.as_bytes());
@@ -133,20 +140,25 @@ fn drain(
     let (send, receive) = channel();
     std::thread::spawn(move || {
         let mut kept = Vec::new();
+
         // What was read until an error is kept.
         let _ = pipe.by_ref().take(limit).read_to_end(&mut kept);
         let mut buffer = [0u8; 1 << 14];
+
         while let Ok(more) = pipe.read(&mut buffer) {
             if more == 0 {
                 break;
             }
+
             if let Some(flag) = &too_long {
                 flag.store(true, Ordering::Relaxed);
                 break;
             }
         }
+
         let _ = send.send(kept); // nobody waits any more: dropped
     });
+
     receive
 }
 
@@ -188,6 +200,7 @@ fn first_line(bytes: &[u8]) -> String {
         .lines()
         .find(|l| !l.trim().is_empty())
         .unwrap_or_default();
+
     line.chars().filter(|c| !c.is_control()).take(200).collect()
 }
 
@@ -221,6 +234,7 @@ mod tests {
                 complaint: String::new()
             }
         );
+
         assert_eq!(
             sh("echo a; exec 0<&-; exit 7", &long),
             Ending::Ended {
@@ -229,17 +243,21 @@ mod tests {
                 complaint: String::new()
             }
         );
+
         assert!(
             matches!(sh("echo oops >&2; kill -9 $$", &long), Ending::Ended { code: None, complaint, .. } if complaint == "oops")
         );
         assert_eq!(sh("sleep 100", &quick()), Ending::TimedOut);
         assert_eq!(sh("sleep 100 | sleep 100", &quick()), Ending::TimedOut);
+
         let start = Instant::now();
         assert_eq!(sh("yes", &long), Ending::TooLong);
+
         assert!(matches!(
             sh("yes >&2 & sleep 0.1; kill $!; echo done", &long),
             Ending::Ended { code: Some(0), .. }
         ));
+
         // A grandchild that holds the pipe open for long.
         assert!(
             matches!(sh("sleep 100 & echo done", &long), Ending::Ended { code: Some(0), stdout, .. } if stdout == b"done\n")
@@ -255,10 +273,12 @@ mod tests {
     fn an_interrupt_ends_a_run_and_a_missing_program_is_named() {
         let stopped = Cancel::requested();
         let sleep = ["sleep".to_string(), "100".into()];
+
         assert_eq!(
             run_once(&sleep, "", &Limits::default(), &Watch::silent(&stopped)).unwrap(),
             Ending::Interrupted
         );
+
         let nothing = ["/nowhere/solver".to_string()];
         let refused = run_once(&nothing, "", &Limits::default(), &Watch::silent(&stopped));
         assert!(

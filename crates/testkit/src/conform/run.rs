@@ -57,15 +57,18 @@ pub fn run(
     let fixed: Vec<&Draft> = plan.groups.iter().flat_map(|g| &g.drafts).collect();
     let total = fixed.len() + plan.random;
     let threads = plan.threads.unwrap_or(0);
+
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
         .map_err(|_| ConformError::Threads { threads })?;
     let count = AtomicUsize::new(0);
+
     let one = |k: usize| -> Result<Option<Outcome>, ConformError> {
         if watch.is_cancelled() {
             return Ok(None);
         }
+
         let case = match fixed.get(k) {
             Some(draft) => Case::answer(draft, plan.as_pencil)?,
             None => {
@@ -73,22 +76,26 @@ pub fn run(
                     place: format!("random case {k}"),
                     source,
                 };
+
                 Case::answer(
                     &random_draft(k - fixed.len(), plan.seed).map_err(at)?,
                     plan.as_pencil,
                 )?
             }
         };
+
         let wanted = plan.only.is_empty() || plan.only.iter().any(|f| case.flags.contains(f));
         let outcome = if wanted {
             one_case(case, command, &plan.limits, watch)?
         } else {
             None
         };
+
         let finished = count.fetch_add(1, Ordering::Relaxed) + 1;
         watch.report(&Progress::of("cases", finished, total));
         Ok(outcome)
     };
+
     // One case per task: they take very different times.
     let outcomes = pool.install(|| {
         (0..total)
@@ -97,6 +104,7 @@ pub fn run(
             .map(one)
             .collect::<Result<Vec<_>, _>>()
     })?;
+
     Ok(outcomes.into_iter().flatten().collect())
 }
 
@@ -136,9 +144,11 @@ fn one_case(
             } else {
                 format!(": {complaint}")
             };
+
             Judgement::new(Label::Crashed, how + &complaint)
         }
     };
+
     Ok(Some(Outcome {
         id: case.id,
         flags: case.flags,

@@ -28,6 +28,7 @@ pub fn summarise(outcomes: &[Outcome]) -> Summary {
         flags: BTreeMap::new(),
         failures: Vec::new(),
     };
+
     for o in outcomes {
         *summary.labels.entry(o.judgement.label).or_default() += 1;
         for flag in &o.flags {
@@ -38,10 +39,12 @@ pub fn summarise(outcomes: &[Outcome]) -> Summary {
                 .entry(o.judgement.label)
                 .or_default() += 1;
         }
+
         if !o.judgement.label.is_correct() {
             summary.failures.push(o.clone());
         }
     }
+
     summary
 }
 
@@ -65,12 +68,14 @@ impl Summary {
                     .get(l)
                     .map_or_else(|| ".".into(), ToString::to_string)
             });
+
             let total: usize = counts.values().sum();
             [name.to_string(), total.to_string()]
                 .into_iter()
                 .chain(numbers)
                 .collect()
         };
+
         let flags = Flag::ALL
             .iter()
             .filter_map(|f| self.flags.get(f).map(|c| row(f.word(), c)));
@@ -82,6 +87,7 @@ impl Summary {
             .iter()
             .map(|&l| format!("{} {}", self.count(l), l.word()))
             .collect();
+
         format!("{} cases: {}", self.cases, parts.join(", "))
     }
 
@@ -93,6 +99,7 @@ impl Summary {
             .collect();
         let mut table = Table::new(&header);
         self.rows().into_iter().for_each(|r| table.row(r));
+
         let mut out = format!("{table}\n");
         for o in self.failures.iter().take(SHOWN) {
             out += &format!(
@@ -102,12 +109,14 @@ impl Summary {
                 o.judgement.detail
             );
         }
+
         if self.failures.len() > SHOWN {
             out += &format!(
                 "and {} more (--json or --markdown list all)\n",
                 self.failures.len() - SHOWN
             );
         }
+
         out + &self.verdict() + "\n"
     }
 
@@ -115,22 +124,27 @@ impl Summary {
     pub fn markdown(&self, command: &[String]) -> String {
         let escape = |s: &str| s.replace('|', "\\|").replace('`', "'").replace('<', "&lt;");
         let labels = Label::ALL.map(Label::word).join(" | ");
+
         let mut out = format!(
             "# mceip conform\n\nCommand: `{}`\n\n{}\n\n",
             escape(&command.join(" ")),
             self.verdict()
         );
+
         out += &format!(
             "| flag | cases | {labels} | what it catches |\n|{}\n",
             "---|".repeat(Label::ALL.len() + 3)
         );
+
         for row in self.rows() {
             let note = Flag::of_word(&row[0]).map_or("", Flag::note);
             out += &format!("| {} | {} |\n", row.join(" | "), escape(note));
         }
+
         if !self.failures.is_empty() {
             out += "\n| case | label | why |\n|---|---|---|\n";
         }
+
         for o in &self.failures {
             out += &format!(
                 "| {} | {} | {} |\n",
@@ -139,6 +153,7 @@ impl Summary {
                 escape(&o.judgement.detail)
             );
         }
+
         out
     }
 
@@ -149,11 +164,13 @@ impl Summary {
                 .map(|(l, n)| (l.word().to_string(), json!(n)))
                 .collect::<serde_json::Map<_, _>>()
         };
+
         let flags: serde_json::Map<_, _> = self
             .flags
             .iter()
             .map(|(f, c)| (f.word().to_string(), json!(counts(c))))
             .collect();
+
         let failure = |o: &Outcome| {
             let flags: Vec<&str> = o.flags.iter().map(|f| f.word()).collect();
             json!({
@@ -163,6 +180,7 @@ impl Summary {
                 "detail": o.judgement.detail,
             })
         };
+
         json!({
             "command": command, "cases": self.cases, "labels": counts(&self.labels), "flags": flags,
             "failures": self.failures.iter().map(failure).collect::<Vec<_>>(),
@@ -185,12 +203,14 @@ mod tests {
                 detail: "a | b".into(),
             },
         };
+
         let list = [
             outcome("p", Label::Correct, &[Flag::Mu]),
             outcome("q", Label::Wrong, &[Flag::Mu, Flag::Fold]),
         ];
         let s = summarise(&list);
         assert!(!s.all_correct() && summarise(&list[..1]).all_correct());
+
         assert_eq!(
             s.flags[&Flag::Mu],
             BTreeMap::from([(Label::Correct, 1), (Label::Wrong, 1)])
@@ -199,6 +219,7 @@ mod tests {
         assert!(s.text().ends_with(
             "2 cases: 1 correct, 0 incomplete, 1 wrong, 0 crashed, 0 timed out, 0 malformed\n"
         ));
+
         assert!(
             s.markdown(&["prog".into()])
                 .contains("| q | wrong | a \\| b |")

@@ -108,46 +108,55 @@ impl Case {
 fn wrong_answers(case: &Case) -> Vec<WrongAnswer> {
     let slip = case.reduced.pencil.slip();
     let mut out = Vec::new();
+
     let mut push = |bug, solutions: Vec<Value>| {
         out.push(WrongAnswer {
             bug,
             report: report(solutions, None),
         })
     };
+
     let listed: Vec<Value> = case
         .answer
         .solutions
         .iter()
         .map(|s| entry(s, &slip, false))
         .collect();
+
     if let Some(s) = case.answer.solutions.iter().find(|s| !s.is_free_only()) {
         push(Bug::SignFlipped, vec![entry(s, &slip, true)]);
         if let Some(shifted) = shifted(case, s, &slip) {
             push(Bug::ShiftedValue, vec![shifted]);
         }
     }
+
     for (bug, s) in spurious(case) {
         let mut value = entry(&s, &slip, false);
         if bug == Bug::RoundedToZero {
             value["value"] = json!("0");
         }
+
         push(bug, vec![value]);
     }
+
     if let Some(s) = outside(case) {
         push(Bug::OutsideWindow, vec![entry(&s, &slip, false)]);
     }
+
     if !case.has_solutions() {
         push(
             Bug::ZeroVector,
             vec![json!({ "value": "1", "x": vec!["0"; case.reduced.pencil.order()] })],
         );
     }
+
     let described = case.answer.cones.is_empty() && case.answer.ranges.is_empty();
     let shared = case
         .answer
         .solutions
         .windows(2)
         .position(|w| w[0].value.clone().equals(&mut w[1].value.clone()));
+
     match shared.filter(|_| described) {
         Some(k) => push(
             Bug::MergedByValue,
@@ -164,6 +173,7 @@ fn wrong_answers(case: &Case) -> Vec<WrongAnswer> {
             } else {
                 listed.len()
             };
+
             // Cones and continua come last: a report without them has dropped them, unless a listed
             // solution lies on a continuum's slip set.
             let lies_on = |s: &Solution| case.answer.ranges.iter().any(|r| r.support == s.slip);
@@ -173,6 +183,7 @@ fn wrong_answers(case: &Case) -> Vec<WrongAnswer> {
         }
         None => {}
     }
+
     out.extend(endless(case));
     out
 }
@@ -182,6 +193,7 @@ fn report(solutions: Vec<Value>, continua: Option<Value>) -> Value {
     if let Some(continua) = continua {
         out["continua"] = continua;
     }
+
     out
 }
 
@@ -192,10 +204,12 @@ fn entry(s: &Solution, slip: &[usize], negated: bool) -> Value {
         (None, true) => d,
         (None, false) => format!("-{d}"),
     };
+
     let x = s
         .x_decimals(slip, 17)
         .into_iter()
         .map(|d| if negated { negate(d) } else { d });
+
     json!({ "value": s.decimal(17), "x": x.collect::<Vec<_>>() })
 }
 
@@ -207,6 +221,7 @@ fn shifted(case: &Case, s: &Solution, slip: &[usize]) -> Option<Value> {
     let value = value * rational(101, 100) + rational(1, 100);
     let mut out = entry(s, slip, false);
     out["value"] = json!(value.to_string());
+
     Some(out)
 }
 
@@ -216,13 +231,16 @@ fn spurious(case: &Case) -> Vec<(Bug, Solution)> {
     if pencil.slip().len() > SPECTRUM_SLIP {
         return Vec::new();
     }
+
     let window = case.problem.window();
     let mut found: Vec<(Bug, Solution)> = Vec::new();
+
     let mut keep = |bug: Bug, s: Solution| {
         if found.iter().all(|(b, _)| *b != bug) {
             found.push((bug, s));
         }
     };
+
     for (kind, s) in eigenpairs(pencil, window.min(), window.max()) {
         match kind {
             Kind::MixedX if clearly_mixed(&s, &pencil.slip()) => keep(Bug::MixedSigns, s),
@@ -230,6 +248,7 @@ fn spurious(case: &Case) -> Vec<(Bug, Solution)> {
             _ => {}
         }
     }
+
     if window.min().is_zero() {
         let (far, near) = (whole(-1_000_000), rational(-1, 1_000_000));
         for (kind, s) in eigenpairs(pencil, &far, Some(&Rational::zero())) {
@@ -237,6 +256,7 @@ fn spurious(case: &Case) -> Vec<(Bug, Solution)> {
             {
                 continue;
             }
+
             let close = s.value.clone().cmp_rational(&near).is_gt();
             keep(
                 if close {
@@ -248,6 +268,7 @@ fn spurious(case: &Case) -> Vec<(Bug, Solution)> {
             );
         }
     }
+
     found
 }
 
@@ -265,13 +286,16 @@ fn outside(case: &Case) -> Option<Solution> {
     if window.max().is_none() && window.min().is_zero() {
         return None;
     }
+
     let all = enumerate(&case.reduced.pencil, &Window::all()).ok()?;
     let far =
         |v: &Rational, from: &Rational| (v - from).abs() > rational(1, 100) * (whole(1) + v.abs());
+
     all.solutions.into_iter().find(|s| {
         let Ok(v) = mceip_exact::parse(&s.decimal(17)) else {
             return false;
         };
+
         (v < *window.min() && far(&v, window.min()))
             || window.max().is_some_and(|m| v > *m && far(&v, m))
     })
@@ -284,6 +308,7 @@ fn endless(case: &Case) -> Option<WrongAnswer> {
         .ranges
         .iter()
         .find(|r| r.pieces.len() > 1 || r.pieces.iter().any(|p| p.to.is_some()))?;
+
     let interval = json!({ "from": { "value": "0" }, "to": null });
     let continua = json!([{ "slip": range.support, "intervals": [interval] }]);
     Some(WrongAnswer {

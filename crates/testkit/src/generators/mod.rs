@@ -30,6 +30,7 @@ impl Seed {
         for (chunk, word) in key.chunks_mut(8).zip([self.family, self.seed, self.index]) {
             chunk.copy_from_slice(&word.to_le_bytes());
         }
+
         ChaCha8Rng::from_seed(key)
     }
 }
@@ -39,6 +40,7 @@ pub fn gram(rng: &mut ChaCha8Rng, n: usize, identity: i64) -> Vec<Vec<i64>> {
     let g: Vec<Vec<i64>> = (0..n)
         .map(|_| (0..n).map(|_| rng.random_range(-2..=2)).collect())
         .collect();
+
     (0..n)
         .map(|i| {
             (0..n)
@@ -83,6 +85,7 @@ pub fn permuted(rng: &mut ChaCha8Rng, pencil: &Pencil) -> Pencil {
     for i in (1..order.len()).rev() {
         order.swap(i, rng.random_range(0..=i)); // Fisher and Yates
     }
+
     let free = (0..order.len())
         .filter(|&i| pencil.free().contains(&order[i]))
         .collect();
@@ -90,6 +93,7 @@ pub fn permuted(rng: &mut ChaCha8Rng, pencil: &Pencil) -> Pencil {
         pencil.a().submatrix(&order, &order),
         pencil.b().submatrix(&order, &order),
     );
+
     Pencil::new(a, b, free).unwrap_or_else(|_| pencil.clone()) // the same shape and as many indices
 }
 
@@ -102,6 +106,7 @@ pub(super) fn rebuilt(
     let each = |m: &Sparse| {
         Sparse::from_entries(n, n, m.entries().map(|(i, j, v)| (i, j, change(i, j, v))))
     };
+
     Pencil::new(each(pencil.a()), each(pencil.b()), pencil.free().to_vec())
         .unwrap_or_else(|_| pencil.clone())
 }

@@ -27,15 +27,18 @@ pub fn two_particles_data(rng: &mut ChaCha8Rng, distance: Option<Rational>) -> T
     let p = q + rng.random_range(1..=12i64);
     let h = p * p + q * q;
     let (c, s) = (rational(p * p - q * q, h), rational(2 * p * q, h));
+
     let (k, m) = (
         rational(rng.random_range(1..=40), rng.random_range(1..=9)),
         rational(rng.random_range(1..=40), rng.random_range(1..=9)),
     );
     let signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)][rng.random_range(0..4)];
+
     let mu = match distance {
         None => rational(rng.random_range(1..=120), 4),
         Some(d) => threshold(rng, signs, &c, &s) * (Rational::one() + d),
     };
+
     TwoParticles {
         c,
         s,
@@ -52,9 +55,11 @@ fn threshold(rng: &mut ChaCha8Rng, signs: (i8, i8), c: &Rational, s: &Rational) 
     if signs.0 != signs.1 {
         return (c * c + whole(rng.random_range(1..=2))) / (c * s);
     }
+
     let square = (c * c + whole(2)) / (s * s);
     let scale = num_traits::pow(Integer::from(10), 40);
     let root = (square.numer() * &scale / square.denom()).sqrt();
+
     Rational::new(root, num_traits::pow(Integer::from(10), 20))
 }
 
@@ -68,6 +73,7 @@ pub fn nearly_biactive(rng: &mut ChaCha8Rng, n: usize, free: usize) -> Result<Pr
     let Body::Pencil(pencil) = problem.body() else {
         return Ok(problem);
     };
+
     let moved = (0..n)
         .filter(|i| !pencil.free().contains(i))
         .map(|i| (i, free, distance(rng) / &x[free]))
@@ -75,6 +81,7 @@ pub fn nearly_biactive(rng: &mut ChaCha8Rng, n: usize, free: usize) -> Result<Pr
     let a = pencil
         .a()
         .add_scaled(&Rational::one(), &Sparse::from_entries(n, n, moved));
+
     Problem::new(
         Body::Pencil(Pencil::new(a, pencil.b().clone(), pencil.free().to_vec())?),
         problem.unknown(),
@@ -92,17 +99,21 @@ pub fn nearly_repeated(rng: &mut ChaCha8Rng) -> Result<Problem, ModelError> {
     let (p, q, gap) =
         [(1, 1, 2), (4, 1, 4), (9, 1, 6), (2, 2, 4), (8, 2, 8)][rng.random_range(0..5)];
     let base = rng.random_range(-8..=0i64);
+
     let a = Sparse::from_ints(&[
         &[base + gap, -p, 0],
         &[q, base, 0],
         &[1, 1, rng.random_range(-3..=3)],
     ]);
+
     let at = (rng.random_range(0..2), rng.random_range(0..2));
     let change = distance(rng) * whole(p);
+
     let a = a.add_scaled(
         &Rational::one(),
         &Sparse::from_entries(3, 3, [(at.0, at.1, change)]),
     );
+
     Problem::new(
         Body::Pencil(Pencil::new(a, Sparse::identity(3), vec![])?),
         Unknown::Lambda2,
@@ -123,16 +134,19 @@ pub fn near_the_windows_end(
     let plan = planted(n, free, rng.random_range(0..u64::MAX))?;
     let end = &plan.value * (Rational::one() + distance(rng));
     let above = rng.random_range(0..2) == 0;
+
     let inside = if above {
         end <= plan.value
     } else {
         end >= plan.value
     };
+
     let window = if above {
         Window::new(end, None)?
     } else {
         Window::new(whole(0), Some(end))?
     };
+
     Ok((
         Planted {
             problem: plan.problem.with_window(window),

@@ -23,6 +23,7 @@ pub fn elements(
         .map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect())
         .collect();
     k1[..n_f].iter_mut().for_each(|r| r.fill(0));
+
     let (a, b) = match unknown {
         Unknown::Mu => (sparse(&k0), sparse(&k1)),
         Unknown::Lambda2 => (
@@ -30,6 +31,7 @@ pub fn elements(
             sparse(&mass),
         ),
     };
+
     Pencil::new(a, b, (0..n_f).collect())
 }
 
@@ -44,12 +46,15 @@ pub fn digits(rng: &mut ChaCha8Rng, n_s: usize, n_f: usize) -> Result<Pencil, Mo
             .map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect())
             .collect()
     };
+
     let (mut a, mut b) = (draw(), draw());
     let ff = gram(rng, n_f, 1);
+
     for i in 0..n_f {
         a[i][..n_f].copy_from_slice(&ff[i]);
         b[i].fill(0);
     }
+
     Pencil::new(sparse(&a), sparse(&b), (0..n_f).collect())
 }
 
@@ -67,6 +72,7 @@ pub fn zeros(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
             })
             .collect()
     };
+
     Pencil::new(sparse(&draw()), sparse(&draw()), Vec::new())
 }
 
@@ -80,17 +86,20 @@ pub fn doubled(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
             what: "a pair of variables",
         });
     }
+
     let twin = |m: Vec<Vec<i64>>| -> Vec<Vec<i64>> {
         let of = |i: usize| i.min(n - 2);
         (0..n)
             .map(|i| (0..n).map(|j| m[of(i)][of(j)]).collect())
             .collect()
     };
+
     let mut draw = || -> Vec<Vec<i64>> {
         (0..n)
             .map(|_| (0..n).map(|_| rng.random_range(-3..=3)).collect())
             .collect()
     };
+
     Pencil::new(sparse(&twin(draw())), sparse(&twin(draw())), Vec::new())
 }
 
@@ -109,6 +118,7 @@ pub fn graph(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
             };
         }
     }
+
     Pencil::new(
         sparse(&a),
         Sparse::identity(n).add_scaled(&whole(-2), &Sparse::identity(n)),
@@ -143,6 +153,7 @@ pub fn free_anywhere(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelErro
             })
             .collect()
     };
+
     Pencil::new(sparse(&draw()), sparse(&draw()), free)
 }
 
@@ -155,6 +166,7 @@ pub fn fractions(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
         rational(rng.random_range(-999..=999), rng.random_range(1..=99))
             * whole(10i64.pow((i + 2 * j) as u32))
     };
+
     let mut draw = || {
         Sparse::from_entries(
             n,
@@ -164,6 +176,7 @@ pub fn fractions(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
                 .collect::<Vec<_>>(),
         )
     };
+
     Pencil::new(draw(), draw(), Vec::new())
 }
 
@@ -181,5 +194,6 @@ pub fn signs(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
             })
             .collect()
     };
+
     Pencil::new(sparse(&draw()), sparse(&draw()), Vec::new())
 }

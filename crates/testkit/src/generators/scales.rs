@@ -26,10 +26,12 @@ pub fn hilbert(
             (0..n * n).map(|k| (k / n, k % n, rational(1, (k / n + k % n) as i64 + from))),
         )
     };
+
     let (k0, mass) = (
         section(rng.random_range(1..=3)),
         section(rng.random_range(1..=3)),
     );
+
     let k1 = Sparse::from_entries(
         n,
         n,
@@ -37,6 +39,7 @@ pub fn hilbert(
             .map(|k| (k / n, k % n, whole(rng.random_range(-4..=4))))
             .collect::<Vec<_>>(),
     );
+
     let (a, b) = match unknown {
         Unknown::Mu => (k0, k1),
         Unknown::Lambda2 => (
@@ -44,6 +47,7 @@ pub fn hilbert(
             mass,
         ),
     };
+
     Pencil::new(a, b, (0..n_f).collect())
 }
 
@@ -62,6 +66,7 @@ pub fn badly_scaled(
     let d: Vec<Rational> = (0..n_s + n_f)
         .map(|_| power_of_ten(rng.random_range(-4..=4)))
         .collect();
+
     Ok(rebuilt(&pencil, &|i, j, v| v * &d[i] * &d[j]))
 }
 
@@ -99,6 +104,7 @@ pub fn integers(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
                 .collect::<Vec<_>>(),
         )
     };
+
     Pencil::new(draw(), draw(), Vec::new())
 }
 
@@ -111,6 +117,7 @@ pub fn doubles(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
         let size = 10f64.powi(rng.random_range(-3..=3));
         from_f64((2.0 * rng.random::<f64>() - 1.0) * size).unwrap_or_default() // finite
     };
+
     let mut draw = || {
         Sparse::from_entries(
             n,
@@ -120,5 +127,6 @@ pub fn doubles(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
                 .collect::<Vec<_>>(),
         )
     };
+
     Pencil::new(draw(), draw(), Vec::new())
 }

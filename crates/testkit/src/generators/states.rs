@@ -28,6 +28,7 @@ pub fn mixture(number: u64) -> Vec<ContactState> {
                 .collect::<Vec<ContactState>>()
         })
     });
+
     let slips = |m: &Vec<ContactState>| m.iter().any(|s| matches!(s, ContactState::Slip { .. }));
     all.filter(slips)
         .nth((number % MIXTURES) as usize)
@@ -46,23 +47,29 @@ pub fn system(
 ) -> Result<System, ModelError> {
     let n = 2 * states.len() + rng.random_range(0..=2);
     let mut dofs: Vec<usize> = (0..n).collect();
+
     for i in (1..n).rev() {
         dofs.swap(i, rng.random_range(0..=i));
     }
+
     let particles = states.iter().enumerate().map(|(k, &state)| {
         let mut particle = Particle::plain(dofs[2 * k], dofs[2 * k + 1], state);
         particle.normal_direction = if rng.random_range(0..2) == 0 { 1 } else { -1 };
+
         if rng.random_range(0..3) == 0 {
             particle.frame = Some(rotation(rng));
             corners.push(Corner::Oblique);
         }
+
         match state {
             ContactState::Stick => corners.push(Corner::Stick),
             ContactState::Free => corners.push(Corner::FreeVariables),
             ContactState::Slip { .. } => {}
         }
+
         particle
     });
+
     let particles: Vec<Particle> = particles.collect();
     let mass = if rng.random_range(0..2) == 0 {
         (0..n)
@@ -72,6 +79,7 @@ pub fn system(
         corners.push(Corner::CoupledMass);
         gram(rng, n, 1)
     };
+
     let friction = rational(rng.random_range(1..=80), 4);
     System::new(
         sparse(&gram(rng, n, 1)),
@@ -91,6 +99,7 @@ fn rotation(rng: &mut ChaCha8Rng) -> [[Rational; 2]; 2] {
         (-8, -15, 17),
         (20, -21, 29),
     ][rng.random_range(0..6)];
+
     let (c, s) = (rational(c, h), rational(s, h));
     [[c.clone(), s.clone()], [-s, c]]
 }

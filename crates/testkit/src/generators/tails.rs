@@ -35,8 +35,10 @@ pub fn tails(
             .flatten()
             .for_each(|v| *v += rng.random_range(-most..=most));
     };
+
     let mut a = gram(rng, n, 1);
     friction(rng, &mut a, 18);
+
     let mut b = gram(rng, n, 1);
     match mass {
         Mass::Coupled => friction(rng, &mut b, 12),
@@ -59,5 +61,6 @@ pub fn tails(
                 .for_each(|(_, _, v)| *v = 0);
         }
     }
+
     Pencil::new(sparse(&a), sparse(&b), (0..n_f).collect())
 }

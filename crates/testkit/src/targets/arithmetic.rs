@@ -13,6 +13,7 @@ pub fn exact_against_naive(data: &[u8]) {
     let Some((&pick, rest)) = data.split_first() else {
         return;
     };
+
     match pick % 4 {
         0 => polynomials(rest),
         1 => determinants(rest),
@@ -27,19 +28,23 @@ fn polynomials(data: &[u8]) {
     assert_eq!(list(&(&p * &q)), naive::multiply(&lp, &lq));
     assert_eq!(list(&(&p + &q)), naive::add(&lp, &lq, 1));
     assert_eq!(list(&(&p - &q)), naive::add(&lp, &lq, -1));
+
     assert_eq!(
         naive::monic(&list(&p.gcd(&q))),
         naive::gcd(&lp, &lq),
         "gcd of {p:?} and {q:?}"
     );
+
     if let Some((quotient, rest)) = naive::divide(&lp, &lq) {
         let exact = p.exact_div(&q);
+
         // Division over Z succeeds only if it does over Q.
         assert!(
             exact.is_none() || (rest.is_empty() && list(exact.as_ref().unwrap_or(&p)) == quotient),
             "{p:?} / {q:?}"
         );
         assert_eq!((&p * &q).exact_div(&q), Some(p.clone()));
+
         // A pseudo-remainder is a nonzero multiple of the remainder.
         assert_eq!(
             naive::monic(&list(&p.pseudo_rem(&q))),
@@ -52,6 +57,7 @@ fn polynomials(data: &[u8]) {
 fn determinants(data: &[u8]) {
     let n = usize::from(data.first().copied().unwrap_or(0) % 4) + 1;
     let at = |k: usize| data.get(1 + k).copied().unwrap_or(0);
+
     let number = |k: usize| {
         Integer::from(at(k).cast_signed())
             * if at(k + 1) % 16 == 7 {
@@ -60,6 +66,7 @@ fn determinants(data: &[u8]) {
                 Integer::from(1)
             }
     };
+
     let matrix = |o: usize| {
         (0..n)
             .map(|i| {
@@ -69,11 +76,13 @@ fn determinants(data: &[u8]) {
             })
             .collect::<Vec<_>>()
     };
+
     let (a, b) = (matrix(0), matrix(n * n));
     let entry = |i: usize, j: usize| list(&Poly::new(vec![a[i][j].clone(), b[i][j].clone()]));
     let m: Vec<Vec<List>> = (0..n)
         .map(|i| (0..n).map(|j| entry(i, j)).collect())
         .collect();
+
     assert_eq!(
         list(&determinant(&a, &b)),
         naive::determinant(&m),
@@ -86,19 +95,23 @@ fn roots(data: &[u8]) {
     if p.is_zero() {
         return;
     }
+
     let (lo, width) = (
         i64::from(data.first().copied().unwrap_or(0)) - 128,
         i64::from(data.get(1).copied().unwrap_or(0)),
     );
     let (lo, hi) = (whole(lo) / whole(8), whole(lo + width) / whole(8));
     let found = roots_in(&p, &lo, Some(&hi));
+
     assert_eq!(
         found.len(),
         naive::count_roots(&list(&p), &lo, &hi),
         "{p:?} in [{lo}, {hi}]"
     );
+
     for (k, root) in found.iter().enumerate() {
         let (i, own) = (root.interval(), list(root.poly()));
+
         // Its own polynomial divides p and has this one root there; p may have others, divided out.
         assert!(
             naive::count_roots(&own, i.lo(), i.hi()) == 1,
@@ -109,16 +122,20 @@ fn roots(data: &[u8]) {
             "root {k} of {p:?}"
         );
     }
+
     for root in nonnegative_roots(&p) {
         let sign = root.clone().sign_of(&g);
+
         // By refinement alone: common root by the naive gcd, or a sign that stays.
         let common = naive::gcd(&list(&p), &list(&g));
         let mut near = root.clone();
         near.refine_to(&Rational::new(1.into(), Integer::from(1) << 300));
+
         let i = near.interval();
         let zero =
             g.is_zero() || (common.len() > 1 && naive::count_roots(&common, i.lo(), i.hi()) > 0);
         assert_eq!(sign == Sign::Zero, zero, "{g:?} at {root:?}");
+
         if !zero && naive::count_roots(&list(&g), i.lo(), i.hi()) == 0 {
             let value = naive::evaluate(&list(&g), &i.mid());
             assert_eq!(
@@ -145,10 +162,12 @@ fn numbers(data: &[u8]) {
             );
         }
     }
+
     for chunk in data.chunks_exact(8) {
         let Ok(bits) = <[u8; 8]>::try_from(chunk) else {
             continue;
         };
+
         let v = f64::from_bits(u64::from_le_bytes(bits));
         match from_f64(v) {
             Ok(exact) => {
@@ -170,15 +189,19 @@ fn two(data: &[u8]) -> (Poly, Poly) {
         } else {
             Integer::zero()
         };
+
         Integer::from(byte.cast_signed() / 8) + long
     };
+
     let make = |o: usize| Poly::new((o..o + 6).map(coefficient).collect());
     let (p, q) = (make(2), make(8));
+
     // Sometimes with a common factor.
     if data.first().is_some_and(|b| b % 3 == 0) {
         let common = Poly::new((14..17).map(coefficient).collect());
         return (&p * &common, &q * &common);
     }
+
     (p, q)
 }
 

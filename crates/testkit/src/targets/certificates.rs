@@ -20,6 +20,7 @@ pub fn certificate_reader(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {
         return;
     };
+
     let mut read = match Certificate::from_json(text) {
         Ok(read) => read,
         Err(e) => return assert_eq!(e.to_string().lines().count(), 1, "{e:?}"),
@@ -27,10 +28,12 @@ pub fn certificate_reader(data: &[u8]) {
     let again = Certificate::from_json(&read.to_json())
         .unwrap_or_else(|e| panic!("written certificate is refused: {e}"));
     assert_eq!(again, read);
+
     for problem in subjects() {
         // The digest is what a forger copies first.
         read.problem_sha256 = problem.sha256();
         let problem = problem.with_window(read.window.clone());
+
         match check(&problem, &read) {
             Ok(accepted) => hold(&problem, &accepted),
             Err(e) => assert_eq!(e.to_string().lines().count(), 1, "{e:?}"),
@@ -44,8 +47,10 @@ pub fn hostile_report(data: &[u8]) {
     let Some((&head, rest)) = data.split_first() else {
         return;
     };
+
     let list = subjects();
     let problem = &list[usize::from(head) % list.len()];
+
     let doubles: Vec<f64> = rest
         .chunks_exact(8)
         .filter_map(|c| Some(f64::from_bits(u64::from_le_bytes(c.try_into().ok()?))))
@@ -53,6 +58,7 @@ pub fn hostile_report(data: &[u8]) {
     let Some((&value, x)) = doubles.split_first() else {
         return;
     };
+
     let candidate = Candidate {
         value,
         x: x.to_vec(),
@@ -60,6 +66,7 @@ pub fn hostile_report(data: &[u8]) {
     let Ok(reduced) = reduce(problem) else {
         panic!("a fixed problem is refused")
     };
+
     if let Ok(claim) = propose(&reduced.pencil, problem.window(), &candidate) {
         let support = support(&claim).to_vec();
         match check(problem, &certificate(problem, vec![claim])) {
@@ -69,13 +76,16 @@ pub fn hostile_report(data: &[u8]) {
             }
         }
     }
+
     let number = |v: &f64| format!("{v:e}");
     let list: Vec<String> = x.iter().map(number).collect();
+
     let text = format!(
         r#"{{"format":"mceip-solutions/1","solutions":[{{"value":{},"x":[{}]}}]}}"#,
         number(&value),
         list.join(",")
     );
+
     match ForeignReport::read(&text, problem, &reduced) {
         Ok(report) => assert!(
             is_same_point(&report.solutions, &candidate),
@@ -111,6 +121,7 @@ pub(super) fn report_reader(text: &str) {
     let Ok(reduced) = reduce(problem) else {
         panic!("a fixed problem is refused")
     };
+
     if let Err(e) = ForeignReport::read(text, problem, &reduced) {
         assert_eq!(e.to_string().lines().count(), 1, "{e:?}");
     }
@@ -124,6 +135,7 @@ fn subjects() -> Vec<Problem> {
             .and_then(|p| Problem::new(Body::Pencil(p), unknown, Window::all()))
             .ok()
     };
+
     let one: &[&[i64]] = &[&[1, 0], &[0, 1]];
     let list = [
         pencil(&[&[1, -6], &[2, -6]], one, &[], Unknown::Lambda2),
@@ -136,6 +148,7 @@ fn subjects() -> Vec<Problem> {
         pencil(&[&[1, -4], &[1, -3]], one, &[], Unknown::Lambda2),
         pencil(&[&[-1, 0], &[0, -1]], one, &[], Unknown::Lambda2),
     ];
+
     list.into_iter().flatten().collect()
 }
 
@@ -147,6 +160,7 @@ fn hold(problem: &Problem, accepted: &Accepted) {
     else {
         panic!("a fixed problem is refused")
     };
+
     let cover = accepted.cover.iter().flat_map(|c| &c.solutions);
     for claim in accepted.claims.iter().chain(cover) {
         assert!(
@@ -154,11 +168,13 @@ fn hold(problem: &Problem, accepted: &Accepted) {
             "accepted, but not a solution: {claim:?}"
         );
     }
+
     if let Some(cover) = accepted.cover.as_ref().filter(|c| c.open.is_empty()) {
         assert!(
             oracle.is_plain_list() || !cover.families.is_empty(),
             "complete, but there is a cone or a range"
         );
+
         let in_family = |s: &Solution| cover.families.iter().any(|f| f.support == s.slip);
         for s in oracle.solutions.iter().filter(|s| !in_family(s)) {
             assert!(
@@ -195,21 +211,26 @@ fn within(value: &mceip_exact::Algebraic, claim: &AcceptedClaim) -> bool {
 pub fn certificate_seeds() -> Vec<String> {
     use mceip_engine::search::complete::{Options, complete};
     let mut out = Vec::new();
+
     for problem in subjects() {
         let options = Options {
             pieces: 2,
             nodes_per_piece: 200,
             ..Options::default()
         };
+
         if let Ok(found) = complete(&problem, &options, &Watch::nobody()) {
             out.push(found.certificate.to_json());
         }
+
         let Ok(reduced) = reduce(&problem) else {
             continue;
         };
+
         let Ok(oracle) = enumerate(&reduced.pencil, problem.window()) else {
             continue;
         };
+
         let slip = reduced.pencil.slip();
         for s in &oracle.solutions {
             let x = s
@@ -217,6 +238,7 @@ pub fn certificate_seeds() -> Vec<String> {
                 .iter()
                 .map(|t| t.parse().unwrap_or(f64::NAN))
                 .collect(); // our own decimals parse
+
             let candidate = Candidate {
                 value: s.decimal(17).parse().unwrap_or(f64::NAN),
                 x,
@@ -227,5 +249,6 @@ pub fn certificate_seeds() -> Vec<String> {
             out.push(certificate(&problem, claims).to_json());
         }
     }
+
     out
 }

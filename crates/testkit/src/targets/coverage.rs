@@ -74,9 +74,11 @@ impl Counter {
     fn counted(&self, report: &InstanceReport) -> Seen {
         let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         seen.inputs += 1;
+
         for (starts, coverage) in report.coverage() {
             seen.coverage.entry(starts).or_default().add(&coverage);
         }
+
         seen.clone()
     }
 
@@ -85,6 +87,7 @@ impl Counter {
             .coverage
             .iter()
             .flat_map(|(starts, coverage)| shortfalls(self.family, *starts, coverage));
+
         each.map(|s| s.to_string()).collect()
     }
 }

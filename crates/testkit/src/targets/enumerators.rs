@@ -12,12 +12,15 @@ pub fn complete_against_plain(data: &[u8]) {
     let Some((pencil, unknown, window)) = windowed(data) else {
         return;
     };
+
     let Ok(problem) = Problem::new(Body::Pencil(pencil.clone()), unknown, window.clone()) else {
         return;
     };
+
     let Ok(plain) = enumerate(&pencil, &window) else {
         panic!("the enumerator refuses {pencil:?}")
     };
+
     if let Err(disagreement) = compare_within(&problem, &plain, NODES) {
         panic!("{disagreement}: {}", write_problem(&problem));
     }
@@ -31,20 +34,24 @@ const NODES: usize = 300;
 fn windowed(data: &[u8]) -> Option<(Pencil, Unknown, Window)> {
     let (&head, &mask, &view) = (data.first()?, data.get(1)?, data.get(2)?);
     let n = usize::from(head % 4) + 1;
+
     let unknown = if head & 0x10 == 0 {
         Unknown::Mu
     } else {
         Unknown::Lambda2
     };
+
     let entry = |k: usize| number(head, data.get(3 + k).copied().unwrap_or(0));
     let matrix =
         |o: usize| Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, entry(o + k))));
     let free = (0..n).filter(|i| mask >> i & 1 == 1).collect();
+
     let b = if head & 0x20 == 0 {
         matrix(n * n)
     } else {
         Sparse::identity(n)
     };
+
     let min = rational(i64::from(view & 7), 2);
     let window = match view >> 6 {
         0 => Window::new(
@@ -54,6 +61,7 @@ fn windowed(data: &[u8]) -> Option<(Pencil, Unknown, Window)> {
         1 => Window::new(min, None),
         _ => Ok(Window::all()),
     };
+
     Some((Pencil::new(matrix(0), b, free).ok()?, unknown, window.ok()?))
 }
 

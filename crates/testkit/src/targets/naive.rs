@@ -31,6 +31,7 @@ pub(super) fn multiply(p: &[Rational], q: &[Rational]) -> List {
             out[i + j] += a * b;
         }
     }
+
     trimmed(out)
 }
 
@@ -38,6 +39,7 @@ pub(super) fn multiply(p: &[Rational], q: &[Rational]) -> List {
 pub(super) fn divide(p: &[Rational], q: &[Rational]) -> Option<(List, List)> {
     let (lead, mut rest) = (q.last()?, trimmed(p.to_vec()));
     let mut quotient = vec![Rational::zero(); (rest.len() + 1).saturating_sub(q.len())];
+
     while rest.len() >= q.len() {
         let shift = rest.len() - q.len();
         let factor = rest.last()? / lead;
@@ -47,6 +49,7 @@ pub(super) fn divide(p: &[Rational], q: &[Rational]) -> Option<(List, List)> {
         quotient[shift] = factor;
         rest = trimmed(rest);
     }
+
     Some((trimmed(quotient), rest))
 }
 
@@ -56,6 +59,7 @@ pub(super) fn gcd(p: &[Rational], q: &[Rational]) -> List {
     while let Some((_, rest)) = divide(&p, &q) {
         (p, q) = (q, rest);
     }
+
     monic(&p)
 }
 
@@ -67,10 +71,12 @@ pub(super) fn monic(p: &[Rational]) -> List {
 pub(super) fn evaluate(p: &[Rational], t: &Rational) -> Rational {
     let mut power = Rational::one();
     let mut sum = Rational::zero();
+
     for c in p {
         sum += c * &power;
         power *= t;
     }
+
     sum
 }
 
@@ -90,10 +96,12 @@ pub(super) fn count_roots(p: &[Rational], lo: &Rational, hi: &Rational) -> usize
     let Some((squarefree, _)) = divide(p, &gcd(p, &derivative(p))) else {
         return 0;
     };
+
     let mut chain = vec![squarefree.clone(), derivative(&squarefree)];
     while let Some((_, rest)) = divide(&chain[chain.len() - 2], &chain[chain.len() - 1]) {
         chain.push(rest.iter().map(|c| -c).collect());
     }
+
     let changes = |t: &Rational| {
         let signs: Vec<bool> = chain
             .iter()
@@ -101,8 +109,10 @@ pub(super) fn count_roots(p: &[Rational], lo: &Rational, hi: &Rational) -> usize
             .filter(|v| !v.is_zero())
             .map(|v| v.is_positive())
             .collect();
+
         signs.windows(2).filter(|w| w[0] != w[1]).count()
     };
+
     usize::from(evaluate(&squarefree, lo).is_zero()) + changes(lo).saturating_sub(changes(hi))
 }
 
@@ -111,6 +121,7 @@ pub(super) fn determinant(m: &[Vec<List>]) -> List {
     let n = m.len();
     let mut order: Vec<usize> = (0..n).collect();
     let mut sum = Vec::new();
+
     permutations(&mut order, 0, 1, &mut |order, sign| {
         let product = order
             .iter()
@@ -118,6 +129,7 @@ pub(super) fn determinant(m: &[Vec<List>]) -> List {
             .fold(vec![Rational::one()], |p, (i, &j)| multiply(&p, &m[i][j]));
         sum = add(&sum, &product, sign);
     });
+
     sum
 }
 
@@ -130,6 +142,7 @@ fn permutations(
     if from == order.len() {
         return see(order, sign);
     }
+
     for k in from..order.len() {
         order.swap(from, k);
         permutations(order, from + 1, if k == from { sign } else { -sign }, see);
@@ -157,6 +170,7 @@ mod tests {
         assert_eq!(count_roots(&p, &whole(-2), &whole(1)), 2);
         assert_eq!(count_roots(&p, &whole(-1), &whole(0)), 0);
         assert_eq!(count_roots(&p, &whole(1), &whole(1)), 1);
+
         let m = [[list(&[0, 1]), list(&[2])], [list(&[3]), list(&[0, 1])]].map(|r| r.to_vec());
         assert_eq!(determinant(&m), list(&[-6, 0, 1]));
         assert_eq!(divide(&p, &[]), None);

@@ -64,9 +64,11 @@ pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Count
     let Some(problem) = system_problem(data) else {
         return;
     };
+
     let Body::System(system) = problem.body() else {
         return;
     };
+
     let Ok(reduced) = reduce(&problem) else {
         panic!(
             "a system of the generator is refused: {}",
@@ -80,6 +82,7 @@ pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Count
         "reduction and definition differ: {}",
         write_problem(&problem)
     );
+
     same_verdict(&problem, &reduced.pencil);
 
     let instance = Instance {
@@ -88,6 +91,7 @@ pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Count
         closed_form: None,
         corners: Vec::new(),
     };
+
     let report = compare_by(&instance, treatment);
     assert!(
         report.disagreements.is_empty(),
@@ -95,6 +99,7 @@ pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Count
         report.disagreements,
         write_problem(&instance.problem)
     );
+
     counter.add(&report);
 }
 
@@ -110,6 +115,7 @@ pub fn two_particle_problems_by(data: &[u8], treatment: &Treatment, counter: &Co
     let Ok(system) = two_particles(&data) else {
         panic!("refused: {data:?}")
     };
+
     let Ok(problem) = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()) else {
         panic!("refused: {data:?}")
     };
@@ -120,6 +126,7 @@ pub fn two_particle_problems_by(data: &[u8], treatment: &Treatment, counter: &Co
         closed_form: Some(data),
         corners: Vec::new(),
     };
+
     let report = compare_by(&instance, treatment);
     assert!(
         report.disagreements.is_empty(),
@@ -127,6 +134,7 @@ pub fn two_particle_problems_by(data: &[u8], treatment: &Treatment, counter: &Co
         report.label,
         report.disagreements
     );
+
     counter.add(&report);
 }
 
@@ -137,6 +145,7 @@ pub fn fuzz_treatment() -> Treatment {
         window_starts: 1,
         ..Default::default()
     };
+
     Treatment::of(&search)
 }
 
@@ -147,11 +156,13 @@ fn system_problem(data: &[u8]) -> Option<Problem> {
     let head = bytes.next();
     let count = usize::from(head % 3) + 1;
     let n = 2 * count + usize::from(head / 3 % 3);
+
     let unknown = if head & 0x40 == 0 {
         Unknown::Lambda2
     } else {
         Unknown::Mu
     };
+
     let is_coupled = head & 0x80 != 0;
 
     let friction = bytes.positive();
@@ -160,6 +171,7 @@ fn system_problem(data: &[u8]) -> Option<Problem> {
         .map(|k| particle(&mut bytes, k, &order))
         .collect();
     let stiffness = definite(&mut bytes, n);
+
     let mass = if is_coupled {
         definite(&mut bytes, n)
     } else {
@@ -177,6 +189,7 @@ fn permutation(bytes: &mut Bytes<'_>, n: usize) -> Vec<usize> {
         let j = usize::from(bytes.next()) % (i + 1);
         order.swap(i, j);
     }
+
     order
 }
 
@@ -188,14 +201,17 @@ fn particle(bytes: &mut Bytes<'_>, index: usize, order: &[usize]) -> Particle {
         k if k % 2 == 0 => ContactState::Slip { sign: 1 },
         _ => ContactState::Slip { sign: -1 },
     };
+
     let mut particle = Particle::plain(order[2 * index], order[2 * index + 1], state);
 
     particle.normal_direction = if bytes.below(2) == 0 { 1 } else { -1 };
     let oblique = bytes.next();
+
     if oblique % 2 == 1 {
         let (c, s) = on_the_circle(oblique / 2);
         particle.frame = Some([[c.clone(), s.clone()], [-s, c]]);
     }
+
     particle
 }
 
@@ -205,6 +221,7 @@ fn on_the_circle(byte: u8) -> (Rational, Rational) {
     let p = i64::from(byte % 8) + 1;
     let q = i64::from(byte / 8 % 16) - 8;
     let h = p * p + q * q;
+
     (rational(p * p - q * q, h), rational(2 * p * q, h))
 }
 
@@ -224,6 +241,7 @@ fn definite(bytes: &mut Bytes<'_>, n: usize) -> Sparse {
             entries.push((i, j, whole(product + i64::from(i == j))));
         }
     }
+
     Sparse::from_entries(n, n, entries)
 }
 
@@ -242,11 +260,13 @@ fn two_particle_data(data: &[u8]) -> TwoParticles {
     let (k, m) = (bytes.positive(), bytes.positive());
     let mut mu = bytes.positive();
     let cs = &c * &s;
+
     if head & 0x30 != 0 && !cs.is_zero() {
         let top = &c * &c + whole(i64::from(head >> 6 & 1) + 1);
         let beside = rational(i64::from(head >> 4 & 3) - 2, 1_000_000_000);
         mu = top / cs + beside;
     }
+
     TwoParticles {
         c,
         s,
@@ -269,6 +289,7 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
     let n = system.dofs();
     let mut motion = Vec::new();
     let mut normal = Vec::new();
+
     for dof in system.free_dofs() {
         let mut unit = vec![Rational::zero(); n];
         unit[dof] = Rational::one();
@@ -281,6 +302,7 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
         let ContactState::Slip { sign } = particle.state else {
             continue;
         };
+
         let (tangent, into) = axes(particle, n);
         motion.push(Column(
             tangent
@@ -288,12 +310,14 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
                 .map(|v| v * whole(i64::from(-sign)))
                 .collect(),
         ));
+
         normal.push(Column(into.into_iter().map(|v| -v).collect()));
     }
 
     let k_plain = products(system.stiffness(), &motion, &motion);
     let k_friction = products(system.stiffness(), &normal, &motion);
     let friction = system.friction().cloned().unwrap_or_default();
+
     let (a, b) = match (unknown, system.mass()) {
         (Unknown::Lambda2, Some(mass)) => {
             let m_plain = products(mass, &motion, &motion);
@@ -305,6 +329,7 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
         }
         _ => (k_plain, k_friction),
     };
+
     Pencil::new(a, b, (0..free).collect())
         .unwrap_or_else(|e| panic!("a square pencil is refused: {e}"))
 }
@@ -318,6 +343,7 @@ fn axes(particle: &Particle, n: usize) -> (Vec<Rational>, Vec<Rational>) {
 
     let mut tangent = vec![Rational::zero(); n];
     let mut into = vec![Rational::zero(); n];
+
     for (k, dof) in [particle.tangential, particle.normal]
         .into_iter()
         .enumerate()
@@ -325,6 +351,7 @@ fn axes(particle: &Particle, n: usize) -> (Vec<Rational>, Vec<Rational>) {
         tangent[dof] = frame[0][k].clone();
         into[dof] = &frame[1][k] * &outward;
     }
+
     (tangent, into)
 }
 
@@ -337,9 +364,11 @@ fn products(matrix: &Sparse, left: &[Column], right: &[Column]) -> Sparse {
             for (row, column, value) in matrix.entries() {
                 sum += &p.0[row] * value * &t.0[column];
             }
+
             entries.push((i, j, sum));
         }
     }
+
     Sparse::from_entries(left.len(), right.len(), entries)
 }
 
@@ -351,9 +380,11 @@ fn same_verdict(problem: &Problem, pencil: &Pencil) {
         threads: None,
         ..Options::default()
     };
+
     let Ok(found) = complete(problem, &options, &Watch::nobody()) else {
         return;
     };
+
     let Ok(reduced) = Problem::new(
         Body::Pencil(pencil.clone()),
         problem.unknown(),
@@ -365,6 +396,7 @@ fn same_verdict(problem: &Problem, pencil: &Pencil) {
     let mut certificate = found.certificate;
     let on_the_system = check(problem, &certificate);
     certificate.problem_sha256 = reduced.sha256();
+
     let on_the_pencil = check(&reduced, &certificate);
     match (on_the_system, on_the_pencil) {
         (Ok(a), Ok(b)) => assert!(
