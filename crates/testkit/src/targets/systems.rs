@@ -1,5 +1,9 @@
 //! Mechanical systems of any bytes: signs S, contact states, friction, rational frames; reduction
 //! (10)-(16) and lift; Table 1 in closed form against enumerator and solver.
+//!
+//! Input: bytes of a fuzzer, which make a system (1)-(9) or the data of Table 1. A disagreement of
+//! two engines is a panic. Called by the fuzz targets `mechanical_systems` and
+//! `two_particle_problems`.
 
 use super::coverage::Counter;
 use crate::compare::{Treatment, compare_by};
@@ -255,13 +259,16 @@ fn two_particle_data(data: &[u8]) -> TwoParticles {
     let p = i64::from(bytes.below(12)) + 1;
     let q = i64::from(bytes.next()) % (p + 1);
     let h = p * p + q * q;
-    let (c, s) = (rational(p * p - q * q, h), rational(2 * p * q, h));
+    let c = rational(p * p - q * q, h);
+    let s = rational(2 * p * q, h);
 
-    let (k, m) = (bytes.positive(), bytes.positive());
+    let k = bytes.positive();
+    let m = bytes.positive();
     let mut mu = bytes.positive();
-    let cs = &c * &s;
 
-    if head & 0x30 != 0 && !cs.is_zero() {
+    let cs = &c * &s;
+    let is_near_a_threshold = head & 0x30 != 0;
+    if is_near_a_threshold && !cs.is_zero() {
         let top = &c * &c + whole(i64::from(head >> 6 & 1) + 1);
         let beside = rational(i64::from(head >> 4 & 3) - 2, 1_000_000_000);
         mu = top / cs + beside;
@@ -279,6 +286,12 @@ fn two_particle_data(data: &[u8]) -> TwoParticles {
 
 /// Columns over the degrees of freedom, dense.
 struct Column(Vec<Rational>);
+
+impl Column {
+    fn times(&self, factor: &Rational) -> Column {
+        Column(self.0.iter().map(|v| v * factor).collect())
+    }
+}
 
 /// A + tB by the definitions: v = T x with v_T = -S x (10), y = P'w with y = -(S w_T + mu w_N)
 /// (11), w = (K + lambda^2 M) v.
@@ -303,56 +316,58 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
             continue;
         };
 
-        let (tangent, into) = axes(particle, n);
-        motion.push(Column(
-            tangent
-                .into_iter()
-                .map(|v| v * whole(i64::from(-sign)))
-                .collect(),
-        ));
-
-        normal.push(Column(into.into_iter().map(|v| -v).collect()));
+        let axes = Axes::of(particle, n);
+        let minus_sign = whole(i64::from(-sign));
+        motion.push(axes.tangent.times(&minus_sign));
+        normal.push(axes.into.times(&whole(-1)));
     }
 
     let k_plain = products(system.stiffness(), &motion, &motion);
     let k_friction = products(system.stiffness(), &normal, &motion);
     let friction = system.friction().cloned().unwrap_or_default();
 
-    let (a, b) = match (unknown, system.mass()) {
+    let free = (0..free).collect();
+    let pencil = match (unknown, system.mass()) {
         (Unknown::Lambda2, Some(mass)) => {
             let m_plain = products(mass, &motion, &motion);
             let m_friction = products(mass, &normal, &motion);
-            (
-                k_plain.add_scaled(&friction, &k_friction),
-                m_plain.add_scaled(&friction, &m_friction),
-            )
+            let a = k_plain.add_scaled(&friction, &k_friction);
+            let b = m_plain.add_scaled(&friction, &m_friction);
+            Pencil::new(a, b, free)
         }
-        _ => (k_plain, k_friction),
+        _ => Pencil::new(k_plain, k_friction, free),
     };
-
-    Pencil::new(a, b, (0..free).collect())
-        .unwrap_or_else(|e| panic!("a square pencil is refused: {e}"))
+    pencil.unwrap_or_else(|e| panic!("a square pencil is refused: {e}"))
 }
 
-/// Tangent and direction into the obstacle of a particle, written out from its frame.
-fn axes(particle: &Particle, n: usize) -> (Vec<Rational>, Vec<Rational>) {
-    let one = Rational::one();
-    let upright = [[one.clone(), Rational::zero()], [Rational::zero(), one]];
-    let frame = particle.frame.clone().unwrap_or(upright);
-    let outward = whole(i64::from(particle.normal_direction));
+/// The two directions of a particle, written out from its frame.
+struct Axes {
+    /// Along the obstacle.
+    tangent: Column,
+    /// Into the obstacle.
+    into: Column,
+}
 
-    let mut tangent = vec![Rational::zero(); n];
-    let mut into = vec![Rational::zero(); n];
+impl Axes {
+    fn of(particle: &Particle, n: usize) -> Axes {
+        let one = Rational::one();
+        let upright = [[one.clone(), Rational::zero()], [Rational::zero(), one]];
+        let frame = particle.frame.clone().unwrap_or(upright);
+        let outward = whole(i64::from(particle.normal_direction));
 
-    for (k, dof) in [particle.tangential, particle.normal]
-        .into_iter()
-        .enumerate()
-    {
-        tangent[dof] = frame[0][k].clone();
-        into[dof] = &frame[1][k] * &outward;
+        let mut tangent = vec![Rational::zero(); n];
+        let mut into = vec![Rational::zero(); n];
+        let dofs = [particle.tangential, particle.normal];
+        for (k, dof) in dofs.into_iter().enumerate() {
+            tangent[dof] = frame[0][k].clone();
+            into[dof] = &frame[1][k] * &outward;
+        }
+
+        Axes {
+            tangent: Column(tangent),
+            into: Column(into),
+        }
     }
-
-    (tangent, into)
 }
 
 /// The matrix of all p' K t.
