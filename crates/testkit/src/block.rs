@@ -219,7 +219,10 @@ fn submit(problem: &Problem, slip: &[usize], certificate: &Certificate, report: 
 
 /// Same support and values whose enclosures meet.
 fn may_be_same(a: &AcceptedClaim, b: &AcceptedClaim) -> bool {
-    a.support == b.support && a.value.lo() <= b.value.hi() && b.value.lo() <= a.value.hi()
+    let a_begins_in_time = a.value.lo() <= b.value.hi();
+    let b_begins_in_time = b.value.lo() <= a.value.hi();
+    let values_meet = a_begins_in_time && b_begins_in_time;
+    a.support == b.support && values_meet
 }
 
 /// An accepted claim in the words of the paper.

@@ -120,10 +120,12 @@ impl Parts<'_> {
 
     /// Moves an end of the interval by up to its width and a small number.
     fn move_an_end(&mut self, rng: &mut ChaCha8Rng) {
-        let width = &self.interval[1].0 - &self.interval[0].0;
-        let most = width + step(rng);
-        let by = most * rational(rng.random_range(-8..=8), 8);
-        self.interval[rng.random_range(0..2)].0 += by;
+        let [lo, hi] = &self.interval;
+        let most = &hi.0 - &lo.0 + step(rng);
+        let share = rational(rng.random_range(-8..=8), 8);
+
+        let end = rng.random_range(0..2);
+        self.interval[end].0 += most * share;
     }
 
     /// Multiplies x by a positive number: the same ray.

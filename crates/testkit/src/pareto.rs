@@ -65,10 +65,11 @@ impl Pareto {
     /// [`ModelError`] for an empty matrix.
     pub fn pencil(&self) -> Result<Problem, ModelError> {
         let n = self.matrix.rows();
-        let a = self.matrix.add_scaled(&self.bound(), &Sparse::identity(n));
-        let minus = Sparse::zeros(n, n).add_scaled(&whole(-1), &Sparse::identity(n));
+        let identity = Sparse::identity(n);
+        let a = self.matrix.add_scaled(&self.bound(), &identity);
+        let minus_identity = Sparse::zeros(n, n).add_scaled(&whole(-1), &identity);
 
-        let pencil = Pencil::new(a, minus, vec![])?;
+        let pencil = Pencil::new(a, minus_identity, vec![])?;
         Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())
     }
 
@@ -97,26 +98,35 @@ impl Pareto {
         let frobenius: Rational = coupling.entries().map(|(_, _, v)| v * v).sum();
         let b = frobenius / a + Rational::one();
 
-        // Particle i has the tangential dof 2i and the normal dof 2i + 1.
         let mut entries = Vec::new();
         for i in 0..n {
-            entries.push((2 * i, 2 * i, a.clone()));
-            entries.push((2 * i + 1, 2 * i + 1, b.clone()));
+            entries.push((tangential(i), tangential(i), a.clone()));
+            entries.push((normal(i), normal(i), b.clone()));
         }
         for (i, j, v) in coupling.entries() {
-            entries.push((2 * i + 1, 2 * j, v.clone()));
-            entries.push((2 * j, 2 * i + 1, v.clone()));
+            entries.push((normal(i), tangential(j), v.clone()));
+            entries.push((tangential(j), normal(i), v.clone()));
         }
         let stiffness = Sparse::from_entries(2 * n, 2 * n, entries);
 
         let slip = ContactState::Slip { sign: 1 };
         let particles = (0..n)
-            .map(|i| Particle::plain(2 * i, 2 * i + 1, slip))
+            .map(|i| Particle::plain(tangential(i), normal(i), slip))
             .collect();
 
         let system = System::new(stiffness, None, None, particles)?;
         Problem::new(Body::System(system), Unknown::Mu, Window::all())
     }
+}
+
+/// The tangential dof of particle i.
+fn tangential(i: usize) -> usize {
+    2 * i
+}
+
+/// The normal dof of particle i.
+fn normal(i: usize) -> usize {
+    2 * i + 1
 }
 
 /// A random admissible pencil with a rational solution planted in it.

@@ -149,8 +149,11 @@ impl State {
 
     /// Disagreements in all families, shortfalls among them.
     pub fn disagreements(&self) -> usize {
-        let single: usize = self.tallies.iter().map(|t| t.disagreements.len()).sum();
-        single + self.shortfalls().len()
+        let mut count = self.shortfalls().len();
+        for tally in &self.tallies {
+            count += tally.disagreements.len();
+        }
+        count
     }
 
     /// Coverage of each family and kind of start that was met.

@@ -310,7 +310,9 @@ fn is_clearly_outside(s: &Solution, window: &Window) -> bool {
 
 /// Is the distance more than 1 per cent of 1 + |v|?
 fn is_far(v: &Rational, from: &Rational) -> bool {
-    (v - from).abs() > rational(1, 100) * (whole(1) + v.abs())
+    let distance = (v - from).abs();
+    let size = whole(1) + v.abs();
+    distance > rational(1, 100) * size
 }
 
 /// A continuum reported for all values from 0, where it is not.

@@ -67,9 +67,14 @@ pub fn digits(rng: &mut ChaCha8Rng, n_s: usize, n_f: usize) -> Result<Pencil, Mo
 /// [`ModelError`] for no variables.
 pub fn zeros(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
     const ENTRIES: [i64; 8] = [0, 0, 0, 1, 0, 0, 0, -1];
-    let a = drawn(n, || ENTRIES[rng.random_range(0..8)]);
-    let b = drawn(n, || ENTRIES[rng.random_range(0..8)]);
+    let a = drawn_from(&ENTRIES, rng, n);
+    let b = drawn_from(&ENTRIES, rng, n);
     Pencil::new(sparse(&a), sparse(&b), Vec::new())
+}
+
+/// A matrix of order n by its rows, each entry one of eight with the same probability.
+fn drawn_from(entries: &[i64; 8], rng: &mut ChaCha8Rng, n: usize) -> Vec<Vec<i64>> {
+    drawn(n, || entries[rng.random_range(0..8)])
 }
 
 /// A particle that is another's double: the same row and column. At least two variables.
@@ -134,9 +139,15 @@ pub fn identity(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
 /// [`ModelError`] for no variables.
 pub fn free_anywhere(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
     const ENTRIES: [i64; 8] = [0, 0, 0, 1, -1, 1, -1, 2];
-    let free = (0..n).filter(|_| rng.random_range(0..3) == 0).collect();
-    let a = drawn(n, || ENTRIES[rng.random_range(0..8)]);
-    let b = drawn(n, || ENTRIES[rng.random_range(0..8)]);
+    let mut free = Vec::new();
+    for i in 0..n {
+        if rng.random_range(0..3) == 0 {
+            free.push(i);
+        }
+    }
+
+    let a = drawn_from(&ENTRIES, rng, n);
+    let b = drawn_from(&ENTRIES, rng, n);
     Pencil::new(sparse(&a), sparse(&b), free)
 }
 

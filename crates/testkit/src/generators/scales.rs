@@ -47,7 +47,10 @@ pub fn hilbert(
 
 /// The matrix of all 1 / (i + j + from).
 fn hilbert_section(n: usize, from: i64) -> Sparse {
-    matrix(n, |i, j| rational(1, (i + j) as i64 + from))
+    matrix(n, |i, j| {
+        let denominator = (i + j) as i64 + from;
+        rational(1, denominator)
+    })
 }
 
 /// The pencil of finite elements with rows and columns scaled by powers of ten from 1e-4 to 1e4: D
@@ -62,9 +65,10 @@ pub fn badly_scaled(
     n_f: usize,
 ) -> Result<Pencil, ModelError> {
     let pencil = elements(unknown, rng, n_s, n_f)?;
-    let d: Vec<Rational> = (0..n_s + n_f)
-        .map(|_| power_of_ten(rng.random_range(-4..=4)))
-        .collect();
+    let mut d = Vec::new();
+    for _ in 0..pencil.order() {
+        d.push(power_of_ten(rng.random_range(-4..=4)));
+    }
 
     Ok(rebuilt(&pencil, &|i, j, v| v * &d[i] * &d[j]))
 }
@@ -105,9 +109,14 @@ fn times_power_of_ten(matrix: &Sparse, exponent: i32) -> Sparse {
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn integers(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
-    let a = matrix(n, |_, _| whole(rng.random_range(-999_999..=999_999)));
-    let b = matrix(n, |_, _| whole(rng.random_range(-999_999..=999_999)));
+    let a = matrix(n, |_, _| six_digits(rng));
+    let b = matrix(n, |_, _| six_digits(rng));
     Pencil::new(a, b, Vec::new())
+}
+
+fn six_digits(rng: &mut ChaCha8Rng) -> Rational {
+    let value = rng.random_range(-999_999..=999_999);
+    whole(value)
 }
 
 /// Doubles with all of their 53 bits, read exactly, the size of each spread over six decades.
