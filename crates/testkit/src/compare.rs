@@ -234,14 +234,14 @@ fn run_solver(
         runs.push((Starts::Path, treatment.interior, path));
     }
 
-    let truth = Truth {
+    let answered = Answered {
         problem,
         pencil,
         oracle,
     };
     for (starts, solver, search) in runs {
         match solver(problem, &admissible, &search) {
-            Ok(found) => compare_found(&truth, starts, found, report),
+            Ok(found) => compare_found(&answered, starts, found, report),
             Err(e) => report.disagreements.push(Disagreement::Refused {
                 engine: "solver",
                 reason: e.to_string(),
@@ -441,15 +441,20 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
 }
 
 /// A problem, its pencil, and the enumerator's answer.
-struct Truth<'a> {
+struct Answered<'a> {
     problem: &'a Problem,
     pencil: &'a Pencil,
     oracle: &'a Enumeration,
 }
 
 /// What the solver certified is in the enumerator's answer.
-fn compare_found(truth: &Truth<'_>, starts: Starts, found: Found, report: &mut InstanceReport) {
-    let oracle = truth.oracle;
+fn compare_found(
+    answered: &Answered<'_>,
+    starts: Starts,
+    found: Found,
+    report: &mut InstanceReport,
+) {
+    let oracle = answered.oracle;
     report.pivots += found.pivots;
 
     if starts == Starts::Search {
@@ -471,7 +476,7 @@ fn compare_found(truth: &Truth<'_>, starts: Starts, found: Found, report: &mut I
                 first |= is_first;
             }
             // In a cone, or in the range of a singular pencil.
-            None if is_described(truth, &c.claim) => first |= is_first,
+            None if is_described(answered, &c.claim) => first |= is_first,
             None => report.disagreements.push(Disagreement::NotInOracle {
                 support: support(&c.claim).to_vec(),
             }),
@@ -492,7 +497,7 @@ fn compare_found(truth: &Truth<'_>, starts: Starts, found: Found, report: &mut I
     }
 
     if starts == Starts::Search {
-        submit(truth.problem, claims, report);
+        submit(answered.problem, claims, report);
     }
 }
 
@@ -525,11 +530,11 @@ fn same_value(value: &Algebraic, claim: &Claim) -> bool {
 
 /// Does the enumerator's answer hold the claimed solution? Exactly for exact claims; a box stands
 /// for an isolated solution, for which its support must have been met as wide or singular.
-fn is_described(truth: &Truth<'_>, claim: &Claim) -> bool {
-    let oracle = truth.oracle;
+fn is_described(answered: &Answered<'_>, claim: &Claim) -> bool {
+    let oracle = answered.oracle;
     if let (Claim::ExactSolution(c), Some(value)) = (claim, exact_value(claim)) {
         let x = integer_x(c);
-        return oracle.contains(truth.pencil, &value, &x);
+        return oracle.contains(answered.pencil, &value, &x);
     }
 
     let support = support(claim);

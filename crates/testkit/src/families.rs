@@ -328,7 +328,7 @@ fn random_particle(rng: &mut ChaCha8Rng, index: usize, corners: &mut Vec<Corner>
 pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
     let identity: &[&[i64]] = &[&[1, 0], &[0, 1]];
     let cases = [
-        Case {
+        Degenerate {
             name: "one by one",
             a: &[&[-2]],
             b: &[&[1]],
@@ -336,7 +336,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Lambda2,
             corner: Corner::OneByOne,
         },
-        Case {
+        Degenerate {
             name: "one by one without solution",
             a: &[&[2]],
             b: &[&[1]],
@@ -344,7 +344,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Lambda2,
             corner: Corner::OneByOne,
         },
-        Case {
+        Degenerate {
             name: "biactive edge",
             a: &[&[-1, 5], &[0, 7]],
             b: identity,
@@ -352,7 +352,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Lambda2,
             corner: Corner::Biactive,
         },
-        Case {
+        Degenerate {
             name: "Jordan block",
             a: &[&[-1, -1], &[0, -1]],
             b: identity,
@@ -360,7 +360,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Lambda2,
             corner: Corner::Biactive,
         },
-        Case {
+        Degenerate {
             name: "double root on the full support",
             a: &[&[1, -4], &[1, -3]],
             b: identity,
@@ -368,7 +368,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Lambda2,
             corner: Corner::Repeated,
         },
-        Case {
+        Degenerate {
             name: "double root with a free variable",
             a: &[&[2, 1], &[-1, 0]],
             b: &[&[1, 0], &[0, -1]],
@@ -376,7 +376,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Lambda2,
             corner: Corner::Repeated,
         },
-        Case {
+        Degenerate {
             name: "scalar matrix",
             a: &[&[-1, 0], &[0, -1]],
             b: identity,
@@ -384,7 +384,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Lambda2,
             corner: Corner::WideKernel,
         },
-        Case {
+        Degenerate {
             name: "zero eigenvalue",
             a: &[&[1, -1], &[-1, 1]],
             b: identity,
@@ -392,7 +392,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Lambda2,
             corner: Corner::ZeroValue,
         },
-        Case {
+        Degenerate {
             name: "singular for every mu",
             a: &[&[1, -1], &[-1, 1]],
             b: &[&[0, 0], &[0, 0]],
@@ -400,7 +400,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Mu,
             corner: Corner::Singular,
         },
-        Case {
+        Degenerate {
             name: "singular free block beside",
             a: &[&[1, 0, 0], &[0, 0, 0], &[0, 0, -1]],
             b: &[&[0, 0, 0], &[0, 0, 0], &[0, 0, 1]],
@@ -408,7 +408,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Mu,
             corner: Corner::Singular,
         },
-        Case {
+        Degenerate {
             name: "fold without a static threshold",
             a: &[&[1, -6], &[2, -6]],
             b: identity,
@@ -416,7 +416,7 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
             unknown: Unknown::Lambda2,
             corner: Corner::Repeated,
         },
-        Case {
+        Degenerate {
             name: "three equal particles",
             a: &[&[-1, 1, 1], &[1, -1, 1], &[1, 1, -1]],
             b: &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]],
@@ -426,11 +426,11 @@ pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
         },
     ];
 
-    cases.iter().map(Case::instance).collect()
+    cases.iter().map(Degenerate::instance).collect()
 }
 
 /// A degenerate pencil of small integers.
-struct Case<'a> {
+struct Degenerate<'a> {
     name: &'a str,
     a: &'a [&'a [i64]],
     b: &'a [&'a [i64]],
@@ -439,7 +439,7 @@ struct Case<'a> {
     corner: Corner,
 }
 
-impl Case<'_> {
+impl Degenerate<'_> {
     fn instance(&self) -> Result<Instance, ModelError> {
         let a = Sparse::from_ints(self.a);
         let b = Sparse::from_ints(self.b);

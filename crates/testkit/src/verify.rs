@@ -55,7 +55,9 @@ impl FamilyReport {
     /// Adds what came of one instance.
     fn add(&mut self, report: &InstanceReport) {
         self.oracle += report.oracle;
-        self.findable += if report.solved { report.oracle } else { 0 };
+        if report.solved {
+            self.findable += report.oracle;
+        }
         self.found += report.found;
         self.accepted += report.accepted;
         self.degenerate += usize::from(report.degenerate);

@@ -73,11 +73,9 @@ impl Tally {
         let report = &judged.report;
         self.instances += 1;
         self.solutions += report.oracle as u64;
-        self.findable += if report.solved {
-            report.oracle as u64
-        } else {
-            0
-        };
+        if report.solved {
+            self.findable += report.oracle as u64;
+        }
         self.found += report.found as u64;
         self.accepted += report.accepted as u64;
         self.forgeries += report.forgeries as u64;
@@ -204,32 +202,43 @@ impl State {
         require_format(text, STATE_FORMAT)?;
         let state: State = from_json(text)?;
 
-        let pairs = [
-            ("seed", self.seed.to_string(), state.seed.to_string()),
-            (
-                "shard",
-                format!("{:?}", self.shard),
-                format!("{:?}", state.shard),
-            ),
-            (
-                "families",
-                self.families.join(" "),
-                state.families.join(" "),
-            ),
-            (
-                "tallies",
-                self.tallies.len().to_string(),
-                state.tallies.len().to_string(),
-            ),
-        ];
-
-        match pairs.into_iter().find(|(_, expected, got)| expected != got) {
-            Some((what, expected, got)) => Err(StateError::Other {
-                what,
-                expected,
-                got,
-            }),
-            None => Ok(state),
+        for (expected, got) in self.settings().into_iter().zip(state.settings()) {
+            if expected.value != got.value {
+                return Err(StateError::Other {
+                    what: expected.what,
+                    expected: expected.value,
+                    got: got.value,
+                });
+            }
         }
+        Ok(state)
     }
+
+    /// What has to be the same in a state that is gone on from.
+    fn settings(&self) -> [Setting; 4] {
+        [
+            Setting {
+                what: "seed",
+                value: self.seed.to_string(),
+            },
+            Setting {
+                what: "shard",
+                value: format!("{:?}", self.shard),
+            },
+            Setting {
+                what: "families",
+                value: self.families.join(" "),
+            },
+            Setting {
+                what: "tallies",
+                value: self.tallies.len().to_string(),
+            },
+        ]
+    }
+}
+
+/// A setting of a campaign, as an error names it.
+struct Setting {
+    what: &'static str,
+    value: String,
 }
