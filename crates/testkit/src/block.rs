@@ -1,4 +1,9 @@
 //! The published states of the block: condensed exactly, searched, certified on the full K.
+//!
+//! Each state of section 5 goes through reduction (10)-(16), the exact condensation, the solver,
+//! the complete search and the checker. Input: the block and a state. Output: what was certified
+//! and accepted, and everything that contradicts the complete set. Called by `verify` and by
+//! `mceip block`.
 
 use super::floors::{Coverage, Shortfall, Starts, shortfalls};
 use super::forge::forgeries;
@@ -10,8 +15,8 @@ use mceip_engine::multistart::{Search, SearchError, multistart_large};
 use mceip_engine::reduction::reduce;
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::complete::{CompleteError, Options, complete};
-use mceip_exact::{Rational, to_f64};
-use mceip_model::{Admissible, ModelError, Problem, Unknown};
+use mceip_exact::to_f64;
+use mceip_model::{Admissible, ModelError, Pencil, Problem, Unknown};
 use mceip_paper::{Block, PublishedState};
 
 /// Why a state of the block was not treated.
@@ -104,40 +109,42 @@ pub fn block_state(
     let problem = state.problem(block)?;
     let pencil = reduce(&problem)?.pencil;
     let full = Admissible::new(&pencil, Unknown::Mu)?;
+
     if watch.is_cancelled() {
         return Ok(None);
     }
+
     watch.report(&Progress::stage("condensing exactly and searching"));
     let search = Search {
         window_starts: 2,
         ..Search::default()
     };
     let (found, condensed) = multistart_large(&problem, &full, &search, &watch.quiet())?;
+
     if watch.is_cancelled() {
         return Ok(None);
     }
+
     watch.report(&Progress::stage(
         "proving that there are no other solutions",
     ));
     let cover = complete(&problem, &Options::default(), &watch.quiet())?.cover;
     watch.report(&Progress::stage("checking"));
-    let entries = condensed
-        .iter()
-        .flat_map(|p| p.a().entries().chain(p.b().entries()));
-    let bits = entries.map(|e| e.2.denom().bits()).max().unwrap_or(0);
+
+    let mut uncertified = Vec::new();
+    for u in &found.uncertified {
+        uncertified.push(format!("mu = {}: {}", u.candidate.value, u.reason));
+    }
+
     let mut report = BlockReport {
         state,
         accepted: Vec::new(),
-        uncertified: found
-            .uncertified
-            .iter()
-            .map(|u| format!("mu = {}: {}", u.candidate.value, u.reason))
-            .collect(),
+        uncertified,
         rejected: Vec::new(),
         forgeries: 0,
         rejected_forgeries: 0,
         orders: (block.stiffness.rows(), pencil.order(), pencil.slip().len()),
-        bits,
+        bits: condensed.as_ref().map_or(0, denominator_bits),
         runs: found.runs,
         pivots: found.pivots,
         certificate: None,
@@ -146,83 +153,93 @@ pub fn block_state(
         cover,
         missing: 0,
     };
+
     if let Some(condensed) = &condensed {
         let small = Admissible::new(condensed, Unknown::Mu)?;
-        let values: Vec<f64> = report
-            .cover
-            .solutions
-            .iter()
-            .map(|s| to_f64(&s.value.mid()))
-            .collect();
+        let proved = &report.cover.solutions;
+        let values: Vec<f64> = proved.iter().map(|s| to_f64(&s.value.mid())).collect();
         report.path =
             path_coverage(&small, &values, BLOCK_STARTS, search.seed).map_err(SearchError::from)?;
     }
+
     if found.certified.is_empty() {
         return Ok(Some(report));
     }
-    let certificate = certificate(
-        &problem,
-        found.certified.into_iter().map(|c| c.claim).collect(),
-    );
+
+    let claims = found.certified.into_iter().map(|c| c.claim).collect();
+    let certificate = certificate(&problem, claims);
     submit(&problem, &pencil.slip(), &certificate, &mut report);
+
     for forgery in forgeries(&certificate) {
         if watch.is_cancelled() {
             return Ok(None);
         }
+
+        let verdict = check(&problem, &forgery.certificate);
+        let is_rejected = verdict.is_err_and(|e| (forgery.expected)(&e.reason));
         report.forgeries += 1;
-        report.rejected_forgeries += usize::from(
-            check(&problem, &forgery.certificate).is_err_and(|e| (forgery.expected)(&e.reason)),
-        );
+        report.rejected_forgeries += usize::from(is_rejected);
     }
+
     report.certificate = Some(certificate);
     Ok(Some(report))
 }
 
-/// Sends the certificate to the checker, and what it accepts to the complete set.
+/// Bits of the largest denominator of A and B.
+fn denominator_bits(pencil: &Pencil) -> u64 {
+    let entries = pencil.a().entries().chain(pencil.b().entries());
+    let bits = entries.map(|(_, _, v)| v.denom().bits());
+    bits.max().unwrap_or(0)
+}
+
+/// Sends the certificate to the checker, and compares what it accepts with the complete set.
 fn submit(problem: &Problem, slip: &[usize], certificate: &Certificate, report: &mut BlockReport) {
-    match check(problem, certificate) {
-        Ok(accepted) => {
-            let claims = &accepted.claims;
-            report.missing = claims
-                .iter()
-                .filter(|c| {
-                    report.is_complete()
-                        && !report.cover.solutions.iter().any(|s| may_be_same(s, c))
-                })
-                .count();
-            let is_found = |s: &&AcceptedClaim| claims.iter().any(|c| may_be_same(s, c));
-            report.unfound -= report.cover.solutions.iter().filter(is_found).count();
-            report.accepted = claims
-                .iter()
-                .map(|c| accepted_state(slip, report.state, &c.support, &c.value.mid()))
-                .collect();
+    let claims = match check(problem, certificate) {
+        Ok(accepted) => accepted.claims,
+        Err(e) => {
+            report.rejected.push(e);
+            return;
         }
-        Err(e) => report.rejected.push(e),
+    };
+
+    let proved = &report.cover.solutions;
+    if report.is_complete() {
+        let is_missing = |c: &&AcceptedClaim| !proved.iter().any(|s| may_be_same(s, c));
+        report.missing = claims.iter().filter(is_missing).count();
     }
+
+    let is_found = |s: &&AcceptedClaim| claims.iter().any(|c| may_be_same(s, c));
+    report.unfound -= proved.iter().filter(is_found).count();
+
+    report.accepted = claims
+        .iter()
+        .map(|claim| accepted_state(slip, report.state, claim))
+        .collect();
 }
 
 /// Same support and values whose enclosures meet.
 fn may_be_same(a: &AcceptedClaim, b: &AcceptedClaim) -> bool {
-    a.support == b.support && a.value.lo() <= b.value.hi() && b.value.lo() <= a.value.hi()
+    let a_begins_in_time = a.value.lo() <= b.value.hi();
+    let b_begins_in_time = b.value.lo() <= a.value.hi();
+    let values_meet = a_begins_in_time && b_begins_in_time;
+    a.support == b.support && values_meet
 }
 
-fn accepted_state(
-    slip: &[usize],
-    state: PublishedState,
-    support: &[usize],
-    value: &Rational,
-) -> AcceptedState {
-    // Slip variables stand for the slip nodes from left to right; the stick nodes come before them.
-    let first = state.states().len() - 4 - slip.len();
-    let stuck = slip
-        .iter()
-        .enumerate()
-        .filter(|(_, i)| !support.contains(i))
-        .map(|(k, _)| first + k + 1)
-        .collect();
+/// An accepted claim in the words of the paper.
+fn accepted_state(slip: &[usize], state: PublishedState, claim: &AcceptedClaim) -> AcceptedState {
+    // Slip variables stand for the slip nodes from left to right; the stick nodes come before them,
+    // the four free nodes after them.
+    let stick_nodes = state.states().len() - 4 - slip.len();
+    let mut stuck = Vec::new();
+    for (k, i) in slip.iter().enumerate() {
+        if !claim.support.contains(i) {
+            stuck.push(stick_nodes + k + 1);
+        }
+    }
+
     AcceptedState {
-        value: format!("{:.12}", to_f64(value)),
-        slipping: support.len(),
+        value: format!("{:.12}", to_f64(&claim.value.mid())),
+        slipping: claim.support.len(),
         stuck,
     }
 }

@@ -1,4 +1,15 @@
 //! One instance through every engine: closed form, enumerator, solver, certificate, checker.
+//!
+//! The plain enumerator's answer is what the others are compared with:
+//!
+//! * Table 1 in closed form lists the same solutions.
+//! * Lifted solutions satisfy each line of (9).
+//! * Its solutions are certified and accepted; each forgery of them is rejected.
+//! * The complete search proves the same set, or leaves regions open.
+//! * What the solver finds and certifies is in it.
+//!
+//! Input: an instance and how to treat it. Output: counts and disagreements; each disagreement is a
+//! bug. Called by `verify`, by the campaign and by the fuzz targets.
 
 use super::completed::compare_within;
 use super::disagreement::Disagreement;
@@ -14,7 +25,7 @@ use mceip_engine::multistart::{
     Found, Origin, Search, exact_value, integer_x, multistart, support,
 };
 use mceip_engine::reduction::{Reduced, check_lines, lift, reduce};
-use mceip_exact::{Algebraic, Poly, Quadratic, Rational, Sign};
+use mceip_exact::{Algebraic, Quadratic, Rational, Sign};
 use mceip_mcp::solver::SolverError;
 use mceip_model::{Admissible, Body, Pencil, Problem};
 use mceip_oracle::{ClosedSolution, Enumeration, Solution, enumerate, table1};
@@ -66,6 +77,7 @@ impl InstanceReport {
             coverage.count(reached.first, reached.found == self.oracle);
             out.push((reached.starts, coverage));
         }
+
         out
     }
 }
@@ -132,10 +144,12 @@ pub fn compare_by(instance: &Instance, treatment: &Treatment) -> InstanceReport 
         corners: instance.corners.clone(),
         ..InstanceReport::default()
     };
+
     match engines(&instance.problem) {
         Ok((reduced, oracle)) => compare_with(instance, &reduced, &oracle, treatment, &mut report),
         Err(disagreement) => report.disagreements.push(disagreement),
     }
+
     report
 }
 
@@ -154,6 +168,7 @@ pub fn coverage_of(
         oracle: oracle.solutions.len(),
         ..InstanceReport::default()
     };
+
     run_solver(instance, &reduced.pencil, &oracle, treatment, &mut report);
     Ok(report)
 }
@@ -170,16 +185,20 @@ pub(super) fn compare_with(
     report.oracle = oracle.solutions.len();
     report.degenerate = !(oracle.wide.is_empty() && oracle.continua.is_empty());
     report.corners.extend(observed(oracle));
+
     if let Some(data) = &instance.closed_form {
         compare_closed_form(oracle, &table1(data), report);
     }
+
     check_lifts(problem, reduced, oracle, report);
     let claims = certify_oracle(problem, reduced, oracle, report);
     submit(problem, claims, report);
+
     match compare_within(problem, oracle, treatment.nodes) {
         Ok(completed) => report.completed = completed,
         Err(disagreement) => report.disagreements.push(disagreement),
     }
+
     run_solver(instance, &reduced.pencil, oracle, treatment, report);
 }
 
@@ -196,6 +215,7 @@ fn run_solver(
     let Ok(admissible) = Admissible::new(pencil, problem.unknown()) else {
         return;
     };
+
     report.solved = true;
 
     let interior = Search {
@@ -207,15 +227,21 @@ fn run_solver(
         options: path_options(),
         ..interior.clone()
     };
+
     let mut runs = vec![(Starts::Search, treatment.solver, treatment.search.clone())];
     if instance.closed_form.is_some() {
         runs.push((Starts::Interior, treatment.interior, interior));
         runs.push((Starts::Path, treatment.interior, path));
     }
 
+    let answered = Answered {
+        problem,
+        pencil,
+        oracle,
+    };
     for (starts, solver, search) in runs {
         match solver(problem, &admissible, &search) {
-            Ok(found) => compare_found(problem, pencil, oracle, (starts, found), report),
+            Ok(found) => compare_found(&answered, starts, found, report),
             Err(e) => report.disagreements.push(Disagreement::Refused {
                 engine: "solver",
                 reason: e.to_string(),
@@ -226,33 +252,51 @@ fn run_solver(
 
 /// The reduction and the enumerator's answer.
 pub(super) fn engines(problem: &Problem) -> Result<(Reduced, Enumeration), Disagreement> {
-    let refused = |engine, reason: String| Disagreement::Refused { engine, reason };
-    let reduced = reduce(problem).map_err(|e| refused("reduction", e.to_string()))?;
-    let oracle = enumerate(&reduced.pencil, problem.window())
-        .map_err(|e| refused("enumerator", e.to_string()))?;
+    let reduced = reduce(problem).map_err(|e| Disagreement::Refused {
+        engine: "reduction",
+        reason: e.to_string(),
+    })?;
+
+    let oracle = enumerate(&reduced.pencil, problem.window());
+    let oracle = oracle.map_err(|e| Disagreement::Refused {
+        engine: "enumerator",
+        reason: e.to_string(),
+    })?;
+
     Ok((reduced, oracle))
 }
 
 /// Corners that the enumerator's answer shows.
 pub(super) fn observed(oracle: &Enumeration) -> Vec<Corner> {
     let mut corners = Vec::new();
-    let any = |f: &dyn Fn(&Solution) -> bool| oracle.solutions.iter().any(f);
-    if any(&|s| !s.biactive.is_empty()) {
+    let solutions = &oracle.solutions;
+
+    if solutions.iter().any(|s| !s.biactive.is_empty()) {
         corners.push(Corner::Biactive);
     }
-    if any(&|s| s.multiplicity > 1) {
+
+    if solutions.iter().any(|s| s.multiplicity > 1) {
         corners.push(Corner::Repeated);
     }
-    if any(&|s| s.value.clone().cmp_rational(&Rational::default()).is_eq()) {
+
+    if solutions.iter().any(has_value_zero) {
         corners.push(Corner::ZeroValue);
     }
+
     if !oracle.wide.is_empty() {
         corners.push(Corner::WideKernel);
     }
+
     if !oracle.continua.is_empty() {
         corners.push(Corner::Singular);
     }
+
     corners
+}
+
+fn has_value_zero(solution: &Solution) -> bool {
+    let mut value = solution.value.clone();
+    value.cmp_rational(&Rational::default()).is_eq()
 }
 
 /// Same solutions in value, support and direction of x? Decided in Q(sqrt d).
@@ -261,15 +305,14 @@ fn compare_closed_form(
     closed: &[ClosedSolution],
     report: &mut InstanceReport,
 ) {
-    let matched = closed.iter().all(|c| {
-        oracle
-            .solutions
-            .iter()
-            .filter(|s| s.slip == c.slip && equals(s, c))
-            .count()
-            == 1
-    });
-    if !matched || closed.len() != oracle.solutions.len() {
+    let mut all_match = true;
+    for c in closed {
+        let same = |s: &&Solution| s.slip == c.slip && equals(s, c);
+        let count = oracle.solutions.iter().filter(same).count();
+        all_match &= count == 1;
+    }
+
+    if !all_match || closed.len() != oracle.solutions.len() {
         report.disagreements.push(Disagreement::ClosedForm {
             closed: closed.len(),
             enumerated: oracle.solutions.len(),
@@ -279,19 +322,19 @@ fn compare_closed_form(
 
 /// Is the closed form's number the root isolated by the enumerator, with the same ratio of x?
 fn equals(s: &Solution, c: &ClosedSolution) -> bool {
-    let value = &s.value;
-    let root = c.value.eval(value.poly()).sign() == Sign::Zero
-        && c.value.within(value.interval().lo(), value.interval().hi());
-    // x_1 X_2 = x_2 X_1 with the polynomials of the enumerator evaluated at the closed form's
+    let interval = s.value.interval();
+    let is_root = c.value.eval(s.value.poly()).sign() == Sign::Zero;
+    let is_isolated_root = is_root && c.value.within(interval.lo(), interval.hi());
+
+    // x_1 X_2 - x_2 X_1 = 0 with the polynomials of the enumerator evaluated at the closed form's
     // number.
-    let x: Vec<Quadratic> = s.x.iter().map(|p: &Poly| c.value.eval(p)).collect();
-    let x = [same_field(&x[0], &c.x[0]), same_field(&x[1], &c.x[1])];
-    let cross = x[0].mul(&c.x[1]).add(
-        &x[1]
-            .mul(&c.x[0])
-            .scale(&Rational::from_integer((-1).into())),
-    );
-    root && cross.sign() == Sign::Zero
+    let x_1 = same_field(&c.value.eval(&s.x[0]), &c.x[0]);
+    let x_2 = same_field(&c.value.eval(&s.x[1]), &c.x[1]);
+    let minus_one = Rational::from_integer((-1).into());
+    let second_product = x_2.mul(&c.x[0]).scale(&minus_one);
+    let cross = x_1.mul(&c.x[1]).add(&second_product);
+
+    is_isolated_root && cross.sign() == Sign::Zero
 }
 
 /// A number of Q carries no radicand of its own: give it the other's.
@@ -300,6 +343,7 @@ fn same_field(x: &Quadratic, other: &Quadratic) -> Quadratic {
         .map_or_else(|| x.clone(), |a| other.embed(a))
 }
 
+/// The lift of each of the enumerator's solutions satisfies every line of (9).
 fn check_lifts(
     problem: &Problem,
     reduced: &Reduced,
@@ -309,6 +353,7 @@ fn check_lifts(
     let Body::System(system) = problem.body() else {
         return;
     };
+
     for (index, s) in oracle.solutions.iter().enumerate() {
         let lifted = lift(system, problem.unknown(), &reduced.variables, &s.x);
         if let Err(line) = check_lines(system, problem.unknown(), &lifted, &mut s.value.clone()) {
@@ -318,6 +363,21 @@ fn check_lifts(
             });
         }
     }
+}
+
+/// The candidate that a solver in doubles would report for this solution: value and x by way of
+/// 17-digit decimals.
+pub(super) fn in_doubles(solution: &Solution, slip: &[usize]) -> Candidate {
+    let x = solution.x_decimals(slip, 17);
+    Candidate {
+        value: double(&solution.decimal(17)),
+        x: x.iter().map(|text| double(text)).collect(),
+    }
+}
+
+/// The double nearest to a decimal of our own, which parses.
+fn double(text: &str) -> f64 {
+    text.parse().unwrap_or(f64::NAN)
 }
 
 /// The enumerator's own solutions, through 17-digit decimals, must be certifiable.
@@ -330,13 +390,9 @@ fn certify_oracle(
     let slip = reduced.pencil.slip();
     let certifier = Certifier::new(problem, &reduced.pencil);
     let mut claims = Vec::new();
+
     for (index, s) in oracle.solutions.iter().enumerate() {
-        let double = |text: String| text.parse().unwrap_or(f64::NAN); // our own decimals parse
-        let candidate = Candidate {
-            value: double(s.decimal(17)),
-            x: s.x_decimals(&slip, 17).into_iter().map(double).collect(),
-        };
-        match certifier.certify(&candidate) {
+        match certifier.certify(&in_doubles(s, &slip)) {
             Ok(claim) => claims.push(claim),
             // A singular support has a root everywhere: its value, if irrational, cannot be told
             // from doubles.
@@ -349,6 +405,7 @@ fn certify_oracle(
             }),
         }
     }
+
     claims
 }
 
@@ -357,14 +414,17 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
     if claims.is_empty() {
         return;
     }
+
     let count = claims.len();
     let certificate = certificate(problem, claims);
+
     match check(problem, &certificate) {
         Ok(_) => report.accepted += count,
         Err(e) => report.disagreements.push(Disagreement::Rejected {
             reason: e.to_string(),
         }),
     }
+
     for forgery in forgeries(&certificate) {
         report.forgeries += 1;
         let got = match check(problem, &forgery.certificate) {
@@ -372,6 +432,7 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
             Err(e) if (forgery.expected)(&e.reason) => continue,
             Err(e) => format!("rejected for another reason: {e}"),
         };
+
         report.disagreements.push(Disagreement::Forgery {
             name: forgery.name,
             got,
@@ -379,26 +440,34 @@ fn submit(problem: &Problem, claims: Vec<Claim>, report: &mut InstanceReport) {
     }
 }
 
+/// A problem, its pencil, and the enumerator's answer.
+struct Answered<'a> {
+    problem: &'a Problem,
+    pencil: &'a Pencil,
+    oracle: &'a Enumeration,
+}
+
+/// What the solver certified is in the enumerator's answer.
 fn compare_found(
-    problem: &Problem,
-    pencil: &Pencil,
-    oracle: &Enumeration,
-    found: (Starts, Found),
+    answered: &Answered<'_>,
+    starts: Starts,
+    found: Found,
     report: &mut InstanceReport,
 ) {
-    let (starts, found) = found;
+    let oracle = answered.oracle;
     report.pivots += found.pivots;
+
     if starts == Starts::Search {
-        report.uncertified.extend(
-            found
-                .uncertified
-                .iter()
-                .map(|u| format!("value {:e}: {}", u.candidate.value, u.reason)),
-        );
+        for u in &found.uncertified {
+            let said = format!("value {:e}: {}", u.candidate.value, u.reason);
+            report.uncertified.push(said);
+        }
     }
+
     let mut claims = Vec::new();
     let mut hit = vec![false; oracle.solutions.len()];
     let mut first = false;
+
     for c in found.certified {
         let is_first = c.run == 0 && c.origin == Origin::Start;
         match place(oracle, &c.claim) {
@@ -407,11 +476,12 @@ fn compare_found(
                 first |= is_first;
             }
             // In a cone, or in the range of a singular pencil.
-            None if described(oracle, pencil, &c.claim) => first |= is_first,
+            None if is_described(answered, &c.claim) => first |= is_first,
             None => report.disagreements.push(Disagreement::NotInOracle {
                 support: support(&c.claim).to_vec(),
             }),
         }
+
         claims.push(c.claim);
     }
 
@@ -421,11 +491,13 @@ fn compare_found(
         first,
         found: count,
     });
+
     if starts != Starts::Path {
         report.found = count; // on Table 1 the interior starts come after the search
     }
+
     if starts == Starts::Search {
-        submit(problem, claims, report);
+        submit(answered.problem, claims, report);
     }
 }
 
@@ -437,36 +509,38 @@ fn place(oracle: &Enumeration, claim: &Claim) -> Option<usize> {
         .position(|s| s.slip == support(claim) && same_value(&s.value, claim))
 }
 
+/// Is the value the claim's exact one, or does it lie in the claim's box?
 fn same_value(value: &Algebraic, claim: &Claim) -> bool {
-    match exact_value(claim) {
-        Some(mut exact) => exact.equals(&mut value.clone()),
-        None => match claim {
-            Claim::EnclosedSolution(c) => {
-                c.center
-                    .last()
-                    .zip(c.radius.last())
-                    .is_some_and(|(center, radius)| {
-                        let mut value = value.clone();
-                        value.refine_to(&(&radius.0 / Rational::from_integer(16.into())));
-                        (value.interval().mid() - &center.0).abs() <= radius.0
-                    })
-            }
-            Claim::ExactSolution(_) | Claim::LiftedSolution(_) => false,
-        },
+    if let Some(mut exact) = exact_value(claim) {
+        return exact.equals(&mut value.clone());
     }
+    let Claim::EnclosedSolution(c) = claim else {
+        return false;
+    };
+
+    // The value is the last unknown of the box.
+    let (Some(center), Some(radius)) = (c.center.last(), c.radius.last()) else {
+        return false;
+    };
+    let mut value = value.clone();
+    value.refine_to(&(&radius.0 / Rational::from_integer(16.into())));
+    let distance = (value.interval().mid() - &center.0).abs();
+    distance <= radius.0
 }
 
 /// Does the enumerator's answer hold the claimed solution? Exactly for exact claims; a box stands
 /// for an isolated solution, for which its support must have been met as wide or singular.
-fn described(oracle: &Enumeration, pencil: &Pencil, claim: &Claim) -> bool {
+fn is_described(answered: &Answered<'_>, claim: &Claim) -> bool {
+    let oracle = answered.oracle;
     if let (Claim::ExactSolution(c), Some(value)) = (claim, exact_value(claim)) {
         let x = integer_x(c);
-        return oracle.contains(pencil, &value, &x);
+        return oracle.contains(answered.pencil, &value, &x);
     }
-    let on = |set: &[usize]| set == support(claim);
-    oracle
+
+    let support = support(claim);
+    let is_wide = oracle
         .wide
         .iter()
-        .any(|w| on(&w.support) && same_value(&w.value, claim))
-        || oracle.continua.iter().any(|c| on(c))
+        .any(|w| w.support == support && same_value(&w.value, claim));
+    is_wide || oracle.continua.iter().any(|c| c == support)
 }

@@ -1,13 +1,15 @@
-//! The complete search against the oracle: the same set, or honestly undecided.
+//! The complete search against the oracle: the same set, or undecided.
+//!
+//! Input: a problem and the plain enumerator's answer. What the search proves must be in the
+//! answer; if it claims a complete set, the answer must be in it. Called by `compare` and by the
+//! fuzz target `complete_against_plain`.
 
 use super::disagreement::Disagreement;
-use mceip_check::AcceptedClaim;
+use mceip_check::{AcceptedClaim, AcceptedCover};
 use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{CompleteError, Options, complete};
-use mceip_exact::Rational;
 use mceip_model::Problem;
 use mceip_oracle::{Enumeration, Solution};
-use std::cmp::Ordering;
 
 /// Nodes per piece in comparisons: instances are small, what needs more is degenerate.
 pub(super) const NODES: usize = 20_000;
@@ -36,6 +38,7 @@ pub(super) fn compare_within(
         threads: None,
         ..Options::default()
     };
+
     let completed = match complete(problem, &options, &Watch::nobody()) {
         Ok(completed) => completed,
         Err(
@@ -50,54 +53,64 @@ pub(super) fn compare_within(
             });
         }
     };
-    let mut hit = vec![false; oracle.solutions.len()];
-    for s in &completed.cover.solutions {
-        match oracle.solutions.iter().position(|o| is_same(o, s)) {
-            Some(k) if !hit[k] => hit[k] = true,
+
+    let cover = &completed.cover;
+    let mut is_found = vec![false; oracle.solutions.len()];
+    for claim in &cover.solutions {
+        match oracle.solutions.iter().position(|o| is_same(o, claim)) {
+            Some(k) if !is_found[k] => is_found[k] = true,
             // Solutions inside a cone or a continuum are not in the list one by one.
             _ if !oracle.is_plain_list() => {}
             _ => {
                 return Err(Disagreement::NotInOracle {
-                    support: s.support.clone(),
+                    support: claim.support.clone(),
                 });
             }
         }
     }
-    let complete = completed.is_complete();
-    // What is no list is a family on the same support.
-    let has_family = |support: &[usize]| {
-        completed
-            .cover
-            .families
-            .iter()
-            .any(|f| f.support == support)
-    };
-    // Of a range that the window meets in its end only, one solution is listed.
-    let has_one = |support: &[usize]| {
-        completed
-            .cover
-            .solutions
-            .iter()
-            .any(|s| s.support == support)
-    };
-    let missing = oracle.cones.iter().any(|c| !has_family(&c.slip))
-        || oracle
-            .ranges
-            .iter()
-            .any(|r| !has_family(&r.support) && !has_one(&r.support));
-    if complete && (hit.contains(&false) || missing) {
+
+    let is_complete = completed.is_complete();
+    let all_found = !is_found.contains(&false) && holds_all_families(cover, oracle);
+    if is_complete && !all_found {
         return Err(Disagreement::Incomplete {
-            claimed: completed.cover.solutions.len(),
+            claimed: cover.solutions.len(),
             enumerated: oracle.solutions.len(),
         });
     }
-    Ok(complete)
+
+    Ok(is_complete)
+}
+
+/// Does the cover have a family for each cone and each range of the oracle's answer? Of a range
+/// that the window meets in its end only, one solution is listed instead.
+fn holds_all_families(cover: &AcceptedCover, oracle: &Enumeration) -> bool {
+    for cone in &oracle.cones {
+        if !has_family(cover, &cone.slip) {
+            return false;
+        }
+    }
+
+    for range in &oracle.ranges {
+        let is_listed = cover.solutions.iter().any(|s| s.support == range.support);
+        if !has_family(cover, &range.support) && !is_listed {
+            return false;
+        }
+    }
+
+    true
+}
+
+fn has_family(cover: &AcceptedCover, support: &[usize]) -> bool {
+    cover.families.iter().any(|f| f.support == support)
 }
 
 /// Same support, and the oracle's value lies in the accepted interval.
 fn is_same(oracle: &Solution, accepted: &AcceptedClaim) -> bool {
-    let compare = |end: &Rational| oracle.value.clone().cmp_rational(end);
-    oracle.slip == accepted.support
-        && compare(accepted.value.lo()) != Ordering::Less
-        && compare(accepted.value.hi()) != Ordering::Greater
+    if oracle.slip != accepted.support {
+        return false;
+    }
+
+    let mut value = oracle.value.clone();
+    value.cmp_rational(accepted.value.lo()).is_ge()
+        && value.cmp_rational(accepted.value.hi()).is_le()
 }

@@ -1,4 +1,7 @@
 //! What two parts of the project disagree about.
+//!
+//! Every comparison of engines ends in counts or in one of these. Returned by `compare`,
+//! `completed` and the campaign; reports and replay files print them.
 
 /// Two parts of the project that do not say the same. Any of these is a bug.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]

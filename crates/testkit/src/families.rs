@@ -1,5 +1,9 @@
 //! Families of problems: the two particles on a grid, random pencils and systems, degenerate cases.
 //! One seed per instance; corners reached on purpose are named and counted.
+//!
+//! Output: instances, each with the corners known by construction. The random matrices are
+//! GG' + I with small integers G, so that all hypotheses of Propositions 1 and 2 hold. Called by
+//! `verify`, by the campaign, by the conformance pack and by many tests.
 
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{
@@ -76,33 +80,17 @@ pub fn table1_grid() -> Result<Vec<Instance>, ModelError> {
     let mut out = Vec::new();
     for (c, s) in pythagorean_angles() {
         for (k, m) in [(whole(1), whole(1)), (rational(7, 3), rational(5, 2))] {
-            for (mu, exact) in frictions(&c, &s) {
+            for friction in frictions(&c, &s) {
                 for signs in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
                     let data = TwoParticles {
                         c: c.clone(),
                         s: s.clone(),
                         k: k.clone(),
                         m: m.clone(),
-                        mu: mu.clone(),
+                        mu: friction.mu.clone(),
                         signs,
                     };
-                    let problem = Problem::new(
-                        Body::System(two_particles(&data)?),
-                        Unknown::Lambda2,
-                        Window::all(),
-                    )?;
-                    let label = format!("table1 c={c} s={s} k={k} m={m} mu={mu} S={signs:?}");
-                    let corners = if exact && signs == (1, -1) {
-                        vec![Corner::Threshold]
-                    } else {
-                        vec![]
-                    };
-                    out.push(Instance {
-                        label,
-                        problem,
-                        closed_form: Some(data),
-                        corners,
-                    });
+                    out.push(table1_instance(data, friction.is_threshold)?);
                 }
             }
         }
@@ -110,22 +98,67 @@ pub fn table1_grid() -> Result<Vec<Instance>, ModelError> {
     Ok(out)
 }
 
-/// Coefficients of friction for one angle; true marks those exactly on a threshold.
-fn frictions(c: &Rational, s: &Rational) -> Vec<(Rational, bool)> {
-    let mut list: Vec<(Rational, bool)> = [rational(1, 2), whole(2), whole(5), whole(20)]
-        .map(|mu| (mu, false))
-        .to_vec();
-    let cs = c * s;
-    if !cs.is_zero() {
-        let tiny = rational(1, 1_000_000_000);
-        for top in [c * c + Rational::one(), c * c + whole(2)] {
-            let mu = top / &cs;
-            list.extend([
-                (&mu - &tiny, false),
-                (mu.clone(), true),
-                (mu + &tiny, false),
-            ]);
+/// The two particles with these data. The rational thresholds are those of S = (+1, -1).
+fn table1_instance(data: TwoParticles, is_threshold: bool) -> Result<Instance, ModelError> {
+    let TwoParticles {
+        c,
+        s,
+        k,
+        m,
+        mu,
+        signs,
+    } = &data;
+    let label = format!("table1 c={c} s={s} k={k} m={m} mu={mu} S={signs:?}");
+
+    let mut corners = Vec::new();
+    if is_threshold && data.signs == (1, -1) {
+        corners.push(Corner::Threshold);
+    }
+
+    let system = two_particles(&data)?;
+    Ok(Instance {
+        label,
+        problem: Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?,
+        closed_form: Some(data),
+        corners,
+    })
+}
+
+/// A coefficient of friction of the grid.
+struct Friction {
+    mu: Rational,
+    /// Is it exactly on a rational threshold of Table 1?
+    is_threshold: bool,
+}
+
+impl Friction {
+    fn plain(mu: Rational) -> Friction {
+        Friction {
+            mu,
+            is_threshold: false,
         }
+    }
+}
+
+/// Coefficients of friction for one angle.
+fn frictions(c: &Rational, s: &Rational) -> Vec<Friction> {
+    let plain = [rational(1, 2), whole(2), whole(5), whole(20)];
+    let mut list: Vec<Friction> = plain.map(Friction::plain).into_iter().collect();
+
+    let cs = c * s;
+    if cs.is_zero() {
+        return list;
+    }
+
+    let tiny = rational(1, 1_000_000_000);
+    for top in [c * c + Rational::one(), c * c + whole(2)] {
+        let threshold = top / &cs;
+        list.push(Friction::plain(&threshold - &tiny));
+        list.push(Friction {
+            mu: threshold.clone(),
+            is_threshold: true,
+        });
+        list.push(Friction::plain(threshold + &tiny));
     }
     list
 }
@@ -139,6 +172,7 @@ pub fn random_pencils(count: usize, seed: u64) -> Result<Vec<Instance>, ModelErr
     (0..count).map(|k| random_pencil(k, seed)).collect()
 }
 
+/// The `k`-th of [`random_pencils`].
 pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(k as u64));
     let n_s = rng.random_range(1..=6);
@@ -148,27 +182,28 @@ pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError>
         rng.random_range(1..=3)
     };
     let n = n_s + n_f;
+
+    // The free variables come first; their rows of K1 vanish (16).
     let k0 = gram(&mut rng, n);
-    let k1 = Sparse::from_entries(
-        n,
-        n,
-        (n_f..n)
-            .flat_map(|i| (0..n).map(move |j| (i, j)))
-            .map(|(i, j)| (i, j, whole(rng.random_range(-6..=6)))),
-    );
-    let unknown = if k.is_multiple_of(2) {
-        Unknown::Lambda2
-    } else {
-        Unknown::Mu
+    let mut friction_entries = Vec::new();
+    for i in n_f..n {
+        for j in 0..n {
+            friction_entries.push((i, j, whole(rng.random_range(-6..=6))));
+        }
+    }
+    let k1 = Sparse::from_entries(n, n, friction_entries);
+
+    let unknown = unknown(k);
+    let free = (0..n_f).collect();
+    let pencil = match unknown {
+        Unknown::Mu => Pencil::new(k0, k1, free)?,
+        Unknown::Lambda2 => {
+            let friction = rational(rng.random_range(1..=6), 2);
+            let mass = gram(&mut rng, n);
+            Pencil::new(k0.add_scaled(&friction, &k1), mass, free)?
+        }
     };
-    let (a, b) = match unknown {
-        Unknown::Mu => (k0, k1),
-        Unknown::Lambda2 => (
-            k0.add_scaled(&rational(rng.random_range(1..=6), 2), &k1),
-            gram(&mut rng, n),
-        ),
-    };
-    let pencil = Pencil::new(a, b, (0..n_f).collect())?;
+
     let mut corners = Vec::new();
     if n_f > 0 {
         corners.push(Corner::FreeVariables);
@@ -176,32 +211,40 @@ pub(super) fn random_pencil(k: usize, seed: u64) -> Result<Instance, ModelError>
     if n == 1 {
         corners.push(Corner::OneByOne);
     }
-    let label = format!(
-        "random pencil {k} (seed {seed}) n_s={n_s} n_f={n_f} {}",
-        unknown.word()
-    );
+
+    let word = unknown.word();
     Ok(Instance {
-        label,
+        label: format!("random pencil {k} (seed {seed}) n_s={n_s} n_f={n_f} {word}"),
         problem: Problem::new(Body::Pencil(pencil), unknown, Window::all())?,
         closed_form: None,
         corners,
     })
 }
 
+/// lambda^2 for even numbers, mu for odd ones.
+fn unknown(k: usize) -> Unknown {
+    if k.is_multiple_of(2) {
+        Unknown::Lambda2
+    } else {
+        Unknown::Mu
+    }
+}
+
 /// GG' + I with small integer G: symmetric positive definite.
 pub(super) fn gram(rng: &mut ChaCha8Rng, n: usize) -> Sparse {
-    let g: Vec<Vec<i64>> = (0..n)
-        .map(|_| (0..n).map(|_| rng.random_range(-2..=2)).collect())
-        .collect();
-    let entry =
-        |i: usize, j: usize| (0..n).map(|k| g[i][k] * g[j][k]).sum::<i64>() + i64::from(i == j);
-    Sparse::from_entries(
-        n,
-        n,
-        (0..n)
-            .flat_map(|i| (0..n).map(move |j| (i, j)))
-            .map(|(i, j)| (i, j, whole(entry(i, j)))),
-    )
+    let mut g = vec![vec![0i64; n]; n];
+    for entry in g.iter_mut().flatten() {
+        *entry = rng.random_range(-2..=2);
+    }
+
+    let mut entries = Vec::new();
+    for i in 0..n {
+        for j in 0..n {
+            let product: i64 = (0..n).map(|k| g[i][k] * g[j][k]).sum();
+            entries.push((i, j, whole(product + i64::from(i == j))));
+        }
+    }
+    Sparse::from_entries(n, n, entries)
 }
 
 /// Random mechanical systems with every mixture of free, stick and slip particles, oblique frames,
@@ -213,36 +256,37 @@ pub fn mechanical(count: usize, seed: u64) -> Result<Vec<Instance>, ModelError> 
     (0..count).map(|k| mechanical_system(k, seed)).collect()
 }
 
+/// The `k`-th of [`mechanical`].
 pub(super) fn mechanical_system(k: usize, seed: u64) -> Result<Instance, ModelError> {
     let mut rng = ChaCha8Rng::seed_from_u64(seed.wrapping_mul(7_368_787).wrapping_add(k as u64));
-    let (contact, inner) = (rng.random_range(1..=4), rng.random_range(0..=2));
+    let contact = rng.random_range(1..=4);
+    let inner = rng.random_range(0..=2);
     let n = 2 * contact + inner;
+
     let mut corners = Vec::new();
-    let particles: Vec<Particle> = (0..contact)
-        .map(|i| random_particle(&mut rng, i, &mut corners))
-        .collect();
-    let lumped = rng.random_range(0..2) == 0;
-    let mass = if lumped {
+    let mut particles = Vec::new();
+    for index in 0..contact {
+        particles.push(random_particle(&mut rng, index, &mut corners));
+    }
+
+    let is_lumped = rng.random_range(0..2) == 0;
+    let mass = if is_lumped {
         Sparse::zeros(n, n).add_scaled(&whole(2), &Sparse::identity(n))
     } else {
+        corners.push(Corner::CoupledMass);
         gram(&mut rng, n)
     };
-    if !lumped {
-        corners.push(Corner::CoupledMass);
-    }
-    let unknown = if k.is_multiple_of(2) {
-        Unknown::Lambda2
-    } else {
-        Unknown::Mu
-    };
+
+    let unknown = unknown(k);
     let friction = rational(rng.random_range(4..=60), 4);
-    let system = System::new(gram(&mut rng, n), Some(mass), Some(friction), particles)?;
-    let label = format!(
-        "mechanical system {k} (seed {seed}) particles={contact} inner={inner} {}",
-        unknown.word()
-    );
+    let stiffness = gram(&mut rng, n);
+    let system = System::new(stiffness, Some(mass), Some(friction), particles)?;
+
+    let word = unknown.word();
     Ok(Instance {
-        label,
+        label: format!(
+            "mechanical system {k} (seed {seed}) particles={contact} inner={inner} {word}"
+        ),
         problem: Problem::new(Body::System(system), unknown, Window::all())?,
         closed_form: None,
         corners,
@@ -257,18 +301,23 @@ fn random_particle(rng: &mut ChaCha8Rng, index: usize, corners: &mut Vec<Corner>
         1 if index > 0 => ContactState::Stick,
         _ => ContactState::Slip { sign },
     };
+
     let mut particle = Particle::plain(2 * index, 2 * index + 1, state);
     particle.normal_direction = if rng.random_range(0..2) == 0 { 1 } else { -1 };
+
     if rng.random_range(0..3) == 0 {
-        let (c, s) = (rational(3, 5), rational(4, 5));
+        let c = rational(3, 5);
+        let s = rational(4, 5);
         particle.frame = Some([[c.clone(), s.clone()], [-s, c]]);
         corners.push(Corner::Oblique);
     }
+
     match state {
         ContactState::Stick => corners.push(Corner::Stick),
         ContactState::Free => corners.push(Corner::FreeVariables),
         ContactState::Slip { .. } => {}
     }
+
     particle
 }
 
@@ -277,124 +326,129 @@ fn random_particle(rng: &mut ChaCha8Rng, index: usize, corners: &mut Vec<Corner>
 /// # Errors
 /// [`ModelError`]; none for the data as given.
 pub fn degenerate() -> Result<Vec<Instance>, ModelError> {
-    type Case<'a> = (
-        &'a str,
-        &'a [&'a [i64]],
-        &'a [&'a [i64]],
-        &'a [usize],
-        Unknown,
-        Corner,
-    );
     let identity: &[&[i64]] = &[&[1, 0], &[0, 1]];
-    let cases: [Case<'_>; 12] = [
-        (
-            "one by one",
-            &[&[-2]],
-            &[&[1]],
-            &[],
-            Unknown::Lambda2,
-            Corner::OneByOne,
-        ),
-        (
-            "one by one without solution",
-            &[&[2]],
-            &[&[1]],
-            &[],
-            Unknown::Lambda2,
-            Corner::OneByOne,
-        ),
-        (
-            "biactive edge",
-            &[&[-1, 5], &[0, 7]],
-            identity,
-            &[],
-            Unknown::Lambda2,
-            Corner::Biactive,
-        ),
-        (
-            "Jordan block",
-            &[&[-1, -1], &[0, -1]],
-            identity,
-            &[],
-            Unknown::Lambda2,
-            Corner::Biactive,
-        ),
-        (
-            "double root on the full support",
-            &[&[1, -4], &[1, -3]],
-            identity,
-            &[],
-            Unknown::Lambda2,
-            Corner::Repeated,
-        ),
-        (
-            "double root with a free variable",
-            &[&[2, 1], &[-1, 0]],
-            &[&[1, 0], &[0, -1]],
-            &[0],
-            Unknown::Lambda2,
-            Corner::Repeated,
-        ),
-        (
-            "scalar matrix",
-            &[&[-1, 0], &[0, -1]],
-            identity,
-            &[],
-            Unknown::Lambda2,
-            Corner::WideKernel,
-        ),
-        (
-            "zero eigenvalue",
-            &[&[1, -1], &[-1, 1]],
-            identity,
-            &[],
-            Unknown::Lambda2,
-            Corner::ZeroValue,
-        ),
-        (
-            "singular for every mu",
-            &[&[1, -1], &[-1, 1]],
-            &[&[0, 0], &[0, 0]],
-            &[],
-            Unknown::Mu,
-            Corner::Singular,
-        ),
-        (
-            "singular free block beside",
-            &[&[1, 0, 0], &[0, 0, 0], &[0, 0, -1]],
-            &[&[0, 0, 0], &[0, 0, 0], &[0, 0, 1]],
-            &[],
-            Unknown::Mu,
-            Corner::Singular,
-        ),
-        (
-            "fold without a static threshold",
-            &[&[1, -6], &[2, -6]],
-            identity,
-            &[],
-            Unknown::Lambda2,
-            Corner::Repeated,
-        ),
-        (
-            "three equal particles",
-            &[&[-1, 1, 1], &[1, -1, 1], &[1, 1, -1]],
-            &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]],
-            &[],
-            Unknown::Lambda2,
-            Corner::Repeated,
-        ),
+    let cases = [
+        Degenerate {
+            name: "one by one",
+            a: &[&[-2]],
+            b: &[&[1]],
+            free: &[],
+            unknown: Unknown::Lambda2,
+            corner: Corner::OneByOne,
+        },
+        Degenerate {
+            name: "one by one without solution",
+            a: &[&[2]],
+            b: &[&[1]],
+            free: &[],
+            unknown: Unknown::Lambda2,
+            corner: Corner::OneByOne,
+        },
+        Degenerate {
+            name: "biactive edge",
+            a: &[&[-1, 5], &[0, 7]],
+            b: identity,
+            free: &[],
+            unknown: Unknown::Lambda2,
+            corner: Corner::Biactive,
+        },
+        Degenerate {
+            name: "Jordan block",
+            a: &[&[-1, -1], &[0, -1]],
+            b: identity,
+            free: &[],
+            unknown: Unknown::Lambda2,
+            corner: Corner::Biactive,
+        },
+        Degenerate {
+            name: "double root on the full support",
+            a: &[&[1, -4], &[1, -3]],
+            b: identity,
+            free: &[],
+            unknown: Unknown::Lambda2,
+            corner: Corner::Repeated,
+        },
+        Degenerate {
+            name: "double root with a free variable",
+            a: &[&[2, 1], &[-1, 0]],
+            b: &[&[1, 0], &[0, -1]],
+            free: &[0],
+            unknown: Unknown::Lambda2,
+            corner: Corner::Repeated,
+        },
+        Degenerate {
+            name: "scalar matrix",
+            a: &[&[-1, 0], &[0, -1]],
+            b: identity,
+            free: &[],
+            unknown: Unknown::Lambda2,
+            corner: Corner::WideKernel,
+        },
+        Degenerate {
+            name: "zero eigenvalue",
+            a: &[&[1, -1], &[-1, 1]],
+            b: identity,
+            free: &[],
+            unknown: Unknown::Lambda2,
+            corner: Corner::ZeroValue,
+        },
+        Degenerate {
+            name: "singular for every mu",
+            a: &[&[1, -1], &[-1, 1]],
+            b: &[&[0, 0], &[0, 0]],
+            free: &[],
+            unknown: Unknown::Mu,
+            corner: Corner::Singular,
+        },
+        Degenerate {
+            name: "singular free block beside",
+            a: &[&[1, 0, 0], &[0, 0, 0], &[0, 0, -1]],
+            b: &[&[0, 0, 0], &[0, 0, 0], &[0, 0, 1]],
+            free: &[],
+            unknown: Unknown::Mu,
+            corner: Corner::Singular,
+        },
+        Degenerate {
+            name: "fold without a static threshold",
+            a: &[&[1, -6], &[2, -6]],
+            b: identity,
+            free: &[],
+            unknown: Unknown::Lambda2,
+            corner: Corner::Repeated,
+        },
+        Degenerate {
+            name: "three equal particles",
+            a: &[&[-1, 1, 1], &[1, -1, 1], &[1, 1, -1]],
+            b: &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]],
+            free: &[],
+            unknown: Unknown::Lambda2,
+            corner: Corner::Repeated,
+        },
     ];
-    cases
-        .into_iter()
-        .map(|(name, a, b, free, unknown, corner)| {
-            let pencil = Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec())?;
-            let problem = Problem::new(Body::Pencil(pencil), unknown, Window::all())?;
-            Ok(Instance {
-                label: format!("degenerate: {name}"),
-                problem,
-                closed_form: None,
-                corners: vec![corner],
-            })
+
+    cases.iter().map(Degenerate::instance).collect()
+}
+
+/// A degenerate pencil of small integers.
+struct Degenerate<'a> {
+    name: &'a str,
+    a: &'a [&'a [i64]],
+    b: &'a [&'a [i64]],
+    free: &'a [usize],
+    unknown: Unknown,
+    corner: Corner,
+}
+
+impl Degenerate<'_> {
+    fn instance(&self) -> Result<Instance, ModelError> {
+        let a = Sparse::from_ints(self.a);
+        let b = Sparse::from_ints(self.b);
+        let pencil = Pencil::new(a, b, self.free.to_vec())?;
+        Ok(Instance {
+            label: format!("degenerate: {}", self.name),
+            problem: Problem::new(Body::Pencil(pencil), self.unknown, Window::all())?,
+            closed_form: None,
+            corners: vec![self.corner],
         })
-        .collect()
+    }
 }

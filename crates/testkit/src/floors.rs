@@ -13,6 +13,9 @@
 //! If that is below [`CHANCE`], chance does not explain the count: it is a [`Shortfall`], and the
 //! run fails. Small samples are judged by the same rule: of a rate of 98 %, three misses in a row
 //! are a shortfall, two are not.
+//!
+//! Input: the coverage of a family. Output: the rates that fall short. Called by `verify`, `block`,
+//! the campaign and the fuzz targets.
 
 use mceip_engine::tolerance::CHANCE;
 use std::fmt;
@@ -113,12 +116,11 @@ impl fmt::Display for Shortfall {
             Rate::First => ("first start", self.floor.first),
             Rate::All => ("all solutions", self.floor.all),
         };
-        let (family, starts) = (self.floor.family, self.floor.starts.word());
-        write!(
-            f,
-            "{family}, {starts}: {what} found in {} of {} instances, floor {least:.1} %",
-            self.found, self.solvable
-        )
+        let family = self.floor.family;
+        let starts = self.floor.starts.word();
+        write!(f, "{family}, {starts}: {what} found in ")?;
+        write!(f, "{} of {} instances, ", self.found, self.solvable)?;
+        write!(f, "floor {least:.1} %")
     }
 }
 
@@ -172,6 +174,7 @@ pub fn shortfalls(family: &str, starts: Starts, coverage: &Coverage) -> Vec<Shor
         (Rate::All, coverage.all, floor.all),
     ];
     let mut out = Vec::new();
+
     for (rate, found, least) in rates {
         if at_most(found, coverage.solvable, least / 100.0) < CHANCE {
             out.push(Shortfall {
@@ -182,6 +185,7 @@ pub fn shortfalls(family: &str, starts: Starts, coverage: &Coverage) -> Vec<Shor
             });
         }
     }
+
     out
 }
 
@@ -197,11 +201,13 @@ fn at_most(found: u64, of: u64, probability: f64) -> f64 {
     let odds = (probability / (1.0 - probability)).ln();
     let mut log_term = of as f64 * (1.0 - probability).ln();
     let mut sum = log_term.exp();
+
     for j in 1..=found {
         let ways = (of - j + 1) as f64 / j as f64;
         log_term += ways.ln() + odds;
         sum += log_term.exp();
     }
+
     sum.min(1.0)
 }
 
@@ -296,6 +302,7 @@ pub const FLOORS: [Floor; 40] = [
     row("property: two particles", Starts::Interior, 98.0, 98.0),
 ];
 
+/// A row of the table: rates in per cent.
 const fn row(family: &'static str, starts: Starts, first: f64, all: f64) -> Floor {
     Floor {
         family,
@@ -312,17 +319,18 @@ mod tests {
     /// Against sums written out: 1/4 of (1/2)^2; 0.02^3; 0.5^4 (1 + 4).
     #[test]
     fn probabilities_are_those_of_the_binomial_distribution() {
-        let near = |got: f64, want: f64| {
-            assert!(
-                (got - want).abs() <= 1e-12 * want,
-                "{got:e}, expected {want:e}"
-            )
-        };
-        near(at_most(0, 2, 0.5), 0.25);
-        near(at_most(0, 3, 0.98), 8e-6);
-        near(at_most(1, 4, 0.5), 0.3125);
-        near(at_most(7, 7, 0.5), 1.0);
-        near(at_most(0, 5, 0.0), 1.0);
+        let expected = [
+            (at_most(0, 2, 0.5), 0.25),
+            (at_most(0, 3, 0.98), 8e-6),
+            (at_most(1, 4, 0.5), 0.3125),
+            (at_most(7, 7, 0.5), 1.0),
+            (at_most(0, 5, 0.0), 1.0),
+        ];
+        for (got, want) in expected {
+            let error: f64 = got - want;
+            assert!(error.abs() <= 1e-12 * want, "{got:e}, expected {want:e}");
+        }
+
         // A count where binomial coefficients exceed doubles: the median of 10,000 throws.
         assert!((at_most(5000, 10_000, 0.5) - 0.504).abs() < 1e-3);
     }
@@ -333,85 +341,62 @@ mod tests {
             .iter()
             .find(|f| f.first > 97.0 && f.all > 97.0)
             .expect("a floor above 97 %");
-        let seen = |solvable| {
-            shortfalls(
-                floor.family,
-                floor.starts,
-                &Coverage {
-                    solvable,
-                    first: 0,
-                    all: 0,
-                },
-            )
-        };
-        assert!(seen(2).is_empty());
-        let list = seen(4);
-        assert_eq!(
-            list.iter().map(|s| s.rate).collect::<Vec<_>>(),
-            [Rate::First, Rate::All]
-        );
-        assert!(
-            list[0]
-                .to_string()
-                .contains("first start found in 0 of 4 instances, floor"),
-            "{}",
-            list[0]
-        );
-        assert!(
-            shortfalls(
-                "no such family",
-                Starts::Search,
-                &Coverage {
-                    solvable: 9,
-                    first: 0,
-                    all: 0
-                }
-            )
-            .is_empty()
-        );
+
+        let after_two = shortfalls(floor.family, floor.starts, &nothing_found(2));
+        let after_four = shortfalls(floor.family, floor.starts, &nothing_found(4));
+        let without_floor = shortfalls("no such family", Starts::Search, &nothing_found(9));
+
+        assert!(after_two.is_empty());
+        assert!(without_floor.is_empty());
+
+        let rates: Vec<Rate> = after_four.iter().map(|s| s.rate).collect();
+        assert_eq!(rates, [Rate::First, Rate::All]);
+        let text = after_four[0].to_string();
+        let expected = "first start found in 0 of 4 instances, floor";
+        assert!(text.contains(expected), "{text}");
+    }
+
+    fn nothing_found(solvable: u64) -> Coverage {
+        Coverage {
+            solvable,
+            first: 0,
+            all: 0,
+        }
     }
 
     /// At the floor itself nothing is said, and half of it is always too little.
     #[test]
     fn the_floor_is_no_shortfall_and_half_of_it_is() {
         for floor in FLOORS.iter().filter(|f| f.all > 10.0) {
-            let of = |share: f64| (10.0 * share).round() as u64;
-            let at = Coverage {
+            let at_the_floor = Coverage {
                 solvable: 1000,
-                first: of(floor.first),
-                all: of(floor.all),
+                first: (10.0 * floor.first).round() as u64,
+                all: (10.0 * floor.all).round() as u64,
             };
-            assert!(
-                shortfalls(floor.family, floor.starts, &at).is_empty(),
-                "{floor:?}"
-            );
             let half = Coverage {
                 solvable: 1000,
-                first: at.first / 2,
-                all: at.all / 2,
+                first: at_the_floor.first / 2,
+                all: at_the_floor.all / 2,
             };
+
+            let none = shortfalls(floor.family, floor.starts, &at_the_floor);
+            let some = shortfalls(floor.family, floor.starts, &half);
+
             let expected = usize::from(floor.first > 10.0) + 1;
-            assert_eq!(
-                shortfalls(floor.family, floor.starts, &half).len(),
-                expected,
-                "{floor:?}"
-            );
+            assert!(none.is_empty(), "{floor:?}");
+            assert_eq!(some.len(), expected, "{floor:?}");
         }
     }
 
     #[test]
     fn each_family_has_one_floor_for_each_kind_of_start() {
         for (k, floor) in FLOORS.iter().enumerate() {
-            assert!(
-                FLOORS[..k]
-                    .iter()
-                    .all(|f| (f.family, f.starts) != (floor.family, floor.starts)),
-                "{floor:?} twice"
-            );
-            assert!(
-                (0.0..=98.0).contains(&floor.first) && (0.0..=98.0).contains(&floor.all),
-                "{floor:?}"
-            );
+            let is_same = |f: &Floor| f.family == floor.family && f.starts == floor.starts;
+            let per_cent = 0.0..=98.0;
+
+            assert!(!FLOORS[..k].iter().any(is_same), "{floor:?} twice");
+            assert!(per_cent.contains(&floor.first), "{floor:?}");
+            assert!(per_cent.contains(&floor.all), "{floor:?}");
         }
     }
 }

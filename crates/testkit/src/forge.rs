@@ -1,8 +1,18 @@
 //! Forgeries: certificates made false on purpose, each with the reason it must be rejected for.
+//!
+//! A forgery is a true certificate with one change. The changes are data: a name, what is changed,
+//! and which reason of the checker names the obligation that the change breaks. Each change is
+//! false for every problem, provided that the certificate it is made from is true.
+//!
+//! Input: an accepted certificate. Output: one forgery of each change that applies to it.
+//! Called by `compare`, `block` and the fuzz target `checker_against_forgeries`: a forgery that is
+//! accepted, or rejected for another reason, shows an error of the checker.
 
 use mceip_check::Reason;
-use mceip_check::certificate::{Certificate, Claim, ExactSolution, LiftedSolution};
-use mceip_exact::{Integer, rational, whole};
+use mceip_check::certificate::{
+    Certificate, Claim, EnclosedSolution, ExactSolution, LiftedSolution,
+};
+use mceip_exact::{Integer, Rational, rational, whole};
 use mceip_model::file::Number;
 use mceip_model::{Unknown, Window};
 
@@ -16,268 +26,252 @@ pub struct Forgery {
     pub expected: fn(&Reason) -> bool,
 }
 
+/// A change that makes a true `T` (a certificate or a claim) false.
+struct Change<T> {
+    /// The bug it stands for.
+    name: &'static str,
+    /// What is changed.
+    apply: fn(&mut T),
+    /// Does this reason name the obligation that was broken?
+    expected: fn(&Reason) -> bool,
+}
+
 /// Forgeries of a certificate: of its frame once, of each claim as far as they apply to it.
 /// All are false by construction, whatever the problem, given that `certificate` is true.
 pub fn forgeries(certificate: &Certificate) -> Vec<Forgery> {
-    let mut out = frame(certificate);
-    for (index, claim) in certificate.claims.iter().enumerate() {
-        let with = |claim: Claim| Certificate {
-            claims: vec![claim],
-            ..certificate.clone()
-        };
+    let mut out = Vec::new();
+    for change in &OF_THE_FRAME {
+        let mut forged = certificate.clone();
+        (change.apply)(&mut forged);
+        out.push(Forgery {
+            name: change.name,
+            certificate: forged,
+            expected: change.expected,
+        });
+    }
+    out.extend(window_above_all_claims(certificate));
+
+    for claim in &certificate.claims {
         match claim {
             Claim::ExactSolution(c) => {
-                out.extend(exact(c).into_iter().map(|(name, c, expected)| Forgery {
-                    name,
-                    certificate: with(Claim::ExactSolution(c)),
-                    expected,
-                }))
+                for change in changes_of_exact(c) {
+                    let forged = Claim::ExactSolution(changed(c, change));
+                    out.push(forgery(certificate, change, forged));
+                }
             }
             Claim::LiftedSolution(c) => {
-                out.extend(lifted(c).into_iter().map(|(name, c, expected)| Forgery {
-                    name,
-                    certificate: with(Claim::LiftedSolution(c)),
-                    expected,
-                }))
+                for change in changes_of_lifted(c) {
+                    let forged = Claim::LiftedSolution(changed(c, change));
+                    out.push(forgery(certificate, change, forged));
+                }
             }
-            Claim::EnclosedSolution(_) => out.extend(enclosed(certificate, index)),
+            Claim::EnclosedSolution(c) => {
+                for change in &OF_ENCLOSED {
+                    let forged = Claim::EnclosedSolution(changed(c, change));
+                    out.push(forgery(certificate, change, forged));
+                }
+            }
         }
     }
+
     out
 }
 
-fn frame(certificate: &Certificate) -> Vec<Forgery> {
-    let mut digest = certificate.clone();
-    digest.problem_sha256 = digest.problem_sha256.chars().rev().collect();
-    let mut unknown = certificate.clone();
-    unknown.unknown = if unknown.unknown == Unknown::Mu {
-        Unknown::Lambda2
-    } else {
-        Unknown::Mu
-    };
-    let empty = Certificate {
-        claims: Vec::new(),
-        ..certificate.clone()
-    };
-    vec![
-        Forgery {
-            name: "another problem's digest",
-            certificate: digest,
-            expected: |r| matches!(r, Reason::Digest { .. }),
-        },
-        Forgery {
-            name: "the other unknown",
-            certificate: unknown,
-            expected: |r| matches!(r, Reason::Unknown { .. }),
-        },
-        Forgery {
-            name: "nothing claimed",
-            certificate: empty,
-            expected: |r| matches!(r, Reason::NoClaims),
-        },
-    ]
-    .into_iter()
-    .chain(narrow_window(certificate))
-    .collect()
+/// The claim with the change.
+fn changed<T: Clone>(claim: &T, change: &Change<T>) -> T {
+    let mut forged = claim.clone();
+    (change.apply)(&mut forged);
+    forged
 }
 
-/// A window above every claimed value.
-fn narrow_window(certificate: &Certificate) -> Option<Forgery> {
-    let top = certificate.claims.iter().map(|c| match c {
-        Claim::ExactSolution(c) => c.interval[1].0.clone(),
-        Claim::LiftedSolution(c) => c.interval[1].0.clone(),
-        Claim::EnclosedSolution(c) => {
-            c.center.last().map_or_else(|| whole(0), |n| n.0.clone()) + whole(1)
-        }
-    });
-    let window = Window::new(top.max()? + whole(1), None).ok()?;
-    let certificate = Certificate {
-        window,
-        ..certificate.clone()
-    };
+/// The certificate with the forged claim as its only one.
+fn forgery<T>(certificate: &Certificate, change: &Change<T>, claim: Claim) -> Forgery {
+    Forgery {
+        name: change.name,
+        certificate: Certificate {
+            claims: vec![claim],
+            ..certificate.clone()
+        },
+        expected: change.expected,
+    }
+}
+
+/// A window above every claimed value. `None` for a certificate without claims.
+fn window_above_all_claims(certificate: &Certificate) -> Option<Forgery> {
+    let top = certificate.claims.iter().map(upper_bound).max()?;
+    let window = Window::new(top + whole(1), None).ok()?;
+
     Some(Forgery {
         name: "value outside the window",
-        certificate,
+        certificate: Certificate {
+            window,
+            ..certificate.clone()
+        },
         expected: |r| matches!(r, Reason::OutsideWindow { .. }),
     })
 }
 
-type Broken = (&'static str, ExactSolution, fn(&Reason) -> bool);
+/// A number that is not below the claimed value.
+fn upper_bound(claim: &Claim) -> Rational {
+    match claim {
+        Claim::ExactSolution(c) => c.interval[1].0.clone(),
+        Claim::LiftedSolution(c) => c.interval[1].0.clone(),
+        // The value is the last unknown of the box; the box is narrower than 1.
+        Claim::EnclosedSolution(c) => {
+            let center = c.center.last().map_or_else(|| whole(0), |n| n.0.clone());
+            center + whole(1)
+        }
+    }
+}
 
-fn exact(c: &ExactSolution) -> Vec<Broken> {
-    let mut out: Vec<Broken> = Vec::new();
-    let mut push = |name, change: &dyn Fn(&mut ExactSolution), expected| {
-        let mut forged = c.clone();
-        change(&mut forged);
-        out.push((name, forged, expected));
-    };
-    push("constant polynomial", &|c| c.polynomial.truncate(1), |r| {
-        matches!(r, Reason::ConstantPolynomial { .. })
-    });
-    push("x one variable short", &|c| drop(c.x.pop()), |r| {
-        matches!(r, Reason::Length { what: "x", .. })
-    });
-    push("x = 0", &|c| c.x.iter_mut().for_each(Vec::clear), |r| {
-        matches!(r, Reason::XNotPositive { .. } | Reason::XZero)
-    });
-    push(
-        "support out of range",
-        &|c| c.support.push(c.x.len()),
-        |r| matches!(r, Reason::IndexSet { set: "support", .. }),
-    );
-    push(
-        "point that is no root",
-        &|c| {
-            let off = &c.interval[1].0 + Number(whole(1)).0;
-            c.polynomial = vec![Integer::from(1), Integer::from(0), Integer::from(1)];
-            c.interval = [Number(off.clone()), Number(off)];
+/// Changes of what stands around the claims.
+static OF_THE_FRAME: [Change<Certificate>; 3] = [
+    Change {
+        name: "another problem's digest",
+        apply: |c| c.problem_sha256 = c.problem_sha256.chars().rev().collect(),
+        expected: |r| matches!(r, Reason::Digest { .. }),
+    },
+    Change {
+        name: "the other unknown",
+        apply: |c| {
+            c.unknown = match c.unknown {
+                Unknown::Mu => Unknown::Lambda2,
+                Unknown::Lambda2 => Unknown::Mu,
+            }
         },
-        |r| matches!(r, Reason::NotARoot { .. }),
-    );
-    if !c.support.is_empty() {
-        push("x negative", &|c| negate(c), |r| {
-            matches!(r, Reason::XNotPositive { .. })
-        });
-        push(
-            "support one short",
-            &|c| c.support.truncate(c.support.len() - 1),
-            |r| matches!(r, Reason::XOffSupport { .. }),
-        );
-        push(
-            "support listed twice",
-            &|c| c.support.push(c.support[0]),
-            |r| matches!(r, Reason::IndexSet { set: "support", .. }),
-        );
-        push(
-            "slipping variable called biactive",
-            &|c| {
-                c.biactive.push(c.support[0]);
-                c.biactive.sort_unstable();
-            },
-            |r| {
-                matches!(
-                    r,
-                    Reason::Biactive {
-                        expected: false,
-                        ..
-                    }
-                )
-            },
-        );
+        expected: |r| matches!(r, Reason::Unknown { .. }),
+    },
+    Change {
+        name: "nothing claimed",
+        apply: |c| c.claims = Vec::new(),
+        expected: |r| matches!(r, Reason::NoClaims),
+    },
+];
+
+/// The changes that apply to an exact claim.
+fn changes_of_exact(claim: &ExactSolution) -> Vec<&'static Change<ExactSolution>> {
+    let mut out: Vec<&Change<ExactSolution>> = OF_EXACT.iter().collect();
+    if !claim.support.is_empty() {
+        out.extend(&OF_EXACT_WITH_A_SUPPORT);
     }
-    if !c.biactive.is_empty() {
-        push(
-            "biactive index hidden",
-            &|c| c.biactive.truncate(c.biactive.len() - 1),
-            |r| matches!(r, Reason::Biactive { expected: true, .. }),
-        );
+
+    if !claim.biactive.is_empty() {
+        out.extend(&OF_EXACT_WITH_BIACTIVE);
     }
-    if c.interval[0] != c.interval[1] {
-        push("interval reversed", &|c| c.interval.swap(0, 1), |r| {
-            matches!(r, Reason::ReversedInterval { .. })
-        });
-        push(
-            "end of the interval as the value",
-            &|c| c.interval[1] = c.interval[0].clone(),
-            |r| matches!(r, Reason::NotARoot { .. }),
-        );
-        push(
-            "polynomial squared",
-            &|c| c.polynomial = square(&c.polynomial),
-            |r| matches!(r, Reason::NoSignChange { .. }),
-        );
-        push(
-            "polynomial cubed",
-            &|c| c.polynomial = times(&square(&c.polynomial), &c.polynomial),
-            |r| matches!(r, Reason::NotIsolated { .. }),
-        );
+
+    let is_irrational_or_wide = claim.interval[0] != claim.interval[1];
+    if is_irrational_or_wide {
+        out.extend(&OF_EXACT_WITH_AN_INTERVAL);
     }
+
     out
 }
 
-type BrokenLift = (&'static str, LiftedSolution, fn(&Reason) -> bool);
-
-/// Forgeries of a lifted claim that are false for every problem.
-fn lifted(c: &LiftedSolution) -> Vec<BrokenLift> {
-    let mut out: Vec<BrokenLift> = Vec::new();
-    let mut push = |name, change: &dyn Fn(&mut LiftedSolution), expected| {
-        let mut forged = c.clone();
-        change(&mut forged);
-        out.push((name, forged, expected));
-    };
-    push(
-        "v = w = 0",
-        &|c| c.v.iter_mut().chain(&mut c.w).for_each(Vec::clear),
-        |r| matches!(r, Reason::Line { .. } | Reason::XZero),
-    );
-    push("v one dof short", &|c| drop(c.v.pop()), |r| {
-        matches!(r, Reason::Length { what: "v", .. })
-    });
-    push("w one dof long", &|c| c.w.push(Vec::new()), |r| {
-        matches!(r, Reason::Length { what: "w", .. })
-    });
-    push(
-        "w off by a billionth at one dof",
-        &|c| match c.w[0].first_mut() {
-            Some(n) => n.0 += rational(1, 1_000_000_000),
-            None => c.w[0].push(Number(rational(1, 1_000_000_000))),
+/// Changes of any exact claim.
+static OF_EXACT: [Change<ExactSolution>; 5] = [
+    Change {
+        name: "constant polynomial",
+        apply: |c| c.polynomial.truncate(1),
+        expected: |r| matches!(r, Reason::ConstantPolynomial { .. }),
+    },
+    Change {
+        name: "x one variable short",
+        apply: |c| drop(c.x.pop()),
+        expected: |r| matches!(r, Reason::Length { what: "x", .. }),
+    },
+    Change {
+        name: "x = 0",
+        apply: |c| c.x.iter_mut().for_each(Vec::clear),
+        expected: |r| matches!(r, Reason::XNotPositive { .. } | Reason::XZero),
+    },
+    Change {
+        name: "support out of range",
+        apply: |c| c.support.push(c.x.len()),
+        expected: |r| matches!(r, Reason::IndexSet { set: "support", .. }),
+    },
+    // The polynomial 1 + t^2, which has no real root.
+    Change {
+        name: "point that is no root",
+        apply: |c| {
+            let beside = &c.interval[1].0 + whole(1);
+            c.polynomial = vec![Integer::from(1), Integer::from(0), Integer::from(1)];
+            c.interval = [Number(beside.clone()), Number(beside)];
         },
-        |r| {
+        expected: |r| matches!(r, Reason::NotARoot { .. }),
+    },
+];
+
+/// Changes of an exact claim whose support is not empty.
+static OF_EXACT_WITH_A_SUPPORT: [Change<ExactSolution>; 4] = [
+    Change {
+        name: "x negative",
+        apply: |c| c.x.iter_mut().flatten().for_each(|v| v.0 = -v.0.clone()),
+        expected: |r| matches!(r, Reason::XNotPositive { .. }),
+    },
+    Change {
+        name: "support one short",
+        apply: |c| c.support.truncate(c.support.len() - 1),
+        expected: |r| matches!(r, Reason::XOffSupport { .. }),
+    },
+    Change {
+        name: "support listed twice",
+        apply: |c| c.support.push(c.support[0]),
+        expected: |r| matches!(r, Reason::IndexSet { set: "support", .. }),
+    },
+    Change {
+        name: "slipping variable called biactive",
+        apply: |c| {
+            c.biactive.push(c.support[0]);
+            c.biactive.sort_unstable();
+        },
+        expected: |r| {
             matches!(
                 r,
-                Reason::Line {
-                    line: "(lambda^2 M + K) v = w",
-                    index: 0,
+                Reason::Biactive {
+                    expected: false,
                     ..
                 }
             )
         },
-    );
-    if !c.support.is_empty() {
-        push(
-            "everything moves backwards",
-            &|c| {
-                c.v.iter_mut()
-                    .chain(&mut c.w)
-                    .flatten()
-                    .for_each(|n| n.0 = -n.0.clone())
-            },
-            |r| {
-                matches!(
-                    r,
-                    Reason::Line {
-                        place: "particle",
-                        ..
-                    }
-                )
-            },
-        );
-        push(
-            "support one short",
-            &|c| c.support.truncate(c.support.len() - 1),
-            |r| {
-                matches!(
-                    r,
-                    Reason::Line {
-                        line: "S v_T = 0 off the support",
-                        ..
-                    }
-                )
-            },
-        );
-    }
-    out
-}
+    },
+];
 
-fn negate(c: &mut ExactSolution) {
-    c.x.iter_mut().flatten().for_each(|v| v.0 = -v.0.clone());
-}
+/// Changes of an exact claim with biactive indices.
+static OF_EXACT_WITH_BIACTIVE: [Change<ExactSolution>; 1] = [Change {
+    name: "biactive index hidden",
+    apply: |c| c.biactive.truncate(c.biactive.len() - 1),
+    expected: |r| matches!(r, Reason::Biactive { expected: true, .. }),
+}];
 
-fn square(p: &[Integer]) -> Vec<Integer> {
-    times(p, p)
-}
+/// Changes of an exact claim whose value is enclosed by an interval of positive width.
+static OF_EXACT_WITH_AN_INTERVAL: [Change<ExactSolution>; 4] = [
+    Change {
+        name: "interval reversed",
+        apply: |c| c.interval.swap(0, 1),
+        expected: |r| matches!(r, Reason::ReversedInterval { .. }),
+    },
+    Change {
+        name: "end of the interval as the value",
+        apply: |c| c.interval[1] = c.interval[0].clone(),
+        expected: |r| matches!(r, Reason::NotARoot { .. }),
+    },
+    Change {
+        name: "polynomial squared",
+        apply: |c| c.polynomial = product(&c.polynomial, &c.polynomial),
+        expected: |r| matches!(r, Reason::NoSignChange { .. }),
+    },
+    Change {
+        name: "polynomial cubed",
+        apply: |c| {
+            let square = product(&c.polynomial, &c.polynomial);
+            c.polynomial = product(&square, &c.polynomial);
+        },
+        expected: |r| matches!(r, Reason::NotIsolated { .. }),
+    },
+];
 
-fn times(p: &[Integer], q: &[Integer]) -> Vec<Integer> {
+/// The product of two polynomials that are not zero, coefficients from the constant term up.
+fn product(p: &[Integer], q: &[Integer]) -> Vec<Integer> {
     let mut out = vec![Integer::default(); p.len() + q.len() - 1];
     for (i, a) in p.iter().enumerate() {
         for (j, b) in q.iter().enumerate() {
@@ -287,60 +281,113 @@ fn times(p: &[Integer], q: &[Integer]) -> Vec<Integer> {
     out
 }
 
-/// Forgeries of an enclosed claim: a singular preconditioner, a box of no width, a missing unknown,
-/// a centre that is shifted by more than the box.
-fn enclosed(certificate: &Certificate, index: usize) -> Vec<Forgery> {
-    let Claim::EnclosedSolution(c) = &certificate.claims[index] else {
-        return Vec::new();
-    };
-    let forged =
-        |name, expected, change: &dyn Fn(&mut mceip_check::certificate::EnclosedSolution)| {
-            let mut c = c.clone();
-            change(&mut c);
-            Forgery {
-                name,
-                certificate: Certificate {
-                    claims: vec![Claim::EnclosedSolution(c)],
-                    ..certificate.clone()
-                },
-                expected,
-            }
-        };
-    vec![
-        forged(
-            "zero row in the preconditioner",
-            |r| matches!(r, Reason::NotContracting { .. }),
-            &|c| {
-                c.preconditioner[0]
-                    .iter_mut()
-                    .for_each(|v| *v = Integer::default());
-            },
-        ),
-        forged(
-            "box without width",
-            |r| matches!(r, Reason::Radius { .. }),
-            &|c| c.radius[0] = Number(whole(0)),
-        ),
-        forged(
-            "one unknown missing",
-            |r| matches!(r, Reason::Length { what: "center", .. }),
-            &|c| drop(c.center.pop()),
-        ),
-        forged(
-            "centre beside the solution",
-            |r| matches!(r, Reason::NotContracting { .. }),
-            &|c| {
-                let shift = &c.radius[0].0 * whole(4);
-                c.center[0].0 += shift;
-            },
-        ),
-        // Half of Y would still contract; twice Y makes I - YJ about -I, which just does not.
-        forged(
-            "preconditioner of twice the size",
-            |r| matches!(r, Reason::NotContracting { .. }),
-            &|c| {
-                c.exponent = c.exponent.saturating_sub(1);
-            },
-        ),
-    ]
+/// The changes that apply to a lifted claim.
+fn changes_of_lifted(claim: &LiftedSolution) -> Vec<&'static Change<LiftedSolution>> {
+    let mut out: Vec<&Change<LiftedSolution>> = OF_LIFTED.iter().collect();
+    if !claim.support.is_empty() {
+        out.extend(&OF_LIFTED_WITH_A_SUPPORT);
+    }
+    out
 }
+
+/// Changes of any lifted claim.
+static OF_LIFTED: [Change<LiftedSolution>; 4] = [
+    Change {
+        name: "v = w = 0",
+        apply: |c| c.v.iter_mut().chain(&mut c.w).for_each(Vec::clear),
+        expected: |r| matches!(r, Reason::Line { .. } | Reason::XZero),
+    },
+    Change {
+        name: "v one dof short",
+        apply: |c| drop(c.v.pop()),
+        expected: |r| matches!(r, Reason::Length { what: "v", .. }),
+    },
+    Change {
+        name: "w one dof long",
+        apply: |c| c.w.push(Vec::new()),
+        expected: |r| matches!(r, Reason::Length { what: "w", .. }),
+    },
+    Change {
+        name: "w off by a billionth at one dof",
+        apply: |c| match c.w[0].first_mut() {
+            Some(n) => n.0 += rational(1, 1_000_000_000),
+            None => c.w[0].push(Number(rational(1, 1_000_000_000))),
+        },
+        expected: |r| {
+            matches!(
+                r,
+                Reason::Line {
+                    line: "(lambda^2 M + K) v = w",
+                    index: 0,
+                    ..
+                }
+            )
+        },
+    },
+];
+
+/// Changes of a lifted claim whose support is not empty.
+static OF_LIFTED_WITH_A_SUPPORT: [Change<LiftedSolution>; 2] = [
+    Change {
+        name: "everything moves backwards",
+        apply: |c| {
+            let components = c.v.iter_mut().chain(&mut c.w);
+            components.flatten().for_each(|n| n.0 = -n.0.clone());
+        },
+        expected: |r| {
+            matches!(
+                r,
+                Reason::Line {
+                    place: "particle",
+                    ..
+                }
+            )
+        },
+    },
+    Change {
+        name: "support one short",
+        apply: |c| c.support.truncate(c.support.len() - 1),
+        expected: |r| {
+            matches!(
+                r,
+                Reason::Line {
+                    line: "S v_T = 0 off the support",
+                    ..
+                }
+            )
+        },
+    },
+];
+
+/// Changes of an enclosed claim: its box, its centre, its preconditioner Y.
+static OF_ENCLOSED: [Change<EnclosedSolution>; 5] = [
+    Change {
+        name: "zero row in the preconditioner",
+        apply: |c| c.preconditioner[0].fill(Integer::default()),
+        expected: |r| matches!(r, Reason::NotContracting { .. }),
+    },
+    Change {
+        name: "box without width",
+        apply: |c| c.radius[0] = Number(whole(0)),
+        expected: |r| matches!(r, Reason::Radius { .. }),
+    },
+    Change {
+        name: "one unknown missing",
+        apply: |c| drop(c.center.pop()),
+        expected: |r| matches!(r, Reason::Length { what: "center", .. }),
+    },
+    Change {
+        name: "centre beside the solution",
+        apply: |c| {
+            let shift = &c.radius[0].0 * whole(4);
+            c.center[0].0 += shift;
+        },
+        expected: |r| matches!(r, Reason::NotContracting { .. }),
+    },
+    // Half of Y would still contract; twice Y makes I - YJ about -I, which just does not.
+    Change {
+        name: "preconditioner of twice the size",
+        apply: |c| c.exponent = c.exponent.saturating_sub(1),
+        expected: |r| matches!(r, Reason::NotContracting { .. }),
+    },
+];

@@ -4,6 +4,10 @@
 //! alone, that start is the solution: to find it says nothing about the solver. Here every x_i of a
 //! start is positive and random, so that a start is a solution with probability 0 (and lies in the
 //! support of slip-slip solutions only).
+//!
+//! Input: a problem that fulfils the hypotheses of Proposition 1 or 2. Output: what was found and
+//! certified, or how many starts led to one of the proved values. Called by `compare` for instances
+//! of Table 1, and by `block`.
 
 use super::floors::Coverage;
 use mceip_engine::certify::Certifier;
@@ -42,34 +46,42 @@ pub struct InteriorStart {
 pub fn interior_starts(admissible: &Admissible<'_>, count: usize, seed: u64) -> Vec<InteriorStart> {
     let pencil = admissible.pencil();
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let unit = match (largest(pencil.a()), largest(pencil.b())) {
-        (a, b) if a > 0.0 && b > 0.0 => a / b,
-        _ => 1.0,
+
+    let size_of_a = largest(pencil.a());
+    let size_of_b = largest(pencil.b());
+    let unit = if size_of_a > 0.0 && size_of_b > 0.0 {
+        size_of_a / size_of_b
+    } else {
+        1.0
     };
 
     let slip = pencil.slip();
     let mut starts = Vec::new();
+
     for _ in 0..count {
         let mut x = vec![0.0; pencil.order()];
         for &i in &slip {
             let uniform: f64 = rng.random_range(f64::MIN_POSITIVE..1.0);
             x[i] = -uniform.ln();
         }
+
         let decades: f64 = rng.random_range(-3.0..3.0);
         starts.push(InteriorStart {
             value: unit * 10f64.powf(decades),
             x,
         });
     }
+
     starts
 }
 
 /// Absolute value of the largest entry.
 fn largest(matrix: &Sparse) -> f64 {
-    matrix
-        .entries()
-        .map(|(_, _, v)| to_f64(v).abs())
-        .fold(0.0, f64::max)
+    let mut largest = 0.0;
+    for (_, _, v) in matrix.entries() {
+        largest = f64::max(largest, to_f64(v).abs());
+    }
+    largest
 }
 
 /// One run of the solver from each of `search.starts` interior starts and, if `search.curves` says
@@ -87,32 +99,30 @@ pub fn from_interior(
     let bottom = to_f64(problem.window().min());
     let certifier = Certifier::new(problem, admissible.pencil());
     let embedding = Embedding::new(admissible, Side::Above(bottom));
+
     let mut attempt = Attempt {
         certifier,
         embedding,
         found: Found::default(),
     };
 
-    let starts = interior_starts(admissible, search.starts, search.seed);
-    let points: Vec<Vec<f64>> = starts
-        .iter()
-        .map(|s| attempt.embedding.point(bottom + s.value, &s.x))
-        .collect();
+    let mut points = Vec::new();
+    for start in interior_starts(admissible, search.starts, search.seed) {
+        let value = bottom + start.value;
+        points.push(attempt.embedding.point(value, &start.x));
+    }
+
     for point in &points {
         attempt.run(point, Origin::Start, &search.options)?;
     }
 
     if search.curves {
         for point in &points {
-            for sense in [Sense::Down, Sense::Up] {
-                let curve =
-                    continuation(&attempt.embedding, point, sense, PER_CURVE, &search.options)?;
-                for met in &curve.solutions {
-                    attempt.run(met, Origin::Curve, &search.options)?;
-                }
-            }
+            attempt.follow(point, Sense::Down, &search.options)?;
+            attempt.follow(point, Sense::Up, &search.options)?;
         }
     }
+
     Ok(attempt.found)
 }
 
@@ -127,6 +137,21 @@ struct Attempt<'a> {
 }
 
 impl Attempt<'_> {
+    /// The curve of the Newton homotopy from the point in one sense, and a run from each solution
+    /// on it.
+    fn follow(
+        &mut self,
+        point: &[f64],
+        sense: Sense,
+        options: &Options,
+    ) -> Result<(), SolverError> {
+        let curve = continuation(&self.embedding, point, sense, PER_CURVE, options)?;
+        for met in &curve.solutions {
+            self.run(met, Origin::Curve, options)?;
+        }
+        Ok(())
+    }
+
     /// A run of the solver; its end is certified and listed once.
     fn run(&mut self, point: &[f64], origin: Origin, options: &Options) -> Result<(), SolverError> {
         let outcome = solve(&self.embedding, point, options)?;
@@ -134,6 +159,7 @@ impl Attempt<'_> {
         self.found.runs += 1;
         self.found.pivots += outcome.counters.pivots;
         self.found.factorisations += outcome.counters.factorisations;
+
         if !outcome.termination.reached_tolerance() {
             return Ok(());
         }
@@ -167,18 +193,16 @@ pub fn path_coverage(
     let mut coverage = Coverage::default();
 
     for start in interior_starts(admissible, count, seed) {
-        let outcome = solve(
-            &embedding,
-            &embedding.point(start.value, &start.x),
-            &options,
-        )?;
+        let point = embedding.point(start.value, &start.x);
+        let outcome = solve(&embedding, &point, &options)?;
+
         let value = embedding.candidate(&outcome.point).value;
-        let is_proved = values
-            .iter()
-            .any(|v| (v - value).abs() <= PATH_VALUE * v.abs());
+        let is_near = |v: &f64| (v - value).abs() <= PATH_VALUE * v.abs();
+        let is_proved = values.iter().any(is_near);
         let found = outcome.termination.reached_tolerance() && is_proved;
         coverage.count(found, found);
     }
+
     Ok(coverage)
 }
 
@@ -197,34 +221,38 @@ mod tests {
     fn violation(embedding: &Embedding, point: &[f64]) -> f64 {
         let mut rows = vec![0.0; point.len()];
         embedding.function(point, &mut rows);
-        let pairs = point.iter().zip(&rows);
-        pairs.map(|(z, f)| z.min(*f).abs()).fold(0.0, f64::max)
+
+        let mut largest = 0.0;
+        for (z, f) in point.iter().zip(&rows) {
+            largest = f64::max(largest, z.min(*f).abs());
+        }
+        largest
     }
 
     /// On Table 1 no interior start is a solution, and among the starts of the search some are.
     #[test]
     fn interior_starts_are_no_solutions_and_ritz_starts_are() {
-        let (mut interior, mut ritz) = (0, 0);
+        let mut interior = 0;
+        let mut ritz = 0;
         for instance in table1_grid().unwrap().iter().step_by(5) {
             let reduced = reduce(&instance.problem).unwrap();
             let admissible = Admissible::new(&reduced.pencil, Unknown::Lambda2).unwrap();
             let embedding = Embedding::new(&admissible, Side::Above(0.0));
 
             for start in interior_starts(&admissible, INTERIOR_STARTS, 7) {
+                let point = embedding.point(start.value, &start.x);
                 assert!(start.x.iter().all(|x| *x > 0.0));
-                assert!(
-                    violation(&embedding, &embedding.point(start.value, &start.x)) > 1e-6,
-                    "{}",
-                    instance.label
-                );
+                assert!(violation(&embedding, &point) > 1e-6, "{}", instance.label);
                 interior += 1;
             }
-            ritz += embedding.starts(4, 1)[2..]
-                .iter()
-                .filter(|z| violation(&embedding, z) < 1e-12)
-                .count();
+
+            for start in &embedding.starts(4, 1)[2..] {
+                ritz += usize::from(violation(&embedding, start) < 1e-12);
+            }
         }
-        assert!(interior > 2000 && ritz > 20, "{interior} {ritz}");
+
+        assert!(interior > 2000, "{interior}");
+        assert!(ritz > 20, "{ritz}");
     }
 
     /// What is found from interior starts is certified, and its run is a start.
@@ -235,6 +263,7 @@ mod tests {
             let reduced = reduce(&instance.problem).unwrap();
             let admissible = Admissible::new(&reduced.pencil, Unknown::Lambda2).unwrap();
             let problem = &instance.problem;
+
             let search = Search {
                 starts: INTERIOR_STARTS,
                 ..Search::default()
@@ -242,17 +271,17 @@ mod tests {
 
             let interior = from_interior(problem, &admissible, &search).unwrap();
             let whole = multistart(problem, &admissible, &search).unwrap();
-            assert!(
-                interior.runs >= INTERIOR_STARTS
-                    && interior.certified.len() <= whole.certified.len(),
-                "{}",
-                instance.label
-            );
+
+            let label = &instance.label;
+            assert!(interior.runs >= INTERIOR_STARTS, "{label}");
+            assert!(interior.certified.len() <= whole.certified.len(), "{label}");
+
             for c in &interior.certified {
                 assert!(whole.certified.iter().any(|w| same(&w.claim, &c.claim)));
                 found += 1;
             }
         }
+
         assert!(found > 20, "{found}");
     }
 }

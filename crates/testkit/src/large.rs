@@ -1,10 +1,14 @@
 //! Problems beyond 2^n: random mechanical pencils of `peers.md`, refined blocks, condensed in
 //! doubles.
+//!
+//! No enumerator can answer them; they are for measurements of solver and complete search, and for
+//! tests of large orders. Input: orders and seeds. Output: problems whose data, drawn in doubles,
+//! are taken as exact numbers.
 
 use mceip_engine::reduction::reduce;
 use mceip_engine::run::{Cancel, Watch};
 use mceip_engine::search::complete::{CompleteError, Options, complete};
-use mceip_exact::{Rational, Sparse, from_f64, to_f64, whole};
+use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64, whole};
 use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
 use mceip_paper::{Block, BlockModel, SourceError};
 use num_traits::One;
@@ -36,17 +40,19 @@ pub fn mechanical_pencil(n: usize, unknown: Unknown, seed: u64) -> Result<Proble
     let mut rng = ChaCha8Rng::seed_from_u64(seed.wrapping_mul(1_000_003).wrapping_add(n as u64));
     let mass = definite(&mut rng, n);
     let k0 = definite(&mut rng, n);
-    let k1: Vec<Vec<f64>> = square(n, |_, _| normal(&mut rng) / (n as f64).sqrt());
-    let (a, b) = match unknown {
-        Unknown::Mu => (k0, k1),
-        Unknown::Lambda2 => (square(n, |i, j| k0[i][j] + 3.0 * k1[i][j]), mass),
+    let k1 = square(n, |_, _| normal(&mut rng) / (n as f64).sqrt());
+
+    let pencil = match unknown {
+        Unknown::Mu => Pencil::new(exact(&k0), exact(&k1), Vec::new())?,
+        Unknown::Lambda2 => {
+            let stiffness = square(n, |i, j| k0[i][j] + 3.0 * k1[i][j]);
+            Pencil::new(exact(&stiffness), exact(&mass), Vec::new())?
+        }
     };
-    let pencil = Pencil::new(exact(&a), exact(&b), Vec::new())?;
-    let name = format!(
-        "random mechanical pencil n={n} {} seed {seed}",
-        unknown.word()
-    );
-    Ok(Problem::new(Body::Pencil(pencil), unknown, Window::all())?.named(name))
+
+    let word = unknown.word();
+    let problem = Problem::new(Body::Pencil(pencil), unknown, Window::all())?;
+    Ok(problem.named(format!("random mechanical pencil n={n} {word} seed {seed}")))
 }
 
 /// The paper's block refined until `slip` nodes touch the cone, MCEIP-mu; with a tenth of the
@@ -61,11 +67,10 @@ pub fn refined_block(slip: usize, tenth_stuck: bool) -> Result<Problem, LargeErr
     } else {
         block.sliding_states(0, slip)?
     };
+
     let system = block.system(&states, None)?;
-    Ok(
-        Problem::new(Body::System(system), Unknown::Mu, Window::all())?
-            .named(format!("refined block, {slip} slip")),
-    )
+    let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all())?;
+    Ok(problem.named(format!("refined block, {slip} slip")))
 }
 
 /// The plane-strain block of `\` cells with 17 slip nodes, MCEIP-mu: 1719 solutions.
@@ -74,11 +79,10 @@ pub fn refined_block(slip: usize, tenth_stuck: bool) -> Result<Problem, LargeErr
 /// [`LargeError`]; none for the block as given.
 pub fn backslash_block() -> Result<Problem, LargeError> {
     let block = Block::new(&BlockModel::backslash_strain())?;
-    let system = block.system(&block.sliding_states(0, 17)?, None)?;
-    Ok(
-        Problem::new(Body::System(system), Unknown::Mu, Window::all())?
-            .named("backslash block, plane strain, 17 slip"),
-    )
+    let states = block.sliding_states(0, 17)?;
+    let system = block.system(&states, None)?;
+    let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all())?;
+    Ok(problem.named("backslash block, plane strain, 17 slip"))
 }
 
 /// An MCEIP-mu problem with its free variables eliminated in doubles, the result taken as exact
@@ -89,77 +93,108 @@ pub fn backslash_block() -> Result<Problem, LargeError> {
 /// [`LargeError`]; also where the unknown multiplies free rows or columns, as in MCEIP-lambda2.
 pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
     let pencil = reduce(problem)?.pencil;
-    // A search that is stopped at once leaves the condensation, T_ff^-1 T_fs among it.
+    let Some(elimination) = elimination_in_doubles(problem)? else {
+        return Ok(problem.clone());
+    };
+
+    let a = condensed(pencil.a(), &pencil, &elimination);
+    let b = condensed(pencil.b(), &pencil, &elimination);
+    let small = Pencil::new(a, b, Vec::new())?;
+    let window = problem.window().clone();
+    Ok(Problem::new(
+        Body::Pencil(small),
+        problem.unknown(),
+        window,
+    )?)
+}
+
+/// T_ff^-1 T_fs in doubles, rows over the free variables; `None` without free variables.
+///
+/// A complete search that is stopped at once leaves the condensation, and this matrix in it.
+fn elimination_in_doubles(problem: &Problem) -> Result<Option<Vec<Vec<f64>>>, LargeError> {
     let options = Options {
         threads: Some(1),
         ..Options::default()
     };
-    let start = complete(problem, &options, &Watch::silent(&Cancel::requested()))?;
-    let set = start.certificate.complete_set.and_then(|s| s.condensation);
-    let Some(w) = set
-        .as_ref()
-        .and_then(|c| c.anchors.first())
-        .and_then(|a| a.right.first())
-    else {
-        return Ok(problem.clone());
+    let stopped = complete(problem, &options, &Watch::silent(&Cancel::requested()))?;
+    let set = stopped.certificate.complete_set;
+    let Some(condensation) = set.and_then(|s| s.condensation) else {
+        return Ok(None);
     };
-    let unit = Rational::new(One::one(), mceip_exact::Integer::one() << w.exponent);
-    let w: Vec<Vec<f64>> = w
-        .rows
-        .iter()
-        .map(|r| {
-            r.iter()
-                .map(|v| to_f64(&(Rational::from_integer(v.clone()) * &unit)))
-                .collect()
-        })
-        .collect();
-    let (slip, free) = (pencil.slip(), pencil.free().to_vec());
-    let condensed = |m: &Sparse| {
-        let (ss, sf) = (m.submatrix(&slip, &slip), m.submatrix(&slip, &free));
-        let mut out = square(slip.len(), |i, j| to_f64(&ss.get(i, j)));
-        for (i, k, v) in sf.entries() {
-            let v = to_f64(v);
-            out[i].iter_mut().zip(&w[k]).for_each(|(o, w)| *o -= v * w);
+
+    let first_anchor = condensation.anchors.first();
+    let Some(elimination) = first_anchor.and_then(|anchor| anchor.right.first()) else {
+        return Ok(None);
+    };
+
+    // The matrix is held as integers times 2^-exponent.
+    let unit = Rational::new(One::one(), Integer::one() << elimination.exponent);
+    let mut rows = Vec::new();
+    for row in &elimination.rows {
+        let mut doubles = Vec::new();
+        for v in row {
+            doubles.push(to_f64(&(Rational::from_integer(v.clone()) * &unit)));
         }
-        exact(&out)
-    };
-    let small = Pencil::new(condensed(pencil.a()), condensed(pencil.b()), Vec::new())?;
-    Ok(Problem::new(
-        Body::Pencil(small),
-        problem.unknown(),
-        problem.window().clone(),
-    )?)
+        rows.push(doubles);
+    }
+    Ok(Some(rows))
 }
 
+/// M_ss - M_sf W in doubles, with W the elimination of the free variables.
+fn condensed(matrix: &Sparse, pencil: &Pencil, elimination: &[Vec<f64>]) -> Sparse {
+    let slip = pencil.slip();
+    let m_ss = matrix.submatrix(&slip, &slip);
+    let m_sf = matrix.submatrix(&slip, pencil.free());
+    let mut out = square(slip.len(), |i, j| to_f64(&m_ss.get(i, j)));
+
+    for (i, k, v) in m_sf.entries() {
+        let v = to_f64(v);
+        for (entry, w) in out[i].iter_mut().zip(&elimination[k]) {
+            *entry -= v * w;
+        }
+    }
+
+    exact(&out)
+}
+
+/// A matrix of order n by its rows; its entries are formed row by row.
 fn square(n: usize, mut entry: impl FnMut(usize, usize) -> f64) -> Vec<Vec<f64>> {
-    (0..n)
-        .map(|i| (0..n).map(|j| entry(i, j)).collect())
-        .collect()
+    let mut rows = vec![vec![0.0; n]; n];
+    for i in 0..n {
+        for j in 0..n {
+            rows[i][j] = entry(i, j);
+        }
+    }
+    rows
 }
 
 /// Every finite double is a rational number; those that are not finite (none here) would be zero.
 fn exact(m: &[Vec<f64>]) -> Sparse {
-    let value = |i: usize, j: usize| from_f64(m[i][j]).unwrap_or_else(|_| whole(0));
-    Sparse::from_entries(
-        m.len(),
-        m.len(),
-        (0..m.len())
-            .flat_map(|i| (0..m.len()).map(move |j| (i, j)))
-            .map(|(i, j)| (i, j, value(i, j))),
-    )
+    let n = m.len();
+    let mut entries = Vec::new();
+    for i in 0..n {
+        for j in 0..n {
+            let value = from_f64(m[i][j]).unwrap_or_else(|_| whole(0));
+            entries.push((i, j, value));
+        }
+    }
+    Sparse::from_entries(n, n, entries)
 }
 
 /// GG'/n + I/2, G standard normal.
 fn definite(rng: &mut ChaCha8Rng, n: usize) -> Vec<Vec<f64>> {
     let g = square(n, |_, _| normal(rng));
-    let dot =
-        |i: usize, j: usize| g[i].iter().zip(&g[j]).map(|(a, b)| a * b).sum::<f64>() / n as f64;
-    square(n, |i, j| dot(i, j) + if i == j { 0.5 } else { 0.0 })
+    square(n, |i, j| {
+        let dot: f64 = g[i].iter().zip(&g[j]).map(|(a, b)| a * b).sum();
+        let diagonal = if i == j { 0.5 } else { 0.0 };
+        dot / n as f64 + diagonal
+    })
 }
 
 /// Standard normal (Box and Muller 1958).
 fn normal(rng: &mut ChaCha8Rng) -> f64 {
-    let (u, v): (f64, f64) = (1.0 - rng.random::<f64>(), rng.random());
+    let u = 1.0 - rng.random::<f64>();
+    let v: f64 = rng.random();
     (-2.0 * u.ln()).sqrt() * (std::f64::consts::TAU * v).cos()
 }
 
@@ -176,9 +211,11 @@ mod tests {
                 [1, 1, 2].map(|seed| mechanical_pencil(7, unknown, seed).unwrap());
             assert_eq!(one.sha256(), same.sha256());
             assert_ne!(one.sha256(), other.sha256());
+
             let Body::Pencil(pencil) = one.body() else {
                 unreachable!()
             };
+
             assert!(Admissible::new(pencil, unknown).is_ok());
             assert_eq!(pencil.slip().len(), 7);
         }
@@ -192,8 +229,10 @@ mod tests {
             .unwrap();
         let small = condensed_in_doubles(&problem).unwrap();
         let found = complete(&small, &Options::default(), &Watch::nobody()).unwrap();
+
         assert_eq!(found.cover.solutions.len(), 1);
         assert!((to_f64(&found.cover.solutions[0].value.mid()) - 1.71).abs() < 0.01);
+
         // The near problem's certificate is none for the given one.
         assert!(check(&problem, &found.certificate).is_err());
     }

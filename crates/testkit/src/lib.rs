@@ -1,5 +1,23 @@
 //! Generators, comparison of engines, forgeries, the verification run, and the bodies of fuzz
 //! targets.
+//!
+//! ```text
+//! families, generators, known, pareto, large     problems, and what is known of their answers
+//!         |
+//!         v
+//! compare (interior, completed, forge)           one problem through every engine
+//!         |
+//!         +-> verify (block)                     fixed families, one row each: `mceip verify`
+//!         +-> campaign                           named families for days: `mceip campaign`
+//!         +-> targets                            bodies of the fuzz targets in `fuzz/`
+//!
+//! conform                                        the pack for other programs: `mceip conform`
+//! floors                                         how often the solver has to find what exists
+//! mutate                                         random changes of certificates, for tests
+//! ```
+//!
+//! Everything is compared with the plain enumerator of `mceip-oracle`; a difference is a
+//! [`Disagreement`], and each one is a bug.
 
 mod block;
 pub mod campaign;

@@ -1,5 +1,10 @@
 //! Pareto eigenvalue problems inside admissible mechanical systems, and solutions planted in
 //! pencils.
+//!
+//! Both give problems of which something is known by construction: how many solutions there are,
+//! or one of them. A Pareto eigenvalue lambda of P with 0 <= x _|_ (P - lambda I) x >= 0 is a
+//! solution t = lambda + shift of a raw pencil, and a solution mu = a / (c - lambda) of a
+//! mechanical system. Called by the campaign, the conformance pack and tests.
 
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{
@@ -26,39 +31,30 @@ pub struct Pareto {
 /// are recomputed in `tests/oracle/known_answers.rs`. Order 2 is any with p_12, p_21 >= 0 and
 /// different diagonal entries.
 pub fn pareto_matrices() -> Vec<Pareto> {
-    let half = |sign: i64| rational(sign, 2);
-    let three = [
-        [whole(8), whole(-1), whole(4)],
-        [whole(3), whole(4), half(1)],
-        [whole(2), half(-1), whole(6)],
-    ];
-    let three = Sparse::from_entries(
-        3,
-        3,
-        (0..9).map(|k| (k / 3, k % 3, three[k / 3][k % 3].clone())),
-    );
-    let four: &[&[i64]] = &[
+    let two = Sparse::from_ints(&[&[3, 1], &[2, 5]]);
+
+    // Half of [16, -2, 8; 6, 8, 1; 4, -1, 12].
+    let doubled_three = Sparse::from_ints(&[&[16, -2, 8], &[6, 8, 1], &[4, -1, 12]]);
+    let three = Sparse::zeros(3, 3).add_scaled(&rational(1, 2), &doubled_three);
+
+    let four = Sparse::from_ints(&[
         &[100, 106, -18, -81],
         &[92, 158, -24, -101],
         &[2, 44, 37, -7],
         &[21, 38, 0, 2],
-    ];
-    let five: &[&[i64]] = &[
+    ]);
+
+    let five = Sparse::from_ints(&[
         &[-788, 780, 256, -156, -191],
         &[548, -862, 190, -112, -143],
         &[456, 548, -1308, -110, -119],
         &[292, 374, 14, -1402, -28],
         &[304, 402, 66, -38, -1522],
-    ];
-    let two: &[&[i64]] = &[&[3, 1], &[2, 5]];
-    [
-        (Sparse::from_ints(two), 3),
-        (three, 9),
-        (Sparse::from_ints(four), 23),
-        (Sparse::from_ints(five), 57),
-    ]
-    .map(|(matrix, count)| Pareto { matrix, count })
-    .to_vec()
+    ]);
+
+    let list = [(two, 3), (three, 9), (four, 23), (five, 57)];
+    list.map(|(matrix, count)| Pareto { matrix, count })
+        .to_vec()
 }
 
 impl Pareto {
@@ -69,26 +65,23 @@ impl Pareto {
     /// [`ModelError`] for an empty matrix.
     pub fn pencil(&self) -> Result<Problem, ModelError> {
         let n = self.matrix.rows();
-        let a = self.matrix.add_scaled(&self.bound(), &Sparse::identity(n));
-        let minus = Sparse::zeros(n, n).add_scaled(&whole(-1), &Sparse::identity(n));
-        Problem::new(
-            Body::Pencil(Pencil::new(a, minus, vec![])?),
-            Unknown::Lambda2,
-            Window::all(),
-        )
+        let identity = Sparse::identity(n);
+        let a = self.matrix.add_scaled(&self.bound(), &identity);
+        let minus_identity = Sparse::zeros(n, n).add_scaled(&whole(-1), &identity);
+
+        let pencil = Pencil::new(a, minus_identity, vec![])?;
+        Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())
     }
 
     /// A number above the absolute value of every eigenvalue of every principal block: 1 + the
     /// largest sum of absolute values in a row.
     pub fn bound(&self) -> Rational {
-        let sum = |i: usize| {
-            self.matrix
-                .row(i)
-                .iter()
-                .map(|e| e.1.abs())
-                .sum::<Rational>()
-        };
-        (0..self.matrix.rows()).map(sum).max().unwrap_or_default() + Rational::one()
+        let mut largest = Rational::zero();
+        for i in 0..self.matrix.rows() {
+            let row_sum: Rational = self.matrix.row(i).iter().map(|e| e.1.abs()).sum();
+            largest = largest.max(row_sum);
+        }
+        largest + Rational::one()
     }
 
     /// As a mechanical system of n particles in impending slip (S = 1): K_TT = aI, K_NT = P - cI,
@@ -100,24 +93,40 @@ impl Pareto {
     pub fn system(&self, a: &Rational, c: &Rational) -> Result<Problem, ModelError> {
         let n = self.matrix.rows();
         let coupling = self.matrix.add_scaled(&-c, &Sparse::identity(n));
+
         // a b > |K_NT|_F^2 makes the Schur complement bI - K_NT K_NT' / a definite.
         let frobenius: Rational = coupling.entries().map(|(_, _, v)| v * v).sum();
         let b = frobenius / a + Rational::one();
-        let diagonal =
-            (0..n).flat_map(|i| [(2 * i, 2 * i, a.clone()), (2 * i + 1, 2 * i + 1, b.clone())]);
-        let crossed = coupling
-            .entries()
-            .flat_map(|(i, j, v)| [(2 * i + 1, 2 * j, v.clone()), (2 * j, 2 * i + 1, v.clone())]);
-        let k = Sparse::from_entries(2 * n, 2 * n, diagonal.chain(crossed));
+
+        let mut entries = Vec::new();
+        for i in 0..n {
+            entries.push((tangential(i), tangential(i), a.clone()));
+            entries.push((normal(i), normal(i), b.clone()));
+        }
+        for (i, j, v) in coupling.entries() {
+            entries.push((normal(i), tangential(j), v.clone()));
+            entries.push((tangential(j), normal(i), v.clone()));
+        }
+        let stiffness = Sparse::from_entries(2 * n, 2 * n, entries);
+
+        let slip = ContactState::Slip { sign: 1 };
         let particles = (0..n)
-            .map(|i| Particle::plain(2 * i, 2 * i + 1, ContactState::Slip { sign: 1 }))
+            .map(|i| Particle::plain(tangential(i), normal(i), slip))
             .collect();
-        Problem::new(
-            Body::System(System::new(k, None, None, particles)?),
-            Unknown::Mu,
-            Window::all(),
-        )
+
+        let system = System::new(stiffness, None, None, particles)?;
+        Problem::new(Body::System(system), Unknown::Mu, Window::all())
     }
+}
+
+/// The tangential dof of particle i.
+fn tangential(i: usize) -> usize {
+    2 * i
+}
+
+/// The normal dof of particle i.
+fn normal(i: usize) -> usize {
+    2 * i + 1
 }
 
 /// A random admissible pencil with a rational solution planted in it.
@@ -142,32 +151,35 @@ pub fn planted(n: usize, free: usize, seed: u64) -> Result<Planted, ModelError> 
             what: "the complementarity variables",
         });
     }
+
+    // The first variables after the free ones slip: they are the support.
     let mut rng = ChaCha8Rng::seed_from_u64(seed);
-    let mut small = |lo: i64, hi: i64| rng.random_range(lo..=hi);
-    let value = rational(small(0, 30), small(1, 7));
-    let slips = small(1, (n - free) as i64) as usize; // the first `slips` after the free ones
-    let x: Vec<Rational> = (0..n)
-        .map(|i| match i {
-            i if i < free => rational(small(-9, 9), small(1, 4)),
-            i if i < free + slips => rational(small(1, 9), small(1, 4)),
-            _ => Rational::zero(),
-        })
-        .collect();
-    let y: Vec<Rational> = (0..n)
-        .map(|i| {
-            if i < free + slips {
-                Rational::zero()
-            } else {
-                whole(small(0, 5))
-            }
-        })
-        .collect();
-    let b = definite_block(n, free, &mut small);
-    let mut a = definite_block(n, free, &mut small);
+    let value = fraction(&mut rng, 0, 30, 7);
+    let active = free + integer(&mut rng, 1, (n - free) as i64) as usize;
+
+    let mut x = vec![Rational::zero(); n];
+    for (i, component) in x[..active].iter_mut().enumerate() {
+        let lowest = if i < free { -9 } else { 1 };
+        *component = fraction(&mut rng, lowest, 9, 4);
+    }
+
+    let mut y = vec![Rational::zero(); n];
+    for component in &mut y[active..] {
+        *component = whole(integer(&mut rng, 0, 5));
+    }
+
+    let b = definite_block(&mut rng, n, free);
+    let a = definite_block(&mut rng, n, free);
+
+    // A + tB maps x to `image`; the column of x_free carries the difference from y.
     let image = a.add_scaled(&value, &b).times(&x);
-    let bend = |i: usize| (&y[i] - &image[i]) / &x[free];
-    let column = Sparse::from_entries(n, n, (0..n).map(|i| (i, free, bend(i))));
-    a = a.add_scaled(&Rational::one(), &column);
+    let mut column = Vec::new();
+    for i in 0..n {
+        column.push((i, free, (&y[i] - &image[i]) / &x[free]));
+    }
+    let bend = Sparse::from_entries(n, n, column);
+    let a = a.add_scaled(&Rational::one(), &bend);
+
     let pencil = Pencil::new(a, b, (0..free).collect())?;
     Ok(Planted {
         problem: Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())?,
@@ -176,20 +188,32 @@ pub fn planted(n: usize, free: usize, seed: u64) -> Result<Planted, ModelError> 
     })
 }
 
+fn integer(rng: &mut ChaCha8Rng, lowest: i64, highest: i64) -> i64 {
+    rng.random_range(lowest..=highest)
+}
+
+/// A numerator from `lowest` to `highest` over a denominator from 1 to `denominators`.
+fn fraction(rng: &mut ChaCha8Rng, lowest: i64, highest: i64, denominators: i64) -> Rational {
+    let numerator = integer(rng, lowest, highest);
+    let denominator = integer(rng, 1, denominators);
+    rational(numerator, denominator)
+}
+
 /// Small random integers, the leading block symmetric with a dominant diagonal.
-fn definite_block(n: usize, free: usize, small: &mut impl FnMut(i64, i64) -> i64) -> Sparse {
-    let mut m: Vec<Vec<i64>> = (0..n)
-        .map(|_| (0..n).map(|_| small(-4, 4)).collect())
-        .collect();
+fn definite_block(rng: &mut ChaCha8Rng, n: usize, free: usize) -> Sparse {
+    let mut rows = vec![vec![0; n]; n];
+    for entry in rows.iter_mut().flatten() {
+        *entry = integer(rng, -4, 4);
+    }
+
     for i in 0..free {
         for j in 0..i {
-            m[i][j] = m[j][i];
+            rows[i][j] = rows[j][i];
         }
-        m[i][i] = 4 * n as i64 + 1;
+
+        rows[i][i] = 4 * n as i64 + 1;
     }
-    Sparse::from_entries(
-        n,
-        n,
-        (0..n * n).map(|k| (k / n, k % n, whole(m[k / n][k % n]))),
-    )
+
+    let rows: Vec<&[i64]> = rows.iter().map(|r| &r[..]).collect();
+    Sparse::from_ints(&rows)
 }

@@ -1,4 +1,8 @@
 //! Bodies of the fuzz targets, each with an oracle or a law behind it. A panic is a finding.
+//!
+//! Input: any bytes. Each body makes an object of them (a text, a pencil, a system), runs what it
+//! tests, and asserts what must hold. Called by the glue in `fuzz/fuzz_targets/`, by `fuzz/hour`,
+//! and by the replay of the corpus in `tests/campaign/fuzz_replay.rs`.
 
 mod arithmetic;
 mod certificates;
@@ -16,15 +20,18 @@ pub use systems::{
 };
 pub use systems::{two_particle_problems, two_particle_problems_by};
 
-use super::compare::{Treatment, compare_by};
+use super::compare::{Treatment, compare_by, in_doubles};
 use super::disagreement::Disagreement;
 use super::families::Instance;
 use super::forge::forgeries;
 use mceip_check::certificate::Certificate;
 use mceip_check::check;
+use mceip_engine::certify::{certificate, propose};
+use mceip_engine::reduction::reduce;
 use mceip_exact::{Sparse, whole};
 use mceip_model::file::{read_problem, write_problem};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
+use mceip_oracle::enumerate;
 use std::path::Path;
 
 /// Problem reader: what is read is written and read again as the same problem with the same digest;
@@ -33,15 +40,19 @@ pub fn problem_reader(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {
         return;
     };
-    match read_problem(text, Path::new("/nonexistent")) {
+
+    let nowhere = Path::new("/nonexistent");
+    match read_problem(text, nowhere) {
         Ok(problem) => {
-            let again = read_problem(&write_problem(&problem), Path::new("/nonexistent"));
-            let again = again.unwrap_or_else(|e| panic!("written problem is refused: {e}"));
+            let again = read_problem(&write_problem(&problem), nowhere)
+                .unwrap_or_else(|e| panic!("written problem is refused: {e}"));
+
             assert_eq!(again, problem);
             assert_eq!(again.sha256(), problem.sha256());
         }
         Err(e) => assert_eq!(e.to_string().lines().count(), 1, "{e:?}"),
     }
+
     certificates::report_reader(text);
 }
 
@@ -59,12 +70,14 @@ pub fn solver_against_oracle_by(data: &[u8], treatment: &Treatment, counter: &Co
     let Some(problem) = small_problem(data) else {
         return;
     };
+
     let instance = Instance {
         label: format!("fuzz {data:?}"),
         problem,
         closed_form: None,
         corners: Vec::new(),
     };
+
     let report = compare_by(&instance, treatment);
     assert!(
         report.disagreements.is_empty(),
@@ -73,6 +86,7 @@ pub fn solver_against_oracle_by(data: &[u8], treatment: &Treatment, counter: &Co
         report.disagreements,
         write_problem(&instance.problem)
     );
+
     counter.add(&report);
 }
 
@@ -82,30 +96,28 @@ pub fn checker_against_forgeries(data: &[u8]) {
     let Some((&pick, rest)) = data.split_first() else {
         return;
     };
+
     let Some(problem) = small_problem(rest) else {
         return;
     };
-    let instance = Instance {
-        label: "fuzz".into(),
-        problem,
-        closed_form: None,
-        corners: Vec::new(),
-    };
-    for certificate in certificates(&instance.problem) {
-        assert!(check(&instance.problem, &certificate).is_ok());
+
+    for certificate in certificates(&problem) {
+        assert!(check(&problem, &certificate).is_ok());
+
         let again = Certificate::from_json(&certificate.to_json())
             .unwrap_or_else(|e| panic!("written certificate is refused: {e}"));
         assert_eq!(again, certificate);
+
         let list = forgeries(&certificate);
         let forgery = &list[usize::from(pick) % list.len()];
-        match check(&instance.problem, &forgery.certificate) {
-            Ok(_) => panic!(
-                "{}",
-                Disagreement::Forgery {
+        match check(&problem, &forgery.certificate) {
+            Ok(_) => {
+                let accepted = Disagreement::Forgery {
                     name: forgery.name,
-                    got: "accepted".into()
-                }
-            ),
+                    got: "accepted".into(),
+                };
+                panic!("{accepted}");
+            }
             Err(e) => assert!((forgery.expected)(&e.reason), "{}: {e}", forgery.name),
         }
     }
@@ -113,50 +125,54 @@ pub fn checker_against_forgeries(data: &[u8]) {
 
 /// A certificate for each solution the enumerator lists.
 fn certificates(problem: &Problem) -> Vec<Certificate> {
-    use mceip_engine::candidate::Candidate;
-    use mceip_engine::certify::{certificate, propose};
-    let Ok(reduced) = mceip_engine::reduction::reduce(problem) else {
+    let Ok(reduced) = reduce(problem) else {
         return Vec::new();
     };
-    let Ok(oracle) = mceip_oracle::enumerate(&reduced.pencil, problem.window()) else {
+    let Ok(oracle) = enumerate(&reduced.pencil, problem.window()) else {
         return Vec::new();
     };
+
     let slip = reduced.pencil.slip();
-    let candidates = oracle.solutions.iter().map(|s| Candidate {
-        value: s.decimal(17).parse().unwrap_or(f64::NAN), // our own decimals parse
-        x: s.x_decimals(&slip, 17)
-            .iter()
-            .map(|t| t.parse().unwrap_or(f64::NAN))
-            .collect(),
-    });
-    let claims = candidates.map(|c| {
-        propose(&reduced.pencil, problem.window(), &c)
-            .unwrap_or_else(|e| panic!("oracle's solution not certified: {e}"))
-    });
-    claims
-        .map(|claim| certificate(problem, vec![claim]))
-        .collect()
+    let mut out = Vec::new();
+    for solution in &oracle.solutions {
+        let candidate = in_doubles(solution, &slip);
+        let claim = propose(&reduced.pencil, problem.window(), &candidate)
+            .unwrap_or_else(|e| panic!("oracle's solution not certified: {e}"));
+        out.push(certificate(problem, vec![claim]));
+    }
+    out
 }
 
 /// A pencil of order 1 to 4 with entries from -4 to 4, free variables by a bit mask.
 fn small_problem(data: &[u8]) -> Option<Problem> {
-    let (&head, &mask) = (data.first()?, data.get(1)?);
+    let head = *data.first()?;
+    let mask = *data.get(1)?;
+    let entries = &data[2..];
+
     let n = usize::from(head % 4) + 1;
     let unknown = if head & 0x10 == 0 {
         Unknown::Mu
     } else {
         Unknown::Lambda2
     };
-    let matrix = |offset: usize| {
-        let entries = (0..n * n).map(|k| {
-            let byte = data.get(2 + offset + k).copied().unwrap_or(0);
-            (k / n, k % n, whole(i64::from(byte % 9) - 4))
-        });
-        Sparse::from_entries(n, n, entries)
-    };
+
+    let a = digit_matrix(entries, n, 0);
+    let b = digit_matrix(entries, n, n * n);
     let free = (0..n).filter(|i| mask >> i & 1 == 1).collect();
-    let pencil = Pencil::new(matrix(0), matrix(n * n), free).ok()?;
+    let pencil = Pencil::new(a, b, free).ok()?;
     Problem::new(Body::Pencil(pencil), unknown, Window::all()).ok()
+}
+
+/// The matrix of order n whose first entry is made of the byte at `offset`, row by row.
+fn digit_matrix(data: &[u8], n: usize, offset: usize) -> Sparse {
+    let mut entries = Vec::new();
+    for i in 0..n {
+        for j in 0..n {
+            let byte = data.get(offset + i * n + j).copied().unwrap_or(0);
+            entries.push((i, j, whole(i64::from(byte % 9) - 4)));
+        }
+    }
+    Sparse::from_entries(n, n, entries)
 }
 
 /// A target's name and body.

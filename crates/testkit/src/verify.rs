@@ -1,4 +1,8 @@
 //! The main job: every family through every engine, one row each, one verdict.
+//!
+//! Input: how many random instances, and a seed. Output: a row of counts for each family and a
+//! report for each published state of the block; a run without disagreements passes. Called by
+//! `mceip verify`.
 
 use super::block::{BlockError, BlockReport, block_state};
 use super::compare::{InstanceReport, Treatment, compare_by};
@@ -7,11 +11,10 @@ use super::families::{Corner, Instance, degenerate, mechanical, random_pencils, 
 use super::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
 use mceip_engine::multistart::Search;
 use mceip_engine::run::{Progress, Watch};
-use mceip_model::ModelError;
 use mceip_paper::{Block, MassKind, PublishedState};
 use rayon::prelude::*;
-use std::collections::BTreeMap;
-use std::sync::atomic::Ordering;
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 /// A family's row.
 #[derive(Debug, Clone, Default)]
@@ -49,6 +52,41 @@ pub struct FamilyReport {
 }
 
 impl FamilyReport {
+    /// Adds what came of one instance.
+    fn add(&mut self, report: &InstanceReport) {
+        self.oracle += report.oracle;
+        if report.solved {
+            self.findable += report.oracle;
+        }
+        self.found += report.found;
+        self.accepted += report.accepted;
+        self.degenerate += usize::from(report.degenerate);
+        self.completed += usize::from(report.completed);
+        self.pivots += report.pivots;
+
+        let is_of_a_forgery = |d: &&Disagreement| matches!(d, Disagreement::Forgery { .. });
+        let wrong_forgeries = report.disagreements.iter().filter(is_of_a_forgery).count();
+        self.rejected += report.forgeries - wrong_forgeries;
+
+        for (starts, coverage) in report.coverage() {
+            self.coverage.entry(starts).or_default().add(&coverage);
+        }
+
+        let label = &report.label;
+        for reason in &report.uncertified {
+            self.uncertified.push(format!("{label}: {reason}"));
+        }
+        for disagreement in &report.disagreements {
+            self.disagreements.push(format!("{label}: {disagreement}"));
+        }
+
+        // An instance counts once for each corner.
+        let corners: BTreeSet<Corner> = report.corners.iter().copied().collect();
+        for corner in corners {
+            *self.corners.entry(corner).or_default() += 1;
+        }
+    }
+
     /// Rates that are below their floors by more than chance explains.
     pub fn shortfalls(&self) -> Vec<Shortfall> {
         self.coverage
@@ -74,16 +112,16 @@ pub struct Verification {
 impl Verification {
     /// Number of disagreements in all, shortfalls among them.
     pub fn disagreements(&self) -> usize {
-        let of = |b: &BlockReport| {
-            b.rejected.len() + b.forgeries - b.rejected_forgeries + b.missing + b.unfound
-        };
-        let block: usize = self.block.iter().map(of).sum();
-        self.families
-            .iter()
-            .map(|f| f.disagreements.len())
-            .sum::<usize>()
-            + block
-            + self.shortfalls().len()
+        let mut count = self.shortfalls().len();
+        for family in &self.families {
+            count += family.disagreements.len();
+        }
+        for block in &self.block {
+            count += block.rejected.len();
+            count += block.forgeries - block.rejected_forgeries;
+            count += block.missing + block.unfound;
+        }
+        count
     }
 
     /// Coverage of the families, and of PATH's own sequence on the block's states.
@@ -106,15 +144,15 @@ impl Verification {
                 coverage: block.path,
             });
         }
+
         out
     }
 
     /// Every rate that is below its floor by more than chance explains.
     pub fn shortfalls(&self) -> Vec<Shortfall> {
-        let families = self.families.iter().flat_map(FamilyReport::shortfalls);
-        families
-            .chain(self.block.iter().flat_map(BlockReport::shortfalls))
-            .collect()
+        let of_families = self.families.iter().flat_map(FamilyReport::shortfalls);
+        let of_the_block = self.block.iter().flat_map(BlockReport::shortfalls);
+        of_families.chain(of_the_block).collect()
     }
 }
 
@@ -131,25 +169,31 @@ pub fn verify(random: usize, seed: u64, watch: &Watch<'_>) -> Result<Verificatio
         seed,
         ..Search::default()
     });
-    let families: [(&'static str, Result<Vec<Instance>, ModelError>); 4] = [
-        ("Table 1 (two particles)", table1_grid()),
-        ("random pencils", random_pencils(random, seed)),
-        ("mechanical systems", mechanical(random / 4, seed)),
-        ("degenerate cases", degenerate()),
+
+    let families = [
+        ("Table 1 (two particles)", table1_grid()?),
+        ("random pencils", random_pencils(random, seed)?),
+        ("mechanical systems", mechanical(random / 4, seed)?),
+        ("degenerate cases", degenerate()?),
     ];
+
     let mut rows = Vec::new();
     for (name, instances) in families {
-        rows.push(verify_family(name, &instances?, &treatment, watch));
+        rows.push(verify_family(name, &instances, &treatment, watch));
     }
+
     let mut block = Vec::new();
     let model = Block::of_the_paper(MassKind::Consistent);
+
     for (k, state) in PublishedState::ALL.into_iter().enumerate() {
         if watch.is_cancelled() {
             break;
         }
+
         watch.report(&Progress::of("block of section 5", k, 2));
         block.extend(block_state(&model, state, &watch.quiet())?);
     }
+
     Ok(Verification {
         seed,
         families: rows,
@@ -165,52 +209,30 @@ pub fn verify_family(
     treatment: &Treatment,
     watch: &Watch<'_>,
 ) -> FamilyReport {
-    let done = std::sync::atomic::AtomicUsize::new(0);
+    let done = AtomicUsize::new(0);
     let reports: Vec<InstanceReport> = instances
         .par_iter()
         .filter_map(|instance| {
             if watch.is_cancelled() {
                 return None;
             }
+
             let report = compare_by(instance, treatment);
             let finished = done.fetch_add(1, Ordering::Relaxed) + 1;
             watch.report(&Progress::of(name, finished, instances.len()));
+
             Some(report)
         })
         .collect(); // in the order of the instances
+
     let mut row = FamilyReport {
         name,
         instances: instances.len(),
         done: reports.len(),
         ..FamilyReport::default()
     };
-    for r in reports {
-        row.oracle += r.oracle;
-        row.findable += if r.solved { r.oracle } else { 0 };
-        row.found += r.found;
-        row.accepted += r.accepted;
-        row.degenerate += usize::from(r.degenerate);
-        row.completed += usize::from(r.completed);
-        row.pivots += r.pivots;
-        let wrong_forgeries = r
-            .disagreements
-            .iter()
-            .filter(|d| matches!(d, Disagreement::Forgery { .. }))
-            .count();
-        row.rejected += r.forgeries - wrong_forgeries;
-        for (starts, coverage) in r.coverage() {
-            row.coverage.entry(starts).or_default().add(&coverage);
-        }
-        row.uncertified
-            .extend(r.uncertified.iter().map(|u| format!("{}: {u}", r.label)));
-        row.disagreements
-            .extend(r.disagreements.iter().map(|d| format!("{}: {d}", r.label)));
-        let mut corners = r.corners;
-        corners.sort();
-        corners.dedup();
-        for corner in corners {
-            *row.corners.entry(corner).or_default() += 1;
-        }
+    for report in &reports {
+        row.add(report);
     }
     row
 }

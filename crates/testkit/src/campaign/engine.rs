@@ -1,4 +1,8 @@
 //! The engines, each held against the plain enumerator's answer. Engines of one's own are welcome.
+//!
+//! Input: a case. Output: counts, corners, and a finding for each disagreement with the
+//! enumerator's answer or with what is known of the case by construction. A panic of an engine is a
+//! finding too. Called by the campaign's run, by `shrink`, and by `mceip campaign --replay`.
 
 use super::family::Case;
 use crate::compare::{InstanceReport, Treatment, compare_with, engines, observed};
@@ -6,8 +10,7 @@ use crate::disagreement::Disagreement;
 use crate::families::Corner;
 use mceip_engine::multistart::Search;
 use mceip_engine::reduction::Reduced;
-use mceip_exact::{Algebraic, Rational};
-use mceip_exact::{Poly, common_denominator};
+use mceip_exact::{Algebraic, Poly, Rational, common_denominator};
 use mceip_model::{Pencil, Window};
 use mceip_oracle::Enumeration;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -92,47 +95,57 @@ impl Engine for KnownAnswer {
     }
 
     fn compare(&self, case: &Case, truth: &Truth, report: &mut InstanceReport) {
-        let (expected, found) = (&case.expected, &truth.enumeration);
-        let mut wrong = |text: String| {
+        let found = &truth.enumeration;
+        for expected in contradicted(case, truth) {
             report.disagreements.push(Disagreement::Known {
-                expected: text,
+                expected,
                 enumerated: found.solutions.len(),
-            })
-        };
-        if let Some(answer) = expected.answer.as_ref().filter(|a| *a != found) {
-            wrong(format!(
-                "{} solutions, {} cones",
-                answer.solutions.len(),
-                answer.cones.len()
-            ));
-        }
-        if let Some(count) = expected
-            .count
-            .filter(|c| *c != found.solutions.len() || !found.is_plain_list())
-        {
-            wrong(format!("{count} solutions"));
-        }
-        if let Some((value, x)) = expected
-            .planted
-            .as_ref()
-            .filter(|(value, x)| !holds(truth, value, x))
-        {
-            wrong(format!("value {value} with x = {x:?}"));
+            });
         }
     }
 }
 
+/// What is known by construction and not true of the enumerator's answer, in words.
+fn contradicted(case: &Case, truth: &Truth) -> Vec<String> {
+    let found = &truth.enumeration;
+    let mut out = Vec::new();
+
+    if let Some(answer) = &case.expected.answer
+        && answer != found
+    {
+        let solutions = answer.solutions.len();
+        let cones = answer.cones.len();
+        out.push(format!("{solutions} solutions, {cones} cones"));
+    }
+
+    if let Some(count) = case.expected.count
+        && (count != found.solutions.len() || !found.is_plain_list())
+    {
+        out.push(format!("{count} solutions"));
+    }
+
+    if let Some((value, x)) = &case.expected.planted
+        && !holds(truth, value, x)
+    {
+        out.push(format!("value {value} with x = {x:?}"));
+    }
+
+    out
+}
+
+/// Does the enumerator's answer hold the solution with this value and x?
 fn holds(truth: &Truth, value: &Rational, x: &[Rational]) -> bool {
-    let clear = common_denominator(x);
-    let x: Vec<Poly> = x
-        .iter()
-        .map(|v| Poly::constant(v.numer() * (&clear / v.denom())))
-        .collect();
-    truth.enumeration.contains(
-        &truth.reduced.pencil,
-        &Algebraic::rational(value.clone()),
-        &x,
-    )
+    let denominator = common_denominator(x);
+    let mut integral_x = Vec::new();
+    for v in x {
+        let numerator = v.numer() * (&denominator / v.denom());
+        integral_x.push(Poly::constant(numerator));
+    }
+
+    let value = Algebraic::rational(value.clone());
+    truth
+        .enumeration
+        .contains(&truth.reduced.pencil, &value, &integral_x)
 }
 
 /// All engines of the project, capped so that an instance takes seconds at most.
@@ -154,6 +167,7 @@ pub fn treatment(seed: u64) -> Treatment {
         seed,
         ..Search::default()
     };
+
     Treatment {
         nodes: NODES,
         ..Treatment::of(&search)
@@ -173,6 +187,13 @@ pub struct Finding {
 }
 
 impl Finding {
+    fn new(engine: &str, disagreement: Disagreement) -> Finding {
+        Finding {
+            engine: engine.into(),
+            disagreement,
+        }
+    }
+
     /// Engine and kind: what a shrunk instance must keep.
     pub fn kind(&self) -> (&str, &'static str) {
         (&self.engine, self.disagreement.kind())
@@ -196,34 +217,31 @@ pub fn judge(case: &Case, all: &[Box<dyn Engine>]) -> Judgement {
         corners: case.instance.corners.clone(),
         ..InstanceReport::default()
     };
+
     let mut findings = Vec::new();
-    let mut note = |engine: &str, disagreement| {
-        findings.push(Finding {
-            engine: engine.into(),
-            disagreement,
-        })
-    };
     match guarded(|| engines(&case.instance.problem)) {
-        Err(panic) => note("enumerator", panic),
-        Ok(Err(disagreement)) => note("enumerator", disagreement),
+        Err(panic) => findings.push(Finding::new("enumerator", panic)),
+        Ok(Err(disagreement)) => findings.push(Finding::new("enumerator", disagreement)),
         Ok(Ok((reduced, enumeration))) => {
             let truth = Truth {
                 reduced,
                 enumeration,
             };
             report.corners.extend(shape(&truth));
+
             for engine in all {
                 let outcome = guarded(|| engine.compare(case, &truth, &mut report));
-                report
-                    .disagreements
-                    .drain(..)
-                    .for_each(|d| note(engine.name(), d));
+                for disagreement in report.disagreements.drain(..) {
+                    findings.push(Finding::new(engine.name(), disagreement));
+                }
+
                 if let Err(panic) = outcome {
-                    note(engine.name(), panic);
+                    findings.push(Finding::new(engine.name(), panic));
                 }
             }
         }
     }
+
     report.corners.sort();
     report.corners.dedup();
     Judgement { report, findings }
@@ -232,25 +250,30 @@ pub fn judge(case: &Case, all: &[Box<dyn Engine>]) -> Judgement {
 /// Corners of the answer and of the shape.
 fn shape(truth: &Truth) -> Vec<Corner> {
     let found = &truth.enumeration;
-    let empty = found.is_plain_list() && found.solutions.is_empty();
     let pencil = &truth.reduced.pencil;
-    let reached = [
-        (empty, Corner::Empty),
-        (pencil.order() == 1, Corner::OneByOne),
-        (!pencil.free().is_empty(), Corner::FreeVariables),
-    ];
-    observed(found)
-        .into_iter()
-        .chain(reached.into_iter().filter(|r| r.0).map(|r| r.1))
-        .collect()
+    let mut corners = observed(found);
+
+    if found.is_plain_list() && found.solutions.is_empty() {
+        corners.push(Corner::Empty);
+    }
+    if pencil.order() == 1 {
+        corners.push(Corner::OneByOne);
+    }
+    if !pencil.free().is_empty() {
+        corners.push(Corner::FreeVariables);
+    }
+
+    corners
 }
 
+/// Runs `work` and turns a panic into a disagreement.
 fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, Disagreement> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         let text = panic
             .downcast_ref::<String>()
             .cloned()
             .or_else(|| panic.downcast_ref::<&str>().map(ToString::to_string));
+
         Disagreement::Panicked {
             message: text.unwrap_or_else(|| "no message".into()),
         }

@@ -1,7 +1,8 @@
 //! What is known of an instance by construction, and an instance as a family makes it.
 
-use crate::families::Instance;
+use crate::families::{Corner, Instance};
 use mceip_exact::Rational;
+use mceip_model::Problem;
 use mceip_oracle::Enumeration;
 
 /// What is known of an instance by construction.
@@ -15,4 +16,35 @@ pub struct Expected {
     pub planted: Option<(Rational, Vec<Rational>)>,
 }
 
-pub(super) type Made = (Instance, Expected);
+/// An instance as a family makes it. Its label is set by [`super::case`].
+#[derive(Debug, Clone)]
+pub struct Made {
+    /// The problem, with Table 1's data and the corners known by construction.
+    pub instance: Instance,
+    /// What else is known by construction.
+    pub expected: Expected,
+}
+
+impl Made {
+    /// An instance of whose answer nothing is known.
+    pub(super) fn new(problem: Problem, corners: Vec<Corner>) -> Made {
+        Made {
+            instance: Instance {
+                label: String::new(),
+                problem,
+                closed_form: None,
+                corners,
+            },
+            expected: Expected::default(),
+        }
+    }
+}
+
+impl From<Instance> for Made {
+    fn from(instance: Instance) -> Made {
+        Made {
+            instance,
+            expected: Expected::default(),
+        }
+    }
+}

@@ -1,4 +1,7 @@
 //! The families of the campaign by name, and their instances by number.
+//!
+//! Input: `family:seed:index`. Output: the instance, the same on every machine. The generators are
+//! in `named`.
 
 use super::expected::{Expected, Made};
 use super::named;
@@ -44,9 +47,11 @@ pub struct UnknownFamily {
 }
 
 fn names() -> String {
-    FAMILIES.iter().map(|f| f.0).collect::<Vec<_>>().join(", ")
+    let names: Vec<&str> = FAMILIES.iter().map(|f| f.0).collect();
+    names.join(", ")
 }
 
+/// How an instance of a family is made.
 pub(super) type Make = fn(&Seed) -> Result<Made, ModelError>;
 
 /// Name, what it holds, and how an instance is made.
@@ -153,17 +158,20 @@ pub fn case(id: &Id) -> Result<Result<Case, ModelError>, UnknownFamily> {
         .ok_or_else(|| UnknownFamily {
             name: id.family.clone(),
         })?;
-    let made = (FAMILIES[number].2)(&Seed {
+
+    let (_, _, make) = FAMILIES[number];
+    let made = make(&Seed {
         family: number as u64,
         seed: id.seed,
         index: id.index,
     });
-    Ok(made.map(|(instance, expected)| Case {
+
+    Ok(made.map(|made| Case {
         id: id.clone(),
         instance: Instance {
             label: id.to_string(),
-            ..instance
+            ..made.instance
         },
-        expected,
+        expected: made.expected,
     }))
 }

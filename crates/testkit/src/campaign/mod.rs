@@ -3,6 +3,14 @@
 //! An instance is named by its family, the seed and its index, so that every run, on any number of
 //! threads, in any number of parts, sees the same instances. What disagrees is shrunk, and written
 //! as a replay file that needs nothing else.
+//!
+//! ```text
+//! family:seed:index -> named (generators) -> engine (judge) -> state (counts)
+//!                                               |
+//!                                               +-> shrink -> replay file
+//! ```
+//!
+//! Called by `mceip campaign` and by `tests/campaign/`.
 
 mod engine;
 mod expected;
@@ -17,7 +25,7 @@ pub use engine::{
     Engine, Enumerator, Finding, Judgement, KnownAnswer, Pipeline, Truth, judge, standard,
     treatment,
 };
-pub use expected::Expected;
+pub use expected::{Expected, Made};
 pub use family::{Case, FAMILIES, Id, UnknownFamily, case};
 pub use replay::{REPLAY_FORMAT, Replay, ReplayError};
 pub use run::{Campaign, Event, Limit};

@@ -1,5 +1,8 @@
 //! A disagreement as a file that needs nothing else: the shrunk problem, where it came from, what
 //! it says.
+//!
+//! Written by `mceip campaign` for each disagreement, read by `mceip campaign --replay`, which
+//! judges the case again. The format is `mceip-replay/1`.
 
 use super::engine::Finding;
 use super::expected::Expected;
@@ -72,14 +75,13 @@ impl Replay {
     /// that says.
     pub fn new(drawn: (&Case, &Finding), shrunk: (&Case, &Finding)) -> Replay {
         let (case, finding) = shrunk;
-        let data = case.instance.closed_form.as_ref().map(|d| ClosedForm {
-            c: d.c.to_string(),
-            s: d.s.to_string(),
-            k: d.k.to_string(),
-            m: d.m.to_string(),
-            mu: d.mu.to_string(),
-            signs: d.signs,
-        });
+        let (drawn_case, drawn_finding) = drawn;
+        let closed_form = case.instance.closed_form.as_ref().map(ClosedForm::of);
+
+        // Our own writer's JSON is read without error.
+        let problem = write_problem(&case.instance.problem);
+        let problem = serde_json::from_str(&problem).unwrap_or_default();
+
         Replay {
             format: REPLAY_FORMAT.into(),
             family: case.id.family.clone(),
@@ -88,11 +90,10 @@ impl Replay {
             engine: finding.engine.clone(),
             kind: finding.disagreement.kind().into(),
             disagreement: finding.disagreement.to_string(),
-            as_drawn: drawn.1.disagreement.to_string(),
-            problem: serde_json::from_str(&write_problem(&case.instance.problem))
-                .unwrap_or_default(), // our own JSON
-            closed_form: data,
-            shrunk: drawn.0.instance.problem != case.instance.problem,
+            as_drawn: drawn_finding.disagreement.to_string(),
+            problem,
+            closed_form,
+            shrunk: drawn_case.instance.problem != case.instance.problem,
         }
     }
 
@@ -134,22 +135,30 @@ impl Replay {
             seed: self.seed,
             index: self.index,
         };
+
         let problem = read_problem(&self.problem.to_string(), Path::new("."))?;
-        let closed_form = self.closed_form.as_ref().map(data).transpose()?;
+        let closed_form = match &self.closed_form {
+            Some(text) => Some(text.data()?),
+            None => None,
+        };
+
         let drawn = if self.shrunk {
             None
         } else {
             case(&id).ok().and_then(Result::ok)
         };
-        let expected = drawn
-            .filter(|d| d.instance.problem == problem)
-            .map_or_else(Expected::default, |d| d.expected);
+        let expected = match drawn {
+            Some(drawn) if drawn.instance.problem == problem => drawn.expected,
+            _ => Expected::default(),
+        };
+
         let instance = Instance {
             label: format!("{id} (replay)"),
             problem,
             closed_form,
             corners: Vec::new(),
         };
+
         Ok(Case {
             id,
             instance,
@@ -158,14 +167,26 @@ impl Replay {
     }
 }
 
-fn data(d: &ClosedForm) -> Result<TwoParticles, ReplayError> {
-    let number = |text: &str| parse(text).map_err(ReplayError::from);
-    Ok(TwoParticles {
-        c: number(&d.c)?,
-        s: number(&d.s)?,
-        k: number(&d.k)?,
-        m: number(&d.m)?,
-        mu: number(&d.mu)?,
-        signs: d.signs,
-    })
+impl ClosedForm {
+    fn of(data: &TwoParticles) -> ClosedForm {
+        ClosedForm {
+            c: data.c.to_string(),
+            s: data.s.to_string(),
+            k: data.k.to_string(),
+            m: data.m.to_string(),
+            mu: data.mu.to_string(),
+            signs: data.signs,
+        }
+    }
+
+    fn data(&self) -> Result<TwoParticles, ReplayError> {
+        Ok(TwoParticles {
+            c: parse(&self.c)?,
+            s: parse(&self.s)?,
+            k: parse(&self.k)?,
+            m: parse(&self.m)?,
+            mu: parse(&self.mu)?,
+            signs: self.signs,
+        })
+    }
 }

@@ -1,4 +1,8 @@
 //! The run: waves of instances in parallel, added up in their order.
+//!
+//! Input: the engines, a limit, and a state to go on from. Output: the state with the instances
+//! that were judged. The caller hears of every wave, so that it can write the state to a file, and
+//! of every disagreement, already shrunk. Called by `mceip campaign`.
 
 use super::engine::{Engine, Finding, Judgement, judge};
 use super::family::{Case, Id, case};
@@ -45,69 +49,96 @@ impl Campaign<'_> {
     pub fn run(&self, mut state: State, cancel: &Cancel, hear: &mut dyn FnMut(Event<'_>)) -> State {
         let begun = Instant::now();
         let count = state.families.len() as u64;
+
         loop {
             let left = match self.limit {
                 Limit::Count(each) => (each * count).saturating_sub(state.done),
                 Limit::For(time) if begun.elapsed() >= time => 0,
                 Limit::For(_) => WAVE,
             };
+
             if left == 0 || cancel.is_requested() {
                 return state;
             }
+
             let wave: Vec<Id> = (state.done..state.done + left.min(WAVE))
                 .map(|k| state.id(k))
                 .collect();
-            let judged: Vec<(Option<Case>, Judgement)> =
-                wave.par_iter().map(|id| self.judge(id)).collect(); // in order
-            for (id, (case, judgement)) in wave.iter().zip(judged) {
-                state.tallies[(state.done % count) as usize].add(id, &judgement);
+            let judged: Vec<Judged> = wave.par_iter().map(|id| self.judge(id)).collect(); // in order
+
+            for (id, judged) in wave.iter().zip(judged) {
+                let family = (state.done % count) as usize;
+                state.tallies[family].add(id, &judged.judgement);
                 state.done += 1;
-                for finding in case
-                    .iter()
-                    .flat_map(|c| self.replays(c, &judgement.findings))
-                {
-                    hear(Event::Disagreement(&finding));
+
+                for replay in self.replays(&judged) {
+                    hear(Event::Disagreement(&replay));
                 }
             }
+
             hear(Event::Wave(&state));
         }
     }
 
-    fn judge(&self, id: &Id) -> (Option<Case>, Judgement) {
-        let refused = |reason: String| {
-            let disagreement = Disagreement::Refused {
-                engine: "generator",
-                reason,
-            };
-            Judgement {
-                findings: vec![Finding {
-                    engine: "generator".into(),
-                    disagreement,
-                }],
-                ..Judgement::default()
-            }
-        };
+    /// Makes the instance and judges it. An instance that the generator refuses is a disagreement.
+    fn judge(&self, id: &Id) -> Judged {
         match case(id) {
             Ok(Ok(case)) => {
                 let judgement = judge(&case, self.engines);
-                (Some(case), judgement)
+                Judged {
+                    case: Some(case),
+                    judgement,
+                }
             }
-            Ok(Err(e)) => (None, refused(e.to_string())),
-            Err(e) => (None, refused(e.to_string())),
+            Ok(Err(e)) => Judged::refused(e.to_string()),
+            Err(e) => Judged::refused(e.to_string()),
         }
     }
 
     /// One replay per engine and kind.
-    fn replays(&self, case: &Case, findings: &[Finding]) -> Vec<Replay> {
-        let first = |k: usize| findings[..k].iter().all(|f| f.kind() != findings[k].kind());
-        let kinds = (0..findings.len())
-            .filter(|&k| first(k))
-            .map(|k| &findings[k]);
-        kinds
-            .map(|finding| {
-                let (small, says) = shrink(case, finding, self.engines);
-                Replay::new((case, finding), (&small, &says))
-            })
-            .collect()
+    fn replays(&self, judged: &Judged) -> Vec<Replay> {
+        let Some(case) = &judged.case else {
+            return Vec::new();
+        };
+
+        let findings = &judged.judgement.findings;
+        let mut out = Vec::new();
+        for (k, finding) in findings.iter().enumerate() {
+            let is_known = findings[..k].iter().any(|f| f.kind() == finding.kind());
+            if is_known {
+                continue;
+            }
+
+            let (small, says) = shrink(case, finding, self.engines);
+            out.push(Replay::new((case, finding), (&small, &says)));
+        }
+        out
+    }
+}
+
+/// An instance of a wave, and what came of it.
+struct Judged {
+    /// `None` if the generator refused to make it.
+    case: Option<Case>,
+    judgement: Judgement,
+}
+
+impl Judged {
+    fn refused(reason: String) -> Judged {
+        let finding = Finding {
+            engine: "generator".into(),
+            disagreement: Disagreement::Refused {
+                engine: "generator",
+                reason,
+            },
+        };
+
+        Judged {
+            case: None,
+            judgement: Judgement {
+                findings: vec![finding],
+                ..Judgement::default()
+            },
+        }
     }
 }

@@ -1,12 +1,17 @@
 //! Smaller instances that still disagree: fewer particles and variables, simpler numbers, the same
 //! structure.
+//!
+//! [`smaller`] lists the neighbours of a case, each smaller in the order of [`Size`]; [`shrink`]
+//! goes from neighbour to neighbour as long as the engines disagree in the same way. Input: a case
+//! and its finding. Output: the smallest case met, with its finding. Called by the campaign's run
+//! before a replay file is written.
 
 use super::engine::{Engine, Finding, judge};
 use super::expected::Expected;
 use super::family::Case;
 use crate::families::Instance;
-use mceip_exact::{Rational, Sparse, whole};
-use mceip_model::{Body, ModelError, Pencil, Problem, System, Window};
+use mceip_exact::{Integer, Rational, Sparse, rational, whole};
+use mceip_model::{Body, ModelError, Particle, Pencil, Problem, System, Window};
 use mceip_oracle::TwoParticles;
 use mceip_paper::two_particles;
 use num_traits::{One, Signed, Zero};
@@ -18,26 +23,33 @@ pub const MAX_TRIES: usize = 400;
 /// returns it with what it then says. What is known by construction goes with the first change of
 /// the problem itself.
 pub fn shrink(case: &Case, finding: &Finding, engines: &[Box<dyn Engine>]) -> (Case, Finding) {
-    let (mut best, mut says) = (case.clone(), finding.clone());
+    let mut best = case.clone();
+    let mut says = finding.clone();
     let mut tries = MAX_TRIES;
     let mut improved = true;
+
     while improved && tries > 0 {
         improved = false;
         for candidate in smaller(&best) {
             if tries == 0 {
                 break;
             }
+
             tries -= 1;
             let again = judge(&candidate, engines)
                 .findings
                 .into_iter()
                 .find(|f| f.kind() == says.kind());
+
             if let Some(again) = again {
-                (best, says, improved) = (candidate, again, true);
+                best = candidate;
+                says = again;
+                improved = true;
                 break;
             }
         }
     }
+
     (best, says)
 }
 
@@ -45,72 +57,84 @@ pub fn shrink(case: &Case, finding: &Finding, engines: &[Box<dyn Engine>]) -> (C
 /// entries and features, or shorter numbers, so that shrinking ends.
 pub fn smaller(case: &Case) -> Vec<Case> {
     let problem = &case.instance.problem;
-    let mut out: Vec<Case> = case
-        .instance
-        .closed_form
-        .iter()
-        .flat_map(simpler_data)
-        .filter_map(|d| with_data(case, d).ok())
-        .collect();
-    let bodies = match problem.body() {
-        Body::Pencil(p) => pencils(p)
-            .into_iter()
-            .flatten()
-            .map(Body::Pencil)
-            .collect::<Vec<_>>(),
-        Body::System(s) => systems(s).into_iter().flatten().map(Body::System).collect(),
-    };
-    let with = |body: Body, window: &Window| Problem::new(body, problem.unknown(), window.clone());
-    out.extend(
-        bodies
-            .into_iter()
-            .filter_map(|b| with(b, problem.window()).ok())
-            .map(|p| changed(case, p)),
-    );
-    if *problem.window() != Window::all() {
-        out.push(changed(case, problem.clone().with_window(Window::all())));
+    let mut out = Vec::new();
+
+    if let Some(data) = &case.instance.closed_form {
+        for simpler in simpler_data(data) {
+            out.extend(with_data(case, simpler).ok());
+        }
     }
-    let size = size(case);
-    // What drops nothing but the closed form is the same problem.
-    out.retain(|c| self::size(c) < size && c.instance.problem != *problem);
+
+    for body in smaller_bodies(problem.body()) {
+        let changed = Problem::new(body, problem.unknown(), problem.window().clone());
+        out.extend(changed.ok().map(|p| with_problem(case, p)));
+    }
+
+    if *problem.window() != Window::all() {
+        let everywhere = problem.clone().with_window(Window::all());
+        out.push(with_problem(case, everywhere));
+    }
+
+    // A candidate with the same problem drops nothing but the closed form.
+    let size = Size::of(case);
+    out.retain(|c| Size::of(c) < size && c.instance.problem != *problem);
     out
 }
 
-/// Order, entries and features, bits of all numbers.
-fn size(case: &Case) -> (usize, usize, u64) {
-    let problem = &case.instance.problem;
-    let bits = |m: &Sparse| m.entries().map(|e| bits(e.2)).sum::<u64>();
-    let windowed = usize::from(*problem.window() != Window::all());
-    let data = case
-        .instance
-        .closed_form
-        .iter()
-        .flat_map(|d| [&d.c, &d.s, &d.k, &d.m, &d.mu])
-        .map(self::bits)
-        .sum::<u64>();
-    match problem.body() {
-        Body::Pencil(p) => (
-            p.order(),
-            p.a().entries().count() + p.b().entries().count() + windowed,
-            bits(p.a()) + bits(p.b()) + data,
-        ),
-        Body::System(s) => {
-            let mass = s.mass().map_or(0, |m| m.entries().count());
-            let odd = |p: &mceip_model::Particle| {
-                usize::from(p.frame.is_some()) + usize::from(p.normal_direction < 0)
-            };
-            let features = s.stiffness().entries().count()
-                + mass
-                + s.particles().iter().map(odd).sum::<usize>()
-                + windowed;
-            (
-                s.dofs(),
-                features,
-                bits(s.stiffness())
-                    + s.mass().map_or(0, bits)
-                    + s.friction().map_or(0, self::bits)
-                    + data,
-            )
+/// How large a case is; compared in the order of the fields.
+#[derive(Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Size {
+    /// Variables of a pencil, degrees of freedom of a system.
+    order: usize,
+    /// Entries of the matrices that are not zero, frames, reversed normals, a window.
+    features: usize,
+    /// Bits of all numbers.
+    bits: u64,
+}
+
+impl Size {
+    fn of(case: &Case) -> Size {
+        let problem = &case.instance.problem;
+        let mut size = match problem.body() {
+            Body::Pencil(pencil) => Size::of_pencil(pencil),
+            Body::System(system) => Size::of_system(system),
+        };
+
+        size.features += usize::from(*problem.window() != Window::all());
+        if let Some(d) = &case.instance.closed_form {
+            size.bits += bits(&d.c) + bits(&d.s) + bits(&d.k) + bits(&d.m) + bits(&d.mu);
+        }
+        size
+    }
+
+    fn of_pencil(pencil: &Pencil) -> Size {
+        Size {
+            order: pencil.order(),
+            features: pencil.a().entries().count() + pencil.b().entries().count(),
+            bits: bits_of_matrix(pencil.a()) + bits_of_matrix(pencil.b()),
+        }
+    }
+
+    fn of_system(system: &System) -> Size {
+        let mut features = system.stiffness().entries().count();
+        let mut all_bits = bits_of_matrix(system.stiffness());
+
+        if let Some(mass) = system.mass() {
+            features += mass.entries().count();
+            all_bits += bits_of_matrix(mass);
+        }
+        if let Some(friction) = system.friction() {
+            all_bits += bits(friction);
+        }
+        for particle in system.particles() {
+            features += usize::from(particle.frame.is_some());
+            features += usize::from(particle.normal_direction < 0);
+        }
+
+        Size {
+            order: system.dofs(),
+            features,
+            bits: all_bits,
         }
     }
 }
@@ -119,192 +143,271 @@ fn bits(v: &Rational) -> u64 {
     v.numer().bits() + v.denom().bits()
 }
 
-fn changed(case: &Case, problem: Problem) -> Case {
-    let instance = Instance {
-        problem,
-        closed_form: None,
-        ..case.instance.clone()
-    };
+fn bits_of_matrix(matrix: &Sparse) -> u64 {
+    matrix.entries().map(|(_, _, v)| bits(v)).sum()
+}
+
+/// The case with another problem, of whose answer nothing is known.
+fn with_problem(case: &Case, problem: Problem) -> Case {
     Case {
         id: case.id.clone(),
-        instance,
+        instance: Instance {
+            problem,
+            closed_form: None,
+            ..case.instance.clone()
+        },
         expected: Expected::default(),
     }
 }
 
+/// The case with other data of Table 1, and the problem that they make.
 fn with_data(case: &Case, data: TwoParticles) -> Result<Case, ModelError> {
-    let problem = Problem::new(
-        Body::System(two_particles(&data)?),
-        case.instance.problem.unknown(),
-        Window::all(),
-    )?;
-    let instance = Instance {
-        problem,
-        closed_form: Some(data),
-        ..case.instance.clone()
-    };
-    Ok(Case {
-        id: case.id.clone(),
-        instance,
-        expected: Expected::default(),
-    })
+    let body = Body::System(two_particles(&data)?);
+    let unknown = case.instance.problem.unknown();
+    let problem = Problem::new(body, unknown, Window::all())?;
+
+    let mut changed = with_problem(case, problem);
+    changed.instance.closed_form = Some(data);
+    Ok(changed)
 }
 
+/// The angle of 3, 4, 5; k = 1; m = 1; a simpler mu.
 fn simpler_data(d: &TwoParticles) -> Vec<TwoParticles> {
-    let (c, s) = (mceip_exact::rational(3, 5), mceip_exact::rational(4, 5));
-    let mut out = vec![TwoParticles { c, s, ..d.clone() }];
-    out.push(TwoParticles {
-        k: Rational::one(),
-        ..d.clone()
-    });
-    out.push(TwoParticles {
-        m: Rational::one(),
-        ..d.clone()
-    });
-    out.extend(
-        simpler(&d.mu)
-            .into_iter()
-            .filter(Signed::is_positive)
-            .map(|mu| TwoParticles { mu, ..d.clone() }),
-    );
-    out
-}
+    let mut out = vec![
+        TwoParticles {
+            c: rational(3, 5),
+            s: rational(4, 5),
+            ..d.clone()
+        },
+        TwoParticles {
+            k: Rational::one(),
+            ..d.clone()
+        },
+        TwoParticles {
+            m: Rational::one(),
+            ..d.clone()
+        },
+    ];
 
-/// 0 is left to the caller: 1 or -1, the integer part, half as many digits.
-fn simpler(v: &Rational) -> Vec<Rational> {
-    let part = |v: &Rational| v.trunc();
-    let halved = {
-        let shift = v.denom().bits() / 2;
-        let scale = mceip_exact::Integer::one() << shift;
-        Rational::new(
-            (v * Rational::from_integer(scale.clone())).to_integer(),
-            scale,
-        )
-    };
-    let high = {
-        let shift = v.numer().bits() / 2;
-        Rational::from_integer((v.to_integer() >> shift) << shift)
-    };
-    [v.signum(), part(v), halved, high]
-        .into_iter()
-        .filter(|w| !w.is_zero() && bits(w) < bits(v))
-        .collect()
-}
-
-type Tried<T> = Vec<Result<T, ModelError>>;
-
-fn pencils(p: &Pencil) -> Tried<Pencil> {
-    let n = p.order();
-    let mut out: Tried<Pencil> = Vec::new();
-    for drop in 0..n {
-        let keep: Vec<usize> = (0..n).filter(|i| *i != drop).collect();
-        let free = (0..keep.len())
-            .filter(|&k| p.free().contains(&keep[k]))
-            .collect();
-        out.push(Pencil::new(
-            p.a().submatrix(&keep, &keep),
-            p.b().submatrix(&keep, &keep),
-            free,
-        ));
-    }
-    out.extend(
-        changes(p.a(), false)
-            .into_iter()
-            .map(|a| Pencil::new(a, p.b().clone(), p.free().to_vec())),
-    );
-    out.extend(
-        changes(p.b(), false)
-            .into_iter()
-            .map(|b| Pencil::new(p.a().clone(), b, p.free().to_vec())),
-    );
-    out
-}
-
-fn systems(s: &System) -> Tried<System> {
-    let rebuild = |k: Sparse, m: Option<Sparse>, particles| {
-        System::new(k, m, s.friction().cloned(), particles)
-    };
-    let mut out: Tried<System> = Vec::new();
-    // A particle with its dofs, or a dof of no particle.
-    let owned = |d: usize| {
-        s.particles()
-            .iter()
-            .position(|p| p.tangential == d || p.normal == d)
-    };
-    let groups = (0..s.particles().len())
-        .map(|k| vec![s.particles()[k].tangential, s.particles()[k].normal]);
-    let lone = (0..s.dofs())
-        .filter(|&d| owned(d).is_none())
-        .map(|d| vec![d]);
-    for group in groups.chain(lone) {
-        let keep: Vec<usize> = (0..s.dofs()).filter(|d| !group.contains(d)).collect();
-        let place = |d: usize| keep.iter().position(|k| *k == d);
-        let particles = s.particles().iter().filter_map(|p| {
-            let (tangential, normal) = (place(p.tangential)?, place(p.normal)?);
-            Some(mceip_model::Particle {
-                tangential,
-                normal,
-                ..p.clone()
-            })
-        });
-        let cut = |m: &Sparse| m.submatrix(&keep, &keep);
-        out.push(rebuild(
-            cut(s.stiffness()),
-            s.mass().map(cut),
-            particles.collect(),
-        ));
-    }
-    for k in 0..s.particles().len() {
-        let with = |change: &dyn Fn(&mut mceip_model::Particle)| {
-            let mut particles = s.particles().to_vec();
-            change(&mut particles[k]);
-            rebuild(s.stiffness().clone(), s.mass().cloned(), particles)
-        };
-        out.extend([
-            with(&|p| p.frame = None),
-            with(&|p| p.normal_direction = 1),
-            with(&|p| p.reaction = None),
-        ]);
-    }
-    for mu in s.friction().into_iter().flat_map(simpler) {
-        out.push(System::new(
-            s.stiffness().clone(),
-            s.mass().cloned(),
-            Some(mu),
-            s.particles().to_vec(),
-        ));
-    }
-    out.extend(
-        changes(s.stiffness(), true)
-            .into_iter()
-            .map(|k| rebuild(k, s.mass().cloned(), s.particles().to_vec())),
-    );
-    if let Some(m) = s.mass() {
-        out.extend(
-            changes(m, true)
-                .into_iter()
-                .map(|m| rebuild(s.stiffness().clone(), Some(m), s.particles().to_vec())),
-        );
-    }
-    out
-}
-
-/// The matrix with one entry (and its mirror image, if it is to stay symmetric) zero or
-/// simpler, zeros first.
-fn changes(m: &Sparse, symmetric: bool) -> Vec<Sparse> {
-    let mut out = Vec::new();
-    for (i, j, v) in m.entries().filter(|e| !symmetric || e.0 <= e.1) {
-        for new in [whole(0)].into_iter().chain(simpler(v)) {
-            let here = |r: usize, c: usize| (r, c) == (i, j) || (symmetric && (c, r) == (i, j));
-            let entries = m
-                .entries()
-                .map(|(r, c, old)| (r, c, if here(r, c) { new.clone() } else { old.clone() }));
-            out.push((
-                Sparse::from_entries(m.rows(), m.cols(), entries),
-                new.is_zero(),
-            ));
+    for mu in simpler(&d.mu) {
+        if mu.is_positive() {
+            out.push(TwoParticles { mu, ..d.clone() });
         }
     }
-    out.sort_by_key(|(_, zeroed)| !zeroed);
-    out.into_iter().map(|(m, _)| m).collect()
+    out
+}
+
+/// Shorter numbers in place of `v`: 1 or -1, the integer part, half as many digits after the point
+/// or before it. None of them is 0, which callers try by themselves.
+fn simpler(v: &Rational) -> Vec<Rational> {
+    let mut out = vec![
+        v.signum(),
+        v.trunc(),
+        with_half_the_denominator(v),
+        with_half_the_numerator(v),
+    ];
+    out.retain(|w| !w.is_zero() && bits(w) < bits(v));
+    out
+}
+
+/// `v` cut to a fraction over a power of 2 with half as many bits as the denominator.
+fn with_half_the_denominator(v: &Rational) -> Rational {
+    let scale = Integer::one() << (v.denom().bits() / 2);
+    let cut = (v * Rational::from_integer(scale.clone())).to_integer();
+    Rational::new(cut, scale)
+}
+
+/// The integer part of `v` with the lower half of its bits set to zero.
+fn with_half_the_numerator(v: &Rational) -> Rational {
+    let shift = v.numer().bits() / 2;
+    let high = v.to_integer() >> shift;
+    Rational::from_integer(high << shift)
+}
+
+/// What can be made of a body by one change; what the model refuses is left out.
+fn smaller_bodies(body: &Body) -> Vec<Body> {
+    match body {
+        Body::Pencil(pencil) => smaller_pencils(pencil)
+            .into_iter()
+            .flatten()
+            .map(Body::Pencil)
+            .collect(),
+        Body::System(system) => smaller_systems(system)
+            .into_iter()
+            .flatten()
+            .map(Body::System)
+            .collect(),
+    }
+}
+
+/// Bodies that the model may refuse.
+type Tried<T> = Vec<Result<T, ModelError>>;
+
+/// The pencil without one variable, or with one simpler entry of A or B.
+fn smaller_pencils(pencil: &Pencil) -> Tried<Pencil> {
+    let n = pencil.order();
+    let mut out = Vec::new();
+
+    for dropped in 0..n {
+        let keep: Vec<usize> = (0..n).filter(|i| *i != dropped).collect();
+        let a = pencil.a().submatrix(&keep, &keep);
+        let b = pencil.b().submatrix(&keep, &keep);
+        let free = (0..keep.len())
+            .filter(|&k| pencil.free().contains(&keep[k]))
+            .collect();
+        out.push(Pencil::new(a, b, free));
+    }
+
+    for a in simpler_matrices(pencil.a(), Shape::Any) {
+        out.push(Pencil::new(a, pencil.b().clone(), pencil.free().to_vec()));
+    }
+    for b in simpler_matrices(pencil.b(), Shape::Any) {
+        out.push(Pencil::new(pencil.a().clone(), b, pencil.free().to_vec()));
+    }
+    out
+}
+
+/// The system without one particle or one dof, with one simpler particle, with a simpler friction,
+/// or with one simpler entry of K or M.
+fn smaller_systems(system: &System) -> Tried<System> {
+    let mut out = Vec::new();
+    for group in removable_dofs(system) {
+        out.push(without(system, &group));
+    }
+
+    for k in 0..system.particles().len() {
+        out.push(with_particle(system, k, |p| p.frame = None));
+        out.push(with_particle(system, k, |p| p.normal_direction = 1));
+        out.push(with_particle(system, k, |p| p.reaction = None));
+    }
+
+    for mu in system.friction().into_iter().flat_map(simpler) {
+        let stiffness = system.stiffness().clone();
+        let mass = system.mass().cloned();
+        let particles = system.particles().to_vec();
+        out.push(System::new(stiffness, mass, Some(mu), particles));
+    }
+
+    for stiffness in simpler_matrices(system.stiffness(), Shape::Symmetric) {
+        let mass = system.mass().cloned();
+        let particles = system.particles().to_vec();
+        out.push(rebuilt(system, stiffness, mass, particles));
+    }
+    if let Some(mass) = system.mass() {
+        for mass in simpler_matrices(mass, Shape::Symmetric) {
+            let stiffness = system.stiffness().clone();
+            let particles = system.particles().to_vec();
+            out.push(rebuilt(system, stiffness, Some(mass), particles));
+        }
+    }
+    out
+}
+
+/// The system with the same friction and other matrices and particles.
+fn rebuilt(
+    system: &System,
+    stiffness: Sparse,
+    mass: Option<Sparse>,
+    particles: Vec<Particle>,
+) -> Result<System, ModelError> {
+    System::new(stiffness, mass, system.friction().cloned(), particles)
+}
+
+/// Sets of dofs that can be taken away together: the two of each particle, then each dof of no
+/// particle.
+fn removable_dofs(system: &System) -> Vec<Vec<usize>> {
+    let mut out = Vec::new();
+    for particle in system.particles() {
+        out.push(vec![particle.tangential, particle.normal]);
+    }
+
+    for dof in 0..system.dofs() {
+        let is_owned = system
+            .particles()
+            .iter()
+            .any(|p| p.tangential == dof || p.normal == dof);
+        if !is_owned {
+            out.push(vec![dof]);
+        }
+    }
+    out
+}
+
+/// The system without these dofs; particles that lose one are left out.
+fn without(system: &System, dofs: &[usize]) -> Result<System, ModelError> {
+    let keep: Vec<usize> = (0..system.dofs()).filter(|d| !dofs.contains(d)).collect();
+    let stiffness = system.stiffness().submatrix(&keep, &keep);
+    let mass = system.mass().map(|m| m.submatrix(&keep, &keep));
+
+    let mut particles = Vec::new();
+    for particle in system.particles() {
+        let tangential = keep.iter().position(|k| *k == particle.tangential);
+        let normal = keep.iter().position(|k| *k == particle.normal);
+        if let (Some(tangential), Some(normal)) = (tangential, normal) {
+            particles.push(Particle {
+                tangential,
+                normal,
+                ..particle.clone()
+            });
+        }
+    }
+
+    rebuilt(system, stiffness, mass, particles)
+}
+
+/// The system with its `k`-th particle changed.
+fn with_particle(
+    system: &System,
+    k: usize,
+    change: fn(&mut Particle),
+) -> Result<System, ModelError> {
+    let mut particles = system.particles().to_vec();
+    change(&mut particles[k]);
+    rebuilt(
+        system,
+        system.stiffness().clone(),
+        system.mass().cloned(),
+        particles,
+    )
+}
+
+/// What has to stay true of a matrix.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Shape {
+    Any,
+    Symmetric,
+}
+
+/// The matrix with one entry (and its mirror image, if it is to stay symmetric) zero or simpler,
+/// zeros first.
+fn simpler_matrices(matrix: &Sparse, shape: Shape) -> Vec<Sparse> {
+    let mut with_a_zero = Vec::new();
+    let mut with_a_simpler_entry = Vec::new();
+
+    for (i, j, v) in matrix.entries() {
+        let is_mirror_image = shape == Shape::Symmetric && i > j;
+        if is_mirror_image {
+            continue;
+        }
+
+        with_a_zero.push(with_entry(matrix, (i, j), &whole(0), shape));
+        for simpler in simpler(v) {
+            with_a_simpler_entry.push(with_entry(matrix, (i, j), &simpler, shape));
+        }
+    }
+
+    with_a_zero.append(&mut with_a_simpler_entry);
+    with_a_zero
+}
+
+/// The matrix with `new` in one place (and its mirror image, if it is to stay symmetric).
+fn with_entry(matrix: &Sparse, place: (usize, usize), new: &Rational, shape: Shape) -> Sparse {
+    let mut entries = Vec::new();
+    for (row, column, old) in matrix.entries() {
+        let is_here = (row, column) == place;
+        let is_mirror_image = shape == Shape::Symmetric && (column, row) == place;
+        let value = if is_here || is_mirror_image { new } else { old };
+        entries.push((row, column, value.clone()));
+    }
+    Sparse::from_entries(matrix.rows(), matrix.cols(), entries)
 }

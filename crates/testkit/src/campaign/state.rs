@@ -1,4 +1,8 @@
 //! What a campaign has done so far: counts per family, as a file to go on from.
+//!
+//! Instances are taken in a fixed order, so the state holds how many are done and the counts. The
+//! format is `mceip-campaign/1`. Written and read by `mceip campaign --state`; the counts are held
+//! against the floors of `floors`.
 
 use super::engine::Judgement;
 use super::family::Id;
@@ -66,32 +70,34 @@ pub struct Tally {
 impl Tally {
     /// Adds what came of one instance.
     pub fn add(&mut self, id: &Id, judged: &Judgement) {
-        let r = &judged.report;
+        let report = &judged.report;
         self.instances += 1;
-        self.solutions += r.oracle as u64;
-        self.findable += if r.solved { r.oracle as u64 } else { 0 };
-        self.found += r.found as u64;
-        for (starts, coverage) in r.coverage() {
-            self.coverage
-                .entry(starts.word().into())
-                .or_default()
-                .add(&coverage);
+        self.solutions += report.oracle as u64;
+        if report.solved {
+            self.findable += report.oracle as u64;
         }
-        self.accepted += r.accepted as u64;
-        self.forgeries += r.forgeries as u64;
-        self.closed += u64::from(r.completed);
-        self.uncertified += r.uncertified.len() as u64;
-        self.degenerate += u64::from(r.degenerate);
-        self.pivots += r.pivots as u64;
-        for corner in &r.corners {
-            *self.corners.entry(format!("{corner:?}")).or_default() += 1;
+        self.found += report.found as u64;
+        self.accepted += report.accepted as u64;
+        self.forgeries += report.forgeries as u64;
+        self.closed += u64::from(report.completed);
+        self.uncertified += report.uncertified.len() as u64;
+        self.degenerate += u64::from(report.degenerate);
+        self.pivots += report.pivots as u64;
+
+        for (starts, coverage) in report.coverage() {
+            let word = starts.word().to_string();
+            self.coverage.entry(word).or_default().add(&coverage);
         }
-        self.disagreements.extend(
-            judged
-                .findings
-                .iter()
-                .map(|f| format!("{id}: {}: {}", f.engine, f.disagreement)),
-        );
+
+        for corner in &report.corners {
+            let name = format!("{corner:?}");
+            *self.corners.entry(name).or_default() += 1;
+        }
+
+        for finding in &judged.findings {
+            let said = format!("{id}: {}: {}", finding.engine, finding.disagreement);
+            self.disagreements.push(said);
+        }
     }
 }
 
@@ -130,17 +136,22 @@ impl State {
     pub fn id(&self, k: u64) -> Id {
         let count = self.families.len() as u64;
         let family = self.families[(k % count) as usize].clone();
+
+        let (part, parts) = self.shard;
         Id {
             family,
             seed: self.seed,
-            index: k / count * self.shard.1 + self.shard.0,
+            index: k / count * parts + part,
         }
     }
 
     /// Disagreements in all families, shortfalls among them.
     pub fn disagreements(&self) -> usize {
-        let single: usize = self.tallies.iter().map(|t| t.disagreements.len()).sum();
-        single + self.shortfalls().len()
+        let mut count = self.shortfalls().len();
+        for tally in &self.tallies {
+            count += tally.disagreements.len();
+        }
+        count
     }
 
     /// Coverage of each family and kind of start that was met.
@@ -157,16 +168,19 @@ impl State {
                 }
             }
         }
+
         out
     }
 
     /// Rates that are below their floors by more than chance explains: findings of a family, not of
     /// an instance.
     pub fn shortfalls(&self) -> Vec<Shortfall> {
-        self.covered()
-            .iter()
-            .flat_map(|c| shortfalls(&c.family, c.starts, &c.coverage))
-            .collect()
+        let mut out = Vec::new();
+        for covered in self.covered() {
+            let low = shortfalls(&covered.family, covered.starts, &covered.coverage);
+            out.extend(low);
+        }
+        out
     }
 
     /// Instances judged in all families.
@@ -187,31 +201,44 @@ impl State {
     pub fn resumed(&self, text: &str) -> Result<State, StateError> {
         require_format(text, STATE_FORMAT)?;
         let state: State = from_json(text)?;
-        let pairs = [
-            ("seed", self.seed.to_string(), state.seed.to_string()),
-            (
-                "shard",
-                format!("{:?}", self.shard),
-                format!("{:?}", state.shard),
-            ),
-            (
-                "families",
-                self.families.join(" "),
-                state.families.join(" "),
-            ),
-            (
-                "tallies",
-                self.tallies.len().to_string(),
-                state.tallies.len().to_string(),
-            ),
-        ];
-        match pairs.into_iter().find(|(_, expected, got)| expected != got) {
-            Some((what, expected, got)) => Err(StateError::Other {
-                what,
-                expected,
-                got,
-            }),
-            None => Ok(state),
+
+        for (expected, got) in self.settings().into_iter().zip(state.settings()) {
+            if expected.value != got.value {
+                return Err(StateError::Other {
+                    what: expected.what,
+                    expected: expected.value,
+                    got: got.value,
+                });
+            }
         }
+        Ok(state)
     }
+
+    /// What has to be the same in a state that is gone on from.
+    fn settings(&self) -> [Setting; 4] {
+        [
+            Setting {
+                what: "seed",
+                value: self.seed.to_string(),
+            },
+            Setting {
+                what: "shard",
+                value: format!("{:?}", self.shard),
+            },
+            Setting {
+                what: "families",
+                value: self.families.join(" "),
+            },
+            Setting {
+                what: "tallies",
+                value: self.tallies.len().to_string(),
+            },
+        ]
+    }
+}
+
+/// A setting of a campaign, as an error names it.
+struct Setting {
+    what: &'static str,
+    value: String,
 }

@@ -1,10 +1,14 @@
 //! A case: a problem, its complete exact answer, and what it is about.
+//!
+//! A [`Draft`] is a problem without an answer, as `groups` makes it or `pack` reads it.
+//! [`Case::answer`] answers it by the plain oracle. Cases are written to the pack and sent to
+//! foreign programs, whose reports `judge` compares with the answer.
 
 use super::error::ConformError;
 use super::flag::{Flag, derive};
 use mceip_engine::reduction::{Reduced, reduce};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
-use mceip_model::Problem;
+use mceip_model::{Body, ModelError, Problem};
 use mceip_oracle::{Enumeration, enumerate};
 use serde_json::Value;
 use std::collections::BTreeSet;
@@ -58,19 +62,16 @@ impl Case {
     /// [`ConformError::Oracle`] for a problem beyond the plain oracle, [`ConformError::Problem`]
     /// for a system that lacks what its unknown needs.
     pub fn answer(draft: &Draft, as_pencil: bool) -> Result<Case, ConformError> {
-        let at = |source| ConformError::Problem {
-            place: draft.id.clone(),
+        let reduced = reduce(&draft.problem).map_err(|e| ConformError::problem(&draft.id, e))?;
+        let answer = enumerate(&reduced.pencil, draft.problem.window());
+        let answer = answer.map_err(|source| ConformError::Oracle {
+            case: draft.id.clone(),
             source,
-        };
-        let reduced = reduce(&draft.problem).map_err(at)?;
-        let answer = enumerate(&reduced.pencil, draft.problem.window()).map_err(|source| {
-            ConformError::Oracle {
-                case: draft.id.clone(),
-                source,
-            }
         })?;
+
         let mut flags = derive(&draft.problem, &reduced, &answer);
         flags.extend(&draft.flags);
+
         let mut case = Case {
             id: draft.id.clone(),
             comment: draft.comment.clone(),
@@ -80,23 +81,32 @@ impl Case {
             answer,
         };
         if as_pencil {
-            let body = mceip_model::Body::Pencil(case.reduced.pencil.clone());
-            let pencil = Problem::new(body, case.problem.unknown(), case.problem.window().clone())
-                .map_err(at)?;
-            case.problem = pencil.named(draft.id.clone());
-            case.reduced = reduce(&case.problem).map_err(at)?;
+            case.replace_by_its_pencil()
+                .map_err(|e| ConformError::problem(&draft.id, e))?;
         }
+
         Ok(case)
+    }
+
+    /// Puts the reduced pencil in place of the problem. Flags and answer stay.
+    fn replace_by_its_pencil(&mut self) -> Result<(), ModelError> {
+        let body = Body::Pencil(self.reduced.pencil.clone());
+        let window = self.problem.window().clone();
+        let pencil = Problem::new(body, self.problem.unknown(), window)?;
+
+        self.problem = pencil.named(self.id.clone());
+        self.reduced = reduce(&self.problem)?;
+        Ok(())
     }
 
     /// The complete answer as `mceip-solutions/1`.
     pub fn answer_json(&self) -> Value {
-        let solutions = self
-            .answer
-            .solutions
-            .iter()
-            .map(|s| Listed::of_solution(&self.problem, &self.reduced, s))
-            .collect();
+        let mut solutions = Vec::new();
+        for solution in &self.answer.solutions {
+            let listed = Listed::of_solution(&self.problem, &self.reduced, solution);
+            solutions.push(listed);
+        }
+
         solutions_json(&Report {
             problem: &self.problem,
             reduced: &self.reduced,
@@ -113,8 +123,7 @@ impl Case {
 
     /// Is there anything to be found?
     pub fn has_solutions(&self) -> bool {
-        !(self.answer.solutions.is_empty()
-            && self.answer.cones.is_empty()
-            && self.answer.ranges.is_empty())
+        let answer = &self.answer;
+        !answer.solutions.is_empty() || !answer.cones.is_empty() || !answer.ranges.is_empty()
     }
 }

@@ -1,4 +1,7 @@
 //! Why a conformance run or a pack is refused.
+//!
+//! Each reason is a variant that names the case, the file or the command. Returned by the functions
+//! of this folder and printed by `mceip conform`.
 
 use mceip_model::ModelError;
 use mceip_oracle::OracleError;
@@ -70,4 +73,14 @@ pub enum ConformError {
         /// How many.
         threads: usize,
     },
+}
+
+impl ConformError {
+    /// A problem that is refused, and the file or case that it is in.
+    pub(super) fn problem(place: &str, source: ModelError) -> ConformError {
+        ConformError::Problem {
+            place: place.to_string(),
+            source,
+        }
+    }
 }

@@ -1,9 +1,14 @@
 //! Flags of cases: what a case is about, and the class of bugs it catches.
+//!
+//! A few flags only the maker of a case can know; all others are read off the problem and its exact
+//! answer by [`derive`]. Called by `case` when a draft is answered, and by `summary`, which counts
+//! outcomes by flag.
 
 use mceip_engine::reduction::Reduced;
-use mceip_model::{Body, ContactState, Problem, Unknown};
-use mceip_oracle::Enumeration;
-use num_traits::Zero;
+use mceip_exact::{Algebraic, Rational, parse, rational, whole};
+use mceip_model::{Body, ContactState, Pencil, Problem, System, Unknown, Window};
+use mceip_oracle::{Enumeration, Solution};
+use num_traits::{Signed, Zero};
 use std::collections::BTreeSet;
 
 macro_rules! flags {
@@ -96,125 +101,149 @@ impl Flag {
 
 /// Every flag that the problem and its exact answer show.
 pub(super) fn derive(problem: &Problem, reduced: &Reduced, answer: &Enumeration) -> BTreeSet<Flag> {
-    let mut flags = BTreeSet::new();
-    let mut put = |flag, holds: bool| {
+    let mut shown = Shown::default();
+    shown.look_at_problem(problem);
+    shown.look_at_pencil(&reduced.pencil);
+    shown.look_at_window(problem.window(), answer);
+    shown.look_at_answer(answer);
+    shown.look_at_solutions(&answer.solutions, &reduced.pencil.slip());
+    shown.flags
+}
+
+/// The flags seen so far.
+#[derive(Default)]
+struct Shown {
+    flags: BTreeSet<Flag>,
+}
+
+impl Shown {
+    /// Adds the flag if it holds.
+    fn put(&mut self, flag: Flag, holds: bool) {
         if holds {
-            flags.insert(flag);
-        }
-    };
-    put(Flag::Lambda2, problem.unknown() == Unknown::Lambda2);
-    put(Flag::Mu, problem.unknown() == Unknown::Mu);
-    let pencil = &reduced.pencil;
-    put(Flag::OneByOne, pencil.order() == 1);
-    put(Flag::FreeVariables, !pencil.free().is_empty());
-    let (large, small) = (
-        mceip_exact::whole(100_000),
-        mceip_exact::rational(1, 100_000),
-    );
-    let extreme = |v: &mceip_exact::Rational| {
-        !v.is_zero() && (*v > large || -v > large || (*v < small && -v < small))
-    };
-    put(
-        Flag::Scaled,
-        pencil
-            .a()
-            .entries()
-            .chain(pencil.b().entries())
-            .any(|e| extreme(e.2)),
-    );
-    match problem.body() {
-        Body::Pencil(_) => put(Flag::Pencil, true),
-        Body::System(system) => {
-            put(Flag::System, true);
-            for p in system.particles() {
-                put(Flag::Stick, p.state == ContactState::Stick);
-                put(Flag::FreeParticle, p.state == ContactState::Free);
-                put(
-                    Flag::NormalAway,
-                    p.normal_direction == -1 && matches!(p.state, ContactState::Slip { .. }),
-                );
-                put(Flag::Oblique, p.frame.is_some());
-            }
-            put(
-                Flag::CoupledMass,
-                system
-                    .mass()
-                    .is_some_and(|m| m.entries().any(|(i, j, _)| i != j)),
-            );
+            self.flags.insert(flag);
         }
     }
-    of_window(problem, answer, &mut put);
-    of_answer(reduced, answer, &mut put);
-    flags
+
+    fn look_at_problem(&mut self, problem: &Problem) {
+        self.put(Flag::Lambda2, problem.unknown() == Unknown::Lambda2);
+        self.put(Flag::Mu, problem.unknown() == Unknown::Mu);
+
+        match problem.body() {
+            Body::Pencil(_) => self.put(Flag::Pencil, true),
+            Body::System(system) => self.look_at_system(system),
+        }
+    }
+
+    fn look_at_system(&mut self, system: &System) {
+        self.put(Flag::System, true);
+        for p in system.particles() {
+            let slips = matches!(p.state, ContactState::Slip { .. });
+            self.put(Flag::Stick, p.state == ContactState::Stick);
+            self.put(Flag::FreeParticle, p.state == ContactState::Free);
+            self.put(Flag::NormalAway, p.normal_direction == -1 && slips);
+            self.put(Flag::Oblique, p.frame.is_some());
+        }
+
+        if let Some(mass) = system.mass() {
+            let is_coupled = mass.entries().any(|(i, j, _)| i != j);
+            self.put(Flag::CoupledMass, is_coupled);
+        }
+    }
+
+    fn look_at_pencil(&mut self, pencil: &Pencil) {
+        self.put(Flag::OneByOne, pencil.order() == 1);
+        self.put(Flag::FreeVariables, !pencil.free().is_empty());
+
+        let mut entries = pencil.a().entries().chain(pencil.b().entries());
+        self.put(Flag::Scaled, entries.any(|(_, _, v)| is_extreme(v)));
+    }
+
+    fn look_at_window(&mut self, window: &Window, answer: &Enumeration) {
+        let is_bounded = window.max().is_some() || !window.min().is_zero();
+        self.put(Flag::Window, is_bounded);
+
+        // Zero is the end of every window without a lower bound.
+        let mut ends = Vec::new();
+        if !window.min().is_zero() {
+            ends.push(window.min());
+        }
+        ends.extend(window.max());
+
+        let of_solutions = answer.solutions.iter().map(|s| &s.value);
+        let of_cones = answer.cones.iter().map(|c| &c.value);
+        for value in of_solutions.chain(of_cones) {
+            let mut value = value.clone();
+            let is_end = ends.iter().any(|end| value.cmp_rational(end).is_eq());
+            self.put(Flag::WindowEnd, is_end);
+        }
+    }
+
+    fn look_at_answer(&mut self, answer: &Enumeration) {
+        let count = answer.solutions.len() + answer.cones.len() + answer.ranges.len();
+        self.put(Flag::NoSolution, count == 0);
+        self.put(Flag::ManySolutions, count >= 10);
+        self.put(Flag::WideKernel, !answer.wide.is_empty());
+        self.put(Flag::Cone, !answer.cones.is_empty());
+        self.put(Flag::SingularPencil, !answer.continua.is_empty());
+        self.put(Flag::Continuum, !answer.ranges.is_empty());
+        self.put(Flag::FreeOnly, answer.is_outside_propositions());
+    }
+
+    /// Looks at each solution, and at each two that follow each other in order of value.
+    fn look_at_solutions(&mut self, listed: &[Solution], slip: &[usize]) {
+        for solution in listed {
+            let mut value = solution.value.clone();
+            value.try_rational();
+            self.put(Flag::Irrational, value.as_rational().is_none());
+
+            let is_zero = value.cmp_rational(&Rational::zero()).is_eq();
+            self.put(Flag::ZeroValue, is_zero);
+            self.put(Flag::RepeatedRoot, solution.multiplicity > 1);
+            self.put(Flag::Biactive, !solution.biactive.is_empty());
+            self.put(Flag::TinyComponent, has_tiny_component(solution, slip));
+        }
+
+        for pair in listed.windows(2) {
+            let lower = &pair[0].value;
+            let upper = &pair[1].value;
+            let are_equal = lower.clone().equals(&mut upper.clone());
+            self.put(Flag::SharedValue, are_equal);
+            self.put(Flag::CloseValues, !are_equal && are_close(lower, upper));
+        }
+    }
 }
 
-fn of_window(problem: &Problem, answer: &Enumeration, put: &mut impl FnMut(Flag, bool)) {
-    let window = problem.window();
-    put(
-        Flag::Window,
-        window.max().is_some() || !window.min().is_zero(),
-    );
-    let ends = [Some(window.min()).filter(|m| !m.is_zero()), window.max()];
-    let values = answer
-        .solutions
-        .iter()
-        .map(|s| &s.value)
-        .chain(answer.cones.iter().map(|c| &c.value));
-    for mut value in values.cloned() {
-        put(
-            Flag::WindowEnd,
-            ends.iter()
-                .flatten()
-                .any(|end| value.cmp_rational(end).is_eq()),
-        );
-    }
+/// Is the number not zero, and above 1e5 or below 1e-5 in size?
+fn is_extreme(v: &Rational) -> bool {
+    let size = v.abs();
+    !v.is_zero() && (size > whole(100_000) || size < rational(1, 100_000))
 }
 
-fn of_answer(reduced: &Reduced, answer: &Enumeration, put: &mut impl FnMut(Flag, bool)) {
-    let listed = &answer.solutions;
-    let count = listed.len() + answer.cones.len() + answer.ranges.len();
-    put(Flag::NoSolution, count == 0);
-    put(Flag::ManySolutions, count >= 10);
-    put(Flag::WideKernel, !answer.wide.is_empty());
-    put(Flag::Cone, !answer.cones.is_empty());
-    put(Flag::SingularPencil, !answer.continua.is_empty());
-    put(Flag::Continuum, !answer.ranges.is_empty());
-    put(Flag::FreeOnly, answer.is_outside_propositions());
-    let close = mceip_exact::rational(1, 100);
-    for s in listed {
-        let mut value = s.value.clone();
-        value.try_rational();
-        put(Flag::Irrational, value.as_rational().is_none());
-        put(
-            Flag::ZeroValue,
-            value.cmp_rational(&mceip_exact::Rational::zero()).is_eq(),
-        );
-        put(Flag::RepeatedRoot, s.multiplicity > 1);
-        put(Flag::Biactive, !s.biactive.is_empty());
-        put(Flag::TinyComponent, tiny(s, &reduced.pencil.slip()));
-    }
-    for pair in listed.windows(2) {
-        let equal = pair[0].value.clone().equals(&mut pair[1].value.clone());
-        let gap = &pair[1].value.interval().lo().clone() - pair[0].value.interval().hi();
-        let apart = {
-            let (mut a, mut b) = (pair[0].value.clone(), pair[1].value.clone());
-            a.refine_to(&(&close / mceip_exact::whole(100)));
-            b.refine_to(&(&close / mceip_exact::whole(100)));
-            b.interval().mid() - a.interval().mid()
-        };
-        put(Flag::SharedValue, equal);
-        put(Flag::CloseValues, !equal && gap < close && apart < close);
-    }
+/// Is upper - lower less than 1/100, by the isolating intervals and by midpoints of intervals of
+/// width at most 1e-4?
+fn are_close(lower: &Algebraic, upper: &Algebraic) -> bool {
+    let close = rational(1, 100);
+    let gap = upper.interval().lo() - lower.interval().hi();
+
+    let width = &close / whole(100);
+    let mut lower = lower.clone();
+    let mut upper = upper.clone();
+    lower.refine_to(&width);
+    upper.refine_to(&width);
+    let distance = upper.interval().mid() - lower.interval().mid();
+
+    gap < close && distance < close
 }
 
 /// Is a positive component below 1e-3 of e'x_s? By correctly rounded decimals: 0.000... or an
 /// exponent.
-fn tiny(s: &mceip_oracle::Solution, slip: &[usize]) -> bool {
-    let limit = mceip_exact::rational(1, 1000);
-    let decimals = s.x_decimals(slip, 17);
-    s.slip
+fn has_tiny_component(solution: &Solution, slip: &[usize]) -> bool {
+    let limit = rational(1, 1000);
+    let decimals = solution.x_decimals(slip, 17);
+    solution
+        .slip
         .iter()
-        .any(|&i| mceip_exact::parse(&decimals[i]).is_ok_and(|v| v < limit))
+        .any(|&i| parse(&decimals[i]).is_ok_and(|v| v < limit))
 }
 
 #[cfg(test)]
@@ -225,11 +254,11 @@ mod tests {
     fn words_are_distinct_and_read_back() {
         let words: BTreeSet<&str> = Flag::ALL.iter().map(|f| f.word()).collect();
         assert_eq!(words.len(), Flag::ALL.len());
-        assert!(
-            Flag::ALL
-                .iter()
-                .all(|f| Flag::of_word(f.word()) == Some(*f) && f.note().ends_with('.'))
-        );
+
+        for flag in Flag::ALL {
+            assert_eq!(Flag::of_word(flag.word()), Some(*flag));
+            assert!(flag.note().ends_with('.'), "{flag:?}");
+        }
         assert_eq!(Flag::of_word("anything"), None);
     }
 }

@@ -1,4 +1,8 @@
 //! The groups of the pack: which problems, and what only their maker knows about them.
+//!
+//! Output: drafts, each with a comment and the flags that cannot be read off the problem. Nothing
+//! is random but for the last two groups, which have a fixed seed. Called by `mceip conform` and by
+//! the test that writes the pack; [`random_draft`] makes further cases for `run`.
 
 use super::case::{Draft, Group};
 use super::error::ConformError;
@@ -53,14 +57,17 @@ pub fn random_draft(k: usize, seed: u64) -> Result<Draft, ModelError> {
     let seed_of = seed
         .wrapping_mul(0x9E37_79B9_7F4A_7C15)
         .wrapping_add(k as u64);
+
     let made = if k % 4 == 3 {
         mechanical(1 + k / 4 % 2, seed_of)?
     } else {
         random_pencils(1 + k % 2, seed_of)?
     };
+
     let instance = made.into_iter().next_back().ok_or(ModelError::Empty {
         what: "random family",
     })?;
+
     Ok(draft(
         format!("random-{seed}-{k}"),
         instance.label,
@@ -93,16 +100,19 @@ fn group(name: &str, comment: &str, drafts: Vec<Draft>) -> Group {
 }
 
 fn random(name: &str, comment: &str, list: Vec<Instance>) -> Group {
-    let one = |(k, i): (usize, Instance)| {
-        draft(format!("{name}-{k}"), i.label, &[Flag::Random], i.problem)
-    };
-    group(
-        name,
-        comment,
-        list.into_iter().enumerate().map(one).collect(),
-    )
+    let mut drafts = Vec::new();
+    for (k, instance) in list.into_iter().enumerate() {
+        drafts.push(draft(
+            format!("{name}-{k}"),
+            instance.label,
+            &[Flag::Random],
+            instance.problem,
+        ));
+    }
+    group(name, comment, drafts)
 }
 
+/// The sign patterns S of the two particles.
 const SIGNS: [(i8, i8); 4] = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
 
 /// MCEIP-lambda2 of Fig. 1: every sign pattern at four angles; frictions below, on and above each
@@ -110,15 +120,13 @@ const SIGNS: [(i8, i8); 4] = [(1, 1), (1, -1), (-1, 1), (-1, -1)];
 fn table1() -> Result<Group, ModelError> {
     let mut drafts = Vec::new();
     let angles = pythagorean_angles();
-    for (number, (c, s)) in [&angles[0], &angles[2], &angles[6], &angles[7]]
-        .into_iter()
-        .enumerate()
-    {
-        let (k, m) = if number % 2 == 0 {
-            (whole(1), whole(1))
-        } else {
-            (rational(7, 3), rational(5, 2))
-        };
+    let chosen = [&angles[0], &angles[2], &angles[6], &angles[7]];
+
+    for (number, (c, s)) in chosen.into_iter().enumerate() {
+        let has_units = number % 2 == 0;
+        let k = if has_units { whole(1) } else { rational(7, 3) };
+        let m = if has_units { whole(1) } else { rational(5, 2) };
+
         for (mu, place) in frictions(c, s) {
             for signs in SIGNS {
                 let data = TwoParticles {
@@ -129,27 +137,24 @@ fn table1() -> Result<Group, ModelError> {
                     mu: mu.clone(),
                     signs,
                 };
+
+                // The thresholds are those of S = (+1, -1).
                 let flags: Vec<Flag> = if signs == (1, -1) {
                     place.into_iter().collect()
                 } else {
                     Vec::new()
                 };
-                let problem = Problem::new(
-                    Body::System(two_particles(&data)?),
-                    Unknown::Lambda2,
-                    Window::all(),
-                )?;
-                let comment =
-                    format!("Table 1: cos {c}, sin {s}, k {k}, m {m}, mu {mu}, S {signs:?}");
+
                 drafts.push(draft(
                     format!("table1-{:03}", drafts.len()),
-                    comment,
+                    format!("Table 1: cos {c}, sin {s}, k {k}, m {m}, mu {mu}, S {signs:?}"),
                     &flags,
-                    problem,
+                    of_two_particles(&data, Unknown::Lambda2)?,
                 ));
             }
         }
     }
+
     Ok(group(
         "table1",
         "the two particles of Fig. 1, MCEIP-lambda2",
@@ -157,24 +162,28 @@ fn table1() -> Result<Group, ModelError> {
     ))
 }
 
+fn of_two_particles(data: &TwoParticles, unknown: Unknown) -> Result<Problem, ModelError> {
+    let system = two_particles(data)?;
+    Problem::new(Body::System(system), unknown, Window::all())
+}
+
 /// Frictions for one angle: plain ones, and the two rational thresholds of (+1, -1) with their
 /// neighbours.
 fn frictions(c: &Rational, s: &Rational) -> Vec<(Rational, Option<Flag>)> {
-    let mut list: Vec<(Rational, Option<Flag>)> = [rational(1, 2), whole(5), whole(20)]
-        .map(|mu| (mu, None))
-        .to_vec();
+    let mut list = vec![(rational(1, 2), None), (whole(5), None), (whole(20), None)];
+
     let cs = c * s;
-    if !cs.is_zero() {
-        let tiny = rational(1, 1_000_000_000);
-        for top in [c * c + Rational::one(), c * c + whole(2)] {
-            let mu = top / &cs;
-            let near = Some(Flag::NearThreshold);
-            list.extend([
-                (&mu - &tiny, near),
-                (mu.clone(), Some(Flag::Threshold)),
-                (mu + &tiny, near),
-            ]);
-        }
+    if cs.is_zero() {
+        return list;
+    }
+
+    let tiny = rational(1, 1_000_000_000);
+    let near = Some(Flag::NearThreshold);
+    for top in [c * c + Rational::one(), c * c + whole(2)] {
+        let threshold = top / &cs;
+        list.push((&threshold - &tiny, near));
+        list.push((threshold.clone(), Some(Flag::Threshold)));
+        list.push((threshold + &tiny, near));
     }
     list
 }
@@ -183,6 +192,7 @@ fn frictions(c: &Rational, s: &Rational) -> Vec<(Rational, Option<Flag>)> {
 fn static_thresholds() -> Result<Group, ModelError> {
     let mut drafts = Vec::new();
     let angles = pythagorean_angles();
+
     for (c, s) in [&angles[0], &angles[3], &angles[5], &angles[7]] {
         for signs in SIGNS {
             let data = TwoParticles {
@@ -193,19 +203,16 @@ fn static_thresholds() -> Result<Group, ModelError> {
                 mu: whole(1),
                 signs,
             };
-            let problem = Problem::new(
-                Body::System(two_particles(&data)?),
-                Unknown::Mu,
-                Window::all(),
-            )?;
+
             drafts.push(draft(
                 format!("mu-{:02}", drafts.len()),
                 format!("static thresholds: cos {c}, sin {s}, S {signs:?}"),
                 &[],
-                problem,
+                of_two_particles(&data, Unknown::Mu)?,
             ));
         }
     }
+
     Ok(group(
         "static-thresholds",
         "the two particles of Fig. 1, MCEIP-mu",
@@ -213,6 +220,7 @@ fn static_thresholds() -> Result<Group, ModelError> {
     ))
 }
 
+/// A matrix of small integers by rows.
 type Rows<'a> = &'a [&'a [i64]];
 
 fn problem(
@@ -225,17 +233,19 @@ fn problem(
     Problem::new(Body::Pencil(pencil), unknown, Window::all())
 }
 
+/// Identity matrices.
 const I2: Rows<'_> = &[&[1, 0], &[0, 1]];
 const I3: Rows<'_> = &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]];
 
 /// The corners of `testkit`, and more: order 1, repeated roots, biactive indices, zero values, wide
 /// kernels.
 fn degenerate() -> Result<Group, ModelError> {
-    let of_testkit = crate::families::degenerate()?.into_iter();
-    let mut drafts: Vec<Draft> = of_testkit
-        .enumerate()
-        .map(|(k, i)| draft(format!("degenerate-{k:02}"), i.label, &[], i.problem))
-        .collect();
+    let mut drafts = Vec::new();
+    for (k, instance) in crate::families::degenerate()?.into_iter().enumerate() {
+        let id = format!("degenerate-{k:02}");
+        drafts.push(draft(id, instance.label, &[], instance.problem));
+    }
+
     let cases: [(&str, Rows<'_>, Rows<'_>, &[usize]); 17] = [
         ("order 1, t = 0", &[&[0]], &[&[1]], &[]),
         ("order 1, free only", &[&[-3]], &[&[2]], &[0]),
@@ -300,6 +310,7 @@ fn degenerate() -> Result<Group, ModelError> {
         ),
         ("complex eigenvalues only", &[&[1, 3], &[-3, 1]], I2, &[]),
     ];
+
     for (k, (comment, a, b, free)) in cases.into_iter().enumerate() {
         drafts.push(draft(
             format!("corner-{k:02}"),
@@ -308,6 +319,7 @@ fn degenerate() -> Result<Group, ModelError> {
             problem(a, b, free, Unknown::Lambda2)?,
         ));
     }
+
     Ok(group(
         "degenerate",
         "degenerate corners built on purpose",
@@ -356,6 +368,7 @@ fn singular() -> Result<Group, ModelError> {
             &[0],
         ),
     ];
+
     let mut drafts = Vec::new();
     for (k, (comment, a, b, free)) in cases.into_iter().enumerate() {
         drafts.push(draft(
@@ -365,16 +378,19 @@ fn singular() -> Result<Group, ModelError> {
             problem(a, b, free, Unknown::Mu)?,
         ));
     }
+
     let cut = drafts[2]
         .problem
         .clone()
         .with_window(Window::new(whole(1), Some(whole(4)))?);
+
     drafts.push(draft(
         "singular-07",
         "from 2 on, cut to the window [1, 4]",
         &[],
         cut,
     ));
+
     Ok(group(
         "singular",
         "pencils that are singular for every value",
@@ -384,9 +400,10 @@ fn singular() -> Result<Group, ModelError> {
 
 /// The fold 2 and 3 and the path graph in windows that cut, touch and miss their values.
 fn windows() -> Result<Group, ModelError> {
-    let fold = problem(&[&[1, -6], &[2, -6]], I2, &[], Unknown::Lambda2)?;
+    let fold = problem(FOLD, I2, &[], Unknown::Lambda2)?;
     let path = known::path(4)?.problem;
     let tiny = rational(1, 1_000_000);
+
     let list: Vec<(&str, &Problem, Rational, Option<Rational>)> = vec![
         ("both ends are values", &fold, whole(2), Some(whole(3))),
         ("a point that is a value", &fold, whole(2), Some(whole(2))),
@@ -425,6 +442,7 @@ fn windows() -> Result<Group, ModelError> {
         ("irrational values only", &path, rational(11, 10), None),
         ("the point 1", &path, whole(1), Some(whole(1))),
     ];
+
     let mut drafts = Vec::new();
     for (k, (comment, base, min, max)) in list.into_iter().enumerate() {
         drafts.push(draft(
@@ -434,6 +452,7 @@ fn windows() -> Result<Group, ModelError> {
             base.clone().with_window(Window::new(min, max)?),
         ));
     }
+
     Ok(group(
         "windows",
         "bounded windows: closed ends, points, nothing inside",
@@ -443,10 +462,19 @@ fn windows() -> Result<Group, ModelError> {
 
 /// Folds on both sides, tiny components, entries of all sizes.
 fn thresholds_of_folds() -> Result<Group, ModelError> {
-    let mut drafts = Vec::new();
-    // (1 + t) x1 - 4 x2 = 0, x1 + (-3 + d + t) x2 = 0: double root t = 1 at d = 0, a pair below,
-    // none above.
-    for (d, comment) in [
+    let mut drafts = folds()?;
+    drafts.extend(tiny_components()?);
+    drafts.push(scaled_fold("large", &whole(10_000_000))?);
+    drafts.push(scaled_fold("small", &rational(1, 10_000_000))?);
+    drafts.push(fold_with_scaled_rows()?);
+
+    Ok(group("folds", "folds, tiny components, scales", drafts))
+}
+
+/// (1 + t) x1 - 4 x2 = 0, x1 + (-3 + d + t) x2 = 0: double root t = 1 at d = 0, a pair below, none
+/// above.
+fn folds() -> Result<Vec<Draft>, ModelError> {
+    let cases = [
         (rational(-1, 100), "a pair at distance 0.2"),
         (rational(-1, 100_000_000), "a pair at distance 2e-4"),
         (
@@ -454,27 +482,31 @@ fn thresholds_of_folds() -> Result<Group, ModelError> {
             "past the fold by 10^-9: nothing on the full support",
         ),
         (rational(1, 100), "past the fold"),
-    ] {
-        let a = Sparse::from_entries(
-            2,
-            2,
-            [
-                (0, 0, whole(1)),
-                (0, 1, whole(-4)),
-                (1, 0, whole(1)),
-                (1, 1, whole(-3) + d),
-            ],
-        );
+    ];
+
+    let mut drafts = Vec::new();
+    for (k, (d, comment)) in cases.into_iter().enumerate() {
+        let at_the_fold = Sparse::from_ints(&[&[1, -4], &[1, -3]]);
+        let moved = Sparse::from_entries(2, 2, [(1, 1, d)]);
+        let a = at_the_fold.add_scaled(&Rational::one(), &moved);
         drafts.push(pencil_draft(
-            format!("fold-{:02}", drafts.len()),
+            format!("fold-{k:02}"),
             comment,
             &[Flag::Fold],
             a,
         )?);
     }
+    Ok(drafts)
+}
+
+/// x = (1, e) at t = 1 with e = 10^-3, 10^-5, 10^-8.
+fn tiny_components() -> Result<Vec<Draft>, ModelError> {
+    let mut drafts = Vec::new();
     for exponent in [3u32, 5, 8] {
-        let e = Rational::new(One::one(), num_bigint::BigInt::from(10).pow(exponent));
+        let power = num_bigint::BigInt::from(10).pow(exponent);
+        let e = Rational::new(One::one(), power);
         let a = Sparse::from_entries(2, 2, [(0, 0, -whole(1) - &e), (0, 1, whole(1)), (1, 0, -e)]);
+
         drafts.push(pencil_draft(
             format!("tiny-{exponent}"),
             format!("x = (1, 10^-{exponent}) at t = 1"),
@@ -482,57 +514,47 @@ fn thresholds_of_folds() -> Result<Group, ModelError> {
             a,
         )?);
     }
-    for (name, factor) in [
-        ("large", whole(10_000_000)),
-        ("small", rational(1, 10_000_000)),
-    ] {
-        let fold = [
-            (0, 0, whole(1)),
-            (0, 1, whole(-6)),
-            (1, 0, whole(2)),
-            (1, 1, whole(-6)),
-        ];
-        let a = Sparse::from_entries(2, 2, fold.map(|(i, j, v)| (i, j, v * &factor)));
-        let b = Sparse::from_entries(2, 2, [(0, 0, factor.clone()), (1, 1, factor.clone())]);
-        let pencil = Pencil::new(a, b, vec![])?;
-        let problem = Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())?;
-        drafts.push(draft(
-            format!("scaled-{name}"),
-            format!("the fold with all entries times {factor}"),
-            &[Flag::Fold],
-            problem,
-        ));
+    Ok(drafts)
+}
+
+/// A of the fold with the solutions 2 and 3; its B is the identity.
+const FOLD: Rows<'_> = &[&[1, -6], &[2, -6]];
+
+/// The fold with all entries times one factor: the same solutions.
+fn scaled_fold(name: &str, factor: &Rational) -> Result<Draft, ModelError> {
+    let zero = Sparse::zeros(2, 2);
+    let a = zero.add_scaled(factor, &Sparse::from_ints(FOLD));
+    let b = zero.add_scaled(factor, &Sparse::identity(2));
+    let pencil = Pencil::new(a, b, vec![])?;
+
+    Ok(draft(
+        format!("scaled-{name}"),
+        format!("the fold with all entries times {factor}"),
+        &[Flag::Fold],
+        Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())?,
+    ))
+}
+
+/// Row scaling changes y alone; column scaling would change x.
+fn fold_with_scaled_rows() -> Result<Draft, ModelError> {
+    let factors = [(0, 0, whole(1_000_000)), (1, 1, rational(1, 1_000_000))];
+    let mut entries = Vec::new();
+    for (i, j, v) in Sparse::from_ints(FOLD).entries() {
+        entries.push((i, j, v * &factors[i].2));
     }
-    // Row scaling changes y alone; column scaling changes x.
-    let a = Sparse::from_entries(
-        2,
-        2,
-        [
-            (0, 0, whole(1_000_000)),
-            (0, 1, whole(-6_000_000)),
-            (1, 0, rational(2, 1_000_000)),
-            (1, 1, rational(-6, 1_000_000)),
-        ],
-    );
-    let b = Sparse::from_entries(
-        2,
-        2,
-        [(0, 0, whole(1_000_000)), (1, 1, rational(1, 1_000_000))],
-    );
-    let problem = Problem::new(
-        Body::Pencil(Pencil::new(a, b, vec![])?),
-        Unknown::Lambda2,
-        Window::all(),
-    )?;
-    drafts.push(draft(
+    let a = Sparse::from_entries(2, 2, entries);
+    let b = Sparse::from_entries(2, 2, factors);
+    let pencil = Pencil::new(a, b, vec![])?;
+
+    Ok(draft(
         "scaled-rows",
         "the fold with its rows times 1e6 and 10^-6",
         &[Flag::Fold],
-        problem,
-    ));
-    Ok(group("folds", "folds, tiny components, scales", drafts))
+        Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())?,
+    ))
 }
 
+/// A draft of A + tI, of order 2.
 fn pencil_draft(
     id: String,
     comment: impl Into<String>,
@@ -560,26 +582,27 @@ fn graphs() -> Result<Group, ModelError> {
         known::z_matrix(5)?,
         known::diagonal(&[whole(2), whole(2), rational(1, 3), whole(-1)])?,
     ];
-    let mut drafts: Vec<Draft> = known
-        .into_iter()
-        .enumerate()
-        .map(|(k, g)| {
-            draft(
-                format!("graph-{k:02}"),
-                format!("{}: {}", g.name, g.closed_form),
-                &[],
-                g.problem,
-            )
-        })
-        .collect();
+
+    let mut drafts = Vec::new();
+    for (k, graph) in known.into_iter().enumerate() {
+        drafts.push(draft(
+            format!("graph-{k:02}"),
+            format!("{}: {}", graph.name, graph.closed_form),
+            &[],
+            graph.problem,
+        ));
+    }
+
     for (k, p) in pareto::pareto_matrices().into_iter().enumerate() {
         let comment = format!(
             "Pareto eigenvalue problem of order {} with {} solutions",
             p.matrix.rows(),
             p.count
         );
+
         drafts.push(draft(format!("pareto-{k:02}"), comment, &[], p.pencil()?));
     }
+
     Ok(group(
         "graphs",
         "graphs with closed forms, and Pareto eigenvalue problems of the literature",
@@ -595,11 +618,9 @@ fn block() -> Result<Group, ConformError> {
     for (slip, stick) in [(2, 0), (3, 1), (5, 0)] {
         let block = Block::new(&BlockModel::refined(slip + stick))?;
         let system = block.system(&block.sliding_states(stick, slip)?, None)?;
-        let reduced = reduce(&Problem::new(
-            Body::System(system),
-            Unknown::Mu,
-            Window::all(),
-        )?)?;
+
+        let full = Problem::new(Body::System(system), Unknown::Mu, Window::all())?;
+        let reduced = reduce(&full)?;
         let pencil = condense(&Admissible::new(&reduced.pencil, Unknown::Mu)?)?;
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
         let comment = format!(
@@ -607,6 +628,7 @@ fn block() -> Result<Group, ConformError> {
         );
         drafts.push(draft(format!("block-{slip}"), comment, &[], problem));
     }
+
     Ok(group(
         "block",
         "the polyurethane block of section 5 on coarse meshes, MCEIP-mu, condensed",

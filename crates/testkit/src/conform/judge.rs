@@ -6,15 +6,20 @@
 //! solution of that claim is in the answer. Scale, order and repetitions do not matter. The answer
 //! is complete if every listed solution, every cone (a solution inside it, with its whole slip set)
 //! and every continuum (its intervals, or a solution on its slip set) is met.
+//!
+//! Input: a case and the text that a program printed. Output: a label and the first reason for it.
+//! Called by `run` for each case of the plan.
 
 use super::case::Case;
 use mceip_check::certificate::{Claim, ExactSolution};
 use mceip_engine::certify::Certifier;
-use mceip_engine::foreign::{BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignReport};
+use mceip_engine::foreign::{
+    BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignReport, Reported,
+};
 use mceip_engine::multistart::{exact_value, integer_x, support};
 use mceip_engine::tolerance::VALUE_RADIUS;
-use mceip_exact::{Algebraic, Poly, Rational, from_f64};
-use mceip_oracle::{End, Enumeration, Solution, SupportRange};
+use mceip_exact::{Algebraic, Poly, Rational, from_f64, to_decimal};
+use mceip_oracle::{End, Solution, SupportRange};
 use num_traits::{One, Signed};
 
 /// What a program did with a case.
@@ -99,193 +104,231 @@ pub fn judge_report(case: &Case, text: &str) -> Judgement {
         Err(e @ ForeignError::Digest { .. }) => return Judgement::new(Label::Wrong, e.to_string()),
         Err(e) => return Judgement::new(Label::Malformed, e.to_string()),
     };
-    let unfit = report
-        .solutions
-        .iter()
-        .filter_map(|s| s.as_ref().err())
-        .find(|bad| !matches!(bad, BadPoint::OffConstraints { .. }));
-    if let Some(bad) = unfit {
-        return Judgement::new(Label::Malformed, bad.to_string());
+
+    // Points off the constraints are wrong answers; any other bad point is no answer.
+    let bad_points = report.solutions.iter().filter_map(|s| s.as_ref().err());
+    for bad in bad_points {
+        if !matches!(bad, BadPoint::OffConstraints { .. }) {
+            return Judgement::new(Label::Malformed, bad.to_string());
+        }
     }
+
     if report.solutions.len() > MAX_SOLUTIONS {
-        return Judgement::new(
-            Label::Malformed,
-            format!("more than {MAX_SOLUTIONS} solutions"),
-        );
+        let why = format!("more than {MAX_SOLUTIONS} solutions");
+        return Judgement::new(Label::Malformed, why);
     }
-    match met(case, &report) {
-        Err(why) => Judgement::new(Label::Wrong, why),
-        Ok(met) => match missing(case, &met) {
-            None => Judgement::new(Label::Correct, ""),
-            Some(what) => Judgement::new(Label::Incomplete, what),
-        },
+
+    let mut met = Met::nothing(case);
+    if let Err(why) = met.place_report(&report) {
+        return Judgement::new(Label::Wrong, why);
+    }
+    match met.missing() {
+        None => Judgement::new(Label::Correct, ""),
+        Some(what) => Judgement::new(Label::Incomplete, what),
     }
 }
 
-/// Which parts of the answer a report has met.
-struct Met {
+/// Which parts of a case's answer a report has met.
+struct Met<'a> {
+    case: &'a Case,
     solutions: Vec<bool>,
     cones: Vec<bool>,
     ranges: Vec<bool>,
 }
 
-/// Places everything reported in the answer; the first thing that has no place is the error.
-fn met(case: &Case, report: &ForeignReport) -> Result<Met, String> {
-    let answer = &case.answer;
-    let mut met = Met {
-        solutions: vec![false; answer.solutions.len()],
-        cones: vec![false; answer.cones.len()],
-        ranges: vec![false; answer.ranges.len()],
-    };
-    let certifier = Certifier::new(&case.problem, &case.reduced.pencil);
-    for (k, solution) in report.solutions.iter().enumerate() {
-        let wrong = |why: String| format!("solution {k}: {why}");
-        let candidate = &solution
-            .as_ref()
-            .map_err(|off| wrong(off.to_string()))?
-            .candidate;
+impl Met<'_> {
+    fn nothing(case: &Case) -> Met<'_> {
+        Met {
+            case,
+            solutions: vec![false; case.answer.solutions.len()],
+            cones: vec![false; case.answer.cones.len()],
+            ranges: vec![false; case.answer.ranges.len()],
+        }
+    }
+
+    /// Places everything reported in the answer; the first thing that has no place is the error.
+    fn place_report(&mut self, report: &ForeignReport) -> Result<(), String> {
+        let certifier = Certifier::new(&self.case.problem, &self.case.reduced.pencil);
+        for (k, solution) in report.solutions.iter().enumerate() {
+            self.place_solution(solution, &certifier)
+                .map_err(|why| format!("solution {k}: {why}"))?;
+        }
+
+        for continuum in &report.continua {
+            self.place_continuum(continuum)?;
+        }
+        Ok(())
+    }
+
+    fn place_solution(
+        &mut self,
+        solution: &Result<Reported, BadPoint>,
+        certifier: &Certifier<'_>,
+    ) -> Result<(), String> {
+        let candidate = match solution {
+            Ok(reported) => &reported.candidate,
+            Err(off) => return Err(off.to_string()),
+        };
+
+        let value = candidate.value;
         let claim = certifier
             .certify(candidate)
-            .map_err(|why| wrong(format!("value {} is not certified: {why}", candidate.value)))?;
-        let placed = match &claim {
-            Claim::ExactSolution(c) => place(case, &claim, c, &mut met),
+            .map_err(|why| format!("value {value} is not certified: {why}"))?;
+
+        let is_placed = match &claim {
+            Claim::ExactSolution(c) => self.place_exact(&claim, c),
             // A lifted one is never made here; like a box it is placed by value and support.
-            Claim::EnclosedSolution(_) | Claim::LiftedSolution(_) => {
-                place_box(answer, &claim, &mut met)
-            }
+            Claim::EnclosedSolution(_) | Claim::LiftedSolution(_) => self.place_box(&claim),
         };
-        if !placed {
-            return Err(wrong(format!(
-                "value {} is certified and not in the complete answer",
-                candidate.value
-            )));
+        if !is_placed {
+            return Err(format!(
+                "value {value} is certified and not in the complete answer"
+            ));
         }
+        Ok(())
     }
-    for reported in &report.continua {
-        let of_slip = answer
-            .ranges
-            .iter()
-            .position(|r| r.support == sorted(&reported.slip));
-        match of_slip.filter(|&k| same_intervals(&answer.ranges[k], reported)) {
-            Some(k) => met.ranges[k] = true,
-            None => {
-                return Err(format!(
-                    "continuum of slip {:?}: its values are not those of the answer",
-                    reported.slip
-                ));
+
+    /// Marks what an exact claim meets; false if the answer does not hold it.
+    fn place_exact(&mut self, claim: &Claim, c: &ExactSolution) -> bool {
+        let answer = &self.case.answer;
+        let Some(value) = exact_value(claim) else {
+            return false;
+        };
+
+        let x = integer_x(c);
+        if !answer.contains(&self.case.reduced.pencil, &value, &x) {
+            return false;
+        }
+
+        let solution = Solution {
+            value: value.clone(),
+            multiplicity: 0,
+            slip: c.support.clone(),
+            biactive: c.biactive.clone(),
+            x,
+            y: Vec::new(),
+        };
+        for (k, listed) in answer.solutions.iter().enumerate() {
+            self.solutions[k] |= *listed == solution;
+        }
+
+        for (k, cone) in answer.cones.iter().enumerate() {
+            let has_the_value = || cone.value.clone().equals(&mut value.clone());
+            self.cones[k] |= cone.slip == c.support && has_the_value();
+        }
+
+        for (k, range) in answer.ranges.iter().enumerate() {
+            self.ranges[k] |= range.support == c.support && range.contains(&value);
+        }
+
+        true
+    }
+
+    /// A box holds one solution of its support: the listed one with this support and a value in the
+    /// box.
+    fn place_box(&mut self, claim: &Claim) -> bool {
+        let Claim::EnclosedSolution(c) = claim else {
+            return false;
+        };
+
+        // The value is the last unknown of the box.
+        let (Some(center), Some(radius)) = (c.center.last(), c.radius.last()) else {
+            return false;
+        };
+        let lo = &center.0 - &radius.0;
+        let hi = &center.0 + &radius.0;
+
+        let mut is_placed = false;
+        for (k, listed) in self.case.answer.solutions.iter().enumerate() {
+            if listed.slip == support(claim) && is_between(&listed.value, &lo, &hi) {
+                self.solutions[k] = true;
+                is_placed = true;
             }
         }
+        is_placed
     }
-    Ok(met)
+
+    fn place_continuum(&mut self, reported: &ForeignContinuum) -> Result<(), String> {
+        let mut slip = reported.slip.clone();
+        slip.sort_unstable();
+
+        let ranges = &self.case.answer.ranges;
+        match ranges.iter().position(|r| r.support == slip) {
+            Some(k) if same_intervals(&ranges[k], reported) => {
+                self.ranges[k] = true;
+                Ok(())
+            }
+            _ => Err(format!(
+                "continuum of slip {:?}: its values are not those of the answer",
+                reported.slip
+            )),
+        }
+    }
+
+    /// The first part of the answer that was not met, and how many. `None` if all were.
+    fn missing(&self) -> Option<String> {
+        let answer = &self.case.answer;
+        let parts = || self.solutions.iter().chain(&self.cones).chain(&self.ranges);
+        let total = parts().count();
+        let count = parts().filter(|is_met| !**is_met).count();
+
+        let first = if let Some(k) = first_unmet(&self.solutions) {
+            let s = &answer.solutions[k];
+            format!("the solution {} with slip {:?}", decimal(&s.value), s.slip)
+        } else if let Some(k) = first_unmet(&self.cones) {
+            let c = &answer.cones[k];
+            format!("the cone at {} with slip {:?}", decimal(&c.value), c.slip)
+        } else {
+            let range = &answer.ranges[first_unmet(&self.ranges)?];
+            format!("the continuum of slip {:?}", range.support)
+        };
+
+        Some(format!("{count} of {total} missing, first {first}"))
+    }
 }
 
-/// Marks what an exact claim meets; false if the answer does not hold it.
-fn place(case: &Case, claim: &Claim, c: &ExactSolution, met: &mut Met) -> bool {
-    let Some(value) = exact_value(claim) else {
-        return false;
-    };
-    let x = integer_x(c);
-    if !case.answer.contains(&case.reduced.pencil, &value, &x) {
-        return false;
-    }
-    let solution = Solution {
-        value: value.clone(),
-        multiplicity: 0,
-        slip: c.support.clone(),
-        biactive: c.biactive.clone(),
-        x,
-        y: Vec::new(),
-    };
-    for (k, s) in case.answer.solutions.iter().enumerate() {
-        met.solutions[k] |= *s == solution;
-    }
-    for (k, cone) in case.answer.cones.iter().enumerate() {
-        met.cones[k] |= cone.slip == c.support && cone.value.clone().equals(&mut value.clone());
-    }
-    for (k, range) in case.answer.ranges.iter().enumerate() {
-        met.ranges[k] |= range.support == c.support && range.contains(&value);
-    }
-    true
+fn first_unmet(is_met: &[bool]) -> Option<usize> {
+    is_met.iter().position(|m| !m)
 }
 
-/// A box holds one solution of its support: the listed one with this support and a value in the
-/// box.
-fn place_box(answer: &Enumeration, claim: &Claim, met: &mut Met) -> bool {
-    let Claim::EnclosedSolution(c) = claim else {
-        return false;
-    };
-    let (Some(center), Some(radius)) = (c.center.last(), c.radius.last()) else {
-        return false;
-    };
-    let (lo, hi) = (&center.0 - &radius.0, &center.0 + &radius.0);
-    let inside =
-        |v: &Algebraic| v.clone().cmp_rational(&lo).is_ge() && v.clone().cmp_rational(&hi).is_le();
-    let mut placed = false;
-    for (k, s) in answer
-        .solutions
-        .iter()
-        .enumerate()
-        .filter(|(_, s)| s.slip == support(claim) && inside(&s.value))
-    {
-        met.solutions[k] |= s.slip == support(claim);
-        placed = true;
-    }
-    placed
+/// The value with 9 digits.
+fn decimal(value: &Algebraic) -> String {
+    let identity = Poly::from_ints(&[0, 1]);
+    to_decimal(&mut value.clone(), &identity, 9)
 }
 
-fn sorted(list: &[usize]) -> Vec<usize> {
-    let mut list = list.to_vec();
-    list.sort_unstable();
-    list
+fn is_between(value: &Algebraic, lo: &Rational, hi: &Rational) -> bool {
+    let mut value = value.clone();
+    value.cmp_rational(lo).is_ge() && value.cmp_rational(hi).is_le()
 }
 
 /// The same number of intervals, ends within the radius of values, closed where both say so.
 fn same_intervals(range: &SupportRange, reported: &ForeignContinuum) -> bool {
-    let end = |a: &End, b: &ForeignEnd| {
-        let mut value = a.value.clone();
-        let radius = from_f64(VALUE_RADIUS).unwrap_or_default(); // a finite constant
-        let radius = radius * (Rational::one() + b.value.0.abs());
-        let near = value.cmp_rational(&(&b.value.0 - &radius)).is_ge()
-            && value.cmp_rational(&(&b.value.0 + &radius)).is_le();
-        near && b.included.is_none_or(|included| included == a.included)
-    };
-    range.pieces.len() == reported.intervals.len()
-        && range.pieces.iter().zip(&reported.intervals).all(|(a, b)| {
-            end(&a.from, &b.from)
-                && match (&a.to, &b.to) {
-                    (Some(x), Some(y)) => end(x, y),
-                    (None, None) => true,
-                    _ => false,
-                }
-        })
+    if range.pieces.len() != reported.intervals.len() {
+        return false;
+    }
+
+    for (piece, interval) in range.pieces.iter().zip(&reported.intervals) {
+        let same_upper_end = match (&piece.to, &interval.to) {
+            (Some(end), Some(reported)) => same_end(end, reported),
+            (None, None) => true,
+            _ => false,
+        };
+        if !same_end(&piece.from, &interval.from) || !same_upper_end {
+            return false;
+        }
+    }
+    true
 }
 
-/// The first part of the answer that was not met, and how many.
-fn missing(case: &Case, met: &Met) -> Option<String> {
-    let decimal = |value: &Algebraic| {
-        mceip_exact::to_decimal(&mut value.clone(), &Poly::from_ints(&[0, 1]), 9)
-    };
-    let not = |list: &[bool]| {
-        list.iter()
-            .enumerate()
-            .filter(|(_, m)| !**m)
-            .map(|(k, _)| k)
-            .collect::<Vec<_>>()
-    };
-    let (solutions, cones, ranges) = (not(&met.solutions), not(&met.cones), not(&met.ranges));
-    let count = solutions.len() + cones.len() + ranges.len();
-    let total = met.solutions.len() + met.cones.len() + met.ranges.len();
-    let first = if let Some(&k) = solutions.first() {
-        let s = &case.answer.solutions[k];
-        format!("the solution {} with slip {:?}", decimal(&s.value), s.slip)
-    } else if let Some(&k) = cones.first() {
-        let c = &case.answer.cones[k];
-        format!("the cone at {} with slip {:?}", decimal(&c.value), c.slip)
-    } else {
-        format!(
-            "the continuum of slip {:?}",
-            case.answer.ranges[*ranges.first()?].support
-        )
-    };
-    Some(format!("{count} of {total} missing, first {first}"))
+/// Is the end within the radius of a reported value, and closed where the report says so?
+fn same_end(end: &End, reported: &ForeignEnd) -> bool {
+    let reported_value = &reported.value.0;
+    let relative_radius = from_f64(VALUE_RADIUS).unwrap_or_default(); // a finite constant
+    let radius = relative_radius * (Rational::one() + reported_value.abs());
+
+    let lo = reported_value - &radius;
+    let hi = reported_value + &radius;
+    let has_same_closure = reported.included.is_none_or(|is| is == end.included);
+    is_between(&end.value, &lo, &hi) && has_same_closure
 }

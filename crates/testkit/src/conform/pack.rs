@@ -1,10 +1,15 @@
 //! The pack as files: one per group and an index with counts and digests, byte for byte the same
 //! each time.
+//!
+//! [`pack_files`] writes: groups in, names and contents out. [`read_pack`] reads a folder back and
+//! compares digests and answers. Called by `mceip conform --write`, `mceip conform --pack`, and by
+//! the test that compares `spec/conformance-pack/` with what is written.
 
 use super::case::{Case, Draft, Group};
 use super::error::ConformError;
 use super::flag::Flag;
 use super::wrong::Bug;
+use mceip_model::ModelError;
 use mceip_model::file::{from_json, read_problem, read_text, require_format, write_problem};
 use rayon::prelude::*;
 use serde::Deserialize;
@@ -24,61 +29,85 @@ pub const INDEX_FORMAT: &str = "mceip-pack-index/1";
 /// [`ConformError`] for a problem beyond the plain oracle.
 pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, ConformError> {
     let mut files = Vec::new();
-    let mut entries = Vec::new();
-    let (mut flags, mut bugs): (BTreeMap<Flag, usize>, BTreeMap<Bug, usize>) = Default::default();
-    let mut total = 0;
+    let mut counts = Counts::default();
+
     for group in groups {
         let cases: Vec<Case> = group
             .drafts
             .par_iter()
             .map(|d| Case::answer(d, false))
             .collect::<Result<_, _>>()?;
-        let lines: Vec<(String, Vec<Bug>)> = cases.par_iter().map(case_line).collect();
-        cases
-            .iter()
-            .flat_map(|c| &c.flags)
-            .for_each(|f| *flags.entry(*f).or_default() += 1);
-        lines
-            .iter()
-            .flat_map(|l| &l.1)
-            .for_each(|b| *bugs.entry(*b).or_default() += 1);
-        total += cases.len();
-        let wrong: usize = lines.iter().map(|l| l.1.len()).sum();
-        let text = group_text(group, &lines.into_iter().map(|l| l.0).collect::<Vec<_>>());
+        let lines: Vec<CaseLine> = cases.par_iter().map(CaseLine::of).collect();
+
+        let text = group_text(group, &lines);
         let file = format!("{}.json", group.name);
-        entries.push(json!({
+        counts.add(&cases, &lines);
+        counts.groups.push(json!({
             "file": file,
             "comment": group.comment,
             "cases": cases.len(),
-            "wrong": wrong,
+            "wrong": lines.iter().map(|line| line.bugs.len()).sum::<usize>(),
             "sha256": hex(&text),
         }));
         files.push((file, text));
     }
-    let flags: Map<String, Value> = flags
-        .iter()
-        .map(|(f, n)| (f.word().into(), json!({ "cases": n, "note": f.note() })))
-        .collect();
-    let bugs: Map<String, Value> = bugs
-        .iter()
-        .map(|(b, n)| {
-            (
-                b.word().into(),
-                json!({ "count": n, "label": b.expected().word(), "reason": b.reason() }),
-            )
-        })
-        .collect();
-    let index = json!({
-        "format": INDEX_FORMAT,
-        "cases": total,
-        "groups": entries,
-        "flags": flags,
-        "bugs": bugs,
-    });
-    files.push(("index.json".into(), format!("{index:#}\n")));
+
+    files.push(("index.json".into(), counts.index_text()));
     Ok(files)
 }
 
+/// What the index says of all groups.
+#[derive(Default)]
+struct Counts {
+    cases: usize,
+    /// One entry per group: its file, how many cases, the digest.
+    groups: Vec<Value>,
+    /// Cases per flag.
+    flags: BTreeMap<Flag, usize>,
+    /// Wrong answers per bug.
+    bugs: BTreeMap<Bug, usize>,
+}
+
+impl Counts {
+    fn add(&mut self, cases: &[Case], lines: &[CaseLine]) {
+        self.cases += cases.len();
+        for flag in cases.iter().flat_map(|case| &case.flags) {
+            *self.flags.entry(*flag).or_default() += 1;
+        }
+        for bug in lines.iter().flat_map(|line| &line.bugs) {
+            *self.bugs.entry(*bug).or_default() += 1;
+        }
+    }
+
+    fn index_text(self) -> String {
+        let mut flags = Map::new();
+        for (flag, count) in &self.flags {
+            let entry = json!({ "cases": count, "note": flag.note() });
+            flags.insert(flag.word().into(), entry);
+        }
+
+        let mut bugs = Map::new();
+        for (bug, count) in &self.bugs {
+            let entry = json!({
+                "count": count,
+                "label": bug.expected().word(),
+                "reason": bug.reason(),
+            });
+            bugs.insert(bug.word().into(), entry);
+        }
+
+        let index = json!({
+            "format": INDEX_FORMAT,
+            "cases": self.cases,
+            "groups": self.groups,
+            "flags": flags,
+            "bugs": bugs,
+        });
+        format!("{index:#}\n")
+    }
+}
+
+/// SHA-256 of the text.
 fn hex(text: &str) -> String {
     Sha256::digest(text.as_bytes())
         .iter()
@@ -87,47 +116,61 @@ fn hex(text: &str) -> String {
 }
 
 /// One case per line, so that differences can be read.
-fn group_text(group: &Group, lines: &[String]) -> String {
-    let head = |key: &str, value: &str| format!("{}: {},\n", json!(key), json!(value));
-    let (format, name, comment) = (
-        head("format", PACK_FORMAT),
-        head("group", &group.name),
-        head("comment", &group.comment),
-    );
-    format!(
-        "{{\n{format}{name}{comment}\"cases\": [\n{}\n]\n}}\n",
-        lines.join(",\n")
-    )
+fn group_text(group: &Group, lines: &[CaseLine]) -> String {
+    let cases: Vec<&str> = lines.iter().map(|line| &line.text[..]).collect();
+    let mut out = String::from("{\n");
+    out += &format!("\"format\": {},\n", json!(PACK_FORMAT));
+    out += &format!("\"group\": {},\n", json!(group.name));
+    out += &format!("\"comment\": {},\n", json!(group.comment));
+    out += "\"cases\": [\n";
+    out += &cases.join(",\n");
+    out += "\n]\n}\n";
+    out
 }
 
-fn case_line(case: &Case) -> (String, Vec<Bug>) {
-    let wrong = case.wrong_answers();
-    let bugs = wrong.iter().map(|w| w.bug).collect();
-    // Our own writer's JSON.
-    let problem: Value = serde_json::from_str(&write_problem(&case.problem)).unwrap_or_default();
-    let wrong: Vec<Value> = wrong
-        .into_iter()
-        .map(|w| {
-            json!({
-                "bug": w.bug.word(),
-                "label": w.bug.expected().word(),
-                "reason": w.bug.reason(),
-                "report": w.report,
-            })
-        })
-        .collect();
-    let flags: Vec<&str> = case.flags.iter().map(|f| f.word()).collect();
-    let line = json!({
-        "id": case.id,
-        "comment": case.comment,
-        "flags": flags,
-        "problem": problem,
-        "answer": case.answer_json(),
-        "wrong": wrong,
-    });
-    (line.to_string(), bugs)
+/// A case as the pack has it.
+struct CaseLine {
+    /// The JSON object, in one line.
+    text: String,
+    /// The mistakes behind its wrong answers.
+    bugs: Vec<Bug>,
 }
 
+impl CaseLine {
+    fn of(case: &Case) -> CaseLine {
+        let mut bugs = Vec::new();
+        let mut wrong = Vec::new();
+        for answer in case.wrong_answers() {
+            bugs.push(answer.bug);
+            wrong.push(json!({
+                "bug": answer.bug.word(),
+                "label": answer.bug.expected().word(),
+                "reason": answer.bug.reason(),
+                "report": answer.report,
+            }));
+        }
+
+        // Our own writer's JSON is read without error.
+        let problem = write_problem(&case.problem);
+        let problem: Value = serde_json::from_str(&problem).unwrap_or_default();
+        let flags: Vec<&str> = case.flags.iter().map(|f| f.word()).collect();
+        let line = json!({
+            "id": case.id,
+            "comment": case.comment,
+            "flags": flags,
+            "problem": problem,
+            "answer": case.answer_json(),
+            "wrong": wrong,
+        });
+
+        CaseLine {
+            text: line.to_string(),
+            bugs,
+        }
+    }
+}
+
+/// `index.json`; fields with an underscore are for people.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawIndex {
@@ -142,12 +185,14 @@ struct RawIndex {
     _bugs: Value,
 }
 
+/// A group in the index.
 #[derive(Deserialize)]
 struct RawEntry {
     file: String,
     sha256: String,
 }
 
+/// The file of a group.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawGroup {
@@ -158,6 +203,7 @@ struct RawGroup {
     cases: Vec<RawCase>,
 }
 
+/// A case in the file of its group.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawCase {
@@ -178,14 +224,7 @@ struct RawCase {
 /// [`ConformError`]: unreadable or of another version, a digest, a problem, or an answer that
 /// differs.
 pub fn read_pack(folder: &Path) -> Result<Vec<Group>, ConformError> {
-    let at = |place: &str, source| ConformError::Problem {
-        place: place.to_string(),
-        source,
-    };
-    let index =
-        read_text("the index", &folder.join("index.json")).map_err(|e| at("index.json", e))?;
-    require_format(&index, INDEX_FORMAT).map_err(|e| at("index.json", e))?;
-    let index: RawIndex = from_json(&index).map_err(|e| at("index.json", e))?;
+    let index = read_index(folder).map_err(|e| ConformError::problem("index.json", e))?;
     index
         .groups
         .iter()
@@ -193,27 +232,17 @@ pub fn read_pack(folder: &Path) -> Result<Vec<Group>, ConformError> {
         .collect()
 }
 
+fn read_index(folder: &Path) -> Result<RawIndex, ModelError> {
+    let text = read_text("the index", &folder.join("index.json"))?;
+    require_format(&text, INDEX_FORMAT)?;
+    from_json(&text)
+}
+
+/// Reads the file of a group and answers its cases again.
 fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, ConformError> {
-    let at = |source| ConformError::Problem {
-        place: entry.file.clone(),
-        source,
-    };
-    let plain = entry
-        .file
-        .chars()
-        .all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c));
-    if !plain || entry.file.starts_with('.') {
-        let (path, problem) = (
-            entry.file.chars().take(80).collect(),
-            "expected a name beside the index".into(),
-        );
-        return Err(at(mceip_model::ModelError::Unreadable {
-            what: "a group",
-            path,
-            problem,
-        }));
-    }
-    let text = read_text("a group", &folder.join(&entry.file)).map_err(at)?;
+    let text = read_group_text(folder, &entry.file);
+    let text = text.map_err(|e| ConformError::problem(&entry.file, e))?;
+
     let got = hex(&text);
     if got != entry.sha256 {
         return Err(ConformError::Digest {
@@ -222,13 +251,15 @@ fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, ConformError> {
             got,
         });
     }
-    require_format(&text, PACK_FORMAT).map_err(at)?;
-    let raw: RawGroup = from_json(&text).map_err(at)?;
+
+    let raw = require_format(&text, PACK_FORMAT).and_then(|()| from_json(&text));
+    let raw: RawGroup = raw.map_err(|e| ConformError::problem(&entry.file, e))?;
     let drafts = raw
         .cases
         .par_iter()
         .map(read_case)
         .collect::<Result<_, _>>()?;
+
     Ok(Group {
         name: raw.group,
         comment: raw.comment,
@@ -236,31 +267,52 @@ fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, ConformError> {
     })
 }
 
+/// The text of a group's file, which has to lie beside the index.
+fn read_group_text(folder: &Path, file: &str) -> Result<String, ModelError> {
+    let has_plain_letters = file
+        .chars()
+        .all(|c| c.is_ascii_alphanumeric() || "-_.".contains(c));
+    if !has_plain_letters || file.starts_with('.') {
+        return Err(ModelError::Unreadable {
+            what: "a group",
+            path: file.chars().take(80).collect(),
+            problem: "expected a name beside the index".into(),
+        });
+    }
+
+    read_text("a group", &folder.join(file))
+}
+
+/// Reads a case and compares its answer with that of the plain oracle.
 fn read_case(raw: &RawCase) -> Result<Draft, ConformError> {
-    let at = |source| ConformError::Problem {
-        place: raw.id.clone(),
-        source,
-    };
-    let flag = |word: &String| {
-        let got = || word.chars().take(60).collect();
-        Flag::of_word(word).ok_or_else(|| ConformError::Flag {
-            case: raw.id.clone(),
-            got: got(),
-        })
-    };
-    let flags: Vec<Flag> = raw.flags.iter().map(flag).collect::<Result<_, _>>()?;
+    let mut flags = Vec::new();
+    for word in &raw.flags {
+        let Some(flag) = Flag::of_word(word) else {
+            return Err(ConformError::Flag {
+                case: raw.id.clone(),
+                got: word.chars().take(60).collect(),
+            });
+        };
+        if flag.is_given() {
+            flags.push(flag);
+        }
+    }
+
     // Files beside the pack are not read: its problems are inlined.
-    let problem = read_problem(&raw.problem.to_string(), Path::new("/nonexistent")).map_err(at)?;
-    let flags = flags.into_iter().filter(|f| f.is_given()).collect();
+    let problem = read_problem(&raw.problem.to_string(), Path::new("/nonexistent"));
+    let problem = problem.map_err(|e| ConformError::problem(&raw.id, e))?;
+
     let draft = Draft {
         id: raw.id.clone(),
         comment: raw.comment.clone(),
         flags,
         problem,
     };
+
     let case = Case::answer(&draft, false)?;
     if case.answer_json() != raw.answer {
         return Err(ConformError::Answer { case: draft.id });
     }
+
     Ok(draft)
 }

@@ -1,4 +1,8 @@
 //! One run of a foreign program: problem in, report out, bounded in time and memory.
+//!
+//! The problem goes to stdin, the report comes from stdout. A program that hangs, prints without
+//! end, reads nothing or leaves children behind is killed with its process group. Called by `run`
+//! for each case of the plan.
 
 use super::error::ConformError;
 use mceip_engine::run::Watch;
@@ -65,27 +69,11 @@ pub fn run_once(
     limits: &Limits,
     watch: &Watch<'_>,
 ) -> Result<Ending, ConformError> {
-    let (program, arguments) = command
-        .split_first()
-        .map_or(("", &[][..]), |(p, a)| (p.as_str(), a));
-    let mut build = Command::new(program);
-    build
-        .args(arguments)
-        .stdin(Stdio::piped())
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped());
-    #[cfg(unix)]
-    {
-        use std::os::unix::process::CommandExt as _;
-        build.process_group(0); // so that its children end with it
-    }
     let start = Instant::now();
-    let mut child = build.spawn().map_err(|e| ConformError::Start {
-        command: program.to_string(),
-        reason: e.kind(),
-    })?;
+    let mut child = spawn(command)?;
     let too_long = Arc::new(AtomicBool::new(false));
     feed(&mut child, input);
+
     let stdout = child
         .stdout
         .take()
@@ -93,14 +81,13 @@ pub fn run_once(
     let stderr = child.stderr.take().map(|pipe| drain(pipe, COMPLAINT, None));
     let ended = wait(&mut child, start, limits, watch, &too_long);
     kill(&mut child); // and whatever it has left behind
-    let taken = |pipe: Option<Receiver<Vec<u8>>>| {
-        pipe.and_then(|r| r.recv_timeout(GRACE).ok())
-            .unwrap_or_default()
-    };
-    let (stdout, complaint) = (taken(stdout), taken(stderr));
+
+    let stdout = received(stdout);
+    let complaint = received(stderr);
     if too_long.load(Ordering::Relaxed) {
         return Ok(Ending::TooLong);
     }
+
     Ok(match ended {
         Ok(status) => Ending::Ended {
             code: status.code(),
@@ -111,12 +98,46 @@ pub fn run_once(
     })
 }
 
+/// Starts the program in a process group of its own, with pipes for all three streams.
+fn spawn(command: &[String]) -> Result<Child, ConformError> {
+    let (program, arguments) = match command.split_first() {
+        Some((program, arguments)) => (program.as_str(), arguments),
+        None => ("", &[][..]),
+    };
+
+    let mut build = Command::new(program);
+    build
+        .args(arguments)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped());
+
+    #[cfg(unix)]
+    {
+        use std::os::unix::process::CommandExt as _;
+        build.process_group(0); // so that its children end with it
+    }
+
+    build.spawn().map_err(|e| ConformError::Start {
+        command: program.to_string(),
+        reason: e.kind(),
+    })
+}
+
+/// What was read from a pipe; nothing if it is still open after the time of grace.
+fn received(pipe: Option<Receiver<Vec<u8>>>) -> Vec<u8> {
+    pipe.and_then(|bytes| bytes.recv_timeout(GRACE).ok())
+        .unwrap_or_default()
+}
+
 /// Writes the problem from a thread of its own: a program that reads nothing must not stop us. One
 /// that closes its stdin early is no error.
 fn feed(child: &mut Child, input: &str) {
-    let (Some(mut stdin), text) = (child.stdin.take(), input.to_string()) else {
+    let Some(mut stdin) = child.stdin.take() else {
         return;
     };
+
+    let text = input.to_string();
     std::thread::spawn(move || {
         // A closed pipe: the program did not want the rest.
         let _ = stdin.write_all(text.as_bytes());
@@ -133,23 +154,29 @@ fn drain(
     let (send, receive) = channel();
     std::thread::spawn(move || {
         let mut kept = Vec::new();
+
         // What was read until an error is kept.
         let _ = pipe.by_ref().take(limit).read_to_end(&mut kept);
         let mut buffer = [0u8; 1 << 14];
+
         while let Ok(more) = pipe.read(&mut buffer) {
             if more == 0 {
                 break;
             }
+
             if let Some(flag) = &too_long {
                 flag.store(true, Ordering::Relaxed);
                 break;
             }
         }
+
         let _ = send.send(kept); // nobody waits any more: dropped
     });
+
     receive
 }
 
+/// Waits until the program ends, its time is over, it prints too much, or the run is interrupted.
 fn wait(
     child: &mut Child,
     start: Instant,
@@ -182,12 +209,14 @@ fn kill(child: &mut Child) {
     let _ = child.wait();
 }
 
+/// The first line that is not blank, at most 200 characters of it, without control characters.
 fn first_line(bytes: &[u8]) -> String {
     let text = String::from_utf8_lossy(bytes);
     let line = text
         .lines()
         .find(|l| !l.trim().is_empty())
         .unwrap_or_default();
+
     line.chars().filter(|c| !c.is_control()).take(200).collect()
 }
 
@@ -197,7 +226,8 @@ mod tests {
     use super::*;
     use mceip_engine::run::Cancel;
 
-    fn sh(script: &str, limits: &Limits) -> Ending {
+    /// Runs a shell script that is sent a megabyte.
+    fn run_script(script: &str, limits: &Limits) -> Ending {
         let command = ["sh".to_string(), "-c".into(), script.into()];
         let input = "x".repeat(1 << 20); // more than a pipe holds
         run_once(&command, &input, limits, &Watch::nobody()).unwrap()
@@ -210,59 +240,74 @@ mod tests {
         }
     }
 
+    fn ended(code: i32, stdout: &str) -> Ending {
+        Ending::Ended {
+            code: Some(code),
+            stdout: stdout.as_bytes().to_vec(),
+            complaint: String::new(),
+        }
+    }
+
     #[test]
     fn hostile_programs_are_survived() {
         let long = Limits::default();
+
+        // A program that reads everything, one that closes its stdin, one that kills itself.
         assert_eq!(
-            sh("wc -c | tr -d ' '", &long),
-            Ending::Ended {
-                code: Some(0),
-                stdout: b"1048576\n".to_vec(),
-                complaint: String::new()
-            }
+            run_script("wc -c | tr -d ' '", &long),
+            ended(0, "1048576\n")
         );
         assert_eq!(
-            sh("echo a; exec 0<&-; exit 7", &long),
-            Ending::Ended {
-                code: Some(7),
-                stdout: b"a\n".to_vec(),
-                complaint: String::new()
-            }
+            run_script("echo a; exec 0<&-; exit 7", &long),
+            ended(7, "a\n")
         );
-        assert!(
-            matches!(sh("echo oops >&2; kill -9 $$", &long), Ending::Ended { code: None, complaint, .. } if complaint == "oops")
-        );
-        assert_eq!(sh("sleep 100", &quick()), Ending::TimedOut);
-        assert_eq!(sh("sleep 100 | sleep 100", &quick()), Ending::TimedOut);
+        let killed = run_script("echo oops >&2; kill -9 $$", &long);
+        let Ending::Ended {
+            code, complaint, ..
+        } = killed
+        else {
+            panic!("{killed:?}")
+        };
+        assert_eq!(code, None);
+        assert_eq!(complaint, "oops");
+
+        // Programs that do not end.
+        assert_eq!(run_script("sleep 100", &quick()), Ending::TimedOut);
+        let pipeline = run_script("sleep 100 | sleep 100", &quick());
+        assert_eq!(pipeline, Ending::TimedOut);
+
+        // Programs that print without end, to stdout and to stderr.
         let start = Instant::now();
-        assert_eq!(sh("yes", &long), Ending::TooLong);
-        assert!(matches!(
-            sh("yes >&2 & sleep 0.1; kill $!; echo done", &long),
-            Ending::Ended { code: Some(0), .. }
-        ));
+        assert_eq!(run_script("yes", &long), Ending::TooLong);
+        let noisy = run_script("yes >&2 & sleep 0.1; kill $!; echo done", &long);
+        assert!(matches!(noisy, Ending::Ended { code: Some(0), .. }));
+
         // A grandchild that holds the pipe open for long.
-        assert!(
-            matches!(sh("sleep 100 & echo done", &long), Ending::Ended { code: Some(0), stdout, .. } if stdout == b"done\n")
-        );
-        assert!(
-            start.elapsed() < Duration::from_secs(8),
-            "{:?}",
-            start.elapsed()
-        );
+        let parent = run_script("sleep 100 & echo done", &long);
+        let Ending::Ended { code, stdout, .. } = parent else {
+            panic!("{parent:?}")
+        };
+        assert_eq!(code, Some(0));
+        assert_eq!(stdout, b"done\n");
+        let passed = start.elapsed();
+        assert!(passed < Duration::from_secs(8), "{passed:?}");
     }
 
     #[test]
     fn an_interrupt_ends_a_run_and_a_missing_program_is_named() {
         let stopped = Cancel::requested();
         let sleep = ["sleep".to_string(), "100".into()];
+
         assert_eq!(
             run_once(&sleep, "", &Limits::default(), &Watch::silent(&stopped)).unwrap(),
             Ending::Interrupted
         );
+
         let nothing = ["/nowhere/solver".to_string()];
         let refused = run_once(&nothing, "", &Limits::default(), &Watch::silent(&stopped));
-        assert!(
-            matches!(refused, Err(ConformError::Start { command, .. }) if command == "/nowhere/solver")
-        );
+        let Err(ConformError::Start { command, .. }) = refused else {
+            panic!("{refused:?}")
+        };
+        assert_eq!(command, "/nowhere/solver");
     }
 }

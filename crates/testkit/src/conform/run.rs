@@ -1,5 +1,8 @@
 //! All cases through a foreign program, in parallel; the outcome does not depend on the number of
 //! threads.
+//!
+//! Input: a plan (cases, limits, threads) and a command. Output: the outcome of each case, in the
+//! order of the plan. Called by `mceip conform`.
 
 use super::case::{Case, Draft, Group};
 use super::error::ConformError;
@@ -61,87 +64,120 @@ pub fn run(
         .num_threads(threads)
         .build()
         .map_err(|_| ConformError::Threads { threads })?;
-    let count = AtomicUsize::new(0);
-    let one = |k: usize| -> Result<Option<Outcome>, ConformError> {
-        if watch.is_cancelled() {
-            return Ok(None);
-        }
-        let case = match fixed.get(k) {
-            Some(draft) => Case::answer(draft, plan.as_pencil)?,
-            None => {
-                let at = |source| ConformError::Problem {
-                    place: format!("random case {k}"),
-                    source,
-                };
-                Case::answer(
-                    &random_draft(k - fixed.len(), plan.seed).map_err(at)?,
-                    plan.as_pencil,
-                )?
-            }
-        };
-        let wanted = plan.only.is_empty() || plan.only.iter().any(|f| case.flags.contains(f));
-        let outcome = if wanted {
-            one_case(case, command, &plan.limits, watch)?
-        } else {
-            None
-        };
-        let finished = count.fetch_add(1, Ordering::Relaxed) + 1;
-        watch.report(&Progress::of("cases", finished, total));
-        Ok(outcome)
+
+    let run = Run {
+        plan,
+        fixed,
+        command,
+        watch,
+        total,
+        finished: AtomicUsize::new(0),
     };
+
     // One case per task: they take very different times.
     let outcomes = pool.install(|| {
         (0..total)
             .into_par_iter()
             .with_max_len(1)
-            .map(one)
+            .map(|k| run.outcome(k))
             .collect::<Result<Vec<_>, _>>()
     })?;
+
     Ok(outcomes.into_iter().flatten().collect())
 }
 
-fn one_case(
-    case: Case,
-    command: &[String],
-    limits: &Limits,
-    watch: &Watch<'_>,
-) -> Result<Option<Outcome>, ConformError> {
-    let judgement = match run_once(command, &write_problem(&case.problem), limits, watch)? {
-        Ending::Interrupted => return Ok(None),
-        Ending::TimedOut => Judgement::new(
-            Label::TimedOut,
-            format!("still running after {} s", limits.time.as_secs_f64()),
-        ),
-        Ending::TooLong => Judgement::new(
-            Label::Malformed,
-            format!("more than {} bytes on stdout", limits.output),
-        ),
-        Ending::Ended {
-            code: Some(0 | 3),
-            stdout,
-            ..
-        } => match String::from_utf8(stdout) {
-            Ok(text) => judge_report(&case, &text),
-            Err(_) => Judgement::new(Label::Malformed, "stdout is no UTF-8"),
-        },
-        Ending::Ended {
-            code, complaint, ..
-        } => {
-            let how = code.map_or_else(
-                || "ended by a signal".to_string(),
-                |c| format!("exit code {c}"),
-            );
-            let complaint = if complaint.is_empty() {
-                String::new()
-            } else {
-                format!(": {complaint}")
-            };
-            Judgement::new(Label::Crashed, how + &complaint)
+/// A run at work, shared by its threads.
+struct Run<'a> {
+    plan: &'a Plan,
+    /// The cases of the pack; the random ones come after them.
+    fixed: Vec<&'a Draft>,
+    command: &'a [String],
+    watch: &'a Watch<'a>,
+    total: usize,
+    finished: AtomicUsize,
+}
+
+impl Run<'_> {
+    /// What comes of the `k`-th case. `None` for a case that the plan leaves out or that was
+    /// interrupted.
+    fn outcome(&self, k: usize) -> Result<Option<Outcome>, ConformError> {
+        if self.watch.is_cancelled() {
+            return Ok(None);
         }
+
+        let case = self.case(k)?;
+        let only = &self.plan.only;
+        let is_wanted = only.is_empty() || only.iter().any(|f| case.flags.contains(f));
+        let judgement = if is_wanted {
+            self.judgement(&case)?
+        } else {
+            None
+        };
+
+        let finished = self.finished.fetch_add(1, Ordering::Relaxed) + 1;
+        let progress = Progress::of("cases", finished, self.total);
+        self.watch.report(&progress);
+
+        Ok(judgement.map(|judgement| Outcome {
+            id: case.id,
+            flags: case.flags,
+            judgement,
+        }))
+    }
+
+    /// The `k`-th case with its answer.
+    fn case(&self, k: usize) -> Result<Case, ConformError> {
+        if let Some(draft) = self.fixed.get(k) {
+            return Case::answer(draft, self.plan.as_pencil);
+        }
+
+        let draft = random_draft(k - self.fixed.len(), self.plan.seed)
+            .map_err(|e| ConformError::problem(&format!("random case {k}"), e))?;
+        Case::answer(&draft, self.plan.as_pencil)
+    }
+
+    /// Sends the case to the program and judges how it ends. `None` if it was interrupted.
+    fn judgement(&self, case: &Case) -> Result<Option<Judgement>, ConformError> {
+        let limits = &self.plan.limits;
+        let input = write_problem(&case.problem);
+        let judgement = match run_once(self.command, &input, limits, self.watch)? {
+            Ending::Interrupted => return Ok(None),
+            Ending::TimedOut => {
+                let seconds = limits.time.as_secs_f64();
+                Judgement::new(Label::TimedOut, format!("still running after {seconds} s"))
+            }
+            Ending::TooLong => {
+                let bytes = limits.output;
+                Judgement::new(
+                    Label::Malformed,
+                    format!("more than {bytes} bytes on stdout"),
+                )
+            }
+            Ending::Ended {
+                code: Some(0 | 3),
+                stdout,
+                ..
+            } => match String::from_utf8(stdout) {
+                Ok(text) => judge_report(case, &text),
+                Err(_) => Judgement::new(Label::Malformed, "stdout is no UTF-8"),
+            },
+            Ending::Ended {
+                code, complaint, ..
+            } => crashed(code, &complaint),
+        };
+
+        Ok(Some(judgement))
+    }
+}
+
+/// A program that ended by a signal, or with an exit code that says that it failed.
+fn crashed(code: Option<i32>, complaint: &str) -> Judgement {
+    let mut why = match code {
+        Some(code) => format!("exit code {code}"),
+        None => "ended by a signal".to_string(),
     };
-    Ok(Some(Outcome {
-        id: case.id,
-        flags: case.flags,
-        judgement,
-    }))
+    if !complaint.is_empty() {
+        why += &format!(": {complaint}");
+    }
+    Judgement::new(Label::Crashed, why)
 }

@@ -1,4 +1,10 @@
 //! Eigenpairs of supports that are no solutions: what careless programs report.
+//!
+//! For a support J with active variables J and the free ones, the pair (t, x) solves
+//! (A + tB) x = 0 on the rows and columns of the active variables. It is a solution only if x > 0
+//! on J and y = (A + tB) x >= 0 elsewhere. Input: a pencil and an interval of values. Output: the
+//! pairs of all supports, exact, and what kind each is. Called by `wrong`, which makes wrong
+//! answers of them.
 
 use mceip_exact::{
     Algebraic, Integer, Poly, Rational, Sign, common_denominator, determinant, kernel_at, roots_in,
@@ -24,125 +30,175 @@ pub(super) fn eigenpairs(
     min: &Rational,
     max: Option<&Rational>,
 ) -> Vec<(Kind, Solution)> {
-    let rows = integral(pencil);
+    let integral = IntegralPencil::of(pencil);
     let slip = pencil.slip();
-    let supports = (1..1u64 << slip.len()).map(|mask| {
-        slip.iter()
-            .enumerate()
-            .filter(|(k, _)| mask >> k & 1 == 1)
-            .map(|(_, &i)| i)
-            .collect()
-    });
-    supports
-        .flat_map(|support: Vec<usize>| of_support(pencil, &rows, &support, min, max))
-        .collect()
+
+    let mut out = Vec::new();
+    for mask in 1..1u64 << slip.len() {
+        let mut support = Vec::new();
+        for (k, &i) in slip.iter().enumerate() {
+            if mask >> k & 1 == 1 {
+                support.push(i);
+            }
+        }
+        out.extend(integral.eigenpairs_of(&support, min, max));
+    }
+    out
 }
 
-/// Rows of A and B over a common positive factor, so that they are integers.
-fn integral(pencil: &Pencil) -> Vec<(Vec<Integer>, Vec<Integer>)> {
-    let row = |i: usize| {
-        let (a, b) = (pencil.a().row(i), pencil.b().row(i));
-        let clear = common_denominator(a.iter().chain(b).map(|e| &e.1));
-        let dense = |list: &[(usize, Rational)]| {
-            let mut out = vec![Integer::default(); pencil.order()];
-            list.iter()
-                .for_each(|(j, v)| out[*j] = v.numer() * (&clear / v.denom()));
-            out
+/// A pencil whose rows of A and B are multiplied by common positive factors, so that they are
+/// integers. Solutions are the same, and so are the signs of y.
+struct IntegralPencil<'a> {
+    free: &'a [usize],
+    a: Vec<Vec<Integer>>,
+    b: Vec<Vec<Integer>>,
+}
+
+impl IntegralPencil<'_> {
+    fn of(pencil: &Pencil) -> IntegralPencil<'_> {
+        let mut a = Vec::new();
+        let mut b = Vec::new();
+        for i in 0..pencil.order() {
+            let row_of_a = pencil.a().row(i);
+            let row_of_b = pencil.b().row(i);
+            let factor = common_denominator(row_of_a.iter().chain(row_of_b).map(|e| &e.1));
+            a.push(cleared(row_of_a, &factor, pencil.order()));
+            b.push(cleared(row_of_b, &factor, pencil.order()));
+        }
+
+        IntegralPencil {
+            free: pencil.free(),
+            a,
+            b,
+        }
+    }
+
+    fn order(&self) -> usize {
+        self.a.len()
+    }
+
+    /// a_ij + t b_ij.
+    fn entry(&self, i: usize, j: usize) -> Poly {
+        Poly::new(vec![self.a[i][j].clone(), self.b[i][j].clone()])
+    }
+
+    /// The eigenpairs of one support; none if its pencil is singular.
+    fn eigenpairs_of(
+        &self,
+        support: &[usize],
+        min: &Rational,
+        max: Option<&Rational>,
+    ) -> Vec<(Kind, Solution)> {
+        let mut active: Vec<usize> = self.free.iter().chain(support).copied().collect();
+        active.sort_unstable();
+
+        let a = block(&self.a, &active);
+        let b = block(&self.b, &active);
+        let determinant = determinant(&a, &b);
+        if determinant.is_zero() {
+            return Vec::new();
+        }
+
+        let mut out = Vec::new();
+        for mut value in roots_in(&determinant, min, max) {
+            let kernel = kernel_at(self.polynomial_block(&active), &mut value);
+            if let [vector] = &kernel[..] {
+                let x = self.spread(vector, &active);
+                out.extend(self.eigenpair(value, x, support, &active));
+            }
+        }
+        out
+    }
+
+    /// A + tB on the active rows and columns.
+    fn polynomial_block(&self, active: &[usize]) -> Vec<Vec<Poly>> {
+        active
+            .iter()
+            .map(|&i| active.iter().map(|&j| self.entry(i, j)).collect())
+            .collect()
+    }
+
+    /// The vector over all variables, zero where they are not active.
+    fn spread(&self, vector: &[Poly], active: &[usize]) -> Vec<Poly> {
+        let mut x = vec![Poly::default(); self.order()];
+        for (&i, component) in active.iter().zip(vector) {
+            x[i] = component.clone();
+        }
+        x
+    }
+
+    /// The pair with its kind. The sign of x is that which makes its first component on the support
+    /// that is not zero positive. `None` if x vanishes on the support, or if e'x_s is zero: x is
+    /// printed over it.
+    fn eigenpair(
+        &self,
+        mut value: Algebraic,
+        mut x: Vec<Poly>,
+        support: &[usize],
+        active: &[usize],
+    ) -> Option<(Kind, Solution)> {
+        let first = support
+            .iter()
+            .map(|&i| value.sign_of(&x[i]))
+            .find(|s| *s != Sign::Zero)?;
+        if first == Sign::Negative {
+            x.iter_mut().for_each(|p| *p = -&*p);
+        }
+
+        let x_is_positive = support
+            .iter()
+            .all(|&i| value.sign_of(&x[i]) == Sign::Positive);
+        let y_is_negative = (0..self.order())
+            .filter(|i| !active.contains(i))
+            .any(|i| value.sign_of(&self.image(i, &x)) == Sign::Negative);
+        let kind = match (x_is_positive, y_is_negative) {
+            (false, _) => Kind::MixedX,
+            (true, true) => Kind::NegativeY,
+            (true, false) => Kind::Admissible,
         };
-        (dense(a), dense(b))
-    };
-    (0..pencil.order()).map(row).collect()
+
+        let mut sum = Poly::default();
+        for &i in support {
+            sum = &sum + &x[i];
+        }
+        if value.sign_of(&sum) == Sign::Zero {
+            return None;
+        }
+
+        let solution = Solution {
+            value,
+            multiplicity: 1,
+            slip: support.to_vec(),
+            biactive: Vec::new(),
+            x,
+            y: Vec::new(),
+        };
+        Some((kind, solution))
+    }
+
+    /// y_i = sum over j of (a_ij + t b_ij) x_j.
+    fn image(&self, i: usize, x: &[Poly]) -> Poly {
+        let mut sum = Poly::default();
+        for (j, component) in x.iter().enumerate() {
+            sum = &sum + &(&self.entry(i, j) * component);
+        }
+        sum
+    }
 }
 
-fn of_support(
-    pencil: &Pencil,
-    rows: &[(Vec<Integer>, Vec<Integer>)],
-    support: &[usize],
-    min: &Rational,
-    max: Option<&Rational>,
-) -> Vec<(Kind, Solution)> {
-    let mut active: Vec<usize> = pencil.free().iter().chain(support).copied().collect();
-    active.sort_unstable();
-    let pick = |row: &[Integer]| active.iter().map(|&j| row[j].clone()).collect::<Vec<_>>();
-    let a: Vec<Vec<Integer>> = active.iter().map(|&i| pick(&rows[i].0)).collect();
-    let b: Vec<Vec<Integer>> = active.iter().map(|&i| pick(&rows[i].1)).collect();
-    let det = determinant(&a, &b);
-    if det.is_zero() {
-        return Vec::new();
+/// A row of n entries times `factor`, which clears its denominators.
+fn cleared(row: &[(usize, Rational)], factor: &Integer, n: usize) -> Vec<Integer> {
+    let mut out = vec![Integer::default(); n];
+    for (j, v) in row {
+        out[*j] = v.numer() * (factor / v.denom());
     }
-    let entry = |i: usize, j: usize| Poly::new(vec![a[i][j].clone(), b[i][j].clone()]);
-    let block = || {
-        (0..active.len())
-            .map(|i| (0..active.len()).map(|j| entry(i, j)).collect())
-            .collect()
-    };
-    let roots = roots_in(&det, min, max).into_iter();
-    roots
-        .filter_map(|mut value| {
-            pair(
-                pencil,
-                rows,
-                support,
-                &active,
-                kernel_at(block(), &mut value),
-                value,
-            )
-        })
+    out
+}
+
+/// The entries in these rows and columns.
+fn block(rows: &[Vec<Integer>], indices: &[usize]) -> Vec<Vec<Integer>> {
+    indices
+        .iter()
+        .map(|&i| indices.iter().map(|&j| rows[i][j].clone()).collect())
         .collect()
-}
-
-fn pair(
-    pencil: &Pencil,
-    rows: &[(Vec<Integer>, Vec<Integer>)],
-    support: &[usize],
-    active: &[usize],
-    kernel: Vec<Vec<Poly>>,
-    mut value: Algebraic,
-) -> Option<(Kind, Solution)> {
-    let [vector] = &kernel[..] else { return None };
-    let mut x = vec![Poly::default(); pencil.order()];
-    active
-        .iter()
-        .zip(vector)
-        .for_each(|(&i, p)| x[i] = p.clone());
-    let first = support
-        .iter()
-        .map(|&i| value.sign_of(&x[i]))
-        .find(|s| *s != Sign::Zero)?;
-    if first == Sign::Negative {
-        x.iter_mut().for_each(|p| *p = -&*p);
-    }
-    let positive = support
-        .iter()
-        .all(|&i| value.sign_of(&x[i]) == Sign::Positive);
-    let y = |i: usize| {
-        let (a, b) = &rows[i];
-        x.iter().enumerate().fold(Poly::default(), |s, (j, p)| {
-            &s + &(&Poly::new(vec![a[j].clone(), b[j].clone()]) * p)
-        })
-    };
-    let off = (0..pencil.order()).filter(|i| !active.contains(i));
-    let negative = off
-        .into_iter()
-        .any(|i| value.sign_of(&y(i)) == Sign::Negative);
-    let kind = match (positive, negative) {
-        (false, _) => Kind::MixedX,
-        (true, true) => Kind::NegativeY,
-        (true, false) => Kind::Admissible,
-    };
-    // e'x_s must not vanish: x is printed over it.
-    let sum = support.iter().fold(Poly::default(), |s, &i| &s + &x[i]);
-    (value.sign_of(&sum) != Sign::Zero).then(|| {
-        (
-            kind,
-            Solution {
-                value,
-                multiplicity: 1,
-                slip: support.to_vec(),
-                biactive: Vec::new(),
-                x,
-                y: Vec::new(),
-            },
-        )
-    })
 }

@@ -1,10 +1,13 @@
 //! Outcomes per flag: for people, as Markdown, as JSON.
+//!
+//! Input: the outcomes of a run. Output: how many cases of each flag got which label, and every
+//! case that is not correct. Called by `mceip conform`.
 
 use super::flag::Flag;
 use super::judge::Label;
 use super::run::Outcome;
 use mceip_engine::report::Table;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 use std::collections::BTreeMap;
 
 /// Counts per flag and label, and every case that is not correct.
@@ -28,20 +31,20 @@ pub fn summarise(outcomes: &[Outcome]) -> Summary {
         flags: BTreeMap::new(),
         failures: Vec::new(),
     };
-    for o in outcomes {
-        *summary.labels.entry(o.judgement.label).or_default() += 1;
-        for flag in &o.flags {
-            *summary
-                .flags
-                .entry(*flag)
-                .or_default()
-                .entry(o.judgement.label)
-                .or_default() += 1;
+
+    for outcome in outcomes {
+        let label = outcome.judgement.label;
+        *summary.labels.entry(label).or_default() += 1;
+        for flag in &outcome.flags {
+            let counts = summary.flags.entry(*flag).or_default();
+            *counts.entry(label).or_default() += 1;
         }
-        if !o.judgement.label.is_correct() {
-            summary.failures.push(o.clone());
+
+        if !label.is_correct() {
+            summary.failures.push(outcome.clone());
         }
     }
+
     summary
 }
 
@@ -54,120 +57,130 @@ impl Summary {
         self.failures.is_empty()
     }
 
-    fn count(&self, label: Label) -> usize {
-        self.labels.get(&label).copied().unwrap_or(0)
-    }
-
+    /// One row per flag that occurs, and one for all cases.
     fn rows(&self) -> Vec<Vec<String>> {
-        let row = |name: &str, counts: &BTreeMap<Label, usize>| {
-            let numbers = Label::ALL.iter().map(|l| {
-                counts
-                    .get(l)
-                    .map_or_else(|| ".".into(), ToString::to_string)
-            });
-            let total: usize = counts.values().sum();
-            [name.to_string(), total.to_string()]
-                .into_iter()
-                .chain(numbers)
-                .collect()
-        };
-        let flags = Flag::ALL
-            .iter()
-            .filter_map(|f| self.flags.get(f).map(|c| row(f.word(), c)));
-        flags.chain([row("all", &self.labels)]).collect()
+        let mut rows = Vec::new();
+        for flag in Flag::ALL {
+            if let Some(counts) = self.flags.get(flag) {
+                rows.push(row(flag.word(), counts));
+            }
+        }
+        rows.push(row("all", &self.labels));
+        rows
     }
 
     fn verdict(&self) -> String {
-        let parts: Vec<String> = Label::ALL
-            .iter()
-            .map(|&l| format!("{} {}", self.count(l), l.word()))
-            .collect();
+        let mut parts = Vec::new();
+        for label in Label::ALL {
+            let count = self.labels.get(&label).copied().unwrap_or(0);
+            parts.push(format!("{count} {}", label.word()));
+        }
         format!("{} cases: {}", self.cases, parts.join(", "))
     }
 
     /// A table for people, the first failures, one line of verdict.
     pub fn text(&self) -> String {
-        let header: Vec<&str> = ["flag", "cases"]
-            .into_iter()
-            .chain(Label::ALL.iter().map(|l| l.word()))
-            .collect();
+        let mut header = vec!["flag", "cases"];
+        header.extend(Label::ALL.map(Label::word));
         let mut table = Table::new(&header);
-        self.rows().into_iter().for_each(|r| table.row(r));
+        for row in self.rows() {
+            table.row(row);
+        }
+
         let mut out = format!("{table}\n");
-        for o in self.failures.iter().take(SHOWN) {
-            out += &format!(
-                "{}: {}: {}\n",
-                o.id,
-                o.judgement.label.word(),
-                o.judgement.detail
-            );
+        for failure in self.failures.iter().take(SHOWN) {
+            let judgement = &failure.judgement;
+            let label = judgement.label.word();
+            out += &format!("{}: {label}: {}\n", failure.id, judgement.detail);
         }
         if self.failures.len() > SHOWN {
-            out += &format!(
-                "and {} more (--json or --markdown list all)\n",
-                self.failures.len() - SHOWN
-            );
+            let more = self.failures.len() - SHOWN;
+            out += &format!("and {more} more (--json or --markdown list all)\n");
         }
-        out + &self.verdict() + "\n"
+
+        out += &self.verdict();
+        out += "\n";
+        out
     }
 
     /// The same as Markdown, with the notes of the flags and all failures.
     pub fn markdown(&self, command: &[String]) -> String {
-        let escape = |s: &str| s.replace('|', "\\|").replace('`', "'").replace('<', "&lt;");
+        let command = escaped(&command.join(" "));
+        let verdict = self.verdict();
+        let mut out = format!("# mceip conform\n\nCommand: `{command}`\n\n{verdict}\n\n");
+
         let labels = Label::ALL.map(Label::word).join(" | ");
-        let mut out = format!(
-            "# mceip conform\n\nCommand: `{}`\n\n{}\n\n",
-            escape(&command.join(" ")),
-            self.verdict()
-        );
-        out += &format!(
-            "| flag | cases | {labels} | what it catches |\n|{}\n",
-            "---|".repeat(Label::ALL.len() + 3)
-        );
+        let rule = "---|".repeat(Label::ALL.len() + 3);
+        out += &format!("| flag | cases | {labels} | what it catches |\n|{rule}\n");
         for row in self.rows() {
             let note = Flag::of_word(&row[0]).map_or("", Flag::note);
-            out += &format!("| {} | {} |\n", row.join(" | "), escape(note));
+            out += &format!("| {} | {} |\n", row.join(" | "), escaped(note));
         }
+
         if !self.failures.is_empty() {
             out += "\n| case | label | why |\n|---|---|---|\n";
         }
-        for o in &self.failures {
-            out += &format!(
-                "| {} | {} | {} |\n",
-                o.id,
-                o.judgement.label.word(),
-                escape(&o.judgement.detail)
-            );
+        for failure in &self.failures {
+            let label = failure.judgement.label.word();
+            let why = escaped(&failure.judgement.detail);
+            out += &format!("| {} | {label} | {why} |\n", failure.id);
         }
+
         out
     }
 
     /// The same for programs.
     pub fn json(&self, command: &[String]) -> Value {
-        let counts = |c: &BTreeMap<Label, usize>| {
-            c.iter()
-                .map(|(l, n)| (l.word().to_string(), json!(n)))
-                .collect::<serde_json::Map<_, _>>()
-        };
-        let flags: serde_json::Map<_, _> = self
-            .flags
-            .iter()
-            .map(|(f, c)| (f.word().to_string(), json!(counts(c))))
-            .collect();
-        let failure = |o: &Outcome| {
-            let flags: Vec<&str> = o.flags.iter().map(|f| f.word()).collect();
-            json!({
-                "case": o.id,
-                "flags": flags,
-                "label": o.judgement.label.word(),
-                "detail": o.judgement.detail,
-            })
-        };
+        let mut flags = Map::new();
+        for (flag, counts) in &self.flags {
+            flags.insert(flag.word().to_string(), counts_json(counts));
+        }
+
+        let failures: Vec<Value> = self.failures.iter().map(failure_json).collect();
         json!({
-            "command": command, "cases": self.cases, "labels": counts(&self.labels), "flags": flags,
-            "failures": self.failures.iter().map(failure).collect::<Vec<_>>(),
+            "command": command,
+            "cases": self.cases,
+            "labels": counts_json(&self.labels),
+            "flags": flags,
+            "failures": failures,
         })
     }
+}
+
+/// A name, how many cases, how many per label; a dot for none.
+fn row(name: &str, counts: &BTreeMap<Label, usize>) -> Vec<String> {
+    let total: usize = counts.values().sum();
+    let mut out = vec![name.to_string(), total.to_string()];
+    for label in Label::ALL {
+        let number = counts.get(&label).map(ToString::to_string);
+        out.push(number.unwrap_or_else(|| ".".into()));
+    }
+    out
+}
+
+/// Text for a cell of a Markdown table.
+fn escaped(text: &str) -> String {
+    text.replace('|', "\\|")
+        .replace('`', "'")
+        .replace('<', "&lt;")
+}
+
+fn counts_json(counts: &BTreeMap<Label, usize>) -> Value {
+    let mut out = Map::new();
+    for (label, count) in counts {
+        out.insert(label.word().to_string(), json!(count));
+    }
+    Value::Object(out)
+}
+
+fn failure_json(failure: &Outcome) -> Value {
+    let flags: Vec<&str> = failure.flags.iter().map(|f| f.word()).collect();
+    json!({
+        "case": failure.id,
+        "flags": flags,
+        "label": failure.judgement.label.word(),
+        "detail": failure.judgement.detail,
+    })
 }
 
 #[cfg(test)]
@@ -175,34 +188,41 @@ mod tests {
     use super::*;
     use crate::conform::Judgement;
 
-    #[test]
-    fn a_case_counts_for_each_of_its_flags() {
-        let outcome = |id: &str, label, flags: &[Flag]| Outcome {
+    fn outcome(id: &str, label: Label, flags: &[Flag]) -> Outcome {
+        Outcome {
             id: id.into(),
             flags: flags.iter().copied().collect(),
             judgement: Judgement {
                 label,
                 detail: "a | b".into(),
             },
-        };
+        }
+    }
+
+    #[test]
+    fn a_case_counts_for_each_of_its_flags() {
         let list = [
             outcome("p", Label::Correct, &[Flag::Mu]),
             outcome("q", Label::Wrong, &[Flag::Mu, Flag::Fold]),
         ];
-        let s = summarise(&list);
-        assert!(!s.all_correct() && summarise(&list[..1]).all_correct());
+
+        let summary = summarise(&list);
+        let first_alone = summarise(&list[..1]);
+
+        assert!(!summary.all_correct());
+        assert!(first_alone.all_correct());
         assert_eq!(
-            s.flags[&Flag::Mu],
+            summary.flags[&Flag::Mu],
             BTreeMap::from([(Label::Correct, 1), (Label::Wrong, 1)])
         );
-        assert_eq!((s.flags[&Flag::Fold].len(), s.failures.len()), (1, 1));
-        assert!(s.text().ends_with(
+        assert_eq!(summary.flags[&Flag::Fold].len(), 1);
+        assert_eq!(summary.failures.len(), 1);
+
+        assert!(summary.text().ends_with(
             "2 cases: 1 correct, 0 incomplete, 1 wrong, 0 crashed, 0 timed out, 0 malformed\n"
         ));
-        assert!(
-            s.markdown(&["prog".into()])
-                .contains("| q | wrong | a \\| b |")
-        );
-        assert_eq!(s.json(&[])["failures"][0]["case"], "q");
+        let markdown = summary.markdown(&["prog".into()]);
+        assert!(markdown.contains("| q | wrong | a \\| b |"));
+        assert_eq!(summary.json(&[])["failures"][0]["case"], "q");
     }
 }

@@ -1,10 +1,14 @@
 //! Wrong answers on purpose: reports that must be rejected, each with the bug it stands for.
+//!
+//! Each is made from the complete exact answer of a case by one change that makes it false, or
+//! leaves a part out. Input: a case. Output: at most one report of each bug. They are in the pack,
+//! so that a harness can be tested, and `judge` has to give each the label of [`Bug::expected`].
 
 use super::case::Case;
 use super::judge::Label;
 use super::spectrum::{Kind, eigenpairs};
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
-use mceip_exact::{Rational, rational, whole};
+use mceip_exact::{Rational, parse, rational, whole};
 use mceip_model::Window;
 use mceip_oracle::{Solution, enumerate};
 use num_traits::{Signed, Zero};
@@ -99,164 +103,183 @@ const SPECTRUM_SLIP: usize = 5;
 
 impl Case {
     /// Answers that must not be called correct, each with the label it must get.
+    ///
+    /// True by construction that they are wrong, at most one of each bug.
     pub fn wrong_answers(&self) -> Vec<WrongAnswer> {
-        wrong_answers(self)
-    }
-}
+        let slip = self.reduced.pencil.slip();
+        let mut out = Vec::new();
 
-/// The wrong answers of a case: true by construction that they are wrong, at most one of each bug.
-fn wrong_answers(case: &Case) -> Vec<WrongAnswer> {
-    let slip = case.reduced.pencil.slip();
-    let mut out = Vec::new();
-    let mut push = |bug, solutions: Vec<Value>| {
-        out.push(WrongAnswer {
-            bug,
-            report: report(solutions, None),
-        })
-    };
-    let listed: Vec<Value> = case
-        .answer
-        .solutions
-        .iter()
-        .map(|s| entry(s, &slip, false))
-        .collect();
-    if let Some(s) = case.answer.solutions.iter().find(|s| !s.is_free_only()) {
-        push(Bug::SignFlipped, vec![entry(s, &slip, true)]);
-        if let Some(shifted) = shifted(case, s, &slip) {
-            push(Bug::ShiftedValue, vec![shifted]);
-        }
-    }
-    for (bug, s) in spurious(case) {
-        let mut value = entry(&s, &slip, false);
-        if bug == Bug::RoundedToZero {
-            value["value"] = json!("0");
-        }
-        push(bug, vec![value]);
-    }
-    if let Some(s) = outside(case) {
-        push(Bug::OutsideWindow, vec![entry(&s, &slip, false)]);
-    }
-    if !case.has_solutions() {
-        push(
-            Bug::ZeroVector,
-            vec![json!({ "value": "1", "x": vec!["0"; case.reduced.pencil.order()] })],
-        );
-    }
-    let described = case.answer.cones.is_empty() && case.answer.ranges.is_empty();
-    let shared = case
-        .answer
-        .solutions
-        .windows(2)
-        .position(|w| w[0].value.clone().equals(&mut w[1].value.clone()));
-    match shared.filter(|_| described) {
-        Some(k) => push(
-            Bug::MergedByValue,
-            listed
-                .iter()
-                .enumerate()
-                .filter(|(i, _)| *i != k + 1)
-                .map(|(_, v)| v.clone())
-                .collect(),
-        ),
-        None if case.has_solutions() => {
-            let kept = if described {
-                listed.len() - 1
-            } else {
-                listed.len()
-            };
-            // Cones and continua come last: a report without them has dropped them, unless a listed
-            // solution lies on a continuum's slip set.
-            let lies_on = |s: &Solution| case.answer.ranges.iter().any(|r| r.support == s.slip);
-            if described || !case.answer.solutions.iter().any(lies_on) {
-                push(Bug::Dropped, listed[..kept].to_vec());
+        let with_slip = self.answer.solutions.iter().find(|s| !s.is_free_only());
+        if let Some(solution) = with_slip {
+            let flipped = entry_negated(solution, &slip);
+            out.push(WrongAnswer::new(Bug::SignFlipped, vec![flipped]));
+            if let Some(shifted) = shifted(self, solution, &slip) {
+                out.push(WrongAnswer::new(Bug::ShiftedValue, vec![shifted]));
             }
         }
-        None => {}
+
+        for spurious in spurious(self) {
+            let mut entry = entry(&spurious.pair, &slip);
+            if spurious.bug == Bug::RoundedToZero {
+                entry["value"] = json!("0");
+            }
+            out.push(WrongAnswer::new(spurious.bug, vec![entry]));
+        }
+
+        if let Some(solution) = outside(self) {
+            let entry = entry(&solution, &slip);
+            out.push(WrongAnswer::new(Bug::OutsideWindow, vec![entry]));
+        }
+
+        if !self.has_solutions() {
+            let zeros = vec!["0"; self.reduced.pencil.order()];
+            let entry = json!({ "value": "1", "x": zeros });
+            out.push(WrongAnswer::new(Bug::ZeroVector, vec![entry]));
+        }
+
+        out.extend(incomplete(self, &slip));
+        out.extend(endless(self));
+        out
     }
-    out.extend(endless(case));
-    out
 }
 
-fn report(solutions: Vec<Value>, continua: Option<Value>) -> Value {
-    let mut out = json!({ "format": SOLUTIONS_FORMAT, "solutions": solutions });
-    if let Some(continua) = continua {
-        out["continua"] = continua;
+impl WrongAnswer {
+    fn new(bug: Bug, solutions: Vec<Value>) -> WrongAnswer {
+        WrongAnswer {
+            bug,
+            report: json!({ "format": SOLUTIONS_FORMAT, "solutions": solutions }),
+        }
     }
-    out
 }
 
-/// `value` and `x` as a foreign program gives them, or with x negated.
-fn entry(s: &Solution, slip: &[usize], negated: bool) -> Value {
-    let negate = |d: String| match (d.strip_prefix('-'), d == "0") {
-        (Some(rest), _) => rest.to_string(),
-        (None, true) => d,
-        (None, false) => format!("-{d}"),
-    };
-    let x = s
+/// `value` and `x` as a foreign program gives them.
+fn entry(s: &Solution, slip: &[usize]) -> Value {
+    json!({ "value": s.decimal(17), "x": s.x_decimals(slip, 17) })
+}
+
+/// [`entry`] with x negated.
+fn entry_negated(s: &Solution, slip: &[usize]) -> Value {
+    let x: Vec<String> = s
         .x_decimals(slip, 17)
-        .into_iter()
-        .map(|d| if negated { negate(d) } else { d });
-    json!({ "value": s.decimal(17), "x": x.collect::<Vec<_>>() })
+        .iter()
+        .map(|decimal| negated(decimal))
+        .collect();
+    json!({ "value": s.decimal(17), "x": x })
+}
+
+fn negated(decimal: &str) -> String {
+    match decimal.strip_prefix('-') {
+        Some(rest) => rest.to_string(),
+        None if decimal == "0" => decimal.to_string(),
+        None => format!("-{decimal}"),
+    }
 }
 
 /// The solution with 1.01 value + 0.01, where no support is singular (else that may be a solution).
 fn shifted(case: &Case, s: &Solution, slip: &[usize]) -> Option<Value> {
-    let value = mceip_exact::parse(&s.decimal(17))
-        .ok()
-        .filter(|_| case.answer.continua.is_empty())?;
-    let value = value * rational(101, 100) + rational(1, 100);
-    let mut out = entry(s, slip, false);
-    out["value"] = json!(value.to_string());
+    if !case.answer.continua.is_empty() {
+        return None;
+    }
+
+    let value = parse(&s.decimal(17)).ok()?;
+    let shifted = value * rational(101, 100) + rational(1, 100);
+    let mut out = entry(s, slip);
+    out["value"] = json!(shifted.to_string());
     Some(out)
 }
 
+/// The complete answer without one of its parts: one of two solutions that share a value, or else
+/// the last part.
+fn incomplete(case: &Case, slip: &[usize]) -> Option<WrongAnswer> {
+    let answer = &case.answer;
+    let mut listed: Vec<Value> = answer.solutions.iter().map(|s| entry(s, slip)).collect();
+
+    let is_plain_list = answer.cones.is_empty() && answer.ranges.is_empty();
+    if is_plain_list {
+        if let Some(k) = first_with_the_value_of_the_next(&answer.solutions) {
+            listed.remove(k + 1);
+            return Some(WrongAnswer::new(Bug::MergedByValue, listed));
+        }
+
+        listed.pop()?;
+        return Some(WrongAnswer::new(Bug::Dropped, listed));
+    }
+
+    // Cones and continua come last: a report without them has dropped them, unless a listed
+    // solution lies on a continuum's slip set.
+    let lies_on_a_range = |s: &Solution| answer.ranges.iter().any(|r| r.support == s.slip);
+    if answer.solutions.iter().any(lies_on_a_range) {
+        return None;
+    }
+    Some(WrongAnswer::new(Bug::Dropped, listed))
+}
+
+fn first_with_the_value_of_the_next(solutions: &[Solution]) -> Option<usize> {
+    solutions
+        .windows(2)
+        .position(|pair| pair[0].value.clone().equals(&mut pair[1].value.clone()))
+}
+
+/// An eigenpair that is no solution, and the bug of a program that reports it.
+struct Spurious {
+    bug: Bug,
+    pair: Solution,
+}
+
 /// Eigenpairs that are no solutions, the first of each kind.
-fn spurious(case: &Case) -> Vec<(Bug, Solution)> {
+fn spurious(case: &Case) -> Vec<Spurious> {
     let pencil = &case.reduced.pencil;
-    if pencil.slip().len() > SPECTRUM_SLIP {
+    let slip = pencil.slip();
+    if slip.len() > SPECTRUM_SLIP {
         return Vec::new();
     }
+
     let window = case.problem.window();
-    let mut found: Vec<(Bug, Solution)> = Vec::new();
-    let mut keep = |bug: Bug, s: Solution| {
-        if found.iter().all(|(b, _)| *b != bug) {
-            found.push((bug, s));
-        }
-    };
-    for (kind, s) in eigenpairs(pencil, window.min(), window.max()) {
+    let mut found = Vec::new();
+    for (kind, pair) in eigenpairs(pencil, window.min(), window.max()) {
         match kind {
-            Kind::MixedX if clearly_mixed(&s, &pencil.slip()) => keep(Bug::MixedSigns, s),
-            Kind::NegativeY => keep(Bug::ComplementIgnored, s),
+            Kind::MixedX if is_clearly_mixed(&pair, &slip) => {
+                keep_the_first(&mut found, Bug::MixedSigns, pair);
+            }
+            Kind::NegativeY => keep_the_first(&mut found, Bug::ComplementIgnored, pair),
             _ => {}
         }
     }
+
     if window.min().is_zero() {
-        let (far, near) = (whole(-1_000_000), rational(-1, 1_000_000));
-        for (kind, s) in eigenpairs(pencil, &far, Some(&Rational::zero())) {
-            if kind != Kind::Admissible || !s.value.clone().cmp_rational(&Rational::zero()).is_lt()
-            {
+        let zero = Rational::zero();
+        for (kind, pair) in eigenpairs(pencil, &whole(-1_000_000), Some(&zero)) {
+            let is_negative = pair.value.clone().cmp_rational(&zero).is_lt();
+            if kind != Kind::Admissible || !is_negative {
                 continue;
             }
-            let close = s.value.clone().cmp_rational(&near).is_gt();
-            keep(
-                if close {
-                    Bug::RoundedToZero
-                } else {
-                    Bug::NegativeValue
-                },
-                s,
-            );
+
+            let near_zero = rational(-1, 1_000_000);
+            let bug = if pair.value.clone().cmp_rational(&near_zero).is_gt() {
+                Bug::RoundedToZero
+            } else {
+                Bug::NegativeValue
+            };
+            keep_the_first(&mut found, bug, pair);
         }
     }
+
     found
 }
 
+/// Adds the pair unless there is one of the same bug.
+fn keep_the_first(found: &mut Vec<Spurious>, bug: Bug, pair: Solution) {
+    if found.iter().all(|s| s.bug != bug) {
+        found.push(Spurious { bug, pair });
+    }
+}
+
 /// Is some component of x below -1/100 of e'x_s? (A smaller one might be a reader's rounding.)
-fn clearly_mixed(s: &Solution, slip: &[usize]) -> bool {
+fn is_clearly_mixed(s: &Solution, slip: &[usize]) -> bool {
     let limit = rational(-1, 100);
     let decimals = s.x_decimals(slip, 17);
     slip.iter()
-        .any(|&i| mceip_exact::parse(&decimals[i]).is_ok_and(|v| v < limit))
+        .any(|&i| parse(&decimals[i]).is_ok_and(|v| v < limit))
 }
 
 /// A solution of the problem without its window, clearly outside of that.
@@ -265,29 +288,42 @@ fn outside(case: &Case) -> Option<Solution> {
     if window.max().is_none() && window.min().is_zero() {
         return None;
     }
+
     let all = enumerate(&case.reduced.pencil, &Window::all()).ok()?;
-    let far =
-        |v: &Rational, from: &Rational| (v - from).abs() > rational(1, 100) * (whole(1) + v.abs());
-    all.solutions.into_iter().find(|s| {
-        let Ok(v) = mceip_exact::parse(&s.decimal(17)) else {
-            return false;
-        };
-        (v < *window.min() && far(&v, window.min()))
-            || window.max().is_some_and(|m| v > *m && far(&v, m))
-    })
+    all.solutions
+        .into_iter()
+        .find(|s| is_clearly_outside(s, window))
+}
+
+fn is_clearly_outside(s: &Solution, window: &Window) -> bool {
+    let Ok(value) = parse(&s.decimal(17)) else {
+        return false;
+    };
+
+    let is_below = value < *window.min() && is_far(&value, window.min());
+    let is_above = match window.max() {
+        Some(max) => value > *max && is_far(&value, max),
+        None => false,
+    };
+    is_below || is_above
+}
+
+/// Is the distance more than 1 per cent of 1 + |v|?
+fn is_far(v: &Rational, from: &Rational) -> bool {
+    let distance = (v - from).abs();
+    let size = whole(1) + v.abs();
+    distance > rational(1, 100) * size
 }
 
 /// A continuum reported for all values from 0, where it is not.
 fn endless(case: &Case) -> Option<WrongAnswer> {
-    let range = case
-        .answer
-        .ranges
-        .iter()
-        .find(|r| r.pieces.len() > 1 || r.pieces.iter().any(|p| p.to.is_some()))?;
+    let range = case.answer.ranges.iter().find(|r| {
+        let has_an_end = r.pieces.iter().any(|p| p.to.is_some());
+        r.pieces.len() > 1 || has_an_end
+    })?;
+
     let interval = json!({ "from": { "value": "0" }, "to": null });
-    let continua = json!([{ "slip": range.support, "intervals": [interval] }]);
-    Some(WrongAnswer {
-        bug: Bug::EndlessContinuum,
-        report: report(Vec::new(), Some(continua)),
-    })
+    let mut answer = WrongAnswer::new(Bug::EndlessContinuum, Vec::new());
+    answer.report["continua"] = json!([{ "slip": range.support, "intervals": [interval] }]);
+    Some(answer)
 }

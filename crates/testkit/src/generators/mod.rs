@@ -1,4 +1,9 @@
 //! Generators of the campaign beside `families`: each instance by a seed and an index.
+//!
+//! Every function draws from the source of random numbers that it is given, in a fixed order, so
+//! that the same [`Seed`] gives the same instance on every machine. This file has what the
+//! generators share: matrices of small integers, windows, and changes of a pencil that keep its
+//! solutions.
 
 pub mod near;
 pub mod raw;
@@ -27,87 +32,123 @@ impl Seed {
     /// The generator's source of numbers: ChaCha8 with the three numbers as its key.
     pub fn rng(&self) -> ChaCha8Rng {
         let mut key = [0; 32];
-        for (chunk, word) in key.chunks_mut(8).zip([self.family, self.seed, self.index]) {
+        let words = [self.family, self.seed, self.index];
+        for (chunk, word) in key.chunks_mut(8).zip(words) {
             chunk.copy_from_slice(&word.to_le_bytes());
         }
         ChaCha8Rng::from_seed(key)
     }
 }
 
+/// A matrix of order n by its rows; its entries are drawn row by row.
+fn drawn(n: usize, mut entry: impl FnMut() -> i64) -> Vec<Vec<i64>> {
+    let mut rows = vec![vec![0; n]; n];
+    for value in rows.iter_mut().flatten() {
+        *value = entry();
+    }
+    rows
+}
+
+/// A matrix of order n whose entries are functions of row and column, formed row by row.
+fn matrix(n: usize, mut entry: impl FnMut(usize, usize) -> Rational) -> Sparse {
+    let mut entries = Vec::new();
+    for i in 0..n {
+        for j in 0..n {
+            entries.push((i, j, entry(i, j)));
+        }
+    }
+    Sparse::from_entries(n, n, entries)
+}
+
 /// GG' + identity * I with G of entries from -2 to 2: positive definite for identity > 0.
 pub fn gram(rng: &mut ChaCha8Rng, n: usize, identity: i64) -> Vec<Vec<i64>> {
-    let g: Vec<Vec<i64>> = (0..n)
-        .map(|_| (0..n).map(|_| rng.random_range(-2..=2)).collect())
-        .collect();
-    (0..n)
-        .map(|i| {
-            (0..n)
-                .map(|j| {
-                    (0..n).map(|k| g[i][k] * g[j][k]).sum::<i64>()
-                        + if i == j { identity } else { 0 }
-                })
-                .collect()
-        })
-        .collect()
+    let g = drawn(n, || rng.random_range(-2..=2));
+    let mut product = vec![vec![0; n]; n];
+
+    for i in 0..n {
+        for j in 0..n {
+            for k in 0..n {
+                product[i][j] += g[i][k] * g[j][k];
+            }
+        }
+        product[i][i] += identity;
+    }
+
+    product
 }
 
 /// Integer rows as a matrix.
 pub fn sparse(rows: &[Vec<i64>]) -> Sparse {
-    Sparse::from_ints(&rows.iter().map(|r| &r[..]).collect::<Vec<_>>())
+    let rows: Vec<&[i64]> = rows.iter().map(|r| &r[..]).collect();
+    Sparse::from_ints(&rows)
 }
 
 /// All of [0, inf), intervals whose ends are small integers (solutions of hand-made problems lie
 /// there), and points.
 pub fn window(rng: &mut ChaCha8Rng) -> Window {
     let min = rng.random_range(0..=4);
-    match rng.random_range(0..6) {
-        0 => Window::new(whole(min), Some(whole(min + rng.random_range(0..=6)))),
+    let window = match rng.random_range(0..6) {
+        0 => {
+            let max = min + rng.random_range(0..=6);
+            Window::new(whole(min), Some(whole(max)))
+        }
         1 => Window::new(rational(min, 2), Some(whole(20))),
         2 => Window::new(rational(min, 3), None),
         _ => Ok(Window::all()),
-    }
-    .unwrap_or_else(|_| Window::all()) // 0 <= min <= max above
+    };
+
+    // No window is refused, because 0 <= min <= max.
+    window.unwrap_or_else(|_| Window::all())
 }
 
 /// The same solutions from other numbers: rows of A and B multiplied by random positive rationals.
 pub fn with_scaled_rows(rng: &mut ChaCha8Rng, pencil: &Pencil) -> Pencil {
-    let factors: Vec<Rational> = (0..pencil.order())
-        .map(|_| rational(rng.random_range(1..=12), rng.random_range(1..=12)))
-        .collect();
+    let mut factors = Vec::new();
+    for _ in 0..pencil.order() {
+        let numerator = rng.random_range(1..=12);
+        let denominator = rng.random_range(1..=12);
+        factors.push(rational(numerator, denominator));
+    }
+
     rebuilt(pencil, &|i, _, v| v * &factors[i])
 }
 
 /// Another order of the variables, x and y with it.
 pub fn permuted(rng: &mut ChaCha8Rng, pencil: &Pencil) -> Pencil {
-    let mut order: Vec<usize> = (0..pencil.order()).collect();
-    for i in (1..order.len()).rev() {
-        order.swap(i, rng.random_range(0..=i)); // Fisher and Yates
-    }
+    let order = random_order(rng, pencil.order());
+    let a = pencil.a().submatrix(&order, &order);
+    let b = pencil.b().submatrix(&order, &order);
     let free = (0..order.len())
         .filter(|&i| pencil.free().contains(&order[i]))
         .collect();
-    let (a, b) = (
-        pencil.a().submatrix(&order, &order),
-        pencil.b().submatrix(&order, &order),
-    );
-    Pencil::new(a, b, free).unwrap_or_else(|_| pencil.clone()) // the same shape and as many indices
+
+    // Nothing is refused, because the shape and the number of free variables are the same.
+    Pencil::new(a, b, free).unwrap_or_else(|_| pencil.clone())
+}
+
+/// The numbers 0 to n - 1 in a random order (Fisher and Yates).
+fn random_order(rng: &mut ChaCha8Rng, n: usize) -> Vec<usize> {
+    let mut order: Vec<usize> = (0..n).collect();
+    for i in (1..n).rev() {
+        order.swap(i, rng.random_range(0..=i));
+    }
+    order
 }
 
 /// The pencil with every entry of A and B replaced by a function of row, column and value.
-pub(super) fn rebuilt(
-    pencil: &Pencil,
-    change: &dyn Fn(usize, usize, &Rational) -> Rational,
-) -> Pencil {
-    let n = pencil.order();
-    let each = |m: &Sparse| {
-        Sparse::from_entries(n, n, m.entries().map(|(i, j, v)| (i, j, change(i, j, v))))
-    };
-    Pencil::new(each(pencil.a()), each(pencil.b()), pencil.free().to_vec())
-        .unwrap_or_else(|_| pencil.clone())
+fn rebuilt(pencil: &Pencil, change: &dyn Fn(usize, usize, &Rational) -> Rational) -> Pencil {
+    let a = changed(pencil.a(), change);
+    let b = changed(pencil.b(), change);
+    Pencil::new(a, b, pencil.free().to_vec()).unwrap_or_else(|_| pencil.clone())
+}
+
+fn changed(matrix: &Sparse, change: &dyn Fn(usize, usize, &Rational) -> Rational) -> Sparse {
+    let entries = matrix.entries().map(|(i, j, v)| (i, j, change(i, j, v)));
+    Sparse::from_entries(matrix.rows(), matrix.cols(), entries)
 }
 
 /// 10^k, k of either sign.
-pub(super) fn power_of_ten(k: i32) -> Rational {
+fn power_of_ten(k: i32) -> Rational {
     let power = num_traits::pow(mceip_exact::Integer::from(10), k.unsigned_abs() as usize);
     if k < 0 {
         Rational::new(One::one(), power)

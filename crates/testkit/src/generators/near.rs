@@ -1,5 +1,10 @@
 //! Near a threshold: relative distances of 1e-3 to 1e-15 from where a solution appears or
 //! disappears.
+//!
+//! Each problem is built so that something degenerate happens exactly there: a threshold of
+//! Table 1, a biactive index, a double root, a value at the end of the window. One number is then
+//! moved by [`distance`]. Input: a source of random numbers. Called by the campaign's families
+//! `table1`, `table1-near`, `near` and `planted`.
 
 use super::power_of_ten;
 use crate::pareto::{Planted, planted};
@@ -26,16 +31,18 @@ pub fn two_particles_data(rng: &mut ChaCha8Rng, distance: Option<Rational>) -> T
     let q = rng.random_range(1..=12i64);
     let p = q + rng.random_range(1..=12i64);
     let h = p * p + q * q;
-    let (c, s) = (rational(p * p - q * q, h), rational(2 * p * q, h));
-    let (k, m) = (
-        rational(rng.random_range(1..=40), rng.random_range(1..=9)),
-        rational(rng.random_range(1..=40), rng.random_range(1..=9)),
-    );
+    let c = rational(p * p - q * q, h);
+    let s = rational(2 * p * q, h);
+
+    let k = positive(rng);
+    let m = positive(rng);
     let signs = [(1, 1), (1, -1), (-1, 1), (-1, -1)][rng.random_range(0..4)];
+
     let mu = match distance {
         None => rational(rng.random_range(1..=120), 4),
         Some(d) => threshold(rng, signs, &c, &s) * (Rational::one() + d),
     };
+
     TwoParticles {
         c,
         s,
@@ -46,16 +53,24 @@ pub fn two_particles_data(rng: &mut ChaCha8Rng, distance: Option<Rational>) -> T
     }
 }
 
+/// A stiffness or a mass: a fraction of 1 to 40 over 1 to 9.
+fn positive(rng: &mut ChaCha8Rng) -> Rational {
+    let numerator = rng.random_range(1..=40);
+    let denominator = rng.random_range(1..=9);
+    rational(numerator, denominator)
+}
+
 /// mu at which a solution of Table 1 appears: (c^2 + 1)/(cs) and (c^2 + 2)/(cs) for S = (+1, -1),
 /// else sqrt(c^2 + 2)/s, rounded down to 20 digits.
 fn threshold(rng: &mut ChaCha8Rng, signs: (i8, i8), c: &Rational, s: &Rational) -> Rational {
     if signs.0 != signs.1 {
         return (c * c + whole(rng.random_range(1..=2))) / (c * s);
     }
+
     let square = (c * c + whole(2)) / (s * s);
     let scale = num_traits::pow(Integer::from(10), 40);
-    let root = (square.numer() * &scale / square.denom()).sqrt();
-    Rational::new(root, num_traits::pow(Integer::from(10), 20))
+    let scaled_root = (square.numer() * &scale / square.denom()).sqrt();
+    Rational::new(scaled_root, num_traits::pow(Integer::from(10), 20))
 }
 
 /// A planted solution with y_i moved by a relative distance for each complementarity variable at
@@ -68,18 +83,20 @@ pub fn nearly_biactive(rng: &mut ChaCha8Rng, n: usize, free: usize) -> Result<Pr
     let Body::Pencil(pencil) = problem.body() else {
         return Ok(problem);
     };
-    let moved = (0..n)
-        .filter(|i| !pencil.free().contains(i))
-        .map(|i| (i, free, distance(rng) / &x[free]))
-        .collect::<Vec<_>>();
-    let a = pencil
-        .a()
-        .add_scaled(&Rational::one(), &Sparse::from_entries(n, n, moved));
-    Problem::new(
-        Body::Pencil(Pencil::new(a, pencil.b().clone(), pencil.free().to_vec())?),
-        problem.unknown(),
-        Window::all(),
-    )
+
+    // The first complementarity variable slips: column `free` moves y_i by what is added to A_i
+    // times x.
+    let mut moved = Vec::new();
+    for i in 0..n {
+        if !pencil.free().contains(&i) {
+            moved.push((i, free, distance(rng) / &x[free]));
+        }
+    }
+    let moved = Sparse::from_entries(n, n, moved);
+    let a = pencil.a().add_scaled(&Rational::one(), &moved);
+
+    let pencil = Pencil::new(a, pencil.b().clone(), pencil.free().to_vec())?;
+    Problem::new(Body::Pencil(pencil), problem.unknown(), Window::all())
 }
 
 /// A double root on the full support of two variables, one entry moved: two close roots, one, or
@@ -89,25 +106,31 @@ pub fn nearly_biactive(rng: &mut ChaCha8Rng, n: usize, free: usize) -> Result<Pr
 /// [`ModelError`]; none for the data as given.
 pub fn nearly_repeated(rng: &mut ChaCha8Rng) -> Result<Problem, ModelError> {
     // [d, -p; q, e] with (d - e)^2 = 4pq: t = -(d + e)/2 twice, with x_1/x_2 = 2p/(d - e) > 0.
-    let (p, q, gap) =
-        [(1, 1, 2), (4, 1, 4), (9, 1, 6), (2, 2, 4), (8, 2, 8)][rng.random_range(0..5)];
-    let base = rng.random_range(-8..=0i64);
-    let a = Sparse::from_ints(&[
-        &[base + gap, -p, 0],
-        &[q, base, 0],
+    const ENTRIES: [(i64, i64, i64); 5] = [(1, 1, 2), (4, 1, 4), (9, 1, 6), (2, 2, 4), (8, 2, 8)];
+    let (p, q, gap) = ENTRIES[rng.random_range(0..5)];
+    let e = rng.random_range(-8..=0i64);
+    let with_double_root = Sparse::from_ints(&[
+        &[e + gap, -p, 0],
+        &[q, e, 0],
         &[1, 1, rng.random_range(-3..=3)],
     ]);
-    let at = (rng.random_range(0..2), rng.random_range(0..2));
+
+    let row = rng.random_range(0..2);
+    let column = rng.random_range(0..2);
     let change = distance(rng) * whole(p);
-    let a = a.add_scaled(
-        &Rational::one(),
-        &Sparse::from_entries(3, 3, [(at.0, at.1, change)]),
-    );
-    Problem::new(
-        Body::Pencil(Pencil::new(a, Sparse::identity(3), vec![])?),
-        Unknown::Lambda2,
-        Window::all(),
-    )
+    let moved = Sparse::from_entries(3, 3, [(row, column, change)]);
+    let a = with_double_root.add_scaled(&Rational::one(), &moved);
+
+    let pencil = Pencil::new(a, Sparse::identity(3), vec![])?;
+    Problem::new(Body::Pencil(pencil), Unknown::Lambda2, Window::all())
+}
+
+/// A planted solution and a window that ends beside its value.
+pub struct NearTheEnd {
+    /// The problem with this window, the planted value and vector.
+    pub planted: Planted,
+    /// Does the closed window hold the value?
+    pub is_inside: bool,
 }
 
 /// A window whose end is at a relative distance from a planted value: inside, on the end, or
@@ -119,25 +142,27 @@ pub fn near_the_windows_end(
     rng: &mut ChaCha8Rng,
     n: usize,
     free: usize,
-) -> Result<(Planted, bool), ModelError> {
+) -> Result<NearTheEnd, ModelError> {
     let plan = planted(n, free, rng.random_range(0..u64::MAX))?;
     let end = &plan.value * (Rational::one() + distance(rng));
-    let above = rng.random_range(0..2) == 0;
-    let inside = if above {
+    let is_lower_end = rng.random_range(0..2) == 0;
+
+    let is_inside = if is_lower_end {
         end <= plan.value
     } else {
         end >= plan.value
     };
-    let window = if above {
+    let window = if is_lower_end {
         Window::new(end, None)?
     } else {
         Window::new(whole(0), Some(end))?
     };
-    Ok((
-        Planted {
+
+    Ok(NearTheEnd {
+        planted: Planted {
             problem: plan.problem.with_window(window),
             ..plan
         },
-        inside,
-    ))
+        is_inside,
+    })
 }

@@ -1,13 +1,19 @@
 //! Raw pencils: as finite elements have them, one-digit integers, mostly zeros, twins, graphs, free
 //! variables anywhere.
+//!
+//! A raw pencil is drawn as two matrices A and B, without a mechanical system behind it. Input: a
+//! source of random numbers and the order. Called by the campaign's families (`campaign::named`)
+//! and by tests.
 
-use super::{gram, sparse};
+use super::{drawn, gram, matrix, sparse};
 use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{ModelError, Pencil, Unknown};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
 
 /// K0 = GG' + I, K1 with zero free rows, M = GG' + I: as finite elements have it.
+///
+/// The `n_f` free variables come first, then the `n_s` complementarity variables.
 ///
 /// # Errors
 /// [`ModelError`] for no variables.
@@ -18,19 +24,23 @@ pub fn elements(
     n_f: usize,
 ) -> Result<Pencil, ModelError> {
     let n = n_s + n_f;
-    let (k0, mass) = (gram(rng, n, 1), gram(rng, n, 1));
-    let mut k1: Vec<Vec<i64>> = (0..n)
-        .map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect())
-        .collect();
-    k1[..n_f].iter_mut().for_each(|r| r.fill(0));
-    let (a, b) = match unknown {
-        Unknown::Mu => (sparse(&k0), sparse(&k1)),
-        Unknown::Lambda2 => (
-            sparse(&k0).add_scaled(&rational(rng.random_range(1..=9), 3), &sparse(&k1)),
-            sparse(&mass),
-        ),
-    };
-    Pencil::new(a, b, (0..n_f).collect())
+    let k0 = sparse(&gram(rng, n, 1));
+    let mass = sparse(&gram(rng, n, 1));
+
+    let mut k1 = drawn(n, || rng.random_range(-9..=9));
+    for free_row in &mut k1[..n_f] {
+        free_row.fill(0);
+    }
+    let k1 = sparse(&k1);
+
+    let free = (0..n_f).collect();
+    match unknown {
+        Unknown::Mu => Pencil::new(k0, k1, free),
+        Unknown::Lambda2 => {
+            let friction = rational(rng.random_range(1..=9), 3);
+            Pencil::new(k0.add_scaled(&friction, &k1), mass, free)
+        }
+    }
 }
 
 /// One-digit integers, A and B arbitrary; with free variables A_ff definite, B_ff = 0.
@@ -39,17 +49,15 @@ pub fn elements(
 /// [`ModelError`] for no variables.
 pub fn digits(rng: &mut ChaCha8Rng, n_s: usize, n_f: usize) -> Result<Pencil, ModelError> {
     let n = n_s + n_f;
-    let mut draw = || -> Vec<Vec<i64>> {
-        (0..n)
-            .map(|_| (0..n).map(|_| rng.random_range(-9..=9)).collect())
-            .collect()
-    };
-    let (mut a, mut b) = (draw(), draw());
-    let ff = gram(rng, n_f, 1);
+    let mut a = drawn(n, || rng.random_range(-9..=9));
+    let mut b = drawn(n, || rng.random_range(-9..=9));
+
+    let a_ff = gram(rng, n_f, 1);
     for i in 0..n_f {
-        a[i][..n_f].copy_from_slice(&ff[i]);
+        a[i][..n_f].copy_from_slice(&a_ff[i]);
         b[i].fill(0);
     }
+
     Pencil::new(sparse(&a), sparse(&b), (0..n_f).collect())
 }
 
@@ -58,16 +66,15 @@ pub fn digits(rng: &mut ChaCha8Rng, n_s: usize, n_f: usize) -> Result<Pencil, Mo
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn zeros(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
-    let mut draw = || -> Vec<Vec<i64>> {
-        (0..n)
-            .map(|_| {
-                (0..n)
-                    .map(|_| [0, 0, 0, 1, 0, 0, 0, -1][rng.random_range(0..8)])
-                    .collect()
-            })
-            .collect()
-    };
-    Pencil::new(sparse(&draw()), sparse(&draw()), Vec::new())
+    const ENTRIES: [i64; 8] = [0, 0, 0, 1, 0, 0, 0, -1];
+    let a = drawn_from(&ENTRIES, rng, n);
+    let b = drawn_from(&ENTRIES, rng, n);
+    Pencil::new(sparse(&a), sparse(&b), Vec::new())
+}
+
+/// A matrix of order n by its rows, each entry one of eight with the same probability.
+fn drawn_from(entries: &[i64; 8], rng: &mut ChaCha8Rng, n: usize) -> Vec<Vec<i64>> {
+    drawn(n, || entries[rng.random_range(0..8)])
 }
 
 /// A particle that is another's double: the same row and column. At least two variables.
@@ -80,18 +87,21 @@ pub fn doubled(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
             what: "a pair of variables",
         });
     }
-    let twin = |m: Vec<Vec<i64>>| -> Vec<Vec<i64>> {
-        let of = |i: usize| i.min(n - 2);
-        (0..n)
-            .map(|i| (0..n).map(|j| m[of(i)][of(j)]).collect())
-            .collect()
-    };
-    let mut draw = || -> Vec<Vec<i64>> {
-        (0..n)
-            .map(|_| (0..n).map(|_| rng.random_range(-3..=3)).collect())
-            .collect()
-    };
-    Pencil::new(sparse(&twin(draw())), sparse(&twin(draw())), Vec::new())
+
+    let mut a = drawn(n, || rng.random_range(-3..=3));
+    let mut b = drawn(n, || rng.random_range(-3..=3));
+    double_the_last_but_one(&mut a);
+    double_the_last_but_one(&mut b);
+    Pencil::new(sparse(&a), sparse(&b), Vec::new())
+}
+
+/// Overwrites the last row and column with those before them.
+fn double_the_last_but_one(rows: &mut [Vec<i64>]) {
+    let n = rows.len();
+    for row in rows.iter_mut() {
+        row[n - 1] = row[n - 2];
+    }
+    rows[n - 1] = rows[n - 2].clone();
 }
 
 /// (A - 2 - t) x = y, A the adjacency matrix of a random graph: repeated values, integers, cones.
@@ -99,21 +109,18 @@ pub fn doubled(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn graph(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
-    let mut a = vec![vec![0; n]; n];
+    let mut adjacency = vec![vec![0; n]; n];
     for i in 0..n {
         for j in 0..i {
-            (a[i][j], a[j][i]) = if rng.random_range(0..2) == 0 {
-                (1, 1)
-            } else {
-                (0, 0)
-            };
+            let is_edge = rng.random_range(0..2) == 0;
+            adjacency[i][j] = i64::from(is_edge);
+            adjacency[j][i] = i64::from(is_edge);
         }
     }
-    Pencil::new(
-        sparse(&a),
-        Sparse::identity(n).add_scaled(&whole(-2), &Sparse::identity(n)),
-        Vec::new(),
-    )
+
+    let identity = Sparse::identity(n);
+    let minus_identity = identity.add_scaled(&whole(-2), &identity);
+    Pencil::new(sparse(&adjacency), minus_identity, Vec::new())
 }
 
 /// B = I and A of small integers: standard eigenvalues, often repeated, often zero.
@@ -121,9 +128,7 @@ pub fn graph(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn identity(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
-    let a: Vec<Vec<i64>> = (0..n)
-        .map(|_| (0..n).map(|_| rng.random_range(-2..=1)).collect())
-        .collect();
+    let a = drawn(n, || rng.random_range(-2..=1));
     Pencil::new(sparse(&a), Sparse::identity(n), Vec::new())
 }
 
@@ -133,17 +138,17 @@ pub fn identity(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn free_anywhere(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
-    let free = (0..n).filter(|_| rng.random_range(0..3) == 0).collect();
-    let mut draw = || -> Vec<Vec<i64>> {
-        (0..n)
-            .map(|_| {
-                (0..n)
-                    .map(|_| [0, 0, 0, 1, -1, 1, -1, 2][rng.random_range(0..8)])
-                    .collect()
-            })
-            .collect()
-    };
-    Pencil::new(sparse(&draw()), sparse(&draw()), free)
+    const ENTRIES: [i64; 8] = [0, 0, 0, 1, -1, 1, -1, 2];
+    let mut free = Vec::new();
+    for i in 0..n {
+        if rng.random_range(0..3) == 0 {
+            free.push(i);
+        }
+    }
+
+    let a = drawn_from(&ENTRIES, rng, n);
+    let b = drawn_from(&ENTRIES, rng, n);
+    Pencil::new(sparse(&a), sparse(&b), free)
 }
 
 /// Numbers with denominators, rows and columns of very different size.
@@ -151,35 +156,29 @@ pub fn free_anywhere(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelErro
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn fractions(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
-    let mut entry = |i: usize, j: usize| -> Rational {
-        rational(rng.random_range(-999..=999), rng.random_range(1..=99))
-            * whole(10i64.pow((i + 2 * j) as u32))
-    };
-    let mut draw = || {
-        Sparse::from_entries(
-            n,
-            n,
-            (0..n * n)
-                .map(|k| (k / n, k % n, entry(k / n, k % n)))
-                .collect::<Vec<_>>(),
-        )
-    };
-    Pencil::new(draw(), draw(), Vec::new())
+    let a = matrix(n, |i, j| scaled_fraction(rng, i, j));
+    let b = matrix(n, |i, j| scaled_fraction(rng, i, j));
+    Pencil::new(a, b, Vec::new())
 }
 
-/// Signs alone: every entry 1 or -1, by the pattern of the index's bits where they suffice.
+/// A fraction of up to three digits over two, times 10^(i + 2j).
+fn scaled_fraction(rng: &mut ChaCha8Rng, i: usize, j: usize) -> Rational {
+    let numerator = rng.random_range(-999..=999);
+    let denominator = rng.random_range(1..=99);
+    let scale = 10i64.pow((i + 2 * j) as u32);
+    rational(numerator, denominator) * whole(scale)
+}
+
+/// Signs alone: every entry 1 or -1, each with probability 1/2.
 ///
 /// # Errors
 /// [`ModelError`] for no variables.
 pub fn signs(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
-    let mut draw = || -> Vec<Vec<i64>> {
-        (0..n)
-            .map(|_| {
-                (0..n)
-                    .map(|_| if rng.random_range(0..2) == 0 { 1 } else { -1 })
-                    .collect()
-            })
-            .collect()
-    };
-    Pencil::new(sparse(&draw()), sparse(&draw()), Vec::new())
+    let a = drawn(n, || sign(rng));
+    let b = drawn(n, || sign(rng));
+    Pencil::new(sparse(&a), sparse(&b), Vec::new())
+}
+
+fn sign(rng: &mut ChaCha8Rng) -> i64 {
+    if rng.random_range(0..2) == 0 { 1 } else { -1 }
 }

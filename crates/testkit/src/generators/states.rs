@@ -1,8 +1,12 @@
 //! Mechanical systems with every mixture of contact states, one after the other.
+//!
+//! Input: the number of a mixture, a source of random numbers. Output: a system (1)-(9) with these
+//! states, positive definite K and M, and the corners that it reaches. Called by the campaign's
+//! family `states` and by tests.
 
-use super::{gram, sparse};
+use super::{gram, random_order, sparse};
 use crate::families::Corner;
-use mceip_exact::{Rational, rational};
+use mceip_exact::{Rational, Sparse, rational, whole};
 use mceip_model::{ContactState, ModelError, Particle, System};
 use rand::RngExt;
 use rand_chacha::ChaCha8Rng;
@@ -21,17 +25,32 @@ pub const MIXTURES: u64 = 70;
 
 /// The `number`-th mixture, counted modulo [`MIXTURES`].
 pub fn mixture(number: u64) -> Vec<ContactState> {
-    let all = (1..=3u32).flat_map(|p| {
-        (0..4usize.pow(p)).map(move |code| {
-            (0..p)
-                .map(|k| STATES[code / 4usize.pow(k) % 4])
-                .collect::<Vec<ContactState>>()
-        })
-    });
-    let slips = |m: &Vec<ContactState>| m.iter().any(|s| matches!(s, ContactState::Slip { .. }));
-    all.filter(slips)
-        .nth((number % MIXTURES) as usize)
-        .unwrap_or_default()
+    let mut place = (number % MIXTURES) as usize;
+    for particles in 1..=3u32 {
+        for code in 0..4usize.pow(particles) {
+            let states = decoded(code, particles);
+            if !states.iter().any(is_slip) {
+                continue;
+            }
+            if place == 0 {
+                return states;
+            }
+            place -= 1;
+        }
+    }
+
+    Vec::new()
+}
+
+/// The states whose places in [`STATES`] are the digits of `code` to the base 4, lowest first.
+fn decoded(code: usize, particles: u32) -> Vec<ContactState> {
+    (0..particles)
+        .map(|k| STATES[code / 4usize.pow(k) % 4])
+        .collect()
+}
+
+fn is_slip(state: &ContactState) -> bool {
+    matches!(state, ContactState::Slip { .. })
 }
 
 /// A random system with these states: K and M definite, frames and normals of every kind, up to two
@@ -45,65 +64,69 @@ pub fn system(
     corners: &mut Vec<Corner>,
 ) -> Result<System, ModelError> {
     let n = 2 * states.len() + rng.random_range(0..=2);
-    let mut dofs: Vec<usize> = (0..n).collect();
-    for i in (1..n).rev() {
-        dofs.swap(i, rng.random_range(0..=i));
+    let dofs = random_order(rng, n);
+
+    let mut particles = Vec::new();
+    for (k, &state) in states.iter().enumerate() {
+        let plain = Particle::plain(dofs[2 * k], dofs[2 * k + 1], state);
+        particles.push(turned(rng, plain, corners));
     }
-    let particles = states.iter().enumerate().map(|(k, &state)| {
-        let mut particle = Particle::plain(dofs[2 * k], dofs[2 * k + 1], state);
-        particle.normal_direction = if rng.random_range(0..2) == 0 { 1 } else { -1 };
-        if rng.random_range(0..3) == 0 {
-            particle.frame = Some(rotation(rng));
-            corners.push(Corner::Oblique);
-        }
-        match state {
-            ContactState::Stick => corners.push(Corner::Stick),
-            ContactState::Free => corners.push(Corner::FreeVariables),
-            ContactState::Slip { .. } => {}
-        }
-        particle
-    });
-    let particles: Vec<Particle> = particles.collect();
-    let mass = if rng.random_range(0..2) == 0 {
-        (0..n)
-            .map(|i| (0..n).map(|j| if i == j { 3 } else { 0 }).collect())
-            .collect()
+
+    let is_lumped = rng.random_range(0..2) == 0;
+    let mass = if is_lumped {
+        Sparse::zeros(n, n).add_scaled(&whole(3), &Sparse::identity(n))
     } else {
         corners.push(Corner::CoupledMass);
-        gram(rng, n, 1)
+        sparse(&gram(rng, n, 1))
     };
+
     let friction = rational(rng.random_range(1..=80), 4);
-    System::new(
-        sparse(&gram(rng, n, 1)),
-        Some(sparse(&mass)),
-        Some(friction),
-        particles,
-    )
+    let stiffness = sparse(&gram(rng, n, 1));
+    System::new(stiffness, Some(mass), Some(friction), particles)
+}
+
+/// The particle with a random normal direction and, one time in three, a rotated frame.
+fn turned(rng: &mut ChaCha8Rng, mut particle: Particle, corners: &mut Vec<Corner>) -> Particle {
+    particle.normal_direction = if rng.random_range(0..2) == 0 { 1 } else { -1 };
+    if rng.random_range(0..3) == 0 {
+        particle.frame = Some(rotation(rng));
+        corners.push(Corner::Oblique);
+    }
+
+    match particle.state {
+        ContactState::Stick => corners.push(Corner::Stick),
+        ContactState::Free => corners.push(Corner::FreeVariables),
+        ContactState::Slip { .. } => {}
+    }
+    particle
 }
 
 /// A rotation from a Pythagorean triple, in any of the four quadrants.
 fn rotation(rng: &mut ChaCha8Rng) -> [[Rational; 2]; 2] {
-    let (c, s, h) = [
+    const TRIPLES: [(i64, i64, i64); 6] = [
         (3, 4, 5),
         (4, 3, 5),
         (5, 12, 13),
         (-3, 4, 5),
         (-8, -15, 17),
         (20, -21, 29),
-    ][rng.random_range(0..6)];
-    let (c, s) = (rational(c, h), rational(s, h));
+    ];
+    let (p, q, h) = TRIPLES[rng.random_range(0..6)];
+
+    let c = rational(p, h);
+    let s = rational(q, h);
     [[c.clone(), s.clone()], [-s, c]]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::collections::BTreeSet;
 
     #[test]
     fn every_mixture_occurs_once() {
-        let words = |m: Vec<ContactState>| format!("{m:?}");
-        let all: std::collections::BTreeSet<String> =
-            (0..MIXTURES).map(|k| words(mixture(k))).collect();
+        let all: BTreeSet<String> = (0..MIXTURES).map(|k| format!("{:?}", mixture(k))).collect();
+
         assert_eq!(all.len() as u64, MIXTURES);
         assert!(!all.contains("[]"));
         assert_eq!(mixture(MIXTURES), mixture(0));

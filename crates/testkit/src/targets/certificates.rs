@@ -1,16 +1,22 @@
 //! What is read is true or refused: certificates of any text, reports of any doubles.
+//!
+//! Input: bytes of a fuzzer. The texts are about a few fixed problems, of which the plain
+//! enumerator knows the whole answer; whatever the checker accepts must be in it. Called by the
+//! fuzz targets `certificate_reader`, `hostile_report` and `problem_reader`.
 
+use crate::compare::in_doubles;
 use mceip_check::certificate::{Certificate, Claim};
-use mceip_check::{Accepted, AcceptedClaim, check};
+use mceip_check::{Accepted, AcceptedClaim, AcceptedCover, check};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{certificate, propose};
 use mceip_engine::foreign::{BadPoint, ForeignReport, Reported};
 use mceip_engine::multistart::support;
 use mceip_engine::reduction::reduce;
 use mceip_engine::run::Watch;
-use mceip_exact::{Sparse, from_f64};
-use mceip_model::{Body, Pencil, Problem, Unknown, Window};
-use mceip_oracle::{Enumeration, Solution, enumerate};
+use mceip_engine::search::complete::{Options, complete};
+use mceip_exact::{Algebraic, Sparse, from_f64};
+use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
+use mceip_oracle::{Cone, Enumeration, Solution, enumerate};
 use std::cmp::Ordering;
 
 /// Certificate reader and checker on any text: what is read round-trips; bound to one of a few
@@ -20,19 +26,23 @@ pub fn certificate_reader(data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else {
         return;
     };
+
     let mut read = match Certificate::from_json(text) {
         Ok(read) => read,
         Err(e) => return assert_eq!(e.to_string().lines().count(), 1, "{e:?}"),
     };
+
     let again = Certificate::from_json(&read.to_json())
         .unwrap_or_else(|e| panic!("written certificate is refused: {e}"));
     assert_eq!(again, read);
+
     for problem in subjects() {
         // The digest is what a forger copies first.
         read.problem_sha256 = problem.sha256();
         let problem = problem.with_window(read.window.clone());
+
         match check(&problem, &read) {
-            Ok(accepted) => hold(&problem, &accepted),
+            Ok(accepted) => assert_true(&problem, &accepted),
             Err(e) => assert_eq!(e.to_string().lines().count(), 1, "{e:?}"),
         }
     }
@@ -44,47 +54,74 @@ pub fn hostile_report(data: &[u8]) {
     let Some((&head, rest)) = data.split_first() else {
         return;
     };
+
     let list = subjects();
     let problem = &list[usize::from(head) % list.len()];
-    let doubles: Vec<f64> = rest
-        .chunks_exact(8)
-        .filter_map(|c| Some(f64::from_bits(u64::from_le_bytes(c.try_into().ok()?))))
-        .collect();
-    let Some((&value, x)) = doubles.split_first() else {
+    let Some(candidate) = any_candidate(rest) else {
         return;
     };
-    let candidate = Candidate {
+
+    assert_certified_is_true(problem, &candidate);
+    assert_read_as_it_is(problem, &candidate);
+}
+
+/// The candidate whose value and x are these bytes, eight to a double; `None` without a value.
+fn any_candidate(data: &[u8]) -> Option<Candidate> {
+    let mut doubles = Vec::new();
+    for chunk in data.chunks_exact(8) {
+        let bytes = chunk.try_into().ok()?;
+        doubles.push(f64::from_bits(u64::from_le_bytes(bytes)));
+    }
+
+    let (&value, x) = doubles.split_first()?;
+    Some(Candidate {
         value,
         x: x.to_vec(),
-    };
+    })
+}
+
+/// What is certified from the candidate is accepted, and true.
+fn assert_certified_is_true(problem: &Problem, candidate: &Candidate) {
     let Ok(reduced) = reduce(problem) else {
         panic!("a fixed problem is refused")
     };
-    if let Ok(claim) = propose(&reduced.pencil, problem.window(), &candidate) {
-        let support = support(&claim).to_vec();
-        match check(problem, &certificate(problem, vec![claim])) {
-            Ok(accepted) => hold(problem, &accepted),
-            Err(e) => {
-                panic!("certified from {candidate:?} with support {support:?}, and rejected: {e}")
-            }
+    let Ok(claim) = propose(&reduced.pencil, problem.window(), candidate) else {
+        return;
+    };
+
+    let support = support(&claim).to_vec();
+    match check(problem, &certificate(problem, vec![claim])) {
+        Ok(accepted) => assert_true(problem, &accepted),
+        Err(e) => {
+            panic!("certified from {candidate:?} with support {support:?}, and rejected: {e}")
         }
     }
-    let number = |v: &f64| format!("{v:e}");
-    let list: Vec<String> = x.iter().map(number).collect();
+}
+
+/// A report of the candidate is read as this candidate, or refused in one line because one of its
+/// numbers is not finite.
+fn assert_read_as_it_is(problem: &Problem, candidate: &Candidate) {
+    let Ok(reduced) = reduce(problem) else {
+        panic!("a fixed problem is refused")
+    };
+
+    let x: Vec<String> = candidate.x.iter().map(|v| format!("{v:e}")).collect();
     let text = format!(
-        r#"{{"format":"mceip-solutions/1","solutions":[{{"value":{},"x":[{}]}}]}}"#,
-        number(&value),
-        list.join(",")
+        r#"{{"format":"mceip-solutions/1","solutions":[{{"value":{:e},"x":[{}]}}]}}"#,
+        candidate.value,
+        x.join(",")
     );
+
     match ForeignReport::read(&text, problem, &reduced) {
         Ok(report) => assert!(
-            is_same_point(&report.solutions, &candidate),
+            is_same_point(&report.solutions, candidate),
             "{text}: {:?}",
             report.solutions
         ),
         Err(e) => {
+            let mut numbers = candidate.x.iter().chain([&candidate.value]);
             assert_eq!(e.to_string().lines().count(), 1, "{e:?}");
-            assert!(doubles.iter().any(|v| from_f64(*v).is_err()), "{text}: {e}");
+            assert!(numbers.any(|v| from_f64(*v).is_err()), "{text}: {e}");
         }
     }
 }
@@ -111,6 +148,7 @@ pub(super) fn report_reader(text: &str) {
     let Ok(reduced) = reduce(problem) else {
         panic!("a fixed problem is refused")
     };
+
     if let Err(e) = ForeignReport::read(text, problem, &reduced) {
         assert_eq!(e.to_string().lines().count(), 1, "{e:?}");
     }
@@ -118,74 +156,103 @@ pub(super) fn report_reader(text: &str) {
 
 /// The fold of `spec/errata.md`, a pencil with a free variable, a double root, a cone.
 fn subjects() -> Vec<Problem> {
-    let pencil = |a: &[&[i64]], b: &[&[i64]], free: &[usize], unknown| {
-        let pencil = Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec());
-        pencil
-            .and_then(|p| Problem::new(Body::Pencil(p), unknown, Window::all()))
-            .ok()
-    };
-    let one: &[&[i64]] = &[&[1, 0], &[0, 1]];
+    let identity: &[&[i64]] = &[&[1, 0], &[0, 1]];
+    let fold = pencil(&[&[1, -6], &[2, -6]], identity, &[]);
+    let with_a_free_variable = pencil(
+        &[&[4, 1, 1], &[1, 3, -1], &[2, 1, 5]],
+        &[&[0, 0, 0], &[1, -2, 1], &[-1, 1, -3]],
+        &[0],
+    );
+    let double_root = pencil(&[&[1, -4], &[1, -3]], identity, &[]);
+    let cone = pencil(&[&[-1, 0], &[0, -1]], identity, &[]);
+
     let list = [
-        pencil(&[&[1, -6], &[2, -6]], one, &[], Unknown::Lambda2),
-        pencil(
-            &[&[4, 1, 1], &[1, 3, -1], &[2, 1, 5]],
-            &[&[0, 0, 0], &[1, -2, 1], &[-1, 1, -3]],
-            &[0],
-            Unknown::Mu,
-        ),
-        pencil(&[&[1, -4], &[1, -3]], one, &[], Unknown::Lambda2),
-        pencil(&[&[-1, 0], &[0, -1]], one, &[], Unknown::Lambda2),
+        (fold, Unknown::Lambda2),
+        (with_a_free_variable, Unknown::Mu),
+        (double_root, Unknown::Lambda2),
+        (cone, Unknown::Lambda2),
     ];
-    list.into_iter().flatten().collect()
+
+    let mut out = Vec::new();
+    for (pencil, unknown) in list {
+        let problem = pencil.and_then(|p| Problem::new(Body::Pencil(p), unknown, Window::all()));
+        out.extend(problem.ok());
+    }
+    out
 }
 
-/// Everything accepted is in the enumerator's answer.
-fn hold(problem: &Problem, accepted: &Accepted) {
-    let Ok(oracle) = reduce(problem)
-        .map_err(drop)
-        .and_then(|r| enumerate(&r.pencil, problem.window()).map_err(drop))
-    else {
+fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Result<Pencil, ModelError> {
+    Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec())
+}
+
+/// The enumerator's answer to a fixed problem in this window.
+fn answer(problem: &Problem) -> Enumeration {
+    let Ok(reduced) = reduce(problem) else {
         panic!("a fixed problem is refused")
     };
-    let cover = accepted.cover.iter().flat_map(|c| &c.solutions);
-    for claim in accepted.claims.iter().chain(cover) {
+    let Ok(answer) = enumerate(&reduced.pencil, problem.window()) else {
+        panic!("a fixed problem is refused")
+    };
+    answer
+}
+
+/// Everything accepted is in the enumerator's answer, and a set without open regions is all of it.
+fn assert_true(problem: &Problem, accepted: &Accepted) {
+    let oracle = answer(problem);
+    let of_the_cover = accepted.cover.iter().flat_map(|c| &c.solutions);
+    for claim in accepted.claims.iter().chain(of_the_cover) {
         assert!(
             is_listed(&oracle, claim),
             "accepted, but not a solution: {claim:?}"
         );
     }
-    if let Some(cover) = accepted.cover.as_ref().filter(|c| c.open.is_empty()) {
-        assert!(
-            oracle.is_plain_list() || !cover.families.is_empty(),
-            "complete, but there is a cone or a range"
-        );
-        let in_family = |s: &Solution| cover.families.iter().any(|f| f.support == s.slip);
-        for s in oracle.solutions.iter().filter(|s| !in_family(s)) {
-            assert!(
-                cover.solutions.iter().any(|c| is_same(s, c)),
-                "complete, but {:?} at {} is missing",
-                s.slip,
-                s.decimal(12)
-            );
-        }
+
+    if let Some(cover) = &accepted.cover
+        && cover.open.is_empty()
+    {
+        assert_complete(&oracle, cover);
     }
 }
 
+/// A cover without open regions holds every solution of the enumerator's answer.
+fn assert_complete(oracle: &Enumeration, cover: &AcceptedCover) {
+    assert!(
+        oracle.is_plain_list() || !cover.families.is_empty(),
+        "complete, but there is a cone or a range"
+    );
+
+    for solution in &oracle.solutions {
+        let in_a_family = cover.families.iter().any(|f| f.support == solution.slip);
+        let is_listed = cover.solutions.iter().any(|c| is_same(solution, c));
+        assert!(
+            in_a_family || is_listed,
+            "complete, but {:?} at {} is missing",
+            solution.slip,
+            solution.decimal(12)
+        );
+    }
+}
+
+/// Does the enumerator's answer hold a solution with this support and a value in this interval:
+/// one of its list, of a cone, or of a range?
 fn is_listed(oracle: &Enumeration, claim: &AcceptedClaim) -> bool {
-    let subset = |a: &[usize], b: &[usize]| a.iter().all(|i| b.contains(i));
+    let in_a_cone = |c: &Cone| {
+        let is_on_a_face = claim.support.iter().all(|i| c.slip.contains(i));
+        is_on_a_face && is_within(&c.value, claim)
+    };
+
     oracle.solutions.iter().any(|s| is_same(s, claim))
-        || oracle
-            .cones
-            .iter()
-            .any(|c| subset(&claim.support, &c.slip) && within(&c.value, claim))
+        || oracle.cones.iter().any(in_a_cone)
         || oracle.ranges.iter().any(|r| r.support == claim.support)
 }
 
+/// Same support, and the solution's value lies in the claim's interval.
 fn is_same(s: &Solution, claim: &AcceptedClaim) -> bool {
-    s.slip == claim.support && within(&s.value, claim)
+    s.slip == claim.support && is_within(&s.value, claim)
 }
 
-fn within(value: &mceip_exact::Algebraic, claim: &AcceptedClaim) -> bool {
+/// Does the value lie in the claim's interval?
+fn is_within(value: &Algebraic, claim: &AcceptedClaim) -> bool {
     let mut value = value.clone();
     value.cmp_rational(claim.value.lo()) != Ordering::Less
         && value.cmp_rational(claim.value.hi()) != Ordering::Greater
@@ -193,39 +260,33 @@ fn within(value: &mceip_exact::Algebraic, claim: &AcceptedClaim) -> bool {
 
 /// Certificates of every kind for the fixed problems: the seeds of the corpus.
 pub fn certificate_seeds() -> Vec<String> {
-    use mceip_engine::search::complete::{Options, complete};
+    let options = Options {
+        pieces: 2,
+        nodes_per_piece: 200,
+        ..Options::default()
+    };
+
     let mut out = Vec::new();
     for problem in subjects() {
-        let options = Options {
-            pieces: 2,
-            nodes_per_piece: 200,
-            ..Options::default()
-        };
         if let Ok(found) = complete(&problem, &options, &Watch::nobody()) {
             out.push(found.certificate.to_json());
         }
+
         let Ok(reduced) = reduce(&problem) else {
             continue;
         };
         let Ok(oracle) = enumerate(&reduced.pencil, problem.window()) else {
             continue;
         };
+
         let slip = reduced.pencil.slip();
-        for s in &oracle.solutions {
-            let x = s
-                .x_decimals(&slip, 17)
-                .iter()
-                .map(|t| t.parse().unwrap_or(f64::NAN))
-                .collect(); // our own decimals parse
-            let candidate = Candidate {
-                value: s.decimal(17).parse().unwrap_or(f64::NAN),
-                x,
-            };
-            let claims: Vec<Claim> = propose(&reduced.pencil, problem.window(), &candidate)
-                .into_iter()
-                .collect();
+        for solution in &oracle.solutions {
+            let candidate = in_doubles(solution, &slip);
+            let claim = propose(&reduced.pencil, problem.window(), &candidate);
+            let claims: Vec<Claim> = claim.into_iter().collect();
             out.push(certificate(&problem, claims).to_json());
         }
     }
+
     out
 }

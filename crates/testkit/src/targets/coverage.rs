@@ -47,19 +47,21 @@ impl Counter {
     /// target a finding.
     pub fn add(&self, report: &InstanceReport) {
         let seen = self.counted(report);
-        if seen.inputs.is_multiple_of(EVERY) {
-            let low = self.short(&seen);
-            assert!(
-                low.is_empty(),
-                "coverage over {} inputs of this process, not of the last input: {low:?}",
-                seen.inputs
-            );
+        if !seen.inputs.is_multiple_of(EVERY) {
+            return;
         }
+
+        let low = self.below_the_floor(&seen);
+        assert!(
+            low.is_empty(),
+            "coverage over {} inputs of this process, not of the last input: {low:?}",
+            seen.inputs
+        );
     }
 
     /// The rates that are below their floors so far.
     pub fn shortfalls(&self) -> Vec<String> {
-        self.short(&self.seen())
+        self.below_the_floor(&self.seen())
     }
 
     /// What was counted so far.
@@ -74,17 +76,21 @@ impl Counter {
     fn counted(&self, report: &InstanceReport) -> Seen {
         let mut seen = self.seen.lock().unwrap_or_else(PoisonError::into_inner);
         seen.inputs += 1;
+
         for (starts, coverage) in report.coverage() {
             seen.coverage.entry(starts).or_default().add(&coverage);
         }
+
         seen.clone()
     }
 
-    fn short(&self, seen: &Seen) -> Vec<String> {
-        let each = seen
-            .coverage
-            .iter()
-            .flat_map(|(starts, coverage)| shortfalls(self.family, *starts, coverage));
-        each.map(|s| s.to_string()).collect()
+    fn below_the_floor(&self, seen: &Seen) -> Vec<String> {
+        let mut out = Vec::new();
+        for (starts, coverage) in &seen.coverage {
+            for shortfall in shortfalls(self.family, *starts, coverage) {
+                out.push(shortfall.to_string());
+            }
+        }
+        out
     }
 }

@@ -1,4 +1,7 @@
 //! The complete search against the plain enumerator.
+//!
+//! Input: bytes of a fuzzer, which make a small pencil and a window. A disagreement is a panic.
+//! Called by the fuzz target `complete_against_plain`.
 
 use crate::completed::compare_within;
 use mceip_exact::{Rational, Sparse, rational, whole};
@@ -9,15 +12,17 @@ use mceip_oracle::enumerate;
 /// The complete search, cut short after few nodes, says nothing that the plain enumerator does not;
 /// and a set it calls complete is the plain one's.
 pub fn complete_against_plain(data: &[u8]) {
-    let Some((pencil, unknown, window)) = windowed(data) else {
+    let Some(problem) = windowed(data) else {
         return;
     };
-    let Ok(problem) = Problem::new(Body::Pencil(pencil.clone()), unknown, window.clone()) else {
+
+    let Body::Pencil(pencil) = problem.body() else {
         return;
     };
-    let Ok(plain) = enumerate(&pencil, &window) else {
+    let Ok(plain) = enumerate(pencil, problem.window()) else {
         panic!("the enumerator refuses {pencil:?}")
     };
+
     if let Err(disagreement) = compare_within(&problem, &plain, NODES) {
         panic!("{disagreement}: {}", write_problem(&problem));
     }
@@ -26,38 +31,59 @@ pub fn complete_against_plain(data: &[u8]) {
 /// Nodes per piece of the complete search.
 const NODES: usize = 300;
 
-/// A pencil of order 1 to 4, its unknown and a window. The first two bytes choose the form, the
-/// third the window.
-fn windowed(data: &[u8]) -> Option<(Pencil, Unknown, Window)> {
-    let (&head, &mask, &view) = (data.first()?, data.get(1)?, data.get(2)?);
+/// A pencil of order 1 to 4 in a window. The first byte chooses the form, the second the free
+/// variables, the third the window; the others are the entries.
+fn windowed(data: &[u8]) -> Option<Problem> {
+    let head = *data.first()?;
+    let mask = *data.get(1)?;
+    let view = *data.get(2)?;
+    let entries = &data[3..];
+
     let n = usize::from(head % 4) + 1;
     let unknown = if head & 0x10 == 0 {
         Unknown::Mu
     } else {
         Unknown::Lambda2
     };
-    let entry = |k: usize| number(head, data.get(3 + k).copied().unwrap_or(0));
-    let matrix =
-        |o: usize| Sparse::from_entries(n, n, (0..n * n).map(|k| (k / n, k % n, entry(o + k))));
-    let free = (0..n).filter(|i| mask >> i & 1 == 1).collect();
+
+    let a = matrix(entries, head, n, 0);
     let b = if head & 0x20 == 0 {
-        matrix(n * n)
+        matrix(entries, head, n, n * n)
     } else {
         Sparse::identity(n)
     };
+
+    let free = (0..n).filter(|i| mask >> i & 1 == 1).collect();
+    let pencil = Pencil::new(a, b, free).ok()?;
+    Problem::new(Body::Pencil(pencil), unknown, window(view)?).ok()
+}
+
+/// The lowest three bits are the lower end, the next three the width, both in halves; the highest
+/// two say which of the ends there are.
+fn window(view: u8) -> Option<Window> {
     let min = rational(i64::from(view & 7), 2);
+    let width = rational(i64::from(view >> 3 & 7), 2);
     let window = match view >> 6 {
-        0 => Window::new(
-            min.clone(),
-            Some(min + rational(i64::from(view >> 3 & 7), 2)),
-        ),
+        0 => Window::new(min.clone(), Some(min + width)),
         1 => Window::new(min, None),
         _ => Ok(Window::all()),
     };
-    Some((Pencil::new(matrix(0), b, free).ok()?, unknown, window.ok()?))
+    window.ok()
 }
 
-/// Small integers, or numbers of very different size.
+/// The matrix of order n whose first entry is made of the byte at `offset`, row by row.
+fn matrix(data: &[u8], head: u8, n: usize, offset: usize) -> Sparse {
+    let mut entries = Vec::new();
+    for i in 0..n {
+        for j in 0..n {
+            let byte = data.get(offset + i * n + j).copied().unwrap_or(0);
+            entries.push((i, j, number(head, byte)));
+        }
+    }
+    Sparse::from_entries(n, n, entries)
+}
+
+/// Small integers, or numbers of very different size; `head` chooses which.
 fn number(head: u8, byte: u8) -> Rational {
     let small = whole(i64::from(byte % 9) - 4);
     match (head >> 6, byte / 9 % 4) {

@@ -1,5 +1,9 @@
 //! Mechanical systems of any bytes: signs S, contact states, friction, rational frames; reduction
 //! (10)-(16) and lift; Table 1 in closed form against enumerator and solver.
+//!
+//! Input: bytes of a fuzzer, which make a system (1)-(9) or the data of Table 1. A disagreement of
+//! two engines is a panic. Called by the fuzz targets `mechanical_systems` and
+//! `two_particle_problems`.
 
 use super::coverage::Counter;
 use crate::compare::{Treatment, compare_by};
@@ -64,9 +68,11 @@ pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Count
     let Some(problem) = system_problem(data) else {
         return;
     };
+
     let Body::System(system) = problem.body() else {
         return;
     };
+
     let Ok(reduced) = reduce(&problem) else {
         panic!(
             "a system of the generator is refused: {}",
@@ -80,6 +86,7 @@ pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Count
         "reduction and definition differ: {}",
         write_problem(&problem)
     );
+
     same_verdict(&problem, &reduced.pencil);
 
     let instance = Instance {
@@ -88,6 +95,7 @@ pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Count
         closed_form: None,
         corners: Vec::new(),
     };
+
     let report = compare_by(&instance, treatment);
     assert!(
         report.disagreements.is_empty(),
@@ -95,6 +103,7 @@ pub fn mechanical_systems_by(data: &[u8], treatment: &Treatment, counter: &Count
         report.disagreements,
         write_problem(&instance.problem)
     );
+
     counter.add(&report);
 }
 
@@ -110,6 +119,7 @@ pub fn two_particle_problems_by(data: &[u8], treatment: &Treatment, counter: &Co
     let Ok(system) = two_particles(&data) else {
         panic!("refused: {data:?}")
     };
+
     let Ok(problem) = Problem::new(Body::System(system), Unknown::Lambda2, Window::all()) else {
         panic!("refused: {data:?}")
     };
@@ -120,6 +130,7 @@ pub fn two_particle_problems_by(data: &[u8], treatment: &Treatment, counter: &Co
         closed_form: Some(data),
         corners: Vec::new(),
     };
+
     let report = compare_by(&instance, treatment);
     assert!(
         report.disagreements.is_empty(),
@@ -127,6 +138,7 @@ pub fn two_particle_problems_by(data: &[u8], treatment: &Treatment, counter: &Co
         report.label,
         report.disagreements
     );
+
     counter.add(&report);
 }
 
@@ -137,6 +149,7 @@ pub fn fuzz_treatment() -> Treatment {
         window_starts: 1,
         ..Default::default()
     };
+
     Treatment::of(&search)
 }
 
@@ -147,11 +160,13 @@ fn system_problem(data: &[u8]) -> Option<Problem> {
     let head = bytes.next();
     let count = usize::from(head % 3) + 1;
     let n = 2 * count + usize::from(head / 3 % 3);
+
     let unknown = if head & 0x40 == 0 {
         Unknown::Lambda2
     } else {
         Unknown::Mu
     };
+
     let is_coupled = head & 0x80 != 0;
 
     let friction = bytes.positive();
@@ -160,6 +175,7 @@ fn system_problem(data: &[u8]) -> Option<Problem> {
         .map(|k| particle(&mut bytes, k, &order))
         .collect();
     let stiffness = definite(&mut bytes, n);
+
     let mass = if is_coupled {
         definite(&mut bytes, n)
     } else {
@@ -177,6 +193,7 @@ fn permutation(bytes: &mut Bytes<'_>, n: usize) -> Vec<usize> {
         let j = usize::from(bytes.next()) % (i + 1);
         order.swap(i, j);
     }
+
     order
 }
 
@@ -188,14 +205,17 @@ fn particle(bytes: &mut Bytes<'_>, index: usize, order: &[usize]) -> Particle {
         k if k % 2 == 0 => ContactState::Slip { sign: 1 },
         _ => ContactState::Slip { sign: -1 },
     };
+
     let mut particle = Particle::plain(order[2 * index], order[2 * index + 1], state);
 
     particle.normal_direction = if bytes.below(2) == 0 { 1 } else { -1 };
     let oblique = bytes.next();
+
     if oblique % 2 == 1 {
         let (c, s) = on_the_circle(oblique / 2);
         particle.frame = Some([[c.clone(), s.clone()], [-s, c]]);
     }
+
     particle
 }
 
@@ -205,6 +225,7 @@ fn on_the_circle(byte: u8) -> (Rational, Rational) {
     let p = i64::from(byte % 8) + 1;
     let q = i64::from(byte / 8 % 16) - 8;
     let h = p * p + q * q;
+
     (rational(p * p - q * q, h), rational(2 * p * q, h))
 }
 
@@ -224,6 +245,7 @@ fn definite(bytes: &mut Bytes<'_>, n: usize) -> Sparse {
             entries.push((i, j, whole(product + i64::from(i == j))));
         }
     }
+
     Sparse::from_entries(n, n, entries)
 }
 
@@ -237,16 +259,21 @@ fn two_particle_data(data: &[u8]) -> TwoParticles {
     let p = i64::from(bytes.below(12)) + 1;
     let q = i64::from(bytes.next()) % (p + 1);
     let h = p * p + q * q;
-    let (c, s) = (rational(p * p - q * q, h), rational(2 * p * q, h));
+    let c = rational(p * p - q * q, h);
+    let s = rational(2 * p * q, h);
 
-    let (k, m) = (bytes.positive(), bytes.positive());
+    let k = bytes.positive();
+    let m = bytes.positive();
     let mut mu = bytes.positive();
+
     let cs = &c * &s;
-    if head & 0x30 != 0 && !cs.is_zero() {
+    let is_near_a_threshold = head & 0x30 != 0;
+    if is_near_a_threshold && !cs.is_zero() {
         let top = &c * &c + whole(i64::from(head >> 6 & 1) + 1);
         let beside = rational(i64::from(head >> 4 & 3) - 2, 1_000_000_000);
         mu = top / cs + beside;
     }
+
     TwoParticles {
         c,
         s,
@@ -260,6 +287,12 @@ fn two_particle_data(data: &[u8]) -> TwoParticles {
 /// Columns over the degrees of freedom, dense.
 struct Column(Vec<Rational>);
 
+impl Column {
+    fn times(&self, factor: &Rational) -> Column {
+        Column(self.0.iter().map(|v| v * factor).collect())
+    }
+}
+
 /// A + tB by the definitions: v = T x with v_T = -S x (10), y = P'w with y = -(S w_T + mu w_N)
 /// (11), w = (K + lambda^2 M) v.
 ///
@@ -269,6 +302,7 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
     let n = system.dofs();
     let mut motion = Vec::new();
     let mut normal = Vec::new();
+
     for dof in system.free_dofs() {
         let mut unit = vec![Rational::zero(); n];
         unit[dof] = Rational::one();
@@ -281,51 +315,59 @@ fn pencil_by_definition(system: &System, unknown: Unknown) -> Pencil {
         let ContactState::Slip { sign } = particle.state else {
             continue;
         };
-        let (tangent, into) = axes(particle, n);
-        motion.push(Column(
-            tangent
-                .into_iter()
-                .map(|v| v * whole(i64::from(-sign)))
-                .collect(),
-        ));
-        normal.push(Column(into.into_iter().map(|v| -v).collect()));
+
+        let axes = Axes::of(particle, n);
+        let minus_sign = whole(i64::from(-sign));
+        motion.push(axes.tangent.times(&minus_sign));
+        normal.push(axes.into.times(&whole(-1)));
     }
 
     let k_plain = products(system.stiffness(), &motion, &motion);
     let k_friction = products(system.stiffness(), &normal, &motion);
     let friction = system.friction().cloned().unwrap_or_default();
-    let (a, b) = match (unknown, system.mass()) {
+
+    let free = (0..free).collect();
+    let pencil = match (unknown, system.mass()) {
         (Unknown::Lambda2, Some(mass)) => {
             let m_plain = products(mass, &motion, &motion);
             let m_friction = products(mass, &normal, &motion);
-            (
-                k_plain.add_scaled(&friction, &k_friction),
-                m_plain.add_scaled(&friction, &m_friction),
-            )
+            let a = k_plain.add_scaled(&friction, &k_friction);
+            let b = m_plain.add_scaled(&friction, &m_friction);
+            Pencil::new(a, b, free)
         }
-        _ => (k_plain, k_friction),
+        _ => Pencil::new(k_plain, k_friction, free),
     };
-    Pencil::new(a, b, (0..free).collect())
-        .unwrap_or_else(|e| panic!("a square pencil is refused: {e}"))
+    pencil.unwrap_or_else(|e| panic!("a square pencil is refused: {e}"))
 }
 
-/// Tangent and direction into the obstacle of a particle, written out from its frame.
-fn axes(particle: &Particle, n: usize) -> (Vec<Rational>, Vec<Rational>) {
-    let one = Rational::one();
-    let upright = [[one.clone(), Rational::zero()], [Rational::zero(), one]];
-    let frame = particle.frame.clone().unwrap_or(upright);
-    let outward = whole(i64::from(particle.normal_direction));
+/// The two directions of a particle, written out from its frame.
+struct Axes {
+    /// Along the obstacle.
+    tangent: Column,
+    /// Into the obstacle.
+    into: Column,
+}
 
-    let mut tangent = vec![Rational::zero(); n];
-    let mut into = vec![Rational::zero(); n];
-    for (k, dof) in [particle.tangential, particle.normal]
-        .into_iter()
-        .enumerate()
-    {
-        tangent[dof] = frame[0][k].clone();
-        into[dof] = &frame[1][k] * &outward;
+impl Axes {
+    fn of(particle: &Particle, n: usize) -> Axes {
+        let one = Rational::one();
+        let upright = [[one.clone(), Rational::zero()], [Rational::zero(), one]];
+        let frame = particle.frame.clone().unwrap_or(upright);
+        let outward = whole(i64::from(particle.normal_direction));
+
+        let mut tangent = vec![Rational::zero(); n];
+        let mut into = vec![Rational::zero(); n];
+        let dofs = [particle.tangential, particle.normal];
+        for (k, dof) in dofs.into_iter().enumerate() {
+            tangent[dof] = frame[0][k].clone();
+            into[dof] = &frame[1][k] * &outward;
+        }
+
+        Axes {
+            tangent: Column(tangent),
+            into: Column(into),
+        }
     }
-    (tangent, into)
 }
 
 /// The matrix of all p' K t.
@@ -337,9 +379,11 @@ fn products(matrix: &Sparse, left: &[Column], right: &[Column]) -> Sparse {
             for (row, column, value) in matrix.entries() {
                 sum += &p.0[row] * value * &t.0[column];
             }
+
             entries.push((i, j, sum));
         }
     }
+
     Sparse::from_entries(left.len(), right.len(), entries)
 }
 
@@ -351,9 +395,11 @@ fn same_verdict(problem: &Problem, pencil: &Pencil) {
         threads: None,
         ..Options::default()
     };
+
     let Ok(found) = complete(problem, &options, &Watch::nobody()) else {
         return;
     };
+
     let Ok(reduced) = Problem::new(
         Body::Pencil(pencil.clone()),
         problem.unknown(),
@@ -365,6 +411,7 @@ fn same_verdict(problem: &Problem, pencil: &Pencil) {
     let mut certificate = found.certificate;
     let on_the_system = check(problem, &certificate);
     certificate.problem_sha256 = reduced.sha256();
+
     let on_the_pencil = check(&reduced, &certificate);
     match (on_the_system, on_the_pencil) {
         (Ok(a), Ok(b)) => assert!(
