@@ -1,7 +1,7 @@
 //! The arguments of `mceip block`.
 
 use crate::cli::common::CliError;
-use mceip_paper::PublishedState;
+use mceip_paper::{MassKind, PublishedState};
 use std::path::PathBuf;
 
 /// Arguments of `block`.
@@ -113,6 +113,17 @@ pub(in crate::cli) struct Args {
     /// Print JSON.
     #[arg(long)]
     pub(super) json: bool,
+}
+
+impl Args {
+    /// The mass matrix that is asked for.
+    pub(super) fn mass(&self) -> MassKind {
+        if self.lumped {
+            MassKind::Lumped
+        } else {
+            MassKind::Consistent
+        }
+    }
 }
 
 /// The published state named by --state, or both.
