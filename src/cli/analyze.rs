@@ -67,6 +67,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(folder) = &args.certificates {
         make_writable(folder)?;
     }
+
     let report = Output::prepare_if("report", args.report.as_deref(), &[&args.file])?;
 
     let job = Job::begin("reading");
@@ -88,6 +89,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         text_of(&analysis, &paths)
     };
     print(&text)?;
+
     Ok(exit_code(&analysis))
 }
 
@@ -118,6 +120,7 @@ fn samples(args: &Args, system: &System) -> Result<usize, CliError> {
             got: samples.to_string(),
         });
     }
+
     Ok(samples)
 }
 
@@ -158,6 +161,7 @@ fn write_proofs(folder: &Path, analysis: &Analysis, input: &Path) -> Result<Vec<
         files.certificate.write(&proof.certificate.to_json())?;
         paths.push(files.path.display().to_string());
     }
+
     Ok(paths)
 }
 
@@ -169,6 +173,7 @@ fn text_of(analysis: &Analysis, paths: &[String]) -> String {
     if let Some(name) = &analysis.name {
         out += &format!("{name}: ");
     }
+
     out += &format!(
         "{dofs} degrees of freedom ({free} free), {slip} in impending slip, {stick} stick\n"
     );
@@ -177,8 +182,10 @@ fn text_of(analysis: &Analysis, paths: &[String]) -> String {
         let evidence = analysis.evidence_text(&sentence.evidence, paths);
         out += &format!("{}\n    [{evidence}]\n", sentence.text);
     }
+
     if analysis.interrupted {
         out += "INTERRUPTED: what was not done is undecided\n";
     }
+
     out
 }

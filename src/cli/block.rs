@@ -30,12 +30,15 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.path || args.report.is_some() || args.pictures.is_some() {
         return path::run(args);
     }
+
     if !args.lambda2.is_empty() {
         return lambda2::run(args);
     }
+
     if !args.scale.is_empty() {
         return scale::run(&args.scale, args.json, args.write.as_deref());
     }
+
     published_states(args)
 }
 
@@ -52,6 +55,7 @@ fn published_states(args: &Args) -> Result<u8, CliError> {
         if let Some(folder) = &args.write {
             write_files(&block, report, folder)?;
         }
+
         say_what_failed(report);
     }
 
@@ -62,6 +66,7 @@ fn published_states(args: &Args) -> Result<u8, CliError> {
         text_of(&reports)
     };
     print(&text)?;
+
     Ok(exit_code(&reports, job.is_cancelled()))
 }
 
@@ -86,6 +91,7 @@ fn treat(
             None => break,
         }
     }
+
     Ok(reports)
 }
 
@@ -95,6 +101,7 @@ fn say_what_failed(report: &BlockReport) {
     for point in &report.uncertified {
         eprintln!("uncertified: {name}: {point}");
     }
+
     for reason in &report.rejected {
         eprintln!("DISAGREEMENT: {name}: {reason}");
     }
@@ -132,6 +139,7 @@ fn write_files(block: &Block, report: &BlockReport, folder: &Path) -> Result<(),
         let path = folder.join(format!("{name}.certificate.json"));
         Output::prepare("write", &path, &[])?.write(&certificate.to_json())?;
     }
+
     Ok(())
 }
 
@@ -160,6 +168,7 @@ pub(super) fn text_of(reports: &[BlockReport]) -> String {
             } else {
                 format!("node {:?} from the left", solution.stuck)
             };
+
             table.row(vec![
                 name.into(),
                 solution.value.clone(),
@@ -172,6 +181,7 @@ pub(super) fn text_of(reports: &[BlockReport]) -> String {
             ]);
         }
     }
+
     table.to_string()
 }
 
@@ -202,6 +212,7 @@ fn difference(ours: &str, paper: &str) -> String {
     } else {
         format!("rounds to {rounded}")
     };
+
     format!("{:+.4} ({verdict})", our_value - paper_value)
 }
 

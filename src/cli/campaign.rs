@@ -83,6 +83,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             }
             Event::Disagreement(replay) => keeper.write(replay, &bars),
         }
+
         // What cannot be kept need not be computed.
         if keeper.failed.is_some() {
             cancel.request();
@@ -102,6 +103,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(e) = keeper.failed {
         return Err(e);
     }
+
     Ok(if state.disagreements() > 0 {
         exit::REJECTED
     } else if cancel.is_requested() {
@@ -124,6 +126,7 @@ fn start(args: &Args) -> Result<State, CliError> {
         None => (0, 1),
     };
     let new = State::new(args.seed, part, families);
+
     match &args.state {
         Some(path) if path.exists() => {
             let earlier = text("the campaign's state", path)?;
@@ -151,6 +154,7 @@ fn families(args: &Args) -> Result<Vec<String>, CliError> {
             return Err(UnknownFamily { name: name.clone() }.into());
         }
     }
+
     Ok(families)
 }
 
@@ -181,6 +185,7 @@ fn replay(args: &Args, path: &Path) -> Result<u8, CliError> {
         summary::replay_text(&replay, &judged)
     };
     print(&text)?;
+
     Ok(if judged.findings.is_empty() {
         exit::DONE
     } else {
@@ -201,6 +206,7 @@ fn in_threads(threads: Option<usize>, work: impl FnOnce() -> State + Send) -> St
         return work();
     };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+
     match pool {
         Ok(pool) => pool.install(work),
         Err(_) => work(),
@@ -280,8 +286,10 @@ impl Bars {
             if let Ok(style) = &style {
                 bar.set_style(style.clone());
             }
+
             each.push(bar.with_message(name.clone()));
         }
+
         Bars { all, each }
     }
 

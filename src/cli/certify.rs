@@ -88,6 +88,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(folder) = &args.absence {
         judged.write_proofs(folder, &inputs)?;
     }
+
     let code = judged.exit_code(candidates.len(), job.is_cancelled());
     if let Some(certificate) = judged.answer(&problem, candidates.len()) {
         match output {
@@ -95,6 +96,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             None => print(&format!("{}\n", certificate.to_json()))?,
         }
     }
+
     Ok(code)
 }
 
@@ -104,6 +106,7 @@ fn candidates(report: ForeignReport) -> Result<Vec<Candidate>, CliError> {
     for reported in report.solutions {
         candidates.push(reported?.candidate);
     }
+
     Ok(candidates)
 }
 
@@ -156,6 +159,7 @@ impl Judged {
 
         let sifted = sift(problem, lifted);
         self.claims = sifted.accepted;
+
         for (index, reason) in sifted.refused {
             let text = format!("undecided: the checker refuses the lifted claim: {reason}");
             eprintln!("claim {index}: {text}");
@@ -192,6 +196,7 @@ impl Judged {
                 output.write(&proof.to_json())?;
             }
         }
+
         Ok(())
     }
 
@@ -265,6 +270,7 @@ impl Certifying<'_> {
                 }
             }
         }
+
         judged
     }
 
@@ -335,6 +341,7 @@ fn solutions_text(cover: &AcceptedCover) -> String {
         let support = &solution.support;
         solutions.push(format!("[{lo}, {hi}] with slip {support:?}"));
     }
+
     solutions.join(", ")
 }
 
@@ -343,6 +350,7 @@ fn interval(problem: &Problem, proved: &Completed) -> String {
     let word = problem.unknown().word();
     let window = &proved.certificate.window;
     let min = decimal(window.min());
+
     match window.max() {
         Some(max) => format!("with {word} in [{min}, {}]", decimal(max)),
         None => format!("with {word} in [{min}, infinity)"),

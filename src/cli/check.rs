@@ -45,6 +45,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         let expected = "only one of the two files to be stdin";
         return Err(CliError::option("certificate", expected, "-"));
     }
+
     let demanded = args.window.as_deref().map(parse_window).transpose()?;
     let tolerance = args.tolerance.as_deref().map(parse_tolerance).transpose()?;
 
@@ -65,6 +66,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     refuse_tolerance(args, CERTIFICATE_FORMAT)?;
     let read = Certificate::from_json(&source);
     let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
+
     match check(&problem, &certificate) {
         Ok(accepted) => say_accepted(&problem, &certificate, &accepted, demanded.as_ref()),
         Err(rejected) => {
@@ -139,6 +141,7 @@ fn say_accepted(
         code = exit::REJECTED;
         out += &format!("REJECTED: window: expected one that covers {demanded}, got {window}\n");
     }
+
     print(&out)?;
     Ok(code)
 }
@@ -157,6 +160,7 @@ fn absence_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) ->
     let leaves = cover.leaves;
     let smaller = smaller_text(window, problem.window());
     let evidence = format!("{word}, problem {digest}, {leaves} leaves accepted");
+
     format!("ABSENT in {window}: no solution ({evidence}){smaller}\n")
 }
 
@@ -170,6 +174,7 @@ fn cover_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) -> S
     } else {
         "ACCEPTED as undecided"
     };
+
     let digest = problem.sha256();
     let smaller = smaller_text(window, problem.window());
     format!("{solutions}{verdict} for problem {digest} in {window}{smaller}\n")
@@ -180,6 +185,7 @@ fn claim_text(problem: &Problem, claim: &AcceptedClaim, place: Option<Place>) ->
     let word = problem.unknown().word();
     let (lo, hi) = enclosing_decimals(&claim.value, 17);
     let proved = format!("{word} in [{lo}, {hi}], slip {:?}", claim.support);
+
     match place {
         None => format!("solution: {proved}\n"),
         Some(Place::Solution(k)) => {
@@ -195,6 +201,7 @@ fn smaller_text(certified: &Window, wanted: &Window) -> String {
     if certified.covers(wanted) {
         return String::new();
     }
+
     format!("; NOT the whole window {} of the problem", wanted)
 }
 
@@ -239,6 +246,7 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
         out += "UNDECIDED: the report lists no solution; that there is none is not checked here \
                 (see mceip complete)\n";
     }
+
     print(&out)?;
     Ok(if is_rejected {
         exit::REJECTED

@@ -214,6 +214,7 @@ pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliErro
     } else {
         read_problem_file(path)
     };
+
     let problem = read.map_err(|source| CliError::file(path, source))?;
 
     match window {
@@ -229,6 +230,7 @@ pub(super) fn text(what: &'static str, path: &Path) -> Result<String, CliError> 
     } else {
         read_text(what, path)
     };
+
     read.map_err(|source| CliError::file(path, source))
 }
 
@@ -253,6 +255,7 @@ fn window_of(text: &str) -> Option<Window> {
         number => Some(parse(number).ok()?),
     };
     let min = parse(min.trim()).ok()?;
+
     Window::new(min, max).ok()
 }
 
@@ -282,6 +285,7 @@ pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
         ),
         Ok(_) => {}
     }
+
     Ok(())
 }
 
@@ -300,6 +304,7 @@ pub(super) fn positive_number(text: &str) -> Option<Rational> {
 pub(super) fn print(text: &str) -> Result<(), CliError> {
     let mut out = std::io::stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+
     match written {
         Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(CliError::write("stdout", &e)),
         _ => Ok(()),

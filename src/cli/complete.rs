@@ -95,6 +95,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let (Some(at_infinity), Some(files)) = (&at_infinity, files_at_infinity) {
         at_infinity.write(files)?;
     }
+
     if let Some(output) = output {
         output.write(&completed.certificate.to_json())?;
     }
@@ -118,10 +119,12 @@ fn refuse_useless(args: &Args, problem: &Problem) -> Result<(), CliError> {
             got: args.pieces.to_string(),
         });
     }
+
     if args.infinity && problem.window().max().is_some() {
         let expected = "a window without upper end";
         return Err(CliError::option("infinity", expected, "one that ends"));
     }
+
     Ok(())
 }
 
@@ -142,6 +145,7 @@ fn shard_of(text: &str) -> Option<Shard> {
     let number: usize = number.parse().ok()?;
     let count: usize = count.parse().ok()?;
     let is_part = number >= 1 && number <= count;
+
     is_part.then(|| Shard {
         index: number - 1,
         count,
@@ -160,6 +164,7 @@ fn answer(
         if let Some(at_infinity) = at_infinity {
             report["at_infinity"] = at_infinity.json();
         }
+
         return Ok(format!("{report}\n"));
     }
 
@@ -167,6 +172,7 @@ fn answer(
     if let Some(at_infinity) = at_infinity {
         out += &at_infinity.text();
     }
+
     Ok(out)
 }
 
@@ -183,6 +189,7 @@ pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String
     for family in cover.families.iter().take(SHOWN) {
         out += &format!("family: {}\n", family_text(word, family));
     }
+
     let more = cover.families.len().saturating_sub(SHOWN);
     if more > 0 {
         out += &format!("family: {more} more (see the certificate)\n");
@@ -191,10 +198,12 @@ pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String
     for region in cover.open.iter().take(SHOWN) {
         out += &format!("open: {}\n", open_text(word, region));
     }
+
     let more = cover.open.len().saturating_sub(SHOWN);
     if more > 0 {
         out += &format!("open: {more} more regions (see the certificate)\n");
     }
+
     out + &verdict_text(problem, cover)
 }
 
@@ -214,6 +223,7 @@ fn verdict_text(problem: &Problem, cover: &AcceptedCover) -> String {
     } else {
         format!("{count} in {window}, and no other")
     };
+
     format!("COMPLETE: {set}; {leaves} leaves, accepted by the checker\n")
 }
 
@@ -226,6 +236,7 @@ fn count_text(cover: &AcceptedCover) -> String {
     if !cover.families.is_empty() {
         count += &format!(" and {} families of them", cover.families.len());
     }
+
     count
 }
 
@@ -234,6 +245,7 @@ fn open_text(word: &str, region: &OpenRegion) -> String {
         Some(max) => max.to_string(),
         None => "infinity".into(),
     };
+
     format!(
         "{word} in [{}, {max}], moving {:?}, undecided {:?}",
         region.min, region.moving, region.undecided
@@ -256,6 +268,7 @@ fn family_text(word: &str, family: &SolutionFamily) -> String {
     } else {
         "a cone of solutions"
     };
+
     format!("{values}, slip {:?}, {how_many}", family.support)
 }
 
@@ -274,6 +287,7 @@ pub(super) fn report_json(problem: &Problem, completed: &Completed) -> Result<Va
         cover.leaves,
         cover.open.len()
     );
+
     Ok(solutions_json(&Report {
         problem,
         reduced: &reduced,

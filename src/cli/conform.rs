@@ -67,6 +67,7 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     if let Some(folder) = &args.write {
         return write(folder, &pack_files(&groups)?);
     }
+
     let plan = plan(args, groups)?;
     let markdown = Output::prepare_if("markdown", args.markdown.as_deref(), &[])?;
 
@@ -84,6 +85,7 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     if let Some(output) = markdown {
         output.write(&summary.markdown(&args.command))?;
     }
+
     Ok(if job.is_cancelled() {
         exit::INTERRUPTED
     } else if summary.all_correct() {
@@ -98,6 +100,7 @@ fn plan(args: &Args, groups: Vec<Group>) -> Result<Plan, CliError> {
     let time = time_limit(args.time_limit)?;
     refuse_threads(args.threads)?;
     let only = args.only.iter().map(|word| flag(word));
+
     Ok(Plan {
         groups,
         random: args.count,
@@ -115,6 +118,7 @@ fn plan(args: &Args, groups: Vec<Group>) -> Result<Plan, CliError> {
 fn time_limit(seconds: f64) -> Result<Duration, CliError> {
     let time = Duration::try_from_secs_f64(seconds).ok();
     let positive = time.filter(|time| !time.is_zero());
+
     positive.ok_or_else(|| CliError::Option {
         option: "time-limit",
         expected: "seconds > 0",
@@ -151,5 +155,6 @@ fn write(folder: &Path, files: &[(String, String)]) -> Result<u8, CliError> {
     let count = files.len();
     let place = folder.display();
     print(&format!("{count} files, {bytes} bytes, in {place}\n"))?;
+
     Ok(exit::DONE)
 }

@@ -66,6 +66,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     print(&format!(
         "{place}: {dofs} degrees of freedom, {slip} particles in impending slip\n"
     ))?;
+
     Ok(exit::DONE)
 }
 

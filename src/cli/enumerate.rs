@@ -56,6 +56,7 @@ fn report(problem: &Problem, reduced: &Reduced, found: &Enumeration, is_json: bo
         enumeration: Some(found),
         cover: None,
     };
+
     if is_json {
         format!("{}\n", solutions_json(&report))
     } else {

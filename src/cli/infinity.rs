@@ -37,6 +37,7 @@ impl Files {
     pub(super) fn prepare(certificate: &Path, input: &Path) -> Result<Files, CliError> {
         let beside = with_ending(certificate, ".infinity.json");
         let problem = with_ending(certificate, ".infinity-problem.json");
+
         Ok(Files {
             certificate: Output::prepare("certificate", &beside, &[input])?,
             problem: Output::prepare("certificate", &problem, &[input])?,
@@ -69,6 +70,7 @@ impl AtInfinity {
             ..*options
         };
         let completed = complete(&at_zero, &options, watch);
+
         Ok(AtInfinity {
             problem: at_zero,
             completed,
@@ -90,10 +92,12 @@ impl AtInfinity {
         for solution in &cover.solutions {
             out += &format!("at infinity: slip {:?}\n", solution.support);
         }
+
         for family in &cover.families {
             let support = &family.support;
             out += &format!("at infinity: a cone of solutions, slip {support:?}\n");
         }
+
         for region in &cover.open {
             out += &format!(
                 "at infinity: open, moving {:?}, undecided {:?}\n",
@@ -106,6 +110,7 @@ impl AtInfinity {
         out += &format!(
             "{verdict}; {leaves} leaves, accepted by the checker for the reversed problem\n"
         );
+
         out
     }
 
@@ -129,10 +134,12 @@ impl AtInfinity {
         for family in &cover.families {
             families.push(json!({ "slip": family.support }));
         }
+
         let mut open = Vec::new();
         for region in &cover.open {
             open.push(json!({ "moving": region.moving, "undecided": region.undecided }));
         }
+
         json!({
             "claim": Claimed::of_cover(cover).word(),
             "reversed_problem_sha256": self.problem.sha256(),
@@ -157,6 +164,7 @@ impl AtInfinity {
 fn verdict_text(cover: &AcceptedCover) -> String {
     let count = cover.solutions.len() + cover.families.len();
     let open = cover.open.len();
+
     if open > 0 {
         format!("UNDECIDED at infinity: {count} proved, {open} regions open")
     } else if count == 0 {

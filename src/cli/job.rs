@@ -36,6 +36,7 @@ impl Job {
         let line = ProgressBar::new_spinner();
         line.enable_steady_tick(Duration::from_millis(200));
         line.set_message(what.to_string());
+
         Job { cancel, line }
     }
 

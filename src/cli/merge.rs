@@ -54,6 +54,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(output) = output {
         output.write(&certificate.to_json())?;
     }
+
     Ok(if cover.open.is_empty() {
         exit::DONE
     } else {

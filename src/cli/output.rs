@@ -29,6 +29,7 @@ impl Output {
                 path: path.display().to_string(),
             });
         }
+
         if target.is_dir() {
             let is_folder = std::io::ErrorKind::IsADirectory.into();
             return Err(CliError::write(path.display(), &is_folder));
@@ -41,6 +42,7 @@ impl Output {
             let file = new_file_beside(&target);
             Some(file.map_err(|e| CliError::write(path.display(), &e))?)
         };
+
         Ok(Output {
             path: target,
             beside,
@@ -93,6 +95,7 @@ fn new_file_beside(target: &Path) -> std::io::Result<NamedTempFile> {
         // The system takes the umask off.
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
+
     builder.tempfile_in(folder)
 }
 

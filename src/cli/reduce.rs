@@ -28,6 +28,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     } else {
         reduced.pencil
     };
+
     let window = problem.window().clone();
     let mut out = Problem::new(Body::Pencil(pencil), problem.unknown(), window)?;
     out.name = problem.name.clone();
@@ -49,6 +50,7 @@ fn comment(args: &Args, problem: &Problem, reduced: &Reduced) -> String {
         Body::Pencil(_) => "given as a pencil, nothing to reduce;",
     };
     let variables: Vec<String> = reduced.variables.iter().map(variable_text).collect();
+
     if variables.is_empty() {
         format!("{what} from problem {digest}")
     } else {
@@ -67,6 +69,7 @@ fn variable_text(variable: &Variable) -> String {
             for (dof, component) in tangent {
                 terms.push(format!("{} v[{dof}]", -component * &sign));
             }
+
             terms.join(" + ")
         }
     }

@@ -29,15 +29,18 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.starts == 0 {
         return Err(CliError::option("starts", "at least 1", "0"));
     }
+
     if let Some(path) = &args.replay {
         return trace::replay(path);
     }
+
     let Some(file) = &args.file else {
         return Err(CliError::option("replay", "a file, or a problem", ""));
     };
 
     let source = text("the problem", file)?;
     let is_plain = require_format(&source, MCP_FORMAT).is_ok();
+
     if is_plain {
         refuse_window(args)?;
         plain::run(args, file, &source)
@@ -52,6 +55,7 @@ fn refuse_window(args: &Args) -> Result<(), CliError> {
     let Some(window) = &args.window else {
         return Ok(());
     };
+
     Err(CliError::Option {
         option: "window",
         expected: "a problem of format mceip-problem/1",
@@ -64,6 +68,7 @@ fn refuse_check(args: &Args) -> Result<(), CliError> {
     let Some(path) = &args.check else {
         return Ok(());
     };
+
     Err(CliError::Option {
         option: "check",
         expected: "a problem of format mceip-mcp/1 (mceip check for others)",
@@ -118,6 +123,7 @@ fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     {
         output.write(&certificate(&problem, claims).to_json())?;
     }
+
     Ok(if found.interrupted {
         exit::INTERRUPTED
     } else if is_found {
@@ -156,6 +162,7 @@ fn evidence(args: &Args, found: &Found) -> String {
     } else {
         ""
     };
+
     format!(
         "{} certified found in {search}{} runs (seed {}, {} pivots, {} factorisations, {} repeats, \
          {} outside the window, endings {:?}); completeness unknown",
@@ -187,5 +194,6 @@ fn singular_supports(pencil: &Pencil, found: &Found) -> Vec<Vec<usize>> {
             singular.push(support);
         }
     }
+
     singular
 }

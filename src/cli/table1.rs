@@ -96,6 +96,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
                 "no solution".into(),
             ]);
         }
+
         for line in &pattern.lines {
             table.row(line.cells());
             solutions.push(line.json());
@@ -111,6 +112,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         format!("c = {c}, s = {s}, k = {k}, m = {m}, mu = {mu}\n{table}{verdict}\n")
     };
     print(&text)?;
+
     Ok(if agreed { exit::DONE } else { exit::REJECTED })
 }
 
@@ -150,6 +152,7 @@ fn positive(option: &'static str, text: &str) -> Result<Rational, CliError> {
     if value.is_positive() {
         return Ok(value);
     }
+
     Err(CliError::Option {
         option,
         expected: "a number > 0",
@@ -185,9 +188,11 @@ fn pattern(data: TwoParticles) -> Result<Pattern, CliError> {
     for reason in &report.uncertified {
         eprintln!("S = {signs:?}: uncertified: {reason}");
     }
+
     for disagreement in &report.disagreements {
         eprintln!("S = {signs:?}: {disagreement}");
     }
+
     Ok(Pattern {
         lines,
         agrees: report.disagreements.is_empty(),
@@ -199,6 +204,7 @@ impl Line {
     fn cells(&self) -> Vec<String> {
         let (s_1, s_2) = self.signs;
         let listed = &self.listed;
+
         vec![
             format!("{s_1:+}"),
             format!("{s_2:+}"),
@@ -240,6 +246,7 @@ const CHART_NAMES: &str = "a name ending in .svg (.png needs a build with `--fea
 fn chart(path: &Path) -> Result<(), CliError> {
     let ending = path.extension().and_then(|ending| ending.to_str());
     let ending = ending.map(str::to_ascii_lowercase);
+
     match ending.as_deref() {
         Some("svg") => {
             let output = Output::prepare("chart", path, &[])?;

@@ -35,6 +35,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         text_of(&outcome)
     };
     print(&text)?;
+
     Ok(exit_code(&outcome))
 }
 
@@ -69,10 +70,12 @@ fn text_of(v: &Verification) -> String {
     for family in &v.families {
         out += &family_text(family);
     }
+
     out += &format!("\n{}", super::block::text_of(&v.block));
     for state in &v.block {
         out += &block_text(state);
     }
+
     out + &format!("\n{}\n", verdict(v))
 }
 
@@ -100,9 +103,11 @@ fn family_text(family: &FamilyReport) -> String {
     for point in &family.uncertified {
         out += &format!("  uncertified: {point}\n");
     }
+
     for disagreement in &family.disagreements {
         out += &format!("  DISAGREEMENT: {disagreement}\n");
     }
+
     out
 }
 
@@ -117,6 +122,7 @@ fn block_text(state: &BlockReport) -> String {
     if unfound > 0 {
         out += &format!("  DISAGREEMENT: {unfound} solutions of the complete set were not found\n");
     }
+
     out
 }
 
@@ -137,6 +143,7 @@ fn coverage_of(v: &Verification) -> String {
     for shortfall in v.shortfalls() {
         out += &format!("  DISAGREEMENT: coverage: {shortfall}\n");
     }
+
     out
 }
 
@@ -153,6 +160,7 @@ fn verdict(v: &Verification) -> String {
     let seed = v.seed;
     let instances: usize = v.families.iter().map(|family| family.done).sum();
     let accepted: usize = v.families.iter().map(|family| family.accepted).sum();
+
     match (v.disagreements(), v.interrupted) {
         (0, false) => format!(
             "VERIFIED: no disagreement in {instances} instances and {accepted} accepted \
@@ -170,6 +178,7 @@ fn json_of(v: &Verification) -> Value {
     let block: Vec<Value> = v.block.iter().map(block_json).collect();
     let coverage: Vec<Value> = v.covered().iter().map(covered_json).collect();
     let shortfalls: Vec<String> = v.shortfalls().iter().map(ToString::to_string).collect();
+
     json!({
         "coverage": coverage,
         "shortfalls": shortfalls,
@@ -250,6 +259,7 @@ mod tests {
             coverage: [(Starts::Search, coverage)].into(),
             ..FamilyReport::default()
         };
+
         Verification {
             seed: 1,
             families: vec![family],

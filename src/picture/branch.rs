@@ -64,6 +64,7 @@ impl Branches {
         } else {
             (low - margin, high + margin)
         };
+
         Axis {
             label: "coefficient of friction \u{3bc}",
             spread: if is_wide { Spread::Log } else { Spread::Linear },
@@ -81,6 +82,7 @@ impl Branches {
         } else {
             1.0
         };
+
         Axis {
             label: "\u{3bb}\u{b2} (1/s\u{b2})",
             spread: Spread::LogWithZero { unit },
@@ -106,14 +108,17 @@ pub fn branch_picture(title: &str, branches: &Branches) -> Picture {
     for pair in branches.levels.windows(2) {
         join(&mut picture, &chart, &pair[0], &pair[1]);
     }
+
     for (level, points) in branches.levels.iter().enumerate() {
         for point in points {
             picture.push(solution_dot(&chart, level, point));
         }
     }
+
     for point in &branches.certified {
         picture.push(certified_square(&chart, point));
     }
+
     push_keys(&mut picture, branches);
     picture
 }
@@ -130,6 +135,7 @@ fn solution_dot(chart: &Chart, level: usize, point: &BranchPoint) -> Element {
         point.lambda2,
         point.support.len()
     );
+
     dot(chart.point(point.place()), radius, fill, point.place(), tip)
 }
 
@@ -162,6 +168,7 @@ fn certified_square(chart: &Chart, point: &BranchPoint) -> Element {
         point.lambda2,
         point.lambda2.sqrt()
     );
+
     Element::new("rect")
         .with("class", "certified")
         .at("x", x - 5.0)

@@ -58,9 +58,11 @@ impl Chart {
         if !x.label.is_empty() {
             group.push(self.x_label(x));
         }
+
         if !y.label.is_empty() {
             group.push(self.y_label(y));
         }
+
         group
     }
 
@@ -87,6 +89,7 @@ impl Chart {
 
         let Rectangle { left, right, .. } = self.area;
         let mut last_label = f64::INFINITY;
+
         for tick in self.y.ticks(wanted) {
             let at = self.y.place(tick);
             if last_label - at < 1.1 * TEXT {
@@ -139,6 +142,7 @@ impl Chart {
             .with("fill", "none")
             .with("stroke", "#000")
             .at("stroke-width", width);
+
         dashed(curve, dash)
     }
 }

@@ -73,8 +73,10 @@ pub fn cost_picture(title: &str, order: &str, series: &[CostSeries]) -> Picture 
             let tip = format!("{}: {seconds} at {order}", one.name);
             picture.push(dot(chart.point(*point), 3.5, style.fill, *point, tip));
         }
+
         push_key(&mut picture, k, one, style);
     }
+
     picture
 }
 

@@ -88,6 +88,7 @@ impl Picture {
             .at("width", self.width)
             .at("height", self.height)
             .with("fill", "#fff");
+
         root.child(title)
             .child(paper)
             .children(self.content.iter().cloned())

@@ -23,5 +23,6 @@ pub(super) fn legend(marks: &[Mark], x: f64, y: f64) -> Element {
         let letters = word.chars().count() as f64;
         left += 18.0 + LETTER * chart::TEXT * letters + 18.0;
     }
+
     group
 }

@@ -50,10 +50,13 @@ impl Mark {
                 if !moving.contains(&slip_nodes) {
                     mark = Mark::Caught;
                 }
+
                 slip_nodes += 1;
             }
+
             marks.push(mark);
         }
+
         marks
     }
 
@@ -128,6 +131,7 @@ fn polygon(x: f64, y: f64, r: f64, corners: &[(f64, f64)]) -> Element {
     for (dx, dy) in corners {
         places.push((x + dx * r, y + dy * r));
     }
+
     Element::new("polygon").with("points", point_list(&places))
 }
 
@@ -135,6 +139,7 @@ fn polygon(x: f64, y: f64, r: f64, corners: &[(f64, f64)]) -> Element {
 fn cross(x: f64, y: f64, a: f64) -> Element {
     let down = segment((x - a, y - a), (x + a, y + a));
     let up = segment((x - a, y + a), (x + a, y - a));
+
     Element::new("path")
         .with("d", down + &up)
         .with("fill", "none")
@@ -183,6 +188,7 @@ mod tests {
                 }
             }
         }
+
         parts.join(";")
     }
 

@@ -106,6 +106,7 @@ pub(super) fn point_list(places: &[(f64, f64)]) -> String {
     for (x, y) in places {
         pairs.push(format!("{},{}", short(*x), short(*y)));
     }
+
     pairs.join(" ")
 }
 
@@ -138,6 +139,7 @@ impl Display for Element {
                 Child::Text(t) => Escaped(t).fmt(f)?,
             }
         }
+
         write!(f, "</{}>", self.name)
     }
 }
@@ -160,6 +162,7 @@ impl Display for Escaped<'_> {
                 c => write!(f, "{c}")?,
             }
         }
+
         Ok(())
     }
 }

@@ -86,6 +86,7 @@ impl Placement {
             (0.0, self.height),
         ];
         let places = corners.map(|corner| self.place(corner));
+
         Element::new("polygon")
             .with("class", "undeformed")
             .with("points", point_list(&places))
@@ -108,6 +109,7 @@ pub fn mode_picture(title: &str, mode: &Mode<'_>) -> Picture {
     for (x, y) in &mode.mesh.points {
         points.push((to_f64(x), to_f64(y)));
     }
+
     let placement = Placement::of(&points);
     let largest = AMPLITUDE * placement.height;
     let moved = mode.moved(&points, largest);
@@ -133,6 +135,7 @@ pub fn mode_picture(title: &str, mode: &Mode<'_>) -> Picture {
             picture.push(label.with("font-size", "10"));
         }
     }
+
     picture.push(legend(mode.marks, LEFT, bottom + margin + 44.0));
     picture
 }
@@ -147,6 +150,7 @@ impl Mode<'_> {
             let (v_x, v_y) = self.displacement_of(point);
             moved.push((x + factor * v_x, y + factor * v_y));
         }
+
         moved
     }
 
@@ -157,6 +161,7 @@ impl Mode<'_> {
             let (v_x, v_y) = self.displacement_of(point);
             size = size.max(v_x.hypot(v_y));
         }
+
         if size <= 0.0 {
             return 0.0;
         }
@@ -169,6 +174,7 @@ impl Mode<'_> {
                 factor = factor.min(APPROACH * distance / approach);
             }
         }
+
         factor
     }
 
@@ -198,6 +204,7 @@ impl Mode<'_> {
         for (a, b) in edges {
             d += &segment(placement.place(moved[a]), placement.place(moved[b]));
         }
+
         Element::new("path")
             .with("class", "deformed")
             .with("d", d)
@@ -217,6 +224,7 @@ impl Mode<'_> {
             let (x, y) = placement.place(moved[point]);
             marks.push(mark.draw(x, y, radius));
         }
+
         marks
     }
 }
@@ -234,6 +242,7 @@ fn obstacle(left: f64, right: f64, y: f64) -> Element {
         .with("d", hatches)
         .with("stroke", "#888")
         .with("stroke-width", "0.8");
+
     Element::new("g")
         .with("class", "obstacle")
         .child(line((left, y), (right, y), "#000", 1.2))

@@ -44,6 +44,7 @@ pub fn path_picture(title: &str, path: &LoadingPath) -> Picture {
     let states = path.intervals.iter().flat_map(|i| &i.states);
     let marks: Vec<Mark> = states.map(|state| Mark::of(*state)).collect();
     picture.push(legend(&marks, LEFT, table.bottom() + 62.0));
+
     picture
 }
 
@@ -62,6 +63,7 @@ fn ends(path: &LoadingPath) -> Vec<f64> {
         Some(stop) => ends.push(to_f64(stop.motion())),
         None => ends.push(last_start * 1.1),
     }
+
     ends
 }
 
@@ -98,6 +100,7 @@ fn resultants(path: &LoadingPath, ends: &[f64]) -> Vec<Resultants> {
         let stop = last.stop.as_ref().unwrap_or(&last.start);
         all.push(Resultants::of(stop, *end));
     }
+
     all
 }
 
@@ -184,6 +187,7 @@ fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> C
         let data = (motion, t);
         picture.push(dot(chart.point(data), 3.0, "#fff", data, tip));
     }
+
     chart
 }
 
@@ -210,6 +214,7 @@ impl StateTable {
     fn of(path: &LoadingPath) -> StateTable {
         let rows = path.intervals.first().map_or(0, |i| i.states.len());
         let columns = path.intervals.len().max(1);
+
         StateTable {
             columns,
             column_width: (RIGHT - LEFT) / columns as f64,
@@ -253,6 +258,7 @@ impl StateTable {
                 marks.push(Mark::of(*state).draw(x, y, radius));
             }
         }
+
         marks
     }
 
@@ -263,6 +269,7 @@ impl StateTable {
             let number = text(LEFT - 8.0, y, "end", (node + 1).to_string());
             picture.push(number.with("font-size", "11"));
         }
+
         for column in (0..self.columns).step_by(every(20.0, self.column_width)) {
             let x = LEFT + self.column_width * (column as f64 + 0.5);
             let number = text(x, self.bottom() + 14.0, "middle", column.to_string());

@@ -57,6 +57,7 @@ pub(super) fn png_of(svg: &str, zoom: f32) -> Result<Vec<u8>, PngError> {
     } else {
         None
     };
+
     let mut map = map.ok_or(PngError::Size { width, height })?;
 
     let transform = tiny_skia::Transform::from_scale(zoom, zoom);

@@ -107,6 +107,7 @@ impl Report {
             .with("lang", "en")
             .child(head)
             .child(body);
+
         format!("<!DOCTYPE html>\n{page}\n")
     }
 }
@@ -165,6 +166,7 @@ fn table_row(kind: &'static str, cells: &[String]) -> Element {
     for cell in cells {
         row.push(Element::new(kind).text(cell.as_str()));
     }
+
     row
 }
 

@@ -52,6 +52,7 @@ impl Scale {
             low = if is_log { middle / 2.0 } else { middle - 0.5 };
             high = if is_log { middle * 2.0 } else { middle + 0.5 };
         }
+
         Scale {
             spread,
             values: (low, high),
@@ -91,6 +92,7 @@ impl Scale {
                 all
             }
         };
+
         ticks.into_iter().filter(|t| self.shows(*t)).collect()
     }
 
@@ -119,6 +121,7 @@ impl Extent {
             low = low.min(number);
             high = high.max(number);
         }
+
         Extent { low, high }
     }
 }
@@ -157,6 +160,7 @@ fn decades(low: f64, high: f64, wanted: usize) -> Vec<f64> {
             ticks.push(part * 10f64.powi(exponent));
         }
     }
+
     ticks
 }
 
@@ -174,6 +178,7 @@ pub(super) fn label(value: f64) -> String {
     let exponent = size.log10().floor() as i32;
     let mantissa = short_to(value / 10f64.powi(exponent), 2);
     let power: String = exponent.to_string().chars().map(superscript).collect();
+
     if mantissa == "1" {
         format!("10{power}")
     } else {
@@ -255,6 +260,7 @@ mod tests {
             Spread::Log,
             Spread::LogWithZero { unit: 1.0 },
         ];
+
         for values in ranges {
             for spread in spreads {
                 let scale = Scale::new(spread, values, (0.0, 100.0));

@@ -62,6 +62,7 @@ pub fn table1_picture() -> Picture {
         let y = 716.0 + 18.0 * k as f64;
         picture.push(text(30.0, y, "start", *note).with("font-size", "12"));
     }
+
     picture
 }
 
@@ -88,6 +89,7 @@ fn panel(signs: (i8, i8), area: Rectangle) -> Element {
     for boundary in &boundaries {
         group.push(boundary.region_above(&chart));
     }
+
     group.push(chart.frame(&x, &y));
     for boundary in &boundaries {
         let curve = chart.curve(&boundary.shown(), 2.0, "");
@@ -110,6 +112,7 @@ fn panel(signs: (i8, i8), area: Rectangle) -> Element {
     );
     let middle = (area.left + area.right) / 2.0;
     group.push(text(middle, area.top - 10.0, "middle", title));
+
     group
 }
 
@@ -141,9 +144,11 @@ fn boundaries(signs: (i8, i8)) -> Vec<Boundary> {
                 let points = Vec::new();
                 boundaries.push(Boundary { points, above });
             }
+
             boundaries[i].points.push((phi, *mu));
         }
     }
+
     boundaries
 }
 
@@ -175,11 +180,14 @@ impl Boundary {
                 let part = (top / mu_before).ln() / (mu / mu_before).ln();
                 shown.push((phi_before + part * (phi - phi_before), top));
             }
+
             if mu <= top {
                 shown.push((phi, mu));
             }
+
             before = Some((phi, mu));
         }
+
         shown
     }
 
@@ -190,6 +198,7 @@ impl Boundary {
         if let Some((phi, _)) = edge.first() {
             corners.push((*phi, FRICTION.1));
         }
+
         corners.extend(&edge);
         if let Some((phi, _)) = edge.last() {
             corners.push((*phi, FRICTION.1));
@@ -232,6 +241,7 @@ fn push_counts(group: &mut Element, chart: &Chart, signs: (i8, i8)) {
 fn at(signs: (i8, i8), t: &Rational, mu: Rational) -> TwoParticles {
     let square = t * t;
     let denominator = Rational::one() + &square;
+
     TwoParticles {
         c: (Rational::one() - square) / &denominator,
         s: whole(2) * t / denominator,
@@ -269,6 +279,7 @@ fn to_double(number: &Quadratic) -> f64 {
             low = middle;
         }
     }
+
     high
 }
 
@@ -285,6 +296,7 @@ mod tests {
             ((1, -1), &[2, 3]),
             ((-1, 1), &[]),
         ];
+
         for (signs, counts_above) in expected {
             let found = boundaries(signs);
 

@@ -80,10 +80,12 @@ fn mu_axis(columns: &[ThresholdColumn], mu: f64) -> Axis<'static> {
         values.extend(column.solutions.iter().map(|s| s.mu));
         values.extend(column.necessary);
     }
+
     values.push(mu);
 
     let positive = values.into_iter().filter(|v| *v > 0.0);
     let Extent { low, high } = Extent::of(positive);
+
     Axis {
         label: "coefficient of friction \u{3bc}",
         spread: Spread::Log,

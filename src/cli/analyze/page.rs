@@ -11,6 +11,7 @@ pub(super) fn page(analysis: &Analysis, paths: &[String]) -> String {
         title: format!("Divergence of {name}"),
         sections: vec![system(analysis), answers(analysis, paths), modes(analysis)],
     };
+
     report.to_html()
 }
 
@@ -29,6 +30,7 @@ fn system(analysis: &Analysis) -> Section {
         header: row(["", ""]),
         rows,
     };
+
     Section {
         title: "System".into(),
         content: vec![table],
@@ -50,14 +52,17 @@ fn answers(analysis: &Analysis, paths: &[String]) -> Section {
             Evidence::Exact(_) => "exact",
             Evidence::Measured(_) => "measured",
         };
+
         let evidence = analysis.evidence_text(&sentence.evidence, paths);
         rows.push(row([standing, &sentence.text, &evidence]));
     }
+
     content.push(Content::Table {
         caption: "Answers; \"stable\" is never one of them".into(),
         header: row(["standing", "answer", "evidence"]),
         rows,
     });
+
     Section {
         title: "Answers".into(),
         content,
@@ -78,6 +83,7 @@ fn modes(analysis: &Analysis) -> Section {
     for (k, mode) in modes.iter().enumerate() {
         content.push(shape(k + 1, mode));
     }
+
     Section {
         title: "Modes".into(),
         content,
@@ -103,6 +109,7 @@ fn summary(modes: &[Mode]) -> Content {
             listed(&mode.sticking),
         ]);
     }
+
     Content::Table {
         caption: "Diverging modes".into(),
         header: row(header),
@@ -118,6 +125,7 @@ fn shape(number: usize, mode: &Mode) -> Content {
             rows.push(vec![dof.to_string(), format!("{v:.9}")]);
         }
     }
+
     Content::Table {
         caption: format!(
             "Mode {number}: v over the degrees of freedom that move; the slip rates sum to one"

@@ -99,6 +99,7 @@ fn frictions(texts: &[String]) -> Result<Vec<Friction>, CliError> {
         let text = text.clone();
         frictions.push(Friction { mu, text });
     }
+
     Ok(frictions)
 }
 
@@ -117,6 +118,7 @@ fn cases(args: &Args) -> Result<Vec<Case>, CliError> {
                 states: state.states(),
             });
         }
+
         return Ok(cases);
     }
 
@@ -132,6 +134,7 @@ fn cases(args: &Args) -> Result<Vec<Case>, CliError> {
             states: scale::states(nx),
         });
     }
+
     Ok(cases)
 }
 
@@ -180,6 +183,7 @@ impl Case {
                 break;
             }
         }
+
         Ok(())
     }
 
@@ -191,6 +195,7 @@ impl Case {
         let particles = block.particles(&self.states);
         let points = Some(block.points.as_slice());
         let condensation = SparseCondensation::new(stiffness, Some(mass), &particles, points)?;
+
         Ok(condensation)
     }
 
@@ -217,6 +222,7 @@ impl Case {
                 accepted(&certifier, solution)
             });
         }
+
         Ok(evidence)
     }
 }
@@ -270,6 +276,7 @@ fn text_of(rows: &[Row], seed: u64) -> String {
             table.row(row.cells(numbers, solution.runs, evidence));
         }
     }
+
     format!(
         "{table}MCEIP-lambda2 by many starts (seed {seed}): other solutions may exist; `mceip \
          complete` proves that there are none\n"

@@ -100,27 +100,33 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         if let Some(states) = &states {
             out["complete_sets"] = states::json_of(states, &path);
         }
+
         if args.modes {
             out["nodes_mm"] = nodes_json(&block);
         }
+
         format!("{out}\n")
     } else {
         let mut out = text_of(&model, &path);
         if let Some(steps) = &steps {
             out += &comparison_text(steps);
         }
+
         if let Some(states) = &states {
             out += &states::text_of(states, &path);
         }
+
         out
     };
     print(&text)?;
+
     Ok(exit_code(&path, states.as_deref(), job.is_cancelled()))
 }
 
 fn exit_code(path: &LoadingPath, states: Option<&[ProvedState]>, is_interrupted: bool) -> u8 {
     let is_unproved = matches!(path.end, PathEnd::NoContinuation { proved: false, .. });
     let is_open = states.is_some_and(|all| all.iter().any(ProvedState::is_open));
+
     if is_interrupted {
         exit::INTERRUPTED
     } else if is_unproved || is_open {
@@ -153,6 +159,7 @@ fn write_pages(
         #[cfg(feature = "png")]
         folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
     }
+
     Ok(())
 }
 
@@ -178,6 +185,7 @@ fn follow(contact: &Contact, loading: &Loading, job: &Job) -> Result<LoadingPath
         job.say(format!("stretch {stretch}, motion {motion:.4} mm"));
         job.flow()
     });
+
     Ok(path?)
 }
 
@@ -201,6 +209,7 @@ fn compare(
         job.say(format!("stepping, step {done}"));
         job.flow()
     })?;
+
     Ok(Comparison::of(path, &steps))
 }
 
@@ -225,6 +234,7 @@ fn model(args: &Args) -> Result<BlockModel, CliError> {
     let height = number("height", &args.height)?;
     let cell_length = part(&paper.length(), cells.0);
     let cell_height = part(&height, cells.1);
+
     Ok(BlockModel {
         cells,
         cell: (cell_length, cell_height),
@@ -243,6 +253,7 @@ fn part(whole: &Rational, n: usize) -> Rational {
 fn loading(args: &Args) -> Result<Loading, CliError> {
     let until = args.until.as_deref();
     let until = until.map(|text| number("until", text)).transpose()?;
+
     Ok(Loading {
         friction: number("mu", &args.mu)?,
         force: number("force", &args.force)?,
@@ -281,6 +292,7 @@ fn text_of(model: &BlockModel, path: &LoadingPath) -> String {
     let depth = to_f64(&path.depth);
     let table = table_of(path);
     let end = end_text(path);
+
     format!(
         "{nx} x {ny} cells, {mesh}, plane {plane}; mu = {mu}; pressed {depth:.6} mm to {force} N, \
          then moved to the left\n\
@@ -310,6 +322,7 @@ fn table_of(path: &LoadingPath) -> Table {
         row.push(event_text(&interval.begin));
         table.row(row);
     }
+
     table
 }
 
@@ -393,6 +406,7 @@ fn comparison_json(comparison: &Comparison) -> Value {
 fn interval_json(interval: &Interval) -> Value {
     let [stick, left, right, free] = interval.counts();
     let stop = interval.stop.as_ref();
+
     json!({
         "from_mm": to_f64(interval.start.motion()),
         "to_mm": stop.map(|stop| to_f64(stop.motion())),
@@ -417,6 +431,7 @@ fn event_json(event: &Event) -> Value {
             "to": state_word(change.to),
         }));
     }
+
     json!({
         "causes": causes,
         "changes": changes,
@@ -437,6 +452,7 @@ fn equilibrium_json(at: &Equilibrium) -> Value {
 
     // The fraction of the exact motion fills pages: its size stands for it.
     let bits = at.motion().numer().bits() + at.motion().denom().bits();
+
     json!({
         "motion_bits": bits,
         "resultant_T_N": to_f64(&tangential),

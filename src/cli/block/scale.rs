@@ -79,6 +79,7 @@ pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result
         text_of(&rows)
     };
     print(&text)?;
+
     Ok(if job.is_cancelled() {
         exit::INTERRUPTED
     } else {
@@ -153,6 +154,7 @@ fn row(model: &BlockModel, output: Option<Output>, job: &Job) -> Result<Option<R
 
     say("complete search of the condensed pencil");
     let complete = complete_text(&problem, condensation.slip_count(), job.cancel());
+
     Ok(Some(Row {
         cells: model.cells,
         dofs: condensation.dofs(),
@@ -184,6 +186,7 @@ fn condensed_problem(
     let slip = condensed.a.len();
     let name = format!("block of {nx} x {ny} cells, {slip} slip, condensed in doubles");
     let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
+
     Ok(problem.named(name))
 }
 
@@ -200,6 +203,7 @@ fn exact(rows: &[Vec<f64>]) -> Result<Sparse, ModelError> {
             entries.push((i, j, number));
         }
     }
+
     Ok(Sparse::from_entries(order, order, entries))
 }
 
@@ -218,6 +222,7 @@ fn complete_text(problem: &Problem, slip: usize, cancel: &Cancel) -> String {
 
     let count = found.cover.solutions.len();
     let open = found.cover.open.len() + found.cover.families.len();
+
     if open == 0 {
         format!("{count}, proved ({seconds:.1} s)")
     } else {
@@ -243,6 +248,7 @@ fn text_of(rows: &[Row]) -> String {
     for row in rows {
         table.row(row.cells());
     }
+
     format!(
         "{table}K, A, B and mu in doubles, uncertified; balance: load left on f by lifted probes; \
          change: what a step of refinement changes of Z,\n\

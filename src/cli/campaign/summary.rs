@@ -26,6 +26,7 @@ pub(super) fn text_of(state: &State) -> String {
         table.row(row(name, tally));
         add(&mut sum, tally);
     }
+
     table.row(row("all", &sum));
 
     let mut out = format!("{table}\n{}\n", coverage_of(state));
@@ -37,6 +38,7 @@ pub(super) fn text_of(state: &State) -> String {
             out += &format!("  DISAGREEMENT {disagreement}\n");
         }
     }
+
     out + &format!("\n{}\n", verdict(state))
 }
 
@@ -50,6 +52,7 @@ fn corners_of(tally: &Tally) -> String {
     for (corner, count) in &tally.corners {
         corners.push(format!("{corner} {count}"));
     }
+
     corners.join(", ")
 }
 
@@ -70,6 +73,7 @@ fn coverage_of(state: &State) -> String {
     for shortfall in state.shortfalls() {
         out += &format!("  DISAGREEMENT coverage: {shortfall}\n");
     }
+
     out
 }
 
@@ -169,10 +173,12 @@ pub(super) fn replay_text(replay: &Replay, judged: &Judgement) -> String {
             finding.engine, finding.disagreement
         );
     }
+
     if judged.findings.is_empty() {
         let solutions = judged.report.oracle;
         out += &format!("CLEAN: {solutions} solutions, every engine agrees\n");
     }
+
     out
 }
 

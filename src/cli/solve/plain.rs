@@ -28,9 +28,11 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
         let header = trace::Header::plain(&problem, &how);
         output.write(&trace::render_plain(&header, &found))?;
     }
+
     for (point, reason) in &found.uncertified {
         eprintln!("uncertified: z = {point:?}: {reason}");
     }
+
     if let Some(first) = &found.first
         && args.log
     {
@@ -50,6 +52,7 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
     {
         output.write(&write_solution(&problem, &found.certified))?;
     }
+
     Ok(if is_found {
         exit::DONE
     } else {
@@ -81,6 +84,7 @@ fn listing(problem: &ExactMcp, found: &Found) -> String {
             out += &format!("  z[{i}] = {z_i} ({z_double}), F[{i}] = {f_i} ({f_double})\n");
         }
     }
+
     out += &format!("{}\n", evidence(found));
     out
 }
@@ -91,6 +95,7 @@ fn json(problem: &ExactMcp, found: &Found) -> String {
     for z in &found.certified {
         solutions.push(json!({ "z": texts(z), "f": texts(&problem.function(z)) }));
     }
+
     let mut uncertified = Vec::new();
     for (z, reason) in &found.uncertified {
         uncertified.push(json!({ "z": z, "reason": reason.to_string() }));
@@ -104,6 +109,7 @@ fn json(problem: &ExactMcp, found: &Found) -> String {
         "solutions": solutions,
         "uncertified": uncertified,
     });
+
     format!("{value:#}\n")
 }
 

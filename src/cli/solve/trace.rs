@@ -85,10 +85,12 @@ pub(super) fn render(header: &Header, found: &Found) -> String {
         let run = solution.run;
         out += &format!("certified in run {run}: {:?}\n", solution.candidate);
     }
+
     for point in &found.uncertified {
         let reason = &point.reason;
         out += &format!("uncertified: {:?}: {reason}\n", point.candidate);
     }
+
     out
 }
 
@@ -100,9 +102,11 @@ pub(super) fn render_plain(header: &Header, found: &lcp::Found) -> String {
         let components: Vec<String> = z.iter().map(ToString::to_string).collect();
         out += &format!("certified: {}\n", components.join(" "));
     }
+
     for (z, reason) in &found.uncertified {
         out += &format!("uncertified: {z:?}: {reason}\n");
     }
+
     out
 }
 
@@ -123,6 +127,7 @@ pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
     } else {
         repeat(&header, path)?
     };
+
     if again.trace == recorded {
         let runs = again.runs;
         let bytes = recorded.len();
@@ -134,6 +139,7 @@ pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
     let equal = lines.take_while(|(again, recorded)| again == recorded);
     let line = equal.count() + 1;
     print(&format!("DIFFERENT: first in line {line} of the trace\n"))?;
+
     Ok(exit::REJECTED)
 }
 
@@ -146,6 +152,7 @@ fn read_header(recorded: &str, path: &Path) -> Result<Header, CliError> {
         let expected = "a trace of at least 1 start";
         return Err(CliError::option("replay", expected, "starts: 0"));
     }
+
     Ok(header)
 }
 

@@ -86,6 +86,7 @@ pub(super) fn branches(
         if watch.is_cancelled() {
             break;
         }
+
         let number = k + 1;
         let stage = format!("lambda^2 against mu: level {number} of {}", LEVELS.len());
         watch.report(&Progress::stage(&stage));
@@ -100,8 +101,10 @@ pub(super) fn branches(
                 support: solution.support.to_vec(),
             });
         }
+
         levels.push(points);
     }
+
     Ok(Some(StateBranches {
         stretch: state.stretch,
         branches: Branches { levels, certified },
@@ -118,6 +121,7 @@ fn static_points(thresholds: &ProvedSet) -> Vec<BranchPoint> {
             support: solution.moving.clone(),
         });
     }
+
     points
 }
 
@@ -131,6 +135,7 @@ impl Shown<'_> {
         for state in self.states {
             all.extend(self.modes(&mesh, state));
         }
+
         Ok(all)
     }
 
@@ -147,6 +152,7 @@ impl Shown<'_> {
         let columns: Vec<ThresholdColumn> = self.states.iter().map(threshold_column).collect();
         let mu = to_f64(&self.path.loading.friction);
         let title = "MCEIP-\u{3bc} along the loading path";
+
         Named {
             name: "thresholds".into(),
             picture: threshold_picture(title, &columns, mu),
@@ -157,6 +163,7 @@ impl Shown<'_> {
     fn branch_chart(&self) -> Option<Named> {
         let StateBranches { stretch, branches } = self.branches.as_ref()?;
         let title = format!("\u{3bb}\u{b2} against \u{3bc} for the state of stretch {stretch}");
+
         Some(Named {
             name: format!("lambda2-stretch-{stretch:02}"),
             picture: branch_picture(&title, branches),
@@ -185,6 +192,7 @@ impl Shown<'_> {
                 all.extend(self.mode(mesh, state, mode, &title, name));
             }
         }
+
         all
     }
 
@@ -204,6 +212,7 @@ impl Shown<'_> {
         };
         let moving = mode.moving.len();
         let slip = state.slip;
+
         Some(Named {
             name,
             picture: mode_picture(title, &drawn),
@@ -240,6 +249,7 @@ impl Shown<'_> {
         let mu = to_f64(&self.path.loading.friction);
         let title =
             format!("Elastic block in frictional contact: {nx} x {ny} cells, \u{3bc} = {mu}");
+
         Ok(Report { title, sections })
     }
 
@@ -308,6 +318,7 @@ impl Shown<'_> {
             header: vec!["quantity".into(), "value".into()],
             rows,
         };
+
         Section {
             title: "Model".into(),
             content: vec![table],
@@ -340,6 +351,7 @@ impl Shown<'_> {
             "Stretches of the path. Nodes from left to right: . stick, < slips to the left (S = \
              1), > slips to the right (S = -1), o free. How it ends: {end}."
         );
+
         Content::Table {
             caption,
             header: header.map(String::from).to_vec(),
@@ -361,6 +373,7 @@ impl Shown<'_> {
             rows: self.state_rows(state),
         });
         content.extend(figures);
+
         Section {
             title: format!(
                 "State of stretch {}: {} slip nodes",
@@ -410,13 +423,16 @@ impl Shown<'_> {
                 }
                 None => "never holds: divergence is excluded for every \u{3bc}".into(),
             };
+
             rows.push(row(&what, answer));
         }
+
         for growing in &state.growing {
             let mu = to_f64(&growing.mu);
             let what = format!("MCEIP-\u{3bb}\u{b2} at \u{3bc} = {mu}");
             rows.push(row(&what, growing_text(state, growing)));
         }
+
         rows
     }
 }
@@ -430,6 +446,7 @@ fn threshold_column(state: &ProvedState) -> ThresholdColumn {
             moving: mode.moving.len(),
         });
     }
+
     ThresholdColumn {
         stretch: state.stretch,
         slip: state.slip,
@@ -457,6 +474,7 @@ fn growing_text(state: &ProvedState, growing: &Growing) -> String {
             "\u{3bb}\u{b2} in {enclosure} 1/s\u{b2}, growth rate {rate:.6} 1/s, {slipping} slipping"
         ));
     }
+
     let list = if rates.is_empty() {
         "no divergence instability of the form (8)".into()
     } else {

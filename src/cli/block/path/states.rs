@@ -101,6 +101,7 @@ pub(super) fn of(
             let pencil = pencils.of(&interval.states)?;
             condensed_set(block, interval, pencil, wanted.modes, &watch.quiet())?
         };
+
         let mut state = ProvedState {
             stretch,
             slip,
@@ -119,14 +120,17 @@ pub(super) fn of(
             if watch.is_cancelled() {
                 break;
             }
+
             let what = format!("growth rates at mu = {}", to_f64(mu));
             say(watch, stretch, &what);
             let set = uncondensed_set(block, interval, Some(mu), wanted.modes, &watch.quiet())?;
             let mu = mu.clone();
             state.growing.push(Growing { mu, set });
         }
+
         states.push(state);
     }
+
     Ok(states)
 }
 
@@ -154,6 +158,7 @@ fn condensed_set(
             solution.displacement = Some(levels.mode(&static_level, x));
         }
     }
+
     Ok(set)
 }
 
@@ -181,6 +186,7 @@ fn uncondensed_set(
             solution.displacement = Some(mode(&variables, x, dofs));
         }
     }
+
     Ok(set)
 }
 
@@ -218,6 +224,7 @@ impl ProvedSet {
             let slipping = solution.moving.len();
             all.push(format!("{name} in {enclosure}, {slipping} slipping"));
         }
+
         all.join("; ")
     }
 
@@ -295,6 +302,7 @@ pub(super) fn text_of(states: &[ProvedState], path: &LoadingPath) -> String {
     if states.iter().any(|state| !state.growing.is_empty()) {
         out += &format!("{}\n", growing_table(states));
     }
+
     out
 }
 
@@ -316,6 +324,7 @@ fn thresholds_table(states: &[ProvedState], path: &LoadingPath) -> Table {
                 format!("{} from mu = {mu:.9} on", state.necessary_equation())
             }
         };
+
         let set = &state.thresholds;
         table.row(vec![
             state.stretch.to_string(),
@@ -327,6 +336,7 @@ fn thresholds_table(states: &[ProvedState], path: &LoadingPath) -> Table {
             necessary,
         ]);
     }
+
     table
 }
 
@@ -355,12 +365,14 @@ fn growing_table(states: &[ProvedState]) -> Table {
                     verdict.clone(),
                 ]);
             }
+
             if growing.set.solutions.is_empty() {
                 let none = "none".into();
                 table.row(vec![stretch, mu, none, "".into(), "".into(), verdict]);
             }
         }
     }
+
     table
 }
 
@@ -370,6 +382,7 @@ pub(super) fn json_of(states: &[ProvedState], path: &LoadingPath) -> Value {
     for state in states {
         out.push(state.json(&path.intervals[state.stretch]));
     }
+
     Value::Array(out)
 }
 
@@ -401,6 +414,7 @@ impl ProvedState {
                 "mass_semidefinite_until": necessary.mass.as_ref().and_then(end_json),
             });
         }
+
         out
     }
 
@@ -434,6 +448,7 @@ impl ProvedState {
         if let Some(displacement) = &mode.displacement {
             out["mode"] = json!(displacement);
         }
+
         out
     }
 }

@@ -45,5 +45,6 @@ pub(super) fn causes_text(causes: &[Bound]) -> String {
     for bound in causes {
         reached.push(format!("node {}: {}", bound.node() + 1, bound.word()));
     }
+
     reached.join(", ")
 }
