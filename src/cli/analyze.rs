@@ -1,8 +1,8 @@
 //! `mceip analyze`: the engineer's answer for a mechanical system at one mu.
 //!
 //! The answers are sentences with their evidence: can the equilibrium diverge in the form (8) at
-//! this mu, in which ranges of mu can it, from which mu on. They are printed, and on request written
-//! as a page with the modes; their certificates go into a folder for `mceip check`.
+//! this mu, in which ranges of mu can it, from which mu on. They are printed, and on request
+//! written as a page with the modes; their certificates go into a folder for `mceip check`.
 
 mod page;
 

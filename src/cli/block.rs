@@ -1,10 +1,10 @@
 //! `mceip block`: the two published states of the polyurethane block, or its whole loading path
 //! with pictures and a report.
 //!
-//! Without other options each published state is searched for its solution of MCEIP-mu, certified
-//! on K itself, compared with the paper's number and searched for all solutions. `--path` follows
-//! the loading path ([`path`]), `--scale` refines the mesh ([`scale`]), `--lambda2` looks for growth
-//! rates ([`lambda2`]).
+//! Without other options each published state is searched for its solution of MCEIP-mu, which is
+//! certified on K itself and compared with the paper's number; then for all solutions. `--path`
+//! follows the loading path ([`path`]), `--scale` refines the mesh ([`scale`]), `--lambda2` looks
+//! for growth rates ([`lambda2`]).
 
 mod args;
 mod lambda2;

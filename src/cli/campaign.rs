@@ -41,7 +41,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "FOLDER", default_value = "mceip-replays")]
     replays: PathBuf,
     /// Judge a replay file again; everything else but --json and --seed is ignored.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["seconds", "count", "state", "shard", "families"])]
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["seconds", "count", "state", "shard", "families"]
+    )]
     replay: Option<PathBuf>,
     /// Threads (default: all cores).
     #[arg(long)]

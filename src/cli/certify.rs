@@ -1,7 +1,7 @@
 //! `mceip certify`: somebody's floats to certificates, of existence or of absence.
 //!
-//! Each point of a report is certified as a solution. Where that fails, all solutions near its value
-//! are searched: the complete set proves that the point is none, or lists it after all.
+//! Each point of a report is certified as a solution. Where that fails, all solutions near its
+//! value are searched: the complete set proves that the point is none, or lists it after all.
 
 use super::common::{CliError, exit, load, positive_number, print, text};
 use super::job::Job;

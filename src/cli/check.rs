@@ -1,8 +1,8 @@
 //! `mceip check`: a certificate or somebody's solutions against a problem, one verdict.
 //!
-//! The format of the second file decides what is done. A certificate goes to the checker, which
-//! accepts or rejects it; somebody's solutions are certified one by one and then checked, or refuted
-//! ([`foreign`]); a solution file of a plain problem is evaluated exactly ([`plain`]).
+//! The formats of the files decide what is done. A certificate goes to the checker, which accepts
+//! or rejects it. Somebody's solutions are certified and checked one by one, or refuted
+//! ([`foreign`]). A solution file of a plain LCP or MCP is evaluated exactly ([`plain`]).
 
 pub(super) mod plain;
 

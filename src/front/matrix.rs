@@ -15,8 +15,8 @@ use std::path::Path;
 /// ```
 /// use mceip::Matrix;
 /// let rows = Matrix::from_rows(&[[2.0, -1.0], [-1.0, 2.0]])?;
-/// let triplets = Matrix::from_triplets(2, 2, [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 2.0)])?;
-/// assert_eq!(rows, triplets);
+/// let entries = [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 2.0)];
+/// assert_eq!(rows, Matrix::from_triplets(2, 2, entries)?);
 /// assert!(Matrix::from_rows(&[[f64::NAN]]).is_err());
 /// # Ok::<(), mceip::Error>(())
 /// ```

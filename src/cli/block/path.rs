@@ -42,6 +42,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let at_mu = args.at_mu.iter().map(|mu| positive("at-mu", mu));
     let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
     let block = Block::new(&model)?;
+
     let report = Output::prepare_if("report", args.report.as_deref(), &[])?;
     let folder = Folder::prepare_if("pictures", args.pictures.as_deref())?;
 
@@ -65,12 +66,12 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     let say = |progress: &Progress<'_>| job.say(progress);
     let watch = Watch::new(job.cancel(), &say);
+    let followed = Followed {
+        block: &block,
+        contact: &contact,
+        path: &path,
+    };
     let states = if args.complete || is_shown {
-        let followed = Followed {
-            block: &block,
-            contact: &contact,
-            path: &path,
-        };
         Some(states::of(&followed, &wanted, &watch)?)
     } else {
         None
@@ -88,6 +89,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             branches,
             uncondensed: args.uncondensed,
         };
+
         // An interrupted run leaves no pictures.
         if !job.is_cancelled() {
             write_pages(&shown, report, folder)?;
@@ -95,44 +97,70 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
     job.end();
 
+    let outcome = Outcome {
+        model,
+        block,
+        path,
+        steps,
+        states,
+    };
     let text = if args.json {
-        let mut out = json_of(&model, &path, steps.as_ref());
-        if let Some(states) = &states {
-            out["complete_sets"] = states::json_of(states, &path);
-        }
-
-        if args.modes {
-            out["nodes_mm"] = nodes_json(&block);
-        }
-
-        format!("{out}\n")
+        format!("{}\n", outcome.json(args.modes))
     } else {
-        let mut out = text_of(&model, &path);
-        if let Some(steps) = &steps {
-            out += &comparison_text(steps);
-        }
-
-        if let Some(states) = &states {
-            out += &states::text_of(states, &path);
-        }
-
-        out
+        outcome.text()
     };
     print(&text)?;
-
-    Ok(exit_code(&path, states.as_deref(), job.is_cancelled()))
+    Ok(outcome.exit_code(job.is_cancelled()))
 }
 
-fn exit_code(path: &LoadingPath, states: Option<&[ProvedState]>, is_interrupted: bool) -> u8 {
-    let is_unproved = matches!(path.end, PathEnd::NoContinuation { proved: false, .. });
-    let is_open = states.is_some_and(|all| all.iter().any(ProvedState::is_open));
+/// What came out.
+struct Outcome {
+    model: BlockModel,
+    block: Block,
+    path: LoadingPath,
+    /// The comparison with stepping, if asked for.
+    steps: Option<Comparison>,
+    /// What is proved of the states, if asked for.
+    states: Option<Vec<ProvedState>>,
+}
 
-    if is_interrupted {
-        exit::INTERRUPTED
-    } else if is_unproved || is_open {
-        exit::UNDECIDED
-    } else {
-        exit::DONE
+impl Outcome {
+    /// The path, the comparison and the states, for people.
+    fn text(&self) -> String {
+        let mut out = text_of(&self.model, &self.path);
+        if let Some(steps) = &self.steps {
+            out += &comparison_text(steps);
+        }
+        if let Some(states) = &self.states {
+            out += &states::text_of(states, &self.path);
+        }
+        out
+    }
+
+    /// The same for programs, on request with the positions of the nodes.
+    fn json(&self, with_nodes: bool) -> Value {
+        let mut out = json_of(&self.model, &self.path, self.steps.as_ref());
+        if let Some(states) = &self.states {
+            out["complete_sets"] = states::json_of(states, &self.path);
+        }
+        if with_nodes {
+            out["nodes_mm"] = nodes_json(&self.block);
+        }
+        out
+    }
+
+    fn exit_code(&self, is_interrupted: bool) -> u8 {
+        let is_unproved = matches!(self.path.end, PathEnd::NoContinuation { proved: false, .. });
+        let mut states = self.states.iter().flatten();
+        let is_open = states.any(ProvedState::is_open);
+
+        if is_interrupted {
+            exit::INTERRUPTED
+        } else if is_unproved || is_open {
+            exit::UNDECIDED
+        } else {
+            exit::DONE
+        }
     }
 }
 

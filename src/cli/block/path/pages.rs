@@ -496,33 +496,33 @@ fn number(exact: &Rational) -> String {
 }
 
 /// What to read off the picture of the path.
-const PATH_CAPTION: &str = "Each event is an exact rational number; (1), (2), (5), (7) hold exactly at both ends of each \
-     stretch.";
+const PATH_CAPTION: &str = "Each event is an exact rational number; (1), (2), (5), (7) hold \
+     exactly at both ends of each stretch.";
 
 /// What to read off the picture of the thresholds.
-const THRESHOLDS_CAPTION: &str = "The complete set of MCEIP-\u{3bc} for each state with slip, each set certified. A state in \
-     whose column no solution stands has none. \u{3bb} = 0 is the static threshold; divergence \
-     may begin at a lower \u{3bc} with \u{3bb}\u{b2} > 0.";
+const THRESHOLDS_CAPTION: &str = "The complete set of MCEIP-\u{3bc} for each state with slip, \
+     each set certified. A state in whose column no solution stands has none. \u{3bb} = 0 is the \
+     static threshold; divergence may begin at a lower \u{3bc} with \u{3bb}\u{b2} > 0.";
 
 /// What to read off the picture of lambda^2 against mu.
-const BRANCHES_CAPTION: &str = "Points: every solution at that \u{3bb}\u{b2}, from the pencil condensed in doubles \
-     (measured, not certified). The threshold and the squares are certified.";
+const BRANCHES_CAPTION: &str = "Points: every solution at that \u{3bb}\u{b2}, from the pencil \
+     condensed in doubles (measured, not certified). The threshold and the squares are certified.";
 
 /// Stands above a state of which something is open.
-const OPEN_WARNING: &str =
-    "Not everything is decided: regions are left open, and may hold more solutions.";
+const OPEN_WARNING: &str = "Not everything is decided: regions are left open, and may hold more \
+     solutions.";
 
 /// What a solution means, up to what the checker was given.
-const MEANING: &str = "A solution of MCEIP-\u{3bc} is a coefficient of friction at which the equilibrium can leave \
-     in the form (8) with \u{3bb} = 0; a solution of MCEIP-\u{3bb}\u{b2} at a given \u{3bc} is a \
-     divergence with the growth rate \u{3bb}. Where there is none, divergence of the form (8) is \
-     excluded and nothing else: flutter and growth of stick-slip lie outside it. \"Complete, \
-     proved\" means that a certificate was written for the whole half line and accepted by the \
-     exact checker, for the problem";
+const MEANING: &str = "A solution of MCEIP-\u{3bc} is a coefficient of friction at which the \
+     equilibrium can leave in the form (8) with \u{3bb} = 0; a solution of MCEIP-\u{3bb}\u{b2} at \
+     a given \u{3bc} is a divergence with the growth rate \u{3bb}. Where there is none, \
+     divergence of the form (8) is excluded and nothing else: flutter and growth of stick-slip \
+     lie outside it. \"Complete, proved\" means that a certificate was written for the whole half \
+     line and accepted by the exact checker, for the problem";
 
 /// The end of [`MEANING`] where the sets were checked on K and M.
 const UNCONDENSED_PROOF: &str = "of K and M themselves.";
 
 /// The end of [`MEANING`] where the MCEIP-mu sets were checked on the condensed pencil.
-const CONDENSED_PROOF: &str = "of K and M themselves (MCEIP-\u{3bb}\u{b2}), of the state's exactly condensed pencil \
-     (MCEIP-\u{3bc}).";
+const CONDENSED_PROOF: &str = "of K and M themselves (MCEIP-\u{3bb}\u{b2}), of the state's \
+     exactly condensed pencil (MCEIP-\u{3bc}).";
