@@ -202,7 +202,7 @@ fn smaller_text(certified: &Window, wanted: &Window) -> String {
         return String::new();
     }
 
-    format!("; NOT the whole window {} of the problem", wanted)
+    format!("; NOT the whole window {wanted} of the problem")
 }
 
 /// One line per solution of a foreign report; the exit code is that of the worst.
