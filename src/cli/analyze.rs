@@ -1,13 +1,18 @@
 //! `mceip analyze`: the engineer's answer for a mechanical system at one mu.
+//!
+//! The answers are sentences with their evidence: can the equilibrium diverge in the form (8) at
+//! this mu, in which ranges of mu can it, from which mu on. They are printed, and on request
+//! written as a page with the modes; their certificates go into a folder for `mceip check`.
 
 mod page;
 
 use super::common::{CliError, exit, load, positive, print, require_threads};
 use super::job::Job;
-use super::output::Output;
+use super::output::{Output, make_writable};
 use mceip_engine::analysis::{Analysis, AnalysisError, Options, analyse};
-use mceip_model::Body;
+use mceip_exact::Rational;
 use mceip_model::file::write_problem;
+use mceip_model::{Body, System};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `analyze`.
@@ -39,25 +44,74 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// More samples than any plot has use for.
+const MAX_SAMPLES: usize = 10_000;
+
+/// Free degrees of freedom beyond which the ranges of mu are looked for on request only.
+const SAMPLED_FREE: usize = 200;
+
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
     let Body::System(system) = problem.body() else {
         return Err(AnalysisError::NotASystem.into());
     };
-    let given = args
-        .friction
-        .as_deref()
-        .map(|t| positive("friction", t))
-        .transpose()?;
-    let friction = given
-        .or_else(|| system.friction().cloned())
-        .ok_or(AnalysisError::NoFriction)?;
+    let friction = friction(args, system)?;
     require_threads(args.threads)?;
-    let usual = if system.free_dofs().len() > SAMPLED_FREE {
+    let mut options = Options {
+        samples: samples(args, system)?,
+        threads: args.threads,
+        ..Options::default()
+    };
+    options.limits.boxes = args.boxes;
+
+    if let Some(folder) = &args.certificates {
+        make_writable(folder)?;
+    }
+
+    let report = Output::prepare_if("report", args.report.as_deref(), &[&args.file])?;
+
+    let job = Job::begin("reading");
+    let name = problem.name.clone();
+    let analysis = job.watched(|watch| analyse(name, system, &friction, &options, watch))?;
+    job.end();
+
+    let paths = match &args.certificates {
+        Some(folder) => write_proofs(folder, &analysis, &args.file)?,
+        None => Vec::new(),
+    };
+    if let Some(output) = report {
+        output.write(&page::page(&analysis, &paths))?;
+    }
+
+    let text = if args.json {
+        format!("{}\n", analysis.to_json(&paths))
+    } else {
+        text_of(&analysis, &paths)
+    };
+    print(&text)?;
+
+    Ok(exit_code(&analysis))
+}
+
+/// The coefficient of friction: the option's, or else the file's.
+fn friction(args: &Args, system: &System) -> Result<Rational, CliError> {
+    if let Some(given) = &args.friction {
+        return positive("friction", given);
+    }
+
+    let own = system.friction().cloned();
+    own.ok_or_else(|| AnalysisError::NoFriction.into())
+}
+
+/// The number of values of mu at which divergence is decided.
+fn samples(args: &Args, system: &System) -> Result<usize, CliError> {
+    let is_large = system.free_dofs().len() > SAMPLED_FREE;
+    let usual = if is_large {
         0
     } else {
         Options::default().samples
     };
+
     let samples = args.samples.unwrap_or(usual);
     if samples > MAX_SAMPLES {
         return Err(CliError::Option {
@@ -66,102 +120,72 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             got: samples.to_string(),
         });
     }
-    if let Some(folder) = &args.certificates {
-        writable(folder)?;
-    }
-    let report = args
-        .report
-        .as_deref()
-        .map(|path| Output::prepare("report", path, &[&args.file]))
-        .transpose()?;
-    let mut options = Options {
-        samples,
-        threads: args.threads,
-        ..Options::default()
-    };
-    options.limits.boxes = args.boxes;
-    let job = Job::begin("reading");
-    let name = problem.name.clone();
-    let analysis = job.watched(|watch| analyse(name, system, &friction, &options, watch))?;
-    job.end();
-    let paths = match &args.certificates {
-        Some(folder) => write_proofs(folder, &analysis, &args.file)?,
-        None => Vec::new(),
-    };
-    if let Some(output) = report {
-        output.write(&page::page(&analysis, &paths))?;
-    }
-    print(&if args.json {
-        format!("{}\n", analysis.to_json(&paths))
-    } else {
-        text(&analysis, &paths)
-    })?;
-    Ok(match (analysis.interrupted, analysis.is_decided()) {
-        (true, _) => exit::INTERRUPTED,
-        (false, true) => exit::DONE,
-        (false, false) => exit::UNDECIDED,
-    })
+
+    Ok(samples)
 }
 
-/// More samples than any plot has use for.
-const MAX_SAMPLES: usize = 10_000;
+fn exit_code(analysis: &Analysis) -> u8 {
+    if analysis.interrupted {
+        exit::INTERRUPTED
+    } else if analysis.is_decided() {
+        exit::DONE
+    } else {
+        exit::UNDECIDED
+    }
+}
 
-/// Free degrees of freedom beyond which the ranges of mu are looked for on request only.
-const SAMPLED_FREE: usize = 200;
-
-/// The folder exists and takes files, known before the work starts.
-fn writable(folder: &Path) -> Result<(), CliError> {
-    std::fs::create_dir_all(folder).map_err(|e| CliError::write(folder.display(), &e))?;
-    tempfile::tempfile_in(folder).map_err(|e| CliError::write(folder.display(), &e))?;
-    Ok(())
+/// The two files of a proof.
+struct ProofFiles {
+    problem: Output,
+    certificate: Output,
+    /// Where the certificate goes.
+    path: PathBuf,
 }
 
 /// Writes NAME.problem.json and NAME.certificate.json for each proof; the certificates' paths.
 fn write_proofs(folder: &Path, analysis: &Analysis, input: &Path) -> Result<Vec<String>, CliError> {
-    let mut outputs = Vec::new();
+    let mut files = Vec::new();
     for proof in &analysis.proofs {
-        let files = [
-            ("problem", write_problem(&proof.problem)),
-            ("certificate", proof.certificate.to_json()),
-        ];
-        for (what, text) in files {
-            let path = folder.join(format!("{}.{what}.json", proof.name));
-            outputs.push((
-                Output::prepare("certificates", &path, &[input])?,
-                text,
-                path,
-                what,
-            ));
-        }
+        let problem = folder.join(format!("{}.problem.json", proof.name));
+        let path = folder.join(format!("{}.certificate.json", proof.name));
+        files.push(ProofFiles {
+            problem: Output::prepare("certificates", &problem, &[input])?,
+            certificate: Output::prepare("certificates", &path, &[input])?,
+            path,
+        });
     }
+
     let mut paths = Vec::new();
-    for (output, text, path, what) in outputs {
-        output.write(&text)?;
-        if what == "certificate" {
-            paths.push(path.display().to_string());
-        }
+    for (files, proof) in files.into_iter().zip(&analysis.proofs) {
+        files.problem.write(&write_problem(&proof.problem))?;
+        files.certificate.write(&proof.certificate.to_json())?;
+        paths.push(files.path.display().to_string());
     }
+
     Ok(paths)
 }
 
-fn text(analysis: &Analysis, paths: &[String]) -> String {
+/// The answers for people, each with its evidence; `paths` of the certificates as they were
+/// written.
+fn text_of(analysis: &Analysis, paths: &[String]) -> String {
     let [dofs, free, slip, stick] = analysis.sizes;
-    let name = analysis
-        .name
-        .as_deref()
-        .map_or_else(String::new, |n| format!("{n}: "));
-    let mut out = format!(
-        "{name}{dofs} degrees of freedom ({free} free), {slip} in impending slip, {stick} stick\n"
-    );
-    for s in analysis.sentences() {
-        out += &format!(
-            "{}\n    [{}]\n",
-            s.text,
-            analysis.evidence_text(&s.evidence, paths)
-        );
+    let mut out = String::new();
+    if let Some(name) = &analysis.name {
+        out += &format!("{name}: ");
     }
+
+    out += &format!(
+        "{dofs} degrees of freedom ({free} free), {slip} in impending slip, {stick} stick\n"
+    );
+
+    for sentence in analysis.sentences() {
+        let evidence = analysis.evidence_text(&sentence.evidence, paths);
+        out += &format!("{}\n    [{evidence}]\n", sentence.text);
+    }
+
     if analysis.interrupted {
         out += "INTERRUPTED: what was not done is undecided\n";
     }
+
     out
 }

@@ -1,5 +1,10 @@
 //! `mceip block`: the two published states of the polyurethane block, or its whole loading path
 //! with pictures and a report.
+//!
+//! Without other options each published state is searched for its solution of MCEIP-mu, which is
+//! certified on K itself and compared with the paper's number; then for all solutions. `--path`
+//! follows the loading path ([`path`]), `--scale` refines the mesh ([`scale`]), `--lambda2` looks
+//! for growth rates ([`lambda2`]).
 
 mod args;
 mod lambda2;
@@ -16,94 +21,126 @@ use args::published;
 use mceip_engine::report::Table;
 use mceip_engine::run::{Progress, Watch};
 use mceip_model::file::write_problem;
-use mceip_paper::{Block, MassKind, PublishedState};
+use mceip_paper::{Block, PublishedState};
 use mceip_testkit::{BlockReport, block_state};
 use serde_json::{Value, json};
+use std::path::Path;
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.path || args.report.is_some() || args.pictures.is_some() {
         return path::run(args);
     }
+
     if !args.lambda2.is_empty() {
         return lambda2::run(args);
     }
+
     if !args.scale.is_empty() {
         return scale::run(&args.scale, args.json, args.write.as_deref());
     }
+
+    published_states(args)
+}
+
+/// Treats the published states and prints what came out.
+fn published_states(args: &Args) -> Result<u8, CliError> {
     let states = published(args.state)?;
-    let block = Block::of_the_paper(if args.lumped {
-        MassKind::Lumped
-    } else {
-        MassKind::Consistent
-    });
+    let block = Block::of_the_paper(args.mass());
+
     let job = Job::begin("block");
-    let mut reports = Vec::new();
-    for state in states {
-        if let Some(folder) = &args.write {
-            Output::prepare("write", &folder.join("block.json"), &[])?; // writable, before the work
-        }
-        let told = |progress: &Progress<'_>| job.say(format!("{}: {progress}", state.name()));
-        let watch = Watch::new(job.cancel(), &told);
-        match block_state(&block, state, &watch)? {
-            Some(report) => reports.push(report),
-            None => break,
-        }
-    }
+    let reports = treat(&block, &states, args.write.as_deref(), &job)?;
     job.end();
+
     for report in &reports {
         if let Some(folder) = &args.write {
             write_files(&block, report, folder)?;
         }
-        report
-            .uncertified
-            .iter()
-            .for_each(|u| eprintln!("uncertified: {}: {u}", report.state.name()));
-        report
-            .rejected
-            .iter()
-            .for_each(|r| eprintln!("DISAGREEMENT: {}: {r}", report.state.name()));
+
+        say_what_failed(report);
     }
-    if args.json {
-        print(&format!(
-            "{}\n",
-            json!({ "states": reports.iter().map(json_of).collect::<Vec<_>>() })
-        ))?;
+
+    let text = if args.json {
+        let states: Vec<Value> = reports.iter().map(json_of).collect();
+        format!("{}\n", json!({ "states": states }))
     } else {
-        print(&text_of(&reports))?;
+        text_of(&reports)
+    };
+    print(&text)?;
+
+    Ok(exit_code(&reports, job.is_cancelled()))
+}
+
+/// Treats one state after the other, until interrupted.
+fn treat(
+    block: &Block,
+    states: &[PublishedState],
+    folder: Option<&Path>,
+    job: &Job,
+) -> Result<Vec<BlockReport>, CliError> {
+    let mut reports = Vec::new();
+    for &state in states {
+        // The folder is known to be writable before the work starts.
+        if let Some(folder) = folder {
+            Output::prepare("write", &folder.join("block.json"), &[])?;
+        }
+
+        let show = |progress: &Progress<'_>| job.say(format!("{}: {progress}", state.name()));
+        let watch = Watch::new(job.cancel(), &show);
+        match block_state(block, state, &watch)? {
+            Some(report) => reports.push(report),
+            None => break,
+        }
     }
-    let wrong = reports
+
+    Ok(reports)
+}
+
+/// What goes to stderr.
+fn say_what_failed(report: &BlockReport) {
+    let name = report.state.name();
+    for point in &report.uncertified {
+        eprintln!("uncertified: {name}: {point}");
+    }
+
+    for reason in &report.rejected {
+        eprintln!("DISAGREEMENT: {name}: {reason}");
+    }
+}
+
+fn exit_code(reports: &[BlockReport], is_interrupted: bool) -> u8 {
+    let is_wrong = reports
         .iter()
         .any(|r| !r.rejected.is_empty() || r.missing > 0);
-    let none = reports.iter().any(|r| r.accepted.is_empty());
-    let interrupted = job.is_cancelled();
-    Ok(if interrupted {
+    let misses_solution = reports.iter().any(|r| r.accepted.is_empty());
+
+    if is_interrupted {
         exit::INTERRUPTED
-    } else if wrong {
+    } else if is_wrong {
         exit::REJECTED
-    } else if none {
+    } else if misses_solution {
         exit::UNDECIDED
     } else {
         exit::DONE
-    })
+    }
 }
 
-fn write_files(
-    block: &Block,
-    report: &BlockReport,
-    folder: &std::path::Path,
-) -> Result<(), CliError> {
-    let name = if report.state == PublishedState::FifteenSlip {
-        "block-15-slip"
-    } else {
-        "block-17-slip"
+/// Writes the problem of a state, and its certificate if there is one.
+fn write_files(block: &Block, report: &BlockReport, folder: &Path) -> Result<(), CliError> {
+    let name = match report.state {
+        PublishedState::FifteenSlip => "block-15-slip",
+        PublishedState::SeventeenSlip => "block-17-slip",
     };
-    let output =
-        |suffix: &str| Output::prepare("write", &folder.join(format!("{name}.{suffix}")), &[]);
-    output("json")?.write(&write_problem(&report.state.problem(block)?))?;
-    match &report.certificate {
-        Some(c) => output("certificate.json")?.write(&c.to_json()),
-        None => Ok(()),
+
+    let path = folder.join(format!("{name}.json"));
+    let problem = report.state.problem(block)?;
+    Output::prepare("write", &path, &[])?.write(&write_problem(&problem))?;
+
+    if let Some(certificate) = &report.certificate {
+        let path = folder.join(format!("{name}.certificate.json"));
+        Output::prepare("write", &path, &[])?.write(&certificate.to_json())?;
     }
+
+    Ok(())
 }
 
 /// The states as a table; `verify` prints the same.
@@ -118,86 +155,94 @@ pub(super) fn text_of(reports: &[BlockReport]) -> String {
         "certificate",
         "all solutions",
     ]);
-    for r in reports {
-        if r.accepted.is_empty() {
-            table.row(vec![
-                r.state.name().into(),
-                "not found".into(),
-                r.state.printed_mu().into(),
-            ]);
+    for report in reports {
+        let name = report.state.name();
+        let printed = report.state.printed_mu();
+        if report.accepted.is_empty() {
+            table.row(vec![name.into(), "not found".into(), printed.into()]);
         }
-        for a in &r.accepted {
-            let stuck = if a.stuck.is_empty() {
+
+        for solution in &report.accepted {
+            let stuck = if solution.stuck.is_empty() {
                 "none".into()
             } else {
-                format!("node {:?} from the left", a.stuck)
+                format!("node {:?} from the left", solution.stuck)
             };
-            let difference = difference(&a.value, r.state.printed_mu());
-            let (n, leaves) = (r.cover.solutions.len(), r.cover.leaves);
-            let all = if r.is_complete() {
-                format!("{n}, proved ({leaves} leaves)")
-            } else {
-                format!("{n} proved, some regions open")
-            };
-            let row = [
-                r.state.name(),
-                &a.value,
-                r.state.printed_mu(),
-                &difference,
-                &a.slipping.to_string(),
-                &stuck,
-                "accepted",
-                &all,
-            ];
-            table.row(row.map(ToString::to_string).to_vec());
+
+            table.row(vec![
+                name.into(),
+                solution.value.clone(),
+                printed.into(),
+                difference(&solution.value, printed),
+                solution.slipping.to_string(),
+                stuck,
+                "accepted".into(),
+                all_solutions(report),
+            ]);
         }
     }
+
     table.to_string()
+}
+
+/// What the complete search has proved of a state.
+fn all_solutions(report: &BlockReport) -> String {
+    let count = report.cover.solutions.len();
+    if report.is_complete() {
+        let leaves = report.cover.leaves;
+        format!("{count}, proved ({leaves} leaves)")
+    } else {
+        format!("{count} proved, some regions open")
+    }
 }
 
 /// Ours minus the paper's, and whether the paper's digits come out on rounding.
 fn difference(ours: &str, paper: &str) -> String {
-    let (Ok(a), Ok(b)) = (ours.parse::<f64>(), paper.parse::<f64>()) else {
+    let (Ok(our_value), Ok(paper_value)) = (ours.parse::<f64>(), paper.parse::<f64>()) else {
         return "?".into();
     };
-    let digits = paper.len() - paper.find('.').map_or(paper.len(), |p| p + 1);
-    let rounded = format!("{a:.digits$}");
+
+    let digits = match paper.find('.') {
+        Some(point) => paper.len() - (point + 1),
+        None => 0,
+    };
+    let rounded = format!("{our_value:.digits$}");
     let verdict = if rounded == paper {
         "same digits".into()
     } else {
         format!("rounds to {rounded}")
     };
-    format!("{:+.4} ({verdict})", a - b)
+
+    format!("{:+.4} ({verdict})", our_value - paper_value)
 }
 
-fn json_of(r: &BlockReport) -> Value {
-    let accepted: Vec<Value> = r
-        .accepted
-        .iter()
-        .map(|a| {
-            json!({
-                "mu": a.value,
-                "slipping": a.slipping,
-                "stuck": a.stuck,
-                "difference": difference(&a.value, r.state.printed_mu()),
-            })
-        })
-        .collect();
+fn json_of(report: &BlockReport) -> Value {
+    let mut accepted = Vec::new();
+    for solution in &report.accepted {
+        accepted.push(json!({
+            "mu": solution.value,
+            "slipping": solution.slipping,
+            "stuck": solution.stuck,
+            "difference": difference(&solution.value, report.state.printed_mu()),
+        }));
+    }
+
+    let certificate = report.certificate.as_ref();
     json!({
-        "state": r.state.name(),
-        "paper_mu": r.state.printed_mu(),
+        "state": report.state.name(),
+        "paper_mu": report.state.printed_mu(),
         "accepted": accepted,
-        "uncertified": r.uncertified,
-        "dofs": r.orders.0,
-        "pencil_order": r.orders.1,
-        "condensed_order": r.orders.2,
-        "denominator_bits": r.bits,
-        "complete": r.is_complete(),
-        "solutions_in_all": r.cover.solutions.len(),
-        "runs": r.runs,
-        "pivots": r.pivots,
-        "forgeries": r.forgeries,
-        "rejected_forgeries": r.rejected_forgeries,
-        "problem_sha256": r.certificate.as_ref().map(|c| c.problem_sha256.clone()),
+        "uncertified": report.uncertified,
+        "dofs": report.orders.0,
+        "pencil_order": report.orders.1,
+        "condensed_order": report.orders.2,
+        "denominator_bits": report.bits,
+        "complete": report.is_complete(),
+        "solutions_in_all": report.cover.solutions.len(),
+        "runs": report.runs,
+        "pivots": report.pivots,
+        "forgeries": report.forgeries,
+        "rejected_forgeries": report.rejected_forgeries,
+        "problem_sha256": certificate.map(|c| c.problem_sha256.clone()),
     })
 }

@@ -1,13 +1,17 @@
 //! `mceip campaign`: every family through every engine, for seconds or for days.
+//!
+//! The instances, the engines and what counts as a disagreement are those of `mceip_testkit`. Here
+//! the state of a campaign is kept in a file, each disagreement becomes a replay file, and progress
+//! is shown. [`summary`] makes the output.
 
 mod summary;
 
 use super::common::{CliError, exit, print, require_threads, text};
 use super::job::interrupt;
-use super::output::Output;
+use super::output::{Output, make};
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use mceip_testkit::campaign::{
-    Campaign, Event, FAMILIES, Limit, Replay, State, UnknownFamily, judge, standard,
+    Campaign, Event, FAMILIES, Limit, Replay, ReplayError, State, UnknownFamily, judge, standard,
 };
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -37,7 +41,11 @@ pub(super) struct Args {
     #[arg(long, value_name = "FOLDER", default_value = "mceip-replays")]
     replays: PathBuf,
     /// Judge a replay file again; everything else but --json and --seed is ignored.
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["seconds", "count", "state", "shard", "families"])]
+    #[arg(
+        long,
+        value_name = "FILE",
+        conflicts_with_all = ["seconds", "count", "state", "shard", "families"]
+    )]
     replay: Option<PathBuf>,
     /// Threads (default: all cores).
     #[arg(long)]
@@ -51,12 +59,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(path) = &args.replay {
         return replay(args, path);
     }
+
     let limit = match (args.seconds, args.count) {
-        (Some(s), _) => Limit::For(Duration::from_secs(s)),
+        (Some(seconds), _) => Limit::For(Duration::from_secs(seconds)),
         (None, count) => Limit::Count(count.unwrap_or_default()),
     };
     let state = start(args)?;
     require_threads(args.threads)?;
+
     let cancel = interrupt();
     let engines = standard(args.seed);
     let campaign = Campaign {
@@ -69,7 +79,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         saved: Instant::now(),
         failed: None,
     };
-    let mut hear = |event: Event<'_>| {
+    let mut on_event = |event: Event<'_>| {
         match event {
             Event::Wave(state) => {
                 bars.show(state);
@@ -77,91 +87,109 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             }
             Event::Disagreement(replay) => keeper.write(replay, &bars),
         }
+
+        // What cannot be kept need not be computed.
         if keeper.failed.is_some() {
-            cancel.request(); // what cannot be kept need not be computed
+            cancel.request();
         }
     };
-    let state = in_threads(args.threads, || campaign.run(state, &cancel, &mut hear));
+    let state = in_threads(args.threads, || campaign.run(state, &cancel, &mut on_event));
     keeper.keep(&state, true);
-    bars.all.clear().unwrap_or_default(); // a terminal that has gone away
-    print(&if args.json {
+
+    // A terminal that has gone away is no error.
+    bars.all.clear().unwrap_or_default();
+    let text = if args.json {
         format!("{}\n", summary::json_of(&state))
     } else {
         summary::text_of(&state)
-    })?;
+    };
+    print(&text)?;
     if let Some(e) = keeper.failed {
         return Err(e);
     }
-    Ok(match (state.disagreements(), cancel.is_requested()) {
-        (0, false) => exit::DONE,
-        (0, true) => exit::INTERRUPTED,
-        _ => exit::REJECTED,
+
+    Ok(if state.disagreements() > 0 {
+        exit::REJECTED
+    } else if cancel.is_requested() {
+        exit::INTERRUPTED
+    } else {
+        exit::DONE
     })
 }
 
 /// The state to go on from: the file's, or a new one.
 fn start(args: &Args) -> Result<State, CliError> {
-    let all = || FAMILIES.iter().map(|f| f.0.to_string()).collect();
-    let families: Vec<String> = if args.families.is_empty() {
-        all()
-    } else {
-        args.families.clone()
-    };
-    for (k, name) in families.iter().enumerate() {
-        if !FAMILIES.iter().any(|f| f.0 == name) || families[..k].contains(name) {
-            return Err(UnknownFamily { name: name.clone() }.into());
-        }
-    }
+    let families = families(args)?;
+    // The file is known to be writable before the work starts.
     if let Some(path) = &args.state {
-        Output::prepare("state", path, &[])?; // known to be writable before the work starts
+        Output::prepare("state", path, &[])?;
     }
-    let new = State::new(args.seed, shard(args.shard.as_deref())?, families);
+
+    let part = match &args.shard {
+        Some(given) => parse_part(given)?,
+        None => (0, 1),
+    };
+    let new = State::new(args.seed, part, families);
+
     match &args.state {
         Some(path) if path.exists() => {
-            new.resumed(&text("the campaign's state", path)?)
-                .map_err(|source| CliError::State {
-                    path: path.display().to_string(),
-                    source,
-                })
+            let earlier = text("the campaign's state", path)?;
+            new.resumed(&earlier).map_err(|source| CliError::State {
+                path: path.display().to_string(),
+                source,
+            })
         }
         _ => Ok(new),
     }
 }
 
-fn shard(given: Option<&str>) -> Result<(u64, u64), CliError> {
-    let Some(given) = given else {
-        return Ok((0, 1));
-    };
-    let bad = || CliError::Option {
-        option: "shard",
-        expected: "i/n with 1 <= i <= n",
-        got: given.chars().take(60).collect(),
-    };
-    let (i, n) = given.split_once('/').ok_or_else(bad)?;
-    let (i, n) = (
-        i.parse::<u64>().map_err(|_| bad())?,
-        n.parse::<u64>().map_err(|_| bad())?,
-    );
-    if i >= 1 && i <= n {
-        Ok((i - 1, n))
+/// The families asked for, or all; each must exist and be named once.
+fn families(args: &Args) -> Result<Vec<String>, CliError> {
+    let families = if args.families.is_empty() {
+        FAMILIES.iter().map(|family| family.0.to_string()).collect()
     } else {
-        Err(bad())
+        args.families.clone()
+    };
+
+    for (k, name) in families.iter().enumerate() {
+        let exists = FAMILIES.iter().any(|family| family.0 == name);
+        let is_repeated = families[..k].contains(name);
+        if !exists || is_repeated {
+            return Err(UnknownFamily { name: name.clone() }.into());
+        }
     }
+
+    Ok(families)
+}
+
+fn parse_part(given: &str) -> Result<(u64, u64), CliError> {
+    let expected = "i/n with 1 <= i <= n";
+    part_of(given).ok_or_else(|| CliError::option("shard", expected, given))
+}
+
+/// (i - 1, n) of i/n with 1 <= i <= n.
+fn part_of(text: &str) -> Option<(u64, u64)> {
+    let (number, count) = text.split_once('/')?;
+    let number: u64 = number.parse().ok()?;
+    let count: u64 = count.parse().ok()?;
+    let is_part = number >= 1 && number <= count;
+    is_part.then(|| (number - 1, count))
 }
 
 /// Judges a replay file: exit 1 if anything disagrees still.
 fn replay(args: &Args, path: &Path) -> Result<u8, CliError> {
-    let bad = |source| CliError::Replay {
-        path: path.display().to_string(),
-        source,
-    };
-    let replay = Replay::from_json(&text("the replay file", path)?).map_err(bad)?;
-    let judged = judge(&replay.case().map_err(bad)?, &standard(replay.seed));
-    print(&if args.json {
+    let source = text("the replay file", path)?;
+    let replay = Replay::from_json(&source).map_err(|e| bad_replay(path, e))?;
+    let case = replay.case().map_err(|e| bad_replay(path, e))?;
+    let judged = judge(&case, &standard(replay.seed));
+
+    let text = if args.json {
         format!("{}\n", summary::replay_json(&replay, &judged))
     } else {
         summary::replay_text(&replay, &judged)
-    })?;
+    };
+    print(&text)?;
+
     Ok(if judged.findings.is_empty() {
         exit::DONE
     } else {
@@ -169,12 +197,23 @@ fn replay(args: &Args, path: &Path) -> Result<u8, CliError> {
     })
 }
 
-/// Runs in a pool of the wanted size, or in the default one.
+fn bad_replay(path: &Path, source: ReplayError) -> CliError {
+    CliError::Replay {
+        path: path.display().to_string(),
+        source,
+    }
+}
+
+/// Runs in a pool of the wanted size; in the default one if none is wanted or it cannot be started.
 fn in_threads(threads: Option<usize>, work: impl FnOnce() -> State + Send) -> State {
-    match threads.map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build()) {
-        Some(Ok(pool)) => pool.install(work),
-        // Without a pool of one's own the default one does the same work.
-        _ => work(),
+    let Some(threads) = threads else {
+        return work();
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+
+    match pool {
+        Ok(pool) => pool.install(work),
+        Err(_) => work(),
     }
 }
 
@@ -182,6 +221,7 @@ fn in_threads(threads: Option<usize>, work: impl FnOnce() -> State + Send) -> St
 struct Keeper<'a> {
     args: &'a Args,
     saved: Instant,
+    /// The first write that failed.
     failed: Option<CliError>,
 }
 
@@ -189,31 +229,41 @@ struct Keeper<'a> {
 const SAVE_EVERY: Duration = Duration::from_secs(5);
 
 impl Keeper<'_> {
-    fn keep(&mut self, state: &State, last: bool) {
-        let Some(path) = &self.args.state else { return };
-        if last || self.saved.elapsed() >= SAVE_EVERY {
-            self.saved = Instant::now();
-            let written =
-                Output::prepare("state", path, &[]).and_then(|o| o.write(&state.to_json()));
-            self.failed = self.failed.take().or(written.err());
+    /// Writes the state if it is time, or if it is the last one.
+    fn keep(&mut self, state: &State, is_last: bool) {
+        let Some(path) = &self.args.state else {
+            return;
+        };
+        let is_due = is_last || self.saved.elapsed() >= SAVE_EVERY;
+        if !is_due {
+            return;
         }
+
+        self.saved = Instant::now();
+        let output = Output::prepare("state", path, &[]);
+        let written = output.and_then(|output| output.write(&state.to_json()));
+        self.note(written);
     }
 
+    /// Writes a replay file and says so.
     fn write(&mut self, replay: &Replay, bars: &Bars) {
         let folder = &self.args.replays;
         let path = folder.join(replay.file_name());
-        let made =
-            std::fs::create_dir_all(folder).map_err(|e| CliError::write(folder.display(), &e));
-        let written = made
-            .and_then(|()| Output::prepare("replays", &path, &[]))
-            .and_then(|o| o.write(&replay.to_json()));
-        bars.say(&format!(
-            "DISAGREEMENT {}: {}",
-            path.display(),
-            replay.disagreement
-        ));
+        let written = write_replay(folder, &path, replay);
+
+        let place = path.display();
+        bars.say(&format!("DISAGREEMENT {place}: {}", replay.disagreement));
+        self.note(written);
+    }
+
+    fn note(&mut self, written: Result<(), CliError>) {
         self.failed = self.failed.take().or(written.err());
     }
+}
+
+fn write_replay(folder: &Path, path: &Path, replay: &Replay) -> Result<(), CliError> {
+    make(folder)?;
+    Output::prepare("replays", path, &[])?.write(&replay.to_json())
 }
 
 /// One bar per family on stderr, drawn only on a terminal.
@@ -224,14 +274,15 @@ struct Bars {
 
 impl Bars {
     fn new(state: &State, limit: Limit) -> Bars {
-        let all = MultiProgress::new();
-        let style = match limit {
-            Limit::Count(_) => {
-                ProgressStyle::with_template("{msg:14} [{bar:30}] {pos}/{len} {per_sec}")
-            }
-            Limit::For(_) => ProgressStyle::with_template("{msg:14} {pos} {per_sec} {elapsed}"),
+        let template = match limit {
+            Limit::Count(_) => "{msg:14} [{bar:30}] {pos}/{len} {per_sec}",
+            Limit::For(_) => "{msg:14} {pos} {per_sec} {elapsed}",
         };
-        let each = state.families.iter().map(|name| {
+        let style = ProgressStyle::with_template(template);
+
+        let all = MultiProgress::new();
+        let mut each = Vec::new();
+        for name in &state.families {
             let bar = all.add(match limit {
                 Limit::Count(n) => ProgressBar::new(n),
                 Limit::For(_) => ProgressBar::no_length(),
@@ -239,19 +290,17 @@ impl Bars {
             if let Ok(style) = &style {
                 bar.set_style(style.clone());
             }
-            bar.with_message(name.clone())
-        });
-        Bars {
-            each: each.collect(),
-            all,
+
+            each.push(bar.with_message(name.clone()));
         }
+
+        Bars { all, each }
     }
 
     fn show(&self, state: &State) {
-        self.each
-            .iter()
-            .zip(&state.tallies)
-            .for_each(|(bar, t)| bar.set_position(t.instances));
+        for (bar, tally) in self.each.iter().zip(&state.tallies) {
+            bar.set_position(tally.instances);
+        }
     }
 
     /// A line on stderr, beside the bars or without them.
@@ -259,7 +308,8 @@ impl Bars {
         if self.all.is_hidden() {
             eprintln!("{line}");
         } else {
-            let _ = self.all.println(line); // a terminal that has gone away
+            // A terminal that has gone away is no error.
+            let _ = self.all.println(line);
         }
     }
 }

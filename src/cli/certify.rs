@@ -1,20 +1,23 @@
 //! `mceip certify`: somebody's floats to certificates, of existence or of absence.
+//!
+//! Each point of a report is certified as a solution. Where that fails, all solutions near its
+//! value are searched: the complete set proves that the point is none, or lists it after all.
 
-use super::common::{CliError, exit, load, print, text};
+use super::common::{CliError, exit, load, positive_number, print, text};
 use super::job::Job;
-use super::output::Output;
+use super::output::{self, Output};
+use mceip_check::AcceptedCover;
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_engine::candidate::Candidate;
 use mceip_engine::certify::{Certifier, NotCertified, certificate, lifted, sift};
 use mceip_engine::foreign::{ForeignError, ForeignReport};
 use mceip_engine::multistart::same;
 use mceip_engine::reduction::reduce;
-use mceip_engine::search::complete::{CompleteError, Completed};
+use mceip_engine::search::complete::Completed;
 use mceip_engine::search::near::{Near, near};
-use mceip_exact::{Interval, Rational, enclosing_decimals, parse};
+use mceip_exact::{Interval, Rational, enclosing_decimals};
 use mceip_model::{Body, Pencil, Problem, System, Unknown};
-use num_traits::Signed;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `certify`.
 #[derive(clap::Args)]
@@ -42,13 +45,11 @@ pub(super) struct Args {
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
-    let output = args
-        .out
-        .as_ref()
-        .map(|path| Output::prepare("out", path, &[&args.file, &args.report]))
-        .transpose()?;
+    let inputs = [args.file.as_path(), args.report.as_path()];
+    let output = Output::prepare_if("out", args.out.as_deref(), &inputs)?;
     let reduced = reduce(&problem)?;
-    let report = match ForeignReport::read(&text("the report", &args.report)?, &problem, &reduced) {
+    let report = text("the report", &args.report)?;
+    let report = match ForeignReport::read(&report, &problem, &reduced) {
         Ok(report) => report,
         Err(e @ ForeignError::Digest { .. }) => {
             eprintln!("rejected: {e}");
@@ -61,52 +62,42 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             });
         }
     };
+
     let candidates = candidates(report)?;
-    let radius = args
-        .absence_radius
-        .as_deref()
-        .map(parse_radius)
-        .transpose()?;
-    let outputs = absence_outputs(args, candidates.len())?;
+    let radius = args.absence_radius.as_deref();
+    let radius = radius.map(parse_radius).transpose()?;
+    if let Some(folder) = &args.absence {
+        output::make(folder)?;
+    }
+
     let job = Job::begin("certifying");
-    let mut judged = judge(
-        &problem,
-        &reduced.pencil,
-        &candidates,
-        radius.as_ref(),
-        &job,
-    );
+    let certifying = Certifying {
+        problem: &problem,
+        radius: radius.as_ref(),
+        job: &job,
+    };
+    let mut judged = certifying.judge(&reduced.pencil, &candidates);
     job.end();
-    if let (true, Body::System(system)) = (args.lifted, problem.body()) {
+    if let Body::System(system) = problem.body()
+        && args.lifted
+    {
         judged.lift(&problem, system);
     }
-    let (disproved, undecided) = (
-        judged.count(Verdict::Disproved),
-        judged.count(Verdict::Undecided),
-    );
-    eprintln!(
-        "{} distinct solutions certified, {disproved} of {} disproved, {undecided} undecided",
-        judged.claims.len() + judged.refused.len() - disproved - undecided,
-        candidates.len()
-    );
-    for r in &judged.refused {
-        if let (Some(proof), Some(path)) = (&r.proof, outputs.get(r.index)) {
-            Output::prepare("absence", path, &[&args.file, &args.report])?
-                .write(&proof.to_json())?;
-        }
+
+    judged.say_counts(candidates.len());
+    if let Some(folder) = &args.absence {
+        judged.write_proofs(folder, &inputs)?;
     }
+
+    let code = judged.exit_code(candidates.len(), job.is_cancelled());
     if let Some(certificate) = judged.answer(&problem, candidates.len()) {
         match output {
             Some(output) => output.write(&certificate.to_json())?,
             None => print(&format!("{}\n", certificate.to_json()))?,
         }
     }
-    Ok(match () {
-        () if job.is_cancelled() => exit::INTERRUPTED,
-        () if disproved > 0 => exit::REJECTED,
-        () if undecided > 0 || candidates.is_empty() => exit::UNDECIDED,
-        () => exit::DONE,
-    })
+
+    Ok(code)
 }
 
 /// The points of a report, all of which must be vectors of the problem.
@@ -115,7 +106,13 @@ fn candidates(report: ForeignReport) -> Result<Vec<Candidate>, CliError> {
     for reported in report.solutions {
         candidates.push(reported?.candidate);
     }
+
     Ok(candidates)
+}
+
+fn parse_radius(text: &str) -> Result<Rational, CliError> {
+    let expected = "a number > 0";
+    positive_number(text).ok_or_else(|| CliError::option("absence-radius", expected, text))
 }
 
 /// What became of a report: distinct claims that the checker has accepted, and the rest.
@@ -125,12 +122,29 @@ struct Judged {
     refused: Vec<Refused>,
 }
 
-/// An exact claim as one about the system, (v, w) over all its degrees of freedom.
-fn as_lifted(system: &System, unknown: Unknown, claim: Claim) -> Claim {
-    match claim {
-        Claim::ExactSolution(c) => Claim::LiftedSolution(lifted(system, unknown, &c)),
-        other => other,
-    }
+/// A solution of the report that has no certificate of its own.
+struct Refused {
+    /// Its place in the report, from 0.
+    index: usize,
+    finding: Finding,
+}
+
+/// What was found about a solution that has no certificate of its own.
+struct Finding {
+    verdict: Verdict,
+    /// For people, one line.
+    text: String,
+    /// The complete set near its value.
+    proof: Option<Certificate>,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Verdict {
+    /// Not a solution, proved.
+    Disproved,
+    /// A solution after all: the complete set near its value lists it.
+    Present,
+    Undecided,
 }
 
 impl Judged {
@@ -145,20 +159,57 @@ impl Judged {
 
         let sifted = sift(problem, lifted);
         self.claims = sifted.accepted;
+
         for (index, reason) in sifted.refused {
             let text = format!("undecided: the checker refuses the lifted claim: {reason}");
             eprintln!("claim {index}: {text}");
-            self.refused.push(Refused {
-                index,
+            let finding = Finding {
                 verdict: Verdict::Undecided,
                 text,
                 proof: None,
-            });
+            };
+            self.refused.push(Refused { index, finding });
         }
     }
 
     fn count(&self, verdict: Verdict) -> usize {
-        self.refused.iter().filter(|r| r.verdict == verdict).count()
+        let refused = self.refused.iter();
+        refused.filter(|r| r.finding.verdict == verdict).count()
+    }
+
+    fn say_counts(&self, reported: usize) {
+        let disproved = self.count(Verdict::Disproved);
+        let undecided = self.count(Verdict::Undecided);
+        let certified = self.claims.len() + self.count(Verdict::Present);
+        eprintln!(
+            "{certified} distinct solutions certified, {disproved} of {reported} disproved, \
+             {undecided} undecided"
+        );
+    }
+
+    /// Writes the proof for each refused solution K that has one to absence-K.json.
+    fn write_proofs(&self, folder: &Path, inputs: &[&Path]) -> Result<(), CliError> {
+        for refused in &self.refused {
+            if let Some(proof) = &refused.finding.proof {
+                let path = folder.join(format!("absence-{}.json", refused.index));
+                let output = Output::prepare("absence", &path, inputs)?;
+                output.write(&proof.to_json())?;
+            }
+        }
+
+        Ok(())
+    }
+
+    fn exit_code(&self, reported: usize, is_interrupted: bool) -> u8 {
+        if is_interrupted {
+            exit::INTERRUPTED
+        } else if self.count(Verdict::Disproved) > 0 {
+            exit::REJECTED
+        } else if self.count(Verdict::Undecided) > 0 || reported == 0 {
+            exit::UNDECIDED
+        } else {
+            exit::DONE
+        }
     }
 
     /// The certificate of all claims; for a report of one solution its proof is the answer,
@@ -167,196 +218,157 @@ impl Judged {
         if !self.claims.is_empty() {
             return Some(certificate(problem, self.claims));
         }
-        self.refused
-            .into_iter()
-            .find_map(|r| r.proof)
-            .filter(|_| reported == 1)
+
+        let mut proofs = self.refused.into_iter().map(|r| r.finding.proof);
+        let proof = proofs.find_map(|proof| proof);
+        proof.filter(|_| reported == 1)
     }
 }
 
-/// Certifies one after the other and says what becomes of each, until interrupted.
-fn judge(
-    problem: &Problem,
-    pencil: &Pencil,
-    candidates: &[Candidate],
-    radius: Option<&Rational>,
-    job: &Job,
-) -> Judged {
-    let certifier = Certifier::new(problem, pencil);
-    let mut judged = Judged::default();
-    for (k, candidate) in candidates.iter().enumerate() {
-        if job.is_cancelled() {
-            job.note(&format!(
-                "solution {k}: interrupted before it was looked at"
-            ));
-            break;
-        }
-        match certifier.certify(candidate) {
-            Ok(claim) if judged.claims.iter().any(|c| same(c, &claim)) => {
-                job.note(&format!(
-                    "solution {k} (value {}): listed before",
-                    candidate.value
-                ));
-            }
-            Ok(claim) => judged.claims.push(claim),
-            Err(reason) => {
-                let r = Refused::of(problem, candidate, radius, &reason, job);
-                job.note(&format!(
-                    "solution {k} (value {}): {}",
-                    candidate.value, r.text
-                ));
-                judged.refused.push(Refused { index: k, ..r });
-            }
-        }
+/// An exact claim as one about the system, (v, w) over all its degrees of freedom.
+fn as_lifted(system: &System, unknown: Unknown, claim: Claim) -> Claim {
+    match claim {
+        Claim::ExactSolution(c) => Claim::LiftedSolution(lifted(system, unknown, &c)),
+        other => other,
     }
-    judged
 }
 
-/// Where the proofs of absence go, by index in the report; none without `--absence`.
-fn absence_outputs(args: &Args, count: usize) -> Result<Vec<PathBuf>, CliError> {
-    let Some(folder) = &args.absence else {
-        return Ok(Vec::new());
-    };
-    std::fs::create_dir_all(folder).map_err(|e| CliError::write(folder.display(), &e))?;
-    Ok((0..count)
-        .map(|k| folder.join(format!("absence-{k}.json")))
-        .collect())
+/// What is needed to judge a point.
+struct Certifying<'a> {
+    problem: &'a Problem,
+    /// How far from its value absence is to be proved, if the user has said it.
+    radius: Option<&'a Rational>,
+    job: &'a Job,
 }
 
-fn parse_radius(text: &str) -> Result<Rational, CliError> {
-    let bad = || CliError::Option {
-        option: "absence-radius",
-        expected: "a number > 0",
-        got: text.chars().take(60).collect(),
-    };
-    parse(text)
-        .ok()
-        .filter(Rational::is_positive)
-        .ok_or_else(bad)
-}
+impl Certifying<'_> {
+    /// Certifies one after the other and says what becomes of each, until interrupted.
+    fn judge(&self, pencil: &Pencil, candidates: &[Candidate]) -> Judged {
+        let certifier = Certifier::new(self.problem, pencil);
+        let mut judged = Judged::default();
+        for (index, candidate) in candidates.iter().enumerate() {
+            if self.job.is_cancelled() {
+                self.job.note(&format!(
+                    "solution {index}: interrupted before it was looked at"
+                ));
+                break;
+            }
 
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Verdict {
-    /// Not a solution, proved.
-    Disproved,
-    /// A solution after all: the complete set near its value lists it.
-    Present,
-    Undecided,
-}
+            let value = candidate.value;
+            match certifier.certify(candidate) {
+                Ok(claim) if judged.claims.iter().any(|c| same(c, &claim)) => {
+                    self.job
+                        .note(&format!("solution {index} (value {value}): listed before"));
+                }
+                Ok(claim) => judged.claims.push(claim),
+                Err(reason) => {
+                    let finding = self.look_nearby(candidate, &reason);
+                    let text = &finding.text;
+                    self.job
+                        .note(&format!("solution {index} (value {value}): {text}"));
+                    judged.refused.push(Refused { index, finding });
+                }
+            }
+        }
 
-/// A solution of the report that has no certificate of its own.
-struct Refused {
-    index: usize,
-    verdict: Verdict,
-    /// For people, one line.
-    text: String,
-    /// The complete set near its value.
-    proof: Option<Certificate>,
-}
+        judged
+    }
 
-impl Refused {
-    fn of(
-        problem: &Problem,
-        candidate: &Candidate,
-        radius: Option<&Rational>,
-        reason: &NotCertified,
-        job: &Job,
-    ) -> Refused {
-        job.say("no certificate: looking for a proof that there is no solution nearby");
-        let found = job.watched(|watch| near(problem, candidate, radius, watch));
-        let with = |verdict, text, proof: Completed| Refused {
-            index: 0,
-            verdict,
-            text,
-            proof: Some(proof.certificate),
-        };
+    /// Searches for all solutions near a point that was not certified for this reason.
+    fn look_nearby(&self, candidate: &Candidate, reason: &NotCertified) -> Finding {
+        let problem = self.problem;
+        self.job
+            .say("no certificate: looking for a proof that there is no solution nearby");
+        let found = self
+            .job
+            .watched(|watch| near(problem, candidate, self.radius, watch));
+
         match found {
-            Ok(Near::OutsideWindow) => {
-                let text = "REFUSED: its value lies outside the problem's window".into();
-                Refused {
-                    index: 0,
-                    verdict: Verdict::Disproved,
-                    text,
-                    proof: None,
-                }
-            }
-            Ok(Near::Absent(c)) => with(
-                Verdict::Disproved,
-                format!("REFUSED: no solution {} (proved)", interval(problem, &c)),
-                c,
-            ),
-            Ok(Near::Others(c)) => {
-                let list: Vec<String> = c
-                    .cover
-                    .solutions
-                    .iter()
-                    .map(|s| {
-                        let (lo, hi) = enclosing_decimals(&s.value, 15);
-                        format!("[{lo}, {hi}] with slip {:?}", s.support)
-                    })
-                    .collect();
-                let text = format!(
+            Ok(Near::OutsideWindow) => Finding {
+                verdict: Verdict::Disproved,
+                text: "REFUSED: its value lies outside the problem's window".into(),
+                proof: None,
+            },
+            Ok(Near::Absent(proved)) => Finding {
+                verdict: Verdict::Disproved,
+                text: format!(
+                    "REFUSED: no solution {} (proved)",
+                    interval(problem, &proved)
+                ),
+                proof: Some(proved.certificate),
+            },
+            Ok(Near::Others(proved)) => Finding {
+                verdict: Verdict::Disproved,
+                text: format!(
                     "REFUSED: {} there is only {} (proved), with another x: {reason}",
-                    interval(problem, &c),
-                    list.join(", ")
-                );
-                with(Verdict::Disproved, text, c)
-            }
-            Ok(Near::Present(c)) => with(
-                Verdict::Present,
-                format!("certified: listed by a cover {}", interval(problem, &c)),
-                c,
-            ),
-            Ok(Near::Open(c)) => {
-                let text = format!(
+                    interval(problem, &proved),
+                    solutions_text(&proved.cover)
+                ),
+                proof: Some(proved.certificate),
+            },
+            Ok(Near::Present(proved)) => Finding {
+                verdict: Verdict::Present,
+                text: format!(
+                    "certified: listed by a cover {}",
+                    interval(problem, &proved)
+                ),
+                proof: Some(proved.certificate),
+            },
+            Ok(Near::Open(searched)) => Finding {
+                verdict: Verdict::Undecided,
+                text: format!(
                     "undecided: {reason}; {} regions stay open and {} families of solutions lie {}",
-                    c.cover.open.len(),
-                    c.cover.families.len(),
-                    interval(problem, &c)
-                );
-                Refused {
-                    index: 0,
-                    verdict: Verdict::Undecided,
-                    text,
-                    proof: None,
-                }
-            }
-            Err(e) => Refused::undecided(reason, &e),
+                    searched.cover.open.len(),
+                    searched.cover.families.len(),
+                    interval(problem, &searched)
+                ),
+                proof: None,
+            },
+            Err(why) => Finding {
+                verdict: Verdict::Undecided,
+                text: format!("undecided: {reason}; no proof of absence either: {why}"),
+                proof: None,
+            },
         }
+    }
+}
+
+/// "[1.5, 1.6] with slip [0, 1]", with commas between several.
+fn solutions_text(cover: &AcceptedCover) -> String {
+    let mut solutions = Vec::new();
+    for solution in &cover.solutions {
+        let (lo, hi) = enclosing_decimals(&solution.value, 15);
+        let support = &solution.support;
+        solutions.push(format!("[{lo}, {hi}] with slip {support:?}"));
     }
 
-    fn undecided(reason: &NotCertified, why: &CompleteError) -> Refused {
-        Refused {
-            index: 0,
-            verdict: Verdict::Undecided,
-            text: format!("undecided: {reason}; no proof of absence either: {why}"),
-            proof: None,
-        }
-    }
+    solutions.join(", ")
 }
 
 /// "with lambda2 in [a, b]".
 fn interval(problem: &Problem, proved: &Completed) -> String {
+    let word = problem.unknown().word();
     let window = &proved.certificate.window;
-    let max = window
-        .max()
-        .map_or_else(|| "infinity)".into(), |max| format!("{}]", decimal(max)));
-    format!(
-        "with {} in [{}, {max}",
-        problem.unknown().word(),
-        decimal(window.min())
-    )
+    let min = decimal(window.min());
+
+    match window.max() {
+        Some(max) => format!("with {word} in [{min}, {}]", decimal(max)),
+        None => format!("with {word} in [{min}, infinity)"),
+    }
 }
 
 /// The ends of such a window are short decimals, or those of the problem's window: exact where 17
 /// digits suffice.
-fn decimal(v: &Rational) -> String {
-    let (lo, hi) = enclosing_decimals(&Interval::point(v.clone()), 17);
-    match lo == hi {
-        true if lo.contains('.') && !lo.contains('e') => {
-            lo.trim_end_matches('0').trim_end_matches('.').into()
-        }
-        true => lo,
-        false => v.to_string(),
+fn decimal(value: &Rational) -> String {
+    let (lo, hi) = enclosing_decimals(&Interval::point(value.clone()), 17);
+    if lo != hi {
+        return value.to_string();
+    }
+
+    let has_needless_zeros = lo.contains('.') && !lo.contains('e');
+    if has_needless_zeros {
+        lo.trim_end_matches('0').trim_end_matches('.').into()
+    } else {
+        lo
     }
 }

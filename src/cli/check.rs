@@ -1,11 +1,15 @@
 //! `mceip check`: a certificate or somebody's solutions against a problem, one verdict.
+//!
+//! The formats of the files decide what is done. A certificate goes to the checker, which accepts
+//! or rejects it. Somebody's solutions are certified and checked one by one, or refuted
+//! ([`foreign`]). A solution file of a plain LCP or MCP is evaluated exactly ([`plain`]).
 
 pub(super) mod plain;
 
 use super::common::{CliError, exit, load, parse_window, print, text};
 use super::complete::solutions_text;
 use mceip_check::certificate::{CERTIFICATE_FORMAT, Certificate};
-use mceip_check::{Accepted, AcceptedClaim, Place, check};
+use mceip_check::{Accepted, AcceptedClaim, AcceptedCover, Place, check};
 use mceip_engine::candidate::SOLUTIONS_FORMAT;
 use mceip_engine::foreign::{Effort, ForeignError, ForeignReport, Verdict, judge};
 use mceip_engine::lcp::MCP_FORMAT;
@@ -36,47 +40,33 @@ pub(super) struct Args {
 }
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    if args.file.as_path() == Path::new("-") && args.certificate.as_path() == Path::new("-") {
-        return Err(CliError::Option {
-            option: "certificate",
-            expected: "only one of the two files to be stdin",
-            got: "-".into(),
-        });
+    let stdin = Path::new("-");
+    if args.file == stdin && args.certificate == stdin {
+        let expected = "only one of the two files to be stdin";
+        return Err(CliError::option("certificate", expected, "-"));
     }
+
     let demanded = args.window.as_deref().map(parse_window).transpose()?;
     let tolerance = args.tolerance.as_deref().map(parse_tolerance).transpose()?;
 
     let problem = text("the problem", &args.file)?;
     if require_format(&problem, MCP_FORMAT).is_ok() {
-        only_of_others(args, "a plain problem")?;
+        refuse_window(args, "a plain problem")?;
+        refuse_tolerance(args, "a plain problem")?;
         return plain::verdict(&args.file, &problem, &args.certificate);
     }
 
     let problem = load(&args.file, None)?;
     let source = text("the certificate", &args.certificate)?;
     if require_format(&source, SOLUTIONS_FORMAT).is_ok() {
-        if args.window.is_some() {
-            return Err(useless(
-                "window",
-                "it with a certificate only",
-                SOLUTIONS_FORMAT,
-            ));
-        }
+        refuse_window(args, SOLUTIONS_FORMAT)?;
         return foreign(args, &problem, &source, tolerance.unwrap_or(AGREEMENT));
     }
-    if tolerance.is_some() {
-        return Err(useless(
-            "tolerance",
-            "it with somebody's solutions only",
-            CERTIFICATE_FORMAT,
-        ));
-    }
 
+    refuse_tolerance(args, CERTIFICATE_FORMAT)?;
     let read = Certificate::from_json(&source);
-    let certificate = read.map_err(|source| CliError::File {
-        path: args.certificate.display().to_string(),
-        source,
-    })?;
+    let certificate = read.map_err(|source| CliError::file(&args.certificate, source))?;
+
     match check(&problem, &certificate) {
         Ok(accepted) => say_accepted(&problem, &certificate, &accepted, demanded.as_ref()),
         Err(rejected) => {
@@ -86,41 +76,35 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     }
 }
 
-/// The complaint about an option that says nothing about a file of this kind.
-fn useless(option: &'static str, expected: &'static str, got: &str) -> CliError {
-    CliError::Option {
-        option,
-        expected,
-        got: got.into(),
+/// Refuses --window, which says nothing about a file of this kind.
+fn refuse_window(args: &Args, kind: &str) -> Result<(), CliError> {
+    match args.window {
+        None => Ok(()),
+        Some(_) => {
+            let expected = "it with a certificate only";
+            Err(CliError::option("window", expected, kind))
+        }
     }
 }
 
-/// Refuses the options that a plain problem has no use for.
-fn only_of_others(args: &Args, kind: &str) -> Result<(), CliError> {
-    if args.window.is_some() {
-        return Err(useless("window", "it with a certificate only", kind));
+/// Refuses --tolerance, which says nothing about a file of this kind.
+fn refuse_tolerance(args: &Args, kind: &str) -> Result<(), CliError> {
+    match args.tolerance {
+        None => Ok(()),
+        Some(_) => {
+            let expected = "it with somebody's solutions only";
+            Err(CliError::option("tolerance", expected, kind))
+        }
     }
-    if args.tolerance.is_some() {
-        return Err(useless(
-            "tolerance",
-            "it with somebody's solutions only",
-            kind,
-        ));
-    }
-    Ok(())
 }
 
 /// A relative error between [`FINEST_AGREEMENT`] and [`VALUE_RADIUS`], where solutions are looked
 /// for.
 fn parse_tolerance(given: &str) -> Result<f64, CliError> {
-    let bad = || CliError::Option {
-        option: "tolerance",
-        expected: AGREEMENT_RANGE,
-        got: given.chars().take(60).collect(),
-    };
-    let tolerance = parse(given).map(|v| to_f64(&v)).map_err(|_| bad())?;
-    let is_within = (FINEST_AGREEMENT..=VALUE_RADIUS).contains(&tolerance);
-    if is_within { Ok(tolerance) } else { Err(bad()) }
+    let range = FINEST_AGREEMENT..=VALUE_RADIUS;
+    let tolerance = parse(given).ok().map(|value| to_f64(&value));
+    let within = tolerance.filter(|value| range.contains(value));
+    within.ok_or_else(|| CliError::option("tolerance", AGREEMENT_RANGE, given))
 }
 
 /// Prints what an accepted certificate has proved: its claims, its cover, and the verdict with its
@@ -131,74 +115,77 @@ fn say_accepted(
     accepted: &Accepted,
     demanded: Option<&Window>,
 ) -> Result<u8, CliError> {
+    let window = &certificate.window;
+    let cover = accepted.cover.as_ref();
     let mut out = String::new();
     for claim in &accepted.claims {
-        let place = accepted
-            .cover
-            .as_ref()
-            .and_then(|cover| cover.place_of(claim));
+        let place = cover.and_then(|cover| cover.place_of(claim));
         out += &claim_text(problem, claim, place);
     }
-    let window = &certificate.window;
-    let within = window;
-    let smaller = smaller_text(window, problem.window());
-    let digest = problem.sha256();
 
-    let verdict = match &accepted.cover {
-        None => {
-            let count = accepted.claims.len();
-            out += &format!(
-                "ACCEPTED: {count} claim(s) proved for problem {digest} in {within}{smaller}\n"
-            );
-            exit::DONE
-        }
-        Some(cover) if cover.proves_absence() => {
-            let word = problem.unknown().word();
-            let evidence = format!("{word}, problem {digest}, {} leaves accepted", cover.leaves);
-            out += &format!("ABSENT in {within}: no solution ({evidence}){smaller}\n");
-            exit::DONE
-        }
+    let mut code = exit::DONE;
+    match cover {
+        None => out += &claims_verdict(problem, window, accepted.claims.len()),
+        Some(cover) if cover.proves_absence() => out += &absence_verdict(problem, window, cover),
         Some(cover) => {
-            let is_closed = cover.open.is_empty();
-            let verdict = if is_closed {
-                "ACCEPTED"
-            } else {
-                "ACCEPTED as undecided"
-            };
-            let windowed = problem.clone().with_window(window.clone());
-            out += &solutions_text(&windowed, cover);
-            out += &format!("{verdict} for problem {digest} in {within}{smaller}\n");
-            if is_closed {
-                exit::DONE
-            } else {
-                exit::UNDECIDED
+            out += &cover_verdict(problem, window, cover);
+            if !cover.open.is_empty() {
+                code = exit::UNDECIDED;
             }
         }
+    }
+
+    if let Some(demanded) = demanded
+        && !window.covers(demanded)
+    {
+        code = exit::REJECTED;
+        out += &format!("REJECTED: window: expected one that covers {demanded}, got {window}\n");
+    }
+
+    print(&out)?;
+    Ok(code)
+}
+
+/// The verdict on a certificate without a cover.
+fn claims_verdict(problem: &Problem, window: &Window, count: usize) -> String {
+    let digest = problem.sha256();
+    let smaller = smaller_text(window, problem.window());
+    format!("ACCEPTED: {count} claim(s) proved for problem {digest} in {window}{smaller}\n")
+}
+
+/// The verdict on a cover that proves that there is no solution.
+fn absence_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) -> String {
+    let word = problem.unknown().word();
+    let digest = problem.sha256();
+    let leaves = cover.leaves;
+    let smaller = smaller_text(window, problem.window());
+    let evidence = format!("{word}, problem {digest}, {leaves} leaves accepted");
+
+    format!("ABSENT in {window}: no solution ({evidence}){smaller}\n")
+}
+
+/// What a cover holds, and the verdict on it.
+fn cover_verdict(problem: &Problem, window: &Window, cover: &AcceptedCover) -> String {
+    let windowed = problem.clone().with_window(window.clone());
+    let solutions = solutions_text(&windowed, cover);
+
+    let verdict = if cover.open.is_empty() {
+        "ACCEPTED"
+    } else {
+        "ACCEPTED as undecided"
     };
 
-    let missed = demanded.filter(|demanded| !window.covers(demanded));
-    if let Some(demanded) = missed {
-        out += &format!(
-            "REJECTED: window: expected one that covers {}, got {}\n",
-            demanded, window
-        );
-    }
-    print(&out)?;
-    Ok(if missed.is_some() {
-        exit::REJECTED
-    } else {
-        verdict
-    })
+    let digest = problem.sha256();
+    let smaller = smaller_text(window, problem.window());
+    format!("{solutions}{verdict} for problem {digest} in {window}{smaller}\n")
 }
 
 /// A proved claim, and its place in the cover beside it.
 fn claim_text(problem: &Problem, claim: &AcceptedClaim, place: Option<Place>) -> String {
     let word = problem.unknown().word();
-    let ends = enclosing_decimals(&claim.value, 17);
-    let proved = format!(
-        "{word} in [{}, {}], slip {:?}",
-        ends.0, ends.1, claim.support
-    );
+    let (lo, hi) = enclosing_decimals(&claim.value, 17);
+    let proved = format!("{word} in [{lo}, {hi}], slip {:?}", claim.support);
+
     match place {
         None => format!("solution: {proved}\n"),
         Some(Place::Solution(k)) => {
@@ -214,7 +201,8 @@ fn smaller_text(certified: &Window, wanted: &Window) -> String {
     if certified.covers(wanted) {
         return String::new();
     }
-    format!("; NOT the whole window {} of the problem", wanted)
+
+    format!("; NOT the whole window {wanted} of the problem")
 }
 
 /// One line per solution of a foreign report; the exit code is that of the worst.
@@ -253,14 +241,18 @@ fn foreign(args: &Args, problem: &Problem, source: &str, tolerance: f64) -> Resu
         };
         out += &format!("{line}\n");
     }
+
     if report.solutions.is_empty() {
         out += "UNDECIDED: the report lists no solution; that there is none is not checked here \
                 (see mceip complete)\n";
     }
+
     print(&out)?;
-    Ok(match (is_rejected, is_undecided) {
-        (true, _) => exit::REJECTED,
-        (false, true) => exit::UNDECIDED,
-        (false, false) => exit::DONE,
+    Ok(if is_rejected {
+        exit::REJECTED
+    } else if is_undecided {
+        exit::UNDECIDED
+    } else {
+        exit::DONE
     })
 }

@@ -1,13 +1,14 @@
-//! What subcommands share: reading problems, whole-or-nothing output, windows, interrupts,
-//! progress.
+//! What subcommands share: exit codes, errors, reading problems, options that are numbers or
+//! windows, printing.
 
 use mceip_engine::multistart::SearchError;
-use mceip_exact::parse;
+use mceip_exact::{Rational, parse};
 use mceip_model::file::{read_from, read_problem, read_problem_file, read_text};
 use mceip_model::{ModelError, Problem, Window};
 use mceip_oracle::OracleError;
 use mceip_testkit::BlockError;
-use std::io::Write as _;
+use num_traits::Signed as _;
+use std::io::{ErrorKind, Write as _};
 use std::path::Path;
 use std::sync::OnceLock;
 
@@ -139,7 +140,7 @@ pub(super) enum CliError {
         /// Its path.
         path: String,
         /// The system's reason.
-        reason: std::io::ErrorKind,
+        reason: ErrorKind,
     },
     /// An output would replace an input.
     #[error("--{option}: expected another file than the input {path}")]
@@ -177,6 +178,31 @@ impl CliError {
     /// Exit code for bad input.
     pub(super) const EXIT: u8 = 2;
 
+    /// An option with a value it cannot have; of a long value the first [`SHOWN`] characters.
+    pub(super) fn option(option: &'static str, expected: &'static str, got: &str) -> CliError {
+        CliError::Option {
+            option,
+            expected,
+            got: got.chars().take(SHOWN).collect(),
+        }
+    }
+
+    /// A file that is not what it should be.
+    pub(super) fn file(path: &Path, source: ModelError) -> CliError {
+        CliError::File {
+            path: path.display().to_string(),
+            source,
+        }
+    }
+
+    /// A file of a plain problem, or of its solution, that is not what it should be.
+    pub(super) fn plain(path: &Path, source: mceip_engine::lcp::FileError) -> CliError {
+        CliError::Plain {
+            path: path.display().to_string(),
+            source,
+        }
+    }
+
     /// An output that cannot be written.
     pub(super) fn write(path: impl std::fmt::Display, e: &std::io::Error) -> CliError {
         CliError::Write {
@@ -186,17 +212,19 @@ impl CliError {
     }
 }
 
-/// Reads a problem file (`-`: stdin); errors name the file.
+/// Characters of a bad value that a message repeats.
+const SHOWN: usize = 60;
+
+/// Reads a problem file (`-`: stdin), with another window if one is given; errors name the file.
 pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliError> {
-    let problem = if path == Path::new("-") {
+    let read = if path == Path::new("-") {
         read_problem(&text("the problem", path)?, Path::new("."))
     } else {
         read_problem_file(path)
     };
-    let problem = problem.map_err(|source| CliError::File {
-        path: path.display().to_string(),
-        source,
-    })?;
+
+    let problem = read.map_err(|source| CliError::file(path, source))?;
+
     match window {
         None => Ok(problem),
         Some(text) => Ok(problem.with_window(parse_window(text)?)),
@@ -205,44 +233,46 @@ pub(super) fn load(path: &Path, window: Option<&str>) -> Result<Problem, CliErro
 
 /// Reads a text file (`-`: stdin); errors name the file.
 pub(super) fn text(what: &'static str, path: &Path) -> Result<String, CliError> {
-    if path == Path::new("-") {
+    let read = if path == Path::new("-") {
         read_stdin(what)
     } else {
         read_text(what, path)
-    }
-    .map_err(|source| CliError::File {
-        path: path.display().to_string(),
-        source,
-    })
+    };
+
+    read.map_err(|source| CliError::file(path, source))
 }
 
 /// Stdin, read once and kept: a command may look at it twice, or name it for two of its inputs by
 /// mistake.
 fn read_stdin(what: &'static str) -> Result<String, ModelError> {
     static TEXT: OnceLock<Result<String, ModelError>> = OnceLock::new();
-    TEXT.get_or_init(|| read_from(what, "stdin", std::io::stdin().lock()))
-        .clone()
+    let read = TEXT.get_or_init(|| read_from(what, "stdin", std::io::stdin().lock()));
+    read.clone()
 }
 
 /// `a,b` with b empty or `inf` for infinity.
 pub(super) fn parse_window(text: &str) -> Result<Window, CliError> {
-    let bad = || CliError::Option {
-        option: "window",
-        expected: "a,b with 0 <= a <= b (b may be inf)",
-        got: text.chars().take(60).collect(),
-    };
-    let (min, max) = text.split_once(',').ok_or_else(bad)?;
+    let expected = "a,b with 0 <= a <= b (b may be inf)";
+    window_of(text).ok_or_else(|| CliError::option("window", expected, text))
+}
+
+fn window_of(text: &str) -> Option<Window> {
+    let (min, max) = text.split_once(',')?;
     let max = match max.trim() {
         "" | "inf" => None,
-        m => Some(parse(m).map_err(|_| bad())?),
+        number => Some(parse(number).ok()?),
     };
-    Window::new(parse(min.trim()).map_err(|_| bad())?, max).map_err(|_| bad())
+    let min = parse(min.trim()).ok()?;
+
+    Window::new(min, max).ok()
 }
 
 /// Refuses no threads at all, and says on stderr where the threads wanted are more than the machine
 /// gives, or cannot be started: then the work is done by the default ones.
 pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
-    let Some(wanted) = wanted else { return Ok(()) };
+    let Some(wanted) = wanted else {
+        return Ok(());
+    };
     if wanted == 0 {
         return Err(CliError::Option {
             option: "threads",
@@ -263,31 +293,28 @@ pub(super) fn require_threads(wanted: Option<usize>) -> Result<(), CliError> {
         ),
         Ok(_) => {}
     }
+
     Ok(())
 }
 
 /// A positive number given as an option.
-pub(super) fn positive(
-    option: &'static str,
-    given: &str,
-) -> Result<mceip_exact::Rational, CliError> {
-    use num_traits::Signed as _;
-    let bad = || CliError::Option {
-        option,
-        expected: "a number above 0",
-        got: given.chars().take(60).collect(),
-    };
-    parse(given)
-        .ok()
-        .filter(|v| v.is_positive())
-        .ok_or_else(bad)
+pub(super) fn positive(option: &'static str, given: &str) -> Result<Rational, CliError> {
+    let expected = "a number above 0";
+    positive_number(given).ok_or_else(|| CliError::option(option, expected, given))
+}
+
+/// The number that a text spells, if it is positive.
+pub(super) fn positive_number(text: &str) -> Option<Rational> {
+    parse(text).ok().filter(Rational::is_positive)
 }
 
 /// Prints to stdout. A reader that has gone away (a closed pipe) is no error; a full disk is.
 pub(super) fn print(text: &str) -> Result<(), CliError> {
     let mut out = std::io::stdout().lock();
-    match out.write_all(text.as_bytes()).and_then(|()| out.flush()) {
-        Err(e) if e.kind() != std::io::ErrorKind::BrokenPipe => Err(CliError::write("stdout", &e)),
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+
+    match written {
+        Err(e) if e.kind() != ErrorKind::BrokenPipe => Err(CliError::write("stdout", &e)),
         _ => Ok(()),
     }
 }

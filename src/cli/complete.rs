@@ -1,4 +1,7 @@
 //! `mceip complete`: all solutions in a window, with a proof that there are no others.
+//!
+//! The certificate can be searched in parts (`--shard`, joined by `mceip merge`) and gone on with
+//! (`--resume`). What is printed is what the checker has proved of it.
 
 use super::common::{CliError, exit, load, print, require_threads, text};
 use super::infinity::{AtInfinity, Files};
@@ -13,7 +16,8 @@ use mceip_engine::run::Watch;
 use mceip_engine::search::complete::{Completed, Options, Shard, complete, resume};
 use mceip_exact::enclosing_decimals;
 use mceip_model::Problem;
-use std::path::PathBuf;
+use serde_json::Value;
+use std::path::{Path, PathBuf};
 
 /// Arguments of `complete`.
 #[derive(clap::Args)]
@@ -48,10 +52,66 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// More pieces than any machine has use for.
+const MAX_PIECES: usize = 100_000;
+
+/// Families and open regions printed in full.
+const SHOWN: usize = 20;
+
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, args.window.as_deref())?;
     let shard = args.shard.as_deref().map(parse_shard).transpose()?;
     require_threads(args.threads)?;
+    refuse_useless(args, &problem)?;
+
+    let earlier = args.resume.as_deref().map(read).transpose()?;
+    let path = args.certificate.as_deref();
+    let output = Output::prepare_if("certificate", path, &[&args.file])?;
+    let files_at_infinity = match path {
+        Some(path) if args.infinity => Some(Files::prepare(path, &args.file)?),
+        _ => None,
+    };
+
+    let options = Options {
+        pieces: args.pieces,
+        threads: args.threads,
+        shard,
+        ..Options::default()
+    };
+    let job = Job::begin("searching");
+    let completed = job.watched(|watch| match &earlier {
+        None => complete(&problem, &options, watch),
+        Some(certificate) => resume(&problem, certificate, &options, watch),
+    })?;
+    let at_infinity = if args.infinity {
+        let watch = Watch::silent(job.cancel());
+        Some(AtInfinity::search(&problem, &options, &watch)?)
+    } else {
+        None
+    };
+    job.end();
+
+    print(&answer(args, &problem, &completed, at_infinity.as_ref())?)?;
+    if let (Some(at_infinity), Some(files)) = (&at_infinity, files_at_infinity) {
+        at_infinity.write(files)?;
+    }
+
+    if let Some(output) = output {
+        output.write(&completed.certificate.to_json())?;
+    }
+
+    let is_complete_there = at_infinity.is_none_or(|there| there.is_complete());
+    Ok(if completed.is_complete() && is_complete_there {
+        exit::DONE
+    } else if job.is_cancelled() {
+        exit::INTERRUPTED
+    } else {
+        exit::UNDECIDED
+    })
+}
+
+/// Refuses a number of pieces that helps nobody, and --infinity for a window that ends.
+fn refuse_useless(args: &Args, problem: &Problem) -> Result<(), CliError> {
     if args.pieces == 0 || args.pieces > MAX_PIECES {
         return Err(CliError::Option {
             option: "pieces",
@@ -59,191 +119,161 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
             got: args.pieces.to_string(),
         });
     }
+
     if args.infinity && problem.window().max().is_some() {
-        return Err(CliError::Option {
-            option: "infinity",
-            expected: "a window without upper end",
-            got: "one that ends".into(),
-        });
+        let expected = "a window without upper end";
+        return Err(CliError::option("infinity", expected, "one that ends"));
     }
-    let earlier = args.resume.as_ref().map(|path| read(path)).transpose()?;
-    let output = args
-        .certificate
-        .as_ref()
-        .map(|path| Output::prepare("certificate", path, &[&args.file]))
-        .transpose()?;
-    let files = args
-        .certificate
-        .as_ref()
-        .filter(|_| args.infinity)
-        .map(|path| Files::prepare(path, &args.file))
-        .transpose()?;
-    let job = Job::begin("searching");
-    let options = Options {
-        pieces: args.pieces,
-        threads: args.threads,
-        shard,
-        ..Options::default()
-    };
-    let completed = job.watched(|watch| match &earlier {
-        None => complete(&problem, &options, watch),
-        Some(certificate) => resume(&problem, certificate, &options, watch),
-    })?;
-    let beyond = if args.infinity {
-        Some(AtInfinity::search(
-            &problem,
-            &options,
-            &Watch::silent(job.cancel()),
-        )?)
-    } else {
-        None
-    };
-    job.end();
-    let out = if args.json {
-        let mut report = report_json(&problem, &completed)?;
-        if let Some(beyond) = &beyond {
-            report["at_infinity"] = beyond.json();
-        }
-        format!("{report}\n")
-    } else {
-        solutions_text(&problem, &completed.cover)
-            + &beyond.as_ref().map_or_else(String::new, AtInfinity::text)
-    };
-    print(&out)?;
-    if let (Some(beyond), Some(files)) = (&beyond, files) {
-        beyond.write(files)?;
-    }
-    if let Some(output) = output {
-        output.write(&completed.certificate.to_json())?;
-    }
-    let is_complete =
-        completed.is_complete() && beyond.as_ref().is_none_or(AtInfinity::is_complete);
-    Ok(match (job.is_cancelled(), is_complete) {
-        (_, true) => exit::DONE,
-        (true, false) => exit::INTERRUPTED,
-        (false, false) => exit::UNDECIDED,
-    })
+
+    Ok(())
 }
 
 /// Reads a certificate; errors name the file.
-pub(super) fn read(path: &std::path::Path) -> Result<Certificate, CliError> {
-    Certificate::from_json(&text("the certificate", path)?).map_err(|source| CliError::File {
-        path: path.display().to_string(),
-        source,
-    })
+pub(super) fn read(path: &Path) -> Result<Certificate, CliError> {
+    let source = text("the certificate", path)?;
+    Certificate::from_json(&source).map_err(|source| CliError::file(path, source))
 }
 
 fn parse_shard(given: &str) -> Result<Shard, CliError> {
-    let bad = || CliError::Option {
-        option: "shard",
-        expected: "i/n with 1 <= i <= n",
-        got: given.chars().take(60).collect(),
-    };
-    let (i, n) = given.split_once('/').ok_or_else(bad)?;
-    let (i, n) = (
-        i.parse::<usize>().map_err(|_| bad())?,
-        n.parse::<usize>().map_err(|_| bad())?,
-    );
-    if i >= 1 && i <= n {
-        Ok(Shard {
-            index: i - 1,
-            count: n,
-        })
-    } else {
-        Err(bad())
+    let expected = "i/n with 1 <= i <= n";
+    shard_of(given).ok_or_else(|| CliError::option("shard", expected, given))
+}
+
+/// Part i of n, where 1 <= i <= n.
+fn shard_of(text: &str) -> Option<Shard> {
+    let (number, count) = text.split_once('/')?;
+    let number: usize = number.parse().ok()?;
+    let count: usize = count.parse().ok()?;
+    let is_part = number >= 1 && number <= count;
+
+    is_part.then(|| Shard {
+        index: number - 1,
+        count,
+    })
+}
+
+/// What is printed.
+fn answer(
+    args: &Args,
+    problem: &Problem,
+    completed: &Completed,
+    at_infinity: Option<&AtInfinity>,
+) -> Result<String, CliError> {
+    if args.json {
+        let mut report = report_json(problem, completed)?;
+        if let Some(at_infinity) = at_infinity {
+            report["at_infinity"] = at_infinity.json();
+        }
+
+        return Ok(format!("{report}\n"));
     }
+
+    let mut out = solutions_text(problem, &completed.cover);
+    if let Some(at_infinity) = at_infinity {
+        out += &at_infinity.text();
+    }
+
+    Ok(out)
 }
 
 /// What a cover has proved, for people.
 pub(super) fn solutions_text(problem: &Problem, cover: &AcceptedCover) -> String {
     let word = problem.unknown().word();
     let mut out = String::new();
-    for s in &cover.solutions {
-        let (lo, hi) = enclosing_decimals(&s.value, 15);
-        out += &format!("solution: {word} in [{lo}, {hi}], slip {:?}\n", s.support);
+    for solution in &cover.solutions {
+        let (lo, hi) = enclosing_decimals(&solution.value, 15);
+        let support = &solution.support;
+        out += &format!("solution: {word} in [{lo}, {hi}], slip {support:?}\n");
     }
-    for family in cover.families.iter().take(OPEN_SHOWN) {
+
+    for family in cover.families.iter().take(SHOWN) {
         out += &format!("family: {}\n", family_text(word, family));
     }
-    if cover.families.len() > OPEN_SHOWN {
-        out += &format!(
-            "family: {} more (see the certificate)\n",
-            cover.families.len() - OPEN_SHOWN
-        );
+
+    let more = cover.families.len().saturating_sub(SHOWN);
+    if more > 0 {
+        out += &format!("family: {more} more (see the certificate)\n");
     }
-    let n = cover.solutions.len();
-    let mut count = if n == 1 {
-        "1 solution".into()
+
+    for region in cover.open.iter().take(SHOWN) {
+        out += &format!("open: {}\n", open_text(word, region));
+    }
+
+    let more = cover.open.len().saturating_sub(SHOWN);
+    if more > 0 {
+        out += &format!("open: {more} more regions (see the certificate)\n");
+    }
+
+    out + &verdict_text(problem, cover)
+}
+
+/// The last line: is the set complete, and how large is it?
+fn verdict_text(problem: &Problem, cover: &AcceptedCover) -> String {
+    let window = problem.window();
+    let leaves = cover.leaves;
+    let open = cover.open.len();
+    let count = count_text(cover);
+    if open > 0 {
+        return format!("UNDECIDED: {count} proved in {window}, {open} regions open\n");
+    }
+
+    let is_empty = cover.solutions.is_empty() && cover.families.is_empty();
+    let set = if is_empty {
+        format!("no solution in {window}")
     } else {
-        format!("{n} solutions")
+        format!("{count} in {window}, and no other")
+    };
+
+    format!("COMPLETE: {set}; {leaves} leaves, accepted by the checker\n")
+}
+
+/// "2 solutions and 1 families of them".
+fn count_text(cover: &AcceptedCover) -> String {
+    let mut count = match cover.solutions.len() {
+        1 => "1 solution".into(),
+        n => format!("{n} solutions"),
     };
     if !cover.families.is_empty() {
         count += &format!(" and {} families of them", cover.families.len());
     }
-    let within = format!("in {}", problem.window());
-    if cover.open.is_empty() {
-        let what = if n == 0 && cover.families.is_empty() {
-            format!("COMPLETE: no solution {within}")
-        } else {
-            format!("COMPLETE: {count} {within}, and no other")
-        };
-        return out + &format!("{what}; {} leaves, accepted by the checker\n", cover.leaves);
-    }
-    for region in cover.open.iter().take(OPEN_SHOWN) {
-        out += &format!("open: {}\n", open_text(word, region));
-    }
-    if cover.open.len() > OPEN_SHOWN {
-        out += &format!(
-            "open: {} more regions (see the certificate)\n",
-            cover.open.len() - OPEN_SHOWN
-        );
-    }
-    out + &format!(
-        "UNDECIDED: {count} proved {within}, {} regions open\n",
-        cover.open.len()
-    )
+
+    count
 }
 
-/// More pieces than any machine has use for.
-const MAX_PIECES: usize = 100_000;
-
-/// Open regions printed in full.
-const OPEN_SHOWN: usize = 20;
-
 fn open_text(word: &str, region: &OpenRegion) -> String {
-    let max = region
-        .max
-        .as_ref()
-        .map_or_else(|| "infinity".into(), ToString::to_string);
+    let max = match &region.max {
+        Some(max) => max.to_string(),
+        None => "infinity".into(),
+    };
+
     format!(
         "{word} in [{}, {max}], moving {:?}, undecided {:?}",
         region.min, region.moving, region.undecided
     )
 }
 
-fn family_text(word: &str, f: &SolutionFamily) -> String {
-    let (lo, hi) = enclosing_decimals(&f.from, 15);
-    let values = match &f.to {
-        _ if f.is_point => format!("{word} in [{lo}, {hi}] (one value)"),
+fn family_text(word: &str, family: &SolutionFamily) -> String {
+    let (lo, hi) = enclosing_decimals(&family.from, 15);
+    let values = match &family.to {
+        _ if family.is_point => format!("{word} in [{lo}, {hi}] (one value)"),
         None => format!("every {word} above a value in [{lo}, {hi}]"),
         Some(to) => {
             let (a, b) = enclosing_decimals(to, 15);
             format!("every {word} between values in [{lo}, {hi}] and [{a}, {b}]")
         }
     };
-    let how_many = if f.is_alone {
+
+    let how_many = if family.is_alone {
         "one solution at each"
     } else {
         "a cone of solutions"
     };
-    format!("{values}, slip {:?}, {how_many}", f.support)
+
+    format!("{values}, slip {:?}, {how_many}", family.support)
 }
 
 /// The complete set as `mceip-solutions/1`.
-pub(super) fn report_json(
-    problem: &Problem,
-    completed: &Completed,
-) -> Result<serde_json::Value, CliError> {
+pub(super) fn report_json(problem: &Problem, completed: &Completed) -> Result<Value, CliError> {
     let reduced = reduce(problem)?;
     let certifier = Certifier::new(problem, &reduced.pencil);
     let mut solutions = Vec::new();
@@ -257,12 +287,12 @@ pub(super) fn report_json(
         cover.leaves,
         cover.open.len()
     );
-    let claim = Claimed::of_cover(cover);
+
     Ok(solutions_json(&Report {
         problem,
         reduced: &reduced,
         solutions,
-        claim,
+        claim: Claimed::of_cover(cover),
         evidence,
         enumeration: None,
         cover: Some(cover),

@@ -1,9 +1,14 @@
 //! `mceip conform`: somebody else's program against problems with complete exact answers.
+//!
+//! Each case of the pack, and each random case, is sent to the program on stdin; its report is
+//! judged by `mceip_testkit`. The rules are in `spec/conform.md`.
 
 use super::common::{CliError, exit, print};
 use super::job::Job;
-use super::output::Output;
-use mceip_testkit::conform::{Flag, Limits, Plan, groups, pack_files, read_pack, run, summarise};
+use super::output::{Output, make};
+use mceip_testkit::conform::{
+    Flag, Group, Limits, Plan, groups, pack_files, read_pack, run, summarise,
+};
 use std::path::{Path, PathBuf};
 use std::time::Duration;
 
@@ -62,64 +67,46 @@ pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     if let Some(folder) = &args.write {
         return write(folder, &pack_files(&groups)?);
     }
+
     let plan = plan(args, groups)?;
-    let markdown = args
-        .markdown
-        .as_ref()
-        .map(|path| Output::prepare("markdown", path, &[]))
-        .transpose()?;
+    let markdown = Output::prepare_if("markdown", args.markdown.as_deref(), &[])?;
+
     let job = Job::begin("cases");
     let outcomes = job.watched(|watch| run(&plan, &args.command, watch))?;
     job.end();
+
     let summary = summarise(&outcomes);
-    print(&if args.json {
+    let text = if args.json {
         format!("{:#}\n", summary.json(&args.command))
     } else {
         summary.text()
-    })?;
+    };
+    print(&text)?;
     if let Some(output) = markdown {
         output.write(&summary.markdown(&args.command))?;
     }
-    Ok(match (job.is_cancelled(), summary.all_correct()) {
-        (true, _) => exit::INTERRUPTED,
-        (false, true) => exit::DONE,
-        (false, false) => exit::REJECTED,
+
+    Ok(if job.is_cancelled() {
+        exit::INTERRUPTED
+    } else if summary.all_correct() {
+        exit::DONE
+    } else {
+        exit::REJECTED
     })
 }
 
-fn plan(args: &Args, groups: Vec<mceip_testkit::conform::Group>) -> Result<Plan, CliError> {
-    let limit = Duration::try_from_secs_f64(args.time_limit)
-        .ok()
-        .filter(|d| !d.is_zero());
-    let Some(time) = limit else {
-        return Err(CliError::Option {
-            option: "time-limit",
-            expected: "seconds > 0",
-            got: args.time_limit.to_string(),
-        });
-    };
-    if args.threads.is_some_and(|t| t == 0 || t > MAX_THREADS) {
-        let got = args.threads.unwrap_or(0).to_string();
-        return Err(CliError::Option {
-            option: "threads",
-            expected: "1 to 1024",
-            got,
-        });
-    }
-    let flag = |word: &String| {
-        let got = || word.chars().take(60).collect();
-        Flag::of_word(word).ok_or_else(|| CliError::Option {
-            option: "only",
-            expected: "a flag of spec/conform.md",
-            got: got(),
-        })
-    };
+/// What is to be run, as the options say.
+fn plan(args: &Args, groups: Vec<Group>) -> Result<Plan, CliError> {
+    let time = time_limit(args.time_limit)?;
+    refuse_threads(args.threads)?;
+    let only = args.only.iter().map(|word| flag(word));
+
     Ok(Plan {
         groups,
         random: args.count,
         seed: args.seed,
         as_pencil: args.as_pencil,
-        only: args.only.iter().map(flag).collect::<Result<_, _>>()?,
+        only: only.collect::<Result<_, _>>()?,
         limits: Limits {
             time,
             ..Limits::default()
@@ -128,18 +115,46 @@ fn plan(args: &Args, groups: Vec<mceip_testkit::conform::Group>) -> Result<Plan,
     })
 }
 
+fn time_limit(seconds: f64) -> Result<Duration, CliError> {
+    let time = Duration::try_from_secs_f64(seconds).ok();
+    let positive = time.filter(|time| !time.is_zero());
+
+    positive.ok_or_else(|| CliError::Option {
+        option: "time-limit",
+        expected: "seconds > 0",
+        got: seconds.to_string(),
+    })
+}
+
+fn refuse_threads(threads: Option<usize>) -> Result<(), CliError> {
+    match threads {
+        Some(count) if count == 0 || count > MAX_THREADS => Err(CliError::Option {
+            option: "threads",
+            expected: "1 to 1024",
+            got: count.to_string(),
+        }),
+        _ => Ok(()),
+    }
+}
+
+fn flag(word: &str) -> Result<Flag, CliError> {
+    let expected = "a flag of spec/conform.md";
+    Flag::of_word(word).ok_or_else(|| CliError::option("only", expected, word))
+}
+
 /// Each file appears whole; the index last, so that a pack that was cut short is not taken for one.
 fn write(folder: &Path, files: &[(String, String)]) -> Result<u8, CliError> {
-    std::fs::create_dir_all(folder).map_err(|e| CliError::write(folder.display(), &e))?;
+    make(folder)?;
     let mut bytes = 0;
     for (name, text) in files {
-        Output::prepare("write", &folder.join(name), &[])?.write(text)?;
+        let output = Output::prepare("write", &folder.join(name), &[])?;
+        output.write(text)?;
         bytes += text.len();
     }
-    print(&format!(
-        "{} files, {bytes} bytes, in {}\n",
-        files.len(),
-        folder.display()
-    ))?;
+
+    let count = files.len();
+    let place = folder.display();
+    print(&format!("{count} files, {bytes} bytes, in {place}\n"))?;
+
     Ok(exit::DONE)
 }

@@ -1,10 +1,13 @@
 //! `mceip convert`: a problem file from a model of one's own.
+//!
+//! Input: K and M (Matrix Market, or CalculiX), a table of contact states and mu. Output: the
+//! MCEIP-lambda2 problem as `mceip-problem/1`.
 
 use super::common::{CliError, exit, positive, print, text};
 use super::output::Output;
-use mceip_exact::Sparse;
+use mceip_exact::{Rational, Sparse};
 use mceip_model::file::{read_matrix_market, read_particles, write_problem};
-use mceip_model::{Body, Problem, System, Unknown, Window};
+use mceip_model::{Body, Particle, Problem, System, Unknown, Window};
 use mceip_paper::calculix::{CalculixError, read_dofs, read_triangle};
 use mceip_paper::read_contacts;
 use std::collections::HashMap;
@@ -42,41 +45,73 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let mut inputs: Vec<&Path> = vec![&args.stiffness, &args.mass, &args.contacts];
     inputs.extend(args.dof.as_deref());
     let output = Output::prepare("out", &args.out, &inputs)?;
-    let dofs = args.dof.as_deref().map(names).transpose()?;
-    let stiffness = matrix("K", &args.stiffness, dofs.as_ref())?;
-    let mass = matrix("M", &args.mass, dofs.as_ref())?;
-    let order = stiffness.rows();
-    let index = |cell: &str| match &dofs {
-        Some(names) => names.get(cell).copied(),
-        None => cell.parse::<usize>().ok().filter(|d| *d < order),
+
+    let dofs = args.dof.as_deref().map(read_dof_names).transpose()?;
+    let stiffness = read_matrix("K", &args.stiffness, dofs.as_ref())?;
+    let mass = read_matrix("M", &args.mass, dofs.as_ref())?;
+    let indices = DofIndices {
+        names: dofs,
+        order: stiffness.rows(),
     };
-    let contacts = text("the contacts", &args.contacts)?;
-    let path = || args.contacts.display().to_string();
-    let particles = if contacts.trim_start().starts_with('[') {
-        read_particles(&contacts).map_err(|source| CliError::File {
-            path: path(),
-            source,
-        })?
-    } else {
-        read_contacts(&contacts, &friction, &index).map_err(|source| CliError::Contacts {
-            path: path(),
-            source,
-        })?
-    };
+    let particles = read_states(&args.contacts, &friction, &indices)?;
+
     let system = System::new(stiffness, Some(mass), Some(friction), particles)?;
-    let [slip, dofs] = [system.slip_particles().len(), system.dofs()];
+    let slip = system.slip_particles().len();
+    let dofs = system.dofs();
     let mut problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
     problem.name = args.name.clone();
+
     output.write(&format!("{}\n", write_problem(&problem)))?;
+    let place = args.out.display();
     print(&format!(
-        "{}: {dofs} degrees of freedom, {slip} particles in impending slip\n",
-        args.out.display()
+        "{place}: {dofs} degrees of freedom, {slip} particles in impending slip\n"
     ))?;
+
     Ok(exit::DONE)
 }
 
-fn names(path: &Path) -> Result<HashMap<String, usize>, CliError> {
-    read_dofs(&text("the degrees of freedom", path)?).map_err(|source| calculix(path, source))
+/// The names of degrees of freedom in a table of contacts.
+struct DofIndices {
+    /// Those of CalculiX, `node.direction`; without them a name is an index.
+    names: Option<DofNames>,
+    /// Number of degrees of freedom.
+    order: usize,
+}
+
+type DofNames = HashMap<String, usize>;
+
+impl DofIndices {
+    /// The index of a name, from 0.
+    fn index(&self, name: &str) -> Option<usize> {
+        match &self.names {
+            Some(names) => names.get(name).copied(),
+            None => name.parse().ok().filter(|dof| *dof < self.order),
+        }
+    }
+}
+
+/// The contact states: a JSON list of particles, or else a table.
+fn read_states(
+    path: &Path,
+    friction: &Rational,
+    indices: &DofIndices,
+) -> Result<Vec<Particle>, CliError> {
+    let contacts = text("the contacts", path)?;
+    let is_json = contacts.trim_start().starts_with('[');
+    if is_json {
+        return read_particles(&contacts).map_err(|source| CliError::file(path, source));
+    }
+
+    let read = read_contacts(&contacts, friction, &|name| indices.index(name));
+    read.map_err(|source| CliError::Contacts {
+        path: path.display().to_string(),
+        source,
+    })
+}
+
+fn read_dof_names(path: &Path) -> Result<DofNames, CliError> {
+    let source = text("the degrees of freedom", path)?;
+    read_dofs(&source).map_err(|source| calculix(path, source))
 }
 
 fn calculix(path: &Path, source: CalculixError) -> CliError {
@@ -87,19 +122,16 @@ fn calculix(path: &Path, source: CalculixError) -> CliError {
 }
 
 /// A Matrix Market file by its banner; else a triangle of CalculiX, whose order .dof knows.
-fn matrix(
+fn read_matrix(
     what: &'static str,
     path: &Path,
-    dofs: Option<&HashMap<String, usize>>,
+    dofs: Option<&DofNames>,
 ) -> Result<Sparse, CliError> {
-    let read = text(what, path)?;
+    let source = text(what, path)?;
     match dofs {
-        Some(names) if !read.starts_with("%%") => {
-            read_triangle(&read, names.len()).map_err(|source| calculix(path, source))
+        Some(names) if !source.starts_with("%%") => {
+            read_triangle(&source, names.len()).map_err(|e| calculix(path, e))
         }
-        _ => read_matrix_market(what, &read).map_err(|source| CliError::File {
-            path: path.display().to_string(),
-            source,
-        }),
+        _ => read_matrix_market(what, &source).map_err(|e| CliError::file(path, e)),
     }
 }

@@ -1,4 +1,7 @@
 //! `mceip enumerate`: every support of a small problem by exact arithmetic (the oracle).
+//!
+//! (24)-(26): for each support the values at which its equations have a solution, and of those the
+//! ones that meet the inequalities.
 
 use super::common::{CliError, exit, load, print};
 use super::job::Job;
@@ -27,48 +30,33 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let reduced = reduce(&problem)?;
 
     let job = Job::begin("supports");
-    let told = |done: u64, total: u64| {
+    let show = |done: u64, total: u64| {
         job.say(Progress::of("supports", done as usize, total as usize));
         job.flow()
     };
-    let found = enumerate_with(&reduced.pencil, problem.window(), told)?;
+    let found = enumerate_with(&reduced.pencil, problem.window(), show)?;
     job.end();
 
     print(&report(&problem, &reduced, &found, args.json))?;
-    Ok(code(&found))
+    Ok(exit_code(&found))
 }
 
 fn report(problem: &Problem, reduced: &Reduced, found: &Enumeration, is_json: bool) -> String {
-    let how = "every one by exact arithmetic";
-    let (done, total) = (found.supports_done, found.supports_total);
-    let evidence = match (found.is_finished(), found.is_complete_list()) {
-        (true, true) => format!("complete, by the plain enumeration of {total} supports: {how}"),
-        (true, false) => {
-            format!(
-                "all {total} supports examined by the plain enumeration: {how}; what is named \
-                 without a description is left open"
-            )
-        }
-        (false, _) => {
-            format!("the plain enumeration was interrupted after {done} of {total} supports: {how}")
-        }
-    };
+    let mut solutions = Vec::new();
+    for solution in &found.solutions {
+        solutions.push(Listed::of_solution(problem, reduced, solution));
+    }
 
-    let solutions = found
-        .solutions
-        .iter()
-        .map(|s| Listed::of_solution(problem, reduced, s))
-        .collect();
-    let claim = Claimed::complete_if(found.is_complete_list());
     let report = Report {
         problem,
         reduced,
         solutions,
-        claim,
-        evidence,
+        claim: Claimed::complete_if(found.is_complete_list()),
+        evidence: evidence(found),
         enumeration: Some(found),
         cover: None,
     };
+
     if is_json {
         format!("{}\n", solutions_json(&report))
     } else {
@@ -76,10 +64,30 @@ fn report(problem: &Problem, reduced: &Reduced, found: &Enumeration, is_json: bo
     }
 }
 
-fn code(found: &Enumeration) -> u8 {
-    match (found.is_finished(), found.is_complete_list()) {
-        (false, _) => exit::INTERRUPTED,
-        (true, true) => exit::DONE,
-        (true, false) => exit::UNDECIDED, // what is left open has been named
+/// What the enumeration has examined.
+fn evidence(found: &Enumeration) -> String {
+    let done = found.supports_done;
+    let total = found.supports_total;
+    let how = "every one by exact arithmetic";
+
+    if !found.is_finished() {
+        format!("the plain enumeration was interrupted after {done} of {total} supports: {how}")
+    } else if found.is_complete_list() {
+        format!("complete, by the plain enumeration of {total} supports: {how}")
+    } else {
+        format!(
+            "all {total} supports examined by the plain enumeration: {how}; what is named \
+             without a description is left open"
+        )
+    }
+}
+
+fn exit_code(found: &Enumeration) -> u8 {
+    if !found.is_finished() {
+        exit::INTERRUPTED
+    } else if found.is_complete_list() {
+        exit::DONE
+    } else {
+        exit::UNDECIDED
     }
 }

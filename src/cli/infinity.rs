@@ -1,8 +1,12 @@
 //! Solutions at infinity: those of the reversed problem at the value 0, searched and certified like
 //! any others.
+//!
+//! With s = 1/t the problem (A + tB) x = y becomes (sA + B) x = y/t; at s = 0 it is the limit for
+//! large t. `mceip complete --infinity` asks for it.
 
 use super::common::CliError;
 use super::output::Output;
+use mceip_check::AcceptedCover;
 use mceip_engine::reduction::reversed;
 use mceip_engine::report::Claimed;
 use mceip_engine::run::Watch;
@@ -11,7 +15,7 @@ use mceip_exact::Rational;
 use mceip_model::file::write_problem;
 use mceip_model::{Problem, Window};
 use num_traits::Zero;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// What there is at infinity.
@@ -23,24 +27,32 @@ pub(super) struct AtInfinity {
 }
 
 /// The files of the certificate and of the problem that it is for: beside the main certificate.
-pub(super) struct Files([Output; 2]);
+pub(super) struct Files {
+    certificate: Output,
+    problem: Output,
+}
 
 impl Files {
+    /// Prepares CERTIFICATE.infinity.json and CERTIFICATE.infinity-problem.json.
     pub(super) fn prepare(certificate: &Path, input: &Path) -> Result<Files, CliError> {
-        let beside = |end: &str| {
-            let mut name = certificate.as_os_str().to_owned();
-            name.push(end);
-            PathBuf::from(name)
-        };
-        let output = |end: &str| Output::prepare("certificate", &beside(end), &[input]);
-        Ok(Files([
-            output(".infinity.json")?,
-            output(".infinity-problem.json")?,
-        ]))
+        let beside = with_ending(certificate, ".infinity.json");
+        let problem = with_ending(certificate, ".infinity-problem.json");
+
+        Ok(Files {
+            certificate: Output::prepare("certificate", &beside, &[input])?,
+            problem: Output::prepare("certificate", &problem, &[input])?,
+        })
     }
 }
 
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    PathBuf::from(name)
+}
+
 impl AtInfinity {
+    /// Searches the reversed problem at the value 0.
     pub(super) fn search(
         problem: &Problem,
         options: &Options,
@@ -48,16 +60,17 @@ impl AtInfinity {
     ) -> Result<AtInfinity, CliError> {
         let zero = Window::new(Rational::zero(), Some(Rational::zero()))?;
         let mut at_zero = reversed(problem)?.with_window(zero);
-        at_zero.comment = Some(format!(
-            "the limit at infinity of problem {}, at the value 0",
-            problem.sha256()
-        ));
+        let digest = problem.sha256();
+        let comment = format!("the limit at infinity of problem {digest}, at the value 0");
+        at_zero.comment = Some(comment);
+
         let options = Options {
             pieces: 1,
             shard: None,
             ..*options
         };
         let completed = complete(&at_zero, &options, watch);
+
         Ok(AtInfinity {
             problem: at_zero,
             completed,
@@ -68,80 +81,95 @@ impl AtInfinity {
         self.completed.as_ref().is_ok_and(Completed::is_complete)
     }
 
+    /// What there is at infinity, for people.
     pub(super) fn text(&self) -> String {
-        let completed = match &self.completed {
-            Ok(completed) => completed,
+        let cover = match &self.completed {
+            Ok(completed) => &completed.cover,
             Err(e) => return format!("UNDECIDED at infinity: {e}\n"),
         };
-        let cover = &completed.cover;
-        let mut out: String = cover
-            .solutions
-            .iter()
-            .map(|s| format!("at infinity: slip {:?}\n", s.support))
-            .collect();
-        out.extend(
-            cover
-                .families
-                .iter()
-                .map(|f| format!("at infinity: a cone of solutions, slip {:?}\n", f.support)),
-        );
-        out.extend(cover.open.iter().map(|o| {
-            format!(
+
+        let mut out = String::new();
+        for solution in &cover.solutions {
+            out += &format!("at infinity: slip {:?}\n", solution.support);
+        }
+
+        for family in &cover.families {
+            let support = &family.support;
+            out += &format!("at infinity: a cone of solutions, slip {support:?}\n");
+        }
+
+        for region in &cover.open {
+            out += &format!(
                 "at infinity: open, moving {:?}, undecided {:?}\n",
-                o.moving, o.undecided
-            )
-        }));
-        let n = cover.solutions.len() + cover.families.len();
-        let what = match (cover.open.is_empty(), n) {
-            (true, 0) => "COMPLETE: nothing at infinity".to_string(),
-            (true, _) => format!(
-                "COMPLETE: {n} at infinity (limits of x, no value of the window), and no other"
-            ),
-            (false, _) => format!(
-                "UNDECIDED at infinity: {n} proved, {} regions open",
-                cover.open.len()
-            ),
-        };
-        out + &format!(
-            "{what}; {} leaves, accepted by the checker for the reversed problem\n",
-            cover.leaves
-        )
+                region.moving, region.undecided
+            );
+        }
+
+        let verdict = verdict_text(cover);
+        let leaves = cover.leaves;
+        out += &format!(
+            "{verdict}; {leaves} leaves, accepted by the checker for the reversed problem\n"
+        );
+
+        out
     }
 
-    pub(super) fn json(&self) -> serde_json::Value {
+    /// What there is at infinity, for programs.
+    pub(super) fn json(&self) -> Value {
         let completed = match &self.completed {
             Ok(completed) => completed,
             Err(e) => {
                 return json!({ "claim": "solutions", "solutions": [], "reason": e.to_string() });
             }
         };
+
+        let mut solutions = Vec::new();
+        for (proved, x) in completed.solutions() {
+            let x: Vec<String> = x.iter().map(|x_i| format!("{x_i:.15e}")).collect();
+            solutions.push(json!({ "slip": proved.support, "x": x }));
+        }
+
         let cover = &completed.cover;
-        let x = |x: &[f64]| x.iter().map(|v| format!("{v:.15e}")).collect::<Vec<_>>();
-        let solutions: Vec<_> = completed
-            .solutions()
-            .map(|(s, v)| json!({ "slip": s.support, "x": x(v) }))
-            .collect();
+        let mut families = Vec::new();
+        for family in &cover.families {
+            families.push(json!({ "slip": family.support }));
+        }
+
+        let mut open = Vec::new();
+        for region in &cover.open {
+            open.push(json!({ "moving": region.moving, "undecided": region.undecided }));
+        }
+
         json!({
             "claim": Claimed::of_cover(cover).word(),
             "reversed_problem_sha256": self.problem.sha256(),
             "solutions": solutions,
-            "families": cover.families
-                .iter()
-                .map(|f| json!({ "slip": f.support }))
-                .collect::<Vec<_>>(),
-            "open": cover.open
-                .iter()
-                .map(|o| json!({ "moving": o.moving, "undecided": o.undecided }))
-                .collect::<Vec<_>>(),
+            "families": families,
+            "open": open,
         })
     }
 
+    /// Writes the problem and, if there is one, the certificate. Without a certificate the problem
+    /// shows what was asked.
     pub(super) fn write(&self, files: Files) -> Result<(), CliError> {
-        let Files([certificate, problem]) = files;
-        // Without a certificate it shows what was asked.
-        problem.write(&write_problem(&self.problem))?;
-        self.completed.as_ref().map_or(Ok(()), |completed| {
-            certificate.write(&completed.certificate.to_json())
-        })
+        files.problem.write(&write_problem(&self.problem))?;
+        match &self.completed {
+            Ok(completed) => files.certificate.write(&completed.certificate.to_json()),
+            Err(_) => Ok(()),
+        }
+    }
+}
+
+/// Is everything at infinity known, and how much is it?
+fn verdict_text(cover: &AcceptedCover) -> String {
+    let count = cover.solutions.len() + cover.families.len();
+    let open = cover.open.len();
+
+    if open > 0 {
+        format!("UNDECIDED at infinity: {count} proved, {open} regions open")
+    } else if count == 0 {
+        "COMPLETE: nothing at infinity".into()
+    } else {
+        format!("COMPLETE: {count} at infinity (limits of x, no value of the window), and no other")
     }
 }

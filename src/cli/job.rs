@@ -10,6 +10,7 @@ use std::time::Duration;
 pub(super) fn interrupt() -> Cancel {
     let cancel = Cancel::new();
     let shared = cancel.clone();
+
     // Fails only if a handler exists already: then the default behaviour stays.
     let _ = ctrlc::set_handler(move || {
         let was_requested = shared.request();
@@ -17,6 +18,7 @@ pub(super) fn interrupt() -> Cancel {
             std::process::exit(i32::from(exit::INTERRUPTED));
         }
     });
+
     cancel
 }
 
@@ -34,6 +36,7 @@ impl Job {
         let line = ProgressBar::new_spinner();
         line.enable_steady_tick(Duration::from_millis(200));
         line.set_message(what.to_string());
+
         Job { cancel, line }
     }
 

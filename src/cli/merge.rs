@@ -9,7 +9,7 @@ use mceip_check::check;
 use mceip_engine::run::{Cancel, Watch};
 use mceip_engine::search::complete::{CompleteError, Options, merge, resume};
 use mceip_model::Problem;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Arguments of `merge`.
 #[derive(clap::Args)]
@@ -35,30 +35,26 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let file = args.problem.as_path();
     let problem = load(file, args.window.as_deref())?;
-    let parts = args
-        .parts
-        .iter()
-        .map(|path| read(path))
-        .collect::<Result<Vec<_>, _>>()?;
-    let inputs: Vec<&Path> = std::iter::once(file)
-        .chain(args.parts.iter().map(PathBuf::as_path))
-        .collect();
-    let output = args
-        .certificate
-        .as_ref()
-        .map(|path| Output::prepare("certificate", path, &inputs))
-        .transpose()?;
-    let (certificate, cover) =
-        merge(&problem, &parts).map_err(|e| blame(&problem, &args.parts, &parts, e))?;
-    let out = if args.json {
+    let parts = args.parts.iter().map(|path| read(path));
+    let parts = parts.collect::<Result<Vec<_>, _>>()?;
+
+    let mut inputs = vec![file];
+    inputs.extend(args.parts.iter().map(PathBuf::as_path));
+    let output = Output::prepare_if("certificate", args.certificate.as_deref(), &inputs)?;
+
+    let merged = merge(&problem, &parts);
+    let (certificate, cover) = merged.map_err(|e| blame(&problem, &args.parts, &parts, e))?;
+    let text = if args.json {
         to_json(&problem, &certificate)?
     } else {
         solutions_text(&problem, &cover)
     };
-    print(&out)?;
+    print(&text)?;
+
     if let Some(output) = output {
         output.write(&certificate.to_json())?;
     }
+
     Ok(if cover.open.is_empty() {
         exit::DONE
     } else {
@@ -69,13 +65,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 /// The solutions with their x: a search that goes on with the merged certificate and is stopped at
 /// once.
 fn to_json(problem: &Problem, certificate: &Certificate) -> Result<String, CliError> {
-    let completed = resume(
-        problem,
-        certificate,
-        &Options::default(),
-        &Watch::silent(&Cancel::requested()),
-    )?;
-    Ok(format!("{}\n", report_json(problem, &completed)?))
+    let cancel = Cancel::requested();
+    let watch = Watch::silent(&cancel);
+    let completed = resume(problem, certificate, &Options::default(), &watch)?;
+    let report = report_json(problem, &completed)?;
+    Ok(format!("{report}\n"))
 }
 
 /// Names the part at fault, where one is.
@@ -85,18 +79,20 @@ fn blame(
     parts: &[Certificate],
     e: CompleteError,
 ) -> CliError {
+    let mut certificates = parts.iter();
     let at_fault = match &e {
-        CompleteError::OtherProblem { .. } => parts
-            .iter()
-            .position(|p| p.problem_sha256 != problem.sha256()),
-        CompleteError::OtherWindow { .. } => {
-            parts.iter().position(|p| p.window != *problem.window())
+        CompleteError::OtherProblem { .. } => {
+            certificates.position(|part| part.problem_sha256 != problem.sha256())
         }
-        CompleteError::NoCompleteSet => parts.iter().position(|p| p.complete_set.is_none()),
+        CompleteError::OtherWindow { .. } => {
+            certificates.position(|part| part.window != *problem.window())
+        }
+        CompleteError::NoCompleteSet => certificates.position(|part| part.complete_set.is_none()),
         CompleteError::OtherPieces { part } => Some(*part),
-        CompleteError::Rejected(_) => parts.iter().position(|p| check(problem, p).is_err()),
+        CompleteError::Rejected(_) => certificates.position(|part| check(problem, part).is_err()),
         _ => None,
     };
+
     match at_fault.and_then(|k| paths.get(k)) {
         Some(path) => CliError::Part {
             path: path.display().to_string(),

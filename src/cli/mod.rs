@@ -95,6 +95,7 @@ pub fn main() -> ExitCode {
         Command::Reduce(a) => reduce::run(&a),
         Command::Explain(a) => explain::run(&a),
     };
+
     match result {
         Ok(code) => ExitCode::from(code),
         Err(e) => {
@@ -107,20 +108,18 @@ pub fn main() -> ExitCode {
 /// Help and version go to stdout; a usage error is one line on stderr, like all bad input.
 fn refuse(e: &clap::Error) -> ExitCode {
     if !e.use_stderr() {
-        let _ = e.print(); // nothing to be done if the reader is gone
+        // Nothing can be done if the reader has gone away.
+        let _ = e.print();
         return ExitCode::SUCCESS;
     }
-    let text = e.to_string();
+
     // clap's message is its first paragraph; usage and tips follow.
-    let message: Vec<&str> = text
-        .lines()
-        .take_while(|l| !l.is_empty())
-        .map(str::trim)
-        .collect();
-    let message = message.join(" ");
-    eprintln!(
-        "mceip: {} (see mceip --help)",
-        message.strip_prefix("error: ").unwrap_or(&message)
-    );
+    let text = e.to_string();
+    let paragraph = text.lines().take_while(|line| !line.is_empty());
+    let lines: Vec<&str> = paragraph.map(str::trim).collect();
+    let message = lines.join(" ");
+
+    let message = message.strip_prefix("error: ").unwrap_or(&message);
+    eprintln!("mceip: {message} (see mceip --help)");
     ExitCode::from(CliError::EXIT)
 }

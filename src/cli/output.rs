@@ -4,13 +4,14 @@
 use super::common::CliError;
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// A file to be written at the end. Regular files are written beside their place and renamed;
 /// devices and pipes are written through; links are followed.
 pub(super) struct Output {
     path: PathBuf,
     /// `None` for what is no regular file.
-    beside: Option<tempfile::NamedTempFile>,
+    beside: Option<NamedTempFile>,
 }
 
 impl Output {
@@ -21,42 +22,43 @@ impl Output {
         path: &Path,
         inputs: &[&Path],
     ) -> Result<Output, CliError> {
-        let failed = |e: std::io::Error| CliError::write(path.display(), &e);
         let target = std::fs::canonicalize(path).unwrap_or_else(|_| path.to_path_buf());
-        if inputs
-            .iter()
-            .any(|i| std::fs::canonicalize(i).is_ok_and(|i| i == target))
-        {
+        if inputs.iter().any(|input| is_file_at(input, &target)) {
             return Err(CliError::OutputIsInput {
                 option,
                 path: path.display().to_string(),
             });
         }
+
         if target.is_dir() {
-            return Err(failed(std::io::ErrorKind::IsADirectory.into()));
+            let is_folder = std::io::ErrorKind::IsADirectory.into();
+            return Err(CliError::write(path.display(), &is_folder));
         }
-        if target.exists() && !target.is_file() {
-            return Ok(Output {
-                path: target,
-                beside: None,
-            });
-        }
-        let folder = target
-            .parent()
-            .filter(|p| !p.as_os_str().is_empty())
-            .unwrap_or(Path::new("."));
-        let mut builder = tempfile::Builder::new();
-        #[cfg(unix)]
-        {
-            use std::os::unix::fs::PermissionsExt as _;
-            // Less the umask, as any new file.
-            builder.permissions(std::fs::Permissions::from_mode(0o666));
-        }
-        let beside = builder.tempfile_in(folder).map_err(failed)?;
+
+        let is_device = target.exists() && !target.is_file();
+        let beside = if is_device {
+            None
+        } else {
+            let file = new_file_beside(&target);
+            Some(file.map_err(|e| CliError::write(path.display(), &e))?)
+        };
+
         Ok(Output {
             path: target,
-            beside: Some(beside),
+            beside,
         })
+    }
+
+    /// Prepares the output if the option is given; see [`Output::prepare`].
+    pub(super) fn prepare_if(
+        option: &'static str,
+        path: Option<&Path>,
+        inputs: &[&Path],
+    ) -> Result<Option<Output>, CliError> {
+        match path {
+            None => Ok(None),
+            Some(path) => Ok(Some(Output::prepare(option, path, inputs)?)),
+        }
     }
 
     /// Writes the text.
@@ -66,16 +68,42 @@ impl Output {
 
     /// Writes bytes.
     pub(super) fn write_bytes(self, bytes: &[u8]) -> Result<(), CliError> {
-        let failed = |e: std::io::Error| CliError::write(self.path.display(), &e);
-        match self.beside {
-            None => std::fs::write(&self.path, bytes).map_err(failed),
-            Some(mut file) => {
-                file.write_all(bytes).map_err(failed)?;
-                file.persist(&self.path).map_err(|e| failed(e.error))?;
-                Ok(())
-            }
-        }
+        let written = match self.beside {
+            None => std::fs::write(&self.path, bytes),
+            Some(file) => replace(file, &self.path, bytes),
+        };
+        written.map_err(|e| CliError::write(self.path.display(), &e))
     }
+}
+
+/// Does this path lead to the file at `target`, whose own path is canonical?
+fn is_file_at(path: &Path, target: &Path) -> bool {
+    std::fs::canonicalize(path).is_ok_and(|canonical| canonical == target)
+}
+
+/// A new file in the folder of `target`, with the permissions of any new file.
+fn new_file_beside(target: &Path) -> std::io::Result<NamedTempFile> {
+    let parent = target.parent();
+    let folder = parent
+        .filter(|p| !p.as_os_str().is_empty())
+        .unwrap_or(Path::new("."));
+
+    let mut builder = tempfile::Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // The system takes the umask off.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+
+    builder.tempfile_in(folder)
+}
+
+/// Fills the file and moves it to its place.
+fn replace(mut file: NamedTempFile, place: &Path, bytes: &[u8]) -> std::io::Result<()> {
+    file.write_all(bytes)?;
+    file.persist(place).map_err(|e| e.error)?;
+    Ok(())
 }
 
 /// A folder for files whose names are known only at the end; it exists and can be written to.
@@ -87,17 +115,40 @@ pub(super) struct Folder {
 impl Folder {
     /// Makes the folder if it is not there; refuses one in which no file can be made.
     pub(super) fn prepare(option: &'static str, path: &Path) -> Result<Folder, CliError> {
-        let failed = |e: std::io::Error| CliError::write(path.display(), &e);
-        std::fs::create_dir_all(path).map_err(failed)?;
-        tempfile::tempfile_in(path).map_err(failed)?;
+        make_writable(path)?;
         Ok(Folder {
             option,
             path: path.to_path_buf(),
         })
     }
 
+    /// Prepares the folder if the option is given; see [`Folder::prepare`].
+    pub(super) fn prepare_if(
+        option: &'static str,
+        path: Option<&Path>,
+    ) -> Result<Option<Folder>, CliError> {
+        match path {
+            None => Ok(None),
+            Some(path) => Ok(Some(Folder::prepare(option, path)?)),
+        }
+    }
+
     /// Writes a file, whole.
     pub(super) fn write(&self, name: &str, bytes: &[u8]) -> Result<(), CliError> {
-        Output::prepare(self.option, &self.path.join(name), &[])?.write_bytes(bytes)
+        let path = self.path.join(name);
+        let output = Output::prepare(self.option, &path, &[])?;
+        output.write_bytes(bytes)
     }
+}
+
+/// Makes the folder if it is not there.
+pub(super) fn make(folder: &Path) -> Result<(), CliError> {
+    std::fs::create_dir_all(folder).map_err(|e| CliError::write(folder.display(), &e))
+}
+
+/// Makes the folder if it is not there, and tries whether a file can be made in it.
+pub(super) fn make_writable(folder: &Path) -> Result<(), CliError> {
+    make(folder)?;
+    tempfile::tempfile_in(folder).map_err(|e| CliError::write(folder.display(), &e))?;
+    Ok(())
 }

@@ -1,7 +1,8 @@
 //! `mceip reduce`: the pencil of a mechanical system as a problem file.
 
 use super::common::{CliError, exit, load, print};
-use mceip_engine::reduction::{Variable, condense, reduce};
+use mceip_engine::reduction::{Reduced, Variable, condense, reduce};
+use mceip_exact::whole;
 use mceip_model::file::write_problem;
 use mceip_model::{Admissible, Body, Problem};
 use std::path::PathBuf;
@@ -19,46 +20,57 @@ pub(super) struct Args {
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
     let reduced = reduce(&problem)?;
-    let (pencil, what) = if args.condense {
+    let comment = comment(args, &problem, &reduced);
+
+    let pencil = if args.condense {
         let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
-        (condense(&admissible)?, "condensed to its slip variables")
+        condense(&admissible)?
     } else {
-        let what = if matches!(problem.body(), Body::System(_)) {
-            "reduced by (10)-(16)"
-        } else {
-            "given as a pencil, nothing to reduce;"
-        };
-        (reduced.pencil, what)
+        reduced.pencil
     };
-    let variables: Vec<String> = reduced
-        .variables
-        .iter()
-        .map(|v| match v {
-            Variable::Free { dof } => format!("v[{dof}]"),
-            Variable::Slip { sign, tangent, .. } => {
-                let terms: Vec<String> = tangent
-                    .iter()
-                    .map(|(dof, c)| {
-                        format!("{} v[{dof}]", -c * mceip_exact::whole(i64::from(*sign)))
-                    })
-                    .collect();
-                terms.join(" + ")
-            }
-        })
-        .filter(|_| !args.condense)
-        .collect();
-    let mut out = Problem::new(
-        Body::Pencil(pencil),
-        problem.unknown(),
-        problem.window().clone(),
-    )?;
+
+    let window = problem.window().clone();
+    let mut out = Problem::new(Body::Pencil(pencil), problem.unknown(), window)?;
     out.name = problem.name.clone();
-    let x = if variables.is_empty() {
-        String::new()
-    } else {
-        format!("; x = ({})", variables.join(", "))
-    };
-    out.comment = Some(format!("{what} from problem {}{x}", problem.sha256()));
+    out.comment = Some(comment);
+
     print(&format!("{}\n", write_problem(&out)))?;
     Ok(exit::DONE)
+}
+
+/// Where the pencil comes from and, unless it is condensed, what its variables are.
+fn comment(args: &Args, problem: &Problem, reduced: &Reduced) -> String {
+    let digest = problem.sha256();
+    if args.condense {
+        return format!("condensed to its slip variables from problem {digest}");
+    }
+
+    let what = match problem.body() {
+        Body::System(_) => "reduced by (10)-(16)",
+        Body::Pencil(_) => "given as a pencil, nothing to reduce;",
+    };
+    let variables: Vec<String> = reduced.variables.iter().map(variable_text).collect();
+
+    if variables.is_empty() {
+        format!("{what} from problem {digest}")
+    } else {
+        let x = variables.join(", ");
+        format!("{what} from problem {digest}; x = ({x})")
+    }
+}
+
+/// A variable of the pencil in terms of the degrees of freedom: v_f, or -S v_T of a slip particle.
+fn variable_text(variable: &Variable) -> String {
+    match variable {
+        Variable::Free { dof } => format!("v[{dof}]"),
+        Variable::Slip { sign, tangent, .. } => {
+            let sign = whole(i64::from(*sign));
+            let mut terms = Vec::new();
+            for (dof, component) in tangent {
+                terms.push(format!("{} v[{dof}]", -component * &sign));
+            }
+
+            terms.join(" + ")
+        }
+    }
 }

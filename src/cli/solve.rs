@@ -1,4 +1,7 @@
 //! `mceip solve`: the PATH-style solver with many starts, every claim certified.
+//!
+//! The format of the problem decides what is solved: an eigenproblem here, a plain LCP or MCP in
+//! [`plain`]. [`trace`] records a run and repeats it.
 
 mod args;
 mod plain;
@@ -10,6 +13,7 @@ pub(super) use args::Args;
 use super::common::{CliError, exit, load, print, text};
 use super::job::Job;
 use super::output::Output;
+use mceip_check::certificate::Claim;
 use mceip_engine::certify::certificate;
 use mceip_engine::lcp::MCP_FORMAT;
 use mceip_engine::multistart::{Found, multistart_large, support, trace_outcome};
@@ -23,137 +27,146 @@ use std::path::Path;
 
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.starts == 0 {
-        return Err(CliError::Option {
-            option: "starts",
-            expected: "at least 1",
-            got: "0".into(),
-        });
+        return Err(CliError::option("starts", "at least 1", "0"));
     }
-    let file = match (&args.replay, &args.file) {
-        (Some(path), _) => return trace::replay(path),
-        (None, Some(file)) => file,
-        (None, None) => {
-            return Err(CliError::Option {
-                option: "replay",
-                expected: "a file, or a problem",
-                got: String::new(),
-            });
-        }
+
+    if let Some(path) = &args.replay {
+        return trace::replay(path);
+    }
+
+    let Some(file) = &args.file else {
+        return Err(CliError::option("replay", "a file, or a problem", ""));
     };
+
     let source = text("the problem", file)?;
     let is_plain = require_format(&source, MCP_FORMAT).is_ok();
-    // Options that belong to the other kind of problem are refused, not ignored.
-    if let (Some(path), false) = (&args.check, is_plain) {
-        let expected = "a problem of format mceip-mcp/1 (mceip check for others)";
-        return Err(CliError::Option {
-            option: "check",
-            expected,
-            got: path.display().to_string(),
-        });
-    }
-    if let (Some(window), true) = (&args.window, is_plain) {
-        return Err(CliError::Option {
-            option: "window",
-            expected: "a problem of format mceip-problem/1",
-            got: window.clone(),
-        });
-    }
+
     if is_plain {
+        refuse_window(args)?;
         plain::run(args, file, &source)
     } else {
+        refuse_check(args)?;
         eigenproblem(args, file)
     }
+}
+
+/// Refuses --window, which a plain problem has no use for.
+fn refuse_window(args: &Args) -> Result<(), CliError> {
+    let Some(window) = &args.window else {
+        return Ok(());
+    };
+
+    Err(CliError::Option {
+        option: "window",
+        expected: "a problem of format mceip-problem/1",
+        got: window.clone(),
+    })
+}
+
+/// Refuses --check, which is for plain problems only.
+fn refuse_check(args: &Args) -> Result<(), CliError> {
+    let Some(path) = &args.check else {
+        return Ok(());
+    };
+
+    Err(CliError::Option {
+        option: "check",
+        expected: "a problem of format mceip-mcp/1 (mceip check for others)",
+        got: path.display().to_string(),
+    })
 }
 
 /// Searches, certifies and prints an `mceip-problem/1`.
 fn eigenproblem(args: &Args, file: &Path) -> Result<u8, CliError> {
     let problem = load(file, args.window.as_deref())?;
-    let output = args
-        .certificate
-        .as_ref()
-        .map(|path| Output::prepare("certificate", path, &[file]))
-        .transpose()?;
-    let trace_output = args
-        .trace
-        .as_ref()
-        .map(|path| Output::prepare("trace", path, &[file]))
-        .transpose()?;
+    let output = Output::prepare_if("certificate", args.certificate.as_deref(), &[file])?;
+    let trace_output = Output::prepare_if("trace", args.trace.as_deref(), &[file])?;
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let search = search_of(args.starts, args.seed, args.all, args.trace.is_some());
+
     let job = Job::begin("searching");
     let (found, _) =
         job.watched(|watch| multistart_large(&problem, &admissible, &search, watch))?;
     job.end();
+
     print_asides(args, &problem, &reduced.pencil, &found);
-    if let (Some(output), false) = (trace_output, found.interrupted) {
-        output.write(&trace::render(
-            &trace::Header::new(&problem, &search, args.all),
-            &found,
-        ))?;
+    if let Some(output) = trace_output
+        && !found.interrupted
+    {
+        let header = trace::Header::new(&problem, &search, args.all);
+        output.write(&trace::render(&header, &found))?;
     }
-    let claims: Vec<_> = found.certified.iter().map(|c| c.claim.clone()).collect();
-    let solutions = claims
-        .iter()
-        .map(|c| Listed::of_claim(&problem, &reduced, c))
-        .collect();
-    let evidence = evidence(args, &found);
+
+    let claims: Vec<Claim> = found.certified.iter().map(|c| c.claim.clone()).collect();
+    let listed = claims.iter();
+    let listed = listed.map(|claim| Listed::of_claim(&problem, &reduced, claim));
     let report = Report {
         problem: &problem,
         reduced: &reduced,
-        solutions,
+        solutions: listed.collect(),
         claim: Claimed::Solutions,
-        evidence,
+        evidence: evidence(args, &found),
         enumeration: None,
         cover: None,
     };
-    print(&if args.json {
+    let text = if args.json {
         format!("{}\n", solutions_json(&report))
     } else {
         solutions_text(&report)
-    })?;
-    let any = !claims.is_empty();
-    if let (Some(output), true) = (output, any) {
+    };
+    print(&text)?;
+
+    let is_found = !claims.is_empty();
+    if let Some(output) = output
+        && is_found
+    {
         output.write(&certificate(&problem, claims).to_json())?;
     }
-    Ok(match (found.interrupted, any) {
-        (true, _) => exit::INTERRUPTED,
-        (false, true) => exit::DONE,
-        (false, false) => exit::UNDECIDED,
+
+    Ok(if found.interrupted {
+        exit::INTERRUPTED
+    } else if is_found {
+        exit::DONE
+    } else {
+        exit::UNDECIDED
     })
 }
 
 /// What goes to stderr: points without a certificate, singular supports, the first run's log.
 fn print_asides(args: &Args, problem: &Problem, pencil: &Pencil, found: &Found) {
-    for u in &found.uncertified {
-        eprintln!(
-            "uncertified: {} = {}: {}",
-            problem.unknown().word(),
-            u.candidate.value,
-            u.reason
-        );
+    let word = problem.unknown().word();
+    for point in &found.uncertified {
+        let value = point.candidate.value;
+        eprintln!("uncertified: {word} = {value}: {}", point.reason);
     }
+
     for support in singular_supports(pencil, found) {
         eprintln!(
             "singular pencil: support {support:?} has more values than its order: every value is \
              an eigenvalue, those listed are examples"
         );
     }
-    if let (true, Some(first)) = (args.log, &found.first) {
+
+    if let Some(first) = &found.first
+        && args.log
+    {
         eprint!("{}", trace_outcome(first));
     }
 }
 
+/// What the search was and how it went.
 fn evidence(args: &Args, found: &Found) -> String {
+    let search = if found.interrupted {
+        "an interrupted search of "
+    } else {
+        ""
+    };
+
     format!(
-        "{} certified found in {}{} runs (seed {}, {} pivots, {} factorisations, {} repeats, {} \
-         outside the window, endings {:?}); completeness unknown",
+        "{} certified found in {search}{} runs (seed {}, {} pivots, {} factorisations, {} repeats, \
+         {} outside the window, endings {:?}); completeness unknown",
         found.certified.len(),
-        if found.interrupted {
-            "an interrupted search of "
-        } else {
-            ""
-        },
         found.runs,
         args.seed,
         found.pivots,
@@ -168,12 +181,19 @@ fn evidence(args: &Args, found: &Found) -> String {
 /// identically.
 fn singular_supports(pencil: &Pencil, found: &Found) -> Vec<Vec<usize>> {
     let mut counts: BTreeMap<Vec<usize>, usize> = BTreeMap::new();
-    for c in &found.certified {
-        *counts.entry(support(&c.claim).to_vec()).or_default() += 1;
+    for certified in &found.certified {
+        let support = support(&certified.claim).to_vec();
+        *counts.entry(support).or_default() += 1;
     }
-    counts
-        .into_iter()
-        .filter(|(s, count)| *count > s.len() + pencil.free().len())
-        .map(|(s, _)| s)
-        .collect()
+
+    let free = pencil.free().len();
+    let mut singular = Vec::new();
+    for (support, count) in counts {
+        let order = support.len() + free;
+        if count > order {
+            singular.push(support);
+        }
+    }
+
+    singular
 }

@@ -1,16 +1,22 @@
 //! `mceip table1`: closed form and enumerator side by side.
+//!
+//! The two particles of Fig. 1 at one angle and friction. For each of the four sign patterns
+//! (S_1, S_2) all solutions of MCEIP-lambda2 are listed as the enumerator finds them, and compared
+//! with the closed form of Table 1 and with what the solver finds and certifies.
 
 use super::common::{CliError, exit, print};
 use super::output::Output;
 use crate::picture::table1_picture;
 use mceip_engine::multistart::Search;
+use mceip_engine::reduction::reduce;
 use mceip_engine::report::{Listed, Table};
 use mceip_exact::{Rational, parse};
 use mceip_model::{Body, Problem, Unknown, Window};
-use mceip_oracle::TwoParticles;
+use mceip_oracle::{TwoParticles, enumerate};
 use mceip_paper::two_particles;
 use mceip_testkit::{Instance, compare};
 use num_traits::{One, Signed};
+use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 
 /// Arguments of `table1`: exact numbers, "3/5" or "0.6".
@@ -40,41 +46,29 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// A solution of one of the four sign patterns.
+struct Line {
+    signs: (i8, i8),
+    listed: Listed,
+    /// The exact polynomial of which lambda^2 is a root.
+    polynomial: String,
+}
+
+/// One sign pattern, solved in three ways.
+struct Pattern {
+    lines: Vec<Line>,
+    /// Do closed form, enumerator and solver agree?
+    agrees: bool,
+    /// Points of the solver without a certificate.
+    uncertified: usize,
+}
+
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    let number = |option: &'static str, text: &str| {
-        parse(text).map_err(|_| CliError::Option {
-            option,
-            expected: "a number",
-            got: text.into(),
-        })
-    };
-    let positive = |option: &'static str, text: &str| {
-        number(option, text)?
-            .is_positive()
-            .then(|| parse(text).ok())
-            .flatten()
-            .ok_or_else(|| CliError::Option {
-                option,
-                expected: "a number > 0",
-                got: text.into(),
-            })
-    };
-    let (c, s) = (number("c", &args.c)?, number("s", &args.s)?);
-    if c.is_negative() || s.is_negative() || &c * &c + &s * &s != Rational::one() {
-        return Err(CliError::Option {
-            option: "s",
-            expected: "c, s >= 0 with c^2 + s^2 = 1 exactly",
-            got: format!("{c}, {s}"),
-        });
-    }
-    let (k, m, mu) = (
-        positive("k", &args.k)?,
-        positive("m", &args.m)?,
-        positive("mu", &args.mu)?,
-    );
+    let data = data(args)?;
     if let Some(path) = &args.chart {
         chart(path)?;
     }
+
     let mut table = Table::new(&[
         "S1",
         "S2",
@@ -84,79 +78,162 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         "x_T2",
         "exact polynomial",
     ]);
-    let (mut json, mut agreed) = (Vec::new(), true);
+    let mut solutions = Vec::new();
+    let mut agreed = true;
     let mut uncertified = 0;
     for signs in [(1, 1), (1, -1), (-1, 1), (-1, -1)] {
-        let data = TwoParticles {
-            c: c.clone(),
-            s: s.clone(),
-            k: k.clone(),
-            m: m.clone(),
-            mu: mu.clone(),
+        let pattern = pattern(TwoParticles {
             signs,
-        };
-        let problem = Problem::new(
-            Body::System(two_particles(&data)?),
-            Unknown::Lambda2,
-            Window::all(),
-        )?;
-        let reduced = mceip_engine::reduction::reduce(&problem)?;
-        let found = mceip_oracle::enumerate(&reduced.pencil, problem.window())?;
-        let instance = Instance {
-            label: format!("{signs:?}"),
-            problem: problem.clone(),
-            closed_form: Some(data),
-            corners: Vec::new(),
-        };
-        let report = compare(&instance, &Search::default());
-        agreed &= report.disagreements.is_empty();
-        uncertified += report.uncertified.len();
-        for reason in &report.uncertified {
-            eprintln!("S = {signs:?}: uncertified: {reason}");
-        }
-        for d in &report.disagreements {
-            eprintln!("S = {signs:?}: {d}");
-        }
-        let (s1, s2) = (format!("{:+}", signs.0), format!("{:+}", signs.1));
-        if found.solutions.is_empty() {
-            table.row(vec![s1.clone(), s2.clone(), "no solution".into()]);
-        }
-        for s in &found.solutions {
-            let l = Listed::of_solution(&problem, &reduced, s);
-            let polynomial = s.value.poly().to_string();
+            ..data.clone()
+        })?;
+        agreed &= pattern.agrees;
+        uncertified += pattern.uncertified;
+
+        if pattern.lines.is_empty() {
             table.row(vec![
-                s1.clone(),
-                s2.clone(),
-                l.value.clone(),
-                format!("{:?}", s.slip),
-                l.x[0].clone(),
-                l.x[1].clone(),
-                polynomial,
+                format!("{:+}", signs.0),
+                format!("{:+}", signs.1),
+                "no solution".into(),
             ]);
-            json.push(serde_json::json!({
-                "signs": [signs.0, signs.1],
-                "lambda2": l.value,
-                "slip": l.slip,
-                "x": l.x,
-            }));
+        }
+
+        for line in &pattern.lines {
+            table.row(line.cells());
+            solutions.push(line.json());
         }
     }
-    let verdict = match (agreed, uncertified) {
-        (true, 0) => "closed form = enumerator = certified, all four sign patterns",
-        (true, _) => "closed form = enumerator, not all certified",
-        (false, _) => "DISAGREEMENT",
-    };
-    if args.json {
-        print(&format!(
-            "{}\n",
-            serde_json::json!({ "solutions": json, "agreement": agreed })
-        ))?;
+
+    let text = if args.json {
+        let out = json!({ "solutions": solutions, "agreement": agreed });
+        format!("{out}\n")
     } else {
-        print(&format!(
-            "c = {c}, s = {s}, k = {k}, m = {m}, mu = {mu}\n{table}{verdict}\n"
-        ))?;
-    }
+        let verdict = verdict(agreed, uncertified);
+        let TwoParticles { c, s, k, m, mu, .. } = data;
+        format!("c = {c}, s = {s}, k = {k}, m = {m}, mu = {mu}\n{table}{verdict}\n")
+    };
+    print(&text)?;
+
     Ok(if agreed { exit::DONE } else { exit::REJECTED })
+}
+
+/// The data of the options, with the first sign pattern.
+fn data(args: &Args) -> Result<TwoParticles, CliError> {
+    let c = number("c", &args.c)?;
+    let s = number("s", &args.s)?;
+    let is_unit = &c * &c + &s * &s == Rational::one();
+    if c.is_negative() || s.is_negative() || !is_unit {
+        return Err(CliError::Option {
+            option: "s",
+            expected: "c, s >= 0 with c^2 + s^2 = 1 exactly",
+            got: format!("{c}, {s}"),
+        });
+    }
+
+    Ok(TwoParticles {
+        c,
+        s,
+        k: positive("k", &args.k)?,
+        m: positive("m", &args.m)?,
+        mu: positive("mu", &args.mu)?,
+        signs: (1, 1),
+    })
+}
+
+fn number(option: &'static str, text: &str) -> Result<Rational, CliError> {
+    parse(text).map_err(|_| CliError::Option {
+        option,
+        expected: "a number",
+        got: text.into(),
+    })
+}
+
+fn positive(option: &'static str, text: &str) -> Result<Rational, CliError> {
+    let value = number(option, text)?;
+    if value.is_positive() {
+        return Ok(value);
+    }
+
+    Err(CliError::Option {
+        option,
+        expected: "a number > 0",
+        got: text.into(),
+    })
+}
+
+/// Solves one sign pattern by the enumerator, and compares closed form, enumerator and solver.
+/// What disagrees or has no certificate goes to stderr.
+fn pattern(data: TwoParticles) -> Result<Pattern, CliError> {
+    let signs = data.signs;
+    let system = two_particles(&data)?;
+    let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
+    let reduced = reduce(&problem)?;
+    let found = enumerate(&reduced.pencil, problem.window())?;
+
+    let mut lines = Vec::new();
+    for solution in &found.solutions {
+        lines.push(Line {
+            signs,
+            listed: Listed::of_solution(&problem, &reduced, solution),
+            polynomial: solution.value.poly().to_string(),
+        });
+    }
+
+    let instance = Instance {
+        label: format!("{signs:?}"),
+        problem,
+        closed_form: Some(data),
+        corners: Vec::new(),
+    };
+    let report = compare(&instance, &Search::default());
+    for reason in &report.uncertified {
+        eprintln!("S = {signs:?}: uncertified: {reason}");
+    }
+
+    for disagreement in &report.disagreements {
+        eprintln!("S = {signs:?}: {disagreement}");
+    }
+
+    Ok(Pattern {
+        lines,
+        agrees: report.disagreements.is_empty(),
+        uncertified: report.uncertified.len(),
+    })
+}
+
+impl Line {
+    fn cells(&self) -> Vec<String> {
+        let (s_1, s_2) = self.signs;
+        let listed = &self.listed;
+
+        vec![
+            format!("{s_1:+}"),
+            format!("{s_2:+}"),
+            listed.value.clone(),
+            format!("{:?}", listed.slip),
+            listed.x[0].clone(),
+            listed.x[1].clone(),
+            self.polynomial.clone(),
+        ]
+    }
+
+    fn json(&self) -> Value {
+        json!({
+            "signs": [self.signs.0, self.signs.1],
+            "lambda2": self.listed.value,
+            "slip": self.listed.slip,
+            "x": self.listed.x,
+        })
+    }
+}
+
+fn verdict(agreed: bool, uncertified: usize) -> &'static str {
+    if !agreed {
+        "DISAGREEMENT"
+    } else if uncertified > 0 {
+        "closed form = enumerator, not all certified"
+    } else {
+        "closed form = enumerator = certified, all four sign patterns"
+    }
 }
 
 /// The endings that a chart's name may have in this build.
@@ -167,15 +244,18 @@ const CHART_NAMES: &str = "a name ending in .svg (.png needs a build with `--fea
 
 /// The chart, in the format that the file's name asks for.
 fn chart(path: &Path) -> Result<(), CliError> {
-    let ending = path
-        .extension()
-        .and_then(|e| e.to_str())
-        .map(str::to_ascii_lowercase);
+    let ending = path.extension().and_then(|ending| ending.to_str());
+    let ending = ending.map(str::to_ascii_lowercase);
+
     match ending.as_deref() {
-        Some("svg") => Output::prepare("chart", path, &[])?.write(&table1_picture().to_svg()),
+        Some("svg") => {
+            let output = Output::prepare("chart", path, &[])?;
+            output.write(&table1_picture().to_svg())
+        }
         #[cfg(feature = "png")]
         Some("png") => {
-            Output::prepare("chart", path, &[])?.write_bytes(&table1_picture().to_png(2.0)?)
+            let output = Output::prepare("chart", path, &[])?;
+            output.write_bytes(&table1_picture().to_png(2.0)?)
         }
         _ => Err(CliError::Option {
             option: "chart",

@@ -1,10 +1,13 @@
 //! `mceip verify`: the main job, a table and a verdict.
+//!
+//! The work is `mceip_testkit::verify`: problems of many families and the two states of the block
+//! are solved, certified, checked and compared with the oracle. Here the outcome is printed.
 
 use super::common::{CliError, exit, print};
 use super::job::Job;
 use mceip_engine::report::Table;
 use mceip_testkit::floors::{Covered, floor};
-use mceip_testkit::{FamilyReport, Verification, verify};
+use mceip_testkit::{BlockReport, FamilyReport, Verification, verify};
 use serde_json::{Value, json};
 
 /// Arguments of `verify`.
@@ -25,11 +28,14 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let job = Job::begin("verify");
     let outcome = job.watched(|watch| verify(args.random, args.seed, watch))?;
     job.end();
-    print(&if args.json {
+
+    let text = if args.json {
         format!("{}\n", json_of(&outcome))
     } else {
         text_of(&outcome)
-    })?;
+    };
+    print(&text)?;
+
     Ok(exit_code(&outcome))
 }
 
@@ -56,65 +62,80 @@ fn text_of(v: &Verification) -> String {
         "disagreements",
     ];
     let mut table = Table::new(&header);
-    for f in &v.families {
-        let numbers = [
-            count(f),
-            f.oracle.to_string(),
-            format!("{}/{}", f.found, f.findable),
-            format!("{}/{}", f.completed, f.done),
-            f.accepted.to_string(),
-            f.uncertified.len().to_string(),
-            f.rejected.to_string(),
-            f.degenerate.to_string(),
-            f.disagreements.len().to_string(),
-        ];
-        table.row([f.name.to_string()].into_iter().chain(numbers).collect());
+    for family in &v.families {
+        table.row(row(family));
     }
+
     let mut out = format!("{table}\n{}\n", coverage_of(v));
-    for f in &v.families {
-        out += &format!(
-            "{}: corners reached {:?}, {} pivots\n",
-            f.name, f.corners, f.pivots
-        );
-        out += &f
-            .uncertified
-            .iter()
-            .map(|u| format!("  uncertified: {u}\n"))
-            .collect::<String>();
-        out += &f
-            .disagreements
-            .iter()
-            .map(|d| format!("  DISAGREEMENT: {d}\n"))
-            .collect::<String>();
+    for family in &v.families {
+        out += &family_text(family);
     }
+
     out += &format!("\n{}", super::block::text_of(&v.block));
-    for b in &v.block {
-        out += &format!(
-            "{}: {} of {} forgeries rejected\n",
-            b.state.name(),
-            b.rejected_forgeries,
-            b.forgeries
-        );
-        if b.unfound > 0 {
-            out += &format!(
-                "  DISAGREEMENT: {} solutions of the complete set were not found\n",
-                b.unfound
-            );
-        }
+    for state in &v.block {
+        out += &block_text(state);
     }
+
     out + &format!("\n{}\n", verdict(v))
+}
+
+fn row(family: &FamilyReport) -> Vec<String> {
+    vec![
+        family.name.to_string(),
+        count(family),
+        family.oracle.to_string(),
+        format!("{}/{}", family.found, family.findable),
+        format!("{}/{}", family.completed, family.done),
+        family.accepted.to_string(),
+        family.uncertified.len().to_string(),
+        family.rejected.to_string(),
+        family.degenerate.to_string(),
+        family.disagreements.len().to_string(),
+    ]
+}
+
+/// What the table has no room for.
+fn family_text(family: &FamilyReport) -> String {
+    let mut out = format!(
+        "{}: corners reached {:?}, {} pivots\n",
+        family.name, family.corners, family.pivots
+    );
+    for point in &family.uncertified {
+        out += &format!("  uncertified: {point}\n");
+    }
+
+    for disagreement in &family.disagreements {
+        out += &format!("  DISAGREEMENT: {disagreement}\n");
+    }
+
+    out
+}
+
+/// The forgeries of a state of the block, and the solutions that the search missed.
+fn block_text(state: &BlockReport) -> String {
+    let name = state.state.name();
+    let rejected = state.rejected_forgeries;
+    let forgeries = state.forgeries;
+    let mut out = format!("{name}: {rejected} of {forgeries} forgeries rejected\n");
+
+    let unfound = state.unfound;
+    if unfound > 0 {
+        out += &format!("  DISAGREEMENT: {unfound} solutions of the complete set were not found\n");
+    }
+
+    out
 }
 
 /// What was found of the instances that have solutions, each rate beside its floor; then the rates
 /// below it.
 fn coverage_of(v: &Verification) -> String {
     let mut table = Table::new(&["coverage", "starts", "first start", "all solutions"]);
-    for c in v.covered() {
+    for covered in v.covered() {
         table.row(vec![
-            c.family.clone(),
-            c.starts.word().into(),
-            c.first_text(),
-            c.all_text(),
+            covered.family.clone(),
+            covered.starts.word().into(),
+            covered.first_text(),
+            covered.all_text(),
         ]);
     }
 
@@ -122,82 +143,47 @@ fn coverage_of(v: &Verification) -> String {
     for shortfall in v.shortfalls() {
         out += &format!("  DISAGREEMENT: coverage: {shortfall}\n");
     }
+
     out
 }
 
-fn count(f: &FamilyReport) -> String {
-    if f.done == f.instances {
-        f.done.to_string()
+/// The number of instances treated, and of how many if the run was interrupted.
+fn count(family: &FamilyReport) -> String {
+    if family.done == family.instances {
+        family.done.to_string()
     } else {
-        format!("{} of {}", f.done, f.instances)
+        format!("{} of {}", family.done, family.instances)
     }
 }
 
 fn verdict(v: &Verification) -> String {
-    let (instances, accepted) = v
-        .families
-        .iter()
-        .fold((0, 0), |(i, a), f| (i + f.done, a + f.accepted));
+    let seed = v.seed;
+    let instances: usize = v.families.iter().map(|family| family.done).sum();
+    let accepted: usize = v.families.iter().map(|family| family.accepted).sum();
+
     match (v.disagreements(), v.interrupted) {
         (0, false) => format!(
             "VERIFIED: no disagreement in {instances} instances and {accepted} accepted \
-             certificates (seed {})",
-            v.seed
+             certificates (seed {seed})"
         ),
         (0, true) => format!(
-            "INTERRUPTED: no disagreement in the {instances} instances treated (seed {})",
-            v.seed
+            "INTERRUPTED: no disagreement in the {instances} instances treated (seed {seed})"
         ),
-        (n, _) => format!("DISAGREEMENT: {n} (seed {})", v.seed),
+        (n, _) => format!("DISAGREEMENT: {n} (seed {seed})"),
     }
 }
 
 fn json_of(v: &Verification) -> Value {
-    let family = |f: &FamilyReport| {
-        let corners: serde_json::Map<String, Value> = f
-            .corners
-            .iter()
-            .map(|(c, n)| (format!("{c:?}"), json!(n)))
-            .collect();
-        json!({
-            "name": f.name,
-            "instances": f.instances,
-            "done": f.done,
-            "oracle_solutions": f.oracle,
-            "findable": f.findable,
-            "found": f.found,
-            "completed": f.completed,
-            "accepted": f.accepted,
-            "uncertified": f.uncertified,
-            "forgeries_rejected": f.rejected,
-            "degenerate": f.degenerate,
-            "pivots": f.pivots,
-            "corners": corners,
-            "disagreements": f.disagreements,
-        })
-    };
-    let block: Vec<Value> = v
-        .block
-        .iter()
-        .map(|b| {
-            let mu: Vec<&String> = b.accepted.iter().map(|a| &a.value).collect();
-            json!({
-                "state": b.state.name(),
-                "mu": mu,
-                "paper_mu": b.state.printed_mu(),
-                "forgeries": b.forgeries,
-                "rejected_forgeries": b.rejected_forgeries,
-                "unfound": b.unfound,
-            })
-        })
-        .collect();
+    let families: Vec<Value> = v.families.iter().map(family_json).collect();
+    let block: Vec<Value> = v.block.iter().map(block_json).collect();
     let coverage: Vec<Value> = v.covered().iter().map(covered_json).collect();
     let shortfalls: Vec<String> = v.shortfalls().iter().map(ToString::to_string).collect();
+
     json!({
         "coverage": coverage,
         "shortfalls": shortfalls,
         "seed": v.seed,
-        "families": v.families.iter().map(family).collect::<Vec<_>>(),
+        "families": families,
         "block": block,
         "disagreements": v.disagreements(),
         "interrupted": v.interrupted,
@@ -205,13 +191,53 @@ fn json_of(v: &Verification) -> Value {
     })
 }
 
-/// Counts and floors of one family and kind of start.
-pub(super) fn covered_json(c: &Covered) -> Value {
-    let floor = floor(&c.family, c.starts);
+fn family_json(family: &FamilyReport) -> Value {
+    let mut corners = serde_json::Map::new();
+    for (corner, count) in &family.corners {
+        corners.insert(format!("{corner:?}"), json!(count));
+    }
+
     json!({
-        "family": c.family, "starts": c.starts.word(), "solvable": c.coverage.solvable,
-        "first_start": c.coverage.first, "first_start_floor_percent": floor.map(|f| f.first),
-        "all_solutions": c.coverage.all, "all_solutions_floor_percent": floor.map(|f| f.all),
+        "name": family.name,
+        "instances": family.instances,
+        "done": family.done,
+        "oracle_solutions": family.oracle,
+        "findable": family.findable,
+        "found": family.found,
+        "completed": family.completed,
+        "accepted": family.accepted,
+        "uncertified": family.uncertified,
+        "forgeries_rejected": family.rejected,
+        "degenerate": family.degenerate,
+        "pivots": family.pivots,
+        "corners": corners,
+        "disagreements": family.disagreements,
+    })
+}
+
+fn block_json(state: &BlockReport) -> Value {
+    let mu: Vec<&String> = state.accepted.iter().map(|a| &a.value).collect();
+    json!({
+        "state": state.state.name(),
+        "mu": mu,
+        "paper_mu": state.state.printed_mu(),
+        "forgeries": state.forgeries,
+        "rejected_forgeries": state.rejected_forgeries,
+        "unfound": state.unfound,
+    })
+}
+
+/// Counts and floors of one family and kind of start.
+pub(super) fn covered_json(covered: &Covered) -> Value {
+    let floor = floor(&covered.family, covered.starts);
+    json!({
+        "family": covered.family,
+        "starts": covered.starts.word(),
+        "solvable": covered.coverage.solvable,
+        "first_start": covered.coverage.first,
+        "first_start_floor_percent": floor.map(|f| f.first),
+        "all_solutions": covered.coverage.all,
+        "all_solutions_floor_percent": floor.map(|f| f.all),
     })
 }
 
@@ -220,21 +246,20 @@ mod tests {
     use super::*;
     use mceip_testkit::floors::{Coverage, Starts};
 
-    fn with(first: u64, all: u64) -> Verification {
-        let coverage = [(
-            Starts::Search,
-            Coverage {
-                solvable: 100,
-                first,
-                all,
-            },
-        )]
-        .into();
+    /// A run over 100 instances with solutions, found from the first start and all of them in so
+    /// many.
+    fn run_with_coverage(first: u64, all: u64) -> Verification {
+        let coverage = Coverage {
+            solvable: 100,
+            first,
+            all,
+        };
         let family = FamilyReport {
             name: "random pencils",
-            coverage,
+            coverage: [(Starts::Search, coverage)].into(),
             ..FamilyReport::default()
         };
+
         Verification {
             seed: 1,
             families: vec![family],
@@ -245,34 +270,28 @@ mod tests {
 
     #[test]
     fn a_rate_below_its_floor_is_exit_1_and_named() {
-        assert_eq!(exit_code(&with(100, 100)), exit::DONE);
-        assert!(text_of(&with(100, 100)).contains("VERIFIED"));
+        let good = run_with_coverage(100, 100);
+        assert_eq!(exit_code(&good), exit::DONE);
+        assert!(text_of(&good).contains("VERIFIED"));
 
-        let missed = with(100, 50);
-        assert_eq!(exit_code(&missed), exit::REJECTED);
-        let text = text_of(&missed);
-        assert!(
-            text.contains(
-                "DISAGREEMENT: coverage: random pencils, search: all solutions found in 50 of 100"
-            ),
-            "{text}"
-        );
-        assert!(
-            text.contains("DISAGREEMENT: 1 (seed 1)") && !text.contains("VERIFIED"),
-            "{text}"
-        );
-        assert_eq!(
-            json_of(&missed)["shortfalls"].as_array().map(Vec::len),
-            Some(1)
-        );
+        let misses_half = run_with_coverage(100, 50);
+        assert_eq!(exit_code(&misses_half), exit::REJECTED);
+        let text = text_of(&misses_half);
+        let shortfall =
+            "DISAGREEMENT: coverage: random pencils, search: all solutions found in 50 of 100";
+        assert!(text.contains(shortfall), "{text}");
+        assert!(text.contains("DISAGREEMENT: 1 (seed 1)"), "{text}");
+        assert!(!text.contains("VERIFIED"), "{text}");
+        let json = json_of(&misses_half);
+        assert_eq!(json["shortfalls"].as_array().map(Vec::len), Some(1));
 
-        assert_eq!(exit_code(&with(0, 100)), exit::REJECTED);
-        assert_eq!(
-            exit_code(&Verification {
-                interrupted: true,
-                ..with(100, 100)
-            }),
-            exit::INTERRUPTED
-        );
+        let never_at_once = run_with_coverage(0, 100);
+        assert_eq!(exit_code(&never_at_once), exit::REJECTED);
+
+        let interrupted = Verification {
+            interrupted: true,
+            ..run_with_coverage(100, 100)
+        };
+        assert_eq!(exit_code(&interrupted), exit::INTERRUPTED);
     }
 }

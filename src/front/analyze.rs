@@ -1,4 +1,5 @@
-//! The engineer's answer.
+//! The engineer's answer: can an equilibrium diverge in the form (8), from which friction on, and
+//! how does one know?
 
 use super::error::Error;
 use super::problem::Problem;
@@ -79,11 +80,13 @@ impl<'a> Analyze<'a> {
         let Body::System(system) = problem.body() else {
             return Err(Error::NotASystem);
         };
-        let friction = self.friction.as_ref().or(system.friction());
-        let friction = friction.ok_or(Error::NoFriction)?;
+        let given = self.friction.as_ref();
+        let friction = given.or(system.friction()).ok_or(Error::NoFriction)?;
 
         let name = problem.name.clone();
         let watch = self.watched.watch();
-        Ok(analyse(name, system, friction, &self.options, &watch)?)
+        let analysis = analyse(name, system, friction, &self.options, &watch)?;
+
+        Ok(analysis)
     }
 }

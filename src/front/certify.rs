@@ -52,9 +52,12 @@ impl Problem {
         let (claim, proved) = certifier.certify_with_verdict(&candidate)?;
 
         let listed = Listed::of_claim(problem, &reduced, &claim);
+        let solution = Solution::new(problem.unknown(), &proved, &listed);
+        let certificate = certificate(problem, vec![claim]);
+
         Ok(Certified {
-            solution: Solution::new(problem.unknown(), &proved, &listed),
-            certificate: certificate(problem, vec![claim]),
+            solution,
+            certificate,
         })
     }
 }

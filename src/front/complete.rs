@@ -120,6 +120,7 @@ impl<'a> Complete<'a> {
             let listed = Listed::of_cover(problem, &reduced, &certifier, proved, x);
             solutions.push(Solution::new(problem.unknown(), proved, &listed));
         }
+
         Ok(SolutionSet {
             solutions,
             families: completed.cover.families,

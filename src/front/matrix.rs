@@ -15,8 +15,8 @@ use std::path::Path;
 /// ```
 /// use mceip::Matrix;
 /// let rows = Matrix::from_rows(&[[2.0, -1.0], [-1.0, 2.0]])?;
-/// let triplets = Matrix::from_triplets(2, 2, [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 2.0)])?;
-/// assert_eq!(rows, triplets);
+/// let entries = [(0, 0, 2.0), (0, 1, -1.0), (1, 0, -1.0), (1, 1, 2.0)];
+/// assert_eq!(rows, Matrix::from_triplets(2, 2, entries)?);
 /// assert!(Matrix::from_rows(&[[f64::NAN]]).is_err());
 /// # Ok::<(), mceip::Error>(())
 /// ```
@@ -29,8 +29,7 @@ impl Matrix {
     /// # Errors
     /// [`Error::Model`] for rows of different lengths and numbers that are not finite.
     pub fn from_rows<R: AsRef<[f64]>>(rows: &[R]) -> Result<Matrix, Error> {
-        let exact = |row: &R| row.as_ref().iter().map(|v| from_f64(*v)).collect();
-        from_exact_rows(rows.iter().map(exact))
+        from_exact_rows(rows.iter().map(|row| exact_doubles(row.as_ref())))
     }
 
     /// A matrix of decimals or fractions ("0.1", "3e-4", "1/3"), each exactly the number it spells.
@@ -38,8 +37,7 @@ impl Matrix {
     /// # Errors
     /// [`Error::Model`] for rows of different lengths and text that is no number.
     pub fn from_decimals<R: AsRef<[S]>, S: AsRef<str>>(rows: &[R]) -> Result<Matrix, Error> {
-        let exact = |row: &R| row.as_ref().iter().map(|v| parse(v.as_ref())).collect();
-        from_exact_rows(rows.iter().map(exact))
+        from_exact_rows(rows.iter().map(|row| exact_decimals(row.as_ref())))
     }
 
     /// A matrix by its entries (row, column, value), counted from 0. Entries at one place are
@@ -62,9 +60,11 @@ impl Matrix {
                     columns,
                 });
             }
+
             let value = from_f64(value).map_err(|source| number_at(row, column, source))?;
             exact.push((row, column, value));
         }
+
         Ok(Matrix(Sparse::from_entries(rows, columns, exact)))
     }
 
@@ -102,8 +102,14 @@ impl TryFrom<&nalgebra::DMatrix<f64>> for Matrix {
     fn try_from(matrix: &nalgebra::DMatrix<f64>) -> Result<Matrix, Error> {
         let rows = matrix.nrows();
         let columns = matrix.ncols();
-        let places = (0..rows).flat_map(|i| (0..columns).map(move |j| (i, j)));
-        Matrix::from_triplets(rows, columns, places.map(|(i, j)| (i, j, matrix[(i, j)])))
+        let mut entries = Vec::new();
+        for i in 0..rows {
+            for j in 0..columns {
+                entries.push((i, j, matrix[(i, j)]));
+            }
+        }
+
+        Matrix::from_triplets(rows, columns, entries)
     }
 }
 
@@ -112,9 +118,19 @@ fn number_at(row: usize, column: usize, source: NumberError) -> ModelError {
     ModelError::Number { place, source }
 }
 
-fn from_exact_rows(
-    rows: impl Iterator<Item = Result<Vec<Rational>, NumberError>>,
-) -> Result<Matrix, Error> {
+/// A row of exact numbers, or the first entry that is none.
+type ExactRow = Result<Vec<Rational>, NumberError>;
+
+fn exact_doubles(row: &[f64]) -> ExactRow {
+    row.iter().map(|value| from_f64(*value)).collect()
+}
+
+fn exact_decimals<S: AsRef<str>>(row: &[S]) -> ExactRow {
+    row.iter().map(|text| parse(text.as_ref())).collect()
+}
+
+/// The matrix of these rows; all must be as long as the first one.
+fn from_exact_rows(rows: impl Iterator<Item = ExactRow>) -> Result<Matrix, Error> {
     let mut entries = Vec::new();
     let mut count = 0;
     let mut width = 0;
@@ -138,6 +154,7 @@ fn from_exact_rows(
             entries.push((i, j, value));
         }
     }
+
     Ok(Matrix(Sparse::from_entries(count, width, entries)))
 }
 
@@ -180,19 +197,21 @@ mod tests {
 
     #[test]
     fn what_is_no_matrix_is_refused_with_its_place() {
-        let message = |matrix: Result<Matrix, Error>| matrix.unwrap_err().to_string();
+        let ragged = message(Matrix::from_rows(&[vec![1.0, 2.0], vec![3.0]]));
+        assert_eq!(ragged, "matrix: expected 2 numbers in row 1, got 1");
 
-        assert_eq!(
-            message(Matrix::from_rows(&[vec![1.0, 2.0], vec![3.0]])),
-            "matrix: expected 2 numbers in row 1, got 1"
-        );
-        assert_eq!(
-            message(Matrix::from_triplets(2, 2, [(0, 2, 1.0)])),
-            "matrix: expected entries within 2 x 2, got one at (0, 2)"
-        );
+        let outside = message(Matrix::from_triplets(2, 2, [(0, 2, 1.0)]));
+        let expected = "matrix: expected entries within 2 x 2, got one at (0, 2)";
+        assert_eq!(outside, expected);
+
         let infinite = message(Matrix::from_triplets(2, 2, [(1, 0, f64::INFINITY)]));
         assert!(infinite.contains("(1, 0)"), "{infinite}");
+
         let word = message(Matrix::from_decimals(&[["1"], ["one"]]));
         assert!(word.contains("row 1") && word.contains("one"), "{word}");
+    }
+
+    fn message(refused: Result<Matrix, Error>) -> String {
+        refused.unwrap_err().to_string()
     }
 }

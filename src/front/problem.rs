@@ -26,7 +26,8 @@ impl Problem {
     /// # Errors
     /// [`Error::Model`] with the place in the file, what was expected and what was found.
     pub fn read(path: impl AsRef<Path>) -> Result<Problem, Error> {
-        Ok(Problem(read_problem_file(path.as_ref())?))
+        let problem = read_problem_file(path.as_ref())?;
+        Ok(Problem(problem))
     }
 
     /// A problem from the text of a file. Matrix Market files that it names are looked for in the
@@ -35,7 +36,9 @@ impl Problem {
     /// # Errors
     /// As [`Problem::read`].
     pub fn from_json(text: &str) -> Result<Problem, Error> {
-        Ok(Problem(read_problem(text, Path::new("."))?))
+        let working_directory = Path::new(".");
+        let problem = read_problem(text, working_directory)?;
+        Ok(Problem(problem))
     }
 
     /// Growth rates of a mechanical system at a friction coefficient: MCEIP-lambda2, (12)-(14).
@@ -96,12 +99,10 @@ impl Problem {
         Problem::new(Body::Pencil(pencil), unknown)
     }
 
+    /// The problem over all values, [0, infinity).
     fn new(body: Body, unknown: Unknown) -> Result<Problem, Error> {
-        Ok(Problem(mceip_model::Problem::new(
-            body,
-            unknown,
-            Window::all(),
-        )?))
+        let problem = mceip_model::Problem::new(body, unknown, Window::all())?;
+        Ok(Problem(problem))
     }
 
     /// The same problem with the values sought in [min, max], or from min on.

@@ -1,4 +1,4 @@
-//! The switch and the listener that every question can be given.
+//! The switch and the listener that every question of the front door can be given.
 
 use mceip_engine::run::{Cancel, OnProgress, Progress, Watch};
 

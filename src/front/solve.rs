@@ -60,6 +60,7 @@ impl Problem {
             curves: false,
             ..Search::default()
         };
+
         Solve {
             problem: self,
             search,
@@ -113,6 +114,7 @@ impl<'a> Solve<'a> {
         let watch = self.watched.watch();
         let (found, _) = multistart_large(problem, &admissible, &self.search, &watch)?;
 
+        // The certificate of all solutions is checked as a whole.
         let claims: Vec<Claim> = found.certified.iter().map(|c| c.claim.clone()).collect();
         let certificate = certificate(problem, claims);
         let Accepted { claims: proved, .. } = check(problem, &certificate)?;
@@ -122,6 +124,7 @@ impl<'a> Solve<'a> {
             let listed = Listed::of_claim(problem, &reduced, claim);
             solutions.push(Solution::new(problem.unknown(), proved, &listed));
         }
+
         Ok(Found {
             solutions,
             uncertified: found.uncertified,

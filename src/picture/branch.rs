@@ -1,10 +1,14 @@
 //! lambda^2 against mu for one state: where it can diverge, and how fast.
+//!
+//! Input: all solutions of MCEIP-lambda2 at some levels of lambda^2, each as a point (mu, lambda^2)
+//! with its support, and certified solutions at chosen mu. The lambda^2 axis is logarithmic with a
+//! zero. Called by `mceip block --report`.
 
-use super::chart::{Axis, Chart, TEXT, dot, line, text};
+use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, dot, line, text};
 use super::drawing::Picture;
 use super::markup;
 use super::markup::Element;
-use super::scale::Spread;
+use super::scale::{Extent, Spread};
 
 /// A solution of MCEIP-lambda2 as a point of the (mu, lambda^2) plane.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,167 +32,194 @@ pub struct Branches {
 }
 
 const WIDTH: f64 = 760.0;
-const AREA: [f64; 4] = [100.0, 84.0, WIDTH - 40.0, 440.0];
+const AREA: Rectangle = Rectangle {
+    left: 100.0,
+    top: 84.0,
+    right: WIDTH - 40.0,
+    bottom: 440.0,
+};
 
-/// Draws the solutions: lines join points with the same moving nodes at neighbouring levels, and
-/// points at which the moving nodes change are joined by a dotted line if each level has one that
-/// is left over.
+/// Dashes of the lines between points with different supports.
+const CHANGE_DASH: &str = "2 3";
+
+impl BranchPoint {
+    fn place(&self) -> (f64, f64) {
+        (self.mu, self.lambda2)
+    }
+}
+
+impl Branches {
+    fn points(&self) -> impl Iterator<Item = &BranchPoint> {
+        self.levels.iter().flatten().chain(&self.certified)
+    }
+
+    /// The mu axis: logarithmic where the largest value is more than eight times the smallest.
+    fn mu_axis(&self) -> Axis<'static> {
+        let Extent { low, high } = Extent::of(self.points().map(|p| p.mu));
+        let is_wide = high > 8.0 * low;
+
+        let margin = 0.06 * (high - low);
+        let values = if is_wide {
+            (low / 1.15, high * 1.15)
+        } else {
+            (low - margin, high + margin)
+        };
+
+        Axis {
+            label: "coefficient of friction \u{3bc}",
+            spread: if is_wide { Spread::Log } else { Spread::Linear },
+            values,
+            ticks: 8,
+        }
+    }
+
+    /// The lambda^2 axis: even below the smallest positive value, logarithmic above it.
+    fn lambda2_axis(&self) -> Axis<'static> {
+        let all = Extent::of(self.points().map(|p| p.lambda2));
+        let positive = Extent::of(self.points().map(|p| p.lambda2).filter(|v| *v > 0.0));
+        let unit = if positive.low.is_finite() {
+            positive.low
+        } else {
+            1.0
+        };
+
+        Axis {
+            label: "\u{3bb}\u{b2} (1/s\u{b2})",
+            spread: Spread::LogWithZero { unit },
+            values: (0.0, all.high * 1.5),
+            ticks: 7,
+        }
+    }
+}
+
+/// Draws the solutions.
+///
+/// Lines join points with the same support at neighbouring levels. Where each of two levels has one
+/// point that is left over, a dotted line joins these two: there the support changes.
 pub fn branch_picture(title: &str, branches: &Branches) -> Picture {
-    let all = || branches.levels.iter().flatten().chain(&branches.certified);
-    let (low, high) = all().fold((f64::INFINITY, 0.0f64), |m, p| {
-        (m.0.min(p.mu), m.1.max(p.mu))
-    });
-    let top = all().map(|p| p.lambda2).fold(0.0, f64::max);
-    let unit = all()
-        .map(|p| p.lambda2)
-        .filter(|v| *v > 0.0)
-        .fold(f64::INFINITY, f64::min);
-    let unit = if unit.is_finite() { unit } else { 1.0 };
-    let wide = high > 8.0 * low;
-    let span = if wide {
-        (low / 1.15, high * 1.15)
-    } else {
-        (low - 0.06 * (high - low), high + 0.06 * (high - low))
-    };
-    let spread = if wide { Spread::Log } else { Spread::Linear };
-    let x = Axis {
-        label: "coefficient of friction \u{3bc}",
-        spread,
-        values: span,
-        ticks: 8,
-    };
-    let y = Axis {
-        label: "\u{3bb}\u{b2} (1/s\u{b2})",
-        spread: Spread::LogWithZero { unit },
-        values: (0.0, top * 1.5),
-        ticks: 7,
-    };
+    let x = branches.mu_axis();
+    let y = branches.lambda2_axis();
     let chart = Chart::new(AREA, &x, &y);
-    let mut picture = Picture::new(title, WIDTH, AREA[3] + 62.0);
-    picture.push(text(AREA[0], 24.0, "start", title).with("font-weight", "bold"));
+
+    let mut picture = Picture::new(title, WIDTH, AREA.bottom + 62.0);
+    picture.push_heading(AREA.left, 24.0);
     picture.push(chart.frame(&x, &y));
+
     for pair in branches.levels.windows(2) {
         join(&mut picture, &chart, &pair[0], &pair[1]);
     }
+
     for (level, points) in branches.levels.iter().enumerate() {
-        for p in points {
-            let tip = format!(
-                "mu = {:.9}, lambda^2 = {:.6e}, {} slip",
-                p.mu,
-                p.lambda2,
-                p.support.len()
-            );
-            let (radius, fill) = if level == 0 && p.lambda2 == 0.0 {
-                (6.0, "#000")
-            } else {
-                (2.5, "#fff")
-            };
-            picture.push(dot(
-                chart.point((p.mu, p.lambda2)),
-                radius,
-                fill,
-                (p.mu, p.lambda2),
-                tip,
-            ));
+        for point in points {
+            picture.push(solution_dot(&chart, level, point));
         }
     }
-    for p in &branches.certified {
-        picture.push(square(chart.point((p.mu, p.lambda2)), p));
+
+    for point in &branches.certified {
+        picture.push(certified_square(&chart, point));
     }
-    keys(&mut picture, branches);
+
+    push_keys(&mut picture, branches);
     picture
 }
 
+/// A solution of a level: a large black dot for a threshold, a small white one above lambda^2 = 0.
+fn solution_dot(chart: &Chart, level: usize, point: &BranchPoint) -> Element {
+    let is_threshold = level == 0 && point.lambda2 == 0.0;
+    let radius = if is_threshold { 6.0 } else { 2.5 };
+    let fill = if is_threshold { "#000" } else { "#fff" };
+
+    let tip = format!(
+        "mu = {:.9}, lambda^2 = {:.6e}, {} slip",
+        point.mu,
+        point.lambda2,
+        point.support.len()
+    );
+
+    dot(chart.point(point.place()), radius, fill, point.place(), tip)
+}
+
+/// The lines between two neighbouring levels.
 fn join(picture: &mut Picture, chart: &Chart, below: &[BranchPoint], above: &[BranchPoint]) {
-    let ends = |a: &BranchPoint, b: &BranchPoint| [(a.mu, a.lambda2), (b.mu, b.lambda2)];
-    let mut left: Vec<&BranchPoint> = above.iter().collect();
-    let mut alone = Vec::new();
-    for a in below {
-        match left.iter().position(|b| b.support == a.support) {
-            Some(k) => picture.push(
-                chart
-                    .curve(&ends(a, left.remove(k)), 1.6, "")
-                    .with("class", "branch"),
-            ),
-            None => alone.push(a),
+    let mut left_above: Vec<&BranchPoint> = above.iter().collect();
+    let mut left_below = Vec::new();
+    for point in below {
+        let same_support = left_above.iter().position(|b| b.support == point.support);
+        match same_support {
+            Some(k) => {
+                let ends = [point.place(), left_above.remove(k).place()];
+                picture.push(chart.curve(&ends, 1.6, "").with("class", "branch"));
+            }
+            None => left_below.push(point),
         }
     }
-    if let ([a], [b]) = (alone.as_slice(), left.as_slice()) {
-        picture.push(chart.curve(&ends(a, b), 1.2, "2 3").with("class", "change"));
+
+    if let ([a], [b]) = (left_below.as_slice(), left_above.as_slice()) {
+        let line = chart.curve(&[a.place(), b.place()], 1.2, CHANGE_DASH);
+        picture.push(line.with("class", "change"));
     }
 }
 
-fn square((x, y): (f64, f64), p: &BranchPoint) -> Element {
-    let rect = Element::new("rect")
+fn certified_square(chart: &Chart, point: &BranchPoint) -> Element {
+    let (x, y) = chart.point(point.place());
+    let tip = format!(
+        "certified: mu = {}, lambda^2 = {:.9e}, lambda = {:.6} 1/s",
+        point.mu,
+        point.lambda2,
+        point.lambda2.sqrt()
+    );
+
+    Element::new("rect")
         .with("class", "certified")
         .at("x", x - 5.0)
         .at("y", y - 5.0)
         .at("width", 10.0)
-        .at("height", 10.0);
-    let tip = format!(
-        "certified: mu = {}, lambda^2 = {:.9e}, lambda = {:.6} 1/s",
-        p.mu,
-        p.lambda2,
-        p.lambda2.sqrt()
-    );
-    let rect = rect
+        .at("height", 10.0)
         .with("fill", "none")
         .with("stroke", "#000")
         .with("stroke-width", "2")
-        .with("data-x", p.mu)
-        .with("data-y", p.lambda2);
-    rect.child(Element::new("title").text(tip))
+        .with("data-x", point.mu)
+        .with("data-y", point.lambda2)
+        .child(Element::new("title").text(tip))
 }
 
-fn keys(picture: &mut Picture, branches: &Branches) {
-    let (x, y) = (AREA[0] + 8.0, 48.0);
-    picture.push(
-        Element::new("circle")
-            .at("cx", x)
-            .at("cy", y - 4.5)
-            .at("r", 6.0),
-    );
-    picture.push(text(x + 14.0, y, "start", "MCEIP-\u{3bc}, \u{3bb} = 0"));
-    picture.push(line(
-        (x + 140.0, y - 4.5),
-        (x + 164.0, y - 4.5),
-        "#000",
-        1.6,
-    ));
-    picture.push(text(
-        x + 170.0,
-        y,
-        "start",
-        "solutions with the same slip nodes",
-    ));
-    let second = y + TEXT + 8.0;
+/// What each sign means, in two lines above the chart.
+fn push_keys(picture: &mut Picture, branches: &Branches) {
+    let x = AREA.left + 8.0;
+    let first = 48.0;
+    let second = first + TEXT + 8.0;
+
+    let threshold = Element::new("circle")
+        .at("cx", x)
+        .at("cy", first - 4.5)
+        .at("r", 6.0);
+    picture.push(threshold);
+    picture.push(text(x + 14.0, first, "start", "MCEIP-\u{3bc}, \u{3bb} = 0"));
+
+    picture.push(key_line(x, first, 1.6));
+    let same = "solutions with the same slip nodes";
+    picture.push(text(x + 170.0, first, "start", same));
+
     if !branches.certified.is_empty() {
-        let rect = Element::new("rect")
+        let square = Element::new("rect")
             .at("x", x - 5.0)
             .at("y", second - 10.0)
             .at("width", 10.0)
-            .at("height", 10.0);
-        picture.push(
-            rect.with("fill", "none")
-                .with("stroke", "#000")
-                .with("stroke-width", "2"),
-        );
+            .at("height", 10.0)
+            .with("fill", "none")
+            .with("stroke", "#000")
+            .with("stroke-width", "2");
+        picture.push(square);
         picture.push(text(x + 14.0, second, "start", "certified at this \u{3bc}"));
     }
-    picture.push(
-        line(
-            (x + 140.0, second - 4.5),
-            (x + 164.0, second - 4.5),
-            "#000",
-            1.2,
-        )
-        .with("stroke-dasharray", "2 3"),
-    );
+
+    picture.push(dashed(key_line(x, second, 1.2), CHANGE_DASH));
     let levels = markup::short(branches.levels.len() as f64);
-    picture.push(text(
-        x + 170.0,
-        second,
-        "start",
-        format!("the slip nodes change ({levels} levels of \u{3bb}\u{b2} computed)"),
-    ));
+    let change = format!("the slip nodes change ({levels} levels of \u{3bb}\u{b2} computed)");
+    picture.push(text(x + 170.0, second, "start", change));
+}
+
+/// The short line of a key in the row of texts at `y`.
+fn key_line(x: f64, y: f64, width: f64) -> Element {
+    line((x + 140.0, y - 4.5), (x + 164.0, y - 4.5), "#000", width)
 }

@@ -1,8 +1,10 @@
 //! What runs cost against their size, both on logarithmic axes.
+//!
+//! The benchmarks of the program draw their tables with it.
 
-use super::chart::{Axis, Chart, dot, line, text};
+use super::chart::{Axis, Chart, Rectangle, dashed, dot, line, text};
 use super::drawing::Picture;
-use super::scale::Spread;
+use super::scale::{Extent, Spread};
 
 /// Runs of one kind.
 #[derive(Debug, Clone, PartialEq)]
@@ -14,77 +16,93 @@ pub struct CostSeries {
 }
 
 const WIDTH: f64 = 760.0;
-const AREA: [f64; 4] = [84.0, 48.0, WIDTH - 30.0, 420.0];
-/// Dash of the line and fill of the dots, one after the other.
-const STYLES: [(&str, &str); 4] = [
-    ("", "#000"),
-    ("7 4", "#fff"),
-    ("2 3", "#000"),
-    ("9 3 2 3", "#fff"),
+const AREA: Rectangle = Rectangle {
+    left: 84.0,
+    top: 48.0,
+    right: WIDTH - 30.0,
+    bottom: 420.0,
+};
+
+/// How a series is drawn: the dash of its line and the fill of its dots.
+struct Style {
+    dash: &'static str,
+    fill: &'static str,
+}
+
+/// The styles of the series in turn.
+const STYLES: [Style; 4] = [
+    Style {
+        dash: "",
+        fill: "#000",
+    },
+    Style {
+        dash: "7 4",
+        fill: "#fff",
+    },
+    Style {
+        dash: "2 3",
+        fill: "#000",
+    },
+    Style {
+        dash: "9 3 2 3",
+        fill: "#fff",
+    },
 ];
 
 /// Draws each series as a line through its points; no more than four can be told apart in black and
 /// white.
 pub fn cost_picture(title: &str, order: &str, series: &[CostSeries]) -> Picture {
-    let all = || series.iter().flat_map(|s| &s.points);
-    let span = |of: fn(&(f64, f64)) -> f64| {
-        let (low, high) = all()
-            .map(of)
-            .fold((f64::INFINITY, 0.0f64), |m, v| (m.0.min(v), m.1.max(v)));
-        (low / 1.3, high * 1.3)
-    };
-    let x = Axis {
-        label: order,
-        spread: Spread::Log,
-        values: span(|p| p.0),
-        ticks: 9,
-    };
-    let y = Axis {
-        label: "CPU seconds",
-        spread: Spread::Log,
-        values: span(|p| p.1),
-        ticks: 9,
-    };
+    let points: Vec<&(f64, f64)> = series.iter().flat_map(|s| &s.points).collect();
+    let x = logarithmic(order, points.iter().map(|p| p.0));
+    let y = logarithmic("CPU seconds", points.iter().map(|p| p.1));
     let chart = Chart::new(AREA, &x, &y);
-    let mut picture = Picture::new(
-        title,
-        WIDTH,
-        AREA[3] + 62.0 + 20.0 * series.len().div_ceil(2) as f64,
-    );
-    picture.push(text(AREA[0], 24.0, "start", title).with("font-weight", "bold"));
+
+    let key_rows = series.len().div_ceil(2) as f64;
+    let height = AREA.bottom + 62.0 + 20.0 * key_rows;
+    let mut picture = Picture::new(title, WIDTH, height);
+    picture.push_heading(AREA.left, 24.0);
     picture.push(chart.frame(&x, &y));
-    for (k, s) in series.iter().enumerate() {
-        let (dash, fill) = STYLES[k % STYLES.len()];
-        picture.push(chart.curve(&s.points, 1.4, dash).with("class", "series"));
-        for p in &s.points {
-            picture.push(dot(
-                chart.point(*p),
-                3.5,
-                fill,
-                *p,
-                format!("{}: {} at {}", s.name, p.1, p.0),
-            ));
+
+    for (k, one) in series.iter().enumerate() {
+        let style = &STYLES[k % STYLES.len()];
+        let curve = chart.curve(&one.points, 1.4, style.dash);
+        picture.push(curve.with("class", "series"));
+
+        for point in &one.points {
+            let (order, seconds) = point;
+            let tip = format!("{}: {seconds} at {order}", one.name);
+            picture.push(dot(chart.point(*point), 3.5, style.fill, *point, tip));
         }
-        let (left, below) = (
-            AREA[0] + 330.0 * (k % 2) as f64,
-            AREA[3] + 58.0 + 20.0 * (k / 2) as f64,
-        );
-        let mut key = line((left, below - 4.5), (left + 36.0, below - 4.5), "#000", 1.4);
-        if !dash.is_empty() {
-            key = key.with("stroke-dasharray", dash);
-        }
-        picture.push(key);
-        picture.push(
-            dot(
-                (left + 18.0, below - 4.5),
-                3.5,
-                fill,
-                (0.0, 0.0),
-                s.name.clone(),
-            )
-            .unclassed(),
-        );
-        picture.push(text(left + 44.0, below, "start", s.name.as_str()));
+
+        push_key(&mut picture, k, one, style);
     }
+
     picture
+}
+
+/// A logarithmic axis with some room at both ends.
+fn logarithmic(label: &str, values: impl Iterator<Item = f64>) -> Axis<'_> {
+    let Extent { low, high } = Extent::of(values);
+    Axis {
+        label,
+        spread: Spread::Log,
+        values: (low / 1.3, high * 1.3),
+        ticks: 9,
+    }
+}
+
+/// The key of the series k, two in a row below the chart.
+fn push_key(picture: &mut Picture, k: usize, series: &CostSeries, style: &Style) {
+    let column = (k % 2) as f64;
+    let row = (k / 2) as f64;
+    let x = AREA.left + 330.0 * column;
+    let y = AREA.bottom + 58.0 + 20.0 * row;
+
+    let key = line((x, y - 4.5), (x + 36.0, y - 4.5), "#000", 1.4);
+    picture.push(dashed(key, style.dash));
+
+    let name = series.name.clone();
+    let middle = (x + 18.0, y - 4.5);
+    picture.push(dot(middle, 3.5, style.fill, (0.0, 0.0), name).unclassed());
+    picture.push(text(x + 44.0, y, "start", series.name.as_str()));
 }

@@ -8,7 +8,7 @@ use super::{chart, markup};
 /// A drawing with its title; what it is drawn on is `width` x `height` px.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Picture {
-    pub(super) title: String,
+    title: String,
     width: f64,
     height: f64,
     content: Vec<Element>,
@@ -29,6 +29,12 @@ impl Picture {
 
     pub(super) fn push(&mut self, element: Element) {
         self.content.push(element);
+    }
+
+    /// Writes the title in bold, from (x, y) on.
+    pub(super) fn push_heading(&mut self, x: f64, y: f64) {
+        let heading = chart::text(x, y, "start", self.title.as_str());
+        self.push(heading.with("font-weight", "bold"));
     }
 
     /// What it shows, in one line.
@@ -60,27 +66,30 @@ impl Picture {
         png_of(&self.to_svg(), zoom)
     }
 
+    /// The root element, with the name space where it stands alone.
     fn element(&self, name_space: Option<&str>) -> Element {
         let mut root = Element::new("svg");
         if let Some(name) = name_space {
             root = root.with("xmlns", name);
         }
-        let view = format!(
-            "0 0 {} {}",
-            markup::short(self.width),
-            markup::short(self.height)
-        );
+
+        let width = markup::short(self.width);
+        let height = markup::short(self.height);
         root = root
             .at("width", self.width)
             .at("height", self.height)
-            .with("viewBox", view)
-            .with("role", "img");
-        root = root.with("font-family", FONTS).at("font-size", chart::TEXT);
+            .with("viewBox", format!("0 0 {width} {height}"))
+            .with("role", "img")
+            .with("font-family", FONTS)
+            .at("font-size", chart::TEXT);
+
+        let title = Element::new("title").text(self.title.as_str());
         let paper = Element::new("rect")
             .at("width", self.width)
             .at("height", self.height)
             .with("fill", "#fff");
-        root.child(Element::new("title").text(self.title.as_str()))
+
+        root.child(title)
             .child(paper)
             .children(self.content.iter().cloned())
     }

@@ -4,14 +4,25 @@ use super::chart;
 use super::marker::Mark;
 use super::markup::Element;
 
+/// Radius of the markers, px.
+const RADIUS: f64 = 6.5;
+
+/// Mean width of a letter, as a part of the height of the text.
+const LETTER: f64 = 0.6;
+
 /// Markers with their words in a row, from (x, y) on; only those that occur.
 pub(super) fn legend(marks: &[Mark], x: f64, y: f64) -> Element {
     let mut group = Element::new("g").with("class", "legend");
-    let mut at = x;
+    let mut left = x;
+
     for mark in Mark::ALL.into_iter().filter(|m| marks.contains(m)) {
-        group.push(mark.draw(at + 6.0, y - 4.5, 6.5).unclassed());
-        group.push(chart::text(at + 18.0, y, "start", mark.word()));
-        at += 18.0 + 0.6 * chart::TEXT * mark.word().chars().count() as f64 + 18.0;
+        let word = mark.word();
+        group.push(mark.draw(left + 6.0, y - 4.5, RADIUS).unclassed());
+        group.push(chart::text(left + 18.0, y, "start", word));
+
+        let letters = word.chars().count() as f64;
+        left += 18.0 + LETTER * chart::TEXT * letters + 18.0;
     }
+
     group
 }

@@ -1,6 +1,6 @@
 //! Contact states as markers that differ in shape and in shade: legible in black and white.
 
-use super::markup::{Element, short};
+use super::markup::{Element, point_list, segment, short};
 use mceip_model::ContactState;
 
 /// What a contact node does, as drawn.
@@ -41,14 +41,23 @@ impl Mark {
     /// The marks of a mode: slip nodes that are not in `moving` get stuck. `moving` counts the
     /// nodes in impending slip from 0 at the left.
     pub fn of_mode(states: &[ContactState], moving: &[usize]) -> Vec<Mark> {
-        let mut slip = 0..;
-        let mark = |state: &ContactState| match state {
-            ContactState::Slip { .. } if slip.next().is_some_and(|k| !moving.contains(&k)) => {
-                Mark::Caught
+        let mut marks = Vec::new();
+        let mut slip_nodes = 0;
+        for state in states {
+            let mut mark = Mark::of(*state);
+
+            if matches!(state, ContactState::Slip { .. }) {
+                if !moving.contains(&slip_nodes) {
+                    mark = Mark::Caught;
+                }
+
+                slip_nodes += 1;
             }
-            state => Mark::of(*state),
-        };
-        states.iter().map(mark).collect()
+
+            marks.push(mark);
+        }
+
+        marks
     }
 
     /// The words of legends.
@@ -73,55 +82,67 @@ impl Mark {
         }
     }
 
-    /// The marker about (x, y) within radius r.
+    /// The marker about (x, y) within radius r, px.
     pub(super) fn draw(self, x: f64, y: f64, r: f64) -> Element {
-        let polygon = |points: &[(f64, f64)]| {
-            let points: Vec<String> = points
-                .iter()
-                .map(|(dx, dy)| format!("{},{}", short(x + dx * r), short(y + dy * r)))
-                .collect();
-            Element::new("polygon").with("points", points.join(" "))
-        };
-        let square = |a: f64| polygon(&[(-a, -a), (a, -a), (a, a), (-a, a)]);
-        let shape = match self {
-            Mark::Stick => square(0.8).with("fill", "#000"),
-            Mark::SlipLeft => {
-                polygon(&[(-1.0, 0.0), (0.75, -0.9), (0.75, 0.9)]).with("fill", "#b0b0b0")
-            }
-            Mark::SlipRight => {
-                polygon(&[(1.0, 0.0), (-0.75, -0.9), (-0.75, 0.9)]).with("fill", "#b0b0b0")
-            }
+        let class = format!("mark {}", self.class());
+        let width = short((r / 5.0).clamp(0.4, 1.2));
+        let group = Element::new("g")
+            .with("class", class)
+            .with("stroke", "#000")
+            .with("stroke-width", width)
+            .child(self.shape(x, y, r));
+
+        if self == Mark::Caught {
+            group.child(cross(x, y, 0.85 * r))
+        } else {
+            group
+        }
+    }
+
+    fn shape(self, x: f64, y: f64, r: f64) -> Element {
+        match self {
+            Mark::Stick => polygon(x, y, r, &square(0.8)).with("fill", "#000"),
+            Mark::SlipLeft => polygon(x, y, r, &POINTS_LEFT).with("fill", "#b0b0b0"),
+            Mark::SlipRight => polygon(x, y, r, &POINTS_RIGHT).with("fill", "#b0b0b0"),
+            Mark::Caught => polygon(x, y, r, &square(0.85)).with("fill", "#fff"),
             Mark::Free => Element::new("circle")
                 .at("cx", x)
                 .at("cy", y)
                 .at("r", 0.85 * r)
                 .with("fill", "#fff"),
-            Mark::Caught => square(0.85).with("fill", "#fff"),
-        };
-        let (width, class) = (
-            short((r / 5.0).clamp(0.4, 1.2)),
-            format!("mark {}", self.class()),
-        );
-        let group = Element::new("g")
-            .with("class", class)
-            .with("stroke", "#000")
-            .with("stroke-width", width)
-            .child(shape);
-        if self != Mark::Caught {
-            return group;
         }
-        let (a, mut d) = (0.85 * r, String::new());
-        for (from, to) in [((-a, -a), (a, a)), ((-a, a), (a, -a))] {
-            d += &format!(
-                "M{} {}L{} {}",
-                short(x + from.0),
-                short(y + from.1),
-                short(x + to.0),
-                short(y + to.1)
-            );
-        }
-        group.child(Element::new("path").with("d", d).with("fill", "none"))
     }
+}
+
+/// Corners of a triangle that points to the left, in units of the radius.
+const POINTS_LEFT: [(f64, f64); 3] = [(-1.0, 0.0), (0.75, -0.9), (0.75, 0.9)];
+
+/// Corners of a triangle that points to the right, in units of the radius.
+const POINTS_RIGHT: [(f64, f64); 3] = [(1.0, 0.0), (-0.75, -0.9), (-0.75, 0.9)];
+
+/// Corners of a square of half side `a`.
+fn square(a: f64) -> [(f64, f64); 4] {
+    [(-a, -a), (a, -a), (a, a), (-a, a)]
+}
+
+/// A polygon about (x, y); corners in units of the radius r.
+fn polygon(x: f64, y: f64, r: f64, corners: &[(f64, f64)]) -> Element {
+    let mut places = Vec::new();
+    for (dx, dy) in corners {
+        places.push((x + dx * r, y + dy * r));
+    }
+
+    Element::new("polygon").with("points", point_list(&places))
+}
+
+/// The two diagonals of a square of half side `a` about (x, y).
+fn cross(x: f64, y: f64, a: f64) -> Element {
+    let down = segment((x - a, y - a), (x + a, y + a));
+    let up = segment((x - a, y + a), (x + a, y - a));
+
+    Element::new("path")
+        .with("d", down + &up)
+        .with("fill", "none")
 }
 
 #[cfg(test)]
@@ -130,50 +151,54 @@ mod tests {
 
     #[test]
     fn slip_nodes_that_do_not_move_are_caught() {
-        let slip = ContactState::Slip { sign: 1 };
+        let left = ContactState::Slip { sign: 1 };
+        let right = ContactState::Slip { sign: -1 };
         let states = [
             ContactState::Stick,
-            slip,
-            slip,
-            ContactState::Slip { sign: -1 },
-            slip,
+            left,
+            left,
+            right,
+            left,
             ContactState::Free,
         ];
+
         let marks = Mark::of_mode(&states, &[0, 2]);
-        assert_eq!(
-            marks,
-            [
-                Mark::Stick,
-                Mark::SlipLeft,
-                Mark::Caught,
-                Mark::SlipRight,
-                Mark::Caught,
-                Mark::Free
-            ]
-        );
+
+        let expected = [
+            Mark::Stick,
+            Mark::SlipLeft,
+            Mark::Caught,
+            Mark::SlipRight,
+            Mark::Caught,
+            Mark::Free,
+        ];
+        assert_eq!(marks, expected);
+    }
+
+    /// The coordinates in the SVG of a mark, without class and shade.
+    fn shape_of(mark: Mark) -> String {
+        let text = mark.draw(0.0, 0.0, 10.0).to_string();
+        let tree = roxmltree::Document::parse(&text).unwrap();
+
+        let mut parts = Vec::new();
+        for element in tree.descendants().filter(|n| n.is_element()) {
+            for attribute in element.attributes() {
+                if ["points", "d", "cx"].contains(&attribute.name()) {
+                    parts.push(attribute.value().to_string());
+                }
+            }
+        }
+
+        parts.join(";")
     }
 
     #[test]
     fn every_mark_has_a_shape_of_its_own() {
-        // Without class and shade: the shapes alone must differ.
-        let shape = |m: Mark| {
-            let text = m.draw(0.0, 0.0, 10.0).to_string();
-            let tree = roxmltree::Document::parse(&text).unwrap();
-            let parts: Vec<String> = tree
-                .descendants()
-                .filter(|n| n.is_element())
-                .flat_map(|n| {
-                    n.attributes()
-                        .filter(|a| ["points", "d", "cx"].contains(&a.name()))
-                        .map(|a| a.value().to_string())
-                        .collect::<Vec<_>>()
-                })
-                .collect();
-            parts.join(";")
-        };
-        let mut shapes: Vec<String> = Mark::ALL.map(shape).to_vec();
+        let mut shapes: Vec<String> = Mark::ALL.map(shape_of).to_vec();
+
         shapes.sort();
         shapes.dedup();
+
         assert_eq!(shapes.len(), Mark::ALL.len());
     }
 }

@@ -1,5 +1,8 @@
 //! Elements of SVG and HTML as a tree: what is written is well-formed, and text cannot become
 //! markup.
+//!
+//! An [`Element`] is built by its methods and written by its [`Display`]. Pictures and reports are
+//! made of nothing else.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -35,7 +38,8 @@ impl Element {
 
     /// With an attribute.
     pub fn with(mut self, name: &'static str, value: impl Display) -> Element {
-        self.attributes.push((name, value.to_string()));
+        let value = value.to_string();
+        self.attributes.push((name, value));
         self
     }
 
@@ -58,8 +62,8 @@ impl Element {
 
     /// With children.
     pub fn children(mut self, children: impl IntoIterator<Item = Element>) -> Element {
-        self.children
-            .extend(children.into_iter().map(Child::Element));
+        let children = children.into_iter().map(Child::Element);
+        self.children.extend(children);
         self
     }
 
@@ -82,17 +86,39 @@ pub(super) fn short(value: f64) -> String {
 
 /// A number with at most this many decimals.
 pub(super) fn short_to(value: f64, decimals: usize) -> String {
-    let text = format!("{value:.decimals$}");
-    let text = if text.contains('.') {
-        text.trim_end_matches('0').trim_end_matches('.')
+    let rounded = format!("{value:.decimals$}");
+    let without_zeros = if rounded.contains('.') {
+        rounded.trim_end_matches('0').trim_end_matches('.')
     } else {
-        &text
+        &rounded
     };
-    if text == "-0" {
+
+    if without_zeros == "-0" {
         "0".into()
     } else {
-        text.into()
+        without_zeros.into()
     }
+}
+
+/// Places as SVG lists them: "x,y x,y".
+pub(super) fn point_list(places: &[(f64, f64)]) -> String {
+    let mut pairs = Vec::new();
+    for (x, y) in places {
+        pairs.push(format!("{},{}", short(*x), short(*y)));
+    }
+
+    pairs.join(" ")
+}
+
+/// A straight line as a part of an SVG path.
+pub(super) fn segment(from: (f64, f64), to: (f64, f64)) -> String {
+    format!(
+        "M{} {}L{} {}",
+        short(from.0),
+        short(from.1),
+        short(to.0),
+        short(to.1)
+    )
 }
 
 impl Display for Element {
@@ -101,9 +127,11 @@ impl Display for Element {
         for (name, value) in &self.attributes {
             write!(f, " {name}=\"{}\"", Escaped(value))?;
         }
+
         if self.children.is_empty() {
             return f.write_str("/>");
         }
+
         f.write_str(">")?;
         for child in &self.children {
             match child {
@@ -111,6 +139,7 @@ impl Display for Element {
                 Child::Text(t) => Escaped(t).fmt(f)?,
             }
         }
+
         write!(f, "</{}>", self.name)
     }
 }
@@ -133,6 +162,7 @@ impl Display for Escaped<'_> {
                 c => write!(f, "{c}")?,
             }
         }
+
         Ok(())
     }
 }
@@ -149,28 +179,23 @@ mod tests {
             .text(hostile)
             .child(Element::new("br"))
             .to_string();
+
         let parsed = roxmltree::Document::parse(&text).unwrap();
         let root = parsed.root_element();
-        assert_eq!(
-            (root.attribute("title"), root.text()),
-            (Some(hostile), Some(hostile))
-        );
+        assert_eq!(root.attribute("title"), Some(hostile));
+        assert_eq!(root.text(), Some(hostile));
         assert_eq!(root.children().filter(|c| c.is_element()).count(), 1);
-        let odd = Element::new("p").text("a\u{0}\u{8}\u{fffe}b").to_string();
-        assert_eq!(
-            roxmltree::Document::parse(&odd)
-                .unwrap()
-                .root_element()
-                .text(),
-            Some("ab")
-        );
+
+        let not_xml = "a\u{0}\u{8}\u{fffe}b";
+        let text = Element::new("p").text(not_xml).to_string();
+        let parsed = roxmltree::Document::parse(&text).unwrap();
+        assert_eq!(parsed.root_element().text(), Some("ab"));
     }
 
     #[test]
     fn coordinates_are_short() {
-        assert_eq!(
-            [1.0, -0.001, 2.345, 10.5, 100.0].map(short),
-            ["1", "0", "2.35", "10.5", "100"].map(String::from)
-        );
+        let coordinates = [1.0, -0.001, 2.345, 10.5, 100.0].map(short);
+
+        assert_eq!(coordinates, ["1", "0", "2.35", "10.5", "100"]);
     }
 }

@@ -1,117 +1,167 @@
 //! The loading path: resultants against the motion, and the state of every node on every stretch.
+//!
+//! Above stands a chart of T, N and mu N (N) against the motion of CD (mm). Below it stands a table
+//! of the contact states with a column for each stretch and a row for each node. All columns have
+//! one width; grey lines tie each to its part of the motion. Called by `mceip block --report`.
 
-use super::chart::{Axis, Chart, TEXT, dot, line, text};
+use super::chart::{Axis, Chart, Rectangle, TEXT, dashed, dot, line, text};
 use super::drawing::Picture;
 use super::legend::legend;
 use super::marker::Mark;
 use super::markup::Element;
 use super::scale::Spread;
 use mceip_exact::to_f64;
-use mceip_paper::path::LoadingPath;
+use mceip_paper::path::{Equilibrium, LoadingPath};
 
 const WIDTH: f64 = 860.0;
-/// Left and right ends of both charts.
-const SIDES: (f64, f64) = (84.0, WIDTH - 30.0);
+
+/// Left and right ends of the chart and of the table.
+const LEFT: f64 = 84.0;
+const RIGHT: f64 = WIDTH - 30.0;
+
+/// The chart on the paper.
+const AREA: Rectangle = Rectangle {
+    left: LEFT,
+    top: 52.0,
+    right: RIGHT,
+    bottom: 330.0,
+};
 
 /// Draws a path: above T, N and mu N against the motion with a dot at each event; below a column
 /// for each stretch, tied to its part of the motion, with the mark of each node.
 pub fn path_picture(title: &str, path: &LoadingPath) -> Picture {
-    let ends: Vec<f64> = ends(path);
-    let last = ends.last().copied().unwrap_or(1.0);
-    let nodes = path.intervals.first().map_or(0, |i| i.states.len());
-    let columns = path.intervals.len().max(1);
-    let row = (330.0 / nodes.max(1) as f64).clamp(4.0, 17.0);
-    let (top, middle) = (52.0, 330.0);
-    let (table_top, height) = (middle + 100.0, row * nodes as f64);
+    let ends = ends(path);
+    let table = StateTable::of(path);
 
-    let mut picture = Picture::new(title, WIDTH, table_top + height + 78.0);
-    picture.push(text(SIDES.0, 24.0, "start", title).with("font-weight", "bold"));
-    let chart = resultants(&mut picture, path, &ends, last, (top, middle));
-    let width = (SIDES.1 - SIDES.0) / columns as f64;
-    let column = |k: usize| SIDES.0 + width * k as f64;
-    for (k, at) in ends.iter().enumerate().take(columns + 1) {
-        let (x, y) = (chart.x.place(*at), middle + 50.0);
-        picture.push(line((x, y), (column(k), table_top), "#999", 0.5));
-        picture.push(line(
-            (column(k), table_top),
-            (column(k), table_top + height),
-            "#ccc",
-            0.5,
-        ));
-    }
-    let mut marks = Element::new("g").with("class", "marks");
-    for (k, interval) in path.intervals.iter().enumerate() {
-        for (node, state) in interval.states.iter().enumerate() {
-            let (x, y) = (
-                column(k) + width / 2.0,
-                table_top + row * (node as f64 + 0.5),
-            );
-            marks.push(Mark::of(*state).draw(x, y, 0.42 * row.min(width)));
-        }
-    }
-    picture.push(marks);
-    labels(
-        &mut picture,
-        (nodes, row),
-        (columns, width),
-        table_top,
-        height,
-    );
-    let all: Vec<Mark> = path
-        .intervals
-        .iter()
-        .flat_map(|i| i.states.iter().map(|s| Mark::of(*s)))
-        .collect();
-    picture.push(legend(&all, SIDES.0, table_top + height + 62.0));
+    let mut picture = Picture::new(title, WIDTH, table.bottom() + 78.0);
+    picture.push_heading(LEFT, 24.0);
+
+    let chart = push_resultants(&mut picture, path, &ends);
+    table.push_ties(&mut picture, &chart, &ends);
+    picture.push(table.marks(path));
+    table.push_labels(&mut picture);
+
+    let states = path.intervals.iter().flat_map(|i| &i.states);
+    let marks: Vec<Mark> = states.map(|state| Mark::of(*state)).collect();
+    picture.push(legend(&marks, LEFT, table.bottom() + 62.0));
+
     picture
 }
 
 /// Motions at which stretches begin, then where the last one ends; one without an end is drawn a
 /// tenth of the path long.
 fn ends(path: &LoadingPath) -> Vec<f64> {
-    let mut ends: Vec<f64> = path
-        .intervals
-        .iter()
-        .map(|i| to_f64(i.start.motion()))
-        .collect();
-    let stop = path
-        .intervals
-        .last()
-        .and_then(|i| i.stop.as_ref())
-        .map(|s| to_f64(s.motion()));
-    let begin = ends.last().copied().unwrap_or(0.0);
-    ends.push(stop.unwrap_or(begin * 1.1));
+    let mut ends = Vec::new();
+    for interval in &path.intervals {
+        ends.push(to_f64(interval.start.motion()));
+    }
+
+    let last = path.intervals.last();
+    let stop = last.and_then(|interval| interval.stop.as_ref());
+    let last_start = ends.last().copied().unwrap_or(0.0);
+    match stop {
+        Some(stop) => ends.push(to_f64(stop.motion())),
+        None => ends.push(last_start * 1.1),
+    }
+
     ends
 }
 
-fn resultants(
-    picture: &mut Picture,
-    path: &LoadingPath,
-    ends: &[f64],
-    last: f64,
-    (top, bottom): (f64, f64),
-) -> Chart {
-    let mu = to_f64(&path.loading.friction);
-    let mut points: Vec<(f64, f64, f64)> = Vec::new();
+/// Resultants of the reactions at a motion.
+struct Resultants {
+    /// Motion of CD, mm.
+    motion: f64,
+    /// Sum of r_T, N.
+    tangential: f64,
+    /// Minus the sum of r_N, N: the force that presses.
+    normal: f64,
+}
+
+impl Resultants {
+    fn of(at: &Equilibrium, motion: f64) -> Resultants {
+        let (tangential, normal) = at.resultants();
+        Resultants {
+            motion,
+            tangential: to_f64(&tangential),
+            normal: -to_f64(&normal),
+        }
+    }
+}
+
+/// The resultants where stretches begin, then those where the last one ends.
+fn resultants(path: &LoadingPath, ends: &[f64]) -> Vec<Resultants> {
+    let mut all = Vec::new();
     for interval in &path.intervals {
-        let (t, n) = interval.start.resultants();
-        points.push((to_f64(interval.start.motion()), to_f64(&t), -to_f64(&n)));
+        let start = &interval.start;
+        all.push(Resultants::of(start, to_f64(start.motion())));
     }
-    let finish = path
-        .intervals
-        .last()
-        .map(|i| i.stop.as_ref().unwrap_or(&i.start).resultants());
-    if let (Some((t, n)), Some(end)) = (finish, ends.last()) {
-        points.push((*end, to_f64(&t), -to_f64(&n)));
+
+    if let (Some(last), Some(end)) = (path.intervals.last(), ends.last()) {
+        let stop = last.stop.as_ref().unwrap_or(&last.start);
+        all.push(Resultants::of(stop, *end));
     }
-    let highest = points
-        .iter()
-        .flat_map(|p| [p.1.abs(), p.2, mu * p.2])
-        .fold(0.0, f64::max);
+
+    all
+}
+
+/// One of the curves of the chart.
+struct Curve {
+    class: &'static str,
+    word: &'static str,
+    dash: &'static str,
+    /// Motion and force.
+    points: Vec<(f64, f64)>,
+}
+
+impl Curve {
+    fn all(resultants: &[Resultants], mu: f64) -> [Curve; 3] {
+        let mut tangential = Vec::new();
+        let mut normal = Vec::new();
+        let mut limit = Vec::new();
+        for r in resultants {
+            tangential.push((r.motion, r.tangential));
+            normal.push((r.motion, r.normal));
+            limit.push((r.motion, mu * r.normal));
+        }
+
+        [
+            Curve {
+                class: "T",
+                word: "T, tangential",
+                dash: "",
+                points: tangential,
+            },
+            Curve {
+                class: "N",
+                word: "N, normal",
+                dash: "7 4",
+                points: normal,
+            },
+            Curve {
+                class: "mu-N",
+                word: "\u{3bc} N",
+                dash: "2 3",
+                points: limit,
+            },
+        ]
+    }
+}
+
+/// Draws the chart of the resultants.
+fn push_resultants(picture: &mut Picture, path: &LoadingPath, ends: &[f64]) -> Chart {
+    let mu = to_f64(&path.loading.friction);
+    let resultants = resultants(path, ends);
+    let mut highest: f64 = 0.0;
+    for r in &resultants {
+        highest = highest.max(r.tangential.abs());
+        highest = highest.max(r.normal);
+        highest = highest.max(mu * r.normal);
+    }
+
     let x = Axis {
         label: "motion of CD to the left (mm)",
         spread: Spread::Linear,
-        values: (0.0, last),
+        values: (0.0, ends.last().copied().unwrap_or(1.0)),
         ticks: 9,
     };
     let y = Axis {
@@ -120,62 +170,125 @@ fn resultants(
         values: (0.0, 1.08 * highest),
         ticks: 7,
     };
-    let chart = Chart::new([SIDES.0, top, SIDES.1, bottom], &x, &y);
+    let chart = Chart::new(AREA, &x, &y);
     picture.push(chart.frame(&x, &y));
-    let curve = |f: &dyn Fn(&(f64, f64, f64)) -> f64| -> Vec<(f64, f64)> {
-        points.iter().map(|p| (p.0, f(p))).collect()
-    };
-    let curves = [
-        ("T", "T, tangential", "", curve(&|p| p.1)),
-        ("N", "N, normal", "7 4", curve(&|p| p.2)),
-        ("mu-N", "\u{3bc} N", "2 3", curve(&|p| mu * p.2)),
-    ];
-    for (k, (class, word, dash, points)) in curves.iter().enumerate() {
-        picture.push(
-            chart
-                .curve(points, 1.8, dash)
-                .with("class", format!("curve {class}")),
-        );
-        let (x, y) = (SIDES.0 + 20.0 + 160.0 * k as f64, top - 10.0);
-        let key = line((x, y), (x + 34.0, y), "#000", 1.8);
-        picture.push(if dash.is_empty() {
-            key
-        } else {
-            key.with("stroke-dasharray", *dash)
-        });
-        picture.push(text(x + 40.0, y + 4.5, "start", *word));
+
+    for (k, curve) in Curve::all(&resultants, mu).iter().enumerate() {
+        let drawn = chart.curve(&curve.points, 1.8, curve.dash);
+        picture.push(drawn.with("class", format!("curve {}", curve.class)));
+        push_key(picture, k, curve);
     }
-    for (k, (at, t, _)) in points.iter().enumerate().take(path.intervals.len()) {
-        let tip = format!("stretch {k} begins at {at:.6} mm, T = {t:.6} N");
-        picture.push(dot(chart.point((*at, *t)), 3.0, "#fff", (*at, *t), tip));
+
+    let beginnings = resultants.iter().take(path.intervals.len());
+    for (k, begin) in beginnings.enumerate() {
+        let motion = begin.motion;
+        let t = begin.tangential;
+        let tip = format!("stretch {k} begins at {motion:.6} mm, T = {t:.6} N");
+        let data = (motion, t);
+        picture.push(dot(chart.point(data), 3.0, "#fff", data, tip));
     }
+
     chart
 }
 
-fn labels(
-    picture: &mut Picture,
-    (nodes, row): (usize, f64),
-    (columns, width): (usize, f64),
-    top: f64,
-    height: f64,
-) {
-    let every = |size: f64, room: f64| (room / size).ceil().max(1.0) as usize;
-    for node in (0..nodes).filter(|n| n.is_multiple_of(every(row, 13.0))) {
-        let y = top + row * (node as f64 + 0.5) + 4.0;
-        picture.push(text(SIDES.0 - 8.0, y, "end", (node + 1).to_string()).with("font-size", "11"));
+/// The key of the curve k, in a row above the chart.
+fn push_key(picture: &mut Picture, k: usize, curve: &Curve) {
+    let x = LEFT + 20.0 + 160.0 * k as f64;
+    let y = AREA.top - 10.0;
+    let key = line((x, y), (x + 34.0, y), "#000", 1.8);
+    picture.push(dashed(key, curve.dash));
+    picture.push(text(x + 40.0, y + 4.5, "start", curve.word));
+}
+
+/// The table of the states: a column for each stretch, a row for each node.
+struct StateTable {
+    columns: usize,
+    column_width: f64,
+    rows: usize,
+    row_height: f64,
+}
+
+impl StateTable {
+    const TOP: f64 = AREA.bottom + 100.0;
+
+    fn of(path: &LoadingPath) -> StateTable {
+        let rows = path.intervals.first().map_or(0, |i| i.states.len());
+        let columns = path.intervals.len().max(1);
+
+        StateTable {
+            columns,
+            column_width: (RIGHT - LEFT) / columns as f64,
+            rows,
+            row_height: (330.0 / rows.max(1) as f64).clamp(4.0, 17.0),
+        }
     }
-    for k in (0..columns).filter(|k| k.is_multiple_of(every(width, 20.0))) {
-        let x = SIDES.0 + width * (k as f64 + 0.5);
-        picture.push(text(x, top + height + 14.0, "middle", k.to_string()).with("font-size", "11"));
+
+    fn height(&self) -> f64 {
+        self.row_height * self.rows as f64
     }
-    let (x, y) = (SIDES.0 - 44.0, top + height / 2.0);
-    let turned = text(x, y, "middle", "node, from the left")
-        .with("transform", format!("rotate(-90 {x} {y})"));
-    picture.push(turned);
-    picture.push(text(
-        (SIDES.0 + SIDES.1) / 2.0,
-        top + height + 18.0 + TEXT,
-        "middle",
-        "stretch of the path",
-    ));
+
+    fn bottom(&self) -> f64 {
+        StateTable::TOP + self.height()
+    }
+
+    /// Left end of a column.
+    fn left_of(&self, column: usize) -> f64 {
+        LEFT + self.column_width * column as f64
+    }
+
+    /// Lines between the columns, each tied to its motion on the chart.
+    fn push_ties(&self, picture: &mut Picture, chart: &Chart, ends: &[f64]) {
+        for (k, motion) in ends.iter().enumerate().take(self.columns + 1) {
+            let below_chart = (chart.x.place(*motion), AREA.bottom + 50.0);
+            let top = (self.left_of(k), StateTable::TOP);
+            let bottom = (self.left_of(k), self.bottom());
+            picture.push(line(below_chart, top, "#999", 0.5));
+            picture.push(line(top, bottom, "#ccc", 0.5));
+        }
+    }
+
+    fn marks(&self, path: &LoadingPath) -> Element {
+        let radius = 0.42 * self.row_height.min(self.column_width);
+        let mut marks = Element::new("g").with("class", "marks");
+
+        for (column, interval) in path.intervals.iter().enumerate() {
+            let x = self.left_of(column) + self.column_width / 2.0;
+            for (node, state) in interval.states.iter().enumerate() {
+                let y = StateTable::TOP + self.row_height * (node as f64 + 0.5);
+                marks.push(Mark::of(*state).draw(x, y, radius));
+            }
+        }
+
+        marks
+    }
+
+    /// Numbers of nodes at the left and of stretches below, as many as there is room for.
+    fn push_labels(&self, picture: &mut Picture) {
+        for node in (0..self.rows).step_by(every(13.0, self.row_height)) {
+            let y = StateTable::TOP + self.row_height * (node as f64 + 0.5) + 4.0;
+            let number = text(LEFT - 8.0, y, "end", (node + 1).to_string());
+            picture.push(number.with("font-size", "11"));
+        }
+
+        for column in (0..self.columns).step_by(every(20.0, self.column_width)) {
+            let x = LEFT + self.column_width * (column as f64 + 0.5);
+            let number = text(x, self.bottom() + 14.0, "middle", column.to_string());
+            picture.push(number.with("font-size", "11"));
+        }
+
+        let x = LEFT - 44.0;
+        let y = StateTable::TOP + self.height() / 2.0;
+        let turn = format!("rotate(-90 {x} {y})");
+        let nodes = text(x, y, "middle", "node, from the left");
+        picture.push(nodes.with("transform", turn));
+
+        let middle = (LEFT + RIGHT) / 2.0;
+        let y = self.bottom() + 18.0 + TEXT;
+        picture.push(text(middle, y, "middle", "stretch of the path"));
+    }
+}
+
+/// Of labels that need `room` at places `distance` apart, every how many there is room for.
+fn every(room: f64, distance: f64) -> usize {
+    (room / distance).ceil().max(1.0) as usize
 }

@@ -27,6 +27,7 @@ pub enum PngError {
 /// Longest side of a PNG.
 const MAX_SIDE: u32 = 20_000;
 
+/// The only font of the renderer.
 static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
     let mut fonts = usvg::fontdb::Database::new();
     fonts.load_font_data(dejavu::sans::regular().to_vec());
@@ -34,29 +35,45 @@ static FONTS: LazyLock<Arc<usvg::fontdb::Database>> = LazyLock::new(|| {
     Arc::new(fonts)
 });
 
+/// Draws an SVG with `zoom` pixels for each px.
+///
+/// # Errors
+/// [`PngError::Size`] where a side has no pixels or more than [`MAX_SIDE`]; [`PngError::Drawing`]
+/// where the renderer refuses the SVG.
 pub(super) fn png_of(svg: &str, zoom: f32) -> Result<Vec<u8>, PngError> {
     let options = usvg::Options {
         fontdb: FONTS.clone(),
         font_family: "DejaVu Sans".into(),
         ..usvg::Options::default()
     };
-    let refused = |reason: String| PngError::Drawing { reason };
-    let tree = usvg::Tree::from_str(svg, &options).map_err(|e| refused(e.to_string()))?;
-    let pixels = |length: f32| (length * zoom).ceil() as u32; // saturates; NaN is 0
-    let (width, height) = (pixels(tree.size().width()), pixels(tree.size().height()));
-    let fits = |side: u32| (1..=MAX_SIDE).contains(&side);
-    let map = if fits(width) && fits(height) {
+    let tree = usvg::Tree::from_str(svg, &options).map_err(refused)?;
+
+    let width = pixels(tree.size().width(), zoom);
+    let height = pixels(tree.size().height(), zoom);
+    let sides = 1..=MAX_SIDE;
+    let fits = sides.contains(&width) && sides.contains(&height);
+    let map = if fits {
         tiny_skia::Pixmap::new(width, height)
     } else {
         None
     };
+
     let mut map = map.ok_or(PngError::Size { width, height })?;
-    resvg::render(
-        &tree,
-        tiny_skia::Transform::from_scale(zoom, zoom),
-        &mut map.as_mut(),
-    );
-    map.encode_png().map_err(|e| refused(e.to_string()))
+
+    let transform = tiny_skia::Transform::from_scale(zoom, zoom);
+    resvg::render(&tree, transform, &mut map.as_mut());
+    map.encode_png().map_err(refused)
+}
+
+/// Pixels for a length in px: at most the largest number, and 0 for NaN.
+fn pixels(length: f32, zoom: f32) -> u32 {
+    (length * zoom).ceil() as u32
+}
+
+fn refused(error: impl std::fmt::Display) -> PngError {
+    PngError::Drawing {
+        reason: error.to_string(),
+    }
 }
 
 #[cfg(test)]
@@ -66,19 +83,22 @@ mod tests {
     const HEAD: &str = "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"60\" height=\"20\" \
                         font-family=\"Verdana, sans-serif\">";
 
-    fn dark(svg: &str) -> usize {
+    /// The number of dark pixels of a drawing of 60 x 20 px, drawn twice as large.
+    fn dark_pixels(svg: &str) -> usize {
         let png = png_of(svg, 2.0).unwrap();
         let map = tiny_skia::Pixmap::decode_png(&png).unwrap();
         assert_eq!((map.width(), map.height()), (120, 40));
+
         map.pixels().iter().filter(|p| p.alpha() > 128).count()
     }
 
     /// Text appears, Greek and superscripts too, whatever fonts the machine has.
     #[test]
     fn text_appears() {
-        assert_eq!(dark(&format!("{HEAD}</svg>")), 0);
+        assert_eq!(dark_pixels(&format!("{HEAD}</svg>")), 0);
+
         for text in ["mu = 1.7", "\u{3bb}\u{b2} \u{3bc}", "10\u{207b}\u{2075}"] {
-            let drawn = dark(&format!("{HEAD}<text x=\"2\" y=\"14\">{text}</text></svg>"));
+            let drawn = dark_pixels(&format!("{HEAD}<text x=\"2\" y=\"14\">{text}</text></svg>"));
             assert!(drawn > 50, "{text}: {drawn} pixels");
         }
     }
@@ -87,11 +107,11 @@ mod tests {
     fn sizes_that_cannot_be_are_refused() {
         let svg = format!("{HEAD}</svg>");
         for zoom in [0.0, -1.0, f32::NAN, 1e9] {
-            assert!(
-                matches!(png_of(&svg, zoom), Err(PngError::Size { .. })),
-                "{zoom}"
-            );
+            let refused = png_of(&svg, zoom);
+            assert!(matches!(refused, Err(PngError::Size { .. })), "{zoom}");
         }
-        assert!(matches!(png_of("<svg", 1.0), Err(PngError::Drawing { .. })));
+
+        let broken = png_of("<svg", 1.0);
+        assert!(matches!(broken, Err(PngError::Drawing { .. })));
     }
 }

@@ -1,4 +1,6 @@
 //! A report as one HTML file: text, tables and pictures, nothing from outside, no scripts.
+//!
+//! `mceip block --report` and `mceip analyze --report` fill a [`Report`] with their answers.
 
 use super::drawing::Picture;
 use super::markup::Element;
@@ -46,18 +48,27 @@ pub enum Content {
     },
 }
 
-const STYLE: &str = "body{font-family:DejaVu \
-                     Sans,Verdana,Arial,sans-serif;line-height:1.45;color:#000;background:#fff;\
-max-width:64em;margin:2em auto;padding:0 \
-                     1em}h1{font-size:1.5em}h2{font-size:1.2em;margin-top:2em;border-bottom:1px \
-                     solid #000}\
-p{white-space:pre-line}.warning{border:2px solid #000;padding:.6em 1em;font-weight:bold}\
-.wide{overflow-x:auto}table{border-collapse:collapse;font-size:.85em;margin:1em 0}\
-caption{caption-side:top;text-align:left;padding-bottom:.4em;font-style:italic}\
-th,td{border:1px solid #999;padding:.2em \
-                     .6em;text-align:left;vertical-align:top}th{background:#eee}\
-td{font-family:DejaVu Sans Mono,Consolas,monospace;font-size:.92em}figure{margin:1.5em \
-                     0;break-inside:avoid}figcaption{font-size:.9em}svg{max-width:100%;height:auto}";
+/// The style sheet of the page.
+const STYLE: &str = concat!(
+    "body{font-family:DejaVu Sans,Verdana,Arial,sans-serif;line-height:1.45;",
+    "color:#000;background:#fff;max-width:64em;margin:2em auto;padding:0 1em}",
+    "h1{font-size:1.5em}",
+    "h2{font-size:1.2em;margin-top:2em;border-bottom:1px solid #000}",
+    "p{white-space:pre-line}",
+    ".warning{border:2px solid #000;padding:.6em 1em;font-weight:bold}",
+    ".wide{overflow-x:auto}",
+    "table{border-collapse:collapse;font-size:.85em;margin:1em 0}",
+    "caption{caption-side:top;text-align:left;padding-bottom:.4em;font-style:italic}",
+    "th,td{border:1px solid #999;padding:.2em .6em;text-align:left;vertical-align:top}",
+    "th{background:#eee}",
+    "td{font-family:DejaVu Sans Mono,Consolas,monospace;font-size:.92em}",
+    "figure{margin:1.5em 0;break-inside:avoid}",
+    "figcaption{font-size:.9em}",
+    "svg{max-width:100%;height:auto}",
+);
+
+/// What made the page.
+const GENERATOR: &str = concat!("mceip ", env!("CARGO_PKG_VERSION"));
 
 impl Report {
     /// The page. Everything given is text: no markup in it comes through.
@@ -80,36 +91,39 @@ impl Report {
     /// );
     /// ```
     pub fn to_html(&self) -> String {
-        let meta = |name, content| {
-            Element::new("meta")
-                .with("name", name)
-                .with("content", content)
-        };
+        let title = self.title.as_str();
         let head = Element::new("head")
             .child(Element::new("meta").with("charset", "utf-8"))
             .child(meta("viewport", "width=device-width, initial-scale=1"))
-            .child(meta(
-                "generator",
-                concat!("mceip ", env!("CARGO_PKG_VERSION")),
-            ))
-            .child(Element::new("title").text(self.title.as_str()))
+            .child(meta("generator", GENERATOR))
+            .child(Element::new("title").text(title))
             .child(Element::new("style").text(STYLE));
-        let sections = self.sections.iter().map(Section::element);
+
         let body = Element::new("body")
-            .child(Element::new("h1").text(self.title.as_str()))
-            .children(sections);
+            .child(Element::new("h1").text(title))
+            .children(self.sections.iter().map(Section::element));
+
         let page = Element::new("html")
             .with("lang", "en")
             .child(head)
             .child(body);
+
         format!("<!DOCTYPE html>\n{page}\n")
     }
 }
 
+fn meta(name: &str, content: &str) -> Element {
+    Element::new("meta")
+        .with("name", name)
+        .with("content", content)
+}
+
 impl Section {
     fn element(&self) -> Element {
-        let section = Element::new("section").child(Element::new("h2").text(self.title.as_str()));
-        section.children(self.content.iter().map(Content::element))
+        let heading = Element::new("h2").text(self.title.as_str());
+        Element::new("section")
+            .child(heading)
+            .children(self.content.iter().map(Content::element))
     }
 }
 
@@ -124,25 +138,36 @@ impl Content {
                 caption,
                 header,
                 rows,
-            } => {
-                let cells = |name: &'static str, row: &[String]| {
-                    Element::new("tr")
-                        .children(row.iter().map(|c| Element::new(name).text(c.as_str())))
-                };
-                let head = Element::new("thead").child(cells("th", header));
-                let body = Element::new("tbody")
-                    .text("")
-                    .children(rows.iter().map(|r| cells("td", r)));
-                let caption = Element::new("caption").text(caption.as_str());
-                Element::new("div")
-                    .with("class", "wide")
-                    .child(Element::new("table").child(caption).child(head).child(body))
-            }
+            } => table(caption, header, rows),
             Content::Figure { picture, caption } => Element::new("figure")
                 .child(picture.inline())
                 .child(Element::new("figcaption").text(caption.as_str())),
         }
     }
+}
+
+/// A table in a frame that scrolls where the page is too narrow.
+fn table(caption: &str, header: &[String], rows: &[Vec<String>]) -> Element {
+    let caption = Element::new("caption").text(caption);
+    let head = Element::new("thead").child(table_row("th", header));
+
+    // The empty text keeps the element open where there are no rows.
+    let body = Element::new("tbody")
+        .text("")
+        .children(rows.iter().map(|row| table_row("td", row)));
+
+    let table = Element::new("table").child(caption).child(head).child(body);
+    Element::new("div").with("class", "wide").child(table)
+}
+
+/// A row of cells of this kind, `th` or `td`.
+fn table_row(kind: &'static str, cells: &[String]) -> Element {
+    let mut row = Element::new("tr");
+    for cell in cells {
+        row.push(Element::new(kind).text(cell.as_str()));
+    }
+
+    row
 }
 
 #[cfg(test)]
@@ -172,15 +197,18 @@ mod tests {
                 content,
             }],
         };
+
         let page = report.to_html();
-        let tree =
-            roxmltree::Document::parse(page.strip_prefix("<!DOCTYPE html>\n").unwrap()).unwrap();
+
+        let markup = page.strip_prefix("<!DOCTYPE html>\n").unwrap();
+        let tree = roxmltree::Document::parse(markup).unwrap();
         let texts = tree
             .descendants()
             .filter(|n| n.is_text() && n.text() == Some(hostile))
             .count();
         assert_eq!(texts, 10, "each of the ten comes back as it was");
         assert!(tree.descendants().all(|n| n.tag_name().name() != "script"));
-        assert!(!page.contains("http:") && !page.contains("https:"));
+        assert!(!page.contains("http:"));
+        assert!(!page.contains("https:"));
     }
 }

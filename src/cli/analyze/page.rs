@@ -2,42 +2,35 @@
 
 use crate::picture::{Content, Report, Section};
 use mceip_engine::analysis::{Analysis, Evidence, Mode};
+use mceip_exact::to_f64;
 
 /// The page; `paths` of the certificates as they were written.
 pub(super) fn page(analysis: &Analysis, paths: &[String]) -> String {
-    let name = analysis
-        .name
-        .clone()
-        .unwrap_or_else(|| "mechanical system".into());
-    let sections = vec![model(analysis), answers(analysis, paths), modes(analysis)];
-    Report {
+    let name = analysis.name.as_deref().unwrap_or("mechanical system");
+    let report = Report {
         title: format!("Divergence of {name}"),
-        sections,
-    }
-    .to_html()
+        sections: vec![system(analysis), answers(analysis, paths), modes(analysis)],
+    };
+
+    report.to_html()
 }
 
-fn model(analysis: &Analysis) -> Section {
+/// The sizes of the system.
+fn system(analysis: &Analysis) -> Section {
     let [dofs, free, slip, stick] = analysis.sizes;
-    let rows = [
-        ("degrees of freedom", dofs),
-        ("of them free", free),
-        ("particles in impending slip", slip),
-        ("particles that stick", stick),
+    let rows = vec![
+        row(["degrees of freedom", &dofs.to_string()]),
+        row(["of them free", &free.to_string()]),
+        row(["particles in impending slip", &slip.to_string()]),
+        row(["particles that stick", &stick.to_string()]),
+        row(["coefficient of friction", &analysis.friction.to_string()]),
     ];
-    let mut rows: Vec<Vec<String>> = rows
-        .iter()
-        .map(|(what, n)| vec![(*what).to_string(), n.to_string()])
-        .collect();
-    rows.push(vec![
-        "coefficient of friction".into(),
-        analysis.friction.to_string(),
-    ]);
     let table = Content::Table {
         caption: "The system, in the units of its file".into(),
-        header: vec!["".into(), "".into()],
+        header: row(["", ""]),
         rows,
     };
+
     Section {
         title: "System".into(),
         content: vec![table],
@@ -46,70 +39,58 @@ fn model(analysis: &Analysis) -> Section {
 
 /// Every sentence with what stands behind it; what is only measured is said to be so.
 fn answers(analysis: &Analysis, paths: &[String]) -> Section {
-    let row = |s: mceip_engine::analysis::Sentence| {
-        let kind = match &s.evidence {
+    let mut content = Vec::new();
+    if analysis.interrupted {
+        let warning = "Interrupted: what was not done is undecided.";
+        content.push(Content::Warning(warning.into()));
+    }
+
+    let mut rows = Vec::new();
+    for sentence in analysis.sentences() {
+        let standing = match &sentence.evidence {
             Evidence::Certificate(_) => "proved",
             Evidence::Exact(_) => "exact",
             Evidence::Measured(_) => "measured",
         };
-        vec![
-            kind.to_string(),
-            s.text,
-            analysis.evidence_text(&s.evidence, paths),
-        ]
-    };
-    let table = Content::Table {
+
+        let evidence = analysis.evidence_text(&sentence.evidence, paths);
+        rows.push(row([standing, &sentence.text, &evidence]));
+    }
+
+    content.push(Content::Table {
         caption: "Answers; \"stable\" is never one of them".into(),
-        header: ["standing", "answer", "evidence"]
-            .map(String::from)
-            .to_vec(),
-        rows: analysis.sentences().into_iter().map(row).collect(),
-    };
-    let warning = "Interrupted: what was not done is undecided.";
-    let content = if analysis.interrupted {
-        vec![Content::Warning(warning.into()), table]
-    } else {
-        vec![table]
-    };
+        header: row(["standing", "answer", "evidence"]),
+        rows,
+    });
+
     Section {
         title: "Answers".into(),
         content,
     }
 }
 
+/// The diverging modes: a table of all of them, then the components of each.
 fn modes(analysis: &Analysis) -> Section {
-    let list = |particles: &[usize]| {
-        particles
-            .iter()
-            .map(usize::to_string)
-            .collect::<Vec<_>>()
-            .join(" ")
-    };
-    let row = |(k, m): (usize, &Mode)| {
-        let value = mceip_exact::to_f64(&m.lambda2.mid());
-        vec![
-            (k + 1).to_string(),
-            format!("{value:.10e}"),
-            format!("{:.6e}", m.growth_rate),
-            list(&m.slipping),
-            list(&m.sticking),
-        ]
-    };
-    let rows: Vec<Vec<String>> = analysis
-        .divergence
-        .modes
-        .iter()
-        .enumerate()
-        .map(row)
-        .collect();
-    if rows.is_empty() {
-        return Section {
-            title: "Modes".into(),
-            content: vec![Content::Paragraph(
-                "None was found at this friction.".into(),
-            )],
-        };
+    let modes = &analysis.divergence.modes;
+    let mut content = Vec::new();
+    if modes.is_empty() {
+        let none = "None was found at this friction.";
+        content.push(Content::Paragraph(none.into()));
+    } else {
+        content.push(summary(modes));
     }
+
+    for (k, mode) in modes.iter().enumerate() {
+        content.push(shape(k + 1, mode));
+    }
+
+    Section {
+        title: "Modes".into(),
+        content,
+    }
+}
+
+fn summary(modes: &[Mode]) -> Content {
     let header = [
         "mode",
         "lambda^2 (1/s^2)",
@@ -117,32 +98,48 @@ fn modes(analysis: &Analysis) -> Section {
         "slipping particles",
         "particles that do not move",
     ];
-    let summary = Content::Table {
-        caption: "Diverging modes".into(),
-        header: header.map(String::from).to_vec(),
-        rows,
-    };
-    let shapes = analysis
-        .divergence
-        .modes
-        .iter()
-        .enumerate()
-        .map(|(k, m)| Content::Table {
-            caption: format!(
-                "Mode {}: v over the degrees of freedom that move; the slip rates sum to one",
-                k + 1
-            ),
-            header: ["dof", "v"].map(String::from).to_vec(),
-            rows: m
-                .v
-                .iter()
-                .enumerate()
-                .filter(|(_, v)| **v != 0.0)
-                .map(|(i, v)| vec![i.to_string(), format!("{v:.9}")])
-                .collect(),
-        });
-    Section {
-        title: "Modes".into(),
-        content: std::iter::once(summary).chain(shapes).collect(),
+    let mut rows = Vec::new();
+    for (k, mode) in modes.iter().enumerate() {
+        let lambda2 = to_f64(&mode.lambda2.mid());
+        rows.push(vec![
+            (k + 1).to_string(),
+            format!("{lambda2:.10e}"),
+            format!("{:.6e}", mode.growth_rate),
+            listed(&mode.slipping),
+            listed(&mode.sticking),
+        ]);
     }
+
+    Content::Table {
+        caption: "Diverging modes".into(),
+        header: row(header),
+        rows,
+    }
+}
+
+/// The components of a mode that are not zero.
+fn shape(number: usize, mode: &Mode) -> Content {
+    let mut rows = Vec::new();
+    for (dof, v) in mode.v.iter().enumerate() {
+        if *v != 0.0 {
+            rows.push(vec![dof.to_string(), format!("{v:.9}")]);
+        }
+    }
+
+    Content::Table {
+        caption: format!(
+            "Mode {number}: v over the degrees of freedom that move; the slip rates sum to one"
+        ),
+        header: row(["dof", "v"]),
+        rows,
+    }
+}
+
+fn listed(particles: &[usize]) -> String {
+    let numbers: Vec<String> = particles.iter().map(usize::to_string).collect();
+    numbers.join(" ")
+}
+
+fn row<const N: usize>(cells: [&str; N]) -> Vec<String> {
+    cells.map(String::from).to_vec()
 }

@@ -1,12 +1,14 @@
 //! The arguments of `mceip block`.
 
 use crate::cli::common::CliError;
-use mceip_paper::PublishedState;
+use mceip_paper::{MassKind, PublishedState};
 use std::path::PathBuf;
 
 /// Arguments of `block`.
 #[derive(clap::Args)]
-#[command(group = clap::ArgGroup::new("loading").args(["path", "report", "pictures"]).multiple(true))]
+#[command(
+    group = clap::ArgGroup::new("loading").args(["path", "report", "pictures"]).multiple(true)
+)]
 pub(in crate::cli) struct Args {
     /// Only this state: 15 or 17 (nodes in impending slip).
     #[arg(long, conflicts_with = "loading")]
@@ -97,7 +99,12 @@ pub(in crate::cli) struct Args {
     pub(super) plane: String,
     /// A refinement study instead: the paper's block with NXxNY cells, 17 of every 20 contact nodes
     /// in impending slip, condensed in doubles by one sparse Cholesky; several with commas.
-    #[arg(long, value_name = "NXxNY", value_delimiter = ',', conflicts_with_all = ["path", "state"])]
+    #[arg(
+        long,
+        value_name = "NXxNY",
+        value_delimiter = ',',
+        conflicts_with_all = ["path", "state"]
+    )]
     pub(super) scale: Vec<String>,
     /// MCEIP-lambda2 at this friction (several with commas), by sparse condensation and many
     /// starts: of the published states, or of the meshes of --scale; each solution certified where
@@ -113,6 +120,17 @@ pub(in crate::cli) struct Args {
     /// Print JSON.
     #[arg(long)]
     pub(super) json: bool,
+}
+
+impl Args {
+    /// The mass matrix that is asked for.
+    pub(super) fn mass(&self) -> MassKind {
+        if self.lumped {
+            MassKind::Lumped
+        } else {
+            MassKind::Consistent
+        }
+    }
 }
 
 /// The published state named by --state, or both.

@@ -1,10 +1,14 @@
 //! `mceip block --lambda2`: growth rates by sparse condensation, certified where the mesh is small
 //! enough.
+//!
+//! For each case (a mesh with its contact states) and each mu, MCEIP-lambda2 is searched from many
+//! starts on the pencil condensed in doubles. Where K has at most [`ENCLOSED_ORDER`] rows, each
+//! solution found is then certified on the exact K and M.
 
 use super::args::{Args, published};
 use super::scale;
 use super::scale_error::ScaleError;
-use crate::cli::common::{CliError, exit, print};
+use crate::cli::common::{CliError, exit, positive_number, print};
 use crate::cli::job::Job;
 use mceip_engine::certify::{Certifier, ENCLOSED_ORDER};
 use mceip_engine::multistart::{
@@ -13,10 +17,9 @@ use mceip_engine::multistart::{
 use mceip_engine::reduction::{SparseCondensation, reduce};
 use mceip_engine::report::Table;
 use mceip_engine::run::{Cancel, Progress, Watch};
-use mceip_exact::{Rational, parse, to_f64};
+use mceip_exact::{Rational, to_f64};
 use mceip_model::{Body, ContactState, Problem, Unknown, Window};
-use mceip_paper::{Block, BlockModel, DoubleBlock, MassKind};
-use num_traits::Signed;
+use mceip_paper::{Block, BlockModel, DoubleBlock};
 use serde_json::{Value, json};
 use std::time::Instant;
 
@@ -27,36 +30,33 @@ struct Case {
     states: Vec<ContactState>,
 }
 
+/// A coefficient of friction with the text that gave it.
+struct Friction {
+    mu: Rational,
+    text: String,
+}
+
+/// For a solution: the certified value, or why there is none.
+type Evidence = Result<f64, String>;
+
 /// What came of a case at one friction.
 struct Row {
     name: String,
     mu: String,
-    orders: (usize, usize),
+    dofs: usize,
+    slip: usize,
     found: CondensedFound,
-    /// For each solution: the certified value, or why there is none.
-    evidence: Vec<Result<f64, String>>,
+    /// For each solution found.
+    evidence: Vec<Evidence>,
+    /// Time of the search.
     seconds: f64,
 }
 
 /// Searches each case at each friction and prints the table.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    let bad = |got: &str| CliError::Option {
-        option: "lambda2",
-        expected: "a friction mu > 0",
-        got: got.chars().take(60).collect(),
-    };
-    let friction = |text: &String| {
-        parse(text)
-            .ok()
-            .filter(Rational::is_positive)
-            .ok_or_else(|| bad(text))
-    };
-    let frictions = args
-        .lambda2
-        .iter()
-        .map(friction)
-        .collect::<Result<Vec<_>, _>>()?;
+    let frictions = frictions(&args.lambda2)?;
     let cases = cases(args)?;
+
     let job = Job::begin("block");
     let search = CondensedSearch {
         starts: args.starts,
@@ -65,25 +65,116 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     };
     let mut rows = Vec::new();
     for case in &cases {
-        job.say(format!("{}: assembling", case.name));
-        let condensation = condensation(case)?;
-        let exact = (condensation.dofs() <= ENCLOSED_ORDER)
-            .then(|| Block::new(&case.model))
-            .transpose()?;
-        for (mu, text) in frictions.iter().zip(&args.lambda2) {
-            let heard = |what: &str| job.say(format!("{}, mu = {text}: {what}", case.name));
+        case.search(&frictions, &search, &job, &mut rows)?;
+        if job.is_cancelled() {
+            break;
+        }
+    }
+    job.end();
+
+    let text = if args.json {
+        let rows: Vec<Value> = rows.iter().map(Row::json).collect();
+        format!("{}\n", json!({ "lambda2": rows }))
+    } else {
+        text_of(&rows, args.seed)
+    };
+    print(&text)?;
+
+    let is_certified = rows.iter().all(Row::is_certified);
+    Ok(if job.is_cancelled() {
+        exit::INTERRUPTED
+    } else if is_certified {
+        exit::DONE
+    } else {
+        exit::UNDECIDED
+    })
+}
+
+fn frictions(texts: &[String]) -> Result<Vec<Friction>, CliError> {
+    let mut frictions = Vec::new();
+    for text in texts {
+        let expected = "a friction mu > 0";
+        let mu = positive_number(text);
+        let mu = mu.ok_or_else(|| CliError::option("lambda2", expected, text))?;
+        let text = text.clone();
+        frictions.push(Friction { mu, text });
+    }
+
+    Ok(frictions)
+}
+
+/// The published states on the paper's mesh, or all-slip states on the meshes of --scale.
+fn cases(args: &Args) -> Result<Vec<Case>, CliError> {
+    let mass = args.mass();
+    let mut cases = Vec::new();
+    if args.scale.is_empty() {
+        for state in published(args.state)? {
+            cases.push(Case {
+                name: state.name().to_string(),
+                model: BlockModel {
+                    mass,
+                    ..BlockModel::of_the_paper()
+                },
+                states: state.states(),
+            });
+        }
+
+        return Ok(cases);
+    }
+
+    for text in &args.scale {
+        let model = BlockModel {
+            mass,
+            ..scale::model(text)?
+        };
+        let (nx, ny) = model.cells;
+        cases.push(Case {
+            name: format!("{nx}x{ny} cells"),
+            model,
+            states: scale::states(nx),
+        });
+    }
+
+    Ok(cases)
+}
+
+impl Case {
+    /// Searches at each friction, until interrupted; a row for each.
+    fn search(
+        &self,
+        frictions: &[Friction],
+        search: &CondensedSearch,
+        job: &Job,
+        rows: &mut Vec<Row>,
+    ) -> Result<(), CliError> {
+        job.say(format!("{}: assembling", self.name));
+        let condensation = self.condensation()?;
+        let exact = if condensation.dofs() <= ENCLOSED_ORDER {
+            Some(Block::new(&self.model)?)
+        } else {
+            None
+        };
+
+        for friction in frictions {
+            let place = format!("{}, mu = {}", self.name, friction.text);
+            let show = |progress: &Progress<'_>| job.say(format!("{place}: {progress}"));
+            let watch = Watch::new(job.cancel(), &show);
+
             let clock = Instant::now();
-            let told = |progress: &Progress<'_>| heard(&progress.to_string());
-            let watch = Watch::new(job.cancel(), &told);
-            let found = searched(&condensation, mu, &search, &watch)?;
+            let found = search_condensed(&condensation, to_f64(&friction.mu), search, &watch);
+            let found = found.map_err(ScaleError::from)?;
             let seconds = clock.elapsed().as_secs_f64();
-            heard("certifying");
-            let evidence = evidence(exact.as_ref(), case, mu, &found.solutions, job.cancel())?;
-            let orders = (condensation.dofs(), condensation.slip_count());
+
+            job.say(format!("{place}: certifying"));
+            let evidence = match &exact {
+                Some(block) => self.certify(block, &friction.mu, &found.solutions, job.cancel())?,
+                None => too_large(&found.solutions),
+            };
             rows.push(Row {
-                name: case.name.clone(),
-                mu: text.clone(),
-                orders,
+                name: self.name.clone(),
+                mu: friction.text.clone(),
+                dofs: condensation.dofs(),
+                slip: condensation.slip_count(),
                 found,
                 evidence,
                 seconds,
@@ -92,121 +183,61 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
                 break;
             }
         }
-        if job.is_cancelled() {
-            break;
-        }
+
+        Ok(())
     }
-    job.end();
-    print(&if args.json {
-        format!(
-            "{}\n",
-            json!({ "lambda2": rows.iter().map(json_of).collect::<Vec<_>>() })
-        )
-    } else {
-        text_of(&rows, args.seed)
-    })?;
-    let certified = rows
-        .iter()
-        .all(|r| !r.evidence.is_empty() && r.evidence.iter().all(Result::is_ok));
-    Ok(match () {
-        () if job.is_cancelled() => exit::INTERRUPTED,
-        () if certified => exit::DONE,
-        () => exit::UNDECIDED,
-    })
-}
 
-/// The published states on the paper's mesh, or all-slip states on the meshes of --scale.
-fn cases(args: &Args) -> Result<Vec<Case>, CliError> {
-    let mass = if args.lumped {
-        MassKind::Lumped
-    } else {
-        MassKind::Consistent
-    };
-    if args.scale.is_empty() {
-        let case = |s: mceip_paper::PublishedState| Case {
-            name: s.name().to_string(),
-            model: BlockModel {
-                mass,
-                ..BlockModel::of_the_paper()
-            },
-            states: s.states(),
-        };
-        return Ok(published(args.state)?.into_iter().map(case).collect());
+    fn condensation(&self) -> Result<SparseCondensation, ScaleError> {
+        let block = DoubleBlock::new(&self.model)?;
+        let stiffness = scale::symmetric("K", &block.stiffness)?;
+        let mass = scale::symmetric("M", &block.mass)?;
+
+        let particles = block.particles(&self.states);
+        let points = Some(block.points.as_slice());
+        let condensation = SparseCondensation::new(stiffness, Some(mass), &particles, points)?;
+
+        Ok(condensation)
     }
-    let case = |text: &String| {
-        let model = BlockModel {
-            mass,
-            ..scale::model(text)?
-        };
-        let states = scale::states(model.cells.0);
-        Ok(Case {
-            name: format!("{}x{} cells", model.cells.0, model.cells.1),
-            model,
-            states,
-        })
-    };
-    args.scale.iter().map(case).collect()
-}
 
-fn condensation(case: &Case) -> Result<SparseCondensation, ScaleError> {
-    let block = DoubleBlock::new(&case.model)?;
-    let (stiffness, mass) = (
-        scale::symmetric("K", &block.stiffness)?,
-        scale::symmetric("M", &block.mass)?,
-    );
-    Ok(SparseCondensation::new(
-        stiffness,
-        Some(mass),
-        &block.particles(&case.states),
-        Some(&block.points),
-    )?)
-}
+    /// Certifies each solution on the exact K and M: the checker has accepted its claim.
+    fn certify(
+        &self,
+        block: &Block,
+        mu: &Rational,
+        solutions: &[CondensedSolution],
+        cancel: &Cancel,
+    ) -> Result<Vec<Evidence>, CliError> {
+        let mut states = self.states.clone();
+        states.resize(block.contact.len(), ContactState::Free);
+        let system = block.system(&states, Some(mu.clone()))?;
+        let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
+        let pencil = reduce(&problem)?.pencil;
+        let certifier = Certifier::new(&problem, &pencil);
 
-fn searched(
-    condensation: &SparseCondensation,
-    mu: &Rational,
-    search: &CondensedSearch,
-    watch: &Watch<'_>,
-) -> Result<CondensedFound, ScaleError> {
-    Ok(search_condensed(condensation, to_f64(mu), search, watch)?)
-}
-
-/// Certifies each solution on the exact K and M: the checker has accepted its claim.
-fn evidence(
-    block: Option<&Block>,
-    case: &Case,
-    mu: &Rational,
-    solutions: &[CondensedSolution],
-    cancel: &Cancel,
-) -> Result<Vec<Result<f64, String>>, CliError> {
-    let Some(block) = block else {
-        return Ok(solutions
-            .iter()
-            .map(|_| Err(format!("more than {ENCLOSED_ORDER} dofs")))
-            .collect());
-    };
-    let mut states = case.states.clone();
-    states.resize(block.contact.len(), ContactState::Free);
-    let system = block.system(&states, Some(mu.clone()))?;
-    let problem = Problem::new(Body::System(system), Unknown::Lambda2, Window::all())?;
-    let pencil = reduce(&problem)?.pencil;
-    let certifier = Certifier::new(&problem, &pencil);
-    let one = |s: &CondensedSolution| {
-        if cancel.is_requested() {
-            Err("interrupted".into())
-        } else {
-            accepted(&certifier, s)
+        let mut evidence = Vec::new();
+        for solution in solutions {
+            evidence.push(if cancel.is_requested() {
+                Err("interrupted".into())
+            } else {
+                accepted(&certifier, solution)
+            });
         }
-    };
-    Ok(solutions.iter().map(one).collect())
+
+        Ok(evidence)
+    }
 }
 
 /// The value of a solution that the checker accepts.
-fn accepted(certifier: &Certifier<'_>, solution: &CondensedSolution) -> Result<f64, String> {
-    let (_, proved) = certifier
-        .certify_with_verdict(&solution.candidate)
-        .map_err(|e| e.to_string())?;
+fn accepted(certifier: &Certifier<'_>, solution: &CondensedSolution) -> Evidence {
+    let certified = certifier.certify_with_verdict(&solution.candidate);
+    let (_, proved) = certified.map_err(|reason| reason.to_string())?;
     Ok(to_f64(&proved.value.mid()))
+}
+
+/// The evidence for solutions on a mesh that is too large to certify.
+fn too_large(solutions: &[CondensedSolution]) -> Vec<Evidence> {
+    let reason = format!("more than {ENCLOSED_ORDER} dofs");
+    vec![Err(reason); solutions.len()]
 }
 
 fn text_of(rows: &[Row], seed: u64) -> String {
@@ -223,75 +254,91 @@ fn text_of(rows: &[Row], seed: u64) -> String {
         "seconds",
         "evidence",
     ]);
-    for r in rows {
-        let head = || {
-            vec![
-                r.name.clone(),
-                r.orders.0.to_string(),
-                r.orders.1.to_string(),
-                r.mu.clone(),
-            ]
-        };
-        let tail = |runs: usize| {
-            vec![
-                format!("{runs} of {}", r.found.runs),
-                r.found.factorisations.to_string(),
-                format!("{:.2}", r.seconds),
-            ]
-        };
-        if r.found.solutions.is_empty() {
-            let none = ["none found", "", ""].map(String::from).to_vec();
-            table.row(
-                [
-                    head(),
-                    none,
-                    tail(0),
-                    vec!["none: this proves nothing".into()],
-                ]
-                .concat(),
-            );
+    for row in rows {
+        if row.found.solutions.is_empty() {
+            let solution = ["none found", "", ""].map(String::from);
+            let evidence = "none: this proves nothing".into();
+            table.row(row.cells(solution, 0, evidence));
         }
-        for (s, evidence) in r.found.solutions.iter().zip(&r.evidence) {
-            let value = *evidence.as_ref().unwrap_or(&s.candidate.value);
-            let slipping = s.slip.iter().filter(|x| **x > 0.0).count();
-            let middle = vec![
+
+        for (solution, evidence) in row.found.solutions.iter().zip(&row.evidence) {
+            let value = value_of(solution, evidence);
+            let slipping = solution.slip.iter().filter(|x| **x > 0.0).count();
+            let numbers = [
                 format!("{value:.4}"),
                 format!("{:.6}", value.sqrt()),
                 slipping.to_string(),
             ];
-            let why = evidence.as_ref().map_or_else(
-                |e| format!("UNCERTIFIED: {e}"),
-                |_| "certified, accepted".into(),
-            );
-            table.row([head(), middle, tail(s.runs), vec![why]].concat());
+            let evidence = match evidence {
+                Ok(_) => "certified, accepted".into(),
+                Err(reason) => format!("UNCERTIFIED: {reason}"),
+            };
+            table.row(row.cells(numbers, solution.runs, evidence));
         }
     }
+
     format!(
         "{table}MCEIP-lambda2 by many starts (seed {seed}): other solutions may exist; `mceip \
          complete` proves that there are none\n"
     )
 }
 
-fn json_of(r: &Row) -> Value {
-    let one = |(s, evidence): (&CondensedSolution, &Result<f64, String>)| {
+/// lambda^2: the certified value if there is one, else that of the search.
+fn value_of(solution: &CondensedSolution, evidence: &Evidence) -> f64 {
+    match evidence {
+        Ok(value) => *value,
+        Err(_) => solution.candidate.value,
+    }
+}
+
+impl Row {
+    /// Is there a solution, and is each certified?
+    fn is_certified(&self) -> bool {
+        !self.evidence.is_empty() && self.evidence.iter().all(Result::is_ok)
+    }
+
+    /// A line of the table; `solution` stands for lambda^2, lambda and the number of slip nodes,
+    /// `runs` for the runs that found it.
+    fn cells(&self, solution: [String; 3], runs: usize, evidence: String) -> Vec<String> {
+        let [lambda2, lambda, slipping] = solution;
+        vec![
+            self.name.clone(),
+            self.dofs.to_string(),
+            self.slip.to_string(),
+            self.mu.clone(),
+            lambda2,
+            lambda,
+            slipping,
+            format!("{runs} of {}", self.found.runs),
+            self.found.factorisations.to_string(),
+            format!("{:.2}", self.seconds),
+            evidence,
+        ]
+    }
+
+    fn json(&self) -> Value {
+        let mut solutions = Vec::new();
+        for (solution, evidence) in self.found.solutions.iter().zip(&self.evidence) {
+            solutions.push(json!({
+                "lambda2": value_of(solution, evidence),
+                "certified": evidence.is_ok(),
+                "reason": evidence.as_ref().err(),
+                "x_slip": solution.slip,
+                "y_slip": solution.reaction,
+                "runs": solution.runs,
+            }));
+        }
+
         json!({
-            "lambda2": evidence.as_ref().unwrap_or(&s.candidate.value),
-            "certified": evidence.is_ok(),
-            "reason": evidence.as_ref().err(),
-            "x_slip": s.slip,
-            "y_slip": s.reaction,
-            "runs": s.runs,
+            "state": self.name,
+            "mu": self.mu,
+            "dofs": self.dofs,
+            "slip": self.slip,
+            "seconds": self.seconds,
+            "runs": self.found.runs,
+            "factorisations": self.found.factorisations,
+            "interrupted": self.found.interrupted,
+            "solutions": solutions,
         })
-    };
-    json!({
-        "state": r.name,
-        "mu": r.mu,
-        "dofs": r.orders.0,
-        "slip": r.orders.1,
-        "seconds": r.seconds,
-        "runs": r.found.runs,
-        "factorisations": r.found.factorisations,
-        "interrupted": r.found.interrupted,
-        "solutions": r.found.solutions.iter().zip(&r.evidence).map(one).collect::<Vec<_>>(),
-    })
+    }
 }

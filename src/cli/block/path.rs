@@ -1,10 +1,16 @@
 //! `mceip block --path`: the loading path, stretch by stretch.
+//!
+//! The block is pressed until its normal force is N and then moved to the left. The path is
+//! piecewise linear in the motion; each event, where a contact node changes its state, is located
+//! exactly by `mceip_paper::path`. On request: what is proved of the state of each stretch
+//! ([`states`]), pictures and a report ([`pages`]), and a comparison with ordinary stepping.
 
 mod pages;
 mod states;
 mod words;
 
 use super::args::Args;
+use super::scale::cells_of;
 use crate::cli::common::{CliError, exit, print};
 use crate::cli::job::Job;
 use crate::cli::output::{Folder, Output};
@@ -16,117 +22,146 @@ use mceip_paper::path::{
     Bound, Comparison, Contact, Equilibrium, Event, Finder, Interval, Loading, LoadingPath,
     PathEnd, step_path,
 };
-use mceip_paper::{Block, BlockModel, MassKind, MeshKind, Plane};
+use mceip_paper::{Block, BlockModel, MeshKind, Plane};
 use num_traits::{Signed, ToPrimitive};
 use pages::Shown;
 use serde_json::{Value, json};
-use states::{State, Wanted};
-use std::fmt::Write as _;
-use std::ops::ControlFlow;
+use states::{Followed, ProvedState, Wanted};
+use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::Duration;
 use words::{causes_text, end_text, motion};
 
+/// More steps than anybody waits for.
+const MAX_STEPS: usize = 1_000_000;
+
 /// Follows the path and prints it.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
-    let (model, loading) = (model(args)?, loading(args)?);
+    let model = model(args)?;
+    let loading = loading(args)?;
     let step = args.step.as_deref().map(positive_step).transpose()?;
-    let at = args
-        .at_mu
-        .iter()
-        .map(|mu| positive("at-mu", mu))
-        .collect::<Result<Vec<_>, _>>()?;
+    let at_mu = args.at_mu.iter().map(|mu| positive("at-mu", mu));
+    let at_mu = at_mu.collect::<Result<Vec<_>, _>>()?;
     let block = Block::new(&model)?;
-    let report = args
-        .report
-        .as_ref()
-        .map(|file| Output::prepare("report", file, &[]))
-        .transpose()?;
-    let folder = args
-        .pictures
-        .as_ref()
-        .map(|f| Folder::prepare("pictures", f))
-        .transpose()?;
+
+    let report = Output::prepare_if("report", args.report.as_deref(), &[])?;
+    let folder = Folder::prepare_if("pictures", args.pictures.as_deref())?;
+
     let job = Job::begin("condensing exactly to the contact nodes");
     let Some(contact) = condense(block.clone(), job.cancel())? else {
         job.end();
         return Ok(exit::INTERRUPTED);
     };
-    let path = LoadingPath::follow(&contact, &loading, &|stretch, motion| {
-        job.say(format!(
-            "stretch {stretch}, motion {:.4} mm",
-            to_f64(motion)
-        ));
-        job.flow()
-    })?;
-    let heard = |step: usize| {
-        job.say(format!("stepping, step {step}"));
-        job.flow()
+    let path = follow(&contact, &loading, &job)?;
+    let steps = match &step {
+        Some(step) => Some(compare(&contact, &path, step, &job)?),
+        None => None,
     };
-    let steps = step
-        .as_ref()
-        .map(|h| compare(&contact, &path, h, &heard))
-        .transpose()?;
-    let shows = report.is_some() || folder.is_some();
+
+    let is_shown = report.is_some() || folder.is_some();
     let wanted = Wanted {
         uncondensed: args.uncondensed,
-        conditions: args.conditions || shows,
-        at: &at,
-        modes: args.modes || shows,
+        conditions: args.conditions || is_shown,
+        at_mu: &at_mu,
+        modes: args.modes || is_shown,
     };
-    let told = |progress: &Progress<'_>| job.say(progress);
-    let watch = Watch::new(job.cancel(), &told);
-    let states = if args.complete || shows {
-        Some(states::of((&block, &contact, &path), &wanted, &watch)?)
+    let say = |progress: &Progress<'_>| job.say(progress);
+    let watch = Watch::new(job.cancel(), &say);
+    let followed = Followed {
+        block: &block,
+        contact: &contact,
+        path: &path,
+    };
+    let states = if args.complete || is_shown {
+        Some(states::of(&followed, &wanted, &watch)?)
     } else {
         None
     };
-    if let (true, Some(states)) = (shows, &states) {
+
+    if let Some(states) = &states
+        && is_shown
+    {
         let branches = pages::branches(&block, &path, states, &watch)?;
-        let (model, block, path, uncondensed) = (&model, &block, &path, args.uncondensed);
         let shown = Shown {
-            model,
-            block,
-            path,
+            model: &model,
+            block: &block,
+            path: &path,
             states,
             branches,
-            uncondensed,
+            uncondensed: args.uncondensed,
         };
+
+        // An interrupted run leaves no pictures.
         if !job.is_cancelled() {
-            show(&shown, report, folder)?; // an interrupted run leaves no pictures
+            write_pages(&shown, report, folder)?;
         }
     }
     job.end();
-    print(&if args.json {
-        let mut out = json_of(&model, &path, steps.as_ref());
-        if let Some(states) = &states {
-            out["complete_sets"] = states::json_of(states, &path);
-        }
-        if args.modes {
-            out["nodes_mm"] = block
-                .nodes
-                .iter()
-                .map(|(x, y)| json!([to_f64(x), to_f64(y)]))
-                .collect();
-        }
-        format!("{out}\n")
+
+    let outcome = Outcome {
+        model,
+        block,
+        path,
+        steps,
+        states,
+    };
+    let text = if args.json {
+        format!("{}\n", outcome.json(args.modes))
     } else {
-        text_of(&model, &path)
-            + &steps.as_ref().map_or(String::new(), comparison_text)
-            + &states
-                .as_deref()
-                .map_or(String::new(), |s| states::text_of(s, &path))
-    })?;
-    let open = states
-        .as_ref()
-        .is_some_and(|s| s.iter().any(State::is_open));
-    let unproved = matches!(path.end, PathEnd::NoContinuation { proved: false, .. });
-    Ok(if job.is_cancelled() {
-        exit::INTERRUPTED
-    } else if unproved || open {
-        exit::UNDECIDED
-    } else {
-        exit::DONE
-    })
+        outcome.text()
+    };
+    print(&text)?;
+    Ok(outcome.exit_code(job.is_cancelled()))
+}
+
+/// What came out.
+struct Outcome {
+    model: BlockModel,
+    block: Block,
+    path: LoadingPath,
+    /// The comparison with stepping, if asked for.
+    steps: Option<Comparison>,
+    /// What is proved of the states, if asked for.
+    states: Option<Vec<ProvedState>>,
+}
+
+impl Outcome {
+    /// The path, the comparison and the states, for people.
+    fn text(&self) -> String {
+        let mut out = text_of(&self.model, &self.path);
+        if let Some(steps) = &self.steps {
+            out += &comparison_text(steps);
+        }
+        if let Some(states) = &self.states {
+            out += &states::text_of(states, &self.path);
+        }
+        out
+    }
+
+    /// The same for programs, on request with the positions of the nodes.
+    fn json(&self, with_nodes: bool) -> Value {
+        let mut out = json_of(&self.model, &self.path, self.steps.as_ref());
+        if let Some(states) = &self.states {
+            out["complete_sets"] = states::json_of(states, &self.path);
+        }
+        if with_nodes {
+            out["nodes_mm"] = nodes_json(&self.block);
+        }
+        out
+    }
+
+    fn exit_code(&self, is_interrupted: bool) -> u8 {
+        let is_unproved = matches!(self.path.end, PathEnd::NoContinuation { proved: false, .. });
+        let mut states = self.states.iter().flatten();
+        let is_open = states.any(ProvedState::is_open);
+
+        if is_interrupted {
+            exit::INTERRUPTED
+        } else if is_unproved || is_open {
+            exit::UNDECIDED
+        } else {
+            exit::DONE
+        }
+    }
 }
 
 /// Pixels of a PNG for each px of the SVG.
@@ -134,153 +169,119 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
 const ZOOM: f32 = 2.0;
 
 /// Writes the report and the pictures, each file whole.
-fn show(shown: &Shown<'_>, report: Option<Output>, folder: Option<Folder>) -> Result<(), CliError> {
+fn write_pages(
+    shown: &Shown<'_>,
+    report: Option<Output>,
+    folder: Option<Folder>,
+) -> Result<(), CliError> {
     if let Some(file) = report {
         file.write(&shown.report()?.to_html())?;
     }
-    for named in if folder.is_some() {
-        shown.pictures()?
-    } else {
-        Vec::new()
-    } {
-        let Some(folder) = &folder else { break };
-        folder.write(
-            &format!("{}.svg", named.name),
-            named.picture.to_svg().as_bytes(),
-        )?;
+
+    let Some(folder) = folder else {
+        return Ok(());
+    };
+    for named in shown.pictures()? {
+        let svg = named.picture.to_svg();
+        folder.write(&format!("{}.svg", named.name), svg.as_bytes())?;
         #[cfg(feature = "png")]
         folder.write(&format!("{}.png", named.name), &named.picture.to_png(ZOOM)?)?;
     }
+
     Ok(())
+}
+
+/// The condensation in a thread of its own: it cannot be broken off, but it can be left behind.
+/// `None` if it was.
+fn condense(block: Block, cancel: &Cancel) -> Result<Option<Contact>, CliError> {
+    let (send, receive) = mpsc::channel();
+    std::thread::spawn(move || send.send(Contact::of(&block)));
+
+    loop {
+        match receive.recv_timeout(Duration::from_millis(50)) {
+            Ok(contact) => return Ok(Some(contact?)),
+            Err(RecvTimeoutError::Timeout) if !cancel.is_requested() => {}
+            // Interrupted, or the thread has died and printed why.
+            Err(_) => return Ok(None),
+        }
+    }
+}
+
+fn follow(contact: &Contact, loading: &Loading, job: &Job) -> Result<LoadingPath, CliError> {
+    let path = LoadingPath::follow(contact, loading, &|stretch, motion| {
+        let motion = to_f64(motion);
+        job.say(format!("stretch {stretch}, motion {motion:.4} mm"));
+        job.flow()
+    });
+
+    Ok(path?)
 }
 
 /// Steps to a little beyond the last event, or to the end of the range.
 fn compare(
     contact: &Contact,
     path: &LoadingPath,
-    h: &Rational,
-    progress: &dyn Fn(usize) -> ControlFlow<()>,
+    step: &Rational,
+    job: &Job,
 ) -> Result<Comparison, CliError> {
-    let last = path
-        .intervals
-        .last()
-        .map(|i| i.stop.as_ref().unwrap_or(&i.start).motion().clone());
-    let steps: Integer = (last.unwrap_or_default() / h).ceil().to_integer() + 1;
-    let count = steps.to_usize().filter(|&n| n <= MAX_STEPS);
-    let count = count.ok_or_else(|| {
-        option(
-            "step",
-            "a step with at most 1000000 of them on the path",
-            &h.to_string(),
-        )
-    })?;
-    Ok(Comparison::of(
-        path,
-        &step_path(contact, &path.loading, h, count, progress)?,
-    ))
-}
-
-/// More steps than anybody waits for.
-const MAX_STEPS: usize = 1_000_000;
-
-fn positive_step(text: &str) -> Result<Rational, CliError> {
-    number("step", text).and_then(|h| {
-        if h.is_positive() {
-            Ok(h)
-        } else {
-            Err(option("step", "a length > 0", text))
-        }
-    })
-}
-
-fn positive(name: &'static str, text: &str) -> Result<Rational, CliError> {
-    number(name, text).and_then(|v| {
-        if v.is_positive() {
-            Ok(v)
-        } else {
-            Err(option(name, "a number > 0", text))
-        }
-    })
-}
-
-fn comparison_text(c: &Comparison) -> String {
-    let list = |v: &[usize]| {
-        if v.is_empty() {
-            "none".into()
-        } else {
-            format!("{v:?}")
-        }
+    let length = match path.intervals.last() {
+        Some(last) => last.stop.as_ref().unwrap_or(&last.start).motion().clone(),
+        None => Rational::default(),
     };
-    format!(
-        "stepping: {} steps in doubles; no step ends in stretches {}; steps inside a stretch with \
-         other states: {}; largest difference of a reaction {:.3e} N\n",
-        c.steps,
-        list(&c.skipped),
-        list(&c.other_states),
-        c.reaction
-    )
+    let count: Integer = (length / step).ceil().to_integer() + 1;
+    let count = count.to_usize().filter(|&n| n <= MAX_STEPS);
+    let expected = "a step with at most 1000000 of them on the path";
+    let count = count.ok_or_else(|| CliError::option("step", expected, &step.to_string()))?;
+
+    let steps = step_path(contact, &path.loading, step, count, &|done| {
+        job.say(format!("stepping, step {done}"));
+        job.flow()
+    })?;
+
+    Ok(Comparison::of(path, &steps))
 }
 
-/// The condensation in a thread of its own: it cannot be broken off, but it can be left behind.
-fn condense(block: Block, cancel: &Cancel) -> Result<Option<Contact>, CliError> {
-    let (send, receive) = std::sync::mpsc::channel();
-    std::thread::spawn(move || send.send(Contact::of(&block)));
-    loop {
-        match receive.recv_timeout(Duration::from_millis(50)) {
-            Ok(contact) => return Ok(Some(contact?)),
-            Err(std::sync::mpsc::RecvTimeoutError::Timeout) if !cancel.is_requested() => {}
-            Err(_) => return Ok(None), // interrupted (or the thread died, which has printed why)
-        }
-    }
-}
-
+/// The block that the options describe.
 fn model(args: &Args) -> Result<BlockModel, CliError> {
     let paper = BlockModel::of_the_paper();
-    let word = |text: &str| text.to_ascii_lowercase();
-    let mesh = MeshKind::ALL
-        .into_iter()
-        .find(|m| m.word() == word(&args.mesh));
-    let mesh = mesh.ok_or_else(|| {
-        option(
-            "mesh",
-            "crossed, union-jack, slash or backslash",
-            &args.mesh,
-        )
-    })?;
-    let plane = Plane::ALL
-        .into_iter()
-        .find(|p| p.word() == word(&args.plane));
-    let plane = plane.ok_or_else(|| option("plane", "stress or strain", &args.plane))?;
-    let bad_cells = || option("cells", "NXxNY, such as 20x10", &args.cells);
-    let (nx, ny) = args.cells.split_once('x').ok_or_else(bad_cells)?;
-    let (nx, ny) = (
-        nx.parse().map_err(|_| bad_cells())?,
-        ny.parse().map_err(|_| bad_cells())?,
-    );
-    let mass = if args.lumped {
-        MassKind::Lumped
-    } else {
-        MassKind::Consistent
-    };
+
+    let mesh = args.mesh.to_ascii_lowercase();
+    let mesh = MeshKind::ALL.into_iter().find(|m| m.word() == mesh);
+    let expected = "crossed, union-jack, slash or backslash";
+    let mesh = mesh.ok_or_else(|| CliError::option("mesh", expected, &args.mesh))?;
+
+    let plane = args.plane.to_ascii_lowercase();
+    let plane = Plane::ALL.into_iter().find(|p| p.word() == plane);
+    let expected = "stress or strain";
+    let plane = plane.ok_or_else(|| CliError::option("plane", expected, &args.plane))?;
+
+    let cells = cells_of(&args.cells);
+    let expected = "NXxNY, such as 20x10";
+    let cells = cells.ok_or_else(|| CliError::option("cells", expected, &args.cells))?;
+
     let height = number("height", &args.height)?;
-    let length = paper.length();
-    let cell = |all: &Rational, n: usize| all / Rational::from_integer(n.max(1).into());
+    let cell_length = part(&paper.length(), cells.0);
+    let cell_height = part(&height, cells.1);
+
     Ok(BlockModel {
-        cells: (nx, ny),
-        cell: (cell(&length, nx), cell(&height, ny)),
+        cells,
+        cell: (cell_length, cell_height),
         mesh,
         plane,
-        mass,
+        mass: args.mass(),
         ..paper
     })
 }
 
+/// One of n equal parts; for n = 0, which the model refuses, the whole.
+fn part(whole: &Rational, n: usize) -> Rational {
+    whole / Rational::from_integer(n.max(1).into())
+}
+
 fn loading(args: &Args) -> Result<Loading, CliError> {
-    let until = args
-        .until
-        .as_deref()
-        .map(|u| number("until", u))
-        .transpose()?;
+    let until = args.until.as_deref();
+    let until = until.map(|text| number("until", text)).transpose()?;
+
     Ok(Loading {
         friction: number("mu", &args.mu)?,
         force: number("force", &args.force)?,
@@ -288,35 +289,50 @@ fn loading(args: &Args) -> Result<Loading, CliError> {
     })
 }
 
-fn number(name: &'static str, text: &str) -> Result<Rational, CliError> {
-    parse(text).map_err(|_| option(name, "a number", text))
+fn number(option: &'static str, text: &str) -> Result<Rational, CliError> {
+    parse(text).map_err(|_| CliError::option(option, "a number", text))
 }
 
-fn option(option: &'static str, expected: &'static str, got: &str) -> CliError {
-    CliError::Option {
-        option,
-        expected,
-        got: got.chars().take(60).collect(),
+fn positive(option: &'static str, text: &str) -> Result<Rational, CliError> {
+    let value = number(option, text)?;
+    if value.is_positive() {
+        Ok(value)
+    } else {
+        Err(CliError::option(option, "a number > 0", text))
+    }
+}
+
+fn positive_step(text: &str) -> Result<Rational, CliError> {
+    let length = number("step", text)?;
+    if length.is_positive() {
+        Ok(length)
+    } else {
+        Err(CliError::option("step", "a length > 0", text))
     }
 }
 
 fn text_of(model: &BlockModel, path: &LoadingPath) -> String {
     let (nx, ny) = model.cells;
-    let mut out = String::new();
-    let mut line = |text: String| {
-        let _ = writeln!(out, "{text}"); // writing to a String does not fail
-    };
-    let (mesh, plane) = (model.mesh.word(), model.plane.word());
-    let [mu, force, depth] = [&path.loading.friction, &path.loading.force, &path.depth].map(to_f64);
-    line(format!(
+    let mesh = model.mesh.word();
+    let plane = model.plane.word();
+    let mu = to_f64(&path.loading.friction);
+    let force = to_f64(&path.loading.force);
+    let depth = to_f64(&path.depth);
+    let table = table_of(path);
+    let end = end_text(path);
+
+    format!(
         "{nx} x {ny} cells, {mesh}, plane {plane}; mu = {mu}; pressed {depth:.6} mm to {force} N, \
-         then moved to the left"
-    ));
-    line(
-        "nodes from left to right: . stick, < slips to the left (S = 1), > slips to the right (S \
-          = -1), o free"
-            .into(),
-    );
+         then moved to the left\n\
+         nodes from left to right: . stick, < slips to the left (S = 1), > slips to the right (S \
+          = -1), o free\n\
+         {table}\n\
+         every event is an exact rational number; (1), (2), (5), (7) verified exactly at both \
+         ends; {end}\n"
+    )
+}
+
+fn table_of(path: &LoadingPath) -> Table {
     let mut table = Table::new(&[
         "#",
         "from mm",
@@ -330,30 +346,34 @@ fn text_of(model: &BlockModel, path: &LoadingPath) -> String {
         "event it begins with",
     ]);
     for (k, interval) in path.intervals.iter().enumerate() {
-        let [stick, left, right, free] = interval.counts();
-        let to = interval.stop.as_ref().map_or("-".into(), motion);
-        let mut row = vec![
-            k.to_string(),
-            motion(&interval.start),
-            to,
-            interval.picture(),
-        ];
-        row.extend([stick, left, right, free].map(|c| c.to_string()));
-        row.extend([
-            format!("{:.6}", to_f64(&interval.start.resultants().0)),
-            event_text(&interval.begin),
-        ]);
+        let mut row = stretch_cells(k, interval);
+        row.push(event_text(&interval.begin));
         table.row(row);
     }
-    line(table.to_string());
-    line(format!(
-        "every event is an exact rational number; (1), (2), (5), (7) verified exactly at both \
-         ends; {}",
-        end_text(path)
-    ));
-    out
+
+    table
 }
 
+/// The cells that describe stretch k, but for the event it begins with.
+fn stretch_cells(k: usize, interval: &Interval) -> Vec<String> {
+    let to = match &interval.stop {
+        Some(stop) => motion(stop),
+        None => "-".into(),
+    };
+    let mut cells = vec![
+        k.to_string(),
+        motion(&interval.start),
+        to,
+        interval.picture(),
+    ];
+    cells.extend(interval.counts().map(|count| count.to_string()));
+
+    let (tangential, _) = interval.start.resultants();
+    cells.push(format!("{:.6}", to_f64(&tangential)));
+    cells
+}
+
+/// Why the event happens, and how the states behind it were found.
 fn event_text(event: &Event) -> String {
     let causes = causes_text(&event.causes);
     match event.finder {
@@ -364,7 +384,27 @@ fn event_text(event: &Event) -> String {
     }
 }
 
+fn comparison_text(comparison: &Comparison) -> String {
+    format!(
+        "stepping: {} steps in doubles; no step ends in stretches {}; steps inside a stretch with \
+         other states: {}; largest difference of a reaction {:.3e} N\n",
+        comparison.steps,
+        listed(&comparison.skipped),
+        listed(&comparison.other_states),
+        comparison.reaction
+    )
+}
+
+fn listed(numbers: &[usize]) -> String {
+    if numbers.is_empty() {
+        "none".into()
+    } else {
+        format!("{numbers:?}")
+    }
+}
+
 fn json_of(model: &BlockModel, path: &LoadingPath, steps: Option<&Comparison>) -> Value {
+    let intervals: Vec<Value> = path.intervals.iter().map(interval_json).collect();
     json!({
         "cells": [model.cells.0, model.cells.1],
         "mesh": model.mesh.word(),
@@ -375,42 +415,55 @@ fn json_of(model: &BlockModel, path: &LoadingPath, steps: Option<&Comparison>) -
         "force_N": path.loading.force.to_string(),
         "depth_mm": to_f64(&path.depth),
         "pressing": states_json(&path.pressing),
-        "intervals": path.intervals.iter().map(interval_json).collect::<Vec<_>>(),
+        "intervals": intervals,
         "end": end_text(path),
         "slides": path.slides(),
-        "stepping": steps.map(|c| json!({
-            "steps": c.steps,
-            "skipped": c.skipped,
-            "other_states": c.other_states,
-            "reaction_difference_N": c.reaction,
-        })),
+        "stepping": steps.map(comparison_json),
+    })
+}
+
+fn comparison_json(comparison: &Comparison) -> Value {
+    json!({
+        "steps": comparison.steps,
+        "skipped": comparison.skipped,
+        "other_states": comparison.other_states,
+        "reaction_difference_N": comparison.reaction,
     })
 }
 
 fn interval_json(interval: &Interval) -> Value {
     let [stick, left, right, free] = interval.counts();
+    let stop = interval.stop.as_ref();
+
     json!({
         "from_mm": to_f64(interval.start.motion()),
-        "to_mm": interval.stop.as_ref().map(|s| to_f64(s.motion())),
+        "to_mm": stop.map(|stop| to_f64(stop.motion())),
         "states": states_json(&interval.states),
         "stick": stick,
         "slip_left": left,
         "slip_right": right,
         "free": free,
         "start": equilibrium_json(&interval.start),
-        "stop": interval.stop.as_ref().map(equilibrium_json),
-        "event": {
-            "causes": interval.begin.causes.iter().map(cause_json).collect::<Vec<_>>(),
-            "changes": interval.begin.changes
-                .iter()
-                .map(|c| json!({
-                    "node": c.node + 1,
-                    "from": state_word(c.from),
-                    "to": state_word(c.to),
-                }))
-                .collect::<Vec<_>>(),
-            "tried": interval.begin.tried,
-        },
+        "stop": stop.map(equilibrium_json),
+        "event": event_json(&interval.begin),
+    })
+}
+
+fn event_json(event: &Event) -> Value {
+    let causes: Vec<Value> = event.causes.iter().map(cause_json).collect();
+    let mut changes = Vec::new();
+    for change in &event.changes {
+        changes.push(json!({
+            "node": change.node + 1,
+            "from": state_word(change.from),
+            "to": state_word(change.to),
+        }));
+    }
+
+    json!({
+        "causes": causes,
+        "changes": changes,
+        "tried": event.tried,
     })
 }
 
@@ -419,20 +472,27 @@ fn cause_json(bound: &Bound) -> Value {
 }
 
 fn equilibrium_json(at: &Equilibrium) -> Value {
-    let (t, n) = at.resultants();
-    let reactions: Vec<Value> = at
-        .reactions_f64()
-        .into_iter()
-        .map(|(t, n)| json!([t, n]))
-        .collect();
-    // bits of the exact motion: its fraction fills pages
+    let (tangential, normal) = at.resultants();
+    let mut reactions = Vec::new();
+    for (r_t, r_n) in at.reactions_f64() {
+        reactions.push(json!([r_t, r_n]));
+    }
+
+    // The fraction of the exact motion fills pages: its size stands for it.
     let bits = at.motion().numer().bits() + at.motion().denom().bits();
+
     json!({
         "motion_bits": bits,
-        "resultant_T_N": to_f64(&t),
-        "resultant_N_N": to_f64(&n),
+        "resultant_T_N": to_f64(&tangential),
+        "resultant_N_N": to_f64(&normal),
         "reactions_T_N": reactions,
     })
+}
+
+/// Positions of the nodes, mm.
+fn nodes_json(block: &Block) -> Value {
+    let nodes = block.nodes.iter();
+    nodes.map(|(x, y)| json!([to_f64(x), to_f64(y)])).collect()
 }
 
 fn states_json(states: &[ContactState]) -> Vec<&'static str> {
@@ -443,12 +503,7 @@ fn state_word(state: ContactState) -> &'static str {
     match state {
         ContactState::Free => "free",
         ContactState::Stick => "stick",
-        ContactState::Slip { sign } => {
-            if sign > 0 {
-                "slip left"
-            } else {
-                "slip right"
-            }
-        }
+        ContactState::Slip { sign } if sign > 0 => "slip left",
+        ContactState::Slip { .. } => "slip right",
     }
 }

@@ -1,4 +1,8 @@
 //! `mceip block --scale`: the block refined, condensed in doubles by one sparse Cholesky.
+//!
+//! For each mesh: K in doubles, the condensation A + mu B to the slip nodes, the all-slip solutions
+//! of MCEIP-mu, how exact the condensation is, and the complete search on the condensed pencil. The
+//! latter proves something of the pencil whose entries are these doubles, not of the mesh.
 
 use super::scale_error::ScaleError;
 use crate::cli::common::{CliError, exit, print};
@@ -9,7 +13,7 @@ use mceip_engine::reduction::{CondensationResidual, SparseCondensation, SparseCo
 use mceip_engine::report::Table;
 use mceip_engine::run::{Cancel, Watch};
 use mceip_engine::search::complete::{Options, complete};
-use mceip_exact::{Rational, Sparse, from_f64};
+use mceip_exact::{Sparse, from_f64};
 use mceip_mcp::linear::Symmetric;
 use mceip_model::file::write_problem;
 use mceip_model::{Body, ContactState, ModelError, Pencil, Problem, Unknown, Window};
@@ -20,6 +24,7 @@ use std::time::Instant;
 
 /// Slip particles up to which the complete search is tried on the condensed pencil.
 const COMPLETE_UP_TO: usize = 80;
+
 /// Patterns of signs on which the condensation is measured, beside one that moves all alike.
 const PROBES: usize = 3;
 
@@ -28,8 +33,7 @@ struct Row {
     cells: (usize, usize),
     dofs: usize,
     slip: usize,
-    /// Assembly, order of elimination, factor and Schur complement, all-slip solutions.
-    seconds: [f64; 4],
+    seconds: Seconds,
     /// Entries of the factor.
     entries: usize,
     residual: CondensationResidual,
@@ -37,43 +41,45 @@ struct Row {
     complete: String,
 }
 
+/// How long each step took.
+struct Seconds {
+    assembly: f64,
+    /// Order of elimination.
+    ordering: f64,
+    /// Factor and Schur complement.
+    factor: f64,
+    all_slip: f64,
+}
+
 /// Condenses each mesh and prints the table.
 pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result<u8, CliError> {
-    let models = scales
-        .iter()
-        .map(|s| model(s))
-        .collect::<Result<Vec<_>, _>>()?;
+    let models = scales.iter().map(|text| model(text));
+    let models = models.collect::<Result<Vec<_>, _>>()?;
     let mut outputs = Vec::new();
-    for m in &models {
-        let path = write.map(|w| w.join(format!("block-{}x{}.json", m.cells.0, m.cells.1)));
-        outputs.push(
-            path.map(|p| Output::prepare("write", &p, &[]))
-                .transpose()?,
-        ); // writable, before the work
+    for model in &models {
+        let (nx, ny) = model.cells;
+        let path = write.map(|folder| folder.join(format!("block-{nx}x{ny}.json")));
+        outputs.push(Output::prepare_if("write", path.as_deref(), &[])?);
     }
+
     let job = Job::begin("block");
     let mut rows = Vec::new();
     for (model, output) in models.iter().zip(outputs) {
-        let heard = |what: &str| {
-            job.say(format!(
-                "{} x {} cells: {what}",
-                model.cells.0, model.cells.1
-            ))
-        };
-        match row(model, output, job.cancel(), &heard)? {
+        match row(model, output, &job)? {
             Some(row) => rows.push(row),
             None => break,
         }
     }
     job.end();
-    print(&if json {
-        format!(
-            "{}\n",
-            json!({ "scale": rows.iter().map(json_of).collect::<Vec<_>>() })
-        )
+
+    let text = if json {
+        let rows: Vec<Value> = rows.iter().map(Row::json).collect();
+        format!("{}\n", json!({ "scale": rows }))
     } else {
         text_of(&rows)
-    })?;
+    };
+    print(&text)?;
+
     Ok(if job.is_cancelled() {
         exit::INTERRUPTED
     } else {
@@ -83,78 +89,82 @@ pub(super) fn run(scales: &[String], json: bool, write: Option<&Path>) -> Result
 
 /// `NXxNY` cells of the paper's block.
 pub(super) fn model(text: &str) -> Result<BlockModel, CliError> {
-    let bad = || CliError::Option {
-        option: "scale",
-        expected: "NXxNY, such as 320x160",
-        got: text.chars().take(60).collect(),
-    };
-    let (nx, ny) = text.split_once('x').ok_or_else(bad)?;
-    Ok(BlockModel::of_the_paper().with_cells(
-        nx.parse().map_err(|_| bad())?,
-        ny.parse().map_err(|_| bad())?,
-    ))
+    let expected = "NXxNY, such as 320x160";
+    let cells = cells_of(text).ok_or_else(|| CliError::option("scale", expected, text))?;
+    Ok(BlockModel::of_the_paper().with_cells(cells.0, cells.1))
+}
+
+/// The two numbers of `NXxNY`.
+pub(super) fn cells_of(text: &str) -> Option<(usize, usize)> {
+    let (nx, ny) = text.split_once('x')?;
+    Some((nx.parse().ok()?, ny.parse().ok()?))
 }
 
 /// 17 of every 20 cells, as in Fig. 3: the first nodes from the left slip with S = 1, the others
 /// are free.
 pub(super) fn states(nx: usize) -> Vec<ContactState> {
-    vec![ContactState::Slip { sign: 1 }; (17 * nx / 20).max(1)]
+    let slip = (17 * nx / 20).max(1);
+    vec![ContactState::Slip { sign: 1 }; slip]
 }
 
 /// Symmetric K or M of a block in doubles.
 pub(super) fn symmetric(what: &'static str, m: &DoubleMatrix) -> Result<Symmetric, ScaleError> {
-    Symmetric::new(m.order, m.entries.iter().copied())
-        .map_err(|source| ScaleError::Matrix { what, source })
+    let matrix = Symmetric::new(m.order, m.entries.iter().copied());
+    matrix.map_err(|source| ScaleError::Matrix { what, source })
 }
 
 /// One mesh; `None` if interrupted before its condensation was done.
-fn row(
-    model: &BlockModel,
-    output: Option<Output>,
-    cancel: &Cancel,
-    heard: &dyn Fn(&str),
-) -> Result<Option<Row>, CliError> {
-    let stopped = || cancel.is_requested();
+fn row(model: &BlockModel, output: Option<Output>, job: &Job) -> Result<Option<Row>, CliError> {
+    let (nx, ny) = model.cells;
+    let say = |what: &str| job.say(format!("{nx} x {ny} cells: {what}"));
     let clock = Instant::now();
-    heard("assembling");
+
+    say("assembling");
     let block = DoubleBlock::new(model).map_err(ScaleError::from)?;
     let stiffness = symmetric("K", &block.stiffness)?;
     let assembled = clock.elapsed().as_secs_f64();
-    if stopped() {
+    if job.is_cancelled() {
         return Ok(None);
     }
-    heard("ordering");
-    let particles = block.particles(&states(model.cells.0));
+
+    say("ordering");
+    let particles = block.particles(&states(nx));
     let condensation = SparseCondensation::new(stiffness, None, &particles, Some(&block.points))
         .map_err(ScaleError::from)?;
     let ordered = clock.elapsed().as_secs_f64();
-    if stopped() {
+    if job.is_cancelled() {
         return Ok(None);
     }
-    heard("factoring");
+
+    say("factoring");
     let condensed = condensation.at(0.0).map_err(ScaleError::from)?;
     let factored = clock.elapsed().as_secs_f64();
-    heard("all-slip solutions");
+
+    say("all-slip solutions");
     let found = all_slip(&condensed.a, &condensed.b);
     let solved = clock.elapsed().as_secs_f64();
-    let problem = problem(model, &condensed)?;
+
+    let problem = condensed_problem(model, &condensed)?;
     if let Some(output) = output {
         output.write(&write_problem(&problem))?;
     }
-    heard("residuals");
+
+    say("residuals");
     let residual = condensed.residual(PROBES);
-    heard("complete search of the condensed pencil");
-    let complete = closed(&problem, condensation.slip_count(), cancel);
+
+    say("complete search of the condensed pencil");
+    let complete = complete_text(&problem, condensation.slip_count(), job.cancel());
+
     Ok(Some(Row {
         cells: model.cells,
         dofs: condensation.dofs(),
         slip: condensation.slip_count(),
-        seconds: [
-            assembled,
-            ordered - assembled,
-            factored - ordered,
-            solved - factored,
-        ],
+        seconds: Seconds {
+            assembly: assembled,
+            ordering: ordered - assembled,
+            factor: factored - ordered,
+            all_slip: solved - factored,
+        },
         entries: condensation.analysis().factor_entries(),
         residual,
         all_slip: found,
@@ -164,53 +174,59 @@ fn row(
 
 /// The condensed pencil, its doubles taken as exact data: another problem than the block's, close
 /// to it.
-fn problem(model: &BlockModel, condensed: &SparseCondensed<'_>) -> Result<Problem, ModelError> {
-    let number =
-        |m: &[Vec<f64>], i: usize, j: usize| -> Result<(usize, usize, Rational), ModelError> {
-            let value = from_f64(m[i][j]).map_err(|source| ModelError::Number {
+fn condensed_problem(
+    model: &BlockModel,
+    condensed: &SparseCondensed<'_>,
+) -> Result<Problem, ModelError> {
+    let a = exact(&condensed.a)?;
+    let b = exact(&condensed.b)?;
+    let pencil = Pencil::new(a, b, Vec::new())?;
+
+    let (nx, ny) = model.cells;
+    let slip = condensed.a.len();
+    let name = format!("block of {nx} x {ny} cells, {slip} slip, condensed in doubles");
+    let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
+
+    Ok(problem.named(name))
+}
+
+/// A square matrix of doubles as exact numbers.
+fn exact(rows: &[Vec<f64>]) -> Result<Sparse, ModelError> {
+    let order = rows.len();
+    let mut entries = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        for (j, value) in row.iter().enumerate().take(order) {
+            let number = from_f64(*value).map_err(|source| ModelError::Number {
                 place: format!("condensed pencil[{i}][{j}]"),
                 source,
             })?;
-            Ok((i, j, value))
-        };
-    let exact = |m: &[Vec<f64>]| {
-        let n = m.len();
-        let entries = (0..n)
-            .flat_map(|i| (0..n).map(move |j| (i, j)))
-            .map(|(i, j)| number(m, i, j));
-        Ok::<Sparse, ModelError>(Sparse::from_entries(
-            n,
-            n,
-            entries.collect::<Result<Vec<_>, _>>()?,
-        ))
-    };
-    let pencil = Pencil::new(exact(&condensed.a)?, exact(&condensed.b)?, Vec::new())?;
-    let name = format!(
-        "block of {} x {} cells, {} slip, condensed in doubles",
-        model.cells.0,
-        model.cells.1,
-        condensed.a.len()
-    );
-    Ok(Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?.named(name))
+            entries.push((i, j, number));
+        }
+    }
+
+    Ok(Sparse::from_entries(order, order, entries))
 }
 
 /// What the complete search says of the condensed pencil.
-fn closed(problem: &Problem, slip: usize, cancel: &Cancel) -> String {
+fn complete_text(problem: &Problem, slip: usize, cancel: &Cancel) -> String {
     if slip > COMPLETE_UP_TO {
         return format!("not tried (n_s > {COMPLETE_UP_TO})");
     }
+
     let clock = Instant::now();
-    match complete(problem, &Options::default(), &Watch::silent(cancel)) {
-        Err(e) => format!("failed: {e}"),
-        Ok(found) => {
-            let (n, seconds) = (found.cover.solutions.len(), clock.elapsed().as_secs_f64());
-            let open = found.cover.open.len() + found.cover.families.len();
-            if open == 0 {
-                format!("{n}, proved ({seconds:.1} s)")
-            } else {
-                format!("{n}, {open} regions open ({seconds:.1} s)")
-            }
-        }
+    let found = match complete(problem, &Options::default(), &Watch::silent(cancel)) {
+        Ok(found) => found,
+        Err(e) => return format!("failed: {e}"),
+    };
+    let seconds = clock.elapsed().as_secs_f64();
+
+    let count = found.cover.solutions.len();
+    let open = found.cover.open.len() + found.cover.families.len();
+
+    if open == 0 {
+        format!("{count}, proved ({seconds:.1} s)")
+    } else {
+        format!("{count}, {open} regions open ({seconds:.1} s)")
     }
 }
 
@@ -229,29 +245,10 @@ fn text_of(rows: &[Row]) -> String {
         "residual",
         "complete",
     ]);
-    for r in rows {
-        let mut cells = vec![
-            format!("{}x{}", r.cells.0, r.cells.1),
-            r.dofs.to_string(),
-            r.slip.to_string(),
-        ];
-        cells.extend(r.seconds[..3].iter().map(|s| format!("{s:.3}")));
-        cells.push(format!("{:.1}", mebibytes(r.entries)));
-        cells.extend([r.residual.balance, r.residual.change].map(|v| format!("{v:.1e}")));
-        let list = |f: &dyn Fn(&AllSlip) -> String| {
-            if r.all_slip.is_empty() {
-                "none found".into()
-            } else {
-                r.all_slip.iter().map(f).collect::<Vec<_>>().join(", ")
-            }
-        };
-        cells.extend([
-            list(&|s| format!("{:.12}", s.mu)),
-            list(&|s| format!("{:.1e}", s.residual)),
-            r.complete.clone(),
-        ]);
-        table.row(cells);
+    for row in rows {
+        table.row(row.cells());
     }
+
     format!(
         "{table}K, A, B and mu in doubles, uncertified; balance: load left on f by lifted probes; \
          change: what a step of refinement changes of Z,\n\
@@ -260,28 +257,68 @@ fn text_of(rows: &[Row]) -> String {
     )
 }
 
+/// Memory for so many doubles.
 fn mebibytes(entries: usize) -> f64 {
     entries as f64 * 8.0 / f64::from(1 << 20)
 }
 
-fn json_of(r: &Row) -> Value {
-    json!({
-        "cells": [r.cells.0, r.cells.1],
-        "dofs": r.dofs,
-        "slip": r.slip,
-        "seconds": {
-            "assembly": r.seconds[0],
-            "ordering": r.seconds[1],
-            "factor": r.seconds[2],
-            "all_slip": r.seconds[3],
-        },
-        "factor_MiB": mebibytes(r.entries),
-        "balance": r.residual.balance,
-        "change": r.residual.change,
-        "all_slip": r.all_slip
-            .iter()
-            .map(|s| json!({ "mu": s.mu, "residual": s.residual }))
-            .collect::<Vec<_>>(),
-        "complete_of_condensed_doubles": r.complete,
-    })
+/// A list with commas.
+fn listed(parts: Vec<String>) -> String {
+    if parts.is_empty() {
+        "none found".into()
+    } else {
+        parts.join(", ")
+    }
+}
+
+impl Row {
+    /// A line of the table.
+    fn cells(&self) -> Vec<String> {
+        let (nx, ny) = self.cells;
+        let mut all_slip_mu = Vec::new();
+        let mut residuals = Vec::new();
+        for solution in &self.all_slip {
+            all_slip_mu.push(format!("{:.12}", solution.mu));
+            residuals.push(format!("{:.1e}", solution.residual));
+        }
+
+        vec![
+            format!("{nx}x{ny}"),
+            self.dofs.to_string(),
+            self.slip.to_string(),
+            format!("{:.3}", self.seconds.assembly),
+            format!("{:.3}", self.seconds.ordering),
+            format!("{:.3}", self.seconds.factor),
+            format!("{:.1}", mebibytes(self.entries)),
+            format!("{:.1e}", self.residual.balance),
+            format!("{:.1e}", self.residual.change),
+            listed(all_slip_mu),
+            listed(residuals),
+            self.complete.clone(),
+        ]
+    }
+
+    fn json(&self) -> Value {
+        let mut all_slip = Vec::new();
+        for solution in &self.all_slip {
+            all_slip.push(json!({ "mu": solution.mu, "residual": solution.residual }));
+        }
+
+        json!({
+            "cells": [self.cells.0, self.cells.1],
+            "dofs": self.dofs,
+            "slip": self.slip,
+            "seconds": {
+                "assembly": self.seconds.assembly,
+                "ordering": self.seconds.ordering,
+                "factor": self.seconds.factor,
+                "all_slip": self.seconds.all_slip,
+            },
+            "factor_MiB": mebibytes(self.entries),
+            "balance": self.residual.balance,
+            "change": self.residual.change,
+            "all_slip": all_slip,
+            "complete_of_condensed_doubles": self.complete,
+        })
+    }
 }

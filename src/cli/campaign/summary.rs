@@ -21,40 +21,51 @@ pub(super) fn text_of(state: &State) -> String {
         "disagreements",
     ];
     let mut table = Table::new(&header);
-    for (name, t) in state.families.iter().zip(&state.tallies) {
-        table.row(row(name, t));
-    }
     let mut sum = Tally::default();
-    state.tallies.iter().for_each(|t| add(&mut sum, t));
-    table.row(row("all", &sum));
-    let mut out = format!("{table}\n{}\n", coverage_of(state));
-    for (name, t) in state.families.iter().zip(&state.tallies) {
-        let corners: Vec<String> = t.corners.iter().map(|(c, n)| format!("{c} {n}")).collect();
-        let corners = if corners.is_empty() {
-            "none".into()
-        } else {
-            corners.join(", ")
-        };
-        out += &format!("{name}: corners reached: {corners}; {} pivots\n", t.pivots);
-        out += &t
-            .disagreements
-            .iter()
-            .map(|d| format!("  DISAGREEMENT {d}\n"))
-            .collect::<String>();
+    for (name, tally) in state.families.iter().zip(&state.tallies) {
+        table.row(row(name, tally));
+        add(&mut sum, tally);
     }
+
+    table.row(row("all", &sum));
+
+    let mut out = format!("{table}\n{}\n", coverage_of(state));
+    for (name, tally) in state.families.iter().zip(&state.tallies) {
+        let corners = corners_of(tally);
+        let pivots = tally.pivots;
+        out += &format!("{name}: corners reached: {corners}; {pivots} pivots\n");
+        for disagreement in &tally.disagreements {
+            out += &format!("  DISAGREEMENT {disagreement}\n");
+        }
+    }
+
     out + &format!("\n{}\n", verdict(state))
+}
+
+/// The corners of the solver that were reached, each with its count.
+fn corners_of(tally: &Tally) -> String {
+    if tally.corners.is_empty() {
+        return "none".into();
+    }
+
+    let mut corners = Vec::new();
+    for (corner, count) in &tally.corners {
+        corners.push(format!("{corner} {count}"));
+    }
+
+    corners.join(", ")
 }
 
 /// What was found of the instances that have solutions, each rate beside its floor; then the rates
 /// below it.
 fn coverage_of(state: &State) -> String {
     let mut table = Table::new(&["coverage", "starts", "first start", "all solutions"]);
-    for c in state.covered() {
+    for covered in state.covered() {
         table.row(vec![
-            c.family.clone(),
-            c.starts.word().into(),
-            c.first_text(),
-            c.all_text(),
+            covered.family.clone(),
+            covered.starts.word().into(),
+            covered.first_text(),
+            covered.all_text(),
         ]);
     }
 
@@ -62,6 +73,7 @@ fn coverage_of(state: &State) -> String {
     for shortfall in state.shortfalls() {
         out += &format!("  DISAGREEMENT coverage: {shortfall}\n");
     }
+
     out
 }
 
@@ -95,86 +107,91 @@ fn row(name: &str, t: &Tally) -> Vec<String> {
 }
 
 fn verdict(state: &State) -> String {
-    let (seed, (i, n)) = (state.seed, state.shard);
-    let part = if n == 1 {
-        String::new()
-    } else {
-        format!(", part {} of {n}", i + 1)
+    let seed = state.seed;
+    let instances = state.instances();
+    let (index, count) = state.shard;
+    let part = match count {
+        1 => String::new(),
+        _ => format!(", part {} of {count}", index + 1),
     };
+
     match state.disagreements() {
-        0 => format!(
-            "CLEAN: no disagreement in {} instances (seed {seed}{part})",
-            state.instances()
-        ),
-        wrong => format!(
-            "DISAGREEMENT: {wrong} in {} instances (seed {seed}{part})",
-            state.instances()
-        ),
+        0 => format!("CLEAN: no disagreement in {instances} instances (seed {seed}{part})"),
+        wrong => format!("DISAGREEMENT: {wrong} in {instances} instances (seed {seed}{part})"),
     }
 }
 
 pub(super) fn json_of(state: &State) -> Value {
-    let family = |(name, t): (&String, &Tally)| {
-        json!({
-            "name": name,
-            "instances": t.instances,
-            "solutions": t.solutions,
-            "findable": t.findable,
-            "found": t.found,
-            "closed": t.closed,
-            "undecided": t.instances - t.closed,
-            "accepted": t.accepted,
-            "forgeries": t.forgeries,
-            "uncertified": t.uncertified,
-            "degenerate": t.degenerate,
-            "pivots": t.pivots,
-            "corners": t.corners,
-            "disagreements": t.disagreements,
-        })
-    };
+    let coverage: Vec<Value> = state.covered().iter().map(covered_json).collect();
+    let shortfalls: Vec<String> = state.shortfalls().iter().map(ToString::to_string).collect();
+    let mut families = Vec::new();
+    for (name, tally) in state.families.iter().zip(&state.tallies) {
+        families.push(family_json(name, tally));
+    }
+
     json!({
         "seed": state.seed,
         "shard": [state.shard.0 + 1, state.shard.1],
         "instances": state.instances(),
         "disagreements": state.disagreements(),
-        "coverage": state.covered().iter().map(covered_json).collect::<Vec<_>>(),
-        "shortfalls": state.shortfalls().iter().map(ToString::to_string).collect::<Vec<_>>(),
-        "families": state.families.iter().zip(&state.tallies).map(family).collect::<Vec<_>>(),
+        "coverage": coverage,
+        "shortfalls": shortfalls,
+        "families": families,
         "verdict": verdict(state),
     })
 }
 
+fn family_json(name: &str, tally: &Tally) -> Value {
+    json!({
+        "name": name,
+        "instances": tally.instances,
+        "solutions": tally.solutions,
+        "findable": tally.findable,
+        "found": tally.found,
+        "closed": tally.closed,
+        "undecided": tally.instances - tally.closed,
+        "accepted": tally.accepted,
+        "forgeries": tally.forgeries,
+        "uncertified": tally.uncertified,
+        "degenerate": tally.degenerate,
+        "pivots": tally.pivots,
+        "corners": tally.corners,
+        "disagreements": tally.disagreements,
+    })
+}
+
+/// What a replay file was about, and what its case gives when it is judged again.
 pub(super) fn replay_text(replay: &Replay, judged: &Judgement) -> String {
     let mut out = format!(
         "{}:{}:{} was: {}: {}\n",
         replay.family, replay.seed, replay.index, replay.engine, replay.disagreement
     );
-    out += &judged
-        .findings
-        .iter()
-        .map(|f| format!("DISAGREEMENT {}: {}\n", f.engine, f.disagreement))
-        .collect::<String>();
-    if judged.findings.is_empty() {
+
+    for finding in &judged.findings {
         out += &format!(
-            "CLEAN: {} solutions, every engine agrees\n",
-            judged.report.oracle
+            "DISAGREEMENT {}: {}\n",
+            finding.engine, finding.disagreement
         );
     }
+
+    if judged.findings.is_empty() {
+        let solutions = judged.report.oracle;
+        out += &format!("CLEAN: {solutions} solutions, every engine agrees\n");
+    }
+
     out
 }
 
 pub(super) fn replay_json(replay: &Replay, judged: &Judgement) -> Value {
-    let now: Vec<Value> = judged
-        .findings
-        .iter()
-        .map(|f| {
-            json!({
-                "engine": f.engine,
-                "kind": f.disagreement.kind(),
-                "disagreement": f.disagreement.to_string(),
-            })
-        })
-        .collect();
+    let mut now = Vec::new();
+    for finding in &judged.findings {
+        now.push(json!({
+            "engine": finding.engine,
+            "kind": finding.disagreement.kind(),
+            "disagreement": finding.disagreement.to_string(),
+        }));
+    }
+
     json!({
         "family": replay.family,
         "seed": replay.seed,

@@ -1,7 +1,7 @@
 //! `mceip check` on a plain LCP or MCP: every point of a solution file, exactly.
 
 use super::super::common::{CliError, exit, print, text};
-use mceip_engine::lcp::{FileError, judge, read_mcp, read_solution};
+use mceip_engine::lcp::{judge, read_mcp, read_solution};
 use std::path::Path;
 
 /// The verdict on the solution file `certificate` of the plain problem `source`, read from `path`.
@@ -10,18 +10,15 @@ pub(in super::super) fn verdict(
     source: &str,
     certificate: &Path,
 ) -> Result<u8, CliError> {
-    let named = |path: &Path, source: FileError| CliError::Plain {
-        path: path.display().to_string(),
-        source,
-    };
-    let problem = read_mcp(source).map_err(|e| named(path, e))?;
-    let claimed =
-        read_solution(&text("the certificate", certificate)?).map_err(|e| named(certificate, e))?;
+    let problem = read_mcp(source).map_err(|e| CliError::plain(path, e))?;
+    let claimed = text("the certificate", certificate)?;
+    let claimed = read_solution(&claimed).map_err(|e| CliError::plain(certificate, e))?;
+
     match judge(&problem, &claimed) {
         Ok(count) => {
+            let digest = problem.sha256();
             print(&format!(
-                "ACCEPTED: {count} solution(s) of problem {}\n",
-                problem.sha256()
+                "ACCEPTED: {count} solution(s) of problem {digest}\n"
             ))?;
             Ok(exit::DONE)
         }

@@ -28,7 +28,11 @@ pub(in crate::cli) struct Args {
     #[arg(long, value_name = "OUT")]
     pub(super) trace: Option<PathBuf>,
     /// Run a trace again: identical, or the first line that differs.
-    #[arg(long, value_name = "TRACE", conflicts_with_all = ["file", "trace", "certificate", "json", "log", "window"])]
+    #[arg(
+        long,
+        value_name = "TRACE",
+        conflicts_with_all = ["file", "trace", "certificate", "json", "log", "window"]
+    )]
     pub(super) replay: Option<PathBuf>,
     /// Of a plain LCP or MCP: check this solution file exactly instead of solving (as `mceip check`
     /// does).

@@ -6,10 +6,10 @@ use super::super::output::Output;
 use super::args::Args;
 use super::search::plain_search_of;
 use super::trace;
-use mceip_engine::lcp::{ExactMcp, FileError, Found, read_mcp, search, write_solution};
+use mceip_engine::lcp::{ExactMcp, Found, read_mcp, search, write_solution};
 use mceip_engine::multistart::{SearchError, trace_outcome};
 use mceip_exact::{Rational, to_f64};
-use std::fmt::Write as _;
+use serde_json::json;
 use std::path::Path;
 
 /// Solves a plain problem, or checks a solution file of it.
@@ -17,47 +17,50 @@ pub(super) fn run(args: &Args, path: &Path, source: &str) -> Result<u8, CliError
     if let Some(solution) = &args.check {
         return verdict(path, source, solution);
     }
-    let named = |source: FileError| CliError::Plain {
-        path: path.display().to_string(),
-        source,
-    };
-    let problem = read_mcp(source).map_err(named)?;
-    let output = args
-        .certificate
-        .as_ref()
-        .map(|out| Output::prepare("certificate", out, &[path]))
-        .transpose()?;
-    let trace_output = args
-        .trace
-        .as_ref()
-        .map(|out| Output::prepare("trace", out, &[path]))
-        .transpose()?;
+
+    let problem = read_mcp(source).map_err(|e| CliError::plain(path, e))?;
+    let output = Output::prepare_if("certificate", args.certificate.as_deref(), &[path])?;
+    let trace_output = Output::prepare_if("trace", args.trace.as_deref(), &[path])?;
     let how = plain_search_of(args.starts, args.seed, args.all, args.trace.is_some());
     let found = search(&problem, &how).map_err(SearchError::from)?;
+
     if let Some(output) = trace_output {
-        output.write(&trace::render_plain(
-            &trace::Header::plain(&problem, &how),
-            &found,
-        ))?;
+        let header = trace::Header::plain(&problem, &how);
+        output.write(&trace::render_plain(&header, &found))?;
     }
+
     for (point, reason) in &found.uncertified {
         eprintln!("uncertified: z = {point:?}: {reason}");
     }
-    if let (true, Some(first)) = (args.log, &found.first) {
+
+    if let Some(first) = &found.first
+        && args.log
+    {
         eprint!("{}", trace_outcome(first));
     }
-    print(&if args.json {
+
+    let text = if args.json {
         json(&problem, &found)
     } else {
         listing(&problem, &found)
-    })?;
-    let any = !found.certified.is_empty();
-    if let (Some(output), true) = (output, any) {
+    };
+    print(&text)?;
+
+    let is_found = !found.certified.is_empty();
+    if let Some(output) = output
+        && is_found
+    {
         output.write(&write_solution(&problem, &found.certified))?;
     }
-    Ok(if any { exit::DONE } else { exit::UNDECIDED })
+
+    Ok(if is_found {
+        exit::DONE
+    } else {
+        exit::UNDECIDED
+    })
 }
 
+/// What the search was and how it went.
 fn evidence(found: &Found) -> String {
     let (pivots, factorisations) = found.counters;
     format!(
@@ -69,36 +72,36 @@ fn evidence(found: &Found) -> String {
     )
 }
 
+/// Each solution z with F(z), for people.
 fn listing(problem: &ExactMcp, found: &Found) -> String {
     let mut out = String::new();
     for z in &found.certified {
-        let _ = writeln!(out, "certified solution");
-        for (i, (z_i, f_i)) in z.iter().zip(problem.function(z)).enumerate() {
-            let _ = writeln!(
-                out,
-                "  z[{i}] = {z_i} ({}), F[{i}] = {f_i} ({})",
-                to_f64(z_i),
-                to_f64(&f_i)
-            );
+        out += "certified solution\n";
+        let function = problem.function(z);
+        for (i, (z_i, f_i)) in z.iter().zip(&function).enumerate() {
+            let z_double = to_f64(z_i);
+            let f_double = to_f64(f_i);
+            out += &format!("  z[{i}] = {z_i} ({z_double}), F[{i}] = {f_i} ({f_double})\n");
         }
     }
-    let _ = writeln!(out, "{}", evidence(found));
+
+    out += &format!("{}\n", evidence(found));
     out
 }
 
+/// The same as `mceip-mcp-solutions/1`.
 fn json(problem: &ExactMcp, found: &Found) -> String {
-    let texts = |list: &[Rational]| list.iter().map(ToString::to_string).collect::<Vec<_>>();
-    let solutions: Vec<_> = found
-        .certified
-        .iter()
-        .map(|z| serde_json::json!({ "z": texts(z), "f": texts(&problem.function(z)) }))
-        .collect();
-    let uncertified: Vec<_> = found
-        .uncertified
-        .iter()
-        .map(|(z, reason)| serde_json::json!({ "z": z, "reason": reason.to_string() }))
-        .collect();
-    let value = serde_json::json!({
+    let mut solutions = Vec::new();
+    for z in &found.certified {
+        solutions.push(json!({ "z": texts(z), "f": texts(&problem.function(z)) }));
+    }
+
+    let mut uncertified = Vec::new();
+    for (z, reason) in &found.uncertified {
+        uncertified.push(json!({ "z": z, "reason": reason.to_string() }));
+    }
+
+    let value = json!({
         "format": "mceip-mcp-solutions/1",
         "problem_sha256": problem.sha256(),
         "claim": "solutions",
@@ -106,5 +109,10 @@ fn json(problem: &ExactMcp, found: &Found) -> String {
         "solutions": solutions,
         "uncertified": uncertified,
     });
+
     format!("{value:#}\n")
+}
+
+fn texts(numbers: &[Rational]) -> Vec<String> {
+    numbers.iter().map(ToString::to_string).collect()
 }

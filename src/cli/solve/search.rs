@@ -11,6 +11,7 @@ pub(super) fn search_of(starts: usize, seed: u64, all: bool, trace: bool) -> Sea
     } else {
         0
     };
+
     Search {
         starts,
         window_starts,

@@ -57,130 +57,130 @@ impl Header {
     }
 }
 
-/// A header made again, in the words of the recorded one: before there was a choice traces did not
-/// name the crash.
+/// A header made again, in the words of the recorded one: traces recorded before the crash could be
+/// chosen do not name it.
 fn in_old_words(again: Header, recorded: &Header) -> Header {
-    let names_it = recorded.options.contains("crash_method: ");
-    let options = if names_it {
-        again.options
-    } else {
-        again
-            .options
-            .replacen("crash_method: ProjectedNewton, ", "", 1)
-    };
+    let names_crash = recorded.options.contains("crash_method: ");
+    if names_crash {
+        return again;
+    }
+
+    let crash = "crash_method: ProjectedNewton, ";
+    let options = again.options.replacen(crash, "", 1);
     Header { options, ..again }
+}
+
+/// The header as the first line of a trace.
+fn first_line(header: &Header) -> String {
+    // Serialising strings and numbers cannot fail.
+    let head = serde_json::to_string(header).unwrap_or_default();
+    format!("{head}\n")
 }
 
 /// The whole trace.
 pub(super) fn render(header: &Header, found: &Found) -> String {
-    // Serialising strings and numbers cannot fail.
-    let head = serde_json::to_string(header).unwrap_or_default();
-    let mut out = format!("{head}\n");
-    found.trace.iter().for_each(|run| out += run);
-    for c in &found.certified {
-        out += &format!("certified in run {}: {:?}\n", c.run, c.candidate);
+    let mut out = first_line(header);
+    out.extend(found.trace.iter().map(String::as_str));
+    for solution in &found.certified {
+        let run = solution.run;
+        out += &format!("certified in run {run}: {:?}\n", solution.candidate);
     }
-    for u in &found.uncertified {
-        out += &format!("uncertified: {:?}: {}\n", u.candidate, u.reason);
+
+    for point in &found.uncertified {
+        let reason = &point.reason;
+        out += &format!("uncertified: {:?}: {reason}\n", point.candidate);
     }
+
     out
 }
 
 /// The whole trace of a plain problem.
 pub(super) fn render_plain(header: &Header, found: &lcp::Found) -> String {
-    let head = serde_json::to_string(header).unwrap_or_default();
-    let mut out = format!("{head}\n");
-    found.trace.iter().for_each(|run| out += run);
+    let mut out = first_line(header);
+    out.extend(found.trace.iter().map(String::as_str));
     for z in &found.certified {
-        out += &format!(
-            "certified: {}\n",
-            z.iter()
-                .map(ToString::to_string)
-                .collect::<Vec<_>>()
-                .join(" ")
-        );
+        let components: Vec<String> = z.iter().map(ToString::to_string).collect();
+        out += &format!("certified: {}\n", components.join(" "));
     }
+
     for (z, reason) in &found.uncertified {
         out += &format!("uncertified: {z:?}: {reason}\n");
     }
+
     out
+}
+
+/// A trace made again.
+struct Repeated {
+    trace: String,
+    runs: usize,
 }
 
 /// Runs a trace again and compares.
 pub(super) fn replay(path: &Path) -> Result<u8, CliError> {
     let recorded = text("the trace", path)?;
-    let file = |source| CliError::File {
-        path: path.display().to_string(),
-        source,
-    };
-    let head = recorded.lines().next().unwrap_or_default();
-    require_format(head, TRACE_FORMAT).map_err(file)?;
-    let header: Header = from_json(head).map_err(file)?;
-    if header.starts == 0 {
-        return Err(CliError::Option {
-            option: "replay",
-            expected: "a trace of at least 1 start",
-            got: "starts: 0".into(),
-        });
-    }
+    let header = read_header(&recorded, path)?;
+
     let is_plain = require_format(&header.problem, lcp::MCP_FORMAT).is_ok();
-    let (again, runs) = if is_plain {
-        again_plain(&header, path)?
+    let again = if is_plain {
+        repeat_plain(&header, path)?
     } else {
-        again(&header, path)?
+        repeat(&header, path)?
     };
-    if again == recorded {
-        print(&format!(
-            "IDENTICAL: {runs} runs, {} bytes\n",
-            recorded.len()
-        ))?;
+
+    if again.trace == recorded {
+        let runs = again.runs;
+        let bytes = recorded.len();
+        print(&format!("IDENTICAL: {runs} runs, {bytes} bytes\n"))?;
         return Ok(exit::DONE);
     }
-    let line = again
-        .lines()
-        .zip(recorded.lines())
-        .take_while(|(a, b)| a == b)
-        .count();
-    print(&format!(
-        "DIFFERENT: first in line {} of the trace\n",
-        line + 1
-    ))?;
+
+    let lines = again.trace.lines().zip(recorded.lines());
+    let equal = lines.take_while(|(again, recorded)| again == recorded);
+    let line = equal.count() + 1;
+    print(&format!("DIFFERENT: first in line {line} of the trace\n"))?;
+
     Ok(exit::REJECTED)
 }
 
-/// The trace of a header's eigenproblem, made again, with its number of runs.
-fn again(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
-    let problem =
-        read_problem(&header.problem, Path::new(".")).map_err(|source| CliError::File {
-            path: path.display().to_string(),
-            source,
-        })?;
+fn read_header(recorded: &str, path: &Path) -> Result<Header, CliError> {
+    let head = recorded.lines().next().unwrap_or_default();
+    require_format(head, TRACE_FORMAT).map_err(|e| CliError::file(path, e))?;
+    let header: Header = from_json(head).map_err(|e| CliError::file(path, e))?;
+
+    if header.starts == 0 {
+        let expected = "a trace of at least 1 start";
+        return Err(CliError::option("replay", expected, "starts: 0"));
+    }
+
+    Ok(header)
+}
+
+/// Makes the trace of a header's eigenproblem again.
+fn repeat(header: &Header, path: &Path) -> Result<Repeated, CliError> {
+    let problem = read_problem(&header.problem, Path::new("."));
+    let problem = problem.map_err(|e| CliError::file(path, e))?;
     let search = search_of(header.starts, header.seed, header.all, true);
     let reduced = reduce(&problem)?;
     let admissible = Admissible::new(&reduced.pencil, problem.unknown())?;
     let (found, _) = multistart_large(&problem, &admissible, &search, &Watch::nobody())?;
-    Ok((
-        render(
-            &in_old_words(Header::new(&problem, &search, header.all), header),
-            &found,
-        ),
-        found.runs,
-    ))
+
+    let again = Header::new(&problem, &search, header.all);
+    Ok(Repeated {
+        trace: render(&in_old_words(again, header), &found),
+        runs: found.runs,
+    })
 }
 
-/// The same for a plain problem.
-fn again_plain(header: &Header, path: &Path) -> Result<(String, usize), CliError> {
-    let problem = lcp::read_mcp(&header.problem).map_err(|source| CliError::Plain {
-        path: path.display().to_string(),
-        source,
-    })?;
+/// Makes the trace of a header's plain problem again.
+fn repeat_plain(header: &Header, path: &Path) -> Result<Repeated, CliError> {
+    let problem = lcp::read_mcp(&header.problem).map_err(|e| CliError::plain(path, e))?;
     let search = plain_search_of(header.starts, header.seed, header.all, true);
     let found = lcp::search(&problem, &search).map_err(SearchError::from)?;
-    Ok((
-        render_plain(
-            &in_old_words(Header::plain(&problem, &search), header),
-            &found,
-        ),
-        found.runs,
-    ))
+
+    let again = Header::plain(&problem, &search);
+    Ok(Repeated {
+        trace: render_plain(&in_old_words(again, header), &found),
+        runs: found.runs,
+    })
 }

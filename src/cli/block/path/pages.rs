@@ -1,11 +1,17 @@
 //! Pictures and the report of the loading path.
+//!
+//! Input: the path, what was proved of its states, and how lambda^2 depends on mu for one of them.
+//! Output: the pictures with captions for `--pictures`, and a page that holds all of them with
+//! tables for `--report`. Numbers in captions and tables are exact or certified; charts draw them
+//! in doubles.
 
-use super::states::{Mode, Set, State, values, verdict};
+use super::states::{Growing, ProvedMode, ProvedSet, ProvedState};
+use super::stretch_cells;
 use super::words::{causes_text, end_text, motion};
 use crate::cli::common::CliError;
 use crate::picture::{
-    BranchPoint, Branches, Content, Mode as Drawn, Picture, Report, Section, Threshold,
-    ThresholdColumn, branch_picture, mode_picture, path_picture, threshold_picture,
+    BranchPoint, Branches, Content, Mode, Picture, Report, Section, Threshold, ThresholdColumn,
+    branch_picture, mode_picture, path_picture, threshold_picture,
 };
 use mceip_engine::run::{Progress, Watch};
 use mceip_engine::search::levels::Levels;
@@ -18,11 +24,16 @@ pub(super) struct Shown<'a> {
     pub(super) model: &'a BlockModel,
     pub(super) block: &'a Block,
     pub(super) path: &'a LoadingPath,
-    pub(super) states: &'a [State],
-    /// The state whose lambda^2 is drawn against mu.
-    pub(super) branches: Option<(usize, Branches)>,
+    pub(super) states: &'a [ProvedState],
+    pub(super) branches: Option<StateBranches>,
     /// Were the MCEIP-mu sets checked on K itself?
     pub(super) uncondensed: bool,
+}
+
+/// lambda^2 against mu for the state of one stretch.
+pub(super) struct StateBranches {
+    stretch: usize,
+    branches: Branches,
 }
 
 /// A picture with the name of its file and what to read off it.
@@ -32,65 +43,86 @@ pub(super) struct Named {
     caption: String,
 }
 
-/// Levels of lambda^2 in units of the lowest natural frequency squared: a factor 1.5 between
-/// levels, around 1.
+impl Named {
+    fn into_figure(self) -> Content {
+        Content::Figure {
+            picture: self.picture,
+            caption: self.caption,
+        }
+    }
+}
+
+/// Levels of lambda^2: the lowest natural frequency squared times 1.5^k, for k in this range.
 const LEVELS: std::ops::Range<i32> = -10..14;
 
 /// The solutions of the last state with a solution, level by level; `None` without one.
 pub(super) fn branches(
     block: &Block,
     path: &LoadingPath,
-    states: &[State],
+    states: &[ProvedState],
     watch: &Watch<'_>,
-) -> Result<Option<(usize, Branches)>, CliError> {
-    let Some(state) = states
-        .iter()
-        .rev()
-        .find(|s| !s.thresholds.solutions.is_empty())
-    else {
+) -> Result<Option<StateBranches>, CliError> {
+    let mut backwards = states.iter().rev();
+    let Some(state) = backwards.find(|s| !s.thresholds.solutions.is_empty()) else {
         return Ok(None);
     };
-    let point = |mu: f64, lambda2: f64, support: &[usize]| BranchPoint {
-        mu,
-        lambda2,
-        support: support.to_vec(),
-    };
-    let certified = |(mu, set): &(Rational, Set)| -> Vec<BranchPoint> {
-        set.solutions
-            .iter()
-            .map(|m| point(to_f64(mu), m.value, &m.moving))
-            .collect()
-    };
-    let certified = state.growing.iter().flat_map(certified).collect();
-    let mut levels = vec![
-        state
-            .thresholds
-            .solutions
-            .iter()
-            .map(|m| point(m.value, 0.0, &m.moving))
-            .collect::<Vec<_>>(),
-    ];
-    let system = Levels::new(&block.system(&path.intervals[state.stretch].states, None)?)?;
+
+    let mut certified = Vec::new();
+    for growing in &state.growing {
+        for solution in &growing.set.solutions {
+            certified.push(BranchPoint {
+                mu: to_f64(&growing.mu),
+                lambda2: solution.value,
+                support: solution.moving.clone(),
+            });
+        }
+    }
+
+    let mut levels = vec![static_points(&state.thresholds)];
+    let contact_states = &path.intervals[state.stretch].states;
+    let system = Levels::new(&block.system(contact_states, None)?)?;
     let unit = system.lowest_frequency2().unwrap_or(1.0);
     for (k, exponent) in LEVELS.enumerate() {
         if watch.is_cancelled() {
             break;
         }
-        watch.report(&Progress::stage(&format!(
-            "lambda^2 against mu: level {} of {}",
-            k + 1,
-            LEVELS.len()
-        )));
+
+        let number = k + 1;
+        let stage = format!("lambda^2 against mu: level {number} of {}", LEVELS.len());
+        watch.report(&Progress::stage(&stage));
+
         let lambda2 = unit * 1.5f64.powi(exponent);
         let (found, _) = system.at(lambda2)?.solutions(&watch.quiet())?;
-        levels.push(
-            found
-                .iter()
-                .map(|s| point(s.mu, lambda2, &s.support))
-                .collect(),
-        );
+        let mut points = Vec::new();
+        for solution in &found {
+            points.push(BranchPoint {
+                mu: solution.mu,
+                lambda2,
+                support: solution.support.to_vec(),
+            });
+        }
+
+        levels.push(points);
     }
-    Ok(Some((state.stretch, Branches { levels, certified })))
+
+    Ok(Some(StateBranches {
+        stretch: state.stretch,
+        branches: Branches { levels, certified },
+    }))
+}
+
+/// The solutions of MCEIP-mu as points with lambda^2 = 0.
+fn static_points(thresholds: &ProvedSet) -> Vec<BranchPoint> {
+    let mut points = Vec::new();
+    for solution in &thresholds.solutions {
+        points.push(BranchPoint {
+            mu: solution.value,
+            lambda2: 0.0,
+            support: solution.moving.clone(),
+        });
+    }
+
+    points
 }
 
 impl Shown<'_> {
@@ -98,233 +130,202 @@ impl Shown<'_> {
     /// solution.
     pub(super) fn pictures(&self) -> Result<Vec<Named>, SourceError> {
         let mesh = self.model.triangulation()?;
-        let mut all = self.charts();
+        let mut all = vec![self.path_chart(), self.threshold_chart()];
+        all.extend(self.branch_chart());
         for state in self.states {
             all.extend(self.modes(&mesh, state));
         }
+
         Ok(all)
     }
 
-    fn charts(&self) -> Vec<Named> {
-        let mu = to_f64(&self.path.loading.friction);
-        let caption = "Each event is an exact rational number; (1), (2), (5), (7) hold exactly at \
-                       both ends of each stretch."
-            .into();
-        let picture = path_picture(
-            "Loading path: resultants, and the state of each contact node",
-            self.path,
-        );
-        let mut all = vec![Named {
+    fn path_chart(&self) -> Named {
+        let title = "Loading path: resultants, and the state of each contact node";
+        Named {
             name: "path".into(),
-            picture,
-            caption,
-        }];
-        let column = |s: &State| ThresholdColumn {
-            stretch: s.stretch,
-            slip: s.slip,
-            solutions: s
-                .thresholds
-                .solutions
-                .iter()
-                .map(|m| Threshold {
-                    mu: m.value,
-                    moving: m.moving.len(),
-                })
-                .collect(),
-            necessary: s.necessary_from(),
-        };
-        let columns: Vec<ThresholdColumn> = self.states.iter().map(column).collect();
-        let caption = "The complete set of MCEIP-\u{3bc} for each state with slip, each set \
-                       certified. A state in whose column no solution \
-                       stands has none. \u{3bb} = 0 is the static threshold; divergence may begin \
-                       at a lower \u{3bc} with \u{3bb}\u{b2} > 0.";
-        let picture = threshold_picture("MCEIP-\u{3bc} along the loading path", &columns, mu);
-        all.push(Named {
-            name: "thresholds".into(),
-            picture,
-            caption: caption.into(),
-        });
-        if let Some((stretch, branches)) = &self.branches {
-            let title = format!("\u{3bb}\u{b2} against \u{3bc} for the state of stretch {stretch}");
-            let caption = "Points: every solution at that \u{3bb}\u{b2}, from the pencil condensed \
-                           in doubles (measured, not certified). \
-                           The threshold and the squares are certified.";
-            let picture = branch_picture(&title, branches);
-            all.push(Named {
-                name: format!("lambda2-stretch-{stretch:02}"),
-                picture,
-                caption: caption.into(),
-            });
+            picture: path_picture(title, self.path),
+            caption: PATH_CAPTION.into(),
         }
+    }
+
+    fn threshold_chart(&self) -> Named {
+        let columns: Vec<ThresholdColumn> = self.states.iter().map(threshold_column).collect();
+        let mu = to_f64(&self.path.loading.friction);
+        let title = "MCEIP-\u{3bc} along the loading path";
+
+        Named {
+            name: "thresholds".into(),
+            picture: threshold_picture(title, &columns, mu),
+            caption: THRESHOLDS_CAPTION.into(),
+        }
+    }
+
+    fn branch_chart(&self) -> Option<Named> {
+        let StateBranches { stretch, branches } = self.branches.as_ref()?;
+        let title = format!("\u{3bb}\u{b2} against \u{3bc} for the state of stretch {stretch}");
+
+        Some(Named {
+            name: format!("lambda2-stretch-{stretch:02}"),
+            picture: branch_picture(&title, branches),
+            caption: BRANCHES_CAPTION.into(),
+        })
+    }
+
+    /// A picture for each solution of a state whose displacement is known.
+    fn modes(&self, mesh: &Triangulation, state: &ProvedState) -> Vec<Named> {
+        let stretch = state.stretch;
+        let mut all = Vec::new();
+        for (k, mode) in state.thresholds.solutions.iter().enumerate() {
+            let mu = mode.value;
+            let title = format!("Stretch {stretch}: mode at \u{3bc} = {mu:.6}, \u{3bb} = 0");
+            let name = format!("mode-stretch-{stretch:02}-mu-{}", k + 1);
+            all.extend(self.mode(mesh, state, mode, &title, name));
+        }
+
+        for Growing { mu, set } in &state.growing {
+            let mu = to_f64(mu);
+            for (k, mode) in set.solutions.iter().enumerate() {
+                let rate = mode.growth_rate();
+                let title =
+                    format!("Stretch {stretch}: mode at \u{3bc} = {mu}, growth rate {rate:.4} 1/s");
+                let name = format!("mode-stretch-{stretch:02}-at-{mu}-{}", k + 1);
+                all.extend(self.mode(mesh, state, mode, &title, name));
+            }
+        }
+
         all
     }
 
-    fn modes(&self, mesh: &Triangulation, state: &State) -> Vec<Named> {
-        let mut all = Vec::new();
-        let mut draw = |m: &Mode, name: String, title: String, caption: String| {
-            let Some(displacement) = &m.displacement else {
-                return;
-            };
-            let drawn = Drawn {
-                mesh,
-                displacement,
-                marks: &state.marks(self.path, m),
-            };
-            all.push(Named {
-                name,
-                picture: mode_picture(&title, &drawn),
-                caption,
-            });
+    /// The picture of a mode; `None` if its displacement is not known.
+    fn mode(
+        &self,
+        mesh: &Triangulation,
+        state: &ProvedState,
+        mode: &ProvedMode,
+        title: &str,
+        name: String,
+    ) -> Option<Named> {
+        let drawn = Mode {
+            mesh,
+            displacement: mode.displacement.as_ref()?,
+            marks: &state.marks(self.path, mode),
         };
-        let stretch = state.stretch;
-        let slipping = |m: &Mode| {
-            format!(
-                "{} of {} slip nodes slip, the others get stuck.",
-                m.moving.len(),
-                state.slip
-            )
-        };
-        for (k, m) in state.thresholds.solutions.iter().enumerate() {
-            let title = format!(
-                "Stretch {stretch}: mode at \u{3bc} = {:.6}, \u{3bb} = 0",
-                m.value
-            );
-            draw(
-                m,
-                format!("mode-stretch-{stretch:02}-mu-{}", k + 1),
-                title,
-                slipping(m),
-            );
-        }
-        for (mu, set) in &state.growing {
-            for (k, m) in set.solutions.iter().enumerate() {
-                let mu = to_f64(mu);
-                let title = format!(
-                    "Stretch {stretch}: mode at \u{3bc} = {mu}, growth rate {:.4} 1/s",
-                    m.value.max(0.0).sqrt()
-                );
-                draw(
-                    m,
-                    format!("mode-stretch-{stretch:02}-at-{mu}-{}", k + 1),
-                    title,
-                    slipping(m),
-                );
-            }
-        }
-        all
+        let moving = mode.moving.len();
+        let slip = state.slip;
+
+        Some(Named {
+            name,
+            picture: mode_picture(title, &drawn),
+            caption: format!("{moving} of {slip} slip nodes slip, the others get stuck."),
+        })
     }
 
     /// The report.
     pub(super) fn report(&self) -> Result<Report, SourceError> {
         let mesh = self.model.triangulation()?;
-        let figure = |n: Named| Content::Figure {
-            picture: n.picture,
-            caption: n.caption,
-        };
-        let mut charts = self.charts().into_iter().map(figure);
-        let path = charts.next();
-        let mut sections = vec![self.model_section(&mesh)];
-        sections.push(Section {
+        let path = Section {
             title: "Loading path".into(),
-            content: path.into_iter().chain([self.path_table()]).collect(),
-        });
-        let mut thresholds: Vec<Content> = vec![Content::Paragraph(self.meaning())];
-        thresholds.extend(charts);
-        sections.push(Section {
+            content: vec![self.path_chart().into_figure(), self.path_table()],
+        };
+
+        let mut thresholds = vec![
+            Content::Paragraph(self.meaning()),
+            self.threshold_chart().into_figure(),
+        ];
+        thresholds.extend(self.branch_chart().map(Named::into_figure));
+        let thresholds = Section {
             title: "Divergence instability along the path".into(),
             content: thresholds,
-        });
+        };
+
+        let mut sections = vec![self.model_section(&mesh), path, thresholds];
         for state in self.states {
-            sections.push(self.state_section(
-                state,
-                self.modes(&mesh, state).into_iter().map(figure).collect(),
-            ));
+            let modes = self.modes(&mesh, state);
+            let figures = modes.into_iter().map(Named::into_figure);
+            sections.push(self.state_section(state, figures.collect()));
         }
+
         let (nx, ny) = self.model.cells;
-        let title = format!(
-            "Elastic block in frictional contact: {nx} x {ny} cells, \u{3bc} = {}",
-            to_f64(&self.path.loading.friction)
-        );
+        let mu = to_f64(&self.path.loading.friction);
+        let title =
+            format!("Elastic block in frictional contact: {nx} x {ny} cells, \u{3bc} = {mu}");
+
         Ok(Report { title, sections })
     }
 
+    /// What a solution means, and what was checked.
     fn meaning(&self) -> String {
-        let proof = if self.uncondensed {
-            "of K and M themselves."
+        if self.uncondensed {
+            format!("{MEANING} {UNCONDENSED_PROOF}")
         } else {
-            PROOF
-        };
-        format!("{MEANING} {proof}")
+            format!("{MEANING} {CONDENSED_PROOF}")
+        }
     }
 
+    /// The data of the block as a table.
     fn model_section(&self, mesh: &Triangulation) -> Section {
-        let m = self.model;
-        let mass = if m.mass == MassKind::Lumped {
-            "lumped"
-        } else {
-            "consistent"
+        let model = self.model;
+        let material = &model.material;
+        let loading = &self.path.loading;
+
+        let length = model.length();
+        let height = model.height();
+        let thickness = number(&material.thickness);
+        let (nx, ny) = model.cells;
+        let kind = model.mesh.word();
+        let triangles = mesh.triangles.len();
+        let nodes = mesh.contact.len();
+        let dofs = self.block.stiffness.rows();
+        let mass = match model.mass {
+            MassKind::Lumped => "lumped",
+            MassKind::Consistent => "consistent",
         };
-        let number = |r: &Rational| format!("{}", to_f64(r));
-        let rows = [
-            (
+        let force = number(&loading.force);
+        let depth = to_f64(&self.path.depth);
+
+        let rows = vec![
+            row(
                 "Length L, height H, thickness (mm)",
-                format!(
-                    "{}, {}, {}",
-                    m.length(),
-                    m.height(),
-                    number(&m.material.thickness)
-                ),
+                format!("{length}, {height}, {thickness}"),
             ),
-            (
+            row(
                 "Modulus of elasticity E (N/mm\u{b2})",
-                number(&m.material.young),
+                number(&material.young),
             ),
-            ("Poisson's ratio", number(&m.material.poisson)),
-            ("Density (t/mm\u{b3})", number(&m.material.density)),
-            ("Plane", format!("plane {}", m.plane.word())),
-            (
+            row("Poisson's ratio", number(&material.poisson)),
+            row("Density (t/mm\u{b3})", number(&material.density)),
+            row("Plane", format!("plane {}", model.plane.word())),
+            row(
                 "Mesh",
-                format!(
-                    "{} x {} cells, {}, {} P1 triangles",
-                    m.cells.0,
-                    m.cells.1,
-                    m.mesh.word(),
-                    mesh.triangles.len()
-                ),
+                format!("{nx} x {ny} cells, {kind}, {triangles} P1 triangles"),
             ),
-            (
+            row(
                 "Contact nodes, degrees of freedom",
-                format!("{}, {}", mesh.contact.len(), self.block.stiffness.rows()),
+                format!("{nodes}, {dofs}"),
             ),
-            ("Mass", mass.into()),
-            (
+            row("Mass", mass.into()),
+            row(
                 "Coefficient of friction of the path",
-                number(&self.path.loading.friction),
+                number(&loading.friction),
             ),
-            (
+            row(
                 "Pressing force N (N), its depth (mm)",
-                format!(
-                    "{}, {:.9}",
-                    number(&self.path.loading.force),
-                    to_f64(&self.path.depth)
-                ),
+                format!("{force}, {depth:.9}"),
             ),
         ];
-        let rows = rows
-            .into_iter()
-            .map(|(what, value)| vec![what.into(), value])
-            .collect();
         let table = Content::Table {
             caption: "Units: mm, N, t, s.".into(),
             header: vec!["quantity".into(), "value".into()],
             rows,
         };
+
         Section {
             title: "Model".into(),
             content: vec![table],
         }
     }
 
+    /// A line for each stretch.
     fn path_table(&self) -> Content {
         let header = [
             "#",
@@ -338,22 +339,19 @@ impl Shown<'_> {
             "T at start (N)",
             "begins with",
         ];
-        let row = |(k, i): (usize, &mceip_paper::path::Interval)| {
-            let to = i.stop.as_ref().map_or("-".into(), motion);
-            let mut row = vec![k.to_string(), motion(&i.start), to, i.picture()];
-            row.extend(i.counts().map(|c| c.to_string()));
-            row.extend([
-                format!("{:.6}", to_f64(&i.start.resultants().0)),
-                causes_text(&i.begin.causes),
-            ]);
-            row
-        };
-        let rows = self.path.intervals.iter().enumerate().map(row).collect();
+        let mut rows = Vec::new();
+        for (k, interval) in self.path.intervals.iter().enumerate() {
+            let mut row = stretch_cells(k, interval);
+            row.push(causes_text(&interval.begin.causes));
+            rows.push(row);
+        }
+
+        let end = end_text(self.path);
         let caption = format!(
             "Stretches of the path. Nodes from left to right: . stick, < slips to the left (S = \
-             1), > slips to the right (S = -1), o free. How it ends: {}.",
-            end_text(self.path)
+             1), > slips to the right (S = -1), o free. How it ends: {end}."
         );
+
         Content::Table {
             caption,
             header: header.map(String::from).to_vec(),
@@ -361,110 +359,170 @@ impl Shown<'_> {
         }
     }
 
-    fn state_section(&self, s: &State, figures: Vec<Content>) -> Section {
-        let interval = &self.path.intervals[s.stretch];
-        let [stick, left, right, free] = interval.counts();
-        let to = interval
-            .stop
-            .as_ref()
-            .map_or("the end".into(), |e| format!("{} mm", motion(e)));
-        let mut rows = vec![
-            vec![
-                "Motion".into(),
-                format!("from {} mm to {to}", motion(&interval.start)),
-            ],
-            vec![
-                "States".into(),
-                format!(
-                    "{} ({stick} stick, {left} slip left, {right} slip right, {free} free)",
-                    interval.picture()
-                ),
-            ],
-            vec![
-                "MCEIP-\u{3bc} in [0, \u{221e})".into(),
-                format!(
-                    "{} ({}, {} leaves)",
-                    values(&s.thresholds, "\u{3bc}", 12),
-                    verdict(&s.thresholds),
-                    s.thresholds.leaves
-                ),
-            ],
-        ];
-        let all_slip = |set: &Set| {
-            if set.solutions.iter().any(|m| s.is_all_slip(m)) {
-                "an all-slip mode exists"
-            } else {
-                "no all-slip mode"
-            }
-        };
-        rows.push(vec![
-            "Sufficient condition (17)-(18) at \u{3bb} = 0".into(),
-            all_slip(&s.thresholds).into(),
-        ]);
-        if s.necessary.is_some() {
-            let from = s.necessary_from().map_or(
-                "never holds: divergence is excluded for every \u{3bc}".into(),
-                |mu| format!("holds from \u{3bc} = {mu:.9} on; below it divergence is excluded"),
-            );
-            rows.push(vec![
-                format!("Necessary condition {}", s.necessary_equation()),
-                from,
-            ]);
+    /// What was proved of a state, with the pictures of its modes.
+    fn state_section(&self, state: &ProvedState, figures: Vec<Content>) -> Section {
+        let mut content = Vec::new();
+        if state.is_open() {
+            content.push(Content::Warning(OPEN_WARNING.into()));
         }
-        for (mu, set) in &s.growing {
-            let rate = |m: &Mode| {
-                format!(
-                    "\u{3bb}\u{b2} in {} 1/s\u{b2}, growth rate {:.6} 1/s, {} slipping",
-                    m.enclosure(12),
-                    m.value.max(0.0).sqrt(),
-                    m.moving.len()
-                )
-            };
-            let list: Vec<String> = set.solutions.iter().map(rate).collect();
-            let list = if list.is_empty() {
-                "no divergence instability of the form (8)".into()
-            } else {
-                list.join("; ")
-            };
-            let what = format!("MCEIP-\u{3bb}\u{b2} at \u{3bc} = {}", to_f64(mu));
-            rows.push(vec![
-                what,
-                format!("{list} ({}; {})", verdict(set), all_slip(set)),
-            ]);
-        }
-        let header = vec!["what".into(), "answer".into()];
-        let caption =
-            "For this contact state, taken as impending slip at the \u{3bc} in question.".into();
-        let mut content = vec![Content::Table {
-            caption,
-            header,
-            rows,
-        }];
-        if s.is_open() {
-            content.insert(
-                0,
-                Content::Warning(
-                    "Not everything is decided: regions are left open, \
-                and may hold more solutions."
-                        .into(),
-                ),
-            );
-        }
+
+        let caption = "For this contact state, taken as impending slip at the \u{3bc} in question.";
+        content.push(Content::Table {
+            caption: caption.into(),
+            header: vec!["what".into(), "answer".into()],
+            rows: self.state_rows(state),
+        });
         content.extend(figures);
+
         Section {
-            title: format!("State of stretch {}: {} slip nodes", s.stretch, s.slip),
+            title: format!(
+                "State of stretch {}: {} slip nodes",
+                state.stretch, state.slip
+            ),
             content,
         }
     }
+
+    fn state_rows(&self, state: &ProvedState) -> Vec<Vec<String>> {
+        let interval = &self.path.intervals[state.stretch];
+        let from = motion(&interval.start);
+        let to = match &interval.stop {
+            Some(stop) => format!("{} mm", motion(stop)),
+            None => "the end".into(),
+        };
+        let picture = interval.picture();
+        let [stick, left, right, free] = interval.counts();
+
+        let set = &state.thresholds;
+        let values = set.values("\u{3bc}", 12);
+        let verdict = set.verdict();
+        let leaves = set.leaves;
+        let mut rows = vec![
+            row("Motion", format!("from {from} mm to {to}")),
+            row(
+                "States",
+                format!(
+                    "{picture} ({stick} stick, {left} slip left, {right} slip right, {free} free)"
+                ),
+            ),
+            row(
+                "MCEIP-\u{3bc} in [0, \u{221e})",
+                format!("{values} ({verdict}, {leaves} leaves)"),
+            ),
+            row(
+                "Sufficient condition (17)-(18) at \u{3bb} = 0",
+                all_slip_text(state, set).into(),
+            ),
+        ];
+
+        if state.necessary.is_some() {
+            let what = format!("Necessary condition {}", state.necessary_equation());
+            let answer = match state.necessary_from() {
+                Some(mu) => {
+                    format!("holds from \u{3bc} = {mu:.9} on; below it divergence is excluded")
+                }
+                None => "never holds: divergence is excluded for every \u{3bc}".into(),
+            };
+
+            rows.push(row(&what, answer));
+        }
+
+        for growing in &state.growing {
+            let mu = to_f64(&growing.mu);
+            let what = format!("MCEIP-\u{3bb}\u{b2} at \u{3bc} = {mu}");
+            rows.push(row(&what, growing_text(state, growing)));
+        }
+
+        rows
+    }
 }
 
-const MEANING: &str = "A solution of MCEIP-\u{3bc} is a coefficient of friction at which the \
-                       equilibrium can leave in the form (8) with \u{3bb} = 0; \
-a solution of MCEIP-\u{3bb}\u{b2} at a given \u{3bc} is a divergence with the growth rate \u{3bb}. \
-                       Where there is none, divergence of the form (8) is \
-excluded and nothing else: flutter and growth of stick-slip lie outside it. \"Complete, proved\" \
-                       means that a certificate was written \
-for the whole half line and accepted by the exact checker, for the problem";
+/// What is drawn of a state.
+fn threshold_column(state: &ProvedState) -> ThresholdColumn {
+    let mut solutions = Vec::new();
+    for mode in &state.thresholds.solutions {
+        solutions.push(Threshold {
+            mu: mode.value,
+            moving: mode.moving.len(),
+        });
+    }
 
-const PROOF: &str = "of K and M themselves (MCEIP-\u{3bb}\u{b2}), of the state's exactly condensed \
-                     pencil (MCEIP-\u{3bc}).";
+    ThresholdColumn {
+        stretch: state.stretch,
+        slip: state.slip,
+        solutions,
+        necessary: state.necessary_from(),
+    }
+}
+
+fn all_slip_text(state: &ProvedState, set: &ProvedSet) -> &'static str {
+    if state.has_all_slip(set) {
+        "an all-slip mode exists"
+    } else {
+        "no all-slip mode"
+    }
+}
+
+/// The solutions of MCEIP-lambda2 at one mu, and what is proved of them.
+fn growing_text(state: &ProvedState, growing: &Growing) -> String {
+    let mut rates = Vec::new();
+    for mode in &growing.set.solutions {
+        let enclosure = mode.enclosure(12);
+        let rate = mode.growth_rate();
+        let slipping = mode.moving.len();
+        rates.push(format!(
+            "\u{3bb}\u{b2} in {enclosure} 1/s\u{b2}, growth rate {rate:.6} 1/s, {slipping} slipping"
+        ));
+    }
+
+    let list = if rates.is_empty() {
+        "no divergence instability of the form (8)".into()
+    } else {
+        rates.join("; ")
+    };
+
+    let verdict = growing.set.verdict();
+    let all_slip = all_slip_text(state, &growing.set);
+    format!("{list} ({verdict}; {all_slip})")
+}
+
+/// A row of two cells.
+fn row(what: &str, answer: String) -> Vec<String> {
+    vec![what.into(), answer]
+}
+
+fn number(exact: &Rational) -> String {
+    to_f64(exact).to_string()
+}
+
+/// What to read off the picture of the path.
+const PATH_CAPTION: &str = "Each event is an exact rational number; (1), (2), (5), (7) hold \
+     exactly at both ends of each stretch.";
+
+/// What to read off the picture of the thresholds.
+const THRESHOLDS_CAPTION: &str = "The complete set of MCEIP-\u{3bc} for each state with slip, \
+     each set certified. A state in whose column no solution stands has none. \u{3bb} = 0 is the \
+     static threshold; divergence may begin at a lower \u{3bc} with \u{3bb}\u{b2} > 0.";
+
+/// What to read off the picture of lambda^2 against mu.
+const BRANCHES_CAPTION: &str = "Points: every solution at that \u{3bb}\u{b2}, from the pencil \
+     condensed in doubles (measured, not certified). The threshold and the squares are certified.";
+
+/// Stands above a state of which something is open.
+const OPEN_WARNING: &str = "Not everything is decided: regions are left open, and may hold more \
+     solutions.";
+
+/// What a solution means, up to what the checker was given.
+const MEANING: &str = "A solution of MCEIP-\u{3bc} is a coefficient of friction at which the \
+     equilibrium can leave in the form (8) with \u{3bb} = 0; a solution of MCEIP-\u{3bb}\u{b2} at \
+     a given \u{3bc} is a divergence with the growth rate \u{3bb}. Where there is none, \
+     divergence of the form (8) is excluded and nothing else: flutter and growth of stick-slip \
+     lie outside it. \"Complete, proved\" means that a certificate was written for the whole half \
+     line and accepted by the exact checker, for the problem";
+
+/// The end of [`MEANING`] where the sets were checked on K and M.
+const UNCONDENSED_PROOF: &str = "of K and M themselves.";
+
+/// The end of [`MEANING`] where the MCEIP-mu sets were checked on the condensed pencil.
+const CONDENSED_PROOF: &str = "of K and M themselves (MCEIP-\u{3bb}\u{b2}), of the state's \
+     exactly condensed pencil (MCEIP-\u{3bc}).";

@@ -1,10 +1,14 @@
 //! What is proved of each state of the loading path: the complete MCEIP-mu set, the conditions
 //! (17)-(20), and at chosen mu the complete MCEIP-lambda2 set, each solution with its mode.
+//!
+//! Each stretch of the path with slip gives one contact state. Its MCEIP-mu set is searched on the
+//! pencil condensed exactly to the contact nodes, or on request on K itself. The checker has
+//! accepted the certificate of every set that is called proved.
 
 use crate::cli::common::CliError;
 use crate::picture::Mark;
 use mceip_check::AcceptedClaim;
-use mceip_engine::analysis::conditions::{Necessary, approximately};
+use mceip_engine::analysis::conditions::{DefiniteUntil, Necessary, approximately};
 use mceip_engine::reduction::{Variable, mu_family, reduce};
 use mceip_engine::report::Table;
 use mceip_engine::run::{Progress, Watch};
@@ -13,8 +17,15 @@ use mceip_engine::search::levels::{Levels, mode};
 use mceip_exact::{Rational, enclosing_decimals, to_f64};
 use mceip_model::{Body, Pencil, Problem, Unknown, Window};
 use mceip_paper::Block;
-use mceip_paper::path::{Contact, Interval, LoadingPath};
+use mceip_paper::path::{Contact, Equilibrium, Interval, LoadingPath};
 use serde_json::{Value, json};
+
+/// A path that was followed, and what it was followed on.
+pub(super) struct Followed<'a> {
+    pub(super) block: &'a Block,
+    pub(super) contact: &'a Contact,
+    pub(super) path: &'a LoadingPath,
+}
 
 /// What is asked of the states.
 pub(super) struct Wanted<'a> {
@@ -23,32 +34,43 @@ pub(super) struct Wanted<'a> {
     /// Conditions (19), (20).
     pub(super) conditions: bool,
     /// Coefficients of friction at which MCEIP-lambda2 is solved.
-    pub(super) at: &'a [Rational],
+    pub(super) at_mu: &'a [Rational],
     /// Modes over all degrees of freedom.
     pub(super) modes: bool,
 }
 
-/// A stretch and what was proved of it.
-pub(super) struct State {
+/// A stretch and what was proved of its contact state.
+pub(super) struct ProvedState {
+    /// Number of the stretch on the path.
     pub(super) stretch: usize,
+    /// Number of nodes in impending slip.
     pub(super) slip: usize,
     /// MCEIP-mu over [0, infinity).
-    pub(super) thresholds: Set,
+    pub(super) thresholds: ProvedSet,
+    /// The necessary condition, if asked for.
     pub(super) necessary: Option<Necessary>,
     /// MCEIP-lambda2 over [0, infinity), for each mu asked for.
-    pub(super) growing: Vec<(Rational, Set)>,
+    pub(super) growing: Vec<Growing>,
+}
+
+/// MCEIP-lambda2 at a coefficient of friction.
+pub(super) struct Growing {
+    pub(super) mu: Rational,
+    pub(super) set: ProvedSet,
 }
 
 /// A set of solutions with what stays open beside it.
-pub(super) struct Set {
-    pub(super) solutions: Vec<Mode>,
+pub(super) struct ProvedSet {
+    pub(super) solutions: Vec<ProvedMode>,
+    /// Number of open regions and of families.
     pub(super) open: usize,
     pub(super) leaves: usize,
 }
 
 /// A certified solution.
-pub(super) struct Mode {
+pub(super) struct ProvedMode {
     pub(super) claim: AcceptedClaim,
+    /// mu, or lambda^2 in 1/s^2.
     pub(super) value: f64,
     /// Slip nodes that move, counted from 0 among the slip nodes.
     pub(super) moving: Vec<usize>,
@@ -58,167 +80,206 @@ pub(super) struct Mode {
 
 /// The states in which a node slips, until the work is cancelled.
 pub(super) fn of(
-    (block, contact, path): (&Block, &Contact, &LoadingPath),
+    followed: &Followed<'_>,
     wanted: &Wanted<'_>,
     watch: &Watch<'_>,
-) -> Result<Vec<State>, CliError> {
-    let mut pencils = contact.pencils();
+) -> Result<Vec<ProvedState>, CliError> {
+    let block = followed.block;
+    let mut pencils = followed.contact.pencils();
     let mut states = Vec::new();
-    for (stretch, interval) in path.intervals.iter().enumerate() {
+    for (stretch, interval) in followed.path.intervals.iter().enumerate() {
         let [_, left, right, _] = interval.counts();
-        if left + right == 0 || watch.is_cancelled() {
+        let slip = left + right;
+        if slip == 0 || watch.is_cancelled() {
             continue;
         }
-        watch.report(&Progress::stage(&format!(
-            "stretch {stretch}: all solutions"
-        )));
+
+        say(watch, stretch, "all solutions");
         let thresholds = if wanted.uncondensed {
-            on_the_whole(block, interval, None, wanted.modes, &watch.quiet())?
+            uncondensed_set(block, interval, None, wanted.modes, &watch.quiet())?
         } else {
-            condensed(
-                block,
-                interval,
-                pencils.of(&interval.states)?,
-                wanted.modes,
-                &watch.quiet(),
-            )?
+            let pencil = pencils.of(&interval.states)?;
+            condensed_set(block, interval, pencil, wanted.modes, &watch.quiet())?
         };
-        let mut state = State {
+
+        let mut state = ProvedState {
             stretch,
-            slip: left + right,
+            slip,
             thresholds,
             necessary: None,
             growing: Vec::new(),
         };
+
         if wanted.conditions && !watch.is_cancelled() {
-            watch.report(&Progress::stage(&format!(
-                "stretch {stretch}: necessary condition"
-            )));
-            state.necessary = Some(Necessary::of(&mu_family(
-                &block.system(&interval.states, None)?,
-            )?)?);
+            say(watch, stretch, "necessary condition");
+            let system = block.system(&interval.states, None)?;
+            state.necessary = Some(Necessary::of(&mu_family(&system)?)?);
         }
-        for mu in wanted.at.iter().take_while(|_| !watch.is_cancelled()) {
-            watch.report(&Progress::stage(&format!(
-                "stretch {stretch}: growth rates at mu = {}",
-                to_f64(mu)
-            )));
-            state.growing.push((
-                mu.clone(),
-                on_the_whole(block, interval, Some(mu), wanted.modes, &watch.quiet())?,
-            ));
+
+        for mu in wanted.at_mu {
+            if watch.is_cancelled() {
+                break;
+            }
+
+            let what = format!("growth rates at mu = {}", to_f64(mu));
+            say(watch, stretch, &what);
+            let set = uncondensed_set(block, interval, Some(mu), wanted.modes, &watch.quiet())?;
+            let mu = mu.clone();
+            state.growing.push(Growing { mu, set });
         }
+
         states.push(state);
     }
+
     Ok(states)
 }
 
-/// The set of the exactly condensed pencil, which is that of the state's problem. // E16
-fn condensed(
+fn say(watch: &Watch<'_>, stretch: usize, what: &str) {
+    let text = format!("stretch {stretch}: {what}");
+    watch.report(&Progress::stage(&text));
+}
+
+/// The MCEIP-mu set of the exactly condensed pencil, which is that of the state's problem. // (16)
+fn condensed_set(
     block: &Block,
     interval: &Interval,
     pencil: Pencil,
-    modes: bool,
+    with_modes: bool,
     watch: &Watch<'_>,
-) -> Result<Set, CliError> {
+) -> Result<ProvedSet, CliError> {
     let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
     let found = complete(&problem, &Options::default(), watch)?;
-    let level = if modes && found.solutions().next().is_some() {
+    let mut set = ProvedSet::of(&found, 0);
+
+    if with_modes && !set.solutions.is_empty() {
         let levels = Levels::new(&block.system(&interval.states, None)?)?;
-        let level = levels.at(0.0)?;
-        Some((levels, level))
-    } else {
-        None
-    };
-    Ok(Set::of(&found, 0, |x| {
-        level.as_ref().map(|(levels, level)| levels.mode(level, x))
-    }))
+        let static_level = levels.at(0.0)?;
+        for (solution, (_, x)) in set.solutions.iter_mut().zip(found.solutions()) {
+            solution.displacement = Some(levels.mode(&static_level, x));
+        }
+    }
+
+    Ok(set)
 }
 
 /// The set of the state's problem as it is: MCEIP-mu, or MCEIP-lambda2 at a given mu.
-fn on_the_whole(
+fn uncondensed_set(
     block: &Block,
     interval: &Interval,
     mu: Option<&Rational>,
-    modes: bool,
+    with_modes: bool,
     watch: &Watch<'_>,
-) -> Result<Set, CliError> {
+) -> Result<ProvedSet, CliError> {
     let problem = interval.problem(block, mu.cloned())?;
     let found = complete(&problem, &Options::default(), watch)?;
-    let reduced = reduce(&problem)?;
-    let free = reduced
-        .variables
+
+    let variables = reduce(&problem)?.variables;
+    let free = variables
         .iter()
         .filter(|v| matches!(v, Variable::Free { .. }))
         .count();
-    Ok(Set::of(&found, free, |x| {
-        modes.then(|| mode(&reduced.variables, x, block.stiffness.rows()))
-    }))
+    let mut set = ProvedSet::of(&found, free);
+
+    if with_modes {
+        let dofs = block.stiffness.rows();
+        for (solution, (_, x)) in set.solutions.iter_mut().zip(found.solutions()) {
+            solution.displacement = Some(mode(&variables, x, dofs));
+        }
+    }
+
+    Ok(set)
 }
 
-impl Set {
-    fn of(
-        found: &Completed,
-        free: usize,
-        displacement: impl Fn(&[f64]) -> Option<Vec<f64>>,
-    ) -> Set {
-        let mode = |(claim, x): (&AcceptedClaim, &[f64])| Mode {
-            claim: claim.clone(),
-            value: to_f64(&claim.value.mid()),
-            moving: claim
-                .support
-                .iter()
-                .filter_map(|i| i.checked_sub(free))
-                .collect(),
-            displacement: displacement(x),
-        };
-        Set {
-            solutions: found.solutions().map(mode).collect(),
+impl ProvedSet {
+    /// The set that a search has found, without displacements. Of its variables the first `free`
+    /// are free, the others belong to the slip nodes.
+    fn of(found: &Completed, free: usize) -> ProvedSet {
+        let mut solutions = Vec::new();
+        for (claim, _) in found.solutions() {
+            let moving = claim.support.iter().filter_map(|i| i.checked_sub(free));
+            solutions.push(ProvedMode {
+                claim: claim.clone(),
+                value: to_f64(&claim.value.mid()),
+                moving: moving.collect(),
+                displacement: None,
+            });
+        }
+
+        ProvedSet {
+            solutions,
             open: found.cover.open.len() + found.cover.families.len(),
             leaves: found.cover.leaves,
         }
     }
+
+    /// The solutions in words, each enclosed to this many digits.
+    pub(super) fn values(&self, name: &str, digits: usize) -> String {
+        if self.solutions.is_empty() {
+            return "none".into();
+        }
+
+        let mut all = Vec::new();
+        for solution in &self.solutions {
+            let enclosure = solution.enclosure(digits);
+            let slipping = solution.moving.len();
+            all.push(format!("{name} in {enclosure}, {slipping} slipping"));
+        }
+
+        all.join("; ")
+    }
+
+    /// What is proved of it.
+    pub(super) fn verdict(&self) -> String {
+        if self.open == 0 {
+            "complete, proved".into()
+        } else {
+            format!("{} regions open", self.open)
+        }
+    }
 }
 
-impl State {
+impl ProvedState {
     /// mu from which on the necessary condition holds: the middle of its enclosure. `None` if not
     /// asked for, or if it never holds.
     pub(super) fn necessary_from(&self) -> Option<f64> {
         let necessary = self.necessary.as_ref()?;
-        let ends = [Some(&necessary.stiffness), necessary.mass.as_ref()];
-        ends.into_iter()
-            .flatten()
-            .filter_map(|u| u.end())
-            .map(approximately)
-            .min_by(f64::total_cmp)
+        let stiffness = necessary.stiffness.end();
+        let mass = necessary.mass.as_ref().and_then(DefiniteUntil::end);
+
+        let ends = [stiffness, mass].into_iter().flatten();
+        ends.map(approximately).min_by(f64::total_cmp)
     }
 
     /// The equation that says so: (20) for a mass matrix M* that does not depend on mu.
     pub(super) fn necessary_equation(&self) -> &'static str {
-        if self.necessary.as_ref().is_some_and(|n| n.mass_is_constant) {
-            "(20)"
-        } else {
-            "(19)"
+        match &self.necessary {
+            Some(necessary) if necessary.mass_is_constant => "(20)",
+            _ => "(19)",
         }
     }
 
-    /// Do all slip nodes slip in this mode: does it satisfy (17)-(18)? // E17, E18
-    pub(super) fn is_all_slip(&self, mode: &Mode) -> bool {
+    /// Do all slip nodes slip in this mode: does it satisfy (17)-(18)?
+    pub(super) fn is_all_slip(&self, mode: &ProvedMode) -> bool {
         mode.moving.len() == self.slip
+    }
+
+    /// Does a solution of this set, one of the state's, satisfy (17)-(18)?
+    pub(super) fn has_all_slip(&self, set: &ProvedSet) -> bool {
+        set.solutions.iter().any(|mode| self.is_all_slip(mode))
     }
 
     /// Is anything left open?
     pub(super) fn is_open(&self) -> bool {
-        self.thresholds.open > 0 || self.growing.iter().any(|(_, s)| s.open > 0)
+        self.thresholds.open > 0 || self.growing.iter().any(|g| g.set.open > 0)
     }
 
     /// The marks of a mode.
-    pub(super) fn marks(&self, path: &LoadingPath, mode: &Mode) -> Vec<Mark> {
+    pub(super) fn marks(&self, path: &LoadingPath, mode: &ProvedMode) -> Vec<Mark> {
         Mark::of_mode(&path.intervals[self.stretch].states, &mode.moving)
     }
 }
 
-impl Mode {
+impl ProvedMode {
     /// The value, enclosed to this many digits.
     pub(super) fn enclosure(&self, digits: usize) -> String {
         let (lo, hi) = enclosing_decimals(&self.claim.value, digits);
@@ -228,36 +289,24 @@ impl Mode {
             format!("[{lo}, {hi}]")
         }
     }
-}
 
-/// The solutions of a set in words.
-pub(super) fn values(set: &Set, name: &str, digits: usize) -> String {
-    let one = |m: &Mode| {
-        format!(
-            "{name} in {}, {} slipping",
-            m.enclosure(digits),
-            m.moving.len()
-        )
-    };
-    let all: Vec<String> = set.solutions.iter().map(one).collect();
-    if all.is_empty() {
-        "none".into()
-    } else {
-        all.join("; ")
+    /// lambda, 1/s, of a solution of MCEIP-lambda2.
+    pub(super) fn growth_rate(&self) -> f64 {
+        self.value.max(0.0).sqrt()
     }
 }
 
-/// What is proved of a set.
-pub(super) fn verdict(set: &Set) -> String {
-    if set.open == 0 {
-        "complete, proved".into()
-    } else {
-        format!("{} regions open", set.open)
+/// The answers as tables for people.
+pub(super) fn text_of(states: &[ProvedState], path: &LoadingPath) -> String {
+    let mut out = format!("\n{}\n", thresholds_table(states, path));
+    if states.iter().any(|state| !state.growing.is_empty()) {
+        out += &format!("{}\n", growing_table(states));
     }
+
+    out
 }
 
-/// A table for people.
-pub(super) fn text_of(states: &[State], path: &LoadingPath) -> String {
+fn thresholds_table(states: &[ProvedState], path: &LoadingPath) -> Table {
     let mut table = Table::new(&[
         "#",
         "nodes",
@@ -267,125 +316,150 @@ pub(super) fn text_of(states: &[State], path: &LoadingPath) -> String {
         "verdict",
         "necessary condition",
     ]);
-    for s in states {
-        let necessary = match (&s.necessary, s.necessary_from()) {
+    for state in states {
+        let necessary = match (&state.necessary, state.necessary_from()) {
             (None, _) => "".into(),
-            (_, None) => "never holds".into(),
-            (_, Some(mu)) => format!("{} from mu = {mu:.9} on", s.necessary_equation()),
-        };
-        let set = &s.thresholds;
-        let picture = path.intervals[s.stretch].picture();
-        let row = [
-            s.stretch.to_string(),
-            picture,
-            s.slip.to_string(),
-            values(set, "mu", 10),
-            set.leaves.to_string(),
-            verdict(set),
-            necessary,
-        ];
-        table.row(row.to_vec());
-    }
-    let mut out = format!("\n{table}\n");
-    if states.iter().any(|s| !s.growing.is_empty()) {
-        let mut table = Table::new(&[
-            "#",
-            "mu",
-            "lambda^2 (1/s^2)",
-            "growth rate lambda (1/s)",
-            "slipping",
-            "verdict",
-        ]);
-        for (s, mu, set) in states
-            .iter()
-            .flat_map(|s| s.growing.iter().map(move |(mu, set)| (s, mu, set)))
-        {
-            let (stretch, mu) = (s.stretch.to_string(), mu.to_string());
-            if set.solutions.is_empty() {
-                table.row(
-                    [&stretch, &mu, "none", "", "", &verdict(set)]
-                        .map(String::from)
-                        .to_vec(),
-                );
+            (Some(_), None) => "never holds".into(),
+            (Some(_), Some(mu)) => {
+                format!("{} from mu = {mu:.9} on", state.necessary_equation())
             }
-            for m in &set.solutions {
-                let (slipping, rate) = (
-                    format!("{} of {}", m.moving.len(), s.slip),
-                    format!("{:.6}", m.value.max(0.0).sqrt()),
-                );
+        };
+
+        let set = &state.thresholds;
+        table.row(vec![
+            state.stretch.to_string(),
+            path.intervals[state.stretch].picture(),
+            state.slip.to_string(),
+            set.values("mu", 10),
+            set.leaves.to_string(),
+            set.verdict(),
+            necessary,
+        ]);
+    }
+
+    table
+}
+
+fn growing_table(states: &[ProvedState]) -> Table {
+    let mut table = Table::new(&[
+        "#",
+        "mu",
+        "lambda^2 (1/s^2)",
+        "growth rate lambda (1/s)",
+        "slipping",
+        "verdict",
+    ]);
+    for state in states {
+        for growing in &state.growing {
+            let stretch = state.stretch.to_string();
+            let mu = growing.mu.to_string();
+            let verdict = growing.set.verdict();
+
+            for solution in &growing.set.solutions {
                 table.row(vec![
                     stretch.clone(),
                     mu.clone(),
-                    m.enclosure(10),
-                    rate,
-                    slipping,
-                    verdict(set),
+                    solution.enclosure(10),
+                    format!("{:.6}", solution.growth_rate()),
+                    format!("{} of {}", solution.moving.len(), state.slip),
+                    verdict.clone(),
                 ]);
             }
+
+            if growing.set.solutions.is_empty() {
+                let none = "none".into();
+                table.row(vec![stretch, mu, none, "".into(), "".into(), verdict]);
+            }
         }
-        out += &format!("{table}\n");
     }
-    out
+
+    table
 }
 
-/// The same for programs.
-pub(super) fn json_of(states: &[State], path: &LoadingPath) -> Value {
-    states.iter().map(|s| state_json(s, path)).collect()
+/// The answers for programs.
+pub(super) fn json_of(states: &[ProvedState], path: &LoadingPath) -> Value {
+    let mut out = Vec::new();
+    for state in states {
+        out.push(state.json(&path.intervals[state.stretch]));
+    }
+
+    Value::Array(out)
 }
 
-fn state_json(s: &State, path: &LoadingPath) -> Value {
-    let interval = &path.intervals[s.stretch];
-    let motion = |e: &mceip_paper::path::Equilibrium| to_f64(e.motion());
-    let all_slip = |set: &Set| set.solutions.iter().any(|m| s.is_all_slip(m));
-    let growing = |(mu, set): &(Rational, Set)| {
-        let solution = |m: &Mode| {
-            let mut out = mode_json(s, m, "lambda2");
-            out["growth_rate_per_s"] = json!(m.value.max(0.0).sqrt());
-            out
-        };
-        json!({
-            "mu": mu.to_string(),
-            "solutions": set.solutions.iter().map(solution).collect::<Vec<_>>(),
+impl ProvedState {
+    fn json(&self, interval: &Interval) -> Value {
+        let set = &self.thresholds;
+        let solutions = set.solutions.iter();
+        let solutions: Vec<Value> = solutions.map(|m| self.mode_json(m, "mu")).collect();
+        let growing: Vec<Value> = self.growing.iter().map(|g| self.growing_json(g)).collect();
+
+        let mut out = json!({
+            "stretch": self.stretch,
+            "slip": self.slip,
+            "nodes": interval.picture(),
+            "from_mm": motion(&interval.start),
+            "to_mm": interval.stop.as_ref().map(motion),
+            "solutions": solutions,
             "complete": set.open == 0,
             "leaves": set.leaves,
-            "all_slip": all_slip(set),
-        })
-    };
-    let set = &s.thresholds;
-    let mut out = json!({
-        "stretch": s.stretch, "slip": s.slip, "nodes": interval.picture(),
-        "from_mm": motion(&interval.start), "to_mm": interval.stop.as_ref().map(motion),
-        "solutions": set.solutions.iter().map(|m| mode_json(s, m, "mu")).collect::<Vec<_>>(),
-        "complete": set.open == 0, "leaves": set.leaves,
-        "static_threshold": set.solutions.first().map(|m| m.value),
-        "all_slip": all_slip(set), // (17)-(18) at lambda = 0 for some mu
-        "lambda2": s.growing.iter().map(growing).collect::<Vec<_>>(),
-    });
-    if let Some(n) = &s.necessary {
-        let end = |u: &mceip_engine::analysis::conditions::DefiniteUntil| {
-            u.end().map(|e| [to_f64(e.lo()), to_f64(e.hi())])
-        };
-        out["necessary"] = json!({
-            "equation": s.necessary_equation(),
-            "holds_from": s.necessary_from(),
-            "stiffness_definite_until": end(&n.stiffness),
-            "mass_semidefinite_until": n.mass.as_ref().and_then(end),
+            "static_threshold": set.solutions.first().map(|m| m.value),
+            "all_slip": self.has_all_slip(set), // (17)-(18) at lambda = 0 for some mu
+            "lambda2": growing,
         });
+        if let Some(necessary) = &self.necessary {
+            out["necessary"] = json!({
+                "equation": self.necessary_equation(),
+                "holds_from": self.necessary_from(),
+                "stiffness_definite_until": end_json(&necessary.stiffness),
+                "mass_semidefinite_until": necessary.mass.as_ref().and_then(end_json),
+            });
+        }
+
+        out
     }
-    out
+
+    fn growing_json(&self, growing: &Growing) -> Value {
+        let mut solutions = Vec::new();
+        for solution in &growing.set.solutions {
+            let mut out = self.mode_json(solution, "lambda2");
+            out["growth_rate_per_s"] = json!(solution.growth_rate());
+            solutions.push(out);
+        }
+
+        json!({
+            "mu": growing.mu.to_string(),
+            "solutions": solutions,
+            "complete": growing.set.open == 0,
+            "leaves": growing.set.leaves,
+            "all_slip": self.has_all_slip(&growing.set),
+        })
+    }
+
+    /// A solution; `name` is that of its value.
+    fn mode_json(&self, mode: &ProvedMode, name: &str) -> Value {
+        let (lo, hi) = enclosing_decimals(&mode.claim.value, 15);
+        let mut out = json!({
+            name: mode.value,
+            "enclosure": [lo, hi],
+            "slipping": mode.moving.len(),
+            "moving": mode.moving,
+            "all_slip": self.is_all_slip(mode),
+        });
+        if let Some(displacement) = &mode.displacement {
+            out["mode"] = json!(displacement);
+        }
+
+        out
+    }
 }
 
-fn mode_json(s: &State, m: &Mode, name: &str) -> Value {
-    let (lo, hi) = enclosing_decimals(&m.claim.value, 15);
-    let mut out = json!({
-        name: m.value,
-        "enclosure": [lo, hi],
-        "slipping": m.moving.len(),
-        "moving": m.moving,
-        "all_slip": s.is_all_slip(m),
-    });
-    if let Some(v) = &m.displacement {
-        out["mode"] = json!(v);
-    }
-    out
+/// The motion of CD at an equilibrium, mm.
+fn motion(at: &Equilibrium) -> f64 {
+    to_f64(at.motion())
+}
+
+/// The enclosure of the mu up to which a matrix is definite, if there is one.
+fn end_json(until: &DefiniteUntil) -> Option<[f64; 2]> {
+    let end = until.end()?;
+    Some([to_f64(end.lo()), to_f64(end.hi())])
 }

@@ -3,10 +3,12 @@
 use mceip_exact::to_f64;
 use mceip_paper::path::{Bound, Equilibrium, LoadingPath, PathEnd};
 
+/// The motion of CD at an equilibrium, mm.
 pub(super) fn motion(at: &Equilibrium) -> String {
     format!("{:.9}", to_f64(at.motion()))
 }
 
+/// Why the path ends.
 pub(super) fn end_text(path: &LoadingPath) -> String {
     match &path.end {
         PathEnd::NoFurtherEvent if path.slides() => {
@@ -17,32 +19,32 @@ pub(super) fn end_text(path: &LoadingPath) -> String {
         PathEnd::Interrupted => "INTERRUPTED".into(),
         PathEnd::NoContinuation {
             causes,
-            proved: true,
-            ..
+            tried,
+            proved,
         } => {
-            format!(
-                "the quasi-static path ends ({}): no states satisfy the rate conditions, every set \
-                 was tried",
-                causes_text(causes)
-            )
-        }
-        PathEnd::NoContinuation { causes, tried, .. } => {
-            format!(
-                "UNDECIDED ({}): no admissible states among {tried} sets tried",
-                causes_text(causes)
-            )
+            let causes = causes_text(causes);
+            if *proved {
+                format!(
+                    "the quasi-static path ends ({causes}): no states satisfy the rate conditions, \
+                     every set was tried"
+                )
+            } else {
+                format!("UNDECIDED ({causes}): no admissible states among {tried} sets tried")
+            }
         }
     }
 }
 
+/// The bounds that are reached at an event, node by node (from 1 at the left).
 pub(super) fn causes_text(causes: &[Bound]) -> String {
-    let causes: Vec<String> = causes
-        .iter()
-        .map(|b| format!("node {}: {}", b.node() + 1, b.word()))
-        .collect();
     if causes.is_empty() {
-        "motion begins".into()
-    } else {
-        causes.join(", ")
+        return "motion begins".into();
     }
+
+    let mut reached = Vec::new();
+    for bound in causes {
+        reached.push(format!("node {}: {}", bound.node() + 1, bound.word()));
+    }
+
+    reached.join(", ")
 }
