@@ -2,6 +2,5 @@
 //! proved.
 
 pub mod complete;
-pub mod definite;
 pub mod levels;
 pub mod near;

@@ -1,10 +1,10 @@
 //! Regions in which every index is decided: their null vectors, exact arithmetic, and what both
 //! leave over.
 
-use super::region::{Item, Region, State};
-use super::root::{Null, Unique, null_vector};
-use super::tree::{Search, short};
-use super::view::Ends;
+use crate::search::complete::leaf::root::{Null, Unique, null_vector};
+use crate::search::complete::pieces::view::Ends;
+use crate::search::complete::region::{Item, Region, State};
+use crate::search::complete::tree::{Search, short};
 use crate::tolerance::DEGENERATE_PART;
 use mceip_check::certificate::{Claim, Node, RootOutcome, Support};
 use mceip_exact::{Rational, from_f64, to_f64};

@@ -6,7 +6,7 @@
 //! closest to a solution when there is no such w. (von Neumann 1928; Dantzig 1951 for the
 //! equivalence with LP.)
 
-use super::skyline::dot;
+use crate::search::complete::pieces::skyline::dot;
 use crate::tolerance::{GAME_PIVOT, GAME_SHIFT};
 
 /// A solved game.

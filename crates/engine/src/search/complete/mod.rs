@@ -5,37 +5,23 @@
 //! certificate with open regions is also the checkpoint: [`resume`] goes on with it, [`merge`]
 //! joins parts.
 
-mod anchor;
-mod beyond;
-mod blocks;
-mod circuit;
-mod condense;
 mod decided;
 mod error;
 pub(crate) mod game;
-mod massless;
+mod leaf;
 mod merge;
 mod options;
+mod pieces;
 mod precise;
-mod precise_anchor;
-mod reasons;
 mod region;
-mod reverse;
-mod root;
 mod shares;
-mod skeleton;
-mod skyline;
 mod splice;
-mod support;
 mod tree;
-mod view;
-mod witness;
 
 pub use error::CompleteError;
 pub use merge::merge;
 pub use options::{Options, Shard};
 
-use super::definite;
 use crate::certify::certificate;
 use crate::reduction::reduce;
 use crate::run::Watch;
@@ -45,8 +31,8 @@ use mceip_check::{
 };
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Problem};
+use pieces::prepared::Prepared;
 use shares::Shares;
-use skeleton::Prepared;
 use splice::Chosen;
 use std::collections::BTreeSet;
 
@@ -105,7 +91,7 @@ pub fn complete(
     let pencil = reduce(problem)?.pencil;
     let mut prepared = Prepared::new(problem, &pencil, options.pieces)?;
     if options.shard.is_none()
-        && let Some(node) = definite::leaf(&pencil, problem.window())
+        && let Some(node) = leaf::ldl::leaf(&pencil, problem.window())
     {
         let piece = Piece {
             max: problem.window().max().cloned().map(Number),
@@ -269,7 +255,7 @@ fn completed(
     accepted: Accepted,
 ) -> Result<Completed, CompleteError> {
     let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
-    let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
+    let exact = |s: &AcceptedClaim| leaf::support::shape(&certificate, pencil, s);
     let x = cover
         .solutions
         .iter()

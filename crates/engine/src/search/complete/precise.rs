@@ -5,13 +5,13 @@
 //! numbers, the piece gets an anchor whose W is as long, and the checker, whose arithmetic is
 //! exact, reads the signs off both.
 
-use super::precise_anchor::precise_anchor;
-use super::region::{Region, State};
-use super::root::null_vector;
-use super::skeleton::Prepared;
-use super::view::Expansion;
 use crate::candidate::Candidate;
 use crate::certify::{ENCLOSED_ORDER, precise_null};
+use crate::search::complete::leaf::root::null_vector;
+use crate::search::complete::pieces::precise_anchor::precise_anchor;
+use crate::search::complete::pieces::prepared::Prepared;
+use crate::search::complete::pieces::view::Expansion;
+use crate::search::complete::region::{Region, State};
 use mceip_check::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
 use mceip_exact::{Integer, Rational, to_f64};
 use mceip_model::{Pencil, Problem};

@@ -1,14 +1,14 @@
 //! Searches the open leaves of a cover and puts what is found in their place.
 
-use super::beyond;
-use super::options::Options;
-use super::region::{Item, Region, State};
-use super::shares::Shares;
-use super::skeleton::Prepared;
-use super::support;
-use super::tree::Search;
 use crate::candidate::Candidate;
 use crate::certify::Certifier;
+use crate::search::complete::leaf::infinity;
+use crate::search::complete::leaf::support;
+use crate::search::complete::options::Options;
+use crate::search::complete::pieces::prepared::Prepared;
+use crate::search::complete::region::{Item, Region, State};
+use crate::search::complete::shares::Shares;
+use crate::search::complete::tree::Search;
 use mceip_check::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
 use mceip_exact::Rational;
 use mceip_model::{Pencil, Problem};
@@ -96,12 +96,12 @@ pub(super) fn all(
             };
         }
         let expansion = prepared.view.expansion(piece.anchor);
-        let limit = |moving: &[usize]| beyond::limit(pencil, moving, expansion.reversed);
+        let limit = |moving: &[usize]| infinity::limit(pencil, moving, expansion.reversed);
         let mut search = Search {
             view: &prepared.view,
             expansion,
             limit: &limit,
-            definite_from: &|lo, resting| beyond::definite_from(pencil, lo, resting),
+            definite_from: &|lo, resting| infinity::definite_from(pencil, lo, resting),
             certify: &certify_at,
             decide: &decide,
             shares,

@@ -6,12 +6,12 @@
 //! vector works there, the interval is cut where it stops working; if none does, the index whose
 //! complementarity the relaxed solution breaks most is decided.
 
-use super::game::Game;
-use super::region::{Item, Region, State};
-use super::shares::Shares;
-use super::skyline::dot;
-use super::view::{Ends, Expansion, Matrix, View};
-use super::witness::{Columns, definite, vanishes};
+use crate::search::complete::game::Game;
+use crate::search::complete::leaf::farkas::{Columns, definite, vanishes};
+use crate::search::complete::pieces::skyline::dot;
+use crate::search::complete::pieces::view::{Ends, Expansion, Matrix, View};
+use crate::search::complete::region::{Item, Region, State};
+use crate::search::complete::shares::Shares;
 use crate::tolerance::{NARROW, THIN_MARGIN, WITNESS_MARGIN};
 use mceip_check::certificate::{Claim, Node, RootOutcome, Support};
 use mceip_exact::{Integer, Rational, from_f64, to_f64};

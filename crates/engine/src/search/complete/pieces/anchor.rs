@@ -2,9 +2,9 @@
 //! W = F^-1 T_fs and V = F^-1 T_sf', rounded, with the condensed pencil they give. What the
 //! polynomials leave out enters the enclosure squared (see `check::cover::condensed`).
 
-use super::blocks::{Blocks, times};
-use super::skyline::dot;
-use super::view::{Expansion, row_factor};
+use crate::search::complete::pieces::blocks::{Blocks, times};
+use crate::search::complete::pieces::skyline::dot;
+use crate::search::complete::pieces::view::{Expansion, row_factor};
 use mceip_check::certificate::{Anchor, IntegerMatrix};
 use mceip_exact::{Rational, from_f64, to_f64, truncated};
 use mceip_model::Pencil;
@@ -13,28 +13,28 @@ use mceip_model::file::Number;
 /// How an anchor is expanded: degree of W and V, and the bits of their largest entries. What W's
 /// rounding costs enters to first order (times V), what the degree leaves out enters squared.
 #[derive(Clone, Copy)]
-pub(super) struct Precision {
+pub(crate) struct Precision {
     degree: usize,
     right_bits: i32,
     left_bits: i32,
 }
 
 /// F does not depend on the unknown: W is a constant.
-pub(super) const CONSTANT: Precision = Precision {
+pub(crate) const CONSTANT: Precision = Precision {
     degree: 0,
     right_bits: 56,
     left_bits: 24,
 };
 
 /// For regions far from solutions: the margins of their witnesses are wide.
-pub(super) const COARSE: Precision = Precision {
+pub(crate) const COARSE: Precision = Precision {
     degree: 2,
     right_bits: 36,
     left_bits: 24,
 };
 
 /// About a solution, used within [`NEAR`] of it.
-pub(super) const FINE: Precision = Precision {
+pub(crate) const FINE: Precision = Precision {
     degree: 2,
     right_bits: 56,
     left_bits: 30,
@@ -51,7 +51,7 @@ const REACH: f64 = 0.3;
 const MAX_ANCHORS: usize = 64;
 
 /// Centres and the value up to which each is used; one for a pencil whose F does not depend on t.
-pub(super) fn centers(base: f64, mut low: f64, top: f64) -> (Vec<Rational>, Vec<f64>) {
+pub(crate) fn centers(base: f64, mut low: f64, top: f64) -> (Vec<Rational>, Vec<f64>) {
     if base == 0.0 {
         return (vec![Rational::from_integer(0.into())], vec![f64::INFINITY]);
     }
@@ -68,7 +68,7 @@ pub(super) fn centers(base: f64, mut low: f64, top: f64) -> (Vec<Rational>, Vec<
 }
 
 /// The Taylor polynomials about a centre, rounded, and the condensed pencil they give.
-pub(super) fn expand(
+pub(crate) fn expand(
     pencil: &Pencil,
     blocks: &Blocks,
     center: &Rational,
@@ -135,7 +135,7 @@ pub(super) fn expand(
 }
 
 /// Z_k, and the norms of the residuals, as the checker will compute them.
-pub(super) fn expansion(
+pub(crate) fn expansion(
     pencil: &Pencil,
     blocks: &Blocks,
     c: f64,
@@ -257,4 +257,4 @@ fn round(columns: Vec<Vec<f64>>, bits: i32) -> (IntegerMatrix, Vec<Vec<f64>>) {
 
 /// Distance from a solution up to which its own anchor is used, relative to value + lowest
 /// frequency.
-pub(super) const NEAR: f64 = 0.03;
+pub(crate) const NEAR: f64 = 0.03;

@@ -14,7 +14,7 @@ const MAX_ORDER: usize = 48;
 
 /// A leaf that closes the whole window, if the pencil's symmetric part is definite at both ends
 /// (semidefinite direction at an infinite one). // E19, E20
-pub fn leaf(pencil: &Pencil, window: &Window) -> Option<Node> {
+pub(crate) fn leaf(pencil: &Pencil, window: &Window) -> Option<Node> {
     if pencil.order() > MAX_ORDER {
         return None;
     }

@@ -1,11 +1,11 @@
 //! The free variables eliminated: the certificate's condensation and the f64 view of it.
 
-use super::anchor::{COARSE, CONSTANT, FINE, centers, expand, expansion};
-use super::blocks::{Blocks, lowest_frequency};
-use super::error::CompleteError;
-use super::skyline::Skyline;
-use super::view::{Expansion, View, scale};
-use super::{massless, reverse};
+use crate::search::complete::error::CompleteError;
+use crate::search::complete::pieces::anchor::{COARSE, CONSTANT, FINE, centers, expand, expansion};
+use crate::search::complete::pieces::blocks::{Blocks, lowest_frequency};
+use crate::search::complete::pieces::skyline::Skyline;
+use crate::search::complete::pieces::view::{Expansion, View, scale};
+use crate::search::complete::pieces::{massless, reverse};
 use crate::tolerance::TAIL_START;
 use mceip_check::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
 use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64};
@@ -13,14 +13,14 @@ use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
 
 /// The condensation, its view and the interval of each anchor (upper ends; the last one open).
-pub(super) struct Condensed {
-    pub(super) condensation: Condensation,
-    pub(super) view: View,
-    pub(super) ends: Vec<f64>,
+pub(crate) struct Condensed {
+    pub(crate) condensation: Condensation,
+    pub(crate) view: View,
+    pub(crate) ends: Vec<f64>,
     /// Smallest eigenvalue of (A_ff, B_ff); zero where F does not depend on the unknown.
-    pub(super) base: f64,
+    pub(crate) base: f64,
     /// From where the reversed anchor, the last one, is used; up to infinity.
-    pub(super) beyond: Option<Rational>,
+    pub(crate) beyond: Option<Rational>,
 }
 
 /// Condenses a pencil with free variables.
@@ -28,7 +28,7 @@ pub(super) struct Condensed {
 /// # Errors
 /// [`CompleteError::NotDefinite`] where A_ff is not symmetric positive definite (in doubles) or
 /// B_ff is indefinite.
-pub(super) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, CompleteError> {
+pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, CompleteError> {
     let blocks = Blocks::of(pencil);
     for (what, asymmetric) in ["A_ff", "B_ff"].into_iter().zip(blocks.asymmetry) {
         if let Some(i) = asymmetric {
@@ -185,7 +185,7 @@ fn tail(pencil: &Pencil) -> Option<Tail> {
 }
 
 /// Anchors about further values, appended to a condensation and its view.
-pub(super) fn refine(
+pub(crate) fn refine(
     pencil: &Pencil,
     condensation: &mut Condensation,
     view: &mut View,
@@ -208,7 +208,7 @@ pub(super) fn refine(
 }
 
 /// The view that a certificate's condensation gives.
-pub(super) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
+pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
     let blocks = Blocks::of(pencil);
     let bounds = [
         to_f64(&condensation.sigma.0),

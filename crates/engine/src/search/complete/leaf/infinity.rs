@@ -1,12 +1,12 @@
 //! Decided regions that reach to infinity: their null vector lies below them, at infinity itself or
 //! beyond it.
 
-use super::region::{Region, State};
-use super::root::null_vector;
-use super::tree::Search;
-use super::view::{Ends, Expansion, Matrix};
-use super::witness::definite;
-use crate::search::definite::leaf;
+use crate::search::complete::leaf::farkas::definite;
+use crate::search::complete::leaf::ldl::leaf;
+use crate::search::complete::leaf::root::null_vector;
+use crate::search::complete::pieces::view::{Ends, Expansion, Matrix};
+use crate::search::complete::region::{Region, State};
+use crate::search::complete::tree::Search;
 use crate::tolerance::{AT_INFINITY, DEFINITE_PIVOT};
 use mceip_check::certificate::{Node, RootOutcome};
 use mceip_exact::{Integer, Poly, Rational, generic_kernel};
@@ -19,7 +19,7 @@ const MAX_ACTIVE: usize = 60;
 impl Search<'_> {
     /// Closes a region whose states are decided, if its null vector is provably alone on the way to
     /// infinity and not at a value inside.
-    pub(super) fn at_infinity(&mut self, region: &Region, ends: &Ends, share: f64) -> bool {
+    pub(crate) fn at_infinity(&mut self, region: &Region, ends: &Ends, share: f64) -> bool {
         // Cuts close in on a limit as well, at the price of more leaves: the way where the checker
         // has refused this one.
         if region.lo.is_zero() || self.expansion.caution > 1.0 {
@@ -57,7 +57,7 @@ impl Search<'_> {
 
     /// A region up to infinity where sym(B) is semidefinite only: exact factors, if doubles see a
     /// chance.
-    pub(super) fn half_line(&self, region: &Region, ends: &Ends) -> Option<Node> {
+    pub(crate) fn half_line(&self, region: &Region, ends: &Ends) -> Option<Node> {
         if ends.hi.is_finite()
             || self.expansion.reversed
             || !definite(&ends.m[0], ends.r.as_ref(), &region.states, 1.0)
@@ -116,7 +116,7 @@ impl Search<'_> {
 
 /// The null vector of the limit on a moving set, if there is one only: B on the active rows, of
 /// free rows that are zero in B those of A.
-pub(super) fn limit(pencil: &Pencil, moving: &[usize], reversed: bool) -> Option<Vec<Integer>> {
+pub(crate) fn limit(pencil: &Pencil, moving: &[usize], reversed: bool) -> Option<Vec<Integer>> {
     let mut active: Vec<usize> = moving.iter().chain(pencil.free()).copied().collect();
     active.sort_unstable();
     if active.len() > MAX_ACTIVE {
@@ -145,7 +145,7 @@ pub(super) fn limit(pencil: &Pencil, moving: &[usize], reversed: bool) -> Option
 }
 
 /// Exact factors of the symmetric part without the resting variables, from lo to infinity.
-pub(super) fn definite_from(pencil: &Pencil, lo: &Rational, resting: &[usize]) -> Option<Node> {
+pub(crate) fn definite_from(pencil: &Pencil, lo: &Rational, resting: &[usize]) -> Option<Node> {
     let kept: Vec<usize> = (0..pencil.order())
         .filter(|i| !resting.contains(i))
         .collect();

@@ -7,7 +7,7 @@ use mceip_exact::{
 use num_traits::Signed;
 
 /// mu >= 0 with mu'G = 0, not zero on the first `moving` rows: an extreme one.
-pub(super) fn impossible(
+pub(crate) fn impossible(
     rows: &[Vec<Poly>],
     moving: usize,
     dimension: usize,
@@ -41,7 +41,7 @@ pub(super) fn impossible(
 }
 
 /// The mu over Q(t) with the zeros of an extreme one at t.
-pub(super) fn generic_circuit(rows: &[Vec<Poly>], mu: &[Poly], t: &Rational) -> Option<Vec<Poly>> {
+pub(crate) fn generic_circuit(rows: &[Vec<Poly>], mu: &[Poly], t: &Rational) -> Option<Vec<Poly>> {
     let chosen: Vec<usize> = (0..rows.len()).filter(|&i| mu[i].sign_at(t) != 0).collect();
     let width = rows.first().map_or(0, Vec::len);
     let transposed = (0..width)
@@ -63,7 +63,7 @@ pub(super) fn generic_circuit(rows: &[Vec<Poly>], mu: &[Poly], t: &Rational) -> 
 }
 
 /// The ray over Q(t) with the tight rows that z has at t.
-pub(super) fn extended(
+pub(crate) fn extended(
     rows: &[Vec<Poly>],
     here: &[Vec<Poly>],
     z: &[Poly],
@@ -92,7 +92,7 @@ pub(super) fn extended(
     })
 }
 
-pub(super) fn combined(basis: &[Vec<Poly>], z: &[Poly]) -> Vec<Poly> {
+pub(crate) fn combined(basis: &[Vec<Poly>], z: &[Poly]) -> Vec<Poly> {
     (0..basis[0].len())
         .map(|i| {
             basis
@@ -103,7 +103,7 @@ pub(super) fn combined(basis: &[Vec<Poly>], z: &[Poly]) -> Vec<Poly> {
         .collect()
 }
 
-pub(super) fn constants(row: &[Poly], t: &Rational) -> Vec<Poly> {
+pub(crate) fn constants(row: &[Poly], t: &Rational) -> Vec<Poly> {
     let values: Vec<Rational> = row.iter().map(|p| p.eval(t)).collect();
     let clear = common_denominator(&values);
     values
@@ -113,7 +113,7 @@ pub(super) fn constants(row: &[Poly], t: &Rational) -> Vec<Poly> {
 }
 
 /// The vector and one more polynomial without the factor that all of them share.
-pub(super) fn divided(v: Vec<Poly>, more: Poly) -> (Vec<Poly>, Poly) {
+pub(crate) fn divided(v: Vec<Poly>, more: Poly) -> (Vec<Poly>, Poly) {
     let shared = v.iter().fold(more.clone(), |g, p| g.gcd(p)).primitive();
     if shared.degree().is_none() {
         return (v, more);
@@ -132,6 +132,6 @@ pub(super) fn divided(v: Vec<Poly>, more: Poly) -> (Vec<Poly>, Poly) {
     (v.iter().map(without).collect(), without(&more))
 }
 
-pub(super) fn coefficients(v: &[Poly]) -> Vec<Vec<Integer>> {
+pub(crate) fn coefficients(v: &[Poly]) -> Vec<Vec<Integer>> {
     v.iter().map(|p| p.coeffs().to_vec()).collect()
 }

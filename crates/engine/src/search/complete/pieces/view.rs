@@ -6,61 +6,61 @@ use mceip_model::Pencil;
 use num_traits::One;
 
 /// A dense square matrix by rows.
-pub(super) type Matrix = Vec<Vec<f64>>;
+pub(crate) type Matrix = Vec<Vec<f64>>;
 
 /// The pencil on the complementarity variables: one polynomial matrix, or several about their
 /// centres.
-pub(super) struct View {
+pub(crate) struct View {
     /// Complementarity variables by position.
-    pub(super) index: Vec<usize>,
+    pub(crate) index: Vec<usize>,
     /// Scale of the unknown: |A| / |B|.
-    pub(super) scale: f64,
-    pub(super) expansions: Vec<Expansion>,
+    pub(crate) scale: f64,
+    pub(crate) expansions: Vec<Expansion>,
 }
 
 /// Z(d) +- weight_i |l_i(d)| |r_j(d)|, d = t - center.
 #[derive(Clone)]
-pub(super) struct Expansion {
-    pub(super) center: f64,
-    pub(super) z: Vec<Matrix>,
-    pub(super) left: Vec<Vec<f64>>,
-    pub(super) right: Vec<Vec<f64>>,
-    pub(super) weight: Vec<f64>,
+pub(crate) struct Expansion {
+    pub(crate) center: f64,
+    pub(crate) z: Vec<Matrix>,
+    pub(crate) left: Vec<Vec<f64>>,
+    pub(crate) right: Vec<Vec<f64>>,
+    pub(crate) weight: Vec<f64>,
     /// At t the weights are divided by 1 + gain t.
-    pub(super) gain: f64,
+    pub(crate) gain: f64,
     /// |V_i| and the rounding in |r_j|, coefficient by coefficient.
-    pub(super) v: Vec<Vec<f64>>,
-    pub(super) rounding: Vec<Vec<f64>>,
+    pub(crate) v: Vec<Vec<f64>>,
+    pub(crate) rounding: Vec<Vec<f64>>,
     /// What the remainder, itself computed in doubles, is multiplied by.
-    pub(super) caution: f64,
+    pub(crate) caution: f64,
     /// W_k by columns: x_f = -W(d) x_s.
-    pub(super) free: Vec<Vec<Vec<f64>>>,
+    pub(crate) free: Vec<Vec<Vec<f64>>>,
     /// Is this T(t) / t in powers of 1 / t - center?
-    pub(super) reversed: bool,
+    pub(crate) reversed: bool,
 }
 
 /// Both ends of an interval, the radius around the chord between them.
-pub(super) struct Ends {
-    pub(super) lo: f64,
+pub(crate) struct Ends {
+    pub(crate) lo: f64,
     /// Infinite for an unbounded interval, whose m[1] is the direction B.
-    pub(super) hi: f64,
-    pub(super) m: [Matrix; 2],
+    pub(crate) hi: f64,
+    pub(crate) m: [Matrix; 2],
     /// `None` where the chord is exact.
-    pub(super) r: Option<Matrix>,
+    pub(crate) r: Option<Matrix>,
     /// (hi - lo) T' lies within this of m[1] - m[0]; `None` likewise.
-    pub(super) slope: Option<Matrix>,
+    pub(crate) slope: Option<Matrix>,
 }
 
 impl View {
     /// The expansion of a piece with this anchor. Without a condensation there is one, and anchors
     /// are ignored.
-    pub(super) fn expansion(&self, anchor: Option<usize>) -> &Expansion {
+    pub(crate) fn expansion(&self, anchor: Option<usize>) -> &Expansion {
         let named = anchor.and_then(|k| self.expansions.get(k));
         named.unwrap_or(&self.expansions[0])
     }
 
     /// The view of a pencil without free variables.
-    pub(super) fn of(pencil: &Pencil) -> View {
+    pub(crate) fn of(pencil: &Pencil) -> View {
         let n = pencil.order();
         let (mut a, mut b) = (vec![vec![0.0; n]; n], vec![vec![0.0; n]; n]);
         for i in 0..n {
@@ -78,12 +78,12 @@ impl View {
         }
     }
 
-    pub(super) fn order(&self) -> usize {
+    pub(crate) fn order(&self) -> usize {
         self.index.len()
     }
 
     /// Position of t in [0, 1]: t / (scale + t).
-    pub(super) fn theta(&self, t: f64) -> f64 {
+    pub(crate) fn theta(&self, t: f64) -> f64 {
         if t.is_infinite() {
             1.0
         } else {
@@ -92,13 +92,13 @@ impl View {
     }
 
     /// The value at a position.
-    pub(super) fn value(&self, theta: f64) -> f64 {
+    pub(crate) fn value(&self, theta: f64) -> f64 {
         self.scale * theta / (1.0 - theta)
     }
 }
 
 /// What the checker multiplies row i by: denominators cleared, largest entry of A below one.
-pub(super) fn row_factor(pencil: &Pencil, i: usize) -> Rational {
+pub(crate) fn row_factor(pencil: &Pencil, i: usize) -> Rational {
     let (a, b) = (pencil.a().row(i), pencil.b().row(i));
     let clear = common_denominator(a.iter().chain(b).map(|(_, v)| v));
     let bits = a
@@ -110,7 +110,7 @@ pub(super) fn row_factor(pencil: &Pencil, i: usize) -> Rational {
     Rational::new(clear, Integer::one() << bits)
 }
 
-pub(super) fn scale(z: &[Matrix]) -> f64 {
+pub(crate) fn scale(z: &[Matrix]) -> f64 {
     let largest = |m: &Matrix| m.iter().flatten().fold(0.0f64, |s, v| s.max(v.abs()));
     let (a, b) = (largest(&z[0]), largest(&z[1]));
     if a > 0.0 && b > 0.0 && (a / b).is_finite() {
@@ -127,7 +127,7 @@ impl Expansion {
     }
 
     /// T(t), the remainder left out.
-    pub(super) fn at(&self, t: f64) -> Matrix {
+    pub(crate) fn at(&self, t: f64) -> Matrix {
         self.polynomial(self.argument(t))
     }
 
@@ -143,7 +143,7 @@ impl Expansion {
     }
 
     /// The chord between two matrices, from 0 to 1.
-    pub(super) fn line(ends: &[Matrix; 2]) -> Expansion {
+    pub(crate) fn line(ends: &[Matrix; 2]) -> Expansion {
         let slope = ends[0]
             .iter()
             .zip(&ends[1])
@@ -170,7 +170,7 @@ impl Expansion {
     }
 
     /// The same without its remainder: to look for solutions, not to prove anything.
-    pub(super) fn without_remainder(&self) -> Expansion {
+    pub(crate) fn without_remainder(&self) -> Expansion {
         Expansion {
             left: Vec::new(),
             right: Vec::new(),
@@ -181,12 +181,12 @@ impl Expansion {
     }
 
     /// Is this the pencil itself, valid for every value?
-    pub(super) fn is_everywhere(&self) -> bool {
+    pub(crate) fn is_everywhere(&self) -> bool {
         self.free.is_empty()
     }
 
     /// The free variables that belong to x_s at t; `None` where there are none.
-    pub(super) fn free_part(&self, t: f64, x: &[f64]) -> Option<Vec<f64>> {
+    pub(crate) fn free_part(&self, t: f64, x: &[f64]) -> Option<Vec<f64>> {
         let d = self.argument(t) - self.center;
         let mut out = vec![0.0; self.free.first()?.first()?.len()];
         for w in self.free.iter().rev() {
@@ -199,7 +199,7 @@ impl Expansion {
     }
 
     /// dT/dt, the remainder left out.
-    pub(super) fn derivative(&self, t: f64) -> Matrix {
+    pub(crate) fn derivative(&self, t: f64) -> Matrix {
         let d = self.argument(t) - self.center;
         let chain = if self.reversed { -1.0 / (t * t) } else { 1.0 };
         let mut out = self.zero();
@@ -217,7 +217,7 @@ impl Expansion {
     }
 
     /// The ends over [lo, hi] as the checker will see them.
-    pub(super) fn ends(&self, lo: f64, hi: f64) -> Ends {
+    pub(crate) fn ends(&self, lo: f64, hi: f64) -> Ends {
         if !self.reversed {
             return self.between(lo, hi);
         }

@@ -1,7 +1,9 @@
 //! A solution that is alone though the kernel is wide: the inequalities y >= 0 single it out.
 
-use super::Supported;
-use crate::search::complete::circuit::{coefficients, constants, generic_circuit, impossible};
+use crate::search::complete::leaf::support::circuit::{
+    coefficients, constants, generic_circuit, impossible,
+};
+use crate::search::complete::leaf::support::reasons::Supported;
 use mceip_check::certificate::{Alone, Polynomials};
 use mceip_exact::{
     Algebraic, Poly, Rational, Sign, cone_generators, dot, generic_kernel, kernel_at,
@@ -10,7 +12,7 @@ use mceip_exact::{
 impl Supported {
     /// Where the inequalities y >= 0 make x the only one of a wide kernel: +-(x_k e_j - x_j e_k) is
     /// on the kernel a combination with mu >= 0 of rows of G that vanish at x.
-    pub(super) fn alone_in_wide(
+    pub(crate) fn alone_in_wide(
         &self,
         x: &[Poly],
         basis: &[Vec<Poly>],
@@ -65,7 +67,7 @@ impl Supported {
 
     /// The same around a rational value, and the polynomials whose signs it needs. z: the ray x
     /// belongs to, over the basis.
-    pub(super) fn alone_in_wide_around(
+    pub(crate) fn alone_in_wide_around(
         &self,
         x: &[Poly],
         basis: &[Vec<Poly>],

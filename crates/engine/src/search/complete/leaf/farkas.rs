@@ -1,19 +1,19 @@
 //! Witnesses that a region is empty: Farkas vectors in short integers, definite symmetric parts.
 
-use super::game::{self, Game};
-use super::region::State;
-use super::skyline::dot;
-use super::view::{Ends, Matrix};
+use crate::search::complete::game::{self, Game};
+use crate::search::complete::pieces::skyline::dot;
+use crate::search::complete::pieces::view::{Ends, Matrix};
+use crate::search::complete::region::State;
 use crate::tolerance::{CONDENSED_MARGIN, DEFINITE_PIVOT, THIN_MARGIN, WITNESS_MARGIN};
 
 /// Bits tried for the weights, shortest first.
 const WEIGHT_BITS: [i32; 5] = [8, 14, 20, 30, 44];
 
 /// The columns of T that may move, at one or both ends, each divided by its largest entry.
-pub(super) struct Columns {
+pub(crate) struct Columns {
     list: Vec<Vec<f64>>,
     /// Position of each column's variable.
-    pub(super) variable: Vec<usize>,
+    pub(crate) variable: Vec<usize>,
     /// Radius of each column relative to the same entry: w'T may be larger by |w|'radius.
     radius: Vec<Option<Vec<f64>>>,
     /// What each column was multiplied by.
@@ -24,7 +24,7 @@ pub(super) struct Columns {
 
 impl Columns {
     /// Of one matrix with its radius, for the test at a point.
-    pub(super) fn at(m: &Matrix, r: Option<&Matrix>, states: &[State]) -> Columns {
+    pub(crate) fn at(m: &Matrix, r: Option<&Matrix>, states: &[State]) -> Columns {
         let mut columns = Columns {
             list: Vec::new(),
             variable: Vec::new(),
@@ -37,7 +37,7 @@ impl Columns {
     }
 
     /// Of both ends of an interval.
-    pub(super) fn of(ends: &Ends, states: &[State]) -> Columns {
+    pub(crate) fn of(ends: &Ends, states: &[State]) -> Columns {
         let mut columns = Columns {
             list: Vec::new(),
             variable: Vec::new(),
@@ -67,7 +67,7 @@ impl Columns {
 
     /// The game on these columns. Where the end is infinite the columns are lowered by twice the
     /// margin, so that an entry of zero does not stand in the way.
-    pub(super) fn play(&self, states: &[State]) -> Game {
+    pub(crate) fn play(&self, states: &[State]) -> Game {
         let either: Vec<bool> = states.iter().map(|s| *s == State::Moving).collect();
         let lower = |c: &Vec<f64>, w: &bool| {
             if *w {
@@ -86,7 +86,7 @@ impl Columns {
     }
 
     /// Rounds the weights to short integers that still prove what they are to prove.
-    pub(super) fn round(&self, w: &[f64]) -> Option<Vec<i64>> {
+    pub(crate) fn round(&self, w: &[f64]) -> Option<Vec<i64>> {
         let largest = w.iter().fold(0.0f64, |s, v| s.max(v.abs()));
         if largest == 0.0 {
             return self.list.is_empty().then(|| vec![0; w.len()]);
@@ -100,7 +100,7 @@ impl Columns {
     }
 
     /// What is left of the game's value once the radius has been taken off.
-    pub(super) fn margin(&self, game: &Game) -> f64 {
+    pub(crate) fn margin(&self, game: &Game) -> f64 {
         let around = |r: &Option<Vec<f64>>| {
             r.as_ref().map_or(0.0, |r| {
                 r.iter().zip(&game.w).map(|(r, w)| r * w.abs()).sum()
@@ -145,7 +145,7 @@ impl Columns {
     }
 
     /// Part [a, b] of [0, 1] around `from` on which w still works on the chord between the ends.
-    pub(super) fn range(&self, w: &[f64], from: f64) -> Option<(f64, f64)> {
+    pub(crate) fn range(&self, w: &[f64], from: f64) -> Option<(f64, f64)> {
         let half = self.list.len() / 2;
         let size: f64 = w.iter().map(|v| v.abs()).sum();
         let (mut a, mut b) = (0.0f64, 1.0f64);
@@ -176,7 +176,7 @@ impl Columns {
 }
 
 /// Is the symmetric part exactly zero on what may move? Enough at an infinite end.
-pub(super) fn vanishes(m: &Matrix, states: &[State]) -> bool {
+pub(crate) fn vanishes(m: &Matrix, states: &[State]) -> bool {
     let may_move = |i: &usize| states[*i] != State::Rest;
     (0..states.len()).filter(may_move).all(|i| {
         (0..states.len())
@@ -186,7 +186,7 @@ pub(super) fn vanishes(m: &Matrix, states: &[State]) -> bool {
 }
 
 /// Is `sign` sym(m) definite on what may move, with a margin?
-pub(super) fn definite(m: &Matrix, r: Option<&Matrix>, states: &[State], sign: f64) -> bool {
+pub(crate) fn definite(m: &Matrix, r: Option<&Matrix>, states: &[State], sign: f64) -> bool {
     let moving: Vec<usize> = (0..states.len())
         .filter(|&i| states[i] != State::Rest)
         .collect();

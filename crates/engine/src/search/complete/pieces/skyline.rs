@@ -4,14 +4,14 @@ use mceip_check::certificate::Factor;
 use mceip_exact::{Sparse, to_f64, truncated};
 
 /// L with L L' = S: row i holds columns first[i] to i.
-pub(super) struct Skyline {
+pub(crate) struct Skyline {
     first: Vec<usize>,
     rows: Vec<Vec<f64>>,
 }
 
 impl Skyline {
     /// The symmetric part of a sparse matrix.
-    pub(super) fn symmetric(m: &Sparse) -> Skyline {
+    pub(crate) fn symmetric(m: &Sparse) -> Skyline {
         let n = m.rows();
         let mut first: Vec<usize> = (0..n).collect();
         for (i, j, _) in m.entries() {
@@ -27,7 +27,7 @@ impl Skyline {
     }
 
     /// self + factor other + shift I, on the union of both skylines.
-    pub(super) fn combine(&self, factor: f64, other: &Skyline, shift: f64) -> Skyline {
+    pub(crate) fn combine(&self, factor: f64, other: &Skyline, shift: f64) -> Skyline {
         let n = self.first.len();
         let first: Vec<usize> = (0..n).map(|i| self.first[i].min(other.first[i])).collect();
         let at = |s: &Skyline, i: usize, j: usize| {
@@ -47,7 +47,7 @@ impl Skyline {
     }
 
     /// self + shift I.
-    pub(super) fn shifted(&self, shift: f64) -> Skyline {
+    pub(crate) fn shifted(&self, shift: f64) -> Skyline {
         let mut out = Skyline {
             first: self.first.clone(),
             rows: self.rows.clone(),
@@ -59,14 +59,14 @@ impl Skyline {
     }
 
     /// Is the matrix a non-negative diagonal (to the checker's eye: no entry beside the diagonal)?
-    pub(super) fn is_diagonal(&self) -> bool {
+    pub(crate) fn is_diagonal(&self) -> bool {
         self.rows.iter().all(|row| {
             row.iter().rev().skip(1).all(|v| *v == 0.0) && row.last().is_none_or(|d| *d >= 0.0)
         })
     }
 
     /// Smallest diagonal entry.
-    pub(super) fn smallest_diagonal(&self) -> f64 {
+    pub(crate) fn smallest_diagonal(&self) -> f64 {
         self.rows
             .iter()
             .filter_map(|r| r.last())
@@ -74,7 +74,7 @@ impl Skyline {
     }
 
     /// Largest diagonal entry.
-    pub(super) fn largest(&self) -> f64 {
+    pub(crate) fn largest(&self) -> f64 {
         self.rows
             .iter()
             .filter_map(|r| r.last())
@@ -82,7 +82,7 @@ impl Skyline {
     }
 
     /// The Cholesky factor, `None` where a pivot is not positive.
-    pub(super) fn cholesky(&self) -> Option<Skyline> {
+    pub(crate) fn cholesky(&self) -> Option<Skyline> {
         let mut l: Vec<Vec<f64>> = Vec::with_capacity(self.rows.len());
         for (i, given) in self.rows.iter().enumerate() {
             let first = self.first[i];
@@ -111,7 +111,7 @@ impl Skyline {
     }
 
     /// Solves L L' x = b in place.
-    pub(super) fn solve(&self, b: &mut [f64]) {
+    pub(crate) fn solve(&self, b: &mut [f64]) {
         for i in 0..b.len() {
             let (before, at) = b.split_at_mut(i);
             let (row, pivot) = self.row(i);
@@ -129,7 +129,7 @@ impl Skyline {
     }
 
     /// The same for many right-hand sides, [`TOGETHER`] of them in one pass over L.
-    pub(super) fn solve_all(&self, columns: &mut [Vec<f64>]) {
+    pub(crate) fn solve_all(&self, columns: &mut [Vec<f64>]) {
         for group in columns.chunks_mut(TOGETHER) {
             let mut b = vec![[0.0; TOGETHER]; self.rows.len()];
             for (k, column) in group.iter().enumerate() {
@@ -170,7 +170,7 @@ impl Skyline {
     }
 
     /// A number below the smallest eigenvalue of a definite matrix, about four fifths of it.
-    pub(super) fn below_spectrum(&self) -> Option<f64> {
+    pub(crate) fn below_spectrum(&self) -> Option<f64> {
         // The iteration approaches the eigenvalue from above, and a start that happens to be
         // orthogonal to its vector ends at another one: what it says is tried.
         let mut bound = 0.8 * self.cholesky()?.smallest_eigenvalue();
@@ -201,7 +201,7 @@ impl Skyline {
     }
 
     /// The factor rounded so finely that what it loses stays below `slack` in every row sum.
-    pub(super) fn rounded(&self, slack: f64) -> Factor {
+    pub(crate) fn rounded(&self, slack: f64) -> Factor {
         let width = self.rows.iter().map(Vec::len).max().unwrap_or(1) as f64;
         let largest = self
             .rows
@@ -230,7 +230,7 @@ impl Skyline {
 const TOGETHER: usize = 8;
 
 /// a'b in eight partial sums, which the processor forms side by side.
-pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
+pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let mut sums = [0.0; 8];
     let (full_a, full_b) = (a.chunks_exact(8), b.chunks_exact(8));
     let rest: f64 = full_a

@@ -5,8 +5,8 @@
 //! in doubles; each round adds the solution for the exact residual, and gains the digits that the
 //! factors are good for.
 
-use super::anchor::{FINE, expand};
-use super::blocks::Blocks;
+use crate::search::complete::pieces::anchor::{FINE, expand};
+use crate::search::complete::pieces::blocks::Blocks;
 use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix};
 use mceip_exact::{Integer, Rational, common_denominator, from_f64, to_f64};
 use mceip_model::Pencil;
@@ -21,7 +21,7 @@ const BITS_PER_DEGREE: u32 = 50;
 const ROUNDS: usize = 12;
 
 /// An anchor about the double nearest to a value; `None` where F is singular in doubles there.
-pub(super) fn precise_anchor(
+pub(crate) fn precise_anchor(
     pencil: &Pencil,
     condensation: &Condensation,
     value: &Rational,
@@ -217,7 +217,7 @@ mod tests {
         );
 
         let window = mceip_model::Window::new(whole(0), Some(whole(2))).unwrap();
-        let condensation = super::super::condense::condense(&pencil, &window)
+        let condensation = crate::search::complete::pieces::condense::condense(&pencil, &window)
             .unwrap()
             .condensation;
         let anchor = precise_anchor(&pencil, &condensation, &whole(1)).unwrap();

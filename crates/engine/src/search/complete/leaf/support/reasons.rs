@@ -6,9 +6,7 @@
 //! 0, not zero on J, has mu'G = 0 (Motzkin); the latter is w_R, and w on the active rows solves w'T
 //! = -mu_J.
 
-mod wide;
-
-use super::circuit::{
+use crate::search::complete::leaf::support::circuit::{
     coefficients, combined, constants, divided, extended, generic_circuit, impossible,
 };
 use mceip_check::certificate::{Alone, Exact, Member, Polynomials};
@@ -19,21 +17,21 @@ use mceip_exact::{
 use mceip_model::Pencil;
 
 /// The pencil in integers, and one support.
-pub(super) struct Supported {
-    a: Vec<Vec<Integer>>,
-    b: Vec<Vec<Integer>>,
-    moving: Vec<usize>,
+pub(crate) struct Supported {
+    pub(super) a: Vec<Vec<Integer>>,
+    pub(super) b: Vec<Vec<Integer>>,
+    pub(super) moving: Vec<usize>,
     /// Moving, then free.
-    active: Vec<usize>,
-    rest: Vec<usize>,
+    pub(super) active: Vec<usize>,
+    pub(super) rest: Vec<usize>,
     /// If the pencil is regular: a vector that excludes all but the roots of a polynomial.
-    regular: Option<(Exact, Poly)>,
+    pub(super) regular: Option<(Exact, Poly)>,
 }
 
 /// A reason that holds around a value, between the nearest roots of `critical`.
-pub(super) struct Around {
-    pub(super) reason: Exact,
-    pub(super) critical: Vec<Poly>,
+pub(crate) struct Around {
+    pub(crate) reason: Exact,
+    pub(crate) critical: Vec<Poly>,
 }
 
 /// Bits of the longest integer of the pencil times the active variables, at most: a minor of the
@@ -43,7 +41,7 @@ const MAX_MINOR_BITS: u64 = 4_096;
 
 impl Supported {
     /// `None` where the integers of the pencil are too long to decide a support of this size.
-    pub(super) fn new(pencil: &Pencil, moving: &[usize]) -> Option<Supported> {
+    pub(crate) fn new(pencil: &Pencil, moving: &[usize]) -> Option<Supported> {
         let (a, b) = pencil.a().to_dense().clear_rows(&pencil.b().to_dense());
         let active: Vec<usize> = moving.iter().chain(pencil.free()).copied().collect();
 
@@ -77,7 +75,7 @@ impl Supported {
     }
 
     /// What there is at a value. `None` if the reasons here do not decide it.
-    pub(super) fn at(&self, value: &mut Algebraic) -> Option<Exact> {
+    pub(crate) fn at(&self, value: &mut Algebraic) -> Option<Exact> {
         if let Some((reason, critical)) = &self.regular
             && value.sign_of(critical) != Sign::Zero
         {
@@ -122,7 +120,7 @@ impl Supported {
 
     /// What there is around a rational value, and where that ends. `None` if it is not a general
     /// value.
-    pub(super) fn around(&self, t: &Rational) -> Option<Around> {
+    pub(crate) fn around(&self, t: &Rational) -> Option<Around> {
         if let Some((reason, critical)) = &self.regular {
             return Some(Around {
                 reason: reason.clone(),
@@ -271,7 +269,7 @@ impl Supported {
         self.weights_for(mu.split_at(self.moving.len()), solve, sign)
     }
 
-    fn weights_for(
+    pub(super) fn weights_for(
         &self,
         (on_moving, on_rest): (&[Poly], &[Poly]),
         solve: &dyn Fn(Vec<Vec<Poly>>) -> Vec<Vec<Poly>>,
@@ -319,7 +317,7 @@ impl Supported {
     }
 
     /// Row i of T times x over the active columns.
-    fn row(&self, i: usize, x: &[Poly]) -> Poly {
+    pub(super) fn row(&self, i: usize, x: &[Poly]) -> Poly {
         self.active
             .iter()
             .zip(x)
@@ -329,7 +327,7 @@ impl Supported {
     }
 
     /// w'T in column j.
-    fn column(&self, w: &[Poly], j: usize) -> Poly {
+    pub(super) fn column(&self, w: &[Poly], j: usize) -> Poly {
         w.iter().enumerate().fold(Poly::default(), |s, (i, w_i)| {
             &s + &(&self.entry(i, j) * w_i)
         })

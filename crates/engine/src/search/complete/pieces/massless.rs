@@ -1,13 +1,13 @@
 //! Evidence that a symmetric part is semidefinite where some rows are zero: degrees of freedom
 //! without mass.
 
-use super::skyline::Skyline;
+use crate::search::complete::pieces::skyline::Skyline;
 use mceip_check::certificate::Factor;
 use mceip_exact::{Integer, Sparse};
 
 /// A factor whose rest is diagonally dominant, for sym(m) positive definite on the rows that are
 /// not zero; `None` otherwise.
-pub(super) fn factor(m: &Sparse) -> Option<Factor> {
+pub(crate) fn factor(m: &Sparse) -> Option<Factor> {
     let n = m.rows();
     let mut has_mass = vec![false; n];
     m.entries()

@@ -2,23 +2,23 @@
 //! frequency of (A_ff, B_ff) to infinity, where those in t would have to follow one another for
 //! ever.
 
-use super::anchor::{COARSE, centers, expand};
-use super::blocks::{Blocks, lowest_frequency};
-use super::tree::short;
-use super::view::Expansion;
+use crate::search::complete::pieces::anchor::{COARSE, centers, expand};
+use crate::search::complete::pieces::blocks::{Blocks, lowest_frequency};
+use crate::search::complete::pieces::view::Expansion;
+use crate::search::complete::tree::short;
 use mceip_check::certificate::Anchor;
 use mceip_exact::{Rational, to_f64};
 use mceip_model::Pencil;
 
 /// A reversed anchor and the value from which it is used.
-pub(super) struct Beyond {
-    pub(super) anchor: Anchor,
-    pub(super) expansion: Expansion,
-    pub(super) from: Rational,
+pub(crate) struct Beyond {
+    pub(crate) anchor: Anchor,
+    pub(crate) expansion: Expansion,
+    pub(crate) from: Rational,
 }
 
 /// The pencil with its matrices exchanged.
-pub(super) fn swapped(pencil: &Pencil) -> Option<Pencil> {
+pub(crate) fn swapped(pencil: &Pencil) -> Option<Pencil> {
     Pencil::new(
         pencil.b().clone(),
         pencil.a().clone(),
@@ -28,7 +28,7 @@ pub(super) fn swapped(pencil: &Pencil) -> Option<Pencil> {
 }
 
 /// Needs B_ff >= tau I with tau > 0; `bounds` are sigma (of A_ff) and tau.
-pub(super) fn beyond(pencil: &Pencil, [sigma, tau]: [&Rational; 2]) -> Option<Beyond> {
+pub(crate) fn beyond(pencil: &Pencil, [sigma, tau]: [&Rational; 2]) -> Option<Beyond> {
     let bounds = [to_f64(tau), to_f64(sigma)];
     if bounds[0] <= 0.0 {
         return None;

@@ -1,7 +1,7 @@
 //! Leaves with one null vector: where it is, and the numbers that let the checker see that.
 
-use super::region::State;
-use super::view::{Ends, Expansion, Matrix};
+use crate::search::complete::pieces::view::{Ends, Expansion, Matrix};
+use crate::search::complete::region::State;
 use crate::tolerance::{ROOT_HALF_WIDTHS, ROUNDING};
 use mceip_check::certificate::{Root, RootOutcome};
 use mceip_exact::{Integer, Rational, from_f64, truncated};
@@ -21,16 +21,16 @@ const VECTOR_BITS: u32 = 56;
 const INVERSE_BITS: [i32; 4] = [12, 20, 30, 44];
 
 /// A null vector of T on the moving set and its value.
-pub(super) struct Null {
-    pub(super) value: f64,
+pub(crate) struct Null {
+    pub(crate) value: f64,
     moving: Vec<usize>,
     left: Vec<f64>,
-    pub(super) right: Vec<f64>,
+    pub(crate) right: Vec<f64>,
 }
 
 /// Newton's method from the middle of [lo, hi] for T(t) v = 0 on the moving set, kept if it ends
 /// within the interval enlarged by half. (Nonlinear inverse iteration, Unger 1950; Ruhe 1973.)
-pub(super) fn null_vector(
+pub(crate) fn null_vector(
     expansion: &Expansion,
     states: &[State],
     lo: f64,
@@ -93,7 +93,7 @@ fn iterate(
 impl Null {
     /// The witness that this is the only null vector over `wide`, which contains the leaf; `None`
     /// where it is not to be had.
-    pub(super) fn unique(&self, wide: &Ends) -> Option<Unique> {
+    pub(crate) fn unique(&self, wide: &Ends) -> Option<Unique> {
         let mut order: Vec<usize> = (0..self.moving.len()).collect();
         let weight = |p: &usize| (self.left[*p] * self.right[*p]).abs();
         order.sort_by(|p, q| weight(q).total_cmp(&weight(p)));
@@ -104,7 +104,7 @@ impl Null {
     }
 
     /// Length of x as a candidate over all positions.
-    pub(super) fn spread(&self, n: usize) -> Vec<f64> {
+    pub(crate) fn spread(&self, n: usize) -> Vec<f64> {
         let mut x = vec![0.0; n];
         let sign = if self.right.iter().sum::<f64>() < 0.0 {
             -1.0
@@ -120,7 +120,7 @@ impl Null {
 }
 
 /// A pivot with Y, u and v that prove uniqueness over an interval.
-pub(super) struct Unique {
+pub(crate) struct Unique {
     rest: Vec<usize>,
     pivot: usize,
     y: Vec<Vec<Integer>>,
@@ -196,7 +196,7 @@ impl Unique {
 
     /// The certificate's form; `index` gives the problem's numbers, `window` what the value must
     /// stay in.
-    pub(super) fn witness(
+    pub(crate) fn witness(
         &self,
         index: &[usize],
         interval: [Rational; 2],
@@ -223,7 +223,7 @@ impl Unique {
     /// say. A value at an end of its leaf or region gets an interval centred at that end: the leaf
     /// on the other side finds it too, and of two intervals with one centre one holds the other, so
     /// that the checker sees one solution.
-    pub(super) fn outcome(
+    pub(crate) fn outcome(
         &self,
         expansion: &Expansion,
         value: f64,
@@ -259,7 +259,7 @@ impl Unique {
     }
 
     /// Has the Schur complement one sign over the interval, so that there is no null vector in it?
-    pub(super) fn is_absent(&self, wide: &Ends) -> bool {
+    pub(crate) fn is_absent(&self, wide: &Ends) -> bool {
         let y: Matrix = self
             .y
             .iter()
@@ -501,7 +501,7 @@ mod tests {
             Sparse::from_ints(&[&[-1001, -2000], &[1000, 2000]]),
             vec![],
         );
-        let view = super::super::view::View::of(&pencil.unwrap());
+        let view = crate::search::complete::pieces::view::View::of(&pencil.unwrap());
         let (expansion, states) = (&view.expansions[0], [State::Moving; 2]);
         assert!(iterate(expansion, &states, 4410.0, 4636.0, 0).is_none());
         let value = null_vector(expansion, &states, 4410.0, 4636.0)
@@ -525,7 +525,7 @@ mod tests {
             Sparse::from_ints(&[&[4]]),
             vec![],
         );
-        let view = super::super::view::View::of(&pencil.unwrap());
+        let view = crate::search::complete::pieces::view::View::of(&pencil.unwrap());
         let (expansion, states) = (&view.expansions[0], [State::Moving]);
         let unique = null_vector(expansion, &states, 2.0, 3.0)
             .unwrap()

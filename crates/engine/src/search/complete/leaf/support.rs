@@ -1,7 +1,11 @@
 //! The exact leaf of one support: the interval is cut where a reason ends, and every part has its
 //! own.
 
-use super::reasons::Supported;
+mod alone;
+mod circuit;
+mod reasons;
+
+use crate::search::complete::leaf::support::reasons::Supported;
 use mceip_check::AcceptedClaim;
 use mceip_check::certificate::{Certificate, Exact, Node, Point, Polynomials, Support};
 use mceip_exact::{Algebraic, Integer, Poly, Rational, roots_in, to_f64};
@@ -16,7 +20,7 @@ const MAX_ACTIVE: usize = 10;
 const MAX_CELLS: usize = 64;
 
 /// The leaf of a support over [lo, hi], if it can be decided before the search is told to stop.
-pub(super) fn leaf(
+pub(crate) fn leaf(
     pencil: &Pencil,
     moving: &[usize],
     lo: &Rational,
@@ -49,7 +53,7 @@ pub(super) fn leaf(
 }
 
 /// x of a solution that a support leaf of the certificate yields, e'x_s = 1, in doubles.
-pub(super) fn shape(
+pub(crate) fn shape(
     certificate: &Certificate,
     pencil: &Pencil,
     solution: &AcceptedClaim,

@@ -1,12 +1,12 @@
 //! The view of a problem and the pieces its window is cut into before the search.
 
-use super::anchor::NEAR;
-use super::condense::{condense, refine, view_of};
-use super::error::CompleteError;
-use super::region::State;
-use super::root::null_vector;
-use super::tree::short;
-use super::view::{Expansion, View};
+use crate::search::complete::error::CompleteError;
+use crate::search::complete::leaf::root::null_vector;
+use crate::search::complete::pieces::anchor::NEAR;
+use crate::search::complete::pieces::condense::{condense, refine, view_of};
+use crate::search::complete::pieces::view::{Expansion, View};
+use crate::search::complete::region::State;
+use crate::search::complete::tree::short;
 use crate::tolerance::SAME_ROOT;
 use mceip_check::certificate::{CompleteSet, Condensation, Node, Piece};
 use mceip_check::{AcceptedClaim, MAX_COVERED};
@@ -15,8 +15,8 @@ use mceip_model::file::Number;
 use mceip_model::{Pencil, Problem};
 
 /// What a search needs before it begins.
-pub(super) struct Prepared {
-    pub(super) view: View,
+pub(crate) struct Prepared {
+    pub(crate) view: View,
     condensation: Option<Condensation>,
     /// Smallest eigenvalue of (A_ff, B_ff), where the elimination depends on the unknown.
     base: f64,
@@ -26,7 +26,7 @@ pub(super) struct Prepared {
 
 impl Prepared {
     /// Condenses where there are free variables, and cuts the window into about `count` pieces.
-    pub(super) fn new(
+    pub(crate) fn new(
         problem: &Problem,
         pencil: &Pencil,
         count: usize,
@@ -128,13 +128,13 @@ impl Prepared {
     }
 
     /// Does the elimination depend on the unknown, so that solutions deserve anchors of their own?
-    pub(super) fn is_expanded(&self) -> bool {
+    pub(crate) fn is_expanded(&self) -> bool {
         self.view.expansions.iter().any(|e| e.z.len() > 2)
     }
 
     /// Takes the remainders for larger than doubles say they are, and no longer believes them at
     /// infinity; does that change anything? Without remainders only the first time.
-    pub(super) fn beware(&mut self) -> bool {
+    pub(crate) fn beware(&mut self) -> bool {
         let is_first = self.view.expansions.iter().all(|e| e.caution == 1.0);
         self.view
             .expansions
@@ -144,7 +144,7 @@ impl Prepared {
     }
 
     /// The same without remainders, for a first look.
-    pub(super) fn scout(&self) -> Prepared {
+    pub(crate) fn scout(&self) -> Prepared {
         let expansions = self
             .view
             .expansions
@@ -165,7 +165,7 @@ impl Prepared {
     }
 
     /// Gives each of these values an anchor and a piece around it, cut out of the pieces there are.
-    pub(super) fn refined(
+    pub(crate) fn refined(
         mut self,
         problem: &Problem,
         pencil: &Pencil,
@@ -229,7 +229,7 @@ impl Prepared {
     }
 
     /// From a certificate to go on with.
-    pub(super) fn again(pencil: &Pencil, set: &CompleteSet) -> Result<Prepared, CompleteError> {
+    pub(crate) fn again(pencil: &Pencil, set: &CompleteSet) -> Result<Prepared, CompleteError> {
         let view = match &set.condensation {
             None => View::of(pencil),
             Some(condensation) if condensation.anchors.is_empty() => {
@@ -251,7 +251,7 @@ impl Prepared {
     }
 
     /// The cover with everything open, the tail excepted.
-    pub(super) fn open_set(&self) -> CompleteSet {
+    pub(crate) fn open_set(&self) -> CompleteSet {
         let has_tail = self.condensation.as_ref().is_some_and(|c| c.tail.is_some());
         let node = |max: &Option<Rational>| {
             if max.is_none() && has_tail {
@@ -272,7 +272,7 @@ impl Prepared {
     }
 
     /// x of an accepted solution over all variables of the pencil, e'x_s = 1, in doubles.
-    pub(super) fn shape(&self, pencil: &Pencil, solution: &AcceptedClaim) -> Vec<f64> {
+    pub(crate) fn shape(&self, pencil: &Pencil, solution: &AcceptedClaim) -> Vec<f64> {
         let (lo, hi) = (to_f64(solution.value.lo()), to_f64(solution.value.hi()));
         let t = to_f64(&solution.value.mid());
         let piece = self

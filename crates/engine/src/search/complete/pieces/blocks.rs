@@ -1,29 +1,29 @@
 //! The blocks of a pencil A + tB that the elimination of its free variables needs: those of
 //! F = A_ff + t B_ff, and the columns of A_fs, B_fs, A_sf' and B_sf'.
 
-use super::skyline::{Skyline, dot};
+use crate::search::complete::pieces::skyline::{Skyline, dot};
 use mceip_exact::{Sparse, to_f64};
 use mceip_model::Pencil;
 
 /// The blocks of the pencil that the elimination needs, sparse columns in doubles.
-pub(super) struct Blocks {
-    pub(super) free: Vec<usize>,
-    pub(super) slip: Vec<usize>,
+pub(crate) struct Blocks {
+    pub(crate) free: Vec<usize>,
+    pub(crate) slip: Vec<usize>,
     /// A_ff and B_ff.
-    pub(super) stiffness: Skyline,
-    pub(super) mass: Skyline,
-    pub(super) mass_is_zero: bool,
+    pub(crate) stiffness: Skyline,
+    pub(crate) mass: Skyline,
+    pub(crate) mass_is_zero: bool,
     /// Rows of A_ff and B_ff.
-    pub(super) ff: [Vec<Vec<(usize, f64)>>; 2],
+    pub(crate) ff: [Vec<Vec<(usize, f64)>>; 2],
     /// First asymmetric row of A_ff and B_ff.
-    pub(super) asymmetry: [Option<usize>; 2],
+    pub(crate) asymmetry: [Option<usize>; 2],
     /// A_fs, B_fs; A_sf', B_sf': columns by complementarity variable.
-    pub(super) fs: [Vec<Vec<f64>>; 2],
-    pub(super) sf: [Vec<Vec<f64>>; 2],
+    pub(crate) fs: [Vec<Vec<f64>>; 2],
+    pub(crate) sf: [Vec<Vec<f64>>; 2],
 }
 
 impl Blocks {
-    pub(super) fn of(pencil: &Pencil) -> Blocks {
+    pub(crate) fn of(pencil: &Pencil) -> Blocks {
         let (free, slip) = (pencil.free().to_vec(), pencil.slip());
         let ff = [pencil.a(), pencil.b()].map(|m| m.submatrix(&free, &free));
         let columns = |m: Sparse| {
@@ -55,13 +55,13 @@ impl Blocks {
     }
 
     /// The Cholesky factor of F at a value; `None` where F is not definite in doubles.
-    pub(super) fn factor_at(&self, value: f64) -> Option<Skyline> {
+    pub(crate) fn factor_at(&self, value: f64) -> Option<Skyline> {
         self.stiffness.combine(value, &self.mass, 0.0).cholesky()
     }
 }
 
 /// Smallest eigenvalue of (A_ff, B_ff), estimated by inverse iteration on the pencil.
-pub(super) fn lowest_frequency(blocks: &Blocks, stiffness: &Skyline) -> f64 {
+pub(crate) fn lowest_frequency(blocks: &Blocks, stiffness: &Skyline) -> f64 {
     let n = blocks.free.len();
     let mut v = vec![1.0; n];
     let mut estimate = 1.0;
@@ -81,7 +81,7 @@ pub(super) fn lowest_frequency(blocks: &Blocks, stiffness: &Skyline) -> f64 {
     estimate
 }
 
-pub(super) fn times(m: &[Vec<(usize, f64)>], x: &[f64]) -> Vec<f64> {
+pub(crate) fn times(m: &[Vec<(usize, f64)>], x: &[f64]) -> Vec<f64> {
     m.iter()
         .map(|row| row.iter().map(|(j, v)| v * x[*j]).sum())
         .collect()
