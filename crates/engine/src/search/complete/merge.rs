@@ -6,9 +6,9 @@
 //! divide it differently, the subtree with fewer open leaves is taken. So no region is open that
 //! some part has closed by the same divisions.
 
-use crate::search::complete::error;
-use crate::search::complete::error::CompleteError;
-use crate::search::complete::splice::number;
+use super::error;
+use super::error::CompleteError;
+use super::splice::number;
 use mceip_check::certificate::{Certificate, Claim, CompleteSet, Node, Piece, RootOutcome};
 use mceip_check::{AcceptedCover, check};
 use mceip_model::Problem;

@@ -1,219 +1,270 @@
-//! Witnesses that a region is empty: Farkas vectors in short integers, definite symmetric parts.
+//! Leaf `farkas`: weights w that leave no room for a solution.
+//!
+//! Let w_i >= 0 off the support and (w'T)_j < 0 for every j that may be in the support. A solution
+//! would have 0 <= w'y = w'Tx < 0. The inequalities are linear in T, so they hold over an interval
+//! if they hold at both ends, radius included. The largest margin with which some w satisfies them
+//! is the value of a matrix game (`game`); its w is rounded to the fewest bits that still prove.
+//!
+//! Called by `tree` for every region; its test at the middle of an interval also tells the tree
+//! whether to cut or to branch. The checker's side is `check::cover::leaf`.
 
 use crate::search::complete::game::{self, Game};
+use crate::search::complete::pieces::expansion::Ends;
+use crate::search::complete::pieces::matrix::Matrix;
 use crate::search::complete::pieces::skyline::dot;
-use crate::search::complete::pieces::view::{Ends, Matrix};
-use crate::search::complete::region::State;
-use crate::tolerance::{CONDENSED_MARGIN, DEFINITE_PIVOT, THIN_MARGIN, WITNESS_MARGIN};
+use crate::search::complete::region::{State, possible_support};
+use crate::tolerance::{CONDENSED_MARGIN, THIN_MARGIN, WITNESS_MARGIN};
 
 /// Bits tried for the weights, shortest first.
 const WEIGHT_BITS: [i32; 5] = [8, 14, 20, 30, 44];
 
-/// The columns of T that may move, at one or both ends, each divided by its largest entry.
-pub(crate) struct Columns {
-    list: Vec<Vec<f64>>,
-    /// Position of each column's variable.
-    pub(crate) variable: Vec<usize>,
-    /// Radius of each column relative to the same entry: w'T may be larger by |w|'radius.
-    radius: Vec<Option<Vec<f64>>>,
-    /// What each column was multiplied by.
-    unit: Vec<f64>,
-    /// Is a column's end infinite, where <= 0 suffices?
-    weak: Vec<bool>,
+/// Share of the margin of the game that rounded weights must keep.
+const KEPT_MARGIN: f64 = 0.1;
+
+/// The weights of a Farkas leaf for both ends of an interval, given the test at its middle. What
+/// works at both ends works at the middle: where nothing does, the larger game is not played.
+pub(crate) fn weights(
+    columns: &Columns,
+    middle: &MiddleTest,
+    states: &[State],
+) -> Option<Vec<i64>> {
+    if middle.game.value <= 0.0 {
+        return None;
+    }
+    // The game of both ends does not know the radius; the middle's vector may stand it over all of
+    // the interval.
+    if middle.is_prunable
+        && let Some(weights) = columns.rounded(&middle.game.w)
+    {
+        return Some(weights);
+    }
+
+    let game = columns.play(states);
+    // Before a decided region is given to its null vectors a thin margin is worth trying.
+    let is_decided = !states.contains(&State::Undecided);
+    let least = if is_decided {
+        THIN_MARGIN
+    } else {
+        WITNESS_MARGIN
+    };
+    if game.value > least {
+        columns.rounded(&game.w)
+    } else {
+        None
+    }
 }
 
-impl Columns {
-    /// Of one matrix with its radius, for the test at a point.
-    pub(crate) fn at(m: &Matrix, r: Option<&Matrix>, states: &[State]) -> Columns {
-        let mut columns = Columns {
-            list: Vec::new(),
-            variable: Vec::new(),
-            radius: Vec::new(),
-            unit: Vec::new(),
-            weak: Vec::new(),
-        };
-        columns.add(m, r, states, false);
-        columns
-    }
+/// The game at one value in the middle of an interval.
+pub(crate) struct MiddleTest {
+    pub(crate) value: f64,
+    /// T there.
+    pub(crate) matrix: Matrix,
+    pub(crate) columns: Columns,
+    pub(crate) game: Game,
+    /// Do the weights of the game exclude solutions there by a margin?
+    pub(crate) is_prunable: bool,
+}
 
-    /// Of both ends of an interval.
-    pub(crate) fn of(ends: &Ends, states: &[State]) -> Columns {
-        let mut columns = Columns {
-            list: Vec::new(),
-            variable: Vec::new(),
-            radius: Vec::new(),
-            unit: Vec::new(),
-            weak: Vec::new(),
-        };
-        columns.add(&ends.m[0], ends.r.as_ref(), states, false);
-        columns.add(&ends.m[1], ends.r.as_ref(), states, ends.hi.is_infinite());
-        columns
-    }
-
-    fn add(&mut self, m: &Matrix, r: Option<&Matrix>, states: &[State], weak: bool) {
-        for j in (0..states.len()).filter(|&j| states[j] != State::Rest) {
-            let column: Vec<f64> = m.iter().map(|row| row[j]).collect();
-            let largest = column.iter().fold(0.0f64, |s, v| s.max(v.abs()));
-            let unit = if largest > 0.0 { 1.0 / largest } else { 1.0 };
-            let scaled = |c: Vec<f64>| c.into_iter().map(|v| v * unit).collect::<Vec<_>>();
-            self.list.push(scaled(column));
-            self.variable.push(j);
-            self.radius
-                .push(r.map(|r| scaled(r.iter().map(|row| row[j]).collect())));
-            self.unit.push(unit);
-            self.weak.push(weak);
+impl MiddleTest {
+    /// Plays the game at the one value of `point`.
+    pub(crate) fn new(point: Ends, states: &[State]) -> MiddleTest {
+        let columns = Columns::at_lower_end(&point, states);
+        let game = columns.play(states);
+        let is_prunable = columns.margin(&game) > WITNESS_MARGIN;
+        let [matrix, _] = point.m;
+        MiddleTest {
+            value: point.lo,
+            matrix,
+            columns,
+            game,
+            is_prunable,
         }
     }
 
-    /// The game on these columns. Where the end is infinite the columns are lowered by twice the
-    /// margin, so that an entry of zero does not stand in the way.
-    pub(crate) fn play(&self, states: &[State]) -> Game {
-        let either: Vec<bool> = states.iter().map(|s| *s == State::Moving).collect();
-        let lower = |c: &Vec<f64>, w: &bool| {
-            if *w {
-                c.iter().map(|v| v - 2.0 * WITNESS_MARGIN).collect()
-            } else {
-                c.clone()
-            }
-        };
-        let list: Vec<Vec<f64>> = self
-            .list
+    /// The x of the game over all positions: the closest to a solution, or zero.
+    pub(crate) fn relaxed_solution(&self) -> Vec<f64> {
+        let mut x = vec![0.0; self.matrix.len()];
+        for (column, share) in self.columns.list.iter().zip(&self.game.mix) {
+            x[column.variable] = *share;
+        }
+        x
+    }
+}
+
+/// A column of T, divided by its largest entry.
+struct Column {
+    entries: Vec<f64>,
+    /// Position of its variable.
+    variable: usize,
+    /// Radius of each entry, divided likewise: w'T may be larger by |w|'radius.
+    radius: Option<Vec<f64>>,
+    /// What the column was multiplied by.
+    unit: f64,
+    /// Is it the direction at an infinite end, where <= 0 suffices?
+    is_direction: bool,
+}
+
+impl Column {
+    fn new(m: &Matrix, radius: Option<&Matrix>, variable: usize, is_direction: bool) -> Column {
+        let entries: Vec<f64> = m.iter().map(|row| row[variable]).collect();
+        let largest = entries.iter().fold(0.0f64, |s, v| s.max(v.abs()));
+        let unit = if largest > 0.0 { 1.0 / largest } else { 1.0 };
+        Column {
+            entries: entries.into_iter().map(|v| v * unit).collect(),
+            variable,
+            radius: radius.map(|r| r.iter().map(|row| row[variable] * unit).collect()),
+            unit,
+            is_direction,
+        }
+    }
+
+    /// |w|'radius
+    fn around(&self, w: &[f64]) -> f64 {
+        self.radius.as_ref().map_or(0.0, |radius| {
+            radius.iter().zip(w).map(|(r, w)| r * w.abs()).sum()
+        })
+    }
+
+    /// Are all products of entry and weight zero? Then w'T is an exact zero, whatever the rounding.
+    fn is_exact_zero(&self, w: &[f64]) -> bool {
+        self.entries.iter().zip(w).all(|(c, w)| c * w == 0.0)
+    }
+
+    /// The column as the game has it. At an infinite end it is lowered by twice the margin, so that
+    /// an entry of zero does not stand in the way.
+    fn for_the_game(&self) -> Vec<f64> {
+        if !self.is_direction {
+            return self.entries.clone();
+        }
+        self.entries
             .iter()
-            .zip(&self.weak)
-            .map(|(c, w)| lower(c, w))
-            .collect();
-        game::solve(&either, &list)
+            .map(|v| v - 2.0 * WITNESS_MARGIN)
+            .collect()
+    }
+}
+
+/// The columns of T that may be in the support, at one or both ends.
+pub(crate) struct Columns {
+    list: Vec<Column>,
+}
+
+impl Columns {
+    /// Of one value, given as an interval of width zero.
+    fn at_lower_end(point: &Ends, states: &[State]) -> Columns {
+        let mut columns = Columns { list: Vec::new() };
+        columns.add(&point.m[0], point.r.as_ref(), states, false);
+        columns
+    }
+
+    /// Of both ends of an interval: all columns of the lower, then all of the upper end.
+    pub(crate) fn of(ends: &Ends, states: &[State]) -> Columns {
+        let mut columns = Columns { list: Vec::new() };
+        columns.add(&ends.m[0], ends.r.as_ref(), states, false);
+        columns.add(&ends.m[1], ends.r.as_ref(), states, ends.is_half_line());
+        columns
+    }
+
+    fn add(&mut self, m: &Matrix, radius: Option<&Matrix>, states: &[State], is_direction: bool) {
+        for variable in possible_support(states) {
+            let column = Column::new(m, radius, variable, is_direction);
+            self.list.push(column);
+        }
+    }
+
+    fn has_no_radius(&self) -> bool {
+        self.list.iter().all(|column| column.radius.is_none())
+    }
+
+    /// The game on these columns.
+    fn play(&self, states: &[State]) -> Game {
+        let either_sign: Vec<bool> = states.iter().map(|s| *s == State::InSupport).collect();
+        let columns: Vec<Vec<f64>> = self.list.iter().map(Column::for_the_game).collect();
+        game::solve(&either_sign, &columns)
+    }
+
+    /// What is left of the game's value once the radius has been taken off.
+    fn margin(&self, game: &Game) -> f64 {
+        if self.has_no_radius() {
+            return game.value;
+        }
+        self.list
+            .iter()
+            .map(|column| -dot(&column.entries, &game.w) - column.around(&game.w))
+            .fold(f64::INFINITY, f64::min)
     }
 
     /// Rounds the weights to short integers that still prove what they are to prove.
-    pub(crate) fn round(&self, w: &[f64]) -> Option<Vec<i64>> {
+    fn rounded(&self, w: &[f64]) -> Option<Vec<i64>> {
         let largest = w.iter().fold(0.0f64, |s, v| s.max(v.abs()));
         if largest == 0.0 {
             return self.list.is_empty().then(|| vec![0; w.len()]);
         }
-        WEIGHT_BITS.iter().find_map(|bits| {
-            let unit = (f64::from(*bits)).exp2() / largest;
+
+        for bits in WEIGHT_BITS {
+            let unit = f64::from(bits).exp2() / largest;
             let rounded: Vec<f64> = w.iter().map(|v| (v * unit).round()).collect();
-            self.holds(&rounded)
-                .then(|| rounded.iter().map(|v| *v as i64).collect())
-        })
-    }
-
-    /// What is left of the game's value once the radius has been taken off.
-    pub(crate) fn margin(&self, game: &Game) -> f64 {
-        let around = |r: &Option<Vec<f64>>| {
-            r.as_ref().map_or(0.0, |r| {
-                r.iter().zip(&game.w).map(|(r, w)| r * w.abs()).sum()
-            })
-        };
-        let of = |(c, r): (&Vec<f64>, &Option<Vec<f64>>)| -dot(c, &game.w) - around(r);
-        if self.radius.iter().all(Option::is_none) {
-            game.value
-        } else {
-            self.list
-                .iter()
-                .zip(&self.radius)
-                .map(of)
-                .fold(f64::INFINITY, f64::min)
+            if self.are_negative(&rounded) {
+                return Some(rounded.iter().map(|v| *v as i64).collect());
+            }
         }
+        None
     }
 
-    /// Every entry of w'T is negative by a margin (at an infinite end: not positive).
-    fn holds(&self, w: &[f64]) -> bool {
+    /// Is every entry of w'T negative by a margin (at an infinite end: not positive)?
+    fn are_negative(&self, w: &[f64]) -> bool {
         let size: f64 = w.iter().map(|v| v.abs()).sum();
         // Doubles know a condensed pencil less well than a given one.
-        let least = 0.1
-            * if self.radius.iter().all(Option::is_none) {
+        let least = KEPT_MARGIN
+            * if self.has_no_radius() {
                 THIN_MARGIN
             } else {
                 CONDENSED_MARGIN
             };
-        self.list
-            .iter()
-            .zip(&self.radius)
-            .zip(&self.weak)
-            .all(|((c, r), weak)| {
-                let around: f64 = r
-                    .as_ref()
-                    .map_or(0.0, |r| r.iter().zip(w).map(|(r, w)| r * w.abs()).sum());
-                let bound = dot(c, w) + around;
-                // Products that are zero one by one are an exact zero, whatever the rounding.
-                let exact_zero =
-                    *weak && around == 0.0 && c.iter().zip(w).all(|(c, w)| c * w == 0.0);
-                bound < -least * size || exact_zero
-            })
+
+        self.list.iter().all(|column| {
+            let around = column.around(w);
+            let bound = dot(&column.entries, w) + around;
+            let is_zero_at_infinity =
+                column.is_direction && around == 0.0 && column.is_exact_zero(w);
+            bound < -least * size || is_zero_at_infinity
+        })
     }
 
-    /// Part [a, b] of [0, 1] around `from` on which w still works on the chord between the ends.
-    pub(crate) fn range(&self, w: &[f64], from: f64) -> Option<(f64, f64)> {
-        let half = self.list.len() / 2;
+    /// The part of [0, 1] around `from` on which w still works on the chord between the ends.
+    pub(crate) fn range(&self, w: &[f64], from: f64) -> Option<Range> {
         let size: f64 = w.iter().map(|v| v.abs()).sum();
-        let (mut a, mut b) = (0.0f64, 1.0f64);
-        for j in 0..half {
-            let value = |k: usize| {
-                let around: f64 = self.radius[k]
-                    .as_ref()
-                    .map_or(0.0, |r| r.iter().zip(w).map(|(r, w)| r * w.abs()).sum());
-                dot(&self.list[k], w) + around + WITNESS_MARGIN * size
-            };
-            // Columns are divided by their largest entries: undo the quotient of the two.
-            let (v0, v1) = (
-                value(j) / self.unit[j],
-                value(j + half) / self.unit[j + half],
-            );
-            if v0 + from * (v1 - v0) > 0.0 {
+        let (at_lower, at_upper) = self.list.split_at(self.list.len() / 2);
+        let mut range = Range {
+            begin: 0.0,
+            end: 1.0,
+        };
+
+        for (lower, upper) in at_lower.iter().zip(at_upper) {
+            let first = value_with_margin(lower, w, size);
+            let last = value_with_margin(upper, w, size);
+            if first + from * (last - first) > 0.0 {
                 return None;
             }
-            if v0 > 0.0 {
-                a = a.max(v0 / (v0 - v1));
+            if first > 0.0 {
+                range.begin = range.begin.max(first / (first - last));
             }
-            if v1 > 0.0 {
-                b = b.min(v0 / (v0 - v1));
+            if last > 0.0 {
+                range.end = range.end.min(first / (first - last));
             }
         }
-        (a < from && from < b).then_some((a, b))
+        (range.begin < from && from < range.end).then_some(range)
     }
 }
 
-/// Is the symmetric part exactly zero on what may move? Enough at an infinite end.
-pub(crate) fn vanishes(m: &Matrix, states: &[State]) -> bool {
-    let may_move = |i: &usize| states[*i] != State::Rest;
-    (0..states.len()).filter(may_move).all(|i| {
-        (0..states.len())
-            .filter(may_move)
-            .all(|j| m[i][j] + m[j][i] == 0.0)
-    })
+/// A part of the unit interval.
+pub(crate) struct Range {
+    pub(crate) begin: f64,
+    pub(crate) end: f64,
 }
 
-/// Is `sign` sym(m) definite on what may move, with a margin?
-pub(crate) fn definite(m: &Matrix, r: Option<&Matrix>, states: &[State], sign: f64) -> bool {
-    let moving: Vec<usize> = (0..states.len())
-        .filter(|&i| states[i] != State::Rest)
-        .collect();
-    let n = moving.len();
-    let mut s: Matrix = moving
-        .iter()
-        .map(|&i| moving.iter().map(|&j| sign * (m[i][j] + m[j][i])).collect())
-        .collect();
-    let largest = s.iter().flatten().fold(0.0f64, |s, v| s.max(v.abs()));
-    if let Some(r) = r {
-        for (p, &i) in moving.iter().enumerate() {
-            s[p][p] -= moving.iter().map(|&j| r[i][j] + r[j][i]).sum::<f64>();
-        }
-    }
-    let least = DEFINITE_PIVOT * largest;
-    for k in 0..n {
-        if s[k][k] <= least {
-            return false;
-        }
-        let (upper, lower) = s.split_at_mut(k + 1);
-        let pivot = &upper[k];
-        for row in lower {
-            let factor = row[k] / pivot[k];
-            for j in k + 1..n {
-                row[j] -= factor * pivot[j];
-            }
-        }
-    }
-    true
+/// The upper bound of w'T in a column plus the margin, in the scale that both ends share.
+fn value_with_margin(column: &Column, w: &[f64], size: f64) -> f64 {
+    let value = dot(&column.entries, w) + column.around(w) + WITNESS_MARGIN * size;
+    // The columns of both ends are divided by their own largest entries: that is undone.
+    value / column.unit
 }

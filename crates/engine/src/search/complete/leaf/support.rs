@@ -1,38 +1,58 @@
-//! The exact leaf of one support: the interval is cut where a reason ends, and every part has its
-//! own.
+//! Leaf `support`: what one support holds at every value of an interval, exactly.
+//!
+//! The interval is cut at *points*, algebraic numbers, and every point and every open cell between
+//! two points has a reason of its own: a Farkas vector, or a solution (`reasons`). Beginning with
+//! the whole interval, the reason of a rational value inside it is found, with the polynomials
+//! whose roots end it; the parts beyond the nearest roots are treated likewise.
+//!
+//! Called by `tree` for regions that doubles do not decide, and for those that no matrices enclose.
+//! Only small supports are tried. The checker's side is `check::cover::support`.
 
 mod alone;
 mod circuit;
 mod reasons;
 
-use crate::search::complete::leaf::support::reasons::Supported;
-use mceip_check::AcceptedClaim;
-use mceip_check::certificate::{Certificate, Exact, Node, Point, Polynomials, Support};
-use mceip_exact::{Algebraic, Integer, Poly, Rational, roots_in, to_f64};
+use mceip_check::certificate::{Exact, Point, Polynomials, Support};
+use mceip_exact::{Algebraic, Integer, Poly, Rational, roots_in};
 use mceip_model::Pencil;
 use mceip_model::file::Number;
 use num_traits::One;
+use reasons::{Around, Supported};
 use std::cmp::Ordering;
 
 /// Active variables up to which a support is decided exactly.
 const MAX_ACTIVE: usize = 10;
+
 /// Cells of one leaf at most.
 const MAX_CELLS: usize = 64;
 
-/// The leaf of a support over [lo, hi], if it can be decided before the search is told to stop.
+/// Parts of an interval, in units of 1/1024, at which its reason is looked for: numbers that no
+/// hand-made problem has as a critical value.
+const PARTS: [i64; 3] = [487, 601, 333];
+
+/// Isolating intervals are at least this much narrower than the value, in bits.
+const WIDTH_BITS: u64 = 80;
+
+/// And no more than this: coefficients of 1e60 would ask for tens of thousands of halvings, one by
+/// one. What that leaves undecided the checker refuses, and it stays open. (Found by a campaign
+/// that did not end, seed 12, 2026-11-21.)
+const MAX_WIDTH_BITS: u64 = 1_024;
+
+/// The leaf of a support (variables of the pencil) over [lo, hi], if it can be decided before the
+/// search is told to stop.
 pub(crate) fn leaf(
     pencil: &Pencil,
-    moving: &[usize],
+    support: &[usize],
     lo: &Rational,
     hi: Option<&Rational>,
     is_stopped: &dyn Fn() -> bool,
 ) -> Option<Support> {
-    if moving.is_empty() || moving.len() + pencil.free().len() > MAX_ACTIVE {
+    if support.is_empty() || support.len() + pencil.free().len() > MAX_ACTIVE {
         return None;
     }
-    let system = Supported::new(pencil, moving)?;
+
     let mut sweep = Sweep {
-        system,
+        system: Supported::new(pencil, support)?,
         is_stopped,
         points: Vec::new(),
         cells: Vec::new(),
@@ -49,64 +69,41 @@ pub(crate) fn leaf(
         }
         None => sweep.between(first, None)?,
     }
-    sweep.finish()
+    Some(sweep.finish())
 }
 
-/// x of a solution that a support leaf of the certificate yields, e'x_s = 1, in doubles.
-pub(crate) fn shape(
-    certificate: &Certificate,
-    pencil: &Pencil,
-    solution: &AcceptedClaim,
-) -> Option<Vec<f64>> {
-    let ends = |p: &Point| {
-        p.interval[0].0 == *solution.value.lo() && p.interval[1].0 == *solution.value.hi()
-    };
-    let nodes = certificate
-        .complete_set
-        .iter()
-        .flat_map(|c| &c.pieces)
-        .flat_map(|p| &p.tree);
-    let leaves = nodes.filter_map(|n| {
-        if let Node::Support(leaf) = n {
-            Some(leaf)
-        } else {
-            None
-        }
-    });
-    let at = |leaf: &'_ Support| -> Option<Vec<Poly>> {
-        let point = leaf.points.iter().find(|p| ends(p))?;
-        let Exact::Some(member) = leaf.reasons.get(point.reason)? else {
-            return None;
-        };
-        let x: Vec<Poly> = member.x.0.iter().map(|c| Poly::new(c.clone())).collect();
-        let slip = pencil.slip();
-        slip.iter()
-            .all(|i| solution.support.contains(i) != x[*i].is_zero())
-            .then_some(x)
-    };
-    let x = leaves.filter_map(|leaf| at(leaf)).next()?;
-    let values: Vec<Rational> = x.iter().map(|p| p.eval(&solution.value.mid())).collect();
-    let sum: Rational = solution.support.iter().map(|&i| values[i].clone()).sum();
-    Some(values.iter().map(|v| to_f64(&(v / &sum))).collect())
+/// The leaf of the empty support: there is nothing to exclude, because x is not zero.
+pub(crate) fn empty_leaf() -> Support {
+    Support {
+        points: Vec::new(),
+        cells: Vec::new(),
+        reasons: Vec::new(),
+    }
 }
 
+/// A point of the interval and the number of its reason.
+struct SweepPoint {
+    value: Algebraic,
+    reason: usize,
+}
+
+/// The points, cells and reasons found so far, from left to right.
 struct Sweep<'a> {
     system: Supported,
     is_stopped: &'a dyn Fn() -> bool,
-    points: Vec<(Algebraic, usize)>,
+    points: Vec<SweepPoint>,
     cells: Vec<usize>,
     reasons: Vec<Exact>,
 }
 
 impl Sweep<'_> {
-    fn reason(&mut self, reason: Exact) -> usize {
-        self.reasons
-            .iter()
-            .position(|r| *r == reason)
-            .unwrap_or_else(|| {
-                self.reasons.push(reason);
-                self.reasons.len() - 1
-            })
+    /// The number of a reason, which is listed if it is new.
+    fn number(&mut self, reason: Exact) -> usize {
+        if let Some(number) = self.reasons.iter().position(|r| *r == reason) {
+            return number;
+        }
+        self.reasons.push(reason);
+        self.reasons.len() - 1
     }
 
     fn point(&mut self, mut value: Algebraic) -> Option<()> {
@@ -115,8 +112,8 @@ impl Sweep<'_> {
         }
         value.try_rational();
         let reason = self.system.at(&mut value)?;
-        let reason = self.reason(reason);
-        self.points.push((value, reason));
+        let reason = self.number(reason);
+        self.points.push(SweepPoint { value, reason });
         Some(())
     }
 
@@ -125,48 +122,21 @@ impl Sweep<'_> {
         if self.cells.len() >= MAX_CELLS || (self.is_stopped)() {
             return None;
         }
-        // A number that no hand-made problem has as a critical value.
-        let parts = [(487, 1024), (601, 1024), (333, 1024)];
-        let (t, around) = parts.iter().find_map(|&(p, q)| {
-            let t = inside(
-                &mut left,
-                right.as_mut(),
-                &Rational::new(p.into(), q.into()),
-            );
-            let around = self.system.around(&t)?;
-            around
-                .critical
-                .iter()
-                .all(|c| c.sign_at(&t) != 0)
-                .then_some((t, around))
-        })?;
-        let critical = around.critical.iter().map(Poly::squarefree).fold(
-            Poly::from_ints(&[1]),
-            |product, p| {
-                let shared = product.gcd(&p);
-                &product * &p.exact_div(&shared).unwrap_or(p) // exact: the gcd divides
-            },
-        );
-        let top = right.as_ref().map(|r| r.interval().hi().clone());
-        let is_inside = |v: &Algebraic| {
-            let mut v = v.clone();
-            v.cmp_exact(&mut left.clone()) == Ordering::Greater
-                && right
-                    .as_ref()
-                    .is_none_or(|r| v.cmp_exact(&mut r.clone()) == Ordering::Less)
-        };
-        let roots: Vec<Algebraic> = roots_in(&critical, left.interval().lo(), top.as_ref())
-            .into_iter()
-            .filter(is_inside)
-            .collect();
+        let General { t, around } = self.general_value(&mut left, &mut right)?;
+
+        let upper_end = right.as_ref().map(|right| right.interval().hi().clone());
+        let critical = squarefree_product(&around.critical);
+        let mut roots = roots_in(&critical, left.interval().lo(), upper_end.as_ref());
+        roots.retain(|root| is_strictly_between(root, &left, right.as_ref()));
         let (below, above): (Vec<Algebraic>, Vec<Algebraic>) = roots
             .into_iter()
-            .partition(|v| v.clone().cmp_rational(&t) == Ordering::Less);
+            .partition(|root| root.clone().cmp_rational(&t) == Ordering::Less);
+
         if let Some(end) = below.last() {
             self.between(left, Some(end.clone()))?;
             self.point(end.clone())?;
         }
-        let reason = self.reason(around.reason);
+        let reason = self.number(around.reason);
         self.cells.push(reason);
         if let Some(end) = above.first() {
             self.point(end.clone())?;
@@ -175,64 +145,116 @@ impl Sweep<'_> {
         Some(())
     }
 
-    /// Isolates the points well enough for the checker.
-    fn finish(mut self) -> Option<Support> {
-        for k in 0..self.points.len() {
-            let (point, reason) = &mut self.points[k];
-            // Signs at the point are read off remainders whose long coefficients nearly cancel.
-            let bits = (2 * longest(&self.reasons[*reason])).clamp(WIDTH_BITS, MAX_WIDTH_BITS);
-            let small = (point.interval().mid() + Rational::one())
-                / Rational::from_integer(Integer::from(1) << bits);
-            point.refine_to(&small);
-            while !point.interval().is_point()
-                && point
-                    .interval()
-                    .horner(&point.poly().derivative())
-                    .certain_sign()
-                    == 0
-            {
-                point.refine();
-            }
+    /// A value strictly between two others at which no critical polynomial vanishes, and what there
+    /// is around it.
+    fn general_value(
+        &self,
+        left: &mut Algebraic,
+        right: &mut Option<Algebraic>,
+    ) -> Option<General> {
+        PARTS.iter().find_map(|part| {
+            let part = Rational::new((*part).into(), 1024.into());
+            let t = inside(left, right.as_mut(), &part);
+            let around = self.system.around(&t)?;
+            let is_general = around.critical.iter().all(|p| p.sign_at(&t) != 0);
+            is_general.then_some(General { t, around })
+        })
+    }
+
+    /// The leaf, its points isolated well enough for the checker.
+    fn finish(mut self) -> Support {
+        for SweepPoint { value, reason } in &mut self.points {
+            narrow(value, &self.reasons[*reason]);
         }
         for k in 1..self.points.len() {
             let (before, after) = self.points.split_at_mut(k);
-            let (left, right) = (&mut before[k - 1].0, &mut after[0].0);
-            while left.interval().hi() >= right.interval().lo() {
-                left.refine();
-                right.refine();
-            }
+            part(&mut before[k - 1].value, &mut after[0].value);
         }
-        let point = |(value, reason): (Algebraic, usize)| Point {
-            polynomial: value.poly().coeffs().to_vec(),
-            interval: [
-                Number(value.interval().lo().clone()),
-                Number(value.interval().hi().clone()),
-            ],
-            reason,
-        };
-        Some(Support {
-            points: self.points.into_iter().map(point).collect(),
+
+        let mut points = Vec::with_capacity(self.points.len());
+        for SweepPoint { value, reason } in self.points {
+            let lo = value.interval().lo().clone();
+            let hi = value.interval().hi().clone();
+            points.push(Point {
+                polynomial: value.poly().coeffs().to_vec(),
+                interval: [Number(lo), Number(hi)],
+                reason,
+            });
+        }
+        Support {
+            points,
             cells: self.cells,
             reasons: self.reasons,
-        })
+        }
     }
 }
 
-/// Isolating intervals are at least this much narrower than the value, in bits.
-const WIDTH_BITS: u64 = 80;
-/// And no more than this: coefficients of 1e60 would ask for tens of thousands of halvings, one by
-/// one. What that leaves undecided the checker refuses, and it stays open. (Found by a campaign
-/// that did not end, seed 12, 2026-11-21.)
-const MAX_WIDTH_BITS: u64 = 1_024;
+/// A value at which no critical polynomial vanishes, and what there is around it.
+struct General {
+    t: Rational,
+    around: Around,
+}
+
+fn is_strictly_between(value: &Algebraic, left: &Algebraic, right: Option<&Algebraic>) -> bool {
+    let mut value = value.clone();
+    if value.cmp_exact(&mut left.clone()) != Ordering::Greater {
+        return false;
+    }
+    right.is_none_or(|right| value.cmp_exact(&mut right.clone()) == Ordering::Less)
+}
+
+/// A polynomial without multiple roots that has the roots of all of these.
+fn squarefree_product(polynomials: &[Poly]) -> Poly {
+    let mut product = Poly::from_ints(&[1]);
+    for p in polynomials {
+        let p = p.squarefree();
+        let shared = product.gcd(&p);
+        // Exact: the gcd divides.
+        product = &product * &p.exact_div(&shared).unwrap_or(p);
+    }
+    product
+}
+
+/// Narrows the interval of a point until the checker can read signs of its reason there, and the
+/// sign of the derivative of its polynomial.
+fn narrow(value: &mut Algebraic, reason: &Exact) {
+    // Signs at the point are read off remainders whose long coefficients nearly cancel.
+    let bits = (2 * longest_coefficient(reason)).clamp(WIDTH_BITS, MAX_WIDTH_BITS);
+    let unit = Rational::from_integer(Integer::from(1) << bits);
+    let width = (value.interval().mid() + Rational::one()) / unit;
+    value.refine_to(&width);
+
+    while !value.interval().is_point() && derivative_sign(value) == 0 {
+        value.refine();
+    }
+}
+
+/// The sign of the derivative on the interval of a point, 0 if not certain.
+fn derivative_sign(value: &Algebraic) -> i8 {
+    let derivative = value.poly().derivative();
+    value.interval().horner(&derivative).certain_sign()
+}
+
+/// Narrows the intervals of two different numbers until they have no point in common.
+fn part(left: &mut Algebraic, right: &mut Algebraic) {
+    while left.interval().hi() >= right.interval().lo() {
+        left.refine();
+        right.refine();
+    }
+}
 
 /// Bits of the longest coefficient of a reason.
-fn longest(reason: &Exact) -> u64 {
-    let vectors: Vec<&Polynomials> = match reason {
-        Exact::None(w) => vec![w],
-        Exact::Some(m) => std::iter::once(&m.x)
-            .chain(m.alone.iter().flat_map(|a| a.rows.iter().map(|(_, l)| l)))
-            .collect(),
-    };
+fn longest_coefficient(reason: &Exact) -> u64 {
+    let mut vectors: Vec<&Polynomials> = Vec::new();
+    match reason {
+        Exact::None(weights) => vectors.push(weights),
+        Exact::Some(member) => {
+            vectors.push(&member.x);
+            if let Some(alone) = &member.alone {
+                vectors.extend(alone.rows.iter().map(|(_, weights)| weights));
+            }
+        }
+    }
     vectors
         .into_iter()
         .flat_map(|v| v.0.iter().flatten())
@@ -241,19 +263,14 @@ fn longest(reason: &Exact) -> u64 {
         .unwrap_or(0)
 }
 
-/// A rational strictly between two values, `part` of the way (above the last one: that far above
+/// A rational strictly between two values, `share` of the way (above the last one: that far above
 /// it).
-fn inside(left: &mut Algebraic, right: Option<&mut Algebraic>, part: &Rational) -> Rational {
-    match right {
-        None => left.interval().hi() + Rational::one() + part,
-        Some(right) => {
-            // Ends: the two numbers differ.
-            while left.interval().hi() >= right.interval().lo() {
-                left.refine();
-                right.refine();
-            }
-            let (a, b) = (left.interval().hi().clone(), right.interval().lo().clone());
-            &a + (b - &a) * part
-        }
-    }
+fn inside(left: &mut Algebraic, right: Option<&mut Algebraic>, share: &Rational) -> Rational {
+    let Some(right) = right else {
+        return left.interval().hi() + Rational::one() + share;
+    };
+    part(left, right);
+    let begin = left.interval().hi().clone();
+    let end = right.interval().lo().clone();
+    &begin + (end - &begin) * share
 }

@@ -1,24 +1,40 @@
-//! The free variables eliminated: the certificate's condensation and the f64 view of it.
+//! Elimination of the free variables: the condensation of the certificate, and the view it gives.
+//!
+//! A condensation proves A_ff >= sigma I and B_ff >= tau I by rounded Cholesky factors, and has an
+//! anchor (`anchor`) for each part of the window. Above the last anchor of an infinite window
+//! stands either a tail (`leaf::tail`: no solution lies there) or a reversed anchor (`reverse`),
+//! whichever begins lower.
+//!
+//! Input: a pencil with free variables, A_ff symmetric positive definite, B_ff symmetric positive
+//! semidefinite. Called by `prepared`. The checker's side is `check::cover::condensed`.
 
+use super::anchor::{COARSE, CONSTANT, Columns, Elimination, Expanded, FINE, FreeBounds, centers};
+use super::blocks::Blocks;
+use super::expansion::Expansion;
+use super::massless;
+use super::reverse::{Beyond, beyond, exchanged};
+use super::skyline::Skyline;
+use super::view::{View, scale_of};
+use crate::search::complete::dyadic::short_below;
 use crate::search::complete::error::CompleteError;
-use crate::search::complete::pieces::anchor::{COARSE, CONSTANT, FINE, centers, expand, expansion};
-use crate::search::complete::pieces::blocks::{Blocks, lowest_frequency};
-use crate::search::complete::pieces::skyline::Skyline;
-use crate::search::complete::pieces::view::{Expansion, View, scale};
-use crate::search::complete::pieces::{massless, reverse};
-use crate::tolerance::TAIL_START;
+use crate::search::complete::leaf::tail::tail;
 use mceip_check::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
 use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
 
-/// The condensation, its view and the interval of each anchor (upper ends; the last one open).
+/// Share of an estimated lower bound of a spectrum that is claimed; the rest is slack for rounding.
+const CLAIMED: f64 = 0.8;
+const SLACK: f64 = 0.2;
+
+/// The condensation, its view and the interval of each anchor.
 pub(crate) struct Condensed {
     pub(crate) condensation: Condensation,
     pub(crate) view: View,
+    /// Upper end of each anchor's interval, without the reversed one; the last one is open.
     pub(crate) ends: Vec<f64>,
     /// Smallest eigenvalue of (A_ff, B_ff); zero where F does not depend on the unknown.
-    pub(crate) base: f64,
+    pub(crate) lowest_frequency: f64,
     /// From where the reversed anchor, the last one, is used; up to infinity.
     pub(crate) beyond: Option<Rational>,
 }
@@ -30,161 +46,218 @@ pub(crate) struct Condensed {
 /// B_ff is indefinite.
 pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, CompleteError> {
     let blocks = Blocks::of(pencil);
-    for (what, asymmetric) in ["A_ff", "B_ff"].into_iter().zip(blocks.asymmetry) {
-        if let Some(i) = asymmetric {
-            return Err(CompleteError::NotDefinite {
-                what,
-                index: blocks.free[i],
-            });
-        }
-    }
-    let not_definite = |what| CompleteError::NotDefinite {
-        what,
-        index: blocks.free[0],
+    demand_symmetry(&blocks)?;
+    let first_free = blocks.free[0];
+    let stiffness = stiffness_bound(&blocks).ok_or(CompleteError::NotDefinite {
+        what: "A_ff",
+        index: first_free,
+    })?;
+    let given_mass = pencil.b().submatrix(&blocks.free, &blocks.free);
+    let mass = mass_bound(&blocks.mass, &given_mass).ok_or(CompleteError::NotDefinite {
+        what: "B_ff",
+        index: first_free,
+    })?;
+    let elimination = Elimination {
+        pencil,
+        blocks: &blocks,
+        bounds: FreeBounds {
+            sigma: to_f64(&stiffness.sigma),
+            tau: to_f64(&mass.tau),
+        },
     };
-    let plain = blocks
-        .stiffness
-        .cholesky()
-        .ok_or_else(|| not_definite("A_ff"))?;
-    let bound = blocks
-        .stiffness
-        .below_spectrum()
-        .ok_or_else(|| not_definite("A_ff"))?;
-    let sigma = short_below(0.8 * bound).ok_or_else(|| not_definite("A_ff"))?;
-    let slack = 0.2 * bound;
-    let factor = blocks
-        .stiffness
-        .shifted(-to_f64(&sigma) - slack)
-        .cholesky()
-        .ok_or_else(|| not_definite("A_ff"))?;
-    let (mass_sigma, mass_factor) = mass_bound(
-        &blocks.mass,
-        &pencil.b().submatrix(&blocks.free, &blocks.free),
-    )
-    .map_err(|()| not_definite("B_ff"))?;
-    let tail = if window.max().is_none() && !blocks.mass_is_zero {
-        tail(pencil)
+
+    let above = if window.max().is_none() && !blocks.mass_is_zero {
+        Above::of(pencil, elimination.bounds)
     } else {
-        None
+        Above::Nothing
     };
-    let from = |t: &Tail| to_f64(&t.from.0);
-    let beyond = if window.max().is_none() && !blocks.mass_is_zero {
-        reverse::beyond(pencil, [&sigma, &mass_sigma])
-    } else {
-        None
-    };
-    // A tail that begins further out (or does not) is left to the reversed pencil.
-    let beyond = beyond.filter(|b| tail.as_ref().is_none_or(|t| from(t) > to_f64(&b.from)));
-    let tail = if beyond.is_some() { None } else { tail };
-    let top = beyond
-        .as_ref()
-        .map(|b| to_f64(&b.from))
-        .or(tail.as_ref().map(from))
+    let top = above
+        .begin()
         .or(window.max().map(to_f64))
         .unwrap_or(f64::INFINITY);
-    let base = if blocks.mass_is_zero {
+
+    let lowest_frequency = if blocks.mass_is_zero {
         0.0
     } else {
-        lowest_frequency(&blocks, &plain)
+        blocks.lowest_frequency(&stiffness.plain_factor)
     };
-    let (centers, ends) = centers(base, to_f64(window.min()), top);
-    let mut anchors = Vec::new();
-    let mut expansions = Vec::new();
     let precision = if blocks.mass_is_zero {
         CONSTANT
     } else {
         COARSE
     };
-    for center in centers {
-        let bounds = [to_f64(&sigma), to_f64(&mass_sigma)];
-        let (anchor, expansion) = expand(pencil, &blocks, &center, bounds, precision)
-            .ok_or_else(|| not_definite("A_ff + t B_ff"))?;
-        anchors.push(anchor);
-        expansions.push(expansion);
+    let mut anchors = Anchors::default();
+    let mut ends = Vec::new();
+    for center in centers(lowest_frequency, to_f64(window.min()), top) {
+        let expanded =
+            elimination
+                .expand(&center.at, precision)
+                .ok_or(CompleteError::NotDefinite {
+                    what: "A_ff + t B_ff",
+                    index: first_free,
+                })?;
+        anchors.push(expanded);
+        ends.push(center.end);
     }
-    let beyond = beyond.map(|b| {
-        anchors.push(b.anchor);
-        expansions.push(b.expansion);
-        b.from
-    });
-    let stiffness_factor = factor.rounded(slack);
+
+    let mut tail = None;
+    let mut beyond = None;
+    match above {
+        Above::Nothing => {}
+        Above::Tail(found) => tail = Some(found),
+        Above::Reversed(reversed) => {
+            anchors.push(reversed.expanded);
+            beyond = Some(reversed.from);
+        }
+    }
+
     let condensation = Condensation {
-        sigma: Number(sigma),
-        stiffness_factor,
-        mass_sigma: Number(mass_sigma),
-        mass_factor,
-        anchors,
+        sigma: Number(stiffness.sigma),
+        stiffness_factor: stiffness.factor,
+        mass_sigma: Number(mass.tau),
+        mass_factor: mass.factor,
+        anchors: anchors.certificate,
         tail,
     };
     let view = View {
-        index: blocks.slip.clone(),
-        scale: scale(&expansions[0].z),
-        expansions,
+        scale: scale_of(&anchors.expansions[0].coefficients),
+        expansions: anchors.expansions,
+        index: blocks.slip,
     };
     Ok(Condensed {
         condensation,
         view,
         ends,
-        base,
+        lowest_frequency,
         beyond,
     })
 }
 
-/// tau and the factor of B_ff - tau I; no factor where the block is diagonal.
-fn mass_bound(mass: &Skyline, given: &Sparse) -> Result<(Rational, Option<Factor>), ()> {
-    if mass.is_diagonal() {
-        let least = mass.smallest_diagonal();
-        return Ok((short_below(least).unwrap_or_default(), None));
-    }
-    // Without mass in some rows the bound is zero.
-    let Some(bound) = mass.below_spectrum() else {
-        return massless::factor(given)
-            .map(|f| (Rational::default(), Some(f)))
-            .ok_or(());
-    };
-    let tau = short_below(0.8 * bound).ok_or(())?;
-    let slack = 0.2 * bound;
-    Ok((
-        tau.clone(),
-        Some(
-            mass.shifted(-to_f64(&tau) - slack)
-                .cholesky()
-                .ok_or(())?
-                .rounded(slack),
-        ),
-    ))
+/// The anchors of a condensation and what they expand to, in the same order.
+#[derive(Default)]
+struct Anchors {
+    certificate: Vec<Anchor>,
+    expansions: Vec<Expansion>,
 }
 
-/// Doublings from a millionth of |A| / |B| until the symmetric part is to be definite.
-const TAIL_DOUBLINGS: i32 = 60;
+impl Anchors {
+    fn push(&mut self, expanded: Expanded) {
+        self.certificate.push(expanded.anchor);
+        self.expansions.push(expanded.expansion);
+    }
+}
 
-/// Where the symmetric part of the whole pencil becomes definite, with its proof.
-fn tail(pencil: &Pencil) -> Option<Tail> {
-    let (a, b) = (
-        Skyline::symmetric(pencil.a()),
-        Skyline::symmetric(pencil.b()),
-    );
-    let mass_factor = match b.is_diagonal() {
-        true => None,
-        false => Some(massless::factor(pencil.b())?),
-    };
-    let start = a.largest() / b.largest() * TAIL_START;
-    // Where sym(B) is positive definite, doubling comes to an end.
-    let from = (0..TAIL_DOUBLINGS)
-        .map(|k| start * f64::from(k).exp2())
-        .find(|t| a.combine(*t, &b, 0.0).cholesky().is_some())?;
-    let from = short_below(1.25 * from)?;
-    let s = a.combine(to_f64(&from), &b, 0.0);
-    let slack = s.below_spectrum()?;
-    let factor = s.shifted(-slack).cholesky()?.rounded(slack);
-    Some(Tail {
-        from: Number(from),
+/// What stands above the anchors of an infinite window.
+enum Above {
+    Nothing,
+    Tail(Tail),
+    Reversed(Box<Beyond>),
+}
+
+impl Above {
+    /// The tail, or the reversed anchor where that begins lower.
+    fn of(pencil: &Pencil, bounds: FreeBounds) -> Above {
+        let tail = tail(pencil);
+        let beyond = beyond(pencil, bounds);
+        match (tail, beyond) {
+            (Some(tail), Some(beyond)) if to_f64(&tail.from.0) > to_f64(&beyond.from) => {
+                Above::Reversed(Box::new(beyond))
+            }
+            (Some(tail), _) => Above::Tail(tail),
+            (None, Some(beyond)) => Above::Reversed(Box::new(beyond)),
+            (None, None) => Above::Nothing,
+        }
+    }
+
+    fn begin(&self) -> Option<f64> {
+        match self {
+            Above::Nothing => None,
+            Above::Tail(tail) => Some(to_f64(&tail.from.0)),
+            Above::Reversed(beyond) => Some(to_f64(&beyond.from)),
+        }
+    }
+}
+
+fn demand_symmetry(blocks: &Blocks) -> Result<(), CompleteError> {
+    let rows = [
+        ("A_ff", blocks.stiffness_asymmetry),
+        ("B_ff", blocks.mass_asymmetry),
+    ];
+    for (what, asymmetric_row) in rows {
+        if let Some(row) = asymmetric_row {
+            let index = blocks.free[row];
+            return Err(CompleteError::NotDefinite { what, index });
+        }
+    }
+    Ok(())
+}
+
+/// A_ff >= sigma I and its evidence.
+struct StiffnessBound {
+    sigma: Rational,
+    factor: Factor,
+    /// The Cholesky factor of A_ff itself.
+    plain_factor: Skyline,
+}
+
+fn stiffness_bound(blocks: &Blocks) -> Option<StiffnessBound> {
+    let plain_factor = blocks.stiffness.cholesky()?;
+    let bound = blocks.stiffness.below_spectrum()?;
+    let sigma = short_below(CLAIMED * bound)?;
+    let factor = factor_above(&blocks.stiffness, &sigma, SLACK * bound)?;
+    Some(StiffnessBound {
+        sigma,
         factor,
-        mass_factor,
+        plain_factor,
     })
 }
 
-/// Anchors about further values, appended to a condensation and its view.
+/// B_ff >= tau I and its evidence.
+struct MassBound {
+    tau: Rational,
+    /// `None` where the block is a non-negative diagonal.
+    factor: Option<Factor>,
+}
+
+/// The bound of B_ff, which is `given` and in skyline form `mass`; `None` where it is indefinite.
+fn mass_bound(mass: &Skyline, given: &Sparse) -> Option<MassBound> {
+    if mass.is_diagonal() {
+        let tau = short_below(mass.smallest_diagonal()).unwrap_or_default();
+        return Some(MassBound { tau, factor: None });
+    }
+
+    // Without mass in some rows the bound is zero.
+    let Some(bound) = mass.below_spectrum() else {
+        return Some(MassBound {
+            tau: Rational::default(),
+            factor: Some(massless::factor(given)?),
+        });
+    };
+
+    let tau = short_below(CLAIMED * bound)?;
+    let factor = factor_above(mass, &tau, SLACK * bound)?;
+    Some(MassBound {
+        tau,
+        factor: Some(factor),
+    })
+}
+
+/// The rounded Cholesky factor of S - (bound + slack) I: what proves S >= bound I.
+fn factor_above(s: &Skyline, bound: &Rational, slack: f64) -> Option<Factor> {
+    let factor = s.shifted(-to_f64(bound) - slack).cholesky()?;
+    Some(factor.rounded(slack))
+}
+
+/// The bounds that a condensation proves, in doubles.
+pub(crate) fn bounds_of(condensation: &Condensation) -> FreeBounds {
+    FreeBounds {
+        sigma: to_f64(&condensation.sigma.0),
+        tau: to_f64(&condensation.mass_sigma.0),
+    }
+}
+
+/// Appends fine anchors about further values to a condensation and its view. Values at which the
+/// expansion fails get none.
 pub(crate) fn refine(
     pencil: &Pencil,
     condensation: &mut Condensation,
@@ -192,79 +265,84 @@ pub(crate) fn refine(
     values: &[f64],
 ) {
     let blocks = Blocks::of(pencil);
-    let bounds = [
-        to_f64(&condensation.sigma.0),
-        to_f64(&condensation.mass_sigma.0),
-    ];
+    let elimination = Elimination {
+        pencil,
+        blocks: &blocks,
+        bounds: bounds_of(condensation),
+    };
+
     for value in values {
-        let expanded = from_f64(*value)
-            .ok()
-            .and_then(|c| expand(pencil, &blocks, &c, bounds, FINE));
-        if let Some((anchor, expansion)) = expanded {
-            condensation.anchors.push(anchor);
-            view.expansions.push(expansion);
+        let Ok(center) = from_f64(*value) else {
+            continue;
+        };
+        if let Some(expanded) = elimination.expand(&center, FINE) {
+            condensation.anchors.push(expanded.anchor);
+            view.expansions.push(expanded.expansion);
         }
     }
 }
 
 /// The view that a certificate's condensation gives.
 pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
+    let bounds = bounds_of(condensation);
     let blocks = Blocks::of(pencil);
-    let bounds = [
-        to_f64(&condensation.sigma.0),
-        to_f64(&condensation.mass_sigma.0),
-    ];
-    let side = |list: &[IntegerMatrix]| {
-        list.iter()
-            .map(|m| columns_of(m, blocks.slip.len()))
-            .collect::<Vec<_>>()
+    let exchanged = exchanged(pencil);
+    let elimination = Elimination {
+        pencil,
+        blocks: &blocks,
+        bounds,
     };
-    let one = |a: &Anchor| match reverse::swapped(pencil).filter(|_| a.reversed) {
-        None => expansion(
-            pencil,
-            &blocks,
-            to_f64(&a.center.0),
-            bounds,
-            &side(&a.right),
-            &side(&a.left),
-        ),
-        Some(swapped) => {
-            let [sigma, tau] = bounds;
-            let (c, blocks) = (to_f64(&a.center.0), Blocks::of(&swapped));
-            Expansion {
-                reversed: true,
-                ..expansion(
-                    &swapped,
-                    &blocks,
-                    c,
-                    [tau, sigma],
-                    &side(&a.right),
-                    &side(&a.left),
-                )
-            }
-        }
-    };
-    let expansions: Vec<Expansion> = condensation.anchors.iter().map(one).collect();
+
+    let mut expansions = Vec::new();
+    for anchor in &condensation.anchors {
+        let expansion = match &exchanged {
+            Some(exchanged) if anchor.reversed => reversed_expansion(exchanged, anchor, bounds),
+            _ => expansion_of(&elimination, anchor),
+        };
+        expansions.push(expansion);
+    }
+
+    let scale = expansions
+        .first()
+        .map_or(1.0, |e| scale_of(&e.coefficients));
     View {
-        index: blocks.slip.clone(),
-        scale: expansions.first().map_or(1.0, |e| scale(&e.z)),
+        index: blocks.slip,
+        scale,
         expansions,
     }
 }
 
-/// The columns of a rounded matrix, in doubles.
-fn columns_of(m: &IntegerMatrix, cols: usize) -> Vec<Vec<f64>> {
-    let entry = |v: &Integer| to_f64(&Rational::new(v.clone(), Integer::from(1) << m.exponent));
-    (0..cols)
-        .map(|j| m.rows.iter().map(|row| entry(&row[j])).collect())
-        .collect()
+/// The expansion that a reversed anchor gives. `bounds` are those of the pencil as given.
+fn reversed_expansion(exchanged: &Pencil, anchor: &Anchor, bounds: FreeBounds) -> Expansion {
+    let elimination = Elimination {
+        pencil: exchanged,
+        blocks: &Blocks::of(exchanged),
+        bounds: bounds.exchanged(),
+    };
+    Expansion {
+        reversed: true,
+        ..expansion_of(&elimination, anchor)
+    }
 }
 
-/// A short number at most v, within a sixteenth of it.
-fn short_below(v: f64) -> Option<Rational> {
-    if !(v > 0.0 && v.is_finite()) {
-        return None;
+/// The expansion that an anchor of a certificate gives for the pencil that is eliminated.
+fn expansion_of(elimination: &Elimination<'_>, anchor: &Anchor) -> Expansion {
+    let width = elimination.blocks.slip.len();
+    let right: Vec<Columns> = anchor.right.iter().map(|m| columns_of(m, width)).collect();
+    let left: Vec<Columns> = anchor.left.iter().map(|m| columns_of(m, width)).collect();
+    elimination.expansion(to_f64(&anchor.center.0), &right, &left)
+}
+
+/// The columns of a rounded matrix, in doubles.
+fn columns_of(matrix: &IntegerMatrix, width: usize) -> Columns {
+    let unit = Integer::from(1) << matrix.exponent;
+    let mut columns = Columns::new();
+    for j in 0..width {
+        let column = matrix
+            .rows
+            .iter()
+            .map(|row| to_f64(&Rational::new(row[j].clone(), unit.clone())));
+        columns.push(column.collect());
     }
-    let unit = (v.log2().floor() - 4.0).exp2();
-    from_f64((v / unit).floor() * unit).ok()
+    columns
 }

@@ -1,12 +1,14 @@
 //! An anchor whose W has more bits than doubles: Taylor coefficients by refinement with exact
 //! residuals.
 //!
-//! F_c W_k = [k = 0] (A_fs + c B_fs) + [k = 1] B_fs - B_ff W_(k-1) is solved by the factors of F_c
-//! in doubles; each round adds the solution for the exact residual, and gains the digits that the
-//! factors are good for.
+//! The equation F_c W_k = [k = 0] T_fs(c) + [k = 1] B_fs - B_ff W_(k-1) is solved with the factor
+//! of F_c in doubles. Each round adds the solution for the exact residual, and gains the digits
+//! that the factor is good for. Called by `complete::precise` for regions whose signs are beyond
+//! doubles.
 
-use crate::search::complete::pieces::anchor::{FINE, expand};
-use crate::search::complete::pieces::blocks::Blocks;
+use super::anchor::{Elimination, FINE};
+use super::blocks::Blocks;
+use super::condense::bounds_of;
 use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix};
 use mceip_exact::{Integer, Rational, common_denominator, from_f64, to_f64};
 use mceip_model::Pencil;
@@ -28,11 +30,12 @@ pub(crate) fn precise_anchor(
 ) -> Option<Anchor> {
     let center = from_f64(to_f64(value)).ok()?;
     let blocks = Blocks::of(pencil);
-    let bounds = [
-        to_f64(&condensation.sigma.0),
-        to_f64(&condensation.mass_sigma.0),
-    ];
-    let (mut anchor, _) = expand(pencil, &blocks, &center, bounds, FINE)?;
+    let elimination = Elimination {
+        pencil,
+        blocks: &blocks,
+        bounds: bounds_of(condensation),
+    };
+    let mut anchor = elimination.expand(&center, FINE)?.anchor;
     let factor = blocks.factor_at(to_f64(&center))?;
 
     let rows = free_rows(pencil, &center);
@@ -67,83 +70,102 @@ struct FreeRow {
     slip: Vec<Entry>,
 }
 
+/// Where a variable of the pencil stands.
+#[derive(Clone, Copy)]
+enum Place {
+    Free(usize),
+    Slip(usize),
+}
+
+fn places(pencil: &Pencil) -> Vec<Place> {
+    let mut places = vec![Place::Slip(0); pencil.order()];
+    for (position, &i) in pencil.free().iter().enumerate() {
+        places[i] = Place::Free(position);
+    }
+    for (position, &i) in pencil.slip().iter().enumerate() {
+        places[i] = Place::Slip(position);
+    }
+    places
+}
+
 fn free_rows(pencil: &Pencil, center: &Rational) -> Vec<FreeRow> {
-    let mut place = vec![(false, 0); pencil.order()];
+    let places = places(pencil);
     pencil
         .free()
         .iter()
-        .enumerate()
-        .for_each(|(k, &i)| place[i] = (true, k));
-    pencil
-        .slip()
-        .iter()
-        .enumerate()
-        .for_each(|(k, &i)| place[i] = (false, k));
+        .map(|&i| free_row(pencil, center, &places, i))
+        .collect()
+}
 
-    let row = |&i: &usize| {
-        let (a, b) = (pencil.a().row(i), pencil.b().row(i));
-        let clear = common_denominator(a.iter().chain(b).map(|e| &e.1));
-        let multiple = Rational::from_integer(clear * center.denom());
-        let mut row = FreeRow {
-            multiple: multiple.to_integer(),
-            free: Vec::new(),
-            slip: Vec::new(),
-        };
+fn free_row(pencil: &Pencil, center: &Rational, places: &[Place], i: usize) -> FreeRow {
+    let a = pencil.a().row(i);
+    let b = pencil.b().row(i);
+    let clear = common_denominator(a.iter().chain(b).map(|e| &e.1));
+    let multiple = Rational::from_integer(clear * center.denom());
 
-        let mut columns: Vec<usize> = a.iter().chain(b).map(|e| e.0).collect();
-        columns.sort_unstable();
-        columns.dedup();
-        for column in columns {
-            let (a, b) = (pencil.a().get(i, column), pencil.b().get(i, column));
-            let (is_free, position) = place[column];
-            let at_center = ((a + center * &b) * &multiple).to_integer();
-            let entry = Entry {
-                position,
-                at_center,
-                slope: (b * &multiple).to_integer(),
-            };
-            if is_free {
-                row.free.push(entry)
-            } else {
-                row.slip.push(entry)
-            }
-        }
-        row
+    let mut columns: Vec<usize> = a.iter().chain(b).map(|e| e.0).collect();
+    columns.sort_unstable();
+    columns.dedup();
+
+    let mut row = FreeRow {
+        multiple: multiple.to_integer(),
+        free: Vec::new(),
+        slip: Vec::new(),
     };
-    pencil.free().iter().map(row).collect()
+    for column in columns {
+        let a = pencil.a().get(i, column);
+        let b = pencil.b().get(i, column);
+        let at_center = ((a + center * &b) * &multiple).to_integer();
+        let slope = (b * &multiple).to_integer();
+
+        let (list, position) = match places[column] {
+            Place::Free(position) => (&mut row.free, position),
+            Place::Slip(position) => (&mut row.slip, position),
+        };
+        list.push(Entry {
+            position,
+            at_center,
+            slope,
+        });
+    }
+    row
 }
 
 /// Raises the exponent so that the largest entry has this many bits; more stay.
-fn widen(m: &mut IntegerMatrix, bits: u32) {
-    let largest = m
+fn widen(matrix: &mut IntegerMatrix, bits: u32) {
+    let largest = matrix
         .rows
         .iter()
         .flatten()
         .map(Integer::bits)
         .max()
         .unwrap_or(0);
-    let more = u64::from(bits).saturating_sub(largest);
-    if largest > 0 {
-        m.rows.iter_mut().flatten().for_each(|v| *v <<= more);
-        m.exponent += more as u32;
+    if largest == 0 {
+        return;
     }
+
+    let more = u64::from(bits).saturating_sub(largest);
+    for entry in matrix.rows.iter_mut().flatten() {
+        *entry <<= more;
+    }
+    matrix.exponent += more as u32;
 }
 
-/// The residual of W_k's equation in doubles, by columns.
+/// The residual of W_k's equation in doubles, by columns. `before` is W_(k-1).
 fn residual(
     rows: &[FreeRow],
     k: usize,
     w: &IntegerMatrix,
     before: Option<&IntegerMatrix>,
 ) -> Vec<Vec<f64>> {
-    let columns = w.rows.first().map_or(0, Vec::len);
+    let width = w.rows.first().map_or(0, Vec::len);
     let exponent = w.exponent.max(before.map_or(0, |m| m.exponent));
     let lift = exponent - w.exponent;
     let lift_before = before.map_or(0, |m| exponent - m.exponent);
 
-    let mut out = vec![vec![0.0; rows.len()]; columns];
+    let mut columns = vec![vec![0.0; rows.len()]; width];
     for (i, row) in rows.iter().enumerate() {
-        let mut sums = vec![Integer::zero(); columns];
+        let mut sums = vec![Integer::zero(); width];
         for entry in &row.slip {
             match k {
                 0 => sums[entry.position] += &entry.at_center << exponent,
@@ -151,27 +173,22 @@ fn residual(
                 _ => {}
             }
         }
+
         for entry in &row.free {
-            subtract(
-                &mut sums,
-                &(&entry.at_center << lift),
-                &w.rows[entry.position],
-            );
+            let factor = &entry.at_center << lift;
+            subtract(&mut sums, &factor, &w.rows[entry.position]);
             if let Some(before) = before.filter(|_| !entry.slope.is_zero()) {
-                subtract(
-                    &mut sums,
-                    &(&entry.slope << lift_before),
-                    &before.rows[entry.position],
-                );
+                let factor = &entry.slope << lift_before;
+                subtract(&mut sums, &factor, &before.rows[entry.position]);
             }
         }
 
         let unit = &row.multiple << exponent;
-        for (j, sum) in sums.into_iter().enumerate() {
-            out[j][i] = to_f64(&Rational::new_raw(sum, unit.clone()));
+        for (column, sum) in columns.iter_mut().zip(sums) {
+            column[i] = to_f64(&Rational::new_raw(sum, unit.clone()));
         }
     }
-    out
+    columns
 }
 
 /// sums -= factor row.
@@ -182,11 +199,11 @@ fn subtract(sums: &mut [Integer], factor: &Integer, row: &[Integer]) {
 }
 
 /// Adds corrections, rounded to units of the matrix; is none of them more than a unit?
-fn add(m: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
-    let unit = Rational::from_integer(Integer::one() << m.exponent);
+fn add(matrix: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
+    let unit = Rational::from_integer(Integer::one() << matrix.exponent);
     let mut is_still = true;
     for (j, column) in columns.iter().enumerate() {
-        for (row, v) in m.rows.iter_mut().zip(column) {
+        for (row, v) in matrix.rows.iter_mut().zip(column) {
             let units = (from_f64(*v).ok()? * &unit).round().to_integer();
             is_still &= units.abs() <= Integer::one();
             row[j] += units;
@@ -198,7 +215,17 @@ fn add(m: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use mceip_exact::{Sparse, whole};
+    use crate::search::complete::pieces::condense::condense;
+    use mceip_exact::{Sparse, rational, whole};
+    use mceip_model::Window;
+
+    /// Is entry (i, 0) of a matrix within 2^-bits of a number?
+    fn is_near(matrix: &IntegerMatrix, i: usize, expected: &Rational, bits: u32) -> bool {
+        let unit = Integer::one() << matrix.exponent;
+        let entry = Rational::new(matrix.rows[i][0].clone(), unit);
+        let limit = Rational::new(Integer::one(), Integer::one() << bits);
+        (entry - expected).abs() < limit
+    }
 
     /// F = [[3, -1], [-1, 2]] + t I, C = (1, 0)' + t (0, 1)': at t = 1 the coefficients are W_0 =
     /// F^-1 (1, 1)' = (4, 5)' / 11, W_1 = F^-1 ((0, 1)' - W_0).
@@ -208,34 +235,18 @@ mod tests {
         let b = Sparse::from_ints(&[&[1, 0, 0], &[0, 1, 1], &[0, 1, 1]]);
         let pencil = Pencil::new(a, b, vec![0, 1]).unwrap();
         let rows = free_rows(&pencil, &whole(1));
-        assert_eq!(
-            (
-                rows[1].free[1].at_center.clone(),
-                rows[1].slip[0].at_center.clone()
-            ),
-            (3.into(), 1.into())
-        );
+        assert_eq!(rows[1].free[1].at_center, 3.into());
+        assert_eq!(rows[1].slip[0].at_center, 1.into());
 
-        let window = mceip_model::Window::new(whole(0), Some(whole(2))).unwrap();
-        let condensation = crate::search::complete::pieces::condense::condense(&pencil, &window)
-            .unwrap()
-            .condensation;
+        let window = Window::new(whole(0), Some(whole(2))).unwrap();
+        let condensation = condense(&pencil, &window).unwrap().condensation;
         let anchor = precise_anchor(&pencil, &condensation, &whole(1)).unwrap();
 
-        let entry = |k: usize, i: usize| {
-            let m = &anchor.right[k];
-            Rational::new(m.rows[i][0].clone(), Integer::one() << m.exponent)
-        };
-        let limit = |bits: u32| Rational::new(Integer::one(), Integer::one() << bits);
         // F W_0 = (1, 1)' with F = [[4, -1], [-1, 3]].
-        let of = |p: i64| Rational::new(p.into(), 11.into());
-        assert!(
-            (entry(0, 0) - of(4)).abs() < limit(120) && (entry(0, 1) - of(5)).abs() < limit(120)
-        );
+        assert!(is_near(&anchor.right[0], 0, &rational(4, 11), 120));
+        assert!(is_near(&anchor.right[0], 1, &rational(5, 11), 120));
         // F W_1 = (0, 1)' - W_0 = (-4, 6)' / 11, so W_1 = (-6, 20)' / 121.
-        let of = |p: i64| Rational::new(p.into(), 121.into());
-        assert!(
-            (entry(1, 0) - of(-6)).abs() < limit(70) && (entry(1, 1) - of(20)).abs() < limit(70)
-        );
+        assert!(is_near(&anchor.right[1], 0, &rational(-6, 121), 70));
+        assert!(is_near(&anchor.right[1], 1, &rational(20, 121), 70));
     }
 }

@@ -1,121 +1,181 @@
-//! A solution that is alone though the kernel is wide: the inequalities y >= 0 single it out.
+//! A solution that is the only one though the kernel is wide: the inequalities y >= 0 single it
+//! out.
+//!
+//! Let x be a solution with the pivot k in its support, and j another active variable. If
+//! x_k e_j - x_j e_k and its negative are, on the kernel, combinations with mu >= 0 of rows of G
+//! that vanish at x, then every solution has x_k x'_j = x_j x'_k. With one pair of weights for each
+//! j the checker sees that (`certificate::Alone`). Called by `reasons`.
 
-use crate::search::complete::leaf::support::circuit::{
-    coefficients, constants, generic_circuit, impossible,
-};
-use crate::search::complete::leaf::support::reasons::Supported;
+use super::circuit::{circuit_at, coefficients, constants, generic_circuit, negated, unit};
+use super::reasons::{Kernel, Place, Supported};
 use mceip_check::certificate::{Alone, Polynomials};
-use mceip_exact::{
-    Algebraic, Poly, Rational, Sign, cone_generators, dot, generic_kernel, kernel_at,
-};
+use mceip_exact::{Algebraic, Poly, Rational, Sign, cone_generators, dot};
+
+/// The proof around a value, and the polynomials whose signs it needs.
+pub(super) struct AloneAround {
+    pub(super) proof: Alone,
+    pub(super) signs: Vec<Poly>,
+}
+
+/// The direction x_k e_p - x_p e_k or its negative, k being the first active variable.
+#[derive(Clone, Copy)]
+struct Direction {
+    /// Place of p among the active variables.
+    place: usize,
+    is_negative: bool,
+}
+
+impl Direction {
+    fn all(active: usize) -> impl Iterator<Item = Direction> {
+        (1..active)
+            .flat_map(|place| [false, true].map(|is_negative| Direction { place, is_negative }))
+    }
+
+    fn signed(self, p: Poly) -> Poly {
+        if self.is_negative { -&p } else { p }
+    }
+
+    /// The direction's product with v.
+    fn product(self, x: &[Poly], v: &[Poly]) -> Poly {
+        let p = self.place;
+        self.signed(&(&x[0] * &v[p]) - &(&x[p] * &v[0]))
+    }
+}
 
 impl Supported {
-    /// Where the inequalities y >= 0 make x the only one of a wide kernel: +-(x_k e_j - x_j e_k) is
-    /// on the kernel a combination with mu >= 0 of rows of G that vanish at x.
-    pub(crate) fn alone_in_wide(
+    /// The proof at a value that x, which belongs to the ray z, is the only solution.
+    pub(super) fn alone_in_wide(
         &self,
         x: &[Poly],
-        basis: &[Vec<Poly>],
-        rows: &[Vec<Poly>],
+        kernel: &Kernel,
         z: &[Poly],
         value: &mut Algebraic,
     ) -> Option<Alone> {
-        let mut out = Vec::new();
-        let tight: Vec<usize> = (0..rows.len())
-            .filter(|&r| value.sign_of(&dot(&rows[r], z)) == Sign::Zero)
-            .collect();
-        for (p, sign) in (1..self.active.len()).flat_map(|p| [(p, 1), (p, -1)]) {
-            let signed = |v: Poly| if sign > 0 { v } else { -&v };
-            let target = |v: &[Poly]| signed(&(&x[0] * &v[p]) - &(&x[p] * &v[0]));
-            // Unknowns mu and s: mu'G = s target.
-            let mut conditions: Vec<Vec<Poly>> = Vec::new();
-            for (k, v) in basis.iter().enumerate() {
-                let mut column: Vec<Poly> = tight.iter().map(|&r| rows[r][k].clone()).collect();
-                column.push(-&target(v));
-                let column = value.reduce(&column);
-                conditions.push(column.iter().map(|c| -c).collect());
-                conditions.push(column);
+        let mut tight = Vec::new();
+        for (r, row) in kernel.rows.iter().enumerate() {
+            if value.sign_of(&dot(row, z)) == Sign::Zero {
+                tight.push(r);
             }
-            let n = tight.len() + 1;
-            conditions.extend((0..n).map(|k| {
-                (0..n)
-                    .map(|i| Poly::from_ints(&[i64::from(i == k)]))
-                    .collect()
-            }));
-            let rays = cone_generators(&conditions, n, value).rays;
-            let ray = rays
-                .into_iter()
-                .find(|r| value.sign_of(&r[n - 1]) == Sign::Positive)?;
-            // w'T = -mu on the active columns is what `weights` solves.
-            let mut mu = vec![Poly::default(); self.active.len() + self.rest.len()];
-            mu[0] = signed(&ray[n - 1] * &x[p]);
-            mu[p] = signed(-&(&ray[n - 1] * &x[0]));
-            for (&r, m) in tight.iter().zip(&ray) {
-                mu[self.active.len() + r - self.moving.len()] = m.clone();
-            }
-            let solve = |m: Vec<Vec<Poly>>| kernel_at(m, &mut value.clone());
-            let l = self.weights_for(mu.split_at(self.active.len()), &solve, &|s| {
-                value.clone().sign_of(s)
-            })?;
-            out.push((self.active[p], Polynomials(coefficients(&value.reduce(&l)))));
+        }
+
+        let mut weights = Vec::new();
+        for direction in Direction::all(self.active.len()) {
+            let ray = combination_at(x, kernel, &tight, direction, value)?;
+            let (mu, factor) = ray.split_at(tight.len());
+            let mu = self.multipliers(x, direction, &factor[0], (&tight, mu));
+
+            let place = Place::At(value);
+            let l = self.weights(mu.split_at(self.active.len()), &place)?;
+            let l = value.reduce(&l);
+            let variable = self.active[direction.place];
+            weights.push((variable, Polynomials(coefficients(&l))));
         }
         Some(Alone {
-            pivot: self.moving[0],
-            rows: out,
+            pivot: self.support[0],
+            rows: weights,
         })
     }
 
-    /// The same around a rational value, and the polynomials whose signs it needs. z: the ray x
-    /// belongs to, over the basis.
-    pub(crate) fn alone_in_wide_around(
+    /// The same around a rational value.
+    pub(super) fn alone_in_wide_around(
         &self,
         x: &[Poly],
-        basis: &[Vec<Poly>],
-        rows: &[Vec<Poly>],
+        kernel: &Kernel,
         z: &[Poly],
         t: &Rational,
-    ) -> Option<(Alone, Vec<Poly>)> {
-        let (mut out, mut signs) = (Vec::new(), Vec::new());
-        let tight: Vec<usize> = (0..rows.len())
-            .filter(|&r| dot(&rows[r], z).is_zero())
+    ) -> Option<AloneAround> {
+        let tight: Vec<usize> = (0..kernel.rows.len())
+            .filter(|&r| dot(&kernel.rows[r], z).is_zero())
             .collect();
-        for (p, sign) in (1..self.active.len()).flat_map(|p| [(p, 1), (p, -1)]) {
-            let signed = |v: Poly| if sign > 0 { v } else { -&v };
-            // Rows with mu'rows = 0, mu >= 0: minus the target first, then what vanishes at x.
-            let target = basis
-                .iter()
-                .map(|v| signed(&(&x[p] * &v[0]) - &(&x[0] * &v[p])))
-                .collect();
-            let all: Vec<Vec<Poly>> = std::iter::once(target)
-                .chain(tight.iter().map(|&r| rows[r].clone()))
-                .collect();
-            let here: Vec<Vec<Poly>> = all.iter().map(|r| constants(r, t)).collect();
-            let circuit = impossible(&here, 1, basis.len(), &mut Algebraic::rational(t.clone()))?;
-            let circuit = generic_circuit(&all, &circuit, t)?;
-            let mut mu = vec![Poly::default(); self.active.len() + self.rest.len()];
-            mu[0] = signed(&circuit[0] * &x[p]);
-            mu[p] = signed(-&(&circuit[0] * &x[0]));
-            for (&r, m) in tight.iter().zip(&circuit[1..]) {
-                mu[self.active.len() + r - self.moving.len()] = m.clone();
-            }
-            let solve = |m: Vec<Vec<Poly>>| generic_kernel(m).0;
-            let l = self.weights_for(mu.split_at(self.active.len()), &solve, &|s| {
-                Sign::from(s.sign_at(t))
-            })?;
-            signs.extend(
-                self.rest
-                    .iter()
-                    .map(|&i| l[i].clone())
-                    .chain([self.column(&l, self.active[p])]),
-            );
-            out.push((self.active[p], Polynomials(coefficients(&l))));
+
+        let mut weights = Vec::new();
+        let mut signs = Vec::new();
+        for direction in Direction::all(self.active.len()) {
+            let circuit = combination_around(x, kernel, &tight, direction, t)?;
+            let mu = self.multipliers(x, direction, &circuit[0], (&tight, &circuit[1..]));
+
+            let l = self.weights(mu.split_at(self.active.len()), &Place::Around(t))?;
+            let variable = self.active[direction.place];
+            signs.extend(self.inactive.iter().map(|&i| l[i].clone()));
+            signs.push(self.column(&l, variable));
+            weights.push((variable, Polynomials(coefficients(&l))));
         }
-        Some((
-            Alone {
-                pivot: self.moving[0],
-                rows: out,
+        Some(AloneAround {
+            proof: Alone {
+                pivot: self.support[0],
+                rows: weights,
             },
             signs,
-        ))
+        })
     }
+
+    /// The mu of [`Supported::weights`] that makes w'T `factor` times the direction on the active
+    /// columns. `tight` are rows of G and their multipliers.
+    fn multipliers(
+        &self,
+        x: &[Poly],
+        direction: Direction,
+        factor: &Poly,
+        tight: (&[usize], &[Poly]),
+    ) -> Vec<Poly> {
+        let p = direction.place;
+        let mut mu = vec![Poly::default(); self.active.len() + self.inactive.len()];
+        mu[0] = direction.signed(factor * &x[p]);
+        mu[p] = direction.signed(-&(factor * &x[0]));
+        for (&row, m) in tight.0.iter().zip(tight.1) {
+            mu[self.active.len() + row - self.support.len()] = m.clone();
+        }
+        mu
+    }
+}
+
+/// mu and s > 0 with mu'G = s direction on the kernel, G being the tight rows; s comes last.
+fn combination_at(
+    x: &[Poly],
+    kernel: &Kernel,
+    tight: &[usize],
+    direction: Direction,
+    value: &mut Algebraic,
+) -> Option<Vec<Poly>> {
+    let unknowns = tight.len() + 1;
+    let mut conditions: Vec<Vec<Poly>> = Vec::new();
+    for (k, v) in kernel.basis.iter().enumerate() {
+        let mut column: Vec<Poly> = tight.iter().map(|&r| kernel.rows[r][k].clone()).collect();
+        column.push(-&direction.product(x, v));
+        let column = value.reduce(&column);
+        conditions.push(negated(&column));
+        conditions.push(column);
+    }
+    for k in 0..unknowns {
+        conditions.push(unit(unknowns, k));
+    }
+
+    let rays = cone_generators(&conditions, unknowns, value).rays;
+    rays.into_iter()
+        .find(|ray| value.sign_of(&ray[tight.len()]) == Sign::Positive)
+}
+
+/// The same around a value; s comes first.
+fn combination_around(
+    x: &[Poly],
+    kernel: &Kernel,
+    tight: &[usize],
+    direction: Direction,
+    t: &Rational,
+) -> Option<Vec<Poly>> {
+    // Rows with mu'rows = 0, mu >= 0: minus the direction first, then what vanishes at x.
+    let mut rows: Vec<Vec<Poly>> = Vec::new();
+    rows.push(
+        kernel
+            .basis
+            .iter()
+            .map(|v| -&direction.product(x, v))
+            .collect(),
+    );
+    rows.extend(tight.iter().map(|&r| kernel.rows[r].clone()));
+
+    let here: Vec<Vec<Poly>> = rows.iter().map(|row| constants(row, t)).collect();
+    let mut value = Algebraic::rational(t.clone());
+    let circuit = circuit_at(&here, 1, kernel.basis.len(), &mut value)?;
+    generic_circuit(&rows, &circuit, t)
 }

@@ -1,4 +1,8 @@
-//! Rays and circuits of the rows of G, at a value and carried over to polynomials in t around one.
+//! Vectors of polynomials in t, and rays and circuits of the rows of a matrix of them.
+//!
+//! A *ray* of { z : G z >= 0 } is given by the rows that vanish on it, a *circuit* mu >= 0 with
+//! mu'G = 0 by its zeros. Both are found at one value of t, where G is a matrix of numbers, and
+//! carried over to polynomials that hold around the value. Called by `reasons` and `alone`.
 
 use mceip_exact::{
     Algebraic, Integer, Poly, Rational, Sign, common_denominator, cone_generators, dot,
@@ -6,104 +10,35 @@ use mceip_exact::{
 };
 use num_traits::Signed;
 
-/// mu >= 0 with mu'G = 0, not zero on the first `moving` rows: an extreme one.
-pub(crate) fn impossible(
-    rows: &[Vec<Poly>],
-    moving: usize,
-    dimension: usize,
-    value: &mut Algebraic,
-) -> Option<Vec<Poly>> {
-    let mut conditions: Vec<Vec<Poly>> = Vec::new();
-    for k in 0..dimension {
-        let column: Vec<Poly> = rows.iter().map(|r| r[k].clone()).collect();
-        conditions.push(column.iter().map(|p| -p).collect());
-        conditions.push(column);
-    }
-    let unit = |k: usize| {
-        (0..rows.len())
-            .map(|i| {
-                if i == k {
-                    Poly::from_ints(&[1])
-                } else {
-                    Poly::default()
-                }
-            })
-            .collect()
-    };
-    conditions.extend((0..rows.len()).map(unit));
-    let found = cone_generators(&conditions, rows.len(), value).rays;
-    let fits = |mu: &&Vec<Poly>| {
-        mu[..moving]
-            .iter()
-            .any(|m| value.clone().sign_of(m) != Sign::Zero)
-    };
-    found.iter().find(fits).map(|mu| value.reduce(mu))
+/// The k-th unit vector.
+pub(super) fn unit(length: usize, k: usize) -> Vec<Poly> {
+    let mut unit = vec![Poly::default(); length];
+    unit[k] = Poly::from_ints(&[1]);
+    unit
 }
 
-/// The mu over Q(t) with the zeros of an extreme one at t.
-pub(crate) fn generic_circuit(rows: &[Vec<Poly>], mu: &[Poly], t: &Rational) -> Option<Vec<Poly>> {
-    let chosen: Vec<usize> = (0..rows.len()).filter(|&i| mu[i].sign_at(t) != 0).collect();
-    let width = rows.first().map_or(0, Vec::len);
-    let transposed = (0..width)
-        .map(|k| chosen.iter().map(|&i| rows[i][k].clone()).collect())
-        .collect();
-    let [circuit] = &generic_kernel(transposed).0[..] else {
-        return None;
-    };
-    let (mut circuit, _) = divided(circuit.clone(), Poly::default());
-    if circuit.first()?.sign_at(t) < 0 {
-        circuit = circuit.iter().map(|p| -p).collect();
-    }
-    let mut all = vec![Poly::default(); rows.len()];
-    chosen
-        .into_iter()
-        .zip(circuit)
-        .for_each(|(i, p)| all[i] = p);
-    Some(all)
+pub(super) fn negated(v: &[Poly]) -> Vec<Poly> {
+    v.iter().map(|p| -p).collect()
 }
 
-/// The ray over Q(t) with the tight rows that z has at t.
-pub(crate) fn extended(
-    rows: &[Vec<Poly>],
-    here: &[Vec<Poly>],
-    z: &[Poly],
-    t: &Rational,
-) -> Option<Vec<Poly>> {
-    if z.len() == 1 {
-        return Some(z.to_vec());
-    }
-    let tight: Vec<Vec<Poly>> = rows
-        .iter()
-        .zip(here)
-        .filter(|(_, h)| dot(h, z).sign_at(t) == 0)
-        .map(|(r, _)| r.clone())
-        .collect();
-    let [ray] = &generic_kernel(tight).0[..] else {
-        return None;
-    };
-    let k = (0..z.len()).find(|&k| z[k].sign_at(t) != 0)?;
-    let same = ray[k].sign_at(t) * z[k].sign_at(t);
-    (same != 0).then(|| {
-        if same > 0 {
-            ray.clone()
-        } else {
-            ray.iter().map(|p| -p).collect()
+/// The sum of z_k basis_k.
+pub(super) fn combined(basis: &[Vec<Poly>], z: &[Poly]) -> Vec<Poly> {
+    let mut sum = vec![Poly::default(); basis[0].len()];
+    for (vector, z_k) in basis.iter().zip(z) {
+        for (s, v) in sum.iter_mut().zip(vector) {
+            *s = &*s + &(v * z_k);
         }
-    })
+    }
+    sum
 }
 
-pub(crate) fn combined(basis: &[Vec<Poly>], z: &[Poly]) -> Vec<Poly> {
-    (0..basis[0].len())
-        .map(|i| {
-            basis
-                .iter()
-                .zip(z)
-                .fold(Poly::default(), |s, (v, z_k)| &s + &(&v[i] * z_k))
-        })
-        .collect()
+/// The sum of vectors of one length, `None` for no vector.
+pub(super) fn sum(vectors: impl Iterator<Item = Vec<Poly>>) -> Option<Vec<Poly>> {
+    vectors.reduce(|sum, v| sum.iter().zip(&v).map(|(a, b)| a + b).collect())
 }
 
-pub(crate) fn constants(row: &[Poly], t: &Rational) -> Vec<Poly> {
+/// The values of a row at t as constants, their denominators cleared.
+pub(super) fn constants(row: &[Poly], t: &Rational) -> Vec<Poly> {
     let values: Vec<Rational> = row.iter().map(|p| p.eval(t)).collect();
     let clear = common_denominator(&values);
     values
@@ -112,26 +47,141 @@ pub(crate) fn constants(row: &[Poly], t: &Rational) -> Vec<Poly> {
         .collect()
 }
 
-/// The vector and one more polynomial without the factor that all of them share.
-pub(crate) fn divided(v: Vec<Poly>, more: Poly) -> (Vec<Poly>, Poly) {
-    let shared = v.iter().fold(more.clone(), |g, p| g.gcd(p)).primitive();
-    if shared.degree().is_none() {
-        return (v, more);
-    }
-    let content = v.iter().chain([&more]).fold(Integer::default(), |g, p| {
-        num_integer::Integer::gcd(&g, &p.content())
-    });
-    let without = |p: &Poly| -> Poly {
-        let q = p.exact_div(&shared).unwrap_or_else(|| p.clone()); // exact: the gcd divides
-        if content.is_positive() {
-            Poly::new(q.coeffs().iter().map(|c| c / &content).collect())
-        } else {
-            q
-        }
-    };
-    (v.iter().map(without).collect(), without(&more))
+/// The coefficients of each polynomial, constant term first.
+pub(super) fn coefficients(v: &[Poly]) -> Vec<Vec<Integer>> {
+    v.iter().map(|p| p.coeffs().to_vec()).collect()
 }
 
-pub(crate) fn coefficients(v: &[Poly]) -> Vec<Vec<Integer>> {
-    v.iter().map(|p| p.coeffs().to_vec()).collect()
+/// A vector and one more polynomial.
+pub(super) struct Extended {
+    pub(super) vector: Vec<Poly>,
+    pub(super) more: Poly,
+}
+
+/// The vector without the factor that all its polynomials share.
+pub(super) fn primitive(vector: Vec<Poly>) -> Vec<Poly> {
+    let extended = Extended {
+        vector,
+        more: Poly::default(),
+    };
+    extended.primitive().vector
+}
+
+impl Extended {
+    /// The same without the factor that all of them share.
+    pub(super) fn primitive(self) -> Extended {
+        let mut shared = self.more.clone();
+        for p in &self.vector {
+            shared = shared.gcd(p);
+        }
+        let shared = shared.primitive();
+        if shared.degree().is_none() {
+            return self;
+        }
+
+        let mut content = Integer::default();
+        for p in self.vector.iter().chain([&self.more]) {
+            content = num_integer::Integer::gcd(&content, &p.content());
+        }
+        Extended {
+            vector: self
+                .vector
+                .iter()
+                .map(|p| divided(p, &shared, &content))
+                .collect(),
+            more: divided(&self.more, &shared, &content),
+        }
+    }
+}
+
+/// p without a factor, and without a positive content; both divide it.
+fn divided(p: &Poly, factor: &Poly, content: &Integer) -> Poly {
+    let quotient = p.exact_div(factor).unwrap_or_else(|| p.clone());
+    if content.is_positive() {
+        Poly::new(quotient.coeffs().iter().map(|c| c / content).collect())
+    } else {
+        quotient
+    }
+}
+
+/// An extreme mu >= 0 with mu'G = 0 at a value that is not zero on the first `strict` rows.
+/// `dimension` is the number of columns of G.
+pub(super) fn circuit_at(
+    rows: &[Vec<Poly>],
+    strict: usize,
+    dimension: usize,
+    value: &mut Algebraic,
+) -> Option<Vec<Poly>> {
+    let mut conditions: Vec<Vec<Poly>> = Vec::new();
+    for k in 0..dimension {
+        let column: Vec<Poly> = rows.iter().map(|row| row[k].clone()).collect();
+        conditions.push(negated(&column));
+        conditions.push(column);
+    }
+    for k in 0..rows.len() {
+        conditions.push(unit(rows.len(), k));
+    }
+
+    let rays = cone_generators(&conditions, rows.len(), value).rays;
+    for mu in rays {
+        let is_strict = mu[..strict]
+            .iter()
+            .any(|m| value.clone().sign_of(m) != Sign::Zero);
+        if is_strict {
+            return Some(value.reduce(&mu));
+        }
+    }
+    None
+}
+
+/// The mu over Q(t) with the zeros of an extreme one at t.
+pub(super) fn generic_circuit(rows: &[Vec<Poly>], mu: &[Poly], t: &Rational) -> Option<Vec<Poly>> {
+    let chosen: Vec<usize> = (0..rows.len()).filter(|&i| mu[i].sign_at(t) != 0).collect();
+    let width = rows.first().map_or(0, Vec::len);
+    let transposed = (0..width)
+        .map(|k| chosen.iter().map(|&i| rows[i][k].clone()).collect())
+        .collect();
+
+    let [circuit] = &generic_kernel(transposed).0[..] else {
+        return None;
+    };
+    let mut circuit = primitive(circuit.clone());
+    if circuit.first()?.sign_at(t) < 0 {
+        circuit = negated(&circuit);
+    }
+
+    let mut all = vec![Poly::default(); rows.len()];
+    for (i, p) in chosen.into_iter().zip(circuit) {
+        all[i] = p;
+    }
+    Some(all)
+}
+
+/// The ray over Q(t) with the rows that vanish on the ray z at t. `here` are the rows at t.
+pub(super) fn generic_ray(
+    rows: &[Vec<Poly>],
+    here: &[Vec<Poly>],
+    z: &[Poly],
+    t: &Rational,
+) -> Option<Vec<Poly>> {
+    if z.len() == 1 {
+        return Some(z.to_vec());
+    }
+
+    let mut tight = Vec::new();
+    for (row, row_here) in rows.iter().zip(here) {
+        if dot(row_here, z).sign_at(t) == 0 {
+            tight.push(row.clone());
+        }
+    }
+    let [ray] = &generic_kernel(tight).0[..] else {
+        return None;
+    };
+
+    let k = (0..z.len()).find(|&k| z[k].sign_at(t) != 0)?;
+    match ray[k].sign_at(t) * z[k].sign_at(t) {
+        0 => None,
+        1.. => Some(ray.clone()),
+        _ => Some(negated(ray)),
+    }
 }
