@@ -100,7 +100,11 @@ impl Levels {
     pub fn lowest_frequency2(&self) -> Option<f64> {
         let reciprocals = linear::definite_eigenvalues(&self.m0, &self.k0)?;
         let largest = *reciprocals.last()?;
-        (largest > 0.0).then(|| largest.recip())
+        if largest > 0.0 {
+            Some(largest.recip())
+        } else {
+            None
+        }
     }
 
     /// The level lambda^2 >= 0.
@@ -116,6 +120,7 @@ impl Levels {
         } else {
             follow(&star0, self.free).ok_or(LevelError::Singular { lambda2 })?
         };
+
         Ok(Level {
             lambda2,
             a: condensed(&star0, &follow, self.free),
@@ -131,6 +136,7 @@ impl Levels {
             let following = x.iter().zip(&level.follow).map(|(x, w)| x * w[i]);
             all.push(following.sum::<f64>());
         }
+
         all.extend_from_slice(x);
         mode(&self.variables, &all, self.dofs)
     }
@@ -144,6 +150,7 @@ fn sum(k: &[Vec<f64>], lambda2: f64, m: &[Vec<f64>]) -> Vec<Vec<f64>> {
             *entry += lambda2 * mass;
         }
     }
+
     rows
 }
 
@@ -151,10 +158,16 @@ fn sum(k: &[Vec<f64>], lambda2: f64, m: &[Vec<f64>]) -> Vec<Vec<f64>> {
 /// `None` where F is singular in doubles.
 fn follow(star: &[Vec<f64>], free: usize) -> Option<Vec<Vec<f64>>> {
     let free_rows = &star[..free];
-    let free_block: Vec<Vec<f64>> = free_rows.iter().map(|row| row[..free].to_vec()).collect();
-    let columns: Vec<Vec<f64>> = (free..star.len())
-        .map(|j| free_rows.iter().map(|row| -row[j]).collect())
-        .collect();
+    let mut free_block = Vec::with_capacity(free);
+    for row in free_rows {
+        free_block.push(row[..free].to_vec());
+    }
+
+    let mut columns: Vec<Vec<f64>> = Vec::new();
+    for j in free..star.len() {
+        columns.push(free_rows.iter().map(|row| -row[j]).collect());
+    }
+
     linear::solve(&free_block, &columns)
 }
 
@@ -167,8 +180,10 @@ fn condensed(star: &[Vec<f64>], follow: &[Vec<f64>], free: usize) -> Vec<Vec<f64
             let by_free = row[..free].iter().zip(following).map(|(r, w)| r * w);
             *entry += by_free.sum::<f64>();
         }
+
         rows.push(condensed);
     }
+
     rows
 }
 
@@ -186,6 +201,7 @@ pub fn mode(variables: &[Variable], x: &[f64], dofs: usize) -> Vec<f64> {
             }
         }
     }
+
     v
 }
 
@@ -207,6 +223,7 @@ impl Level {
                 x: x.to_vec(),
             });
         }
+
         Ok((solutions, found.cover.is_plain_list()))
     }
 
@@ -215,12 +232,15 @@ impl Level {
         let singular = LevelError::Singular {
             lambda2: self.lambda2,
         };
+
         let Some(a) = exact(&self.a) else {
             return Err(singular);
         };
+
         let Some(b) = exact(&self.b) else {
             return Err(singular);
         };
+
         Ok(Pencil::new(a, b, Vec::new())?)
     }
 }
@@ -233,6 +253,7 @@ fn exact(rows: &[Vec<f64>]) -> Option<Sparse> {
             entries.push((i, j, from_f64(*v).ok()?));
         }
     }
+
     Some(Sparse::from_entries(rows.len(), rows.len(), entries))
 }
 
@@ -241,6 +262,7 @@ fn doubles(matrix: &Sparse) -> Vec<Vec<f64>> {
     for (i, j, v) in matrix.entries() {
         rows[i][j] = to_f64(v);
     }
+
     rows
 }
 
@@ -263,6 +285,7 @@ mod tests {
             mu: whole(1),
             signs: (1, -1),
         };
+
         let levels = Levels::new(&two_particles(&data).unwrap()).unwrap();
 
         for t in [0.0, 0.5, 3.0] {
@@ -317,6 +340,7 @@ mod tests {
                 let inertial = lambda2 * row_times(&block.mass, i, &v);
                 assert!((elastic + inertial).abs() < 1e-9 * size);
             }
+
             for &node in contact_nodes {
                 let is_to_the_left = v[2 * node] <= 0.0;
                 assert!(

@@ -71,10 +71,12 @@ pub fn near(
     let Ok(value) = from_f64(candidate.value) else {
         return Ok(Near::OutsideWindow);
     };
+
     let radii = match radius {
         Some(radius) => vec![radius.clone()],
         None => default_radii(&value),
     };
+
     let options = Options {
         pieces: PIECES,
         nodes_per_piece: NODES_PER_PIECE,
@@ -86,12 +88,14 @@ pub fn near(
         let Some(window) = around(problem.window(), &value, &radius) else {
             return Ok(Near::OutsideWindow);
         };
+
         let nearby = problem.clone().with_window(window);
         last = judge(complete(&nearby, &options, watch)?, candidate);
         if !matches!(last, Near::Open(_)) {
             break;
         }
     }
+
     Ok(last)
 }
 
@@ -116,6 +120,7 @@ fn around(window: &Window, value: &Rational, radius: &Rational) -> Option<Window
         Some(max) => above.min(max.clone()),
         None => above,
     };
+
     Window::new(lo, Some(hi)).ok()
 }
 
@@ -128,9 +133,11 @@ fn grid(radius: &Rational) -> Rational {
     while grid > limit {
         grid /= &ten;
     }
+
     while &grid * &ten <= limit {
         grid *= &ten;
     }
+
     grid
 }
 
@@ -165,6 +172,7 @@ fn distance(x: &[f64], candidate: &Candidate, support: &[usize]) -> f64 {
             largest = difference.max(largest);
         }
     }
+
     largest
 }
 
@@ -194,6 +202,7 @@ mod tests {
             value,
             x: x.to_vec(),
         };
+
         near(problem, &candidate, radius.as_ref(), &Watch::nobody()).unwrap()
     }
 
@@ -207,11 +216,13 @@ mod tests {
         let Near::Others(one) = ask(&all, 2.0, &[0.5, 0.5], None) else {
             panic!("another x")
         };
+
         assert_eq!(one.cover.solutions.len(), 1);
 
         let Near::Others(both) = ask(&all, 2.5, &[0.5, 0.5], Some(whole(1))) else {
             panic!("two other x")
         };
+
         assert_eq!(both.cover.solutions.len(), 2);
 
         let present = ask(&all, 2.0, &[4.0, 2.0], None);
@@ -224,6 +235,7 @@ mod tests {
         let Near::Absent(at_end) = ask(&cut, 2.5, &[0.6, 0.4], Some(rational(1, 10))) else {
             panic!("absent")
         };
+
         assert_eq!(at_end.certificate.window.min(), &rational(12, 5));
         assert_eq!(at_end.certificate.window.max(), Some(&rational(5, 2)));
     }

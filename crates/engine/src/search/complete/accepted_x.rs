@@ -76,6 +76,7 @@ fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim
             State::AtZero
         });
     }
+
     let expansion = prepared.expansion_at(solution.value.lo());
     let x = match null_vector(expansion, &states, t - reach, t + reach) {
         Some(null) => null.spread(states.len()),
@@ -87,10 +88,12 @@ fn by_null_vector(prepared: &Prepared, pencil: &Pencil, solution: &AcceptedClaim
     for (&i, v) in prepared.view.index.iter().zip(&x) {
         all[i] = v / sum;
     }
+
     if let Some(free) = expansion.free_part(t, &x) {
         for (&i, v) in pencil.free().iter().zip(free) {
             all[i] = v / sum;
         }
     }
+
     all
 }

@@ -23,7 +23,10 @@ pub(super) struct Audited {
 impl Audited {
     /// Number of open regions.
     pub(super) fn open_count(&self) -> usize {
-        self.accepted.cover.as_ref().map_or(0, |c| c.open.len())
+        match &self.accepted.cover {
+            Some(cover) => cover.open.len(),
+            None => 0,
+        }
     }
 }
 
@@ -51,6 +54,7 @@ pub(super) fn audited(
             }
         }
     }
+
     Ok(Audited {
         accepted,
         refused: refused.into_iter().collect(),
@@ -62,6 +66,7 @@ fn open_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<(),
     let Some(set) = certificate.complete_set.as_mut() else {
         return Err(rejected.into());
     };
+
     let Reason::Cover {
         piece: None, fault, ..
     } = &rejected.reason
@@ -73,6 +78,7 @@ fn open_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<(),
     if open_tail(set) {
         return Ok(());
     }
+
     match fault {
         // Solutions of one support so near each other that their leaves cannot tell which are the
         // same.
@@ -81,6 +87,7 @@ fn open_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<(),
             for piece in &mut set.pieces {
                 opened += open_solutions(&mut piece.tree, support);
             }
+
             if opened > 0 {
                 Ok(())
             } else {
@@ -102,11 +109,13 @@ fn open_tail(set: &mut CompleteSet) -> bool {
     if tail.is_none() {
         return false;
     }
+
     for node in set.pieces.iter_mut().flat_map(|piece| &mut piece.tree) {
         if matches!(node, Node::Tail) {
             *node = Node::Open;
         }
     }
+
     true
 }
 
@@ -134,5 +143,6 @@ fn open_solutions(tree: &mut [Node], support: &[usize]) -> usize {
             _ => {}
         }
     }
+
     opened
 }

@@ -55,9 +55,11 @@ pub(crate) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
     for row in 0..rows {
         strategies.push(Strategy { row, sign: 1.0 });
     }
+
     for row in (0..rows).filter(|&row| either_sign[row]) {
         strategies.push(Strategy { row, sign: -1.0 });
     }
+
     let mut tableau = Tableau::new(&strategies, columns);
     tableau.optimise();
     let solution = tableau.solution();
@@ -66,6 +68,7 @@ pub(crate) fn solve(either_sign: &[bool], columns: &[Vec<f64>]) -> Game {
     for (strategy, weight) in strategies.iter().zip(&solution.weights) {
         w[strategy.row] += strategy.sign * weight.max(0.0) / solution.total;
     }
+
     let value = columns
         .iter()
         .map(|column| -dot(column, &w))
@@ -104,8 +107,10 @@ impl Tableau {
             for (j, column) in columns.iter().enumerate() {
                 entries[r * width + j] = strategy.payoff(column) + shift;
             }
+
             entries[r * width + cols] = 1.0;
         }
+
         entries[rows * width..rows * width + cols].fill(-1.0);
         Tableau {
             rows,
@@ -117,7 +122,8 @@ impl Tableau {
     }
 
     fn at(&self, row: usize, column: usize) -> f64 {
-        self.entries[row * (self.cols + 1) + column]
+        let width = self.cols + 1;
+        self.entries[row * width + column]
     }
 
     fn optimise(&mut self) {
@@ -125,9 +131,11 @@ impl Tableau {
             let Some(entering) = self.entering() else {
                 return;
             };
+
             let Some(leaving) = self.leaving(entering) else {
                 return;
             };
+
             self.pivot(leaving, entering);
         }
     }
@@ -153,11 +161,13 @@ impl Tableau {
                     pivot,
                     ratio: self.at(row, self.cols) / pivot,
                 };
+
                 if best.as_ref().is_none_or(|b| candidate.is_better_than(b)) {
                     best = Some(candidate);
                 }
             }
         }
+
         best.map(|candidate| candidate.row)
     }
 
@@ -181,6 +191,7 @@ impl Tableau {
                 }
             }
         }
+
         std::mem::swap(&mut self.nonbasic[entering], &mut self.basic[leaving]);
     }
 
@@ -217,8 +228,11 @@ struct Candidate {
 
 impl Candidate {
     fn is_better_than(&self, other: &Candidate) -> bool {
-        let is_larger_of_equals = self.ratio == other.ratio && self.pivot > other.pivot;
-        self.ratio < other.ratio || is_larger_of_equals
+        if self.ratio == other.ratio {
+            self.pivot > other.pivot
+        } else {
+            self.ratio < other.ratio
+        }
     }
 }
 
@@ -233,6 +247,7 @@ fn positive_shift(strategies: &[Strategy], columns: &[Vec<f64>]) -> f64 {
             most = most.max(payoff);
         }
     }
+
     let margin = f64::MIN_POSITIVE.max(GAME_SHIFT * most.abs().max(least.abs()));
     0.1 * (most - least) - least + margin
 }

@@ -40,6 +40,7 @@ impl<'a> Given<'a> {
         if !self.pencil.free().is_empty() {
             return None;
         }
+
         self.certifier.certify(&Candidate { value, x }).ok()
     }
 }

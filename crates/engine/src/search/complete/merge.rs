@@ -27,6 +27,7 @@ pub fn merge(
     for part in parts {
         error::same_problem(problem, part)?;
     }
+
     let sets: Vec<&CompleteSet> = parts
         .iter()
         .map(|p| p.complete_set.as_ref().ok_or(CompleteError::NoCompleteSet))
@@ -34,6 +35,7 @@ pub fn merge(
     if let Some(part) = sets.iter().position(|s| !same_pieces(sets[0], s)) {
         return Err(CompleteError::OtherPieces { part });
     }
+
     let mut claims: Vec<Claim> = Vec::new();
     let mut pieces = Vec::new();
     for k in 0..sets[0].pieces.len() {
@@ -47,11 +49,13 @@ pub fn merge(
         for part in searched {
             tree = tree.joined(&Preorder::of(part, &sets[part].pieces[k].tree));
         }
+
         pieces.push(Piece {
             tree: tree.numbered(parts, &mut claims),
             ..sets[0].pieces[k].clone()
         });
     }
+
     let complete_set = Some(CompleteSet {
         condensation: sets[0].condensation.clone(),
         pieces,
@@ -61,6 +65,7 @@ pub fn merge(
         complete_set,
         ..first.clone()
     };
+
     let cover = check(problem, &certificate)?
         .cover
         .ok_or(CompleteError::NoCompleteSet)?;
@@ -68,10 +73,16 @@ pub fn merge(
 }
 
 fn same_pieces(a: &CompleteSet, b: &CompleteSet) -> bool {
-    let same = |p: &Piece, q: &Piece| p.max == q.max && p.anchor == q.anchor;
-    a.condensation == b.condensation
-        && a.pieces.len() == b.pieces.len()
-        && a.pieces.iter().zip(&b.pieces).all(|(p, q)| same(p, q))
+    if a.condensation != b.condensation || a.pieces.len() != b.pieces.len() {
+        return false;
+    }
+
+    let pairs = a.pieces.iter().zip(&b.pieces);
+    pairs.into_iter().all(|(p, q)| same_interval(p, q))
+}
+
+fn same_interval(p: &Piece, q: &Piece) -> bool {
+    p.max == q.max && p.anchor == q.anchor
 }
 
 /// A node of a tree, and the part that it comes from.
@@ -117,6 +128,7 @@ impl<'a> Preorder<'a> {
                 open[k] = usize::from(*nodes[k].node == Node::Open);
             }
         }
+
         Preorder { nodes, end, open }
     }
 
@@ -143,6 +155,7 @@ impl<'a> Preorder<'a> {
                 nodes.extend_from_slice(&other.nodes[theirs..other.end[theirs]]);
             }
         }
+
         Preorder::new(nodes)
     }
 
@@ -158,6 +171,7 @@ impl<'a> Preorder<'a> {
         if mine_untouched != theirs_untouched {
             return theirs_untouched;
         }
+
         self.open[mine] <= other.open[theirs]
     }
 
@@ -172,8 +186,10 @@ impl<'a> Preorder<'a> {
             {
                 root.outcome = RootOutcome::Claim(number(claims, claim.clone()));
             }
+
             tree.push(node);
         }
+
         tree
     }
 }

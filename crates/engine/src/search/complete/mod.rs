@@ -82,6 +82,7 @@ impl Completed {
         for solution in &cover.solutions {
             x.push(accepted_x(&certificate, prepared, pencil, solution));
         }
+
         Ok(Completed {
             certificate,
             cover,
@@ -145,6 +146,7 @@ pub fn complete(
             shard: None,
             ..*options
         };
+
         let loose = prepared.without_remainders();
         let values = values_met(&given, &all_pieces, &loose, watch);
         prepared = prepared.refined(problem, &pencil, &values);
@@ -187,11 +189,13 @@ fn by_definiteness(
     let Some(leaf) = leaf::ldl::window_leaf(pencil, problem.window()) else {
         return Ok(None);
     };
+
     let piece = Piece {
         max: problem.window().max().cloned().map(Number),
         anchor: None,
         tree: vec![leaf],
     };
+
     let set = CompleteSet {
         pieces: vec![piece],
         ..prepared.open_set()
@@ -228,6 +232,7 @@ fn run(
         prepared,
         certificate,
     };
+
     let accepted = rounds.run(watch)?.accepted;
     Completed::new(given.pencil, &rounds.prepared, rounds.certificate, accepted)
 }

@@ -52,6 +52,7 @@ pub(crate) fn null_vector(
         lo,
         hi,
     };
+
     SETTLING_STEPS
         .iter()
         .find_map(|settling| iteration.run(*settling))
@@ -67,6 +68,7 @@ impl NullVector {
         for (&i, v) in self.support.iter().zip(&self.right) {
             x[i] = sign * v;
         }
+
         x
     }
 }
@@ -92,6 +94,7 @@ impl Iteration<'_> {
                 t += ROUNDING * (t.abs() + reach);
                 continue;
             };
+
             vectors = next.normalised()?;
             if step < settling {
                 continue;
@@ -104,6 +107,7 @@ impl Iteration<'_> {
             if !t.is_finite() || is_outside {
                 return None;
             }
+
             if correction.abs() <= 4.0 * f64::EPSILON * t.abs().max(reach) {
                 break;
             }

@@ -73,11 +73,14 @@ pub(super) fn closed(
         if !lengthen(given, &mut longer, piece, &middle(&first.root)) {
             continue;
         }
+
         for PlacedRoot { node, root } in roots {
             longer.pieces[piece].tree[node] = Node::Root(Box::new(root));
         }
+
         is_changed = true;
     }
+
     is_changed.then(|| Certificate {
         complete_set: Some(longer),
         ..certificate.clone()
@@ -100,7 +103,9 @@ fn placed_root(
 }
 
 fn middle(root: &Root) -> Rational {
-    (&root.interval[0].0 + &root.interval[1].0) / Rational::from_integer(2.into())
+    let [lo, hi] = &root.interval;
+    let two = Rational::from_integer(2.into());
+    (&lo.0 + &hi.0) / two
 }
 
 /// Gives a piece an anchor about the value with a long W, where there are free variables. Returns
@@ -109,9 +114,11 @@ fn lengthen(given: &Given<'_>, set: &mut CompleteSet, piece: usize, value: &Rati
     let Some(condensation) = set.condensation.as_mut() else {
         return true;
     };
+
     let Some(anchor) = precise_anchor(given.pencil, condensation, value) else {
         return false;
     };
+
     condensation.anchors.push(anchor);
     set.pieces[piece].anchor = Some(condensation.anchors.len() - 1);
     true
@@ -151,8 +158,10 @@ fn open_leaves(given: &Given<'_>, prepared: &Prepared, set: &CompleteSet) -> Vec
                 _ => {}
             }
         }
+
         lo = hi.unwrap_or(lo);
     }
+
     leaves
 }
 
@@ -179,6 +188,7 @@ fn root(
     if given.pencil.free().len() + support.len() > ENCLOSED_ORDER {
         return None;
     }
+
     let candidate = over_all_variables(given, index, expansion, &null);
     let precise = precise_null(given.pencil, &support, &candidate, VECTOR_BITS)?;
 
@@ -200,6 +210,7 @@ fn root(
     for u in &mut root.left {
         *u <<= more_bits;
     }
+
     root.right = x
         .iter()
         .filter(|(i, _)| *i != root.pivot)
@@ -226,9 +237,11 @@ fn over_all_variables(
     for (&i, v) in index.iter().zip(&on_positions) {
         x[i] = *v;
     }
+
     for (&i, v) in given.pencil.free().iter().zip(free) {
         x[i] = v;
     }
+
     Candidate {
         value: null.value,
         x,
@@ -236,7 +249,12 @@ fn over_all_variables(
 }
 
 fn divided(list: &[Component], scale: &Rational) -> Vec<Component> {
-    list.iter().map(|(i, v)| (*i, v / scale)).collect()
+    let mut quotients = Vec::with_capacity(list.len());
+    for (i, v) in list {
+        quotients.push((*i, v / scale));
+    }
+
+    quotients
 }
 
 /// What the signs of x, scaled to 1 at the pivot, and of y say.
@@ -268,6 +286,7 @@ fn half_width(value: &Rational) -> Option<Rational> {
     if !value.is_positive() {
         return None;
     }
+
     let magnitude = value.numer().bits() as i64 - value.denom().bits() as i64;
     let exponent = magnitude - i64::from(INTERVAL_BITS);
     let power = Rational::from_integer(Integer::one() << exponent.unsigned_abs());
@@ -301,6 +320,7 @@ mod tests {
             let ratio = half_width(&value).unwrap() * &unit / &value;
             assert!(ratio > rational(1, 4) && ratio <= whole(2), "{value}");
         }
+
         assert!(half_width(&whole(0)).is_none());
     }
 }

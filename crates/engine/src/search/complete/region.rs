@@ -41,7 +41,14 @@ pub(crate) fn undecided(states: &[State]) -> Vec<usize> {
 }
 
 fn positions(states: &[State], holds: impl Fn(State) -> bool) -> Vec<usize> {
-    (0..states.len()).filter(|&p| holds(states[p])).collect()
+    let mut positions = Vec::new();
+    for (position, state) in states.iter().enumerate() {
+        if holds(*state) {
+            positions.push(position);
+        }
+    }
+
+    positions
 }
 
 /// The part of (supports) x (window) that belongs to a node of the tree.
@@ -99,7 +106,12 @@ impl Region {
 
     /// Does the value lie strictly inside the interval?
     pub(crate) fn has_inside(&self, value: &Rational) -> bool {
-        *value > self.lo && self.hi.as_ref().is_none_or(|hi| value < hi)
+        let is_above = *value > self.lo;
+        let is_below = match &self.hi {
+            Some(hi) => value < hi,
+            None => true,
+        };
+        is_above && is_below
     }
 }
 

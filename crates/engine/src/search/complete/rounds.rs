@@ -46,6 +46,7 @@ impl Rounds<'_> {
             if is_done || !self.prepared.enlarge_remainders() {
                 break;
             }
+
             audited = self.search(&Chosen::Again(audited.refused), &quiet)?;
         }
 
@@ -57,6 +58,7 @@ impl Rounds<'_> {
         if !watch.is_cancelled() && audited.open_count() > 0 {
             audited = self.with_long_numbers(audited);
         }
+
         Ok(audited)
     }
 
@@ -75,6 +77,7 @@ impl Rounds<'_> {
             chosen,
             shares,
         };
+
         let found = in_threads(self.options.threads, || pass.run());
 
         let mut pieces = Vec::with_capacity(set.pieces.len());
@@ -82,6 +85,7 @@ impl Rounds<'_> {
             let claims = &mut self.certificate.claims;
             pieces.push(numbered(piece, searched.items, claims));
         }
+
         self.certificate.complete_set = Some(CompleteSet {
             condensation: set.condensation,
             pieces,
@@ -95,6 +99,7 @@ impl Rounds<'_> {
         let Some(mut longer) = longer else {
             return before;
         };
+
         match audited(&mut longer, self.given.problem) {
             Ok(after) if after.open_count() < before.open_count() => {
                 self.certificate = longer;
@@ -120,6 +125,7 @@ pub(super) fn values_met(
         chosen: &Chosen::All,
         shares: &Shares::new(watch.quiet()),
     };
+
     let found = in_threads(options.threads, || pass.run());
 
     let mut values: Vec<f64> = found.into_iter().flat_map(|piece| piece.met).collect();

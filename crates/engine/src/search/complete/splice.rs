@@ -105,6 +105,7 @@ impl Pass<'_> {
             items: Vec::new(),
             met: Vec::new(),
         };
+
         self.splice(&mut search, k);
         SearchedPiece {
             items: search.items,
@@ -141,6 +142,7 @@ impl Pass<'_> {
             let Some(Waiting { region, share }) = waiting.pop() else {
                 return;
             };
+
             match node {
                 Node::Open if !self.chosen.takes((k, place)) => {
                     search.items.push(Item::Node(Node::Open));
@@ -190,6 +192,7 @@ pub(super) fn numbered(piece: &Piece, items: Vec<Item>, claims: &mut Vec<Claim>)
             }
         });
     }
+
     Piece {
         tree,
         ..piece.clone()
@@ -201,6 +204,7 @@ pub(super) fn number(claims: &mut Vec<Claim>, claim: Claim) -> usize {
     if let Some(number) = claims.iter().position(|c| *c == claim) {
         return number;
     }
+
     claims.push(claim);
     claims.len() - 1
 }

@@ -72,7 +72,10 @@ impl Search<'_> {
     /// search.
     pub(super) fn region(&mut self, region: &Region, share: f64) {
         let lo = to_f64(&region.lo);
-        let hi = region.hi.as_ref().map_or(f64::INFINITY, to_f64);
+        let hi = match &region.hi {
+            Some(hi) => to_f64(hi),
+            None => f64::INFINITY,
+        };
         let ends = Rc::new(self.expansion.ends(lo, hi));
         self.node(region, &ends, share);
     }
@@ -85,6 +88,7 @@ impl Search<'_> {
             }
             _ => false,
         };
+
         self.items.push(Item::Node(node));
         self.shares.closed(share, has_solution);
     }
@@ -103,6 +107,7 @@ impl Search<'_> {
         if self.budget == 0 || self.shares.is_cancelled() {
             return self.leaf(Node::Open, share);
         }
+
         self.budget -= 1;
         if let Some(leaf) = self.definite_leaf(region, ends) {
             return self.leaf(leaf, share);
@@ -123,12 +128,15 @@ impl Search<'_> {
             if is_closed {
                 return;
             }
+
             if region.cuts >= CUTS_BEFORE_EXACT && self.exact(region, share) {
                 return;
             }
+
             if is_narrow || is_hopeless(region, ends, &middle) {
                 return self.give_up(region, share);
             }
+
             return self.cut(region, ends, &columns, &middle, share);
         }
 
@@ -137,6 +145,7 @@ impl Search<'_> {
         } else {
             MAX_CUTS
         };
+
         let may_cut = !is_narrow && region.cuts < max_cuts;
         if may_cut && middle.is_prunable {
             self.cut(region, ends, &columns, &middle, share);
@@ -150,6 +159,7 @@ impl Search<'_> {
         if by_doubles.is_some() || self.expansion.reversed {
             return by_doubles;
         }
+
         ldl::half_line_leaf(self.given, self.view, region, ends)
     }
 
@@ -158,6 +168,7 @@ impl Search<'_> {
         if !ends.is_half_line() {
             return self.roots(region, ends, share);
         }
+
         let pencil = self.given.pencil;
         match infinity::leaf(pencil, self.view, self.expansion, region, ends) {
             Some(leaf) => {
@@ -201,6 +212,7 @@ impl Search<'_> {
             self.region(&rest.below(cut), part);
             rest = rest.above(cut);
         }
+
         self.region(&rest, part);
     }
 
@@ -243,6 +255,7 @@ impl Search<'_> {
             view: self.view,
             expansion: self.expansion,
         };
+
         match search.leaf(region, ends) {
             Searched::Nothing => false,
             Searched::Part(found) => {
@@ -255,6 +268,7 @@ impl Search<'_> {
                 if !self.exact(region, share) {
                     self.degenerate(region, ends, value, share);
                 }
+
                 true
             }
         }
@@ -277,6 +291,7 @@ impl Search<'_> {
             leaf: Item::Node(Node::Open),
             solution: None,
         };
+
         self.around(&outside, open, share);
     }
 
@@ -290,9 +305,11 @@ impl Search<'_> {
             self.split_at(&found.lo);
             self.region(&region.below(&found.lo), part);
         }
+
         if has_above {
             self.split_at(&found.hi);
         }
+
         let has_solution = found.leaf.is_solution();
         self.items.push(found.leaf);
         self.shares.closed(part, has_solution);
@@ -301,6 +318,7 @@ impl Search<'_> {
         } else {
             self.shares.closed(part, false);
         }
+
         if !has_below {
             self.shares.closed(part, false);
         }
@@ -341,9 +359,11 @@ impl Search<'_> {
             if region.states.contains(&State::InSupport) {
                 return self.give_up(region, share);
             }
+
             let leaf = Node::Support(Box::new(support::empty_leaf()));
             return self.leaf(leaf, share);
         };
+
         if undecided.len() > MAX_UNDECIDED_EXACT || self.shares.is_cancelled() {
             return self.leaf(Node::Open, share);
         }
@@ -363,6 +383,7 @@ fn is_hopeless(region: &Region, ends: &Ends, middle: &MiddleTest) -> bool {
     } else {
         MAX_CUTS_DECIDED
     };
+
     // The radius stands in the way, and a shorter interval has the same.
     let is_held_up_by_radius =
         !middle.is_prunable && ends.r.is_some() && region.cuts >= MAX_CUTS_SUSPECT;
@@ -391,9 +412,11 @@ fn proposed_cuts(ends: &Ends, columns: &Columns, middle: &MiddleTest) -> Vec<Rat
         let target = ends.lo + (range.begin + slack) * width;
         cuts.extend(short_near(target, slack * width));
     }
+
     if range.end < 1.0 {
         let target = ends.lo + (range.end - slack) * width;
         cuts.extend(short_near(target, slack * width));
     }
+
     cuts
 }

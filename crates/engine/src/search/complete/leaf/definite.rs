@@ -29,6 +29,7 @@ fn holds_at_both_ends(ends: &Ends, states: &[State], sign: f64) -> bool {
     if !is_definite(&ends.m[0], radius, states, sign) {
         return false;
     }
+
     let vanishes_at_infinity = ends.is_half_line() && vanishes(&ends.m[1], states);
     vanishes_at_infinity || is_definite(&ends.m[1], radius, states, sign)
 }
@@ -55,6 +56,7 @@ pub(crate) fn is_definite(
         let row = possible.iter().map(|&j| sign * (m[i][j] + m[j][i]));
         s.push(row.collect());
     }
+
     let least_pivot = DEFINITE_PIVOT * largest_entry(&s);
 
     if let Some(radius) = radius {
@@ -63,6 +65,7 @@ pub(crate) fn is_definite(
             s[p][p] -= around.sum::<f64>();
         }
     }
+
     has_pivots_above(s, least_pivot)
 }
 
@@ -83,5 +86,6 @@ fn has_pivots_above(mut s: Matrix, least: f64) -> bool {
             }
         }
     }
+
     true
 }

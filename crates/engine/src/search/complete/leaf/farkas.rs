@@ -31,6 +31,7 @@ pub(crate) fn weights(
     if middle.game.value <= 0.0 {
         return None;
     }
+
     // The game of both ends does not know the radius; the middle's vector may stand it over all of
     // the interval.
     if middle.is_prunable
@@ -47,6 +48,7 @@ pub(crate) fn weights(
     } else {
         WITNESS_MARGIN
     };
+
     if game.value > least {
         columns.rounded(&game.w)
     } else {
@@ -87,6 +89,7 @@ impl MiddleTest {
         for (column, share) in self.columns.list.iter().zip(&self.game.mix) {
             x[column.variable] = *share;
         }
+
         x
     }
 }
@@ -127,7 +130,10 @@ impl Column {
 
     /// Are all products of entry and weight zero? Then w'T is an exact zero, whatever the rounding.
     fn is_exact_zero(&self, w: &[f64]) -> bool {
-        self.entries.iter().zip(w).all(|(c, w)| c * w == 0.0)
+        self.entries
+            .iter()
+            .zip(w)
+            .all(|(entry, weight)| entry * weight == 0.0)
     }
 
     /// The column as the game has it. At an infinite end it is lowered by twice the margin, so that
@@ -136,6 +142,7 @@ impl Column {
         if !self.is_direction {
             return self.entries.clone();
         }
+
         self.entries
             .iter()
             .map(|v| v - 2.0 * WITNESS_MARGIN)
@@ -177,8 +184,16 @@ impl Columns {
 
     /// The game on these columns.
     fn play(&self, states: &[State]) -> Game {
-        let either_sign: Vec<bool> = states.iter().map(|s| *s == State::InSupport).collect();
-        let columns: Vec<Vec<f64>> = self.list.iter().map(Column::for_the_game).collect();
+        let mut either_sign = Vec::with_capacity(states.len());
+        for state in states {
+            either_sign.push(*state == State::InSupport);
+        }
+
+        let mut columns = Vec::with_capacity(self.list.len());
+        for column in &self.list {
+            columns.push(column.for_the_game());
+        }
+
         game::solve(&either_sign, &columns)
     }
 
@@ -187,6 +202,7 @@ impl Columns {
         if self.has_no_radius() {
             return game.value;
         }
+
         self.list
             .iter()
             .map(|column| -dot(&column.entries, &game.w) - column.around(&game.w))
@@ -207,6 +223,7 @@ impl Columns {
                 return Some(rounded.iter().map(|v| *v as i64).collect());
             }
         }
+
         None
     }
 
@@ -245,13 +262,16 @@ impl Columns {
             if first + from * (last - first) > 0.0 {
                 return None;
             }
+
             if first > 0.0 {
                 range.begin = range.begin.max(first / (first - last));
             }
+
             if last > 0.0 {
                 range.end = range.end.min(first / (first - last));
             }
         }
+
         (range.begin < from && from < range.end).then_some(range)
     }
 }
@@ -264,7 +284,8 @@ pub(crate) struct Range {
 
 /// The upper bound of w'T in a column plus the margin, in the scale that both ends share.
 fn value_with_margin(column: &Column, w: &[f64], size: f64) -> f64 {
-    let value = dot(&column.entries, w) + column.around(w) + WITNESS_MARGIN * size;
+    let margin = WITNESS_MARGIN * size;
+    let value = dot(&column.entries, w) + column.around(w) + margin;
     // The columns of both ends are divided by their own largest entries: that is undone.
     value / column.unit
 }

@@ -52,6 +52,7 @@ pub(crate) fn leaf(
     } else {
         None
     };
+
     let outcome = match limit {
         Some(vector) => RootOutcome::Infinity(vector),
         None if unique.is_absent(&chord) => RootOutcome::Absent,
@@ -114,10 +115,12 @@ fn limit(pencil: &Pencil, support: &[usize], reversed: bool) -> Option<Vec<Integ
     let [vector] = &basis[..] else {
         return None;
     };
+
     let mut x = vec![Integer::zero(); pencil.order()];
     for (&i, component) in active.iter().zip(vector) {
         x[i] = component.coeffs().first().cloned().unwrap_or_default();
     }
+
     Some(x)
 }
 

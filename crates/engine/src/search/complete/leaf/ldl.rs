@@ -31,11 +31,13 @@ pub(crate) fn window_leaf(pencil: &Pencil, window: &Window) -> Option<Node> {
     if pencil.order() > MAX_ORDER {
         return None;
     }
+
     let lower = symmetric_at(pencil, window.min());
     let upper = match window.max() {
         Some(max) => symmetric_at(pencil, max),
         None => symmetric(&pencil.b().to_dense()),
     };
+
     // Exact factors of a large matrix take long: not where doubles see that there are none.
     if is_indefinite(&upper) || is_indefinite(&lower) {
         return None;
@@ -64,6 +66,7 @@ pub(crate) fn half_line_leaf(
     if !ends.is_half_line() || !is_definite(&ends.m[0], ends.r.as_ref(), states, 1.0) {
         return None;
     }
+
     if !is_definite(&lifted_direction(&ends.m[1]), None, states, 1.0) {
         return None;
     }
@@ -80,6 +83,7 @@ fn lifted_direction(direction: &Matrix) -> Matrix {
     for (i, row) in lifted.iter_mut().enumerate() {
         row[i] += 2.0 * DEFINITE_PIVOT * largest;
     }
+
     lifted
 }
 
@@ -108,6 +112,7 @@ fn symmetric(m: &Dense) -> Vec<Vec<Rational>> {
         let row = (0..m.rows()).map(|j| (&m.row(i)[j] + &m.row(j)[i]) * &half);
         rows.push(row.collect());
     }
+
     rows
 }
 
@@ -123,12 +128,14 @@ fn is_indefinite(s: &[Vec<Rational>]) -> bool {
     for (i, row) in s.iter().enumerate() {
         largest_diagonal = largest_diagonal.max(row[i].abs());
     }
+
     let margin = SEMIDEFINITE_PIVOT * largest_diagonal;
 
     for k in 0..order {
         if s[k][k] < -margin {
             return true;
         }
+
         if s[k][k] <= margin {
             continue;
         }
@@ -142,6 +149,7 @@ fn is_indefinite(s: &[Vec<Rational>]) -> bool {
             }
         }
     }
+
     false
 }
 
@@ -158,18 +166,22 @@ fn ldl(s: &[Vec<Rational>]) -> Option<LdlFactor> {
         if pivot.is_negative() {
             return None;
         }
+
         for i in k + 1..order {
             let below = factor.reduced(s, i, k);
             if pivot.is_zero() && !below.is_zero() {
                 return None;
             }
+
             let entry = if pivot.is_zero() {
                 below
             } else {
                 below / &pivot
             };
+
             factor.rows[i].push(entry);
         }
+
         factor.diagonal.push(pivot);
     }
 
@@ -192,6 +204,7 @@ impl Partial {
         for (l, d) in self.diagonal.iter().enumerate() {
             entry -= &self.rows[i][l] * &self.rows[k][l] * d;
         }
+
         entry
     }
 }

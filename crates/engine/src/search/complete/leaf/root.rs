@@ -71,10 +71,12 @@ impl RootSearch<'_> {
             let Some(part) = part_around(region, ends, null.value, factor) else {
                 return Searched::Nothing;
             };
+
             if let Some(found) = self.part_leaf(region, ends, &null, part) {
                 return Searched::Part(Box::new(found));
             }
         }
+
         Searched::NotUnique(null.value)
     }
 
@@ -105,6 +107,7 @@ impl RootSearch<'_> {
         } else {
             self.expansion.ends(lo, hi)
         };
+
         let unique = Unique::of(null, &wide)?;
         let leaf_and_region_ends = [ends.lo, ends.hi, lo, hi];
         let leaf = self.root_leaf(null, &unique, &region.states, leaf_and_region_ends)?;
@@ -132,6 +135,7 @@ impl RootSearch<'_> {
         if !unique.is_absent(&ends) {
             return None;
         }
+
         let root = unique.witness(&self.view.index, part.clone(), RootOutcome::Absent);
         Some(Item::Node(Node::Root(Box::new(root))))
     }
@@ -157,9 +161,11 @@ impl RootSearch<'_> {
         let Claim::ExactSolution(solution) = &claim else {
             return None;
         };
+
         if !self.belongs_to(&solution.support, &solution.biactive, states) {
             return None;
         }
+
         let interval = solution.interval.clone().map(|number| number.0);
         let root = unique.witness(index, interval, RootOutcome::Claim(0));
         Some(Item::Claimed(Box::new(root), Box::new(claim)))
@@ -191,6 +197,7 @@ pub(crate) fn part_around(
     } else {
         nearer(ends.lo, value, factor)?
     };
+
     let hi = if factor == 1.0 || ends.hi <= value {
         region_hi.clone()
     } else {

@@ -58,6 +58,7 @@ pub(crate) fn leaf(
         cells: Vec::new(),
         reasons: Vec::new(),
     };
+
     let first = Algebraic::rational(lo.clone());
     sweep.point(first.clone())?;
     match hi {
@@ -69,6 +70,7 @@ pub(crate) fn leaf(
         }
         None => sweep.between(first, None)?,
     }
+
     Some(sweep.finish())
 }
 
@@ -102,6 +104,7 @@ impl Sweep<'_> {
         if let Some(number) = self.reasons.iter().position(|r| *r == reason) {
             return number;
         }
+
         self.reasons.push(reason);
         self.reasons.len() - 1
     }
@@ -110,6 +113,7 @@ impl Sweep<'_> {
         if (self.is_stopped)() {
             return None;
         }
+
         value.try_rational();
         let reason = self.system.at(&mut value)?;
         let reason = self.number(reason);
@@ -122,6 +126,7 @@ impl Sweep<'_> {
         if self.cells.len() >= MAX_CELLS || (self.is_stopped)() {
             return None;
         }
+
         let General { t, around } = self.general_value(&mut left, &mut right)?;
 
         let upper_end = right.as_ref().map(|right| right.interval().hi().clone());
@@ -136,12 +141,14 @@ impl Sweep<'_> {
             self.between(left, Some(end.clone()))?;
             self.point(end.clone())?;
         }
+
         let reason = self.number(around.reason);
         self.cells.push(reason);
         if let Some(end) = above.first() {
             self.point(end.clone())?;
             self.between(end.clone(), right)?;
         }
+
         Some(())
     }
 
@@ -166,6 +173,7 @@ impl Sweep<'_> {
         for SweepPoint { value, reason } in &mut self.points {
             narrow(value, &self.reasons[*reason]);
         }
+
         for k in 1..self.points.len() {
             let (before, after) = self.points.split_at_mut(k);
             part(&mut before[k - 1].value, &mut after[0].value);
@@ -181,6 +189,7 @@ impl Sweep<'_> {
                 reason,
             });
         }
+
         Support {
             points,
             cells: self.cells,
@@ -200,6 +209,7 @@ fn is_strictly_between(value: &Algebraic, left: &Algebraic, right: Option<&Algeb
     if value.cmp_exact(&mut left.clone()) != Ordering::Greater {
         return false;
     }
+
     right.is_none_or(|right| value.cmp_exact(&mut right.clone()) == Ordering::Less)
 }
 
@@ -212,6 +222,7 @@ fn squarefree_product(polynomials: &[Poly]) -> Poly {
         // Exact: the gcd divides.
         product = &product * &p.exact_div(&shared).unwrap_or(p);
     }
+
     product
 }
 
@@ -255,6 +266,7 @@ fn longest_coefficient(reason: &Exact) -> u64 {
             }
         }
     }
+
     vectors
         .into_iter()
         .flat_map(|v| v.0.iter().flatten())
@@ -269,6 +281,7 @@ fn inside(left: &mut Algebraic, right: Option<&mut Algebraic>, share: &Rational)
     let Some(right) = right else {
         return left.interval().hi() + Rational::one() + share;
     };
+
     part(left, right);
     let begin = left.interval().hi().clone();
     let end = right.interval().lo().clone();

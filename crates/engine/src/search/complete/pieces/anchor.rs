@@ -97,6 +97,7 @@ pub(crate) fn centers(lowest_frequency: f64, mut low: f64, top: f64) -> Vec<Cent
         });
         low = end;
     }
+
     centers
 }
 
@@ -157,6 +158,7 @@ impl Elimination<'_> {
             right: right.integers,
             left: left.integers,
         };
+
         Some(Expanded { anchor, expansion })
     }
 
@@ -192,6 +194,7 @@ impl Elimination<'_> {
             left,
             right_residual: &right_residual,
         };
+
         let mut coefficients = condensed.coefficients(&row_factors);
         // What is zero but for rounding is zero in exact arithmetic: T is linear where F and the
         // free rows are constant.
@@ -242,6 +245,7 @@ impl Solution<'_> {
             taylor.integers.push(rounded.integers);
             taylor.rounded.push(rounded.columns);
         }
+
         taylor
     }
 
@@ -259,14 +263,17 @@ impl Solution<'_> {
                 1 => given.slope[j].clone(),
                 _ => vec![0.0; self.blocks.free.len()],
             };
+
             if let Some(before) = before {
                 let product = self.blocks.mass_rows.times(&before[j]);
                 for (c, p) in column.iter_mut().zip(product) {
                     *c -= p;
                 }
             }
+
             columns.push(column);
         }
+
         columns
     }
 }
@@ -292,11 +299,13 @@ fn residual(
             for (i, r) in residual[k][j].iter_mut().enumerate() {
                 *r -= stiffness[i] + center * mass[i];
             }
+
             for (i, r) in residual[k + 1][j].iter_mut().enumerate() {
                 *r -= mass[i];
             }
         }
     }
+
     residual
 }
 
@@ -324,6 +333,7 @@ impl Condensed<'_> {
                 }
             }
         }
+
         coefficients
     }
 
@@ -357,6 +367,7 @@ impl Condensed<'_> {
                 entry[k + m] -= dot(&v[i], &r[j]);
             }
         }
+
         entry
     }
 }
@@ -371,6 +382,7 @@ fn column_norms(coefficients: &[Columns], factors: &[f64]) -> ColumnNorms {
             .map(|(column, factor)| dot(column, column).sqrt() * factor);
         norms.push(of_columns.collect());
     }
+
     norms
 }
 
@@ -404,6 +416,7 @@ impl Rounded {
                 .map(|column| truncated((column[i] * unit).round()).unwrap_or_default());
             rows.push(integers.collect());
         }
+
         Rounded {
             integers: IntegerMatrix {
                 exponent: exponent.unsigned_abs(),

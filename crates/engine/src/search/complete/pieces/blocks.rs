@@ -19,6 +19,7 @@ impl SparseRows {
         for i in 0..matrix.rows() {
             rows.push(matrix.row(i).iter().map(|(j, v)| (*j, to_f64(v))).collect());
         }
+
         SparseRows(rows)
     }
 
@@ -84,10 +85,12 @@ impl Blocks {
             constant: columns(&pencil.a().submatrix(&free, &slip)),
             slope: columns(&pencil.b().submatrix(&free, &slip)),
         };
+
         let sf = LinearColumns {
             constant: columns(&pencil.a().submatrix(&slip, &free).transpose()),
             slope: columns(&pencil.b().submatrix(&slip, &free).transpose()),
         };
+
         Blocks {
             free,
             slip,
@@ -135,6 +138,7 @@ impl Blocks {
             let norm = dot(&w, &mass_w).sqrt();
             v = w.into_iter().map(|x| x / norm).collect();
         }
+
         estimate
     }
 }
@@ -145,5 +149,6 @@ fn columns(matrix: &Sparse) -> Vec<Vec<f64>> {
     for (i, j, v) in matrix.entries() {
         columns[j][i] = to_f64(v);
     }
+
     columns
 }

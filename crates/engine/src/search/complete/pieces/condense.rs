@@ -71,6 +71,7 @@ pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
     } else {
         Above::Nothing
     };
+
     let top = above
         .begin()
         .or(window.max().map(to_f64))
@@ -81,11 +82,13 @@ pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
     } else {
         blocks.lowest_frequency(&stiffness.plain_factor)
     };
+
     let precision = if blocks.mass_is_zero {
         CONSTANT
     } else {
         COARSE
     };
+
     let mut anchors = Anchors::default();
     let mut ends = Vec::new();
     for center in centers(lowest_frequency, to_f64(window.min()), top) {
@@ -119,11 +122,13 @@ pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
         anchors: anchors.certificate,
         tail,
     };
+
     let view = View {
         scale: scale_of(&anchors.expansions[0].coefficients),
         expansions: anchors.expansions,
         index: blocks.slip,
     };
+
     Ok(Condensed {
         condensation,
         view,
@@ -189,6 +194,7 @@ fn demand_symmetry(blocks: &Blocks) -> Result<(), CompleteError> {
             return Err(CompleteError::NotDefinite { what, index });
         }
     }
+
     Ok(())
 }
 
@@ -275,6 +281,7 @@ pub(crate) fn refine(
         let Ok(center) = from_f64(*value) else {
             continue;
         };
+
         if let Some(expanded) = elimination.expand(&center, FINE) {
             condensation.anchors.push(expanded.anchor);
             view.expansions.push(expanded.expansion);
@@ -299,6 +306,7 @@ pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
             Some(exchanged) if anchor.reversed => reversed_expansion(exchanged, anchor, bounds),
             _ => expansion_of(&elimination, anchor),
         };
+
         expansions.push(expansion);
     }
 
@@ -319,6 +327,7 @@ fn reversed_expansion(exchanged: &Pencil, anchor: &Anchor, bounds: FreeBounds) -
         blocks: &Blocks::of(exchanged),
         bounds: bounds.exchanged(),
     };
+
     Expansion {
         reversed: true,
         ..expansion_of(&elimination, anchor)
@@ -328,9 +337,18 @@ fn reversed_expansion(exchanged: &Pencil, anchor: &Anchor, bounds: FreeBounds) -
 /// The expansion that an anchor of a certificate gives for the pencil that is eliminated.
 fn expansion_of(elimination: &Elimination<'_>, anchor: &Anchor) -> Expansion {
     let width = elimination.blocks.slip.len();
-    let right: Vec<Columns> = anchor.right.iter().map(|m| columns_of(m, width)).collect();
-    let left: Vec<Columns> = anchor.left.iter().map(|m| columns_of(m, width)).collect();
-    elimination.expansion(to_f64(&anchor.center.0), &right, &left)
+    let center = to_f64(&anchor.center.0);
+    let mut right = Vec::with_capacity(anchor.right.len());
+    for coefficient in &anchor.right {
+        right.push(columns_of(coefficient, width));
+    }
+
+    let mut left = Vec::with_capacity(anchor.left.len());
+    for coefficient in &anchor.left {
+        left.push(columns_of(coefficient, width));
+    }
+
+    elimination.expansion(center, &right, &left)
 }
 
 /// The columns of a rounded matrix, in doubles.
@@ -344,5 +362,6 @@ fn columns_of(matrix: &IntegerMatrix, width: usize) -> Columns {
             .map(|row| to_f64(&Rational::new(row[j].clone(), unit.clone())));
         columns.push(column.collect());
     }
+
     columns
 }

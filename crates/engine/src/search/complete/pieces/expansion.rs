@@ -69,7 +69,10 @@ impl Ends {
 
     /// Radius of entry (i, j).
     pub(crate) fn radius(&self, i: usize, j: usize) -> f64 {
-        self.r.as_ref().map_or(0.0, |r| r[i][j])
+        match &self.r {
+            Some(radius) => radius[i][j],
+            None => 0.0,
+        }
     }
 
     pub(crate) fn is_half_line(&self) -> bool {
@@ -121,6 +124,7 @@ impl Expansion {
         for (first, last) in ends[0].iter().zip(&ends[1]) {
             slope.push(first.iter().zip(last).map(|(a, b)| b - a).collect());
         }
+
         Expansion::linear(ends[0].clone(), slope)
     }
 
@@ -169,6 +173,7 @@ impl Expansion {
                 *s = *s * d + z;
             }
         }
+
         sum
     }
 
@@ -202,6 +207,7 @@ impl Expansion {
                 }
             }
         }
+
         Some(sum)
     }
 
@@ -233,6 +239,7 @@ impl Expansion {
         } else {
             self.polynomial(hi)
         };
+
         let m = [lower, upper];
         if self.is_linear() && self.weight.is_empty() {
             return Ends::exact(lo, hi, m);
@@ -250,6 +257,7 @@ impl Expansion {
                 slope[i][j] = bend[i][j] + 4.0 * remainder.at(i, j);
             }
         }
+
         Ends {
             lo,
             hi,
@@ -261,7 +269,9 @@ impl Expansion {
 
     /// Largest distance of the interval from the centre.
     fn reach(&self, lo: f64, hi: f64) -> f64 {
-        (lo - self.center).abs().max((hi - self.center).abs())
+        let below = (lo - self.center).abs();
+        let above = (hi - self.center).abs();
+        below.max(above)
     }
 
     /// Upper bounds of (hi - lo)^2 |Z''|. The chord differs from Z by an eighth of it at most.
@@ -276,6 +286,7 @@ impl Expansion {
                 *s = *s * reach + factor * z.abs() * width * width;
             }
         }
+
         bound
     }
 
@@ -293,6 +304,7 @@ impl Expansion {
             let residual = norm_bound(&self.left_residual, i, reach);
             left.push(residual * self.weight[i] / (1.0 + self.gain * lo));
         }
+
         Remainder {
             left,
             right: norm_bounds(&self.right_residual, positions.clone(), reach),

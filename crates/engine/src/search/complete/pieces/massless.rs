@@ -24,6 +24,7 @@ fn rows_with_entries(m: &Sparse) -> Vec<usize> {
         has_entry[i] = true;
         has_entry[j] = true;
     }
+
     (0..m.rows()).filter(|&i| has_entry[i]).collect()
 }
 
@@ -39,6 +40,7 @@ fn among_zero_rows(part: &Factor, kept: &[usize], order: usize) -> Factor {
             rows[i][j - first[i]] = v.clone();
         }
     }
+
     Factor {
         first,
         rows,
@@ -57,6 +59,7 @@ mod tests {
         if k < factor.first[i] || k > i {
             return whole(0);
         }
+
         let unit = Integer::from(1) << factor.exponent;
         Rational::new(factor.rows[i][k - factor.first[i]].clone(), unit)
     }
@@ -67,6 +70,7 @@ mod tests {
         for k in 0..s.rows() {
             residual -= entry(factor, i, k) * entry(factor, j, k);
         }
+
         residual
     }
 
@@ -82,6 +86,7 @@ mod tests {
             assert_eq!(residual(&s, &found, 0, j), whole(0));
             assert_eq!(residual(&s, &found, 2, j), whole(0));
         }
+
         let beside = residual(&s, &found, 1, 3).abs();
         assert!(residual(&s, &found, 1, 1) >= beside);
         assert!(residual(&s, &found, 3, 3) >= beside);

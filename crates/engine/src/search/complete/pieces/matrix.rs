@@ -23,6 +23,7 @@ pub(crate) fn principal_block(matrix: &Matrix, indices: &[usize]) -> Matrix {
     for &i in indices {
         block.push(indices.iter().map(|&j| matrix[i][j]).collect());
     }
+
     block
 }
 
@@ -50,5 +51,6 @@ pub(crate) fn scaled(matrix: &Matrix, factor: f64) -> Matrix {
 
 /// u' matrix v
 pub(crate) fn bilinear(u: &[f64], matrix: &Matrix, v: &[f64]) -> f64 {
-    u.iter().zip(times(matrix, v)).map(|(a, b)| a * b).sum()
+    let product = times(matrix, v);
+    u.iter().zip(product).map(|(u_i, p_i)| u_i * p_i).sum()
 }

@@ -35,6 +35,7 @@ pub(crate) fn precise_anchor(
         blocks: &blocks,
         bounds: bounds_of(condensation),
     };
+
     let mut anchor = elimination.expand(&center, FINE)?.anchor;
     let factor = blocks.factor_at(to_f64(&center))?;
 
@@ -52,6 +53,7 @@ pub(crate) fn precise_anchor(
             }
         }
     }
+
     Some(anchor)
 }
 
@@ -82,9 +84,11 @@ fn places(pencil: &Pencil) -> Vec<Place> {
     for (position, &i) in pencil.free().iter().enumerate() {
         places[i] = Place::Free(position);
     }
+
     for (position, &i) in pencil.slip().iter().enumerate() {
         places[i] = Place::Slip(position);
     }
+
     places
 }
 
@@ -112,6 +116,7 @@ fn free_row(pencil: &Pencil, center: &Rational, places: &[Place], i: usize) -> F
         free: Vec::new(),
         slip: Vec::new(),
     };
+
     for column in columns {
         let a = pencil.a().get(i, column);
         let b = pencil.b().get(i, column);
@@ -122,12 +127,14 @@ fn free_row(pencil: &Pencil, center: &Rational, places: &[Place], i: usize) -> F
             Place::Free(position) => (&mut row.free, position),
             Place::Slip(position) => (&mut row.slip, position),
         };
+
         list.push(Entry {
             position,
             at_center,
             slope,
         });
     }
+
     row
 }
 
@@ -148,6 +155,7 @@ fn widen(matrix: &mut IntegerMatrix, bits: u32) {
     for entry in matrix.rows.iter_mut().flatten() {
         *entry <<= more;
     }
+
     matrix.exponent += more as u32;
 }
 
@@ -188,6 +196,7 @@ fn residual(
             column[i] = to_f64(&Rational::new_raw(sum, unit.clone()));
         }
     }
+
     columns
 }
 
@@ -209,6 +218,7 @@ fn add(matrix: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
             row[j] += units;
         }
     }
+
     Some(is_still)
 }
 

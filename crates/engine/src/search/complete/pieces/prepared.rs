@@ -69,6 +69,7 @@ impl Prepared {
         if slip == 0 {
             return Err(CompleteError::NothingSlips);
         }
+
         if slip > MAX_COVERED {
             return Err(CompleteError::TooManySlip {
                 limit: MAX_COVERED,
@@ -104,6 +105,7 @@ impl Prepared {
             window,
             per_anchor: count.div_ceil(condensed.ends.len()).max(MIN_PIECES),
         };
+
         let intervals = division.intervals();
         Prepared {
             view: condensed.view,
@@ -133,6 +135,7 @@ impl Prepared {
                 anchor: piece.anchor,
             });
         }
+
         Ok(Prepared {
             view,
             condensation: set.condensation.clone(),
@@ -143,7 +146,10 @@ impl Prepared {
 
     /// Does the elimination depend on the unknown, so that solutions deserve anchors of their own?
     pub(crate) fn is_expanded(&self) -> bool {
-        self.view.expansions.iter().any(|e| !e.is_linear())
+        self.view
+            .expansions
+            .iter()
+            .any(|expansion| !expansion.is_linear())
     }
 
     /// Multiplies all remainders by [`CAUTION`], because rounding errors of their computation in
@@ -154,6 +160,7 @@ impl Prepared {
         for expansion in &mut self.view.expansions {
             expansion.caution *= CAUTION;
         }
+
         is_first || self.view.expansions.iter().any(|e| !e.is_everywhere())
     }
 
@@ -169,6 +176,7 @@ impl Prepared {
                 .map(Expansion::without_remainder)
                 .collect(),
         };
+
         Prepared {
             view,
             condensation: self.condensation.clone(),
@@ -196,6 +204,7 @@ impl Prepared {
         let Some(condensation) = self.condensation.as_mut() else {
             return self;
         };
+
         let before = condensation.anchors.len();
         refine(pencil, condensation, &mut self.view, &apart);
         if condensation.anchors.len() != before + apart.len() {
@@ -205,6 +214,7 @@ impl Prepared {
         for (k, value) in apart.iter().enumerate() {
             self.cut_out(problem.window().min(), *value, before + k);
         }
+
         self
     }
 
@@ -222,6 +232,7 @@ impl Prepared {
         let Some(begin) = short_near(value - reach, slack) else {
             return;
         };
+
         let Some(end) = short_near(value + reach, slack) else {
             return;
         };
@@ -236,6 +247,7 @@ impl Prepared {
                     cuts.push(cut.clone());
                 }
             }
+
             cuts.sort();
 
             for max in cuts.into_iter().map(Some).chain([interval.max.clone()]) {
@@ -247,9 +259,11 @@ impl Prepared {
                 } else {
                     interval.anchor
                 };
+
                 intervals.push(Interval { max, anchor });
             }
         }
+
         self.intervals = intervals;
     }
 
@@ -263,12 +277,14 @@ impl Prepared {
             } else {
                 Node::Open
             };
+
             pieces.push(Piece {
                 max: interval.max.clone().map(Number),
                 anchor: interval.anchor,
                 tree: vec![node],
             });
         }
+
         CompleteSet {
             condensation: self.condensation.clone(),
             pieces,
@@ -311,6 +327,7 @@ impl Division<'_> {
                 let cuts = cuts(view, &lo, hi.as_ref(), self.per_anchor);
                 intervals.extend(with_anchor(cuts, anchor));
             }
+
             lo = hi.filter(|h| *h > lo).unwrap_or(lo);
         }
 
@@ -327,6 +344,7 @@ impl Division<'_> {
                 });
             }
         }
+
         intervals
     }
 
@@ -353,10 +371,12 @@ impl Division<'_> {
         if let Some(from) = self.begin_of_last() {
             return Some(from.clone());
         }
+
         let is_linear = self.condensed.view.expansions[anchor].is_linear();
         if self.window.max().is_some() || is_linear {
             return self.window.max().cloned();
         }
+
         // An infinite interval needs a family that is linear in t. One anchor stands for all t
         // where the free rows of B are zero in their own columns only: then there is no end.
         let end = if end.is_finite() {
@@ -364,6 +384,7 @@ impl Division<'_> {
         } else {
             FAR * self.condensed.view.scale
         };
+
         short_near(end, SLACK_OF_END * end)
     }
 }
@@ -400,6 +421,7 @@ fn cuts(
             ends.push(Some(cut));
         }
     }
+
     ends.push(max.cloned());
     ends
 }

@@ -42,6 +42,7 @@ pub(crate) fn beyond(pencil: &Pencil, bounds: FreeBounds) -> Option<Beyond> {
         blocks: &blocks,
         bounds: bounds.exchanged(),
     };
+
     let expanded = elimination.expand(&center.at, COARSE)?;
     Some(Beyond {
         expanded: Expanded {

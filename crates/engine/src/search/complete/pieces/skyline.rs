@@ -46,6 +46,7 @@ impl Skyline {
             let share = if i == j { to_f64(v) } else { 0.5 * to_f64(v) };
             rows[row][column - first[row]] += share;
         }
+
         Skyline { first, rows }
     }
 
@@ -70,6 +71,7 @@ impl Skyline {
             first.push(start);
             rows.push(row);
         }
+
         Skyline { first, rows }
     }
 
@@ -79,6 +81,7 @@ impl Skyline {
         for diagonal in rows.iter_mut().filter_map(|row| row.last_mut()) {
             *diagonal += shift;
         }
+
         Skyline {
             first: self.first.clone(),
             rows,
@@ -130,9 +133,11 @@ impl Skyline {
             if square <= 0.0 || square.is_nan() {
                 return None;
             }
+
             diagonal[0] = square.sqrt();
             factor.push(row);
         }
+
         Some(Skyline {
             first: self.first.clone(),
             rows: factor,
@@ -188,6 +193,7 @@ impl Skyline {
                     sum[k] += l * b_j[k];
                 }
             }
+
             for k in 0..TOGETHER {
                 at[0][k] = (at[0][k] - sum[k]) / pivot;
             }
@@ -222,8 +228,10 @@ impl Skyline {
             if self.shifted(-bound).cholesky().is_some() {
                 return Some(bound);
             }
+
             bound *= 0.25;
         }
+
         None
     }
 
@@ -243,6 +251,7 @@ impl Skyline {
             let product: f64 = before.iter().zip(&v).map(|(a, b)| a * b).sum();
             estimate = 1.0 / product;
         }
+
         estimate
     }
 
@@ -267,6 +276,7 @@ impl Skyline {
                 .map(|v| truncated((v * unit).round()).unwrap_or_default());
             rows.push(integers.collect());
         }
+
         Factor {
             first: self.first.clone(),
             rows,
@@ -292,6 +302,7 @@ pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
             sums[k] += x[k] * y[k];
         }
     }
+
     sums.iter().sum::<f64>() + rest
 }
 

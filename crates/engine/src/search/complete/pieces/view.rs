@@ -33,6 +33,7 @@ impl View {
             for (j, v) in pencil.a().row(i) {
                 a[i][*j] = to_f64(&(v * &factor));
             }
+
             for (j, v) in pencil.b().row(i) {
                 b[i][*j] = to_f64(&(v * &factor));
             }
@@ -65,7 +66,12 @@ impl View {
 
     /// The variables of the pencil at these positions.
     pub(crate) fn variables(&self, positions: &[usize]) -> Vec<usize> {
-        positions.iter().map(|&p| self.index[p]).collect()
+        let mut variables = Vec::with_capacity(positions.len());
+        for &position in positions {
+            variables.push(self.index[position]);
+        }
+
+        variables
     }
 
     /// Place of t in [0, 1]: t / (scale + t).

@@ -94,11 +94,13 @@ impl Approximation {
             identity_error: 0.0,
             residual: 0.0,
         };
+
         for end in 0..2 {
             let system = OneSided::new(self, ends, end, side);
             norms.identity_error = system.identity_error(norms.identity_error);
             norms.residual = system.residual(norms.residual);
         }
+
         norms
     }
 
@@ -129,12 +131,15 @@ impl Approximation {
                     + (difference.abs() + radius) * vectors_around;
             }
         }
+
         slope.abs() > SLOPE_MARGIN * around
     }
 
     /// Step 4: the product of the signs of phi at both ends, 0 where one of them is not certain.
     pub(super) fn sign_product(&self, ends: &Ends, errors: &Errors) -> i8 {
-        self.schur_sign(ends, 0, errors) * self.schur_sign(ends, 1, errors)
+        let lower = self.schur_sign(ends, 0, errors);
+        let upper = self.schur_sign(ends, 1, errors);
+        lower * upper
     }
 
     /// The sign of phi = u'Tv - (residual of u)' T'^-1 (residual of v) at an end, 0 if not certain.
@@ -187,6 +192,7 @@ impl Component {
         for &value in on_rest {
             list.push(Component { value, error });
         }
+
         list.push(Component {
             value: 1.0,
             error: 0.0,
@@ -251,10 +257,13 @@ impl OneSided<'_> {
                 for k in 0..order {
                     difference.add(row[k], self.block[k][j]);
                 }
+
                 row_sum += difference.magnitude();
             }
+
             largest = largest.max(row_sum);
         }
+
         largest
     }
 
@@ -273,8 +282,10 @@ impl OneSided<'_> {
             for (&y, &p) in row.iter().zip(&product) {
                 component.add(y, p);
             }
+
             largest = largest.max(component.magnitude());
         }
+
         largest
     }
 }
@@ -285,6 +296,7 @@ fn entry(ends: &Ends, end: usize, side: Side, place: [usize; 2]) -> Ball {
         Side::Right => place,
         Side::Left => [place[1], place[0]],
     };
+
     Ball {
         center: ends.m[end][i][j],
         radius: ends.radius(i, j),

@@ -76,6 +76,7 @@ impl Unique {
             left: scaled_without(&null.left, place),
             right: scaled_without(&null.right, place),
         };
+
         for bits in INVERSE_BITS {
             let inverse_bits = exponent(&inverse_at_middle, bits);
             let unit = f64::from(inverse_bits).exp2();
@@ -94,6 +95,7 @@ impl Unique {
                 });
             }
         }
+
         None
     }
 
@@ -177,6 +179,7 @@ impl Unique {
             if *v < -error {
                 return Some(RootOutcome::NegativeX(index[i]));
             }
+
             is_certain &= *v > error;
         }
 
@@ -185,8 +188,10 @@ impl Unique {
             if at_ends.iter().all(|y| -y.value > y.around) {
                 return Some(RootOutcome::NegativeY(index[i]));
             }
+
             is_certain &= at_ends.iter().all(|y| y.value > y.around);
         }
+
         is_certain.then_some(RootOutcome::Solution)
     }
 
@@ -207,6 +212,7 @@ impl Unique {
             y.around += error * (entry.abs() + radius);
             y.around += ROUNDING * (entry * v).abs();
         }
+
         y
     }
 }
@@ -235,6 +241,7 @@ fn middle_block(wide: &Ends, indices: &[usize]) -> Matrix {
             .map(|&j| 0.5 * (wide.m[0][i][j] + wide.m[1][i][j]));
         block.push(row.collect());
     }
+
     block
 }
 
@@ -252,6 +259,7 @@ fn exponent(matrix: &Matrix, bits: i32) -> u32 {
     if matrix.is_empty() {
         return 0;
     }
+
     let largest = largest_entry(matrix).max(f64::MIN_POSITIVE);
     u32::try_from(bits - largest.log2().ceil() as i32).unwrap_or(0)
 }
@@ -279,6 +287,7 @@ fn doubles(matrix: &[Vec<Integer>], bits: u32) -> Matrix {
             .map(|v| to_f64(&Rational::new(v.clone(), unit.clone())));
         doubles.push(entries.collect());
     }
+
     doubles
 }
 

@@ -38,7 +38,9 @@ impl Direction {
     /// The direction's product with v.
     fn product(self, x: &[Poly], v: &[Poly]) -> Poly {
         let p = self.place;
-        self.signed(&(&x[0] * &v[p]) - &(&x[p] * &v[0]))
+        let first = &x[0] * &v[p];
+        let second = &x[p] * &v[0];
+        self.signed(&first - &second)
     }
 }
 
@@ -70,6 +72,7 @@ impl Supported {
             let variable = self.active[direction.place];
             weights.push((variable, Polynomials(coefficients(&l))));
         }
+
         Some(Alone {
             pivot: self.support[0],
             rows: weights,
@@ -100,6 +103,7 @@ impl Supported {
             signs.push(self.column(&l, variable));
             weights.push((variable, Polynomials(coefficients(&l))));
         }
+
         Some(AloneAround {
             proof: Alone {
                 pivot: self.support[0],
@@ -125,6 +129,7 @@ impl Supported {
         for (&row, m) in tight.0.iter().zip(tight.1) {
             mu[self.active.len() + row - self.support.len()] = m.clone();
         }
+
         mu
     }
 }
@@ -146,6 +151,7 @@ fn combination_at(
         conditions.push(negated(&column));
         conditions.push(column);
     }
+
     for k in 0..unknowns {
         conditions.push(unit(unknowns, k));
     }

@@ -29,12 +29,20 @@ pub(super) fn combined(basis: &[Vec<Poly>], z: &[Poly]) -> Vec<Poly> {
             *s = &*s + &(v * z_k);
         }
     }
+
     sum
 }
 
 /// The sum of vectors of one length, `None` for no vector.
-pub(super) fn sum(vectors: impl Iterator<Item = Vec<Poly>>) -> Option<Vec<Poly>> {
-    vectors.reduce(|sum, v| sum.iter().zip(&v).map(|(a, b)| a + b).collect())
+pub(super) fn sum(mut vectors: impl Iterator<Item = Vec<Poly>>) -> Option<Vec<Poly>> {
+    let mut sum = vectors.next()?;
+    for vector in vectors {
+        for (s, v) in sum.iter_mut().zip(&vector) {
+            *s = &*s + v;
+        }
+    }
+
+    Some(sum)
 }
 
 /// The values of a row at t as constants, their denominators cleared.
@@ -64,6 +72,7 @@ pub(super) fn primitive(vector: Vec<Poly>) -> Vec<Poly> {
         vector,
         more: Poly::default(),
     };
+
     extended.primitive().vector
 }
 
@@ -74,6 +83,7 @@ impl Extended {
         for p in &self.vector {
             shared = shared.gcd(p);
         }
+
         let shared = shared.primitive();
         if shared.degree().is_none() {
             return self;
@@ -83,6 +93,7 @@ impl Extended {
         for p in self.vector.iter().chain([&self.more]) {
             content = num_integer::Integer::gcd(&content, &p.content());
         }
+
         Extended {
             vector: self
                 .vector
@@ -118,6 +129,7 @@ pub(super) fn circuit_at(
         conditions.push(negated(&column));
         conditions.push(column);
     }
+
     for k in 0..rows.len() {
         conditions.push(unit(rows.len(), k));
     }
@@ -131,6 +143,7 @@ pub(super) fn circuit_at(
             return Some(value.reduce(&mu));
         }
     }
+
     None
 }
 
@@ -145,6 +158,7 @@ pub(super) fn generic_circuit(rows: &[Vec<Poly>], mu: &[Poly], t: &Rational) -> 
     let [circuit] = &generic_kernel(transposed).0[..] else {
         return None;
     };
+
     let mut circuit = primitive(circuit.clone());
     if circuit.first()?.sign_at(t) < 0 {
         circuit = negated(&circuit);
@@ -154,6 +168,7 @@ pub(super) fn generic_circuit(rows: &[Vec<Poly>], mu: &[Poly], t: &Rational) -> 
     for (i, p) in chosen.into_iter().zip(circuit) {
         all[i] = p;
     }
+
     Some(all)
 }
 
@@ -174,6 +189,7 @@ pub(super) fn generic_ray(
             tight.push(row.clone());
         }
     }
+
     let [ray] = &generic_kernel(tight).0[..] else {
         return None;
     };

@@ -109,6 +109,7 @@ impl Supported {
             inactive,
             regular: None,
         };
+
         supported.regular = supported.regular();
         Some(supported)
     }
@@ -119,6 +120,7 @@ impl Supported {
         if determinant.is_zero() {
             return None;
         }
+
         let divided = Extended {
             vector: self.left_cofactors(&self.active, &self.active),
             more: determinant,
@@ -157,6 +159,7 @@ impl Supported {
             } else {
                 None
             };
+
             return Some(self.member(&value.reduce(&x), alone));
         }
 
@@ -181,6 +184,7 @@ impl Supported {
         if pivot.sign_at(t) == 0 {
             return None;
         }
+
         let rows = self.signed_rows(&basis);
         let kernel = Kernel { basis, rows };
         let here: Vec<Vec<Poly>> = kernel.rows.iter().map(|r| constants(r, t)).collect();
@@ -198,6 +202,7 @@ impl Supported {
                 [z] if cone.lineality.is_empty() => Some(&z[..]),
                 _ => None,
             };
+
             return self.member_around(x, &kernel, only_ray, t);
         }
 
@@ -239,6 +244,7 @@ impl Supported {
         if x[0].sign_at(t) < 0 {
             x = negated(&x);
         }
+
         let mut critical: Vec<Poly> = x[..self.support.len()].to_vec();
         critical.extend(self.inactive.iter().map(|&i| self.row(i, &x)));
 
@@ -262,7 +268,8 @@ impl Supported {
 
     /// Is x positive on the support?
     fn is_positive(&self, x: &[Poly], place: &Place<'_>) -> bool {
-        (0..self.support.len()).all(|p| place.sign(&x[p]) == Sign::Positive)
+        let on_support = &x[..self.support.len()];
+        on_support.iter().all(|p| place.sign(p) == Sign::Positive)
     }
 
     fn member(&self, x: &[Poly], alone: Option<Alone>) -> Exact {
@@ -299,6 +306,7 @@ impl Supported {
             let cofactors = place.reduced(&self.left_cofactors(&rows, &own_first));
             weights.push((own, self.over_all(&rows, &cofactors)));
         }
+
         Some(AloneOnLine {
             proof: Alone {
                 pivot,
@@ -319,9 +327,11 @@ impl Supported {
             for (&i, m) in self.inactive.iter().zip(on_inactive) {
                 given = &given + &(&self.entry(i, j) * m);
             }
+
             if let Some(m) = on_active.get(p) {
                 given = &given + m;
             }
+
             let mut equation: Vec<Poly> = self.active.iter().map(|&i| self.entry(i, j)).collect();
             equation.push(given);
             equations.push(equation);
@@ -343,9 +353,11 @@ impl Supported {
         for (&i, v) in self.active.iter().zip(solution) {
             w[i] = v;
         }
+
         for (&i, m) in self.inactive.iter().zip(on_inactive) {
             w[i] = m * &factor;
         }
+
         Some(w)
     }
 
@@ -355,9 +367,11 @@ impl Supported {
         for p in 0..self.support.len() {
             rows.push(basis.iter().map(|v| v[p].clone()).collect());
         }
+
         for &i in &self.inactive {
             rows.push(basis.iter().map(|v| self.row(i, v)).collect());
         }
+
         rows
     }
 
@@ -367,6 +381,7 @@ impl Supported {
         for (&j, x_j) in self.active.iter().zip(x) {
             sum = &sum + &(&self.entry(i, j) * x_j);
         }
+
         sum
     }
 
@@ -376,16 +391,24 @@ impl Supported {
         for (i, w_i) in w.iter().enumerate() {
             sum = &sum + &(&self.entry(i, j) * w_i);
         }
+
         sum
     }
 
     /// w'T on the support.
     fn products(&self, w: &[Poly]) -> Vec<Poly> {
-        self.support.iter().map(|&j| self.column(w, j)).collect()
+        let mut products = Vec::with_capacity(self.support.len());
+        for &j in &self.support {
+            products.push(self.column(w, j));
+        }
+
+        products
     }
 
     fn entry(&self, i: usize, j: usize) -> Poly {
-        Poly::new(vec![self.a[i][j].clone(), self.b[i][j].clone()])
+        let constant = self.a[i][j].clone();
+        let slope = self.b[i][j].clone();
+        Poly::new(vec![constant, slope])
     }
 
     fn block(&self, rows: &[usize], columns: &[usize]) -> Vec<Vec<Poly>> {
@@ -415,6 +438,7 @@ impl Supported {
         for (&i, p) in indices.iter().zip(v) {
             all[i] = p.clone();
         }
+
         Polynomials(coefficients(&all))
     }
 }
@@ -426,7 +450,9 @@ struct AloneOnLine {
 }
 
 fn without(list: &[usize], left_out: usize) -> Vec<usize> {
-    list.iter().copied().filter(|&i| i != left_out).collect()
+    let mut kept = list.to_vec();
+    kept.retain(|&i| i != left_out);
+    kept
 }
 
 fn block(m: &[Vec<Integer>], rows: &[usize], columns: &[usize]) -> Vec<Vec<Integer>> {
