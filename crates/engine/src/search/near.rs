@@ -112,8 +112,10 @@ fn default_radii(value: &Rational) -> Vec<Rational> {
 /// [value - r, value + r] within the window, rounded outwards to short decimals.
 fn around(window: &Window, value: &Rational, radius: &Rational) -> Option<Window> {
     let grid = grid(radius);
-    let below = ((value - radius) / &grid).floor() * &grid;
-    let above = ((value + radius) / &grid).ceil() * &grid;
+    let below = (value - radius) / &grid;
+    let below = below.floor() * &grid;
+    let above = (value + radius) / &grid;
+    let above = above.ceil() * &grid;
 
     let lo = below.max(window.min().clone());
     let hi = match window.max() {

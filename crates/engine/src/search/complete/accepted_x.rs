@@ -31,18 +31,23 @@ fn by_support_leaf(
     solution: &AcceptedClaim,
 ) -> Option<Vec<f64>> {
     let set = certificate.complete_set.as_ref()?;
-    let nodes = set.pieces.iter().flat_map(|piece| &piece.tree);
-    let x = nodes
-        .filter_map(|node| match node {
-            Node::Support(leaf) => yielded(leaf, pencil, solution),
-            _ => None,
-        })
-        .next()?;
+    let mut nodes = set.pieces.iter().flat_map(|piece| &piece.tree);
+    let x = nodes.find_map(|node| match node {
+        Node::Support(leaf) => yielded(leaf, pencil, solution),
+        _ => None,
+    })?;
 
     let value = solution.value.mid();
     let values: Vec<Rational> = x.iter().map(|p| p.eval(&value)).collect();
-    let sum: Rational = solution.support.iter().map(|&i| values[i].clone()).sum();
-    Some(values.iter().map(|v| to_f64(&(v / &sum))).collect())
+    let on_support = solution.support.iter().map(|&i| values[i].clone());
+    let sum: Rational = on_support.sum();
+
+    let mut scaled = Vec::with_capacity(values.len());
+    for value in &values {
+        scaled.push(to_f64(&(value / &sum)));
+    }
+
+    Some(scaled)
 }
 
 /// x at the point of a leaf that is this solution.

@@ -31,7 +31,14 @@ impl<'a> Given<'a> {
     pub(crate) fn has_in_window(&self, interval: &[Rational; 2]) -> bool {
         let [lo, hi] = interval;
         let window = self.window();
-        lo >= window.min() && window.max().is_none_or(|max| hi <= max)
+        if lo < window.min() {
+            return false;
+        }
+
+        match window.max() {
+            Some(max) => hi <= max,
+            None => true,
+        }
     }
 
     /// An exact solution near a value and an x over the complementarity variables, where doubles

@@ -77,12 +77,13 @@ fn same_pieces(a: &CompleteSet, b: &CompleteSet) -> bool {
         return false;
     }
 
-    let pairs = a.pieces.iter().zip(&b.pieces);
-    pairs.into_iter().all(|(p, q)| same_interval(p, q))
-}
+    for (p, q) in a.pieces.iter().zip(&b.pieces) {
+        if p.max != q.max || p.anchor != q.anchor {
+            return false;
+        }
+    }
 
-fn same_interval(p: &Piece, q: &Piece) -> bool {
-    p.max == q.max && p.anchor == q.anchor
+    true
 }
 
 /// A node of a tree, and the part that it comes from.
@@ -106,7 +107,11 @@ struct Preorder<'a> {
 
 impl<'a> Preorder<'a> {
     fn of(part: usize, tree: &'a [Node]) -> Preorder<'a> {
-        let nodes = tree.iter().map(|node| PartNode { part, node }).collect();
+        let mut nodes = Vec::with_capacity(tree.len());
+        for node in tree {
+            nodes.push(PartNode { part, node });
+        }
+
         Preorder::new(nodes)
     }
 
@@ -121,8 +126,10 @@ impl<'a> Preorder<'a> {
                 let first_child = k + 1;
                 let second_child = end.get(first_child).copied().unwrap_or(count);
                 end[k] = end.get(second_child).copied().unwrap_or(count);
-                open[k] = open.get(first_child).copied().unwrap_or(0)
-                    + open.get(second_child).copied().unwrap_or(0);
+
+                let open_in_first = open.get(first_child).copied().unwrap_or(0);
+                let open_in_second = open.get(second_child).copied().unwrap_or(0);
+                open[k] = open_in_first + open_in_second;
             } else {
                 end[k] = k + 1;
                 open[k] = usize::from(*nodes[k].node == Node::Open);
@@ -138,16 +145,20 @@ impl<'a> Preorder<'a> {
         // Pairs of subtrees of one region that are still to be joined, the next one last.
         let mut waiting = vec![(0, 0)];
         while let Some((mine, theirs)) = waiting.pop() {
-            let (Some(my_node), Some(their_node)) = (self.nodes.get(mine), other.nodes.get(theirs))
-            else {
+            let Some(my_node) = self.nodes.get(mine) else {
+                continue;
+            };
+            let Some(their_node) = other.nodes.get(theirs) else {
                 continue;
             };
 
             let both_open = self.open[mine] > 0 && other.open[theirs] > 0;
-            if both_open && is_inner(my_node.node) && my_node.node == their_node.node {
+            let divide_alike = is_inner(my_node.node) && my_node.node == their_node.node;
+            if both_open && divide_alike {
                 nodes.push(*my_node);
-                let second_halves = (self.end_of(mine + 1), other.end_of(theirs + 1));
-                waiting.push(second_halves);
+                let my_second_half = self.end_of(mine + 1);
+                let their_second_half = other.end_of(theirs + 1);
+                waiting.push((my_second_half, their_second_half));
                 waiting.push((mine + 1, theirs + 1));
             } else if self.is_no_worse(mine, other, theirs) {
                 nodes.extend_from_slice(&self.nodes[mine..self.end[mine]]);
@@ -160,7 +171,10 @@ impl<'a> Preorder<'a> {
     }
 
     fn end_of(&self, k: usize) -> usize {
-        self.end.get(k).copied().unwrap_or(self.nodes.len())
+        match self.end.get(k) {
+            Some(end) => *end,
+            None => self.nodes.len(),
+        }
     }
 
     /// Has this subtree no more left to prove than the other one of the same region? An open leaf

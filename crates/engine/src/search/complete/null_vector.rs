@@ -61,7 +61,7 @@ pub(crate) fn null_vector(
 impl NullVector {
     /// x over all `order` positions, signed so that its sum is not negative.
     pub(crate) fn spread(&self, order: usize) -> Vec<f64> {
-        let sum = self.right.iter().sum::<f64>();
+        let sum: f64 = self.right.iter().sum();
         let sign = if sum < 0.0 { -1.0 } else { 1.0 };
 
         let mut x = vec![0.0; order];

@@ -48,7 +48,10 @@ impl Chosen {
     }
 
     fn takes(&self, place: LeafPlace) -> bool {
-        self.places().is_none_or(|places| places.contains(&place))
+        match self.places() {
+            Some(places) => places.contains(&place),
+            None => true,
+        }
     }
 
     /// Is a leaf of this piece chosen?

@@ -37,9 +37,15 @@ fn holds_at_both_ends(ends: &Ends, states: &[State], sign: f64) -> bool {
 /// Is the symmetric part exactly zero on what may be in the support? Enough at an infinite end.
 fn vanishes(m: &Matrix, states: &[State]) -> bool {
     let possible = possible_support(states);
-    possible
-        .iter()
-        .all(|&i| possible.iter().all(|&j| m[i][j] + m[j][i] == 0.0))
+    for &i in &possible {
+        for &j in &possible {
+            if m[i][j] + m[j][i] != 0.0 {
+                return false;
+            }
+        }
+    }
+
+    true
 }
 
 /// Is `sign` sym(M) positive definite on what may be in the support, for every M within `radius`

@@ -102,7 +102,8 @@ fn without(pencil: &Pencil, left_out: &[usize]) -> Option<Pencil> {
 
 /// sym(A + tB).
 fn symmetric_at(pencil: &Pencil, t: &Rational) -> Vec<Vec<Rational>> {
-    symmetric(&pencil.a().add_scaled(t, pencil.b()).to_dense())
+    let matrix = pencil.a().add_scaled(t, pencil.b());
+    symmetric(&matrix.to_dense())
 }
 
 fn symmetric(m: &Dense) -> Vec<Vec<Rational>> {

@@ -350,17 +350,20 @@ impl Condensed<'_> {
         let a = to_f64(&self.pencil.a().get(row, column));
         let b = to_f64(&self.pencil.b().get(row, column));
 
+        // T_ss.
         let mut entry = vec![0.0; self.degree() + 1];
         entry[0] += a + self.center * b;
         entry[1] += b;
 
+        // T_sf W.
         for (k, w) in self.right.iter().enumerate() {
+            let by_constant = dot(&sf.constant[i], &w[j]);
             let by_slope = dot(&sf.slope[i], &w[j]);
-            entry[k] -= dot(&sf.constant[i], &w[j]) + self.center * by_slope;
+            entry[k] -= by_constant + self.center * by_slope;
             entry[k + 1] -= by_slope;
         }
 
-        // The coefficients of r below the degree of W are rounding, which is bounded elsewhere.
+        // V'r. The coefficients of r up to the degree of W are rounding, bounded elsewhere.
         let first = self.right.len();
         for (k, v) in self.left.iter().enumerate() {
             for (m, r) in self.right_residual.iter().enumerate().skip(first) {

@@ -75,6 +75,14 @@ impl Ends {
         }
     }
 
+    /// Radius of entry (i, j) of (hi - lo) T' about m[1] - m[0].
+    pub(crate) fn slope_radius(&self, i: usize, j: usize) -> f64 {
+        match &self.slope {
+            Some(radius) => radius[i][j],
+            None => 0.0,
+        }
+    }
+
     pub(crate) fn is_half_line(&self) -> bool {
         self.hi.is_infinite()
     }
@@ -95,8 +103,9 @@ struct Remainder {
 
 impl Remainder {
     fn at(&self, i: usize, j: usize) -> f64 {
-        self.caution
-            * (self.left[i] * self.right[j] + self.left_solution[i] * self.rounding[j] + self.noise)
+        let by_residuals = self.left[i] * self.right[j];
+        let by_rounding = self.left_solution[i] * self.rounding[j];
+        self.caution * (by_residuals + by_rounding + self.noise)
     }
 }
 
@@ -120,9 +129,11 @@ impl Expansion {
 
     /// The chord between two matrices, from 0 to 1.
     pub(crate) fn line(ends: &[Matrix; 2]) -> Expansion {
-        let mut slope = Vec::new();
-        for (first, last) in ends[0].iter().zip(&ends[1]) {
-            slope.push(first.iter().zip(last).map(|(a, b)| b - a).collect());
+        let mut slope = ends[1].clone();
+        for (row, first_row) in slope.iter_mut().zip(&ends[0]) {
+            for (last, first) in row.iter_mut().zip(first_row) {
+                *last -= first;
+            }
         }
 
         Expansion::linear(ends[0].clone(), slope)
@@ -169,7 +180,8 @@ impl Expansion {
         let mut sum = zeros(self.order());
 
         for coefficient in self.coefficients.iter().rev() {
-            for (s, z) in sum.iter_mut().flatten().zip(coefficient.iter().flatten()) {
+            let entries = coefficient.iter().flatten();
+            for (s, z) in sum.iter_mut().flatten().zip(entries) {
                 *s = *s * d + z;
             }
         }
@@ -182,9 +194,11 @@ impl Expansion {
         let d = self.argument(t) - self.center;
         let mut sum = zeros(self.order());
 
-        for (k, coefficient) in self.coefficients.iter().enumerate().skip(1).rev() {
-            for (s, z) in sum.iter_mut().flatten().zip(coefficient.iter().flatten()) {
-                *s = *s * d + k as f64 * z;
+        for k in (1..self.coefficients.len()).rev() {
+            let factor = k as f64;
+            let entries = self.coefficients[k].iter().flatten();
+            for (s, z) in sum.iter_mut().flatten().zip(entries) {
+                *s = *s * d + factor * z;
             }
         }
 
@@ -280,9 +294,10 @@ impl Expansion {
         let width = hi - lo;
         let mut bound = zeros(self.order());
 
-        for (k, coefficient) in self.coefficients.iter().enumerate().skip(2).rev() {
+        for k in (2..self.coefficients.len()).rev() {
             let factor = (k * (k - 1)) as f64;
-            for (s, z) in bound.iter_mut().flatten().zip(coefficient.iter().flatten()) {
+            let entries = self.coefficients[k].iter().flatten();
+            for (s, z) in bound.iter_mut().flatten().zip(entries) {
                 *s = *s * reach + factor * z.abs() * width * width;
             }
         }

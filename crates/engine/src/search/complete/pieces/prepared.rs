@@ -156,12 +156,14 @@ impl Prepared {
     /// doubles are not part of them. From then on leaves at infinity are not tried either. Does
     /// that change anything? Without remainders only the first time.
     pub(crate) fn enlarge_remainders(&mut self) -> bool {
-        let is_first = self.view.expansions.iter().all(|e| e.caution == 1.0);
-        for expansion in &mut self.view.expansions {
+        let expansions = &mut self.view.expansions;
+        let is_first = expansions.iter().all(|e| e.caution == 1.0);
+        for expansion in expansions.iter_mut() {
             expansion.caution *= CAUTION;
         }
 
-        is_first || self.view.expansions.iter().any(|e| !e.is_everywhere())
+        let has_remainders = expansions.iter().any(|e| !e.is_everywhere());
+        is_first || has_remainders
     }
 
     /// The same without remainders, for a first look at where the solutions are.
@@ -221,7 +223,8 @@ impl Prepared {
     /// Up to where the anchor about a value is used: the expansions reach as far as value + lowest
     /// frequency.
     fn reach(&self, value: f64) -> f64 {
-        (NEAR * (value + self.lowest_frequency)).min(0.5 * value)
+        let by_frequency = NEAR * (value + self.lowest_frequency);
+        by_frequency.min(0.5 * value)
     }
 
     /// Gives the interval around a value to this anchor; the rest of the intervals that it meets

@@ -32,14 +32,19 @@ pub(crate) struct Skyline {
 impl Skyline {
     /// The symmetric part of a sparse matrix.
     pub(crate) fn symmetric(m: &Sparse) -> Skyline {
-        let n = m.rows();
-        let mut first: Vec<usize> = (0..n).collect();
+        let mut first: Vec<usize> = (0..m.rows()).collect();
         for (i, j, _) in m.entries() {
             let row = i.max(j);
-            first[row] = first[row].min(i.min(j));
+            let column = i.min(j);
+            first[row] = first[row].min(column);
         }
 
-        let mut rows: Vec<Vec<f64>> = (0..n).map(|i| vec![0.0; i + 1 - first[i]]).collect();
+        let mut rows = Vec::with_capacity(m.rows());
+        for (i, begin) in first.iter().enumerate() {
+            let length = i + 1 - begin;
+            rows.push(vec![0.0; length]);
+        }
+
         for (i, j, v) in m.entries() {
             let row = i.max(j);
             let column = i.min(j);
@@ -102,11 +107,21 @@ impl Skyline {
     }
 
     pub(crate) fn smallest_diagonal(&self) -> f64 {
-        self.diagonal().fold(f64::INFINITY, |s, v| v.min(s))
+        let mut smallest = f64::INFINITY;
+        for &entry in self.diagonal() {
+            smallest = entry.min(smallest);
+        }
+
+        smallest
     }
 
     pub(crate) fn largest_diagonal(&self) -> f64 {
-        self.diagonal().fold(0.0, |s, v| v.max(s))
+        let mut largest = 0.0;
+        for &entry in self.diagonal() {
+            largest = entry.max(largest);
+        }
+
+        largest
     }
 
     /// The Cholesky factor, `None` where a pivot is not positive.
@@ -237,13 +252,18 @@ impl Skyline {
 
     /// An estimate of the smallest eigenvalue of L L', by inverse iteration.
     fn smallest_eigenvalue(&self) -> f64 {
-        let mut v: Vec<f64> = (0..self.rows.len())
-            .map(|i| 1.0 + 0.1 * ((i * 7919) % 13) as f64)
-            .collect();
+        let mut v = Vec::with_capacity(self.rows.len());
+        for i in 0..self.rows.len() {
+            // Any start without symmetry will do.
+            let digit = (i * 7919) % 13;
+            v.push(1.0 + 0.1 * digit as f64);
+        }
+
         let mut estimate = f64::INFINITY;
 
         for _ in 0..INVERSE_STEPS {
-            let norm = v.iter().map(|x| x * x).sum::<f64>().sqrt();
+            let square: f64 = v.iter().map(|x| x * x).sum();
+            let norm = square.sqrt();
             v.iter_mut().for_each(|x| *x /= norm);
 
             let before = v.clone();

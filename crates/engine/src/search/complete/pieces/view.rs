@@ -95,12 +95,13 @@ pub(crate) fn row_factor(pencil: &Pencil, i: usize) -> Rational {
     let b = pencil.b().row(i);
     let clear = common_denominator(a.iter().chain(b).map(|(_, v)| v));
 
-    let bits_of_a = a
-        .iter()
-        .map(|(_, v)| (v.numer() * (&clear / v.denom())).bits())
-        .max()
-        .unwrap_or(0);
-    Rational::new(clear, Integer::one() << bits_of_a.max(1))
+    let mut bits = 1;
+    for (_, v) in a {
+        let cleared = v.numer() * (&clear / v.denom());
+        bits = cleared.bits().max(bits);
+    }
+
+    Rational::new(clear, Integer::one() << bits)
 }
 
 /// Ratio of the largest entries of the first two coefficients, 1 where that says nothing.

@@ -122,13 +122,14 @@ impl Approximation {
         for (u, &i) in left.iter().zip(&support) {
             for (v, &j) in right.iter().zip(&support) {
                 let difference = ends.m[1][i][j] - ends.m[0][i][j];
-                let radius = ends.slope.as_ref().map_or(0.0, |s| s[i][j]);
-                let vectors_around =
-                    u.error * v.value.abs() + u.value.abs() * v.error + u.error * v.error;
-
+                let radius = ends.slope_radius(i, j);
                 slope += u.value * difference * v.value;
-                around += radius * (u.value * v.value).abs()
-                    + (difference.abs() + radius) * vectors_around;
+
+                // What u v may differ from its approximation by, for each unit of the entry.
+                let product_error = u.product_error(v);
+                let by_radius = radius * (u.value * v.value).abs();
+                let by_vectors = (difference.abs() + radius) * product_error;
+                around += by_radius + by_vectors;
             }
         }
 
@@ -198,6 +199,13 @@ impl Component {
             error: 0.0,
         });
         list
+    }
+
+    /// Bound of the error of a product of two components.
+    fn product_error(&self, other: &Component) -> f64 {
+        let by_first = self.error * other.value.abs();
+        let by_second = self.value.abs() * other.error;
+        by_first + by_second + self.error * other.error
     }
 }
 

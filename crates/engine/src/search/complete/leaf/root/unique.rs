@@ -247,8 +247,13 @@ fn middle_block(wide: &Ends, indices: &[usize]) -> Matrix {
 
 /// The components but the one at `place`, divided by that one.
 fn scaled_without(list: &[f64], place: usize) -> Vec<f64> {
-    let mut scaled: Vec<f64> = list.iter().map(|v| v / list[place]).collect();
+    let at_place = list[place];
+    let mut scaled = list.to_vec();
     scaled.remove(place);
+    for v in &mut scaled {
+        *v /= at_place;
+    }
+
     scaled
 }
 

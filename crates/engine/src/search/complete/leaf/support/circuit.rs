@@ -57,7 +57,12 @@ pub(super) fn constants(row: &[Poly], t: &Rational) -> Vec<Poly> {
 
 /// The coefficients of each polynomial, constant term first.
 pub(super) fn coefficients(v: &[Poly]) -> Vec<Vec<Integer>> {
-    v.iter().map(|p| p.coeffs().to_vec()).collect()
+    let mut coefficients = Vec::with_capacity(v.len());
+    for p in v {
+        coefficients.push(p.coeffs().to_vec());
+    }
+
+    coefficients
 }
 
 /// A vector and one more polynomial.
