@@ -140,22 +140,14 @@ fn open_leaves(given: &Given<'_>, prepared: &Prepared, set: &CompleteSet) -> Vec
         for (node, what) in piece.tree.iter().enumerate() {
             // The checker has accepted the tree, so it does not end early.
             let Some(region) = waiting.pop() else { break };
-            match what {
-                Node::Split(cut) => {
-                    waiting.push(region.above(&cut.0));
-                    waiting.push(region.below(&cut.0));
-                }
-                Node::Branch(variable) => {
-                    let position = view.position(*variable).unwrap_or(0);
-                    waiting.push(region.with(position, State::InSupport));
-                    waiting.push(region.with(position, State::AtZero));
-                }
-                Node::Open if is_enclosed && may_have_root(&region) => leaves.push(OpenLeaf {
+            if let Some(parts) = region.parts(what, view) {
+                waiting.extend(parts);
+            } else if *what == Node::Open && is_enclosed && may_have_root(&region) {
+                leaves.push(OpenLeaf {
                     piece: k,
                     node,
                     region,
-                }),
-                _ => {}
+                });
             }
         }
 
@@ -201,10 +193,17 @@ fn root(
     }
 
     let mut root = unique.witness(index, [begin, end], RootOutcome::Solution);
-    let at_pivot = precise.x.iter().find(|(i, _)| *i == root.pivot);
-    let scale = at_pivot.map(|(_, x)| x.clone()).filter(|x| !x.is_zero())?;
-    let x = divided(&precise.x, &scale);
-    let y = divided(&precise.y, &scale);
+    write_signs(&mut root, &precise.x, &precise.y)?;
+    Some(root)
+}
+
+/// Puts the long null vector x, scaled to 1 at the pivot, and what its signs and those of y say
+/// into a root; `None` where x is zero at the pivot.
+fn write_signs(root: &mut Root, x: &[Component], y: &[Component]) -> Option<()> {
+    let at_pivot = x.iter().find(|(i, _)| *i == root.pivot);
+    let scale = at_pivot.map(|(_, x)| x).filter(|x| !x.is_zero())?;
+    let x = divided(x, scale);
+    let y = divided(y, scale);
 
     let more_bits = VECTOR_BITS - root.exponent;
     for u in &mut root.left {
@@ -218,7 +217,7 @@ fn root(
         .collect();
     root.exponent = VECTOR_BITS;
     root.outcome = outcome(&x, &y);
-    Some(root)
+    Some(())
 }
 
 /// The null vector in doubles over the variables of the pencil.

@@ -7,6 +7,7 @@
 //! Variables are named by their *position* in the view of the pencil; `View::index` gives their
 //! numbers in the pencil.
 
+use super::pieces::view::View;
 use mceip_check::certificate::{Claim, Node, Root, RootOutcome};
 use mceip_exact::Rational;
 
@@ -98,6 +99,21 @@ impl Region {
         let mut part = self.clone();
         part.states[position] = state;
         part
+    }
+
+    /// The two parts into which an inner node of a tree divides the region, the one that comes first
+    /// in preorder last; `None` for a leaf.
+    pub(crate) fn parts(&self, node: &Node, view: &View) -> Option<[Region; 2]> {
+        match node {
+            Node::Split(cut) => Some([self.above(&cut.0), self.below(&cut.0)]),
+            Node::Branch(variable) => {
+                let position = view.position(*variable).unwrap_or(0);
+                let in_support = self.with(position, State::InSupport);
+                let at_zero = self.with(position, State::AtZero);
+                Some([in_support, at_zero])
+            }
+            _ => None,
+        }
     }
 
     pub(crate) fn is_decided(&self) -> bool {

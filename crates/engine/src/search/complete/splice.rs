@@ -10,7 +10,7 @@
 use super::given::Given;
 use super::options::Options;
 use super::pieces::prepared::Prepared;
-use super::region::{Item, Region, State};
+use super::region::{Item, Region};
 use super::shares::Shares;
 use super::tree::Search;
 use mceip_check::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
@@ -132,53 +132,46 @@ impl Pass<'_> {
     fn splice(&self, search: &mut Search<'_>, k: usize) {
         let piece = &self.set.pieces[k];
         let hi = piece.max.as_ref().map(|number| number.0.clone());
-        // A piece beyond the anchors has no matrices to search with.
-        let is_enclosed = piece.anchor.is_some() || search.expansion.is_everywhere();
-        let by_enclosures = is_enclosed && !matches!(self.chosen, Chosen::Exactly(_));
-
         let mut waiting = vec![Waiting {
             region: Region::whole(self.begin(k), hi, search.view.order()),
             share: 1.0 / self.set.pieces.len() as f64,
         }];
+
         for (place, node) in piece.tree.iter().enumerate() {
             // The checker has accepted the tree, so it does not end early.
-            let Some(Waiting { region, share }) = waiting.pop() else {
+            let Some(here) = waiting.pop() else {
                 return;
             };
 
-            match node {
-                Node::Open if !self.chosen.takes((k, place)) => {
-                    search.items.push(Item::Node(Node::Open));
-                }
-                Node::Open if by_enclosures => search.region(&region, share),
-                Node::Open => search.by_support(&region, share),
-                inner_or_closed => {
-                    search.items.push(Item::Node(inner_or_closed.clone()));
-                    match parts(inner_or_closed, &region, search) {
-                        Some(parts) => waiting.extend(parts.map(|region| Waiting {
-                            region,
-                            share: share / 2.0,
-                        })),
-                        None => self.shares.closed(share, false),
-                    }
-                }
+            if let Some(parts) = here.region.parts(node, search.view) {
+                search.items.push(Item::Node(node.clone()));
+                let share = here.share / 2.0;
+                waiting.extend(parts.map(|region| Waiting { region, share }));
+            } else if *node == Node::Open && self.chosen.takes((k, place)) {
+                self.search_leaf(search, &here, piece);
+            } else {
+                self.copy_leaf(search, &here, node);
             }
         }
     }
-}
 
-/// The two parts into which an inner node divides its region, the one that follows first last;
-/// `None` for a leaf.
-fn parts(node: &Node, region: &Region, search: &Search<'_>) -> Option<[Region; 2]> {
-    match node {
-        Node::Split(cut) => Some([region.above(&cut.0), region.below(&cut.0)]),
-        Node::Branch(variable) => {
-            let position = search.view.position(*variable).unwrap_or(0);
-            let in_support = region.with(position, State::InSupport);
-            let at_zero = region.with(position, State::AtZero);
-            Some([in_support, at_zero])
+    /// Searches the region of an open leaf.
+    fn search_leaf(&self, search: &mut Search<'_>, leaf: &Waiting, piece: &Piece) {
+        // A piece beyond the anchors has no matrices to search with.
+        let is_enclosed = piece.anchor.is_some() || search.expansion.is_everywhere();
+        let is_exact = matches!(self.chosen, Chosen::Exactly(_));
+        if is_enclosed && !is_exact {
+            search.region(&leaf.region, leaf.share);
+        } else {
+            search.by_support(&leaf.region, leaf.share);
         }
-        _ => None,
+    }
+
+    fn copy_leaf(&self, search: &mut Search<'_>, leaf: &Waiting, node: &Node) {
+        search.items.push(Item::Node(node.clone()));
+        if *node != Node::Open {
+            self.shares.closed(leaf.share, false);
+        }
     }
 }
 

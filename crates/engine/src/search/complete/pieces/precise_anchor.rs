@@ -46,7 +46,8 @@ pub(crate) fn precise_anchor(
 
         for _ in 0..ROUNDS {
             let before = k.checked_sub(1).map(|p| &anchor.right[p]);
-            let mut columns = residual(&rows, k, &anchor.right[k], before);
+            let equation = Equation::new(k, &anchor.right[k], before);
+            let mut columns = equation.residual(&rows);
             factor.solve_all(&mut columns);
             if add(&mut anchor.right[k], &columns)? {
                 break;
@@ -159,45 +160,68 @@ fn widen(matrix: &mut IntegerMatrix, bits: u32) {
     matrix.exponent += more as u32;
 }
 
-/// The residual of W_k's equation in doubles, by columns. `before` is W_(k-1).
-fn residual(
-    rows: &[FreeRow],
+/// The equation of one coefficient W_k, with what is known of its solution.
+struct Equation<'a> {
     k: usize,
-    w: &IntegerMatrix,
-    before: Option<&IntegerMatrix>,
-) -> Vec<Vec<f64>> {
-    let width = w.rows.first().map_or(0, Vec::len);
-    let exponent = w.exponent.max(before.map_or(0, |m| m.exponent));
-    let lift = exponent - w.exponent;
-    let lift_before = before.map_or(0, |m| exponent - m.exponent);
+    w: &'a IntegerMatrix,
+    /// W_(k-1).
+    before: Option<&'a IntegerMatrix>,
+    /// Binary exponent of the residual, no less than those of `w` and `before`.
+    exponent: u32,
+}
 
-    let mut columns = vec![vec![0.0; rows.len()]; width];
-    for (i, row) in rows.iter().enumerate() {
+impl Equation<'_> {
+    fn new<'a>(k: usize, w: &'a IntegerMatrix, before: Option<&'a IntegerMatrix>) -> Equation<'a> {
+        let exponent_before = before.map_or(0, |m| m.exponent);
+        Equation {
+            k,
+            w,
+            before,
+            exponent: w.exponent.max(exponent_before),
+        }
+    }
+
+    /// The residual in doubles, by columns.
+    fn residual(&self, rows: &[FreeRow]) -> Vec<Vec<f64>> {
+        let width = self.w.rows.first().map_or(0, Vec::len);
+        let mut columns = vec![vec![0.0; rows.len()]; width];
+
+        for (i, row) in rows.iter().enumerate() {
+            let sums = self.row_residual(row, width);
+            let unit = &row.multiple << self.exponent;
+            for (column, sum) in columns.iter_mut().zip(sums) {
+                column[i] = to_f64(&Rational::new_raw(sum, unit.clone()));
+            }
+        }
+
+        columns
+    }
+
+    /// One row of the residual, in units of the row's multiple times 2^`exponent`.
+    fn row_residual(&self, row: &FreeRow, width: usize) -> Vec<Integer> {
         let mut sums = vec![Integer::zero(); width];
         for entry in &row.slip {
-            match k {
-                0 => sums[entry.position] += &entry.at_center << exponent,
-                1 => sums[entry.position] += &entry.slope << exponent,
+            match self.k {
+                0 => sums[entry.position] += &entry.at_center << self.exponent,
+                1 => sums[entry.position] += &entry.slope << self.exponent,
                 _ => {}
             }
         }
 
         for entry in &row.free {
+            let lift = self.exponent - self.w.exponent;
             let factor = &entry.at_center << lift;
-            subtract(&mut sums, &factor, &w.rows[entry.position]);
-            if let Some(before) = before.filter(|_| !entry.slope.is_zero()) {
-                let factor = &entry.slope << lift_before;
+            subtract(&mut sums, &factor, &self.w.rows[entry.position]);
+
+            if let Some(before) = self.before.filter(|_| !entry.slope.is_zero()) {
+                let lift = self.exponent - before.exponent;
+                let factor = &entry.slope << lift;
                 subtract(&mut sums, &factor, &before.rows[entry.position]);
             }
         }
 
-        let unit = &row.multiple << exponent;
-        for (column, sum) in columns.iter_mut().zip(sums) {
-            column[i] = to_f64(&Rational::new_raw(sum, unit.clone()));
-        }
+        sums
     }
-
-    columns
 }
 
 /// sums -= factor row.

@@ -15,8 +15,8 @@ use super::circuit::{
 };
 use mceip_check::certificate::{Alone, Exact, Member, Polynomials};
 use mceip_exact::{
-    Algebraic, Integer, Poly, Rational, Sign, cone_generators, determinant, first_row_cofactors,
-    generic_kernel, kernel_at,
+    Algebraic, Generators, Integer, Poly, Rational, Sign, cone_generators, determinant,
+    first_row_cofactors, generic_kernel, kernel_at,
 };
 use mceip_model::Pencil;
 
@@ -140,32 +140,52 @@ impl Supported {
             return Some(regular.weights.clone());
         }
 
-        let basis: Vec<Vec<Poly>> = kernel_at(self.block(&self.active, &self.active), value)
-            .iter()
-            .map(|v| value.reduce(v))
-            .collect();
+        let matrix = self.block(&self.active, &self.active);
+        let mut basis = kernel_at(matrix, value);
+        for vector in &mut basis {
+            *vector = value.reduce(vector);
+        }
+
         // One scale for all: mu and the basis refer to it.
         let rows = self.signed_rows(&basis);
         let kernel = Kernel { basis, rows };
         let cone = cone_generators(&kernel.rows, kernel.basis.len(), value);
 
         let x = sum(cone.rays.iter().map(|z| combined(&kernel.basis, z)));
-        if let Some(x) = x.filter(|x| self.is_positive(x, &Place::At(value))) {
-            let alone = if kernel.basis.len() == 1 {
-                Some(self.alone(&Place::At(value))?.proof)
-            } else if cone.rays.len() == 1 && cone.lineality.is_empty() {
-                let reduced = value.reduce(&x);
-                Some(self.alone_in_wide(&reduced, &kernel, &cone.rays[0], value)?)
-            } else {
-                None
-            };
-
-            return Some(self.member(&value.reduce(&x), alone));
+        match x.filter(|x| self.is_positive(x, &Place::At(value))) {
+            Some(x) => self.member_at(&x, &kernel, &cone, value),
+            None => self.weights_at(&kernel, value),
         }
+    }
 
-        let mu = circuit_at(&kernel.rows, self.support.len(), kernel.basis.len(), value)?;
+    /// A solution at a value. `cone` holds all z with G z >= 0 there.
+    fn member_at(
+        &self,
+        x: &[Poly],
+        kernel: &Kernel,
+        cone: &Generators,
+        value: &mut Algebraic,
+    ) -> Option<Exact> {
+        let is_one_ray = cone.rays.len() == 1 && cone.lineality.is_empty();
+        let alone = if kernel.basis.len() == 1 {
+            Some(self.alone(&Place::At(value))?.proof)
+        } else if is_one_ray {
+            let reduced = value.reduce(x);
+            Some(self.alone_in_wide(&reduced, kernel, &cone.rays[0], value)?)
+        } else {
+            None
+        };
+
+        Some(self.member(&value.reduce(x), alone))
+    }
+
+    /// The Farkas vector at a value without a solution.
+    fn weights_at(&self, kernel: &Kernel, value: &mut Algebraic) -> Option<Exact> {
+        let strict = self.support.len();
+        let mu = circuit_at(&kernel.rows, strict, kernel.basis.len(), value)?;
+
         let place = Place::At(value);
-        let weights = self.weights(mu.split_at(self.support.len()), &place)?;
+        let weights = self.weights(mu.split_at(strict), &place)?;
         let reduced = place.reduced(&weights);
         Some(Exact::None(Polynomials(coefficients(&reduced))))
     }
@@ -187,14 +207,17 @@ impl Supported {
 
         let rows = self.signed_rows(&basis);
         let kernel = Kernel { basis, rows };
-        let here: Vec<Vec<Poly>> = kernel.rows.iter().map(|r| constants(r, t)).collect();
+        let mut here = Vec::with_capacity(kernel.rows.len());
+        for row in &kernel.rows {
+            here.push(constants(row, t));
+        }
+
         let mut value = Algebraic::rational(t.clone());
         let cone = cone_generators(&here, kernel.basis.len(), &mut value);
-        let rays: Vec<Vec<Poly>> = cone
-            .rays
-            .iter()
-            .map(|z| generic_ray(&kernel.rows, &here, z, t))
-            .collect::<Option<_>>()?;
+        let mut rays = Vec::with_capacity(cone.rays.len());
+        for z in &cone.rays {
+            rays.push(generic_ray(&kernel.rows, &here, z, t)?);
+        }
 
         let x = sum(rays.iter().map(|z| combined(&kernel.basis, z)));
         if let Some(x) = x.filter(|x| self.is_positive(x, &Place::Around(t))) {
@@ -206,7 +229,8 @@ impl Supported {
             return self.member_around(x, &kernel, only_ray, t);
         }
 
-        let mu = circuit_at(&here, self.support.len(), kernel.basis.len(), &mut value)?;
+        let strict = self.support.len();
+        let mu = circuit_at(&here, strict, kernel.basis.len(), &mut value)?;
         let mu = generic_circuit(&kernel.rows, &mu, t)?;
         self.weights_around(&mu, t)
     }
