@@ -1,9 +1,15 @@
-//! The curves mu(lambda^2) of a contact state, level by level: for a fixed lambda^2 MCEIP-lambda2
-//! is MCEIP-mu with K + lambda^2 M in the place of K, so a complete search finds every mu of a
-//! level.
+//! The curves mu(lambda^2) of a contact state, level by level.
+//!
+//! For a fixed lambda^2 MCEIP-lambda2 is MCEIP-mu with K* = K + lambda^2 M in the place of K, so a
+//! complete search finds every mu of a level. With the blocks of (16), the free variables
+//! eliminated:
+//!
+//! ```text
+//!     A = K0*_ss - K0*_sf (K0*_ff)^-1 K0*_fs,    B = K1*_ss - K1*_sf (K0*_ff)^-1 K0*_fs.
+//! ```
 //!
 //! The pencil of a level is condensed in doubles; its complete set is that of the rounded pencil.
-//! For pictures, and for starts of what is certified elsewhere.
+//! For pictures, and for starts of what is certified elsewhere. Called by `mceip block`.
 
 use super::complete::{CompleteError, Options, complete};
 use crate::reduction::{Variable, mu_family};
@@ -39,8 +45,11 @@ pub struct Levels {
     variables: Vec<Variable>,
     dofs: usize,
     free: usize,
-    /// K0, K1, M0, M1 over f, then s.
-    blocks: [Vec<Vec<f64>>; 4],
+    /// The blocks over f, then s.
+    k0: Vec<Vec<f64>>,
+    k1: Vec<Vec<f64>>,
+    m0: Vec<Vec<f64>>,
+    m1: Vec<Vec<f64>>,
 }
 
 /// A level: the condensed pencil A + mu B, and how free variables follow the slip variables.
@@ -73,27 +82,29 @@ impl Levels {
     pub fn new(system: &System) -> Result<Levels, LevelError> {
         let family = mu_family(system)?;
         let n = family.stiffness.order();
-        let both = |p: &Pencil| (doubles(p.a()), doubles(p.b()));
-        let (k0, k1) = both(&family.stiffness);
-        let (m0, m1) = family
-            .mass
-            .as_ref()
-            .map_or_else(|| (vec![vec![0.0; n]; n], vec![vec![0.0; n]; n]), both);
-        let free = family.stiffness.free().len();
+        let massless = vec![vec![0.0; n]; n];
+        let mass = family.mass.as_ref();
         Ok(Levels {
-            variables: family.variables,
+            free: family.stiffness.free().len(),
             dofs: system.stiffness().rows(),
-            free,
-            blocks: [k0, k1, m0, m1],
+            k0: doubles(family.stiffness.a()),
+            k1: doubles(family.stiffness.b()),
+            m0: mass.map_or_else(|| massless.clone(), |m| doubles(m.a())),
+            m1: mass.map_or_else(|| massless.clone(), |m| doubles(m.b())),
+            variables: family.variables,
         })
     }
 
     /// The square of the lowest natural frequency of K0, M0 (the slip nodes free to move along the
     /// obstacle without friction), 1/s^2: the measure of lambda^2. `None` without a mass.
     pub fn lowest_frequency2(&self) -> Option<f64> {
-        let [k0, _, m0, _] = &self.blocks;
-        let largest = *linear::definite_eigenvalues(m0, k0)?.last()?;
-        (largest > 0.0).then(|| largest.recip())
+        let reciprocals = linear::definite_eigenvalues(&self.m0, &self.k0)?;
+        let largest = *reciprocals.last()?;
+        if largest > 0.0 {
+            Some(largest.recip())
+        } else {
+            None
+        }
     }
 
     /// The level lambda^2 >= 0.
@@ -101,56 +112,79 @@ impl Levels {
     /// # Errors
     /// [`LevelError::Singular`].
     pub fn at(&self, lambda2: f64) -> Result<Level, LevelError> {
-        let (f, n) = (self.free, self.blocks[0].len());
-        let [k0, k1, m0, m1] = &self.blocks;
-        let star0 = |i: usize, j: usize| k0[i][j] + lambda2 * m0[i][j];
-        let star1 = |i: usize, j: usize| k1[i][j] + lambda2 * m1[i][j];
-        let inside: Vec<Vec<f64>> = (0..f)
-            .map(|i| (0..f).map(|j| star0(i, j)).collect())
-            .collect();
-        let columns: Vec<Vec<f64>> = (f..n)
-            .map(|j| (0..f).map(|i| -star0(i, j)).collect())
-            .collect();
-        let follow = if f == 0 {
+        let n = self.k0.len();
+        let star0 = sum(&self.k0, lambda2, &self.m0);
+        let star1 = sum(&self.k1, lambda2, &self.m1);
+        let follow = if self.free == 0 {
             vec![Vec::new(); n]
         } else {
-            linear::solve(&inside, &columns).ok_or(LevelError::Singular { lambda2 })?
+            follow(&star0, self.free).ok_or(LevelError::Singular { lambda2 })?
         };
-        let condensed = |star: &dyn Fn(usize, usize) -> f64| -> Vec<Vec<f64>> {
-            let row: Vec<Vec<f64>> = (f..n)
-                .map(|i| (0..f).map(|k| star(i, k)).collect())
-                .collect();
-            let dot = |i: usize, j: usize| {
-                row[i - f]
-                    .iter()
-                    .zip(&follow[j - f])
-                    .map(|(r, w)| r * w)
-                    .sum::<f64>()
-            };
-            (f..n)
-                .map(|i| (f..n).map(|j| star(i, j) + dot(i, j)).collect())
-                .collect()
-        };
-        let (a, b) = (condensed(&star0), condensed(&star1));
+
         Ok(Level {
             lambda2,
-            a,
-            b,
+            a: condensed(&star0, &follow, self.free),
+            b: condensed(&star1, &follow, self.free),
             follow,
         })
     }
 
     /// v over all degrees of freedom of a solution on a level.
     pub fn mode(&self, level: &Level, x: &[f64]) -> Vec<f64> {
-        let free = (0..self.free).map(|i| {
-            x.iter()
-                .zip(&level.follow)
-                .map(|(x, w)| x * w[i])
-                .sum::<f64>()
-        });
-        let all: Vec<f64> = free.chain(x.iter().copied()).collect();
+        let mut all = Vec::with_capacity(self.free + x.len());
+        for i in 0..self.free {
+            let following = x.iter().zip(&level.follow).map(|(x, w)| x * w[i]);
+            all.push(following.sum::<f64>());
+        }
+
+        all.extend_from_slice(x);
         mode(&self.variables, &all, self.dofs)
     }
+}
+
+/// K + lambda^2 M.
+fn sum(k: &[Vec<f64>], lambda2: f64, m: &[Vec<f64>]) -> Vec<Vec<f64>> {
+    let mut rows = k.to_vec();
+    for (row, mass_row) in rows.iter_mut().zip(m) {
+        for (entry, mass) in row.iter_mut().zip(mass_row) {
+            *entry += lambda2 * mass;
+        }
+    }
+
+    rows
+}
+
+/// -F^-1 C by columns, F and C being the free rows over the first `free` and the other columns;
+/// `None` where F is singular in doubles.
+fn follow(star: &[Vec<f64>], free: usize) -> Option<Vec<Vec<f64>>> {
+    let free_rows = &star[..free];
+    let mut free_block = Vec::with_capacity(free);
+    for row in free_rows {
+        free_block.push(row[..free].to_vec());
+    }
+
+    let mut columns: Vec<Vec<f64>> = Vec::new();
+    for j in free..star.len() {
+        columns.push(free_rows.iter().map(|row| -row[j]).collect());
+    }
+
+    linear::solve(&free_block, &columns)
+}
+
+/// The slip rows with the free variables in terms of the slip variables.
+fn condensed(star: &[Vec<f64>], follow: &[Vec<f64>], free: usize) -> Vec<Vec<f64>> {
+    let mut rows = Vec::new();
+    for row in &star[free..] {
+        let mut condensed = row[free..].to_vec();
+        for (entry, following) in condensed.iter_mut().zip(follow) {
+            let by_free = row[..free].iter().zip(following).map(|(r, w)| r * w);
+            *entry += by_free.sum::<f64>();
+        }
+
+        rows.push(condensed);
+    }
+
+    rows
 }
 
 /// v over `dofs` degrees of freedom of x over the variables of a reduced system: stuck ones and the
@@ -160,11 +194,14 @@ pub fn mode(variables: &[Variable], x: &[f64], dofs: usize) -> Vec<f64> {
     for (variable, x) in variables.iter().zip(x) {
         match variable {
             Variable::Free { dof } => v[*dof] += x,
-            Variable::Slip { sign, tangent, .. } => tangent
-                .iter()
-                .for_each(|(dof, c)| v[*dof] -= f64::from(*sign) * to_f64(c) * x),
+            Variable::Slip { sign, tangent, .. } => {
+                for (dof, c) in tangent {
+                    v[*dof] -= f64::from(*sign) * to_f64(c) * x;
+                }
+            }
         }
     }
+
     v
 }
 
@@ -174,41 +211,58 @@ impl Level {
     /// # Errors
     /// [`LevelError`]; entries that are not finite are refused.
     pub fn solutions(&self, watch: &Watch<'_>) -> Result<(Vec<LevelSolution>, bool), LevelError> {
-        let n = self.a.len();
-        let exact = |rows: &[Vec<f64>]| -> Option<Sparse> {
-            let entry = |i: usize, j: usize| from_f64(rows[i][j]).ok().map(|v| (i, j, v));
-            let entries: Option<Vec<_>> = (0..n * n).map(|k| entry(k / n, k % n)).collect();
-            Some(Sparse::from_entries(n, n, entries?))
-        };
+        let pencil = self.pencil()?;
+        let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
+        let found = complete(&problem, &Options::default(), watch)?;
+
+        let mut solutions = Vec::new();
+        for (claim, x) in found.solutions() {
+            solutions.push(LevelSolution {
+                mu: to_f64(&claim.value.mid()),
+                support: claim.support.clone(),
+                x: x.to_vec(),
+            });
+        }
+
+        Ok((solutions, found.cover.is_plain_list()))
+    }
+
+    /// The condensed pencil as rounded.
+    fn pencil(&self) -> Result<Pencil, LevelError> {
         let singular = LevelError::Singular {
             lambda2: self.lambda2,
         };
-        let (Some(a), Some(b)) = (exact(&self.a), exact(&self.b)) else {
+
+        let Some(a) = exact(&self.a) else {
             return Err(singular);
         };
-        let problem = Problem::new(
-            Body::Pencil(Pencil::new(a, b, Vec::new())?),
-            Unknown::Mu,
-            Window::all(),
-        )?;
-        let found = complete(&problem, &Options::default(), watch)?;
-        let solution = |(claim, x): (&mceip_check::AcceptedClaim, &[f64])| LevelSolution {
-            mu: to_f64(&claim.value.mid()),
-            support: claim.support.clone(),
-            x: x.to_vec(),
+
+        let Some(b) = exact(&self.b) else {
+            return Err(singular);
         };
-        Ok((
-            found.solutions().map(solution).collect(),
-            found.cover.is_plain_list(),
-        ))
+
+        Ok(Pencil::new(a, b, Vec::new())?)
     }
+}
+
+/// A matrix of doubles as it is; `None` where an entry is not finite.
+fn exact(rows: &[Vec<f64>]) -> Option<Sparse> {
+    let mut entries = Vec::new();
+    for (i, row) in rows.iter().enumerate() {
+        for (j, v) in row.iter().enumerate() {
+            entries.push((i, j, from_f64(*v).ok()?));
+        }
+    }
+
+    Some(Sparse::from_entries(rows.len(), rows.len(), entries))
 }
 
 fn doubles(matrix: &Sparse) -> Vec<Vec<f64>> {
     let mut rows = vec![vec![0.0; matrix.cols()]; matrix.rows()];
-    matrix
-        .entries()
-        .for_each(|(i, j, v)| rows[i][j] = to_f64(v));
+    for (i, j, v) in matrix.entries() {
+        rows[i][j] = to_f64(v);
+    }
+
     rows
 }
 
@@ -231,22 +285,28 @@ mod tests {
             mu: whole(1),
             signs: (1, -1),
         };
+
         let levels = Levels::new(&two_particles(&data).unwrap()).unwrap();
+
         for t in [0.0, 0.5, 3.0] {
-            let (found, complete) = levels.at(t).unwrap().solutions(&Watch::nobody()).unwrap();
+            let level = levels.at(t).unwrap();
+            let (found, is_complete) = level.solutions(&Watch::nobody()).unwrap();
+
             let mut values: Vec<f64> = found.iter().map(|s| s.mu).collect();
             values.sort_by(f64::total_cmp);
             let first = (t + 1.36) / 0.48;
-            let expected = [first, first, (t + 2.36) / 0.48];
-            assert!(complete && values.len() == 3, "{values:?}");
-            assert!(
-                values
-                    .iter()
-                    .zip(expected)
-                    .all(|(v, e)| (v - e).abs() < 1e-9 * e),
-                "{values:?}"
-            );
+            let second = (t + 2.36) / 0.48;
+            assert!(is_complete);
+            assert_eq!(values.len(), 3, "{values:?}");
+            for (value, expected) in values.iter().zip([first, first, second]) {
+                assert!((value - expected).abs() < 1e-9 * expected, "{values:?}");
+            }
         }
+    }
+
+    /// Row i of a matrix times v.
+    fn row_times(matrix: &Sparse, i: usize, v: &[f64]) -> f64 {
+        matrix.row(i).iter().map(|(j, k)| to_f64(k) * v[*j]).sum()
     }
 
     /// A solution at some (lambda^2, mu) read both ways: at this mu the exact enumerator finds
@@ -258,36 +318,36 @@ mod tests {
         let levels = Levels::new(&block.system(&states, None).unwrap()).unwrap();
         let lambda2 = levels.lowest_frequency2().unwrap();
         let level = levels.at(lambda2).unwrap();
-        let (found, complete) = level.solutions(&Watch::nobody()).unwrap();
-        assert!(complete && !found.is_empty());
-        for s in &found {
-            let problem = block
-                .problem(&states, Some(from_f64(s.mu).unwrap()))
-                .unwrap();
-            let at_mu = enumerate(&reduce(&problem).unwrap().pencil, problem.window())
-                .unwrap()
-                .solutions;
-            let near = |v: &mceip_oracle::Solution| {
-                (v.decimal(17).parse::<f64>().unwrap() / lambda2 - 1.0).abs() < 1e-6
-            };
-            assert!(at_mu.iter().any(near));
-            let v = levels.mode(&level, &s.x);
-            let force =
-                |m: &Sparse, i: usize| m.row(i).iter().map(|(j, k)| to_f64(k) * v[*j]).sum::<f64>();
+        let (found, is_complete) = level.solutions(&Watch::nobody()).unwrap();
+
+        assert!(is_complete && !found.is_empty());
+        for solution in &found {
+            let mu = from_f64(solution.mu).unwrap();
+            let problem = block.problem(&states, Some(mu)).unwrap();
+            let pencil = reduce(&problem).unwrap().pencil;
+            let at_mu = enumerate(&pencil, problem.window()).unwrap().solutions;
+            let is_found = at_mu.iter().any(|s| {
+                let value: f64 = s.decimal(17).parse().unwrap();
+                (value / lambda2 - 1.0).abs() < 1e-6
+            });
+            assert!(is_found);
+
+            let v = levels.mode(&level, &solution.x);
+            let contact_nodes = &block.contact[..2];
             let size = to_f64(&block.stiffness.get(0, 0));
-            let held = |i: &usize| block.contact[..2].contains(&(i / 2));
-            for i in (0..v.len()).filter(|i| !held(i)) {
+            for i in (0..v.len()).filter(|i| !contact_nodes.contains(&(i / 2))) {
+                let elastic = row_times(&block.stiffness, i, &v);
+                let inertial = lambda2 * row_times(&block.mass, i, &v);
+                assert!((elastic + inertial).abs() < 1e-9 * size);
+            }
+
+            for &node in contact_nodes {
+                let is_to_the_left = v[2 * node] <= 0.0;
                 assert!(
-                    (force(&block.stiffness, i) + lambda2 * force(&block.mass, i)).abs()
-                        < 1e-9 * size
+                    v[2 * node + 1] == 0.0 && is_to_the_left,
+                    "along the obstacle"
                 );
             }
-            assert!(
-                block.contact[..2]
-                    .iter()
-                    .all(|&k| v[2 * k + 1] == 0.0 && v[2 * k] <= 0.0),
-                "to the left along the obstacle"
-            );
         }
     }
 }

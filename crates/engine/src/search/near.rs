@@ -1,5 +1,9 @@
-//! Is there a solution near a value that somebody claims? A complete set over [value - r, value +
-//! r] says: none, which is a proof of absence; or exactly which; or what stays open.
+//! Is there a solution near a value that somebody claims?
+//!
+//! A complete set over [value - r, value + r] says: none, which is a proof of absence; or exactly
+//! which; or what stays open. Without a radius several are tried, largest first, because a small
+//! window closes more easily and proves less. Called by `mceip certify` for candidates that no
+//! certificate could be made of.
 
 use super::complete::{CompleteError, Completed, Options, complete};
 use crate::candidate::Candidate;
@@ -67,66 +71,84 @@ pub fn near(
     let Ok(value) = from_f64(candidate.value) else {
         return Ok(Near::OutsideWindow);
     };
-    let scale = Rational::from_integer(Integer::from(1)) + value.abs();
+
     let radii = match radius {
-        Some(r) => vec![r.clone()],
-        None => ABSENCE_RADII
-            .iter()
-            .filter_map(|r| parse(&format!("{r:e}")).ok())
-            .map(|r| r * &scale)
-            .collect(),
+        Some(radius) => vec![radius.clone()],
+        None => default_radii(&value),
     };
+
+    let options = Options {
+        pieces: PIECES,
+        nodes_per_piece: NODES_PER_PIECE,
+        ..Options::default()
+    };
+
     let mut last = Near::OutsideWindow;
-    for r in radii {
-        let Some(window) = around(problem.window(), &value, &r) else {
+    for radius in radii {
+        let Some(window) = around(problem.window(), &value, &radius) else {
             return Ok(Near::OutsideWindow);
         };
-        let options = Options {
-            pieces: PIECES,
-            nodes_per_piece: NODES_PER_PIECE,
-            ..Options::default()
-        };
-        last = judge(
-            complete(&problem.clone().with_window(window), &options, watch)?,
-            candidate,
-        );
+
+        let nearby = problem.clone().with_window(window);
+        last = judge(complete(&nearby, &options, watch)?, candidate);
         if !matches!(last, Near::Open(_)) {
             break;
         }
     }
+
     Ok(last)
+}
+
+/// [`ABSENCE_RADII`] in units of 1 + |value|.
+fn default_radii(value: &Rational) -> Vec<Rational> {
+    let scale = Rational::from_integer(Integer::from(1)) + value.abs();
+    ABSENCE_RADII
+        .iter()
+        .filter_map(|radius| parse(&format!("{radius:e}")).ok())
+        .map(|radius| radius * &scale)
+        .collect()
 }
 
 /// [value - r, value + r] within the window, rounded outwards to short decimals.
 fn around(window: &Window, value: &Rational, radius: &Rational) -> Option<Window> {
     let grid = grid(radius);
-    let lo = (((value - radius) / &grid).floor() * &grid).max(window.min().clone());
-    let hi = ((value + radius) / &grid).ceil() * &grid;
-    let hi = window.max().map_or(hi.clone(), |max| hi.min(max.clone()));
+    let below = (value - radius) / &grid;
+    let below = below.floor() * &grid;
+    let above = (value + radius) / &grid;
+    let above = above.ceil() * &grid;
+
+    let lo = below.max(window.min().clone());
+    let hi = match window.max() {
+        Some(max) => above.min(max.clone()),
+        None => above,
+    };
+
     Window::new(lo, Some(hi)).ok()
 }
 
 /// A power of ten between r / 1000 and r / 100.
 fn grid(radius: &Rational) -> Rational {
     let ten = Rational::from_integer(Integer::from(10));
-    let (mut grid, limit) = (
-        Rational::from_integer(Integer::from(1)),
-        radius / (&ten * &ten),
-    );
+    let limit = radius / (&ten * &ten);
+
+    let mut grid = Rational::from_integer(Integer::from(1));
     while grid > limit {
         grid /= &ten;
     }
+
     while &grid * &ten <= limit {
         grid *= &ten;
     }
+
     grid
 }
 
+/// What a complete set says of a candidate.
 fn judge(completed: Completed, candidate: &Candidate) -> Near {
-    if completed
+    let is_present = completed
         .solutions()
-        .any(|(s, x)| distance(x, candidate, &s.support) <= X_RADIUS)
-    {
+        .any(|(solution, x)| distance(x, candidate, &solution.support) <= X_RADIUS);
+    if is_present {
         Near::Present(completed)
     } else if !completed.cover.is_plain_list() {
         Near::Open(completed)
@@ -139,17 +161,25 @@ fn judge(completed: Completed, candidate: &Candidate) -> Near {
 
 /// Largest difference of components once the candidate has sum one on the solution's support too.
 fn distance(x: &[f64], candidate: &Candidate, support: &[usize]) -> f64 {
-    let sum = |x: &[f64]| support.iter().filter_map(|&i| x.get(i)).sum::<f64>();
-    let (ours, theirs) = (sum(x), sum(&candidate.x));
-    let difference = x
-        .iter()
-        .zip(&candidate.x)
-        .map(|(a, b)| (a / ours - b / theirs).abs());
-    // NaN (a candidate that is zero there) is no agreement.
-    difference.fold(
-        0.0,
-        |m, d| if d.is_nan() { f64::INFINITY } else { d.max(m) },
-    )
+    let our_sum = sum_on(support, x);
+    let their_sum = sum_on(support, &candidate.x);
+
+    let mut largest: f64 = 0.0;
+    for (ours, theirs) in x.iter().zip(&candidate.x) {
+        let difference = (ours / our_sum - theirs / their_sum).abs();
+        // NaN (a candidate that is zero there) is no agreement.
+        if difference.is_nan() {
+            largest = f64::INFINITY;
+        } else {
+            largest = difference.max(largest);
+        }
+    }
+
+    largest
+}
+
+fn sum_on(support: &[usize], x: &[f64]) -> f64 {
+    support.iter().filter_map(|&i| x.get(i)).sum()
 }
 
 #[cfg(test)]
@@ -170,44 +200,46 @@ mod tests {
     }
 
     fn ask(problem: &Problem, value: f64, x: &[f64], radius: Option<Rational>) -> Near {
-        near(
-            problem,
-            &Candidate {
-                value,
-                x: x.to_vec(),
-            },
-            radius.as_ref(),
-            &Watch::nobody(),
-        )
-        .unwrap()
+        let candidate = Candidate {
+            value,
+            x: x.to_vec(),
+        };
+
+        near(problem, &candidate, radius.as_ref(), &Watch::nobody()).unwrap()
     }
 
     #[test]
     fn the_four_answers() {
         let all = fold(Window::all());
-        assert!(matches!(ask(&all, 2.5, &[0.6, 0.4], None), Near::Absent(_)));
-        assert!(
-            matches!(ask(&all, 2.0, &[0.5, 0.5], None), Near::Others(c) if c.cover.solutions.len() == 1)
-        );
-        assert!(
-            matches!(ask(&all, 2.5, &[0.5, 0.5], Some(whole(1))), Near::Others(c) if c.cover.solutions.len() == 2)
-        );
-        assert!(matches!(
-            ask(&all, 2.0, &[4.0, 2.0], None),
-            Near::Present(_)
-        ));
-        assert!(matches!(
-            ask(&all, -1.0, &[4.0, 2.0], None),
-            Near::OutsideWindow
-        ));
+
+        let between = ask(&all, 2.5, &[0.6, 0.4], None);
+        assert!(matches!(between, Near::Absent(_)));
+
+        let Near::Others(one) = ask(&all, 2.0, &[0.5, 0.5], None) else {
+            panic!("another x")
+        };
+
+        assert_eq!(one.cover.solutions.len(), 1);
+
+        let Near::Others(both) = ask(&all, 2.5, &[0.5, 0.5], Some(whole(1))) else {
+            panic!("two other x")
+        };
+
+        assert_eq!(both.cover.solutions.len(), 2);
+
+        let present = ask(&all, 2.0, &[4.0, 2.0], None);
+        assert!(matches!(present, Near::Present(_)));
+
+        let negative = ask(&all, -1.0, &[4.0, 2.0], None);
+        assert!(matches!(negative, Near::OutsideWindow));
+
         let cut = fold(Window::new(whole(0), Some(rational(5, 2))).unwrap());
-        let Near::Absent(c) = ask(&cut, 2.5, &[0.6, 0.4], Some(rational(1, 10))) else {
+        let Near::Absent(at_end) = ask(&cut, 2.5, &[0.6, 0.4], Some(rational(1, 10))) else {
             panic!("absent")
         };
-        assert_eq!(
-            (c.certificate.window.min(), c.certificate.window.max()),
-            (&rational(12, 5), Some(&rational(5, 2)))
-        );
+
+        assert_eq!(at_end.certificate.window.min(), &rational(12, 5));
+        assert_eq!(at_end.certificate.window.max(), Some(&rational(5, 2)));
     }
 
     /// The pencil is singular on {0, 1}: a solution for every value. The cover closes, and is no
@@ -217,14 +249,14 @@ mod tests {
         let a = Sparse::from_ints(&[&[1, -1], &[-1, 1]]);
         let pencil = Pencil::new(a, Sparse::zeros(2, 2), vec![]).unwrap();
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all()).unwrap();
-        let Near::Open(c) = ask(&problem, 1.0, &[1.0, 0.0], None) else {
+
+        let Near::Open(found) = ask(&problem, 1.0, &[1.0, 0.0], None) else {
             panic!("undecided")
         };
-        assert!(
-            c.is_complete()
-                && c.cover.solutions.is_empty()
-                && !c.cover.families.is_empty()
-                && !c.cover.proves_absence()
-        );
+
+        assert!(found.is_complete());
+        assert!(found.cover.solutions.is_empty());
+        assert!(!found.cover.families.is_empty());
+        assert!(!found.cover.proves_absence());
     }
 }

@@ -102,11 +102,13 @@ pub(super) fn same_problem(
             got: certificate.problem_sha256.clone(),
         });
     }
+
     if certificate.window != *problem.window() {
         return Err(CompleteError::OtherWindow {
             expected: problem.window().to_string(),
             got: certificate.window.to_string(),
         });
     }
+
     Ok(())
 }

@@ -27,6 +27,7 @@ pub fn merge(
     for part in parts {
         error::same_problem(problem, part)?;
     }
+
     let sets: Vec<&CompleteSet> = parts
         .iter()
         .map(|p| p.complete_set.as_ref().ok_or(CompleteError::NoCompleteSet))
@@ -34,6 +35,7 @@ pub fn merge(
     if let Some(part) = sets.iter().position(|s| !same_pieces(sets[0], s)) {
         return Err(CompleteError::OtherPieces { part });
     }
+
     let mut claims: Vec<Claim> = Vec::new();
     let mut pieces = Vec::new();
     for k in 0..sets[0].pieces.len() {
@@ -47,11 +49,13 @@ pub fn merge(
         for part in searched {
             tree = tree.joined(&Preorder::of(part, &sets[part].pieces[k].tree));
         }
+
         pieces.push(Piece {
             tree: tree.numbered(parts, &mut claims),
             ..sets[0].pieces[k].clone()
         });
     }
+
     let complete_set = Some(CompleteSet {
         condensation: sets[0].condensation.clone(),
         pieces,
@@ -61,6 +65,7 @@ pub fn merge(
         complete_set,
         ..first.clone()
     };
+
     let cover = check(problem, &certificate)?
         .cover
         .ok_or(CompleteError::NoCompleteSet)?;
@@ -68,10 +73,17 @@ pub fn merge(
 }
 
 fn same_pieces(a: &CompleteSet, b: &CompleteSet) -> bool {
-    let same = |p: &Piece, q: &Piece| p.max == q.max && p.anchor == q.anchor;
-    a.condensation == b.condensation
-        && a.pieces.len() == b.pieces.len()
-        && a.pieces.iter().zip(&b.pieces).all(|(p, q)| same(p, q))
+    if a.condensation != b.condensation || a.pieces.len() != b.pieces.len() {
+        return false;
+    }
+
+    for (p, q) in a.pieces.iter().zip(&b.pieces) {
+        if p.max != q.max || p.anchor != q.anchor {
+            return false;
+        }
+    }
+
+    true
 }
 
 /// A node of a tree, and the part that it comes from.
@@ -95,7 +107,11 @@ struct Preorder<'a> {
 
 impl<'a> Preorder<'a> {
     fn of(part: usize, tree: &'a [Node]) -> Preorder<'a> {
-        let nodes = tree.iter().map(|node| PartNode { part, node }).collect();
+        let mut nodes = Vec::with_capacity(tree.len());
+        for node in tree {
+            nodes.push(PartNode { part, node });
+        }
+
         Preorder::new(nodes)
     }
 
@@ -110,13 +126,16 @@ impl<'a> Preorder<'a> {
                 let first_child = k + 1;
                 let second_child = end.get(first_child).copied().unwrap_or(count);
                 end[k] = end.get(second_child).copied().unwrap_or(count);
-                open[k] = open.get(first_child).copied().unwrap_or(0)
-                    + open.get(second_child).copied().unwrap_or(0);
+
+                let open_in_first = open.get(first_child).copied().unwrap_or(0);
+                let open_in_second = open.get(second_child).copied().unwrap_or(0);
+                open[k] = open_in_first + open_in_second;
             } else {
                 end[k] = k + 1;
                 open[k] = usize::from(*nodes[k].node == Node::Open);
             }
         }
+
         Preorder { nodes, end, open }
     }
 
@@ -126,16 +145,20 @@ impl<'a> Preorder<'a> {
         // Pairs of subtrees of one region that are still to be joined, the next one last.
         let mut waiting = vec![(0, 0)];
         while let Some((mine, theirs)) = waiting.pop() {
-            let (Some(my_node), Some(their_node)) = (self.nodes.get(mine), other.nodes.get(theirs))
-            else {
+            let Some(my_node) = self.nodes.get(mine) else {
+                continue;
+            };
+            let Some(their_node) = other.nodes.get(theirs) else {
                 continue;
             };
 
             let both_open = self.open[mine] > 0 && other.open[theirs] > 0;
-            if both_open && is_inner(my_node.node) && my_node.node == their_node.node {
+            let divide_alike = is_inner(my_node.node) && my_node.node == their_node.node;
+            if both_open && divide_alike {
                 nodes.push(*my_node);
-                let second_halves = (self.end_of(mine + 1), other.end_of(theirs + 1));
-                waiting.push(second_halves);
+                let my_second_half = self.end_of(mine + 1);
+                let their_second_half = other.end_of(theirs + 1);
+                waiting.push((my_second_half, their_second_half));
                 waiting.push((mine + 1, theirs + 1));
             } else if self.is_no_worse(mine, other, theirs) {
                 nodes.extend_from_slice(&self.nodes[mine..self.end[mine]]);
@@ -143,11 +166,15 @@ impl<'a> Preorder<'a> {
                 nodes.extend_from_slice(&other.nodes[theirs..other.end[theirs]]);
             }
         }
+
         Preorder::new(nodes)
     }
 
     fn end_of(&self, k: usize) -> usize {
-        self.end.get(k).copied().unwrap_or(self.nodes.len())
+        match self.end.get(k) {
+            Some(end) => *end,
+            None => self.nodes.len(),
+        }
     }
 
     /// Has this subtree no more left to prove than the other one of the same region? An open leaf
@@ -158,6 +185,7 @@ impl<'a> Preorder<'a> {
         if mine_untouched != theirs_untouched {
             return theirs_untouched;
         }
+
         self.open[mine] <= other.open[theirs]
     }
 
@@ -172,8 +200,10 @@ impl<'a> Preorder<'a> {
             {
                 root.outcome = RootOutcome::Claim(number(claims, claim.clone()));
             }
+
             tree.push(node);
         }
+
         tree
     }
 }

@@ -1,54 +1,62 @@
 //! All solutions in a window, with a certificate that there are no others.
 //!
+//! ```text
+//!   problem ──► pieces ─────► tree ──────────► leaf/* ──────► check ──► certificate
+//!               view and      branch and       one kind of    audited   + solutions
+//!               intervals     prune (splice)   evidence each     │
+//!                                 ▲                              │ refused or open
+//!                                 └────────── rounds ◄───────────┘
+//! ```
+//!
+//! * `pieces` eliminates the free variables, cuts the window into pieces, and encloses T(t) over
+//!   intervals.
+//! * `tree` divides regions, an interval and a state for each complementarity variable, until a
+//!   leaf closes them; `splice` puts its nodes into the cover, `shares` counts them.
+//! * `leaf` has one file per kind of evidence: [`leaf::farkas`], [`leaf::definite`], [`leaf::ldl`],
+//!   [`leaf::tail`], [`leaf::root`], [`leaf::infinity`] (a root over a half line),
+//!   [`leaf::support`].
+//! * `rounds` searches again what the checker refuses (`audited`), at last in long numbers
+//!   (`precise`).
+//!
 //! The search works in doubles and writes a certificate of kind *complete set*; the checker
 //! decides. What it reports is what the checker accepted: solutions, and regions that stay open. A
 //! certificate with open regions is also the checkpoint: [`resume`] goes on with it, [`merge`]
 //! joins parts.
 
-mod anchor;
-mod beyond;
-mod blocks;
-mod circuit;
-mod condense;
-mod decided;
+mod accepted_x;
+mod audited;
+mod dyadic;
 mod error;
 pub(crate) mod game;
-mod massless;
+mod given;
+mod leaf;
 mod merge;
+mod null_vector;
 mod options;
+mod pieces;
 mod precise;
-mod precise_anchor;
-mod reasons;
 mod region;
-mod reverse;
-mod root;
+mod rounds;
 mod shares;
-mod skeleton;
-mod skyline;
 mod splice;
-mod support;
 mod tree;
-mod view;
-mod witness;
 
 pub use error::CompleteError;
 pub use merge::merge;
 pub use options::{Options, Shard};
 
-use super::definite;
 use crate::certify::certificate;
 use crate::reduction::reduce;
 use crate::run::Watch;
-use mceip_check::certificate::{Certificate, CompleteSet, Node, Piece};
-use mceip_check::{
-    Accepted, AcceptedClaim, AcceptedCover, CoverFault, Reason, Rejected, audit, check,
-};
+use accepted_x::accepted_x;
+use audited::{Audited, audited};
+use given::Given;
+use mceip_check::certificate::{Certificate, CompleteSet, Piece};
+use mceip_check::{Accepted, AcceptedClaim, AcceptedCover, check};
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Problem};
-use shares::Shares;
-use skeleton::Prepared;
-use splice::Chosen;
-use std::collections::BTreeSet;
+use pieces::prepared::Prepared;
+use rounds::{Rounds, values_met};
 
 /// What a search has proved.
 #[derive(Debug, Clone)]
@@ -62,6 +70,26 @@ pub struct Completed {
 }
 
 impl Completed {
+    /// What is reported is what the checker accepted.
+    fn new(
+        pencil: &Pencil,
+        prepared: &Prepared,
+        certificate: Certificate,
+        accepted: Accepted,
+    ) -> Result<Completed, CompleteError> {
+        let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
+        let mut x = Vec::with_capacity(cover.solutions.len());
+        for solution in &cover.solutions {
+            x.push(accepted_x(&certificate, prepared, pencil, solution));
+        }
+
+        Ok(Completed {
+            certificate,
+            cover,
+            x,
+        })
+    }
+
     /// Is nothing left open? There may be families beside the solutions
     /// ([`AcceptedCover::is_plain_list`]).
     pub fn is_complete(&self) -> bool {
@@ -105,46 +133,27 @@ pub fn complete(
     let pencil = reduce(problem)?.pencil;
     let mut prepared = Prepared::new(problem, &pencil, options.pieces)?;
     if options.shard.is_none()
-        && let Some(node) = definite::leaf(&pencil, problem.window())
+        && let Some(completed) = by_definiteness(problem, &pencil, &prepared)?
     {
-        let piece = Piece {
-            max: problem.window().max().cloned().map(Number),
-            anchor: None,
-            tree: vec![node],
-        };
-        let set = CompleteSet {
-            pieces: vec![piece],
-            ..prepared.open_set()
-        };
-        let mut certificate = Certificate {
-            complete_set: Some(set),
-            ..certificate(problem, Vec::new())
-        };
-        let (accepted, refused) = audited(problem, &mut certificate)?;
-        if refused.is_empty() {
-            return completed(&pencil, &prepared, certificate, accepted);
-        }
+        return Ok(completed);
     }
+
+    let given = Given::new(problem, &pencil);
     if prepared.is_expanded() {
-        // A first search finds where the solutions are, so that the enclosure is tight there.
-        let scout = Options {
+        // A first search without remainders finds where the solutions are, so that the enclosure
+        // is tight there. Every shard does it, for all pieces.
+        let all_pieces = Options {
             shard: None,
             ..*options
         };
-        let quiet = Shares::new(watch.quiet());
-        let (set, look) = (prepared.open_set(), prepared.scout());
-        let found = in_threads(options.threads, || {
-            splice::all(problem, &pencil, &look, &set, &scout, &Chosen::All, &quiet)
-        });
-        let mut values: Vec<f64> = found.into_iter().flat_map(|f| f.met).collect();
-        values.sort_by(f64::total_cmp);
+
+        let loose = prepared.without_remainders();
+        let values = values_met(&given, &all_pieces, &loose, watch);
         prepared = prepared.refined(problem, &pencil, &values);
     }
-    let start = Certificate {
-        complete_set: Some(prepared.open_set()),
-        ..certificate(problem, Vec::new())
-    };
-    run(problem, &pencil, prepared, start, options, watch)
+
+    let start = with_set(problem, prepared.open_set());
+    run(&given, prepared, start, options, watch)
 }
 
 /// Goes on with a certificate that leaves regions open: only these are searched.
@@ -161,236 +170,69 @@ pub fn resume(
     let pencil = reduce(problem)?.pencil;
     error::same_problem(problem, earlier)?;
     check(problem, earlier)?;
+
     let set = earlier
         .complete_set
         .as_ref()
         .ok_or(CompleteError::NoCompleteSet)?;
     let prepared = Prepared::again(&pencil, set)?;
-    run(problem, &pencil, prepared, earlier.clone(), options, watch)
+    let given = Given::new(problem, &pencil);
+    run(&given, prepared, earlier.clone(), options, watch)
 }
 
-/// Rounds of a search whose leaves were refused, each more cautious than the one before.
-const CAUTIOUS_ROUNDS: usize = 2;
-
-/// Refused leaves up to which exact arithmetic is asked.
-const MAX_REFUSED: usize = 200;
-
-fn run(
+/// The answer where the whole window is closed by one definite matrix pencil.
+fn by_definiteness(
     problem: &Problem,
     pencil: &Pencil,
-    mut prepared: Prepared,
-    mut certificate: Certificate,
+    prepared: &Prepared,
+) -> Result<Option<Completed>, CompleteError> {
+    let Some(leaf) = leaf::ldl::window_leaf(pencil, problem.window()) else {
+        return Ok(None);
+    };
+
+    let piece = Piece {
+        max: problem.window().max().cloned().map(Number),
+        anchor: None,
+        tree: vec![leaf],
+    };
+
+    let set = CompleteSet {
+        pieces: vec![piece],
+        ..prepared.open_set()
+    };
+
+    let mut certificate = with_set(problem, set);
+    let Audited { accepted, refused } = audited(&mut certificate, problem)?;
+    if refused.is_empty() {
+        Completed::new(pencil, prepared, certificate, accepted).map(Some)
+    } else {
+        Ok(None)
+    }
+}
+
+/// A certificate without claims that has this cover.
+fn with_set(problem: &Problem, set: CompleteSet) -> Certificate {
+    Certificate {
+        complete_set: Some(set),
+        ..certificate(problem, Vec::new())
+    }
+}
+
+/// Searches the open leaves of a certificate, in as many rounds as it takes.
+fn run(
+    given: &Given<'_>,
+    prepared: Prepared,
+    certificate: Certificate,
     options: &Options,
     watch: &Watch<'_>,
 ) -> Result<Completed, CompleteError> {
-    let search = |prepared: &Prepared,
-                  certificate: &mut Certificate,
-                  chosen: &Chosen,
-                  shares: &Shares<'_>| {
-        let set = certificate
-            .complete_set
-            .take()
-            .ok_or(CompleteError::NoCompleteSet)?;
-        let found = in_threads(options.threads, || {
-            splice::all(problem, pencil, prepared, &set, options, chosen, shares)
-        });
-        let claims = &mut certificate.claims;
-        let pieces = set
-            .pieces
-            .iter()
-            .zip(found)
-            .map(|(piece, found)| splice::numbered(piece, found.items, claims))
-            .collect();
-        certificate.complete_set = Some(CompleteSet {
-            condensation: set.condensation,
-            pieces,
-        });
-        audited(problem, certificate)
-    };
-    let (mut accepted, mut refused) = search(
-        &prepared,
-        &mut certificate,
-        &Chosen::All,
-        &Shares::new(*watch),
-    )?;
-    // What was refused is open now: that alone is searched again, with more caution, and what still
-    // is refused exactly.
-    for _ in 0..CAUTIOUS_ROUNDS {
-        if refused.is_empty() || watch.is_cancelled() || !prepared.beware() {
-            break;
-        }
-        (accepted, refused) = search(
-            &prepared,
-            &mut certificate,
-            &Chosen::Again(refused),
-            &Shares::new(watch.quiet()),
-        )?;
-    }
-    if !refused.is_empty() && refused.len() <= MAX_REFUSED && !watch.is_cancelled() {
-        (accepted, _) = search(
-            &prepared,
-            &mut certificate,
-            &Chosen::Exactly(refused),
-            &Shares::new(watch.quiet()),
-        )?;
-    }
-    if !watch.is_cancelled()
-        && let Some((longer, closed)) =
-            with_long_numbers(problem, pencil, &prepared, &certificate, &accepted)
-    {
-        (certificate, accepted) = (longer, closed);
-    }
-    completed(pencil, &prepared, certificate, accepted)
-}
-
-/// The certificate in which long numbers decide open regions, if fewer stay open according to the
-/// checker.
-fn with_long_numbers(
-    problem: &Problem,
-    pencil: &Pencil,
-    prepared: &Prepared,
-    certificate: &Certificate,
-    accepted: &Accepted,
-) -> Option<(Certificate, Accepted)> {
-    let open = |accepted: &Accepted| accepted.cover.as_ref().map_or(0, |c| c.open.len());
-    if open(accepted) == 0 {
-        return None;
-    }
-    let mut longer = precise::closed(problem, pencil, prepared, certificate)?;
-    let (again, _) = audited(problem, &mut longer).ok()?;
-    (open(&again) < open(accepted)).then_some((longer, again))
-}
-
-/// What is reported is what the checker accepted.
-fn completed(
-    pencil: &Pencil,
-    prepared: &Prepared,
-    certificate: Certificate,
-    accepted: Accepted,
-) -> Result<Completed, CompleteError> {
-    let cover = accepted.cover.ok_or(CompleteError::NoCompleteSet)?;
-    let exact = |s: &AcceptedClaim| support::shape(&certificate, pencil, s);
-    let x = cover
-        .solutions
-        .iter()
-        .map(|s| exact(s).unwrap_or_else(|| prepared.shape(pencil, s)))
-        .collect();
-    Ok(Completed {
+    let mut rounds = Rounds {
+        given,
+        options,
+        prepared,
         certificate,
-        cover,
-        x,
-    })
-}
-
-/// Lets the checker read the certificate. A leaf whose witness doubles have judged too well is left
-/// open, and so is a tail. Also returned: the places of such leaves.
-fn audited(
-    problem: &Problem,
-    certificate: &mut Certificate,
-) -> Result<(Accepted, BTreeSet<(usize, usize)>), CompleteError> {
-    // Every round opens the tail or solutions of one support, so that this comes to an end.
-    let (accepted, refused) = loop {
-        match audit(problem, certificate) {
-            Ok(audited) => break audited,
-            Err(rejected) => without_refused(certificate, rejected)?,
-        }
     };
-    for &(piece, node) in &refused {
-        let leaf = certificate
-            .complete_set
-            .as_mut()
-            .and_then(|set| set.pieces.get_mut(piece))
-            .and_then(|p| p.tree.get_mut(node));
-        leaf.into_iter().for_each(|leaf| *leaf = Node::Open);
-    }
-    Ok((accepted, refused.into_iter().collect()))
-}
 
-/// Opens the leaves of a tree that yield solutions of the support; how many.
-fn open_solutions(tree: &mut [Node], support: &[usize]) -> usize {
-    // What moves in the regions still to come; of a branch the resting side comes first.
-    let mut moving: Vec<Vec<usize>> = vec![Vec::new()];
-    let mut opened = 0;
-    for node in tree {
-        let mut here = moving.pop().unwrap_or_default();
-        match node {
-            Node::Split(_) => moving.extend([here.clone(), here]),
-            Node::Branch(index) => {
-                let rest = here.clone();
-                here.push(*index);
-                moving.extend([here, rest]);
-            }
-            Node::Root(_) | Node::Support(_) => {
-                here.sort_unstable();
-                if here == support {
-                    *node = Node::Open;
-                    opened += 1;
-                }
-            }
-            _ => {}
-        }
-    }
-    opened
-}
-
-/// Opens what is refused as a whole, the tail or solutions that cannot be told apart, else says why
-/// there is no certificate.
-fn without_refused(certificate: &mut Certificate, rejected: Rejected) -> Result<(), CompleteError> {
-    let Some(set) = certificate.complete_set.as_mut() else {
-        return Err(rejected.into());
-    };
-    match &rejected.reason {
-        // Proved in doubles that rounding has misled: the scales of the rows differ too much.
-        Reason::Cover { piece: None, .. }
-            if set
-                .condensation
-                .as_mut()
-                .is_some_and(|c| c.tail.take().is_some()) =>
-        {
-            let tails = set
-                .pieces
-                .iter_mut()
-                .flat_map(|p| &mut p.tree)
-                .filter(|n| matches!(n, Node::Tail));
-            tails.for_each(|n| *n = Node::Open);
-            Ok(())
-        }
-        // Solutions of one support so near each other that their leaves cannot tell which are the
-        // same.
-        Reason::Cover {
-            piece: None,
-            fault: CoverFault::Ambiguous { support },
-            ..
-        } => {
-            let opened: usize = set
-                .pieces
-                .iter_mut()
-                .map(|piece| open_solutions(&mut piece.tree, support))
-                .sum();
-            if opened > 0 {
-                Ok(())
-            } else {
-                Err(rejected.into())
-            }
-        }
-        // The free block is definite in doubles and not provably so.
-        Reason::Cover {
-            piece: None,
-            fault: CoverFault::Hypothesis { expected, row },
-            ..
-        } => Err(CompleteError::Hypothesis {
-            expected,
-            row: *row,
-        }),
-        _ => Err(rejected.into()),
-    }
-}
-
-/// Runs in a pool of the wanted size, or in the default one.
-fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
-    match threads.map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build()) {
-        Some(Ok(pool)) => pool.install(work),
-        // Without a pool of one's own the default one does the same work.
-        _ => work(),
-    }
+    let accepted = rounds.run(watch)?.accepted;
+    Completed::new(given.pencil, &rounds.prepared, rounds.certificate, accepted)
 }

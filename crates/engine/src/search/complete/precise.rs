@@ -2,19 +2,23 @@
 //!
 //! A local mode has components and reactions of 1e-20 of the largest. In doubles neither x > 0 nor
 //! y > 0 can be told there, and such regions stay open. The null vector is computed again in long
-//! numbers, the piece gets an anchor whose W is as long, and the checker, whose arithmetic is
-//! exact, reads the signs off both.
+//! numbers, the piece gets an anchor whose W is as long (`pieces::precise_anchor`), and the
+//! checker, whose arithmetic is exact, reads the signs off both.
+//!
+//! Input: a cover that the checker has accepted, with open leaves. Output: the cover with `root`
+//! leaves in their place, for the checker to judge. Called by `rounds` at the end of a search.
 
-use super::precise_anchor::precise_anchor;
-use super::region::{Region, State};
-use super::root::null_vector;
-use super::skeleton::Prepared;
-use super::view::Expansion;
+use super::given::Given;
+use super::leaf::root::Unique;
+use super::null_vector::{NullVector, null_vector};
+use super::pieces::expansion::Expansion;
+use super::pieces::precise_anchor::precise_anchor;
+use super::pieces::prepared::Prepared;
+use super::region::{Region, State, support};
 use crate::candidate::Candidate;
 use crate::certify::{ENCLOSED_ORDER, precise_null};
 use mceip_check::certificate::{Certificate, CompleteSet, Node, Root, RootOutcome};
 use mceip_exact::{Integer, Rational, to_f64};
-use mceip_model::{Pencil, Problem};
 use num_traits::{One, Signed, Zero};
 
 /// Open regions that are looked at, at most: each costs a dense inverse.
@@ -26,179 +30,186 @@ const VECTOR_BITS: u32 = 128;
 /// decided, and a sign change over the interval stands out from entries that are cut off at 2^-128.
 const INTERVAL_BITS: u32 = 96;
 
-/// An open region with every index decided, by its place in the cover.
+/// An open region with every variable decided, by its place in the cover.
 struct OpenLeaf {
     piece: usize,
     node: usize,
     region: Region,
 }
 
+/// A root for the node of a piece.
+struct PlacedRoot {
+    node: usize,
+    root: Root,
+}
+
+/// A component of a vector by its variable.
+type Component = (usize, Rational);
+
 /// The certificate with the open regions that long numbers decide closed, for the checker to judge;
 /// `None` if there are none.
 pub(super) fn closed(
-    problem: &Problem,
-    pencil: &Pencil,
+    given: &Given<'_>,
     prepared: &Prepared,
     certificate: &Certificate,
 ) -> Option<Certificate> {
     let set = certificate.complete_set.as_ref()?;
-    let leaves = open_leaves(problem, prepared, set);
+    let leaves = open_leaves(given, prepared, set);
     if leaves.is_empty() || leaves.len() > MAX_REGIONS {
         return None;
     }
 
-    let mut set = set.clone();
-    let mut changed = false;
+    let mut longer = set.clone();
+    let mut is_changed = false;
     for piece in 0..set.pieces.len() {
-        let expansion = prepared.view.expansion(set.pieces[piece].anchor);
-        let own = leaves.iter().filter(|leaf| leaf.piece == piece);
-        let roots: Vec<(usize, Root)> = own
-            .filter_map(|leaf| {
-                Some((
-                    leaf.node,
-                    root(problem, pencil, prepared, expansion, &leaf.region)?,
-                ))
-            })
+        let of_piece = leaves.iter().filter(|leaf| leaf.piece == piece);
+        let roots: Vec<PlacedRoot> = of_piece
+            .filter_map(|leaf| placed_root(given, prepared, set, leaf))
             .collect();
-        let Some((_, first)) = roots.first() else {
+        let Some(first) = roots.first() else {
             continue;
         };
 
-        let value = middle(first);
-        if !lengthen(&mut set, pencil, piece, &value) {
+        if !lengthen(given, &mut longer, piece, &middle(&first.root)) {
             continue;
         }
-        for (node, root) in roots {
-            set.pieces[piece].tree[node] = Node::Root(Box::new(root));
+
+        for PlacedRoot { node, root } in roots {
+            longer.pieces[piece].tree[node] = Node::Root(Box::new(root));
         }
-        changed = true;
+
+        is_changed = true;
     }
-    changed.then(|| Certificate {
-        complete_set: Some(set),
+
+    is_changed.then(|| Certificate {
+        complete_set: Some(longer),
         ..certificate.clone()
     })
 }
 
-fn middle(root: &Root) -> Rational {
-    (&root.interval[0].0 + &root.interval[1].0) / Rational::from_integer(2.into())
+fn placed_root(
+    given: &Given<'_>,
+    prepared: &Prepared,
+    set: &CompleteSet,
+    leaf: &OpenLeaf,
+) -> Option<PlacedRoot> {
+    let anchor = set.pieces[leaf.piece].anchor;
+    let expansion = prepared.view.expansion(anchor);
+    let root = root(given, &prepared.view.index, expansion, &leaf.region)?;
+    Some(PlacedRoot {
+        node: leaf.node,
+        root,
+    })
 }
 
-/// Gives a piece an anchor about the value with a long W, where there are free variables.
-fn lengthen(set: &mut CompleteSet, pencil: &Pencil, piece: usize, value: &Rational) -> bool {
+fn middle(root: &Root) -> Rational {
+    let [lo, hi] = &root.interval;
+    let two = Rational::from_integer(2.into());
+    (&lo.0 + &hi.0) / two
+}
+
+/// Gives a piece an anchor about the value with a long W, where there are free variables. Returns
+/// false where that fails.
+fn lengthen(given: &Given<'_>, set: &mut CompleteSet, piece: usize, value: &Rational) -> bool {
     let Some(condensation) = set.condensation.as_mut() else {
         return true;
     };
-    let Some(anchor) = precise_anchor(pencil, condensation, value) else {
+
+    let Some(anchor) = precise_anchor(given.pencil, condensation, value) else {
         return false;
     };
+
     condensation.anchors.push(anchor);
     set.pieces[piece].anchor = Some(condensation.anchors.len() - 1);
     true
 }
 
-/// The open leaves in which every index is decided, something moves and the interval is finite.
-fn open_leaves(problem: &Problem, prepared: &Prepared, set: &CompleteSet) -> Vec<OpenLeaf> {
+/// The open leaves in which every variable is decided, the support is not empty and the interval is
+/// finite.
+fn open_leaves(given: &Given<'_>, prepared: &Prepared, set: &CompleteSet) -> Vec<OpenLeaf> {
     let view = &prepared.view;
     let mut leaves = Vec::new();
-    let mut lo = problem.window().min().clone();
+    let mut lo = given.window().min().clone();
 
     for (k, piece) in set.pieces.iter().enumerate() {
-        let hi = piece.max.as_ref().map(|n| n.0.clone());
-        let is_searchable = set.condensation.is_none()
-            || (piece.anchor.is_some() && !view.expansion(piece.anchor).reversed);
+        let hi = piece.max.as_ref().map(|number| number.0.clone());
+        let has_anchor = piece.anchor.is_some() && !view.expansion(piece.anchor).reversed;
+        let is_enclosed = set.condensation.is_none() || has_anchor;
 
-        let mut stack = vec![Region::whole(lo.clone(), hi.clone(), view.order())];
+        let mut waiting = vec![Region::whole(lo.clone(), hi.clone(), view.order())];
         for (node, what) in piece.tree.iter().enumerate() {
-            let Some(region) = stack.pop() else { break }; // the checker has accepted the tree
-            match what {
-                Node::Split(at) => {
-                    stack.push(Region {
-                        lo: at.0.clone(),
-                        ..region.clone()
-                    });
-                    stack.push(Region {
-                        hi: Some(at.0.clone()),
-                        ..region
-                    });
-                }
-                Node::Branch(index) => {
-                    let position = view.index.iter().position(|i| i == index).unwrap_or(0);
-                    let with = |state: State| {
-                        let mut child = region.clone();
-                        child.states[position] = state;
-                        child
-                    };
-                    stack.extend([with(State::Moving), with(State::Rest)]);
-                }
-                Node::Open if is_searchable && is_decided(&region) => leaves.push(OpenLeaf {
+            // The checker has accepted the tree, so it does not end early.
+            let Some(region) = waiting.pop() else { break };
+            if let Some(parts) = region.parts(what, view) {
+                waiting.extend(parts);
+            } else if *what == Node::Open && is_enclosed && may_have_root(&region) {
+                leaves.push(OpenLeaf {
                     piece: k,
                     node,
                     region,
-                }),
-                _ => {}
+                });
             }
         }
+
         lo = hi.unwrap_or(lo);
     }
+
     leaves
 }
 
-fn is_decided(region: &Region) -> bool {
-    region.hi.is_some()
-        && region.states.contains(&State::Moving)
-        && !region.states.contains(&State::Open)
+fn may_have_root(region: &Region) -> bool {
+    let is_finite = region.hi.is_some();
+    is_finite && region.is_decided() && region.states.contains(&State::InSupport)
 }
 
-/// The only null vector of a decided region, and what its signs say.
+/// The only null vector of a decided region, and what its signs say. `index` gives the variables of
+/// the positions.
 fn root(
-    problem: &Problem,
-    pencil: &Pencil,
-    prepared: &Prepared,
+    given: &Given<'_>,
+    index: &[usize],
     expansion: &Expansion,
     region: &Region,
 ) -> Option<Root> {
-    let index = &prepared.view.index;
-    let hi = region.hi.as_ref()?;
-    let (a, b) = (to_f64(&region.lo), to_f64(hi));
+    let region_hi = region.hi.as_ref()?;
+    let lo = to_f64(&region.lo);
+    let hi = to_f64(region_hi);
+    let null = null_vector(expansion, &region.states, lo, hi)?;
+    let unique = Unique::of(&null, &expansion.ends(lo, hi))?;
 
-    let null = null_vector(expansion, &region.states, a, b)?;
-    let unique = null.unique(&expansion.ends(a, b))?;
-
-    let moving: Vec<usize> = (0..index.len())
-        .filter(|&p| region.states[p] == State::Moving)
-        .map(|p| index[p])
-        .collect();
-    if pencil.free().len() + moving.len() > ENCLOSED_ORDER {
+    let support: Vec<usize> = support(&region.states).iter().map(|&p| index[p]).collect();
+    if given.pencil.free().len() + support.len() > ENCLOSED_ORDER {
         return None;
     }
-    let spread = null.spread(index.len());
-    let candidate = over_all_variables(pencil, index, expansion, null.value, &spread);
-    let precise = precise_null(pencil, &moving, &candidate, VECTOR_BITS)?;
+
+    let candidate = over_all_variables(given, index, expansion, &null);
+    let precise = precise_null(given.pencil, &support, &candidate, VECTOR_BITS)?;
 
     let half = half_width(&precise.value)?;
-    let interval = [&precise.value - &half, &precise.value + &half];
-    let is_inside =
-        interval[0] >= region.lo && interval[1] <= *hi && interval[0] >= *problem.window().min();
+    let begin = &precise.value - &half;
+    let end = &precise.value + &half;
+    let is_inside = begin >= region.lo && end <= *region_hi && begin >= *given.window().min();
     if !is_inside {
         return None;
     }
 
-    let mut root = unique.witness(index, interval, RootOutcome::Solution);
-    let scale = precise
-        .x
-        .iter()
-        .find(|(i, _)| *i == root.pivot)
-        .map(|(_, x)| x.clone())
-        .filter(|x| !x.is_zero())?;
-    let relative = |list: &[(usize, Rational)]| {
-        list.iter()
-            .map(|(i, v)| (*i, v / &scale))
-            .collect::<Vec<_>>()
-    };
-    let (x, y) = (relative(&precise.x), relative(&precise.y));
+    let mut root = unique.witness(index, [begin, end], RootOutcome::Solution);
+    write_signs(&mut root, &precise.x, &precise.y)?;
+    Some(root)
+}
 
-    let longer = VECTOR_BITS - root.exponent;
-    root.left.iter_mut().for_each(|u| *u <<= longer);
+/// Puts the long null vector x, scaled to 1 at the pivot, and what its signs and those of y say
+/// into a root; `None` where x is zero at the pivot.
+fn write_signs(root: &mut Root, x: &[Component], y: &[Component]) -> Option<()> {
+    let at_pivot = x.iter().find(|(i, _)| *i == root.pivot);
+    let scale = at_pivot.map(|(_, x)| x).filter(|x| !x.is_zero())?;
+    let x = divided(x, scale);
+    let y = divided(y, scale);
+
+    let more_bits = VECTOR_BITS - root.exponent;
+    for u in &mut root.left {
+        *u <<= more_bits;
+    }
+
     root.right = x
         .iter()
         .filter(|(i, _)| *i != root.pivot)
@@ -206,44 +217,67 @@ fn root(
         .collect();
     root.exponent = VECTOR_BITS;
     root.outcome = outcome(&x, &y);
-    Some(root)
+    Some(())
 }
 
 /// The null vector in doubles over the variables of the pencil.
 fn over_all_variables(
-    pencil: &Pencil,
+    given: &Given<'_>,
     index: &[usize],
     expansion: &Expansion,
-    value: f64,
-    spread: &[f64],
+    null: &NullVector,
 ) -> Candidate {
-    let mut x = vec![0.0; pencil.order()];
-    index.iter().zip(spread).for_each(|(&i, v)| x[i] = *v);
-    let free = expansion.free_part(value, spread).unwrap_or_default();
-    pencil.free().iter().zip(free).for_each(|(&i, v)| x[i] = v);
-    Candidate { value, x }
+    let on_positions = null.spread(index.len());
+    let free = expansion
+        .free_part(null.value, &on_positions)
+        .unwrap_or_default();
+
+    let mut x = vec![0.0; given.pencil.order()];
+    for (&i, v) in index.iter().zip(&on_positions) {
+        x[i] = *v;
+    }
+
+    for (&i, v) in given.pencil.free().iter().zip(free) {
+        x[i] = v;
+    }
+
+    Candidate {
+        value: null.value,
+        x,
+    }
+}
+
+fn divided(list: &[Component], scale: &Rational) -> Vec<Component> {
+    let mut quotients = Vec::with_capacity(list.len());
+    for (i, v) in list {
+        quotients.push((*i, v / scale));
+    }
+
+    quotients
 }
 
 /// What the signs of x, scaled to 1 at the pivot, and of y say.
-fn outcome(x: &[(usize, Rational)], y: &[(usize, Rational)]) -> RootOutcome {
-    let least = |list: &[(usize, Rational)]| {
-        list.iter()
-            .filter(|(_, v)| v.is_negative())
-            .min_by(|p, q| p.1.cmp(&q.1))
-            .map(|(i, _)| *i)
-    };
-    match (least(x), least(y)) {
-        (Some(i), _) => RootOutcome::NegativeX(i),
-        (None, Some(i)) => RootOutcome::NegativeY(i),
-        (None, None) => RootOutcome::Solution,
+fn outcome(x: &[Component], y: &[Component]) -> RootOutcome {
+    if let Some(i) = most_negative(x) {
+        RootOutcome::NegativeX(i)
+    } else if let Some(i) = most_negative(y) {
+        RootOutcome::NegativeY(i)
+    } else {
+        RootOutcome::Solution
     }
+}
+
+fn most_negative(list: &[Component]) -> Option<usize> {
+    list.iter()
+        .filter(|(_, v)| v.is_negative())
+        .min_by(|p, q| p.1.cmp(&q.1))
+        .map(|(i, _)| *i)
 }
 
 /// v in units of 2^-[`VECTOR_BITS`].
 fn fixed(v: &Rational) -> Integer {
-    (v * Rational::from_integer(Integer::one() << VECTOR_BITS))
-        .round()
-        .to_integer()
+    let unit = Rational::from_integer(Integer::one() << VECTOR_BITS);
+    (v * unit).round().to_integer()
 }
 
 /// 2^-[`INTERVAL_BITS`] of a power of two near a positive value.
@@ -251,8 +285,9 @@ fn half_width(value: &Rational) -> Option<Rational> {
     if !value.is_positive() {
         return None;
     }
-    let exponent =
-        value.numer().bits() as i64 - value.denom().bits() as i64 - i64::from(INTERVAL_BITS);
+
+    let magnitude = value.numer().bits() as i64 - value.denom().bits() as i64;
+    let exponent = magnitude - i64::from(INTERVAL_BITS);
     let power = Rational::from_integer(Integer::one() << exponent.unsigned_abs());
     Some(if exponent < 0 { power.recip() } else { power })
 }
@@ -264,29 +299,27 @@ mod tests {
 
     #[test]
     fn the_most_negative_component_is_named() {
-        let (plus, minus) = (
-            |i: usize| (i, whole(1)),
-            |i: usize, v: i64| (i, rational(-1, v)),
-        );
-        assert_eq!(
-            outcome(&[plus(0), minus(1, 100), minus(2, 10)], &[minus(3, 1)]),
-            RootOutcome::NegativeX(2)
-        );
-        assert_eq!(
-            outcome(&[plus(0)], &[minus(3, 9), minus(4, 8), plus(5)]),
-            RootOutcome::NegativeY(4)
-        );
-        assert_eq!(outcome(&[plus(0)], &[plus(1)]), RootOutcome::Solution);
+        let positive = [(0, whole(1))];
+        let negative_y = [(3, whole(-1))];
+
+        let x = [(0, whole(1)), (1, rational(-1, 100)), (2, rational(-1, 10))];
+        assert_eq!(outcome(&x, &negative_y), RootOutcome::NegativeX(2));
+
+        let y = [(3, rational(-1, 9)), (4, rational(-1, 8)), (5, whole(1))];
+        assert_eq!(outcome(&positive, &y), RootOutcome::NegativeY(4));
+
+        let positive_y = [(1, whole(1))];
+        assert_eq!(outcome(&positive, &positive_y), RootOutcome::Solution);
     }
 
     #[test]
     fn half_widths_are_relative() {
+        let unit = Rational::from_integer(Integer::one() << INTERVAL_BITS);
         for value in [rational(1, 1000), whole(1), whole(4_000_000_000)] {
-            let ratio = half_width(&value).unwrap()
-                * Rational::from_integer(Integer::one() << INTERVAL_BITS)
-                / &value;
+            let ratio = half_width(&value).unwrap() * &unit / &value;
             assert!(ratio > rational(1, 4) && ratio <= whole(2), "{value}");
         }
+
         assert!(half_width(&whole(0)).is_none());
     }
 }

@@ -1,49 +1,151 @@
-//! Where a search is: an interval of the unknown with the states of the complementarity variables,
-//! and the nodes that it leaves in a tree.
+//! Regions of the search, and the nodes that the search puts in their place.
+//!
+//! A region is an interval of the unknown t and, for each complementarity variable, what is known
+//! of it: x_i = 0, x_i > 0 or undecided. A piece begins as one region in which nothing is decided.
+//! A cut of the interval or a branch on a variable divides a region in two.
+//!
+//! Variables are named by their *position* in the view of the pencil; `View::index` gives their
+//! numbers in the pencil.
 
-use mceip_check::certificate::{Claim, Node, Root};
+use super::pieces::view::View;
+use mceip_check::certificate::{Claim, Node, Root, RootOutcome};
 use mceip_exact::Rational;
 
-/// State of a complementarity variable.
+/// What is known of a complementarity variable in a region.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum State {
-    /// Not decided.
-    Open,
+pub(crate) enum State {
+    Undecided,
     /// x_i = 0.
-    Rest,
+    AtZero,
     /// x_i > 0, y_i = 0.
-    Moving,
+    InSupport,
 }
 
-/// A node of the tree as found, in preorder.
+/// Positions of the variables that are in the support.
+pub(crate) fn support(states: &[State]) -> Vec<usize> {
+    positions(states, |state| state == State::InSupport)
+}
+
+/// Positions of the variables that are or may be in the support.
+pub(crate) fn possible_support(states: &[State]) -> Vec<usize> {
+    positions(states, |state| state != State::AtZero)
+}
+
+/// Positions of the variables with x_i = 0.
+pub(crate) fn at_zero(states: &[State]) -> Vec<usize> {
+    positions(states, |state| state == State::AtZero)
+}
+
+/// Positions of the variables that are not decided.
+pub(crate) fn undecided(states: &[State]) -> Vec<usize> {
+    positions(states, |state| state == State::Undecided)
+}
+
+fn positions(states: &[State], holds: impl Fn(State) -> bool) -> Vec<usize> {
+    let mut positions = Vec::new();
+    for (position, state) in states.iter().enumerate() {
+        if holds(*state) {
+            positions.push(position);
+        }
+    }
+
+    positions
+}
+
+/// The part of (supports) x (window) that belongs to a node of the tree.
+#[derive(Clone)]
+pub(crate) struct Region {
+    /// The interval [lo, hi] of the unknown; `None` stands for infinity.
+    pub(crate) lo: Rational,
+    pub(crate) hi: Option<Rational>,
+    /// One per complementarity variable, by position.
+    pub(crate) states: Vec<State>,
+    /// Cuts since the last branch: towards a degenerate end cutting alone would not come to an end.
+    pub(crate) cuts: usize,
+    /// Has a null vector of this support already been met that is not provably the only one?
+    pub(crate) is_suspect: bool,
+}
+
+impl Region {
+    /// An interval with nothing decided.
+    pub(crate) fn whole(lo: Rational, hi: Option<Rational>, variables: usize) -> Region {
+        Region {
+            lo,
+            hi,
+            states: vec![State::Undecided; variables],
+            cuts: 0,
+            is_suspect: false,
+        }
+    }
+
+    /// The part below a cut.
+    pub(crate) fn below(&self, cut: &Rational) -> Region {
+        Region {
+            hi: Some(cut.clone()),
+            ..self.clone()
+        }
+    }
+
+    /// The part above a cut.
+    pub(crate) fn above(&self, cut: &Rational) -> Region {
+        Region {
+            lo: cut.clone(),
+            ..self.clone()
+        }
+    }
+
+    /// The part in which the variable at this position has this state.
+    pub(crate) fn with(&self, position: usize, state: State) -> Region {
+        let mut part = self.clone();
+        part.states[position] = state;
+        part
+    }
+
+    /// The two parts into which an inner node of a tree divides the region, the one that comes first
+    /// in preorder last; `None` for a leaf.
+    pub(crate) fn parts(&self, node: &Node, view: &View) -> Option<[Region; 2]> {
+        match node {
+            Node::Split(cut) => Some([self.above(&cut.0), self.below(&cut.0)]),
+            Node::Branch(variable) => {
+                let position = view.position(*variable).unwrap_or(0);
+                let in_support = self.with(position, State::InSupport);
+                let at_zero = self.with(position, State::AtZero);
+                Some([in_support, at_zero])
+            }
+            _ => None,
+        }
+    }
+
+    pub(crate) fn is_decided(&self) -> bool {
+        !self.states.contains(&State::Undecided)
+    }
+
+    /// Does the value lie strictly inside the interval?
+    pub(crate) fn has_inside(&self, value: &Rational) -> bool {
+        let is_above = *value > self.lo;
+        let is_below = match &self.hi {
+            Some(hi) => value < hi,
+            None => true,
+        };
+        is_above && is_below
+    }
+}
+
+/// A node of the tree as the search finds it, in preorder.
 #[derive(Debug, Clone)]
-pub(super) enum Item {
+pub(crate) enum Item {
     Node(Node),
     /// A root whose outcome is this claim, numbered when the certificate is put together.
     Claimed(Box<Root>, Box<Claim>),
 }
 
-/// Where and what is searched.
-#[derive(Clone)]
-pub(super) struct Region {
-    pub(super) lo: Rational,
-    pub(super) hi: Option<Rational>,
-    pub(super) states: Vec<State>,
-    /// Cuts since the last branch: towards a degenerate end cutting alone would not come to an end.
-    pub(super) cuts: usize,
-    /// Has a null vector of this support already been met that is not provably alone?
-    pub(super) suspect: bool,
-}
-
-impl Region {
-    /// An interval with nothing decided.
-    pub(super) fn whole(lo: Rational, hi: Option<Rational>, variables: usize) -> Region {
-        Region {
-            lo,
-            hi,
-            states: vec![State::Open; variables],
-            cuts: 0,
-            suspect: false,
+impl Item {
+    /// Does this leaf yield a solution by its null vector?
+    pub(crate) fn is_solution(&self) -> bool {
+        match self {
+            Item::Node(Node::Root(root)) => root.outcome == RootOutcome::Solution,
+            Item::Node(_) => false,
+            Item::Claimed(..) => true,
         }
     }
 }

@@ -1,207 +1,206 @@
 //! Searches the open leaves of a cover and puts what is found in their place.
+//!
+//! The tree of each piece is copied in preorder; a chosen open leaf is replaced by the nodes that a
+//! search of its region finds (`tree`). Pieces are independent of one another, so they are searched
+//! in parallel, and the result does not depend on the number of threads.
+//!
+//! Input: a cover that the checker has accepted, which leaves of it to search. Output: the nodes of
+//! every piece, and the values of the null vectors met. Called by `rounds`.
 
-use super::beyond;
+use super::given::Given;
 use super::options::Options;
-use super::region::{Item, Region, State};
+use super::pieces::prepared::Prepared;
+use super::region::{Item, Region};
 use super::shares::Shares;
-use super::skeleton::Prepared;
-use super::support;
 use super::tree::Search;
-use crate::candidate::Candidate;
-use crate::certify::Certifier;
 use mceip_check::certificate::{Claim, CompleteSet, Node, Piece, RootOutcome};
 use mceip_exact::Rational;
-use mceip_model::{Pencil, Problem};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
 
 /// What the search of a piece brings.
-pub(super) struct Found {
+pub(super) struct SearchedPiece {
     pub(super) items: Vec<Item>,
     /// Values of the null vectors met.
     pub(super) met: Vec<f64>,
 }
 
-/// Which open leaves are searched, by their places (piece, node), and how.
+/// The place of a leaf in a cover: piece, node of its tree.
+pub(super) type LeafPlace = (usize, usize);
+
+/// Which open leaves are searched, and how.
 pub(super) enum Chosen {
     /// All.
     All,
     /// These, as all are.
-    Again(BTreeSet<(usize, usize)>),
+    Again(BTreeSet<LeafPlace>),
     /// These, support by support in exact arithmetic where that can be done: what doubles have
     /// judged too well.
-    Exactly(BTreeSet<(usize, usize)>),
+    Exactly(BTreeSet<LeafPlace>),
 }
 
 impl Chosen {
-    fn places(&self) -> Option<&BTreeSet<(usize, usize)>> {
+    fn places(&self) -> Option<&BTreeSet<LeafPlace>> {
         match self {
             Chosen::All => None,
             Chosen::Again(places) | Chosen::Exactly(places) => Some(places),
         }
     }
 
-    fn takes(&self, place: (usize, usize)) -> bool {
-        self.places().is_none_or(|places| places.contains(&place))
+    fn takes(&self, place: LeafPlace) -> bool {
+        match self.places() {
+            Some(places) => places.contains(&place),
+            None => true,
+        }
+    }
+
+    /// Is a leaf of this piece chosen?
+    fn meets(&self, piece: usize) -> bool {
+        self.places().is_none_or(|places| {
+            let mut of_piece = places.range((piece, 0)..(piece + 1, 0));
+            of_piece.next().is_some()
+        })
     }
 }
 
-/// The trees of all pieces, their chosen open leaves searched; pieces are independent of each
-/// other, so threads change nothing.
-pub(super) fn all(
-    problem: &Problem,
-    pencil: &Pencil,
-    prepared: &Prepared,
-    set: &CompleteSet,
-    options: &Options,
-    chosen: &Chosen,
-    shares: &Shares<'_>,
-) -> Vec<Found> {
-    let window = problem.window();
-    let certifier = Certifier::new(problem, pencil);
-    let certify_at = |value: f64, x: &[f64]| {
-        let exact_only = pencil.free().is_empty();
-        exact_only
-            .then(|| {
-                certifier
-                    .certify(&Candidate {
-                        value,
-                        x: x.to_vec(),
-                    })
-                    .ok()
-            })
-            .flatten()
-    };
-    let is_stopped = || shares.is_cancelled();
-    let decide = |moving: &[usize], lo: &Rational, hi: Option<&Rational>| {
-        support::leaf(pencil, moving, lo, hi, &is_stopped)
-    };
-    let starts: Vec<Rational> = std::iter::once(window.min().clone())
-        .chain(set.pieces.iter().map(|p| {
-            p.max
-                .as_ref()
-                .map_or_else(|| window.min().clone(), |n| n.0.clone())
-        }))
-        .collect();
-    let one = |(k, piece): (usize, &Piece)| {
-        let mine = options.shard.is_none_or(|s| k % s.count == s.index);
-        if !mine
-            || chosen
-                .places()
-                .is_some_and(|leaves| leaves.range((k, 0)..(k + 1, 0)).next().is_none())
-        {
-            return Found {
+/// One pass over the pieces of a cover.
+pub(super) struct Pass<'a> {
+    pub(super) given: &'a Given<'a>,
+    pub(super) prepared: &'a Prepared,
+    pub(super) set: &'a CompleteSet,
+    pub(super) options: &'a Options,
+    pub(super) chosen: &'a Chosen,
+    pub(super) shares: &'a Shares<'a>,
+}
+
+/// A region still to be copied or searched, and its part of the whole search.
+struct Waiting {
+    region: Region,
+    share: f64,
+}
+
+impl Pass<'_> {
+    /// The trees of all pieces, their chosen open leaves searched.
+    pub(super) fn run(&self) -> Vec<SearchedPiece> {
+        let indices = 0..self.set.pieces.len();
+        indices.into_par_iter().map(|k| self.piece(k)).collect()
+    }
+
+    fn piece(&self, k: usize) -> SearchedPiece {
+        let piece = &self.set.pieces[k];
+        let is_of_shard = self
+            .options
+            .shard
+            .is_none_or(|shard| k % shard.count == shard.index);
+        if !is_of_shard || !self.chosen.meets(k) {
+            return SearchedPiece {
                 items: piece.tree.iter().cloned().map(Item::Node).collect(),
                 met: Vec::new(),
             };
         }
-        let expansion = prepared.view.expansion(piece.anchor);
-        let limit = |moving: &[usize]| beyond::limit(pencil, moving, expansion.reversed);
+
         let mut search = Search {
-            view: &prepared.view,
-            expansion,
-            limit: &limit,
-            definite_from: &|lo, resting| beyond::definite_from(pencil, lo, resting),
-            certify: &certify_at,
-            decide: &decide,
-            shares,
-            budget: options.nodes_per_piece,
+            given: self.given,
+            view: &self.prepared.view,
+            expansion: self.prepared.view.expansion(piece.anchor),
+            shares: self.shares,
+            budget: self.options.nodes_per_piece,
             items: Vec::new(),
             met: Vec::new(),
-            window: (window.min().clone(), window.max().cloned()),
         };
-        let share = 1.0 / set.pieces.len() as f64;
-        spliced(&mut search, &starts[k], piece, share, k, chosen);
-        Found {
+
+        self.splice(&mut search, k);
+        SearchedPiece {
             items: search.items,
             met: search.met,
         }
-    };
-    set.pieces.par_iter().enumerate().map(one).collect()
-}
+    }
 
-/// Copies the tree of piece `k` in preorder; a chosen open leaf is replaced by what a search of its
-/// region finds.
-fn spliced(
-    search: &mut Search<'_>,
-    lo: &Rational,
-    piece: &Piece,
-    share: f64,
-    k: usize,
-    chosen: &Chosen,
-) {
-    let hi = piece.max.as_ref().map(|n| n.0.clone());
-    // A piece beyond the anchors has no matrices to search with.
-    let searchable = piece.anchor.is_some() || search.expansion.is_everywhere();
-    let mut stack = vec![(Region::whole(lo.clone(), hi, search.view.order()), share)];
-    for (place, node) in piece.tree.iter().enumerate() {
-        let Some((region, share)) = stack.pop() else {
-            return;
-        }; // the checker has accepted the tree
-        match node {
-            Node::Split(at) => {
+    /// The lower end of a piece: the upper end of the one before.
+    fn begin(&self, k: usize) -> Rational {
+        let before = k
+            .checked_sub(1)
+            .and_then(|p| self.set.pieces[p].max.clone());
+        match before {
+            Some(number) => number.0,
+            None => self.given.window().min().clone(),
+        }
+    }
+
+    /// Copies the tree of a piece in preorder; a chosen open leaf is replaced by what the search of
+    /// its region finds.
+    fn splice(&self, search: &mut Search<'_>, k: usize) {
+        let piece = &self.set.pieces[k];
+        let hi = piece.max.as_ref().map(|number| number.0.clone());
+        let mut waiting = vec![Waiting {
+            region: Region::whole(self.begin(k), hi, search.view.order()),
+            share: 1.0 / self.set.pieces.len() as f64,
+        }];
+
+        for (place, node) in piece.tree.iter().enumerate() {
+            // The checker has accepted the tree, so it does not end early.
+            let Some(here) = waiting.pop() else {
+                return;
+            };
+
+            if let Some(parts) = here.region.parts(node, search.view) {
                 search.items.push(Item::Node(node.clone()));
-                stack.push((
-                    Region {
-                        lo: at.0.clone(),
-                        ..region.clone()
-                    },
-                    share / 2.0,
-                ));
-                stack.push((
-                    Region {
-                        hi: Some(at.0.clone()),
-                        ..region
-                    },
-                    share / 2.0,
-                ));
+                let share = here.share / 2.0;
+                waiting.extend(parts.map(|region| Waiting { region, share }));
+            } else if *node == Node::Open && self.chosen.takes((k, place)) {
+                self.search_leaf(search, &here, piece);
+            } else {
+                self.copy_leaf(search, &here, node);
             }
-            Node::Branch(index) => {
-                search.items.push(Item::Node(node.clone()));
-                let position = search
-                    .view
-                    .index
-                    .iter()
-                    .position(|i| i == index)
-                    .unwrap_or(0);
-                for state in [State::Moving, State::Rest] {
-                    let mut child = region.clone();
-                    child.states[position] = state;
-                    stack.push((child, share / 2.0));
-                }
-            }
-            Node::Open if !chosen.takes((k, place)) => search.items.push(Item::Node(Node::Open)),
-            Node::Open if searchable && !matches!(chosen, Chosen::Exactly(_)) => {
-                search.region(&region, share)
-            }
-            Node::Open => search.by_support(&region, share),
-            _ => {
-                search.items.push(Item::Node(node.clone()));
-                search.shares.closed(share, false);
-            }
+        }
+    }
+
+    /// Searches the region of an open leaf.
+    fn search_leaf(&self, search: &mut Search<'_>, leaf: &Waiting, piece: &Piece) {
+        // A piece beyond the anchors has no matrices to search with.
+        let is_enclosed = piece.anchor.is_some() || search.expansion.is_everywhere();
+        let is_exact = matches!(self.chosen, Chosen::Exactly(_));
+        if is_enclosed && !is_exact {
+            search.region(&leaf.region, leaf.share);
+        } else {
+            search.by_support(&leaf.region, leaf.share);
+        }
+    }
+
+    fn copy_leaf(&self, search: &mut Search<'_>, leaf: &Waiting, node: &Node) {
+        search.items.push(Item::Node(node.clone()));
+        if *node != Node::Open {
+            self.shares.closed(leaf.share, false);
         }
     }
 }
 
-/// The piece with its claims numbered in the certificate's list, which grows by those that are new.
+/// The piece with these nodes, its claims numbered in the certificate's list, which grows by those
+/// that are new.
 pub(super) fn numbered(piece: &Piece, items: Vec<Item>, claims: &mut Vec<Claim>) -> Piece {
-    let node = |item| match item {
-        Item::Node(node) => node,
-        Item::Claimed(mut root, claim) => {
-            root.outcome = RootOutcome::Claim(number(claims, *claim));
-            Node::Root(root)
-        }
-    };
+    let mut tree = Vec::with_capacity(items.len());
+    for item in items {
+        tree.push(match item {
+            Item::Node(node) => node,
+            Item::Claimed(mut root, claim) => {
+                root.outcome = RootOutcome::Claim(number(claims, *claim));
+                Node::Root(root)
+            }
+        });
+    }
+
     Piece {
-        tree: items.into_iter().map(node).collect(),
+        tree,
         ..piece.clone()
     }
 }
 
 /// The claim's number, appended if it is new.
 pub(super) fn number(claims: &mut Vec<Claim>, claim: Claim) -> usize {
-    claims.iter().position(|c| *c == claim).unwrap_or_else(|| {
-        claims.push(claim);
-        claims.len() - 1
-    })
+    if let Some(number) = claims.iter().position(|c| *c == claim) {
+        return number;
+    }
+
+    claims.push(claim);
+    claims.len() - 1
 }

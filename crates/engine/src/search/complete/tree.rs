@@ -1,145 +1,190 @@
 //! Branch and prune over an interval of the unknown and the states of the complementarity
 //! variables.
 //!
-//! A region is closed by a definite symmetric part, a Farkas vector or, once every index is
-//! decided, by its only null vector. Else the test at the middle decides what to do: if a Farkas
-//! vector works there, the interval is cut where it stops working; if none does, the index whose
-//! complementarity the relaxed solution breaks most is decided.
+//! Each region is closed by the first leaf that does: a definite symmetric part, a Farkas vector
+//! or, once every variable is decided, its only null vector. Else the test at the middle of the
+//! interval decides what to do. If a Farkas vector works there, the interval is cut where it stops
+//! working; if none does, the variable whose complementarity the relaxed solution breaks most is
+//! decided. What neither closes is left to exact arithmetic, and else open.
+//!
+//! Input: a region of one piece, the expansion of the piece. Output: the nodes that cover the
+//! region, in preorder. Called by `splice`.
 
-use super::game::Game;
-use super::region::{Item, Region, State};
+use super::dyadic::short_near;
+use super::given::Given;
+use super::leaf::farkas::{self, Columns, MiddleTest};
+use super::leaf::root::{PartLeaf, RootSearch, Searched, part_around};
+use super::leaf::{definite, infinity, ldl, support};
+use super::pieces::expansion::{Ends, Expansion};
+use super::pieces::skyline::dot;
+use super::pieces::view::View;
+use super::region::{self, Item, Region, State};
 use super::shares::Shares;
-use super::skyline::dot;
-use super::view::{Ends, Expansion, Matrix, View};
-use super::witness::{Columns, definite, vanishes};
-use crate::tolerance::{NARROW, THIN_MARGIN, WITNESS_MARGIN};
-use mceip_check::certificate::{Claim, Node, RootOutcome, Support};
-use mceip_exact::{Integer, Rational, from_f64, to_f64};
+use crate::tolerance::{DEGENERATE_PART, NARROW};
+use mceip_check::certificate::{Node, RootOutcome};
+use mceip_exact::{Rational, to_f64};
 use mceip_model::file::Number;
 use std::rc::Rc;
 
-/// Cuts in a row before an index is decided instead: on a finite and on an infinite interval.
-const MAX_CUTS: [usize; 2] = [24, 3];
+/// Cuts in a row before a variable is decided instead: on a finite and on an infinite interval.
+const MAX_CUTS: usize = 24;
+const MAX_CUTS_TO_INFINITY: usize = 3;
+
+/// Cuts of a decided region before it stays open.
+const MAX_CUTS_DECIDED: usize = 4 * MAX_CUTS;
 
 /// Cuts of a decided region before exact arithmetic is asked: where there is a simple root, two or
 /// three end at it, and the polynomials of a support take long.
 const CUTS_BEFORE_EXACT: usize = 8;
 
-/// Cuts on both sides of a null vector that is not provably alone, before the rest stays open.
+/// Cuts on both sides of a null vector that is not provably the only one, before the rest stays
+/// open.
 const MAX_CUTS_SUSPECT: usize = 6;
 
-/// Exact solutions where doubles cannot tell: value and x over the positions to a claim.
-pub(super) type Certify<'a> = dyn Fn(f64, &[f64]) -> Option<Claim> + Sync + 'a;
+/// Share of an interval that a witness must close to be worth two cuts.
+const WORTH_TWO_CUTS: f64 = 0.2;
 
-/// A null vector of the pencil's limit at infinity over the variables of the pencil, for a moving
-/// set that has one.
-pub(super) type Limit<'a> = dyn Fn(&[usize]) -> Option<Vec<Integer>> + Sync + 'a;
+/// How far a cut may lie from where it should be: share of the part that the witness closes, and
+/// share of the interval that is halved.
+const SLACK_OF_PART: f64 = 0.05;
+const SLACK_OF_HALF: f64 = 0.1;
 
-/// Exact factors that prove the symmetric part definite from a value on, without the variables
-/// given.
-pub(super) type DefiniteFrom<'a> = dyn Fn(&Rational, &[usize]) -> Option<Node> + Sync + 'a;
-
-/// What one support holds over an interval, exactly, if that can be decided.
-pub(super) type Decide<'a> =
-    dyn Fn(&[usize], &Rational, Option<&Rational>) -> Option<Support> + Sync + 'a;
+/// Undecided variables of a region that no matrices enclose, up to which it is taken support by
+/// support.
+const MAX_UNDECIDED_EXACT: usize = 6;
 
 /// One piece's search.
 pub(super) struct Search<'a> {
+    pub(super) given: &'a Given<'a>,
     pub(super) view: &'a View,
     pub(super) expansion: &'a Expansion,
-    pub(super) certify: &'a Certify<'a>,
-    pub(super) decide: &'a Decide<'a>,
-    pub(super) limit: &'a Limit<'a>,
-    pub(super) definite_from: &'a DefiniteFrom<'a>,
     pub(super) shares: &'a Shares<'a>,
     /// Nodes this piece may still use.
     pub(super) budget: usize,
+    /// The nodes found, in preorder.
     pub(super) items: Vec<Item>,
     /// Values of null vectors that were met, decided or not.
     pub(super) met: Vec<f64>,
-    /// Window of the certificate: a root's interval stays inside.
-    pub(super) window: (Rational, Option<Rational>),
 }
 
 impl Search<'_> {
     /// Covers a region; what it finds is appended to the items. `share` is its part of the whole
     /// search.
     pub(super) fn region(&mut self, region: &Region, share: f64) {
-        let (lo, hi) = self.ends_of(region);
+        let lo = to_f64(&region.lo);
+        let hi = match &region.hi {
+            Some(hi) => to_f64(hi),
+            None => f64::INFINITY,
+        };
         let ends = Rc::new(self.expansion.ends(lo, hi));
         self.node(region, &ends, share);
     }
 
-    fn ends_of(&self, region: &Region) -> (f64, f64) {
-        (
-            to_f64(&region.lo),
-            region.hi.as_ref().map_or(f64::INFINITY, to_f64),
-        )
+    /// Appends a leaf that closes `share` of the search, or leaves it open.
+    fn leaf(&mut self, node: Node, share: f64) {
+        let has_solution = match &node {
+            Node::Root(root) => {
+                matches!(root.outcome, RootOutcome::Solution | RootOutcome::Claim(_))
+            }
+            _ => false,
+        };
+
+        self.items.push(Item::Node(node));
+        self.shares.closed(share, has_solution);
     }
 
-    pub(super) fn leaf(&mut self, node: Node, share: f64) {
-        let solution = matches!(&node, Node::Root(r) if matches!(r.outcome, RootOutcome::Solution | RootOutcome::Claim(_)));
+    fn branch_on(&mut self, position: usize) {
+        let node = Node::Branch(self.view.index[position]);
         self.items.push(Item::Node(node));
-        self.shares.closed(share, solution);
+    }
+
+    fn split_at(&mut self, cut: &Rational) {
+        let node = Node::Split(Number(cut.clone()));
+        self.items.push(Item::Node(node));
     }
 
     fn node(&mut self, region: &Region, ends: &Rc<Ends>, share: f64) {
         if self.budget == 0 || self.shares.is_cancelled() {
             return self.leaf(Node::Open, share);
         }
+
         self.budget -= 1;
-        if let Some(leaf) =
-            definite_leaf(ends, &region.states).or_else(|| self.half_line(region, ends))
-        {
+        if let Some(leaf) = self.definite_leaf(region, ends) {
             return self.leaf(leaf, share);
         }
-        let decided = !region.states.contains(&State::Open);
-        let middle = self.middle(ends);
-        let point = self.expansion.ends(middle, middle);
-        let at = Columns::at(&point.m[0], point.r.as_ref(), &region.states);
-        let game = at.play(&region.states);
-        let prunable = at.margin(&game) > WITNESS_MARGIN;
+
+        let middle_value = self.middle(ends);
+        let point = self.expansion.ends(middle_value, middle_value);
+        let middle = MiddleTest::new(point, &region.states);
         let columns = Columns::of(ends, &region.states);
-        if let Some(w) = farkas(&columns, &game, prunable, &region.states, decided) {
-            return self.leaf(Node::Farkas(w), share);
+        if let Some(weights) = farkas::weights(&columns, &middle, &region.states) {
+            return self.leaf(Node::Farkas(weights), share);
         }
-        let narrow = self.view.theta(ends.hi) - self.view.theta(ends.lo) < NARROW;
-        let is_infinite = ends.hi.is_infinite();
-        if decided
-            && if is_infinite {
-                self.at_infinity(region, ends, share)
-            } else {
-                self.roots(region, ends, share)
+
+        let width = self.view.theta(ends.hi) - self.view.theta(ends.lo);
+        let is_narrow = width < NARROW;
+        if region.is_decided() {
+            let is_closed = self.decided_leaf(region, ends, share);
+            if is_closed {
+                return;
             }
-        {
-            return;
+
+            if region.cuts >= CUTS_BEFORE_EXACT && self.exact(region, share) {
+                return;
+            }
+
+            if is_narrow || is_hopeless(region, ends, &middle) {
+                return self.give_up(region, share);
+            }
+
+            return self.cut(region, ends, &columns, &middle, share);
         }
-        let cuts_left = if region.suspect {
-            MAX_CUTS_SUSPECT
+
+        let max_cuts = if ends.is_half_line() {
+            MAX_CUTS_TO_INFINITY
         } else {
-            4 * MAX_CUTS[0]
+            MAX_CUTS
         };
-        if decided && region.cuts >= CUTS_BEFORE_EXACT && self.exact(region, share) {
-            return;
+
+        let may_cut = !is_narrow && region.cuts < max_cuts;
+        if may_cut && middle.is_prunable {
+            self.cut(region, ends, &columns, &middle, share);
+        } else {
+            self.branch(region, ends, &middle, share);
         }
-        if decided && (narrow || region.cuts >= cuts_left) {
-            return self.give_up(region, share);
+    }
+
+    fn definite_leaf(&self, region: &Region, ends: &Ends) -> Option<Node> {
+        let by_doubles = definite::leaf(ends, &region.states);
+        if by_doubles.is_some() || self.expansion.reversed {
+            return by_doubles;
         }
-        if decided && !prunable && ends.r.is_some() && region.cuts >= MAX_CUTS_SUSPECT {
-            // The radius stands in the way, and a shorter interval has the same.
-            return self.give_up(region, share);
+
+        ldl::half_line_leaf(self.given, self.view, region, ends)
+    }
+
+    /// Closes a decided region by its null vector, or the part of it around that.
+    fn decided_leaf(&mut self, region: &Region, ends: &Ends, share: f64) -> bool {
+        if !ends.is_half_line() {
+            return self.roots(region, ends, share);
         }
-        let may_cut = !narrow && region.cuts < MAX_CUTS[usize::from(ends.hi.is_infinite())];
-        if decided || (may_cut && prunable) {
-            return self.cut(region, ends, &columns, &game.w, middle, share);
+
+        let pencil = self.given.pencil;
+        match infinity::leaf(pencil, self.view, self.expansion, region, ends) {
+            Some(leaf) => {
+                self.leaf(leaf, share);
+                true
+            }
+            None => false,
         }
-        self.branch(region, ends, &at, &game.mix, &point.m[0], share);
     }
 
     /// A value in the middle of the interval, in theta.
     fn middle(&self, ends: &Ends) -> f64 {
-        let (a, b) = (self.view.theta(ends.lo), self.view.theta(ends.hi));
-        self.view.value(0.5 * (a + b)).clamp(ends.lo, ends.hi)
+        let first = self.view.theta(ends.lo);
+        let last = self.view.theta(ends.hi);
+        let middle = self.view.value(0.5 * (first + last));
+        middle.clamp(ends.lo, ends.hi)
     }
 
     /// Cuts out the part on which the middle's witness works, or halves.
@@ -148,141 +193,230 @@ impl Search<'_> {
         region: &Region,
         ends: &Ends,
         columns: &Columns,
-        w: &[f64],
-        middle: f64,
+        middle: &MiddleTest,
         share: f64,
     ) {
-        let width = ends.hi - ends.lo;
-        let range = if width.is_finite() {
-            columns.range(w, (middle - ends.lo) / width)
-        } else {
-            None
-        };
-        let cuts: Vec<Rational> = match range {
-            // Worth two cuts only if a good part of the interval goes.
-            Some((a, b)) if b - a > 0.2 => {
-                let inner = 0.05 * (b - a);
-                let at = |v: f64, keep: bool| {
-                    keep.then(|| short(ends.lo + v * width, inner * width))
-                        .flatten()
-                };
-                [at(a + inner, a > 0.0), at(b - inner, b < 1.0)]
-                    .into_iter()
-                    .flatten()
-                    .collect()
-            }
-            _ => short(middle, 0.1 * if width.is_finite() { width } else { middle })
-                .into_iter()
-                .collect(),
-        };
-        let inside = |c: &Rational| *c > region.lo && region.hi.as_ref().is_none_or(|hi| c < hi);
-        let cuts: Vec<Rational> = cuts.into_iter().filter(inside).collect();
-        if cuts.is_empty() || (cuts.len() == 2 && cuts[0] >= cuts[1]) {
-            return self.give_up(region, share); // the interval is too narrow for doubles
+        let mut cuts = proposed_cuts(ends, columns, middle);
+        cuts.retain(|cut| region.has_inside(cut));
+        let is_out_of_order = cuts.len() == 2 && cuts[0] >= cuts[1];
+        if cuts.is_empty() || is_out_of_order {
+            // The interval is too narrow for doubles.
+            return self.give_up(region, share);
         }
-        let mut rest = Region {
-            cuts: region.cuts + 1,
-            ..region.clone()
-        };
+
+        let mut rest = region.clone();
+        rest.cuts += 1;
         let part = share / (cuts.len() + 1) as f64;
-        for at in cuts {
-            self.items.push(Item::Node(Node::Split(Number(at.clone()))));
-            self.region(
-                &Region {
-                    hi: Some(at.clone()),
-                    ..rest.clone()
-                },
-                part,
-            );
-            rest.lo = at;
+        for cut in &cuts {
+            self.split_at(cut);
+            self.region(&rest.below(cut), part);
+            rest = rest.above(cut);
         }
+
         self.region(&rest, part);
     }
 
-    /// Decides the index whose complementarity the relaxed solution of the middle breaks most.
-    fn branch(
-        &mut self,
-        region: &Region,
-        ends: &Rc<Ends>,
-        at: &Columns,
-        mix: &[f64],
-        m: &Matrix,
-        share: f64,
-    ) {
-        let n = region.states.len();
-        let mut x = vec![0.0; n];
-        at.variable.iter().zip(mix).for_each(|(&j, q)| x[j] = *q);
-        let size = |i: usize| m[i].iter().fold(f64::MIN_POSITIVE, |s, v| s.max(v.abs()));
-        let y = |i: usize| dot(&m[i], &x) / size(i);
-        let open = (0..n).filter(|&i| region.states[i] == State::Open);
-        let Some(i) =
-            open.max_by(|&i, &j| x[i].min(y(i)).total_cmp(&x[j].min(y(j))).then(j.cmp(&i)))
-        else {
+    /// Decides the variable whose complementarity the relaxed solution of the middle breaks most:
+    /// the one with the largest min(x_i, y_i), y_i in units of the largest entry of its row.
+    fn branch(&mut self, region: &Region, ends: &Rc<Ends>, middle: &MiddleTest, share: f64) {
+        let x = middle.relaxed_solution();
+        let mut violations = Vec::with_capacity(x.len());
+        for (row, x_i) in middle.matrix.iter().zip(&x) {
+            let size = row.iter().fold(f64::MIN_POSITIVE, |s, v| s.max(v.abs()));
+            let y_i = dot(row, &x) / size;
+            violations.push(x_i.min(y_i));
+        }
+
+        let undecided = region::undecided(&region.states);
+        let most_violated = undecided.into_iter().max_by(|&i, &j| {
+            let first_of_equals = j.cmp(&i);
+            violations[i]
+                .total_cmp(&violations[j])
+                .then(first_of_equals)
+        });
+        let Some(position) = most_violated else {
             return self.leaf(Node::Open, share);
         };
-        self.items
-            .push(Item::Node(Node::Branch(self.view.index[i])));
-        for state in [State::Rest, State::Moving] {
-            let mut child = Region {
-                cuts: 0,
-                ..region.clone()
-            };
-            child.states[i] = state;
+
+        self.branch_on(position);
+        for state in [State::AtZero, State::InSupport] {
+            let mut child = region.with(position, state);
+            child.cuts = 0;
             self.node(&child, ends, 0.5 * share);
+        }
+    }
+
+    /// Covers a decided region by its null vector: the widest part of the interval over which it is
+    /// proved to be the only one, and what is left on both sides. Returns false, and covers
+    /// nothing, where no null vector is found.
+    fn roots(&mut self, region: &Region, ends: &Ends, share: f64) -> bool {
+        let search = RootSearch {
+            given: self.given,
+            view: self.view,
+            expansion: self.expansion,
+        };
+
+        match search.leaf(region, ends) {
+            Searched::Nothing => false,
+            Searched::Part(found) => {
+                self.met.extend(found.solution);
+                self.around(region, *found, share);
+                true
+            }
+            Searched::NotUnique(value) => {
+                self.met.push(value);
+                if !self.exact(region, share) {
+                    self.degenerate(region, ends, value, share);
+                }
+
+                true
+            }
+        }
+    }
+
+    /// A null vector that is not provably the only one (a double root, a wide kernel, a singular
+    /// pencil): a neighbourhood of it stays open, or the whole region the second time.
+    fn degenerate(&mut self, region: &Region, ends: &Ends, value: f64, share: f64) {
+        let neighbourhood = part_around(region, ends, value, DEGENERATE_PART);
+        let Some([lo, hi]) = neighbourhood.filter(|_| !region.is_suspect) else {
+            return self.leaf(Node::Open, share);
+        };
+
+        let mut outside = region.clone();
+        outside.is_suspect = true;
+        outside.cuts = 0;
+        let open = PartLeaf {
+            lo,
+            hi,
+            leaf: Item::Node(Node::Open),
+            solution: None,
+        };
+
+        self.around(&outside, open, share);
+    }
+
+    /// A leaf for a part of a region, and the rest of the region on both sides of it.
+    fn around(&mut self, region: &Region, found: PartLeaf, share: f64) {
+        let part = share / 3.0;
+        let has_below = found.lo > region.lo;
+        let has_above = region.hi.as_ref() != Some(&found.hi);
+
+        if has_below {
+            self.split_at(&found.lo);
+            self.region(&region.below(&found.lo), part);
+        }
+
+        if has_above {
+            self.split_at(&found.hi);
+        }
+
+        let has_solution = found.leaf.is_solution();
+        self.items.push(found.leaf);
+        self.shares.closed(part, has_solution);
+        if has_above {
+            self.region(&region.above(&found.hi), part);
+        } else {
+            self.shares.closed(part, false);
+        }
+
+        if !has_below {
+            self.shares.closed(part, false);
+        }
+    }
+
+    /// Decides a decided region by exact arithmetic, if that can be done.
+    fn exact(&mut self, region: &Region, share: f64) -> bool {
+        let variables = self.view.variables(&region::support(&region.states));
+        let shares = self.shares;
+        let leaf = support::leaf(
+            self.given.pencil,
+            &variables,
+            &region.lo,
+            region.hi.as_ref(),
+            &|| shares.is_cancelled(),
+        );
+        match leaf {
+            Some(leaf) => {
+                self.leaf(Node::Support(Box::new(leaf)), share);
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// What doubles do not close: exact arithmetic decides a decided region, or it stays open.
+    fn give_up(&mut self, region: &Region, share: f64) {
+        if !region.is_decided() || !self.exact(region, share) {
+            self.leaf(Node::Open, share);
+        }
+    }
+
+    /// Covers a region beyond the reach of the enclosures: a few undecided variables are decided
+    /// one by one, and each support by exact arithmetic.
+    pub(super) fn by_support(&mut self, region: &Region, share: f64) {
+        let undecided = region::undecided(&region.states);
+        let Some(&position) = undecided.first() else {
+            if region.states.contains(&State::InSupport) {
+                return self.give_up(region, share);
+            }
+
+            let leaf = Node::Support(Box::new(support::empty_leaf()));
+            return self.leaf(leaf, share);
+        };
+
+        if undecided.len() > MAX_UNDECIDED_EXACT || self.shares.is_cancelled() {
+            return self.leaf(Node::Open, share);
+        }
+
+        self.branch_on(position);
+        for state in [State::AtZero, State::InSupport] {
+            let child = region.with(position, state);
+            self.by_support(&child, 0.5 * share);
         }
     }
 }
 
-/// A Farkas vector for both ends of an interval, given the game at its middle. What works at both
-/// ends works at the middle: where nothing does, the larger game need not be played.
-fn farkas(
-    columns: &Columns,
-    middle: &Game,
-    prunable: bool,
-    states: &[State],
-    decided: bool,
-) -> Option<Vec<i64>> {
-    if middle.value <= 0.0 {
-        return None;
-    }
-    // The game of both ends does not know the radius; the middle's vector may stand it over all of
-    // the interval.
-    if prunable && let Some(w) = columns.round(&middle.w) {
-        return Some(w);
-    }
-    let game = columns.play(states);
-    // Before a decided region is given to its null vectors a thin margin is worth trying.
-    let holds = game.value > if decided { THIN_MARGIN } else { WITNESS_MARGIN };
-    if holds { columns.round(&game.w) } else { None }
-}
-
-fn definite_leaf(ends: &Ends, states: &[State]) -> Option<Node> {
-    let at_infinity = |k: usize| k == 1 && ends.hi.is_infinite() && vanishes(&ends.m[1], states);
-    let both = |sign: f64| {
-        (0..2).all(|k| at_infinity(k) || definite(&ends.m[k], ends.r.as_ref(), states, sign))
-    };
-    if both(1.0) {
-        Some(Node::PositiveDefinite)
-    } else if both(-1.0) {
-        Some(Node::NegativeDefinite)
+/// Are further cuts of a decided region in vain?
+fn is_hopeless(region: &Region, ends: &Ends, middle: &MiddleTest) -> bool {
+    let max_cuts = if region.is_suspect {
+        MAX_CUTS_SUSPECT
     } else {
-        None
-    }
+        MAX_CUTS_DECIDED
+    };
+
+    // The radius stands in the way, and a shorter interval has the same.
+    let is_held_up_by_radius =
+        !middle.is_prunable && ends.r.is_some() && region.cuts >= MAX_CUTS_SUSPECT;
+    region.cuts >= max_cuts || is_held_up_by_radius
 }
 
-/// The shortest dyadic number within `slack` of `target` that is no integer: integers and small
-/// fractions are where the solutions of hand-made problems lie, and a cut should not meet them.
-pub(super) fn short(target: f64, slack: f64) -> Option<Rational> {
-    if !(target > 0.0 && slack > 0.0) {
-        return None;
+/// Both ends of the part on which the middle's witness works, if that is a good part of the
+/// interval; else the middle. Ends that coincide with the interval's are left out.
+fn proposed_cuts(ends: &Ends, columns: &Columns, middle: &MiddleTest) -> Vec<Rational> {
+    let width = ends.hi - ends.lo;
+    if !width.is_finite() {
+        let halved = short_near(middle.value, SLACK_OF_HALF * middle.value);
+        return halved.into_iter().collect();
     }
-    let top = target.log2().floor() as i32;
-    (3..=52).find_map(|bits| {
-        let unit = f64::from(top - bits).exp2();
-        // An odd multiple of the unit.
-        let odd = 2.0 * (0.5 * (target / unit - 1.0)).round() + 1.0;
-        let v = odd * unit;
-        let fits = (v - target).abs() <= slack && v > 0.0 && (unit < 1.0 || slack > 1e6);
-        fits.then(|| from_f64(v).ok()).flatten()
-    })
+
+    let place_of_middle = (middle.value - ends.lo) / width;
+    let range = columns.range(&middle.game.w, place_of_middle);
+    let Some(range) = range.filter(|range| range.end - range.begin > WORTH_TWO_CUTS) else {
+        let halved = short_near(middle.value, SLACK_OF_HALF * width);
+        return halved.into_iter().collect();
+    };
+
+    let slack = SLACK_OF_PART * (range.end - range.begin);
+    let mut cuts = Vec::new();
+    if range.begin > 0.0 {
+        let target = ends.lo + (range.begin + slack) * width;
+        cuts.extend(short_near(target, slack * width));
+    }
+
+    if range.end < 1.0 {
+        let target = ends.lo + (range.end - slack) * width;
+        cuts.extend(short_near(target, slack * width));
+    }
+
+    cuts
 }

@@ -1,0 +1,97 @@
+//! Leaves `positive_definite` and `negative_definite`: the symmetric part of T is definite.
+//!
+//! A solution has x'Tx = x'y = 0. If sym(T) or -sym(T) is positive definite on the variables that
+//! may be in the support, at both ends of the interval and so between, then x = 0. At an infinite
+//! end a direction B that vanishes there suffices, because the matrix at the lower end is definite.
+//!
+//! Called by `tree` for every region. The checker's side is `check::cover::leaf`, with the test
+//! itself in `check::cover::definite`.
+
+use crate::search::complete::pieces::expansion::Ends;
+use crate::search::complete::pieces::matrix::{Matrix, largest_entry};
+use crate::search::complete::region::{State, possible_support};
+use crate::tolerance::DEFINITE_PIVOT;
+use mceip_check::certificate::Node;
+
+/// The leaf of a region with these ends and states, if its symmetric part is definite.
+pub(crate) fn leaf(ends: &Ends, states: &[State]) -> Option<Node> {
+    if holds_at_both_ends(ends, states, 1.0) {
+        Some(Node::PositiveDefinite)
+    } else if holds_at_both_ends(ends, states, -1.0) {
+        Some(Node::NegativeDefinite)
+    } else {
+        None
+    }
+}
+
+fn holds_at_both_ends(ends: &Ends, states: &[State], sign: f64) -> bool {
+    let radius = ends.r.as_ref();
+    if !is_definite(&ends.m[0], radius, states, sign) {
+        return false;
+    }
+
+    let vanishes_at_infinity = ends.is_half_line() && vanishes(&ends.m[1], states);
+    vanishes_at_infinity || is_definite(&ends.m[1], radius, states, sign)
+}
+
+/// Is the symmetric part exactly zero on what may be in the support? Enough at an infinite end.
+fn vanishes(m: &Matrix, states: &[State]) -> bool {
+    let possible = possible_support(states);
+    for &i in &possible {
+        for &j in &possible {
+            if m[i][j] + m[j][i] != 0.0 {
+                return false;
+            }
+        }
+    }
+
+    true
+}
+
+/// Is `sign` sym(M) positive definite on what may be in the support, for every M within `radius`
+/// of `m`, with a margin?
+pub(crate) fn is_definite(
+    m: &Matrix,
+    radius: Option<&Matrix>,
+    states: &[State],
+    sign: f64,
+) -> bool {
+    let possible = possible_support(states);
+    let mut s = Matrix::new();
+    for &i in &possible {
+        let row = possible.iter().map(|&j| sign * (m[i][j] + m[j][i]));
+        s.push(row.collect());
+    }
+
+    let least_pivot = DEFINITE_PIVOT * largest_entry(&s);
+
+    if let Some(radius) = radius {
+        for (p, &i) in possible.iter().enumerate() {
+            let around = possible.iter().map(|&j| radius[i][j] + radius[j][i]);
+            s[p][p] -= around.sum::<f64>();
+        }
+    }
+
+    has_pivots_above(s, least_pivot)
+}
+
+/// Does elimination on a symmetric matrix meet only pivots above `least`?
+fn has_pivots_above(mut s: Matrix, least: f64) -> bool {
+    let order = s.len();
+    for k in 0..order {
+        if s[k][k] <= least {
+            return false;
+        }
+
+        let (upper, lower) = s.split_at_mut(k + 1);
+        let pivot_row = &upper[k];
+        for row in lower {
+            let factor = row[k] / pivot_row[k];
+            for j in k + 1..order {
+                row[j] -= factor * pivot_row[j];
+            }
+        }
+    }
+
+    true
+}

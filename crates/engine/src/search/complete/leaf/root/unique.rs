@@ -1,0 +1,350 @@
+//! The witness that a support has one null vector over an interval, and what that vector is.
+//!
+//! Made from a null vector in doubles: a pivot with large components on both sides, the inverse on
+//! the rest of the support rounded to as few bits as will do, and both vectors scaled to 1 at the
+//! pivot. What it has to satisfy stands in `bounds`.
+//!
+//! Called by the leaves `root` and `infinity` and by `precise`.
+
+use super::bounds::Approximation;
+use crate::search::complete::null_vector::NullVector;
+use crate::search::complete::pieces::expansion::{Ends, Expansion};
+use crate::search::complete::pieces::matrix::{Matrix, largest_entry};
+use crate::search::complete::region::{State, at_zero};
+use crate::tolerance::{ROOT_HALF_WIDTHS, ROUNDING};
+use mceip_check::certificate::{Root, RootOutcome};
+use mceip_exact::{Integer, Rational, from_f64, to_f64, truncated};
+use mceip_mcp::linear::inverse;
+use mceip_model::file::Number;
+use num_traits::One;
+
+/// Exponent of the null vectors.
+const VECTOR_BITS: u32 = 56;
+/// Bits tried for the inverse's largest entry.
+const INVERSE_BITS: [i32; 4] = [12, 20, 30, 44];
+/// Pivots tried.
+const PIVOTS: usize = 3;
+
+/// A pivot with Y, u and v that prove uniqueness over an interval.
+pub(crate) struct Unique {
+    approximation: Approximation,
+    /// Y in units of 2^-`inverse_bits`.
+    inverse: Vec<Vec<Integer>>,
+    inverse_bits: u32,
+}
+
+/// Where a value is proved to be and what its null vector is.
+pub(crate) struct Located {
+    pub(crate) interval: [Rational; 2],
+    pub(crate) outcome: RootOutcome,
+}
+
+impl Unique {
+    /// The witness that this is the only null vector over `wide`, which contains the leaf; `None`
+    /// where it is not to be had.
+    pub(crate) fn of(null: &NullVector, wide: &Ends) -> Option<Unique> {
+        let weights: Vec<f64> = null
+            .left
+            .iter()
+            .zip(&null.right)
+            .map(|(u, v)| (u * v).abs())
+            .collect();
+        let mut order: Vec<usize> = (0..weights.len()).collect();
+        order.sort_by(|p, q| weights[*q].total_cmp(&weights[*p]));
+
+        order
+            .into_iter()
+            .take(PIVOTS)
+            .find_map(|place| Unique::with_pivot(null, place, wide))
+    }
+
+    /// The same with the pivot at this place of the support.
+    fn with_pivot(null: &NullVector, place: usize, wide: &Ends) -> Option<Unique> {
+        let pivot = null.support[place];
+        let mut rest = null.support.clone();
+        rest.remove(place);
+        let inverse_at_middle = if rest.is_empty() {
+            Vec::new()
+        } else {
+            inverse(&middle_block(wide, &rest))?
+        };
+
+        let mut approximation = Approximation {
+            rest,
+            pivot,
+            inverse: Vec::new(),
+            left: scaled_without(&null.left, place),
+            right: scaled_without(&null.right, place),
+        };
+
+        for bits in INVERSE_BITS {
+            let inverse_bits = exponent(&inverse_at_middle, bits);
+            let unit = f64::from(inverse_bits).exp2();
+            approximation.inverse = rounded(&inverse_at_middle, unit);
+
+            let is_proof = approximation
+                .errors(wide)
+                .is_some_and(|errors| approximation.is_monotone(wide, &errors));
+            if is_proof {
+                let inverse = integers(&approximation.inverse, unit);
+                approximation.inverse = doubles(&inverse, inverse_bits);
+                return Some(Unique {
+                    approximation,
+                    inverse,
+                    inverse_bits,
+                });
+            }
+        }
+
+        None
+    }
+
+    /// The certificate's form; `index` gives the problem's numbers of the positions, `interval`
+    /// what the value lies in.
+    pub(crate) fn witness(
+        &self,
+        index: &[usize],
+        interval: [Rational; 2],
+        outcome: RootOutcome,
+    ) -> Root {
+        let unit = f64::from(VECTOR_BITS).exp2();
+        let left = &self.approximation.left;
+        let right = &self.approximation.right;
+        Root {
+            pivot: index[self.approximation.pivot],
+            interval: interval.map(Number),
+            inverse: self.inverse.clone(),
+            inverse_exponent: self.inverse_bits,
+            left: left.iter().map(|v| integer(v * unit)).collect(),
+            right: right.iter().map(|v| integer(v * unit)).collect(),
+            exponent: VECTOR_BITS,
+            outcome,
+        }
+    }
+
+    /// A narrow interval around the value on which the signs of x and y are certain, and what they
+    /// say; `None` where no width of [`ROOT_HALF_WIDTHS`] makes them so.
+    ///
+    /// A value near one of `ends`, the ends of its leaf or region, gets an interval centred at that
+    /// end: the leaf on the other side finds it too, and of two intervals with one centre one holds
+    /// the other, so that the checker sees one solution.
+    pub(crate) fn outcome(
+        &self,
+        expansion: &Expansion,
+        value: f64,
+        ends: [f64; 4],
+        states: &[State],
+        index: &[usize],
+    ) -> Option<Located> {
+        ROOT_HALF_WIDTHS.iter().find_map(|width| {
+            let half = width * value.abs();
+            let center = nearest_end(value, ends, 0.5 * half);
+            let narrow = expansion.ends(center - half, center + half);
+
+            let errors = self.approximation.errors(&narrow)?;
+            if self.approximation.sign_product(&narrow, &errors) != -1 {
+                return None;
+            }
+
+            let outcome = self.signs(&narrow, errors.right, states, index)?;
+            let interval = [from_f64(center - half).ok()?, from_f64(center + half).ok()?];
+            Some(Located { interval, outcome })
+        })
+    }
+
+    /// Has the Schur complement one sign over the interval, so that there is no null vector in it?
+    pub(crate) fn is_absent(&self, wide: &Ends) -> bool {
+        self.approximation
+            .errors(wide)
+            .is_some_and(|errors| self.approximation.sign_product(wide, &errors) == 1)
+    }
+
+    /// What the signs of x on the support and of y = T x off it say; `None` if one is not certain.
+    /// `error` bounds the error of the components of x.
+    fn signs(
+        &self,
+        narrow: &Ends,
+        error: f64,
+        states: &[State],
+        index: &[usize],
+    ) -> Option<RootOutcome> {
+        let error = 2.0 * error + ROUNDING;
+        let mut is_certain = true;
+        for (&i, v) in self
+            .approximation
+            .rest
+            .iter()
+            .zip(&self.approximation.right)
+        {
+            if *v < -error {
+                return Some(RootOutcome::NegativeX(index[i]));
+            }
+
+            is_certain &= *v > error;
+        }
+
+        for i in at_zero(states) {
+            let at_ends = [0, 1].map(|end| self.reaction(narrow, end, i, error));
+            if at_ends.iter().all(|y| -y.value > y.around) {
+                return Some(RootOutcome::NegativeY(index[i]));
+            }
+
+            is_certain &= at_ends.iter().all(|y| y.value > y.around);
+        }
+
+        is_certain.then_some(RootOutcome::Solution)
+    }
+
+    /// Row i of T x at an end, for every x within `error` of the right vector.
+    fn reaction(&self, narrow: &Ends, end: usize, i: usize, error: f64) -> Reaction {
+        let rest = self.approximation.rest.iter();
+        let on_rest = rest.zip(&self.approximation.right);
+        let mut y = Reaction {
+            value: 0.0,
+            around: 0.0,
+        };
+
+        for (&j, v) in on_rest.chain([(&self.approximation.pivot, &1.0)]) {
+            let entry = narrow.m[end][i][j];
+            let radius = narrow.radius(i, j);
+            y.value += entry * v;
+            y.around += radius * v.abs();
+            y.around += error * (entry.abs() + radius);
+            y.around += ROUNDING * (entry * v).abs();
+        }
+
+        y
+    }
+}
+
+/// A component of y and how far it may be off.
+struct Reaction {
+    value: f64,
+    around: f64,
+}
+
+/// The value, or an end within `distance` of it: of several the one with the shortest number, which
+/// is what the neighbours have as well.
+fn nearest_end(value: f64, ends: [f64; 4], distance: f64) -> f64 {
+    ends.into_iter()
+        .filter(|end| (end - value).abs() <= distance)
+        .max_by_key(|end| end.to_bits().trailing_zeros())
+        .unwrap_or(value)
+}
+
+/// The block of the matrix in the middle of the ends.
+fn middle_block(wide: &Ends, indices: &[usize]) -> Matrix {
+    let mut block = Matrix::new();
+    for &i in indices {
+        let row = indices
+            .iter()
+            .map(|&j| 0.5 * (wide.m[0][i][j] + wide.m[1][i][j]));
+        block.push(row.collect());
+    }
+
+    block
+}
+
+/// The components but the one at `place`, divided by that one.
+fn scaled_without(list: &[f64], place: usize) -> Vec<f64> {
+    let at_place = list[place];
+    let mut scaled = list.to_vec();
+    scaled.remove(place);
+    for v in &mut scaled {
+        *v /= at_place;
+    }
+
+    scaled
+}
+
+/// Binary exponent that gives the largest entry about this many bits.
+fn exponent(matrix: &Matrix, bits: i32) -> u32 {
+    // Where the pivot is the whole support nothing is left to invert, and an empty Y needs no
+    // units.
+    if matrix.is_empty() {
+        return 0;
+    }
+
+    let largest = largest_entry(matrix).max(f64::MIN_POSITIVE);
+    u32::try_from(bits - largest.log2().ceil() as i32).unwrap_or(0)
+}
+
+fn rounded(matrix: &Matrix, unit: f64) -> Matrix {
+    matrix
+        .iter()
+        .map(|row| row.iter().map(|v| (v * unit).round() / unit).collect())
+        .collect()
+}
+
+fn integers(matrix: &Matrix, unit: f64) -> Vec<Vec<Integer>> {
+    matrix
+        .iter()
+        .map(|row| row.iter().map(|v| integer(v * unit)).collect())
+        .collect()
+}
+
+fn doubles(matrix: &[Vec<Integer>], bits: u32) -> Matrix {
+    let unit = Integer::one() << bits;
+    let mut doubles = Matrix::new();
+    for row in matrix {
+        let entries = row
+            .iter()
+            .map(|v| to_f64(&Rational::new(v.clone(), unit.clone())));
+        doubles.push(entries.collect());
+    }
+
+    doubles
+}
+
+/// An integer from a double that holds one.
+fn integer(v: f64) -> Integer {
+    truncated(v.round()).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::complete::null_vector::null_vector;
+    use crate::search::complete::pieces::view::View;
+    use mceip_exact::Sparse;
+    use mceip_model::Pencil;
+
+    /// The double that lies this many units in the last place above 9/4.
+    fn above(units: u64) -> f64 {
+        f64::from_bits(2.25f64.to_bits() + units)
+    }
+
+    /// -9 + 4t vanishes at 9/4. Where leaves meet at an end near it their intervals have that end
+    /// as centre, of several ends the one with the shortest number, whatever the rounded value; an
+    /// end farther away than half the width does not count.
+    #[test]
+    fn a_value_near_an_end_gets_an_interval_around_that_end() {
+        let a = Sparse::from_ints(&[&[-9]]);
+        let b = Sparse::from_ints(&[&[4]]);
+        let view = View::of(&Pencil::new(a, b, vec![]).unwrap());
+        let expansion = &view.expansions[0];
+        let states = [State::InSupport];
+        let null = null_vector(expansion, &states, 2.0, 3.0).unwrap();
+        let unique = Unique::of(&null, &expansion.ends(2.0, 3.0)).unwrap();
+        let half = ROOT_HALF_WIDTHS[0] * 2.25;
+
+        // Value, ends of the leaf and of the region, expected centre.
+        let cases = [
+            (2.25, [2.0, 2.5, 1.0, 3.0], 2.25),
+            (above(3), [2.0, 2.5, 1.0, 3.0], above(3)),
+            (above(3), [2.25, 2.5, 1.0, 3.0], 2.25),
+            (above(3), [2.0, above(5), 1.0, 2.25], 2.25),
+            (above(3), [2.0, above(6), 1.0, 3.0], above(6)),
+            (above(3), [2.25 + 0.6 * half, 2.5, 1.0, 3.0], above(3)),
+        ];
+        for (value, ends, centre) in cases {
+            let found = unique
+                .outcome(expansion, value, ends, &states, &[0])
+                .unwrap();
+
+            let interval = found.interval.map(|end| to_f64(&end));
+            assert_eq!(interval, [centre - half, centre + half], "{value} {ends:?}");
+            assert_eq!(found.outcome, RootOutcome::Solution);
+        }
+    }
+}

@@ -1,0 +1,47 @@
+//! Leaf `tail`: above some value the symmetric part of the whole pencil is definite.
+//!
+//! If sym(A + t0 B) is positive definite and sym(B) positive semidefinite, sym(A + tB) is definite
+//! for every t >= t0, and a solution would have 0 < x'(A + tB)x = x'y = 0. The evidence stands in
+//! the condensation, once for all pieces above t0; the leaf only refers to it. The checker's side
+//! is `check::cover::condensed::tail`.
+//!
+//! Called while the window is cut into pieces (`pieces::condense`).
+
+use crate::search::complete::dyadic::short_below;
+use crate::search::complete::pieces::massless;
+use crate::search::complete::pieces::skyline::Skyline;
+use crate::tolerance::TAIL_START;
+use mceip_check::certificate::Tail;
+use mceip_exact::to_f64;
+use mceip_model::Pencil;
+use mceip_model::file::Number;
+
+/// Doublings from a millionth of |A| / |B| until the symmetric part is to be definite.
+const TAIL_DOUBLINGS: i32 = 60;
+
+/// Where the symmetric part of the whole pencil becomes definite, with its proof.
+pub(crate) fn tail(pencil: &Pencil) -> Option<Tail> {
+    let a = Skyline::symmetric(pencil.a());
+    let b = Skyline::symmetric(pencil.b());
+    let mass_factor = if b.is_diagonal() {
+        None
+    } else {
+        Some(massless::factor(pencil.b())?)
+    };
+
+    // Where sym(B) is positive definite, doubling comes to an end.
+    let start = a.largest_diagonal() / b.largest_diagonal() * TAIL_START;
+    let definite_at = (0..TAIL_DOUBLINGS)
+        .map(|k| start * f64::from(k).exp2())
+        .find(|t| a.combine(*t, &b).cholesky().is_some())?;
+
+    let from = short_below(1.25 * definite_at)?;
+    let sum = a.combine(to_f64(&from), &b);
+    let slack = sum.below_spectrum()?;
+    let factor = sum.shifted(-slack).cholesky()?.rounded(slack);
+    Some(Tail {
+        from: Number(from),
+        factor,
+        mass_factor,
+    })
+}

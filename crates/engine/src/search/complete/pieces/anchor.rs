@@ -1,0 +1,431 @@
+//! Anchors of a condensation: centres along the unknown, and the elimination about each of them.
+//!
+//! About a centre c, with d = t - c, the Taylor polynomials W(d) of F^-1 T_fs and V(d) of
+//! F^-1 T_sf' are computed in doubles and rounded to integers over a power of two. With the
+//! residuals r = T_fs - F W and l = T_sf' - F V the condensed pencil is
+//!
+//! ```text
+//!     T_ss - T_sf F^-1 T_fs = (T_ss - T_sf W - V'r) - l' F^-1 r,
+//! ```
+//!
+//! a polynomial and a remainder that is small twice over (see `check::cover::condensed`). The
+//! coefficients of W follow from F_c W_k = [k = 0] T_fs(c) + [k = 1] B_fs - B_ff W_(k-1).
+//!
+//! F has to be symmetric positive definite. Called by `condense`, `reverse` and `precise_anchor`.
+
+use super::blocks::{Blocks, LinearColumns};
+use super::expansion::{ColumnNorms, Expansion};
+use super::matrix::{Matrix, zeros};
+use super::skyline::{Skyline, dot};
+use super::view::row_factor;
+use mceip_check::certificate::{Anchor, IntegerMatrix};
+use mceip_exact::{Rational, from_f64, to_f64, truncated};
+use mceip_model::Pencil;
+use mceip_model::file::Number;
+
+/// How an anchor is expanded: degree of W and V, and the bits of their largest entries. What W's
+/// rounding costs enters to first order (times V), what the degree leaves out enters squared.
+#[derive(Clone, Copy)]
+pub(crate) struct Precision {
+    degree: usize,
+    right_bits: i32,
+    left_bits: i32,
+}
+
+/// F does not depend on the unknown: W is a constant.
+pub(crate) const CONSTANT: Precision = Precision {
+    degree: 0,
+    right_bits: 56,
+    left_bits: 24,
+};
+
+/// For regions far from solutions: the margins of their witnesses are wide.
+pub(crate) const COARSE: Precision = Precision {
+    degree: 2,
+    right_bits: 36,
+    left_bits: 24,
+};
+
+/// About a solution, used within [`NEAR`] of it.
+pub(crate) const FINE: Precision = Precision {
+    degree: 2,
+    right_bits: 56,
+    left_bits: 30,
+};
+
+/// Distance from a solution up to which its own anchor is used, relative to value + lowest
+/// frequency.
+pub(crate) const NEAR: f64 = 0.03;
+
+/// Bits that each degree needs less.
+const BITS_PER_DEGREE: i32 = 2;
+
+/// Distance from a centre up to which it is used, relative to center + smallest eigenvalue of
+/// (K_ff, M_ff).
+const REACH: f64 = 0.3;
+
+/// Anchors at most: beyond that the window is left open above.
+const MAX_ANCHORS: usize = 64;
+
+/// Largest binary exponent of a rounded matrix.
+const MAX_EXPONENT: i32 = 900;
+
+/// A centre, and the value up to which it is used.
+pub(crate) struct Center {
+    pub(crate) at: Rational,
+    pub(crate) end: f64,
+}
+
+/// Centres that cover [low, top], at least one; one for a pencil whose F does not depend on t
+/// (`lowest_frequency` zero).
+pub(crate) fn centers(lowest_frequency: f64, mut low: f64, top: f64) -> Vec<Center> {
+    if lowest_frequency == 0.0 {
+        return vec![Center {
+            at: Rational::from_integer(0.into()),
+            end: f64::INFINITY,
+        }];
+    }
+
+    let mut centers = Vec::new();
+    while centers.is_empty() || (low < top && centers.len() < MAX_ANCHORS) {
+        // center - low = REACH (center + lowest frequency), end - center likewise.
+        let center = (low + REACH * lowest_frequency) / (1.0 - REACH);
+        let end = center + REACH * (center + lowest_frequency);
+        centers.push(Center {
+            at: from_f64(center).unwrap_or_default(),
+            end,
+        });
+        low = end;
+    }
+
+    centers
+}
+
+/// A_ff >= sigma I and B_ff >= tau I, as the certificate proves it.
+#[derive(Clone, Copy)]
+pub(crate) struct FreeBounds {
+    pub(crate) sigma: f64,
+    pub(crate) tau: f64,
+}
+
+impl FreeBounds {
+    /// Those of the pencil with its matrices exchanged.
+    pub(crate) fn exchanged(self) -> FreeBounds {
+        FreeBounds {
+            sigma: self.tau,
+            tau: self.sigma,
+        }
+    }
+}
+
+/// An anchor of the certificate, and the condensed pencil in doubles that it gives.
+pub(crate) struct Expanded {
+    pub(crate) anchor: Anchor,
+    pub(crate) expansion: Expansion,
+}
+
+/// A matrix by columns: one per complementarity variable, over the free variables.
+pub(crate) type Columns = Vec<Vec<f64>>;
+
+/// The elimination of the free variables of one pencil.
+pub(crate) struct Elimination<'a> {
+    pub(crate) pencil: &'a Pencil,
+    pub(crate) blocks: &'a Blocks,
+    pub(crate) bounds: FreeBounds,
+}
+
+impl Elimination<'_> {
+    /// The Taylor polynomials about a centre, rounded, and the condensed pencil they give; `None`
+    /// where F is not definite in doubles.
+    pub(crate) fn expand(&self, center: &Rational, precision: Precision) -> Option<Expanded> {
+        let at = to_f64(center);
+        let factor = self.blocks.factor_at(at)?;
+        let solution = Solution {
+            blocks: self.blocks,
+            factor: &factor,
+            center: at,
+        };
+
+        let degree = self.degree(&self.blocks.fs, precision);
+        let right = solution.taylor(&self.blocks.fs, degree, precision.right_bits);
+        let degree = self.degree(&self.blocks.sf, precision);
+        let left = solution.taylor(&self.blocks.sf, degree, precision.left_bits);
+
+        let expansion = self.expansion(at, &right.rounded, &left.rounded);
+        let anchor = Anchor {
+            center: Number(center.clone()),
+            reversed: false,
+            right: right.integers,
+            left: left.integers,
+        };
+
+        Some(Expanded { anchor, expansion })
+    }
+
+    /// Degree of the solution for a right-hand side.
+    fn degree(&self, given: &LinearColumns, precision: Precision) -> usize {
+        if !self.blocks.mass_is_zero {
+            precision.degree
+        } else if given.is_constant() {
+            0
+        } else {
+            1
+        }
+    }
+
+    /// The condensed pencil about a centre and the norms of the residuals, as the checker will
+    /// compute them. `right` and `left` are the coefficients of W and V.
+    pub(crate) fn expansion(&self, center: f64, right: &[Columns], left: &[Columns]) -> Expansion {
+        let blocks = self.blocks;
+        let order = blocks.slip.len();
+        let right_residual = residual(blocks, &blocks.fs, center, right);
+        let left_residual = residual(blocks, &blocks.sf, center, left);
+        let row_factors: Vec<f64> = blocks
+            .slip
+            .iter()
+            .map(|&i| to_f64(&row_factor(self.pencil, i)))
+            .collect();
+
+        let condensed = Condensed {
+            pencil: self.pencil,
+            blocks,
+            center,
+            right,
+            left,
+            right_residual: &right_residual,
+        };
+
+        let mut coefficients = condensed.coefficients(&row_factors);
+        // What is zero but for rounding is zero in exact arithmetic: T is linear where F and the
+        // free rows are constant.
+        if blocks.is_linear() {
+            coefficients.truncate(2);
+        }
+
+        let ones = vec![1.0; order];
+        Expansion {
+            center,
+            coefficients,
+            left_residual: column_norms(&left_residual, &row_factors),
+            right_residual: column_norms(&right_residual, &ones),
+            weight: vec![1.0 / self.bounds.sigma; order],
+            gain: self.bounds.tau / self.bounds.sigma,
+            left_solution: column_norms(left, &row_factors),
+            right_rounding: column_norms(&right_residual[..right.len()], &ones),
+            caution: 1.0,
+            free: right.to_vec(),
+            reversed: false,
+        }
+    }
+}
+
+/// Solutions with F(center), which is given by its Cholesky factor.
+struct Solution<'a> {
+    blocks: &'a Blocks,
+    factor: &'a Skyline,
+    center: f64,
+}
+
+/// Coefficients of a Taylor polynomial, as the certificate has them and in doubles.
+#[derive(Default)]
+struct Taylor {
+    integers: Vec<IntegerMatrix>,
+    rounded: Vec<Columns>,
+}
+
+impl Solution<'_> {
+    /// The Taylor coefficients of F^-1 (C + tD) up to a degree. `bits` are those of the first one.
+    fn taylor(&self, given: &LinearColumns, degree: usize, bits: i32) -> Taylor {
+        let mut taylor = Taylor::default();
+        for k in 0..=degree {
+            let mut columns = self.right_hand_sides(given, k, taylor.rounded.last());
+            self.factor.solve_all(&mut columns);
+
+            let rounded = Rounded::of(&columns, bits - BITS_PER_DEGREE * k as i32);
+            taylor.integers.push(rounded.integers);
+            taylor.rounded.push(rounded.columns);
+        }
+
+        taylor
+    }
+
+    /// [k = 0] (C + center D) + [k = 1] D - B_ff W_(k-1), by columns.
+    fn right_hand_sides(
+        &self,
+        given: &LinearColumns,
+        k: usize,
+        before: Option<&Columns>,
+    ) -> Columns {
+        let mut columns = Columns::new();
+        for j in 0..self.blocks.slip.len() {
+            let mut column = match k {
+                0 => given.at(j, self.center),
+                1 => given.slope[j].clone(),
+                _ => vec![0.0; self.blocks.free.len()],
+            };
+
+            if let Some(before) = before {
+                let product = self.blocks.mass_rows.times(&before[j]);
+                for (c, p) in column.iter_mut().zip(product) {
+                    *c -= p;
+                }
+            }
+
+            columns.push(column);
+        }
+
+        columns
+    }
+}
+
+/// The coefficients of C + tD - F(t) W in powers of d = t - center.
+fn residual(
+    blocks: &Blocks,
+    given: &LinearColumns,
+    center: f64,
+    solution: &[Columns],
+) -> Vec<Columns> {
+    let order = blocks.slip.len();
+    let zero: Columns = vec![vec![0.0; blocks.free.len()]; order];
+    let mut residual = vec![zero; (solution.len() + 1).max(2)];
+
+    for j in 0..order {
+        residual[0][j] = given.at(j, center);
+        residual[1][j].clone_from(&given.slope[j]);
+
+        for (k, coefficient) in solution.iter().enumerate() {
+            let mass = blocks.mass_rows.times(&coefficient[j]);
+            let stiffness = blocks.stiffness_rows.times(&coefficient[j]);
+            for (i, r) in residual[k][j].iter_mut().enumerate() {
+                *r -= stiffness[i] + center * mass[i];
+            }
+
+            for (i, r) in residual[k + 1][j].iter_mut().enumerate() {
+                *r -= mass[i];
+            }
+        }
+    }
+
+    residual
+}
+
+/// The polynomial part of the condensed pencil, T_ss - T_sf W - V'r, in powers of d.
+struct Condensed<'a> {
+    pencil: &'a Pencil,
+    blocks: &'a Blocks,
+    center: f64,
+    right: &'a [Columns],
+    left: &'a [Columns],
+    right_residual: &'a [Columns],
+}
+
+impl Condensed<'_> {
+    /// The coefficients, each row times its factor.
+    fn coefficients(&self, row_factors: &[f64]) -> Vec<Matrix> {
+        let order = self.blocks.slip.len();
+        let mut coefficients = vec![zeros(order); self.degree() + 1];
+
+        for i in 0..order {
+            for j in 0..order {
+                let entry = self.entry(i, j);
+                for (matrix, value) in coefficients.iter_mut().zip(entry) {
+                    matrix[i][j] = value * row_factors[i];
+                }
+            }
+        }
+
+        coefficients
+    }
+
+    fn degree(&self) -> usize {
+        let of_product = (self.left.len() + self.right_residual.len()).saturating_sub(2);
+        self.right.len().max(of_product).max(1)
+    }
+
+    /// Entry (i, j) of every coefficient.
+    fn entry(&self, i: usize, j: usize) -> Vec<f64> {
+        let sf = &self.blocks.sf;
+        let row = self.blocks.slip[i];
+        let column = self.blocks.slip[j];
+        let a = to_f64(&self.pencil.a().get(row, column));
+        let b = to_f64(&self.pencil.b().get(row, column));
+
+        // T_ss.
+        let mut entry = vec![0.0; self.degree() + 1];
+        entry[0] += a + self.center * b;
+        entry[1] += b;
+
+        // T_sf W.
+        for (k, w) in self.right.iter().enumerate() {
+            let by_constant = dot(&sf.constant[i], &w[j]);
+            let by_slope = dot(&sf.slope[i], &w[j]);
+            entry[k] -= by_constant + self.center * by_slope;
+            entry[k + 1] -= by_slope;
+        }
+
+        // V'r. The coefficients of r up to the degree of W are rounding, bounded elsewhere.
+        let first = self.right.len();
+        for (k, v) in self.left.iter().enumerate() {
+            for (m, r) in self.right_residual.iter().enumerate().skip(first) {
+                entry[k + m] -= dot(&v[i], &r[j]);
+            }
+        }
+
+        entry
+    }
+}
+
+/// Euclidean norms of the columns of each coefficient, column j times factors[j].
+fn column_norms(coefficients: &[Columns], factors: &[f64]) -> ColumnNorms {
+    let mut norms = ColumnNorms::new();
+    for coefficient in coefficients {
+        let of_columns = coefficient
+            .iter()
+            .zip(factors)
+            .map(|(column, factor)| dot(column, column).sqrt() * factor);
+        norms.push(of_columns.collect());
+    }
+
+    norms
+}
+
+/// A matrix rounded to integers over a power of two: by rows as the certificate has it, and by
+/// columns in doubles.
+struct Rounded {
+    integers: IntegerMatrix,
+    columns: Columns,
+}
+
+impl Rounded {
+    /// Rounds columns so that the largest entry has about this many bits.
+    fn of(columns: &Columns, bits: i32) -> Rounded {
+        let largest = columns
+            .iter()
+            .flatten()
+            .fold(f64::MIN_POSITIVE, |s, v| s.max(v.abs()));
+        let exponent = (bits - largest.log2().ceil() as i32).clamp(0, MAX_EXPONENT);
+        let unit = f64::from(exponent).exp2();
+
+        let mut rounded = Columns::new();
+        for column in columns {
+            rounded.push(column.iter().map(|v| (v * unit).round() / unit).collect());
+        }
+
+        let row_count = columns.first().map_or(0, Vec::len);
+        let mut rows = Vec::with_capacity(row_count);
+        for i in 0..row_count {
+            let integers = rounded
+                .iter()
+                .map(|column| truncated((column[i] * unit).round()).unwrap_or_default());
+            rows.push(integers.collect());
+        }
+
+        Rounded {
+            integers: IntegerMatrix {
+                exponent: exponent.unsigned_abs(),
+                rows,
+            },
+            columns: rounded,
+        }
+    }
+}

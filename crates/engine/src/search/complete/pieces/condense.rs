@@ -1,0 +1,367 @@
+//! Elimination of the free variables: the condensation of the certificate, and the view it gives.
+//!
+//! A condensation proves A_ff >= sigma I and B_ff >= tau I by rounded Cholesky factors, and has an
+//! anchor (`anchor`) for each part of the window. Above the last anchor of an infinite window
+//! stands either a tail (`leaf::tail`: no solution lies there) or a reversed anchor (`reverse`),
+//! whichever begins lower.
+//!
+//! Input: a pencil with free variables, A_ff symmetric positive definite, B_ff symmetric positive
+//! semidefinite. Called by `prepared`. The checker's side is `check::cover::condensed`.
+
+use super::anchor::{COARSE, CONSTANT, Columns, Elimination, Expanded, FINE, FreeBounds, centers};
+use super::blocks::Blocks;
+use super::expansion::Expansion;
+use super::massless;
+use super::reverse::{Beyond, beyond, exchanged};
+use super::skyline::Skyline;
+use super::view::{View, scale_of};
+use crate::search::complete::dyadic::short_below;
+use crate::search::complete::error::CompleteError;
+use crate::search::complete::leaf::tail::tail;
+use mceip_check::certificate::{Anchor, Condensation, Factor, IntegerMatrix, Tail};
+use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64};
+use mceip_model::file::Number;
+use mceip_model::{Pencil, Window};
+
+/// Share of an estimated lower bound of a spectrum that is claimed; the rest is slack for rounding.
+const CLAIMED: f64 = 0.8;
+const SLACK: f64 = 0.2;
+
+/// The condensation, its view and the interval of each anchor.
+pub(crate) struct Condensed {
+    pub(crate) condensation: Condensation,
+    pub(crate) view: View,
+    /// Upper end of each anchor's interval, without the reversed one; the last one is open.
+    pub(crate) ends: Vec<f64>,
+    /// Smallest eigenvalue of (A_ff, B_ff); zero where F does not depend on the unknown.
+    pub(crate) lowest_frequency: f64,
+    /// From where the reversed anchor, the last one, is used; up to infinity.
+    pub(crate) beyond: Option<Rational>,
+}
+
+/// Condenses a pencil with free variables.
+///
+/// # Errors
+/// [`CompleteError::NotDefinite`] where A_ff is not symmetric positive definite (in doubles) or
+/// B_ff is indefinite.
+pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, CompleteError> {
+    let blocks = Blocks::of(pencil);
+    demand_symmetry(&blocks)?;
+    let first_free = blocks.free[0];
+    let stiffness = stiffness_bound(&blocks).ok_or(CompleteError::NotDefinite {
+        what: "A_ff",
+        index: first_free,
+    })?;
+    let given_mass = pencil.b().submatrix(&blocks.free, &blocks.free);
+    let mass = mass_bound(&blocks.mass, &given_mass).ok_or(CompleteError::NotDefinite {
+        what: "B_ff",
+        index: first_free,
+    })?;
+    let elimination = Elimination {
+        pencil,
+        blocks: &blocks,
+        bounds: FreeBounds {
+            sigma: to_f64(&stiffness.sigma),
+            tau: to_f64(&mass.tau),
+        },
+    };
+
+    let above = if window.max().is_none() && !blocks.mass_is_zero {
+        Above::of(pencil, elimination.bounds)
+    } else {
+        Above::Nothing
+    };
+
+    let top = above
+        .begin()
+        .or(window.max().map(to_f64))
+        .unwrap_or(f64::INFINITY);
+
+    let lowest_frequency = if blocks.mass_is_zero {
+        0.0
+    } else {
+        blocks.lowest_frequency(&stiffness.plain_factor)
+    };
+
+    let precision = if blocks.mass_is_zero {
+        CONSTANT
+    } else {
+        COARSE
+    };
+
+    let mut anchors = Anchors::default();
+    let mut ends = Vec::new();
+    for center in centers(lowest_frequency, to_f64(window.min()), top) {
+        let expanded =
+            elimination
+                .expand(&center.at, precision)
+                .ok_or(CompleteError::NotDefinite {
+                    what: "A_ff + t B_ff",
+                    index: first_free,
+                })?;
+        anchors.push(expanded);
+        ends.push(center.end);
+    }
+
+    let mut tail = None;
+    let mut beyond = None;
+    match above {
+        Above::Nothing => {}
+        Above::Tail(found) => tail = Some(found),
+        Above::Reversed(reversed) => {
+            anchors.push(reversed.expanded);
+            beyond = Some(reversed.from);
+        }
+    }
+
+    let condensation = Condensation {
+        sigma: Number(stiffness.sigma),
+        stiffness_factor: stiffness.factor,
+        mass_sigma: Number(mass.tau),
+        mass_factor: mass.factor,
+        anchors: anchors.certificate,
+        tail,
+    };
+
+    let view = View {
+        scale: scale_of(&anchors.expansions[0].coefficients),
+        expansions: anchors.expansions,
+        index: blocks.slip,
+    };
+
+    Ok(Condensed {
+        condensation,
+        view,
+        ends,
+        lowest_frequency,
+        beyond,
+    })
+}
+
+/// The anchors of a condensation and what they expand to, in the same order.
+#[derive(Default)]
+struct Anchors {
+    certificate: Vec<Anchor>,
+    expansions: Vec<Expansion>,
+}
+
+impl Anchors {
+    fn push(&mut self, expanded: Expanded) {
+        self.certificate.push(expanded.anchor);
+        self.expansions.push(expanded.expansion);
+    }
+}
+
+/// What stands above the anchors of an infinite window.
+enum Above {
+    Nothing,
+    Tail(Tail),
+    Reversed(Box<Beyond>),
+}
+
+impl Above {
+    /// The tail, or the reversed anchor where that begins lower.
+    fn of(pencil: &Pencil, bounds: FreeBounds) -> Above {
+        let tail = tail(pencil);
+        let beyond = beyond(pencil, bounds);
+        match (tail, beyond) {
+            (Some(tail), Some(beyond)) if to_f64(&tail.from.0) > to_f64(&beyond.from) => {
+                Above::Reversed(Box::new(beyond))
+            }
+            (Some(tail), _) => Above::Tail(tail),
+            (None, Some(beyond)) => Above::Reversed(Box::new(beyond)),
+            (None, None) => Above::Nothing,
+        }
+    }
+
+    fn begin(&self) -> Option<f64> {
+        match self {
+            Above::Nothing => None,
+            Above::Tail(tail) => Some(to_f64(&tail.from.0)),
+            Above::Reversed(beyond) => Some(to_f64(&beyond.from)),
+        }
+    }
+}
+
+fn demand_symmetry(blocks: &Blocks) -> Result<(), CompleteError> {
+    let rows = [
+        ("A_ff", blocks.stiffness_asymmetry),
+        ("B_ff", blocks.mass_asymmetry),
+    ];
+    for (what, asymmetric_row) in rows {
+        if let Some(row) = asymmetric_row {
+            let index = blocks.free[row];
+            return Err(CompleteError::NotDefinite { what, index });
+        }
+    }
+
+    Ok(())
+}
+
+/// A_ff >= sigma I and its evidence.
+struct StiffnessBound {
+    sigma: Rational,
+    factor: Factor,
+    /// The Cholesky factor of A_ff itself.
+    plain_factor: Skyline,
+}
+
+fn stiffness_bound(blocks: &Blocks) -> Option<StiffnessBound> {
+    let plain_factor = blocks.stiffness.cholesky()?;
+    let bound = blocks.stiffness.below_spectrum()?;
+    let sigma = short_below(CLAIMED * bound)?;
+    let factor = factor_above(&blocks.stiffness, &sigma, SLACK * bound)?;
+    Some(StiffnessBound {
+        sigma,
+        factor,
+        plain_factor,
+    })
+}
+
+/// B_ff >= tau I and its evidence.
+struct MassBound {
+    tau: Rational,
+    /// `None` where the block is a non-negative diagonal.
+    factor: Option<Factor>,
+}
+
+/// The bound of B_ff, which is `given` and in skyline form `mass`; `None` where it is indefinite.
+fn mass_bound(mass: &Skyline, given: &Sparse) -> Option<MassBound> {
+    if mass.is_diagonal() {
+        let tau = short_below(mass.smallest_diagonal()).unwrap_or_default();
+        return Some(MassBound { tau, factor: None });
+    }
+
+    // Without mass in some rows the bound is zero.
+    let Some(bound) = mass.below_spectrum() else {
+        return Some(MassBound {
+            tau: Rational::default(),
+            factor: Some(massless::factor(given)?),
+        });
+    };
+
+    let tau = short_below(CLAIMED * bound)?;
+    let factor = factor_above(mass, &tau, SLACK * bound)?;
+    Some(MassBound {
+        tau,
+        factor: Some(factor),
+    })
+}
+
+/// The rounded Cholesky factor of S - (bound + slack) I: what proves S >= bound I.
+fn factor_above(s: &Skyline, bound: &Rational, slack: f64) -> Option<Factor> {
+    let factor = s.shifted(-to_f64(bound) - slack).cholesky()?;
+    Some(factor.rounded(slack))
+}
+
+/// The bounds that a condensation proves, in doubles.
+pub(crate) fn bounds_of(condensation: &Condensation) -> FreeBounds {
+    FreeBounds {
+        sigma: to_f64(&condensation.sigma.0),
+        tau: to_f64(&condensation.mass_sigma.0),
+    }
+}
+
+/// Appends fine anchors about further values to a condensation and its view. Values at which the
+/// expansion fails get none.
+pub(crate) fn refine(
+    pencil: &Pencil,
+    condensation: &mut Condensation,
+    view: &mut View,
+    values: &[f64],
+) {
+    let blocks = Blocks::of(pencil);
+    let elimination = Elimination {
+        pencil,
+        blocks: &blocks,
+        bounds: bounds_of(condensation),
+    };
+
+    for value in values {
+        let Ok(center) = from_f64(*value) else {
+            continue;
+        };
+
+        if let Some(expanded) = elimination.expand(&center, FINE) {
+            condensation.anchors.push(expanded.anchor);
+            view.expansions.push(expanded.expansion);
+        }
+    }
+}
+
+/// The view that a certificate's condensation gives.
+pub(crate) fn view_of(pencil: &Pencil, condensation: &Condensation) -> View {
+    let bounds = bounds_of(condensation);
+    let blocks = Blocks::of(pencil);
+    let exchanged = exchanged(pencil);
+    let elimination = Elimination {
+        pencil,
+        blocks: &blocks,
+        bounds,
+    };
+
+    let mut expansions = Vec::new();
+    for anchor in &condensation.anchors {
+        let expansion = match &exchanged {
+            Some(exchanged) if anchor.reversed => reversed_expansion(exchanged, anchor, bounds),
+            _ => expansion_of(&elimination, anchor),
+        };
+
+        expansions.push(expansion);
+    }
+
+    let scale = expansions
+        .first()
+        .map_or(1.0, |e| scale_of(&e.coefficients));
+    View {
+        index: blocks.slip,
+        scale,
+        expansions,
+    }
+}
+
+/// The expansion that a reversed anchor gives. `bounds` are those of the pencil as given.
+fn reversed_expansion(exchanged: &Pencil, anchor: &Anchor, bounds: FreeBounds) -> Expansion {
+    let elimination = Elimination {
+        pencil: exchanged,
+        blocks: &Blocks::of(exchanged),
+        bounds: bounds.exchanged(),
+    };
+
+    Expansion {
+        reversed: true,
+        ..expansion_of(&elimination, anchor)
+    }
+}
+
+/// The expansion that an anchor of a certificate gives for the pencil that is eliminated.
+fn expansion_of(elimination: &Elimination<'_>, anchor: &Anchor) -> Expansion {
+    let width = elimination.blocks.slip.len();
+    let center = to_f64(&anchor.center.0);
+    let mut right = Vec::with_capacity(anchor.right.len());
+    for coefficient in &anchor.right {
+        right.push(columns_of(coefficient, width));
+    }
+
+    let mut left = Vec::with_capacity(anchor.left.len());
+    for coefficient in &anchor.left {
+        left.push(columns_of(coefficient, width));
+    }
+
+    elimination.expansion(center, &right, &left)
+}
+
+/// The columns of a rounded matrix, in doubles.
+fn columns_of(matrix: &IntegerMatrix, width: usize) -> Columns {
+    let unit = Integer::from(1) << matrix.exponent;
+    let mut columns = Columns::new();
+    for j in 0..width {
+        let column = matrix
+            .rows
+            .iter()
+            .map(|row| to_f64(&Rational::new(row[j].clone(), unit.clone())));
+        columns.push(column.collect());
+    }
+
+    columns
+}

@@ -1,0 +1,286 @@
+//! An anchor whose W has more bits than doubles: Taylor coefficients by refinement with exact
+//! residuals.
+//!
+//! The equation F_c W_k = [k = 0] T_fs(c) + [k = 1] B_fs - B_ff W_(k-1) is solved with the factor
+//! of F_c in doubles. Each round adds the solution for the exact residual, and gains the digits
+//! that the factor is good for. Called by `complete::precise` for regions whose signs are beyond
+//! doubles.
+
+use super::anchor::{Elimination, FINE};
+use super::blocks::Blocks;
+use super::condense::bounds_of;
+use mceip_check::certificate::{Anchor, Condensation, IntegerMatrix};
+use mceip_exact::{Integer, Rational, common_denominator, from_f64, to_f64};
+use mceip_model::Pencil;
+use num_traits::{One, Signed, Zero};
+
+/// Bits of the largest entry of W_0. Basis: the checker keeps 128 bits of an entry of the condensed
+/// pencil.
+const RIGHT_BITS: u32 = 124;
+/// Bits that each further coefficient needs less: the centre is the value in doubles, to 2^-52.
+const BITS_PER_DEGREE: u32 = 50;
+/// Rounds of refinement, at most. Each gains 20 bits or more.
+const ROUNDS: usize = 12;
+
+/// An anchor about the double nearest to a value; `None` where F is singular in doubles there.
+pub(crate) fn precise_anchor(
+    pencil: &Pencil,
+    condensation: &Condensation,
+    value: &Rational,
+) -> Option<Anchor> {
+    let center = from_f64(to_f64(value)).ok()?;
+    let blocks = Blocks::of(pencil);
+    let elimination = Elimination {
+        pencil,
+        blocks: &blocks,
+        bounds: bounds_of(condensation),
+    };
+
+    let mut anchor = elimination.expand(&center, FINE)?.anchor;
+    let factor = blocks.factor_at(to_f64(&center))?;
+
+    let rows = free_rows(pencil, &center);
+    for k in 0..anchor.right.len() {
+        let bits = RIGHT_BITS.saturating_sub(BITS_PER_DEGREE * k as u32);
+        widen(&mut anchor.right[k], bits);
+
+        for _ in 0..ROUNDS {
+            let before = k.checked_sub(1).map(|p| &anchor.right[p]);
+            let equation = Equation::new(k, &anchor.right[k], before);
+            let mut columns = equation.residual(&rows);
+            factor.solve_all(&mut columns);
+            if add(&mut anchor.right[k], &columns)? {
+                break;
+            }
+        }
+    }
+
+    Some(anchor)
+}
+
+/// An entry of a free row: position among the free or the complementarity variables, F_c or A + cB,
+/// and B, both times the row's multiple.
+struct Entry {
+    position: usize,
+    at_center: Integer,
+    slope: Integer,
+}
+
+/// A free row of A + tB about a centre, its denominators cleared.
+struct FreeRow {
+    multiple: Integer,
+    free: Vec<Entry>,
+    slip: Vec<Entry>,
+}
+
+/// Where a variable of the pencil stands.
+#[derive(Clone, Copy)]
+enum Place {
+    Free(usize),
+    Slip(usize),
+}
+
+fn places(pencil: &Pencil) -> Vec<Place> {
+    let mut places = vec![Place::Slip(0); pencil.order()];
+    for (position, &i) in pencil.free().iter().enumerate() {
+        places[i] = Place::Free(position);
+    }
+
+    for (position, &i) in pencil.slip().iter().enumerate() {
+        places[i] = Place::Slip(position);
+    }
+
+    places
+}
+
+fn free_rows(pencil: &Pencil, center: &Rational) -> Vec<FreeRow> {
+    let places = places(pencil);
+    pencil
+        .free()
+        .iter()
+        .map(|&i| free_row(pencil, center, &places, i))
+        .collect()
+}
+
+fn free_row(pencil: &Pencil, center: &Rational, places: &[Place], i: usize) -> FreeRow {
+    let a = pencil.a().row(i);
+    let b = pencil.b().row(i);
+    let clear = common_denominator(a.iter().chain(b).map(|e| &e.1));
+    let multiple = Rational::from_integer(clear * center.denom());
+
+    let mut columns: Vec<usize> = a.iter().chain(b).map(|e| e.0).collect();
+    columns.sort_unstable();
+    columns.dedup();
+
+    let mut row = FreeRow {
+        multiple: multiple.to_integer(),
+        free: Vec::new(),
+        slip: Vec::new(),
+    };
+
+    for column in columns {
+        let a = pencil.a().get(i, column);
+        let b = pencil.b().get(i, column);
+        let at_center = ((a + center * &b) * &multiple).to_integer();
+        let slope = (b * &multiple).to_integer();
+
+        let (list, position) = match places[column] {
+            Place::Free(position) => (&mut row.free, position),
+            Place::Slip(position) => (&mut row.slip, position),
+        };
+
+        list.push(Entry {
+            position,
+            at_center,
+            slope,
+        });
+    }
+
+    row
+}
+
+/// Raises the exponent so that the largest entry has this many bits; more stay.
+fn widen(matrix: &mut IntegerMatrix, bits: u32) {
+    let largest = matrix
+        .rows
+        .iter()
+        .flatten()
+        .map(Integer::bits)
+        .max()
+        .unwrap_or(0);
+    if largest == 0 {
+        return;
+    }
+
+    let more = u64::from(bits).saturating_sub(largest);
+    for entry in matrix.rows.iter_mut().flatten() {
+        *entry <<= more;
+    }
+
+    matrix.exponent += more as u32;
+}
+
+/// The equation of one coefficient W_k, with what is known of its solution.
+struct Equation<'a> {
+    k: usize,
+    w: &'a IntegerMatrix,
+    /// W_(k-1).
+    before: Option<&'a IntegerMatrix>,
+    /// Binary exponent of the residual, no less than those of `w` and `before`.
+    exponent: u32,
+}
+
+impl Equation<'_> {
+    fn new<'a>(k: usize, w: &'a IntegerMatrix, before: Option<&'a IntegerMatrix>) -> Equation<'a> {
+        let exponent_before = before.map_or(0, |m| m.exponent);
+        Equation {
+            k,
+            w,
+            before,
+            exponent: w.exponent.max(exponent_before),
+        }
+    }
+
+    /// The residual in doubles, by columns.
+    fn residual(&self, rows: &[FreeRow]) -> Vec<Vec<f64>> {
+        let width = self.w.rows.first().map_or(0, Vec::len);
+        let mut columns = vec![vec![0.0; rows.len()]; width];
+
+        for (i, row) in rows.iter().enumerate() {
+            let sums = self.row_residual(row, width);
+            let unit = &row.multiple << self.exponent;
+            for (column, sum) in columns.iter_mut().zip(sums) {
+                column[i] = to_f64(&Rational::new_raw(sum, unit.clone()));
+            }
+        }
+
+        columns
+    }
+
+    /// One row of the residual, in units of the row's multiple times 2^`exponent`.
+    fn row_residual(&self, row: &FreeRow, width: usize) -> Vec<Integer> {
+        let mut sums = vec![Integer::zero(); width];
+        for entry in &row.slip {
+            match self.k {
+                0 => sums[entry.position] += &entry.at_center << self.exponent,
+                1 => sums[entry.position] += &entry.slope << self.exponent,
+                _ => {}
+            }
+        }
+
+        for entry in &row.free {
+            let lift = self.exponent - self.w.exponent;
+            let factor = &entry.at_center << lift;
+            subtract(&mut sums, &factor, &self.w.rows[entry.position]);
+
+            if let Some(before) = self.before.filter(|_| !entry.slope.is_zero()) {
+                let lift = self.exponent - before.exponent;
+                let factor = &entry.slope << lift;
+                subtract(&mut sums, &factor, &before.rows[entry.position]);
+            }
+        }
+
+        sums
+    }
+}
+
+/// sums -= factor row.
+fn subtract(sums: &mut [Integer], factor: &Integer, row: &[Integer]) {
+    for (sum, v) in sums.iter_mut().zip(row) {
+        *sum -= factor * v;
+    }
+}
+
+/// Adds corrections, rounded to units of the matrix; is none of them more than a unit?
+fn add(matrix: &mut IntegerMatrix, columns: &[Vec<f64>]) -> Option<bool> {
+    let unit = Rational::from_integer(Integer::one() << matrix.exponent);
+    let mut is_still = true;
+    for (j, column) in columns.iter().enumerate() {
+        for (row, v) in matrix.rows.iter_mut().zip(column) {
+            let units = (from_f64(*v).ok()? * &unit).round().to_integer();
+            is_still &= units.abs() <= Integer::one();
+            row[j] += units;
+        }
+    }
+
+    Some(is_still)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::search::complete::pieces::condense::condense;
+    use mceip_exact::{Sparse, rational, whole};
+    use mceip_model::Window;
+
+    /// Is entry (i, 0) of a matrix within 2^-bits of a number?
+    fn is_near(matrix: &IntegerMatrix, i: usize, expected: &Rational, bits: u32) -> bool {
+        let unit = Integer::one() << matrix.exponent;
+        let entry = Rational::new(matrix.rows[i][0].clone(), unit);
+        let limit = Rational::new(Integer::one(), Integer::one() << bits);
+        (entry - expected).abs() < limit
+    }
+
+    /// F = [[3, -1], [-1, 2]] + t I, C = (1, 0)' + t (0, 1)': at t = 1 the coefficients are W_0 =
+    /// F^-1 (1, 1)' = (4, 5)' / 11, W_1 = F^-1 ((0, 1)' - W_0).
+    #[test]
+    fn coefficients_are_right_beyond_doubles() {
+        let a = Sparse::from_ints(&[&[3, -1, 1], &[-1, 2, 0], &[1, 0, 5]]);
+        let b = Sparse::from_ints(&[&[1, 0, 0], &[0, 1, 1], &[0, 1, 1]]);
+        let pencil = Pencil::new(a, b, vec![0, 1]).unwrap();
+        let rows = free_rows(&pencil, &whole(1));
+        assert_eq!(rows[1].free[1].at_center, 3.into());
+        assert_eq!(rows[1].slip[0].at_center, 1.into());
+
+        let window = Window::new(whole(0), Some(whole(2))).unwrap();
+        let condensation = condense(&pencil, &window).unwrap().condensation;
+        let anchor = precise_anchor(&pencil, &condensation, &whole(1)).unwrap();
+
+        // F W_0 = (1, 1)' with F = [[4, -1], [-1, 3]].
+        assert!(is_near(&anchor.right[0], 0, &rational(4, 11), 120));
+        assert!(is_near(&anchor.right[0], 1, &rational(5, 11), 120));
+        // F W_1 = (0, 1)' - W_0 = (-4, 6)' / 11, so W_1 = (-6, 20)' / 121.
+        assert!(is_near(&anchor.right[1], 0, &rational(-6, 121), 70));
+        assert!(is_near(&anchor.right[1], 1, &rational(20, 121), 70));
+    }
+}

@@ -1,0 +1,430 @@
+//! What a search begins with: the view of a problem, and the pieces its window is cut into.
+//!
+//! Without free variables the window is cut into equal steps of theta. With free variables every
+//! anchor of the condensation has an interval, which is cut likewise; above the last one follows
+//! the tail, the reversed anchor, or a piece that stays open. After a first look at where the
+//! solutions are, each of them gets an anchor and a piece of its own ([`Prepared::refined`]).
+//!
+//! Called by `complete` (a new search) and `resume` (from the pieces of a certificate).
+
+use super::anchor::NEAR;
+use super::condense::{Condensed, condense, refine, view_of};
+use super::expansion::Expansion;
+use super::view::View;
+use crate::search::complete::dyadic::short_near;
+use crate::search::complete::error::CompleteError;
+use mceip_check::MAX_COVERED;
+use mceip_check::certificate::{CompleteSet, Condensation, Node, Piece};
+use mceip_exact::{Rational, to_f64};
+use mceip_model::file::Number;
+use mceip_model::{Pencil, Problem, Window};
+
+/// Up to where an anchor that has no end of its own is used, in units of the pencil's scale: what
+/// lies above stays open. (A checker bounds a family that is not linear in t on finite intervals
+/// only.)
+const FAR: f64 = 1024.0;
+
+/// Factor on the remainders where the checker has refused what doubles held for proved.
+const CAUTION: f64 = 8.0;
+
+/// Pieces per anchor at least.
+const MIN_PIECES: usize = 4;
+
+/// How far a cut may lie from where it should be: share of the value, of a step of theta, and of
+/// the reach of an anchor about a solution.
+const SLACK_OF_END: f64 = 0.01;
+const SLACK_OF_STEP: f64 = 0.2;
+const SLACK_OF_REACH: f64 = 0.2;
+
+/// An interval of the window: it begins where the one before ends.
+#[derive(Clone)]
+struct Interval {
+    /// Upper end; `None` for infinity.
+    max: Option<Rational>,
+    /// The anchor of the condensation that encloses the pencil there.
+    anchor: Option<usize>,
+}
+
+/// What a search needs before it begins.
+pub(crate) struct Prepared {
+    pub(crate) view: View,
+    condensation: Option<Condensation>,
+    /// Smallest eigenvalue of (A_ff, B_ff), where the elimination depends on the unknown.
+    lowest_frequency: f64,
+    intervals: Vec<Interval>,
+}
+
+impl Prepared {
+    /// Condenses where there are free variables, and cuts the window into about `count` pieces.
+    ///
+    /// # Errors
+    /// [`CompleteError`]: no complementarity variables or too many, free variables that cannot be
+    /// eliminated.
+    pub(crate) fn new(
+        problem: &Problem,
+        pencil: &Pencil,
+        count: usize,
+    ) -> Result<Prepared, CompleteError> {
+        let slip = pencil.slip().len();
+        if slip == 0 {
+            return Err(CompleteError::NothingSlips);
+        }
+
+        if slip > MAX_COVERED {
+            return Err(CompleteError::TooManySlip {
+                limit: MAX_COVERED,
+                got: slip,
+            });
+        }
+
+        let window = problem.window();
+        if !pencil.free().is_empty() {
+            return Ok(Prepared::condensed(
+                condense(pencil, window)?,
+                window,
+                count,
+            ));
+        }
+
+        let view = View::of(pencil);
+        let intervals = cuts(&view, window.min(), window.max(), count)
+            .into_iter()
+            .map(|max| Interval { max, anchor: None })
+            .collect();
+        Ok(Prepared {
+            view,
+            condensation: None,
+            lowest_frequency: 0.0,
+            intervals,
+        })
+    }
+
+    fn condensed(condensed: Condensed, window: &Window, count: usize) -> Prepared {
+        let division = Division {
+            condensed: &condensed,
+            window,
+            per_anchor: count.div_ceil(condensed.ends.len()).max(MIN_PIECES),
+        };
+
+        let intervals = division.intervals();
+        Prepared {
+            view: condensed.view,
+            condensation: Some(condensed.condensation),
+            lowest_frequency: condensed.lowest_frequency,
+            intervals,
+        }
+    }
+
+    /// From a certificate to go on with.
+    ///
+    /// # Errors
+    /// [`CompleteError::NoAnchor`] where the condensation has no anchor.
+    pub(crate) fn again(pencil: &Pencil, set: &CompleteSet) -> Result<Prepared, CompleteError> {
+        let view = match &set.condensation {
+            None => View::of(pencil),
+            Some(condensation) if condensation.anchors.is_empty() => {
+                return Err(CompleteError::NoAnchor);
+            }
+            Some(condensation) => view_of(pencil, condensation),
+        };
+
+        let mut intervals = Vec::new();
+        for piece in &set.pieces {
+            intervals.push(Interval {
+                max: piece.max.as_ref().map(|number| number.0.clone()),
+                anchor: piece.anchor,
+            });
+        }
+
+        Ok(Prepared {
+            view,
+            condensation: set.condensation.clone(),
+            lowest_frequency: 0.0,
+            intervals,
+        })
+    }
+
+    /// Does the elimination depend on the unknown, so that solutions deserve anchors of their own?
+    pub(crate) fn is_expanded(&self) -> bool {
+        self.view
+            .expansions
+            .iter()
+            .any(|expansion| !expansion.is_linear())
+    }
+
+    /// Multiplies all remainders by [`CAUTION`], because rounding errors of their computation in
+    /// doubles are not part of them. From then on leaves at infinity are not tried either. Does
+    /// that change anything? Without remainders only the first time.
+    pub(crate) fn enlarge_remainders(&mut self) -> bool {
+        let expansions = &mut self.view.expansions;
+        let is_first = expansions.iter().all(|e| e.caution == 1.0);
+        for expansion in expansions.iter_mut() {
+            expansion.caution *= CAUTION;
+        }
+
+        let has_remainders = expansions.iter().any(|e| !e.is_everywhere());
+        is_first || has_remainders
+    }
+
+    /// The same without remainders, for a first look at where the solutions are.
+    pub(crate) fn without_remainders(&self) -> Prepared {
+        let view = View {
+            index: self.view.index.clone(),
+            scale: self.view.scale,
+            expansions: self
+                .view
+                .expansions
+                .iter()
+                .map(Expansion::without_remainder)
+                .collect(),
+        };
+
+        Prepared {
+            view,
+            condensation: self.condensation.clone(),
+            lowest_frequency: self.lowest_frequency,
+            intervals: self.intervals.clone(),
+        }
+    }
+
+    /// Gives each of these values (ascending) an anchor and a piece around it, cut out of the
+    /// pieces there are. Values near one another share one.
+    pub(crate) fn refined(
+        mut self,
+        problem: &Problem,
+        pencil: &Pencil,
+        values: &[f64],
+    ) -> Prepared {
+        let mut apart: Vec<f64> = Vec::new();
+        for &value in values.iter().filter(|v| **v > 0.0) {
+            let least_distance = 3.0 * self.reach(value);
+            if apart.last().is_none_or(|l| value - l > least_distance) {
+                apart.push(value);
+            }
+        }
+
+        let Some(condensation) = self.condensation.as_mut() else {
+            return self;
+        };
+
+        let before = condensation.anchors.len();
+        refine(pencil, condensation, &mut self.view, &apart);
+        if condensation.anchors.len() != before + apart.len() {
+            return self; // an expansion failed: the coarse anchors stay
+        }
+
+        for (k, value) in apart.iter().enumerate() {
+            self.cut_out(problem.window().min(), *value, before + k);
+        }
+
+        self
+    }
+
+    /// Up to where the anchor about a value is used: the expansions reach as far as value + lowest
+    /// frequency.
+    fn reach(&self, value: f64) -> f64 {
+        let by_frequency = NEAR * (value + self.lowest_frequency);
+        by_frequency.min(0.5 * value)
+    }
+
+    /// Gives the interval around a value to this anchor; the rest of the intervals that it meets
+    /// stays as it is.
+    fn cut_out(&mut self, min: &Rational, value: f64, anchor: usize) {
+        let reach = self.reach(value);
+        let slack = SLACK_OF_REACH * reach;
+        let Some(begin) = short_near(value - reach, slack) else {
+            return;
+        };
+
+        let Some(end) = short_near(value + reach, slack) else {
+            return;
+        };
+
+        let mut intervals = Vec::new();
+        let mut lo = min.clone();
+        for interval in &self.intervals {
+            let mut cuts = Vec::new();
+            for cut in [&begin, &end] {
+                let is_inside = *cut > lo && interval.max.as_ref().is_none_or(|max| cut < max);
+                if is_inside {
+                    cuts.push(cut.clone());
+                }
+            }
+
+            cuts.sort();
+
+            for max in cuts.into_iter().map(Some).chain([interval.max.clone()]) {
+                // A part between begin and end belongs to the new anchor.
+                let is_near = lo >= begin && max.as_ref().is_some_and(|max| *max <= end);
+                lo = max.clone().unwrap_or(lo);
+                let anchor = if is_near {
+                    Some(anchor)
+                } else {
+                    interval.anchor
+                };
+
+                intervals.push(Interval { max, anchor });
+            }
+        }
+
+        self.intervals = intervals;
+    }
+
+    /// The cover with everything open, the tail excepted.
+    pub(crate) fn open_set(&self) -> CompleteSet {
+        let has_tail = self.condensation.as_ref().is_some_and(|c| c.tail.is_some());
+        let mut pieces = Vec::new();
+        for interval in &self.intervals {
+            let node = if interval.max.is_none() && has_tail {
+                Node::Tail
+            } else {
+                Node::Open
+            };
+
+            pieces.push(Piece {
+                max: interval.max.clone().map(Number),
+                anchor: interval.anchor,
+                tree: vec![node],
+            });
+        }
+
+        CompleteSet {
+            condensation: self.condensation.clone(),
+            pieces,
+        }
+    }
+
+    /// The expansion that encloses the pencil at a value.
+    pub(crate) fn expansion_at(&self, value: &Rational) -> &Expansion {
+        let interval = self
+            .intervals
+            .iter()
+            .find(|interval| interval.max.as_ref().is_none_or(|max| value <= max))
+            .unwrap_or(&self.intervals[0]);
+        self.view.expansion(interval.anchor)
+    }
+}
+
+/// The division of a window among the anchors of a condensation.
+struct Division<'a> {
+    condensed: &'a Condensed,
+    window: &'a Window,
+    /// Pieces of each anchor.
+    per_anchor: usize,
+}
+
+impl Division<'_> {
+    fn intervals(&self) -> Vec<Interval> {
+        let view = &self.condensed.view;
+        let anchors = self.condensed.ends.len();
+        let is_unbounded = self.window.max().is_none();
+        let is_closed_above = is_unbounded && self.begin_of_last().is_some();
+
+        let mut intervals = Vec::new();
+        let mut lo = self.window.min().clone();
+        for anchor in 0..anchors {
+            let hi = self.end_of(anchor, &lo);
+            let is_last = anchor + 1 == anchors;
+            let is_needed = is_last && intervals.is_empty() && !is_closed_above;
+            if hi.as_ref().is_none_or(|h| *h > lo) || is_needed {
+                let cuts = cuts(view, &lo, hi.as_ref(), self.per_anchor);
+                intervals.extend(with_anchor(cuts, anchor));
+            }
+
+            lo = hi.filter(|h| *h > lo).unwrap_or(lo);
+        }
+
+        let ends_early = intervals.last().is_none_or(|i| i.max.is_some());
+        if is_unbounded && ends_early {
+            if self.condensed.beyond.is_some() {
+                let cuts = cuts(view, &lo, None, self.per_anchor);
+                intervals.extend(with_anchor(cuts, anchors));
+            } else {
+                // The tail, or what no anchor reaches.
+                intervals.push(Interval {
+                    max: None,
+                    anchor: None,
+                });
+            }
+        }
+
+        intervals
+    }
+
+    /// Where the tail or the reversed anchor begins.
+    fn begin_of_last(&self) -> Option<&Rational> {
+        let tail = self.condensed.condensation.tail.as_ref();
+        tail.map(|tail| &tail.from.0)
+            .or(self.condensed.beyond.as_ref())
+    }
+
+    /// Upper end of an anchor's interval, which begins at `lo`; `None` for infinity.
+    fn end_of(&self, anchor: usize, lo: &Rational) -> Option<Rational> {
+        let end = self.condensed.ends[anchor];
+        let is_last = anchor + 1 == self.condensed.ends.len();
+        if !is_last {
+            let end = short_near(end, SLACK_OF_END * end)?;
+            // A short number near the window's end may lie beyond it: then this anchor has no
+            // piece.
+            let is_beyond = self.window.max().is_some_and(|max| end >= *max);
+            return Some(if is_beyond { lo.clone() } else { end });
+        }
+
+        // The last anchor ends where the tail or the reversed anchor begins, or with the window.
+        if let Some(from) = self.begin_of_last() {
+            return Some(from.clone());
+        }
+
+        let is_linear = self.condensed.view.expansions[anchor].is_linear();
+        if self.window.max().is_some() || is_linear {
+            return self.window.max().cloned();
+        }
+
+        // An infinite interval needs a family that is linear in t. One anchor stands for all t
+        // where the free rows of B are zero in their own columns only: then there is no end.
+        let end = if end.is_finite() {
+            end
+        } else {
+            FAR * self.condensed.view.scale
+        };
+
+        short_near(end, SLACK_OF_END * end)
+    }
+}
+
+fn with_anchor(cuts: Vec<Option<Rational>>, anchor: usize) -> impl Iterator<Item = Interval> {
+    cuts.into_iter().map(move |max| Interval {
+        max,
+        anchor: Some(anchor),
+    })
+}
+
+/// Upper ends of `count` pieces of [min, max]: equal steps of theta, at short numbers.
+fn cuts(
+    view: &View,
+    min: &Rational,
+    max: Option<&Rational>,
+    count: usize,
+) -> Vec<Option<Rational>> {
+    let first = view.theta(to_f64(min));
+    let last = view.theta(max.map_or(f64::INFINITY, to_f64));
+    let step = (last - first) / count.max(1) as f64;
+
+    let mut ends: Vec<Option<Rational>> = Vec::new();
+    for k in 1..count {
+        let theta = first + step * k as f64;
+        let target = view.value(theta);
+        let slack = target - view.value(theta - SLACK_OF_STEP * step);
+        let Some(cut) = short_near(target, slack) else {
+            continue;
+        };
+
+        let before = ends.last().and_then(Option::as_ref).unwrap_or(min);
+        if cut > *before && max.is_none_or(|max| cut < *max) {
+            ends.push(Some(cut));
+        }
+    }
+
+    ends.push(max.cloned());
+    ends
+}

@@ -1,0 +1,60 @@
+//! The reversed pencil B + sA, s = 1 / t.
+//!
+//! One expansion about a small s reaches from the highest frequency of (A_ff, B_ff) to infinity,
+//! where expansions in t would have to follow one another for ever. It needs B_ff >= tau I with
+//! tau > 0. Called by `condense`.
+
+use super::anchor::{COARSE, Elimination, Expanded, FreeBounds, centers};
+use super::blocks::Blocks;
+use super::expansion::Expansion;
+use crate::search::complete::dyadic::short_near;
+use mceip_check::certificate::Anchor;
+use mceip_exact::Rational;
+use mceip_model::Pencil;
+
+/// A reversed anchor and the value from which it is used.
+pub(crate) struct Beyond {
+    pub(crate) expanded: Expanded,
+    pub(crate) from: Rational,
+}
+
+/// The pencil with its matrices exchanged.
+pub(crate) fn exchanged(pencil: &Pencil) -> Option<Pencil> {
+    let free = pencil.free().to_vec();
+    Pencil::new(pencil.b().clone(), pencil.a().clone(), free).ok()
+}
+
+/// The reversed anchor of a pencil; `None` unless B_ff is positive definite.
+pub(crate) fn beyond(pencil: &Pencil, bounds: FreeBounds) -> Option<Beyond> {
+    if bounds.tau <= 0.0 {
+        return None;
+    }
+
+    let exchanged = exchanged(pencil)?;
+    let blocks = Blocks::of(&exchanged);
+    let lowest = blocks.lowest_frequency(&blocks.stiffness.cholesky()?);
+    let only_first = centers(lowest, 0.0, f64::MIN_POSITIVE);
+    let center = only_first.first()?;
+    let from = short_near(1.0 / center.end, 0.05 / center.end)?;
+
+    let elimination = Elimination {
+        pencil: &exchanged,
+        blocks: &blocks,
+        bounds: bounds.exchanged(),
+    };
+
+    let expanded = elimination.expand(&center.at, COARSE)?;
+    Some(Beyond {
+        expanded: Expanded {
+            anchor: Anchor {
+                reversed: true,
+                ..expanded.anchor
+            },
+            expansion: Expansion {
+                reversed: true,
+                ..expanded.expansion
+            },
+        },
+        from,
+    })
+}

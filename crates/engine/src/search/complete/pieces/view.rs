@@ -1,0 +1,116 @@
+//! The pencil on the complementarity variables in doubles, row for row in the scale of the checker.
+//!
+//! Without free variables the view is A + tB, one expansion that holds for every value. With free
+//! variables it is the Schur complement about each anchor of the condensation. The search measures
+//! intervals by theta = t / (scale + t), which maps [0, infinity] to [0, 1].
+
+use super::expansion::Expansion;
+use super::matrix::{Matrix, largest_entry, zeros};
+use mceip_exact::{Integer, Rational, common_denominator, to_f64};
+use mceip_model::Pencil;
+use num_traits::One;
+
+/// The pencil on the complementarity variables: one polynomial matrix, or several about their
+/// centres.
+pub(crate) struct View {
+    /// Complementarity variables by position.
+    pub(crate) index: Vec<usize>,
+    /// Scale of the unknown: |A| / |B|.
+    pub(crate) scale: f64,
+    /// One per anchor; at least one.
+    pub(crate) expansions: Vec<Expansion>,
+}
+
+impl View {
+    /// The view of a pencil without free variables.
+    pub(crate) fn of(pencil: &Pencil) -> View {
+        let order = pencil.order();
+        let mut a = zeros(order);
+        let mut b = zeros(order);
+
+        for i in 0..order {
+            let factor = row_factor(pencil, i);
+            for (j, v) in pencil.a().row(i) {
+                a[i][*j] = to_f64(&(v * &factor));
+            }
+
+            for (j, v) in pencil.b().row(i) {
+                b[i][*j] = to_f64(&(v * &factor));
+            }
+        }
+
+        let expansion = Expansion::linear(a, b);
+        View {
+            index: (0..order).collect(),
+            scale: scale_of(&expansion.coefficients),
+            expansions: vec![expansion],
+        }
+    }
+
+    /// The expansion of a piece with this anchor. Without a condensation there is one, and anchors
+    /// are ignored.
+    pub(crate) fn expansion(&self, anchor: Option<usize>) -> &Expansion {
+        let named = anchor.and_then(|k| self.expansions.get(k));
+        named.unwrap_or(&self.expansions[0])
+    }
+
+    /// Number of complementarity variables.
+    pub(crate) fn order(&self) -> usize {
+        self.index.len()
+    }
+
+    /// Position of a variable of the pencil, if it is a complementarity variable.
+    pub(crate) fn position(&self, variable: usize) -> Option<usize> {
+        self.index.iter().position(|&i| i == variable)
+    }
+
+    /// The variables of the pencil at these positions.
+    pub(crate) fn variables(&self, positions: &[usize]) -> Vec<usize> {
+        let mut variables = Vec::with_capacity(positions.len());
+        for &position in positions {
+            variables.push(self.index[position]);
+        }
+
+        variables
+    }
+
+    /// Place of t in [0, 1]: t / (scale + t).
+    pub(crate) fn theta(&self, t: f64) -> f64 {
+        if t.is_infinite() {
+            1.0
+        } else {
+            t / (self.scale + t)
+        }
+    }
+
+    /// The value with this theta.
+    pub(crate) fn value(&self, theta: f64) -> f64 {
+        self.scale * theta / (1.0 - theta)
+    }
+}
+
+/// What the checker multiplies row i by: denominators cleared, largest entry of A below one.
+pub(crate) fn row_factor(pencil: &Pencil, i: usize) -> Rational {
+    let a = pencil.a().row(i);
+    let b = pencil.b().row(i);
+    let clear = common_denominator(a.iter().chain(b).map(|(_, v)| v));
+
+    let mut bits = 1;
+    for (_, v) in a {
+        let cleared = v.numer() * (&clear / v.denom());
+        bits = cleared.bits().max(bits);
+    }
+
+    Rational::new(clear, Integer::one() << bits)
+}
+
+/// Ratio of the largest entries of the first two coefficients, 1 where that says nothing.
+pub(crate) fn scale_of(coefficients: &[Matrix]) -> f64 {
+    let a = largest_entry(&coefficients[0]);
+    let b = largest_entry(&coefficients[1]);
+    if a > 0.0 && b > 0.0 && (a / b).is_finite() {
+        a / b
+    } else {
+        1.0
+    }
+}

@@ -1,0 +1,143 @@
+//! The rounds of a search: every open leaf, then what the checker refuses, with more caution.
+//!
+//! 1. All open leaves are searched, and the checker reads the certificate.
+//! 2. Leaves that it refuses are searched again with larger remainders, [`CAUTIOUS_ROUNDS`] times
+//!    at most, because rounding errors in doubles have misled the search.
+//! 3. What is still refused is decided support by support in exact arithmetic.
+//! 4. Decided regions that stay open are tried in long numbers (`precise`).
+//!
+//! Called by `complete` and `resume`.
+
+use super::audited::{Audited, audited};
+use super::error::CompleteError;
+use super::given::Given;
+use super::options::Options;
+use super::pieces::prepared::Prepared;
+use super::precise;
+use super::shares::Shares;
+use super::splice::{Chosen, Pass, numbered};
+use crate::run::Watch;
+use mceip_check::certificate::{Certificate, CompleteSet};
+
+/// Rounds of a search whose leaves were refused, each more cautious than the one before.
+const CAUTIOUS_ROUNDS: usize = 2;
+
+/// Refused leaves up to which exact arithmetic is asked.
+const MAX_REFUSED: usize = 200;
+
+/// A search under way: the certificate as far as it is known.
+pub(super) struct Rounds<'a> {
+    pub(super) given: &'a Given<'a>,
+    pub(super) options: &'a Options,
+    pub(super) prepared: Prepared,
+    pub(super) certificate: Certificate,
+}
+
+impl Rounds<'_> {
+    /// Searches all open leaves of the certificate, and in its place puts the one that the checker
+    /// has accepted. Only the first round tells the listener of its progress.
+    pub(super) fn run(&mut self, watch: &Watch<'_>) -> Result<Audited, CompleteError> {
+        let mut audited = self.search(&Chosen::All, &Shares::new(*watch))?;
+
+        // What was refused is open: that alone is searched again.
+        let quiet = Shares::new(watch.quiet());
+        for _ in 0..CAUTIOUS_ROUNDS {
+            let is_done = audited.refused.is_empty() || watch.is_cancelled();
+            if is_done || !self.prepared.enlarge_remainders() {
+                break;
+            }
+
+            audited = self.search(&Chosen::Again(audited.refused), &quiet)?;
+        }
+
+        let is_few = !audited.refused.is_empty() && audited.refused.len() <= MAX_REFUSED;
+        if is_few && !watch.is_cancelled() {
+            audited = self.search(&Chosen::Exactly(audited.refused), &quiet)?;
+        }
+
+        if !watch.is_cancelled() && audited.open_count() > 0 {
+            audited = self.with_long_numbers(audited);
+        }
+
+        Ok(audited)
+    }
+
+    /// One pass over the chosen open leaves, and what the checker says of the result.
+    fn search(&mut self, chosen: &Chosen, shares: &Shares<'_>) -> Result<Audited, CompleteError> {
+        let set = self
+            .certificate
+            .complete_set
+            .take()
+            .ok_or(CompleteError::NoCompleteSet)?;
+        let pass = Pass {
+            given: self.given,
+            prepared: &self.prepared,
+            set: &set,
+            options: self.options,
+            chosen,
+            shares,
+        };
+
+        let found = in_threads(self.options.threads, || pass.run());
+
+        let mut pieces = Vec::with_capacity(set.pieces.len());
+        for (piece, searched) in set.pieces.iter().zip(found) {
+            let claims = &mut self.certificate.claims;
+            pieces.push(numbered(piece, searched.items, claims));
+        }
+
+        self.certificate.complete_set = Some(CompleteSet {
+            condensation: set.condensation,
+            pieces,
+        });
+        audited(&mut self.certificate, self.given.problem)
+    }
+
+    /// Lets long numbers decide open regions, if fewer stay open according to the checker.
+    fn with_long_numbers(&mut self, before: Audited) -> Audited {
+        let longer = precise::closed(self.given, &self.prepared, &self.certificate);
+        let Some(mut longer) = longer else {
+            return before;
+        };
+
+        match audited(&mut longer, self.given.problem) {
+            Ok(after) if after.open_count() < before.open_count() => {
+                self.certificate = longer;
+                after
+            }
+            _ => before,
+        }
+    }
+}
+
+/// The values of the null vectors that a first search of an open cover meets, ascending.
+pub(super) fn values_met(
+    given: &Given<'_>,
+    options: &Options,
+    prepared: &Prepared,
+    watch: &Watch<'_>,
+) -> Vec<f64> {
+    let pass = Pass {
+        given,
+        prepared,
+        set: &prepared.open_set(),
+        options,
+        chosen: &Chosen::All,
+        shares: &Shares::new(watch.quiet()),
+    };
+
+    let found = in_threads(options.threads, || pass.run());
+
+    let mut values: Vec<f64> = found.into_iter().flat_map(|piece| piece.met).collect();
+    values.sort_by(f64::total_cmp);
+    values
+}
+
+/// Runs in a pool of the wanted size, or in the default one.
+fn in_threads<T: Send>(threads: Option<usize>, work: impl FnOnce() -> T + Send) -> T {
+    match threads.map(|n| rayon::ThreadPoolBuilder::new().num_threads(n).build()) {
+        Some(Ok(pool)) => pool.install(work),
+        // Without a pool of one's own the default one does the same work.
+        _ => work(),
+    }
+}
