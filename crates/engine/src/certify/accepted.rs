@@ -65,6 +65,7 @@ impl<'a> Certifier<'a> {
                 Err(failure) => attempts.push(Attempt { support, failure }),
             }
         }
+
         Err(NotCertified { attempts })
     }
 
@@ -111,6 +112,7 @@ pub fn sift(problem: &Problem, claims: Vec<Claim>) -> Sifted {
             Err(reason) => sifted.refused.push((index, reason)),
         }
     }
+
     sifted
 }
 

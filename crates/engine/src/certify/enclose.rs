@@ -194,6 +194,7 @@ impl Enclosure<'_> {
         if let Some(sign) = self.undecided_x()? {
             return Ok(Some(sign));
         }
+
         self.undecided_y()
     }
 
@@ -236,6 +237,7 @@ impl Enclosure<'_> {
                 CommonSign::Undecided => return Ok(Some(Undecided::X(index))),
             }
         }
+
         Ok(None)
     }
 
@@ -248,6 +250,7 @@ impl Enclosure<'_> {
                 CommonSign::Undecided => return Ok(Some(Undecided::Y(index))),
             }
         }
+
         Ok(None)
     }
 
@@ -269,6 +272,7 @@ impl Enclosure<'_> {
             y.radius += coefficient.abs() * x_radius;
             y.radius += coefficient_radius * (x.abs() + x_radius);
         }
+
         y
     }
 }

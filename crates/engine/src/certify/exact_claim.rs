@@ -55,6 +55,7 @@ pub(super) fn make(
             Err(failure) => first_failure = first_failure.or(Some(failure)),
         }
     }
+
     Err(first_failure.unwrap_or_else(|| no_root(candidate)))
 }
 
@@ -115,6 +116,7 @@ impl Support<'_> {
             }
             block.push(row);
         }
+
         block
     }
 
@@ -158,6 +160,7 @@ impl Support<'_> {
                 roots.extend(roots_in(polynomial, &lo, Some(&hi)));
             }
         }
+
         roots.iter_mut().for_each(narrow);
         roots.sort_by_cached_key(|root| (root.interval().mid() - &center).abs());
         Ok(roots)
@@ -214,6 +217,7 @@ impl Support<'_> {
         for &i in &self.active {
             value.sign_of(&y[i]);
         }
+
         require_near_x(self.pencil, self.candidate, &x, &mut value)?;
 
         let mut positive: Vec<&Poly> = self.support.iter().map(|&i| &x[i]).collect();
@@ -236,6 +240,7 @@ impl Support<'_> {
                 return Err(AttemptFailure::XNotPositive { index });
             }
         }
+
         Ok(())
     }
 
@@ -249,6 +254,7 @@ impl Support<'_> {
                 Sign::Positive => {}
             }
         }
+
         Ok(biactive)
     }
 
@@ -267,6 +273,7 @@ impl Support<'_> {
             let row = self.active.iter().map(|&j| self.entry(i, j)).collect();
             block.push(row);
         }
+
         block
     }
 
@@ -283,6 +290,7 @@ impl Support<'_> {
         for (&i, component) in self.active.iter().zip(part) {
             x[i] = component.clone();
         }
+
         x
     }
 
@@ -335,6 +343,7 @@ impl Support<'_> {
             let weight = free_coordinate.map_or(0.0, |c| self.candidate.x[self.active[c]]);
             weights.push(finite(weight)?);
         }
+
         Ok(weights)
     }
 
@@ -347,6 +356,7 @@ impl Support<'_> {
                 sign => return sign == Sign::Negative,
             }
         }
+
         has_negative_product(x, self.candidate, value)
     }
 }
@@ -365,6 +375,7 @@ fn is_free_coordinate(
             return false;
         }
     }
+
     true
 }
 
@@ -414,6 +425,7 @@ fn require_near_x(
     for (our, their) in ours.iter().zip(&candidate.x) {
         distance = distance.max((our / our_scale - their / their_scale).abs());
     }
+
     if distance <= X_RADIUS {
         Ok(())
     } else {
@@ -476,6 +488,7 @@ impl RequiredSigns<'_> {
         if !interval.is_point() && slope.certain_sign() == 0 {
             return false;
         }
+
         let is_below_max = self.window.max().is_none_or(|max| interval.hi() <= max);
         if interval.lo() < self.window.min() || !is_below_max {
             return false;
@@ -485,6 +498,7 @@ impl RequiredSigns<'_> {
         if !positive.all(|g| certain_sign(interval, polynomial, g) == 1) {
             return false;
         }
+
         match self.not_all_zero {
             Some(x) => x.iter().any(|g| certain_sign(interval, polynomial, g) != 0),
             None => true,
@@ -543,6 +557,7 @@ fn primitive(x: Vec<Vec<Rational>>) -> Vec<Vec<Number>> {
     for component in x {
         scaled.push(component.into_iter().map(|c| Number(c * &factor)).collect());
     }
+
     scaled
 }
 
@@ -552,6 +567,7 @@ fn times(row: &[PencilEntry], x: &[Poly]) -> Poly {
     for entry in row {
         sum += &(&polynomial(entry) * &x[entry.column]);
     }
+
     sum
 }
 

@@ -126,6 +126,7 @@ impl std::fmt::Display for NotCertified {
             }
             write!(f, "support {:?}: {}", attempt.support, attempt.failure)?;
         }
+
         Ok(())
     }
 }

@@ -27,6 +27,7 @@ pub fn lifted(system: &System, unknown: Unknown, claim: &ExactSolution) -> Lifte
     for (&dof, x) in free.iter().zip(&claim.x) {
         v[dof] = rationals(x);
     }
+
     let slip_x = claim.x.iter().skip(free.len());
     for ((particle, sign), x) in system.slip_particles().into_iter().zip(slip_x) {
         let x = rationals(x);
@@ -54,13 +55,14 @@ pub fn lifted(system: &System, unknown: Unknown, claim: &ExactSolution) -> Lifte
     }
 }
 
-/// The pencil's x behind a lifted claim: the way back of [`lifted`]. A v that is too short counts as
-/// continued with zeros.
+/// The pencil's x behind a lifted claim: the way back of [`lifted`]. A v that is too short counts
+/// as continued with zeros.
 pub fn flattened(system: &System, claim: &LiftedSolution) -> ExactSolution {
     let mut x: Vec<Coefficients> = Vec::new();
     for dof in system.free_dofs() {
         x.push(component(&claim.v, dof));
     }
+
     for (particle, sign) in system.slip_particles() {
         let minus_s = Rational::from_integer((-sign).into());
         let mut sum = Vec::new();
@@ -97,6 +99,7 @@ fn add(sum: &mut Coefficients, factor: &Rational, p: &[Rational], shift: usize) 
     if sum.len() < p.len() + shift {
         sum.resize(p.len() + shift, Rational::zero());
     }
+
     for (k, c) in p.iter().enumerate() {
         sum[k + shift] += factor * c;
     }
@@ -115,6 +118,7 @@ fn reduced(components: Vec<Coefficients>, polynomial: &[Rational]) -> Vec<Vec<Nu
     for component in components {
         reduced.push(numbers(remainder(component, polynomial)));
     }
+
     reduced
 }
 
@@ -137,6 +141,7 @@ pub(super) fn remainder(mut rest: Coefficients, p: &[Rational]) -> Coefficients 
     while rest.last().is_some_and(Zero::is_zero) {
         rest.pop();
     }
+
     rest
 }
 

@@ -52,10 +52,12 @@ pub(crate) fn precise_null(
             x.push((index, point.value(k)));
         }
     }
+
     let mut y = Vec::new();
     for index in newton.inactive() {
         y.push((index, Rational::from_integer(newton.y(index, &point))));
     }
+
     Some(PreciseNull {
         value: point.value(newton.active.len()),
         x,

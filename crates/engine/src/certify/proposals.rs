@@ -93,6 +93,7 @@ impl Proposals<'_> {
         if self.repaired.iter().any(|repaired| repaired == support) {
             support::require_within_rounding(self.pencil, self.candidate, &claim)?;
         }
+
         Ok(Claim::EnclosedSolution(claim))
     }
 
@@ -117,6 +118,7 @@ impl Proposals<'_> {
         if is_known || self.repaired.len() >= MAX_REPAIRS || self.is_short(&repaired) {
             return;
         }
+
         self.repaired.push(repaired.clone());
         self.waiting.push_front(repaired);
     }
@@ -131,6 +133,7 @@ impl Iterator for Proposals<'_> {
         if let Err(failure) = &claim {
             self.repair(&support, failure);
         }
+
         Some(Proposal { support, claim })
     }
 }
@@ -155,6 +158,7 @@ pub fn propose(
             Err(failure) => attempts.push(Attempt { support, failure }),
         }
     }
+
     Err(NotCertified { attempts })
 }
 

@@ -43,6 +43,7 @@ impl IntegralRows {
         for i in 0..pencil.order() {
             rows.push(integral_row(pencil.a().row(i), pencil.b().row(i)));
         }
+
         IntegralRows { rows }
     }
 
@@ -73,11 +74,13 @@ fn integral_row(a: &[(usize, Rational)], b: &[(usize, Rational)]) -> Vec<PencilE
         let entry = entry.or_insert_with(|| PencilEntry::zero(*column));
         entry.a = cleared(value, &denominator);
     }
+
     for (column, value) in b {
         let entry = entries.entry(*column);
         let entry = entry.or_insert_with(|| PencilEntry::zero(*column));
         entry.b = cleared(value, &denominator);
     }
+
     entries.into_values().collect()
 }
 

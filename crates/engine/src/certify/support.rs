@@ -1,9 +1,10 @@
 //! The supports that a candidate suggests: several guesses, best first, and repairs of them.
 //!
 //! A component of a candidate in doubles is rarely exactly zero. Whether x_i > 0 is therefore
-//! guessed by thresholds ([`SUPPORT_GUESSES`]) relative to the largest slip component. Where a claim
-//! about a guess has a wrong sign at a component that doubles cannot tell from zero, that component
-//! changes sides. Called by `proposals`; which guess is right the signs of the claims decide.
+//! guessed by thresholds ([`SUPPORT_GUESSES`]) relative to the largest slip component. Where a
+//! claim about a guess has a wrong sign at a component that doubles cannot tell from zero, that
+//! component changes sides. Called by `proposals`; which guess is right the signs of the claims
+//! decide.
 
 use super::failure::AttemptFailure;
 use super::rows::active;
@@ -40,6 +41,7 @@ pub(super) fn guesses(
             supports.push(support);
         }
     }
+
     Ok(supports)
 }
 
@@ -57,6 +59,7 @@ fn require_usable(pencil: &Pencil, candidate: &Candidate) -> Result<(), AttemptF
     if candidate.x.iter().all(|v| *v == 0.0) {
         return Err(AttemptFailure::ZeroX);
     }
+
     Ok(())
 }
 
@@ -66,6 +69,7 @@ fn largest_slip(pencil: &Pencil, candidate: &Candidate) -> f64 {
     for &i in &pencil.slip() {
         largest = largest.max(candidate.x[i]);
     }
+
     largest
 }
 
@@ -94,6 +98,7 @@ pub(super) fn repaired(
         repaired.push(index);
         repaired.sort_unstable();
     }
+
     Some(repaired)
 }
 
@@ -120,6 +125,7 @@ pub(super) fn require_within_rounding(
             });
         }
     }
+
     Ok(())
 }
 
@@ -139,6 +145,7 @@ fn support_components(pencil: &Pencil, claim: &EnclosedSolution) -> Vec<Componen
             components.push(Component { index, x });
         }
     }
+
     components
 }
 

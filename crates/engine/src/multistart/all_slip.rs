@@ -49,6 +49,7 @@ pub fn all_slip(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<AllSlip> {
             found.extend(pencil.polished(1.0 / re));
         }
     }
+
     found.sort_by(|p, q| p.mu.total_cmp(&q.mu));
     found.dedup_by(|p, q| (p.mu - q.mu).abs() <= REAL_EIGENVALUE * q.mu);
     found
@@ -156,6 +157,7 @@ impl DensePencil<'_> {
         for entry in entries {
             residual = residual.max(entry.abs() / largest_size);
         }
+
         residual
     }
 }
@@ -166,6 +168,7 @@ fn product(matrix: &[Vec<f64>], x: &[f64]) -> Vec<f64> {
     for row in matrix {
         product.push(row.iter().zip(x).map(|(m, x)| m * x).sum());
     }
+
     product
 }
 
@@ -178,6 +181,7 @@ mod tests {
         for (i, row) in rows.iter_mut().enumerate() {
             row[i] = 1.0;
         }
+
         rows
     }
 
@@ -188,6 +192,7 @@ mod tests {
             rows[i][i - 1] = weight;
             rows[i - 1][i] = weight;
         }
+
         rows
     }
 

@@ -148,6 +148,7 @@ fn polished(embedding: &CondensedEmbedding<'_>, mut z: Vec<f64>) -> Vec<f64> {
         z = next;
         image = next_image;
     }
+
     z
 }
 
@@ -169,6 +170,7 @@ impl<'a> ActiveSet<'a> {
                 positions.push(i);
             }
         }
+
         ActiveSet { problem, positions }
     }
 
@@ -194,6 +196,7 @@ impl<'a> ActiveSet<'a> {
         for &i in &self.positions {
             size = size.max(image[i].abs());
         }
+
         size
     }
 
@@ -221,6 +224,7 @@ impl<'a> ActiveSet<'a> {
         for (&i, change) in self.positions.iter().zip(step) {
             next[i] += change;
         }
+
         Some(next)
     }
 }

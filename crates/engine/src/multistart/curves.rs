@@ -2,10 +2,10 @@
 //! one.
 //!
 //! A curve consists of the zeros of the normal map with a multiple of a fixed vector added; the
-//! solver follows it ([`continuation`], [`continuation_through`]), and where the multiple is zero it
-//! meets a solution. A solution found is left on curves with random vectors, which connect it with
-//! others. Within a budget ([`Search::budget`](super::Search::budget)) further runs from starts are
-//! made where a curve costs many. Called by [`Hunt::side`].
+//! solver follows it ([`continuation`], [`continuation_through`]), and where the multiple is zero
+//! it meets a solution. A solution found is left on curves with random vectors, which connect it
+//! with others. Within a budget ([`Search::budget`](super::Search::budget)) further runs from
+//! starts are made where a curve costs many. Called by [`Hunt::side`].
 
 use super::found::Origin;
 use super::ground::Ground;
@@ -39,6 +39,7 @@ impl Hunt<'_> {
                 break;
             }
         }
+
         Ok(())
     }
 
@@ -77,6 +78,7 @@ impl Hunt<'_> {
             }
             self.plain(&ground.embedding, &start)?;
         }
+
         Ok(())
     }
 
@@ -172,6 +174,7 @@ impl Hunt<'_> {
                 self.polish(ground, &candidate, run, origin)?;
             }
         }
+
         Ok(())
     }
 
@@ -193,6 +196,7 @@ impl Hunt<'_> {
         if outcome.termination.reached_tolerance() {
             self.file(polisher.candidate(&outcome.point), run, origin);
         }
+
         Ok(())
     }
 }

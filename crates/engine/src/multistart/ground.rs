@@ -1,7 +1,7 @@
 //! The MCPs on which the curves of a search are followed and their solutions polished.
 //!
-//! The MCP of Proposition 1 or 2 covers one side of an origin ([`Embedding`]): runs start there, and
-//! curves are followed there. Where the pencil allows it, curves run on the circle instead
+//! The MCP of Proposition 1 or 2 covers one side of an origin ([`Embedding`]): runs start there,
+//! and curves are followed there. Where the pencil allows it, curves run on the circle instead
 //! ([`CirclePencil`]), which covers all values at once; their points are polished in the embedding
 //! of all t >= 0. Made by [`Hunt`](super::hunt::Hunt) for each side of an origin.
 

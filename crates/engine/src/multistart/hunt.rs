@@ -66,6 +66,7 @@ impl Hunt<'_> {
         if self.search.curves {
             self.follow(&mut ground, &of_curves)?;
         }
+
         Ok(())
     }
 
@@ -89,6 +90,7 @@ impl Hunt<'_> {
         if let (Unknown::Lambda2, Some(zeta)) = (self.admissible.unknown(), zeta) {
             *zeta = FAR_START;
         }
+
         points
     }
 
@@ -110,6 +112,7 @@ impl Hunt<'_> {
                 break;
             }
         }
+
         Ok(())
     }
 
@@ -168,6 +171,7 @@ impl Hunt<'_> {
             let candidate = embedding.candidate(&outcome.point);
             self.file(candidate, run, Origin::Start);
         }
+
         self.found.first.get_or_insert(outcome);
         Ok(())
     }
@@ -215,9 +219,9 @@ impl Hunt<'_> {
 
 /// Pivots and factorisations that a run over n variables counts for at least in a budget.
 ///
-/// The budget of curves is a share of the cost of the runs. Short runs would buy few curves, but the
-/// curves of an instance are no shorter where its runs are: a curve has some n pieces, and up to
-/// n / 2 curves leave each solution.
+/// The budget of curves is a share of the cost of the runs. Short runs would buy few curves, but
+/// the curves of an instance are no shorter where its runs are: a curve has some n pieces, and up
+/// to n / 2 curves leave each solution.
 fn least_work(n: usize) -> usize {
     n * (n + 4) / 2
 }

@@ -163,6 +163,7 @@ pub fn multistart_with(
     for (k, origin) in origins.into_iter().enumerate() {
         hunt.side(Side::Above(origin), search.starts, k as u64)?;
     }
+
     if search.window_starts > 0 {
         hunt_around_values(&mut hunt)?;
     }
@@ -189,6 +190,7 @@ fn hunt_around_values(hunt: &mut Hunt<'_>) -> Result<(), SolverError> {
         hunt.side(Side::Below(value - gap), starts, salt + 1)?;
         treated += 1;
     }
+
     Ok(())
 }
 
@@ -239,6 +241,7 @@ mod tests {
             let one = vec![Number(whole(1))];
             claim.x = vec![one.clone(), one];
         }
+
         Ok(Claim::ExactSolution(claim))
     }
 
@@ -248,6 +251,7 @@ mod tests {
         if let Some(accepted) = sifted.accepted.pop() {
             return Ok(accepted);
         }
+
         let (_, reason) = sifted.refused.remove(0);
         Err(refusal(reason))
     }

@@ -42,6 +42,7 @@ pub fn integer_x(claim: &ExactSolution) -> Vec<Poly> {
         }
         x.push(Poly::new(coefficients));
     }
+
     x
 }
 
@@ -82,6 +83,7 @@ fn holds_center(a: &EnclosedSolution, b: &EnclosedSolution) -> bool {
             return false;
         }
     }
+
     true
 }
 

@@ -100,6 +100,7 @@ impl Krawczyk {
                 return None;
             }
         }
+
         None
     }
 
@@ -115,6 +116,7 @@ impl Krawczyk {
             let scale = power(residual.exponent + point.bits(k) as i64);
             distances.push((product.abs() + KRAWCZYK_NOISE * size) * scale);
         }
+
         distances
     }
 
@@ -134,6 +136,7 @@ impl Krawczyk {
             let other_bits = if k < last { point.t_bits } else { point.x_bits };
             bound.push(distance[k] + linear + quadratic * power(-(other_bits as i64)));
         }
+
         bound
     }
 
@@ -147,6 +150,7 @@ impl Krawczyk {
                 .map(|b| 2.0 * radius_of_t * b.value * radius[b.column]);
             curvature.push(terms.sum());
         }
+
         curvature
     }
 
@@ -162,6 +166,7 @@ fn integers(radius: &[f64]) -> Option<Vec<Integer>> {
     for r in radius {
         integers.push(from_f64(*r).ok()?.to_integer());
     }
+
     Some(integers)
 }
 
@@ -188,6 +193,7 @@ fn contraction(y: &[Vec<f64>], jacobian: &[Vec<Slope>], units: &[f64]) -> Vec<Ve
         }
         error.push(error_row);
     }
+
     error
 }
 
@@ -220,6 +226,7 @@ fn rounding_bits(jacobian: &[Vec<Slope>], radius: &[f64]) -> f64 {
             .map(|slope| slope.value.abs() * radius[slope.column]);
         widest = widest.max(terms.sum());
     }
+
     let narrowest = radius.iter().copied().fold(f64::INFINITY, f64::min);
 
     let bits = (jacobian.len() as f64 * widest / narrowest).log2().ceil();
@@ -252,6 +259,7 @@ fn round(y: &[Vec<f64>], scales: &[u64], exponent: u32) -> Vec<Vec<Integer>> {
                 .collect(),
         );
     }
+
     rows
 }
 
@@ -274,6 +282,7 @@ fn rounded(preconditioner: &[Vec<Integer>], scales: &[u64], exponent: u32) -> Ve
                 .collect(),
         );
     }
+
     rows
 }
 

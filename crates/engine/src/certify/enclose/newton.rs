@@ -76,6 +76,7 @@ impl Point {
         for component in &mut self.x {
             *component <<= more;
         }
+
         self.t <<= more;
         self.x_bits += u64::from(more);
         self.t_bits += u64::from(more);
@@ -129,6 +130,7 @@ impl<'a> Newton<'a> {
         for (position, &index) in active.iter().enumerate() {
             place[index] = Some(position);
         }
+
         let mut in_support = vec![false; pencil.order()];
         for &index in support {
             in_support[index] = true;
@@ -139,6 +141,7 @@ impl<'a> Newton<'a> {
             let bits = rows.row(index).iter().map(PencilEntry::bits).max();
             scales.push(bits.unwrap_or(0).saturating_sub(SAFE_BITS));
         }
+
         scales.push(0);
 
         Newton {
@@ -180,6 +183,7 @@ impl<'a> Newton<'a> {
         for entry in self.active_entries(index) {
             y += point.coefficient(&entry) * &point.x[entry.position];
         }
+
         y
     }
 
@@ -214,6 +218,7 @@ impl<'a> Newton<'a> {
         for component in x {
             x_on_grid.push(on_grid(component, x_bits)?);
         }
+
         Ok(Point {
             x: x_on_grid,
             t: on_grid(candidate.value, t_bits)?,
@@ -270,6 +275,7 @@ impl<'a> Newton<'a> {
                 });
             }
         }
+
         row
     }
 
@@ -289,6 +295,7 @@ impl<'a> Newton<'a> {
             }
             rows.push(row);
         }
+
         rows
     }
 
@@ -317,6 +324,7 @@ impl<'a> Newton<'a> {
                 sum += x;
             }
         }
+
         let one = Integer::one() << point.x_bits;
         residual.push((sum - one) << point.t_bits);
         residual
@@ -331,6 +339,7 @@ impl<'a> Newton<'a> {
                 largest = largest.max(Some(f.bits() as i64 - scale as i64));
             }
         }
+
         let Some(largest) = largest else {
             return ScaledResidual {
                 f: vec![0.0; residual.len()],
@@ -343,6 +352,7 @@ impl<'a> Newton<'a> {
             let power = -(largest + scale as i64);
             doubles.push(to_f64(&times_power(f, power)));
         }
+
         let unit_bits = (point.x_bits + point.t_bits) as i64;
         ScaledResidual {
             f: doubles,
@@ -440,15 +450,18 @@ fn binary_exponent(v: f64) -> i32 {
     }
 }
 
-/// The inverse of a Jacobian J by way of R J C, whose entries are of order one: J^-1 = C (R J C)^-1 R.
+/// The inverse of a Jacobian J by way of R J C, whose entries are of order one: J^-1 = C (R J C)^-1
+/// R.
 ///
 /// Rows with cleared denominators and a value like lambda^2 are many powers of ten away from e'x_s
-/// and x. So C multiplies the last column by the value, and R divides each row by its largest entry.
+/// and x. So C multiplies the last column by the value, and R divides each row by its largest
+/// entry.
 fn equilibrated_inverse(jacobian: &[Vec<f64>], value: f64) -> Option<Vec<Vec<f64>>> {
     let mut column_factors = vec![1.0; jacobian.len()];
     if let Some(last) = column_factors.last_mut().filter(|_| value > 0.0) {
         *last = value;
     }
+
     let mut row_sizes = Vec::with_capacity(jacobian.len());
     for row in jacobian {
         let mut size: f64 = 0.0;
@@ -471,6 +484,7 @@ fn equilibrated_inverse(jacobian: &[Vec<f64>], value: f64) -> Option<Vec<Vec<f64
             *entry *= factor / size;
         }
     }
+
     let mut entries = inverse.iter().flatten();
     let is_finite = entries.all(|entry| entry.is_finite());
     is_finite.then_some(inverse)

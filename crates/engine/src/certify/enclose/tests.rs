@@ -30,6 +30,7 @@ fn first_row_times(factor: &Rational, matrix: &Sparse) -> Sparse {
         let v = if i == 0 { v * factor } else { v.clone() };
         entries.push((i, j, v));
     }
+
     Sparse::from_entries(3, 3, entries)
 }
 
@@ -156,6 +157,7 @@ fn a_candidate_too_far_away_is_not_the_solution() {
     for near in [1_000_000.0, 1_000_090.0, 999_910.0] {
         assert_eq!(with_one_variable(&million, near), Ok(()));
     }
+
     for far in [1_000_150.0, 999_850.0] {
         assert!(is_too_far(&with_one_variable(&million, far)));
     }

@@ -33,6 +33,7 @@ fn constants(claim: &ExactSolution) -> Vec<Rational> {
         let constant = component.first().map(|number| number.0.clone());
         constants.push(constant.unwrap_or_else(Rational::zero));
     }
+
     constants
 }
 
@@ -131,6 +132,7 @@ fn free_components_are_compared_in_units_of_the_slip_ones() {
     for near in [1000.0, 1000.0001] {
         assert!(is_claimed(&p, &Window::all(), 1.0, &[near, 1.0]));
     }
+
     for far in [1000.01, 999.99] {
         assert!(!is_claimed(&p, &Window::all(), 1.0, &[far, 1.0]));
     }
@@ -143,6 +145,7 @@ fn primitive_of(components: &[&[Rational]]) -> Vec<Vec<Rational>> {
     for component in primitive(components) {
         rationals.push(component.into_iter().map(|number| number.0).collect());
     }
+
     rationals
 }
 
