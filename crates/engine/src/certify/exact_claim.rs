@@ -132,8 +132,9 @@ impl Support<'_> {
         let mut components = Vec::new();
         for vector in &kernel {
             let x = self.spread(vector);
-            components.extend(x.iter().cloned());
-            components.extend(self.rows.iter().map(|row| times(row, &x)));
+            let y = self.y(&x);
+            components.extend(x);
+            components.extend(y);
         }
 
         let mut values = vec![Algebraic::rational(own)];
@@ -210,7 +211,7 @@ impl Support<'_> {
         let x = self.kernel_vector(faces, &mut value)?;
         self.require_positive_x(&x, &mut value)?;
 
-        let y: Vec<Poly> = self.rows.iter().map(|row| times(row, &x)).collect();
+        let y = self.y(&x);
         let biactive = self.biactive(&y, &mut value)?;
         // A test for zero replaces the polynomial of the value by the factor that vanishes there.
         // After these tests each y_i of an active row is 0 modulo it, as the checker asks.
@@ -220,17 +221,37 @@ impl Support<'_> {
 
         require_near_x(self.pencil, self.candidate, &x, &mut value)?;
 
-        let mut positive: Vec<&Poly> = self.support.iter().map(|&i| &x[i]).collect();
-        let strict_rows = self.inactive().filter(|i| !biactive.contains(i));
-        positive.extend(strict_rows.map(|i| &y[i]));
-        let required = RequiredSigns {
+        let required = self.required_signs(&x, &y, &biactive);
+        required.tighten(&mut value)?;
+        Ok(claim(self.support, biactive, &x, &value))
+    }
+
+    /// What the checker must see: x_i > 0 on the support, y_i > 0 off it where i is not biactive,
+    /// and x != 0.
+    fn required_signs<'b>(
+        &'b self,
+        x: &'b [Poly],
+        y: &'b [Poly],
+        biactive: &[usize],
+    ) -> RequiredSigns<'b> {
+        let mut positive = Vec::new();
+        for &i in self.support {
+            positive.push(&x[i]);
+        }
+
+        for i in self.inactive() {
+            if !biactive.contains(&i) {
+                positive.push(&y[i]);
+            }
+        }
+
+        // On a support that is not empty x > 0 says that x is not zero.
+        let not_all_zero = self.support.is_empty().then_some(x);
+        RequiredSigns {
             window: self.window,
             positive,
-            not_all_zero: self.support.is_empty().then_some(&x[..]),
-        };
-        required.tighten(&mut value)?;
-
-        Ok(claim(self.support, biactive, &x, &value))
+            not_all_zero,
+        }
     }
 
     /// Demands x_i > 0 on the support.
@@ -258,6 +279,11 @@ impl Support<'_> {
         Ok(biactive)
     }
 
+    /// y = (A + tB) x, each row times a positive number.
+    fn y(&self, x: &[Poly]) -> Vec<Poly> {
+        self.rows.iter().map(|row| times(row, x)).collect()
+    }
+
     /// The complementarity variables off the support, ascending.
     fn inactive(&self) -> impl Iterator<Item = usize> {
         (0..self.pencil.order()).filter(|i| self.active.binary_search(i).is_err())
@@ -270,7 +296,8 @@ impl Support<'_> {
     fn block(&self, faces: &[usize]) -> Vec<Vec<Poly>> {
         let mut block = Vec::with_capacity(self.active.len() + faces.len());
         for &i in self.active.iter().chain(faces) {
-            let row = self.active.iter().map(|&j| self.entry(i, j)).collect();
+            let columns = self.active.iter();
+            let row = columns.map(|&j| self.entry(i, j)).collect();
             block.push(row);
         }
 
@@ -385,10 +412,13 @@ fn has_negative_product(x: &[Poly], candidate: &Candidate, value: &mut Algebraic
     narrow(value);
     let mid = value.interval().mid();
 
-    let pairs = x.iter().zip(&candidate.x);
-    let product: f64 = pairs
-        .map(|(component, given)| to_f64(&component.eval(&mid)) * given)
-        .sum();
+    let mut terms = Vec::with_capacity(x.len());
+    for (component, given) in x.iter().zip(&candidate.x) {
+        let component = to_f64(&component.eval(&mid));
+        terms.push(component * given);
+    }
+
+    let product: f64 = terms.iter().sum();
     product < 0.0
 }
 
@@ -408,9 +438,14 @@ fn require_near_x(
 ) -> Result<(), AttemptFailure> {
     narrow(value);
     let mid = value.interval().mid();
-    let exact: Vec<Rational> = x.iter().map(|component| component.eval(&mid)).collect();
-    let largest = exact.iter().map(|v| v.abs()).max();
-    let largest = largest.unwrap_or_else(Rational::zero);
+    let mut exact = Vec::with_capacity(x.len());
+    let mut largest = Rational::zero();
+    for component in x {
+        let component = component.eval(&mid);
+        largest = largest.max(component.abs());
+        exact.push(component);
+    }
+
     if largest.is_zero() {
         return Err(AttemptFailure::ZeroX);
     }
@@ -420,10 +455,10 @@ fn require_near_x(
     let slip = pencil.slip();
     let our_scale = scale(&ours, &slip);
     let their_scale = scale(&candidate.x, &slip);
-
     let mut distance: f64 = 0.0;
     for (our, their) in ours.iter().zip(&candidate.x) {
-        distance = distance.max((our / our_scale - their / their_scale).abs());
+        let difference = our / our_scale - their / their_scale;
+        distance = distance.max(difference.abs());
     }
 
     if distance <= X_RADIUS {

@@ -105,7 +105,13 @@ impl Proposals<'_> {
     /// Is the system of this support short enough for an exact claim?
     fn is_short(&self, support: &[usize]) -> bool {
         let order = self.active_order(support);
-        order <= EXACT_ORDER && order as u64 * self.rows.bits() <= EXACT_BITS
+        if order > EXACT_ORDER {
+            return false;
+        }
+
+        // A determinant has about so many bits.
+        let bits = order as u64 * self.rows.bits();
+        bits <= EXACT_BITS
     }
 
     /// Puts the support with the component of a wrong sign changed next, where claims about it are
@@ -114,8 +120,12 @@ impl Proposals<'_> {
         let repaired = support::repaired(self.pencil, self.candidate, support, failure);
         let Some(repaired) = repaired else { return };
 
-        let is_known = self.guesses.contains(&repaired) || self.repaired.contains(&repaired);
-        if is_known || self.repaired.len() >= MAX_REPAIRS || self.is_short(&repaired) {
+        let was_guessed = self.guesses.contains(&repaired);
+        let was_repaired = self.repaired.contains(&repaired);
+        if was_guessed || was_repaired || self.repaired.len() >= MAX_REPAIRS {
+            return;
+        }
+        if self.is_short(&repaired) {
             return;
         }
 

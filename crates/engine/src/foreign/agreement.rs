@@ -49,7 +49,9 @@ pub struct Component {
 impl Agreement {
     /// Do value and x agree to this relative error?
     pub fn is_within(&self, tolerance: f64) -> bool {
-        self.value <= tolerance && self.worst.error <= tolerance
+        let has_value = self.value <= tolerance;
+        let has_x = self.worst.error <= tolerance;
+        has_value && has_x
     }
 }
 

@@ -149,11 +149,18 @@ impl<'a> ScaledX<'a> {
         let l1_norm: f64 = candidate.x.iter().map(|v| v.abs()).sum();
         let slip_sum: f64 = slip.iter().map(|&i| candidate.x[i]).sum();
         let slip_scale = if slip_sum > 0.0 { slip_sum } else { l1_norm };
-        ScaledX {
+
+        let mut scaled = ScaledX {
             slip,
-            by_slip: candidate.x.iter().map(|v| v / slip_scale).collect(),
-            by_l1: candidate.x.iter().map(|v| v / l1_norm).collect(),
+            by_slip: Vec::with_capacity(candidate.x.len()),
+            by_l1: Vec::with_capacity(candidate.x.len()),
+        };
+        for component in &candidate.x {
+            scaled.by_slip.push(component / slip_scale);
+            scaled.by_l1.push(component / l1_norm);
         }
+
+        scaled
     }
 
     /// Could one of these solutions be the candidate, by its x? Cones and ranges: wherever their

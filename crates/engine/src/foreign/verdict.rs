@@ -106,27 +106,32 @@ pub fn judge(
         return Verdict::Rejected(Refutation::ZeroX);
     }
 
-    match prove(problem, reduced, reported, candidate) {
-        Ok(proved) if proved.agreement.is_within(tolerance) => Verdict::Accepted(Box::new(proved)),
-        Ok(proved) => {
-            // Noise in components that are zero may have led to another solution near by.
-            let cleaned = without_noise(candidate, tolerance);
-            match prove(problem, reduced, reported, &cleaned) {
-                Ok(again) if again.agreement.is_within(tolerance) => {
-                    Verdict::Accepted(Box::new(again))
-                }
-                _ => Verdict::Inaccurate {
-                    proved: Box::new(proved),
-                    tolerance,
+    let proved = match prove(problem, reduced, reported, candidate) {
+        Ok(proved) => proved,
+        Err(reason) => {
+            return match refute(problem, reduced, candidate, effort) {
+                Ok(refutation) => Verdict::Rejected(refutation),
+                Err(why) => Verdict::Undecided {
+                    reason: format!("{reason}; {why}"),
                 },
-            }
+            };
         }
-        Err(reason) => match refute(problem, reduced, candidate, effort) {
-            Ok(refutation) => Verdict::Rejected(refutation),
-            Err(why) => Verdict::Undecided {
-                reason: format!("{reason}; {why}"),
-            },
-        },
+    };
+    if proved.agreement.is_within(tolerance) {
+        return Verdict::Accepted(Box::new(proved));
+    }
+
+    // Noise in components that are zero may have led to another solution near by.
+    let cleaned = without_noise(candidate, tolerance);
+    if let Ok(again) = prove(problem, reduced, reported, &cleaned)
+        && again.agreement.is_within(tolerance)
+    {
+        return Verdict::Accepted(Box::new(again));
+    }
+
+    Verdict::Inaccurate {
+        proved: Box::new(proved),
+        tolerance,
     }
 }
 
@@ -162,7 +167,7 @@ fn without_noise(candidate: &Candidate, tolerance: f64) -> Candidate {
 }
 
 impl Verdict {
-    /// One line for people; `word` names the unknown, `given` is the value as reported.
+    /// One line for people; `given` is the value as reported.
     pub fn line(&self, problem: &Problem, given: f64) -> String {
         let word = problem.unknown().word();
         match self {

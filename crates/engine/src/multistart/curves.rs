@@ -203,6 +203,13 @@ impl Hunt<'_> {
 
 /// Is a point that a curve meets the given one, up to the accuracy of curves?
 fn is_same_curve_point(met: &[f64], point: &[f64]) -> bool {
-    let mut components = met.iter().zip(point);
-    components.all(|(m, p)| (m - p).abs() <= SAME_CURVE_POINT * (1.0 + p.abs()))
+    for (met, given) in met.iter().zip(point) {
+        let difference = (met - given).abs();
+        let is_close = difference <= SAME_CURVE_POINT * (1.0 + given.abs());
+        if !is_close {
+            return false;
+        }
+    }
+
+    true
 }

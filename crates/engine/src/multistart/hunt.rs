@@ -211,9 +211,13 @@ impl Hunt<'_> {
     /// Is a value outside the window by more than rounding?
     fn is_outside_window(&self, value: f64) -> bool {
         let slack = WINDOW_GAP * (1.0 + value.abs());
-        let is_below = value < to_f64(self.window.min()) - slack;
-        let max = self.window.max();
-        is_below || max.is_some_and(|max| value > to_f64(max) + slack)
+        let min = to_f64(self.window.min());
+        if value < min - slack {
+            return true;
+        }
+
+        let max = self.window.max().map(to_f64);
+        max.is_some_and(|max| value > max + slack)
     }
 }
 

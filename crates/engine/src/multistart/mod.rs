@@ -40,6 +40,13 @@ use mceip_exact::to_f64;
 use mceip_mcp::solver::SolverError;
 use mceip_model::{Admissible, ModelError, Pencil, Problem, Unknown, Window};
 
+/// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
+pub const CONDENSE_FROM: usize = 12;
+
+/// Largest number of variables of a search: two dense matrices in doubles, 576 MB, and their
+/// factors.
+const MAX_DENSE_ORDER: usize = 6000;
+
 /// Searches for solutions in the problem's window: plain starts, then above and below each value
 /// found. `admissible` is the problem's reduced pencil.
 ///
@@ -59,9 +66,6 @@ pub fn multistart(
         &Watch::nobody(),
     )
 }
-
-/// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
-pub const CONDENSE_FROM: usize = 12;
 
 /// Why a search did not take place.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -102,29 +106,49 @@ pub fn multistart_large(
     watch: &Watch<'_>,
 ) -> Result<(Found, Option<Pencil>), SearchError> {
     let pencil = admissible.pencil();
-    let window = problem.window();
-    let certifier = certify::Certifier::new(problem, pencil);
-    let is_condensed = admissible.unknown() == Unknown::Mu && pencil.free().len() >= CONDENSE_FROM;
-    if !is_condensed {
-        require_dense_order(pencil)?;
-        let certify: &Certifier<'_> = &|candidate| certifier.certify(candidate);
-        let found = multistart_with(admissible, window, search, certify, watch)?;
-        return Ok((found, None));
+    if admissible.unknown() == Unknown::Mu && pencil.free().len() >= CONDENSE_FROM {
+        let (found, condensed) = multistart_on_slip_variables(problem, admissible, search, watch)?;
+        return Ok((found, Some(condensed)));
     }
 
+    require_dense_order(pencil)?;
+    let certifier = certify::Certifier::new(problem, pencil);
+    let found = multistart_with(
+        admissible,
+        problem.window(),
+        search,
+        &|candidate| certifier.certify(candidate),
+        watch,
+    )?;
+    Ok((found, None))
+}
+
+/// Searches MCEIP-mu on its exactly condensed pencil, which is returned too. Candidates are
+/// expanded by the free variables and certified on the given pencil.
+fn multistart_on_slip_variables(
+    problem: &Problem,
+    admissible: &Admissible<'_>,
+    search: &Search,
+    watch: &Watch<'_>,
+) -> Result<(Found, Pencil), SearchError> {
+    let pencil = admissible.pencil();
+    let certifier = certify::Certifier::new(problem, pencil);
     let condensed = condense(admissible)?;
     let expansion = Expansion::new(pencil).ok_or(SearchError::SingularInDoubles)?;
     require_dense_order(&condensed)?;
+
     let small = Admissible::new(&condensed, Unknown::Mu)?;
-    let certify: &Certifier<'_> = &|candidate| certifier.certify(&expansion.expand(candidate));
-    let found = multistart_with(&small, window, search, certify, watch)?;
-    Ok((found, Some(condensed)))
+    let found = multistart_with(
+        &small,
+        problem.window(),
+        search,
+        &|candidate| certifier.certify(&expansion.expand(candidate)),
+        watch,
+    )?;
+    Ok((found, condensed))
 }
 
-/// Largest number of variables of a search: two dense matrices in doubles, 576 MB, and their
-/// factors.
-const MAX_DENSE_ORDER: usize = 6000;
-
+/// Demands that dense matrices of the pencil's order may be formed.
 fn require_dense_order(pencil: &Pencil) -> Result<(), SearchError> {
     let got = pencil.order();
     if got > MAX_DENSE_ORDER {

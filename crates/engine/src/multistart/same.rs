@@ -98,7 +98,10 @@ pub(super) fn repeats(a: &Candidate, b: &Candidate) -> bool {
     let a_norm = l1_norm(&a.x);
     let b_norm = l1_norm(&b.x);
     let mut components = a.x.iter().zip(&b.x);
-    components.all(|(p, q)| (p / a_norm - q / b_norm).abs() <= SAME_POINT)
+    components.all(|(a_i, b_i)| {
+        let difference = a_i / a_norm - b_i / b_norm;
+        difference.abs() <= SAME_POINT
+    })
 }
 
 fn l1_norm(x: &[f64]) -> f64 {

@@ -109,12 +109,10 @@ impl Krawczyk {
         let residual = newton.scaled_residual(point);
         let mut distances = Vec::with_capacity(self.y.len());
         for (k, row) in self.y.iter().enumerate() {
-            let terms = row.iter().zip(&residual.f);
-            let product: f64 = terms.clone().map(|(y, f)| y * f).sum();
-            let size: f64 = terms.map(|(y, f)| (y * f).abs()).sum();
-
+            let product = dot(row, &residual.f);
+            let noise = KRAWCZYK_NOISE * dot_of_moduli(row, &residual.f);
             let scale = power(residual.exponent + point.bits(k) as i64);
-            distances.push((product.abs() + KRAWCZYK_NOISE * size) * scale);
+            distances.push((product.abs() + noise) * scale);
         }
 
         distances
@@ -127,14 +125,12 @@ impl Krawczyk {
 
         let mut bound = Vec::with_capacity(radius.len());
         for k in 0..=last {
-            let errors = self.error[k].iter().zip(radius);
-            let linear: f64 = errors.map(|(e, r)| e * r).sum();
-
+            let linear = dot(&self.error[k], radius);
             // d is in units of x times units of t: one of the two is the unit of component k.
-            let terms = self.y[k].iter().zip(&curvature);
-            let quadratic: f64 = terms.map(|(y, d)| y.abs() * d).sum();
+            let quadratic = dot_of_moduli(&self.y[k], &curvature);
             let other_bits = if k < last { point.t_bits } else { point.x_bits };
-            bound.push(distance[k] + linear + quadratic * power(-(other_bits as i64)));
+            let other_unit = power(-(other_bits as i64));
+            bound.push(distance[k] + linear + quadratic * other_unit);
         }
 
         bound
@@ -145,9 +141,8 @@ impl Krawczyk {
         let radius_of_t = radius[radius.len() - 1];
         let mut curvature = Vec::with_capacity(self.b.len());
         for row in &self.b {
-            let terms = row
-                .iter()
-                .map(|b| 2.0 * radius_of_t * b.value * radius[b.column]);
+            let entries = row.iter();
+            let terms = entries.map(|b| 2.0 * radius_of_t * b.value * radius[b.column]);
             curvature.push(terms.sum());
         }
 
@@ -158,6 +153,16 @@ impl Krawczyk {
     pub(super) fn into_preconditioner(self) -> (Vec<Vec<Integer>>, u32) {
         (self.preconditioner, self.exponent)
     }
+}
+
+/// sum_j a_j b_j.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// sum_j |a_j b_j|.
+fn dot_of_moduli(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a * b).abs()).sum()
 }
 
 /// Whole numbers in doubles as integers.
@@ -221,15 +226,14 @@ fn power_above(v: f64) -> f64 {
 fn rounding_bits(jacobian: &[Vec<Slope>], radius: &[f64]) -> f64 {
     let mut widest: f64 = 0.0;
     for row in jacobian {
-        let terms = row
-            .iter()
-            .map(|slope| slope.value.abs() * radius[slope.column]);
+        let slopes = row.iter();
+        let terms = slopes.map(|slope| slope.value.abs() * radius[slope.column]);
         widest = widest.max(terms.sum());
     }
 
     let narrowest = radius.iter().copied().fold(f64::INFINITY, f64::min);
-
-    let bits = (jacobian.len() as f64 * widest / narrowest).log2().ceil();
+    let errors_in_row = jacobian.len() as f64;
+    let bits = (errors_in_row * widest / narrowest).log2().ceil();
     bits + f64::from(PRECONDITIONER_LOSS_BITS)
 }
 
@@ -237,8 +241,11 @@ fn rounding_bits(jacobian: &[Vec<Slope>], radius: &[f64]) -> f64 {
 /// bits, or more where `needed` bits after the point are more. An infinite need is beyond every
 /// limit.
 fn exponent(y: &[Vec<f64>], scales: &[u64], needed: f64) -> u32 {
-    let entries = y.iter().flatten();
-    let largest = entries.fold(0.0f64, |largest, v| largest.max(v.abs()));
+    let mut largest: f64 = 0.0;
+    for entry in y.iter().flatten() {
+        largest = largest.max(entry.abs());
+    }
+
     let bits_before_point = largest.log2().ceil() as i32;
     let wanted = (PRECONDITIONER_BITS - bits_before_point).max(needed as i32);
 
@@ -251,13 +258,13 @@ fn exponent(y: &[Vec<f64>], scales: &[u64], needed: f64) -> u32 {
 /// The inverse for rows that were divided by 2^scale, in integers of 2^-exponent.
 fn round(y: &[Vec<f64>], scales: &[u64], exponent: u32) -> Vec<Vec<Integer>> {
     let mut rows = Vec::with_capacity(y.len());
-    for row in y {
-        let entries = row.iter().zip(scales);
-        rows.push(
-            entries
-                .map(|(v, scale)| integer_units(*v, u64::from(exponent) - scale))
-                .collect(),
-        );
+    for y_row in y {
+        let mut row = Vec::with_capacity(y_row.len());
+        for (entry, scale) in y_row.iter().zip(scales) {
+            let bits = u64::from(exponent) - scale;
+            row.push(integer_units(*entry, bits));
+        }
+        rows.push(row);
     }
 
     rows
@@ -274,13 +281,13 @@ fn integer_units(v: f64, bits: u64) -> Integer {
 /// A rounded preconditioner in doubles, for rows that are divided by 2^scale.
 fn rounded(preconditioner: &[Vec<Integer>], scales: &[u64], exponent: u32) -> Vec<Vec<f64>> {
     let mut rows = Vec::with_capacity(preconditioner.len());
-    for row in preconditioner {
-        let entries = row.iter().zip(scales);
-        rows.push(
-            entries
-                .map(|(units, scale)| double(units, u64::from(exponent) - scale))
-                .collect(),
-        );
+    for integers in preconditioner {
+        let mut row = Vec::with_capacity(integers.len());
+        for (units, scale) in integers.iter().zip(scales) {
+            let bits = u64::from(exponent) - scale;
+            row.push(double(units, bits));
+        }
+        rows.push(row);
     }
 
     rows

@@ -227,7 +227,7 @@ impl<'a> Newton<'a> {
         })
     }
 
-    /// F'(z) = [[A + tB, Bx], [e_s', 0]] in doubles, row by row, entries that are zero left out.
+    /// F'(z) = [[A + tB, Bx], [e_s', 0]] in doubles, row by row, as sparse rows.
     pub(super) fn jacobian(&self, point: &Point) -> Vec<Vec<Slope>> {
         let last = self.active.len();
         let x: Vec<f64> = (0..last).map(|k| to_f64(&point.value(k))).collect();
@@ -235,32 +235,39 @@ impl<'a> Newton<'a> {
 
         let mut rows = Vec::with_capacity(last + 1);
         for (&index, &scale) in self.active.iter().zip(&self.scales) {
-            let mut row = Vec::new();
-            let mut of_t = Slope {
-                column: last,
-                value: 0.0,
-                size: 0.0,
-            };
-            for entry in self.active_entries(index) {
-                let a = scaled(entry.a, scale);
-                let b = scaled(entry.b, scale);
-                let bx = b * x[entry.position];
-
-                row.push(Slope {
-                    column: entry.position,
-                    value: a + t * b,
-                    size: a.abs() + (t * b).abs(),
-                });
-                of_t.value += bx;
-                of_t.size += bx.abs();
-            }
-
-            row.push(of_t);
-            rows.push(row);
+            rows.push(self.slopes_of_row(index, scale, &x, t));
         }
 
         rows.push(self.slopes_of_sum());
         rows
+    }
+
+    /// The slopes of row `index` of (A + tB) x, divided by 2^scale: a + t b in x, (B x)_i in t.
+    fn slopes_of_row(&self, index: usize, scale: u64, x: &[f64], t: f64) -> Vec<Slope> {
+        let mut row = Vec::new();
+        let mut of_t = Slope {
+            column: self.active.len(),
+            value: 0.0,
+            size: 0.0,
+        };
+
+        for entry in self.active_entries(index) {
+            let a = scaled(entry.a, scale);
+            let b = scaled(entry.b, scale);
+            let tb = t * b;
+            let bx = b * x[entry.position];
+
+            row.push(Slope {
+                column: entry.position,
+                value: a + tb,
+                size: a.abs() + tb.abs(),
+            });
+            of_t.value += bx;
+            of_t.size += bx.abs();
+        }
+
+        row.push(of_t);
+        row
     }
 
     /// The last row of F': the slopes of e'x_s.
@@ -279,8 +286,7 @@ impl<'a> Newton<'a> {
         row
     }
 
-    /// |B| on the active block, row by row, entries that are zero left out, the rows divided as
-    /// those of F'.
+    /// |B| on the active block, as sparse rows, divided as those of F'.
     pub(super) fn moduli_of_b(&self) -> Vec<Vec<Modulus>> {
         let mut rows = Vec::with_capacity(self.active.len());
         for (&index, &scale) in self.active.iter().zip(&self.scales) {
@@ -316,10 +322,10 @@ impl<'a> Newton<'a> {
 
     /// F(z) in units of 2^-(x_bits + t_bits).
     fn residual(&self, point: &Point) -> Vec<Integer> {
-        let mut residual: Vec<Integer> = self.active.iter().map(|&i| self.y(i, point)).collect();
-
+        let mut residual = Vec::with_capacity(self.active.len() + 1);
         let mut sum = Integer::zero();
         for (&index, x) in self.active.iter().zip(&point.x) {
+            residual.push(self.y(index, point));
             if self.in_support[index] {
                 sum += x;
             }
@@ -450,12 +456,11 @@ fn binary_exponent(v: f64) -> i32 {
     }
 }
 
-/// The inverse of a Jacobian J by way of R J C, whose entries are of order one: J^-1 = C (R J C)^-1
-/// R.
+/// The inverse of a Jacobian J: J^-1 = C (R J C)^-1 R, where the entries of R J C are of order one.
 ///
 /// Rows with cleared denominators and a value like lambda^2 are many powers of ten away from e'x_s
 /// and x. So C multiplies the last column by the value, and R divides each row by its largest
-/// entry.
+/// entry. `None` where R J C is singular in doubles, or an entry of the inverse is not finite.
 fn equilibrated_inverse(jacobian: &[Vec<f64>], value: f64) -> Option<Vec<Vec<f64>>> {
     let mut column_factors = vec![1.0; jacobian.len()];
     if let Some(last) = column_factors.last_mut().filter(|_| value > 0.0) {
