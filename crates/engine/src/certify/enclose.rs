@@ -49,21 +49,18 @@ pub(super) fn make(
 
     let newton = Newton::new(pencil, rows, support);
     let mut point = newton.start(candidate, FIRST_GRID_BITS)?;
-    let first_inverse = newton.inverse(&point);
-    let first_inverse = first_inverse.ok_or(AttemptFailure::SingularJacobian)?;
+    let first_inverse = newton.inverse(&point)?;
     newton.polish(&mut point, &first_inverse);
     require_near(&newton, &point, candidate)?;
 
     // At the polished centre the inverse is better.
-    let inverse = newton.inverse(&point);
-    let inverse = inverse.ok_or(AttemptFailure::SingularJacobian)?;
+    let inverse = newton.inverse(&point)?;
     let krawczyk = Krawczyk::new(&newton, &point, &inverse)?;
 
     let mut bits = FIRST_GRID_BITS;
     loop {
         newton.polish(&mut point, &inverse);
-        let radius = krawczyk.radii(&newton, &point);
-        let radius = radius.ok_or(AttemptFailure::NotContracting)?;
+        let radius = krawczyk.radii(&newton, &point)?;
         let enclosure = Enclosure {
             newton: &newton,
             point: &point,
@@ -87,8 +84,8 @@ fn claim(
     radius: &[Integer],
     krawczyk: Krawczyk,
 ) -> EnclosedSolution {
-    let mut center = Vec::with_capacity(radius.len());
-    let mut widths = Vec::with_capacity(radius.len());
+    let mut center = Vec::new();
+    let mut widths = Vec::new();
     for (k, units) in radius.iter().enumerate() {
         center.push(Number(point.value(k)));
         widths.push(Number(point.in_units(k, units)));

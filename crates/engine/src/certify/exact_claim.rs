@@ -106,7 +106,7 @@ impl Support<'_> {
 
     /// The active rows and columns of A or of B.
     fn active_block(&self, coefficient: fn(&PencilEntry) -> &Integer) -> Vec<Vec<Integer>> {
-        let mut block = Vec::with_capacity(self.active.len());
+        let mut block = Vec::new();
         for &i in &self.active {
             let mut row = vec![Integer::zero(); self.active.len()];
             for entry in self.rows.row(i) {
@@ -294,7 +294,7 @@ impl Support<'_> {
 impl Support<'_> {
     /// The rows of the active variables and of `faces`, in the columns of the active ones.
     fn block(&self, faces: &[usize]) -> Vec<Vec<Poly>> {
-        let mut block = Vec::with_capacity(self.active.len() + faces.len());
+        let mut block = Vec::new();
         for &i in self.active.iter().chain(faces) {
             let columns = self.active.iter();
             let row = columns.map(|&j| self.entry(i, j)).collect();
@@ -363,7 +363,7 @@ impl Support<'_> {
             return Ok(vec![Rational::from_integer(1.into())]);
         }
 
-        let mut weights = Vec::with_capacity(basis.len());
+        let mut weights = Vec::new();
         for k in 0..basis.len() {
             let free_coordinate =
                 (0..self.active.len()).find(|&c| is_free_coordinate(c, k, basis, value));
@@ -412,7 +412,7 @@ fn has_negative_product(x: &[Poly], candidate: &Candidate, value: &mut Algebraic
     narrow(value);
     let mid = value.interval().mid();
 
-    let mut terms = Vec::with_capacity(x.len());
+    let mut terms = Vec::new();
     for (component, given) in x.iter().zip(&candidate.x) {
         let component = to_f64(&component.eval(&mid));
         terms.push(component * given);
@@ -438,7 +438,7 @@ fn require_near_x(
 ) -> Result<(), AttemptFailure> {
     narrow(value);
     let mid = value.interval().mid();
-    let mut exact = Vec::with_capacity(x.len());
+    let mut exact = Vec::new();
     let mut largest = Rational::zero();
     for component in x {
         let component = component.eval(&mid);
@@ -588,7 +588,7 @@ fn primitive(x: Vec<Vec<Rational>>) -> Vec<Vec<Number>> {
     } else {
         Rational::new(denominator, divisor)
     };
-    let mut scaled = Vec::with_capacity(x.len());
+    let mut scaled = Vec::new();
     for component in x {
         scaled.push(component.into_iter().map(|c| Number(c * &factor)).collect());
     }

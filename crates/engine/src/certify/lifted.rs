@@ -114,7 +114,7 @@ fn add_product(w: &mut [Coefficients], matrix: &Sparse, v: &[Coefficients], shif
 
 /// All components modulo the polynomial.
 fn reduced(components: Vec<Coefficients>, polynomial: &[Rational]) -> Vec<Vec<Number>> {
-    let mut reduced = Vec::with_capacity(components.len());
+    let mut reduced = Vec::new();
     for component in components {
         reduced.push(numbers(remainder(component, polynomial)));
     }

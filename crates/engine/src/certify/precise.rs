@@ -38,15 +38,15 @@ pub(crate) fn precise_null(
     let rows = IntegralRows::of(pencil);
     let newton = Newton::new(pencil, &rows, moving);
     let mut point = newton.start(candidate, FIRST_BITS).ok()?;
-    let first_inverse = newton.inverse(&point)?;
+    let first_inverse = newton.inverse(&point).ok()?;
     newton.polish(&mut point, &first_inverse);
 
     // At the polished point the inverse is better, and good for all further bits.
-    let inverse = newton.inverse(&point)?;
+    let inverse = newton.inverse(&point).ok()?;
     point.refine(bits.saturating_sub(FIRST_BITS));
     newton.polish(&mut point, &inverse);
 
-    let mut x = Vec::with_capacity(moving.len());
+    let mut x = Vec::new();
     for (k, &index) in newton.active.iter().enumerate() {
         if moving.contains(&index) {
             x.push((index, point.value(k)));
@@ -55,7 +55,8 @@ pub(crate) fn precise_null(
 
     let mut y = Vec::new();
     for index in newton.inactive() {
-        y.push((index, Rational::from_integer(newton.y(index, &point))));
+        let row = newton.y(index, &point);
+        y.push((index, Rational::from_integer(row)));
     }
 
     Some(PreciseNull {

@@ -39,7 +39,7 @@ pub(super) struct IntegralRows {
 
 impl IntegralRows {
     pub(super) fn of(pencil: &Pencil) -> Self {
-        let mut rows = Vec::with_capacity(pencil.order());
+        let mut rows = Vec::new();
         for i in 0..pencil.order() {
             rows.push(integral_row(pencil.a().row(i), pencil.b().row(i)));
         }

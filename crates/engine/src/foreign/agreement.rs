@@ -84,7 +84,7 @@ impl Proven {
         let listed = Listed::of_claim(problem, reduced, claim);
         let mut proven = Proven {
             value: Ball::exact(finite(&listed.value)?),
-            x: Vec::with_capacity(listed.x.len()),
+            x: Vec::new(),
         };
         for decimal in &listed.x {
             proven.x.push(Ball::exact(finite(decimal)?));
@@ -163,7 +163,7 @@ fn value_error(reported: f64, proven: Ball, floor: f64) -> f64 {
 /// VALUE_FLOOR min_i (|A||x|)_i / (|B||x|)_i over the active rows with (|B||x|)_i > 0; 0 where
 /// there are none, since then there is no scale of values.
 fn value_floor(pencil: &Pencil, support: &[usize], x: &[Ball]) -> f64 {
-    let mut moduli = Vec::with_capacity(x.len());
+    let mut moduli = Vec::new();
     for ball in x {
         moduli.push(from_f64(ball.center.abs()).unwrap_or_default());
     }
@@ -211,7 +211,7 @@ fn worst_component(reported: &[f64], proven: &[Ball]) -> Option<(Component, Vec<
     let scale_error = largest_proven.radius / proven_scale;
 
     let mut worst: Option<Component> = None;
-    let mut scaled = Vec::with_capacity(proven.len());
+    let mut scaled = Vec::new();
     for (index, (given, known)) in reported.iter().zip(proven).enumerate() {
         let reported = given / reported_scale;
         let proven = known.center / proven_scale;

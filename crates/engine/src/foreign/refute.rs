@@ -152,8 +152,8 @@ impl<'a> ScaledX<'a> {
 
         let mut scaled = ScaledX {
             slip,
-            by_slip: Vec::with_capacity(candidate.x.len()),
-            by_l1: Vec::with_capacity(candidate.x.len()),
+            by_slip: Vec::new(),
+            by_l1: Vec::new(),
         };
         for component in &candidate.x {
             scaled.by_slip.push(component / slip_scale);

@@ -209,7 +209,7 @@ impl ForeignReport {
             });
         }
 
-        let mut solutions = Vec::with_capacity(raw.solutions.len());
+        let mut solutions = Vec::new();
         for (index, Object(raw)) in raw.solutions.iter().enumerate() {
             solutions.push(reported(index, raw, problem, reduced));
         }

@@ -57,7 +57,7 @@ pub fn all_slip(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<AllSlip> {
 
 /// The eigenvalues 1 / mu of -A^-1 B (real and imaginary parts); `None` where A is singular.
 fn reciprocal_values(a: &[Vec<f64>], b: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
-    let mut columns = Vec::with_capacity(a.len());
+    let mut columns = Vec::new();
     for j in 0..a.len() {
         let column: Vec<f64> = b.iter().map(|row| -row[j]).collect();
         columns.push(column);
@@ -119,10 +119,10 @@ impl DensePencil<'_> {
         let ax = product(self.a, x);
         let bx = product(self.b, x);
 
-        let mut jacobian = Vec::with_capacity(n + 1);
-        let mut right = Vec::with_capacity(n + 1);
+        let mut jacobian = Vec::new();
+        let mut right = Vec::new();
         for i in 0..n {
-            let mut row = Vec::with_capacity(n + 1);
+            let mut row = Vec::new();
             for j in 0..n {
                 row.push(self.a[i][j] + mu * self.b[i][j]);
             }
@@ -140,7 +140,7 @@ impl DensePencil<'_> {
 
     /// The largest entry of (A + mu B) x, relative to the largest sum of moduli it is made of.
     fn residual(&self, mu: f64, x: &[f64]) -> f64 {
-        let mut entries: Vec<f64> = Vec::with_capacity(x.len());
+        let mut entries: Vec<f64> = Vec::new();
         let mut largest_size = f64::MIN_POSITIVE;
         for (a_row, b_row) in self.a.iter().zip(self.b) {
             let mut entry = 0.0;
@@ -164,7 +164,7 @@ impl DensePencil<'_> {
 
 /// Matrix times vector.
 fn product(matrix: &[Vec<f64>], x: &[f64]) -> Vec<f64> {
-    let mut product = Vec::with_capacity(matrix.len());
+    let mut product = Vec::new();
     for row in matrix {
         product.push(row.iter().zip(x).map(|(m, x)| m * x).sum());
     }

@@ -211,8 +211,8 @@ impl<'a> ActiveSet<'a> {
         let mut jacobian = DMatrix::zeros(z.len(), z.len());
         self.problem.jacobian(z, &mut jacobian);
 
-        let mut rows = Vec::with_capacity(self.positions.len());
-        let mut right = Vec::with_capacity(self.positions.len());
+        let mut rows = Vec::new();
+        let mut right = Vec::new();
         for &i in &self.positions {
             let row: Vec<f64> = self.positions.iter().map(|&j| jacobian[(i, j)]).collect();
             rows.push(row);
@@ -241,7 +241,7 @@ impl CondensedFound {
         let Some(zeta) = point.last() else { return };
         let lifted = embedding.with(*zeta, |condensed| {
             let rows = condensed.pencil(mu);
-            let mut reaction = Vec::with_capacity(slip.len());
+            let mut reaction = Vec::new();
             for row in rows.iter() {
                 reaction.push(row.iter().zip(&slip).map(|(t, x)| t * x).sum());
             }

@@ -77,11 +77,17 @@ impl Krawczyk {
         })
     }
 
-    /// Radii in units of the grid, powers of two, for which the inequality holds with a margin;
-    /// `None` where there are none.
-    pub(super) fn radii(&self, newton: &Newton<'_>, point: &Point) -> Option<Vec<Integer>> {
+    /// Radii in units of the grid, powers of two, for which the inequality holds with a margin.
+    ///
+    /// # Errors
+    /// [`AttemptFailure::NotContracting`] where none were found.
+    pub(super) fn radii(
+        &self,
+        newton: &Newton<'_>,
+        point: &Point,
+    ) -> Result<Vec<Integer>, AttemptFailure> {
         let distance = self.distances(newton, point);
-        let mut radius = Vec::with_capacity(distance.len());
+        let mut radius = Vec::new();
         for d in &distance {
             radius.push(power_above(2.0 * d + 1.0));
         }
@@ -90,29 +96,29 @@ impl Krawczyk {
             let bound = self.bound(point, &distance, &radius);
             let mut pairs = radius.iter().zip(&bound);
             if pairs.all(|(r, b)| *b <= KRAWCZYK_MARGIN * r) {
-                return integers(&radius);
+                return integers(&radius).ok_or(AttemptFailure::NotContracting);
             }
 
             for (r, b) in radius.iter_mut().zip(&bound) {
                 *r = r.max(power_above(b / KRAWCZYK_MARGIN));
             }
             if radius.iter().any(|r| r.is_nan() || *r > LARGEST_RADIUS) {
-                return None;
+                break;
             }
         }
 
-        None
+        Err(AttemptFailure::NotContracting)
     }
 
     /// |Y F(c)| in units of the grid, with the rounding errors of its sums.
     fn distances(&self, newton: &Newton<'_>, point: &Point) -> Vec<f64> {
         let residual = newton.scaled_residual(point);
-        let mut distances = Vec::with_capacity(self.y.len());
+        let mut distances = Vec::new();
         for (k, row) in self.y.iter().enumerate() {
             let product = dot(row, &residual.f);
             let noise = KRAWCZYK_NOISE * dot_of_moduli(row, &residual.f);
-            let scale = power(residual.exponent + point.bits(k) as i64);
-            distances.push((product.abs() + noise) * scale);
+            let exponent = residual.exponent + point.bits(k) as i64;
+            distances.push((product.abs() + noise) * power(exponent));
         }
 
         distances
@@ -123,7 +129,7 @@ impl Krawczyk {
         let last = radius.len() - 1;
         let curvature = self.curvature(radius);
 
-        let mut bound = Vec::with_capacity(radius.len());
+        let mut bound = Vec::new();
         for k in 0..=last {
             let linear = dot(&self.error[k], radius);
             // d is in units of x times units of t: one of the two is the unit of component k.
@@ -139,7 +145,7 @@ impl Krawczyk {
     /// d_i = 2 rho_t sum_j |B_ij| rho_j, in units of the grid of x times that of t.
     fn curvature(&self, radius: &[f64]) -> Vec<f64> {
         let radius_of_t = radius[radius.len() - 1];
-        let mut curvature = Vec::with_capacity(self.b.len());
+        let mut curvature = Vec::new();
         for row in &self.b {
             let entries = row.iter();
             let terms = entries.map(|b| 2.0 * radius_of_t * b.value * radius[b.column]);
@@ -167,7 +173,7 @@ fn dot_of_moduli(a: &[f64], b: &[f64]) -> f64 {
 
 /// Whole numbers in doubles as integers.
 fn integers(radius: &[f64]) -> Option<Vec<Integer>> {
-    let mut integers = Vec::with_capacity(radius.len());
+    let mut integers = Vec::new();
     for r in radius {
         integers.push(from_f64(*r).ok()?.to_integer());
     }
@@ -178,7 +184,7 @@ fn integers(radius: &[f64]) -> Option<Vec<Integer>> {
 /// |I - Y J| and the rounding of its sums, taken from units of the grid to units of the grid.
 fn contraction(y: &[Vec<f64>], jacobian: &[Vec<Slope>], units: &[f64]) -> Vec<Vec<f64>> {
     let n = y.len();
-    let mut error = Vec::with_capacity(n);
+    let mut error = Vec::new();
     for (i, y_row) in y.iter().enumerate() {
         // Row i of Y J - I, and the sums of the moduli of its terms.
         let mut product = vec![0.0; n];
@@ -191,7 +197,7 @@ fn contraction(y: &[Vec<f64>], jacobian: &[Vec<Slope>], units: &[f64]) -> Vec<Ve
             }
         }
 
-        let mut error_row = Vec::with_capacity(n);
+        let mut error_row = Vec::new();
         for j in 0..n {
             let entry = product[j].abs() + KRAWCZYK_NOISE * size[j];
             error_row.push(entry * units[j] / units[i]);
@@ -257,9 +263,9 @@ fn exponent(y: &[Vec<f64>], scales: &[u64], needed: f64) -> u32 {
 
 /// The inverse for rows that were divided by 2^scale, in integers of 2^-exponent.
 fn round(y: &[Vec<f64>], scales: &[u64], exponent: u32) -> Vec<Vec<Integer>> {
-    let mut rows = Vec::with_capacity(y.len());
+    let mut rows = Vec::new();
     for y_row in y {
-        let mut row = Vec::with_capacity(y_row.len());
+        let mut row = Vec::new();
         for (entry, scale) in y_row.iter().zip(scales) {
             let bits = u64::from(exponent) - scale;
             row.push(integer_units(*entry, bits));
@@ -280,9 +286,9 @@ fn integer_units(v: f64, bits: u64) -> Integer {
 
 /// A rounded preconditioner in doubles, for rows that are divided by 2^scale.
 fn rounded(preconditioner: &[Vec<Integer>], scales: &[u64], exponent: u32) -> Vec<Vec<f64>> {
-    let mut rows = Vec::with_capacity(preconditioner.len());
+    let mut rows = Vec::new();
     for integers in preconditioner {
-        let mut row = Vec::with_capacity(integers.len());
+        let mut row = Vec::new();
         for (units, scale) in integers.iter().zip(scales) {
             let bits = u64::from(exponent) - scale;
             row.push(double(units, bits));

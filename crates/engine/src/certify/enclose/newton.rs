@@ -136,7 +136,7 @@ impl<'a> Newton<'a> {
             in_support[index] = true;
         }
 
-        let mut scales = Vec::with_capacity(active.len() + 1);
+        let mut scales = Vec::new();
         for &index in &active {
             let bits = rows.row(index).iter().map(PencilEntry::bits).max();
             scales.push(bits.unwrap_or(0).saturating_sub(SAFE_BITS));
@@ -181,7 +181,8 @@ impl<'a> Newton<'a> {
     pub(in crate::certify) fn y(&self, index: usize, point: &Point) -> Integer {
         let mut y = Integer::zero();
         for entry in self.active_entries(index) {
-            y += point.coefficient(&entry) * &point.x[entry.position];
+            let coefficient = point.coefficient(&entry);
+            y += coefficient * &point.x[entry.position];
         }
 
         y
@@ -199,7 +200,7 @@ impl<'a> Newton<'a> {
     ) -> Result<Point, AttemptFailure> {
         let support = self.active.iter().filter(|i| self.in_support[**i]);
         let sum: f64 = support.map(|&i| candidate.x[i]).sum();
-        let mut x = Vec::with_capacity(self.active.len());
+        let mut x = Vec::new();
         let mut largest: f64 = 0.0;
         for &i in &self.active {
             let component = candidate.x[i] / sum;
@@ -214,7 +215,7 @@ impl<'a> Newton<'a> {
         let x_bits = (bits as i32 + lift - x_exponent).unsigned_abs().into();
         let t_bits = (bits as i32 + lift - t_exponent).unsigned_abs().into();
 
-        let mut x_on_grid = Vec::with_capacity(x.len());
+        let mut x_on_grid = Vec::new();
         for component in x {
             x_on_grid.push(on_grid(component, x_bits)?);
         }
@@ -233,7 +234,7 @@ impl<'a> Newton<'a> {
         let x: Vec<f64> = (0..last).map(|k| to_f64(&point.value(k))).collect();
         let t = to_f64(&point.value(last));
 
-        let mut rows = Vec::with_capacity(last + 1);
+        let mut rows = Vec::new();
         for (&index, &scale) in self.active.iter().zip(&self.scales) {
             rows.push(self.slopes_of_row(index, scale, &x, t));
         }
@@ -288,7 +289,7 @@ impl<'a> Newton<'a> {
 
     /// |B| on the active block, as sparse rows, divided as those of F'.
     pub(super) fn moduli_of_b(&self) -> Vec<Vec<Modulus>> {
-        let mut rows = Vec::with_capacity(self.active.len());
+        let mut rows = Vec::new();
         for (&index, &scale) in self.active.iter().zip(&self.scales) {
             let mut row = Vec::new();
             for entry in self.active_entries(index) {
@@ -305,9 +306,14 @@ impl<'a> Newton<'a> {
         rows
     }
 
-    /// The inverse of F'(z), whose rows are divided by their powers of two; `None` where it is
-    /// singular in doubles.
-    pub(in crate::certify) fn inverse(&self, point: &Point) -> Option<Vec<Vec<f64>>> {
+    /// The inverse of F'(z), whose rows are divided by their powers of two.
+    ///
+    /// # Errors
+    /// [`AttemptFailure::SingularJacobian`] where F'(z) is singular in doubles.
+    pub(in crate::certify) fn inverse(
+        &self,
+        point: &Point,
+    ) -> Result<Vec<Vec<f64>>, AttemptFailure> {
         let n = self.active.len() + 1;
         let mut dense = vec![vec![0.0; n]; n];
         for (row, slopes) in dense.iter_mut().zip(self.jacobian(point)) {
@@ -317,12 +323,13 @@ impl<'a> Newton<'a> {
         }
 
         let t = to_f64(&point.value(n - 1));
-        equilibrated_inverse(&dense, t.abs())
+        let inverse = equilibrated_inverse(&dense, t.abs());
+        inverse.ok_or(AttemptFailure::SingularJacobian)
     }
 
     /// F(z) in units of 2^-(x_bits + t_bits).
     fn residual(&self, point: &Point) -> Vec<Integer> {
-        let mut residual = Vec::with_capacity(self.active.len() + 1);
+        let mut residual = Vec::new();
         let mut sum = Integer::zero();
         for (&index, x) in self.active.iter().zip(&point.x) {
             residual.push(self.y(index, point));
@@ -353,7 +360,7 @@ impl<'a> Newton<'a> {
             };
         };
 
-        let mut doubles = Vec::with_capacity(residual.len());
+        let mut doubles = Vec::new();
         for (f, &scale) in residual.iter().zip(&self.scales) {
             let power = -(largest + scale as i64);
             doubles.push(to_f64(&times_power(f, power)));
@@ -374,7 +381,7 @@ impl<'a> Newton<'a> {
         let mut longest_allowed = None;
         for _ in 0..NEWTON_STEPS {
             let residual = self.scaled_residual(point);
-            let mut step = Vec::with_capacity(last + 1);
+            let mut step = Vec::new();
             for (k, row) in inverse.iter().enumerate() {
                 step.push(residual.step(row, point.bits(k)));
             }
@@ -467,14 +474,7 @@ fn equilibrated_inverse(jacobian: &[Vec<f64>], value: f64) -> Option<Vec<Vec<f64
         *last = value;
     }
 
-    let mut row_sizes = Vec::with_capacity(jacobian.len());
-    for row in jacobian {
-        let mut size: f64 = 0.0;
-        for (entry, factor) in row.iter().zip(&column_factors) {
-            size = size.max(entry.abs() * factor);
-        }
-        row_sizes.push(size);
-    }
+    let row_sizes = row_sizes(jacobian, &column_factors);
 
     let mut equilibrated = jacobian.to_vec();
     for (row, size) in equilibrated.iter_mut().zip(&row_sizes) {
@@ -493,6 +493,20 @@ fn equilibrated_inverse(jacobian: &[Vec<f64>], value: f64) -> Option<Vec<Vec<f64
     let mut entries = inverse.iter().flatten();
     let is_finite = entries.all(|entry| entry.is_finite());
     is_finite.then_some(inverse)
+}
+
+/// The largest entry of each row, each entry times the factor of its column.
+fn row_sizes(matrix: &[Vec<f64>], column_factors: &[f64]) -> Vec<f64> {
+    let mut sizes = Vec::new();
+    for row in matrix {
+        let mut size: f64 = 0.0;
+        for (entry, factor) in row.iter().zip(column_factors) {
+            size = size.max(entry.abs() * factor);
+        }
+        sizes.push(size);
+    }
+
+    sizes
 }
 
 /// A rational with a power of two as denominator.
