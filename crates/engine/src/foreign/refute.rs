@@ -93,7 +93,6 @@ pub(super) fn refute(
     }
 
     effort.spend(&reduced.pencil)?;
-
     let found = enumerate(&reduced.pencil, &near).map_err(|e| e.to_string())?;
     if !found.is_complete_list() {
         return Err("the answer near the value has parts that are not described".into());

@@ -139,7 +139,7 @@ pub enum ForeignError {
     },
 }
 
-/// A field that is an object without unknown or repeated keys.
+/// A field that stands in JSON as an object, not as a list of its fields.
 fn object<'de, T, D>(deserializer: D) -> Result<T, D::Error>
 where
     T: Deserialize<'de>,
@@ -149,7 +149,7 @@ where
     Ok(value)
 }
 
-/// Such a field, or none.
+/// Such a field where it is there.
 fn optional<'de, T, D>(deserializer: D) -> Result<Option<T>, D::Error>
 where
     T: Deserialize<'de>,
