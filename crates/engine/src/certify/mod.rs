@@ -5,10 +5,11 @@
 //! ```
 //!
 //! A candidate is a value t and x in doubles. `support` guesses which components of x are positive,
-//! `proposals` goes through the guesses, `exact_claim` and `enclose` make a claim about one support,
-//! and `accepted` has the checker decide. `lifted` rewrites an exact claim about the reduced pencil
-//! as one about the mechanical system. `rows` is the pencil over the integers, `precise` a null
-//! vector with any number of bits for the search, `failure` the reasons why nothing was certified.
+//! `proposals` goes through the guesses, `exact_claim` and `enclose` make a claim about one
+//! support, and `accepted` has the checker decide. `lifted` rewrites an exact claim about the
+//! reduced pencil as one about the mechanical system. `rows` is the pencil over the integers,
+//! `precise` a null vector with any number of bits for the search, `failure` the reasons why
+//! nothing was certified.
 //!
 //! Nothing here is trusted: a claim counts because the checker has accepted it. What a certificate
 //! says is chapter 5 of the book (`spec/certificates.md`).

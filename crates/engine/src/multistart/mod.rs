@@ -4,11 +4,11 @@
 //! pencil -> MCP on one side of an origin -> runs from starts, curves -> candidates -> certify
 //! ```
 //!
-//! `hunt` is the search on one side, `curves` follows curves of the normal map, `ground` has the MCPs
-//! on which both happen, `found` and `same` list each solution once, and `search` has the options.
-//! `condensed` is a search of its own for MCEIP-lambda2 at finite-element size, and `all_slip` needs
-//! no starts: it takes the positive eigenvectors of a condensed pencil. The method is chapter 3 of
-//! the book (`spec/solver.md`).
+//! `hunt` is the search on one side, `curves` follows curves of the normal map, `ground` has the
+//! MCPs on which both happen, `found` and `same` list each solution once, and `search` has the
+//! options. `condensed` is a search of its own for MCEIP-lambda2 at finite-element size, and
+//! `all_slip` needs no starts: it takes the positive eigenvectors of a condensed pencil. The method
+//! is chapter 3 of the book (`spec/solver.md`).
 //!
 //! A search claims only what the checker has accepted; it never says that nothing else exists.
 
