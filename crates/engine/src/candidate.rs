@@ -1,4 +1,4 @@
-//! A claimed solution in doubles: what solvers hand over, untrusted.
+//! A claimed solution in doubles, untrusted: what solvers and reports hand to `certify`.
 
 /// The format of solution reports.
 pub const SOLUTIONS_FORMAT: &str = "mceip-solutions/1";

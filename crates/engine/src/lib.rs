@@ -1,5 +1,14 @@
 //! Complementarity eigenproblems solved: floats propose, exact arithmetic decides.
 //!
+//! ```text
+//! problem -> reduction -> multistart -> candidates -> certify -> accepted claims
+//!                     `-> search -> a complete set, or what is left open
+//! ```
+//!
+//! Nothing in this crate is trusted. Every claim and every complete set is handed to `mceip_check`,
+//! which decides in exact arithmetic; what it does not accept is reported as uncertified, open or
+//! undecided.
+//!
 //! | module | what |
 //! |---|---|
 //! | [`reduction`] | Propositions 1 and 2, condensations, projection |
@@ -11,6 +20,7 @@
 //! | [`report`] | `mceip-solutions/1`, and tables |
 //! | [`lcp`] | plain LCP and MCP files |
 //! | [`candidate`], [`tolerance`] | a claimed solution in doubles; every tolerance |
+//! | [`run`] | cancelling a long run, and its progress |
 
 pub mod analysis;
 pub mod candidate;

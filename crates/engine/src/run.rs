@@ -1,24 +1,25 @@
-//! What a long run hears and says: the order to end, and how far it has come.
+//! Cancelling a long run, and its progress.
 //!
-//! A long search takes a [`Watch`] and looks at [`Watch::is_cancelled`] between its steps. What it
-//! has found by then is kept and returned; what it has not looked at is left open.
+//! A long search takes a [`Watch`] and asks [`Watch::is_cancelled`] between its steps. What it has
+//! found by then is kept and returned; what it has not examined is left open. It calls
+//! [`Watch::report`] with its [`Progress`] after each step.
 
 use std::fmt;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// A switch that ends runs early. Clones share it, so that another thread or a signal handler can
-/// keep one.
+/// A switch that ends runs early. Clones share its state, so that another thread or a signal
+/// handler can keep one.
 #[derive(Debug, Clone, Default)]
 pub struct Cancel(Arc<AtomicBool>);
 
 impl Cancel {
-    /// A switch that nobody has set.
+    /// A switch that is not set.
     pub fn new() -> Cancel {
         Cancel::default()
     }
 
-    /// A switch that is set: a run that hears it does no more than begin.
+    /// A switch that is set: a run with it ends at its first step.
     pub fn requested() -> Cancel {
         let cancel = Cancel::new();
         cancel.request();
@@ -82,9 +83,11 @@ impl fmt::Display for Progress<'_> {
             None if self.done > 0 => write!(f, ": {}", self.done)?,
             None => {}
         }
+
         if let Some(share) = self.share {
             write!(f, ", {:.1} % of the search space closed", 100.0 * share)?;
         }
+
         match self.solutions {
             Some(1) => write!(f, ", 1 solution"),
             Some(count) => write!(f, ", {count} solutions"),
@@ -93,7 +96,7 @@ impl fmt::Display for Progress<'_> {
     }
 }
 
-/// What hears the progress of a run; it may be called from several threads.
+/// A listener to the progress of a run; it may be called from several threads.
 pub type OnProgress<'a> = dyn Fn(&Progress<'_>) + Sync + 'a;
 
 /// The switch and the listener of a run.
@@ -113,7 +116,7 @@ pub struct Watch<'a> {
 }
 
 impl<'a> Watch<'a> {
-    /// A run that can be ended and tells how far it has come.
+    /// A run that can be cancelled and reports its progress.
     pub fn new(cancel: &'a Cancel, on_progress: &'a OnProgress<'a>) -> Watch<'a> {
         Watch {
             cancel: Some(cancel),
@@ -121,7 +124,7 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// A run that goes on to its end and tells nothing.
+    /// A run that cannot be cancelled and reports nothing.
     pub fn nobody() -> Watch<'static> {
         Watch {
             cancel: None,
@@ -129,12 +132,12 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// A run that can be ended and tells nothing.
+    /// A run that can be cancelled and reports nothing.
     pub fn silent(cancel: &'a Cancel) -> Watch<'a> {
         Watch::new(cancel, &|_| {})
     }
 
-    /// The same switch, and nobody who hears the progress: for a part of a run.
+    /// The same switch without the listener: for a part of a run.
     pub fn quiet(self) -> Watch<'a> {
         Watch {
             on_progress: &|_| {},
@@ -147,7 +150,7 @@ impl<'a> Watch<'a> {
         self.cancel.is_some_and(Cancel::is_requested)
     }
 
-    /// Tells how far the run has come.
+    /// Reports how far the run has come.
     pub fn report(&self, progress: &Progress<'_>) {
         (self.on_progress)(progress);
     }
@@ -186,9 +189,12 @@ mod tests {
     #[test]
     fn a_watch_hears_its_switch_and_tells_its_listener() {
         let heard = Mutex::new(Vec::new());
-        let listen = |p: &Progress<'_>| heard.lock().unwrap().push((p.stage.to_string(), p.done));
+        let listener: &OnProgress<'_> = &|progress| {
+            let entry = (progress.stage.to_string(), progress.done);
+            heard.lock().unwrap().push(entry);
+        };
         let cancel = Cancel::new();
-        let watch = Watch::new(&cancel, &listen);
+        let watch = Watch::new(&cancel, listener);
 
         watch.report(&Progress::of("search", 3, 7));
         watch.quiet().report(&Progress::stage("unheard"));

@@ -1,7 +1,8 @@
-//! Every tolerance on doubles outside the solver's own arithmetic, with unit, basis and reason.
+//! Every tolerance on doubles of this crate, each with its unit and the measurement or reason on
+//! which it is based.
 //!
-//! None of them decides a truth: they steer guesses that exact arithmetic then confirms or not.
-//! The solver's tolerances stand in the second part of this file's role, `solver/tolerance.rs`.
+//! None of them decides a truth: they steer guesses that exact arithmetic then confirms or not. The
+//! tolerances of the solver's own arithmetic are in `crates/mcp/src/solver/tolerance.rs`.
 
 /// Thresholds at which x_i, relative to max x_s, is guessed to be positive. Unit: none. Basis: the
 /// block's lambda^2 mode has a true component of 6e-11 of its norm, and reports of six digits have

@@ -1,4 +1,7 @@
 //! Claims that the checker has accepted: the one way from a candidate to the word "certified".
+//!
+//! Each proposal for a candidate is handed to the checker; the first one it accepts is returned.
+//! Called by searches, the command `certify`, and `judge` for reported solutions.
 
 use super::failure::{Attempt, AttemptFailure, NotCertified};
 use super::proposals::{Proposal, proposals};
@@ -19,13 +22,11 @@ pub struct Certifier<'a> {
 impl<'a> Certifier<'a> {
     /// The certifier of a problem; `pencil` is the problem's reduced pencil.
     pub fn new(problem: &'a Problem, pencil: &'a Pencil) -> Certifier<'a> {
-        let rows = IntegralRows::of(pencil);
-        let checker = ClaimChecker::new(problem);
         Certifier {
             problem,
             pencil,
-            rows,
-            checker,
+            rows: IntegralRows::of(pencil),
+            checker: ClaimChecker::new(problem),
         }
     }
 
@@ -35,7 +36,8 @@ impl<'a> Certifier<'a> {
     /// [`NotCertified`] with every support tried and what failed on it; among the failures the
     /// checker's reasons.
     pub fn certify(&self, candidate: &Candidate) -> Result<Claim, NotCertified> {
-        self.certify_with_verdict(candidate).map(|(claim, _)| claim)
+        let (claim, _) = self.certify_with_verdict(candidate)?;
+        Ok(claim)
     }
 
     /// [`Certifier::certify`], and what the checker has read off the claim.
@@ -46,7 +48,8 @@ impl<'a> Certifier<'a> {
         &self,
         candidate: &Candidate,
     ) -> Result<(Claim, AcceptedClaim), NotCertified> {
-        let proposals = proposals(self.pencil, &self.rows, self.problem.window(), candidate)?;
+        let window = self.problem.window();
+        let proposals = proposals(self.pencil, &self.rows, window, candidate)?;
         self.first_accepted(proposals)
     }
 
@@ -57,12 +60,12 @@ impl<'a> Certifier<'a> {
     ) -> Result<(Claim, AcceptedClaim), NotCertified> {
         let mut attempts = Vec::new();
         for Proposal { support, claim } in proposals {
-            let accepted = claim.and_then(|claim| self.examined(claim));
-            match accepted {
+            match claim.and_then(|claim| self.examined(claim)) {
                 Ok(accepted) => return Ok(accepted),
                 Err(failure) => attempts.push(Attempt { support, failure }),
             }
         }
+
         Err(NotCertified { attempts })
     }
 
@@ -109,6 +112,7 @@ pub fn sift(problem: &Problem, claims: Vec<Claim>) -> Sifted {
             Err(reason) => sifted.refused.push((index, reason)),
         }
     }
+
     sifted
 }
 
@@ -152,9 +156,17 @@ mod tests {
         Claim::ExactSolution(ExactSolution { x, ..claim })
     }
 
+    fn proposal(claim: Claim) -> Proposal {
+        Proposal {
+            support: vec![0, 1],
+            claim: Ok(claim),
+        }
+    }
+
     #[test]
     fn a_forged_claim_is_sifted_out_with_its_reason() {
         let problem = problem();
+
         let sifted = sift(&problem, vec![forged(&problem), good(&problem)]);
 
         assert_eq!(sifted.accepted, [good(&problem)]);
@@ -169,34 +181,24 @@ mod tests {
     fn a_forged_proposal_is_no_certified_solution() {
         let problem = problem();
         let certifier = Certifier::new(&problem, pencil(&problem));
-        let proposal = |claim: Claim| Proposal {
-            support: vec![0, 1],
-            claim: Ok(claim),
-        };
 
-        let alone = certifier
-            .first_accepted([proposal(forged(&problem))].into_iter())
-            .map(|_| ())
-            .unwrap_err();
-        let [
-            Attempt {
-                failure: AttemptFailure::Refused { .. },
-                ..
-            },
-        ] = &alone.attempts[..]
-        else {
-            panic!("{alone}")
+        let alone = certifier.first_accepted([proposal(forged(&problem))].into_iter());
+
+        let Err(refused) = alone else {
+            panic!("a forged claim was accepted")
         };
+        assert_eq!(refused.attempts.len(), 1);
+        let failure = &refused.attempts[0].failure;
         assert!(
-            alone.to_string().contains("the checker refuses the claim"),
-            "{alone}"
+            matches!(failure, AttemptFailure::Refused { .. }),
+            "{refused}"
         );
+        let told = refused.to_string();
+        assert!(told.contains("the checker refuses the claim"), "{told}");
 
         let both = [proposal(forged(&problem)), proposal(good(&problem))];
-        assert_eq!(
-            certifier.first_accepted(both.into_iter()).unwrap().0,
-            good(&problem)
-        );
+        let (accepted, _) = certifier.first_accepted(both.into_iter()).unwrap();
+        assert_eq!(accepted, good(&problem));
     }
 
     #[test]

@@ -4,6 +4,9 @@
 //! Krawczyk's inequality ([`krawczyk`]). Both start on a grid of [`FIRST_GRID_BITS`] bits. Where a
 //! sign that the claim needs is not decided over the box (a local mode has components of 1e-20 of
 //! the largest), the grid is made finer and the box shrinks with it, down to [`LAST_GRID_BITS`].
+//!
+//! Input: a candidate in doubles and a support. Output: a claim (`spec/certificates.md`, 5.5), not
+//! checked. Called by `proposals`, for supports or numbers that are too large for exact claims.
 
 mod krawczyk;
 pub(super) mod newton;
@@ -23,12 +26,16 @@ use num_traits::Signed;
 /// Bits of the centre's largest component of x, and of its value, that are tried first. Basis: a
 /// value is printed with 17 digits, which are 57 bits.
 const FIRST_GRID_BITS: u32 = 64;
-/// The same, tried last; each try has twice the bits of the one before. Basis: components of 1e-150
-/// of the largest are decided, and a component that is zero costs four tries.
+/// The same, tried last; each try has twice the bits of the previous one. Basis: components of
+/// 1e-150 of the largest are decided, and a component that is zero costs four tries.
 const LAST_GRID_BITS: u32 = 512;
 
 /// A box around the candidate in which Krawczyk's test should hold; `check` decides whether it
 /// does.
+///
+/// # Errors
+/// The Jacobian is singular in doubles, no box maps into itself, the box is not the candidate's, or
+/// a sign is wrong or undecided on the finest grid.
 pub(super) fn make(
     pencil: &Pencil,
     rows: &IntegralRows,
@@ -39,27 +46,21 @@ pub(super) fn make(
     if support.is_empty() {
         return Err(AttemptFailure::ZeroX);
     }
+
     let newton = Newton::new(pencil, rows, support);
     let mut point = newton.start(candidate, FIRST_GRID_BITS)?;
-
-    let first_inverse = newton
-        .inverse(&point)
-        .ok_or(AttemptFailure::SingularJacobian)?;
+    let first_inverse = newton.inverse(&point)?;
     newton.polish(&mut point, &first_inverse);
-    is_near(&newton, &point, candidate)?;
+    require_near(&newton, &point, candidate)?;
 
     // At the polished centre the inverse is better.
-    let inverse = newton
-        .inverse(&point)
-        .ok_or(AttemptFailure::SingularJacobian)?;
+    let inverse = newton.inverse(&point)?;
     let krawczyk = Krawczyk::new(&newton, &point, &inverse)?;
 
     let mut bits = FIRST_GRID_BITS;
     loop {
         newton.polish(&mut point, &inverse);
-        let radius = krawczyk
-            .radii(&newton, &point)
-            .ok_or(AttemptFailure::NotContracting)?;
+        let radius = krawczyk.radii(&newton, &point)?;
         let enclosure = Enclosure {
             newton: &newton,
             point: &point,
@@ -76,40 +77,42 @@ pub(super) fn make(
     }
 }
 
+/// Puts the claim together: centre, radii and preconditioner as the file has them.
 fn claim(
     support: &[usize],
     point: &Point,
     radius: &[Integer],
     krawczyk: Krawczyk,
 ) -> EnclosedSolution {
-    let last = point.x.len();
-    let number = |k: usize, units: &Integer| Number(point.in_units(k, units));
+    let mut center = Vec::new();
+    let mut widths = Vec::new();
+    for (k, units) in radius.iter().enumerate() {
+        center.push(Number(point.value(k)));
+        widths.push(Number(point.in_units(k, units)));
+    }
 
-    let center = (0..=last).map(|k| number(k, point.component(k))).collect();
-    let radius = radius
-        .iter()
-        .enumerate()
-        .map(|(k, r)| number(k, r))
-        .collect();
     let (preconditioner, exponent) = krawczyk.into_preconditioner();
     EnclosedSolution {
         support: support.to_vec(),
         center,
-        radius,
+        radius: widths,
         preconditioner,
         exponent,
     }
 }
 
-/// Is the polished point the candidate, up to its rounding?
-fn is_near(
+/// Demands that the polished point is the candidate, up to its rounding.
+fn require_near(
     newton: &Newton<'_>,
     point: &Point,
     candidate: &Candidate,
 ) -> Result<(), AttemptFailure> {
     let start = newton.start(candidate, FIRST_GRID_BITS)?;
-    let difference = |k: usize| to_f64(&(point.value(k) - start.value(k))).abs();
-    let distance = (0..=point.x.len()).map(difference).fold(0.0, f64::max);
+    let mut distance: f64 = 0.0;
+    for k in 0..=point.x.len() {
+        let difference = point.value(k) - start.value(k);
+        distance = distance.max(to_f64(&difference).abs());
+    }
 
     let limit = X_RADIUS.max(VALUE_RADIUS * (1.0 + candidate.value.abs()));
     if distance > limit {
@@ -132,20 +135,12 @@ enum Undecided {
 
 impl Undecided {
     fn failure(self, bits: u32) -> AttemptFailure {
-        match self {
-            Undecided::Value => AttemptFailure::Undecided {
-                what: "value - end of the window".into(),
-                bits,
-            },
-            Undecided::X(index) => AttemptFailure::Undecided {
-                what: format!("x[{index}]"),
-                bits,
-            },
-            Undecided::Y(index) => AttemptFailure::Undecided {
-                what: format!("y[{index}]"),
-                bits,
-            },
-        }
+        let what = match self {
+            Undecided::Value => "value - end of the window".into(),
+            Undecided::X(index) => format!("x[{index}]"),
+            Undecided::Y(index) => format!("y[{index}]"),
+        };
+        AttemptFailure::Undecided { what, bits }
     }
 }
 
@@ -155,23 +150,23 @@ struct Ball {
     radius: Integer,
 }
 
-/// Where every number of a ball lies.
+/// The sign that all numbers of a ball have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
-    Above,
-    Below,
-    /// Zero, or both signs.
-    Around,
+enum CommonSign {
+    Positive,
+    Negative,
+    /// Some are zero, or both signs occur.
+    Undecided,
 }
 
 impl Ball {
-    fn side(&self) -> Side {
+    fn sign(&self) -> CommonSign {
         if self.center > self.radius {
-            Side::Above
+            CommonSign::Positive
         } else if -&self.center > self.radius {
-            Side::Below
+            CommonSign::Negative
         } else {
-            Side::Around
+            CommonSign::Undecided
         }
     }
 }
@@ -184,84 +179,97 @@ struct Enclosure<'a> {
 }
 
 impl Enclosure<'_> {
-    /// The first sign that the box leaves open: of the value in the window, of x on the support, of
-    /// y off it.
+    /// The first sign that the box leaves undecided: of the value's distance to the ends of the
+    /// window, of x on the support, of y off it.
     ///
     /// # Errors
     /// A sign that is wrong all over the box.
     fn undecided(&self, window: &Window) -> Result<Option<Undecided>, AttemptFailure> {
-        let outside = || AttemptFailure::NoRootNear {
-            lo: window.min().to_string(),
-            hi: window.max().map_or("infinity".into(), ToString::to_string),
-        };
-        match self.value_in(window) {
-            Side::Above => {}
-            Side::Below => return Err(outside()),
-            Side::Around => return Ok(Some(Undecided::Value)),
+        if let Some(sign) = self.undecided_value(window)? {
+            return Ok(Some(sign));
+        }
+        if let Some(sign) = self.undecided_x()? {
+            return Ok(Some(sign));
         }
 
+        self.undecided_y()
+    }
+
+    /// Demands that all values of the box lie in the window, whose ends belong to it.
+    fn undecided_value(&self, window: &Window) -> Result<Option<Undecided>, AttemptFailure> {
+        let last = self.point.x.len();
+        let center = self.point.value(last);
+        let radius = self.point.in_units(last, &self.radius[last]);
+        let lo = &center - &radius;
+        let hi = &center + &radius;
+
+        let is_inside = lo >= *window.min() && window.max().is_none_or(|max| hi <= *max);
+        let is_outside = hi < *window.min() || window.max().is_some_and(|max| lo > *max);
+        if is_inside {
+            Ok(None)
+        } else if is_outside {
+            Err(AttemptFailure::NoRootNear {
+                lo: window.min().to_string(),
+                hi: window.max().map_or("infinity".into(), ToString::to_string),
+            })
+        } else {
+            Ok(Some(Undecided::Value))
+        }
+    }
+
+    /// Demands x_i > 0 on the support.
+    fn undecided_x(&self) -> Result<Option<Undecided>, AttemptFailure> {
         for (k, &index) in self.newton.active.iter().enumerate() {
             if !self.newton.is_in_support(index) {
                 continue;
             }
+
             let x = Ball {
                 center: self.point.x[k].clone(),
                 radius: self.radius[k].clone(),
             };
-            match x.side() {
-                Side::Above => {}
-                Side::Below => return Err(AttemptFailure::XNotPositive { index }),
-                Side::Around => return Ok(Some(Undecided::X(index))),
+            match x.sign() {
+                CommonSign::Positive => {}
+                CommonSign::Negative => return Err(AttemptFailure::XNotPositive { index }),
+                CommonSign::Undecided => return Ok(Some(Undecided::X(index))),
             }
         }
 
-        for index in self.newton.inactive() {
-            match self.y(index).side() {
-                Side::Above => {}
-                Side::Below => return Err(AttemptFailure::YNegative { index }),
-                Side::Around => return Ok(Some(Undecided::Y(index))),
-            }
-        }
         Ok(None)
     }
 
-    /// `Above` where all values of the box lie in the window, whose ends belong to it; `Below`
-    /// where none does.
-    fn value_in(&self, window: &Window) -> Side {
-        let last = self.point.x.len();
-        let (center, radius) = (
-            self.point.value(last),
-            self.point.in_units(last, &self.radius[last]),
-        );
-        let (lo, hi) = (&center - &radius, &center + &radius);
-
-        let holds = lo >= *window.min() && window.max().is_none_or(|max| hi <= *max);
-        let fails = hi < *window.min() || window.max().is_some_and(|max| lo > *max);
-        if holds {
-            Side::Above
-        } else if fails {
-            Side::Below
-        } else {
-            Side::Around
+    /// Demands y_i > 0 off the support.
+    fn undecided_y(&self) -> Result<Option<Undecided>, AttemptFailure> {
+        for index in self.newton.inactive() {
+            match self.y(index).sign() {
+                CommonSign::Positive => {}
+                CommonSign::Negative => return Err(AttemptFailure::YNegative { index }),
+                CommonSign::Undecided => return Ok(Some(Undecided::Y(index))),
+            }
         }
+
+        Ok(None)
     }
 
     /// y_i = sum_j (a_ij + t b_ij) x_j over the box, in units of the grid of x times that of t.
     fn y(&self, index: usize) -> Ball {
-        let last = self.point.x.len();
+        let radius_of_t = &self.radius[self.point.x.len()];
         let mut y = Ball {
             center: Integer::default(),
             radius: Integer::default(),
         };
 
-        for (k, a, b) in self.newton.active_entries(index) {
-            let (x, around_x) = (&self.point.x[k], &self.radius[k]);
-            let entry = self.point.entry(a, b);
-            let around_entry = b.abs() * &self.radius[last];
+        for entry in self.newton.active_entries(index) {
+            let x = &self.point.x[entry.position];
+            let x_radius = &self.radius[entry.position];
+            let coefficient = self.point.coefficient(&entry);
+            let coefficient_radius = entry.b.abs() * radius_of_t;
 
-            y.center += &entry * x;
-            y.radius += entry.abs() * around_x + around_entry * (x.abs() + around_x);
+            y.center += &coefficient * x;
+            y.radius += coefficient.abs() * x_radius;
+            y.radius += coefficient_radius * (x.abs() + x_radius);
         }
+
         y
     }
 }

@@ -1,22 +1,37 @@
-//! Exact claims: the root of the support's determinant nearest the candidate, and the kernel there.
+//! Exact claims: a root of the support's determinant near the candidate, and the kernel there.
+//!
+//! With x = 0 off the active variables (the free ones and the support), the problem is (24), (25):
+//! the active rows and columns of A + tB form a square block, whose determinant vanishes at t and
+//! whose kernel holds x. Then (26) asks for x > 0 on the support and y = (A + tB) x >= 0 off it.
+//! All of it is decided exactly: t is an algebraic number, and each component of x is a polynomial
+//! in t.
+//!
+//! Input: a candidate in doubles and a support. Output: a claim (`spec/certificates.md`, 5.3) whose
+//! value is within [`VALUE_RADIUS`] and whose x is within [`X_RADIUS`] of the candidate. Called by
+//! `proposals`, for supports that are small and pencils whose numbers are short.
 
 use super::failure::AttemptFailure;
-use super::rows::{IntegralRows, active};
+use super::lifted;
+use super::rows::{IntegralRows, PencilEntry, active};
 use crate::candidate::Candidate;
 use crate::tolerance::{VALUE_RADIUS, X_RADIUS};
 use mceip_check::certificate::ExactSolution;
 use mceip_exact::{
-    Algebraic, Poly, Rational, Sign, determinant, from_f64, generic_kernel, kernel_at, roots_in,
-    to_f64,
+    Algebraic, Integer, Interval, Poly, Rational, Sign, common_denominator, determinant, from_f64,
+    generic_kernel, kernel_at, roots_in, to_f64,
 };
 use mceip_model::file::Number;
 use mceip_model::{Pencil, Window};
+use num_integer::Integer as _;
 use num_traits::{Signed, Zero};
 
 /// Most halvings of an isolating interval: far beyond any sign the corpus needs.
 const MAX_HALVINGS: usize = 4_000;
 
 /// The exact claim with this support whose value is nearest the candidate's.
+///
+/// # Errors
+/// What failed first, at the nearest value that was tried.
 pub(super) fn make(
     pencil: &Pencil,
     rows: &IntegralRows,
@@ -24,7 +39,7 @@ pub(super) fn make(
     support: &[usize],
     candidate: &Candidate,
 ) -> Result<ExactSolution, AttemptFailure> {
-    let at = Support {
+    let on_support = Support {
         pencil,
         rows,
         window,
@@ -32,25 +47,19 @@ pub(super) fn make(
         active: active(pencil, support),
         candidate,
     };
-    let mut last = None;
-    for value in at.values_near()? {
-        let mut faces = Vec::new();
-        loop {
-            match at.value(&faces, value.clone()) {
-                Ok(claim) => return Ok(claim),
-                // A wide kernel may meet y >= 0 in a face only, which no double hits: the kernel
-                // within y_i = 0 is tried.
-                Err(AttemptFailure::YNegative { index }) if !faces.contains(&index) => {
-                    last = last.or(Some(AttemptFailure::YNegative { index }));
-                    faces.push(index);
-                }
-                Err(failure) => break last = last.or(Some(failure)),
-            }
+
+    let mut first_failure = None;
+    for value in on_support.values_near()? {
+        match on_support.claim_at(&value) {
+            Ok(claim) => return Ok(claim),
+            Err(failure) => first_failure = first_failure.or(Some(failure)),
         }
     }
-    Err(last.unwrap_or_else(|| no_root(candidate)))
+
+    Err(first_failure.unwrap_or_else(|| no_root(candidate)))
 }
 
+/// There is no value near the candidate's.
 fn no_root(candidate: &Candidate) -> AttemptFailure {
     let (lo, hi) = around(candidate);
     AttemptFailure::NoRootNear {
@@ -59,9 +68,15 @@ fn no_root(candidate: &Candidate) -> AttemptFailure {
     }
 }
 
+/// The ends of the interval in which values are near the candidate's.
 fn around(candidate: &Candidate) -> (f64, f64) {
     let radius = VALUE_RADIUS * (1.0 + candidate.value.abs());
     (candidate.value - radius, candidate.value + radius)
+}
+
+/// A double as a rational.
+fn finite(v: f64) -> Result<Rational, AttemptFailure> {
+    from_f64(v).map_err(|_| AttemptFailure::NotFinite)
 }
 
 /// A candidate and the support it is tried with.
@@ -74,140 +89,240 @@ struct Support<'a> {
     candidate: &'a Candidate,
 }
 
+// The values: where the active block is singular.
 impl Support<'_> {
-    /// Roots of the support's determinant near the candidate, nearest first. For a singular pencil
-    /// every value is one, so the candidate's own is taken, and then those where a sign may change.
+    /// The values near the candidate's at which the support may have a solution, nearest first.
     fn values_near(&self) -> Result<Vec<Algebraic>, AttemptFailure> {
-        let place = |i: usize, which: usize| {
-            let mut row = vec![mceip_exact::Integer::zero(); self.active.len()];
-            for (j, a, b) in &self.rows.0[i] {
-                if let Ok(k) = self.active.binary_search(j) {
-                    row[k] = if which == 0 { a.clone() } else { b.clone() };
-                }
-            }
-            row
-        };
-        let select = |which: usize| {
-            self.active
-                .iter()
-                .map(|&i| place(i, which))
-                .collect::<Vec<_>>()
-        };
-        let det = determinant(&select(0), &select(1));
-        if !det.is_zero() {
-            return self.roots_near(&[det]);
+        let a = self.active_block(|entry| &entry.a);
+        let b = self.active_block(|entry| &entry.b);
+        let determinant = determinant(&a, &b);
+
+        if determinant.is_zero() {
+            self.values_of_singular_pencil()
+        } else {
+            self.roots_near(&[determinant])
         }
-        let center = from_f64(self.candidate.value)
-            .map_err(|_| AttemptFailure::NotFinite)?
-            .max(self.window.min().clone());
-        let own = Algebraic::rational(
-            self.window
-                .max()
-                .map_or(center.clone(), |m| center.min(m.clone())),
-        );
-        let (kernel, ..) = generic_kernel(self.block(&[]));
-        let vectors = kernel.iter().map(|v| self.spread(v));
-        let signs: Vec<Poly> = vectors
-            .flat_map(|x| {
-                x.iter()
-                    .cloned()
-                    .chain(self.rows.0.iter().map(|r| times(r, &x)))
-                    .collect::<Vec<_>>()
-            })
-            .collect();
-        Ok(std::iter::once(own)
-            .chain(self.roots_near(&signs)?)
-            .collect())
     }
 
-    /// The roots of some polynomials near the candidate and in the window, nearest first.
+    /// The active rows and columns of A or of B.
+    fn active_block(&self, coefficient: fn(&PencilEntry) -> &Integer) -> Vec<Vec<Integer>> {
+        let mut block = Vec::new();
+        for &i in &self.active {
+            let mut row = vec![Integer::zero(); self.active.len()];
+            for entry in self.rows.row(i) {
+                if let Ok(position) = self.active.binary_search(&entry.column) {
+                    row[position] = coefficient(entry).clone();
+                }
+            }
+            block.push(row);
+        }
+
+        block
+    }
+
+    /// The values to try where the determinant is zero at every t: the candidate's own, moved into
+    /// the window, and then those at which a component of x or y may change its sign.
+    fn values_of_singular_pencil(&self) -> Result<Vec<Algebraic>, AttemptFailure> {
+        let mut own = finite(self.candidate.value)?.max(self.window.min().clone());
+        if let Some(max) = self.window.max() {
+            own = own.min(max.clone());
+        }
+
+        let (kernel, ..) = generic_kernel(self.block(&[]));
+        let mut components = Vec::new();
+        for vector in &kernel {
+            let x = self.spread(vector);
+            let y = self.y(&x);
+            components.extend(x);
+            components.extend(y);
+        }
+
+        let mut values = vec![Algebraic::rational(own)];
+        values.extend(self.roots_near(&components)?);
+        Ok(values)
+    }
+
+    /// The roots of some polynomials near the candidate's value and in the window, nearest first.
     fn roots_near(&self, polynomials: &[Poly]) -> Result<Vec<Algebraic>, AttemptFailure> {
-        let exact = |v: f64| from_f64(v).map_err(|_| AttemptFailure::NotFinite);
-        let center = exact(self.candidate.value)?;
+        let center = finite(self.candidate.value)?;
         let (lo, hi) = around(self.candidate);
-        let (lo, hi) = (exact(lo)?.max(self.window.min().clone()), exact(hi)?);
-        let hi = self.window.max().map_or(hi.clone(), |m| hi.min(m.clone()));
+        let lo = finite(lo)?.max(self.window.min().clone());
+        let mut hi = finite(hi)?;
+        if let Some(max) = self.window.max() {
+            hi = hi.min(max.clone());
+        }
         if lo > hi {
             return Err(no_root(self.candidate));
         }
-        let mut roots: Vec<Algebraic> = polynomials
-            .iter()
-            .filter(|p| !p.is_zero())
-            .flat_map(|p| roots_in(p, &lo, Some(&hi)))
-            .collect();
+
+        let mut roots = Vec::new();
+        for polynomial in polynomials {
+            if !polynomial.is_zero() {
+                roots.extend(roots_in(polynomial, &lo, Some(&hi)));
+            }
+        }
+
         roots.iter_mut().for_each(narrow);
-        roots.sort_by_cached_key(|r| (r.interval().mid() - &center).abs());
+        roots.sort_by_cached_key(|root| (root.interval().mid() - &center).abs());
         Ok(roots)
     }
+}
 
-    /// The claim at this value; y vanishes on `faces` too.
-    fn value(
+// The claim at one value.
+impl Support<'_> {
+    /// The claim at a value.
+    ///
+    /// Where the kernel has more than one dimension, y >= 0 may hold in a face y_i = 0 of it only,
+    /// which a vector taken from doubles does not hit. So the kernel within y_i = 0 is tried next,
+    /// for each i at which y turned out negative.
+    ///
+    /// # Errors
+    /// What failed first.
+    fn claim_at(&self, value: &Algebraic) -> Result<ExactSolution, AttemptFailure> {
+        let mut faces = Vec::new();
+        let mut first_failure = None;
+
+        loop {
+            let failure = match self.claim_on_faces(&faces, value.clone()) {
+                Ok(claim) => return Ok(claim),
+                Err(failure) => failure,
+            };
+            let new_face = match failure {
+                AttemptFailure::YNegative { index } if !faces.contains(&index) => Some(index),
+                _ => None,
+            };
+
+            let first = first_failure.unwrap_or(failure);
+            let Some(index) = new_face else {
+                return Err(first);
+            };
+            first_failure = Some(first);
+            faces.push(index);
+        }
+    }
+
+    /// The claim at a value with a kernel vector for which y vanishes on `faces` too.
+    fn claim_on_faces(
         &self,
         faces: &[usize],
         mut value: Algebraic,
     ) -> Result<ExactSolution, AttemptFailure> {
         value.try_rational();
         let x = self.kernel_vector(faces, &mut value)?;
-        if let Some(&index) = self
-            .support
-            .iter()
-            .find(|&&i| value.sign_of(&x[i]) != Sign::Positive)
-        {
-            return Err(AttemptFailure::XNotPositive { index });
+        self.require_positive_x(&x, &mut value)?;
+
+        let y = self.y(&x);
+        let biactive = self.biactive(&y, &mut value)?;
+        // A test for zero replaces the polynomial of the value by the factor that vanishes there.
+        // After these tests each y_i of an active row is 0 modulo it, as the checker asks.
+        for &i in &self.active {
+            value.sign_of(&y[i]);
         }
-        let y: Vec<Poly> = self.rows.0.iter().map(|row| times(row, &x)).collect();
+
+        require_near_x(self.pencil, self.candidate, &x, &mut value)?;
+
+        let required = self.required_signs(&x, &y, &biactive);
+        required.tighten(&mut value)?;
+        Ok(claim(self.support, biactive, &x, &value))
+    }
+
+    /// What the checker must see: x_i > 0 on the support, y_i > 0 off it where i is not biactive,
+    /// and x != 0.
+    fn required_signs<'b>(
+        &'b self,
+        x: &'b [Poly],
+        y: &'b [Poly],
+        biactive: &[usize],
+    ) -> RequiredSigns<'b> {
+        let mut positive = Vec::new();
+        for &i in self.support {
+            positive.push(&x[i]);
+        }
+
+        for i in self.inactive() {
+            if !biactive.contains(&i) {
+                positive.push(&y[i]);
+            }
+        }
+
+        // On a support that is not empty x > 0 says that x is not zero.
+        let not_all_zero = self.support.is_empty().then_some(x);
+        RequiredSigns {
+            window: self.window,
+            positive,
+            not_all_zero,
+        }
+    }
+
+    /// Demands x_i > 0 on the support.
+    fn require_positive_x(&self, x: &[Poly], value: &mut Algebraic) -> Result<(), AttemptFailure> {
+        for &index in self.support {
+            if value.sign_of(&x[index]) != Sign::Positive {
+                return Err(AttemptFailure::XNotPositive { index });
+            }
+        }
+
+        Ok(())
+    }
+
+    /// Demands y_i >= 0 off the support, and lists the i with y_i = 0 there.
+    fn biactive(&self, y: &[Poly], value: &mut Algebraic) -> Result<Vec<usize>, AttemptFailure> {
         let mut biactive = Vec::new();
-        for index in (0..self.pencil.order()).filter(|i| self.active.binary_search(i).is_err()) {
+        for index in self.inactive() {
             match value.sign_of(&y[index]) {
                 Sign::Negative => return Err(AttemptFailure::YNegative { index }),
                 Sign::Zero => biactive.push(index),
                 Sign::Positive => {}
             }
         }
-        // Zero tests have shrunk the polynomial until everything that vanishes is 0 modulo it.
-        for &i in &self.active {
-            value.sign_of(&y[i]);
-        }
-        close_enough(self.pencil, self.candidate, &x, &mut value)?;
-        let strict: Vec<&Poly> = self.support.iter().map(|&i| &x[i]).collect();
-        let inactive = (0..self.pencil.order())
-            .filter(|i| self.active.binary_search(i).is_err() && !biactive.contains(i));
-        let strict: Vec<&Poly> = strict.into_iter().chain(inactive.map(|i| &y[i])).collect();
-        tighten(
-            self.window,
-            &strict,
-            self.support.is_empty().then_some(&x[..]),
-            &mut value,
-        )?;
-        Ok(claim(self.support, biactive, &x, &value))
+
+        Ok(biactive)
     }
 
+    /// y = (A + tB) x, each row times a positive number.
+    fn y(&self, x: &[Poly]) -> Vec<Poly> {
+        self.rows.iter().map(|row| times(row, x)).collect()
+    }
+
+    /// The complementarity variables off the support, ascending.
+    fn inactive(&self) -> impl Iterator<Item = usize> {
+        (0..self.pencil.order()).filter(|i| self.active.binary_search(i).is_err())
+    }
+}
+
+// The kernel of the active block.
+impl Support<'_> {
     /// The rows of the active variables and of `faces`, in the columns of the active ones.
     fn block(&self, faces: &[usize]) -> Vec<Vec<Poly>> {
-        let entry = |i: usize, j: usize| {
-            let found = self.rows.0[i].iter().find(|e| e.0 == j);
-            found.map_or_else(Poly::default, |(_, a, b)| {
-                Poly::new(vec![a.clone(), b.clone()])
-            })
-        };
-        self.active
-            .iter()
-            .chain(faces)
-            .map(|&i| self.active.iter().map(|&j| entry(i, j)).collect())
-            .collect()
+        let mut block = Vec::new();
+        for &i in self.active.iter().chain(faces) {
+            let columns = self.active.iter();
+            let row = columns.map(|&j| self.entry(i, j)).collect();
+            block.push(row);
+        }
+
+        block
+    }
+
+    /// The entry a + t b of the pencil's integral rows.
+    fn entry(&self, row: usize, column: usize) -> Poly {
+        let row = self.rows.row(row);
+        let entry = row.iter().find(|entry| entry.column == column);
+        entry.map_or_else(Poly::default, polynomial)
     }
 
     /// A vector over the active variables as one over all.
     fn spread(&self, part: &[Poly]) -> Vec<Poly> {
         let mut x = vec![Poly::default(); self.pencil.order()];
-        self.active
-            .iter()
-            .zip(part)
-            .for_each(|(&i, p)| x[i] = p.clone());
+        for (&i, component) in self.active.iter().zip(part) {
+            x[i] = component.clone();
+        }
+
         x
     }
 
-    /// The kernel vector nearest the candidate: the kernel's free coordinates are taken from it.
+    /// The kernel vector nearest the candidate: a combination of the basis that has the candidate's
+    /// components at the kernel's free coordinates, turned so that its slip part is positive.
     fn kernel_vector(
         &self,
         faces: &[usize],
@@ -215,118 +330,137 @@ impl Support<'_> {
     ) -> Result<Vec<Poly>, AttemptFailure> {
         let basis = kernel_at(self.block(faces), value);
         if basis.is_empty() {
-            // Faces that leave nothing; without them every value here is a root.
+            // Only faces leave nothing: without them every value that is tried is a root.
             return Err(no_root(self.candidate));
         }
+
         // Each basis vector is the same polynomial at its own free coordinate, zero at the others'.
-        let weights = match &basis[..] {
-            [_] => vec![Rational::from_integer(1.into())],
-            _ => (0..basis.len())
-                .map(|k| coordinate(k, &basis, value, &self.active, self.candidate))
-                .collect::<Result<Vec<_>, _>>()?,
-        };
-        let clear = mceip_exact::common_denominator(&weights);
+        let weights = self.weights(&basis, value)?;
+        let denominator = common_denominator(&weights);
         let mut x = vec![Poly::default(); self.pencil.order()];
         for (vector, weight) in basis.iter().zip(&weights) {
-            let factor = weight.numer() * (&clear / weight.denom());
-            for (&i, p) in self.active.iter().zip(vector) {
-                x[i] = &x[i] + &p.scale(&factor);
+            let factor = weight.numer() * (&denominator / weight.denom());
+            for (&i, component) in self.active.iter().zip(vector) {
+                x[i] = &x[i] + &component.scale(&factor);
             }
         }
-        let slip_sign = self
-            .pencil
-            .slip()
-            .iter()
-            .map(|&i| value.sign_of(&x[i]))
-            .find(|s| *s != Sign::Zero);
-        let flip = match slip_sign {
-            Some(sign) => sign == Sign::Negative,
-            None => dot_sign(&x, self.candidate, value),
-        };
-        Ok(if flip {
-            x.iter().map(|p| -p).collect()
+
+        if self.points_away(&x, value) {
+            Ok(x.iter().map(|component| -component).collect())
         } else {
-            x
-        })
+            Ok(x)
+        }
+    }
+
+    /// The weight of each basis vector: 1 for one that is alone, else the candidate's component at
+    /// its free coordinate.
+    fn weights(
+        &self,
+        basis: &[Vec<Poly>],
+        value: &mut Algebraic,
+    ) -> Result<Vec<Rational>, AttemptFailure> {
+        if basis.len() == 1 {
+            return Ok(vec![Rational::from_integer(1.into())]);
+        }
+
+        let mut weights = Vec::new();
+        for k in 0..basis.len() {
+            let free_coordinate =
+                (0..self.active.len()).find(|&c| is_free_coordinate(c, k, basis, value));
+            let weight = free_coordinate.map_or(0.0, |c| self.candidate.x[self.active[c]]);
+            weights.push(finite(weight)?);
+        }
+
+        Ok(weights)
+    }
+
+    /// Is -x the direction that is meant? The first slip variable that moves decides, which must
+    /// move forward; without one, x points where the candidate does.
+    fn points_away(&self, x: &[Poly], value: &mut Algebraic) -> bool {
+        for &i in &self.pencil.slip() {
+            match value.sign_of(&x[i]) {
+                Sign::Zero => {}
+                sign => return sign == Sign::Negative,
+            }
+        }
+
+        has_negative_product(x, self.candidate, value)
     }
 }
 
-/// The candidate's component at the one coordinate where, of all basis vectors, only the k-th is
-/// not zero (at this value: a polynomial that only vanishes there is no zero of the ring).
-fn coordinate(
+/// Is `coordinate` one at which, of all basis vectors, exactly the k-th is not zero at the value?
+fn is_free_coordinate(
+    coordinate: usize,
     k: usize,
     basis: &[Vec<Poly>],
     value: &mut Algebraic,
-    active: &[usize],
-    candidate: &Candidate,
-) -> Result<Rational, AttemptFailure> {
-    let mut only_k = |c: &usize| {
-        basis
-            .iter()
-            .enumerate()
-            .all(|(other, v)| (value.sign_of(&v[*c]) == Sign::Zero) != (other == k))
-    };
-    let component = (0..active.len())
-        .find(&mut only_k)
-        .map_or(0.0, |c| candidate.x[active[c]]);
-    from_f64(component).map_err(|_| AttemptFailure::NotFinite)
+) -> bool {
+    for (other, vector) in basis.iter().enumerate() {
+        let is_zero = value.sign_of(&vector[coordinate]) == Sign::Zero;
+        let is_expected = is_zero != (other == k);
+        if !is_expected {
+            return false;
+        }
+    }
+
+    true
 }
 
-/// For a solution without slip variables: does x point away from the candidate?
-fn dot_sign(x: &[Poly], candidate: &Candidate, value: &mut Algebraic) -> bool {
+/// Is the inner product of x and the candidate's negative? In doubles, x at the middle of the
+/// narrowed interval.
+fn has_negative_product(x: &[Poly], candidate: &Candidate, value: &mut Algebraic) -> bool {
     narrow(value);
     let mid = value.interval().mid();
-    let dot: f64 = x
-        .iter()
-        .zip(&candidate.x)
-        .map(|(p, c)| to_f64(&p.eval(&mid)) * c)
-        .sum();
-    dot < 0.0
+
+    let mut terms = Vec::new();
+    for (component, given) in x.iter().zip(&candidate.x) {
+        let component = to_f64(&component.eval(&mid));
+        terms.push(component * given);
+    }
+
+    let product: f64 = terms.iter().sum();
+    product < 0.0
 }
 
 /// Narrows the interval of a value to 2^-62: its middle may be compared with what the candidate
 /// says.
 fn narrow(value: &mut Algebraic) {
-    value.refine_to(&Rational::new(
-        1.into(),
-        mceip_exact::Integer::from(1u64 << 62),
-    ));
+    let width = Rational::new(1.into(), Integer::from(1u64 << 62));
+    value.refine_to(&width);
 }
 
-fn close_enough(
+/// Demands that x is the candidate's up to [`X_RADIUS`], both divided by [`scale`].
+fn require_near_x(
     pencil: &Pencil,
     candidate: &Candidate,
     x: &[Poly],
     value: &mut Algebraic,
 ) -> Result<(), AttemptFailure> {
-    let slip = pencil.slip();
-    let over = |list: &[f64]| {
-        let sum: f64 = slip.iter().map(|&i| list[i]).sum();
-        if sum > 0.0 {
-            sum
-        } else {
-            list.iter().map(|v| v.abs()).sum()
-        }
-    };
-    // Polynomials at the midpoint may be huge: divide exactly before rounding.
     narrow(value);
     let mid = value.interval().mid();
-    let exact: Vec<Rational> = x.iter().map(|p| p.eval(&mid)).collect();
-    let largest = exact
-        .iter()
-        .map(|v| v.abs())
-        .max()
-        .unwrap_or_else(Rational::zero);
+    let mut exact = Vec::new();
+    let mut largest = Rational::zero();
+    for component in x {
+        let component = component.eval(&mid);
+        largest = largest.max(component.abs());
+        exact.push(component);
+    }
+
     if largest.is_zero() {
         return Err(AttemptFailure::ZeroX);
     }
+
+    // Components may be beyond the range of doubles: they are divided before they are rounded.
     let ours: Vec<f64> = exact.iter().map(|v| to_f64(&(v / &largest))).collect();
-    let (norm_ours, norm_theirs) = (over(&ours), over(&candidate.x));
-    let distance = ours
-        .iter()
-        .zip(&candidate.x)
-        .map(|(a, b)| (a / norm_ours - b / norm_theirs).abs())
-        .fold(0.0, f64::max);
+    let slip = pencil.slip();
+    let our_scale = scale(&ours, &slip);
+    let their_scale = scale(&candidate.x, &slip);
+    let mut distance: f64 = 0.0;
+    for (our, their) in ours.iter().zip(&candidate.x) {
+        let difference = our / our_scale - their / their_scale;
+        distance = distance.max(difference.abs());
+    }
+
     if distance <= X_RADIUS {
         Ok(())
     } else {
@@ -337,88 +471,144 @@ fn close_enough(
     }
 }
 
-/// Narrows the interval until the checker's interval Horner sees every strict sign, the slope of
-/// the polynomial and the window.
-fn tighten(
-    window: &Window,
-    strict: &[&Poly],
-    nonzero: Option<&[Poly]>,
-    value: &mut Algebraic,
-) -> Result<(), AttemptFailure> {
-    for _ in 0..MAX_HALVINGS {
-        let (interval, p) = (value.interval().clone(), value.poly().clone());
-        let sure = |g: &Poly| interval.horner(&g.pseudo_rem(&p)).certain_sign();
-        let isolated = interval.is_point() || interval.horner(&p.derivative()).certain_sign() != 0;
-        let inside =
-            interval.lo() >= window.min() && window.max().is_none_or(|m| interval.hi() <= m);
-        let positive = strict.iter().all(|g| sure(g) == 1);
-        if isolated && inside && positive && nonzero.is_none_or(|x| x.iter().any(|g| sure(g) != 0))
-        {
-            return Ok(());
-        }
-        if interval.is_point() {
-            break; // nothing left to narrow: a sign that stays uncertain is a zero
-        }
-        value.refine();
+/// e'x_s where that is positive, else the l1 norm.
+fn scale(x: &[f64], slip: &[usize]) -> f64 {
+    let sum: f64 = slip.iter().map(|&i| x[i]).sum();
+    if sum > 0.0 {
+        sum
+    } else {
+        x.iter().map(|v| v.abs()).sum()
     }
-    Err(AttemptFailure::Precision {
-        limit: MAX_HALVINGS,
-    })
 }
 
+/// What the checker must be able to read off the interval of a value by interval arithmetic.
+struct RequiredSigns<'a> {
+    /// It must hold the interval.
+    window: &'a Window,
+    /// Polynomials in the value that must be positive.
+    positive: Vec<&'a Poly>,
+    /// Polynomials in the value of which one must not be zero: x, where the support is empty.
+    not_all_zero: Option<&'a [Poly]>,
+}
+
+impl RequiredSigns<'_> {
+    /// Halves the interval of a value until all that is required can be read off it.
+    ///
+    /// # Errors
+    /// [`AttemptFailure::Precision`] after [`MAX_HALVINGS`], or where the interval is a point: a
+    /// sign that is not certain there is zero.
+    fn tighten(&self, value: &mut Algebraic) -> Result<(), AttemptFailure> {
+        for _ in 0..MAX_HALVINGS {
+            if self.are_certain(value) {
+                return Ok(());
+            }
+            if value.interval().is_point() {
+                break;
+            }
+            value.refine();
+        }
+
+        Err(AttemptFailure::Precision {
+            limit: MAX_HALVINGS,
+        })
+    }
+
+    /// Does the interval lie in the window, hold one root of the value's polynomial only, and show
+    /// every sign?
+    fn are_certain(&self, value: &Algebraic) -> bool {
+        let interval = value.interval();
+        let polynomial = value.poly();
+
+        let slope = interval.horner(&polynomial.derivative());
+        if !interval.is_point() && slope.certain_sign() == 0 {
+            return false;
+        }
+
+        let is_below_max = self.window.max().is_none_or(|max| interval.hi() <= max);
+        if interval.lo() < self.window.min() || !is_below_max {
+            return false;
+        }
+
+        let mut positive = self.positive.iter();
+        if !positive.all(|g| certain_sign(interval, polynomial, g) == 1) {
+            return false;
+        }
+
+        match self.not_all_zero {
+            Some(x) => x.iter().any(|g| certain_sign(interval, polynomial, g) != 0),
+            None => true,
+        }
+    }
+}
+
+/// The sign of g, reduced modulo the polynomial of the value, all over the interval; 0 where it is
+/// not certain.
+fn certain_sign(interval: &Interval, polynomial: &Poly, g: &Poly) -> i8 {
+    interval.horner(&g.pseudo_rem(polynomial)).certain_sign()
+}
+
+/// Puts a claim together: x modulo the polynomial of the value, in integers.
 fn claim(support: &[usize], biactive: Vec<usize>, x: &[Poly], value: &Algebraic) -> ExactSolution {
-    let p = value.poly();
-    let x = x.iter().map(|g| remainder(g, p)).collect::<Vec<_>>();
-    let x = primitive(x);
-    let interval = [
-        Number(value.interval().lo().clone()),
-        Number(value.interval().hi().clone()),
-    ];
+    let polynomial = value.poly();
+    let x = x.iter().map(|component| remainder(component, polynomial));
+    let x = primitive(x.collect());
+
+    let interval = value.interval();
     ExactSolution {
         support: support.to_vec(),
         biactive,
-        polynomial: p.coeffs().to_vec(),
-        interval,
+        polynomial: polynomial.coeffs().to_vec(),
+        interval: [Number(interval.lo().clone()), Number(interval.hi().clone())],
         x,
     }
 }
 
 /// g mod p over Q.
 fn remainder(g: &Poly, p: &Poly) -> Vec<Rational> {
-    let rational = |p: &Poly| {
-        p.coeffs()
-            .iter()
-            .map(|c| Rational::from_integer(c.clone()))
-            .collect::<Vec<_>>()
-    };
-    super::lifted::remainder(rational(g), &rational(p))
+    lifted::remainder(coefficients(g), &coefficients(p))
+}
+
+/// The coefficients of a polynomial, the constant first.
+fn coefficients(p: &Poly) -> Vec<Rational> {
+    let integers = p.coeffs().iter().cloned();
+    integers.map(Rational::from_integer).collect()
 }
 
 /// All components times one positive rational that makes them integers without a common factor.
 fn primitive(x: Vec<Vec<Rational>>) -> Vec<Vec<Number>> {
-    use num_integer::Integer as _;
-    let clear = mceip_exact::common_denominator(x.iter().flatten());
-    let gcd = x
-        .iter()
-        .flatten()
-        .fold(mceip_exact::Integer::zero(), |g, v| {
-            g.gcd(&(v.numer() * (&clear / v.denom())))
-        });
-    let factor = if gcd.is_zero() {
-        Rational::from_integer(clear)
+    let denominator = common_denominator(x.iter().flatten());
+    let mut divisor = Integer::zero();
+    for coefficient in x.iter().flatten() {
+        let integer = coefficient.numer() * (&denominator / coefficient.denom());
+        divisor = divisor.gcd(&integer);
+    }
+
+    let factor = if divisor.is_zero() {
+        Rational::from_integer(denominator)
     } else {
-        Rational::new(clear, gcd)
+        Rational::new(denominator, divisor)
     };
-    x.into_iter()
-        .map(|p| p.into_iter().map(|v| Number(v * &factor)).collect())
-        .collect()
+    let mut scaled = Vec::new();
+    for component in x {
+        scaled.push(component.into_iter().map(|c| Number(c * &factor)).collect());
+    }
+
+    scaled
 }
 
 /// A row of (A + tB) x.
-fn times(row: &[(usize, mceip_exact::Integer, mceip_exact::Integer)], x: &[Poly]) -> Poly {
-    row.iter().fold(Poly::default(), |sum, (j, a, b)| {
-        &sum + &(&Poly::new(vec![a.clone(), b.clone()]) * &x[*j])
-    })
+fn times(row: &[PencilEntry], x: &[Poly]) -> Poly {
+    let mut sum = Poly::default();
+    for entry in row {
+        sum += &(&polynomial(entry) * &x[entry.column]);
+    }
+
+    sum
+}
+
+/// a + t b.
+fn polynomial(entry: &PencilEntry) -> Poly {
+    Poly::new(vec![entry.a.clone(), entry.b.clone()])
 }
 
 #[cfg(test)]

@@ -1,4 +1,6 @@
-//! Why a candidate was not certified: typed, one entry per support tried.
+//! Why a candidate was not certified: one entry for each support that was tried.
+//!
+//! The texts of the failures are printed by the program and written into reports.
 
 use mceip_check::Reason;
 
@@ -118,12 +120,14 @@ impl NotCertified {
 
 impl std::fmt::Display for NotCertified {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let parts: Vec<String> = self
-            .attempts
-            .iter()
-            .map(|a| format!("support {:?}: {}", a.support, a.failure))
-            .collect();
-        f.write_str(&parts.join("; "))
+        for (k, attempt) in self.attempts.iter().enumerate() {
+            if k > 0 {
+                f.write_str("; ")?;
+            }
+            write!(f, "support {:?}: {}", attempt.support, attempt.failure)?;
+        }
+
+        Ok(())
     }
 }
 
@@ -135,20 +139,21 @@ mod tests {
 
     #[test]
     fn every_attempt_is_told() {
-        let attempts = vec![
-            Attempt {
-                support: vec![0, 2],
-                failure: AttemptFailure::XNotPositive { index: 2 },
-            },
-            Attempt {
-                support: vec![1],
-                failure: AttemptFailure::NotContracting,
-            },
-        ];
-        let told = NotCertified { attempts }.to_string();
-        assert!(
-            told.starts_with("support [0, 2]: ") && told.contains("; support [1]: "),
-            "{told}"
-        );
+        let first = Attempt {
+            support: vec![0, 2],
+            failure: AttemptFailure::XNotPositive { index: 2 },
+        };
+        let second = Attempt {
+            support: vec![1],
+            failure: AttemptFailure::NotContracting,
+        };
+
+        let told = NotCertified {
+            attempts: vec![first, second],
+        };
+
+        let told = told.to_string();
+        assert!(told.starts_with("support [0, 2]: "), "{told}");
+        assert!(told.contains("; support [1]: "), "{told}");
     }
 }

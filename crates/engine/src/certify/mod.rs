@@ -1,5 +1,18 @@
 //! From a candidate in doubles to a claim that `check` has accepted ([`certify`], [`Certifier`]).
-//! May fail; is not trusted.
+//!
+//! ```text
+//! candidate -> supports -> a claim for each: exact, or a box -> check -> the first one accepted
+//! ```
+//!
+//! A candidate is a value t and x in doubles. `support` guesses which components of x are positive,
+//! `proposals` goes through the guesses, `exact_claim` and `enclose` make a claim about one
+//! support, and `accepted` has the checker decide. `lifted` rewrites an exact claim about the
+//! reduced pencil as one about the mechanical system. `rows` is the pencil over the integers,
+//! `precise` a null vector with any number of bits for the search, `failure` the reasons why
+//! nothing was certified.
+//!
+//! Nothing here is trusted: a claim counts because the checker has accepted it. What a certificate
+//! says is chapter 5 of the book (`spec/certificates.md`).
 
 mod accepted;
 mod enclose;
@@ -20,7 +33,7 @@ pub use proposals::{ENCLOSED_ORDER, EXACT_BITS, EXACT_ORDER, propose};
 use mceip_check::certificate::{Certificate, Claim};
 use mceip_model::Problem;
 
-/// A certificate for the problem with the given claims.
+/// A certificate for the problem with the given claims and no complete set.
 pub fn certificate(problem: &Problem, claims: Vec<Claim>) -> Certificate {
     Certificate {
         problem_sha256: problem.sha256(),

@@ -1,10 +1,16 @@
-//! A null vector of the pencil on a given set, to any number of bits: signs beyond doubles are read
-//! off it.
+//! A null vector of the pencil on a given moving set, to any number of bits.
+//!
+//! Signs that doubles cannot tell are read off it. Newton's method with exact residuals
+//! ([`newton`](super::enclose::newton)) solves (A + tB) x = 0 on the free variables and the moving
+//! set, e'x = 1 on the moving set, from a candidate in doubles. Nothing is proved: the digits that
+//! are computed are those of a solution only where the method has converged.
+//!
+//! Called by the search for complete sets, to decide which null vectors are worth a proof.
 
 use super::enclose::newton::Newton;
 use super::rows::IntegralRows;
 use crate::candidate::Candidate;
-use mceip_exact::{Integer, Rational};
+use mceip_exact::Rational;
 use mceip_model::Pencil;
 
 /// Bits of the grid on which a candidate in doubles is polished first.
@@ -31,33 +37,28 @@ pub(crate) fn precise_null(
 ) -> Option<PreciseNull> {
     let rows = IntegralRows::of(pencil);
     let newton = Newton::new(pencil, &rows, moving);
-
     let mut point = newton.start(candidate, FIRST_BITS).ok()?;
-    let first_inverse = newton.inverse(&point)?;
+    let first_inverse = newton.inverse(&point).ok()?;
     newton.polish(&mut point, &first_inverse);
 
-    let inverse = newton.inverse(&point)?;
+    // At the polished point the inverse is better, and good for all further bits.
+    let inverse = newton.inverse(&point).ok()?;
     point.refine(bits.saturating_sub(FIRST_BITS));
     newton.polish(&mut point, &inverse);
 
-    let is_moving = |index: &usize| moving.contains(index);
-    let positions = newton
-        .active
-        .iter()
-        .enumerate()
-        .filter(|(_, i)| is_moving(i));
-    let x = positions.map(|(k, &i)| (i, point.value(k))).collect();
+    let mut x = Vec::new();
+    for (k, &index) in newton.active.iter().enumerate() {
+        if moving.contains(&index) {
+            x.push((index, point.value(k)));
+        }
+    }
 
-    let row = |i: usize| -> Integer {
-        newton
-            .active_entries(i)
-            .map(|(k, a, b)| point.entry(a, b) * &point.x[k])
-            .sum()
-    };
-    let y = newton
-        .inactive()
-        .map(|i| (i, Rational::from_integer(row(i))))
-        .collect();
+    let mut y = Vec::new();
+    for index in newton.inactive() {
+        let row = newton.y(index, &point);
+        y.push((index, Rational::from_integer(row)));
+    }
+
     Some(PreciseNull {
         value: point.value(newton.active.len()),
         x,
@@ -82,12 +83,8 @@ mod tests {
             (1, 0, small.clone()),
             (1, 1, whole(3)),
         ];
-        let pencil = Pencil::new(
-            Sparse::from_entries(2, 2, entries),
-            Sparse::identity(2),
-            vec![],
-        )
-        .unwrap();
+        let a = Sparse::from_entries(2, 2, entries);
+        let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
         let candidate = Candidate {
             value: 2.0,
             x: vec![1.0, 0.0],
@@ -96,43 +93,31 @@ mod tests {
         let both = precise_null(&pencil, &[0, 1], &candidate, 256).unwrap();
         let (index, x) = &both.x[1];
         let expected = -&small / whole(5);
-        assert!(
-            *index == 1
-                && x.is_negative()
-                && (x / expected - Rational::one()).abs() < parse("1e-20").unwrap(),
-            "{x}"
-        );
+        let relative_error = (x / expected - Rational::one()).abs();
+        assert_eq!(*index, 1);
+        assert!(x.is_negative(), "{x}");
+        assert!(relative_error < parse("1e-20").unwrap(), "{x}");
         assert!((&both.value - whole(2)).abs() < parse("1e-59").unwrap());
 
         let alone = precise_null(&pencil, &[0], &candidate, 256).unwrap();
-        assert!(
-            alone.x.len() == 1
-                && alone.y.len() == 1
-                && alone.y[0].0 == 1
-                && alone.y[0].1.is_positive()
-        );
+        assert_eq!((alone.x.len(), alone.y.len()), (1, 1));
+        let (index, y) = &alone.y[0];
+        assert_eq!(*index, 1);
+        assert!(y.is_positive(), "{y}");
         assert_eq!(alone.value, whole(2));
     }
 
     #[test]
     fn a_candidate_without_a_sum_has_none() {
-        let pencil = Pencil::new(
-            Sparse::from_ints(&[&[-1, 0], &[0, -1]]),
-            Sparse::identity(2),
-            vec![],
-        )
-        .unwrap();
-        assert!(
-            precise_null(
-                &pencil,
-                &[0, 1],
-                &Candidate {
-                    value: 1.0,
-                    x: vec![1.0, -1.0]
-                },
-                128
-            )
-            .is_none()
-        );
+        let a = Sparse::from_ints(&[&[-1, 0], &[0, -1]]);
+        let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+        let candidate = Candidate {
+            value: 1.0,
+            x: vec![1.0, -1.0],
+        };
+
+        let null = precise_null(&pencil, &[0, 1], &candidate, 128);
+
+        assert!(null.is_none());
     }
 }

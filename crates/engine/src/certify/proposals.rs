@@ -1,5 +1,9 @@
 //! The claims that a candidate suggests, unchecked, one for each support tried: exact where the
 //! system of the support is short, else an enclosure.
+//!
+//! Supports come from [`support`]: guesses by thresholds, best first, and repairs of those at which
+//! a sign is wrong. Input: the reduced pencil, the window of the problem, a candidate in doubles.
+//! Called by [`Certifier`](super::Certifier), which has the checker decide.
 
 use super::failure::{Attempt, AttemptFailure, NotCertified};
 use super::rows::IntegralRows;
@@ -38,32 +42,17 @@ pub(super) struct Proposals<'a> {
     rows: &'a IntegralRows,
     window: &'a Window,
     candidate: &'a Candidate,
+    /// Supports to be tried, the next one first.
     waiting: VecDeque<Vec<usize>>,
     guesses: Vec<Vec<usize>>,
     /// Supports that come from another one, by a component that doubles cannot tell from zero.
     repaired: Vec<Vec<usize>>,
 }
 
-impl Proposals<'_> {
-    /// Puts the support with the component of a wrong sign changed next, where claims about it are
-    /// enclosures.
-    pub(super) fn repair(&mut self, support: &[usize], failure: &AttemptFailure) {
-        let Some(repaired) = support::repaired(self.pencil, self.candidate, support, failure)
-        else {
-            return;
-        };
-        let is_known = self.guesses.contains(&repaired) || self.repaired.contains(&repaired);
-        if is_known
-            || self.repaired.len() >= MAX_REPAIRS
-            || is_short(self.pencil, self.rows, &repaired)
-        {
-            return;
-        }
-        self.repaired.push(repaired.clone());
-        self.waiting.push_front(repaired);
-    }
-}
-
+/// The proposals for a candidate in a window.
+///
+/// # Errors
+/// A candidate that is of another length than the pencil's order, not finite, or zero.
 pub(super) fn proposals<'a>(
     pencil: &'a Pencil,
     rows: &'a IntegralRows,
@@ -83,59 +72,80 @@ pub(super) fn proposals<'a>(
     })
 }
 
+impl Proposals<'_> {
+    /// A claim about the solution with this support near the candidate.
+    fn claim(&self, support: &[usize]) -> Result<Claim, AttemptFailure> {
+        let order = self.active_order(support);
+        if order > ENCLOSED_ORDER {
+            return Err(AttemptFailure::TooLarge {
+                limit: ENCLOSED_ORDER,
+                got: order,
+            });
+        }
+
+        if self.is_short(support) {
+            let claim =
+                exact_claim::make(self.pencil, self.rows, self.window, support, self.candidate)?;
+            return Ok(Claim::ExactSolution(claim));
+        }
+
+        let claim = enclose::make(self.pencil, self.rows, self.window, support, self.candidate)?;
+        if self.repaired.iter().any(|repaired| repaired == support) {
+            support::require_within_rounding(self.pencil, self.candidate, &claim)?;
+        }
+
+        Ok(Claim::EnclosedSolution(claim))
+    }
+
+    /// Number of active variables.
+    fn active_order(&self, support: &[usize]) -> usize {
+        self.pencil.free().len() + support.len()
+    }
+
+    /// Is the system of this support short enough for an exact claim?
+    fn is_short(&self, support: &[usize]) -> bool {
+        let order = self.active_order(support);
+        if order > EXACT_ORDER {
+            return false;
+        }
+
+        // A determinant has about so many bits.
+        let bits = order as u64 * self.rows.bits();
+        bits <= EXACT_BITS
+    }
+
+    /// Puts the support with the component of a wrong sign changed next, where claims about it are
+    /// enclosures.
+    fn repair(&mut self, support: &[usize], failure: &AttemptFailure) {
+        let repaired = support::repaired(self.pencil, self.candidate, support, failure);
+        let Some(repaired) = repaired else { return };
+
+        let was_guessed = self.guesses.contains(&repaired);
+        let was_repaired = self.repaired.contains(&repaired);
+        if was_guessed || was_repaired || self.repaired.len() >= MAX_REPAIRS {
+            return;
+        }
+        if self.is_short(&repaired) {
+            return;
+        }
+
+        self.repaired.push(repaired.clone());
+        self.waiting.push_front(repaired);
+    }
+}
+
 impl Iterator for Proposals<'_> {
     type Item = Proposal;
 
     fn next(&mut self) -> Option<Proposal> {
         let support = self.waiting.pop_front()?;
-        let is_repaired = self.repaired.contains(&support);
-        let mut claim = claim(
-            self.pencil,
-            self.rows,
-            self.window,
-            &support,
-            self.candidate,
-        );
-        if is_repaired {
-            claim = claim
-                .and_then(|claim| support::within_rounding(self.pencil, self.candidate, claim));
-        }
-
+        let claim = self.claim(&support);
         if let Err(failure) = &claim {
             self.repair(&support, failure);
         }
+
         Some(Proposal { support, claim })
     }
-}
-
-/// A claim about the solution with this support near the candidate: exact where that is short, else
-/// an enclosure.
-fn claim(
-    pencil: &Pencil,
-    rows: &IntegralRows,
-    window: &Window,
-    support: &[usize],
-    candidate: &Candidate,
-) -> Result<Claim, AttemptFailure> {
-    let order = pencil.free().len() + support.len();
-    if order > ENCLOSED_ORDER {
-        return Err(AttemptFailure::TooLarge {
-            limit: ENCLOSED_ORDER,
-            got: order,
-        });
-    }
-
-    if is_short(pencil, rows, support) {
-        exact_claim::make(pencil, rows, window, support, candidate).map(Claim::ExactSolution)
-    } else {
-        enclose::make(pencil, rows, window, support, candidate).map(Claim::EnclosedSolution)
-    }
-}
-
-/// Is the system of this support short enough for an exact claim?
-fn is_short(pencil: &Pencil, rows: &IntegralRows, support: &[usize]) -> bool {
-    let order = pencil.free().len() + support.len();
-    order <= EXACT_ORDER && order as u64 * rows.bits() <= EXACT_BITS
 }
 
 /// A claim that *nobody has checked*, for tools and tests that submit it themselves;
@@ -158,6 +168,7 @@ pub fn propose(
             Err(failure) => attempts.push(Attempt { support, failure }),
         }
     }
+
     Err(NotCertified { attempts })
 }
 
@@ -166,24 +177,38 @@ mod tests {
     use super::*;
     use mceip_exact::{Integer, Rational, Sparse, rational, whole};
 
+    /// -`entry` I + tI.
     fn diagonal(n: usize, entry: &Rational) -> Pencil {
         let a = Sparse::from_entries(n, n, (0..n).map(|i| (i, i, -entry.clone())));
         Pencil::new(a, Sparse::identity(n), vec![]).unwrap()
     }
 
-    fn kind(pencil: &Pencil, value: f64) -> &'static str {
+    /// -P + tI with P the cyclic shift: the null vector at t = 1 is the only one.
+    fn cycle(n: usize) -> Pencil {
+        let a = Sparse::from_entries(n, n, (0..n).map(|i| (i, (i + 1) % n, whole(-1))));
+        Pencil::new(a, Sparse::identity(n), vec![]).unwrap()
+    }
+
+    /// A number near 1 whose numerator has `bits` - 1 bits.
+    fn long_number(bits: u64) -> Rational {
+        rational(1, 1) + Rational::new(1.into(), Integer::from(1) << (bits - 2))
+    }
+
+    /// The kind of claim that is proposed at value 1 for equal components of x.
+    fn kind(pencil: &Pencil) -> &'static str {
         let n = pencil.order();
         let candidate = Candidate {
-            value,
+            value: 1.0,
             x: vec![1.0 / n as f64; n],
         };
-        match propose(pencil, &Window::all(), &candidate) {
-            Ok(Claim::ExactSolution(_)) => "exact",
-            Ok(_) => "enclosed",
-            Err(e) if matches!(e.attempts.last(), Some(a) if matches!(a.failure, AttemptFailure::TooLarge { .. })) => {
-                "too large"
-            }
-            Err(_) => "refused",
+        let refused = match propose(pencil, &Window::all(), &candidate) {
+            Ok(Claim::ExactSolution(_)) => return "exact",
+            Ok(_) => return "enclosed",
+            Err(refused) => refused,
+        };
+        match refused.attempts.last().map(|attempt| &attempt.failure) {
+            Some(AttemptFailure::TooLarge { .. }) => "too large",
+            _ => "refused",
         }
     }
 
@@ -191,38 +216,22 @@ mod tests {
     /// alone.
     #[test]
     fn the_kind_of_a_claim_follows_the_size() {
-        // B - 1 bits over b - 1.
-        let bits = |b: u64| rational(1, 1) + Rational::new(1.into(), Integer::from(1) << (b - 2));
-        assert_eq!(IntegralRows::of(&diagonal(2, &bits(100))).bits(), 99);
-        assert_eq!(
-            [
-                kind(&diagonal(1, &bits(100)), 1.0),
-                kind(&diagonal(1, &bits(EXACT_BITS)), 1.0)
-            ],
-            ["exact", "exact"]
-        );
-        assert_eq!(kind(&diagonal(1, &bits(EXACT_BITS + 3)), 1.0), "enclosed");
+        let short = diagonal(1, &long_number(100));
+        let longest = diagonal(1, &long_number(EXACT_BITS));
+        let too_long = diagonal(1, &long_number(EXACT_BITS + 3));
+        assert_eq!(IntegralRows::of(&diagonal(2, &long_number(100))).bits(), 99);
+        assert_eq!([kind(&short), kind(&longest)], ["exact", "exact"]);
+        assert_eq!(kind(&too_long), "enclosed");
+
         // Two variables on one cycle, so that the null vector is the only one.
-        let long = bits(EXACT_BITS / 2 + 10);
-        let a = Sparse::from_entries(2, 2, [(0, 1, -long.clone()), (1, 0, -long)]);
-        assert_eq!(
-            kind(&Pencil::new(a, Sparse::identity(2), vec![]).unwrap(), 1.0),
-            "enclosed"
-        );
-        let cycle = |n: usize| {
-            let a = Sparse::from_entries(n, n, (0..n).map(|i| (i, (i + 1) % n, whole(-1))));
-            Pencil::new(a, Sparse::identity(n), vec![]).unwrap()
-        };
-        assert_eq!(
-            [
-                kind(&cycle(EXACT_ORDER), 1.0),
-                kind(&cycle(EXACT_ORDER + 1), 1.0)
-            ],
-            ["exact", "enclosed"]
-        );
-        assert_eq!(
-            kind(&diagonal(ENCLOSED_ORDER + 2, &whole(1)), 1.0),
-            "too large"
-        );
+        let half = long_number(EXACT_BITS / 2 + 10);
+        let a = Sparse::from_entries(2, 2, [(0, 1, -half.clone()), (1, 0, -half)]);
+        let too_long_together = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
+        assert_eq!(kind(&too_long_together), "enclosed");
+
+        assert_eq!(kind(&cycle(EXACT_ORDER)), "exact");
+        assert_eq!(kind(&cycle(EXACT_ORDER + 1)), "enclosed");
+        let too_large = diagonal(ENCLOSED_ORDER + 2, &whole(1));
+        assert_eq!(kind(&too_large), "too large");
     }
 }

@@ -1,41 +1,95 @@
-//! The rows of a pencil over the integers, and the variables that are active on a support.
+//! The rows of a pencil A + tB over the integers, and the variables that are active on a support.
+//!
+//! Each row of (A, B) is multiplied by the common denominator of its entries. A positive factor of
+//! a row changes neither the zeros nor the signs of y = (A + tB) x. Called by the makers of exact
+//! and of enclosed claims.
 
-use mceip_exact::{Integer, common_denominator};
+use mceip_exact::{Integer, Rational, common_denominator};
 use mceip_model::Pencil;
+use num_traits::Zero;
 use std::collections::BTreeMap;
 
-/// Rows of the pencil with denominators cleared: (column, coefficient of A, coefficient of B).
-pub(super) struct IntegralRows(pub(super) Vec<Vec<(usize, Integer, Integer)>>);
+/// One entry a + t b of a row.
+#[derive(Debug, Clone)]
+pub(super) struct PencilEntry {
+    pub(super) column: usize,
+    pub(super) a: Integer,
+    pub(super) b: Integer,
+}
 
-impl IntegralRows {
-    pub(super) fn of(pencil: &Pencil) -> Self {
-        let row = |i: usize| {
-            let (a, b) = (pencil.a().row(i), pencil.b().row(i));
-            let factor = common_denominator(a.iter().chain(b).map(|e| &e.1));
-            let mut merged: BTreeMap<usize, (Integer, Integer)> = BTreeMap::new();
-            for (j, v) in a {
-                merged.entry(*j).or_default().0 = v.numer() * (&factor / v.denom());
-            }
-            for (j, v) in b {
-                merged.entry(*j).or_default().1 = v.numer() * (&factor / v.denom());
-            }
-            merged.into_iter().map(|(j, (a, b))| (j, a, b)).collect()
-        };
-        IntegralRows((0..pencil.order()).map(row).collect())
+impl PencilEntry {
+    fn zero(column: usize) -> PencilEntry {
+        PencilEntry {
+            column,
+            a: Integer::zero(),
+            b: Integer::zero(),
+        }
     }
 
-    /// Bits of the largest coefficient.
+    /// Bits of the longer coefficient.
     pub(super) fn bits(&self) -> u64 {
-        self.0
-            .iter()
-            .flatten()
-            .map(|(_, a, b)| a.bits().max(b.bits()))
-            .max()
-            .unwrap_or(0)
+        self.a.bits().max(self.b.bits())
     }
 }
 
-/// Free and slip variables, ascending.
+/// All rows of a pencil, denominators cleared row by row, entries by column.
+pub(super) struct IntegralRows {
+    rows: Vec<Vec<PencilEntry>>,
+}
+
+impl IntegralRows {
+    pub(super) fn of(pencil: &Pencil) -> Self {
+        let mut rows = Vec::new();
+        for i in 0..pencil.order() {
+            rows.push(integral_row(pencil.a().row(i), pencil.b().row(i)));
+        }
+
+        IntegralRows { rows }
+    }
+
+    pub(super) fn row(&self, index: usize) -> &[PencilEntry] {
+        &self.rows[index]
+    }
+
+    /// All rows, in their order.
+    pub(super) fn iter(&self) -> impl Iterator<Item = &[PencilEntry]> {
+        self.rows.iter().map(Vec::as_slice)
+    }
+
+    /// Bits of the longest coefficient.
+    pub(super) fn bits(&self) -> u64 {
+        let entries = self.rows.iter().flatten();
+        entries.map(PencilEntry::bits).max().unwrap_or(0)
+    }
+}
+
+/// A row of A and one of B as one row of integers.
+fn integral_row(a: &[(usize, Rational)], b: &[(usize, Rational)]) -> Vec<PencilEntry> {
+    let values = a.iter().chain(b).map(|(_, value)| value);
+    let denominator = common_denominator(values);
+
+    let mut entries: BTreeMap<usize, PencilEntry> = BTreeMap::new();
+    for (column, value) in a {
+        let entry = entries.entry(*column);
+        let entry = entry.or_insert_with(|| PencilEntry::zero(*column));
+        entry.a = cleared(value, &denominator);
+    }
+
+    for (column, value) in b {
+        let entry = entries.entry(*column);
+        let entry = entry.or_insert_with(|| PencilEntry::zero(*column));
+        entry.b = cleared(value, &denominator);
+    }
+
+    entries.into_values().collect()
+}
+
+/// The integer `value * denominator`, for a multiple of the value's denominator.
+fn cleared(value: &Rational, denominator: &Integer) -> Integer {
+    value.numer() * (denominator / value.denom())
+}
+
+/// The active variables: free ones and those of the support, ascending.
 pub(super) fn active(pencil: &Pencil, support: &[usize]) -> Vec<usize> {
     let mut list: Vec<usize> = pencil.free().iter().chain(support).copied().collect();
     list.sort_unstable();

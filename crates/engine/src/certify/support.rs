@@ -1,18 +1,52 @@
-//! Which complementarity variables a candidate takes as slipping: several guesses, best first.
+//! The supports that a candidate suggests: several guesses, best first, and repairs of them.
+//!
+//! A component of a candidate in doubles is rarely exactly zero. Whether x_i > 0 is therefore
+//! guessed by thresholds ([`SUPPORT_GUESSES`]) relative to the largest slip component. Where a
+//! claim about a guess has a wrong sign at a component that doubles cannot tell from zero, that
+//! component changes sides. Called by `proposals`; which guess is right the signs of the claims
+//! decide.
 
 use super::failure::AttemptFailure;
 use super::rows::active;
 use crate::candidate::Candidate;
 use crate::tolerance::SUPPORT_GUESSES;
-use mceip_check::certificate::Claim;
+use mceip_check::certificate::EnclosedSolution;
 use mceip_exact::to_f64;
 use mceip_model::Pencil;
 
+/// Share of the largest slip component up to which doubles cannot tell a component from zero.
+const ROUNDING_SHARE: f64 = SUPPORT_GUESSES[0];
+
 /// The distinct supports {i : x_i > threshold max x_s} over the thresholds, in their order.
+///
+/// # Errors
+/// x of another length than the pencil's order, NaN or infinite numbers, or x = 0.
 pub(super) fn guesses(
     pencil: &Pencil,
     candidate: &Candidate,
 ) -> Result<Vec<Vec<usize>>, AttemptFailure> {
+    require_usable(pencil, candidate)?;
+
+    let slip = pencil.slip();
+    let largest = largest_slip(pencil, candidate);
+    let mut supports: Vec<Vec<usize>> = Vec::new();
+    for threshold in SUPPORT_GUESSES {
+        let mut support = Vec::new();
+        for &i in &slip {
+            if candidate.x[i] > threshold * largest {
+                support.push(i);
+            }
+        }
+        if !supports.contains(&support) {
+            supports.push(support);
+        }
+    }
+
+    Ok(supports)
+}
+
+/// Demands one finite number for each variable, and not only zeros.
+fn require_usable(pencil: &Pencil, candidate: &Candidate) -> Result<(), AttemptFailure> {
     if candidate.x.len() != pencil.order() {
         return Err(AttemptFailure::WrongLength {
             expected: pencil.order(),
@@ -25,20 +59,18 @@ pub(super) fn guesses(
     if candidate.x.iter().all(|v| *v == 0.0) {
         return Err(AttemptFailure::ZeroX);
     }
-    let slip = pencil.slip();
-    let largest = slip.iter().map(|&i| candidate.x[i]).fold(0.0, f64::max);
-    let mut supports: Vec<Vec<usize>> = Vec::new();
-    for threshold in SUPPORT_GUESSES {
-        let support: Vec<usize> = slip
-            .iter()
-            .copied()
-            .filter(|&i| candidate.x[i] > threshold * largest)
-            .collect();
-        if !supports.contains(&support) {
-            supports.push(support);
-        }
+
+    Ok(())
+}
+
+/// max x_s of a candidate, at least 0.
+fn largest_slip(pencil: &Pencil, candidate: &Candidate) -> f64 {
+    let mut largest: f64 = 0.0;
+    for &i in &pencil.slip() {
+        largest = largest.max(candidate.x[i]);
     }
-    Ok(supports)
+
+    largest
 }
 
 /// The support with the component changed whose sign is wrong: without it where x is not positive,
@@ -55,54 +87,66 @@ pub(super) fn repaired(
         AttemptFailure::YNegative { index } => (*index, true),
         _ => return None,
     };
-    let largest = pencil
-        .slip()
-        .iter()
-        .map(|&i| candidate.x[i])
-        .fold(0.0, f64::max);
-    if candidate.x[index].abs() > SUPPORT_GUESSES[0] * largest {
+    let largest = largest_slip(pencil, candidate);
+    if candidate.x[index].abs() > ROUNDING_SHARE * largest {
         return None;
     }
 
-    let mut repaired: Vec<usize> = support.iter().copied().filter(|i| *i != index).collect();
+    let mut repaired = support.to_vec();
+    repaired.retain(|i| *i != index);
     if moves {
         repaired.push(index);
         repaired.sort_unstable();
     }
+
     Some(repaired)
 }
 
-/// The claim, if no component of its support that the candidate has within rounding of zero is
-/// larger than that.
-pub(super) fn within_rounding(
+/// Demands of a claim about a repaired support that each component which the candidate has within
+/// rounding of zero is as small in the claim.
+///
+/// # Errors
+/// [`AttemptFailure::TooFar`] with the component, relative to the largest one of the claim.
+pub(super) fn require_within_rounding(
     pencil: &Pencil,
     candidate: &Candidate,
-    claim: Claim,
-) -> Result<Claim, AttemptFailure> {
-    let Claim::EnclosedSolution(c) = &claim else {
-        return Ok(claim);
-    };
-    let slip = pencil.slip();
-    let largest = slip.iter().map(|&i| candidate.x[i]).fold(0.0, f64::max);
-    let active = active(pencil, &c.support);
-    let centers: Vec<(usize, f64)> = active
-        .into_iter()
-        .zip(&c.center)
-        .map(|(i, x)| (i, to_f64(&x.0)))
-        .collect();
-    let in_support = || centers.iter().filter(|(i, _)| c.support.contains(i));
-    let largest_claimed = in_support().map(|(_, x)| *x).fold(0.0, f64::max);
+    claim: &EnclosedSolution,
+) -> Result<(), AttemptFailure> {
+    let largest = largest_slip(pencil, candidate);
+    let claimed = support_components(pencil, claim);
+    let largest_claimed = claimed.iter().map(|c| c.x).fold(0.0, f64::max);
 
-    for (i, x) in in_support() {
-        let is_zero_in_doubles = candidate.x[*i].abs() <= SUPPORT_GUESSES[0] * largest;
-        if is_zero_in_doubles && *x > SUPPORT_GUESSES[0] * largest_claimed {
+    for Component { index, x } in claimed {
+        let is_zero_in_doubles = candidate.x[index].abs() <= ROUNDING_SHARE * largest;
+        if is_zero_in_doubles && x > ROUNDING_SHARE * largest_claimed {
             return Err(AttemptFailure::TooFar {
-                distance: *x / largest_claimed,
-                limit: SUPPORT_GUESSES[0],
+                distance: x / largest_claimed,
+                limit: ROUNDING_SHARE,
             });
         }
     }
-    Ok(claim)
+
+    Ok(())
+}
+
+/// A component of x.
+struct Component {
+    index: usize,
+    x: f64,
+}
+
+/// The centers of the components of the support, as doubles.
+fn support_components(pencil: &Pencil, claim: &EnclosedSolution) -> Vec<Component> {
+    let active = active(pencil, &claim.support);
+    let mut components = Vec::new();
+    for (index, center) in active.into_iter().zip(&claim.center) {
+        if claim.support.contains(&index) {
+            let x = to_f64(&center.0);
+            components.push(Component { index, x });
+        }
+    }
+
+    components
 }
 
 #[cfg(test)]
@@ -110,16 +154,18 @@ mod tests {
     use super::*;
     use mceip_exact::Sparse;
 
+    /// The first variable is free, the others slip.
+    fn identity(order: usize) -> Pencil {
+        let a = Sparse::identity(order);
+        Pencil::new(a, Sparse::identity(order), vec![0]).unwrap()
+    }
+
     fn supports(x: &[f64]) -> Result<Vec<Vec<usize>>, AttemptFailure> {
-        let n = 3;
-        let pencil = Pencil::new(Sparse::identity(n), Sparse::identity(n), vec![0]).unwrap();
-        guesses(
-            &pencil,
-            &Candidate {
-                value: 1.0,
-                x: x.to_vec(),
-            },
-        )
+        let candidate = Candidate {
+            value: 1.0,
+            x: x.to_vec(),
+        };
+        guesses(&identity(3), &candidate)
     }
 
     #[test]
@@ -135,27 +181,27 @@ mod tests {
         );
     }
 
-    /// A component within rounding of zero joins or leaves; a larger one does not.
-    #[test]
-    fn a_support_is_repaired_where_doubles_cannot_tell() {
-        let n = 4;
-        let pencil = Pencil::new(Sparse::identity(n), Sparse::identity(n), vec![0]).unwrap();
+    /// What becomes of a support of x = (9, 1, 1e-12, 0.1) after a failure.
+    fn repaired_support(support: &[usize], failure: AttemptFailure) -> Option<Vec<usize>> {
         let candidate = Candidate {
             value: 1.0,
             x: vec![9.0, 1.0, 1e-12, 0.1],
         };
-        let of = |support: &[usize], failure| repaired(&pencil, &candidate, support, &failure);
+        repaired(&identity(4), &candidate, support, &failure)
+    }
 
-        assert_eq!(
-            of(&[1, 3], AttemptFailure::YNegative { index: 2 }),
-            Some(vec![1, 2, 3])
-        );
-        assert_eq!(
-            of(&[1, 2, 3], AttemptFailure::XNotPositive { index: 2 }),
-            Some(vec![1, 3])
-        );
-        assert_eq!(of(&[1, 3], AttemptFailure::XNotPositive { index: 3 }), None);
-        assert_eq!(of(&[1, 3], AttemptFailure::NotContracting), None);
+    /// A component within rounding of zero joins or leaves; a larger one does not.
+    #[test]
+    fn a_support_is_repaired_where_doubles_cannot_tell() {
+        let joins = repaired_support(&[1, 3], AttemptFailure::YNegative { index: 2 });
+        let leaves = repaired_support(&[1, 2, 3], AttemptFailure::XNotPositive { index: 2 });
+        let too_large = repaired_support(&[1, 3], AttemptFailure::XNotPositive { index: 3 });
+        let no_sign = repaired_support(&[1, 3], AttemptFailure::NotContracting);
+
+        assert_eq!(joins, Some(vec![1, 2, 3]));
+        assert_eq!(leaves, Some(vec![1, 3]));
+        assert_eq!(too_large, None);
+        assert_eq!(no_sign, None);
     }
 
     #[test]

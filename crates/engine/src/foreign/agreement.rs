@@ -49,7 +49,9 @@ pub struct Component {
 impl Agreement {
     /// Do value and x agree to this relative error?
     pub fn is_within(&self, tolerance: f64) -> bool {
-        self.value <= tolerance && self.worst.error <= tolerance
+        let has_value = self.value <= tolerance;
+        let has_x = self.worst.error <= tolerance;
+        has_value && has_x
     }
 }
 
@@ -58,6 +60,15 @@ impl Agreement {
 struct Ball {
     center: f64,
     radius: f64,
+}
+
+impl Ball {
+    fn exact(center: f64) -> Ball {
+        Ball {
+            center,
+            radius: 0.0,
+        }
+    }
 }
 
 /// What a claim proves, in doubles.
@@ -71,35 +82,43 @@ impl Proven {
     /// `None` for numbers beyond the range of doubles.
     fn of(problem: &Problem, reduced: &Reduced, claim: &Claim) -> Option<Proven> {
         let listed = Listed::of_claim(problem, reduced, claim);
-        let mut value = Ball {
-            center: finite(&listed.value)?,
-            radius: 0.0,
+        let mut proven = Proven {
+            value: Ball::exact(finite(&listed.value)?),
+            x: Vec::new(),
         };
-        let mut x = Vec::with_capacity(listed.x.len());
         for decimal in &listed.x {
-            x.push(Ball {
-                center: finite(decimal)?,
-                radius: 0.0,
-            });
+            proven.x.push(Ball::exact(finite(decimal)?));
         }
 
-        if let Claim::EnclosedSolution(c) = claim {
-            value.radius = to_f64(&c.radius.last()?.0);
-            let pencil = &reduced.pencil;
-            let is_active =
-                |i: &usize| pencil.free().binary_search(i).is_ok() || c.support.contains(i);
-            let active = (0..pencil.order()).filter(is_active);
-            for (i, radius) in active.zip(&c.radius) {
-                x[i].radius = to_f64(&radius.0);
+        if let Claim::EnclosedSolution(claim) = claim {
+            proven.value.radius = to_f64(&claim.radius.last()?.0);
+            let active = active(&reduced.pencil, &claim.support);
+            for (i, radius) in active.into_iter().zip(&claim.radius) {
+                proven.x[i].radius = to_f64(&radius.0);
             }
         }
-        Some(Proven { value, x })
+
+        Some(proven)
     }
+}
+
+/// The free variables and those of a support, ascending.
+fn active(pencil: &Pencil, support: &[usize]) -> Vec<usize> {
+    let mut active = Vec::new();
+    for i in 0..pencil.order() {
+        let is_free = pencil.free().binary_search(&i).is_ok();
+        if is_free || support.contains(&i) {
+            active.push(i);
+        }
+    }
+
+    active
 }
 
 /// One of our own decimals as a double.
 fn finite(decimal: &str) -> Option<f64> {
-    decimal.parse().ok().filter(|v: &f64| v.is_finite())
+    let value: f64 = decimal.parse().ok()?;
+    value.is_finite().then_some(value)
 }
 
 /// The errors of a reported solution against the claim that proves one near it.
@@ -110,11 +129,8 @@ pub(super) fn agreement(
     reported: &Reported,
 ) -> Option<Agreement> {
     let proven = Proven::of(problem, reduced, claim)?;
-    let value = value_error(
-        reported.candidate.value,
-        proven.value,
-        value_floor(&reduced.pencil, support(claim), &proven.x),
-    );
+    let floor = value_floor(&reduced.pencil, support(claim), &proven.x);
+    let value = value_error(reported.candidate.value, proven.value, floor);
     let (mut worst, scaled) = worst_component(&reported.candidate.x, &proven.x)?;
 
     if let Some(off) = reported.off.filter(|off| off.size > worst.error) {
@@ -126,6 +142,7 @@ pub(super) fn agreement(
             error: off.size,
         };
     }
+
     Some(Agreement {
         value,
         worst,
@@ -146,14 +163,13 @@ fn value_error(reported: f64, proven: Ball, floor: f64) -> f64 {
 /// VALUE_FLOOR min_i (|A||x|)_i / (|B||x|)_i over the active rows with (|B||x|)_i > 0; 0 where
 /// there are none, since then there is no scale of values.
 fn value_floor(pencil: &Pencil, support: &[usize], x: &[Ball]) -> f64 {
-    let moduli: Vec<Rational> = x
-        .iter()
-        .map(|ball| from_f64(ball.center.abs()).unwrap_or_default())
-        .collect();
-    let active = pencil.free().iter().chain(support);
+    let mut moduli = Vec::new();
+    for ball in x {
+        moduli.push(from_f64(ball.center.abs()).unwrap_or_default());
+    }
 
     let mut least: Option<Rational> = None;
-    for &i in active {
+    for &i in pencil.free().iter().chain(support) {
         let of_b = weighted(pencil.b().row(i), &moduli);
         if of_b.is_zero() {
             continue;
@@ -163,6 +179,7 @@ fn value_floor(pencil: &Pencil, support: &[usize], x: &[Ball]) -> f64 {
             least = Some(ratio);
         }
     }
+
     let scale = to_f64(&least.unwrap_or_default());
     if scale.is_finite() {
         VALUE_FLOOR * scale
@@ -173,31 +190,32 @@ fn value_floor(pencil: &Pencil, support: &[usize], x: &[Ball]) -> f64 {
 
 /// sum_j |row_j| |x_j|.
 fn weighted(row: &[(usize, Rational)], moduli: &[Rational]) -> Rational {
-    row.iter().map(|(j, v)| v.abs() * &moduli[*j]).sum()
+    let terms = row.iter().map(|(j, v)| v.abs() * &moduli[*j]);
+    terms.sum()
 }
 
 /// The component that differs most, and the proven x scaled to largest |x_i| = 1.
 fn worst_component(reported: &[f64], proven: &[Ball]) -> Option<(Component, Vec<f64>)> {
-    let largest_reported = reported
-        .iter()
-        .map(|v| v.abs())
-        .max_by(f64::total_cmp)
-        .filter(|v| *v > 0.0)?;
+    let moduli = reported.iter().map(|v| v.abs());
+    let reported_scale = moduli.max_by(f64::total_cmp).filter(|v| *v > 0.0)?;
     let largest_proven = proven
         .iter()
-        .max_by(|p, q| p.center.abs().total_cmp(&q.center.abs()))
-        .filter(|p| p.center != 0.0)?;
-    let scale = largest_proven.center.abs();
+        .max_by(|p, q| p.center.abs().total_cmp(&q.center.abs()))?;
+    let proven_scale = largest_proven.center.abs();
+    if proven_scale == 0.0 {
+        return None;
+    }
+
     // Division by a scale known up to this relative error moves each component by as much of
     // itself.
-    let scale_error = largest_proven.radius / scale;
+    let scale_error = largest_proven.radius / proven_scale;
 
     let mut worst: Option<Component> = None;
-    let mut scaled = Vec::with_capacity(proven.len());
+    let mut scaled = Vec::new();
     for (index, (given, known)) in reported.iter().zip(proven).enumerate() {
-        let reported = given / largest_reported;
-        let proven = known.center / scale;
-        let radius = known.radius / scale + proven.abs() * scale_error;
+        let reported = given / reported_scale;
+        let proven = known.center / proven_scale;
+        let radius = known.radius / proven_scale + proven.abs() * scale_error;
         let error = (reported - proven).abs() + radius;
 
         scaled.push(proven);
@@ -211,6 +229,7 @@ fn worst_component(reported: &[f64], proven: &[Ball]) -> Option<(Component, Vec<
             });
         }
     }
+
     worst.map(|worst| (worst, scaled))
 }
 
@@ -219,100 +238,84 @@ mod tests {
     use super::*;
     use mceip_exact::Sparse;
 
-    fn ball(center: f64) -> Ball {
-        Ball {
-            center,
-            radius: 0.0,
-        }
-    }
-
     #[test]
     fn errors_of_values_are_relative_down_to_the_floor() {
-        assert_eq!(value_error(2.5, ball(2.0), 0.5), 0.25);
-        assert_eq!(value_error(2.5, ball(2.0), 4.0), 0.125);
-        assert_eq!(value_error(0.5, ball(0.0), 2.0), 0.25);
-        assert_eq!(value_error(0.0, ball(0.0), 0.0), 0.0);
-        assert_eq!(
-            value_error(
-                2.5,
-                Ball {
-                    center: 2.0,
-                    radius: 0.5
-                },
-                0.0
-            ),
-            0.5
-        );
+        assert_eq!(value_error(2.5, Ball::exact(2.0), 0.5), 0.25);
+        assert_eq!(value_error(2.5, Ball::exact(2.0), 4.0), 0.125);
+        assert_eq!(value_error(0.5, Ball::exact(0.0), 2.0), 0.25);
+        assert_eq!(value_error(0.0, Ball::exact(0.0), 0.0), 0.0);
+
+        let wide = Ball {
+            center: 2.0,
+            radius: 0.5,
+        };
+        assert_eq!(value_error(2.5, wide, 0.0), 0.5);
     }
 
-    fn floor(a: &[&[i64]], b: &[&[i64]], free: &[usize], support: &[usize], x: &[f64]) -> f64 {
-        let pencil =
-            Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec()).unwrap();
-        let x: Vec<Ball> = x.iter().map(|v| ball(*v)).collect();
-        value_floor(&pencil, support, &x)
+    fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Pencil {
+        let a = Sparse::from_ints(a);
+        let b = Sparse::from_ints(b);
+        Pencil::new(a, b, free.to_vec()).unwrap()
+    }
+
+    fn exact(x: &[f64]) -> Vec<Ball> {
+        x.iter().map(|v| Ball::exact(*v)).collect()
+    }
+
+    /// The floor of a pencil with entries of these sizes.
+    fn floor_for_sizes(a: i64, b: i64) -> f64 {
+        let pencil = pencil(&[&[a, a], &[-a, a]], &[&[b, 0], &[0, b]], &[]);
+        value_floor(&pencil, &[0, 1], &exact(&[1.0, -1.0]))
     }
 
     /// The floor follows the unit of values: A in other units moves it, and so does B. Signs do not
     /// cancel.
     #[test]
     fn the_floor_is_in_the_unit_of_values() {
-        let of = |a: i64, b: i64| {
-            floor(
-                &[&[a, a], &[-a, a]],
-                &[&[b, 0], &[0, b]],
-                &[],
-                &[0, 1],
-                &[1.0, -1.0],
-            )
-        };
-        assert_eq!(of(-6, 2), 6.0 * VALUE_FLOOR);
-        assert_eq!(of(-6000, 2), 6000.0 * VALUE_FLOOR);
-        assert_eq!(of(-6, 0), 0.0);
+        assert_eq!(floor_for_sizes(-6, 2), 6.0 * VALUE_FLOOR);
+        assert_eq!(floor_for_sizes(-6000, 2), 6000.0 * VALUE_FLOOR);
+        assert_eq!(floor_for_sizes(-6, 0), 0.0);
     }
 
     /// What takes no part in the solution does not move the floor: rows at rest, and rows
     /// multiplied by a large number.
     #[test]
     fn stiff_rows_elsewhere_do_not_move_the_floor() {
-        let beside: &[&[i64]] = &[&[-3, 0], &[0, 1_000_000_000]];
-        assert_eq!(
-            floor(beside, &[&[1, 0], &[0, 1]], &[], &[0], &[1.0, 0.0]),
-            3.0 * VALUE_FLOOR
-        );
+        let at_rest = pencil(&[&[-3, 0], &[0, 1_000_000_000]], &[&[1, 0], &[0, 1]], &[]);
+        let floor = value_floor(&at_rest, &[0], &exact(&[1.0, 0.0]));
+        assert_eq!(floor, 3.0 * VALUE_FLOOR);
 
-        let scaled: &[&[i64]] = &[&[-3, 0], &[1_000_000_000, -1_000_000_000]];
-        assert_eq!(
-            floor(scaled, &[&[1, 0], &[0, 0]], &[1], &[0], &[1.0, 1.0]),
-            3.0 * VALUE_FLOOR
-        );
+        let stiff_row: &[i64] = &[1_000_000_000, -1_000_000_000];
+        let stiff = pencil(&[&[-3, 0], stiff_row], &[&[1, 0], &[0, 0]], &[1]);
+        let floor = value_floor(&stiff, &[0], &exact(&[1.0, 1.0]));
+        assert_eq!(floor, 3.0 * VALUE_FLOOR);
     }
 
     /// Any positive scale; the largest component of each vector is 1 before they are compared.
     #[test]
     fn components_are_compared_at_largest_component_one() {
-        let (worst, scaled) =
-            worst_component(&[-8.0, 2.0, 0.0], &[ball(-4.0), ball(1.0), ball(0.5)]).unwrap();
+        let proven = exact(&[-4.0, 1.0, 0.5]);
+
+        let (worst, scaled) = worst_component(&[-8.0, 2.0, 0.0], &proven).unwrap();
+
         assert_eq!(scaled, [-1.0, 0.25, 0.125]);
-        assert_eq!(
-            worst,
-            Component {
-                vector: "x",
-                index: 2,
-                reported: 0.0,
-                proven: 0.125,
-                error: 0.125
-            }
-        );
+        let expected = Component {
+            vector: "x",
+            index: 2,
+            reported: 0.0,
+            proven: 0.125,
+            error: 0.125,
+        };
+        assert_eq!(worst, expected);
 
         let wide = Ball {
             center: 4.0,
             radius: 1.0,
         };
-        let (worst, _) = worst_component(&[8.0, 2.0], &[wide, ball(1.0)]).unwrap();
+        let (worst, _) = worst_component(&[8.0, 2.0], &[wide, Ball::exact(1.0)]).unwrap();
         assert_eq!((worst.index, worst.error), (0, 0.5));
-        assert!(
-            worst_component(&[0.0], &[ball(1.0)]).is_none()
-                && worst_component(&[1.0], &[ball(0.0)]).is_none()
-        );
+
+        assert!(worst_component(&[0.0], &exact(&[1.0])).is_none());
+        assert!(worst_component(&[1.0], &exact(&[0.0])).is_none());
     }
 }

@@ -5,14 +5,20 @@
 //! degrees of freedom; 7 to 17 digits, any positive scale. [`judge`] proves that such a solution
 //! exists and says how well the report agrees with it, or proves that none is near, or says that it
 //! is undecided.
+//!
+//! `report` reads the file, `verdict` judges one solution of it, `agreement` says how near a proven
+//! solution is, and `refute` proves that none is near. Called by the command `check` and by the
+//! conformance runner.
 
 mod agreement;
+mod refute;
 mod report;
 mod verdict;
 
 pub use agreement::{Agreement, Component};
+pub use refute::{Effort, REFUTE_SLIP};
 pub use report::{
     BadPoint, ForeignContinuum, ForeignEnd, ForeignError, ForeignInterval, ForeignReport, Off,
     Reported,
 };
-pub use verdict::{Effort, Proved, REFUTE_SLIP, Refutation, Verdict, judge};
+pub use verdict::{Proved, Refutation, Verdict, judge};

@@ -1,4 +1,9 @@
 //! Reading a foreign `mceip-solutions/1` against the problem it is about.
+//!
+//! Each solution of the file becomes a candidate for the reduced pencil, or the reason why it is
+//! none. Numbers are read exactly; where the report has v, x is its projection by (10). x is scaled
+//! to largest |x_i| = 1 before it is rounded to doubles. Called by the command `check` and by the
+//! conformance runner, which then [`judge`](super::judge) each solution.
 
 use crate::candidate::{Candidate, SOLUTIONS_FORMAT};
 use crate::reduction::{Reduced, project};
@@ -134,18 +139,37 @@ pub enum ForeignError {
     },
 }
 
-fn object<'de, T: Deserialize<'de>, D: Deserializer<'de>>(d: D) -> Result<T, D::Error> {
-    Object::deserialize(d).map(|o| o.0)
+/// A field that stands in JSON as an object, not as a list of its fields.
+fn object<'de, T, D>(deserializer: D) -> Result<T, D::Error>
+where
+    T: Deserialize<'de>,
+    D: Deserializer<'de>,
+{
+    let Object(value) = Object::deserialize(deserializer)?;
+    Ok(value)
 }
 
-fn optional<'de, T: Deserialize<'de>, D: Deserializer<'de>>(d: D) -> Result<Option<T>, D::Error> {
-    Option::<Object<T>>::deserialize(d).map(|o| o.map(|o| o.0))
+/// Such a field where it is there.
+fn optional<'de, T, D>(deserializer: D) -> Result<Option<T>, D::Error>
+where
+    T: Deserialize<'de>,
+    D: Deserializer<'de>,
+{
+    let value = Option::<Object<T>>::deserialize(deserializer)?;
+    Ok(value.map(|Object(value)| value))
 }
 
-fn objects<'de, T: Deserialize<'de>, D: Deserializer<'de>>(d: D) -> Result<Vec<T>, D::Error> {
-    Vec::<Object<T>>::deserialize(d).map(|list| list.into_iter().map(|o| o.0).collect())
+/// A list of such objects.
+fn objects<'de, T, D>(deserializer: D) -> Result<Vec<T>, D::Error>
+where
+    T: Deserialize<'de>,
+    D: Deserializer<'de>,
+{
+    let list = Vec::<Object<T>>::deserialize(deserializer)?;
+    Ok(list.into_iter().map(|Object(value)| value).collect())
 }
 
+/// The file as it is.
 #[derive(Deserialize)]
 struct Raw {
     problem_sha256: Option<String>,
@@ -154,6 +178,7 @@ struct Raw {
     continua: Vec<ForeignContinuum>,
 }
 
+/// A solution as it is in the file: the value, and x or v.
 #[derive(Deserialize)]
 struct RawSolution {
     value: Number,
@@ -184,10 +209,11 @@ impl ForeignReport {
             });
         }
 
-        let numbered = raw.solutions.iter().enumerate();
-        let solutions = numbered
-            .map(|(k, Object(s))| solution(k, s, problem, reduced))
-            .collect();
+        let mut solutions = Vec::new();
+        for (index, Object(raw)) in raw.solutions.iter().enumerate() {
+            solutions.push(reported(index, raw, problem, reduced));
+        }
+
         Ok(ForeignReport {
             solutions,
             continua: raw.continua,
@@ -195,58 +221,79 @@ impl ForeignReport {
     }
 }
 
-fn solution(
-    k: usize,
-    s: &RawSolution,
+/// The candidate for the reduced pencil that a solution of the file stands for.
+fn reported(
+    index: usize,
+    raw: &RawSolution,
     problem: &Problem,
     reduced: &Reduced,
 ) -> Result<Reported, BadPoint> {
-    let mut off = None;
-    let exact: Vec<Rational> = match (&s.x, &s.v, problem.body()) {
-        (Some(x), _, _) => {
-            require_length(k, "x", reduced.pencil.order(), x.len())?;
-            x.iter().map(|n| n.0.clone()).collect()
-        }
-        (None, Some(v), Body::System(system)) => {
-            require_length(k, "v", system.dofs(), v.len())?;
-            let v: Vec<Rational> = v.iter().map(|n| n.0.clone()).collect();
-            let projected = project(&reduced.variables, &v);
-            off = projected.off.map(|(dof, size)| Off {
-                dof,
-                size: to_f64(&size),
-            });
-            projected.x
-        }
-        (None, _, Body::System(_)) => {
-            return Err(BadPoint::NoVector {
-                solution: k,
-                expected: "x or v",
-            });
-        }
-        (None, _, Body::Pencil(_)) => {
-            return Err(BadPoint::NoVector {
-                solution: k,
-                expected: "x",
-            });
-        }
-    };
-    if let Some(Off { dof, size }) = off.filter(|off| off.size > X_RADIUS) {
+    let given = given_x(index, raw, problem, reduced)?;
+    if let Some(Off { dof, size }) = given.off.filter(|off| off.size > X_RADIUS) {
         return Err(BadPoint::OffConstraints { dof, size });
     }
 
-    let value = normal_double(&s.value.0).ok_or(BadPoint::OutOfRange {
-        solution: k,
+    let value = normal_double(&raw.value.0).ok_or(BadPoint::OutOfRange {
+        solution: index,
         field: "value",
     })?;
     Ok(Reported {
         candidate: Candidate {
             value,
-            x: scaled_doubles(&exact),
+            x: scaled_doubles(&given.x),
         },
+        off: given.off,
+    })
+}
+
+/// The x of a solution, exactly as given or projected.
+struct GivenX {
+    x: Vec<Rational>,
+    off: Option<Off>,
+}
+
+/// x where the file has it, else for a system the projection of v by (10).
+fn given_x(
+    index: usize,
+    raw: &RawSolution,
+    problem: &Problem,
+    reduced: &Reduced,
+) -> Result<GivenX, BadPoint> {
+    if let Some(x) = &raw.x {
+        require_length(index, "x", reduced.pencil.order(), x.len())?;
+        let x = rationals(x);
+        return Ok(GivenX { x, off: None });
+    }
+
+    let Body::System(system) = problem.body() else {
+        return Err(BadPoint::NoVector {
+            solution: index,
+            expected: "x",
+        });
+    };
+    let Some(v) = &raw.v else {
+        return Err(BadPoint::NoVector {
+            solution: index,
+            expected: "x or v",
+        });
+    };
+    require_length(index, "v", system.dofs(), v.len())?;
+    let projected = project(&reduced.variables, &rationals(v));
+    let off = projected.off.map(|(dof, size)| Off {
+        dof,
+        size: to_f64(&size),
+    });
+    Ok(GivenX {
+        x: projected.x,
         off,
     })
 }
 
+fn rationals(numbers: &[Number]) -> Vec<Rational> {
+    numbers.iter().map(|number| number.0.clone()).collect()
+}
+
+/// Demands a vector of the expected length.
 fn require_length(
     solution: usize,
     what: &'static str,
@@ -278,8 +325,8 @@ fn normal_double(v: &Rational) -> Option<f64> {
 /// x with its largest component 1, rounded after that: x may be given in any scale, also beyond the
 /// doubles.
 fn scaled_doubles(x: &[Rational]) -> Vec<f64> {
-    let largest = x.iter().map(|v| v.abs()).max().filter(|v| !v.is_zero());
-    match largest {
+    let largest = x.iter().map(|v| v.abs()).max();
+    match largest.filter(|largest| !largest.is_zero()) {
         Some(largest) => x.iter().map(|v| to_f64(&(v / &largest))).collect(),
         None => vec![0.0; x.len()],
     }

@@ -1,5 +1,8 @@
-//! The all-slip solutions of a condensed pencil in doubles: positive eigenvectors, by the QR
-//! algorithm.
+//! The all-slip solutions of a condensed pencil in doubles, (17) and (18): positive eigenvectors.
+//!
+//! (A + mu B) x = 0 with A regular says that 1 / mu is an eigenvalue of -A^-1 B. The QR algorithm
+//! gives the eigenvalues; Newton's method from each real positive one gives its x, which is kept
+//! where it is positive. Called by the command `block` and by campaigns; nothing is certified here.
 
 use crate::tolerance::REAL_EIGENVALUE;
 use mceip_mcp::linear::{eigenvalues, solve};
@@ -29,139 +32,187 @@ pub struct AllSlip {
 /// assert!((found[0].mu - 1.0).abs() < 1e-14 && (found[0].x[0] - 0.5).abs() < 1e-14);
 /// ```
 pub fn all_slip(a: &[Vec<f64>], b: &[Vec<f64>]) -> Vec<AllSlip> {
-    let n = a.len();
-    let columns: Vec<Vec<f64>> = (0..n)
-        .map(|j| b.iter().map(|row| -row[j]).collect())
-        .collect();
-    // Columns of -A^-1 B are rows of its transpose, which has the same eigenvalues 1 / mu.
-    let Some(values) = solve(a, &columns).as_deref().and_then(eigenvalues) else {
+    let Some(values) = reciprocal_values(a, b) else {
         return Vec::new();
     };
-    let size = values
-        .iter()
-        .map(|(re, im)| re.hypot(*im))
-        .fold(0.0, f64::max);
-    let real =
-        |v: &&(f64, f64)| v.0 > REAL_EIGENVALUE * size && v.1.abs() <= REAL_EIGENVALUE * size;
-    let mut found: Vec<AllSlip> = values
-        .iter()
-        .filter(real)
-        .filter_map(|v| polish(a, b, 1.0 / v.0))
-        .collect();
+    let mut largest: f64 = 0.0;
+    for (re, im) in &values {
+        largest = largest.max(re.hypot(*im));
+    }
+
+    let pencil = DensePencil { a, b };
+    let mut found = Vec::new();
+    for (re, im) in values {
+        let is_positive = re > REAL_EIGENVALUE * largest;
+        let is_real = im.abs() <= REAL_EIGENVALUE * largest;
+        if is_positive && is_real {
+            found.extend(pencil.polished(1.0 / re));
+        }
+    }
+
     found.sort_by(|p, q| p.mu.total_cmp(&q.mu));
     found.dedup_by(|p, q| (p.mu - q.mu).abs() <= REAL_EIGENVALUE * q.mu);
     found
 }
 
-/// Newton's method for (A + mu B) x = 0, e'x = 1, from the even vector: its first step is one of
-/// inverse iteration.
-fn polish(a: &[Vec<f64>], b: &[Vec<f64>], mut mu: f64) -> Option<AllSlip> {
-    let n = a.len();
-    let start = mu;
-    let times = |m: &[Vec<f64>], x: &[f64]| {
-        m.iter()
-            .map(|r| r.iter().zip(x).map(|(m, x)| m * x).sum::<f64>())
-            .collect::<Vec<f64>>()
-    };
-    let mut x = vec![1.0 / n as f64; n];
-    let mut best: Option<AllSlip> = None;
-    for _ in 0..STEPS {
-        let (ax, bx) = (times(a, &x), times(b, &x));
-        let mut rows: Vec<Vec<f64>> = (0..n)
-            .map(|i| {
-                (0..n)
-                    .map(|j| a[i][j] + mu * b[i][j])
-                    .chain([bx[i]])
-                    .collect()
-            })
-            .collect();
-        rows.push((0..=n).map(|j| f64::from(u8::from(j < n))).collect());
-        let right: Vec<f64> = ax
-            .iter()
-            .zip(&bx)
-            .map(|(a, b)| -(a + mu * b))
-            .chain([1.0 - x.iter().sum::<f64>()])
-            .collect();
-        let step = solve(&rows, &[right])?.pop()?;
-        x.iter_mut().zip(&step).for_each(|(x, d)| *x += d);
-        mu += step[n];
-        let residual = residual(a, b, mu, &x);
-        // Steps go on while they help: the last digits are worth one or two more.
-        match &best {
-            Some(b) if b.residual <= residual && b.residual < REAL_EIGENVALUE => break,
-            _ => {
-                best = Some(AllSlip {
-                    mu,
-                    x: x.clone(),
-                    residual,
-                })
-            }
-        }
+/// The eigenvalues 1 / mu of -A^-1 B (real and imaginary parts); `None` where A is singular.
+fn reciprocal_values(a: &[Vec<f64>], b: &[Vec<f64>]) -> Option<Vec<(f64, f64)>> {
+    let mut columns = Vec::new();
+    for j in 0..a.len() {
+        let column: Vec<f64> = b.iter().map(|row| -row[j]).collect();
+        columns.push(column);
     }
-    best.filter(|s| {
-        s.residual < REAL_EIGENVALUE
-            && (s.mu - start).abs() < 1e3 * REAL_EIGENVALUE * start
-            && s.x.iter().all(|v| *v > 0.0)
-    })
+
+    // The columns of -A^-1 B are the rows of its transpose, which has the same eigenvalues.
+    let transposed = solve(a, &columns)?;
+    eigenvalues(&transposed)
 }
 
-fn residual(a: &[Vec<f64>], b: &[Vec<f64>], mu: f64, x: &[f64]) -> f64 {
-    let row = |(a, b): (&Vec<f64>, &Vec<f64>)| {
-        let terms = a
-            .iter()
-            .zip(b)
-            .zip(x)
-            .map(|((a, b), x)| ((a + mu * b) * x, (a * x).abs() + (mu * b * x).abs()));
-        terms.fold((0.0, 0.0), |s: (f64, f64), t| (s.0 + t.0, s.1 + t.1))
-    };
-    let rows: Vec<(f64, f64)> = a.iter().zip(b).map(row).collect();
-    let largest = rows.iter().map(|r| r.1).fold(f64::MIN_POSITIVE, f64::max);
-    rows.iter().map(|r| r.0.abs() / largest).fold(0.0, f64::max)
+/// A + mu B, by rows.
+struct DensePencil<'a> {
+    a: &'a [Vec<f64>],
+    b: &'a [Vec<f64>],
+}
+
+impl DensePencil<'_> {
+    /// Newton's method for (A + mu B) x = 0, e'x = 1, from the even vector: its first step is one
+    /// of inverse iteration. `None` where it does not end near `start` with x > 0.
+    fn polished(&self, start: f64) -> Option<AllSlip> {
+        let n = self.a.len();
+        let mut mu = start;
+        let mut x = vec![1.0 / n as f64; n];
+        let mut best: Option<AllSlip> = None;
+
+        for _ in 0..STEPS {
+            let step = self.newton_step(mu, &x)?;
+            for (component, change) in x.iter_mut().zip(&step) {
+                *component += change;
+            }
+            mu += step[n];
+            let residual = self.residual(mu, &x);
+
+            // Steps go on while they help: the last digits are worth one or two more.
+            if let Some(best) = &best
+                && best.residual <= residual
+                && best.residual < REAL_EIGENVALUE
+            {
+                break;
+            }
+            best = Some(AllSlip {
+                mu,
+                x: x.clone(),
+                residual,
+            });
+        }
+
+        let best = best?;
+        let is_solution = best.residual < REAL_EIGENVALUE;
+        let is_near = (best.mu - start).abs() < 1e3 * REAL_EIGENVALUE * start;
+        let is_positive = best.x.iter().all(|v| *v > 0.0);
+        (is_solution && is_near && is_positive).then_some(best)
+    }
+
+    /// The step (of x, of mu) for the equations (A + mu B) x = 0 and e'x = 1, whose Jacobian is
+    /// [[A + mu B, B x], [e', 0]]; `None` where that is singular.
+    fn newton_step(&self, mu: f64, x: &[f64]) -> Option<Vec<f64>> {
+        let n = x.len();
+        let ax = product(self.a, x);
+        let bx = product(self.b, x);
+
+        let mut jacobian = Vec::new();
+        let mut right = Vec::new();
+        for i in 0..n {
+            let mut row = Vec::new();
+            for j in 0..n {
+                row.push(self.a[i][j] + mu * self.b[i][j]);
+            }
+            row.push(bx[i]);
+            jacobian.push(row);
+            right.push(-(ax[i] + mu * bx[i]));
+        }
+
+        let mut last_row = vec![1.0; n];
+        last_row.push(0.0);
+        jacobian.push(last_row);
+        right.push(1.0 - x.iter().sum::<f64>());
+        solve(&jacobian, &[right])?.pop()
+    }
+
+    /// The largest entry of (A + mu B) x, relative to the largest sum of moduli it is made of.
+    fn residual(&self, mu: f64, x: &[f64]) -> f64 {
+        let mut entries: Vec<f64> = Vec::new();
+        let mut largest_size = f64::MIN_POSITIVE;
+        for (a_row, b_row) in self.a.iter().zip(self.b) {
+            let mut entry = 0.0;
+            let mut size = 0.0;
+            for ((a, b), x) in a_row.iter().zip(b_row).zip(x) {
+                entry += (a + mu * b) * x;
+                size += (a * x).abs() + (mu * b * x).abs();
+            }
+            entries.push(entry);
+            largest_size = largest_size.max(size);
+        }
+
+        let mut residual: f64 = 0.0;
+        for entry in entries {
+            residual = residual.max(entry.abs() / largest_size);
+        }
+
+        residual
+    }
+}
+
+/// Matrix times vector.
+fn product(matrix: &[Vec<f64>], x: &[f64]) -> Vec<f64> {
+    let mut product = Vec::new();
+    for row in matrix {
+        product.push(row.iter().zip(x).map(|(m, x)| m * x).sum());
+    }
+
+    product
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn identity(order: usize) -> Vec<Vec<f64>> {
+        let mut rows = vec![vec![0.0; order]; order];
+        for (i, row) in rows.iter_mut().enumerate() {
+            row[i] = 1.0;
+        }
+
+        rows
+    }
+
+    /// `weight` times the adjacency matrix of the path graph.
+    fn path(order: usize, weight: f64) -> Vec<Vec<f64>> {
+        let mut rows = vec![vec![0.0; order]; order];
+        for i in 1..order {
+            rows[i][i - 1] = weight;
+            rows[i - 1][i] = weight;
+        }
+
+        rows
+    }
+
     /// The path graph with k nodes: I - mu adjacency / 2 has its Perron vector at mu = 1 / cos(pi /
     /// (k + 1)).
     #[test]
     fn the_perron_vector_of_a_path() {
-        let k = 12;
-        let a: Vec<Vec<f64>> = (0..k)
-            .map(|i| (0..k).map(|j| f64::from(u8::from(i == j))).collect())
-            .collect();
-        let b: Vec<Vec<f64>> = (0..k)
-            .map(|i: usize| {
-                (0..k)
-                    .map(|j| if i.abs_diff(j) == 1 { -0.5 } else { 0.0 })
-                    .collect()
-            })
-            .collect();
-        let found = all_slip(&a, &b);
+        let found = all_slip(&identity(12), &path(12, -0.5));
+
         assert_eq!(found.len(), 1, "other eigenvectors change sign");
-        approx::assert_relative_eq!(
-            found[0].mu,
-            1.0 / (std::f64::consts::PI / 13.0).cos(),
-            epsilon = 1e-14
-        );
+        let expected = 1.0 / (std::f64::consts::PI / 13.0).cos();
+        approx::assert_relative_eq!(found[0].mu, expected, epsilon = 1e-14);
         assert!(found[0].residual < 1e-15);
+
         // With the other sign only -mu solves, and a rotation has no real eigenvalue.
-        let turned: Vec<Vec<f64>> = b
-            .iter()
-            .map(|r| r.iter().map(|v| v.abs()).collect())
-            .collect();
-        assert!(all_slip(&a, &turned).is_empty());
-        assert!(
-            all_slip(
-                &[vec![1.0, 0.0], vec![0.0, 1.0]],
-                &[vec![0.0, 1.0], vec![-1.0, 0.0]]
-            )
-            .is_empty()
-        );
-        assert!(
-            all_slip(&[vec![0.0]], &[vec![1.0]]).is_empty(),
-            "A singular"
-        );
+        assert!(all_slip(&identity(12), &path(12, 0.5)).is_empty());
+        let rotation = [vec![0.0, 1.0], vec![-1.0, 0.0]];
+        assert!(all_slip(&identity(2), &rotation).is_empty());
+
+        let singular = [vec![0.0]];
+        assert!(all_slip(&singular, &[vec![1.0]]).is_empty());
     }
 }

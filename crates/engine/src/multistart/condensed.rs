@@ -1,6 +1,11 @@
-//! MCEIP-lambda2 at finite-element size: many starts on the condensed problem, each value of
-//! lambda^2 by one sparse factorisation. Finds; says nothing about what it does not find, and
-//! certifies nothing.
+//! MCEIP-lambda2 at finite-element size: many starts on the condensed problem.
+//!
+//! The free variables are eliminated at each value of lambda^2 by one sparse factorisation
+//! ([`CondensedEmbedding`]), so a run of the solver sees the slip variables and lambda^2 only. A
+//! point where a run ends is polished by Newton's method and listed once.
+//!
+//! The search finds; it says nothing about what it does not find, and certifies nothing. Called by
+//! the command `block` and by campaigns.
 
 use super::same::repeats;
 use crate::candidate::Candidate;
@@ -9,9 +14,10 @@ use crate::run::{Progress, Watch};
 use mceip_mcp::linear::solve as solve_dense;
 use mceip_mcp::mcp::Mcp;
 use mceip_mcp::solver::{Options, SolverError, Termination, solve};
+use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
-/// Newton steps on the places of a point, at most: each doubles the digits.
+/// Newton steps on the support of a point, at most: each doubles the digits.
 const POLISH_STEPS: usize = 6;
 
 /// How to search.
@@ -28,13 +34,14 @@ pub struct CondensedSearch {
 impl Default for CondensedSearch {
     fn default() -> Self {
         // A curve costs a factorisation a step: the starts do without.
+        let options = Options {
+            curve_step_limit: 0,
+            ..Options::for_search()
+        };
         CondensedSearch {
             starts: 22,
             seed: 1,
-            options: Options {
-                curve_step_limit: 0,
-                ..Options::for_search()
-            },
+            options,
         }
     }
 }
@@ -93,19 +100,17 @@ pub fn search_condensed(
 ) -> Result<CondensedFound, CondensedSearchError> {
     let embedding = CondensedEmbedding::new(condensation, mu)?;
     let mut found = CondensedFound::default();
+
     for start in embedding.starts(search.starts, search.seed) {
         let outcome = solve(&embedding, &start, &search.options)?;
         *found.terminations.entry(outcome.termination).or_default() += 1;
         found.runs += 1;
         if outcome.termination.reached_tolerance() {
-            file(
-                &embedding,
-                mu,
-                &polished(&embedding, outcome.point),
-                &mut found,
-            );
+            let point = polished(&embedding, outcome.point);
+            found.file(&embedding, mu, &point);
         }
         found.factorisations = embedding.factorisations();
+
         watch.report(&Progress {
             done: found.runs as u64,
             solutions: Some(found.solutions.len() as u64),
@@ -116,84 +121,155 @@ pub fn search_condensed(
             break;
         }
     }
-    found
-        .solutions
-        .sort_by(|p, q| p.candidate.value.total_cmp(&q.candidate.value));
+
+    let solutions = &mut found.solutions;
+    solutions.sort_by(|p, q| p.candidate.value.total_cmp(&q.candidate.value));
     Ok(found)
 }
 
-/// Newton's method on the places of a point (u_i > F_i slips, the others stick), while it gains:
-/// runs stop at residuals that leave the value of a near-threshold solution with eight digits.
+/// Newton's method on the active set of a point, while it gains: runs stop at residuals that leave
+/// the value of a near-threshold solution with eight digits.
 fn polished(embedding: &CondensedEmbedding<'_>, mut z: Vec<f64>) -> Vec<f64> {
-    let n = z.len();
-    let mut f = vec![0.0; n];
-    embedding.function(&z, &mut f);
-    let places: Vec<usize> = (0..n).filter(|&i| i == n - 1 || z[i] > f[i]).collect();
-    let size = |f: &[f64]| places.iter().map(|&i| f[i].abs()).fold(0.0, f64::max);
-    (0..n)
-        .filter(|i| !places.contains(i))
-        .for_each(|i| z[i] = 0.0);
-    embedding.function(&z, &mut f);
+    let active_set = ActiveSet::at(embedding, &z);
+    active_set.clear_inactive(&mut z);
+    let mut image = active_set.image(&z);
+
     for _ in 0..POLISH_STEPS {
-        let mut j = nalgebra::DMatrix::zeros(n, n);
-        embedding.jacobian(&z, &mut j);
-        let rows: Vec<Vec<f64>> = places
-            .iter()
-            .map(|&p| places.iter().map(|&q| j[(p, q)]).collect())
-            .collect();
-        let right = vec![places.iter().map(|&p| -f[p]).collect()];
-        let Some(step) = solve_dense(&rows, &right).and_then(|mut s| s.pop()) else {
+        let Some(next) = active_set.newton_step(&z, &image) else {
             return z;
         };
-        let mut next = z.clone();
-        places.iter().zip(step).for_each(|(&p, d)| next[p] += d);
-        let mut image = vec![0.0; n];
-        embedding.function(&next, &mut image);
-        if size(&image) >= size(&f)
-            || places.iter().any(|&p| next[p] < 0.0)
-            || image.iter().any(|v| !v.is_finite())
-        {
+        let next_image = active_set.image(&next);
+
+        let gains_nothing = active_set.size(&next_image) >= active_set.size(&image);
+        let is_finite = next_image.iter().all(|v| v.is_finite());
+        if gains_nothing || !is_finite || active_set.has_negative(&next) {
             return z;
         }
-        (z, f) = (next, image);
+        z = next;
+        image = next_image;
     }
+
     z
 }
 
-/// Lists a point, once.
-fn file(embedding: &CondensedEmbedding<'_>, mu: f64, point: &[f64], found: &mut CondensedFound) {
-    let (value, slip) = embedding.value_and_x(point);
-    // On the slip particles alone, so that a repeated one costs no lift.
-    let small = |x: &[f64]| Candidate {
-        value,
-        x: x.to_vec(),
-    };
-    let known = found.solutions.iter_mut().find(|s| {
-        let other = Candidate {
-            value: s.candidate.value,
-            x: s.slip.clone(),
-        };
-        repeats(&other, &small(&slip))
-    });
-    if let Some(known) = known {
-        known.runs += 1;
-        return;
+/// The variables of the condensed MCP that are not held at zero: those that slip (z_i > F_i), and
+/// the last one, which stands for lambda^2.
+struct ActiveSet<'a> {
+    problem: &'a dyn Mcp,
+    positions: Vec<usize>,
+}
+
+impl<'a> ActiveSet<'a> {
+    fn at(problem: &'a dyn Mcp, z: &[f64]) -> ActiveSet<'a> {
+        let mut image = vec![0.0; z.len()];
+        problem.function(z, &mut image);
+        let mut positions = Vec::new();
+        for i in 0..z.len() {
+            let is_last = i + 1 == z.len();
+            if is_last || z[i] > image[i] {
+                positions.push(i);
+            }
+        }
+
+        ActiveSet { problem, positions }
     }
-    let Some(zeta) = point.last() else { return };
-    let parts = embedding.with(*zeta, |c| {
-        let reaction = c
-            .pencil(mu)
-            .iter()
-            .map(|r| r.iter().zip(&slip).map(|(t, x)| t * x).sum())
-            .collect();
-        (c.reduced(&slip), reaction)
-    });
-    if let Some((x, reaction)) = parts {
-        found.solutions.push(CondensedSolution {
-            candidate: Candidate { value, x },
-            slip,
-            reaction,
-            runs: 1,
+
+    /// Sets the other variables to zero.
+    fn clear_inactive(&self, z: &mut [f64]) {
+        for (i, component) in z.iter_mut().enumerate() {
+            if !self.positions.contains(&i) {
+                *component = 0.0;
+            }
+        }
+    }
+
+    /// F(z).
+    fn image(&self, z: &[f64]) -> Vec<f64> {
+        let mut image = vec![0.0; z.len()];
+        self.problem.function(z, &mut image);
+        image
+    }
+
+    /// Largest modulus of F on the active set.
+    fn size(&self, image: &[f64]) -> f64 {
+        let mut size: f64 = 0.0;
+        for &i in &self.positions {
+            size = size.max(image[i].abs());
+        }
+
+        size
+    }
+
+    /// Is a variable of the active set negative?
+    fn has_negative(&self, z: &[f64]) -> bool {
+        self.positions.iter().any(|&i| z[i] < 0.0)
+    }
+
+    /// The point after a Newton step in the variables of the active set; `None` where their
+    /// Jacobian is singular.
+    fn newton_step(&self, z: &[f64], image: &[f64]) -> Option<Vec<f64>> {
+        let mut jacobian = DMatrix::zeros(z.len(), z.len());
+        self.problem.jacobian(z, &mut jacobian);
+
+        let mut rows = Vec::new();
+        let mut right = Vec::new();
+        for &i in &self.positions {
+            let row: Vec<f64> = self.positions.iter().map(|&j| jacobian[(i, j)]).collect();
+            rows.push(row);
+            right.push(-image[i]);
+        }
+
+        let step = solve_dense(&rows, &[right])?.pop()?;
+        let mut next = z.to_vec();
+        for (&i, change) in self.positions.iter().zip(step) {
+            next[i] += change;
+        }
+
+        Some(next)
+    }
+}
+
+impl CondensedFound {
+    /// Lists a point, once: a point that repeats a solution counts as one more run of it.
+    fn file(&mut self, embedding: &CondensedEmbedding<'_>, mu: f64, point: &[f64]) {
+        let (value, slip) = embedding.value_and_x(point);
+        if let Some(known) = self.known(value, &slip) {
+            known.runs += 1;
+            return;
+        }
+
+        let Some(zeta) = point.last() else { return };
+        let lifted = embedding.with(*zeta, |condensed| {
+            let rows = condensed.pencil(mu);
+            let mut reaction = Vec::new();
+            for row in rows.iter() {
+                reaction.push(row.iter().zip(&slip).map(|(t, x)| t * x).sum());
+            }
+            (condensed.reduced(&slip), reaction)
         });
+        if let Some((x, reaction)) = lifted {
+            self.solutions.push(CondensedSolution {
+                candidate: Candidate { value, x },
+                slip,
+                reaction,
+                runs: 1,
+            });
+        }
+    }
+
+    /// The solution with this value and x_s, if it is listed. Only x of the slip particles is
+    /// compared, so that a repeated point costs no elimination of the free variables.
+    fn known(&mut self, value: f64, slip: &[f64]) -> Option<&mut CondensedSolution> {
+        let point = Candidate {
+            value,
+            x: slip.to_vec(),
+        };
+        self.solutions.iter_mut().find(|solution| {
+            let listed = Candidate {
+                value: solution.candidate.value,
+                x: solution.slip.clone(),
+            };
+            repeats(&listed, &point)
+        })
     }
 }

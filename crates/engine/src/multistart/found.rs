@@ -1,5 +1,8 @@
 //! What a search has found: certified solutions, candidates that stayed uncertified, and counts of
 //! the work.
+//!
+//! Filled by [`Hunt`](super::hunt::Hunt) while a search goes on, and returned to the caller of
+//! [`multistart`](super::multistart).
 
 use super::same::{repeats, same};
 use crate::candidate::Candidate;
@@ -78,9 +81,10 @@ pub struct Found {
 impl Found {
     /// Is `candidate` the same point as one that was found, certified or not, within rounding?
     pub fn knows(&self, candidate: &Candidate) -> bool {
-        let certified = self.certified.iter().map(|c| &c.candidate);
-        let uncertified = self.uncertified.iter().map(|u| &u.candidate);
-        certified.chain(uncertified).any(|c| repeats(c, candidate))
+        let certified = self.certified.iter().map(|entry| &entry.candidate);
+        let uncertified = self.uncertified.iter().map(|entry| &entry.candidate);
+        let mut known = certified.chain(uncertified);
+        known.any(|known| repeats(known, candidate))
     }
 
     /// Lists a candidate with its claim, unless the same solution is listed, or with the reason why
@@ -100,7 +104,8 @@ impl Found {
             }
         };
 
-        let is_listed = self.certified.iter().any(|c| same(&c.claim, &claim));
+        let mut listed = self.certified.iter().map(|entry| &entry.claim);
+        let is_listed = listed.any(|listed| same(listed, &claim));
         if !is_listed {
             self.certified.push(Certified {
                 claim,

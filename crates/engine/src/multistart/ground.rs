@@ -1,5 +1,10 @@
-//! The MCPs on which the curves of a search are followed and their solutions polished: the
-//! embedding of one side of an origin, or the circle where there is one.
+//! The MCPs on which the curves of a search are followed and their solutions polished.
+//!
+//! The MCP of Proposition 1 or 2 covers one side of an origin ([`Embedding`]): runs start there,
+//! and curves are followed there. Where A_ff is regular and the free rows of B are zero, curves run
+//! on the circle instead ([`CirclePencil`]), which covers all values at once; their points are
+//! polished in the embedding of all t >= 0. Made by [`Hunt`](super::hunt::Hunt) for each side of an
+//! origin.
 
 use crate::candidate::Candidate;
 use crate::reduction::{CirclePencil, Embedding, Side};
@@ -12,12 +17,13 @@ const PER_CURVE: usize = 16;
 /// The same on the circle, where most of what a curve meets is no solution of the eigenproblem.
 const PER_CIRCLE: usize = 64;
 
-/// The MCPs on which curves are followed and their solutions polished.
+/// The MCPs of one side of an origin, and what a search has done on them.
 pub(super) struct Ground {
     /// One side of an origin: where runs start.
     pub(super) embedding: Embedding,
     /// All t >= 0: the circle knows no sides.
     pub(super) whole: Embedding,
+    /// The circle, if the pencil has one.
     pub(super) circle: Option<CirclePencil>,
     /// Seed of the directions.
     pub(super) seed: u64,
@@ -25,8 +31,10 @@ pub(super) struct Ground {
     pub(super) departed: Vec<usize>,
     /// Starts of runs between curves, the last one first.
     pub(super) spare: Vec<Vec<f64>>,
-    /// Curves followed, and their pivots and factorisations.
-    pub(super) followed: (usize, usize),
+    /// Curves followed.
+    pub(super) curves: usize,
+    /// Pivots and factorisations of these curves.
+    pub(super) curve_work: usize,
 }
 
 impl Ground {
@@ -41,7 +49,8 @@ impl Ground {
             seed,
             departed: Vec::new(),
             spare: Vec::new(),
-            followed: (0, 0),
+            curves: 0,
+            curve_work: 0,
         }
     }
 
@@ -62,25 +71,28 @@ impl Ground {
         }
     }
 
-    pub(super) fn point(&self, c: &Candidate) -> Vec<f64> {
-        self.circle.as_ref().map_or_else(
-            || self.embedding.point(c.value, &c.x),
-            |circle| circle.point(c.value, &c.x),
-        )
+    /// A candidate as a point of the curves' MCP.
+    pub(super) fn point(&self, candidate: &Candidate) -> Vec<f64> {
+        match &self.circle {
+            Some(circle) => circle.point(candidate.value, &candidate.x),
+            None => self.embedding.point(candidate.value, &candidate.x),
+        }
     }
 
+    /// The candidate at a point of the curves' MCP; `None` where the point has no value.
     pub(super) fn candidate(&self, z: &[f64]) -> Option<Candidate> {
-        self.circle.as_ref().map_or_else(
-            || Some(self.embedding.candidate(z)),
-            |circle| circle.candidate(z),
-        )
+        match &self.circle {
+            Some(circle) => circle.candidate(z),
+            None => Some(self.embedding.candidate(z)),
+        }
     }
 
+    /// A random direction of the residual.
     pub(super) fn direction(&self, seed: u64, uneven: bool) -> Vec<f64> {
-        self.circle.as_ref().map_or_else(
-            || self.embedding.direction(seed, uneven),
-            |circle| circle.direction(seed, uneven),
-        )
+        match &self.circle {
+            Some(circle) => circle.direction(seed, uneven),
+            None => self.embedding.direction(seed, uneven),
+        }
     }
 
     /// Solutions taken from one curve, at most.

@@ -1,5 +1,13 @@
 //! One search under way: runs from starts, then curves ([`super::curves`]), and the lists of
 //! results.
+//!
+//! Proposition 1 or 2 turns the eigenproblem into an MCP over the values on one side of an origin
+//! (W1 in chapter 3 of the book). For each such side there are starts: by turns one of a run of the
+//! solver and one of a curve. All runs come first. Then curves are followed, and between them each
+//! solution that is known is left on new curves.
+//!
+//! Every point where a run ends with small residuals is handed to the certifier and listed once.
+//! Called by [`multistart_with`](super::multistart_with).
 
 use super::found::{Found, Origin};
 use super::ground::Ground;
@@ -10,7 +18,7 @@ use crate::reduction::{Embedding, Side};
 use crate::run::{Progress, Watch};
 use crate::tolerance::WINDOW_GAP;
 use mceip_exact::to_f64;
-use mceip_mcp::solver::{Counters, SolverError, solve};
+use mceip_mcp::solver::{Counters, SolverError, Termination, solve};
 use mceip_model::{Admissible, Unknown, Window};
 
 /// zeta of the first curve of MCEIP-lambda2, in units of the embedding (|A| / |B|).
@@ -37,48 +45,74 @@ impl Hunt<'_> {
     pub(super) fn side(&mut self, side: Side, starts: usize, salt: u64) -> Result<(), SolverError> {
         let seed = self.search.seed.wrapping_add(salt);
         let mut ground = Ground::new(self.admissible, side, seed);
-        let mut points = ground.embedding.starts(
-            starts
-                + self
-                    .search
-                    .budget
-                    .map_or(0, |budget| budget.min(MOST_BETWEEN)),
-            seed,
-        );
-        ground.spare = points.split_off(starts.min(points.len()));
-        ground.spare.reverse();
-        if let (Unknown::Lambda2, Some(zeta)) = (
-            self.admissible.unknown(),
-            points.get_mut(1).and_then(|p| p.last_mut()),
-        ) {
-            // At large lambda^2 the pencil is a P matrix, as it is at mu = 0: one end of the curve
-            // is there.
-            *zeta = FAR_START;
+        let mut of_runs = Vec::new();
+        let mut of_curves = Vec::new();
+        for (k, start) in self.starts(&mut ground, starts).into_iter().enumerate() {
+            if self.is_curve(k) {
+                of_curves.push(start);
+            } else {
+                of_runs.push(start);
+            }
         }
+
         // All runs first: they say what a run costs, and give the curves something to leave.
-        let follows = self.search.curves;
-        let is_curve = |k: usize| follows && k % 2 == 1;
-        for (_, point) in points.iter().enumerate().filter(|(k, _)| !is_curve(*k)) {
-            self.plain(&ground.embedding, point)?;
+        for start in &of_runs {
+            self.plain(&ground.embedding, start)?;
             if self.is_interrupted() {
                 return Ok(());
             }
         }
-        let mut curves = points.iter().enumerate().filter(|(k, _)| is_curve(*k));
-        while follows && !self.is_spent() {
-            self.depart(&mut ground)?;
-            let Some((_, point)) = curves
-                .next()
-                .filter(|_| !self.found.interrupted && !self.is_spent())
-            else {
+
+        if self.search.curves {
+            self.follow(&mut ground, &of_curves)?;
+        }
+
+        Ok(())
+    }
+
+    /// Is the k-th start that of a curve?
+    fn is_curve(&self, k: usize) -> bool {
+        self.search.curves && k % 2 == 1
+    }
+
+    /// The starts of runs and curves; those of runs between curves are kept in the ground.
+    fn starts(&self, ground: &mut Ground, starts: usize) -> Vec<Vec<f64>> {
+        let budget = self.search.budget.unwrap_or(0);
+        let between = budget.min(MOST_BETWEEN);
+        let mut points = ground.embedding.starts(starts + between, ground.seed);
+        ground.spare = points.split_off(starts.min(points.len()));
+        ground.spare.reverse();
+
+        // At large lambda^2 the pencil is a P matrix, as it is at mu = 0: one end of the curve from
+        // the second start is there.
+        let second = points.get_mut(1);
+        let zeta = second.and_then(|point| point.last_mut());
+        if let (Unknown::Lambda2, Some(zeta)) = (self.admissible.unknown(), zeta) {
+            *zeta = FAR_START;
+        }
+
+        points
+    }
+
+    /// Follows the curves from starts. Before each the solutions that are known are left.
+    fn follow(&mut self, ground: &mut Ground, starts: &[Vec<f64>]) -> Result<(), SolverError> {
+        let mut starts = starts.iter();
+        while !self.is_spent() {
+            self.depart(ground)?;
+            let Some(start) = starts.next() else {
                 break;
             };
-            self.runs_between(&mut ground)?;
-            self.curve(&mut ground, point)?;
+            if self.found.interrupted || self.is_spent() {
+                break;
+            }
+
+            self.runs_between(ground)?;
+            self.curve(ground, start)?;
             if self.is_interrupted() {
                 break;
             }
         }
+
         Ok(())
     }
 
@@ -91,51 +125,53 @@ impl Hunt<'_> {
     /// before the first run. The mean of the runs made says what a run costs, and [`least_work`]
     /// what it costs at least.
     pub(super) fn left(&self) -> Option<usize> {
-        let budget = self.search.budget.filter(|_| self.found.plain.0 > 0)?;
-        Some(
-            budget
-                .saturating_mul(self.run_cost())
-                .saturating_sub(self.found.pivots + self.found.factorisations),
-        )
+        let (runs, _) = self.found.plain;
+        let budget = self.search.budget.filter(|_| runs > 0)?;
+        let allowed = budget.saturating_mul(self.run_cost());
+        let done = self.found.pivots + self.found.factorisations;
+        Some(allowed.saturating_sub(done))
     }
 
     /// What a run costs in a budget.
     fn run_cost(&self) -> usize {
         let (runs, work) = self.found.plain;
-        (work / runs.max(1)).max(least_work(self.admissible.pencil().order()))
+        let mean = work / runs.max(1);
+        mean.max(least_work(self.admissible.pencil().order()))
     }
 
+    /// Tells how far the search has come, and asks whether it is to end.
     pub(super) fn is_interrupted(&mut self) -> bool {
         self.watch.report(&Progress {
             done: self.found.runs as u64,
             solutions: Some(self.found.certified.len() as u64),
             ..Progress::stage("searching")
         });
+
         self.found.interrupted = self.found.interrupted || self.watch.is_cancelled();
         self.found.interrupted
     }
 
-    /// A run of the solver.
+    /// A run of the solver from a start.
     pub(super) fn plain(
         &mut self,
         embedding: &Embedding,
         start: &[f64],
     ) -> Result<(), SolverError> {
         let outcome = solve(embedding, start, &self.search.options)?;
-        *self
-            .found
-            .terminations
-            .entry(outcome.termination)
-            .or_default() += 1;
+        self.count_termination(outcome.termination);
         self.trace(|run| format!("run {run} from {start:?}\n{}", trace_outcome(&outcome)));
         self.count(&outcome.counters);
-        self.found.plain.0 += 1;
-        self.found.plain.1 += outcome.counters.pivots + outcome.counters.factorisations;
+        let (runs, work) = &mut self.found.plain;
+        *runs += 1;
+        *work += outcome.counters.pivots + outcome.counters.factorisations;
+
         let run = self.found.runs;
         self.found.runs += 1;
         if outcome.termination.reached_tolerance() {
-            self.file(embedding.candidate(&outcome.point), run, Origin::Start);
+            let candidate = embedding.candidate(&outcome.point);
+            self.file(candidate, run, Origin::Start);
         }
+
         self.found.first.get_or_insert(outcome);
         Ok(())
     }
@@ -153,15 +189,13 @@ impl Hunt<'_> {
         self.found.factorisations += counters.factorisations;
     }
 
-    /// Certifies a candidate and lists it, once.
+    pub(super) fn count_termination(&mut self, termination: Termination) {
+        *self.found.terminations.entry(termination).or_default() += 1;
+    }
+
+    /// Certifies a candidate and lists it, once. One outside the window is only counted.
     pub(super) fn file(&mut self, candidate: Candidate, run: usize, origin: Origin) {
-        let slack = WINDOW_GAP * (1.0 + candidate.value.abs());
-        if candidate.value < to_f64(self.window.min()) - slack
-            || self
-                .window
-                .max()
-                .is_some_and(|m| candidate.value > to_f64(m) + slack)
-        {
+        if self.is_outside_window(candidate.value) {
             self.found.outside += 1;
             return;
         }
@@ -169,16 +203,29 @@ impl Hunt<'_> {
             self.found.repeated += 1;
             return;
         }
+
         let claim = (self.certifier)(&candidate);
         self.found.file(candidate, claim, run, origin);
+    }
+
+    /// Is a value outside the window by more than rounding?
+    fn is_outside_window(&self, value: f64) -> bool {
+        let slack = WINDOW_GAP * (1.0 + value.abs());
+        let min = to_f64(self.window.min());
+        if value < min - slack {
+            return true;
+        }
+
+        let max = self.window.max().map(to_f64);
+        max.is_some_and(|max| value > max + slack)
     }
 }
 
 /// Pivots and factorisations that a run over n variables counts for at least in a budget.
 ///
-/// The budget of curves is a share of the cost of the runs. Short runs would buy few curves, but the
-/// curves of an instance are no shorter where its runs are: a curve has some n pieces, and up to
-/// n / 2 curves leave each solution.
+/// The budget of curves is a share of the cost of the runs. Short runs would buy few curves, but
+/// the curves of an instance are no shorter where its runs are: a curve has some n pieces, and up
+/// to n / 2 curves leave each solution.
 fn least_work(n: usize) -> usize {
     n * (n + 4) / 2
 }

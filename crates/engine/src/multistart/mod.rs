@@ -1,4 +1,16 @@
 //! Many starts, each certified: embed, solve, certify, list once. What section 4 does with PATH.
+//!
+//! ```text
+//! pencil -> MCP on one side of an origin -> runs from starts, curves -> candidates -> certify
+//! ```
+//!
+//! `hunt` is the search on one side, `curves` follows curves of the normal map, `ground` has the
+//! MCPs on which both happen, `found` and `same` list each solution once, and `search` has the
+//! options. `condensed` is a search of its own for MCEIP-lambda2 at finite-element size, and
+//! `all_slip` needs no starts: it takes the positive eigenvectors of a condensed pencil. The method
+//! is chapter 3 of the book (`spec/solver.md`).
+//!
+//! A search claims only what the checker has accepted; it never says that nothing else exists.
 
 mod all_slip;
 mod condensed;
@@ -19,7 +31,6 @@ pub use same::{exact_value, integer_x, same, support};
 pub use search::{Certifier, Search};
 pub use trace::trace_outcome;
 
-use crate::candidate::Candidate;
 use crate::certify;
 use crate::reduction::{CondensationError, Expansion, Side, condense};
 use crate::run::Watch;
@@ -28,6 +39,13 @@ use hunt::{Hunt, WINDOW_SALT};
 use mceip_exact::to_f64;
 use mceip_mcp::solver::SolverError;
 use mceip_model::{Admissible, ModelError, Pencil, Problem, Unknown, Window};
+
+/// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
+pub const CONDENSE_FROM: usize = 12;
+
+/// Largest number of variables of a search: two dense matrices in doubles, 576 MB, and their
+/// factors.
+const MAX_DENSE_ORDER: usize = 6000;
 
 /// Searches for solutions in the problem's window: plain starts, then above and below each value
 /// found. `admissible` is the problem's reduced pencil.
@@ -40,18 +58,14 @@ pub fn multistart(
     search: &Search,
 ) -> Result<Found, SolverError> {
     let certifier = certify::Certifier::new(problem, admissible.pencil());
-    let certify = |candidate: &Candidate| certifier.certify(candidate);
     multistart_with(
         admissible,
         problem.window(),
         search,
-        &certify,
+        &|candidate| certifier.certify(candidate),
         &Watch::nobody(),
     )
 }
-
-/// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
-pub const CONDENSE_FROM: usize = 12;
 
 /// Why a search did not take place.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
@@ -81,6 +95,7 @@ pub enum SearchError {
 
 /// [`multistart`] for pencils of any size: MCEIP-mu with many free variables is condensed exactly,
 /// searched on its slip variables, and *certified on the given pencil*, not on the condensed one.
+/// The condensed pencil is returned too, where there was one.
 ///
 /// # Errors
 /// [`SearchError`].
@@ -91,34 +106,49 @@ pub fn multistart_large(
     watch: &Watch<'_>,
 ) -> Result<(Found, Option<Pencil>), SearchError> {
     let pencil = admissible.pencil();
-    let certifier = certify::Certifier::new(problem, pencil);
-    let direct = |c: &Candidate| certifier.certify(c);
-    let window = problem.window();
-    if admissible.unknown() != Unknown::Mu || pencil.free().len() < CONDENSE_FROM {
-        require_dense_order(pencil)?;
-        return Ok((
-            multistart_with(admissible, window, search, &direct, watch)?,
-            None,
-        ));
+    if admissible.unknown() == Unknown::Mu && pencil.free().len() >= CONDENSE_FROM {
+        let (found, condensed) = multistart_on_slip_variables(problem, admissible, search, watch)?;
+        return Ok((found, Some(condensed)));
     }
+
+    require_dense_order(pencil)?;
+    let certifier = certify::Certifier::new(problem, pencil);
+    let found = multistart_with(
+        admissible,
+        problem.window(),
+        search,
+        &|candidate| certifier.certify(candidate),
+        watch,
+    )?;
+    Ok((found, None))
+}
+
+/// Searches MCEIP-mu on its exactly condensed pencil, which is returned too. Candidates are
+/// expanded by the free variables and certified on the given pencil.
+fn multistart_on_slip_variables(
+    problem: &Problem,
+    admissible: &Admissible<'_>,
+    search: &Search,
+    watch: &Watch<'_>,
+) -> Result<(Found, Pencil), SearchError> {
+    let pencil = admissible.pencil();
+    let certifier = certify::Certifier::new(problem, pencil);
     let condensed = condense(admissible)?;
     let expansion = Expansion::new(pencil).ok_or(SearchError::SingularInDoubles)?;
     require_dense_order(&condensed)?;
+
     let small = Admissible::new(&condensed, Unknown::Mu)?;
     let found = multistart_with(
         &small,
-        window,
+        problem.window(),
         search,
-        &|c| direct(&expansion.expand(c)),
+        &|candidate| certifier.certify(&expansion.expand(candidate)),
         watch,
     )?;
-    Ok((found, Some(condensed)))
+    Ok((found, condensed))
 }
 
-/// Largest number of variables of a search: two dense matrices in doubles, 576 MB, and their
-/// factors.
-const MAX_DENSE_ORDER: usize = 6000;
-
+/// Demands that dense matrices of the pencil's order may be formed.
 fn require_dense_order(pencil: &Pencil) -> Result<(), SearchError> {
     let got = pencil.order();
     if got > MAX_DENSE_ORDER {
@@ -143,7 +173,6 @@ pub fn multistart_with(
     watch: &Watch<'_>,
 ) -> Result<Found, SolverError> {
     let mut found = Found::default();
-    let bottom = to_f64(window.min());
     let mut hunt = Hunt {
         admissible,
         window,
@@ -152,63 +181,67 @@ pub fn multistart_with(
         watch: *watch,
         found: &mut found,
     };
-    for (k, origin) in [bottom]
-        .into_iter()
-        .chain(search.origins.iter().copied())
-        .enumerate()
-    {
+
+    let mut origins = vec![to_f64(window.min())];
+    origins.extend(&search.origins);
+    for (k, origin) in origins.into_iter().enumerate() {
         hunt.side(Side::Above(origin), search.starts, k as u64)?;
     }
+
+    if search.window_starts > 0 {
+        hunt_around_values(&mut hunt)?;
+    }
+
+    let certified = &mut found.certified;
+    certified.sort_by(|a, b| {
+        let by_value = a.candidate.value.total_cmp(&b.candidate.value);
+        by_value.then_with(|| support(&a.claim).cmp(support(&b.claim)))
+    });
+    Ok(found)
+}
+
+/// Searches above and below the value of each solution found, also of those found on the way.
+fn hunt_around_values(hunt: &mut Hunt<'_>) -> Result<(), SolverError> {
+    let starts = hunt.search.window_starts;
     let mut treated = 0;
-    while treated < hunt.found.certified.len().min(search.window_limit) && search.window_starts > 0
-    {
+    while treated < hunt.found.certified.len().min(hunt.search.window_limit) {
         let value = hunt.found.certified[treated].candidate.value;
         // Strictly on either side: at the value itself the solution found would be found again.
         let gap = WINDOW_GAP * (1.0 + value.abs());
-        hunt.side(
-            Side::Above(value + gap),
-            search.window_starts,
-            WINDOW_SALT + 2 * treated as u64,
-        )?;
-        hunt.side(
-            Side::Below(value - gap),
-            search.window_starts,
-            WINDOW_SALT + 1 + 2 * treated as u64,
-        )?;
+        let salt = WINDOW_SALT + 2 * treated as u64;
+
+        hunt.side(Side::Above(value + gap), starts, salt)?;
+        hunt.side(Side::Below(value - gap), starts, salt + 1)?;
         treated += 1;
     }
-    found.certified.sort_by(|a, b| {
-        a.candidate
-            .value
-            .total_cmp(&b.candidate.value)
-            .then_with(|| support(&a.claim).cmp(support(&b.claim)))
-    });
-    Ok(found)
+
+    Ok(())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::candidate::Candidate;
     use crate::certify::{Attempt, AttemptFailure, NotCertified, propose, sift};
     use mceip_check::Reason;
-    use mceip_check::certificate::{Claim, ExactSolution};
+    use mceip_check::certificate::Claim;
     use mceip_exact::{Sparse, whole};
     use mceip_model::Body;
     use mceip_model::file::Number;
 
-    /// lambda^2 = 2 with x = (2, 1) and 3 with (3, 2).
-    fn fold() -> (Problem, Pencil) {
+    /// [[1, -6], [2, -6]] + t I: lambda^2 = 2 with x = (2, 1) and 3 with (3, 2).
+    fn fold() -> Pencil {
         let a = Sparse::from_ints(&[&[1, -6], &[2, -6]]);
-        let pencil = Pencil::new(a, Sparse::identity(2), vec![]).unwrap();
-        (
-            Problem::new(
-                Body::Pencil(pencil.clone()),
-                Unknown::Lambda2,
-                Window::all(),
-            )
-            .unwrap(),
-            pencil,
-        )
+        Pencil::new(a, Sparse::identity(2), vec![]).unwrap()
+    }
+
+    fn problem_of(pencil: &Pencil) -> Problem {
+        let body = Body::Pencil(pencil.clone());
+        Problem::new(body, Unknown::Lambda2, Window::all()).unwrap()
+    }
+
+    fn identity(order: usize) -> Pencil {
+        Pencil::new(Sparse::identity(order), Sparse::identity(order), vec![]).unwrap()
     }
 
     fn refusal(reason: Reason) -> NotCertified {
@@ -223,12 +256,34 @@ mod tests {
         }
     }
 
+    /// A claim about a candidate, with a wrong x if the value is above 5/2.
+    fn wrong_above(pencil: &Pencil, candidate: &Candidate) -> Result<Claim, NotCertified> {
+        let Claim::ExactSolution(mut claim) = propose(pencil, &Window::all(), candidate)? else {
+            panic!("an exact claim")
+        };
+        if candidate.value > 2.5 {
+            let one = vec![Number(whole(1))];
+            claim.x = vec![one.clone(), one];
+        }
+
+        Ok(Claim::ExactSolution(claim))
+    }
+
+    /// The claim, if the checker accepts it.
+    fn checked(problem: &Problem, claim: Claim) -> Result<Claim, NotCertified> {
+        let mut sifted = sift(problem, vec![claim]);
+        if let Some(accepted) = sifted.accepted.pop() {
+            return Ok(accepted);
+        }
+
+        let (_, reason) = sifted.refused.remove(0);
+        Err(refusal(reason))
+    }
+
     #[test]
     fn a_search_has_a_largest_order() {
-        let identity =
-            |n: usize| Pencil::new(Sparse::identity(n), Sparse::identity(n), vec![]).unwrap();
-
         assert!(require_dense_order(&identity(6000)).is_ok());
+
         let refused = require_dense_order(&identity(6001));
         assert!(matches!(
             refused,
@@ -243,48 +298,28 @@ mod tests {
     /// such points stay uncertified.
     #[test]
     fn what_the_checker_refuses_is_uncertified() {
-        let (problem, pencil) = fold();
+        let pencil = fold();
+        let problem = problem_of(&pencil);
         let admissible = Admissible::new(&pencil, Unknown::Lambda2).unwrap();
-        let proposed = |candidate: &Candidate| {
-            let Claim::ExactSolution(claim) = propose(&pencil, problem.window(), candidate)? else {
-                panic!("an exact claim")
-            };
-            let one = || vec![Number(whole(1))];
-            let x = if candidate.value > 2.5 {
-                vec![one(), one()]
-            } else {
-                claim.x.clone()
-            };
-            Ok(Claim::ExactSolution(ExactSolution { x, ..claim }))
-        };
-        let checked = |candidate: &Candidate| {
-            let mut sifted = sift(&problem, vec![proposed(candidate)?]);
-            sifted
-                .accepted
-                .pop()
-                .ok_or_else(|| refusal(sifted.refused.remove(0).1))
-        };
         let search = Search::default();
+
         let found = multistart_with(
             &admissible,
             problem.window(),
             &search,
-            &checked,
+            &|candidate| checked(&problem, wrong_above(&pencil, candidate)?),
             &Watch::nobody(),
         )
         .unwrap();
 
         assert_eq!(found.certified.len(), 1);
         assert!((found.certified[0].candidate.value - 2.0).abs() < 1e-6);
-        let [refused] = &found.uncertified[..] else {
-            panic!("{:?}", found.uncertified)
-        };
+        assert_eq!(found.uncertified.len(), 1);
+        let refused = &found.uncertified[0];
         assert!((refused.candidate.value - 3.0).abs() < 1e-6);
+        let failure = &refused.reason.attempts[0].failure;
         assert!(
-            matches!(
-                refused.reason.attempts[0].failure,
-                AttemptFailure::Refused { .. }
-            ),
+            matches!(failure, AttemptFailure::Refused { .. }),
             "{}",
             refused.reason
         );

@@ -1,8 +1,11 @@
 //! When two claims, or two candidates, are the same solution.
+//!
+//! Accepted claims are compared exactly, candidates within rounding ([`SAME_POINT`]). Called where
+//! searches list what they have found, and by reports.
 
 use crate::candidate::Candidate;
 use crate::tolerance::SAME_POINT;
-use mceip_check::certificate::{Claim, ExactSolution};
+use mceip_check::certificate::{Claim, EnclosedSolution, ExactSolution};
 use mceip_exact::{Algebraic, Integer, Interval, Poly, common_denominator};
 use mceip_model::file::Number;
 
@@ -39,15 +42,16 @@ pub fn integer_x(claim: &ExactSolution) -> Vec<Poly> {
         }
         x.push(Poly::new(coefficients));
     }
+
     x
 }
 
+/// The root of a polynomial in an isolating interval.
 fn root(polynomial: &[Integer], interval: &[Number; 2]) -> Option<Algebraic> {
-    let interval = Interval::new(interval[0].0.clone(), interval[1].0.clone())?;
-    Some(Algebraic::from_claim(
-        Poly::new(polynomial.to_vec()),
-        interval,
-    ))
+    let [lo, hi] = interval;
+    let interval = Interval::new(lo.0.clone(), hi.0.clone())?;
+    let polynomial = Poly::new(polynomial.to_vec());
+    Some(Algebraic::from_claim(polynomial, interval))
 }
 
 /// Do two claims speak of the same solution: same support and equal value (exact), or a box that
@@ -56,31 +60,52 @@ pub fn same(a: &Claim, b: &Claim) -> bool {
     if support(a) != support(b) {
         return false;
     }
-    match (a, b) {
-        (Claim::EnclosedSolution(a), Claim::EnclosedSolution(b)) => {
-            let inside = |k: usize| {
-                let (d, r) = (&a.center[k].0 - &b.center[k].0, &a.radius[k].0);
-                &d <= r && -d <= *r
-            };
-            a.center.len() == b.center.len() && (0..a.center.len()).all(inside)
-        }
-        _ => match (exact_value(a), exact_value(b)) {
-            (Some(mut a), Some(mut b)) => a.equals(&mut b),
-            _ => false,
-        },
+    if let (Claim::EnclosedSolution(a), Claim::EnclosedSolution(b)) = (a, b) {
+        return holds_center(a, b);
     }
+
+    match (exact_value(a), exact_value(b)) {
+        (Some(mut a), Some(mut b)) => a.equals(&mut b),
+        _ => false,
+    }
+}
+
+/// Does the box of `a` hold the centre of `b`?
+fn holds_center(a: &EnclosedSolution, b: &EnclosedSolution) -> bool {
+    if a.center.len() != b.center.len() {
+        return false;
+    }
+
+    for k in 0..a.center.len() {
+        let difference = &a.center[k].0 - &b.center[k].0;
+        let radius = &a.radius[k].0;
+        if difference > *radius || -difference > *radius {
+            return false;
+        }
+    }
+
+    true
 }
 
 /// Is `b` the same point as `a` within rounding, in any scale of x?
 pub(super) fn repeats(a: &Candidate, b: &Candidate) -> bool {
-    let norm = |c: &Candidate| c.x.iter().map(|v| v.abs()).sum::<f64>();
-    let (na, nb) = (norm(a), norm(b));
-    (a.value - b.value).abs() <= SAME_POINT * (1.0 + a.value.abs())
-        && a.x.len() == b.x.len()
-        && a.x
-            .iter()
-            .zip(&b.x)
-            .all(|(p, q)| (p / na - q / nb).abs() <= SAME_POINT)
+    let value_difference = (a.value - b.value).abs();
+    let has_same_value = value_difference <= SAME_POINT * (1.0 + a.value.abs());
+    if !has_same_value || a.x.len() != b.x.len() {
+        return false;
+    }
+
+    let a_norm = l1_norm(&a.x);
+    let b_norm = l1_norm(&b.x);
+    let mut components = a.x.iter().zip(&b.x);
+    components.all(|(a_i, b_i)| {
+        let difference = a_i / a_norm - b_i / b_norm;
+        difference.abs() <= SAME_POINT
+    })
+}
+
+fn l1_norm(x: &[f64]) -> f64 {
+    x.iter().map(|v| v.abs()).sum()
 }
 
 #[cfg(test)]

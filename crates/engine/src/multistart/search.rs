@@ -1,4 +1,7 @@
 //! How to search, and who turns a candidate into an accepted claim.
+//!
+//! [`Search`] has the numbers of starts and windows, the budget of the curves and the options of
+//! the solver; its default is what the command `solve` does.
 
 use crate::candidate::Candidate;
 use crate::certify::NotCertified;

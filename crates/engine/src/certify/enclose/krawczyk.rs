@@ -1,17 +1,25 @@
 //! Preconditioner and radii of a Krawczyk box, proposed in doubles.
 //!
 //! The box c +- r passes if, in every component,
-//!   |Y F(c)| + |I - Y F'(c)| r + |Y| d < r,   d_i = 2 r_t sum_j |B_ij| r_j
-//! (`check::enclosed`). Radii are counted in units of the point's grid: rho_k = r_k / unit_k. They
-//! grow from |Y F(c)| until the inequality holds, each a power of two of its own, so that their
-//! numbers are short.
+//!
+//! ```text
+//! |Y F(c)| + |I - Y F'(c)| r + |Y| d < r,    d_i = 2 r_t sum_j |B_ij| r_j
+//! ```
+//!
+//! (`check::enclosed`; F as in [`newton`](super::newton)). The preconditioner Y is the inverse of
+//! F' in doubles, rounded to integers times a power of two. Radii are counted in units of the
+//! point's grid: rho_k = r_k / unit_k. They grow from |Y F(c)| until the inequality holds, each a
+//! power of two of its own, so that their numbers are short.
+//!
+//! Errors of the doubles are covered by [`KRAWCZYK_NOISE`] and [`KRAWCZYK_MARGIN`]; whether the box
+//! passes is decided by the checker. Called by `enclose`.
 
 use super::super::failure::AttemptFailure;
-use super::newton::{Newton, Point, Slope};
+use super::newton::{Modulus, Newton, Point, Slope};
 use crate::tolerance::{
     KRAWCZYK_MARGIN, KRAWCZYK_NOISE, PRECONDITIONER_BITS, PRECONDITIONER_LOSS_BITS,
 };
-use mceip_exact::{Integer, Rational, from_f64};
+use mceip_exact::{Integer, Rational, from_f64, to_f64};
 use num_traits::One;
 
 /// Largest binary exponent of a preconditioner that the checker takes
@@ -24,14 +32,16 @@ const LARGEST_RADIUS: f64 = 1e9;
 
 /// The parts of Krawczyk's inequality that do not change when the grid becomes finer.
 pub(super) struct Krawczyk {
+    /// Y in units of 2^-exponent.
     preconditioner: Vec<Vec<Integer>>,
     exponent: u32,
-    /// The preconditioner in doubles, for rows of F that are divided by their powers of two.
+    /// Y in doubles, for rows of F that are divided by their powers of two.
     y: Vec<Vec<f64>>,
-    /// |I - Y F'(c)| with what doubles do not see of it, from radii to radii in units of the grid.
+    /// |I - Y F'(c)| with the rounding errors of its doubles, from radii to radii in units of the
+    /// grid.
     error: Vec<Vec<f64>>,
     /// |B| row by row.
-    b: Vec<Vec<(usize, f64)>>,
+    b: Vec<Vec<Modulus>>,
 }
 
 impl Krawczyk {
@@ -46,15 +56,16 @@ impl Krawczyk {
     ) -> Result<Krawczyk, AttemptFailure> {
         let jacobian = newton.jacobian(point);
         let units = units(point);
-        let exponent = exponent(inverse, &newton.scales, rounding_bits(&jacobian, &units));
+        let needed_bits = rounding_bits(&jacobian, &units);
+        let exponent = exponent(inverse, &newton.scales, needed_bits);
         if exponent > MAX_EXPONENT {
             return Err(AttemptFailure::TooLarge {
                 limit: MAX_EXPONENT as usize,
                 got: exponent as usize,
             });
         }
-        let preconditioner = round(inverse, &newton.scales, exponent);
 
+        let preconditioner = round(inverse, &newton.scales, exponent);
         let y = rounded(&preconditioner, &newton.scales, exponent);
         let error = contraction(&y, &jacobian, &units);
         Ok(Krawczyk {
@@ -66,102 +77,142 @@ impl Krawczyk {
         })
     }
 
-    /// Radii in units of the grid, powers of two, for which the inequality holds with a margin;
-    /// `None` where there are none.
-    pub(super) fn radii(&self, newton: &Newton<'_>, point: &Point) -> Option<Vec<Integer>> {
+    /// Radii in units of the grid, powers of two, for which the inequality holds with a margin.
+    ///
+    /// # Errors
+    /// [`AttemptFailure::NotContracting`] where none were found.
+    pub(super) fn radii(
+        &self,
+        newton: &Newton<'_>,
+        point: &Point,
+    ) -> Result<Vec<Integer>, AttemptFailure> {
         let distance = self.distances(newton, point);
-        let mut radius: Vec<f64> = distance
-            .iter()
-            .map(|d| power_above(2.0 * d + 1.0))
-            .collect();
+        let mut radius = Vec::new();
+        for d in &distance {
+            radius.push(power_above(2.0 * d + 1.0));
+        }
 
         for _ in 0..GROWTH_ROUNDS {
             let bound = self.bound(point, &distance, &radius);
-            let is_short = |(r, b): (&f64, &f64)| *b <= KRAWCZYK_MARGIN * r;
-            if radius.iter().zip(&bound).all(is_short) {
-                return radius
-                    .iter()
-                    .map(|r| from_f64(*r).ok().map(|v| v.to_integer()))
-                    .collect();
+            let mut pairs = radius.iter().zip(&bound);
+            if pairs.all(|(r, b)| *b <= KRAWCZYK_MARGIN * r) {
+                return integers(&radius).ok_or(AttemptFailure::NotContracting);
             }
 
             for (r, b) in radius.iter_mut().zip(&bound) {
                 *r = r.max(power_above(b / KRAWCZYK_MARGIN));
             }
             if radius.iter().any(|r| r.is_nan() || *r > LARGEST_RADIUS) {
-                return None;
+                break;
             }
         }
-        None
+
+        Err(AttemptFailure::NotContracting)
     }
 
-    /// |Y F(c)| in units of the grid, with what the sums in doubles may be off.
+    /// |Y F(c)| in units of the grid, with the rounding errors of its sums.
     fn distances(&self, newton: &Newton<'_>, point: &Point) -> Vec<f64> {
         let residual = newton.scaled_residual(point);
         let mut distances = Vec::new();
-        for (k, y) in self.y.iter().enumerate() {
-            let product: f64 = y.iter().zip(&residual.f).map(|(y, f)| y * f).sum();
-            let size: f64 = y.iter().zip(&residual.f).map(|(y, f)| (y * f).abs()).sum();
-            let units = power(residual.exponent + point.bits(k) as i64);
-            distances.push((product.abs() + KRAWCZYK_NOISE * size) * units);
+        for (k, row) in self.y.iter().enumerate() {
+            let product = dot(row, &residual.f);
+            let noise = KRAWCZYK_NOISE * dot_of_moduli(row, &residual.f);
+            let exponent = residual.exponent + point.bits(k) as i64;
+            distances.push((product.abs() + noise) * power(exponent));
         }
+
         distances
     }
 
     /// The left side of the inequality in units of the grid.
     fn bound(&self, point: &Point, distance: &[f64], radius: &[f64]) -> Vec<f64> {
         let last = radius.len() - 1;
-        // d in units of the grids of x and t: 2 rho_t sum_j |B_ij| rho_j.
-        let bends: Vec<f64> = self
-            .b
-            .iter()
-            .map(|row| {
-                row.iter()
-                    .map(|(j, b)| 2.0 * radius[last] * b * radius[*j])
-                    .sum()
-            })
-            .collect();
+        let curvature = self.curvature(radius);
 
         let mut bound = Vec::new();
         for k in 0..=last {
-            let linear: f64 = self.error[k].iter().zip(radius).map(|(e, r)| e * r).sum();
+            let linear = dot(&self.error[k], radius);
+            // d is in units of x times units of t: one of the two is the unit of component k.
+            let quadratic = dot_of_moduli(&self.y[k], &curvature);
             let other_bits = if k < last { point.t_bits } else { point.x_bits };
-            let bend: f64 = self.y[k].iter().zip(&bends).map(|(y, d)| y.abs() * d).sum();
-            bound.push(distance[k] + linear + bend * power(-(other_bits as i64)));
+            let other_unit = power(-(other_bits as i64));
+            bound.push(distance[k] + linear + quadratic * other_unit);
         }
+
         bound
     }
 
+    /// d_i = 2 rho_t sum_j |B_ij| rho_j, in units of the grid of x times that of t.
+    fn curvature(&self, radius: &[f64]) -> Vec<f64> {
+        let radius_of_t = radius[radius.len() - 1];
+        let mut curvature = Vec::new();
+        for row in &self.b {
+            let entries = row.iter();
+            let terms = entries.map(|b| 2.0 * radius_of_t * b.value * radius[b.column]);
+            curvature.push(terms.sum());
+        }
+
+        curvature
+    }
+
+    /// Y in units of 2^-exponent, and the exponent.
     pub(super) fn into_preconditioner(self) -> (Vec<Vec<Integer>>, u32) {
         (self.preconditioner, self.exponent)
     }
+}
+
+/// sum_j a_j b_j.
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+/// sum_j |a_j b_j|.
+fn dot_of_moduli(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| (a * b).abs()).sum()
+}
+
+/// Whole numbers in doubles as integers.
+fn integers(radius: &[f64]) -> Option<Vec<Integer>> {
+    let mut integers = Vec::new();
+    for r in radius {
+        integers.push(from_f64(*r).ok()?.to_integer());
+    }
+
+    Some(integers)
 }
 
 /// |I - Y J| and the rounding of its sums, taken from units of the grid to units of the grid.
 fn contraction(y: &[Vec<f64>], jacobian: &[Vec<Slope>], units: &[f64]) -> Vec<Vec<f64>> {
     let n = y.len();
     let mut error = Vec::new();
-    for (i, row) in y.iter().enumerate() {
-        let (mut product, mut size) = (vec![0.0; n], vec![0.0; n]);
+    for (i, y_row) in y.iter().enumerate() {
+        // Row i of Y J - I, and the sums of the moduli of its terms.
+        let mut product = vec![0.0; n];
+        let mut size = vec![0.0; n];
         product[i] = -1.0;
-        for (y_k, slopes) in row.iter().zip(jacobian) {
+        for (y_ik, slopes) in y_row.iter().zip(jacobian) {
             for slope in slopes {
-                product[slope.column] += y_k * slope.value;
-                size[slope.column] += (y_k * slope.size).abs();
+                product[slope.column] += y_ik * slope.value;
+                size[slope.column] += (y_ik * slope.size).abs();
             }
         }
 
-        let entry = |j: usize| (product[j].abs() + KRAWCZYK_NOISE * size[j]) * units[j] / units[i];
-        error.push((0..n).map(entry).collect());
+        let mut error_row = Vec::new();
+        for j in 0..n {
+            let entry = product[j].abs() + KRAWCZYK_NOISE * size[j];
+            error_row.push(entry * units[j] / units[i]);
+        }
+        error.push(error_row);
     }
+
     error
 }
 
 /// The unit of each component's grid, all divided by the first.
 fn units(point: &Point) -> Vec<f64> {
-    let of_t = power(point.x_bits as i64 - point.t_bits as i64);
+    let unit_of_t = power(point.x_bits as i64 - point.t_bits as i64);
     let mut units = vec![1.0; point.x.len()];
-    units.push(of_t);
+    units.push(unit_of_t);
     units
 }
 
@@ -179,51 +230,78 @@ fn power_above(v: f64) -> f64 {
 /// 2^-[`PRECONDITIONER_LOSS_BITS`] of the narrowest side of a box with these radii: n entries of a
 /// row, each off by 2^-e, against sum_j |J_ij| r_j.
 fn rounding_bits(jacobian: &[Vec<Slope>], radius: &[f64]) -> f64 {
-    let reach = |row: &Vec<Slope>| {
-        row.iter()
-            .map(|s| s.value.abs() * radius[s.column])
-            .sum::<f64>()
-    };
-    let widest = jacobian.iter().map(reach).fold(0.0, f64::max);
+    let mut widest: f64 = 0.0;
+    for row in jacobian {
+        let slopes = row.iter();
+        let terms = slopes.map(|slope| slope.value.abs() * radius[slope.column]);
+        widest = widest.max(terms.sum());
+    }
+
     let narrowest = radius.iter().copied().fold(f64::INFINITY, f64::min);
-    (jacobian.len() as f64 * widest / narrowest).log2().ceil() + f64::from(PRECONDITIONER_LOSS_BITS)
+    let errors_in_row = jacobian.len() as f64;
+    let bits = (errors_in_row * widest / narrowest).log2().ceil();
+    bits + f64::from(PRECONDITIONER_LOSS_BITS)
 }
 
 /// Bits after the point of the preconditioner: its largest entry has about [`PRECONDITIONER_BITS`]
 /// bits, or more where `needed` bits after the point are more. An infinite need is beyond every
 /// limit.
 fn exponent(y: &[Vec<f64>], scales: &[u64], needed: f64) -> u32 {
-    let largest = y.iter().flatten().fold(0.0f64, |m, v| m.max(v.abs()));
-    let widest = scales.iter().copied().max().unwrap_or(0);
-    let wanted = (PRECONDITIONER_BITS - largest.log2().ceil() as i32).max(needed as i32);
-    let exponent = u64::from(wanted.max(0).unsigned_abs()).saturating_add(widest);
+    let mut largest: f64 = 0.0;
+    for entry in y.iter().flatten() {
+        largest = largest.max(entry.abs());
+    }
+
+    let bits_before_point = largest.log2().ceil() as i32;
+    let wanted = (PRECONDITIONER_BITS - bits_before_point).max(needed as i32);
+
+    let widest_scale = scales.iter().copied().max().unwrap_or(0);
+    let wanted = u64::from(wanted.max(0).unsigned_abs());
+    let exponent = wanted.saturating_add(widest_scale);
     u32::try_from(exponent).unwrap_or(u32::MAX)
 }
 
 /// The inverse for rows that were divided by 2^scale, in integers of 2^-exponent.
 fn round(y: &[Vec<f64>], scales: &[u64], exponent: u32) -> Vec<Vec<Integer>> {
-    // Finite: `inverse` refuses anything else.
-    let integer = |(v, k): (&f64, &u64)| {
-        let scale = Rational::from_integer(Integer::one() << (u64::from(exponent) - k));
-        from_f64(*v)
-            .map(|r| (r * scale).round().to_integer())
-            .unwrap_or_default()
-    };
-    y.iter()
-        .map(|row| row.iter().zip(scales).map(integer).collect())
-        .collect()
+    let mut rows = Vec::new();
+    for y_row in y {
+        let mut row = Vec::new();
+        for (entry, scale) in y_row.iter().zip(scales) {
+            let bits = u64::from(exponent) - scale;
+            row.push(integer_units(*entry, bits));
+        }
+        rows.push(row);
+    }
+
+    rows
+}
+
+/// A double in units of 2^-bits, rounded.
+fn integer_units(v: f64, bits: u64) -> Integer {
+    // `Newton::inverse` returns finite entries only.
+    let exact = from_f64(v).unwrap_or_default();
+    let units = exact * Rational::from_integer(Integer::one() << bits);
+    units.round().to_integer()
 }
 
 /// A rounded preconditioner in doubles, for rows that are divided by 2^scale.
 fn rounded(preconditioner: &[Vec<Integer>], scales: &[u64], exponent: u32) -> Vec<Vec<f64>> {
-    let double = |(v, k): (&Integer, &u64)| {
-        let bits = u64::from(exponent) - k;
-        mceip_exact::to_f64(&Rational::new_raw(v.clone(), Integer::one() << bits))
-    };
-    preconditioner
-        .iter()
-        .map(|row| row.iter().zip(scales).map(double).collect())
-        .collect()
+    let mut rows = Vec::new();
+    for integers in preconditioner {
+        let mut row = Vec::new();
+        for (units, scale) in integers.iter().zip(scales) {
+            let bits = u64::from(exponent) - scale;
+            row.push(double(units, bits));
+        }
+        rows.push(row);
+    }
+
+    rows
+}
+
+/// An integer in units of 2^-bits as a double.
+fn double(units: &Integer, bits: u64) -> f64 {
+    to_f64(&Rational::new_raw(units.clone(), Integer::one() << bits))
 }
 
 #[cfg(test)]

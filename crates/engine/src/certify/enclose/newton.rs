@@ -1,11 +1,19 @@
 //! Newton's method with exact residuals for the null vector of the active block.
 //!
-//! Unknowns z = (x on the active variables, t); F(z) = ((A + tB) x on the active rows, e'x_s - 1).
-//! The inverse of F' is taken in doubles once, F is computed in integers, so each step gains the
-//! digits that the inverse is good for.
+//! Unknowns: z = (x on the active variables, t). Equations:
+//!
+//! ```text
+//! F(z) = ( (A + tB) x on the active rows,  e'x_s - 1 ) = 0
+//! ```
+//!
+//! A step is z <- z - Y F(z). The inverse Y of F' is taken in doubles once; F is computed in
+//! integers, so each step gains the digits that Y is good for, on a grid of any fineness.
+//!
+//! Exact pencils may have rows of thousands of bits, so each row is divided by a power of two
+//! before it becomes doubles ([`Newton::scales`]). Called by `enclose` and by `precise`.
 
 use super::super::failure::AttemptFailure;
-use super::super::rows::{IntegralRows, active};
+use super::super::rows::{IntegralRows, PencilEntry, active};
 use crate::candidate::Candidate;
 use mceip_exact::{Integer, Rational, from_f64, to_f64};
 use mceip_mcp::linear::inverse;
@@ -16,8 +24,8 @@ use num_traits::{One, Signed, Zero};
 /// bits more.
 const NEWTON_STEPS: usize = 16;
 /// Bits by which a step may be longer than the first one. Basis: with one inverse for all steps
-/// each is a fraction of the one before where the method converges; steps that grow end nowhere, in
-/// numbers that grow with them.
+/// each is a fraction of the previous one where the method converges; steps that grow do not
+/// converge, and the numbers grow with them.
 const GROWTH_BITS: u64 = 8;
 /// Bits of a coefficient that a double takes without any thought of overflow.
 const SAFE_BITS: u64 = 500;
@@ -59,17 +67,28 @@ impl Point {
     }
 
     /// a + t b in units of the grid of t.
-    pub(in crate::certify) fn entry(&self, a: &Integer, b: &Integer) -> Integer {
-        (a << self.t_bits) + b * &self.t
+    pub(in crate::certify) fn coefficient(&self, entry: &ActiveEntry<'_>) -> Integer {
+        (entry.a << self.t_bits) + entry.b * &self.t
     }
 
     /// The same point on a grid with so many more bits.
     pub(in crate::certify) fn refine(&mut self, more: u32) {
-        self.x.iter_mut().for_each(|v| *v <<= more);
+        for component in &mut self.x {
+            *component <<= more;
+        }
+
         self.t <<= more;
         self.x_bits += u64::from(more);
         self.t_bits += u64::from(more);
     }
+}
+
+/// An entry a + t b of a row of the pencil in an active column.
+pub(in crate::certify) struct ActiveEntry<'a> {
+    /// Position of the column among the active variables.
+    pub(in crate::certify) position: usize,
+    pub(in crate::certify) a: &'a Integer,
+    pub(in crate::certify) b: &'a Integer,
 }
 
 /// An entry of F' in doubles, its row divided by a power of two.
@@ -81,7 +100,14 @@ pub(super) struct Slope {
     pub(super) size: f64,
 }
 
-/// The square system of an enclosed solution.
+/// The modulus of an entry of B in doubles, its row divided by a power of two.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Modulus {
+    pub(super) column: usize,
+    pub(super) value: f64,
+}
+
+/// The square system F(z) = 0 of an enclosed solution.
 pub(in crate::certify) struct Newton<'a> {
     rows: &'a IntegralRows,
     pub(in crate::certify) active: Vec<usize>,
@@ -89,7 +115,7 @@ pub(in crate::certify) struct Newton<'a> {
     place: Vec<Option<usize>>,
     in_support: Vec<bool>,
     /// Each active row, and the last one, is divided by two to this power before it becomes
-    /// doubles: exact pencils may have rows of thousands of bits.
+    /// doubles.
     pub(super) scales: Vec<u64>,
 }
 
@@ -101,25 +127,23 @@ impl<'a> Newton<'a> {
     ) -> Newton<'a> {
         let active = active(pencil, support);
         let mut place = vec![None; pencil.order()];
-        active
-            .iter()
-            .enumerate()
-            .for_each(|(k, &i)| place[i] = Some(k));
-        let mut in_support = vec![false; pencil.order()];
-        support.iter().for_each(|&i| in_support[i] = true);
+        for (position, &index) in active.iter().enumerate() {
+            place[index] = Some(position);
+        }
 
-        let largest = |i: usize| {
-            rows.0[i]
-                .iter()
-                .map(|(_, a, b)| a.bits().max(b.bits()))
-                .max()
-                .unwrap_or(0)
-        };
-        let scales = active
-            .iter()
-            .map(|&i| largest(i).saturating_sub(SAFE_BITS))
-            .chain([0])
-            .collect();
+        let mut in_support = vec![false; pencil.order()];
+        for &index in support {
+            in_support[index] = true;
+        }
+
+        let mut scales = Vec::new();
+        for &index in &active {
+            let bits = rows.row(index).iter().map(PencilEntry::bits).max();
+            scales.push(bits.unwrap_or(0).saturating_sub(SAFE_BITS));
+        }
+
+        scales.push(0);
+
         Newton {
             rows,
             active,
@@ -138,169 +162,214 @@ impl<'a> Newton<'a> {
         (0..self.place.len()).filter(|&i| self.place[i].is_none())
     }
 
-    /// Entries (position, a, b) of a row of the pencil in the active columns.
+    /// The entries of a row of the pencil in the active columns.
     pub(in crate::certify) fn active_entries(
         &self,
         row: usize,
-    ) -> impl Iterator<Item = (usize, &Integer, &Integer)> {
-        self.rows.0[row]
-            .iter()
-            .filter_map(|(j, a, b)| self.place[*j].map(|k| (k, a, b)))
+    ) -> impl Iterator<Item = ActiveEntry<'_>> {
+        let entries = self.rows.row(row).iter();
+        entries.filter_map(|entry| {
+            Some(ActiveEntry {
+                position: self.place[entry.column]?,
+                a: &entry.a,
+                b: &entry.b,
+            })
+        })
+    }
+
+    /// Row `index` of (A + tB) x, in units of 2^-(x_bits + t_bits).
+    pub(in crate::certify) fn y(&self, index: usize, point: &Point) -> Integer {
+        let mut y = Integer::zero();
+        for entry in self.active_entries(index) {
+            let coefficient = point.coefficient(&entry);
+            y += coefficient * &point.x[entry.position];
+        }
+
+        y
     }
 
     /// The candidate on the active variables with e'x_s = 1, then t, on a grid with `bits` bits for
     /// the largest component of x and for t.
+    ///
+    /// # Errors
+    /// [`AttemptFailure::NotFinite`]: among them a candidate without a sum on the support.
     pub(in crate::certify) fn start(
         &self,
         candidate: &Candidate,
         bits: u32,
     ) -> Result<Point, AttemptFailure> {
-        let sum: f64 = self
-            .active
-            .iter()
-            .filter(|i| self.in_support[**i])
-            .map(|&i| candidate.x[i])
-            .sum();
-        let x: Vec<f64> = self.active.iter().map(|&i| candidate.x[i] / sum).collect();
-        let largest = x.iter().fold(0.0f64, |m, v| m.max(v.abs()));
+        let support = self.active.iter().filter(|i| self.in_support[**i]);
+        let sum: f64 = support.map(|&i| candidate.x[i]).sum();
+        let mut x = Vec::new();
+        let mut largest: f64 = 0.0;
+        for &i in &self.active {
+            let component = candidate.x[i] / sum;
+            largest = largest.max(component.abs());
+            x.push(component);
+        }
 
         // The grid of the larger one of x and t is not coarser than 1.
-        let (x_above, t_above) = (binary_exponent(largest), binary_exponent(candidate.value));
-        let lift = (x_above.max(t_above) - bits as i32).max(0);
-        let x_bits = (bits as i32 + lift - x_above).unsigned_abs().into();
-        let t_bits = (bits as i32 + lift - t_above).unsigned_abs().into();
+        let x_exponent = binary_exponent(largest);
+        let t_exponent = binary_exponent(candidate.value);
+        let lift = (x_exponent.max(t_exponent) - bits as i32).max(0);
+        let x_bits = (bits as i32 + lift - x_exponent).unsigned_abs().into();
+        let t_bits = (bits as i32 + lift - t_exponent).unsigned_abs().into();
 
-        let on_grid = |v: f64, bits: u64| -> Result<Integer, AttemptFailure> {
-            let exact = from_f64(v).map_err(|_| AttemptFailure::NotFinite)?;
-            Ok((exact * Rational::from_integer(Integer::one() << bits))
-                .round()
-                .to_integer())
-        };
-        let x = x
-            .into_iter()
-            .map(|v| on_grid(v, x_bits))
-            .collect::<Result<_, _>>()?;
+        let mut x_on_grid = Vec::new();
+        for component in x {
+            x_on_grid.push(on_grid(component, x_bits)?);
+        }
+
         Ok(Point {
-            x,
+            x: x_on_grid,
             t: on_grid(candidate.value, t_bits)?,
             x_bits,
             t_bits,
         })
     }
 
-    /// F'(z) in doubles, row by row.
+    /// F'(z) = [[A + tB, Bx], [e_s', 0]] in doubles, row by row, as sparse rows.
     pub(super) fn jacobian(&self, point: &Point) -> Vec<Vec<Slope>> {
         let last = self.active.len();
         let x: Vec<f64> = (0..last).map(|k| to_f64(&point.value(k))).collect();
         let t = to_f64(&point.value(last));
-        let mut out = Vec::new();
 
-        for (i, &index) in self.active.iter().enumerate() {
-            let mut row = Vec::new();
-            let mut of_t = Slope {
-                column: last,
-                value: 0.0,
-                size: 0.0,
-            };
-            for (column, a, b) in self.active_entries(index) {
-                let (a, b) = (scaled(a, self.scales[i]), scaled(b, self.scales[i]));
-                row.push(Slope {
-                    column,
-                    value: a + t * b,
-                    size: a.abs() + (t * b).abs(),
-                });
-                of_t.value += b * x[column];
-                of_t.size += (b * x[column]).abs();
-            }
-            row.push(of_t);
-            out.push(row);
+        let mut rows = Vec::new();
+        for (&index, &scale) in self.active.iter().zip(&self.scales) {
+            rows.push(self.slopes_of_row(index, scale, &x, t));
         }
 
-        let in_sum = |k: &usize| self.in_support[self.active[*k]];
-        out.push(
-            (0..last)
-                .filter(in_sum)
-                .map(|column| Slope {
+        rows.push(self.slopes_of_sum());
+        rows
+    }
+
+    /// The slopes of row `index` of (A + tB) x, divided by 2^scale: a + t b in x, (B x)_i in t.
+    fn slopes_of_row(&self, index: usize, scale: u64, x: &[f64], t: f64) -> Vec<Slope> {
+        let mut row = Vec::new();
+        let mut of_t = Slope {
+            column: self.active.len(),
+            value: 0.0,
+            size: 0.0,
+        };
+
+        for entry in self.active_entries(index) {
+            let a = scaled(entry.a, scale);
+            let b = scaled(entry.b, scale);
+            let tb = t * b;
+            let bx = b * x[entry.position];
+
+            row.push(Slope {
+                column: entry.position,
+                value: a + tb,
+                size: a.abs() + tb.abs(),
+            });
+            of_t.value += bx;
+            of_t.size += bx.abs();
+        }
+
+        row.push(of_t);
+        row
+    }
+
+    /// The last row of F': the slopes of e'x_s.
+    fn slopes_of_sum(&self) -> Vec<Slope> {
+        let mut row = Vec::new();
+        for (column, &index) in self.active.iter().enumerate() {
+            if self.in_support[index] {
+                row.push(Slope {
                     column,
                     value: 1.0,
                     size: 1.0,
-                })
-                .collect(),
-        );
-        out
+                });
+            }
+        }
+
+        row
     }
 
-    /// |B| on the active block, row by row (position, modulus), the rows divided as those of F'.
-    pub(super) fn moduli_of_b(&self) -> Vec<Vec<(usize, f64)>> {
-        let of_row = |(i, index): (usize, &usize)| {
-            let entries = self.active_entries(*index).filter(|(_, _, b)| !b.is_zero());
-            entries
-                .map(|(k, _, b)| (k, scaled(b, self.scales[i]).abs()))
-                .collect()
-        };
-        self.active.iter().enumerate().map(of_row).collect()
+    /// |B| on the active block, as sparse rows, divided as those of F'.
+    pub(super) fn moduli_of_b(&self) -> Vec<Vec<Modulus>> {
+        let mut rows = Vec::new();
+        for (&index, &scale) in self.active.iter().zip(&self.scales) {
+            let mut row = Vec::new();
+            for entry in self.active_entries(index) {
+                if !entry.b.is_zero() {
+                    row.push(Modulus {
+                        column: entry.position,
+                        value: scaled(entry.b, scale).abs(),
+                    });
+                }
+            }
+            rows.push(row);
+        }
+
+        rows
     }
 
-    /// The inverse of F'(z), whose rows are divided by their powers of two; `None` where it is
-    /// singular in doubles.
-    pub(in crate::certify) fn inverse(&self, point: &Point) -> Option<Vec<Vec<f64>>> {
+    /// The inverse of F'(z), whose rows are divided by their powers of two.
+    ///
+    /// # Errors
+    /// [`AttemptFailure::SingularJacobian`] where F'(z) is singular in doubles.
+    pub(in crate::certify) fn inverse(
+        &self,
+        point: &Point,
+    ) -> Result<Vec<Vec<f64>>, AttemptFailure> {
         let n = self.active.len() + 1;
         let mut dense = vec![vec![0.0; n]; n];
-        for (row, entries) in dense.iter_mut().zip(self.jacobian(point)) {
-            entries.iter().for_each(|e| row[e.column] += e.value);
+        for (row, slopes) in dense.iter_mut().zip(self.jacobian(point)) {
+            for slope in slopes {
+                row[slope.column] += slope.value;
+            }
         }
-        equilibrated_inverse(&dense, to_f64(&point.value(n - 1)).abs())
+
+        let t = to_f64(&point.value(n - 1));
+        let inverse = equilibrated_inverse(&dense, t.abs());
+        inverse.ok_or(AttemptFailure::SingularJacobian)
     }
 
     /// F(z) in units of 2^-(x_bits + t_bits).
     fn residual(&self, point: &Point) -> Vec<Integer> {
-        let row = |&index: &usize| -> Integer {
-            self.active_entries(index)
-                .map(|(k, a, b)| point.entry(a, b) * &point.x[k])
-                .sum()
-        };
-        let mut out: Vec<Integer> = self.active.iter().map(row).collect();
+        let mut residual = Vec::new();
+        let mut sum = Integer::zero();
+        for (&index, x) in self.active.iter().zip(&point.x) {
+            residual.push(self.y(index, point));
+            if self.in_support[index] {
+                sum += x;
+            }
+        }
 
-        let in_sum = self
-            .active
-            .iter()
-            .zip(&point.x)
-            .filter(|(i, _)| self.in_support[**i]);
-        let sum: Integer = in_sum.map(|(_, x)| x).sum();
-        out.push((sum - (Integer::one() << point.x_bits)) << point.t_bits);
-        out
+        let one = Integer::one() << point.x_bits;
+        residual.push((sum - one) << point.t_bits);
+        residual
     }
 
-    /// F(z), rows divided by their powers of two, as doubles of order one times 2^`exponent`.
+    /// F(z), rows divided by their powers of two, as doubles of order one times a power of two.
     pub(super) fn scaled_residual(&self, point: &Point) -> ScaledResidual {
         let residual = self.residual(point);
-        let bits = |(f, scale): (&Integer, &u64)| {
-            if f.is_zero() {
-                i64::MIN
-            } else {
-                f.bits() as i64 - *scale as i64
+        let mut largest: Option<i64> = None;
+        for (f, &scale) in residual.iter().zip(&self.scales) {
+            if !f.is_zero() {
+                largest = largest.max(Some(f.bits() as i64 - scale as i64));
             }
-        };
-        let largest = residual
-            .iter()
-            .zip(&self.scales)
-            .map(bits)
-            .max()
-            .unwrap_or(i64::MIN);
-        if largest == i64::MIN {
+        }
+
+        let Some(largest) = largest else {
             return ScaledResidual {
                 f: vec![0.0; residual.len()],
                 exponent: 0,
             };
+        };
+
+        let mut doubles = Vec::new();
+        for (f, &scale) in residual.iter().zip(&self.scales) {
+            let power = -(largest + scale as i64);
+            doubles.push(to_f64(&times_power(f, power)));
         }
 
-        let double =
-            |(f, scale): (&Integer, &u64)| to_f64(&times_power(f, -(largest + *scale as i64)));
-        let f = residual.iter().zip(&self.scales).map(double).collect();
-        let units = (point.x_bits + point.t_bits) as i64;
+        let unit_bits = (point.x_bits + point.t_bits) as i64;
         ScaledResidual {
-            f,
-            exponent: largest - units,
+            f: doubles,
+            exponent: largest - unit_bits,
         }
     }
 
@@ -308,19 +377,22 @@ impl<'a> Newton<'a> {
     /// its grid, or until the steps grow: then there is no solution near, which the caller sees by
     /// where the point is.
     pub(in crate::certify) fn polish(&self, point: &mut Point, inverse: &[Vec<f64>]) {
+        let last = self.active.len();
         let mut longest_allowed = None;
         for _ in 0..NEWTON_STEPS {
             let residual = self.scaled_residual(point);
-            let steps: Vec<Integer> = (0..=self.active.len())
-                .map(|k| residual.step(&inverse[k], point.bits(k)))
-                .collect();
-
-            let bits = largest_bits(&steps);
+            let mut step = Vec::new();
+            for (k, row) in inverse.iter().enumerate() {
+                step.push(residual.step(row, point.bits(k)));
+            }
+            let bits = largest_bits(&step);
             let is_still = bits <= 1;
             let diverges = bits > *longest_allowed.get_or_insert(bits + GROWTH_BITS);
-            let (of_t, of_x) = (&steps[self.active.len()], &steps[..self.active.len()]);
-            point.x.iter_mut().zip(of_x).for_each(|(x, s)| *x -= s);
-            point.t -= of_t;
+
+            for (component, change) in point.x.iter_mut().zip(&step) {
+                *component -= change;
+            }
+            point.t -= &step[last];
             if is_still || diverges {
                 break;
             }
@@ -342,6 +414,7 @@ impl ScaledResidual {
         let Ok(exact) = from_f64(product) else {
             return Integer::zero();
         };
+
         let shift = self.exponent + bits as i64;
         let power = Rational::from_integer(Integer::one() << shift.unsigned_abs());
         let units = if shift < 0 {
@@ -351,6 +424,13 @@ impl ScaledResidual {
         };
         units.round().to_integer()
     }
+}
+
+/// A double in units of 2^-bits, rounded.
+fn on_grid(v: f64, bits: u64) -> Result<Integer, AttemptFailure> {
+    let exact = from_f64(v).map_err(|_| AttemptFailure::NotFinite)?;
+    let units = exact * Rational::from_integer(Integer::one() << bits);
+    Ok(units.round().to_integer())
 }
 
 /// Bits of the longest number.
@@ -383,39 +463,50 @@ fn binary_exponent(v: f64) -> i32 {
     }
 }
 
-/// The inverse of a Jacobian, by way of one whose rows and last column are of order one: rows with
-/// cleared denominators and a value like lambda^2 are many powers of ten away from e'x_s and x.
+/// The inverse of a Jacobian J: J^-1 = C (R J C)^-1 R, where the entries of R J C are of order one.
+///
+/// Rows with cleared denominators and a value like lambda^2 are many powers of ten away from e'x_s
+/// and x. So C multiplies the last column by the value, and R divides each row by its largest
+/// entry. `None` where R J C is singular in doubles, or an entry of the inverse is not finite.
 fn equilibrated_inverse(jacobian: &[Vec<f64>], value: f64) -> Option<Vec<Vec<f64>>> {
-    let n = jacobian.len();
-    let column = |j: usize| {
-        if j + 1 == n && value > 0.0 {
-            value
-        } else {
-            1.0
+    let mut column_factors = vec![1.0; jacobian.len()];
+    if let Some(last) = column_factors.last_mut().filter(|_| value > 0.0) {
+        *last = value;
+    }
+
+    let row_sizes = row_sizes(jacobian, &column_factors);
+
+    let mut equilibrated = jacobian.to_vec();
+    for (row, size) in equilibrated.iter_mut().zip(&row_sizes) {
+        for (entry, factor) in row.iter_mut().zip(&column_factors) {
+            *entry *= factor / size;
         }
-    };
-    let largest = |row: &Vec<f64>| {
-        row.iter()
-            .enumerate()
-            .map(|(j, v)| v.abs() * column(j))
-            .fold(0.0, f64::max)
-    };
-    let sizes: Vec<f64> = jacobian.iter().map(largest).collect();
-
-    let mut even = jacobian.to_vec();
-    for (row, size) in even.iter_mut().zip(&sizes) {
-        row.iter_mut()
-            .enumerate()
-            .for_each(|(j, v)| *v *= column(j) / size);
     }
 
-    let mut y = inverse(&even)?;
-    for (j, row) in y.iter_mut().enumerate() {
-        row.iter_mut()
-            .zip(&sizes)
-            .for_each(|(v, s)| *v *= column(j) / s);
+    let mut inverse = inverse(&equilibrated)?;
+    for (row, factor) in inverse.iter_mut().zip(&column_factors) {
+        for (entry, size) in row.iter_mut().zip(&row_sizes) {
+            *entry *= factor / size;
+        }
     }
-    y.iter().flatten().all(|v| v.is_finite()).then_some(y)
+
+    let mut entries = inverse.iter().flatten();
+    let is_finite = entries.all(|entry| entry.is_finite());
+    is_finite.then_some(inverse)
+}
+
+/// The largest entry of each row, each entry times the factor of its column.
+fn row_sizes(matrix: &[Vec<f64>], column_factors: &[f64]) -> Vec<f64> {
+    let mut sizes = Vec::new();
+    for row in matrix {
+        let mut size: f64 = 0.0;
+        for (entry, factor) in row.iter().zip(column_factors) {
+            size = size.max(entry.abs() * factor);
+        }
+        sizes.push(size);
+    }
+
+    sizes
 }
 
 /// A rational with a power of two as denominator.
