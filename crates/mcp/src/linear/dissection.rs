@@ -376,7 +376,9 @@ mod tests {
         let mut parent = vec![usize::MAX; parts.len()];
 
         for (p, part) in parts.iter().enumerate() {
-            part.children.iter().for_each(|&c| parent[c] = p);
+            for &child in &part.children {
+                parent[child] = p;
+            }
             assert!(part.children.iter().all(|&c| c < p));
             for &i in &part.own {
                 assert_eq!(std::mem::replace(&mut part_of[i], p), usize::MAX);

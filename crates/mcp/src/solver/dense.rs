@@ -193,7 +193,9 @@ mod tests {
     fn factored(a: &DMatrix<f64>) -> (Lu<f64>, bool) {
         let mut lu = Lu::default();
         let column = |j: usize, rows: &[usize], out: &mut [f64]| {
-            rows.iter().zip(out).for_each(|(&i, o)| *o = a[(i, j)])
+            for (&row, entry) in rows.iter().zip(out) {
+                *entry = a[(row, j)];
+            }
         };
 
         // Storage of something else before.
@@ -217,7 +219,9 @@ mod tests {
         let mut y = b.as_slice().to_vec();
         lu.solve_transposed(&mut y);
         let mut by_row = dvector![0.0, 0.0, 0.0];
-        lu.rows().iter().zip(&y).for_each(|(&i, v)| by_row[i] = *v);
+        for (&row, value) in lu.rows().iter().zip(&y) {
+            by_row[row] = *value;
+        }
 
         assert!((a.transpose() * by_row - &b).amax() < 1e-14);
     }

@@ -349,10 +349,9 @@ fn a_partial_path_leads_to_the_better_of_two_points() {
         let p = free(
             2,
             move |z, f| {
-                f.iter_mut()
-                    .zip(z)
-                    .zip(&root)
-                    .for_each(|((f, z), r)| *f = z - r)
+                for i in 0..2 {
+                    f[i] = z[i] - root[i];
+                }
             },
             |_, j| j.fill_with_identity(),
         );

@@ -248,7 +248,9 @@ mod tests {
 
         for (place, variable) in variables.iter().enumerate() {
             columns.write(*variable, &mut column);
-            (0..4).for_each(|row| ahead[row] += column[row] * x[place]);
+            for row in 0..4 {
+                ahead[row] += column[row] * x[place];
+            }
             worst = worst.max((dot(&column, &y) - a[place]).abs());
         }
 
