@@ -223,6 +223,10 @@ fn static_thresholds() -> Result<Group, ModelError> {
 /// A matrix of small integers by rows.
 type Rows<'a> = &'a [&'a [i64]];
 
+/// Comment, A, B and the free variables of a pencil of small integers.
+type SmallPencil<'a> = (&'a str, Rows<'a>, Rows<'a>, &'a [usize]);
+
+/// The pencil of small integers A and B over [0, infinity).
 fn problem(
     a: Rows<'_>,
     b: Rows<'_>,
@@ -246,7 +250,7 @@ fn degenerate() -> Result<Group, ModelError> {
         drafts.push(draft(id, instance.label, &[], instance.problem));
     }
 
-    let cases: [(&str, Rows<'_>, Rows<'_>, &[usize]); 17] = [
+    let cases: [SmallPencil<'_>; 17] = [
         ("order 1, t = 0", &[&[0]], &[&[1]], &[]),
         ("order 1, free only", &[&[-3]], &[&[2]], &[0]),
         ("order 1, value 1/3", &[&[-1]], &[&[3]], &[]),
@@ -329,7 +333,7 @@ fn degenerate() -> Result<Group, ModelError> {
 
 /// Pencils with det(A + tB) = 0 for all t on some support: continua, whole and in parts.
 fn singular() -> Result<Group, ModelError> {
-    let cases: [(&str, Rows<'_>, Rows<'_>, &[usize]); 7] = [
+    let cases: [SmallPencil<'_>; 7] = [
         ("every value from 0", &[&[0]], &[&[0]], &[]),
         (
             "from 0 to 3: y = 3 - t beside it",
@@ -404,6 +408,7 @@ fn windows() -> Result<Group, ModelError> {
     let path = known::path(4)?.problem;
     let tiny = rational(1, 1_000_000);
 
+    // Comment, problem, lower and upper end of the window.
     let list: Vec<(&str, &Problem, Rational, Option<Rational>)> = vec![
         ("both ends are values", &fold, whole(2), Some(whole(3))),
         ("a point that is a value", &fold, whole(2), Some(whole(2))),
