@@ -183,7 +183,8 @@ impl Search<'_> {
     fn middle(&self, ends: &Ends) -> f64 {
         let first = self.view.theta(ends.lo);
         let last = self.view.theta(ends.hi);
-        let middle = self.view.value(0.5 * (first + last));
+        let theta = 0.5 * (first + last);
+        let middle = self.view.value(theta);
         middle.clamp(ends.lo, ends.hi)
     }
 
