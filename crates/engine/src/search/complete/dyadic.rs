@@ -26,7 +26,14 @@ pub(crate) fn short_near(target: f64, slack: f64) -> Option<Rational> {
     }
 
     let leading_bit = target.log2().floor() as i32;
-    (FEWEST_BITS..=MOST_BITS).find_map(|bits| odd_multiple(target, slack, leading_bit - bits))
+    for bits in FEWEST_BITS..=MOST_BITS {
+        let number = odd_multiple(target, slack, leading_bit - bits);
+        if number.is_some() {
+            return number;
+        }
+    }
+
+    None
 }
 
 /// The odd multiple of 2^exponent next to `target`, if it lies within `slack` of it.
@@ -50,6 +57,8 @@ pub(crate) fn short_below(value: f64) -> Option<Rational> {
         return None;
     }
 
-    let unit = (value.log2().floor() - BOUND_BITS).exp2();
-    from_f64((value / unit).floor() * unit).ok()
+    let leading_bit = value.log2().floor();
+    let unit = (leading_bit - BOUND_BITS).exp2();
+    let multiple = (value / unit).floor();
+    from_f64(multiple * unit).ok()
 }

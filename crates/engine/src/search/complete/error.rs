@@ -1,4 +1,5 @@
-//! Why there is no certificate.
+//! Why there is no certificate: the problem is outside the hypotheses of the search, a certificate
+//! does not belong to it, or parts do not fit together.
 
 use mceip_check::Rejected;
 use mceip_check::certificate::Certificate;

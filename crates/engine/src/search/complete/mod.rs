@@ -12,9 +12,9 @@
 //!   intervals.
 //! * `tree` divides regions, an interval and a state for each complementarity variable, until a
 //!   leaf closes them; `splice` puts its nodes into the cover, `shares` counts them.
-//! * `leaf` has one file per kind of evidence: [`leaf::farkas`], [`leaf::definite`], [`leaf::ldl`],
-//!   [`leaf::tail`], [`leaf::root`], [`leaf::infinity`] (a root over a half line),
-//!   [`leaf::support`].
+//! * `leaf` has one file per kind of evidence: `leaf::farkas`, `leaf::definite`, `leaf::ldl`,
+//!   `leaf::tail`, `leaf::root`, `leaf::infinity` (a root over a half line),
+//!   `leaf::support`.
 //! * `rounds` searches again what the checker refuses (`audited`), at last in long numbers
 //!   (`precise`).
 //!

@@ -82,8 +82,8 @@ struct Iteration<'a> {
 
 impl Iteration<'_> {
     fn run(&self, settling: usize) -> Option<NullVector> {
-        let reach = self.hi - self.lo;
-        let mut t = self.lo + START * reach;
+        let width = self.hi - self.lo;
+        let mut t = self.lo + START * width;
         let mut vectors = Vectors::ones(self.support.len());
 
         for step in 0..NEWTON_STEPS {
@@ -91,7 +91,7 @@ impl Iteration<'_> {
             let derivative = principal_block(&self.expansion.derivative(t), &self.support);
             let Some(next) = vectors.solved(&matrix, &derivative) else {
                 // The factorisation is singular: t is the value, to rounding. Move off a little.
-                t += ROUNDING * (t.abs() + reach);
+                t += ROUNDING * (t.abs() + width);
                 continue;
             };
 
@@ -103,12 +103,12 @@ impl Iteration<'_> {
             let slope = bilinear(&vectors.left, &derivative, &vectors.right);
             let correction = bilinear(&vectors.left, &matrix, &vectors.right) / slope;
             t -= correction;
-            let is_outside = t < self.lo - 0.5 * reach || t > self.hi + 0.5 * reach;
+            let is_outside = t < self.lo - 0.5 * width || t > self.hi + 0.5 * width;
             if !t.is_finite() || is_outside {
                 return None;
             }
 
-            if correction.abs() <= 4.0 * f64::EPSILON * t.abs().max(reach) {
+            if correction.abs() <= 4.0 * f64::EPSILON * t.abs().max(width) {
                 break;
             }
         }

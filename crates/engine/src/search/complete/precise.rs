@@ -158,8 +158,11 @@ fn open_leaves(given: &Given<'_>, prepared: &Prepared, set: &CompleteSet) -> Vec
 }
 
 fn may_have_root(region: &Region) -> bool {
-    let is_finite = region.hi.is_some();
-    is_finite && region.is_decided() && region.states.contains(&State::InSupport)
+    if region.hi.is_none() || !region.is_decided() {
+        return false;
+    }
+
+    region.states.contains(&State::InSupport)
 }
 
 /// The only null vector of a decided region, and what its signs say. `index` gives the variables of
@@ -176,7 +179,11 @@ fn root(
     let null = null_vector(expansion, &region.states, lo, hi)?;
     let unique = Unique::of(&null, &expansion.ends(lo, hi))?;
 
-    let support: Vec<usize> = support(&region.states).iter().map(|&p| index[p]).collect();
+    let mut support = support(&region.states);
+    for variable in &mut support {
+        *variable = index[*variable];
+    }
+
     if given.pencil.free().len() + support.len() > ENCLOSED_ORDER {
         return None;
     }

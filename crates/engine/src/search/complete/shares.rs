@@ -1,4 +1,7 @@
 //! Counts what the pieces of a search close, and passes it on to the listener of the run.
+//!
+//! Every region has a share of the whole search, which its parts divide among them; the shares of
+//! all leaves add up to one. Called by `tree` and `splice`, from all threads.
 
 use crate::run::{Progress, Watch};
 use std::sync::{Mutex, PoisonError};
@@ -9,14 +12,18 @@ pub(super) struct Shares<'a> {
     count: Mutex<Count>,
 }
 
+/// What has been closed so far.
 #[derive(Default)]
 struct Count {
     leaves: u64,
+    /// Leaves in which a solution was met.
     solutions: u64,
+    /// Sum of the shares of the leaves.
     share: f64,
 }
 
 impl<'a> Shares<'a> {
+    /// Counts from zero, for the listener of this watch.
     pub(super) fn new(watch: Watch<'a>) -> Shares<'a> {
         Shares {
             watch,

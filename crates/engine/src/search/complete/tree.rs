@@ -103,6 +103,7 @@ impl Search<'_> {
         self.items.push(Item::Node(node));
     }
 
+    /// Covers a region whose ends are known: by a leaf, by cuts of the interval, or by a branch.
     fn node(&mut self, region: &Region, ends: &Rc<Ends>, share: f64) {
         if self.budget == 0 || self.shares.is_cancelled() {
             return self.leaf(Node::Open, share);
@@ -113,6 +114,7 @@ impl Search<'_> {
             return self.leaf(leaf, share);
         }
 
+        // A Farkas vector, from the game at the middle or from that of both ends.
         let middle_value = self.middle(ends);
         let point = self.expansion.ends(middle_value, middle_value);
         let middle = MiddleTest::new(point, &region.states);
@@ -121,6 +123,7 @@ impl Search<'_> {
             return self.leaf(Node::Farkas(weights), share);
         }
 
+        // A decided region has its null vector left, and else only cuts.
         let width = self.view.theta(ends.hi) - self.view.theta(ends.lo);
         let is_narrow = width < NARROW;
         if region.is_decided() {
@@ -140,6 +143,7 @@ impl Search<'_> {
             return self.cut(region, ends, &columns, &middle, share);
         }
 
+        // In another one the middle's game tells whether a cut or a branch leads further.
         let max_cuts = if ends.is_half_line() {
             MAX_CUTS_TO_INFINITY
         } else {
@@ -163,7 +167,8 @@ impl Search<'_> {
         ldl::half_line_leaf(self.given, self.view, region, ends)
     }
 
-    /// Closes a decided region by its null vector, or the part of it around that.
+    /// Covers a decided region by means of its null vector. Returns false, and covers nothing, where
+    /// that cannot be done.
     fn decided_leaf(&mut self, region: &Region, ends: &Ends, share: f64) -> bool {
         if !ends.is_half_line() {
             return self.roots(region, ends, share);
@@ -183,7 +188,8 @@ impl Search<'_> {
     fn middle(&self, ends: &Ends) -> f64 {
         let first = self.view.theta(ends.lo);
         let last = self.view.theta(ends.hi);
-        let middle = self.view.value(0.5 * (first + last));
+        let theta = 0.5 * (first + last);
+        let middle = self.view.value(theta);
         middle.clamp(ends.lo, ends.hi)
     }
 

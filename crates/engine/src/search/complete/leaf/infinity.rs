@@ -107,8 +107,13 @@ fn limit(pencil: &Pencil, support: &[usize], reversed: bool) -> Option<Vec<Integ
     let mut rows = Vec::with_capacity(active.len());
     for (p, i) in active.iter().enumerate() {
         let by_a = !reversed && pencil.free().contains(i);
-        let row = if by_a { &a[p] } else { &b[p] };
-        rows.push(row.iter().map(|v| Poly::constant(v.clone())).collect());
+        let given = if by_a { &a[p] } else { &b[p] };
+        let mut row = Vec::with_capacity(given.len());
+        for v in given {
+            row.push(Poly::constant(v.clone()));
+        }
+
+        rows.push(row);
     }
 
     let basis = generic_kernel(rows).0;

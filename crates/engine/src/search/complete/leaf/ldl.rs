@@ -215,7 +215,7 @@ fn numbers(list: Vec<Rational>) -> Vec<Number> {
 }
 
 fn is_strict(factor: &LdlFactor) -> bool {
-    factor.diagonal.iter().all(|d| d.0.is_positive())
+    factor.diagonal.iter().all(|entry| entry.0.is_positive())
 }
 
 #[cfg(test)]

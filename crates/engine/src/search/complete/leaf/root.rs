@@ -210,7 +210,9 @@ pub(crate) fn part_around(
 
 /// A short number at `factor` of the distance from the value to an end.
 fn nearer(end: f64, value: f64, factor: f64) -> Option<Rational> {
-    let distance = (end - value).abs() * factor;
-    let target = value + distance.copysign(end - value);
-    short_near(target, SLACK_OF_DISTANCE * distance)
+    let whole_distance = end - value;
+    let distance = whole_distance.abs() * factor;
+    let target = value + distance.copysign(whole_distance);
+    let slack = SLACK_OF_DISTANCE * distance;
+    short_near(target, slack)
 }

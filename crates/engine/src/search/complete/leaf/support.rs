@@ -176,7 +176,7 @@ impl Sweep<'_> {
 
         for k in 1..self.points.len() {
             let (before, after) = self.points.split_at_mut(k);
-            part(&mut before[k - 1].value, &mut after[0].value);
+            separate(&mut before[k - 1].value, &mut after[0].value);
         }
 
         let mut points = Vec::with_capacity(self.points.len());
@@ -247,7 +247,7 @@ fn derivative_sign(value: &Algebraic) -> i8 {
 }
 
 /// Narrows the intervals of two different numbers until they have no point in common.
-fn part(left: &mut Algebraic, right: &mut Algebraic) {
+fn separate(left: &mut Algebraic, right: &mut Algebraic) {
     while left.interval().hi() >= right.interval().lo() {
         left.refine();
         right.refine();
@@ -282,7 +282,7 @@ fn inside(left: &mut Algebraic, right: Option<&mut Algebraic>, share: &Rational)
         return left.interval().hi() + Rational::one() + share;
     };
 
-    part(left, right);
+    separate(left, right);
     let begin = left.interval().hi().clone();
     let end = right.interval().lo().clone();
     &begin + (end - &begin) * share

@@ -338,8 +338,10 @@ impl Condensed<'_> {
     }
 
     fn degree(&self) -> usize {
-        let of_product = (self.left.len() + self.right_residual.len()).saturating_sub(2);
-        self.right.len().max(of_product).max(1)
+        let of_solution = self.right.len();
+        let coefficients = self.left.len() + self.right_residual.len();
+        let of_product = coefficients.saturating_sub(2);
+        of_solution.max(of_product).max(1)
     }
 
     /// Entry (i, j) of every coefficient.

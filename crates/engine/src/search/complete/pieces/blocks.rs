@@ -50,7 +50,13 @@ impl LinearColumns {
     }
 
     pub(crate) fn is_constant(&self) -> bool {
-        self.slope.iter().flatten().all(|v| *v == 0.0)
+        for column in &self.slope {
+            if column.iter().any(|v| *v != 0.0) {
+                return false;
+            }
+        }
+
+        true
     }
 }
 

@@ -47,6 +47,8 @@ pub(crate) struct Condensed {
 pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, CompleteError> {
     let blocks = Blocks::of(pencil);
     demand_symmetry(&blocks)?;
+
+    // The bounds of A_ff and B_ff.
     let first_free = blocks.free[0];
     let stiffness = stiffness_bound(&blocks).ok_or(CompleteError::NotDefinite {
         what: "A_ff",
@@ -66,6 +68,7 @@ pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
         },
     };
 
+    // What stands above the anchors, and where it begins.
     let above = if window.max().is_none() && !blocks.mass_is_zero {
         Above::of(pencil, elimination.bounds)
     } else {
@@ -83,6 +86,7 @@ pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
         blocks.lowest_frequency(&stiffness.plain_factor)
     };
 
+    // An anchor for each part of the window below that.
     let precision = if blocks.mass_is_zero {
         CONSTANT
     } else {
@@ -92,14 +96,11 @@ pub(crate) fn condense(pencil: &Pencil, window: &Window) -> Result<Condensed, Co
     let mut anchors = Anchors::default();
     let mut ends = Vec::new();
     for center in centers(lowest_frequency, to_f64(window.min()), top) {
-        let expanded =
-            elimination
-                .expand(&center.at, precision)
-                .ok_or(CompleteError::NotDefinite {
-                    what: "A_ff + t B_ff",
-                    index: first_free,
-                })?;
-        anchors.push(expanded);
+        let expanded = elimination.expand(&center.at, precision);
+        anchors.push(expanded.ok_or(CompleteError::NotDefinite {
+            what: "A_ff + t B_ff",
+            index: first_free,
+        })?);
         ends.push(center.end);
     }
 

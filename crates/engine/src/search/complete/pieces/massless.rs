@@ -14,8 +14,9 @@ pub(crate) fn factor(m: &Sparse) -> Option<Factor> {
     let kept = rows_with_entries(m);
     let part = Skyline::symmetric(&m.submatrix(&kept, &kept));
     let slack = part.below_spectrum()?;
-    let factor = part.shifted(-slack).cholesky()?.rounded(slack);
-    Some(among_zero_rows(&factor, &kept, m.rows()))
+    let factor = part.shifted(-slack).cholesky()?;
+    let rounded = factor.rounded(slack);
+    Some(among_zero_rows(&rounded, &kept, m.rows()))
 }
 
 fn rows_with_entries(m: &Sparse) -> Vec<usize> {

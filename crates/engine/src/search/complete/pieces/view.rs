@@ -61,7 +61,8 @@ impl View {
 
     /// Position of a variable of the pencil, if it is a complementarity variable.
     pub(crate) fn position(&self, variable: usize) -> Option<usize> {
-        self.index.iter().position(|&i| i == variable)
+        let mut variables = self.index.iter();
+        variables.position(|&i| i == variable)
     }
 
     /// The variables of the pencil at these positions.

@@ -52,10 +52,14 @@ impl Unique {
         let mut order: Vec<usize> = (0..weights.len()).collect();
         order.sort_by(|p, q| weights[*q].total_cmp(&weights[*p]));
 
-        order
-            .into_iter()
-            .take(PIVOTS)
-            .find_map(|place| Unique::with_pivot(null, place, wide))
+        for place in order.into_iter().take(PIVOTS) {
+            let unique = Unique::with_pivot(null, place, wide);
+            if unique.is_some() {
+                return unique;
+            }
+        }
+
+        None
     }
 
     /// The same with the pivot at this place of the support.
@@ -154,9 +158,10 @@ impl Unique {
 
     /// Has the Schur complement one sign over the interval, so that there is no null vector in it?
     pub(crate) fn is_absent(&self, wide: &Ends) -> bool {
-        self.approximation
-            .errors(wide)
-            .is_some_and(|errors| self.approximation.sign_product(wide, &errors) == 1)
+        match self.approximation.errors(wide) {
+            Some(errors) => self.approximation.sign_product(wide, &errors) == 1,
+            None => false,
+        }
     }
 
     /// What the signs of x on the support and of y = T x off it say; `None` if one is not certain.

@@ -26,9 +26,16 @@ struct Direction {
 }
 
 impl Direction {
-    fn all(active: usize) -> impl Iterator<Item = Direction> {
-        (1..active)
-            .flat_map(|place| [false, true].map(|is_negative| Direction { place, is_negative }))
+    /// Both directions for every active variable but the first.
+    fn all(active: usize) -> Vec<Direction> {
+        let mut directions = Vec::new();
+        for place in 1..active {
+            for is_negative in [false, true] {
+                directions.push(Direction { place, is_negative });
+            }
+        }
+
+        directions
     }
 
     fn signed(self, p: Poly) -> Poly {
@@ -63,8 +70,9 @@ impl Supported {
         let mut weights = Vec::new();
         for direction in Direction::all(self.active.len()) {
             let ray = combination_at(x, kernel, &tight, direction, value)?;
-            let (mu, factor) = ray.split_at(tight.len());
-            let mu = self.multipliers(x, direction, &factor[0], (&tight, mu));
+            let (of_tight_rows, factor) = ray.split_at(tight.len());
+            let given = (&tight[..], of_tight_rows);
+            let mu = self.multipliers(x, direction, &factor[0], given);
 
             let place = Place::At(value);
             let l = self.weights(mu.split_at(self.active.len()), &place)?;
@@ -95,7 +103,9 @@ impl Supported {
         let mut signs = Vec::new();
         for direction in Direction::all(self.active.len()) {
             let circuit = combination_around(x, kernel, &tight, direction, t)?;
-            let mu = self.multipliers(x, direction, &circuit[0], (&tight, &circuit[1..]));
+            let (factor, of_tight_rows) = circuit.split_at(1);
+            let given = (&tight[..], of_tight_rows);
+            let mu = self.multipliers(x, direction, &factor[0], given);
 
             let l = self.weights(mu.split_at(self.active.len()), &Place::Around(t))?;
             let variable = self.active[direction.place];
@@ -123,11 +133,19 @@ impl Supported {
         tight: (&[usize], &[Poly]),
     ) -> Vec<Poly> {
         let p = direction.place;
-        let mut mu = vec![Poly::default(); self.active.len() + self.inactive.len()];
-        mu[0] = direction.signed(factor * &x[p]);
-        mu[p] = direction.signed(-&(factor * &x[0]));
-        for (&row, m) in tight.0.iter().zip(tight.1) {
-            mu[self.active.len() + row - self.support.len()] = m.clone();
+        let length = self.active.len() + self.inactive.len();
+        let mut mu = vec![Poly::default(); length];
+
+        let at_first = factor * &x[p];
+        let at_place = factor * &x[0];
+        mu[0] = direction.signed(at_first);
+        mu[p] = direction.signed(-&at_place);
+
+        // Tight rows are rows of y: rows of x do not vanish on the support.
+        let (rows, multipliers) = tight;
+        for (&row, m) in rows.iter().zip(multipliers) {
+            let inactive = row - self.support.len();
+            mu[self.active.len() + inactive] = m.clone();
         }
 
         mu

@@ -293,7 +293,13 @@ impl Supported {
     /// Is x positive on the support?
     fn is_positive(&self, x: &[Poly], place: &Place<'_>) -> bool {
         let on_support = &x[..self.support.len()];
-        on_support.iter().all(|p| place.sign(p) == Sign::Positive)
+        for component in on_support {
+            if place.sign(component) != Sign::Positive {
+                return false;
+            }
+        }
+
+        true
     }
 
     fn member(&self, x: &[Poly], alone: Option<Alone>) -> Exact {
