@@ -50,6 +50,7 @@ const MAX_SAMPLES: usize = 10_000;
 /// Free degrees of freedom beyond which the ranges of mu are looked for on request only.
 const SAMPLED_FREE: usize = 200;
 
+/// Analyses the system, writes the proofs and prints the answers.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
     let Body::System(system) = problem.body() else {

@@ -26,6 +26,7 @@ use mceip_testkit::{BlockReport, block_state};
 use serde_json::{Value, json};
 use std::path::Path;
 
+/// Runs the command; the options decide which of its four jobs.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.path || args.report.is_some() || args.pictures.is_some() {
         return path::run(args);

@@ -55,6 +55,7 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// Runs a campaign, or judges a replay file.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if let Some(path) = &args.replay {
         return replay(args, path);

@@ -43,6 +43,7 @@ pub(super) struct Args {
     absence: Option<PathBuf>,
 }
 
+/// Certifies the points of a report and writes the certificate.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
     let inputs = [args.file.as_path(), args.report.as_path()];
@@ -89,7 +90,7 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         judged.write_proofs(folder, &inputs)?;
     }
 
-    let code = judged.exit_code(candidates.len(), job.is_cancelled());
+    let code = judged.exit_code(candidates.len());
     if let Some(certificate) = judged.answer(&problem, candidates.len()) {
         match output {
             Some(output) => output.write(&certificate.to_json())?,
@@ -97,7 +98,11 @@ pub(super) fn run(args: &Args) -> Result<u8, CliError> {
         }
     }
 
-    Ok(code)
+    Ok(if job.is_cancelled() {
+        exit::INTERRUPTED
+    } else {
+        code
+    })
 }
 
 /// The points of a report, all of which must be vectors of the problem.
@@ -200,10 +205,9 @@ impl Judged {
         Ok(())
     }
 
-    fn exit_code(&self, reported: usize, is_interrupted: bool) -> u8 {
-        if is_interrupted {
-            exit::INTERRUPTED
-        } else if self.count(Verdict::Disproved) > 0 {
+    /// The exit code of a run that was not interrupted.
+    fn exit_code(&self, reported: usize) -> u8 {
+        if self.count(Verdict::Disproved) > 0 {
             exit::REJECTED
         } else if self.count(Verdict::Undecided) > 0 || reported == 0 {
             exit::UNDECIDED

@@ -39,6 +39,7 @@ pub(super) struct Args {
     tolerance: Option<String>,
 }
 
+/// Judges the second file and prints the verdict.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let stdin = Path::new("-");
     if args.file == stdin && args.certificate == stdin {

@@ -58,6 +58,7 @@ const MAX_PIECES: usize = 100_000;
 /// Families and open regions printed in full.
 const SHOWN: usize = 20;
 
+/// Searches, prints what is proved and writes the certificate.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, args.window.as_deref())?;
     let shard = args.shard.as_deref().map(parse_shard).transpose()?;

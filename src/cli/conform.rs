@@ -59,6 +59,7 @@ pub(super) struct Args {
 /// More than any machine has use for.
 const MAX_THREADS: usize = 1024;
 
+/// Runs the program on every case and prints the summary, or writes the pack.
 pub(super) fn run_command(args: &Args) -> Result<u8, CliError> {
     let groups = match &args.pack {
         None => groups()?,

@@ -40,6 +40,7 @@ pub(super) struct Args {
     out: PathBuf,
 }
 
+/// Reads the model and writes the problem.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let friction = positive("friction", &args.friction)?;
     let mut inputs: Vec<&Path> = vec![&args.stiffness, &args.mass, &args.contacts];

@@ -25,6 +25,7 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// Enumerates the supports and prints the solutions.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, args.window.as_deref())?;
     let reduced = reduce(&problem)?;

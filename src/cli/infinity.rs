@@ -77,6 +77,7 @@ impl AtInfinity {
         })
     }
 
+    /// Is everything at infinity known?
     pub(super) fn is_complete(&self) -> bool {
         self.completed.as_ref().is_ok_and(Completed::is_complete)
     }

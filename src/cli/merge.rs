@@ -32,6 +32,7 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// Merges the parts, prints what they prove and writes the certificate.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let file = args.problem.as_path();
     let problem = load(file, args.window.as_deref())?;

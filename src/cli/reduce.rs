@@ -17,6 +17,7 @@ pub(super) struct Args {
     condense: bool,
 }
 
+/// Prints the pencil as a problem of its own; its comment says where it comes from.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let problem = load(&args.file, None)?;
     let reduced = reduce(&problem)?;

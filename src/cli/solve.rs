@@ -25,6 +25,7 @@ use search::search_of;
 use std::collections::BTreeMap;
 use std::path::Path;
 
+/// Solves the problem, or repeats a trace.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     if args.starts == 0 {
         return Err(CliError::option("starts", "at least 1", "0"));

@@ -63,6 +63,7 @@ struct Pattern {
     uncertified: usize,
 }
 
+/// Solves the four sign patterns and prints the table.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let data = data(args)?;
     if let Some(path) = &args.chart {

@@ -24,6 +24,7 @@ pub(super) struct Args {
     json: bool,
 }
 
+/// Verifies and prints the outcome.
 pub(super) fn run(args: &Args) -> Result<u8, CliError> {
     let job = Job::begin("verify");
     let outcome = job.watched(|watch| verify(args.random, args.seed, watch))?;

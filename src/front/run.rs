@@ -10,14 +10,17 @@ pub(super) struct Watched<'a> {
 }
 
 impl<'a> Watched<'a> {
+    /// Takes the switch that ends the work.
     pub(super) fn cancel(&mut self, cancel: &Cancel) {
         self.cancel = cancel.clone();
     }
 
+    /// Takes the listener.
     pub(super) fn on_progress(&mut self, hear: impl Fn(&Progress<'_>) + Sync + 'a) {
         self.on_progress = Some(Box::new(hear));
     }
 
+    /// Both, as the engine takes them.
     pub(super) fn watch(&self) -> Watch<'_> {
         match &self.on_progress {
             Some(hear) => Watch::new(&self.cancel, hear.as_ref()),

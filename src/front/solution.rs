@@ -37,6 +37,7 @@ pub struct Solution {
 }
 
 impl Solution {
+    /// What the checker has proved, with the decimals of its components.
     pub(super) fn new(unknown: Unknown, proved: &AcceptedClaim, listed: &Listed) -> Solution {
         let lifted = listed.lifted.as_ref();
         Solution {
@@ -71,6 +72,7 @@ fn double(decimal: &str) -> f64 {
     decimal.parse().unwrap_or(f64::NAN)
 }
 
+/// The nearest doubles of such decimals.
 fn doubles(decimals: &[String]) -> Vec<f64> {
     decimals.iter().map(|d| double(d)).collect()
 }

@@ -40,6 +40,7 @@ pub(super) struct Chart {
 }
 
 impl Chart {
+    /// The chart in this rectangle; nothing is drawn yet.
     pub(super) fn new(area: Rectangle, x: &Axis<'_>, y: &Axis<'_>) -> Chart {
         Chart {
             x: Scale::new(x.spread, x.values, (area.left, area.right)),

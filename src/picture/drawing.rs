@@ -18,6 +18,7 @@ pub struct Picture {
 const FONTS: &str = "DejaVu Sans, Verdana, Arial, sans-serif";
 
 impl Picture {
+    /// An empty picture; width and height in px.
     pub(super) fn new(title: impl Into<String>, width: f64, height: f64) -> Picture {
         Picture {
             title: title.into(),
@@ -27,6 +28,7 @@ impl Picture {
         }
     }
 
+    /// Draws an element over those before it.
     pub(super) fn push(&mut self, element: Element) {
         self.content.push(element);
     }

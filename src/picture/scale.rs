@@ -114,6 +114,7 @@ pub(super) struct Extent {
 }
 
 impl Extent {
+    /// The extent of these numbers.
     pub(super) fn of(numbers: impl Iterator<Item = f64>) -> Extent {
         let mut low = f64::INFINITY;
         let mut high: f64 = 0.0;

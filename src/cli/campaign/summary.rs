@@ -6,6 +6,7 @@ use mceip_engine::report::Table;
 use mceip_testkit::campaign::{Judgement, Replay, State, Tally};
 use serde_json::{Value, json};
 
+/// The summary for people.
 pub(super) fn text_of(state: &State) -> String {
     let header = [
         "family",
@@ -121,6 +122,7 @@ fn verdict(state: &State) -> String {
     }
 }
 
+/// The summary for programs.
 pub(super) fn json_of(state: &State) -> Value {
     let coverage: Vec<Value> = state.covered().iter().map(covered_json).collect();
     let shortfalls: Vec<String> = state.shortfalls().iter().map(ToString::to_string).collect();
@@ -182,6 +184,7 @@ pub(super) fn replay_text(replay: &Replay, judged: &Judgement) -> String {
     out
 }
 
+/// The same for programs.
 pub(super) fn replay_json(replay: &Replay, judged: &Judgement) -> Value {
     let mut now = Vec::new();
     for finding in &judged.findings {

@@ -31,6 +31,7 @@ pub(super) struct Header {
 }
 
 impl Header {
+    /// Of an eigenproblem.
     pub(super) fn new(problem: &Problem, search: &Search, all: bool) -> Header {
         Header {
             format: TRACE_FORMAT.into(),
