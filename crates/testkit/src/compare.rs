@@ -294,6 +294,7 @@ pub(super) fn observed(oracle: &Enumeration) -> Vec<Corner> {
     corners
 }
 
+/// Is the value 0?
 fn has_value_zero(solution: &Solution) -> bool {
     let mut value = solution.value.clone();
     value.cmp_rational(&Rational::default()).is_eq()

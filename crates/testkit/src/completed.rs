@@ -100,6 +100,7 @@ fn holds_all_families(cover: &AcceptedCover, oracle: &Enumeration) -> bool {
     true
 }
 
+/// Does the cover have a family on this support?
 fn has_family(cover: &AcceptedCover, support: &[usize]) -> bool {
     cover.families.iter().any(|f| f.support == support)
 }

@@ -146,6 +146,7 @@ impl Covered {
         self.text(self.coverage.all, |f| f.all)
     }
 
+    /// Counts beside the share that is least.
     fn text(&self, found: u64, least: fn(&Floor) -> f64) -> String {
         let counts = format!("{found}/{}", self.coverage.solvable);
         match floor(&self.family, self.starts) {

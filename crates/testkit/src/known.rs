@@ -335,6 +335,7 @@ struct Graph {
 }
 
 impl Graph {
+    /// Is there an edge between the two vertices?
     fn is_edge(&self, i: usize, j: usize) -> bool {
         self.edges.contains(&(i, j)) || self.edges.contains(&(j, i))
     }
@@ -411,6 +412,7 @@ impl Graph {
     }
 }
 
+/// The edges of the path 0, 1, ..., n - 1.
 fn path_edges(n: usize) -> Vec<(usize, usize)> {
     (1..n).map(|i| (i - 1, i)).collect()
 }
@@ -459,6 +461,7 @@ impl Families<'_> {
         }
     }
 
+    /// The members of the list that are compatible with one.
     fn compatible_with(&self, member: usize, list: &[usize]) -> Vec<usize> {
         list.iter()
             .copied()

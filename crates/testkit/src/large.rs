@@ -1,5 +1,4 @@
-//! Problems beyond 2^n: random mechanical pencils of `peers.md`, refined blocks, condensed in
-//! doubles.
+//! Problems beyond 2^n: random mechanical pencils, refined blocks, condensed in doubles.
 //!
 //! No enumerator can answer them; they are for measurements of solver and complete search, and for
 //! tests of large orders. Input: orders and seeds. Output: problems whose data, drawn in doubles,
@@ -30,8 +29,8 @@ pub enum LargeError {
     Complete(#[from] CompleteError),
 }
 
-/// A random pencil of the family of `peers.md` without free variables: M and K0 = GG'/n + I/2, K1
-/// normal / sqrt n, mu = 3 where lambda^2 is unknown. Drawn in doubles, which are then the exact
+/// A random pencil without free variables: M and K0 = GG'/n + I/2, K1 = H / sqrt n with G and H
+/// standard normal, mu = 3 where lambda^2 is unknown. Drawn in doubles, which are then the exact
 /// data.
 ///
 /// # Errors

@@ -29,6 +29,7 @@ pub fn mutate(certificate: &mut Certificate, rng: &mut ChaCha8Rng) {
     }
 }
 
+/// The other unknown.
 fn other(unknown: Unknown) -> Unknown {
     match unknown {
         Unknown::Mu => Unknown::Lambda2,
@@ -36,6 +37,7 @@ fn other(unknown: Unknown) -> Unknown {
     }
 }
 
+/// Changes one thing in a claim.
 fn mutate_claim(claim: &mut Claim, rng: &mut ChaCha8Rng) {
     match claim {
         Claim::ExactSolution(c) => {
@@ -98,6 +100,7 @@ impl Parts<'_> {
         }
     }
 
+    /// Adds up to 2 to a coefficient of the polynomial, or takes it away.
     fn change_a_coefficient(&mut self, rng: &mut ChaCha8Rng) {
         let k = rng.random_range(0..self.polynomial.len().max(1));
         if let Some(coefficient) = self.polynomial.get_mut(k) {
@@ -139,6 +142,7 @@ impl Parts<'_> {
         }
     }
 
+    /// Changes the sign of a component.
     fn negate_a_component(&mut self, k: usize) {
         if let Some(component) = self.components.get_mut(k) {
             component.iter_mut().for_each(|n| n.0 = -n.0.clone());
@@ -160,6 +164,7 @@ impl Parts<'_> {
         }
     }
 
+    /// Exchanges two components, which may be the same.
     fn exchange_two_components(&mut self, variables: usize, rng: &mut ChaCha8Rng) {
         let i = rng.random_range(0..variables);
         let j = rng.random_range(0..variables);
@@ -168,6 +173,7 @@ impl Parts<'_> {
         }
     }
 
+    /// Adds a number to a coefficient of a component.
     fn move_a_component(&mut self, k: usize, rng: &mut ChaCha8Rng) {
         let by = step(rng);
         let Some(component) = self.components.get_mut(k) else {

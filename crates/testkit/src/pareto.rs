@@ -188,6 +188,7 @@ pub fn planted(n: usize, free: usize, seed: u64) -> Result<Planted, ModelError> 
     })
 }
 
+/// A random integer from `lowest` to `highest`.
 fn integer(rng: &mut ChaCha8Rng, lowest: i64, highest: i64) -> i64 {
     rng.random_range(lowest..=highest)
 }

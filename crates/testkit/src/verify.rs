@@ -1,4 +1,4 @@
-//! The main job: every family through every engine, one row each, one verdict.
+//! The run of `mceip verify`: every family through every engine, one row each.
 //!
 //! Input: how many random instances, and a seed. Output: a row of counts for each family and a
 //! report for each published state of the block; a run without disagreements passes. Called by

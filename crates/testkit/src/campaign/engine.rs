@@ -1,4 +1,4 @@
-//! The engines, each held against the plain enumerator's answer. Engines of one's own are welcome.
+//! The engines, each compared with the plain enumerator's answer. Callers may bring their own.
 //!
 //! Input: a case. Output: counts, corners, and a finding for each disagreement with the
 //! enumerator's answer or with what is known of the case by construction. A panic of an engine is a

@@ -46,6 +46,7 @@ pub struct UnknownFamily {
     pub name: String,
 }
 
+/// The names of all families, for messages.
 fn names() -> String {
     let names: Vec<&str> = FAMILIES.iter().map(|f| f.0).collect();
     names.join(", ")

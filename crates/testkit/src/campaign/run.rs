@@ -64,7 +64,8 @@ impl Campaign<'_> {
             let wave: Vec<Id> = (state.done..state.done + left.min(WAVE))
                 .map(|k| state.id(k))
                 .collect();
-            let judged: Vec<Judged> = wave.par_iter().map(|id| self.judge(id)).collect(); // in order
+            // Results come in the order of the wave.
+            let judged: Vec<Judged> = wave.par_iter().map(|id| self.judge(id)).collect();
 
             for (id, judged) in wave.iter().zip(judged) {
                 let family = (state.done % count) as usize;
@@ -124,6 +125,7 @@ struct Judged {
 }
 
 impl Judged {
+    /// An instance that the generator refused to make: a disagreement.
     fn refused(reason: String) -> Judged {
         let finding = Finding {
             engine: "generator".into(),

@@ -53,8 +53,8 @@ pub fn shrink(case: &Case, finding: &Finding, engines: &[Box<dyn Engine>]) -> (C
     (best, says)
 }
 
-/// Cases next to this one and smaller, the boldest first. Every one has fewer variables, or fewer
-/// entries and features, or shorter numbers, so that shrinking ends.
+/// Cases next to this one and smaller, those that drop most first. Every one has fewer variables,
+/// or fewer entries and features, or shorter numbers, so that shrinking ends.
 pub fn smaller(case: &Case) -> Vec<Case> {
     let problem = &case.instance.problem;
     let mut out = Vec::new();
@@ -139,10 +139,12 @@ impl Size {
     }
 }
 
+/// Bits of numerator and denominator.
 fn bits(v: &Rational) -> u64 {
     v.numer().bits() + v.denom().bits()
 }
 
+/// Bits of all entries.
 fn bits_of_matrix(matrix: &Sparse) -> u64 {
     matrix.entries().map(|(_, _, v)| bits(v)).sum()
 }

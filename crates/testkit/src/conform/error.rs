@@ -32,7 +32,7 @@ pub enum ConformError {
         /// The case.
         case: String,
     },
-    /// A flag nobody knows.
+    /// A word that is no flag.
     #[error("{case}: expected a flag of spec/conform.md, got {got:?}")]
     Flag {
         /// The case.

@@ -76,6 +76,7 @@ pub fn random_draft(k: usize, seed: u64) -> Result<Draft, ModelError> {
     ))
 }
 
+/// A problem of the pack, named by its id.
 fn draft(
     id: impl Into<String>,
     comment: impl Into<String>,
@@ -91,6 +92,7 @@ fn draft(
     }
 }
 
+/// A file of the pack.
 fn group(name: &str, comment: &str, drafts: Vec<Draft>) -> Group {
     Group {
         name: name.into(),
@@ -99,6 +101,7 @@ fn group(name: &str, comment: &str, drafts: Vec<Draft>) -> Group {
     }
 }
 
+/// A group of random instances.
 fn random(name: &str, comment: &str, list: Vec<Instance>) -> Group {
     let mut drafts = Vec::new();
     for (k, instance) in list.into_iter().enumerate() {
@@ -162,6 +165,7 @@ fn table1() -> Result<Group, ModelError> {
     ))
 }
 
+/// The two particles of Fig. 1 with these data, over [0, infinity).
 fn of_two_particles(data: &TwoParticles, unknown: Unknown) -> Result<Problem, ModelError> {
     let system = two_particles(data)?;
     Problem::new(Body::System(system), unknown, Window::all())

@@ -137,6 +137,7 @@ struct Met<'a> {
 }
 
 impl Met<'_> {
+    /// Nothing of the answer is met.
     fn nothing(case: &Case) -> Met<'_> {
         Met {
             case,
@@ -160,6 +161,7 @@ impl Met<'_> {
         Ok(())
     }
 
+    /// Certifies a reported solution and marks what it meets; the error says why there is nothing.
     fn place_solution(
         &mut self,
         solution: &Result<Reported, BadPoint>,
@@ -248,6 +250,7 @@ impl Met<'_> {
         is_placed
     }
 
+    /// Marks the range that a reported continuum meets.
     fn place_continuum(&mut self, reported: &ForeignContinuum) -> Result<(), String> {
         let mut slip = reported.slip.clone();
         slip.sort_unstable();
@@ -287,6 +290,7 @@ impl Met<'_> {
     }
 }
 
+/// The index of the first part that was not met.
 fn first_unmet(is_met: &[bool]) -> Option<usize> {
     is_met.iter().position(|m| !m)
 }
@@ -297,6 +301,7 @@ fn decimal(value: &Algebraic) -> String {
     to_decimal(&mut value.clone(), &identity, 9)
 }
 
+/// lo <= value <= hi?
 fn is_between(value: &Algebraic, lo: &Rational, hi: &Rational) -> bool {
     let mut value = value.clone();
     value.cmp_rational(lo).is_ge() && value.cmp_rational(hi).is_le()

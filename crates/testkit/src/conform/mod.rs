@@ -4,11 +4,13 @@
 //! ```text
 //! groups -> drafts -> cases (plain oracle: complete answer, flags, wrong answers) -> pack files
 //!                       |
-//!                       +-> foreign program (stdin: problem, stdout: mceip-solutions/1) -> judge -> labels per flag
+//!                       +-> foreign program (stdin: problem, stdout: mceip-solutions/1)
+//!                             |
+//!                             +-> judge -> labels per flag
 //! ```
 //!
-//! The pack in `spec/conformance-pack/` is written from this room byte for byte; `mceip conform`
-//! needs no files. The pages: `spec/conform.md`.
+//! The pack in `spec/conformance-pack/` is what [`pack_files`] writes, byte for byte;
+//! `mceip conform` needs no files. The pages: `spec/conform.md`.
 
 mod case;
 mod error;

@@ -69,6 +69,7 @@ struct Counts {
 }
 
 impl Counts {
+    /// Adds the cases of a group.
     fn add(&mut self, cases: &[Case], lines: &[CaseLine]) {
         self.cases += cases.len();
         for flag in cases.iter().flat_map(|case| &case.flags) {
@@ -79,6 +80,7 @@ impl Counts {
         }
     }
 
+    /// The content of `index.json`.
     fn index_text(self) -> String {
         let mut flags = Map::new();
         for (flag, count) in &self.flags {
@@ -216,9 +218,9 @@ struct RawCase {
     _wrong: Value,
 }
 
-/// Reads a pack from a folder by its index. Nothing in it is believed: digests are compared,
-/// answers are found again by the plain oracle and compared when a case is answered
-/// ([`Case::answer`]), see `expected`.
+/// Reads a pack from a folder by its index. Nothing in it is taken for granted: digests are
+/// compared, and each case is answered again by the plain oracle ([`Case::answer`]) and the answer
+/// compared.
 ///
 /// # Errors
 /// [`ConformError`]: unreadable or of another version, a digest, a problem, or an answer that
@@ -232,6 +234,7 @@ pub fn read_pack(folder: &Path) -> Result<Vec<Group>, ConformError> {
         .collect()
 }
 
+/// Reads `index.json`.
 fn read_index(folder: &Path) -> Result<RawIndex, ModelError> {
     let text = read_text("the index", &folder.join("index.json"))?;
     require_format(&text, INDEX_FORMAT)?;

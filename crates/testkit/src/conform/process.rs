@@ -170,7 +170,8 @@ fn drain(
             }
         }
 
-        let _ = send.send(kept); // nobody waits any more: dropped
+        // It is dropped if the time of grace is over.
+        let _ = send.send(kept);
     });
 
     receive
@@ -202,7 +203,7 @@ fn kill(child: &mut Child) {
     #[cfg(unix)]
     {
         let group = rustix::process::Pid::from_child(child);
-        // Gone already: fine.
+        // A group that has ended already is no error.
         let _ = rustix::process::kill_process_group(group, rustix::process::Signal::KILL);
     }
     let _ = child.kill();

@@ -1,4 +1,4 @@
-//! Eigenpairs of supports that are no solutions: what careless programs report.
+//! Eigenpairs of supports that are no solutions: a program that skips a check reports them.
 //!
 //! For a support J with active variables J and the free ones, the pair (t, x) solves
 //! (A + tB) x = 0 on the rows and columns of the active variables. It is a solution only if x > 0

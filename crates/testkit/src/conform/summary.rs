@@ -69,6 +69,7 @@ impl Summary {
         rows
     }
 
+    /// How many cases got which label, in one line.
     fn verdict(&self) -> String {
         let mut parts = Vec::new();
         for label in Label::ALL {
@@ -165,6 +166,7 @@ fn escaped(text: &str) -> String {
         .replace('<', "&lt;")
 }
 
+/// Counts by the words of their labels.
 fn counts_json(counts: &BTreeMap<Label, usize>) -> Value {
     let mut out = Map::new();
     for (label, count) in counts {
@@ -173,6 +175,7 @@ fn counts_json(counts: &BTreeMap<Label, usize>) -> Value {
     Value::Object(out)
 }
 
+/// A case that is not correct.
 fn failure_json(failure: &Outcome) -> Value {
     let flags: Vec<&str> = failure.flags.iter().map(|f| f.word()).collect();
     json!({

@@ -167,6 +167,7 @@ fn entry_negated(s: &Solution, slip: &[usize]) -> Value {
     json!({ "value": s.decimal(17), "x": x })
 }
 
+/// The decimal with the other sign; zero has none.
 fn negated(decimal: &str) -> String {
     match decimal.strip_prefix('-') {
         Some(rest) => rest.to_string(),
@@ -214,6 +215,7 @@ fn incomplete(case: &Case, slip: &[usize]) -> Option<WrongAnswer> {
     Some(WrongAnswer::new(Bug::Dropped, listed))
 }
 
+/// The first of two neighbours that share a value.
 fn first_with_the_value_of_the_next(solutions: &[Solution]) -> Option<usize> {
     solutions
         .windows(2)
@@ -295,6 +297,7 @@ fn outside(case: &Case) -> Option<Solution> {
         .find(|s| is_clearly_outside(s, window))
 }
 
+/// Is the value outside the window, and not near an end of it?
 fn is_clearly_outside(s: &Solution, window: &Window) -> bool {
     let Ok(value) = parse(&s.decimal(17)) else {
         return false;

@@ -142,6 +142,7 @@ fn rebuilt(pencil: &Pencil, change: &dyn Fn(usize, usize, &Rational) -> Rational
     Pencil::new(a, b, pencil.free().to_vec()).unwrap_or_else(|_| pencil.clone())
 }
 
+/// The matrix with every entry replaced by a function of row, column and value.
 fn changed(matrix: &Sparse, change: &dyn Fn(usize, usize, &Rational) -> Rational) -> Sparse {
     let entries = matrix.entries().map(|(i, j, v)| (i, j, change(i, j, v)));
     Sparse::from_entries(matrix.rows(), matrix.cols(), entries)

@@ -179,6 +179,7 @@ pub fn signs(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
     Pencil::new(sparse(&a), sparse(&b), Vec::new())
 }
 
+/// 1 or -1 with the same probability.
 fn sign(rng: &mut ChaCha8Rng) -> i64 {
     if rng.random_range(0..2) == 0 { 1 } else { -1 }
 }

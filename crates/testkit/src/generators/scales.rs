@@ -1,4 +1,4 @@
-//! Ill-conditioned, huge and tiny: what floats dislike and exact arithmetic does not notice.
+//! Ill-conditioned, huge and tiny: hard in doubles, and no different in exact arithmetic.
 //!
 //! Input: a source of random numbers and the order; the free variables come first. Output: pencils
 //! whose condition number is large, or whose entries differ in size by many decades. Called by the
@@ -99,6 +99,7 @@ pub fn scaled(
     Pencil::new(a, b, pencil.free().to_vec())
 }
 
+/// 10^exponent times the matrix.
 fn times_power_of_ten(matrix: &Sparse, exponent: i32) -> Sparse {
     let zero = Sparse::zeros(matrix.rows(), matrix.cols());
     zero.add_scaled(&power_of_ten(exponent), matrix)
@@ -114,6 +115,7 @@ pub fn integers(rng: &mut ChaCha8Rng, n: usize) -> Result<Pencil, ModelError> {
     Pencil::new(a, b, Vec::new())
 }
 
+/// An integer of up to six digits, of either sign.
 fn six_digits(rng: &mut ChaCha8Rng) -> Rational {
     let value = rng.random_range(-999_999..=999_999);
     whole(value)

@@ -181,6 +181,7 @@ fn subjects() -> Vec<Problem> {
     out
 }
 
+/// The pencil of small integers A and B.
 fn pencil(a: &[&[i64]], b: &[&[i64]], free: &[usize]) -> Result<Pencil, ModelError> {
     Pencil::new(Sparse::from_ints(a), Sparse::from_ints(b), free.to_vec())
 }

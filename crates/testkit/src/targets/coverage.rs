@@ -84,6 +84,7 @@ impl Counter {
         seen.clone()
     }
 
+    /// The rates of these counts that are below their floors.
     fn below_the_floor(&self, seen: &Seen) -> Vec<String> {
         let mut out = Vec::new();
         for (starts, coverage) in &seen.coverage {

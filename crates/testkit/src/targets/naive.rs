@@ -95,6 +95,7 @@ pub(super) fn evaluate(p: &[Rational], t: &Rational) -> Rational {
     sum
 }
 
+/// p'.
 fn derivative(p: &[Rational]) -> List {
     let mut out = Vec::new();
     for (k, c) in p.iter().enumerate().skip(1) {

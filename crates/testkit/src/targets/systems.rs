@@ -34,6 +34,7 @@ struct Bytes<'a> {
 }
 
 impl Bytes<'_> {
+    /// The next byte.
     fn next(&mut self) -> u8 {
         let byte = self.data.get(self.at).copied().unwrap_or(0);
         self.at += 1;
@@ -288,6 +289,7 @@ fn two_particle_data(data: &[u8]) -> TwoParticles {
 struct Column(Vec<Rational>);
 
 impl Column {
+    /// The column times a number.
     fn times(&self, factor: &Rational) -> Column {
         Column(self.0.iter().map(|v| v * factor).collect())
     }
