@@ -115,6 +115,7 @@ impl Algebraic {
 
         let mid = self.interval.mid();
         let at_mid = self.poly.sign_at(&mid);
+
         if at_mid == 0 {
             *self = Self::rational(mid);
             return;
@@ -125,6 +126,7 @@ impl Algebraic {
         } else {
             Interval::new(self.interval.lo().clone(), mid)
         };
+
         if let Some(half) = half {
             self.interval = half; // always: lo <= mid <= hi
         }
@@ -150,6 +152,7 @@ impl Algebraic {
         if sign != 0 {
             return Sign::from(sign);
         }
+
         if g.is_zero() || self.is_root_of(g) {
             return Sign::Zero;
         }
@@ -181,10 +184,12 @@ impl Algebraic {
         } else {
             self.poly.exact_div(&h)
         };
+
         if let Some(factor) = factor {
             self.poly = factor.primitive();
             self.at_lo = self.poly.sign_at(self.interval.lo());
         }
+
         vanishes
     }
 
@@ -211,9 +216,11 @@ impl Algebraic {
         for p in &remainders {
             content = content.gcd(&p.content());
         }
+
         if content.is_zero() || content.is_one() {
             return remainders;
         }
+
         remainders.iter().map(|p| p.divided_by(&content)).collect()
     }
 
@@ -276,6 +283,7 @@ impl Algebraic {
         if let Some(value) = other.as_rational() {
             return self.sign_of(&Poly::linear_root(value)) == Sign::Zero;
         }
+
         if let Some(value) = self.as_rational() {
             return other.sign_of(&Poly::linear_root(value)) == Sign::Zero;
         }
@@ -293,6 +301,7 @@ fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
     if floor == *lo {
         return floor;
     }
+
     let next = &floor + Rational::one();
     if next <= *hi {
         return next;
@@ -302,6 +311,7 @@ fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
     // and 1 turns its numerator into the denominator, which is the shorter of the two.
     let reciprocal_lo = (hi - &floor).recip();
     let reciprocal_hi = (lo - &floor).recip();
+
     floor + simplest_between(&reciprocal_lo, &reciprocal_hi).recip()
 }
 
@@ -323,6 +333,7 @@ mod tests {
             (rational(1393, 985), Ordering::Greater),
             (rational(3363, 2378), Ordering::Less),
         ];
+
         for (value, expected) in cases {
             let mut point = Algebraic::rational(value.clone());
 
@@ -415,6 +426,7 @@ mod tests {
         let lo = &value - Rational::new(1.into(), Integer::from(1) << (bits + 3));
         let hi = value * whole(2);
         let interval = Interval::new(lo, hi).unwrap();
+
         Algebraic::isolated(&factor * &Poly::from_ints(&[-2, 0, 1]), interval)
     }
 

@@ -38,6 +38,7 @@ pub fn first_row_cofactors(a: &[Vec<Integer>], b: &[Vec<Integer>]) -> Vec<Poly> 
         let values = cofactors_at.iter().map(|at_t| at_t[j].clone()).collect();
         polynomials.push(newton_interpolate(values));
     }
+
     polynomials
 }
 
@@ -86,11 +87,13 @@ fn integer_cofactors(mut m: Vec<Vec<Integer>>) -> Vec<Integer> {
     for (row, column) in (0..n).filter(|&column| column != free_column).enumerate() {
         cofactors[column] = -&m[row][free_column];
     }
+
     if negate {
         for cofactor in &mut cofactors {
             *cofactor = -&*cofactor;
         }
     }
+
     cofactors
 }
 
@@ -120,6 +123,7 @@ mod tests {
             .map(|row| [&row[..j], &row[j + 1..]].concat())
             .collect();
         let det = integer_determinant(minor);
+
         if j % 2 == 1 { -det } else { det }
     }
 
@@ -128,6 +132,7 @@ mod tests {
     fn cofactors_agree_with_determinants_of_what_is_left() {
         let mut random = Random(12345);
         let mut singular = 0;
+
         for k in 0..300 {
             let n = 1 + k % 5;
             let m: Vec<Vec<Integer>> = (0..n)
@@ -138,6 +143,7 @@ mod tests {
 
             assert_eq!(integer_cofactors(m), expected);
         }
+
         assert!(singular > 5);
     }
 

@@ -42,6 +42,7 @@ pub fn cone_generators(rows: &[Vec<Poly>], dimension: usize, alpha: &mut Algebra
     for row in rows {
         cone.intersect(row, alpha);
     }
+
     Generators {
         lineality: cone.lineality,
         rays: cone.rays.into_iter().map(|ray| ray.z).collect(),
@@ -74,6 +75,7 @@ impl Cone {
         for (k, unit_vector) in lineality.iter_mut().enumerate() {
             unit_vector[k] = Poly::from_ints(&[1]);
         }
+
         Cone {
             lineality,
             rays: Vec::new(),
@@ -91,6 +93,7 @@ impl Cone {
             Some(k) => self.cut_lineality(row, k, alpha),
             None => self.cut_rays(row, alpha),
         }
+
         self.rows += 1;
     }
 
@@ -105,6 +108,7 @@ impl Cone {
         for vector in &mut self.lineality {
             *vector = move_into_hyperplane(row, vector, &direction, alpha);
         }
+
         for ray in &mut self.rays {
             ray.z = move_into_hyperplane(row, &ray.z, &direction, alpha);
             ray.is_zero.push(true);
@@ -157,6 +161,7 @@ impl Cone {
                 kept.push(Ray { z, is_zero });
             }
         }
+
         self.rays = kept;
     }
 
@@ -172,6 +177,7 @@ impl Cone {
                 return false;
             }
         }
+
         true
     }
 }
@@ -201,9 +207,11 @@ fn combine(weights: [&Poly; 2], vectors: [&[Poly]; 2], alpha: &Algebraic) -> Vec
     let [p, q] = weights;
     let [u, v] = vectors;
     let mut sum = Vec::with_capacity(u.len());
+
     for (u_i, v_i) in u.iter().zip(v) {
         sum.push(&(p * u_i) + &(q * v_i));
     }
+
     alpha.reduce(&sum)
 }
 
@@ -215,6 +223,7 @@ pub fn dot(a: &[Poly], b: &[Poly]) -> Poly {
             sum += &(a_i * b_i);
         }
     }
+
     sum
 }
 
@@ -256,6 +265,7 @@ mod tests {
             &[0, 0, 1, 1],
             &[0, 0, -1, 1],
         ];
+
         assert_eq!(counts(&cube, 4), (0, 8));
 
         // Over the octahedron: 8 facets, 6 rays.

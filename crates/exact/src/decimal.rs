@@ -83,6 +83,7 @@ pub fn enclosing_decimals(interval: &Interval, digits: usize) -> (String, String
     let power = scaling_power(&largest, digits);
     let down = times_power_of_ten(&times_power_of_ten(interval.lo(), power).floor(), -power);
     let up = times_power_of_ten(&times_power_of_ten(interval.hi(), power).ceil(), -power);
+
     (round(&down, digits + 1), round(&up, digits + 1)) // both are exact at that length
 }
 
@@ -103,6 +104,7 @@ pub(crate) fn round(value: &Rational, digits: usize) -> String {
     }
 
     let sign = if value.is_negative() { "-" } else { "" };
+
     format!("{sign}{}", layout(&mantissa.to_string(), exponent))
 }
 
@@ -115,6 +117,7 @@ fn tie_in(interval: &Interval, digits: usize) -> Option<Rational> {
     let scaled_lo = times_power_of_ten(interval.lo(), power);
     let scaled_tie = (scaled_lo - &half).ceil() + half;
     let tie = times_power_of_ten(&scaled_tie, -power);
+
     interval.contains(&tie).then_some(tie)
 }
 
@@ -130,6 +133,7 @@ fn decimal_exponent(value: &Rational) -> i64 {
     let guess = numerator_digits - denominator_digits; // right, or one too large
 
     let power = times_power_of_ten(&Rational::from_integer(1.into()), guess);
+
     if *value < power { guess - 1 } else { guess }
 }
 
@@ -232,6 +236,7 @@ mod tests {
                 "1.3",
             ),
         ];
+
         for (numerator, denominator, digits, expected) in quotients {
             let decimal = ratio_to_decimal(&mut root, &numerator, &denominator, digits);
             assert_eq!(decimal, expected);
@@ -251,6 +256,7 @@ mod tests {
             (["-1/8", "1/3"], 2, ["-0.13", "0.34"]),
             (["1.25", "1.5"], 3, ["1.25", "1.5"]),
         ];
+
         for (ends, digits, expected) in cases {
             let [lo, hi] = ends.map(|text| parse(text).unwrap());
             let interval = Interval::new(lo, hi).unwrap();

@@ -73,6 +73,7 @@ pub fn positive_definite(m: &Sparse) -> Result<(), DefiniteError> {
     if certainly_definite(m) {
         return Ok(());
     }
+
     if m.rows() <= EXACT_ORDER {
         leading_minors(m)
     } else {
@@ -115,12 +116,14 @@ fn leading_minors(m: &Sparse) -> Result<(), DefiniteError> {
         }
         previous = minor;
     }
+
     Ok(())
 }
 
 fn rounded_ldl(m: &Sparse) -> Result<(), DefiniteError> {
     let fixed = Fixed::of(m);
     let ldl = RoundedLdl::of(m, &fixed)?;
+
     match ldl.first_undominated(m, &fixed) {
         None => Ok(()),
         Some(index) => Err(DefiniteError::Undecided { index }),
@@ -189,6 +192,7 @@ impl RoundedLdl {
             ldl.lower.push(row);
             ldl.pivots.push(pivot);
         }
+
         Ok(ldl)
     }
 
@@ -197,11 +201,13 @@ impl RoundedLdl {
     fn next_row(&self, m: &Sparse, fixed: &Fixed) -> LowerRow {
         let i = self.lower.len();
         let mut given = LowerRow::new();
+
         for (j, entry) in m.row(i) {
             if *j < i {
                 given.insert(*j, fixed.round(entry));
             }
         }
+
         let Some((&first, _)) = given.first_key_value() else {
             return LowerRow::new();
         };
@@ -220,6 +226,7 @@ impl RoundedLdl {
                 scaled.insert(j, l_ij_d_j);
             }
         }
+
         row
     }
 
@@ -259,6 +266,7 @@ impl RoundedLdl {
                 }
             }
         }
+
         (0..n).find(|&i| diagonal[i] <= off_diagonal[i])
     }
 
@@ -281,6 +289,7 @@ impl RoundedLdl {
         for (k, l_ik) in row {
             x[*k] = -l_ik.clone();
         }
+
         for j in (0..i).rev() {
             let x_j = x[j].clone();
             for (k, l_jk) in &self.lower[j] {
@@ -341,6 +350,7 @@ mod tests {
             (2, 1, rational(1, 1000)),
             (2, 2, corner),
         ];
+
         Sparse::from_entries(3, 3, entries)
     }
 
@@ -372,6 +382,7 @@ mod tests {
             };
             assert!(!refuted.pivot.is_positive());
         }
+
         let refused = positive_definite(&large);
         assert!(matches!(refused, Err(DefiniteError::Not(_))));
     }
@@ -406,6 +417,7 @@ mod tests {
                 entries.push((i, j, entry(i, j)));
             }
         }
+
         Sparse::from_entries(n, n, entries)
     }
 

@@ -43,8 +43,10 @@ fn proof(m: &Sparse) -> Option<bool> {
     if m.rows() > MAX_ORDER {
         return None;
     }
+
     let a = rounded_down(m)?;
     let factors = Factors::of(&a)?;
+
     factors.is_residual_dominated(m, &a)
 }
 
@@ -67,6 +69,7 @@ fn rounded_down(m: &Sparse) -> Option<Vec<Row>> {
         }
         rows.push(Row { first, entries });
     }
+
     Some(rows)
 }
 
@@ -83,6 +86,7 @@ impl Unit {
         if !largest.is_positive() {
             return None;
         }
+
         let bits = largest.numer().bits() as i64 - largest.denom().bits() as i64 + 1;
         let exponent = bits - i64::from(UNIT);
         Some(Unit {
@@ -110,9 +114,11 @@ impl Factors {
             lower: Vec::with_capacity(a.len()),
             pivots: Vec::with_capacity(a.len()),
         };
+
         for given in a {
             factors.append_row(given)?;
         }
+
         Some(factors)
     }
 
@@ -125,6 +131,7 @@ impl Factors {
             first,
             entries: Vec::with_capacity(i - first),
         };
+
         let mut scaled = Row {
             first,
             entries: Vec::with_capacity(i - first),
@@ -144,11 +151,14 @@ impl Factors {
         let a_ii = i128::from(given.entries[i - first]);
         let pivot = a_ii - i128::from(SHIFT) - (dot(&scaled, &row) >> LOWER);
         let pivot = i64::try_from(pivot).ok()?;
+
         if pivot <= 0 {
             return None;
         }
+
         self.pivots.push(pivot);
         self.lower.push(row);
+
         Some(())
     }
 
@@ -195,6 +205,7 @@ impl Factors {
                 return Some(false);
             }
         }
+
         Some(true)
     }
 }
@@ -221,6 +232,7 @@ impl ScaledRow {
             high.push(i64::try_from(product >> LOWER).ok()?);
             low.push(i64::try_from(product & ((1 << LOWER) - 1)).ok()?);
         }
+
         Some(ScaledRow {
             entries,
             high: Row {
@@ -239,9 +251,11 @@ impl ScaledRow {
 fn dot(a: &Row, b: &Row) -> i128 {
     let first = a.first.max(b.first);
     let mut sum = 0;
+
     for (a_k, b_k) in a.entries_from(first).iter().zip(b.entries_from(first)) {
         sum += i128::from(*a_k) * i128::from(*b_k);
     }
+
     sum
 }
 
@@ -275,6 +289,7 @@ mod tests {
             assert!(certainly_definite(&chain(100, whole(2), &factor)));
             assert!(!certainly_definite(&chain(100, rational(19, 10), &factor)));
         }
+
         assert!(!certainly_definite(&Sparse::zeros(3, 3)));
     }
 
@@ -295,6 +310,7 @@ mod tests {
             );
             assert!(!certainly_definite(&m));
         }
+
         // Entries off the diagonal that are larger than all of it.
         let off = Sparse::from_entries(
             2,
@@ -306,6 +322,7 @@ mod tests {
                 (1, 1, whole(1)),
             ],
         );
+
         assert!(!certainly_definite(&off));
     }
 
@@ -350,6 +367,7 @@ mod tests {
                 entries: (0..i).map(|_| random.next(1 << (LOWER - 1))).collect(),
             })
             .collect();
+
         Factors { lower, pivots }
     }
 
@@ -359,6 +377,7 @@ mod tests {
             Some(value) => Integer::from(*value),
             None => Integer::one() << LOWER, // the diagonal
         };
+
         (0..=j)
             .map(|k| entry(i, k) * factors.pivots[k] * entry(j, k))
             .sum()
@@ -405,6 +424,7 @@ mod tests {
             assert_eq!(factors.is_residual_dominated(&ones, &a), Some(expected));
             seen[usize::from(expected)] += 1;
         }
+
         assert!(seen[0] > 50 && seen[1] > 10, "{seen:?}");
     }
 }

@@ -56,11 +56,13 @@ impl Dense {
     pub fn clear_rows(&self, other: &Dense) -> (Vec<Vec<Integer>>, Vec<Vec<Integer>>) {
         let mut own_rows = Vec::with_capacity(self.rows());
         let mut other_rows = Vec::with_capacity(self.rows());
+
         for i in 0..self.rows() {
             let clear = common_denominator(self.row(i).iter().chain(other.row(i)));
             own_rows.push(cleared(self.row(i), &clear));
             other_rows.push(cleared(other.row(i), &clear));
         }
+
         (own_rows, other_rows)
     }
 }

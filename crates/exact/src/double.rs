@@ -50,6 +50,7 @@ pub fn to_f64(value: &Rational) -> f64 {
     if value.is_zero() {
         return 0.0;
     }
+
     let mut numerator = value.numer().abs();
     let mut denominator = value.denom().clone();
 
@@ -61,6 +62,7 @@ pub fn to_f64(value: &Rational) -> f64 {
     } else {
         denominator <<= shift.unsigned_abs();
     }
+
     let (quotient, remainder) = numerator.div_rem(&denominator);
     let scaled = Scaled {
         quotient,
@@ -70,6 +72,7 @@ pub fn to_f64(value: &Rational) -> f64 {
 
     let magnitude = scaled.nearest();
     let sign_bit = u64::from(value.is_negative()) << 63;
+
     f64::from_bits(magnitude.to_bits() + sign_bit)
 }
 
@@ -161,6 +164,7 @@ mod tests {
             let value = f64::from_bits(bits);
             assert_eq!(to_f64(&from_f64(value).unwrap()).to_bits(), bits);
         }
+
         for value in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
             assert!(from_f64(value).is_err());
         }
@@ -173,6 +177,7 @@ mod tests {
         let power = |k: u32| Rational::from_integer(Integer::from(1) << k);
         let half_a_unit = power(970);
         let last = power(1024) - &half_a_unit;
+
         for (value, want) in [
             (&last - power(0), f64::MAX),
             (last, f64::INFINITY),
@@ -200,6 +205,7 @@ mod tests {
             assert_eq!(to_f64(&nearly), 2f64.powi(k as i32));
             assert_eq!(to_f64(&nearly.recip()), 2f64.powi(-(k as i32)));
         }
+
         assert_eq!(
             to_f64(&(power(53) - rational(1, 1))),
             9_007_199_254_740_991.0

@@ -69,6 +69,7 @@ impl Interval {
 
         let power = ends.scale.trailing_zeros().unwrap_or(0);
         let is_power_of_two = ends.scale.bits() == power + 1;
+
         if !is_power_of_two {
             return Rational::new(sum, ends.scale * 2);
         }
@@ -76,6 +77,7 @@ impl Interval {
         // Ends of bisection are dyadic: p / 2^k is reduced by counting zeros, without a gcd.
         let zeros = sum.trailing_zeros().unwrap_or(power + 1);
         let common = zeros.min(power + 1);
+
         Rational::new_raw(sum >> common, Integer::one() << (power + 1 - common))
     }
 
@@ -121,12 +123,15 @@ impl Interval {
             &self.hi * &other.lo,
             &self.hi * &other.hi,
         ];
+
         let mut smallest = &products[0];
         let mut largest = &products[0];
+
         for product in &products[1..] {
             smallest = smallest.min(product);
             largest = largest.max(product);
         }
+
         Interval {
             lo: smallest.clone(),
             hi: largest.clone(),
@@ -138,10 +143,12 @@ impl Interval {
         if divisor.certain_sign() == 0 {
             return None;
         }
+
         let reciprocal = Interval {
             lo: divisor.hi.recip(),
             hi: divisor.lo.recip(),
         };
+
         Some(self.mul(&reciprocal))
     }
 
@@ -165,6 +172,7 @@ impl Interval {
 
         let image = self.horner_scaled(p);
         let longest = image.lo.bits().max(image.hi.bits()).max(image.scale.bits());
+
         if longest <= SHORT {
             return image.exactly();
         }
@@ -207,6 +215,7 @@ impl Interval {
             lo += &scaled_coefficient;
             hi += scaled_coefficient;
         }
+
         ScaledEnds { lo, hi, scale }
     }
 }
@@ -256,6 +265,7 @@ mod tests {
         for k in -10..=15 {
             assert!(image.contains(&p.eval(&rational(k, 10))));
         }
+
         assert!(!image.contains(&whole(100)));
     }
 
@@ -273,6 +283,7 @@ mod tests {
             -huge.clone(),
             huge,
         ];
+
         let polynomials = [
             vec![],
             vec![0, 1],
@@ -312,6 +323,7 @@ mod tests {
             ((-3, -2), (-7, -5), (10, 21)),
             ((-2, 3), (-5, 7), (-15, 21)),
         ];
+
         for (a, b, product) in cases {
             assert_eq!(interval(a).mul(&interval(b)), interval(product));
             assert_eq!(interval(b).mul(&interval(a)), interval(product));

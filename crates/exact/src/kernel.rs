@@ -47,6 +47,7 @@ pub(super) fn values_at(a: &[Vec<Integer>], b: &[Vec<Integer>], t: usize) -> Vec
         let entries = a_row.iter().zip(b_row);
         rows.push(entries.map(|(a_ij, b_ij)| a_ij + b_ij * t).collect());
     }
+
     rows
 }
 
@@ -98,6 +99,7 @@ pub(super) fn newton_interpolate(mut values: Vec<Integer>) -> Poly {
         falling = &falling * &Poly::from_ints(&[-(k as i64), 1]);
         weight /= k + 1;
     }
+
     sum.divided_by(&factorial)
 }
 
@@ -127,6 +129,7 @@ pub fn minors(m: &[Vec<Poly>], columns: &[usize]) -> Vec<Poly> {
     let order = columns.len();
     let mut found = Vec::new();
     let mut rows: Vec<usize> = (0..order).collect();
+
     if order > m.len() {
         return found;
     }
@@ -154,10 +157,12 @@ fn advance_combination(chosen: &mut [usize], limit: usize) -> bool {
     let Some(k) = (0..order).rev().find(|&k| chosen[k] + order - k < limit) else {
         return false;
     };
+
     chosen[k] += 1;
     for later in k + 1..order {
         chosen[later] = chosen[later - 1] + 1;
     }
+
     true
 }
 
@@ -200,6 +205,7 @@ impl Echelon {
                 echelon.pivots.push(column);
             }
         }
+
         echelon
     }
 
@@ -219,6 +225,7 @@ impl Echelon {
                 *entry = numerator.exact_div(&self.last_pivot).unwrap_or(numerator);
             }
         }
+
         self.last_pivot = pivot.clone();
     }
 
@@ -238,6 +245,7 @@ impl Echelon {
         for (row, &pivot_column) in self.rows.iter().zip(&self.pivots) {
             vector[pivot_column] = -&row[free_column];
         }
+
         vector
     }
 }
@@ -270,6 +278,7 @@ mod tests {
         let Some(first) = m.first() else {
             return Poly::from_ints(&[1]);
         };
+
         let mut sum = Poly::default();
         for (j, entry) in first.iter().enumerate() {
             let minor: Vec<Vec<Poly>> = m[1..]
@@ -289,6 +298,7 @@ mod tests {
                 &sum - &term
             };
         }
+
         sum
     }
 
@@ -300,6 +310,7 @@ mod tests {
             &[7, -2, 0, 0],
             &[1, 1, 1, -6],
         ];
+
         let b: &[&[i64]] = &[&[1, 0, 2, 0], &[-3, 0, 0, 1], &[0, 4, 1, 0], &[2, 0, 0, 5]];
         let singular: &[&[i64]] = &[&[1, 2], &[2, 4]];
 
@@ -318,6 +329,7 @@ mod tests {
             &[&[-1, 0, 0], &[0, -1, 0], &[0, 0, -2]],
             &[&[1, 0, 0], &[0, 1, 0], &[0, 0, 1]],
         );
+
         let mut roots = nonnegative_roots(&Poly::from_ints(&[2, -3, 1]));
         for (alpha, dimension) in roots.iter_mut().zip([2, 1]) {
             let basis = kernel_at(m.clone(), alpha);
@@ -339,6 +351,7 @@ mod tests {
             vec![Poly::from_ints(&[-2, 0, 1]), Poly::from_ints(&[0])],
             vec![Poly::from_ints(&[0]), Poly::from_ints(&[3])],
         ];
+
         let mut root = nonnegative_roots(&Poly::from_ints(&[-2, 0, 1])).remove(0);
         assert_eq!(kernel_at(m, &mut root).len(), 1);
     }

@@ -79,10 +79,12 @@ pub fn schur_complement(
     let det_f = &minors[0];
 
     let mut entries = Vec::with_capacity(minors.len() - 1);
+
     for (k, minor) in minors[1..].iter().enumerate() {
         let quotient = Rational::new(minor.clone(), det_f.clone());
         entries.push((k / c.cols(), k % c.cols(), quotient * &bordered.unit));
     }
+
     Ok(Sparse::from_entries(r.rows(), c.cols(), entries))
 }
 
@@ -99,6 +101,7 @@ fn require_shape(
             got,
         });
     }
+
     Ok(())
 }
 
@@ -118,9 +121,11 @@ impl Bordered {
     fn new(f: &Sparse, c: &Sparse, r: &Sparse, d: &Sparse) -> Bordered {
         let n = f.rows();
         let mut rational = Vec::with_capacity(n + r.rows());
+
         for i in 0..n {
             rational.push(side_by_side(f.row(i), c.row(i), n));
         }
+
         for i in 0..r.rows() {
             rational.push(side_by_side(r.row(i), d.row(i), n));
         }
@@ -128,12 +133,15 @@ impl Bordered {
         // All entries as integers without a common factor, times the unit gcd / clear.
         let clear = common_denominator(rational.iter().flatten().map(|(_, entry)| entry));
         let mut gcd = Integer::zero();
+
         for (_, entry) in rational.iter().flatten() {
             gcd = gcd.gcd(&cleared(entry, &clear));
         }
+
         if gcd.is_zero() {
             gcd = Integer::one();
         }
+
         let rows = rational
             .iter()
             .map(|row| {
@@ -160,6 +168,7 @@ impl Bordered {
         let bound = self.hadamard_bits() + 2; // the sign, and "exceeds"
 
         let mut skipped = 0;
+
         for p in primes() {
             if residues.bits() > bound {
                 break;
@@ -175,6 +184,7 @@ impl Bordered {
                 return Err(CondenseError::ZeroMinor { primes: skipped });
             }
         }
+
         Ok(residues.symmetric())
     }
 
@@ -192,6 +202,7 @@ impl Bordered {
         let det = matrix.eliminate(self.n, self.band)?;
 
         let mut minors = vec![matrix.field.leave(det)];
+
         for i in self.n..self.rows.len() {
             for j in self.n..matrix.width {
                 let entry = matrix.entries[i * matrix.width + j];
@@ -199,6 +210,7 @@ impl Bordered {
                 minors.push(matrix.field.leave(minor));
             }
         }
+
         Some(minors)
     }
 
@@ -206,11 +218,13 @@ impl Bordered {
         let field = Field::new(p);
         let width = self.n + self.cols;
         let mut entries = vec![0u64; self.rows.len() * width];
+
         for (i, row) in self.rows.iter().enumerate() {
             for (j, value) in row {
                 entries[i * width + j] = field.enter(residue(value, p));
             }
         }
+
         ModularMatrix {
             field,
             width,
@@ -258,6 +272,7 @@ impl ModularMatrix {
                 }
             }
         }
+
         Some(det)
     }
 }
@@ -324,6 +339,7 @@ impl Residues {
             let digit = field.leave(field.mul(field.enter(difference), inverse));
             *x += &self.modulus * digit;
         }
+
         self.modulus *= p;
     }
 
@@ -348,6 +364,7 @@ mod tests {
         let rows = n + r.rows();
         let width = n + c.cols();
         let mut m = vec![vec![whole(0); width]; rows];
+
         for i in 0..rows {
             for j in 0..width {
                 m[i][j] = match (i < n, j < n) {
@@ -375,6 +392,7 @@ mod tests {
                 entries.push((i - n, j - n, m[i][j].clone()));
             }
         }
+
         Sparse::from_entries(r.rows(), c.cols(), entries)
     }
 

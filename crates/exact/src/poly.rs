@@ -53,6 +53,7 @@ impl Poly {
             .iter()
             .map(|c| c.numer() * (&clear / c.denom()))
             .collect();
+
         Poly::new(integers)
     }
 
@@ -108,6 +109,7 @@ impl Poly {
             denominator *= v;
             numerator = numerator * u + c * &denominator;
         }
+
         HomogeneousValue {
             numerator,
             denominator,
@@ -129,6 +131,7 @@ impl Poly {
                 break;
             }
         }
+
         content
     }
 
@@ -138,9 +141,11 @@ impl Poly {
         if self.leading().is_negative() {
             divisor = -divisor;
         }
+
         if divisor.is_zero() || divisor.is_one() {
             return self.clone();
         }
+
         self.divided_by(&divisor)
     }
 
@@ -193,8 +198,10 @@ impl Add for &Poly {
         if self.coeffs.len() < other.coeffs.len() {
             return other + self;
         }
+
         let mut sum = self.clone();
         sum += other;
+
         sum
     }
 }
@@ -204,9 +211,11 @@ impl AddAssign<&Poly> for Poly {
         if self.coeffs.len() < other.coeffs.len() {
             self.coeffs.resize(other.coeffs.len(), Integer::zero());
         }
+
         for (c, other_c) in self.coeffs.iter_mut().zip(&other.coeffs) {
             *c += other_c;
         }
+
         self.drop_leading_zeros();
     }
 }
@@ -227,9 +236,11 @@ impl Sub for &Poly {
         if difference.len() < other.coeffs.len() {
             difference.resize(other.coeffs.len(), Integer::zero());
         }
+
         for (c, other_c) in difference.iter_mut().zip(&other.coeffs) {
             *c -= other_c;
         }
+
         Poly::new(difference)
     }
 }
@@ -248,6 +259,7 @@ impl Mul for &Poly {
                 product[i + j] += a * b;
             }
         }
+
         Poly::new(product)
     }
 }
@@ -273,6 +285,7 @@ impl std::fmt::Display for Poly {
                 _ => write!(f, "{c} t^{power}")?,
             }
         }
+
         Ok(())
     }
 }
@@ -306,6 +319,7 @@ mod tests {
             Poly::from_ints(&[4, 0, -6]).primitive(),
             Poly::from_ints(&[-2, 0, 3])
         );
+
         assert_eq!(
             Poly::from_rationals(&[rational(1, 2), rational(-1, 3)]),
             Poly::from_ints(&[3, -2])

@@ -38,9 +38,11 @@ impl Divisor<'_> {
         let top = rest.leading() * &self.sign;
 
         let mut coeffs: Vec<Integer> = rest.coeffs().iter().map(|c| c * &self.lead).collect();
+
         for (c, d) in coeffs[shift..].iter_mut().zip(self.coeffs) {
             *c -= d * &top;
         }
+
         Poly::new(coeffs)
     }
 }
@@ -57,9 +59,11 @@ impl Poly {
         let divisor = Divisor::new(divisor);
 
         let mut rest = self.clone();
+
         while rest.coeffs().len() >= divisor.coeffs.len() {
             rest = divisor.cancel_leading_term(&rest);
         }
+
         rest
     }
 
@@ -71,6 +75,7 @@ impl Poly {
         let divisor = Divisor::new(divisor);
 
         let mut rest = self.clone();
+
         for _ in 0..steps {
             rest = if rest.coeffs().len() >= divisor.coeffs.len() {
                 divisor.cancel_leading_term(&rest)
@@ -78,6 +83,7 @@ impl Poly {
                 rest.scale(&divisor.lead)
             };
         }
+
         rest
     }
 
@@ -87,6 +93,7 @@ impl Poly {
         if length == 0 {
             return None;
         }
+
         let lead = divisor.leading();
         let mut rest = self.coeffs().to_vec();
         let mut quotient = vec![Integer::zero(); (rest.len() + 1).saturating_sub(length)];
@@ -103,6 +110,7 @@ impl Poly {
         }
 
         let divides = rest.iter().all(Zero::is_zero);
+
         divides.then(|| Poly::new(quotient))
     }
 
@@ -110,11 +118,13 @@ impl Poly {
     pub fn gcd(&self, other: &Poly) -> Poly {
         let mut a = self.primitive();
         let mut b = other.primitive();
+
         while !b.is_zero() {
             let remainder = a.pseudo_rem(&b).primitive();
             a = b;
             b = remainder;
         }
+
         a
     }
 
@@ -132,6 +142,7 @@ impl Poly {
             self.divided_by_content(),
             self.derivative().divided_by_content(),
         ];
+
         while let [.., a, b] = &chain[..] {
             if b.is_zero() {
                 chain.pop();
@@ -140,6 +151,7 @@ impl Poly {
             let next = -&a.pseudo_rem(b);
             chain.push(next.divided_by_content());
         }
+
         chain
     }
 }
@@ -148,6 +160,7 @@ impl Poly {
 pub(super) fn variations(chain: &[Poly], t: &Rational) -> usize {
     let mut changes = 0;
     let mut previous = 0;
+
     for p in chain {
         let sign = p.sign_at(t);
         if sign == 0 {
@@ -158,6 +171,7 @@ pub(super) fn variations(chain: &[Poly], t: &Rational) -> usize {
         }
         previous = sign;
     }
+
     changes
 }
 

@@ -50,12 +50,14 @@ impl Field {
     pub fn dot(&self, a: &[u64], b: &[u64]) -> u64 {
         let limit = u128::from(self.p) << 64; // < 2^126; a product is < 2^124
         let mut sum = 0u128;
+
         for (&a_k, &b_k) in a.iter().zip(b) {
             sum += u128::from(a_k) * u128::from(b_k);
             if sum >= limit {
                 sum -= limit;
             }
         }
+
         self.reduce(sum)
     }
 
@@ -66,6 +68,7 @@ impl Field {
         let m = (product as u64).wrapping_mul(self.negated_inverse);
         let sum = product + u128::from(m) * u128::from(self.p);
         let quotient = (sum >> 64) as u64;
+
         if quotient >= self.p {
             quotient - self.p
         } else {
@@ -101,6 +104,7 @@ impl Field {
         let mut result = self.enter(1);
         let mut square = a; // a^(2^k)
         let mut exponent = self.p - 2;
+
         while exponent > 0 {
             if exponent & 1 == 1 {
                 result = self.mul(result, square);
@@ -108,6 +112,7 @@ impl Field {
             square = self.mul(square, square);
             exponent >>= 1;
         }
+
         result
     }
 }
@@ -135,15 +140,18 @@ fn is_strong_probable_prime(n: u64, base: u64) -> bool {
     let odd = (n - 1) >> twos;
 
     let mut x = power(base, odd, n);
+
     if x == 1 || x == n - 1 {
         return true;
     }
+
     for _ in 1..twos {
         x = (u128::from(x) * u128::from(x) % u128::from(n)) as u64;
         if x == n - 1 {
             return true;
         }
     }
+
     false
 }
 
@@ -159,6 +167,7 @@ fn power(base: u64, mut exponent: u64, n: u64) -> u64 {
         square = square * square % modulus;
         exponent >>= 1;
     }
+
     result as u64
 }
 
@@ -172,6 +181,7 @@ mod tests {
             let has_divisor = (2..n).any(|d| n.is_multiple_of(d));
             assert_eq!(is_prime(n), n > 1 && !has_divisor, "{n}");
         }
+
         assert!(!is_prime(3_215_031_751)); // strong pseudoprime to bases 2, 3, 5, 7
         assert_eq!(primes().next(), Some((1 << 62) - 57));
     }
@@ -180,6 +190,7 @@ mod tests {
     fn montgomery_agrees_with_division() {
         let p = primes().next().unwrap();
         let field = Field::new(p);
+
         for (a, b) in [
             (0, 5),
             (1, p - 1),

@@ -86,6 +86,7 @@ impl Quadratic {
     pub fn sign(&self) -> Sign {
         let square_of_a = &self.a * &self.a;
         let square_of_root_term = &self.b * &self.b * &self.d;
+
         match square_of_a.cmp(&square_of_root_term) {
             Ordering::Greater => sign_of(&self.a),
             Ordering::Less => sign_of(&self.b),
@@ -102,6 +103,7 @@ impl Quadratic {
             let coefficient = Rational::from_integer(coefficient.clone());
             value = value.mul(self).add(&self.embed(coefficient));
         }
+
         value
     }
 
@@ -146,6 +148,7 @@ mod tests {
         ] {
             assert_eq!(number(a, b, 4).sign(), sign, "{a} {b}");
         }
+
         assert!(Quadratic::new(whole(0), whole(1), whole(-1)).is_none());
     }
 
@@ -156,10 +159,12 @@ mod tests {
             golden.eval(&Poly::from_ints(&[-1, -1, 1])).sign(),
             Sign::Zero
         );
+
         assert_eq!(
             golden.eval(&Poly::from_ints(&[-1, -1, 2])).sign(),
             Sign::Positive
         );
+
         assert!(
             golden.within(&rational(8, 5), &rational(17, 10))
                 && !golden.within(&whole(0), &rational(8, 5))

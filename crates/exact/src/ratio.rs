@@ -121,6 +121,7 @@ impl Ord for Rational {
         if self.denom() == other.denom() {
             return self.numer().cmp(other.numer());
         }
+
         let by_sign = self.numer().sign().cmp(&other.numer().sign());
         if by_sign != Ordering::Equal {
             return by_sign;
@@ -128,6 +129,7 @@ impl Ord for Rational {
 
         let left = self.numer() * other.denom();
         let right = other.numer() * self.denom();
+
         left.cmp(&right)
     }
 }
@@ -374,11 +376,13 @@ mod tests {
             of(1, 2),
             of(2, 1),
         ];
+
         for (i, a) in ascending.iter().enumerate() {
             for (j, b) in ascending.iter().enumerate() {
                 assert_eq!(a.cmp(b), i.cmp(&j), "{a} {b}");
             }
         }
+
         assert_eq!(Rational::new_raw(2.into(), 4.into()), of(1, 2));
     }
 
@@ -388,10 +392,12 @@ mod tests {
     fn close_and_long_numbers_are_compared_without_a_stack() {
         let mut a = Integer::one();
         let mut b = Integer::one();
+
         for _ in 0..200_000 {
             let next = &a + &b;
             a = std::mem::replace(&mut b, next);
         }
+
         let next = &a + &b;
         let one = Rational::new_raw(b.clone(), a);
         let other = Rational::new_raw(next, b);

@@ -88,12 +88,14 @@ pub fn parse(text: &str) -> Result<Rational, NumberError> {
     if text.is_empty() {
         return Err(NumberError::Empty);
     }
+
     if text.len() > MAX_SPELLING {
         return Err(NumberError::TooLong {
             got: text.len(),
             limit: MAX_SPELLING,
         });
     }
+
     match text.split_once('/') {
         Some((p, q)) => parse_fraction(text, p, q),
         None => parse_decimal(text),
@@ -136,9 +138,11 @@ fn head(text: &str) -> String {
 fn parse_fraction(text: &str, p: &str, q: &str) -> Result<Rational, NumberError> {
     let p = parse_integer(p).ok_or_else(|| malformed(text))?;
     let q = parse_integer(q).ok_or_else(|| malformed(text))?;
+
     if q.is_zero() {
         return Err(NumberError::ZeroDenominator { text: head(text) });
     }
+
     Ok(Rational::new(p, q))
 }
 
@@ -146,6 +150,7 @@ fn parse_fraction(text: &str, p: &str, q: &str) -> Result<Rational, NumberError>
 fn parse_integer(text: &str) -> Option<Integer> {
     let digits = text.strip_prefix(['+', '-']).unwrap_or(text);
     let magnitude = parse_unsigned(digits)?;
+
     if text.starts_with('-') {
         Some(-magnitude)
     } else {
@@ -159,6 +164,7 @@ fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
         Some((mantissa, exponent)) => (mantissa, parse_exponent(text, exponent)?),
         None => (text, 0),
     };
+
     let (signed_whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
     let unsigned_whole = signed_whole
         .strip_prefix(['+', '-'])
@@ -168,6 +174,7 @@ fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
     let Some(magnitude) = parse_unsigned(&digits) else {
         return Err(malformed(text));
     };
+
     let integer = if signed_whole.starts_with('-') {
         -magnitude
     } else {
@@ -176,6 +183,7 @@ fn parse_decimal(text: &str) -> Result<Rational, NumberError> {
 
     let power = i64::from(exponent) - fraction.len() as i64;
     let scale = Integer::from(10).pow(power.unsigned_abs());
+
     if power >= 0 {
         Ok(Rational::from_integer(integer * scale))
     } else {
@@ -199,6 +207,7 @@ fn parse_exponent(text: &str, exponent: &str) -> Result<i32, NumberError> {
             limit: MAX_EXPONENT,
         });
     }
+
     // |value| <= MAX_EXPONENT, so it fits.
     Ok(i32::try_from(value).unwrap_or(0))
 }
@@ -234,12 +243,14 @@ mod tests {
                 "{text:?} was read as a number"
             );
         }
+
         for text in [
             "", " ", "abc", "1..2", "1e", "--1", "+-1", "-+1", "+-.5", "1/2/3", "1_000", "0x10",
             "inf", "NaN", ".", "-", "1e1.5", "1.-5", "1.+5",
         ] {
             assert!(parse(text).is_err(), "{text:?} was read as a number");
         }
+
         assert!(matches!(
             parse("3/0"),
             Err(NumberError::ZeroDenominator { .. })
@@ -274,12 +285,14 @@ mod tests {
                 "{text}"
             );
         }
+
         assert_eq!(
             parse(&format!("x\n{}", "y".repeat(90))),
             Err(NumberError::Malformed {
                 text: format!("x{}", "y".repeat(39))
             })
         );
+
         assert!(parse(&"9".repeat(MAX_SPELLING)).is_ok());
     }
 }

@@ -32,6 +32,7 @@ pub fn nonnegative_roots(p: &Poly) -> Vec<Algebraic> {
 pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebraic> {
     let mut roots = Vec::new();
     let mut squarefree = Squarefree::part_of(p);
+
     if squarefree.poly.degree().unwrap_or(0) == 0 {
         return roots;
     }
@@ -47,6 +48,7 @@ pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebra
         squarefree = squarefree.without_root(min);
         roots.push(Algebraic::rational(min.clone()));
     }
+
     let mut at_top = None;
     if squarefree.poly.sign_at(&top) == 0 && top != *min {
         squarefree = squarefree.without_root(&top);
@@ -56,7 +58,9 @@ pub fn roots_in(p: &Poly, min: &Rational, max: Option<&Rational>) -> Vec<Algebra
     if *min < top {
         squarefree.isolate(min.clone(), top, &mut roots);
     }
+
     roots.extend(at_top);
+
     roots
 }
 
@@ -87,6 +91,7 @@ impl Squarefree {
         {
             return Squarefree::of(part);
         }
+
         Squarefree { poly, chain }
     }
 
@@ -135,12 +140,14 @@ impl Squarefree {
             changes_at_lo: section.changes_at_lo,
             changes_at_hi: changes_at_mid,
         };
+
         let upper = Section {
             lo: mid,
             hi: section.hi,
             changes_at_lo: changes_at_mid,
             changes_at_hi: section.changes_at_hi,
         };
+
         [lower, upper]
     }
 
@@ -149,6 +156,7 @@ impl Squarefree {
     fn split_point(&self, lo: &Rational, hi: &Rational) -> Rational {
         let width = hi - lo;
         let mut divisor = 2u32;
+
         loop {
             let point = lo + &width / Rational::from_integer(divisor.into());
             if self.poly.sign_at(&point) != 0 {
@@ -170,6 +178,7 @@ fn cauchy_bound(poly: &Poly) -> Rational {
         .max()
         .unwrap_or_else(One::one);
     let bits = (largest / lead).bits() + 1;
+
     Rational::from_integer(Integer::one() << (bits + 1))
 }
 
@@ -205,6 +214,7 @@ mod tests {
             (whole(3), None, 1),
             (whole(4), None, 0),
         ];
+
         for (min, max, expected) in windows {
             let roots = roots_in(&p, &min, max.as_ref());
             assert_eq!(roots.len(), expected, "{min} {max:?}");

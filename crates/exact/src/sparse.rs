@@ -50,6 +50,7 @@ impl Sparse {
             );
             lists[i].push((j, v));
         }
+
         for list in &mut lists {
             list.sort_by_key(|e| e.0); // stable: sums in the order given
             let mut merged: Vec<(usize, Rational)> = Vec::with_capacity(list.len());
@@ -62,6 +63,7 @@ impl Sparse {
             merged.retain(|e| !e.1.is_zero());
             *list = merged;
         }
+
         Sparse { cols, rows: lists }
     }
 
@@ -81,6 +83,7 @@ impl Sparse {
                 .enumerate()
                 .map(move |(j, &v)| (i, j, super::whole(v)))
         });
+
         Sparse::from_entries(rows.len(), rows.first().map_or(0, |r| r.len()), entries)
     }
 
@@ -121,6 +124,7 @@ impl Sparse {
         for (k, &j) in cols.iter().enumerate() {
             place[j] = k;
         }
+
         let entries = rows.iter().enumerate().flat_map(|(k, &i)| {
             let place = &place;
             self.rows[i]
@@ -128,6 +132,7 @@ impl Sparse {
                 .filter(|e| place[e.0] != usize::MAX)
                 .map(move |(j, v)| (k, place[*j], v.clone()))
         });
+
         Sparse::from_entries(rows.len(), cols.len(), entries)
     }
 
@@ -206,11 +211,13 @@ mod tests {
             m.times(&[whole(2), whole(4), whole(1)]),
             vec![whole(2), whole(6)]
         );
+
         assert_eq!(m.transpose().transpose(), m);
         assert_eq!(
             m.submatrix(&[1], &[2, 1]),
             Sparse::from_entries(1, 2, [(0, 0, whole(4)), (0, 1, rational(1, 2))])
         );
+
         assert_eq!(m.add_scaled(&whole(-1), &m), Sparse::zeros(2, 3));
     }
 

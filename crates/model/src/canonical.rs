@@ -22,6 +22,7 @@ pub(super) fn text(problem: &Problem) -> String {
         Body::Pencil(pencil) => write_pencil(&mut out, pencil),
         Body::System(system) => write_system(&mut out, system),
     }
+
     out
 }
 
@@ -30,9 +31,11 @@ pub(super) fn sha256(problem: &Problem) -> String {
     let digest = Sha256::digest(text(problem).as_bytes());
 
     let mut hexadecimal = String::with_capacity(64);
+
     for byte in digest.iter() {
         let _ = write!(hexadecimal, "{byte:02x}"); // writing to a String cannot fail
     }
+
     hexadecimal
 }
 
@@ -43,6 +46,7 @@ fn write_pencil(out: &mut String, pencil: &Pencil) {
     for index in pencil.free() {
         let _ = write!(free, " {index}"); // writing to a String cannot fail
     }
+
     line(out, &free);
 
     write_matrix(out, "a", pencil.a());
@@ -54,9 +58,11 @@ fn write_system(out: &mut String, system: &System) {
     if let Some(mu) = system.friction() {
         line(out, &format!("friction {mu}"));
     }
+
     for particle in system.particles() {
         write_particle(out, particle);
     }
+
     write_matrix(out, "stiffness", system.stiffness());
     if let Some(mass) = system.mass() {
         write_matrix(out, "mass", mass);
@@ -68,6 +74,7 @@ fn write_particle(out: &mut String, particle: &Particle) {
         ContactState::Slip { sign } => format!(" {sign}"),
         ContactState::Free | ContactState::Stick => String::new(),
     };
+
     let state = particle.state.word();
     let Particle {
         tangential, normal, ..
@@ -124,6 +131,7 @@ mod tests {
             normal_direction: -1,
             ..Particle::plain(0, 1, ContactState::Slip { sign: -1 })
         };
+
         let particles = vec![slip, Particle::plain(3, 2, ContactState::Stick)];
         let system =
             System::new(Sparse::identity(4), None, Some(rational(1, 2)), particles).unwrap();
@@ -141,6 +149,7 @@ mod tests {
             text(&p),
             "mceip-canonical/1\nunknown lambda2\npencil\nfree\na 1 1\n0 0 -1/2\nb 1 1\n0 0 1\n"
         );
+
         assert_eq!(p.canonical_text(), text(&p));
         let narrower = p
             .clone()
@@ -151,6 +160,7 @@ mod tests {
             p.sha256(),
             problem(rational(-1, 3), Unknown::Lambda2).sha256()
         );
+
         assert_ne!(p.sha256(), problem(rational(-1, 2), Unknown::Mu).sha256());
     }
 }

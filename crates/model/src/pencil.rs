@@ -67,6 +67,7 @@ impl Pencil {
         }
 
         let free = sorted_indices("free", free, n)?;
+
         Ok(Pencil { a, b, free })
     }
 
@@ -140,6 +141,7 @@ impl<'a> Admissible<'a> {
 
         let f = pencil.free();
         let a_ff = pencil.a.submatrix(f, f);
+
         match unknown {
             Unknown::Mu => {
                 require_definite("P1", "A_ff (K_ff)", &a_ff)?;
@@ -176,6 +178,7 @@ pub(super) fn require_square(
     if m.rows() == n && m.cols() == n {
         return Ok(());
     }
+
     Err(ModelError::Shape {
         equation,
         what,
@@ -199,6 +202,7 @@ fn require_zero_rows(b: &Sparse, f: &[usize]) -> Result<(), ModelError> {
             });
         }
     }
+
     Ok(())
 }
 

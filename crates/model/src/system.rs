@@ -158,6 +158,7 @@ impl System {
         if let Some(mass) = &system.mass {
             require_definite("E3", "M", mass)?;
         }
+
         Ok(system)
     }
 
@@ -171,6 +172,7 @@ impl System {
                 what: "the slip particles of the system",
             });
         }
+
         if unknown == Unknown::Mu {
             return Ok(());
         }
@@ -182,6 +184,7 @@ impl System {
         } else {
             return Ok(());
         };
+
         Err(ModelError::Missing {
             equation: "E12",
             what: missing,
@@ -222,6 +225,7 @@ impl System {
                 slip.push((particle, sign));
             }
         }
+
         slip
     }
 
@@ -234,6 +238,7 @@ impl System {
                 in_contact[particle.normal] = true;
             }
         }
+
         (0..self.dofs()).filter(|&dof| !in_contact[dof]).collect()
     }
 }
@@ -243,11 +248,13 @@ fn check_friction(friction: Option<&Rational>, particles: &[Particle]) -> Result
     let Some(mu) = friction else {
         return Ok(());
     };
+
     if mu.is_negative() {
         return Err(ModelError::FrictionNegative {
             friction: mu.clone(),
         });
     }
+
     if !mu.is_zero() {
         return Ok(());
     }
@@ -299,6 +306,7 @@ fn check_particles(
         check_frame(index, particle)?;
         check_reaction(index, particle, friction)?;
     }
+
     Ok(())
 }
 
@@ -306,6 +314,7 @@ fn require_sign(particle: usize, field: &'static str, value: i8) -> Result<(), M
     if matches!(value, -1 | 1) {
         return Ok(());
     }
+
     Err(ModelError::Sign {
         particle,
         field,
@@ -326,6 +335,7 @@ fn check_frame(index: usize, particle: &Particle) -> Result<(), ModelError> {
         ("|row 1|^2", c * c + d * d),
         ("the determinant", a * d - b * c),
     ];
+
     for (what, got) in numbers {
         if !got.is_one() {
             return Err(ModelError::FrameNotRotation {
@@ -334,6 +344,7 @@ fn check_frame(index: usize, particle: &Particle) -> Result<(), ModelError> {
             });
         }
     }
+
     Ok(())
 }
 
@@ -346,9 +357,11 @@ fn check_reaction(
     let Some(reaction) = &particle.reaction else {
         return Ok(());
     };
+
     let Some(expected) = broken_condition(particle.state, reaction, friction) else {
         return Ok(());
     };
+
     Err(ModelError::ReactionContradicts {
         particle: index,
         state: particle.state.word(),
@@ -371,12 +384,14 @@ fn broken_condition(
         let is_zero = normal.is_zero() && tangential.is_zero();
         return (!is_zero).then_some("no reaction");
     }
+
     if !normal.is_negative() {
         return Some("r_N < 0");
     }
 
     let cone = friction.map(|mu| -mu * normal); // mu |r_N|
     let size = tangential.abs();
+
     match state {
         ContactState::Free => None,
         ContactState::Stick => {
@@ -468,6 +483,7 @@ mod tests {
             frame: Some([[whole(1), whole(0)], [whole(0), whole(-1)]]),
             ..slip(0, 1)
         };
+
         assert!(matches!(
             build(1, vec![skew]),
             Err(ModelError::FrameNotRotation { particle: 0, .. })
@@ -494,6 +510,7 @@ mod tests {
             (ContactState::Free, whole(0), whole(0)),
             (ContactState::Stick, rational(19, 10), whole(-1)),
         ];
+
         for (state, tangential, normal) in accepted {
             assert!(with_reaction(state, tangential, normal).is_ok());
         }
@@ -505,6 +522,7 @@ mod tests {
             (ContactState::Stick, whole(2), whole(-1)),
             (ContactState::Free, whole(0), whole(-1)),
         ];
+
         for (state, tangential, normal) in refused {
             assert!(matches!(
                 with_reaction(state, tangential, normal),
@@ -518,6 +536,7 @@ mod tests {
             (ContactState::Stick, whole(1)),
             (ContactState::Stick, whole(0)),
         ];
+
         for (state, normal) in pulling {
             assert!(matches!(
                 with_reaction(state, whole(0), normal),

@@ -50,6 +50,7 @@ impl Window {
             (Some(_), None) => false,
             (Some(mine), Some(theirs)) => mine >= theirs,
         };
+
         self.min <= other.min && reaches_up
     }
 }
@@ -73,6 +74,7 @@ mod tests {
     fn a_window_covers_its_parts() {
         let window = |min: i64, max: Option<i64>| Window::new(whole(min), max.map(whole)).unwrap();
         let (closed, half_line) = (window(1, Some(3)), window(1, None));
+
         for part in [
             window(1, Some(3)),
             window(2, Some(3)),
@@ -81,6 +83,7 @@ mod tests {
         ] {
             assert!(closed.covers(&part) && half_line.covers(&part), "{part:?}");
         }
+
         for more in [
             window(0, Some(3)),
             window(1, Some(4)),
@@ -89,6 +92,7 @@ mod tests {
         ] {
             assert!(!closed.covers(&more), "{more:?}");
         }
+
         assert!(half_line.covers(&half_line) && !half_line.covers(&window(0, Some(2))));
     }
 

@@ -134,6 +134,7 @@ fn combinations(
             .collect();
         vectors.push(value.reduce(&x));
     }
+
     vectors
 }
 
@@ -150,12 +151,14 @@ impl Lineality {
         let (rows, pivots) = row_echelon_at(vectors, value);
 
         let mut basis = Vec::with_capacity(rows.len());
+
         for (mut row, &pivot) in rows.into_iter().zip(&pivots) {
             if value.sign_of(&row[pivot]) == Sign::Negative {
                 row = row.iter().map(|entry| -entry).collect();
             }
             basis.push(value.reduce(&row));
         }
+
         Lineality { basis, pivots }
     }
 
@@ -169,6 +172,7 @@ impl Lineality {
             }
             ray = value.reduce(&difference);
         }
+
         ray
     }
 }

@@ -63,6 +63,7 @@ impl Cone {
         let rays_y: Vec<&[Poly]> = self.rays.iter().map(|ray| &ray.y[..]).collect();
         center.x = self.value.reduce(&weighted_sum(&weights, &rays_x));
         center.y = self.value.reduce(&weighted_sum(&weights, &rays_y));
+
         center
     }
 
@@ -85,6 +86,7 @@ impl Cone {
             }
             weights.push(weight);
         }
+
         weights
     }
 }
@@ -93,11 +95,13 @@ impl Cone {
 fn weighted_sum(weights: &[Poly], vectors: &[&[Poly]]) -> Vec<Poly> {
     let order = vectors.first().map_or(0, |vector| vector.len());
     let mut sum = vec![Poly::default(); order];
+
     for (weight, vector) in weights.iter().zip(vectors) {
         for (sum_i, entry) in sum.iter_mut().zip(*vector) {
             *sum_i += &(weight * entry);
         }
     }
+
     sum
 }
 
@@ -138,6 +142,7 @@ impl Piece {
             Ordering::Equal => !self.from.included,
             Ordering::Greater => false,
         };
+
         if is_below_from {
             return false;
         }
@@ -145,6 +150,7 @@ impl Piece {
         let Some(to) = &self.to else {
             return true;
         };
+
         match to.place_of(value) {
             Ordering::Less => true,
             Ordering::Equal => to.included,

@@ -25,7 +25,9 @@ impl Enumeration {
             all.described.0 += part.described.0;
             all.described.1 += part.described.1;
         }
+
         all.finish();
+
         all
     }
 
@@ -44,10 +46,12 @@ impl Enumeration {
             let kernel = self.wide[k].clone();
             cone::describe(pencil, &kernel, self);
         }
+
         for k in self.described.1..self.continua.len() {
             let support = self.continua[k].clone();
             range::describe(pencil, &support, window, self);
         }
+
         // `range::describe` names further wide kernels, together with their description.
         self.described = (self.wide.len(), self.continua.len());
     }

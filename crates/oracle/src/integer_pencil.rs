@@ -56,6 +56,7 @@ impl<'a> IntegerPencil<'a> {
             let bound: Integer = square * 2;
             bits += bound.bits().div_ceil(2);
         }
+
         bits
     }
 
@@ -112,6 +113,7 @@ impl<'a> IntegerPencil<'a> {
             };
             eigenspaces.push(Eigenspace { value, basis });
         }
+
         eigenspaces
     }
 
@@ -134,6 +136,7 @@ impl<'a> IntegerPencil<'a> {
             }
             y.push(y_i);
         }
+
         y
     }
 
@@ -145,12 +148,15 @@ impl<'a> IntegerPencil<'a> {
         let images: Vec<Vec<Poly>> = basis.iter().map(|v| self.times(v)).collect();
 
         let mut rows = Vec::new();
+
         for &i in support {
             rows.push(entries_of(basis, i));
         }
+
         for i in (0..self.order()).filter(|i| !active.contains(i)) {
             rows.push(entries_of(&images, i));
         }
+
         rows
     }
 }

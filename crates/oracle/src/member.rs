@@ -109,12 +109,15 @@ fn image(pencil: &Pencil, i: usize, x: &[Poly]) -> Poly {
     let clear = common_denominator(a_row.iter().chain(b_row).map(|(_, entry)| entry));
 
     let mut sum = Poly::default();
+
     for (j, a_ij) in a_row {
         sum += &x[*j].scale(&cleared(a_ij, &clear));
     }
+
     for (j, b_ij) in b_row {
         sum += &x[*j].scale(&cleared(b_ij, &clear)).shift(1);
     }
+
     sum
 }
 
@@ -131,6 +134,7 @@ impl Enumeration {
         let Some(signs) = Signs::of(pencil, value, x) else {
             return false;
         };
+
         signs.is_solution
             && (self.lists(&signs, value, x)
                 || self.has_cone_with(&signs, value)
@@ -169,6 +173,7 @@ fn same_ray(value: &Algebraic, u: &[Poly], v: &[Poly]) -> bool {
     if u.len() != v.len() {
         return false;
     }
+
     let Some(k) = (0..u.len()).find(|&k| value.sign_of(&u[k]) != Sign::Zero) else {
         return false;
     };
@@ -179,6 +184,7 @@ fn same_ray(value: &Algebraic, u: &[Poly], v: &[Poly]) -> bool {
             return false;
         }
     }
+
     value.sign_of(&u[k]) == value.sign_of(&v[k])
 }
 

@@ -89,6 +89,7 @@ pub fn enumerate_with(
         supports_total: total,
         ..Enumeration::default()
     };
+
     for number in 0..total {
         let support = support_of_number(&slip, number);
         examine(&integers, &support, window, &mut found);
@@ -99,7 +100,9 @@ pub fn enumerate_with(
             break;
         }
     }
+
     found.finish();
+
     Ok(found)
 }
 
@@ -182,10 +185,12 @@ fn examine(
 pub(super) fn multiplicity(det: &Poly, value: &mut Algebraic) -> usize {
     let mut derivative = det.derivative();
     let mut order = 1;
+
     while !derivative.is_zero() && value.sign_of(&derivative) == Sign::Zero {
         derivative = derivative.derivative();
         order += 1;
     }
+
     order
 }
 
@@ -222,6 +227,7 @@ impl Line {
                 });
             }
         }
+
         solutions
     }
 }
@@ -250,6 +256,7 @@ fn admissible(
     let y = pencil.times(&x);
     let active = pencil.active(support);
     let mut biactive = Vec::new();
+
     for i in (0..pencil.order()).filter(|i| !active.contains(i)) {
         match value.sign_of(&y[i]) {
             Sign::Negative => return None,
@@ -257,6 +264,7 @@ fn admissible(
             Sign::Positive => {}
         }
     }
+
     Some(AdmissibleRay { x, y, biactive })
 }
 
@@ -296,6 +304,7 @@ mod tests {
             ("2".into(), vec![0, 1], vec![]),
             ("3".into(), vec![0, 1], vec![]),
         ];
+
         assert_eq!(summary(&lambda2), expected);
     }
 
@@ -317,6 +326,7 @@ mod tests {
             ("1".into(), vec![0], vec![]),
             ("1".into(), vec![0, 1], vec![]),
         ];
+
         assert_eq!(summary(&positive)[..2], expected);
     }
 
@@ -328,12 +338,14 @@ mod tests {
         let [kernel] = &wide.wide[..] else {
             panic!("{:?}", wide.wide)
         };
+
         assert_eq!((&kernel.support[..], kernel.dimension), (&[0, 1][..], 2));
         assert_eq!(wide.solutions.len(), 2); // the two edges, each biactive in the other
         assert!(wide.is_complete_list() && !wide.is_plain_list());
         let [cone] = &wide.cones[..] else {
             panic!("{:?}", wide.cones)
         };
+
         assert_eq!(cone.slip, [0, 1]);
         assert_eq!((cone.dimension, cone.rays.len()), (2, 2));
 

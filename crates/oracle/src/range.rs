@@ -109,6 +109,7 @@ fn critical(
     let (_, columns, rank_minor) = generic_kernel(rows.clone());
 
     let count = binomial(rows.len(), columns.len());
+
     if count > MAX_MINORS {
         return Err(Undescribed {
             support: support.to_vec(),
@@ -128,6 +129,7 @@ fn critical(
         let cofactor = factor.exact_div(&shared).unwrap_or(factor); // exact: the gcd divides
         multiple = &multiple * &cofactor;
     }
+
     Ok(multiple)
 }
 
@@ -216,6 +218,7 @@ impl SingularSupport<'_> {
         if let Some(from) = begun {
             extent.intervals.push(Piece { from, to: None });
         }
+
         extent
     }
 }
@@ -234,6 +237,7 @@ fn sample_above(critical: &mut [Algebraic], k: usize) -> Rational {
 
     let below = critical[k].interval().hi();
     let above = critical[k + 1].interval().lo();
+
     (below + above) / Rational::from_integer(2.into())
 }
 
@@ -244,6 +248,7 @@ fn sample_below_zero(critical: &Poly) -> Rational {
     for odd in mirrored.iter_mut().skip(1).step_by(2) {
         *odd = -&*odd;
     }
+
     let roots = nonnegative_roots(&Poly::new(mirrored));
     let Some(mut nearest) = roots.into_iter().nth(1) else {
         return -Rational::one();
@@ -253,6 +258,7 @@ fn sample_below_zero(critical: &Poly) -> Rational {
     while !nearest.interval().lo().is_positive() {
         nearest.refine();
     }
+
     -nearest.interval().lo() / Rational::from_integer(2.into())
 }
 
@@ -260,6 +266,7 @@ fn is_within(value: &mut Algebraic, window: &Window) -> bool {
     if value.cmp_rational(window.min()) == Ordering::Less {
         return false;
     }
+
     match window.max() {
         Some(max) => value.cmp_rational(max) != Ordering::Greater,
         None => true,
@@ -271,6 +278,7 @@ fn clip(mut piece: Piece, window: &Window) -> Option<Piece> {
     if piece.from.value.cmp_rational(window.min()) == Ordering::Less {
         piece.from = closed_end(window.min());
     }
+
     if let Some(max) = window.max() {
         let is_cut = match &mut piece.to {
             Some(to) => to.value.cmp_rational(max) == Ordering::Greater,
@@ -284,11 +292,13 @@ fn clip(mut piece: Piece, window: &Window) -> Option<Piece> {
     let Some(to) = &mut piece.to else {
         return Some(piece);
     };
+
     let is_kept = match piece.from.value.cmp_exact(&mut to.value) {
         Ordering::Less => true,
         Ordering::Equal => piece.from.included && to.included,
         Ordering::Greater => false,
     };
+
     is_kept.then_some(piece)
 }
 
@@ -321,6 +331,7 @@ mod tests {
             ((-4, 1), vec![(-4, 1), (1, 100), (-9, 1)]),
             ((-3, 1), vec![(-3, 1), (-7, 2), (1, 3), (8, 1)]),
         ];
+
         for ((numerator, denominator), roots) in cases {
             let nearest = rational(numerator, denominator);
             let sample = sample_below_zero(&with_roots(&roots));

@@ -73,6 +73,7 @@ impl Solution {
                 norm += x_i;
             }
         }
+
         norm
     }
 }

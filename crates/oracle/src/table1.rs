@@ -78,6 +78,7 @@ fn equal_signs(data: &TwoParticles, sign: i8) -> Option<ClosedSolution> {
     let q = data.q();
     let d = Rational::one() + &q * &q;
     let t = Quadratic::new(-data.p(), Rational::one(), d.clone())?;
+
     if t.sign() == Sign::Negative {
         return None;
     }
@@ -98,13 +99,16 @@ fn opposite_signs(data: &TwoParticles) -> Vec<ClosedSolution> {
     let both_slip = &one_slips - Rational::one();
 
     let mut solutions = Vec::new();
+
     if !one_slips.is_negative() {
         solutions.push(rational_solution(&one_slips * &unit, [1, 0]));
         solutions.push(rational_solution(&one_slips * &unit, [0, 1]));
     }
+
     if !both_slip.is_negative() {
         solutions.push(rational_solution(&both_slip * &unit, [1, 1]));
     }
+
     solutions
 }
 
@@ -274,6 +278,7 @@ mod tests {
                 }
             }
         }
+
         assert_eq!(seen, 2 * 3 + 3 + 3); // at mu = 21/10 none of (+1, -1)
     }
 

@@ -43,6 +43,7 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
 
     let mut entries: Vec<(usize, usize, Rational)> = Vec::new();
     let mut got = 0;
+
     for (line, text) in lines {
         if got == layout.count {
             let expected = "no more entries than the size line announces";
@@ -55,6 +56,7 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
         entries.push((i, j, value));
         got += 1;
     }
+
     if got != layout.count {
         let expected = "as many entries as the size line announces";
         let found = format!("{got} of {}", layout.count);
@@ -62,6 +64,7 @@ pub fn read_matrix_market(what: &'static str, text: &str) -> Result<Sparse, Mode
     }
 
     refuse_twice(what, &entries)?;
+
     Ok(Sparse::from_entries(layout.rows, layout.cols, entries))
 }
 
@@ -93,10 +96,12 @@ impl Layout {
 
         let mut below_diagonal = k;
         let mut column = 0;
+
         while below_diagonal >= self.rows - column {
             below_diagonal -= self.rows - column;
             column += 1;
         }
+
         (column + below_diagonal, column)
     }
 }
@@ -137,6 +142,7 @@ impl Reader {
     fn banner(&self, line: &str) -> Result<Banner, ModelError> {
         let words: Vec<String> = words_of(line).map(str::to_lowercase).collect();
         let words: Vec<&str> = words.iter().map(String::as_str).collect();
+
         match words[..] {
             [
                 "%%matrixmarket",
@@ -172,6 +178,7 @@ impl Reader {
             (false, true) => rows * (rows + 1) / 2,
             (false, false) => rows * cols,
         };
+
         Ok(Layout {
             coordinate: banner.coordinate,
             symmetric: banner.symmetric,
@@ -184,9 +191,11 @@ impl Reader {
     fn integers(&self, line: usize, text: &str, count: usize) -> Result<Vec<usize>, ModelError> {
         let numbers: Vec<usize> = words_of(text).map_while(index).collect();
         let words = words_of(text).count();
+
         if numbers.len() != count || words != count {
             return Err(self.complain(line, "a size line", text));
         }
+
         Ok(numbers)
     }
 
@@ -219,6 +228,7 @@ impl Reader {
         if i >= layout.rows || j >= layout.cols {
             return Err(self.complain(line, "indices within the size", text));
         }
+
         if layout.symmetric && i < j {
             return Err(self.complain(line, "the lower triangle of a symmetric matrix", text));
         }
@@ -227,6 +237,7 @@ impl Reader {
             place: format!("{} line {line}", self.what),
             source,
         })?;
+
         Ok((i, j, value))
     }
 }
@@ -241,6 +252,7 @@ fn refuse_twice(
             return Err(ModelError::IndexTwice { what, index: *i });
         }
     }
+
     Ok(())
 }
 
@@ -281,11 +293,13 @@ mod tests {
         for text in ["3", "3 4 5", "3 4 x", "3 x", "x 3 4", "3 x 4"] {
             assert!(reader.integers(2, text, 2).is_err(), "{text}");
         }
+
         let ModelError::MatrixMarket { got, .. } =
             reader.complain(2, "a size line", "a\u{1b}[2Jb\u{7}")
         else {
             panic!()
         };
+
         assert_eq!(got, "a[2Jb");
     }
 
@@ -336,6 +350,7 @@ mod tests {
                 "{text:?}: {got:?}"
             );
         }
+
         assert!(matches!(
             read_matrix_market("K", &format!("{HEAD}1 1 1\n1 1 nan\n")),
             Err(ModelError::Number { .. })

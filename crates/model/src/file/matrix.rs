@@ -69,6 +69,7 @@ impl<'de> Deserialize<'de> for RawMatrix {
                     .map(RawMatrix::Object)
             }
         }
+
         deserializer.deserialize_any(Either)
     }
 }
@@ -166,6 +167,7 @@ fn dense(what: &'static str, rows: Vec<Vec<Number>>) -> Result<Sparse, ModelErro
             entries.push((i, j, number.0));
         }
     }
+
     Ok(Sparse::from_entries(count, cols, entries))
 }
 
@@ -192,6 +194,7 @@ fn general(
     }
 
     let entries = entries.into_iter().map(|(i, j, number)| (i, j, number.0));
+
     Ok(Sparse::from_entries(rows, cols, entries))
 }
 
@@ -208,6 +211,7 @@ fn symmetric(
 
     let order = rows.min(cols);
     let mut seen = BTreeSet::new();
+
     for &(i, j, _) in &entries {
         require_below(what, i, order)?;
         require_below(what, j, order)?;
@@ -223,6 +227,7 @@ fn symmetric(
         }
         mirrored.push((i, j, number.0));
     }
+
     Ok(Sparse::from_entries(rows, cols, mirrored))
 }
 
@@ -247,6 +252,7 @@ fn nearest_doubles(what: &'static str, m: &Sparse) -> Result<Sparse, ModelError>
         };
         entries.push((i, j, rounded.0));
     }
+
     Ok(Sparse::from_entries(m.rows(), m.cols(), entries))
 }
 
@@ -279,6 +285,7 @@ mod tests {
             r#"{{"rows": {rows}, "cols": {cols}, "symmetric": {symmetric},
                 "entries": [[{i}, {j}, 2]]}}"#
         );
+
         match read(&text) {
             Err(ModelError::IndexOutOfRange { index, limit, .. }) => Some((index, limit)),
             _ => None,
@@ -360,6 +367,7 @@ mod tests {
                 "{name}"
             );
         }
+
         assert_eq!(
             read("[[0, 0]]").unwrap(),
             Sparse::from_entries(1, 2, [(0, 0, whole(0))])

@@ -133,6 +133,7 @@ fn read_at_most(
             got,
         });
     }
+
     Ok(text)
 }
 
@@ -157,6 +158,7 @@ pub(super) fn beside(
     } else {
         return Ok(path);
     };
+
     Err(ModelError::Unreadable {
         what,
         path: name.chars().take(200).collect(),
@@ -218,6 +220,7 @@ fn complaint(error: &serde_json::Error) -> ModelError {
         Some((head, _)) => head,
         None => &full,
     };
+
     let problem = without_place
         .chars()
         .map(|c| if c.is_control() { ' ' } else { c })
@@ -249,6 +252,7 @@ mod tests {
             Particle::plain(1, 2, ContactState::Stick),
             Particle::plain(3, 0, ContactState::Slip { sign: -1 }),
         ];
+
         assert_eq!(particles, Ok(expected.to_vec()));
         assert!(read_particles("[{}]").is_err());
     }
@@ -267,6 +271,7 @@ mod tests {
             limit: 3,
             got: 4,
         };
+
         assert_eq!(
             [read("abcd"), read("abcdefgh")],
             [Err(refused.clone()), Err(refused)]

@@ -38,6 +38,7 @@ impl<'de> Deserialize<'de> for Number {
                 return Err(D::Error::custom(message));
             }
         };
+
         parse(&text).map(Number).map_err(D::Error::custom)
     }
 }

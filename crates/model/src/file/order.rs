@@ -14,6 +14,7 @@ pub(super) fn require_order(what: &'static str, order: usize) -> Result<(), Mode
             got: order as u64,
         });
     }
+
     Ok(())
 }
 

@@ -32,6 +32,7 @@ pub(super) fn refuse_keys(text: &str) -> Result<(), ModelError> {
         }
         rest = end;
     }
+
     Ok(())
 }
 
@@ -46,6 +47,7 @@ fn end_of_string(text: &str, start: usize) -> Option<usize> {
             _ => {}
         }
     }
+
     None
 }
 
@@ -91,6 +93,7 @@ mod tests {
                 "{key}"
             );
         }
+
         for text in [
             "",
             "{}",

@@ -87,6 +87,7 @@ impl RawProblem {
             None => Window::all(),
             Some(Object(window)) => window.build()?,
         };
+
         let body = match (self.pencil, self.system) {
             (Some(Object(pencil)), None) => Body::Pencil(pencil.build(folder)?),
             (None, Some(Object(system))) => Body::System(system.build(folder)?),
@@ -97,6 +98,7 @@ impl RawProblem {
         let mut problem = Problem::new(body, self.unknown.0, window)?;
         problem.name = self.name;
         problem.comment = self.comment;
+
         Ok(problem)
     }
 }
@@ -108,7 +110,9 @@ impl RawWindow {
             Some(number) => number.0,
             None => whole(0),
         };
+
         let max = self.max.map(|number| number.0);
+
         Window::new(min, max)
     }
 }
@@ -128,8 +132,10 @@ impl RawSystem {
             Some(mass) => Some(mass.build("M", folder)?),
             None => None,
         };
+
         let stiffness = self.stiffness.build("K", folder)?;
         let friction = self.friction.map(|number| number.0);
+
         System::new(stiffness, mass, friction, particles)
     }
 }
@@ -154,6 +160,7 @@ impl RawParticle {
             tangential: reaction.tangential.0,
             normal: reaction.normal.0,
         });
+
         let normal_direction = match self.normal_direction {
             Some(direction) => sign(index, "normal_direction", direction)?,
             None => 1,
@@ -318,6 +325,7 @@ mod tests {
                 "system": {{"stiffness": [[1, 0], [0, 1]], "friction": 1,
                             "particles": [{slip}]}}}}"#
         );
+
         assert!(matches!(
             read(&no_mass),
             Err(ModelError::Missing { what: "mass", .. })

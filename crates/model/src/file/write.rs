@@ -15,9 +15,11 @@ pub fn write_problem(problem: &Problem) -> String {
     if let Some(name) = &problem.name {
         out.insert("name".into(), json!(name));
     }
+
     if let Some(comment) = &problem.comment {
         out.insert("comment".into(), json!(comment));
     }
+
     out.insert("unknown".into(), json!(problem.unknown().word()));
     out.insert("window".into(), write_window(problem.window()));
 
@@ -25,6 +27,7 @@ pub fn write_problem(problem: &Problem) -> String {
         Body::Pencil(pencil) => out.insert("pencil".into(), write_pencil(pencil)),
         Body::System(system) => out.insert("system".into(), write_system(system)),
     };
+
     Value::Object(out).to_string()
 }
 
@@ -56,11 +59,14 @@ fn write_system(system: &System) -> Value {
     if let Some(mass) = system.mass() {
         out.insert("mass".into(), write_sparse(mass));
     }
+
     if let Some(mu) = system.friction() {
         out.insert("friction".into(), json!(mu.to_string()));
     }
+
     let particles = system.particles().iter().map(write_particle).collect();
     out.insert("particles".into(), particles);
+
     Value::Object(out)
 }
 
@@ -72,6 +78,7 @@ fn write_particle(particle: &Particle) -> Value {
     if let ContactState::Slip { sign } = particle.state {
         out.insert("sign".into(), json!(sign));
     }
+
     out.insert("normal_direction".into(), json!(particle.normal_direction));
 
     if let Some(frame) = &particle.frame {
@@ -80,6 +87,7 @@ fn write_particle(particle: &Particle) -> Value {
             .map(|row| row.each_ref().map(Rational::to_string));
         out.insert("frame".into(), json!(rows));
     }
+
     if let Some(reaction) = &particle.reaction {
         let numbers = json!({
             "normal": reaction.normal.to_string(),
@@ -87,5 +95,6 @@ fn write_particle(particle: &Particle) -> Value {
         });
         out.insert("reaction".into(), numbers);
     }
+
     Value::Object(out)
 }

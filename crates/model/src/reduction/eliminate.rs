@@ -167,7 +167,9 @@ impl KeptVariables {
                 normal: particle.into_obstacle(),
             });
         }
+
         let free = system.free_dofs();
+
         KeptVariables { free, slip }
     }
 
@@ -176,6 +178,7 @@ impl KeptVariables {
         for &dof in &self.free {
             variables.push(Variable::Free { dof });
         }
+
         for particle in &self.slip {
             variables.push(Variable::Slip {
                 sign: particle.sign,
@@ -183,6 +186,7 @@ impl KeptVariables {
                 normal: particle.normal.clone(),
             });
         }
+
         variables
     }
 
@@ -247,6 +251,7 @@ fn times_direction(k: &Sparse, direction: &Direction) -> Vec<Rational> {
             product[*j] += coefficient * entry;
         }
     }
+
     product
 }
 
@@ -278,6 +283,7 @@ mod tests {
             Particle::plain(1, 2, ContactState::Slip { sign: -1 }),
             Particle::plain(3, 4, ContactState::Stick),
         ];
+
         let system = System::new(k, None, None, particles).unwrap();
         let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap();
 
@@ -303,6 +309,7 @@ mod tests {
             Particle::plain(0, 1, ContactState::Slip { sign: 1 }),
             Particle::plain(2, 3, ContactState::Slip { sign: -1 }),
         ];
+
         let system = System::new(k, None, None, particles).unwrap();
         let problem = Problem::new(Body::System(system), Unknown::Mu, Window::all()).unwrap();
 

@@ -37,6 +37,7 @@ pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly
             Variable::Slip { sign, tangent, .. } => v.subtract_slip(*sign, tangent, x_i),
         }
     }
+
     let v = v.cleared();
 
     let mut w = RationalVector::zero(system.dofs());
@@ -46,6 +47,7 @@ pub fn lift(system: &System, unknown: Unknown, variables: &[Variable], x: &[Poly
     {
         w.add_product(mass, &v.entries, 1);
     }
+
     let w = w.cleared();
 
     Lifted {
@@ -95,6 +97,7 @@ impl RationalVector {
     fn cleared(self) -> ClearedVector {
         let scale = common_denominator(self.0.iter().flatten());
         let mut entries = Vec::with_capacity(self.0.len());
+
         for coefficients in &self.0 {
             let integers = coefficients
                 .iter()
@@ -102,6 +105,7 @@ impl RationalVector {
                 .collect();
             entries.push(Poly::new(integers));
         }
+
         ClearedVector { entries, scale }
     }
 }
@@ -112,6 +116,7 @@ fn add_scaled(sum: &mut Vec<Rational>, factor: &Rational, p: &Poly, power: usize
     if sum.len() < length {
         sum.resize(length, Rational::zero());
     }
+
     for (k, coefficient) in p.coeffs().iter().enumerate() {
         sum[k + power] += factor * Rational::from_integer(coefficient.clone());
     }

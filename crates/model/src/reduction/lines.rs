@@ -96,6 +96,7 @@ pub fn check_lines(
             }
         }
     }
+
     Ok(())
 }
 
@@ -143,6 +144,7 @@ impl SlipSides {
         } else {
             Sign::Positive
         };
+
         require(product == Sign::Zero, Line::Complementarity, place, product)
     }
 }
@@ -158,10 +160,12 @@ fn require(holds: bool, line: Line, place: Place, got: Sign) -> Result<(), LineV
     if holds {
         return Ok(());
     }
+
     let (place, index) = match place {
         Place::Dof(dof) => ("dof", dof),
         Place::Particle(particle) => ("particle", particle),
     };
+
     Err(LineViolated {
         line,
         place,
@@ -176,6 +180,7 @@ fn cone_side(particle: &Particle, s: &Rational, friction: Friction, w: &[Poly]) 
         Friction::Given(mu) => (mu, 0),
         Friction::IsUnknown => (Rational::one(), 1),
     };
+
     let tangential = times(&particle.tangent(), s);
     let normal = times(&particle.into_obstacle(), &mu);
 
@@ -183,6 +188,7 @@ fn cone_side(particle: &Particle, s: &Rational, friction: Friction, w: &[Poly]) 
     let clear = common_denominator(coefficients);
     let w_t = integral_inner_product(&tangential, &clear, w);
     let w_n = integral_inner_product(&normal, &clear, w);
+
     &w_t + &w_n.shift(power)
 }
 
@@ -208,5 +214,6 @@ fn integral_inner_product(direction: &Direction, clear: &Integer, p: &[Poly]) ->
         let integer = coefficient.numer() * (clear / coefficient.denom());
         sum += &p[*dof].scale(&integer);
     }
+
     sum
 }
