@@ -139,7 +139,9 @@ fn decimal_exponent(value: &Rational) -> i64 {
 
 /// value * 10^k.
 fn times_power_of_ten(value: &Rational, k: i64) -> Rational {
-    let power = Rational::from_integer(Integer::from(10).pow(k.unsigned_abs()));
+    let power = Integer::from(10).pow(k.unsigned_abs());
+    let power = Rational::from_integer(power);
+
     if k >= 0 { value * power } else { value / power }
 }
 

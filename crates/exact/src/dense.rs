@@ -48,7 +48,8 @@ impl Dense {
 
     /// Row `i` as a slice.
     pub fn row(&self, i: usize) -> &[Rational] {
-        &self.data[i * self.cols..(i + 1) * self.cols]
+        let start = i * self.cols;
+        &self.data[start..start + self.cols]
     }
 
     /// Each row of `self` and the same row of `other` multiplied by one positive integer that

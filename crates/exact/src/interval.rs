@@ -93,7 +93,9 @@ impl Interval {
 
     /// Is `v` in the closed interval?
     pub fn contains(&self, v: &Rational) -> bool {
-        *v >= self.lo && *v <= self.hi
+        let is_below = *v < self.lo;
+        let is_above = *v > self.hi;
+        !is_below && !is_above
     }
 
     /// 1 if every number in it is positive, -1 if every one is negative, 0 if neither is certain.

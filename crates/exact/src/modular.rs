@@ -191,9 +191,12 @@ impl Bordered {
     /// An upper bound of log2 of every bordered determinant and of det F: the n rows of [F C] and
     /// the longest further row (or 1), each by its Euclidean norm.
     fn hadamard_bits(&self) -> u64 {
-        let inner: u64 = self.rows[..self.n].iter().map(|row| square_bits(row)).sum();
-        let border = self.rows[self.n..].iter().map(|row| square_bits(row)).max();
-        (inner + border.unwrap_or(0)).div_ceil(2)
+        let (inner, border) = self.rows.split_at(self.n);
+        let inner_bits: u64 = inner.iter().map(|row| square_bits(row)).sum();
+        let border_bits = border.iter().map(|row| square_bits(row)).max();
+
+        let bits = inner_bits + border_bits.unwrap_or(0);
+        bits.div_ceil(2)
     }
 
     /// [`Bordered::minors`] modulo p, or `None` if a leading minor vanishes modulo p.

@@ -111,7 +111,10 @@ impl Quadratic {
     pub fn within(&self, lo: &Rational, hi: &Rational) -> bool {
         let above_lo = self.add(&self.embed(-lo));
         let above_hi = self.add(&self.embed(-hi));
-        above_lo.sign() != Sign::Negative && above_hi.sign() != Sign::Positive
+
+        let is_at_least_lo = above_lo.sign() != Sign::Negative;
+        let is_at_most_hi = above_hi.sign() != Sign::Positive;
+        is_at_least_lo && is_at_most_hi
     }
 }
 

@@ -132,7 +132,8 @@ fn malformed(text: &str) -> NumberError {
 
 /// The beginning of a text, for messages that must stay one line.
 fn head(text: &str) -> String {
-    text.chars().filter(|c| !c.is_control()).take(40).collect()
+    let printable = text.chars().filter(|c| !c.is_control());
+    printable.take(40).collect()
 }
 
 fn parse_fraction(text: &str, p: &str, q: &str) -> Result<Rational, NumberError> {

@@ -57,7 +57,8 @@ impl Enumeration {
 
     /// Is the answer a plain list: nothing but `solutions`?
     pub fn is_plain_list(&self) -> bool {
-        self.is_complete_list() && self.cones.is_empty() && self.ranges.is_empty()
+        let has_families = !self.cones.is_empty() || !self.ranges.is_empty();
+        self.is_complete_list() && !has_families
     }
 
     /// Is there a solution with x_s = 0, which Propositions 1 and 2 exclude by their hypotheses?

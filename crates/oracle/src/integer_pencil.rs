@@ -69,7 +69,9 @@ impl<'a> IntegerPencil<'a> {
 
     /// Entry (i, j) of A + tB.
     fn entry(&self, i: usize, j: usize) -> Poly {
-        Poly::new(vec![self.a[i][j].clone(), self.b[i][j].clone()])
+        let constant = self.a[i][j].clone();
+        let slope = self.b[i][j].clone();
+        Poly::new(vec![constant, slope])
     }
 
     /// The block of A + tB, over `Z[t]`.

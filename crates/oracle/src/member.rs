@@ -218,13 +218,15 @@ impl PartialEq for Cone {
 
 impl PartialEq for End {
     fn eq(&self, other: &End) -> bool {
-        self.included == other.included && equal_values(&self.value, &other.value)
+        let is_same_kind = self.included == other.included;
+        is_same_kind && equal_values(&self.value, &other.value)
     }
 }
 
 impl PartialEq for Piece {
     fn eq(&self, other: &Piece) -> bool {
-        self.from == other.from && self.to == other.to
+        let is_same_beginning = self.from == other.from;
+        is_same_beginning && self.to == other.to
     }
 }
 

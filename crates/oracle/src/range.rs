@@ -159,7 +159,8 @@ impl SingularSupport<'_> {
     /// Is there a solution with exactly this support at t?
     fn exists_at(&self, t: &Algebraic) -> bool {
         let cone = cone_at(self.pencil, self.support, t);
-        cone.slip == self.support && cone.dimension > 0
+        let is_whole_support = cone.slip == self.support;
+        is_whole_support && cone.dimension > 0
     }
 
     /// Goes up through the critical values and the cells between them.

@@ -42,7 +42,10 @@ impl AcceptedCover {
 
 /// Can both be one solution: the same support and overlapping values?
 fn is_near(p: &AcceptedClaim, q: &AcceptedClaim) -> bool {
-    let overlaps = p.value.lo() <= q.value.hi() && q.value.lo() <= p.value.hi();
+    let p_is_above = p.value.lo() > q.value.hi();
+    let q_is_above = q.value.lo() > p.value.hi();
+    let overlaps = !p_is_above && !q_is_above;
+
     p.support == q.support && overlaps
 }
 

@@ -149,7 +149,10 @@ impl Expanded {
 
     /// An eighth of the bend, rounded up, and the remainder.
     fn radius(&self, bend: &Matrix, remainder: &Matrix) -> Matrix {
-        self.grid(|i, j| &bend[i][j] / 8 + 1 + &remainder[i][j])
+        self.grid(|i, j| {
+            let of_chord = &bend[i][j] / 8 + 1;
+            of_chord + &remainder[i][j]
+        })
     }
 
     /// The constant and the direction of a family that is linear in t = d, remainders included, in
@@ -186,7 +189,8 @@ impl Expanded {
     /// The weights for values from `lo` on: the smallest eigenvalue of F is at least that at the
     /// lower end, which is not negative.
     fn weight_above(&self, lo: &Rational) -> Vec<Rational> {
-        let factor = (Rational::one() + &self.gain * lo).recip();
+        let growth = Rational::one() + &self.gain * lo;
+        let factor = growth.recip();
         self.weight.iter().map(|w| w * &factor).collect()
     }
 
@@ -200,7 +204,9 @@ impl Expanded {
 
     /// Z_1, the coefficient of d, rounded down to the fixed unit.
     fn direction(&self) -> Matrix {
-        self.grid(|i, j| self.fixed(&self.z[1][i][j], &Integer::one()))
+        let one = Integer::one();
+        let z_1 = &self.z[1];
+        self.grid(|i, j| self.fixed(&z_1[i][j], &one))
     }
 
     /// v / (unit power) in the fixed unit, rounded down.

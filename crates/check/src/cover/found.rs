@@ -137,7 +137,9 @@ fn is_same(f: &Found, next: &Found) -> bool {
 }
 
 fn lies_in(inner: &Interval, outer: &Interval) -> bool {
-    inner.lo() >= outer.lo() && inner.hi() <= outer.hi()
+    let begins_inside = inner.lo() >= outer.lo();
+    let ends_inside = inner.hi() <= outer.hi();
+    begins_inside && ends_inside
 }
 
 #[cfg(test)]
