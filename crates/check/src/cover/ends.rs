@@ -16,6 +16,9 @@ pub(super) const FRACTION_BITS: u64 = 128;
 /// together.
 pub(super) const MAX_MATRIX_BITS: u64 = 1 << 29;
 
+/// The ends of an interval, as messages name them.
+pub(super) const ENDS: [&str; 2] = ["lower", "upper"];
+
 /// T(t) for t between two values: convex combinations of a matrix within r[0] of m[0] and one
 /// within r[1] of m[1], all in units of 1 / `scale`.
 ///

@@ -6,7 +6,7 @@
 //! t in the window, into regions: an interval of t, and for each variable x_i = 0, x_i > 0 or
 //! undecided. Each region is a leaf of a tree with a proof of one of these statements:
 //!
-//! * it holds no solution: `leaf` (Farkas, definite in enclosures), `ldl` (definite, exact),
+//! * it holds no solution: `farkas`, `definite` (in enclosures), `ldl` (definite, exact),
 //!   [`condensed::tail`] (definite from some value on), `root` and `support` (their other
 //!   outcomes);
 //! * it holds exactly one, with an enclosure of its value: `root`, `support`;
@@ -32,14 +32,17 @@ mod beside;
 mod budget;
 mod condensed;
 mod definite;
+mod enclosed_definite;
 mod ends;
 mod expanded;
 mod family;
+mod farkas;
 pub(crate) mod fault;
 mod found;
 mod infinity;
 mod ldl;
-mod leaf;
+#[cfg(test)]
+mod order_two;
 mod product;
 mod proved;
 mod psd;

@@ -18,7 +18,7 @@ use super::region::{Region, State};
 use super::rootless::SignBudget;
 use super::short::Short;
 use super::support::Held;
-use super::{infinity, ldl, leaf, root, support};
+use super::{definite, farkas, infinity, ldl, root, support};
 use crate::AcceptedClaim;
 use crate::certificate::{Node, Piece, Root, RootOutcome, Support};
 use crate::pencil::Rows;
@@ -185,7 +185,7 @@ impl Walk<'_> {
     fn farkas(&self, region: &Region, anchor: Option<usize>, w: &[i64]) -> Result<(), CoverFault> {
         self.affordable(region, anchor)?;
         let short = self.short(region, anchor);
-        leaf::farkas(
+        farkas::farkas(
             region,
             short.as_deref(),
             || self.ends(region, anchor),
@@ -198,7 +198,7 @@ impl Walk<'_> {
         self.spend_definite(region)?;
         self.affordable(region, anchor)?;
         let short = self.short(region, anchor);
-        leaf::definite(
+        definite::definite(
             region,
             short.as_deref(),
             || self.ends(region, anchor),

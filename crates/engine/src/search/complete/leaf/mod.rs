@@ -2,8 +2,8 @@
 //!
 //! | node of the certificate | made in | checked in `check::cover` |
 //! |---|---|---|
-//! | `farkas` | [`farkas`] | `leaf` |
-//! | `positive_definite`, `negative_definite` | [`definite`] | `leaf`, `definite` |
+//! | `farkas` | [`farkas`] | `farkas` |
+//! | `positive_definite`, `negative_definite` | [`definite`] | `definite` |
 //! | `ldl` | [`ldl`] | `ldl` |
 //! | `tail` | [`tail`] | `condensed` (`tail`) |
 //! | `root` | [`root`], and `precise` with long numbers | `root` |

@@ -1,17 +1,13 @@
-//! Leaves without a solution, by enclosures of T at both ends of the interval: a Farkas vector, or
-//! a definite symmetric part.
+//! Leaves without a solution by a Farkas vector (`spec/certificates.md`, 5.8).
 //!
 //! Every T(t) of the region is a convex combination of a matrix within R0 of M0 and one within R1
-//! of M1 (at an infinite end: the one plus a non-negative multiple of the other; see `family`).
-//! Both proofs are inequalities linear in T, so they hold between if they hold at both ends.
+//! of M1 (at an infinite end: the one plus a non-negative multiple of the other; see `family`). The
+//! proof is an inequality linear in T, so it holds between if it holds at both ends.
 //!
-//! *Farkas.* Let w_i >= 0 for all i outside the support. Since y_i = 0 on the support, w'y >= 0 for
-//! a solution. If (w'T)_j <= 0 for all j that may be in the support, then w'y = w'Tx <= 0, and it
-//! is < 0 if (w'T)_j < 0 for all those j, because x is not zero, or for one j in the support,
-//! because x_j > 0. Then there is no solution.
-//!
-//! *Definite.* A solution has x'Tx = x'y = 0. If sym(T), or -sym(T), is positive definite on the
-//! variables that may be in the support, then x = 0, and there is no solution.
+//! Let w_i >= 0 for all i outside the support. Since y_i = 0 on the support, w'y >= 0 for a
+//! solution. If (w'T)_j <= 0 for all j that may be in the support, then w'y = w'Tx <= 0, and it is
+//! < 0 if (w'T)_j < 0 for all those j, because x is not zero, or for one j in the support, because
+//! x_j > 0. Then there is no solution.
 //!
 //! At an infinite end, which is no value of the window, the weak inequality suffices: the matrix at
 //! the lower end adds the strict one.
@@ -19,16 +15,13 @@
 //! Short numbers (`short`) are tried first. Where they cannot tell, `ends` gives the long ones.
 //! Called by the walk through the trees.
 
-use super::definite::{long_definite, positive_definite};
-use super::ends::{Ends, Matrix};
+use super::ends::{ENDS, Ends};
 use super::fault::CoverFault;
 use super::region::{Region, State};
 use super::short::Short;
 use mceip_exact::{Integer, Rational};
 use num_traits::{Signed, Zero};
 use std::rc::Rc;
-
-const ENDS: [&str; 2] = ["lower", "upper"];
 
 /// Checks the weights `w`, one per complementarity variable, as a Farkas vector.
 pub(super) fn farkas(
@@ -115,106 +108,14 @@ fn upper_bound(ends: &Ends, end: usize, w: &[i64], j: usize) -> Integer {
     bound
 }
 
-/// Demands that `sign` sym(T) is positive definite on the variables that may be in the support.
-pub(super) fn definite(
-    region: &Region,
-    short: Option<&[Short; 2]>,
-    ends: impl FnOnce() -> Result<Rc<Ends>, CoverFault>,
-    index: &[usize],
-    sign: i8,
-) -> Result<(), CoverFault> {
-    let possible = region.possible_support();
-    if let Some([lower, upper]) = short
-        && positive_definite(lower, &possible, sign).is_ok()
-        && positive_definite(upper, &possible, sign).is_ok()
-    {
-        return Ok(());
-    }
-
-    let ends = ends()?;
-    for end in 0..2 {
-        let m = &ends.m[end];
-        let r = &ends.r[end];
-        let is_infinite = end == 1 && ends.infinite;
-        if is_infinite && is_skew(m, r, &possible) {
-            continue; // semidefinite, which suffices there
-        }
-
-        long_definite(m, r, &possible, sign).map_err(|pivot| CoverFault::NotDefinite {
-            index: index[possible[pivot]],
-            end: ENDS[end],
-        })?;
-    }
-
-    Ok(())
-}
-
-/// Is the symmetric part on these variables exactly zero, with zero radius?
-fn is_skew(m: &Matrix, r: &Matrix, variables: &[usize]) -> bool {
-    for &i in variables {
-        for &j in variables {
-            if !(&m[i][j] + &m[j][i]).is_zero() || !r[i][j].is_zero() {
-                return false;
-            }
-        }
-    }
-
-    true
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::cover::order_two::{INDEX, UNDECIDED, ZERO, ends, no_ends, region, short};
     use mceip_exact::whole;
-
-    type Square = [[i64; 2]; 2];
-
-    const INDEX: [usize; 2] = [10, 11];
-    const ZERO: Square = [[0, 0], [0, 0]];
-    const UNDECIDED: [State; 2] = [State::Undecided; 2];
-
-    fn matrix(m: Square) -> Matrix {
-        m.map(|row| row.map(Integer::from).to_vec()).to_vec()
-    }
-
-    fn short(m: Square) -> Short {
-        Short::of(&matrix(m), &matrix(ZERO), &[0, 1]).unwrap()
-    }
-
-    fn region(states: [State; 2]) -> Region {
-        Region {
-            lo: whole(0),
-            hi: Some(whole(1)),
-            states: states.to_vec(),
-            matrices: Default::default(),
-        }
-    }
-
-    fn ends(m: [Square; 2], r: [Square; 2], infinite: bool) -> Rc<Ends> {
-        Rc::new(Ends {
-            m: m.map(matrix),
-            r: r.map(matrix),
-            slope: matrix(ZERO),
-            scale: 1.into(),
-            infinite,
-        })
-    }
-
-    /// Stands for long numbers that must not be asked for.
-    fn no_ends() -> Result<Rc<Ends>, CoverFault> {
-        Err(CoverFault::Trailing)
-    }
 
     fn long_farkas(states: [State; 2], ends: Rc<Ends>, w: [i64; 2]) -> Result<(), CoverFault> {
         farkas(&region(states), None, || Ok(ends), &INDEX, &w)
-    }
-
-    fn long_definite_leaf(states: [State; 2], ends: Rc<Ends>) -> Result<(), CoverFault> {
-        definite(&region(states), None, || Ok(ends), &INDEX, 1)
-    }
-
-    fn not_definite(index: usize, end: &'static str) -> Result<(), CoverFault> {
-        Err(CoverFault::NotDefinite { index, end })
     }
 
     /// (w'T)_j at its largest: the radius counts with |w|, whatever the sign of w.
@@ -269,37 +170,6 @@ mod tests {
         assert_eq!(verdict(second_at_zero, [1, 0], [1, 0], false), Ok(()));
     }
 
-    /// At an infinite end a symmetric part that vanishes on the possible support will do, radius
-    /// included; at no other.
-    #[test]
-    fn a_vanishing_direction_is_definite_enough() {
-        let eye = [[1 << 20, 0], [0, 1 << 20]];
-        let skew = [[0, 5], [-5, 0]];
-        let verdict = |m: [Square; 2], infinite: bool| {
-            long_definite_leaf(UNDECIDED, ends(m, [ZERO, ZERO], infinite))
-        };
-
-        assert_eq!(verdict([eye, eye], true), Ok(()));
-        assert_eq!(verdict([eye, skew], true), Ok(()));
-        assert_eq!(verdict([eye, skew], false), not_definite(10, "upper"));
-        assert_eq!(verdict([skew, eye], true), not_definite(10, "lower"));
-
-        let symmetric = [[0, 5], [5, 0]];
-        assert_eq!(verdict([eye, symmetric], true), not_definite(10, "upper"));
-        let singular = [[1 << 20, 0], [0, 0]];
-        assert_eq!(verdict([eye, singular], true), not_definite(11, "upper"));
-
-        let with_radius = ends([eye, skew], [ZERO, [[0, 1], [0, 0]]], true);
-        let refused = long_definite_leaf(UNDECIDED, with_radius);
-        assert_eq!(refused, not_definite(10, "upper"));
-
-        // Only entry (1, 1) counts, which is zero with its radius.
-        let m = [eye, [[7, 9], [9, 0]]];
-        let r = [ZERO, [[5, 5], [5, 0]]];
-        let first_at_zero = [State::AtZero, State::Undecided];
-        assert_eq!(long_definite_leaf(first_at_zero, ends(m, r, true)), Ok(()));
-    }
-
     /// The short numbers only ever say what the long ones say.
     #[test]
     fn short_numbers_are_asked_first() {
@@ -314,12 +184,5 @@ mod tests {
         // w'T need not be negative on a variable at zero.
         let second_at_zero = [State::Undecided, State::AtZero];
         assert_eq!(verdict(second_at_zero, &unclear), Ok(()));
-
-        let eye = [[1 << 20, 0], [0, 1 << 20]];
-        let verdict =
-            |short: &[Short; 2]| definite(&region(UNDECIDED), Some(short), no_ends, &INDEX, 1);
-        assert_eq!(verdict(&[short(eye), short(eye)]), Ok(()));
-        let unclear = verdict(&[short(eye), short(ZERO)]);
-        assert_eq!(unclear, Err(CoverFault::Trailing));
     }
 }

@@ -1,0 +1,47 @@
+//! Regions and enclosures of order 2 for the unit tests of leaves.
+
+use super::ends::{Ends, Matrix};
+use super::fault::CoverFault;
+use super::region::{Region, State};
+use super::short::Short;
+use mceip_exact::{Integer, whole};
+use std::rc::Rc;
+
+pub(super) type Square = [[i64; 2]; 2];
+
+/// The variables' indices in the problem.
+pub(super) const INDEX: [usize; 2] = [10, 11];
+pub(super) const ZERO: Square = [[0, 0], [0, 0]];
+pub(super) const UNDECIDED: [State; 2] = [State::Undecided; 2];
+
+fn matrix(m: Square) -> Matrix {
+    m.map(|row| row.map(Integer::from).to_vec()).to_vec()
+}
+
+pub(super) fn short(m: Square) -> Short {
+    Short::of(&matrix(m), &matrix(ZERO), &[0, 1]).unwrap()
+}
+
+pub(super) fn region(states: [State; 2]) -> Region {
+    Region {
+        lo: whole(0),
+        hi: Some(whole(1)),
+        states: states.to_vec(),
+        matrices: Default::default(),
+    }
+}
+
+pub(super) fn ends(m: [Square; 2], r: [Square; 2], infinite: bool) -> Rc<Ends> {
+    Rc::new(Ends {
+        m: m.map(matrix),
+        r: r.map(matrix),
+        slope: matrix(ZERO),
+        scale: 1.into(),
+        infinite,
+    })
+}
+
+/// Stands for long numbers that must not be asked for.
+pub(super) fn no_ends() -> Result<Rc<Ends>, CoverFault> {
+    Err(CoverFault::Trailing)
+}
