@@ -156,15 +156,21 @@ impl ShortBall {
     /// v +- r in units of 2^unit.
     fn cut(v: &Integer, r: &Integer, unit: u64) -> Option<ShortBall> {
         let center = v >> unit;
-        let is_exact = &center << unit == *v && !r.is_positive();
-        ShortBall::rounded(center.to_i64()?, (r >> unit).to_i64()?, is_exact)
+        let is_whole = &center << unit == *v;
+        let is_exact = is_whole && !r.is_positive();
+        let radius = r >> unit;
+
+        ShortBall::rounded(center.to_i64()?, radius.to_i64()?, is_exact)
     }
 
     /// A center and a radius that have been rounded down: rounding each has cost less than one
     /// unit. `None` if one of them is larger than an entry may be.
     fn rounded(center: i64, radius: i64, is_exact: bool) -> Option<ShortBall> {
         let radius = if is_exact { 0 } else { radius.checked_add(2)? };
-        let fits = center.unsigned_abs() <= 1 << BITS && radius <= 1 << BITS;
+        let center_fits = center.unsigned_abs() <= 1 << BITS;
+        let radius_fits = radius <= 1 << BITS;
+
+        let fits = center_fits && radius_fits;
         fits.then_some(ShortBall { center, radius })
     }
 }
@@ -184,7 +190,8 @@ impl WideBall {
     /// The same in units of 2^unit.
     fn cut(&self, unit: u64) -> Option<ShortBall> {
         let center = self.center >> unit;
-        let is_exact = center << unit == self.center && self.radius == 0;
+        let is_whole = center << unit == self.center;
+        let is_exact = is_whole && self.radius == 0;
         let radius = self.radius >> unit;
         ShortBall::rounded(center.to_i64()?, radius.to_i64()?, is_exact)
     }

@@ -229,7 +229,12 @@ fn points(
 
 /// Is the root this very number?
 fn is_at(root: Option<&AlgebraicValue>, end: &Rational) -> bool {
-    root.is_some_and(|r| r.value.is_point() && r.value.lo() == end)
+    let Some(root) = root else {
+        return false;
+    };
+
+    let is_end = root.value.lo() == end;
+    root.value.is_point() && is_end
 }
 
 /// Demands that the leaf is small enough to be multiplied out; its number of coefficients.

@@ -4,8 +4,8 @@
 //! may be in the support, at both ends of the interval and so between, then x = 0. At an infinite
 //! end a direction B that vanishes there suffices, because the matrix at the lower end is definite.
 //!
-//! Called by `tree` for every region. The checker's side is `check::cover::leaf`, with the test
-//! itself in `check::cover::definite`.
+//! Called by `tree` for every region. The checker's side is `check::cover::definite`, with the test
+//! itself in `check::cover::enclosed_definite`.
 
 use crate::search::complete::pieces::expansion::Ends;
 use crate::search::complete::pieces::matrix::{Matrix, largest_entry};

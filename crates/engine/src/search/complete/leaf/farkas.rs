@@ -6,7 +6,7 @@
 //! is the value of a matrix game (`game`); its w is rounded to the fewest bits that still prove.
 //!
 //! Called by `tree` for every region; its test at the middle of an interval also tells the tree
-//! whether to cut or to branch. The checker's side is `check::cover::leaf`.
+//! whether to cut or to branch. The checker's side is `check::cover::farkas`.
 
 use crate::search::complete::game::{self, Game};
 use crate::search::complete::pieces::expansion::Ends;
