@@ -58,7 +58,8 @@ impl From<i8> for Sign {
 pub struct Algebraic {
     poly: Poly,
     interval: Interval,
-    /// Sign of the polynomial at the lower end: refinement never changes it. 0 for a point.
+    /// Sign of the polynomial at the lower end, 0 for a point. It is the same for every narrower
+    /// interval, and found again where a factor replaces the polynomial.
     at_lo: i8,
 }
 
@@ -193,8 +194,10 @@ impl Algebraic {
         vanishes
     }
 
-    /// The same vector at this number up to one positive factor, in polynomials of least degree and
-    /// content 1: remainders by the defining polynomial, all scaled alike.
+    /// The same vector at this number up to one positive factor, in polynomials of a degree below
+    /// that of the defining polynomial, together of content 1.
+    ///
+    /// The entries are pseudo-remainders, all with the same power of |lead| as their factor.
     ///
     /// ```
     /// use mceip_exact::{nonnegative_roots, Poly};
@@ -224,8 +227,11 @@ impl Algebraic {
         remainders.iter().map(|p| p.divided_by(&content)).collect()
     }
 
-    /// Looks for a rational value: a root u/v of a primitive polynomial has v dividing the lead, so
-    /// in an interval narrower than 1/(2 lead^2) only the fraction of least denominator can be it.
+    /// Looks for a rational value.
+    ///
+    /// A root u/v of a primitive polynomial has v dividing the lead. Two different fractions with
+    /// denominators up to the lead are at least 1/lead^2 apart. So in an interval of half that
+    /// width only the fraction of least denominator can be the root.
     ///
     /// Given up (the number stays as it is) for leads of more than 256 bits, where it would cost
     /// many halvings.
@@ -277,8 +283,8 @@ impl Algebraic {
 
     /// Are the two numbers equal?
     ///
-    /// If the polynomial of `other` vanishes at `self`, the two are conjugates, and they are equal
-    /// exactly if `self` lies in the interval of `other`, which isolates one conjugate.
+    /// If the polynomial of `other` vanishes at `self`, both are roots of it. Then they are equal
+    /// exactly if `self` lies in the interval of `other`, which holds one root only.
     pub fn equals(&mut self, other: &mut Algebraic) -> bool {
         if let Some(value) = other.as_rational() {
             return self.sign_of(&Poly::linear_root(value)) == Sign::Zero;
@@ -307,8 +313,9 @@ fn simplest_between(lo: &Rational, hi: &Rational) -> Rational {
         return next;
     }
 
-    // Both ends lie strictly between floor and floor + 1. The reciprocal of a fraction between 0
-    // and 1 turns its numerator into the denominator, which is the shorter of the two.
+    // Both ends lie strictly between floor and floor + 1. Of the fractions between two numbers in
+    // (0, 1) the one of least denominator also has the least numerator, so that its reciprocal is
+    // the one of least denominator between the reciprocals.
     let reciprocal_lo = (hi - &floor).recip();
     let reciprocal_hi = (lo - &floor).recip();
 
@@ -430,7 +437,7 @@ mod tests {
         Algebraic::isolated(&factor * &Poly::from_ints(&[-2, 0, 1]), interval)
     }
 
-    /// A lead of more than 256 bits would cost as many halvings: the number stays as it is.
+    /// A lead of more than 256 bits would cost twice as many halvings: the number stays as it is.
     #[test]
     fn a_rational_with_a_long_denominator_is_not_looked_for() {
         let mut short = hidden_rational(20);

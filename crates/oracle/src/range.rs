@@ -120,7 +120,7 @@ fn critical(
 
     let t = Poly::from_ints(&[0, 1]);
     let mut factors = vec![t, generic.minor.clone(), rank_minor];
-    factors.extend(minors(&rows, &columns));
+    factors.extend(minors(&rows, &columns)); // those that do not vanish identically
 
     let mut multiple = Poly::from_ints(&[1]);
     for factor in factors {
@@ -157,6 +157,9 @@ struct SingularSupport<'a> {
 
 impl SingularSupport<'_> {
     /// Is there a solution with exactly this support at t?
+    ///
+    /// `slip` of a cone holds every variable that some vector of the cone has positive. The sum of
+    /// such vectors is positive on all of them.
     fn exists_at(&self, t: &Algebraic) -> bool {
         let cone = cone_at(self.pencil, self.support, t);
         let is_whole_support = cone.slip == self.support;
@@ -164,6 +167,9 @@ impl SingularSupport<'_> {
     }
 
     /// Goes up through the critical values and the cells between them.
+    ///
+    /// A sample below 0 tells whether 0 is an isolated value or belongs to an interval that begins
+    /// below it. Only values from 0 on are returned.
     fn extent(&self, critical: &Poly) -> Extent {
         let below_zero = Algebraic::rational(sample_below_zero(critical));
         let exists_below_zero = self.exists_at(&below_zero);

@@ -1,8 +1,9 @@
-//! Forgeries: certificates made false on purpose, each with the reason it must be rejected for.
+//! Forgeries: certificates spoilt on purpose, each with the reason it must be rejected for.
 //!
-//! A forgery is a true certificate with one change. The changes are data: a name, what is changed,
-//! and which reason of the checker names the obligation that the change breaks. Each change is
-//! false for every problem, provided that the certificate it is made from is true.
+//! A forgery is an accepted certificate with one change. The changes are data: a name, what is
+//! changed, and which reason of the checker names the obligation that the change breaks. Some make
+//! the statement false (a support without one of its indices), others only its proof (a
+//! preconditioner of zeros): both must be rejected, whatever the problem.
 //!
 //! Input: an accepted certificate. Output: one forgery of each change that applies to it.
 //! Called by `compare`, `block` and the fuzz target `checker_against_forgeries`: a forgery that is
@@ -16,7 +17,7 @@ use mceip_exact::{Integer, Rational, rational, whole};
 use mceip_model::file::Number;
 use mceip_model::{Unknown, Window};
 
-/// A false certificate and what the checker must say.
+/// A certificate that does not prove what it says, and what the checker must say of it.
 pub struct Forgery {
     /// The bug it stands for.
     pub name: &'static str,
@@ -26,7 +27,7 @@ pub struct Forgery {
     pub expected: fn(&Reason) -> bool,
 }
 
-/// A change that makes a true `T` (a certificate or a claim) false.
+/// A change that breaks one obligation of an accepted `T` (a certificate or a claim).
 struct Change<T> {
     /// The bug it stands for.
     name: &'static str,
@@ -37,7 +38,7 @@ struct Change<T> {
 }
 
 /// Forgeries of a certificate: of its frame once, of each claim as far as they apply to it.
-/// All are false by construction, whatever the problem, given that `certificate` is true.
+/// Each breaks an obligation, whatever the problem, given that `certificate` is accepted.
 pub fn forgeries(certificate: &Certificate) -> Vec<Forgery> {
     let mut out = Vec::new();
     for change in &OF_THE_FRAME {
@@ -384,10 +385,14 @@ static OF_ENCLOSED: [Change<EnclosedSolution>; 5] = [
         },
         expected: |r| matches!(r, Reason::NotContracting { .. }),
     },
-    // Half of Y would still contract; twice Y makes I - YJ about -I, which just does not.
+    // Half of Y would still contract; four times Y makes I - YJ about -3I, which does not.
     Change {
-        name: "preconditioner of twice the size",
-        apply: |c| c.exponent = c.exponent.saturating_sub(1),
+        name: "preconditioner of four times the size",
+        apply: |c| {
+            for entry in c.preconditioner.iter_mut().flatten() {
+                *entry *= 4;
+            }
+        },
         expected: |r| matches!(r, Reason::NotContracting { .. }),
     },
 ];

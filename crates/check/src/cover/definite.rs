@@ -1,13 +1,14 @@
 //! Leaves without a solution by a definite symmetric part (`spec/certificates.md`, 5.9).
 //!
-//! A solution has x'Tx = x'y = 0. If sym(T), or -sym(T), is positive definite on the variables that
-//! may be in the support, then x = 0, and there is no solution.
+//! T(t) is the pencil on the complementarity variables, after elimination of the free ones: y = T x
+//! for every solution, and x is not zero. So x'Tx = x'y = 0. If sym(T), or -sym(T), is positive
+//! definite on the variables that may be in the support, then x = 0, and there is no solution.
 //!
 //! Every T(t) of the region is a convex combination of a matrix within R0 of M0 and one within R1
 //! of M1 (at an infinite end: the one plus a non-negative multiple of the other; see `family`). The
-//! condition is linear in T, so it holds between if it holds at both ends. At an infinite end, which
-//! is no value of the window, a semidefinite matrix suffices: the matrix at the lower end adds the
-//! strict inequality.
+//! condition is linear in T, so it holds between if it holds at both ends. At an infinite end,
+//! which is no value of the window, a semidefinite matrix suffices: the matrix at the lower end
+//! adds the strict inequality.
 //!
 //! Short numbers (`short`) are tried first. Where they cannot tell, `ends` gives the long ones.
 //! `enclosed_definite` decides at an end. Called by the walk through the trees.

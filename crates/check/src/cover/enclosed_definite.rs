@@ -13,7 +13,8 @@
 //! A small matrix that is too close to a singular one for that is decided by elimination in long
 //! integers without a margin.
 //!
-//! Called by `definite`: `positive_definite` with short numbers, `long_definite` with the long ones.
+//! Called by `definite`: `positive_definite` with short numbers, `long_definite` with the long
+//! ones.
 
 use super::ends::{Matrix, largest_bits};
 use super::short::Short;

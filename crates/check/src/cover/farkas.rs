@@ -1,13 +1,15 @@
 //! Leaves without a solution by a Farkas vector (`spec/certificates.md`, 5.8).
 //!
-//! Every T(t) of the region is a convex combination of a matrix within R0 of M0 and one within R1
-//! of M1 (at an infinite end: the one plus a non-negative multiple of the other; see `family`). The
-//! proof is an inequality linear in T, so it holds between if it holds at both ends.
+//! T(t) is the pencil on the complementarity variables, after elimination of the free ones: y = T x
+//! for every solution, and x is not zero. Every T(t) of the region is a convex combination of a
+//! matrix within R0 of M0 and one within R1 of M1, its *ends* (at an infinite end: the one plus a
+//! non-negative multiple of the other; see `family`). The proof is an inequality linear in T, so it
+//! holds between if it holds at both ends.
 //!
-//! Let w_i >= 0 for all i outside the support. Since y_i = 0 on the support, w'y >= 0 for a
-//! solution. If (w'T)_j <= 0 for all j that may be in the support, then w'y = w'Tx <= 0, and it is
-//! < 0 if (w'T)_j < 0 for all those j, because x is not zero, or for one j in the support, because
-//! x_j > 0. Then there is no solution.
+//! Let w_i >= 0 for all i that are not known to be in the support. Since y_i = 0 on the support,
+//! w'y >= 0 for a solution. If (w'T)_j <= 0 for all j that may be in the support, then w'y = w'Tx
+//! <= 0, and it is < 0 if (w'T)_j < 0 for all those j, because x is not zero, or for one j in the
+//! support, because x_j > 0. Then there is no solution.
 //!
 //! At an infinite end, which is no value of the window, the weak inequality suffices: the matrix at
 //! the lower end adds the strict one.
@@ -79,6 +81,9 @@ pub(super) fn farkas(
 }
 
 /// Is w'T < 0 on all variables that may be in the support?
+///
+/// `product` gives upper bounds of w'T, radii and rounding included, or nothing where short numbers
+/// overflow. At an infinite end this asks for more than is needed; the long numbers decide there.
 fn is_negative(region: &Region, end: &Short, w: &[i64]) -> bool {
     let Some(bounds) = end.product(w) else {
         return false;

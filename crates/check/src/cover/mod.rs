@@ -22,8 +22,8 @@
 //! half line. `product`, `short`, `definite` and `psd` are the arithmetic behind it. `walk` goes
 //! through the trees, and `budget` bounds the work.
 //!
-//! For each kind of leaf there is a file in `crates/engine/src/search/complete/leaf/` that makes it;
-//! the table in its `mod.rs` names both sides.
+//! For each kind of leaf there is a file in `crates/engine/src/search/complete/leaf/` that makes
+//! it; the table in its `mod.rs` names both sides.
 //!
 //! Input: the integral rows of the pencil, the window, the claims of the certificate that have been
 //! accepted, and the cover. Called by [`crate::check`].

@@ -2,9 +2,10 @@
 //! active set from the step before. What happens within a step is lost.
 //!
 //! A step solves r = C (u - g) (C the condensed stiffness) for the displacements u at the new
-//! position g of the glued side, with these conditions by state: stick: u as before; slip: u_N = 0,
-//! r_T + S mu r_N = 0, where S is the sign of r_T; free: r = 0. States that the solution
-//! contradicts are changed and the step is solved again (backward Euler in the friction law).
+//! position g of the glued side, with these conditions by state: stick: u_T as before and u_N = 0;
+//! slip: u_N = 0, r_T + S mu r_N = 0, where S is the sign of r_T; free: r = 0. As in (1), u_N <= 0
+//! without penetration and r_N <= 0 is pressure. States that the solution contradicts are changed
+//! and the step is solved again (backward Euler in the friction law).
 //! `mceip block --path` sets the result beside the exact path.
 #![allow(clippy::float_arithmetic)]
 
@@ -17,8 +18,8 @@ use mceip_mcp::linear::solve;
 use mceip_model::ContactState;
 use std::ops::ControlFlow;
 
-/// Active-set iterations of one step. A step changes a few nodes; cycling is the only reason for
-/// more.
+/// Active-set iterations of one step. A step changes a few nodes, so that more iterations mean that
+/// the states repeat.
 const ITERATIONS: usize = 200;
 
 /// An equilibrium of the stepped path.

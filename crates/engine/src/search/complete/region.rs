@@ -101,8 +101,8 @@ impl Region {
         part
     }
 
-    /// The two parts into which an inner node of a tree divides the region, the one that comes first
-    /// in preorder last; `None` for a leaf.
+    /// The two parts into which an inner node of a tree divides the region, the one that comes
+    /// first in preorder last; `None` for a leaf.
     pub(crate) fn parts(&self, node: &Node, view: &View) -> Option<[Region; 2]> {
         match node {
             Node::Split(cut) => Some([self.above(&cut.0), self.below(&cut.0)]),

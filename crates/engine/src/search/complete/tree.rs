@@ -167,8 +167,8 @@ impl Search<'_> {
         ldl::half_line_leaf(self.given, self.view, region, ends)
     }
 
-    /// Covers a decided region by means of its null vector. Returns false, and covers nothing, where
-    /// that cannot be done.
+    /// Covers a decided region by means of its null vector. Returns false, and covers nothing,
+    /// where that cannot be done.
     fn decided_leaf(&mut self, region: &Region, ends: &Ends, share: f64) -> bool {
         if !ends.is_half_line() {
             return self.roots(region, ends, share);

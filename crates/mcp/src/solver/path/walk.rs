@@ -1,5 +1,10 @@
 //! The pivot loop: along the path from t = 0 until t = 1, a ray, a cycle or a limit.
 //!
+//! The equations that hold along the path, with the multipliers w and v and the artificials, stand
+//! in the module `path`. At t = 1 the residual of the start has left them, so that the point there
+//! solves the linear problem. t has the upper bound 1 and no lower one: it leaves the basis only at
+//! the end of the path.
+//!
 //! Each round moves the entering unknown to the first bound that is met (`ratio`), records the
 //! knot, and turns there: the path is complete, or the entering unknown flips, or it is exchanged
 //! for the one that has stopped it (`tableau`).
@@ -136,7 +141,8 @@ impl<'a, T: Number> Walk<'a, T> {
     }
 
     /// A point a little along the ray, as the last knot: no component moves by more than
-    /// RAY_STEP (1 + |z|).
+    /// RAY_STEP (1 + |z|). The rates are those of the basic unknowns while the entering one moves
+    /// at rate 1.
     fn step_along_ray(&mut self) {
         let speed = T::largest(&self.tableau.state.rates).larger(T::one());
         let size = T::one() + T::largest(&self.tableau.state.z);
@@ -154,7 +160,9 @@ impl<'a, T: Number> Walk<'a, T> {
     }
 
     /// Counts how often each unknown begins to move; the counts restart at each new maximum of t.
-    /// A ray start has no guard: its lexicographic order excludes cycles.
+    ///
+    /// A ray start has no such guard: in lexicographic order no basis repeats, and with the other
+    /// ratio test the pivot limit ends a cycle.
     fn is_cycling(&mut self) -> bool {
         if self.path.start == Start::Ray {
             return false;

@@ -1,8 +1,21 @@
-//! The witness that a support has one null vector over an interval, and what that vector is.
+//! The witness that the block of a support is singular at one value only, and what its null vector
+//! is there.
 //!
-//! Made from a null vector in doubles: a pivot with large components on both sides, the inverse on
-//! the rest of the support rounded to as few bits as will do, and both vectors scaled to 1 at the
-//! pivot. What it has to satisfy stands in `bounds`.
+//! T_JJ(t) is the block of T on the support J. With a pivot p in J and r the rest of J, its Schur
+//! complement is
+//!
+//! ```text
+//! phi(t) = T_pp - T_pr T_rr^-1 T_rp,
+//! ```
+//!
+//! and where T_rr is regular T_JJ has a null vector exactly if phi = 0. If T_rr is regular over an interval and phi'
+//! has one sign there, there is at most one such value. If phi changes its sign over a narrower
+//! interval inside, there is one. The witness is made from a null vector in doubles: a pivot p, the
+//! inverse Y of T_rr rounded to as few bits as will do, and the left and right null vectors u and v
+//! scaled to 1 at p. `bounds` evaluates what they have to satisfy.
+//!
+//! The search proposes; the checker decides on the numbers as they are written. A value 0 has no
+//! narrow interval here (its width is relative): the leaf `support` takes it.
 //!
 //! Called by the leaves `root` and `infinity` and by `precise`.
 
@@ -18,9 +31,9 @@ use mceip_mcp::linear::inverse;
 use mceip_model::file::Number;
 use num_traits::One;
 
-/// Exponent of the null vectors.
+/// The null vectors are written in units of 2^-56, below the rounding of components near 1.
 const VECTOR_BITS: u32 = 56;
-/// Bits tried for the inverse's largest entry.
+/// Bits tried for the inverse's largest entry: few bits make a short certificate.
 const INVERSE_BITS: [i32; 4] = [12, 20, 30, 44];
 /// Pivots tried.
 const PIVOTS: usize = 3;
@@ -42,6 +55,9 @@ pub(crate) struct Located {
 impl Unique {
     /// The witness that this is the only null vector over `wide`, which contains the leaf; `None`
     /// where it is not to be had.
+    ///
+    /// The minor of T_JJ without row and column p is proportional to u_p v_p where T_JJ is
+    /// singular, so that pivots with a large product come first.
     pub(crate) fn of(null: &NullVector, wide: &Ends) -> Option<Unique> {
         let weights: Vec<f64> = null
             .left
@@ -157,6 +173,8 @@ impl Unique {
     }
 
     /// Has the Schur complement one sign over the interval, so that there is no null vector in it?
+    ///
+    /// `wide` lies where [`Unique::of`] has shown it monotone, so equal signs at both ends suffice.
     pub(crate) fn is_absent(&self, wide: &Ends) -> bool {
         match self.approximation.errors(wide) {
             Some(errors) => self.approximation.sign_product(wide, &errors) == 1,
@@ -165,7 +183,8 @@ impl Unique {
     }
 
     /// What the signs of x on the support and of y = T x off it say; `None` if one is not certain.
-    /// `error` bounds the error of the components of x.
+    /// `error` bounds the error of the components of x; it is doubled because the checker's own
+    /// bound, from rounded numbers, may be larger.
     fn signs(
         &self,
         narrow: &Ends,
