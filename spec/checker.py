@@ -581,9 +581,12 @@ def isolated(poly, x, a, b):
     """Sizes, and [a, b] isolates one root of p: obligations 1 and 2. Returns p with a positive leading coefficient."""
     longest = max(map(len, x))
     demand(max(len(poly), longest) <= 512, "1: more than 512 coefficients")
-    bits = max([abs(c).bit_length() for c in poly] + [abs(c.numerator).bit_length() + c.denominator.bit_length() for r in [*x, (a, b)] for c in r])
+    bits = max([rational_bits(a) + rational_bits(b), *(abs(c).bit_length() for c in poly), *(rational_bits(c) for r in x for c in r)])
+    work = len(x) * ((len(poly) + longest) * bits)**2
+    Budget.claims -= min(work, 2**43)
     demand((len(poly) + longest) * bits <= 2**21, "1: too much work")
-    demand(len(x) * ((len(poly) + longest) * bits)**2 <= 2**46, "1: too much work for all rows")
+    demand(work <= 2**43, "1: too much work for all rows")
+    demand(Budget.claims >= 0, "1: the claims of the file take more work than their budget")
     excess = max(longest - len(poly), 0)
     demand(excess <= 1 or excess * bits <= 2**13, "1: x has too many coefficients beyond those of the polynomial")
     poly = strip(poly)  # 2
@@ -1335,6 +1338,7 @@ class Budget:
     """What the signs of the support leaves of a file may cost, and the matrices of its regions (C, Limits)."""
     left = 0
     matrices = 0
+    claims = 0
 
     @classmethod
     def take(cls, cost):
@@ -1728,6 +1732,7 @@ def check(problem_path, certificate_path):
     demand(unknown == p.unknown, "the unknown is not the problem's")
     demand(sequence(claim_list) or complete is not None, "no claim")
     rows, claims = integral_rows(p), []
+    Budget.claims = 2**43 + 2**34 * len(claim_list)
     for c in claim_list:
         if not isinstance(c, dict) or len(c) != 1:
             raise Unreadable("a claim is an object with one key")

@@ -41,7 +41,7 @@ const MAX_COEFFICIENTS: u64 = 512;
 const MAX_SIZE: u64 = 1 << 21;
 /// Largest product of the number of polynomials and the square of that size: Horner's rule is asked
 /// for each row.
-const MAX_WORK: u64 = 1 << 46;
+pub(super) const MAX_WORK: u64 = 1 << 43;
 /// By how many coefficients x may exceed p for numbers of any length: y = (A + tB) x has one more
 /// than x.
 const FREE_EXCESS: u64 = 1;
@@ -59,7 +59,7 @@ pub(super) fn check(
 ) -> Result<AcceptedClaim, Reason> {
     index_set(rows, "support", &claim.support)?;
     index_set(rows, "biactive", &claim.biactive)?;
-    bounded(&claim.polynomial, &claim.interval, &claim.x)?;
+    ClaimSize::of(&claim.polynomial, &claim.interval, &claim.x).bounded()?;
 
     let p = Poly::new(claim.polynomial.clone()).primitive();
     let value = isolate(&p, &claim.interval)?;
@@ -77,42 +77,82 @@ pub(super) fn check(
     })
 }
 
-/// Demands that the claim is small enough to be multiplied out.
-///
-/// `x` are its polynomials: those of x, or of v and w.
-pub(super) fn bounded<'a>(
-    polynomial: &[Integer],
-    interval: &'a [Number; 2],
-    x: impl IntoIterator<Item = &'a Vec<Number>> + Clone,
-) -> Result<(), Reason> {
-    let coefficients = polynomial.len() as u64;
-    let what = "coefficients of the polynomial";
-    Reason::at_most(what, MAX_COEFFICIENTS, coefficients)?;
+/// How large an exact or lifted claim is.
+pub(super) struct ClaimSize {
+    /// Coefficients of the polynomial of the value.
+    coefficients: u64,
+    /// Entries of x, or of v and w.
+    polynomials: u64,
+    /// Coefficients of the longest of these.
+    longest_x: u64,
+    /// Bits of the longest number. Both ends of the interval count together, because interval
+    /// Horner brings them to one denominator.
+    bits: u64,
+}
 
-    let polynomials = x.clone().into_iter().count() as u64;
-    let longest_x = x.clone().into_iter().map(Vec::len).max().unwrap_or(0) as u64;
-    Reason::at_most("coefficients of x", MAX_COEFFICIENTS, longest_x)?;
+impl ClaimSize {
+    /// `x` are the polynomials of the claim: those of x, or of v and w.
+    pub(super) fn of<'a>(
+        polynomial: &[Integer],
+        [lo, hi]: &[Number; 2],
+        x: impl IntoIterator<Item = &'a Vec<Number>>,
+    ) -> ClaimSize {
+        let mut size = ClaimSize {
+            coefficients: polynomial.len() as u64,
+            polynomials: 0,
+            longest_x: 0,
+            bits: number_bits(lo) + number_bits(hi),
+        };
 
-    let rationals = interval.iter().chain(x.into_iter().flatten());
-    let bits = rationals
-        .map(|n| n.0.numer().bits() + n.0.denom().bits())
-        .chain(polynomial.iter().map(Integer::bits))
-        .max()
-        .unwrap_or(0);
-    let size = bits.saturating_mul(coefficients + longest_x);
-    Reason::at_most("size (coefficients times bits)", MAX_SIZE, size)?;
+        for coefficient in polynomial {
+            size.bits = size.bits.max(coefficient.bits());
+        }
 
-    let what = "work (polynomials times the square of coefficients times bits)";
-    let work = size.saturating_mul(size).saturating_mul(polynomials);
-    Reason::at_most(what, MAX_WORK, work)?;
+        for entry in x {
+            size.polynomials += 1;
+            size.longest_x = size.longest_x.max(entry.len() as u64);
+            for coefficient in entry {
+                size.bits = size.bits.max(number_bits(coefficient));
+            }
+        }
 
-    let excess = longest_x.saturating_sub(coefficients);
-    if excess <= FREE_EXCESS {
-        return Ok(());
+        size
     }
 
-    let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
-    Reason::at_most(what, MAX_EXCESS_SIZE, bits.saturating_mul(excess))
+    /// Coefficients times bits.
+    fn size(&self) -> u64 {
+        let coefficients = self.coefficients + self.longest_x;
+        self.bits.saturating_mul(coefficients)
+    }
+
+    /// What Horner's rule for all polynomials costs at most.
+    pub(super) fn work(&self) -> u64 {
+        let size = self.size();
+        size.saturating_mul(size).saturating_mul(self.polynomials)
+    }
+
+    /// Demands that the claim is small enough to be multiplied out.
+    pub(super) fn bounded(&self) -> Result<(), Reason> {
+        let what = "coefficients of the polynomial";
+        Reason::at_most(what, MAX_COEFFICIENTS, self.coefficients)?;
+        Reason::at_most("coefficients of x", MAX_COEFFICIENTS, self.longest_x)?;
+
+        Reason::at_most("size (coefficients times bits)", MAX_SIZE, self.size())?;
+        let what = "work (polynomials times the square of coefficients times bits)";
+        Reason::at_most(what, MAX_WORK, self.work())?;
+
+        let excess = self.longest_x.saturating_sub(self.coefficients);
+        if excess <= FREE_EXCESS {
+            return Ok(());
+        }
+
+        let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
+        Reason::at_most(what, MAX_EXCESS_SIZE, self.bits.saturating_mul(excess))
+    }
+}
+
+fn number_bits(n: &Number) -> u64 {
+    n.0.numer().bits() + n.0.denom().bits()
 }
 
 /// Demands an ascending list of complementarity variables.
@@ -392,10 +432,10 @@ mod tests {
         Number(whole(0))
     }
 
-    /// An integer whose numerator and denominator have so many bits together.
+    /// The upper end of an interval from 0 whose ends have so many bits together.
     fn number_of_bits(bits: u64) -> Number {
-        // 2^k has k + 1 bits and the denominator one.
-        Number(Rational::from_integer(Integer::from(1) << (bits - 2)))
+        // 2^k has k + 1 bits, and each denominator one.
+        Number(Rational::from_integer(Integer::from(1) << (bits - 3)))
     }
 
     /// The verdict on p with so many coefficients, x with so many polynomials of zeros, and one
@@ -408,7 +448,7 @@ mod tests {
     ) -> Result<(), Reason> {
         let p = vec![Integer::from(1); coefficients];
         let x = vec![vec![zero(); length_of_x]; polynomials];
-        bounded(&p, &[zero(), number], &x)
+        ClaimSize::of(&p, &[zero(), number], &x).bounded()
     }
 
     fn too_large(what: &'static str, limit: u64, got: u64) -> Result<(), Reason> {
@@ -458,7 +498,8 @@ mod tests {
         let what = "coefficients of x";
         assert_eq!(verdict(1, 1, 513, one()), too_large(what, 512, 513));
 
-        // 4 + 4 coefficients: 2^21 in all. The bits of numerator and denominator count together.
+        // 4 + 4 coefficients: 2^21 in all. The bits of numerator and denominator count together,
+        // and so do those of the lower end 0: one.
         let what = "size (coefficients times bits)";
         let edge = 1u64 << 18;
         let fraction = |numerator_bits: u64, denominator_bits: u64| {
@@ -466,8 +507,8 @@ mod tests {
             let denominator: Integer = Integer::from(1) << (denominator_bits - 1);
             Number(Rational::new(numerator, denominator + 1))
         };
-        let at_the_edge = fraction(edge / 2, edge / 2);
-        let beyond = fraction(edge / 2, edge / 2 + 1);
+        let at_the_edge = fraction(edge / 2, edge / 2 - 1);
+        let beyond = fraction(edge / 2, edge / 2);
 
         assert_eq!(verdict(4, 1, 4, number_of_bits(edge)), Ok(()));
         assert_eq!(verdict(4, 1, 4, at_the_edge), Ok(()));
@@ -511,13 +552,13 @@ mod tests {
         // 4 + 4 coefficients of 2^k bits: size 2^(k + 3).
         let work_of =
             |polynomials: usize, bits: u64| verdict(4, polynomials, 4, number_of_bits(bits));
-        assert_eq!(work_of(16, 1 << 18), Ok(()));
-        assert_eq!(work_of(1 << 10, 1 << 15), Ok(()));
+        assert_eq!(work_of(2, 1 << 18), Ok(()));
+        assert_eq!(work_of(1 << 7, 1 << 15), Ok(()));
 
         let what = "work (polynomials times the square of coefficients times bits)";
-        assert_eq!(work_of(17, 1 << 18), too_large(what, 1 << 46, 17 << 42));
-        let more = (1 << 10) + 1;
-        assert_eq!(work_of(more, 1 << 15), too_large(what, 1 << 46, 1025 << 36));
+        assert_eq!(work_of(3, 1 << 18), too_large(what, 1 << 43, 3 << 42));
+        let more = (1 << 7) + 1;
+        assert_eq!(work_of(more, 1 << 15), too_large(what, 1 << 43, 129 << 36));
     }
 
     /// One coefficient more than p is free for numbers of any length; each further one counts with

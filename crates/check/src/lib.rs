@@ -38,9 +38,14 @@ pub use reason::{Reason, Rejected};
 
 use crate::certificate::{Certificate, Claim};
 use cover::AcceptedSolution;
+use exact_solution::{ClaimSize, MAX_WORK};
 use mceip_exact::Interval;
 use mceip_model::{Problem, Window};
 use pencil::Rows;
+
+/// What the exact and lifted claims of a file may cost together: without any claim, and for each.
+const WORK_BASE: u64 = 1 << 43;
+const WORK_PER_CLAIM: u64 = 1 << 34;
 
 /// What an accepted certificate has proved, claim by claim.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -118,8 +123,15 @@ impl<'a> ClaimChecker<'a> {
         certificate: &'c Certificate,
     ) -> Result<Vec<AcceptedSolution<'c>>, Rejected> {
         let mut solutions = Vec::new();
+        let claims = certificate.claims.len() as u64;
+        let allowed = WORK_BASE.saturating_add(WORK_PER_CLAIM.saturating_mul(claims));
+        let mut work: u64 = 0;
 
         for (index, claim) in certificate.claims.iter().enumerate() {
+            work = work.saturating_add(work_of(claim));
+            let what = "work of the claims up to here (spec/certificates.md, Limits)";
+            Reason::at_most(what, allowed, work).map_err(|reason| of_claim(index, reason))?;
+
             let accepted = self
                 .verdict(&certificate.window, claim)
                 .map_err(|reason| of_claim(index, reason))?;
@@ -132,6 +144,20 @@ impl<'a> ClaimChecker<'a> {
 
         Ok(solutions)
     }
+}
+
+/// What Horner's rule for the polynomials of a claim costs at most. An enclosed claim has none.
+///
+/// A claim beyond [`MAX_WORK`] counts as that: it is rejected by itself, before any work.
+fn work_of(claim: &Claim) -> u64 {
+    let size = match claim {
+        Claim::ExactSolution(c) => ClaimSize::of(&c.polynomial, &c.interval, &c.x),
+        Claim::LiftedSolution(c) => {
+            ClaimSize::of(&c.polynomial, &c.interval, c.v.iter().chain(&c.w))
+        }
+        Claim::EnclosedSolution(_) => return 0,
+    };
+    size.work().min(MAX_WORK)
 }
 
 /// The verdict of [`check`], or with a list `refused` that of [`audit`].

@@ -19,7 +19,9 @@
 //! slip particles in file order.
 
 use super::AcceptedClaim;
-use super::exact_solution::{Alpha, Polynomial, bounded, coefficients, index_set, isolate, within};
+use super::exact_solution::{
+    Alpha, ClaimSize, Polynomial, coefficients, index_set, isolate, within,
+};
 use super::pencil::Rows;
 use super::reason::Reason;
 use crate::certificate::LiftedSolution;
@@ -39,7 +41,7 @@ pub(super) fn check(
     let polynomials = claim.v.iter().chain(&claim.w);
     index_set(rows, "support", &claim.support)?;
     index_set(rows, "biactive", &claim.biactive)?;
-    bounded(&claim.polynomial, &claim.interval, polynomials.clone())?;
+    ClaimSize::of(&claim.polynomial, &claim.interval, polynomials.clone()).bounded()?;
 
     let p = Poly::new(claim.polynomial.clone()).primitive();
     let value = isolate(&p, &claim.interval)?;

@@ -4,7 +4,8 @@ use super::ends::{Ends, Matrix};
 use super::fault::CoverFault;
 use super::region::{Region, State};
 use super::short::Short;
-use mceip_exact::{Integer, whole};
+use mceip_exact::{Integer, Rational};
+use num_traits::{One, Zero};
 use std::rc::Rc;
 
 pub(super) type Square = [[i64; 2]; 2];
@@ -24,8 +25,8 @@ pub(super) fn short(m: Square) -> Short {
 
 pub(super) fn region(states: [State; 2]) -> Region {
     Region {
-        lo: whole(0),
-        hi: Some(whole(1)),
+        lo: Rational::zero(),
+        hi: Some(Rational::one()),
         states: states.to_vec(),
         matrices: Default::default(),
     }
