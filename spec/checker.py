@@ -317,7 +317,7 @@ def read_market(name, folder, what):
         raise Unreadable(f"{what}: no such regular file beside the problem: {name}")
     try:
         with open(path, encoding="utf-8", newline="") as f:
-            lines = [line.removesuffix("\r") for line in f.read().split("\n")]
+            lines = f.read().replace("\r\n", "\n").split("\n")  # a CR alone ends no line
     except (OSError, ValueError) as e:
         raise Unreadable(f"{what}: {e}") from None
     head = words_of(lines[0].lower()) if lines else []

@@ -285,6 +285,25 @@ mod tests {
         assert_eq!((wide.get(1, 1), wide.get(0, 2)), (whole(4), whole(5)));
     }
 
+    /// Lines end in LF or in CR LF; a CR alone is part of a word.
+    #[test]
+    fn a_cr_alone_ends_no_line() {
+        let banner = "%%MatrixMarket matrix array real general";
+
+        let with_crlf = format!("{banner}\r\n1 1\r\n7\r\n");
+        assert_eq!(
+            read_matrix_market("K", &with_crlf).unwrap().get(0, 0),
+            whole(7)
+        );
+
+        let with_cr_at_the_end = format!("{banner}\n1 1\n7\r");
+        let refused = read_matrix_market("K", &with_cr_at_the_end);
+        assert!(
+            matches!(refused, Err(ModelError::Number { .. })),
+            "{refused:?}"
+        );
+    }
+
     /// As many numbers as asked for and nothing else; what is quoted is fit for a terminal.
     #[test]
     fn size_lines_are_numbers_only() {
