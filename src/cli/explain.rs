@@ -1,48 +1,30 @@
 //! `mceip explain [TERM]`: what a word of the output means.
 //!
-//! A TERM is a term of the glossary, the id of an equation (`E16`, `16` or `(16)`) or of a departure
-//! from the paper (`X9`), or a reason for which `check` rejects a certificate (`NotIsolated`). The
-//! texts are those of the book in `spec/`, compiled into the program.
+//! A TERM is a term of the glossary, the id of an equation (`E16`, `16` or `(16)`) or of a
+//! departure from the paper (`X9`), or a reason for which `check` rejects a certificate
+//! (`NotIsolated`). The texts are those of the book in `spec/`, compiled into the program.
 
 use super::common::{CliError, exit, print};
 
 /// The pages with a table of names and meanings.
 const TABLES: [Page; 2] = [
-    Page {
-        path: "spec/glossary.md",
-        text: include_str!("../../spec/glossary.md"),
-    },
-    Page {
-        path: "spec/reasons.md",
-        text: include_str!("../../spec/reasons.md"),
-    },
+    Page::new("spec/glossary.md", include_str!("../../spec/glossary.md")),
+    Page::new("spec/reasons.md", include_str!("../../spec/reasons.md")),
 ];
 
 /// The pages with a list of equations by id.
 const CHAPTERS: [Page; 4] = [
-    Page {
-        path: "spec/problem.md",
-        text: include_str!("../../spec/problem.md"),
-    },
-    Page {
-        path: "spec/reduction.md",
-        text: include_str!("../../spec/reduction.md"),
-    },
-    Page {
-        path: "spec/solver.md",
-        text: include_str!("../../spec/solver.md"),
-    },
-    Page {
-        path: "spec/enumeration.md",
-        text: include_str!("../../spec/enumeration.md"),
-    },
+    Page::new("spec/problem.md", include_str!("../../spec/problem.md")),
+    Page::new("spec/reduction.md", include_str!("../../spec/reduction.md")),
+    Page::new("spec/solver.md", include_str!("../../spec/solver.md")),
+    Page::new(
+        "spec/enumeration.md",
+        include_str!("../../spec/enumeration.md"),
+    ),
 ];
 
 /// The page with a section for each departure from the paper.
-const ERRATA: Page = Page {
-    path: "spec/errata.md",
-    text: include_str!("../../spec/errata.md"),
-};
+const ERRATA: Page = Page::new("spec/errata.md", include_str!("../../spec/errata.md"));
 
 /// Names shown for a term that is not known.
 const SUGGESTIONS: usize = 5;
@@ -59,6 +41,12 @@ pub(super) struct Args {
 struct Page {
     path: &'static str,
     text: &'static str,
+}
+
+impl Page {
+    const fn new(path: &'static str, text: &'static str) -> Page {
+        Page { path, text }
+    }
 }
 
 /// A name with its meaning.
@@ -183,7 +171,8 @@ fn equations(page: &Page) -> Vec<Entry> {
     list
 }
 
-/// The sections `## X9. Title` of the errata: the title, and the paragraph that says what is true.
+/// The sections `## X9. Title` of the errata: the title, and the paragraph that says what is true,
+/// else the first one.
 fn departures(page: &Page) -> Vec<Entry> {
     let mut list = Vec::new();
 
@@ -193,21 +182,23 @@ fn departures(page: &Page) -> Vec<Entry> {
             continue;
         };
 
-        let paragraphs = section.split("\n\n");
+        let paragraphs: Vec<&str> = section.split("\n\n").skip(1).collect();
         let truth = paragraphs
-            .filter(|p| p.starts_with("**DIFFERENCE"))
-            .map(|p| format!("\n\n  {}", plain(p).replace('\n', "\n  ")))
-            .next();
+            .iter()
+            .find(|p| p.starts_with("**DIFFERENCE"))
+            .or(paragraphs.first());
+        let truth = plain(truth.unwrap_or(&"").trim_end());
+
         list.push(Entry {
             name: name.to_string(),
-            meaning: format!("  {title}{}", truth.unwrap_or_default()),
+            meaning: format!("  {title}\n\n  {}", truth.replace('\n', "\n  ")),
             path: page.path,
         });
     }
     list
 }
 
-/// Markdown as plain text: no emphasis and no code marks, and of a link its text.
+/// Markdown without bold and code marks, and of a link its text.
 fn plain(markdown: &str) -> String {
     let text = markdown.replace("**", "").replace('`', "");
     let text = text.replace("\\|", "|");

@@ -60,6 +60,12 @@ fn a_departure_from_the_paper() {
     assert!(text.contains("DIFFERENCE"));
 }
 
+/// O1 has no paragraph of that name: its first one is printed.
+#[test]
+fn an_observation_without_a_departure() {
+    assert!(explained("O1").contains("no rational mu satisfies (mu s)^2 = c^2 + 2"));
+}
+
 #[test]
 fn a_reason_of_rejection_with_and_without_its_prefix() {
     let text = explained("Cover.Truncated");

@@ -150,8 +150,8 @@ impl AtSlip {
         sum
     }
 
-    /// The least side over the rays that span the half space z <= 0 at S v_T: z = 0, z = 2 S v_T,
-    /// and one step down in each component.
+    /// The least side over z = 0, z = 2 S v_T and one step down from S v_T in each component. Where
+    /// it is at least 0, so is the side for every z <= 0.
     fn least_side(&self) -> f64 {
         let origin = vec![0.0; self.slip.len()];
         let twice: Vec<f64> = self.slip.iter().map(|s| 2.0 * s).collect();
@@ -179,8 +179,8 @@ fn along(direction: &[(usize, Rational)], vector: &[Poly], value: f64) -> f64 {
     sum
 }
 
-/// (9) as a variational inequality: v is admissible (v_d = 0, v_Ns = 0, S v_Ts <= 0), w_f = 0, and
-/// (S w_T + mu w_N)'(z - S v_T) >= 0 for all z <= 0.
+/// (9) as a variational inequality: S v_T <= 0 and (S w_T + mu w_N)'(z - S v_T) >= 0 for all z <= 0.
+/// (v_d = 0, v_Ns = 0 and w_f = 0 are lines of their own: `check_lines`.)
 #[test]
 fn lifted_solutions_solve_the_variational_inequality() {
     let mut count = 0;

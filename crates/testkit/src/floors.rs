@@ -219,10 +219,12 @@ fn at_most(found: u64, of: u64, probability: f64) -> f64 {
 /// `.ci/run` use other seeds.
 ///
 /// ```text
-/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=1000 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_families_of_verify
-/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_families_of_the_campaign
-/// FLOOR_SEEDS=9001,9002 FLOOR_COUNT=200 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_fuzz_targets
-/// FLOOR_SEEDS=9001,9002 cargo test --release --test campaign -- --ignored --nocapture floors::measure_the_block
+/// export FLOOR_SEEDS=9001,9002
+/// measure="cargo test --release --test campaign -- --ignored --nocapture"
+/// FLOOR_COUNT=1000 $measure floors::measure_the_families_of_verify
+/// FLOOR_COUNT=200 $measure floors::measure_the_families_of_the_campaign
+/// FLOOR_COUNT=200 $measure floors::measure_the_fuzz_targets
+/// $measure floors::measure_the_block
 /// cargo test --release --test solver -- --ignored --nocapture solver_properties::
 /// ```
 ///

@@ -8,11 +8,13 @@
 //! phi(t) = T_pp - T_pr T_rr^-1 T_rp,
 //! ```
 //!
-//! and where T_rr is regular T_JJ has a null vector exactly if phi = 0. If T_rr is regular over an interval and phi'
-//! has one sign there, there is at most one such value. If phi changes its sign over a narrower
-//! interval inside, there is one. The witness is made from a null vector in doubles: a pivot p, the
-//! inverse Y of T_rr rounded to as few bits as will do, and the left and right null vectors u and v
-//! scaled to 1 at p. `bounds` evaluates what they have to satisfy.
+//! and where T_rr is regular, T_JJ has a null vector exactly if phi = 0. If T_rr is regular over an
+//! interval and phi' has one sign there, there is at most one such value. If phi changes its sign
+//! over a narrower interval inside, there is one.
+//!
+//! The witness is made from a null vector in doubles: a pivot p, the inverse Y of T_rr rounded to as
+//! few bits as will do, and the left and right null vectors u and v scaled to 1 at p. `bounds`
+//! evaluates what they have to satisfy.
 //!
 //! The search proposes; the checker decides on the numbers as they are written. A value 0 has no
 //! narrow interval here (its width is relative): the leaf `support` takes it.
