@@ -27,6 +27,7 @@ use super::AcceptedClaim;
 use super::pencil::{Row, Rows};
 use super::reason::Reason;
 use crate::certificate::ExactSolution;
+use crate::cover::ends::rational_bits;
 use mceip_exact::{Integer, Interval, Poly, Rational, common_denominator};
 use mceip_model::Window;
 use mceip_model::file::Number;
@@ -101,7 +102,7 @@ impl ClaimSize {
             coefficients: polynomial.len() as u64,
             polynomials: 0,
             longest_x: 0,
-            bits: number_bits(lo) + number_bits(hi),
+            bits: rational_bits(&lo.0) + rational_bits(&hi.0),
         };
 
         for coefficient in polynomial {
@@ -112,7 +113,7 @@ impl ClaimSize {
             size.polynomials += 1;
             size.longest_x = size.longest_x.max(entry.len() as u64);
             for coefficient in entry {
-                size.bits = size.bits.max(number_bits(coefficient));
+                size.bits = size.bits.max(rational_bits(&coefficient.0));
             }
         }
 
@@ -149,10 +150,6 @@ impl ClaimSize {
         let what = "excess (coefficients of x beyond those of the polynomial, times bits)";
         Reason::at_most(what, MAX_EXCESS_SIZE, self.bits.saturating_mul(excess))
     }
-}
-
-fn number_bits(n: &Number) -> u64 {
-    n.0.numer().bits() + n.0.denom().bits()
 }
 
 /// Demands an ascending list of complementarity variables.

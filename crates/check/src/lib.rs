@@ -105,7 +105,7 @@ impl<'a> ClaimChecker<'a> {
         }
     }
 
-    /// The verdict of [`check`] on this claim in a certificate with this window.
+    /// The verdict of [`check`] on a certificate with this window and this claim alone.
     ///
     /// # Errors
     /// The [`Reason`] why the claim is rejected.

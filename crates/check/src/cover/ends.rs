@@ -52,7 +52,7 @@ pub(super) fn within_matrix_bits(
 }
 
 /// Bit length of numerator and denominator.
-pub(super) fn rational_bits(v: &Rational) -> u64 {
+pub(crate) fn rational_bits(v: &Rational) -> u64 {
     v.numer().bits() + v.denom().bits()
 }
 

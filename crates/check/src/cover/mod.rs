@@ -33,7 +33,7 @@ mod budget;
 mod condensed;
 mod definite;
 mod enclosed_definite;
-mod ends;
+pub(crate) mod ends;
 mod expanded;
 mod family;
 mod farkas;
