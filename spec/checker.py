@@ -1345,30 +1345,45 @@ class Budget:
         cls.left -= cost
         demand(cls.left >= 0, "support: the signs take more work than the file's budget")
 
-    @classmethod
-    def spend_remainder(cls, poly, q):
-        length = len(strip(list(poly)))
-        steps = max(length + 1 - len(q), 0)
-        bits = max(abs(c).bit_length() for c in q) + 64
-        cls.take((steps ** 2 * length * bits * bits) >> 9)
+    # Lengths of polynomials are (coefficients, bits of the longest one).
 
     @classmethod
-    def spend_evaluation(cls, poly, a, b):
-        bits = rational_bits(a) + rational_bits(b) + 64
-        cls.take((len(poly) * bits) ** 2 >> 8)
+    def spend_product(cls, poly, a, b):
+        count, bits = size(strip(list(poly)))
+        cls.take(count * (bits + 256) * (max(a.bit_length(), b.bit_length()) + 256) >> 5)
 
     @classmethod
-    def spend(cls, poly, a, b):
-        bits = sum(abs(v.numerator).bit_length() + v.denominator.bit_length() for v in (a, b) if v is not None)
-        cls.take(len(poly) ** 3 * (bits + 64) * (1 + (bits >> 10)))
+    def spend_remainder(cls, length, q):
+        """Takes what the division costs; the length of what it leaves, with this many coefficients."""
+        count, bits = length
+        steps = max(count + 1 - len(q), 0)
+        factor = size(q)[1] + 64
+        cls.take(steps * count * factor * (steps * factor + bits) >> 9)
+        return lambda rest: (len(rest), bits + steps * factor)
+
+    @classmethod
+    def spend_evaluation(cls, length, a, b):
+        count, bits = length
+        growth = count * (rational_bits(a) + rational_bits(b) + 64)
+        cls.take(growth * (growth + bits) >> 8)
+
+    @classmethod
+    def spend_transformation(cls, length, a, b):
+        count, bits = length
+        ends = sum(rational_bits(v) for v in (a, b) if v is not None)
+        cls.take(count ** 2 * (count * (ends + 64) + bits) * (1 + (ends >> 10)))
 
 
-def rootless(poly, a, b):
-    """Is it certain that the polynomial has no root in (a, b)?"""
+def size(poly):
+    return len(poly), max(map(int.bit_length, poly), default=0)
+
+
+def rootless(poly, bits, a, b):
+    """Is it certain that the polynomial has no root in (a, b)? Its work is counted with these bits."""
     left = [200]
 
     def none(a, b, depth):
-        Budget.spend(poly, a, b)
+        Budget.spend_transformation((len(poly), bits), a, b)
         changes = sign_changes(poly, a, b)
         if changes <= 1:
             return changes == 0
@@ -1382,8 +1397,10 @@ def rootless(poly, a, b):
 
 def without_factor(poly, q):
     """The polynomial (strictly: a multiple) without its factors q."""
+    bits = size(poly)[1]
+
     def divides():
-        Budget.spend_remainder(poly, q)
+        Budget.spend_remainder((len(poly), bits), q)
         return not remainder(poly, q)
     while len(poly) >= len(q) and divides():
         rest, out = [Q(c) for c in poly], []
@@ -1399,11 +1416,11 @@ def without_factor(poly, q):
 
 def sign_of_point(poly, point):
     q, a, b = point
-    Budget.spend_remainder(poly, q)
+    length_of = Budget.spend_remainder(size(strip(list(poly))), q)
     rest = remainder(poly, q)
     if not rest:
         return 0
-    Budget.spend_evaluation(rest, a, b)
+    Budget.spend_evaluation(length_of(rest), a, b)
     low, high = horner(rest, a, b)
     return 1 if low > 0 else -1 if high < 0 else None
 
@@ -1412,13 +1429,14 @@ def sign_of_cell(poly, left, right):
     poly = strip(list(poly))
     if not poly:
         return 0
+    bits = size(poly)[1]
     for q, a, b in (left, right) if right else (left,):
         if a < b:
             rest = without_factor(poly, q)
-            if not (sign_at(rest, a) and sign_at(rest, b) and rootless(rest, a, b)):
+            if not (sign_at(rest, a) and sign_at(rest, b) and rootless(rest, bits, a, b)):
                 return None
     a, b = left[2], right[1] if right else None
-    return sign_at(poly, a + 1 if b is None else (a + b) / 2) if rootless(poly, a, b) else None
+    return sign_at(poly, a + 1 if b is None else (a + b) / 2) if rootless(poly, bits, a, b) else None
 
 
 class Held:
@@ -1502,10 +1520,10 @@ class Support:
     @staticmethod
     def isolated(q, a, b):
         q = strip(q)
-        Budget.spend_evaluation(q, a, b)
-        demand(len(q) >= 2 and a <= b, "support: a point's polynomial or interval")
-        g = gcd(*q)
+        g = gcd(*q) or 1
         q = [c // (g if q[-1] > 0 else -g) for c in q]
+        Budget.spend_evaluation(size(q), a, b)
+        demand(len(q) >= 2 and a <= b, "support: a point's polynomial or interval")
         if a == b:
             demand(sign_at(q, a) == 0, "support: a point that is no root")
         else:
@@ -1517,14 +1535,16 @@ class Support:
         """Sum of (a + b t) times polynomials."""
         out = []
         for a, b, poly in vectors:
+            if (a or b) and strip(list(poly)):
+                Budget.spend_product(poly, a, b)
             out += [0] * (len(poly) + 1 - len(out))
             for k, c in enumerate(poly):
                 out[k] += a * c
                 out[k + 1] += b * c
         return strip(out)
 
-    def columns(self, w):
-        return {j: self.product([(ra.get(j, 0), rb.get(j, 0), w[i]) for i, (_, ra, rb) in enumerate(self.rows)]) for j in self.active}
+    def column(self, w, j):
+        return self.product([(ra.get(j, 0), rb.get(j, 0), w[i]) for i, (_, ra, rb) in enumerate(self.rows)])
 
     def holds(self, reason, sign):
         """None: nothing. Else whether what is there is alone."""
@@ -1535,7 +1555,7 @@ class Support:
         if kind == "none":
             weights = [sign(v[i]) for i in off]
             demand(all(s in (0, 1) for s in weights), "support: a negative weight")
-            signs = {j: sign(g) for j, g in self.columns(v).items()}
+            signs = {j: sign(self.column(v, j)) for j in self.active}
             demand(None not in signs.values() and not any(signs[j] for j in self.p.free), "support: w'T")
             seen = {s for s in signs.values() if s}
             demand(len(seen) == 1 and not (1 in seen and 1 in weights), "support: w'T is not of one sign")
@@ -1553,7 +1573,7 @@ class Support:
             demand(own in self.active and own != pivot and len(l) == self.n, "support: alone")
             one_sided = [i for i in off if strip(l[i])]
             demand(all(y[i] == 0 and sign(l[i]) in (0, 1) for i in one_sided), "support: alone, weights")
-            signs = {j: sign(g) for j, g in self.columns(l).items() if j != pivot}
+            signs = {j: sign(self.column(l, j)) for j in self.active if j != pivot}
             demand(all((s is not None) and (s != 0) == (j == own) for j, s in signs.items()), "support: alone, columns")
             known |= {(own, s) for s in ((signs[own],) if one_sided else (1, -1))}
         demand(len(known) == 2 * (len(self.active) - 1), "support: alone, not determined")

@@ -2,7 +2,7 @@
 //!
 //! The limits are those of `spec/certificates.md`, Limits. They keep the time of the checker
 //! bounded by a polynomial in the size of the file and of the problem. The budget for signs on
-//! support leaves is in `rootless`.
+//! support leaves is in `sign_budget`.
 
 use super::fault::CoverFault;
 use crate::certificate::CompleteSet;

@@ -50,6 +50,7 @@ mod region;
 mod root;
 mod rootless;
 mod short;
+mod sign_budget;
 mod support;
 mod walk;
 
@@ -65,7 +66,7 @@ use budget::WorkBudget;
 use family::{AnchorExpansion, Family, Linear};
 use mceip_exact::Rational;
 use mceip_model::Window;
-use rootless::SignBudget;
+use sign_budget::SignBudget;
 use walk::{NodeFault, Walk, end};
 
 /// Largest number of complementarity variables of a cover: a region has dense matrices of this

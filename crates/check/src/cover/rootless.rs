@@ -1,4 +1,4 @@
-//! Signs of polynomials at algebraic numbers and between two of them, and the budget for them.
+//! Signs of polynomials at algebraic numbers and between two of them.
 //!
 //! *Descartes' rule of signs.* If the polynomial (1 + x)^n p((a + bx) / (1 + x)) has coefficients
 //! of one sign, p has no root in (a, b); if they change once, it has exactly one. (For (a,
@@ -10,108 +10,19 @@
 //! isolated ones. For the latter g is divided by p as often as p divides it. Then the sign of g in
 //! the middle of [b, a'] is its sign all between.
 //!
-//! *SignBudget.* A transformation of a polynomial with n coefficients takes n^2 / 2 products of
-//! numbers of n times the bits of a and b with one of these: it is counted as n^3 (bits + 64) (1 +
-//! bits / 1024). Remainders and evaluations are counted in the same unit. All leaves of a file
-//! share one budget (`spec/certificates.md`, Limits). Once it is spent, no sign can be told any
-//! more.
+//! Each transformation, remainder and evaluation is counted by a [`SignBudget`] before it is done.
+//! Once that is spent, no sign can be told any more.
 //!
 //! Called by `support`.
 
-use super::ends::rational_bits;
+use super::sign_budget::{PolySize, SignBudget};
 use mceip_exact::{Integer, Interval, Poly, Rational};
 use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero};
-use std::cell::Cell;
 
 /// Halvings in a row and in all before the answer is no.
 const MAX_DEPTH: u32 = 24;
 const MAX_HALVINGS: usize = 200;
-
-/// What a file may count without any coefficient, and for each coefficient of its support leaves.
-const BASE_BUDGET: u64 = 1 << 35;
-const BUDGET_PER_COEFFICIENT: u64 = 1 << 24;
-/// A remainder counts 2^-9 of steps^2 x coefficients x bits^2: products of words against additions
-/// of bits.
-const REMAINDER_SHIFT: u32 = 9;
-/// Ends of more than 2^10 bits are long factors: a product with one takes as many times longer.
-const LONG_ENDS_SHIFT: u32 = 10;
-/// Horner's rule at a point counts 2^-8 of the square of coefficients x bits.
-const EVALUATION_SHIFT: u32 = 8;
-
-/// What is left of the counts of a file.
-pub(super) struct SignBudget {
-    left: Cell<u64>,
-    is_spent: Cell<bool>,
-}
-
-impl SignBudget {
-    pub(super) fn new() -> Self {
-        SignBudget {
-            left: Cell::new(BASE_BUDGET),
-            is_spent: Cell::new(false),
-        }
-    }
-
-    #[cfg(test)]
-    pub(super) fn of(left: u64) -> Self {
-        SignBudget {
-            left: Cell::new(left),
-            is_spent: Cell::new(false),
-        }
-    }
-
-    /// A leaf with this many coefficients is about to be checked.
-    pub(super) fn add_coefficients(&self, count: u64) {
-        let added = count.saturating_mul(BUDGET_PER_COEFFICIENT);
-        self.left.set(self.left.get().saturating_add(added));
-    }
-
-    /// Was more asked for than there was?
-    pub(super) fn is_spent(&self) -> bool {
-        self.is_spent.get()
-    }
-
-    /// Takes what the remainder of g by p costs: every step makes it longer by the leading
-    /// coefficient of p.
-    fn spend_remainder(&self, g: &Poly, p: &Poly) -> bool {
-        let length = g.coeffs().len() as u64;
-        let divisor = p.coeffs().len() as u64;
-        let steps = (length + 1).saturating_sub(divisor);
-        let bits = p.coeffs().iter().map(Integer::bits).max().unwrap_or(0) + 64;
-
-        let products = steps.saturating_pow(2).saturating_mul(length);
-        self.take(products.saturating_mul(bits).saturating_mul(bits) >> REMAINDER_SHIFT)
-    }
-
-    /// Takes what Horner's rule for p over [lo, hi] costs: its numbers grow by the bits of the ends
-    /// at each coefficient.
-    pub(super) fn spend_evaluation(&self, p: &Poly, lo: &Rational, hi: &Rational) -> bool {
-        let bits = rational_bits(lo) + rational_bits(hi) + 64;
-
-        let size = bits.saturating_mul(p.coeffs().len() as u64);
-        self.take(size.saturating_mul(size) >> EVALUATION_SHIFT)
-    }
-
-    /// Takes what transforming the polynomial costs; false if that is more than is left.
-    fn spend(&self, p: &Poly, a: &Rational, b: Option<&Rational>) -> bool {
-        let bits = rational_bits(a) + b.map_or(0, rational_bits);
-
-        let count = p.coeffs().len() as u64;
-        let additions = count.saturating_pow(3).saturating_mul(bits + 64);
-        let length_of_factors = 1 + (bits >> LONG_ENDS_SHIFT);
-        self.take(additions.saturating_mul(length_of_factors))
-    }
-
-    fn take(&self, cost: u64) -> bool {
-        match self.left.get().checked_sub(cost) {
-            Some(left) => self.left.set(left),
-            None => self.is_spent.set(true),
-        }
-
-        !self.is_spent.get()
-    }
-}
 
 /// The only root of `poly` in `value`.
 pub(super) struct AlgebraicValue {
@@ -122,7 +33,8 @@ pub(super) struct AlgebraicValue {
 impl AlgebraicValue {
     /// The sign of g here, if it can be told.
     pub(super) fn sign(&self, g: &Poly, budget: &SignBudget) -> Option<i8> {
-        if !budget.spend_remainder(g, &self.poly) {
+        let size = PolySize::of(g);
+        if !budget.spend_remainder(size, &self.poly) {
             return None;
         }
 
@@ -131,7 +43,8 @@ impl AlgebraicValue {
             return Some(0);
         }
 
-        if !budget.spend_evaluation(&remainder, self.value.lo(), self.value.hi()) {
+        let size = size.of_remainder(&self.poly, remainder.coeffs().len());
+        if !budget.spend_evaluation(size, self.value.lo(), self.value.hi()) {
             return None;
         }
 
@@ -149,9 +62,11 @@ impl AlgebraicValue {
 
         let a = self.value.lo();
         let b = self.value.hi();
+        let bits = PolySize::of(g).bits;
         let rest = stripped(g, &self.poly, budget);
 
-        rest.sign_at(a) != 0 && rest.sign_at(b) != 0 && has_no_root(&rest, a, Some(b), budget)
+        let is_zero_at_an_end = rest.sign_at(a) == 0 || rest.sign_at(b) == 0;
+        !is_zero_at_an_end && has_no_root(&rest, bits, a, Some(b), budget)
     }
 }
 
@@ -174,7 +89,7 @@ pub(super) fn sign_between(
 
     let a = left.value.hi();
     let b = right.map(|root| root.value.lo());
-    if !has_no_root(g, a, b, budget) {
+    if !has_no_root(g, PolySize::of(g).bits, a, b, budget) {
         return None;
     }
 
@@ -185,15 +100,21 @@ pub(super) fn sign_between(
     Some(g.sign_at(&sample))
 }
 
-/// Is it certain that p has no root in the open interval?
-pub(super) fn has_no_root(
+/// Is it certain that p has no root in the open interval? The work is counted as if the longest
+/// coefficient of p had this number of bits.
+fn has_no_root(
     p: &Poly,
+    bits: u64,
     a: &Rational,
     b: Option<&Rational>,
     budget: &SignBudget,
 ) -> bool {
     let mut halving = Halving {
         p,
+        size: PolySize {
+            coefficients: p.coeffs().len() as u64,
+            bits,
+        },
         halvings: MAX_HALVINGS,
         budget,
     };
@@ -202,6 +123,8 @@ pub(super) fn has_no_root(
 
 struct Halving<'a> {
     p: &'a Poly,
+    /// By which the work is counted.
+    size: PolySize,
     /// Halvings left.
     halvings: usize,
     budget: &'a SignBudget,
@@ -209,7 +132,7 @@ struct Halving<'a> {
 
 impl Halving<'_> {
     fn has_none(&mut self, a: &Rational, b: Option<&Rational>, depth: u32) -> bool {
-        if !self.budget.spend(self.p, a, b) {
+        if !self.budget.spend_transformation(self.size, a, b) {
             return false;
         }
 
@@ -289,14 +212,16 @@ fn shift(c: &mut [Integer], a: &Integer) {
     }
 }
 
-/// g without its factors q.
+/// g without its factors q. What is left is counted with the bits of g.
 fn stripped(g: &Poly, q: &Poly, budget: &SignBudget) -> Poly {
+    let mut size = PolySize::of(g);
     let mut rest = g.clone();
     while rest.degree() >= q.degree()
-        && budget.spend_remainder(&rest, q)
+        && budget.spend_remainder(size, q)
         && rest.pseudo_rem(q).is_zero()
     {
         rest = quotient(&rest, q);
+        size.coefficients = rest.coeffs().len() as u64;
     }
 
     rest
@@ -326,190 +251,126 @@ mod tests {
     use super::*;
     use mceip_exact::{rational, whole};
 
-    fn root(c: &[i64], a: (i64, i64), b: (i64, i64)) -> AlgebraicValue {
+    /// The root of a polynomial in [a, b], ends as (numerator, denominator).
+    fn root(coefficients: &[i64], a: (i64, i64), b: (i64, i64)) -> AlgebraicValue {
+        let value = Interval::new(rational(a.0, a.1), rational(b.0, b.1));
         AlgebraicValue {
-            poly: Poly::from_ints(c),
-            value: Interval::new(rational(a.0, a.1), rational(b.0, b.1)).unwrap(),
+            poly: Poly::from_ints(coefficients),
+            value: value.unwrap(),
         }
+    }
+
+    fn sqrt_2() -> AlgebraicValue {
+        root(&[-2, 0, 1], (7, 5), (3, 2))
+    }
+
+    fn is_rootless(p: &Poly, a: &Rational, b: Option<&Rational>) -> bool {
+        has_no_root(p, PolySize::of(p).bits, a, b, &SignBudget::new())
+    }
+
+    fn sign_in_cell(g: &Poly, left: &AlgebraicValue, right: Option<&AlgebraicValue>) -> Option<i8> {
+        sign_between(g, left, right, &SignBudget::new())
     }
 
     #[test]
     fn roots_are_not_overlooked() {
         let p = Poly::from_ints(&[2, -3, 1]); // 1 and 2
-        assert!(!has_no_root(
-            &p,
-            &whole(0),
-            Some(&whole(3)),
-            &SignBudget::new()
-        ));
-        assert!(!has_no_root(&p, &rational(3, 2), None, &SignBudget::new()));
+        assert!(!is_rootless(&p, &whole(0), Some(&whole(3))));
+        assert!(!is_rootless(&p, &rational(3, 2), None));
+
         // Ends do not count.
-        assert!(has_no_root(
-            &p,
-            &whole(1),
-            Some(&whole(2)),
-            &SignBudget::new()
-        ));
-        assert!(has_no_root(&p, &whole(2), None, &SignBudget::new()));
+        assert!(is_rootless(&p, &whole(1), Some(&whole(2))));
+        assert!(is_rootless(&p, &whole(2), None));
+
         // A double root does not change the sign and is one.
-        assert!(!has_no_root(
-            &Poly::from_ints(&[1, -2, 1]),
-            &whole(0),
-            Some(&whole(3)),
-            &SignBudget::new()
-        ));
-        assert!(!has_no_root(
-            &Poly::from_ints(&[1, -2, 1]),
-            &whole(0),
-            None,
-            &SignBudget::new()
-        ));
+        let double = Poly::from_ints(&[1, -2, 1]);
+        assert!(!is_rootless(&double, &whole(0), Some(&whole(3))));
+        assert!(!is_rootless(&double, &whole(0), None));
     }
 
     #[test]
     fn complex_roots_near_the_interval_take_halvings() {
-        // (t - 1)^2 + 1/100
-        let p = Poly::from_ints(&[101, -200, 100]);
+        let p = Poly::from_ints(&[101, -200, 100]); // (t - 1)^2 + 1/100
         assert!(sign_changes(&p, &whole(0), Some(&whole(2))) > 0);
-        assert!(
-            has_no_root(&p, &whole(0), Some(&whole(2)), &SignBudget::new())
-                && has_no_root(&p, &whole(0), None, &SignBudget::new())
-        );
+
+        assert!(is_rootless(&p, &whole(0), Some(&whole(2))));
+        assert!(is_rootless(&p, &whole(0), None));
     }
 
     #[test]
     fn signs_between_roots() {
-        let (one, sqrt2) = (
-            root(&[-1, 1], (1, 1), (1, 1)),
-            root(&[-2, 0, 1], (7, 5), (3, 2)),
-        );
-        let g = &Poly::from_ints(&[-2, 0, 1]) * &Poly::from_ints(&[-1, 1]);
-        assert_eq!(
-            sign_between(&g, &one, Some(&sqrt2), &SignBudget::new()),
-            Some(-1)
-        );
-        assert_eq!(sign_between(&g, &sqrt2, None, &SignBudget::new()), Some(1));
-        assert_eq!(
-            sign_between(&(&g * &g), &sqrt2, None, &SignBudget::new()),
-            Some(1)
-        );
-        assert_eq!(
-            sign_between(&Poly::from_ints(&[-3, 2]), &one, None, &SignBudget::new()),
-            None
-        );
+        let one = root(&[-1, 1], (1, 1), (1, 1));
+        let sqrt_2 = sqrt_2();
+        let t_minus_1 = Poly::from_ints(&[-1, 1]);
+        let g = &Poly::from_ints(&[-2, 0, 1]) * &t_minus_1;
+
+        assert_eq!(sign_in_cell(&g, &one, Some(&sqrt_2)), Some(-1));
+        assert_eq!(sign_in_cell(&g, &sqrt_2, None), Some(1));
+        assert_eq!(sign_in_cell(&(&g * &g), &sqrt_2, None), Some(1));
+        assert_eq!(sign_in_cell(&Poly::default(), &one, None), Some(0));
+
+        let zero_at_three_halves = Poly::from_ints(&[-3, 2]);
+        assert_eq!(sign_in_cell(&zero_at_three_halves, &one, None), None);
+
         // A root within the isolating interval, on either side of the isolated one.
-        assert_eq!(
-            sign_between(
-                &Poly::from_ints(&[-29, 20]),
-                &sqrt2,
-                None,
-                &SignBudget::new()
-            ),
-            None
-        );
-        assert_eq!(
-            sign_between(
-                &Poly::from_ints(&[-141, 100]),
-                &one,
-                Some(&sqrt2),
-                &SignBudget::new()
-            ),
-            None
-        );
-        assert_eq!(
-            sign_between(&Poly::default(), &one, None, &SignBudget::new()),
-            Some(0)
-        );
-        assert_eq!(
-            [&g, &Poly::from_ints(&[-1, 1])].map(|p| sqrt2.sign(p, &SignBudget::new())),
-            [Some(0), Some(1)]
-        );
+        let zero_above = Poly::from_ints(&[-29, 20]);
+        let zero_below = Poly::from_ints(&[-141, 100]);
+        assert_eq!(sign_in_cell(&zero_above, &sqrt_2, None), None);
+        assert_eq!(sign_in_cell(&zero_below, &one, Some(&sqrt_2)), None);
+
+        assert_eq!(sqrt_2.sign(&g, &SignBudget::new()), Some(0));
+        assert_eq!(sqrt_2.sign(&t_minus_1, &SignBudget::new()), Some(1));
     }
 
     /// The sample lies above the last point: a root just below it does not count.
     #[test]
     fn the_sign_to_infinity_is_taken_above() {
-        let three = root(&[-3, 1], (3, 1), (3, 1));
-        assert_eq!(
-            sign_between(&Poly::from_ints(&[-5, 2]), &three, None, &SignBudget::new()),
-            Some(1)
-        );
-        assert_eq!(
-            sign_between(&Poly::from_ints(&[5, -2]), &three, None, &SignBudget::new()),
-            Some(-1)
-        );
         let half = root(&[-1, 2], (1, 2), (1, 2));
-        assert_eq!(
-            sign_between(
-                &Poly::from_ints(&[1, 4]),
-                &half,
-                Some(&three),
-                &SignBudget::new()
-            ),
-            Some(1)
-        );
+        let three = root(&[-3, 1], (3, 1), (3, 1));
+
+        let rising = Poly::from_ints(&[-5, 2]);
+        let falling = Poly::from_ints(&[5, -2]);
+        assert_eq!(sign_in_cell(&rising, &three, None), Some(1));
+        assert_eq!(sign_in_cell(&falling, &three, None), Some(-1));
+
+        let positive = Poly::from_ints(&[1, 4]);
+        assert_eq!(sign_in_cell(&positive, &half, Some(&three)), Some(1));
     }
 
     /// sqrt 2 in [7/5, 3/2], with another root of g, 29/20, beside it: told whether or not sqrt 2
     /// is one as well.
     #[test]
     fn another_root_in_the_isolating_interval_is_seen() {
-        let (sqrt2, nine) = (
-            root(&[-2, 0, 1], (7, 5), (3, 2)),
-            root(&[-9, 1], (9, 1), (9, 1)),
-        );
-        let (beside, far) = (Poly::from_ints(&[-29, 20]), Poly::from_ints(&[-10, 1]));
-        let square = &sqrt2.poly * &sqrt2.poly;
-        for g in [
-            &beside * &far,
-            &(&beside * &far) * &sqrt2.poly,
-            &(&beside * &far) * &square,
-        ] {
-            assert_eq!(
-                sign_between(&g, &sqrt2, Some(&nine), &SignBudget::new()),
-                None
-            );
+        let sqrt_2 = sqrt_2();
+        let nine = root(&[-9, 1], (9, 1), (9, 1));
+        let square = &sqrt_2.poly * &sqrt_2.poly;
+
+        let zero_beside = Poly::from_ints(&[-29, 20]);
+        let zero_at_ten = Poly::from_ints(&[-10, 1]);
+        let both = &zero_beside * &zero_at_ten;
+        for g in [&both, &(&both * &sqrt_2.poly), &(&both * &square)] {
+            assert_eq!(sign_in_cell(g, &sqrt_2, Some(&nine)), None);
         }
-        assert_eq!(
-            sign_between(&(&far * &square), &sqrt2, Some(&nine), &SignBudget::new()),
-            Some(-1)
-        );
-        assert_eq!(
-            sign_between(
-                &(&far * &Poly::from_ints(&[-10, 3])),
-                &sqrt2,
-                Some(&nine),
-                &SignBudget::new()
-            ),
-            None
-        );
-        assert_eq!(
-            sign_between(
-                &(&far * &Poly::from_ints(&[-1, 3])),
-                &sqrt2,
-                Some(&nine),
-                &SignBudget::new()
-            ),
-            Some(-1)
-        );
+
+        let without = &zero_at_ten * &square;
+        assert_eq!(sign_in_cell(&without, &sqrt_2, Some(&nine)), Some(-1));
+
+        let zero_in_cell = &zero_at_ten * &Poly::from_ints(&[-10, 3]);
+        assert_eq!(sign_in_cell(&zero_in_cell, &sqrt_2, Some(&nine)), None);
+
+        let zero_below = &zero_at_ten * &Poly::from_ints(&[-1, 3]);
+        assert_eq!(sign_in_cell(&zero_below, &sqrt_2, Some(&nine)), Some(-1));
     }
 
     /// A half line from `a` is halved above `a`, also where that is negative.
     #[test]
     fn half_lines_are_halved_above_their_end() {
-        // Complex roots about `at` and a real one.
-        let with_roots = |at: i64, real: i64| {
+        /// Is the product of (t - at)^2 + 1/100 and t - real certainly without root above `start`?
+        fn is_free_from(start: i64, at: i64, real: i64) -> bool {
             let complex = Poly::from_ints(&[100 * at * at + 1, -200 * at, 100]);
-            &complex * &Poly::from_ints(&[-real, 1])
-        };
-        let is_free_from = |start: i64, at: i64, real: i64| {
-            has_no_root(
-                &with_roots(at, real),
-                &whole(start),
-                None,
-                &SignBudget::new(),
-            )
-        };
+            let product = &complex * &Poly::from_ints(&[-real, 1]);
+            is_rootless(&product, &whole(start), None)
+        }
 
         assert!(is_free_from(3, 8, 2)); // 2 is below
         assert!(is_free_from(-3, 1, -5));
@@ -519,91 +380,98 @@ mod tests {
         assert!(!is_free_from(3, 8, 30));
     }
 
+    /// Is p certainly without root in (0, 2), with halvings up to this depth and number? And the
+    /// halvings left.
+    fn with_halvings(p: &Poly, depth: u32, halvings: usize) -> (bool, usize) {
+        let budget = SignBudget::new();
+        let mut halving = Halving {
+            p,
+            size: PolySize::of(p),
+            halvings,
+            budget: &budget,
+        };
+        let verdict = halving.has_none(&whole(0), Some(&whole(2)), depth);
+        (verdict, halving.halvings)
+    }
+
     /// (t - c)^2 + 1/10^4 takes about seven halvings on the way to c, on either side of the middle.
     #[test]
     fn the_answer_is_no_when_the_halvings_are_used_up() {
-        let near = |c: i64| Poly::from_ints(&[c * c * 100 + 1, -2000 * c, 10_000]); // c in tenths
-        for c in [1, 19] {
-            let of = |depth: u32, halvings: usize| {
-                let (p, budget) = (near(c), SignBudget::new());
-                let mut halving = Halving {
-                    p: &p,
-                    halvings,
-                    budget: &budget,
-                };
-                let verdict = halving.has_none(&whole(0), Some(&whole(2)), depth);
-                (verdict, halving.halvings)
-            };
-            let (verdict, left) = of(24, 200);
+        for tenths in [1, 19] {
+            let p = Poly::from_ints(&[tenths * tenths * 100 + 1, -2000 * tenths, 10_000]);
+
+            let (verdict, left) = with_halvings(&p, 24, 200);
             let used = 200 - left;
-            assert!(verdict && (4..20).contains(&used), "{c}: {used}");
-            assert_eq!([of(24, used), of(24, used - 1)], [(true, 0), (false, 0)]);
-            let depth = (0..24).find(|&d| of(d, 200).0).unwrap();
-            assert!((4..20).contains(&depth), "{c}: {depth}");
-            assert!(!of(depth - 1, 200).0 && of(0, 200) == (false, 200));
+            assert!(verdict);
+            assert!((4..20).contains(&used), "{tenths}: {used}");
+            assert_eq!(with_halvings(&p, 24, used), (true, 0));
+            assert_eq!(with_halvings(&p, 24, used - 1), (false, 0));
+
+            let depth = (0..24).find(|&depth| with_halvings(&p, depth, 200).0);
+            let depth = depth.unwrap();
+            assert!((4..20).contains(&depth), "{tenths}: {depth}");
+            assert!(!with_halvings(&p, depth - 1, 200).0);
+            assert_eq!(with_halvings(&p, 0, 200), (false, 200));
         }
     }
 
-    /// (t - 1)^2 + 1/100 has three coefficients and takes some halvings. The ends 0 and 2 have 1 +
-    /// 1 and 2 + 1 bits.
+    /// (t - 1)^2 + 1/100 has three coefficients of up to 8 bits and takes some halvings. The ends 0
+    /// and 2 have 0 + 1 and 2 + 1 bits.
     #[test]
     fn a_budget_ends_the_halvings() {
         let p = Poly::from_ints(&[101, -200, 100]);
-        let first = 27 * (1 + 3 + 64);
+        let first = 9 * (3 * (4 + 64) + 8);
         let with = |left: u64| {
-            let budget = SignBudget {
-                left: Cell::new(left),
-                is_spent: Cell::new(false),
-            };
-            let verdict = has_no_root(&p, &whole(0), Some(&whole(2)), &budget);
-            (verdict, budget.is_spent(), budget.left.get())
+            let budget = SignBudget::of(left);
+            let verdict = has_no_root(&p, 8, &whole(0), Some(&whole(2)), &budget);
+            (verdict, budget.is_spent(), budget.left())
         };
 
         let (verdict, is_spent, left) = with(1 << 30);
-        assert!(verdict && !is_spent);
+        assert!(verdict);
+        assert!(!is_spent);
         let cost = (1 << 30) - left;
         assert!(cost > 2 * first, "{cost}");
 
         assert_eq!(with(cost), (true, false, 0));
         let (verdict, is_spent, _) = with(cost - 1);
-        assert!(!verdict && is_spent);
+        assert!(!verdict);
+        assert!(is_spent);
         assert_eq!(with(first - 1), (false, true, first - 1));
     }
 
+    /// The sign of 3 t^2 + 2 t + 1 at 7/2: two steps by a divisor of 3 bits, and the remainder, a
+    /// constant, evaluated over [7/2, 7/2] with 5 + 5 bits.
     #[test]
-    fn coefficients_add_to_the_budget() {
-        let budget = SignBudget::new();
-        budget.add_coefficients(3);
-        assert_eq!(budget.left.get(), (1 << 35) + 3 * (1 << 24));
-        budget.add_coefficients(u64::MAX);
-        assert_eq!(budget.left.get(), u64::MAX);
+    fn a_sign_at_a_point_takes_a_remainder_and_an_evaluation() {
+        let g = Poly::from_ints(&[1, 2, 3]);
+        let point = root(&[-7, 2], (7, 2), (7, 2));
+        let with = |left: u64| {
+            let budget = SignBudget::of(left);
+            let is_told = point.sign(&g, &budget).is_some();
+            (is_told, budget.is_spent(), budget.left())
+        };
+
+        let remainder_bits = 2 + 2 * 67;
+        let remainder = (2 * 3 * 67 * remainder_bits) >> 9;
+        let evaluation = (74 * (74 + remainder_bits)) >> 8;
+        assert_eq!(with(remainder + evaluation), (true, false, 0));
+        assert_eq!(
+            with(remainder + evaluation - 1),
+            (false, true, evaluation - 1)
+        );
+        assert_eq!(with(remainder - 1), (false, true, remainder - 1));
     }
 
-    /// Three coefficients by two: two steps, and a divisor of at most 3 bits.
+    /// What is left of a polynomial without a factor is counted with the bits of the whole.
     #[test]
-    fn remainders_spend_the_budget() {
-        let (g, p) = (Poly::from_ints(&[1, 2, 3]), Poly::from_ints(&[-7, 2]));
-        let cost = (2 * 2 * 3 * 67 * 67) >> 9;
-        let with = |left: u64| {
-            let budget = SignBudget {
-                left: Cell::new(left),
-                is_spent: Cell::new(false),
-            };
-            let is_told = root(&[-7, 2], (7, 2), (7, 2)).sign(&g, &budget).is_some();
-            (is_told, budget.is_spent(), budget.left.get())
-        };
+    fn a_factor_taken_out_leaves_the_bits() {
+        let sqrt_2 = sqrt_2();
+        let scaled = sqrt_2.poly.scale(&(Integer::one() << 100_u32)); // 102 bits
+        let budget = SignBudget::of(1 << 30);
 
-        // What is left is a constant, evaluated over [7/2, 7/2] with 5 + 5 bits.
-        let evaluation = (74 * 74) >> 8;
-        assert_eq!(with(cost + evaluation), (true, false, 0));
-        assert_eq!(with(cost + evaluation - 1), (false, true, evaluation - 1));
-        assert_eq!(with(cost - 1), (false, true, cost - 1));
-
-        // Nothing to divide costs nothing.
-        let free = SignBudget {
-            left: Cell::new(0),
-            is_spent: Cell::new(false),
-        };
-        assert!(free.spend_remainder(&Poly::from_ints(&[5]), &p) && !free.is_spent());
+        assert_eq!(stripped(&scaled, &sqrt_2.poly, &budget).degree(), Some(0));
+        let one_step = (3 * 66 * (102 + 66)) >> 9;
+        assert_eq!(budget.left(), (1 << 30) - one_step);
     }
 }

@@ -31,11 +31,13 @@
 
 use super::fault::CoverFault;
 use super::region::Region;
-use super::rootless::{AlgebraicValue, SignBudget, sign_between};
+use super::rootless::{AlgebraicValue, sign_between};
+use super::sign_budget::{PolySize, SignBudget};
 use crate::certificate::{Alone, Exact, Polynomials, Support};
 use crate::exact_solution::isolate;
 use crate::pencil::{Row, Rows};
 use mceip_exact::{Integer, Interval, Poly, Rational};
+use num_traits::Zero;
 
 /// Largest number of coefficients of a polynomial.
 const MAX_COEFFICIENTS: usize = 256;
@@ -197,7 +199,7 @@ fn points(
     for (k, point) in leaf.points.iter().enumerate() {
         let poly = Poly::new(point.polynomial.clone()).primitive();
         let [lo, hi] = &point.interval;
-        if !budget.spend_evaluation(&poly, &lo.0, &hi.0) {
+        if !budget.spend_evaluation(PolySize::of(&poly), &lo.0, &hi.0) {
             return Err(CoverFault::OutOfBudget);
         }
 
@@ -326,17 +328,42 @@ struct SupportPencil<'a> {
     support: &'a [usize],
     /// The support and the free variables.
     active: Vec<usize>,
+    is_active: Vec<bool>,
+    /// By the index of a column: its entries, if the column is active.
+    columns: Vec<Vec<ColumnEntry<'a>>>,
+}
+
+/// An entry a + bt of T, by its row.
+struct ColumnEntry<'a> {
+    row: usize,
+    a: &'a Integer,
+    b: &'a Integer,
 }
 
 impl<'a> SupportPencil<'a> {
     fn new(rows: &'a Rows, support: &'a [usize]) -> Self {
-        let active = (0..rows.order())
-            .filter(|i| rows.is_free[*i] || support.contains(i))
-            .collect();
+        let mut is_active = rows.is_free.clone();
+        for &i in support {
+            is_active[i] = true;
+        }
+
+        let mut columns: Vec<Vec<ColumnEntry<'a>>> = Vec::new();
+        columns.resize_with(rows.order(), Vec::new);
+        for (row, entries) in rows.rows.iter().enumerate() {
+            for (j, a, b) in entries {
+                if is_active[*j] {
+                    columns[*j].push(ColumnEntry { row, a, b });
+                }
+            }
+        }
+
+        let active = (0..rows.order()).filter(|&i| is_active[i]).collect();
         SupportPencil {
             rows,
             support,
             active,
+            is_active,
+            columns,
         }
     }
 
@@ -366,23 +393,14 @@ impl<'a> SupportPencil<'a> {
         Ok(v.0.iter().map(|c| Poly::new(c.clone())).collect())
     }
 
-    /// w'T on the active columns, in their order.
-    fn columns(&self, w: &[Poly]) -> Vec<Poly> {
-        let mut sums = vec![Poly::default(); self.rows.order()];
-        for (row, w_i) in self.rows.rows.iter().zip(w) {
-            if w_i.is_zero() {
-                continue;
-            }
-
-            for (j, a, b) in row {
-                if self.active.contains(j) {
-                    let entry = Poly::new(vec![a.clone(), b.clone()]);
-                    sums[*j] = &sums[*j] + &(w_i * &entry);
-                }
-            }
+    /// Entry j of w'T, j active.
+    fn column(&self, w: &[Poly], j: usize, budget: &SignBudget) -> Result<Poly, CoverFault> {
+        let mut sum = Poly::default();
+        for entry in &self.columns[j] {
+            add_product(&mut sum, &w[entry.row], entry.a, entry.b, budget)?;
         }
 
-        self.active.iter().map(|&j| sums[j].clone()).collect()
+        Ok(sum)
     }
 
     /// Demands that w is a Farkas vector.
@@ -390,7 +408,7 @@ impl<'a> SupportPencil<'a> {
         // Is some weight of R certainly positive? Then w'y >= 0 is all that is known of w'y.
         let mut is_one_sided = false;
         for (i, w_i) in w.iter().enumerate() {
-            if self.active.contains(&i) {
+            if self.is_active[i] {
                 continue;
             }
 
@@ -402,9 +420,10 @@ impl<'a> SupportPencil<'a> {
 
         let mut has_negative = false;
         let mut has_positive = false;
-        for (product, &j) in self.columns(w).iter().zip(&self.active) {
+        for &j in &self.active {
+            let product = self.column(w, j, place.budget)?;
             let s = place
-                .sign(product)
+                .sign(&product)
                 .ok_or_else(|| place.fault("a sign of w'T that can be told", j))?;
             if s != 0 && self.rows.is_free[j] {
                 return Err(place.fault("w'T = 0 on the free columns", j));
@@ -450,8 +469,9 @@ impl<'a> SupportPencil<'a> {
 
         let mut signs = Vec::new();
         for (i, row) in self.rows.rows.iter().enumerate() {
-            let s = place.sign(&self.times(row, x));
-            let is_active = self.active.contains(&i);
+            let y_i = self.times(row, x, place.budget)?;
+            let s = place.sign(&y_i);
+            let is_active = self.is_active[i];
             if is_active && s != Some(0) {
                 return Err(place.fault("y = 0 on active rows", i));
             }
@@ -468,16 +488,15 @@ impl<'a> SupportPencil<'a> {
 
     /// A row of T times x, over the active columns: off them x is zero at this place, whatever its
     /// polynomials are elsewhere.
-    fn times(&self, row: &Row, x: &[Poly]) -> Poly {
+    fn times(&self, row: &Row, x: &[Poly], budget: &SignBudget) -> Result<Poly, CoverFault> {
         let mut y = Poly::default();
         for (j, a, b) in row {
-            if self.active.contains(j) {
-                let entry = Poly::new(vec![a.clone(), b.clone()]);
-                y = &y + &(&x[*j] * &entry);
+            if self.is_active[*j] {
+                add_product(&mut y, &x[*j], a, b, budget)?;
             }
         }
 
-        y
+        Ok(y)
     }
 
     /// Demands that the pivot's component determines every other active one. `y` holds the signs of
@@ -495,18 +514,19 @@ impl<'a> SupportPencil<'a> {
         let mut bounds = vec![Bounds::default(); self.rows.order()];
         for (own, l) in &alone.rows {
             let own = *own;
-            if own == alone.pivot || !self.active.contains(&own) {
+            if own == alone.pivot || !self.is_active.get(own).is_some_and(|&active| active) {
                 return Err(place.fault("an active index that is not the pivot", own));
             }
 
             let l = self.vector("alone", l)?;
             let is_equation = self.check_weights(&l, y, place)?;
-            for (product, &j) in self.columns(&l).iter().zip(&self.active) {
+            for &j in &self.active {
                 if j == alone.pivot {
                     continue;
                 }
 
-                match place.sign(product) {
+                let product = self.column(&l, j, place.budget)?;
+                match place.sign(&product) {
                     Some(0) if j != own => {}
                     Some(s) if j == own && s != 0 => {
                         bounds[own].below |= s > 0 || is_equation;
@@ -540,7 +560,7 @@ impl<'a> SupportPencil<'a> {
     ) -> Result<bool, CoverFault> {
         let mut is_equation = true;
         for (i, l_i) in l.iter().enumerate() {
-            if self.active.contains(&i) || l_i.is_zero() {
+            if self.is_active[i] || l_i.is_zero() {
                 continue;
             }
 
@@ -554,6 +574,28 @@ impl<'a> SupportPencil<'a> {
 
         Ok(is_equation)
     }
+}
+
+/// Adds p (a + bt) to the sum.
+fn add_product(
+    sum: &mut Poly,
+    p: &Poly,
+    a: &Integer,
+    b: &Integer,
+    budget: &SignBudget,
+) -> Result<(), CoverFault> {
+    let is_zero_entry = a.is_zero() && b.is_zero();
+    if p.is_zero() || is_zero_entry {
+        return Ok(());
+    }
+
+    if !budget.spend_product(p, a, b) {
+        return Err(CoverFault::OutOfBudget);
+    }
+
+    let entry = Poly::new(vec![a.clone(), b.clone()]);
+    *sum += &(p * &entry);
+    Ok(())
 }
 
 /// Is c z_j + d z_k >= 0 proved for all solutions z, with equality for x: with c > 0 (`below`),

@@ -377,8 +377,8 @@ fn a_leaf_has_a_largest_size() {
     );
 }
 
-/// Horner's rule for 2 coefficients between ends of b bits counts (2 (b + 64))^2 / 2^8: 68 for the
-/// point [0, 0], where b = 2, and 83 for [3/2, 5/2], where b = 9.
+/// Horner's rule for 2 coefficients of at most G bits between ends of b bits counts k (k + G) / 2^8
+/// with k = 2 (b + 64): 68 for the point [0, 0], where b = 2, and 84 for [3/2, 5/2], where b = 9.
 #[test]
 fn isolating_a_point_is_counted() {
     let leaf = Support {
@@ -391,9 +391,9 @@ fn isolating_a_point_is_counted() {
     };
     let region = region(0, None, &[0], 1);
 
-    assert!(points(&region, &leaf, &SignBudget::of(68 + 83)).is_ok());
+    assert!(points(&region, &leaf, &SignBudget::of(68 + 84)).is_ok());
 
-    let spent = SignBudget::of(68 + 82);
+    let spent = SignBudget::of(68 + 83);
     assert!(matches!(
         points(&region, &leaf, &spent),
         Err(CoverFault::OutOfBudget)
