@@ -2,14 +2,20 @@
 //!
 //! A rejection names the first obligation that fails, in the order of `spec/certificates.md`. Its
 //! message says "expected ..., got ..."; its name ([`Reason::name`]) is what the corpus of
-//! forgeries (`spec/corpus`) expects. What is wrong with a complete set is a [`CoverFault`].
+//! forgeries (`spec/corpus`) expects. What is wrong with a complete set is a [`CoverFault`]. The
+//! values hold the numbers in full; the message of a [`Rejected`] cuts numbers of more than 60
+//! digits short.
 
 use crate::cover::fault::CoverFault;
 use mceip_exact::{Interval, Rational};
 
 /// A rejected certificate.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("{}{reason}", claim.map(|c| format!("claim {c}: ")).unwrap_or_default())]
+#[error(
+    "{}{}",
+    claim.map(|c| format!("claim {c}: ")).unwrap_or_default(),
+    with_short_numbers(&reason.to_string())
+)]
 pub struct Rejected {
     /// The claim that fails; `None` where the certificate as a whole does.
     pub claim: Option<usize>,
@@ -73,6 +79,34 @@ impl Reason {
             hi: enclosure.hi().clone(),
         })
     }
+}
+
+/// The text with `12345678901234567890...(300 digits)` for each number of more than 60 digits.
+fn with_short_numbers(text: &str) -> String {
+    const LONGEST: usize = 60;
+    const SHOWN: usize = 20;
+
+    let mut short = String::new();
+    let mut rest = text;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let (before, number) = rest.split_at(start);
+        let length = number
+            .find(|c: char| !c.is_ascii_digit())
+            .unwrap_or(number.len());
+
+        short.push_str(before);
+        if length > LONGEST {
+            short.push_str(&number[..SHOWN]);
+            short.push_str(&format!("...({length} digits)"));
+        } else {
+            short.push_str(&number[..length]);
+        }
+
+        rest = &number[length..];
+    }
+
+    short.push_str(rest);
+    short
 }
 
 /// The name of a variant, with which its debug form begins.
@@ -318,4 +352,33 @@ fn place(piece: Option<usize>, node: Option<usize>) -> String {
     }
 
     text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use mceip_exact::{Integer, rational};
+
+    fn not_contracting(got: &Integer) -> Rejected {
+        Rejected {
+            claim: Some(0),
+            reason: Reason::NotContracting {
+                index: 3,
+                got: Rational::from_integer(got.clone()),
+                radius: rational(1, 7),
+            },
+        }
+    }
+
+    #[test]
+    fn long_numbers_are_cut_short_in_the_message_of_a_rejection() {
+        let longest = Integer::from(10).pow(59); // 60 digits
+        let message = not_contracting(&longest).to_string();
+        assert!(message.starts_with("claim 0: Krawczyk: unknown 3:"));
+        assert!(message.ends_with(&format!("got {longest} >= 1/7")));
+
+        let longer = longest * 10;
+        let message = not_contracting(&longer).to_string();
+        assert!(message.ends_with("got 10000000000000000000...(61 digits) >= 1/7"));
+    }
 }
