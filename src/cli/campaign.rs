@@ -11,7 +11,7 @@ use super::job::interrupt;
 use super::output::{Output, make};
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 use mceip_testkit::campaign::{
-    Campaign, Event, FAMILIES, Limit, Replay, ReplayError, State, UnknownFamily, judge, standard,
+    Campaign, Event, FAMILIES, Limit, Replay, State, family_error, judge, standard,
 };
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -135,10 +135,11 @@ fn start(args: &Args) -> Result<State, CliError> {
     match &args.state {
         Some(path) if path.exists() => {
             let earlier = text("the campaign's state", path)?;
-            new.resumed(&earlier).map_err(|source| CliError::State {
-                path: path.display().to_string(),
-                source,
-            })
+            new.resumed(&earlier)
+                .map_err(|source| CliError::TestkitFile {
+                    path: path.display().to_string(),
+                    source,
+                })
         }
         _ => Ok(new),
     }
@@ -156,7 +157,7 @@ fn families(args: &Args) -> Result<Vec<String>, CliError> {
         let exists = FAMILIES.iter().any(|family| family.0 == name);
         let is_repeated = families[..k].contains(name);
         if !exists || is_repeated {
-            return Err(UnknownFamily { name: name.clone() }.into());
+            return Err(CliError::Family(family_error(name)));
         }
     }
 
@@ -198,8 +199,8 @@ fn replay(args: &Args, path: &Path) -> Result<u8, CliError> {
     })
 }
 
-fn bad_replay(path: &Path, source: ReplayError) -> CliError {
-    CliError::Replay {
+fn bad_replay(path: &Path, source: mceip_testkit::TestkitError) -> CliError {
+    CliError::TestkitFile {
         path: path.display().to_string(),
         source,
     }

@@ -6,7 +6,7 @@ use mceip_exact::{Rational, parse};
 use mceip_model::file::{read_from, read_problem, read_problem_file, read_text};
 use mceip_model::{ModelError, Problem, Window};
 use mceip_oracle::OracleError;
-use mceip_testkit::BlockError;
+use mceip_testkit::TestkitError;
 use num_traits::Signed as _;
 use std::io::{ErrorKind, Write as _};
 use std::path::Path;
@@ -83,41 +83,30 @@ pub(super) enum CliError {
         /// What is wrong with it.
         source: mceip_engine::search::complete::CompleteError,
     },
-    /// The block was not treated.
-    #[error("{0}")]
-    Block(#[from] BlockError),
+    /// The test kit refuses a run.
+    #[error(transparent)]
+    Testkit(#[from] TestkitError),
+    /// The test kit refuses a file: a campaign's state or a replay file.
+    #[error("{path}: {source}")]
+    TestkitFile {
+        /// Its path.
+        path: String,
+        /// What is wrong with it.
+        source: TestkitError,
+    },
     /// A model of the block was refused.
     #[error("{0}")]
     Source(#[from] mceip_paper::SourceError),
     /// A loading path was not followed.
     #[error("{0}")]
     Path(#[from] mceip_paper::path::PathError),
-    /// Levels of lambda^2 were refused.
-    #[error(transparent)]
-    Level(#[from] mceip_engine::search::levels::LevelError),
     /// A picture was not drawn.
     #[cfg(feature = "png")]
     #[error(transparent)]
     Png(#[from] crate::picture::PngError),
     /// A family that does not exist, or one named twice.
-    #[error("--family: {0} (each once)")]
-    Family(#[from] mceip_testkit::campaign::UnknownFamily),
-    /// The state of a campaign.
-    #[error("{path}: {source}")]
-    State {
-        /// Its path.
-        path: String,
-        /// What is wrong with it.
-        source: mceip_testkit::campaign::StateError,
-    },
-    /// A replay file.
-    #[error("{path}: {source}")]
-    Replay {
-        /// Its path.
-        path: String,
-        /// What is wrong with it.
-        source: mceip_testkit::campaign::ReplayError,
-    },
+    #[error("--family: {0}")]
+    Family(TestkitError),
     /// The condensation was refused.
     #[error("{0}")]
     Condensation(#[from] mceip_engine::reduction::CondensationError),
@@ -158,9 +147,6 @@ pub(super) enum CliError {
         /// What is wrong with it.
         source: mceip_engine::foreign::ForeignError,
     },
-    /// The conformance run, or its pack.
-    #[error(transparent)]
-    Conform(#[from] mceip_testkit::conform::ConformError),
     /// A solution of a report does not fit the problem.
     #[error(transparent)]
     BadPoint(#[from] mceip_engine::foreign::BadPoint),

@@ -5,7 +5,7 @@
 use mceip_check::check;
 use mceip_engine::certify::{certificate, propose};
 use mceip_engine::multistart::{CondensedFound, CondensedSearch, all_slip, search_condensed};
-use mceip_engine::reduction::{SparseCondensation, SparseCondensationError, condense, reduce};
+use mceip_engine::reduction::{CondensationError, SparseCondensation, condense, reduce};
 use mceip_engine::run::Watch;
 use mceip_exact::{parse, rational, to_f64};
 use mceip_mcp::linear::Symmetric;
@@ -213,10 +213,7 @@ fn what_cannot_be_condensed_is_refused_by_name() {
         &[slip(0, 1, LEFT)],
         None,
     );
-    assert!(matches!(
-        other,
-        Err(SparseCondensationError::Mass { got: 2, .. })
-    ));
+    assert!(matches!(other, Err(CondensationError::Mass { got: 2, .. })));
     // Nodes without stiffness.
     let loose = k
         .entries()
@@ -226,7 +223,7 @@ fn what_cannot_be_condensed_is_refused_by_name() {
     let singular = SparseCondensation::new(loose, None, &[slip(6, 7, LEFT)], None).unwrap();
     let error = singular.at(0.0).unwrap_err();
     assert!(
-        matches!(error, SparseCondensationError::NotDefinite { at: 0.0, .. }),
+        matches!(error, CondensationError::NotDefinite { at: 0.0, .. }),
         "{error}"
     );
     // With a negative t the mass outweighs the stiffness.

@@ -1,7 +1,7 @@
 //! Every way in which a problem is refused: equation or field, index, expected, got.
 //!
 //! Each message is one line that names the place in the file or the equation of
-//! `spec/equations.md` (as E12), what was expected there and what was found.
+//! the book (as E12; `spec/README.md` says where), what was expected there and what was found.
 
 use mceip_exact::{NumberError, Rational};
 

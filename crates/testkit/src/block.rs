@@ -8,31 +8,17 @@
 use super::floors::{Coverage, Shortfall, Starts, shortfalls};
 use super::forge::forgeries;
 use super::interior::path_coverage;
+use crate::error::TestkitError;
 use mceip_check::certificate::Certificate;
 use mceip_check::{AcceptedClaim, AcceptedCover, Rejected, check};
 use mceip_engine::certify::certificate;
 use mceip_engine::multistart::{Search, SearchError, multistart_large};
 use mceip_engine::reduction::reduce;
 use mceip_engine::run::{Progress, Watch};
-use mceip_engine::search::complete::{CompleteError, Options, complete};
+use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::to_f64;
-use mceip_model::{Admissible, ModelError, Pencil, Problem, Unknown};
+use mceip_model::{Admissible, Pencil, Problem, Unknown};
 use mceip_paper::{Block, PublishedState};
-
-/// Why a state of the block was not treated.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum BlockError {
-    /// The model was refused.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// The search was refused.
-    #[error(transparent)]
-    Search(#[from] SearchError),
-    /// The complete search was refused.
-    #[error(transparent)]
-    Complete(#[from] CompleteError),
-}
 
 /// A certified and accepted solution of a state.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -99,12 +85,12 @@ impl BlockReport {
 /// Treats one published state. `None` if it was cancelled.
 ///
 /// # Errors
-/// [`BlockError`]; none for the paper's block.
+/// [`TestkitError`]; none for the paper's block.
 pub fn block_state(
     block: &Block,
     state: PublishedState,
     watch: &Watch<'_>,
-) -> Result<Option<BlockReport>, BlockError> {
+) -> Result<Option<BlockReport>, TestkitError> {
     watch.report(&Progress::stage("reducing"));
     let problem = state.problem(block)?;
     let pencil = reduce(&problem)?.pencil;

@@ -4,30 +4,16 @@
 //! tests of large orders. Input: orders and seeds. Output: problems whose data, drawn in doubles,
 //! are taken as exact numbers.
 
+use crate::error::TestkitError;
 use mceip_engine::reduction::reduce;
 use mceip_engine::run::{Cancel, Watch};
-use mceip_engine::search::complete::{CompleteError, Options, complete};
+use mceip_engine::search::complete::{Options, complete};
 use mceip_exact::{Integer, Rational, Sparse, from_f64, to_f64, whole};
 use mceip_model::{Body, ModelError, Pencil, Problem, Unknown, Window};
-use mceip_paper::{Block, BlockModel, SourceError};
+use mceip_paper::{Block, BlockModel};
 use num_traits::One;
 use rand::{RngExt, SeedableRng};
 use rand_chacha::ChaCha8Rng;
-
-/// Why a large problem was not made.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum LargeError {
-    /// The mesh or the states were refused.
-    #[error(transparent)]
-    Source(#[from] SourceError),
-    /// The model was refused.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// The free variables were not eliminated.
-    #[error(transparent)]
-    Complete(#[from] CompleteError),
-}
 
 /// A random pencil without free variables: M and K0 = GG'/n + I/2, K1 = H / sqrt n with G and H
 /// standard normal, mu = 3 where lambda^2 is unknown. Drawn in doubles, which are then the exact
@@ -58,8 +44,8 @@ pub fn mechanical_pencil(n: usize, unknown: Unknown, seed: u64) -> Result<Proble
 /// contact nodes stuck where asked ([`Block::sliding_states_with_tenth_stuck`]).
 ///
 /// # Errors
-/// [`LargeError`].
-pub fn refined_block(slip: usize, tenth_stuck: bool) -> Result<Problem, LargeError> {
+/// [`TestkitError`].
+pub fn refined_block(slip: usize, tenth_stuck: bool) -> Result<Problem, TestkitError> {
     let block = Block::new(&BlockModel::refined(slip))?;
     let states = if tenth_stuck {
         block.sliding_states_with_tenth_stuck(slip)?
@@ -75,8 +61,8 @@ pub fn refined_block(slip: usize, tenth_stuck: bool) -> Result<Problem, LargeErr
 /// The plane-strain block of `\` cells with 17 slip nodes, MCEIP-mu: 1719 solutions.
 ///
 /// # Errors
-/// [`LargeError`]; none for the block as given.
-pub fn backslash_block() -> Result<Problem, LargeError> {
+/// [`TestkitError`]; none for the block as given.
+pub fn backslash_block() -> Result<Problem, TestkitError> {
     let block = Block::new(&BlockModel::backslash_strain())?;
     let states = block.sliding_states(0, 17)?;
     let system = block.system(&states, None)?;
@@ -89,8 +75,8 @@ pub fn backslash_block() -> Result<Problem, LargeError> {
 /// proves nothing about the given problem; the route from the mesh does.)
 ///
 /// # Errors
-/// [`LargeError`]; also where the unknown multiplies free rows or columns, as in MCEIP-lambda2.
-pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
+/// [`TestkitError`]; also where the unknown multiplies free rows or columns, as in MCEIP-lambda2.
+pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, TestkitError> {
     let pencil = reduce(problem)?.pencil;
     let Some(elimination) = elimination_in_doubles(problem)? else {
         return Ok(problem.clone());
@@ -110,7 +96,7 @@ pub fn condensed_in_doubles(problem: &Problem) -> Result<Problem, LargeError> {
 /// T_ff^-1 T_fs in doubles, rows over the free variables; `None` without free variables.
 ///
 /// A complete search that is stopped at once leaves the condensation, and this matrix in it.
-fn elimination_in_doubles(problem: &Problem) -> Result<Option<Vec<Vec<f64>>>, LargeError> {
+fn elimination_in_doubles(problem: &Problem) -> Result<Option<Vec<Vec<f64>>>, TestkitError> {
     let options = Options {
         threads: Some(1),
         ..Options::default()

@@ -25,6 +25,7 @@ mod compare;
 mod completed;
 pub mod conform;
 mod disagreement;
+mod error;
 mod families;
 pub mod floors;
 mod forge;
@@ -37,17 +38,16 @@ pub mod pareto;
 pub mod targets;
 mod verify;
 
-pub use block::{AcceptedState, BLOCK_STARTS, BlockError, BlockReport, block_state};
+pub use block::{AcceptedState, BLOCK_STARTS, BlockReport, block_state};
 pub use compare::{InstanceReport, Reached, Solver, Treatment, compare, compare_by, coverage_of};
 pub use completed::compare_complete;
 pub use disagreement::Disagreement;
+pub use error::TestkitError;
 pub use families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
 pub use forge::{Forgery, forgeries};
 pub use interior::{
     INTERIOR_STARTS, InteriorStart, from_interior, interior_starts, path_coverage, path_options,
 };
-pub use large::{
-    LargeError, backslash_block, condensed_in_doubles, mechanical_pencil, refined_block,
-};
+pub use large::{backslash_block, condensed_in_doubles, mechanical_pencil, refined_block};
 pub use mutate::mutate;
 pub use verify::{FamilyReport, Verification, verify, verify_family};

@@ -4,9 +4,10 @@
 //! report for each published state of the block; a run without disagreements passes. Called by
 //! `mceip verify`.
 
-use super::block::{BlockError, BlockReport, block_state};
+use super::block::{BlockReport, block_state};
 use super::compare::{InstanceReport, Treatment, compare_by};
 use super::disagreement::Disagreement;
+use super::error::TestkitError;
 use super::families::{Corner, Instance, degenerate, mechanical, random_pencils, table1_grid};
 use super::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
 use mceip_engine::multistart::Search;
@@ -163,8 +164,8 @@ impl Verification {
 /// family. The result does not depend on the number of threads.
 ///
 /// # Errors
-/// [`BlockError`] if an embedded problem is refused: a bug.
-pub fn verify(random: usize, seed: u64, watch: &Watch<'_>) -> Result<Verification, BlockError> {
+/// [`TestkitError`] if an embedded problem is refused: a bug.
+pub fn verify(random: usize, seed: u64, watch: &Watch<'_>) -> Result<Verification, TestkitError> {
     let treatment = Treatment::of(&Search {
         seed,
         ..Search::default()

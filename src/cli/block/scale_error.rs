@@ -1,7 +1,7 @@
 //! Why a block is not condensed in doubles.
 
-use mceip_engine::multistart::CondensedSearchError;
-use mceip_engine::reduction::SparseCondensationError;
+use mceip_engine::multistart::SearchError;
+use mceip_engine::reduction::CondensationError;
 use mceip_mcp::linear::SymmetricError;
 use mceip_paper::SourceError;
 
@@ -16,7 +16,7 @@ pub(in crate::cli) enum ScaleError {
         source: SymmetricError,
     },
     #[error(transparent)]
-    Condensation(#[from] SparseCondensationError),
+    Condensation(#[from] CondensationError),
     #[error(transparent)]
-    Search(#[from] CondensedSearchError),
+    Search(#[from] SearchError),
 }

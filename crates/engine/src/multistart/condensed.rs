@@ -7,13 +7,14 @@
 //! The search finds; it says nothing about what it does not find, and certifies nothing. Called by
 //! the command `block` and by campaigns.
 
+use super::error::SearchError;
 use super::same::repeats;
 use crate::candidate::Candidate;
-use crate::reduction::{CondensedEmbedding, CondensedEmbeddingError, SparseCondensation};
+use crate::reduction::{CondensedEmbedding, SparseCondensation};
 use crate::run::{Progress, Watch};
 use mceip_mcp::linear::solve as solve_dense;
 use mceip_mcp::mcp::Mcp;
-use mceip_mcp::solver::{Options, SolverError, Termination, solve};
+use mceip_mcp::solver::{Options, Termination, solve};
 use nalgebra::DMatrix;
 use std::collections::BTreeMap;
 
@@ -75,29 +76,17 @@ pub struct CondensedFound {
     pub interrupted: bool,
 }
 
-/// Why a search did not take place.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CondensedSearchError {
-    /// The problem was refused.
-    #[error(transparent)]
-    Embedding(#[from] CondensedEmbeddingError),
-    /// The options were refused.
-    #[error(transparent)]
-    Solver(#[from] SolverError),
-}
-
 /// Searches MCEIP-lambda2 at friction mu. Progress counts runs; a search that is cancelled keeps
 /// what it has found.
 ///
 /// # Errors
-/// [`CondensedSearchError`].
+/// [`SearchError`].
 pub fn search_condensed(
     condensation: &SparseCondensation,
     mu: f64,
     search: &CondensedSearch,
     watch: &Watch<'_>,
-) -> Result<CondensedFound, CondensedSearchError> {
+) -> Result<CondensedFound, SearchError> {
     let embedding = CondensedEmbedding::new(condensation, mu)?;
     let mut found = CondensedFound::default();
 

@@ -15,6 +15,7 @@
 mod all_slip;
 mod condensed;
 mod curves;
+mod error;
 mod found;
 mod ground;
 mod hunt;
@@ -23,22 +24,21 @@ mod search;
 mod trace;
 
 pub use all_slip::{AllSlip, all_slip};
-pub use condensed::{
-    CondensedFound, CondensedSearch, CondensedSearchError, CondensedSolution, search_condensed,
-};
+pub use condensed::{CondensedFound, CondensedSearch, CondensedSolution, search_condensed};
+pub use error::SearchError;
 pub use found::{Certified, Found, Origin, Uncertified};
 pub use same::{exact_value, integer_x, same, support};
 pub use search::{Certifier, Search};
 pub use trace::trace_outcome;
 
 use crate::certify;
-use crate::reduction::{CondensationError, Expansion, Side, condense};
+use crate::reduction::{Expansion, Side, condense};
 use crate::run::Watch;
 use crate::tolerance::WINDOW_GAP;
 use hunt::{Hunt, WINDOW_SALT};
 use mceip_exact::to_f64;
 use mceip_mcp::solver::SolverError;
-use mceip_model::{Admissible, ModelError, Pencil, Problem, Unknown, Window};
+use mceip_model::{Admissible, Pencil, Problem, Unknown, Window};
 
 /// Free variables from which MCEIP-mu is searched on its exactly condensed pencil.
 pub const CONDENSE_FROM: usize = 12;
@@ -65,32 +65,6 @@ pub fn multistart(
         &|candidate| certifier.certify(candidate),
         &Watch::nobody(),
     )
-}
-
-/// Why a search did not take place.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SearchError {
-    /// The solver's options were refused.
-    #[error(transparent)]
-    Solver(#[from] SolverError),
-    /// The condensation failed.
-    #[error(transparent)]
-    Condensation(#[from] CondensationError),
-    /// The condensed pencil was refused.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// More variables than dense matrices are made for.
-    #[error("solve: expected at most {limit} variables after condensation, got {got}")]
-    TooLarge {
-        /// The limit.
-        limit: usize,
-        /// Variables of the problem.
-        got: usize,
-    },
-    /// K_ff is singular in doubles.
-    #[error("P1: expected K_ff regular in doubles, got a singular factorisation")]
-    SingularInDoubles,
 }
 
 /// [`multistart`] for pencils of any size: MCEIP-mu with many free variables is condensed exactly,

@@ -9,26 +9,9 @@
 //! Input: an admissible pencil of MCEIP-mu. Output: the condensed pencil over Q. Called by the
 //! search for solutions (`multistart`) and by `mceip reduce`.
 
-use mceip_exact::{CondenseError, Sparse, schur_complement};
-use mceip_model::{Admissible, ModelError, Pencil, Unknown};
-
-/// Why a pencil is not condensed.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CondensationError {
-    /// Only MCEIP-mu has f rows that do not depend on the unknown.
-    #[error("E16: expected unknown mu for condensation, got {got}")]
-    Unknown {
-        /// The unknown.
-        got: &'static str,
-    },
-    /// The elimination failed.
-    #[error(transparent)]
-    Elimination(#[from] CondenseError),
-    /// The condensed pencil is refused.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-}
+use super::CondensationError;
+use mceip_exact::{Sparse, schur_complement};
+use mceip_model::{Admissible, Pencil, Unknown};
 
 /// The pencil A' + mu B' of order n_s with A' = A_ss - A_sf A_ff^-1 A_fs and
 /// B' = B_ss - B_sf A_ff^-1 A_fs, exactly. Variables: the slip variables, ascending.

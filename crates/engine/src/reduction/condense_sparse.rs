@@ -17,62 +17,12 @@
 //! block` for large meshes. All results are proposals: exact arithmetic decides later.
 #![allow(clippy::float_arithmetic)]
 
+use super::CondensationError;
 use mceip_exact::to_f64;
-use mceip_mcp::linear::{Analysis, NotDefinite, SchurFactor, Symmetric};
+use mceip_mcp::linear::{Analysis, SchurFactor, Symmetric};
 use mceip_model::{ContactState, Direction, Particle};
 use std::borrow::Cow;
 use std::collections::BTreeSet;
-
-/// Why a system is not condensed in doubles.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum SparseCondensationError {
-    /// M of another order than K.
-    #[error("E3: expected M of order {expected}, got {got}")]
-    Mass {
-        /// Order of K.
-        expected: usize,
-        /// Order of M.
-        got: usize,
-    },
-    /// A dof that the matrix does not have.
-    #[error("E9: expected dofs of particle {particle} < {dofs}, got {got}")]
-    Dof {
-        /// Index of the particle.
-        particle: usize,
-        /// The dof.
-        got: usize,
-        /// Order of K.
-        dofs: usize,
-    },
-    /// A dof that two particles, or one of them twice, claim.
-    #[error("E9: expected each dof in one particle, got {dof} again in particle {particle}")]
-    DofTwice {
-        /// Index of the second particle.
-        particle: usize,
-        /// The dof.
-        dof: usize,
-    },
-    /// A sign that is not 1 or -1.
-    #[error("E7: expected the sign of particle {particle} to be 1 or -1, got {got}")]
-    Sign {
-        /// Index of the particle.
-        particle: usize,
-        /// Its sign.
-        got: i8,
-    },
-    /// Nothing slips.
-    #[error("E10: expected at least one particle in impending slip, got none")]
-    NoSlip,
-    /// K + t M is not positive definite on f.
-    #[error("P1: (K + t M)_ff at t = {at}: {source}")]
-    NotDefinite {
-        /// The value of t.
-        at: f64,
-        /// Where elimination ended.
-        source: NotDefinite,
-    },
-}
 
 /// A system ready to be condensed at any t >= 0: order of elimination and fronts are found once.
 #[derive(Debug, Clone)]
@@ -117,7 +67,7 @@ struct DofRoles {
 impl DofRoles {
     /// The roles of `dofs` dofs, after a check that each dof of a particle exists and has no other
     /// owner, and that each sign is 1 or -1.
-    fn new(dofs: usize, particles: &[Particle]) -> Result<DofRoles, SparseCondensationError> {
+    fn new(dofs: usize, particles: &[Particle]) -> Result<DofRoles, CondensationError> {
         let mut roles = DofRoles {
             is_free: vec![true; dofs],
             held: Vec::new(),
@@ -130,14 +80,14 @@ impl DofRoles {
         for (index, particle) in particles.iter().enumerate() {
             for dof in [particle.tangential, particle.normal] {
                 if dof >= dofs {
-                    return Err(SparseCondensationError::Dof {
+                    return Err(CondensationError::Dof {
                         particle: index,
                         got: dof,
                         dofs,
                     });
                 }
                 if !claimed.insert(dof) {
-                    return Err(SparseCondensationError::DofTwice {
+                    return Err(CondensationError::DofTwice {
                         particle: index,
                         dof,
                     });
@@ -149,7 +99,7 @@ impl DofRoles {
         Ok(roles)
     }
 
-    fn add(&mut self, index: usize, particle: &Particle) -> Result<(), SparseCondensationError> {
+    fn add(&mut self, index: usize, particle: &Particle) -> Result<(), CondensationError> {
         let dofs = [particle.tangential, particle.normal];
         for dof in dofs {
             self.is_free[dof] = particle.state == ContactState::Free;
@@ -159,7 +109,7 @@ impl DofRoles {
             ContactState::Free => {}
             ContactState::Stick => self.held.extend(dofs),
             ContactState::Slip { sign } if sign.abs() != 1 => {
-                return Err(SparseCondensationError::Sign {
+                return Err(CondensationError::Sign {
                     particle: index,
                     got: sign,
                 });
@@ -205,18 +155,18 @@ impl SparseCondensation {
     /// cheaper.
     ///
     /// # Errors
-    /// [`SparseCondensationError`] naming the particle.
+    /// [`CondensationError`] naming the particle.
     pub fn new(
         stiffness: Symmetric,
         mass: Option<Symmetric>,
         particles: &[Particle],
         points: Option<&[[f64; 2]]>,
-    ) -> Result<SparseCondensation, SparseCondensationError> {
+    ) -> Result<SparseCondensation, CondensationError> {
         let dofs = stiffness.order();
         if let Some(m) = &mass
             && m.order() != dofs
         {
-            return Err(SparseCondensationError::Mass {
+            return Err(CondensationError::Mass {
                 expected: dofs,
                 got: m.order(),
             });
@@ -224,7 +174,7 @@ impl SparseCondensation {
 
         let roles = DofRoles::new(dofs, particles)?;
         if roles.slip.is_empty() {
-            return Err(SparseCondensationError::NoSlip);
+            return Err(CondensationError::NoSlip);
         }
 
         // Every matrix K + t M has the pattern of K + M, or less where entries cancel.
@@ -271,13 +221,13 @@ impl SparseCondensation {
     /// A(t) and B(t), each n_s x n_s; without M those of t = 0.
     ///
     /// # Errors
-    /// [`SparseCondensationError::NotDefinite`]: K + t M is not positive definite on f, within
+    /// [`CondensationError::NotDefinite`]: K + t M is not positive definite on f, within
     /// doubles.
-    pub fn at(&self, t: f64) -> Result<SparseCondensed<'_>, SparseCondensationError> {
+    pub fn at(&self, t: f64) -> Result<SparseCondensed<'_>, CondensationError> {
         let factor = self
             .analysis
             .factor(&self.matrix(t))
-            .map_err(|source| SparseCondensationError::NotDefinite { at: t, source })?;
+            .map_err(|source| CondensationError::NotDefinite { at: t, source })?;
         let a = self.tangential_block(factor.schur());
         let b = self.normal_block(factor.schur());
 

@@ -13,7 +13,8 @@
 //! starting points, and t and x of its points. Called by `multistart::condensed`.
 #![allow(clippy::float_arithmetic)]
 
-use super::condense_sparse::{SparseCondensation, SparseCondensationError, SparseCondensed};
+use super::CondensationError;
+use super::condense_sparse::{SparseCondensation, SparseCondensed};
 use super::embed::{even_weights, power_of_two, random_face, random_zeta};
 use mceip_mcp::mcp::Mcp;
 use nalgebra::DMatrix;
@@ -37,35 +38,17 @@ pub struct CondensedEmbedding<'a> {
     factorisations: Cell<usize>,
 }
 
-/// Why MCEIP-lambda2 is not embedded.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum CondensedEmbeddingError {
-    /// The system has no mass.
-    #[error("E12: expected a mass matrix for unknown lambda2, got none")]
-    NoMass,
-    /// A friction that is negative, infinite or NaN.
-    #[error("E15: expected a finite friction mu >= 0, got {got}")]
-    Friction {
-        /// mu.
-        got: f64,
-    },
-    /// The stiffness is not definite.
-    #[error(transparent)]
-    Condensation(#[from] SparseCondensationError),
-}
-
 impl<'a> CondensedEmbedding<'a> {
     /// Embeds MCEIP-lambda2 at this friction.
     ///
     /// # Errors
-    /// [`CondensedEmbeddingError`].
+    /// [`CondensationError`].
     pub fn new(
         condensation: &'a SparseCondensation,
         mu: f64,
-    ) -> Result<CondensedEmbedding<'a>, CondensedEmbeddingError> {
+    ) -> Result<CondensedEmbedding<'a>, CondensationError> {
         if !(mu >= 0.0 && mu.is_finite()) {
-            return Err(CondensedEmbeddingError::Friction { got: mu });
+            return Err(CondensationError::Friction { got: mu });
         }
 
         let at_zero = condensation.at(0.0)?;
@@ -75,7 +58,7 @@ impl<'a> CondensedEmbedding<'a> {
         // lambda^2.
         let mass = at_zero
             .kinetic(&vec![1.0; n])
-            .ok_or(CondensedEmbeddingError::NoMass)?;
+            .ok_or(CondensationError::NoMass)?;
         let stiffness: f64 = at_zero.a.iter().flatten().sum();
         let frequency_squared = stiffness / mass;
         let unit = if frequency_squared > 0.0 && frequency_squared.is_finite() {
@@ -305,14 +288,14 @@ mod tests {
         let massless = condensation(false);
         assert_eq!(
             CondensedEmbedding::new(&massless, 1.0).unwrap_err(),
-            CondensedEmbeddingError::NoMass
+            CondensationError::NoMass
         );
 
         let condensation = condensation(true);
         for mu in [-1.0, f64::NAN, f64::INFINITY] {
             assert!(matches!(
                 CondensedEmbedding::new(&condensation, mu),
-                Err(CondensedEmbeddingError::Friction { .. })
+                Err(CondensationError::Friction { .. })
             ));
         }
 

@@ -20,17 +20,17 @@ mod condense;
 mod condense_sparse;
 mod condensed_mcp;
 mod embed;
+mod error;
 mod expand;
 mod project;
 mod reversed;
 
 pub use circle::CirclePencil;
-pub use condense::{CondensationError, condense};
-pub use condense_sparse::{
-    CondensationResidual, SparseCondensation, SparseCondensationError, SparseCondensed,
-};
-pub use condensed_mcp::{CondensedEmbedding, CondensedEmbeddingError};
+pub use condense::condense;
+pub use condense_sparse::{CondensationResidual, SparseCondensation, SparseCondensed};
+pub use condensed_mcp::CondensedEmbedding;
 pub use embed::{Embedding, Side};
+pub use error::CondensationError;
 pub use expand::Expansion;
 pub use mceip_model::reduction::{
     Lifted, Line, LineViolated, MuFamily, Reduced, Variable, check_lines, lift, mu_family, reduce,

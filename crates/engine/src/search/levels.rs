@@ -16,28 +16,7 @@ use crate::reduction::{Variable, mu_family};
 use crate::run::Watch;
 use mceip_exact::{Sparse, from_f64, to_f64};
 use mceip_mcp::linear;
-use mceip_model::{Body, ModelError, Pencil, Problem, System, Unknown, Window};
-
-/// Why there are no levels.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum LevelError {
-    /// The system was refused.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// The search refuses.
-    #[error(transparent)]
-    Complete(#[from] CompleteError),
-    /// K_ff + lambda^2 M_ff cannot be eliminated in doubles.
-    #[error(
-        "E16: expected K_ff + lambda^2 M_ff invertible in doubles, got a singular matrix at \
-         lambda^2 = {lambda2}"
-    )]
-    Singular {
-        /// The level.
-        lambda2: f64,
-    },
-}
+use mceip_model::{Body, Pencil, Problem, System, Unknown, Window};
 
 /// A system in doubles, by the blocks of (16).
 #[derive(Debug, Clone)]
@@ -78,8 +57,8 @@ impl Levels {
     /// Takes a system with or without mass (then only lambda^2 = 0 makes sense).
     ///
     /// # Errors
-    /// [`LevelError::Model`] if the system has no stiffness that (16) could take.
-    pub fn new(system: &System) -> Result<Levels, LevelError> {
+    /// [`CompleteError::Model`] if the system has no stiffness that (16) could take.
+    pub fn new(system: &System) -> Result<Levels, CompleteError> {
         let family = mu_family(system)?;
         let n = family.stiffness.order();
         let massless = vec![vec![0.0; n]; n];
@@ -110,15 +89,15 @@ impl Levels {
     /// The level lambda^2 >= 0.
     ///
     /// # Errors
-    /// [`LevelError::Singular`].
-    pub fn at(&self, lambda2: f64) -> Result<Level, LevelError> {
+    /// [`CompleteError::SingularLevel`].
+    pub fn at(&self, lambda2: f64) -> Result<Level, CompleteError> {
         let n = self.k0.len();
         let star0 = sum(&self.k0, lambda2, &self.m0);
         let star1 = sum(&self.k1, lambda2, &self.m1);
         let follow = if self.free == 0 {
             vec![Vec::new(); n]
         } else {
-            follow(&star0, self.free).ok_or(LevelError::Singular { lambda2 })?
+            follow(&star0, self.free).ok_or(CompleteError::SingularLevel { lambda2 })?
         };
 
         Ok(Level {
@@ -209,8 +188,11 @@ impl Level {
     /// Every solution of the level as rounded, and whether nothing is left open.
     ///
     /// # Errors
-    /// [`LevelError`]; entries that are not finite are refused.
-    pub fn solutions(&self, watch: &Watch<'_>) -> Result<(Vec<LevelSolution>, bool), LevelError> {
+    /// [`CompleteError`]; entries that are not finite are refused.
+    pub fn solutions(
+        &self,
+        watch: &Watch<'_>,
+    ) -> Result<(Vec<LevelSolution>, bool), CompleteError> {
         let pencil = self.pencil()?;
         let problem = Problem::new(Body::Pencil(pencil), Unknown::Mu, Window::all())?;
         let found = complete(&problem, &Options::default(), watch)?;
@@ -228,8 +210,8 @@ impl Level {
     }
 
     /// The condensed pencil as rounded.
-    fn pencil(&self) -> Result<Pencil, LevelError> {
-        let singular = LevelError::Singular {
+    fn pencil(&self) -> Result<Pencil, CompleteError> {
+        let singular = CompleteError::SingularLevel {
             lambda2: self.lambda2,
         };
 

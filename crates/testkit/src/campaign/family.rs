@@ -5,6 +5,7 @@
 
 use super::expected::{Expected, Made};
 use super::named;
+use crate::error::TestkitError;
 use crate::families::Instance;
 use crate::generators::Seed;
 use mceip_model::ModelError;
@@ -38,18 +39,13 @@ impl fmt::Display for Id {
     }
 }
 
-/// A family that does not exist.
-#[derive(Debug, Clone, PartialEq, Eq, thiserror::Error)]
-#[error("expected a family of {}, got {name:?}", names())]
-pub struct UnknownFamily {
-    /// The name given.
-    pub name: String,
-}
-
-/// The names of all families, for messages.
-fn names() -> String {
+/// The refusal of a family that does not exist, or of one named twice.
+pub fn family_error(name: &str) -> TestkitError {
     let names: Vec<&str> = FAMILIES.iter().map(|f| f.0).collect();
-    names.join(", ")
+    TestkitError::Family {
+        families: names.join(", "),
+        name: name.to_string(),
+    }
 }
 
 /// How an instance of a family is made.
@@ -150,15 +146,13 @@ pub const FAMILIES: [(&str, &str, Make); 20] = [
 /// The instance with this name.
 ///
 /// # Errors
-/// [`UnknownFamily`]; [`ModelError`] as text cannot occur for the families as they are, and is a
+/// [`TestkitError::Family`]; [`ModelError`] as text cannot occur for the families as they are, and is a
 /// disagreement of the campaign if it does.
-pub fn case(id: &Id) -> Result<Result<Case, ModelError>, UnknownFamily> {
+pub fn case(id: &Id) -> Result<Result<Case, ModelError>, TestkitError> {
     let number = FAMILIES
         .iter()
         .position(|f| f.0 == id.family)
-        .ok_or_else(|| UnknownFamily {
-            name: id.family.clone(),
-        })?;
+        .ok_or_else(|| family_error(&id.family))?;
 
     let (_, _, make) = FAMILIES[number];
     let made = make(&Seed {

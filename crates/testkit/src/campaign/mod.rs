@@ -26,8 +26,8 @@ pub use engine::{
     treatment,
 };
 pub use expected::{Expected, Made};
-pub use family::{Case, FAMILIES, Id, UnknownFamily, case};
-pub use replay::{REPLAY_FORMAT, Replay, ReplayError};
+pub use family::{Case, FAMILIES, Id, case, family_error};
+pub use replay::{REPLAY_FORMAT, Replay};
 pub use run::{Campaign, Event, Limit};
 pub use shrink::{MAX_TRIES, shrink, smaller};
-pub use state::{STATE_FORMAT, State, StateError, Tally};
+pub use state::{STATE_FORMAT, State, Tally};

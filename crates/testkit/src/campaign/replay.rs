@@ -7,9 +7,9 @@
 use super::engine::Finding;
 use super::expected::Expected;
 use super::family::{Case, Id, case};
+use crate::error::TestkitError;
 use crate::families::Instance;
 use mceip_exact::parse;
-use mceip_model::ModelError;
 use mceip_model::file::{from_json, read_problem, require_format, write_problem};
 use mceip_oracle::TwoParticles;
 use serde::{Deserialize, Serialize};
@@ -17,18 +17,6 @@ use std::path::Path;
 
 /// The format of a replay file.
 pub const REPLAY_FORMAT: &str = "mceip-replay/1";
-
-/// Why a replay file is refused.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum ReplayError {
-    /// The file or its problem.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// Data of Table 1.
-    #[error("closed_form: {0}")]
-    Number(#[from] mceip_exact::NumberError),
-}
 
 /// What the file holds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -118,8 +106,8 @@ impl Replay {
     /// Reads a file.
     ///
     /// # Errors
-    /// [`ReplayError`] for what is not one.
-    pub fn from_json(text: &str) -> Result<Replay, ReplayError> {
+    /// [`TestkitError`] for what is not one.
+    pub fn from_json(text: &str) -> Result<Replay, TestkitError> {
         require_format(text, REPLAY_FORMAT)?;
         Ok(from_json(text)?)
     }
@@ -128,8 +116,8 @@ impl Replay {
     /// with it.
     ///
     /// # Errors
-    /// [`ReplayError`] for a problem or data that are refused.
-    pub fn case(&self) -> Result<Case, ReplayError> {
+    /// [`TestkitError`] for a problem or data that are refused.
+    pub fn case(&self) -> Result<Case, TestkitError> {
         let id = Id {
             family: self.family.clone(),
             seed: self.seed,
@@ -179,7 +167,7 @@ impl ClosedForm {
         }
     }
 
-    fn data(&self) -> Result<TwoParticles, ReplayError> {
+    fn data(&self) -> Result<TwoParticles, TestkitError> {
         Ok(TwoParticles {
             c: parse(&self.c)?,
             s: parse(&self.s)?,

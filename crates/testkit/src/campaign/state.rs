@@ -6,33 +6,14 @@
 
 use super::engine::Judgement;
 use super::family::Id;
+use crate::error::TestkitError;
 use crate::floors::{Coverage, Covered, Shortfall, Starts, shortfalls};
-use mceip_model::ModelError;
 use mceip_model::file::{from_json, require_format};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
 /// The format of a state file.
 pub const STATE_FORMAT: &str = "mceip-campaign/1";
-
-/// A state that belongs to another campaign.
-#[derive(Debug, Clone, PartialEq, thiserror::Error)]
-#[non_exhaustive]
-pub enum StateError {
-    /// No state file.
-    #[error(transparent)]
-    Model(#[from] ModelError),
-    /// Made by a campaign with other settings.
-    #[error("expected the state of a campaign with {what} {expected}, got {got}")]
-    Other {
-        /// Which setting.
-        what: &'static str,
-        /// This campaign's.
-        expected: String,
-        /// The file's.
-        got: String,
-    },
-}
 
 /// Counts of one family.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -197,14 +178,14 @@ impl State {
     /// Reads a state and refuses one that was made with other settings than `self`.
     ///
     /// # Errors
-    /// [`StateError`].
-    pub fn resumed(&self, text: &str) -> Result<State, StateError> {
+    /// [`TestkitError`].
+    pub fn resumed(&self, text: &str) -> Result<State, TestkitError> {
         require_format(text, STATE_FORMAT)?;
         let state: State = from_json(text)?;
 
         for (expected, got) in self.settings().into_iter().zip(state.settings()) {
             if expected.value != got.value {
-                return Err(StateError::Other {
+                return Err(TestkitError::OtherCampaign {
                     what: expected.what,
                     expected: expected.value,
                     got: got.value,

@@ -4,8 +4,8 @@
 //! [`Case::answer`] answers it by the plain oracle. Cases are written to the pack and sent to
 //! foreign programs, whose reports `judge` compares with the answer.
 
-use super::error::ConformError;
 use super::flag::{Flag, derive};
+use crate::error::TestkitError;
 use mceip_engine::reduction::{Reduced, reduce};
 use mceip_engine::report::{Claimed, Listed, Report, solutions_json};
 use mceip_model::{Body, ModelError, Problem};
@@ -59,12 +59,12 @@ impl Case {
     /// pencil first (another problem with another digest, and the same values and x).
     ///
     /// # Errors
-    /// [`ConformError::Oracle`] for a problem beyond the plain oracle, [`ConformError::Problem`]
+    /// [`TestkitError::Oracle`] for a problem beyond the plain oracle, [`TestkitError::Problem`]
     /// for a system that lacks what its unknown needs.
-    pub fn answer(draft: &Draft, as_pencil: bool) -> Result<Case, ConformError> {
-        let reduced = reduce(&draft.problem).map_err(|e| ConformError::problem(&draft.id, e))?;
+    pub fn answer(draft: &Draft, as_pencil: bool) -> Result<Case, TestkitError> {
+        let reduced = reduce(&draft.problem).map_err(|e| TestkitError::problem(&draft.id, e))?;
         let answer = enumerate(&reduced.pencil, draft.problem.window());
-        let answer = answer.map_err(|source| ConformError::Oracle {
+        let answer = answer.map_err(|source| TestkitError::Oracle {
             case: draft.id.clone(),
             source,
         })?;
@@ -82,7 +82,7 @@ impl Case {
         };
         if as_pencil {
             case.replace_by_its_pencil()
-                .map_err(|e| ConformError::problem(&draft.id, e))?;
+                .map_err(|e| TestkitError::problem(&draft.id, e))?;
         }
 
         Ok(case)

@@ -5,8 +5,8 @@
 //! the test that writes the pack; [`random_draft`] makes further cases for `run`.
 
 use super::case::{Draft, Group};
-use super::error::ConformError;
 use super::flag::Flag;
+use crate::error::TestkitError;
 use crate::families::{Instance, mechanical, random_pencils};
 use crate::{known, pareto};
 use mceip_engine::reduction::{condense, reduce};
@@ -22,8 +22,8 @@ const SEED: u64 = 20_260_101;
 /// All groups of the pack, in order.
 ///
 /// # Errors
-/// [`ConformError`]; none for the data as given.
-pub fn groups() -> Result<Vec<Group>, ConformError> {
+/// [`TestkitError`]; none for the data as given.
+pub fn groups() -> Result<Vec<Group>, TestkitError> {
     Ok(vec![
         table1()?,
         static_thresholds()?,
@@ -622,7 +622,7 @@ fn graphs() -> Result<Group, ModelError> {
 /// The block of section 5 on coarse meshes, free dofs eliminated exactly: fractions of hundreds of
 /// bits. (On the paper's own mesh the condensed pencil has 3,147 bits: `mceip block --write` gives
 /// it.)
-fn block() -> Result<Group, ConformError> {
+fn block() -> Result<Group, TestkitError> {
     let mut drafts = Vec::new();
     for (slip, stick) in [(2, 0), (3, 1), (5, 0)] {
         let block = Block::new(&BlockModel::refined(slip + stick))?;

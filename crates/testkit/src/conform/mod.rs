@@ -13,7 +13,6 @@
 //! `mceip conform` needs no files. The pages: `spec/conform.md`.
 
 mod case;
-mod error;
 mod flag;
 mod groups;
 mod judge;
@@ -25,7 +24,6 @@ mod summary;
 mod wrong;
 
 pub use case::{Case, Draft, Group};
-pub use error::ConformError;
 pub use flag::Flag;
 pub use groups::{groups, random_draft};
 pub use judge::{Judgement, Label, judge_report};

@@ -6,9 +6,9 @@
 //! the test that compares `spec/conformance-pack/` with what is written.
 
 use super::case::{Case, Draft, Group};
-use super::error::ConformError;
 use super::flag::Flag;
 use super::wrong::Bug;
+use crate::error::TestkitError;
 use mceip_model::ModelError;
 use mceip_model::file::{from_json, read_problem, read_text, require_format, write_problem};
 use rayon::prelude::*;
@@ -26,8 +26,8 @@ pub const INDEX_FORMAT: &str = "mceip-pack-index/1";
 /// The files of the pack, name and content: groups in order, then `index.json`.
 ///
 /// # Errors
-/// [`ConformError`] for a problem beyond the plain oracle.
-pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, ConformError> {
+/// [`TestkitError`] for a problem beyond the plain oracle.
+pub fn pack_files(groups: &[Group]) -> Result<Vec<(String, String)>, TestkitError> {
     let mut files = Vec::new();
     let mut counts = Counts::default();
 
@@ -223,10 +223,10 @@ struct RawCase {
 /// compared.
 ///
 /// # Errors
-/// [`ConformError`]: unreadable or of another version, a digest, a problem, or an answer that
+/// [`TestkitError`]: unreadable or of another version, a digest, a problem, or an answer that
 /// differs.
-pub fn read_pack(folder: &Path) -> Result<Vec<Group>, ConformError> {
-    let index = read_index(folder).map_err(|e| ConformError::problem("index.json", e))?;
+pub fn read_pack(folder: &Path) -> Result<Vec<Group>, TestkitError> {
+    let index = read_index(folder).map_err(|e| TestkitError::problem("index.json", e))?;
     index
         .groups
         .iter()
@@ -242,13 +242,13 @@ fn read_index(folder: &Path) -> Result<RawIndex, ModelError> {
 }
 
 /// Reads the file of a group and answers its cases again.
-fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, ConformError> {
+fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, TestkitError> {
     let text = read_group_text(folder, &entry.file);
-    let text = text.map_err(|e| ConformError::problem(&entry.file, e))?;
+    let text = text.map_err(|e| TestkitError::problem(&entry.file, e))?;
 
     let got = hex(&text);
     if got != entry.sha256 {
-        return Err(ConformError::Digest {
+        return Err(TestkitError::Digest {
             file: entry.file.clone(),
             expected: entry.sha256.chars().take(80).collect(),
             got,
@@ -256,7 +256,7 @@ fn read_group(folder: &Path, entry: &RawEntry) -> Result<Group, ConformError> {
     }
 
     let raw = require_format(&text, PACK_FORMAT).and_then(|()| from_json(&text));
-    let raw: RawGroup = raw.map_err(|e| ConformError::problem(&entry.file, e))?;
+    let raw: RawGroup = raw.map_err(|e| TestkitError::problem(&entry.file, e))?;
     let drafts = raw
         .cases
         .par_iter()
@@ -287,11 +287,11 @@ fn read_group_text(folder: &Path, file: &str) -> Result<String, ModelError> {
 }
 
 /// Reads a case and compares its answer with that of the plain oracle.
-fn read_case(raw: &RawCase) -> Result<Draft, ConformError> {
+fn read_case(raw: &RawCase) -> Result<Draft, TestkitError> {
     let mut flags = Vec::new();
     for word in &raw.flags {
         let Some(flag) = Flag::of_word(word) else {
-            return Err(ConformError::Flag {
+            return Err(TestkitError::Flag {
                 case: raw.id.clone(),
                 got: word.chars().take(60).collect(),
             });
@@ -303,7 +303,7 @@ fn read_case(raw: &RawCase) -> Result<Draft, ConformError> {
 
     // Files beside the pack are not read: its problems are inlined.
     let problem = read_problem(&raw.problem.to_string(), Path::new("/nonexistent"));
-    let problem = problem.map_err(|e| ConformError::problem(&raw.id, e))?;
+    let problem = problem.map_err(|e| TestkitError::problem(&raw.id, e))?;
 
     let draft = Draft {
         id: raw.id.clone(),
@@ -314,7 +314,7 @@ fn read_case(raw: &RawCase) -> Result<Draft, ConformError> {
 
     let case = Case::answer(&draft, false)?;
     if case.answer_json() != raw.answer {
-        return Err(ConformError::Answer { case: draft.id });
+        return Err(TestkitError::Answer { case: draft.id });
     }
 
     Ok(draft)

@@ -4,7 +4,7 @@
 //! end, reads nothing or leaves children behind is killed with its process group. Called by `run`
 //! for each case of the plan.
 
-use super::error::ConformError;
+use crate::error::TestkitError;
 use mceip_engine::run::Watch;
 use std::io::{Read, Write as _};
 use std::process::{Child, Command, ExitStatus, Stdio};
@@ -62,13 +62,13 @@ const COMPLAINT: u64 = 4096;
 /// Runs `command` (program and arguments) with `input` on its stdin.
 ///
 /// # Errors
-/// [`ConformError::Start`] if it does not start.
+/// [`TestkitError::Start`] if it does not start.
 pub fn run_once(
     command: &[String],
     input: &str,
     limits: &Limits,
     watch: &Watch<'_>,
-) -> Result<Ending, ConformError> {
+) -> Result<Ending, TestkitError> {
     let start = Instant::now();
     let mut child = spawn(command)?;
     let too_long = Arc::new(AtomicBool::new(false));
@@ -99,7 +99,7 @@ pub fn run_once(
 }
 
 /// Starts the program in a process group of its own, with pipes for all three streams.
-fn spawn(command: &[String]) -> Result<Child, ConformError> {
+fn spawn(command: &[String]) -> Result<Child, TestkitError> {
     let (program, arguments) = match command.split_first() {
         Some((program, arguments)) => (program.as_str(), arguments),
         None => ("", &[][..]),
@@ -118,7 +118,7 @@ fn spawn(command: &[String]) -> Result<Child, ConformError> {
         build.process_group(0); // so that its children end with it
     }
 
-    build.spawn().map_err(|e| ConformError::Start {
+    build.spawn().map_err(|e| TestkitError::Start {
         command: program.to_string(),
         reason: e.kind(),
     })
@@ -306,7 +306,7 @@ mod tests {
 
         let nothing = ["/nowhere/solver".to_string()];
         let refused = run_once(&nothing, "", &Limits::default(), &Watch::silent(&stopped));
-        let Err(ConformError::Start { command, .. }) = refused else {
+        let Err(TestkitError::Start { command, .. }) = refused else {
             panic!("{refused:?}")
         };
         assert_eq!(command, "/nowhere/solver");

@@ -5,11 +5,11 @@
 //! order of the plan. Called by `mceip conform`.
 
 use super::case::{Case, Draft, Group};
-use super::error::ConformError;
 use super::flag::Flag;
 use super::groups::random_draft;
 use super::judge::{Judgement, Label, judge_report};
 use super::process::{Ending, Limits, run_once};
+use crate::error::TestkitError;
 use mceip_engine::run::{Progress, Watch};
 use mceip_model::file::write_problem;
 use rayon::prelude::*;
@@ -51,19 +51,19 @@ pub struct Outcome {
 /// out.
 ///
 /// # Errors
-/// [`ConformError`] if the command does not start, or a problem is beyond the plain oracle.
+/// [`TestkitError`] if the command does not start, or a problem is beyond the plain oracle.
 pub fn run(
     plan: &Plan,
     command: &[String],
     watch: &Watch<'_>,
-) -> Result<Vec<Outcome>, ConformError> {
+) -> Result<Vec<Outcome>, TestkitError> {
     let fixed: Vec<&Draft> = plan.groups.iter().flat_map(|g| &g.drafts).collect();
     let total = fixed.len() + plan.random;
     let threads = plan.threads.unwrap_or(0);
     let pool = rayon::ThreadPoolBuilder::new()
         .num_threads(threads)
         .build()
-        .map_err(|_| ConformError::Threads { threads })?;
+        .map_err(|_| TestkitError::Threads { threads })?;
 
     let run = Run {
         plan,
@@ -100,7 +100,7 @@ struct Run<'a> {
 impl Run<'_> {
     /// What comes of the `k`-th case. `None` for a case that the plan leaves out or that was
     /// interrupted.
-    fn outcome(&self, k: usize) -> Result<Option<Outcome>, ConformError> {
+    fn outcome(&self, k: usize) -> Result<Option<Outcome>, TestkitError> {
         if self.watch.is_cancelled() {
             return Ok(None);
         }
@@ -126,18 +126,18 @@ impl Run<'_> {
     }
 
     /// The `k`-th case with its answer.
-    fn case(&self, k: usize) -> Result<Case, ConformError> {
+    fn case(&self, k: usize) -> Result<Case, TestkitError> {
         if let Some(draft) = self.fixed.get(k) {
             return Case::answer(draft, self.plan.as_pencil);
         }
 
         let draft = random_draft(k - self.fixed.len(), self.plan.seed)
-            .map_err(|e| ConformError::problem(&format!("random case {k}"), e))?;
+            .map_err(|e| TestkitError::problem(&format!("random case {k}"), e))?;
         Case::answer(&draft, self.plan.as_pencil)
     }
 
     /// Sends the case to the program and judges how it ends. `None` if it was interrupted.
-    fn judgement(&self, case: &Case) -> Result<Option<Judgement>, ConformError> {
+    fn judgement(&self, case: &Case) -> Result<Option<Judgement>, TestkitError> {
         let limits = &self.plan.limits;
         let input = write_problem(&case.problem);
         let judgement = match run_once(self.command, &input, limits, self.watch)? {

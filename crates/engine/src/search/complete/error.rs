@@ -86,6 +86,15 @@ pub enum CompleteError {
     /// Nothing to merge.
     #[error("merge: expected at least one part")]
     NoParts,
+    /// K_ff + lambda^2 M_ff cannot be eliminated in doubles.
+    #[error(
+        "E16: expected K_ff + lambda^2 M_ff invertible in doubles, got a singular matrix at \
+         lambda^2 = {lambda2}"
+    )]
+    SingularLevel {
+        /// The level.
+        lambda2: f64,
+    },
     /// The checker refused a certificate: the one to go on with, or a defect of this program.
     #[error("the checker rejects the certificate: {0}")]
     Rejected(#[from] Rejected),

@@ -1,0 +1,118 @@
+//! Why the test kit refuses a file or cannot do a run.
+//!
+//! What a run finds wrong with an engine is no error but a [`Disagreement`](crate::Disagreement).
+//! Printed by `mceip verify`, `campaign` and `conform`.
+
+use mceip_engine::multistart::SearchError;
+use mceip_engine::reduction::CondensationError;
+use mceip_engine::search::complete::CompleteError;
+use mceip_exact::NumberError;
+use mceip_model::ModelError;
+use mceip_oracle::OracleError;
+use mceip_paper::SourceError;
+
+/// A file that is refused, or a run that cannot take place.
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum TestkitError {
+    /// A model or a file was refused.
+    #[error(transparent)]
+    Model(#[from] ModelError),
+    /// A mesh or the states of a block were refused.
+    #[error(transparent)]
+    Source(#[from] SourceError),
+    /// The search was refused.
+    #[error(transparent)]
+    Search(#[from] SearchError),
+    /// The complete search was refused.
+    #[error(transparent)]
+    Complete(#[from] CompleteError),
+    /// The block was not condensed.
+    #[error(transparent)]
+    Condensation(#[from] CondensationError),
+    /// Data of Table 1 in a replay file.
+    #[error("closed_form: {0}")]
+    ClosedForm(#[from] NumberError),
+    /// The state of a campaign with other settings.
+    #[error("expected the state of a campaign with {what} {expected}, got {got}")]
+    OtherCampaign {
+        /// Which setting.
+        what: &'static str,
+        /// This campaign's.
+        expected: String,
+        /// The file's.
+        got: String,
+    },
+    /// A family of instances that does not exist, or one named twice.
+    #[error("expected a family of {families}, each once, got {name:?}")]
+    Family {
+        /// The names of all families.
+        families: String,
+        /// The name given.
+        name: String,
+    },
+    /// A problem of the pack, or a file of it.
+    #[error("{place}: {source}")]
+    Problem {
+        /// File or case.
+        place: String,
+        /// What is wrong.
+        source: ModelError,
+    },
+    /// Larger than the plain enumerator takes.
+    #[error("{case}: {source}")]
+    Oracle {
+        /// The case.
+        case: String,
+        /// The limit.
+        source: OracleError,
+    },
+    /// The answer in the pack is not the one the plain enumerator finds.
+    #[error("{case}: the answer in the pack is not the exact one")]
+    Answer {
+        /// The case.
+        case: String,
+    },
+    /// A word that is no flag.
+    #[error("{case}: expected a flag of spec/conform.md, got {got:?}")]
+    Flag {
+        /// The case.
+        case: String,
+        /// The word.
+        got: String,
+    },
+    /// A file of the pack differs from its digest.
+    #[error("{file}: expected sha256 {expected}, got {got}")]
+    Digest {
+        /// The file.
+        file: String,
+        /// Digest in the index.
+        expected: String,
+        /// Digest of the file.
+        got: String,
+    },
+    /// The command does not start.
+    #[error("cannot start {command:?}: {reason}")]
+    Start {
+        /// The program.
+        command: String,
+        /// The system's reason.
+        reason: std::io::ErrorKind,
+    },
+    /// No thread pool.
+    #[error("cannot start {threads} threads")]
+    Threads {
+        /// How many.
+        threads: usize,
+    },
+}
+
+impl TestkitError {
+    /// A problem that is refused, and the file or case that it is in.
+    pub(crate) fn problem(place: &str, source: ModelError) -> TestkitError {
+        TestkitError::Problem {
+            place: place.to_string(),
+            source,
+        }
+    }
+}
